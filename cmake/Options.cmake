@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: MIT
+# shaken::options carries every compiler flag; nothing else in the project sets one.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+
+find_program(CCACHE ccache)
+if(CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+endif()
+
+add_library(shaken_options INTERFACE)
+add_library(shaken::options ALIAS shaken_options)
+target_include_directories(shaken_options INTERFACE ${CMAKE_SOURCE_DIR})
+target_compile_options(shaken_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+  # One rounding per operation, on every machine and at every optimisation level: the steppers promise bitwise equal
+  # trajectories, and a fused multiply-add in one of two copies of a kernel breaks that.
+  -ffp-contract=off)
+if(SHAKEN_WERROR)
+  target_compile_options(shaken_options INTERFACE -Werror)
+endif()
+if(SHAKEN_ARCH)
+  target_compile_options(shaken_options INTERFACE -march=${SHAKEN_ARCH})
+endif()
+if(SHAKEN_SANITIZE)
+  target_compile_options(shaken_options INTERFACE -fsanitize=${SHAKEN_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(shaken_options INTERFACE -fsanitize=${SHAKEN_SANITIZE})
+endif()

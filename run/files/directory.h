@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "sim/core/result.h"
+
+namespace shaken::run {
+
+/// Where everything of one run lives.
+struct RunDirectory {
+  std::filesystem::path root;
+
+  std::filesystem::path scene() const { return root / "scene.json"; }
+  std::filesystem::path trajectory() const { return root / "trajectory.h5"; }
+  std::filesystem::path observables() const { return root / "observables.h5"; }
+  std::filesystem::path summary() const { return root / "summary.json"; }
+  std::filesystem::path progress() const { return root / "progress.json"; }
+  std::filesystem::path checkpoint() const { return root / "checkpoint.bin"; }
+  std::filesystem::path previous_checkpoint() const { return root / "checkpoint.prev.bin"; }
+  std::filesystem::path log() const { return root / "worker.log"; }
+  std::filesystem::path frames() const { return root / "frames"; }
+  std::filesystem::path movie() const { return root / "movie.mp4"; }
+  std::filesystem::path lock() const { return root / "lock"; }
+};
+
+/// Sole ownership of a directory for as long as the object lives: flock(2) on DIR/lock, so it is never stale.
+class DirectoryLock {
+ public:
+  /// Creates the lock file if need be. Fails with the owner's pid in the message if another process holds it.
+  static Result<DirectoryLock> acquire(const std::filesystem::path& lock_file);
+  DirectoryLock(DirectoryLock&& other) noexcept;
+  DirectoryLock& operator=(DirectoryLock&& other) noexcept;
+  ~DirectoryLock();
+
+ private:
+  explicit DirectoryLock(int fd) : fd_(fd) {}
+  int fd_ = -1;
+};
+
+}  // namespace shaken::run

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "sim/core/result.h"
+
+namespace shaken::run {
+
+/// What a worker tells of itself in progress.json, replaced atomically about twice a second. Files, because a worker
+/// may run anywhere that shares the disk: under the daemon, alone, or as a task of a batch system.
+struct Progress {
+  std::string state = "running";  ///< running | rendering | done | failed | stopped
+  std::string message;            ///< why it failed
+  int pid = 0;
+  int n_rods = 0;
+  double sim_time = 0;            ///< [s]
+  double sim_time_total = 0;      ///< [s]
+  double sim_rate = 0;            ///< simulated seconds per wall second
+  double eta = -1;                ///< wall seconds to the end; negative where unknown
+  double order = 0;               ///< S now
+  double order_running_mean = 0;  ///< over the second half of the run so far
+  double max_overlap = 0;         ///< [mm]
+
+  double fraction() const { return sim_time_total > 0 ? sim_time / sim_time_total : 0.0; }
+};
+
+[[nodiscard]] std::optional<Error> write_progress(const std::filesystem::path& file, const Progress& progress);
+Result<Progress> read_progress(const std::filesystem::path& file);
+
+}  // namespace shaken::run

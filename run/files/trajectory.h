@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sim/core/result.h"
+#include "sim/snapshot.h"
+
+namespace shaken::run {
+
+/// What does not change along a trajectory, and what drawing it needs.
+struct TrajectoryHeader {
+  int n_rods = 0;
+  double box_side = 0;              ///< [mm]
+  double gap = 0;                   ///< [mm]
+  double dt = 0;                    ///< [s]
+  std::vector<double> bead_offset;  ///< (n_beads) along the rod from its centre [mm]
+  std::vector<double> bead_radius;  ///< (n_beads) [mm]
+  std::string scene_json;           ///< the resolved scene
+};
+
+/// One recorded frame: positions wrapped into the box, float32 in the file.
+struct TrajectoryFrame {
+  Tick tick = 0;
+  double time = 0;             ///< [s]
+  std::vector<Vec3> position;  ///< [mm]
+  std::vector<Vec3> director;  ///< unit vectors
+  std::vector<Vec3> velocity;  ///< [mm/s]
+  std::vector<std::array<std::int32_t, 2>> image;
+};
+
+/// Writes trajectory.h5 in H5MD (de Buyl, Colberg, Hoefling 2014): /particles/trajectory/{position, image, velocity,
+/// orientation, box}. A frame is on its way to the disk when `append` returns; a torn last frame is left out by the
+/// reader and trimmed on reopening.
+class TrajectoryWriter {
+ public:
+  static Result<TrajectoryWriter> create(const std::filesystem::path& file, const TrajectoryHeader& header);
+  /// Opens an existing file to go on after tick `last`: later frames are cut off.
+  static Result<TrajectoryWriter> reopen(const std::filesystem::path& file, Tick last);
+  TrajectoryWriter(TrajectoryWriter&&) noexcept;
+  TrajectoryWriter& operator=(TrajectoryWriter&&) noexcept;
+  ~TrajectoryWriter();
+  [[nodiscard]] std::optional<Error> append(const Snapshot& snapshot);
+
+ private:
+  struct Impl;
+  explicit TrajectoryWriter(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Reads trajectory.h5, also while it is being written.
+class TrajectoryReader {
+ public:
+  static Result<TrajectoryReader> open(const std::filesystem::path& file);
+  TrajectoryReader(TrajectoryReader&&) noexcept;
+  TrajectoryReader& operator=(TrajectoryReader&&) noexcept;
+  ~TrajectoryReader();
+  const TrajectoryHeader& header() const;
+  std::size_t n_frames() const;
+  Result<TrajectoryFrame> frame(std::size_t index) const;
+
+ private:
+  struct Impl;
+  explicit TrajectoryReader(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace shaken::run

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sim/core/result.h"
+#include "sim/scene.h"
+#include "sim/snapshot.h"
+#include "sim/world.h"
+
+namespace shaken {
+
+class Stepper;
+
+/// A world and the stepper that moves it: the one door through which everything outside sim/ runs a simulation.
+/// Nothing behind this door depends on which stepper is in use, and the trajectory does not either.
+class Simulation {
+ public:
+  /// Places the rods as the scene says. Fails, with the largest area fraction that fits, if they cannot be packed.
+  static Result<Simulation> start(const Scene& scene);
+  /// Continues from bytes made by checkpoint(), bitwise as if there had been no stop.
+  /// Fails if the bytes are damaged or belong to another scene.
+  static Result<Simulation> resume(const Scene& scene, std::span<const std::byte> checkpoint);
+
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+  ~Simulation();
+
+  /// Steps to tick `target` (>= tick()), or up to the tick at which numerical trouble was met.
+  /// Trouble is final: the simulation must not be advanced further.
+  [[nodiscard]] std::optional<NumericalTrouble> advance_to(Tick target);
+
+  Tick tick() const;
+  double time() const;
+  const World& world() const { return *world_; }
+  Snapshot snapshot() const;
+  std::vector<std::byte> checkpoint() const;
+  /// Hash of the stored state of every rod; equal hashes mean bitwise equal states.
+  std::uint64_t state_hash() const;
+
+ private:
+  explicit Simulation(World world);
+  std::unique_ptr<World> world_;
+  std::unique_ptr<Stepper> stepper_;
+};
+
+}  // namespace shaken

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "sim/core/types.h"
+
+namespace shaken {
+
+/// Every rod at one tick, as plain arrays of shape (n_rods): what observables, files, the bus and pictures read.
+struct Snapshot {
+  Tick tick = 0;
+  double time = 0;      ///< tick * dt [s]
+  double box_side = 0;  ///< [mm]
+  std::vector<Vec3> position;                      ///< centre; x and y in [0, box_side), z above the base's rest [mm]
+  std::vector<std::array<std::int32_t, 2>> image;  ///< box crossings: unwrapped x = position.x + image[0] * box_side
+  std::vector<Vec3> director;                      ///< unit vector along the rod; its sign is a label that stays
+  std::vector<Vec3> velocity;                      ///< of the centre [mm/s]
+  std::vector<Vec3> angular_velocity;              ///< [rad/s]
+
+  std::size_t n_rods() const { return position.size(); }
+};
+
+}  // namespace shaken
