@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include "proto/bus.h"
+
+#include <arpa/inet.h>
+#include <lcm/lcm.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <optional>
+#include <string_view>
+#include <thread>
+#include <utility>
+
+namespace shaken::proto {
+namespace {
+
+using std::chrono::milliseconds;
+constexpr milliseconds kFirstPause{100};
+constexpr milliseconds kLongestPause{5000};
+
+constexpr std::string_view kUdpm = "udpm://";
+
+/// Why udpm cannot start: connects a datagram socket to the group, which sends nothing but needs the same route. LCM
+/// does this too, but then prints an uninitialised address to stderr.
+std::optional<std::string> udpm_trouble(const std::string& url) {
+  const std::string target = url.substr(kUdpm.size(), url.find('?') - kUdpm.size());
+  const std::string address = target.substr(0, target.find(':'));
+  sockaddr_in group{};
+  group.sin_family = AF_INET;
+  group.sin_port = htons(7667);  // any port: only the route counts
+  if (inet_aton(address.empty() ? "239.255.76.67" : address.c_str(), &group.sin_addr) == 0 ||
+      !IN_MULTICAST(ntohl(group.sin_addr.s_addr))) {
+    return "LCM cannot start: '" + address + "' in '" + url +
+           "' is not a multicast address (224.0.0.0 to 239.255.255.255)";
+  }
+  const int fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  if (fd < 0) return std::string("LCM cannot start: socket: ") + std::strerror(errno);
+  const bool routed = connect(fd, reinterpret_cast<const sockaddr*>(&group), sizeof(group)) == 0;
+  const int reason = errno;
+  close(fd);
+  if (routed) return std::nullopt;
+  return "LCM cannot start: no multicast route to " + (address.empty() ? std::string("239.255.76.67") : address) +
+         " (" + std::strerror(reason) + "). As root: ip route add 224.0.0.0/4 dev lo";
+}
+
+std::optional<std::string> url_trouble(const std::string& url) {
+  if (url.starts_with(kUdpm)) return udpm_trouble(url);
+  constexpr std::array<std::string_view, 3> kOthers{"tcpq://", "memq://", "file://"};
+  if (std::any_of(kOthers.begin(), kOthers.end(), [&](auto prefix) { return url.starts_with(prefix); })) {
+    return std::nullopt;
+  }
+  return "LCM cannot start: '" + url + "' is no LCM address; it begins with udpm://, tcpq://, memq:// or file://";
+}
+
+}  // namespace
+
+/// LCM calls C functions; this one finds its subscription again.
+struct BusCallback {
+  static void receive(const lcm_recv_buf_t* buffer, const char* /*channel*/, void* context) {
+    auto& subscription = *static_cast<Bus::Subscription*>(context);
+    subscription.bus->dispatch(subscription, {static_cast<const std::uint8_t*>(buffer->data), buffer->data_size});
+  }
+};
+
+std::string default_url() {
+  const char* set = std::getenv("LCM_DEFAULT_URL");
+  return set != nullptr && *set != '\0' ? set : kDefaultUrl;
+}
+
+Bus::Opened Bus::open(const std::string& url) {
+  if (auto trouble = url_trouble(url)) return {nullptr, *trouble};
+  std::unique_ptr<Bus> bus(new Bus(url));
+  bus->lcm_ = lcm_create(url.c_str());
+  if (bus->lcm_ == nullptr) return {nullptr, "LCM cannot start with '" + url + "'"};
+  return {std::move(bus), ""};
+}
+
+Bus::~Bus() {
+  if (lcm_ != nullptr) lcm_destroy(lcm_);
+}
+
+bool Bus::publish_bytes(const char* channel, const std::vector<std::uint8_t>& payload) {
+  if (!connected()) reconnect();
+  const bool sent = connected() && !payload.empty() &&
+                    lcm_publish(lcm_, channel, payload.data(), static_cast<unsigned>(payload.size())) == 0;
+  ++(sent ? counters_.published : counters_.publish_failures);
+  return sent;
+}
+
+bool Bus::subscribe_bytes(const char* channel, int queue_capacity, Decoder decoder) {
+  subscriptions_.push_back(
+      std::make_unique<Subscription>(Subscription{this, channel, queue_capacity, std::move(decoder)}));
+  if (register_with_lcm(*subscriptions_.back())) return true;
+  subscriptions_.pop_back();
+  return false;
+}
+
+bool Bus::register_with_lcm(Subscription& subscription) {
+  lcm_subscription_t* handle = lcm_subscribe(lcm_, subscription.channel.c_str(), &BusCallback::receive, &subscription);
+  return handle != nullptr && lcm_subscription_set_queue_capacity(handle, subscription.queue_capacity) == 0;
+}
+
+void Bus::dispatch(Subscription& subscription, std::span<const std::uint8_t> payload) noexcept {
+  try {
+    ++(subscription.decoder(payload) ? counters_.received : counters_.refused);
+  } catch (...) {
+    handler_failure_ = std::current_exception();
+  }
+}
+
+bool Bus::handle(int timeout_ms) {
+  if (!connected()) {
+    reconnect();
+    if (!connected()) {
+      const auto wait = next_attempt_ - std::chrono::steady_clock::now();
+      std::this_thread::sleep_for(std::min<std::chrono::nanoseconds>(wait, milliseconds(timeout_ms)));
+      return false;
+    }
+  }
+  // lcm_handle_timeout() uses select(), and aborts the process on a closed descriptor or one past 1023.
+  pollfd readable{lcm_get_fileno(lcm_), POLLIN, 0};
+  if (poll(&readable, 1, timeout_ms) <= 0) return false;
+  const bool handled = lcm_handle(lcm_) == 0;
+  if (handler_failure_) std::rethrow_exception(std::exchange(handler_failure_, nullptr));
+  return handled;
+}
+
+bool Bus::connected() const { return lcm_ != nullptr && lcm_get_fileno(lcm_) >= 0; }
+
+void Bus::reconnect() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now < next_attempt_) return;
+  pause_ = std::clamp(2 * pause_, kFirstPause, kLongestPause);
+  next_attempt_ = now + pause_;
+  if (lcm_ != nullptr) lcm_destroy(lcm_);
+  lcm_ = lcm_create(url_.c_str());
+  if (!connected()) return;
+  for (auto& subscription : subscriptions_) register_with_lcm(*subscription);
+  if (!connected()) return;
+  ++counters_.reconnects;
+  pause_ = milliseconds(0);
+}
+
+}  // namespace shaken::proto

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <shaken/defects_t.hpp>
+#include <shaken/frame_static_t.hpp>
+#include <shaken/frame_t.hpp>
+#include <shaken/job_t.hpp>
+#include <shaken/observables_t.hpp>
+#include <shaken/status_t.hpp>
+#include <span>
+#include <string_view>
+
+namespace shaken::proto {
+
+/// The fields of a message in order, one letter each: `8` and `4` are numbers of that many bytes, `s` a string, `n` the
+/// length of the arrays that follow, `D` an array of n numbers of 8 bytes, `H` one of n numbers of 2 bytes.
+/// lcm-gen's decoders trust lengths inside a payload (a large one makes them read past its end), so every payload is
+/// held against this first. Spaces are for the reader: common head, then the rest.
+template <class T>
+inline constexpr std::string_view kLayout = "";
+template <>
+inline constexpr std::string_view kLayout<status_t> = "88 s4ss8 444444";
+template <>
+inline constexpr std::string_view kLayout<job_t> = "88s sss s4 88888";
+template <>
+inline constexpr std::string_view kLayout<observables_t> = "88s8 84 888888888 888";
+template <>
+inline constexpr std::string_view kLayout<frame_static_t> = "88s8 488 nDD s";
+template <>
+inline constexpr std::string_view kLayout<frame_t> = "88s8 8888 4444 nHHHH";
+template <>
+inline constexpr std::string_view kLayout<defects_t> = "88s8 8 nDDDD";
+
+/// The length that a payload beginning like this one must have [bytes], fingerprint included; none if a length inside
+/// it is negative, a string does not end in NUL, or the payload ends before its arrays do.
+std::optional<std::size_t> message_size(std::string_view layout, std::span<const std::uint8_t> payload);
+
+}  // namespace shaken::proto
