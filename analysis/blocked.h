@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "analysis/state_io.h"
+#include "analysis/steady.h"
+
+namespace shaken::analysis {
+
+/// An accumulator kept in at most 64 stretches of time, so that the steady part can be reduced when its beginning is
+/// known only at the end of the run. When the stretches are used up, neighbours are merged and new ones are twice as
+/// long. Accumulator: copyable, with accumulate(args...), merge(const Accumulator&), save and restore.
+template <class Accumulator>
+class Blocked {
+ public:
+  /// Every stretch starts as a copy of `empty`.
+  explicit Blocked(Accumulator empty) : empty_(std::move(empty)) {}
+
+  /// accumulate(args...) at `time` [s], later than all before.
+  template <class... Args>
+  void accumulate(double time, const Args&... args) {
+    if (blocks_.empty() || blocks_.back().calls == calls_per_block_) {
+      if (blocks_.size() == kMaxBlocks) merge_pairs();
+      blocks_.push_back({time, 0, empty_});
+    }
+    blocks_.back().content.accumulate(args...);
+    ++blocks_.back().calls;
+  }
+
+  /// The samples from `t_steady` [s] on, less those of the stretch that t_steady falls into: at most 1/32 of the run.
+  Accumulator after(double t_steady) const {
+    Accumulator sum = empty_;
+    for (const Block& block : blocks_) {
+      if (is_steady(block.start, t_steady)) sum.merge(block.content);
+    }
+    return sum;
+  }
+  /// All samples.
+  Accumulator all() const { return after(-std::numeric_limits<double>::max()); }
+
+  void reset() {
+    blocks_.clear();
+    calls_per_block_ = 1;
+  }
+
+  void save(StateWriter& writer) const {
+    writer.tag("Blocked");
+    writer.put(calls_per_block_);
+    writer.put(static_cast<std::int64_t>(blocks_.size()));
+    for (const Block& block : blocks_) {
+      writer.put(block.start);
+      writer.put(block.calls);
+      block.content.save(writer);
+    }
+  }
+
+  void restore(StateReader& reader) {
+    reader.tag("Blocked");
+    const std::int64_t calls_per_block = reader.integer(1, std::numeric_limits<std::int64_t>::max() / 2);
+    std::vector<Block> blocks(static_cast<std::size_t>(reader.integer(0, kMaxBlocks)), Block{0, 0, empty_});
+    for (Block& block : blocks) {
+      block.start = reader.real();
+      block.calls = reader.integer(1, calls_per_block);
+      block.content.restore(reader);
+    }
+    calls_per_block_ = calls_per_block;
+    blocks_ = std::move(blocks);
+  }
+
+ private:
+  static constexpr std::size_t kMaxBlocks = 64;
+  struct Block {
+    double start;        // time of the first sample
+    std::int64_t calls;  // samples
+    Accumulator content;
+  };
+
+  void merge_pairs() {
+    for (std::size_t i = 0; i < kMaxBlocks / 2; ++i) {
+      Block merged = std::move(blocks_[2 * i]);
+      merged.content.merge(blocks_[2 * i + 1].content);
+      merged.calls += blocks_[2 * i + 1].calls;
+      blocks_[i] = std::move(merged);
+    }
+    blocks_.erase(blocks_.begin() + kMaxBlocks / 2, blocks_.end());
+    calls_per_block_ *= 2;
+  }
+
+  Accumulator empty_;
+  std::int64_t calls_per_block_ = 1;
+  std::vector<Block> blocks_;  // in order of time; only the last may hold fewer than calls_per_block_ samples
+};
+
+}  // namespace shaken::analysis

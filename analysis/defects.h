@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "analysis/director_field.h"
+#include "sim/core/types.h"
+
+namespace shaken::analysis {
+
+/// A topological defect of the director field.
+struct Defect {
+  Vec2 position = Vec2::Zero();  ///< in [0, box_side) [mm]
+  double charge = 0;             ///< +1/2 or -1/2; a tie of exactly perpendicular neighbours can give +-1
+  /// Angle of the ray from the core along which the director is radial [rad]: one ray for +1/2, in [-pi, pi); one of
+  /// three for -1/2, in [-pi/3, pi/3). 0 for charge +-1.
+  double direction = 0;
+};
+
+/// All defects of the field: every plaquette of the grid round whose four edges the director turns by +-pi, each step
+/// taken the shorter way. Position: zero of the bilinear Q in the plaquette. Direction: Vromans & Giomi, Soft Matter
+/// 12, 6490 (2016), eq. 5, averaged over a ring round the core whose radius is the smoothing length, or half the
+/// distance to the next defect if that is less. The charges of a periodic box add up to exactly zero, whatever the
+/// field. Nothing is merged or left out: where the order is low, noise makes +- pairs a mesh apart, and they are
+/// reported.
+std::vector<Defect> find_defects(const DirectorField& field);
+
+}  // namespace shaken::analysis

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+
+#include "sim/core/types.h"
+
+namespace shaken::analysis {
+
+/// An angle of a head-tail symmetric axis, brought into [-pi/2, pi/2) by adding a multiple of pi.
+inline double fold_half_turn(double theta) {
+  const double folded = theta - kPi * std::floor(theta / kPi + 0.5);
+  // Rounding can leave the result on the excluded end, or just below the included one.
+  if (folded >= kPi / 2) return folded - kPi;
+  return folded < -kPi / 2 ? -kPi / 2 : folded;
+}
+
+/// cos 2 theta and sin 2 theta of a rod's in-plane direction; (0, 0) for a rod that stands exactly upright and has
+/// none.
+inline Vec2 double_angle(const Vec3& director) {
+  const double x2 = director.x() * director.x();
+  const double y2 = director.y() * director.y();
+  const double norm = x2 + y2;
+  if (norm == 0.0) return Vec2::Zero();
+  return Vec2((x2 - y2) / norm, 2.0 * director.x() * director.y() / norm);
+}
+
+}  // namespace shaken::analysis

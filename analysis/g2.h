@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "analysis/state_io.h"
+#include "sim/core/types.h"
+
+namespace shaken::analysis {
+
+/// G2(r); both of shape (bins).
+struct OrientationCurve {
+  std::vector<double> r;   ///< bin centres [mm]
+  std::vector<double> g2;  ///< in [-1, 1]; NaN where no pair was met
+};
+
+/// G2(r) = <cos 2 (theta_i - theta_j)> over pairs of rods at in-plane distance r (nearest periodic image) below r_max.
+/// One sample costs at most 1024 n_rods pairs: of more than 1024 rods, every k-th is taken as i, another set each time,
+/// against all rods as j. Rods exactly upright are left out.
+class OrientationCorrelation {
+ public:
+  /// `bins` equal bins over [0, r_max) [mm].
+  OrientationCorrelation(int bins, double r_max);
+
+  /// Centres (n_rods) [mm] and directors (n_rods) in a periodic box of side `box_side` >= 2 r_max [mm].
+  void accumulate(std::span<const Vec3> positions, std::span<const Vec3> directors, double box_side);
+  OrientationCurve reduce() const;
+  void reset();
+  /// Adds the samples of `other`, which has the same bins.
+  void merge(const OrientationCorrelation& other);
+
+  void save(StateWriter& writer) const;
+  void restore(StateReader& reader);
+
+ private:
+  double r_max_;
+  std::int64_t calls_ = 0;
+  std::vector<std::int64_t> pairs_;  // (bins)
+  std::vector<double> sums_;         // (bins) of cos 2 (theta_i - theta_j)
+};
+
+}  // namespace shaken::analysis
