@@ -12,8 +12,8 @@ namespace shaken {
 /// Every rod at one tick, as plain arrays of shape (n_rods): what observables, files, the bus and pictures read.
 struct Snapshot {
   Tick tick = 0;
-  double time = 0;      ///< tick * dt [s]
-  double box_side = 0;  ///< [mm]
+  double time = 0;                                 ///< tick * dt [s]
+  double box_side = 0;                             ///< [mm]
   std::vector<Vec3> position;                      ///< centre; x and y in [0, box_side), z above the base's rest [mm]
   std::vector<std::array<std::int32_t, 2>> image;  ///< box crossings: unwrapped x = position.x + image[0] * box_side
   std::vector<Vec3> director;                      ///< unit vector along the rod; its sign is a label that stays

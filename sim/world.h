@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -36,12 +37,15 @@ struct NumericalTrouble {
 /// All mutable data of a simulation. What can be derived from it (neighbour lists, schedules) belongs to the stepper.
 struct World {
   Scene scene;
-  Species species;   ///< of every rod
+  Species species;  ///< of every rod
   PlateMotion plates;
   Tick tick = 0;
   std::vector<Flight> rods;  ///< (n_rods)
   Counters counters;
 };
+
+/// The scene's species and plates at tick 0, without rods.
+World empty_world(const Scene& scene);
 
 /// Places the rods as the scene says (initial.h). Fails if they cannot be packed.
 Result<World> make_world(const Scene& scene);

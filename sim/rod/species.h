@@ -26,7 +26,7 @@ struct Species {
 };
 
 /// Model: uniform solid of revolution of the union of the beads; profile R(x) = max over beads of
-/// sqrt(r_b^2 - (x - s_b)^2), integrated by Gauss-Legendre between the circles' crossings, so exact to rounding.
+/// sqrt(r_b^2 - (x - s_b)^2), integrated piece by piece between the circles' crossings, so exact to rounding.
 Species make_species(const RodShape& shape);
 
 /// The fewest beads, an odd number, whose distance does not exceed `pitch` [mm].

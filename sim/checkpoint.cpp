@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "sim/checkpoint.h"
+
+#include <bit>
+#include <cstring>
+
+namespace shaken {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "checkpoints are little-endian");
+
+constexpr std::uint64_t kMagic = 0x31304e454b414853;  // "SHAKEN01"
+
+class Writer {
+ public:
+  template <class T>
+  void put(const T& value) {
+    static_assert(std::is_arithmetic_v<T>);
+    const auto* from = reinterpret_cast<const std::byte*>(&value);
+    bytes_.insert(bytes_.end(), from, from + sizeof(T));
+  }
+  void put(const Vec3& v) {
+    for (int c = 0; c < 3; ++c) put(v[c]);
+  }
+  void append(const std::vector<std::byte>& more) { bytes_.insert(bytes_.end(), more.begin(), more.end()); }
+  std::vector<std::byte> take() { return std::move(bytes_); }
+
+ private:
+  std::vector<std::byte> bytes_;
+};
+
+class Reader {
+ public:
+  explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+  template <class T>
+  void get(T& value) {
+    static_assert(std::is_arithmetic_v<T>);
+    if (bytes_.size() < sizeof(T)) {
+      short_ = true;
+      value = T{};
+      return;
+    }
+    std::memcpy(&value, bytes_.data(), sizeof(T));
+    bytes_ = bytes_.subspan(sizeof(T));
+  }
+  void get(Vec3& v) {
+    for (int c = 0; c < 3; ++c) get(v[c]);
+  }
+  bool read_all() const { return !short_ && bytes_.empty(); }
+
+ private:
+  std::span<const std::byte> bytes_;
+  bool short_ = false;
+};
+
+/// One list of a flight's stored fields for both directions.
+template <class Archive, class F>
+void each_field(Archive&& visit, F& flight) {
+  visit(flight.since);
+  visit(flight.position);
+  visit(flight.velocity);
+  visit(flight.director);
+  visit(flight.precession);
+  visit(flight.spin);
+  visit(flight.image[0]);
+  visit(flight.image[1]);
+}
+
+template <class Archive, class C>
+void each_counter(Archive&& visit, C& counters) {
+  visit(counters.impulses_rod_rod);
+  visit(counters.impulses_rod_base);
+  visit(counters.impulses_rod_lid);
+  visit(counters.max_overlap_rod_rod);
+  visit(counters.max_overlap_rod_plate);
+}
+
+/// What must be the same for a checkpoint to fit: everything that the stored numbers depend on.
+template <class Archive>
+void each_scene_key(Archive&& visit, const Scene& scene) {
+  visit(static_cast<std::int64_t>(scene.n_rods));
+  visit(static_cast<std::int64_t>(scene.rod.n_beads));
+  visit(scene.rod.length);
+  visit(scene.rod.mid_diameter);
+  visit(scene.rod.end_diameter);
+  visit(scene.box_side);
+  visit(scene.gap);
+  visit(scene.amplitude);
+  visit(scene.frequency);
+  visit(scene.gravity);
+  visit(scene.dt);
+}
+
+}  // namespace
+
+std::vector<std::byte> state_bytes(const World& world) {
+  Writer writer;
+  writer.put(world.tick);
+  for (const Flight& flight : world.rods) each_field([&](const auto& field) { writer.put(field); }, flight);
+  return writer.take();
+}
+
+std::vector<std::byte> save_checkpoint(const World& world) {
+  Writer writer;
+  writer.put(kMagic);
+  each_scene_key([&](const auto& key) { writer.put(key); }, world.scene);
+  each_counter([&](const auto& counter) { writer.put(counter); }, world.counters);
+  writer.append(state_bytes(world));
+  return writer.take();
+}
+
+Result<World> restore_checkpoint(const Scene& scene, std::span<const std::byte> bytes) {
+  Reader reader(bytes);
+  std::uint64_t magic = 0;
+  reader.get(magic);
+  if (magic != kMagic) return Error{"not a checkpoint of this version of Shaken"};
+  bool same_scene = true;
+  each_scene_key(
+      [&](const auto& key) {
+        std::decay_t<decltype(key)> stored;
+        reader.get(stored);
+        same_scene = same_scene && stored == key;
+      },
+      scene);
+  if (!same_scene) return Error{"the checkpoint belongs to another scene"};
+
+  World world = empty_world(scene);
+  each_counter([&](auto& counter) { reader.get(counter); }, world.counters);
+  reader.get(world.tick);
+  world.rods.resize(scene.n_rods);
+  for (Flight& flight : world.rods) {
+    each_field([&](auto& field) { reader.get(field); }, flight);
+    flight.prepare();
+  }
+  if (!reader.read_all()) return Error{"the checkpoint has the wrong length"};
+  return world;
+}
+
+}  // namespace shaken

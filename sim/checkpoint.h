@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "sim/core/result.h"
+#include "sim/world.h"
+
+namespace shaken {
+
+/// Tick and stored state of every rod, exactly; what state_hash() is made of. Fixed order, little-endian.
+std::vector<std::byte> state_bytes(const World& world);
+
+/// state_bytes(), the counters, and enough of the scene to refuse another one's checkpoint. Nothing derived is stored:
+/// a stepper made anew from the restored world goes on bitwise as if it had never stopped.
+std::vector<std::byte> save_checkpoint(const World& world);
+Result<World> restore_checkpoint(const Scene& scene, std::span<const std::byte> bytes);
+
+}  // namespace shaken

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "sim/contact/bead_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace shaken {
+
+double segment_distance_squared(const Vec3& D, const Vec3& n_i, double h_i, const Vec3& n_j, double h_j) {
+  // minimise |D + t n_j - s n_i|^2 over |s| <= h_i, |t| <= h_j
+  const double c = n_i.dot(n_j);
+  const double d_i = D.dot(n_i);
+  const double d_j = D.dot(n_j);
+  const double det = 1.0 - c * c;
+  double s = det > 1e-12 ? std::clamp((d_i - c * d_j) / det, -h_i, h_i) : std::clamp(d_i, -h_i, h_i);
+  const double t = std::clamp(c * s - d_j, -h_j, h_j);
+  s = std::clamp(d_i + c * t, -h_i, h_i);
+  return (D + t * n_j - s * n_i).squaredNorm();
+}
+
+void find_bead_contacts(const Species& i, const Vec3& n_i, const Species& j, const Vec3& n_j, const Vec3& D,
+                        std::vector<BeadContact>& contacts) {
+  // most neighbours are apart: the axes tell. The margin keeps rounding from hiding a contact.
+  constexpr double kMargin = 1e-5;
+  const double reach = i.max_radius + j.max_radius + kMargin;
+  if (segment_distance_squared(D, n_i, i.half_length, n_j, j.half_length) > reach * reach) return;
+
+  const int last = j.n_beads() - 1;
+  const double pitch = last > 0 ? 2.0 * j.half_length / last : 1.0;
+  for (int a = 0; a < i.n_beads(); ++a) {
+    const Vec3 from_a = D - i.bead_offset[a] * n_i;  // bead a -> centre of j
+    const double foot = -from_a.dot(n_j);            // coordinate on j's axis nearest to bead a
+    const double cut = i.bead_radius[a] + j.max_radius + kMargin;
+    const double across2 = from_a.squaredNorm() - foot * foot;
+    if (across2 > cut * cut) continue;
+    const double half_chord = std::sqrt(cut * cut - std::max(across2, 0.0));
+    const int from = std::max(0, static_cast<int>(std::ceil((foot - half_chord + j.half_length) / pitch)));
+    const int to = std::min(last, static_cast<int>(std::floor((foot + half_chord + j.half_length) / pitch)));
+    for (int b = from; b <= to; ++b) {
+      const Vec3 r = from_a + j.bead_offset[b] * n_j;
+      const double touch = i.bead_radius[a] + j.bead_radius[b];
+      const double r2 = r.squaredNorm();
+      if (r2 >= touch * touch) continue;
+      const double distance = std::sqrt(r2);
+      contacts.push_back({a, b, touch - distance, distance > 0 ? Vec3(r / distance) : Vec3(Vec3::UnitZ())});
+    }
+  }
+}
+
+}  // namespace shaken

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "sim/core/sincos.h"
+#include "sim/core/types.h"
+
+namespace shaken {
+
+/// Who draws random numbers: one entry for each use, so that no two uses share a sequence.
+enum class RngStream : std::uint64_t { kLattice = 1, kVelocity = 2, kInsertion = 3 };
+
+/// Random numbers keyed by (seed, stream, index): what a rod draws depends on nothing but its own index, not on the
+/// order of loops or on threads. SplitMix64 (Steele, Lea & Flood 2014) over a counter.
+class Rng {
+ public:
+  Rng(std::uint64_t seed, RngStream stream, std::uint64_t index)
+      : state_(mix(mix(mix(seed) ^ static_cast<std::uint64_t>(stream)) ^ index)) {}
+
+  std::uint64_t bits() {
+    state_ += 0x9e3779b97f4a7c15ull;
+    return mix(state_);
+  }
+  /// In [0, 1).
+  double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
+  /// In [low, high).
+  double uniform(double low, double high) { return low + (high - low) * uniform(); }
+  /// In [0, n).
+  std::uint64_t below(std::uint64_t n) { return static_cast<std::uint64_t>(uniform() * static_cast<double>(n)); }
+  /// Mean 0, variance 1 (Box & Muller 1958).
+  double normal() {
+    const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
+    return radius * sincos(2.0 * kPi * uniform()).cos;
+  }
+
+ private:
+  static std::uint64_t mix(std::uint64_t z) {
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+    return z ^ (z >> 31);
+  }
+  std::uint64_t state_;
+};
+
+}  // namespace shaken

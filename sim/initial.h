@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "sim/core/result.h"
+#include "sim/motion/flight.h"
+#include "sim/rod/species.h"
+#include "sim/scene.h"
+
+namespace shaken {
+
+/// Flights at tick 0 for every rod of the scene. No two rods and no rod and plate overlap; heights are near the middle
+/// of the gap; velocities are Gaussian with 20 mm/s in each direction and 5 rad/s about each axis across the rod.
+///
+/// kAligned: along x, in rows, every other row shifted by half a rod so that the tapers interlock: without the shift
+///           rods of l = 2.5 mm do not fit beyond area fraction 0.7, with it they fit to 0.9. Of all lattices with room
+///           for n_rods the roomiest is taken; sites left over are vacancies at random places.
+/// kRandom:  random places and directions one after the other (random sequential insertion).
+/// Errors:   the rods do not fit; the message names the largest area fraction that does.
+Result<std::vector<Flight>> initial_flights(const Scene& scene, const Species& species);
+
+}  // namespace shaken

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "sim/simulation.h"
+
+#include "sim/checkpoint.h"
+#include "sim/core/check.h"
+#include "sim/stepping/stepper.h"
+
+namespace shaken {
+
+Simulation::Simulation(World world)
+    : world_(std::make_unique<World>(std::move(world))), stepper_(make_stepper(*world_)) {}
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+Simulation::~Simulation() = default;
+
+Result<Simulation> Simulation::start(const Scene& scene) {
+  auto world = make_world(scene);
+  if (!world) return world.error();
+  return Simulation(std::move(world).value());
+}
+
+Result<Simulation> Simulation::resume(const Scene& scene, std::span<const std::byte> checkpoint) {
+  auto world = restore_checkpoint(scene, checkpoint);
+  if (!world) return world.error();
+  return Simulation(std::move(world).value());
+}
+
+std::optional<NumericalTrouble> Simulation::advance_to(Tick target) {
+  SHAKEN_CHECK(target >= world_->tick, "time runs forwards");
+  return stepper_->advance_to(*world_, target);
+}
+
+Tick Simulation::tick() const { return world_->tick; }
+double Simulation::time() const { return static_cast<double>(world_->tick) * world_->scene.dt; }
+Snapshot Simulation::snapshot() const { return shaken::snapshot(*world_); }
+std::vector<std::byte> Simulation::checkpoint() const { return save_checkpoint(*world_); }
+std::uint64_t Simulation::state_hash() const { return shaken::state_hash(*world_); }
+
+}  // namespace shaken

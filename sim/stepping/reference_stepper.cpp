@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "sim/stepping/reference_stepper.h"
+
+namespace shaken {
+namespace {
+
+/// Wider: longer lists; narrower: more rebuilding. Flat optimum between 0.2 and 0.5 mm at the paper's scenes.
+constexpr double kSkin = 0.3;
+
+}  // namespace
+
+ReferenceStepper::ReferenceStepper(const World& world)
+    : rules_(world),
+      neighbors_(world.species, world.scene.box_side, kSkin),
+      rods_(world.rods.size()),
+      poses_(world.rods.size()) {}
+
+std::optional<NumericalTrouble> ReferenceStepper::advance_to(World& world, Tick target) {
+  while (world.tick < target) {
+    const Tick now = world.tick + 1;
+    auto trouble = step(world, now);
+    world.tick = now;
+    if (trouble) return trouble;
+  }
+  return {};
+}
+
+std::optional<NumericalTrouble> ReferenceStepper::step(World& world, Tick now) {
+  const int n = static_cast<int>(world.rods.size());
+  for (int i = 0; i < n; ++i) {
+    rods_[i] = rod_at_tick(world.rods[i], now, rules_);
+    poses_[i] = rods_[i].pose;
+  }
+
+  // 1. plates
+  const PlateState plates = world.plates.at(now);
+  for (int i = 0; i < n; ++i) {
+    if (auto trouble = collide_with_plates(i, rods_[i], world.rods[i], plates, now, rules_, world.counters))
+      return trouble;
+  }
+
+  // 2. detection; the list is in ascending order, so the contacts come out sorted
+  if (neighbors_.is_due(poses_)) neighbors_.build(poses_);
+  contacts_.clear();
+  for (const auto& [i, j] : neighbors_.pairs()) {
+    bead_contacts_.clear();
+    const Vec3 D = nearest_image(poses_[i].position, poses_[j].position, rules_.box_side);
+    find_bead_contacts(rules_.species, poses_[i].director, rules_.species, poses_[j].director, D, bead_contacts_);
+    for (const BeadContact& beads : bead_contacts_) contacts_.push_back({i, j, beads});
+  }
+
+  // 3. response
+  for (const PairContact& contact : contacts_) {
+    if (auto trouble = check_overlap(contact, now, rules_)) return trouble;
+    world.counters.max_overlap_rod_rod = std::max(world.counters.max_overlap_rod_rod, contact.beads.overlap);
+    evaluate_motion(rods_[contact.i], world.rods[contact.i], now, rules_);
+    evaluate_motion(rods_[contact.j], world.rods[contact.j], now, rules_);
+  }
+  for (int sweep = 0; sweep < world.scene.solver_sweeps; ++sweep) {
+    for (const PairContact& contact : contacts_)
+      respond(contact, rods_[contact.i], rods_[contact.j], rules_, world.counters);
+  }
+
+  // 4. storing
+  for (int i = 0; i < n; ++i) {
+    if (!rods_[i].changed) continue;
+    if (auto trouble = store(i, world.rods[i], rods_[i], now, rules_)) return trouble;
+  }
+  return {};
+}
+
+std::unique_ptr<Stepper> make_stepper(const World& world) {
+  switch (world.scene.engine) {
+    case Engine::kReference:
+      return std::make_unique<ReferenceStepper>(world);
+  }
+  return nullptr;
+}
+
+}  // namespace shaken

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "sim/neighbors/neighbor_list.h"
+#include "sim/stepping/stepper.h"
+#include "sim/stepping/tick.h"
+
+namespace shaken {
+
+/// The paper's time-driven algorithm: visits every rod and every neighbour pair at every tick. Slow and obvious; the
+/// oracle that any other stepper must match bit by bit.
+class ReferenceStepper final : public Stepper {
+ public:
+  explicit ReferenceStepper(const World& world);
+  [[nodiscard]] std::optional<NumericalTrouble> advance_to(World& world, Tick target) override;
+
+ private:
+  std::optional<NumericalTrouble> step(World& world, Tick now);
+
+  TickRules rules_;
+  NeighborList neighbors_;
+  std::vector<RodAtTick> rods_;
+  std::vector<Pose> poses_;
+  std::vector<BeadContact> bead_contacts_;
+  std::vector<PairContact> contacts_;
+};
+
+}  // namespace shaken

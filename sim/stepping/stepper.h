@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "sim/world.h"
+
+namespace shaken {
+
+/// Moves a world from tick to tick. What a tick means is fixed (stepping/tick.h); a stepper only chooses which rods and
+/// pairs it looks at, so every stepper gives bitwise the same trajectory. Neighbour lists and schedules are derived
+/// data of the stepper's own: making a new stepper for the same world changes nothing.
+class Stepper {
+ public:
+  virtual ~Stepper() = default;
+  /// Steps to `target`, or stops after the tick at which trouble was met.
+  [[nodiscard]] virtual std::optional<NumericalTrouble> advance_to(World& world, Tick target) = 0;
+};
+
+/// The stepper that the scene asks for.
+std::unique_ptr<Stepper> make_stepper(const World& world);
+
+}  // namespace shaken
