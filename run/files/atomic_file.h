@@ -11,8 +11,8 @@
 namespace shaken::run {
 
 /// Replaces `file` by `content` so that a reader, or a crash at any instant, sees the old file or the new, never a
-/// mixture: writes FILE.tmp, fsync, rename, fsync of the folder. Returns the reason if the disk refuses; the old file is
-/// then untouched.
+/// mixture: writes FILE.tmp, fsync, rename, fsync of the folder. Returns the reason if the disk refuses; the old file
+/// is then untouched.
 [[nodiscard]] std::optional<Error> write_file_atomically(const std::filesystem::path& file, std::string_view content);
 
 /// The second half of the above for a file that somebody else wrote: fsync of `written`, rename to `file`, fsync of the

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,17 +36,19 @@ struct TrajectoryFrame {
 };
 
 /// Writes trajectory.h5 in H5MD (de Buyl, Colberg, Hoefling 2014): /particles/trajectory/{position, image, velocity,
-/// orientation, box}. A frame is on its way to the disk when `append` returns; a torn last frame is left out by the
-/// reader and trimmed on reopening.
+/// orientation, box}, where orientation is the unit quaternion (w, x, y, z) that turns z into the director. A frame is
+/// with the operating system when `append` returns; a torn last frame is left out by the reader and trimmed on
+/// reopening. Chunks carry checksums. No SWMR: a killed SWMR file cannot be opened without repair.
 class TrajectoryWriter {
  public:
   static Result<TrajectoryWriter> create(const std::filesystem::path& file, const TrajectoryHeader& header);
-  /// Opens an existing file to go on after tick `last`: later frames are cut off.
+  /// Opens an existing file to go on after tick `last`: later frames, and a torn one, are cut off.
   static Result<TrajectoryWriter> reopen(const std::filesystem::path& file, Tick last);
   TrajectoryWriter(TrajectoryWriter&&) noexcept;
   TrajectoryWriter& operator=(TrajectoryWriter&&) noexcept;
   ~TrajectoryWriter();
   [[nodiscard]] std::optional<Error> append(const Snapshot& snapshot);
+  std::size_t n_frames() const;
 
  private:
   struct Impl;

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "run/files/progress.h"
+
+#include <nlohmann/json.hpp>
+
+#include "run/files/atomic_file.h"
+
+namespace shaken::run {
+
+std::optional<Error> write_progress(const std::filesystem::path& file, const Progress& progress) {
+  const nlohmann::ordered_json json{
+      {"state", progress.state},
+      {"message", progress.message},
+      {"pid", progress.pid},
+      {"n_rods", progress.n_rods},
+      {"fraction", progress.fraction()},
+      {"sim_time_s", progress.sim_time},
+      {"sim_time_total_s", progress.sim_time_total},
+      {"sim_rate", progress.sim_rate},
+      {"eta_s", progress.eta},
+      {"order", progress.order},
+      {"order_running_mean", progress.order_running_mean},
+      {"max_overlap_mm", progress.max_overlap},
+  };
+  constexpr auto kReplaceBadUtf8 = nlohmann::ordered_json::error_handler_t::replace;
+  return write_file_atomically(file, json.dump(2, ' ', false, kReplaceBadUtf8) + "\n");
+}
+
+Result<Progress> read_progress(const std::filesystem::path& file) {
+  const Result<std::string> text = read_file(file);
+  if (!text) return text.error();
+  try {
+    const auto json = nlohmann::json::parse(*text);
+    Progress progress;
+    json.at("state").get_to(progress.state);
+    json.at("message").get_to(progress.message);
+    json.at("pid").get_to(progress.pid);
+    json.at("n_rods").get_to(progress.n_rods);
+    json.at("sim_time_s").get_to(progress.sim_time);
+    json.at("sim_time_total_s").get_to(progress.sim_time_total);
+    json.at("sim_rate").get_to(progress.sim_rate);
+    json.at("eta_s").get_to(progress.eta);
+    json.at("order").get_to(progress.order);
+    json.at("order_running_mean").get_to(progress.order_running_mean);
+    json.at("max_overlap_mm").get_to(progress.max_overlap);
+    return progress;
+  } catch (const nlohmann::json::exception& problem) {
+    return Error{file.string() + " is not a progress file: " + problem.what()};
+  }
+}
+
+}  // namespace shaken::run

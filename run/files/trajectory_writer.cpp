@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+
+#include "run/files/hdf5.h"
+#include "run/files/quaternion.h"
+#include "run/files/trajectory.h"
+#include "run/files/trajectory_layout.h"
+#include "run/files/version.h"
+
+namespace shaken::run {
+namespace {
+
+using trajectory_layout::DataSets;
+
+/// Rows of step, time and box edges in one chunk; the large arrays have one frame per chunk.
+constexpr hsize_t kSmallRows = 256;
+
+void write_h5md_group(hid_t file) {
+  const hdf5::Id h5md = hdf5::create_group(file, "h5md");
+  const std::array<int, 2> format{1, 1};
+  hdf5::write_attribute(h5md, "version", H5T_NATIVE_INT, {2}, format.data());
+  hdf5::write_attribute(hdf5::create_group(h5md, "author"), "name", "unknown");
+  const hdf5::Id creator = hdf5::create_group(h5md, "creator");
+  hdf5::write_attribute(creator, "name", "Shaken");
+  hdf5::write_attribute(creator, "version", version());
+}
+
+void write_parameters(hid_t file, const TrajectoryHeader& header) {
+  const hdf5::Id parameters = hdf5::create_group(file, "parameters");
+  hdf5::write_attribute(parameters, "n_rods", H5T_NATIVE_INT, {}, &header.n_rods);
+  hdf5::write_attribute(parameters, "box_side_mm", H5T_NATIVE_DOUBLE, {}, &header.box_side);
+  hdf5::write_attribute(parameters, "gap_mm", H5T_NATIVE_DOUBLE, {}, &header.gap);
+  hdf5::write_attribute(parameters, "dt_s", H5T_NATIVE_DOUBLE, {}, &header.dt);
+  hdf5::write_dataset(parameters, "bead_offset_mm", H5T_NATIVE_DOUBLE, {header.bead_offset.size()},
+                      header.bead_offset.data());
+  hdf5::write_dataset(parameters, "bead_radius_mm", H5T_NATIVE_DOUBLE, {header.bead_radius.size()},
+                      header.bead_radius.data());
+  hdf5::write_string(parameters, "scene_json", header.scene_json);
+  const hdf5::Id units = hdf5::create_group(parameters, "units");
+  for (const auto& [quantity, unit] : {std::pair{"length", "mm"}, {"time", "s"}, {"velocity", "mm/s"}}) {
+    hdf5::write_attribute(units, quantity, unit);
+  }
+}
+
+void hard_link(hid_t file, const std::string& existing, const std::string& name) {
+  hdf5::check(H5Lcreate_hard(file, existing.c_str(), file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT), "link " + name);
+}
+
+void write_particles(hid_t file, const TrajectoryHeader& header) {
+  const hdf5::Id particles = hdf5::create_group(file, "particles");
+  const hdf5::Id trajectory = hdf5::create_group(particles, "trajectory");
+  const hdf5::Id box = hdf5::create_group(trajectory, "box");
+  const int dimension = 3;
+  hdf5::write_attribute(box, "dimension", H5T_NATIVE_INT, {}, &dimension);
+  hdf5::write_attribute(box, "boundary", {"periodic", "periodic", "none"});
+
+  const auto n_rods = static_cast<hsize_t>(header.n_rods);
+  for (const char* element : trajectory_layout::kElements) hdf5::create_group(trajectory, element);
+  const hdf5::Id position = hdf5::open_group(trajectory, "position");
+  hdf5::create_growing(position, "step", H5T_NATIVE_INT64, {}, kSmallRows, false);
+  hdf5::create_growing(position, "time", H5T_NATIVE_DOUBLE, {}, kSmallRows, false);
+  hdf5::create_growing(trajectory, "position/value", H5T_NATIVE_FLOAT, {n_rods, 3}, 1, true);
+  hdf5::create_growing(trajectory, "image/value", H5T_NATIVE_INT32, {n_rods, 3}, 1, true);
+  hdf5::create_growing(trajectory, "velocity/value", H5T_NATIVE_FLOAT, {n_rods, 3}, 1, true);
+  hdf5::create_growing(trajectory, "orientation/value", H5T_NATIVE_FLOAT, {n_rods, 4}, 1, true);
+  hdf5::create_growing(trajectory, "box/edges/value", H5T_NATIVE_DOUBLE, {3, 3}, kSmallRows, false);
+  for (const char* element : trajectory_layout::kElements) {
+    const std::string group = std::string(trajectory_layout::kGroup) + "/" + element;
+    if (group + "/step" == trajectory_layout::kStep) continue;
+    hard_link(file, trajectory_layout::kStep, group + "/step");
+    hard_link(file, trajectory_layout::kTime, group + "/time");
+  }
+}
+
+/// Rounds to float without leaving [0, side): 83.7299999999 must not become 83.73.
+float wrapped_float(double x, double side) {
+  auto rounded = static_cast<float>(x);
+  while (rounded > 0 && static_cast<double>(rounded) >= side) rounded = std::nextafterf(rounded, 0.0F);
+  return rounded;
+}
+
+}  // namespace
+
+struct TrajectoryWriter::Impl {
+  std::filesystem::path path;
+  hdf5::Id file;
+  DataSets sets;
+  std::size_t n_rods = 0;
+  double box_side = 0;
+  double gap = 0;
+  std::size_t n_frames = 0;
+
+  /// HDF5 writes what it still holds when the file is closed; all of it was flushed before.
+  void append(const Snapshot& snapshot) {
+    std::vector<float> position, velocity, orientation;
+    std::vector<std::int32_t> image;
+    for (std::size_t i = 0; i < n_rods; ++i) {
+      const Vec3& x = snapshot.position[i];
+      const Vec3& v = snapshot.velocity[i];
+      position.insert(position.end(),
+                      {wrapped_float(x.x(), box_side), wrapped_float(x.y(), box_side), static_cast<float>(x.z())});
+      velocity.insert(velocity.end(),
+                      {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())});
+      for (const double q : quaternion_of_director(snapshot.director[i])) orientation.push_back(static_cast<float>(q));
+      image.insert(image.end(), {snapshot.image[i][0], snapshot.image[i][1], 0});
+    }
+    const std::array<double, 9> edges{box_side, 0, 0, 0, box_side, 0, 0, 0, gap};
+    hdf5::append_row(sets.position, H5T_NATIVE_FLOAT, position.data());
+    hdf5::append_row(sets.image, H5T_NATIVE_INT32, image.data());
+    hdf5::append_row(sets.velocity, H5T_NATIVE_FLOAT, velocity.data());
+    hdf5::append_row(sets.orientation, H5T_NATIVE_FLOAT, orientation.data());
+    hdf5::append_row(sets.edges, H5T_NATIVE_DOUBLE, edges.data());
+    hdf5::append_row(sets.time, H5T_NATIVE_DOUBLE, &snapshot.time);
+    hdf5::append_row(sets.step, H5T_NATIVE_INT64, &snapshot.tick);
+    hdf5::check(H5Fflush(file, H5F_SCOPE_GLOBAL), "write a frame");
+    ++n_frames;
+  }
+};
+
+Result<TrajectoryWriter> TrajectoryWriter::create(const std::filesystem::path& file, const TrajectoryHeader& header) {
+  hdf5::be_quiet();
+  try {
+    hdf5::Id out = hdf5::create_file(file);
+    write_h5md_group(out);
+    write_parameters(out, header);
+    write_particles(out, header);
+    hdf5::check(H5Fflush(out, H5F_SCOPE_GLOBAL), "write the header");
+    DataSets sets = DataSets::open(out);
+    return TrajectoryWriter(
+        std::make_unique<Impl>(Impl{file, std::move(out), std::move(sets), static_cast<std::size_t>(header.n_rods),
+                                    header.box_side, header.gap, 0}));
+  } catch (const hdf5::Failure& failure) {
+    return Error{file.string() + ": " + failure.what()};
+  }
+}
+
+Result<TrajectoryWriter> TrajectoryWriter::reopen(const std::filesystem::path& file, Tick last) {
+  // The reader knows which frames are whole.
+  const Result<TrajectoryReader> reader = TrajectoryReader::open(file);
+  if (!reader) return reader.error();
+  const TrajectoryHeader header = reader->header();
+  try {
+    hdf5::Id out = hdf5::open_file(file, true);
+    DataSets sets = DataSets::open(out);
+    std::vector<Tick> ticks = hdf5::read_vector<Tick>(sets.step, H5T_NATIVE_INT64);
+    ticks.resize(std::min(ticks.size(), reader->n_frames()));
+    const auto n_kept = static_cast<std::size_t>(std::upper_bound(ticks.begin(), ticks.end(), last) - ticks.begin());
+    for (const hid_t dataset : sets.all()) hdf5::resize_rows(dataset, n_kept);
+    hdf5::check(H5Fflush(out, H5F_SCOPE_GLOBAL), "trim the file");
+    return TrajectoryWriter(
+        std::make_unique<Impl>(Impl{file, std::move(out), std::move(sets), static_cast<std::size_t>(header.n_rods),
+                                    header.box_side, header.gap, n_kept}));
+  } catch (const hdf5::Failure& failure) {
+    return Error{file.string() + ": " + failure.what()};
+  }
+}
+
+TrajectoryWriter::TrajectoryWriter(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+TrajectoryWriter::TrajectoryWriter(TrajectoryWriter&&) noexcept = default;
+TrajectoryWriter& TrajectoryWriter::operator=(TrajectoryWriter&&) noexcept = default;
+TrajectoryWriter::~TrajectoryWriter() = default;
+
+std::size_t TrajectoryWriter::n_frames() const { return impl_->n_frames; }
+
+std::optional<Error> TrajectoryWriter::append(const Snapshot& snapshot) {
+  if (snapshot.n_rods() != impl_->n_rods) {
+    return Error{impl_->path.string() + " holds " + std::to_string(impl_->n_rods) + " rods, the frame has " +
+                 std::to_string(snapshot.n_rods())};
+  }
+  try {
+    impl_->append(snapshot);
+    return std::nullopt;
+  } catch (const hdf5::Failure& failure) {
+    return Error{impl_->path.string() + ": " + failure.what()};
+  }
+}
+
+}  // namespace shaken::run
