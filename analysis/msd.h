@@ -20,10 +20,10 @@ struct MsdCurve {
 
 /// Mean square displacement against lag, while the run goes on. "Along" and "across" refer to the nematic director of
 /// all rods at the origin time, not to the single rod.
-/// Level k of `n_levels` keeps the last 8 of every 2^k-th sample and gives the lags (1..8 for k = 0, 5..8 else) 2^k, so
-/// lags are exact (no averaging), about four an octave up to 8 * 2^(n_levels - 1) samples; memory is
-/// 128 n_levels n_rods bytes at most, however long the run. Displacements are taken from each rod's first place, so
-/// that a long way does not cost digits.
+/// Level k of `n_levels` keeps the last 8 of every 2^k-th sample and gives the lags (1..8 for k = 0, 5..8 else) 2^k:
+/// four an octave up to 8 * 2^(n_levels - 1) samples, exact, without averaging. Memory is at most 128 bytes per level
+/// and rod, however long the run. Displacements are kept from each rod's first place, so that a long way does not cost
+/// digits.
 class MeanSquareDisplacement {
  public:
   /// `interval`: time between successive accumulate calls [s].
@@ -39,13 +39,16 @@ class MeanSquareDisplacement {
 
  private:
   static constexpr int kFrames = 8;
-  /// Samples kept as origins.
-  struct Level {
-    std::vector<double> x, y;      // (min(frames so far, kFrames) * n_rods), a ring of frames
-    std::vector<double> director;  // (frames) angle at that time
-    std::int64_t n_frames = 0;     // taken so far
+  /// One sample kept as an origin.
+  struct Frame {
+    std::vector<double> x, y;  // (n_rods) from each rod's first place [mm]
+    double director = 0;       // of all rods at that time [rad]
   };
-  void add(Level& level, std::size_t i_level, std::span<const double> x, std::span<const double> y, double director);
+  struct Level {
+    std::vector<Frame> frames;  // the last kFrames samples; sample f is at f % kFrames
+    std::int64_t n_frames = 0;  // taken so far
+  };
+  void add(std::size_t k, const std::vector<double>& x, const std::vector<double>& y, double director);
 
   double interval_;
   std::vector<Level> levels_;

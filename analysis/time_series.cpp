@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/time_series.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "analysis/steady.h"
+
+namespace shaken::analysis {
+namespace {
+
+/// Sokal's window closes at this many statistical inefficiencies: the constant of emcee.
+constexpr double kWindow = 5.0;
+/// Products spent on one level of averaging before the series is halved. Series up to about 8000 are never halved.
+constexpr std::size_t kBudget = std::size_t{1} << 25;
+/// Chodera's search works on at most this many points.
+constexpr std::size_t kSearchPoints = 4096;
+constexpr std::size_t kSearchCandidates = 48;
+
+double mean_of(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// Less the mean. Taken from the first value before, so that a constant series becomes exactly zero.
+std::vector<double> centred(std::span<const double> values) {
+  std::vector<double> x(values.size());
+  std::transform(values.begin(), values.end(), x.begin(), [&](double value) { return value - values[0]; });
+  const double mean = mean_of(x);
+  for (double& value : x) value -= mean;
+  return x;
+}
+
+/// Sum of x_i x_(i + lag); four running sums, since one would wait for its own last addition.
+double product_sum(std::span<const double> x, std::size_t lag) {
+  const std::size_t n = x.size() - lag;
+  double sums[4] = {0, 0, 0, 0};
+  std::size_t i = 0;
+  for (; i + 4 <= n; i += 4) {
+    for (std::size_t k = 0; k < 4; ++k) sums[k] += x[i + k] * x[i + k + lag];
+  }
+  for (; i < n; ++i) sums[0] += x[i] * x[i + lag];
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+}
+
+/// Means of successive groups of `length`; an incomplete last group is left out.
+std::vector<double> group_means(std::span<const double> values, std::size_t length) {
+  std::vector<double> means(values.size() / length);
+  for (std::size_t i = 0; i < means.size(); ++i) means[i] = mean_of(values.subspan(i * length, length));
+  return means;
+}
+
+}  // namespace
+
+double statistical_inefficiency(std::span<const double> values) {
+  if (values.size() < 4) return 1.0;
+  std::vector<double> x = centred(values);
+  const double variance = product_sum(x, 0) / static_cast<double>(x.size());
+  if (variance == 0.0) return 1.0;
+
+  for (double averaged = 1.0;; averaged *= 2.0) {
+    const std::size_t n = x.size();
+    const double c0 = product_sum(x, 0);
+    if (c0 == 0.0) return 1.0;  // pairs that cancel exactly: anything but correlated
+    double g = 1.0;
+    std::size_t spent = 0;
+    bool closed = false;
+    for (std::size_t lag = 1; lag < n && spent <= kBudget && !closed; ++lag) {
+      g += 2.0 * product_sum(x, lag) / c0;
+      spent += n - lag;
+      closed = static_cast<double>(lag) >= kWindow * g;
+    }
+    if (closed || spent <= kBudget) {
+      // The error of the mean, variance * g / n, is the same for the averaged series.
+      const double of_samples = averaged * g * (c0 / static_cast<double>(n)) / variance;
+      return std::clamp(of_samples, 1.0, static_cast<double>(values.size()));
+    }
+    x = group_means(x, 2);
+  }
+}
+
+double autocorrelation_time(std::span<const double> values) {
+  return values.empty() ? 0.0 : 0.5 * (statistical_inefficiency(values) - 1.0);
+}
+
+std::vector<BlockLevel> block_levels(std::span<const double> values) {
+  std::vector<BlockLevel> levels;
+  if (values.size() < 2) return levels;
+  std::vector<double> x = centred(values);
+  for (std::size_t length = 1; x.size() >= 2; length *= 2) {
+    const std::vector<double> deviation = centred(x);
+    const double n = static_cast<double>(x.size());
+    const double sem = std::sqrt(product_sum(deviation, 0) / (n * (n - 1.0)));
+    levels.push_back({length, x.size(), sem, sem / std::sqrt(2.0 * (n - 1.0))});
+    x = group_means(x, 2);
+  }
+  return levels;
+}
+
+double block_sem(std::span<const double> values) {
+  const std::vector<BlockLevel> levels = block_levels(values);
+  if (levels.empty()) return 0.0;
+  const double sem_1 = levels.front().sem;
+  if (sem_1 == 0.0) return 0.0;
+  for (const BlockLevel& level : levels) {
+    const double g = std::pow(level.sem / sem_1, 2);
+    const double length = static_cast<double>(level.block_length);
+    if (length * length * length > 2.0 * static_cast<double>(values.size()) * g * g) return level.sem;
+  }
+  return levels.back().sem;
+}
+
+std::size_t steady_index(std::span<const double> values) {
+  if (values.empty()) return 0;
+  const std::size_t group = (values.size() + kSearchPoints - 1) / kSearchPoints;
+  const std::vector<double> points = group_means(values, group);
+  const std::size_t n = points.size();
+  const std::size_t last = 3 * n / 4;
+
+  std::size_t best = 0;
+  double best_n_effective = 0.0;
+  const auto consider = [&](std::size_t t0) {
+    const double n_effective =
+        static_cast<double>(n - t0) / statistical_inefficiency(std::span<const double>(points).subspan(t0));
+    if (n_effective > best_n_effective) {
+      best = t0;
+      best_n_effective = n_effective;
+    }
+  };
+  std::size_t step = std::max<std::size_t>(1, last / kSearchCandidates);
+  for (std::size_t t0 = 0; t0 <= last; t0 += step) consider(t0);
+  while (step > 1) {
+    const std::size_t from = best > step ? best - step : 0;
+    const std::size_t to = std::min(best + step, last);
+    step = std::max<std::size_t>(1, step / 8);
+    for (std::size_t t0 = from; t0 <= to; t0 += step) consider(t0);
+  }
+  return best * group;
+}
+
+SteadySummary summarize_series(std::span<const double> times, std::span<const double> values,
+                               std::optional<double> steady_start) {
+  std::size_t first = 0;
+  if (steady_start) {
+    while (first < times.size() && !is_steady(times[first], *steady_start)) ++first;
+  } else {
+    first = steady_index(values);
+  }
+  SteadySummary summary;
+  summary.t_steady = first < times.size() ? times[first] : steady_start.value_or(0.0);
+  const std::span<const double> steady = values.subspan(first);
+  if (steady.empty()) return summary;
+
+  const double n = static_cast<double>(steady.size());
+  const std::vector<double> x = centred(steady);
+  const double g = statistical_inefficiency(steady);
+  summary.mean = steady[0] - x[0];
+  summary.n_effective = n / g;
+  if (steady.size() < 2) return summary;
+  summary.std = std::sqrt(product_sum(x, 0) / (n - 1.0));
+  summary.sem = summary.std * std::sqrt(g / n);
+  summary.tau = 0.5 * (g - 1.0) * (times.back() - times[first]) / (n - 1.0);
+  return summary;
+}
+
+}  // namespace shaken::analysis
