@@ -161,7 +161,8 @@ Result<std::vector<Flight>> place_random(const Scene& scene, const Species& spec
     for (int attempt = 0; attempt < kMaxInsertions && !placed; ++attempt) {
       candidate.position = {scene.box_side * place.uniform(), scene.box_side * place.uniform(), 0};
       const double angle = kPi * place.uniform();
-      candidate.director = {std::cos(angle), std::sin(angle), 0};
+      const SinCos plane = sincos(angle);
+      candidate.director = {plane.cos, plane.sin, 0};
       if (!is_free(candidate)) continue;
       Rng rng(scene.seed, RngStream::kVelocity, static_cast<std::uint64_t>(i));
       lift_and_push(candidate, scene, species, angle, true, rng);

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// Conservation laws of whole runs, tick by tick.
+#include <gtest/gtest.h>
+
+#include "sim/simulation.h"
+
+namespace shaken {
+namespace {
+
+Scene base_scene() {
+  Scene scene;
+  scene.rod = {.length = 2.5, .n_beads = 9};
+  scene.box_side = 12;
+  scene.n_rods = 74;
+  return scene;
+}
+
+double potential_energy(const World& world) {
+  double sum = 0;
+  for (const Vec3& r : snapshot(world).position) sum += world.species.mass * world.scene.gravity * r.z();
+  return sum;
+}
+
+Vec3 momentum(const World& world) {
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& v : snapshot(world).velocity) sum += world.species.mass * v;
+  return sum;
+}
+
+TEST(Conservation, MomentumInThePlaneWithoutPlateFriction) {
+  Scene scene = base_scene();
+  scene.rod_base.friction = 0;
+  scene.rod_lid.friction = 0;
+  auto simulation = Simulation::start(scene);
+  ASSERT_TRUE(static_cast<bool>(simulation));
+  const Vec3 start = momentum(simulation->world());
+  const double scale = simulation->world().species.mass * 20 * scene.n_rods;
+  for (Tick k = 500; k <= 10000; k += 500) {
+    ASSERT_FALSE(simulation->advance_to(k).has_value());
+    const Vec3 change = momentum(simulation->world()) - start;
+    EXPECT_LT(std::hypot(change.x(), change.y()), 1e-12 * scale);
+  }
+  EXPECT_GT(simulation->world().counters.impulses_rod_rod, 500);
+  EXPECT_GT(simulation->world().counters.impulses_rod_base, 500);
+}
+
+TEST(Conservation, PlateFrictionDoesTakeMomentum) {
+  // the twin that shows that the test above can fail
+  Scene scene = base_scene();
+  auto simulation = Simulation::start(scene);
+  ASSERT_TRUE(static_cast<bool>(simulation));
+  const Vec3 start = momentum(simulation->world());
+  ASSERT_FALSE(simulation->advance_to(10000).has_value());
+  const Vec3 change = momentum(simulation->world()) - start;
+  EXPECT_GT(std::hypot(change.x(), change.y()), 1e-6 * simulation->world().species.mass * 20 * scene.n_rods);
+}
+
+TEST(Conservation, EnergyNeverGrowsBetweenPlatesAtRest) {
+  Scene scene = base_scene();
+  scene.amplitude = 0;
+  auto simulation = Simulation::start(scene);
+  ASSERT_TRUE(static_cast<bool>(simulation));
+  double energy = kinetic_energy(simulation->world()).total() + potential_energy(simulation->world());
+  const double start = energy;
+  for (Tick k = 1; k <= 8000; ++k) {
+    ASSERT_FALSE(simulation->advance_to(k).has_value());
+    const double now = kinetic_energy(simulation->world()).total() + potential_energy(simulation->world());
+    ASSERT_LE(now, energy + 1e-12 * start) << "energy made at tick " << k;
+    energy = now;
+  }
+  EXPECT_LT(energy, 0.9 * start);
+}
+
+TEST(Conservation, ElasticFrictionlessRodsBetweenPlatesAtRestKeepTheirEnergy) {
+  Scene scene = base_scene();
+  scene.amplitude = 0;
+  scene.rod_rod = scene.rod_base = scene.rod_lid = {0.0, 1.0};
+  auto simulation = Simulation::start(scene);
+  ASSERT_TRUE(static_cast<bool>(simulation));
+  const double start = kinetic_energy(simulation->world()).total() + potential_energy(simulation->world());
+  ASSERT_FALSE(simulation->advance_to(10000).has_value());
+  const double end = kinetic_energy(simulation->world()).total() + potential_energy(simulation->world());
+  EXPECT_NEAR(end, start, 1e-11 * start);
+  EXPECT_GT(simulation->world().counters.impulses_rod_rod, 100);
+}
+
+TEST(Conservation, FrictionlessContactsNeverTurnARodAboutItsAxis) {
+  Scene scene = base_scene();
+  scene.rod_rod.friction = scene.rod_base.friction = scene.rod_lid.friction = 0;
+  auto simulation = Simulation::start(scene);
+  ASSERT_TRUE(static_cast<bool>(simulation));
+  ASSERT_FALSE(simulation->advance_to(10000).has_value());
+  for (const Flight& flight : simulation->world().rods) EXPECT_NEAR(flight.spin, 0, 1e-11);
+}
+
+TEST(Overlap, ShrinksWithTheTick) {
+  double last = 1e9;
+  for (const double dt : {16e-6, 4e-6, 1e-6}) {
+    Scene scene = base_scene();
+    scene.dt = dt;
+    auto simulation = Simulation::start(scene);
+    ASSERT_TRUE(static_cast<bool>(simulation));
+    ASSERT_FALSE(simulation->advance_to(static_cast<Tick>(0.03 / dt)).has_value());
+    const double overlap = simulation->world().counters.max_overlap();
+    EXPECT_GT(overlap, 0);
+    EXPECT_LT(overlap, 0.5 * last);
+    last = overlap;
+  }
+}
+
+TEST(Trouble, DeepOverlapStopsWithTickAndRods) {
+  // a tick in which a rod crosses half the gap: nobody should believe what follows, and nobody is asked to
+  Scene scene = base_scene();
+  scene.dt = 4e-3;
+  auto simulation = Simulation::start(scene);
+  ASSERT_TRUE(static_cast<bool>(simulation));
+  const auto trouble = simulation->advance_to(1000);
+  ASSERT_TRUE(trouble.has_value());
+  EXPECT_EQ(trouble->tick, simulation->tick());
+  EXPECT_FALSE(trouble->rods.empty());
+  EXPECT_FALSE(trouble->what.empty());
+}
+
+}  // namespace
+}  // namespace shaken

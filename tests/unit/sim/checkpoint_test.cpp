@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "sim/checkpoint.h"
+
+#include <gtest/gtest.h>
+
+#include "sim/simulation.h"
+
+namespace shaken {
+namespace {
+
+Scene small_scene() {
+  Scene scene;
+  scene.rod = {.length = 2.5, .n_beads = 9};
+  scene.box_side = 12;
+  scene.n_rods = 63;
+  return scene;
+}
+
+TEST(Checkpoint, RestoredRunIsBitwiseTheStraightRun) {
+  const Scene scene = small_scene();
+  auto straight = Simulation::start(scene);
+  ASSERT_TRUE(static_cast<bool>(straight));
+  for (const Tick stop : {Tick{1}, Tick{4777}, Tick{10003}}) {
+    ASSERT_FALSE(straight->advance_to(stop).has_value());
+    auto resumed = Simulation::resume(scene, straight->checkpoint());
+    ASSERT_TRUE(static_cast<bool>(resumed)) << resumed.error().message;
+    EXPECT_EQ(resumed->state_hash(), straight->state_hash());
+    ASSERT_FALSE(resumed->advance_to(stop + 4000).has_value());
+    ASSERT_FALSE(straight->advance_to(stop + 4000).has_value());
+    EXPECT_EQ(resumed->state_hash(), straight->state_hash());
+    EXPECT_EQ(resumed->world().counters.impulses_rod_rod, straight->world().counters.impulses_rod_rod);
+    EXPECT_EQ(resumed->world().counters.max_overlap(), straight->world().counters.max_overlap());
+  }
+  EXPECT_GT(straight->world().counters.impulses_rod_rod, 100);
+}
+
+TEST(Checkpoint, RefusesAnotherSceneAndDamage) {
+  const Scene scene = small_scene();
+  auto simulation = Simulation::start(scene);
+  ASSERT_TRUE(static_cast<bool>(simulation));
+  auto bytes = simulation->checkpoint();
+  Scene other = scene;
+  other.gap = 1.3;
+  EXPECT_FALSE(static_cast<bool>(Simulation::resume(other, bytes)));
+  EXPECT_FALSE(static_cast<bool>(Simulation::resume(scene, std::span(bytes).first(bytes.size() - 1))));
+  bytes.push_back(std::byte{0});
+  EXPECT_FALSE(static_cast<bool>(Simulation::resume(scene, bytes)));
+  EXPECT_FALSE(static_cast<bool>(Simulation::resume(scene, {})));
+}
+
+TEST(StateHash, SeesEveryRod) {
+  auto simulation = Simulation::start(small_scene());
+  ASSERT_TRUE(static_cast<bool>(simulation));
+  World world = simulation->world();
+  const auto hash = state_hash(world);
+  for (std::size_t i : {std::size_t{0}, world.rods.size() - 1}) {
+    World changed = world;
+    changed.rods[i].velocity.x() = std::nextafter(changed.rods[i].velocity.x(), 1e9);
+    EXPECT_NE(state_hash(changed), hash);
+  }
+}
+
+}  // namespace
+}  // namespace shaken
