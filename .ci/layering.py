@@ -1,0 +1,76 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Holds every #include of the project against the order of its layers. Exits 1 and lists what breaks it.
+
+Data walks one way: scene -> world -> stepper -> observables -> files and bus -> pictures. A folder may include itself
+and what stands beside it here, nothing else of ours."""
+import pathlib
+import re
+import sys
+
+SIM = ["sim"]
+ALLOWED = {
+    "proto": [],
+    # inside the physics library
+    "sim/core": [],
+    "sim/scene.h": ["sim/core"],
+    "sim/snapshot.h": ["sim/core"],
+    "sim/rod": ["sim/core", "sim/scene.h"],
+    "sim/motion": ["sim/core", "sim/rod"],
+    "sim/contact": ["sim/core", "sim/rod", "sim/motion", "sim/scene.h"],
+    "sim/neighbors": ["sim/core", "sim/rod", "sim/motion", "sim/contact"],
+    "sim": SIM,
+    # everything outside sim/ sees simulations, not steppers
+    "analysis": ["sim/core"],
+    "scene": ["sim/core", "sim/rod", "sim/scene.h"],
+    "run/files": ["sim/core", "sim/snapshot.h"],
+    "run": ["proto", "scene", "analysis", "run/files", "sim/core", "sim/rod", "sim/scene.h", "sim/snapshot.h",
+            "sim/world.h", "sim/simulation.h"],
+    # drawing knows rods and fields; only the program's sources of frames know files and the bus
+    "render/main.cpp": ["render", "run/files", "proto", "sim/core", "sim/snapshot.h", "analysis"],
+    "render/sources.h": ["render", "run/files", "proto", "sim/core", "sim/snapshot.h", "analysis"],
+    "render/sources.cpp": ["render", "run/files", "proto", "sim/core", "sim/snapshot.h", "analysis"],
+    "render": ["sim/core", "analysis"],
+    "server": ["proto", "scene", "run/files", "sim/core"],
+    "client": ["proto", "scene", "run/files", "sim/core", "sim/rod", "sim/scene.h"],
+}
+INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"')
+FOLDERS = ("proto", "sim", "scene", "analysis", "run", "render", "server", "client", "tests", "bench")
+
+
+def rule(path):
+    """The most specific entry of ALLOWED that `path` falls under."""
+    matches = [key for key in ALLOWED if path == key or path.startswith(key + "/")]
+    return max(matches, key=len) if matches else None
+
+
+def main():
+    root = pathlib.Path(__file__).resolve().parent.parent
+    bad = []
+    n_includes = 0
+    for folder in FOLDERS:
+        for file in sorted((root / folder).rglob("*")):
+            if file.suffix not in (".h", ".cpp"):
+                continue
+            name = file.relative_to(root).as_posix()
+            key = rule(name)
+            for number, line in enumerate(file.read_text().splitlines(), 1):
+                match = INCLUDE.match(line)
+                if not match:
+                    continue
+                n_includes += 1
+                target = match.group(1)
+                if not (root / target).exists():
+                    bad.append(f"{name}:{number}: \"{target}\" is not a path from the root")
+                elif key is None:
+                    continue  # tests and bench may use anything
+                elif rule(target) is None:
+                    bad.append(f"{name}:{number}: {target} is for tests only")
+                elif not any(target == a or target.startswith(a + "/") for a in [key, *ALLOWED[key]]):
+                    bad.append(f"{name}:{number}: {key} must not use {target}")
+    print("\n".join(bad) if bad else f"layering: {n_includes} includes in order")
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
