@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "render/canvas.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+
+namespace shaken::render {
+
+Canvas::Canvas(int width, int height, const Colour& page)
+    : surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height)), context_(cairo_create(surface_.get())) {
+  // The same letters everywhere: no hinting, no sub-pixel colours.
+  cairo_font_options_t* options = cairo_font_options_create();
+  cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
+  cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
+  cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
+  cairo_set_font_options(context_.get(), options);
+  cairo_font_options_destroy(options);
+  cairo_set_line_cap(context_.get(), CAIRO_LINE_CAP_BUTT);
+  cairo_set_line_join(context_.get(), CAIRO_LINE_JOIN_ROUND);
+  colour(page);
+  cairo_paint(context_.get());
+}
+
+void Canvas::colour(const Colour& colour, double opacity) const {
+  cairo_set_source_rgba(cairo(), colour[0], colour[1], colour[2], opacity);
+}
+
+void Canvas::fill(const Rect& rect) const {
+  cairo_rectangle(cairo(), rect.x, rect.y, rect.width, rect.height);
+  cairo_fill(cairo());
+}
+
+void Canvas::line(double x0, double y0, double x1, double y1, double thickness) const {
+  cairo_set_line_width(cairo(), thickness);
+  cairo_move_to(cairo(), x0, y0);
+  cairo_line_to(cairo(), x1, y1);
+  cairo_stroke(cairo());
+}
+
+double Canvas::text_width(const std::string& text, double size, bool bold) const {
+  cairo_select_font_face(cairo(), "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
+                         bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(cairo(), size);
+  cairo_text_extents_t extents;
+  cairo_text_extents(cairo(), text.c_str(), &extents);
+  return extents.x_advance;
+}
+
+double Canvas::text(double x, double y, const std::string& text, double size, Align align, bool bold) const {
+  const double width = text_width(text, size, bold);
+  const double shift = align == Align::kLeft ? 0 : align == Align::kCentre ? width / 2 : width;
+  cairo_move_to(cairo(), x - shift, y);
+  cairo_show_text(cairo(), text.c_str());
+  cairo_new_path(cairo());
+  return width;
+}
+
+void Canvas::paste(const Image& image, int x, int y) {
+  cairo_surface_flush(surface_.get());
+  unsigned char* data = cairo_image_surface_get_data(surface_.get());
+  const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(surface_.get()));
+  const int width = std::min(image.width, cairo_image_surface_get_width(surface_.get()) - x);
+  const int height = std::min(image.height, cairo_image_surface_get_height(surface_.get()) - y);
+  for (int j = 0; j < height; ++j) {
+    unsigned char* out = data + static_cast<std::size_t>(y + j) * stride + static_cast<std::size_t>(x) * 4;
+    const std::uint8_t* in = image.pixel(0, j);
+    for (int i = 0; i < width; ++i, in += 3, out += 4) {
+      const std::uint32_t pixel =
+          static_cast<std::uint32_t>(in[0]) << 16 | static_cast<std::uint32_t>(in[1]) << 8 | in[2];
+      std::memcpy(out, &pixel, sizeof(pixel));
+    }
+  }
+  cairo_surface_mark_dirty(surface_.get());
+}
+
+Image Canvas::image() const {
+  cairo_surface_flush(surface_.get());
+  Image image(cairo_image_surface_get_width(surface_.get()), cairo_image_surface_get_height(surface_.get()));
+  const unsigned char* data = cairo_image_surface_get_data(surface_.get());
+  const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(surface_.get()));
+  for (int j = 0; j < image.height; ++j) {
+    const unsigned char* in = data + static_cast<std::size_t>(j) * stride;
+    std::uint8_t* out = image.pixel(0, j);
+    for (int i = 0; i < image.width; ++i, in += 4, out += 3) {
+      std::uint32_t pixel;
+      std::memcpy(&pixel, in, sizeof(pixel));
+      out[0] = static_cast<std::uint8_t>(pixel >> 16);
+      out[1] = static_cast<std::uint8_t>(pixel >> 8);
+      out[2] = static_cast<std::uint8_t>(pixel);
+    }
+  }
+  return image;
+}
+
+}  // namespace shaken::render

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cairo.h>
+
+#include <memory>
+#include <string>
+
+#include "render/colours.h"
+#include "render/image.h"
+
+namespace shaken::render {
+
+/// A rectangle of the picture; x to the right, y down [pixels].
+struct Rect {
+  double x = 0, y = 0, width = 0, height = 0;
+  double right() const { return x + width; }
+  double bottom() const { return y + height; }
+};
+
+/// Where drawing with Cairo happens. Coordinates are pixels from the upper left corner.
+class Canvas {
+ public:
+  Canvas(int width, int height, const Colour& page);
+
+  /// For paths: Cairo's own functions.
+  cairo_t* cairo() const { return context_.get(); }
+
+  void colour(const Colour& colour, double opacity = 1) const;
+  void fill(const Rect& rect) const;
+  /// A straight line in the present colour.
+  void line(double x0, double y0, double x1, double y1, double thickness) const;
+
+  enum class Align { kLeft, kCentre, kRight };
+  /// One line of text of `size` pixels with its baseline at y; returns its width.
+  double text(double x, double y, const std::string& text, double size, Align align = Align::kLeft,
+              bool bold = false) const;
+  double text_width(const std::string& text, double size, bool bold = false) const;
+
+  /// Copies a picture in, its upper left corner at (x, y).
+  void paste(const Image& image, int x, int y);
+  Image image() const;
+
+ private:
+  struct Free {
+    void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
+    void operator()(cairo_t* context) const { cairo_destroy(context); }
+  };
+  std::unique_ptr<cairo_surface_t, Free> surface_;
+  std::unique_ptr<cairo_t, Free> context_;
+};
+
+}  // namespace shaken::render

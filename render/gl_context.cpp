@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "render/gl_context.h"
+
+#include "render/gl.h"
+//
+#include <GL/osmesa.h>
+
+#include <string>
+
+namespace shaken::render {
+
+void GlContext::Deleter::operator()(void* context) const { OSMesaDestroyContext(static_cast<OSMesaContext>(context)); }
+
+GlContext::GlContext(GlContext&&) noexcept = default;
+GlContext& GlContext::operator=(GlContext&&) noexcept = default;
+GlContext::~GlContext() = default;
+
+Result<GlContext> GlContext::create() {
+  const int attributes[] = {OSMESA_FORMAT,
+                            OSMESA_RGBA,
+                            OSMESA_DEPTH_BITS,
+                            24,
+                            OSMESA_PROFILE,
+                            OSMESA_CORE_PROFILE,
+                            OSMESA_CONTEXT_MAJOR_VERSION,
+                            3,
+                            OSMESA_CONTEXT_MINOR_VERSION,
+                            3,
+                            0};
+  void* context = OSMesaCreateContextAttribs(attributes, nullptr);
+  if (!context)
+    return Error{"cannot make an OpenGL 3.3 context: is OSMesa (libosmesa6) of Mesa 22 or later installed?"};
+  return GlContext(context);
+}
+
+std::optional<Error> GlContext::bind(int side) {
+  const auto n = static_cast<std::size_t>(side);
+  pixels_.resize(n * n * 4);
+  if (!OSMesaMakeCurrent(static_cast<OSMesaContext>(context_.get()), pixels_.data(), GL_UNSIGNED_BYTE, side, side)) {
+    return Error{"OSMesa refuses a frame buffer of " + std::to_string(side) + " x " + std::to_string(side) + " pixels"};
+  }
+  glViewport(0, 0, side, side);
+  return std::nullopt;
+}
+
+const std::vector<std::uint8_t>& GlContext::finished_pixels() {
+  glFinish();
+  return pixels_;
+}
+
+}  // namespace shaken::render

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "render/layout.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace shaken::render {
+namespace {
+
+constexpr double kNarrow = 320;  // in units; narrower panels stack what others put side by side
+
+void place_box(Layout& layout, double x, double y, double side) {
+  layout.box_x = static_cast<int>(std::lround(x));
+  layout.box_y = static_cast<int>(std::lround(y));
+  layout.box_side = std::max(1, static_cast<int>(std::floor(side)));
+}
+
+/// Cuts a rectangle of the given height off the top (or, if negative, off the bottom) of `rest`.
+Rect cut(Rect& rest, double height) {
+  Rect piece = rest;
+  piece.height = std::abs(height);
+  if (height > 0) {
+    rest.y += height;
+  } else {
+    piece.y = rest.bottom() + height;
+  }
+  rest.height -= std::abs(height);
+  return piece;
+}
+
+void fill_column(Layout& layout, Rect panel, const PictureStyle& style, bool with_history, bool with_label) {
+  const double u = layout.unit;
+  if (style.scale_bar) layout.scale_bar = cut(panel, -34 * u);
+  if (style.mark_defects) {
+    if (style.scale_bar) cut(panel, -16 * u);
+    layout.key = cut(panel, panel.width < kNarrow * u ? -56 * u : -22 * u);
+  }
+  if (style.caption) {
+    if (with_label) layout.label = cut(panel, 42 * u);
+    layout.numbers = cut(panel, 112 * u);
+    cut(panel, 10 * u);
+  }
+  // What is left is shared by the two plots.
+  const double room = panel.height - 14 * u;
+  const bool both = style.legend && with_history && room / 2 >= 80 * u;
+  const double plot = std::min(230 * u, both ? (room - 12 * u) / 2 : room);
+  if (with_history && (both || !style.legend)) {
+    layout.history = cut(panel, plot);
+    cut(panel, 12 * u);
+  }
+  if (style.legend) layout.legend = cut(panel, plot);
+}
+
+void fill_strip(Layout& layout, Rect panel, const PictureStyle& style, bool with_label) {
+  const double u = layout.unit;
+  if (style.caption && with_label) layout.label = cut(panel, 34 * u);
+  const double gap = 30 * u;
+  const double column = (panel.width - 2 * gap) / 3;
+  Rect left = panel;
+  left.width = column;
+  Rect middle = left;
+  middle.x += column + gap;
+  Rect right = middle;
+  right.x += column + gap;
+  if (style.caption) layout.numbers = left;
+  if (style.legend) layout.legend = middle;
+  if (style.scale_bar) layout.scale_bar = cut(right, -34 * u);
+  if (style.mark_defects) {
+    cut(right, 10 * u);
+    layout.key = cut(right, 50 * u);
+  }
+}
+
+}  // namespace
+
+Layout layout_of(const PictureStyle& style, bool with_history, bool with_label) {
+  Layout layout;
+  const double width = style.width, height = style.height;
+  layout.unit = std::max(std::min(width, height) / 720, 0.7);  // below that, letters could not be read
+  const double margin = std::round(24 * layout.unit);
+
+  if (!style.caption && !style.legend && !style.scale_bar) {
+    const double side = std::min(width, height);
+    place_box(layout, (width - side) / 2, (height - side) / 2, side);
+  } else if (width >= 1.25 * height) {
+    const double least_panel = 250 * layout.unit;
+    const double side = std::min(height - 2 * margin, width - 3 * margin - least_panel);
+    const double room = width - side - 3 * margin;
+    const double panel = std::min(room, 480 * layout.unit);
+    place_box(layout, margin, (height - side) / 2, side);
+    const double x = margin + side + margin + (room - panel) / 2;
+    fill_column(layout, {x, margin, panel, height - 2 * margin}, style, with_history, with_label && style.caption);
+  } else {
+    const double strip = (with_label && style.caption ? 170 : 136) * layout.unit;
+    const double side = std::min(width - 2 * margin, height - 3 * margin - strip);
+    const double curve = 130 * layout.unit;
+    const bool room_for_curve = with_history && height - 4 * margin - side - strip >= curve;
+    const double all = side + margin + strip + (room_for_curve ? margin + curve : 0);
+    const double y = std::max(margin, (height - all) / 2);
+    place_box(layout, (width - side) / 2, y, side);
+    Rect below{margin, y + side + margin, width - 2 * margin, all - side - margin};
+    if (room_for_curve) {
+      layout.history = cut(below, -curve);
+      cut(below, -margin);
+    }
+    fill_strip(layout, below, style, with_label);
+  }
+  return layout;
+}
+
+}  // namespace shaken::render

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "render/marks.h"
+
+#include <cmath>
+
+namespace shaken::render {
+namespace {
+
+constexpr Colour kBlack{0.06, 0.07, 0.09};
+constexpr Colour kWhite{1, 1, 1};
+
+/// Runs `outline` with the mark's own axes: x along its direction, lengths in units.
+template <class Outline>
+void in_mark_frame(const Canvas& canvas, double x, double y, double direction, double unit, const Outline& outline) {
+  cairo_t* cr = canvas.cairo();
+  cairo_save(cr);
+  cairo_translate(cr, x, y);
+  cairo_rotate(cr, -direction);  // the picture's y axis points down
+  cairo_scale(cr, unit, unit);
+  outline(cr);
+  cairo_restore(cr);
+}
+
+/// Fills the present path with `inner` inside a rim of `outer`, so that the mark stands out on any colour.
+void fill_with_rim(const Canvas& canvas, const Colour& inner, const Colour& outer, double rim) {
+  cairo_t* cr = canvas.cairo();
+  canvas.colour(outer);
+  cairo_set_line_width(cr, 2 * rim);
+  cairo_stroke_preserve(cr);
+  canvas.colour(inner);
+  cairo_fill(cr);
+}
+
+}  // namespace
+
+void draw_plus_half(const Canvas& canvas, double x, double y, double direction, double unit) {
+  in_mark_frame(canvas, x, y, direction, unit, [&](cairo_t* cr) {
+    constexpr double kDisc = 7.5, kShaft = 1.7, kNeck = 19, kHead = 6, kTip = 30;
+    const double join = std::asin(kShaft / kDisc);  // where the shaft leaves the disc
+    cairo_arc(cr, 0, 0, kDisc, join, 2 * kPi - join);
+    cairo_line_to(cr, kNeck, -kShaft);
+    cairo_line_to(cr, kNeck, -kHead);
+    cairo_line_to(cr, kTip, 0);
+    cairo_line_to(cr, kNeck, kHead);
+    cairo_line_to(cr, kNeck, kShaft);
+    cairo_close_path(cr);
+    fill_with_rim(canvas, kBlack, kWhite, 1.8);
+  });
+}
+
+void draw_minus_half(const Canvas& canvas, double x, double y, double direction, double unit) {
+  in_mark_frame(canvas, x, y, direction, unit, [&](cairo_t* cr) {
+    constexpr double kArm = 17, kWaist = 5.2;
+    for (int arm = 0; arm < 3; ++arm) {
+      const double along = arm * 2 * kPi / 3, between = along + kPi / 3;
+      const auto half_width = [&](double side) {
+        cairo_line_to(cr, kArm * std::cos(along) - side * 1.5 * std::sin(along),
+                      kArm * std::sin(along) + side * 1.5 * std::cos(along));
+      };
+      half_width(-1);
+      half_width(+1);
+      cairo_line_to(cr, kWaist * std::cos(between), kWaist * std::sin(between));
+    }
+    cairo_close_path(cr);
+    fill_with_rim(canvas, kWhite, kBlack, 1.8);
+  });
+}
+
+}  // namespace shaken::render

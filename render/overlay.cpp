@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+#include "render/overlay.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "render/legend.h"
+#include "render/marks.h"
+#include "render/rods_pass.h"
+
+namespace shaken::render {
+namespace {
+
+void draw_defects(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style) {
+  cairo_t* cr = canvas.cairo();
+  cairo_save(cr);
+  cairo_rectangle(cr, layout.box_x, layout.box_y, layout.box_side, layout.box_side);
+  cairo_clip(cr);
+  const View view = view_of(picture, style);
+  const double scale = layout.box_side / view.side;
+  const double unit = layout.unit * std::min(std::sqrt(std::max(style.zoom, 1.0)), 2.0);
+  const double reach = 34 * unit;
+  for (const analysis::Defect& defect : picture.defects) {
+    // With every periodic image of which a part may show.
+    const Vec2 low = view.corner - defect.position;
+    const auto first = [&](double at) { return std::ceil((at - reach / scale) / picture.box_side); };
+    const auto last = [&](double at) { return std::floor((at + view.side + reach / scale) / picture.box_side); };
+    for (double ky = first(low.y()); ky <= last(low.y()); ++ky) {
+      for (double kx = first(low.x()); kx <= last(low.x()); ++kx) {
+        const double x = layout.box_x + (kx * picture.box_side - low.x()) * scale;
+        const double y = layout.box_y + layout.box_side - (ky * picture.box_side - low.y()) * scale;
+        (defect.charge > 0 ? draw_plus_half : draw_minus_half)(canvas, x, y, defect.direction, unit);
+      }
+    }
+  }
+  cairo_restore(cr);
+}
+
+void draw_frame(const Canvas& canvas, const Layout& layout, const Palette& colours) {
+  cairo_t* cr = canvas.cairo();
+  const double line = std::max(1.0, std::round(1.2 * layout.unit));
+  cairo_rectangle(cr, layout.box_x - line / 2, layout.box_y - line / 2, layout.box_side + line, layout.box_side + line);
+  canvas.colour(colours.ink);
+  cairo_set_line_width(cr, line);
+  cairo_stroke(cr);
+}
+
+/// The label on one line, smaller if need be, cut short if that does not help.
+void draw_label(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const Palette& colours) {
+  const double u = layout.unit, width = layout.label.width;
+  std::string label = picture.label;
+  double size = 18 * u;
+  if (const double needed = canvas.text_width(label, size, true); needed > width) {
+    size = std::max(12 * u, size * width / needed);
+  }
+  while (!label.empty() && canvas.text_width(label, size, true) > width) {
+    label = label.substr(0, label.find_last_of(' ') == std::string::npos ? 0 : label.find_last_of(' '));
+  }
+  canvas.colour(colours.ink);
+  canvas.text(layout.label.x, layout.label.y + 15 * u, label, size, Canvas::Align::kLeft, true);
+}
+
+/// Six numbers in two rows, each under its name.
+void draw_numbers(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const Palette& colours) {
+  const double u = layout.unit;
+  const Rect& place = layout.numbers;
+  struct Number {
+    const char* name;
+    std::string value;
+  };
+  const Number numbers[] = {{"time", fmt::format("{:.2f} s", picture.time)},
+                            {"order S", fmt::format("{:.3f}", picture.order)},
+                            {"rods", fmt::format("{}", picture.n_rods())},
+                            {"rod length", fmt::format("{:.4g} mm", picture.rod_length())},
+                            {"packing \u03c6", fmt::format("{:.2f}", picture.area_fraction())},
+                            {"gap", fmt::format("{:.4g} mm", picture.gap)}};
+  // Three columns where they fit, otherwise two.
+  const int columns = place.width >= 240 * u ? 3 : 2, rows = 6 / columns;
+  const double shrink = std::min(1.0, place.width / (columns * 100 * u));
+  const double pitch = std::min(58 * u, (place.height + 12 * u) / rows);
+  for (int i = 0; i < 6; ++i) {
+    const double x = place.x + (i % columns) * place.width / columns;
+    const double y = place.y + (i / columns) * pitch;
+    canvas.colour(colours.faint);
+    canvas.text(x, y + 11 * u, numbers[i].name, 12 * u * shrink);
+    canvas.colour(colours.ink);
+    canvas.text(x, y + (11 + 22 * shrink) * u, numbers[i].value, 20 * u * shrink);
+  }
+}
+
+/// S(t) with a dot at the present.
+void draw_history(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const Palette& colours) {
+  const double u = layout.unit;
+  const OrderHistory& history = picture.history;
+  canvas.colour(colours.ink);
+  canvas.text(layout.history.x, layout.history.y + 12 * u, "Nematic order S", 13 * u);
+  const double left = 26 * u;
+  const Rect plot{layout.history.x + left, layout.history.y + 28 * u, layout.history.width - left,
+                  layout.history.height - 50 * u};
+  const double span = history.end > history.start ? history.end - history.start : 1;
+  const auto x_of = [&](double t) { return plot.x + (t - history.start) / span * plot.width; };
+  const auto y_of = [&](double s) { return plot.bottom() - s * plot.height; };
+
+  for (const double s : {0.0, 0.5, 1.0}) {
+    canvas.colour(colours.faint, s == 0 ? 0.9 : 0.3);
+    canvas.line(plot.x, y_of(s), plot.right(), y_of(s), u);
+    canvas.colour(colours.ink);
+    canvas.text(plot.x - 6 * u, y_of(s) + 4 * u, s == 0.5 ? "0.5" : s == 0 ? "0" : "1", 12 * u, Canvas::Align::kRight);
+  }
+  canvas.text(plot.x, plot.bottom() + 16 * u, fmt::format("{:.4g} s", history.start), 12 * u);
+  canvas.text(plot.right(), plot.bottom() + 16 * u, fmt::format("{:.4g} s", history.end), 12 * u,
+              Canvas::Align::kRight);
+
+  cairo_t* cr = canvas.cairo();
+  for (std::size_t i = 0; i < history.time.size(); ++i)
+    cairo_line_to(cr, x_of(history.time[i]), y_of(history.order[i]));
+  canvas.colour(layer_colour(kPi / 4));
+  cairo_set_line_width(cr, 1.8 * u);
+  cairo_stroke(cr);
+  cairo_arc(cr, x_of(picture.time), y_of(picture.order), 4 * u, 0, 2 * kPi);
+  cairo_fill(cr);
+}
+
+void draw_key(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const Palette& colours) {
+  const double u = layout.unit;
+  const auto plus = std::count_if(picture.defects.begin(), picture.defects.end(),
+                                  [](const analysis::Defect& defect) { return defect.charge > 0; });
+  const auto minus = static_cast<std::ptrdiff_t>(picture.defects.size()) - plus;
+  const bool stacked = layout.key.height > 40 * u;
+  const double x = layout.key.x, y = layout.key.y + 11 * u;
+  const double x2 = stacked ? x : x + layout.key.width / 2, y2 = stacked ? y + 34 * u : y;
+  draw_plus_half(canvas, x + 10 * u, y, 0, 0.85 * u);
+  draw_minus_half(canvas, x2 + 14 * u, y2, kPi / 2, 0.75 * u);
+  canvas.colour(colours.ink);
+  canvas.text(x + 46 * u, y + 5 * u, fmt::format("+\u00bd defects: {}", plus), 13 * u);
+  canvas.text(x2 + 46 * u, y2 + 5 * u, fmt::format("\u2212\u00bd defects: {}", minus), 13 * u);
+}
+
+void draw_scale_bar(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style,
+                    const Palette& colours) {
+  const double u = layout.unit;
+  const double scale = layout.box_side / view_of(picture, style).side;
+  const double length = round_length(layout.scale_bar.width * 0.6 / scale);
+  const double bottom = layout.scale_bar.bottom();
+  canvas.colour(colours.ink);
+  canvas.fill({layout.scale_bar.x, bottom - 5 * u, length * scale, 5 * u});
+  canvas.text(layout.scale_bar.x, bottom - 11 * u, fmt::format("{:g} mm", length), 14 * u);
+}
+
+}  // namespace
+
+double round_length(double length) {
+  const double power = std::pow(10.0, std::floor(std::log10(length)));
+  for (const double digit : {5.0, 2.0}) {
+    if (digit * power <= length) return digit * power;
+  }
+  return power;
+}
+
+void draw_overlay(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style) {
+  const Palette colours = palette(style.theme);
+  if (style.mark_defects) draw_defects(canvas, layout, picture, style);
+  draw_frame(canvas, layout, colours);
+  if (layout.label.width > 0) draw_label(canvas, layout, picture, colours);
+  if (layout.numbers.width > 0) draw_numbers(canvas, layout, picture, colours);
+  if (layout.history.width > 0) draw_history(canvas, layout, picture, colours);
+  if (layout.legend.width > 0) draw_legend(canvas, layout.legend, layout.unit, picture, style);
+  if (layout.key.width > 0) draw_key(canvas, layout, picture, colours);
+  if (layout.scale_bar.width > 0) draw_scale_bar(canvas, layout, picture, style, colours);
+}
+
+}  // namespace shaken::render

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <utility>
+
+#include "render/image.h"
+#include "render/picture.h"
+#include "render/rods_pass.h"
+#include "sim/core/result.h"
+
+namespace shaken::render {
+
+/// Draws whole pictures: the rods, and on and beside them all that explains them. Make one and use it for many
+/// pictures (its start costs tens of milliseconds), from one thread at a time.
+class Painter {
+ public:
+  static Result<Painter> create();
+  Result<Image> paint(const RodPicture& picture, const PictureStyle& style);
+
+ private:
+  explicit Painter(RodsPass rods) : rods_(std::move(rods)) {}
+  RodsPass rods_;
+};
+
+}  // namespace shaken::render

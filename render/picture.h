@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "analysis/defects.h"
+#include "sim/core/types.h"
+
+namespace shaken::render {
+
+/// S(t) of the run so far, drawn as a curve beside the rods; empty where it is not known.
+struct OrderHistory {
+  std::vector<double> time;   ///< increasing [s]
+  std::vector<double> order;  ///< (time.size())
+  double start = 0;           ///< left end of the time axis [s]
+  double end = 0;             ///< right end of the time axis [s]
+};
+
+/// One instant of a run, as plain values: all that is needed to draw it.
+struct RodPicture {
+  double time = 0;      ///< [s]
+  double box_side = 0;  ///< of the square box, periodic in x and y [mm]
+  double gap = 0;       ///< between the plates [mm]
+
+  std::vector<double> bead_offset;  ///< (n_beads) along a rod from its centre [mm]
+  std::vector<double> bead_radius;  ///< (n_beads) [mm]
+  std::vector<Vec3> position;       ///< (n_rods) centres [mm]
+  std::vector<Vec3> director;       ///< (n_rods) unit vectors
+
+  double order = 0;           ///< S, nematic order in the plane
+  double director_angle = 0;  ///< of the mean director N, against the x axis [rad]
+  std::vector<analysis::Defect> defects;
+  OrderHistory history;
+  std::string label;  ///< what makes this run different, "rods.length=2.5 rods.area_fraction=0.6"
+
+  std::size_t n_rods() const { return position.size(); }
+  /// Tip to tip [mm].
+  double rod_length() const;
+  /// Share of the box covered by the rods' projections, lying flat and side by side.
+  double area_fraction() const;
+};
+
+/// Fills order, director_angle and, if asked, defects from the rods. The director field is smoothed over half a rod
+/// length on a mesh of an eighth of one.
+void measure(RodPicture& picture, bool with_defects);
+
+enum class Colouring {
+  kLayers,  ///< by the angle to the director: red to its left, magenta to its right, neutral along it
+  kWheel,   ///< by the angle in the box, on a colour circle of period pi
+};
+enum class Theme { kLight, kDark };
+
+/// How to draw it.
+struct PictureStyle {
+  int width = 1280;  ///< [pixels]
+  int height = 720;  ///< [pixels]
+  Colouring colouring = Colouring::kLayers;
+  Theme theme = Theme::kLight;
+  bool mark_defects = true;
+  bool scale_bar = true;
+  bool legend = true;
+  bool caption = true;
+  double zoom = 1.0;     ///< >= 1: shows a square of box_side / zoom
+  Vec2 focus{0.5, 0.5};  ///< middle of the view, in box sides; the view wraps round the box
+};
+
+}  // namespace shaken::render

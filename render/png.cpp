@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "render/png.h"
+
+#include <fmt/format.h>
+#include <png.h>
+
+#include <cerrno>
+#include <csetjmp>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+namespace shaken::render {
+namespace {
+
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+void keep_message(png_structp png, png_const_charp message) {
+  *static_cast<std::string*>(png_get_error_ptr(png)) = message;
+  png_longjmp(png, 1);
+}
+
+void ignore_warning(png_structp, png_const_charp) {}
+
+/// libpng leaves by longjmp on an error, so this function must hold no object with a destructor.
+bool encode(std::FILE* file, const Image& image, png_text* texts, int n_texts, std::string* message) {
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, message, keep_message, ignore_warning);
+  png_infop info = png ? png_create_info_struct(png) : nullptr;
+  if (!info) {
+    png_destroy_write_struct(&png, nullptr);
+    return false;
+  }
+  if (setjmp(png_jmpbuf(png))) {
+    png_destroy_write_struct(&png, &info);
+    return false;
+  }
+  png_init_io(png, file);
+  png_set_user_limits(png, 1 << 20, 1 << 20);
+  // Measured on such pictures: this filter and level give nearly the smallest file at a fifth of the default's time.
+  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
+  png_set_compression_level(png, 3);
+  png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
+               PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+  png_set_text(png, info, texts, n_texts);
+  png_write_info(png, info);
+  for (int y = 0; y < image.height; ++y) png_write_row(png, image.pixel(0, y));
+  png_write_end(png, info);
+  png_destroy_write_struct(&png, &info);
+  return true;
+}
+
+}  // namespace
+
+PngTexts picture_texts(const RodPicture& picture) {
+  PngTexts texts = {{"Software", "Shaken"}, {"Simulated time", fmt::format("{:.6f} s", picture.time)}};
+  if (!picture.label.empty()) texts.emplace_back("Title", picture.label);
+  return texts;
+}
+
+std::optional<Error> write_png(const std::filesystem::path& file, const Image& image, const PngTexts& texts) {
+  const auto failed = [&](const std::string& why) { return Error{"cannot write " + file.string() + ": " + why}; };
+  const std::filesystem::path unfinished = file.string() + ".tmp";
+  std::unique_ptr<std::FILE, CloseFile> stream(std::fopen(unfinished.c_str(), "wb"));
+  if (!stream) return failed(std::strerror(errno));
+
+  std::vector<png_text> chunks;
+  for (const auto& [key, value] : texts) {
+    png_text chunk{};
+    chunk.compression = PNG_ITXT_COMPRESSION_NONE;  // UTF-8
+    chunk.key = const_cast<char*>(key.c_str());
+    chunk.text = const_cast<char*>(value.c_str());
+    chunk.itxt_length = value.size();
+    chunks.push_back(chunk);
+  }
+  std::string message = "no memory";
+  bool good = encode(stream.get(), image, chunks.data(), static_cast<int>(chunks.size()), &message);
+  if (good && std::fclose(stream.release()) != 0) {
+    good = false;
+    message = std::strerror(errno);
+  }
+  if (good && std::rename(unfinished.c_str(), file.c_str()) == 0) return std::nullopt;
+  if (good) message = std::strerror(errno);
+  stream.reset();
+  std::remove(unfinished.c_str());
+  return failed(message);
+}
+
+}  // namespace shaken::render

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+#include "render/rods_pass.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "render/colours.h"
+#include "render/gl.h"
+#include "render/rods_shaders.h"
+
+namespace shaken::render {
+namespace {
+
+constexpr int kSamples = 3;  // along each side of a pixel
+
+/// One rod as the shaders see it.
+struct Instance {
+  std::array<float, 3> centre, axis, colour;
+};
+
+/// Compiles and links; empty on failure, with the compiler's words in `message`.
+GLuint link_program(const char* vertex_source, const char* fragment_source, std::string& message) {
+  const GLuint program = glCreateProgram();
+  for (const auto& [kind, source] :
+       {std::pair{GL_VERTEX_SHADER, vertex_source}, std::pair{GL_FRAGMENT_SHADER, fragment_source}}) {
+    const GLuint shader = glCreateShader(static_cast<GLenum>(kind));
+    glShaderSource(shader, 1, &source, nullptr);
+    glCompileShader(shader);
+    glAttachShader(program, shader);
+    glDeleteShader(shader);
+  }
+  glLinkProgram(program);
+  GLint linked = GL_FALSE;
+  glGetProgramiv(program, GL_LINK_STATUS, &linked);
+  if (linked) return program;
+  std::array<char, 2048> text{};
+  glGetProgramInfoLog(program, static_cast<GLsizei>(text.size()), nullptr, text.data());
+  message = text.data();
+  glDeleteProgram(program);
+  return 0;
+}
+
+std::array<float, 3> to_floats(const Vec3& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+/// All rods, and their periodic images, of which a part may lie in the view.
+std::vector<Instance> instances_in(const RodPicture& picture, const View& view, Colouring colouring, double margin) {
+  std::vector<Instance> instances;
+  instances.reserve(picture.n_rods() + picture.n_rods() / 4);
+  const double reach = picture.rod_length() / 2 + margin;
+  for (std::size_t i = 0; i < picture.n_rods(); ++i) {
+    const Vec3& x = picture.position[i];
+    const Colour colour = rod_colour(picture, picture.director[i], colouring);
+    // Image numbers k for which x + k L lies within `reach` of the view.
+    const auto first = [&](double low) { return std::ceil((low - reach) / picture.box_side); };
+    const auto last = [&](double low) { return std::floor((low + view.side + reach) / picture.box_side); };
+    const Vec2 low = view.corner - x.head<2>();
+    for (double ky = first(low.y()); ky <= last(low.y()); ++ky) {
+      for (double kx = first(low.x()); kx <= last(low.x()); ++kx) {
+        instances.push_back({to_floats({kx * picture.box_side - low.x(), ky * picture.box_side - low.y(), x.z()}),
+                             to_floats(picture.director[i]), to_floats({colour[0], colour[1], colour[2]})});
+      }
+    }
+  }
+  return instances;
+}
+
+/// Averages the samples of each pixel and turns the rows round. Goes through the samples as they lie in memory.
+Image averaged(const std::vector<std::uint8_t>& rgba, int side) {
+  Image image(side, side);
+  const auto width = static_cast<std::size_t>(side);
+  std::vector<std::uint16_t> sums(width * 3);
+  const std::uint8_t* in = rgba.data();
+  for (int y = side - 1; y >= 0; --y) {
+    std::fill(sums.begin(), sums.end(), std::uint16_t{0});
+    for (int row = 0; row < kSamples; ++row) {
+      std::uint16_t* sum = sums.data();
+      for (std::size_t x = 0; x < width; ++x, sum += 3) {
+        for (int sample = 0; sample < kSamples; ++sample, in += 4) {
+          for (int c = 0; c < 3; ++c) sum[c] = static_cast<std::uint16_t>(sum[c] + in[c]);
+        }
+      }
+    }
+    constexpr int kAll = kSamples * kSamples;
+    std::transform(sums.begin(), sums.end(), image.pixel(0, y),
+                   [](std::uint16_t sum) { return static_cast<std::uint8_t>((sum + kAll / 2) / kAll); });
+  }
+  return image;
+}
+
+std::optional<Error> check(const RodPicture& picture, int side) {
+  if (side < 1 || side > RodsPass::kMaxSide) {
+    return Error{"the box would be " + std::to_string(side) + " pixels wide; possible are 1 to " +
+                 std::to_string(RodsPass::kMaxSide)};
+  }
+  if (!(picture.box_side > 0)) return Error{"the box has no size"};
+  if (picture.director.size() != picture.position.size()) return Error{"as many directors as positions are needed"};
+  if (picture.bead_offset.empty() || picture.bead_offset.size() != picture.bead_radius.size() ||
+      picture.bead_offset.size() > RodsPass::kMaxBeads) {
+    return Error{"a rod of " + std::to_string(picture.bead_offset.size()) +
+                 " beads cannot be drawn; possible are 1 to " + std::to_string(RodsPass::kMaxBeads)};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+View view_of(const RodPicture& picture, const PictureStyle& style) {
+  const double side = picture.box_side / std::max(style.zoom, 1.0);
+  if (style.zoom <= 1) return {Vec2(0, 0), side};
+  return {style.focus * picture.box_side - Vec2(side, side) / 2, side};
+}
+
+struct RodsPass::Programs {
+  GLuint body = 0;
+  GLuint shadow = 0;
+  GLuint vertex_array = 0;
+  GLuint buffer = 0;
+};
+
+RodsPass::RodsPass(GlContext context, std::unique_ptr<Programs> programs)
+    : context_(std::move(context)), programs_(std::move(programs)) {}
+RodsPass::RodsPass(RodsPass&&) noexcept = default;
+RodsPass& RodsPass::operator=(RodsPass&&) noexcept = default;
+RodsPass::~RodsPass() = default;  // the GL objects go with their context
+
+Result<RodsPass> RodsPass::create() {
+  Result<GlContext> context = GlContext::create();
+  if (!context) return context.error();
+  if (auto error = context->bind(kSamples)) return *error;
+  auto programs = std::make_unique<Programs>();
+  std::string message;
+  programs->body = link_program(shaders::kQuad, shaders::kBody, message);
+  programs->shadow = link_program(shaders::kQuad, shaders::kShadow, message);
+  if (!programs->body || !programs->shadow) return Error{"the rasteriser refuses a shader: " + message};
+
+  glGenVertexArrays(1, &programs->vertex_array);
+  glBindVertexArray(programs->vertex_array);
+  glGenBuffers(1, &programs->buffer);
+  glBindBuffer(GL_ARRAY_BUFFER, programs->buffer);
+  for (GLuint i = 0; i < 3; ++i) {
+    glEnableVertexAttribArray(i);
+    glVertexAttribPointer(i, 3, GL_FLOAT, GL_FALSE, sizeof(Instance),
+                          reinterpret_cast<const void*>(i * sizeof(Instance::centre)));
+    glVertexAttribDivisor(i, 1);
+  }
+  return RodsPass(std::move(*context), std::move(programs));
+}
+
+Result<Image> RodsPass::draw(const RodPicture& picture, const PictureStyle& style, int side) {
+  if (auto error = check(picture, side)) return *error;
+  if (auto error = context_.bind(side * kSamples)) return *error;
+
+  const View view = view_of(picture, style);
+  const double thick = *std::max_element(picture.bead_radius.begin(), picture.bead_radius.end());
+  const double shadow_margin = 1.1 * thick;
+  const std::vector<Instance> instances = instances_in(picture, view, style.colouring, 2 * shadow_margin);
+  glBindVertexArray(programs_->vertex_array);
+  glBindBuffer(GL_ARRAY_BUFFER, programs_->buffer);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(instances.size() * sizeof(Instance)), instances.data(),
+               GL_STREAM_DRAW);
+
+  std::vector<float> beads;
+  double tip = 0;
+  for (std::size_t i = 0; i < picture.bead_offset.size(); ++i) {
+    beads.push_back(static_cast<float>(picture.bead_offset[i]));
+    beads.push_back(static_cast<float>(picture.bead_radius[i]));
+    tip = std::max(tip, std::abs(picture.bead_offset[i]));
+  }
+  const auto draw_with = [&](GLuint program, double margin, const Vec2& shift) {
+    const auto at = [&](const char* name) { return glGetUniformLocation(program, name); };
+    glUseProgram(program);
+    glUniform2fv(at("beads"), static_cast<GLsizei>(picture.bead_offset.size()), beads.data());
+    glUniform1i(at("n_beads"), static_cast<GLint>(picture.bead_offset.size()));
+    glUniform1f(at("tip"), static_cast<float>(tip));
+    glUniform1f(at("view_side"), static_cast<float>(view.side));
+    glUniform1f(at("margin"), static_cast<float>(margin));
+    glUniform2f(at("shift"), static_cast<float>(shift.x()), static_cast<float>(shift.y()));
+    // A rod may stand up by as much as the lid lets it; a little more than that is spanned on either side.
+    glUniform1f(at("low"), static_cast<float>(-thick));
+    glUniform1f(at("high"), static_cast<float>(std::max(picture.gap, 2 * thick) + thick));
+    const Colour floor = palette(style.theme).floor;
+    glUniform3f(at("floor_colour"), static_cast<float>(floor[0]), static_cast<float>(floor[1]),
+                static_cast<float>(floor[2]));
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(instances.size()));
+  };
+
+  const Colour floor = palette(style.theme).floor;
+  glClearColor(static_cast<float>(floor[0]), static_cast<float>(floor[1]), static_cast<float>(floor[2]), 1);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+
+  // Shadows do not add up: the darkest counts, so their order does not matter.
+  glDisable(GL_DEPTH_TEST);
+  glEnable(GL_BLEND);
+  glBlendEquation(GL_MIN);
+  draw_with(programs_->shadow, shadow_margin, Vec2(0.20, -0.24) * thick);
+
+  glDisable(GL_BLEND);
+  glEnable(GL_DEPTH_TEST);
+  draw_with(programs_->body, 0, Vec2(0, 0));
+
+  const std::vector<std::uint8_t>& pixels = context_.finished_pixels();
+  if (const GLenum code = glGetError(); code != GL_NO_ERROR) {
+    return Error{"OpenGL error " + std::to_string(code) + " while drawing " + std::to_string(instances.size()) +
+                 " rods"};
+  }
+  return averaged(pixels, side);
+}
+
+}  // namespace shaken::render

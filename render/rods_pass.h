@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "render/gl_context.h"
+#include "render/image.h"
+#include "render/picture.h"
+#include "sim/core/result.h"
+
+namespace shaken::render {
+
+/// The part of the periodic plane that is drawn: a square [mm].
+struct View {
+  Vec2 corner{0, 0};  ///< lower left
+  double side = 0;
+};
+View view_of(const RodPicture& picture, const PictureStyle& style);
+
+/// Draws the rods in their box, seen from above along -z, without perspective.
+/// Model:    one quad for each rod, on which each pixel's ray is cut with the beads themselves, so the outline is that
+///           of the simulated body; the depth is the surface's own. Rods are repeated across the periodic border and
+///           clipped to the view.
+/// Numerics: 3 x 3 samples a pixel, averaged; the same bits for any number of rasteriser threads.
+class RodsPass {
+ public:
+  /// Rods of more beads than this are refused.
+  static constexpr std::size_t kMaxBeads = 255;
+  /// Pictures of a wider box than this are refused [pixels].
+  static constexpr int kMaxSide = 5400;
+
+  static Result<RodsPass> create();
+  RodsPass(RodsPass&&) noexcept;
+  RodsPass& operator=(RodsPass&&) noexcept;
+  ~RodsPass();
+
+  /// The view as a square of `side` pixels.
+  Result<Image> draw(const RodPicture& picture, const PictureStyle& style, int side);
+
+ private:
+  struct Programs;
+  RodsPass(GlContext context, std::unique_ptr<Programs> programs);
+  GlContext context_;
+  std::unique_ptr<Programs> programs_;
+};
+
+}  // namespace shaken::render
