@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "render/painter.h"
 
-#include <string>
-
 #include "render/canvas.h"
 #include "render/layout.h"
 #include "render/overlay.h"
@@ -16,11 +14,7 @@ Result<Painter> Painter::create() {
 }
 
 Result<Image> Painter::paint(const RodPicture& picture, const PictureStyle& style) {
-  constexpr int kLeast = 64, kMost = 16384;
-  if (style.width < kLeast || style.height < kLeast || style.width > kMost || style.height > kMost) {
-    return Error{"a picture of " + std::to_string(style.width) + "x" + std::to_string(style.height) +
-                 " pixels is not possible; each side may be 64 to 16384"};
-  }
+  if (auto error = check(style)) return *error;
   const Layout layout = layout_of(style, !picture.history.time.empty(), !picture.label.empty());
   Result<Image> rods = rods_.draw(picture, style, layout.box_side);
   if (!rods) return rods.error();

@@ -29,4 +29,14 @@ double RodPicture::area_fraction() const {
   return area * static_cast<double>(n_rods()) / (box_side * box_side);
 }
 
+std::optional<Error> check(const PictureStyle& style) {
+  constexpr int kLeast = 64, kMost = 5000;
+  if (std::min(style.width, style.height) < kLeast || std::max(style.width, style.height) > kMost) {
+    return Error{"a picture of " + std::to_string(style.width) + "x" + std::to_string(style.height) +
+                 " pixels is not possible; each side may be 64 to 5000"};
+  }
+  if (!(style.zoom >= 1) || !style.focus.allFinite()) return Error{"zoom must be at least 1, and focus finite"};
+  return std::nullopt;
+}
+
 }  // namespace shaken::render

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "analysis/defects.h"
+#include "sim/core/result.h"
 #include "sim/core/types.h"
 
 namespace shaken::render {
@@ -65,5 +67,8 @@ struct PictureStyle {
   double zoom = 1.0;     ///< >= 1: shows a square of box_side / zoom
   Vec2 focus{0.5, 0.5};  ///< middle of the view, in box sides; the view wraps round the box
 };
+
+/// What is wrong with a style, if anything.
+std::optional<Error> check(const PictureStyle& style);
 
 }  // namespace shaken::render

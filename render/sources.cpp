@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "render/sources.h"
+
+#include <algorithm>
+#include <optional>
+#include <shaken/frame_static_t.hpp>
+#include <shaken/frame_t.hpp>
+
+#include "analysis/order.h"
+#include "proto/bus.h"
+#include "proto/channels.h"
+#include "proto/frame_codec.h"
+#include "run/files/directory.h"
+
+namespace shaken::render {
+
+Result<TrajectorySource> TrajectorySource::open(const std::filesystem::path& run_or_file) {
+  std::error_code ignored;
+  const std::filesystem::path file =
+      std::filesystem::is_directory(run_or_file, ignored) ? run::RunDirectory{run_or_file}.trajectory() : run_or_file;
+  if (!std::filesystem::exists(file, ignored)) {
+    return Error{"there is no " + file.string() +
+                 ": give a run directory or its trajectory.h5, of a scene with a \"trajectory\" or \"movie\" block"};
+  }
+  Result<run::TrajectoryReader> reader = run::TrajectoryReader::open(file);
+  if (!reader) return reader.error();
+  if (reader->n_frames() == 0) return Error{file.string() + " holds no complete frame yet"};
+  return TrajectorySource(file, std::move(*reader));
+}
+
+Result<double> TrajectorySource::time_of(std::size_t index) const {
+  const Result<run::TrajectoryFrame> frame = reader_.frame(index);
+  if (!frame) return frame.error();
+  return frame->time;
+}
+
+Result<std::size_t> TrajectorySource::nearest_frame(double time) const {
+  // First frame at or after `time`, by bisection.
+  std::size_t low = 0, high = n_frames();
+  while (low < high) {
+    const std::size_t middle = low + (high - low) / 2;
+    const Result<double> at = time_of(middle);
+    if (!at) return at.error();
+    if (*at < time) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  if (low == n_frames()) return low - 1;
+  if (low == 0) return low;
+  const Result<double> before = time_of(low - 1), after = time_of(low);
+  if (!before) return before.error();
+  if (!after) return after.error();
+  return time - *before <= *after - time ? low - 1 : low;
+}
+
+std::optional<Error> TrajectorySource::read_history() {
+  constexpr std::size_t kMostPoints = 400;
+  const std::size_t last = n_frames() - 1, points = std::min(kMostPoints, last + 1);
+  OrderHistory history;
+  for (std::size_t k = 0; k < points; ++k) {
+    const Result<run::TrajectoryFrame> frame = reader_.frame(points == 1 ? last : k * last / (points - 1));
+    if (!frame) return frame.error();
+    history.time.push_back(frame->time);
+    history.order.push_back(analysis::nematic_order(frame->director).order);
+  }
+  history.start = history.time.front();
+  history.end = history.time.back();
+  history_ = std::move(history);
+  return std::nullopt;
+}
+
+Result<RodPicture> TrajectorySource::picture(std::size_t index, bool with_defects) const {
+  Result<run::TrajectoryFrame> frame = reader_.frame(index);
+  if (!frame) return frame.error();
+  const run::TrajectoryHeader& header = reader_.header();
+  RodPicture picture;
+  picture.time = frame->time;
+  picture.box_side = header.box_side;
+  picture.gap = header.gap;
+  picture.bead_offset = header.bead_offset;
+  picture.bead_radius = header.bead_radius;
+  picture.position = std::move(frame->position);
+  picture.director = std::move(frame->director);
+  measure(picture, with_defects);
+  if (history_.time.size() > 1) {
+    picture.history.start = history_.start;
+    picture.history.end = history_.end;
+    for (std::size_t k = 0; k < history_.time.size() && history_.time[k] < picture.time; ++k) {
+      picture.history.time.push_back(history_.time[k]);
+      picture.history.order.push_back(history_.order[k]);
+    }
+    picture.history.time.push_back(picture.time);
+    picture.history.order.push_back(picture.order);
+  }
+  return picture;
+}
+
+Result<RodPicture> live_picture(const std::string& lcm_url, const std::string& job, std::chrono::milliseconds timeout,
+                                bool with_defects) {
+  const proto::Bus::Opened opened = proto::Bus::open(lcm_url);
+  if (!opened) return Error{opened.reason};
+  // The unchanging part tells which job it is; only frames after it can be put together.
+  std::optional<frame_static_t> constants;
+  std::optional<proto::FrameAssembler> assembler;
+  std::optional<proto::Frame> frame;
+  const bool subscribed = opened.bus->subscribe<frame_static_t>(proto::kFrameStaticChannel,
+                                                                [&](const frame_static_t& message) {
+                                                                  if (constants || !message.job_id.starts_with(job))
+                                                                    return;
+                                                                  constants = message;
+                                                                  assembler.emplace(message.job_id);
+                                                                }) &&
+                          opened.bus->subscribe<frame_t>(proto::kFrameChannel, [&](const frame_t& chunk) {
+                            if (assembler && !frame) frame = assembler->add(chunk);
+                          });
+  if (!subscribed) return Error{"LCM refuses a subscription at " + lcm_url};
+
+  using Clock = std::chrono::steady_clock;
+  const auto deadline = Clock::now() + timeout;
+  while (!frame) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
+    if (left.count() <= 0) {
+      return Error{"no frame of job " + job + " came within " + std::to_string(timeout.count() / 1000) + " s at " +
+                   lcm_url + ": is it running, with a \"stream\" block in its scene?"};
+    }
+    opened.bus->handle(static_cast<int>(std::min<std::int64_t>(left.count(), 200)));
+  }
+
+  RodPicture picture;
+  picture.time = frame->sim_time_s;
+  picture.box_side = frame->box_side_mm;
+  picture.gap = constants->gap_mm;
+  picture.bead_offset = constants->bead_offset_mm;
+  picture.bead_radius = constants->bead_radius_mm;
+  picture.label = constants->label;
+  for (const proto::RodPose& rod : frame->rods) {
+    const std::array<double, 3> axis = rod.axis();
+    picture.position.emplace_back(rod.x, rod.y, picture.gap / 2);
+    picture.director.emplace_back(axis[0], axis[1], axis[2]);
+  }
+  measure(picture, with_defects);
+  return picture;
+}
+
+}  // namespace shaken::render

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "render/picture.h"
+#include "run/files/trajectory.h"
+#include "sim/core/result.h"
+
+namespace shaken::render {
+
+/// The frames of a recorded run.
+class TrajectorySource {
+ public:
+  /// Opens a run directory or a trajectory.h5. Fails if it holds no frame.
+  static Result<TrajectorySource> open(const std::filesystem::path& run_or_file);
+
+  /// The file that is read.
+  const std::filesystem::path& file() const { return file_; }
+  std::size_t n_frames() const { return reader_.n_frames(); }
+  /// Simulated time of a frame [s].
+  Result<double> time_of(std::size_t index) const;
+  /// The frame nearest to `time` [s].
+  Result<std::size_t> nearest_frame(double time) const;
+
+  /// Reads S(t) of the whole run, from at most 400 of its frames, for the curve beside the pictures.
+  [[nodiscard]] std::optional<Error> read_history();
+  /// A frame with order, director and, if asked, defects; with S up to its time if the history has been read.
+  Result<RodPicture> picture(std::size_t index, bool with_defects) const;
+
+ private:
+  TrajectorySource(std::filesystem::path file, run::TrajectoryReader reader)
+      : file_(std::move(file)), reader_(std::move(reader)) {}
+  std::filesystem::path file_;
+  run::TrajectoryReader reader_;
+  OrderHistory history_;
+};
+
+/// The next whole frame that a running job sends over LCM. `job` is its id or the beginning of it. The bus carries no
+/// heights: rods lie half way between the plates.
+Result<RodPicture> live_picture(const std::string& lcm_url, const std::string& job, std::chrono::milliseconds timeout,
+                                bool with_defects);
+
+}  // namespace shaken::render
