@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: MIT
+#include "server/api.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <charconv>
+#include <set>
+#include <stdexcept>
+
+#include "run/files/directory.h"
+#include "scene/nearest.h"
+#include "server/log_slice.h"
+#include "server/submission.h"
+
+namespace shaken::server {
+
+struct Api::Answer {
+  int status = 200;
+  Json json;
+  std::string allow;  ///< methods that the path has, with 405
+};
+
+namespace {
+
+/// The request cannot be met; becomes the answer.
+struct Refusal : std::runtime_error {
+  Refusal(int code, const std::string& message) : std::runtime_error(message), status(code) {}
+  int status;
+};
+
+constexpr std::int64_t kLogSliceBytes = 1 << 20;
+constexpr int kMostCandidates = 10;    // named when a shortened id fits several jobs
+constexpr int kMostCompared = 10'000;  // ids searched for the nearest
+
+/// The parts of `text` between separators, without empty ones.
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  while (begin < text.size()) {
+    const std::size_t end = std::min(text.find(separator, begin), text.size());
+    if (end > begin) parts.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
+}
+
+}  // namespace
+
+/// A request whose path has been matched.
+struct Api::Call {
+  const Request& request;
+  std::string id;  ///< what stands for ID in the path
+
+  std::optional<std::string> parameter(const std::string& name) const {
+    const auto found = request.query.find(name);
+    if (found == request.query.end() || found->second.empty()) return std::nullopt;
+    return found->second;
+  }
+};
+
+struct Api::Route {
+  const char* method;
+  const char* pattern;     ///< "ID" stands for any one part
+  const char* parameters;  ///< allowed after '?', separated by blanks
+  Answer (Api::*handler)(const Call&) const;
+
+  /// What stands for ID (empty if the pattern has none); nothing if the path does not match.
+  std::optional<std::string> match(const std::string& path) const {
+    const auto wanted = split(pattern, '/');
+    const auto parts = split(path, '/');
+    if (parts.size() != wanted.size()) return std::nullopt;
+    std::string id;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      if (wanted[i] == "ID") {
+        id = parts[i];
+      } else if (wanted[i] != parts[i]) {
+        return std::nullopt;
+      }
+    }
+    return id;
+  }
+};
+
+std::span<const Api::Route> Api::routes() {
+  static constexpr Route kRoutes[] = {
+      {"GET", "/v1/status", "", &Api::status},
+      {"POST", "/v1/sweeps", "", &Api::submit},
+      {"GET", "/v1/sweeps", "", &Api::list_sweeps},
+      {"GET", "/v1/sweeps/ID", "", &Api::show_sweep},
+      {"POST", "/v1/sweeps/ID/cancel", "", &Api::cancel_sweep},
+      {"GET", "/v1/jobs", "sweep state", &Api::list_jobs},
+      {"GET", "/v1/jobs/ID", "", &Api::show_job},
+      {"GET", "/v1/jobs/ID/log", "offset", &Api::show_log},
+      {"POST", "/v1/jobs/ID/cancel", "", &Api::cancel_job},
+      {"GET", "/v1/results", "sweep state", &Api::results},
+  };
+  return kRoutes;
+}
+
+Reply Api::handle(const Request& request) const {
+  const auto refuse = [](int status, const std::string& message) {
+    return Reply{status, to_text({{"error", message}}), ""};
+  };
+  try {
+    const Answer answer = dispatch(request);
+    return {answer.status, to_text(answer.json), answer.allow};
+  } catch (const Refusal& refusal) {
+    return refuse(refusal.status, refusal.what());
+  } catch (const StorageError& problem) {
+    spdlog::error("{} {}: {}", request.method, request.path, problem.what());
+    return refuse(507, std::string("the queue cannot be read or written: ") + problem.what());
+  } catch (const std::exception& problem) {
+    spdlog::error("{} {}: {}", request.method, request.path, problem.what());
+    return refuse(500, std::string("an error inside shakend: ") + problem.what());
+  }
+}
+
+Api::Answer Api::dispatch(const Request& request) const {
+  const std::string method = request.method == "HEAD" ? "GET" : request.method;
+  std::string allowed;
+  for (const Route& route : routes()) {
+    const auto id = route.match(request.path);
+    if (!id) continue;
+    if (route.method != method) {
+      allowed += (allowed.empty() ? "" : ", ") + std::string(route.method);
+      continue;
+    }
+    const auto known = split(route.parameters, ' ');
+    for (const auto& [name, value] : request.query) {
+      if (std::find(known.begin(), known.end(), name) == known.end()) {
+        throw Refusal(400, "unknown parameter '" + name + "'" + scene::did_you_mean(scene::nearest(name, known)));
+      }
+    }
+    return (this->*route.handler)({request, *id});
+  }
+  if (!allowed.empty()) {
+    return {405, {{"error", request.path + " does not know " + method + ", only " + allowed}}, allowed};
+  }
+  std::vector<std::string> known;
+  for (const Route& route : routes()) known.push_back(std::string(route.method) + " " + route.pattern);
+  return {404, {{"error", "no such path: " + request.path + "; see docs/protocol.md"}, {"routes", known}}, ""};
+}
+
+Api::Answer Api::status(const Call&) const {
+  return {200,
+          {{"version", info_.version},
+           {"api", 1},
+           {"pid", info_.pid},
+           {"root", info_.root.string()},
+           {"host", info_.host},
+           {"uptime_s", info_.uptime()},
+           {"slots", info_.slots},
+           {"lcm", {{"url", info_.lcm_url}, {"ok", info_.lcm_ok}, {"message", info_.lcm_message}}},
+           {"jobs", counts_report(queue_.counts())}},
+          ""};
+}
+
+Api::Answer Api::submit(const Call& call) const {
+  SubmitRequest request;
+  try {
+    request = parse_submit_request(call.request.body);
+  } catch (const std::invalid_argument& problem) {
+    throw Refusal(400, problem.what());
+  }
+  const auto jobs = expand(request, info_.runs());
+  if (!jobs.value) {
+    Json problems = Json::array();
+    for (const scene::Problem& problem : jobs.problems) {
+      problems.push_back({{"file", problem.file},
+                          {"line", problem.line},
+                          {"column", problem.column},
+                          {"path", problem.path},
+                          {"message", problem.message}});
+    }
+    return {422, {{"error", scene::to_string(jobs.problems)}, {"problems", problems}}, ""};
+  }
+  const Submitted submitted = queue_.submit(request.name, request.priority, *jobs.value);
+  spdlog::info("sweep {} '{}': {} jobs, {} new, {} queued again", sweep_word(submitted.sweep), request.name,
+               submitted.counts.total(), submitted.n_new, submitted.n_requeued);
+  Json counts = counts_report(submitted.counts);
+  counts["new"] = submitted.n_new;
+  counts["requeued"] = submitted.n_requeued;
+  return {submitted.created ? 201 : 200,
+          {{"sweep", report(*queue_.sweep(submitted.sweep))},
+           {"jobs", report(queue_.jobs(submitted.sweep))},
+           {"counts", counts}},
+          ""};
+}
+
+Api::Answer Api::list_sweeps(const Call&) const {
+  Json sweeps = Json::array();
+  for (const Sweep& sweep : queue_.sweeps()) sweeps.push_back(report(sweep));
+  return {200, {{"sweeps", sweeps}}, ""};
+}
+
+Api::Answer Api::show_sweep(const Call& call) const {
+  const Sweep sweep = find_sweep(call.id);
+  return {200, {{"sweep", report(sweep)}, {"jobs", report(queue_.jobs(sweep.id))}}, ""};
+}
+
+Api::Answer Api::cancel_sweep(const Call& call) const {
+  return {200, {{"cancelled", queue_.cancel_sweep(find_sweep(call.id).id)}}, ""};
+}
+
+Api::Answer Api::list_jobs(const Call& call) const { return {200, {{"jobs", report(find_jobs(call))}}, ""}; }
+
+Api::Answer Api::show_job(const Call& call) const {
+  return {200, {{"job", job_report(find_job(call.id), info_.runs())}}, ""};
+}
+
+Api::Answer Api::show_log(const Call& call) const {
+  const Job job = find_job(call.id);
+  std::int64_t offset = 0;
+  if (const auto text = call.parameter("offset")) {
+    const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), offset);
+    if (error != std::errc() || end != text->data() + text->size() || offset < 0) {
+      throw Refusal(400, "offset: '" + *text + "' is not a number of bytes");
+    }
+  }
+  const LogSlice slice = read_slice(run::RunDirectory{info_.runs() / job.id}.log(), offset, kLogSliceBytes);
+  return {200, {{"text", slice.text}, {"offset", slice.next}, {"state", to_word(job.state)}}, ""};
+}
+
+Api::Answer Api::cancel_job(const Call& call) const {
+  return {200, {{"cancelled", queue_.cancel_job(find_job(call.id).id)}}, ""};
+}
+
+Api::Answer Api::results(const Call& call) const {
+  Json rows = Json::array();
+  for (const Job& job : find_jobs(call)) rows.push_back(result_row(job, info_.runs()));
+  return {200, {{"rows", rows}}, ""};
+}
+
+Sweep Api::find_sweep(const std::string& word) const {
+  std::optional<Sweep> sweep;
+  if (const auto id = sweep_number(word)) sweep = queue_.sweep(*id);
+  if (!sweep) sweep = queue_.sweep_named(word);
+  if (sweep) return *sweep;
+
+  std::set<std::string> known;
+  for (const Sweep& candidate : queue_.sweeps()) known.insert({sweep_word(candidate.id), candidate.name});
+  const std::vector<std::string> words(known.begin(), known.end());
+  throw Refusal(404, words.empty() ? "no sweep '" + word + "': none has been submitted yet"
+                                   : "no sweep '" + word + "'" + scene::did_you_mean(scene::nearest(word, words)));
+}
+
+Job Api::find_job(const std::string& prefix) const {
+  const auto ids = queue_.ids_beginning_with(prefix, kMostCandidates + 1);
+  if (ids.size() == 1) return *queue_.job(ids.front());
+  if (ids.size() > 1) {
+    std::string message = "'" + prefix + "' fits several jobs: ";
+    for (std::size_t i = 0; i < ids.size(); ++i)
+      message += (i > 0 ? ", " : "") + (i < kMostCandidates ? ids[i] : "...");
+    throw Refusal(409, message);
+  }
+  // A shortened id is compared with ids that are shortened alike.
+  const auto all = queue_.ids_beginning_with("", kMostCompared);
+  std::vector<std::string> shortened;
+  for (const std::string& id : all) shortened.push_back(id.substr(0, prefix.size()));
+  const auto near = std::find(shortened.begin(), shortened.end(), scene::nearest(prefix, shortened));
+  const std::string hint = near == shortened.end() ? "" : all[static_cast<std::size_t>(near - shortened.begin())];
+  throw Refusal(404, all.empty() ? "no job '" + prefix + "': none has been submitted yet"
+                                 : "no job '" + prefix + "'" + scene::did_you_mean(hint));
+}
+
+std::vector<Job> Api::find_jobs(const Call& call) const {
+  std::optional<std::int64_t> sweep;
+  std::optional<JobState> state;
+  if (const auto word = call.parameter("sweep")) sweep = find_sweep(*word).id;
+  if (const auto word = call.parameter("state")) {
+    state = job_state(*word);
+    if (!state) {
+      std::string known;
+      for (const JobState each : kJobStates) known += (known.empty() ? "" : ", ") + std::string(to_word(each));
+      throw Refusal(400, "state: '" + *word + "' is none of " + known);
+    }
+  }
+  return queue_.jobs(sweep, state);
+}
+
+Json Api::report(const Sweep& sweep) const {
+  std::vector<Job> active;
+  for (const JobState state : {JobState::kRunning, JobState::kStopping}) {
+    if (sweep.counts[state] == 0) continue;
+    const auto jobs = queue_.jobs(sweep.id, state);
+    active.insert(active.end(), jobs.begin(), jobs.end());
+  }
+  return sweep_report(sweep, active, queue_.mean_duration(sweep.id), info_.slots, info_.runs());
+}
+
+Json Api::report(std::span<const Job> jobs) const {
+  Json reports = Json::array();
+  for (const Job& job : jobs) reports.push_back(job_report(job, info_.runs()));
+  return reports;
+}
+
+}  // namespace shaken::server

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/daemon_info.h"
+#include "server/http_server.h"
+#include "server/queue.h"
+#include "server/report.h"
+
+namespace shaken::server {
+
+/// The control API of docs/protocol.md: from a request to an answer, by one table of routes. Writes only to the
+/// queue; may be called from many threads at once.
+class Api {
+ public:
+  Api(Queue& queue, DaemonInfo info) : queue_(queue), info_(std::move(info)) {}
+
+  /// Never throws: whatever goes wrong is an answer of 4xx or 5xx with {"error": "..."}.
+  Reply handle(const Request& request) const;
+
+ private:
+  struct Call;
+  struct Answer;
+  struct Route;
+  static std::span<const Route> routes();
+  Answer dispatch(const Request& request) const;
+
+  Answer status(const Call& call) const;
+  Answer submit(const Call& call) const;
+  Answer list_sweeps(const Call& call) const;
+  Answer show_sweep(const Call& call) const;
+  Answer cancel_sweep(const Call& call) const;
+  Answer list_jobs(const Call& call) const;
+  Answer show_job(const Call& call) const;
+  Answer show_log(const Call& call) const;
+  Answer cancel_job(const Call& call) const;
+  Answer results(const Call& call) const;
+
+  Sweep find_sweep(const std::string& word) const;
+  Job find_job(const std::string& prefix) const;
+  std::vector<Job> find_jobs(const Call& call) const;
+  Json report(const Sweep& sweep) const;
+  Json report(std::span<const Job> jobs) const;
+
+  Queue& queue_;
+  DaemonInfo info_;
+};
+
+}  // namespace shaken::server

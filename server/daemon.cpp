@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include "server/daemon.h"
+
+#include <spdlog/sinks/rotating_file_sink.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <stdexcept>
+
+#include "run/files/directory.h"
+#include "run/files/version.h"
+#include "server/api.h"
+#include "server/daemon_info.h"
+#include "server/http_server.h"
+#include "server/local_executor.h"
+#include "server/publisher.h"
+#include "server/queue.h"
+#include "server/supervisor.h"
+
+namespace shaken::server {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// Longest time in which a change in the queue is not seen; the end of a worker is seen at once.
+constexpr milliseconds kRound{100};
+/// For open connections at the end. Everything is on the disk by then.
+constexpr milliseconds kLastAnswers{2000};
+constexpr std::size_t kLogBytes = std::size_t{10} << 20;
+constexpr std::size_t kOldLogs = 2;
+
+/// The signals that the main thread waits for; blocked in every thread.
+class Signals {
+ public:
+  Signals() {
+    sigemptyset(&set_);
+    for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGCHLD}) sigaddset(&set_, signal);
+    pthread_sigmask(SIG_BLOCK, &set_, nullptr);
+    std::signal(SIGPIPE, SIG_IGN);
+  }
+  /// Waits for the end of a child, for a request to end, or for the timeout. True if the daemon is to end.
+  bool wait(milliseconds timeout) const {
+    const timespec time{timeout.count() / 1000, (timeout.count() % 1000) * 1'000'000};
+    const int signal = sigtimedwait(&set_, nullptr, &time);
+    return signal == SIGTERM || signal == SIGINT || signal == SIGHUP;
+  }
+
+ private:
+  sigset_t set_{};
+};
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  gethostname(name.data(), name.size() - 1);
+  return name.data();
+}
+
+void make_private_directory(const std::filesystem::path& directory) {
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (error) throw std::runtime_error("cannot make " + directory.string() + ": " + error.message());
+  std::filesystem::permissions(directory, std::filesystem::perms::owner_all, error);
+  if (error) throw std::runtime_error("cannot protect " + directory.string() + ": " + error.message());
+}
+
+void start_log(const DaemonConfig& config) {
+  const auto to_file = std::make_shared<spdlog::sinks::rotating_file_sink_mt>((config.root / "shakend.log").string(),
+                                                                              kLogBytes, kOldLogs);
+  const auto to_stderr = std::make_shared<spdlog::sinks::stderr_sink_mt>();
+  const auto logger = std::make_shared<spdlog::logger>("shakend", spdlog::sinks_init_list{to_stderr, to_file});
+  logger->set_pattern("%Y-%m-%dT%H:%M:%S.%e%z %l: %v");
+  logger->set_level(spdlog::level::from_str(config.log_level));
+  logger->flush_on(spdlog::level::info);
+  spdlog::set_default_logger(logger);
+}
+
+std::vector<std::string> worker_options(const DaemonConfig& config) {
+  if (config.lcm_url.empty()) return {"--no-lcm"};
+  return {"--lcm-url", config.lcm_url};
+}
+
+/// Waits until every worker has ended, or until a second signal has killed them.
+void stop_workers(Supervisor& supervisor, const Signals& signals) {
+  supervisor.shut_down();
+  supervisor.step();
+  while (!supervisor.idle()) {
+    if (signals.wait(kRound)) {
+      spdlog::warn("second signal: killing the workers");
+      supervisor.kill_all();
+    }
+    supervisor.step();
+  }
+}
+
+}  // namespace
+
+std::filesystem::path default_root() {
+  const auto variable = [](const char* name) {
+    return std::filesystem::path(std::getenv(name) ? std::getenv(name) : "");
+  };
+  if (const auto root = variable("SHAKEN_ROOT"); !root.empty()) return root;
+  if (const auto data = variable("XDG_DATA_HOME"); !data.empty()) return data / "shaken";
+  if (const auto home = variable("HOME"); !home.empty()) return home / ".local/share/shaken";
+  return {};
+}
+
+void run_daemon(const DaemonConfig& config) {
+  if (access(config.worker.c_str(), X_OK) != 0) {
+    throw std::runtime_error("there is no worker program at " + config.worker.string() +
+                             "; build or install it, or name it with --worker");
+  }
+  umask(0077);
+  DaemonInfo info;
+  info.root = std::filesystem::absolute(config.root).lexically_normal();
+  make_private_directory(info.root);
+  const auto lock = run::DirectoryLock::acquire(info.root / "shakend.lock");
+  if (!lock) throw std::runtime_error("another shakend is at work: " + lock.error().message);
+  make_private_directory(info.runs());
+  start_log(config);
+  const Signals signals;
+
+  Queue queue(info.root / "queue.db");
+  for (const std::string& id : queue.recover()) spdlog::info("job {}: was running when the daemon ended", id);
+
+  info.version = run::version();
+  info.host = host_name();
+  info.pid = getpid();
+  info.slots = config.slots;
+  info.lcm_url = config.lcm_url;
+  proto::Bus::Opened lcm;
+  if (config.lcm_url.empty()) {
+    info.lcm_message = "switched off by --no-lcm";
+  } else {
+    lcm = proto::Bus::open(config.lcm_url);
+    info.lcm_ok = static_cast<bool>(lcm);
+    info.lcm_message = lcm.reason;
+    if (!lcm) spdlog::warn("no live state: {}", lcm.reason);
+  }
+
+  LocalExecutor executor(config.worker);
+  Supervisor supervisor(queue, executor, {info.runs(), config.slots, worker_options(config), config.grace});
+  std::optional<Publisher> publisher;
+  if (lcm) publisher.emplace(queue, std::move(lcm.bus), info);
+  const Api api(queue, info);
+  HttpServer http(info.socket(), [&api](const Request& request) { return api.handle(request); });
+
+  spdlog::info("shakend {} ready: {} (pid {}), {} slots", info.version, info.root.string(), info.pid, info.slots);
+  std::printf("shakend ready: %s (pid %d)\n", info.root.c_str(), info.pid);
+  std::fflush(stdout);
+
+  do {
+    supervisor.step();
+  } while (!signals.wait(kRound));
+
+  spdlog::info("stopping: workers write a checkpoint");
+  http.close();
+  stop_workers(supervisor, signals);
+  publisher.reset();
+  spdlog::info("stopped");
+  if (!http.ended_within(kLastAnswers)) {
+    // A client that keeps its connection busy must not keep the daemon up.
+    spdlog::shutdown();
+    std::_Exit(EXIT_SUCCESS);
+  }
+}
+
+}  // namespace shaken::server

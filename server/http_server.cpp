@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#include "server/http_server.h"
+
+#include <httplib.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+
+#include <condition_variable>
+#include <cstring>
+#include <future>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+namespace shaken::server {
+namespace {
+
+constexpr std::size_t kLargestBody = std::size_t{16} << 20;
+constexpr std::size_t kLongestPath = 1024;
+constexpr std::size_t kMostConnections = 256;
+constexpr int kBacklog = 128;  // cpp-httplib's own is 5: a burst of clients would be turned away
+constexpr time_t kIdleSeconds = 1;
+constexpr time_t kReadSeconds = 2;
+constexpr time_t kWriteSeconds = 5;
+constexpr int kUnusedPort = 80;  // cpp-httplib refuses port 0
+
+/// A thread for each connection: with a fixed pool, as many silent clients as it has threads would lock out the rest.
+/// Beyond kMostConnections new ones wait to be accepted.
+class ThreadPerConnection final : public httplib::TaskQueue {
+ public:
+  void enqueue(std::function<void()> serve) override {
+    std::unique_lock lock(mutex_);
+    ended_.wait(lock, [&] { return n_open_ < kMostConnections; });
+    ++n_open_;
+    lock.unlock();
+    const auto connection = [this, serve = std::move(serve)] {
+      serve();
+      const std::lock_guard end(mutex_);
+      --n_open_;
+      ended_.notify_all();
+    };
+    try {
+      std::thread(connection).detach();
+    } catch (const std::system_error&) {  // the system has no more threads
+      connection();
+    }
+  }
+
+  void shutdown() override {
+    std::unique_lock lock(mutex_);
+    ended_.wait(lock, [&] { return n_open_ == 0; });
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable ended_;
+  std::size_t n_open_ = 0;
+};
+
+std::string error_body(const std::string& message) { return "{\"error\": \"" + message + "\"}\n"; }
+
+/// For what is refused before a handler sees it.
+const char* explain(int status) {
+  switch (status) {
+    case 400:
+      return "this is no HTTP request that can be read";
+    case 413:
+      return "the request is larger than 16 MiB";
+    case 414:
+      return "the path is too long";
+    case 415:
+      return "the body must be JSON, not multipart/form-data";
+    case 417:
+      return "the expectation cannot be met";
+    default:
+      return "the request cannot be answered";
+  }
+}
+
+}  // namespace
+
+struct HttpServer::Impl {
+  Impl(std::filesystem::path socket_file, Handler handler) : socket(std::move(socket_file)) {
+    const auto answer = [handler](const httplib::Request& request, std::string body, httplib::Response& response) {
+      const Reply reply = handler({request.method, request.path, request.params, std::move(body)});
+      response.status = reply.status;
+      if (!reply.allow.empty()) response.set_header("Allow", reply.allow);
+      response.set_content(reply.body, "application/json");
+    };
+    const auto without_body = [answer](const httplib::Request& request, httplib::Response& response) {
+      answer(request, "", response);
+    };
+    const auto with_body = [answer](const httplib::Request& request, httplib::Response& response,
+                                    const httplib::ContentReader& content) {
+      if (request.is_multipart_form_data()) {
+        response.status = 415;
+        return;
+      }
+      std::string body;
+      const bool complete = content([&](const char* data, std::size_t size) {
+        body.append(data, size);
+        return true;
+      });
+      if (complete) answer(request, std::move(body), response);
+    };
+    server.Get(".*", without_body);
+    server.Options(".*", without_body);
+    server.Post(".*", with_body);
+    server.Put(".*", with_body);
+    server.Patch(".*", with_body);
+    server.Delete(".*", with_body);
+    server.set_pre_routing_handler([](const httplib::Request& request, httplib::Response& response) {
+      if (request.path.size() <= kLongestPath) return httplib::Server::HandlerResponse::Unhandled;
+      response.status = 414;
+      return httplib::Server::HandlerResponse::Handled;
+    });
+    server.set_error_handler([](const httplib::Request&, httplib::Response& response) {
+      if (response.body.empty()) response.set_content(error_body(explain(response.status)), "application/json");
+    });
+
+    server.new_task_queue = [] { return new ThreadPerConnection; };
+    server.set_payload_max_length(kLargestBody);
+    server.set_keep_alive_timeout(kIdleSeconds);
+    server.set_read_timeout(kReadSeconds);
+    server.set_write_timeout(kWriteSeconds);
+    bind();
+    listening = std::async(std::launch::async, [this] { server.listen_after_bind(); });
+    while (!server.is_running()) std::this_thread::yield();  // stop() before that would be lost
+  }
+
+  void bind() {
+    if (socket.native().size() >= sizeof(sockaddr_un::sun_path)) {
+      throw std::runtime_error("the path of the socket is too long for the system (" +
+                               std::to_string(socket.native().size()) + " of at most " +
+                               std::to_string(sizeof(sockaddr_un::sun_path) - 1) + " bytes): " + socket.string() +
+                               "; choose a shorter --root");
+    }
+    std::filesystem::remove(socket);
+    int fd = -1;
+    server.set_address_family(AF_UNIX);
+    server.set_socket_options([&fd](int listener) { fd = listener; });
+    if (!server.bind_to_port(socket.string(), kUnusedPort)) {
+      throw std::runtime_error("cannot listen on " + socket.string() + ": " + std::strerror(errno));
+    }
+    ::chmod(socket.c_str(), 0600);
+    ::listen(fd, kBacklog);
+  }
+
+  std::filesystem::path socket;
+  httplib::Server server;
+  bool closed = false;
+  std::future<void> listening;
+};
+
+HttpServer::HttpServer(std::filesystem::path socket, Handler handler)
+    : impl_(std::make_unique<Impl>(std::move(socket), std::move(handler))) {}
+
+HttpServer::~HttpServer() { close(); }
+
+void HttpServer::close() {
+  if (std::exchange(impl_->closed, true)) return;
+  impl_->server.stop();
+  std::error_code ignored;
+  std::filesystem::remove(impl_->socket, ignored);
+}
+
+bool HttpServer::ended_within(std::chrono::milliseconds timeout) {
+  return impl_->listening.wait_for(timeout) == std::future_status::ready;
+}
+
+}  // namespace shaken::server

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "server/job.h"
+
+#include <charconv>
+#include <numeric>
+
+namespace shaken::server {
+namespace {
+
+constexpr std::array<std::string_view, kJobStates.size()> kWords{"queued", "running", "stopping",
+                                                                 "done",   "failed",  "cancelled"};
+
+}  // namespace
+
+std::string_view to_word(JobState state) { return kWords[static_cast<std::size_t>(state)]; }
+
+std::optional<JobState> job_state(std::string_view word) {
+  for (const JobState state : kJobStates) {
+    if (to_word(state) == word) return state;
+  }
+  return std::nullopt;
+}
+
+bool may_become(JobState from, JobState to) {
+  using enum JobState;
+  switch (from) {
+    case kQueued:
+      return to == kRunning || to == kCancelled;
+    case kRunning:
+      return to == kStopping || to == kDone || to == kFailed || to == kQueued;
+    case kStopping:
+      return to == kCancelled || to == kQueued || to == kDone || to == kFailed;
+    case kDone:  // again only if somebody has deleted its results
+    case kFailed:
+    case kCancelled:
+      return to == kQueued;
+  }
+  return false;
+}
+
+std::int64_t JobCounts::total() const { return std::accumulate(n.begin(), n.end(), std::int64_t{0}); }
+
+std::string sweep_word(std::int64_t id) { return "s" + std::to_string(id); }
+
+std::optional<std::int64_t> sweep_number(std::string_view word) {
+  if (word.size() < 2 || word.front() != 's') return std::nullopt;
+  std::int64_t id = 0;
+  const auto [end, error] = std::from_chars(word.data() + 1, word.data() + word.size(), id);
+  if (error != std::errc() || end != word.data() + word.size() || id < 1) return std::nullopt;
+  return id;
+}
+
+}  // namespace shaken::server

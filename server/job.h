@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace shaken::server {
+
+/// Where a job is in its life:
+///   queued -> running -> done | failed;  running -> stopping -> cancelled, or back to queued when the daemon stops.
+/// A failed or cancelled job that is submitted once more is queued again.
+enum class JobState { kQueued, kRunning, kStopping, kDone, kFailed, kCancelled };
+
+inline constexpr std::array kJobStates{JobState::kQueued, JobState::kRunning, JobState::kStopping,
+                                       JobState::kDone,   JobState::kFailed,  JobState::kCancelled};
+
+/// The word for a state in the queue, in the API and on the bus; and back.
+std::string_view to_word(JobState state);
+std::optional<JobState> job_state(std::string_view word);
+
+/// Whether a job may go from one state to another.
+bool may_become(JobState from, JobState to);
+
+/// Number of jobs in each state.
+struct JobCounts {
+  std::array<std::int64_t, kJobStates.size()> n{};
+  std::int64_t& operator[](JobState state) { return n[static_cast<std::size_t>(state)]; }
+  std::int64_t operator[](JobState state) const { return n[static_cast<std::size_t>(state)]; }
+  std::int64_t total() const;
+};
+
+/// One run of one scene. Times are microseconds since 1970-01-01 UTC, 0 where the event has not happened.
+struct Job {
+  std::string id;          ///< hash of the canonical scene: 16 hex digits
+  std::int64_t sweep = 0;  ///< through which it is looked at; otherwise the last that asked for it
+  JobState state = JobState::kQueued;
+  std::string reason;      ///< why it failed or was cancelled; otherwise empty
+  std::string label;       ///< its swept parameters, as words
+  std::string parameters;  ///< its swept parameters, as a JSON object
+  int replica = 0;
+  int attempt = 0;  ///< how often it was started
+  int pid = 0;      ///< of its worker while running or stopping, otherwise 0
+  std::int64_t created = 0;
+  std::int64_t started = 0;  ///< the last attempt
+  std::int64_t finished = 0;
+};
+
+/// An ordered list of jobs asked for together.
+struct Sweep {
+  std::int64_t id = 0;
+  std::string name;
+  std::int64_t created = 0;  ///< microseconds since 1970-01-01 UTC
+  JobCounts counts;
+};
+
+/// "s12" for sweep 12; and back.
+std::string sweep_word(std::int64_t id);
+std::optional<std::int64_t> sweep_number(std::string_view word);
+
+}  // namespace shaken::server

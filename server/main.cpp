@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <thread>
+
+#include "proto/bus.h"
+#include "run/files/version.h"
+#include "server/daemon.h"
+
+namespace {
+
+constexpr int kFailure = 1;
+constexpr int kBadArguments = 2;
+
+constexpr const char* kAbout =
+    "shakend: runs queued simulations of shaken rods, one worker process per run.\n"
+    "Stays in the foreground; SIGTERM or Ctrl-C stops it in order, and the next start goes on where it stopped.";
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  shakend                              # ~/.local/share/shaken, one worker per core\n"
+    "  shakend --root /data/rods --slots 8\n"
+    "  shakend --root /tmp/try --no-lcm &   # no live state, nothing on the network\n"
+    "  curl --unix-socket /tmp/try/shakend.sock http://shaken/v1/status\n"
+    "\n"
+    "Exit codes: 0 stopped in order, 1 could not start or lost its disk, 2 bad arguments.";
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  shaken::server::DaemonConfig config;
+  config.root = shaken::server::default_root();
+  config.worker = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "shaken-worker";
+  config.slots = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  config.lcm_url = shaken::proto::default_url();
+  bool foreground = true;
+  bool no_lcm = false;
+
+  CLI::App app(kAbout);
+  app.footer(kExamples);
+  app.set_version_flag("--version", std::string("shakend ") + shaken::run::version());
+  app.add_option("--root", config.root,
+                 "Directory of queue, socket, log and runs [default: $SHAKEN_ROOT, else "
+                 "$XDG_DATA_HOME/shaken, else ~/.local/share/shaken]")
+      ->type_name("DIR");
+  app.add_option("--slots", config.slots, "Workers that may run at once")
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str();
+  auto* url = app.add_option("--lcm-url", config.lcm_url,
+                             "Where live state goes [default: $LCM_DEFAULT_URL, else "
+                             "multicast on this machine]")
+                  ->type_name("URL");
+  app.add_flag("--no-lcm", no_lcm, "Send no live state")->excludes(url);
+  app.add_option("--worker", config.worker, "Program that does one run [default: shaken-worker beside shakend]")
+      ->type_name("FILE");
+  app.add_option("--log-level", config.log_level, "What goes to stderr and ROOT/shakend.log")
+      ->check(CLI::IsMember({"debug", "info", "warn", "error", "off"}))
+      ->capture_default_str();
+  app.add_flag("--foreground", foreground, "Stay in the foreground: the only mode, for service managers");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& outcome) {
+    return app.exit(outcome) == 0 ? 0 : kBadArguments;
+  }
+  if (config.root.empty()) {
+    std::fprintf(stderr, "shakend: no root directory: set --root, SHAKEN_ROOT or HOME\n");
+    return kBadArguments;
+  }
+  if (no_lcm) config.lcm_url.clear();
+  try {
+    shaken::server::run_daemon(config);
+  } catch (const std::exception& problem) {
+    std::fprintf(stderr, "shakend: %s\n", problem.what());
+    return kFailure;
+  }
+  return 0;
+}

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "server/publisher.h"
+
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <shaken/job_t.hpp>
+#include <shaken/status_t.hpp>
+
+#include "run/files/directory.h"
+#include "run/files/progress.h"
+#include "server/clock.h"
+
+namespace shaken::server {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr milliseconds kPeriod{1000};
+constexpr milliseconds kReaction{200};  ///< longest wait before a request to stop is seen
+
+/// Changes sent in one go: a submit of thousands of points must not overrun the receivers' buffers.
+constexpr int kBurst = 100;
+constexpr milliseconds kPause{10};
+
+}  // namespace
+
+Publisher::Publisher(const Queue& queue, std::unique_ptr<proto::Bus> bus, DaemonInfo info)
+    : queue_(queue),
+      bus_(std::move(bus)),
+      info_(std::move(info)),
+      last_change_(queue.last_change()),
+      thread_([this](std::stop_token stop) { run(std::move(stop)); }) {}
+
+Publisher::~Publisher() = default;
+
+void Publisher::run(std::stop_token stop) {
+  auto next_tick = steady_clock::now();
+  while (!stop.stop_requested()) {
+    try {
+      publish_changes();
+      if (steady_clock::now() >= next_tick) {
+        publish_status();
+        publish_running();
+        next_tick += kPeriod;
+      }
+    } catch (const StorageError& problem) {
+      spdlog::error("publisher: {}", problem.what());
+      next_tick = steady_clock::now() + kPeriod;
+      std::this_thread::sleep_for(kReaction);
+    }
+    queue_.wait_for_change(last_change_, kReaction);
+  }
+  try {
+    publish_changes();  // of the jobs that were stopped with the daemon
+  } catch (const StorageError& problem) {
+    spdlog::error("publisher: {}", problem.what());
+  }
+}
+
+void Publisher::publish_status() {
+  const JobCounts counts = queue_.counts();
+  const auto n = [&](JobState state) { return static_cast<std::int32_t>(counts[state]); };
+  shaken::status_t status;
+  status.utime = utime_now();
+  status.sequence = status_sequence_++;
+  status.host = info_.host;
+  status.pid = info_.pid;
+  status.version = info_.version;
+  status.root = info_.root.string();
+  status.uptime_s = info_.uptime();
+  status.n_slots = info_.slots;
+  status.n_queued = n(JobState::kQueued);
+  status.n_running = n(JobState::kRunning) + n(JobState::kStopping);
+  status.n_done = n(JobState::kDone);
+  status.n_failed = n(JobState::kFailed);
+  status.n_cancelled = n(JobState::kCancelled);
+  bus_->publish(proto::kStatusChannel, status);
+}
+
+void Publisher::publish_running() {
+  for (const JobState state : {JobState::kRunning, JobState::kStopping}) {
+    for (const Job& job : queue_.jobs(std::nullopt, state)) publish_job(job, std::string(to_word(state)));
+  }
+}
+
+void Publisher::publish_changes() {
+  const auto changes = queue_.changes_since(last_change_, kBurst);
+  for (const Change& change : changes) {
+    if (const auto job = queue_.job(change.job)) publish_job(*job, change.to);
+    last_change_ = change.sequence;
+  }
+  if (changes.size() == kBurst) std::this_thread::sleep_for(kPause);
+}
+
+void Publisher::publish_job(const Job& job, const std::string& state) {
+  shaken::job_t message{};
+  message.utime = utime_now();
+  message.sequence = job_sequence_++;
+  message.job_id = job.id;
+  message.sweep_id = sweep_word(job.sweep);
+  message.state = state;
+  message.reason = job.reason;
+  message.label = job.label;
+  message.attempt = job.attempt;
+  message.eta_s = -1;
+  const auto progress = run::read_progress(run::RunDirectory{info_.runs() / job.id}.progress());
+  if (progress) {
+    message.progress = progress->fraction();
+    message.sim_time_s = progress->sim_time;
+    message.sim_time_total_s = progress->sim_time_total;
+    message.sim_rate = progress->sim_rate;
+    message.eta_s = progress->eta;
+  }
+  if (state == to_word(JobState::kDone)) message.progress = 1;
+  bus_->publish(proto::kJobChannel, message);
+}
+
+}  // namespace shaken::server

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <thread>
+
+#include "proto/bus.h"
+#include "server/daemon_info.h"
+#include "server/queue.h"
+
+namespace shaken::server {
+
+/// Sends SHAKEN_STATUS once a second, and SHAKEN_JOB at every change of state and once a second for each job that
+/// runs. Its thread is the only one that touches the bus; it reads the queue and the progress files, nothing else.
+class Publisher {
+ public:
+  Publisher(const Queue& queue, std::unique_ptr<proto::Bus> bus, DaemonInfo info);
+  ~Publisher();
+
+ private:
+  void run(std::stop_token stop);
+  void publish_status();
+  void publish_running();
+  void publish_changes();
+  void publish_job(const Job& job, const std::string& state);
+
+  const Queue& queue_;
+  std::unique_ptr<proto::Bus> bus_;
+  DaemonInfo info_;
+  std::int64_t status_sequence_ = 0;
+  std::int64_t job_sequence_ = 0;
+  std::int64_t last_change_;
+  std::jthread thread_;
+};
+
+}  // namespace shaken::server

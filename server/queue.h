@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/job.h"
+#include "server/sqlite.h"
+
+namespace shaken::server {
+
+/// One point of a sweep on its way into the queue.
+struct NewJob {
+  std::string id;          ///< hash of the canonical scene
+  std::string scene;       ///< canonical scene text, as the worker will read it
+  std::string label;       ///< swept parameters, as words
+  std::string parameters;  ///< swept parameters, as a JSON object
+  int replica = 0;
+  bool results_lost = false;  ///< its results are gone from the disk: do it again even if it is done
+};
+
+/// What a submit did.
+struct Submitted {
+  std::int64_t sweep = 0;
+  bool created = false;  ///< false: this very sweep was there already
+  int n_new = 0;         ///< jobs never seen before
+  int n_requeued = 0;    ///< failed, cancelled or about to be cancelled ones, queued again
+  JobCounts counts;      ///< of the sweep's jobs, afterwards
+};
+
+/// A state change, from the journal.
+struct Change {
+  std::int64_t sequence = 0;
+  std::int64_t utime = 0;
+  std::string job;
+  std::string from;  ///< empty for a new job
+  std::string to;
+  int attempt = 0;
+  std::string cause;
+};
+
+/// The job queue: a SQLite file that survives kill -9 and power loss. What a function has done is on the disk when it
+/// returns, together with its line in the journal; what throws (StorageError) has not happened.
+/// The one object that the daemon's threads share; every function may be called from any thread.
+class Queue {
+ public:
+  /// Opens or creates the file. Throws StorageError if it is damaged or was written by a newer Shaken.
+  explicit Queue(const std::filesystem::path& file);
+
+  /// Puts what a dead predecessor left running back into the queue (or cancels it, where that had been asked for).
+  /// Returns the ids of the jobs concerned.
+  std::vector<std::string> recover();
+
+  /// One sweep, in one transaction. A job that exists is not done twice; a failed or cancelled one is queued again, and
+  /// one that is about to be cancelled goes on. The same jobs under the same name again give the same sweep.
+  Submitted submit(const std::string& name, int priority, std::span<const NewJob> jobs);
+
+  std::vector<Sweep> sweeps() const;  ///< oldest first
+  std::optional<Sweep> sweep(std::int64_t id) const;
+  /// The newest sweep of that name.
+  std::optional<Sweep> sweep_named(const std::string& name) const;
+  /// In the order of the sweep, or in the order of arrival where none is given.
+  std::vector<Job> jobs(std::optional<std::int64_t> sweep, std::optional<JobState> state = std::nullopt) const;
+  std::optional<Job> job(const std::string& id) const;
+  /// Ids that begin with `prefix`, in alphabetical order, at most `limit`.
+  std::vector<std::string> ids_beginning_with(const std::string& prefix, int limit) const;
+  /// The canonical scene of a job.
+  std::string scene(const std::string& id) const;
+  JobCounts counts() const;
+
+  /// Queued jobs are cancelled, running ones asked to stop (the supervisor sees to that); finished ones stay as they
+  /// are. Returns how many were changed.
+  int cancel_job(const std::string& id);
+  int cancel_sweep(std::int64_t sweep);
+
+  /// The next jobs to start: by priority, then by age.
+  std::vector<Job> next(int limit) const;
+  /// queued -> running. Returns the number of the attempt; none if the job is not queued any more.
+  std::optional<int> begin(const std::string& id);
+  void set_pid(const std::string& id, int pid);
+  /// running or stopping -> done or failed.
+  void finish(const std::string& id, JobState state, const std::string& reason);
+  /// The worker has stopped before the end: running -> queued, stopping -> cancelled or queued, as was asked.
+  void stopped(const std::string& id, const std::string& cause);
+  /// running -> stopping, and then queued: the daemon ends.
+  void stop_all();
+
+  /// Mean wall seconds that the done jobs of a sweep took; none if none is done.
+  std::optional<double> mean_duration(std::int64_t sweep) const;
+
+  /// The journal after line `sequence`, oldest first, at most `limit` lines.
+  std::vector<Change> changes_since(std::int64_t sequence, int limit) const;
+  /// The last line of the journal.
+  std::int64_t last_change() const;
+  /// Waits until the journal has lines after `sequence`, or the time is over.
+  void wait_for_change(std::int64_t sequence, std::chrono::milliseconds timeout) const;
+
+ private:
+  struct Current;
+  std::optional<Current> current(const std::string& id) const;
+  void change(const Current& job, JobState to, const std::string& reason, const std::string& cause);
+  void record(std::string_view job, std::string_view from, std::string_view to, int attempt, std::string_view cause);
+  int cancel_all(std::span<const Current> jobs);
+  std::vector<Current> unfinished(std::optional<std::int64_t> sweep) const;
+  std::optional<std::int64_t> same_sweep(const std::string& name, std::span<const NewJob> jobs) const;
+  bool insert(const NewJob& job, int priority, std::int64_t sweep);
+  bool ask_again(const NewJob& job, int priority, std::int64_t sweep);
+  JobCounts sweep_counts(std::int64_t sweep) const;
+  void committed();
+
+  mutable std::mutex mutex_;
+  mutable std::condition_variable changed_;
+  mutable Database database_;
+  std::int64_t last_change_ = 0;
+};
+
+}  // namespace shaken::server

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "server/report.h"
+
+#include <algorithm>
+
+#include "run/files/atomic_file.h"
+#include "run/files/directory.h"
+#include "run/files/progress.h"
+
+namespace shaken::server {
+namespace {
+
+/// The JSON object in a file; null if there is none to be read.
+Json read_object(const std::filesystem::path& file) {
+  const auto text = run::read_file(file);
+  if (!text) return nullptr;
+  Json json = Json::parse(*text, nullptr, false);
+  return json.is_object() ? json : Json(nullptr);
+}
+
+Json parameters(const Job& job) {
+  Json json = Json::parse(job.parameters, nullptr, false);
+  return json.is_object() ? json : Json::object();
+}
+
+}  // namespace
+
+Json job_report(const Job& job, const std::filesystem::path& runs) {
+  const run::RunDirectory directory{runs / job.id};
+  const bool has_progress = job.attempt > 0 && job.state != JobState::kDone;
+  return {{"id", job.id},
+          {"sweep", sweep_word(job.sweep)},
+          {"state", to_word(job.state)},
+          {"reason", job.reason},
+          {"label", job.label},
+          {"parameters", parameters(job)},
+          {"replica", job.replica},
+          {"attempt", job.attempt},
+          {"pid", job.pid},
+          {"directory", directory.root.string()},
+          {"created_utime", job.created},
+          {"started_utime", job.started},
+          {"finished_utime", job.finished},
+          {"progress", has_progress ? read_object(directory.progress()) : Json(nullptr)}};
+}
+
+Json sweep_report(const Sweep& sweep, std::span<const Job> active, std::optional<double> mean_duration, int slots,
+                  const std::filesystem::path& runs) {
+  const std::int64_t n_jobs = sweep.counts.total();
+  const std::int64_t n_queued = sweep.counts[JobState::kQueued];
+  double finished = static_cast<double>(n_jobs - n_queued) - static_cast<double>(active.size());
+  double longest = 0;  // wall seconds to the end of the last active job
+  double sum = 0;
+  bool known = n_queued == 0 || mean_duration.has_value();
+  for (const Job& job : active) {
+    const auto progress = run::read_progress(run::RunDirectory{runs / job.id}.progress());
+    if (progress) finished += std::clamp(progress->fraction(), 0.0, 1.0);
+    known = known && progress && progress->eta >= 0;
+    if (!known) continue;
+    longest = std::max(longest, progress->eta);
+    sum += progress->eta;
+  }
+  const double all = sum + static_cast<double>(n_queued) * mean_duration.value_or(0);
+  return {{"id", sweep_word(sweep.id)},
+          {"name", sweep.name},
+          {"created_utime", sweep.created},
+          {"n_jobs", n_jobs},
+          {"counts", counts_report(sweep.counts)},
+          {"progress", n_jobs > 0 ? finished / static_cast<double>(n_jobs) : 1.0},
+          {"eta_s", known ? std::max(longest, all / slots) : -1.0}};
+}
+
+Json result_row(const Job& job, const std::filesystem::path& runs) {
+  const bool done = job.state == JobState::kDone;
+  return {{"job", job.id},
+          {"sweep", sweep_word(job.sweep)},
+          {"state", to_word(job.state)},
+          {"label", job.label},
+          {"parameters", parameters(job)},
+          {"replica", job.replica},
+          {"summary", done ? read_object(run::RunDirectory{runs / job.id}.summary()) : Json(nullptr)}};
+}
+
+Json counts_report(const JobCounts& counts) {
+  Json json = Json::object();
+  for (const JobState state : kJobStates) json[std::string(to_word(state))] = counts[state];
+  return json;
+}
+
+std::string to_text(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+}  // namespace shaken::server

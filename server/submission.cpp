@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "server/submission.h"
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "run/files/directory.h"
+#include "scene/canonical.h"
+#include "scene/nearest.h"
+#include "scene/sweep.h"
+#include "server/job.h"
+
+namespace shaken::server {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kMostReplicas = 10'000;
+constexpr int kHighestPriority = 1'000'000;
+constexpr std::size_t kLongestName = 200;
+
+const std::vector<std::string> kKeys{"text", "file", "settings", "replicas", "name", "priority"};
+
+std::string text_of(const json& value, const std::string& key) {
+  if (!value.is_string()) throw std::invalid_argument("\"" + key + "\" must be a string");
+  return value.get<std::string>();
+}
+
+int integer_of(const json& value, const std::string& key, int least, int most) {
+  const bool fits = value.is_number_integer() && value >= least && value <= most;
+  if (!fits) {
+    throw std::invalid_argument("\"" + key + "\" must be an integer from " + std::to_string(least) + " to " +
+                                std::to_string(most));
+  }
+  return value.get<int>();
+}
+
+void check_name(const std::string& name) {
+  const bool printable = std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20 || c == '/'; });
+  if (name.empty() || name.size() > kLongestName || !printable) {
+    throw std::invalid_argument("\"name\" must have 1 to " + std::to_string(kLongestName) +
+                                " bytes, without '/' and control characters");
+  }
+  if (sweep_number(name)) throw std::invalid_argument("\"name\": '" + name + "' could be mistaken for a sweep's id");
+}
+
+}  // namespace
+
+SubmitRequest parse_submit_request(std::string_view body) {
+  json object;
+  try {
+    object = json::parse(body);
+  } catch (const json::exception& problem) {
+    throw std::invalid_argument(std::string("the body is not JSON: ") + problem.what());
+  }
+  if (!object.is_object()) throw std::invalid_argument("the body must be a JSON object");
+  for (const auto& [key, value] : object.items()) {
+    if (std::find(kKeys.begin(), kKeys.end(), key) == kKeys.end()) {
+      throw std::invalid_argument("unknown key \"" + key + "\"" + scene::did_you_mean(scene::nearest(key, kKeys)));
+    }
+  }
+  if (!object.contains("text")) throw std::invalid_argument("\"text\" is missing: a scene or sweep file");
+
+  SubmitRequest request;
+  request.text = text_of(object["text"], "text");
+  if (object.contains("file")) request.file = text_of(object["file"], "file");
+  if (object.contains("settings")) {
+    if (!object["settings"].is_array()) throw std::invalid_argument("\"settings\" must be an array");
+    for (const json& setting : object["settings"]) request.settings.push_back(text_of(setting, "settings"));
+  }
+  if (object.contains("replicas")) request.replicas = integer_of(object["replicas"], "replicas", 1, kMostReplicas);
+  if (object.contains("priority")) {
+    request.priority = integer_of(object["priority"], "priority", -kHighestPriority, kHighestPriority);
+  }
+  if (object.contains("name")) {
+    request.name = text_of(object["name"], "name");
+    check_name(request.name);
+  } else {
+    request.name = std::filesystem::path(request.file).stem().string();
+    if (request.name.empty() || sweep_number(request.name)) request.name = "sweep " + request.name;
+  }
+  return request;
+}
+
+scene::Loaded<std::vector<NewJob>> expand(const SubmitRequest& request, const std::filesystem::path& runs) {
+  const auto sweep = scene::load_sweep(request.text, request.file, request.settings, request.replicas);
+  if (!sweep.value) return {std::nullopt, sweep.problems};
+  std::vector<NewJob> jobs;
+  for (const scene::SweepPoint& point : sweep.value->points) {
+    NewJob job;
+    job.id = scene::run_id(point.plan);
+    job.scene = scene::to_json(point.plan).dump(2) + "\n";
+    job.label = point.label;
+    job.parameters = point.parameters.dump();
+    job.replica = point.replica;
+    job.results_lost = !std::filesystem::exists(run::RunDirectory{runs / job.id}.summary());
+    jobs.push_back(std::move(job));
+  }
+  return {std::move(jobs), {}};
+}
+
+}  // namespace shaken::server

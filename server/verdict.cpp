@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "server/verdict.h"
+
+#include <csignal>
+#include <cstring>
+#include <fstream>
+
+#include "run/files/progress.h"
+
+namespace shaken::server {
+namespace {
+
+using enum Verdict::Outcome;
+
+constexpr int kBadInput = 2;
+constexpr int kStoppedOnRequest = 99;
+
+/// The last line with anything on it, of the last 4 KiB.
+std::string last_line(const std::filesystem::path& file) {
+  constexpr std::streamoff kTail = 4096;
+  std::ifstream stream(file, std::ios::binary | std::ios::ate);
+  const std::streamoff size = stream.tellg();
+  stream.seekg(std::max<std::streamoff>(0, size - kTail));
+  std::string line;
+  std::string last;
+  while (std::getline(stream, line)) {
+    if (line.find_first_not_of(" \t\r") != std::string::npos) last = line;
+  }
+  return last;
+}
+
+std::string explanation(int pid, const run::RunDirectory& directory) {
+  const auto progress = run::read_progress(directory.progress());
+  if (progress && progress->pid == pid && !progress->message.empty()) return progress->message;
+  return last_line(directory.log());
+}
+
+std::string signal_name(int signal) {
+  const char* name = sigabbrev_np(signal);
+  return "signal " + std::to_string(signal) + (name != nullptr ? " (SIG" + std::string(name) + ")" : "");
+}
+
+}  // namespace
+
+Verdict judge(const WorkerEnd& end, int pid, bool stop_asked, const run::RunDirectory& directory) {
+  if (end.signal == SIGTERM || (end.signal == SIGKILL && stop_asked)) {
+    return {kStopped, "the worker was stopped by " + signal_name(end.signal)};
+  }
+  if (end.signal != 0) return {kFailed, "worker was killed by " + signal_name(end.signal)};
+  if (end.exit_code == 0) {
+    if (std::filesystem::exists(directory.summary())) return {kDone, ""};
+    return {kFailed, "exit 0, but there is no " + directory.summary().string()};
+  }
+  if (end.exit_code == kStoppedOnRequest) return {kStopped, "the worker has stopped at a checkpoint"};
+  const std::string kind = "exit " + std::to_string(end.exit_code) + (end.exit_code == kBadInput ? " (bad input)" : "");
+  return {kFailed, kind + ": " + explanation(pid, directory)};
+}
+
+}  // namespace shaken::server
