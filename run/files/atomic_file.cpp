@@ -77,13 +77,18 @@ std::optional<Error> replace_file(const std::filesystem::path& written, const st
   return sync(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY);
 }
 
+std::optional<Error> write_file(const std::filesystem::path& file, std::string_view content) {
+  std::optional<Error> error = write_through(file, content);
+  if (error) {
+    std::error_code ignored;
+    std::filesystem::remove(file, ignored);
+  }
+  return error;
+}
+
 std::optional<Error> write_file_atomically(const std::filesystem::path& file, std::string_view content) {
   const std::filesystem::path temporary = temporary_for(file);
-  if (auto error = write_through(temporary, content)) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    return error;
-  }
+  if (auto error = write_file(temporary, content)) return error;
   return replace_file(temporary, file);
 }
 

@@ -15,10 +15,13 @@ namespace shaken::run {
 /// is then untouched.
 [[nodiscard]] std::optional<Error> write_file_atomically(const std::filesystem::path& file, std::string_view content);
 
-/// The second half of the above for a file that somebody else wrote: fsync of `written`, rename to `file`, fsync of the
-/// folder. Both are in the same folder.
+/// The second half of the above alone: fsync of `written`, rename to `file`, fsync of the folder. Both are in the same
+/// folder; `written` is gone if this fails.
 [[nodiscard]] std::optional<Error> replace_file(const std::filesystem::path& written,
                                                 const std::filesystem::path& file);
+
+/// The first half alone: writes `content` without making it last, or removes what there is of it.
+[[nodiscard]] std::optional<Error> write_file(const std::filesystem::path& file, std::string_view content);
 
 /// FILE.tmp, where the next content of `file` is prepared.
 std::filesystem::path temporary_for(const std::filesystem::path& file);

@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: MIT
+#include "run/loop.h"
+
+#include <fmt/chrono.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <exception>
+#include <memory>
+
+#include "analysis/order.h"
+#include "run/effects.h"
+#include "run/files/atomic_file.h"
+#include "run/publisher.h"
+#include "run/session.h"
+#include "run/summary.h"
+
+namespace shaken::run {
+namespace {
+
+constexpr WallSeconds kProgressPeriod{0.5};
+/// Length of the pieces that the run is stepped in: short enough to answer a signal, long enough not to matter.
+constexpr WallSeconds kShortSlice{0.02};
+constexpr WallSeconds kLongSlice{0.1};
+
+double process_cpu_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
+
+/// One run from where its session stands to its end.
+class Loop {
+ public:
+  Loop(const scene::RunPlan& plan, const RunOptions& options, const RunCallbacks& callbacks, Session session)
+      : plan_(plan),
+        options_(options),
+        callbacks_(callbacks),
+        directory_{options.directory},
+        session_(std::move(session)),
+        end_(total_ticks(plan)),
+        begin_(WallClock::now()),
+        cpu_begin_(process_cpu_seconds()),
+        started_(utc_now()),
+        rate_(session_.simulation.time(), begin_),
+        progress_pacer_(kProgressPeriod, begin_),
+        checkpoint_pacer_(options.checkpoint_every,
+                          begin_ + std::chrono::duration_cast<WallClock::duration>(options.checkpoint_every)),
+        frame_pacer_(live_period(), begin_),
+        observables_pacer_(live_period(), begin_),
+        defects_pacer_(live_period(), begin_) {
+    const World& world = session_.simulation.world();
+    progress_.pid = static_cast<int>(getpid());
+    progress_.n_rods = static_cast<int>(world.rods.size());
+    progress_.sim_time_total = static_cast<double>(end_) * plan.system.dt;
+    if (plan.stream && options.lcm_url) {
+      publisher_ =
+          std::make_unique<Publisher>(*options.lcm_url, options.job_id, make_frame_static(world, options.label));
+    }
+  }
+
+  RunOutcome run(bool fresh) {
+    if (fresh) {
+      if (auto error = sample()) return finish_without_disk(*error);
+    }
+    Tick slice = 1;
+    while (tick() < end_) {
+      const Tick target = std::min({end_, session_.next_due(tick() + 1), tick() + slice});
+      const Tick stepped = target - tick();
+      const auto before = WallClock::now();
+      if (const auto trouble = session_.simulation.advance_to(target)) return finish_in_trouble(*trouble);
+      const auto now = WallClock::now();
+      if (now - before > kLongSlice) slice = std::max<Tick>(1, stepped / 2);
+      if (now - before < kShortSlice && stepped == slice) slice *= 2;
+
+      if (auto error = sample()) return finish_without_disk(*error);
+      publish_observables(now);
+      if (progress_pacer_.take(now)) report("running");
+      const bool stop = options_.stop != nullptr && *options_.stop;
+      if (stop || (checkpoint_pacer_.take(now) && tick() < end_)) {
+        if (auto error = checkpoint()) return finish_without_disk(*error);
+      }
+      if (stop && tick() < end_) return finish_stopped();
+    }
+    return finish_done();
+  }
+
+  /// Writes and passes on progress.json. A disk that refuses it shows in the checkpoint, so that is not repeated here.
+  void report(const std::string& state, const std::string& message = "") {
+    rate_.update(session_.simulation.time(), WallClock::now());
+    progress_.state = state;
+    progress_.message = message;
+    progress_.sim_time = session_.simulation.time();
+    progress_.sim_rate = rate_.rate();
+    progress_.eta = state == "running" ? rate_.eta(progress_.sim_time_total) : 0.0;
+    progress_.order = session_.measurements.measures_order()
+                          ? session_.measurements.order_now()
+                          : analysis::nematic_order(session_.simulation.snapshot().director).order;
+    progress_.order_running_mean = session_.measurements.order_running_mean();
+    progress_.max_overlap = session_.simulation.world().counters.max_overlap();
+    if (auto error = write_progress(directory_.progress(), progress_)) spdlog::warn("{}", error->message);
+    if (callbacks_.on_progress) callbacks_.on_progress(progress_);
+  }
+
+  const Progress& progress() const { return progress_; }
+
+ private:
+  Tick tick() const { return session_.simulation.tick(); }
+  WallSeconds live_period() const { return WallSeconds(plan_.stream ? 1.0 / plan_.stream->rate : 1.0); }
+  double cpu_seconds() const { return session_.cpu_before + process_cpu_seconds() - cpu_begin_; }
+  double wall_seconds() const { return session_.wall_before + WallSeconds(WallClock::now() - begin_).count(); }
+
+  /// Measures, records and publishes what is due at this tick.
+  [[nodiscard]] std::optional<Error> sample() {
+    const bool record = session_.recording && session_.recording->due(tick());
+    const bool measure = session_.measurements.next_due(tick()) == tick();
+    // Live frames are a subset of the recorded ones, where frames are recorded, so that the two can be compared.
+    const bool show = publisher_ && (record || !session_.recording) && frame_pacer_.take(WallClock::now());
+    if (!record && !measure && !show) return std::nullopt;
+    const Snapshot snapshot = session_.simulation.snapshot();
+    if (measure) session_.measurements.sample(snapshot);
+    if (record) {
+      if (auto error = session_.trajectory->append(snapshot)) return error;
+    }
+    if (show) publisher_->offer(make_frame(snapshot));
+    const auto& defects = session_.measurements.last_defects();
+    if (publisher_ && defects && defects->tick == tick() && defects_pacer_.take(WallClock::now())) {
+      publisher_->offer(make_defects(*defects));
+    }
+    return std::nullopt;
+  }
+
+  void publish_observables(WallClock::time_point now) {
+    if (!publisher_ || !observables_pacer_.take(now)) return;
+    publisher_->offer(make_observables(session_.simulation.world(), session_.simulation.snapshot(), progress_));
+  }
+
+  [[nodiscard]] std::optional<Error> checkpoint() {
+    return write_checkpoint(directory_, options_.run_id, make_checkpoint(session_, cpu_seconds(), wall_seconds()));
+  }
+
+  Summary summarize(const Reduction& reduction) const {
+    const World& world = session_.simulation.world();
+    Summary summary;
+    summary.run_id = options_.run_id;
+    summary.n_rods = static_cast<int>(world.rods.size());
+    summary.sim_seconds = session_.simulation.time();
+    summary.cpu_seconds = cpu_seconds();
+    summary.wall_seconds = wall_seconds();
+    summary.collisions_rod_rod = world.counters.impulses_rod_rod;
+    summary.collisions_rod_base = world.counters.impulses_rod_base;
+    summary.collisions_rod_lid = world.counters.impulses_rod_lid;
+    summary.max_overlap = world.counters.max_overlap();
+    summary.t_steady = reduction.t_steady;
+    summary.order = reduction.order;
+    if (reduction.defects) {
+      summary.defects_mean_plus = reduction.defects->n_plus;
+      summary.defects_mean_minus = reduction.defects->n_minus;
+    }
+    summary.effects = report_effects(plan_, session_, publisher_ ? publisher_->n_frames() : 0);
+    summary.state_hash = session_.simulation.state_hash();
+    summary.started = started_;
+    summary.finished = utc_now();
+    summary.tick = tick();
+    return summary;
+  }
+
+  /// Observables and summary, in this order: a summary that says "done" is the last word.
+  [[nodiscard]] std::optional<Error> write_results(const std::string& state, const std::string& reason,
+                                                   const std::vector<int>& rods) {
+    const Reduction reduction = session_.measurements.reduce(session_.simulation.time());
+    if (auto error = write_observables(directory_.observables(), reduction.arrays)) return error;
+    Summary summary = summarize(reduction);
+    summary.state = state;
+    summary.reason = reason;
+    summary.rods = rods;
+    return write_summary(directory_.summary(), summary);
+  }
+
+  RunOutcome finish_done() {
+    if (auto error = checkpoint()) return finish_without_disk(*error);
+    if (auto error = write_results("done", "", {})) return finish_without_disk(*error);
+    report("running");  // all of it; what is left is to draw it
+    return {RunState::kDone, ""};
+  }
+
+  RunOutcome finish_stopped() {
+    if (auto error = write_results("stopped", "asked to stop", {})) return finish_without_disk(*error);
+    report("stopped", "asked to stop");
+    return {RunState::kStopped, ""};
+  }
+
+  /// The last good checkpoint stays as it is: the trouble can be looked at again from there.
+  RunOutcome finish_in_trouble(const NumericalTrouble& trouble) {
+    const std::string message =
+        fmt::format("numerical trouble at tick {} ({:.6f} s), rods {}: {}", trouble.tick,
+                    static_cast<double>(trouble.tick) * plan_.system.dt, fmt::join(trouble.rods, ", "), trouble.what);
+    if (auto error = write_results("failed", message, trouble.rods)) return finish_without_disk(*error);
+    report("failed", message);
+    return {RunState::kFailed, message};
+  }
+
+  RunOutcome finish_without_disk(const Error& error) {
+    const std::string message = error.message + "; the run goes on from its last checkpoint when started again";
+    report("failed", message);
+    return {RunState::kFailed, message};
+  }
+
+  const scene::RunPlan& plan_;
+  const RunOptions& options_;
+  const RunCallbacks& callbacks_;
+  RunDirectory directory_;
+  Session session_;
+  Tick end_;
+  WallClock::time_point begin_;
+  double cpu_begin_;
+  std::string started_;
+  RateMeter rate_;
+  Pacer progress_pacer_, checkpoint_pacer_, frame_pacer_, observables_pacer_, defects_pacer_;
+  Progress progress_;
+  std::unique_ptr<Publisher> publisher_;
+};
+
+struct Opened {
+  Session session;
+  bool fresh = false;  ///< at tick 0, nothing sampled
+};
+
+/// The session of the newest checkpoint that is whole and fits, or a new one.
+Result<Opened> open_session(const scene::RunPlan& plan, const RunOptions& options, const RunDirectory& directory) {
+  bool found = false;
+  for (const auto& file : {directory.checkpoint(), directory.previous_checkpoint()}) {
+    if (!std::filesystem::exists(file)) continue;
+    found = true;
+    const Result<Checkpoint> checkpoint = read_checkpoint(file, options.run_id);
+    if (!checkpoint) {
+      spdlog::warn("{}", checkpoint.error().message);
+      continue;
+    }
+    Result<Session> session = resume_session(plan, directory, *checkpoint);
+    if (!session) {
+      spdlog::warn("cannot go on from {}: {}", file.string(), session.error().message);
+      continue;
+    }
+    spdlog::info("going on from {} at {:.6f} s", file.string(), session->simulation.time());
+    return Opened{std::move(session).value(), false};
+  }
+  if (found) spdlog::warn("no checkpoint can be used: starting from the beginning");
+  Result<Session> session = start_session(plan, directory, options.scene_json);
+  if (!session) return session.error();
+  return Opened{std::move(session).value(), true};
+}
+
+/// Says in progress.json too why a run never got going.
+RunOutcome fail(const RunOptions& options, const RunCallbacks& callbacks, const std::string& message) {
+  Progress progress;
+  progress.state = "failed";
+  progress.message = message;
+  progress.pid = static_cast<int>(getpid());
+  const RunDirectory directory{options.directory};
+  if (auto error = write_progress(directory.progress(), progress)) spdlog::warn("{}", error->message);
+  if (callbacks.on_progress) callbacks.on_progress(progress);
+  return {RunState::kFailed, message};
+}
+
+/// scene.json is written once; a directory of another scene is refused, never overwritten.
+[[nodiscard]] std::optional<Error> claim(const RunDirectory& directory, const RunOptions& options) {
+  if (!std::filesystem::exists(directory.scene())) return write_file_atomically(directory.scene(), options.scene_json);
+  const Result<std::string> present = read_file(directory.scene());
+  if (!present) return present.error();
+  if (*present == options.scene_json) return std::nullopt;
+  return Error{directory.root.string() + " holds the run of another scene (see its scene.json); choose another one"};
+}
+
+/// Draws the movie of a run that is done, with what progress.json then says.
+RunOutcome draw(const scene::RunPlan& plan, const RunOptions& options, const RunCallbacks& callbacks,
+                Progress progress) {
+  const RunDirectory directory{options.directory};
+  const auto report = [&](const std::string& state, const std::string& message) {
+    progress.state = state;
+    progress.message = message;
+    progress.eta = state == "rendering" ? -1 : 0;
+    if (auto error = write_progress(directory.progress(), progress)) spdlog::warn("{}", error->message);
+    if (callbacks.on_progress) callbacks.on_progress(progress);
+  };
+  std::string message;
+  if (plan.movie && callbacks.make_movie && !std::filesystem::exists(directory.movie())) {
+    report("rendering", "");
+    if (auto error = callbacks.make_movie()) {
+      if (options.stop != nullptr && *options.stop) {
+        report("stopped", "asked to stop");
+        return {RunState::kStopped, ""};
+      }
+      message = "the run is done, but without its movie: " + error->message;
+      spdlog::error("{}", message);
+    }
+  }
+  report("done", message);
+  return {RunState::kDone, message};
+}
+
+RunOutcome run_owned(const scene::RunPlan& plan, const RunOptions& options, const RunCallbacks& callbacks) {
+  const RunDirectory directory{options.directory};
+  if (auto error = claim(directory, options)) return {RunState::kFailed, error->message};
+  if (is_done(directory.summary(), options.run_id)) {
+    spdlog::info("{} is done already", directory.root.string());
+    const Result<Progress> last = read_progress(directory.progress());
+    return draw(plan, options, callbacks, last ? *last : Progress{});
+  }
+  Progress last;
+  {
+    Result<Opened> opened = open_session(plan, options, directory);
+    if (!opened) return fail(options, callbacks, opened.error().message);
+    const bool fresh = opened->fresh;
+    Loop loop(plan, options, callbacks, std::move(opened->session));
+    loop.report("running");
+    RunOutcome outcome = loop.run(fresh);
+    if (outcome.state != RunState::kDone) return outcome;
+    last = loop.progress();
+  }
+  return draw(plan, options, callbacks, last);
+}
+
+}  // namespace
+
+RunOutcome run(const scene::RunPlan& plan, const RunOptions& options, const RunCallbacks& callbacks) {
+  std::error_code reason;
+  std::filesystem::create_directories(options.directory, reason);
+  if (reason) return {RunState::kFailed, "cannot create " + options.directory.string() + ": " + reason.message()};
+  const Result<DirectoryLock> lock = DirectoryLock::acquire(RunDirectory{options.directory}.lock());
+  if (!lock) return {RunState::kFailed, lock.error().message};
+  if (callbacks.on_owned) callbacks.on_owned();
+  try {
+    return run_owned(plan, options, callbacks);
+  } catch (const std::exception& problem) {
+    return fail(options, callbacks, std::string("internal error: ") + problem.what());
+  }
+}
+
+}  // namespace shaken::run

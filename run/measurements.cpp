@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "run/measurements.h"
+
+#include <algorithm>
+
+#include "analysis/director_field.h"
+
+namespace shaken::run {
+
+using analysis::StateReader;
+using analysis::StateWriter;
+
+double largest_tilt(const Species& species, double gap) {
+  if (species.half_length <= 0) return 1.0;
+  return std::clamp((gap / 2 - species.end_radius) / species.half_length, 0.0, 1.0);
+}
+
+Measurements::Measurements(const scene::RunPlan& plan, const Species& species) : steady_(plan.steady) {
+  const double dt = plan.system.dt;
+  if (plan.order) order_.emplace(Timed<analysis::OrderSeries>{{plan.order->every, dt}, {}});
+  if (plan.angles) {
+    angles_.emplace(Timed<analysis::Blocked<analysis::AngleDistribution>>{
+        {plan.angles->every, dt}, analysis::Blocked(analysis::AngleDistribution(plan.angles->bins))});
+  }
+  if (plan.tilt) {
+    // Soft overlaps let rods tilt a little further; a gap that lets them stand gives the whole range.
+    const double n_z_max = std::max(largest_tilt(species, plan.system.gap), 1e-6);
+    tilt_.emplace(Timed<analysis::Blocked<analysis::TiltVelocity>>{
+        {plan.tilt->every, dt}, analysis::Blocked(analysis::TiltVelocity(plan.tilt->bins, n_z_max))});
+  }
+  if (plan.defects) {
+    const double length = plan.system.rod.length;
+    smoothing_ = plan.defects->smoothing > 0 ? plan.defects->smoothing : length / 2;
+    mesh_ = plan.defects->grid > 0 ? plan.defects->grid : length / 8;
+    defects_.emplace(Timed<analysis::DefectSeries>{{plan.defects->every, dt}, {}});
+  }
+}
+
+template <class Visitor>
+void Measurements::visit(Visitor visitor) {
+  if (order_) visitor("order", *order_);
+  if (angles_) visitor("angles", *angles_);
+  if (tilt_) visitor("tilt", *tilt_);
+  if (defects_) visitor("defects", *defects_);
+}
+
+template <class Visitor>
+void Measurements::visit(Visitor visitor) const {
+  if (order_) visitor("order", *order_);
+  if (angles_) visitor("angles", *angles_);
+  if (tilt_) visitor("tilt", *tilt_);
+  if (defects_) visitor("defects", *defects_);
+}
+
+Tick Measurements::next_due(Tick from) const {
+  Tick next = kNever;
+  visit([&](const char*, const auto& timed) { next = std::min(next, timed.cadence.next(from)); });
+  return next;
+}
+
+void Measurements::sample(const Snapshot& snapshot) {
+  const auto due = [&](auto& timed) {
+    if (!timed || !timed->cadence.due(snapshot.tick)) return false;
+    ++timed->samples;
+    return true;
+  };
+  if (due(order_)) order_->accumulator.accumulate(snapshot.time, snapshot.director);
+  if (due(angles_)) angles_->accumulator.accumulate(snapshot.time, snapshot.director);
+  if (due(tilt_)) tilt_->accumulator.accumulate(snapshot.time, snapshot.director, snapshot.velocity);
+  if (due(defects_)) {
+    const analysis::DirectorField field(snapshot.position, snapshot.director, snapshot.box_side,
+                                        analysis::grid_nodes(snapshot.box_side, mesh_), smoothing_);
+    last_defects_ = DefectSample{snapshot.tick, snapshot.time, smoothing_, analysis::find_defects(field)};
+    defects_->accumulator.accumulate(snapshot.time, last_defects_->defects);
+  }
+}
+
+double Measurements::order_now() const {
+  return order_ && !order_->accumulator.orders().empty() ? order_->accumulator.orders().back() : 0.0;
+}
+
+double Measurements::order_running_mean() const { return order_ ? order_->accumulator.running_mean() : 0.0; }
+
+Reduction Measurements::reduce(double sim_seconds) const {
+  Reduction result;
+  Observables& arrays = result.arrays;
+  result.t_steady = steady_.value_or(sim_seconds / 2);
+  if (order_) {
+    const analysis::OrderSeries& series = order_->accumulator;
+    result.order = series.reduce(steady_);
+    result.t_steady = result.order->t_steady;
+    arrays["/order/time_s"] = series.times();
+    arrays["/order/order"] = series.orders();
+    arrays["/order/director_rad"] = series.directors();
+  }
+  if (angles_) {
+    const analysis::AnglePdf pdf = angles_->accumulator.after(result.t_steady).reduce();
+    arrays["/angles/theta_rad"] = pdf.theta;
+    arrays["/angles/density_per_rad"] = pdf.density;
+  }
+  if (tilt_) {
+    const analysis::TiltCurve curve = tilt_->accumulator.after(result.t_steady).reduce();
+    arrays["/tilt/n_z"] = curve.n_z;
+    arrays["/tilt/v_along_mm_s"] = curve.v_along;
+    arrays["/tilt/v_along_sem_mm_s"] = curve.v_along_sem;
+    arrays["/tilt/v_across_mm_s"] = curve.v_across;
+    arrays["/tilt/v_across_sem_mm_s"] = curve.v_across_sem;
+    arrays["/tilt/density"] = curve.density;
+  }
+  if (defects_) {
+    const analysis::DefectSeries& series = defects_->accumulator;
+    result.defects = series.reduce(result.t_steady);
+    arrays["/defects/time_s"] = series.times();
+    arrays["/defects/n_plus"] = series.n_plus();
+    arrays["/defects/n_minus"] = series.n_minus();
+    arrays["/defects/list/time_s"] = series.list().time;
+    arrays["/defects/list/x_mm"] = series.list().x;
+    arrays["/defects/list/y_mm"] = series.list().y;
+    arrays["/defects/list/charge"] = series.list().charge;
+    arrays["/defects/list/direction_rad"] = series.list().direction;
+  }
+  return result;
+}
+
+std::map<std::string, std::int64_t> Measurements::counts() const {
+  std::map<std::string, std::int64_t> counts;
+  visit([&](const char* name, const auto& timed) { counts[name] = timed.samples; });
+  return counts;
+}
+
+std::vector<std::byte> Measurements::save() const {
+  StateWriter writer;
+  visit([&](const char* name, const auto& timed) {
+    writer.tag(name);
+    writer.put(timed.samples);
+    timed.accumulator.save(writer);
+  });
+  return writer.bytes();
+}
+
+void Measurements::restore(std::span<const std::byte> bytes) {
+  StateReader reader(bytes);
+  visit([&](const char* name, auto& timed) {
+    reader.tag(name);
+    timed.samples = reader.integer(0, kNever);
+    timed.accumulator.restore(reader);
+  });
+  reader.end();
+}
+
+}  // namespace shaken::run

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <shaken/defects_t.hpp>
+#include <shaken/frame_static_t.hpp>
+#include <shaken/observables_t.hpp>
+#include <string>
+
+#include "proto/frame_codec.h"
+#include "run/files/progress.h"
+#include "run/measurements.h"
+#include "sim/world.h"
+
+namespace shaken::run {
+
+/// State into wire messages. Head fields (utime, sequence, job_id) are left to the sender.
+proto::Frame make_frame(const Snapshot& snapshot);
+observables_t make_observables(const World& world, const Snapshot& snapshot, const Progress& progress);
+defects_t make_defects(const Measurements::DefectSample& sample);
+frame_static_t make_frame_static(const World& world, const std::string& label);
+
+}  // namespace shaken::run

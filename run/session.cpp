@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "run/session.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace shaken::run {
+namespace {
+
+std::optional<Cadence> recording_of(const scene::RunPlan& plan) {
+  double every = INFINITY;
+  if (plan.trajectory) every = std::min(every, plan.trajectory->every);
+  if (plan.movie) every = std::min(every, plan.movie->every);
+  if (std::isinf(every)) return std::nullopt;
+  return Cadence(every, plan.system.dt);
+}
+
+TrajectoryHeader header_of(const World& world, const std::string& scene_json) {
+  TrajectoryHeader header;
+  header.n_rods = static_cast<int>(world.rods.size());
+  header.box_side = world.scene.box_side;
+  header.gap = world.scene.gap;
+  header.dt = world.scene.dt;
+  header.bead_offset = world.species.bead_offset;
+  header.bead_radius = world.species.bead_radius;
+  header.scene_json = scene_json;
+  return header;
+}
+
+Session make_session(const scene::RunPlan& plan, Simulation simulation) {
+  Measurements measurements(plan, simulation.world().species);
+  return {std::move(simulation), std::move(measurements), recording_of(plan), std::nullopt, 0, 0};
+}
+
+}  // namespace
+
+Tick total_ticks(const scene::RunPlan& plan) { return std::llround(plan.total_time() / plan.system.dt); }
+
+Tick Session::next_due(Tick from) const {
+  const Tick sample = measurements.next_due(from);
+  return recording ? std::min(sample, recording->next(from)) : sample;
+}
+
+Result<Session> start_session(const scene::RunPlan& plan, const RunDirectory& directory,
+                              const std::string& scene_json) {
+  Result<Simulation> simulation = Simulation::start(plan.system);
+  if (!simulation) return simulation.error();
+  Session session = make_session(plan, std::move(simulation).value());
+  if (session.recording) {
+    auto trajectory =
+        TrajectoryWriter::create(directory.trajectory(), header_of(session.simulation.world(), scene_json));
+    if (!trajectory) return trajectory.error();
+    session.trajectory = std::move(trajectory).value();
+  }
+  return session;
+}
+
+Result<Session> resume_session(const scene::RunPlan& plan, const RunDirectory& directory,
+                               const Checkpoint& checkpoint) {
+  Result<Simulation> simulation = Simulation::resume(plan.system, checkpoint.simulation);
+  if (!simulation) return simulation.error();
+  Session session = make_session(plan, std::move(simulation).value());
+  session.cpu_before = checkpoint.cpu_seconds;
+  session.wall_before = checkpoint.wall_seconds;
+  try {
+    session.measurements.restore(checkpoint.measurements);
+  } catch (const analysis::StateError& problem) {
+    return Error{std::string("the checkpoint's measurements are not of this plan: ") + problem.what()};
+  }
+  if (session.recording) {
+    const Tick tick = session.simulation.tick();
+    auto trajectory = TrajectoryWriter::reopen(directory.trajectory(), tick);
+    if (!trajectory) return trajectory.error();
+    session.trajectory = std::move(trajectory).value();
+    const auto expected = static_cast<std::size_t>(tick / session.recording->period() + 1);
+    if (session.trajectory->n_frames() != expected) {
+      return Error{directory.trajectory().string() + " has " + std::to_string(session.trajectory->n_frames()) +
+                   " frames up to the checkpoint instead of " + std::to_string(expected)};
+    }
+  }
+  return session;
+}
+
+Checkpoint make_checkpoint(const Session& session, double cpu_seconds, double wall_seconds) {
+  return {session.simulation.checkpoint(), session.measurements.save(), cpu_seconds, wall_seconds};
+}
+
+}  // namespace shaken::run

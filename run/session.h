@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "run/cadence.h"
+#include "run/checkpoint_file.h"
+#include "run/files/directory.h"
+#include "run/files/trajectory.h"
+#include "run/measurements.h"
+#include "scene/run_plan.h"
+#include "sim/simulation.h"
+
+namespace shaken::run {
+
+/// What a run consists of while it is under way; a checkpoint holds or pins down all of it.
+struct Session {
+  Simulation simulation;
+  Measurements measurements;
+  std::optional<Cadence> recording;  ///< of the trajectory: the finer of what `trajectory` and `movie` ask for
+  std::optional<TrajectoryWriter> trajectory;
+  double cpu_before = 0;   ///< seconds spent by predecessors
+  double wall_before = 0;  ///< the same
+
+  /// The first tick >= `from` at which something is sampled or recorded.
+  Tick next_due(Tick from) const;
+};
+
+/// Ticks from start to end of the plan.
+Tick total_ticks(const scene::RunPlan& plan);
+
+/// A run at tick 0, with the files that it records into. Nothing is sampled yet.
+Result<Session> start_session(const scene::RunPlan& plan, const RunDirectory& directory, const std::string& scene_json);
+
+/// The run as it was at `checkpoint`, all samples up to its tick taken. Fails if the checkpoint, the measurements or
+/// the trajectory on the disk do not fit together.
+Result<Session> resume_session(const scene::RunPlan& plan, const RunDirectory& directory, const Checkpoint& checkpoint);
+
+/// A checkpoint of the session.
+Checkpoint make_checkpoint(const Session& session, double cpu_seconds, double wall_seconds);
+
+}  // namespace shaken::run

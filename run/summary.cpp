@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "run/summary.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "run/files/atomic_file.h"
+#include "run/files/version.h"
+
+namespace shaken::run {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string host_name() {
+  char name[256] = "";
+  gethostname(name, sizeof(name) - 1);
+  return name;
+}
+
+Json to_json(const EffectReport& effect) {
+  Json json{{"on", effect.on}};
+  for (const auto& [name, amount] : effect.work) {
+    // Counts as whole numbers, whatever their size.
+    const auto whole = static_cast<std::int64_t>(amount);
+    json[name] = static_cast<double>(whole) == amount ? Json(whole) : Json(amount);
+  }
+  return json;
+}
+
+}  // namespace
+
+std::optional<Error> write_summary(const std::filesystem::path& file, const Summary& summary) {
+  Json json{
+      {"run_id", summary.run_id},
+      {"n_rods", summary.n_rods},
+      {"sim_seconds", summary.sim_seconds},
+      {"cpu_seconds", summary.cpu_seconds},
+      {"wall_seconds", summary.wall_seconds},
+      {"rod_seconds_per_cpu_second",
+       summary.cpu_seconds > 0 ? summary.n_rods * summary.sim_seconds / summary.cpu_seconds : 0.0},
+      {"collisions",
+       {{"rod_rod", summary.collisions_rod_rod},
+        {"rod_base", summary.collisions_rod_base},
+        {"rod_lid", summary.collisions_rod_lid}}},
+      {"max_overlap_mm", summary.max_overlap},
+      {"t_steady_s", summary.t_steady},
+      {"order", nullptr},
+      {"defects", nullptr},
+  };
+  if (summary.order) {
+    json["order"] = {{"mean", summary.order->mean},
+                     {"std", summary.order->std},
+                     {"sem", summary.order->sem},
+                     {"tau_s", summary.order->tau},
+                     {"t_steady_s", summary.order->t_steady},
+                     {"n_effective", summary.order->n_effective}};
+  }
+  if (summary.defects_mean_plus && summary.defects_mean_minus) {
+    json["defects"] = {{"mean_plus", *summary.defects_mean_plus}, {"mean_minus", *summary.defects_mean_minus}};
+  }
+  for (const auto& [name, effect] : summary.effects) json["effects"][name] = to_json(effect);
+  json["state_hash"] = fmt::format("{:016x}", summary.state_hash);
+  json["exit"] = {{"state", summary.state}, {"reason", summary.reason}, {"tick", summary.tick}, {"rods", summary.rods}};
+  json["versions"] = {{"shaken", version()}, {"compiler", compiler()}};
+  json["host"] = host_name();
+  json["started"] = summary.started;
+  json["finished"] = summary.finished;
+  return write_file_atomically(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+bool is_done(const std::filesystem::path& file, const std::string& run_id) {
+  const Result<std::string> text = read_file(file);
+  if (!text) return false;
+  const auto json = nlohmann::json::parse(*text, nullptr, false);
+  if (!json.is_object() || json.value("run_id", "") != run_id || !json.contains("exit")) return false;
+  const auto& exit = json["exit"];
+  return exit.is_object() && exit.value("state", "") == "done";
+}
+
+}  // namespace shaken::run

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/time_series.h"
+#include "sim/core/result.h"
+#include "sim/core/types.h"
+
+namespace shaken::run {
+
+/// One effect of the scene: whether it took part, and how much work that was.
+struct EffectReport {
+  bool on = false;
+  std::map<std::string, double> work;  ///< counts by name ("impulses", "samples"), parameters with their unit
+};
+
+/// What summary.json says of a run.
+struct Summary {
+  std::string run_id;
+  int n_rods = 0;
+  double sim_seconds = 0;
+  double cpu_seconds = 0;   ///< of this process and its predecessors
+  double wall_seconds = 0;  ///< the same
+  std::int64_t collisions_rod_rod = 0;
+  std::int64_t collisions_rod_base = 0;
+  std::int64_t collisions_rod_lid = 0;
+  double max_overlap = 0;                        ///< [mm]
+  double t_steady = 0;                           ///< where the steady state begins [s]
+  std::optional<analysis::SteadySummary> order;  ///< if S(t) was measured
+  std::optional<double> defects_mean_plus;       ///< in the steady state, if defects were measured
+  std::optional<double> defects_mean_minus;
+  std::map<std::string, EffectReport> effects;
+  std::uint64_t state_hash = 0;
+  std::string started;   ///< UTC, ISO 8601
+  std::string finished;  ///< the same
+
+  std::string state = "done";  ///< done | failed | stopped
+  std::string reason;          ///< unless done
+  Tick tick = 0;               ///< of the end
+  std::vector<int> rods;       ///< concerned by numerical trouble
+};
+
+[[nodiscard]] std::optional<Error> write_summary(const std::filesystem::path& file, const Summary& summary);
+
+/// Whether `file` says that run `run_id` has been done.
+bool is_done(const std::filesystem::path& file, const std::string& run_id);
+
+}  // namespace shaken::run
