@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/blocked.h"
+
+#include <gtest/gtest.h>
+
+#include "analysis/angles.h"
+#include "analysis/tilt.h"
+#include "tests/unit/analysis/samples.h"
+
+namespace shaken::analysis {
+namespace {
+
+template <class Accumulator>
+std::vector<std::byte> state(const Accumulator& accumulator) {
+  StateWriter writer;
+  accumulator.save(writer);
+  return writer.bytes();
+}
+
+std::vector<std::vector<Vec3>> frames(int n) {
+  Draw draw(81);
+  std::vector<std::vector<Vec3>> result;
+  for (int i = 0; i < n; ++i) result.push_back(random_axes(draw, 5));
+  return result;
+}
+
+/// All samples from number `first` on, accumulated directly.
+AngleDistribution direct(const std::vector<std::vector<Vec3>>& all, std::size_t first) {
+  AngleDistribution angles(30);
+  for (std::size_t i = first; i < all.size(); ++i) angles.accumulate(all[i]);
+  return angles;
+}
+
+TEST(Blocked, EqualsDirectAccumulation) {
+  for (const int n : {1, 10, 64, 65, 128, 129, 1000}) {
+    const auto all = frames(n);
+    Blocked<AngleDistribution> blocked{AngleDistribution(30)};
+    for (int i = 0; i < n; ++i) blocked.accumulate(0.1 * i, all[static_cast<std::size_t>(i)]);
+    EXPECT_EQ(state(blocked.all()), state(direct(all, 0))) << n;
+    int stretch = 1;  // the length that 64 stretches need
+    while (64 * stretch < n) stretch *= 2;
+    for (const int first : {0, 1, n / 3, n / 2, n - 1}) {
+      const int start = (first + stretch - 1) / stretch * stretch;  // the first stretch that begins at `first` or later
+      EXPECT_EQ(state(blocked.after(0.1 * first)), state(direct(all, static_cast<std::size_t>(start))))
+          << n << " " << first;
+    }
+    EXPECT_EQ(state(blocked.after(0.1 * n)), state(AngleDistribution(30)));
+  }
+}
+
+TEST(Blocked, PassesAllArgumentsOnAndResets) {
+  Blocked<TiltVelocity> blocked{TiltVelocity(4, 0.5)};
+  for (int i = 0; i < 200; ++i) {
+    blocked.accumulate(i, std::vector<Vec3>{axis(0, 0.1)}, std::vector<Vec3>{Vec3(i < 100 ? 5 : 1, 0, 0)});
+  }
+  EXPECT_DOUBLE_EQ(blocked.after(100).reduce().v_along[2], 1.0);
+  EXPECT_DOUBLE_EQ(blocked.all().reduce().v_along[2], 3.0);
+  blocked.reset();
+  EXPECT_TRUE(std::isnan(blocked.all().reduce().v_along[2]));
+}
+
+TEST(Blocked, GoesOnBitwiseFromItsSavedState) {
+  const auto all = frames(300);
+  Blocked<AngleDistribution> straight{AngleDistribution(30)}, stopped{AngleDistribution(30)};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    straight.accumulate(static_cast<double>(i), all[i]);
+    stopped.accumulate(static_cast<double>(i), all[i]);
+    if (i % 11 != 0) continue;
+    const std::vector<std::byte> bytes = state(stopped);
+    stopped.reset();
+    StateReader reader(bytes);
+    stopped.restore(reader);
+    reader.end();
+  }
+  EXPECT_EQ(state(straight), state(stopped));
+}
+
+TEST(Blocked, DamageIsFoundAndLeavesTheObjectAsItWas) {
+  const auto all = frames(3);
+  Blocked<AngleDistribution> blocked{AngleDistribution(30)};
+  for (std::size_t i = 0; i < all.size(); ++i) blocked.accumulate(static_cast<double>(i), all[i]);
+  const std::vector<std::byte> bytes = state(blocked);
+  for (std::size_t size = 0; size < bytes.size(); size += 5) {
+    StateReader reader{std::span(bytes).first(size)};
+    EXPECT_THROW(blocked.restore(reader), StateError) << size;
+  }
+  EXPECT_EQ(state(blocked), bytes);
+}
+
+}  // namespace
+}  // namespace shaken::analysis

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/defect_series.h"
+
+#include <gtest/gtest.h>
+
+namespace shaken::analysis {
+namespace {
+
+const std::vector<Defect> kPair{{{1, 2}, 0.5, 0.3}, {{3, 4}, -0.5, -0.1}};
+
+TEST(DefectSeries, CountsAndLists) {
+  DefectSeries series;
+  series.accumulate(0.0, kPair);
+  series.accumulate(0.1, {});
+  series.accumulate(0.2, std::vector<Defect>{kPair[0], kPair[1], kPair[1]});
+  EXPECT_EQ(series.n_plus(), (std::vector<double>{1, 0, 1}));
+  EXPECT_EQ(series.n_minus(), (std::vector<double>{1, 0, 2}));
+  EXPECT_EQ(series.list().time, (std::vector<double>{0, 0, 0.2, 0.2, 0.2}));
+  EXPECT_EQ(series.list().x, (std::vector<double>{1, 3, 1, 3, 3}));
+  EXPECT_EQ(series.list().y, (std::vector<double>{2, 4, 2, 4, 4}));
+  EXPECT_EQ(series.list().charge, (std::vector<double>{0.5, -0.5, 0.5, -0.5, -0.5}));
+  EXPECT_EQ(series.list().direction, (std::vector<double>{0.3, -0.1, 0.3, -0.1, -0.1}));
+  EXPECT_DOUBLE_EQ(series.reduce(0.1).n_plus, 0.5);
+  EXPECT_DOUBLE_EQ(series.reduce(0.1).n_minus, 1.0);
+  EXPECT_EQ(series.reduce(5.0).n_minus, 0.0);
+  EXPECT_THROW(series.accumulate(0.2, {}), std::logic_error);
+  series.reset();
+  EXPECT_TRUE(series.times().empty() && series.list().x.empty());
+}
+
+TEST(DefectSeries, SavedStateIsExactAndDamageIsFound) {
+  DefectSeries series;
+  series.accumulate(0.0, kPair);
+  series.accumulate(1.0 / 3, kPair);
+  StateWriter writer;
+  series.save(writer);
+  DefectSeries restored;
+  StateReader reader(writer.bytes());
+  restored.restore(reader);
+  reader.end();
+  StateWriter again;
+  restored.save(again);
+  EXPECT_EQ(writer.bytes(), again.bytes());
+  for (std::size_t size = 0; size < writer.bytes().size(); ++size) {
+    StateReader torn(std::span(writer.bytes()).first(size));
+    EXPECT_THROW(restored.restore(torn), StateError) << size;
+  }
+}
+
+}  // namespace
+}  // namespace shaken::analysis

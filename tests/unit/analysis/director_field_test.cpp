@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/director_field.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/analysis/samples.h"
+
+namespace shaken::analysis {
+namespace {
+
+/// The definition, node by node over all rods and their nearest images.
+Vec2 slow_q(const std::vector<Vec3>& positions, const std::vector<Vec3>& directors, double box_side, double smoothing,
+            const Vec2& node) {
+  Vec2 sum = Vec2::Zero();
+  double weight = 0;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const double dx = std::remainder(positions[i].x() - node.x(), box_side);
+    const double dy = std::remainder(positions[i].y() - node.y(), box_side);
+    if (std::abs(dx) > 4 * smoothing || std::abs(dy) > 4 * smoothing) continue;
+    const double k = std::exp(-(dx * dx + dy * dy) / (2 * smoothing * smoothing));
+    const double theta = std::atan2(directors[i].y(), directors[i].x());
+    sum += k * Vec2(std::cos(theta) * std::cos(theta) - 0.5, std::cos(theta) * std::sin(theta));
+    weight += k;
+  }
+  return weight > 0 ? Vec2(sum / weight) : Vec2::Zero();
+}
+
+TEST(DirectorField, EqualsItsDefinition) {
+  Draw draw(41);
+  // A box of many smoothing lengths, and one so small that the cut reaches round it.
+  for (const double box_side : {20.0, 5.0}) {
+    std::vector<Vec3> positions = random_places(draw, 60, box_side);
+    const std::vector<Vec3> directors = random_axes(draw, 60);
+    const DirectorField field(positions, directors, box_side, 13, 0.9);
+    for (int j = 0; j < 13; ++j) {
+      for (int i = 0; i < 13; ++i) {
+        const Vec2 q = slow_q(positions, directors, box_side, 0.9, Vec2(i, j) * field.mesh());
+        EXPECT_NEAR(field.q_xx(i, j), q.x(), 1e-12);
+        EXPECT_NEAR(field.q_xy(i, j), q.y(), 1e-12);
+      }
+    }
+  }
+}
+
+TEST(DirectorField, OfAlignedRodsIsUniform) {
+  Draw draw(42);
+  const DirectorField field(random_places(draw, 500, 30), std::vector<Vec3>(500, axis(1.2, 0.2)), 30, 16, 2.0);
+  for (int i = 0; i < 16; ++i) {
+    EXPECT_NEAR(field.theta(i, 5), 1.2, 1e-12);
+    EXPECT_NEAR(field.order(i, 5), 1.0, 1e-12);
+  }
+  EXPECT_NEAR(field.theta_at({-3.3, 71.9}), 1.2, 1e-12);
+  EXPECT_NEAR(field.order_at({-3.3, 71.9}), 1.0, 1e-12);
+}
+
+TEST(DirectorField, IsPeriodicInRodsAndNodes) {
+  Draw draw(43);
+  std::vector<Vec3> positions = random_places(draw, 40, 10);
+  const std::vector<Vec3> directors = random_axes(draw, 40);
+  const DirectorField field(positions, directors, 10, 8, 1.0);
+  for (Vec3& p : positions) p += Vec3(-10, 30, 0);
+  const DirectorField moved(positions, directors, 10, 8, 1.0);
+  for (int i = 0; i < 8; ++i) {
+    EXPECT_NEAR(field.q_xx(i, 3), moved.q_xx(i, 3), 1e-10);
+    EXPECT_EQ(field.q_xy(i - 8, 3 + 16), field.q_xy(i, 3));
+  }
+}
+
+TEST(DirectorField, IsLinearBetweenNodes) {
+  Draw draw(44);
+  const DirectorField field(random_places(draw, 40, 10), random_axes(draw, 40), 10, 8, 1.0);
+  const double h = field.mesh();
+  EXPECT_NEAR((field.q_at({3 * h, 9 * h}) - Vec2(field.q_xx(3, 1), field.q_xy(3, 1))).norm(), 0, 1e-14);
+  EXPECT_NEAR(field.q_at({-0.25 * h, 2 * h}).x(), 0.25 * field.q_xx(7, 2) + 0.75 * field.q_xx(0, 2), 1e-14);
+  EXPECT_NEAR(field.q_at({7.5 * h, 7.5 * h}).y(),
+              (field.q_xy(7, 7) + field.q_xy(0, 7) + field.q_xy(7, 0) + field.q_xy(0, 0)) / 4, 1e-14);
+}
+
+TEST(DirectorField, WhereNoRodReachesQIsZero) {
+  const std::vector<Vec3> positions{{5, 5, 0}, {0, 0, 0}};
+  const std::vector<Vec3> directors{axis(0.4), {0, 0, 1}};  // an upright rod weighs nothing
+  const DirectorField field(positions, directors, 10, 10, 0.5);
+  EXPECT_NEAR(field.order(5, 5), 1.0, 1e-12);
+  EXPECT_EQ(field.order(0, 0), 0.0);
+  EXPECT_EQ(field.theta(0, 0), 0.0);
+}
+
+TEST(DirectorField, NodesFromMesh) {
+  EXPECT_EQ(grid_nodes(10, 0.1), 100);
+  EXPECT_EQ(grid_nodes(10, 0.3), 34);
+  EXPECT_EQ(grid_nodes(10, 100), 4);
+  EXPECT_THROW(grid_nodes(10, 0), std::logic_error);
+}
+
+}  // namespace
+}  // namespace shaken::analysis

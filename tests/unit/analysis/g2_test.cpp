@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/g2.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/analysis/samples.h"
+
+namespace shaken::analysis {
+namespace {
+
+// Rods on a line with theta = pi m x / L, which is periodic for an axis: G2 at distance r is cos(2 pi m r / L)
+// exactly, also between rods joined through the boundary.
+TEST(OrientationCorrelation, OfASplayWave) {
+  constexpr double kBox = 50;
+  constexpr int kRods = 100, kWaves = 2;
+  std::vector<Vec3> positions, directors;
+  for (int i = 0; i < kRods; ++i) {
+    const double x = 0.1 + i * kBox / kRods;
+    positions.push_back({x, 3, 0});
+    directors.push_back(axis(kPi * kWaves * x / kBox));
+  }
+  // Bins a hair narrower than the spacing of the rods, so that distance k / 2 is safely in bin k.
+  OrientationCorrelation g2(49, 24.5 * (1 - 1e-9));
+  g2.accumulate(positions, directors, kBox);
+  const OrientationCurve curve = g2.reduce();
+  EXPECT_TRUE(std::isnan(curve.g2[0]));
+  for (std::size_t k = 1; k < 49; ++k) {
+    const double r = 0.5 * static_cast<double>(k);
+    EXPECT_NEAR(curve.r[k], r + 0.25, 1e-6);
+    EXPECT_NEAR(curve.g2[k], std::cos(2 * kPi * kWaves * r / kBox), 1e-10) << r;
+  }
+}
+
+// The same wave in the plane: averaged over directions G2(r) = J0(2 pi m r / L). Random places leave an error of about
+// 1 / sqrt(pairs in a bin) < 0.02 from the uneven directions; exp(i theta) in place of exp(2 i theta) gives J0 of half
+// the argument, off by 0.4.
+TEST(OrientationCorrelation, OfAWaveInThePlane) {
+  constexpr double kBox = 50, kWaves = 2;
+  Draw draw(61);
+  OrientationCorrelation g2(25, 25);
+  for (int k = 0; k < 10; ++k) {
+    const std::vector<Vec3> positions = random_places(draw, 1000, kBox);
+    std::vector<Vec3> directors;
+    for (const Vec3& p : positions) directors.push_back(axis(kPi * kWaves * p.x() / kBox));
+    g2.accumulate(positions, directors, kBox);
+  }
+  const OrientationCurve curve = g2.reduce();
+  for (std::size_t i = 0; i < 25; ++i) {
+    EXPECT_NEAR(curve.g2[i], std::cyl_bessel_j(0, 2 * kPi * kWaves * curve.r[i] / kBox), 0.03) << curve.r[i];
+  }
+}
+
+// Independent directions: the cosines of different pairs are uncorrelated with variance 1/2, each pair is met twice.
+// Over 20 bins |z| < 4.5. Counting a rod with itself lifts the first bin by far more.
+TEST(OrientationCorrelation, OfRandomRodsIsZeroAndOfAlignedOne) {
+  constexpr double kBox = 40;
+  Draw draw(62);
+  OrientationCorrelation random(20, 20), aligned(20, 20);
+  const std::vector<Vec3> positions = random_places(draw, 1000, kBox);
+  random.accumulate(positions, random_axes(draw, 1000), kBox);
+  aligned.accumulate(positions, std::vector<Vec3>(1000, axis(0.7, 0.1)), kBox);
+  for (std::size_t i = 0; i < 20; ++i) {
+    const double r = random.reduce().r[i];
+    const double pairs = 0.5 * 1000 * 999 * 2 * kPi * r / (kBox * kBox);
+    EXPECT_LT(std::abs(random.reduce().g2[i]) / std::sqrt(0.5 / pairs), 4.5);
+    EXPECT_NEAR(aligned.reduce().g2[i], 1.0, 1e-12);
+  }
+}
+
+// 2500 rods are taken as references in three sets; three calls on one state meet every pair once.
+TEST(OrientationCorrelation, TakesEveryRodInItsTurn) {
+  constexpr double kBox = 30;
+  constexpr std::size_t kRods = 2500;
+  Draw draw(63);
+  const std::vector<Vec3> positions = random_places(draw, kRods, kBox);
+  const std::vector<Vec3> directors = random_axes(draw, kRods);
+  OrientationCorrelation g2(10, 10);
+  for (int call = 0; call < 3; ++call) g2.accumulate(positions, directors, kBox);
+  std::vector<double> sum(10), pairs(10);
+  for (std::size_t i = 0; i < kRods; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const double r = std::hypot(std::remainder(positions[i].x() - positions[j].x(), kBox),
+                                  std::remainder(positions[i].y() - positions[j].y(), kBox));
+      if (r >= 10) continue;
+      const double between =
+          std::atan2(directors[i].y(), directors[i].x()) - std::atan2(directors[j].y(), directors[j].x());
+      sum[static_cast<std::size_t>(r)] += std::cos(2 * between);
+      pairs[static_cast<std::size_t>(r)] += 1;
+    }
+  }
+  for (std::size_t bin = 0; bin < 10; ++bin) EXPECT_NEAR(g2.reduce().g2[bin], sum[bin] / pairs[bin], 1e-9);
+}
+
+TEST(OrientationCorrelation, MergeAndSavedState) {
+  constexpr double kBox = 20;
+  Draw draw(64);
+  OrientationCorrelation straight(8, 10), stopped(8, 10), first(8, 10), second(8, 10);
+  for (int i = 0; i < 4; ++i) {
+    const std::vector<Vec3> positions = random_places(draw, 1500, kBox), directors = random_axes(draw, 1500);
+    straight.accumulate(positions, directors, kBox);
+    stopped.accumulate(positions, directors, kBox);
+    (i < 2 ? first : second).accumulate(positions, directors, kBox);
+    StateWriter writer;
+    stopped.save(writer);
+    stopped.reset();
+    StateReader reader(writer.bytes());
+    stopped.restore(reader);
+    reader.end();
+  }
+  EXPECT_EQ(straight.reduce().g2, stopped.reduce().g2);
+  first.merge(second);
+  for (std::size_t i = 0; i < 8; ++i) EXPECT_NEAR(first.reduce().g2[i], straight.reduce().g2[i], 1e-12);
+  StateWriter writer;
+  straight.save(writer);
+  for (OrientationCorrelation other : {OrientationCorrelation(8, 9), OrientationCorrelation(9, 10)}) {
+    StateReader reader(writer.bytes());
+    EXPECT_THROW(other.restore(reader), StateError);
+    EXPECT_THROW(other.merge(straight), std::logic_error);
+  }
+  EXPECT_THROW(straight.accumulate({}, {}, 19.9), std::logic_error);
+}
+
+}  // namespace
+}  // namespace shaken::analysis

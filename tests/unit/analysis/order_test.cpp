@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/order.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <numeric>
+
+#include "analysis/fold.h"
+#include "tests/unit/analysis/samples.h"
+
+namespace shaken::analysis {
+namespace {
+
+TEST(NematicOrder, AlignedRodsGiveOneAndTheirAngle) {
+  for (const double theta : {-1.5, -0.4, 0.0, 0.7, 1.5}) {
+    const std::vector<Vec3> rods{axis(theta), axis(theta + kPi, 0.1), axis(theta, -0.3)};
+    const NematicOrder order = nematic_order(rods);
+    EXPECT_NEAR(order.order, 1.0, 1e-15);
+    EXPECT_NEAR(order.director, theta, 1e-15);
+  }
+}
+
+TEST(NematicOrder, DirectorAlongYIsReportedAsMinusHalfPi) {
+  EXPECT_EQ(nematic_order(std::vector<Vec3>{{0, 1, 0}}).director, -kPi / 2);
+}
+
+TEST(NematicOrder, CrossedPairHasNoOrder) {
+  EXPECT_NEAR(nematic_order(std::vector<Vec3>{axis(0.3), axis(0.3 + kPi / 2)}).order, 0.0, 1e-15);
+}
+
+TEST(NematicOrder, UprightRodsAreLeftOut) {
+  const std::vector<Vec3> rods{axis(0.5), {0, 0, 1}, {0, 0, -1}};
+  EXPECT_NEAR(nematic_order(rods).order, 1.0, 1e-15);
+  EXPECT_EQ(nematic_order(std::vector<Vec3>{{0, 0, 1}}).order, 0.0);
+}
+
+// Known answers <S> = sqrt(pi / (4 N)) and <S^2> = 1 / N: S is the length of a two-dimensional walk of N unit steps.
+// The spread over R repeats is theirs too (Rayleigh), so z is standard normal. An S from exp(i theta) with theta
+// folded, or with weights |n_xy|^2, misses by tens of z.
+TEST(NematicOrder, RandomRodsHaveTheFloorOfSmallNumbers) {
+  constexpr double kRods = 200, kRepeats = 4000;
+  Draw draw(1);
+  double sum = 0, sum_of_squares = 0;
+  for (int i = 0; i < kRepeats; ++i) {
+    const double s = nematic_order(random_axes(draw, static_cast<std::size_t>(kRods))).order;
+    sum += s;
+    sum_of_squares += s * s;
+  }
+  const double z_mean = (sum / kRepeats - std::sqrt(kPi / (4 * kRods))) / std::sqrt((1 - kPi / 4) / kRods / kRepeats);
+  const double z_square = (sum_of_squares / kRepeats - 1 / kRods) / (1 / kRods / std::sqrt(kRepeats));
+  EXPECT_LT(std::abs(z_mean), 4.0);
+  EXPECT_LT(std::abs(z_square), 4.0);
+}
+
+// Known answer: a Gaussian spread s of theta gives S = exp(-2 s^2). The variance of one cos 2 theta is
+// (1 + exp(-8 s^2)) / 2 - exp(-4 s^2). exp(-s^2 / 2) or exp(-s^2) would miss by hundreds of z.
+TEST(NematicOrder, GaussianSpread) {
+  constexpr double kSpread = 0.3, kRods = 200000;
+  Draw draw(2);
+  std::vector<Vec3> rods;
+  for (int i = 0; i < kRods; ++i) rods.push_back(axis(1.0 + kSpread * draw.normal()));
+  const double s2 = kSpread * kSpread;
+  const double variance = (1 + std::exp(-8 * s2)) / 2 - std::exp(-4 * s2);
+  const NematicOrder order = nematic_order(rods);
+  EXPECT_LT(std::abs(order.order - std::exp(-2 * s2)) / std::sqrt(variance / kRods), 4.0);
+  EXPECT_NEAR(order.director, 1.0, 4 * kSpread / std::sqrt(kRods));
+}
+
+TEST(NematicOrder, RotatingTheRodsTurnsTheDirectorAndKeepsTheOrder) {
+  rc::check("rotation", [](std::uint64_t seed) {
+    Draw draw(seed);
+    const double angle = draw.uniform(-10, 10);
+    std::vector<Vec3> rods, turned;
+    const auto n = *rc::gen::inRange(1, 50);
+    for (int i = 0; i < n; ++i) {
+      const double theta = draw.uniform(-1, 1), n_z = draw.uniform(-0.5, 0.5);
+      rods.push_back(axis(theta, n_z));
+      turned.push_back(axis(theta + angle, n_z));
+    }
+    const NematicOrder before = nematic_order(rods);
+    const NematicOrder after = nematic_order(turned);
+    RC_ASSERT(std::abs(before.order - after.order) < 1e-13);
+    RC_ASSERT(std::abs(fold_half_turn(after.director - before.director - angle)) < 1e-13 / before.order);
+    RC_ASSERT(after.director >= -kPi / 2 && after.director < kPi / 2);
+  });
+}
+
+TEST(NematicOrder, TheSignOfADirectorDoesNotMatter) {
+  rc::check("head-tail symmetry", [](std::uint64_t seed, std::vector<bool> flips) {
+    Draw draw(seed);
+    std::vector<Vec3> rods = random_axes(draw, flips.size() + 1);
+    const NematicOrder before = nematic_order(rods);
+    for (std::size_t i = 0; i < flips.size(); ++i) {
+      if (flips[i]) rods[i] = -rods[i];
+    }
+    const NematicOrder after = nematic_order(rods);
+    RC_ASSERT(before.order == after.order);
+    RC_ASSERT(before.director == after.director);
+  });
+}
+
+TEST(Fold, BringsAnyAngleIntoTheHalfTurn) {
+  rc::check("fold", [](std::int32_t number) {
+    const double theta = number * 1e-4;
+    const double folded = fold_half_turn(theta);
+    RC_ASSERT(folded >= -kPi / 2 && folded < kPi / 2);
+    RC_ASSERT(std::abs(std::sin(theta - folded)) < 1e-9);
+  });
+  EXPECT_EQ(fold_half_turn(kPi / 2), -kPi / 2);
+  EXPECT_EQ(fold_half_turn(-kPi / 2), -kPi / 2);
+  EXPECT_LT(fold_half_turn(std::nextafter(kPi / 2, 0)), kPi / 2);
+}
+
+TEST(OrderSeries, RunningMeanIsThatOfTheLaterHalf) {
+  Draw draw(3);
+  OrderSeries series;
+  EXPECT_EQ(series.running_mean(), 0.0);
+  for (int n = 1; n <= 40; ++n) {
+    series.accumulate(n, random_axes(draw, 10));
+    const std::vector<double>& s = series.orders();
+    const auto later = s.begin() + n / 2;
+    EXPECT_NEAR(series.running_mean(), std::accumulate(later, s.end(), 0.0) / static_cast<double>(s.end() - later),
+                1e-14);
+  }
+}
+
+TEST(OrderSeries, ReduceStartsWhereToldAndResetForgets) {
+  OrderSeries series;
+  for (int i = 0; i < 10; ++i) {
+    series.accumulate(i * 0.1, i < 5 ? std::vector<Vec3>{axis(0), axis(kPi / 2)} : std::vector<Vec3>{axis(0)});
+  }
+  EXPECT_NEAR(series.reduce(0.5).mean, 1.0, 1e-15);
+  EXPECT_NEAR(series.reduce(0.0).mean, 0.5, 1e-15);
+  EXPECT_THROW(series.accumulate(0.2, std::vector<Vec3>{axis(0)}), std::logic_error);
+  series.reset();
+  EXPECT_TRUE(series.times().empty());
+  EXPECT_EQ(series.reduce().n_effective, 0.0);
+}
+
+TEST(OrderSeries, GoesOnBitwiseFromItsSavedState) {
+  Draw draw(4);
+  OrderSeries straight, stopped;
+  for (int i = 0; i < 21; ++i) {
+    const std::vector<Vec3> rods = random_axes(draw, 7);
+    straight.accumulate(i, rods);
+    stopped.accumulate(i, rods);
+    StateWriter writer;
+    stopped.save(writer);
+    stopped = {};
+    StateReader reader(writer.bytes());
+    stopped.restore(reader);
+    reader.end();
+    EXPECT_EQ(straight.running_mean(), stopped.running_mean());
+  }
+  EXPECT_EQ(straight.orders(), stopped.orders());
+  EXPECT_EQ(straight.directors(), stopped.directors());
+  EXPECT_EQ(straight.times(), stopped.times());
+}
+
+}  // namespace
+}  // namespace shaken::analysis

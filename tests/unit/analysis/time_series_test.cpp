@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/time_series.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "tests/unit/analysis/samples.h"
+
+namespace shaken::analysis {
+namespace {
+
+std::vector<double> equal_times(std::size_t n, double interval = 1.0) {
+  std::vector<double> times(n);
+  for (std::size_t i = 0; i < n; ++i) times[i] = static_cast<double>(i) * interval;
+  return times;
+}
+
+/// The definition, written down plainly.
+double slow_inefficiency(const std::vector<double>& x) {
+  const auto n = static_cast<double>(x.size());
+  const double mean = std::accumulate(x.begin(), x.end(), 0.0) / n;
+  const auto covariance = [&](std::size_t lag) {
+    double sum = 0;
+    for (std::size_t i = 0; i + lag < x.size(); ++i) sum += (x[i] - mean) * (x[i + lag] - mean);
+    return sum / n;
+  };
+  double g = 1;
+  for (std::size_t lag = 1; lag < x.size(); ++lag) {
+    g += 2 * covariance(lag) / covariance(0);
+    if (static_cast<double>(lag) >= 5 * g) break;
+  }
+  return std::max(g, 1.0);
+}
+
+/// Relative standard error of g summed over a window of 5 g (Madras & Sokal, J. Stat. Phys. 50, 109 (1988), eq. 2.21).
+double relative_error_of_g(double g, double n) { return std::sqrt(2 * (2 * 5 * g + 1) / n); }
+
+TEST(StatisticalInefficiency, EqualsItsDefinition) {
+  Draw draw(11);
+  for (const double a : {-0.5, 0.0, 0.5, 0.9, 0.99}) {
+    const std::vector<double> x = ar1(draw, a, 2500);
+    EXPECT_NEAR(statistical_inefficiency(x), slow_inefficiency(x), 1e-9) << a;
+  }
+}
+
+// Known answers g = (1 + a) / (1 - a). z uses Madras & Sokal's error of the windowed sum. tau itself in place of
+// g = 1 + 2 tau, or a sum without the factor 2, misses by more than 10 z. The longest series spends its budget and is
+// averaged in pairs on the way: forgetting to scale back halves g, 25 z away.
+TEST(StatisticalInefficiency, OfAutoregressiveSeries) {
+  struct Case {
+    double a;
+    std::size_t n;
+  };
+  Draw draw(12);
+  for (const Case& c : {Case{0.5, 200000}, Case{0.9, 200000}, Case{0.9, 1000000}}) {
+    const double g = (1 + c.a) / (1 - c.a);
+    const double measured = statistical_inefficiency(ar1(draw, c.a, c.n));
+    EXPECT_LT(std::abs(measured / g - 1) / relative_error_of_g(g, static_cast<double>(c.n)), 4.0)
+        << c.a << " " << measured;
+  }
+}
+
+// Every value three times: three samples are worth one. z as above.
+TEST(StatisticalInefficiency, OfRepeatedValues) {
+  Draw draw(13);
+  std::vector<double> x;
+  for (int i = 0; i < 20000; ++i) x.insert(x.end(), 3, draw.normal());
+  EXPECT_LT(std::abs(statistical_inefficiency(x) / 3 - 1) / relative_error_of_g(3, 60000), 4.0);
+  EXPECT_NEAR(autocorrelation_time(x), (statistical_inefficiency(x) - 1) / 2, 1e-12);
+}
+
+TEST(StatisticalInefficiency, IsOneWhereThereIsNothingToCorrelate) {
+  for (const std::size_t n : {0, 1, 2, 3, 4, 1000}) {
+    EXPECT_EQ(statistical_inefficiency(std::vector<double>(n, 0.1)), 1.0) << n;
+    EXPECT_EQ(autocorrelation_time(std::vector<double>(n, 0.1)), 0.0) << n;
+  }
+  std::vector<double> alternating;
+  for (int i = 0; i < 100; ++i) alternating.push_back(i % 2);
+  EXPECT_EQ(statistical_inefficiency(alternating), 1.0);
+}
+
+// Blocking and the autocorrelation sum are independent estimates of one number; each is good to about 5 % here.
+TEST(BlockSem, AgreesWithTheAutocorrelationTime) {
+  Draw draw(14);
+  for (const double a : {0.0, 0.5, 0.9}) {
+    const std::vector<double> x = ar1(draw, a, 200000);
+    const double truth = std::sqrt((1 + a) / (1 - a) / 200000);
+    EXPECT_NEAR(block_sem(x), truth, 0.2 * truth) << a;
+    EXPECT_NEAR(summarize_series(equal_times(x.size()), x, 0.0).sem, truth, 0.2 * truth) << a;
+  }
+}
+
+TEST(BlockSem, LevelsAreTheBlockingTransformation) {
+  const std::vector<double> x{1, 3, 2, 6, 5, 9, 4};  // pairs 2 4 7 (the last is left over), then 3
+  const std::vector<BlockLevel> levels = block_levels(x);
+  ASSERT_EQ(levels.size(), 2u);
+  EXPECT_EQ(levels[1].block_length, 2u);
+  EXPECT_EQ(levels[1].n_blocks, 3u);
+  EXPECT_NEAR(levels[1].sem, std::sqrt(((7.0 / 3) * (7.0 / 3) + (1.0 / 3) * (1.0 / 3) + (8.0 / 3) * (8.0 / 3)) / 6),
+              1e-14);
+  EXPECT_NEAR(levels[1].sem_error, levels[1].sem / 2, 1e-14);
+  EXPECT_TRUE(block_levels(std::vector<double>{1}).empty());
+  EXPECT_EQ(block_sem(std::vector<double>(50, 0.3)), 0.0);
+}
+
+// The quoted error must cover: over R independent series, (mean - truth) / sem has mean square 1 within
+// 4 sqrt(2 / R) = 0.33, widened to 0.45 by the scatter of sem itself. sem = std / sqrt(n) would give 19.
+TEST(Summary, ErrorBarsCoverTheTruth) {
+  constexpr int kRepeats = 300;
+  Draw draw(15);
+  double sum = 0;
+  for (int i = 0; i < kRepeats; ++i) {
+    const std::vector<double> x = ar1(draw, 0.9, 4000);
+    const SteadySummary summary = summarize_series(equal_times(x.size()), x, 0.0);
+    sum += std::pow(summary.mean / summary.sem, 2);
+  }
+  EXPECT_NEAR(sum / kRepeats, 1.0, 0.45);
+}
+
+TEST(Summary, OfGivenSteadyStart) {
+  const std::vector<double> values{9, 9, 1, 2, 3, 4};
+  const SteadySummary summary = summarize_series(equal_times(6, 0.5), values, 1.0);
+  EXPECT_EQ(summary.t_steady, 1.0);
+  EXPECT_DOUBLE_EQ(summary.mean, 2.5);
+  EXPECT_DOUBLE_EQ(summary.std, std::sqrt(5.0 / 3));
+  EXPECT_DOUBLE_EQ(summary.sem, summary.std / std::sqrt(summary.n_effective));
+  // A start that rounding puts just above the sample meant.
+  EXPECT_EQ(summarize_series(equal_times(6, 0.5), values, 1.0 + 1e-12).mean, summary.mean);
+}
+
+TEST(Summary, TauIsInTheUnitOfTheTimes) {
+  Draw draw(16);
+  const std::vector<double> x = ar1(draw, 0.9, 50000);
+  const SteadySummary summary = summarize_series(equal_times(x.size(), 0.01), x, 0.0);
+  EXPECT_NEAR(summary.tau, 0.01 * autocorrelation_time(x), 1e-12);
+  EXPECT_NEAR(summary.n_effective, 50000 / statistical_inefficiency(x), 1e-6);
+}
+
+TEST(Summary, ShortAndConstantSeries) {
+  EXPECT_EQ(summarize_series({}, {}).n_effective, 0.0);
+  EXPECT_EQ(summarize_series({}, {}, 3.0).t_steady, 3.0);
+  const SteadySummary beyond = summarize_series(equal_times(5), std::vector<double>(5, 1.0), 9.0);
+  EXPECT_EQ(beyond.n_effective, 0.0);
+  EXPECT_EQ(beyond.t_steady, 9.0);
+  for (const std::size_t n : {1, 2, 3, 4, 5, 100, 10000}) {
+    const SteadySummary summary = summarize_series(equal_times(n), std::vector<double>(n, 0.1));
+    EXPECT_EQ(summary.mean, 0.1) << n;
+    EXPECT_EQ(summary.std, 0.0) << n;
+    EXPECT_EQ(summary.sem, 0.0) << n;
+    EXPECT_EQ(summary.tau, 0.0) << n;
+    EXPECT_EQ(summary.t_steady, 0.0) << n;
+    EXPECT_EQ(summary.n_effective, static_cast<double>(n)) << n;
+  }
+}
+
+// 3 exp(-t / 100) on noise of spread 0.1: at t = 340 the transient has come down to the spread, at t = 700 to a
+// thirtieth of it. The mean of the whole series is off by 0.06, tens of standard errors.
+TEST(SteadyState, IsFoundAfterATransient) {
+  Draw draw(17);
+  for (const double a : {0.0, 0.5, 0.9}) {
+    std::vector<double> x = ar1(draw, a, 5000);
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] = 0.1 * x[i] + 3 * std::exp(-static_cast<double>(i) / 100);
+    const SteadySummary summary = summarize_series(equal_times(x.size()), x);
+    EXPECT_GT(summary.t_steady, 200) << a;
+    EXPECT_LT(summary.t_steady, 900) << a;
+    EXPECT_LT(std::abs(summary.mean), 4 * summary.sem + 0.002) << a;
+  }
+}
+
+TEST(SteadyState, OfALongSeriesIsFoundOnItsGroups) {
+  Draw draw(18);
+  std::vector<double> x = ar1(draw, 0.5, 100000);
+  for (std::size_t i = 0; i < 30000; ++i) x[i] += 5;  // a step: the steady state begins at sample 30000
+  const auto t0 = static_cast<double>(steady_index(x));
+  EXPECT_NEAR(t0, 30000, 500);
+}
+
+TEST(SteadyState, StationarySeriesLosesLittle) {
+  Draw draw(19);
+  double lost = 0;
+  for (int i = 0; i < 20; ++i) lost += static_cast<double>(steady_index(ar1(draw, 0.5, 4000))) / 4000;
+  EXPECT_LT(lost / 20, 0.2);
+}
+
+TEST(SteadyState, ConstantTailAfterATransient) {
+  std::vector<double> x(1000, 0.7);
+  for (std::size_t i = 0; i < 100; ++i) x[i] = 0.007 * static_cast<double>(i);
+  EXPECT_NEAR(static_cast<double>(steady_index(x)), 100, 2);
+  EXPECT_NEAR(summarize_series(equal_times(1000), x).mean, 0.7, 1e-4);
+}
+
+TEST(SteadyState, ADriftIsWorthFewSamples) {
+  EXPECT_LT(summarize_series(equal_times(10000), equal_times(10000)).n_effective, 20);
+}
+
+}  // namespace
+}  // namespace shaken::analysis
