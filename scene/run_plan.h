@@ -11,36 +11,54 @@ namespace shaken::scene {
 /// When to sample the in-plane nematic order S(t).
 struct MeasureOrder {
   double every = 0.01;  ///< [s]
+  friend bool operator==(const MeasureOrder&, const MeasureOrder&) = default;
 };
 /// Distribution of the angle to the director.
 struct MeasureAngles {
   double every = 0.01;  ///< [s]
   int bins = 180;       ///< over [-pi/2, pi/2)
+  friend bool operator==(const MeasureAngles&, const MeasureAngles&) = default;
 };
 /// Mean velocity along and across the rod against its tilt n_z.
 struct MeasureTilt {
   double every = 0.001;  ///< [s]
   int bins = 40;         ///< over [-1, 1] in n_z times the largest tilt that the gap allows
+  friend bool operator==(const MeasureTilt&, const MeasureTilt&) = default;
 };
 /// Topological defects of the smoothed director field.
 struct MeasureDefects {
   double every = 0.1;      ///< [s]
-  double smoothing = 0.0;  ///< standard deviation of the Gaussian [mm]; 0 stands for half a rod length
-  double grid = 0.0;       ///< mesh width [mm]; 0 stands for an eighth of a rod length
+  double smoothing = 0.0;  ///< standard deviation of the Gaussian [mm]; half a rod length in a loaded plan
+  double grid = 0.0;       ///< mesh width [mm]; an eighth of a rod length in a loaded plan
+  friend bool operator==(const MeasureDefects&, const MeasureDefects&) = default;
+};
+/// Orientational correlation G2(r).
+struct MeasureG2 {
+  double every = 0.1;  ///< [s]
+  int bins = 100;      ///< over [0, L/2)
+  friend bool operator==(const MeasureG2&, const MeasureG2&) = default;
+};
+/// Mean square displacement against lag.
+struct MeasureMsd {
+  double every = 0.01;  ///< [s]
+  friend bool operator==(const MeasureMsd&, const MeasureMsd&) = default;
 };
 /// Rod positions and directions into trajectory.h5.
 struct Trajectory {
   double every = 0.1;  ///< [s]
+  friend bool operator==(const Trajectory&, const Trajectory&) = default;
 };
 /// Live state over LCM.
 struct Stream {
   double rate = 20.0;  ///< frames per wall-clock second, at most
+  friend bool operator==(const Stream&, const Stream&) = default;
 };
 /// A movie of the finished run.
 struct Movie {
   double every = 0.05;  ///< simulated seconds between frames
   int width = 1280;     ///< [pixels]
   int height = 720;     ///< [pixels]
+  friend bool operator==(const Movie&, const Movie&) = default;
 };
 
 /// A resolved scene: the system, how long it runs, and what is measured, recorded, streamed and drawn.
@@ -55,12 +73,16 @@ struct RunPlan {
   std::optional<MeasureAngles> angles;
   std::optional<MeasureTilt> tilt;
   std::optional<MeasureDefects> defects;
+  std::optional<MeasureG2> g2;
+  std::optional<MeasureMsd> msd;
   std::optional<Trajectory> trajectory;
   std::optional<Stream> stream;
   std::optional<Movie> movie;
 
   /// Simulated seconds from start to end.
   double total_time() const { return steady.value_or(0.0) + measure_time; }
+
+  friend bool operator==(const RunPlan&, const RunPlan&) = default;
 };
 
 }  // namespace shaken::scene

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "scene/canonical.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <cstdint>
+
+namespace shaken::scene {
+
+namespace {
+
+nlohmann::ordered_json& object_at(nlohmann::ordered_json& scene, std::string_view path) {
+  nlohmann::ordered_json* object = &scene;
+  while (!path.empty()) {
+    const std::size_t dot = path.find('.');
+    object = &(*object)[std::string(path.substr(0, dot))];
+    path = dot == std::string_view::npos ? std::string_view{} : path.substr(dot + 1);
+  }
+  return *object;
+}
+
+}  // namespace
+
+nlohmann::ordered_json to_json(const Field& field, const Value& value) {
+  if (const bool* on = std::get_if<bool>(&value)) return *on;
+  if (const std::string* name = std::get_if<std::string>(&value)) return *name;
+  if (const double* number = std::get_if<double>(&value)) {
+    if (field.form == Form::kWhole) return static_cast<std::int64_t>(*number);
+    return *number;
+  }
+  if (const auto* size = std::get_if<std::array<double, 2>>(&value)) {
+    return {static_cast<int>((*size)[0]), static_cast<int>((*size)[1])};
+  }
+  return nullptr;
+}
+
+nlohmann::ordered_json to_json(const RunPlan& plan) {
+  nlohmann::ordered_json scene = nlohmann::ordered_json::object();
+  for (const Field& field : fields()) {
+    const std::string_view block = block_around(field.path);
+    const bool is_off = !block.empty() && !std::get<bool>(field_at(block).fetch(plan));
+    if (!field.fetch || is_off) continue;
+    const Value value = field.fetch(plan);
+    if (field.form != Form::kBlock) {
+      object_at(scene, field.path) = to_json(field, value);
+    } else if (std::get<bool>(value)) {
+      object_at(scene, field.path) = nlohmann::ordered_json::object();
+    } else if (std::get<bool>(field.fallback)) {  // off, though it would be on if nothing were said
+      object_at(scene, field.path) = nullptr;
+    }
+  }
+  return scene;
+}
+
+std::string run_id(const RunPlan& plan) {
+  nlohmann::ordered_json scene = to_json(plan);
+  scene.erase("stream");
+  const std::string text = fmt::format("shaken physics {}\n{}", kPhysicsVersion, scene.dump());
+  return fmt::format("{:016x}", XXH3_64bits(text.data(), text.size()));
+}
+
+}  // namespace shaken::scene

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "scene/fields.h"
+#include "scene/run_plan.h"
+
+namespace shaken::scene {
+
+/// Part of every run's name. Raise it whenever the same scene leads to another trajectory than before.
+inline constexpr int kPhysicsVersion = 1;
+
+/// The resolved scene: every key that matters, derived ones too, numbers in default units. Reading it again gives the
+/// identical plan.
+nlohmann::ordered_json to_json(const RunPlan& plan);
+
+/// 16 hex digits that name a run: XXH3-64 of the physics version and of the canonical scene without `stream`.
+std::string run_id(const RunPlan& plan);
+
+/// One value as JSON, in its default unit.
+nlohmann::ordered_json to_json(const Field& field, const Value& value);
+
+}  // namespace shaken::scene

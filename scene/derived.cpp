@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#include "scene/derived.h"
+
+#include <cmath>
+
+#include "sim/rod/species.h"
+
+namespace shaken::scene {
+
+namespace {
+
+double squared(double x) { return x * x; }
+
+}  // namespace
+
+double gamma_of(const Scene& scene) { return scene.amplitude * squared(2 * kPi * scene.frequency) / scene.gravity; }
+
+double amplitude_for(double gamma, double frequency, double gravity) {
+  return gamma * gravity / squared(2 * kPi * frequency);
+}
+
+double frequency_for(double gamma, double amplitude, double gravity) {
+  return std::sqrt(gamma * gravity / amplitude) / (2 * kPi);
+}
+
+double area_fraction_of(const Scene& scene) {
+  return scene.n_rods * make_species(scene.rod).area / squared(scene.box_side);
+}
+
+}  // namespace shaken::scene

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scene/run_plan.h"
+
+/// Quantities that a scene may be written in and that a plan does not store.
+namespace shaken::scene {
+
+inline constexpr double kDefaultBeadPitch = 0.3;      ///< [mm]; gives the paper's numbers of rods
+inline constexpr double kDefaultAreaFraction = 0.75;  ///< ordered at l = 4.5 mm
+inline constexpr double kDefaultGamma = 7.0;          ///< the paper's
+inline constexpr int kMaxBeads = 101;
+inline constexpr double kMaxAreaFractionAligned = 0.92;  ///< interlocked rows of tapered rods get no further
+inline constexpr double kMaxAreaFractionRandom = 0.45;   ///< random insertion of rods jams there
+
+/// Gamma = a (2 pi f)^2 / g.
+double gamma_of(const Scene& scene);
+/// a from Gamma, f and g [mm].
+double amplitude_for(double gamma, double frequency, double gravity);
+/// f from Gamma, a and g [Hz].
+double frequency_for(double gamma, double amplitude, double gravity);
+
+/// N A / L^2, with A the area of one rod lying flat.
+double area_fraction_of(const Scene& scene);
+
+}  // namespace shaken::scene

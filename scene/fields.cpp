@@ -1,0 +1,407 @@
+// SPDX-License-Identifier: MIT
+#include "scene/fields.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <type_traits>
+#include <unordered_map>
+#include <utility>
+
+#include "scene/derived.h"
+#include "scene/nearest.h"
+#include "sim/core/check.h"
+
+namespace shaken::scene {
+
+namespace {
+
+/// Reads and writes the number that `access` points at.
+template <class Access>
+Field number(std::string path, Form form, Dimension dimension, double low, double high, std::string doc,
+             Access access) {
+  using Number = std::remove_cvref_t<decltype(access(std::declval<RunPlan&>()))>;
+  Field field;
+  field.path = std::move(path);
+  field.form = form;
+  field.dimension = dimension;
+  field.low = low;
+  field.high = high;
+  field.doc = std::move(doc);
+  field.fetch = [access](const RunPlan& plan) { return Value(static_cast<double>(access(plan))); };
+  field.store = [access](RunPlan& plan, const Value& value) {
+    access(plan) = static_cast<Number>(std::get<double>(value));
+  };
+  return field;
+}
+
+template <class Access>
+Field quantity(std::string path, Dimension dimension, double low, double high, std::string doc, Access access) {
+  return number(std::move(path), Form::kQuantity, dimension, low, high, std::move(doc), access);
+}
+
+template <class Access>
+Field whole(std::string path, double low, double high, std::string doc, Access access) {
+  return number(std::move(path), Form::kWhole, Dimension::kPlain, low, high, std::move(doc), access);
+}
+
+template <class Enum, class Access>
+Field choice(std::string path, std::vector<std::pair<std::string, Enum>> choices, std::string doc, Access access) {
+  Field field;
+  field.path = std::move(path);
+  field.form = Form::kName;
+  field.doc = std::move(doc);
+  for (const auto& [name, value] : choices) field.names.push_back(name);
+  field.fetch = [access, choices](const RunPlan& plan) {
+    const auto is_it = [&](const auto& choice) { return choice.second == access(plan); };
+    return Value(std::find_if(choices.begin(), choices.end(), is_it)->first);
+  };
+  field.store = [access, choices](RunPlan& plan, const Value& name) {
+    const auto is_it = [&](const auto& choice) { return choice.first == std::get<std::string>(name); };
+    access(plan) = std::find_if(choices.begin(), choices.end(), is_it)->second;
+  };
+  return field;
+}
+
+template <class Block>
+Field block(std::string path, bool on, std::string doc, std::optional<Block> RunPlan::*member) {
+  Field field;
+  field.path = std::move(path);
+  field.form = Form::kBlock;
+  field.doc = std::move(doc);
+  field.fallback = on;
+  field.fetch = [member](const RunPlan& plan) { return Value((plan.*member).has_value()); };
+  field.store = [member](RunPlan& plan, const Value& is_on) {
+    (plan.*member).reset();
+    if (std::get<bool>(is_on)) (plan.*member).emplace();
+  };
+  return field;
+}
+
+Field every(std::string path, std::string doc, auto access) {
+  return quantity(std::move(path), Dimension::kTime, 1e-7, 1e5, std::move(doc), access);
+}
+
+/// Shown so that 7 stays 7 after a way through amplitude and frequency.
+double to_ten_digits(double value) { return parse_decimal(fmt::format("{:.10g}", value)).value().value(); }
+
+/// A field whose value follows from others unless it is given.
+Field derived(Field field, std::string note) {
+  field.fallback_note = std::move(note);
+  return field;
+}
+
+/// A field that is given in place of another: it has no place in a plan.
+Field instead(std::string path, Dimension dimension, double low, double high, double fallback, std::string doc,
+              std::function<Value(const RunPlan&)> fetch) {
+  Field field;
+  field.path = std::move(path);
+  field.dimension = dimension;
+  field.low = low;
+  field.high = high;
+  field.fallback = fallback;
+  field.doc = std::move(doc);
+  field.fetch = std::move(fetch);
+  return field;
+}
+
+Field steady_field() {
+  Field field;
+  field.path = "time.steady";
+  field.dimension = Dimension::kTime;
+  field.low = 0;
+  field.high = 1e7;
+  field.names = {"auto"};
+  field.doc = "Time before measuring begins. \"auto\": found from S(t) afterwards.";
+  field.fetch = [](const RunPlan& plan) { return plan.steady ? Value(*plan.steady) : Value("auto"); };
+  field.store = [](RunPlan& plan, const Value& value) {
+    plan.steady.reset();
+    if (const double* time = std::get_if<double>(&value)) plan.steady = *time;
+  };
+  return field;
+}
+
+Field movie_size_field() {
+  Field field;
+  field.path = "movie.size";
+  field.form = Form::kSize;
+  field.low = 64;
+  field.high = 7680;
+  field.doc = "Width and height in pixels; even numbers.";
+  field.fetch = [](const RunPlan& plan) {
+    return Value(
+        std::array<double, 2>{static_cast<double>(plan.movie->width), static_cast<double>(plan.movie->height)});
+  };
+  field.store = [](RunPlan& plan, const Value& value) {
+    const auto& [width, height] = std::get<std::array<double, 2>>(value);
+    plan.movie->width = static_cast<int>(width);
+    plan.movie->height = static_cast<int>(height);
+  };
+  return field;
+}
+
+/// Friction and restitution of one kind of contact.
+void add_contact(std::vector<Field>& table, const std::string& kind, const std::string& what,
+                 ContactParameters Scene::*member) {
+  table.push_back(quantity(
+      "contacts." + kind + ".friction", Dimension::kPlain, 0, 10,
+      "Coulomb's friction coefficient between " + what + ".", [member](auto& p) -> auto& {
+        return (p.system.*member).friction;
+      }));
+  table.push_back(quantity(
+      "contacts." + kind + ".restitution", Dimension::kPlain, 0, 1,
+      "Newton's coefficient of restitution between " + what + ".", [member](auto& p) -> auto& {
+        return (p.system.*member).restitution;
+      }));
+}
+
+std::vector<Field> make_table() {
+  using enum Dimension;
+  std::vector<Field> table;
+  const auto add = [&](Field field) { table.push_back(std::move(field)); };
+
+  add(quantity(
+      "rods.length", kLength, 0.5, 50, "From tip to tip.", [](auto& p) -> auto& { return p.system.rod.length; }));
+  add(quantity(
+      "rods.mid_diameter", kLength, 0.05, 20, "Of the centre bead.",
+      [](auto& p) -> auto& { return p.system.rod.mid_diameter; }));
+  add(quantity(
+      "rods.end_diameter", kLength, 0.05, 20, "Of the two end beads.",
+      [](auto& p) -> auto& { return p.system.rod.end_diameter; }));
+  add(instead("rods.bead_pitch", kLength, 0.01, 10, kDefaultBeadPitch,
+              "Largest distance of neighbouring beads; the fewest beads that keep to it are taken.", {}));
+  add(derived(whole(
+                  "rods.beads", 1, kMaxBeads,
+                  "Number of beads, odd, in place of bead_pitch; 1 is a sphere of diameter mid_diameter.",
+                  [](auto& p) -> auto& { return p.system.rod.n_beads; }),
+              "from bead_pitch"));
+  add(quantity(
+      "rods.density", kDensity, 0.001, 100, "Of the material. Sets the unit of energy only.",
+      [](auto& p) -> auto& { return p.system.rod.density; }));
+  add(instead("rods.area_fraction", kPlain, 1e-6, kMaxAreaFractionAligned, kDefaultAreaFraction,
+              "Area of all rods, lying flat, per area of the box.",
+              [](const RunPlan& p) { return Value(to_ten_digits(area_fraction_of(p.system))); }));
+  add(derived(whole(
+                  "rods.count", 1, 1e6, "Number of rods.", [](auto& p) -> auto& { return p.system.n_rods; }),
+              "from area_fraction and side"));
+  add(choice<Start>(
+      "rods.start", {{"aligned", Start::kAligned}, {"random", Start::kRandom}},
+      "Rods in rows along x, every other row shifted by half a rod; or at random (dilute systems).",
+      [](auto& p) -> auto& { return p.system.start; }));
+
+  add(quantity(
+      "box.side", kLength, 1, 2000, "L, of the square box, periodic in x and y.",
+      [](auto& p) -> auto& { return p.system.box_side; }));
+  add(quantity(
+      "box.gap", kLength, 0.05, 100, "w, between base and lid.", [](auto& p) -> auto& { return p.system.gap; }));
+
+  add(instead("plates.gamma", kPlain, 0, 200, kDefaultGamma,
+              "Strength of shaking: largest acceleration of the plates over gravity.",
+              [](const RunPlan& p) { return Value(to_ten_digits(gamma_of(p.system))); }));
+  add(derived(quantity(
+                  "plates.amplitude", kLength, 0, 10, "a, of the plates' vibration.",
+                  [](auto& p) -> auto& { return p.system.amplitude; }),
+              "from gamma and frequency"));
+  add(quantity(
+      "plates.frequency", kFrequency, 0.1, 1e5, "f, of the plates' vibration.",
+      [](auto& p) -> auto& { return p.system.frequency; }));
+  add(quantity(
+      "gravity", kAcceleration, 100, 1e5, "g, downwards.", [](auto& p) -> auto& { return p.system.gravity; }));
+
+  add_contact(table, "rod_rod", "two rods", &Scene::rod_rod);
+  add_contact(table, "rod_base", "rod and base", &Scene::rod_base);
+  add_contact(table, "rod_lid", "rod and lid", &Scene::rod_lid);
+  add(choice<ImpulseLaw>(
+      "contacts.law", {{"newton", ImpulseLaw::kNewton}}, "Impulse law.",
+      [](auto& p) -> auto& { return p.system.law; }));
+  add(whole(
+      "contacts.sweeps", 1, 100, "Passes over the contacts of one tick.",
+      [](auto& p) -> auto& { return p.system.solver_sweeps; }));
+
+  add(quantity(
+      "time.step", kTime, 1e-7, 1e-4, "The tick: the accuracy knob.", [](auto& p) -> auto& { return p.system.dt; }));
+  add(choice<Engine>(
+      "time.engine", {{"reference", Engine::kReference}}, "How the rods are stepped.",
+      [](auto& p) -> auto& { return p.system.engine; }));
+  add(steady_field());
+  add(quantity(
+      "time.measure", kTime, 1e-6, 1e7, "Length of the run after `steady`.",
+      [](auto& p) -> auto& { return p.measure_time; }));
+  add(whole(
+      "time.seed", 0, 9007199254740992.0, "Of all random numbers. Replica k of a sweep has seed + k - 1.",
+      [](auto& p) -> auto& { return p.system.seed; }));
+
+  add(block("measure.order", true, "Nematic order S(t) in the plane.", &RunPlan::order));
+  add(every(
+      "measure.order.every", "Time between samples.", [](auto& p) -> auto& { return p.order->every; }));
+  add(block("measure.angles", false, "Distribution of the angle to the director.", &RunPlan::angles));
+  add(every(
+      "measure.angles.every", "Time between samples.", [](auto& p) -> auto& { return p.angles->every; }));
+  add(whole(
+      "measure.angles.bins", 2, 10000, "Over [-pi/2, pi/2).", [](auto& p) -> auto& { return p.angles->bins; }));
+  add(block("measure.tilt", false, "Mean velocity along and across the rod against its tilt n_z.", &RunPlan::tilt));
+  add(every(
+      "measure.tilt.every", "Time between samples.", [](auto& p) -> auto& { return p.tilt->every; }));
+  add(whole(
+      "measure.tilt.bins", 2, 10000, "From the largest tilt that the gap allows downwards to upwards.",
+      [](auto& p) -> auto& { return p.tilt->bins; }));
+  add(block("measure.defects", false, "Topological defects of the smoothed director field.", &RunPlan::defects));
+  add(every(
+      "measure.defects.every", "Time between samples.", [](auto& p) -> auto& { return p.defects->every; }));
+  add(derived(quantity(
+                  "measure.defects.smoothing", kLength, 0.01, 200, "Standard deviation of the Gaussian.",
+                  [](auto& p) -> auto& { return p.defects->smoothing; }),
+              "half a rod length"));
+  add(derived(quantity(
+                  "measure.defects.grid", kLength, 0.01, 200, "Width of the mesh.",
+                  [](auto& p) -> auto& { return p.defects->grid; }),
+              "an eighth of a rod length"));
+  add(block("measure.g2", false, "Orientational correlation G2(r).", &RunPlan::g2));
+  add(every(
+      "measure.g2.every", "Time between samples.", [](auto& p) -> auto& { return p.g2->every; }));
+  add(whole(
+      "measure.g2.bins", 2, 10000, "Over distances from 0 to half the box.",
+      [](auto& p) -> auto& { return p.g2->bins; }));
+  add(block("measure.msd", false, "Mean square displacement against lag.", &RunPlan::msd));
+  add(every(
+      "measure.msd.every", "Time between samples: the shortest lag.", [](auto& p) -> auto& { return p.msd->every; }));
+
+  add(block("trajectory", false, "Rod positions and directions into trajectory.h5.", &RunPlan::trajectory));
+  add(every(
+      "trajectory.every", "Time between frames.", [](auto& p) -> auto& { return p.trajectory->every; }));
+  add(block("stream", true, "Live state over LCM. Has no influence on results nor on the run's name.",
+            &RunPlan::stream));
+  add(quantity(
+      "stream.rate", kFrequency, 0.1, 100, "Frames per wall-clock second, at most.",
+      [](auto& p) -> auto& { return p.stream->rate; }));
+  add(block("movie", false, "A movie of the finished run.", &RunPlan::movie));
+  add(every(
+      "movie.every", "Simulated time between frames.", [](auto& p) -> auto& { return p.movie->every; }));
+  add(movie_size_field());
+
+  // The defaults are those of the structs themselves.
+  RunPlan defaults;
+  for (const Field& field : table) {
+    if (field.form == Form::kBlock) field.store(defaults, true);
+  }
+  for (Field& field : table) {
+    const bool open = std::holds_alternative<std::monostate>(field.fallback) && field.fallback_note.empty();
+    if (open) field.fallback = field.fetch(defaults);
+  }
+  return table;
+}
+
+/// Everything but the last name of a dotted path.
+std::string_view parent_of(std::string_view path) {
+  const std::size_t dot = path.rfind('.');
+  return dot == std::string_view::npos ? std::string_view{} : path.substr(0, dot);
+}
+
+std::string_view last_name(std::string_view path) {
+  const std::size_t dot = path.rfind('.');
+  return dot == std::string_view::npos ? path : path.substr(dot + 1);
+}
+
+}  // namespace
+
+const std::vector<Field>& fields() {
+  static const std::vector<Field> table = make_table();
+  return table;
+}
+
+int field_index(std::string_view path) {
+  static const auto index = [] {
+    std::unordered_map<std::string_view, int> by_path;
+    for (std::size_t i = 0; i < fields().size(); ++i) by_path.emplace(fields()[i].path, static_cast<int>(i));
+    return by_path;
+  }();
+  const auto found = index.find(path);
+  return found == index.end() ? -1 : found->second;
+}
+
+const Field& field_at(std::string_view path) {
+  const int index = field_index(path);
+  SHAKEN_CHECK(index >= 0, std::string(path));
+  return fields()[static_cast<std::size_t>(index)];
+}
+
+bool is_beneath(std::string_view path, std::string_view outer) {
+  return outer.empty() || (path.size() > outer.size() && path.starts_with(outer) && path[outer.size()] == '.');
+}
+
+bool is_group(std::string_view path) {
+  return field_index(path) < 0 && std::any_of(fields().begin(), fields().end(),
+                                              [&](const Field& field) { return is_beneath(field.path, path); });
+}
+
+std::vector<std::string> names_in(std::string_view path) {
+  std::vector<std::string> names;
+  for (const Field& field : fields()) {
+    if (!is_beneath(field.path, path)) continue;
+    const std::string_view rest = std::string_view(field.path).substr(path.empty() ? 0 : path.size() + 1);
+    const std::string name(rest.substr(0, rest.find('.')));
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  return names;
+}
+
+std::string_view block_around(std::string_view path) {
+  for (std::string_view outer = parent_of(path); !outer.empty(); outer = parent_of(outer)) {
+    const int index = field_index(outer);
+    if (index >= 0) return fields()[static_cast<std::size_t>(index)].path;
+  }
+  return {};
+}
+
+std::string suggest_path(std::string_view path) {
+  // A slip in the last name only: what could stand beside it.
+  const std::string_view parent = parent_of(path);
+  if (parent.empty() || is_group(parent) || field_index(parent) >= 0) {
+    const std::string name = nearest(last_name(path), names_in(parent));
+    if (!name.empty()) return did_you_mean(parent.empty() ? name : fmt::format("{}.{}", parent, name));
+  }
+  // The right name in the wrong place, or slips elsewhere.
+  std::vector<std::string> paths;
+  std::string same_name;
+  for (const Field& field : fields()) {
+    paths.push_back(field.path);
+    if (same_name.empty() && last_name(field.path) == last_name(path)) same_name = field.path;
+  }
+  const std::string whole_path = nearest(path, paths);
+  return did_you_mean(whole_path.empty() ? same_name : whole_path);
+}
+
+std::string show(const Field& field, const Value& value) {
+  if (const bool* on = std::get_if<bool>(&value)) return *on ? "on" : "off";
+  if (const double* number = std::get_if<double>(&value)) return format_quantity(*number, field.dimension);
+  if (const std::string* name = std::get_if<std::string>(&value)) return fmt::format("\"{}\"", *name);
+  if (const auto* size = std::get_if<std::array<double, 2>>(&value)) {
+    return fmt::format("[{}, {}]", (*size)[0], (*size)[1]);
+  }
+  return "none";
+}
+
+std::string fields_as_markdown() {
+  std::string table = "| key | meaning | unit | allowed | default |\n|---|---|---|---|---|\n";
+  for (const Field& field : fields()) {
+    std::string allowed;
+    for (const std::string& name : field.names)
+      allowed += fmt::format("{}`\"{}\"`", allowed.empty() ? "" : " or ", name);
+    if (field.form == Form::kBlock) {
+      allowed = "object or `null`";
+    } else if (field.form != Form::kName) {
+      const std::string range = field.form == Form::kWhole
+                                    ? fmt::format("whole, {:.16g} to {:.16g}", field.low, field.high)
+                                    : format_range(field.low, field.high, field.dimension);
+      allowed += (allowed.empty() ? "" : " or ") + range;
+    }
+    const std::string unit(default_unit(field.dimension));
+    const std::string fallback = field.fallback_note.empty() ? show(field, field.fallback) : field.fallback_note;
+    table += fmt::format("| `{}` | {} | {} | {} | {} |\n", field.path, field.doc, unit, allowed, fallback);
+  }
+  return table;
+}
+
+}  // namespace shaken::scene

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "scene/load.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <unordered_set>
+
+#include "scene/document.h"
+#include "scene/draft.h"
+#include "scene/resolve.h"
+#include "scene/settings.h"
+#include "scene/values.h"
+
+namespace shaken::scene {
+
+namespace {
+
+constexpr std::size_t kMaxProblems = 100;
+
+void apply(const Setting& setting, Draft& draft, std::vector<Problem>& problems) {
+  const int index = field_index(setting.path);
+  if (index < 0) return draft.assign(setting.path, setting.place, setting.value, problems);
+  const std::vector<Node> values = read_values(fields()[static_cast<std::size_t>(index)], setting.value, problems);
+  if (values.size() > 1) {
+    problems.push_back(problem_at(setting.place, setting.path,
+                                  fmt::format("{} values make a sweep; a single scene takes one", values.size())));
+  } else if (values.size() == 1) {
+    draft.assign(setting.path, setting.place, values.front(), problems);
+  }
+}
+
+}  // namespace
+
+Loaded<RunPlan> load_scene(std::string_view text, const std::string& file, std::span<const std::string> settings) {
+  std::vector<Problem> problems;
+  const std::optional<Node> root = parse_document(text, file, problems);
+  if (!root) return {std::nullopt, problems};
+  if (const Member* sweep = root->find("sweep"); sweep || (sweep = root->find("scene"))) {
+    problems.push_back(problem_at(sweep->place, sweep->key, "this is a sweep file; a single scene is wanted here"));
+    return {std::nullopt, tidied(problems)};
+  }
+  Draft draft(root->place);
+  draft.read(*root, problems);
+  for (const std::string& written : settings) {
+    if (const auto setting = parse_setting(written, problems)) apply(*setting, draft, problems);
+  }
+  std::optional<RunPlan> plan = resolve(draft, problems);
+  if (!problems.empty()) return {std::nullopt, tidied(problems)};
+  return {plan, {}};
+}
+
+std::vector<Problem> tidied(std::vector<Problem> problems) {
+  std::vector<Problem> kept;
+  std::unordered_set<std::string> seen;
+  for (Problem& problem : problems) {
+    if (seen.insert(to_string(problem)).second) kept.push_back(std::move(problem));
+  }
+  // Settings, which have no line, come after the file, in their order.
+  std::stable_sort(kept.begin(), kept.end(), [](const Problem& a, const Problem& b) {
+    if ((a.line == 0) != (b.line == 0)) return b.line == 0;
+    return std::pair(a.line, a.column) < std::pair(b.line, b.column);
+  });
+  if (kept.size() > kMaxProblems) {
+    const std::size_t n_more = kept.size() - kMaxProblems;
+    kept.resize(kMaxProblems);
+    kept.push_back({kept.front().file, 0, 0, {}, fmt::format("and {} more problems", n_more)});
+  }
+  return kept;
+}
+
+}  // namespace shaken::scene

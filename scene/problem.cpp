@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#include "scene/problem.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace shaken::scene {
+
+std::string to_string(const Problem& problem) {
+  std::string text = problem.file;
+  if (problem.line > 0) text += fmt::format(":{}:{}", problem.line, problem.column);
+  text += ": ";
+  if (!problem.path.empty()) text += problem.path + ": ";
+  return text + problem.message;
+}
+
+std::string to_string(const std::vector<Problem>& problems) {
+  std::string text;
+  for (const Problem& problem : problems) text += to_string(problem) + "\n";
+  return text;
+}
+
+Problem problem_at(const Place& place, std::string_view path, std::string message) {
+  std::string pointer;
+  if (!path.empty()) {
+    pointer = "/" + std::string(path);
+    std::replace(pointer.begin(), pointer.end(), '.', '/');
+  }
+  return {place.file ? *place.file : std::string{}, place.line, place.column, std::move(pointer), std::move(message)};
+}
+
+}  // namespace shaken::scene

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace shaken::scene {
+
+/// Where something was written.
+struct Place {
+  std::shared_ptr<const std::string> file;  ///< name of the file, or "-s path=value" for a setting
+  int line = 0;                             ///< from 1; 0 where lines mean nothing (settings)
+  int column = 0;                           ///< from 1, in characters
+};
+
+/// One thing wrong with what the user wrote.
+struct Problem {
+  std::string file;
+  int line = 0;
+  int column = 0;
+  std::string path;     ///< JSON pointer, "/rods/length"; empty for the text as a whole
+  std::string message;  ///< what was met, what is allowed, and the nearest name
+
+  friend bool operator==(const Problem&, const Problem&) = default;
+};
+
+/// "run.json:12:9: /rods/length: 450 mm is outside [0.5, 50] mm; did you mean 4.5 mm?"
+std::string to_string(const Problem& problem);
+
+/// All of them, one a line.
+std::string to_string(const std::vector<Problem>& problems);
+
+/// The problem `message` with what stands at `place`; `path` is dotted ("rods.length").
+Problem problem_at(const Place& place, std::string_view path, std::string message);
+
+/// A value read from a text, or everything that is wrong with the text.
+template <class T>
+struct Loaded {
+  std::optional<T> value;         ///< there if and only if there is no problem
+  std::vector<Problem> problems;  ///< in the order of the text, each once
+};
+
+}  // namespace shaken::scene

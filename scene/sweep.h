@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/problem.h"
+#include "scene/run_plan.h"
+
+namespace shaken::scene {
+
+/// One run of a sweep.
+struct SweepPoint {
+  std::string label;                  ///< "rods.length=2.5 rods.area_fraction=0.6 replica=2"; empty for a plain scene
+  nlohmann::ordered_json parameters;  ///< {dotted path: value in default units}, the swept paths only
+  int replica = 1;                    ///< from 1
+  RunPlan plan;
+};
+
+struct Sweep {
+  std::string name;  ///< from the file, or the file's own name without folder and ending
+  std::vector<SweepPoint> points;
+};
+
+/// Reads a sweep file, or a scene file as a sweep of one point.
+///   {"name"?, "scene": {...}, "sweep": {"grid": {path: values}, "zip": {path: values}, "list": [{path: value}, ...],
+///    "random": {"n", "seed", path: {"from", "to"}}, "replicas": n}}
+/// The points are the product of all paths of the grid, the tuples of zip, the entries of list and the draws of random,
+/// the first varying slowest, and `replicas` runs of each: replica k has time.seed + k - 1.
+///
+/// Settings are applied to every point. One with several values, "rods.length=2.5,3.5" or "box.gap=0.9:1.5:0.1", is an
+/// axis of the grid; one for a path that the file's grid has takes the place of that axis. `replicas` replaces the
+/// file's. Everything wrong with any point is listed at once.
+Loaded<Sweep> load_sweep(std::string_view text, const std::string& file, std::span<const std::string> settings = {},
+                         std::optional<int> replicas = std::nullopt);
+
+}  // namespace shaken::scene

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+#include "scene/values.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "scene/nearest.h"
+
+namespace shaken::scene {
+
+namespace {
+
+/// A value in the unit of the range that it comes from.
+Node value_node(const Decimal& number, const std::string& unit, const Place& place) {
+  Node node;
+  node.place = place;
+  node.kind = unit.empty() ? Node::Kind::kNumber : Node::Kind::kString;
+  node.text = unit.empty() ? number.text() : fmt::format("{} {}", number.text(), unit);
+  return node;
+}
+
+/// from, from + step, ... up to `to`, counted in whole numbers of the smallest decimal place that occurs.
+Result<std::vector<Decimal>> count_up(const Decimal& from, const Decimal& to, const Decimal& step) {
+  const int exponent = std::min({from.exponent, to.exponent, step.exponent});
+  const auto a = digits_at(from, exponent);
+  const auto b = digits_at(to, exponent);
+  const auto s = digits_at(step, exponent);
+  std::int64_t span = 0;
+  if (!a || !b || !s || __builtin_sub_overflow(*b, *a, &span)) return Error{"the range has too many digits"};
+  if (*s == 0) return Error{"the step of a range must not be 0"};
+  if (span != 0 && (span > 0) != (*s > 0)) return Error{"the step leads away from the end of the range"};
+  const std::int64_t last = span / *s;
+  if (last >= kMaxPoints) {
+    return Error{fmt::format("a range of {} values; at most {} are allowed", last + 1, kMaxPoints)};
+  }
+  std::vector<Decimal> numbers;
+  for (std::int64_t i = 0; i <= last; ++i) numbers.push_back(make_decimal(*a + i * *s, exponent));
+  return numbers;
+}
+
+Decimal rounded(double value, int digits) { return parse_decimal(fmt::format("{:.{}g}", value, digits)).value(); }
+
+/// The numbers of a range, brought to one unit: a number without a unit is in the unit of the last that has one.
+struct Bounds {
+  std::vector<Decimal> numbers;
+  std::string unit;
+};
+
+Result<Bounds> read_bounds(const std::vector<std::string_view>& texts) {
+  std::vector<Written> parts;
+  Bounds bounds;
+  for (const std::string_view text : texts) {
+    const Result<Written> part = split_quantity(text);
+    if (!part) return part.error();
+    if (!part->unit.empty()) bounds.unit = part->unit;
+    parts.push_back(*part);
+  }
+  for (const Written& part : parts) {
+    if (!part.unit.empty() && part.unit != bounds.unit) {
+      return Error{fmt::format("a range in {} and {}; write it in one unit", part.unit, bounds.unit)};
+    }
+    bounds.numbers.push_back(part.number);
+  }
+  return bounds;
+}
+
+class RangeReader {
+ public:
+  RangeReader(const Field& field, std::vector<Problem>& problems) : field_(field), problems_(problems) {}
+
+  std::vector<Node> text(const Node& node) {
+    std::vector<std::string_view> parts;
+    std::string_view rest = node.text;
+    for (std::size_t colon; (colon = rest.find(':')) != std::string_view::npos; rest.remove_prefix(colon + 1)) {
+      parts.push_back(rest.substr(0, colon));
+    }
+    parts.push_back(rest);
+    if (parts.size() != 3) {
+      return complain(node, fmt::format("\"{}\" is not a range; write from:to:step", node.text));
+    }
+    const Result<Bounds> bounds = read_bounds(parts);
+    if (!bounds) return complain(node, bounds.error().message);
+    return steps(node, *bounds);
+  }
+
+  std::vector<Node> object(const Node& node) {
+    const bool by_count = node.find("n") != nullptr;
+    if (by_count && node.find("step")) return complain(node, "a range takes \"step\" or \"n\", not both");
+    const std::string last_key = by_count ? "n" : "step";
+    const auto bounds = keys(node, {"from", "to", last_key});
+    if (!bounds) return {};
+    if (!by_count) return steps(node, *bounds);
+
+    const auto n = read_count(field_.path, node.find("n")->value, 1, kMaxPoints, problems_);
+    if (!n) return {};
+    const double from = bounds->numbers[0].value();
+    const double to = bounds->numbers[1].value();
+    std::vector<Node> values;
+    for (int i = 0; i < *n; ++i) {
+      // Twelve digits: even steps come out as the decimals that they are.
+      const double value = i == 0 ? from : from + (to - from) * i / (*n - 1);
+      values.push_back(value_node(rounded(value, 12), bounds->unit, node.place));
+    }
+    return values;
+  }
+
+  std::vector<Node> draws(const Node& node, int n, std::uint64_t seed) {
+    const auto bounds = keys(node, {"from", "to"});
+    if (!bounds) return {};
+    const double from = bounds->numbers[0].value();
+    const double to = bounds->numbers[1].value();
+    if (!(from < to)) return complain(node, "\"from\" must be less than \"to\"");
+    std::vector<Node> values;
+    for (int i = 0; i < n; ++i) {
+      const std::string key = fmt::format("{}/{}/{}", seed, field_.path, i);
+      const double even = static_cast<double>(XXH3_64bits(key.data(), key.size()) >> 11) * 0x1p-53;  // in [0, 1)
+      const double value = field_.form == Form::kWhole
+                               ? std::floor(from + (to - from + 1) * even)
+                               : std::clamp(rounded(from + (to - from) * even, 6).value(), from, to);
+      values.push_back(value_node(rounded(value, 17), bounds->unit, node.place));
+    }
+    return values;
+  }
+
+ private:
+  std::vector<Node> complain(const Node& node, std::string message) {
+    problems_.push_back(problem_at(node.place, field_.path, std::move(message)));
+    return {};
+  }
+
+  std::vector<Node> steps(const Node& node, const Bounds& bounds) {
+    const auto numbers = count_up(bounds.numbers[0], bounds.numbers[1], bounds.numbers[2]);
+    if (!numbers) return complain(node, numbers.error().message);
+    std::vector<Node> values;
+    for (const Decimal& number : *numbers) values.push_back(value_node(number, bounds.unit, node.place));
+    return values;
+  }
+
+  /// The values of exactly these keys; "n" is left to the caller.
+  std::optional<Bounds> keys(const Node& node, const std::vector<std::string>& wanted) {
+    std::vector<std::string_view> texts;
+    bool ok = true;
+    const auto fail = [&](const Place& place, std::string message) {
+      problems_.push_back(problem_at(place, field_.path, std::move(message)));
+      ok = false;
+    };
+    if (node.kind != Node::Kind::kObject) {
+      fail(node.place, fmt::format("expected an object with \"from\" and \"to\", not {}", describe(node)));
+      return std::nullopt;
+    }
+    for (const Member& member : node.members) {
+      if (std::find(wanted.begin(), wanted.end(), member.key) == wanted.end()) {
+        fail(member.place,
+             fmt::format("unknown key \"{}\" in a range{}", member.key, did_you_mean(nearest(member.key, wanted))));
+      }
+    }
+    for (const std::string& key : wanted) {
+      const Member* member = node.find(key);
+      if (!member) {
+        fail(node.place, fmt::format("the range lacks \"{}\"", key));
+      } else if (member->value.kind != Node::Kind::kNumber && member->value.kind != Node::Kind::kString) {
+        fail(member->value.place, fmt::format("expected a number, not {}", describe(member->value)));
+      } else if (key != "n") {
+        texts.push_back(member->value.text);
+      }
+    }
+    if (!ok) return std::nullopt;
+    const Result<Bounds> bounds = read_bounds(texts);
+    if (!bounds) {
+      fail(node.place, bounds.error().message);
+      return std::nullopt;
+    }
+    return *bounds;
+  }
+
+  const Field& field_;
+  std::vector<Problem>& problems_;
+};
+
+bool is_number(const Field& field) { return field.form == Form::kQuantity || field.form == Form::kWhole; }
+
+}  // namespace
+
+std::vector<Node> read_values(const Field& field, const Node& node, std::vector<Problem>& problems) {
+  const bool is_size = field.form == Form::kSize && node.kind == Node::Kind::kArray && !node.items.empty() &&
+                       node.items.front().kind != Node::Kind::kArray;
+  if (node.kind == Node::Kind::kArray && !is_size) {
+    if (node.items.empty()) problems.push_back(problem_at(node.place, field.path, "no values to sweep over"));
+    std::vector<Node> all;
+    for (const Node& item : node.items) {
+      const bool nested = item.kind == Node::Kind::kArray && field.form != Form::kSize;
+      const std::vector<Node> values = nested ? std::vector<Node>{item} : read_values(field, item, problems);
+      all.insert(all.end(), values.begin(), values.end());
+    }
+    return all;
+  }
+  if (is_number(field) && node.kind == Node::Kind::kString && node.text.find(':') != std::string::npos) {
+    return RangeReader(field, problems).text(node);
+  }
+  if (is_number(field) && node.kind == Node::Kind::kObject) return RangeReader(field, problems).object(node);
+  return {node};
+}
+
+std::vector<Node> draw_values(const Field& field, const Node& node, int n, std::uint64_t seed,
+                              std::vector<Problem>& problems) {
+  if (!is_number(field)) {
+    problems.push_back(problem_at(node.place, field.path, "only numbers can be drawn at random"));
+    return {};
+  }
+  return RangeReader(field, problems).draws(node, n, seed);
+}
+
+std::optional<int> read_count(std::string_view path, const Node& node, int low, int high,
+                              std::vector<Problem>& problems) {
+  if (node.kind == Node::Kind::kNumber) {
+    const Result<Decimal> number = parse_decimal(node.text);
+    if (number && number->is_whole() && number->value() >= low && number->value() <= high) {
+      return static_cast<int>(number->value());
+    }
+  }
+  problems.push_back(problem_at(node.place, path,
+                                fmt::format("expected a whole number in [{}, {}], not {}", low, high, describe(node))));
+  return std::nullopt;
+}
+
+}  // namespace shaken::scene

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "scene/document.h"
+#include "scene/fields.h"
+#include "scene/problem.h"
+
+namespace shaken::scene {
+
+/// No sweep, and no range in one, has more points.
+inline constexpr int kMaxPoints = 100000;
+
+/// The values that are written for one swept field: an array of values or ranges, a range, or a single value. Ranges
+/// are "0.45:0.85:0.05" (from:to:step, the end included if a step falls on it; "2.5:4.5:0.5 mm" with a unit),
+/// {"from", "to", "step"} and {"from", "to", "n"} (n values, both ends included). Their values are exact decimals.
+std::vector<Node> read_values(const Field& field, const Node& node, std::vector<Problem>& problems);
+
+/// `n` draws from {"from", "to"}, evenly distributed and rounded to 6 digits; the i-th depends on nothing but seed,
+/// path and i.
+std::vector<Node> draw_values(const Field& field, const Node& node, int n, std::uint64_t seed,
+                              std::vector<Problem>& problems);
+
+/// A whole number in [low, high], or none and a problem.
+std::optional<int> read_count(std::string_view path, const Node& node, int low, int high,
+                              std::vector<Problem>& problems);
+
+}  // namespace shaken::scene
