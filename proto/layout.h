@@ -26,7 +26,7 @@ inline constexpr std::string_view kLayout<status_t> = "88 s4ss8 444444";
 template <>
 inline constexpr std::string_view kLayout<job_t> = "88s sss s4 88888";
 template <>
-inline constexpr std::string_view kLayout<observables_t> = "88s8 84 888888888 888";
+inline constexpr std::string_view kLayout<observables_t> = "88s8 84 88888888 888 88";
 template <>
 inline constexpr std::string_view kLayout<frame_static_t> = "88s8 488 nDD s";
 template <>
