@@ -27,6 +27,9 @@ class PlateMotion {
   /// modulo 1 in 128-bit fixed point. Neither loses digits with k.
   PlateState at(Tick k) const;
 
+  /// Largest acceleration of the plates, a (2 pi f)^2 [mm/s^2].
+  double peak_acceleration() const { return amplitude_ * angular_frequency_ * angular_frequency_; }
+
   /// Ticks per period if that is a whole number, otherwise 0.
   Tick period_ticks() const { return static_cast<Tick>(table_.size()); }
 

@@ -18,15 +18,18 @@ Vec2 NeighborList::flat_half(const Pose& pose) const {
   return length > 0 ? Vec2(n * (half_length_ / length)) : Vec2(half_length_, 0.0);
 }
 
+double NeighborList::slack(int i, const Pose& pose) const {
+  Vec2 shift(pose.position.x() - built_center_[i].x(), pose.position.y() - built_center_[i].y());
+  shift.x() -= box_side_ * std::nearbyint(shift.x() / box_side_);
+  shift.y() -= box_side_ * std::nearbyint(shift.y() / box_side_);
+  const Vec2 turn = flat_half(pose) - built_half_[i];
+  return 0.5 * skin_ - std::sqrt(std::max((shift + turn).squaredNorm(), (shift - turn).squaredNorm()));
+}
+
 bool NeighborList::is_due(std::span<const Pose> poses) const {
   if (n_builds_ == 0) return true;
-  const double limit = 0.25 * skin_ * skin_;  // (skin / 2)^2
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    Vec2 shift(poses[i].position.x() - built_center_[i].x(), poses[i].position.y() - built_center_[i].y());
-    shift.x() -= box_side_ * std::nearbyint(shift.x() / box_side_);
-    shift.y() -= box_side_ * std::nearbyint(shift.y() / box_side_);
-    const Vec2 turn = flat_half(poses[i]) - built_half_[i];
-    if ((shift + turn).squaredNorm() > limit || (shift - turn).squaredNorm() > limit) return true;
+    if (slack(static_cast<int>(i), poses[i]) < 0) return true;
   }
   return false;
 }

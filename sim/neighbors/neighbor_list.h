@@ -32,6 +32,8 @@ class NeighborList {
   /// True if the list may be incomplete for these poses (or was never built).
   bool is_due(std::span<const Pose> poses) const;
   void build(std::span<const Pose> poses);
+  /// How much further the ends of rod i's segment may move before the list may be incomplete; negative: it may be [mm].
+  double slack(int i, const Pose& pose) const;
   /// (i, j) with i < j, in ascending order.
   std::span<const std::pair<int, int>> pairs() const { return pairs_; }
   /// Times built.

@@ -69,12 +69,4 @@ std::optional<NumericalTrouble> ReferenceStepper::step(World& world, Tick now) {
   return {};
 }
 
-std::unique_ptr<Stepper> make_stepper(const World& world) {
-  switch (world.scene.engine) {
-    case Engine::kReference:
-      return std::make_unique<ReferenceStepper>(world);
-  }
-  return nullptr;
-}
-
 }  // namespace shaken

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#include "sim/stepping/stepper.h"
+
+#include "sim/core/check.h"
+#include "sim/stepping/reference_stepper.h"
+#include "sim/stepping/scheduled_stepper.h"
+
+namespace shaken {
+
+std::unique_ptr<Stepper> make_stepper(const World& world) {
+  switch (world.scene.engine) {
+    case Engine::kReference:
+      return std::make_unique<ReferenceStepper>(world);
+    case Engine::kScheduled:
+      return std::make_unique<ScheduledStepper>(world);
+  }
+  SHAKEN_CHECK(false, "unknown engine");
+}
+
+}  // namespace shaken
