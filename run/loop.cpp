@@ -17,6 +17,8 @@
 #include "run/publisher.h"
 #include "run/session.h"
 #include "run/summary.h"
+#include "scene/canonical.h"
+#include "scene/load.h"
 
 namespace shaken::run {
 namespace {
@@ -34,6 +36,8 @@ double process_cpu_seconds() {
 
 std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
 
+std::string scene_text(const scene::RunPlan& plan) { return scene::to_json(plan).dump(2) + "\n"; }
+
 /// One run from where its session stands to its end.
 class Loop {
  public:
@@ -42,6 +46,7 @@ class Loop {
         options_(options),
         callbacks_(callbacks),
         directory_{options.directory},
+        run_id_(scene::run_id(plan)),
         session_(std::move(session)),
         end_(total_ticks(plan)),
         begin_(WallClock::now()),
@@ -141,13 +146,13 @@ class Loop {
   }
 
   [[nodiscard]] std::optional<Error> checkpoint() {
-    return write_checkpoint(directory_, options_.run_id, make_checkpoint(session_, cpu_seconds(), wall_seconds()));
+    return write_checkpoint(directory_, run_id_, make_checkpoint(session_, cpu_seconds(), wall_seconds()));
   }
 
   Summary summarize(const Reduction& reduction) const {
     const World& world = session_.simulation.world();
     Summary summary;
-    summary.run_id = options_.run_id;
+    summary.run_id = run_id_;
     summary.n_rods = static_cast<int>(world.rods.size());
     summary.sim_seconds = session_.simulation.time();
     summary.cpu_seconds = cpu_seconds();
@@ -215,6 +220,7 @@ class Loop {
   const RunOptions& options_;
   const RunCallbacks& callbacks_;
   RunDirectory directory_;
+  std::string run_id_;
   Session session_;
   Tick end_;
   WallClock::time_point begin_;
@@ -232,12 +238,12 @@ struct Opened {
 };
 
 /// The session of the newest checkpoint that is whole and fits, or a new one.
-Result<Opened> open_session(const scene::RunPlan& plan, const RunOptions& options, const RunDirectory& directory) {
+Result<Opened> open_session(const scene::RunPlan& plan, const RunDirectory& directory) {
   bool found = false;
   for (const auto& file : {directory.checkpoint(), directory.previous_checkpoint()}) {
     if (!std::filesystem::exists(file)) continue;
     found = true;
-    const Result<Checkpoint> checkpoint = read_checkpoint(file, options.run_id);
+    const Result<Checkpoint> checkpoint = read_checkpoint(file, scene::run_id(plan));
     if (!checkpoint) {
       spdlog::warn("{}", checkpoint.error().message);
       continue;
@@ -251,7 +257,7 @@ Result<Opened> open_session(const scene::RunPlan& plan, const RunOptions& option
     return Opened{std::move(session).value(), false};
   }
   if (found) spdlog::warn("no checkpoint can be used: starting from the beginning");
-  Result<Session> session = start_session(plan, directory, options.scene_json);
+  Result<Session> session = start_session(plan, directory, scene_text(plan));
   if (!session) return session.error();
   return Opened{std::move(session).value(), true};
 }
@@ -269,11 +275,13 @@ RunOutcome fail(const RunOptions& options, const RunCallbacks& callbacks, const 
 }
 
 /// scene.json is written once; a directory of another scene is refused, never overwritten.
-[[nodiscard]] std::optional<Error> claim(const RunDirectory& directory, const RunOptions& options) {
-  if (!std::filesystem::exists(directory.scene())) return write_file_atomically(directory.scene(), options.scene_json);
-  const Result<std::string> present = read_file(directory.scene());
-  if (!present) return present.error();
-  if (*present == options.scene_json) return std::nullopt;
+[[nodiscard]] std::optional<Error> claim(const scene::RunPlan& plan, const RunDirectory& directory) {
+  if (!std::filesystem::exists(directory.scene())) return write_file_atomically(directory.scene(), scene_text(plan));
+  const Result<std::string> text = read_file(directory.scene());
+  if (!text) return text.error();
+  const scene::Loaded<scene::RunPlan> present = scene::load_scene(*text, directory.scene().string());
+  if (!present.value) return Error{to_string(present.problems)};
+  if (scene::run_id(*present.value) == scene::run_id(plan)) return std::nullopt;
   return Error{directory.root.string() + " holds the run of another scene (see its scene.json); choose another one"};
 }
 
@@ -306,15 +314,15 @@ RunOutcome draw(const scene::RunPlan& plan, const RunOptions& options, const Run
 
 RunOutcome run_owned(const scene::RunPlan& plan, const RunOptions& options, const RunCallbacks& callbacks) {
   const RunDirectory directory{options.directory};
-  if (auto error = claim(directory, options)) return {RunState::kFailed, error->message};
-  if (is_done(directory.summary(), options.run_id)) {
+  if (auto error = claim(plan, directory)) return {RunState::kFailed, error->message};
+  if (is_done(directory.summary(), scene::run_id(plan))) {
     spdlog::info("{} is done already", directory.root.string());
     const Result<Progress> last = read_progress(directory.progress());
     return draw(plan, options, callbacks, last ? *last : Progress{});
   }
   Progress last;
   {
-    Result<Opened> opened = open_session(plan, options, directory);
+    Result<Opened> opened = open_session(plan, directory);
     if (!opened) return fail(options, callbacks, opened.error().message);
     const bool fresh = opened->fresh;
     Loop loop(plan, options, callbacks, std::move(opened->session));

@@ -42,7 +42,8 @@ struct RunOutcome {
 };
 
 /// Runs the plan in its directory from start, or from the last whole checkpoint, to end, and fills the directory.
-/// A directory whose run is done already is left as it is. Logs through spdlog's default logger.
+/// A directory whose run is done already is left as it is; one that holds another scene's run is refused. Logs through
+/// spdlog's default logger.
 RunOutcome run(const scene::RunPlan& plan, const RunOptions& options, const RunCallbacks& callbacks = {});
 
 }  // namespace shaken::run

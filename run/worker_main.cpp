@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <csignal>
+
+#include "proto/bus.h"
+#include "run/files/atomic_file.h"
+#include "run/files/version.h"
+#include "run/loop.h"
+#include "run/movie_process.h"
+#include "run/terminal.h"
+#include "scene/canonical.h"
+#include "scene/load.h"
+
+namespace {
+
+using namespace shaken;
+
+constexpr int kExitFailed = 1;
+constexpr int kExitBadInput = 2;
+/// As batch systems have it: ended with a checkpoint, please start me again.
+constexpr int kExitStopped = 99;
+
+constexpr const char* kFooter = R"(Examples:
+  shaken-worker quickstart.json --out runs/quick
+  shaken-worker quickstart.json --out runs/long -s time.measure="60 s" -s time.seed=7 --no-lcm
+  shaken-worker quickstart.json --out runs/quick      goes on from the last checkpoint, or says that it is done
+
+Exit codes: 0 done, 1 failed, 2 bad input, 99 stopped by a signal after a checkpoint.)";
+
+std::atomic<bool> stop_requested{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
+
+void request_stop(int) { stop_requested = true; }
+
+/// Whether stderr already goes to `file`, as it does under the daemon.
+bool stderr_goes_to(const std::filesystem::path& file) {
+  struct stat error_output {};
+  struct stat log {};
+  return fstat(STDERR_FILENO, &error_output) == 0 && stat(file.c_str(), &log) == 0 &&
+         error_output.st_dev == log.st_dev && error_output.st_ino == log.st_ino;
+}
+
+void log_to_stderr(bool quiet) {
+  auto sink = std::make_shared<spdlog::sinks::stderr_color_sink_mt>();
+  if (quiet) sink->set_level(spdlog::level::warn);
+  spdlog::set_default_logger(std::make_shared<spdlog::logger>("shaken-worker", std::move(sink)));
+  spdlog::set_pattern("%Y-%m-%dT%H:%M:%S.%e %^%l%$ %v");
+  spdlog::flush_on(spdlog::level::info);
+}
+
+void log_to_file_too(const std::filesystem::path& file) {
+  if (stderr_goes_to(file)) return;
+  try {
+    auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(file.string());
+    sink->set_pattern("%Y-%m-%dT%H:%M:%S.%e %l %v");
+    spdlog::default_logger()->sinks().push_back(std::move(sink));
+  } catch (const spdlog::spdlog_ex& problem) {
+    spdlog::warn("no log file: {}", problem.what());
+  }
+}
+
+struct Arguments {
+  std::string scene;
+  std::vector<std::string> settings;
+  std::string out;
+  std::string job_id;
+  std::string sweep_id;
+  std::string label;
+  std::string lcm_url = proto::default_url();
+  bool no_lcm = false;
+  double checkpoint_every = 30;
+  bool quiet = false;
+};
+
+void describe(CLI::App& app, Arguments& arguments) {
+  app.set_version_flag("--version", run::version());
+  app.footer(kFooter);
+  app.add_option("SCENE", arguments.scene, "Scene file (JSON)")->required();
+  app.add_option("--out", arguments.out, "Run directory; made if it is not there")->required()->type_name("DIR");
+  app.add_option("-s,--set", arguments.settings, "Change one value of the scene")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+  app.add_option("--job-id", arguments.job_id, "Name in live messages; the run's hash if not given")->type_name("ID");
+  app.add_option("--sweep-id", arguments.sweep_id, "Sweep that the job belongs to, for the log")->type_name("ID");
+  app.add_option("--label", arguments.label, "Swept parameters, shown by viewers")->type_name("TEXT");
+  app.add_option("--lcm-url", arguments.lcm_url, "Where live state goes")->type_name("URL")->capture_default_str();
+  app.add_flag("--no-lcm", arguments.no_lcm, "Send no live state");
+  app.add_option("--checkpoint-every", arguments.checkpoint_every, "Wall-clock seconds between checkpoints")
+      ->type_name("SECONDS")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_flag("--quiet", arguments.quiet, "Show warnings and errors only");
+}
+
+int run_scene(const scene::RunPlan& plan, const Arguments& arguments) {
+  const run::RunDirectory directory{arguments.out};
+  run::RunOptions options;
+  options.directory = arguments.out;
+  options.job_id = arguments.job_id.empty() ? scene::run_id(plan) : arguments.job_id;
+  options.label = arguments.label;
+  if (!arguments.no_lcm) options.lcm_url = arguments.lcm_url;
+  options.checkpoint_every = run::WallSeconds(arguments.checkpoint_every);
+  options.stop = &stop_requested;
+
+  run::ProgressDisplay display(arguments.quiet);
+  run::RunCallbacks callbacks;
+  callbacks.on_owned = [&] {
+    log_to_file_too(directory.log());
+    spdlog::info("run {}{}: {} rods, {} s, in {}", scene::run_id(plan),
+                 arguments.sweep_id.empty() ? "" : " of sweep " + arguments.sweep_id, plan.system.n_rods,
+                 plan.total_time(), arguments.out);
+  };
+  callbacks.on_progress = [&](const run::Progress& progress) { display.show(progress); };
+  callbacks.make_movie = [&] { return run::render_movie(arguments.out, stop_requested); };
+
+  const run::RunOutcome outcome = run::run(plan, options, callbacks);
+  switch (outcome.state) {
+    case run::RunState::kDone:
+      spdlog::info("done");
+      return 0;
+    case run::RunState::kStopped:
+      spdlog::info("stopped; start again to go on");
+      return kExitStopped;
+    case run::RunState::kFailed:
+      spdlog::error("{}", outcome.message);
+      return kExitFailed;
+  }
+  return kExitFailed;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Runs one scene from start to end in a run directory.", "shaken-worker");
+  Arguments arguments;
+  describe(app, arguments);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& problem) {
+    return app.exit(problem) == 0 ? 0 : kExitBadInput;
+  }
+  std::signal(SIGTERM, request_stop);
+  std::signal(SIGINT, request_stop);
+  std::signal(SIGPIPE, SIG_IGN);
+  log_to_stderr(arguments.quiet);
+
+  const Result<std::string> text = run::read_file(arguments.scene);
+  if (!text) {
+    fmt::print(stderr, "{}\n", text.error().message);
+    return kExitBadInput;
+  }
+  const scene::Loaded<scene::RunPlan> plan = scene::load_scene(*text, arguments.scene, arguments.settings);
+  if (!plan.value) {
+    fmt::print(stderr, "{}\n", to_string(plan.problems));
+    return kExitBadInput;
+  }
+  return run_scene(*plan.value, arguments);
+}
