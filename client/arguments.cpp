@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "client/arguments.h"
+
+#include <CLI/CLI.hpp>
+
+namespace shaken::client {
+namespace {
+
+/// CLI11 groups options under headings in the help; file, folder and ID are told apart by the value's name instead.
+const char* value_name_of(Names names) {
+  switch (names) {
+    case Names::kFile:
+      return "FILE";
+    case Names::kFolder:
+      return "DIR";
+    case Names::kId:
+      return "ID";
+    case Names::kAnything:
+      break;
+  }
+  return "";
+}
+
+}  // namespace
+
+Names meaning(const CLI::Option& option) {
+  for (const Names names : {Names::kFile, Names::kFolder, Names::kId}) {
+    if (option.get_type_name() == value_name_of(names)) return names;
+  }
+  return Names::kAnything;
+}
+
+void Arguments::required(const std::string& name, std::string& value, const std::string& help, Names names) {
+  app_.add_option(name, value, help)->required()->type_name(value_name_of(names));
+}
+
+void Arguments::optional(const std::string& name, std::string& value, const std::string& help, Names names) {
+  app_.add_option(name, value, help)->type_name(value_name_of(names));
+}
+
+void Arguments::list(const std::string& name, std::vector<std::string>& values, const std::string& help, Names names,
+                     int minimum) {
+  auto* option = app_.add_option(name, values, help)->type_name(value_name_of(names));
+  if (minimum > 0) option->required();
+}
+
+void Arguments::option(const std::string& flags, std::string& value, const std::string& value_name,
+                       const std::string& help, Names names) {
+  app_.add_option(flags, value, help)
+      ->type_name(names == Names::kAnything ? value_name : std::string(value_name_of(names)));
+}
+
+void Arguments::option(const std::string& flags, std::optional<int>& value, const std::string& value_name,
+                       const std::string& help) {
+  app_.add_option(flags, value, help)->type_name(value_name);
+}
+
+void Arguments::option(const std::string& flags, std::optional<double>& value, const std::string& value_name,
+                       const std::string& help) {
+  app_.add_option(flags, value, help)->type_name(value_name);
+}
+
+void Arguments::repeatable(const std::string& flags, std::vector<std::string>& values, const std::string& value_name,
+                           const std::string& help) {
+  // Without this, "-s a=1 FILE" would take FILE for a second value.
+  app_.add_option(flags, values, help)->type_name(value_name)->allow_extra_args(false);
+}
+
+void Arguments::flag(const std::string& flags, bool& value, const std::string& help) {
+  app_.add_flag(flags, value, help);
+}
+
+}  // namespace shaken::client

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace shaken::client {
+
+/// What an argument names, for shell completion.
+enum class Names { kAnything, kFile, kFolder, kId };
+
+/// Declares the command line of a verb. Keeps CLI11 out of the verbs: its header costs seconds per source file.
+/// The variables must outlive the parsing; one that is not given keeps its value.
+class Arguments {
+ public:
+  explicit Arguments(CLI::App& app) : app_(app) {}
+
+  void required(const std::string& name, std::string& value, const std::string& help, Names names);
+  void optional(const std::string& name, std::string& value, const std::string& help, Names names);
+  /// Any number of them, at least `minimum`.
+  void list(const std::string& name, std::vector<std::string>& values, const std::string& help, Names names,
+            int minimum);
+
+  /// `names` like "-o,--out"; `value_name` as shown in the help.
+  void option(const std::string& flags, std::string& value, const std::string& value_name, const std::string& help,
+              Names names = Names::kAnything);
+  void option(const std::string& flags, std::optional<int>& value, const std::string& value_name,
+              const std::string& help);
+  void option(const std::string& flags, std::optional<double>& value, const std::string& value_name,
+              const std::string& help);
+  /// May be given several times, each time with one value.
+  void repeatable(const std::string& flags, std::vector<std::string>& values, const std::string& value_name,
+                  const std::string& help);
+  void flag(const std::string& flags, bool& value, const std::string& help);
+
+ private:
+  CLI::App& app_;
+};
+
+/// How an argument's meaning is kept in its CLI11 option, for completion.cpp to read.
+Names meaning(const CLI::Option& option);
+
+}  // namespace shaken::client

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "client/checkup.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <thread>
+
+#include "client/failure.h"
+#include "client/process.h"
+#include "client/session.h"
+#include "client/target.h"
+#include "proto/bus.h"
+#include "run/files/version.h"
+
+namespace shaken::client {
+namespace {
+
+namespace fs = std::filesystem;
+using Level = Finding::Level;
+
+/// The first line of `text`.
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+Finding check_sibling(const std::string& name, Level if_missing, const std::string& needed_for) {
+  const fs::path program = sibling_program(name);
+  const ChildResult result = run_captured({program.string(), "--version"});
+  const std::string version = first_line(result.output);
+  if (result.exit_code != 0) {
+    return {
+        if_missing, name,
+        fmt::format("{}: exit code {}{}{}", program.string(), result.exit_code, version.empty() ? "" : ", ", version),
+        fmt::format("build or install it beside `shaken`; it is needed {}", needed_for)};
+  }
+  if (version.find(run::version()) == std::string::npos) {
+    return {Level::kWarn, name, fmt::format("{}, but this client is {}", version, run::version()),
+            "build all programs from one source"};
+  }
+  return {Level::kOk, name, version, ""};
+}
+
+Finding check_daemon(const fs::path& root) {
+  try {
+    const Json status = Session(root).get("/v1/status");
+    const std::string version = text_of(status, "version");
+    const std::string message = fmt::format("{} at {}, pid {}, {} slots", version, (root / "shakend.sock").string(),
+                                            status.value("pid", 0), status.value("slots", 0));
+    if (version != run::version()) {
+      return {Level::kWarn, "daemon", message, fmt::format("this client is {}: restart the daemon", run::version())};
+    }
+    const Json& lcm = status.at("lcm");
+    if (!lcm.value("ok", false)) {
+      return {Level::kWarn, "daemon", message + "; no live state: " + text_of(lcm, "message"), "see lcm below"};
+    }
+    return {Level::kOk, "daemon", message, ""};
+  } catch (const Failure& failure) {
+    // `shaken run` works without one.
+    return {Level::kWarn, "daemon", failure.what(), fmt::format("shakend --root {} &", root.string())};
+  } catch (const Json::exception& error) {
+    return {Level::kFail, "daemon", error.what(), "restart the daemon"};
+  }
+}
+
+Finding check_lcm() {
+  const std::string url = proto::default_url();
+  const proto::Bus::Opened opened = proto::Bus::open(url);
+  if (opened) return {Level::kOk, "lcm", url, ""};
+  return {Level::kWarn, "lcm", fmt::format("{}: {}", url, opened.reason), "sudo ip route add 224.0.0.0/4 dev lo"};
+}
+
+Finding check_gnuplot() {
+  const ChildResult result = run_captured({"gnuplot", "-e", "set terminal pngcairo; print GPVAL_VERSION"});
+  if (result.exit_code == 0) return {Level::kOk, "gnuplot", first_line(result.output) + ", pngcairo", ""};
+  return {Level::kWarn, "gnuplot", result.exit_code == 127 ? "not found" : first_line(result.output),
+          "sudo apt install gnuplot-nox"};
+}
+
+Finding check_disk(fs::path folder) {
+  static constexpr double kGigabyte = 1e9;
+  std::error_code error;
+  while (!fs::exists(folder, error) && folder.has_relative_path()) folder = folder.parent_path();
+  const fs::space_info space = fs::space(folder, error);
+  if (error) return {Level::kFail, "disk", fmt::format("{}: {}", folder.string(), error.message()), ""};
+  const double free = static_cast<double>(space.available) / kGigabyte;
+  const std::string message = fmt::format("{:.1f} GB free at {}", free, folder.string());
+  if (access(folder.c_str(), W_OK) != 0) {
+    return {Level::kFail, "disk", folder.string() + " cannot be written to", "choose another --root"};
+  }
+  if (free < 0.1) return {Level::kFail, "disk", message, "free some space, or choose another --root"};
+  if (free < 2) return {Level::kWarn, "disk", message, "long trajectories take gigabytes"};
+  return {Level::kOk, "disk", message, ""};
+}
+
+Finding check_cores() {
+  const unsigned n = std::thread::hardware_concurrency();
+  return {Level::kOk, "cores", fmt::format("{}: as many runs at once", n), ""};
+}
+
+}  // namespace
+
+std::vector<Finding> checkup(const fs::path& root) {
+  return {{Level::kOk, "shaken", fmt::format("{}, {}", run::version(), run::compiler()), ""},
+          check_sibling("shakend", Level::kWarn, "for sweeps"),
+          check_sibling("shaken-worker", Level::kFail, "for every run"),
+          check_sibling("shaken-render", Level::kWarn, "for pictures and movies (OSMesa)"),
+          check_daemon(root),
+          check_lcm(),
+          check_gnuplot(),
+          check_disk(root),
+          check_cores()};
+}
+
+}  // namespace shaken::client

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace shaken::client {
+
+/// One thing that `shaken doctor` has looked at.
+struct Finding {
+  enum class Level { kOk, kWarn, kFail };
+  Level level = Level::kOk;
+  std::string what;     ///< "gnuplot"
+  std::string message;  ///< what was found
+  std::string remedy;   ///< a command, or a sentence; empty if nothing is to be done
+};
+
+/// Looks at everything that Shaken needs on this machine: programs beside this one, daemon, live state, off-screen
+/// drawing, gnuplot, disk and cores. What makes simulating impossible is kFail, what makes a part of it unavailable
+/// kWarn.
+std::vector<Finding> checkup(const std::filesystem::path& root);
+
+}  // namespace shaken::client

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "client/command_line.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "run/files/version.h"
+#include "scene/nearest.h"
+
+namespace shaken::client {
+namespace {
+
+constexpr const char* kFooter = R"(Examples:
+  shaken init scene.json && shaken validate scene.json
+  shaken submit scene.json -s rods.area_fraction=0.55:0.75:0.05 --wait
+  shaken watch && shaken results && shaken plot
+
+Exit codes:  0 done   1 failed   2 bad input   3 no daemon
+Environment: SHAKEN_ROOT  the daemon's root directory;  LCM_DEFAULT_URL  the bus of the live state;  NO_COLOR
+`shaken VERB --help` tells more.)";
+
+std::vector<std::string> verb_names(const std::vector<std::unique_ptr<Verb>>& verbs) {
+  std::vector<std::string> names;
+  for (const auto& verb : verbs) names.emplace_back(verb->info().name);
+  return names;
+}
+
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+}  // namespace
+
+CommandLine::CommandLine()
+    : app_(std::make_unique<CLI::App>("Simulates shaken granular nematics: sweeps, live state, plots, movies.",
+                                      "shaken")),
+      verbs_(make_verbs()) {
+  // Left-overs come back to parse(), which can say more about them than CLI11.
+  app_->allow_extras();
+  app_->require_subcommand(0, 1);
+  app_->fallthrough();
+  app_->set_version_flag("--version", std::string("shaken ") + run::version());
+  app_->add_option("--root", root_, "The daemon's root directory")->type_name("DIR");
+  app_->footer(kFooter);
+  for (const auto& verb : verbs_) {
+    const VerbInfo info = verb->info();
+    CLI::App* app = app_->add_subcommand(info.name, info.summary)->group(info.group);
+    app->allow_extras(false);
+    app->footer(std::string("Examples:\n") + info.examples);
+    Arguments arguments(*app);
+    verb->declare(arguments);
+  }
+}
+
+CommandLine::~CommandLine() = default;
+
+Verb* CommandLine::parse(std::vector<std::string> arguments, Console& console) {
+  std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants a vector
+  try {
+    app_->parse(arguments);
+  } catch (const CLI::Success& asked) {
+    app_->exit(asked, console.out, console.err);
+    return nullptr;
+  } catch (const CLI::ParseError& error) {
+    const auto used = app_->get_subcommands();
+    const std::string verb = used.empty() ? "" : used.front()->get_name() + " ";
+    throw Failure(ExitCode::kBadInput, fmt::format("{} (see `shaken {}--help`)", error.what(), verb));
+  }
+
+  const auto used = app_->get_subcommands();
+  const std::vector<std::string> left_over = app_->remaining(true);
+  if (used.empty()) {
+    if (left_over.empty()) {
+      console.out << app_->help();
+      throw Failure(ExitCode::kBadInput, "a verb is missing");
+    }
+    const std::string& word = left_over.front();
+    const bool is_option = word.starts_with('-');
+    throw Failure(
+        ExitCode::kBadInput,
+        fmt::format("unknown {} '{}'{} (see `shaken --help`)", is_option ? "option" : "verb", word,
+                    scene::did_you_mean(scene::nearest(word, is_option ? option_names(*app_) : verb_names(verbs_)))));
+  }
+  const std::string name = used.front()->get_name();
+  if (!left_over.empty()) {
+    const std::string& word = left_over.front();
+    throw Failure(
+        ExitCode::kBadInput,
+        fmt::format(
+            "{} does not understand '{}'{} (see `shaken {} --help`)", name, word,
+            word.starts_with("--") ? scene::did_you_mean(scene::nearest(word, option_names(*used.front()))) : "",
+            name));
+  }
+  const auto verb = std::find_if(verbs_.begin(), verbs_.end(), [&](const auto& v) { return v->info().name == name; });
+  return verb->get();
+}
+
+}  // namespace shaken::client

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "client/completion.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "client/arguments.h"
+
+namespace shaken::client {
+namespace {
+
+/// What bash is to offer for a value.
+const char* action_of(Names names) {
+  switch (names) {
+    case Names::kFile:
+      return "COMPREPLY=($(compgen -f -- \"$word\"))";
+    case Names::kFolder:
+      return "COMPREPLY=($(compgen -d -- \"$word\"))";
+    case Names::kId:
+      return "COMPREPLY=($(compgen -W \"$(shaken completion ids 2>/dev/null)\" -- \"$word\") $(compgen -d -- "
+             "\"$word\"))";
+    case Names::kAnything:
+      break;
+  }
+  return "";
+}
+
+std::string all_names(const CLI::Option& option) {
+  std::string names;
+  for (const std::string& name : option.get_snames()) names += (names.empty() ? "-" : " -") + name;
+  for (const std::string& name : option.get_lnames()) names += (names.empty() ? "--" : " --") + name;
+  return names;
+}
+
+}  // namespace
+
+std::string bash_completion(const CLI::App& app) {
+  std::string verbs;
+  std::string cases;
+  for (const CLI::App* verb : app.get_subcommands(nullptr)) {
+    verbs += (verbs.empty() ? "" : " ") + verb->get_name();
+    std::string options;
+    std::string values;      // what follows an option
+    std::string positional;  // what stands alone
+    for (const CLI::Option* option : verb->get_options()) {
+      const std::string names = all_names(*option);
+      if (names.empty()) {
+        if (positional.empty()) positional = action_of(meaning(*option));
+        continue;
+      }
+      options += (options.empty() ? "" : " ") + names;
+      if (option->get_type_size() == 0) continue;
+      std::string pattern = names;
+      for (std::size_t at; (at = pattern.find(' ')) != std::string::npos;) pattern.replace(at, 1, "|");
+      const std::string action = action_of(meaning(*option));
+      values += fmt::format("        {}) {}{}return ;;\n", pattern, action, action.empty() ? "" : "; ");
+    }
+    cases += fmt::format("    {})\n      case \"$previous\" in\n{}      esac\n", verb->get_name(), values);
+    cases += fmt::format("      if [[ $word == -* ]]; then COMPREPLY=($(compgen -W \"{}\" -- \"$word\")); return; fi\n",
+                         options);
+    if (!positional.empty()) cases += fmt::format("      {}\n", positional);
+    cases += "      ;;\n";
+  }
+  return fmt::format(R"sh(# Completion of the program `shaken` for bash. To have it in every new shell:
+#   echo 'eval "$(shaken completion bash)"' >> ~/.bashrc
+_shaken() {{
+  local word=${{COMP_WORDS[COMP_CWORD]}} previous=${{COMP_WORDS[COMP_CWORD-1]}} verb= i
+  COMPREPLY=()
+  for ((i = 1; i < COMP_CWORD; i++)); do
+    case ${{COMP_WORDS[i]}} in
+      --root) ((i++)) ;;
+      -*) ;;
+      *) verb=${{COMP_WORDS[i]}}; break ;;
+    esac
+  done
+  if [[ $previous == --root ]]; then COMPREPLY=($(compgen -d -- "$word")); return; fi
+  case $verb in
+    "") COMPREPLY=($(compgen -W "{} --root --version --help" -- "$word")) ;;
+{}  esac
+}}
+complete -o filenames -F _shaken shaken
+)sh",
+                     verbs, cases);
+}
+
+std::string zsh_completion(const CLI::App& app) {
+  return "# For zsh: eval \"$(shaken completion zsh)\" in ~/.zshrc\n"
+         "autoload -U +X compinit && compinit -u\n"
+         "autoload -U +X bashcompinit && bashcompinit\n" +
+         bash_completion(app);
+}
+
+}  // namespace shaken::client

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "client/console.h"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <iostream>
+
+namespace shaken::client {
+namespace {
+
+const char* escape_of(Colour colour) {
+  switch (colour) {
+    case Colour::kGreen:
+      return "\x1b[32m";
+    case Colour::kYellow:
+      return "\x1b[33m";
+    case Colour::kRed:
+      return "\x1b[31m";
+    case Colour::kBlue:
+      return "\x1b[36m";
+    case Colour::kDim:
+      return "\x1b[2m";
+    case Colour::kBold:
+      return "\x1b[1m";
+    case Colour::kPlain:
+      break;
+  }
+  return "";
+}
+
+}  // namespace
+
+void Console::refresh_size() {
+  winsize size{};
+  if (interactive && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 0) {
+    width = size.ws_col;
+    height = size.ws_row;
+  }
+}
+
+std::string Console::painted(Colour colour_wanted, std::string_view text) const {
+  if (!colour || colour_wanted == Colour::kPlain || text.empty()) return std::string(text);
+  return escape_of(colour_wanted) + std::string(text) + "\x1b[0m";
+}
+
+Console process_console() {
+  Console console{.out = std::cout, .err = std::cerr};
+  const char* terminal = std::getenv("TERM");
+  const bool dumb = terminal == nullptr || std::string_view(terminal) == "dumb";
+  const char* no_colour = std::getenv("NO_COLOR");
+  console.interactive = isatty(STDOUT_FILENO) == 1 && !dumb;
+  console.err_is_terminal = isatty(STDERR_FILENO) == 1 && !dumb;
+  console.colour = console.interactive && (no_colour == nullptr || *no_colour == '\0');
+  if (console.interactive) console.width = 80;
+  console.refresh_size();
+  return console;
+}
+
+}  // namespace shaken::client

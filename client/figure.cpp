@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "client/figure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "client/failure.h"
+#include "client/process.h"
+#include "run/files/atomic_file.h"
+
+namespace shaken::client {
+namespace {
+
+/// A key of more entries hides the plot.
+constexpr std::size_t kMostKeyEntries = 16;
+
+/// A string literal of gnuplot in which nothing is special.
+std::string quoted(const std::string& text) {
+  std::string literal = "'";
+  for (const char c : text) {
+    if (c == '\'') literal += '\'';
+    literal += c == '\n' ? ' ' : c;
+  }
+  return literal + "'";
+}
+
+bool has_errors(const Curve& curve) { return !curve.y_error.empty(); }
+
+void write_or_fail(const std::filesystem::path& file, const std::string& text) {
+  if (const auto error = run::write_file_atomically(file, text)) throw Failure(ExitCode::kFailed, error->message);
+}
+
+}  // namespace
+
+std::string curve_colour(std::size_t index, std::size_t count) {
+  // Nine anchors of viridis (van der Walt & Smith 2015), at 0, 1/8, ..., 1.
+  static constexpr std::array<std::array<double, 3>, 9> kViridis{{{68, 1, 84},
+                                                                  {71, 44, 122},
+                                                                  {59, 81, 139},
+                                                                  {44, 113, 142},
+                                                                  {33, 144, 141},
+                                                                  {39, 173, 129},
+                                                                  {92, 200, 99},
+                                                                  {170, 220, 50},
+                                                                  {253, 231, 37}}};
+  static constexpr double kPalest = 0.85;
+  const double place = count < 2 ? 0.3 : kPalest * static_cast<double>(index) / static_cast<double>(count - 1);
+  const auto anchor = std::min<std::size_t>(static_cast<std::size_t>(place * 8), 7);
+  const double part = place * 8 - static_cast<double>(anchor);
+  std::string colour = "#";
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double value = (1 - part) * kViridis[anchor][c] + part * kViridis[anchor + 1][c];
+    colour += fmt::format("{:02x}", static_cast<int>(std::lround(value)));
+  }
+  return colour;
+}
+
+std::string figure_data(const Figure& figure) {
+  std::string text;
+  for (std::size_t i = 0; i < figure.curves.size(); ++i) {
+    const Curve& curve = figure.curves[i];
+    if (i > 0) text += "\n\n";
+    text += fmt::format("# {}\n# x  y{}\n", curve.label.empty() ? figure.name : curve.label,
+                        has_errors(curve) ? "  y_error" : "");
+    bool any = false;
+    for (std::size_t k = 0; k < curve.x.size(); ++k) {
+      if (!std::isfinite(curve.x[k]) || !std::isfinite(curve.y[k])) continue;
+      text += fmt::format("{:.10g} {:.10g}", curve.x[k], curve.y[k]);
+      if (has_errors(curve)) text += fmt::format(" {:.10g}", std::isfinite(curve.y_error[k]) ? curve.y_error[k] : 0.0);
+      text += '\n';
+      any = true;
+    }
+    // An empty block would not be counted by `index`.
+    if (!any) text += has_errors(curve) ? "NaN NaN NaN\n" : "NaN NaN\n";
+  }
+  return text;
+}
+
+std::string figure_script(const Figure& figure) {
+  std::string script = fmt::format(R"(# gnuplot {0}.gp  draws {0}.png from {0}.dat
+set terminal pngcairo size 1400,950 enhanced font 'DejaVu Sans,20' linewidth 2 background '#ffffff'
+set output '{0}.png'
+set border 3 linecolor '#333333'
+set tics nomirror out textcolor '#333333'
+set grid linecolor '#dddddd' linewidth 0.5
+set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'
+)",
+                                   figure.name);
+  const std::size_t n_labels = static_cast<std::size_t>(
+      std::count_if(figure.curves.begin(), figure.curves.end(), [](const Curve& c) { return !c.label.empty(); }));
+  if (n_labels == 0 || n_labels > kMostKeyEntries) {
+    script += "unset key\n";
+  } else {
+    // Above the axes, where no curve can run through it.
+    script += fmt::format("set key outside top center horizontal maxcols {}\n", n_labels > 6 ? 3 : 2);
+  }
+  script += fmt::format("set xlabel {}\nset ylabel {}\n", quoted(figure.x_title), quoted(figure.y_title));
+  for (const std::string& command : figure.commands) script += command + "\n";
+
+  std::vector<std::string> plots;
+  for (std::size_t i = 0; i < figure.curves.size(); ++i) {
+    const Curve& curve = figure.curves[i];
+    const std::string colour = curve_colour(i, figure.curves.size());
+    const std::string data = fmt::format("'{}.dat' index {}", figure.name, i);
+    const std::string title = curve.label.empty() ? "notitle" : "title " + quoted(curve.label);
+    const bool lines = figure.style != Figure::Style::kPoints;
+    const bool points = figure.style != Figure::Style::kLines;
+    if (has_errors(curve)) {
+      plots.push_back(
+          fmt::format("{} using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '{}' notitle", data, colour));
+    }
+    plots.push_back(fmt::format("{} using 1:2 with {} linecolor '{}'{} {}", data,
+                                lines && points ? "linespoints" : (lines ? "lines" : "points"), colour,
+                                points ? " pointtype 7 pointsize 1.2" : " linewidth 1", title));
+  }
+  script += "plot ";
+  for (std::size_t i = 0; i < plots.size(); ++i) script += (i > 0 ? ", \\\n     " : "") + plots[i];
+  return script + "\n";
+}
+
+std::filesystem::path draw(const Figure& figure, const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw Failure(ExitCode::kFailed, fmt::format("{}: {}", folder.string(), error.message()));
+  write_or_fail(folder / (figure.name + ".dat"), figure_data(figure));
+  write_or_fail(folder / (figure.name + ".gp"), figure_script(figure));
+  const ChildResult gnuplot = run_captured({"gnuplot", figure.name + ".gp"}, folder);
+  const std::filesystem::path picture = folder / (figure.name + ".png");
+  if (gnuplot.exit_code == 127) {
+    throw Failure(ExitCode::kFailed,
+                  "gnuplot is not here: `apt install gnuplot-nox`; the data and the script are in " + folder.string());
+  }
+  if (gnuplot.exit_code != 0 || !std::filesystem::exists(picture)) {
+    throw Failure(ExitCode::kFailed, fmt::format("gnuplot did not draw {} (exit code {}): {}", picture.string(),
+                                                 gnuplot.exit_code, gnuplot.output));
+  }
+  return picture;
+}
+
+}  // namespace shaken::client

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+#include "client/figures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "scene/fields.h"
+
+namespace shaken::client {
+namespace {
+
+/// The arrays "x" and "y" (and "y_error") of every run that has them, as curves.
+std::vector<Curve> curves_of(const std::vector<PlottedRun>& runs, const std::string& x, const std::string& y,
+                             const std::string& y_error = "") {
+  std::vector<Curve> curves;
+  for (const PlottedRun& run : runs) {
+    const auto xs = run.observables.find(x);
+    const auto ys = run.observables.find(y);
+    if (xs == run.observables.end() || ys == run.observables.end()) continue;
+    // A file that is still being written may have one array longer than the other.
+    const std::size_t n = std::min(xs->second.size(), ys->second.size());
+    if (n == 0) continue;
+    Curve curve{.label = runs.size() > 1 ? run.label : "", .x = xs->second, .y = ys->second};
+    curve.x.resize(n);
+    curve.y.resize(n);
+    if (const auto errors = run.observables.find(y_error); errors != run.observables.end()) {
+      curve.y_error = errors->second;
+      curve.y_error.resize(n, 0.0);
+    }
+    curves.push_back(std::move(curve));
+  }
+  return curves;
+}
+
+Figure order_figure(const std::vector<PlottedRun>& runs) {
+  return {.name = "order_time",
+          .x_title = "time t (s)",
+          .y_title = "nematic order S",
+          .style = Figure::Style::kLines,
+          .commands = {"set xrange [0:*]", "set yrange [0:1]"},
+          .curves = curves_of(runs, "/order/time_s", "/order/order")};
+}
+
+Figure angles_figure(const std::vector<PlottedRun>& runs) {
+  return {.name = "angles",
+          .x_title = "angle to the director {/Symbol q} (rad)",
+          .y_title = "P({/Symbol q}) (1/rad)",
+          .style = Figure::Style::kLines,
+          .commands = {"set xrange [-pi/2:pi/2]", "set yrange [0:*]",
+                       "set xtics ('−π/2' -pi/2, '−π/4' -pi/4, '0' 0, 'π/4' pi/4, 'π/2' pi/2)"},
+          .curves = curves_of(runs, "/angles/theta_rad", "/angles/density_per_rad")};
+}
+
+Figure tilt_figure(const std::vector<PlottedRun>& runs) {
+  return {.name = "tilt",
+          .x_title = "tilt n_z",
+          .y_title = "mean velocity along the rod ⟨v_{||}⟩ (mm/s)",
+          .style = Figure::Style::kLinesPoints,
+          .commands = {"set xzeroaxis linecolor '#999999'", "set yzeroaxis linecolor '#999999'"},
+          .curves = curves_of(runs, "/tilt/n_z", "/tilt/v_along_mm_s", "/tilt/v_along_sem_mm_s")};
+}
+
+Figure defects_figure(const std::vector<PlottedRun>& runs) {
+  Figure figure{.name = "defects",
+                .x_title = "time t (s)",
+                .y_title = "defects, +1/2 and −1/2 together",
+                .style = Figure::Style::kLines,
+                .commands = {"set xrange [0:*]", "set yrange [0:*]"},
+                .curves = curves_of(runs, "/defects/time_s", "/defects/n_plus")};
+  const std::vector<Curve> minus = curves_of(runs, "/defects/time_s", "/defects/n_minus");
+  for (std::size_t i = 0; i < std::min(minus.size(), figure.curves.size()); ++i) {
+    Curve& curve = figure.curves[i];
+    for (std::size_t k = 0; k < std::min(curve.y.size(), minus[i].y.size()); ++k) curve.y[k] += minus[i].y[k];
+  }
+  return figure;
+}
+
+Figure g2_figure(const std::vector<PlottedRun>& runs) {
+  return {.name = "g2",
+          .x_title = "distance r (mm)",
+          .y_title = "G_2(r) = ⟨cos 2({/Symbol q}_i − {/Symbol q}_j)⟩",
+          .style = Figure::Style::kLines,
+          .commands = {"set xrange [0:*]", "set xzeroaxis linecolor '#999999'"},
+          .curves = curves_of(runs, "/g2/r_mm", "/g2/g2")};
+}
+
+Figure msd_figure(const std::vector<PlottedRun>& runs) {
+  Figure figure{.name = "msd",
+                .x_title = "lag {/Symbol t} (s)",
+                .y_title = "mean square displacement (mm^2)",
+                .style = Figure::Style::kLines,
+                .commands = {"set logscale xy", "set format xy '10^{%T}'"},
+                .curves = curves_of(runs, "/msd/lag_s", "/msd/total_mm2")};
+  // Logarithms: zero lag has no place.
+  for (Curve& curve : figure.curves) {
+    for (std::size_t k = 0; k < curve.x.size(); ++k) {
+      if (!(curve.x[k] > 0) || !(curve.y[k] > 0)) curve.y[k] = NAN;
+    }
+  }
+  return figure;
+}
+
+}  // namespace
+
+std::string axis_title(const std::string& path) {
+  static const std::map<std::string, std::string> kTitles{
+      {"rods.length", "rod length ℓ (mm)"},
+      {"rods.mid_diameter", "middle diameter (mm)"},
+      {"rods.end_diameter", "end diameter (mm)"},
+      {"rods.area_fraction", "area fraction φ"},
+      {"rods.count", "number of rods N"},
+      {"box.side", "side of the box L (mm)"},
+      {"box.gap", "gap between the plates w (mm)"},
+      {"plates.gamma", "shaking strength Γ"},
+      {"plates.amplitude", "amplitude of the plates (mm)"},
+      {"plates.frequency", "frequency of the plates (Hz)"},
+      {"time.step", "time step (s)"},
+  };
+  if (const auto title = kTitles.find(path); title != kTitles.end()) return title->second;
+  // Paths hold underscores, which enhanced text would take for subscripts.
+  std::string escaped;
+  for (const char c : path) escaped += c == '_' ? std::string("\\_") : std::string(1, c);
+  const std::string_view unit =
+      scene::field_index(path) >= 0 ? scene::default_unit(scene::field_at(path).dimension) : std::string_view();
+  return unit.empty() ? escaped : fmt::format("{} ({})", escaped, unit);
+}
+
+std::vector<Figure> run_figures(const std::vector<PlottedRun>& runs) {
+  std::vector<Figure> figures;
+  for (Figure& figure : std::vector<Figure>{order_figure(runs), angles_figure(runs), tilt_figure(runs),
+                                            defects_figure(runs), g2_figure(runs), msd_figure(runs)}) {
+    if (!figure.curves.empty()) figures.push_back(std::move(figure));
+  }
+  return figures;
+}
+
+std::vector<Figure> sweep_figures(const std::vector<ResultRow>& points) {
+  // The parameter with the most values becomes the x axis.
+  std::string x_path;
+  std::size_t most_values = 0;
+  const std::vector<std::string> swept = swept_parameters(points);
+  for (const std::string& path : swept) {
+    std::set<double> values;
+    for (const ResultRow& point : points) {
+      if (const double value = point.number(path); !std::isnan(value)) values.insert(value);
+    }
+    if (values.size() > std::max<std::size_t>(1, most_values)) {
+      most_values = values.size();
+      x_path = path;
+    }
+  }
+  if (x_path.empty()) return {};
+
+  std::vector<std::string> others;
+  std::copy_if(swept.begin(), swept.end(), std::back_inserter(others),
+               [&](const auto& path) { return path != x_path; });
+  struct Point {
+    double x, y, error;
+  };
+  std::vector<std::pair<std::string, std::vector<Point>>> groups;
+  for (const ResultRow& point : points) {
+    const Point p{point.number(x_path), point.number("order.mean"), point.number("order.mean:sem")};
+    if (std::isnan(p.x) || std::isnan(p.y)) continue;
+    std::string label;
+    for (const std::string& path : others) {
+      label += (label.empty() ? "" : ", ") + path + " = " + field_text(point, path);
+    }
+    auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& g) { return g.first == label; });
+    if (group == groups.end()) group = groups.insert(groups.end(), {label, {}});
+    group->second.push_back(p);
+  }
+  if (groups.empty()) return {};
+
+  std::string file_name = "order_" + x_path;
+  std::replace(file_name.begin(), file_name.end(), '.', '_');
+  Figure figure{.name = file_name,
+                .x_title = axis_title(x_path),
+                .y_title = "nematic order ⟨S⟩ ± standard error",
+                .style = Figure::Style::kLinesPoints,
+                .commands = {"set yrange [0:1]", "set offsets graph 0.04, graph 0.04, 0, 0",
+                             "set arrow from graph 0, first 0.5 to graph 1, first 0.5 nohead linecolor '#999999' "
+                             "dashtype 2 back"}};
+  for (auto& [label, group] : groups) {
+    std::sort(group.begin(), group.end(), [](const Point& a, const Point& b) { return a.x < b.x; });
+    Curve curve{.label = label};
+    for (const Point& point : group) {
+      curve.x.push_back(point.x);
+      curve.y.push_back(point.y);
+      curve.y_error.push_back(std::isnan(point.error) ? 0.0 : point.error);
+    }
+    figure.curves.push_back(std::move(curve));
+  }
+  return {figure};
+}
+
+}  // namespace shaken::client

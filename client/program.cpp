@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include "client/program.h"
+
+#include <fmt/format.h>
+
+#include <ios>
+
+#include "client/command_line.h"
+#include "client/json.h"
+#include "client/session.h"
+#include "run/files/version.h"
+
+namespace shaken::client {
+
+ExitCode run_program(const std::vector<std::string>& arguments, Console& console) {
+  ExitCode code = ExitCode::kOk;
+  std::string message;
+  try {
+    CommandLine command_line;
+    if (Verb* verb = command_line.parse(arguments, console)) {
+      const Context context{console, daemon_root(command_line.root())};
+      code = verb->run(context);
+    }
+  } catch (const Failure& failure) {
+    code = failure.code;
+    message = failure.what();
+  } catch (const Json::exception& error) {
+    code = ExitCode::kFailed;
+    message =
+        fmt::format("an answer of the daemon is not as expected ({}): is it of another version than this client ({})?",
+                    error.what(), run::version());
+  } catch (const std::exception& error) {
+    code = ExitCode::kFailed;
+    message = error.what();
+  }
+  console.out.flush();
+  if (!message.empty()) console.err << "shaken: " << message << "\n";
+  // The reader of a pipe has gone: say nothing, but do not claim success.
+  if (!console.out.good() && code == ExitCode::kOk) code = ExitCode::kFailed;
+  return code;
+}
+
+}  // namespace shaken::client

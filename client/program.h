@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "client/console.h"
+#include "client/failure.h"
+
+namespace shaken::client {
+
+/// The whole program: reads the arguments (without the program's name), runs the verb, prints errors.
+ExitCode run_program(const std::vector<std::string>& arguments, Console& console);
+
+}  // namespace shaken::client

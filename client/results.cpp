@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+#include "client/results.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "client/failure.h"
+#include "client/print.h"
+#include "client/target.h"
+#include "scene/nearest.h"
+
+namespace shaken::client {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+constexpr const char* kVersion = "versions.shaken";
+
+/// Fields that name a row rather than measure something; never averaged.
+const std::set<std::string> kNames{"job", "sweep", "state", "label", "replica", kVersion};
+
+/// Puts the scalars of `object` into `fields`, members of members as "outer.inner".
+void flatten(const Json& object, const std::string& prefix, Json& fields) {
+  for (const auto& [key, value] : object.items()) {
+    const std::string name = prefix.empty() ? key : prefix + "." + key;
+    if (value.is_object()) {
+      flatten(value, name, fields);
+    } else if (value.is_primitive() && !value.is_null()) {
+      fields[name] = value;
+    }
+  }
+}
+
+/// A number, or one at the beginning of a text that goes on with a unit.
+double leading_number(const Json& value) {
+  if (value.is_number()) return value.get<double>();
+  if (!value.is_string()) return kNone;
+  const std::string text = value.get<std::string>();
+  char* end = nullptr;
+  const double number = std::strtod(text.c_str(), &end);
+  return end == text.c_str() ? kNone : number;
+}
+
+std::string trimmed(std::string_view text) {
+  const auto begin = text.find_first_not_of(" \t");
+  if (begin == std::string_view::npos) return {};
+  return std::string(text.substr(begin, text.find_last_not_of(" \t") - begin + 1));
+}
+
+}  // namespace
+
+double ResultRow::number(const std::string& field) const {
+  const auto value = fields.find(field);
+  return value == fields.end() ? kNone : leading_number(*value);
+}
+
+ResultRow result_row(const Json& row) {
+  ResultRow result;
+  result.source = row;
+  result.parameters = row.at("parameters");
+  result.state = row.at("state").get<std::string>();
+  for (const char* key : {"job", "sweep", "state", "label"}) result.fields[key] = text_of(row, key);
+  // By name and value, not by flatten: a path holds dots of its own.
+  for (const auto& [path, value] : result.parameters.items()) result.fields[path] = value;
+  result.fields["replica"] = row.value("replica", 0);
+  const auto summary = row.find("summary");
+  if (summary != row.end() && summary->is_object()) flatten(*summary, "", result.fields);
+  return result;
+}
+
+Condition::Condition(const std::string& text) {
+  const auto begin = text.find_first_of("<>=!");
+  const auto end = begin == std::string::npos ? begin : text.find_first_not_of("<>=!", begin);
+  if (end != std::string::npos) {
+    field_ = trimmed(text.substr(0, begin));
+    comparison_ = text.substr(begin, end - begin);
+    value_ = trimmed(text.substr(end));
+  }
+  static const std::set<std::string> kComparisons{"<", "<=", ">", ">=", "=", "==", "!="};
+  if (field_.empty() || value_.empty() || !kComparisons.contains(comparison_)) {
+    throw Failure(ExitCode::kBadInput,
+                  fmt::format("'{}' is no comparison: write FIELD OP VALUE with OP one of < <= > >= "
+                              "= !=, for example 'rods.area_fraction>0.6'",
+                              text));
+  }
+}
+
+bool Condition::matches(const ResultRow& row) const {
+  const auto found = row.fields.find(field_);
+  if (found == row.fields.end()) return false;
+  const double left = leading_number(*found);
+  const double right = leading_number(value_);
+  const bool numbers = !std::isnan(left) && !std::isnan(right);
+  const bool equal = numbers ? left == right : field_text(row, field_) == value_;
+  if (comparison_ == "=" || comparison_ == "==") return equal;
+  if (comparison_ == "!=") return !equal;
+  if (!numbers) {
+    throw Failure(ExitCode::kBadInput, fmt::format("{} {} {}: '{}' is no number", field_, comparison_, value_,
+                                                   std::isnan(right) ? value_ : field_text(row, field_)));
+  }
+  if (comparison_ == "<") return left < right;
+  if (comparison_ == "<=") return left <= right;
+  if (comparison_ == ">") return left > right;
+  return left >= right;
+}
+
+std::vector<ResultRow> filtered(const std::vector<ResultRow>& rows, std::span<const Condition> conditions) {
+  if (!rows.empty()) {
+    const std::vector<std::string> names = field_names(rows);
+    for (const Condition& condition : conditions) {
+      if (std::find(names.begin(), names.end(), condition.field()) != names.end()) continue;
+      throw Failure(ExitCode::kBadInput, fmt::format("no row has a field '{}'{}", condition.field(),
+                                                     scene::did_you_mean(scene::nearest(condition.field(), names))));
+    }
+  }
+  std::vector<ResultRow> kept;
+  for (const ResultRow& row : rows) {
+    if (std::all_of(conditions.begin(), conditions.end(), [&](const auto& c) { return c.matches(row); })) {
+      kept.push_back(row);
+    }
+  }
+  return kept;
+}
+
+MeanAndError mean_and_error(std::span<const double> values) {
+  const auto n = static_cast<double>(values.size());
+  MeanAndError result;
+  for (const double value : values) result.mean += value / n;
+  if (values.size() < 2) return result;
+  double squares = 0;
+  for (const double value : values) squares += (value - result.mean) * (value - result.mean);
+  result.sem = std::sqrt(squares / (n - 1) / n);
+  return result;
+}
+
+std::vector<ResultRow> aggregated(const std::vector<ResultRow>& rows) {
+  // Groups in the order in which they are first met.
+  std::vector<std::vector<const ResultRow*>> groups;
+  std::map<std::string, std::size_t> group_of;
+  // What different versions computed is never averaged; a run that has no version yet belongs to the newest.
+  std::map<std::string, std::string> newest_version;
+  for (const ResultRow& row : rows) {
+    std::string& newest = newest_version[row.parameters.dump()];
+    newest = std::max(newest, field_text(row, kVersion));
+  }
+  for (const ResultRow& row : rows) {
+    const std::string parameters = row.parameters.dump();
+    const std::string version = field_text(row, kVersion);
+    const std::string key = parameters + "\n" + (version.empty() ? newest_version[parameters] : version);
+    const auto [place, is_new] = group_of.try_emplace(key, groups.size());
+    if (is_new) groups.emplace_back();
+    groups[place->second].push_back(&row);
+  }
+
+  std::vector<ResultRow> points;
+  for (const auto& group : groups) {
+    ResultRow point;
+    point.parameters = group.front()->parameters;
+    for (const auto& [path, value] : point.parameters.items()) point.fields[path] = value;
+    point.fields["n_replicas"] = group.size();
+    std::vector<ResultRow> done;
+    for (const ResultRow* row : group) {
+      if (row->state == "done") done.push_back(*row);
+    }
+    point.fields["n_done"] = done.size();
+    if (!done.empty() && done.front().fields.contains(kVersion)) point.fields[kVersion] = done.front().fields[kVersion];
+    point.state = done.size() == group.size() ? "done" : "partial";
+    for (const std::string& name : field_names(done)) {
+      if (kNames.contains(name) || point.parameters.contains(name)) continue;
+      std::vector<double> values;
+      for (const ResultRow& row : done) {
+        const auto value = row.fields.find(name);
+        if (value != row.fields.end() && value->is_number()) values.push_back(value->get<double>());
+      }
+      if (values.empty()) continue;
+      const MeanAndError result = mean_and_error(values);
+      point.fields[name] = result.mean;
+      if (result.sem) point.fields[name + ":sem"] = *result.sem;
+    }
+    if (point.fields.contains("order.sem") && !point.fields.contains("order.mean:sem")) {
+      point.fields["order.mean:sem"] = point.fields.at("order.sem");
+    }
+    points.push_back(std::move(point));
+  }
+  return points;
+}
+
+std::vector<std::string> field_names(const std::vector<ResultRow>& rows) {
+  std::vector<std::string> names;
+  std::set<std::string> seen;
+  for (const ResultRow& row : rows) {
+    for (const auto& [name, value] : row.fields.items()) {
+      if (seen.insert(name).second) names.push_back(name);
+    }
+  }
+  return names;
+}
+
+std::vector<std::string> swept_parameters(const std::vector<ResultRow>& rows) {
+  std::vector<std::string> swept;
+  std::map<std::string, std::set<std::string>> values;
+  std::vector<std::string> order;
+  for (const ResultRow& row : rows) {
+    for (const auto& [path, value] : row.parameters.items()) {
+      if (values[path].empty()) order.push_back(path);
+      values[path].insert(value.dump());
+    }
+  }
+  for (const std::string& path : order) {
+    if (values[path].size() > 1) swept.push_back(path);
+  }
+  return swept;
+}
+
+std::string field_text(const ResultRow& row, const std::string& field) {
+  const auto value = row.fields.find(field);
+  if (value == row.fields.end()) return {};
+  return value->is_string() ? value->get<std::string>() : value->dump();
+}
+
+std::string to_csv(const std::vector<ResultRow>& rows) {
+  const std::vector<std::string> names = field_names(rows);
+  std::string csv;
+  const auto add_line = [&csv, &names](auto text_of_name) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (i > 0) csv += ',';
+      csv += csv_field(text_of_name(names[i]));
+    }
+    csv += '\n';
+  };
+  if (names.empty()) return csv;
+  add_line([](const std::string& name) { return name; });
+  for (const ResultRow& row : rows) {
+    add_line([&row](const std::string& name) { return field_text(row, name); });
+  }
+  return csv;
+}
+
+}  // namespace shaken::client

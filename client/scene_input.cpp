@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "client/scene_input.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iostream>
+#include <iterator>
+
+#include "client/failure.h"
+#include "run/files/atomic_file.h"
+#include "scene/canonical.h"
+#include "scene/derived.h"
+
+namespace shaken::client {
+
+SceneInput read_scene_input(const std::string& file) {
+  if (file == "-") {
+    return {"stdin", std::string(std::istreambuf_iterator<char>(std::cin), std::istreambuf_iterator<char>())};
+  }
+  auto text = run::read_file(file);
+  if (!text) throw Failure(ExitCode::kBadInput, text.error().message);
+  return {file, *std::move(text)};
+}
+
+std::string refusal_text(const std::vector<scene::Problem>& problems) {
+  return fmt::format("refused, with {} problem{}\n{}", problems.size(), problems.size() == 1 ? "" : "s",
+                     scene::to_string(problems));
+}
+
+scene::Sweep load_points(const SceneInput& input, const std::vector<std::string>& settings,
+                         std::optional<int> replicas) {
+  auto loaded = scene::load_sweep(input.text, input.file, settings, replicas);
+  if (!loaded.value) throw Failure(ExitCode::kBadInput, refusal_text(loaded.problems));
+  return *std::move(loaded.value);
+}
+
+Json derived_quantities(const scene::SweepPoint& point) {
+  const scene::RunPlan& plan = point.plan;
+  const Scene& system = plan.system;
+  Json json{{"id", scene::run_id(plan)},
+            {"n_rods", system.n_rods},
+            {"area_fraction", scene::area_fraction_of(system)},
+            {"gamma", scene::gamma_of(system)},
+            {"amplitude_mm", system.amplitude},
+            {"sim_seconds", plan.total_time()},
+            {"ticks", std::llround(plan.total_time() / system.dt)},
+            {"trajectory_frames", 0}};
+  if (plan.trajectory) json["trajectory_frames"] = std::llround(plan.total_time() / plan.trajectory->every) + 1;
+  return json;
+}
+
+}  // namespace shaken::client

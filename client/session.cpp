@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "client/session.h"
+
+#include <fmt/format.h>
+#include <httplib.h>
+#include <sys/un.h>
+
+#include <cstdlib>
+
+#include "client/failure.h"
+#include "scene/problem.h"
+
+namespace shaken::client {
+
+namespace fs = std::filesystem;
+
+fs::path daemon_root(const std::string& given) {
+  const auto variable = [](const char* name) {
+    const char* value = std::getenv(name);
+    return std::string(value == nullptr ? "" : value);
+  };
+  if (!given.empty()) return fs::absolute(given);
+  if (const std::string root = variable("SHAKEN_ROOT"); !root.empty()) return fs::absolute(root);
+  if (const std::string data = variable("XDG_DATA_HOME"); !data.empty()) return fs::path(data) / "shaken";
+  return fs::path(variable("HOME")) / ".local" / "share" / "shaken";
+}
+
+std::string url_encoded(std::string_view text) {
+  static constexpr std::string_view kUnreserved = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~";
+  std::string encoded;
+  for (const char c : text) {
+    if (kUnreserved.find(c) != std::string_view::npos) {
+      encoded += c;
+    } else {
+      encoded += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    }
+  }
+  return encoded;
+}
+
+std::string problem_text(const Json& problem) {
+  return to_string(scene::Problem{.file = problem.value("file", ""),
+                                  .line = problem.value("line", 0),
+                                  .column = problem.value("column", 0),
+                                  .path = problem.value("path", ""),
+                                  .message = problem.value("message", "")});
+}
+
+struct Session::Connection {
+  explicit Connection(const fs::path& daemon_root)
+      : root(daemon_root), socket(daemon_root / "shakend.sock"), http(socket.string()) {
+    http.set_address_family(AF_UNIX);
+    http.set_keep_alive(true);
+    http.set_connection_timeout(5);
+    // A submit of thousands of points and a cancel that waits for the disk both take their time.
+    http.set_read_timeout(120);
+    http.set_write_timeout(30);
+  }
+
+  /// The body of a 2xx answer.
+  Json checked(const httplib::Result& result, const std::string& request) const;
+  [[noreturn]] void fail_without_answer(httplib::Error error) const;
+
+  fs::path root;
+  fs::path socket;
+  httplib::Client http;
+};
+
+void Session::Connection::fail_without_answer(httplib::Error error) const {
+  if (error == httplib::Error::Connection) {
+    throw Failure(ExitCode::kNoDaemon,
+                  fmt::format("no daemon at {}: start one with `shakend --root {} &`", socket.string(), root.string()));
+  }
+  throw Failure(ExitCode::kNoDaemon, fmt::format("the daemon at {} gave no answer ({}): see {}", socket.string(),
+                                                 httplib::to_string(error), (root / "shakend.log").string()));
+}
+
+Json Session::Connection::checked(const httplib::Result& result, const std::string& request) const {
+  if (!result) fail_without_answer(result.error());
+  Json body = Json::parse(result->body, nullptr, false);
+  const int status = result->status;
+  if (!body.is_object()) {
+    throw Failure(ExitCode::kFailed, fmt::format("{}: the answer (status {}) is not a JSON object: is another program "
+                                                 "listening on {}?",
+                                                 request, status, socket.string()));
+  }
+  if (status >= 200 && status < 300) return body;
+
+  std::string message = fmt::format("{}: status {}", request, status);
+  if (const auto error = body.find("error"); error != body.end() && error->is_string()) {
+    message = error->get<std::string>();
+  }
+  if (const auto problems = body.find("problems"); problems != body.end() && problems->is_array()) {
+    message = fmt::format("refused, with {} problem{}", problems->size(), problems->size() == 1 ? "" : "s");
+    for (const Json& problem : *problems) message.append("\n").append(problem_text(problem));
+  }
+  throw Failure(status < 500 ? ExitCode::kBadInput : ExitCode::kFailed, message);
+}
+
+Session::Session(const fs::path& root) {
+  // A longer path would be cut by the kernel's interface, and another socket be opened.
+  const std::size_t longest = sizeof(sockaddr_un::sun_path) - 1;
+  if ((root / "shakend.sock").string().size() > longest) {
+    throw Failure(ExitCode::kBadInput, fmt::format("the root directory's path is too long for a Unix socket (limit {} "
+                                                   "characters): {}",
+                                                   longest, root.string()));
+  }
+  connection_ = std::make_unique<Connection>(root);
+}
+
+Session::Session(Session&&) noexcept = default;
+Session::~Session() = default;
+
+Json Session::get(const std::string& path) {
+  return connection_->checked(connection_->http.Get(path.c_str()), "GET " + path);
+}
+
+std::optional<Json> Session::find(const std::string& path) {
+  const auto result = connection_->http.Get(path.c_str());
+  if (result && result->status == 404) return std::nullopt;
+  return connection_->checked(result, "GET " + path);
+}
+
+Json Session::post(const std::string& path, const Json& body) {
+  return connection_->checked(connection_->http.Post(path.c_str(), body.dump(), "application/json"), "POST " + path);
+}
+
+}  // namespace shaken::client

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "client/json.h"
+
+namespace shaken::client {
+
+/// The daemon's root directory: `given`, else $SHAKEN_ROOT, else $XDG_DATA_HOME/shaken, else ~/.local/share/shaken.
+std::filesystem::path daemon_root(const std::string& given);
+
+/// Text of one segment of a URL's path, or of one value of its query.
+std::string url_encoded(std::string_view text);
+
+/// One entry of the daemon's list of problems: "file:line:column: path: message", without what is not known.
+std::string problem_text(const Json& problem);
+
+/// Requests to the daemon of one root directory (docs/protocol.md). Every function throws Failure: kNoDaemon if nobody
+/// listens, kBadInput with the daemon's words (and the list of problems) for 4xx, kFailed for 5xx and for answers that
+/// are not JSON objects.
+class Session {
+ public:
+  explicit Session(const std::filesystem::path& root);
+  Session(Session&&) noexcept;
+  ~Session();
+
+  Json get(const std::string& path);
+  Json post(const std::string& path, const Json& body);
+  /// As get, but nothing where the daemon answers 404.
+  std::optional<Json> find(const std::string& path);
+
+ private:
+  struct Connection;
+  std::unique_ptr<Connection> connection_;
+};
+
+}  // namespace shaken::client

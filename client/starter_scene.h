@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string_view>
+
+namespace shaken::client {
+
+/// The scene that `shaken init` writes: the paper's rods in a box that is small enough to be done soon.
+inline constexpr std::string_view kStarterScene = R"({
+  // A scene of Shaken. Every number may carry a unit ("4.5 mm"); without one it is in mm, s, Hz, mm/s^2.
+  // Whatever is left out has the value of Sharma & Soni, Soft Matter 20, 6608 (2024).
+  // `shaken validate FILE --resolved` shows all values.
+
+  "rods": {
+    "length": "4.5 mm",        // from tip to tip; longer rods order more
+    "mid_diameter": "0.8 mm",
+    "end_diameter": "0.4 mm",  // the taper: what makes rods move along their axis when they tilt
+    "area_fraction": 0.75      // or "count": number of rods
+  },
+  "box": {
+    "side": "30 mm",           // square, periodic; the paper's is 83.73 mm
+    "gap": "1.2 mm"            // between the plates
+  },
+  "plates": {
+    "gamma": 7.0,              // largest acceleration of the plates over gravity; or "amplitude"
+    "frequency": "200 Hz"
+  },
+  "time": {
+    "step": "4 us",            // the accuracy knob
+    "steady": "auto",          // when measuring begins: a time, or "auto" to find it from S(t) afterwards
+    "measure": "2 s",
+    "seed": 1
+  },
+
+  // Each block switches on what it names; remove what you do not need, and its work is not done.
+  "measure": {
+    "order": { "every": "10 ms" },     // S(t)
+    "angles": {},                      // P(theta)
+    "tilt": {},                        // velocity along the rod against its tilt
+    "defects": { "every": "100 ms" }   // +1/2 and -1/2
+  },
+  "trajectory": { "every": "50 ms" },  // trajectory.h5, for movies and your own analysis
+  "stream": { "rate": "20 Hz" }        // live state over LCM, for `shaken watch`
+  // , "movie": { "every": "50 ms", "size": [1280, 720] }
+}
+)";
+
+}  // namespace shaken::client

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "client/json.h"
+#include "client/session.h"
+
+namespace shaken::client {
+
+/// What an ID of the command line stands for: all jobs of a sweep, or one job.
+struct Target {
+  std::string path;  ///< in the API, "/v1/sweeps/s1" or "/v1/jobs/1f0c..."
+  Json answer;       ///< of GET path, when it was looked up
+  bool is_sweep = false;
+
+  std::string sweep_id() const;
+  /// "sweep s1" or "job 1f0c...".
+  std::string title() const;
+};
+
+/// Finds a sweep by id or name, or else a job by a prefix of its id. Throws Failure (kBadInput) if there is none.
+Target find_target(Session& session, const std::string& id);
+/// As find_target; without an id, the newest sweep.
+Target find_target_or_newest(Session& session, const std::string& id);
+
+/// A job's full id, from the beginning of one.
+Json find_job(Session& session, const std::string& id);
+
+/// Asks again.
+void refresh(Session& session, Target& target);
+/// The target's jobs as of the last answer.
+std::vector<Json> jobs_of(const Target& target);
+
+/// Whether nothing more will happen to a job in this state by itself.
+bool is_final(std::string_view state);
+
+/// The first letters of a job's id, as shown in tables; enough for commands to find it.
+std::string short_id(const std::string& id);
+
+/// Part of a job that is done, 0 to 1; and seconds to its end, negative where unknown.
+double job_fraction(const Json& job);
+double job_eta(const Json& job);
+/// A number of the job's progress.json; NaN if it is not there.
+double progress_number(const Json& job, const char* key);
+/// job[key] as text; empty if it is missing, null or no text.
+std::string text_of(const Json& object, const char* key);
+
+/// {state: n} as words, in the order of a job's life: "3 done, 2 running, 5 queued".
+std::string counts_text(const Json& counts);
+/// Jobs in any state.
+int total_count(const Json& counts);
+
+}  // namespace shaken::client

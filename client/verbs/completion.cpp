@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "client/completion.h"
+
+#include <fmt/format.h>
+
+#include "client/command_line.h"
+#include "client/target.h"
+#include "client/verbs/verbs.h"
+
+namespace shaken::client {
+namespace {
+
+class Completion : public Verb {
+ public:
+  VerbInfo info() const override {
+    return {"completion", kHelpGroup, "Script that lets the shell complete verbs, options, files and IDs",
+            "  eval \"$(shaken completion bash)\"     now, in this shell\n"
+            "  echo 'eval \"$(shaken completion bash)\"' >> ~/.bashrc\n"
+            "  echo 'eval \"$(shaken completion zsh)\"' >> ~/.zshrc\n"
+            "  shaken completion ids                the IDs that fit now, one a line"};
+  }
+
+  void declare(Arguments& arguments) override {
+    arguments.required("WHAT", what_, "bash, zsh, or ids", Names::kAnything);
+  }
+
+  ExitCode run(const Context& context) override {
+    std::ostream& out = context.console.out;
+    if (what_ == "bash") {
+      out << bash_completion(CommandLine().app());
+    } else if (what_ == "zsh") {
+      out << zsh_completion(CommandLine().app());
+    } else if (what_ == "ids") {
+      Session session(context.root);
+      const Json sweeps = session.get("/v1/sweeps");
+      const Json jobs = session.get("/v1/jobs");
+      for (const Json& sweep : sweeps.at("sweeps")) out << sweep.at("id").get<std::string>() << "\n";
+      for (const Json& job : jobs.at("jobs")) out << short_id(job.at("id").get<std::string>()) << "\n";
+    } else {
+      throw Failure(ExitCode::kBadInput, fmt::format("no completion for '{}': bash, zsh, or ids", what_));
+    }
+    return ExitCode::kOk;
+  }
+
+ private:
+  std::string what_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_completion() { return std::make_unique<Completion>(); }
+
+}  // namespace shaken::client

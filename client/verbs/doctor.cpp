@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "client/checkup.h"
+#include "client/json.h"
+#include "client/verbs/verbs.h"
+
+namespace shaken::client {
+namespace {
+
+class Doctor : public Verb {
+ public:
+  VerbInfo info() const override {
+    return {"doctor", kHelpGroup, "Check this machine: programs, daemon, live state, drawing, disk",
+            "  shaken doctor                 exit code 1 if something makes simulating impossible\n"
+            "  shaken doctor --json"};
+  }
+
+  void declare(Arguments& arguments) override { arguments.flag("--json", json_, "Print the findings as JSON"); }
+
+  ExitCode run(const Context& context) override {
+    const std::vector<Finding> findings = checkup(context.root);
+    Console& console = context.console;
+    Json list = Json::array();
+    for (const Finding& finding : findings) {
+      list.push_back({{"check", finding.what},
+                      {"level", word(finding.level)},
+                      {"message", finding.message},
+                      {"remedy", finding.remedy}});
+      if (json_) continue;
+      console.out << fmt::format("{}  {:<14}{}\n",
+                                 console.painted(colour(finding.level), fmt::format("{:<4}", word(finding.level))),
+                                 finding.what, finding.message);
+      if (!finding.remedy.empty()) console.out << fmt::format("{:<20}-> {}\n", "", finding.remedy);
+    }
+    if (json_) console.out << Json{{"checks", list}}.dump(2) << "\n";
+    const bool failed = std::any_of(findings.begin(), findings.end(),
+                                    [](const Finding& finding) { return finding.level == Finding::Level::kFail; });
+    return failed ? ExitCode::kFailed : ExitCode::kOk;
+  }
+
+ private:
+  static const char* word(Finding::Level level) {
+    return level == Finding::Level::kOk ? "ok" : (level == Finding::Level::kWarn ? "warn" : "fail");
+  }
+  static Colour colour(Finding::Level level) {
+    return level == Finding::Level::kOk ? Colour::kGreen
+                                        : (level == Finding::Level::kWarn ? Colour::kYellow : Colour::kRed);
+  }
+
+  bool json_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_doctor() { return std::make_unique<Doctor>(); }
+
+}  // namespace shaken::client

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "client/starter_scene.h"
+#include "client/verbs/verbs.h"
+#include "run/files/atomic_file.h"
+
+namespace shaken::client {
+namespace {
+
+class Init : public Verb {
+ public:
+  VerbInfo info() const override {
+    return {"init", kPrepareGroup, "Write a commented scene to start from",
+            "  shaken init                   scene.json\n"
+            "  shaken init dense.json\n"
+            "  shaken init - | less          to stdout"};
+  }
+
+  void declare(Arguments& arguments) override {
+    arguments.optional("FILE", file_, "Where to write, scene.json if left out; - writes to stdout", Names::kFile);
+    arguments.flag("--force", force_, "Replace a file that exists");
+  }
+
+  ExitCode run(const Context& context) override {
+    if (file_ == "-") {
+      context.console.out << kStarterScene;
+      return ExitCode::kOk;
+    }
+    if (std::filesystem::exists(file_) && !force_) {
+      throw Failure(ExitCode::kBadInput, fmt::format("{} exists: --force replaces it", file_));
+    }
+    if (const auto error = run::write_file_atomically(file_, kStarterScene)) {
+      throw Failure(ExitCode::kFailed, error->message);
+    }
+    context.console.out << fmt::format(
+        "{0}: next `shaken validate {0}`, then `shaken run {0} --out runs/first` or "
+        "`shaken submit {0}`\n",
+        file_);
+    return ExitCode::kOk;
+  }
+
+ private:
+  std::string file_ = "scene.json";
+  bool force_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_init() { return std::make_unique<Init>(); }
+
+}  // namespace shaken::client

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "client/print.h"
+#include "client/target.h"
+#include "client/verbs/verbs.h"
+
+namespace shaken::client {
+namespace {
+
+using Align = Table::Align;
+
+Colour colour_of(std::string_view state) {
+  if (state == "done") return Colour::kGreen;
+  if (state == "failed") return Colour::kRed;
+  if (state == "running") return Colour::kBlue;
+  if (state == "cancelled" || state == "stopping") return Colour::kYellow;
+  return Colour::kDim;
+}
+
+/// Time to the end and when that is; empty if it is not known.
+std::string eta_text(double seconds) {
+  return seconds >= 0 ? fmt::format("{} ({})", duration_text(seconds), clock_text(seconds, now_utime())) : "";
+}
+
+class Status : public Verb {
+ public:
+  VerbInfo info() const override {
+    return {"status", kControlGroup, "Sweeps and jobs: states, progress, time to the end",
+            "  shaken status                 all sweeps\n"
+            "  shaken status s3              the jobs of sweep s3\n"
+            "  shaken status 1f0c            one job, by the beginning of its id\n"
+            "  shaken status s3 --failed     what failed, why, and where its log is\n"
+            "  shaken status --json | jq .   for programs"};
+  }
+
+  void declare(Arguments& arguments) override {
+    arguments.optional("ID", id_, "A sweep (id or name) or a job; all sweeps if left out", Names::kId);
+    arguments.flag("--failed", failed_, "Only failed jobs, with the reason and the log's path");
+    arguments.flag("--json", json_, "Print the daemon's answer as JSON");
+  }
+
+  ExitCode run(const Context& context) override {
+    Session session(context.root);
+    if (failed_) return show_failed(session, context.console);
+    if (id_.empty()) return show_sweeps(session, context.console);
+    const Target target = find_target(session, id_);
+    if (json_) {
+      context.console.out << target.answer.dump(2) << "\n";
+    } else if (target.is_sweep) {
+      show_jobs(target, context.console);
+    } else {
+      show_job(target.answer.at("job"), context.console);
+    }
+    return ExitCode::kOk;
+  }
+
+ private:
+  ExitCode show_sweeps(Session& session, Console& console) const {
+    const Json status = session.get("/v1/status");
+    const Json answer = session.get("/v1/sweeps");
+    if (json_) {
+      console.out << Json{{"status", status}, {"sweeps", answer.at("sweeps")}}.dump(2) << "\n";
+      return ExitCode::kOk;
+    }
+    const Json& lcm = status.at("lcm");
+    const bool lcm_ok = lcm.value("ok", false);
+    console.out << fmt::format(
+        "shakend {} on {}, pid {}, up {}; {} slots; live state {}\n", text_of(status, "version"),
+        text_of(status, "host"), status.value("pid", 0), duration_text(status.value("uptime_s", 0.0)),
+        status.value("slots", 0),
+        lcm_ok ? "on " + text_of(lcm, "url") : console.painted(Colour::kYellow, "off: " + text_of(lcm, "message")));
+    if (answer.at("sweeps").empty()) {
+      console.out << "No sweeps yet: `shaken submit FILE` makes one.\n";
+      return ExitCode::kOk;
+    }
+    Table table({{"SWEEP"}, {"NAME"}, {"JOBS", Align::kRight}, {"PROGRESS"}, {"STATES"}, {"ETA"}});
+    for (const Json& sweep : answer.at("sweeps")) {
+      const double progress = sweep.value("progress", 0.0);
+      const int failed = sweep.at("counts").value("failed", 0);
+      table.add_row(
+          {sweep.at("id").get<std::string>(), text_of(sweep, "name"), std::to_string(sweep.value("n_jobs", 0)),
+           fmt::format("{} {:3.0f} %", console.painted(Colour::kBlue, bar_text(progress, 12)), 100 * progress),
+           console.painted(failed > 0 ? Colour::kRed : Colour::kPlain, counts_text(sweep.at("counts"))),
+           eta_text(sweep.value("eta_s", -1.0))});
+    }
+    console.out << table.text(console.width);
+    return ExitCode::kOk;
+  }
+
+  static void show_jobs(const Target& target, Console& console) {
+    const Json& sweep = target.answer.at("sweep");
+    const double progress = sweep.value("progress", 0.0);
+    console.out << fmt::format("{}: {}\n{} {:3.0f} %  {}\n", console.painted(Colour::kBold, target.title()),
+                               counts_text(sweep.at("counts")), console.painted(Colour::kBlue, bar_text(progress, 24)),
+                               100 * progress, eta_text(sweep.value("eta_s", -1.0)));
+    Table table({{"JOB"}, {"STATE"}, {"DONE", Align::kRight}, {"S", Align::kRight}, {"ETA"}, {"POINT"}});
+    for (const Json& job : jobs_of(target)) {
+      const std::string state = text_of(job, "state");
+      const std::string reason = text_of(job, "reason");
+      table.add_row({short_id(job.at("id").get<std::string>()), console.painted(colour_of(state), state),
+                     fmt::format("{:.0f} %", 100 * job_fraction(job)),
+                     number_text(progress_number(job, "order_running_mean")), eta_text(job_eta(job)),
+                     text_of(job, "label") + (reason.empty() ? "" : "  " + console.painted(Colour::kDim, reason))});
+    }
+    console.out << table.text(console.width);
+  }
+
+  static void show_job(const Json& job, Console& console) {
+    const std::string state = text_of(job, "state");
+    const auto line = [&](const char* title, const std::string& text) {
+      if (!text.empty()) console.out << fmt::format("{:<12}{}\n", title, text);
+    };
+    line("job", job.at("id").get<std::string>());
+    line("sweep", text_of(job, "sweep"));
+    line("point", text_of(job, "label"));
+    line("state", console.painted(colour_of(state), state));
+    line("reason", text_of(job, "reason"));
+    line("attempt", std::to_string(job.value("attempt", 0)));
+    line("directory", text_of(job, "directory"));
+    if (const double total = progress_number(job, "sim_time_total_s"); total > 0) {
+      line("progress",
+           fmt::format("{} {:.1f} %, {} of {} simulated",
+                       console.painted(Colour::kBlue, bar_text(job_fraction(job), 24)), 100 * job_fraction(job),
+                       duration_text(progress_number(job, "sim_time_s")), duration_text(total)));
+      line("rods", number_text(progress_number(job, "n_rods")));
+      line("order S", fmt::format("{} (running mean {})", number_text(progress_number(job, "order")),
+                                  number_text(progress_number(job, "order_running_mean"))));
+      line("overlap", number_text(progress_number(job, "max_overlap_mm")) + " mm at most");
+    }
+    line("ETA", eta_text(job_eta(job)));
+  }
+
+  ExitCode show_failed(Session& session, Console& console) const {
+    std::vector<Json> failed;
+    const Json answer = id_.empty() ? session.get("/v1/jobs?state=failed") : Json();
+    const std::vector<Json> jobs = id_.empty() ? std::vector<Json>(answer.at("jobs").begin(), answer.at("jobs").end())
+                                               : jobs_of(find_target(session, id_));
+    for (const Json& job : jobs) {
+      if (text_of(job, "state") == "failed") failed.push_back(job);
+    }
+    if (json_) {
+      console.out << Json{{"jobs", failed}}.dump(2) << "\n";
+      return ExitCode::kOk;
+    }
+    if (failed.empty()) console.out << "No failed jobs.\n";
+    for (const Json& job : failed) {
+      console.out << fmt::format("{}  {}  attempt {}\n  {}\n  log: {}/worker.log\n",
+                                 console.painted(Colour::kRed, job.at("id").get<std::string>()), text_of(job, "label"),
+                                 job.value("attempt", 0), text_of(job, "reason"), text_of(job, "directory"));
+    }
+    return ExitCode::kOk;
+  }
+
+  std::string id_;
+  bool failed_ = false;
+  bool json_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_status() { return std::make_unique<Status>(); }
+
+}  // namespace shaken::client

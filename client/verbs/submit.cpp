@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <map>
+
+#include "client/print.h"
+#include "client/scene_input.h"
+#include "client/target.h"
+#include "client/verbs/verbs.h"
+#include "client/waiting.h"
+
+namespace shaken::client {
+namespace {
+
+using Align = Table::Align;
+
+/// Longer tables are left to `shaken status`.
+constexpr std::size_t kMostLines = 60;
+
+class Submit : public Verb {
+ public:
+  VerbInfo info() const override {
+    return {"submit", kControlGroup, "Queue a scene or a sweep with the daemon; what was done before is not done again",
+            "  shaken submit scene.json\n"
+            "  shaken submit scene.json -s rods.length=2.5,3.5,4.5 -s rods.area_fraction=0.55:0.75:0.05\n"
+            "  shaken submit sweep.json --replicas 4 --name phases\n"
+            "  shaken submit sweep.json --dry-run           only checks and shows the points\n"
+            "  shaken submit scene.json --wait && shaken results"};
+  }
+
+  void declare(Arguments& arguments) override {
+    arguments.required("FILE", file_, "A scene or sweep file; - reads stdin", Names::kFile);
+    arguments.repeatable("-s,--set", settings_, "PATH=VALUE",
+                         "Change one value, or sweep it: VALUE,VALUE or FROM:TO:STEP; repeatable");
+    arguments.option("--replicas", replicas_, "N", "Runs of each point, each with a seed of its own");
+    arguments.option("--name", name_, "NAME", "Of the sweep; the file's name if left out");
+    arguments.flag("--dry-run", dry_run_, "Check everything and show the points, but queue nothing");
+    arguments.flag("--wait", wait_, "Wait until all jobs have ended; exit code 0 only if all are done");
+    arguments.flag("--json", json_, "Print the daemon's answer as JSON");
+  }
+
+  ExitCode run(const Context& context) override {
+    const SceneInput input = read_scene_input(file_);
+    // Read here as the daemon reads it: mistakes are told even without a daemon, and rods can be counted.
+    const scene::Sweep sweep = load_points(input, settings_, replicas_);
+    if (dry_run_) {
+      show_dry_run(sweep, context.console);
+      return ExitCode::kOk;
+    }
+
+    Json request{{"text", input.text}, {"file", input.file}, {"settings", settings_}};
+    if (replicas_) request["replicas"] = *replicas_;
+    if (!name_.empty()) request["name"] = name_;
+    Session session(context.root);
+    const Json answer = session.post("/v1/sweeps", request);
+    if (json_) {
+      context.console.out << answer.dump(2) << "\n";
+    } else {
+      show(answer, sweep, context.console);
+    }
+    if (!wait_) return ExitCode::kOk;
+    context.console.out << std::flush;
+    return wait_for(session, {find_target(session, answer.at("sweep").at("id").get<std::string>())}, std::nullopt,
+                    context.console);
+  }
+
+ private:
+  void show_dry_run(const scene::Sweep& sweep, Console& console) const {
+    Json list = Json::array();
+    Table table({{"JOB"}, {"N", Align::kRight}, {"SIM s", Align::kRight}, {"POINT"}});
+    for (const scene::SweepPoint& point : sweep.points) {
+      const Json derived = derived_quantities(point);
+      list.push_back({{"id", derived.at("id")},
+                      {"label", point.label},
+                      {"parameters", point.parameters},
+                      {"replica", point.replica},
+                      {"n_rods", derived.at("n_rods")}});
+      table.add_row({short_id(derived.at("id").get<std::string>()), std::to_string(point.plan.system.n_rods),
+                     number_text(point.plan.total_time()), point.label});
+    }
+    if (json_) {
+      console.out << Json{{"points", list}}.dump(2) << "\n";
+    } else {
+      console.out << fmt::format("{}: {} points, nothing queued\n{}", sweep.name, sweep.points.size(),
+                                 table.text(console.width));
+    }
+  }
+
+  static void show(const Json& answer, const scene::Sweep& local, Console& console) {
+    std::map<std::string, int> n_rods;
+    for (const scene::SweepPoint& point : local.points) {
+      n_rods[derived_quantities(point).at("id").get<std::string>()] = point.plan.system.n_rods;
+    }
+    const Json& sweep = answer.at("sweep");
+    const Json& jobs = answer.at("jobs");
+    const Json& counts = answer.at("counts");
+    const int n_new = counts.value("new", 0);
+    Table table({{"JOB"}, {"STATE"}, {"N", Align::kRight}, {"POINT"}});
+    for (const Json& job : jobs) {
+      if (&job - &jobs.front() >= static_cast<std::ptrdiff_t>(kMostLines)) break;
+      const std::string id = job.at("id").get<std::string>();
+      const bool is_new = n_new > 0 && text_of(job, "sweep") == text_of(sweep, "id") &&
+                          job.value("created_utime", std::int64_t{0}) >= sweep.value("created_utime", std::int64_t{0});
+      const auto n = n_rods.find(id);
+      table.add_row({short_id(id), is_new ? console.painted(Colour::kGreen, "new") : text_of(job, "state"),
+                     n == n_rods.end() ? "" : std::to_string(n->second), text_of(job, "label")});
+    }
+    std::string words = fmt::format("{} new", n_new);
+    if (const int n = counts.value("requeued", 0); n > 0) words += fmt::format(", {} queued again", n);
+    for (const char* state : {"done", "running", "queued"}) {
+      // "queued" counts the new ones too.
+      const int n =
+          counts.value(state, 0) - (std::string_view(state) == "queued" ? n_new + counts.value("requeued", 0) : 0);
+      if (n > 0) words += fmt::format(", {} {}{}", n, std::string_view(state) == "done" ? "" : "already ", state);
+    }
+    console.out << fmt::format("sweep {} ({}): {} point{}: {}\n", console.painted(Colour::kBold, text_of(sweep, "id")),
+                               text_of(sweep, "name"), jobs.size(), jobs.size() == 1 ? "" : "s", words)
+                << table.text(console.width);
+    if (jobs.size() > kMostLines) {
+      console.out << fmt::format("... and {} more: `shaken status {}`\n", jobs.size() - kMostLines,
+                                 text_of(sweep, "id"));
+    }
+  }
+
+  std::string file_;
+  std::vector<std::string> settings_;
+  std::optional<int> replicas_;
+  std::string name_;
+  bool dry_run_ = false;
+  bool wait_ = false;
+  bool json_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_submit() { return std::make_unique<Submit>(); }
+
+}  // namespace shaken::client

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "client/print.h"
+#include "client/scene_input.h"
+#include "client/target.h"
+#include "client/verbs/verbs.h"
+#include "scene/canonical.h"
+
+namespace shaken::client {
+namespace {
+
+using Align = Table::Align;
+
+class Validate : public Verb {
+ public:
+  VerbInfo info() const override {
+    return {"validate", kPrepareGroup, "Check a scene or sweep file and show what follows from it",
+            "  shaken validate scene.json\n"
+            "  shaken validate sweep.json -s rods.length=2.5,3.5,4.5 --replicas 3\n"
+            "  shaken validate scene.json --resolved     every value, defaults filled in\n"
+            "  shaken validate scene.json --json         problems or derived quantities, for programs"};
+  }
+
+  void declare(Arguments& arguments) override {
+    arguments.required("FILE", file_, "A scene or sweep file; - reads stdin", Names::kFile);
+    arguments.repeatable("-s,--set", settings_, "PATH=VALUE", "Change or sweep one value; repeatable");
+    arguments.option("--replicas", replicas_, "N", "Runs of each point, each with a seed of its own");
+    arguments.flag("--resolved", resolved_, "Print the resolved scenes as JSON");
+    arguments.flag("--json", json_, "Print problems or derived quantities as JSON");
+  }
+
+  ExitCode run(const Context& context) override {
+    const SceneInput input = read_scene_input(file_);
+    Console& console = context.console;
+    const auto loaded = scene::load_sweep(input.text, input.file, settings_, replicas_);
+    if (!loaded.value) {
+      if (!json_) throw Failure(ExitCode::kBadInput, refusal_text(loaded.problems));
+      print_problems(loaded.problems, console);
+      return ExitCode::kBadInput;
+    }
+    const std::vector<scene::SweepPoint>& points = loaded.value->points;
+    if (resolved_) {
+      print_resolved(points, console);
+    } else if (json_) {
+      print_json(points, console);
+    } else {
+      print_summary(points, console);
+    }
+    return ExitCode::kOk;
+  }
+
+ private:
+  static void print_problems(const std::vector<scene::Problem>& problems, Console& console) {
+    Json list = Json::array();
+    for (const scene::Problem& problem : problems) {
+      list.push_back({{"file", problem.file},
+                      {"line", problem.line},
+                      {"column", problem.column},
+                      {"path", problem.path},
+                      {"message", problem.message}});
+    }
+    console.out << Json{{"ok", false}, {"problems", list}}.dump(2) << "\n";
+  }
+
+  static void print_resolved(const std::vector<scene::SweepPoint>& points, Console& console) {
+    if (points.size() == 1) {
+      console.out << scene::to_json(points.front().plan).dump(2) << "\n";
+      return;
+    }
+    Json list = Json::array();
+    for (const scene::SweepPoint& point : points) list.push_back(scene::to_json(point.plan));
+    console.out << list.dump(2) << "\n";
+  }
+
+  static void print_json(const std::vector<scene::SweepPoint>& points, Console& console) {
+    Json list = Json::array();
+    for (const scene::SweepPoint& point : points) {
+      Json entry{{"label", point.label}, {"parameters", point.parameters}, {"replica", point.replica}};
+      entry.update(derived_quantities(point));
+      list.push_back(std::move(entry));
+    }
+    console.out << Json{{"ok", true}, {"problems", Json::array()}, {"points", list}}.dump(2) << "\n";
+  }
+
+  void print_summary(const std::vector<scene::SweepPoint>& points, Console& console) const {
+    console.out << fmt::format("{} {}: {}\n", file_, console.painted(Colour::kGreen, "is fine"),
+                               points.size() == 1 ? "one run" : fmt::format("{} runs", points.size()));
+    Table table({{"RUN"},
+                 {"RODS", Align::kRight},
+                 {"AREA FRACTION", Align::kRight},
+                 {"GAMMA", Align::kRight},
+                 {"AMPLITUDE mm", Align::kRight},
+                 {"SIM s", Align::kRight},
+                 {"TICKS", Align::kRight},
+                 {"FRAMES", Align::kRight},
+                 {"POINT"}});
+    for (const scene::SweepPoint& point : points) {
+      const Json derived = derived_quantities(point);
+      const auto number = [&derived](const char* key) { return number_text(derived.at(key).get<double>()); };
+      table.add_row({short_id(derived.at("id").get<std::string>()), number("n_rods"), number("area_fraction"),
+                     number("gamma"), number("amplitude_mm"), number("sim_seconds"), number("ticks"),
+                     number("trajectory_frames"), point.label});
+    }
+    console.out << table.text(console.width);
+  }
+
+  std::string file_;
+  std::vector<std::string> settings_;
+  std::optional<int> replicas_;
+  bool resolved_ = false;
+  bool json_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_validate() { return std::make_unique<Validate>(); }
+
+}  // namespace shaken::client

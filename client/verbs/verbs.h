@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+
+#include "client/verb.h"
+
+namespace shaken::client {
+
+inline constexpr const char* kPrepareGroup = "Prepare";
+inline constexpr const char* kControlGroup = "Run and control";
+inline constexpr const char* kResultsGroup = "Results";
+inline constexpr const char* kHelpGroup = "Set-up and help";
+
+std::unique_ptr<Verb> make_init();
+std::unique_ptr<Verb> make_validate();
+std::unique_ptr<Verb> make_run();
+std::unique_ptr<Verb> make_submit();
+std::unique_ptr<Verb> make_status();
+std::unique_ptr<Verb> make_watch();
+std::unique_ptr<Verb> make_logs();
+std::unique_ptr<Verb> make_wait();
+std::unique_ptr<Verb> make_cancel();
+std::unique_ptr<Verb> make_results();
+std::unique_ptr<Verb> make_plot();
+std::unique_ptr<Verb> make_movie();
+std::unique_ptr<Verb> make_doctor();
+std::unique_ptr<Verb> make_completion();
+
+}  // namespace shaken::client

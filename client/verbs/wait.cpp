@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "client/target.h"
+#include "client/verbs/verbs.h"
+#include "client/waiting.h"
+
+namespace shaken::client {
+namespace {
+
+class Wait : public Verb {
+ public:
+  VerbInfo info() const override {
+    return {"wait", kControlGroup, "Wait until jobs have ended; exit code 0 only if all are done",
+            "  shaken wait                   for every job that has not ended yet\n"
+            "  shaken wait s3 && shaken plot s3\n"
+            "  shaken wait 1f0c --timeout 600"};
+  }
+
+  void declare(Arguments& arguments) override {
+    arguments.list("ID", ids_, "Sweeps (id or name) and jobs; every unfinished job if left out", Names::kId, 0);
+    arguments.option("--timeout", timeout_, "SECONDS", "Give up after this time (exit code 1); the jobs go on");
+  }
+
+  ExitCode run(const Context& context) override {
+    Session session(context.root);
+    std::vector<Target> targets;
+    for (const std::string& id : ids_) targets.push_back(find_target(session, id));
+    if (ids_.empty()) {
+      for (const char* state : {"queued", "running", "stopping"}) {
+        const Json answer = session.get(std::string("/v1/jobs?state=") + state);
+        for (const Json& job : answer.at("jobs")) {
+          targets.push_back({"/v1/jobs/" + job.at("id").get<std::string>(), Json{{"job", job}}, false});
+        }
+      }
+    }
+    return wait_for(session, std::move(targets), timeout_, context.console);
+  }
+
+ private:
+  std::vector<std::string> ids_;
+  std::optional<double> timeout_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_wait() { return std::make_unique<Wait>(); }
+
+}  // namespace shaken::client

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <chrono>
+#include <map>
+
+#include "client/interrupt.h"
+#include "client/live.h"
+#include "client/target.h"
+#include "client/verbs/verbs.h"
+#include "client/watch_view.h"
+#include "proto/bus.h"
+
+namespace shaken::client {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Shows screens on a terminal's second page and gives the first one back when it goes.
+class ScreenPage {
+ public:
+  explicit ScreenPage(Console& console) : console_(console) {
+    if (console_.interactive) console_.out << "\x1b[?1049h\x1b[?25l" << std::flush;
+  }
+  ScreenPage(const ScreenPage&) = delete;
+  ScreenPage& operator=(const ScreenPage&) = delete;
+  ~ScreenPage() {
+    if (console_.interactive) console_.out << "\x1b[?25h\x1b[?1049l" << std::flush;
+  }
+  void show(const std::vector<std::string>& lines) {
+    console_.out << "\x1b[H";
+    for (std::size_t i = 0; i < lines.size(); ++i) console_.out << (i > 0 ? "\r\n" : "") << lines[i] << "\x1b[K";
+    console_.out << "\x1b[J" << std::flush;
+  }
+
+ private:
+  Console& console_;
+};
+
+class Watch : public Verb {
+ public:
+  VerbInfo info() const override {
+    return {"watch", kControlGroup, "Live: S(t), progress, collisions, defects, time to the end",
+            "  shaken watch                  the newest sweep\n"
+            "  shaken watch 1f0c             one job\n"
+            "  shaken watch s3 --for 60      leaves after a minute; the jobs go on\n"
+            "  shaken watch s3 | tee log     a line per second and job, where stdout is no terminal"};
+  }
+
+  void declare(Arguments& arguments) override {
+    arguments.optional("ID", id_, "A sweep (id or name) or a job; the newest sweep if left out", Names::kId);
+    arguments.option("--for", seconds_, "SECONDS", "Leave after this time");
+    arguments.option("--lcm-url", lcm_url_, "URL", "The bus; the daemon's if left out");
+  }
+
+  ExitCode run(const Context& context) override {
+    Console& console = context.console;
+    Session session(context.root);
+    Target target = find_target_or_newest(session, id_);
+    LiveJobs jobs;
+    for (const Json& job : jobs_of(target)) jobs.note_api(job);
+
+    const proto::Bus::Opened opened = open_bus(session);
+    if (opened) {
+      opened.bus->subscribe<job_t>(
+          proto::kJobChannel, [&jobs](const job_t& message) { jobs.note(message); }, 100);
+      opened.bus->subscribe<observables_t>(
+          proto::kObservablesChannel, [&jobs](const observables_t& message) { jobs.note(message); }, 500);
+      opened.bus->subscribe<defects_t>(
+          proto::kDefectsChannel, [&jobs](const defects_t& message) { jobs.note(message); }, 100);
+    }
+
+    if (!opened && !console.interactive) console.err << source_note(jobs, opened, {}) << "\n";
+    {
+      const InterruptGuard guard;
+      ScreenPage page(console);
+      follow(session, target, jobs, opened, guard, page, console);
+    }
+    for (const LiveJob& job : jobs.jobs()) console.out << watch_line(job) << "\n";
+    return ExitCode::kOk;
+  }
+
+ private:
+  proto::Bus::Opened open_bus(Session& session) const {
+    std::string url = lcm_url_;
+    if (url.empty()) {
+      const Json lcm = session.get("/v1/status").at("lcm");
+      if (!lcm.value("ok", false)) return {nullptr, text_of(lcm, "message")};
+      url = text_of(lcm, "url");
+    }
+    return proto::Bus::open(url);
+  }
+
+  /// Until the jobs have ended, the time is over, Ctrl-C, or nobody reads any more.
+  void follow(Session& session, Target& target, LiveJobs& jobs, const proto::Bus::Opened& opened,
+              const InterruptGuard& guard, ScreenPage& page, Console& console) const {
+    static constexpr std::chrono::seconds kAskEvery{1};
+    static constexpr std::chrono::seconds kDaemonMayBeAway{10};
+    const auto redraw_every = std::chrono::milliseconds(console.interactive ? 200 : 1000);
+    const Clock::time_point start = Clock::now();
+    Clock::time_point last_answer = start;
+    Clock::time_point next_question = start + kAskEvery;
+    Clock::time_point next_drawing = start;
+    std::map<std::string, std::string> shown_state;
+
+    for (;;) {
+      const Clock::time_point now = Clock::now();
+      if (now >= next_question) {
+        next_question = now + kAskEvery;
+        try {
+          refresh(session, target);
+          for (const Json& job : jobs_of(target)) jobs.note_api(job);
+          last_answer = now;
+        } catch (const Failure& failure) {
+          if (failure.code != ExitCode::kNoDaemon || now - last_answer > kDaemonMayBeAway) throw;
+        }
+      }
+      const bool over = jobs.all_ended() || guard.interrupted() || !console.out.good() ||
+                        (seconds_ && std::chrono::duration<double>(now - start).count() >= *seconds_);
+      if (now >= next_drawing || over) {
+        next_drawing = now + redraw_every;
+        if (console.interactive) {
+          console.refresh_size();
+          page.show(watch_screen(jobs, target.title(), source_note(jobs, opened, now - start), console));
+        } else if (!over) {
+          for (const LiveJob& job : jobs.jobs()) {
+            // Jobs that wait or have ended are worth a line when that changes.
+            std::string& shown = shown_state[job.id];
+            if (job.is_running() || shown != job.state) console.out << watch_line(job) << "\n";
+            shown = job.state;
+          }
+          console.out << std::flush;
+        }
+      }
+      if (over) return;
+      if (opened) {
+        opened.bus->handle(50);
+      } else {
+        guard.sleep_for(std::chrono::milliseconds(50));
+      }
+    }
+  }
+
+  static std::string source_note(const LiveJobs& jobs, const proto::Bus::Opened& opened, Clock::duration watched) {
+    if (!opened)
+      return fmt::format("no live state ({}): asking the daemon once a second. Ctrl-C leaves", opened.reason);
+    const std::int64_t n = jobs.received();
+    if (n == 0 && watched > std::chrono::seconds(3)) {
+      return fmt::format("nothing heard on {} (has the scene a \"stream\" block?): asking the daemon. Ctrl-C leaves",
+                         opened.bus->url());
+    }
+    return fmt::format("live over LCM: {} messages, {} lost. Ctrl-C leaves", n, jobs.lost());
+  }
+
+  std::string id_;
+  std::optional<double> seconds_;
+  std::string lcm_url_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_watch() { return std::make_unique<Watch>(); }
+
+}  // namespace shaken::client

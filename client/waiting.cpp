@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "client/waiting.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+
+#include "client/interrupt.h"
+#include "client/print.h"
+
+namespace shaken::client {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::seconds kDaemonMayBeAway{10};
+
+/// Every job once, by id: targets may overlap.
+std::map<std::string, Json> jobs_of_all(const std::vector<Target>& targets) {
+  std::map<std::string, Json> jobs;
+  for (const Target& target : targets) {
+    for (const Json& job : jobs_of(target)) jobs[job.at("id").get<std::string>()] = job;
+  }
+  return jobs;
+}
+
+/// Time to the end as the daemon sees it: the slowest target's.
+double eta_of(const std::vector<Target>& targets) {
+  double eta = -1;
+  for (const Target& target : targets) {
+    eta = std::max(eta,
+                   target.is_sweep ? target.answer.at("sweep").value("eta_s", -1.0) : job_eta(target.answer.at("job")));
+  }
+  return eta;
+}
+
+}  // namespace
+
+ExitCode wait_for(Session& session, std::vector<Target> targets, std::optional<double> timeout_s, Console& console) {
+  const InterruptGuard guard;
+  const Clock::time_point start = Clock::now();
+  Clock::time_point last_answer = start;
+  const auto clear_line = [&] {
+    if (console.err_is_terminal) console.err << "\r\x1b[K" << std::flush;
+  };
+
+  for (;;) {
+    const auto jobs = jobs_of_all(targets);
+    int n_done = 0;
+    int n_ended = 0;
+    double fraction = 0;
+    for (const auto& [id, job] : jobs) {
+      const std::string state = text_of(job, "state");
+      n_done += state == "done";
+      n_ended += is_final(state);
+      fraction += (is_final(state) ? 1.0 : job_fraction(job)) / static_cast<double>(jobs.size());
+    }
+    const int n_jobs = static_cast<int>(jobs.size());
+    if (console.err_is_terminal) {
+      const double eta = eta_of(targets);
+      const std::string line =
+          fmt::format("{} {:3.0f} %  {}/{} jobs  ETA {} ({})", bar_text(fraction, 24), 100 * fraction, n_ended, n_jobs,
+                      duration_text(eta), clock_text(eta, now_utime()));
+      console.err << "\r" << fitted(line, console.width > 0 ? static_cast<std::size_t>(console.width - 1) : 79)
+                  << "\x1b[K" << std::flush;
+    }
+
+    if (n_ended == n_jobs) {
+      clear_line();
+      for (const auto& [id, job] : jobs) {
+        const std::string state = text_of(job, "state");
+        if (state == "done") continue;
+        console.err << fmt::format("{} {}: {} ({})\n", short_id(id), state, text_of(job, "reason"),
+                                   text_of(job, "label"));
+      }
+      return n_done == n_jobs ? ExitCode::kOk : ExitCode::kFailed;
+    }
+    const double elapsed = std::chrono::duration<double>(Clock::now() - start).count();
+    if (guard.interrupted() || (timeout_s && elapsed >= *timeout_s)) {
+      clear_line();
+      console.err << fmt::format("{}: {} of {} jobs have not ended; they go on\n",
+                                 guard.interrupted() ? "interrupted" : "time is up", n_jobs - n_ended, n_jobs);
+      return ExitCode::kFailed;
+    }
+
+    const double left = timeout_s ? std::max(0.0, *timeout_s - elapsed) : 1.0;
+    guard.sleep_for(std::chrono::milliseconds(static_cast<int>(1000 * std::min(0.5, left))));
+    try {
+      for (Target& target : targets) refresh(session, target);
+      last_answer = Clock::now();
+    } catch (const Failure& failure) {
+      if (failure.code != ExitCode::kNoDaemon || Clock::now() - last_answer > kDaemonMayBeAway) {
+        clear_line();
+        throw;
+      }
+    }
+  }
+}
+
+}  // namespace shaken::client

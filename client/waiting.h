@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "client/console.h"
+#include "client/failure.h"
+#include "client/session.h"
+#include "client/target.h"
+
+namespace shaken::client {
+
+/// Waits until all jobs of `targets` have ended, with a line of progress on a terminal's stderr. kOk only if every job
+/// is done; kFailed if one failed or was cancelled (they are named on stderr), after `timeout_s` seconds and after
+/// Ctrl-C: the jobs themselves go on then. A daemon that is restarted meanwhile is waited for, up to 10 s.
+ExitCode wait_for(Session& session, std::vector<Target> targets, std::optional<double> timeout_s, Console& console);
+
+}  // namespace shaken::client

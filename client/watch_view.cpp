@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "client/watch_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "client/chart.h"
+#include "client/print.h"
+#include "client/target.h"
+
+namespace shaken::client {
+namespace {
+
+constexpr int kMostChartLines = 14;
+constexpr int kFewestChartLines = 5;
+
+std::string bar_line(const LiveJob& job, const Console& console) {
+  return fmt::format("{}  {} {:5.1f} %  {} of {}  {:.3g} sim-s/s  ETA {} ({})  {}",
+                     console.painted(Colour::kBold, short_id(job.id)),
+                     console.painted(Colour::kBlue, bar_text(job.fraction(), 16)), 100 * job.fraction(),
+                     duration_text(job.sim_time), duration_text(job.sim_time_total), job.sim_rate,
+                     duration_text(job.eta), clock_text(job.eta, now_utime()), job.label);
+}
+
+std::string numbers_line(const LiveJob& job, const Console& console) {
+  std::string line = fmt::format("  S {}  mean {:.3f}  N {}  overlap {:.2g} mm",
+                                 console.painted(Colour::kGreen, fmt::format("{:.3f}", job.order.value_or(0))),
+                                 job.order_mean, job.n_rods, job.max_overlap);
+  if (job.n_plus) line += fmt::format("  defects +{} −{}", *job.n_plus, *job.n_minus);
+  if (job.observables) {
+    const observables_t& o = *job.observables;
+    line += fmt::format("  v_xy {:.2f}  v_z {:.2f} mm/s  n_z {:.3f}  hits rod {} base {} lid {}", o.rms_speed_xy_mm_s,
+                        o.rms_speed_z_mm_s, o.rms_n_z, number_text(static_cast<double>(o.collisions_rod_rod)),
+                        number_text(static_cast<double>(o.collisions_rod_base)),
+                        number_text(static_cast<double>(o.collisions_rod_lid)));
+  }
+  return line;
+}
+
+std::string summary_line(const LiveJobs& jobs, const std::string& title, const Console& console) {
+  Json counts = Json::object();
+  double fraction = 0;
+  for (const LiveJob& job : jobs.jobs()) {
+    counts[job.state] = counts.value(job.state, 0) + 1;
+    fraction += (is_final(job.state) ? 1.0 : job.fraction()) / static_cast<double>(jobs.jobs().size());
+  }
+  return fmt::format("{}  {} {:3.0f} %  {}", console.painted(Colour::kBold, title),
+                     console.painted(Colour::kBlue, bar_text(fraction, 16)), 100 * fraction, counts_text(counts));
+}
+
+}  // namespace
+
+std::vector<std::string> watch_screen(const LiveJobs& jobs, const std::string& title, const std::string& note,
+                                      const Console& console) {
+  std::vector<const LiveJob*> running;
+  for (const LiveJob& job : jobs.jobs()) {
+    if (job.is_running()) running.push_back(&job);
+  }
+  std::vector<std::string> lines{summary_line(jobs, title, console), ""};
+
+  // Every running job gets its two lines first, then charts share what is left.
+  const int room = console.height - 1 - static_cast<int>(lines.size());
+  const int n_shown = std::clamp(room / 2, 0, static_cast<int>(running.size()));
+  const int spare = room - 2 * n_shown;
+  const int n_charts = std::min(n_shown, spare / kFewestChartLines);
+  const int chart_lines = n_charts > 0 ? std::min(kMostChartLines, spare / n_charts) : 0;
+  for (int i = 0; i < n_shown; ++i) {
+    const LiveJob& job = *running[static_cast<std::size_t>(i)];
+    lines.push_back(bar_line(job, console));
+    lines.push_back(numbers_line(job, console));
+    if (i >= n_charts) continue;
+    const ChartFrame frame{.width = std::min(console.width, 110),
+                           .height = chart_lines,
+                           .x_max = std::max(job.sim_time, 1e-3),
+                           .x_unit = "s   S(t)"};
+    for (std::string& line : line_chart(job.order_history.times(), job.order_history.values(), frame)) {
+      lines.push_back(std::move(line));
+    }
+  }
+  const int n_hidden = static_cast<int>(running.size()) - n_shown;
+  lines.push_back(
+      console.painted(Colour::kDim, (n_hidden > 0 ? fmt::format("{} more running; ", n_hidden) : "") + note));
+  for (std::string& line : lines) line = fitted(line, static_cast<std::size_t>(std::max(1, console.width)));
+  if (static_cast<int>(lines.size()) > console.height)
+    lines.resize(static_cast<std::size_t>(std::max(1, console.height)));
+  return lines;
+}
+
+std::string watch_line(const LiveJob& job) {
+  std::string line = fmt::format("{} {} {:5.1f} %  t {:.3f}/{:.3f} s", short_id(job.id), job.state,
+                                 100 * job.fraction(), job.sim_time, job.sim_time_total);
+  if (job.order) line += fmt::format("  S {:.3f} (mean {:.3f})", *job.order, job.order_mean);
+  line +=
+      fmt::format("  {:.3g} sim-s/s  ETA {}  overlap {:.2g} mm", job.sim_rate, duration_text(job.eta), job.max_overlap);
+  if (job.observables) {
+    line += fmt::format("  hits {}/{}/{}", job.observables->collisions_rod_rod, job.observables->collisions_rod_base,
+                        job.observables->collisions_rod_lid);
+  }
+  if (job.n_plus) line += fmt::format("  defects +{} -{}", *job.n_plus, *job.n_minus);
+  if (job.lost() > 0) line += fmt::format("  {} messages lost", job.lost());
+  return line + (job.label.empty() ? "" : "  " + job.label) + (job.reason.empty() ? "" : "  " + job.reason);
+}
+
+}  // namespace shaken::client

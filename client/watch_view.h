@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "client/console.h"
+#include "client/live.h"
+
+namespace shaken::client {
+
+/// The jobs as a screen of at most console.width x console.height: a summary, for each running job a bar, numbers and a
+/// chart of S(t) as far as there is room, and `note` (where the numbers come from) at the bottom.
+std::vector<std::string> watch_screen(const LiveJobs& jobs, const std::string& title, const std::string& note,
+                                      const Console& console);
+
+/// A job on one line, for logs and pipes.
+std::string watch_line(const LiveJob& job);
+
+}  // namespace shaken::client

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "client/program.h"
+
+namespace shaken::client {
+
+struct Outcome {
+  ExitCode code;
+  std::string out;
+  std::string err;
+};
+
+/// The program as a shell would start it, with both outputs caught; neither is a terminal.
+inline Outcome run_client(const std::vector<std::string>& arguments) {
+  std::ostringstream out;
+  std::ostringstream err;
+  Console console{.out = out, .err = err};
+  const ExitCode code = run_program(arguments, console);
+  return {code, out.str(), err.str()};
+}
+
+}  // namespace shaken::client

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include "client/results.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "client/failure.h"
+
+namespace shaken::client {
+namespace {
+
+/// A row as the daemon sends it; no summary for order < 0.
+ResultRow row(double length, int replica, double order, const char* version = "0.1.0") {
+  Json json{{"job", "1f0c00000000000" + std::to_string(replica)},
+            {"sweep", "s1"},
+            {"state", order < 0 ? "queued" : "done"},
+            {"label", "rods.length=" + std::to_string(length)},
+            {"parameters", {{"rods.length", length}}},
+            {"replica", replica},
+            {"summary", nullptr}};
+  if (order >= 0) {
+    json["summary"] = {{"n_rods", 100},
+                       {"order", {{"mean", order}, {"sem", 0.125}}},
+                       {"collisions", {{"rod_rod", 7}}},
+                       {"defects", nullptr},
+                       {"versions", {{"shaken", version}}}};
+  }
+  return result_row(json);
+}
+
+TEST(ResultRow, FlattensSummaryAndKeepsDottedParameters) {
+  const ResultRow r = row(2.5, 1, 0.75);
+  EXPECT_EQ(r.number("rods.length"), 2.5);
+  EXPECT_EQ(r.number("order.mean"), 0.75);
+  EXPECT_EQ(r.number("collisions.rod_rod"), 7);
+  EXPECT_EQ(field_text(r, "versions.shaken"), "0.1.0");
+  EXPECT_FALSE(r.fields.contains("defects"));
+  EXPECT_TRUE(std::isnan(r.number("state")));
+}
+
+TEST(ResultRow, NumberWithUnit) {
+  ResultRow r;
+  r.fields["box.gap"] = "1.2 mm";
+  EXPECT_EQ(r.number("box.gap"), 1.2);
+}
+
+TEST(Condition, AllComparisons) {
+  const ResultRow r = row(2.5, 1, 0.75);
+  const std::pair<const char*, bool> cases[] = {
+      {"rods.length>2", true},    {"rods.length>2.5", false},   {"rods.length>=2.5", true}, {"rods.length<3", true},
+      {"rods.length<2.5", false}, {"rods.length<=2.5", true},   {"rods.length=2.50", true}, {"rods.length==2.4", false},
+      {"rods.length!=2.4", true}, {" order.mean  >= 0.5", true}, {"state=done", true},       {"state!=done", false},
+      {"rods.length=2.5 mm", true}};
+  for (const auto& [text, expected] : cases) EXPECT_EQ(Condition(text).matches(r), expected) << text;
+}
+
+TEST(Condition, RowWithoutTheFieldDoesNotMatch) {
+  EXPECT_FALSE(Condition("order.mean!=0.3").matches(row(2.5, 1, -1)));
+}
+
+TEST(Condition, RefusesWhatIsNoComparison) {
+  for (const char* text : {"", "rods.length", ">3", "rods.length>", "a=>3", "a<>3", "a ! 3"}) {
+    EXPECT_THROW(Condition{text}, Failure) << text;
+  }
+  EXPECT_THROW((void)Condition("state>done").matches(row(2.5, 1, 0.5)), Failure);
+}
+
+TEST(Filtered, NamesTheNearestField) {
+  const std::vector<ResultRow> rows{row(2.5, 1, 0.5)};
+  const std::vector<Condition> conditions{Condition("rods.lenght>2")};
+  try {
+    (void)filtered(rows, conditions);
+    FAIL() << "an unknown field must be refused";
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.code, ExitCode::kBadInput);
+    EXPECT_NE(std::string(failure.what()).find("rods.length"), std::string::npos) << failure.what();
+  }
+}
+
+TEST(Filtered, AllConditionsMustHold) {
+  const std::vector<ResultRow> rows{row(2.5, 1, 0.25), row(3.5, 1, 0.5), row(4.5, 1, 0.75)};
+  const std::vector<Condition> conditions{Condition("rods.length>3"), Condition("order.mean<0.6")};
+  const auto kept = filtered(rows, conditions);
+  ASSERT_EQ(kept.size(), 1u);
+  EXPECT_EQ(kept[0].number("rods.length"), 3.5);
+}
+
+TEST(MeanAndError, KnownAnswers) {
+  const std::vector<double> values{1, 2, 3, 4};
+  const MeanAndError result = mean_and_error(values);
+  EXPECT_DOUBLE_EQ(result.mean, 2.5);
+  ASSERT_TRUE(result.sem);
+  EXPECT_DOUBLE_EQ(*result.sem, std::sqrt(5.0 / 3.0) / 2.0);
+  const std::vector<double> one{0.5};
+  EXPECT_DOUBLE_EQ(mean_and_error(one).mean, 0.5);
+  EXPECT_FALSE(mean_and_error(one).sem);
+}
+
+TEST(Aggregated, ReplicasOfAPointTogether) {
+  const auto points = aggregated({row(2.5, 1, 0.25), row(4.5, 1, 0.75), row(2.5, 2, 0.5), row(4.5, 2, 0.75)});
+  ASSERT_EQ(points.size(), 2u);
+  EXPECT_EQ(points[0].number("rods.length"), 2.5);
+  EXPECT_EQ(points[0].number("n_replicas"), 2);
+  EXPECT_EQ(points[0].number("n_done"), 2);
+  EXPECT_DOUBLE_EQ(points[0].number("order.mean"), 0.375);
+  EXPECT_DOUBLE_EQ(points[0].number("order.mean:sem"), 0.125);  // |0.5 - 0.25| / 2
+  EXPECT_DOUBLE_EQ(points[1].number("order.mean:sem"), 0.0);
+}
+
+TEST(Aggregated, OneReplicaKeepsItsOwnStandardError) {
+  const auto points = aggregated({row(2.5, 1, 0.25)});
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_DOUBLE_EQ(points[0].number("order.mean:sem"), 0.125);
+}
+
+TEST(Aggregated, NeverMixesVersions) {
+  const auto points = aggregated({row(2.5, 1, 0.25, "0.1.0"), row(2.5, 2, 0.75, "0.2.0")});
+  ASSERT_EQ(points.size(), 2u);
+  EXPECT_DOUBLE_EQ(points[0].number("order.mean"), 0.25);
+  EXPECT_DOUBLE_EQ(points[1].number("order.mean"), 0.75);
+}
+
+TEST(Aggregated, UnfinishedReplicasCountButDoNotEnterTheMean) {
+  const auto points = aggregated({row(2.5, 1, 0.25), row(2.5, 2, -1), row(2.5, 3, 0.5)});
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_EQ(points[0].number("n_replicas"), 3);
+  EXPECT_EQ(points[0].number("n_done"), 2);
+  EXPECT_DOUBLE_EQ(points[0].number("order.mean"), 0.375);
+}
+
+TEST(SweptParameters, OnlyThoseThatDiffer) {
+  ResultRow a;
+  a.parameters = {{"rods.length", 2.5}, {"box.gap", 1.2}};
+  ResultRow b;
+  b.parameters = {{"rods.length", 3.5}, {"box.gap", 1.2}};
+  EXPECT_EQ(swept_parameters({a, b}), std::vector<std::string>{"rods.length"});
+}
+
+TEST(ToCsv, OneLinePerRowWithGapsWhereAFieldIsMissing) {
+  ResultRow a;
+  a.fields = {{"label", "l=1, w=2"}, {"n", 3}};
+  ResultRow b;
+  b.fields = {{"label", "x"}, {"s", 0.5}};
+  EXPECT_EQ(to_csv({a, b}), "label,n,s\n\"l=1, w=2\",3,\nx,,0.5\n");
+  EXPECT_EQ(to_csv({}), "");
+}
+
+}  // namespace
+}  // namespace shaken::client
