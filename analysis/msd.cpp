@@ -28,15 +28,7 @@ void MeanSquareDisplacement::accumulate(std::span<const Vec3> unwrapped, std::sp
     x[i] = unwrapped[i].x();
     y[i] = unwrapped[i].y();
   }
-  if (calls_ == 0) {
-    start_x_ = x;
-    start_y_ = y;
-  }
-  SHAKEN_CHECK(x.size() == start_x_.size(), "the number of rods must not change");
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    x[i] -= start_x_[i];
-    y[i] -= start_y_[i];
-  }
+  SHAKEN_CHECK(calls_ == 0 || x.size() == levels_[0].frames[0].x.size(), "the number of rods must not change");
   const double director = nematic_order(directors).director;
   for (std::size_t k = 0; k < levels_.size() && calls_ % (std::int64_t{1} << k) == 0; ++k) add(k, x, y, director);
   ++calls_;
@@ -93,8 +85,6 @@ void MeanSquareDisplacement::save(StateWriter& writer) const {
   writer.put(across_);
   writer.put(origins_);
   writer.put(calls_);
-  writer.put(start_x_);
-  writer.put(start_y_);
   for (const Level& level : levels_) {
     writer.put(level.n_frames);
     for (const Frame& frame : level.frames) {
@@ -113,15 +103,15 @@ void MeanSquareDisplacement::restore(StateReader& reader) {
   saved.across_ = reader.reals(across_.size());
   saved.origins_ = reader.integers(origins_.size());
   saved.calls_ = reader.integer(0, std::numeric_limits<std::int64_t>::max() / 2);
-  saved.start_x_ = reader.reals();
-  const std::size_t n_rods = saved.start_x_.size();
-  saved.start_y_ = reader.reals(n_rods);
-  for (Level& level : saved.levels_) {
-    level.n_frames = reader.integer(0, saved.calls_);
+  for (std::size_t k = 0; k < levels_.size(); ++k) {
+    Level& level = saved.levels_[k];
+    const std::int64_t n_frames = (saved.calls_ + (std::int64_t{1} << k) - 1) >> k;  // of every 2^k-th call
+    level.n_frames = reader.integer(n_frames, n_frames);
     level.frames.resize(static_cast<std::size_t>(std::min<std::int64_t>(level.n_frames, kFrames)));
     for (Frame& frame : level.frames) {
-      frame.x = reader.reals(n_rods);
-      frame.y = reader.reals(n_rods);
+      frame.x = reader.reals();
+      frame.y = reader.reals(saved.levels_[0].frames[0].x.size());
+      if (frame.x.size() != frame.y.size()) throw StateError("saved analysis state: frames of different sizes");
       frame.director = reader.real();
     }
   }

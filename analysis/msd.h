@@ -22,8 +22,7 @@ struct MsdCurve {
 /// all rods at the origin time, not to the single rod.
 /// Level k of `n_levels` keeps the last 8 of every 2^k-th sample and gives the lags (1..8 for k = 0, 5..8 else) 2^k:
 /// four an octave up to 8 * 2^(n_levels - 1) samples, exact, without averaging. Memory is at most 128 bytes per level
-/// and rod, however long the run. Displacements are kept from each rod's first place, so that a long way does not cost
-/// digits.
+/// and rod, however long the run.
 class MeanSquareDisplacement {
  public:
   /// `interval`: time between successive accumulate calls [s].
@@ -41,7 +40,7 @@ class MeanSquareDisplacement {
   static constexpr int kFrames = 8;
   /// One sample kept as an origin.
   struct Frame {
-    std::vector<double> x, y;  // (n_rods) from each rod's first place [mm]
+    std::vector<double> x, y;  // (n_rods) unwrapped [mm]
     double director = 0;       // of all rods at that time [rad]
   };
   struct Level {
@@ -52,9 +51,8 @@ class MeanSquareDisplacement {
 
   double interval_;
   std::vector<Level> levels_;
-  std::vector<double> start_x_, start_y_;  // (n_rods)
-  std::vector<double> along_, across_;     // (n_levels * kFrames) sums over origins of the mean over rods
-  std::vector<std::int64_t> origins_;      // (n_levels * kFrames)
+  std::vector<double> along_, across_;  // (n_levels * kFrames) sums over origins of the mean over rods
+  std::vector<std::int64_t> origins_;   // (n_levels * kFrames)
   std::int64_t calls_ = 0;
 };
 

@@ -90,7 +90,8 @@ void StateReader::end() const {
 
 std::size_t StateReader::length_of(std::size_t element_size) {
   const std::int64_t length = integer();
-  if (length < 0 || static_cast<std::uint64_t>(length) > rest_.size() / element_size) {
+  // A negative length becomes a huge one.
+  if (static_cast<std::uint64_t>(length) > rest_.size() / element_size) {
     throw StateError("saved analysis state: an array of " + std::to_string(length) + " numbers is announced, " +
                      std::to_string(rest_.size()) + " bytes are left");
   }

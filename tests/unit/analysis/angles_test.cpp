@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "tests/unit/analysis/samples.h"
+#include "tests/unit/analysis/state_checks.h"
 
 namespace shaken::analysis {
 namespace {
@@ -70,7 +71,7 @@ TEST(AngleDistribution, GaussianSpread) {
 
 TEST(AngleDistribution, MergeSaveAndReset) {
   Draw draw(22);
-  AngleDistribution first(10), second(10), both(10), restored(10);
+  AngleDistribution first(10), second(10), both(10);
   for (int i = 0; i < 6; ++i) {
     const std::vector<Vec3> rods = random_axes(draw, 50);
     (i < 3 ? first : second).accumulate(rods);
@@ -78,14 +79,13 @@ TEST(AngleDistribution, MergeSaveAndReset) {
   }
   first.merge(second);
   EXPECT_EQ(first.reduce().density, both.reduce().density);
-  StateWriter writer;
-  first.save(writer);
-  StateReader reader(writer.bytes());
-  restored.restore(reader);
-  EXPECT_EQ(restored.reduce().density, both.reduce().density);
+  stop_and_go_on(first);
+  EXPECT_EQ(state(first), state(both));
+  expect_every_truncation_found(first);
   AngleDistribution other(11);
-  StateReader again(writer.bytes());
-  EXPECT_THROW(other.restore(again), StateError);
+  const std::vector<std::byte> bytes = state(first);
+  StateReader reader(bytes);
+  EXPECT_THROW(other.restore(reader), StateError);
   EXPECT_THROW(other.merge(first), std::logic_error);
   first.reset();
   EXPECT_EQ(first.reduce().density, std::vector<double>(10, 0.0));

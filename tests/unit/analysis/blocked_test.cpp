@@ -6,16 +6,10 @@
 #include "analysis/angles.h"
 #include "analysis/tilt.h"
 #include "tests/unit/analysis/samples.h"
+#include "tests/unit/analysis/state_checks.h"
 
 namespace shaken::analysis {
 namespace {
-
-template <class Accumulator>
-std::vector<std::byte> state(const Accumulator& accumulator) {
-  StateWriter writer;
-  accumulator.save(writer);
-  return writer.bytes();
-}
 
 std::vector<std::vector<Vec3>> frames(int n) {
   Draw draw(81);
@@ -65,26 +59,10 @@ TEST(Blocked, GoesOnBitwiseFromItsSavedState) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     straight.accumulate(static_cast<double>(i), all[i]);
     stopped.accumulate(static_cast<double>(i), all[i]);
-    if (i % 11 != 0) continue;
-    const std::vector<std::byte> bytes = state(stopped);
-    stopped.reset();
-    StateReader reader(bytes);
-    stopped.restore(reader);
-    reader.end();
+    if (i % 11 == 0) stop_and_go_on(stopped);
   }
   EXPECT_EQ(state(straight), state(stopped));
-}
-
-TEST(Blocked, DamageIsFoundAndLeavesTheObjectAsItWas) {
-  const auto all = frames(3);
-  Blocked<AngleDistribution> blocked{AngleDistribution(30)};
-  for (std::size_t i = 0; i < all.size(); ++i) blocked.accumulate(static_cast<double>(i), all[i]);
-  const std::vector<std::byte> bytes = state(blocked);
-  for (std::size_t size = 0; size < bytes.size(); size += 5) {
-    StateReader reader{std::span(bytes).first(size)};
-    EXPECT_THROW(blocked.restore(reader), StateError) << size;
-  }
-  EXPECT_EQ(state(blocked), bytes);
+  expect_every_truncation_found(stopped);
 }
 
 }  // namespace

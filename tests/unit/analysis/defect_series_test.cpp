@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/analysis/state_checks.h"
+
 namespace shaken::analysis {
 namespace {
 
@@ -32,19 +34,10 @@ TEST(DefectSeries, SavedStateIsExactAndDamageIsFound) {
   DefectSeries series;
   series.accumulate(0.0, kPair);
   series.accumulate(1.0 / 3, kPair);
-  StateWriter writer;
-  series.save(writer);
-  DefectSeries restored;
-  StateReader reader(writer.bytes());
-  restored.restore(reader);
-  reader.end();
-  StateWriter again;
-  restored.save(again);
-  EXPECT_EQ(writer.bytes(), again.bytes());
-  for (std::size_t size = 0; size < writer.bytes().size(); ++size) {
-    StateReader torn(std::span(writer.bytes()).first(size));
-    EXPECT_THROW(restored.restore(torn), StateError) << size;
-  }
+  const std::vector<std::byte> before = state(series);
+  stop_and_go_on(series);
+  EXPECT_EQ(state(series), before);
+  expect_every_truncation_found(series);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/unit/analysis/samples.h"
+#include "tests/unit/analysis/state_checks.h"
 
 namespace shaken::analysis {
 namespace {
@@ -100,14 +101,10 @@ TEST(OrientationCorrelation, MergeAndSavedState) {
     straight.accumulate(positions, directors, kBox);
     stopped.accumulate(positions, directors, kBox);
     (i < 2 ? first : second).accumulate(positions, directors, kBox);
-    StateWriter writer;
-    stopped.save(writer);
-    stopped.reset();
-    StateReader reader(writer.bytes());
-    stopped.restore(reader);
-    reader.end();
+    stop_and_go_on(stopped);
   }
-  EXPECT_EQ(straight.reduce().g2, stopped.reduce().g2);
+  EXPECT_EQ(state(straight), state(stopped));
+  expect_every_truncation_found(stopped);
   first.merge(second);
   for (std::size_t i = 0; i < 8; ++i) EXPECT_NEAR(first.reduce().g2[i], straight.reduce().g2[i], 1e-12);
   StateWriter writer;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/unit/analysis/samples.h"
+#include "tests/unit/analysis/state_checks.h"
 
 namespace shaken::analysis {
 namespace {
@@ -35,7 +36,7 @@ TEST(MeanSquareDisplacement, OfFlightIsTheSquareOfTheWay) {
   MeanSquareDisplacement msd(0.1, 6);
   const double theta = 0.6;
   for (int i = 0; i < 300; ++i) {
-    // Far from the origin, where squares of whole positions would have lost eight digits.
+    // Far from the origin: sums of squares of whole positions would lose eight digits.
     msd.accumulate(std::vector<Vec3>{{1e4 + 3.0 * 0.1 * i, 4.0 * 0.1 * i, 0}}, std::vector<Vec3>{axis(theta)});
   }
   const MsdCurve curve = msd.reduce();
@@ -110,20 +111,13 @@ TEST(MeanSquareDisplacement, GoesOnBitwiseFromItsSavedState) {
   for (const std::vector<Vec3>& frame : walks(draw, 4, 90, 0.2, 1.0, 1.0)) {
     straight.accumulate(frame, directors);
     stopped.accumulate(frame, directors);
-    if (++i % 7 != 0) continue;
-    StateWriter writer;
-    stopped.save(writer);
-    stopped.reset();
-    StateReader reader(writer.bytes());
-    stopped.restore(reader);
-    reader.end();
+    if (++i % 7 == 0) stop_and_go_on(stopped);
   }
-  StateWriter a, b;
-  straight.save(a);
-  stopped.save(b);
-  EXPECT_EQ(a.bytes(), b.bytes());
+  EXPECT_EQ(state(straight), state(stopped));
+  expect_every_truncation_found(stopped);
+  const std::vector<std::byte> bytes = state(straight);
   MeanSquareDisplacement of_other_interval(0.2, 4), of_other_levels(0.1, 5);
-  StateReader first(a.bytes()), second(a.bytes());
+  StateReader first(bytes), second(bytes);
   EXPECT_THROW(of_other_interval.restore(first), StateError);
   EXPECT_THROW(of_other_levels.restore(second), StateError);
 }

@@ -8,6 +8,7 @@
 
 #include "analysis/fold.h"
 #include "tests/unit/analysis/samples.h"
+#include "tests/unit/analysis/state_checks.h"
 
 namespace shaken::analysis {
 namespace {
@@ -145,17 +146,11 @@ TEST(OrderSeries, GoesOnBitwiseFromItsSavedState) {
     const std::vector<Vec3> rods = random_axes(draw, 7);
     straight.accumulate(i, rods);
     stopped.accumulate(i, rods);
-    StateWriter writer;
-    stopped.save(writer);
-    stopped = {};
-    StateReader reader(writer.bytes());
-    stopped.restore(reader);
-    reader.end();
+    stop_and_go_on(stopped);
     EXPECT_EQ(straight.running_mean(), stopped.running_mean());
   }
-  EXPECT_EQ(straight.orders(), stopped.orders());
-  EXPECT_EQ(straight.directors(), stopped.directors());
-  EXPECT_EQ(straight.times(), stopped.times());
+  EXPECT_EQ(state(straight), state(stopped));
+  expect_every_truncation_found(stopped);
 }
 
 }  // namespace

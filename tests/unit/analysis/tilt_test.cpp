@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/unit/analysis/samples.h"
+#include "tests/unit/analysis/state_checks.h"
 
 namespace shaken::analysis {
 namespace {
@@ -133,19 +134,12 @@ TEST(TiltVelocity, GoesOnBitwiseFromItsSavedState) {
     planted(draw, 20, directors, velocities);
     straight.accumulate(directors, velocities);
     stopped.accumulate(directors, velocities);
-    if (i % 13 != 0) continue;
-    StateWriter writer;
-    stopped.save(writer);
-    stopped.reset();
-    StateReader reader(writer.bytes());
-    stopped.restore(reader);
-    reader.end();
+    if (i % 13 == 0) stop_and_go_on(stopped);
   }
-  StateWriter a, b;
-  straight.save(a);
-  stopped.save(b);
-  EXPECT_EQ(a.bytes(), b.bytes());
-  StateReader reader(a.bytes());
+  EXPECT_EQ(state(straight), state(stopped));
+  expect_every_truncation_found(stopped);
+  const std::vector<std::byte> bytes = state(straight);
+  StateReader reader(bytes);
   TiltVelocity other(8, 0.3);
   EXPECT_THROW(other.restore(reader), StateError);
 }

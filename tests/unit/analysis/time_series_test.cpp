@@ -61,6 +61,16 @@ TEST(StatisticalInefficiency, OfAutoregressiveSeries) {
   }
 }
 
+// White noise (70 % of the variance) on a slow part (a = 0.95, g = 39): g = 0.7 + 0.3 * 39 = 12.4, less the 4 % that
+// lie beyond the window of 62 lags; 1.6 % statistical error. The budget is spent on the way, and pairs lose a third of
+// the variance: leaving that out gives 1.5 g.
+TEST(StatisticalInefficiency, AllowsForTheVarianceThatAveragingTakes) {
+  Draw draw(10);
+  std::vector<double> x = ar1(draw, 0.95, 1000000);
+  for (double& value : x) value = std::sqrt(0.3) * value + std::sqrt(0.7) * draw.normal();
+  EXPECT_NEAR(statistical_inefficiency(x), 12.4, 1.3);
+}
+
 // Every value three times: three samples are worth one. z as above.
 TEST(StatisticalInefficiency, OfRepeatedValues) {
   Draw draw(13);

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <span>
+#include <vector>
+
+#include "analysis/state_io.h"
+
+namespace shaken::analysis {
+
+template <class Accumulator>
+std::vector<std::byte> state(const Accumulator& accumulator) {
+  StateWriter writer;
+  accumulator.save(writer);
+  return writer.bytes();
+}
+
+/// As a run does that stops and goes on: `accumulator` into bytes, forgotten, and back.
+template <class Accumulator>
+void stop_and_go_on(Accumulator& accumulator) {
+  const std::vector<std::byte> bytes = state(accumulator);
+  accumulator.reset();
+  StateReader reader(bytes);
+  accumulator.restore(reader);
+  reader.end();
+}
+
+/// Restoring from a state cut off anywhere throws and leaves the object as it was.
+template <class Accumulator>
+void expect_every_truncation_found(Accumulator& accumulator) {
+  const std::vector<std::byte> bytes = state(accumulator);
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    StateReader reader{std::span(bytes).first(size)};
+    ASSERT_THROW(accumulator.restore(reader), StateError) << size << " of " << bytes.size();
+  }
+  EXPECT_EQ(state(accumulator), bytes);
+}
+
+}  // namespace shaken::analysis
