@@ -163,20 +163,21 @@ Api::Answer Api::submit(const Call& call) const {
   } catch (const std::invalid_argument& problem) {
     throw Refusal(400, problem.what());
   }
-  const auto jobs = expand(request, info_.runs());
-  if (!jobs.value) {
+  const auto submission = expand(request, info_.runs());
+  if (!submission.value) {
     Json problems = Json::array();
-    for (const scene::Problem& problem : jobs.problems) {
+    for (const scene::Problem& problem : submission.problems) {
       problems.push_back({{"file", problem.file},
                           {"line", problem.line},
                           {"column", problem.column},
                           {"path", problem.path},
                           {"message", problem.message}});
     }
-    return {422, {{"error", scene::to_string(jobs.problems)}, {"problems", problems}}, ""};
+    return {422, {{"error", scene::to_string(submission.problems)}, {"problems", problems}}, ""};
   }
-  const Submitted submitted = queue_.submit(request.name, request.priority, *jobs.value);
-  spdlog::info("sweep {} '{}': {} jobs, {} new, {} queued again", sweep_word(submitted.sweep), request.name,
+  const auto& [name, priority, jobs] = *submission.value;
+  const Submitted submitted = queue_.submit(name, priority, jobs);
+  spdlog::info("sweep {} '{}': {} jobs, {} new, {} queued again", sweep_word(submitted.sweep), name,
                submitted.counts.total(), submitted.n_new, submitted.n_requeued);
   Json counts = counts_report(submitted.counts);
   counts["new"] = submitted.n_new;

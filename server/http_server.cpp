@@ -59,7 +59,7 @@ class ThreadPerConnection final : public httplib::TaskQueue {
   std::size_t n_open_ = 0;
 };
 
-std::string error_body(const std::string& message) { return "{\"error\": \"" + message + "\"}\n"; }
+std::string error_body(const std::string& message) { return "{\"error\":\"" + message + "\"}\n"; }
 
 /// For what is refused before a handler sees it.
 const char* explain(int status) {
@@ -99,7 +99,9 @@ struct HttpServer::Impl {
         return;
       }
       std::string body;
-      const bool complete = content([&](const char* data, std::size_t size) {
+      // Without either header there is no body (RFC 7230, 3.3.3); cpp-httplib would wait for the end of the connection.
+      const bool has_body = request.has_header("Content-Length") || request.has_header("Transfer-Encoding");
+      const bool complete = !has_body || content([&](const char* data, std::size_t size) {
         body.append(data, size);
         return true;
       });

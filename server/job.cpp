@@ -40,7 +40,7 @@ bool may_become(JobState from, JobState to) {
 
 std::int64_t JobCounts::total() const { return std::accumulate(n.begin(), n.end(), std::int64_t{0}); }
 
-std::string sweep_word(std::int64_t id) { return "s" + std::to_string(id); }
+std::string sweep_word(std::int64_t id) { return std::string("s").append(std::to_string(id)); }
 
 std::optional<std::int64_t> sweep_number(std::string_view word) {
   if (word.size() < 2 || word.front() != 's') return std::nullopt;

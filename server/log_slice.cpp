@@ -25,9 +25,9 @@ LogSlice read_slice(const std::filesystem::path& file, std::int64_t offset, std:
   stream.seekg(offset);
   std::string text(static_cast<std::size_t>(limit), '\0');
   stream.read(text.data(), limit);
-  text.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, stream.gcount())));
+  text.erase(static_cast<std::size_t>(stream.gcount()));
   const std::size_t torn = torn_tail(text);
-  if (torn < text.size()) text.resize(text.size() - torn);  // a tail alone is not UTF-8 and would never grow whole
+  if (torn < text.size()) text.erase(text.size() - torn);  // a tail alone is not UTF-8 and would never grow whole
   return {text, offset + static_cast<std::int64_t>(text.size())};
 }
 

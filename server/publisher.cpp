@@ -37,7 +37,7 @@ Publisher::~Publisher() = default;
 
 void Publisher::run(std::stop_token stop) {
   auto next_tick = steady_clock::now();
-  while (!stop.stop_requested()) {
+  do {
     try {
       publish_changes();
       if (steady_clock::now() >= next_tick) {
@@ -51,9 +51,9 @@ void Publisher::run(std::stop_token stop) {
       std::this_thread::sleep_for(kReaction);
     }
     queue_.wait_for_change(last_change_, kReaction);
-  }
+  } while (!stop.stop_requested());
   try {
-    publish_changes();  // of the jobs that were stopped with the daemon
+    while (publish_changes()) continue;  // of the jobs that were stopped with the daemon
   } catch (const StorageError& problem) {
     spdlog::error("publisher: {}", problem.what());
   }
@@ -85,13 +85,15 @@ void Publisher::publish_running() {
   }
 }
 
-void Publisher::publish_changes() {
+bool Publisher::publish_changes() {
   const auto changes = queue_.changes_since(last_change_, kBurst);
   for (const Change& change : changes) {
     if (const auto job = queue_.job(change.job)) publish_job(*job, change.to);
     last_change_ = change.sequence;
   }
-  if (changes.size() == kBurst) std::this_thread::sleep_for(kPause);
+  if (changes.size() < kBurst) return false;
+  std::this_thread::sleep_for(kPause);
+  return true;
 }
 
 void Publisher::publish_job(const Job& job, const std::string& state) {

@@ -21,7 +21,8 @@ class Publisher {
   void run(std::stop_token stop);
   void publish_status();
   void publish_running();
-  void publish_changes();
+  /// False once all are sent that there are.
+  bool publish_changes();
   void publish_job(const Job& job, const std::string& state);
 
   const Queue& queue_;

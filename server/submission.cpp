@@ -77,17 +77,14 @@ SubmitRequest parse_submit_request(std::string_view body) {
   if (object.contains("name")) {
     request.name = text_of(object["name"], "name");
     check_name(request.name);
-  } else {
-    request.name = std::filesystem::path(request.file).stem().string();
-    if (request.name.empty() || sweep_number(request.name)) request.name = "sweep " + request.name;
   }
   return request;
 }
 
-scene::Loaded<std::vector<NewJob>> expand(const SubmitRequest& request, const std::filesystem::path& runs) {
+scene::Loaded<Submission> expand(const SubmitRequest& request, const std::filesystem::path& runs) {
   const auto sweep = scene::load_sweep(request.text, request.file, request.settings, request.replicas);
   if (!sweep.value) return {std::nullopt, sweep.problems};
-  std::vector<NewJob> jobs;
+  Submission submission{request.name.empty() ? sweep.value->name : request.name, request.priority, {}};
   for (const scene::SweepPoint& point : sweep.value->points) {
     NewJob job;
     job.id = scene::run_id(point.plan);
@@ -96,9 +93,9 @@ scene::Loaded<std::vector<NewJob>> expand(const SubmitRequest& request, const st
     job.parameters = point.parameters.dump();
     job.replica = point.replica;
     job.results_lost = !std::filesystem::exists(run::RunDirectory{runs / job.id}.summary());
-    jobs.push_back(std::move(job));
+    submission.jobs.push_back(std::move(job));
   }
-  return {std::move(jobs), {}};
+  return {std::move(submission), {}};
 }
 
 }  // namespace shaken::server

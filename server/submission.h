@@ -18,15 +18,22 @@ struct SubmitRequest {
   std::string file = "request";       ///< its name, for messages
   std::vector<std::string> settings;  ///< "path=value"
   std::optional<int> replicas;
-  std::string name;  ///< of the sweep; by default that of the file without folder and extension
+  std::string name;  ///< of the sweep; if empty, the name in the text or that of the file
   int priority = 0;  ///< higher ones are started first
+};
+
+/// What goes into the queue.
+struct Submission {
+  std::string name;
+  int priority = 0;
+  std::vector<NewJob> jobs;
 };
 
 /// Throws std::invalid_argument with a sentence for the user.
 SubmitRequest parse_submit_request(std::string_view body);
 
-/// The jobs that a request asks for, or all that is wrong with its text.
+/// The sweep that a request asks for, or all that is wrong with its text.
 /// `runs`: folder of the run directories, where it is looked whether results are still there.
-scene::Loaded<std::vector<NewJob>> expand(const SubmitRequest& request, const std::filesystem::path& runs);
+scene::Loaded<Submission> expand(const SubmitRequest& request, const std::filesystem::path& runs);
 
 }  // namespace shaken::server

@@ -15,7 +15,7 @@ constexpr int kLookAhead = 16;
 
 std::string heading(int attempt) {
   const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  return fmt::format("--- shakend: attempt {}, {:%Y-%m-%dT%H:%M:%SZ}", attempt, fmt::gmtime(now));
+  return fmt::format("{}attempt {}, {:%Y-%m-%dT%H:%M:%SZ}", kHeading, attempt, fmt::gmtime(now));
 }
 
 }  // namespace

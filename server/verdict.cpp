@@ -15,7 +15,7 @@ using enum Verdict::Outcome;
 constexpr int kBadInput = 2;
 constexpr int kStoppedOnRequest = 99;
 
-/// The last line with anything on it, of the last 4 KiB.
+/// The last line of the worker with anything on it, of the last 4 KiB.
 std::string last_line(const std::filesystem::path& file) {
   constexpr std::streamoff kTail = 4096;
   std::ifstream stream(file, std::ios::binary | std::ios::ate);
@@ -24,7 +24,10 @@ std::string last_line(const std::filesystem::path& file) {
   std::string line;
   std::string last;
   while (std::getline(stream, line)) {
-    if (line.find_first_not_of(" \t\r") != std::string::npos) last = line;
+    if (line.starts_with(kHeading))
+      last.clear();
+    else if (line.find_first_not_of(" \t\r") != std::string::npos)
+      last = line;
   }
   return last;
 }
@@ -52,8 +55,9 @@ Verdict judge(const WorkerEnd& end, int pid, bool stop_asked, const run::RunDire
     return {kFailed, "exit 0, but there is no " + directory.summary().string()};
   }
   if (end.exit_code == kStoppedOnRequest) return {kStopped, "the worker has stopped at a checkpoint"};
-  const std::string kind = "exit " + std::to_string(end.exit_code) + (end.exit_code == kBadInput ? " (bad input)" : "");
-  return {kFailed, kind + ": " + explanation(pid, directory)};
+  std::string reason = "exit " + std::to_string(end.exit_code) + (end.exit_code == kBadInput ? " (bad input)" : "");
+  if (const std::string why = explanation(pid, directory); !why.empty()) reason += ": " + why;
+  return {kFailed, reason};
 }
 
 }  // namespace shaken::server

@@ -2,11 +2,15 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "run/files/directory.h"
 #include "server/executor.h"
 
 namespace shaken::server {
+
+/// How the daemon's own lines in a worker.log begin.
+inline constexpr std::string_view kHeading = "--- shakend: ";
 
 /// What the end of a worker means for its job.
 struct Verdict {

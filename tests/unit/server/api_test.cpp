@@ -1,0 +1,420 @@
+// SPDX-License-Identifier: MIT
+// The contract of docs/protocol.md, over a real socket.
+#include "server/api.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <httplib.h>
+#include <rapidcheck.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstring>
+#include <thread>
+
+#include "support.h"
+
+namespace shaken::server {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr const char* kSweep =
+    R"({"scene": {}, "sweep": {"grid": {"rods.length": [2.5, 3.5], "box.gap": [1.1, 1.2]}}})";
+
+struct Response {
+  int status = 0;
+  Json json;
+  std::string error() const { return json.value("error", ""); }
+};
+
+class ApiTest : public testing::Test {
+ protected:
+  ApiTest() { client_.set_address_family(AF_UNIX); }
+
+  DaemonInfo info() const {
+    DaemonInfo info;
+    info.version = "1.2.3";
+    info.host = "here";
+    info.pid = 42;
+    info.root = directory_.path();
+    info.slots = 3;
+    info.lcm_url = "memq://";
+    info.lcm_ok = true;
+    return info;
+  }
+  static Response read(const httplib::Result& result) {
+    if (!result) return {0, {{"error", "no answer: " + httplib::to_string(result.error())}}};
+    EXPECT_EQ(result->get_header_value("Content-Type"), "application/json");
+    return {result->status, Json::parse(result->body)};
+  }
+  Response get(const std::string& path) { return read(client_.Get(path)); }
+  Response post(const std::string& path) { return read(client_.Post(path)); }
+  Response post(const std::string& path, const std::string& body) {
+    return read(client_.Post(path, body, "application/json"));
+  }
+  Response submit(Json request) { return post("/v1/sweeps", request.dump()); }
+  /// Submits kSweep; returns the ids of its four jobs.
+  std::vector<std::string> submit_four(const std::string& name = "four") {
+    std::vector<std::string> ids;
+    for (const Json& job : submit({{"text", kSweep}, {"name", name}}).json["jobs"]) ids.push_back(job["id"]);
+    return ids;
+  }
+
+  /// A bare connection.
+  int connect() const {
+    const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    std::strcpy(address.sun_path, info().socket().c_str());
+    EXPECT_EQ(::connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
+    const timeval limit{20, 0};
+    setsockopt(fd, SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof(limit));
+    return fd;
+  }
+  /// Sends bytes as they are, closes its side, and returns all that comes back.
+  std::string exchange(const std::string& bytes) const {
+    const int fd = connect();
+    send(fd, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+    shutdown(fd, SHUT_WR);
+    std::string answer(65536, '\0');
+    std::size_t size = 0;
+    for (ssize_t n = 1; n > 0 && size < answer.size(); size += static_cast<std::size_t>(std::max<ssize_t>(n, 0))) {
+      n = recv(fd, answer.data() + size, answer.size() - size, 0);
+    }
+    close(fd);
+    answer.resize(size);
+    return answer;
+  }
+
+  TempDirectory directory_;
+  Queue queue_{directory_ / "queue.db"};
+  Api api_{queue_, info()};
+  HttpServer server_{info().socket(), [this](const Request& request) { return api_.handle(request); }};
+  httplib::Client client_{info().socket().string()};
+};
+
+TEST_F(ApiTest, StatusTellsAboutTheDaemon) {
+  submit_four();
+  const Response status = get("/v1/status");
+  EXPECT_EQ(status.status, 200);
+  EXPECT_EQ(status.json["version"], "1.2.3");
+  EXPECT_EQ(status.json["api"], 1);
+  EXPECT_EQ(status.json["pid"], 42);
+  EXPECT_EQ(status.json["root"], directory_.path().string());
+  EXPECT_EQ(status.json["host"], "here");
+  EXPECT_GE(status.json["uptime_s"], 0.0);
+  EXPECT_EQ(status.json["slots"], 3);
+  EXPECT_EQ(status.json["lcm"], Json({{"url", "memq://"}, {"ok", true}, {"message", ""}}));
+  EXPECT_EQ(status.json["jobs"].dump(), R"({"queued":4,"running":0,"stopping":0,"done":0,"failed":0,"cancelled":0})");
+}
+
+TEST_F(ApiTest, TheSocketIsPrivate) {
+  struct stat info_of_socket {};
+  ASSERT_EQ(stat(info().socket().c_str(), &info_of_socket), 0);
+  EXPECT_EQ(info_of_socket.st_mode & 0777U, 0600U);
+}
+
+TEST_F(ApiTest, ASubmitAnswersWithSweepJobsAndCounts) {
+  const Response response = submit({{"text", kSweep}, {"file", "folder/grid.json"}});
+  EXPECT_EQ(response.status, 201);
+  const Json& sweep = response.json["sweep"];
+  EXPECT_EQ(sweep["id"], "s1");
+  EXPECT_EQ(sweep["name"], "grid");
+  EXPECT_EQ(sweep["n_jobs"], 4);
+  EXPECT_EQ(sweep["counts"]["queued"], 4);
+  EXPECT_EQ(sweep["progress"], 0.0);
+  EXPECT_EQ(sweep["eta_s"], -1.0);
+  EXPECT_GT(sweep["created_utime"], 1'600'000'000'000'000);
+  EXPECT_EQ(response.json["counts"]["new"], 4);
+  EXPECT_EQ(response.json["counts"]["queued"], 4);
+
+  ASSERT_EQ(response.json["jobs"].size(), 4U);
+  const Json& job = response.json["jobs"][1];
+  EXPECT_EQ(job["id"].get<std::string>().size(), 16U);
+  EXPECT_EQ(job["sweep"], "s1");
+  EXPECT_EQ(job["state"], "queued");
+  EXPECT_EQ(job["label"], "rods.length=2.5 box.gap=1.2");
+  EXPECT_EQ(job["parameters"], Json({{"rods.length", 2.5}, {"box.gap", 1.2}}));
+  EXPECT_EQ(job["attempt"], 0);
+  EXPECT_EQ(job["directory"], (directory_ / "runs" / job["id"].get<std::string>()).string());
+  EXPECT_TRUE(job["progress"].is_null());
+}
+
+TEST_F(ApiTest, TheSameSubmitAgainDoesNothingTwice) {
+  const auto ids = submit_four();
+  queue_.begin(ids[0]);
+  queue_.begin(ids[1]);
+  std::filesystem::create_directories(directory_ / "runs" / ids[1]);
+  write_text(directory_ / "runs" / ids[1] / "summary.json", "{}");
+  queue_.finish(ids[1], JobState::kDone, "");
+  queue_.begin(ids[2]);
+  queue_.finish(ids[2], JobState::kFailed, "why");
+
+  const Response again = submit({{"text", kSweep}, {"name", "four"}});
+  EXPECT_EQ(again.status, 200);
+  EXPECT_EQ(again.json["sweep"]["id"], "s1");
+  EXPECT_EQ(again.json["counts"].dump(),
+            R"({"queued":2,"running":1,"stopping":0,"done":1,"failed":0,"cancelled":0,"new":0,"requeued":1})");
+
+  // A done job whose results were deleted is done again.
+  std::filesystem::remove_all(directory_ / "runs" / ids[1]);
+  EXPECT_EQ(submit({{"text", kSweep}, {"name", "four"}}).json["counts"]["requeued"], 1);
+}
+
+TEST_F(ApiTest, SettingsAndReplicasAreApplied) {
+  const Response response =
+      submit({{"text", "{}"}, {"settings", {"rods.length=2.5,4.5", "box.gap=1.3"}}, {"replicas", 2}});
+  ASSERT_EQ(response.status, 201) << response.error();
+  EXPECT_EQ(response.json["jobs"].size(), 4U);
+  EXPECT_EQ(response.json["jobs"][0]["replica"], 1);
+  EXPECT_EQ(response.json["jobs"][1]["replica"], 2);
+}
+
+TEST_F(ApiTest, ARefusedSceneListsAllProblemsAndQueuesNothing) {
+  const Response response =
+      submit({{"text", "{\n  \"rodz\": {},\n  \"box\": {\"gap\": \"1 kg\"}\n}"}, {"file", "my.json"}});
+  EXPECT_EQ(response.status, 422);
+  ASSERT_EQ(response.json["problems"].size(), 2U);
+  const Json& problem = response.json["problems"][0];
+  EXPECT_EQ(problem["file"], "my.json");
+  EXPECT_EQ(problem["line"], 2);
+  EXPECT_EQ(problem["column"], 3);
+  EXPECT_EQ(problem["path"], "/rodz");
+  EXPECT_THAT(problem["message"].get<std::string>(), HasSubstr("did you mean rods?"));
+  EXPECT_THAT(response.error(), HasSubstr("2 problems"));
+  EXPECT_EQ(queue_.counts().total(), 0);
+  EXPECT_TRUE(queue_.sweeps().empty());
+}
+
+TEST_F(ApiTest, ABodyThatIsNoRequestIsRefused) {
+  for (const char* body : {"", "hello", "[]", "{}", R"({"text": 3})", R"({"text": "{}", "nam": "x"})"}) {
+    const Response response = post("/v1/sweeps", body);
+    EXPECT_EQ(response.status, 400) << body;
+    EXPECT_FALSE(response.error().empty()) << body;
+  }
+}
+
+TEST_F(ApiTest, SweepsAreFoundByIdAndByName) {
+  submit_four("first");
+  submit_four("second");
+  const Response list = get("/v1/sweeps");
+  ASSERT_EQ(list.json["sweeps"].size(), 2U);
+  EXPECT_EQ(list.json["sweeps"][1]["name"], "second");
+  EXPECT_EQ(get("/v1/sweeps/s1").json["sweep"]["name"], "first");
+  EXPECT_EQ(get("/v1/sweeps/second").json["sweep"]["id"], "s2");
+  EXPECT_EQ(get("/v1/sweeps/second").json["jobs"].size(), 4U);
+  EXPECT_EQ(get("/v1/sweeps/secnd").status, 404);
+  EXPECT_THAT(get("/v1/sweeps/secnd").error(), HasSubstr("did you mean second?"));
+  EXPECT_EQ(get("/v1/sweeps/s9").status, 404);
+}
+
+TEST_F(ApiTest, JobsAreFilteredBySweepAndState) {
+  const auto ids = submit_four("first");
+  submit({{"text", "{}"}, {"name", "plain"}});
+  queue_.begin(ids[2]);
+  EXPECT_EQ(get("/v1/jobs").json["jobs"].size(), 5U);
+  EXPECT_EQ(get("/v1/jobs?sweep=first").json["jobs"].size(), 4U);
+  EXPECT_EQ(get("/v1/jobs?sweep=s2").json["jobs"].size(), 1U);
+  EXPECT_EQ(get("/v1/jobs?state=running").json["jobs"][0]["id"], ids[2]);
+  EXPECT_EQ(get("/v1/jobs?state=running&sweep=plain").json["jobs"].size(), 0U);
+  EXPECT_EQ(get("/v1/jobs?state=runing").status, 400);
+  EXPECT_THAT(get("/v1/jobs?state=runing").error(), HasSubstr("queued, running"));
+  EXPECT_THAT(get("/v1/jobs?stat=running").error(), HasSubstr("did you mean state?"));
+  EXPECT_EQ(get("/v1/jobs?sweep=nobody").status, 404);
+}
+
+TEST_F(ApiTest, AJobIsFoundByAnyPrefixThatFitsOnlyOne) {
+  for (const char* id : {"abcd000000000000", "abce000000000000", "f000000000000000"}) {
+    NewJob job = new_job('0');
+    job.id = id;
+    queue_.submit(id, 0, std::vector{job});
+  }
+  EXPECT_EQ(get("/v1/jobs/f").json["job"]["id"], "f000000000000000");
+  EXPECT_EQ(get("/v1/jobs/abcd").json["job"]["id"], "abcd000000000000");
+  EXPECT_EQ(get("/v1/jobs/abcd000000000000").status, 200);
+  EXPECT_EQ(get("/v1/jobs/abc").status, 409);
+  EXPECT_EQ(get("/v1/jobs/abc").error(), "'abc' fits several jobs: abcd000000000000, abce000000000000");
+  EXPECT_EQ(get("/v1/jobs/abcx000").status, 404);
+  EXPECT_THAT(get("/v1/jobs/abdc00000000000").error(), HasSubstr("did you mean abcd000000000000?"));
+}
+
+TEST_F(ApiTest, ARunningJobShowsItsProgress) {
+  const auto ids = submit_four();
+  queue_.begin(ids[0]);
+  EXPECT_TRUE(get("/v1/jobs/" + ids[0]).json["job"]["progress"].is_null());
+  const auto file = directory_ / "runs" / ids[0] / "progress.json";
+  std::filesystem::create_directories(file.parent_path());
+  write_text(file,
+             R"({"state": "running", "message": "", "pid": 1, "n_rods": 9, "fraction": 0.5, "sim_time_s": 1,
+                 "sim_time_total_s": 2, "sim_rate": 0.1, "eta_s": 10, "order": 0.25, "order_running_mean": 0.2,
+                 "max_overlap_mm": 0})");
+  EXPECT_EQ(get("/v1/jobs/" + ids[0]).json["job"]["progress"]["order"], 0.25);
+  EXPECT_EQ(get("/v1/sweeps/s1").json["sweep"]["progress"], 0.125);
+  EXPECT_EQ(get("/v1/sweeps/s1").json["sweep"]["eta_s"], -1.0) << "nothing is known of the queued ones yet";
+
+  queue_.begin(ids[1]);
+  queue_.finish(ids[1], JobState::kDone, "");
+  queue_.cancel_job(ids[2]);
+  queue_.cancel_job(ids[3]);
+  const Json sweep = get("/v1/sweeps/s1").json["sweep"];
+  EXPECT_EQ(sweep["progress"], 0.875);
+  EXPECT_EQ(sweep["eta_s"], 10.0);
+
+  write_text(file, "{torn");
+  EXPECT_TRUE(get("/v1/jobs/" + ids[0]).json["job"]["progress"].is_null());
+}
+
+TEST_F(ApiTest, ALogIsReadPieceByPiece) {
+  const auto ids = submit_four();
+  EXPECT_EQ(get("/v1/jobs/" + ids[0] + "/log").json.dump(), R"({"text":"","offset":0,"state":"queued"})");
+  std::filesystem::create_directories(directory_ / "runs" / ids[0]);
+  write_text(directory_ / "runs" / ids[0] / "worker.log", "one\ntwo\n\xff");
+  const Response log = get("/v1/jobs/" + ids[0] + "/log?offset=4");
+  EXPECT_EQ(log.json["text"], "two\n\ufffd") << "what is not UTF-8 is replaced";
+  EXPECT_EQ(log.json["offset"], 9);
+  EXPECT_EQ(get("/v1/jobs/" + ids[0] + "/log?offset=9").json["text"], "");
+  for (const char* offset : {"-1", "x", "1x", "99999999999999999999"}) {
+    EXPECT_EQ(get("/v1/jobs/" + ids[0] + "/log?offset=" + offset).status, 400) << offset;
+  }
+}
+
+TEST_F(ApiTest, ResultsAreARowPerJob) {
+  const auto ids = submit_four();
+  queue_.begin(ids[0]);
+  std::filesystem::create_directories(directory_ / "runs" / ids[0]);
+  write_text(directory_ / "runs" / ids[0] / "summary.json", R"({"n_rods": 7})");
+  queue_.finish(ids[0], JobState::kDone, "");
+  const Response results = get("/v1/results?sweep=four");
+  ASSERT_EQ(results.json["rows"].size(), 4U);
+  EXPECT_EQ(results.json["rows"][0]["job"], ids[0]);
+  EXPECT_EQ(results.json["rows"][0]["summary"]["n_rods"], 7);
+  EXPECT_EQ(results.json["rows"][0]["parameters"]["rods.length"], 2.5);
+  EXPECT_TRUE(results.json["rows"][1]["summary"].is_null());
+  EXPECT_EQ(get("/v1/results?state=done").json["rows"].size(), 1U);
+}
+
+TEST_F(ApiTest, CancelIsOnTheDiskWhenItAnswersAndMayBeRepeated) {
+  const auto ids = submit_four();
+  queue_.begin(ids[0]);
+  EXPECT_EQ(post("/v1/jobs/" + ids[1] + "/cancel").json.dump(), R"({"cancelled":1})");
+  EXPECT_EQ(queue_.job(ids[1])->state, JobState::kCancelled);
+  EXPECT_EQ(post("/v1/jobs/" + ids[1] + "/cancel").json.dump(), R"({"cancelled":0})");
+  EXPECT_EQ(post("/v1/sweeps/four/cancel").json.dump(), R"({"cancelled":3})");
+  EXPECT_EQ(queue_.job(ids[0])->state, JobState::kStopping);
+  EXPECT_EQ(post("/v1/sweeps/s1/cancel").json.dump(), R"({"cancelled":0})");
+  EXPECT_EQ(post("/v1/sweeps/s7/cancel").status, 404);
+  EXPECT_EQ(post("/v1/jobs/zz/cancel").status, 404);
+}
+
+TEST_F(ApiTest, UnknownPathsAndMethodsGetHelp) {
+  const Response nowhere = get("/v1/job");
+  EXPECT_EQ(nowhere.status, 404);
+  EXPECT_THAT(nowhere.json["routes"].get<std::vector<std::string>>(), testing::Contains("GET /v1/jobs/ID"));
+  EXPECT_EQ(get("/").status, 404);
+  EXPECT_EQ(get("/v1/jobs/a/b/c").status, 404);
+
+  const auto wrong = client_.Delete("/v1/sweeps");
+  ASSERT_TRUE(wrong);
+  EXPECT_EQ(wrong->status, 405);
+  EXPECT_EQ(wrong->get_header_value("Allow"), "POST, GET");
+  EXPECT_EQ(post("/v1/status").status, 405);
+  EXPECT_EQ(read(client_.Put("/v1/status", "{}", "application/json")).status, 405);
+}
+
+TEST_F(ApiTest, EveryRouteIsDocumented) {
+  const std::string protocol = read_text(SHAKEN_SOURCE_DIR "/docs/protocol.md");
+  for (const Json& route : get("/nowhere").json["routes"]) {
+    EXPECT_THAT(protocol, HasSubstr(route.get<std::string>()));
+  }
+}
+
+TEST_F(ApiTest, ARequestThatIsTooLargeIsRefused) {
+  const Response large = post("/v1/sweeps", std::string((std::size_t{16} << 20) + 1, ' '));
+  EXPECT_EQ(large.status, 413);
+  EXPECT_THAT(large.error(), HasSubstr("16 MiB"));
+  EXPECT_EQ(get("/v1/jobs/" + std::string(2000, 'a')).status, 414);
+  EXPECT_EQ(get("/v1/status").status, 200);
+}
+
+TEST_F(ApiTest, FormsAreReadAsTheyAre) {
+  // What curl -d sends unless told otherwise, beyond the 8 KiB that cpp-httplib allows for forms.
+  const std::string body = Json({{"text", "{}" + std::string(20'000, ' ')}}).dump();
+  EXPECT_EQ(read(client_.Post("/v1/sweeps", body, "application/x-www-form-urlencoded")).status, 201);
+  const httplib::MultipartFormDataItems items{{"text", "{}", "", ""}};
+  EXPECT_EQ(read(client_.Post("/v1/sweeps", items)).status, 415);
+}
+
+TEST_F(ApiTest, APostWithoutABodyNeedsNoLength) {
+  submit_four();
+  EXPECT_THAT(exchange("POST /v1/sweeps/s1/cancel HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n"),
+              HasSubstr("{\"cancelled\":4}"));
+}
+
+TEST_F(ApiTest, GarbageOnTheSocketHarmsNobody) {
+  EXPECT_THAT(exchange("\r\n\r\n"), HasSubstr("400"));
+  EXPECT_THAT(exchange("GET /v1/status\r\n\r\n"), HasSubstr("400"));
+  EXPECT_THAT(exchange("POST /v1/sweeps HTTP/1.1\r\nContent-Length: -5\r\n\r\n{}"), HasSubstr("HTTP/1.1 4"));
+  EXPECT_THAT(exchange("POST /v1/sweeps HTTP/1.1\r\nContent-Length: 100\r\n\r\n{}"), HasSubstr("400"));
+  EXPECT_THAT(exchange("GET /v1/jobs/%00%ff%zz HTTP/1.1\r\nConnection: close\r\n\r\n"), HasSubstr("404"));
+  EXPECT_TRUE(rc::check("any bytes", [this](const std::string& bytes) { exchange(bytes); }));
+  const std::string good = "POST /v1/sweeps HTTP/1.1\r\nHost: x\r\nContent-Length: 2\r\nConnection: close\r\n\r\n{}";
+  EXPECT_TRUE(rc::check("one byte changed", [&] {
+    std::string bytes = good;
+    bytes[*rc::gen::inRange<std::size_t>(0, good.size())] = *rc::gen::arbitrary<char>();
+    exchange(bytes);
+  }));
+  EXPECT_EQ(get("/v1/status").status, 200);
+}
+
+TEST_F(ApiTest, SlowClientsDoNotKeepOthersWaiting) {
+  // Forty clients that send a request byte by byte, without end: none of them ever runs into a time limit.
+  constexpr int kSlowClients = 40;
+  const std::string endless = "GET /v1/status HTTP/1.1\r\nX: ";
+  std::vector<int> slow;
+  for (int i = 0; i < kSlowClients; ++i) {
+    slow.push_back(connect());
+    send(slow.back(), endless.data(), endless.size(), MSG_NOSIGNAL);
+  }
+  std::atomic<bool> enough = false;
+  std::thread dripping([&] {
+    while (!enough) {
+      for (const int fd : slow) send(fd, "x", 1, MSG_NOSIGNAL);
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+  });
+  client_.set_read_timeout(20);
+  EXPECT_EQ(get("/v1/status").status, 200);
+  enough = true;
+  dripping.join();
+  for (const int fd : slow) close(fd);
+}
+
+TEST_F(ApiTest, AClosedServerLeavesNoSocket) {
+  server_.close();
+  EXPECT_FALSE(std::filesystem::exists(info().socket()));
+  EXPECT_EQ(get("/v1/status").status, 0);
+  EXPECT_TRUE(server_.ended_within(std::chrono::seconds(20)));
+}
+
+TEST(HttpServerTest, APathTooLongForASocketIsRefusedInWords) {
+  const std::filesystem::path socket = "/tmp/" + std::string(200, 'x');
+  try {
+    const HttpServer server(socket, [](const Request&) { return Reply{}; });
+    FAIL() << "it listens";
+  } catch (const std::runtime_error& problem) {
+    EXPECT_THAT(problem.what(), HasSubstr("too long"));
+    EXPECT_THAT(problem.what(), HasSubstr("--root"));
+  }
+}
+
+TEST(HttpServerTest, AFolderThatIsNotThereIsRefusedInWords) {
+  EXPECT_THROW(HttpServer("/nonexistent/sock", [](const Request&) { return Reply{}; }), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace shaken::server

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT
+// The program shakend, from start to end, with scripts for workers.
+#include "server/daemon.h"
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <httplib.h>
+#include <signal.h>
+#include <sys/un.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "support.h"
+
+namespace shaken::server {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+/// One shakend in a directory of its own.
+class Daemon {
+ public:
+  Daemon(const std::filesystem::path& root, const std::vector<std::string>& options) : root_(root) {
+    int ends[2];
+    EXPECT_EQ(pipe2(ends, O_CLOEXEC), 0);
+    out_ = ends[0];
+    const std::string errors = root.string() + ".err";
+    std::vector<std::string> words{SHAKEND, "--root", root.string()};
+    words.insert(words.end(), options.begin(), options.end());
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    pid_ = fork();
+    if (pid_ == 0) {
+      dup2(ends[1], STDOUT_FILENO);
+      dup2(open(errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
+      execv(SHAKEND, arguments.data());
+      _exit(127);
+    }
+    close(ends[1]);
+  }
+  ~Daemon() {
+    if (pid_ > 0) {
+      ::kill(pid_, SIGKILL);
+      waitpid(pid_, nullptr, 0);
+    }
+    close(out_);
+  }
+
+  /// The first line of its output; empty if it ends without.
+  std::string first_line() const {
+    std::string line;
+    for (char c = 0; read(out_, &c, 1) == 1 && c != '\n';) line += c;
+    return line;
+  }
+  std::string errors() const { return read_text(root_.string() + ".err"); }
+  void send(int signal) const { ::kill(pid_, signal); }
+  /// Waits for its end; the exit code, or minus the signal that killed it.
+  int wait() {
+    int status = 0;
+    EXPECT_TRUE(eventually([&] { return waitpid(pid_, &status, WNOHANG) == pid_; })) << errors();
+    pid_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+  int pid() const { return pid_; }
+
+  json call(const std::string& path, const std::optional<json>& body = std::nullopt) const {
+    httplib::Client client((root_ / "shakend.sock").string());
+    client.set_address_family(AF_UNIX);
+    const auto result = body ? client.Post(path, body->dump(), "application/json") : client.Get(path);
+    return result ? json::parse(result->body) : json();
+  }
+  json job() const { return call("/v1/jobs").at("jobs").at(0); }
+
+ private:
+  std::filesystem::path root_;
+  int out_ = -1;
+  pid_t pid_ = -1;
+};
+
+class DaemonTest : public testing::Test {
+ protected:
+  ~DaemonTest() override { unsetenv("FAKE_WORKER"); }
+
+  Daemon daemon(const std::vector<std::string>& more = {}) {
+    std::vector<std::string> options{"--no-lcm", "--worker", worker_.string()};
+    options.insert(options.end(), more.begin(), more.end());
+    return {directory_ / "root", options};
+  }
+  static bool becomes(const Daemon& daemon, const std::string& state) {
+    return eventually([&] { return daemon.job()["state"] == state; });
+  }
+  /// Waits until the worker of the only job listens to signals; returns its pid.
+  static int up(const Daemon& daemon) {
+    EXPECT_TRUE(eventually([&] {
+      const json job = daemon.job();
+      return job["pid"] != 0 && std::filesystem::exists(std::filesystem::path(job["directory"]) / "up");
+    })) << daemon.errors();
+    return daemon.job()["pid"];
+  }
+
+  TempDirectory directory_;
+  std::filesystem::path worker_ = write_fake_worker(directory_.path());
+};
+
+TEST_F(DaemonTest, RunsAJobAndStopsInOrder) {
+  setenv("FAKE_WORKER", "done", 1);
+  Daemon shakend = daemon();
+  EXPECT_EQ(shakend.first_line(),
+            "shakend ready: " + (directory_ / "root").string() + " (pid " + std::to_string(shakend.pid()) + ")");
+  EXPECT_EQ(shakend.call("/v1/status")["pid"], shakend.pid());
+  EXPECT_EQ(shakend.call("/v1/sweeps", json{{"text", "{}"}})["counts"]["new"], 1);
+  EXPECT_TRUE(becomes(shakend, "done"));
+  EXPECT_EQ(shakend.call("/v1/results")["rows"][0]["summary"]["n_rods"], 7);
+  shakend.send(SIGTERM);
+  EXPECT_EQ(shakend.wait(), 0);
+  EXPECT_FALSE(std::filesystem::exists(directory_ / "root" / "shakend.sock"));
+  EXPECT_EQ(read_text(directory_ / "root" / "shakend.log"), shakend.errors());
+  EXPECT_EQ(std::filesystem::status(directory_ / "root").permissions(), std::filesystem::perms::owner_all);
+}
+
+TEST_F(DaemonTest, ASecondOneRefusesAndNamesTheFirst) {
+  Daemon first = daemon();
+  ASSERT_THAT(first.first_line(), StartsWith("shakend ready"));
+  Daemon second = daemon();
+  EXPECT_EQ(second.first_line(), "");
+  EXPECT_EQ(second.wait(), 1);
+  EXPECT_THAT(second.errors(), HasSubstr("process " + std::to_string(first.pid())));
+  EXPECT_EQ(first.call("/v1/status")["pid"], first.pid()) << "the first one goes on";
+}
+
+TEST_F(DaemonTest, StoppingItStopsTheWorkersAndTheNextOneGoesOn) {
+  setenv("FAKE_WORKER", "run", 1);
+  {
+    Daemon shakend = daemon();
+    shakend.first_line();
+    shakend.call("/v1/sweeps", json{{"text", "{}"}});
+    const int worker = up(shakend);
+    shakend.send(SIGTERM);
+    EXPECT_EQ(shakend.wait(), 0);
+    EXPECT_NE(kill(worker, 0), 0);
+  }
+  setenv("FAKE_WORKER", "done", 1);
+  Daemon next = daemon();
+  next.first_line();
+  EXPECT_TRUE(becomes(next, "done"));
+  EXPECT_EQ(next.job()["attempt"], 2);
+}
+
+TEST_F(DaemonTest, AfterAKillTheNextOneStartsTheJobAgain) {
+  setenv("FAKE_WORKER", "run", 1);
+  int worker = 0;
+  {
+    Daemon shakend = daemon();
+    shakend.first_line();
+    shakend.call("/v1/sweeps", json{{"text", "{}"}});
+    worker = up(shakend);
+    shakend.send(SIGKILL);
+    EXPECT_EQ(shakend.wait(), -SIGKILL);
+  }
+  setenv("FAKE_WORKER", "done", 1);
+  Daemon next = daemon();
+  EXPECT_THAT(next.first_line(), StartsWith("shakend ready"));
+  EXPECT_TRUE(becomes(next, "done"));
+  EXPECT_EQ(next.job()["attempt"], 2);
+  EXPECT_TRUE(eventually([&] { return kill(worker, 0) != 0; })) << "the old worker was told by the kernel";
+}
+
+TEST_F(DaemonTest, AKilledWorkerIsAFailedJobAndTheDaemonGoesOn) {
+  setenv("FAKE_WORKER", "run", 1);
+  Daemon shakend = daemon();
+  shakend.first_line();
+  shakend.call("/v1/sweeps", json{{"text", "{}"}});
+  kill(up(shakend), SIGKILL);
+  EXPECT_TRUE(becomes(shakend, "failed"));
+  EXPECT_EQ(shakend.job()["reason"], "worker was killed by signal 9 (SIGKILL)");
+  EXPECT_EQ(shakend.call("/v1/status")["jobs"]["failed"], 1);
+}
+
+TEST_F(DaemonTest, ASecondSignalKillsDeafWorkers) {
+  setenv("FAKE_WORKER", "deaf", 1);
+  Daemon shakend = daemon();
+  shakend.first_line();
+  shakend.call("/v1/sweeps", json{{"text", "{}"}});
+  const int worker = up(shakend);
+  shakend.send(SIGINT);
+  EXPECT_TRUE(eventually([&] { return shakend.errors().find("stopping") != std::string::npos; }));
+  EXPECT_EQ(kill(worker, 0), 0);
+  shakend.send(SIGINT);
+  EXPECT_EQ(shakend.wait(), 0);
+  EXPECT_NE(kill(worker, 0), 0);
+}
+
+TEST_F(DaemonTest, AClientThatStaysDoesNotKeepItUp) {
+  Daemon shakend = daemon();
+  shakend.first_line();
+  const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  std::strcpy(address.sun_path, (directory_ / "root" / "shakend.sock").c_str());
+  ASSERT_EQ(connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
+  std::atomic<bool> enough = false;
+  std::thread dripping([&] {
+    send(fd, "GET /v1/status HTTP/1.1\r\nX: ", 28, MSG_NOSIGNAL);
+    while (!enough) {
+      send(fd, "x", 1, MSG_NOSIGNAL);
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+  });
+  shakend.send(SIGTERM);
+  EXPECT_EQ(shakend.wait(), 0);
+  enough = true;
+  dripping.join();
+  close(fd);
+}
+
+TEST_F(DaemonTest, WithoutLcmItSaysSoAndWorksOn) {
+  setenv("FAKE_WORKER", "done", 1);
+  Daemon shakend(directory_ / "root", {"--worker", worker_.string(), "--lcm-url", "nonsense://"});
+  shakend.first_line();
+  const json lcm = shakend.call("/v1/status")["lcm"];
+  EXPECT_EQ(lcm["ok"], false);
+  EXPECT_THAT(lcm["message"].get<std::string>(), HasSubstr("nonsense://"));
+  EXPECT_THAT(shakend.errors(), HasSubstr("no live state"));
+  shakend.call("/v1/sweeps", json{{"text", "{}"}});
+  EXPECT_TRUE(becomes(shakend, "done"));
+}
+
+TEST_F(DaemonTest, WhatCannotStartSaysWhy) {
+  Daemon no_worker(directory_ / "root", {"--no-lcm", "--worker", "/nonexistent/worker"});
+  EXPECT_EQ(no_worker.wait(), 1);
+  EXPECT_THAT(no_worker.errors(), HasSubstr("/nonexistent/worker"));
+
+  Daemon no_root("/dev/null/root", {"--no-lcm", "--worker", worker_.string()});
+  EXPECT_EQ(no_root.wait(), 1);
+
+  Daemon no_slots(directory_ / "root", {"--slots", "0"});
+  EXPECT_EQ(no_slots.wait(), 2);
+  EXPECT_THAT(no_slots.errors(), HasSubstr("--slots"));
+
+  std::filesystem::create_directories(directory_ / "root");
+  write_text(directory_ / "root" / "queue.db", std::string(8192, 'x'));
+  Daemon damaged = daemon();
+  EXPECT_EQ(damaged.wait(), 1);
+  EXPECT_THAT(damaged.errors(), HasSubstr("queue.db"));
+}
+
+TEST(DefaultRootTest, TheFirstVariableThatIsSetDecides) {
+  setenv("HOME", "/h", 1);
+  unsetenv("SHAKEN_ROOT");
+  unsetenv("XDG_DATA_HOME");
+  EXPECT_EQ(default_root(), "/h/.local/share/shaken");
+  setenv("XDG_DATA_HOME", "/x", 1);
+  EXPECT_EQ(default_root(), "/x/shaken");
+  setenv("SHAKEN_ROOT", "/s", 1);
+  EXPECT_EQ(default_root(), "/s");
+}
+
+}  // namespace
+}  // namespace shaken::server

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// What the publisher sends, read back from an LCM log file.
+#include "server/publisher.h"
+
+#include <gtest/gtest.h>
+#include <lcm/eventlog.h>
+
+#include <shaken/job_t.hpp>
+#include <shaken/status_t.hpp>
+
+#include "support.h"
+
+namespace shaken::server {
+namespace {
+
+struct Recording {
+  std::vector<shaken::status_t> statuses;
+  std::vector<shaken::job_t> jobs;
+};
+
+Recording read_log(const std::filesystem::path& file) {
+  Recording recording;
+  lcm_eventlog_t* log = lcm_eventlog_create(file.c_str(), "r");
+  while (lcm_eventlog_event_t* event = lcm_eventlog_read_next_event(log)) {
+    const std::string channel(event->channel, static_cast<std::size_t>(event->channellen));
+    const std::span payload(static_cast<const std::uint8_t*>(event->data), static_cast<std::size_t>(event->datalen));
+    if (channel == proto::kStatusChannel) recording.statuses.push_back(*proto::decode<shaken::status_t>(payload));
+    if (channel == proto::kJobChannel) recording.jobs.push_back(*proto::decode<shaken::job_t>(payload));
+    lcm_eventlog_free_event(event);
+  }
+  lcm_eventlog_destroy(log);
+  return recording;
+}
+
+class PublisherTest : public testing::Test {
+ protected:
+  void start() {
+    auto opened = proto::Bus::open("file://" + (directory_ / "log").string() + "?mode=w");
+    ASSERT_TRUE(opened) << opened.reason;
+    DaemonInfo info;
+    info.version = "1.2.3";
+    info.host = "here";
+    info.pid = 42;
+    info.root = directory_.path();
+    info.slots = 3;
+    publisher_.emplace(queue_, std::move(opened.bus), info);
+  }
+  Recording stop() {
+    publisher_.reset();
+    return read_log(directory_ / "log");
+  }
+
+  TempDirectory directory_;
+  Queue queue_{directory_ / "queue.db"};
+  std::optional<Publisher> publisher_;
+  const std::string a_ = std::string(16, 'a');
+};
+
+TEST_F(PublisherTest, EveryChangeOfStateIsSent) {
+  start();
+  queue_.submit("s", 0, std::vector{new_job('a', "rods.length=2.5")});
+  queue_.begin(a_);
+  queue_.finish(a_, JobState::kFailed, "exit 1: why");
+  const Recording recording = stop();
+  std::vector<std::string> states;
+  std::int64_t sequence = 0;
+  for (const auto& message : recording.jobs) {
+    EXPECT_EQ(message.sequence, sequence++);
+    EXPECT_EQ(message.job_id, a_);
+    EXPECT_EQ(message.sweep_id, "s1");
+    EXPECT_EQ(message.label, "rods.length=2.5");
+    if (states.empty() || states.back() != message.state) states.push_back(message.state);
+  }
+  EXPECT_EQ(states, (std::vector<std::string>{"queued", "running", "failed"}));
+  EXPECT_EQ(recording.jobs.back().reason, "exit 1: why");
+  EXPECT_EQ(recording.jobs.back().attempt, 1);
+}
+
+TEST_F(PublisherTest, ARunningJobIsSentAgainAndAgainWithItsProgress) {
+  queue_.submit("s", 0, std::vector{new_job('a')});
+  queue_.begin(a_);
+  std::filesystem::create_directories(directory_ / "runs" / a_);
+  write_text(directory_ / "runs" / a_ / "progress.json",
+             R"({"state": "running", "message": "", "pid": 1, "n_rods": 9, "fraction": 0.5, "sim_time_s": 1,
+                 "sim_time_total_s": 2, "sim_rate": 0.1, "eta_s": 10, "order": 0.25, "order_running_mean": 0.2,
+                 "max_overlap_mm": 0})");
+  start();
+  std::this_thread::sleep_for(std::chrono::milliseconds(2500));  // LCM keeps the file's end in memory: no use to look
+  const Recording recording = stop();
+  EXPECT_GE(recording.statuses.size(), 2U);
+  EXPECT_GE(recording.jobs.size(), 2U);
+  for (const auto& message : recording.jobs) {
+    EXPECT_EQ(message.state, "running");
+    EXPECT_EQ(message.progress, 0.5);
+    EXPECT_EQ(message.sim_time_s, 1.0);
+    EXPECT_EQ(message.sim_time_total_s, 2.0);
+    EXPECT_EQ(message.sim_rate, 0.1);
+    EXPECT_EQ(message.eta_s, 10.0);
+  }
+}
+
+TEST_F(PublisherTest, TheHeartbeatCountsTheJobs) {
+  queue_.submit("s", 0, std::vector{new_job('a'), new_job('b'), new_job('c'), new_job('d')});
+  queue_.begin(a_);
+  queue_.begin(std::string(16, 'b'));
+  queue_.cancel_job(std::string(16, 'b'));  // stopping: its worker runs still
+  queue_.cancel_job(std::string(16, 'c'));
+  start();
+  const Recording recording = stop();
+  ASSERT_FALSE(recording.statuses.empty());
+  const auto& status = recording.statuses.front();
+  EXPECT_EQ(status.sequence, 0);
+  EXPECT_EQ(status.host, "here");
+  EXPECT_EQ(status.pid, 42);
+  EXPECT_EQ(status.version, "1.2.3");
+  EXPECT_EQ(status.root, directory_.path().string());
+  EXPECT_EQ(status.n_slots, 3);
+  EXPECT_EQ(status.n_queued, 1);
+  EXPECT_EQ(status.n_running, 2);
+  EXPECT_EQ(status.n_cancelled, 1);
+  EXPECT_GT(status.utime, 1'600'000'000'000'000);
+}
+
+TEST_F(PublisherTest, AFloodOfChangesIsSentWithoutLoss) {
+  start();
+  std::vector<NewJob> jobs;
+  for (int i = 0; i < 350; ++i) {
+    jobs.push_back(new_job('a'));
+    jobs.back().id = "job" + std::to_string(i);
+  }
+  queue_.submit("flood", 0, jobs);
+  std::vector<std::string> ids;
+  for (const auto& message : stop().jobs) ids.push_back(message.job_id);
+  ASSERT_EQ(ids.size(), 350U);
+  EXPECT_EQ(ids.front(), "job0");
+  EXPECT_EQ(ids.back(), "job349");
+}
+
+}  // namespace
+}  // namespace shaken::server

@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: MIT
+#include "server/queue.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "support.h"
+
+namespace shaken::server {
+namespace {
+
+using enum JobState;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class QueueTest : public testing::Test {
+ protected:
+  JobState state(char digit) const { return queue_.job(std::string(16, digit))->state; }
+  std::vector<std::string> transitions(char digit) const {
+    std::vector<std::string> result;
+    for (const Change& change : queue_.changes_since(0, 1000)) {
+      if (change.job == std::string(16, digit)) result.push_back(change.from + ">" + change.to);
+    }
+    return result;
+  }
+
+  TempDirectory directory_;
+  Queue queue_{directory_ / "queue.db"};
+  const std::string a_ = std::string(16, 'a');
+  const std::string b_ = std::string(16, 'b');
+};
+
+TEST_F(QueueTest, ASubmittedSweepIsThereInItsOrder) {
+  const std::vector<NewJob> jobs{new_job('b', "x=1"), new_job('a', "x=2")};
+  const Submitted submitted = queue_.submit("first", 0, jobs);
+  EXPECT_TRUE(submitted.created);
+  EXPECT_EQ(submitted.n_new, 2);
+  EXPECT_EQ(submitted.n_requeued, 0);
+  EXPECT_EQ(submitted.counts[kQueued], 2);
+
+  const auto stored = queue_.jobs(submitted.sweep);
+  ASSERT_EQ(stored.size(), 2U);
+  EXPECT_EQ(stored[0].id, b_);
+  EXPECT_EQ(stored[0].label, "x=1");
+  EXPECT_EQ(stored[0].sweep, submitted.sweep);
+  EXPECT_EQ(stored[0].state, kQueued);
+  EXPECT_EQ(stored[0].attempt, 0);
+  EXPECT_GT(stored[0].created, 0);
+  EXPECT_EQ(stored[1].id, a_);
+  EXPECT_EQ(queue_.scene(a_), jobs[1].scene);
+  EXPECT_EQ(queue_.sweep(submitted.sweep)->name, "first");
+  EXPECT_EQ(queue_.sweep_named("first")->id, submitted.sweep);
+}
+
+TEST_F(QueueTest, TheSameSweepAgainIsTheSameSweep) {
+  const std::vector<NewJob> jobs{new_job('a'), new_job('b')};
+  const Submitted first = queue_.submit("twice", 0, jobs);
+  const Submitted second = queue_.submit("twice", 0, jobs);
+  EXPECT_FALSE(second.created);
+  EXPECT_EQ(second.sweep, first.sweep);
+  EXPECT_EQ(second.n_new, 0);
+  EXPECT_EQ(queue_.sweeps().size(), 1U);
+
+  // One point more, or another name: another sweep, of the same jobs.
+  const std::vector<NewJob> more{new_job('a'), new_job('b'), new_job('c')};
+  EXPECT_EQ(queue_.submit("twice", 0, more).n_new, 1);
+  EXPECT_EQ(queue_.submit("other", 0, jobs).n_new, 0);
+  EXPECT_EQ(queue_.sweeps().size(), 3U);
+  EXPECT_EQ(queue_.counts().total(), 3);
+}
+
+TEST_F(QueueTest, AJobOfTwoSweepsIsSeenThroughEither) {
+  const auto first = queue_.submit("one", 0, std::vector{new_job('a', "as one")}).sweep;
+  const auto second = queue_.submit("two", 0, std::vector{new_job('a', "as two")}).sweep;
+  EXPECT_EQ(queue_.jobs(first).front().label, "as one");
+  EXPECT_EQ(queue_.jobs(second).front().label, "as two");
+  EXPECT_EQ(queue_.job(a_)->label, "as two");
+  EXPECT_EQ(queue_.jobs(std::nullopt).size(), 1U);
+}
+
+TEST_F(QueueTest, ARunningJobIsDoneWithItsAttemptCounted) {
+  queue_.submit("s", 0, std::vector{new_job('a')});
+  EXPECT_EQ(queue_.begin(a_), 1);
+  EXPECT_EQ(queue_.begin(a_), std::nullopt);
+  queue_.set_pid(a_, 4711);
+  EXPECT_EQ(queue_.job(a_)->pid, 4711);
+  EXPECT_GT(queue_.job(a_)->started, 0);
+  queue_.finish(a_, kDone, "");
+  const Job done = *queue_.job(a_);
+  EXPECT_EQ(done.state, kDone);
+  EXPECT_EQ(done.attempt, 1);
+  EXPECT_EQ(done.pid, 0);
+  EXPECT_GE(done.finished, done.started);
+  EXPECT_THAT(transitions('a'), ElementsAre(">queued", "queued>running", "running>done"));
+  EXPECT_THROW(queue_.finish(a_, kFailed, "too late"), std::logic_error);
+}
+
+TEST_F(QueueTest, AFailedJobIsTriedAgainWhenAskedForAndADoneOneIsNot) {
+  const std::vector<NewJob> jobs{new_job('a'), new_job('b')};
+  queue_.submit("s", 0, jobs);
+  queue_.begin(a_);
+  queue_.finish(a_, kFailed, "exit 1: why");
+  EXPECT_EQ(queue_.job(a_)->reason, "exit 1: why");
+  queue_.begin(b_);
+  queue_.finish(b_, kDone, "");
+
+  const Submitted again = queue_.submit("s", 0, jobs);
+  EXPECT_EQ(again.n_requeued, 1);
+  EXPECT_EQ(state('a'), kQueued);
+  EXPECT_EQ(queue_.job(a_)->reason, "");
+  EXPECT_EQ(state('b'), kDone);
+  EXPECT_EQ(queue_.begin(a_), 2);
+}
+
+TEST_F(QueueTest, ADoneJobWhoseResultsAreLostIsDoneAgain) {
+  std::vector<NewJob> jobs{new_job('a')};
+  queue_.submit("s", 0, jobs);
+  queue_.begin(a_);
+  queue_.finish(a_, kDone, "");
+  jobs[0].results_lost = true;
+  EXPECT_EQ(queue_.submit("s", 0, jobs).n_requeued, 1);
+  EXPECT_EQ(state('a'), kQueued);
+}
+
+TEST_F(QueueTest, CancelEndsQueuedJobsAndStopsRunningOnes) {
+  const auto sweep = queue_.submit("s", 0, std::vector{new_job('a'), new_job('b'), new_job('c')}).sweep;
+  queue_.begin(a_);
+  queue_.begin(b_);
+  queue_.finish(b_, kDone, "");
+  EXPECT_EQ(queue_.cancel_sweep(sweep), 2);
+  EXPECT_EQ(state('a'), kStopping);
+  EXPECT_EQ(state('b'), kDone);
+  EXPECT_EQ(state('c'), kCancelled);
+  EXPECT_EQ(queue_.cancel_sweep(sweep), 0);
+
+  queue_.stopped(a_, "checkpoint");
+  EXPECT_EQ(state('a'), kCancelled);
+  EXPECT_EQ(queue_.job(a_)->reason, "cancelled on request");
+  EXPECT_THAT(transitions('a'), ElementsAre(">queued", "queued>running", "running>stopping", "stopping>cancelled"));
+}
+
+TEST_F(QueueTest, CancelLeavesOtherSweepsAlone) {
+  queue_.submit("one", 0, std::vector{new_job('a')});
+  const auto two = queue_.submit("two", 0, std::vector{new_job('b')}).sweep;
+  EXPECT_EQ(queue_.cancel_sweep(two), 1);
+  EXPECT_EQ(state('a'), kQueued);
+  EXPECT_EQ(queue_.cancel_job("nobody"), 0);
+}
+
+TEST_F(QueueTest, SubmittingAJobThatIsAboutToBeCancelledKeepsIt) {
+  const std::vector<NewJob> jobs{new_job('a')};
+  queue_.submit("s", 0, jobs);
+  queue_.begin(a_);
+  queue_.cancel_job(a_);
+  EXPECT_EQ(queue_.submit("s", 0, jobs).n_requeued, 1);
+  queue_.stopped(a_, "checkpoint");
+  EXPECT_EQ(state('a'), kQueued);
+}
+
+TEST_F(QueueTest, AWorkerThatStopsUnaskedIsQueuedAgain) {
+  queue_.submit("s", 0, std::vector{new_job('a')});
+  queue_.begin(a_);
+  queue_.stopped(a_, "someone sent SIGTERM");
+  EXPECT_EQ(state('a'), kQueued);
+}
+
+TEST_F(QueueTest, StoppingTheDaemonQueuesWhatRuns) {
+  queue_.submit("s", 0, std::vector{new_job('a'), new_job('b'), new_job('c')});
+  queue_.begin(a_);
+  queue_.begin(b_);
+  queue_.cancel_job(b_);
+  queue_.stop_all();
+  EXPECT_EQ(state('a'), kStopping);
+  EXPECT_EQ(state('c'), kQueued);
+  queue_.stopped(a_, "checkpoint");
+  queue_.stopped(b_, "checkpoint");
+  EXPECT_EQ(state('a'), kQueued);
+  EXPECT_EQ(state('b'), kCancelled);
+}
+
+TEST_F(QueueTest, TheNextJobIsTheOldestOfTheHighestPriority) {
+  queue_.submit("low", 0, std::vector{new_job('c'), new_job('a')});
+  queue_.submit("high", 5, std::vector{new_job('d'), new_job('b')});
+  std::string order;
+  for (const Job& job : queue_.next(10)) order += job.id.front();
+  EXPECT_EQ(order, "dbca");
+  EXPECT_EQ(queue_.next(1).size(), 1U);
+
+  queue_.submit("urgent", 9, std::vector{new_job('a')});
+  EXPECT_EQ(queue_.next(1).front().id, a_);
+}
+
+TEST_F(QueueTest, IdsAreFoundByTheirBeginning) {
+  NewJob near = new_job('a');
+  near.id = "aaab000000000000";
+  queue_.submit("s", 0, std::vector{new_job('a'), near, new_job('b')});
+  EXPECT_THAT(queue_.ids_beginning_with("aaa", 10), ElementsAre(a_, near.id));
+  EXPECT_THAT(queue_.ids_beginning_with("aaab", 10), ElementsAre(near.id));
+  EXPECT_THAT(queue_.ids_beginning_with("", 2), ElementsAre(a_, near.id));
+  EXPECT_THAT(queue_.ids_beginning_with("c", 10), IsEmpty());
+  EXPECT_THAT(queue_.ids_beginning_with("%", 10), IsEmpty());
+}
+
+TEST_F(QueueTest, TheJournalTellsTimeAndCause) {
+  queue_.submit("s", 0, std::vector{new_job('a')});
+  const std::int64_t before = queue_.last_change();
+  queue_.begin(a_);
+  queue_.finish(a_, kFailed, "exit 1: why");
+  const auto changes = queue_.changes_since(before, 10);
+  ASSERT_EQ(changes.size(), 2U);
+  EXPECT_EQ(changes[1].to, "failed");
+  EXPECT_EQ(changes[1].cause, "exit 1: why");
+  EXPECT_EQ(changes[1].attempt, 1);
+  EXPECT_EQ(changes[1].sequence, queue_.last_change());
+  EXPECT_GE(changes[1].utime, changes[0].utime);
+  EXPECT_EQ(queue_.changes_since(before, 1).size(), 1U);
+}
+
+TEST_F(QueueTest, AWaiterWakesWithTheNextChange) {
+  const std::int64_t before = queue_.last_change();
+  std::thread writer([&] { queue_.submit("s", 0, std::vector{new_job('a')}); });
+  queue_.wait_for_change(before, std::chrono::seconds(20));
+  EXPECT_GT(queue_.last_change(), before);
+  writer.join();
+}
+
+TEST_F(QueueTest, ThreadsMayWorkOnItTogether) {
+  std::vector<std::thread> threads;
+  for (int thread = 0; thread < 4; ++thread) {
+    threads.emplace_back([&, thread] {
+      for (int i = 0; i < 10; ++i) {
+        NewJob job = new_job('a');
+        job.id = std::to_string(thread) + "-" + std::to_string(i);
+        queue_.submit("thread " + std::to_string(thread) + "." + std::to_string(i), 0, std::vector{job});
+        queue_.cancel_job(job.id);
+        queue_.counts();
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(queue_.counts()[kCancelled], 40);
+  EXPECT_EQ(queue_.last_change(), 80);
+}
+
+// What kill -9 leaves behind: the files as they are while the queue is open.
+TEST_F(QueueTest, AfterAKillEverythingAcknowledgedIsThere) {
+  queue_.submit("s", 0, std::vector{new_job('a'), new_job('b'), new_job('c'), new_job('d')});
+  queue_.begin(a_);
+  queue_.begin(b_);
+  queue_.cancel_job(b_);
+  queue_.cancel_job(std::string(16, 'c'));
+  std::filesystem::create_directory(directory_ / "copy");
+  for (const char* name : {"queue.db", "queue.db-wal"}) {
+    std::filesystem::copy_file(directory_ / name, directory_ / "copy" / name);
+  }
+
+  Queue copy(directory_ / "copy" / "queue.db");
+  EXPECT_EQ(copy.job(a_)->state, kRunning);
+  EXPECT_THAT(copy.recover(), ElementsAre(a_, b_));
+  EXPECT_EQ(copy.job(a_)->state, kQueued);
+  EXPECT_EQ(copy.job(a_)->attempt, 1);
+  EXPECT_EQ(copy.job(b_)->state, kCancelled);
+  EXPECT_EQ(copy.job(std::string(16, 'c'))->state, kCancelled);
+  EXPECT_EQ(copy.job(std::string(16, 'd'))->state, kQueued);
+  EXPECT_EQ(copy.begin(a_), 2);
+  EXPECT_THAT(copy.changes_since(queue_.last_change(), 1).front().cause, HasSubstr("without warning"));
+}
+
+TEST(QueueFileTest, AWriteAheadLogCutAnywhereGivesWholeSweepsOnly) {
+  const TempDirectory directory;
+  {
+    Queue queue(directory / "queue.db");
+    queue.submit("one", 0, std::vector{new_job('a'), new_job('b'), new_job('c')});
+    queue.submit("two", 0, std::vector{new_job('d'), new_job('e'), new_job('f')});
+    std::filesystem::copy_file(directory / "queue.db", directory / "main");
+    std::filesystem::copy_file(directory / "queue.db-wal", directory / "wal");
+  }
+  const std::string log = read_text(directory / "wal");
+  std::vector<std::size_t> sizes_seen;
+  for (std::size_t size = 0; size <= log.size(); size += 2003) {
+    const auto file = directory / "cut.db";
+    std::filesystem::remove(directory / "cut.db-shm");
+    std::filesystem::copy_file(directory / "main", file, std::filesystem::copy_options::overwrite_existing);
+    write_text(directory / "cut.db-wal", log.substr(0, size));
+    const Queue queue(file);
+    for (const Sweep& sweep : queue.sweeps()) EXPECT_EQ(sweep.counts[kQueued], 3) << "cut at byte " << size;
+    EXPECT_EQ(queue.counts().total(), 3 * static_cast<std::int64_t>(queue.sweeps().size()));
+    sizes_seen.push_back(queue.sweeps().size());
+  }
+  EXPECT_TRUE(std::is_sorted(sizes_seen.begin(), sizes_seen.end()));
+  EXPECT_EQ(sizes_seen.front(), 0U);
+}
+
+TEST(QueueFileTest, ADamagedFileIsRefusedInWords) {
+  const TempDirectory directory;
+  write_text(directory / "queue.db", std::string(8192, 'x'));
+  EXPECT_THROW(Queue(directory / "queue.db"), StorageError);
+  EXPECT_EQ(read_text(directory / "queue.db"), std::string(8192, 'x')) << "and it is left as it is";
+}
+
+TEST(QueueFileTest, AFileOfANewerVersionIsRefusedWithAWayOut) {
+  const TempDirectory directory;
+  { const Queue queue(directory / "queue.db"); }
+  Database(directory / "queue.db").execute("PRAGMA user_version = 99");
+  try {
+    const Queue queue(directory / "queue.db");
+    FAIL() << "opened";
+  } catch (const StorageError& problem) {
+    EXPECT_THAT(problem.what(), HasSubstr("99"));
+    EXPECT_THAT(problem.what(), HasSubstr("--root"));
+  }
+}
+
+TEST(QueueFileTest, AnUnwritableFolderIsAnError) { EXPECT_THROW(Queue("/nonexistent/queue.db"), StorageError); }
+
+}  // namespace
+}  // namespace shaken::server

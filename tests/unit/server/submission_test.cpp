@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "server/submission.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <nlohmann/json.hpp>
+
+#include "scene/sweep.h"
+#include "support.h"
+
+namespace shaken::server {
+namespace {
+
+using testing::HasSubstr;
+
+std::string refusal(const std::string& body) {
+  try {
+    parse_submit_request(body);
+    return "";
+  } catch (const std::invalid_argument& problem) {
+    return problem.what();
+  }
+}
+
+TEST(SubmitRequestTest, EveryKeyIsRead) {
+  const SubmitRequest request = parse_submit_request(
+      R"({"text": "{}", "file": "a/b.json", "settings": ["x=1", "y=2"], "replicas": 3, "name": "my sweep", "priority": -2})");
+  EXPECT_EQ(request.text, "{}");
+  EXPECT_EQ(request.file, "a/b.json");
+  EXPECT_THAT(request.settings, testing::ElementsAre("x=1", "y=2"));
+  EXPECT_EQ(request.replicas, 3);
+  EXPECT_EQ(request.name, "my sweep");
+  EXPECT_EQ(request.priority, -2);
+}
+
+TEST(SubmitRequestTest, WhatIsWrongIsSaidInWords) {
+  EXPECT_THAT(refusal(""), HasSubstr("not JSON"));
+  EXPECT_THAT(refusal("{\"text\": "), HasSubstr("not JSON"));
+  EXPECT_THAT(refusal("[]"), HasSubstr("object"));
+  EXPECT_THAT(refusal("{}"), HasSubstr("\"text\" is missing"));
+  EXPECT_THAT(refusal(R"({"text": 1})"), HasSubstr("\"text\" must be a string"));
+  EXPECT_THAT(refusal(R"({"text": "", "replica": 1})"), HasSubstr("did you mean replicas?"));
+  EXPECT_THAT(refusal(R"({"text": "", "replicas": 0})"), HasSubstr("from 1 to 10000"));
+  EXPECT_THAT(refusal(R"({"text": "", "replicas": 1.5})"), HasSubstr("integer"));
+  EXPECT_THAT(refusal(R"({"text": "", "replicas": 99999999999999999999})"), HasSubstr("integer"));
+  EXPECT_THAT(refusal(R"({"text": "", "settings": "x=1"})"), HasSubstr("array"));
+  EXPECT_THAT(refusal(R"({"text": "", "settings": [1]})"), HasSubstr("string"));
+  EXPECT_THAT(refusal(R"({"text": "", "name": ""})"), HasSubstr("name"));
+  EXPECT_THAT(refusal(R"({"text": "", "name": "a/b"})"), HasSubstr("name"));
+  EXPECT_THAT(refusal(R"({"text": "", "name": "s12"})"), HasSubstr("sweep's id"));
+}
+
+TEST(SubmitRequestTest, NoBytesCrashIt) {
+  EXPECT_TRUE(rc::check("any bytes", [](const std::string& body) { refusal(body); }));
+  const std::string good = R"({"text": "{}", "settings": ["x=1"], "replicas": 3, "name": "n"})";
+  EXPECT_TRUE(rc::check("one byte changed", [&good] {
+    std::string body = good;
+    body[*rc::gen::inRange<std::size_t>(0, good.size())] = *rc::gen::arbitrary<char>();
+    refusal(body);
+  }));
+}
+
+TEST(ExpandTest, APlainSceneIsOneJobNamedAfterItsFile) {
+  const TempDirectory directory;
+  SubmitRequest request;
+  request.text = "{}";
+  request.file = "folder/plain.json";
+  const auto submission = expand(request, directory.path());
+  ASSERT_TRUE(submission.value.has_value());
+  EXPECT_EQ(submission.value->name, "plain");
+  ASSERT_EQ(submission.value->jobs.size(), 1U);
+  EXPECT_TRUE(submission.value->jobs[0].results_lost);
+}
+
+TEST(ExpandTest, WhatTheWorkerReadsIsTheSameRun) {
+  const TempDirectory directory;
+  SubmitRequest request;
+  request.text = R"({"scene": {"box": {"gap": "1.3 mm"}}, "sweep": {"grid": {"rods.area_fraction": [0.5, 0.6]}}})";
+  request.replicas = 2;
+  request.name = "named";
+  const auto submission = expand(request, directory.path());
+  ASSERT_TRUE(submission.value.has_value()) << to_string(submission.problems);
+  EXPECT_EQ(submission.value->name, "named");
+  ASSERT_EQ(submission.value->jobs.size(), 4U);
+  for (const NewJob& job : submission.value->jobs) {
+    request.text = job.scene;
+    request.replicas.reset();
+    const auto again = expand(request, directory.path());
+    ASSERT_TRUE(again.value.has_value()) << to_string(again.problems);
+    EXPECT_EQ(again.value->jobs.at(0).id, job.id);
+    EXPECT_TRUE(nlohmann::json::parse(job.parameters).contains("rods.area_fraction"));
+  }
+}
+
+TEST(ExpandTest, AllThatIsWrongIsListed) {
+  SubmitRequest request;
+  request.text = R"({"rodz": {}, "box": {"gap": "1.2 kg"}})";
+  const auto submission = expand(request, "/nonexistent");
+  EXPECT_FALSE(submission.value.has_value());
+  EXPECT_EQ(submission.problems.size(), 2U);
+}
+
+}  // namespace
+}  // namespace shaken::server

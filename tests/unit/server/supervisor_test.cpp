@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+// Supervisor and local executor with real processes: a script that behaves as its job's label says.
+#include "server/supervisor.h"
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <csignal>
+
+#include "server/local_executor.h"
+#include "support.h"
+
+namespace shaken::server {
+namespace {
+
+using enum JobState;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+constexpr std::chrono::milliseconds kGrace{300};
+
+class SupervisorTest : public testing::Test {
+ protected:
+  ~SupervisorTest() override {
+    supervisor_.shut_down();
+    supervisor_.kill_all();
+    EXPECT_TRUE(step_until([&] { return supervisor_.idle(); }));
+  }
+
+  static std::string id(char digit) { return std::string(16, digit); }
+  Job job(char digit) const { return *queue_.job(id(digit)); }
+  std::filesystem::path directory(char digit) const { return directory_ / "runs" / id(digit); }
+  void submit(char digit, const std::string& label) { queue_.submit(label, 0, std::vector{new_job(digit, label)}); }
+  bool step_until(const std::function<bool()>& condition) {
+    return eventually([&] {
+      supervisor_.step();
+      return condition();
+    });
+  }
+  bool step_until(char digit, JobState state) {
+    return step_until([&] { return job(digit).state == state; });
+  }
+  /// Runs until the worker listens to signals.
+  bool step_until_up(char digit) {
+    return step_until([&] { return std::filesystem::exists(directory(digit) / "up"); });
+  }
+
+  TempDirectory directory_;
+  Queue queue_{directory_ / "queue.db"};
+  LocalExecutor executor_{write_fake_worker(directory_.path())};
+  Supervisor supervisor_{queue_, executor_, {directory_ / "runs", 2, {"--no-lcm"}, kGrace}};
+};
+
+TEST_F(SupervisorTest, AJobIsDoneByAWorkerInItsDirectory) {
+  submit('a', "done");
+  ASSERT_TRUE(step_until('a', kDone));
+  EXPECT_EQ(read_text(directory('a') / "scene.json"), queue_.scene(id('a')));
+  const std::string log = read_text(directory('a') / "worker.log");
+  EXPECT_THAT(log, StartsWith("--- shakend: attempt 1, 20"));
+  const std::string folder = directory('a').string();
+  EXPECT_THAT(log, EndsWith("\n" + folder + "/scene.json --out " + folder + " --job-id " + id('a') +
+                            " --sweep-id s1 --label done --no-lcm\n"));
+}
+
+TEST_F(SupervisorTest, AFailureCarriesTheWorkersLastWords) {
+  submit('a', "fail");
+  ASSERT_TRUE(step_until('a', kFailed));
+  EXPECT_EQ(job('a').reason, "exit 1: the gap is closed");
+}
+
+TEST_F(SupervisorTest, AFailureCarriesTheMessageOfTheProgressFile) {
+  submit('a', "progress");
+  ASSERT_TRUE(step_until('a', kFailed));
+  EXPECT_EQ(job('a').reason, "exit 1: rod 3 is not finite");
+}
+
+TEST_F(SupervisorTest, BadInputIsAFailure) {
+  submit('a', "bad");
+  ASSERT_TRUE(step_until('a', kFailed));
+  EXPECT_THAT(job('a').reason, StartsWith("exit 2 (bad input)"));
+}
+
+TEST_F(SupervisorTest, SuccessWithoutResultsIsAFailure) {
+  submit('a', "empty");
+  ASSERT_TRUE(step_until('a', kFailed));
+  EXPECT_THAT(job('a').reason, HasSubstr("summary.json"));
+}
+
+TEST_F(SupervisorTest, AKilledWorkerFailsItsJobAndTheOthersGoOn) {
+  submit('a', "crash");
+  submit('b', "done");
+  submit('c', "done");
+  ASSERT_TRUE(step_until('a', kFailed));
+  EXPECT_EQ(job('a').reason, "worker was killed by signal 9 (SIGKILL)");
+  EXPECT_TRUE(step_until('b', kDone));
+  EXPECT_TRUE(step_until('c', kDone));
+}
+
+TEST_F(SupervisorTest, NoMoreWorkersThanSlots) {
+  for (const char digit : {'a', 'b', 'c'}) submit(digit, "run");
+  ASSERT_TRUE(step_until_up('a'));
+  ASSERT_TRUE(step_until_up('b'));
+  EXPECT_EQ(queue_.counts()[kRunning], 2);
+  EXPECT_EQ(job('c').state, kQueued);
+  queue_.cancel_job(id('a'));
+  EXPECT_TRUE(step_until_up('c'));
+  EXPECT_EQ(job('a').state, kCancelled);
+}
+
+TEST_F(SupervisorTest, CancelLetsTheWorkerStopByItself) {
+  submit('a', "run");
+  ASSERT_TRUE(step_until_up('a'));
+  EXPECT_EQ(kill(job('a').pid, 0), 0);
+  queue_.cancel_job(id('a'));
+  ASSERT_TRUE(step_until('a', kCancelled));
+  EXPECT_EQ(queue_.changes_since(0, 100).back().cause, "the worker has stopped at a checkpoint");
+}
+
+TEST_F(SupervisorTest, AWorkerThatFinishesAfterTheCancelIsDone) {
+  submit('a', "late");
+  ASSERT_TRUE(step_until_up('a'));
+  queue_.cancel_job(id('a'));
+  EXPECT_TRUE(step_until('a', kDone));
+}
+
+TEST_F(SupervisorTest, ADeafWorkerIsKilledAfterTheGrace) {
+  submit('a', "deaf");
+  ASSERT_TRUE(step_until_up('a'));
+  const auto asked = std::chrono::steady_clock::now();
+  queue_.cancel_job(id('a'));
+  ASSERT_TRUE(step_until('a', kCancelled));
+  EXPECT_GE(std::chrono::steady_clock::now() - asked, kGrace);
+  EXPECT_THAT(queue_.changes_since(0, 100).back().cause, HasSubstr("SIGKILL"));
+}
+
+TEST_F(SupervisorTest, AWorkerStoppedBySomebodyElseIsStartedAgain) {
+  submit('a', "run");
+  ASSERT_TRUE(step_until_up('a'));
+  std::filesystem::remove(directory('a') / "up");
+  kill(job('a').pid, SIGTERM);
+  ASSERT_TRUE(step_until_up('a'));
+  EXPECT_EQ(job('a').attempt, 2);
+  EXPECT_THAT(read_text(directory('a') / "worker.log"), HasSubstr("attempt 2"));
+}
+
+TEST_F(SupervisorTest, ShutDownQueuesWhatRunsAndStartsNothing) {
+  submit('a', "run");
+  submit('b', "done");
+  ASSERT_TRUE(step_until_up('a'));
+  ASSERT_TRUE(step_until('b', kDone));
+  supervisor_.shut_down();
+  submit('c', "done");
+  ASSERT_TRUE(step_until([&] { return supervisor_.idle(); }));
+  EXPECT_EQ(job('a').state, kQueued);
+  EXPECT_EQ(job('c').state, kQueued);
+}
+
+TEST_F(SupervisorTest, ADirectoryInUseIsWaitedForWhileOthersRun) {
+  submit('a', "done");
+  std::filesystem::create_directories(directory('a'));
+  {
+    const auto held = run::DirectoryLock::acquire(directory('a') / "lock");
+    ASSERT_TRUE(held);
+    submit('b', "done");
+    ASSERT_TRUE(step_until('b', kDone));
+    EXPECT_EQ(job('a').state, kQueued);
+    EXPECT_EQ(job('a').attempt, 0);
+  }
+  EXPECT_TRUE(step_until('a', kDone));
+}
+
+TEST_F(SupervisorTest, ADiskThatRefusesLeavesTheJobQueued) {
+  write_text(directory_ / "runs", "a file where the folder should be");
+  submit('a', "done");
+  for (int i = 0; i < 5; ++i) supervisor_.step();
+  EXPECT_EQ(job('a').state, kQueued);
+  std::filesystem::remove(directory_ / "runs");
+  EXPECT_TRUE(step_until('a', kDone));
+}
+
+TEST_F(SupervisorTest, AProgramThatCannotRunFailsTheJob) {
+  LocalExecutor missing(directory_ / "nothing-here");
+  Supervisor supervisor(queue_, missing, {directory_ / "runs", 1, {}, kGrace});
+  submit('a', "done");
+  supervisor.step();
+  supervisor.step();
+  EXPECT_EQ(job('a').state, kFailed);
+  EXPECT_THAT(job('a').reason, HasSubstr("nothing-here cannot be run: No such file"));
+}
+
+class LocalExecutorTest : public testing::Test {
+ protected:
+  TempDirectory directory_;
+};
+
+TEST_F(LocalExecutorTest, AWorkerInheritsNoDescriptorsAndNoBlockedSignals) {
+  write_text(directory_ / "look", "#!/bin/sh\nls /proc/$$/fd\ngrep SigBlk /proc/$$/status\n");
+  std::filesystem::permissions(directory_ / "look", std::filesystem::perms::owner_all);
+  const int leak = open("/dev/null", O_RDONLY);  // without close-on-exec
+  ASSERT_GE(leak, 3);
+  sigset_t all;
+  sigset_t before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_BLOCK, &all, &before);
+  LocalExecutor executor(directory_ / "look");
+  const auto pid = executor.start({directory_.path(), {}, "heading"});
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  close(leak);
+  ASSERT_TRUE(pid);
+  std::optional<WorkerEnd> end;
+  ASSERT_TRUE(eventually([&] { return (end = executor.poll(*pid)).has_value(); }));
+  EXPECT_EQ(end->exit_code, 0);
+  // 10 is the script itself, as dash opens it.
+  EXPECT_EQ(read_text(directory_ / "worker.log"), "heading\n0\n1\n10\n2\nSigBlk:\t0000000000000000\n");
+}
+
+TEST_F(LocalExecutorTest, WhatAWorkerHasStartedEndsWithIt) {
+  write_text(directory_ / "parent", "#!/bin/sh\nsleep 1000 & echo $! >\"$1\"\n");
+  std::filesystem::permissions(directory_ / "parent", std::filesystem::perms::owner_all);
+  LocalExecutor executor(directory_ / "parent");
+  const auto pid = executor.start({directory_.path(), {directory_ / "child"}, "heading"});
+  ASSERT_TRUE(pid);
+  ASSERT_TRUE(eventually([&] { return executor.poll(*pid).has_value(); }));
+  const int child = std::stoi(read_text(directory_ / "child"));
+  EXPECT_TRUE(eventually([&] {
+    // Gone, or a zombie that waits for a parent to look at it.
+    return kill(child, 0) != 0 ||
+           read_text("/proc/" + std::to_string(child) + "/stat").find(") Z") != std::string::npos;
+  }));
+}
+
+}  // namespace
+}  // namespace shaken::server

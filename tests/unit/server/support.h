@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "server/queue.h"
+
+namespace shaken::server {
+
+/// A directory that goes away with its owner. Short: paths of Unix sockets hold 107 bytes.
+class TempDirectory {
+ public:
+  TempDirectory();
+  TempDirectory(const TempDirectory&) = delete;
+  TempDirectory& operator=(const TempDirectory&) = delete;
+  ~TempDirectory();
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Asks until the answer is yes; false if it still is no after the time.
+bool eventually(const std::function<bool()>& condition, std::chrono::milliseconds limit = std::chrono::seconds(20));
+
+void write_text(const std::filesystem::path& file, const std::string& text);
+std::string read_text(const std::filesystem::path& file);
+
+/// A program with the command line of shaken-worker that does what its label, or FAKE_WORKER, says:
+///   done        writes a summary, exit 0
+///   empty       exit 0 without a summary
+///   fail        "the gap is closed" on stderr, exit 1
+///   progress    exit 1 with a message in progress.json
+///   bad         exit 2
+///   crash       kills itself with SIGKILL
+///   run         runs until SIGTERM, then exit 99
+///   late        runs until SIGTERM, then writes a summary and exit 0
+///   deaf        runs, ignoring SIGTERM
+/// Holds DIR/lock while it runs, and makes DIR/up once it listens to signals.
+std::filesystem::path write_fake_worker(const std::filesystem::path& folder);
+
+/// A job named by `digit` repeated 16 times, whose label is `label`.
+NewJob new_job(char digit, const std::string& label = "done");
+
+}  // namespace shaken::server

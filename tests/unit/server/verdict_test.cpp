@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "server/verdict.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+
+#include "run/files/progress.h"
+#include "support.h"
+
+namespace shaken::server {
+namespace {
+
+using enum Verdict::Outcome;
+
+class VerdictTest : public testing::Test {
+ protected:
+  Verdict exit(int code) const { return judge({code, 0}, 77, false, run_); }
+  Verdict killed(int signal, bool stop_asked) const { return judge({0, signal}, 77, stop_asked, run_); }
+
+  TempDirectory directory_;
+  run::RunDirectory run_{directory_.path()};
+};
+
+TEST_F(VerdictTest, ExitZeroNeedsASummary) {
+  EXPECT_EQ(exit(0).outcome, kFailed);
+  write_text(run_.summary(), "{}");
+  EXPECT_EQ(exit(0).outcome, kDone);
+  EXPECT_EQ(exit(0).reason, "");
+}
+
+TEST_F(VerdictTest, StopsAreTold) {
+  EXPECT_EQ(exit(99).outcome, kStopped);
+  EXPECT_EQ(killed(SIGTERM, false).outcome, kStopped);
+  EXPECT_EQ(killed(SIGKILL, true).outcome, kStopped);
+}
+
+TEST_F(VerdictTest, OtherSignalsAreFailures) {
+  EXPECT_EQ(killed(SIGKILL, false).outcome, kFailed);
+  EXPECT_EQ(killed(SIGSEGV, true).outcome, kFailed);
+  EXPECT_EQ(killed(SIGSEGV, true).reason, "worker was killed by signal 11 (SIGSEGV)");
+}
+
+TEST_F(VerdictTest, TheLastLineOfTheLogExplains) {
+  EXPECT_EQ(exit(1).reason, "exit 1");
+  write_text(run_.log(), std::string(kHeading) + "attempt 1\n");
+  EXPECT_EQ(exit(1).reason, "exit 1");
+  write_text(run_.log(), std::string(100'000, '.') + "\nfirst\nlast words\n \n\n");
+  EXPECT_EQ(exit(1).reason, "exit 1: last words");
+  EXPECT_EQ(exit(2).reason, "exit 2 (bad input): last words");
+}
+
+TEST_F(VerdictTest, OnlyTheProgressOfThisWorkerExplains) {
+  write_text(run_.log(), "last words\n");
+  run::Progress progress;
+  progress.message = "rod 3 is not finite";
+  progress.pid = 76;
+  ASSERT_FALSE(run::write_progress(run_.progress(), progress));
+  EXPECT_EQ(exit(1).reason, "exit 1: last words");
+  progress.pid = 77;
+  ASSERT_FALSE(run::write_progress(run_.progress(), progress));
+  EXPECT_EQ(exit(1).reason, "exit 1: rod 3 is not finite");
+}
+
+}  // namespace
+}  // namespace shaken::server
