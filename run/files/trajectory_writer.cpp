@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 
 #include "run/files/hdf5.h"
 #include "run/files/quaternion.h"
@@ -72,6 +77,32 @@ void write_particles(hid_t file, const TrajectoryHeader& header) {
   }
 }
 
+int descriptor(hid_t file) {
+  void* handle = nullptr;
+  hdf5::check(H5Fget_vfd_handle(file, H5P_DEFAULT, &handle), "look at the file");
+  return *static_cast<const int*>(handle);
+}
+
+off_t end_of_content(hid_t file) {
+  haddr_t end = 0;
+  hdf5::check(H5Fget_eoa(file, &end), "look at the file");
+  return static_cast<off_t>(end);
+}
+
+/// Makes the file system set `bytes` aside behind the content, or throws. A flush that fails halfway for want of space
+/// can leave a file that HDF5 does not open again; with this, a full disk is met before anything is written.
+void reserve(hid_t file, std::size_t bytes) {
+  const int reason = posix_fallocate(descriptor(file), end_of_content(file), static_cast<off_t>(bytes));
+  if (reason != 0) throw hdf5::Failure(std::string("no room for another frame: ") + std::strerror(reason));
+}
+
+/// Gives back what was reserved and not used.
+void release(hid_t file) {
+  if (ftruncate(descriptor(file), end_of_content(file)) != 0) {
+    throw hdf5::Failure(std::string("cannot set the file's size: ") + std::strerror(errno));
+  }
+}
+
 /// Rounds to float without leaving [0, side): 83.7299999999 must not become 83.73.
 float wrapped_float(double x, double side) {
   auto rounded = static_cast<float>(x);
@@ -90,7 +121,12 @@ struct TrajectoryWriter::Impl {
   double gap = 0;
   std::size_t n_frames = 0;
 
-  /// HDF5 writes what it still holds when the file is closed; all of it was flushed before.
+  /// More than a frame can take: its arrays uncompressed, and what HDF5 needs to find them again.
+  std::size_t most_bytes_per_frame() const {
+    constexpr std::size_t kIndexBytes = 1 << 16;
+    return n_rods * (3 + 3 + 3 + 4) * sizeof(float) * 9 / 8 + kIndexBytes;
+  }
+
   void append(const Snapshot& snapshot) {
     std::vector<float> position, velocity, orientation;
     std::vector<std::int32_t> image;
@@ -104,6 +140,7 @@ struct TrajectoryWriter::Impl {
       for (const double q : quaternion_of_director(snapshot.director[i])) orientation.push_back(static_cast<float>(q));
       image.insert(image.end(), {snapshot.image[i][0], snapshot.image[i][1], 0});
     }
+    reserve(file, most_bytes_per_frame());
     const std::array<double, 9> edges{box_side, 0, 0, 0, box_side, 0, 0, 0, gap};
     hdf5::append_row(sets.position, H5T_NATIVE_FLOAT, position.data());
     hdf5::append_row(sets.image, H5T_NATIVE_INT32, image.data());
@@ -113,6 +150,7 @@ struct TrajectoryWriter::Impl {
     hdf5::append_row(sets.time, H5T_NATIVE_DOUBLE, &snapshot.time);
     hdf5::append_row(sets.step, H5T_NATIVE_INT64, &snapshot.tick);
     hdf5::check(H5Fflush(file, H5F_SCOPE_GLOBAL), "write a frame");
+    release(file);
     ++n_frames;
   }
 };
@@ -135,15 +173,20 @@ Result<TrajectoryWriter> TrajectoryWriter::create(const std::filesystem::path& f
 }
 
 Result<TrajectoryWriter> TrajectoryWriter::reopen(const std::filesystem::path& file, Tick last) {
-  // The reader knows which frames are whole.
-  const Result<TrajectoryReader> reader = TrajectoryReader::open(file);
-  if (!reader) return reader.error();
-  const TrajectoryHeader header = reader->header();
+  TrajectoryHeader header;
+  std::size_t n_whole = 0;
+  {
+    // The reader knows which frames are whole. It must be gone before the file is opened for writing.
+    const Result<TrajectoryReader> reader = TrajectoryReader::open(file);
+    if (!reader) return reader.error();
+    header = reader->header();
+    n_whole = reader->n_frames();
+  }
   try {
     hdf5::Id out = hdf5::open_file(file, true);
     DataSets sets = DataSets::open(out);
     std::vector<Tick> ticks = hdf5::read_vector<Tick>(sets.step, H5T_NATIVE_INT64);
-    ticks.resize(std::min(ticks.size(), reader->n_frames()));
+    ticks.resize(std::min(ticks.size(), n_whole));
     const auto n_kept = static_cast<std::size_t>(std::upper_bound(ticks.begin(), ticks.end(), last) - ticks.begin());
     for (const hid_t dataset : sets.all()) hdf5::resize_rows(dataset, n_kept);
     hdf5::check(H5Fflush(out, H5F_SCOPE_GLOBAL), "trim the file");

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include "run/files/progress.h"
+
+#include <gtest/gtest.h>
+
+#include "run/files/atomic_file.h"
+#include "temporary_folder.h"
+
+namespace shaken::run {
+namespace {
+
+TEST(Progress, ComesBackFromItsFile) {
+  const TemporaryFolder folder;
+  const Progress written{"failed", "numerical \"trouble\"\n\xff", 4711, 2109, 1.25, 10, 0.0123, -1, 0.875, 0.75, 1e-5};
+  ASSERT_FALSE(write_progress(folder / "progress.json", written));
+  const auto read = read_progress(folder / "progress.json");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->state, "failed");
+  EXPECT_EQ(read->message.substr(0, 20), "numerical \"trouble\"\n") << "bytes that are not UTF-8 are replaced";
+  EXPECT_EQ(read->pid, 4711);
+  EXPECT_EQ(read->n_rods, 2109);
+  EXPECT_EQ(read->sim_time, 1.25);
+  EXPECT_EQ(read->sim_time_total, 10);
+  EXPECT_EQ(read->sim_rate, 0.0123);
+  EXPECT_EQ(read->eta, -1);
+  EXPECT_EQ(read->order, 0.875);
+  EXPECT_EQ(read->order_running_mean, 0.75);
+  EXPECT_EQ(read->max_overlap, 1e-5);
+  EXPECT_EQ(read->fraction(), 0.125);
+}
+
+TEST(Progress, OtherFilesAreRefusedWithTheirName) {
+  const TemporaryFolder folder;
+  for (const char* text : {"", "{", "[]", "{}", R"({"state": 1})"}) {
+    ASSERT_FALSE(write_file_atomically(folder / "progress.json", text));
+    const auto read = read_progress(folder / "progress.json");
+    ASSERT_FALSE(read) << text;
+    EXPECT_NE(read.error().message.find("progress.json"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace shaken::run
