@@ -22,7 +22,9 @@ target_compile_options(shaken_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
   # One rounding per operation, on every machine and at every optimisation level: the steppers promise bitwise equal
   # trajectories, and a fused multiply-add in one of two copies of a kernel breaks that.
-  -ffp-contract=off)
+  -ffp-contract=off
+  # Square roots and comparisons may become vector instructions; no result depends on errno or on floating-point traps.
+  -fno-math-errno -fno-trapping-math)
 if(SHAKEN_WERROR)
   target_compile_options(shaken_options INTERFACE -Werror)
 endif()

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <vector>
 
 #include "sim/core/types.h"
 #include "sim/rod/species.h"
@@ -67,11 +68,25 @@ double hull_gap(const Hull& i, double c_i, const Hull& j, double c_j, double sep
 double hull_safe_time(const Hull& i, const AxisCosine& axis_i, const Hull& j, const AxisCosine& axis_j,
                       double separation, double rate, const Allowance& allowance, double horizon);
 
+/// A species' beads as floats in whole vectors, for bead_safe_time.
+struct BeadLanes {
+  static constexpr int kLanes = 16;
+  explicit BeadLanes(const Species& species);
+  std::vector<float> offset;  ///< (n_beads rounded up to a multiple of kLanes) [mm]
+  std::vector<float> radius;  ///< the same; lanes past the last bead hold a bead that is never near [mm]
+  float half_length, mid_radius, max_radius, taper;
+  float last;   ///< index of the last bead
+  float pitch;  ///< distance of neighbouring beads [mm]
+  int reach;    ///< beads to each side of a foot that can be near: those beyond are further than any contact
+};
+
 /// Time for which no bead of i and bead of j begins to touch or, if they overlap, begins to approach; at most
 /// `horizon`. For rods whose hulls overlap while the beads interlock without touching. Model:  along the line of
 /// centres e of two beads, e . r(t) >= r + r' t - (|s_a| W_i^2 + |s_b| W_j^2) t^2 / 2, and the
-///         distance is at least that. Beads further apart than the fastest approach covers are passed over.
-double bead_safe_time(const Species& i, const FlightState& state_i, const Species& j, const FlightState& state_j,
+///         distance is at least that. Each bead of i is tried against the beads of j next to its foot on j's axis;
+///         those beyond are covered by their distance and the fastest approach.
+/// Numerics: floats, 16 beads at a time; margins cover the rounding.
+double bead_safe_time(const BeadLanes& i, const FlightState& state_i, const BeadLanes& j, const FlightState& state_j,
                       const Vec3& D, const Allowance& allowance, double horizon);
 
 }  // namespace shaken

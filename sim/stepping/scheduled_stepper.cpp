@@ -15,12 +15,15 @@ constexpr double kSkin = 0.3;  ///< of the neighbour list [mm]
 constexpr double kLeastSlack = 0.003;
 /// Where the hull's bound is shorter than this, the beads' own may be longer: rods interlock.
 constexpr Tick kShortBound = 30;
+/// Interlocked rods are looked at again within this time: further ahead their bounds are not worth the work.
+constexpr Tick kBeadHorizon = 400;
 
 }  // namespace
 
 ScheduledStepper::ScheduledStepper(const World& world)
     : rules_(world),
       hull_(world.species),
+      lanes_(world.species),
       allowance_{1.0, world.species.half_length > 0 ? 1.0 / world.species.half_length : 1.0},
       neighbors_(world.species, world.scene.box_side, kSkin),
       rods_(world.rods.size()),
@@ -94,7 +97,8 @@ void ScheduledStepper::look_again(const World& world, int p, Tick now) {
                                (j.velocity - i.velocity).dot(pair.direction), allowance_, horizon);
   pair.by_beads = false;
   if (safe < static_cast<double>(kShortBound) * rules_.dt) {
-    const double by_beads = bead_safe_time(rules_.species, i, rules_.species, j, D, allowance_, horizon);
+    const double by_beads =
+        bead_safe_time(lanes_, i, lanes_, j, D, allowance_, static_cast<double>(kBeadHorizon) * rules_.dt);
     if (by_beads > safe) {
       safe = by_beads;
       pair.by_beads = true;

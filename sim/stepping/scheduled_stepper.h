@@ -64,6 +64,7 @@ class ScheduledStepper final : public Stepper {
 
   TickRules rules_;
   Hull hull_;
+  BeadLanes lanes_;
   Allowance allowance_;
   NeighborList neighbors_;
 
@@ -79,7 +80,7 @@ class ScheduledStepper final : public Stepper {
   std::vector<Tick> pair_detected_;  ///< tick of the last search for contacts
   std::vector<Tick> pair_looked_;    ///< tick of the last new bound from new geometry
   TimingWheel pair_wheel_;
-  std::vector<int> n_touching_;  ///< (n_rods) pairs of the rod that are touching
+  std::vector<int> n_touching_;                ///< (n_rods) pairs of the rod that are touching
   std::vector<int> first_pair_of_;             ///< (n_rods + 1) into pairs_of_
   std::vector<std::pair<int, int>> pairs_of_;  ///< (pair, side), grouped by rod
 
