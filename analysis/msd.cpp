@@ -28,7 +28,7 @@ void MeanSquareDisplacement::accumulate(std::span<const Vec3> unwrapped, std::sp
     x[i] = unwrapped[i].x();
     y[i] = unwrapped[i].y();
   }
-  SHAKEN_CHECK(calls_ == 0 || x.size() == levels_[0].frames[0].x.size(), "the number of rods must not change");
+  SHAKEN_CHECK(calls_ == 0 || x.size() == n_rods(), "the number of rods must not change");
   const double director = nematic_order(directors).director;
   for (std::size_t k = 0; k < levels_.size() && calls_ % (std::int64_t{1} << k) == 0; ++k) add(k, x, y, director);
   ++calls_;
@@ -85,6 +85,7 @@ void MeanSquareDisplacement::save(StateWriter& writer) const {
   writer.put(across_);
   writer.put(origins_);
   writer.put(calls_);
+  writer.put(static_cast<std::int64_t>(n_rods()));
   for (const Level& level : levels_) {
     writer.put(level.n_frames);
     for (const Frame& frame : level.frames) {
@@ -103,15 +104,15 @@ void MeanSquareDisplacement::restore(StateReader& reader) {
   saved.across_ = reader.reals(across_.size());
   saved.origins_ = reader.integers(origins_.size());
   saved.calls_ = reader.integer(0, std::numeric_limits<std::int64_t>::max() / 2);
+  const auto n_rods = static_cast<std::size_t>(reader.integer());
   for (std::size_t k = 0; k < levels_.size(); ++k) {
     Level& level = saved.levels_[k];
     const std::int64_t n_frames = (saved.calls_ + (std::int64_t{1} << k) - 1) >> k;  // of every 2^k-th call
     level.n_frames = reader.integer(n_frames, n_frames);
     level.frames.resize(static_cast<std::size_t>(std::min<std::int64_t>(level.n_frames, kFrames)));
     for (Frame& frame : level.frames) {
-      frame.x = reader.reals();
-      frame.y = reader.reals(saved.levels_[0].frames[0].x.size());
-      if (frame.x.size() != frame.y.size()) throw StateError("saved analysis state: frames of different sizes");
+      frame.x = reader.reals(n_rods);
+      frame.y = reader.reals(n_rods);
       frame.director = reader.real();
     }
   }

@@ -47,6 +47,7 @@ class MeanSquareDisplacement {
     std::vector<Frame> frames;  // the last kFrames samples; sample f is at f % kFrames
     std::int64_t n_frames = 0;  // taken so far
   };
+  std::size_t n_rods() const { return calls_ == 0 ? 0 : levels_[0].frames[0].x.size(); }
   void add(std::size_t k, const std::vector<double>& x, const std::vector<double>& y, double director);
 
   double interval_;

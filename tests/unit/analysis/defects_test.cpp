@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <algorithm>
 #include <functional>
 #include <numeric>
 
@@ -111,6 +112,17 @@ TEST(Defects, NoneInAnOrderedStateWithNoise) {
   Draw draw(52);
   const Rods rods = plant(draw, 4000, 0.4, [](const Vec2&) { return Vec2(-1, 0.1); });
   EXPECT_TRUE(find_defects(DirectorField(rods.positions, rods.directors, kBox, 80, 2.0)).empty());
+}
+
+// Node (0, 0) has no rod and the three others of the last plaquette wind round it: the zero of Q lies exactly on the
+// corner of the box, which belongs to the low side.
+TEST(Defects, OnTheCornerOfTheBoxBelongsInside) {
+  const std::vector<Vec3> positions{{3, 3, 0}, {0, 3, 0}, {3, 0, 0}};
+  const std::vector<Vec3> directors{{0, 1, 0}, {1, -1, 0}, {1, 1, 0}};
+  const std::vector<Defect> defects = find_defects(DirectorField(positions, directors, 4, 4, 0.1));
+  EXPECT_NE(std::find_if(defects.begin(), defects.end(), [](const Defect& d) { return d.position == Vec2(0, 0); }),
+            defects.end());
+  for (const Defect& d : defects) EXPECT_LT(d.position.maxCoeff(), 4.0);
 }
 
 /// Defects counted by the textbook recipe: sum of the four folded steps over 2 pi.
