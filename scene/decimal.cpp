@@ -26,14 +26,14 @@ double Decimal::value() const {
 }
 
 std::string Decimal::text() const {
-  std::string body = fmt::format("{}", std::abs(digits));
   const char* sign = digits < 0 ? "-" : "";
-  if (exponent < -12 || exponent > 9) return fmt::format("{}{}e{}", sign, body, exponent);
-  if (exponent >= 0) return sign + body + std::string(static_cast<std::size_t>(exponent), '0');
-  const std::size_t n_decimals = static_cast<std::size_t>(-exponent);
-  if (body.size() <= n_decimals) body.insert(0, n_decimals + 1 - body.size(), '0');
-  body.insert(body.size() - n_decimals, ".");
-  return sign + body;
+  const std::int64_t size = std::abs(digits);
+  if (exponent < -12 || exponent > 9) return fmt::format("{}{}e{}", sign, size, exponent);
+  if (exponent >= 0) return fmt::format("{}{}{:0<{}}", sign, size, "", exponent);
+  const std::string padded = fmt::format("{:0>{}}", size, 1 - exponent);  // at least one digit before the point
+  const std::size_t point = padded.size() - static_cast<std::size_t>(-exponent);
+  const std::string_view all = padded;
+  return fmt::format("{}{}.{}", sign, all.substr(0, point), all.substr(point));
 }
 
 Decimal make_decimal(std::int64_t digits, int exponent) {

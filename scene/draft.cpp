@@ -24,13 +24,15 @@ std::string quoted(const std::vector<std::string>& names) {
 std::string slip_of_the_pen(const Field& field, const Written& written) {
   const double* usual = std::get_if<double>(&field.fallback);
   if (!usual || *usual <= 0 || written.number.digits <= 0) return {};
+  const auto written_value = in_default_unit(written, field.dimension);
+  if (!written_value) return {};
   std::string best;
-  double least = 0;
+  double least = std::abs(std::log(written_value->value() / *usual));
   const auto consider = [&](const Written& candidate) {
     const Result<Decimal> number = in_default_unit(candidate, field.dimension);
     if (!number || number->value() < field.low || number->value() > field.high) return;
     const double distance = std::abs(std::log(number->value() / *usual));
-    if (!best.empty() && distance >= least) return;
+    if (distance >= least) return;
     const std::string_view unit = candidate.unit.empty() ? default_unit(field.dimension) : candidate.unit;
     best = fmt::format("{}{}{}", candidate.number.text(), unit.empty() ? "" : " ", unit);
     least = distance;

@@ -47,6 +47,14 @@ Field whole(std::string path, double low, double high, std::string doc, Access a
   return number(std::move(path), Form::kWhole, Dimension::kPlain, low, high, std::move(doc), access);
 }
 
+/// The entry of a short table for which `is_it` holds; there must be one.
+template <class Table, class Predicate>
+const auto& entry(const Table& table, Predicate is_it) {
+  const auto found = std::find_if(table.begin(), table.end(), is_it);
+  SHAKEN_CHECK(found != table.end(), "a name without value or a value without name");
+  return *found;
+}
+
 template <class Enum, class Access>
 Field choice(std::string path, std::vector<std::pair<std::string, Enum>> choices, std::string doc, Access access) {
   Field field;
@@ -55,12 +63,11 @@ Field choice(std::string path, std::vector<std::pair<std::string, Enum>> choices
   field.doc = std::move(doc);
   for (const auto& [name, value] : choices) field.names.push_back(name);
   field.fetch = [access, choices](const RunPlan& plan) {
-    const auto is_it = [&](const auto& choice) { return choice.second == access(plan); };
-    return Value(std::find_if(choices.begin(), choices.end(), is_it)->first);
+    return Value(entry(choices, [&](const auto& choice) { return choice.second == access(plan); }).first);
   };
   field.store = [access, choices](RunPlan& plan, const Value& name) {
-    const auto is_it = [&](const auto& choice) { return choice.first == std::get<std::string>(name); };
-    access(plan) = std::find_if(choices.begin(), choices.end(), is_it)->second;
+    access(plan) =
+        entry(choices, [&](const auto& choice) { return choice.first == std::get<std::string>(name); }).second;
   };
   return field;
 }
@@ -223,7 +230,8 @@ std::vector<Field> make_table() {
   add(quantity(
       "time.step", kTime, 1e-7, 1e-4, "The tick: the accuracy knob.", [](auto& p) -> auto& { return p.system.dt; }));
   add(choice<Engine>(
-      "time.engine", {{"reference", Engine::kReference}}, "How the rods are stepped.",
+      "time.engine", {{"scheduled", Engine::kScheduled}, {"reference", Engine::kReference}},
+      "How the rods are stepped; both give bitwise the same trajectory.",
       [](auto& p) -> auto& { return p.system.engine; }));
   add(steady_field());
   add(quantity(

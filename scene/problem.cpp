@@ -24,7 +24,7 @@ std::string to_string(const std::vector<Problem>& problems) {
 Problem problem_at(const Place& place, std::string_view path, std::string message) {
   std::string pointer;
   if (!path.empty()) {
-    pointer = "/" + std::string(path);
+    pointer = fmt::format("/{}", path);
     std::replace(pointer.begin(), pointer.end(), '.', '/');
   }
   return {place.file ? *place.file : std::string{}, place.line, place.column, std::move(pointer), std::move(message)};

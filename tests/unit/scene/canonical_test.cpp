@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "scene/canonical.h"
+
+#include <rapidcheck.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/unit/scene/support.h"
+
+namespace shaken::scene {
+namespace {
+
+/// A scene within the allowed ranges, most keys left out at random; whole digits of doubles, not only round numbers.
+nlohmann::json random_scene() {
+  nlohmann::json scene = nlohmann::json::object();
+  const auto maybe = [] { return *rc::gen::arbitrary<bool>(); };
+  const auto between = [](double low, double high) {
+    return low + (high - low) * *rc::gen::inRange<std::int64_t>(0, 1'000'000'007) / 1'000'000'006.0;
+  };
+  auto& rods = scene["rods"] = nlohmann::json::object();
+  if (maybe()) rods["length"] = between(2, 8);
+  if (maybe()) rods["mid_diameter"] = between(0.6, 1.0);
+  if (maybe()) rods["end_diameter"] = between(0.4, 1.0);
+  if (maybe()) rods["bead_pitch"] = between(0.1, 0.4);
+  if (maybe()) rods["density"] = between(1, 20);
+  if (maybe()) rods["start"] = "aligned";
+  const bool fraction = maybe();
+  if (fraction) rods["area_fraction"] = between(0.01, 0.85);
+  if (maybe()) rods["count"] = *rc::gen::inRange(40, 100);
+  if (maybe() && !(fraction && rods.contains("count"))) scene["box"]["side"] = between(50, 150);
+  if (maybe()) scene["box"]["gap"] = between(1.1, 3);
+  const bool gamma = maybe();
+  if (gamma) scene["plates"]["gamma"] = between(1, 20);
+  const bool amplitude = maybe();
+  if (amplitude) scene["plates"]["amplitude"] = between(0.01, 0.2);
+  if (maybe() && !(gamma && amplitude)) scene["plates"]["frequency"] = between(50, 400);
+  if (maybe()) scene["gravity"] = between(1000, 20000);
+  for (const char* pair : {"rod_rod", "rod_base", "rod_lid"}) {
+    if (maybe()) scene["contacts"][pair]["friction"] = between(0, 1);
+    if (maybe()) scene["contacts"][pair]["restitution"] = between(0, 1);
+  }
+  if (maybe()) scene["contacts"]["sweeps"] = *rc::gen::inRange(1, 20);
+  if (maybe()) scene["time"]["step"] = between(1e-6, 1e-5);
+  if (maybe()) scene["time"]["steady"] = between(0, 100);
+  if (maybe()) scene["time"]["measure"] = between(0.01, 6000);
+  if (maybe()) scene["time"]["seed"] = *rc::gen::inRange<std::int64_t>(0, 9007199254740992);
+  if (maybe()) {
+    auto& measure = scene["measure"] = nlohmann::json::object();
+    for (const char* what : {"order", "angles", "tilt", "defects", "g2", "msd"}) {
+      if (maybe()) measure[what]["every"] = between(1e-5, 1);
+    }
+    if (maybe()) measure["defects"]["smoothing"] = between(0.5, 5);
+    if (maybe()) measure["tilt"]["bins"] = *rc::gen::inRange(2, 200);
+  }
+  if (maybe()) scene["trajectory"]["every"] = between(1e-4, 1);
+  if (maybe()) scene["stream"] = nullptr;
+  if (maybe()) scene["movie"] = {{"every", between(0.001, 1)}, {"size", {2 * *rc::gen::inRange(32, 1000), 480}}};
+  return scene;
+}
+
+TEST(Canonical, ReadsBackAsTheIdenticalPlan) {
+  rc::check("load(to_json(plan)) == plan", [] {
+    const std::string text = random_scene().dump();
+    const Loaded<RunPlan> first = load_scene(text, "f");
+    if (!first.value) RC_LOG() << text << "\n" << to_string(first.problems);
+    RC_ASSERT(first.value.has_value());
+    const std::string canonical = to_json(*first.value).dump();
+    const Loaded<RunPlan> second = load_scene(canonical, "f");
+    if (!second.value) RC_LOG() << canonical << "\n" << to_string(second.problems);
+    RC_ASSERT(second.value.has_value());
+    RC_ASSERT(*second.value == *first.value);
+    RC_ASSERT(to_json(*second.value).dump() == canonical);
+    RC_ASSERT(run_id(*second.value) == run_id(*first.value));
+  });
+}
+
+TEST(Canonical, HoldsWhatWasDerived) {
+  const auto scene = to_json(plan_of(R"({"box": {"side": 40}, "measure": {"defects": {}}})"));
+  EXPECT_EQ(scene["rods"]["beads"], 15);
+  EXPECT_EQ(scene["rods"]["count"], 481);
+  EXPECT_NEAR(scene["rods"]["area_fraction"].get<double>(), 0.75, 0.001);
+  EXPECT_EQ(scene["plates"]["gamma"], 7);
+  EXPECT_NEAR(scene["plates"]["amplitude"].get<double>(), 0.043486, 1e-6);
+  EXPECT_EQ(scene["time"]["steady"], "auto");
+  EXPECT_EQ(scene["measure"]["defects"]["smoothing"], 2.25);
+  EXPECT_TRUE(scene["measure"]["order"].is_null());
+  EXPECT_FALSE(scene.contains("movie"));
+  EXPECT_FALSE(scene["rods"].contains("bead_pitch"));
+}
+
+TEST(RunId, IsPinned) {
+  // Changes when the canonical form or the physics version changes: then every run of every user gets a new name.
+  EXPECT_EQ(run_id(plan_of("{}")), "ea86c96272398d81");
+}
+
+TEST(RunId, DoesNotDependOnHowASceneIsWritten) {
+  const std::string id = run_id(plan_of(R"({"rods": {"length": 2.5, "area_fraction": 0.6}, "time": {"step": 2e-6}})"));
+  EXPECT_EQ(
+      run_id(plan_of(R"({"time": {"step": "2 us"}, /* order */ "rods": {"area_fraction": 6e-1, "length": "2500 um"},
+                              "box": {"side": "8.373 cm"}, "plates": {"gamma": 7.0}})")),
+      id);
+  EXPECT_EQ(run_id(plan_of(R"({"rods": {"area_fraction": 0.6}, "time": {"step": 2e-6}})", {"rods.length=2.5"})), id);
+}
+
+TEST(RunId, DependsOnEverythingButTheStream) {
+  const std::string id = run_id(plan_of("{}"));
+  EXPECT_EQ(run_id(plan_of(R"({"stream": null})")), id);
+  EXPECT_EQ(run_id(plan_of(R"({"stream": {"rate": 5}})")), id);
+  for (const char* other :
+       {R"({"time": {"seed": 2}})", R"({"time": {"measure": 11}})", R"({"measure": {"order": {}, "msd": {}}})",
+        R"({"movie": {}})", R"({"trajectory": {}})", R"({"contacts": {"rod_lid": {"friction": 0.02}}})",
+        R"({"box": {"gap": 1.2000000000000002}})"}) {
+    EXPECT_NE(run_id(plan_of(other)), id) << other;
+  }
+}
+
+}  // namespace
+}  // namespace shaken::scene

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Every file that is shipped as an example is right, and its rods fit into their box.
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "scene/sweep.h"
+#include "sim/initial.h"
+#include "sim/rod/species.h"
+#include "tests/unit/scene/support.h"
+
+namespace shaken::scene {
+namespace {
+
+TEST(Configs, AreAllValidAndCanStart) {
+  int n_files = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(SHAKEN_SOURCE_DIR "/configs")) {
+    if (entry.path().extension() != ".json") continue;
+    ++n_files;
+    std::ifstream in(entry.path());
+    std::stringstream text;
+    text << in.rdbuf();
+    const Loaded<Sweep> sweep = load_sweep(text.str(), entry.path().string());
+    EXPECT_TRUE(sweep.value) << to_string(sweep.problems);
+    if (!sweep.value) continue;
+    for (const SweepPoint& point : sweep.value->points) {
+      const auto flights = initial_flights(point.plan.system, make_species(point.plan.system.rod));
+      EXPECT_TRUE(flights) << entry.path() << " " << point.label << ": " << flights.error().message;
+    }
+  }
+  EXPECT_GE(n_files, 5);
+}
+
+}  // namespace
+}  // namespace shaken::scene

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "scene/document.h"
+
+#include <gtest/gtest.h>
+
+namespace shaken::scene {
+namespace {
+
+std::optional<Node> parse(std::string_view text, std::vector<Problem>& problems) {
+  return parse_document(text, "f", problems);
+}
+
+std::string error_of(std::string_view text) {
+  std::vector<Problem> problems;
+  EXPECT_FALSE(parse(text, problems)) << text;
+  return to_string(problems);
+}
+
+std::string place(const Place& at) { return std::to_string(at.line) + ":" + std::to_string(at.column); }
+
+TEST(Document, KnowsWhereEverythingStands) {
+  std::vector<Problem> problems;
+  const auto root = parse(
+      "\xef\xbb\xbf{ // comment, with \"quotes\" and { braces\n"
+      "  \"a\": 1.50, /* { \n */ \"b\" : [true,\n    null, \"x\\\"y,\", -2e3/**/],\n"
+      "\t\"\u00e9\u00e9\": {\"c\":{}}\r\n}",
+      problems);
+  ASSERT_TRUE(root) << to_string(problems);
+  EXPECT_EQ(place(root->place), "1:1");
+  EXPECT_EQ(place(root->members[0].place), "2:3");
+  EXPECT_EQ(place(root->members[0].value.place), "2:8");
+  EXPECT_EQ(root->members[0].value.text, "1.50");
+  const Member& b = root->members[1];
+  EXPECT_EQ(place(b.place), "3:5");
+  EXPECT_EQ(place(b.value.place), "3:11");
+  EXPECT_EQ(place(b.value.items[0].place), "3:12");
+  EXPECT_TRUE(b.value.items[0].boolean);
+  EXPECT_EQ(place(b.value.items[1].place), "4:5");
+  EXPECT_EQ(place(b.value.items[2].place), "4:11");
+  EXPECT_EQ(b.value.items[2].text, "x\"y,");
+  EXPECT_EQ(place(b.value.items[3].place), "4:20");
+  EXPECT_EQ(b.value.items[3].text, "-2e3");
+  const Member& accents = root->members[2];
+  EXPECT_EQ(place(accents.place), "5:2");
+  EXPECT_EQ(place(accents.value.place), "5:8");  // columns count characters, not bytes
+  EXPECT_EQ(place(accents.value.members[0].place), "5:9");
+  EXPECT_EQ(place(accents.value.members[0].value.place), "5:13");
+}
+
+TEST(Document, SyntaxErrorsSayWhere) {
+  EXPECT_EQ(error_of("{\"a\": 1,}"),
+            "f:1:9: syntax error while parsing object key - unexpected '}'; expected string literal\n");
+  EXPECT_EQ(error_of("{\n  \"a\": NaN}"), "f:2:8: syntax error: NaN is not a number\n");
+  EXPECT_EQ(error_of("{\"a\": -Infinity}").substr(0, 20), "f:1:7: syntax error:");
+  EXPECT_EQ(error_of("{} x").substr(0, 17), "f:1:4: syntax err");
+  EXPECT_EQ(error_of("{}\n{}").substr(0, 17), "f:2:1: syntax err");
+  EXPECT_EQ(error_of("").substr(0, 17), "f:1:1: syntax err");
+  EXPECT_EQ(error_of("{\"a\": \"b\n").substr(0, 17), "f:1:7: syntax err");
+  EXPECT_EQ(error_of("{\"a\": 01}").substr(0, 17), "f:1:8: syntax err");
+  EXPECT_EQ(error_of("{\"a\": 1e999}").substr(0, 17), "f:1:7: syntax err");
+  EXPECT_EQ(error_of("{\"a\": 1 /* }").substr(0, 12), "f:1:9: synta");
+  EXPECT_EQ(error_of(std::string_view("{}\0 x", 5)), "f:1:3: syntax error: NUL character\n");
+  EXPECT_EQ(error_of("\"\xff\"").substr(0, 12), "f:1:1: synta");
+}
+
+TEST(Document, DuplicateKeysAreProblemsAndTheFirstCounts) {
+  std::vector<Problem> problems;
+  const auto root = parse("{\"a\": {\"b\": 1,\n \"b\": 2}, \"a\": 3}", problems);
+  ASSERT_TRUE(root);
+  EXPECT_EQ(to_string(problems),
+            "f:2:2: /a/b: duplicate key, first given at 1:8\n"
+            "f:2:11: /a: duplicate key, first given at 1:2\n");
+  EXPECT_EQ(root->find("a")->value.find("b")->value.text, "1");
+}
+
+TEST(Document, RefusesDeepNesting) {
+  const std::string deep(100000, '[');
+  EXPECT_EQ(error_of(deep), "f:1:65: nested more than 64 deep\n");
+}
+
+}  // namespace
+}  // namespace shaken::scene

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "scene/fields.h"
+
+#include <cstdlib>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "scene/canonical.h"
+#include "tests/unit/scene/support.h"
+
+namespace shaken::scene {
+namespace {
+
+TEST(Fields, PathsAreUniqueAndInsideOfTheirBlocks) {
+  std::set<std::string> paths;
+  for (const Field& field : fields()) {
+    EXPECT_TRUE(paths.insert(field.path).second) << field.path;
+    const std::string_view block = block_around(field.path);
+    EXPECT_TRUE(block.empty() || paths.contains(std::string(block))) << field.path << " stands before its block";
+    EXPECT_FALSE(field.doc.empty()) << field.path;
+    EXPECT_EQ(field_at(field.path).path, field.path);
+  }
+}
+
+TEST(Fields, EveryDefaultIsAllowedAndReadsBack) {
+  for (const Field& field : fields()) {
+    if (const double* number = std::get_if<double>(&field.fallback)) {
+      EXPECT_GE(*number, field.low) << field.path;
+      EXPECT_LE(*number, field.high) << field.path;
+    }
+    if (field.form == Form::kBlock || std::holds_alternative<std::monostate>(field.fallback)) continue;
+    if (!block_around(field.path).empty()) continue;
+    // Saying what holds anyway changes nothing.
+    const std::string setting = field.path + "=" + to_json(field, field.fallback).dump();
+    EXPECT_EQ(plan_of("{}", {setting}), plan_of("{}")) << setting;
+  }
+}
+
+TEST(Fields, KnowTheTreeOfNames) {
+  EXPECT_EQ(names_in(""), (std::vector<std::string>{"rods", "box", "plates", "gravity", "contacts", "time", "measure",
+                                                    "trajectory", "stream", "movie"}));
+  EXPECT_EQ(names_in("contacts.rod_lid"), (std::vector<std::string>{"friction", "restitution"}));
+  EXPECT_TRUE(is_group("contacts.rod_lid"));
+  EXPECT_FALSE(is_group("movie"));
+  EXPECT_FALSE(is_group("contacts.rod"));
+  EXPECT_EQ(block_around("measure.tilt.every"), "measure.tilt");
+  EXPECT_EQ(block_around("rods.length"), "");
+  EXPECT_EQ(field_index("rods"), -1);
+}
+
+TEST(Fields, SuggestPaths) {
+  EXPECT_EQ(suggest_path("rods.lenght"), "; did you mean rods.length?");
+  EXPECT_EQ(suggest_path("rod.length"), "; did you mean rods.length?");
+  EXPECT_EQ(suggest_path("length"), "; did you mean rods.length?");
+  EXPECT_EQ(suggest_path("box.frequency"), "; did you mean plates.frequency?");
+  EXPECT_EQ(suggest_path("movi"), "; did you mean movie?");
+  EXPECT_EQ(suggest_path("colour"), "");
+}
+
+// The table in docs/scene.md is fields_as_markdown(). To write it anew: SHAKEN_UPDATE_DOCS=1 and run this test.
+TEST(Fields, TheReferenceIsUpToDate) {
+  const std::string file = SHAKEN_SOURCE_DIR "/docs/scene.md";
+  std::ifstream in(file);
+  std::stringstream content;
+  content << in.rdbuf();
+  std::string text = content.str();
+  const std::string begin = "<!-- keys: begin -->\n";
+  const std::size_t from = text.find(begin);
+  const std::size_t to = text.find("<!-- keys: end -->");
+  ASSERT_TRUE(from != std::string::npos && to != std::string::npos) << file << " has lost its marks";
+  const std::string written = text.substr(from + begin.size(), to - from - begin.size());
+  if (std::getenv("SHAKEN_UPDATE_DOCS")) {
+    text.replace(from + begin.size(), written.size(), fields_as_markdown());
+    std::ofstream(file) << text;
+  } else {
+    EXPECT_EQ(written, fields_as_markdown());
+  }
+}
+
+}  // namespace
+}  // namespace shaken::scene

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "scene/load.h"
+
+#include "sim/rod/species.h"
+#include "tests/unit/scene/support.h"
+
+namespace shaken::scene {
+namespace {
+
+TEST(LoadScene, AnEmptyObjectIsThePapersSystem) {
+  const RunPlan plan = plan_of("{}");
+  const Scene& system = plan.system;
+  EXPECT_EQ(system.rod,
+            (RodShape{.length = 4.5, .mid_diameter = 0.8, .end_diameter = 0.4, .n_beads = 15, .density = 8.5}));
+  EXPECT_EQ(system.box_side, 83.73);
+  EXPECT_EQ(system.gap, 1.2);
+  EXPECT_EQ(system.frequency, 200);
+  EXPECT_EQ(system.gravity, 9810);
+  EXPECT_NEAR(system.amplitude, 0.043486, 1e-6);  // Gamma = 7
+  EXPECT_EQ(system.rod_rod, (ContactParameters{0.05, 0.3}));
+  EXPECT_EQ(system.rod_base, (ContactParameters{0.01, 0.3}));
+  EXPECT_EQ(system.rod_lid, (ContactParameters{0.01, 0.3}));
+  EXPECT_EQ(system.dt, 4e-6);
+  EXPECT_EQ(system.start, Start::kAligned);
+  EXPECT_EQ(system.seed, 1u);
+  EXPECT_NEAR(system.n_rods, 0.75 * 83.73 * 83.73 / make_species(system.rod).area, 0.5);
+  EXPECT_EQ(plan.steady, std::nullopt);
+  EXPECT_EQ(plan.measure_time, 10);
+  EXPECT_EQ(plan.order, MeasureOrder{0.01});
+  EXPECT_EQ(plan.stream, Stream{20});
+  EXPECT_FALSE(plan.angles || plan.tilt || plan.defects || plan.g2 || plan.msd || plan.trajectory || plan.movie);
+}
+
+// Sharma & Soni 2024: 2,500 to 4,400 rods of 2.5 mm and 1,400 to 2,400 of 4.5 mm for area fractions 0.50 to 0.85.
+TEST(LoadScene, NumbersOfRodsAreThePapers) {
+  const auto count = [](std::string length, std::string fraction) {
+    return plan_of("{}", {"rods.length=" + length, "rods.area_fraction=" + fraction}).system.n_rods;
+  };
+  EXPECT_NEAR(count("2.5", "0.50"), 2500, 75);
+  EXPECT_NEAR(count("2.5", "0.85"), 4400, 75);
+  EXPECT_NEAR(count("4.5", "0.50"), 1400, 50);
+  EXPECT_NEAR(count("4.5", "0.85"), 2400, 50);
+  EXPECT_EQ(plan_of("{}", {"rods.length=2.5"}).system.rod.n_beads, 9);
+}
+
+TEST(LoadScene, ReadsEveryKey) {
+  const RunPlan plan = plan_of(R"({
+    "rods":  { "length": "3.5 mm", "mid_diameter": 0.9, "end_diameter": "300 um", "beads": 11, "density": "2.7 g/cm^3",
+               "count": 40, "start": "random" },
+    "box":   { "side": "4 cm", "gap": "1.4 mm" },
+    "plates":{ "amplitude": "50 um", "frequency": "0.15 kHz" },
+    "gravity": "1.62 m/s^2",
+    "contacts": { "rod_rod":  { "friction": 0.5, "restitution": 0.6 }, "rod_base": { "friction": 0.2 },
+                  "rod_lid":  { "restitution": 1 }, "law": "newton", "sweeps": 3 },
+    "time": { "step": "2 us", "engine": "reference", "steady": "3 min", "measure": "1 h", "seed": 77 },
+    "measure": { "order": {"every": "20 ms"}, "angles": {"every": "30 ms", "bins": 90}, "tilt": {"bins": 20},
+                 "defects": {"every": "1 s", "smoothing": "2 mm", "grid": "0.5 mm"}, "g2": {"bins": 50, "every": 0.2},
+                 "msd": {"every": "5 ms"} },
+    "trajectory": {"every": "40 ms"}, "stream": {"rate": "5 Hz"}, "movie": {"every": "25 ms", "size": [640, 480]} })");
+  RunPlan want;
+  want.system.rod = {.length = 3.5, .mid_diameter = 0.9, .end_diameter = 0.3, .n_beads = 11, .density = 2.7};
+  want.system.n_rods = 40;
+  want.system.start = Start::kRandom;
+  want.system.box_side = 40;
+  want.system.gap = 1.4;
+  want.system.amplitude = 0.05;
+  want.system.frequency = 150;
+  want.system.gravity = 1620;
+  want.system.rod_rod = {0.5, 0.6};
+  want.system.rod_base = {0.2, 0.3};
+  want.system.rod_lid = {0.01, 1};
+  want.system.solver_sweeps = 3;
+  want.system.dt = 2e-6;
+  want.system.engine = Engine::kReference;
+  want.system.seed = 77;
+  want.steady = 180;
+  want.measure_time = 3600;
+  want.order = MeasureOrder{0.02};
+  want.angles = MeasureAngles{0.03, 90};
+  want.tilt = MeasureTilt{0.001, 20};
+  want.defects = MeasureDefects{1, 2, 0.5};
+  want.g2 = MeasureG2{0.2, 50};
+  want.msd = MeasureMsd{0.005};
+  want.trajectory = Trajectory{0.04};
+  want.stream = Stream{5};
+  want.movie = Movie{0.025, 640, 480};
+  EXPECT_EQ(plan, want);
+}
+
+TEST(LoadScene, BlocksAreOffWhenAbsentAndExactlyThoseNamedAreOn) {
+  const RunPlan plan = plan_of(R"({"measure": {"tilt": {}, "msd": true, "g2": false}, "movie": {}, "stream": null})");
+  EXPECT_EQ(plan.tilt, MeasureTilt{});
+  EXPECT_EQ(plan.msd, MeasureMsd{});
+  EXPECT_EQ(plan.movie, Movie{});
+  EXPECT_FALSE(plan.order || plan.g2 || plan.stream || plan.trajectory || plan.angles || plan.defects);
+  EXPECT_FALSE(plan_of(R"({"stream": false})").stream);
+  EXPECT_FALSE(plan_of(R"({"measure": {}})").order);
+  EXPECT_FALSE(plan_of(R"({"measure": null})").order);
+}
+
+TEST(LoadScene, DefectFieldFollowsTheRodsLength) {
+  const RunPlan plan = plan_of(R"({"rods": {"length": 3}, "measure": {"defects": {}}})");
+  EXPECT_EQ(plan.defects, (MeasureDefects{0.1, 1.5, 0.375}));
+}
+
+TEST(LoadScene, NullIsAsIfTheKeyWereNotThere) {
+  EXPECT_EQ(plan_of(R"({"rods": {"length": null, "beads": null}, "box": null})"), plan_of("{}"));
+}
+
+TEST(LoadScene, ASphereIsOneBead) {
+  const RunPlan plan = plan_of(R"({"rods": {"beads": 1, "length": 0.8, "area_fraction": 0.4}, "box": {"side": 10}})");
+  EXPECT_EQ(plan.system.rod.n_beads, 1);
+  EXPECT_EQ(plan.system.n_rods, 80);  // 0.4 * 100 / (pi 0.16) = 79.6
+}
+
+}  // namespace
+}  // namespace shaken::scene

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// Quantities that follow from each other: any sufficient set may be given, too many must agree.
+#include <cmath>
+
+#include "scene/derived.h"
+#include "sim/rod/species.h"
+#include "tests/unit/scene/support.h"
+
+namespace shaken::scene {
+namespace {
+
+constexpr double kAmplitudeOf7 = 7 * 9810 / (4 * kPi * kPi * 200 * 200);  // [mm]
+
+TEST(Shaking, AnyTwoOfGammaAmplitudeAndFrequencyGiveTheThird) {
+  EXPECT_DOUBLE_EQ(plan_of(R"({"plates": {"gamma": 3.5}})").system.amplitude, kAmplitudeOf7 / 2);
+  EXPECT_DOUBLE_EQ(plan_of(R"({"plates": {"gamma": 7, "frequency": 100}})").system.amplitude, kAmplitudeOf7 * 4);
+  EXPECT_DOUBLE_EQ(plan_of(R"({"plates": {"frequency": 100}})").system.amplitude, kAmplitudeOf7 * 4);
+  EXPECT_DOUBLE_EQ(plan_of(R"({"gravity": "19.62 m/s^2"})").system.amplitude, kAmplitudeOf7 * 2);
+  EXPECT_DOUBLE_EQ(gamma_of(plan_of(R"({"plates": {"amplitude": "0.1 mm"}})").system), 0.7 / kAmplitudeOf7);
+
+  const Scene by_both = plan_of(R"({"plates": {"gamma": 14, "amplitude": 0.1}})").system;
+  EXPECT_DOUBLE_EQ(by_both.frequency, 200 * std::sqrt(2 * kAmplitudeOf7 / 0.1));
+  EXPECT_DOUBLE_EQ(gamma_of(by_both), 14);
+
+  EXPECT_EQ(plan_of(R"({"plates": {"gamma": 0}})").system.amplitude, 0);
+}
+
+TEST(Shaking, AllThreeMustAgree) {
+  plan_of(R"({"plates": {"gamma": 7, "amplitude": 0.04348578, "frequency": 200}})");
+  EXPECT_EQ(problem_of(R"({"plates": {"gamma": 7, "amplitude": "43.49 um", "frequency": 200}})"),
+            "run.json:1:22: /plates/gamma: plates.gamma 7 contradicts plates.amplitude 0.04349 mm at plates.frequency "
+            "200 Hz and gravity 9.81 m/s^2, which make 7.000678387; remove one");
+  EXPECT_EQ(problem_of(R"({"plates": {"gamma": 0, "amplitude": 0.1}})").substr(0, 64),
+            "run.json:1:22: /plates/gamma: plates.gamma 0 contradicts plates.");
+}
+
+TEST(Shaking, WhatFollowsMustBePossible) {
+  EXPECT_EQ(problem_of(R"({"plates": {"gamma": 200, "frequency": 0.5}})"),
+            "run.json:1:22: /plates/gamma: plates.gamma 200 and plates.frequency 0.5 Hz make plates.amplitude "
+            "198793.876 mm, outside [0, 10] mm");
+}
+
+TEST(Packing, AnyTwoOfFractionCountAndSideGiveTheThird) {
+  const Species rod = make_species(plan_of("{}").system.rod);
+  const Scene by_fraction = plan_of(R"({"rods": {"area_fraction": 0.5}, "box": {"side": 40}})").system;
+  EXPECT_EQ(by_fraction.n_rods, std::round(0.5 * 1600 / rod.area));
+
+  const Scene by_count = plan_of(R"({"rods": {"count": 300}, "box": {"side": 40}})").system;
+  EXPECT_EQ(by_count.n_rods, 300);
+  EXPECT_EQ(by_count.box_side, 40);
+  EXPECT_DOUBLE_EQ(area_fraction_of(by_count), 300 * rod.area / 1600);
+
+  const Scene by_both = plan_of(R"({"rods": {"count": 300, "area_fraction": 0.6}})").system;
+  EXPECT_DOUBLE_EQ(by_both.box_side, std::sqrt(300 * rod.area / 0.6));
+  EXPECT_EQ(plan_of(R"({"rods": {"count": 300}})").system.box_side, 83.73);
+}
+
+TEST(Packing, AllThreeMustAgree) {
+  const int count = plan_of(R"({"rods": {"area_fraction": 0.5}, "box": {"side": 40}})").system.n_rods;
+  const std::string counted = "rods.count=" + std::to_string(count);
+  plan_of(R"({"rods": {"area_fraction": 0.5}, "box": {"side": 40}})", {counted});
+  EXPECT_EQ(problem_of(R"({"rods": {"area_fraction": 0.5, "count": 300}, "box": {"side": 40}})").substr(0, 128),
+            "run.json:1:28: /rods/area_fraction: rods.area_fraction 0.5 contradicts rods.count 300 in box.side 40 mm, "
+            "which make 0.467");
+}
+
+TEST(Packing, ImpossibleOnesAreRefused) {
+  EXPECT_EQ(problem_of(R"({"rods": {"count": 2000}, "box": {"side": 40}})").substr(0, 58),
+            "run.json:1:19: /rods/count: 2000 rods in a box of 40 mm ar");
+  EXPECT_NE(problem_of(R"({"rods": {"area_fraction": 0.6, "start": "random"}})").find("at random at most 0.45"),
+            std::string::npos);
+  EXPECT_EQ(problem_of(R"({"rods": {"area_fraction": 1e-5}, "box": {"side": 10}})"),
+            "run.json:1:28: /rods/area_fraction: rods.area_fraction 1e-05 and box.side 10 mm make 0 rods, outside "
+            "[1, 1000000]");
+}
+
+TEST(Beads, FollowThePitchOrAreGiven) {
+  EXPECT_EQ(plan_of(R"({"rods": {"bead_pitch": "0.5 mm"}})").system.rod.n_beads,
+            11);  // 4.1 / 0.5 = 8.2 -> 10 intervals
+  EXPECT_EQ(plan_of(R"({"rods": {"beads": 21}})").system.rod.n_beads, 21);
+  EXPECT_EQ(problem_of(R"({"rods": {"beads": 21, "bead_pitch": 0.2}})"),
+            "run.json:1:20: /rods/beads: rods.beads and rods.bead_pitch are both given; remove one");
+  EXPECT_EQ(problem_of(R"({"rods": {"beads": 14}})"),
+            "run.json:1:20: /rods/beads: 14 is even; a rod has a centre bead, so an odd number; did you mean 15?");
+  EXPECT_EQ(problem_of(R"({"rods": {"beads": 5}})"),
+            "run.json:1:20: /rods/beads: 5 beads leave holes between them on a rod of 4.5 mm; take at least 9");
+  EXPECT_EQ(problem_of(R"({"rods": {"bead_pitch": 0.01}})"),
+            "run.json:1:25: /rods/bead_pitch: beads every 0.01 mm make more than 101 on a rod of 4.5 mm");
+}
+
+}  // namespace
+}  // namespace shaken::scene

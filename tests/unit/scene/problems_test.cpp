@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// What users get to see when something is wrong: each kind of mistake, with its place and its remedy.
+#include <gmock/gmock.h>
+
+#include "tests/unit/scene/support.h"
+
+namespace shaken::scene {
+namespace {
+
+using testing::ElementsAre;
+
+TEST(Problems, UnknownKeysComeWithTheNearestName) {
+  EXPECT_EQ(problem_of("{\n  \"rods\": {\n    \"lenght\": 4.5 } }"),
+            "run.json:3:5: /rods/lenght: unknown key; did you mean rods.length?");
+  EXPECT_EQ(problem_of(R"({"length": 4.5})"), "run.json:1:2: /length: unknown key; did you mean rods.length?");
+  EXPECT_EQ(problem_of(R"({"meassure": {}})"), "run.json:1:2: /meassure: unknown key; did you mean measure?");
+  EXPECT_EQ(problem_of(R"({"measure": {"tilt": {"evry": 1}}})"),
+            "run.json:1:23: /measure/tilt/evry: unknown key; did you mean measure.tilt.every?");
+  EXPECT_EQ(problem_of(R"({"colour": 1})"), "run.json:1:2: /colour: unknown key");
+  EXPECT_EQ(problem_of(R"({"rods.length": 3})"),
+            "run.json:1:2: /rods/length: unknown key \"rods.length\"; use objects in objects");
+  EXPECT_EQ(problem_of(R"({"": 3})"), "run.json:1:2: unknown key \"\"");
+}
+
+TEST(Problems, DuplicateKeys) {
+  EXPECT_EQ(problem_of("{\"box\": {\"gap\": 1.2,\n\"gap\": 1.4}}"),
+            "run.json:2:1: /box/gap: duplicate key, first given at 1:10");
+}
+
+TEST(Problems, ValuesOutOfRangeComeWithTheRangeAndWhatMayHaveBeenMeant) {
+  EXPECT_EQ(problem_of(R"({"rods": {"length": "450 mm"}})"),
+            "run.json:1:21: /rods/length: 450 mm is outside [0.5, 50] mm; did you mean 4.5 mm?");
+  EXPECT_EQ(problem_of(R"({"time": {"step": 4}})"),
+            "run.json:1:19: /time/step: 4 s is outside [0.1, 100] us; did you mean 4 us?");
+  EXPECT_EQ(problem_of(R"({"gravity": 9.81})"),
+            "run.json:1:13: /gravity: 9.81 mm/s^2 is outside [0.1, 100] m/s^2; did you mean 9.81 m/s^2?");
+  EXPECT_EQ(problem_of(R"({"rods": {"area_fraction": 75}})"),
+            "run.json:1:28: /rods/area_fraction: 75 is outside [1e-06, 0.92]; did you mean 0.75?");
+  EXPECT_EQ(problem_of(R"({"rods": {"area_fraction": 0.99}})"),
+            "run.json:1:28: /rods/area_fraction: 0.99 is outside [1e-06, 0.92]");
+  EXPECT_EQ(problem_of(R"({"contacts": {"rod_rod": {"restitution": -0.1}}})"),
+            "run.json:1:42: /contacts/rod_rod/restitution: -0.1 is outside [0, 1]");
+  EXPECT_EQ(problem_of(R"({"measure": {"g2": {"bins": 1}}})"),
+            "run.json:1:29: /measure/g2/bins: 1 is outside [2, 10000]");
+  EXPECT_EQ(problem_of(R"({"time": {"seed": -1}})"), "run.json:1:19: /time/seed: -1 is outside [0, 9007199254740992]");
+}
+
+TEST(Problems, WrongKindsOfValues) {
+  EXPECT_EQ(problem_of(R"({"rods": {"length": true}})"),
+            "run.json:1:21: /rods/length: expected a number in mm or a text with a unit, not true");
+  EXPECT_EQ(problem_of(R"({"rods": {"length": [1]}})"),
+            "run.json:1:21: /rods/length: expected a number in mm or a text with a unit, not an array");
+  EXPECT_EQ(problem_of(R"({"rods": {"count": 10.5}})"), "run.json:1:20: /rods/count: 10.5 is not a whole number");
+  EXPECT_EQ(problem_of(R"({"rods": {"count": {}}})"),
+            "run.json:1:20: /rods/count: expected a whole number, not an object");
+  EXPECT_EQ(problem_of(R"({"rods": {"start": 1}})"),
+            "run.json:1:20: /rods/start: expected one of \"aligned\", \"random\", not the number 1");
+  EXPECT_EQ(problem_of(R"({"rods": {"start": "randm"}})"),
+            "run.json:1:20: /rods/start: \"randm\" is not one of \"aligned\", \"random\"; did you mean random?");
+  EXPECT_EQ(problem_of(R"({"time": {"steady": "aut"}})"),
+            "run.json:1:21: /time/steady: \"aut\" is neither \"auto\" nor a number in s or a text with a unit; "
+            "did you mean auto?");
+  EXPECT_EQ(problem_of(R"({"rods": 3})"), "run.json:1:10: /rods: expected an object, not the number 3");
+  EXPECT_EQ(problem_of(R"({"movie": 30})"), "run.json:1:11: /movie: expected an object, not the number 30");
+  EXPECT_EQ(problem_of("[]"), "run.json:1:1: expected an object, not an array");
+  EXPECT_EQ(problem_of("3"), "run.json:1:1: expected an object, not the number 3");
+}
+
+TEST(Problems, WrongUnits) {
+  EXPECT_EQ(problem_of(R"({"box": {"side": "83 Hz"}})"),
+            "run.json:1:18: /box/side: \"Hz\" is a unit of frequency, not of length; use mm, m, cm, um");
+  EXPECT_EQ(problem_of(R"({"time": {"measure": "6 sec"}})"),
+            "run.json:1:22: /time/measure: \"sec\" is not a unit of time; use s, h, min, ms, us, ns");
+  EXPECT_EQ(problem_of(R"({"rods": {"length": "four"}})"), "run.json:1:21: /rods/length: \"four\" is not a number");
+}
+
+TEST(Problems, NumbersThatAreNone) {
+  EXPECT_EQ(problem_of(R"({"rods": {"length": NaN}})"), "run.json:1:21: syntax error: NaN is not a number");
+  EXPECT_EQ(problem_of(R"({"rods": {"length": -Infinity}})"), "run.json:1:21: syntax error: -Infinity is not a number");
+  EXPECT_EQ(problem_of(R"({"rods": {"length": "nan"}})"), "run.json:1:21: /rods/length: \"nan\" is not a number");
+  EXPECT_EQ(problem_of(R"({"rods": {"length": "1e999 mm"}})"), "run.json:1:21: /rods/length: 1e999 is too large");
+}
+
+TEST(Problems, MovieSizes) {
+  EXPECT_EQ(problem_of(R"({"movie": {"size": [1281, 720]}})"),
+            "run.json:1:21: /movie/size: 1281 is odd; video needs even numbers of pixels; did you mean 1282?");
+  EXPECT_EQ(problem_of(R"({"movie": {"size": [1280]}})"),
+            "run.json:1:20: /movie/size: expected [width, height], not an array");
+  EXPECT_EQ(problem_of(R"({"movie": {"size": [1280, 20]}})"), "run.json:1:27: /movie/size: 20 is outside [64, 7680]");
+}
+
+TEST(Problems, ImpossibleGeometry) {
+  EXPECT_EQ(problem_of(R"({"box": {"side": 9.8}})"),
+            "run.json:1:18: /box/side: a periodic box of 9.8 mm is too small for rods of 4.5 mm: at least 9.9 mm");
+  EXPECT_EQ(problem_of(R"({"box": {"gap": "0.8 mm"}})"),
+            "run.json:1:17: /box/gap: a gap of 0.8 mm is too small for rods 0.8 mm thick");
+  EXPECT_EQ(problem_of(R"({"rods": {"end_diameter": 1.3}})"),
+            "run.json:1:27: /rods/end_diameter: a gap of 1.2 mm is too small for rods 1.3 mm thick");
+  EXPECT_EQ(problem_of(R"({"rods": {"length": 0.7}})"),
+            "run.json:1:21: /rods/length: a rod of length 0.7 mm is not longer than its thickest bead (0.8 mm)");
+  EXPECT_EQ(
+      problem_of(R"({"rods": {"beads": 1}})"),
+      "run.json:1:20: /rods/beads: one bead is a sphere: rods.length (4.5 mm) must be rods.mid_diameter (0.8 mm)");
+}
+
+TEST(Problems, TimesThatDoNotFitTogether) {
+  EXPECT_EQ(problem_of(R"({"measure": {"tilt": {"every": "3 us"}}})"),
+            "run.json:1:32: /measure/tilt/every: measure.tilt.every 3 us is shorter than time.step 4 us");
+  EXPECT_EQ(problem_of(R"({"plates": {"frequency": "20 kHz"}})"),
+            "run.json:1:26: /plates/frequency: a step of 4 us is too long for plates at 20000 Hz: at most 2.5 us");
+}
+
+TEST(Problems, AreListedAllAtOnceInTheOrderOfTheText) {
+  EXPECT_THAT(
+      problems_of(R"({
+  "rods": { "lenght": 4.5, "start": "randm" },
+  "box": { "gap": "0.7 mm", "side": "83 Hz" },
+  "time": { "step": 4, "seed": 1, "seed": 2 },
+  "movie": { "size": [1281, 719] } })",
+                  {"plates.gama=3", "time.measure=0 s"}),
+      ElementsAre("run.json:2:13: /rods/lenght: unknown key; did you mean rods.length?",
+                  "run.json:2:37: /rods/start: \"randm\" is not one of \"aligned\", \"random\"; did you mean random?",
+                  "run.json:3:19: /box/gap: a gap of 0.7 mm is too small for rods 0.8 mm thick",
+                  "run.json:3:37: /box/side: \"Hz\" is a unit of frequency, not of length; use mm, m, cm, um",
+                  "run.json:4:21: /time/step: 4 s is outside [0.1, 100] us; did you mean 4 us?",
+                  "run.json:4:35: /time/seed: duplicate key, first given at 4:24",
+                  "run.json:5:23: /movie/size: 1281 is odd; video needs even numbers of pixels; did you mean 1282?",
+                  "run.json:5:29: /movie/size: 719 is odd; video needs even numbers of pixels; did you mean 720?",
+                  "-s plates.gama=3: /plates/gama: unknown key; did you mean plates.gamma?",
+                  "-s time.measure=0 s: /time/measure: 0 s is outside [1e-06, 10000000] s"));
+}
+
+TEST(Problems, OneMistakeIsReportedOnce) {
+  // A length that is no length says nothing about box, beads or packing.
+  EXPECT_EQ(problems_of(R"({"rods": {"length": "xy"}, "measure": {"defects": {}}})").size(), 1u);
+  EXPECT_EQ(problems_of(R"({"rods": {"count": -3}})").size(), 1u);
+  EXPECT_EQ(problems_of(R"({"plates": {"frequency": -200}})").size(), 1u);
+}
+
+TEST(Problems, ListsAreCut) {
+  std::string text = "{";
+  for (int i = 0; i < 150; ++i) text += "\"x" + std::to_string(i) + "\": 1,\n";
+  const std::vector<std::string> lines = problems_of(text + "\"y\": 1}");
+  ASSERT_EQ(lines.size(), 101u);
+  EXPECT_EQ(lines.back(), "run.json: and 51 more problems");
+}
+
+}  // namespace
+}  // namespace shaken::scene

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+#include "scene/sweep.h"
+
+#include <gmock/gmock.h>
+
+#include <set>
+
+#include "scene/canonical.h"
+#include "tests/unit/scene/support.h"
+
+namespace shaken::scene {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+Sweep sweep_of(std::string_view text, const std::vector<std::string>& settings = {}, std::optional<int> replicas = {}) {
+  Loaded<Sweep> loaded = load_sweep(text, "configs/tilt-scan.json", settings, replicas);
+  EXPECT_TRUE(loaded.value) << text << "\n" << to_string(loaded.problems);
+  return loaded.value.value_or(Sweep{});
+}
+
+std::vector<std::string> labels(const Sweep& sweep) {
+  std::vector<std::string> all;
+  for (const SweepPoint& point : sweep.points) all.push_back(point.label);
+  return all;
+}
+
+std::string sweep_problems(std::string_view text, const std::vector<std::string>& settings = {},
+                           std::optional<int> replicas = {}) {
+  const Loaded<Sweep> loaded = load_sweep(text, "s.json", settings, replicas);
+  EXPECT_FALSE(loaded.value) << text;
+  return to_string(loaded.problems);
+}
+
+TEST(Sweep, APlainSceneIsASweepOfOnePoint) {
+  const Sweep sweep = sweep_of(R"({"rods": {"length": 2.5}})");
+  EXPECT_EQ(sweep.name, "tilt-scan");
+  ASSERT_EQ(sweep.points.size(), 1u);
+  EXPECT_EQ(sweep.points[0].label, "");
+  EXPECT_EQ(sweep.points[0].parameters.dump(), "{}");
+  EXPECT_EQ(sweep.points[0].replica, 1);
+  EXPECT_EQ(sweep.points[0].plan, plan_of(R"({"rods": {"length": 2.5}})"));
+}
+
+TEST(Sweep, AGridIsAllCombinations) {
+  const Sweep sweep = sweep_of(R"({"name": "my sweep", "scene": {"box": {"side": 40}},
+    "sweep": {"grid": {"rods.length": ["2.5 mm", 4.5], "rods.area_fraction": "0.5:0.7:0.1"}}})");
+  EXPECT_EQ(sweep.name, "my sweep");
+  EXPECT_THAT(labels(sweep),
+              ElementsAre("rods.length=2.5 rods.area_fraction=0.5", "rods.length=2.5 rods.area_fraction=0.6",
+                          "rods.length=2.5 rods.area_fraction=0.7", "rods.length=4.5 rods.area_fraction=0.5",
+                          "rods.length=4.5 rods.area_fraction=0.6", "rods.length=4.5 rods.area_fraction=0.7"));
+  EXPECT_EQ(sweep.points[1].parameters.dump(), R"({"rods.length":2.5,"rods.area_fraction":0.6})");
+  EXPECT_EQ(sweep.points[1].plan, plan_of(R"({"box": {"side": 40}, "rods": {"length": 2.5, "area_fraction": 0.6}})"));
+}
+
+TEST(Sweep, PathsOfAZipVaryTogether) {
+  const Sweep sweep = sweep_of(R"({"sweep": {"zip": {"rods.length": [2.5, 3.5, 4.5], "box.gap": "1.2:1.6:0.2"}}})");
+  EXPECT_THAT(labels(sweep),
+              ElementsAre("rods.length=2.5 box.gap=1.2", "rods.length=3.5 box.gap=1.4", "rods.length=4.5 box.gap=1.6"));
+}
+
+TEST(Sweep, AListNamesItsPointsOneByOne) {
+  const Sweep sweep =
+      sweep_of(R"({"sweep": {"list": [{"rods.length": 2.5}, {"time.step": "2 us", "rods.start": "aligned"}, {}]}})");
+  EXPECT_THAT(labels(sweep), ElementsAre("rods.length=2.5", "time.step=2e-06 rods.start=aligned", ""));
+  EXPECT_EQ(sweep.points[1].parameters.dump(), R"({"time.step":2e-06,"rods.start":"aligned"})");
+  EXPECT_EQ(sweep.points[2].plan, plan_of("{}"));
+}
+
+TEST(Sweep, RandomDrawsAreRepeatable) {
+  const std::string text =
+      R"({"sweep": {"random": {"n": 20, "seed": 5, "rods.length": {"from": 2, "to": 5}, "contacts.sweeps": {"from": 1, "to": 4}}}})";
+  const Sweep sweep = sweep_of(text);
+  ASSERT_EQ(sweep.points.size(), 20u);
+  EXPECT_EQ(labels(sweep), labels(sweep_of(text)));
+  EXPECT_EQ((std::set<std::string>{labels(sweep).begin(), labels(sweep).end()}).size(), 0u + 20u);
+}
+
+TEST(Sweep, EverythingTogetherIsAProductWithTheLastVaryingFastest) {
+  const Sweep sweep = sweep_of(R"({"sweep": {
+    "grid": {"box.gap": [1.2, 1.4]},
+    "zip": {"rods.length": [2.5, 4.5], "rods.area_fraction": [0.5, 0.6]},
+    "list": [{"plates.gamma": 6}, {"plates.gamma": 7}],
+    "random": {"n": 3, "contacts.rod_rod.friction": {"from": 0, "to": 1}},
+    "replicas": 2}})");
+  ASSERT_EQ(sweep.points.size(), 2u * 2 * 2 * 3 * 2);
+  EXPECT_THAT(sweep.points[0].label,
+              HasSubstr("box.gap=1.2 rods.length=2.5 rods.area_fraction=0.5 plates.gamma=6 contacts."));
+  EXPECT_THAT(sweep.points[1].label, HasSubstr("plates.gamma=6 contacts.rod_rod.friction="));
+  EXPECT_THAT(sweep.points[1].label, HasSubstr(" replica=2"));
+  EXPECT_THAT(sweep.points[6].label, HasSubstr("plates.gamma=7"));
+  EXPECT_THAT(sweep.points[12].label, HasSubstr("rods.length=4.5"));
+  EXPECT_THAT(sweep.points[24].label, HasSubstr("box.gap=1.4"));
+  std::set<std::string> ids;
+  for (const SweepPoint& point : sweep.points) ids.insert(run_id(point.plan));
+  EXPECT_EQ(ids.size(), sweep.points.size());
+}
+
+TEST(Sweep, ReplicasDifferInTheSeedOnly) {
+  const Sweep sweep = sweep_of(R"({"scene": {"time": {"seed": 40}}, "sweep": {"replicas": 3}})");
+  EXPECT_THAT(labels(sweep), ElementsAre("replica=1", "replica=2", "replica=3"));
+  for (int k = 0; k < 3; ++k) {
+    RunPlan plan = sweep.points[k].plan;
+    EXPECT_EQ(sweep.points[k].replica, k + 1);
+    EXPECT_EQ(plan.system.seed, 40u + k);
+    EXPECT_EQ(sweep.points[k].parameters.dump(), "{}");
+    plan.system.seed = 1;
+    EXPECT_EQ(plan, plan_of("{}"));
+  }
+  EXPECT_EQ(sweep_of(R"({"sweep": {"replicas": 3}})", {}, 1).points.size(), 1u);
+  EXPECT_EQ(sweep_of("{}", {}, 4).points.size(), 4u);
+}
+
+TEST(Sweep, SettingsOfSeveralValuesAreAxes) {
+  EXPECT_THAT(labels(sweep_of("{}", {"rods.length=2.5,3.5 mm", "box.gap=1.2:1.4:0.2", "plates.gamma=6"})),
+              ElementsAre("rods.length=2.5 box.gap=1.2", "rods.length=2.5 box.gap=1.4", "rods.length=3.5 box.gap=1.2",
+                          "rods.length=3.5 box.gap=1.4"));
+  EXPECT_THAT(labels(sweep_of("{}", {"box.gap=[1.2,1.4]"})), ElementsAre("box.gap=1.2", "box.gap=1.4"));
+  EXPECT_THAT(labels(sweep_of("{}", {"movie.size=[640,480],[1280,720]"})),
+              ElementsAre("movie.size=[640,480]", "movie.size=[1280,720]"));
+}
+
+TEST(Sweep, SettingsTakeThePlaceOfGridAxes) {
+  const std::string text = R"({"sweep": {"grid": {"rods.length": [2.5, 3.5], "box.gap": [1.2, 1.4]}}})";
+  EXPECT_THAT(labels(sweep_of(text, {"rods.length=4.5"})), ElementsAre("box.gap=1.2", "box.gap=1.4"));
+  EXPECT_EQ(sweep_of(text, {"rods.length=4.5"}).points[0].plan.system.rod.length, 4.5);
+  EXPECT_THAT(labels(sweep_of(text, {"rods.length=4,5", "box.gap=1.5"})),
+              ElementsAre("rods.length=4", "rods.length=5"));
+  EXPECT_EQ(sweep_problems(R"({"sweep": {"zip": {"rods.length": [2.5, 3.5]}}})", {"rods.length=3"}),
+            "-s rods.length=3: /rods/length: the file's \"zip\" sweeps it; a setting cannot take its place\n");
+}
+
+TEST(Sweep, ProblemsOfAllPointsAreListedOnce) {
+  EXPECT_EQ(sweep_problems(R"({"scene": {"rods": {"lenght": 3}},
+ "sweep": {"grid": {"box.gap": [0.7, 1.2, "3 Hz"], "rods.area_fraction": [0.5, 0.6], "plates.gama": [1]},
+           "zip": {"rods.length": [2.5, 3.5], "time.seed": [1]}, "replica": 3 }, "names": 1, "box": {} })"),
+            "s.json:1:20: /rods/lenght: unknown key; did you mean rods.length?\n"
+            "s.json:2:33: /box/gap: a gap of 0.7 mm is too small for rods 0.8 mm thick\n"
+            "s.json:2:43: /box/gap: \"Hz\" is a unit of frequency, not of length; use mm, m, cm, um\n"
+            "s.json:2:86: /plates/gama: unknown key; did you mean plates.gamma?\n"
+            "s.json:3:45: /time/seed: 1 values, but rods.length has 2; paths of a zip vary together\n"
+            "s.json:3:65: /sweep/replica: unknown key; did you mean replicas?\n"
+            "s.json:3:82: /names: unknown key; did you mean name?\n"
+            "s.json:3:94: /box: in a sweep file this belongs into \"scene\"\n");
+}
+
+TEST(Sweep, CombinationsThatCannotBeAreFound) {
+  EXPECT_EQ(sweep_problems(R"({"sweep": {"grid": {"rods.length": [4.5, 12], "box.side": [20, 40]}}})"),
+            "s.json:1:60: /box/side: a periodic box of 20 mm is too small for rods of 12 mm: at least 26.4 mm\n");
+}
+
+TEST(Sweep, StructuralMistakes) {
+  EXPECT_EQ(sweep_problems(R"({"sweep": {"grid": {"measure": [1]}}})"),
+            "s.json:1:21: /measure: this is an object; sweep the keys in it\n");
+  EXPECT_EQ(sweep_problems(R"({"sweep": {"grid": {"box.gap": [1.2]}, "list": [{"box.gap": 1.3}]}})"),
+            "s.json:1:50: /box/gap: swept twice, in \"grid\" at 1:21 before\n");
+  EXPECT_EQ(sweep_problems(R"({"sweep": {"random": {"box.gap": {"from": 1.2, "to": 2}}}})"),
+            "s.json:1:22: /sweep/random: lacks \"n\", the number of draws\n");
+  EXPECT_EQ(sweep_problems(R"({"sweep": {"random": {"n": 2, "box.gap": {"from": 3, "to": 2}}}})"),
+            "s.json:1:42: /box/gap: \"from\" must be less than \"to\"\n");
+  EXPECT_EQ(sweep_problems(R"({"sweep": {"random": {"n": 2, "rods.start": {"from": 3, "to": 2}}}})"),
+            "s.json:1:45: /rods/start: only numbers can be drawn at random\n");
+  EXPECT_EQ(
+      sweep_problems(R"({"sweep": [], "name": 3})"),
+      "s.json:1:11: /sweep: expected an object, not an array\ns.json:1:23: /name: expected a text, not the number 3\n");
+  EXPECT_EQ(sweep_problems(R"({"sweep": {"grid": 3, "zip": 4, "list": {}, "random": []}})"),
+            "s.json:1:20: /sweep/grid: expected an object of paths and values, not the number 3\n"
+            "s.json:1:30: /sweep/zip: expected an object of paths and values, not the number 4\n"
+            "s.json:1:41: /sweep/list: expected an array of objects, not an object\n"
+            "s.json:1:55: /sweep/random: expected an object, not an array\n");
+  EXPECT_EQ(sweep_problems(R"({"sweep": {"replicas": 0}})"),
+            "s.json:1:24: /sweep/replicas: expected a whole number in [1, 10000], not the number 0\n");
+  EXPECT_EQ(sweep_problems("{}", {}, 0), "--replicas 0: 0 is outside [1, 10000]\n");
+  EXPECT_EQ(sweep_problems(R"({"sweep": {"grid": {"time.seed": [1, 2]}, "replicas": 2}})"),
+            "s.json:1:1: /time/seed: time.seed is swept and there are replicas, which vary it too; remove one\n");
+  EXPECT_EQ(sweep_problems(R"({"scene": {"time": {"seed": 9007199254740992}}, "sweep": {"replicas": 2}})"),
+            "s.json:1:29: /time/seed: 2 replicas lead past the largest seed, 9007199254740992\n");
+  EXPECT_EQ(problem_of(R"({"scene": {}, "sweep": {}})"),
+            "run.json:1:15: /sweep: this is a sweep file; a single scene is wanted here");
+}
+
+TEST(Sweep, TooManyPointsAreRefused) {
+  EXPECT_EQ(sweep_problems(R"({"sweep": {"grid": {"rods.length": "2:4:0.002", "box.gap": "1:2:0.01"}}})"),
+            "s.json:1:1: the sweep has more than 100000 points: 1001 (grid) x 101 (grid) x 1 replicas\n");
+  std::string grid;
+  for (const char* path :
+       {"rods.length", "box.gap", "box.side", "plates.gamma", "contacts.rod_rod.friction", "time.step"}) {
+    grid += std::string(grid.empty() ? "" : ", ") + "\"" + path + "\": \"1:90000:1\"";
+  }
+  EXPECT_THAT(sweep_problems(R"({"sweep": {"grid": {)" + grid + "}}}"), HasSubstr("more than 100000 points"));
+}
+
+}  // namespace
+}  // namespace shaken::scene

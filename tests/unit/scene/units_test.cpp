@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "scene/units.h"
+
+#include <gtest/gtest.h>
+
+namespace shaken::scene {
+namespace {
+
+double length(std::string_view text) { return parse_quantity(text, Dimension::kLength).value(); }
+double time(std::string_view text) { return parse_quantity(text, Dimension::kTime).value(); }
+
+TEST(Units, NumbersAreInTheDefaultUnit) {
+  EXPECT_EQ(length("4.5"), 4.5);
+  EXPECT_EQ(time("4e-6"), 4e-6);
+  EXPECT_EQ(parse_quantity("0.75", Dimension::kPlain).value(), 0.75);
+}
+
+// Every one is the double nearest to the decimal number: what a careless multiplication misses by a bit.
+TEST(Units, ConversionsAreExact) {
+  EXPECT_EQ(length("4.5 mm"), 4.5);
+  EXPECT_EQ(length("450um"), 0.45);
+  EXPECT_EQ(length("43.5 \u00b5m"), 0.0435);
+  EXPECT_EQ(length("43.5 \u03bcm"), 0.0435);
+  EXPECT_EQ(length("8.373 cm"), 83.73);
+  EXPECT_EQ(length("0.08373 m"), 83.73);
+  EXPECT_EQ(time("4 us"), 4e-6);
+  EXPECT_EQ(time("3.3us"), 3.3e-6);
+  EXPECT_EQ(time("4000ns"), 4e-6);
+  EXPECT_EQ(time("  12 ms "), 0.012);
+  EXPECT_EQ(time("0.1 min"), 6.0);
+  EXPECT_EQ(time("1.1h"), 3960.0);
+  EXPECT_EQ(parse_quantity("0.2kHz", Dimension::kFrequency).value(), 200.0);
+  EXPECT_EQ(parse_quantity("9.81 m/s^2", Dimension::kAcceleration).value(), 9810.0);
+  EXPECT_EQ(parse_quantity("981 cm/s^2", Dimension::kAcceleration).value(), 9810.0);
+  EXPECT_EQ(parse_quantity("8.5 g/cm^3", Dimension::kDensity).value(), 8.5);
+  EXPECT_EQ(parse_quantity("8500 kg/m^3", Dimension::kDensity).value(), 8.5);
+  EXPECT_EQ(length("1e-3m"), 1.0);
+  EXPECT_EQ(length("1E2 um"), 0.1);
+}
+
+TEST(Units, WrongUnitsAreNamed) {
+  const auto message = [](std::string_view text, Dimension dimension) {
+    return parse_quantity(text, dimension).error().message;
+  };
+  EXPECT_EQ(message("4 us", Dimension::kLength), "\"us\" is a unit of time, not of length; use mm, m, cm, um");
+  EXPECT_EQ(message("4 uss", Dimension::kTime),
+            "\"uss\" is not a unit of time; use s, h, min, ms, us, ns; did you mean us?");
+  EXPECT_EQ(message("4 furlong", Dimension::kTime), "\"furlong\" is not a unit of time; use s, h, min, ms, us, ns");
+  EXPECT_EQ(message("7 mm", Dimension::kPlain), "\"mm\": a plain number takes no unit");
+  EXPECT_EQ(message("mm", Dimension::kLength), "\"mm\" is not a number");
+  EXPECT_EQ(message("", Dimension::kLength), "\"\" is not a number");
+  EXPECT_EQ(message("4.5.1 mm", Dimension::kLength), "\"4.5.1\" is not a number");
+  EXPECT_EQ(message("nan mm", Dimension::kLength), "\"nan mm\" is not a number");
+  EXPECT_EQ(message("4,5 mm", Dimension::kLength), "\",5 mm\" is not a unit of length; use mm, m, cm, um");
+}
+
+TEST(Units, AreShownInTheUnitThatReadsBest) {
+  EXPECT_EQ(format_quantity(4.5, Dimension::kLength), "4.5 mm");
+  EXPECT_EQ(format_quantity(0.4, Dimension::kLength), "0.4 mm");
+  EXPECT_EQ(format_quantity(4e-6, Dimension::kTime), "4 us");
+  EXPECT_EQ(format_quantity(0.01, Dimension::kTime), "10 ms");
+  EXPECT_EQ(format_quantity(0.001, Dimension::kTime), "1 ms");
+  EXPECT_EQ(format_quantity(0, Dimension::kTime), "0 s");
+  EXPECT_EQ(format_quantity(6000, Dimension::kTime), "6000 s");
+  EXPECT_EQ(format_quantity(9810, Dimension::kAcceleration), "9.81 m/s^2");
+  EXPECT_EQ(format_quantity(0.75, Dimension::kPlain), "0.75");
+  EXPECT_EQ(format_range(1e-7, 1e-4, Dimension::kTime), "[0.1, 100] us");
+  EXPECT_EQ(format_range(0.5, 50, Dimension::kLength), "[0.5, 50] mm");
+}
+
+}  // namespace
+}  // namespace shaken::scene

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "scene/values.h"
+
+#include <gmock/gmock.h>
+#include <rapidcheck.h>
+
+#include <cmath>
+
+#include "tests/unit/scene/support.h"
+
+namespace shaken::scene {
+namespace {
+
+using testing::ElementsAre;
+
+std::optional<Node> node_of(const std::string& json, std::vector<Problem>& problems) {
+  return parse_document(json, "f", problems);
+}
+
+std::vector<std::string> values(const std::string& json, std::string_view path = "rods.length") {
+  std::vector<Problem> problems;
+  std::vector<std::string> texts;
+  for (const Node& value : read_values(field_at(path), *node_of(json, problems), problems)) texts.push_back(value.text);
+  EXPECT_EQ(to_string(problems), "") << json;
+  return texts;
+}
+
+std::string complaint(const std::string& json, std::string_view path = "rods.length") {
+  std::vector<Problem> problems;
+  read_values(field_at(path), *node_of(json, problems), problems);
+  return problems.size() == 1 ? problems.front().message : to_string(problems);
+}
+
+TEST(Values, RangesAreExactDecimals) {
+  EXPECT_THAT(values("\"0.45:0.85:0.05\""),
+              ElementsAre("0.45", "0.5", "0.55", "0.6", "0.65", "0.7", "0.75", "0.8", "0.85"));
+  EXPECT_THAT(values("\"2.5:4.5:0.5 mm\""), ElementsAre("2.5 mm", "3 mm", "3.5 mm", "4 mm", "4.5 mm"));
+  EXPECT_THAT(values("\" 2.5 mm : 3 mm : 0.25 mm \""), ElementsAre("2.5 mm", "2.75 mm", "3 mm"));
+  EXPECT_THAT(values("\"1:0:-0.5\""), ElementsAre("1", "0.5", "0"));
+  EXPECT_THAT(values("\"1:2:0.4\""), ElementsAre("1", "1.4", "1.8"));  // the end is left out where no step meets it
+  EXPECT_THAT(values("\"3:3:1\""), ElementsAre("3"));
+  EXPECT_THAT(values("\"1e-6:3e-6:1e-6\""), ElementsAre("0.000001", "0.000002", "0.000003"));
+  EXPECT_THAT(values(R"({"from": 0.1, "to": "0.3 mm", "step": 0.1})"), ElementsAre("0.1 mm", "0.2 mm", "0.3 mm"));
+  EXPECT_THAT(values(R"({"from": 0.45, "to": 0.85, "n": 5})"), ElementsAre("0.45", "0.55", "0.65", "0.75", "0.85"));
+  EXPECT_THAT(values(R"({"from": 0, "to": 1, "n": 4})"), ElementsAre("0", "0.333333333333", "0.666666666667", "1"));
+  EXPECT_THAT(values(R"({"from": 2, "to": 7, "n": 1})"), ElementsAre("2"));
+}
+
+TEST(Values, RangesOfAnyStepAreTheDecimalsOfTheirIndex) {
+  rc::check("the i-th value is (from + i step) to the last bit", [] {
+    const auto from = *rc::gen::inRange<std::int64_t>(-100000, 100000);
+    const auto step = *rc::gen::inRange<std::int64_t>(1, 5000);
+    const auto n = *rc::gen::inRange<std::int64_t>(1, 200);
+    const auto text = [](std::int64_t thousandths) { return make_decimal(thousandths, -3).text(); };
+    const auto found = values('"' + text(from) + ":" + text(from + (n - 1) * step) + ":" + text(step) + '"');
+    RC_ASSERT(found.size() == static_cast<std::size_t>(n));
+    for (std::int64_t i = 0; i < n; ++i) {
+      RC_ASSERT(parse_decimal(found[static_cast<std::size_t>(i)])->value() ==
+                static_cast<double>(from + i * step) / 1000);
+    }
+  });
+}
+
+TEST(Values, ArraysMixValuesAndRanges) {
+  EXPECT_THAT(values(R"([0.3, "0.5:0.7:0.1", "2 mm"])"), ElementsAre("0.3", "0.5", "0.6", "0.7", "2 mm"));
+  EXPECT_THAT(values("4.5"), ElementsAre("4.5"));
+  EXPECT_EQ(values("[[640, 480], [1280, 720]]", "movie.size").size(), 2u);
+  EXPECT_EQ(values("[640, 480]", "movie.size").size(), 1u);
+  EXPECT_THAT(values(R"(["aligned", "random"])", "rods.start"), ElementsAre("aligned", "random"));
+}
+
+TEST(Values, BadRangesSayWhy) {
+  EXPECT_EQ(complaint("\"1:2\""), "\"1:2\" is not a range; write from:to:step");
+  EXPECT_EQ(complaint("\"1:2:3:4\""), "\"1:2:3:4\" is not a range; write from:to:step");
+  EXPECT_EQ(complaint("\"1:x:3\""), "\"x\" is not a number");
+  EXPECT_EQ(complaint("\"1:2:0\""), "the step of a range must not be 0");
+  EXPECT_EQ(complaint("\"1:2:-0.1\""), "the step leads away from the end of the range");
+  EXPECT_EQ(complaint("\"1 um:2 mm:0.1 mm\""), "a range in um and mm; write it in one unit");
+  EXPECT_EQ(complaint("\"0:1:1e-6\""), "a range of 1000001 values; at most 100000 are allowed");
+  EXPECT_EQ(complaint("\"0:1e17:1e-17\""), "the range has too many digits");
+  EXPECT_EQ(complaint("[]"), "no values to sweep over");
+  EXPECT_EQ(complaint(R"({"from": 1, "to": 2})"), "the range lacks \"step\"");
+  EXPECT_EQ(
+      complaint(R"({"from": 1, "too": 2, "n": 3})"),
+      "f:1:13: /rods/length: unknown key \"too\" in a range; did you mean to?\nf:1:1: /rods/length: the range lacks "
+      "\"to\"\n");
+  EXPECT_EQ(complaint(R"({"from": 1, "to": 2, "n": 3, "step": 1})"), "a range takes \"step\" or \"n\", not both");
+  EXPECT_EQ(complaint(R"({"from": 1, "to": 2, "n": 0})"), "expected a whole number in [1, 100000], not the number 0");
+  EXPECT_EQ(complaint(R"({"from": [], "to": 2, "n": 2})"), "expected a number, not an array");
+}
+
+TEST(Values, DrawsAreRepeatableAndFillTheirRange) {
+  std::vector<Problem> problems;
+  const Node range = *node_of(R"({"from": 2.5, "to": "4.5 mm"})", problems);
+  const auto draw = [&](int n, std::uint64_t seed) {
+    std::vector<double> numbers;
+    for (const Node& value : draw_values(field_at("rods.length"), range, n, seed, problems)) {
+      numbers.push_back(parse_quantity(value.text, Dimension::kLength).value());
+    }
+    return numbers;
+  };
+  const std::vector<double> first = draw(2000, 7);
+  EXPECT_EQ(draw(2000, 7), first);
+  EXPECT_NE(draw(2000, 8), first);
+  const std::vector<double> fewer = draw(10, 7);
+  EXPECT_TRUE(std::equal(fewer.begin(), fewer.end(), first.begin()));  // more draws do not change the first ones
+  double mean = 0;
+  for (const double value : first) {
+    EXPECT_GE(value, 2.5);
+    EXPECT_LE(value, 4.5);
+    mean += value / 2000;
+  }
+  EXPECT_NEAR(mean, 3.5, 4 * 2 / std::sqrt(12.0 * 2000));  // four standard errors
+  EXPECT_TRUE(problems.empty());
+}
+
+TEST(Values, WholeNumbersAreDrawnFromFirstToLast) {
+  std::vector<Problem> problems;
+  const Node range = *node_of(R"({"from": 1, "to": 3})", problems);
+  int seen[4] = {};
+  for (const Node& value : draw_values(field_at("contacts.sweeps"), range, 300, 1, problems)) {
+    const double number = parse_decimal(value.text)->value();
+    ASSERT_TRUE(number == 1 || number == 2 || number == 3) << value.text;
+    ++seen[static_cast<int>(number)];
+  }
+  EXPECT_TRUE(seen[1] > 60 && seen[2] > 60 && seen[3] > 60);
+}
+
+}  // namespace
+}  // namespace shaken::scene
