@@ -76,7 +76,8 @@ void main() {
   vec3 spindle = hit - clamp(dot(hit, rod_axis), -tip, tip) * rod_axis;
   normal = normalize(mix(normal, normalize(spindle), 0.8));
 
-  float height = (rod_height + top - low) / (high - low);
+  // Never quite at the floor of the depth buffer, where nothing is drawn.
+  float height = clamp((rod_height + top - low) / (high - low), 0.001, 1.0);
   float diffuse = 0.5 + 0.5 * dot(normal, kLight);               // wrapped: soft
   float rim = smoothstep(-0.05, 0.75, normal.z);                 // the sides see their neighbours, not the sky
   float shade = (0.35 + 0.72 * diffuse) * mix(0.34, 1.0, rim) * mix(0.80, 1.04, height);
@@ -84,7 +85,7 @@ void main() {
   // Light adds up in linear units; a square root is near enough to sRGB's curve, and exact on the way back.
   vec3 light = rod_colour * rod_colour * shade + gloss;
   pixel = vec4(sqrt(min(light, 1.0)), 1.0);
-  gl_FragDepth = 1.0 - clamp(height, 0.0, 1.0);
+  gl_FragDepth = 1.0 - height;
 }
 )";
 

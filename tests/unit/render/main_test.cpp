@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// The program as a user meets it: exit codes, messages, files.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "support.h"
+
+namespace shaken::render {
+namespace {
+
+struct Ended {
+  int code;
+  std::string said;  ///< on stdout and stderr
+};
+
+Ended run_program(const std::string& arguments, const std::string& environment = "") {
+  const std::string command = environment + " '" SHAKEN_RENDER_PROGRAM "' " + arguments + " 2>&1";
+  std::FILE* pipe = popen(command.c_str(), "r");
+  Ended ended{-1, ""};
+  char text[512];
+  while (std::fgets(text, sizeof(text), pipe)) ended.said += text;
+  const int status = pclose(pipe);
+  if (WIFEXITED(status)) ended.code = WEXITSTATUS(status);
+  return ended;
+}
+
+TEST(RenderProgram, PictureWritesBesideTheTrajectoryAndPrintsThePath) {
+  const ScratchFolder folder;
+  plant_trajectory(folder.path(), 3);
+  const Ended ended = run_program("picture " + folder.path().string());
+  EXPECT_EQ(ended.code, 0);
+  EXPECT_EQ(ended.said, (folder / "picture.png").string() + "\n");
+  const Image image = read_png(folder / "picture.png");
+  EXPECT_EQ(image.width, 1280);
+  EXPECT_EQ(image.height, 720);
+}
+
+TEST(RenderProgram, PicturesDoNotDependOnTheNumberOfThreads) {
+  const ScratchFolder folder;
+  plant_trajectory(folder.path(), 2);
+  std::vector<Image> images;
+  for (const std::string threads : {"0", "1", "2", "4"}) {
+    const std::string out = (folder / (threads + ".png")).string();
+    ASSERT_EQ(
+        run_program("picture " + folder.path().string() + " --size 480x270 -o " + out, "LP_NUM_THREADS=" + threads)
+            .code,
+        0);
+    images.push_back(read_png(out));
+    EXPECT_EQ(images.back(), images.front()) << threads;
+  }
+}
+
+TEST(RenderProgram, FrameAndTimeChooseTheFrame) {
+  const ScratchFolder folder;
+  plant_trajectory(folder.path(), 4);
+  const auto picture = [&](const std::string& choice) {
+    const std::string out = (folder / "p.png").string();
+    EXPECT_EQ(
+        run_program("picture " + folder.path().string() + " --bare --size 200x200 -c wheel -o " + out + choice).code,
+        0);
+    return read_png(out);
+  };
+  EXPECT_EQ(picture(" --frame 1"), picture(" --time 0.06"));
+  EXPECT_EQ(picture(" --frame last"), picture(" --frame 3"));
+  EXPECT_NE(picture(" --frame 1"), picture(" --frame 3"));
+}
+
+TEST(RenderProgram, MovieReportsInJson) {
+  const ScratchFolder folder;
+  plant_trajectory(folder.path(), 7);
+  const Ended ended =
+      run_program("movie " + folder.path().string() + " --size 320x180 --every 2 --from 0.05 --frames --json");
+  ASSERT_EQ(ended.code, 0) << ended.said;
+  const auto said = nlohmann::json::parse(ended.said);
+  EXPECT_EQ(said.at("path"), (folder / "movie.mp4").string());
+  EXPECT_EQ(said.at("frames"), 3);  // 1, 3 and 5
+  EXPECT_EQ(said.at("width_px"), 320);
+  EXPECT_GT(said.at("seconds"), 0);
+  EXPECT_EQ(folder.listing(), "frames movie.mp4 trajectory.h5");
+  EXPECT_TRUE(std::filesystem::exists(folder / "frames/frame_000002.png"));
+}
+
+TEST(RenderProgram, BadInputIsTwoFailureIsOne) {
+  const ScratchFolder folder;
+  plant_trajectory(folder.path(), 2);
+  const std::string run = folder.path().string();
+  for (const std::string bad :
+       {"", "draw", "picture", "picture /nowhere", "picture RUN --frame 2", "picture RUN --frame -1",
+        "picture RUN --frame 1 --time 2", "picture RUN --size 1280", "picture RUN --size 10x10",
+        "picture RUN --size 1280x720x3", "picture RUN --colour grey", "picture RUN --zoom 0.1", "picture RUN --focus 1",
+        "movie RUN --size 321x180", "movie RUN --every 0", "movie RUN --from 2 --to -1", "live abc"}) {
+    std::string arguments = bad;
+    if (const auto at = arguments.find("RUN"); at != std::string::npos) arguments.replace(at, 3, run);
+    const Ended ended = run_program(arguments);
+    EXPECT_EQ(ended.code, 2) << bad << ": " << ended.said;
+    EXPECT_FALSE(ended.said.empty()) << bad;
+  }
+  const Ended failed = run_program("picture " + run + " -o /nowhere/p.png");
+  EXPECT_EQ(failed.code, 1);
+  EXPECT_EQ(failed.said, "shaken-render: cannot write /nowhere/p.png: No such file or directory\n");
+  EXPECT_EQ(run_program("movie " + run + " -o /nowhere/m.mp4").code, 1);
+  EXPECT_EQ(folder.listing(), "trajectory.h5");
+}
+
+TEST(RenderProgram, HelpAndVersion) {
+  const Ended help = run_program("--help");
+  EXPECT_EQ(help.code, 0);
+  EXPECT_NE(help.said.find("Examples:"), std::string::npos);
+  EXPECT_EQ(run_program("--version").said.substr(0, 14), "shaken-render ");
+}
+
+}  // namespace
+}  // namespace shaken::render

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+#include "render/movie.h"
+
+#include <gtest/gtest.h>
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+}
+
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+#include "render/make_movie.h"
+#include "support.h"
+
+namespace shaken::render {
+namespace {
+
+using Rgb = std::array<std::uint8_t, 3>;
+constexpr std::array<Rgb, 4> kColours = {Rgb{230, 20, 25}, Rgb{190, 20, 180}, Rgb{30, 160, 60}, Rgb{240, 240, 240}};
+
+Image plain(int width, int height, const Rgb& colour) {
+  Image image(width, height);
+  for (std::size_t i = 0; i < image.rgb.size(); ++i) image.rgb[i] = colour[i % 3];
+  return image;
+}
+
+struct Decoded {
+  int width = 0, height = 0;
+  AVPixelFormat format = AV_PIX_FMT_NONE;
+  AVColorSpace matrix = AVCOL_SPC_UNSPECIFIED;
+  AVColorRange range = AVCOL_RANGE_UNSPECIFIED;
+  double fps = 0;
+  std::vector<double> time;                ///< [s]
+  std::vector<std::array<int, 3>> middle;  ///< Y, Cb, Cr of each frame's middle
+};
+
+Decoded decode(const std::filesystem::path& file) {
+  Decoded movie;
+  AVFormatContext* format = nullptr;
+  if (avformat_open_input(&format, file.c_str(), nullptr, nullptr) < 0) {
+    ADD_FAILURE() << "cannot open " << file;
+    return movie;
+  }
+  avformat_find_stream_info(format, nullptr);
+  const AVStream* stream = format->streams[0];
+  AVCodecContext* codec = avcodec_alloc_context3(avcodec_find_decoder(stream->codecpar->codec_id));
+  avcodec_parameters_to_context(codec, stream->codecpar);
+  avcodec_open2(codec, codec->codec, nullptr);
+  movie.fps = av_q2d(stream->avg_frame_rate);
+  AVPacket* packet = av_packet_alloc();
+  AVFrame* frame = av_frame_alloc();
+  const auto drain = [&] {
+    while (avcodec_receive_frame(codec, frame) == 0) {
+      movie.width = frame->width;
+      movie.height = frame->height;
+      movie.format = static_cast<AVPixelFormat>(frame->format);
+      movie.matrix = frame->colorspace;
+      movie.range = frame->color_range;
+      movie.time.push_back(static_cast<double>(frame->pts) * av_q2d(stream->time_base));
+      const int x = frame->width / 2, y = frame->height / 2;
+      movie.middle.push_back({frame->data[0][y * frame->linesize[0] + x],
+                              frame->data[1][y / 2 * frame->linesize[1] + x / 2],
+                              frame->data[2][y / 2 * frame->linesize[2] + x / 2]});
+    }
+  };
+  while (av_read_frame(format, packet) == 0) {
+    avcodec_send_packet(codec, packet);
+    av_packet_unref(packet);
+    drain();
+  }
+  avcodec_send_packet(codec, nullptr);
+  drain();
+  av_frame_free(&frame);
+  av_packet_free(&packet);
+  avcodec_free_context(&codec);
+  avformat_close_input(&format);
+  return movie;
+}
+
+/// Rec. ITU-R BT.709: from 8-bit RGB to 8-bit limited-range Y, Cb, Cr.
+std::array<int, 3> bt709(const Rgb& c) {
+  const double y = (0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]) / 255;
+  const double cb = (c[2] / 255.0 - y) / 1.8556, cr = (c[0] / 255.0 - y) / 1.5748;
+  return {static_cast<int>(std::lround(16 + 219 * y)), static_cast<int>(std::lround(128 + 224 * cb)),
+          static_cast<int>(std::lround(128 + 224 * cr))};
+}
+
+void write_movie(const std::filesystem::path& file, int n_frames, double fps = 30) {
+  Result<MovieWriter> movie = MovieWriter::create(file, 128, 96, fps);
+  ASSERT_TRUE(movie) << movie.error().message;
+  for (int i = 0; i < n_frames; ++i)
+    ASSERT_FALSE(movie->add(plain(128, 96, kColours[static_cast<std::size_t>(i) % 4])));
+  const auto error = movie->finish();
+  ASSERT_FALSE(error) << error->message;
+}
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(Movie, DecodesToWhatWasPutIn) {
+  const ScratchFolder folder;
+  write_movie(folder / "m.mp4", 70, 25);
+  EXPECT_EQ(folder.listing(), "m.mp4");
+  const Decoded movie = decode(folder / "m.mp4");
+  EXPECT_EQ(movie.width, 128);
+  EXPECT_EQ(movie.height, 96);
+  EXPECT_EQ(movie.format, AV_PIX_FMT_YUV420P);
+  EXPECT_EQ(movie.matrix, AVCOL_SPC_BT709);
+  EXPECT_EQ(movie.range, AVCOL_RANGE_MPEG);
+  EXPECT_DOUBLE_EQ(movie.fps, 25);
+  ASSERT_EQ(movie.middle.size(), 70u);
+  for (std::size_t i = 0; i < 70; ++i) {
+    EXPECT_NEAR(movie.time[i], static_cast<double>(i) / 25, 1e-6);
+    // With BT.601 red would be 19 brighter.
+    const std::array<int, 3> expected = bt709(kColours[i % 4]);
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(movie.middle[i][c], expected[c], 3) << i << ' ' << c;
+  }
+}
+
+TEST(Movie, TheIndexIsAtTheFront) {
+  const ScratchFolder folder;
+  write_movie(folder / "m.mp4", 5);
+  const std::string bytes = bytes_of(folder / "m.mp4");
+  EXPECT_LT(bytes.find("moov"), bytes.find("mdat"));
+}
+
+TEST(Movie, SameFramesSameFile) {
+  const ScratchFolder folder;
+  write_movie(folder / "a.mp4", 20);
+  write_movie(folder / "b.mp4", 20);
+  EXPECT_EQ(bytes_of(folder / "a.mp4"), bytes_of(folder / "b.mp4"));
+}
+
+TEST(Movie, AnUnfinishedMovieLeavesNothingAndTheOldOneStays) {
+  const ScratchFolder folder;
+  write_movie(folder / "m.mp4", 3);
+  const std::string old = bytes_of(folder / "m.mp4");
+  {
+    Result<MovieWriter> movie = MovieWriter::create(folder / "m.mp4", 128, 96, 30);
+    ASSERT_TRUE(movie);
+    ASSERT_FALSE(movie->add(plain(128, 96, kColours[0])));
+  }
+  EXPECT_EQ(folder.listing(), "m.mp4");
+  EXPECT_EQ(bytes_of(folder / "m.mp4"), old);
+}
+
+TEST(Movie, RefusesOddSizesOddRatesAndOtherFrames) {
+  const ScratchFolder folder;
+  EXPECT_FALSE(MovieWriter::create(folder / "m.mp4", 127, 96, 30));
+  EXPECT_FALSE(MovieWriter::create(folder / "m.mp4", 128, 95, 30));
+  EXPECT_FALSE(MovieWriter::create(folder / "m.mp4", 128, 96, 0));
+  EXPECT_FALSE(MovieWriter::create(folder / "m.mp4", 128, 96, NAN));
+  Result<MovieWriter> movie = MovieWriter::create(folder / "m.mp4", 128, 96, 30);
+  ASSERT_TRUE(movie);
+  EXPECT_TRUE(movie->add(plain(96, 128, kColours[0])));
+}
+
+TEST(Movie, AFolderThatDoesNotExistIsAnError) {
+  const Result<MovieWriter> movie = MovieWriter::create("/nowhere/at/all/m.mp4", 128, 96, 30);
+  ASSERT_FALSE(movie);
+  EXPECT_NE(movie.error().message.find("/nowhere/at/all/m.mp4: No such file"), std::string::npos)
+      << movie.error().message;
+}
+
+PictureStyle small() {
+  PictureStyle style;
+  style.width = 320;
+  style.height = 180;
+  return style;
+}
+
+Result<RodPicture> turning(std::size_t i) {
+  RodPicture picture = empty_picture(10);
+  add_rod(picture, 5, 5, 0.1 * static_cast<double>(i));
+  return picture;
+}
+
+TEST(MakeMovie, KeepsItsFramesOnRequest) {
+  const ScratchFolder folder;
+  std::vector<std::size_t> told;
+  MovieOptions options;
+  options.keep_frames = folder / "frames";
+  const auto error = make_movie(painter(), folder / "m.mp4", small(), options, 3, turning, [&](std::size_t i) {
+    told.push_back(i);
+    return true;
+  });
+  ASSERT_FALSE(error) << error->message;
+  EXPECT_EQ(told, (std::vector<std::size_t>{0, 1, 2}));
+  EXPECT_EQ(decode(folder / "m.mp4").middle.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Image frame = read_png(folder / ("frames/frame_00000" + std::to_string(i) + ".png"));
+    EXPECT_EQ(frame, painter().paint(turning(i).value(), small()).value());
+  }
+}
+
+TEST(MakeMovie, StoppingAndFailingFramesLeaveNoMovie) {
+  const ScratchFolder folder;
+  const auto stopped =
+      make_movie(painter(), folder / "m.mp4", small(), {}, 5, turning, [](std::size_t i) { return i < 1; });
+  ASSERT_TRUE(stopped);
+  EXPECT_EQ(stopped->message, "stopped after 2 frames");
+  const auto failed = make_movie(painter(), folder / "m.mp4", small(), {}, 5, [](std::size_t i) -> Result<RodPicture> {
+    if (i == 2) return Error{"torn"};
+    return turning(i);
+  });
+  ASSERT_TRUE(failed);
+  EXPECT_EQ(failed->message, "torn");
+  EXPECT_TRUE(make_movie(painter(), folder / "m.mp4", small(), {}, 0, turning));
+  EXPECT_EQ(folder.listing(), "");
+}
+
+}  // namespace
+}  // namespace shaken::render

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "render/picture.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support.h"
+
+namespace shaken::render {
+namespace {
+
+TEST(RodPicture, LengthIsTipToTip) { EXPECT_DOUBLE_EQ(empty_picture(10).rod_length(), 4.5); }
+
+TEST(RodPicture, AreaFractionOfThePapersSystem) {
+  // Sharma & Soni (2024): 2109 rods of 4.5 mm in a box of 83.73 mm make 0.75, to within one rod.
+  RodPicture picture = empty_picture(83.73);
+  picture.position.resize(2109);
+  EXPECT_NEAR(picture.area_fraction(), 0.75, 0.75 / 2109);
+}
+
+TEST(RodPicture, AreaFractionOfASphereIsADiscs) {
+  RodPicture picture;
+  picture.box_side = 2;
+  picture.bead_offset = {0};
+  picture.bead_radius = {0.5};
+  picture.position.resize(1);
+  EXPECT_NEAR(picture.area_fraction(), kPi * 0.25 / 4, 1e-4);
+}
+
+TEST(Measure, FindsOrderAndDirector) {
+  RodPicture picture = empty_picture(20);
+  for (int i = 0; i < 40; ++i) add_rod(picture, 0.5 * i, 0.5 * i, 0.7 + (i % 2 ? 0.2 : -0.2));
+  measure(picture, false);
+  EXPECT_NEAR(picture.director_angle, 0.7, 1e-12);
+  EXPECT_NEAR(picture.order, std::cos(0.4), 1e-12);
+  EXPECT_TRUE(picture.defects.empty());
+}
+
+TEST(Measure, FindsAPlantedPairOfDefects) {
+  // Director theta = (angle about A - angle about B) / 2: +1/2 at A, -1/2 at B, uniform far away.
+  RodPicture picture = empty_picture(60);
+  const Vec2 a(22, 30), b(38, 30);
+  for (double x = 0.5; x < 60; x += 1) {
+    for (double y = 0.5; y < 60; y += 1) {
+      const Vec2 to_a = Vec2(x, y) - a, to_b = Vec2(x, y) - b;
+      add_rod(picture, x, y, 0.5 * (std::atan2(to_a.y(), to_a.x()) - std::atan2(to_b.y(), to_b.x())));
+    }
+  }
+  measure(picture, true);
+  ASSERT_EQ(picture.defects.size(), 2u);
+  for (const analysis::Defect& defect : picture.defects) {
+    EXPECT_LT((defect.position - (defect.charge > 0 ? a : b)).norm(), 1.0);
+  }
+  EXPECT_EQ(picture.defects[0].charge + picture.defects[1].charge, 0);
+  measure(picture, false);
+  EXPECT_TRUE(picture.defects.empty());
+}
+
+TEST(Measure, NoRods) {
+  RodPicture picture = empty_picture(10);
+  measure(picture, true);
+  EXPECT_EQ(picture.order, 0);
+  EXPECT_TRUE(picture.defects.empty());
+}
+
+TEST(PictureStyle, SizesThatCannotBeAreRefused) {
+  const auto good = [](int width, int height, double zoom = 1) {
+    PictureStyle style;
+    style.width = width;
+    style.height = height;
+    style.zoom = zoom;
+    return !check(style).has_value();
+  };
+  EXPECT_TRUE(good(1280, 720));
+  EXPECT_TRUE(good(64, 5000));
+  EXPECT_FALSE(good(63, 720));
+  EXPECT_FALSE(good(1280, 5001));
+  EXPECT_FALSE(good(-1280, -720));
+  EXPECT_FALSE(good(1280, 720, 0.5));
+  EXPECT_FALSE(good(1280, 720, std::nan("")));
+}
+
+}  // namespace
+}  // namespace shaken::render

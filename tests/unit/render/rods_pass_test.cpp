@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+#include "render/rods_pass.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "render/colours.h"
+#include "support.h"
+
+namespace shaken::render {
+namespace {
+
+constexpr int kSide = 1000;
+constexpr double kBox = 10, kScale = kSide / kBox;  // pixels per mm
+
+RodsPass& rods_pass() {
+  static RodsPass shared = RodsPass::create().value();
+  return shared;
+}
+
+Image draw(const RodPicture& picture, const PictureStyle& style = {}, int side = kSide) {
+  return rods_pass().draw(picture, style, side).value();
+}
+
+/// Red or magenta, however dark: floor and shadow are grey.
+bool is_rod(const std::uint8_t* pixel) { return pixel[0] - pixel[1] > 30; }
+bool is_red(const std::uint8_t* pixel) { return is_rod(pixel) && pixel[0] > 2 * pixel[2]; }
+bool is_magenta(const std::uint8_t* pixel) { return is_rod(pixel) && pixel[2] > 2 * pixel[1]; }
+
+int count(const Image& image, const std::function<bool(const std::uint8_t*)>& test) {
+  int n = 0;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) n += test(image.pixel(x, y));
+  }
+  return n;
+}
+
+/// A box whose director lies so that a rod along x is fully red.
+RodPicture red_picture() {
+  RodPicture picture = empty_picture(kBox);
+  picture.director_angle = -kPi / 6;
+  return picture;
+}
+
+TEST(RodsPass, OutlineIsThatOfTheBeads) {
+  RodPicture picture = red_picture();
+  add_rod(picture, 5, 5, 0);
+  const Image image = draw(picture);
+  const auto width_at = [&](double mm_from_centre) {
+    int n = 0;
+    const int x = static_cast<int>(std::floor((5 + mm_from_centre) * kScale));
+    for (int y = 0; y < kSide; ++y) n += is_rod(image.pixel(x, y));
+    return n;
+  };
+  EXPECT_NEAR(width_at(0.005), 0.8 * kScale, 1.0);
+  EXPECT_NEAR(width_at(2.055), 0.4 * kScale, 1.0);
+  EXPECT_NEAR(width_at(-2.045), 0.4 * kScale, 1.0);
+  // In between a tapered union of beads, neither a capsule nor a smooth spindle; the tips' vertical tangent aside.
+  for (int pixel = -220; pixel < 220; ++pixel) {
+    const double x = (pixel + 0.5) / kScale;
+    EXPECT_NEAR(width_at(x), 2 * half_width(picture, x) * kScale, 1.6) << x;
+  }
+  int length = 0;
+  for (int x = 0; x < kSide; ++x) length += is_rod(image.pixel(x, kSide / 2));
+  EXPECT_NEAR(length, 4.5 * kScale, 1.0);
+  EXPECT_NEAR(count(image, is_rod), picture.area_fraction() * kSide * kSide, 0.01 * 450 * 60);
+}
+
+TEST(RodsPass, YPointsUpAndXToTheRight) {
+  RodPicture picture = red_picture();
+  add_rod(picture, 8, 2, -kPi / 6);  // neutral
+  add_rod(picture, 2, 8, 0);         // red
+  const Image image = draw(picture);
+  EXPECT_TRUE(is_red(image.pixel(200, 200)));
+  EXPECT_FALSE(is_rod(image.pixel(800, 200)));
+  EXPECT_FALSE(is_rod(image.pixel(200, 800)));
+  EXPECT_FALSE(is_red(image.pixel(800, 800)));
+}
+
+TEST(RodsPass, ATurnedRodLiesAlongItsDirector) {
+  RodPicture picture = empty_picture(kBox);
+  picture.director_angle = 0;
+  add_rod(picture, 5, 5, kPi / 3);
+  const Image image = draw(picture);
+  const auto at = [&](double along, double across) {
+    const double x = 5 + along * std::cos(kPi / 3) - across * std::sin(kPi / 3);
+    const double y = 5 + along * std::sin(kPi / 3) + across * std::cos(kPi / 3);
+    return is_rod(image.pixel(static_cast<int>(x * kScale), static_cast<int>(kSide - y * kScale)));
+  };
+  EXPECT_TRUE(at(2.2, 0));
+  EXPECT_TRUE(at(-2.2, 0));
+  EXPECT_TRUE(at(0, 0.38));
+  EXPECT_FALSE(at(2.3, 0));
+  EXPECT_FALSE(at(0, 0.42));
+  EXPECT_FALSE(at(2.0, 0.25));
+}
+
+TEST(RodsPass, ATiltedRodIsForeshortened) {
+  const double n_z = 0.6;
+  RodPicture picture = red_picture();
+  add_rod(picture, 5, 5, 0, n_z);
+  const Image image = draw(picture);
+  int length = 0;
+  for (int x = 0; x < kSide; ++x) length += is_rod(image.pixel(x, kSide / 2));
+  EXPECT_NEAR(length, 2 * (2.05 * 0.8 + 0.2) * kScale, 1.0);
+}
+
+TEST(RodsPass, AnUprightRodIsADisc) {
+  RodPicture picture = red_picture();
+  picture.gap = 6;
+  add_rod(picture, 5, 5, 0, 1);
+  picture.director_angle = -kPi / 6;
+  EXPECT_NEAR(count(draw(picture), is_rod), kPi * 0.16 * kScale * kScale, 0.02 * kPi * 0.16 * kScale * kScale);
+}
+
+TEST(RodsPass, RedLeansToTheLeftOfTheDirectorMagentaToTheRight) {
+  RodPicture picture = empty_picture(kBox);
+  add_rod(picture, 5, 2, 0.3);
+  add_rod(picture, 5, 7, -0.3);
+  const Image image = draw(picture);
+  EXPECT_TRUE(is_red(image.pixel(500, 800)));
+  EXPECT_TRUE(is_magenta(image.pixel(500, 300)));
+  EXPECT_FALSE(is_magenta(image.pixel(500, 800)));
+  EXPECT_FALSE(is_red(image.pixel(500, 300)));
+}
+
+TEST(RodsPass, BackgroundIsTheFloorAwayFromRods) {
+  RodPicture picture = red_picture();
+  add_rod(picture, 5, 5, 0);
+  const Image image = draw(picture);
+  const Colour floor = palette(Theme::kLight).floor;
+  for (const auto& [x, y] : {std::pair{0, 0}, {999, 999}, {500, 300}, {100, 500}}) {
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(image.pixel(x, y)[c], floor[c] * 255, 1) << x << ' ' << y;
+  }
+}
+
+TEST(RodsPass, NoRodsGiveTheBareFloor) {
+  const Image image = draw(empty_picture(kBox), {}, 64);
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      for (int c = 0; c < 3; ++c) ASSERT_EQ(image.pixel(x, y)[c], image.pixel(0, 0)[c]);
+    }
+  }
+}
+
+TEST(RodsPass, RodsAcrossTheBorderShowOnBothSides) {
+  RodPicture inside = red_picture();
+  add_rod(inside, 5, 5, 0);
+  const int whole = count(draw(inside), is_rod);
+
+  RodPicture edge = red_picture();
+  add_rod(edge, 0.1, 5, 0);
+  const Image image = draw(edge);
+  EXPECT_TRUE(is_rod(image.pixel(5, 500)));
+  EXPECT_TRUE(is_rod(image.pixel(994, 500)));
+  EXPECT_NEAR(count(image, is_rod), whole, 20);
+
+  RodPicture corner = red_picture();
+  add_rod(corner, 9.95, 0.05, 0);
+  const Image corners = draw(corner);
+  for (const int x : {5, 994}) {
+    for (const int y : {5, 994}) EXPECT_TRUE(is_rod(corners.pixel(x, y))) << x << ' ' << y;
+  }
+  EXPECT_NEAR(count(corners, is_rod), whole, 20);
+}
+
+TEST(RodsPass, ARodMuchLongerThanTheBoxWrapsAsOftenAsNeeded) {
+  RodPicture picture = red_picture();
+  picture.box_side = 1.5;  // a third of the rod
+  add_rod(picture, 0.7, 0.75, 0);
+  const Image image = draw(picture, {}, 300);
+  for (int x = 0; x < 300; ++x) ASSERT_TRUE(is_rod(image.pixel(x, 150))) << x;
+}
+
+TEST(RodsPass, TheHigherRodHidesTheLower) {
+  for (const bool red_on_top : {true, false}) {
+    RodPicture picture = empty_picture(kBox);
+    add_rod(picture, 5, 5, 0.5);
+    add_rod(picture, 5, 5, -0.5);
+    picture.position[0].z() = red_on_top ? 0.8 : 0.4;
+    picture.position[1].z() = red_on_top ? 0.4 : 0.8;
+    EXPECT_EQ(is_red(draw(picture).pixel(500, 500)), red_on_top);
+  }
+}
+
+TEST(RodsPass, ZoomShowsThePartInFocusAcrossTheBorderToo) {
+  RodPicture picture = red_picture();
+  add_rod(picture, 0.05, 9.95, 0);
+  PictureStyle style;
+  style.zoom = 2;
+  style.focus = Vec2(0, 1);
+  const Image image = draw(picture, style);
+  // The corner of the box is now in the middle, at twice the scale.
+  int length = 0;
+  for (int x = 0; x < kSide; ++x) length += is_rod(image.pixel(x, kSide / 2 + 10));
+  EXPECT_NEAR(length, 2 * 4.5 * kScale, 2.0);
+  EXPECT_TRUE(is_rod(image.pixel(510, 510)));
+}
+
+TEST(RodsPass, SamePictureSameBits) {
+  RodPicture picture = empty_picture(kBox);
+  for (int i = 0; i < 30; ++i) add_rod(picture, 0.37 * i, 0.61 * i, 0.2 * i, 0.01 * i);
+  const Image first = draw(picture, {}, 333);
+  draw(red_picture(), {}, 100);  // another size in between
+  EXPECT_EQ(first, draw(picture, {}, 333));
+  RodsPass other = RodsPass::create().value();
+  EXPECT_EQ(first, other.draw(picture, {}, 333).value());
+  // Heights are all the same: the order of the rods decides nothing but ties.
+}
+
+TEST(RodsPass, RefusesWhatCannotBeDrawn) {
+  const auto message = [](const RodPicture& picture, int side = 64) {
+    const Result<Image> image = rods_pass().draw(picture, {}, side);
+    return image ? std::string("drawn") : image.error().message;
+  };
+  RodPicture no_beads = red_picture();
+  no_beads.bead_offset.clear();
+  no_beads.bead_radius.clear();
+  EXPECT_NE(message(no_beads).find("0 beads"), std::string::npos);
+  RodPicture many_beads = red_picture();
+  many_beads.bead_offset.assign(RodsPass::kMaxBeads + 1, 0);
+  many_beads.bead_radius.assign(RodsPass::kMaxBeads + 1, 1);
+  EXPECT_NE(message(many_beads).find("256 beads"), std::string::npos);
+  RodPicture uneven = red_picture();
+  uneven.position.emplace_back(1, 1, 1);
+  EXPECT_NE(message(uneven).find("directors"), std::string::npos);
+  EXPECT_NE(message(empty_picture(0)).find("no size"), std::string::npos);
+  EXPECT_NE(message(red_picture(), 0).find("pixels wide"), std::string::npos);
+  EXPECT_NE(message(red_picture(), RodsPass::kMaxSide + 1).find("pixels wide"), std::string::npos);
+  EXPECT_EQ(message(red_picture()), "drawn");
+}
+
+}  // namespace
+}  // namespace shaken::render

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "render/sources.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <shaken/frame_static_t.hpp>
+
+#include "proto/bus.h"
+#include "proto/frame_codec.h"
+#include "support.h"
+
+namespace shaken::render {
+namespace {
+
+constexpr double kDegree = kPi / 180;
+
+TEST(TrajectorySource, ReadsARunDirectoryOrItsFile) {
+  const ScratchFolder folder;
+  plant_trajectory(folder.path(), 6);
+  for (const auto& path : {folder.path(), folder / "trajectory.h5"}) {
+    const Result<TrajectorySource> source = TrajectorySource::open(path);
+    ASSERT_TRUE(source) << source.error().message;
+    EXPECT_EQ(source->n_frames(), 6u);
+    const Result<RodPicture> picture = source->picture(4, false);
+    ASSERT_TRUE(picture) << picture.error().message;
+    EXPECT_DOUBLE_EQ(picture->time, 0.2);
+    EXPECT_DOUBLE_EQ(picture->box_side, 10);
+    EXPECT_DOUBLE_EQ(picture->rod_length(), 4.5);
+    EXPECT_NEAR(picture->director_angle, 40 * kDegree, 1e-5);
+    EXPECT_NEAR(picture->order, 1, 1e-6);
+    ASSERT_EQ(picture->n_rods(), 3u);
+    EXPECT_NEAR(picture->position[2].y(), 8, 1e-5);
+    EXPECT_TRUE(picture->history.time.empty());
+  }
+}
+
+TEST(TrajectorySource, FindsTheNearestFrame) {
+  const ScratchFolder folder;
+  plant_trajectory(folder.path(), 6);
+  const TrajectorySource source = TrajectorySource::open(folder.path()).value();
+  const auto nearest = [&](double time) { return source.nearest_frame(time).value(); };
+  EXPECT_EQ(nearest(-1), 0u);
+  EXPECT_EQ(nearest(0), 0u);
+  EXPECT_EQ(nearest(0.024), 0u);
+  EXPECT_EQ(nearest(0.026), 1u);
+  EXPECT_EQ(nearest(0.151), 3u);
+  EXPECT_EQ(nearest(99), 5u);
+}
+
+TEST(TrajectorySource, HistoryEndsAtThePresentFrame) {
+  const ScratchFolder folder;
+  plant_trajectory(folder.path(), 6);
+  TrajectorySource source = TrajectorySource::open(folder.path()).value();
+  ASSERT_FALSE(source.read_history());
+  const RodPicture picture = source.picture(3, false).value();
+  ASSERT_EQ(picture.history.time.size(), 4u);
+  EXPECT_EQ(picture.history.order.size(), 4u);
+  EXPECT_DOUBLE_EQ(picture.history.time.back(), 0.15);
+  EXPECT_DOUBLE_EQ(picture.history.end, 0.25);
+  EXPECT_NEAR(picture.history.order[1], 1, 1e-6);
+}
+
+TEST(TrajectorySource, SaysWhatIsMissing) {
+  const ScratchFolder folder;
+  const Result<TrajectorySource> nothing = TrajectorySource::open(folder.path());
+  ASSERT_FALSE(nothing);
+  EXPECT_NE(nothing.error().message.find((folder / "trajectory.h5").string()), std::string::npos);
+  plant_trajectory(folder.path(), 0);
+  const Result<TrajectorySource> empty = TrajectorySource::open(folder.path());
+  ASSERT_FALSE(empty);
+  EXPECT_NE(empty.error().message.find("no complete frame"), std::string::npos);
+}
+
+/// A log of LCM messages, as lcm-logger would have written it: the static part and a frame of each of two jobs.
+std::string record_two_jobs(const std::filesystem::path& log) {
+  proto::Bus::Opened bus = proto::Bus::open("file://" + log.string() + "?mode=w");
+  EXPECT_TRUE(bus) << bus.reason;
+  const RodPicture shape = empty_picture(20);
+  for (const std::string job : {"aaaa0001", "bbbb0002"}) {
+    frame_static_t constants{};
+    constants.job_id = job;
+    constants.n_rods = 9000;
+    constants.box_side_mm = 20;
+    constants.gap_mm = 1.2;
+    constants.n_beads = 15;
+    constants.bead_offset_mm = shape.bead_offset;
+    constants.bead_radius_mm = shape.bead_radius;
+    constants.label = "job " + job;
+    bus.bus->publish(proto::kFrameStaticChannel, constants);
+    proto::Frame frame;
+    frame.job_id = job;
+    frame.sim_time_s = 2.5;
+    frame.box_side_mm = 20;
+    const double angle = job == "aaaa0001" ? 0.1 : -0.4;
+    for (int i = 0; i < 9000; ++i) {
+      frame.rods.push_back(proto::make_pose(0.002 * i, 10, {std::cos(angle), std::sin(angle), 0}));
+    }
+    for (const frame_t& chunk : proto::encode_frame(frame)) bus.bus->publish(proto::kFrameChannel, chunk);
+  }
+  return "file://" + log.string() + "?mode=r&speed=0";
+}
+
+TEST(LivePicture, PutsTheFrameOfTheJobTogetherFromItsChunks) {
+  const ScratchFolder folder;
+  const std::string url = record_two_jobs(folder / "live.lcmlog");
+  const Result<RodPicture> picture = live_picture(url, "bbbb", std::chrono::seconds(10), false);
+  ASSERT_TRUE(picture) << picture.error().message;
+  EXPECT_EQ(picture->label, "job bbbb0002");
+  EXPECT_DOUBLE_EQ(picture->time, 2.5);
+  ASSERT_EQ(picture->n_rods(), 9000u);
+  EXPECT_NEAR(picture->director_angle, -0.4, 1e-4);
+  EXPECT_NEAR(picture->position[8999].x(), 17.998, 20.0 / 65536);
+  EXPECT_DOUBLE_EQ(picture->rod_length(), 4.5);
+}
+
+TEST(LivePicture, TimesOutWithAReason) {
+  const Result<RodPicture> picture = live_picture("memq://", "cccc", std::chrono::milliseconds(300), false);
+  ASSERT_FALSE(picture);
+  EXPECT_NE(picture.error().message.find("no frame of job cccc"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace shaken::render

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "support.h"
+
+#include <gtest/gtest.h>
+#include <png.h>
+#include <stdlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "run/files/trajectory.h"
+
+namespace shaken::render {
+namespace {
+
+/// Nothing may be left in the home directory of who runs the tests.
+const bool kNoShaderCache = setenv("MESA_SHADER_CACHE_DISABLE", "true", 1) == 0;
+
+}  // namespace
+
+RodPicture empty_picture(double box_side) {
+  RodPicture picture;
+  picture.box_side = box_side;
+  picture.gap = 1.2;
+  for (int i = -7; i <= 7; ++i) {
+    picture.bead_offset.push_back(2.05 * i / 7);
+    picture.bead_radius.push_back(0.4 - 0.2 * std::abs(i) / 7);
+  }
+  return picture;
+}
+
+void add_rod(RodPicture& picture, double x, double y, double angle, double n_z) {
+  const double flat = std::sqrt(1 - n_z * n_z);
+  picture.position.emplace_back(x, y, picture.gap / 2);
+  picture.director.emplace_back(flat * std::cos(angle), flat * std::sin(angle), n_z);
+}
+
+double half_width(const RodPicture& picture, double x) {
+  double widest = 0;
+  for (std::size_t i = 0; i < picture.bead_offset.size(); ++i) {
+    const double d = x - picture.bead_offset[i], r = picture.bead_radius[i];
+    if (std::abs(d) < r) widest = std::max(widest, std::sqrt(r * r - d * d));
+  }
+  return widest;
+}
+
+Painter& painter() {
+  static Painter shared = Painter::create().value();
+  return shared;
+}
+
+Image read_png(const std::filesystem::path& file) {
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  if (!png_image_begin_read_from_file(&png, file.c_str())) {
+    ADD_FAILURE() << file << ": " << png.message;
+    return {};
+  }
+  png.format = PNG_FORMAT_RGB;
+  Image image(static_cast<int>(png.width), static_cast<int>(png.height));
+  EXPECT_TRUE(png_image_finish_read(&png, nullptr, image.rgb.data(), 0, nullptr)) << png.message;
+  return image;
+}
+
+ScratchFolder::ScratchFolder() {
+  std::string name = (std::filesystem::temp_directory_path() / "shaken_render_XXXXXX").string();
+  path_ = mkdtemp(name.data());
+}
+
+ScratchFolder::~ScratchFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+std::string ScratchFolder::listing() const {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(path_)) names.push_back(entry.path().filename());
+  std::sort(names.begin(), names.end());
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "" : " ") + name;
+  return all;
+}
+
+void plant_trajectory(const std::filesystem::path& directory, int n_frames) {
+  const RodPicture shape = empty_picture(10);
+  run::TrajectoryHeader header;
+  header.n_rods = 3;
+  header.box_side = 10;
+  header.gap = 1.2;
+  header.dt = 4e-6;
+  header.bead_offset = shape.bead_offset;
+  header.bead_radius = shape.bead_radius;
+  header.scene_json = "{}";
+  Result<run::TrajectoryWriter> writer = run::TrajectoryWriter::create(directory / "trajectory.h5", header);
+  ASSERT_TRUE(writer) << writer.error().message;
+  for (int f = 0; f < n_frames; ++f) {
+    RodPicture rods = empty_picture(10);
+    for (int i = 0; i < 3; ++i) add_rod(rods, 5, 2 + 3 * i, f * kPi / 18, 0.1);
+    Snapshot snapshot;
+    snapshot.tick = f * 12500;
+    snapshot.time = f * 0.05;
+    snapshot.box_side = 10;
+    snapshot.position = rods.position;
+    snapshot.director = rods.director;
+    snapshot.image.resize(3);
+    snapshot.velocity.assign(3, Vec3::Zero());
+    snapshot.angular_velocity.assign(3, Vec3::Zero());
+    const auto error = writer->append(snapshot);
+    ASSERT_FALSE(error) << error->message;
+  }
+}
+
+}  // namespace shaken::render
