@@ -173,7 +173,9 @@ Api::Answer Api::submit(const Call& call) const {
                           {"path", problem.path},
                           {"message", problem.message}});
     }
-    return {422, {{"error", scene::to_string(submission.problems)}, {"problems", problems}}, ""};
+    std::string sentence = scene::to_string(submission.problems.front());
+    if (problems.size() > 1) sentence = std::to_string(problems.size()) + " problems; the first: " + sentence;
+    return {422, {{"error", sentence}, {"problems", problems}}, ""};
   }
   const auto& [name, priority, jobs] = *submission.value;
   const Submitted submitted = queue_.submit(name, priority, jobs);

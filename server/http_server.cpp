@@ -95,6 +95,8 @@ struct HttpServer::Impl {
     const auto with_body = [answer](const httplib::Request& request, httplib::Response& response,
                                     const httplib::ContentReader& content) {
       if (request.is_multipart_form_data()) {
+        // Read to its end all the same: closing earlier would throw away the answer.
+        content([](const httplib::MultipartFormData&) { return true; }, [](const char*, std::size_t) { return true; });
         response.status = 415;
         return;
       }

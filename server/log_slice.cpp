@@ -11,7 +11,8 @@ std::size_t torn_tail(const std::string& text) {
   for (std::size_t back = 1; back <= 3 && back <= text.size(); ++back) {
     const auto byte = static_cast<unsigned char>(text[text.size() - back]);
     if (byte < 0x80) return 0;
-    if (byte < 0xC0) continue;  // inside a character
+    if (byte < 0xC0) continue;   // inside a character
+    if (byte >= 0xF8) return 0;  // no UTF-8 at all
     const std::size_t length = byte >= 0xF0 ? 4 : byte >= 0xE0 ? 3 : 2;
     return length > back ? back : 0;
   }

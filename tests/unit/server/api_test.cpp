@@ -22,6 +22,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::StartsWith;
 
 constexpr const char* kSweep =
     R"({"scene": {}, "sweep": {"grid": {"rods.length": [2.5, 3.5], "box.gap": [1.1, 1.2]}}})";
@@ -61,7 +62,8 @@ class ApiTest : public testing::Test {
   /// Submits kSweep; returns the ids of its four jobs.
   std::vector<std::string> submit_four(const std::string& name = "four") {
     std::vector<std::string> ids;
-    for (const Json& job : submit({{"text", kSweep}, {"name", name}}).json["jobs"]) ids.push_back(job["id"]);
+    const Response response = submit({{"text", kSweep}, {"name", name}});
+    for (const Json& job : response.json["jobs"]) ids.push_back(job["id"]);
     return ids;
   }
 
@@ -76,18 +78,22 @@ class ApiTest : public testing::Test {
     setsockopt(fd, SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof(limit));
     return fd;
   }
-  /// Sends bytes as they are, closes its side, and returns all that comes back.
+  /// Sends bytes as they are and goes away.
+  void throw_in(const std::string& bytes) const {
+    const int fd = connect();
+    send(fd, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+    close(fd);
+  }
+  /// Sends bytes as they are; returns all that comes back until the server closes.
   std::string exchange(const std::string& bytes) const {
     const int fd = connect();
     send(fd, bytes.data(), bytes.size(), MSG_NOSIGNAL);
-    shutdown(fd, SHUT_WR);
-    std::string answer(65536, '\0');
-    std::size_t size = 0;
-    for (ssize_t n = 1; n > 0 && size < answer.size(); size += static_cast<std::size_t>(std::max<ssize_t>(n, 0))) {
-      n = recv(fd, answer.data() + size, answer.size() - size, 0);
+    std::string answer;
+    char buffer[4096];
+    for (ssize_t n = 0; (n = recv(fd, buffer, sizeof(buffer), 0)) > 0;) {
+      answer.append(buffer, static_cast<std::size_t>(n));
     }
     close(fd);
-    answer.resize(size);
     return answer;
   }
 
@@ -186,7 +192,7 @@ TEST_F(ApiTest, ARefusedSceneListsAllProblemsAndQueuesNothing) {
   EXPECT_EQ(problem["column"], 3);
   EXPECT_EQ(problem["path"], "/rodz");
   EXPECT_THAT(problem["message"].get<std::string>(), HasSubstr("did you mean rods?"));
-  EXPECT_THAT(response.error(), HasSubstr("2 problems"));
+  EXPECT_THAT(response.error(), StartsWith("2 problems; the first: my.json:2:3: /rodz: "));
   EXPECT_EQ(queue_.counts().total(), 0);
   EXPECT_TRUE(queue_.sweeps().empty());
 }
@@ -328,7 +334,8 @@ TEST_F(ApiTest, UnknownPathsAndMethodsGetHelp) {
 
 TEST_F(ApiTest, EveryRouteIsDocumented) {
   const std::string protocol = read_text(SHAKEN_SOURCE_DIR "/docs/protocol.md");
-  for (const Json& route : get("/nowhere").json["routes"]) {
+  const Response nowhere = get("/nowhere");
+  for (const Json& route : nowhere.json["routes"]) {
     EXPECT_THAT(protocol, HasSubstr(route.get<std::string>()));
   }
 }
@@ -361,12 +368,12 @@ TEST_F(ApiTest, GarbageOnTheSocketHarmsNobody) {
   EXPECT_THAT(exchange("POST /v1/sweeps HTTP/1.1\r\nContent-Length: -5\r\n\r\n{}"), HasSubstr("HTTP/1.1 4"));
   EXPECT_THAT(exchange("POST /v1/sweeps HTTP/1.1\r\nContent-Length: 100\r\n\r\n{}"), HasSubstr("400"));
   EXPECT_THAT(exchange("GET /v1/jobs/%00%ff%zz HTTP/1.1\r\nConnection: close\r\n\r\n"), HasSubstr("404"));
-  EXPECT_TRUE(rc::check("any bytes", [this](const std::string& bytes) { exchange(bytes); }));
+  EXPECT_TRUE(rc::check("any bytes", [this](const std::string& bytes) { throw_in(bytes); }));
   const std::string good = "POST /v1/sweeps HTTP/1.1\r\nHost: x\r\nContent-Length: 2\r\nConnection: close\r\n\r\n{}";
   EXPECT_TRUE(rc::check("one byte changed", [&] {
     std::string bytes = good;
     bytes[*rc::gen::inRange<std::size_t>(0, good.size())] = *rc::gen::arbitrary<char>();
-    exchange(bytes);
+    throw_in(bytes);
   }));
   EXPECT_EQ(get("/v1/status").status, 200);
 }

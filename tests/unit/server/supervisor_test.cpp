@@ -197,7 +197,7 @@ class LocalExecutorTest : public testing::Test {
 };
 
 TEST_F(LocalExecutorTest, AWorkerInheritsNoDescriptorsAndNoBlockedSignals) {
-  write_text(directory_ / "look", "#!/bin/sh\nls /proc/$$/fd\ngrep SigBlk /proc/$$/status\n");
+  write_text(directory_ / "look", "#!/bin/sh\nls /proc/$$/fd\ngrep SigBlk /proc/self/status\n");
   std::filesystem::permissions(directory_ / "look", std::filesystem::perms::owner_all);
   const int leak = open("/dev/null", O_RDONLY);  // without close-on-exec
   ASSERT_GE(leak, 3);
