@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <nlohmann/json.hpp>
 
 namespace shaken::scene {
@@ -105,16 +106,17 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
     return true;
   }
 
-  bool parse_error(std::size_t position, const std::string& last_token,
-                   const nlohmann::detail::exception& error) override {
-    // The token is shown with each control character spelt out, as "<U+000A>".
-    std::size_t length = last_token.size();
-    for (std::size_t at = 0; (at = last_token.find("<U+00", at)) != std::string::npos; at += 8) length -= 7;
-    const std::size_t start = position - std::min(position, length);
+  bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception& error) override {
+    // The last character read, or the start of the word or number that it belongs to.
+    std::size_t at = std::min(position - std::min<std::size_t>(position, 1), text_.size());
+    const auto in_word = [&](std::size_t i) {
+      const auto c = static_cast<unsigned char>(text_[i]);
+      return std::isalnum(c) != 0 || c == '-' || c == '+' || c == '.';
+    };
+    while (at < text_.size() && in_word(at) && at > 0 && in_word(at - 1)) --at;
     Cursor cursor(text_, file_);
-    cursor.advance_to(start);
-    problems_.push_back(
-        problem_at(cursor.place(), {}, explain(text_.substr(std::min(start, text_.size())), error.what())));
+    cursor.advance_to(at);
+    problems_.push_back(problem_at(cursor.place(), {}, explain(text_.substr(at), error.what())));
     return false;
   }
 
@@ -138,7 +140,11 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
     if (const std::size_t bracket = reason.find("] "); reason.starts_with("[")) reason.remove_prefix(bracket + 2);
     constexpr std::string_view kPrefix = "syntax error ";
     if (reason.starts_with(kPrefix)) reason.remove_prefix(kPrefix.size());
-    return fmt::format("syntax error {}", reason);
+    // "; last read: '...'" quotes half of the text; the place says it better.
+    const std::size_t quote = reason.find("; last read: ");
+    const std::size_t after = reason.rfind("; expected ");
+    const bool goes_on = after != std::string_view::npos && quote != std::string_view::npos && after > quote;
+    return fmt::format("syntax error {}{}", reason.substr(0, quote), goes_on ? reason.substr(after) : "");
   }
 
   std::string child_path(std::string_view key) const {

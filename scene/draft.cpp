@@ -135,11 +135,11 @@ class ValueReader {
     if (node.kind != Node::Kind::kString) return expected(node, given);
     given.value = node.text;
     if (std::find(field_.names.begin(), field_.names.end(), node.text) != field_.names.end()) return;
-    std::string allowed = quoted(field_.names);
-    if (field_.form == Form::kQuantity) allowed += " or " + example_for(field_);
-    complain(
-        node, given,
-        fmt::format("\"{}\" is not one of {}{}", node.text, allowed, did_you_mean(nearest(node.text, field_.names))));
+    const std::string allowed = field_.form == Form::kQuantity
+                                    ? fmt::format("neither {} nor {}", quoted(field_.names), example_for(field_))
+                                    : fmt::format("not one of {}", quoted(field_.names));
+    complain(node, given,
+             fmt::format("\"{}\" is {}{}", node.text, allowed, did_you_mean(nearest(node.text, field_.names))));
   }
 
   void read_size(const Node& node, Given& given) {

@@ -277,7 +277,7 @@ class SweepReader {
     if (!plan) return;
     point.plan = *plan;
     const Field& seed = field_at("time.seed");
-    if (static_cast<double>(plan->system.seed) + replicas_ - 1 > seed.high) {
+    if (static_cast<double>(plan->system.seed) > seed.high - (replicas_ - 1)) {
       const Given* given = draft.find("time.seed");
       return complain(given ? given->place : base.place(), "time.seed",
                       fmt::format("{} replicas lead past the largest seed, {:.16g}", replicas_, seed.high));

@@ -51,16 +51,24 @@ TEST(Document, SyntaxErrorsSayWhere) {
   EXPECT_EQ(error_of("{\"a\": 1,}"),
             "f:1:9: syntax error while parsing object key - unexpected '}'; expected string literal\n");
   EXPECT_EQ(error_of("{\n  \"a\": NaN}"), "f:2:8: syntax error: NaN is not a number\n");
-  EXPECT_EQ(error_of("{\"a\": -Infinity}").substr(0, 20), "f:1:7: syntax error:");
-  EXPECT_EQ(error_of("{} x").substr(0, 17), "f:1:4: syntax err");
-  EXPECT_EQ(error_of("{}\n{}").substr(0, 17), "f:2:1: syntax err");
-  EXPECT_EQ(error_of("").substr(0, 17), "f:1:1: syntax err");
-  EXPECT_EQ(error_of("{\"a\": \"b\n").substr(0, 17), "f:1:7: syntax err");
-  EXPECT_EQ(error_of("{\"a\": 01}").substr(0, 17), "f:1:8: syntax err");
-  EXPECT_EQ(error_of("{\"a\": 1e999}").substr(0, 17), "f:1:7: syntax err");
-  EXPECT_EQ(error_of("{\"a\": 1 /* }").substr(0, 12), "f:1:9: synta");
+  EXPECT_EQ(error_of("{\"a\": -Infinity}"), "f:1:7: syntax error: -Infinity is not a number\n");
+  EXPECT_EQ(error_of("{} x"), "f:1:4: syntax error while parsing value - invalid literal; expected end of input\n");
+  EXPECT_EQ(error_of("{}\n{}"), "f:2:1: syntax error while parsing value - unexpected '{'; expected end of input\n");
+  EXPECT_EQ(error_of(""),
+            "f:1:1: syntax error while parsing value - unexpected end of input; expected '[', '{', or a "
+            "literal\n");
+  EXPECT_EQ(
+      error_of("{\"a\": \"b\n"),
+      "f:1:9: syntax error while parsing value - invalid string: control character U+000A (LF) must be escaped to "
+      "\\u000A or \\n\n");
+  EXPECT_EQ(error_of("{\"a\": 01}"),
+            "f:1:7: syntax error while parsing object - unexpected number literal; expected '}'\n");
+  EXPECT_EQ(error_of("{\"a\": 1e999}"), "f:1:7: syntax error number overflow parsing '1e999'\n");
+  EXPECT_EQ(error_of("{\"a\": 1 /* }"),
+            "f:1:13: syntax error while parsing object - invalid comment; missing closing '*/'; expected '}'\n");
   EXPECT_EQ(error_of(std::string_view("{}\0 x", 5)), "f:1:3: syntax error: NUL character\n");
-  EXPECT_EQ(error_of("\"\xff\"").substr(0, 12), "f:1:1: synta");
+  EXPECT_EQ(error_of("[\"\xff\"]"),
+            "f:1:3: syntax error while parsing value - invalid string: ill-formed UTF-8 byte\n");
 }
 
 TEST(Document, DuplicateKeysAreProblemsAndTheFirstCounts) {

@@ -29,7 +29,7 @@ TEST(Shaking, AllThreeMustAgree) {
   plan_of(R"({"plates": {"gamma": 7, "amplitude": 0.04348578, "frequency": 200}})");
   EXPECT_EQ(problem_of(R"({"plates": {"gamma": 7, "amplitude": "43.49 um", "frequency": 200}})"),
             "run.json:1:22: /plates/gamma: plates.gamma 7 contradicts plates.amplitude 0.04349 mm at plates.frequency "
-            "200 Hz and gravity 9.81 m/s^2, which make 7.000678387; remove one");
+            "200 Hz and gravity 9.81 m/s^2, which make 7.000678416; remove one");
   EXPECT_EQ(problem_of(R"({"plates": {"gamma": 0, "amplitude": 0.1}})").substr(0, 64),
             "run.json:1:22: /plates/gamma: plates.gamma 0 contradicts plates.");
 }
@@ -37,7 +37,7 @@ TEST(Shaking, AllThreeMustAgree) {
 TEST(Shaking, WhatFollowsMustBePossible) {
   EXPECT_EQ(problem_of(R"({"plates": {"gamma": 200, "frequency": 0.5}})"),
             "run.json:1:22: /plates/gamma: plates.gamma 200 and plates.frequency 0.5 Hz make plates.amplitude "
-            "198793.876 mm, outside [0, 10] mm");
+            "198792.1623 mm, outside [0, 10] mm");
 }
 
 TEST(Packing, AnyTwoOfFractionCountAndSideGiveTheThird) {
@@ -59,14 +59,14 @@ TEST(Packing, AllThreeMustAgree) {
   const int count = plan_of(R"({"rods": {"area_fraction": 0.5}, "box": {"side": 40}})").system.n_rods;
   const std::string counted = "rods.count=" + std::to_string(count);
   plan_of(R"({"rods": {"area_fraction": 0.5}, "box": {"side": 40}})", {counted});
-  EXPECT_EQ(problem_of(R"({"rods": {"area_fraction": 0.5, "count": 300}, "box": {"side": 40}})").substr(0, 128),
+  EXPECT_EQ(problem_of(R"({"rods": {"area_fraction": 0.5, "count": 300}, "box": {"side": 40}})"),
             "run.json:1:28: /rods/area_fraction: rods.area_fraction 0.5 contradicts rods.count 300 in box.side 40 mm, "
-            "which make 0.467");
+            "which make 0.4673192449; remove one");
 }
 
 TEST(Packing, ImpossibleOnesAreRefused) {
   EXPECT_EQ(problem_of(R"({"rods": {"count": 2000}, "box": {"side": 40}})").substr(0, 58),
-            "run.json:1:19: /rods/count: 2000 rods in a box of 40 mm ar");
+            "run.json:1:20: /rods/count: 2000 rods in a box of 40 mm ar");
   EXPECT_NE(problem_of(R"({"rods": {"area_fraction": 0.6, "start": "random"}})").find("at random at most 0.45"),
             std::string::npos);
   EXPECT_EQ(problem_of(R"({"rods": {"area_fraction": 1e-5}, "box": {"side": 10}})"),
@@ -83,7 +83,7 @@ TEST(Beads, FollowThePitchOrAreGiven) {
   EXPECT_EQ(problem_of(R"({"rods": {"beads": 14}})"),
             "run.json:1:20: /rods/beads: 14 is even; a rod has a centre bead, so an odd number; did you mean 15?");
   EXPECT_EQ(problem_of(R"({"rods": {"beads": 5}})"),
-            "run.json:1:20: /rods/beads: 5 beads leave holes between them on a rod of 4.5 mm; take at least 9");
+            "run.json:1:20: /rods/beads: 5 beads leave holes between them on a rod of 4.5 mm; take at least 11");
   EXPECT_EQ(problem_of(R"({"rods": {"bead_pitch": 0.01}})"),
             "run.json:1:25: /rods/bead_pitch: beads every 0.01 mm make more than 101 on a rod of 4.5 mm");
 }
