@@ -4,7 +4,7 @@
 namespace shaken::run {
 
 std::map<std::string, EffectReport> report_effects(const scene::RunPlan& plan, const Session& session,
-                                                   std::int64_t n_live_frames) {
+                                                   std::optional<std::int64_t> n_live_frames) {
   const Scene& system = plan.system;
   const Counters& counters = session.simulation.world().counters;
   std::map<std::string, EffectReport> effects;
@@ -29,7 +29,7 @@ std::map<std::string, EffectReport> report_effects(const scene::RunPlan& plan, c
   }
   const double frames = session.trajectory ? static_cast<double>(session.trajectory->n_frames()) : 0.0;
   effects["trajectory"] = {session.trajectory.has_value(), {{"frames", frames}}};
-  effects["stream"] = {plan.stream.has_value(), {{"frames", static_cast<double>(n_live_frames)}}};
+  effects["stream"] = {n_live_frames.has_value(), {{"frames", static_cast<double>(n_live_frames.value_or(0))}}};
   effects["movie"] = {plan.movie.has_value(), {}};
   return effects;
 }

@@ -103,9 +103,7 @@ class Loop {
     progress_.sim_time = session_.simulation.time();
     progress_.sim_rate = rate_.rate();
     progress_.eta = state == "running" ? rate_.eta(progress_.sim_time_total) : 0.0;
-    progress_.order = session_.measurements.measures_order()
-                          ? session_.measurements.order_now()
-                          : analysis::nematic_order(session_.simulation.snapshot().director).order;
+    progress_.order = analysis::nematic_order(session_.simulation.snapshot().director).order;
     progress_.order_running_mean = session_.measurements.order_running_mean();
     progress_.max_overlap = session_.simulation.world().counters.max_overlap();
     if (auto error = write_progress(directory_.progress(), progress_)) spdlog::warn("{}", error->message);
@@ -167,7 +165,8 @@ class Loop {
       summary.defects_mean_plus = reduction.defects->n_plus;
       summary.defects_mean_minus = reduction.defects->n_minus;
     }
-    summary.effects = report_effects(plan_, session_, publisher_ ? publisher_->n_frames() : 0);
+    summary.effects =
+        report_effects(plan_, session_, publisher_ ? std::optional(publisher_->n_frames()) : std::nullopt);
     summary.state_hash = session_.simulation.state_hash();
     summary.started = started_;
     summary.finished = utc_now();

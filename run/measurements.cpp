@@ -75,10 +75,6 @@ void Measurements::sample(const Snapshot& snapshot) {
   }
 }
 
-double Measurements::order_now() const {
-  return order_ && !order_->accumulator.orders().empty() ? order_->accumulator.orders().back() : 0.0;
-}
-
 double Measurements::order_running_mean() const { return order_ ? order_->accumulator.running_mean() : 0.0; }
 
 Reduction Measurements::reduce(double sim_seconds) const {

@@ -43,10 +43,8 @@ class Measurements {
   /// Takes the samples that are due at the snapshot's tick.
   void sample(const Snapshot& snapshot);
 
-  /// Of the last sample; 0 without.
-  double order_now() const;
+  /// Mean of S over the second half of the run so far; 0 where it is not measured.
   double order_running_mean() const;
-  bool measures_order() const { return order_.has_value(); }
   /// Tick and defects of the last sample of defects.
   struct DefectSample {
     Tick tick = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -30,27 +31,29 @@ class Pacer {
 /// Simulated seconds per wall second, averaged over the last few seconds.
 class RateMeter {
  public:
-  RateMeter(double sim_time, WallClock::time_point now) : sim_time_(sim_time), now_(now) {}
+  RateMeter(double sim_time, WallClock::time_point now) : begin_(now), sim_time_(sim_time), now_(now) {}
 
+  /// Takes the state of things; calls that follow each other too fast to tell a rate are left out.
   void update(double sim_time, WallClock::time_point now) {
+    constexpr double kShortest = 0.05;  // [s]
+    constexpr double kMemory = 5.0;     // [s]
     const double elapsed = WallSeconds(now - now_).count();
-    if (elapsed <= 0) return;
-    const double rate = (sim_time - sim_time_) / elapsed;
-    constexpr double kMemory = 5.0;  // [s]
-    rate_ = known_ ? rate_ + (1 - std::exp(-elapsed / kMemory)) * (rate - rate_) : rate;
-    known_ = true;
+    if (elapsed < kShortest) return;
+    // At first a plain average since the beginning, later one that forgets.
+    const double weight = std::max(1 - std::exp(-elapsed / kMemory), elapsed / WallSeconds(now - begin_).count());
+    rate_ += weight * ((sim_time - sim_time_) / elapsed - rate_);
     sim_time_ = sim_time;
     now_ = now;
   }
-  double rate() const { return rate_; }
-  /// Wall seconds until `sim_time_total`; negative where unknown.
+  double rate() const { return rate_; }  ///< 0 until it is known
+  /// Wall seconds from the last update to `sim_time_total`; negative where unknown.
   double eta(double sim_time_total) const { return rate_ > 0 ? (sim_time_total - sim_time_) / rate_ : -1.0; }
 
  private:
+  WallClock::time_point begin_;
   double sim_time_;
   WallClock::time_point now_;
   double rate_ = 0;
-  bool known_ = false;
 };
 
 }  // namespace shaken::run
