@@ -6,7 +6,7 @@
 namespace shaken::client {
 namespace {
 
-/// CLI11 groups options under headings in the help; file, folder and ID are told apart by the value's name instead.
+/// A meaning is stored as the name of the value's type, which CLI11 keeps for every option.
 const char* value_name_of(Names names) {
   switch (names) {
     case Names::kFile:
@@ -21,6 +21,9 @@ const char* value_name_of(Names names) {
   return "";
 }
 
+/// The help shows a positional by its own name; the type beside it would repeat it.
+constexpr const char* kNothing = " ";
+
 }  // namespace
 
 Names meaning(const CLI::Option& option) {
@@ -31,16 +34,16 @@ Names meaning(const CLI::Option& option) {
 }
 
 void Arguments::required(const std::string& name, std::string& value, const std::string& help, Names names) {
-  app_.add_option(name, value, help)->required()->type_name(value_name_of(names));
+  app_.add_option(name, value, help)->required()->type_name(value_name_of(names))->option_text(kNothing);
 }
 
 void Arguments::optional(const std::string& name, std::string& value, const std::string& help, Names names) {
-  app_.add_option(name, value, help)->type_name(value_name_of(names));
+  app_.add_option(name, value, help)->type_name(value_name_of(names))->option_text(kNothing);
 }
 
 void Arguments::list(const std::string& name, std::vector<std::string>& values, const std::string& help, Names names,
                      int minimum) {
-  auto* option = app_.add_option(name, values, help)->type_name(value_name_of(names));
+  auto* option = app_.add_option(name, values, help)->type_name(value_name_of(names))->option_text(kNothing);
   if (minimum > 0) option->required();
 }
 

@@ -15,7 +15,7 @@ struct ChartFrame {
   double x_max = 1;
   double y_min = 0;
   double y_max = 1;
-  std::string x_unit;  ///< written behind the last number of the x axis
+  std::string x_unit{};  ///< written behind the last number of the x axis
 };
 
 /// A line through the points (x, y) in order, in braille dots (2 x 4 per character), with a y axis at the left and an

@@ -27,10 +27,11 @@ Finding check_sibling(const std::string& name, Level if_missing, const std::stri
   const ChildResult result = run_captured({program.string(), "--version"});
   const std::string version = first_line(result.output);
   if (result.exit_code != 0) {
-    return {
-        if_missing, name,
-        fmt::format("{}: exit code {}{}{}", program.string(), result.exit_code, version.empty() ? "" : ", ", version),
-        fmt::format("build or install it beside `shaken`; it is needed {}", needed_for)};
+    const bool is_there = fs::exists(program);
+    return {if_missing, name,
+            is_there ? fmt::format("{} does not work (exit code {}): {}", program.string(), result.exit_code, version)
+                     : fmt::format("not found beside this program, in {}", program.parent_path().string()),
+            fmt::format("build or install it; it is needed {}", needed_for)};
   }
   if (version.find(run::version()) == std::string::npos) {
     return {Level::kWarn, name, fmt::format("{}, but this client is {}", version, run::version()),

@@ -35,6 +35,12 @@ std::vector<std::string> option_names(const CLI::App& app) {
   return names;
 }
 
+/// CLI11 ends the help of the program with a newline, that of a verb without.
+std::string with_one_newline(std::string text) {
+  text.erase(text.find_last_not_of('\n') + 1);
+  return text + "\n";
+}
+
 }  // namespace
 
 CommandLine::CommandLine()
@@ -48,6 +54,7 @@ CommandLine::CommandLine()
   app_->set_version_flag("--version", std::string("shaken ") + run::version());
   app_->add_option("--root", root_, "The daemon's root directory")->type_name("DIR");
   app_->footer(kFooter);
+  app_->get_formatter()->label("SUBCOMMAND", "VERB");
   for (const auto& verb : verbs_) {
     const VerbInfo info = verb->info();
     CLI::App* app = app_->add_subcommand(info.name, info.summary)->group(info.group);
@@ -64,6 +71,9 @@ Verb* CommandLine::parse(std::vector<std::string> arguments, Console& console) {
   std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants a vector
   try {
     app_->parse(arguments);
+  } catch (const CLI::CallForHelp&) {
+    console.out << with_one_newline(app_->help());
+    return nullptr;
   } catch (const CLI::Success& asked) {
     app_->exit(asked, console.out, console.err);
     return nullptr;
@@ -77,7 +87,7 @@ Verb* CommandLine::parse(std::vector<std::string> arguments, Console& console) {
   const std::vector<std::string> left_over = app_->remaining(true);
   if (used.empty()) {
     if (left_over.empty()) {
-      console.out << app_->help();
+      console.err << with_one_newline(app_->help()) << '\n';
       throw Failure(ExitCode::kBadInput, "a verb is missing");
     }
     const std::string& word = left_over.front();
@@ -90,12 +100,14 @@ Verb* CommandLine::parse(std::vector<std::string> arguments, Console& console) {
   const std::string name = used.front()->get_name();
   if (!left_over.empty()) {
     const std::string& word = left_over.front();
-    throw Failure(
-        ExitCode::kBadInput,
-        fmt::format(
-            "{} does not understand '{}'{} (see `shaken {} --help`)", name, word,
-            word.starts_with("--") ? scene::did_you_mean(scene::nearest(word, option_names(*used.front()))) : "",
-            name));
+    std::string hint;
+    if (word.starts_with("--")) {
+      std::vector<std::string> names = option_names(*used.front());
+      for (std::string& of_program : option_names(*app_)) names.push_back(std::move(of_program));
+      hint = scene::did_you_mean(scene::nearest(word, names));
+    }
+    throw Failure(ExitCode::kBadInput,
+                  fmt::format("{} does not understand '{}'{} (see `shaken {} --help`)", name, word, hint, name));
   }
   const auto verb = std::find_if(verbs_.begin(), verbs_.end(), [&](const auto& v) { return v->info().name == name; });
   return verb->get();

@@ -85,7 +85,7 @@ set terminal pngcairo size 1400,950 enhanced font 'DejaVu Sans,20' linewidth 2 b
 set output '{0}.png'
 set border 3 linecolor '#333333'
 set tics nomirror out textcolor '#333333'
-set grid linecolor '#dddddd' linewidth 0.5
+set grid linetype 1 linecolor '#e2e2e2' linewidth 0.5
 set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'
 )",
                                    figure.name);
@@ -100,10 +100,12 @@ set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'
   script += fmt::format("set xlabel {}\nset ylabel {}\n", quoted(figure.x_title), quoted(figure.y_title));
   for (const std::string& command : figure.commands) script += command + "\n";
 
+  std::size_t n_colours = 0;
+  for (const Curve& curve : figure.curves) n_colours = std::max(n_colours, curve.colour + 1);
   std::vector<std::string> plots;
   for (std::size_t i = 0; i < figure.curves.size(); ++i) {
     const Curve& curve = figure.curves[i];
-    const std::string colour = curve_colour(i, figure.curves.size());
+    const std::string colour = curve_colour(curve.colour, n_colours);
     const std::string data = fmt::format("'{}.dat' index {}", figure.name, i);
     const std::string title = curve.label.empty() ? "notitle" : "title " + quoted(curve.label);
     const bool lines = figure.style != Figure::Style::kPoints;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -9,7 +10,8 @@ namespace shaken::client {
 
 /// Points of one curve. `y_error` is empty, or as long as x and y.
 struct Curve {
-  std::string label{};  ///< in the key; empty for none
+  std::string label{};     ///< in the key; empty for none
+  std::size_t colour = 0;  ///< curves of one point share a colour
   std::vector<double> x{};
   std::vector<double> y{};
   std::vector<double> y_error{};

@@ -8,15 +8,18 @@
 #include <map>
 #include <set>
 
+#include "client/print.h"
 #include "scene/fields.h"
 
 namespace shaken::client {
 namespace {
 
-/// The arrays "x" and "y" (and "y_error") of every run that has them, as curves.
+/// The arrays "x" and "y" (and "y_error") of every run that has them, as curves in the colour of their point. The first
+/// of a point bears its label.
 std::vector<Curve> curves_of(const std::vector<PlottedRun>& runs, const std::string& x, const std::string& y,
                              const std::string& y_error = "") {
   std::vector<Curve> curves;
+  std::vector<std::string> points;
   for (const PlottedRun& run : runs) {
     const auto xs = run.observables.find(x);
     const auto ys = run.observables.find(y);
@@ -24,7 +27,12 @@ std::vector<Curve> curves_of(const std::vector<PlottedRun>& runs, const std::str
     // A file that is still being written may have one array longer than the other.
     const std::size_t n = std::min(xs->second.size(), ys->second.size());
     if (n == 0) continue;
-    Curve curve{.label = runs.size() > 1 ? run.label : "", .x = xs->second, .y = ys->second};
+    const auto point = std::find(points.begin(), points.end(), run.point);
+    Curve curve{.colour = static_cast<std::size_t>(point - points.begin()), .x = xs->second, .y = ys->second};
+    if (point == points.end()) {
+      points.push_back(run.point);
+      curve.label = run.point;
+    }
     curve.x.resize(n);
     curve.y.resize(n);
     if (const auto errors = run.observables.find(y_error); errors != run.observables.end()) {
@@ -34,6 +42,67 @@ std::vector<Curve> curves_of(const std::vector<PlottedRun>& runs, const std::str
     curves.push_back(std::move(curve));
   }
   return curves;
+}
+
+/// The mean of curves over the same x; its errors are those between the curves.
+Curve mean_curve(const std::vector<Curve>& replicas) {
+  if (replicas.size() == 1) return replicas.front();
+  Curve mean = replicas.front();
+  mean.y_error.assign(mean.x.size(), 0.0);
+  for (std::size_t k = 0; k < mean.x.size(); ++k) {
+    std::vector<double> values;
+    for (const Curve& replica : replicas) {
+      if (std::isfinite(replica.y[k])) values.push_back(replica.y[k]);
+    }
+    if (values.empty()) continue;
+    const MeanAndError result = mean_and_error(values);
+    mean.y[k] = result.mean;
+    mean.y_error[k] = result.sem.value_or(0.0);
+  }
+  return mean;
+}
+
+/// One curve per point where its replicas have the same x; the others as they are.
+std::vector<Curve> averaged(const std::vector<Curve>& curves) {
+  std::vector<Curve> means;
+  for (auto begin = curves.begin(); begin != curves.end();) {
+    // Replicas of a point follow each other in a sweep.
+    const auto end = std::find_if(
+        begin, curves.end(), [&](const Curve& curve) { return curve.colour != begin->colour || curve.x != begin->x; });
+    means.push_back(mean_curve({begin, end}));
+    begin = end;
+  }
+  return means;
+}
+
+/// As averaged, without bars: they would hide curves of many bins.
+std::vector<Curve> averaged_lines(const std::vector<Curve>& curves) {
+  std::vector<Curve> means = averaged(curves);
+  for (Curve& curve : means) curve.y_error.clear();
+  return means;
+}
+
+/// How a parameter is called in print.
+struct Symbol {
+  const char* name;
+  const char* symbol;
+  const char* unit;
+};
+const std::map<std::string, Symbol>& symbols() {
+  static const std::map<std::string, Symbol> kSymbols{
+      {"rods.length", {"rod length", "ℓ", "mm"}},
+      {"rods.mid_diameter", {"middle diameter", "d", "mm"}},
+      {"rods.end_diameter", {"end diameter", "d′", "mm"}},
+      {"rods.area_fraction", {"area fraction", "φ", ""}},
+      {"rods.count", {"number of rods", "N", ""}},
+      {"box.side", {"side of the box", "L", "mm"}},
+      {"box.gap", {"gap between the plates", "w", "mm"}},
+      {"plates.gamma", {"shaking strength", "Γ", ""}},
+      {"plates.amplitude", {"amplitude of the plates", "a", "mm"}},
+      {"plates.frequency", {"frequency of the plates", "f", "Hz"}},
+      {"time.step", {"time step", "Δt", "s"}},
+  };
+  return kSymbols;
 }
 
 Figure order_figure(const std::vector<PlottedRun>& runs) {
@@ -52,7 +121,7 @@ Figure angles_figure(const std::vector<PlottedRun>& runs) {
           .style = Figure::Style::kLines,
           .commands = {"set xrange [-pi/2:pi/2]", "set yrange [0:*]",
                        "set xtics ('−π/2' -pi/2, '−π/4' -pi/4, '0' 0, 'π/4' pi/4, 'π/2' pi/2)"},
-          .curves = curves_of(runs, "/angles/theta_rad", "/angles/density_per_rad")};
+          .curves = averaged_lines(curves_of(runs, "/angles/theta_rad", "/angles/density_per_rad"))};
 }
 
 Figure tilt_figure(const std::vector<PlottedRun>& runs) {
@@ -61,7 +130,7 @@ Figure tilt_figure(const std::vector<PlottedRun>& runs) {
           .y_title = "mean velocity along the rod ⟨v_{||}⟩ (mm/s)",
           .style = Figure::Style::kLinesPoints,
           .commands = {"set xzeroaxis linecolor '#999999'", "set yzeroaxis linecolor '#999999'"},
-          .curves = curves_of(runs, "/tilt/n_z", "/tilt/v_along_mm_s", "/tilt/v_along_sem_mm_s")};
+          .curves = averaged(curves_of(runs, "/tilt/n_z", "/tilt/v_along_mm_s", "/tilt/v_along_sem_mm_s"))};
 }
 
 Figure defects_figure(const std::vector<PlottedRun>& runs) {
@@ -85,7 +154,7 @@ Figure g2_figure(const std::vector<PlottedRun>& runs) {
           .y_title = "G_2(r) = ⟨cos 2({/Symbol q}_i − {/Symbol q}_j)⟩",
           .style = Figure::Style::kLines,
           .commands = {"set xrange [0:*]", "set xzeroaxis linecolor '#999999'"},
-          .curves = curves_of(runs, "/g2/r_mm", "/g2/g2")};
+          .curves = averaged_lines(curves_of(runs, "/g2/r_mm", "/g2/g2"))};
 }
 
 Figure msd_figure(const std::vector<PlottedRun>& runs) {
@@ -94,7 +163,7 @@ Figure msd_figure(const std::vector<PlottedRun>& runs) {
                 .y_title = "mean square displacement (mm^2)",
                 .style = Figure::Style::kLines,
                 .commands = {"set logscale xy", "set format xy '10^{%T}'"},
-                .curves = curves_of(runs, "/msd/lag_s", "/msd/total_mm2")};
+                .curves = averaged_lines(curves_of(runs, "/msd/lag_s", "/msd/total_mm2"))};
   // Logarithms: zero lag has no place.
   for (Curve& curve : figure.curves) {
     for (std::size_t k = 0; k < curve.x.size(); ++k) {
@@ -106,21 +175,24 @@ Figure msd_figure(const std::vector<PlottedRun>& runs) {
 
 }  // namespace
 
+std::string point_label(const Json& parameters) {
+  std::string label;
+  for (const auto& [path, value] : parameters.items()) {
+    const auto symbol = symbols().find(path);
+    const std::string number = value.is_number() ? number_text(value.get<double>())
+                                                 : (value.is_string() ? value.get<std::string>() : value.dump());
+    if (!label.empty()) label += ", ";
+    label += fmt::format("{} = {}", symbol == symbols().end() ? path : symbol->second.symbol, number);
+    if (symbol != symbols().end() && *symbol->second.unit != '\0') label += fmt::format(" {}", symbol->second.unit);
+  }
+  return label;
+}
+
 std::string axis_title(const std::string& path) {
-  static const std::map<std::string, std::string> kTitles{
-      {"rods.length", "rod length ℓ (mm)"},
-      {"rods.mid_diameter", "middle diameter (mm)"},
-      {"rods.end_diameter", "end diameter (mm)"},
-      {"rods.area_fraction", "area fraction φ"},
-      {"rods.count", "number of rods N"},
-      {"box.side", "side of the box L (mm)"},
-      {"box.gap", "gap between the plates w (mm)"},
-      {"plates.gamma", "shaking strength Γ"},
-      {"plates.amplitude", "amplitude of the plates (mm)"},
-      {"plates.frequency", "frequency of the plates (Hz)"},
-      {"time.step", "time step (s)"},
-  };
-  if (const auto title = kTitles.find(path); title != kTitles.end()) return title->second;
+  if (const auto found = symbols().find(path); found != symbols().end()) {
+    const auto& [name, symbol, unit] = found->second;
+    return *unit == '\0' ? fmt::format("{} {}", name, symbol) : fmt::format("{} {} ({})", name, symbol, unit);
+  }
   // Paths hold underscores, which enhanced text would take for subscripts.
   std::string escaped;
   for (const char c : path) escaped += c == '_' ? std::string("\\_") : std::string(1, c);
@@ -165,10 +237,9 @@ std::vector<Figure> sweep_figures(const std::vector<ResultRow>& points) {
   for (const ResultRow& point : points) {
     const Point p{point.number(x_path), point.number("order.mean"), point.number("order.mean:sem")};
     if (std::isnan(p.x) || std::isnan(p.y)) continue;
-    std::string label;
-    for (const std::string& path : others) {
-      label += (label.empty() ? "" : ", ") + path + " = " + field_text(point, path);
-    }
+    Json named = Json::object();
+    for (const std::string& path : others) named[path] = point.parameters.value(path, Json());
+    const std::string label = point_label(named);
     auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& g) { return g.first == label; });
     if (group == groups.end()) group = groups.insert(groups.end(), {label, {}});
     group->second.push_back(p);
@@ -186,7 +257,7 @@ std::vector<Figure> sweep_figures(const std::vector<ResultRow>& points) {
                              "dashtype 2 back"}};
   for (auto& [label, group] : groups) {
     std::sort(group.begin(), group.end(), [](const Point& a, const Point& b) { return a.x < b.x; });
-    Curve curve{.label = label};
+    Curve curve{.label = label, .colour = figure.curves.size()};
     for (const Point& point : group) {
       curve.x.push_back(point.x);
       curve.y.push_back(point.y);

@@ -49,6 +49,7 @@ void LiveJobs::note_api(const Json& answer) {
   job.label = text_of(answer, "label");
   job.state = answer.at("state").get<std::string>();
   job.reason = text_of(answer, "reason");
+  if (job.state == "done") job.sim_time = job.sim_time_total;
   const double time = progress_number(answer, "sim_time_s");
   if (std::isnan(time)) return;
   // The file is up to half a second older than a message.

@@ -89,11 +89,15 @@ std::vector<std::string> watch_screen(const LiveJobs& jobs, const std::string& t
 }
 
 std::string watch_line(const LiveJob& job) {
-  std::string line = fmt::format("{} {} {:5.1f} %  t {:.3f}/{:.3f} s", short_id(job.id), job.state,
-                                 100 * job.fraction(), job.sim_time, job.sim_time_total);
-  if (job.order) line += fmt::format("  S {:.3f} (mean {:.3f})", *job.order, job.order_mean);
-  line +=
-      fmt::format("  {:.3g} sim-s/s  ETA {}  overlap {:.2g} mm", job.sim_rate, duration_text(job.eta), job.max_overlap);
+  std::string line = fmt::format("{} {}", short_id(job.id), job.state);
+  if (job.sim_time_total > 0) {
+    line += fmt::format(" {:5.1f} %  t {:.3f}/{:.3f} s", 100 * job.fraction(), job.sim_time, job.sim_time_total);
+  }
+  if (job.order) line += fmt::format("  S {:.3f}", *job.order);
+  if (job.is_running()) {
+    line += fmt::format(" (mean {:.3f})  {:.3g} sim-s/s  ETA {}", job.order_mean, job.sim_rate, duration_text(job.eta));
+  }
+  if (job.order) line += fmt::format("  overlap {:.2g} mm", job.max_overlap);
   if (job.observables) {
     line += fmt::format("  hits {}/{}/{}", job.observables->collisions_rod_rod, job.observables->collisions_rod_base,
                         job.observables->collisions_rod_lid);

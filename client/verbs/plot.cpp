@@ -42,7 +42,7 @@ class Plot : public Verb {
       if (out_.empty()) out_ = "plots-" + short_id(named.at("id").get<std::string>());
       for (const Json& job : jobs_of(target)) {
         if (text_of(job, "state") == "queued") continue;
-        add_run(job.at("directory").get<std::string>(), label_of(job), runs, console);
+        add_run(job.at("directory").get<std::string>(), point_label(job.at("parameters")), runs, console);
       }
       figures = sweep_figures(aggregated(result_rows(session, target)));
     }
@@ -53,17 +53,12 @@ class Plot : public Verb {
   }
 
  private:
-  static std::string label_of(const Json& job) {
-    const std::string label = text_of(job, "label");
-    return label.empty() ? short_id(job.at("id").get<std::string>()) : label;
-  }
-
   /// A run without readable observables is named and left out; the others are plotted.
-  static void add_run(const fs::path& directory, const std::string& label, std::vector<PlottedRun>& runs,
+  static void add_run(const fs::path& directory, const std::string& point, std::vector<PlottedRun>& runs,
                       Console& console) {
     auto observables = run::read_observables(run::RunDirectory{directory}.observables());
     if (observables) {
-      runs.push_back({label, *std::move(observables)});
+      runs.push_back({point, *std::move(observables)});
     } else {
       console.err << fmt::format("left out: {}\n", observables.error().message);
     }

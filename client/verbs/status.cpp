@@ -23,6 +23,24 @@ std::string eta_text(double seconds) {
   return seconds >= 0 ? fmt::format("{} ({})", duration_text(seconds), clock_text(seconds, now_utime())) : "";
 }
 
+std::string sweep_eta_text(const Json& sweep) {
+  const Json& counts = sweep.at("counts");
+  const int unfinished = counts.value("queued", 0) + counts.value("running", 0) + counts.value("stopping", 0);
+  return unfinished > 0 ? eta_text(sweep.value("eta_s", -1.0)) : "";
+}
+
+/// How long the job will take still, or how long its last attempt took.
+std::string time_text(const Json& job) {
+  const auto started = job.value("started_utime", std::int64_t{0});
+  const auto finished = job.value("finished_utime", std::int64_t{0});
+  if (is_final(text_of(job, "state"))) {
+    return started > 0 && finished >= started ? "took " + duration_text(1e-6 * static_cast<double>(finished - started))
+                                              : "";
+  }
+  const std::string eta = eta_text(job_eta(job));
+  return eta.empty() ? "" : "ETA " + eta;
+}
+
 class Status : public Verb {
  public:
   VerbInfo info() const override {
@@ -82,7 +100,7 @@ class Status : public Verb {
           {sweep.at("id").get<std::string>(), text_of(sweep, "name"), std::to_string(sweep.value("n_jobs", 0)),
            fmt::format("{} {:3.0f} %", console.painted(Colour::kBlue, bar_text(progress, 12)), 100 * progress),
            console.painted(failed > 0 ? Colour::kRed : Colour::kPlain, counts_text(sweep.at("counts"))),
-           eta_text(sweep.value("eta_s", -1.0))});
+           sweep_eta_text(sweep)});
     }
     console.out << table.text(console.width);
     return ExitCode::kOk;
@@ -93,14 +111,14 @@ class Status : public Verb {
     const double progress = sweep.value("progress", 0.0);
     console.out << fmt::format("{}: {}\n{} {:3.0f} %  {}\n", console.painted(Colour::kBold, target.title()),
                                counts_text(sweep.at("counts")), console.painted(Colour::kBlue, bar_text(progress, 24)),
-                               100 * progress, eta_text(sweep.value("eta_s", -1.0)));
-    Table table({{"JOB"}, {"STATE"}, {"DONE", Align::kRight}, {"S", Align::kRight}, {"ETA"}, {"POINT"}});
+                               100 * progress, sweep_eta_text(sweep));
+    Table table({{"JOB"}, {"STATE"}, {"DONE", Align::kRight}, {"S", Align::kRight}, {"TIME"}, {"POINT"}});
     for (const Json& job : jobs_of(target)) {
       const std::string state = text_of(job, "state");
       const std::string reason = text_of(job, "reason");
       table.add_row({short_id(job.at("id").get<std::string>()), console.painted(colour_of(state), state),
                      fmt::format("{:.0f} %", 100 * job_fraction(job)),
-                     number_text(progress_number(job, "order_running_mean")), eta_text(job_eta(job)),
+                     number_text(progress_number(job, "order_running_mean")), time_text(job),
                      text_of(job, "label") + (reason.empty() ? "" : "  " + console.painted(Colour::kDim, reason))});
     }
     console.out << table.text(console.width);
@@ -128,7 +146,7 @@ class Status : public Verb {
                                   number_text(progress_number(job, "order_running_mean"))));
       line("overlap", number_text(progress_number(job, "max_overlap_mm")) + " mm at most");
     }
-    line("ETA", eta_text(job_eta(job)));
+    line("time", time_text(job));
   }
 
   ExitCode show_failed(Session& session, Console& console) const {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "client/print.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -6,7 +8,6 @@
 #include <sstream>
 
 #include "client/console.h"
-#include "client/print.h"
 
 namespace shaken::client {
 namespace {
@@ -87,7 +88,7 @@ TEST(TableText, NarrowTerminalShortensTheWidestColumn) {
   Table table({{"ID"}, {"POINT"}});
   table.add_row({"1f0c", "rods.length=2.5 rods.area_fraction=0.6"});
   const std::string text = table.text(20);
-  EXPECT_EQ(text, "ID    POINT\n1f0c  rods.length=…\n");
+  EXPECT_EQ(text, "ID    POINT\n1f0c  rods.length=2…\n");
   // No column becomes narrower than 4, whatever the terminal.
   EXPECT_EQ(table.text(1), "ID    POI…\n1f0c  rod…\n");
 }

@@ -30,15 +30,14 @@ TEST(LineChart, ConstantAtTheBottomIsARowOfLowestDots) {
   EXPECT_EQ(chart[2], "      0  1 s");
 }
 
-TEST(LineChart, DiagonalAcrossTwoCellsByTwo) {
-  // 8 columns of dots by 8 lines of dots: the exact diagonal.
+TEST(LineChart, DiagonalIsTheNearestDotInEachColumn) {
   const std::vector<double> x{0, 1};
   const std::vector<double> y{0, 1};
   const auto chart = line_chart(x, y, {.width = 12, .height = 4});
   ASSERT_EQ(chart.size(), 4u);
-  // 12 x 8 dots; Bresenham's line in them, written out by hand.
+  // 12 x 8 dots. Column c has its dot 7 c / 11 above the lowest line, rounded: 0 1 1 2 3 3 | 4 4 5 6 6 7.
   EXPECT_EQ(dots(chart[0]), "   ⣀⠔⠊");
-  EXPECT_EQ(dots(chart[1]), "⣀⠔⠊   ");
+  EXPECT_EQ(dots(chart[1]), "⡠⠔⠉   ");
 }
 
 TEST(LineChart, ValueOutsideIsDrawnAtTheEdgeAndNanInterrupts) {

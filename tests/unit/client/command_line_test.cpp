@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "client/process.h"
+#include "client/verb.h"
+#include "tests/unit/client/fake_daemon.h"
+#include "tests/unit/client/run_client.h"
+
+namespace shaken::client {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(Help, OfEveryVerbEndsWithExamplesOfThatVerb) {
+  const auto verbs = make_verbs();
+  ASSERT_GE(verbs.size(), 14u);
+  const Outcome all = run_client({"--help"});
+  EXPECT_EQ(all.code, ExitCode::kOk);
+  for (const auto& verb : verbs) {
+    const std::string name = verb->info().name;
+    EXPECT_THAT(all.out, HasSubstr("  " + name + " "));
+    const Outcome help = run_client({name, "--help"});
+    EXPECT_EQ(help.code, ExitCode::kOk) << name;
+    EXPECT_EQ(help.err, "") << name;
+    const auto examples = help.out.find("\nExamples:\n");
+    ASSERT_NE(examples, std::string::npos) << name;
+    EXPECT_NE(help.out.find("shaken " + name, examples), std::string::npos) << name;
+    EXPECT_EQ(help.out.back(), '\n') << name;
+  }
+}
+
+TEST(Help, ListsTheExitCodes) {
+  EXPECT_THAT(run_client({"--help"}).out, HasSubstr("0 done   1 failed   2 bad input   3 no daemon"));
+}
+
+TEST(Version, IsPrinted) {
+  const Outcome outcome = run_client({"--version"});
+  EXPECT_EQ(outcome.code, ExitCode::kOk);
+  EXPECT_THAT(outcome.out, ::testing::MatchesRegex("shaken [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+}
+
+TEST(BadArguments, UnknownVerbSuggestsTheNearest) {
+  const Outcome outcome = run_client({"stauts"});
+  EXPECT_EQ(outcome.code, ExitCode::kBadInput);
+  EXPECT_THAT(outcome.err, HasSubstr("'stauts'; did you mean status?"));
+  EXPECT_THAT(run_client({"xyzzyx"}).err, Not(HasSubstr("did you mean")));
+}
+
+TEST(BadArguments, UnknownOptionSuggestsTheNearest) {
+  const Outcome outcome = run_client({"results", "--agregate"});
+  EXPECT_EQ(outcome.code, ExitCode::kBadInput);
+  EXPECT_THAT(outcome.err, HasSubstr("did you mean --aggregate?"));
+  EXPECT_THAT(run_client({"--rot", "x", "status"}).err, HasSubstr("did you mean --root?"));
+}
+
+TEST(BadArguments, AreAllExitCodeTwo) {
+  for (const auto& arguments : std::vector<std::vector<std::string>>{{},
+                                                                     {"validate"},
+                                                                     {"cancel"},
+                                                                     {"wait", "--timeout", "soon"},
+                                                                     {"validate", "no/such/file.json"},
+                                                                     {"run", "scene.json"},
+                                                                     {"movie", "x", "--frame", "-3"},
+                                                                     {"movie", "x", "--frame", "1", "--live"},
+                                                                     {"results", "--csv", "--json"},
+                                                                     {"results", "--where", "order"},
+                                                                     {"completion", "fish"},
+                                                                     {"status", "a", "b"}}) {
+    const Outcome outcome = run_client(arguments);
+    EXPECT_EQ(outcome.code, ExitCode::kBadInput) << ::testing::PrintToString(arguments);
+    EXPECT_THAT(outcome.err, HasSubstr("shaken: ")) << ::testing::PrintToString(arguments);
+  }
+}
+
+TEST(NoDaemon, IsExitCodeThreeAndSaysHowToStartOne) {
+  const TemporaryFolder root;
+  for (const char* verb : {"status", "watch", "wait", "results", "plot"}) {
+    const Outcome outcome = run_client({"--root", root.path().string(), verb});
+    EXPECT_EQ(outcome.code, ExitCode::kNoDaemon) << verb;
+    EXPECT_THAT(outcome.err, HasSubstr("shakend --root " + root.path().string())) << verb;
+    EXPECT_EQ(outcome.out, "") << verb;
+  }
+}
+
+TEST(NoDaemon, RootMayStandBehindTheVerbAndInTheEnvironment) {
+  const TemporaryFolder root;
+  EXPECT_THAT(run_client({"status", "--root", root.path().string()}).err, HasSubstr(root.path().string()));
+  setenv("SHAKEN_ROOT", root.path().c_str(), 1);
+  EXPECT_THAT(run_client({"status"}).err, HasSubstr(root.path().string()));
+  unsetenv("SHAKEN_ROOT");
+}
+
+TEST(NoDaemon, TooLongARootIsRefusedRatherThanCut) {
+  const Outcome outcome = run_client({"status", "--root", "/tmp/" + std::string(120, 'x')});
+  EXPECT_EQ(outcome.code, ExitCode::kBadInput);
+  EXPECT_THAT(outcome.err, HasSubstr("too long"));
+}
+
+TEST(Validate, ListsEveryProblemAtOnce) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "bad.json").string();
+  std::ofstream(file) << R"({"rods": {"lenght": 4.5}, "box": {"gap": -1}})";
+  const Outcome outcome = run_client({"validate", file});
+  EXPECT_EQ(outcome.code, ExitCode::kBadInput);
+  EXPECT_THAT(outcome.err, HasSubstr("2 problems"));
+  EXPECT_THAT(outcome.err, HasSubstr("lenght"));
+  EXPECT_THAT(outcome.err, HasSubstr("gap"));
+
+  const Outcome json = run_client({"validate", file, "--json"});
+  EXPECT_EQ(json.code, ExitCode::kBadInput);
+  EXPECT_THAT(json.out, HasSubstr("\"ok\": false"));
+  EXPECT_THAT(json.out, HasSubstr("\"line\": 1"));
+}
+
+TEST(Validate, StarterSceneIsFineAndItsNumbersFollow) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "scene.json").string();
+  ASSERT_EQ(run_client({"init", file}).code, ExitCode::kOk);
+  const Outcome summary = run_client({"validate", file});
+  EXPECT_EQ(summary.code, ExitCode::kOk) << summary.err;
+  EXPECT_THAT(summary.out, HasSubstr("is fine: one run"));
+  // 2 s in ticks of 4 us.
+  EXPECT_THAT(summary.out, HasSubstr("500000"));
+  EXPECT_THAT(run_client({"validate", file, "--resolved"}).out, HasSubstr("\"amplitude\""));
+  EXPECT_THAT(run_client({"validate", file, "-s", "rods.length=2.5,3.5", "--replicas", "2"}).out, HasSubstr("4 runs"));
+}
+
+TEST(Init, DoesNotReplaceAFile) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "scene.json").string();
+  std::ofstream(file) << "mine";
+  const Outcome outcome = run_client({"init", file});
+  EXPECT_EQ(outcome.code, ExitCode::kBadInput);
+  EXPECT_THAT(outcome.err, HasSubstr("--force"));
+  EXPECT_EQ(run_client({"init", file, "--force"}).code, ExitCode::kOk);
+}
+
+TEST(Completion, BashScriptCompletesVerbsAndOptions) {
+  const TemporaryFolder folder;
+  const std::string script = (folder.path() / "shaken.bash").string();
+  std::ofstream(script) << run_client({"completion", "bash"}).out;
+  const auto completed = [&](const std::string& words, int index) {
+    return run_captured({"bash", "-c",
+                         "set -eu; complete() { :; }; source '" + script + "'; COMP_WORDS=(" + words +
+                             "); COMP_CWORD=" + std::to_string(index) + "; _shaken || true; echo \"${COMPREPLY[@]}\""})
+        .output;
+  };
+  EXPECT_EQ(completed("shaken sta", 1), "status\n");
+  EXPECT_EQ(completed("shaken --root /tmp wat", 3), "watch\n");
+  EXPECT_EQ(completed("shaken results --agg", 2), "--aggregate\n");
+  EXPECT_EQ(completed("shaken validate " + folder.path().string() + "/sh", 2), script + "\n");
+  EXPECT_EQ(run_captured({"bash", "-n", script}).exit_code, 0);
+}
+
+}  // namespace
+}  // namespace shaken::client

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "client/live.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "client/print.h"
+#include "client/watch_view.h"
+
+namespace shaken::client {
+namespace {
+
+using ::testing::HasSubstr;
+
+Json api_job(const std::string& id, const std::string& state, double time) {
+  Json job{{"id", id}, {"label", "rods.length=2.5"}, {"state", state}, {"reason", ""}, {"progress", nullptr}};
+  if (time >= 0) {
+    job["progress"] = {{"sim_time_s", time}, {"sim_time_total_s", 10.0},  {"sim_rate", 0.5}, {"eta_s", 12.0},
+                       {"order", 0.25},      {"order_running_mean", 0.2}, {"n_rods", 271},   {"max_overlap_mm", 0.001}};
+  }
+  return job;
+}
+
+observables_t message(const std::string& id, std::int64_t sequence, double time, double order) {
+  observables_t m{};
+  m.job_id = id;
+  m.sequence = sequence;
+  m.sim_time_s = time;
+  m.sim_time_total_s = 10;
+  m.n_rods = 271;
+  m.order = order;
+  return m;
+}
+
+TEST(SequenceCounter, GapsAreLossesRestartsAreNot) {
+  SequenceCounter counter;
+  for (const std::int64_t sequence : {5, 6, 9, 10, 0, 1, 3}) counter.note(sequence);
+  EXPECT_EQ(counter.received(), 7);
+  EXPECT_EQ(counter.lost(), 3);  // 7, 8 and 2; what was before the first is not ours
+}
+
+TEST(History, KeepsTheWholeCurveInBoundedMemory) {
+  History history;
+  for (int i = 0; i < 100000; ++i) history.add(i, 2.0 * i);
+  EXPECT_LT(history.times().size(), 4096u);
+  EXPECT_EQ(history.times().size(), history.values().size());
+  EXPECT_EQ(history.times().front(), 0);
+  EXPECT_EQ(history.times().back(), 99999);
+  for (std::size_t i = 0; i < history.times().size(); ++i) EXPECT_EQ(history.values()[i], 2 * history.times()[i]);
+  history.add(50, 1);
+  EXPECT_EQ(history.times(), std::vector<double>{50});
+}
+
+TEST(LiveJobs, MessagesWinOverOlderFilesAndStrangersAreIgnored) {
+  LiveJobs jobs;
+  jobs.note_api(api_job("aa", "running", 1.0));
+  EXPECT_EQ(jobs.jobs()[0].order, 0.25);
+  jobs.note(message("aa", 0, 2.0, 0.75));
+  jobs.note(message("bb", 0, 2.0, 0.5));
+  jobs.note_api(api_job("aa", "running", 1.5));
+  ASSERT_EQ(jobs.jobs().size(), 1u);
+  EXPECT_EQ(jobs.jobs()[0].order, 0.75);
+  EXPECT_EQ(jobs.jobs()[0].sim_time, 2.0);
+  // Messages have stopped coming: the file takes over.
+  jobs.note_api(api_job("aa", "running", 3.0));
+  EXPECT_EQ(jobs.jobs()[0].sim_time, 3.0);
+  EXPECT_EQ(jobs.jobs()[0].order, 0.25);
+}
+
+TEST(LiveJobs, CountsDefectsLossesAndEnds) {
+  LiveJobs jobs;
+  jobs.note_api(api_job("aa", "running", 0));
+  jobs.note_api(api_job("bb", "failed", -1));
+  jobs.note(message("aa", 0, 1, 0.5));
+  jobs.note(message("aa", 4, 2, 0.5));
+  defects_t defects{};
+  defects.job_id = "aa";
+  defects.charge = {0.5, -0.5, 0.5};
+  defects.n_defects = 3;
+  jobs.note(defects);
+  EXPECT_EQ(jobs.jobs()[0].n_plus, 2);
+  EXPECT_EQ(jobs.jobs()[0].n_minus, 1);
+  EXPECT_EQ(jobs.received(), 3);
+  EXPECT_EQ(jobs.lost(), 3);
+  EXPECT_FALSE(jobs.all_ended());
+  job_t end{};
+  end.job_id = "aa";
+  end.state = "done";
+  jobs.note(end);
+  EXPECT_TRUE(jobs.all_ended());
+}
+
+TEST(WatchScreen, FitsEveryTerminal) {
+  LiveJobs jobs;
+  for (const char* id : {"aaaaaaaaaaaaaaaa", "bbbbbbbbbbbbbbbb", "cccccccccccccccc"}) {
+    jobs.note_api(api_job(id, "running", 0.5));
+    for (int i = 1; i < 50; ++i) jobs.note(message(id, i, 0.1 * i, 0.02 * i));
+  }
+  std::ostringstream out;
+  for (int width = 1; width < 130; width += 9) {
+    for (int height = 1; height < 60; height += 3) {
+      const Console console{.out = out, .err = out, .colour = true, .width = width, .height = height};
+      const auto screen = watch_screen(jobs, "sweep s1", "live", console);
+      EXPECT_LE(screen.size(), static_cast<std::size_t>(height));
+      for (const std::string& line : screen) {
+        EXPECT_LE(display_width(line), static_cast<std::size_t>(width)) << line;
+      }
+    }
+  }
+}
+
+TEST(WatchScreen, ShowsChartsWhereThereIsRoom) {
+  LiveJobs jobs;
+  jobs.note_api(api_job("aaaaaaaaaaaaaaaa", "running", 0.5));
+  std::ostringstream out;
+  const Console console{.out = out, .err = out, .width = 100, .height = 30};
+  const auto screen = watch_screen(jobs, "sweep s1", "note", console);
+  EXPECT_EQ(screen.back(), "note");
+  EXPECT_THAT(screen, ::testing::Contains(HasSubstr("S(t)")));
+  EXPECT_THAT(screen, ::testing::Contains(HasSubstr("aaaaaaaa ")));
+}
+
+TEST(WatchLine, HasTheNumbers) {
+  LiveJobs jobs;
+  jobs.note_api(api_job("aaaaaaaaaaaaaaaa", "running", 5));
+  jobs.note(message("aaaaaaaaaaaaaaaa", 0, 6, 0.5));
+  jobs.note(message("aaaaaaaaaaaaaaaa", 2, 7, 0.875));
+  const std::string line = watch_line(jobs.jobs()[0]);
+  EXPECT_THAT(line, HasSubstr("aaaaaaaa running"));
+  EXPECT_THAT(line, HasSubstr("70.0 %"));
+  EXPECT_THAT(line, HasSubstr("S 0.875"));
+  EXPECT_THAT(line, HasSubstr("1 messages lost"));
+  EXPECT_THAT(line, HasSubstr("rods.length=2.5"));
+}
+
+}  // namespace
+}  // namespace shaken::client

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "client/session.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <cstring>
+
+#include "client/failure.h"
+#include "client/target.h"
+#include "tests/unit/client/fake_daemon.h"
+
+namespace shaken::client {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// The failure that `action` ends with.
+template <class Action>
+std::pair<ExitCode, std::string> failure_of(Action action) {
+  try {
+    action();
+  } catch (const Failure& failure) {
+    return {failure.code, failure.what()};
+  }
+  return {ExitCode::kOk, ""};
+}
+
+TEST(UrlEncoded, LeavesOnlyUnreserved) {
+  EXPECT_EQ(url_encoded("s1-a.b_c~"), "s1-a.b_c~");
+  EXPECT_EQ(url_encoded("a b/c?d#e%"), "a%20b%2Fc%3Fd%23e%25");
+  EXPECT_EQ(url_encoded("φ"), "%CF%86");
+}
+
+TEST(ProblemText, NamesPlaceAndPath) {
+  EXPECT_EQ(problem_text({{"file", "a.json"}, {"line", 3}, {"column", 7}, {"path", "/rods/length"}, {"message", "no"}}),
+            "a.json:3:7: /rods/length: no");
+}
+
+TEST(Session, GetsAndPosts) {
+  const TemporaryFolder root;
+  FakeDaemon daemon(root.path());
+  daemon.on("GET /v1/status", R"({"version": "0.1.0"})");
+  daemon.on("POST /v1/jobs/1f0c/cancel", R"({"cancelled": 1})");
+  Session session(root.path());
+  EXPECT_EQ(session.get("/v1/status").at("version"), "0.1.0");
+  EXPECT_EQ(session.post("/v1/jobs/1f0c/cancel", Json{{"a", 1}}).at("cancelled"), 1);
+  ASSERT_EQ(daemon.requests().size(), 2u);
+  EXPECT_EQ(daemon.requests()[1].body, R"({"a":1})");
+}
+
+TEST(Session, DaemonsWordsBecomeTheMessage) {
+  const TemporaryFolder root;
+  FakeDaemon daemon(root.path());
+  daemon.on("GET /bad", {{400, R"({"error": "state: 'x' is none of queued"})"}});
+  daemon.on("GET /broken", {{507, R"({"error": "the disk is full"})"}});
+  daemon.on(
+      "POST /refused",
+      {{422,
+        R"({"error": "long", "problems": [{"file": "a.json", "line": 1, "column": 2, "path": "/box", "message": "bad"}]})"}});
+  Session session(root.path());
+  EXPECT_EQ(failure_of([&] { session.get("/bad"); }),
+            std::pair(ExitCode::kBadInput, std::string("state: 'x' is none of queued")));
+  EXPECT_EQ(failure_of([&] { session.get("/broken"); }), std::pair(ExitCode::kFailed, std::string("the disk is full")));
+  EXPECT_EQ(failure_of([&] { session.post("/refused", Json::object()); }),
+            std::pair(ExitCode::kBadInput, std::string("refused, with 1 problem\na.json:1:2: /box: bad")));
+  EXPECT_EQ(failure_of([&] { session.get("/missing"); }).first, ExitCode::kBadInput);
+  EXPECT_FALSE(session.find("/missing").has_value());
+}
+
+TEST(Session, GarbageIsAFailureNotACrash) {
+  const TemporaryFolder root;
+  FakeDaemon daemon(root.path());
+  Session session(root.path());
+  for (const char* body : {"", "hello", "[]", "{", "null", "{\"a\": \xff}"}) {
+    daemon.on("GET /v1/status", body);
+    const auto [code, message] = failure_of([&] { session.get("/v1/status"); });
+    EXPECT_EQ(code, ExitCode::kFailed) << body;
+    EXPECT_THAT(message, HasSubstr("not a JSON object")) << body;
+  }
+}
+
+TEST(Session, SocketWithoutListenerIsNoDaemon) {
+  const TemporaryFolder root;
+  // What a daemon that was killed leaves behind.
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  std::strncpy(address.sun_path, (root.path() / "shakend.sock").c_str(), sizeof(address.sun_path) - 1);
+  const int fd = socket(AF_UNIX, SOCK_STREAM, 0);
+  ASSERT_EQ(bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  close(fd);
+  const auto [code, message] = failure_of([&] { Session(root.path()).get("/v1/status"); });
+  EXPECT_EQ(code, ExitCode::kNoDaemon);
+  EXPECT_THAT(message, HasSubstr("start one with"));
+}
+
+TEST(FindTarget, SweepFirstThenJobThenNothing) {
+  const TemporaryFolder root;
+  FakeDaemon daemon(root.path());
+  daemon.on("GET /v1/sweeps/phases",
+            R"({"sweep": {"id": "s7", "name": "phases"}, "jobs": [{"id": "aa"}, {"id": "bb"}]})");
+  daemon.on("GET /v1/jobs/1f", R"({"job": {"id": "1f0c", "sweep": "s7", "state": "done"}})");
+  daemon.on("GET /v1/jobs/2", {{409, R"({"error": "'2' fits several jobs: 2a, 2b"})"}});
+  Session session(root.path());
+
+  const Target sweep = find_target(session, "phases");
+  EXPECT_TRUE(sweep.is_sweep);
+  EXPECT_EQ(sweep.path, "/v1/sweeps/s7");
+  EXPECT_EQ(sweep.title(), "sweep s7 (phases)");
+  EXPECT_EQ(jobs_of(sweep).size(), 2u);
+
+  const Target job = find_target(session, "1f");
+  EXPECT_FALSE(job.is_sweep);
+  EXPECT_EQ(job.path, "/v1/jobs/1f0c");
+  EXPECT_EQ(job.sweep_id(), "s7");
+
+  EXPECT_THAT(failure_of([&] { find_target(session, "2"); }).second, HasSubstr("several jobs"));
+  EXPECT_EQ(failure_of([&] { find_target(session, "zz"); }).first, ExitCode::kBadInput);
+  EXPECT_EQ(failure_of([&] { find_target(session, ""); }).first, ExitCode::kBadInput);
+  EXPECT_EQ(failure_of([&] { find_job(session, "phases"); }).first, ExitCode::kBadInput);
+}
+
+TEST(CountsText, InTheOrderOfAJobsLife) {
+  EXPECT_EQ(counts_text({{"queued", 5}, {"done", 3}, {"running", 2}, {"failed", 0}}), "3 done, 2 running, 5 queued");
+  EXPECT_EQ(counts_text(Json::object()), "no jobs");
+}
+
+}  // namespace
+}  // namespace shaken::client

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "client/json.h"
+#include "tests/unit/client/fake_daemon.h"
+#include "tests/unit/client/run_client.h"
+
+namespace shaken::client {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// Verbs against a daemon whose answers are laid down (docs/protocol.md).
+class Verbs : public ::testing::Test {
+ protected:
+  Outcome run(std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--root", root_.path().string()});
+    return run_client(arguments);
+  }
+
+  static Json job(const std::string& id, const std::string& state) {
+    return {{"id", id},
+            {"sweep", "s1"},
+            {"state", state},
+            {"reason", state == "failed" ? "2 rods overlap by 0.3 mm" : ""},
+            {"label", "rods.length=2.5"},
+            {"parameters", {{"rods.length", 2.5}}},
+            {"replica", 1},
+            {"attempt", 1},
+            {"pid", 0},
+            {"directory", "/data/runs/" + id},
+            {"created_utime", 2000},
+            {"started_utime", 0},
+            {"finished_utime", 0},
+            {"progress", nullptr}};
+  }
+  static Json sweep(const std::vector<Json>& jobs) {
+    Json counts{{"queued", 0}, {"running", 0}, {"stopping", 0}, {"done", 0}, {"failed", 0}, {"cancelled", 0}};
+    for (const Json& each : jobs) {
+      Json& n = counts[each.at("state").get<std::string>()];
+      n = n.get<int>() + 1;
+    }
+    return {{"sweep",
+             {{"id", "s1"},
+              {"name", "phases"},
+              {"created_utime", 1000},
+              {"n_jobs", jobs.size()},
+              {"counts", counts},
+              {"progress", 0.5},
+              {"eta_s", 90.0}}},
+            {"jobs", jobs}};
+  }
+  static std::string text(const Json& json) { return json.dump(); }
+
+  TemporaryFolder root_;
+  FakeDaemon daemon_{root_.path()};
+};
+
+TEST_F(Verbs, StatusListsSweeps) {
+  daemon_.on("GET /v1/status",
+             R"({"version": "0.1.0", "api": 1, "pid": 77, "root": "/r", "host": "desk", "uptime_s": 65.0,
+    "slots": 2, "lcm": {"url": "udpm://x", "ok": false, "message": "no route"}, "jobs": {}})");
+  const Json one = sweep({job("1f0c000000000000", "done"), job("2a0c000000000000", "failed")}).at("sweep");
+  daemon_.on("GET /v1/sweeps", text({{"sweeps", {one}}}));
+  const Outcome outcome = run({"status"});
+  EXPECT_EQ(outcome.code, ExitCode::kOk) << outcome.err;
+  EXPECT_THAT(outcome.out,
+              HasSubstr("shakend 0.1.0 on desk, pid 77, up 1 min 05 s; 2 slots; live state off: no route"));
+  EXPECT_THAT(outcome.out, HasSubstr("1 done, 1 failed"));
+  EXPECT_THAT(outcome.out, HasSubstr("1 min 30 s ("));
+  EXPECT_THAT(outcome.out, Not(HasSubstr("\x1b")));
+  const Outcome json = run({"status", "--json"});
+  EXPECT_EQ(Json::parse(json.out).at("sweeps").at(0), one);
+}
+
+TEST_F(Verbs, StatusOfASweepAndItsFailures) {
+  daemon_.on("GET /v1/sweeps/phases",
+             text(sweep({job("1f0c000000000000", "done"), job("2a0c000000000000", "failed")})));
+  const Outcome all = run({"status", "phases"});
+  EXPECT_EQ(all.code, ExitCode::kOk) << all.err;
+  EXPECT_THAT(all.out, HasSubstr("sweep s1 (phases): 1 done, 1 failed"));
+  EXPECT_THAT(all.out, HasSubstr("1f0c0000  done"));
+  const Outcome failed = run({"status", "phases", "--failed"});
+  EXPECT_THAT(failed.out, HasSubstr("2 rods overlap by 0.3 mm"));
+  EXPECT_THAT(failed.out, HasSubstr("/data/runs/2a0c000000000000/worker.log"));
+  EXPECT_THAT(failed.out, Not(HasSubstr("1f0c")));
+}
+
+TEST_F(Verbs, AnswersOfAnotherShapeAreNamedAsSuch) {
+  daemon_.on("GET /v1/status", "{}");
+  daemon_.on("GET /v1/sweeps", R"({"sweeps": 7})");
+  const Outcome outcome = run({"status"});
+  EXPECT_EQ(outcome.code, ExitCode::kFailed);
+  EXPECT_THAT(outcome.err, HasSubstr("another version"));
+}
+
+TEST_F(Verbs, SubmitSendsTheFileAndShowsThePoints) {
+  const std::string file = (root_.path() / "scene.json").string();
+  std::ofstream(file) << R"({"box": {"side": 30}})";
+  Json answer = sweep({job("1f0c000000000000", "queued"), job("2a0c000000000000", "done")});
+  answer["jobs"][1]["created_utime"] = 500;
+  answer["counts"] = {{"new", 1}, {"requeued", 0}, {"done", 1}, {"running", 0}, {"queued", 1}};
+  daemon_.on("POST /v1/sweeps", {{201, text(answer)}});
+  const Outcome outcome = run({"submit", file, "-s", "rods.length=2.5,3.5", "--replicas", "2", "--name", "phases"});
+  EXPECT_EQ(outcome.code, ExitCode::kOk) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("sweep s1 (phases): 2 points: 1 new, 1 done\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("1f0c0000  new"));
+  EXPECT_THAT(outcome.out, HasSubstr("2a0c0000  done"));
+  const Json sent = Json::parse(daemon_.requests().back().body);
+  EXPECT_EQ(sent.at("text"), R"({"box": {"side": 30}})");
+  EXPECT_EQ(sent.at("file"), file);
+  EXPECT_EQ(sent.at("settings"), Json::array({"rods.length=2.5,3.5"}));
+  EXPECT_EQ(sent.at("replicas"), 2);
+  EXPECT_EQ(sent.at("name"), "phases");
+}
+
+TEST_F(Verbs, SubmitOfABadSceneNeverReachesTheDaemon) {
+  const std::string file = (root_.path() / "scene.json").string();
+  std::ofstream(file) << R"({"box": {"sied": 30}})";
+  const Outcome outcome = run({"submit", file});
+  EXPECT_EQ(outcome.code, ExitCode::kBadInput);
+  EXPECT_THAT(outcome.err, HasSubstr("sied"));
+  EXPECT_TRUE(daemon_.requests().empty());
+}
+
+TEST_F(Verbs, SubmitDryRunQueuesNothing) {
+  const std::string file = (root_.path() / "scene.json").string();
+  std::ofstream(file) << R"({"box": {"side": 30}})";
+  const Outcome outcome = run({"submit", file, "--dry-run", "-s", "rods.count=100,200,300"});
+  EXPECT_EQ(outcome.code, ExitCode::kOk) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("3 points, nothing queued"));
+  EXPECT_THAT(outcome.out, HasSubstr("  300  "));
+  EXPECT_TRUE(daemon_.requests().empty());
+}
+
+TEST_F(Verbs, WaitEndsWhenAllAreDone) {
+  daemon_.on("GET /v1/sweeps/s1", {{200, text(sweep({job("1f0c000000000000", "running")}))},
+                                   {200, text(sweep({job("1f0c000000000000", "running")}))},
+                                   {200, text(sweep({job("1f0c000000000000", "done")}))}});
+  EXPECT_EQ(run({"wait", "s1"}).code, ExitCode::kOk);
+  EXPECT_EQ(daemon_.requests().size(), 3u);
+}
+
+TEST_F(Verbs, WaitFailsWithTheReasonIfAJobFailed) {
+  daemon_.on("GET /v1/sweeps/s1", text(sweep({job("1f0c000000000000", "done"), job("2a0c000000000000", "failed")})));
+  const Outcome outcome = run({"wait", "s1"});
+  EXPECT_EQ(outcome.code, ExitCode::kFailed);
+  EXPECT_THAT(outcome.err, HasSubstr("2a0c0000 failed: 2 rods overlap"));
+}
+
+TEST_F(Verbs, WaitGivesUpAfterTheTimeout) {
+  daemon_.on("GET /v1/sweeps/s1", text(sweep({job("1f0c000000000000", "running")})));
+  const Outcome outcome = run({"wait", "s1", "--timeout", "0.2"});
+  EXPECT_EQ(outcome.code, ExitCode::kFailed);
+  EXPECT_THAT(outcome.err, HasSubstr("time is up: 1 of 1 jobs"));
+}
+
+TEST_F(Verbs, WaitWithoutAnIdTakesWhatIsUnfinished) {
+  daemon_.on("GET /v1/jobs?state=queued", R"({"jobs": []})");
+  daemon_.on("GET /v1/jobs?state=running", text({{"jobs", {job("1f0c000000000000", "running")}}}));
+  daemon_.on("GET /v1/jobs?state=stopping", R"({"jobs": []})");
+  daemon_.on("GET /v1/jobs/1f0c000000000000", text({{"job", job("1f0c000000000000", "done")}}));
+  EXPECT_EQ(run({"wait"}).code, ExitCode::kOk);
+}
+
+TEST_F(Verbs, CancelLooksEverythingUpBeforeItStopsAnything) {
+  daemon_.on("GET /v1/sweeps/s1", text(sweep({job("1f0c000000000000", "running")})));
+  daemon_.on("POST /v1/sweeps/s1/cancel", {{200, R"({"cancelled": 3})"}, {200, R"({"cancelled": 0})"}});
+  EXPECT_EQ(run({"cancel", "s1", "nothing"}).code, ExitCode::kBadInput);
+  for (const auto& request : daemon_.requests()) EXPECT_THAT(request.line, Not(HasSubstr("POST")));
+  EXPECT_THAT(run({"cancel", "s1"}).out, HasSubstr("3 jobs cancelled"));
+  const Outcome again = run({"cancel", "s1"});
+  EXPECT_EQ(again.code, ExitCode::kOk);
+  EXPECT_THAT(again.out, HasSubstr("nothing left to cancel"));
+}
+
+TEST_F(Verbs, LogsComeInPiecesAndFollowEndsWithTheJob) {
+  daemon_.on("GET /v1/jobs/1f0c", text({{"job", job("1f0c000000000000", "running")}}));
+  daemon_.on("GET /v1/jobs/1f0c000000000000/log?offset=0", R"({"text": "one\n", "offset": 4, "state": "running"})");
+  daemon_.on("GET /v1/jobs/1f0c000000000000/log?offset=4",
+             {{200, R"({"text": "", "offset": 4, "state": "running"})"},
+              {200, R"({"text": "two\n", "offset": 8, "state": "failed"})"}});
+  daemon_.on("GET /v1/jobs/1f0c000000000000/log?offset=8", R"({"text": "", "offset": 8, "state": "failed"})");
+  const Outcome outcome = run({"logs", "1f0c", "-f"});
+  EXPECT_EQ(outcome.out, "one\ntwo\n");
+  EXPECT_EQ(outcome.code, ExitCode::kFailed);
+}
+
+TEST_F(Verbs, ResultsAsTableCsvAndJson) {
+  const Json summary{{"n_rods", 271}, {"order", {{"mean", 0.75}, {"sem", 0.01}}}, {"cpu_seconds", 12.5}};
+  Json rows = Json::array();
+  for (const int replica : {1, 2}) {
+    for (const double length : {2.5, 4.5}) {
+      rows.push_back({{"job", "1f0c00000000000" + std::to_string(replica)},
+                      {"sweep", "s1"},
+                      {"state", "done"},
+                      {"label", "x"},
+                      {"parameters", {{"rods.length", length}}},
+                      {"replica", replica},
+                      {"summary", summary}});
+    }
+  }
+  daemon_.on("GET /v1/sweeps", text({{"sweeps", {sweep({}).at("sweep")}}}));
+  daemon_.on("GET /v1/sweeps/s1", text(sweep({})));
+  daemon_.on("GET /v1/results?sweep=s1", text({{"rows", rows}}));
+
+  const Outcome table = run({"results", "--where", "rods.length>3"});
+  EXPECT_EQ(table.code, ExitCode::kOk) << table.err;
+  EXPECT_EQ(table.out,
+            "JOB       STATE  REPLICA    N     S   SEM  CPU s\n"
+            "1f0c0000  done         1  271  0.75  0.01   12.5\n"
+            "1f0c0000  done         2  271  0.75  0.01   12.5\n");
+  const Outcome aggregate = run({"results", "s1", "--aggregate"});
+  EXPECT_EQ(aggregate.out,
+            "rods.length  REPLICAS  DONE    N     S  SEM  CPU s\n"
+            "        2.5         2     2  271  0.75    0   12.5\n"
+            "        4.5         2     2  271  0.75    0   12.5\n");
+  EXPECT_THAT(run({"results", "s1", "--csv"}).out,
+              HasSubstr("job,sweep,state,label,rods.length,replica,n_rods,order.mean,order.sem,cpu_seconds\n"));
+  EXPECT_EQ(Json::parse(run({"results", "s1", "--json"}).out).at("rows"), rows);
+}
+
+TEST_F(Verbs, WatchWithoutLiveStateAsksTheDaemonUntilTheEnd) {
+  Json running = job("1f0c000000000000", "running");
+  running["progress"] = {{"sim_time_s", 1.0}, {"sim_time_total_s", 4.0},   {"sim_rate", 0.5}, {"eta_s", 6.0},
+                         {"order", 0.5},      {"order_running_mean", 0.4}, {"n_rods", 271},   {"max_overlap_mm", 0.01}};
+  daemon_.on("GET /v1/status", R"({"lcm": {"url": "", "ok": false, "message": "no multicast route"}})");
+  daemon_.on("GET /v1/sweeps/s1",
+             {{200, text(sweep({running}))}, {200, text(sweep({job("1f0c000000000000", "done")}))}});
+  const Outcome outcome = run({"watch", "s1"});
+  EXPECT_EQ(outcome.code, ExitCode::kOk) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("no multicast route"));
+  EXPECT_THAT(outcome.out, HasSubstr("1f0c0000 running  25.0 %  t 1.000/4.000 s  S 0.500 (mean 0.400)"));
+  EXPECT_THAT(outcome.out, HasSubstr("1f0c0000 done 100.0 %  t 4.000/4.000 s  S 0.500"));
+}
+
+TEST_F(Verbs, CompletionKnowsTheIds) {
+  daemon_.on("GET /v1/sweeps", text({{"sweeps", {sweep({}).at("sweep")}}}));
+  daemon_.on("GET /v1/jobs", text({{"jobs", {job("1f0c000000000000", "done")}}}));
+  EXPECT_EQ(run({"completion", "ids"}).out, "s1\n1f0c0000\n");
+}
+
+}  // namespace
+}  // namespace shaken::client
