@@ -199,6 +199,22 @@ TEST_F(DaemonTest, ASecondSignalKillsDeafWorkers) {
   EXPECT_NE(kill(worker, 0), 0);
 }
 
+TEST_F(DaemonTest, TheEndOfItsTerminalStopsItUnlessUnderNohup) {
+  Daemon shakend = daemon();
+  shakend.first_line();
+  shakend.send(SIGHUP);
+  EXPECT_EQ(shakend.wait(), 0);
+
+  setenv("FAKE_WORKER", "done", 1);
+  signal(SIGHUP, SIG_IGN);
+  Daemon under_nohup = daemon();
+  signal(SIGHUP, SIG_DFL);
+  under_nohup.first_line();
+  under_nohup.send(SIGHUP);
+  under_nohup.call("/v1/sweeps", json{{"text", "{}"}});
+  EXPECT_TRUE(becomes(under_nohup, "done"));
+}
+
 TEST_F(DaemonTest, AClientThatStaysDoesNotKeepItUp) {
   Daemon shakend = daemon();
   shakend.first_line();
