@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "client/failure.h"
+#include "client/print.h"
 #include "client/process.h"
 #include "run/files/atomic_file.h"
 
@@ -95,7 +96,10 @@ set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'
     script += "unset key\n";
   } else {
     // Above the axes, where no curve can run through it.
-    script += fmt::format("set key outside top center horizontal maxcols {}\n", n_labels > 6 ? 3 : 2);
+    std::size_t longest = 0;
+    for (const Curve& curve : figure.curves) longest = std::max(longest, display_width(curve.label));
+    script +=
+        fmt::format("set key outside top center horizontal maxcols {}\n", longest < 16 ? 5 : (longest < 32 ? 3 : 2));
   }
   script += fmt::format("set xlabel {}\nset ylabel {}\n", quoted(figure.x_title), quoted(figure.y_title));
   for (const std::string& command : figure.commands) script += command + "\n";
