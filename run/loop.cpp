@@ -23,7 +23,6 @@
 namespace shaken::run {
 namespace {
 
-constexpr WallSeconds kProgressPeriod{0.5};
 /// Length of the pieces that the run is stepped in: short enough to answer a signal, long enough not to matter.
 constexpr WallSeconds kShortSlice{0.02};
 constexpr WallSeconds kLongSlice{0.1};
@@ -53,7 +52,7 @@ class Loop {
         cpu_begin_(process_cpu_seconds()),
         started_(utc_now()),
         rate_(session_.simulation.time(), begin_),
-        progress_pacer_(kProgressPeriod, begin_),
+        progress_pacer_(options.progress_every, begin_),
         checkpoint_pacer_(options.checkpoint_every,
                           begin_ + std::chrono::duration_cast<WallClock::duration>(options.checkpoint_every)),
         frame_pacer_(live_period(), begin_),
@@ -279,7 +278,9 @@ RunOutcome fail(const RunOptions& options, const RunCallbacks& callbacks, const 
   const Result<std::string> text = read_file(directory.scene());
   if (!text) return text.error();
   const scene::Loaded<scene::RunPlan> present = scene::load_scene(*text, directory.scene().string());
-  if (!present.value) return Error{to_string(present.problems)};
+  if (!present.value) {
+    return Error{directory.root.string() + " holds a run whose scene cannot be read:\n" + to_string(present.problems)};
+  }
   if (scene::run_id(*present.value) == scene::run_id(plan)) return std::nullopt;
   return Error{directory.root.string() + " holds the run of another scene (see its scene.json); choose another one"};
 }

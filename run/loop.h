@@ -24,6 +24,7 @@ struct RunOptions {
   std::string label;                   ///< the swept parameters, for viewers
   std::optional<std::string> lcm_url;  ///< none: no live state
   WallSeconds checkpoint_every{30};
+  WallSeconds progress_every{0.5};
   const std::atomic<bool>* stop = nullptr;  ///< once true, the run ends with a checkpoint; null: it never does
 };
 

@@ -75,9 +75,9 @@ bool is_done(const std::filesystem::path& file, const std::string& run_id) {
   const Result<std::string> text = read_file(file);
   if (!text) return false;
   const auto json = nlohmann::json::parse(*text, nullptr, false);
-  if (!json.is_object() || json.value("run_id", "") != run_id || !json.contains("exit")) return false;
+  if (!json.is_object() || !json.contains("run_id") || !json.contains("exit")) return false;
   const auto& exit = json["exit"];
-  return exit.is_object() && exit.value("state", "") == "done";
+  return json["run_id"] == run_id && exit.is_object() && exit.contains("state") && exit["state"] == "done";
 }
 
 }  // namespace shaken::run

@@ -1,1 +1,398 @@
 // SPDX-License-Identifier: MIT
+// Whole runs in a directory: stopping and going on must leave no trace in the results, and damage must never lead to
+// a wrong one.
+#include "run/loop.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "proto/bus.h"
+#include "proto/frame_codec.h"
+#include "run/checkpoint_file.h"
+#include "run/files/atomic_file.h"
+#include "run/files/observables_file.h"
+#include "run/files/trajectory.h"
+#include "scene/canonical.h"
+#include "temporary_folder.h"
+
+namespace shaken::run {
+namespace {
+
+scene::RunPlan small_plan() {
+  scene::RunPlan plan;
+  plan.system.rod.n_beads = 7;
+  plan.system.rod.length = 2.5;
+  plan.system.n_rods = 24;
+  plan.system.box_side = 12;
+  plan.system.dt = 2e-5;
+  plan.measure_time = 0.3;
+  plan.order = scene::MeasureOrder{0.002};
+  plan.angles = scene::MeasureAngles{0.004, 36};
+  plan.tilt = scene::MeasureTilt{0.001, 10};
+  plan.defects = scene::MeasureDefects{0.02, 1.25, 0.3125};
+  plan.trajectory = scene::Trajectory{0.01};
+  plan.stream.reset();
+  plan.movie.reset();
+  return plan;
+}
+
+nlohmann::json summary_in(const std::filesystem::path& folder) {
+  const auto text = read_file(RunDirectory{folder}.summary());
+  return text ? nlohmann::json::parse(*text) : nlohmann::json();
+}
+
+RunOutcome run_in(const std::filesystem::path& folder, const scene::RunPlan& plan, const RunCallbacks& callbacks = {}) {
+  RunOptions options;
+  options.directory = folder;
+  options.job_id = "job";
+  return run(plan, options, callbacks);
+}
+
+/// Runs in pieces: each is stopped once the simulated time has passed the next of `stops` [s].
+void run_with_stops(const std::filesystem::path& folder, const scene::RunPlan& plan, const std::vector<double>& stops) {
+  for (const double time : stops) {
+    std::atomic<bool> stop = false;
+    RunOptions options;
+    options.directory = folder;
+    options.stop = &stop;
+    options.progress_every = WallSeconds(0);
+    RunCallbacks callbacks;
+    callbacks.on_progress = [&](const Progress& progress) { stop = stop || progress.sim_time >= time; };
+    const RunOutcome outcome = run(plan, options, callbacks);
+    ASSERT_EQ(outcome.state, RunState::kStopped) << outcome.message;
+    EXPECT_EQ(read_progress(RunDirectory{folder}.progress())->state, "stopped");
+    EXPECT_EQ(summary_in(folder)["exit"]["state"], "stopped");
+  }
+}
+
+void expect_bitwise_equal(const Observables& a, const Observables& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (const auto& [path, values] : a) {
+    ASSERT_TRUE(b.count(path)) << path;
+    const auto& others = b.at(path);
+    ASSERT_EQ(values.size(), others.size()) << path;
+    EXPECT_EQ(std::memcmp(values.data(), others.data(), values.size() * sizeof(double)), 0) << path;
+  }
+}
+
+void expect_same_results(const std::filesystem::path& a, const std::filesystem::path& b) {
+  const auto summary_a = summary_in(a);
+  const auto summary_b = summary_in(b);
+  EXPECT_EQ(summary_a["exit"]["state"], "done");
+  for (const char* key : {"state_hash", "run_id", "collisions", "order", "defects", "effects", "max_overlap_mm"}) {
+    EXPECT_EQ(summary_a[key], summary_b[key]) << key;
+  }
+  expect_bitwise_equal(*read_observables(RunDirectory{a}.observables()),
+                       *read_observables(RunDirectory{b}.observables()));
+  const auto frames_a = TrajectoryReader::open(RunDirectory{a}.trajectory());
+  const auto frames_b = TrajectoryReader::open(RunDirectory{b}.trajectory());
+  ASSERT_TRUE(frames_a);
+  ASSERT_TRUE(frames_b);
+  ASSERT_EQ(frames_a->n_frames(), frames_b->n_frames());
+  for (std::size_t i = 0; i < frames_a->n_frames(); ++i) {
+    const auto frame_a = frames_a->frame(i);
+    const auto frame_b = frames_b->frame(i);
+    EXPECT_EQ(frame_a->tick, frame_b->tick);
+    EXPECT_EQ(frame_a->position, frame_b->position);
+    EXPECT_EQ(frame_a->director, frame_b->director);
+    EXPECT_EQ(frame_a->image, frame_b->image);
+  }
+}
+
+/// One undisturbed run, made once, to compare the others with.
+const std::filesystem::path& undisturbed() {
+  static const TemporaryFolder folder;
+  static const bool made = run_in(folder.path(), small_plan()).state == RunState::kDone;
+  EXPECT_TRUE(made);
+  return folder.path();
+}
+
+TEST(Run, FillsItsDirectory) {
+  const RunDirectory directory{undisturbed()};
+  const auto summary = summary_in(directory.root);
+  EXPECT_EQ(summary["n_rods"], 24);
+  EXPECT_NEAR(summary["sim_seconds"].get<double>(), 0.3, 1e-12);
+  EXPECT_EQ(summary["exit"]["tick"], 15000);
+  EXPECT_GT(summary["collisions"]["rod_base"].get<int>(), 0);
+  EXPECT_EQ(summary["run_id"], scene::run_id(small_plan()));
+  EXPECT_EQ(summary["effects"]["measure_order"]["samples"], 151);
+  EXPECT_EQ(summary["effects"]["trajectory"]["frames"], 31);
+  EXPECT_EQ(summary["effects"]["stream"]["on"], false);
+  EXPECT_EQ(read_progress(directory.progress())->state, "done");
+  EXPECT_EQ(read_progress(directory.progress())->fraction(), 1.0);
+
+  const auto trajectory = TrajectoryReader::open(directory.trajectory());
+  ASSERT_TRUE(trajectory);
+  ASSERT_EQ(trajectory->n_frames(), 31U);
+  EXPECT_EQ(trajectory->frame(0)->tick, 0);
+  EXPECT_EQ(trajectory->frame(30)->tick, 15000);
+  EXPECT_EQ(trajectory->header().scene_json, *read_file(directory.scene()));
+}
+
+TEST(Run, StoppedAndResumedIsBitwiseTheStraightRun) {
+  const TemporaryFolder folder;
+  run_with_stops(folder.path(), small_plan(), {0, 0.05, 0.0501, 0.123, 0.29});
+  ASSERT_EQ(run_in(folder.path(), small_plan()).state, RunState::kDone);
+  expect_same_results(undisturbed(), folder.path());
+}
+
+TEST(Run, FinishedRunsAreNotDoneAgain) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_in(folder.path(), small_plan()).state, RunState::kDone);
+  const RunDirectory directory{folder.path()};
+  const auto written = std::filesystem::last_write_time(directory.summary());
+  std::filesystem::remove(directory.checkpoint());
+  EXPECT_EQ(run_in(folder.path(), small_plan()).state, RunState::kDone);
+  EXPECT_EQ(std::filesystem::last_write_time(directory.summary()), written);
+  EXPECT_FALSE(std::filesystem::exists(directory.checkpoint()));
+}
+
+/// Leaves a run stopped with two checkpoints; returns their folder.
+void stop_twice(const TemporaryFolder& folder) {
+  run_with_stops(folder.path(), small_plan(), {0.1, 0.2});
+  ASSERT_TRUE(std::filesystem::exists(RunDirectory{folder.path()}.checkpoint()));
+  ASSERT_TRUE(std::filesystem::exists(RunDirectory{folder.path()}.previous_checkpoint()));
+}
+
+void flip_a_byte(const std::filesystem::path& file) {
+  std::string content = *read_file(file);
+  content[content.size() / 2] = static_cast<char>(content[content.size() / 2] ^ 0x40);
+  ASSERT_FALSE(write_file(file, content));
+}
+
+TEST(Run, FallsBackToThePreviousCheckpoint) {
+  const TemporaryFolder folder;
+  stop_twice(folder);
+  flip_a_byte(RunDirectory{folder.path()}.checkpoint());
+  ASSERT_EQ(run_in(folder.path(), small_plan()).state, RunState::kDone);
+  expect_same_results(undisturbed(), folder.path());
+}
+
+TEST(Run, StartsAnewIfNoCheckpointIsWhole) {
+  const TemporaryFolder folder;
+  stop_twice(folder);
+  flip_a_byte(RunDirectory{folder.path()}.checkpoint());
+  flip_a_byte(RunDirectory{folder.path()}.previous_checkpoint());
+  ASSERT_EQ(run_in(folder.path(), small_plan()).state, RunState::kDone);
+  expect_same_results(undisturbed(), folder.path());
+}
+
+TEST(Run, StartsAnewIfTheTrajectoryIsLost) {
+  const TemporaryFolder folder;
+  stop_twice(folder);
+  std::filesystem::remove(RunDirectory{folder.path()}.trajectory());
+  ASSERT_EQ(run_in(folder.path(), small_plan()).state, RunState::kDone);
+  expect_same_results(undisturbed(), folder.path());
+}
+
+TEST(Run, SurvivesASuddenEnd) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(in_child([&] {
+              RunOptions options;
+              options.directory = folder.path();
+              options.checkpoint_every = WallSeconds(0.001);
+              options.progress_every = WallSeconds(0);
+              RunCallbacks callbacks;
+              callbacks.on_progress = [&](const Progress& progress) {
+                if (progress.sim_time > 0.17) kill(getpid(), SIGKILL);
+              };
+              run(small_plan(), options, callbacks);
+              return true;
+            }),
+            128);
+  EXPECT_TRUE(std::filesystem::exists(RunDirectory{folder.path()}.checkpoint()));
+  ASSERT_EQ(run_in(folder.path(), small_plan()).state, RunState::kDone);
+  expect_same_results(undisturbed(), folder.path());
+}
+
+TEST(Run, RefusesTheDirectoryOfAnotherScene) {
+  scene::RunPlan other = small_plan();
+  other.system.seed += 1;
+  const auto before = read_file(RunDirectory{undisturbed()}.summary());
+  const RunOutcome outcome = run_in(undisturbed(), other);
+  EXPECT_EQ(outcome.state, RunState::kFailed);
+  EXPECT_NE(outcome.message.find("another scene"), std::string::npos) << outcome.message;
+  EXPECT_EQ(*read_file(RunDirectory{undisturbed()}.summary()), *before);
+}
+
+TEST(Run, RefusesADirectoryInUse) {
+  const TemporaryFolder folder;
+  const auto lock = DirectoryLock::acquire(RunDirectory{folder.path()}.lock());
+  ASSERT_TRUE(lock);
+  const RunOutcome outcome = run_in(folder.path(), small_plan());
+  EXPECT_EQ(outcome.state, RunState::kFailed);
+  EXPECT_NE(outcome.message.find(std::to_string(getpid())), std::string::npos) << outcome.message;
+  EXPECT_FALSE(std::filesystem::exists(RunDirectory{folder.path()}.progress())) << "that is its owner's";
+}
+
+TEST(Run, NamesTheFileThatCannotBeWritten) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(RunDirectory{folder.path()}.trajectory());
+  const RunOutcome outcome = run_in(folder.path(), small_plan());
+  EXPECT_EQ(outcome.state, RunState::kFailed);
+  EXPECT_NE(outcome.message.find("trajectory.h5"), std::string::npos) << outcome.message;
+  const auto progress = read_progress(RunDirectory{folder.path()}.progress());
+  ASSERT_TRUE(progress);
+  EXPECT_EQ(progress->state, "failed");
+  EXPECT_EQ(progress->message, outcome.message);
+}
+
+TEST(Run, GoesOnAfterAFullDisk) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(in_child([&] {
+              limit_file_size(110000);
+              RunOptions options;
+              options.directory = folder.path();
+              options.checkpoint_every = WallSeconds(0.001);
+              const RunOutcome outcome = run(small_plan(), options);
+              return outcome.state == RunState::kFailed &&
+                     outcome.message.find(folder.path().string()) != std::string::npos;
+            }),
+            0);
+  EXPECT_EQ(read_progress(RunDirectory{folder.path()}.progress())->state, "failed");
+  ASSERT_EQ(run_in(folder.path(), small_plan()).state, RunState::kDone);
+  expect_same_results(undisturbed(), folder.path());
+}
+
+TEST(Run, SaysWhyItCannotStart) {
+  const TemporaryFolder folder;
+  scene::RunPlan crowded = small_plan();
+  crowded.system.n_rods = 5000;
+  const RunOutcome outcome = run_in(folder.path(), crowded);
+  EXPECT_EQ(outcome.state, RunState::kFailed);
+  EXPECT_FALSE(outcome.message.empty());
+  EXPECT_EQ(read_progress(RunDirectory{folder.path()}.progress())->message, outcome.message);
+}
+
+TEST(Run, EmptyPlanLeavesNoTrajectoryAndNoObservables) {
+  const TemporaryFolder folder;
+  scene::RunPlan bare = small_plan();
+  bare.measure_time = 0.01;
+  bare.order.reset();
+  bare.angles.reset();
+  bare.tilt.reset();
+  bare.defects.reset();
+  bare.trajectory.reset();
+  ASSERT_EQ(run_in(folder.path(), bare).state, RunState::kDone);
+  EXPECT_FALSE(std::filesystem::exists(RunDirectory{folder.path()}.trajectory()));
+  EXPECT_TRUE(read_observables(RunDirectory{folder.path()}.observables())->empty());
+  EXPECT_TRUE(summary_in(folder.path())["order"].is_null());
+}
+
+TEST(Run, MeasuringAndRecordingDoNotDisturbTheMotion) {
+  const TemporaryFolder folder;
+  scene::RunPlan bare = small_plan();
+  bare.order.reset();
+  bare.angles.reset();
+  bare.tilt.reset();
+  bare.defects.reset();
+  bare.trajectory.reset();
+  ASSERT_EQ(run_in(folder.path(), bare).state, RunState::kDone);
+  EXPECT_EQ(summary_in(folder.path())["state_hash"], summary_in(undisturbed())["state_hash"]);
+}
+
+TEST(Run, MovieIsDrawnOnceAndRecordsAtTheFinerCadence) {
+  const TemporaryFolder folder;
+  scene::RunPlan plan = small_plan();
+  plan.measure_time = 0.05;
+  plan.movie = scene::Movie{0.005, 320, 240};
+  int n_drawn = 0;
+  std::vector<std::string> states;
+  RunCallbacks callbacks;
+  callbacks.on_progress = [&](const Progress& progress) { states.push_back(progress.state); };
+  callbacks.make_movie = [&]() -> std::optional<Error> {
+    ++n_drawn;
+    return Error{"no renderer here"};
+  };
+  const RunOutcome failed_movie = run_in(folder.path(), plan, callbacks);
+  EXPECT_EQ(failed_movie.state, RunState::kDone) << "a failed movie does not lose the run";
+  EXPECT_NE(failed_movie.message.find("no renderer here"), std::string::npos);
+  EXPECT_EQ(n_drawn, 1);
+  EXPECT_NE(std::find(states.begin(), states.end(), "rendering"), states.end());
+  EXPECT_EQ(states.back(), "done");
+  EXPECT_EQ(TrajectoryReader::open(RunDirectory{folder.path()}.trajectory())->n_frames(), 11U);
+
+  callbacks.make_movie = [&]() -> std::optional<Error> {
+    ++n_drawn;
+    return write_file(RunDirectory{folder.path()}.movie(), "a movie");
+  };
+  EXPECT_EQ(run_in(folder.path(), plan, callbacks).state, RunState::kDone);
+  EXPECT_EQ(n_drawn, 2) << "the missing movie is made up for";
+  EXPECT_EQ(run_in(folder.path(), plan, callbacks).state, RunState::kDone);
+  EXPECT_EQ(n_drawn, 2);
+}
+
+/// LCM's file provider stands in for the network: everything that is published ends in a log.
+TEST(Run, LiveFramesAreFramesOfTheTrajectory) {
+  const TemporaryFolder folder;
+  scene::RunPlan plan = small_plan();
+  plan.stream = scene::Stream{1000};
+  RunOptions options;
+  options.directory = folder / "run";
+  options.job_id = "0123456789abcdef";
+  options.label = "rods.length=2.5";
+  options.lcm_url = "file://" + (folder / "live.lcmlog").string() + "?mode=w";
+  ASSERT_EQ(run(plan, options).state, RunState::kDone);
+  EXPECT_EQ(summary_in(options.directory)["state_hash"], summary_in(undisturbed())["state_hash"])
+      << "streaming changes nothing";
+
+  const auto log = proto::Bus::open("file://" + (folder / "live.lcmlog").string() + "?speed=0");
+  ASSERT_TRUE(log);
+  std::vector<frame_t> frames;
+  std::vector<observables_t> observables;
+  int n_static = 0;
+  log.bus->subscribe<frame_t>(proto::kFrameChannel, [&](const frame_t& frame) { frames.push_back(frame); });
+  log.bus->subscribe<observables_t>(proto::kObservablesChannel,
+                                    [&](const observables_t& message) { observables.push_back(message); });
+  log.bus->subscribe<frame_static_t>(proto::kFrameStaticChannel, [&](const frame_static_t& message) {
+    ++n_static;
+    EXPECT_EQ(message.label, "rods.length=2.5");
+    EXPECT_EQ(message.n_rods, 24);
+  });
+  while (log.bus->handle(200)) {
+  }
+  EXPECT_GE(n_static, 1);
+  EXPECT_GE(observables.size(), 1U);
+  ASSERT_GE(frames.size(), 1U);
+
+  const auto trajectory = TrajectoryReader::open(RunDirectory{options.directory}.trajectory());
+  ASSERT_TRUE(trajectory);
+  std::map<Tick, TrajectoryFrame> recorded;
+  for (std::size_t i = 0; i < trajectory->n_frames(); ++i) {
+    const auto frame = trajectory->frame(i);
+    recorded[frame->tick] = *frame;
+  }
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    EXPECT_EQ(frames[i].sequence, static_cast<std::int64_t>(i)) << "numbers without gaps";
+    EXPECT_EQ(frames[i].job_id, "0123456789abcdef");
+    ASSERT_TRUE(recorded.count(frames[i].tick)) << "tick " << frames[i].tick;
+    const TrajectoryFrame& frame = recorded[frames[i].tick];
+    const auto rods = proto::decode_chunk(frames[i]);
+    ASSERT_EQ(rods.size(), frame.position.size());
+    for (std::size_t r = 0; r < rods.size(); ++r) {
+      const double side = plan.system.box_side;
+      EXPECT_LT(std::abs(std::remainder(rods[r].x - frame.position[r].x(), side)), 1.1 * side / 131072);
+      EXPECT_LT(std::abs(std::remainder(rods[r].y - frame.position[r].y(), side)), 1.1 * side / 131072);
+      const auto axis = rods[r].axis();
+      EXPECT_NEAR(std::abs(Vec3(axis[0], axis[1], axis[2]).dot(frame.director[r])), 1, 1e-6);
+    }
+  }
+}
+
+TEST(Run, LcmThatCannotStartIsOnlyAWarning) {
+  const TemporaryFolder folder;
+  scene::RunPlan plan = small_plan();
+  plan.stream = scene::Stream{20};
+  RunOptions options;
+  options.directory = folder.path();
+  options.lcm_url = "nonsense://";
+  ASSERT_EQ(run(plan, options).state, RunState::kDone);
+  EXPECT_EQ(summary_in(folder.path())["state_hash"], summary_in(undisturbed())["state_hash"]);
+}
+
+}  // namespace
+}  // namespace shaken::run

@@ -1,1 +1,163 @@
 // SPDX-License-Identifier: MIT
+#include "run/measurements.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace shaken::run {
+namespace {
+
+constexpr double kDt = 1e-5;
+
+scene::RunPlan plan() {
+  scene::RunPlan p;
+  p.system.dt = kDt;
+  p.system.box_side = 20;
+  p.steady = 0.0;
+  p.order = scene::MeasureOrder{0.01};
+  p.angles = scene::MeasureAngles{0.02, 18};
+  p.tilt = scene::MeasureTilt{0.005, 10};
+  p.defects = scene::MeasureDefects{0.05, 0, 0};
+  return p;
+}
+
+Species species() { return make_species(RodShape{}); }
+
+Snapshot random_snapshot(Tick tick) {
+  std::mt19937_64 rng(static_cast<std::uint64_t>(tick) + 17);
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::normal_distribution<double> normal;
+  Snapshot s;
+  s.tick = tick;
+  s.time = static_cast<double>(tick) * kDt;
+  s.box_side = 20;
+  for (int i = 0; i < 100; ++i) {
+    s.position.emplace_back(20 * unit(rng), 20 * unit(rng), 0.6);
+    s.director.push_back(Vec3(normal(rng), normal(rng), 0.1 * normal(rng)).normalized());
+    s.velocity.emplace_back(normal(rng), normal(rng), normal(rng));
+    s.angular_velocity.emplace_back(0, 0, 0);
+    s.image.push_back({0, 0});
+  }
+  return s;
+}
+
+/// Takes all samples in ticks [from, to].
+void measure(Measurements& measurements, Tick from, Tick to) {
+  for (Tick t = measurements.next_due(from); t <= to; t = measurements.next_due(t + 1)) {
+    measurements.sample(random_snapshot(t));
+  }
+}
+
+TEST(Cadence, IsDueAtMultiplesFromZero) {
+  const Cadence cadence(0.01, 4e-6);
+  EXPECT_EQ(cadence.period(), 2500);
+  EXPECT_TRUE(cadence.due(0));
+  EXPECT_TRUE(cadence.due(5000));
+  EXPECT_FALSE(cadence.due(4999));
+  EXPECT_EQ(cadence.next(0), 0);
+  EXPECT_EQ(cadence.next(1), 2500);
+  EXPECT_EQ(cadence.next(2500), 2500);
+  EXPECT_EQ(Cadence(1e-9, 4e-6).period(), 1) << "never more often than every tick";
+}
+
+TEST(Measurements, EachKeepsItsOwnTime) {
+  Measurements measurements(plan(), species());
+  measure(measurements, 0, 10000);  // 0.1 s
+  EXPECT_EQ(measurements.counts(),
+            (std::map<std::string, std::int64_t>{{"order", 11}, {"angles", 6}, {"tilt", 21}, {"defects", 3}}));
+  const Reduction reduction = measurements.reduce(0.1);
+  EXPECT_EQ(reduction.arrays.at("/order/time_s").size(), 11U);
+  EXPECT_EQ(reduction.arrays.at("/defects/time_s").size(), 3U);
+  EXPECT_EQ(reduction.arrays.at("/angles/theta_rad").size(), 18U);
+  EXPECT_EQ(reduction.arrays.at("/tilt/n_z").size(), 10U);
+  EXPECT_EQ(reduction.arrays.at("/defects/list/x_mm").size(), reduction.arrays.at("/defects/list/charge").size());
+}
+
+TEST(Measurements, WhatIsNotInThePlanDoesNotExist) {
+  scene::RunPlan nothing;
+  nothing.steady = 1.0;
+  nothing.order.reset();
+  nothing.angles.reset();
+  nothing.tilt.reset();
+  nothing.defects.reset();
+  Measurements measurements(nothing, species());
+  EXPECT_EQ(measurements.next_due(0), kNever);
+  measurements.sample(random_snapshot(0));
+  const Reduction reduction = measurements.reduce(10);
+  EXPECT_TRUE(reduction.arrays.empty());
+  EXPECT_FALSE(reduction.order);
+  EXPECT_FALSE(reduction.defects);
+  EXPECT_EQ(reduction.t_steady, 1.0);
+}
+
+TEST(Measurements, ParallelRodsHaveOrderOneAndNoDefects) {
+  Measurements measurements(plan(), species());
+  Snapshot s = random_snapshot(0);
+  for (Vec3& n : s.director) n = Vec3(std::cos(0.3), std::sin(0.3), 0);
+  measurements.sample(s);
+  const Reduction reduction = measurements.reduce(0);
+  EXPECT_NEAR(reduction.arrays.at("/order/order").at(0), 1, 1e-12);
+  EXPECT_NEAR(reduction.arrays.at("/order/director_rad").at(0), 0.3, 1e-12);
+  EXPECT_EQ(reduction.arrays.at("/defects/n_plus").at(0), 0);
+}
+
+TEST(Measurements, SteadyStateIsGivenFoundOrHalfTheRun) {
+  scene::RunPlan p = plan();
+  p.steady = 0.05;
+  Measurements given(p, species());
+  measure(given, 0, 10000);
+  EXPECT_NEAR(given.reduce(0.1).t_steady, 0.05, 1e-12);
+  EXPECT_NEAR(given.reduce(0.1).order->t_steady, 0.05, 1e-12);
+
+  p.steady.reset();
+  Measurements found(p, species());
+  measure(found, 0, 10000);
+  EXPECT_EQ(found.reduce(0.1).t_steady, found.reduce(0.1).order->t_steady);
+
+  p.order.reset();
+  Measurements assumed(p, species());
+  measure(assumed, 0, 10000);
+  EXPECT_EQ(assumed.reduce(0.1).t_steady, 0.05);
+}
+
+TEST(Measurements, GoOnBitwiseAfterASaveAtAnyTime) {
+  Measurements straight(plan(), species());
+  measure(straight, 0, 20000);
+  for (const Tick stop : {0, 1, 500, 4999, 5000, 12345, 20000}) {
+    Measurements first(plan(), species());
+    measure(first, 0, stop);
+    Measurements second(plan(), species());
+    second.restore(first.save());
+    measure(second, stop + 1, 20000);
+    EXPECT_EQ(second.save(), straight.save()) << stop;
+    EXPECT_EQ(second.counts(), straight.counts()) << stop;
+  }
+}
+
+TEST(Measurements, RefuseTheStateOfAnotherPlan) {
+  Measurements full(plan(), species());
+  measure(full, 0, 5000);
+  scene::RunPlan p = plan();
+  p.tilt.reset();
+  EXPECT_THROW(Measurements(p, species()).restore(full.save()), analysis::StateError);
+  p = plan();
+  p.angles->bins = 20;
+  EXPECT_THROW(Measurements(p, species()).restore(full.save()), analysis::StateError);
+  EXPECT_THROW(Measurements(plan(), species()).restore({}), analysis::StateError);
+}
+
+TEST(LargestTilt, IsSetByTheGap) {
+  RodShape shape;
+  shape.end_diameter = 0.4;
+  const Species s = make_species(shape);
+  // The end beads touch both plates: half_length * n_z + end_radius = gap / 2.
+  EXPECT_NEAR(largest_tilt(s, 1.2), (0.6 - 0.2) / s.half_length, 1e-12);
+  EXPECT_EQ(largest_tilt(s, 100), 1);
+  shape.n_beads = 1;
+  EXPECT_EQ(largest_tilt(make_species(shape), 1.2), 1) << "a sphere may point anywhere";
+}
+
+}  // namespace
+}  // namespace shaken::run

@@ -1,1 +1,88 @@
 // SPDX-License-Identifier: MIT
+#include "run/summary.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "run/files/atomic_file.h"
+#include "temporary_folder.h"
+
+namespace shaken::run {
+namespace {
+
+Summary example() {
+  Summary s;
+  s.run_id = "0123456789abcdef";
+  s.n_rods = 2000;
+  s.sim_seconds = 10;
+  s.cpu_seconds = 100;
+  s.wall_seconds = 110;
+  s.collisions_rod_rod = 5'000'000'000;
+  s.collisions_rod_base = 2;
+  s.collisions_rod_lid = 3;
+  s.max_overlap = 0.001;
+  s.t_steady = 2;
+  s.order = analysis::SteadySummary{0.9, 0.02, 0.001, 0.5, 2, 400};
+  s.effects["rod_rod_friction"] = {true, {{"impulses", 5e9}}};
+  s.effects["movie"] = {};
+  s.state_hash = 0xab;
+  s.tick = 2'500'000;
+  return s;
+}
+
+nlohmann::json written(const Summary& summary) {
+  const TemporaryFolder folder;
+  EXPECT_FALSE(write_summary(folder / "summary.json", summary));
+  return nlohmann::json::parse(*read_file(folder / "summary.json"));
+}
+
+TEST(Summary, HasTheAgreedFields) {
+  const auto json = written(example());
+  EXPECT_EQ(json["n_rods"], 2000);
+  EXPECT_EQ(json["sim_seconds"], 10.0);
+  EXPECT_EQ(json["rod_seconds_per_cpu_second"], 200.0);
+  EXPECT_EQ(json["collisions"]["rod_rod"], 5'000'000'000);
+  EXPECT_EQ(json["order"]["mean"], 0.9);
+  EXPECT_EQ(json["order"]["tau_s"], 0.5);
+  EXPECT_EQ(json["order"]["t_steady_s"], 2.0);
+  EXPECT_TRUE(json["defects"].is_null()) << "not measured is not zero";
+  EXPECT_EQ(json["effects"]["rod_rod_friction"]["on"], true);
+  EXPECT_EQ(json["effects"]["rod_rod_friction"]["impulses"].dump(), "5000000000") << "counts are whole numbers";
+  EXPECT_EQ(json["effects"]["movie"]["on"], false);
+  EXPECT_EQ(json["state_hash"], "00000000000000ab");
+  EXPECT_EQ(json["exit"]["state"], "done");
+  EXPECT_EQ(json["exit"]["tick"], 2'500'000);
+  EXPECT_EQ(json["versions"]["shaken"], "0.1.0");
+}
+
+TEST(Summary, TellsTheTrouble) {
+  Summary summary = example();
+  summary.state = "failed";
+  summary.reason = "numerical trouble";
+  summary.rods = {7, 11};
+  const auto json = written(summary);
+  EXPECT_EQ(json["exit"]["reason"], "numerical trouble");
+  EXPECT_EQ(json["exit"]["rods"], (std::vector<int>{7, 11}));
+}
+
+TEST(Summary, IsDoneOnlyForTheSameRun) {
+  const TemporaryFolder folder;
+  const auto file = folder / "summary.json";
+  EXPECT_FALSE(is_done(file, "0123456789abcdef"));
+  Summary summary = example();
+  ASSERT_FALSE(write_summary(file, summary));
+  EXPECT_TRUE(is_done(file, "0123456789abcdef"));
+  EXPECT_FALSE(is_done(file, "fedcba9876543210"));
+  summary.state = "stopped";
+  ASSERT_FALSE(write_summary(file, summary));
+  EXPECT_FALSE(is_done(file, "0123456789abcdef"));
+  for (const char* damaged : {"", "{", "[]", "{}", R"({"run_id": "0123456789abcdef", "exit": 3})",
+                              R"({"run_id": 5, "exit": {"state": "done"}})"}) {
+    ASSERT_FALSE(write_file_atomically(file, damaged));
+    EXPECT_FALSE(is_done(file, "0123456789abcdef")) << damaged;
+  }
+}
+
+}  // namespace
+}  // namespace shaken::run
