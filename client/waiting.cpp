@@ -59,9 +59,9 @@ ExitCode wait_for(Session& session, std::vector<Target> targets, std::optional<d
     const int n_jobs = static_cast<int>(jobs.size());
     if (console.err_is_terminal) {
       const double eta = eta_of(targets);
-      const std::string line =
-          fmt::format("{} {:3.0f} %  {}/{} jobs  ETA {} ({})", bar_text(fraction, 24), 100 * fraction, n_ended, n_jobs,
-                      duration_text(eta), clock_text(eta, now_utime()));
+      std::string line =
+          fmt::format("{} {:3.0f} %  {}/{} jobs", bar_text(fraction, 24), 100 * fraction, n_ended, n_jobs);
+      if (eta >= 0) line += fmt::format("  ETA {} ({})", duration_text(eta), clock_text(eta, now_utime()));
       console.err << "\r" << fitted(line, console.width > 0 ? static_cast<std::size_t>(console.width - 1) : 79)
                   << "\x1b[K" << std::flush;
     }

@@ -109,9 +109,10 @@ class Status : public Verb {
   static void show_jobs(const Target& target, Console& console) {
     const Json& sweep = target.answer.at("sweep");
     const double progress = sweep.value("progress", 0.0);
-    console.out << fmt::format("{}: {}\n{} {:3.0f} %  {}\n", console.painted(Colour::kBold, target.title()),
+    const std::string eta = sweep_eta_text(sweep);
+    console.out << fmt::format("{}: {}\n{} {:3.0f} %{}{}\n", console.painted(Colour::kBold, target.title()),
                                counts_text(sweep.at("counts")), console.painted(Colour::kBlue, bar_text(progress, 24)),
-                               100 * progress, sweep_eta_text(sweep));
+                               100 * progress, eta.empty() ? "" : "  ETA ", eta);
     Table table({{"JOB"}, {"STATE"}, {"DONE", Align::kRight}, {"S", Align::kRight}, {"TIME"}, {"POINT"}});
     for (const Json& job : jobs_of(target)) {
       const std::string state = text_of(job, "state");

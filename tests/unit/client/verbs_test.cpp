@@ -64,13 +64,13 @@ TEST_F(Verbs, StatusListsSweeps) {
   daemon_.on("GET /v1/status",
              R"({"version": "0.1.0", "api": 1, "pid": 77, "root": "/r", "host": "desk", "uptime_s": 65.0,
     "slots": 2, "lcm": {"url": "udpm://x", "ok": false, "message": "no route"}, "jobs": {}})");
-  const Json one = sweep({job("1f0c000000000000", "done"), job("2a0c000000000000", "failed")}).at("sweep");
+  const Json one = sweep({job("1f0c000000000000", "running"), job("2a0c000000000000", "failed")}).at("sweep");
   daemon_.on("GET /v1/sweeps", text({{"sweeps", {one}}}));
   const Outcome outcome = run({"status"});
   EXPECT_EQ(outcome.code, ExitCode::kOk) << outcome.err;
   EXPECT_THAT(outcome.out,
               HasSubstr("shakend 0.1.0 on desk, pid 77, up 1 min 05 s; 2 slots; live state off: no route"));
-  EXPECT_THAT(outcome.out, HasSubstr("1 done, 1 failed"));
+  EXPECT_THAT(outcome.out, HasSubstr("1 running, 1 failed"));
   EXPECT_THAT(outcome.out, HasSubstr("1 min 30 s ("));
   EXPECT_THAT(outcome.out, Not(HasSubstr("\x1b")));
   const Outcome json = run({"status", "--json"});
