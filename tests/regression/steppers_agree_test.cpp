@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+// The main test of the engine: the scheduled stepper gives bitwise the reference stepper's trajectory.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "sim/simulation.h"
+
+namespace shaken {
+namespace {
+
+std::string describe(const Scene& s) {
+  char text[400];
+  std::snprintf(text, sizeof text,
+                "l %g d %g/%g beads %d, N %d, L %g, w %g, a %g, f %g, g %g, e %g %g, mu %g %g, dt %g, sweeps %d, start "
+                "%s, seed %d",
+                s.rod.length, s.rod.mid_diameter, s.rod.end_diameter, s.rod.n_beads, s.n_rods, s.box_side, s.gap,
+                s.amplitude, s.frequency, s.gravity, s.rod_rod.restitution, s.rod_base.restitution, s.rod_rod.friction,
+                s.rod_base.friction, s.dt, s.solver_sweeps, s.start == Start::kAligned ? "aligned" : "random",
+                static_cast<int>(s.seed));
+  return text;
+}
+
+/// Steps both, compares the hashes at several ticks, and once more after a checkpoint and restart at tick `stop`.
+/// Returns what differed, or an empty string.
+std::string compare(Scene scene, Tick ticks, Tick stop) {
+  scene.engine = Engine::kReference;
+  auto reference = Simulation::start(scene);
+  if (!reference) return "";  // does not fit: nothing to compare
+  scene.engine = Engine::kScheduled;
+  auto scheduled = Simulation::start(scene);
+  std::vector<Tick> looks{1, 2, stop, ticks / 2, ticks};
+  std::sort(looks.begin(), looks.end());
+  for (const Tick k : looks) {
+    const auto trouble_r = reference->advance_to(k);
+    const auto trouble_s = scheduled->advance_to(k);
+    if (trouble_r.has_value() != trouble_s.has_value())
+      return "only one of them met trouble by tick " + std::to_string(k);
+    if (trouble_r)
+      return trouble_r->tick == trouble_s->tick && trouble_r->rods == trouble_s->rods ? "" : "different trouble";
+    if (reference->state_hash() != scheduled->state_hash()) return "states differ at tick " + std::to_string(k);
+    const Counters& r = reference->world().counters;
+    const Counters& s = scheduled->world().counters;
+    if (r.impulses_rod_rod != s.impulses_rod_rod || r.impulses_rod_base != s.impulses_rod_base ||
+        r.impulses_rod_lid != s.impulses_rod_lid || r.max_overlap_rod_rod != s.max_overlap_rod_rod ||
+        r.max_overlap_rod_plate != s.max_overlap_rod_plate) {
+      return "counters differ at tick " + std::to_string(k);
+    }
+    if (k == stop) scheduled = Simulation::resume(scene, scheduled->checkpoint());
+  }
+  return "";
+}
+
+struct Case {
+  double length, area_fraction, gap, gamma, restitution, friction, dt_us;
+  int n_rods;
+  Tick ticks;
+  Start start = Start::kAligned;
+  double end_diameter = 0.4;
+  int n_beads = 0;  ///< 0: pitch 0.3 mm
+};
+
+Scene scene_of(const Case& c, std::uint64_t seed) {
+  Scene scene;
+  scene.rod.length = c.length;
+  scene.rod.end_diameter = c.end_diameter;
+  scene.rod.n_beads = c.n_beads > 0 ? c.n_beads : beads_for_pitch(c.length, c.end_diameter, 0.3);
+  scene.n_rods = c.n_rods;
+  const double length = scene.rod.n_beads == 1 ? scene.rod.mid_diameter : c.length;
+  scene.box_side = std::max(2.2 * length + 1.0, std::sqrt(c.n_rods * make_species(scene.rod).area / c.area_fraction));
+  scene.gap = c.gap;
+  const double omega = 2 * kPi * scene.frequency;
+  scene.amplitude = c.gamma * scene.gravity / (omega * omega);
+  scene.rod_rod = scene.rod_base = scene.rod_lid = {c.friction, c.restitution};
+  scene.dt = c.dt_us * 1e-6;
+  scene.start = c.start;
+  scene.seed = seed;
+  return scene;
+}
+
+class SteppersAgree : public testing::TestWithParam<Case> {};
+
+TEST_P(SteppersAgree, BitForBit) {
+  const Scene scene = scene_of(GetParam(), 7);
+  ASSERT_TRUE(static_cast<bool>(Simulation::start(scene))) << Simulation::start(scene).error().message;
+  EXPECT_EQ(compare(scene, GetParam().ticks, GetParam().ticks / 3 + 11), "") << describe(scene);
+}
+
+constexpr Start kRandomStart = Start::kRandom;
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, SteppersAgree,
+    testing::Values(
+        // the paper's scenes
+        Case{4.5, 0.45, 1.2, 7, 0.3, 0.05, 4, 100, 10000}, Case{4.5, 0.60, 1.2, 7, 0.3, 0.05, 4, 100, 10000},
+        Case{4.5, 0.75, 1.2, 7, 0.3, 0.05, 4, 120, 10000}, Case{4.5, 0.85, 1.2, 7, 0.3, 0.05, 4, 140, 10000},
+        Case{4.5, 0.75, 1.2, 7, 0.3, 0.05, 4, 600, 5000}, Case{2.5, 0.45, 1.2, 7, 0.3, 0.05, 4, 80, 20000},
+        Case{2.5, 0.60, 1.2, 7, 0.3, 0.05, 4, 80, 50000}, Case{2.5, 0.75, 1.2, 7, 0.3, 0.05, 4, 80, 20000},
+        Case{2.5, 0.85, 1.2, 7, 0.3, 0.05, 4, 100, 20000}, Case{3.0, 0.60, 1.2, 7, 0.3, 0.05, 4, 80, 10000},
+        Case{3.5, 0.85, 1.2, 7, 0.3, 0.05, 4, 100, 10000}, Case{4.0, 0.70, 1.2, 7, 0.3, 0.05, 4, 100, 10000},
+        // packed and dilute
+        Case{4.5, 0.90, 1.2, 7, 0.3, 0.05, 4, 144, 8000}, Case{2.5, 0.90, 1.2, 7, 0.3, 0.05, 4, 100, 8000},
+        Case{4.5, 0.20, 1.2, 7, 0.3, 0.05, 4, 60, 20000}, Case{2.5, 0.20, 1.2, 7, 0.3, 0.05, 4, 60, 20000},
+        // gaps
+        Case{4.5, 0.75, 0.9, 7, 0.3, 0.05, 4, 100, 10000}, Case{4.5, 0.75, 1.4, 7, 0.3, 0.05, 4, 100, 10000},
+        Case{2.5, 0.70, 1.6, 7, 0.3, 0.05, 4, 80, 20000}, Case{2.5, 0.85, 0.9, 7, 0.3, 0.05, 4, 80, 10000},
+        // shaking
+        Case{4.5, 0.70, 1.2, 0, 0.3, 0.05, 4, 80, 20000}, Case{2.5, 0.60, 1.2, 1, 0.3, 0.05, 4, 80, 20000},
+        Case{2.5, 0.60, 1.2, 3, 0.3, 0.05, 4, 80, 20000}, Case{4.5, 0.75, 1.2, 15, 0.3, 0.05, 4, 80, 10000},
+        // restitution
+        Case{4.5, 0.70, 1.2, 7, 0.0, 0.05, 4, 80, 10000}, Case{2.5, 0.60, 1.2, 7, 0.05, 0.05, 4, 80, 10000},
+        Case{4.5, 0.70, 1.2, 3, 0.9, 0.05, 4, 80, 10000}, Case{2.5, 0.60, 1.2, 0, 1.0, 0.0, 4, 80, 20000},
+        // friction
+        Case{4.5, 0.70, 1.2, 7, 0.3, 0.0, 4, 80, 10000}, Case{4.5, 0.70, 1.2, 7, 0.3, 0.3, 4, 80, 10000},
+        Case{2.5, 0.60, 1.2, 7, 0.3, 1.0, 4, 80, 10000},
+        // ticks
+        Case{4.5, 0.70, 1.2, 7, 0.3, 0.05, 1, 60, 20000}, Case{2.5, 0.60, 1.2, 7, 0.3, 0.05, 1, 60, 20000},
+        Case{4.5, 0.70, 1.2, 7, 0.3, 0.05, 16, 80, 5000}, Case{2.5, 0.60, 1.2, 7, 0.3, 0.05, 40, 80, 5000},
+        Case{4.5, 0.80, 1.2, 7, 0.3, 0.05, 40, 80, 5000}, Case{3.5, 0.60, 1.2, 7, 0.3, 0.05, 3.7, 80, 10000},
+        // shapes: spheres, no taper, strong taper, few beads, wider at the ends
+        Case{0.8, 0.50, 1.2, 7, 0.3, 0.05, 4, 150, 20000, kRandomStart, 0.8, 1},
+        Case{4.5, 0.65, 1.2, 7, 0.3, 0.05, 4, 80, 10000, Start::kAligned, 0.8},
+        Case{2.5, 0.50, 1.2, 7, 0.3, 0.05, 4, 80, 10000, Start::kAligned, 0.8},
+        Case{4.5, 0.60, 1.2, 7, 0.3, 0.05, 4, 80, 10000, Start::kAligned, 0.2},
+        Case{2.5, 0.60, 1.2, 7, 0.3, 0.05, 4, 80, 10000, Start::kAligned, 0.4, 3},
+        Case{3.5, 0.50, 1.3, 7, 0.3, 0.05, 4, 60, 10000, Start::kAligned, 1.0},
+        // random starts, few rods
+        Case{4.5, 0.35, 1.2, 7, 0.3, 0.05, 4, 60, 10000, kRandomStart},
+        Case{2.5, 0.40, 1.2, 7, 0.3, 0.05, 4, 80, 10000, kRandomStart}, Case{4.5, 0.20, 1.2, 7, 0.3, 0.05, 4, 1, 50000},
+        Case{4.5, 0.30, 1.2, 7, 0.3, 0.05, 4, 2, 50000},
+        Case{2.5, 0.30, 1.6, 12, 0.5, 0.1, 4, 5, 50000, kRandomStart}));
+
+RC_GTEST_PROP(SteppersAgreeProperty, RandomScenes, ()) {
+  // integers shrink well: each is a step on the way from a plain scene to an odd one
+  Case c{};
+  c.length = 2.5 + 0.1 * *rc::gen::inRange(0, 21);
+  c.area_fraction = 0.2 + 0.05 * *rc::gen::inRange(0, 15);
+  c.gap = 0.9 + 0.05 * *rc::gen::inRange(0, 15);
+  c.gamma = *rc::gen::inRange(0, 16);
+  c.restitution = 0.1 * *rc::gen::inRange(0, 11);
+  c.friction = 0.05 * *rc::gen::inRange(0, 21);
+  c.dt_us = *rc::gen::inRange(1, 41);
+  c.n_rods = *rc::gen::inRange(1, 60);
+  c.ticks = 4000;
+  c.start = *rc::gen::inRange(0, 2) == 1 && c.area_fraction < 0.42 ? Start::kRandom : Start::kAligned;
+  c.end_diameter = 0.2 + 0.1 * *rc::gen::inRange(0, 7);
+  const Scene scene = scene_of(c, static_cast<std::uint64_t>(*rc::gen::inRange(1, 1000)));
+  const std::string difference = compare(scene, c.ticks, *rc::gen::inRange<Tick>(1, c.ticks));
+  if (!difference.empty()) RC_FAIL(difference + ": " + describe(scene));
+}
+
+}  // namespace
+}  // namespace shaken
