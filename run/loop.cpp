@@ -101,7 +101,7 @@ class Loop {
     progress_.message = message;
     progress_.sim_time = session_.simulation.time();
     progress_.sim_rate = rate_.rate();
-    progress_.eta = state == "running" ? rate_.eta(progress_.sim_time_total) : 0.0;
+    progress_.eta = state == "running" ? rate_.eta(progress_.sim_time_total) : -1.0;
     progress_.order = analysis::nematic_order(session_.simulation.snapshot().director).order;
     progress_.order_running_mean = session_.measurements.order_running_mean();
     progress_.max_overlap = session_.simulation.world().counters.max_overlap();
