@@ -15,7 +15,7 @@
 #include <cstring>
 #include <thread>
 
-#include "support.h"
+#include "tests/unit/server/support.h"
 
 namespace shaken::server {
 namespace {

@@ -8,7 +8,7 @@
 #include <shaken/job_t.hpp>
 #include <shaken/status_t.hpp>
 
-#include "support.h"
+#include "tests/unit/server/support.h"
 
 namespace shaken::server {
 namespace {

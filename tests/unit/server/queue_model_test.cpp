@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "server/queue.h"
-#include "support.h"
+#include "tests/unit/server/support.h"
 
 namespace shaken::server {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <thread>
 
-#include "support.h"
+#include "tests/unit/server/support.h"
 
 namespace shaken::server {
 namespace {

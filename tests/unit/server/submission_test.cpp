@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/sweep.h"
-#include "support.h"
+#include "tests/unit/server/support.h"
 
 namespace shaken::server {
 namespace {

@@ -10,7 +10,7 @@
 #include <csignal>
 
 #include "server/local_executor.h"
-#include "support.h"
+#include "tests/unit/server/support.h"
 
 namespace shaken::server {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "support.h"
+#include "tests/unit/server/support.h"
 
 #include <cstdlib>
 #include <fstream>

@@ -7,7 +7,7 @@
 #include <csignal>
 
 #include "run/files/progress.h"
-#include "support.h"
+#include "tests/unit/server/support.h"
 
 namespace shaken::server {
 namespace {
