@@ -60,7 +60,7 @@ struct Options {
   std::optional<double> time_s;
 
   double fps = 30;
-  std::size_t every = 1;
+  std::optional<std::size_t> every;
   std::optional<double> from_s, to_s;
   bool keep_frames = false;
 
@@ -192,25 +192,39 @@ class ProgressLine {
   Stopwatch watch_;
 };
 
+/// How many recorded frames make up `every` seconds; at least 1.
+std::size_t stride_for(const TrajectorySource& source, double every) {
+  if (source.n_frames() < 2) return 1;
+  const double first = value_or_fail(source.time_of(0), kFailed), second = value_or_fail(source.time_of(1), kFailed);
+  return second > first ? static_cast<std::size_t>(std::max(1.0, std::round(every / (second - first)))) : 1;
+}
+
 void make_movie_file(const Options& options) {
   const Stopwatch watch;
-  const PictureStyle style = style_of(options);
+  TrajectorySource source = value_or_fail(TrajectorySource::open(options.source), kBadInput);
+  PictureStyle style = style_of(options);
+  // What the command line leaves open, the scene may say.
+  const std::optional<MovieWish> wish = source.movie_wish();
+  if (wish && options.size.empty()) {
+    style.width = wish->width;
+    style.height = wish->height;
+  }
   if (style.width % 2 != 0 || style.height % 2 != 0) {
     throw Failure(kBadInput, "a movie needs an even width and height, not " + options.size);
   }
-  TrajectorySource source = value_or_fail(TrajectorySource::open(options.source), kBadInput);
   const std::size_t first = options.from_s ? value_or_fail(source.nearest_frame(*options.from_s), kFailed) : 0;
   const std::size_t last =
       options.to_s ? value_or_fail(source.nearest_frame(*options.to_s), kFailed) : source.n_frames() - 1;
   if (last < first) throw Failure(kBadInput, "--from is later than --to");
-  const std::size_t n_frames = (last - first) / options.every + 1;
+  const std::size_t stride = options.every ? *options.every : wish ? stride_for(source, wish->every) : 1;
+  const std::size_t n_frames = (last - first) / stride + 1;
 
   const std::string out = out_of(options, source, "movie.mp4");
   MovieOptions movie{options.fps, options.label, std::nullopt};
   if (options.keep_frames) movie.keep_frames = std::filesystem::path(out).parent_path() / "frames";
   if (style.caption) fail_on(source.read_history());
   const auto picture = [&](std::size_t i) -> Result<RodPicture> {
-    Result<RodPicture> rods = source.picture(first + i * options.every, style.mark_defects);
+    Result<RodPicture> rods = source.picture(first + i * stride, style.mark_defects);
     if (rods && !options.label.empty()) rods->label = options.label;
     return rods;
   };
@@ -235,7 +249,8 @@ void declare_style(CLI::App& app, Options& options) {
   app.add_option("--theme", options.theme, "Colours of page and text")
       ->check(CLI::IsMember({"light", "dark"}))
       ->capture_default_str();
-  app.add_option("--size", options.size, "Pixels [1280x720]; wide, square and tall pictures are laid out differently")
+  app.add_option("--size", options.size,
+                 "Pixels [a movie: the scene's; 1280x720]; wide, square and tall pictures are laid out differently")
       ->type_name("WxH");
   app.add_option("--zoom", options.zoom, "Shows a part of the box, this many times enlarged")
       ->check(CLI::Range(1.0, 1000.0))
@@ -283,7 +298,7 @@ int run(int argc, char** argv) {
   movie->add_option("--fps", options.fps, "Frames per second of playing")
       ->check(CLI::Range(0.1, 1000.0))
       ->capture_default_str();
-  movie->add_option("--every", options.every, "Takes every N-th frame")
+  movie->add_option("--every", options.every, "Takes every N-th frame [as the scene's movie.every says]")
       ->check(CLI::Range(1, 1000000000))
       ->type_name("N");
   movie->add_option("--from", options.from_s, "Begins at this simulated time")->type_name("S");

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "render/sources.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <shaken/frame_static_t.hpp>
 #include <shaken/frame_t.hpp>
@@ -13,6 +16,26 @@
 #include "run/files/directory.h"
 
 namespace shaken::render {
+
+namespace {
+
+using Json = nlohmann::json;
+
+/// A number of the resolved scene, whose values are in default units.
+std::optional<double> number_at(const Json& scene, const char* pointer) {
+  const Json::json_pointer place(pointer);
+  if (!scene.contains(place) || !scene.at(place).is_number()) return std::nullopt;
+  return scene.at(place).get<double>();
+}
+
+std::string shaking(const std::string& scene_json) {
+  const Json scene = Json::parse(scene_json, nullptr, false);
+  const std::optional<double> gamma = number_at(scene, "/plates/gamma"),
+                              frequency = number_at(scene, "/plates/frequency");
+  return gamma && frequency ? fmt::format("\u0393 = {:.4g}, f = {:.4g} Hz", *gamma, *frequency) : "";
+}
+
+}  // namespace
 
 Result<TrajectorySource> TrajectorySource::open(const std::filesystem::path& run_or_file) {
   std::error_code ignored;
@@ -55,6 +78,14 @@ Result<std::size_t> TrajectorySource::nearest_frame(double time) const {
   return time - *before <= *after - time ? low - 1 : low;
 }
 
+std::optional<MovieWish> TrajectorySource::movie_wish() const {
+  const Json scene = Json::parse(reader_.header().scene_json, nullptr, false);
+  const std::optional<double> every = number_at(scene, "/movie/every"), width = number_at(scene, "/movie/size/0"),
+                              height = number_at(scene, "/movie/size/1");
+  if (!every || !width || !height) return std::nullopt;
+  return MovieWish{*every, static_cast<int>(*width), static_cast<int>(*height)};
+}
+
 std::optional<Error> TrajectorySource::read_history() {
   constexpr std::size_t kMostPoints = 400;
   const std::size_t last = n_frames() - 1, points = std::min(kMostPoints, last + 1);
@@ -79,6 +110,7 @@ Result<RodPicture> TrajectorySource::picture(std::size_t index, bool with_defect
   picture.time = frame->time;
   picture.box_side = header.box_side;
   picture.gap = header.gap;
+  picture.label = shaking(header.scene_json);
   picture.bead_offset = header.bead_offset;
   picture.bead_radius = header.bead_radius;
   picture.position = std::move(frame->position);

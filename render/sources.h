@@ -14,6 +14,12 @@
 
 namespace shaken::render {
 
+/// What the "movie" block of a recorded run's scene asks for.
+struct MovieWish {
+  double every = 0;           ///< [s] between frames
+  int width = 0, height = 0;  ///< [pixels]
+};
+
 /// The frames of a recorded run.
 class TrajectorySource {
  public:
@@ -28,9 +34,13 @@ class TrajectorySource {
   /// The frame nearest to `time` [s].
   Result<std::size_t> nearest_frame(double time) const;
 
+  /// None if the scene has no such block.
+  std::optional<MovieWish> movie_wish() const;
+
   /// Reads S(t) of the whole run, from at most 400 of its frames, for the curve beside the pictures.
   [[nodiscard]] std::optional<Error> read_history();
-  /// A frame with order, director and, if asked, defects; with S up to its time if the history has been read.
+  /// A frame with order, director and, if asked, defects; with S up to its time if the history has been read. The label
+  /// says how the plates shake.
   Result<RodPicture> picture(std::size_t index, bool with_defects) const;
 
  private:

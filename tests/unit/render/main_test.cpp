@@ -85,6 +85,16 @@ TEST(RenderProgram, MovieReportsInJson) {
   EXPECT_TRUE(std::filesystem::exists(folder / "frames/frame_000002.png"));
 }
 
+TEST(RenderProgram, MovieFollowsTheScene) {
+  const ScratchFolder folder;
+  plant_trajectory(folder.path(), 7, R"({"movie": {"every": 0.1, "size": [320, 180]}})");
+  const Ended ended = run_program("movie " + folder.path().string() + " --json");
+  ASSERT_EQ(ended.code, 0) << ended.said;
+  const auto said = nlohmann::json::parse(ended.said);
+  EXPECT_EQ(said.at("frames"), 4);  // 0, 0.1, 0.2 and 0.3 s; recorded every 0.05 s
+  EXPECT_EQ(said.at("height_px"), 180);
+}
+
 TEST(RenderProgram, BadInputIsTwoFailureIsOne) {
   const ScratchFolder folder;
   plant_trajectory(folder.path(), 2);

@@ -61,6 +61,26 @@ TEST(TrajectorySource, HistoryEndsAtThePresentFrame) {
   EXPECT_NEAR(picture.history.order[1], 1, 1e-6);
 }
 
+TEST(TrajectorySource, TakesShakingAndMovieFromTheScene) {
+  const ScratchFolder folder;
+  plant_trajectory(folder.path(), 1,
+                   R"({"plates": {"gamma": 7.0, "frequency": 200.0}, "movie": {"every": 0.1, "size": [640, 360]}})");
+  const TrajectorySource source = TrajectorySource::open(folder.path()).value();
+  EXPECT_EQ(source.picture(0, false)->label, "\u0393 = 7, f = 200 Hz");
+  const std::optional<MovieWish> wish = source.movie_wish();
+  ASSERT_TRUE(wish);
+  EXPECT_DOUBLE_EQ(wish->every, 0.1);
+  EXPECT_EQ(wish->width, 640);
+  EXPECT_EQ(wish->height, 360);
+  for (const char* scene : {"{}", "no json", R"({"movie": null})", R"({"movie": {"size": "big"}, "plates": 3})"}) {
+    std::filesystem::remove(folder / "trajectory.h5");
+    plant_trajectory(folder.path(), 1, scene);
+    const TrajectorySource other = TrajectorySource::open(folder.path()).value();
+    EXPECT_FALSE(other.movie_wish()) << scene;
+    EXPECT_EQ(other.picture(0, false)->label, "") << scene;
+  }
+}
+
 TEST(TrajectorySource, SaysWhatIsMissing) {
   const ScratchFolder folder;
   const Result<TrajectorySource> nothing = TrajectorySource::open(folder.path());

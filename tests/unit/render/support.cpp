@@ -82,7 +82,7 @@ std::string ScratchFolder::listing() const {
   return all;
 }
 
-void plant_trajectory(const std::filesystem::path& directory, int n_frames) {
+void plant_trajectory(const std::filesystem::path& directory, int n_frames, const std::string& scene_json) {
   const RodPicture shape = empty_picture(10);
   run::TrajectoryHeader header;
   header.n_rods = 3;
@@ -91,7 +91,7 @@ void plant_trajectory(const std::filesystem::path& directory, int n_frames) {
   header.dt = 4e-6;
   header.bead_offset = shape.bead_offset;
   header.bead_radius = shape.bead_radius;
-  header.scene_json = "{}";
+  header.scene_json = scene_json;
   Result<run::TrajectoryWriter> writer = run::TrajectoryWriter::create(directory / "trajectory.h5", header);
   ASSERT_TRUE(writer) << writer.error().message;
   for (int f = 0; f < n_frames; ++f) {

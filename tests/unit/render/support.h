@@ -42,6 +42,6 @@ class ScratchFolder {
 };
 
 /// Writes DIR/trajectory.h5: frame f at f * 0.05 s has three rods, all turned by f * 10 degrees.
-void plant_trajectory(const std::filesystem::path& directory, int n_frames);
+void plant_trajectory(const std::filesystem::path& directory, int n_frames, const std::string& scene_json = "{}");
 
 }  // namespace shaken::render
