@@ -31,5 +31,23 @@ TEST(Configs, AreAllValidAndCanStart) {
   EXPECT_GE(n_files, 5);
 }
 
+// The indented blocks of docs/scene.md that begin with a brace.
+TEST(Configs, TheExamplesOfTheReferenceAreValid) {
+  std::ifstream in(SHAKEN_SOURCE_DIR "/docs/scene.md");
+  int n_examples = 0;
+  std::string example;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("    ") && (!example.empty() || line.starts_with("    {"))) {
+      example += line + "\n";
+    } else if (!example.empty()) {
+      const Loaded<Sweep> sweep = load_sweep(example, "docs/scene.md");
+      EXPECT_TRUE(sweep.value) << example << to_string(sweep.problems);
+      ++n_examples;
+      example.clear();
+    }
+  }
+  EXPECT_EQ(n_examples, 2);
+}
+
 }  // namespace
 }  // namespace shaken::scene
