@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/document.h"
+#include "scene/problem.h"
+
+namespace shaken::scene {
+
+inline constexpr int kMaxReplicas = 10000;
+
+/// One swept path, with the value that it takes in each choice of its factor (a single one in a list).
+struct Axis {
+  std::string path;
+  Place key;
+  std::vector<Node> values;
+};
+
+/// Paths that vary together.
+struct Factor {
+  enum class Kind { kGrid, kZip, kList, kRandom };
+  Kind kind = Kind::kGrid;
+  std::size_t n_choices = 0;
+  std::vector<Axis> axes;
+  /// Lists only (n_choices): the axes that take part in each choice.
+  std::vector<std::vector<std::size_t>> members;
+
+  bool has(std::string_view path) const;
+};
+
+/// "grid"
+std::string name_of(Factor::Kind kind);
+
+/// What the "sweep" of a file says: the points are the product of the factors, the first varying slowest.
+struct Variation {
+  std::vector<Factor> factors;
+  int replicas = 1;
+};
+Variation read_variation(const Node& sweep, std::vector<Problem>& problems);
+
+}  // namespace shaken::scene
