@@ -160,6 +160,7 @@ void run_daemon(const DaemonConfig& config) {
 
   do {
     supervisor.step();
+    if (http.ended_within(milliseconds(0))) throw std::runtime_error("the control socket has failed");
   } while (!signals.wait(kRound));
 
   spdlog::info("stopping: workers write a checkpoint");

@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kLargestBody = std::size_t{16} << 20;
 constexpr std::size_t kLongestPath = 1024;
 constexpr std::size_t kMostConnections = 256;
-constexpr int kBacklog = 128;  // cpp-httplib's own is 5: a burst of clients would be turned away
+constexpr int kBacklog = SOMAXCONN;  // cpp-httplib has 5: clients that come in a burst would be turned away
 constexpr time_t kIdleSeconds = 1;
 constexpr time_t kReadSeconds = 2;
 constexpr time_t kWriteSeconds = 5;

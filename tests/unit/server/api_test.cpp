@@ -375,7 +375,18 @@ TEST_F(ApiTest, GarbageOnTheSocketHarmsNobody) {
     bytes[*rc::gen::inRange<std::size_t>(0, good.size())] = *rc::gen::arbitrary<char>();
     throw_in(bytes);
   }));
-  EXPECT_EQ(get("/v1/status").status, 200);
+  const Response status = get("/v1/status");
+  EXPECT_EQ(status.status, 200) << status.error();
+}
+
+TEST_F(ApiTest, FiveHundredClientsAtOnceAreAllTaken) {
+  // More than are served at once; none sends anything. cpp-httplib connects without waiting: a full backlog refuses it.
+  std::vector<int> silent;
+  for (int i = 0; i < 500; ++i) silent.push_back(connect());
+  client_.set_read_timeout(20);
+  const Response status = get("/v1/status");
+  EXPECT_EQ(status.status, 200) << status.error();
+  for (const int fd : silent) close(fd);
 }
 
 TEST_F(ApiTest, SlowClientsDoNotKeepOthersWaiting) {
