@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "samples.h"
+#include "tests/contract/samples.h"
 
 namespace shaken::proto {
 namespace {

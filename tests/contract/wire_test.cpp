@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "proto/codec.h"
-#include "samples.h"
+#include "tests/contract/samples.h"
 
 namespace shaken::proto {
 namespace {

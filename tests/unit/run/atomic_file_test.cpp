@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "temporary_folder.h"
+#include "tests/unit/run/temporary_folder.h"
 
 namespace shaken::run {
 namespace {

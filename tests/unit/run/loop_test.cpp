@@ -17,7 +17,7 @@
 #include "run/files/observables_file.h"
 #include "run/files/trajectory.h"
 #include "scene/canonical.h"
-#include "temporary_folder.h"
+#include "tests/unit/run/temporary_folder.h"
 
 namespace shaken::run {
 namespace {

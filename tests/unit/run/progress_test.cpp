@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "run/files/atomic_file.h"
-#include "temporary_folder.h"
+#include "tests/unit/run/temporary_folder.h"
 
 namespace shaken::run {
 namespace {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "run/files/atomic_file.h"
-#include "temporary_folder.h"
+#include "tests/unit/run/temporary_folder.h"
 
 namespace shaken::run {
 namespace {

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "run/files/atomic_file.h"
-#include "temporary_folder.h"
+#include "tests/unit/run/temporary_folder.h"
 
 namespace shaken::run {
 namespace {
