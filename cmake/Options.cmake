@@ -20,6 +20,7 @@ add_library(shaken::options ALIAS shaken_options)
 target_include_directories(shaken_options INTERFACE ${CMAKE_SOURCE_DIR})
 target_compile_options(shaken_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+  -Wno-restrict  # g++ 12 sees overlaps in "text" + std::string that are not there (GCC bug 105651)
   # One rounding per operation, on every machine and at every optimisation level: the steppers promise bitwise equal
   # trajectories, and a fused multiply-add in one of two copies of a kernel breaks that.
   -ffp-contract=off

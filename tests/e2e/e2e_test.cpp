@@ -251,10 +251,7 @@ TEST(EndToEnd, KilledWorkerFailsItsRunAndTheDaemonGoesOn) {
   const auto short_file = write_file(out.path() / "short.json", with_time("50 ms"));
 
   const std::string job = daemon.json({"submit", long_file.string()}).at("jobs")[0].at("id");
-  const auto job_now = [&] {
-    const Json jobs = daemon.json({"status", job}).at("jobs");
-    return jobs.at(0);
-  };
+  const auto job_now = [&] { return daemon.json({"status", job}).at("job"); };
   pid_t pid = 0;
   for (int k = 0; k < 200 && pid == 0; ++k) {
     const Json now = job_now();
@@ -288,7 +285,7 @@ TEST(EndToEnd, StoppedDaemonGoesOnWhereItWas) {
     "box": {"side": "12 mm"}, "time": {"measure": "3 s"}, "trajectory": {"every": "20 ms"}})");
   const std::string job = daemon.json({"submit", file.string()}).at("jobs")[0].at("id");
   const auto progress = [&] {
-    const Json now = daemon.json({"status", job}).at("jobs").at(0);
+    const Json now = daemon.json({"status", job}).at("job");
     return now.at("progress").is_null() ? 0.0 : now.at("progress").at("sim_time_s").get<double>();
   };
   for (int k = 0; k < 200 && progress() <= 0.05; ++k) usleep(50000);
