@@ -268,6 +268,26 @@ TEST(Run, SaysWhyItCannotStart) {
   EXPECT_EQ(read_progress(RunDirectory{folder.path()}.progress())->message, outcome.message);
 }
 
+/// Thin rod ends, and plates that move by more than their radius in one tick: the tick is too long for this shaking.
+TEST(Run, NumericalTroubleIsReportedAndNeverRepaired) {
+  const TemporaryFolder folder;
+  scene::RunPlan violent = small_plan();
+  violent.system.rod.end_diameter = 0.2;
+  violent.system.rod.n_beads = 13;
+  violent.system.amplitude = 1.2;
+  violent.system.dt = 1e-4;
+  const RunOutcome outcome = run_in(folder.path(), violent);
+  EXPECT_EQ(outcome.state, RunState::kFailed);
+  EXPECT_NE(outcome.message.find("numerical trouble at tick"), std::string::npos) << outcome.message;
+  const auto exit = summary_in(folder.path())["exit"];
+  EXPECT_EQ(exit["state"], "failed");
+  EXPECT_EQ(exit["reason"], outcome.message);
+  EXPECT_FALSE(exit["rods"].empty());
+  EXPECT_GT(exit["tick"].get<Tick>(), 0);
+  EXPECT_EQ(read_progress(RunDirectory{folder.path()}.progress())->state, "failed");
+  EXPECT_EQ(run_in(folder.path(), violent).message, outcome.message) << "it happens again, in the same place";
+}
+
 TEST(Run, EmptyPlanLeavesNoTrajectoryAndNoObservables) {
   const TemporaryFolder folder;
   scene::RunPlan bare = small_plan();
