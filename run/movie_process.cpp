@@ -61,7 +61,7 @@ std::optional<Error> render_movie(const std::filesystem::path& directory, const 
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return std::nullopt;
   const std::string how = WIFSIGNALED(status) ? "was ended by signal " + std::to_string(WTERMSIG(status))
                                               : "failed with exit code " + std::to_string(WEXITSTATUS(status));
-  return Error{program + " " + how + "; see worker.log"};
+  return Error{program + " " + how};
 }
 
 }  // namespace shaken::run
