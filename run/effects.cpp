@@ -23,7 +23,8 @@ std::map<std::string, EffectReport> report_effects(const scene::RunPlan& plan, c
   contact("rod_base", system.rod_base, counters.impulses_rod_base);
   contact("rod_lid", system.rod_lid, counters.impulses_rod_lid);
 
-  for (const char* name : {"order", "angles", "tilt", "defects"}) effects["measure_" + std::string(name)] = {};
+  for (const char* name : {"order", "angles", "tilt", "defects", "g2", "msd"})
+    effects["measure_" + std::string(name)] = {};
   for (const auto& [name, samples] : session.measurements.counts()) {
     effects["measure_" + name] = {true, {{"samples", static_cast<double>(samples)}}};
   }

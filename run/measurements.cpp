@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "analysis/director_field.h"
+#include "analysis/steady.h"
 
 namespace shaken::run {
 
@@ -34,6 +35,16 @@ Measurements::Measurements(const scene::RunPlan& plan, const Species& species) :
     mesh_ = plan.defects->grid > 0 ? plan.defects->grid : length / 8;
     defects_.emplace(Timed<analysis::DefectSeries>{{plan.defects->every, dt}, {}});
   }
+  if (plan.g2) {
+    g2_.emplace(Timed<analysis::Blocked<analysis::OrientationCorrelation>>{
+        {plan.g2->every, dt},
+        analysis::Blocked(analysis::OrientationCorrelation(plan.g2->bins, plan.system.box_side / 2))});
+  }
+  if (plan.msd) {
+    const Cadence cadence(plan.msd->every, dt);
+    msd_.emplace(Timed<analysis::MeanSquareDisplacement>{
+        cadence, analysis::MeanSquareDisplacement(static_cast<double>(cadence.period()) * dt)});
+  }
 }
 
 template <class Visitor>
@@ -42,6 +53,8 @@ void Measurements::visit(Visitor visitor) {
   if (angles_) visitor("angles", *angles_);
   if (tilt_) visitor("tilt", *tilt_);
   if (defects_) visitor("defects", *defects_);
+  if (g2_) visitor("g2", *g2_);
+  if (msd_) visitor("msd", *msd_);
 }
 
 template <class Visitor>
@@ -50,6 +63,8 @@ void Measurements::visit(Visitor visitor) const {
   if (angles_) visitor("angles", *angles_);
   if (tilt_) visitor("tilt", *tilt_);
   if (defects_) visitor("defects", *defects_);
+  if (g2_) visitor("g2", *g2_);
+  if (msd_) visitor("msd", *msd_);
 }
 
 Tick Measurements::next_due(Tick from) const {
@@ -72,6 +87,16 @@ void Measurements::sample(const Snapshot& snapshot) {
                                         analysis::grid_nodes(snapshot.box_side, mesh_), smoothing_);
     last_defects_ = DefectSample{snapshot.tick, snapshot.time, smoothing_, analysis::find_defects(field)};
     defects_->accumulator.accumulate(snapshot.time, last_defects_->defects);
+  }
+  if (due(g2_)) {
+    g2_->accumulator.accumulate(snapshot.time, snapshot.position, snapshot.director, snapshot.box_side);
+  }
+  if (analysis::is_steady(snapshot.time, steady_.value_or(0.0)) && due(msd_)) {
+    std::vector<Vec3> unwrapped = snapshot.position;
+    for (std::size_t i = 0; i < unwrapped.size(); ++i) {
+      unwrapped[i] += snapshot.box_side * Vec3(snapshot.image[i][0], snapshot.image[i][1], 0);
+    }
+    msd_->accumulator.accumulate(unwrapped, snapshot.director);
   }
 }
 
@@ -114,6 +139,18 @@ Reduction Measurements::reduce(double sim_seconds) const {
     arrays["/defects/list/y_mm"] = series.list().y;
     arrays["/defects/list/charge"] = series.list().charge;
     arrays["/defects/list/direction_rad"] = series.list().direction;
+  }
+  if (g2_) {
+    const analysis::OrientationCurve curve = g2_->accumulator.after(result.t_steady).reduce();
+    arrays["/g2/r_mm"] = curve.r;
+    arrays["/g2/g2"] = curve.g2;
+  }
+  if (msd_) {
+    const analysis::MsdCurve curve = msd_->accumulator.reduce();
+    arrays["/msd/lag_s"] = curve.lag;
+    arrays["/msd/total_mm2"] = curve.total;
+    arrays["/msd/along_mm2"] = curve.along;
+    arrays["/msd/across_mm2"] = curve.across;
   }
   return result;
 }

@@ -11,6 +11,8 @@
 #include "analysis/angles.h"
 #include "analysis/blocked.h"
 #include "analysis/defect_series.h"
+#include "analysis/g2.h"
+#include "analysis/msd.h"
 #include "analysis/order.h"
 #include "analysis/tilt.h"
 #include "run/cadence.h"
@@ -56,7 +58,8 @@ class Measurements {
 
   /// `sim_seconds` is the length of the run so far.
   Reduction reduce(double sim_seconds) const;
-  /// Samples taken, by measurement ("order", "angles", "tilt", "defects"); those switched off are not in it.
+  /// Samples taken, by measurement ("order", "angles", "tilt", "defects", "g2", "msd"); those switched off are not in
+  /// it.
   std::map<std::string, std::int64_t> counts() const;
 
   std::vector<std::byte> save() const;
@@ -82,6 +85,9 @@ class Measurements {
   std::optional<Timed<analysis::Blocked<analysis::AngleDistribution>>> angles_;
   std::optional<Timed<analysis::Blocked<analysis::TiltVelocity>>> tilt_;
   std::optional<Timed<analysis::DefectSeries>> defects_;
+  std::optional<Timed<analysis::Blocked<analysis::OrientationCorrelation>>> g2_;
+  /// Counts from the given steady time on; where that is found only afterwards, from the start of the run.
+  std::optional<Timed<analysis::MeanSquareDisplacement>> msd_;
   std::optional<DefectSample> last_defects_;
 };
 

@@ -23,6 +23,7 @@ Process::Process(const std::vector<std::string>& command, std::filesystem::path 
   std::vector<char*> arguments;
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
+  std::filesystem::remove(output_);  // nobody shall read what an earlier process printed
   pid_ = fork();
   if (pid_ < 0) throw std::runtime_error("fork failed");
   if (pid_ == 0) {

@@ -20,6 +20,8 @@ scene::RunPlan plan() {
   p.angles = scene::MeasureAngles{0.02, 18};
   p.tilt = scene::MeasureTilt{0.005, 10};
   p.defects = scene::MeasureDefects{0.05, 0, 0};
+  p.g2 = scene::MeasureG2{0.05, 20};
+  p.msd = scene::MeasureMsd{0.01};
   return p;
 }
 
@@ -66,12 +68,16 @@ TEST(Measurements, EachKeepsItsOwnTime) {
   Measurements measurements(plan(), species());
   measure(measurements, 0, 10000);  // 0.1 s
   EXPECT_EQ(measurements.counts(),
-            (std::map<std::string, std::int64_t>{{"order", 11}, {"angles", 6}, {"tilt", 21}, {"defects", 3}}));
+            (std::map<std::string, std::int64_t>{
+                {"order", 11}, {"angles", 6}, {"tilt", 21}, {"defects", 3}, {"g2", 3}, {"msd", 11}}));
   const Reduction reduction = measurements.reduce(0.1);
   EXPECT_EQ(reduction.arrays.at("/order/time_s").size(), 11U);
   EXPECT_EQ(reduction.arrays.at("/defects/time_s").size(), 3U);
   EXPECT_EQ(reduction.arrays.at("/angles/theta_rad").size(), 18U);
   EXPECT_EQ(reduction.arrays.at("/tilt/n_z").size(), 10U);
+  EXPECT_EQ(reduction.arrays.at("/g2/g2").size(), 20U);
+  EXPECT_EQ(reduction.arrays.at("/g2/r_mm").back(), 9.75);  // bins over [0, L / 2)
+  EXPECT_NEAR(reduction.arrays.at("/msd/lag_s").front(), 0.01, 1e-12);
   EXPECT_EQ(reduction.arrays.at("/defects/list/x_mm").size(), reduction.arrays.at("/defects/list/charge").size());
 }
 
@@ -101,6 +107,30 @@ TEST(Measurements, ParallelRodsHaveOrderOneAndNoDefects) {
   EXPECT_NEAR(reduction.arrays.at("/order/order").at(0), 1, 1e-12);
   EXPECT_NEAR(reduction.arrays.at("/order/director_rad").at(0), 0.3, 1e-12);
   EXPECT_EQ(reduction.arrays.at("/defects/n_plus").at(0), 0);
+}
+
+TEST(Measurements, DisplacementsCountCrossingsOfTheBorderFromTheSteadyTimeOn) {
+  scene::RunPlan p = plan();
+  p.steady = 0.05;
+  Measurements measurements(p, species());
+  // 30 mm/s along x: 0.3 mm per sample, across the border; at rest before the steady time
+  for (Tick tick = 0; tick <= 10000; tick += 1000) {
+    Snapshot s = random_snapshot(tick);
+    const double x = tick < 5000 ? 0.0 : 19.5 + 30 * (s.time - 0.05);
+    for (std::size_t i = 0; i < s.n_rods(); ++i) {
+      s.position[i] = Vec3(x - 20 * std::floor(x / 20), 10, 0.6);
+      s.image[i][0] = static_cast<std::int32_t>(std::floor(x / 20));
+      s.director[i] = Vec3(1, 0, 0);
+    }
+    measurements.sample(s);
+  }
+  const Reduction reduction = measurements.reduce(0.1);
+  for (std::size_t k = 0; k < reduction.arrays.at("/msd/lag_s").size(); ++k) {
+    const double path = 30 * reduction.arrays.at("/msd/lag_s")[k];
+    EXPECT_NEAR(reduction.arrays.at("/msd/along_mm2")[k], path * path, 1e-9);
+    EXPECT_NEAR(reduction.arrays.at("/msd/across_mm2")[k], 0, 1e-9);
+  }
+  EXPECT_NEAR(reduction.arrays.at("/msd/lag_s").back(), 0.05, 1e-9);
 }
 
 TEST(Measurements, SteadyStateIsGivenFoundOrHalfTheRun) {
