@@ -94,9 +94,8 @@ std::string watch_line(const LiveJob& job) {
     line += fmt::format(" {:5.1f} %  t {:.3f}/{:.3f} s", 100 * job.fraction(), job.sim_time, job.sim_time_total);
   }
   if (job.order) line += fmt::format("  S {:.3f}", *job.order);
-  if (job.is_running()) {
-    line += fmt::format(" (mean {:.3f})  {:.3g} sim-s/s  ETA {}", job.order_mean, job.sim_rate, duration_text(job.eta));
-  }
+  if (job.order && job.is_running()) line += fmt::format(" (mean {:.3f})", job.order_mean);
+  if (job.is_running()) line += fmt::format("  {:.3g} sim-s/s  ETA {}", job.sim_rate, duration_text(job.eta));
   if (job.order) line += fmt::format("  overlap {:.2g} mm", job.max_overlap);
   if (job.observables) {
     line += fmt::format("  hits {}/{}/{}", job.observables->collisions_rod_rod, job.observables->collisions_rod_base,
