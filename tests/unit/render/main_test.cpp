@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "support.h"
+#include "tests/unit/render/support.h"
 
 namespace shaken::render {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "render/rods_pass.h"
-#include "support.h"
+#include "tests/unit/render/support.h"
 
 namespace shaken::render {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "support.h"
+#include "tests/unit/render/support.h"
 
 namespace shaken::render {
 namespace {

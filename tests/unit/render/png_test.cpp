@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <map>
 
-#include "support.h"
+#include "tests/unit/render/support.h"
 
 namespace shaken::render {
 namespace {

@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "render/colours.h"
-#include "support.h"
+#include "tests/unit/render/support.h"
 
 namespace shaken::render {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "proto/bus.h"
 #include "proto/frame_codec.h"
-#include "support.h"
+#include "tests/unit/render/support.h"
 
 namespace shaken::render {
 namespace {

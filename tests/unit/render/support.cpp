@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "support.h"
+#include "tests/unit/render/support.h"
 
 #include <gtest/gtest.h>
 #include <png.h>
