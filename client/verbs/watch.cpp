@@ -44,17 +44,22 @@ class Watch : public Verb {
             "  shaken watch                  the newest sweep\n"
             "  shaken watch 1f0c             one job\n"
             "  shaken watch s3 --for 60      leaves after a minute; the jobs go on\n"
-            "  shaken watch s3 | tee log     a line per second and job, where stdout is no terminal"};
+            "  shaken watch s3 | tee log     a line per second and job, where stdout is no terminal\n"
+            "  shaken watch --every 60 > log a line per minute"};
   }
 
   void declare(Arguments& arguments) override {
     arguments.optional("ID", id_, "A sweep (id or name) or a job; the newest sweep if left out", Names::kId);
     arguments.option("--for", seconds_, "SECONDS", "Leave after this time");
+    arguments.option("--every", every_, "SECONDS", "Between lines, where stdout is no terminal; 1 if left out");
     arguments.option("--lcm-url", lcm_url_, "URL", "The bus; the daemon's if left out");
   }
 
   ExitCode run(const Context& context) override {
     Console& console = context.console;
+    if (every_ && !(*every_ > 0 && *every_ < 86400)) {
+      throw Failure(ExitCode::kBadInput, "--every takes seconds between 0 and 86400");
+    }
     Session session(context.root);
     Target target = find_target_or_newest(session, id_);
     LiveJobs jobs;
@@ -96,7 +101,8 @@ class Watch : public Verb {
               const InterruptGuard& guard, ScreenPage& page, Console& console) const {
     static constexpr std::chrono::seconds kAskEvery{1};
     static constexpr std::chrono::seconds kDaemonMayBeAway{10};
-    const auto redraw_every = std::chrono::milliseconds(console.interactive ? 200 : 1000);
+    const auto redraw_every =
+        std::chrono::milliseconds(console.interactive ? 200 : static_cast<std::int64_t>(1000 * every_.value_or(1.0)));
     const Clock::time_point start = Clock::now();
     Clock::time_point last_answer = start;
     Clock::time_point next_question = start + kAskEvery;
@@ -154,6 +160,7 @@ class Watch : public Verb {
 
   std::string id_;
   std::optional<double> seconds_;
+  std::optional<double> every_;
   std::string lcm_url_;
 };
 
