@@ -15,16 +15,6 @@ ReferenceStepper::ReferenceStepper(const World& world)
       rods_(world.rods.size()),
       poses_(world.rods.size()) {}
 
-std::optional<NumericalTrouble> ReferenceStepper::advance_to(World& world, Tick target) {
-  while (world.tick < target) {
-    const Tick now = world.tick + 1;
-    auto trouble = step(world, now);
-    world.tick = now;
-    if (trouble) return trouble;
-  }
-  return {};
-}
-
 std::optional<NumericalTrouble> ReferenceStepper::step(World& world, Tick now) {
   const int n = static_cast<int>(world.rods.size());
   for (int i = 0; i < n; ++i) {
@@ -50,16 +40,7 @@ std::optional<NumericalTrouble> ReferenceStepper::step(World& world, Tick now) {
   }
 
   // 3. response
-  for (const PairContact& contact : contacts_) {
-    if (auto trouble = check_overlap(contact, now, rules_)) return trouble;
-    world.counters.max_overlap_rod_rod = std::max(world.counters.max_overlap_rod_rod, contact.beads.overlap);
-    evaluate_motion(rods_[contact.i], world.rods[contact.i], now, rules_);
-    evaluate_motion(rods_[contact.j], world.rods[contact.j], now, rules_);
-  }
-  for (int sweep = 0; sweep < world.scene.solver_sweeps; ++sweep) {
-    for (const PairContact& contact : contacts_)
-      respond(contact, rods_[contact.i], rods_[contact.j], rules_, world.counters);
-  }
+  if (auto trouble = respond(contacts_, rods_, world, now, rules_)) return trouble;
 
   // 4. storing
   for (int i = 0; i < n; ++i) {

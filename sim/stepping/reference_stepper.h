@@ -14,10 +14,9 @@ namespace shaken {
 class ReferenceStepper final : public Stepper {
  public:
   explicit ReferenceStepper(const World& world);
-  [[nodiscard]] std::optional<NumericalTrouble> advance_to(World& world, Tick target) override;
 
  private:
-  std::optional<NumericalTrouble> step(World& world, Tick now);
+  std::optional<NumericalTrouble> step(World& world, Tick now) override;
 
   TickRules rules_;
   NeighborList neighbors_;

@@ -232,16 +232,6 @@ void ScheduledStepper::detect_touching(const World& world, Tick now) {
   }
 }
 
-std::optional<NumericalTrouble> ScheduledStepper::advance_to(World& world, Tick target) {
-  while (world.tick < target) {
-    const Tick now = world.tick + 1;
-    auto trouble = step(world, now);
-    world.tick = now;
-    if (trouble) return trouble;
-  }
-  return {};
-}
-
 std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
   const bool first = neighbors_.n_builds() == 0;
   if (first) {
@@ -274,16 +264,7 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
   });
 
   // 3. response
-  for (const PairContact& contact : contacts_) {
-    if (auto trouble = check_overlap(contact, now, rules_)) return trouble;
-    world.counters.max_overlap_rod_rod = std::max(world.counters.max_overlap_rod_rod, contact.beads.overlap);
-    evaluate_motion(rods_[contact.i], world.rods[contact.i], now, rules_);
-    evaluate_motion(rods_[contact.j], world.rods[contact.j], now, rules_);
-  }
-  for (int sweep = 0; sweep < world.scene.solver_sweeps; ++sweep) {
-    for (const PairContact& contact : contacts_)
-      respond(contact, rods_[contact.i], rods_[contact.j], rules_, world.counters);
-  }
+  if (auto trouble = respond(contacts_, rods_, world, now, rules_)) return trouble;
 
   // 4. storing
   changed_.clear();

@@ -22,7 +22,6 @@ namespace shaken {
 class ScheduledStepper final : public Stepper {
  public:
   explicit ScheduledStepper(const World& world);
-  [[nodiscard]] std::optional<NumericalTrouble> advance_to(World& world, Tick target) override;
 
  private:
   /// When an item is due, and at which tick the wheel will bring it up (at or before `due`).
@@ -46,7 +45,7 @@ class ScheduledStepper final : public Stepper {
     AxisRecord axis[2];
   };
 
-  std::optional<NumericalTrouble> step(World& world, Tick now);
+  std::optional<NumericalTrouble> step(World& world, Tick now) override;
 
   RodAtTick& at_tick(const World& world, int i, Tick now);
   FlightState flight_state(const World& world, int i, Tick now);

@@ -14,8 +14,20 @@ namespace shaken {
 class Stepper {
  public:
   virtual ~Stepper() = default;
+
   /// Steps to `target`, or stops after the tick at which trouble was met.
-  [[nodiscard]] virtual std::optional<NumericalTrouble> advance_to(World& world, Tick target) = 0;
+  [[nodiscard]] std::optional<NumericalTrouble> advance_to(World& world, Tick target) {
+    while (world.tick < target) {
+      auto trouble = step(world, world.tick + 1);
+      ++world.tick;
+      if (trouble) return trouble;
+    }
+    return {};
+  }
+
+ private:
+  /// Does tick `now`, the one after the world's.
+  [[nodiscard]] virtual std::optional<NumericalTrouble> step(World& world, Tick now) = 0;
 };
 
 /// The stepper that the scene asks for.

@@ -121,9 +121,21 @@ struct PairContact {
   BeadContact beads;
 };
 
+/// Trouble if the overlap of a contact is too deep.
+inline std::optional<NumericalTrouble> check_overlap(const PairContact& contact, Tick now, const TickRules& rules) {
+  const double smaller =
+      std::min(rules.species.bead_radius[contact.beads.bead_i], rules.species.bead_radius[contact.beads.bead_j]);
+  if (contact.beads.overlap <= kMaxOverlapFraction * smaller) return {};
+  return NumericalTrouble{now,
+                          {contact.i, contact.j},
+                          "beads " + std::to_string(contact.beads.bead_i) + " and " +
+                              std::to_string(contact.beads.bead_j) + " overlap by " +
+                              std::to_string(contact.beads.overlap) + " mm"};
+}
+
 /// Phase 3 for one contact. The motion of both rods must have been evaluated.
-inline void respond(const PairContact& contact, RodAtTick& rod_i, RodAtTick& rod_j, const TickRules& rules,
-                    Counters& counters) {
+inline void respond_to(const PairContact& contact, RodAtTick& rod_i, RodAtTick& rod_j, const TickRules& rules,
+                       Counters& counters) {
   const BeadContact& beads = contact.beads;
   const Species& species = rules.species;
   const Vec3 arm_i =
@@ -142,16 +154,21 @@ inline void respond(const PairContact& contact, RodAtTick& rod_i, RodAtTick& rod
   ++counters.impulses_rod_rod;
 }
 
-/// Trouble if the overlap of a contact is too deep.
-inline std::optional<NumericalTrouble> check_overlap(const PairContact& contact, Tick now, const TickRules& rules) {
-  const double smaller =
-      std::min(rules.species.bead_radius[contact.beads.bead_i], rules.species.bead_radius[contact.beads.bead_j]);
-  if (contact.beads.overlap <= kMaxOverlapFraction * smaller) return {};
-  return NumericalTrouble{now,
-                          {contact.i, contact.j},
-                          "beads " + std::to_string(contact.beads.bead_i) + " and " +
-                              std::to_string(contact.beads.bead_j) + " overlap by " +
-                              std::to_string(contact.beads.overlap) + " mm"};
+/// Phase 3. `contacts` are sorted; `rods` holds those concerned as of tick `now`.
+inline std::optional<NumericalTrouble> respond(const std::vector<PairContact>& contacts, std::vector<RodAtTick>& rods,
+                                               World& world, Tick now, const TickRules& rules) {
+  for (const PairContact& contact : contacts) {
+    if (auto trouble = check_overlap(contact, now, rules)) return trouble;
+    world.counters.max_overlap_rod_rod = std::max(world.counters.max_overlap_rod_rod, contact.beads.overlap);
+    evaluate_motion(rods[contact.i], world.rods[contact.i], now, rules);
+    evaluate_motion(rods[contact.j], world.rods[contact.j], now, rules);
+  }
+  for (int sweep = 0; sweep < world.scene.solver_sweeps; ++sweep) {
+    for (const PairContact& contact : contacts) {
+      respond_to(contact, rods[contact.i], rods[contact.j], rules, world.counters);
+    }
+  }
+  return {};
 }
 
 /// Phase 4 for one changed rod. Trouble if its motion is no longer a number.
