@@ -50,7 +50,7 @@ Vec3 newton_coulomb_impulse(const Mat3& K, const Vec3& normal, const Vec3& u, co
   if (mu == 0.0) return (bounce / normal.dot(K * normal)) * normal;
 
   const Vec3 u_t = u - u_n * normal;
-  const Vec3 stick = solve_symmetric(K, bounce * normal - u_t);
+  Vec3 stick = solve_symmetric(K, bounce * normal - u_t);
   const double stick_n = stick.dot(normal);
   const Vec3 stick_t = stick - stick_n * normal;
   const double stick_t2 = stick_t.squaredNorm();
