@@ -30,6 +30,10 @@ std::optional<NumericalTrouble> Simulation::advance_to(Tick target) {
   return stepper_->advance_to(*world_, target);
 }
 
+void Simulation::time_phases(PhaseTimes::Clock clock) { stepper_->phase_times.use(clock); }
+const PhaseTimes& Simulation::phase_times() const { return stepper_->phase_times; }
+std::size_t Simulation::bytes() const { return world_->rods.capacity() * sizeof(Flight) + stepper_->bytes(); }
+
 Tick Simulation::tick() const { return world_->tick; }
 double Simulation::time() const { return static_cast<double>(world_->tick) * world_->scene.dt; }
 Snapshot Simulation::snapshot() const { return shaken::snapshot(*world_); }

@@ -11,6 +11,7 @@
 #include "sim/core/result.h"
 #include "sim/scene.h"
 #include "sim/snapshot.h"
+#include "sim/stepping/phase_times.h"
 #include "sim/world.h"
 
 namespace shaken {
@@ -34,6 +35,12 @@ class Simulation {
   /// Steps to tick `target` (>= tick()), or up to the tick at which numerical trouble was met.
   /// Trouble is final: the simulation must not be advanced further.
   [[nodiscard]] std::optional<NumericalTrouble> advance_to(Tick target);
+
+  /// From now on, the time spent in each phase of a tick is taken by `clock`; nullptr ends it.
+  void time_phases(PhaseTimes::Clock clock);
+  const PhaseTimes& phase_times() const;
+  /// Memory of the rods' states and of all that the stepper derives from them [bytes].
+  std::size_t bytes() const;
 
   Tick tick() const;
   double time() const;

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/core/heap_bytes.h"
 #include "sim/core/types.h"
 #include "sim/motion/flight.h"
 #include "sim/rod/species.h"
@@ -38,6 +39,8 @@ class NeighborList {
   std::span<const std::pair<int, int>> pairs() const { return pairs_; }
   /// Times built.
   std::int64_t n_builds() const { return n_builds_; }
+  /// Heap memory held.
+  std::size_t bytes() const { return heap_bytes(built_center_, built_half_, pairs_); }
 
  private:
   Vec2 flat_half(const Pose& pose) const;  ///< from the centre to the end of the flattened segment

@@ -15,8 +15,13 @@ ReferenceStepper::ReferenceStepper(const World& world)
       rods_(world.rods.size()),
       poses_(world.rods.size()) {}
 
+std::size_t ReferenceStepper::bytes() const {
+  return neighbors_.bytes() + heap_bytes(rods_, poses_, bead_contacts_, contacts_);
+}
+
 std::optional<NumericalTrouble> ReferenceStepper::step(World& world, Tick now) {
   const int n = static_cast<int>(world.rods.size());
+  phase_times.start();
   for (int i = 0; i < n; ++i) {
     rods_[i] = rod_at_tick(world.rods[i], now, rules_);
     poses_[i] = rods_[i].pose;
@@ -29,8 +34,11 @@ std::optional<NumericalTrouble> ReferenceStepper::step(World& world, Tick now) {
       return trouble;
   }
 
+  phase_times.lap(Phase::kPlates);
+
   // 2. detection; the list is in ascending order, so the contacts come out sorted
   if (neighbors_.is_due(poses_)) neighbors_.build(poses_);
+  phase_times.lap(Phase::kNeighbors);
   contacts_.clear();
   for (const auto& [i, j] : neighbors_.pairs()) {
     bead_contacts_.clear();
@@ -39,14 +47,19 @@ std::optional<NumericalTrouble> ReferenceStepper::step(World& world, Tick now) {
     for (const BeadContact& beads : bead_contacts_) contacts_.push_back({i, j, beads});
   }
 
+  phase_times.lap(Phase::kDetection);
+
   // 3. response
   if (auto trouble = respond(contacts_, rods_, world, now, rules_)) return trouble;
+
+  phase_times.lap(Phase::kResponse);
 
   // 4. storing
   for (int i = 0; i < n; ++i) {
     if (!rods_[i].changed) continue;
     if (auto trouble = store(i, world.rods[i], rods_[i], now, rules_)) return trouble;
   }
+  phase_times.lap(Phase::kStoring);
   return {};
 }
 

@@ -14,6 +14,7 @@ namespace shaken {
 class ReferenceStepper final : public Stepper {
  public:
   explicit ReferenceStepper(const World& world);
+  std::size_t bytes() const override;
 
  private:
   std::optional<NumericalTrouble> step(World& world, Tick now) override;

@@ -22,6 +22,7 @@ namespace shaken {
 class ScheduledStepper final : public Stepper {
  public:
   explicit ScheduledStepper(const World& world);
+  std::size_t bytes() const override;
 
  private:
   /// When an item is due, and at which tick the wheel will bring it up (at or before `due`).

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 
+#include "sim/stepping/phase_times.h"
 #include "sim/world.h"
 
 namespace shaken {
@@ -24,6 +26,11 @@ class Stepper {
     }
     return {};
   }
+
+  /// Heap memory of what is derived from the world: lists, records, schedules [bytes].
+  virtual std::size_t bytes() const = 0;
+
+  PhaseTimes phase_times;
 
  private:
   /// Does tick `now`, the one after the world's.

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace shaken {
+
+/// What a stepper spends its time on. The first five are the tick itself (stepping/tick.h); the others are what it
+/// takes to know where to look.
+enum class Phase { kPlates, kDetection, kResponse, kStoring, kBounds, kSchedule, kNeighbors };
+inline constexpr std::size_t kPhases = 7;
+inline constexpr std::array<const char*, kPhases> kPhaseNames{"plates", "detection", "response", "storing",
+                                                              "bounds", "schedule",  "neighbors"};
+
+/// Seconds per phase, by a clock that the caller lends: the physics library has none. Without one, a tick reads no
+/// clock and a lap costs one branch.
+class PhaseTimes {
+ public:
+  using Clock = double (*)();  ///< seconds since whenever
+
+  void use(Clock clock) { clock_ = clock; }
+  /// The time up to the next lap() belongs to no phase yet.
+  void start() {
+    if (clock_ != nullptr) last_ = clock_();
+  }
+  /// Books the time since the last lap on `phase`.
+  void lap(Phase phase) {
+    if (clock_ == nullptr) return;
+    const double now = clock_();
+    seconds_[static_cast<std::size_t>(phase)] += now - last_;
+    last_ = now;
+  }
+  double seconds(Phase phase) const { return seconds_[static_cast<std::size_t>(phase)]; }
+
+ private:
+  Clock clock_ = nullptr;
+  double last_ = 0;
+  std::array<double, kPhases> seconds_{};
+};
+
+}  // namespace shaken
