@@ -8,7 +8,7 @@
 namespace shaken {
 
 Simulation::Simulation(World world)
-    : world_(std::make_unique<World>(std::move(world))), stepper_(make_stepper(*world_)) {}
+    : world_(std::make_unique<World>(std::move(world))), stepper_(make_stepper(*world_, 1)) {}
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
@@ -28,6 +28,11 @@ Result<Simulation> Simulation::resume(const Scene& scene, std::span<const std::b
 std::optional<NumericalTrouble> Simulation::advance_to(Tick target) {
   SHAKEN_CHECK(target >= world_->tick, "time runs forwards");
   return stepper_->advance_to(*world_, target);
+}
+
+void Simulation::use_threads(int n_threads) {
+  SHAKEN_CHECK(n_threads >= 1, "a run needs a thread");
+  stepper_ = make_stepper(*world_, n_threads);
 }
 
 void Simulation::time_phases(PhaseTimes::Clock clock) { stepper_->phase_times.use(clock); }

@@ -24,6 +24,13 @@ struct Counters {
   double max_overlap_rod_rod = 0;    ///< deepest bead-bead overlap seen at a contact [mm]
   double max_overlap_rod_plate = 0;  ///< deepest bead-plate overlap seen at a contact [mm]
 
+  void add(const Counters& more) {
+    impulses_rod_rod += more.impulses_rod_rod;
+    impulses_rod_base += more.impulses_rod_base;
+    impulses_rod_lid += more.impulses_rod_lid;
+    max_overlap_rod_rod = std::max(max_overlap_rod_rod, more.max_overlap_rod_rod);
+    max_overlap_rod_plate = std::max(max_overlap_rod_plate, more.max_overlap_rod_plate);
+  }
   double max_overlap() const { return std::max(max_overlap_rod_rod, max_overlap_rod_plate); }
 };
 

@@ -1,68 +1,104 @@
 // SPDX-License-Identifier: MIT
 #include "sim/motion/plate_safe_time.h"
 
-#include <algorithm>
 #include <cmath>
+
+#include "sim/core/vector_clones.h"
 
 namespace shaken {
 namespace {
 
-constexpr double kGapMargin = 1e-9;   ///< [mm]
-constexpr double kRateMargin = 1e-6;  ///< [mm/s]
+inline float larger(float a, float b) { return a > b ? a : b; }
+inline float smaller(float a, float b) { return a < b ? a : b; }
 
 /// Time for which a bead stays off a plate, or goes on receding from within it, if its acceleration towards the plate
 /// never exceeds `pull`.
-double safe_time(double gap, double rate, double pull) {
-  rate -= kRateMargin;
-  gap -= kGapMargin;
-  if (gap > 0) {
-    const double denominator = std::sqrt(rate * rate + 2.0 * pull * gap) - rate;
-    return denominator > 0 ? 2.0 * gap / denominator : 1e30;
+inline float safe_time(float gap, float rate, float pull) {
+  const float open = larger(gap, 0.0F);
+  const float root = std::sqrt(rate * rate + 2.0F * pull * open);
+  // apart: the first time at which it can be back; in the plate: the time up to which it certainly recedes
+  const float above = gap > 0.0F ? (rate > 0.0F ? rate + root : 2.0F * open) : larger(rate, 0.0F);
+  const float below = (gap > 0.0F && !(rate > 0.0F) ? root - rate : pull) + 1e-30F;
+  return above / below;
+}
+
+struct Constants {
+  float half_length, mid_radius, end_radius;
+  float gravity, pull_base, pull_lid;
+  float dt, per_dt, horizon;
+};
+
+/// The plates as each lane sees them.
+struct PlatesAt {
+  alignas(64) float base[kPlateLanes], lid[kPlateLanes], velocity[kPlateLanes];
+};
+
+/// Adds to `safe` (in ticks) what is safe from there on.
+SHAKEN_VECTOR_CLONES
+void extend(const Constants& k, const PlateLanes& rods, const PlatesAt& plates, float* safe) {
+  // floats carry 6e-8; a dozen roundings of lengths and of speeds
+  constexpr float kLengthRounding = 1e-6F;
+  constexpr float kRateRounding = 2e-6F;
+  const float h = k.half_length;
+  for (int l = 0; l < kPlateLanes; ++l) {
+    const float t = safe[l] * k.dt;
+    const float height = rods.z[l] + (rods.velocity[l] - 0.5F * k.gravity * t) * t;
+    const float plate_velocity = plates.velocity[l];
+    const float rise = rods.velocity[l] - k.gravity * t - plate_velocity;
+    const float bend = h * rods.rate2[l];  // bounds the ends' own acceleration
+    const float sag = 0.5F * bend * t * t;  // how much further an end may be than its tangent says
+    const float lean = h * std::fabs(rods.n_z_rate[l]);
+    const float gap_margin = kLengthRounding * (1.0F + std::fabs(height) + std::fabs(plates.lid[l]) + h);
+    const float rate_margin =
+        1e-4F + kRateRounding * (std::fabs(rods.velocity[l]) + k.gravity * t + std::fabs(plate_velocity) + lean);
+    const float above = height - plates.base[l] - gap_margin;  // centre above the base
+    const float below = plates.lid[l] - height - gap_margin;   // centre below the lid
+    const float up = rise - rate_margin;
+    const float down = -rise - rate_margin;
+    const float end = h * (rods.n_z[l] + rods.n_z_rate[l] * t);
+    const float end_rate = h * rods.n_z_rate[l];
+    const float end_room = sag + k.end_radius;
+    const float slow = bend * t;
+    const float pull_base = k.pull_base + bend;
+    const float pull_lid = larger(0.0F, k.pull_lid + bend);
+
+    float time = safe_time(above - k.mid_radius, up, k.pull_base);
+    time = smaller(time, safe_time(below - k.mid_radius, down, larger(0.0F, k.pull_lid)));
+    time = smaller(time, safe_time(above + end - end_room, up + end_rate - slow, pull_base));
+    time = smaller(time, safe_time(above - end - end_room, up - end_rate - slow, pull_base));
+    time = smaller(time, safe_time(below - end - end_room, down - end_rate - slow, pull_lid));
+    time = smaller(time, safe_time(below + end - end_room, down + end_rate - slow, pull_lid));
+    const float more = smaller(time * k.per_dt, k.horizon);
+    safe[l] = smaller(safe[l] + static_cast<float>(static_cast<int>(more)), k.horizon);
   }
-  if (rate <= 0) return 0;
-  return pull > 0 ? rate / pull : 1e30;
 }
 
 }  // namespace
 
-Tick plate_safe_ticks(const Species& species, const PlateMotion& plates, double z, double v_z, double n_z,
-                      double n_z_rate, double rate2, double gravity, double dt, Tick now, Tick horizon) {
-  const double h = species.half_length;
-  const double bend = h * rate2;  // bounds the ends' own acceleration
-  const double pull_base = plates.peak_acceleration() + gravity;
-  const double pull_lid = plates.peak_acceleration() - gravity;
+void plate_safe_ticks(const Species& species, const PlateMotion& plates, const PlateLanes& rods, int n, double gravity,
+                      double dt, Tick now, Tick horizon, Tick* safe) {
+  const Constants k{static_cast<float>(species.half_length),
+                    static_cast<float>(species.mid_radius),
+                    static_cast<float>(species.n_beads() > 1 ? species.end_radius : species.mid_radius),
+                    static_cast<float>(gravity),
+                    static_cast<float>((plates.peak_acceleration() + gravity) * (1.0 + 1e-6)),
+                    static_cast<float>((plates.peak_acceleration() - gravity) + 1e-6 * (plates.peak_acceleration() + gravity)),
+                    static_cast<float>(dt),
+                    static_cast<float>((1.0 - 1e-5) / dt),
+                    static_cast<float>(horizon)};
   constexpr int kSteps = 4;
-
-  Tick safe = 0;
-  for (int step = 0; step < kSteps && safe < horizon; ++step) {
-    const double t = static_cast<double>(safe) * dt;
-    const PlateState plate = plates.at(now + safe);
-    const double height = z + (v_z - 0.5 * gravity * t) * t;
-    const double rise = v_z - gravity * t - plate.velocity;
-    const double above = height - plate.base;  // centre above the base
-    const double below = plate.lid - height;   // centre below the lid
-    const double sag = 0.5 * bend * t * t;     // how much further an end may be than its tangent says
-    const double end = h * (n_z + n_z_rate * t);
-    const double end_rate = h * n_z_rate;
-
-    // centre bead
-    double time = std::min(safe_time(above - species.mid_radius, rise, pull_base),
-                           safe_time(below - species.mid_radius, -rise, std::max(0.0, pull_lid)));
-    if (h > 0) {
-      for (const double side : {1.0, -1.0}) {
-        const double up = side * end;
-        const double up_rate = side * end_rate;
-        time = std::min(time,
-                        safe_time(above + up - sag - species.end_radius, rise + up_rate - bend * t, pull_base + bend));
-        time = std::min(time, safe_time(below - up - sag - species.end_radius, -rise - up_rate - bend * t,
-                                        std::max(0.0, pull_lid + bend)));
-      }
+  alignas(64) float ticks[kPlateLanes] = {};
+  PlatesAt at;
+  for (int step = 0; step < kSteps; ++step) {
+    for (int l = 0; l < kPlateLanes; ++l) {
+      const PlateState plate = plates.at(now + static_cast<Tick>(l < n ? ticks[l] : 0.0F));
+      at.base[l] = static_cast<float>(plate.base);
+      at.lid[l] = static_cast<float>(plate.lid);
+      at.velocity[l] = static_cast<float>(plate.velocity);
     }
-    const Tick more = static_cast<Tick>(std::min(time / dt * (1.0 - 1e-12), static_cast<double>(horizon)));
-    if (more == 0) break;
-    safe = std::min(horizon, safe + more);
+    extend(k, rods, at, ticks);
   }
-  return safe;
+  for (int l = 0; l < n; ++l) safe[l] = static_cast<Tick>(ticks[l]);
 }
 
 }  // namespace shaken

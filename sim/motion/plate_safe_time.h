@@ -1,18 +1,28 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "sim/motion/flight.h"
 #include "sim/motion/plates.h"
 #include "sim/rod/species.h"
 
 namespace shaken {
 
-/// Number of ticks after `now` for which no bead of a flying rod begins to touch a plate or, if it is in one, begins to
-/// approach it; at most `horizon`. Rigorous: the plates are followed exactly, the rod's ends by
+/// Rods whose bounds are made in one go: lanes of a vector, on machines whose vectors are that wide.
+inline constexpr int kPlateLanes = 16;
+
+/// kPlateLanes rods in flight, at the tick from which time is counted.
+struct PlateLanes {
+  alignas(64) float z[kPlateLanes];           ///< height of the centre [mm]
+  alignas(64) float velocity[kPlateLanes];    ///< of the centre, upwards [mm/s]
+  alignas(64) float n_z[kPlateLanes];         ///< director's z
+  alignas(64) float n_z_rate[kPlateLanes];    ///< [1/s]
+  alignas(64) float rate2[kPlateLanes];       ///< |precession|^2 [1/s^2]
+};
+
+/// Number of ticks after `now` for which no bead of each rod begins to touch a plate or, if it is in one, begins to
+/// approach it; at most `horizon`, for the first `n` rods. Rigorous: the plates are followed exactly, the rod's ends by
 /// n_z(t) in n_z + n_z' t -+ W^2 t^2 / 2, and between the ticks looked at the relative acceleration is bounded by
-/// g + a Omega^2 + h W^2.
-/// Arguments: height z [mm] and velocity v_z [mm/s] of the centre, n_z, n_z' [1/s], W^2 [1/s^2], all at `now`.
-Tick plate_safe_ticks(const Species& species, const PlateMotion& plates, double z, double v_z, double n_z,
-                      double n_z_rate, double rate2, double gravity, double dt, Tick now, Tick horizon);
+/// g + a Omega^2 + h W^2. Numerics: floats, with margins for their rounding.
+void plate_safe_ticks(const Species& species, const PlateMotion& plates, const PlateLanes& rods, int n, double gravity,
+                      double dt, Tick now, Tick horizon, Tick* safe);
 
 }  // namespace shaken

@@ -4,204 +4,237 @@
 #include <algorithm>
 #include <numeric>
 #include <tuple>
-
-#include "sim/motion/plate_safe_time.h"
+#include <utility>
 
 namespace shaken {
 namespace {
 
 constexpr double kSkin = 0.3;  ///< of the neighbour list [mm]
-/// A rod this close to the end of its slack has the list rebuilt rather than being watched every tick.
+/// A rod this close to the end of its slack has the list rebuilt rather than being watched every tick [mm].
 constexpr double kLeastSlack = 0.003;
+/// Below this, what is left of a rod's slack is measured again rather than counted down [mm].
+constexpr double kLowSlack = 0.05;
 /// Where the hull's bound is shorter than this, the beads' own may be longer: rods interlock.
-constexpr Tick kShortBound = 30;
+constexpr float kShortBound = 30;
 /// Interlocked rods are looked at again within this time: further ahead their bounds are not worth the work.
-constexpr Tick kBeadHorizon = 400;
+constexpr float kBeadHorizon = 400;
+/// A bound that allows for straying is good enough if it is this long; a shorter one gives way to a bound for steady
+/// flight, unless that is not much longer either. The plates hit a rod about every 50 ticks.
+constexpr float kLongBound = 40;
+constexpr float kMuchLonger = 2;
+
+/// A rod's limit for its precession, from what it is when the limits are set.
+constexpr double kRateFactor = 1.5;
+constexpr double kRateMore = 10;  ///< [rad/s]
+
+// loops shorter than this per thread are not worth sharing
+constexpr int kGrain = 16;
 
 }  // namespace
 
-ScheduledStepper::ScheduledStepper(const World& world)
+ScheduledStepper::ScheduledStepper(const World& world, int n_threads)
     : rules_(world),
       hull_(world.species),
       lanes_(world.species),
-      allowance_{1.0, world.species.half_length > 0 ? 1.0 / world.species.half_length : 1.0},
+      allowance_{1.0F, 40.0F, 1.0F, 20.0F},
       neighbors_(world.species, world.scene.box_side, kSkin),
+      team_(n_threads),
       rods_(world.rods.size()),
-      rod_tick_(world.rods.size(), -1),
-      rod_schedule_(world.rods.size()),
-      strayed_velocity_(world.rods.size(), 0.0),
-      strayed_precession_(world.rods.size(), 0.0),
-      poses_(world.rods.size()) {}
+      records_(world.rods.size()),
+      outlooks_(world.rods.size()),
+      rod_wheel_(world.rods.size()),
+      poses_(world.rods.size()),
+      workers_(n_threads) {}
 
-void ScheduledStepper::set_due(TimingWheel& wheel, Schedule& schedule, std::int32_t item, Tick due) {
-  schedule.due = due;
-  if (schedule.queued != kNotQueued && schedule.queued <= due) return;  // will come up in time, and be put off then
-  schedule.queued = due;
-  wheel.insert(due, item);
+std::size_t ScheduledStepper::bytes() const {
+  std::size_t bytes = neighbors_.bytes() + rod_wheel_.bytes() + pair_wheel_.bytes();
+  bytes += heap_bytes(rods_, records_, outlooks_, pairs_, pair_is_steady_, first_pair_of_, pairs_of_);
+  bytes += heap_bytes(due_rods_, due_pairs_, changed_, to_pose_, to_look_at_, to_bound_, to_schedule_, next_,
+                      may_change_, contacts_, poses_);
+  for (const Worker& w : workers_)
+    bytes += heap_bytes(w.bead_contacts, w.contacts, w.turned);
+  return bytes;
 }
 
-void ScheduledStepper::take_due(TimingWheel& wheel, std::vector<Schedule>& schedules, Tick now,
-                                std::vector<std::int32_t>& due) {
-  wheel.pop(now, popped_);
-  due.clear();
-  for (const std::int32_t item : popped_) {
-    Schedule& schedule = schedules[item];
-    if (schedule.queued != now) continue;  // an entry that has been overtaken by an earlier one
-    schedule.queued = kNotQueued;
-    if (schedule.due > now) {
-      set_due(wheel, schedule, item, schedule.due);
-    } else {
-      due.push_back(item);
+std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
+  phase_times.start();
+  const bool first = neighbors_.n_builds() == 0;
+  if (first) {
+    due_rods_.resize(world.rods.size());
+    std::iota(due_rods_.begin(), due_rods_.end(), 0);
+    for (const int i : due_rods_) set_limits(records_[i], world.rods[i]);
+  } else {
+    rod_wheel_.pop(now, due_rods_);
+    pair_wheel_.pop(now, due_pairs_);
+  }
+  phase_times.lap(Phase::kSchedule);
+
+  // 1. plates
+  if (auto trouble = collide_with_plates_due(world, now)) return trouble;
+  phase_times.lap(Phase::kPlates);
+
+  // 2. detection
+  if (first || list_is_due()) rebuild_pairs(world, now);
+  phase_times.lap(Phase::kNeighbors);
+  detect_due(world, now);
+  detect_touching(world, now);
+  std::sort(contacts_.begin(), contacts_.end(), [](const PairContact& a, const PairContact& b) {
+    return std::tie(a.i, a.j, a.beads.bead_i, a.beads.bead_j) < std::tie(b.i, b.j, b.beads.bead_i, b.beads.bead_j);
+  });
+  phase_times.lap(Phase::kDetection);
+
+  // 3. response
+  if (auto trouble = respond(contacts_, rods_, world, now, rules_)) return trouble;
+  phase_times.lap(Phase::kResponse);
+
+  // 4. storing
+  list_changed(now);
+  if (auto trouble = store_changed(world, now)) return trouble;
+  phase_times.lap(Phase::kStoring);
+
+  // what was looked at, and what flies differently now, gets new bounds
+  schedule_rods(world, now);
+  schedule_pairs(world, now);
+  return {};
+}
+
+// ---- phases
+
+void ScheduledStepper::list_to_pose(int i, Tick now) {
+  if (records_[i].posed_at == now) return;
+  records_[i].posed_at = now;
+  to_pose_.push_back(i);
+}
+
+void ScheduledStepper::pose(const World& world, Tick now) {
+  team_.run(static_cast<int>(to_pose_.size()), kGrain, [&](int begin, int end, int) {
+    for (int k = begin; k < end; ++k) rods_[to_pose_[k]] = rod_at_tick(world.rods[to_pose_[k]], now, rules_);
+  });
+}
+
+std::optional<NumericalTrouble> ScheduledStepper::collide_with_plates_due(World& world, Tick now) {
+  if (due_rods_.empty()) return {};
+  const PlateState plates = world.plates.at(now);
+  team_.run(static_cast<int>(due_rods_.size()), kGrain, [&](int begin, int end, int w) {
+    Worker& worker = workers_[w];
+    for (int k = begin; k < end; ++k) {
+      const int i = due_rods_[k];
+      RodRecord& record = records_[i];
+      rods_[i] = rod_at_tick(world.rods[i], now, rules_);
+      record.posed_at = now;
+      record.listed_at = now;
+      if (slack_left(i, now) < kLeastSlack) {
+        measure_slack(i, now);
+        worker.list_is_due |= record.slack < kLeastSlack;
+      }
+      auto trouble = collide_with_plates(i, rods_[i], world.rods[i], plates, now, rules_, worker.counters);
+      if (trouble) worker.note(std::move(*trouble));
     }
+  });
+  for (Worker& worker : workers_) {
+    world.counters.add(worker.counters);
+    worker.counters = {};
   }
+  return first_trouble();
 }
 
-RodAtTick& ScheduledStepper::at_tick(const World& world, int i, Tick now) {
-  if (rod_tick_[i] != now) {
-    rods_[i] = rod_at_tick(world.rods[i], now, rules_);
-    rod_tick_[i] = now;
+void ScheduledStepper::Worker::note(NumericalTrouble met) {
+  if (!trouble || met.rods < trouble->rods) trouble = std::move(met);
+}
+
+std::optional<NumericalTrouble> ScheduledStepper::first_trouble() const {
+  std::optional<NumericalTrouble> first;
+  for (const Worker& worker : workers_) {
+    if (worker.trouble && (!first || worker.trouble->rods < first->rods)) first = worker.trouble;
   }
-  return rods_[i];
+  return first;
 }
 
-FlightState ScheduledStepper::flight_state(const World& world, int i, Tick now) {
-  const Flight& flight = world.rods[i];
-  const RodAtTick& rod = at_tick(world, i, now);
-  FlightState state;
-  state.director = rod.pose.director;
-  state.velocity = flight.velocity;
-  state.velocity.z() -= rules_.gravity * (static_cast<double>(now - flight.since) * rules_.dt);
-  state.turning = flight.precession.cross(state.director);
-  state.rate2 = flight.rate * flight.rate;
-  return state;
-}
-
-void ScheduledStepper::schedule_pair(int p, Tick now, double safe_time) {
-  const double ticks = std::min(safe_time / rules_.dt * (1.0 - 1e-12), static_cast<double>(TimingWheel::horizon() - 1));
-  set_due(pair_wheel_, pair_schedule_[p], p, now + 1 + static_cast<Tick>(ticks));
-}
-
-void ScheduledStepper::look_again(const World& world, int p, Tick now) {
-  pair_looked_[p] = now;
-  PairRecord& pair = pairs_[p];
-  const FlightState i = flight_state(world, pair.rod[0], now);
-  const FlightState j = flight_state(world, pair.rod[1], now);
-  const Vec3 D = nearest_image(rods_[pair.rod[0]].pose.position, rods_[pair.rod[1]].pose.position, rules_.box_side);
-  const double horizon = static_cast<double>(TimingWheel::horizon()) * rules_.dt;
-
-  pair.direction = separating_direction(hull_, i.director, hull_, j.director, D);
-  pair.axis[0] = {i.director.dot(pair.direction), i.turning.dot(pair.direction), 0.5 * i.rate2, now};
-  pair.axis[1] = {j.director.dot(pair.direction), j.turning.dot(pair.direction), 0.5 * j.rate2, now};
-  const auto cosine = [](const AxisRecord& axis) { return AxisCosine{axis.c, axis.rate, axis.half_rate2, 0.0}; };
-  double safe = hull_safe_time(hull_, cosine(pair.axis[0]), hull_, cosine(pair.axis[1]), D.dot(pair.direction),
-                               (j.velocity - i.velocity).dot(pair.direction), allowance_, horizon);
-  pair.by_beads = false;
-  if (safe < static_cast<double>(kShortBound) * rules_.dt) {
-    const double by_beads =
-        bead_safe_time(lanes_, i, lanes_, j, D, allowance_, static_cast<double>(kBeadHorizon) * rules_.dt);
-    if (by_beads > safe) {
-      safe = by_beads;
-      pair.by_beads = true;
-    }
-  }
-  schedule_pair(p, now, safe);
-}
-
-void ScheduledStepper::renew(const World& world, int p, int side, Tick now) {
-  if (pair_looked_[p] == now) return;
-  PairRecord& pair = pairs_[p];
-  if (pair.by_beads) return look_again(world, p, now);
-
-  const Flight& changed = world.rods[pair.rod[side]];
-  pair.axis[side] = {changed.director.dot(pair.direction),
-                     changed.precession.cross(changed.director).dot(pair.direction), 0.5 * changed.rate * changed.rate,
-                     now};
-  Vec3 position[2];
-  Vec3 velocity[2];
-  for (int s = 0; s < 2; ++s) {
-    const Flight& flight = world.rods[pair.rod[s]];
-    const double tau = static_cast<double>(now - flight.since) * rules_.dt;
-    position[s] = flight.position + flight.velocity * tau;
-    position[s].z() -= 0.5 * rules_.gravity * tau * tau;
-    velocity[s] = flight.velocity;
-    velocity[s].z() -= rules_.gravity * tau;
-  }
-  const auto cosine = [&](const AxisRecord& axis) {
-    return AxisCosine{axis.c, axis.rate, axis.half_rate2, static_cast<double>(now - axis.at) * rules_.dt};
-  };
-  const double horizon = static_cast<double>(TimingWheel::horizon()) * rules_.dt;
-  const double safe = hull_safe_time(hull_, cosine(pair.axis[0]), hull_, cosine(pair.axis[1]),
-                                     nearest_image(position[0], position[1], rules_.box_side).dot(pair.direction),
-                                     (velocity[1] - velocity[0]).dot(pair.direction), allowance_, horizon);
-  // an old direction may have become a poor one
-  if (safe < static_cast<double>(kShortBound) * rules_.dt) return look_again(world, p, now);
-  schedule_pair(p, now, safe);
-}
-
-void ScheduledStepper::schedule_rod(const World& world, int i, Tick now) {
-  const Flight& flight = world.rods[i];
-  const FlightState state = flight_state(world, i, now);
-  const Pose& pose = rods_[i].pose;
-  const Tick off_plates =
-      plate_safe_ticks(rules_.species, world.plates, pose.position.z(), state.velocity.z(), state.director.z(),
-                       state.turning.z(), state.rate2, rules_.gravity, rules_.dt, now, TimingWheel::horizon() - 1);
-  // the ends of the flattened segment move no faster than this while |n_xy| is above half of what it is now
-  const double flat = std::hypot(state.director.x(), state.director.y());
-  const double speed =
-      std::hypot(flight.velocity.x(), flight.velocity.y()) + 2.0 * hull_.half_length * flight.rate / flat;
-  const double listed =
-      std::min(neighbors_.slack(i, pose) / speed, flight.rate > 0 ? 0.5 * flat / flight.rate : kForever);
-  const double listed_ticks =
-      std::min(std::max(0.0, listed / rules_.dt * (1.0 - 1e-12)), static_cast<double>(off_plates));
-  set_due(rod_wheel_, rod_schedule_[i], i, now + 1 + static_cast<Tick>(listed_ticks));
+bool ScheduledStepper::list_is_due() {
+  bool due = false;
+  for (Worker& worker : workers_) due |= std::exchange(worker.list_is_due, false);
+  return due;
 }
 
 void ScheduledStepper::rebuild_pairs(const World& world, Tick now) {
   const int n = static_cast<int>(world.rods.size());
-  for (int i = 0; i < n; ++i) poses_[i] = at_tick(world, i, now).pose;
+  for (int i = 0; i < n; ++i) {
+    if (records_[i].posed_at != now) rods_[i] = rod_at_tick(world.rods[i], now, rules_);
+    records_[i].posed_at = now;
+    poses_[i] = rods_[i].pose;
+  }
   neighbors_.build(poses_);
 
   const auto list = neighbors_.pairs();
   pairs_.assign(list.size(), {});
-  pair_schedule_.assign(list.size(), {});
-  pair_detected_.assign(list.size(), -1);
-  pair_looked_.assign(list.size(), -1);
-  n_touching_.assign(n, 0);
-  pair_wheel_.clear();
+  pair_is_steady_.assign(list.size(), 0);
+  pair_wheel_ = TimingWheel(list.size());
   first_pair_of_.assign(n + 1, 0);
   for (std::size_t p = 0; p < list.size(); ++p) {
     pairs_[p].rod[0] = list[p].first;
     pairs_[p].rod[1] = list[p].second;
-    ++first_pair_of_[list[p].first + 1];
-    ++first_pair_of_[list[p].second + 1];
+    for (const int i : pairs_[p].rod) ++first_pair_of_[i + 1];
   }
   std::partial_sum(first_pair_of_.begin(), first_pair_of_.end(), first_pair_of_.begin());
   pairs_of_.resize(2 * list.size());
   std::vector<int> next(first_pair_of_.begin(), first_pair_of_.end() - 1);
   for (int p = 0; p < static_cast<int>(list.size()); ++p) {
-    for (int side = 0; side < 2; ++side) pairs_of_[next[pairs_[p].rod[side]]++] = {p, side};
+    for (const int i : pairs_[p].rod) pairs_of_[next[i]++] = p;
+  }
+  for (int i = 0; i < n; ++i) {
+    records_[i].n_touching = 0;
+    measure_slack(i, now);
   }
   due_pairs_.resize(list.size());
   std::iota(due_pairs_.begin(), due_pairs_.end(), 0);
 }
 
-void ScheduledStepper::detect(const World& world, int p, Tick now) {
-  pair_detected_[p] = now;
-  PairRecord& pair = pairs_[p];
+bool ScheduledStepper::detect(int p, Worker& worker) {
+  const PairRecord& pair = pairs_[p];
   const auto& [i, j] = pair.rod;
-  const Pose& pose_i = at_tick(world, i, now).pose;
-  const Pose& pose_j = at_tick(world, j, now).pose;
-  bead_contacts_.clear();
-  find_bead_contacts(rules_.species, pose_i.director, rules_.species, pose_j.director,
-                     nearest_image(pose_i.position, pose_j.position, rules_.box_side), bead_contacts_);
-  for (const BeadContact& beads : bead_contacts_) contacts_.push_back({i, j, beads});
-  set_touching(pair, !bead_contacts_.empty());
+  const Pose& pose_i = rods_[i].pose;
+  const Pose& pose_j = rods_[j].pose;
+  const Vec3 D = nearest_image(pose_i.position, pose_j.position, rules_.box_side);
+  // most pairs are still apart in the direction in which they were
+  constexpr double kMargin = 1e-5;
+  const Vec3 d(pair.direction[0], pair.direction[1], pair.direction[2]);
+  if (hull_gap(hull_, std::abs(pose_i.director.dot(d)), hull_, std::abs(pose_j.director.dot(d)), D.dot(d)) > kMargin)
+    return false;
+  if (!beads_may_overlap(lanes_, pose_i.director, lanes_, pose_j.director, D)) return false;
+  worker.bead_contacts.clear();
+  find_bead_contacts(rules_.species, pose_i.director, rules_.species, pose_j.director, D, worker.bead_contacts);
+  for (const BeadContact& beads : worker.bead_contacts) worker.contacts.push_back({i, j, beads});
+  return !worker.bead_contacts.empty();
 }
 
-void ScheduledStepper::set_touching(PairRecord& pair, bool touching) {
-  if (pair.touching == touching) return;
-  pair.touching = touching;
-  for (const int i : pair.rod) n_touching_[i] += touching ? 1 : -1;
+void ScheduledStepper::detect_due(const World& world, Tick now) {
+  contacts_.clear();
+  if (due_pairs_.empty()) return;
+  to_pose_.clear();
+  for (const int p : due_pairs_) {
+    for (const int i : pairs_[p].rod) list_to_pose(i, now);
+  }
+  pose(world, now);
+  team_.run(static_cast<int>(due_pairs_.size()), kGrain, [&](int begin, int end, int w) {
+    Worker& worker = workers_[w];
+    for (int k = begin; k < end; ++k) {
+      const int p = due_pairs_[k];
+      pairs_[p].detected_at = now;
+      if (detect(p, worker) != pairs_[p].touching) worker.turned.push_back(p);
+    }
+  });
+  for (Worker& worker : workers_) {
+    contacts_.insert(contacts_.end(), worker.contacts.begin(), worker.contacts.end());
+    worker.contacts.clear();
+    for (const int p : worker.turned) turn_touching(p);
+    worker.turned.clear();
+  }
+}
+
+void ScheduledStepper::turn_touching(int p) {
+  PairRecord& pair = pairs_[p];
+  pair.touching = !pair.touching;
+  for (const int i : pair.rod) records_[i].n_touching += pair.touching ? 1 : -1;
 }
 
 // Beads that overlap but recede are left alone for a while. An impulse on one of the rods can make them approach within
@@ -209,104 +242,238 @@ void ScheduledStepper::set_touching(PairRecord& pair, bool touching) {
 void ScheduledStepper::detect_touching(const World& world, Tick now) {
   may_change_.clear();
   for (const int i : due_rods_) {
-    if (rods_[i].changed) may_change_.push_back(i);
+    if (rods_[i].changed && records_[i].n_touching > 0) may_change_.push_back(i);
   }
   std::size_t n_seen = 0;
   const auto note_contacts = [&] {
     for (; n_seen < contacts_.size(); ++n_seen) {
-      may_change_.push_back(contacts_[n_seen].i);
-      may_change_.push_back(contacts_[n_seen].j);
+      for (const int i : {contacts_[n_seen].i, contacts_[n_seen].j}) {
+        if (records_[i].n_touching > 1) may_change_.push_back(i);  // in more than this pair
+      }
     }
   };
   note_contacts();
+  Worker& worker = workers_.front();
   for (std::size_t m = 0; m < may_change_.size(); ++m) {
     const int i = may_change_[m];
-    if (n_touching_[i] == 0) continue;
     for (int k = first_pair_of_[i]; k < first_pair_of_[i + 1]; ++k) {
-      const int p = pairs_of_[k].first;
-      if (!pairs_[p].touching || pair_detected_[p] == now) continue;
+      const int p = pairs_of_[k];
+      if (!pairs_[p].touching || pairs_[p].detected_at == now) continue;
       due_pairs_.push_back(p);
-      detect(world, p, now);
+      pairs_[p].detected_at = now;
+      to_pose_.clear();
+      for (const int rod : pairs_[p].rod) list_to_pose(rod, now);
+      pose(world, now);
+      if (!detect(p, worker)) turn_touching(p);
+      contacts_.insert(contacts_.end(), worker.contacts.begin(), worker.contacts.end());
+      worker.contacts.clear();
     }
     note_contacts();
   }
 }
 
-std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
-  const bool first = neighbors_.n_builds() == 0;
-  if (first) {
-    due_rods_.resize(world.rods.size());
-    std::iota(due_rods_.begin(), due_rods_.end(), 0);
-  } else {
-    take_due(rod_wheel_, rod_schedule_, now, due_rods_);
-    take_due(pair_wheel_, pair_schedule_, now, due_pairs_);
-  }
-
-  // 1. plates
-  bool list_is_due = first;
-  if (!due_rods_.empty()) {
-    const PlateState plates = world.plates.at(now);
-    for (const int i : due_rods_) {
-      RodAtTick& rod = at_tick(world, i, now);
-      if (!first && neighbors_.slack(i, rod.pose) < kLeastSlack) list_is_due = true;
-      if (auto trouble = collide_with_plates(i, rod, world.rods[i], plates, now, rules_, world.counters))
-        return trouble;
-    }
-  }
-
-  // 2. detection
-  if (list_is_due) rebuild_pairs(world, now);
-  contacts_.clear();
-  for (const int p : due_pairs_) detect(world, p, now);
-  detect_touching(world, now);
-  std::sort(contacts_.begin(), contacts_.end(), [](const PairContact& a, const PairContact& b) {
-    return std::tie(a.i, a.j, a.beads.bead_i, a.beads.bead_j) < std::tie(b.i, b.j, b.beads.bead_i, b.beads.bead_j);
-  });
-
-  // 3. response
-  if (auto trouble = respond(contacts_, rods_, world, now, rules_)) return trouble;
-
-  // 4. storing
+void ScheduledStepper::list_changed(Tick now) {
   changed_.clear();
+  to_schedule_ = due_rods_;
   for (const int i : due_rods_) {
     if (rods_[i].changed) changed_.push_back(i);
   }
   for (const PairContact& contact : contacts_) {
     for (const int i : {contact.i, contact.j}) {
-      if (rods_[i].changed) changed_.push_back(i);
+      if (!rods_[i].changed || records_[i].listed_at == now) continue;
+      records_[i].listed_at = now;
+      changed_.push_back(i);
+      to_schedule_.push_back(i);
     }
   }
-  std::sort(changed_.begin(), changed_.end());
-  changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
-  for (const int i : changed_) {
-    Flight& flight = world.rods[i];
-    const Vec3 precession = flight.precession;
-    Vec3 velocity = flight.velocity;
-    velocity.z() -= rules_.gravity * (static_cast<double>(now - flight.since) * rules_.dt);
-    if (auto trouble = store(i, flight, rods_[i], now, rules_)) return trouble;
-    strayed_velocity_[i] += (flight.velocity - velocity).norm();
-    strayed_precession_[i] += (flight.precession - precession).norm();
-  }
+}
 
-  // what was looked at, and what flies differently now, gets new bounds
-  for (const int i : due_rods_) {
-    if (!rods_[i].changed) schedule_rod(world, i, now);
-  }
-  for (const int i : changed_) schedule_rod(world, i, now);
-  for (const int p : due_pairs_) look_again(world, p, now);
+std::optional<NumericalTrouble> ScheduledStepper::store_changed(World& world, Tick now) {
+  team_.run(static_cast<int>(changed_.size()), kGrain, [&](int begin, int end, int w) {
+    for (int k = begin; k < end; ++k) {
+      const int i = changed_[k];
+      Flight& flight = world.rods[i];
+      RodRecord& record = records_[i];
+      const Vec3 precession = flight.precession;
+      Vec3 velocity = flight.velocity;
+      velocity.z() -= rules_.gravity * (static_cast<double>(now - flight.since) * rules_.dt);
+      if (auto trouble = store(i, flight, rods_[i], now, rules_)) workers_[w].note(std::move(*trouble));
+      record.strayed_velocity += flight.velocity - velocity;
+      record.strayed_turning += (flight.precession - precession).cross(flight.director);
+      record.strayed = !within_limits(record, flight);
+      if (record.strayed) set_limits(record, flight);
+    }
+  });
+  return first_trouble();
+}
+
+// ---- a rod's limits
+
+bool ScheduledStepper::within_limits(const RodRecord& record, const Flight& flight) const {
+  const auto within = [](const Vec3& strayed, double across, double along_z) {
+    return strayed.x() * strayed.x() + strayed.y() * strayed.y() <= across * across &&
+           std::abs(strayed.z()) <= along_z;
+  };
+  return flight.rate <= record.rate_limit &&
+         within(record.strayed_velocity, allowance_.velocity_xy, allowance_.velocity_z) &&
+         within(record.strayed_turning, allowance_.turning_xy, allowance_.turning_z);
+}
+
+void ScheduledStepper::set_limits(RodRecord& record, const Flight& flight) {
+  record.strayed_velocity.setZero();
+  record.strayed_turning.setZero();
+  record.rate_limit = kRateFactor * flight.rate + kRateMore;
+}
+
+Outlook ScheduledStepper::outlook(const World& world, int i, Tick now) const {
+  const Flight& flight = world.rods[i];
+  const RodRecord& record = records_[i];
+  const Vec3& director = rods_[i].pose.director;
+  Vec3 velocity = flight.velocity;
+  velocity.z() -= rules_.gravity * (static_cast<double>(now - flight.since) * rules_.dt);
+  const Vec3 turning = flight.precession.cross(director);
+  Outlook outlook;
+  set_vector(outlook.director, director);
+  set_vector(outlook.velocity, velocity);
+  set_vector(outlook.turning, turning);
+  outlook.half_rate2 = static_cast<float>(0.5 * flight.rate * flight.rate);
+  set_vector(outlook.velocity_center, velocity - record.strayed_velocity);
+  set_vector(outlook.turning_center, turning - record.strayed_turning);
+  outlook.half_rate2_limit = static_cast<float>(0.5 * record.rate_limit * record.rate_limit);
+  return outlook;
+}
+
+// ---- schedules
+
+double ScheduledStepper::slack_left(int i, Tick now) const {
+  const RodRecord& record = records_[i];
+  return record.slack - record.slack_speed * (static_cast<double>(now - record.slack_at) * rules_.dt);
+}
+
+void ScheduledStepper::measure_slack(int i, Tick now) {
+  records_[i].slack = neighbors_.slack(i, rods_[i].pose);
+  records_[i].slack_at = now;
+}
+
+void ScheduledStepper::schedule_rods(const World& world, Tick now) {
+  const int n = static_cast<int>(to_schedule_.size());
+  next_.resize(n);
+  team_.run(n, kGrain, [&](int begin, int end, int w) {
+    PlateLanes& lanes = workers_[w].plate_lanes;
+    Tick off_plates[kLanes];
+    for (int at = begin; at < end; at += kLanes) {
+      const int n_lanes = std::min(kLanes, end - at);
+      for (int lane = 0; lane < n_lanes; ++lane) {
+        const int i = to_schedule_[at + lane];
+        const Flight& flight = world.rods[i];
+        const Pose& pose = rods_[i].pose;
+        lanes.z[lane] = static_cast<float>(pose.position.z());
+        lanes.velocity[lane] = static_cast<float>(
+            flight.velocity.z() - rules_.gravity * (static_cast<double>(now - flight.since) * rules_.dt));
+        lanes.n_z[lane] = static_cast<float>(pose.director.z());
+        lanes.n_z_rate[lane] = static_cast<float>(flight.precession.x() * pose.director.y() -
+                                                  flight.precession.y() * pose.director.x());
+        lanes.rate2[lane] = static_cast<float>(flight.rate * flight.rate);
+      }
+      plate_safe_ticks(rules_.species, world.plates, lanes, n_lanes, rules_.gravity, rules_.dt, now,
+                       TimingWheel::horizon() - 1, off_plates);
+      for (int lane = 0; lane < n_lanes; ++lane) {
+        const int i = to_schedule_[at + lane];
+        next_[at + lane] = now + 1 + std::min(off_plates[lane], listed_ticks(world, i, now));
+      }
+    }
+  });
+  for (int k = 0; k < n; ++k) rod_wheel_.set(to_schedule_[k], next_[k]);
+  phase_times.lap(Phase::kBounds);
+}
+
+/// Ticks for which the neighbour list certainly covers rod i.
+Tick ScheduledStepper::listed_ticks(const World& world, int i, Tick now) {
+  const Flight& flight = world.rods[i];
+  RodRecord& record = records_[i];
+  record.slack = slack_left(i, now);
+  record.slack_at = now;
+  if (record.slack < kLowSlack) measure_slack(i, now);
+  // the ends of the flattened segment move no faster than this while |n_xy| is above half of what it is now
+  const Vec3& n = rods_[i].pose.director;
+  const double flat = std::sqrt(n.x() * n.x() + n.y() * n.y());
+  const Vec3& v = flight.velocity;
+  record.slack_speed = std::sqrt(v.x() * v.x() + v.y() * v.y()) + 2.0 * rules_.species.half_length * flight.rate / flat;
+  const double time = std::min(std::max(record.slack, 0.0) / record.slack_speed, 0.5 * flat / flight.rate);
+  const double horizon = static_cast<double>(TimingWheel::horizon() - 1);
+  // a rod at rest has all the time there is
+  return static_cast<Tick>(time < horizon * rules_.dt ? time / rules_.dt * (1.0 - 1e-12) : horizon);
+}
+
+void ScheduledStepper::schedule_pairs(const World& world, Tick now) {
+  to_bound_.clear();
+  const auto list = [&](int p) {
+    if (pairs_[p].bounded_at == now) return;
+    pairs_[p].bounded_at = now;
+    to_bound_.push_back(p);
+  };
+  for (const int p : due_pairs_) list(p);
   for (const int i : changed_) {
-    if (strayed_velocity_[i] <= allowance_.velocity && strayed_precession_[i] <= allowance_.precession) continue;
-    strayed_velocity_[i] = 0;
-    strayed_precession_[i] = 0;
+    const bool strayed = records_[i].strayed;
     for (int k = first_pair_of_[i]; k < first_pair_of_[i + 1]; ++k) {
-      const auto& [p, side] = pairs_of_[k];
-      if (pair_schedule_[p].due > now + 1) renew(world, p, side, now);
+      if (strayed || pair_is_steady_[pairs_of_[k]]) list(pairs_of_[k]);
     }
   }
-  return {};
+  if (to_bound_.empty()) return;
+
+  to_look_at_.clear();
+  to_pose_.clear();
+  for (const int p : to_bound_) {
+    for (const int i : pairs_[p].rod) {
+      if (records_[i].outlook_at == now) continue;
+      records_[i].outlook_at = now;
+      to_look_at_.push_back(i);
+      list_to_pose(i, now);
+    }
+  }
+  pose(world, now);
+  team_.run(static_cast<int>(to_look_at_.size()), kGrain, [&](int begin, int end, int) {
+    for (int k = begin; k < end; ++k) outlooks_[to_look_at_[k]] = outlook(world, to_look_at_[k], now);
+  });
+  next_.resize(to_bound_.size());
+  team_.run(static_cast<int>(to_bound_.size()), kGrain, [&](int begin, int end, int w) {
+    for (int at = begin; at < end; at += kLanes) bound_pairs(at, std::min(kLanes, end - at), now, workers_[w]);
+  });
+  phase_times.lap(Phase::kBounds);
+  for (std::size_t k = 0; k < to_bound_.size(); ++k) pair_wheel_.set(to_bound_[k], next_[k]);
+  phase_times.lap(Phase::kSchedule);
+}
+
+void ScheduledStepper::bound_pairs(int first, int n, Tick now, Worker& worker) {
+  PairLanes& lanes = worker.pair_lanes;
+  HullSafeTimes hull;
+  Vec3 D[kLanes];
+  for (int lane = 0; lane < n; ++lane) {
+    const auto& [i, j] = pairs_[to_bound_[first + lane]].rod;
+    D[lane] = nearest_image(rods_[i].pose.position, rods_[j].pose.position, rules_.box_side);
+    lanes.set(lane, D[lane], outlooks_[i], outlooks_[j]);
+  }
+  const auto horizon = static_cast<float>(static_cast<double>(TimingWheel::horizon() - 1) * rules_.dt);
+  hull_safe_times(hull_, hull_, lanes, allowance_, horizon, hull);
+
+  const auto per_dt = static_cast<float>((1.0 - 1e-5) / rules_.dt);
+  for (int lane = 0; lane < n; ++lane) {
+    const int p = to_bound_[first + lane];
+    PairRecord& pair = pairs_[p];
+    for (int c = 0; c < 3; ++c) pair.direction[c] = hull.direction[c][lane];
+    float steady = hull.steady[lane] * per_dt;
+    float straying = hull.straying[lane] * per_dt;
+    if (straying < kShortBound && steady < kShortBound) {
+      const auto& [i, j] = pair.rod;
+      const SafeTime beads = bead_safe_time(lanes_, outlooks_[i], lanes_, outlooks_[j], D[lane], allowance_,
+                                            kBeadHorizon * static_cast<float>(rules_.dt));
+      steady = std::max(steady, beads.steady * per_dt);
+      straying = std::max(straying, beads.straying * per_dt);
+    }
+    const bool is_steady = straying < kLongBound && straying * kMuchLonger < steady;
+    pair_is_steady_[p] = is_steady;
+    next_[first + lane] = now + 1 + static_cast<Tick>(is_steady ? steady : straying);
+  }
 }
 
 }  // namespace shaken
-namespace shaken {
-std::size_t ScheduledStepper::bytes() const { return 0; }
-}

@@ -3,7 +3,10 @@
 
 #include <vector>
 
-#include "sim/contact/safe_time.h"
+#include "sim/contact/bead_safe_time.h"
+#include "sim/contact/hull_safe_time.h"
+#include "sim/core/thread_team.h"
+#include "sim/motion/plate_safe_time.h"
 #include "sim/neighbors/neighbor_list.h"
 #include "sim/stepping/stepper.h"
 #include "sim/stepping/tick.h"
@@ -16,83 +19,112 @@ namespace shaken {
 /// brings it back in time. What happens at a visit is tick.h's business, so the trajectory is the reference stepper's,
 /// bit by bit.
 ///
-/// When an impulse changes a rod's velocity, the bounds of its pairs are renewed at the end of that tick, from stored
-/// records (the separating direction, and what is known of both rods' cosines to it) rather than from new geometry;
-/// changes that together stay within an allowance, which every bound provides for, need no renewal.
+/// Hits by the plates change a rod's velocity thousands of times per second. Most pairs do not care: their bounds
+/// provide for rods that stray within limits (Outlook, Allowance). Only a rod that leaves its limits has the bounds of
+/// all its pairs renewed; a pair on the point of touching has a bound for steady flight instead, which is longer, and
+/// renewed whenever one of its rods is hit.
+///
+/// Each phase of a tick is a loop over a list without order, which several threads may share; only the impulses
+/// between rods, a few per cent of the time, are one thread's.
 class ScheduledStepper final : public Stepper {
  public:
-  explicit ScheduledStepper(const World& world);
+  ScheduledStepper(const World& world, int n_threads);
   std::size_t bytes() const override;
 
  private:
-  /// When an item is due, and at which tick the wheel will bring it up (at or before `due`).
-  struct Schedule {
-    Tick due = 0;
-    Tick queued = kNotQueued;
-  };
-  static constexpr Tick kNotQueued = -1;
-
-  struct AxisRecord {
-    double c = 0;
-    double rate = 0;
-    double half_rate2 = 0;
-    Tick at = 0;
+  /// What the stepper knows of a rod beside its flight.
+  struct RodRecord {
+    Vec3 strayed_velocity = Vec3::Zero();  ///< change of the velocity by hits since the rod's limits were set [mm/s]
+    Vec3 strayed_turning = Vec3::Zero();   ///< the same for d director / dt [1/s]
+    double rate_limit = 0;                 ///< of the precession, for bounds that allow for straying [rad/s]
+    double slack = 1e30;                   ///< of the neighbour list at `slack_at`, at least [mm]
+    double slack_speed = 0;                ///< at which it shrinks, at most [mm/s]
+    Tick slack_at = 0;
+    Tick posed_at = -1;    ///< tick for which rods_ holds the rod
+    Tick listed_at = -1;   ///< tick at which it was last visited or hit
+    Tick outlook_at = -1;  ///< tick for which outlooks_ holds the rod
+    int n_touching = 0;    ///< pairs of the rod that are touching
+    bool strayed = false;  ///< hit out of its limits: bounds of its pairs are to be renewed
   };
   struct PairRecord {
     int rod[2];
-    bool touching = false;  ///< beads overlapped, receding, at the last look
-    bool by_beads = false;  ///< the last bound was taken bead by bead; the direction is not valid
-    Vec3 direction;         ///< from rod 0 to rod 1
-    AxisRecord axis[2];
+    float direction[3] = {0, 0, 0};  ///< in which the hulls were apart at the last bound; 0: not known
+    bool touching = false;           ///< beads overlapped at the last search
+    Tick detected_at = -1;           ///< tick of the last search for contacts
+    Tick bounded_at = -1;            ///< tick of the last bound
+  };
+  /// What one thread gathers in a loop.
+  struct Worker {
+    void note(NumericalTrouble met);
+
+    Counters counters;
+    std::optional<NumericalTrouble> trouble;  ///< that of the first rods
+    bool list_is_due = false;
+    std::vector<BeadContact> bead_contacts;
+    std::vector<PairContact> contacts;
+    std::vector<int> turned;  ///< pairs that began or ceased to touch
+    PlateLanes plate_lanes{};
+    PairLanes pair_lanes{};
   };
 
   std::optional<NumericalTrouble> step(World& world, Tick now) override;
 
-  RodAtTick& at_tick(const World& world, int i, Tick now);
-  FlightState flight_state(const World& world, int i, Tick now);
-  void set_due(TimingWheel& wheel, Schedule& schedule, std::int32_t item, Tick due);
-  void take_due(TimingWheel& wheel, std::vector<Schedule>& schedules, Tick now, std::vector<std::int32_t>& due);
-
-  void detect(const World& world, int p, Tick now);
-  void detect_touching(const World& world, Tick now);
-  void set_touching(PairRecord& pair, bool touching);
+  // phases of a tick
+  std::optional<NumericalTrouble> collide_with_plates_due(World& world, Tick now);
   void rebuild_pairs(const World& world, Tick now);
-  void schedule_rod(const World& world, int i, Tick now);
-  void schedule_pair(int p, Tick now, double safe_time);
-  void look_again(const World& world, int p, Tick now);
-  void renew(const World& world, int p, int side, Tick now);
+  void detect_due(const World& world, Tick now);
+  void detect_touching(const World& world, Tick now);
+  void list_changed(Tick now);
+  std::optional<NumericalTrouble> store_changed(World& world, Tick now);
+  void schedule_rods(const World& world, Tick now);
+  void schedule_pairs(const World& world, Tick now);
+
+  // parts of them
+  std::optional<NumericalTrouble> first_trouble() const;
+  bool list_is_due();
+  void list_to_pose(int i, Tick now);
+  void pose(const World& world, Tick now);
+  bool detect(int p, Worker& worker);
+  void turn_touching(int p);
+  bool within_limits(const RodRecord& record, const Flight& flight) const;
+  static void set_limits(RodRecord& record, const Flight& flight);
+  Outlook outlook(const World& world, int i, Tick now) const;
+  double slack_left(int i, Tick now) const;
+  void measure_slack(int i, Tick now);
+  Tick listed_ticks(const World& world, int i, Tick now);
+  void bound_pairs(int first, int n, Tick now, Worker& worker);
 
   TickRules rules_;
   Hull hull_;
   BeadLanes lanes_;
   Allowance allowance_;
   NeighborList neighbors_;
+  ThreadTeam team_;
 
-  std::vector<RodAtTick> rods_;  ///< valid where rod_tick_ is the current tick
-  std::vector<Tick> rod_tick_;
-  std::vector<Schedule> rod_schedule_;
-  std::vector<double> strayed_velocity_;    ///< since the rod's pairs were last renewed [mm/s]
-  std::vector<double> strayed_precession_;  ///< [rad/s]
+  std::vector<RodAtTick> rods_;
+  std::vector<RodRecord> records_;
+  std::vector<Outlook> outlooks_;
   TimingWheel rod_wheel_;
 
   std::vector<PairRecord> pairs_;
-  std::vector<Schedule> pair_schedule_;
-  std::vector<Tick> pair_detected_;  ///< tick of the last search for contacts
-  std::vector<Tick> pair_looked_;    ///< tick of the last new bound from new geometry
+  std::vector<std::uint8_t> pair_is_steady_;  ///< the pair's bound holds for steady flight only
   TimingWheel pair_wheel_;
-  std::vector<int> n_touching_;                ///< (n_rods) pairs of the rod that are touching
-  std::vector<int> first_pair_of_;             ///< (n_rods + 1) into pairs_of_
-  std::vector<std::pair<int, int>> pairs_of_;  ///< (pair, side), grouped by rod
+  std::vector<int> first_pair_of_;  ///< (n_rods + 1) into pairs_of_
+  std::vector<int> pairs_of_;       ///< grouped by rod
 
-  // scratch of one tick
+  // lists of one tick
   std::vector<std::int32_t> due_rods_;
   std::vector<std::int32_t> due_pairs_;
-  std::vector<std::int32_t> popped_;
-  std::vector<int> changed_;
-  std::vector<int> may_change_;
-  std::vector<BeadContact> bead_contacts_;
   std::vector<PairContact> contacts_;
+  std::vector<int> changed_;      ///< rods hit in this tick
+  std::vector<int> to_pose_;      ///< rods whose pose is needed
+  std::vector<int> to_look_at_;   ///< rods whose outlook is
+  std::vector<int> to_schedule_;  ///< rods that need a bound
+  std::vector<int> to_bound_;     ///< pairs that need one
+  std::vector<Tick> next_;        ///< ticks at which they are due
+  std::vector<int> may_change_;
   std::vector<Pose> poses_;
+  std::vector<Worker> workers_;
 };
 
 }  // namespace shaken

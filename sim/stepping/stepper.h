@@ -37,7 +37,7 @@ class Stepper {
   [[nodiscard]] virtual std::optional<NumericalTrouble> step(World& world, Tick now) = 0;
 };
 
-/// The stepper that the scene asks for.
-std::unique_ptr<Stepper> make_stepper(const World& world);
+/// The stepper that the scene asks for, on so many threads (the reference stepper uses one).
+std::unique_ptr<Stepper> make_stepper(const World& world, int n_threads);
 
 }  // namespace shaken

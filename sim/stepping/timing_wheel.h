@@ -4,33 +4,62 @@
 #include <cstdint>
 #include <vector>
 
+#include "sim/core/heap_bytes.h"
 #include "sim/core/types.h"
 
 namespace shaken {
 
-/// Things to look at, by the tick at which they are due: a ring of buckets, one per tick, insert and pop in O(1)
-/// (Varghese & Lauck 1987). Items are never removed: whoever pops one checks whether it is still meant.
+/// Things to look at, by the tick at which they are due: a ring of slots, one per tick, each a doubly linked list
+/// through the items themselves, so that an item is put in, put off and taken out in O(1) (Varghese & Lauck 1987).
 class TimingWheel {
  public:
   /// Due ticks may lie up to `horizon()` ahead.
   static constexpr Tick kSlots = 4096;
   static constexpr Tick horizon() { return kSlots - 1; }
 
-  void insert(Tick due, std::int32_t item) { slots_[static_cast<std::size_t>(due % kSlots)].push_back(item); }
+  explicit TimingWheel(std::size_t n_items = 0) : first_(kSlots, kNone), links_(n_items) {}
+
+  /// Has `item` come up at tick `due`, and at no other.
+  void set(std::int32_t item, Tick due) {
+    Link& link = links_[item];
+    const auto slot = static_cast<std::int32_t>(due % kSlots);
+    if (link.slot == slot) return;
+    if (link.slot != kNone) take_out(link);
+    link.slot = slot;
+    link.previous = kNone;
+    link.next = first_[slot];
+    if (link.next != kNone) links_[link.next].previous = item;
+    first_[slot] = item;
+  }
 
   /// Moves the items of tick `now` into `items` (whose old content is dropped).
   void pop(Tick now, std::vector<std::int32_t>& items) {
-    auto& slot = slots_[static_cast<std::size_t>(now % kSlots)];
+    std::int32_t& first = first_[static_cast<std::size_t>(now % kSlots)];
     items.clear();
-    items.swap(slot);
+    for (std::int32_t item = first; item != kNone; item = links_[item].next) {
+      links_[item].slot = kNone;
+      items.push_back(item);
+    }
+    first = kNone;
   }
 
-  void clear() {
-    for (auto& slot : slots_) slot.clear();
-  }
+  std::size_t bytes() const { return heap_bytes(first_, links_); }
 
  private:
-  std::vector<std::vector<std::int32_t>> slots_ = std::vector<std::vector<std::int32_t>>(kSlots);
+  static constexpr std::int32_t kNone = -1;
+  struct Link {
+    std::int32_t slot = kNone;
+    std::int32_t previous = kNone;
+    std::int32_t next = kNone;
+  };
+
+  void take_out(const Link& link) {
+    (link.previous != kNone ? links_[link.previous].next : first_[link.slot]) = link.next;
+    if (link.next != kNone) links_[link.next].previous = link.previous;
+  }
+
+  std::vector<std::int32_t> first_;  ///< (kSlots) an item of each slot
+  std::vector<Link> links_;          ///< (n_items)
 };
 
 }  // namespace shaken

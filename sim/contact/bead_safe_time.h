@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "sim/contact/safe_time.h"
+#include "sim/rod/species.h"
+
+namespace shaken {
+
+/// A species' beads as floats in whole vectors.
+struct BeadLanes {
+  explicit BeadLanes(const Species& species);
+  std::vector<float> offset;  ///< (n_beads rounded up to a multiple of kLanes) [mm]
+  std::vector<float> radius;  ///< the same; lanes past the last bead hold a bead that is never near [mm]
+  float half_length, mid_radius, max_radius, taper;
+  float last;   ///< index of the last bead
+  float pitch;  ///< distance of neighbouring beads [mm]
+  int reach;    ///< beads to each side of a foot that can be near: those beyond are further than any contact
+};
+
+/// False only if no bead of i can overlap any bead of j: a quick test before find_bead_contacts, which decides.
+bool beads_may_overlap(const BeadLanes& i, const Vec3& n_i, const BeadLanes& j, const Vec3& n_j, const Vec3& D);
+
+/// Times for which no bead of i and bead of j begins to touch or, if they overlap, begins to approach; at most
+/// `horizon` [s]. For rods whose hulls overlap while the beads interlock without touching.
+/// Model:  along the line of centres e of two beads, e . r(t) >= r + r' t - (|s_a| q_i + |s_b| q_j) t^2, with q half the
+///         directors' second derivative, and the distance is at least that. Each bead of i is tried against the beads
+///         of j next to its foot on j's axis; those beyond are covered by their distance and the fastest approach.
+/// Arguments: D is the vector from centre i to centre j [mm].
+SafeTime bead_safe_time(const BeadLanes& i, const Outlook& outlook_i, const BeadLanes& j, const Outlook& outlook_j,
+                        const Vec3& D, const Allowance& allowance, float horizon);
+
+}  // namespace shaken

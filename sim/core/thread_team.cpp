@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "sim/core/thread_team.h"
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+namespace shaken {
+namespace {
+
+inline void pause() {
+#if defined(__x86_64__)
+  _mm_pause();
+#endif
+}
+
+/// Waits until `value` is no longer `old`.
+void wait_for_change(const std::atomic<std::uint32_t>& value, std::uint32_t old) {
+  constexpr int kSpins = 4000;  // a few tens of microseconds: longer than a tick's serial parts
+  for (int spin = 0; spin < kSpins; ++spin) {
+    if (value.load(std::memory_order_acquire) != old) return;
+    pause();
+  }
+  value.wait(old, std::memory_order_acquire);
+}
+
+}  // namespace
+
+ThreadTeam::ThreadTeam(int n_threads) {
+  for (int worker = 1; worker < n_threads; ++worker) threads_.emplace_back([this, worker] { work(worker); });
+}
+
+ThreadTeam::~ThreadTeam() {
+  ending_ = true;
+  round_.fetch_add(1, std::memory_order_release);
+  round_.notify_all();
+  for (std::thread& thread : threads_) thread.join();
+}
+
+void ThreadTeam::do_share(int worker) const {
+  const auto share = [&](int w) { return static_cast<int>(static_cast<std::int64_t>(n_) * w / size()); };
+  const int begin = share(worker);
+  const int end = share(worker + 1);
+  if (begin < end) call_(context_, begin, end, worker);
+}
+
+void ThreadTeam::share_out(int n, Call call, const void* context) {
+  n_ = n;
+  call_ = call;
+  context_ = context;
+  busy_.store(static_cast<std::uint32_t>(threads_.size()), std::memory_order_relaxed);
+  round_.fetch_add(1, std::memory_order_release);
+  round_.notify_all();
+  do_share(0);
+  for (std::uint32_t left = busy_.load(std::memory_order_acquire); left != 0;
+       left = busy_.load(std::memory_order_acquire)) {
+    wait_for_change(busy_, left);
+  }
+}
+
+void ThreadTeam::work(int worker) {
+  std::uint32_t seen = 0;
+  while (true) {
+    wait_for_change(round_, seen);
+    ++seen;
+    if (ending_) return;
+    do_share(worker);
+    if (busy_.fetch_sub(1, std::memory_order_release) == 1) busy_.notify_one();
+  }
+}
+
+}  // namespace shaken
