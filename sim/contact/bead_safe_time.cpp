@@ -8,6 +8,9 @@
 namespace shaken {
 namespace {
 
+using lanes::Floats;
+using lanes::Vectors;
+
 /// What the lanes share: everything relative to the centre of rod i, as floats.
 struct Shared {
   float D[3], n_i[3], n_j[3];
@@ -23,101 +26,95 @@ struct Relative {
   float fastest;                     ///< no two beads approach faster than this
 };
 
-inline float larger(float a, float b) { return a > b ? a : b; }
-inline float smaller(float a, float b) { return a < b ? a : b; }
+/// Vectors from beads of i to the centre of j.
+[[gnu::always_inline]] inline Vectors to_center(const Shared& in, const Floats& offset_i) {
+  return {in.D[0] - offset_i * in.n_i[0], in.D[1] - offset_i * in.n_i[1], in.D[2] - offset_i * in.n_i[2]};
+}
 
-/// Bead of j nearest to the bead at (x, y, z) from j's centre, as an index.
-inline float nearest_bead(const BeadLanes& j, float foot) {
-  const float inside = smaller(larger((foot + j.half_length) / j.pitch, 0.0F), j.last);
-  return static_cast<float>(static_cast<int>(inside + 0.5F));
+/// Index of the bead of j nearest to a coordinate on its axis.
+[[gnu::always_inline]] inline Floats nearest_bead(const BeadLanes& j, const Floats& foot) {
+  const Floats place = (foot + j.half_length) * (1.0F / j.pitch);
+  return lanes::truncated(lanes::smaller(lanes::larger(place, Floats{}), lanes::all(j.last)) + 0.5F);
+}
+
+/// Coordinate of the k-th bead of j after `nearest`, or of the last one that there is.
+[[gnu::always_inline]] inline Floats bead_offset(const BeadLanes& j, const Floats& nearest, int k) {
+  const Floats index =
+      lanes::smaller(lanes::larger(nearest + static_cast<float>(k), Floats{}), lanes::all(j.last));
+  return index * j.pitch - j.half_length;
 }
 
 SHAKEN_VECTOR_CLONES
 bool lanes_may_overlap(const Shared& in, const float* offset_i, const float* radius_i, const BeadLanes& j) {
-  float deepest[kLanes];
+  const Vectors x = to_center(in, lanes::load(offset_i));
+  const Floats foot = -(x.x * in.n_j[0] + x.y * in.n_j[1] + x.z * in.n_j[2]);
+  const Floats nearest = nearest_bead(j, foot);
+  const Floats radius = lanes::load(radius_i) + in.gap_margin;
+  // beads of j that are not tried below: at least this far along its axis
   const float beyond = (static_cast<float>(j.reach) + 0.5F) * j.pitch;
-  for (int a = 0; a < kLanes; ++a) {
-    const float x = in.D[0] - offset_i[a] * in.n_i[0];
-    const float y = in.D[1] - offset_i[a] * in.n_i[1];
-    const float z = in.D[2] - offset_i[a] * in.n_i[2];
-    const float foot = -(x * in.n_j[0] + y * in.n_j[1] + z * in.n_j[2]);
-    const float nearest = nearest_bead(j, foot);
-    // beads of j that are not tried below: at least this far along its axis
-    const float cut = larger(0.0F, radius_i[a] + j.max_radius + in.gap_margin);
-    float depth = cut * cut - (larger(0.0F, x * x + y * y + z * z - foot * foot) + beyond * beyond);
-    for (int k = -j.reach; k <= j.reach; ++k) {
-      const float index = smaller(larger(nearest + static_cast<float>(k), 0.0F), j.last);
-      const float s_j = index * j.pitch - j.half_length;
-      const float rx = x + s_j * in.n_j[0];
-      const float ry = y + s_j * in.n_j[1];
-      const float rz = z + s_j * in.n_j[2];
-      const float touch = larger(0.0F, radius_i[a] + j.mid_radius - j.taper * std::fabs(s_j) + in.gap_margin);
-      depth = larger(depth, touch * touch - (rx * rx + ry * ry + rz * rz));
-    }
-    deepest[a] = depth;
+  const Floats cut = lanes::larger(Floats{}, radius + j.max_radius);
+  Floats clear = lanes::larger(Floats{}, lanes::dot(x, x) - foot * foot) + beyond * beyond - cut * cut;
+  for (int k = -j.reach; k <= j.reach; ++k) {
+    const Floats s_j = bead_offset(j, nearest, k);
+    const Vectors r{x.x + s_j * in.n_j[0], x.y + s_j * in.n_j[1], x.z + s_j * in.n_j[2]};
+    const Floats touch = lanes::larger(Floats{}, radius + j.mid_radius - j.taper * lanes::abs(s_j));
+    clear = lanes::smaller(clear, lanes::dot(r, r) - touch * touch);
   }
-  float depth = -1e30F;
-  for (int a = 0; a < kLanes; ++a) depth = larger(depth, deepest[a]);
-  return depth >= 0.0F;
+  return lanes::least(clear) <= 0.0F;
 }
 
 /// Safe time of two beads: gap, its rate now, and the largest curvature of gap >= g + g' t - curvature t^2.
-inline float safe_time(float gap, float rate, float curvature) {
-  const float open = larger(gap, 0.0F);
-  const float root = std::sqrt(rate * rate + 4.0F * curvature * open);
+[[gnu::always_inline]] inline Floats safe_time(const Floats& gap, const Floats& rate, const Floats& curvature) {
+  const Floats open = lanes::larger(gap, Floats{});
+  const Floats root = lanes::sqrt(rate * rate + 4.0F * curvature * open);
   // receding: the later root if they are apart, the turning point if they overlap; approaching: the first root
-  const float recede = gap > 0.0F ? rate + root : rate;
-  const float above = rate > 0.0F ? recede : 2.0F * open;
-  const float below = (rate > 0.0F ? 2.0F * curvature : root - rate) + 1e-30F;
+  const Floats recede = gap > 0.0F ? rate + root : rate;
+  const Floats above = rate > 0.0F ? recede : 2.0F * open;
+  const Floats below = (rate > 0.0F ? 2.0F * curvature : root - rate) + 1e-30F;
   return above / below;
+}
+
+/// The same, for beads of i and of j at s_i and s_j whose centres are r apart.
+[[gnu::always_inline]] inline Floats safe_time(const Relative& m, const Floats& s_i, const Floats& s_j,
+                                               const Vectors& r, const Floats& inverse_distance, const Floats& gap) {
+  const Floats vx = m.v[0] + s_j * m.turn_j[0] - s_i * m.turn_i[0];
+  const Floats vy = m.v[1] + s_j * m.turn_j[1] - s_i * m.turn_i[1];
+  const Floats vz = m.v[2] + s_j * m.turn_j[2] - s_i * m.turn_i[2];
+  const Floats up = lanes::abs(r.z) * inverse_distance;
+  const Floats size_i = lanes::abs(s_i);
+  const Floats size_j = lanes::abs(s_j);
+  const Floats stray =
+      m.stray + m.stray_z * up + (size_i + size_j) * (m.stray_turning + m.stray_turning_z * up);
+  const Floats rate = (vx * r.x + vy * r.y + vz * r.z) * inverse_distance - stray;
+  return safe_time(gap, rate, size_i * m.bend_i + size_j * m.bend_j);
 }
 
 /// Safe times of kLanes beads of i against the beads of j around each one's foot on j's axis.
 SHAKEN_VECTOR_CLONES
-void lanes_safe_time(const Shared& in, const Relative& steady, const Relative& straying, const float* offset_i,
-                     const float* radius_i, const BeadLanes& j, float* safe_steady, float* safe_straying) {
-  alignas(64) float x[kLanes], y[kLanes], z[kLanes], nearest[kLanes];
+SafeTime lanes_safe_time(const Shared& in, const Relative& steady, const Relative& straying, const float* offset_i,
+                         const float* radius_i, const BeadLanes& j) {
+  const Floats s_i = lanes::load(offset_i);
+  const Floats radius = lanes::load(radius_i) + in.gap_margin;
+  const Vectors x = to_center(in, s_i);
+  const Floats foot = -(x.x * in.n_j[0] + x.y * in.n_j[1] + x.z * in.n_j[2]);
+  const Floats nearest = nearest_bead(j, foot);
+  // beads of j that are not tried below are at least this far along its axis
   const float beyond = (static_cast<float>(j.reach) + 0.5F) * j.pitch;
-  for (int a = 0; a < kLanes; ++a) {
-    x[a] = in.D[0] - offset_i[a] * in.n_i[0];
-    y[a] = in.D[1] - offset_i[a] * in.n_i[1];
-    z[a] = in.D[2] - offset_i[a] * in.n_i[2];
-    const float foot = -(x[a] * in.n_j[0] + y[a] * in.n_j[1] + z[a] * in.n_j[2]);
-    nearest[a] = nearest_bead(j, foot);
-    // beads of j that are not tried below are at least this far along its axis
-    const float across2 = x[a] * x[a] + y[a] * y[a] + z[a] * z[a] - foot * foot;
-    const float far = larger(
-        0.0F, std::sqrt(larger(across2, 0.0F) + beyond * beyond) - radius_i[a] - j.max_radius - in.gap_margin);
-    safe_steady[a] = far / steady.fastest;
-    safe_straying[a] = far / straying.fastest;
-  }
+  const Floats across2 = lanes::larger(Floats{}, lanes::dot(x, x) - foot * foot);
+  const Floats far =
+      lanes::larger(Floats{}, lanes::sqrt(across2 + beyond * beyond) - radius - j.max_radius);
+  Floats safe_steady = far * (1.0F / steady.fastest);
+  Floats safe_straying = far * (1.0F / straying.fastest);
   for (int k = -j.reach; k <= j.reach; ++k) {
-    for (int a = 0; a < kLanes; ++a) {
-      const float index = smaller(larger(nearest[a] + static_cast<float>(k), 0.0F), j.last);
-      const float s_j = index * j.pitch - j.half_length;
-      const float s_i = offset_i[a];
-      const float abs_s_j = std::fabs(s_j);
-      const float abs_s_i = std::fabs(s_i);
-      const float rx = x[a] + s_j * in.n_j[0];
-      const float ry = y[a] + s_j * in.n_j[1];
-      const float rz = z[a] + s_j * in.n_j[2];
-      const float distance = std::sqrt(rx * rx + ry * ry + rz * rz);
-      const float inverse = 1.0F / (distance + 1e-20F);
-      const float gap = distance - (radius_i[a] + j.mid_radius - j.taper * abs_s_j + in.gap_margin);
-      const float up = std::fabs(rz) * inverse;
-      const auto bound = [&](const Relative& m) {
-        const float vx = m.v[0] + s_j * m.turn_j[0] - s_i * m.turn_i[0];
-        const float vy = m.v[1] + s_j * m.turn_j[1] - s_i * m.turn_i[1];
-        const float vz = m.v[2] + s_j * m.turn_j[2] - s_i * m.turn_i[2];
-        const float stray =
-            m.stray + m.stray_z * up + (abs_s_i + abs_s_j) * (m.stray_turning + m.stray_turning_z * up);
-        const float rate = (vx * rx + vy * ry + vz * rz) * inverse - stray;
-        return safe_time(gap, rate, abs_s_i * m.bend_i + abs_s_j * m.bend_j);
-      };
-      safe_steady[a] = smaller(safe_steady[a], bound(steady));
-      safe_straying[a] = smaller(safe_straying[a], bound(straying));
-    }
+    const Floats s_j = bead_offset(j, nearest, k);
+    const Vectors r{x.x + s_j * in.n_j[0], x.y + s_j * in.n_j[1], x.z + s_j * in.n_j[2]};
+    const Floats distance = lanes::sqrt(lanes::dot(r, r));
+    const Floats inverse = 1.0F / (distance + 1e-20F);
+    const Floats gap = distance - (radius + j.mid_radius - j.taper * lanes::abs(s_j));
+    safe_steady = lanes::smaller(safe_steady, safe_time(steady, s_i, s_j, r, inverse, gap));
+    safe_straying = lanes::smaller(safe_straying, safe_time(straying, s_i, s_j, r, inverse, gap));
   }
+  return {lanes::least(safe_steady), lanes::least(safe_straying)};
 }
 
 float norm(const float* v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
@@ -192,14 +189,10 @@ SafeTime bead_safe_time(const BeadLanes& i, const Outlook& a, const BeadLanes& j
   const Relative straying = relative(i, j, a.velocity_center, b.velocity_center, a.turning_center, b.turning_center,
                                      a.half_rate2_limit, b.half_rate2_limit, allowance);
   SafeTime safe{horizon, horizon};
-  alignas(64) float lane_steady[kLanes], lane_straying[kLanes];
   for (std::size_t first = 0; first < i.offset.size(); first += kLanes) {
-    lanes_safe_time(in, steady, straying, i.offset.data() + first, i.radius.data() + first, j, lane_steady,
-                    lane_straying);
-    for (int lane = 0; lane < kLanes; ++lane) {
-      safe.steady = smaller(safe.steady, lane_steady[lane]);
-      safe.straying = smaller(safe.straying, lane_straying[lane]);
-    }
+    const SafeTime some = lanes_safe_time(in, steady, straying, i.offset.data() + first, i.radius.data() + first, j);
+    safe.steady = std::min(safe.steady, some.steady);
+    safe.straying = std::min(safe.straying, some.straying);
   }
   return {safe.steady * (1.0F - 1e-5F), safe.straying * (1.0F - 1e-5F)};
 }

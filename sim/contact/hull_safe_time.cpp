@@ -1,64 +1,54 @@
 // SPDX-License-Identifier: MIT
 #include "sim/contact/hull_safe_time.h"
 
+#include <algorithm>
+
 #include "sim/core/vector_clones.h"
 
 namespace shaken {
 namespace {
 
-inline float larger(float a, float b) { return a > b ? a : b; }
-inline float smaller(float a, float b) { return a < b ? a : b; }
-inline float clamp(float x, float limit) { return larger(-limit, smaller(limit, x)); }
+using lanes::Floats;
+using lanes::Vectors;
 
-/// Point of an axis (|s| <= h, thinning by `taper`) from which a point at `foot` along and `across` beside it is
-/// nearest, measured from the hull's surface: the foot, moved towards the thick middle.
-inline float nearest_on_axis(float half_length, float lean, float foot, float across) {
-  const float far = larger(0.0F, std::fabs(foot) - lean * across);
-  return clamp(std::copysign(far, foot), half_length);
+/// Point of an axis (|s| <= h, leaning towards its thick middle) from which a point at `foot` along and `across`
+/// beside it is nearest, measured from the hull's surface.
+[[gnu::always_inline]] inline Floats nearest_on_axis(const Floats& half_length, float lean, const Floats& foot,
+                                                     const Floats& across) {
+  const Floats far = lanes::larger(Floats{}, lanes::abs(foot) - lean * across);
+  return lanes::clamp(lanes::with_sign_of(far, foot), half_length);
 }
 
-/// How much a pair's gap along its direction can have shrunk.
-struct GapBound {
-  float gap;            ///< at the start, without the widths that the directors give [mm]
-  float rate;           ///< [mm/s]
-  float c_i, c_j;       ///< cosines n . d
-  float w_i, w_j;       ///< their rates [1/s]
-  float b_i, b_j;       ///< what the rates may stray by [1/s]
-  float q_i, q_j;       ///< half of the bounds on the second derivatives [1/s^2]
-  float h_i, h_j;       ///< half-lengths
-  float k_i, k_j;       ///< tapers
-
-  float at(float t) const {
-    const float tilt_i = std::fabs(c_i + w_i * t) + (q_i * t + b_i) * t;
-    const float tilt_j = std::fabs(c_j + w_j * t) + (q_j * t + b_j) * t;
-    return gap + rate * t - h_i * larger(0.0F, tilt_i - k_i) - h_j * larger(0.0F, tilt_j - k_j);
-  }
-
-  float safe_time(float horizon) const {
-    float safe = 0;
-    float beyond = horizon;
-    float gap_safe = at(0.0F);
-    float gap_beyond = at(horizon);
-    const bool open = gap_safe > 0;
-    const bool all = gap_beyond >= 0;
-    for (int step = 0; step < 3; ++step) {
-      const float t = safe + (beyond - safe) * (gap_safe / (gap_safe - gap_beyond + 1e-30F));
-      const float gap_t = at(t);
-      const bool inside = gap_t >= 0;  // not so only by rounding: the chord of a concave function lies below it
-      safe = inside ? t : safe;
-      gap_safe = inside ? gap_t : gap_safe;
-      beyond = inside ? beyond : t;
-      gap_beyond = inside ? gap_beyond : gap_t;
-    }
-    return open ? (all ? horizon : safe) : 0.0F;
-  }
+/// How much a director's component along a pair's direction can grow: |n . d| <= |c + w t| + (q t + b) t.
+struct Cosine {
+  Floats c, w, q, b;
+  [[gnu::always_inline]] Floats at(const Floats& t) const { return lanes::abs(c + w * t) + (q * t + b) * t; }
 };
 
-inline float dot(const float (*a)[kLanes], const float (*b)[kLanes], int l) {
-  return a[0][l] * b[0][l] + a[1][l] * b[1][l] + a[2][l] * b[2][l];
-}
-inline float sum_of_sizes(const float (*a)[kLanes], int l) {
-  return std::fabs(a[0][l]) + std::fabs(a[1][l]) + std::fabs(a[2][l]);
+/// Time for which gap + rate t - width_i(t) - width_j(t) stays positive.
+[[gnu::always_inline]] inline Floats safe_time(const Hull& i, const Hull& j, const Floats& gap, const Floats& rate,
+                                               const Cosine& cosine_i, const Cosine& cosine_j, float horizon) {
+  const auto gap_at = [&](const Floats& t) __attribute__((always_inline)) {
+    return gap + rate * t - i.half_length * lanes::larger(Floats{}, cosine_i.at(t) - i.taper) -
+           j.half_length * lanes::larger(Floats{}, cosine_j.at(t) - j.taper);
+  };
+  Floats safe{};
+  Floats beyond = lanes::all(horizon);
+  Floats gap_safe = gap_at(safe);
+  Floats gap_beyond = gap_at(beyond);
+  const Floats at_start = gap_safe;
+  const Floats at_end = gap_beyond;
+  for (int step = 0; step < 3; ++step) {
+    const Floats t = safe + (beyond - safe) * (gap_safe / (gap_safe - gap_beyond + 1e-30F));
+    const Floats gap_t = gap_at(t);
+    const auto inside = gap_t >= 0.0F;  // not so only by rounding: the chord of a concave function lies below it
+    safe = inside ? t : safe;
+    gap_safe = inside ? gap_t : gap_safe;
+    beyond = inside ? beyond : t;
+    gap_beyond = inside ? gap_beyond : gap_t;
+  }
+  safe = at_end >= 0.0F ? lanes::all(horizon) : safe;
+  return at_start > 0.0F ? safe : Floats{};
 }
 
 }  // namespace
@@ -82,85 +72,75 @@ void PairLanes::set(int lane, const Vec3& D_ij, const Outlook& i, const Outlook&
 }
 
 SHAKEN_VECTOR_CLONES
-void hull_safe_times(const Hull& hull_i, const Hull& hull_j, const PairLanes& in, const Allowance& allowance,
-                     float horizon, HullSafeTimes& out) {
+void hull_safe_times(const Hull& i, const Hull& j, const PairLanes& pairs, const Allowance& allowance, float horizon,
+                     HullSafeTimes& safe) {
   // floats carry 6e-8; a dozen roundings of lengths and of speeds
   constexpr float kLengthRounding = 1.5e-6F;
   constexpr float kRateRounding = 3e-6F;
-  const float h_i = hull_i.half_length;
-  const float h_j = hull_j.half_length;
-  const float k_i = hull_i.taper;
-  const float k_j = hull_j.taper;
-  const float lean_i = k_i / std::sqrt(larger(1e-12F, 1.0F - k_i * k_i));
-  const float lean_j = k_j / std::sqrt(larger(1e-12F, 1.0F - k_j * k_j));
-  const float radii = hull_i.mid_radius + hull_j.mid_radius + 1e-6F + kLengthRounding * (h_i + h_j);
-  const Allowance allow = allowance;
+  const auto lean = [](const Hull& hull) { return hull.taper / std::sqrt(std::max(1e-12F, 1.0F - hull.taper * hull.taper)); };
+  const float lean_i = lean(i);
+  const float lean_j = lean(j);
+  const Floats h_i = lanes::all(i.half_length);
+  const Floats h_j = lanes::all(j.half_length);
+  const Vectors D = lanes::load(pairs.D);
+  const Vectors n_i = lanes::load(pairs.director_i);
+  const Vectors n_j = lanes::load(pairs.director_j);
 
-  for (int l = 0; l < kLanes; ++l) {
-    // closest points s on i and t on j, distances between them from products of the inputs
-    const float c = dot(in.director_i, in.director_j, l);
-    const float d_i = dot(in.D, in.director_i, l);
-    const float d_j = dot(in.D, in.director_j, l);
-    const float D2 = dot(in.D, in.D, l);
-    const float det = 1.0F - c * c;
-    const bool crossing = det > 1e-5F;
-    float s = clamp(crossing ? (d_i - c * d_j) / (crossing ? det : 1.0F) : 0.5F * d_i, h_i);
-    float t = 0;
-    for (int pass = 0; pass < 2; ++pass) {
-      const float foot_j = c * s - d_j;
-      const float across_j = std::sqrt(larger(0.0F, D2 + s * s - 2.0F * s * d_i - foot_j * foot_j));
-      t = nearest_on_axis(h_j, lean_j, foot_j, across_j);
-      const float foot_i = d_i + c * t;
-      const float across_i = std::sqrt(larger(0.0F, D2 + t * t + 2.0F * t * d_j - foot_i * foot_i));
-      s = nearest_on_axis(h_i, lean_i, foot_i, across_i);
-    }
-    float x = in.D[0][l] + t * in.director_j[0][l] - s * in.director_i[0][l];
-    float y = in.D[1][l] + t * in.director_j[1][l] - s * in.director_i[1][l];
-    float z = in.D[2][l] + t * in.director_j[2][l] - s * in.director_i[2][l];
-    const float distance2 = x * x + y * y + z * z;
-    const bool apart = distance2 > 1e-12F;
-    const float scale = 1.0F / std::sqrt(apart ? distance2 : 1.0F);
-    x = apart ? x * scale : 0.0F;
-    y = apart ? y * scale : 0.0F;
-    z = apart ? z * scale : 1.0F;
-    out.direction[0][l] = x;
-    out.direction[1][l] = y;
-    out.direction[2][l] = z;
-
-    const auto along = [&](const float(*a)[kLanes]) { return a[0][l] * x + a[1][l] * y + a[2][l] * z; };
-    const float up = std::fabs(z);
-    const float turn_rounding =
-        kRateRounding * (sum_of_sizes(in.turning_i, l) + sum_of_sizes(in.turning_j, l) +
-                         sum_of_sizes(in.turning_center_i, l) + sum_of_sizes(in.turning_center_j, l));
-    const float rate_rounding =
-        1e-4F + kRateRounding * (sum_of_sizes(in.velocity, l) + sum_of_sizes(in.velocity_center, l));
-    GapBound bound;
-    bound.gap = along(in.D) - radii - kLengthRounding * std::sqrt(D2);
-    bound.rate = along(in.velocity) - rate_rounding;
-    bound.c_i = along(in.director_i);
-    bound.c_j = along(in.director_j);
-    bound.w_i = along(in.turning_i);
-    bound.w_j = along(in.turning_j);
-    bound.b_i = turn_rounding;
-    bound.b_j = turn_rounding;
-    bound.q_i = in.half_rate2_i[l] * (1.0F + kRateRounding);
-    bound.q_j = in.half_rate2_j[l] * (1.0F + kRateRounding);
-    bound.h_i = h_i;
-    bound.h_j = h_j;
-    bound.k_i = k_i;
-    bound.k_j = k_j;
-    out.steady[l] = bound.safe_time(horizon);
-
-    const float turn_stray = allow.turning_xy + up * allow.turning_z + turn_rounding;
-    bound.rate = along(in.velocity_center) - rate_rounding - 2.0F * (allow.velocity_xy + up * allow.velocity_z);
-    bound.w_i = along(in.turning_center_i);
-    bound.w_j = along(in.turning_center_j);
-    bound.b_i = turn_stray;
-    bound.b_j = turn_stray;
-    bound.q_i = in.half_rate2_limit_i[l] * (1.0F + kRateRounding);
-    bound.q_j = in.half_rate2_limit_j[l] * (1.0F + kRateRounding);
-    out.straying[l] = bound.safe_time(horizon);
+  // closest points s on i and t on j; distances between them from products of the inputs
+  const Floats c = lanes::dot(n_i, n_j);
+  const Floats d_i = lanes::dot(D, n_i);
+  const Floats d_j = lanes::dot(D, n_j);
+  const Floats D2 = lanes::dot(D, D);
+  const Floats det = 1.0F - c * c;
+  Floats s = lanes::clamp(det > 1e-5F ? (d_i - c * d_j) / det : 0.5F * d_i, h_i);
+  Floats t{};
+  for (int pass = 0; pass < 2; ++pass) {
+    const Floats foot_j = c * s - d_j;
+    const Floats across_j = D2 + s * (s - 2.0F * d_i) - foot_j * foot_j;
+    t = nearest_on_axis(h_j, lean_j, foot_j, lanes::sqrt(lanes::larger(Floats{}, across_j)));
+    const Floats foot_i = d_i + c * t;
+    const Floats across_i = D2 + t * (t + 2.0F * d_j) - foot_i * foot_i;
+    s = nearest_on_axis(h_i, lean_i, foot_i, lanes::sqrt(lanes::larger(Floats{}, across_i)));
   }
+  Vectors d{D.x + t * n_j.x - s * n_i.x, D.y + t * n_j.y - s * n_i.y, D.z + t * n_j.z - s * n_i.z};
+  const Floats distance2 = lanes::dot(d, d);
+  const auto apart = distance2 > 1e-12F;
+  const Floats scale = 1.0F / lanes::sqrt(apart ? distance2 : lanes::all(1.0F));
+  d.x = apart ? d.x * scale : Floats{};
+  d.y = apart ? d.y * scale : Floats{};
+  d.z = apart ? d.z * scale : lanes::all(1.0F);
+  lanes::store(safe.direction[0], d.x);
+  lanes::store(safe.direction[1], d.y);
+  lanes::store(safe.direction[2], d.z);
+
+  const Floats gap = lanes::dot(D, d) - (i.mid_radius + j.mid_radius + 1e-6F) -
+                     kLengthRounding * (lanes::sqrt(D2) + (i.half_length + j.half_length));
+  const Floats c_i = lanes::dot(n_i, d);
+  const Floats c_j = lanes::dot(n_j, d);
+
+  const Vectors v = lanes::load(pairs.velocity);
+  const Vectors turn_i = lanes::load(pairs.turning_i);
+  const Vectors turn_j = lanes::load(pairs.turning_j);
+  const Floats steady = safe_time(
+      i, j, gap, lanes::dot(v, d) - (1e-4F + kRateRounding * lanes::size1(v)),
+      {c_i, lanes::dot(turn_i, d), lanes::load(pairs.half_rate2_i), kRateRounding * lanes::size1(turn_i)},
+      {c_j, lanes::dot(turn_j, d), lanes::load(pairs.half_rate2_j), kRateRounding * lanes::size1(turn_j)}, horizon);
+  lanes::store(safe.steady, steady);
+
+  const Floats up = lanes::abs(d.z);
+  const Floats stray = allowance.velocity_xy + up * allowance.velocity_z;
+  const Floats stray_turning = allowance.turning_xy + up * allowance.turning_z;
+  const Vectors v_center = lanes::load(pairs.velocity_center);
+  const Vectors center_i = lanes::load(pairs.turning_center_i);
+  const Vectors center_j = lanes::load(pairs.turning_center_j);
+  const Floats straying =
+      safe_time(i, j, gap, lanes::dot(v_center, d) - 2.0F * stray - (1e-4F + kRateRounding * lanes::size1(v_center)),
+                {c_i, lanes::dot(center_i, d), lanes::load(pairs.half_rate2_limit_i),
+                 stray_turning + kRateRounding * lanes::size1(center_i)},
+                {c_j, lanes::dot(center_j, d), lanes::load(pairs.half_rate2_limit_j),
+                 stray_turning + kRateRounding * lanes::size1(center_j)},
+                horizon);
+  lanes::store(safe.straying, straying);
 }
 
 }  // namespace shaken

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "sim/core/lanes.h"
 #include "sim/core/types.h"
 
 /// Rigorous lower bounds on the time until two flying rods can touch (contact/hull_safe_time.h, bead_safe_time.h). The
@@ -13,8 +14,7 @@
 /// reaches a trajectory. Margins cover it.
 namespace shaken {
 
-/// Bounds made in one go: lanes of a vector, on machines whose vectors are that wide.
-inline constexpr int kLanes = 16;
+using lanes::kLanes;
 
 /// What a bound knows of a rod at the instant from which time is counted, and how far the rod may stray from it when
 /// it is hit: as long as it keeps to the limits, a bound made for a straying rod holds.
