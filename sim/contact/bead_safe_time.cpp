@@ -37,6 +37,11 @@ struct Relative {
   return lanes::truncated(lanes::smaller(lanes::larger(place, Floats{}), lanes::all(j.last)) + 0.5F);
 }
 
+/// Beads of j that are not tried next to a foot on its axis are at least this far from it along the axis.
+[[gnu::always_inline]] inline Floats beyond_reach(const BeadLanes& j, const Floats& foot) {
+  return lanes::larger(Floats{}, lanes::abs(foot) - j.half_length) + (static_cast<float>(j.reach) + 0.5F) * j.pitch;
+}
+
 /// Coordinate of the k-th bead of j after `nearest`, or of the last one that there is.
 [[gnu::always_inline]] inline Floats bead_offset(const BeadLanes& j, const Floats& nearest, int k) {
   const Floats index =
@@ -50,8 +55,7 @@ bool lanes_may_overlap(const Shared& in, const float* offset_i, const float* rad
   const Floats foot = -(x.x * in.n_j[0] + x.y * in.n_j[1] + x.z * in.n_j[2]);
   const Floats nearest = nearest_bead(j, foot);
   const Floats radius = lanes::load(radius_i) + in.gap_margin;
-  // beads of j that are not tried below: at least this far along its axis
-  const float beyond = (static_cast<float>(j.reach) + 0.5F) * j.pitch;
+  const Floats beyond = beyond_reach(j, foot);
   const Floats cut = lanes::larger(Floats{}, radius + j.max_radius);
   Floats clear = lanes::larger(Floats{}, lanes::dot(x, x) - foot * foot) + beyond * beyond - cut * cut;
   for (int k = -j.reach; k <= j.reach; ++k) {
@@ -63,58 +67,61 @@ bool lanes_may_overlap(const Shared& in, const float* offset_i, const float* rad
   return lanes::least(clear) <= 0.0F;
 }
 
-/// Safe time of two beads: gap, its rate now, and the largest curvature of gap >= g + g' t - curvature t^2.
-[[gnu::always_inline]] inline Floats safe_time(const Floats& gap, const Floats& rate, const Floats& curvature) {
-  const Floats open = lanes::larger(gap, Floats{});
-  const Floats root = lanes::sqrt(rate * rate + 4.0F * curvature * open);
-  // receding: the later root if they are apart, the turning point if they overlap; approaching: the first root
-  const Floats recede = gap > 0.0F ? rate + root : rate;
-  const Floats above = rate > 0.0F ? recede : 2.0F * open;
-  const Floats below = (rate > 0.0F ? 2.0F * curvature : root - rate) + 1e-30F;
-  return above / below;
-}
+/// A time as a fraction, so that the smallest of many is found without dividing.
+struct Fraction {
+  Floats above, below;  ///< neither negative; forever if `below` is 0
+  [[gnu::always_inline]] void take_smaller(const Floats& other_above, const Floats& other_below) {
+    const auto other = other_above * below < above * other_below;
+    above = other ? other_above : above;
+    below = other ? other_below : below;
+  }
+  [[gnu::always_inline]] float least() const { return lanes::least(above / (below + 1e-30F)); }
+};
 
-/// The same, for beads of i and of j at s_i and s_j whose centres are r apart.
-[[gnu::always_inline]] inline Floats safe_time(const Relative& m, const Floats& s_i, const Floats& s_j,
-                                               const Vectors& r, const Floats& inverse_distance, const Floats& gap) {
+/// Takes the safe time of beads of i and of j at s_i and s_j, whose centres are r apart, into account: with a gap,
+/// gap >= g + g' t - curvature t^2, where t^2 <= horizon t; overlapping, g' >= g'(0) - 2 curvature t.
+[[gnu::always_inline]] inline void take_safe_time(Fraction& safe, const Relative& m, const Floats& s_i,
+                                                  const Floats& s_j, const Vectors& r, const Floats& inverse_distance,
+                                                  const Floats& gap, float horizon) {
   const Floats vx = m.v[0] + s_j * m.turn_j[0] - s_i * m.turn_i[0];
   const Floats vy = m.v[1] + s_j * m.turn_j[1] - s_i * m.turn_i[1];
   const Floats vz = m.v[2] + s_j * m.turn_j[2] - s_i * m.turn_i[2];
   const Floats up = lanes::abs(r.z) * inverse_distance;
   const Floats size_i = lanes::abs(s_i);
   const Floats size_j = lanes::abs(s_j);
-  const Floats stray =
-      m.stray + m.stray_z * up + (size_i + size_j) * (m.stray_turning + m.stray_turning_z * up);
+  const Floats stray = m.stray + m.stray_z * up + (size_i + size_j) * (m.stray_turning + m.stray_turning_z * up);
   const Floats rate = (vx * r.x + vy * r.y + vz * r.z) * inverse_distance - stray;
-  return safe_time(gap, rate, size_i * m.bend_i + size_j * m.bend_j);
+  const Floats curvature = size_i * m.bend_i + size_j * m.bend_j;
+  const auto apart = gap > 0.0F;
+  safe.take_smaller(apart ? gap : lanes::larger(rate, Floats{}),
+                    apart ? lanes::larger(curvature * horizon - rate, Floats{}) : 2.0F * curvature + 1e-3F);
 }
 
 /// Safe times of kLanes beads of i against the beads of j around each one's foot on j's axis.
 SHAKEN_VECTOR_CLONES
 SafeTime lanes_safe_time(const Shared& in, const Relative& steady, const Relative& straying, const float* offset_i,
-                         const float* radius_i, const BeadLanes& j) {
+                         const float* radius_i, const BeadLanes& j, float horizon) {
   const Floats s_i = lanes::load(offset_i);
   const Floats radius = lanes::load(radius_i) + in.gap_margin;
   const Vectors x = to_center(in, s_i);
   const Floats foot = -(x.x * in.n_j[0] + x.y * in.n_j[1] + x.z * in.n_j[2]);
   const Floats nearest = nearest_bead(j, foot);
-  // beads of j that are not tried below are at least this far along its axis
-  const float beyond = (static_cast<float>(j.reach) + 0.5F) * j.pitch;
+  const Floats beyond = beyond_reach(j, foot);
   const Floats across2 = lanes::larger(Floats{}, lanes::dot(x, x) - foot * foot);
   const Floats far =
       lanes::larger(Floats{}, lanes::sqrt(across2 + beyond * beyond) - radius - j.max_radius);
-  Floats safe_steady = far * (1.0F / steady.fastest);
-  Floats safe_straying = far * (1.0F / straying.fastest);
+  Fraction safe_steady{far, lanes::all(steady.fastest)};
+  Fraction safe_straying{far, lanes::all(straying.fastest)};
   for (int k = -j.reach; k <= j.reach; ++k) {
     const Floats s_j = bead_offset(j, nearest, k);
     const Vectors r{x.x + s_j * in.n_j[0], x.y + s_j * in.n_j[1], x.z + s_j * in.n_j[2]};
     const Floats distance = lanes::sqrt(lanes::dot(r, r));
     const Floats inverse = 1.0F / (distance + 1e-20F);
     const Floats gap = distance - (radius + j.mid_radius - j.taper * lanes::abs(s_j));
-    safe_steady = lanes::smaller(safe_steady, safe_time(steady, s_i, s_j, r, inverse, gap));
-    safe_straying = lanes::smaller(safe_straying, safe_time(straying, s_i, s_j, r, inverse, gap));
+    take_safe_time(safe_steady, steady, s_i, s_j, r, inverse, gap, horizon);
+    take_safe_time(safe_straying, straying, s_i, s_j, r, inverse, gap, horizon);
   }
-  return {lanes::least(safe_steady), lanes::least(safe_straying)};
+  return {safe_steady.least(), safe_straying.least()};
 }
 
 float norm(const float* v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
@@ -190,7 +197,7 @@ SafeTime bead_safe_time(const BeadLanes& i, const Outlook& a, const BeadLanes& j
                                      a.half_rate2_limit, b.half_rate2_limit, allowance);
   SafeTime safe{horizon, horizon};
   for (std::size_t first = 0; first < i.offset.size(); first += kLanes) {
-    const SafeTime some = lanes_safe_time(in, steady, straying, i.offset.data() + first, i.radius.data() + first, j);
+    const SafeTime some = lanes_safe_time(in, steady, straying, i.offset.data() + first, i.radius.data() + first, j, horizon);
     safe.steady = std::min(safe.steady, some.steady);
     safe.straying = std::min(safe.straying, some.straying);
   }

@@ -5,11 +5,23 @@
 #include <cmath>
 
 #include "sim/contact/bead_contacts.h"
+#include "sim/core/heap_bytes.h"
 
 namespace shaken {
 
 NeighborList::NeighborList(const Species& species, double box_side, double skin)
-    : half_length_(species.half_length), reach_(2.0 * species.max_radius + skin), skin_(skin), box_side_(box_side) {}
+    : half_length_(species.half_length), reach_(2.0 * species.max_radius + skin), skin_(skin), box_side_(box_side) {
+  // cells at least as wide as two centres of a pair can be apart; below 3 x 3 cells every rod is a candidate
+  n_cells_ = static_cast<int>(std::floor(box_side / (2.0 * half_length_ + reach_)));
+  if (n_cells_ < 3) n_cells_ = 1;
+}
+
+std::size_t NeighborList::bytes() const {
+  std::size_t bytes = heap_bytes(placed_center_, placed_half_, cell_, members_, pairs_, unused_, pairs_of_, n_pairs_of_,
+                                 near_, mark_);
+  for (const auto& members : members_) bytes += heap_bytes(members);
+  return bytes;
+}
 
 Vec2 NeighborList::flat_half(const Pose& pose) const {
   const Vec2 n(pose.director.x(), pose.director.y());
@@ -19,79 +31,160 @@ Vec2 NeighborList::flat_half(const Pose& pose) const {
 }
 
 double NeighborList::slack(int i, const Pose& pose) const {
-  Vec2 shift(pose.position.x() - built_center_[i].x(), pose.position.y() - built_center_[i].y());
-  shift.x() -= box_side_ * std::nearbyint(shift.x() / box_side_);
-  shift.y() -= box_side_ * std::nearbyint(shift.y() / box_side_);
-  const Vec2 turn = flat_half(pose) - built_half_[i];
+  const Vec3 from(placed_center_[i].x(), placed_center_[i].y(), 0);
+  const Vec2 shift = nearest_image(from, pose.position, box_side_).head<2>();
+  const Vec2 turn = flat_half(pose) - placed_half_[i];
   return 0.5 * skin_ - std::sqrt(std::max((shift + turn).squaredNorm(), (shift - turn).squaredNorm()));
 }
 
 bool NeighborList::is_due(std::span<const Pose> poses) const {
-  if (n_builds_ == 0) return true;
+  if (placed_center_.size() != poses.size()) return true;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (slack(static_cast<int>(i), poses[i]) < 0) return true;
   }
   return false;
 }
 
+// ---- who is near whom
+
+int NeighborList::cell_of(const Vec2& center) const {
+  const auto along = [&](double x) {
+    const double fraction = x / box_side_ - std::floor(x / box_side_);
+    return std::min(n_cells_ - 1, static_cast<int>(fraction * n_cells_));
+  };
+  return along(center.y()) * n_cells_ + along(center.x());
+}
+
+void NeighborList::put_into_cell(int i, int cell) {
+  cell_[i] = cell;
+  members_[cell].push_back(i);
+}
+
+template <class Each>
+void NeighborList::for_candidates(int i, const Each& each) const {
+  const auto visit = [&](int cell) {
+    for (const int j : members_[cell]) {
+      if (j != i) each(j);
+    }
+  };
+  if (n_cells_ == 1) return visit(0);
+  const int cx = cell_[i] % n_cells_;
+  const int cy = cell_[i] / n_cells_;
+  for (int dy = -1; dy <= 1; ++dy) {
+    const int row = (cy + dy + n_cells_) % n_cells_ * n_cells_;
+    for (int dx = -1; dx <= 1; ++dx) visit(row + (cx + dx + n_cells_) % n_cells_);
+  }
+}
+
+bool NeighborList::are_near(int i, int j) const {
+  const auto level = [](const Vec2& v) { return Vec3(v.x(), v.y(), 0); };
+  const Vec3 D = nearest_image(level(placed_center_[i]), level(placed_center_[j]), box_side_);
+  const double centers = 2.0 * half_length_ + reach_;
+  if (D.squaredNorm() > centers * centers) return false;
+  if (half_length_ == 0) return D.squaredNorm() <= reach_ * reach_;
+  return segment_distance_squared(D, level(placed_half_[i]) / half_length_, half_length_,
+                                  level(placed_half_[j]) / half_length_, half_length_) <= reach_ * reach_;
+}
+
+// ---- pairs
+
+void NeighborList::add_to(int i, int p) {
+  if (static_cast<std::size_t>(n_pairs_of_[i]) == stride_) {
+    const std::size_t wider = 2 * stride_;
+    std::vector<int> moved(n_pairs_of_.size() * wider);
+    for (std::size_t r = 0; r < n_pairs_of_.size(); ++r) {
+      std::copy_n(pairs_of_.begin() + static_cast<std::ptrdiff_t>(r * stride_), n_pairs_of_[r],
+                  moved.begin() + static_cast<std::ptrdiff_t>(r * wider));
+    }
+    pairs_of_ = std::move(moved);
+    stride_ = wider;
+  }
+  pairs_of_[static_cast<std::size_t>(i) * stride_ + static_cast<std::size_t>(n_pairs_of_[i]++)] = p;
+}
+
+void NeighborList::remove_from(int i, int p) {
+  int* const own = pairs_of_.data() + static_cast<std::size_t>(i) * stride_;
+  const int last = --n_pairs_of_[i];
+  *std::find(own, own + last, p) = own[last];
+}
+
+int NeighborList::add_pair(int i, int j) {
+  int p = static_cast<int>(pairs_.size());
+  if (unused_.empty()) {
+    pairs_.emplace_back();
+  } else {
+    p = unused_.back();
+    unused_.pop_back();
+  }
+  pairs_[p] = {std::min(i, j), std::max(i, j)};
+  add_to(i, p);
+  add_to(j, p);
+  return p;
+}
+
 void NeighborList::build(std::span<const Pose> poses) {
   const int n = static_cast<int>(poses.size());
-  built_center_.resize(n);
-  built_half_.resize(n);
+  placed_center_.resize(n);
+  placed_half_.resize(n);
+  cell_.resize(n);
+  members_.assign(static_cast<std::size_t>(n_cells_) * n_cells_, {});
   for (int i = 0; i < n; ++i) {
-    built_center_[i] = {poses[i].position.x(), poses[i].position.y()};
-    built_half_[i] = flat_half(poses[i]);
+    placed_center_[i] = {poses[i].position.x(), poses[i].position.y()};
+    placed_half_[i] = flat_half(poses[i]);
+    put_into_cell(i, cell_of(placed_center_[i]));
   }
-
   pairs_.clear();
-  const auto consider = [&](int i, int j) {
-    const Vec3 D = nearest_image({built_center_[i].x(), built_center_[i].y(), 0},
-                                 {built_center_[j].x(), built_center_[j].y(), 0}, box_side_);
-    const double centers = 2.0 * half_length_ + reach_;
-    if (D.squaredNorm() > centers * centers) return;
-    Vec3 u_i = Vec3::UnitX();
-    Vec3 u_j = Vec3::UnitX();
-    if (half_length_ > 0) {
-      u_i = Vec3(built_half_[i].x(), built_half_[i].y(), 0) / half_length_;
-      u_j = Vec3(built_half_[j].x(), built_half_[j].y(), 0) / half_length_;
-    }
-    if (segment_distance_squared(D, u_i, half_length_, u_j, half_length_) > reach_ * reach_) return;
-    pairs_.emplace_back(std::min(i, j), std::max(i, j));
-  };
+  unused_.clear();
+  n_pairs_of_.assign(n, 0);
+  pairs_of_.resize(n * stride_);
+  mark_.assign(n, -1);
+  for (int i = 0; i < n; ++i) {
+    near_.clear();
+    for_candidates(i, [&](int j) {
+      if (j > i && are_near(i, j)) near_.push_back(j);
+    });
+    std::sort(near_.begin(), near_.end());
+    for (const int j : near_) add_pair(i, j);
+  }
+}
 
-  // cells at least as wide as two centres of a pair can be apart; below 3 x 3 cells every pair is a neighbour's
-  const int cells = static_cast<int>(std::floor(box_side_ / (2.0 * half_length_ + reach_)));
-  if (cells < 3) {
-    for (int i = 0; i < n; ++i) {
-      for (int j = i + 1; j < n; ++j) consider(i, j);
-    }
-  } else {
-    const auto cell_of = [&](double x) {
-      const double fraction = x / box_side_ - std::floor(x / box_side_);
-      return std::min(cells - 1, static_cast<int>(fraction * cells));
-    };
-    std::vector<std::vector<int>> members(static_cast<std::size_t>(cells) * cells);
-    for (int i = 0; i < n; ++i)
-      members[cell_of(built_center_[i].y()) * cells + cell_of(built_center_[i].x())].push_back(i);
-    for (int cy = 0; cy < cells; ++cy) {
-      for (int cx = 0; cx < cells; ++cx) {
-        const auto& own = members[cy * cells + cx];
-        for (std::size_t a = 0; a < own.size(); ++a) {
-          for (std::size_t b = a + 1; b < own.size(); ++b) consider(own[a], own[b]);
-        }
-        // half of the eight cells around, so that each pair of cells is met once
-        constexpr int kAround[4][2] = {{1, 0}, {-1, 1}, {0, 1}, {1, 1}};
-        for (const auto& [dx, dy] : kAround) {
-          const auto& other = members[((cy + dy + cells) % cells) * cells + (cx + dx + cells) % cells];
-          for (int i : own) {
-            for (int j : other) consider(i, j);
-          }
-        }
-      }
+void NeighborList::place(int i, const Pose& pose, std::vector<int>& gained, std::vector<int>& lost) {
+  placed_center_[i] = {pose.position.x(), pose.position.y()};
+  placed_half_[i] = flat_half(pose);
+  const int cell = cell_of(placed_center_[i]);
+  if (cell != cell_[i]) {
+    auto& old = members_[cell_[i]];
+    *std::find(old.begin(), old.end(), i) = old.back();
+    old.pop_back();
+    put_into_cell(i, cell);
+  }
+  near_.clear();
+  for_candidates(i, [&](int j) {
+    if (!are_near(i, j)) return;
+    near_.push_back(j);
+    mark_[j] = i;
+  });
+  const std::size_t first_lost = lost.size();
+  for (const int p : pairs_of(i)) {
+    const int j = pairs_[p].i == i ? pairs_[p].j : pairs_[p].i;
+    if (mark_[j] == i) {
+      mark_[j] = -1;  // has it already
+    } else {
+      lost.push_back(p);
     }
   }
-  std::sort(pairs_.begin(), pairs_.end());
-  ++n_builds_;
+  for (std::size_t k = first_lost; k < lost.size(); ++k) {
+    Pair& pair = pairs_[lost[k]];
+    remove_from(pair.i, lost[k]);
+    remove_from(pair.j, lost[k]);
+    pair = {};
+  }
+  for (const int j : near_) {
+    if (mark_[j] == i) gained.push_back(add_pair(i, j));
+    mark_[j] = -1;
+  }
+  // only now, so that no number is lost and gained by the same call
+  unused_.insert(unused_.end(), lost.begin() + static_cast<std::ptrdiff_t>(first_lost), lost.end());
 }
 
 }  // namespace shaken

@@ -1,58 +1,97 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
-#include "sim/core/heap_bytes.h"
 #include "sim/core/types.h"
 #include "sim/motion/flight.h"
 #include "sim/rod/species.h"
 
 namespace shaken {
 
-/// The vector from `from` to the nearest periodic image of `to`; periodic in x and y only.
+/// The vector from `from` to the nearest periodic image of `to`; periodic in x and y only. The two must not be more
+/// than a few million boxes apart.
 inline Vec3 nearest_image(const Vec3& from, const Vec3& to, double box_side) {
+  // adding and taking away 1.5 * 2^52 rounds to the nearest whole number, ties to even, as nearbyint does
+  const auto rounded = [](double x) {
+    constexpr double kRounder = 6755399441055744.0;
+    return (x + kRounder) - kRounder;
+  };
   Vec3 d = to - from;
-  d.x() -= box_side * std::nearbyint(d.x() / box_side);
-  d.y() -= box_side * std::nearbyint(d.y() / box_side);
+  d.x() -= box_side * rounded(d.x() / box_side);
+  d.y() -= box_side * rounded(d.y() / box_side);
   return d;
 }
 
-/// Pairs of rods that may touch before the list is due again. It looks at the rods' shadows on the plane only: shadows
-/// apart means rods apart, and shadows move slowly, while the tips rock up and down every few milliseconds.
+/// Pairs of rods that may touch before one of them has to be placed anew. It looks at the rods' shadows on the plane
+/// only: shadows apart means rods apart, and shadows move slowly, while the tips rock up and down every few
+/// milliseconds.
 ///
 /// A rod's shadow lies in the stadium of radius max_radius round the segment of half-length h along its in-plane
-/// angle (h as if it lay flat). The list holds every pair of stadiums closer than `skin`; it stays complete until some
-/// segment's end has moved by half of that.
+/// angle (h as if it lay flat). The list holds every pair of stadiums closer than `skin`, each as it was when its rod
+/// was placed; it is complete as long as the ends of no segment have moved by half of that since. A rod that has can be
+/// placed anew by itself, so the fastest of many rods costs no more than itself.
 class NeighborList {
  public:
+  struct Pair {
+    int i = -1;  ///< -1: this number is not in use
+    int j = -1;  ///< > i
+  };
+
   NeighborList(const Species& species, double box_side, double skin);
 
   /// True if the list may be incomplete for these poses (or was never built).
   bool is_due(std::span<const Pose> poses) const;
+  /// Places every rod. Pairs are then numbered in ascending order of (i, j), without gaps.
   void build(std::span<const Pose> poses);
+  /// Places rod i anew and appends the numbers of the pairs that it gained and lost; others keep theirs. A number lost
+  /// may come back as one gained.
+  void place(int i, const Pose& pose, std::vector<int>& gained, std::vector<int>& lost);
+
   /// How much further the ends of rod i's segment may move before the list may be incomplete; negative: it may be [mm].
   double slack(int i, const Pose& pose) const;
-  /// (i, j) with i < j, in ascending order.
-  std::span<const std::pair<int, int>> pairs() const { return pairs_; }
-  /// Times built.
-  std::int64_t n_builds() const { return n_builds_; }
+
+  /// (highest number in use + 1), by number.
+  const std::vector<Pair>& pairs() const { return pairs_; }
+  /// Numbers of the pairs of rod i.
+  std::span<const int> pairs_of(int i) const {
+    return {pairs_of_.data() + static_cast<std::size_t>(i) * stride_, static_cast<std::size_t>(n_pairs_of_[i])};
+  }
   /// Heap memory held.
-  std::size_t bytes() const { return heap_bytes(built_center_, built_half_, pairs_); }
+  std::size_t bytes() const;
 
  private:
   Vec2 flat_half(const Pose& pose) const;  ///< from the centre to the end of the flattened segment
+  int cell_of(const Vec2& center) const;
+  void put_into_cell(int i, int cell);
+  bool are_near(int i, int j) const;
+  /// Calls each(j) for every other rod whose centre may be near enough to i's.
+  template <class Each>
+  void for_candidates(int i, const Each& each) const;
+  int add_pair(int i, int j);
+  void add_to(int i, int p);
+  void remove_from(int i, int p);
 
   double half_length_;
   double reach_;  ///< centre lines closer than this make a pair [mm]
   double skin_;
   double box_side_;
-  std::vector<Vec2> built_center_;
-  std::vector<Vec2> built_half_;
-  std::vector<std::pair<int, int>> pairs_;
-  std::int64_t n_builds_ = 0;
+  int n_cells_;  ///< per side; 1: no grid
+
+  std::vector<Vec2> placed_center_;
+  std::vector<Vec2> placed_half_;
+  std::vector<int> cell_;                  ///< (n_rods) cell of each rod
+  std::vector<std::vector<int>> members_;  ///< (n_cells^2) rods of each cell
+
+  std::vector<Pair> pairs_;
+  std::vector<int> unused_;    ///< numbers
+  std::vector<int> pairs_of_;  ///< (n_rods x stride)
+  std::vector<int> n_pairs_of_;
+  std::size_t stride_ = 16;
+  std::vector<int> near_, mark_;  ///< scratch
 };
 
 }  // namespace shaken

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "sim/stepping/reference_stepper.h"
 
+#include "sim/core/heap_bytes.h"
+
 namespace shaken {
 namespace {
 
@@ -36,7 +38,7 @@ std::optional<NumericalTrouble> ReferenceStepper::step(World& world, Tick now) {
 
   phase_times.lap(Phase::kPlates);
 
-  // 2. detection; the list is in ascending order, so the contacts come out sorted
+  // 2. detection; a list just built is in ascending order, so the contacts come out sorted
   if (neighbors_.is_due(poses_)) neighbors_.build(poses_);
   phase_times.lap(Phase::kNeighbors);
   contacts_.clear();

@@ -10,7 +10,7 @@ namespace shaken {
 namespace {
 
 constexpr double kSkin = 0.3;  ///< of the neighbour list [mm]
-/// A rod this close to the end of its slack has the list rebuilt rather than being watched every tick [mm].
+/// A rod this close to the end of its slack is placed anew rather than being watched every tick [mm].
 constexpr double kLeastSlack = 0.003;
 /// Below this, what is left of a rod's slack is measured again rather than counted down [mm].
 constexpr double kLowSlack = 0.05;
@@ -48,24 +48,22 @@ ScheduledStepper::ScheduledStepper(const World& world, int n_threads)
 
 std::size_t ScheduledStepper::bytes() const {
   std::size_t bytes = neighbors_.bytes() + rod_wheel_.bytes() + pair_wheel_.bytes();
-  bytes += heap_bytes(rods_, records_, outlooks_, pairs_, pair_is_steady_, first_pair_of_, pairs_of_);
+  bytes += heap_bytes(rods_, records_, outlooks_, pairs_, pair_is_steady_, gained_, lost_);
   bytes += heap_bytes(due_rods_, due_pairs_, changed_, to_pose_, to_look_at_, to_bound_, to_schedule_, next_,
                       may_change_, contacts_, poses_);
   for (const Worker& w : workers_)
-    bytes += heap_bytes(w.bead_contacts, w.contacts, w.turned);
+    bytes += heap_bytes(w.bead_contacts, w.contacts, w.turned, w.to_place);
   return bytes;
 }
 
 std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
   phase_times.start();
-  const bool first = neighbors_.n_builds() == 0;
-  if (first) {
+  if (is_new_) {
     due_rods_.resize(world.rods.size());
     std::iota(due_rods_.begin(), due_rods_.end(), 0);
     for (const int i : due_rods_) set_limits(records_[i], world.rods[i]);
   } else {
     rod_wheel_.pop(now, due_rods_);
-    pair_wheel_.pop(now, due_pairs_);
   }
   phase_times.lap(Phase::kSchedule);
 
@@ -74,7 +72,7 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
   phase_times.lap(Phase::kPlates);
 
   // 2. detection
-  if (first || list_is_due()) rebuild_pairs(world, now);
+  list_pairs(world, now);
   phase_times.lap(Phase::kNeighbors);
   detect_due(world, now);
   detect_touching(world, now);
@@ -125,7 +123,7 @@ std::optional<NumericalTrouble> ScheduledStepper::collide_with_plates_due(World&
       record.listed_at = now;
       if (slack_left(i, now) < kLeastSlack) {
         measure_slack(i, now);
-        worker.list_is_due |= record.slack < kLeastSlack;
+        if (record.slack < kLeastSlack) worker.to_place.push_back(i);
       }
       auto trouble = collide_with_plates(i, rods_[i], world.rods[i], plates, now, rules_, worker.counters);
       if (trouble) worker.note(std::move(*trouble));
@@ -150,43 +148,40 @@ std::optional<NumericalTrouble> ScheduledStepper::first_trouble() const {
   return first;
 }
 
-bool ScheduledStepper::list_is_due() {
-  bool due = false;
-  for (Worker& worker : workers_) due |= std::exchange(worker.list_is_due, false);
-  return due;
-}
-
-void ScheduledStepper::rebuild_pairs(const World& world, Tick now) {
-  const int n = static_cast<int>(world.rods.size());
-  for (int i = 0; i < n; ++i) {
-    if (records_[i].posed_at != now) rods_[i] = rod_at_tick(world.rods[i], now, rules_);
-    records_[i].posed_at = now;
-    poses_[i] = rods_[i].pose;
+void ScheduledStepper::list_pairs(const World& world, Tick now) {
+  gained_.clear();
+  if (is_new_) {
+    for (std::size_t i = 0; i < world.rods.size(); ++i) poses_[i] = rods_[i].pose;
+    neighbors_.build(poses_);
+    for (int i = 0; i < static_cast<int>(world.rods.size()); ++i) measure_slack(i, now);
+    gained_.resize(neighbors_.pairs().size());
+    std::iota(gained_.begin(), gained_.end(), 0);
+    is_new_ = false;
   }
-  neighbors_.build(poses_);
-
-  const auto list = neighbors_.pairs();
-  pairs_.assign(list.size(), {});
-  pair_is_steady_.assign(list.size(), 0);
-  pair_wheel_ = TimingWheel(list.size());
-  first_pair_of_.assign(n + 1, 0);
-  for (std::size_t p = 0; p < list.size(); ++p) {
-    pairs_[p].rod[0] = list[p].first;
-    pairs_[p].rod[1] = list[p].second;
-    for (const int i : pairs_[p].rod) ++first_pair_of_[i + 1];
+  lost_.clear();
+  for (Worker& worker : workers_) {
+    for (const int i : worker.to_place) {
+      neighbors_.place(i, rods_[i].pose, gained_, lost_);
+      measure_slack(i, now);
+    }
+    worker.to_place.clear();
   }
-  std::partial_sum(first_pair_of_.begin(), first_pair_of_.end(), first_pair_of_.begin());
-  pairs_of_.resize(2 * list.size());
-  std::vector<int> next(first_pair_of_.begin(), first_pair_of_.end() - 1);
-  for (int p = 0; p < static_cast<int>(list.size()); ++p) {
-    for (const int i : pairs_[p].rod) pairs_of_[next[i]++] = p;
+  pairs_.resize(neighbors_.pairs().size());
+  pair_is_steady_.resize(pairs_.size());
+  pair_wheel_.make_room(pairs_.size());
+  for (const int p : lost_) {  // certainly not touching
+    pairs_[p] = {};
+    pair_is_steady_[p] = false;
+    pair_wheel_.remove(p);
   }
-  for (int i = 0; i < n; ++i) {
-    records_[i].n_touching = 0;
-    measure_slack(i, now);
+  pair_wheel_.pop(now, due_pairs_);
+  for (const int p : gained_) {
+    const NeighborList::Pair& pair = neighbors_.pairs()[p];
+    if (pair.i < 0 || pairs_[p].rod[0] >= 0) continue;  // lost again, or met twice
+    pairs_[p].rod[0] = pair.i;
+    pairs_[p].rod[1] = pair.j;
+    due_pairs_.push_back(p);
   }
-  due_pairs_.resize(list.size());
-  std::iota(due_pairs_.begin(), due_pairs_.end(), 0);
 }
 
 bool ScheduledStepper::detect(int p, Worker& worker) {
@@ -256,8 +251,7 @@ void ScheduledStepper::detect_touching(const World& world, Tick now) {
   Worker& worker = workers_.front();
   for (std::size_t m = 0; m < may_change_.size(); ++m) {
     const int i = may_change_[m];
-    for (int k = first_pair_of_[i]; k < first_pair_of_[i + 1]; ++k) {
-      const int p = pairs_of_[k];
+    for (const int p : neighbors_.pairs_of(i)) {
       if (!pairs_[p].touching || pairs_[p].detected_at == now) continue;
       due_pairs_.push_back(p);
       pairs_[p].detected_at = now;
@@ -415,8 +409,8 @@ void ScheduledStepper::schedule_pairs(const World& world, Tick now) {
   for (const int p : due_pairs_) list(p);
   for (const int i : changed_) {
     const bool strayed = records_[i].strayed;
-    for (int k = first_pair_of_[i]; k < first_pair_of_[i + 1]; ++k) {
-      if (strayed || pair_is_steady_[pairs_of_[k]]) list(pairs_of_[k]);
+    for (const int p : neighbors_.pairs_of(i)) {
+      if (strayed || pair_is_steady_[p]) list(p);
     }
   }
   if (to_bound_.empty()) return;

@@ -47,7 +47,7 @@ class ScheduledStepper final : public Stepper {
     bool strayed = false;  ///< hit out of its limits: bounds of its pairs are to be renewed
   };
   struct PairRecord {
-    int rod[2];
+    int rod[2] = {-1, -1};           ///< -1: a number that the neighbour list does not use
     float direction[3] = {0, 0, 0};  ///< in which the hulls were apart at the last bound; 0: not known
     bool touching = false;           ///< beads overlapped at the last search
     Tick detected_at = -1;           ///< tick of the last search for contacts
@@ -59,7 +59,7 @@ class ScheduledStepper final : public Stepper {
 
     Counters counters;
     std::optional<NumericalTrouble> trouble;  ///< that of the first rods
-    bool list_is_due = false;
+    std::vector<int> to_place;  ///< rods that have used up their slack
     std::vector<BeadContact> bead_contacts;
     std::vector<PairContact> contacts;
     std::vector<int> turned;  ///< pairs that began or ceased to touch
@@ -71,7 +71,7 @@ class ScheduledStepper final : public Stepper {
 
   // phases of a tick
   std::optional<NumericalTrouble> collide_with_plates_due(World& world, Tick now);
-  void rebuild_pairs(const World& world, Tick now);
+  void list_pairs(const World& world, Tick now);
   void detect_due(const World& world, Tick now);
   void detect_touching(const World& world, Tick now);
   void list_changed(Tick now);
@@ -81,7 +81,6 @@ class ScheduledStepper final : public Stepper {
 
   // parts of them
   std::optional<NumericalTrouble> first_trouble() const;
-  bool list_is_due();
   void list_to_pose(int i, Tick now);
   void pose(const World& world, Tick now);
   bool detect(int p, Worker& worker);
@@ -106,11 +105,10 @@ class ScheduledStepper final : public Stepper {
   std::vector<Outlook> outlooks_;
   TimingWheel rod_wheel_;
 
-  std::vector<PairRecord> pairs_;
+  std::vector<PairRecord> pairs_;             ///< numbered as in the neighbour list
   std::vector<std::uint8_t> pair_is_steady_;  ///< the pair's bound holds for steady flight only
   TimingWheel pair_wheel_;
-  std::vector<int> first_pair_of_;  ///< (n_rods + 1) into pairs_of_
-  std::vector<int> pairs_of_;       ///< grouped by rod
+  bool is_new_ = true;
 
   // lists of one tick
   std::vector<std::int32_t> due_rods_;
@@ -123,6 +121,7 @@ class ScheduledStepper final : public Stepper {
   std::vector<int> to_bound_;     ///< pairs that need one
   std::vector<Tick> next_;        ///< ticks at which they are due
   std::vector<int> may_change_;
+  std::vector<int> gained_, lost_;  ///< pairs
   std::vector<Pose> poses_;
   std::vector<Worker> workers_;
 };

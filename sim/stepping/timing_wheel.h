@@ -32,6 +32,18 @@ class TimingWheel {
     first_[slot] = item;
   }
 
+  /// Takes `item` out, if it is in.
+  void remove(std::int32_t item) {
+    Link& link = links_[item];
+    if (link.slot != kNone) take_out(link);
+    link.slot = kNone;
+  }
+
+  /// Items are numbered below `n_items` from now on; it never shrinks.
+  void make_room(std::size_t n_items) {
+    if (n_items > links_.size()) links_.resize(n_items);
+  }
+
   /// Moves the items of tick `now` into `items` (whose old content is dropped).
   void pop(Tick now, std::vector<std::int32_t>& items) {
     std::int32_t& first = first_[static_cast<std::size_t>(now % kSlots)];
