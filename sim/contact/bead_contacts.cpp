@@ -18,16 +18,25 @@ double segment_distance_squared(const Vec3& D, const Vec3& n_i, double h_i, cons
   return (D + t * n_j - s * n_i).squaredNorm();
 }
 
+namespace {
+
+/// Kept between a quick test and what it lets pass, so that rounding hides no contact [mm].
+constexpr double kMargin = 1e-5;
+
+}  // namespace
+
 void find_bead_contacts(const Species& i, const Vec3& n_i, const Species& j, const Vec3& n_j, const Vec3& D,
                         std::vector<BeadContact>& contacts) {
-  // most neighbours are apart: the axes tell. The margin keeps rounding from hiding a contact.
-  constexpr double kMargin = 1e-5;
   const double reach = i.max_radius + j.max_radius + kMargin;
   if (segment_distance_squared(D, n_i, i.half_length, n_j, j.half_length) > reach * reach) return;
+  find_bead_contacts(i, n_i, j, n_j, D, {0, i.n_beads()}, contacts);
+}
 
+void find_bead_contacts(const Species& i, const Vec3& n_i, const Species& j, const Vec3& n_j, const Vec3& D,
+                        BeadRange beads, std::vector<BeadContact>& contacts) {
   const int last = j.n_beads() - 1;
   const double pitch = last > 0 ? 2.0 * j.half_length / last : 1.0;
-  for (int a = 0; a < i.n_beads(); ++a) {
+  for (int a = beads.from; a < beads.to; ++a) {
     const Vec3 from_a = D - i.bead_offset[a] * n_i;  // bead a -> centre of j
     const double foot = -from_a.dot(n_j);            // coordinate on j's axis nearest to bead a
     const double cut = i.bead_radius[a] + j.max_radius + kMargin;

@@ -20,9 +20,20 @@ struct BeadContact {
 /// Source: closest points by clamped minimisation (Ericson 2005, section 5.1.9); parallel segments included.
 double segment_distance_squared(const Vec3& D, const Vec3& n_i, double h_i, const Vec3& n_j, double h_j);
 
-/// Appends every pair of overlapping beads of rods i and j, ordered by (bead_i, bead_j).
+/// Some beads of a rod, one after the other.
+struct BeadRange {
+  int from = 0;
+  int to = 0;  ///< one past the last
+  bool empty() const { return from >= to; }
+};
+
+/// Appends every pair of overlapping beads of rods i and j, ordered by (bead_i, bead_j), with bead_i among `beads`.
 /// D is the vector from the centre of rod i to that of rod j (nearest periodic image) [mm].
-/// Which pairs are found depends on nothing but the arguments: both steppers call this one function.
+/// Whether a pair is found depends on nothing else: all steppers call this one function.
+void find_bead_contacts(const Species& i, const Vec3& n_i, const Species& j, const Vec3& n_j, const Vec3& D,
+                        BeadRange beads, std::vector<BeadContact>& contacts);
+
+/// The same for all beads of i, after a look at the rods' axes: most neighbours are apart.
 void find_bead_contacts(const Species& i, const Vec3& n_i, const Species& j, const Vec3& n_j, const Vec3& D,
                         std::vector<BeadContact>& contacts);
 

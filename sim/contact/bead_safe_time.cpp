@@ -37,10 +37,20 @@ struct Relative {
   return lanes::truncated(lanes::smaller(lanes::larger(place, Floats{}), lanes::all(j.last)) + 0.5F);
 }
 
-/// Beads of j that are not tried next to a foot on its axis are at least this far from it along the axis.
-[[gnu::always_inline]] inline Floats beyond_reach(const BeadLanes& j, const Floats& foot) {
-  return lanes::larger(Floats{}, lanes::abs(foot) - j.half_length) + (static_cast<float>(j.reach) + 0.5F) * j.pitch;
-}
+/// The beads of j that are not tried next to a foot on its axis, seen from there: how far along the axis the nearest
+/// can be, at least, and how thick, at most. Further ones are thicker at most by the taper, which is less than what
+/// they are further away, unless the foot is very far beside the axis: `widest` is as far as counts.
+struct Untried {
+  Floats along, radius;
+  [[gnu::always_inline]] Untried(const BeadLanes& j, const Floats& foot) {
+    const Floats outside = lanes::larger(Floats{}, lanes::abs(foot) - j.half_length);
+    along = outside + j.beyond;
+    radius = j.max_radius - j.thinning * lanes::larger(Floats{}, lanes::abs(foot) - outside - j.beyond);
+  }
+  [[gnu::always_inline]] Floats distance2(const BeadLanes& j, const Floats& across2) const {
+    return lanes::smaller(across2, lanes::all(j.widest * j.widest)) + along * along;
+  }
+};
 
 /// Coordinate of the k-th bead of j after `nearest`, or of the last one that there is.
 [[gnu::always_inline]] inline Floats bead_offset(const BeadLanes& j, const Floats& nearest, int k) {
@@ -49,22 +59,28 @@ struct Relative {
   return index * j.pitch - j.half_length;
 }
 
+/// Which of kLanes beads of i may overlap a bead of j.
 SHAKEN_VECTOR_CLONES
-bool lanes_may_overlap(const Shared& in, const float* offset_i, const float* radius_i, const BeadLanes& j) {
+BeadRange lanes_may_overlap(const Shared& in, const float* offset_i, const float* radius_i, const BeadLanes& j) {
   const Vectors x = to_center(in, lanes::load(offset_i));
   const Floats foot = -(x.x * in.n_j[0] + x.y * in.n_j[1] + x.z * in.n_j[2]);
   const Floats nearest = nearest_bead(j, foot);
   const Floats radius = lanes::load(radius_i) + in.gap_margin;
-  const Floats beyond = beyond_reach(j, foot);
-  const Floats cut = lanes::larger(Floats{}, radius + j.max_radius);
-  Floats clear = lanes::larger(Floats{}, lanes::dot(x, x) - foot * foot) + beyond * beyond - cut * cut;
+  const Untried untried(j, foot);
+  const Floats cut = lanes::larger(Floats{}, radius + untried.radius);
+  Floats clear = untried.distance2(j, lanes::larger(Floats{}, lanes::dot(x, x) - foot * foot)) - cut * cut;
   for (int k = -j.reach; k <= j.reach; ++k) {
     const Floats s_j = bead_offset(j, nearest, k);
     const Vectors r{x.x + s_j * in.n_j[0], x.y + s_j * in.n_j[1], x.z + s_j * in.n_j[2]};
     const Floats touch = lanes::larger(Floats{}, radius + j.mid_radius - j.taper * lanes::abs(s_j));
     clear = lanes::smaller(clear, lanes::dot(r, r) - touch * touch);
   }
-  return lanes::least(clear) <= 0.0F;
+  if (lanes::least(clear) > 0.0F) return {};
+  constexpr float kNone = 1e3F;
+  const Floats index{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+  const auto near = clear <= 0.0F;
+  return {static_cast<int>(lanes::least(near ? index : lanes::all(kNone))),
+          static_cast<int>(-lanes::least(near ? -index : lanes::all(kNone))) + 1};
 }
 
 /// A time as a fraction, so that the smallest of many is found without dividing.
@@ -106,10 +122,10 @@ SafeTime lanes_safe_time(const Shared& in, const Relative& steady, const Relativ
   const Vectors x = to_center(in, s_i);
   const Floats foot = -(x.x * in.n_j[0] + x.y * in.n_j[1] + x.z * in.n_j[2]);
   const Floats nearest = nearest_bead(j, foot);
-  const Floats beyond = beyond_reach(j, foot);
+  const Untried untried(j, foot);
   const Floats across2 = lanes::larger(Floats{}, lanes::dot(x, x) - foot * foot);
   const Floats far =
-      lanes::larger(Floats{}, lanes::sqrt(across2 + beyond * beyond) - radius - j.max_radius);
+      lanes::larger(Floats{}, lanes::sqrt(untried.distance2(j, across2)) - radius - untried.radius);
   Fraction safe_steady{far, lanes::all(steady.fastest)};
   Fraction safe_straying{far, lanes::all(straying.fastest)};
   for (int k = -j.reach; k <= j.reach; ++k) {
@@ -168,7 +184,11 @@ BeadLanes::BeadLanes(const Species& species)
       taper(static_cast<float>(species.taper())),
       last(static_cast<float>(species.n_beads() - 1)),
       pitch(species.n_beads() > 1 ? static_cast<float>(2.0 * species.half_length / (species.n_beads() - 1)) : 1.0F),
-      reach(species.n_beads() > 1 ? static_cast<int>(std::ceil(1.7F * max_radius / pitch - 0.5F)) : 0) {
+      reach(species.n_beads() > 1 ? static_cast<int>(std::ceil(1.1F * max_radius / pitch - 0.5F)) : 0),
+      beyond((static_cast<float>(reach) + 0.5F) * pitch) {
+  // a thinning of more than this would let `widest` fall to where rods touch
+  if (taper > 0.0F && taper < 0.3F) thinning = taper;
+  widest = thinning > 0.0F ? beyond * std::sqrt(1.0F / (thinning * thinning) - 1.0F) : 1e6F;
   const int n_lanes = (species.n_beads() + kLanes - 1) / kLanes * kLanes;
   for (int lane = 0; lane < n_lanes; ++lane) {
     const bool is_bead = lane < species.n_beads();
@@ -177,15 +197,19 @@ BeadLanes::BeadLanes(const Species& species)
   }
 }
 
-bool beads_may_overlap(const BeadLanes& i, const Vec3& n_i, const BeadLanes& j, const Vec3& n_j, const Vec3& D) {
+BeadRange beads_may_overlap(const BeadLanes& i, const Vec3& n_i, const BeadLanes& j, const Vec3& n_j, const Vec3& D) {
   float director_i[3], director_j[3];
   set_vector(director_i, n_i);
   set_vector(director_j, n_j);
   const Shared in = shared(i, director_i, j, director_j, D);
+  BeadRange beads;
   for (std::size_t first = 0; first < i.offset.size(); first += kLanes) {
-    if (lanes_may_overlap(in, i.offset.data() + first, i.radius.data() + first, j)) return true;
+    const BeadRange some = lanes_may_overlap(in, i.offset.data() + first, i.radius.data() + first, j);
+    if (some.empty()) continue;
+    if (beads.empty()) beads.from = static_cast<int>(first) + some.from;
+    beads.to = static_cast<int>(first) + some.to;
   }
-  return false;
+  return beads;
 }
 
 SafeTime bead_safe_time(const BeadLanes& i, const Outlook& a, const BeadLanes& j, const Outlook& b, const Vec3& D,

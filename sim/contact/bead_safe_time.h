@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "sim/contact/bead_contacts.h"
 #include "sim/contact/safe_time.h"
 #include "sim/rod/species.h"
 
@@ -16,11 +17,14 @@ struct BeadLanes {
   float half_length, mid_radius, max_radius, taper;
   float last;   ///< index of the last bead
   float pitch;  ///< distance of neighbouring beads [mm]
-  int reach;    ///< beads to each side of a foot that can be near: those beyond are further than any contact
+  int reach;    ///< beads to each side of a foot that are tried one by one
+  float beyond;  ///< distance along the axis at which the others begin [mm]
+  float thinning = 0;  ///< loss of radius per length that the others are sure to have
+  float widest = 0;    ///< distance beside the axis up to which the others' gap grows along it [mm]
 };
 
-/// False only if no bead of i can overlap any bead of j: a quick test before find_bead_contacts, which decides.
-bool beads_may_overlap(const BeadLanes& i, const Vec3& n_i, const BeadLanes& j, const Vec3& n_j, const Vec3& D);
+/// Beads of i outside of which none overlaps a bead of j: a quick test before find_bead_contacts, which decides.
+BeadRange beads_may_overlap(const BeadLanes& i, const Vec3& n_i, const BeadLanes& j, const Vec3& n_j, const Vec3& D);
 
 /// Times for which no bead of i and bead of j begins to touch or, if they overlap, begins to approach; at most
 /// `horizon` [s]. For rods whose hulls overlap while the beads interlock without touching.

@@ -27,20 +27,6 @@ InverseInertia inverse_inertia(const Species& species) {
   return {1.0 / species.mass, 1.0 / species.inertia_perp, 1.0 / species.inertia_par};
 }
 
-Mat3 point_compliance(const InverseInertia& inverse, const Vec3& director, const Vec3& arm) {
-  const Vec3 lever = director.cross(arm);
-  Mat3 K = (inverse.par - inverse.perp) * (lever * lever.transpose()) - inverse.perp * (arm * arm.transpose());
-  K.diagonal().array() += inverse.mass + inverse.perp * arm.squaredNorm();
-  return K;
-}
-
-void apply_impulse(Motion& motion, const InverseInertia& inverse, const Vec3& director, const Vec3& arm,
-                   const Vec3& impulse) {
-  const Vec3 torque = arm.cross(impulse);
-  motion.velocity += inverse.mass * impulse;
-  motion.angular_velocity += inverse.perp * torque + ((inverse.par - inverse.perp) * torque.dot(director)) * director;
-}
-
 Vec3 newton_coulomb_impulse(const Mat3& K, const Vec3& normal, const Vec3& u, const ContactParameters& contact) {
   const double u_n = u.dot(normal);
   const double bounce = -(1.0 + contact.restitution) * u_n;  // change of normal velocity wanted, > 0

@@ -23,11 +23,20 @@ inline Vec3 point_velocity(const Motion& motion, const Vec3& arm) {
 
 /// Compliance K of a rod at the point `arm`: an impulse P there changes the point's velocity by K P.
 /// K = (1/m + arm^2 / I_perp) 1 - arm arm^T / I_perp + (1/I_par - 1/I_perp) (n x arm)(n x arm)^T   [1/mg]
-Mat3 point_compliance(const InverseInertia& inverse, const Vec3& director, const Vec3& arm);
+inline Mat3 point_compliance(const InverseInertia& inverse, const Vec3& director, const Vec3& arm) {
+  const Vec3 lever = director.cross(arm);
+  Mat3 K = (inverse.par - inverse.perp) * (lever * lever.transpose()) - inverse.perp * (arm * arm.transpose());
+  K.diagonal().array() += inverse.mass + inverse.perp * arm.squaredNorm();
+  return K;
+}
 
 /// Applies impulse P [mg mm/s] at `arm` to a rod.
-void apply_impulse(Motion& motion, const InverseInertia& inverse, const Vec3& director, const Vec3& arm,
-                   const Vec3& impulse);
+inline void apply_impulse(Motion& motion, const InverseInertia& inverse, const Vec3& director, const Vec3& arm,
+                   const Vec3& impulse) {
+  const Vec3 torque = arm.cross(impulse);
+  motion.velocity += inverse.mass * impulse;
+  motion.angular_velocity += inverse.perp * torque + ((inverse.par - inverse.perp) * torque.dot(director)) * director;
+}
 
 /// Impulse on the body that `normal` points to, by Newton's restitution and Coulomb's friction.
 /// Model:  u = velocity of that body relative to the other at the contact, u_n = u . normal < 0 (approaching). Stick if

@@ -51,4 +51,8 @@ inline void set_vector(float* to, const Vec3& from) {
   for (int c = 0; c < 3; ++c) to[c] = static_cast<float>(from[c]);
 }
 
+inline void add_vector(float* to, const Vec3& more) {
+  for (int c = 0; c < 3; ++c) to[c] += static_cast<float>(more[c]);
+}
+
 }  // namespace shaken

@@ -46,8 +46,7 @@ PlateState PlateMotion::at_phase(double cycles) const {
   return {base, base + gap_, -amplitude_ * angular_frequency_ * angle.sin};
 }
 
-PlateState PlateMotion::at(Tick k) const {
-  if (!table_.empty()) return table_[static_cast<std::size_t>(k % period_ticks())];
+PlateState PlateMotion::at_phase_of(Tick k) const {
   const Fixed128 phase = phase_per_tick_ * static_cast<Fixed128>(k);
   return at_phase(static_cast<double>(static_cast<std::uint64_t>(phase >> 64)) * 0x1p-64);
 }

@@ -25,7 +25,9 @@ class PlateMotion {
 
   /// Numerics: where the period is a whole number of ticks, a table over one period; otherwise the phase f dt k is kept
   /// modulo 1 in 128-bit fixed point. Neither loses digits with k.
-  PlateState at(Tick k) const;
+  PlateState at(Tick k) const {
+    return table_.empty() ? at_phase_of(k) : table_[static_cast<std::size_t>(k) % table_.size()];
+  }
 
   /// Largest acceleration of the plates, a (2 pi f)^2 [mm/s^2].
   double peak_acceleration() const { return amplitude_ * angular_frequency_ * angular_frequency_; }
@@ -35,6 +37,7 @@ class PlateMotion {
 
  private:
   PlateState at_phase(double cycles) const;
+  PlateState at_phase_of(Tick k) const;
 
   double amplitude_;
   double angular_frequency_;

@@ -11,9 +11,9 @@ namespace {
 
 constexpr double kSkin = 0.3;  ///< of the neighbour list [mm]
 /// A rod this close to the end of its slack is placed anew rather than being watched every tick [mm].
-constexpr double kLeastSlack = 0.003;
+constexpr float kLeastSlack = 0.003F;
 /// Below this, what is left of a rod's slack is measured again rather than counted down [mm].
-constexpr double kLowSlack = 0.05;
+constexpr float kLowSlack = 0.05F;
 /// Where the hull's bound is shorter than this, the beads' own may be longer: rods interlock.
 constexpr float kShortBound = 30;
 /// Interlocked rods are looked at again within this time: further ahead their bounds are not worth the work.
@@ -48,7 +48,7 @@ ScheduledStepper::ScheduledStepper(const World& world, int n_threads)
 
 std::size_t ScheduledStepper::bytes() const {
   std::size_t bytes = neighbors_.bytes() + rod_wheel_.bytes() + pair_wheel_.bytes();
-  bytes += heap_bytes(rods_, records_, outlooks_, pairs_, pair_is_steady_, gained_, lost_);
+  bytes += heap_bytes(rods_, records_, outlooks_, pairs_, pair_marks_, gained_, lost_);
   bytes += heap_bytes(due_rods_, due_pairs_, changed_, to_pose_, to_look_at_, to_bound_, to_schedule_, next_,
                       may_change_, contacts_, poses_);
   for (const Worker& w : workers_)
@@ -99,8 +99,8 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
 // ---- phases
 
 void ScheduledStepper::list_to_pose(int i, Tick now) {
-  if (records_[i].posed_at == now) return;
-  records_[i].posed_at = now;
+  if (records_[i].posed_at == stamp(now)) return;
+  records_[i].posed_at = stamp(now);
   to_pose_.push_back(i);
 }
 
@@ -119,8 +119,8 @@ std::optional<NumericalTrouble> ScheduledStepper::collide_with_plates_due(World&
       const int i = due_rods_[k];
       RodRecord& record = records_[i];
       rods_[i] = rod_at_tick(world.rods[i], now, rules_);
-      record.posed_at = now;
-      record.listed_at = now;
+      record.posed_at = stamp(now);
+      record.listed_at = stamp(now);
       if (slack_left(i, now) < kLeastSlack) {
         measure_slack(i, now);
         if (record.slack < kLeastSlack) worker.to_place.push_back(i);
@@ -167,11 +167,11 @@ void ScheduledStepper::list_pairs(const World& world, Tick now) {
     worker.to_place.clear();
   }
   pairs_.resize(neighbors_.pairs().size());
-  pair_is_steady_.resize(pairs_.size());
+  pair_marks_.resize(pairs_.size());
   pair_wheel_.make_room(pairs_.size());
   for (const int p : lost_) {  // certainly not touching
     pairs_[p] = {};
-    pair_is_steady_[p] = false;
+    pair_marks_[p] = 0;
     pair_wheel_.remove(p);
   }
   pair_wheel_.pop(now, due_pairs_);
@@ -195,9 +195,11 @@ bool ScheduledStepper::detect(int p, Worker& worker) {
   const Vec3 d(pair.direction[0], pair.direction[1], pair.direction[2]);
   if (hull_gap(hull_, std::abs(pose_i.director.dot(d)), hull_, std::abs(pose_j.director.dot(d)), D.dot(d)) > kMargin)
     return false;
-  if (!beads_may_overlap(lanes_, pose_i.director, lanes_, pose_j.director, D)) return false;
+  const BeadRange beads_i = beads_may_overlap(lanes_, pose_i.director, lanes_, pose_j.director, D);
+  if (beads_i.empty()) return false;
   worker.bead_contacts.clear();
-  find_bead_contacts(rules_.species, pose_i.director, rules_.species, pose_j.director, D, worker.bead_contacts);
+  find_bead_contacts(rules_.species, pose_i.director, rules_.species, pose_j.director, D, beads_i,
+                     worker.bead_contacts);
   for (const BeadContact& beads : worker.bead_contacts) worker.contacts.push_back({i, j, beads});
   return !worker.bead_contacts.empty();
 }
@@ -214,7 +216,7 @@ void ScheduledStepper::detect_due(const World& world, Tick now) {
     Worker& worker = workers_[w];
     for (int k = begin; k < end; ++k) {
       const int p = due_pairs_[k];
-      pairs_[p].detected_at = now;
+      pairs_[p].detected_at = stamp(now);
       if (detect(p, worker) != pairs_[p].touching) worker.turned.push_back(p);
     }
   });
@@ -252,9 +254,9 @@ void ScheduledStepper::detect_touching(const World& world, Tick now) {
   for (std::size_t m = 0; m < may_change_.size(); ++m) {
     const int i = may_change_[m];
     for (const int p : neighbors_.pairs_of(i)) {
-      if (!pairs_[p].touching || pairs_[p].detected_at == now) continue;
+      if (!pairs_[p].touching || pairs_[p].detected_at == stamp(now)) continue;
       due_pairs_.push_back(p);
-      pairs_[p].detected_at = now;
+      pairs_[p].detected_at = stamp(now);
       to_pose_.clear();
       for (const int rod : pairs_[p].rod) list_to_pose(rod, now);
       pose(world, now);
@@ -274,8 +276,8 @@ void ScheduledStepper::list_changed(Tick now) {
   }
   for (const PairContact& contact : contacts_) {
     for (const int i : {contact.i, contact.j}) {
-      if (!rods_[i].changed || records_[i].listed_at == now) continue;
-      records_[i].listed_at = now;
+      if (!rods_[i].changed || records_[i].listed_at == stamp(now)) continue;
+      records_[i].listed_at = stamp(now);
       changed_.push_back(i);
       to_schedule_.push_back(i);
     }
@@ -292,8 +294,8 @@ std::optional<NumericalTrouble> ScheduledStepper::store_changed(World& world, Ti
       Vec3 velocity = flight.velocity;
       velocity.z() -= rules_.gravity * (static_cast<double>(now - flight.since) * rules_.dt);
       if (auto trouble = store(i, flight, rods_[i], now, rules_)) workers_[w].note(std::move(*trouble));
-      record.strayed_velocity += flight.velocity - velocity;
-      record.strayed_turning += (flight.precession - precession).cross(flight.director);
+      add_vector(record.strayed_velocity, flight.velocity - velocity);
+      add_vector(record.strayed_turning, (flight.precession - precession).cross(flight.director));
       record.strayed = !within_limits(record, flight);
       if (record.strayed) set_limits(record, flight);
     }
@@ -304,19 +306,20 @@ std::optional<NumericalTrouble> ScheduledStepper::store_changed(World& world, Ti
 // ---- a rod's limits
 
 bool ScheduledStepper::within_limits(const RodRecord& record, const Flight& flight) const {
-  const auto within = [](const Vec3& strayed, double across, double along_z) {
-    return strayed.x() * strayed.x() + strayed.y() * strayed.y() <= across * across &&
-           std::abs(strayed.z()) <= along_z;
+  const auto within = [](const float* strayed, float across, float along_z) {
+    constexpr float kKept = 0.998F;  // for rounding: what strayed is a sum of many floats
+    return strayed[0] * strayed[0] + strayed[1] * strayed[1] <= kKept * across * across &&
+           std::abs(strayed[2]) <= kKept * along_z;
   };
-  return flight.rate <= record.rate_limit &&
+  return flight.rate <= static_cast<double>(record.rate_limit) &&
          within(record.strayed_velocity, allowance_.velocity_xy, allowance_.velocity_z) &&
          within(record.strayed_turning, allowance_.turning_xy, allowance_.turning_z);
 }
 
 void ScheduledStepper::set_limits(RodRecord& record, const Flight& flight) {
-  record.strayed_velocity.setZero();
-  record.strayed_turning.setZero();
-  record.rate_limit = kRateFactor * flight.rate + kRateMore;
+  std::fill_n(record.strayed_velocity, 3, 0.0F);
+  std::fill_n(record.strayed_turning, 3, 0.0F);
+  record.rate_limit = static_cast<float>(kRateFactor * flight.rate + kRateMore);
 }
 
 Outlook ScheduledStepper::outlook(const World& world, int i, Tick now) const {
@@ -331,22 +334,26 @@ Outlook ScheduledStepper::outlook(const World& world, int i, Tick now) const {
   set_vector(outlook.velocity, velocity);
   set_vector(outlook.turning, turning);
   outlook.half_rate2 = static_cast<float>(0.5 * flight.rate * flight.rate);
-  set_vector(outlook.velocity_center, velocity - record.strayed_velocity);
-  set_vector(outlook.turning_center, turning - record.strayed_turning);
-  outlook.half_rate2_limit = static_cast<float>(0.5 * record.rate_limit * record.rate_limit);
+  for (int c = 0; c < 3; ++c) {
+    outlook.velocity_center[c] = outlook.velocity[c] - record.strayed_velocity[c];
+    outlook.turning_center[c] = outlook.turning[c] - record.strayed_turning[c];
+  }
+  outlook.half_rate2_limit = 0.5F * record.rate_limit * record.rate_limit;
   return outlook;
 }
 
 // ---- schedules
 
-double ScheduledStepper::slack_left(int i, Tick now) const {
+float ScheduledStepper::slack_left(int i, Tick now) const {
   const RodRecord& record = records_[i];
-  return record.slack - record.slack_speed * (static_cast<double>(now - record.slack_at) * rules_.dt);
+  const Stamp ticks = stamp(now) - record.slack_at;
+  return record.slack - record.slack_speed * (static_cast<float>(ticks) * static_cast<float>(rules_.dt));
 }
 
 void ScheduledStepper::measure_slack(int i, Tick now) {
-  records_[i].slack = neighbors_.slack(i, rods_[i].pose);
-  records_[i].slack_at = now;
+  // a little is kept for the rounding of floats
+  records_[i].slack = static_cast<float>(neighbors_.slack(i, rods_[i].pose)) - 1e-4F;
+  records_[i].slack_at = stamp(now);
 }
 
 void ScheduledStepper::schedule_rods(const World& world, Tick now) {
@@ -386,14 +393,18 @@ Tick ScheduledStepper::listed_ticks(const World& world, int i, Tick now) {
   const Flight& flight = world.rods[i];
   RodRecord& record = records_[i];
   record.slack = slack_left(i, now);
-  record.slack_at = now;
+  record.slack_at = stamp(now);
   if (record.slack < kLowSlack) measure_slack(i, now);
-  // the ends of the flattened segment move no faster than this while |n_xy| is above half of what it is now
+  // The segment turns at (p_z - n_z p.n) / |n_xy|^2, with p the precession and p.n a constant; |n_xy| changes by at most
+  // |p| per time, so it keeps nine tenths for a while.
   const Vec3& n = rods_[i].pose.director;
-  const double flat = std::sqrt(n.x() * n.x() + n.y() * n.y());
   const Vec3& v = flight.velocity;
-  record.slack_speed = std::sqrt(v.x() * v.x() + v.y() * v.y()) + 2.0 * rules_.species.half_length * flight.rate / flat;
-  const double time = std::min(std::max(record.slack, 0.0) / record.slack_speed, 0.5 * flat / flight.rate);
+  const Vec3& p = flight.precession;
+  const double flat2 = n.x() * n.x() + n.y() * n.y();
+  const double turn = (std::abs(p.z()) + std::abs(p.dot(n))) / (0.81 * flat2);
+  const double speed = std::sqrt(v.x() * v.x() + v.y() * v.y()) + rules_.species.half_length * turn;
+  record.slack_speed = static_cast<float>(speed);
+  const double time = std::min(std::max(static_cast<double>(record.slack), 0.0) / speed, 0.1 * std::sqrt(flat2) / flight.rate);
   const double horizon = static_cast<double>(TimingWheel::horizon() - 1);
   // a rod at rest has all the time there is
   return static_cast<Tick>(time < horizon * rules_.dt ? time / rules_.dt * (1.0 - 1e-12) : horizon);
@@ -402,32 +413,36 @@ Tick ScheduledStepper::listed_ticks(const World& world, int i, Tick now) {
 void ScheduledStepper::schedule_pairs(const World& world, Tick now) {
   to_bound_.clear();
   const auto list = [&](int p) {
-    if (pairs_[p].bounded_at == now) return;
-    pairs_[p].bounded_at = now;
+    if (pair_marks_[p] & kListed) return;
+    pair_marks_[p] |= kListed;
     to_bound_.push_back(p);
   };
   for (const int p : due_pairs_) list(p);
   for (const int i : changed_) {
     const bool strayed = records_[i].strayed;
     for (const int p : neighbors_.pairs_of(i)) {
-      if (strayed || pair_is_steady_[p]) list(p);
+      if (strayed || (pair_marks_[p] & kSteady)) list(p);
     }
   }
   if (to_bound_.empty()) return;
 
   to_look_at_.clear();
-  to_pose_.clear();
   for (const int p : to_bound_) {
     for (const int i : pairs_[p].rod) {
-      if (records_[i].outlook_at == now) continue;
-      records_[i].outlook_at = now;
+      if (records_[i].outlook_at == stamp(now)) continue;
+      records_[i].outlook_at = stamp(now);
       to_look_at_.push_back(i);
-      list_to_pose(i, now);
     }
   }
-  pose(world, now);
   team_.run(static_cast<int>(to_look_at_.size()), kGrain, [&](int begin, int end, int) {
-    for (int k = begin; k < end; ++k) outlooks_[to_look_at_[k]] = outlook(world, to_look_at_[k], now);
+    for (int k = begin; k < end; ++k) {
+      const int i = to_look_at_[k];
+      if (records_[i].posed_at != stamp(now)) {
+        records_[i].posed_at = stamp(now);
+        rods_[i] = rod_at_tick(world.rods[i], now, rules_);
+      }
+      outlooks_[i] = outlook(world, i, now);
+    }
   });
   next_.resize(to_bound_.size());
   team_.run(static_cast<int>(to_bound_.size()), kGrain, [&](int begin, int end, int w) {
@@ -465,7 +480,7 @@ void ScheduledStepper::bound_pairs(int first, int n, Tick now, Worker& worker) {
       straying = std::max(straying, beads.straying * per_dt);
     }
     const bool is_steady = straying < kLongBound && straying * kMuchLonger < steady;
-    pair_is_steady_[p] = is_steady;
+    pair_marks_[p] = is_steady ? kSteady : 0;
     next_[first + lane] = now + 1 + static_cast<Tick>(is_steady ? steady : straying);
   }
 }

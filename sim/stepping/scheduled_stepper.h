@@ -32,27 +32,32 @@ class ScheduledStepper final : public Stepper {
   std::size_t bytes() const override;
 
  private:
+  /// A tick, to be compared with the present one only: its low bits do.
+  using Stamp = std::uint32_t;
+  static Stamp stamp(Tick now) { return static_cast<Stamp>(now) + 1; }  // 0: never
+
   /// What the stepper knows of a rod beside its flight.
-  struct RodRecord {
-    Vec3 strayed_velocity = Vec3::Zero();  ///< change of the velocity by hits since the rod's limits were set [mm/s]
-    Vec3 strayed_turning = Vec3::Zero();   ///< the same for d director / dt [1/s]
-    double rate_limit = 0;                 ///< of the precession, for bounds that allow for straying [rad/s]
-    double slack = 1e30;                   ///< of the neighbour list at `slack_at`, at least [mm]
-    double slack_speed = 0;                ///< at which it shrinks, at most [mm/s]
-    Tick slack_at = 0;
-    Tick posed_at = -1;    ///< tick for which rods_ holds the rod
-    Tick listed_at = -1;   ///< tick at which it was last visited or hit
-    Tick outlook_at = -1;  ///< tick for which outlooks_ holds the rod
-    int n_touching = 0;    ///< pairs of the rod that are touching
-    bool strayed = false;  ///< hit out of its limits: bounds of its pairs are to be renewed
+  struct alignas(64) RodRecord {
+    float strayed_velocity[3] = {0, 0, 0};  ///< change of the velocity by hits since the rod's limits were set [mm/s]
+    float strayed_turning[3] = {0, 0, 0};   ///< the same for d director / dt [1/s]
+    float rate_limit = 0;                   ///< of the precession, for bounds that allow for straying [rad/s]
+    float slack = 1e30F;                    ///< of the neighbour list at `slack_at`, at least [mm]
+    float slack_speed = 0;                  ///< at which it shrinks, at most [mm/s]
+    Stamp slack_at = 0;
+    Stamp posed_at = 0;    ///< tick for which rods_ holds the rod
+    Stamp listed_at = 0;   ///< tick at which it was last visited or hit
+    Stamp outlook_at = 0;  ///< tick for which outlooks_ holds the rod
+    std::int16_t n_touching = 0;  ///< pairs of the rod that are touching
+    bool strayed = false;         ///< hit out of its limits: bounds of its pairs are to be renewed
   };
   struct PairRecord {
     int rod[2] = {-1, -1};           ///< -1: a number that the neighbour list does not use
     float direction[3] = {0, 0, 0};  ///< in which the hulls were apart at the last bound; 0: not known
-    bool touching = false;           ///< beads overlapped at the last search
-    Tick detected_at = -1;           ///< tick of the last search for contacts
-    Tick bounded_at = -1;            ///< tick of the last bound
+    Stamp detected_at = 0;           ///< tick of the last search for contacts
+    bool touching = false;           ///< beads overlapped then
   };
+  /// What a pair is marked with: kept apart from the records because all pairs of a rod are asked.
+  enum PairMark : std::uint8_t { kSteady = 1 /* the bound holds for steady flight only */, kListed = 2 };
   /// What one thread gathers in a loop.
   struct Worker {
     void note(NumericalTrouble met);
@@ -88,7 +93,7 @@ class ScheduledStepper final : public Stepper {
   bool within_limits(const RodRecord& record, const Flight& flight) const;
   static void set_limits(RodRecord& record, const Flight& flight);
   Outlook outlook(const World& world, int i, Tick now) const;
-  double slack_left(int i, Tick now) const;
+  float slack_left(int i, Tick now) const;
   void measure_slack(int i, Tick now);
   Tick listed_ticks(const World& world, int i, Tick now);
   void bound_pairs(int first, int n, Tick now, Worker& worker);
@@ -106,7 +111,7 @@ class ScheduledStepper final : public Stepper {
   TimingWheel rod_wheel_;
 
   std::vector<PairRecord> pairs_;             ///< numbered as in the neighbour list
-  std::vector<std::uint8_t> pair_is_steady_;  ///< the pair's bound holds for steady flight only
+  std::vector<std::uint8_t> pair_marks_;      ///< of PairMark
   TimingWheel pair_wheel_;
   bool is_new_ = true;
 
