@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "bench/commands.h"
+#include "run/files/version.h"
+
+namespace {
+
+constexpr const char* kFooter = R"(Examples:
+  shaken-bench speed --quick
+  shaken-bench speed --help
+
+Exit codes: 0 done, 1 a check did not hold or something failed, 2 bad input.)";
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace shaken::bench;
+  CLI::App app("Measures Shaken.", "shaken-bench");
+  app.set_version_flag("--version", std::string("shaken-bench ") + shaken::run::version());
+  app.footer(kFooter);
+  app.require_subcommand(1);
+  app.get_formatter()->label("SUBCOMMAND", "BENCH");
+  Work work;
+  add_speed(app, work);
+  add_export(app, work);
+  try {
+    app.parse(argc, argv);
+    return static_cast<int>(work());
+  } catch (const CLI::ParseError& problem) {
+    return app.exit(problem) == 0 ? 0 : static_cast<int>(ExitCode::kBadInput);
+  } catch (const Failure& failure) {
+    fmt::print(stderr, "shaken-bench: {}\n", failure.what());
+    return static_cast<int>(failure.code);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "shaken-bench: {}\n", error.what());
+    return static_cast<int>(ExitCode::kFailed);
+  }
+}

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "bench/speed/engine_speed.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/clock.h"
+
+namespace shaken::bench {
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
+}
+
+double EngineSpeed::best_cpu() const { return *std::min_element(cpu.begin(), cpu.end()); }
+
+double EngineSpeed::best_wall() const { return *std::min_element(wall.begin(), wall.end()); }
+
+double EngineSpeed::spread() const { return median(cpu) / best_cpu(); }
+
+Tick ticks_for(double cpu, const Case& of, const SteadyState& state, Engine engine) {
+  Simulation simulation = resumed(of, state, engine);
+  advance(simulation, 1);  // builds lists and schedules
+  const Tick period = of.period_ticks();
+  const double start = cpu_seconds();
+  Tick done = 0;
+  double taken = 0;
+  for (Tick stride = std::max<Tick>(1, period / 64); taken < 0.1 * cpu; stride *= 2) {
+    advance(simulation, stride);
+    done += stride;
+    taken = cpu_seconds() - start;
+  }
+  const double ticks = static_cast<double>(done) * cpu / taken;
+  const double periods = std::round(ticks / static_cast<double>(period));
+  return periods >= 1 ? static_cast<Tick>(periods) * period : std::max<Tick>(1, std::llround(ticks));
+}
+
+void time_stretch(Simulation& simulation, const Case& of, Tick ticks, EngineSpeed& speed) {
+  const Counters before = simulation.world().counters;
+  const double wall = wall_seconds();
+  const double cpu = cpu_seconds();
+  advance(simulation, ticks);
+  speed.cpu.push_back(cpu_seconds() - cpu);
+  speed.wall.push_back(wall_seconds() - wall);
+  const Counters after = simulation.world().counters;
+  speed.ticks = ticks;
+  speed.rod_seconds = of.rod_seconds(ticks);
+  speed.plate_impulses =
+      after.impulses_rod_base + after.impulses_rod_lid - before.impulses_rod_base - before.impulses_rod_lid;
+  speed.rod_impulses = after.impulses_rod_rod - before.impulses_rod_rod;
+  speed.bytes_per_rod = static_cast<double>(simulation.bytes()) / of.system().n_rods;
+  speed.max_overlap = after.max_overlap();
+}
+
+}  // namespace shaken::bench

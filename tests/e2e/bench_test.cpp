@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// The benches as they are called, on a handful of rods.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/e2e/process.h"
+
+namespace shaken::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using Json = nlohmann::json;
+
+class Bench : public ::testing::Test {
+ protected:
+  /// `shaken bench WORDS` with a cache of its own.
+  Finished bench(std::vector<std::string> words) const {
+    words.insert(words.begin(), {std::string(SHAKEN_BIN_DIR) + "/shaken", "bench"});
+    words.insert(words.end(), {"--cache", (folder_.path() / "cache").string()});
+    return run_command(words);
+  }
+  std::string out() const { return (folder_.path() / "out").string(); }
+  std::string text_of(const std::string& name) const {
+    std::stringstream text;
+    text << std::ifstream(folder_.path() / "out" / name, std::ios::binary).rdbuf();
+    return text.str();
+  }
+  Json json_of(const std::string& name) const { return Json::parse(text_of(name)); }
+
+ private:
+  TemporaryDirectory folder_;
+};
+
+const std::vector<std::string> kTiny{"--length", "4.5",   "--side", "12",       "--warm-up",
+                                     "0.05",     "--cpu", "0.01",   "--repeat", "2"};
+
+std::vector<std::string> tiny(std::vector<std::string> words) {
+  words.insert(words.end(), kTiny.begin(), kTiny.end());
+  return words;
+}
+
+TEST_F(Bench, SpeedWritesWhatItMeasured) {
+  const Finished finished = bench(tiny({"speed", "--area-fraction", "0.45,0.6", "--out", out()}));
+  ASSERT_EQ(finished.code, 0) << finished.output;
+  EXPECT_THAT(finished.output, AllOf(HasSubstr("NOT the steady state"), HasSubstr("rod-seconds per CPU-second")));
+  const Json report = json_of("speed.json");
+  ASSERT_EQ(report.at("rows").size(), 2u);
+  for (const Json& row : report.at("rows")) {
+    EXPECT_EQ(row.at("scheduled").at("state_hash"), row.at("reference").at("state_hash"));
+    EXPECT_TRUE(row.at("hashes_equal").get<bool>());
+    EXPECT_GT(row.at("scheduled").at("rod_s_per_cpu_s").get<double>(), 0);
+    EXPECT_EQ(row.at("scheduled").at("cpu_s").size(), 2u);
+  }
+  std::istringstream csv(text_of("speed.csv"));
+  std::string titles;
+  std::getline(csv, titles);
+  const auto n_columns = std::count(titles.begin(), titles.end(), ',');
+  int rows = 0;
+  for (std::string line; std::getline(csv, line); ++rows)
+    EXPECT_EQ(std::count(line.begin(), line.end(), ','), n_columns);
+  EXPECT_EQ(rows, 2);
+  EXPECT_EQ(text_of("speed.png").substr(1, 3), "PNG");
+}
+
+TEST_F(Bench, SpeedOfThreadsAndStepsToo) {
+  Finished finished = bench(tiny({"speed", "--area-fraction", "0.6", "--threads", "1,2", "--out", out()}));
+  ASSERT_EQ(finished.code, 0) << finished.output;
+  EXPECT_TRUE(json_of("threads.json").at("rows").at(1).at("hashes_equal").get<bool>());
+  finished = bench(tiny({"speed", "--scaling", "dt", "--out", out()}));
+  ASSERT_EQ(finished.code, 0) << finished.output;
+  EXPECT_EQ(json_of("scaling_dt.json").at("rows").size(), 4u);
+  EXPECT_EQ(text_of("scaling_dt.png").substr(1, 3), "PNG");
+}
+
+TEST_F(Bench, ExportGivesAState) {
+  const Finished finished =
+      bench({"export", "--side", "12", "--warm-up", "0.005", "--frames", "2", "--out", out() + ".json"});
+  ASSERT_EQ(finished.code, 0) << finished.output;
+  const Json state = Json::parse(std::ifstream(out() + ".json"));
+  const auto n = state.at("n_rods").get<std::size_t>();
+  EXPECT_EQ(state.at("start").at("position").size(), n);
+  EXPECT_EQ(state.at("frames").size(), 2u);
+  EXPECT_EQ(state.at("frames").at(1).at("angular_velocity").size(), n);
+  EXPECT_NEAR(state.at("frames").at(1).at("time").get<double>(), 0.007, 1e-9);
+}
+
+TEST_F(Bench, BadArgumentsAreAllListed) {
+  const Finished finished =
+      bench({"speed", "--length", "x", "--area-fraction", "0.99", "--repeat", "0", "--scaling", "z"});
+  EXPECT_EQ(finished.code, 2);
+  EXPECT_THAT(finished.output,
+              AllOf(HasSubstr("--length: 'x' is not a number"), HasSubstr("--area-fraction: 0.99 is outside"),
+                    HasSubstr("--repeat: 0 is outside"), HasSubstr("--scaling: 'z' is neither")));
+  EXPECT_EQ(bench({"sped"}).code, 2);
+  EXPECT_EQ(bench({"speed", "--side"}).code, 2);
+}
+
+}  // namespace
+}  // namespace shaken::test

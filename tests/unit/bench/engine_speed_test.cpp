@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "bench/speed/engine_speed.h"
+
+#include <gtest/gtest.h>
+
+#include "bench/clock.h"
+#include "bench/speed/lower_bounds.h"
+#include "tests/unit/run/temporary_folder.h"
+
+namespace shaken::bench {
+namespace {
+
+class SmallBox : public ::testing::Test {
+ protected:
+  SmallBox() {
+    OptionReader options;
+    case_ = *make_case(4.5, 0.6, 12, 4e-6, 0.01, options);
+    options.finish();
+    state_ = steady_state(case_, cache_.path());
+  }
+  run::TemporaryFolder cache_;
+  Case case_;
+  SteadyState state_;
+};
+
+TEST(Median, IsTheMiddle) {
+  EXPECT_EQ(median({3, 1, 2}), 2);
+  EXPECT_EQ(median({4, 1, 2, 3}), 2.5);
+}
+
+TEST(CpuClock, ReadingsCostNextToNothing) {
+  const double start = cpu_seconds_without_readings();
+  for (int i = 0; i < 10'000; ++i) cpu_seconds_without_readings();
+  EXPECT_LT(cpu_seconds_without_readings() - start, 0.01);
+}
+
+TEST_F(SmallBox, AStretchCountsWhatHappensInIt) {
+  Simulation simulation = resumed(case_, state_, Engine::kScheduled);
+  const Counters before = simulation.world().counters;
+  EngineSpeed speed;
+  time_stretch(simulation, case_, 1250, speed);
+  const Counters after = simulation.world().counters;
+  EXPECT_EQ(simulation.tick(), case_.warm_up_ticks() + 1250);
+  EXPECT_EQ(speed.rod_impulses, after.impulses_rod_rod - before.impulses_rod_rod);
+  EXPECT_EQ(speed.plate_impulses,
+            after.impulses_rod_base + after.impulses_rod_lid - before.impulses_rod_base - before.impulses_rod_lid);
+  EXPECT_GT(speed.impulses(), 0);
+  EXPECT_GT(speed.rate(), 0);
+  EXPECT_GE(speed.bytes_per_rod, sizeof(Flight));
+  EXPECT_EQ(speed.spread(), 1);
+}
+
+TEST_F(SmallBox, LongStretchesAreWholeVibrations) {
+  const Tick ticks = ticks_for(0.02, case_, state_, Engine::kScheduled);
+  EXPECT_GE(ticks, 1);
+  EXPECT_TRUE(ticks < case_.period_ticks() || ticks % case_.period_ticks() == 0) << ticks;
+}
+
+TEST_F(SmallBox, LowerBoundsAreLowAndPositive) {
+  const Simulation simulation = resumed(case_, state_, Engine::kScheduled);
+  const std::uint64_t hash = simulation.state_hash();
+  const LowerBounds bounds = measure_lower_bounds(simulation.world());
+  EXPECT_GT(bounds.plate_impulse, 0);
+  EXPECT_GT(bounds.rod_impulse, 0);
+  EXPECT_GT(bounds.state_access, 0);
+  EXPECT_LT(bounds.state_access, bounds.plate_impulse);
+  EXPECT_LT(bounds.plate_impulse, 1e-4);
+  EXPECT_EQ(impulses_alone({1, 2, 0}, 3, 4), 11);
+  EXPECT_EQ(memory_alone({0, 0, 1}, 3, 4), 11);
+  EXPECT_EQ(simulation.state_hash(), hash);
+}
+
+}  // namespace
+}  // namespace shaken::bench
