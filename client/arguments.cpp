@@ -47,6 +47,12 @@ void Arguments::list(const std::string& name, std::vector<std::string>& values, 
   if (minimum > 0) option->required();
 }
 
+void Arguments::rest(std::vector<std::string>& words) {
+  app_.fallthrough(false);
+  app_.prefix_command();
+  app_.parse_complete_callback([this_app = &app_, &words] { words = this_app->remaining(); });
+}
+
 void Arguments::option(const std::string& flags, std::string& value, const std::string& value_name,
                        const std::string& help, Names names) {
   app_.add_option(flags, value, help)

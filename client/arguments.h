@@ -27,6 +27,9 @@ class Arguments {
   void list(const std::string& name, std::vector<std::string>& values, const std::string& help, Names names,
             int minimum);
 
+  /// Everything from the first word on, options too, as it stands: for a verb that hands its words on.
+  void rest(std::vector<std::string>& words);
+
   /// `names` like "-o,--out"; `value_name` as shown in the help.
   void option(const std::string& flags, std::string& value, const std::string& value_name, const std::string& help,
               Names names = Names::kAnything);

@@ -98,7 +98,8 @@ Verb* CommandLine::parse(std::vector<std::string> arguments, Console& console) {
                     scene::did_you_mean(scene::nearest(word, is_option ? option_names(*app_) : verb_names(verbs_)))));
   }
   const std::string name = used.front()->get_name();
-  if (!left_over.empty()) {
+  const bool hands_on = used.front()->get_prefix_command();  // Arguments::rest
+  if (!left_over.empty() && !hands_on) {
     const std::string& word = left_over.front();
     std::string hint;
     if (word.starts_with("--")) {

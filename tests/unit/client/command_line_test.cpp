@@ -2,8 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <CLI/CLI.hpp>
 #include <fstream>
 
+#include "client/arguments.h"
 #include "client/process.h"
 #include "client/verb.h"
 #include "tests/unit/client/fake_daemon.h"
@@ -55,6 +57,16 @@ TEST(BadArguments, UnknownOptionSuggestsTheNearest) {
   EXPECT_EQ(outcome.code, ExitCode::kBadInput);
   EXPECT_THAT(outcome.err, HasSubstr("did you mean --aggregate?"));
   EXPECT_THAT(run_client({"--rot", "x", "status"}).err, HasSubstr("did you mean --root?"));
+}
+
+TEST(Rest, GoesOnAsItStands) {
+  CLI::App app;
+  app.fallthrough();
+  CLI::App* verb = app.add_subcommand("verb", "");
+  std::vector<std::string> words;
+  Arguments(*verb).rest(words);
+  app.parse("verb name --json -o out --help word");
+  EXPECT_THAT(words, ::testing::ElementsAre("name", "--json", "-o", "out", "--help", "word"));
 }
 
 TEST(BadArguments, AreAllExitCodeTwo) {
