@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "bench/table.h"
 #include "run/files/version.h"
 
@@ -113,7 +115,7 @@ std::string as_text(const Conditions& conditions, const std::vector<SceneSpeed>&
       row.push_back(percent(seconds, scene.phases_cpu));
       booked += seconds;
     }
-    row.push_back(percent(scene.phases_cpu - booked, scene.phases_cpu));
+    row.push_back(percent(std::max(0.0, scene.phases_cpu - booked), scene.phases_cpu));  // < 0: the clock's error
     phases.push_back(row);
   }
   text += "\nWhere the scheduled engine's CPU time goes, in % (from a run of its own, without the clock's time).\n" +
