@@ -17,7 +17,7 @@ struct Shared {
   float gap_margin;
 };
 
-/// One of the two motions that a bound is made for: steady, or straying within the allowance.
+/// How two rods move relative to each other, within one of their sets of limits.
 struct Relative {
   float v[3], turn_i[3], turn_j[3];
   float bend_i, bend_j;              ///< halves of the bounds on the directors' second derivatives
@@ -115,7 +115,7 @@ struct Fraction {
 
 /// Safe times of kLanes beads of i against the beads of j around each one's foot on j's axis.
 SHAKEN_VECTOR_CLONES
-SafeTime lanes_safe_time(const Shared& in, const Relative& steady, const Relative& straying, const float* offset_i,
+SafeTime lanes_safe_time(const Shared& in, const Relative& narrow, const Relative& wide, const float* offset_i,
                          const float* radius_i, const BeadLanes& j, float horizon) {
   const Floats s_i = lanes::load(offset_i);
   const Floats radius = lanes::load(radius_i) + in.gap_margin;
@@ -126,18 +126,18 @@ SafeTime lanes_safe_time(const Shared& in, const Relative& steady, const Relativ
   const Floats across2 = lanes::larger(Floats{}, lanes::dot(x, x) - foot * foot);
   const Floats far =
       lanes::larger(Floats{}, lanes::sqrt(untried.distance2(j, across2)) - radius - untried.radius);
-  Fraction safe_steady{far, lanes::all(steady.fastest)};
-  Fraction safe_straying{far, lanes::all(straying.fastest)};
+  Fraction safe_narrow{far, lanes::all(narrow.fastest)};
+  Fraction safe_wide{far, lanes::all(wide.fastest)};
   for (int k = -j.reach; k <= j.reach; ++k) {
     const Floats s_j = bead_offset(j, nearest, k);
     const Vectors r{x.x + s_j * in.n_j[0], x.y + s_j * in.n_j[1], x.z + s_j * in.n_j[2]};
     const Floats distance = lanes::sqrt(lanes::dot(r, r));
     const Floats inverse = 1.0F / (distance + 1e-20F);
     const Floats gap = distance - (radius + j.mid_radius - j.taper * lanes::abs(s_j));
-    take_safe_time(safe_steady, steady, s_i, s_j, r, inverse, gap, horizon);
-    take_safe_time(safe_straying, straying, s_i, s_j, r, inverse, gap, horizon);
+    take_safe_time(safe_narrow, narrow, s_i, s_j, r, inverse, gap, horizon);
+    take_safe_time(safe_wide, wide, s_i, s_j, r, inverse, gap, horizon);
   }
-  return {safe_steady.least(), safe_straying.least()};
+  return {safe_narrow.least(), safe_wide.least()};
 }
 
 float norm(const float* v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
@@ -151,7 +151,6 @@ Shared shared(const BeadLanes& i, const float* n_i, const BeadLanes& j, const fl
   return in;
 }
 
-/// `allow` is zero for steady motion.
 Relative relative(const BeadLanes& i, const BeadLanes& j, const float* v_i, const float* v_j, const float* turn_i,
                   const float* turn_j, float half_rate2_i, float half_rate2_j, const Allowance& allow) {
   Relative m;
@@ -213,19 +212,19 @@ BeadRange beads_may_overlap(const BeadLanes& i, const Vec3& n_i, const BeadLanes
 }
 
 SafeTime bead_safe_time(const BeadLanes& i, const Outlook& a, const BeadLanes& j, const Outlook& b, const Vec3& D,
-                        const Allowance& allowance, float horizon) {
+                        const Allowances& allowances, float horizon) {
   const Shared in = shared(i, a.director, j, b.director, D);
-  const Relative steady =
-      relative(i, j, a.velocity, b.velocity, a.turning, b.turning, a.half_rate2, b.half_rate2, Allowance{});
-  const Relative straying = relative(i, j, a.velocity_center, b.velocity_center, a.turning_center, b.turning_center,
-                                     a.half_rate2_limit, b.half_rate2_limit, allowance);
+  const Relative narrow =
+      relative(i, j, a.velocity, b.velocity, a.turning, b.turning, a.half_rate2, b.half_rate2, allowances.narrow);
+  const Relative wide = relative(i, j, a.wide_velocity, b.wide_velocity, a.wide_turning, b.wide_turning,
+                                 a.wide_half_rate2, b.wide_half_rate2, allowances.wide);
   SafeTime safe{horizon, horizon};
   for (std::size_t first = 0; first < i.offset.size(); first += kLanes) {
-    const SafeTime some = lanes_safe_time(in, steady, straying, i.offset.data() + first, i.radius.data() + first, j, horizon);
-    safe.steady = std::min(safe.steady, some.steady);
-    safe.straying = std::min(safe.straying, some.straying);
+    const SafeTime some = lanes_safe_time(in, narrow, wide, i.offset.data() + first, i.radius.data() + first, j, horizon);
+    safe.narrow = std::min(safe.narrow, some.narrow);
+    safe.wide = std::min(safe.wide, some.wide);
   }
-  return {safe.steady * (1.0F - 1e-5F), safe.straying * (1.0F - 1e-5F)};
+  return {safe.narrow * (1.0F - 1e-5F), safe.wide * (1.0F - 1e-5F)};
 }
 
 }  // namespace shaken

@@ -61,18 +61,18 @@ void PairLanes::set(int lane, const Vec3& D_ij, const Outlook& i, const Outlook&
     turning_i[c][lane] = i.turning[c];
     turning_j[c][lane] = j.turning[c];
     velocity[c][lane] = j.velocity[c] - i.velocity[c];
-    turning_center_i[c][lane] = i.turning_center[c];
-    turning_center_j[c][lane] = j.turning_center[c];
-    velocity_center[c][lane] = j.velocity_center[c] - i.velocity_center[c];
+    wide_turning_i[c][lane] = i.wide_turning[c];
+    wide_turning_j[c][lane] = j.wide_turning[c];
+    wide_velocity[c][lane] = j.wide_velocity[c] - i.wide_velocity[c];
   }
   half_rate2_i[lane] = i.half_rate2;
   half_rate2_j[lane] = j.half_rate2;
-  half_rate2_limit_i[lane] = i.half_rate2_limit;
-  half_rate2_limit_j[lane] = j.half_rate2_limit;
+  wide_half_rate2_i[lane] = i.wide_half_rate2;
+  wide_half_rate2_j[lane] = j.wide_half_rate2;
 }
 
 SHAKEN_VECTOR_CLONES
-void hull_safe_times(const Hull& i, const Hull& j, const PairLanes& pairs, const Allowance& allowance, float horizon,
+void hull_safe_times(const Hull& i, const Hull& j, const PairLanes& pairs, const Allowances& allowances, float horizon,
                      HullSafeTimes& safe) {
   // floats carry 6e-8; a dozen roundings of lengths and of speeds
   constexpr float kLengthRounding = 1.5e-6F;
@@ -118,29 +118,21 @@ void hull_safe_times(const Hull& i, const Hull& j, const PairLanes& pairs, const
   const Floats c_i = lanes::dot(n_i, d);
   const Floats c_j = lanes::dot(n_j, d);
 
-  const Vectors v = lanes::load(pairs.velocity);
-  const Vectors turn_i = lanes::load(pairs.turning_i);
-  const Vectors turn_j = lanes::load(pairs.turning_j);
-  const Floats steady = safe_time(
-      i, j, gap, lanes::dot(v, d) - (1e-4F + kRateRounding * lanes::size1(v)),
-      {c_i, lanes::dot(turn_i, d), lanes::load(pairs.half_rate2_i), kRateRounding * lanes::size1(turn_i)},
-      {c_j, lanes::dot(turn_j, d), lanes::load(pairs.half_rate2_j), kRateRounding * lanes::size1(turn_j)}, horizon);
-  lanes::store(safe.steady, steady);
-
   const Floats up = lanes::abs(d.z);
-  const Floats stray = allowance.velocity_xy + up * allowance.velocity_z;
-  const Floats stray_turning = allowance.turning_xy + up * allowance.turning_z;
-  const Vectors v_center = lanes::load(pairs.velocity_center);
-  const Vectors center_i = lanes::load(pairs.turning_center_i);
-  const Vectors center_j = lanes::load(pairs.turning_center_j);
-  const Floats straying =
-      safe_time(i, j, gap, lanes::dot(v_center, d) - 2.0F * stray - (1e-4F + kRateRounding * lanes::size1(v_center)),
-                {c_i, lanes::dot(center_i, d), lanes::load(pairs.half_rate2_limit_i),
-                 stray_turning + kRateRounding * lanes::size1(center_i)},
-                {c_j, lanes::dot(center_j, d), lanes::load(pairs.half_rate2_limit_j),
-                 stray_turning + kRateRounding * lanes::size1(center_j)},
-                horizon);
-  lanes::store(safe.straying, straying);
+  const auto bound = [&](const Vectors& v, const Vectors& turn_i, const Vectors& turn_j, const Floats& q_i,
+                         const Floats& q_j, const Allowance& allow) __attribute__((always_inline)) {
+    const Floats stray = 2.0F * (allow.velocity_xy + up * allow.velocity_z);
+    const Floats stray_turning = allow.turning_xy + up * allow.turning_z;
+    return safe_time(i, j, gap, lanes::dot(v, d) - stray - (1e-4F + kRateRounding * lanes::size1(v)),
+                     {c_i, lanes::dot(turn_i, d), q_i, stray_turning + kRateRounding * lanes::size1(turn_i)},
+                     {c_j, lanes::dot(turn_j, d), q_j, stray_turning + kRateRounding * lanes::size1(turn_j)}, horizon);
+  };
+  lanes::store(safe.narrow,
+               bound(lanes::load(pairs.velocity), lanes::load(pairs.turning_i), lanes::load(pairs.turning_j),
+                     lanes::load(pairs.half_rate2_i), lanes::load(pairs.half_rate2_j), allowances.narrow));
+  lanes::store(safe.wide, bound(lanes::load(pairs.wide_velocity), lanes::load(pairs.wide_turning_i),
+                                lanes::load(pairs.wide_turning_j), lanes::load(pairs.wide_half_rate2_i),
+                                lanes::load(pairs.wide_half_rate2_j), allowances.wide));
 }
 
 }  // namespace shaken

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "sim/core/lanes.h"
 #include "sim/motion/plates.h"
 #include "sim/rod/species.h"
 
 namespace shaken {
 
-/// Rods whose bounds are made in one go: lanes of a vector, on machines whose vectors are that wide.
-inline constexpr int kPlateLanes = 16;
+using lanes::kLanes;
 
-/// kPlateLanes rods in flight, at the tick from which time is counted.
+/// kLanes rods in flight, at the tick from which time is counted.
 struct PlateLanes {
-  alignas(64) float z[kPlateLanes];           ///< height of the centre [mm]
-  alignas(64) float velocity[kPlateLanes];    ///< of the centre, upwards [mm/s]
-  alignas(64) float n_z[kPlateLanes];         ///< director's z
-  alignas(64) float n_z_rate[kPlateLanes];    ///< [1/s]
-  alignas(64) float rate2[kPlateLanes];       ///< |precession|^2 [1/s^2]
+  alignas(64) float z[kLanes];           ///< height of the centre [mm]
+  alignas(64) float velocity[kLanes];    ///< of the centre, upwards [mm/s]
+  alignas(64) float n_z[kLanes];         ///< director's z
+  alignas(64) float n_z_rate[kLanes];    ///< [1/s]
+  alignas(64) float rate2[kLanes];       ///< |precession|^2 [1/s^2]
 };
 
 /// Number of ticks after `now` for which no bead of each rod begins to touch a plate or, if it is in one, begins to

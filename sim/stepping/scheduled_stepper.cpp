@@ -17,14 +17,19 @@ constexpr float kLowSlack = 0.05F;
 /// Where the hull's bound is shorter than this, the beads' own may be longer: rods interlock.
 constexpr float kShortBound = 30;
 /// Interlocked rods are looked at again within this time: further ahead their bounds are not worth the work.
-constexpr float kBeadHorizon = 400;
-/// A bound that allows for straying is good enough if it is this long; a shorter one gives way to a bound for steady
-/// flight, unless that is not much longer either. The plates hit a rod about every 50 ticks.
+constexpr float kBeadHorizon = 200;
+/// A bound within wide limits is good enough if it is this long; a shorter one gives way to the one within narrow
+/// limits, unless that is not much longer either. The plates hit a rod about every 50 ticks.
 constexpr float kLongBound = 40;
-constexpr float kMuchLonger = 2;
+constexpr float kMuchLonger = 1.5;
 
-/// A rod's limit for its precession, from what it is when the limits are set.
-constexpr double kRateFactor = 1.5;
+/// Limits within which the bounds of pairs hold. The wide ones last from one hit by a neighbour to the next, mostly; the
+/// narrow ones let a rod chatter on a plate for a while.
+constexpr Allowance kWide{1.0F, 25.0F, 1.0F, 12.0F};
+constexpr Allowance kNarrow{0.02F, 0.2F, 0.02F, 0.1F};
+constexpr float kNarrowRate = 0.2F;  ///< of the precession [rad/s]
+/// The wide limit for the precession, from what it is when the limits are set.
+constexpr double kRateFactor = 1.2;
 constexpr double kRateMore = 10;  ///< [rad/s]
 
 // loops shorter than this per thread are not worth sharing
@@ -36,7 +41,7 @@ ScheduledStepper::ScheduledStepper(const World& world, int n_threads)
     : rules_(world),
       hull_(world.species),
       lanes_(world.species),
-      allowance_{1.0F, 40.0F, 1.0F, 20.0F},
+      allowances_{kNarrow, kWide},
       neighbors_(world.species, world.scene.box_side, kSkin),
       team_(n_threads),
       rods_(world.rods.size()),
@@ -294,8 +299,14 @@ std::optional<NumericalTrouble> ScheduledStepper::store_changed(World& world, Ti
       Vec3 velocity = flight.velocity;
       velocity.z() -= rules_.gravity * (static_cast<double>(now - flight.since) * rules_.dt);
       if (auto trouble = store(i, flight, rods_[i], now, rules_)) workers_[w].note(std::move(*trouble));
-      add_vector(record.strayed_velocity, flight.velocity - velocity);
-      add_vector(record.strayed_turning, (flight.precession - precession).cross(flight.director));
+      const Vec3 jump = flight.velocity - velocity;
+      const Vec3 turn = flight.precession - precession;
+      const Vec3 turning_jump = turn.cross(flight.director);
+      add_vector(record.strayed_velocity, jump);
+      add_vector(record.strayed_turning, turning_jump);
+      record.jolts += jolt(jump, turning_jump, turn);
+      record.jolted = record.jolts > 1.0F;
+      if (record.jolted) record.jolts = 0;
       record.strayed = !within_limits(record, flight);
       if (record.strayed) set_limits(record, flight);
     }
@@ -305,6 +316,19 @@ std::optional<NumericalTrouble> ScheduledStepper::store_changed(World& world, Ti
 
 // ---- a rod's limits
 
+/// What part of the narrow limits a hit may use up. Parts add up, so whenever a bound was made since they were last set,
+/// it is kept.
+float ScheduledStepper::jolt(const Vec3& velocity, const Vec3& turning, const Vec3& precession) {
+  const auto part = [](const Vec3& jump, float across, float along_z) {
+    return std::max(std::sqrt(jump.x() * jump.x() + jump.y() * jump.y()) / static_cast<double>(across),
+                    std::abs(jump.z()) / static_cast<double>(along_z));
+  };
+  constexpr double kMore = 1.001;  // for rounding
+  return static_cast<float>(kMore * std::max({part(velocity, kNarrow.velocity_xy, kNarrow.velocity_z),
+                                              part(turning, kNarrow.turning_xy, kNarrow.turning_z),
+                                              precession.norm() / static_cast<double>(kNarrowRate)}));
+}
+
 bool ScheduledStepper::within_limits(const RodRecord& record, const Flight& flight) const {
   const auto within = [](const float* strayed, float across, float along_z) {
     constexpr float kKept = 0.998F;  // for rounding: what strayed is a sum of many floats
@@ -312,8 +336,8 @@ bool ScheduledStepper::within_limits(const RodRecord& record, const Flight& flig
            std::abs(strayed[2]) <= kKept * along_z;
   };
   return flight.rate <= static_cast<double>(record.rate_limit) &&
-         within(record.strayed_velocity, allowance_.velocity_xy, allowance_.velocity_z) &&
-         within(record.strayed_turning, allowance_.turning_xy, allowance_.turning_z);
+         within(record.strayed_velocity, allowances_.wide.velocity_xy, allowances_.wide.velocity_z) &&
+         within(record.strayed_turning, allowances_.wide.turning_xy, allowances_.wide.turning_z);
 }
 
 void ScheduledStepper::set_limits(RodRecord& record, const Flight& flight) {
@@ -333,12 +357,13 @@ Outlook ScheduledStepper::outlook(const World& world, int i, Tick now) const {
   set_vector(outlook.director, director);
   set_vector(outlook.velocity, velocity);
   set_vector(outlook.turning, turning);
-  outlook.half_rate2 = static_cast<float>(0.5 * flight.rate * flight.rate);
+  const float rate = static_cast<float>(flight.rate) + kNarrowRate;
+  outlook.half_rate2 = 0.5F * rate * rate;
   for (int c = 0; c < 3; ++c) {
-    outlook.velocity_center[c] = outlook.velocity[c] - record.strayed_velocity[c];
-    outlook.turning_center[c] = outlook.turning[c] - record.strayed_turning[c];
+    outlook.wide_velocity[c] = outlook.velocity[c] - record.strayed_velocity[c];
+    outlook.wide_turning[c] = outlook.turning[c] - record.strayed_turning[c];
   }
-  outlook.half_rate2_limit = 0.5F * record.rate_limit * record.rate_limit;
+  outlook.wide_half_rate2 = 0.5F * record.rate_limit * record.rate_limit;
   return outlook;
 }
 
@@ -420,8 +445,9 @@ void ScheduledStepper::schedule_pairs(const World& world, Tick now) {
   for (const int p : due_pairs_) list(p);
   for (const int i : changed_) {
     const bool strayed = records_[i].strayed;
+    if (!strayed && !records_[i].jolted) continue;
     for (const int p : neighbors_.pairs_of(i)) {
-      if (strayed || (pair_marks_[p] & kSteady)) list(p);
+      if (strayed || (pair_marks_[p] & kNarrowly)) list(p);
     }
   }
   if (to_bound_.empty()) return;
@@ -463,25 +489,25 @@ void ScheduledStepper::bound_pairs(int first, int n, Tick now, Worker& worker) {
     lanes.set(lane, D[lane], outlooks_[i], outlooks_[j]);
   }
   const auto horizon = static_cast<float>(static_cast<double>(TimingWheel::horizon() - 1) * rules_.dt);
-  hull_safe_times(hull_, hull_, lanes, allowance_, horizon, hull);
+  hull_safe_times(hull_, hull_, lanes, allowances_, horizon, hull);
 
   const auto per_dt = static_cast<float>((1.0 - 1e-5) / rules_.dt);
   for (int lane = 0; lane < n; ++lane) {
     const int p = to_bound_[first + lane];
     PairRecord& pair = pairs_[p];
     for (int c = 0; c < 3; ++c) pair.direction[c] = hull.direction[c][lane];
-    float steady = hull.steady[lane] * per_dt;
-    float straying = hull.straying[lane] * per_dt;
-    if (straying < kShortBound && steady < kShortBound) {
+    float narrow = hull.narrow[lane] * per_dt;
+    float wide = hull.wide[lane] * per_dt;
+    if (narrow < kShortBound && wide < kShortBound) {
       const auto& [i, j] = pair.rod;
-      const SafeTime beads = bead_safe_time(lanes_, outlooks_[i], lanes_, outlooks_[j], D[lane], allowance_,
+      const SafeTime beads = bead_safe_time(lanes_, outlooks_[i], lanes_, outlooks_[j], D[lane], allowances_,
                                             kBeadHorizon * static_cast<float>(rules_.dt));
-      steady = std::max(steady, beads.steady * per_dt);
-      straying = std::max(straying, beads.straying * per_dt);
+      narrow = std::max(narrow, beads.narrow * per_dt);
+      wide = std::max(wide, beads.wide * per_dt);
     }
-    const bool is_steady = straying < kLongBound && straying * kMuchLonger < steady;
-    pair_marks_[p] = is_steady ? kSteady : 0;
-    next_[first + lane] = now + 1 + static_cast<Tick>(is_steady ? steady : straying);
+    const bool narrowly = wide < kLongBound && wide * kMuchLonger < narrow;
+    pair_marks_[p] = narrowly ? kNarrowly : 0;
+    next_[first + lane] = now + 1 + static_cast<Tick>(narrowly ? narrow : wide);
   }
 }
 

@@ -38,9 +38,10 @@ class ScheduledStepper final : public Stepper {
 
   /// What the stepper knows of a rod beside its flight.
   struct alignas(64) RodRecord {
-    float strayed_velocity[3] = {0, 0, 0};  ///< change of the velocity by hits since the rod's limits were set [mm/s]
+    float strayed_velocity[3] = {0, 0, 0};  ///< change by hits since the wide limits were set [mm/s]
     float strayed_turning[3] = {0, 0, 0};   ///< the same for d director / dt [1/s]
-    float rate_limit = 0;                   ///< of the precession, for bounds that allow for straying [rad/s]
+    float rate_limit = 0;                   ///< of the precession; part of the wide limits [rad/s]
+    float jolts = 0;                        ///< part of the narrow limits that hits may have used up
     float slack = 1e30F;                    ///< of the neighbour list at `slack_at`, at least [mm]
     float slack_speed = 0;                  ///< at which it shrinks, at most [mm/s]
     Stamp slack_at = 0;
@@ -48,7 +49,8 @@ class ScheduledStepper final : public Stepper {
     Stamp listed_at = 0;   ///< tick at which it was last visited or hit
     Stamp outlook_at = 0;  ///< tick for which outlooks_ holds the rod
     std::int16_t n_touching = 0;  ///< pairs of the rod that are touching
-    bool strayed = false;         ///< hit out of its limits: bounds of its pairs are to be renewed
+    bool strayed = false;         ///< by the last hit, out of its wide limits: all bounds of its pairs are to be renewed
+    bool jolted = false;          ///< out of its narrow limits: those within narrow limits are
   };
   struct PairRecord {
     int rod[2] = {-1, -1};           ///< -1: a number that the neighbour list does not use
@@ -57,7 +59,7 @@ class ScheduledStepper final : public Stepper {
     bool touching = false;           ///< beads overlapped then
   };
   /// What a pair is marked with: kept apart from the records because all pairs of a rod are asked.
-  enum PairMark : std::uint8_t { kSteady = 1 /* the bound holds for steady flight only */, kListed = 2 };
+  enum PairMark : std::uint8_t { kNarrowly = 1 /* the bound holds within narrow limits */, kListed = 2 };
   /// What one thread gathers in a loop.
   struct Worker {
     void note(NumericalTrouble met);
@@ -91,6 +93,7 @@ class ScheduledStepper final : public Stepper {
   bool detect(int p, Worker& worker);
   void turn_touching(int p);
   bool within_limits(const RodRecord& record, const Flight& flight) const;
+  static float jolt(const Vec3& velocity, const Vec3& turning, const Vec3& precession);
   static void set_limits(RodRecord& record, const Flight& flight);
   Outlook outlook(const World& world, int i, Tick now) const;
   float slack_left(int i, Tick now) const;
@@ -101,7 +104,7 @@ class ScheduledStepper final : public Stepper {
   TickRules rules_;
   Hull hull_;
   BeadLanes lanes_;
-  Allowance allowance_;
+  Allowances allowances_;
   NeighborList neighbors_;
   ThreadTeam team_;
 
