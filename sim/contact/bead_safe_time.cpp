@@ -3,13 +3,8 @@
 
 #include <algorithm>
 
-#include "sim/core/vector_clones.h"
-
 namespace shaken {
 namespace {
-
-using lanes::Floats;
-using lanes::Vectors;
 
 /// What the lanes share: everything relative to the centre of rod i, as floats.
 struct Shared {
@@ -27,118 +22,163 @@ struct Relative {
 };
 
 /// Vectors from beads of i to the centre of j.
-[[gnu::always_inline]] inline Vectors to_center(const Shared& in, const Floats& offset_i) {
+template <class F>
+SHAKEN_INLINE lanes::Vectors<F> to_center(const Shared& in, const F& offset_i) {
   return {in.D[0] - offset_i * in.n_i[0], in.D[1] - offset_i * in.n_i[1], in.D[2] - offset_i * in.n_i[2]};
 }
 
 /// Index of the bead of j nearest to a coordinate on its axis.
-[[gnu::always_inline]] inline Floats nearest_bead(const BeadLanes& j, const Floats& foot) {
-  const Floats place = (foot + j.half_length) * (1.0F / j.pitch);
-  return lanes::truncated(lanes::smaller(lanes::larger(place, Floats{}), lanes::all(j.last)) + 0.5F);
+template <class F>
+SHAKEN_INLINE F nearest_bead(const BeadLanes& j, const F& foot) {
+  const F place = (foot + j.half_length) * (1.0F / j.pitch);
+  return lanes::truncated(lanes::smaller(lanes::larger(place, F{}), F{} + j.last) + 0.5F);
 }
 
 /// The beads of j that are not tried next to a foot on its axis, seen from there: how far along the axis the nearest
 /// can be, at least, and how thick, at most. Further ones are thicker at most by the taper, which is less than what
 /// they are further away, unless the foot is very far beside the axis: `widest` is as far as counts.
+template <class F>
 struct Untried {
-  Floats along, radius;
-  [[gnu::always_inline]] Untried(const BeadLanes& j, const Floats& foot) {
-    const Floats outside = lanes::larger(Floats{}, lanes::abs(foot) - j.half_length);
+  F along, radius;
+  SHAKEN_INLINE Untried(const BeadLanes& j, const F& foot) {
+    const F outside = lanes::not_below_zero(lanes::abs(foot) - j.half_length);
     along = outside + j.beyond;
-    radius = j.max_radius - j.thinning * lanes::larger(Floats{}, lanes::abs(foot) - outside - j.beyond);
+    radius = j.max_radius - j.thinning * lanes::not_below_zero(lanes::abs(foot) - outside - j.beyond);
   }
-  [[gnu::always_inline]] Floats distance2(const BeadLanes& j, const Floats& across2) const {
-    return lanes::smaller(across2, lanes::all(j.widest * j.widest)) + along * along;
+  SHAKEN_INLINE F distance2(const BeadLanes& j, const F& across2) const {
+    return lanes::smaller(across2, F{} + j.widest * j.widest) + along * along;
   }
 };
 
 /// Coordinate of the k-th bead of j after `nearest`, or of the last one that there is.
-[[gnu::always_inline]] inline Floats bead_offset(const BeadLanes& j, const Floats& nearest, int k) {
-  const Floats index =
-      lanes::smaller(lanes::larger(nearest + static_cast<float>(k), Floats{}), lanes::all(j.last));
+template <class F>
+SHAKEN_INLINE F bead_offset(const BeadLanes& j, const F& nearest, int k) {
+  const F index =
+      lanes::smaller(lanes::larger(nearest + static_cast<float>(k), F{}), F{} + j.last);
   return index * j.pitch - j.half_length;
 }
 
-/// Which of kLanes beads of i may overlap a bead of j.
-SHAKEN_VECTOR_CLONES
-BeadRange lanes_may_overlap(const Shared& in, const float* offset_i, const float* radius_i, const BeadLanes& j) {
-  const Vectors x = to_center(in, lanes::load(offset_i));
-  const Floats foot = -(x.x * in.n_j[0] + x.y * in.n_j[1] + x.z * in.n_j[2]);
-  const Floats nearest = nearest_bead(j, foot);
-  const Floats radius = lanes::load(radius_i) + in.gap_margin;
-  const Untried untried(j, foot);
-  const Floats cut = lanes::larger(Floats{}, radius + untried.radius);
-  Floats clear = untried.distance2(j, lanes::larger(Floats{}, lanes::dot(x, x) - foot * foot)) - cut * cut;
-  for (int k = -j.reach; k <= j.reach; ++k) {
-    const Floats s_j = bead_offset(j, nearest, k);
-    const Vectors r{x.x + s_j * in.n_j[0], x.y + s_j * in.n_j[1], x.z + s_j * in.n_j[2]};
-    const Floats touch = lanes::larger(Floats{}, radius + j.mid_radius - j.taper * lanes::abs(s_j));
-    clear = lanes::smaller(clear, lanes::dot(r, r) - touch * touch);
-  }
-  if (lanes::least(clear) > 0.0F) return {};
-  constexpr float kNone = 1e3F;
-  const Floats index{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-  const auto near = clear <= 0.0F;
-  return {static_cast<int>(lanes::least(near ? index : lanes::all(kNone))),
-          static_cast<int>(-lanes::least(near ? -index : lanes::all(kNone))) + 1};
-}
-
 /// A time as a fraction, so that the smallest of many is found without dividing.
+template <class F>
 struct Fraction {
-  Floats above, below;  ///< neither negative; forever if `below` is 0
-  [[gnu::always_inline]] void take_smaller(const Floats& other_above, const Floats& other_below) {
+  F above, below;  ///< neither negative; forever if `below` is 0
+  SHAKEN_INLINE void take_smaller(const F& other_above, const F& other_below) {
     const auto other = other_above * below < above * other_below;
     above = other ? other_above : above;
     below = other ? other_below : below;
   }
-  [[gnu::always_inline]] float least() const { return lanes::least(above / (below + 1e-30F)); }
+  SHAKEN_INLINE float least() const { return lanes::least(above / (below + 1e-30F)); }
 };
 
 /// Takes the safe time of beads of i and of j at s_i and s_j, whose centres are r apart, into account: with a gap,
 /// gap >= g + g' t - curvature t^2, where t^2 <= horizon t; overlapping, g' >= g'(0) - 2 curvature t.
-[[gnu::always_inline]] inline void take_safe_time(Fraction& safe, const Relative& m, const Floats& s_i,
-                                                  const Floats& s_j, const Vectors& r, const Floats& inverse_distance,
-                                                  const Floats& gap, float horizon) {
-  const Floats vx = m.v[0] + s_j * m.turn_j[0] - s_i * m.turn_i[0];
-  const Floats vy = m.v[1] + s_j * m.turn_j[1] - s_i * m.turn_i[1];
-  const Floats vz = m.v[2] + s_j * m.turn_j[2] - s_i * m.turn_i[2];
-  const Floats up = lanes::abs(r.z) * inverse_distance;
-  const Floats size_i = lanes::abs(s_i);
-  const Floats size_j = lanes::abs(s_j);
-  const Floats stray = m.stray + m.stray_z * up + (size_i + size_j) * (m.stray_turning + m.stray_turning_z * up);
-  const Floats rate = (vx * r.x + vy * r.y + vz * r.z) * inverse_distance - stray;
-  const Floats curvature = size_i * m.bend_i + size_j * m.bend_j;
+template <class F>
+SHAKEN_INLINE void take_safe_time(Fraction<F>& safe, const Relative& m, const F& s_i,
+                                                  const F& s_j, const lanes::Vectors<F>& r, const F& inverse_distance,
+                                                  const F& gap, float horizon) {
+  const F vx = m.v[0] + s_j * m.turn_j[0] - s_i * m.turn_i[0];
+  const F vy = m.v[1] + s_j * m.turn_j[1] - s_i * m.turn_i[1];
+  const F vz = m.v[2] + s_j * m.turn_j[2] - s_i * m.turn_i[2];
+  const F up = lanes::abs(r.z) * inverse_distance;
+  const F size_i = lanes::abs(s_i);
+  const F size_j = lanes::abs(s_j);
+  const F stray = m.stray + m.stray_z * up + (size_i + size_j) * (m.stray_turning + m.stray_turning_z * up);
+  const F rate = (vx * r.x + vy * r.y + vz * r.z) * inverse_distance - stray;
+  const F curvature = size_i * m.bend_i + size_j * m.bend_j;
   const auto apart = gap > 0.0F;
-  safe.take_smaller(apart ? gap : lanes::larger(rate, Floats{}),
-                    apart ? lanes::larger(curvature * horizon - rate, Floats{}) : 2.0F * curvature + 1e-3F);
+  safe.take_smaller(apart ? gap : lanes::not_below_zero(rate),
+                    apart ? lanes::not_below_zero(curvature * horizon - rate) : 2.0F * curvature + 1e-3F);
 }
 
-/// Safe times of kLanes beads of i against the beads of j around each one's foot on j's axis.
-SHAKEN_VECTOR_CLONES
-SafeTime lanes_safe_time(const Shared& in, const Relative& narrow, const Relative& wide, const float* offset_i,
-                         const float* radius_i, const BeadLanes& j, float horizon) {
-  const Floats s_i = lanes::load(offset_i);
-  const Floats radius = lanes::load(radius_i) + in.gap_margin;
-  const Vectors x = to_center(in, s_i);
-  const Floats foot = -(x.x * in.n_j[0] + x.y * in.n_j[1] + x.z * in.n_j[2]);
-  const Floats nearest = nearest_bead(j, foot);
-  const Untried untried(j, foot);
-  const Floats across2 = lanes::larger(Floats{}, lanes::dot(x, x) - foot * foot);
-  const Floats far =
-      lanes::larger(Floats{}, lanes::sqrt(untried.distance2(j, across2)) - radius - untried.radius);
-  Fraction safe_narrow{far, lanes::all(narrow.fastest)};
-  Fraction safe_wide{far, lanes::all(wide.fastest)};
-  for (int k = -j.reach; k <= j.reach; ++k) {
-    const Floats s_j = bead_offset(j, nearest, k);
-    const Vectors r{x.x + s_j * in.n_j[0], x.y + s_j * in.n_j[1], x.z + s_j * in.n_j[2]};
-    const Floats distance = lanes::sqrt(lanes::dot(r, r));
-    const Floats inverse = 1.0F / (distance + 1e-20F);
-    const Floats gap = distance - (radius + j.mid_radius - j.taper * lanes::abs(s_j));
-    take_safe_time(safe_narrow, narrow, s_i, s_j, r, inverse, gap, horizon);
-    take_safe_time(safe_wide, wide, s_i, s_j, r, inverse, gap, horizon);
+/// Which of the beads of i in the lanes from `first` on may overlap a bead of j.
+struct OverlapKernel {
+  const Shared& in;
+  const BeadLanes& i;
+  const BeadLanes& j;
+  std::size_t first;
+
+  template <int W>
+  SHAKEN_INLINE BeadRange run() const {
+    BeadRange beads;
+    for (int l = 0; l < kLanes; l += W) {
+      const BeadRange some = find<W>(static_cast<int>(first) + l);
+      if (some.empty()) continue;
+      if (beads.empty()) beads.from = some.from;
+      beads.to = some.to;
+    }
+    return beads;
   }
-  return {safe_narrow.least(), safe_wide.least()};
-}
+
+  template <int W>
+  SHAKEN_INLINE BeadRange find(int bead) const {
+    using F = lanes::Floats<W>;
+    const lanes::Vectors<F> x = to_center(in, lanes::load<W>(i.offset.data() + bead));
+    const F foot = -(x.x * in.n_j[0] + x.y * in.n_j[1] + x.z * in.n_j[2]);
+    const F nearest = nearest_bead(j, foot);
+    const F radius = lanes::load<W>(i.radius.data() + bead) + in.gap_margin;
+    const Untried<F> untried(j, foot);
+    const F cut = lanes::not_below_zero(radius + untried.radius);
+    F clear = untried.distance2(j, lanes::not_below_zero(lanes::dot(x, x) - foot * foot)) - cut * cut;
+    for (int k = -j.reach; k <= j.reach; ++k) {
+      const F s_j = bead_offset(j, nearest, k);
+      const lanes::Vectors<F> r{x.x + s_j * in.n_j[0], x.y + s_j * in.n_j[1], x.z + s_j * in.n_j[2]};
+      const F touch = lanes::not_below_zero(radius + j.mid_radius - j.taper * lanes::abs(s_j));
+      clear = lanes::smaller(clear, lanes::dot(r, r) - touch * touch);
+    }
+    if (lanes::least(clear) > 0.0F) return {};
+    BeadRange beads{bead, bead + W};
+    while (clear[beads.from - bead] > 0.0F) ++beads.from;
+    while (clear[beads.to - 1 - bead] > 0.0F) --beads.to;
+    return beads;
+  }
+};
+
+/// Safe times of the beads of i in the lanes from `first` on against the beads of j around each one's foot on j's axis.
+struct SafeTimeKernel {
+  const Shared& in;
+  const Relative& narrow;
+  const Relative& wide;
+  const BeadLanes& i;
+  const BeadLanes& j;
+  std::size_t first;
+  float horizon;
+
+  template <int W>
+  SHAKEN_INLINE SafeTime run() const {
+    SafeTime safe{horizon, horizon};
+    for (int l = 0; l < kLanes; l += W) {
+      const SafeTime some = bound<W>(static_cast<int>(first) + l);
+      safe.narrow = std::min(safe.narrow, some.narrow);
+      safe.wide = std::min(safe.wide, some.wide);
+    }
+    return safe;
+  }
+
+  template <int W>
+  SHAKEN_INLINE SafeTime bound(int bead) const {
+    using F = lanes::Floats<W>;
+    const F s_i = lanes::load<W>(i.offset.data() + bead);
+    const F radius = lanes::load<W>(i.radius.data() + bead) + in.gap_margin;
+    const lanes::Vectors<F> x = to_center(in, s_i);
+    const F foot = -(x.x * in.n_j[0] + x.y * in.n_j[1] + x.z * in.n_j[2]);
+    const F nearest = nearest_bead(j, foot);
+    const Untried<F> untried(j, foot);
+    const F across2 = lanes::not_below_zero(lanes::dot(x, x) - foot * foot);
+    const F far = lanes::not_below_zero(lanes::sqrt(untried.distance2(j, across2)) - radius - untried.radius);
+    Fraction<F> safe_narrow{far, lanes::all<W>(narrow.fastest)};
+    Fraction<F> safe_wide{far, lanes::all<W>(wide.fastest)};
+    for (int k = -j.reach; k <= j.reach; ++k) {
+      const F s_j = bead_offset(j, nearest, k);
+      const lanes::Vectors<F> r{x.x + s_j * in.n_j[0], x.y + s_j * in.n_j[1], x.z + s_j * in.n_j[2]};
+      const F distance = lanes::sqrt(lanes::dot(r, r));
+      const F inverse = 1.0F / (distance + 1e-20F);
+      const F gap = distance - (radius + j.mid_radius - j.taper * lanes::abs(s_j));
+      take_safe_time(safe_narrow, narrow, s_i, s_j, r, inverse, gap, horizon);
+      take_safe_time(safe_wide, wide, s_i, s_j, r, inverse, gap, horizon);
+    }
+    return {safe_narrow.least(), safe_wide.least()};
+  }
+};
 
 float norm(const float* v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
@@ -203,10 +243,10 @@ BeadRange beads_may_overlap(const BeadLanes& i, const Vec3& n_i, const BeadLanes
   const Shared in = shared(i, director_i, j, director_j, D);
   BeadRange beads;
   for (std::size_t first = 0; first < i.offset.size(); first += kLanes) {
-    const BeadRange some = lanes_may_overlap(in, i.offset.data() + first, i.radius.data() + first, j);
+    const BeadRange some = lanes::with_widest_vectors(OverlapKernel{in, i, j, first});
     if (some.empty()) continue;
-    if (beads.empty()) beads.from = static_cast<int>(first) + some.from;
-    beads.to = static_cast<int>(first) + some.to;
+    if (beads.empty()) beads.from = some.from;
+    beads.to = some.to;
   }
   return beads;
 }
@@ -220,7 +260,7 @@ SafeTime bead_safe_time(const BeadLanes& i, const Outlook& a, const BeadLanes& j
                                  a.wide_half_rate2, b.wide_half_rate2, allowances.wide);
   SafeTime safe{horizon, horizon};
   for (std::size_t first = 0; first < i.offset.size(); first += kLanes) {
-    const SafeTime some = lanes_safe_time(in, narrow, wide, i.offset.data() + first, i.radius.data() + first, j, horizon);
+    const SafeTime some = lanes::with_widest_vectors(SafeTimeKernel{in, narrow, wide, i, j, first, horizon});
     safe.narrow = std::min(safe.narrow, some.narrow);
     safe.wide = std::min(safe.wide, some.wide);
   }

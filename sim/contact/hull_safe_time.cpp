@@ -3,53 +3,138 @@
 
 #include <algorithm>
 
-#include "sim/core/vector_clones.h"
-
 namespace shaken {
 namespace {
 
-using lanes::Floats;
-using lanes::Vectors;
-
 /// Point of an axis (|s| <= h, leaning towards its thick middle) from which a point at `foot` along and `across`
 /// beside it is nearest, measured from the hull's surface.
-[[gnu::always_inline]] inline Floats nearest_on_axis(const Floats& half_length, float lean, const Floats& foot,
-                                                     const Floats& across) {
-  const Floats far = lanes::larger(Floats{}, lanes::abs(foot) - lean * across);
-  return lanes::clamp(lanes::with_sign_of(far, foot), half_length);
+template <class F>
+SHAKEN_INLINE F nearest_on_axis(const F& half_length, float lean, const F& foot, const F& across) {
+  return lanes::clamp(lanes::with_sign_of(lanes::not_below_zero(lanes::abs(foot) - lean * across), foot), half_length);
 }
 
 /// How much a director's component along a pair's direction can grow: |n . d| <= |c + w t| + (q t + b) t.
+template <class F>
 struct Cosine {
-  Floats c, w, q, b;
-  [[gnu::always_inline]] Floats at(const Floats& t) const { return lanes::abs(c + w * t) + (q * t + b) * t; }
+  F c, w, q, b;
+  SHAKEN_INLINE F at(const F& t) const { return lanes::abs(c + w * t) + (q * t + b) * t; }
 };
 
-/// Time for which gap + rate t - width_i(t) - width_j(t) stays positive.
-[[gnu::always_inline]] inline Floats safe_time(const Hull& i, const Hull& j, const Floats& gap, const Floats& rate,
-                                               const Cosine& cosine_i, const Cosine& cosine_j, float horizon) {
-  const auto gap_at = [&](const Floats& t) __attribute__((always_inline)) {
-    return gap + rate * t - i.half_length * lanes::larger(Floats{}, cosine_i.at(t) - i.taper) -
-           j.half_length * lanes::larger(Floats{}, cosine_j.at(t) - j.taper);
-  };
-  Floats safe{};
-  Floats beyond = lanes::all(horizon);
-  Floats gap_safe = gap_at(safe);
-  Floats gap_beyond = gap_at(beyond);
-  const Floats at_start = gap_safe;
-  const Floats at_end = gap_beyond;
-  for (int step = 0; step < 3; ++step) {
-    const Floats t = safe + (beyond - safe) * (gap_safe / (gap_safe - gap_beyond + 1e-30F));
-    const Floats gap_t = gap_at(t);
-    const auto inside = gap_t >= 0.0F;  // not so only by rounding: the chord of a concave function lies below it
-    safe = inside ? t : safe;
-    gap_safe = inside ? gap_t : gap_safe;
-    beyond = inside ? beyond : t;
-    gap_beyond = inside ? gap_beyond : gap_t;
+/// gap + rate t - width_i(t) - width_j(t)
+template <class F>
+struct Gap {
+  const Hull& i;
+  const Hull& j;
+  F gap, rate;
+  Cosine<F> cosine_i, cosine_j;
+
+  SHAKEN_INLINE F at(const F& t) const {
+    return gap + rate * t - i.half_length * lanes::not_below_zero(cosine_i.at(t) - i.taper) -
+           j.half_length * lanes::not_below_zero(cosine_j.at(t) - j.taper);
   }
-  safe = at_end >= 0.0F ? lanes::all(horizon) : safe;
-  return at_start > 0.0F ? safe : Floats{};
-}
+  /// Time for which it certainly stays positive.
+  SHAKEN_INLINE F safe_time(float horizon) const {
+    F safe{};
+    F beyond = safe + horizon;
+    F gap_safe = at(safe);
+    F gap_beyond = at(beyond);
+    const F at_start = gap_safe;
+    const F at_end = gap_beyond;
+    for (int step = 0; step < 3; ++step) {
+      const F t = safe + (beyond - safe) * (gap_safe / (gap_safe - gap_beyond + 1e-30F));
+      const F gap_t = at(t);
+      const auto inside = gap_t >= 0.0F;  // not so only by rounding: the chord of a concave function lies below it
+      safe = inside ? t : safe;
+      gap_safe = inside ? gap_t : gap_safe;
+      beyond = inside ? beyond : t;
+      gap_beyond = inside ? gap_beyond : gap_t;
+    }
+    safe = at_end >= 0.0F ? F{} + horizon : safe;
+    return at_start > 0.0F ? safe : F{};
+  }
+};
+
+struct HullKernel {
+  const Hull& i;
+  const Hull& j;
+  const PairLanes& pairs;
+  const Allowances& allowances;
+  float horizon;
+  HullSafeTimes& safe;
+
+  template <int W>
+  SHAKEN_INLINE void run() const {
+    for (int l = 0; l < kLanes; l += W) bound<W>(l);
+  }
+
+  template <int W>
+  SHAKEN_INLINE void bound(int l) const {
+    using F = lanes::Floats<W>;
+    using V = lanes::Vectors<F>;
+    // floats carry 6e-8; a dozen roundings of lengths and of speeds
+    constexpr float kLengthRounding = 1.5e-6F;
+    constexpr float kRateRounding = 3e-6F;
+    const float lean_i = i.taper / std::sqrt(std::max(1e-12F, 1.0F - i.taper * i.taper));
+    const float lean_j = j.taper / std::sqrt(std::max(1e-12F, 1.0F - j.taper * j.taper));
+    const F h_i = lanes::all<W>(i.half_length);
+    const F h_j = lanes::all<W>(j.half_length);
+    const V D = lanes::load<W>(pairs.D, l);
+    const V n_i = lanes::load<W>(pairs.director_i, l);
+    const V n_j = lanes::load<W>(pairs.director_j, l);
+
+    // closest points s on i and t on j; distances between them from products of the inputs
+    const F c = lanes::dot(n_i, n_j);
+    const F d_i = lanes::dot(D, n_i);
+    const F d_j = lanes::dot(D, n_j);
+    const F D2 = lanes::dot(D, D);
+    const F det = 1.0F - c * c;
+    F s = lanes::clamp(det > 1e-5F ? (d_i - c * d_j) / det : 0.5F * d_i, h_i);
+    F t{};
+    for (int pass = 0; pass < 2; ++pass) {
+      const F foot_j = c * s - d_j;
+      const F across_j = lanes::sqrt(lanes::not_below_zero(D2 + s * (s - 2.0F * d_i) - foot_j * foot_j));
+      t = nearest_on_axis(h_j, lean_j, foot_j, across_j);
+      const F foot_i = d_i + c * t;
+      const F across_i = lanes::sqrt(lanes::not_below_zero(D2 + t * (t + 2.0F * d_j) - foot_i * foot_i));
+      s = nearest_on_axis(h_i, lean_i, foot_i, across_i);
+    }
+    V d{D.x + t * n_j.x - s * n_i.x, D.y + t * n_j.y - s * n_i.y, D.z + t * n_j.z - s * n_i.z};
+    const F distance2 = lanes::dot(d, d);
+    const auto apart = distance2 > 1e-12F;
+    const F scale = 1.0F / lanes::sqrt(apart ? distance2 : lanes::all<W>(1.0F));
+    d.x = apart ? d.x * scale : F{};
+    d.y = apart ? d.y * scale : F{};
+    d.z = apart ? d.z * scale : lanes::all<W>(1.0F);
+    lanes::store(safe.direction[0] + l, d.x);
+    lanes::store(safe.direction[1] + l, d.y);
+    lanes::store(safe.direction[2] + l, d.z);
+
+    const F gap = lanes::dot(D, d) - (i.mid_radius + j.mid_radius + 1e-6F) -
+                  kLengthRounding * (lanes::sqrt(D2) + (i.half_length + j.half_length));
+    const F c_i = lanes::dot(n_i, d);
+    const F c_j = lanes::dot(n_j, d);
+    const F up = lanes::abs(d.z);
+    const auto within = [&](const V& v, const V& turn_i, const V& turn_j, const F& q_i, const F& q_j,
+                            const Allowance& allow) __attribute__((always_inline)) {
+      const F stray = 2.0F * (allow.velocity_xy + up * allow.velocity_z);
+      const F stray_turning = allow.turning_xy + up * allow.turning_z;
+      const Gap<F> bound{i,
+                         j,
+                         gap,
+                         lanes::dot(v, d) - stray - (1e-4F + kRateRounding * lanes::size1(v)),
+                         {c_i, lanes::dot(turn_i, d), q_i, stray_turning + kRateRounding * lanes::size1(turn_i)},
+                         {c_j, lanes::dot(turn_j, d), q_j, stray_turning + kRateRounding * lanes::size1(turn_j)}};
+      return bound.safe_time(horizon);
+    };
+    lanes::store(safe.narrow + l, within(lanes::load<W>(pairs.velocity, l), lanes::load<W>(pairs.turning_i, l),
+                                         lanes::load<W>(pairs.turning_j, l), lanes::load<W>(pairs.half_rate2_i + l),
+                                         lanes::load<W>(pairs.half_rate2_j + l), allowances.narrow));
+    lanes::store(safe.wide + l,
+                 within(lanes::load<W>(pairs.wide_velocity, l), lanes::load<W>(pairs.wide_turning_i, l),
+                        lanes::load<W>(pairs.wide_turning_j, l), lanes::load<W>(pairs.wide_half_rate2_i + l),
+                        lanes::load<W>(pairs.wide_half_rate2_j + l), allowances.wide));
+  }
+};
 
 }  // namespace
 
@@ -71,68 +156,9 @@ void PairLanes::set(int lane, const Vec3& D_ij, const Outlook& i, const Outlook&
   wide_half_rate2_j[lane] = j.wide_half_rate2;
 }
 
-SHAKEN_VECTOR_CLONES
 void hull_safe_times(const Hull& i, const Hull& j, const PairLanes& pairs, const Allowances& allowances, float horizon,
                      HullSafeTimes& safe) {
-  // floats carry 6e-8; a dozen roundings of lengths and of speeds
-  constexpr float kLengthRounding = 1.5e-6F;
-  constexpr float kRateRounding = 3e-6F;
-  const auto lean = [](const Hull& hull) { return hull.taper / std::sqrt(std::max(1e-12F, 1.0F - hull.taper * hull.taper)); };
-  const float lean_i = lean(i);
-  const float lean_j = lean(j);
-  const Floats h_i = lanes::all(i.half_length);
-  const Floats h_j = lanes::all(j.half_length);
-  const Vectors D = lanes::load(pairs.D);
-  const Vectors n_i = lanes::load(pairs.director_i);
-  const Vectors n_j = lanes::load(pairs.director_j);
-
-  // closest points s on i and t on j; distances between them from products of the inputs
-  const Floats c = lanes::dot(n_i, n_j);
-  const Floats d_i = lanes::dot(D, n_i);
-  const Floats d_j = lanes::dot(D, n_j);
-  const Floats D2 = lanes::dot(D, D);
-  const Floats det = 1.0F - c * c;
-  Floats s = lanes::clamp(det > 1e-5F ? (d_i - c * d_j) / det : 0.5F * d_i, h_i);
-  Floats t{};
-  for (int pass = 0; pass < 2; ++pass) {
-    const Floats foot_j = c * s - d_j;
-    const Floats across_j = D2 + s * (s - 2.0F * d_i) - foot_j * foot_j;
-    t = nearest_on_axis(h_j, lean_j, foot_j, lanes::sqrt(lanes::larger(Floats{}, across_j)));
-    const Floats foot_i = d_i + c * t;
-    const Floats across_i = D2 + t * (t + 2.0F * d_j) - foot_i * foot_i;
-    s = nearest_on_axis(h_i, lean_i, foot_i, lanes::sqrt(lanes::larger(Floats{}, across_i)));
-  }
-  Vectors d{D.x + t * n_j.x - s * n_i.x, D.y + t * n_j.y - s * n_i.y, D.z + t * n_j.z - s * n_i.z};
-  const Floats distance2 = lanes::dot(d, d);
-  const auto apart = distance2 > 1e-12F;
-  const Floats scale = 1.0F / lanes::sqrt(apart ? distance2 : lanes::all(1.0F));
-  d.x = apart ? d.x * scale : Floats{};
-  d.y = apart ? d.y * scale : Floats{};
-  d.z = apart ? d.z * scale : lanes::all(1.0F);
-  lanes::store(safe.direction[0], d.x);
-  lanes::store(safe.direction[1], d.y);
-  lanes::store(safe.direction[2], d.z);
-
-  const Floats gap = lanes::dot(D, d) - (i.mid_radius + j.mid_radius + 1e-6F) -
-                     kLengthRounding * (lanes::sqrt(D2) + (i.half_length + j.half_length));
-  const Floats c_i = lanes::dot(n_i, d);
-  const Floats c_j = lanes::dot(n_j, d);
-
-  const Floats up = lanes::abs(d.z);
-  const auto bound = [&](const Vectors& v, const Vectors& turn_i, const Vectors& turn_j, const Floats& q_i,
-                         const Floats& q_j, const Allowance& allow) __attribute__((always_inline)) {
-    const Floats stray = 2.0F * (allow.velocity_xy + up * allow.velocity_z);
-    const Floats stray_turning = allow.turning_xy + up * allow.turning_z;
-    return safe_time(i, j, gap, lanes::dot(v, d) - stray - (1e-4F + kRateRounding * lanes::size1(v)),
-                     {c_i, lanes::dot(turn_i, d), q_i, stray_turning + kRateRounding * lanes::size1(turn_i)},
-                     {c_j, lanes::dot(turn_j, d), q_j, stray_turning + kRateRounding * lanes::size1(turn_j)}, horizon);
-  };
-  lanes::store(safe.narrow,
-               bound(lanes::load(pairs.velocity), lanes::load(pairs.turning_i), lanes::load(pairs.turning_j),
-                     lanes::load(pairs.half_rate2_i), lanes::load(pairs.half_rate2_j), allowances.narrow));
-  lanes::store(safe.wide, bound(lanes::load(pairs.wide_velocity), lanes::load(pairs.wide_turning_i),
-                                lanes::load(pairs.wide_turning_j), lanes::load(pairs.wide_half_rate2_i),
-                                lanes::load(pairs.wide_half_rate2_j), allowances.wide));
+  lanes::with_widest_vectors(HullKernel{i, j, pairs, allowances, horizon, safe});
 }
 
 }  // namespace shaken

@@ -3,71 +3,159 @@
 
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
-// Vectors go from function to function in registers here, or the function is not inlined and all is lost: the warning
+/// Floats that are computed with several at a time, in the compiler's own vectors, and the choice of how many: one
+/// program runs on any x86-64 and uses what the machine has. For bounds and filters, whose results decide where to look
+/// and never what is found: their last bits may differ between machines.
+///
+/// A kernel is a template over the number of lanes W, with every function in it inlined by force, so that it becomes part
+/// of a caller that is compiled for that width (with_widest_vectors).
+
+// Vectors go from function to function in registers here or, where a function is not inlined, all is lost: the warning
 // that it would then be done differently on other machines is beside the point.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
-/// Sixteen floats that are computed with as one, by the compiler's own vectors: whatever the machine has, from one
-/// register of AVX-512 to four of SSE, and the same bits on all of them. For bounds and filters, whose results decide
-/// where to look and never what is found. The functions are inlined by force so that they become part of whichever
-/// clone of their caller (core/vector_clones.h) the machine runs.
+#define SHAKEN_INLINE [[gnu::always_inline]] inline
+
 namespace shaken::lanes {
 
+/// Bounds are made for so many things in one go: the widest vector's worth.
 inline constexpr int kLanes = 16;
 
-using Floats = float __attribute__((vector_size(kLanes * sizeof(float))));
-using Ints = std::int32_t __attribute__((vector_size(kLanes * sizeof(std::int32_t))));
-
-#define SHAKEN_LANES [[gnu::always_inline]] inline
+template <int W>
+struct Vector {
+  // as typedefs: g++ 12 drops the attribute from an alias that depends on W
+  typedef float Floats __attribute__((vector_size(W * sizeof(float))));
+  typedef std::int32_t Ints __attribute__((vector_size(W * sizeof(std::int32_t))));
+};
+template <int W>
+using Floats = typename Vector<W>::Floats;
+template <int W>
+using Ints = typename Vector<W>::Ints;
 
 /// x in every lane.
-SHAKEN_LANES Floats all(float x) { return Floats{} + x; }
-SHAKEN_LANES Floats load(const float* from) {
-  Floats x;
+template <int W>
+SHAKEN_INLINE Floats<W> all(float x) {
+  return Floats<W>{} + x;
+}
+template <int W>
+SHAKEN_INLINE Floats<W> load(const float* from) {
+  Floats<W> x;
   __builtin_memcpy(&x, from, sizeof x);
   return x;
 }
-SHAKEN_LANES void store(float* to, const Floats& x) { __builtin_memcpy(to, &x, sizeof x); }
+template <class F>
+SHAKEN_INLINE void store(float* to, const F& x) {
+  __builtin_memcpy(to, &x, sizeof x);
+}
 
-SHAKEN_LANES Floats larger(const Floats& a, const Floats& b) { return a > b ? a : b; }
-SHAKEN_LANES Floats smaller(const Floats& a, const Floats& b) { return a < b ? a : b; }
-SHAKEN_LANES Floats clamp(const Floats& x, const Floats& limit) { return larger(-limit, smaller(limit, x)); }
-SHAKEN_LANES Floats abs(const Floats& x) { return reinterpret_cast<Floats>(reinterpret_cast<Ints>(x) & 0x7fffffff); }
+template <class F>
+inline constexpr int width = sizeof(F) / sizeof(float);
+
+template <class F>
+SHAKEN_INLINE F larger(const F& a, const F& b) {
+  return a > b ? a : b;
+}
+template <class F>
+SHAKEN_INLINE F smaller(const F& a, const F& b) {
+  return a < b ? a : b;
+}
+template <class F>
+SHAKEN_INLINE F not_below_zero(const F& a) {
+  return larger(a, F{});
+}
+template <class F>
+SHAKEN_INLINE F clamp(const F& x, const F& limit) {
+  return larger(-limit, smaller(limit, x));
+}
+template <class F>
+SHAKEN_INLINE F abs(const F& x) {
+  using I = Ints<width<F>>;
+  return reinterpret_cast<F>(reinterpret_cast<I>(x) & 0x7fffffff);
+}
 /// |size|, with the sign of `sign`.
-SHAKEN_LANES Floats with_sign_of(const Floats& size, const Floats& sign) {
-  return reinterpret_cast<Floats>((reinterpret_cast<Ints>(size) & 0x7fffffff) |
-                                  (reinterpret_cast<Ints>(sign) & static_cast<std::int32_t>(0x80000000)));
+template <class F>
+SHAKEN_INLINE F with_sign_of(const F& size, const F& sign) {
+  using I = Ints<width<F>>;
+  return reinterpret_cast<F>((reinterpret_cast<I>(size) & 0x7fffffff) |
+                             (reinterpret_cast<I>(sign) & static_cast<std::int32_t>(0x80000000)));
 }
 /// Towards zero; |x| < 2^31.
-SHAKEN_LANES Floats truncated(const Floats& x) {
-  return __builtin_convertvector(__builtin_convertvector(x, Ints), Floats);
+template <class F>
+SHAKEN_INLINE F truncated(const F& x) {
+  return __builtin_convertvector(__builtin_convertvector(x, Ints<width<F>>), F);
 }
-SHAKEN_LANES Floats sqrt(const Floats& x) {
-  Floats root;
-  for (int l = 0; l < kLanes; ++l) root[l] = std::sqrt(x[l]);
+template <class F>
+SHAKEN_INLINE F sqrt(const F& x) {
+  F root;
+  for (int l = 0; l < width<F>; ++l) root[l] = std::sqrt(x[l]);
   return root;
 }
 /// The least of all lanes.
-SHAKEN_LANES float least(const Floats& x) {
-  const Ints eight{8, 9, 10, 11, 12, 13, 14, 15, 0, 1, 2, 3, 4, 5, 6, 7};
-  const Ints four{4, 5, 6, 7, 0, 1, 2, 3, 12, 13, 14, 15, 8, 9, 10, 11};
-  const Ints two{2, 3, 0, 1, 6, 7, 4, 5, 10, 11, 8, 9, 14, 15, 12, 13};
-  Floats y = smaller(x, __builtin_shuffle(x, eight));
-  y = smaller(y, __builtin_shuffle(y, four));
-  y = smaller(y, __builtin_shuffle(y, two));
-  return y[0] < y[1] ? y[0] : y[1];
+template <class F>
+SHAKEN_INLINE float least(const F& x) {
+  constexpr int W = width<F>;
+  if constexpr (W == 1) {
+    return x[0];
+  } else {
+    Floats<W / 2> half[2];
+    __builtin_memcpy(half, &x, sizeof x);
+    return least(smaller(half[0], half[1]));
+  }
 }
 
 /// Three components.
+template <class F>
 struct Vectors {
-  Floats x, y, z;
+  F x, y, z;
 };
-SHAKEN_LANES Vectors load(const float (*from)[kLanes]) { return {load(from[0]), load(from[1]), load(from[2])}; }
-SHAKEN_LANES Floats dot(const Vectors& a, const Vectors& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+template <int W>
+SHAKEN_INLINE Vectors<Floats<W>> load(const float (*from)[kLanes], int l) {
+  return {load<W>(from[0] + l), load<W>(from[1] + l), load<W>(from[2] + l)};
+}
+template <class F>
+SHAKEN_INLINE F dot(const Vectors<F>& a, const Vectors<F>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 /// Sum of the components' sizes.
-SHAKEN_LANES Floats size1(const Vectors& a) { return abs(a.x) + abs(a.y) + abs(a.z); }
+template <class F>
+SHAKEN_INLINE F size1(const Vectors<F>& a) {
+  return abs(a.x) + abs(a.y) + abs(a.z);
+}
 
-#undef SHAKEN_LANES
+// ---- the machine's width
+
+#if defined(__x86_64__)
+namespace detail {
+
+inline int widest() {
+  __builtin_cpu_init();
+  if (__builtin_cpu_supports("avx512f")) return 16;
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") ? 8 : 4;
+}
+inline int machine_width = widest();  ///< tests narrow it
+
+template <class Kernel>
+[[gnu::target("avx512f,avx512dq,fma"), gnu::noinline]] auto run_16(const Kernel& kernel) {
+  return kernel.template run<16>();
+}
+template <class Kernel>
+[[gnu::target("avx2,fma"), gnu::noinline]] auto run_8(const Kernel& kernel) {
+  return kernel.template run<8>();
+}
+
+}  // namespace detail
+#endif
+
+/// kernel.run<W>(), with W the number of floats in this machine's vectors. `run` must be SHAKEN_INLINE.
+template <class Kernel>
+auto with_widest_vectors(const Kernel& kernel) {
+#if defined(__x86_64__)
+  if (detail::machine_width == 16) return detail::run_16(kernel);
+  if (detail::machine_width == 8) return detail::run_8(kernel);
+#endif
+  return kernel.template run<4>();
+}
 
 }  // namespace shaken::lanes

@@ -3,23 +3,20 @@
 
 #include <cmath>
 
-#include "sim/core/vector_clones.h"
-
 namespace shaken {
 namespace {
 
-using lanes::Floats;
-
 /// Time for which a bead stays off a plate, or goes on receding from within it, if its acceleration towards the plate
 /// never exceeds `pull`.
-[[gnu::always_inline]] inline Floats safe_time(const Floats& gap, const Floats& rate, const Floats& pull) {
-  const Floats open = lanes::larger(gap, Floats{});
-  const Floats root = lanes::sqrt(rate * rate + 2.0F * pull * open);
+template <class F>
+SHAKEN_INLINE F safe_time(const F& gap, const F& rate, const F& pull) {
+  const F open = lanes::not_below_zero(gap);
+  const F root = lanes::sqrt(rate * rate + 2.0F * pull * open);
   // receding: the first time at which it can be back or, in the plate, the time up to which it certainly recedes
-  const Floats recede = root + (gap > 0.0F ? rate : Floats{});
+  const F recede = root + (gap > 0.0F ? rate : F{});
   const auto receding = rate > 0.0F;
-  const Floats above = receding ? recede : 2.0F * open;
-  const Floats below = (receding ? pull : root - rate) + 1e-30F;
+  const F above = receding ? recede : 2.0F * open;
+  const F below = (receding ? pull : root - rate) + 1e-30F;
   return above / below;
 }
 
@@ -35,47 +32,60 @@ struct PlatesAt {
 };
 
 /// Adds to `safe` (in ticks) what is safe from there on.
-SHAKEN_VECTOR_CLONES
-void extend(const Constants& k, const PlateLanes& rods, const PlatesAt& plates, float* safe) {
+struct PlateKernel {
+  const Constants& k;
+  const PlateLanes& rods;
+  const PlatesAt& plates;
+  float* safe;
+
+  template <int W>
+  SHAKEN_INLINE void run() const {
+    for (int l = 0; l < kLanes; l += W) extend<W>(l);
+  }
+
+  template <int W>
+  SHAKEN_INLINE void extend(int l) const {
+  using F = lanes::Floats<W>;
   // floats carry 6e-8; a dozen roundings of lengths and of speeds
   constexpr float kLengthRounding = 1e-6F;
   constexpr float kRateRounding = 2e-6F;
   const float h = k.half_length;
-  const Floats velocity = lanes::load(rods.velocity);
-  const Floats n_z_rate = lanes::load(rods.n_z_rate);
-  const Floats plate_velocity = lanes::load(plates.velocity);
-  const Floats base = lanes::load(plates.base);
-  const Floats lid = lanes::load(plates.lid);
-  const Floats ticks = lanes::load(safe);
-  const Floats t = ticks * k.dt;
+  const F velocity = lanes::load<W>(rods.velocity + l);
+  const F n_z_rate = lanes::load<W>(rods.n_z_rate + l);
+  const F plate_velocity = lanes::load<W>(plates.velocity + l);
+  const F base = lanes::load<W>(plates.base + l);
+  const F lid = lanes::load<W>(plates.lid + l);
+  const F ticks = lanes::load<W>(safe + l);
+  const F t = ticks * k.dt;
 
-  const Floats height = lanes::load(rods.z) + (velocity - 0.5F * k.gravity * t) * t;
-  const Floats rise = velocity - k.gravity * t - plate_velocity;
-  const Floats bend = h * lanes::load(rods.rate2);  // bounds the ends' own acceleration
-  const Floats sag = 0.5F * bend * t * t;           // how much further an end may be than its tangent says
-  const Floats end = h * (lanes::load(rods.n_z) + n_z_rate * t);
-  const Floats end_rate = h * n_z_rate;
-  const Floats gap_margin = kLengthRounding * (1.0F + h + lanes::abs(height) + lanes::abs(lid));
-  const Floats rate_margin = 1e-4F + kRateRounding * (lanes::abs(velocity) + k.gravity * t +
+  const F height = lanes::load<W>(rods.z + l) + (velocity - 0.5F * k.gravity * t) * t;
+  const F rise = velocity - k.gravity * t - plate_velocity;
+  const F bend = h * lanes::load<W>(rods.rate2 + l);  // bounds the ends' own acceleration
+  const F sag = 0.5F * bend * t * t;           // how much further an end may be than its tangent says
+  const F end = h * (lanes::load<W>(rods.n_z + l) + n_z_rate * t);
+  const F end_rate = h * n_z_rate;
+  const F gap_margin = kLengthRounding * (1.0F + h + lanes::abs(height) + lanes::abs(lid));
+  const F rate_margin = 1e-4F + kRateRounding * (lanes::abs(velocity) + k.gravity * t +
                                                       lanes::abs(plate_velocity) + lanes::abs(end_rate));
-  const Floats above = height - base - gap_margin;  // centre above the base
-  const Floats below = lid - height - gap_margin;   // centre below the lid
-  const Floats up = rise - rate_margin;
-  const Floats down = -rise - rate_margin;
-  const Floats end_room = sag + k.end_radius;
-  const Floats slow = bend * t;
-  const Floats pull_base = k.pull_base + bend;
-  const Floats pull_lid = lanes::larger(Floats{}, k.pull_lid + bend);
+  const F above = height - base - gap_margin;  // centre above the base
+  const F below = lid - height - gap_margin;   // centre below the lid
+  const F up = rise - rate_margin;
+  const F down = -rise - rate_margin;
+  const F end_room = sag + k.end_radius;
+  const F slow = bend * t;
+  const F pull_base = k.pull_base + bend;
+  const F pull_lid = lanes::not_below_zero(k.pull_lid + bend);
 
-  Floats time = safe_time(above - k.mid_radius, up, lanes::all(k.pull_base));
-  time = lanes::smaller(time, safe_time(below - k.mid_radius, down, lanes::larger(Floats{}, lanes::all(k.pull_lid))));
+  F time = safe_time(above - k.mid_radius, up, lanes::all<W>(k.pull_base));
+  time = lanes::smaller(time, safe_time(below - k.mid_radius, down, lanes::not_below_zero(lanes::all<W>(k.pull_lid))));
   time = lanes::smaller(time, safe_time(above + end - end_room, up + end_rate - slow, pull_base));
   time = lanes::smaller(time, safe_time(above - end - end_room, up - end_rate - slow, pull_base));
   time = lanes::smaller(time, safe_time(below - end - end_room, down - end_rate - slow, pull_lid));
   time = lanes::smaller(time, safe_time(below + end - end_room, down + end_rate - slow, pull_lid));
-  const Floats more = lanes::truncated(lanes::smaller(time * k.per_dt, lanes::all(k.horizon)));
-  lanes::store(safe, lanes::smaller(ticks + more, lanes::all(k.horizon)));
+  const F more = lanes::truncated(lanes::smaller(time * k.per_dt, lanes::all<W>(k.horizon)));
+  lanes::store(safe + l, lanes::smaller(ticks + more, lanes::all<W>(k.horizon)));
 }
+};
 
 }  // namespace
 
@@ -100,10 +110,10 @@ void plate_safe_ticks(const Species& species, const PlateMotion& plates, const P
   };
   const PlateState first = plates.at(now);
   for (int l = 0; l < kLanes; ++l) see(l, first);
-  extend(k, rods, at, ticks);
+  lanes::with_widest_vectors(PlateKernel{k, rods, at, ticks});
   for (int step = 1; step < kSteps; ++step) {
     for (int l = 0; l < n; ++l) see(l, plates.at(now + static_cast<Tick>(ticks[l])));
-    extend(k, rods, at, ticks);
+    lanes::with_widest_vectors(PlateKernel{k, rods, at, ticks});
   }
   for (int l = 0; l < n; ++l) safe[l] = static_cast<Tick>(ticks[l]);
 }
