@@ -15,10 +15,10 @@ struct Shared {
 /// How two rods move relative to each other, within one of their sets of limits.
 struct Relative {
   float v[3], turn_i[3], turn_j[3];
-  float bend_i, bend_j;              ///< halves of the bounds on the directors' second derivatives
-  float stray, stray_z;              ///< what the centres' relative velocity may stray by, across and along z
+  float bend_i, bend_j;                  ///< halves of the bounds on the directors' second derivatives
+  float stray, stray_z;                  ///< what the centres' relative velocity may stray by, across and along z
   float stray_turning, stray_turning_z;  ///< the same for each director's rate
-  float fastest;                     ///< no two beads approach faster than this
+  float fastest;                         ///< no two beads approach faster than this
 };
 
 /// Vectors from beads of i to the centre of j.
@@ -53,8 +53,7 @@ struct Untried {
 /// Coordinate of the k-th bead of j after `nearest`, or of the last one that there is.
 template <class F>
 SHAKEN_INLINE F bead_offset(const BeadLanes& j, const F& nearest, int k) {
-  const F index =
-      lanes::smaller(lanes::larger(nearest + static_cast<float>(k), F{}), F{} + j.last);
+  const F index = lanes::smaller(lanes::larger(nearest + static_cast<float>(k), F{}), F{} + j.last);
   return index * j.pitch - j.half_length;
 }
 
@@ -73,9 +72,8 @@ struct Fraction {
 /// Takes the safe time of beads of i and of j at s_i and s_j, whose centres are r apart, into account: with a gap,
 /// gap >= g + g' t - curvature t^2, where t^2 <= horizon t; overlapping, g' >= g'(0) - 2 curvature t.
 template <class F>
-SHAKEN_INLINE void take_safe_time(Fraction<F>& safe, const Relative& m, const F& s_i,
-                                                  const F& s_j, const lanes::Vectors<F>& r, const F& inverse_distance,
-                                                  const F& gap, float horizon) {
+SHAKEN_INLINE void take_safe_time(Fraction<F>& safe, const Relative& m, const F& s_i, const F& s_j,
+                                  const lanes::Vectors<F>& r, const F& inverse_distance, const F& gap, float horizon) {
   const F vx = m.v[0] + s_j * m.turn_j[0] - s_i * m.turn_i[0];
   const F vy = m.v[1] + s_j * m.turn_j[1] - s_i * m.turn_i[1];
   const F vz = m.v[2] + s_j * m.turn_j[2] - s_i * m.turn_i[2];

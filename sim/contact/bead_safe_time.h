@@ -15,10 +15,10 @@ struct BeadLanes {
   std::vector<float> offset;  ///< (n_beads rounded up to a multiple of kLanes) [mm]
   std::vector<float> radius;  ///< the same; lanes past the last bead hold a bead that is never near [mm]
   float half_length, mid_radius, max_radius, taper;
-  float last;   ///< index of the last bead
-  float pitch;  ///< distance of neighbouring beads [mm]
-  int reach;    ///< beads to each side of a foot that are tried one by one
-  float beyond;  ///< distance along the axis at which the others begin [mm]
+  float last;          ///< index of the last bead
+  float pitch;         ///< distance of neighbouring beads [mm]
+  int reach;           ///< beads to each side of a foot that are tried one by one
+  float beyond;        ///< distance along the axis at which the others begin [mm]
   float thinning = 0;  ///< loss of radius per length that the others are sure to have
   float widest = 0;    ///< distance beside the axis up to which the others' gap grows along it [mm]
 };
@@ -28,9 +28,11 @@ BeadRange beads_may_overlap(const BeadLanes& i, const Vec3& n_i, const BeadLanes
 
 /// Times for which no bead of i and bead of j begins to touch or, if they overlap, begins to approach; at most
 /// `horizon` [s]. For rods whose hulls overlap while the beads interlock without touching.
-/// Model:  along the line of centres e of two beads, e . r(t) >= r + r' t - (|s_a| q_i + |s_b| q_j) t^2, with q half the
-///         directors' second derivative, and the distance is at least that (t^2 <= horizon t makes it linear). Each bead of i is tried against the beads
-///         of j next to its foot on j's axis; those beyond are covered by their distance and the fastest approach.
+/// Model:  along the line of centres e of two beads, e . r(t) >= r + r' t - (|s_a| q_i + |s_b| q_j) t^2, with q half
+/// the
+///         directors' second derivative, and the distance is at least that (t^2 <= horizon t makes it linear). Each
+///         bead of i is tried against the beads of j next to its foot on j's axis; those beyond are covered by their
+///         distance and the fastest approach.
 /// Arguments: D is the vector from centre i to centre j [mm].
 SafeTime bead_safe_time(const BeadLanes& i, const Outlook& outlook_i, const BeadLanes& j, const Outlook& outlook_j,
                         const Vec3& D, const Allowances& allowances, float horizon);

@@ -32,7 +32,7 @@ inline Mat3 point_compliance(const InverseInertia& inverse, const Vec3& director
 
 /// Applies impulse P [mg mm/s] at `arm` to a rod.
 inline void apply_impulse(Motion& motion, const InverseInertia& inverse, const Vec3& director, const Vec3& arm,
-                   const Vec3& impulse) {
+                          const Vec3& impulse) {
   const Vec3 torque = arm.cross(impulse);
   motion.velocity += inverse.mass * impulse;
   motion.angular_velocity += inverse.perp * torque + ((inverse.par - inverse.perp) * torque.dot(director)) * director;

@@ -9,8 +9,8 @@
 /// program runs on any x86-64 and uses what the machine has. For bounds and filters, whose results decide where to look
 /// and never what is found: their last bits may differ between machines.
 ///
-/// A kernel is a template over the number of lanes W, with every function in it inlined by force, so that it becomes part
-/// of a caller that is compiled for that width (with_widest_vectors).
+/// A kernel is a template over the number of lanes W, with every function in it inlined by force, so that it becomes
+/// part of a caller that is compiled for that width (with_widest_vectors).
 
 // Vectors go from function to function in registers here or, where a function is not inlined, all is lost: the warning
 // that it would then be done differently on other machines is beside the point.
@@ -136,12 +136,14 @@ inline int widest() {
 }
 inline int machine_width = widest();  ///< tests narrow it
 
+// Multiply and add may be fused here, and only here: trajectories are computed elsewhere.
+
 template <class Kernel>
-[[gnu::target("avx512f,avx512dq,fma"), gnu::noinline]] auto run_16(const Kernel& kernel) {
+[[gnu::target("avx512f,fma"), gnu::optimize("fp-contract=fast"), gnu::noinline]] auto run_16(const Kernel& kernel) {
   return kernel.template run<16>();
 }
 template <class Kernel>
-[[gnu::target("avx2,fma"), gnu::noinline]] auto run_8(const Kernel& kernel) {
+[[gnu::target("avx2,fma"), gnu::optimize("fp-contract=fast"), gnu::noinline]] auto run_8(const Kernel& kernel) {
   return kernel.template run<8>();
 }
 

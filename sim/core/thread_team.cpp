@@ -16,10 +16,15 @@ inline void pause() {
 
 /// Waits until `value` is no longer `old`.
 void wait_for_change(const std::atomic<std::uint32_t>& value, std::uint32_t old) {
-  constexpr int kSpins = 4000;  // a few tens of microseconds: longer than a tick's serial parts
-  for (int spin = 0; spin < kSpins; ++spin) {
+  constexpr int kSpins = 1000;  // some ten microseconds: longer than the serial parts of most ticks
+  constexpr int kYields = 200;  // then perhaps another thread of ours waits for this very core
+  for (int spin = 0; spin < kSpins + kYields; ++spin) {
     if (value.load(std::memory_order_acquire) != old) return;
-    pause();
+    if (spin < kSpins) {
+      pause();
+    } else {
+      std::this_thread::yield();
+    }
   }
   value.wait(old, std::memory_order_acquire);
 }

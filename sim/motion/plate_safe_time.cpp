@@ -45,61 +45,63 @@ struct PlateKernel {
 
   template <int W>
   SHAKEN_INLINE void extend(int l) const {
-  using F = lanes::Floats<W>;
-  // floats carry 6e-8; a dozen roundings of lengths and of speeds
-  constexpr float kLengthRounding = 1e-6F;
-  constexpr float kRateRounding = 2e-6F;
-  const float h = k.half_length;
-  const F velocity = lanes::load<W>(rods.velocity + l);
-  const F n_z_rate = lanes::load<W>(rods.n_z_rate + l);
-  const F plate_velocity = lanes::load<W>(plates.velocity + l);
-  const F base = lanes::load<W>(plates.base + l);
-  const F lid = lanes::load<W>(plates.lid + l);
-  const F ticks = lanes::load<W>(safe + l);
-  const F t = ticks * k.dt;
+    using F = lanes::Floats<W>;
+    // floats carry 6e-8; a dozen roundings of lengths and of speeds
+    constexpr float kLengthRounding = 1e-6F;
+    constexpr float kRateRounding = 2e-6F;
+    const float h = k.half_length;
+    const F velocity = lanes::load<W>(rods.velocity + l);
+    const F n_z_rate = lanes::load<W>(rods.n_z_rate + l);
+    const F plate_velocity = lanes::load<W>(plates.velocity + l);
+    const F base = lanes::load<W>(plates.base + l);
+    const F lid = lanes::load<W>(plates.lid + l);
+    const F ticks = lanes::load<W>(safe + l);
+    const F t = ticks * k.dt;
 
-  const F height = lanes::load<W>(rods.z + l) + (velocity - 0.5F * k.gravity * t) * t;
-  const F rise = velocity - k.gravity * t - plate_velocity;
-  const F bend = h * lanes::load<W>(rods.rate2 + l);  // bounds the ends' own acceleration
-  const F sag = 0.5F * bend * t * t;           // how much further an end may be than its tangent says
-  const F end = h * (lanes::load<W>(rods.n_z + l) + n_z_rate * t);
-  const F end_rate = h * n_z_rate;
-  const F gap_margin = kLengthRounding * (1.0F + h + lanes::abs(height) + lanes::abs(lid));
-  const F rate_margin = 1e-4F + kRateRounding * (lanes::abs(velocity) + k.gravity * t +
-                                                      lanes::abs(plate_velocity) + lanes::abs(end_rate));
-  const F above = height - base - gap_margin;  // centre above the base
-  const F below = lid - height - gap_margin;   // centre below the lid
-  const F up = rise - rate_margin;
-  const F down = -rise - rate_margin;
-  const F end_room = sag + k.end_radius;
-  const F slow = bend * t;
-  const F pull_base = k.pull_base + bend;
-  const F pull_lid = lanes::not_below_zero(k.pull_lid + bend);
+    const F height = lanes::load<W>(rods.z + l) + (velocity - 0.5F * k.gravity * t) * t;
+    const F rise = velocity - k.gravity * t - plate_velocity;
+    const F bend = h * lanes::load<W>(rods.rate2 + l);  // bounds the ends' own acceleration
+    const F sag = 0.5F * bend * t * t;                  // how much further an end may be than its tangent says
+    const F end = h * (lanes::load<W>(rods.n_z + l) + n_z_rate * t);
+    const F end_rate = h * n_z_rate;
+    const F gap_margin = kLengthRounding * (1.0F + h + lanes::abs(height) + lanes::abs(lid));
+    const F rate_margin = 1e-4F + kRateRounding * (lanes::abs(velocity) + k.gravity * t + lanes::abs(plate_velocity) +
+                                                   lanes::abs(end_rate));
+    const F above = height - base - gap_margin;  // centre above the base
+    const F below = lid - height - gap_margin;   // centre below the lid
+    const F up = rise - rate_margin;
+    const F down = -rise - rate_margin;
+    const F end_room = sag + k.end_radius;
+    const F slow = bend * t;
+    const F pull_base = k.pull_base + bend;
+    const F pull_lid = lanes::not_below_zero(k.pull_lid + bend);
 
-  F time = safe_time(above - k.mid_radius, up, lanes::all<W>(k.pull_base));
-  time = lanes::smaller(time, safe_time(below - k.mid_radius, down, lanes::not_below_zero(lanes::all<W>(k.pull_lid))));
-  time = lanes::smaller(time, safe_time(above + end - end_room, up + end_rate - slow, pull_base));
-  time = lanes::smaller(time, safe_time(above - end - end_room, up - end_rate - slow, pull_base));
-  time = lanes::smaller(time, safe_time(below - end - end_room, down - end_rate - slow, pull_lid));
-  time = lanes::smaller(time, safe_time(below + end - end_room, down + end_rate - slow, pull_lid));
-  const F more = lanes::truncated(lanes::smaller(time * k.per_dt, lanes::all<W>(k.horizon)));
-  lanes::store(safe + l, lanes::smaller(ticks + more, lanes::all<W>(k.horizon)));
-}
+    F time = safe_time(above - k.mid_radius, up, lanes::all<W>(k.pull_base));
+    time =
+        lanes::smaller(time, safe_time(below - k.mid_radius, down, lanes::not_below_zero(lanes::all<W>(k.pull_lid))));
+    time = lanes::smaller(time, safe_time(above + end - end_room, up + end_rate - slow, pull_base));
+    time = lanes::smaller(time, safe_time(above - end - end_room, up - end_rate - slow, pull_base));
+    time = lanes::smaller(time, safe_time(below - end - end_room, down - end_rate - slow, pull_lid));
+    time = lanes::smaller(time, safe_time(below + end - end_room, down + end_rate - slow, pull_lid));
+    const F more = lanes::truncated(lanes::smaller(time * k.per_dt, lanes::all<W>(k.horizon)));
+    lanes::store(safe + l, lanes::smaller(ticks + more, lanes::all<W>(k.horizon)));
+  }
 };
 
 }  // namespace
 
 void plate_safe_ticks(const Species& species, const PlateMotion& plates, const PlateLanes& rods, int n, double gravity,
                       double dt, Tick now, Tick horizon, Tick* safe) {
-  const Constants k{static_cast<float>(species.half_length),
-                    static_cast<float>(species.mid_radius),
-                    static_cast<float>(species.n_beads() > 1 ? species.end_radius : species.mid_radius),
-                    static_cast<float>(gravity),
-                    static_cast<float>((plates.peak_acceleration() + gravity) * (1.0 + 1e-6)),
-                    static_cast<float>((plates.peak_acceleration() - gravity) + 1e-6 * (plates.peak_acceleration() + gravity)),
-                    static_cast<float>(dt),
-                    static_cast<float>((1.0 - 1e-5) / dt),
-                    static_cast<float>(horizon)};
+  const Constants k{
+      static_cast<float>(species.half_length),
+      static_cast<float>(species.mid_radius),
+      static_cast<float>(species.n_beads() > 1 ? species.end_radius : species.mid_radius),
+      static_cast<float>(gravity),
+      static_cast<float>((plates.peak_acceleration() + gravity) * (1.0 + 1e-6)),
+      static_cast<float>((plates.peak_acceleration() - gravity) + 1e-6 * (plates.peak_acceleration() + gravity)),
+      static_cast<float>(dt),
+      static_cast<float>((1.0 - 1e-5) / dt),
+      static_cast<float>(horizon)};
   constexpr int kSteps = 3;
   alignas(64) float ticks[kLanes] = {};
   PlatesAt at;

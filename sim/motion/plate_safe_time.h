@@ -11,11 +11,11 @@ using lanes::kLanes;
 
 /// kLanes rods in flight, at the tick from which time is counted.
 struct PlateLanes {
-  alignas(64) float z[kLanes];           ///< height of the centre [mm]
-  alignas(64) float velocity[kLanes];    ///< of the centre, upwards [mm/s]
-  alignas(64) float n_z[kLanes];         ///< director's z
-  alignas(64) float n_z_rate[kLanes];    ///< [1/s]
-  alignas(64) float rate2[kLanes];       ///< |precession|^2 [1/s^2]
+  alignas(64) float z[kLanes];         ///< height of the centre [mm]
+  alignas(64) float velocity[kLanes];  ///< of the centre, upwards [mm/s]
+  alignas(64) float n_z[kLanes];       ///< director's z
+  alignas(64) float n_z_rate[kLanes];  ///< [1/s]
+  alignas(64) float rate2[kLanes];     ///< |precession|^2 [1/s^2]
 };
 
 /// Number of ticks after `now` for which no bead of each rod begins to touch a plate or, if it is in one, begins to

@@ -17,8 +17,8 @@ NeighborList::NeighborList(const Species& species, double box_side, double skin)
 }
 
 std::size_t NeighborList::bytes() const {
-  std::size_t bytes = heap_bytes(placed_center_, placed_half_, cell_, members_, pairs_, unused_, pairs_of_, n_pairs_of_,
-                                 near_, mark_);
+  std::size_t bytes =
+      heap_bytes(placed_center_, placed_half_, cell_, members_, pairs_, unused_, pairs_of_, n_pairs_of_, near_, mark_);
   for (const auto& members : members_) bytes += heap_bytes(members);
   return bytes;
 }

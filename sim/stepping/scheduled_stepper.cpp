@@ -23,8 +23,8 @@ constexpr float kBeadHorizon = 200;
 constexpr float kLongBound = 40;
 constexpr float kMuchLonger = 1.5;
 
-/// Limits within which the bounds of pairs hold. The wide ones last from one hit by a neighbour to the next, mostly; the
-/// narrow ones let a rod chatter on a plate for a while.
+/// Limits within which the bounds of pairs hold. The wide ones last from one hit by a neighbour to the next, mostly;
+/// the narrow ones let a rod chatter on a plate for a while.
 constexpr Allowance kWide{1.0F, 25.0F, 1.0F, 12.0F};
 constexpr Allowance kNarrow{0.02F, 0.2F, 0.02F, 0.1F};
 constexpr float kNarrowRate = 0.2F;  ///< of the precession [rad/s]
@@ -32,18 +32,16 @@ constexpr float kNarrowRate = 0.2F;  ///< of the precession [rad/s]
 constexpr double kRateFactor = 1.2;
 constexpr double kRateMore = 10;  ///< [rad/s]
 
-// loops shorter than this per thread are not worth sharing
-constexpr int kGrain = 16;
-
 }  // namespace
 
-ScheduledStepper::ScheduledStepper(const World& world, int n_threads)
+ScheduledStepper::ScheduledStepper(const World& world, int n_threads, int grain)
     : rules_(world),
       hull_(world.species),
       lanes_(world.species),
       allowances_{kNarrow, kWide},
       neighbors_(world.species, world.scene.box_side, kSkin),
       team_(n_threads),
+      grain_(grain),
       rods_(world.rods.size()),
       records_(world.rods.size()),
       outlooks_(world.rods.size()),
@@ -56,8 +54,7 @@ std::size_t ScheduledStepper::bytes() const {
   bytes += heap_bytes(rods_, records_, outlooks_, pairs_, pair_marks_, gained_, lost_);
   bytes += heap_bytes(due_rods_, due_pairs_, changed_, to_pose_, to_look_at_, to_bound_, to_schedule_, next_,
                       may_change_, contacts_, poses_);
-  for (const Worker& w : workers_)
-    bytes += heap_bytes(w.bead_contacts, w.contacts, w.turned, w.to_place);
+  for (const Worker& w : workers_) bytes += heap_bytes(w.bead_contacts, w.contacts, w.turned, w.to_place);
   return bytes;
 }
 
@@ -110,7 +107,7 @@ void ScheduledStepper::list_to_pose(int i, Tick now) {
 }
 
 void ScheduledStepper::pose(const World& world, Tick now) {
-  team_.run(static_cast<int>(to_pose_.size()), kGrain, [&](int begin, int end, int) {
+  team_.run(static_cast<int>(to_pose_.size()), grain_, [&](int begin, int end, int) {
     for (int k = begin; k < end; ++k) rods_[to_pose_[k]] = rod_at_tick(world.rods[to_pose_[k]], now, rules_);
   });
 }
@@ -118,7 +115,7 @@ void ScheduledStepper::pose(const World& world, Tick now) {
 std::optional<NumericalTrouble> ScheduledStepper::collide_with_plates_due(World& world, Tick now) {
   if (due_rods_.empty()) return {};
   const PlateState plates = world.plates.at(now);
-  team_.run(static_cast<int>(due_rods_.size()), kGrain, [&](int begin, int end, int w) {
+  team_.run(static_cast<int>(due_rods_.size()), grain_, [&](int begin, int end, int w) {
     Worker& worker = workers_[w];
     for (int k = begin; k < end; ++k) {
       const int i = due_rods_[k];
@@ -217,7 +214,7 @@ void ScheduledStepper::detect_due(const World& world, Tick now) {
     for (const int i : pairs_[p].rod) list_to_pose(i, now);
   }
   pose(world, now);
-  team_.run(static_cast<int>(due_pairs_.size()), kGrain, [&](int begin, int end, int w) {
+  team_.run(static_cast<int>(due_pairs_.size()), grain_, [&](int begin, int end, int w) {
     Worker& worker = workers_[w];
     for (int k = begin; k < end; ++k) {
       const int p = due_pairs_[k];
@@ -290,7 +287,7 @@ void ScheduledStepper::list_changed(Tick now) {
 }
 
 std::optional<NumericalTrouble> ScheduledStepper::store_changed(World& world, Tick now) {
-  team_.run(static_cast<int>(changed_.size()), kGrain, [&](int begin, int end, int w) {
+  team_.run(static_cast<int>(changed_.size()), grain_, [&](int begin, int end, int w) {
     for (int k = begin; k < end; ++k) {
       const int i = changed_[k];
       Flight& flight = world.rods[i];
@@ -316,8 +313,8 @@ std::optional<NumericalTrouble> ScheduledStepper::store_changed(World& world, Ti
 
 // ---- a rod's limits
 
-/// What part of the narrow limits a hit may use up. Parts add up, so whenever a bound was made since they were last set,
-/// it is kept.
+/// What part of the narrow limits a hit may use up. Parts add up, so whenever a bound was made since they were last
+/// set, it is kept.
 float ScheduledStepper::jolt(const Vec3& velocity, const Vec3& turning, const Vec3& precession) {
   const auto part = [](const Vec3& jump, float across, float along_z) {
     return std::max(std::sqrt(jump.x() * jump.x() + jump.y() * jump.y()) / static_cast<double>(across),
@@ -384,7 +381,7 @@ void ScheduledStepper::measure_slack(int i, Tick now) {
 void ScheduledStepper::schedule_rods(const World& world, Tick now) {
   const int n = static_cast<int>(to_schedule_.size());
   next_.resize(n);
-  team_.run(n, kGrain, [&](int begin, int end, int w) {
+  team_.run(n, grain_, [&](int begin, int end, int w) {
     PlateLanes& lanes = workers_[w].plate_lanes;
     Tick off_plates[kLanes];
     for (int at = begin; at < end; at += kLanes) {
@@ -397,8 +394,8 @@ void ScheduledStepper::schedule_rods(const World& world, Tick now) {
         lanes.velocity[lane] = static_cast<float>(
             flight.velocity.z() - rules_.gravity * (static_cast<double>(now - flight.since) * rules_.dt));
         lanes.n_z[lane] = static_cast<float>(pose.director.z());
-        lanes.n_z_rate[lane] = static_cast<float>(flight.precession.x() * pose.director.y() -
-                                                  flight.precession.y() * pose.director.x());
+        lanes.n_z_rate[lane] =
+            static_cast<float>(flight.precession.x() * pose.director.y() - flight.precession.y() * pose.director.x());
         lanes.rate2[lane] = static_cast<float>(flight.rate * flight.rate);
       }
       plate_safe_ticks(rules_.species, world.plates, lanes, n_lanes, rules_.gravity, rules_.dt, now,
@@ -420,8 +417,8 @@ Tick ScheduledStepper::listed_ticks(const World& world, int i, Tick now) {
   record.slack = slack_left(i, now);
   record.slack_at = stamp(now);
   if (record.slack < kLowSlack) measure_slack(i, now);
-  // The segment turns at (p_z - n_z p.n) / |n_xy|^2, with p the precession and p.n a constant; |n_xy| changes by at most
-  // |p| per time, so it keeps nine tenths for a while.
+  // The segment turns at (p_z - n_z p.n) / |n_xy|^2, with p the precession and p.n a constant; |n_xy| changes by at
+  // most |p| per time, so it keeps nine tenths for a while.
   const Vec3& n = rods_[i].pose.director;
   const Vec3& v = flight.velocity;
   const Vec3& p = flight.precession;
@@ -429,7 +426,8 @@ Tick ScheduledStepper::listed_ticks(const World& world, int i, Tick now) {
   const double turn = (std::abs(p.z()) + std::abs(p.dot(n))) / (0.81 * flat2);
   const double speed = std::sqrt(v.x() * v.x() + v.y() * v.y()) + rules_.species.half_length * turn;
   record.slack_speed = static_cast<float>(speed);
-  const double time = std::min(std::max(static_cast<double>(record.slack), 0.0) / speed, 0.1 * std::sqrt(flat2) / flight.rate);
+  const double time =
+      std::min(std::max(static_cast<double>(record.slack), 0.0) / speed, 0.1 * std::sqrt(flat2) / flight.rate);
   const double horizon = static_cast<double>(TimingWheel::horizon() - 1);
   // a rod at rest has all the time there is
   return static_cast<Tick>(time < horizon * rules_.dt ? time / rules_.dt * (1.0 - 1e-12) : horizon);
@@ -460,7 +458,7 @@ void ScheduledStepper::schedule_pairs(const World& world, Tick now) {
       to_look_at_.push_back(i);
     }
   }
-  team_.run(static_cast<int>(to_look_at_.size()), kGrain, [&](int begin, int end, int) {
+  team_.run(static_cast<int>(to_look_at_.size()), grain_, [&](int begin, int end, int) {
     for (int k = begin; k < end; ++k) {
       const int i = to_look_at_[k];
       if (records_[i].posed_at != stamp(now)) {
@@ -471,7 +469,7 @@ void ScheduledStepper::schedule_pairs(const World& world, Tick now) {
     }
   });
   next_.resize(to_bound_.size());
-  team_.run(static_cast<int>(to_bound_.size()), kGrain, [&](int begin, int end, int w) {
+  team_.run(static_cast<int>(to_bound_.size()), grain_, [&](int begin, int end, int w) {
     for (int at = begin; at < end; at += kLanes) bound_pairs(at, std::min(kLanes, end - at), now, workers_[w]);
   });
   phase_times.lap(Phase::kBounds);

@@ -28,7 +28,8 @@ namespace shaken {
 /// between rods, a few per cent of the time, are one thread's.
 class ScheduledStepper final : public Stepper {
  public:
-  ScheduledStepper(const World& world, int n_threads);
+  /// Loops are shared if there are at least `grain` items for each thread.
+  ScheduledStepper(const World& world, int n_threads, int grain);
   std::size_t bytes() const override;
 
  private:
@@ -45,12 +46,12 @@ class ScheduledStepper final : public Stepper {
     float slack = 1e30F;                    ///< of the neighbour list at `slack_at`, at least [mm]
     float slack_speed = 0;                  ///< at which it shrinks, at most [mm/s]
     Stamp slack_at = 0;
-    Stamp posed_at = 0;    ///< tick for which rods_ holds the rod
-    Stamp listed_at = 0;   ///< tick at which it was last visited or hit
-    Stamp outlook_at = 0;  ///< tick for which outlooks_ holds the rod
+    Stamp posed_at = 0;           ///< tick for which rods_ holds the rod
+    Stamp listed_at = 0;          ///< tick at which it was last visited or hit
+    Stamp outlook_at = 0;         ///< tick for which outlooks_ holds the rod
     std::int16_t n_touching = 0;  ///< pairs of the rod that are touching
-    bool strayed = false;         ///< by the last hit, out of its wide limits: all bounds of its pairs are to be renewed
-    bool jolted = false;          ///< out of its narrow limits: those within narrow limits are
+    bool strayed = false;  ///< by the last hit, out of its wide limits: all bounds of its pairs are to be renewed
+    bool jolted = false;   ///< out of its narrow limits: those within narrow limits are
   };
   struct PairRecord {
     int rod[2] = {-1, -1};           ///< -1: a number that the neighbour list does not use
@@ -66,7 +67,7 @@ class ScheduledStepper final : public Stepper {
 
     Counters counters;
     std::optional<NumericalTrouble> trouble;  ///< that of the first rods
-    std::vector<int> to_place;  ///< rods that have used up their slack
+    std::vector<int> to_place;                ///< rods that have used up their slack
     std::vector<BeadContact> bead_contacts;
     std::vector<PairContact> contacts;
     std::vector<int> turned;  ///< pairs that began or ceased to touch
@@ -107,14 +108,15 @@ class ScheduledStepper final : public Stepper {
   Allowances allowances_;
   NeighborList neighbors_;
   ThreadTeam team_;
+  int grain_;
 
   std::vector<RodAtTick> rods_;
   std::vector<RodRecord> records_;
   std::vector<Outlook> outlooks_;
   TimingWheel rod_wheel_;
 
-  std::vector<PairRecord> pairs_;             ///< numbered as in the neighbour list
-  std::vector<std::uint8_t> pair_marks_;      ///< of PairMark
+  std::vector<PairRecord> pairs_;         ///< numbered as in the neighbour list
+  std::vector<std::uint8_t> pair_marks_;  ///< of PairMark
   TimingWheel pair_wheel_;
   bool is_new_ = true;
 

@@ -38,6 +38,6 @@ class Stepper {
 };
 
 /// The stepper that the scene asks for, on so many threads (the reference stepper uses one).
-std::unique_ptr<Stepper> make_stepper(const World& world, int n_threads);
+std::unique_ptr<Stepper> make_stepper(const World& world, int n_threads, int grain);
 
 }  // namespace shaken

@@ -4,12 +4,51 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
 #include "sim/contact/bead_contacts.h"
 #include "tests/support/random_rods.h"
 
 namespace shaken {
 namespace {
+
+bool holds(const NeighborList& list, int i, int j) {
+  const auto own = list.pairs_of(i);
+  return std::any_of(own.begin(), own.end(), [&](int p) { return list.pairs()[p].i == i && list.pairs()[p].j == j; });
+}
+
+/// Every pair of rods whose beads touch is listed. Returns how many there are.
+int expect_complete(const NeighborList& list, const Species& rod, const std::vector<Pose>& poses, double side) {
+  int n_touching = 0;
+  for (int i = 0; i < static_cast<int>(poses.size()); ++i) {
+    for (int j = i + 1; j < static_cast<int>(poses.size()); ++j) {
+      std::vector<BeadContact> contacts;
+      find_bead_contacts(rod, poses[i].director, rod, poses[j].director,
+                         nearest_image(poses[i].position, poses[j].position, side), contacts);
+      if (contacts.empty()) continue;
+      ++n_touching;
+      EXPECT_TRUE(holds(list, i, j)) << i << ' ' << j;
+    }
+  }
+  return n_touching;
+}
+
+std::vector<Pose> random_poses(test::Draw& draw, double side, bool upright) {
+  std::vector<Pose> poses(draw.integer(2, 60));
+  for (Pose& pose : poses) {
+    pose = {Vec3(draw.uniform(0, side), draw.uniform(0, side), draw.uniform(0.4, 0.8)),
+            draw.flat_direction(upright ? 1.0 : 0.3)};
+  }
+  return poses;
+}
+
+/// A random walk of places, angles and tilts, across the border too.
+void stir(test::Draw& draw, std::vector<Pose>& poses) {
+  for (Pose& pose : poses) {
+    pose.position += Vec3(draw.normal(), draw.normal(), 0) * 0.01;
+    pose.director = (pose.director + draw.vector(0.005) + Vec3(0, 0, 0.02 * draw.normal())).normalized();
+  }
+}
 
 TEST(NeighborList, HoldsEveryTouchingPairUntilItIsDue) {
   test::Draw draw(11);
@@ -18,37 +57,62 @@ TEST(NeighborList, HoldsEveryTouchingPairUntilItIsDue) {
     const double side = draw.uniform(10, 40);
     const Species rod = make_species({.length = draw.uniform(2.5, 4.5), .n_beads = 9});
     NeighborList list(rod, side, 0.3);
-    std::vector<Pose> poses(draw.integer(2, 60));
-    for (Pose& pose : poses) {
-      pose = {Vec3(draw.uniform(0, side), draw.uniform(0, side), draw.uniform(0.4, 0.8)),
-              draw.flat_direction(trial % 3 == 0 ? 1.0 : 0.3)};
-    }
+    std::vector<Pose> poses = random_poses(draw, side, trial % 3 == 0);
     EXPECT_TRUE(list.is_due(poses));
     list.build(poses);
     EXPECT_FALSE(list.is_due(poses));
-    EXPECT_TRUE(std::is_sorted(list.pairs().begin(), list.pairs().end()));
+    EXPECT_TRUE(std::is_sorted(list.pairs().begin(), list.pairs().end(),
+                               [](const auto& a, const auto& b) { return std::pair(a.i, a.j) < std::pair(b.i, b.j); }));
     for (int move = 0; move < 20; ++move) {
-      // a random walk of places, angles and tilts, across the border too, until the list says that it is due
-      for (Pose& pose : poses) {
-        pose.position += Vec3(draw.normal(), draw.normal(), 0) * 0.01;
-        pose.director = (pose.director + draw.vector(0.005) + Vec3(0, 0, 0.02 * draw.normal())).normalized();
-      }
+      stir(draw, poses);
       if (list.is_due(poses)) break;
       ++n_not_due;
-      for (int i = 0; i < static_cast<int>(poses.size()); ++i) {
-        for (int j = i + 1; j < static_cast<int>(poses.size()); ++j) {
-          std::vector<BeadContact> contacts;
-          find_bead_contacts(rod, poses[i].director, rod, poses[j].director,
-                             nearest_image(poses[i].position, poses[j].position, side), contacts);
-          if (contacts.empty()) continue;
-          ++n_touching;
-          EXPECT_TRUE(std::binary_search(list.pairs().begin(), list.pairs().end(), std::pair(i, j)));
-        }
-      }
+      n_touching += expect_complete(list, rod, poses, side);
     }
   }
   EXPECT_GT(n_touching, 500);
   EXPECT_GT(n_not_due, 100);
+}
+
+TEST(NeighborList, KeptUpRodByRodItStaysCompleteAndSaysWhatChanged) {
+  test::Draw draw(13);
+  int n_touching = 0, n_gained = 0, n_lost = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    const double side = draw.uniform(10, 40);
+    const Species rod = make_species({.length = draw.uniform(2.5, 4.5), .n_beads = 9});
+    NeighborList list(rod, side, 0.3);
+    std::vector<Pose> poses = random_poses(draw, side, trial % 3 == 0);
+    list.build(poses);
+    std::set<int> listed;
+    for (int p = 0; p < static_cast<int>(list.pairs().size()); ++p) listed.insert(p);
+    for (int move = 0; move < 100; ++move) {
+      stir(draw, poses);
+      if (draw.integer(0, 9) == 0) poses[0].position += draw.vector(3);  // far enough to lose all its neighbours
+      for (int i = 0; i < static_cast<int>(poses.size()); ++i) {
+        if (list.slack(i, poses[i]) >= 0) continue;
+        std::vector<int> gained, lost;
+        list.place(i, poses[i], gained, lost);
+        EXPECT_GT(list.slack(i, poses[i]), 0.14);
+        for (const int p : lost) EXPECT_EQ(listed.erase(p), 1u);
+        for (const int p : gained) {
+          EXPECT_TRUE(listed.insert(p).second);
+          EXPECT_TRUE(list.pairs()[p].i == i || list.pairs()[p].j == i);
+        }
+        n_gained += static_cast<int>(gained.size());
+        n_lost += static_cast<int>(lost.size());
+      }
+      EXPECT_FALSE(list.is_due(poses));
+      n_touching += expect_complete(list, rod, poses, side);
+      for (int p = 0; p < static_cast<int>(list.pairs().size()); ++p) {
+        const auto& [i, j] = list.pairs()[p];
+        EXPECT_EQ(i >= 0, listed.contains(p));
+        EXPECT_TRUE(i < 0 || holds(list, i, j));
+      }
+    }
+  }
+  EXPECT_GT(n_touching, 5000);
+  EXPECT_GT(n_gained, 500);
+  EXPECT_GT(n_lost, 500);
 }
 
 TEST(NeighborList, CellsGiveTheSameAsAllPairs) {
@@ -60,11 +124,20 @@ TEST(NeighborList, CellsGiveTheSameAsAllPairs) {
   NeighborList many_cells(rod, 60, 0.3), few_cells(rod, 8, 0.3);
   many_cells.build(poses);
   few_cells.build(poses);
-  for (const auto& pair : many_cells.pairs()) {
-    EXPECT_TRUE(std::binary_search(few_cells.pairs().begin(), few_cells.pairs().end(), pair));
-  }
+  for (const auto& [i, j] : many_cells.pairs()) EXPECT_TRUE(holds(few_cells, i, j));
   EXPECT_GT(many_cells.pairs().size(), 40u);
-  EXPECT_EQ(std::adjacent_find(many_cells.pairs().begin(), many_cells.pairs().end()), many_cells.pairs().end());
+}
+
+TEST(NearestImage, RoundsAsTheLibraryDoes) {
+  test::Draw draw(14);
+  for (int trial = 0; trial < 100000; ++trial) {
+    const double side = draw.uniform(5, 200);
+    const double x = draw.integer(0, 3) ? draw.uniform(-1e4, 1e4) : 0.5 * side * draw.integer(-9, 9);
+    const Vec3 d = nearest_image(Vec3(0, 0, 0), Vec3(x, -x, x), side);
+    EXPECT_EQ(d.x(), x - side * std::nearbyint(x / side));
+    EXPECT_EQ(d.y(), -x - side * std::nearbyint(-x / side));
+    EXPECT_EQ(d.z(), x);
+  }
 }
 
 TEST(NeighborList, TiltAloneNeverMakesItDue) {
