@@ -1,30 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "sim/core/thread_team.h"
 
-#if defined(__x86_64__)
-#include <immintrin.h>
-#endif
-
 namespace shaken {
 namespace {
 
-inline void pause() {
-#if defined(__x86_64__)
-  _mm_pause();
-#endif
-}
-
 /// Waits until `value` is no longer `old`.
 void wait_for_change(const std::atomic<std::uint32_t>& value, std::uint32_t old) {
-  constexpr int kSpins = 1000;  // some ten microseconds: longer than the serial parts of most ticks
-  constexpr int kYields = 200;  // then perhaps another thread of ours waits for this very core
+  // Spinning without the PAUSE instruction: virtual machines take it as a sign that the processor is wanted by somebody
+  // else, and give it away for 50 us. Yielding comes after it, for the case that the other thread waits for this core.
+  constexpr int kSpins = 3000;  // some microseconds: longer than the serial parts of most ticks
+  constexpr int kYields = 200;
   for (int spin = 0; spin < kSpins + kYields; ++spin) {
     if (value.load(std::memory_order_acquire) != old) return;
-    if (spin < kSpins) {
-      pause();
-    } else {
-      std::this_thread::yield();
-    }
+    if (spin >= kSpins) std::this_thread::yield();
   }
   value.wait(old, std::memory_order_acquire);
 }

@@ -6,10 +6,12 @@
 #include <tuple>
 #include <utility>
 
+#include "sim/core/prefetch.h"
+
 namespace shaken {
 namespace {
 
-constexpr double kSkin = 0.3;  ///< of the neighbour list [mm]
+constexpr double kSkin = 0.4;  ///< of the neighbour list [mm]
 /// A rod this close to the end of its slack is placed anew rather than being watched every tick [mm].
 constexpr float kLeastSlack = 0.003F;
 /// Below this, what is left of a rod's slack is measured again rather than counted down [mm].
@@ -108,7 +110,13 @@ void ScheduledStepper::list_to_pose(int i, Tick now) {
 
 void ScheduledStepper::pose(const World& world, Tick now) {
   team_.run(static_cast<int>(to_pose_.size()), grain_, [&](int begin, int end, int) {
-    for (int k = begin; k < end; ++k) rods_[to_pose_[k]] = rod_at_tick(world.rods[to_pose_[k]], now, rules_);
+    visit_ahead(
+        to_pose_, begin, end,
+        [&](int i) {
+          prefetch(world.rods[i]);
+          prefetch(rods_[i]);
+        },
+        [&](int i) { rods_[i] = rod_at_tick(world.rods[i], now, rules_); });
   });
 }
 
@@ -117,8 +125,12 @@ std::optional<NumericalTrouble> ScheduledStepper::collide_with_plates_due(World&
   const PlateState plates = world.plates.at(now);
   team_.run(static_cast<int>(due_rods_.size()), grain_, [&](int begin, int end, int w) {
     Worker& worker = workers_[w];
-    for (int k = begin; k < end; ++k) {
-      const int i = due_rods_[k];
+    const auto ask = [&](int i) {
+      prefetch(world.rods[i]);
+      prefetch(rods_[i]);
+      prefetch(records_[i]);
+    };
+    visit_ahead(due_rods_, begin, end, ask, [&](int i) {
       RodRecord& record = records_[i];
       rods_[i] = rod_at_tick(world.rods[i], now, rules_);
       record.posed_at = stamp(now);
@@ -129,7 +141,7 @@ std::optional<NumericalTrouble> ScheduledStepper::collide_with_plates_due(World&
       }
       auto trouble = collide_with_plates(i, rods_[i], world.rods[i], plates, now, rules_, worker.counters);
       if (trouble) worker.note(std::move(*trouble));
-    }
+    });
   });
   for (Worker& worker : workers_) {
     world.counters.add(worker.counters);
@@ -210,9 +222,11 @@ void ScheduledStepper::detect_due(const World& world, Tick now) {
   contacts_.clear();
   if (due_pairs_.empty()) return;
   to_pose_.clear();
-  for (const int p : due_pairs_) {
-    for (const int i : pairs_[p].rod) list_to_pose(i, now);
-  }
+  visit_ahead(
+      due_pairs_, 0, static_cast<int>(due_pairs_.size()), [&](int p) { prefetch(pairs_[p]); },
+      [&](int p) {
+        for (const int i : pairs_[p].rod) list_to_pose(i, now);
+      });
   pose(world, now);
   team_.run(static_cast<int>(due_pairs_.size()), grain_, [&](int begin, int end, int w) {
     Worker& worker = workers_[w];
@@ -441,32 +455,41 @@ void ScheduledStepper::schedule_pairs(const World& world, Tick now) {
     to_bound_.push_back(p);
   };
   for (const int p : due_pairs_) list(p);
-  for (const int i : changed_) {
-    const bool strayed = records_[i].strayed;
-    if (!strayed && !records_[i].jolted) continue;
-    for (const int p : neighbors_.pairs_of(i)) {
-      if (strayed || (pair_marks_[p] & kNarrowly)) list(p);
-    }
-  }
+  visit_ahead(
+      changed_, 0, static_cast<int>(changed_.size()), [&](int i) { __builtin_prefetch(neighbors_.pairs_of(i).data()); },
+      [&](int i) {
+        const bool strayed = records_[i].strayed;
+        if (!strayed && !records_[i].jolted) return;
+        for (const int p : neighbors_.pairs_of(i)) {
+          if (strayed || (pair_marks_[p] & kNarrowly)) list(p);
+        }
+      });
   if (to_bound_.empty()) return;
 
   to_look_at_.clear();
-  for (const int p : to_bound_) {
-    for (const int i : pairs_[p].rod) {
-      if (records_[i].outlook_at == stamp(now)) continue;
-      records_[i].outlook_at = stamp(now);
-      to_look_at_.push_back(i);
-    }
-  }
+  visit_ahead(
+      to_bound_, 0, static_cast<int>(to_bound_.size()), [&](int p) { prefetch(pairs_[p]); },
+      [&](int p) {
+        for (const int i : pairs_[p].rod) {
+          if (records_[i].outlook_at == stamp(now)) continue;
+          records_[i].outlook_at = stamp(now);
+          to_look_at_.push_back(i);
+        }
+      });
   team_.run(static_cast<int>(to_look_at_.size()), grain_, [&](int begin, int end, int) {
-    for (int k = begin; k < end; ++k) {
-      const int i = to_look_at_[k];
+    const auto ask = [&](int i) {
+      prefetch(world.rods[i]);
+      prefetch(rods_[i]);
+      prefetch(records_[i]);
+      prefetch(outlooks_[i]);
+    };
+    visit_ahead(to_look_at_, begin, end, ask, [&](int i) {
       if (records_[i].posed_at != stamp(now)) {
         records_[i].posed_at = stamp(now);
         rods_[i] = rod_at_tick(world.rods[i], now, rules_);
       }
       outlooks_[i] = outlook(world, i, now);
-    }
+    });
   });
   next_.resize(to_bound_.size());
   team_.run(static_cast<int>(to_bound_.size()), grain_, [&](int begin, int end, int w) {
