@@ -12,7 +12,7 @@ struct Shared {
   float gap_margin;
 };
 
-/// How two rods move relative to each other, within one of their sets of limits.
+/// How two rods move relative to each other: steadily, or straying within their limits.
 struct Relative {
   float v[3], turn_i[3], turn_j[3];
   float bend_i, bend_j;                  ///< halves of the bounds on the directors' second derivatives
@@ -134,8 +134,8 @@ struct OverlapKernel {
 /// Safe times of the beads of i in the lanes from `first` on against the beads of j around each one's foot on j's axis.
 struct SafeTimeKernel {
   const Shared& in;
-  const Relative& narrow;
-  const Relative& wide;
+  const Relative& steady;
+  const Relative& straying;
   const BeadLanes& i;
   const BeadLanes& j;
   std::size_t first;
@@ -146,8 +146,8 @@ struct SafeTimeKernel {
     SafeTime safe{horizon, horizon};
     for (int l = 0; l < kLanes; l += W) {
       const SafeTime some = bound<W>(static_cast<int>(first) + l);
-      safe.narrow = std::min(safe.narrow, some.narrow);
-      safe.wide = std::min(safe.wide, some.wide);
+      safe.steady = std::min(safe.steady, some.steady);
+      safe.straying = std::min(safe.straying, some.straying);
     }
     return safe;
   }
@@ -163,18 +163,18 @@ struct SafeTimeKernel {
     const Untried<F> untried(j, foot);
     const F across2 = lanes::not_below_zero(lanes::dot(x, x) - foot * foot);
     const F far = lanes::not_below_zero(lanes::sqrt(untried.distance2(j, across2)) - radius - untried.radius);
-    Fraction<F> safe_narrow{far, lanes::all<W>(narrow.fastest)};
-    Fraction<F> safe_wide{far, lanes::all<W>(wide.fastest)};
+    Fraction<F> safe_steady{far, lanes::all<W>(steady.fastest)};
+    Fraction<F> safe_straying{far, lanes::all<W>(straying.fastest)};
     for (int k = -j.reach; k <= j.reach; ++k) {
       const F s_j = bead_offset(j, nearest, k);
       const lanes::Vectors<F> r{x.x + s_j * in.n_j[0], x.y + s_j * in.n_j[1], x.z + s_j * in.n_j[2]};
       const F distance = lanes::sqrt(lanes::dot(r, r));
       const F inverse = 1.0F / (distance + 1e-20F);
       const F gap = distance - (radius + j.mid_radius - j.taper * lanes::abs(s_j));
-      take_safe_time(safe_narrow, narrow, s_i, s_j, r, inverse, gap, horizon);
-      take_safe_time(safe_wide, wide, s_i, s_j, r, inverse, gap, horizon);
+      take_safe_time(safe_steady, steady, s_i, s_j, r, inverse, gap, horizon);
+      take_safe_time(safe_straying, straying, s_i, s_j, r, inverse, gap, horizon);
     }
-    return {safe_narrow.least(), safe_wide.least()};
+    return {safe_steady.least(), safe_straying.least()};
   }
 };
 
@@ -250,19 +250,19 @@ BeadRange beads_may_overlap(const BeadLanes& i, const Vec3& n_i, const BeadLanes
 }
 
 SafeTime bead_safe_time(const BeadLanes& i, const Outlook& a, const BeadLanes& j, const Outlook& b, const Vec3& D,
-                        const Allowances& allowances, float horizon) {
+                        const Allowance& allowance, float horizon) {
   const Shared in = shared(i, a.director, j, b.director, D);
-  const Relative narrow =
-      relative(i, j, a.velocity, b.velocity, a.turning, b.turning, a.half_rate2, b.half_rate2, allowances.narrow);
-  const Relative wide = relative(i, j, a.wide_velocity, b.wide_velocity, a.wide_turning, b.wide_turning,
-                                 a.wide_half_rate2, b.wide_half_rate2, allowances.wide);
+  const Relative steady =
+      relative(i, j, a.velocity, b.velocity, a.turning, b.turning, a.half_rate2, b.half_rate2, Allowance{});
+  const Relative straying = relative(i, j, a.velocity_center, b.velocity_center, a.turning_center, b.turning_center,
+                                     a.limit_half_rate2, b.limit_half_rate2, allowance);
   SafeTime safe{horizon, horizon};
   for (std::size_t first = 0; first < i.offset.size(); first += kLanes) {
-    const SafeTime some = lanes::with_widest_vectors(SafeTimeKernel{in, narrow, wide, i, j, first, horizon});
-    safe.narrow = std::min(safe.narrow, some.narrow);
-    safe.wide = std::min(safe.wide, some.wide);
+    const SafeTime some = lanes::with_widest_vectors(SafeTimeKernel{in, steady, straying, i, j, first, horizon});
+    safe.steady = std::min(safe.steady, some.steady);
+    safe.straying = std::min(safe.straying, some.straying);
   }
-  return {safe.narrow * (1.0F - 1e-5F), safe.wide * (1.0F - 1e-5F)};
+  return {safe.steady * (1.0F - 1e-5F), safe.straying * (1.0F - 1e-5F)};
 }
 
 }  // namespace shaken

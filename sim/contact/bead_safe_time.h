@@ -35,6 +35,6 @@ BeadRange beads_may_overlap(const BeadLanes& i, const Vec3& n_i, const BeadLanes
 ///         distance and the fastest approach.
 /// Arguments: D is the vector from centre i to centre j [mm].
 SafeTime bead_safe_time(const BeadLanes& i, const Outlook& outlook_i, const BeadLanes& j, const Outlook& outlook_j,
-                        const Vec3& D, const Allowances& allowances, float horizon);
+                        const Vec3& D, const Allowance& allowance, float horizon);
 
 }  // namespace shaken

@@ -58,7 +58,7 @@ struct HullKernel {
   const Hull& i;
   const Hull& j;
   const PairLanes& pairs;
-  const Allowances& allowances;
+  const Allowance& allowance;
   float horizon;
   HullSafeTimes& safe;
 
@@ -126,13 +126,13 @@ struct HullKernel {
                          {c_j, lanes::dot(turn_j, d), q_j, stray_turning + kRateRounding * lanes::size1(turn_j)}};
       return bound.safe_time(horizon);
     };
-    lanes::store(safe.narrow + l, within(lanes::load<W>(pairs.velocity, l), lanes::load<W>(pairs.turning_i, l),
+    lanes::store(safe.steady + l, within(lanes::load<W>(pairs.velocity, l), lanes::load<W>(pairs.turning_i, l),
                                          lanes::load<W>(pairs.turning_j, l), lanes::load<W>(pairs.half_rate2_i + l),
-                                         lanes::load<W>(pairs.half_rate2_j + l), allowances.narrow));
-    lanes::store(safe.wide + l,
-                 within(lanes::load<W>(pairs.wide_velocity, l), lanes::load<W>(pairs.wide_turning_i, l),
-                        lanes::load<W>(pairs.wide_turning_j, l), lanes::load<W>(pairs.wide_half_rate2_i + l),
-                        lanes::load<W>(pairs.wide_half_rate2_j + l), allowances.wide));
+                                         lanes::load<W>(pairs.half_rate2_j + l), Allowance{}));
+    lanes::store(safe.straying + l,
+                 within(lanes::load<W>(pairs.velocity_center, l), lanes::load<W>(pairs.turning_center_i, l),
+                        lanes::load<W>(pairs.turning_center_j, l), lanes::load<W>(pairs.limit_half_rate2_i + l),
+                        lanes::load<W>(pairs.limit_half_rate2_j + l), allowance));
   }
 };
 
@@ -146,19 +146,19 @@ void PairLanes::set(int lane, const Vec3& D_ij, const Outlook& i, const Outlook&
     turning_i[c][lane] = i.turning[c];
     turning_j[c][lane] = j.turning[c];
     velocity[c][lane] = j.velocity[c] - i.velocity[c];
-    wide_turning_i[c][lane] = i.wide_turning[c];
-    wide_turning_j[c][lane] = j.wide_turning[c];
-    wide_velocity[c][lane] = j.wide_velocity[c] - i.wide_velocity[c];
+    turning_center_i[c][lane] = i.turning_center[c];
+    turning_center_j[c][lane] = j.turning_center[c];
+    velocity_center[c][lane] = j.velocity_center[c] - i.velocity_center[c];
   }
   half_rate2_i[lane] = i.half_rate2;
   half_rate2_j[lane] = j.half_rate2;
-  wide_half_rate2_i[lane] = i.wide_half_rate2;
-  wide_half_rate2_j[lane] = j.wide_half_rate2;
+  limit_half_rate2_i[lane] = i.limit_half_rate2;
+  limit_half_rate2_j[lane] = j.limit_half_rate2;
 }
 
-void hull_safe_times(const Hull& i, const Hull& j, const PairLanes& pairs, const Allowances& allowances, float horizon,
+void hull_safe_times(const Hull& i, const Hull& j, const PairLanes& pairs, const Allowance& allowance, float horizon,
                      HullSafeTimes& safe) {
-  lanes::with_widest_vectors(HullKernel{i, j, pairs, allowances, horizon, safe});
+  lanes::with_widest_vectors(HullKernel{i, j, pairs, allowance, horizon, safe});
 }
 
 }  // namespace shaken

@@ -38,11 +38,11 @@ struct PairLanes {
   alignas(64) float velocity[3][kLanes];  ///< of j relative to i
   alignas(64) float half_rate2_i[kLanes];
   alignas(64) float half_rate2_j[kLanes];
-  alignas(64) float wide_turning_i[3][kLanes];
-  alignas(64) float wide_turning_j[3][kLanes];
-  alignas(64) float wide_velocity[3][kLanes];  ///< of j relative to i
-  alignas(64) float wide_half_rate2_i[kLanes];
-  alignas(64) float wide_half_rate2_j[kLanes];
+  alignas(64) float turning_center_i[3][kLanes];
+  alignas(64) float turning_center_j[3][kLanes];
+  alignas(64) float velocity_center[3][kLanes];  ///< of j relative to i
+  alignas(64) float limit_half_rate2_i[kLanes];
+  alignas(64) float limit_half_rate2_j[kLanes];
 
   void set(int lane, const Vec3& D_ij, const Outlook& i, const Outlook& j);
 };
@@ -50,8 +50,8 @@ struct PairLanes {
 /// Bounds for kLanes pairs, and the directions that they were taken along.
 struct HullSafeTimes {
   alignas(64) float direction[3][kLanes];  ///< unit vectors from hull i towards hull j
-  alignas(64) float narrow[kLanes];        ///< as in SafeTime
-  alignas(64) float wide[kLanes];
+  alignas(64) float steady[kLanes];        ///< as in SafeTime
+  alignas(64) float straying[kLanes];
 };
 
 /// Times for which the hulls of rods stay apart, at most `horizon` [s]; 0 if they overlap.
@@ -60,7 +60,7 @@ struct HullSafeTimes {
 ///         side is concave in t, so a chord from a time at which it is positive to one at which it is not meets zero
 ///         before it does. Any d gives a valid bound; this one is near the direction of the largest gap: closest points
 ///         of the axes, moved twice towards the thick middles.
-void hull_safe_times(const Hull& i, const Hull& j, const PairLanes& pairs, const Allowances& allowances, float horizon,
+void hull_safe_times(const Hull& i, const Hull& j, const PairLanes& pairs, const Allowance& allowance, float horizon,
                      HullSafeTimes& safe);
 
 }  // namespace shaken

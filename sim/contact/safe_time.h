@@ -16,40 +16,35 @@ namespace shaken {
 
 using lanes::kLanes;
 
-/// What a bound knows of a rod at the instant from which time is counted, and how far the rod may stray from it when
-/// it is hit: as long as it keeps to its limits, the bound holds. There are two sets of limits, narrow ones round the
-/// motion as it is now, and wide ones round the motion as it was when they were set.
+/// What a bound knows of a rod at the instant from which time is counted: how it flies now, and how far it may stray
+/// from that when it is hit.
 ///
-/// Whatever hits the rod, its velocity stays within a cylinder (Allowance) round a centre, and its director obeys
-/// n(t) = n + integral of w + R with w within a cylinder round another and |R| <= half_rate2 t^2: a hit at time t_k
-/// changes w by (change of precession) x n(t_k), and the rest is the curvature of the precession.
+/// Whatever hits a straying rod, its velocity stays within a cylinder (Allowance) round a centre, and its director
+/// obeys n(t) = n + integral of w + R with w within a cylinder round another and |R| <= limit_half_rate2 t^2: a hit at
+/// time t_k changes w by (change of precession) x n(t_k), and the rest is the curvature of the precession.
 struct Outlook {
   float director[3];
-  float velocity[3];       ///< of the centre; centre of its narrow limits [mm/s]
-  float turning[3];        ///< d director / dt; the same [1/s]
-  float half_rate2;        ///< half of the director's largest second derivative within the narrow limits [1/s^2]
-  float wide_velocity[3];  ///< centre of the wide limits [mm/s]
-  float wide_turning[3];   ///< [1/s]
-  float wide_half_rate2;   ///< [1/s^2]
+  float velocity[3];         ///< of the centre [mm/s]
+  float turning[3];          ///< d director / dt [1/s]
+  float half_rate2;          ///< |precession|^2 / 2, half of the director's largest second derivative [1/s^2]
+  float velocity_center[3];  ///< of the cylinder that the velocity strays in [mm/s]
+  float turning_center[3];   ///< the same for d director / dt [1/s]
+  float limit_half_rate2;    ///< what half_rate2 may grow to [1/s^2]
 };
 
-/// Radii and half-heights of the cylinders that a rod keeps to. Plates hit a rod along z and thousands of times per
-/// second, neighbours mostly lie beside it: wide limits along z and narrow ones across cost little and last long.
+/// Radii and half-heights of the cylinders. Plates hit a rod along z and thousands of times per second, neighbours
+/// mostly lie beside it: wide limits along z and narrow ones across cost little and last long.
 struct Allowance {
   float velocity_xy;  ///< [mm/s]
   float velocity_z;   ///< [mm/s]
   float turning_xy;   ///< [1/s]
   float turning_z;    ///< [1/s]
 };
-struct Allowances {
-  Allowance narrow;
-  Allowance wide;
-};
 
-/// Two bounds on the same pair [s]: as long as both rods keep to their narrow limits, or to their wide ones.
+/// Two bounds on the same pair [s].
 struct SafeTime {
-  float narrow;
-  float wide;
+  float steady;    ///< as long as neither rod is hit
+  float straying;  ///< whatever hits them, as long as both keep to their limits
 };
 
 inline void set_vector(float* to, const Vec3& from) {

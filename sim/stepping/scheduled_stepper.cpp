@@ -20,17 +20,14 @@ constexpr float kLowSlack = 0.05F;
 constexpr float kShortBound = 30;
 /// Interlocked rods are looked at again within this time: further ahead their bounds are not worth the work.
 constexpr float kBeadHorizon = 200;
-/// A bound within wide limits is good enough if it is this long; a shorter one gives way to the one within narrow
-/// limits, unless that is not much longer either. The plates hit a rod about every 50 ticks.
+/// A bound that allows for straying is good enough if it is this long; a shorter one gives way to the bound for steady
+/// flight, unless that is not much longer either. The plates hit a rod about every 50 ticks.
 constexpr float kLongBound = 40;
 constexpr float kMuchLonger = 1.5;
 
-/// Limits within which the bounds of pairs hold. The wide ones last from one hit by a neighbour to the next, mostly;
-/// the narrow ones let a rod chatter on a plate for a while.
-constexpr Allowance kWide{1.0F, 25.0F, 1.0F, 12.0F};
-constexpr Allowance kNarrow{0.02F, 0.2F, 0.02F, 0.1F};
-constexpr float kNarrowRate = 0.2F;  ///< of the precession [rad/s]
-/// The wide limit for the precession, from what it is when the limits are set.
+/// How far a rod may stray before the bounds of its pairs are renewed: from one hit by a neighbour to the next, mostly.
+constexpr Allowance kAllowance{1.0F, 25.0F, 1.0F, 12.0F};
+/// The limit for its precession, from what it is when the limits are set.
 constexpr double kRateFactor = 1.2;
 constexpr double kRateMore = 10;  ///< [rad/s]
 
@@ -40,7 +37,6 @@ ScheduledStepper::ScheduledStepper(const World& world, int n_threads, int grain)
     : rules_(world),
       hull_(world.species),
       lanes_(world.species),
-      allowances_{kNarrow, kWide},
       neighbors_(world.species, world.scene.box_side, kSkin),
       team_(n_threads),
       grain_(grain),
@@ -184,8 +180,8 @@ void ScheduledStepper::list_pairs(const World& world, Tick now) {
   pair_marks_.resize(pairs_.size());
   pair_wheel_.make_room(pairs_.size());
   for (const int p : lost_) {  // certainly not touching
+    if (pairs_[p].rod[0] >= 0) mark_steady(p, false);
     pairs_[p] = {};
-    pair_marks_[p] = 0;
     pair_wheel_.remove(p);
   }
   pair_wheel_.pop(now, due_pairs_);
@@ -242,6 +238,14 @@ void ScheduledStepper::detect_due(const World& world, Tick now) {
     for (const int p : worker.turned) turn_touching(p);
     worker.turned.clear();
   }
+}
+
+void ScheduledStepper::mark_steady(int p, bool steady) {
+  const bool was = pair_marks_[p] & kSteady;
+  pair_marks_[p] = steady ? kSteady : 0;
+  if (steady == was) return;
+  for (const int i : pairs_[p].rod)
+    records_[i].n_steady = static_cast<std::int16_t>(records_[i].n_steady + (steady ? 1 : -1));
 }
 
 void ScheduledStepper::turn_touching(int p) {
@@ -310,14 +314,8 @@ std::optional<NumericalTrouble> ScheduledStepper::store_changed(World& world, Ti
       Vec3 velocity = flight.velocity;
       velocity.z() -= rules_.gravity * (static_cast<double>(now - flight.since) * rules_.dt);
       if (auto trouble = store(i, flight, rods_[i], now, rules_)) workers_[w].note(std::move(*trouble));
-      const Vec3 jump = flight.velocity - velocity;
-      const Vec3 turn = flight.precession - precession;
-      const Vec3 turning_jump = turn.cross(flight.director);
-      add_vector(record.strayed_velocity, jump);
-      add_vector(record.strayed_turning, turning_jump);
-      record.jolts += jolt(jump, turning_jump, turn);
-      record.jolted = record.jolts > 1.0F;
-      if (record.jolted) record.jolts = 0;
+      add_vector(record.strayed_velocity, flight.velocity - velocity);
+      add_vector(record.strayed_turning, (flight.precession - precession).cross(flight.director));
       record.strayed = !within_limits(record, flight);
       if (record.strayed) set_limits(record, flight);
     }
@@ -327,19 +325,6 @@ std::optional<NumericalTrouble> ScheduledStepper::store_changed(World& world, Ti
 
 // ---- a rod's limits
 
-/// What part of the narrow limits a hit may use up. Parts add up, so whenever a bound was made since they were last
-/// set, it is kept.
-float ScheduledStepper::jolt(const Vec3& velocity, const Vec3& turning, const Vec3& precession) {
-  const auto part = [](const Vec3& jump, float across, float along_z) {
-    return std::max(std::sqrt(jump.x() * jump.x() + jump.y() * jump.y()) / static_cast<double>(across),
-                    std::abs(jump.z()) / static_cast<double>(along_z));
-  };
-  constexpr double kMore = 1.001;  // for rounding
-  return static_cast<float>(kMore * std::max({part(velocity, kNarrow.velocity_xy, kNarrow.velocity_z),
-                                              part(turning, kNarrow.turning_xy, kNarrow.turning_z),
-                                              precession.norm() / static_cast<double>(kNarrowRate)}));
-}
-
 bool ScheduledStepper::within_limits(const RodRecord& record, const Flight& flight) const {
   const auto within = [](const float* strayed, float across, float along_z) {
     constexpr float kKept = 0.998F;  // for rounding: what strayed is a sum of many floats
@@ -347,8 +332,8 @@ bool ScheduledStepper::within_limits(const RodRecord& record, const Flight& flig
            std::abs(strayed[2]) <= kKept * along_z;
   };
   return flight.rate <= static_cast<double>(record.rate_limit) &&
-         within(record.strayed_velocity, allowances_.wide.velocity_xy, allowances_.wide.velocity_z) &&
-         within(record.strayed_turning, allowances_.wide.turning_xy, allowances_.wide.turning_z);
+         within(record.strayed_velocity, kAllowance.velocity_xy, kAllowance.velocity_z) &&
+         within(record.strayed_turning, kAllowance.turning_xy, kAllowance.turning_z);
 }
 
 void ScheduledStepper::set_limits(RodRecord& record, const Flight& flight) {
@@ -368,13 +353,12 @@ Outlook ScheduledStepper::outlook(const World& world, int i, Tick now) const {
   set_vector(outlook.director, director);
   set_vector(outlook.velocity, velocity);
   set_vector(outlook.turning, turning);
-  const float rate = static_cast<float>(flight.rate) + kNarrowRate;
-  outlook.half_rate2 = 0.5F * rate * rate;
+  outlook.half_rate2 = static_cast<float>(0.5 * flight.rate * flight.rate);
   for (int c = 0; c < 3; ++c) {
-    outlook.wide_velocity[c] = outlook.velocity[c] - record.strayed_velocity[c];
-    outlook.wide_turning[c] = outlook.turning[c] - record.strayed_turning[c];
+    outlook.velocity_center[c] = outlook.velocity[c] - record.strayed_velocity[c];
+    outlook.turning_center[c] = outlook.turning[c] - record.strayed_turning[c];
   }
-  outlook.wide_half_rate2 = 0.5F * record.rate_limit * record.rate_limit;
+  outlook.limit_half_rate2 = 0.5F * record.rate_limit * record.rate_limit;
   return outlook;
 }
 
@@ -459,9 +443,9 @@ void ScheduledStepper::schedule_pairs(const World& world, Tick now) {
       changed_, 0, static_cast<int>(changed_.size()), [&](int i) { __builtin_prefetch(neighbors_.pairs_of(i).data()); },
       [&](int i) {
         const bool strayed = records_[i].strayed;
-        if (!strayed && !records_[i].jolted) return;
+        if (!strayed && records_[i].n_steady == 0) return;
         for (const int p : neighbors_.pairs_of(i)) {
-          if (strayed || (pair_marks_[p] & kNarrowly)) list(p);
+          if (strayed || (pair_marks_[p] & kSteady)) list(p);
         }
       });
   if (to_bound_.empty()) return;
@@ -492,11 +476,15 @@ void ScheduledStepper::schedule_pairs(const World& world, Tick now) {
     });
   });
   next_.resize(to_bound_.size());
+  next_steady_.resize(to_bound_.size());
   team_.run(static_cast<int>(to_bound_.size()), grain_, [&](int begin, int end, int w) {
     for (int at = begin; at < end; at += kLanes) bound_pairs(at, std::min(kLanes, end - at), now, workers_[w]);
   });
   phase_times.lap(Phase::kBounds);
-  for (std::size_t k = 0; k < to_bound_.size(); ++k) pair_wheel_.set(to_bound_[k], next_[k]);
+  for (std::size_t k = 0; k < to_bound_.size(); ++k) {
+    mark_steady(to_bound_[k], next_steady_[k]);
+    pair_wheel_.set(to_bound_[k], next_[k]);
+  }
   phase_times.lap(Phase::kSchedule);
 }
 
@@ -510,25 +498,25 @@ void ScheduledStepper::bound_pairs(int first, int n, Tick now, Worker& worker) {
     lanes.set(lane, D[lane], outlooks_[i], outlooks_[j]);
   }
   const auto horizon = static_cast<float>(static_cast<double>(TimingWheel::horizon() - 1) * rules_.dt);
-  hull_safe_times(hull_, hull_, lanes, allowances_, horizon, hull);
+  hull_safe_times(hull_, hull_, lanes, kAllowance, horizon, hull);
 
   const auto per_dt = static_cast<float>((1.0 - 1e-5) / rules_.dt);
   for (int lane = 0; lane < n; ++lane) {
     const int p = to_bound_[first + lane];
     PairRecord& pair = pairs_[p];
     for (int c = 0; c < 3; ++c) pair.direction[c] = hull.direction[c][lane];
-    float narrow = hull.narrow[lane] * per_dt;
-    float wide = hull.wide[lane] * per_dt;
-    if (narrow < kShortBound && wide < kShortBound) {
+    float steady = hull.steady[lane] * per_dt;
+    float straying = hull.straying[lane] * per_dt;
+    if (steady < kShortBound && straying < kShortBound) {
       const auto& [i, j] = pair.rod;
-      const SafeTime beads = bead_safe_time(lanes_, outlooks_[i], lanes_, outlooks_[j], D[lane], allowances_,
+      const SafeTime beads = bead_safe_time(lanes_, outlooks_[i], lanes_, outlooks_[j], D[lane], kAllowance,
                                             kBeadHorizon * static_cast<float>(rules_.dt));
-      narrow = std::max(narrow, beads.narrow * per_dt);
-      wide = std::max(wide, beads.wide * per_dt);
+      steady = std::max(steady, beads.steady * per_dt);
+      straying = std::max(straying, beads.straying * per_dt);
     }
-    const bool narrowly = wide < kLongBound && wide * kMuchLonger < narrow;
-    pair_marks_[p] = narrowly ? kNarrowly : 0;
-    next_[first + lane] = now + 1 + static_cast<Tick>(narrowly ? narrow : wide);
+    const bool is_steady = straying < kLongBound && straying * kMuchLonger < steady;
+    next_steady_[first + lane] = is_steady;
+    next_[first + lane] = now + 1 + static_cast<Tick>(is_steady ? steady : straying);
   }
 }
 

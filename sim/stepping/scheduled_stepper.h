@@ -39,10 +39,9 @@ class ScheduledStepper final : public Stepper {
 
   /// What the stepper knows of a rod beside its flight.
   struct alignas(64) RodRecord {
-    float strayed_velocity[3] = {0, 0, 0};  ///< change by hits since the wide limits were set [mm/s]
+    float strayed_velocity[3] = {0, 0, 0};  ///< change by hits since the rod's limits were set [mm/s]
     float strayed_turning[3] = {0, 0, 0};   ///< the same for d director / dt [1/s]
-    float rate_limit = 0;                   ///< of the precession; part of the wide limits [rad/s]
-    float jolts = 0;                        ///< part of the narrow limits that hits may have used up
+    float rate_limit = 0;                   ///< of the precession; part of the limits [rad/s]
     float slack = 1e30F;                    ///< of the neighbour list at `slack_at`, at least [mm]
     float slack_speed = 0;                  ///< at which it shrinks, at most [mm/s]
     Stamp slack_at = 0;
@@ -50,8 +49,8 @@ class ScheduledStepper final : public Stepper {
     Stamp listed_at = 0;          ///< tick at which it was last visited or hit
     Stamp outlook_at = 0;         ///< tick for which outlooks_ holds the rod
     std::int16_t n_touching = 0;  ///< pairs of the rod that are touching
-    bool strayed = false;  ///< by the last hit, out of its wide limits: all bounds of its pairs are to be renewed
-    bool jolted = false;   ///< out of its narrow limits: those within narrow limits are
+    std::int16_t n_steady = 0;    ///< pairs whose bound holds for steady flight only
+    bool strayed = false;         ///< by the last hit, out of its limits: the bounds of its pairs are to be renewed
   };
   struct PairRecord {
     int rod[2] = {-1, -1};           ///< -1: a number that the neighbour list does not use
@@ -60,7 +59,7 @@ class ScheduledStepper final : public Stepper {
     bool touching = false;           ///< beads overlapped then
   };
   /// What a pair is marked with: kept apart from the records because all pairs of a rod are asked.
-  enum PairMark : std::uint8_t { kNarrowly = 1 /* the bound holds within narrow limits */, kListed = 2 };
+  enum PairMark : std::uint8_t { kSteady = 1 /* the bound holds for steady flight only */, kListed = 2 };
   /// What one thread gathers in a loop.
   struct Worker {
     void note(NumericalTrouble met);
@@ -93,8 +92,8 @@ class ScheduledStepper final : public Stepper {
   void pose(const World& world, Tick now);
   bool detect(int p, Worker& worker);
   void turn_touching(int p);
+  void mark_steady(int p, bool steady);
   bool within_limits(const RodRecord& record, const Flight& flight) const;
-  static float jolt(const Vec3& velocity, const Vec3& turning, const Vec3& precession);
   static void set_limits(RodRecord& record, const Flight& flight);
   Outlook outlook(const World& world, int i, Tick now) const;
   float slack_left(int i, Tick now) const;
@@ -105,7 +104,6 @@ class ScheduledStepper final : public Stepper {
   TickRules rules_;
   Hull hull_;
   BeadLanes lanes_;
-  Allowances allowances_;
   NeighborList neighbors_;
   ThreadTeam team_;
   int grain_;
@@ -124,12 +122,13 @@ class ScheduledStepper final : public Stepper {
   std::vector<std::int32_t> due_rods_;
   std::vector<std::int32_t> due_pairs_;
   std::vector<PairContact> contacts_;
-  std::vector<int> changed_;      ///< rods hit in this tick
-  std::vector<int> to_pose_;      ///< rods whose pose is needed
-  std::vector<int> to_look_at_;   ///< rods whose outlook is
-  std::vector<int> to_schedule_;  ///< rods that need a bound
-  std::vector<int> to_bound_;     ///< pairs that need one
-  std::vector<Tick> next_;        ///< ticks at which they are due
+  std::vector<int> changed_;               ///< rods hit in this tick
+  std::vector<int> to_pose_;               ///< rods whose pose is needed
+  std::vector<int> to_look_at_;            ///< rods whose outlook is
+  std::vector<int> to_schedule_;           ///< rods that need a bound
+  std::vector<int> to_bound_;              ///< pairs that need one
+  std::vector<Tick> next_;                 ///< ticks at which they are due
+  std::vector<std::uint8_t> next_steady_;  ///< whether the pairs' new bounds hold for steady flight only
   std::vector<int> may_change_;
   std::vector<int> gained_, lost_;  ///< pairs
   std::vector<Pose> poses_;

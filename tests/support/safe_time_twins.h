@@ -10,23 +10,23 @@
 /// Slow twins of the bounds on the time to contact: in doubles, one pair at a time, nothing left out.
 namespace shaken::test {
 
-/// One of the two sets of limits of an Outlook.
+/// What an Outlook says of one of the two kinds of flight.
 struct Limits {
   Vec3 velocity, turning;
   double half_rate2;
 };
-inline Limits limits(const Outlook& o, bool wide) {
-  const float* v = wide ? o.wide_velocity : o.velocity;
-  const float* w = wide ? o.wide_turning : o.turning;
-  return {Vec3(v[0], v[1], v[2]), Vec3(w[0], w[1], w[2]), wide ? o.wide_half_rate2 : o.half_rate2};
+inline Limits limits(const Outlook& o, bool straying) {
+  const float* v = straying ? o.velocity_center : o.velocity;
+  const float* w = straying ? o.turning_center : o.turning;
+  return {Vec3(v[0], v[1], v[2]), Vec3(w[0], w[1], w[2]), straying ? o.limit_half_rate2 : o.half_rate2};
 }
 inline Vec3 director(const Outlook& o) { return {o.director[0], o.director[1], o.director[2]}; }
 
 /// What the hulls' gap along d can have shrunk to after time t [mm].
 inline double least_hull_gap(const Species& s, const Outlook& i, const Outlook& j, const Vec3& D, const Vec3& d,
-                             const Allowance& allow, bool wide, double t) {
-  const Limits a = limits(i, wide);
-  const Limits b = limits(j, wide);
+                             const Allowance& allow, bool straying, double t) {
+  const Limits a = limits(i, straying);
+  const Limits b = limits(j, straying);
   const double up = std::abs(d.z());
   const auto width = [&](const Outlook& o, const Limits& l) {
     const double cosine = std::abs(director(o).dot(d) + l.turning.dot(d) * t) + l.half_rate2 * t * t +
@@ -39,8 +39,8 @@ inline double least_hull_gap(const Species& s, const Outlook& i, const Outlook& 
 
 /// Time at which it reaches zero, by bisection; at most `horizon` [s].
 inline double hull_safe_time_twin(const Species& s, const Outlook& i, const Outlook& j, const Vec3& D, const Vec3& d,
-                                  const Allowance& allow, bool wide, double horizon) {
-  const auto gap = [&](double t) { return least_hull_gap(s, i, j, D, d, allow, wide, t); };
+                                  const Allowance& allow, bool straying, double horizon) {
+  const auto gap = [&](double t) { return least_hull_gap(s, i, j, D, d, allow, straying, t); };
   if (gap(0) <= 0) return 0;
   if (gap(horizon) >= 0) return horizon;
   double low = 0, high = horizon;
@@ -50,9 +50,9 @@ inline double hull_safe_time_twin(const Species& s, const Outlook& i, const Outl
 
 /// Every bead against every bead [s].
 inline double bead_safe_time_twin(const Species& s, const Outlook& i, const Outlook& j, const Vec3& D,
-                                  const Allowance& allow, bool wide, double horizon) {
-  const Limits a = limits(i, wide);
-  const Limits b = limits(j, wide);
+                                  const Allowance& allow, bool straying, double horizon) {
+  const Limits a = limits(i, straying);
+  const Limits b = limits(j, straying);
   double safe = horizon;
   for (int m = 0; m < s.n_beads(); ++m) {
     for (int n = 0; n < s.n_beads(); ++n) {

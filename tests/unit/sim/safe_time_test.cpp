@@ -59,37 +59,37 @@ struct FlyingPair {
       // 1,000 mm stands for a place far from the border: flights are not wrapped here
       begin_flight(f, 0, {Vec3(1000, 1000, 0) + (r == 1 ? D : Vec3(Vec3::Zero())), directors[r]},
                    {draw.vector(25), draw.vector(12)}, 1e9, ratio);
-      set_limits(r, 0, Vec3::Zero(), Vec3::Zero(), f.rate);
+      set_limits(r, Vec3::Zero(), Vec3::Zero(), f.rate);
     }
   }
 
-  /// Narrow limits leave the precession `more` room; the wide ones have their centres off by what the rod has strayed.
-  void set_limits(int r, double more, const Vec3& strayed_velocity, const Vec3& strayed_turning, double rate_limit) {
+  /// The centres of the rod's limits are off by what it has strayed.
+  void set_limits(int r, const Vec3& strayed_velocity, const Vec3& strayed_turning, double rate_limit) {
     const Flight& f = flight[r];
     const Vec3 turning = f.precession.cross(f.director);
     Outlook& o = outlook[r];
     set_vector(o.director, f.director);
     set_vector(o.velocity, f.velocity);
     set_vector(o.turning, turning);
-    o.half_rate2 = static_cast<float>(0.5 * (f.rate + more) * (f.rate + more) * (1 + 1e-6));
-    set_vector(o.wide_velocity, f.velocity - strayed_velocity);
-    set_vector(o.wide_turning, turning - strayed_turning);
-    o.wide_half_rate2 = static_cast<float>(0.5 * rate_limit * rate_limit * (1 + 1e-6));
+    o.half_rate2 = static_cast<float>(0.5 * f.rate * f.rate * (1 + 1e-6));
+    set_vector(o.velocity_center, f.velocity - strayed_velocity);
+    set_vector(o.turning_center, turning - strayed_turning);
+    o.limit_half_rate2 = static_cast<float>(0.5 * rate_limit * rate_limit * (1 + 1e-6));
   }
 
-  SafeTime hull_bound(const Allowances& allowances, double horizon, Vec3* direction = nullptr) const {
+  SafeTime hull_bound(const Allowance& allowance, double horizon, Vec3* direction = nullptr) const {
     const Hull hull(species);
     PairLanes lanes{};
     constexpr int kLane = 5;  // any will do
     lanes.set(kLane, D, outlook[0], outlook[1]);
     HullSafeTimes safe;
-    hull_safe_times(hull, hull, lanes, allowances, static_cast<float>(horizon), safe);
+    hull_safe_times(hull, hull, lanes, allowance, static_cast<float>(horizon), safe);
     if (direction) *direction = Vec3(safe.direction[0][kLane], safe.direction[1][kLane], safe.direction[2][kLane]);
-    return {safe.narrow[kLane], safe.wide[kLane]};
+    return {safe.steady[kLane], safe.straying[kLane]};
   }
-  SafeTime bead_bound(const Allowances& allowances, double horizon) const {
+  SafeTime bead_bound(const Allowance& allowance, double horizon) const {
     const BeadLanes lanes(species);
-    return bead_safe_time(lanes, outlook[0], lanes, outlook[1], D, allowances, static_cast<float>(horizon));
+    return bead_safe_time(lanes, outlook[0], lanes, outlook[1], D, allowance, static_cast<float>(horizon));
   }
 
   /// Beads that overlap and approach at time t of the flights.
@@ -115,7 +115,7 @@ struct FlyingPair {
 };
 
 constexpr double kHorizon = 4e-3;
-constexpr Allowances kSteady{};  // no straying
+constexpr Allowance kNone{};
 
 TEST(SafeTime, NoPairCollidesBeforeItsBound) {
   test::Draw draw(20);
@@ -124,8 +124,8 @@ TEST(SafeTime, NoPairCollidesBeforeItsBound) {
   for (int trial = 0; trial < 1000000; ++trial) {
     width.draw(draw);
     const FlyingPair pair(draw);
-    const double hull = pair.hull_bound(kSteady, kHorizon).narrow;
-    const double bead = pair.bead_bound(kSteady, kHorizon).narrow;
+    const double hull = pair.hull_bound(kNone, kHorizon).steady;
+    const double bead = pair.bead_bound(kNone, kHorizon).steady;
     n_hull += hull > 0;
     n_bead += bead > 0;
     // the last instant that is said to be safe, and one on the way
@@ -150,26 +150,22 @@ Vec3 in_cylinder(test::Draw& draw, double across, double along_z) {
 TEST(SafeTime, LimitsCoverEveryChangeOfMotionWithinThem) {
   test::Draw draw(21);
   AnyWidth width;
-  const Allowances allowances{{0.3F, 2.0F, 0.4F, 1.5F}, {1.0F, 25.0F, 1.0F, 12.0F}};
-  const double narrow_rate = 2;
+  const Allowance allow{1.0F, 25.0F, 1.0F, 12.0F};
   int n_kicks = 0;
   for (int trial = 0; trial < 200000; ++trial) {
     width.draw(draw);
     FlyingPair pair(draw);
-    const bool wide = draw.integer(0, 1) == 1;
-    const Allowance& allow = wide ? allowances.wide : allowances.narrow;
     Vec3 strayed_velocity[2], strayed_turning[2];
     double rate_limit[2];
     for (int r = 0; r < 2; ++r) {
-      // what the rod has strayed before the bound is made counts for the wide limits only
-      strayed_velocity[r] = wide ? in_cylinder(draw, allow.velocity_xy, allow.velocity_z) : Vec3(Vec3::Zero());
-      strayed_turning[r] = wide ? in_cylinder(draw, allow.turning_xy, allow.turning_z) : Vec3(Vec3::Zero());
-      rate_limit[r] = pair.flight[r].rate + (wide ? draw.uniform(0, 10) : narrow_rate);
-      pair.set_limits(r, narrow_rate, strayed_velocity[r], strayed_turning[r], rate_limit[r]);
+      strayed_velocity[r] = in_cylinder(draw, allow.velocity_xy, allow.velocity_z);
+      strayed_turning[r] = in_cylinder(draw, allow.turning_xy, allow.turning_z);
+      rate_limit[r] = pair.flight[r].rate + draw.uniform(0, 10);
+      pair.set_limits(r, strayed_velocity[r], strayed_turning[r], rate_limit[r]);
     }
-    const SafeTime hull = pair.hull_bound(allowances, kHorizon);
-    const SafeTime bead = pair.bead_bound(allowances, kHorizon);
-    const double safe = wide ? std::max(hull.wide, bead.wide) : std::max(hull.narrow, bead.narrow);
+    const SafeTime hull = pair.hull_bound(allow, kHorizon);
+    const SafeTime bead = pair.bead_bound(allow, kHorizon);
+    const double safe = std::max(hull.straying, bead.straying);
     if (safe <= 0) continue;
     // both rods are pushed and turned at some times on the way, to anywhere within their limits
     double t = 0;
@@ -183,7 +179,7 @@ TEST(SafeTime, LimitsCoverEveryChangeOfMotionWithinThem) {
         const Vec3 target = in_cylinder(draw, allow.velocity_xy, allow.velocity_z);
         // turning jumps are across the director: try some until one stays within the limits
         for (int attempt = 0; attempt < 20; ++attempt) {
-          Vec3 spin = draw.vector(wide ? 5 : 0.5);
+          Vec3 spin = draw.vector(5);
           spin -= spin.dot(pose.director) * pose.director;
           const Vec3 turned = strayed_turning[r] + spin.cross(pose.director);
           if (turned.head<2>().norm() > allow.turning_xy || std::abs(turned.z()) > allow.turning_z) continue;
@@ -211,7 +207,7 @@ TEST(SafeTime, BoundsAreTight) {
   for (int trial = 0; trial < 6000 && share.size() < 600; ++trial) {
     const FlyingPair pair(draw);
     if (pair.collides_at(0)) continue;
-    const double bound = std::max(pair.hull_bound(kSteady, kHorizon).narrow, pair.bead_bound(kSteady, kHorizon).narrow);
+    const double bound = std::max(pair.hull_bound(kNone, kHorizon).steady, pair.bead_bound(kNone, kHorizon).steady);
     double contact = 0;
     while (contact < kHorizon && !pair.collides_at(contact)) contact += 1e-6;
     if (contact >= kHorizon) continue;
@@ -236,20 +232,20 @@ TEST(SafeTime, LanesMatchTheirTwins) {
     width.draw(draw);
     FlyingPair pair(draw);
     const auto some = [&](double most) { return static_cast<float>(draw.uniform(0, most)); };
-    const Allowances allowances{{some(1), some(5), some(1), some(5)}, {some(2), some(20), some(2), some(20)}};
-    for (int r = 0; r < 2; ++r) pair.set_limits(r, 1, draw.vector(1), draw.vector(1), pair.flight[r].rate + 5);
+    const Allowance allowance{some(2), some(20), some(2), some(20)};
+    for (int r = 0; r < 2; ++r) pair.set_limits(r, draw.vector(1), draw.vector(1), pair.flight[r].rate + 5);
     Vec3 d;
-    const SafeTime hull = pair.hull_bound(allowances, kHorizon, &d);
-    const SafeTime bead = pair.bead_bound(allowances, kNear);
+    const SafeTime hull = pair.hull_bound(allowance, kHorizon, &d);
+    const SafeTime bead = pair.bead_bound(allowance, kNear);
     ASSERT_NEAR(d.norm(), 1, 1e-6);
-    for (const bool wide : {false, true}) {
-      const Allowance& allow = wide ? allowances.wide : allowances.narrow;
-      const double hull_twin =
-          test::hull_safe_time_twin(pair.species, pair.outlook[0], pair.outlook[1], pair.D, d, allow, wide, kHorizon);
+    for (const bool straying : {false, true}) {
+      const Allowance allow = straying ? allowance : kNone;
+      const double hull_twin = test::hull_safe_time_twin(pair.species, pair.outlook[0], pair.outlook[1], pair.D, d,
+                                                         allow, straying, kHorizon);
       const double bead_twin =
-          test::bead_safe_time_twin(pair.species, pair.outlook[0], pair.outlook[1], pair.D, allow, wide, kNear);
-      const double hull_lane = wide ? hull.wide : hull.narrow;
-      const double bead_lane = wide ? bead.wide : bead.narrow;
+          test::bead_safe_time_twin(pair.species, pair.outlook[0], pair.outlook[1], pair.D, allow, straying, kNear);
+      const double hull_lane = straying ? hull.straying : hull.steady;
+      const double bead_lane = straying ? bead.straying : bead.steady;
       ASSERT_LE(hull_lane, hull_twin * (1 + 1e-6)) << "trial " << trial;
       ASSERT_LE(bead_lane, bead_twin * (1 + 1e-6)) << "trial " << trial;
       if (hull_twin > 1e-5) hull_share.push_back(hull_lane / hull_twin);
