@@ -39,7 +39,7 @@ class Simulation {
   /// Shares the work of each tick among so many threads; the trajectory stays bitwise the same. Worth it from about
   /// 5,000 rods on. Times of phases start anew. Loops over fewer than `grain` rods or pairs per thread are not shared.
   void use_threads(int n_threads, int grain = kGrain);
-  static constexpr int kGrain = 48;
+  static constexpr int kGrain = 12;
   /// From now on, the time spent in each phase of a tick is taken by `clock`; nullptr ends it.
   void time_phases(PhaseTimes::Clock clock);
   const PhaseTimes& phase_times() const;

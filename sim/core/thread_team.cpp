@@ -30,21 +30,13 @@ ThreadTeam::~ThreadTeam() {
   for (std::thread& thread : threads_) thread.join();
 }
 
-void ThreadTeam::do_share(int worker) const {
-  const auto share = [&](int w) { return static_cast<int>(static_cast<std::int64_t>(n_) * w / size()); };
-  const int begin = share(worker);
-  const int end = share(worker + 1);
-  if (begin < end) call_(context_, begin, end, worker);
-}
-
-void ThreadTeam::share_out(int n, Call call, const void* context) {
-  n_ = n;
+void ThreadTeam::run(Call call, const void* context) {
   call_ = call;
   context_ = context;
   busy_.store(static_cast<std::uint32_t>(threads_.size()), std::memory_order_relaxed);
   round_.fetch_add(1, std::memory_order_release);
   round_.notify_all();
-  do_share(0);
+  call(context, 0);
   for (std::uint32_t left = busy_.load(std::memory_order_acquire); left != 0;
        left = busy_.load(std::memory_order_acquire)) {
     wait_for_change(busy_, left);
@@ -57,7 +49,7 @@ void ThreadTeam::work(int worker) {
     wait_for_change(round_, seen);
     ++seen;
     if (ending_) return;
-    do_share(worker);
+    call_(context_, worker);
     if (busy_.fetch_sub(1, std::memory_order_release) == 1) busy_.notify_one();
   }
 }

@@ -42,18 +42,47 @@ ScheduledStepper::ScheduledStepper(const World& world, int n_threads, int grain)
       grain_(grain),
       rods_(world.rods.size()),
       records_(world.rods.size()),
+      marks_(world.rods.size()),
       outlooks_(world.rods.size()),
+      rod_owners_(world.rods.size()),
       rod_wheel_(world.rods.size()),
       poses_(world.rods.size()),
-      workers_(n_threads) {}
+      workers_(n_threads) {
+  // rods are numbered along the rows that they start in, so these are bands of the plane
+  const std::size_t n = world.rods.size();
+  for (std::size_t i = 0; i < n; ++i) rod_owners_[i] = static_cast<std::uint8_t>(i * workers_.size() / n);
+}
 
 std::size_t ScheduledStepper::bytes() const {
   std::size_t bytes = neighbors_.bytes() + rod_wheel_.bytes() + pair_wheel_.bytes();
-  bytes += heap_bytes(rods_, records_, outlooks_, pairs_, pair_marks_, gained_, lost_);
-  bytes += heap_bytes(due_rods_, due_pairs_, changed_, to_pose_, to_look_at_, to_bound_, to_schedule_, next_,
-                      may_change_, contacts_, poses_);
-  for (const Worker& w : workers_) bytes += heap_bytes(w.bead_contacts, w.contacts, w.turned, w.to_place);
+  bytes += heap_bytes(rods_, records_, marks_, outlooks_, rod_owners_, poses_);
+  bytes += heap_bytes(pair_rods_, directions_, detected_at_, pair_marks_, pair_owners_);
+  bytes += heap_bytes(due_rods_, due_pairs_, contacts_, changed_, to_pose_, to_look_at_, to_schedule_, to_bound_,
+                      may_change_, gained_, lost_);
+  for (const Worker& w : workers_)
+    bytes +=
+        heap_bytes(w.own, w.next, w.next_steady, w.bead_contacts, w.contacts, w.turned, w.hit, w.strayed, w.to_place);
   return bytes;
+}
+
+template <class Visit>
+void ScheduledStepper::share(const std::vector<int>& list, const std::vector<std::uint8_t>& owners,
+                             const Visit& visit) {
+  if (team_.size() == 1 || static_cast<int>(list.size()) < grain_ * team_.size()) {
+    for (Worker& worker : workers_) worker.mine = {};
+    workers_[0].mine = list;
+    visit(workers_[0]);
+    return;
+  }
+  team_.run([&](int w) {
+    Worker& worker = workers_[w];
+    worker.own.clear();
+    for (const int item : list) {
+      if (owners[item] == w) worker.own.push_back(item);
+    }
+    worker.mine = worker.own;
+    visit(worker);
+  });
 }
 
 std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
@@ -86,7 +115,16 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
   phase_times.lap(Phase::kResponse);
 
   // 4. storing
-  list_changed(now);
+  to_schedule_ = due_rods_;
+  for (const PairContact& contact : contacts_) {
+    for (const int i : {contact.i, contact.j}) {
+      if (!rods_[i].changed) continue;
+      list_changed(i, now);
+      if (marks_[i].listed_at == stamp(now)) continue;
+      marks_[i].listed_at = stamp(now);
+      to_schedule_.push_back(i);
+    }
+  }
   if (auto trouble = store_changed(world, now)) return trouble;
   phase_times.lap(Phase::kStoring);
 
@@ -99,49 +137,48 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
 // ---- phases
 
 void ScheduledStepper::list_to_pose(int i, Tick now) {
-  if (records_[i].posed_at == stamp(now)) return;
-  records_[i].posed_at = stamp(now);
+  if (marks_[i].posed_at == stamp(now)) return;
+  marks_[i].posed_at = stamp(now);
   to_pose_.push_back(i);
 }
 
 void ScheduledStepper::pose(const World& world, Tick now) {
-  team_.run(static_cast<int>(to_pose_.size()), grain_, [&](int begin, int end, int) {
-    visit_ahead(
-        to_pose_, begin, end,
-        [&](int i) {
-          prefetch(world.rods[i]);
-          prefetch(rods_[i]);
-        },
-        [&](int i) { rods_[i] = rod_at_tick(world.rods[i], now, rules_); });
+  const auto ask = [&](int i) {
+    prefetch(world.rods[i]);
+    prefetch(rods_[i]);
+  };
+  share(to_pose_, rod_owners_, [&](Worker& worker) {
+    visit_ahead(worker.mine, ask, [&](int i) { rods_[i] = rod_at_tick(world.rods[i], now, rules_); });
   });
 }
 
 std::optional<NumericalTrouble> ScheduledStepper::collide_with_plates_due(World& world, Tick now) {
+  changed_.clear();
   if (due_rods_.empty()) return {};
+  for (const int i : due_rods_) marks_[i].posed_at = marks_[i].listed_at = stamp(now);
   const PlateState plates = world.plates.at(now);
-  team_.run(static_cast<int>(due_rods_.size()), grain_, [&](int begin, int end, int w) {
-    Worker& worker = workers_[w];
-    const auto ask = [&](int i) {
-      prefetch(world.rods[i]);
-      prefetch(rods_[i]);
-      prefetch(records_[i]);
-    };
-    visit_ahead(due_rods_, begin, end, ask, [&](int i) {
-      RodRecord& record = records_[i];
+  const auto ask = [&](int i) {
+    prefetch(world.rods[i]);
+    prefetch(rods_[i]);
+    prefetch(records_[i]);
+  };
+  share(due_rods_, rod_owners_, [&](Worker& worker) {
+    visit_ahead(worker.mine, ask, [&](int i) {
       rods_[i] = rod_at_tick(world.rods[i], now, rules_);
-      record.posed_at = stamp(now);
-      record.listed_at = stamp(now);
       if (slack_left(i, now) < kLeastSlack) {
         measure_slack(i, now);
-        if (record.slack < kLeastSlack) worker.to_place.push_back(i);
+        if (records_[i].slack < kLeastSlack) worker.to_place.push_back(i);
       }
       auto trouble = collide_with_plates(i, rods_[i], world.rods[i], plates, now, rules_, worker.counters);
       if (trouble) worker.note(std::move(*trouble));
+      if (rods_[i].changed) worker.hit.push_back(i);
     });
   });
   for (Worker& worker : workers_) {
     world.counters.add(worker.counters);
     worker.counters = {};
+    for (const int i : worker.hit) list_changed(i, now);
+    worker.hit.clear();
   }
   return first_trouble();
 }
@@ -176,33 +213,37 @@ void ScheduledStepper::list_pairs(const World& world, Tick now) {
     }
     worker.to_place.clear();
   }
-  pairs_.resize(neighbors_.pairs().size());
-  pair_marks_.resize(pairs_.size());
-  pair_wheel_.make_room(pairs_.size());
+  const std::size_t n_pairs = neighbors_.pairs().size();
+  pair_rods_.resize(n_pairs, kUnused);
+  directions_.resize(n_pairs);
+  detected_at_.resize(n_pairs);
+  pair_marks_.resize(n_pairs);
+  pair_owners_.resize(n_pairs);
+  pair_wheel_.make_room(n_pairs);
   for (const int p : lost_) {  // certainly not touching
-    if (pairs_[p].rod[0] >= 0) mark_steady(p, false);
-    pairs_[p] = {};
+    if (pair_rods_[p] != kUnused) mark_steady(p, false);
+    pair_rods_[p] = kUnused;
     pair_wheel_.remove(p);
   }
   pair_wheel_.pop(now, due_pairs_);
   for (const int p : gained_) {
     const NeighborList::Pair& pair = neighbors_.pairs()[p];
-    if (pair.i < 0 || pairs_[p].rod[0] >= 0) continue;  // lost again, or met twice
-    pairs_[p].rod[0] = pair.i;
-    pairs_[p].rod[1] = pair.j;
+    if (pair.i < 0 || pair_rods_[p] != kUnused) continue;  // lost again, or met twice
+    pair_rods_[p] = {pair.i, pair.j};
+    pair_owners_[p] = rod_owners_[pair.i];
+    directions_[p] = {};
     due_pairs_.push_back(p);
   }
 }
 
 bool ScheduledStepper::detect(int p, Worker& worker) {
-  const PairRecord& pair = pairs_[p];
-  const auto& [i, j] = pair.rod;
+  const auto& [i, j] = pair_rods_[p];
   const Pose& pose_i = rods_[i].pose;
   const Pose& pose_j = rods_[j].pose;
   const Vec3 D = nearest_image(pose_i.position, pose_j.position, rules_.box_side);
   // most pairs are still apart in the direction in which they were
   constexpr double kMargin = 1e-5;
-  const Vec3 d(pair.direction[0], pair.direction[1], pair.direction[2]);
+  const Vec3 d(directions_[p][0], directions_[p][1], directions_[p][2]);
   if (hull_gap(hull_, std::abs(pose_i.director.dot(d)), hull_, std::abs(pose_j.director.dot(d)), D.dot(d)) > kMargin)
     return false;
   const BeadRange beads_i = beads_may_overlap(lanes_, pose_i.director, lanes_, pose_j.director, D);
@@ -218,18 +259,14 @@ void ScheduledStepper::detect_due(const World& world, Tick now) {
   contacts_.clear();
   if (due_pairs_.empty()) return;
   to_pose_.clear();
-  visit_ahead(
-      due_pairs_, 0, static_cast<int>(due_pairs_.size()), [&](int p) { prefetch(pairs_[p]); },
-      [&](int p) {
-        for (const int i : pairs_[p].rod) list_to_pose(i, now);
-      });
+  for (const int p : due_pairs_) {
+    detected_at_[p] = stamp(now);
+    for (const int i : pair_rods_[p]) list_to_pose(i, now);
+  }
   pose(world, now);
-  team_.run(static_cast<int>(due_pairs_.size()), grain_, [&](int begin, int end, int w) {
-    Worker& worker = workers_[w];
-    for (int k = begin; k < end; ++k) {
-      const int p = due_pairs_[k];
-      pairs_[p].detected_at = stamp(now);
-      if (detect(p, worker) != pairs_[p].touching) worker.turned.push_back(p);
+  share(due_pairs_, pair_owners_, [&](Worker& worker) {
+    for (const int p : worker.mine) {
+      if (detect(p, worker) != static_cast<bool>(pair_marks_[p] & kTouching)) worker.turned.push_back(p);
     }
   });
   for (Worker& worker : workers_) {
@@ -241,31 +278,30 @@ void ScheduledStepper::detect_due(const World& world, Tick now) {
 }
 
 void ScheduledStepper::mark_steady(int p, bool steady) {
-  const bool was = pair_marks_[p] & kSteady;
-  pair_marks_[p] = steady ? kSteady : 0;
-  if (steady == was) return;
-  for (const int i : pairs_[p].rod)
-    records_[i].n_steady = static_cast<std::int16_t>(records_[i].n_steady + (steady ? 1 : -1));
+  if (static_cast<bool>(pair_marks_[p] & kSteady) == steady) return;
+  pair_marks_[p] ^= kSteady;
+  for (const int i : pair_rods_[p])
+    marks_[i].n_steady = static_cast<std::int16_t>(marks_[i].n_steady + (steady ? 1 : -1));
 }
 
 void ScheduledStepper::turn_touching(int p) {
-  PairRecord& pair = pairs_[p];
-  pair.touching = !pair.touching;
-  for (const int i : pair.rod) records_[i].n_touching += pair.touching ? 1 : -1;
+  pair_marks_[p] ^= kTouching;
+  const int more = pair_marks_[p] & kTouching ? 1 : -1;
+  for (const int i : pair_rods_[p]) marks_[i].n_touching = static_cast<std::int16_t>(marks_[i].n_touching + more);
 }
 
 // Beads that overlap but recede are left alone for a while. An impulse on one of the rods can make them approach within
 // the very tick, though, so wherever a rod may be hit, its touching pairs take part in that tick's response.
 void ScheduledStepper::detect_touching(const World& world, Tick now) {
   may_change_.clear();
-  for (const int i : due_rods_) {
-    if (rods_[i].changed && records_[i].n_touching > 0) may_change_.push_back(i);
+  for (const int i : changed_) {
+    if (marks_[i].n_touching > 0) may_change_.push_back(i);
   }
   std::size_t n_seen = 0;
   const auto note_contacts = [&] {
     for (; n_seen < contacts_.size(); ++n_seen) {
       for (const int i : {contacts_[n_seen].i, contacts_[n_seen].j}) {
-        if (records_[i].n_touching > 1) may_change_.push_back(i);  // in more than this pair
+        if (marks_[i].n_touching > 1) may_change_.push_back(i);  // in more than this pair
       }
     }
   };
@@ -274,11 +310,11 @@ void ScheduledStepper::detect_touching(const World& world, Tick now) {
   for (std::size_t m = 0; m < may_change_.size(); ++m) {
     const int i = may_change_[m];
     for (const int p : neighbors_.pairs_of(i)) {
-      if (!pairs_[p].touching || pairs_[p].detected_at == stamp(now)) continue;
+      if (!(pair_marks_[p] & kTouching) || detected_at_[p] == stamp(now)) continue;
       due_pairs_.push_back(p);
-      pairs_[p].detected_at = stamp(now);
+      detected_at_[p] = stamp(now);
       to_pose_.clear();
-      for (const int rod : pairs_[p].rod) list_to_pose(rod, now);
+      for (const int rod : pair_rods_[p]) list_to_pose(rod, now);
       pose(world, now);
       if (!detect(p, worker)) turn_touching(p);
       contacts_.insert(contacts_.end(), worker.contacts.begin(), worker.contacts.end());
@@ -288,36 +324,26 @@ void ScheduledStepper::detect_touching(const World& world, Tick now) {
   }
 }
 
-void ScheduledStepper::list_changed(Tick now) {
-  changed_.clear();
-  to_schedule_ = due_rods_;
-  for (const int i : due_rods_) {
-    if (rods_[i].changed) changed_.push_back(i);
-  }
-  for (const PairContact& contact : contacts_) {
-    for (const int i : {contact.i, contact.j}) {
-      if (!rods_[i].changed || records_[i].listed_at == stamp(now)) continue;
-      records_[i].listed_at = stamp(now);
-      changed_.push_back(i);
-      to_schedule_.push_back(i);
-    }
-  }
+void ScheduledStepper::list_changed(int i, Tick now) {
+  if (marks_[i].changed_at == stamp(now)) return;
+  marks_[i].changed_at = stamp(now);
+  changed_.push_back(i);
 }
 
 std::optional<NumericalTrouble> ScheduledStepper::store_changed(World& world, Tick now) {
-  team_.run(static_cast<int>(changed_.size()), grain_, [&](int begin, int end, int w) {
-    for (int k = begin; k < end; ++k) {
-      const int i = changed_[k];
+  share(changed_, rod_owners_, [&](Worker& worker) {
+    for (const int i : worker.mine) {
       Flight& flight = world.rods[i];
       RodRecord& record = records_[i];
       const Vec3 precession = flight.precession;
       Vec3 velocity = flight.velocity;
       velocity.z() -= rules_.gravity * (static_cast<double>(now - flight.since) * rules_.dt);
-      if (auto trouble = store(i, flight, rods_[i], now, rules_)) workers_[w].note(std::move(*trouble));
+      if (auto trouble = store(i, flight, rods_[i], now, rules_)) worker.note(std::move(*trouble));
       add_vector(record.strayed_velocity, flight.velocity - velocity);
       add_vector(record.strayed_turning, (flight.precession - precession).cross(flight.director));
-      record.strayed = !within_limits(record, flight);
-      if (record.strayed) set_limits(record, flight);
+      if (within_limits(record, flight)) continue;
+      set_limits(record, flight);
+      worker.strayed.push_back(i);
     }
   });
   return first_trouble();
@@ -377,17 +403,15 @@ void ScheduledStepper::measure_slack(int i, Tick now) {
 }
 
 void ScheduledStepper::schedule_rods(const World& world, Tick now) {
-  const int n = static_cast<int>(to_schedule_.size());
-  next_.resize(n);
-  team_.run(n, grain_, [&](int begin, int end, int w) {
-    PlateLanes& lanes = workers_[w].plate_lanes;
+  share(to_schedule_, rod_owners_, [&](Worker& worker) {
+    worker.next.resize(worker.mine.size());
+    PlateLanes& lanes = worker.plate_lanes;
     Tick off_plates[kLanes];
-    for (int at = begin; at < end; at += kLanes) {
-      const int n_lanes = std::min(kLanes, end - at);
-      for (int lane = 0; lane < n_lanes; ++lane) {
-        const int i = to_schedule_[at + lane];
-        const Flight& flight = world.rods[i];
-        const Pose& pose = rods_[i].pose;
+    for (std::size_t first = 0; first < worker.mine.size(); first += kLanes) {
+      const auto rods = worker.mine.subspan(first, std::min<std::size_t>(kLanes, worker.mine.size() - first));
+      for (std::size_t lane = 0; lane < rods.size(); ++lane) {
+        const Flight& flight = world.rods[rods[lane]];
+        const Pose& pose = rods_[rods[lane]].pose;
         lanes.z[lane] = static_cast<float>(pose.position.z());
         lanes.velocity[lane] = static_cast<float>(
             flight.velocity.z() - rules_.gravity * (static_cast<double>(now - flight.since) * rules_.dt));
@@ -396,16 +420,18 @@ void ScheduledStepper::schedule_rods(const World& world, Tick now) {
             static_cast<float>(flight.precession.x() * pose.director.y() - flight.precession.y() * pose.director.x());
         lanes.rate2[lane] = static_cast<float>(flight.rate * flight.rate);
       }
-      plate_safe_ticks(rules_.species, world.plates, lanes, n_lanes, rules_.gravity, rules_.dt, now,
-                       TimingWheel::horizon() - 1, off_plates);
-      for (int lane = 0; lane < n_lanes; ++lane) {
-        const int i = to_schedule_[at + lane];
-        next_[at + lane] = now + 1 + std::min(off_plates[lane], listed_ticks(world, i, now));
+      plate_safe_ticks(rules_.species, world.plates, lanes, static_cast<int>(rods.size()), rules_.gravity, rules_.dt,
+                       now, TimingWheel::horizon() - 1, off_plates);
+      for (std::size_t lane = 0; lane < rods.size(); ++lane) {
+        worker.next[first + lane] = now + 1 + std::min(off_plates[lane], listed_ticks(world, rods[lane], now));
       }
     }
   });
-  for (int k = 0; k < n; ++k) rod_wheel_.set(to_schedule_[k], next_[k]);
   phase_times.lap(Phase::kBounds);
+  for (const Worker& worker : workers_) {
+    for (std::size_t k = 0; k < worker.mine.size(); ++k) rod_wheel_.set(worker.mine[k], worker.next[k]);
+  }
+  phase_times.lap(Phase::kSchedule);
 }
 
 /// Ticks for which the neighbour list certainly covers rod i.
@@ -439,84 +465,85 @@ void ScheduledStepper::schedule_pairs(const World& world, Tick now) {
     to_bound_.push_back(p);
   };
   for (const int p : due_pairs_) list(p);
-  visit_ahead(
-      changed_, 0, static_cast<int>(changed_.size()), [&](int i) { __builtin_prefetch(neighbors_.pairs_of(i).data()); },
-      [&](int i) {
-        const bool strayed = records_[i].strayed;
-        if (!strayed && records_[i].n_steady == 0) return;
-        for (const int p : neighbors_.pairs_of(i)) {
-          if (strayed || (pair_marks_[p] & kSteady)) list(p);
-        }
-      });
+  for (Worker& worker : workers_) {
+    for (const int i : worker.strayed) {
+      for (const int p : neighbors_.pairs_of(i)) list(p);
+    }
+    worker.strayed.clear();
+  }
+  for (const int i : changed_) {
+    if (marks_[i].n_steady == 0) continue;
+    for (const int p : neighbors_.pairs_of(i)) {
+      if (pair_marks_[p] & kSteady) list(p);
+    }
+  }
   if (to_bound_.empty()) return;
 
+  to_pose_.clear();
   to_look_at_.clear();
-  visit_ahead(
-      to_bound_, 0, static_cast<int>(to_bound_.size()), [&](int p) { prefetch(pairs_[p]); },
-      [&](int p) {
-        for (const int i : pairs_[p].rod) {
-          if (records_[i].outlook_at == stamp(now)) continue;
-          records_[i].outlook_at = stamp(now);
-          to_look_at_.push_back(i);
-        }
-      });
-  team_.run(static_cast<int>(to_look_at_.size()), grain_, [&](int begin, int end, int) {
-    const auto ask = [&](int i) {
-      prefetch(world.rods[i]);
-      prefetch(rods_[i]);
-      prefetch(records_[i]);
-      prefetch(outlooks_[i]);
-    };
-    visit_ahead(to_look_at_, begin, end, ask, [&](int i) {
-      if (records_[i].posed_at != stamp(now)) {
-        records_[i].posed_at = stamp(now);
-        rods_[i] = rod_at_tick(world.rods[i], now, rules_);
-      }
-      outlooks_[i] = outlook(world, i, now);
-    });
-  });
-  next_.resize(to_bound_.size());
-  next_steady_.resize(to_bound_.size());
-  team_.run(static_cast<int>(to_bound_.size()), grain_, [&](int begin, int end, int w) {
-    for (int at = begin; at < end; at += kLanes) bound_pairs(at, std::min(kLanes, end - at), now, workers_[w]);
+  for (const int p : to_bound_) {
+    for (const int i : pair_rods_[p]) {
+      if (marks_[i].outlook_at == stamp(now)) continue;
+      marks_[i].outlook_at = stamp(now);
+      to_look_at_.push_back(i);
+      list_to_pose(i, now);
+    }
+  }
+  phase_times.lap(Phase::kSchedule);
+  pose(world, now);
+  const auto ask = [&](int i) {
+    prefetch(records_[i]);
+    prefetch(outlooks_[i]);
+  };
+  share(to_look_at_, rod_owners_,
+        [&](Worker& worker) { visit_ahead(worker.mine, ask, [&](int i) { outlooks_[i] = outlook(world, i, now); }); });
+  share(to_bound_, pair_owners_, [&](Worker& worker) {
+    worker.next.clear();
+    worker.next_steady.clear();
+    for (std::size_t first = 0; first < worker.mine.size(); first += kLanes) {
+      bound_pairs(worker.mine.subspan(first, std::min<std::size_t>(kLanes, worker.mine.size() - first)), now, worker);
+    }
   });
   phase_times.lap(Phase::kBounds);
-  for (std::size_t k = 0; k < to_bound_.size(); ++k) {
-    mark_steady(to_bound_[k], next_steady_[k]);
-    pair_wheel_.set(to_bound_[k], next_[k]);
+  for (const Worker& worker : workers_) {
+    for (std::size_t k = 0; k < worker.mine.size(); ++k) {
+      const int p = worker.mine[k];
+      pair_marks_[p] &= static_cast<std::uint8_t>(~kListed);
+      mark_steady(p, worker.next_steady[k]);
+      pair_wheel_.set(p, worker.next[k]);
+    }
   }
   phase_times.lap(Phase::kSchedule);
 }
 
-void ScheduledStepper::bound_pairs(int first, int n, Tick now, Worker& worker) {
+/// Appends to the worker's `next` and `next_steady`, for up to kLanes pairs.
+void ScheduledStepper::bound_pairs(std::span<const int> pairs, Tick now, Worker& worker) {
   PairLanes& lanes = worker.pair_lanes;
   HullSafeTimes hull;
   Vec3 D[kLanes];
-  for (int lane = 0; lane < n; ++lane) {
-    const auto& [i, j] = pairs_[to_bound_[first + lane]].rod;
+  for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
+    const auto& [i, j] = pair_rods_[pairs[lane]];
     D[lane] = nearest_image(rods_[i].pose.position, rods_[j].pose.position, rules_.box_side);
-    lanes.set(lane, D[lane], outlooks_[i], outlooks_[j]);
+    lanes.set(static_cast<int>(lane), D[lane], outlooks_[i], outlooks_[j]);
   }
   const auto horizon = static_cast<float>(static_cast<double>(TimingWheel::horizon() - 1) * rules_.dt);
   hull_safe_times(hull_, hull_, lanes, kAllowance, horizon, hull);
 
   const auto per_dt = static_cast<float>((1.0 - 1e-5) / rules_.dt);
-  for (int lane = 0; lane < n; ++lane) {
-    const int p = to_bound_[first + lane];
-    PairRecord& pair = pairs_[p];
-    for (int c = 0; c < 3; ++c) pair.direction[c] = hull.direction[c][lane];
+  for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
+    directions_[pairs[lane]] = {hull.direction[0][lane], hull.direction[1][lane], hull.direction[2][lane]};
     float steady = hull.steady[lane] * per_dt;
     float straying = hull.straying[lane] * per_dt;
     if (steady < kShortBound && straying < kShortBound) {
-      const auto& [i, j] = pair.rod;
+      const auto& [i, j] = pair_rods_[pairs[lane]];
       const SafeTime beads = bead_safe_time(lanes_, outlooks_[i], lanes_, outlooks_[j], D[lane], kAllowance,
                                             kBeadHorizon * static_cast<float>(rules_.dt));
       steady = std::max(steady, beads.steady * per_dt);
       straying = std::max(straying, beads.straying * per_dt);
     }
     const bool is_steady = straying < kLongBound && straying * kMuchLonger < steady;
-    next_steady_[first + lane] = is_steady;
-    next_[first + lane] = now + 1 + static_cast<Tick>(is_steady ? steady : straying);
+    worker.next_steady.push_back(is_steady);
+    worker.next.push_back(now + 1 + static_cast<Tick>(is_steady ? steady : straying));
   }
 }
 

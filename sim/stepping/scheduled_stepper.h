@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <span>
 #include <vector>
 
 #include "sim/contact/bead_safe_time.h"
@@ -24,8 +26,9 @@ namespace shaken {
 /// all its pairs renewed; a pair on the point of touching has a bound for steady flight instead, which is longer, and
 /// renewed whenever one of its rods is hit.
 ///
-/// Each phase of a tick is a loop over a list without order, which several threads may share; only the impulses
-/// between rods, a few per cent of the time, are one thread's.
+/// Each phase of a tick is a loop over a list without order, which several threads may share: each rod and pair has an
+/// owner, so that what belongs to it stays in one thread's caches. Lists, marks, wheels and the impulses between rods
+/// are the first thread's.
 class ScheduledStepper final : public Stepper {
  public:
   /// Loops are shared if there are at least `grain` items for each thread.
@@ -37,35 +40,46 @@ class ScheduledStepper final : public Stepper {
   using Stamp = std::uint32_t;
   static Stamp stamp(Tick now) { return static_cast<Stamp>(now) + 1; }  // 0: never
 
-  /// What the stepper knows of a rod beside its flight.
-  struct alignas(64) RodRecord {
+  /// What the stepper knows of a rod beside its flight; its owner's.
+  struct RodRecord {
     float strayed_velocity[3] = {0, 0, 0};  ///< change by hits since the rod's limits were set [mm/s]
     float strayed_turning[3] = {0, 0, 0};   ///< the same for d director / dt [1/s]
     float rate_limit = 0;                   ///< of the precession; part of the limits [rad/s]
     float slack = 1e30F;                    ///< of the neighbour list at `slack_at`, at least [mm]
     float slack_speed = 0;                  ///< at which it shrinks, at most [mm/s]
     Stamp slack_at = 0;
+  };
+  /// The same, the first thread's.
+  struct RodMarks {
     Stamp posed_at = 0;           ///< tick for which rods_ holds the rod
-    Stamp listed_at = 0;          ///< tick at which it was last visited or hit
+    Stamp listed_at = 0;          ///< tick at which it was last to be scheduled
+    Stamp changed_at = 0;         ///< tick at which it was last hit
     Stamp outlook_at = 0;         ///< tick for which outlooks_ holds the rod
     std::int16_t n_touching = 0;  ///< pairs of the rod that are touching
     std::int16_t n_steady = 0;    ///< pairs whose bound holds for steady flight only
-    bool strayed = false;         ///< by the last hit, out of its limits: the bounds of its pairs are to be renewed
   };
-  struct PairRecord {
-    int rod[2] = {-1, -1};           ///< -1: a number that the neighbour list does not use
-    float direction[3] = {0, 0, 0};  ///< in which the hulls were apart at the last bound; 0: not known
-    Stamp detected_at = 0;           ///< tick of the last search for contacts
-    bool touching = false;           ///< beads overlapped then
+  /// In which direction a pair's hulls were apart at the last bound; 0: not known.
+  using Direction = std::array<float, 3>;
+  using PairRods = std::array<int, 2>;
+  static constexpr PairRods kUnused{-1, -1};  ///< of a number that the neighbour list does not use
+  /// Marks of a pair, the first thread's.
+  enum PairMark : std::uint8_t {
+    kSteady = 1,    ///< the bound holds for steady flight only
+    kTouching = 2,  ///< beads overlapped at the last search
+    kListed = 4,    ///< for a new bound
   };
-  /// What a pair is marked with: kept apart from the records because all pairs of a rod are asked.
-  enum PairMark : std::uint8_t { kSteady = 1 /* the bound holds for steady flight only */, kListed = 2 };
-  /// What one thread gathers in a loop.
+  /// What one thread has and gathers in a loop.
   struct Worker {
     void note(NumericalTrouble met);
 
+    std::vector<int> own;                   ///< items of a list that the thread owns
+    std::span<const int> mine;              ///< those that it visits: its own, or all if it is alone
+    std::vector<Tick> next;                 ///< ticks at which they are due
+    std::vector<std::uint8_t> next_steady;  ///< whether the pairs' new bounds hold for steady flight only
     Counters counters;
     std::optional<NumericalTrouble> trouble;  ///< that of the first rods
+    std::vector<int> hit;                     ///< rods, by a plate
+    std::vector<int> strayed;                 ///< rods, out of their limits: their pairs need new bounds
     std::vector<int> to_place;                ///< rods that have used up their slack
     std::vector<BeadContact> bead_contacts;
     std::vector<PairContact> contacts;
@@ -81,13 +95,17 @@ class ScheduledStepper final : public Stepper {
   void list_pairs(const World& world, Tick now);
   void detect_due(const World& world, Tick now);
   void detect_touching(const World& world, Tick now);
-  void list_changed(Tick now);
   std::optional<NumericalTrouble> store_changed(World& world, Tick now);
   void schedule_rods(const World& world, Tick now);
   void schedule_pairs(const World& world, Tick now);
 
+  /// Calls visit(worker) on each thread, worker.mine being its part of the list; on one if that is not worth it.
+  template <class Visit>
+  void share(const std::vector<int>& list, const std::vector<std::uint8_t>& owners, const Visit& visit);
+
   // parts of them
   std::optional<NumericalTrouble> first_trouble() const;
+  void list_changed(int i, Tick now);
   void list_to_pose(int i, Tick now);
   void pose(const World& world, Tick now);
   bool detect(int p, Worker& worker);
@@ -99,7 +117,7 @@ class ScheduledStepper final : public Stepper {
   float slack_left(int i, Tick now) const;
   void measure_slack(int i, Tick now);
   Tick listed_ticks(const World& world, int i, Tick now);
-  void bound_pairs(int first, int n, Tick now, Worker& worker);
+  void bound_pairs(std::span<const int> pairs, Tick now, Worker& worker);
 
   TickRules rules_;
   Hull hull_;
@@ -110,11 +128,17 @@ class ScheduledStepper final : public Stepper {
 
   std::vector<RodAtTick> rods_;
   std::vector<RodRecord> records_;
+  std::vector<RodMarks> marks_;
   std::vector<Outlook> outlooks_;
+  std::vector<std::uint8_t> rod_owners_;  ///< the thread of each rod
   TimingWheel rod_wheel_;
 
-  std::vector<PairRecord> pairs_;         ///< numbered as in the neighbour list
-  std::vector<std::uint8_t> pair_marks_;  ///< of PairMark
+  // pairs, numbered as in the neighbour list
+  std::vector<PairRods> pair_rods_;
+  std::vector<Direction> directions_;
+  std::vector<Stamp> detected_at_;         ///< tick of the last search for contacts
+  std::vector<std::uint8_t> pair_marks_;   ///< of PairMark
+  std::vector<std::uint8_t> pair_owners_;  ///< the thread of each pair
   TimingWheel pair_wheel_;
   bool is_new_ = true;
 
@@ -122,13 +146,11 @@ class ScheduledStepper final : public Stepper {
   std::vector<std::int32_t> due_rods_;
   std::vector<std::int32_t> due_pairs_;
   std::vector<PairContact> contacts_;
-  std::vector<int> changed_;               ///< rods hit in this tick
-  std::vector<int> to_pose_;               ///< rods whose pose is needed
-  std::vector<int> to_look_at_;            ///< rods whose outlook is
-  std::vector<int> to_schedule_;           ///< rods that need a bound
-  std::vector<int> to_bound_;              ///< pairs that need one
-  std::vector<Tick> next_;                 ///< ticks at which they are due
-  std::vector<std::uint8_t> next_steady_;  ///< whether the pairs' new bounds hold for steady flight only
+  std::vector<int> changed_;      ///< rods hit in this tick
+  std::vector<int> to_pose_;      ///< rods whose pose is needed
+  std::vector<int> to_look_at_;   ///< rods whose outlook is
+  std::vector<int> to_schedule_;  ///< rods that need a bound
+  std::vector<int> to_bound_;     ///< pairs that need one
   std::vector<int> may_change_;
   std::vector<int> gained_, lost_;  ///< pairs
   std::vector<Pose> poses_;

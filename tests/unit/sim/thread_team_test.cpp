@@ -8,51 +8,45 @@
 namespace shaken {
 namespace {
 
-TEST(ThreadTeam, VisitsEachItemOnceWhateverTheNumberOfThreads) {
+TEST(ThreadTeam, CallsEachThreadOnce) {
   for (const int n_threads : {1, 2, 3, 4}) {
     ThreadTeam team(n_threads);
     EXPECT_EQ(team.size(), n_threads);
     for (int round = 0; round < 300; ++round) {
-      const int n = round % 50;
-      std::vector<int> visits(n, 0), workers(n, -1);
-      team.run(n, 1, [&](int begin, int end, int worker) {
-        for (int k = begin; k < end; ++k) {
-          ++visits[k];
-          workers[k] = worker;
-        }
+      std::vector<int> calls(n_threads, 0);
+      std::vector<std::thread::id> threads(n_threads);
+      team.run([&](int worker) {
+        ++calls.at(worker);
+        threads.at(worker) = std::this_thread::get_id();
       });
-      EXPECT_EQ(visits, std::vector<int>(n, 1));
-      for (const int worker : workers) EXPECT_TRUE(worker >= 0 && worker < n_threads);
+      EXPECT_EQ(calls, std::vector<int>(n_threads, 1));
+      EXPECT_EQ(threads[0], std::this_thread::get_id());
     }
   }
 }
 
-TEST(ThreadTeam, WhatALoopWritesIsSeenByTheNext) {
+TEST(ThreadTeam, WhatACallWritesIsSeenByTheNext) {
   ThreadTeam team(4);
   std::vector<std::int64_t> values(1000);
   std::iota(values.begin(), values.end(), 0);
   for (int round = 0; round < 200; ++round) {
     std::vector<std::int64_t> next(values.size());
-    team.run(static_cast<int>(values.size()), 1, [&](int begin, int end, int) {
-      for (int k = begin; k < end; ++k) next[k] = values[values.size() - 1 - k] + 1;
+    team.run([&](int worker) {
+      for (std::size_t k = worker; k < values.size(); k += 4) next[k] = values[values.size() - 1 - k] + 1;
     });
     values = next;
   }
   for (std::size_t k = 0; k < values.size(); ++k) EXPECT_EQ(values[k], static_cast<std::int64_t>(k) + 200);
 }
 
-TEST(ThreadTeam, ShortLoopsStayWithTheCaller) {
-  ThreadTeam team(4);
-  int calls = 0;
-  team.run(7, 4, [&](int begin, int end, int worker) {
-    ++calls;
-    EXPECT_EQ(begin, 0);
-    EXPECT_EQ(end, 7);
-    EXPECT_EQ(worker, 0);
-  });
-  EXPECT_EQ(calls, 1);
-  team.run(0, 1, [&](int, int, int) { ++calls; });
-  EXPECT_EQ(calls, 1);
+TEST(ThreadTeam, SleepersWakeUp) {
+  ThreadTeam team(2);
+  std::atomic<int> calls{0};
+  for (int round = 0; round < 3; ++round) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));  // far longer than anyone spins
+    team.run([&](int) { ++calls; });
+  }
+  EXPECT_EQ(calls, 6);
 }
 
 }  // namespace

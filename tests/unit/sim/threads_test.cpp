@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// The short form of what steppers_agree_test does at length: small enough for the thread sanitizer.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sim/simulation.h"
+
+namespace shaken {
+namespace {
+
+TEST(Threads, ShareATickWithoutChangingABit) {
+  Scene scene;
+  scene.n_rods = 120;
+  scene.box_side = std::sqrt(scene.n_rods * make_species(scene.rod).area / 0.75);
+  constexpr Tick kTicks = 400;
+  auto one = Simulation::start(scene);
+  ASSERT_TRUE(one) << one.error().message;
+  ASSERT_FALSE(one->advance_to(kTicks));
+  for (const int n_threads : {2, 3, 4}) {
+    auto several = Simulation::start(scene);
+    several->use_threads(n_threads, 1);
+    ASSERT_FALSE(several->advance_to(kTicks / 2));
+    several->use_threads(n_threads - 1, 1);  // a new stepper, half way
+    ASSERT_FALSE(several->advance_to(kTicks));
+    EXPECT_EQ(several->state_hash(), one->state_hash()) << n_threads << " threads";
+    EXPECT_EQ(several->world().counters.impulses_rod_rod, one->world().counters.impulses_rod_rod);
+  }
+}
+
+}  // namespace
+}  // namespace shaken
