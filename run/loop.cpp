@@ -324,6 +324,7 @@ RunOutcome run_owned(const scene::RunPlan& plan, const RunOptions& options, cons
   {
     Result<Opened> opened = open_session(plan, directory);
     if (!opened) return fail(options, callbacks, opened.error().message);
+    if (options.n_threads > 1) opened->session.simulation.use_threads(options.n_threads);
     const bool fresh = opened->fresh;
     Loop loop(plan, options, callbacks, std::move(opened->session));
     loop.report("running");

@@ -23,6 +23,7 @@ struct RunOptions {
   std::string job_id;                  ///< in live messages
   std::string label;                   ///< the swept parameters, for viewers
   std::optional<std::string> lcm_url;  ///< none: no live state
+  int n_threads = 1;                   ///< that share each tick; the results do not depend on it
   WallSeconds checkpoint_every{30};
   WallSeconds progress_every{0.5};
   const std::atomic<bool>* stop = nullptr;  ///< once true, the run ends with a checkpoint; null: it never does

@@ -85,8 +85,13 @@ void start_log(const DaemonConfig& config) {
 }
 
 std::vector<std::string> worker_options(const DaemonConfig& config) {
-  if (config.lcm_url.empty()) return {"--no-lcm"};
-  return {"--lcm-url", config.lcm_url};
+  std::vector<std::string> options{"--threads", std::to_string(config.threads)};
+  if (config.lcm_url.empty()) {
+    options.emplace_back("--no-lcm");
+  } else {
+    options.insert(options.end(), {"--lcm-url", config.lcm_url});
+  }
+  return options;
 }
 
 /// Waits until every worker has ended, or until a second signal has killed them.

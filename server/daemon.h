@@ -11,6 +11,7 @@ struct DaemonConfig {
   std::filesystem::path root;
   std::filesystem::path worker;  ///< the program that does one run
   int slots = 1;                 ///< workers that may run at once
+  int threads = 1;               ///< of each worker
   std::string lcm_url;           ///< empty: no live state
   std::string log_level = "info";
   std::chrono::milliseconds grace{20'000};  ///< between the request that a worker stops and its kill

@@ -48,6 +48,10 @@ int main(int argc, char** argv) {
   app.add_option("--slots", config.slots, "Workers that may run at once")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
+  app.add_option("--threads", config.threads,
+                 "Threads that share each tick of a worker: worth it from about 5,000 rods on, with fewer slots")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
   auto* url = app.add_option("--lcm-url", config.lcm_url,
                              "Where live state goes [default: $LCM_DEFAULT_URL, else "
                              "multicast on this machine]")
