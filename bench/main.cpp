@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
   Work work;
   add_speed(app, work);
   add_export(app, work);
+  add_looks(app, work);
   try {
     app.parse(argc, argv);
     return static_cast<int>(work());

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "bench/commands.h"
+#include "bench/options.h"
+#include "bench/picture.h"
+#include "bench/steady_state.h"
+#include "sim/contact/bead_safe_time.h"
+#include "sim/contact/hull_safe_time.h"
+#include "sim/neighbors/neighbor_list.h"
+
+namespace shaken::bench {
+namespace {
+
+constexpr const char* kFooter =
+    R"(Follows pairs of neighbouring rods through a real state, takes the one that collides after the longest approach,
+and draws its gap, the ticks at which its bounds make it be looked at, and the hits that renew them.
+
+Example:
+  shaken bench looks --out looks        looks/looks.png, .dat and .gp)";
+
+struct Words {
+  std::string fraction = "0.75", side = "20", warm_up = "0.5", window = "0.008";
+  std::string cache, out;
+};
+
+/// A pair of rods as it is at some ticks, one after the other.
+struct Course {
+  int rod[2];
+  std::vector<double> gap;            ///< between the nearest beads [mm]
+  std::vector<SafeTime> bounds;       ///< made at that tick
+  std::vector<std::uint8_t> was_hit;  ///< one of the rods, at that tick
+};
+
+double nearest_beads(const Species& s, const Vec3& n_i, const Vec3& n_j, const Vec3& D) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int a = 0; a < s.n_beads(); ++a) {
+    for (int b = 0; b < s.n_beads(); ++b) {
+      const Vec3 r = D + s.bead_offset[b] * n_j - s.bead_offset[a] * n_i;
+      least = std::min(least, r.norm() - s.bead_radius[a] - s.bead_radius[b]);
+    }
+  }
+  return least;
+}
+
+/// The rod's flight as a bound sees it; nothing strayed yet.
+Outlook outlook(const World& world, int i, const Vec3& director) {
+  const Flight& flight = world.rods[i];
+  Vec3 velocity = flight.velocity;
+  velocity.z() -= world.scene.gravity * static_cast<double>(world.tick - flight.since) * world.scene.dt;
+  Outlook outlook{};
+  set_vector(outlook.director, director);
+  set_vector(outlook.velocity, velocity);
+  set_vector(outlook.turning, flight.precession.cross(director));
+  outlook.half_rate2 = static_cast<float>(0.5 * flight.rate * flight.rate);
+  return outlook;
+}
+
+void follow(const Simulation& simulation, const Snapshot& now, float horizon, std::vector<Course>& courses) {
+  const World& world = simulation.world();
+  const Hull hull(world.species);
+  const BeadLanes lanes(world.species);
+  PairLanes pair_lanes{};
+  HullSafeTimes hull_safe;
+  for (Course& course : courses) {
+    const auto& [i, j] = course.rod;
+    const Vec3 D = nearest_image(now.position[i], now.position[j], world.scene.box_side);
+    const Outlook o_i = outlook(world, i, now.director[i]);
+    const Outlook o_j = outlook(world, j, now.director[j]);
+    pair_lanes.set(0, D, o_i, o_j);
+    hull_safe_times(hull, hull, pair_lanes, Allowance{}, horizon, hull_safe);
+    const SafeTime beads = bead_safe_time(lanes, o_i, lanes, o_j, D, Allowance{}, horizon);
+    course.gap.push_back(nearest_beads(world.species, now.director[i], now.director[j], D));
+    course.bounds.push_back({std::max(hull_safe.steady[0], beads.steady), 0});
+    course.was_hit.push_back(world.rods[i].since == world.tick || world.rods[j].since == world.tick);
+  }
+}
+
+/// Ticks, counted from the start of the course, at which the pair is looked at: when a bound has run out or a rod was
+/// hit.
+std::vector<std::size_t> looks(const Course& course, double dt) {
+  std::vector<std::size_t> at;
+  double due = 0;
+  for (std::size_t k = 0; k < course.gap.size(); ++k) {
+    if (static_cast<double>(k) < due && !course.was_hit[k]) continue;
+    at.push_back(k);
+    due = static_cast<double>(k) + 1 + std::floor(static_cast<double>(course.bounds[k].steady) / dt * (1 - 1e-5));
+  }
+  return at;
+}
+
+/// How long the pair approaches before its first collision; 0 if there is none.
+std::size_t approach(const Course& course) {
+  const auto contact = std::find_if(course.gap.begin(), course.gap.end(), [](double gap) { return gap < 0; });
+  if (contact == course.gap.end() || course.gap.front() < 0.02) return 0;
+  const auto widest = std::max_element(course.gap.begin(), contact);
+  return static_cast<std::size_t>(contact - widest);
+}
+
+ExitCode run(const Words& words) {
+  OptionReader options;
+  const auto value = [&](const char* option, const std::string& word, const char* field) {
+    const auto& [low, high] = limits_of(field);
+    return options.number(option, word, low, high);
+  };
+  const double fraction = value("--area-fraction", words.fraction, "rods.area_fraction");
+  const double side = value("--side", words.side, "box.side");
+  const double warm_up = options.number("--warm-up", words.warm_up, 1e-3, 1e4);
+  const double window = options.number("--window", words.window, 1e-4, 0.1);
+  if (words.out.empty()) options.complain("--out: a folder for the picture is needed");
+  options.finish();
+  const auto wanted = make_case(Scene{}.rod.length, fraction, side, Scene{}.dt, warm_up, options);
+  options.finish();
+
+  const std::filesystem::path cache = words.cache.empty() ? default_cache() : std::filesystem::path(words.cache);
+  Simulation simulation = resumed(*wanted, steady_state(*wanted, cache), Engine::kScheduled);
+  Snapshot now = simulation.snapshot();
+  std::vector<Course> courses;
+  for (int i = 0; i < static_cast<int>(now.n_rods()); ++i) {
+    for (int j = i + 1; j < static_cast<int>(now.n_rods()); ++j) {
+      const Vec3 D = nearest_image(now.position[i], now.position[j], simulation.world().scene.box_side);
+      if (nearest_beads(simulation.world().species, now.director[i], now.director[j], D) < 0.3)
+        courses.push_back({{i, j}, {}, {}, {}});
+    }
+  }
+  if (courses.empty())
+    throw Failure(ExitCode::kFailed, "no two rods are near each other: take a larger --area-fraction");
+  const auto ticks = static_cast<Tick>(window / wanted->dt);
+  for (Tick k = 0; k < ticks; ++k) {
+    follow(simulation, now, static_cast<float>(window), courses);
+    advance(simulation, 1);
+    now = simulation.snapshot();
+  }
+
+  const Course& best = *std::max_element(courses.begin(), courses.end(),
+                                         [](const Course& a, const Course& b) { return approach(a) < approach(b); });
+  const std::vector<std::size_t> at = looks(best, wanted->dt);
+  const auto n_hits = std::count(best.was_hit.begin(), best.was_hit.end(), 1);
+  std::string data;
+  for (std::size_t k = 0; k < best.gap.size(); ++k) {
+    const double ms = 1e3 * static_cast<double>(k) * wanted->dt;
+    data += fmt::format("{:.6f} {:.5f}\n", ms, 1e3 * best.gap[k]);
+  }
+  data += "\n\n";
+  for (const std::size_t k : at) {
+    const double ms = 1e3 * static_cast<double>(k) * wanted->dt;
+    const double safe = std::min(1e3 * static_cast<double>(best.bounds[k].steady), 1e3 * window - ms);
+    data += fmt::format("{:.6f} {:.5f} {:.6f} {}\n", ms, 1e3 * best.gap[k], safe, best.was_hit[k]);
+  }
+  make_folder(words.out);
+  draw(words.out, "looks", data,
+       gnuplot_prologue("looks", 1000, 520) +
+           fmt::format(
+               R"gp(set title "One pair of rods for {:g} ms: {} ticks, {} looks ({} hits on its rods, by plates mostly)"
+set xlabel "time [ms]"
+set ylabel "gap between the nearest beads [um]"
+set key bottom left
+set xrange [0:{:g}]
+set xzeroaxis lt -1
+plot "looks.dat" index 0 using 1:2 with lines lw 2 lc rgb "#4477aa" title "gap", \
+     "looks.dat" index 1 using 1:2:3:(0) with vectors nohead lw 1.5 lc rgb "#ccbb44" title "safe until: nothing to look at", \
+     "looks.dat" index 1 using 1:($4==1?$2:1/0) with points pt 7 ps 0.7 lc rgb "#bbbbbb" title "a rod was hit: new bound", \
+     "looks.dat" index 1 using 1:($4==0?$2:1/0) with points pt 7 ps 0.9 lc rgb "#ee6677" title "bound ran out: look"
+)gp",
+               1e3 * window, best.gap.size(), at.size(), n_hits, 1e3 * window));
+  fmt::print("{} ticks, {} looks, {} of them because a rod was hit: {}\n", best.gap.size(), at.size(), n_hits,
+             (std::filesystem::path(words.out) / "looks.png").string());
+  return ExitCode::kOk;
+}
+
+}  // namespace
+
+void add_looks(CLI::App& app, Work& work) {
+  const auto words = std::make_shared<Words>();
+  CLI::App* app_looks = app.add_subcommand("looks", "A picture of how seldom the scheduled stepper looks at a pair");
+  app_looks->footer(kFooter);
+  const auto option = [&](const char* name, std::string& word, const char* type, const char* help) {
+    app_looks->add_option(name, word, help)->type_name(type)->capture_default_str();
+  };
+  option("--area-fraction", words->fraction, "PHI", "Area fraction");
+  option("--side", words->side, "MM", "Side of the box");
+  option("--warm-up", words->warm_up, "S", "Simulated seconds before the state");
+  option("--window", words->window, "S", "Time that is drawn");
+  option("--cache", words->cache, "DIR", "Where steady states are kept; $XDG_CACHE_HOME/shaken/bench");
+  option("-o,--out", words->out, "DIR", "Where the picture goes (required)");
+  app_looks->callback([words, &work] { work = [words] { return run(*words); }; });
+}
+
+}  // namespace shaken::bench
