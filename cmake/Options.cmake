@@ -26,6 +26,8 @@ target_compile_options(shaken_options INTERFACE
   -ffp-contract=off
   # Square roots and comparisons may become vector instructions; no result depends on errno or on floating-point traps.
   -fno-math-errno -fno-trapping-math)
+# Eigen adds up in another order where vectors are wider, and its small fixed sizes gain nothing from them.
+target_compile_definitions(shaken_options INTERFACE EIGEN_DONT_VECTORIZE)
 if(SHAKEN_WERROR)
   target_compile_options(shaken_options INTERFACE -Werror)
 endif()

@@ -10,7 +10,7 @@
 namespace shaken::scene {
 
 /// Part of every run's name. Raise it whenever the same scene leads to another trajectory than before.
-inline constexpr int kPhysicsVersion = 1;
+inline constexpr int kPhysicsVersion = 2;
 
 /// The resolved scene: every key that matters, derived ones too, numbers in default units. Reading it again gives the
 /// identical plan.
