@@ -246,6 +246,7 @@ BeadRange beads_may_overlap(const BeadLanes& i, const Vec3& n_i, const BeadLanes
     if (beads.empty()) beads.from = some.from;
     beads.to = some.to;
   }
+  beads.to = std::min(beads.to, static_cast<int>(i.last) + 1);  // lanes past the last bead hold none
   return beads;
 }
 

@@ -75,18 +75,19 @@ inline Motion motion_after(const Flight& flight, double tau, double g, const Vec
   return motion;
 }
 
-/// Brings a coordinate back into [0, side) and counts the crossing.
+/// Brings a coordinate back into [0, side) and counts the crossings.
 inline void wrap(double& x, std::int32_t& image, double side) {
-  if (x < 0) {
-    x += side;
-    --image;
-  } else if (x >= side) {
-    x -= side;
-    ++image;
+  if (x < 0 || x >= side) {
+    const double crossings = std::floor(x / side);
+    x -= crossings * side;
+    image += static_cast<std::int32_t>(crossings);
   }
-  if (x >= side) {  // x was a rounding error below 0
+  // what is left are rounding errors at the border
+  if (x >= side) {
     x = 0;
     ++image;
+  } else if (x < 0) {
+    x = 0;
   }
 }
 

@@ -16,12 +16,12 @@ constexpr double kSkin = 0.4;  ///< of the neighbour list [mm]
 constexpr float kLeastSlack = 0.003F;
 /// Below this, what is left of a rod's slack is measured again rather than counted down [mm].
 constexpr float kLowSlack = 0.05F;
-/// Where the hull's bound is shorter than this, the beads' own may be longer: rods interlock.
+/// Where the hull's bound is shorter than this, the beads' own may be longer: rods interlock [ticks].
 constexpr float kShortBound = 30;
-/// Interlocked rods are looked at again within this time: further ahead their bounds are not worth the work.
+/// Interlocked rods are looked at again within this time: further ahead their bounds are not worth the work [ticks].
 constexpr float kBeadHorizon = 200;
-/// A bound that allows for straying is good enough if it is this long; a shorter one gives way to the bound for steady
-/// flight, unless that is not much longer either. The plates hit a rod about every 50 ticks.
+/// A bound that allows for straying is good enough if it is this long [ticks]; a shorter one gives way to the bound for
+/// steady flight, unless that is not much longer either. The plates hit a rod about every 50 ticks.
 constexpr float kLongBound = 40;
 constexpr float kMuchLonger = 1.5;
 
@@ -46,7 +46,6 @@ ScheduledStepper::ScheduledStepper(const World& world, int n_threads, int grain)
       outlooks_(world.rods.size()),
       rod_owners_(world.rods.size()),
       rod_wheel_(world.rods.size()),
-      poses_(world.rods.size()),
       workers_(n_threads) {
   // rods are numbered along the rows that they start in, so these are bands of the plane
   const std::size_t n = world.rods.size();
@@ -55,10 +54,11 @@ ScheduledStepper::ScheduledStepper(const World& world, int n_threads, int grain)
 
 std::size_t ScheduledStepper::bytes() const {
   std::size_t bytes = neighbors_.bytes() + rod_wheel_.bytes() + pair_wheel_.bytes();
-  bytes += heap_bytes(rods_, records_, marks_, outlooks_, rod_owners_, poses_);
+  bytes += heap_bytes(rods_, records_, marks_, outlooks_, rod_owners_);
   bytes += heap_bytes(pair_rods_, directions_, detected_at_, pair_marks_, pair_owners_);
   bytes += heap_bytes(due_rods_, due_pairs_, contacts_, changed_, to_pose_, to_look_at_, to_schedule_, to_bound_,
                       may_change_, gained_, lost_);
+  bytes += heap_bytes(workers_);
   for (const Worker& w : workers_)
     bytes +=
         heap_bytes(w.own, w.next, w.next_steady, w.bead_contacts, w.contacts, w.turned, w.hit, w.strayed, w.to_place);
@@ -201,8 +201,9 @@ std::optional<NumericalTrouble> ScheduledStepper::first_trouble() const {
 void ScheduledStepper::list_pairs(const World& world, Tick now) {
   gained_.clear();
   if (is_new_) {
-    for (std::size_t i = 0; i < world.rods.size(); ++i) poses_[i] = rods_[i].pose;
-    neighbors_.build(poses_);
+    std::vector<Pose> poses(world.rods.size());
+    for (std::size_t i = 0; i < poses.size(); ++i) poses[i] = rods_[i].pose;
+    neighbors_.build(poses);
     for (int i = 0; i < static_cast<int>(world.rods.size()); ++i) measure_slack(i, now);
     gained_.resize(neighbors_.pairs().size());
     std::iota(gained_.begin(), gained_.end(), 0);
@@ -223,8 +224,11 @@ void ScheduledStepper::list_pairs(const World& world, Tick now) {
   pair_marks_.resize(n_pairs);
   pair_owners_.resize(n_pairs);
   pair_wheel_.make_room(n_pairs);
-  for (const int p : lost_) {  // certainly not touching
-    if (pair_rods_[p] != kUnused) mark_steady(p, false);
+  for (const int p : lost_) {
+    if (pair_rods_[p] != kUnused) {
+      mark_steady(p, false);
+      if (pair_marks_[p] & kTouching) turn_touching(p);  // it was at its last look; by now it certainly is not
+    }
     pair_rods_[p] = kUnused;
     pair_wheel_.remove(p);
   }
@@ -445,19 +449,28 @@ Tick ScheduledStepper::listed_ticks(const World& world, int i, Tick now) {
   record.slack_at = stamp(now);
   if (record.slack < kLowSlack) measure_slack(i, now);
   // The segment turns at (p_z - n_z p.n) / |n_xy|^2, with p the precession and p.n a constant; |n_xy| changes by at
-  // most |p| per time, so it keeps nine tenths for a while.
+  // most |p| per time, so it keeps nine tenths for a while: up to the visit, which may come a tick later than said
+  // here.
   const Vec3& n = rods_[i].pose.director;
   const Vec3& v = flight.velocity;
   const Vec3& p = flight.precession;
   const double flat2 = n.x() * n.x() + n.y() * n.y();
-  const double turn = (std::abs(p.z()) + std::abs(p.dot(n))) / (0.81 * flat2);
-  const double speed = std::sqrt(v.x() * v.x() + v.y() * v.y()) + rules_.species.half_length * turn;
+  double speed = std::sqrt(v.x() * v.x() + v.y() * v.y());
+  double time = static_cast<double>(TimingWheel::horizon()) * rules_.dt;  // a rod at rest has all the time there is
+  const double h = rules_.species.half_length;
+  if (h > 0 && flight.rate > 0) {  // a sphere has no segment
+    const double upright = 0.1 * std::sqrt(flat2) / flight.rate - rules_.dt;
+    if (!(upright > 0)) {  // it may turn any way at once: to be measured at the next tick
+      record.slack = 0;
+      record.slack_speed = 0;
+      return 0;
+    }
+    time = std::min(time, upright);
+    speed += h * (std::abs(p.z()) + std::abs(p.dot(n))) / (0.81 * flat2);
+  }
   record.slack_speed = static_cast<float>(speed);
-  const double time =
-      std::min(std::max(static_cast<double>(record.slack), 0.0) / speed, 0.1 * std::sqrt(flat2) / flight.rate);
-  const double horizon = static_cast<double>(TimingWheel::horizon() - 1);
-  // a rod at rest has all the time there is
-  return static_cast<Tick>(time < horizon * rules_.dt ? time / rules_.dt * (1.0 - 1e-12) : horizon);
+  if (speed > 0) time = std::min(time, std::max(static_cast<double>(record.slack), 0.0) / speed);
+  return std::min(TimingWheel::horizon() - 1, static_cast<Tick>(time / rules_.dt * (1.0 - 1e-12)));
 }
 
 void ScheduledStepper::schedule_pairs(const World& world, Tick now) {

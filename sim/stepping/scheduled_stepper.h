@@ -153,7 +153,6 @@ class ScheduledStepper final : public Stepper {
   std::vector<int> to_bound_;     ///< pairs that need one
   std::vector<int> may_change_;
   std::vector<int> gained_, lost_;  ///< pairs
-  std::vector<Pose> poses_;
   std::vector<Worker> workers_;
 };
 

@@ -145,6 +145,12 @@ INSTANTIATE_TEST_SUITE_P(
         Case{4.5, 0.60, 1.2, 7, 0.3, 0.05, 4, 80, 10000, Start::kAligned, 0.2},
         Case{2.5, 0.50, 1.2, 7, 0.3, 0.05, 4, 80, 10000, Start::kAligned, 0.4, 3},
         Case{3.5, 0.50, 1.3, 7, 0.3, 0.05, 4, 60, 10000, Start::kAligned, 1.0},
+        // so much room that rods fly over many boxes between two hits, stand upright, and leave their neighbours in a
+        // moment
+        Case{0.8, 0.50, 20, 30, 0.95, 0.5, 20, 150, 20000, kRandomStart, 0.8, 1},
+        Case{0.8, 0.50, 5, 30, 0.95, 0.5, 20, 150, 20000, kRandomStart, 0.8, 1},
+        Case{1.6, 0.40, 20, 30, 0.9, 0.1, 4, 60, 20000, kRandomStart, 0.4},
+        Case{4.5, 0.40, 6, 15, 0.5, 0.05, 4, 40, 20000, kRandomStart},
         // random starts, few rods
         Case{4.5, 0.35, 1.2, 7, 0.3, 0.05, 4, 60, 10000, kRandomStart},
         Case{2.5, 0.40, 1.2, 7, 0.3, 0.05, 4, 80, 10000, kRandomStart}, Case{4.5, 0.20, 1.2, 7, 0.3, 0.05, 4, 1, 50000},
