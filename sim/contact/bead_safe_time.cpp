@@ -60,7 +60,7 @@ SHAKEN_INLINE F bead_offset(const BeadLanes& j, const F& nearest, int k) {
 /// Radius of the hull of j at a coordinate on its axis: that of a bead there, or more.
 template <class F>
 SHAKEN_INLINE F hull_radius(const BeadLanes& j, const F& s) {
-  return j.mid_radius - lanes::not_below_zero(s) * j.head_taper - lanes::not_below_zero(-s) * j.tail_taper;
+  return j.mid_radius - j.taper * lanes::abs(s) - j.skew * s;
 }
 
 /// A time as a fraction, so that the smallest of many is found without dividing.
@@ -224,16 +224,15 @@ BeadLanes::BeadLanes(const Species& species)
     : half_length(static_cast<float>(species.half_length)),
       mid_radius(static_cast<float>(species.mid_radius)),
       max_radius(static_cast<float>(species.max_radius)),
-      tail_taper(static_cast<float>(species.taper(species.tail))),
-      head_taper(static_cast<float>(species.taper(species.head))),
+      taper(static_cast<float>(0.5 * (species.taper(species.head) + species.taper(species.tail)))),
+      skew(static_cast<float>(0.5 * (species.taper(species.head) - species.taper(species.tail)))),
       first(static_cast<float>(species.bead_offset.front())),
       last(static_cast<float>(species.n_beads() - 1)),
       pitch(static_cast<float>(species.pitch())),
       reach(species.n_beads() > 1 ? static_cast<int>(std::ceil(1.1F * max_radius / pitch - 0.5F)) : 0),
       beyond((static_cast<float>(reach) + 0.5F) * pitch) {
   // a thinning of more than this would let `widest` fall to where rods touch; and Untried looks at both ends alike
-  const float taper = std::min(tail_taper, head_taper);
-  if (taper > 0.0F && taper < 0.3F && species.tail.length == species.head.length) thinning = taper;
+  if (taper > 0.0F && taper < 0.3F && species.tail.length == species.head.length && skew == 0.0F) thinning = taper;
   widest = thinning > 0.0F ? beyond * std::sqrt(1.0F / (thinning * thinning) - 1.0F) : 1e6F;
   const int n_lanes = (species.n_beads() + kLanes - 1) / kLanes * kLanes;
   for (int lane = 0; lane < n_lanes; ++lane) {

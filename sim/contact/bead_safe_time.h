@@ -15,14 +15,14 @@ struct BeadLanes {
   std::vector<float> offset;  ///< (n_beads rounded up to a multiple of kLanes) [mm]
   std::vector<float> radius;  ///< the same; lanes past the last bead hold a bead that is never near [mm]
   float half_length, mid_radius, max_radius;
-  float tail_taper, head_taper;  ///< loss of the hull's radius per length towards either end
-  float first;                   ///< offset of the first bead, < 0 [mm]
-  float last;                    ///< index of the last bead
-  float pitch;                   ///< distance of neighbouring beads [mm]
-  int reach;                     ///< beads to each side of a foot that are tried one by one
-  float beyond;                  ///< distance along the axis at which the others begin [mm]
-  float thinning = 0;            ///< loss of radius per length that the others are sure to have
-  float widest = 0;              ///< distance beside the axis up to which the others' gap grows along it [mm]
+  float taper, skew;   ///< loss of the hull's radius per length: taper + skew towards the head, taper - skew the tail
+  float first;         ///< offset of the first bead, < 0 [mm]
+  float last;          ///< index of the last bead
+  float pitch;         ///< distance of neighbouring beads [mm]
+  int reach;           ///< beads to each side of a foot that are tried one by one
+  float beyond;        ///< distance along the axis at which the others begin [mm]
+  float thinning = 0;  ///< loss of radius per length that the others are sure to have
+  float widest = 0;    ///< distance beside the axis up to which the others' gap grows along it [mm]
 };
 
 /// Beads of i outside of which none overlaps a bead of j: a quick test before find_bead_contacts, which decides.
