@@ -5,7 +5,6 @@
 #include <cmath>
 
 namespace shaken::run {
-namespace {
 
 std::optional<Cadence> recording_of(const scene::RunPlan& plan) {
   double every = INFINITY;
@@ -15,7 +14,7 @@ std::optional<Cadence> recording_of(const scene::RunPlan& plan) {
   return Cadence(every, plan.system.dt);
 }
 
-TrajectoryHeader header_of(const World& world, const std::string& scene_json) {
+TrajectoryHeader trajectory_header(const World& world, const std::string& scene_json) {
   TrajectoryHeader header;
   header.n_rods = static_cast<int>(world.rods.size());
   header.box_side = world.scene.box_side;
@@ -26,6 +25,8 @@ TrajectoryHeader header_of(const World& world, const std::string& scene_json) {
   header.scene_json = scene_json;
   return header;
 }
+
+namespace {
 
 Session make_session(const scene::RunPlan& plan, Simulation simulation) {
   Measurements measurements(plan, simulation.world().species[0]);
@@ -48,7 +49,7 @@ Result<Session> start_session(const scene::RunPlan& plan, const RunDirectory& di
   Session session = make_session(plan, std::move(simulation).value());
   if (session.recording) {
     auto trajectory =
-        TrajectoryWriter::create(directory.trajectory(), header_of(session.simulation.world(), scene_json));
+        TrajectoryWriter::create(directory.trajectory(), trajectory_header(session.simulation.world(), scene_json));
     if (!trajectory) return trajectory.error();
     session.trajectory = std::move(trajectory).value();
   }
