@@ -78,6 +78,7 @@ INSTANTIATE_TEST_SUITE_P(
                          }},
                     Case{"PolarAmongApolar",
                          [](Scene& s) {
+                           s.n_rods = 50;
                            s.added[0] = AddedRods{kPolarRod, 12};
                          },
                          0.5},
