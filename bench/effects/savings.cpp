@@ -13,12 +13,11 @@ namespace {
 
 double cost(const EngineSpeed& speed) { return speed.best_cpu() / speed.rod_seconds; }
 
-/// The case from its steady state on; a vibration goes by before it is handed out, so that lists and schedules are
-/// there.
-Contender from_steady_state(const std::string& name, const Case& scene, const std::filesystem::path& cache) {
-  return {name, scene, [scene, state = steady_state(scene, cache)] {
+/// The case from `state` on. One tick goes by before it is handed out, so that lists and schedules are there.
+Contender contender(const std::string& name, const Case& scene, const SteadyState& state) {
+  return {name, scene, [scene, state] {
             Simulation simulation = resumed(scene, state, Engine::kScheduled);
-            advance(simulation, scene.period_ticks());
+            advance(simulation, 1);
             return simulation;
           }};
 }
@@ -40,34 +39,46 @@ double Comparison::error() const {
   return std::sqrt(squares / static_cast<double>(n * (n - 1)));
 }
 
-Comparison compare(const Contender& contender, const Contender& yardstick, const Effort& effort) {
+Comparison compare(const Contender& contender, const Contender& yardstick, int repeat, int periods, double cpu) {
+  const auto ticks_of = [&](const Contender& one) {
+    const Tick period = one.scene.period_ticks();
+    if (periods > 0) return periods * period;
+    Simulation trial = one.make();
+    EngineSpeed one_period;
+    time_stretch(trial, one.scene, period, one_period);
+    return period * static_cast<Tick>(std::max(1.0, std::round(cpu / one_period.best_cpu())));
+  };
+  const Tick ticks = ticks_of(contender);
+  const Tick yardstick_ticks = ticks_of(yardstick);
   Comparison comparison{contender.name, {}, {}};
-  // as many ticks as make whole vibrations and fill the time
-  Simulation trial = yardstick.make();
-  EngineSpeed one_period;
-  time_stretch(trial, yardstick.scene, yardstick.scene.period_ticks(), one_period);
-  const double periods = std::max(1.0, std::round(effort.cpu / one_period.best_cpu()));
-  for (int repetition = 0; repetition < effort.repeat; ++repetition) {
-    const auto time = [&](const Contender& one, EngineSpeed& speed) {
-      Simulation simulation = one.make();
-      time_stretch(simulation, one.scene, static_cast<Tick>(periods) * one.scene.period_ticks(), speed);
-    };
-    time(yardstick, comparison.yardstick);
-    time(contender, comparison.speed);
+  for (int repetition = 0; repetition < repeat; ++repetition) {
+    Simulation before = yardstick.make();
+    time_stretch(before, yardstick.scene, yardstick_ticks, comparison.yardstick);
+    Simulation after = contender.make();
+    time_stretch(after, contender.scene, ticks, comparison.speed);
   }
   return comparison;
 }
 
 std::vector<Saving> measure_savings(const Case& everything, const std::filesystem::path& cache, const Effort& effort) {
-  const Contender all_on = from_steady_state("everything on", everything, cache);
+  // few enough vibrations for the rods to be still where they would have been, often enough to make up for it
+  constexpr int kFewPeriods = 4;
+  constexpr int kOften = 3;
+  const SteadyState state = steady_state(everything, cache);
+  const Contender all_on = contender("everything on", everything, state);
   std::vector<Saving> savings;
   const auto measure = [&](std::string name, const Case& scene, std::string neutral) {
-    Saving saving{std::move(name), std::move(neutral), {}, ""};
+    Saving saving{std::move(name), std::move(neutral), {}, {}, ""};
     if (const auto started = Simulation::start(scene.system()); !started) {
       saving.impossible = started.error().message;
     } else {
+      const SteadyState own = steady_state(scene, cache);
       ProgressLine progress("measuring without " + saving.effect);
-      saving.comparison = compare(from_steady_state(saving.effect, scene, cache), all_on, effort);
+      saving.own_state = compare(contender(saving.effect, scene, own), all_on, effort.repeat, 0, effort.cpu);
+      if (Simulation::resume(scene.system(), state.checkpoint)) {
+        saving.same_state =
+            compare(contender(saving.effect, scene, state), all_on, kOften * effort.repeat, kFewPeriods, 0);
+      }
     }
     savings.push_back(std::move(saving));
   };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,19 +33,23 @@ struct Comparison {
   double error() const;
 };
 
-/// Steps both for equal simulated times, one after the other, `effort.repeat` times.
-Comparison compare(const Contender& contender, const Contender& yardstick, const Effort& effort);
+/// Steps both, one after the other, `repeat` times. `periods`: so many vibrations each time; 0: as many as take about
+/// `cpu` seconds.
+Comparison compare(const Contender& contender, const Contender& yardstick, int repeat, int periods, double cpu);
 
 /// An effect of the scene, and what leaving it out changes.
 struct Saving {
   std::string effect;
-  std::string neutral;     ///< the key and value with which it is off
-  Comparison comparison;   ///< without the effect, against everything on
+  std::string neutral;  ///< the key and value with which it is off
+  /// Without the effect, against everything on, each from a warm-up of its own: what a user gains.
+  Comparison own_state;
+  /// The same for the next few vibrations of one and the same state, before the rods have parted ways: what it takes to
+  /// compute the effect. Not for effects without which that state could not be.
+  std::optional<Comparison> same_state;
   std::string impossible;  ///< why such a scene cannot be, if so
 };
 
-/// Switches off every effect of the case that can be off, one at a time. Each of these scenes has a warm-up of its own
-/// (kept in `cache`), so what is compared is how they go on, not how they begin.
+/// Switches off every effect of the case that can be off, one at a time. States after a warm-up are kept in `cache`.
 std::vector<Saving> measure_savings(const Case& everything, const std::filesystem::path& cache, const Effort& effort);
 
 }  // namespace shaken::bench
