@@ -82,7 +82,7 @@ struct Arguments {
   double checkpoint_every = 30;
   bool quiet = false;
   std::string probe;
-  double probe_cpu = 1;
+  double probe_cpu = 1.5;
   std::string probe_from;
 };
 

@@ -84,12 +84,12 @@ class Prober {
 
   [[nodiscard]] std::optional<Error> step() {
     // From a checkpoint too: lists and schedules have to be built.
-    const auto warm_up = step_for(simulation_.tick() == 0 ? cpu_ / 4 : cpu_ / 16, thread_cpu_seconds);
+    const auto warm_up = step_for(simulation_.tick() == 0 ? cpu_ / 2 : cpu_ / 16, thread_cpu_seconds);
     if (!warm_up) return warm_up.error();
     result_.warm_up = static_cast<double>(warm_up->ticks) * dt_;
 
     const Counters before = simulation_.world().counters;
-    const auto timed = step_for(cpu_ / 2, thread_cpu_seconds);
+    const auto timed = step_for(0.375 * cpu_, thread_cpu_seconds);
     if (!timed) return timed.error();
     const Counters after = simulation_.world().counters;
     result_.simulated = static_cast<double>(timed->ticks) * dt_;
@@ -102,7 +102,7 @@ class Prober {
 
     // reading the clock costs time, so the stages come from a stretch of their own
     simulation_.time_phases(thread_cpu_seconds_without_readings);
-    const auto phased = step_for(cpu_ / 4, thread_cpu_seconds_without_readings);
+    const auto phased = step_for(cpu_ / 8, thread_cpu_seconds_without_readings);
     if (!phased) return phased.error();
     for (std::size_t p = 0; p < kPhases; ++p) {
       result_.stages[p] = std::max(0.0, simulation_.phase_times().seconds(static_cast<Phase>(p)) / phased->cpu);

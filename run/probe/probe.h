@@ -54,7 +54,7 @@ struct Probe {
 };
 
 /// Goes on with `simulation`, of this plan's system, for about `cpu` seconds, and times once what the run does now and
-/// then beside stepping. At tick 0 a quarter of `cpu` goes by before anything is timed. Fails if the steps meet
+/// then beside stepping. At tick 0 half of `cpu` goes by before anything is timed. Fails if the steps meet
 /// numerical trouble or the disk refuses. Files go to a temporary folder.
 Result<Probe> probe(const scene::RunPlan& plan, Simulation simulation, double cpu);
 
