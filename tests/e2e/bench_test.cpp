@@ -102,6 +102,27 @@ TEST_F(Bench, LooksFollowsAPair) {
   EXPECT_EQ(text_of("looks.png").substr(1, 3), "PNG");
 }
 
+TEST_F(Bench, EffectsAreSwitchedOffOneByOne) {
+  const Finished finished = bench({"effects", "--side", "12", "--area-fraction", "0.5", "--warm-up", "0.02", "--cpu",
+                                   "0.01", "--repeat", "2", "--out", out()});
+  ASSERT_EQ(finished.code, 0) << finished.output;
+  EXPECT_THAT(finished.output, AllOf(HasSubstr("rod_rod_friction"), HasSubstr("contacts.rod_rod.friction = 0")));
+  const Json report = json_of("effects.json");
+  EXPECT_GE(report.at("rows").size(), 10u);
+  for (const Json& row : report.at("rows")) {
+    EXPECT_GT(row.at("own_state").at("cpu_ratio").get<double>(), 0) << row;
+    EXPECT_EQ(row.at("own_state").at("cpu_s").size(), 2u);
+    const bool is_of_contacts = row.at("neutral").get<std::string>().starts_with("contacts.");
+    if (is_of_contacts) {
+      EXPECT_GT(row.at("same_state").at("cpu_ratio").get<double>(), 0) << row;
+    }
+    EXPECT_EQ(row.at("without") == "(nothing)", row.at("neutral") == "") << row;
+  }
+  EXPECT_EQ(text_of("effects.png").substr(1, 3), "PNG");
+  EXPECT_THAT(text_of("effects.csv"), HasSubstr("cpu_ratio"));
+  EXPECT_EQ(bench({"effects", "--length", "0", "--repeat", "x"}).code, 2);
+}
+
 TEST_F(Bench, BadArgumentsAreAllListed) {
   const Finished finished =
       bench({"speed", "--length", "x", "--area-fraction", "0.99", "--repeat", "0", "--scaling", "z"});
