@@ -77,6 +77,29 @@ TEST_F(Bench, SpeedOfThreadsAndStepsToo) {
   EXPECT_EQ(text_of("scaling_dt.png").substr(1, 3), "PNG");
 }
 
+TEST_F(Bench, AccuracyWritesErrorsAndOrders) {
+  const Finished finished = bench({"accuracy", "deterministic", "--cases", "head-on,dozen", "--steps", "64,32,16,8",
+                                   "--members", "4", "--out", out()});
+  ASSERT_EQ(finished.code, 0) << finished.output;
+  EXPECT_THAT(finished.output, AllOf(HasSubstr("Order of convergence"), HasSubstr("converged solution at 125 ns")));
+  const Json report = json_of("deterministic.json");
+  ASSERT_EQ(report.at("orders").size() % 2, 0u);
+  ASSERT_EQ(report.at("rows").size(), 4 * report.at("orders").size());
+  for (const Json& row : report.at("rows")) {
+    EXPECT_GT(row.at("error").at("position").at("median").get<double>(), 0);
+    EXPECT_TRUE(row.at("states_equal").get<bool>());
+  }
+  EXPECT_EQ(text_of("convergence.png").substr(1, 3), "PNG");
+  EXPECT_EQ(text_of("work_precision.png").substr(1, 3), "PNG");
+}
+
+TEST_F(Bench, AccuracyRefusesWhatItDoesNotKnow) {
+  const Finished finished = bench({"accuracy", "guess", "--cases", "sideways", "--steps", "3,64", "--quick", "--full"});
+  EXPECT_EQ(finished.code, 2);
+  EXPECT_THAT(finished.output, AllOf(HasSubstr("'guess' is not a part"), HasSubstr("'sideways' is not one of"),
+                                     HasSubstr("3 is not 64 us halved"), HasSubstr("contradict")));
+}
+
 TEST_F(Bench, ExportGivesAState) {
   const Finished finished =
       bench({"export", "--side", "12", "--warm-up", "0.005", "--frames", "2", "--out", out() + ".json"});
