@@ -5,15 +5,11 @@
 #include <cmath>
 
 #include "bench/accuracy/report.h"
+#include "bench/accuracy/style.h"
 #include "bench/picture.h"
 
 namespace shaken::bench {
 namespace {
-
-/// Paul Tol's bright scheme: told apart by colour-blind readers too.
-constexpr std::array<const char*, 6> kColours{"#4477aa", "#ee6677", "#228833", "#aa3377", "#66ccee", "#ccbb44"};
-
-const char* colour(std::size_t k) { return kColours[k % kColours.size()]; }
 
 /// The cases, each once, with the indices of their measurements: one panel each.
 struct Panel {
@@ -51,20 +47,6 @@ std::string data_of(const std::vector<Convergence>& measured) {
     data += "\n\n";
   }
   return data;
-}
-
-std::string multiplot(const std::string& name, std::size_t panels) {
-  const std::size_t columns = panels < 3 ? panels : (panels + 1) / 2;
-  const std::size_t rows = (panels + columns - 1) / columns;
-  std::string script = gnuplot_prologue(name, static_cast<int>(480 * columns), static_cast<int>(30 + 400 * rows));
-  script += fmt::format(
-      "set multiplot layout {},{} margins screen {:.4f},0.985,{:.4f},{:.4f} spacing screen {:.4f},{:.4f}\n", rows,
-      columns, 0.24 / static_cast<double>(columns), 0.16 / static_cast<double>(rows),
-      1 - 0.12 / static_cast<double>(rows), 0.24 / static_cast<double>(columns), 0.27 / static_cast<double>(rows));
-  script +=
-      "set logscale xy\nset format y '10^{%L}'\nset grid x y linetype 1 linecolor '#e2e2e2' linewidth 0.5\n"
-      "set title offset 0,-0.5\nset ylabel offset 0.5,0\n";
-  return script;
 }
 
 /// A line of text per series, in place of a key that would hide data.

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "bench/accuracy/convergence.h"
+#include "bench/accuracy/order_error.h"
+#include "bench/accuracy/statistics.h"
 
 namespace shaken::bench {
 
@@ -19,5 +21,13 @@ nlohmann::ordered_json accuracy_head(const char* part);
 std::string as_text(const std::vector<Convergence>& measured);
 nlohmann::ordered_json as_json(const std::vector<Convergence>& measured);
 void draw_convergence(const std::filesystem::path& folder, const std::vector<Convergence>& measured);
+
+std::string as_text(const std::vector<Statistics>& measured);
+nlohmann::ordered_json as_json(const std::vector<Statistics>& measured);
+void draw_statistics(const std::filesystem::path& folder, const std::vector<Statistics>& measured);
+
+std::string as_text(const std::vector<OrderError>& measured, const std::optional<Extrapolation>& large);
+nlohmann::ordered_json as_json(const std::vector<OrderError>& measured, const std::optional<Extrapolation>& large);
+void draw_order_error(const std::filesystem::path& folder, const std::vector<OrderError>& measured);
 
 }  // namespace shaken::bench

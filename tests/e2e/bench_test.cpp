@@ -93,6 +93,33 @@ TEST_F(Bench, AccuracyWritesErrorsAndOrders) {
   EXPECT_EQ(text_of("work_precision.png").substr(1, 3), "PNG");
 }
 
+TEST_F(Bench, AccuracyWritesBiases) {
+  const Finished finished = bench({"accuracy", "statistical", "--side", "12", "--steps", "64,32", "--measure", "0.03",
+                                   "--warm-up", "0.01", "--replicas", "2", "--out", out()});
+  ASSERT_EQ(finished.code, 0) << finished.output;
+  EXPECT_THAT(finished.output, HasSubstr("Largest step up to which the bias is below 1 %"));
+  const Json rows = json_of("statistical.json").at("rows");
+  ASSERT_EQ(rows.size(), 2u + 2u + 5u + 4u);  // steps of two scenes, bead pitches, sweeps
+  for (const Json& row : rows) {
+    EXPECT_GT(row.at("T_z").at("value").get<double>(), 0);
+    EXPECT_GT(row.at("S").at("sem").get<double>(), 0);
+    EXPECT_GT(row.at("cpu_s_per_rod_s").get<double>(), 0);
+  }
+  for (const char* name : {"bias.png", "tilt.png", "model.png"}) EXPECT_EQ(text_of(name).substr(1, 3), "PNG");
+}
+
+TEST_F(Bench, AccuracyWritesTheErrorOfOrder) {
+  const Finished finished =
+      bench({"accuracy", "error", "--sides", "12,13,14,15", "--measure", "0.1", "--warm-up", "0.01", "--out", out()});
+  ASSERT_EQ(finished.code, 0) << finished.output;
+  EXPECT_THAT(finished.output, HasSubstr("tau below 100"));
+  const Json report = json_of("error.json");
+  ASSERT_EQ(report.at("rows").size(), 4u);
+  EXPECT_EQ(report.at("rows").at(0).at("replicas"), 2);
+  EXPECT_GT(report.at("rows").at(3).at("tau_s").get<double>(), 0);
+  EXPECT_EQ(text_of("error.png").substr(1, 3), "PNG");
+}
+
 TEST_F(Bench, AccuracyRefusesWhatItDoesNotKnow) {
   const Finished finished = bench({"accuracy", "guess", "--cases", "sideways", "--steps", "3,64", "--quick", "--full"});
   EXPECT_EQ(finished.code, 2);
