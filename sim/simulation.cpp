@@ -30,6 +30,11 @@ Result<Simulation> Simulation::resume(const Scene& scene, std::span<const std::b
   return Simulation(std::move(world).value());
 }
 
+Simulation Simulation::start_from(World world) {
+  SHAKEN_CHECK(world.rods.size() == static_cast<std::size_t>(world.scene.n_rods), "as many flights as rods");
+  return Simulation(std::move(world));
+}
+
 std::optional<NumericalTrouble> Simulation::advance_to(Tick target) {
   SHAKEN_CHECK(target >= world_->tick, "time runs forwards");
   return stepper_->advance_to(*world_, target);

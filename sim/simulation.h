@@ -30,6 +30,9 @@ class Simulation {
   /// Fails if the bytes are damaged or belong to another scene.
   static Result<Simulation> resume(const Scene& scene, std::span<const std::byte> checkpoint);
 
+  /// Begins with a world made by hand: empty_world(scene), at any tick, with a prepared flight for each of its n_rods.
+  static Simulation start_from(World world);
+
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
   ~Simulation();
