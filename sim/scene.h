@@ -18,14 +18,19 @@ struct RodShape {
   friend bool operator==(const RodShape&, const RodShape&) = default;
 };
 
-/// Newton's restitution and Coulomb's friction of one kind of contact.
+/// Restitution and Coulomb's friction of one kind of contact; what restitution is of, the impulse law says.
 struct ContactParameters {
   double friction = 0.0;     ///< mu >= 0
   double restitution = 1.0;  ///< e in [0, 1]
   friend bool operator==(const ContactParameters&, const ContactParameters&) = default;
 };
 
-enum class ImpulseLaw { kNewton };
+/// What becomes of the relative velocity at a contact (sim/contact/impulse_law.h).
+enum class ImpulseLaw {
+  kNewton,     ///< restitution of the normal velocity
+  kPoisson,    ///< of the normal impulse
+  kEnergetic,  ///< of the normal impulse's work; never makes energy
+};
 /// How the run is stepped; the trajectory is bitwise the same.
 enum class Engine {
   kReference,  ///< visits every rod and pair at every tick

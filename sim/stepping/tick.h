@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sim/contact/bead_contacts.h"
-#include "sim/contact/impulse.h"
+#include "sim/contact/impulse_law.h"
 #include "sim/motion/flight.h"
 #include "sim/motion/plates.h"
 #include "sim/neighbors/neighbor_list.h"
@@ -33,7 +33,8 @@ struct TickRules {
         box_side(world.scene.box_side),
         rod_rod(world.scene.rod_rod),
         rod_base(world.scene.rod_base),
-        rod_lid(world.scene.rod_lid) {}
+        rod_lid(world.scene.rod_lid),
+        law(world.scene.law) {}
 
   Species species;
   InverseInertia inverse;
@@ -42,6 +43,7 @@ struct TickRules {
   double dt;
   double box_side;
   ContactParameters rod_rod, rod_base, rod_lid;
+  ImpulseLaw law;
 };
 
 /// A rod during one tick.
@@ -105,7 +107,7 @@ inline std::optional<NumericalTrouble> collide_with_plates(int index, RodAtTick&
       counters.max_overlap_rod_plate = std::max(counters.max_overlap_rod_plate, overlap);
       if (!(u.dot(normal) < 0)) continue;
       const Mat3 K = point_compliance(rules.inverse, rod.pose.director, arm);
-      const Vec3 P = newton_coulomb_impulse(K, normal, u, side > 0 ? rules.rod_base : rules.rod_lid);
+      const Vec3 P = impulse_by(rules.law, K, normal, u, side > 0 ? rules.rod_base : rules.rod_lid);
       apply_impulse(rod.motion, rules.inverse, rod.pose.director, arm, P);
       rod.changed = true;
       ++(side > 0 ? counters.impulses_rod_base : counters.impulses_rod_lid);
@@ -146,7 +148,7 @@ inline void respond_to(const PairContact& contact, RodAtTick& rod_i, RodAtTick& 
   if (!(u.dot(beads.normal) < 0)) return;
   const Mat3 K = point_compliance(rules.inverse, rod_i.pose.director, arm_i) +
                  point_compliance(rules.inverse, rod_j.pose.director, arm_j);
-  const Vec3 P = newton_coulomb_impulse(K, beads.normal, u, rules.rod_rod);
+  const Vec3 P = impulse_by(rules.law, K, beads.normal, u, rules.rod_rod);
   apply_impulse(rod_j.motion, rules.inverse, rod_j.pose.director, arm_j, P);
   apply_impulse(rod_i.motion, rules.inverse, rod_i.pose.director, arm_i, -P);
   rod_i.changed = true;
