@@ -25,7 +25,7 @@ ALLOWED = {
     "scene": ["sim/core", "sim/rod", "sim/scene.h"],
     "run/files": ["sim/core", "sim/snapshot.h"],
     "run": ["proto", "scene", "analysis", "run/files", "sim/core", "sim/rod", "sim/scene.h", "sim/snapshot.h",
-            "sim/world.h", "sim/simulation.h"],
+            "sim/world.h", "sim/simulation.h", "sim/close_up.h"],
     # drawing knows rods and fields; only the program's sources of frames know files and the bus
     "render/main.cpp": ["render", "run/files", "proto", "sim/core", "sim/snapshot.h", "analysis"],
     "render/sources.h": ["render", "run/files", "proto", "sim/core", "sim/snapshot.h", "analysis"],

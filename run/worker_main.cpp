@@ -14,6 +14,7 @@
 #include "run/files/version.h"
 #include "run/loop.h"
 #include "run/movie_process.h"
+#include "run/replay.h"
 #include "run/terminal.h"
 #include "scene/canonical.h"
 #include "scene/load.h"
@@ -31,6 +32,7 @@ constexpr const char* kFooter = R"(Examples:
   shaken-worker quickstart.json --out runs/quick
   shaken-worker quickstart.json --out runs/long -s time.measure="60 s" -s time.seed=7 --no-lcm
   shaken-worker quickstart.json --out runs/quick      goes on from the last checkpoint, or says that it is done
+  shaken-worker replay runs/wild                      meets a failed run's numerical trouble again
 
 Exit codes: 0 done, 1 failed, 2 bad input, 99 stopped by a signal after a checkpoint.)";
 
@@ -145,6 +147,7 @@ int run_scene(const scene::RunPlan& plan, const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc > 1 && std::string_view(argv[1]) == "replay") return run::replay_command(argc - 1, argv + 1);
   CLI::App app("Runs one scene from start to end in a run directory.", "shaken-worker");
   Arguments arguments;
   describe(app, arguments);
