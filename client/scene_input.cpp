@@ -41,11 +41,12 @@ Json derived_quantities(const scene::SweepPoint& point) {
   Json json{{"id", scene::run_id(plan)},
             {"n_rods", system.n_rods},
             {"area_fraction", scene::area_fraction_of(system)},
-            {"gamma", scene::gamma_of(system)},
+            {"gamma", nullptr},  // where there is no gravity
             {"amplitude_mm", system.amplitude},
             {"sim_seconds", plan.total_time()},
             {"ticks", std::llround(plan.total_time() / system.dt)},
             {"trajectory_frames", 0}};
+  if (const auto gamma = scene::gamma_of(system)) json["gamma"] = *gamma;
   if (plan.trajectory) json["trajectory_frames"] = std::llround(plan.total_time() / plan.trajectory->every) + 1;
   return json;
 }

@@ -27,8 +27,8 @@ scene::Sweep load_points(const SceneInput& input, const std::vector<std::string>
 /// "refused, with 2 problems" and a line for each.
 std::string refusal_text(const std::vector<scene::Problem>& problems);
 
-/// What follows from a point's scene, besides its parameters: id, n_rods, area_fraction, gamma, amplitude_mm,
-/// sim_seconds, ticks, trajectory_frames.
+/// What follows from a point's scene, besides its parameters: id, n_rods, area_fraction, gamma (null without gravity),
+/// amplitude_mm, sim_seconds, ticks, trajectory_frames.
 Json derived_quantities(const scene::SweepPoint& point);
 
 }  // namespace shaken::client

@@ -1,38 +1,64 @@
 // SPDX-License-Identifier: MIT
 #include "run/effects.h"
 
+#include <fmt/format.h>
+
+#include "scene/fields.h"
+#include "sim/effects/registry.h"
+
 namespace shaken::run {
+namespace {
+
+/// A block of the scene: on if it is there.
+EffectLine of_block(const scene::RunPlan& plan, const std::string& name, const std::string& path,
+                    const std::string& decisive) {
+  const scene::Field& block = scene::field_at(path);
+  EffectLine line{name, block.doc, std::get<bool>(block.fetch(plan)), path + " is absent"};
+  const scene::Field& key = scene::field_at(path + "." + decisive);
+  if (line.on) line.why = fmt::format("{} = {}", key.path, scene::show(key, key.fetch(plan)));
+  return line;
+}
+
+}  // namespace
+
+std::vector<EffectLine> list_effects(const scene::RunPlan& plan) {
+  std::vector<EffectLine> lines;
+  for (const Effect& effect : all_effects()) {
+    lines.push_back(
+        {std::string(effect.name), std::string(effect.what), effect.is_on(plan.system), effect.why(plan.system)});
+  }
+  for (const std::string name : {"order", "angles", "tilt", "defects", "g2", "msd"}) {
+    lines.push_back(of_block(plan, "measure_" + name, "measure." + name, "every"));
+  }
+  EffectLine trajectory = of_block(plan, "trajectory", "trajectory", "every");
+  const EffectLine movie = of_block(plan, "movie", "movie", "every");
+  if (movie.on && !trajectory.on) {  // the movie is drawn from the trajectory
+    trajectory.on = true;
+    trajectory.why = movie.why;
+  }
+  lines.push_back(std::move(trajectory));
+  lines.push_back(of_block(plan, "stream", "stream", "rate"));
+  lines.push_back(movie);
+  return lines;
+}
 
 std::map<std::string, EffectReport> report_effects(const scene::RunPlan& plan, const Session& session,
                                                    std::optional<std::int64_t> n_live_frames) {
-  const Scene& system = plan.system;
-  const Counters& counters = session.simulation.world().counters;
-  std::map<std::string, EffectReport> effects;
+  std::map<std::string, EffectReport> reports;
+  for (const EffectLine& line : list_effects(plan)) reports[line.name].on = line.on;
 
-  effects["gravity"] = {system.gravity > 0, {{"g_mm_s2", system.gravity}}};
-  effects["vibration"] = {system.amplitude > 0 && system.frequency > 0,
-                          {{"periods", session.simulation.time() * system.frequency}}};
-  effects["taper"] = {system.rod.end_diameter != system.rod.mid_diameter, {}};
-  const auto contact = [&](const std::string& pair, const ContactParameters& parameters, std::int64_t impulses) {
-    const auto n = static_cast<double>(impulses);
-    effects[pair + "_collisions"] = {true, {{"impulses", n}}};
-    effects[pair + "_friction"] = {parameters.friction > 0, {{"impulses", parameters.friction > 0 ? n : 0}}};
-    effects[pair + "_restitution"] = {parameters.restitution > 0, {{"impulses", parameters.restitution > 0 ? n : 0}}};
-  };
-  contact("rod_rod", system.rod_rod, counters.impulses_rod_rod);
-  contact("rod_base", system.rod_base, counters.impulses_rod_base);
-  contact("rod_lid", system.rod_lid, counters.impulses_rod_lid);
-
-  for (const char* name : {"order", "angles", "tilt", "defects", "g2", "msd"})
-    effects["measure_" + std::string(name)] = {};
+  const World& world = session.simulation.world();
+  for (const Effect& effect : all_effects()) {
+    reports[std::string(effect.name)].work = {{std::string(effect.unit), static_cast<double>(effect.work(world))}};
+  }
   for (const auto& [name, samples] : session.measurements.counts()) {
-    effects["measure_" + name] = {true, {{"samples", static_cast<double>(samples)}}};
+    reports["measure_" + name].work = {{"samples", static_cast<double>(samples)}};
   }
   const double frames = session.trajectory ? static_cast<double>(session.trajectory->n_frames()) : 0.0;
-  effects["trajectory"] = {session.trajectory.has_value(), {{"frames", frames}}};
-  effects["stream"] = {n_live_frames.has_value(), {{"frames", static_cast<double>(n_live_frames.value_or(0))}}};
-  effects["movie"] = {plan.movie.has_value(), {}};
-  return effects;
+  reports["trajectory"].work = {{"frames", frames}};
+  // asked for, but not sent where there is no bus
+  reports["stream"] = {n_live_frames.has_value(), {{"frames", static_cast<double>(n_live_frames.value_or(0))}}};
+  return reports;
 }
 
 }  // namespace shaken::run

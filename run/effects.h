@@ -1,13 +1,26 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "run/session.h"
 #include "run/summary.h"
 
 namespace shaken::run {
 
-/// Every effect that a plan may call for, on or off, with the work that it did in this run. `n_live_frames`: none if no
-/// live state was sent.
+/// One thing that a plan may call for: physics, measurement, recording, live state or movie.
+struct EffectLine {
+  std::string name;  ///< "rod_rod_friction", "measure_order", "trajectory"
+  std::string what;  ///< one line
+  bool on = false;
+  std::string why;  ///< the key that decides, with its value
+};
+
+/// Every effect that there is, on or off in this plan.
+std::vector<EffectLine> list_effects(const scene::RunPlan& plan);
+
+/// The same by name, with the work that each did in this run. `n_live_frames`: none if no live state was sent.
 std::map<std::string, EffectReport> report_effects(const scene::RunPlan& plan, const Session& session,
                                                    std::optional<std::int64_t> n_live_frames);
 

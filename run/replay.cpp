@@ -60,7 +60,7 @@ Result<Replay> replay(const std::filesystem::path& root) {
   if (replay.met) return replay;  // earlier than it was
   std::vector<int> rods;
   for (const int rod : trouble.rods) {
-    if (rod >= 0 && rod < plan->system.n_rods) rods.push_back(rod);
+    if (rod >= 0 && rod < plan->system.n_all_rods()) rods.push_back(rod);
   }
   replay.before = look_closely(simulation->world(), simulation->tick(), rods);
   replay.met = simulation->advance_to(trouble.tick);

@@ -5,7 +5,6 @@
 #include <cmath>
 
 namespace shaken::run {
-namespace {
 
 std::optional<Cadence> recording_of(const scene::RunPlan& plan) {
   double every = INFINITY;
@@ -15,20 +14,22 @@ std::optional<Cadence> recording_of(const scene::RunPlan& plan) {
   return Cadence(every, plan.system.dt);
 }
 
-TrajectoryHeader header_of(const World& world, const std::string& scene_json) {
+TrajectoryHeader trajectory_header(const World& world, const std::string& scene_json) {
   TrajectoryHeader header;
   header.n_rods = static_cast<int>(world.rods.size());
   header.box_side = world.scene.box_side;
   header.gap = world.scene.gap;
   header.dt = world.scene.dt;
-  header.bead_offset = world.species.bead_offset;
-  header.bead_radius = world.species.bead_radius;
+  header.bead_offset = world.species[0].bead_offset;
+  header.bead_radius = world.species[0].bead_radius;
   header.scene_json = scene_json;
   return header;
 }
 
+namespace {
+
 Session make_session(const scene::RunPlan& plan, Simulation simulation) {
-  Measurements measurements(plan, simulation.world().species);
+  Measurements measurements(plan, simulation.world().species[0]);
   return {std::move(simulation), std::move(measurements), recording_of(plan), std::nullopt, 0, 0};
 }
 
@@ -48,7 +49,7 @@ Result<Session> start_session(const scene::RunPlan& plan, const RunDirectory& di
   Session session = make_session(plan, std::move(simulation).value());
   if (session.recording) {
     auto trajectory =
-        TrajectoryWriter::create(directory.trajectory(), header_of(session.simulation.world(), scene_json));
+        TrajectoryWriter::create(directory.trajectory(), trajectory_header(session.simulation.world(), scene_json));
     if (!trajectory) return trajectory.error();
     session.trajectory = std::move(trajectory).value();
   }

@@ -27,6 +27,11 @@ struct Session {
   Tick next_due(Tick from) const;
 };
 
+/// When frames are recorded: the finer of what `trajectory` and `movie` ask for; none if neither is there.
+std::optional<Cadence> recording_of(const scene::RunPlan& plan);
+/// What a trajectory says of the world besides its frames.
+TrajectoryHeader trajectory_header(const World& world, const std::string& scene_json);
+
 /// Ticks from start to end of the plan.
 Tick total_ticks(const scene::RunPlan& plan);
 

@@ -10,10 +10,12 @@
 #include <csignal>
 
 #include "proto/bus.h"
+#include "run/checkpoint_file.h"
 #include "run/files/atomic_file.h"
 #include "run/files/version.h"
 #include "run/loop.h"
 #include "run/movie_process.h"
+#include "run/probe/report.h"
 #include "run/replay.h"
 #include "run/terminal.h"
 #include "scene/canonical.h"
@@ -32,6 +34,7 @@ constexpr const char* kFooter = R"(Examples:
   shaken-worker quickstart.json --out runs/quick
   shaken-worker quickstart.json --out runs/long -s time.measure="60 s" -s time.seed=7 --no-lcm
   shaken-worker quickstart.json --out runs/quick      goes on from the last checkpoint, or says that it is done
+  shaken-worker quickstart.json --probe cost.json     runs nothing, but tells what the run would cost
   shaken-worker replay runs/wild                      meets a failed run's numerical trouble again
 
 Exit codes: 0 done, 1 failed, 2 bad input, 99 stopped by a signal after a checkpoint.)";
@@ -80,13 +83,16 @@ struct Arguments {
   int n_threads = 1;
   double checkpoint_every = 30;
   bool quiet = false;
+  std::string probe;
+  double probe_cpu = 1;
+  std::string probe_from;
 };
 
 void describe(CLI::App& app, Arguments& arguments) {
   app.set_version_flag("--version", run::version());
   app.footer(kFooter);
   app.add_option("SCENE", arguments.scene, "Scene file (JSON)")->required();
-  app.add_option("--out", arguments.out, "Run directory; made if it is not there")->required()->type_name("DIR");
+  app.add_option("--out", arguments.out, "Run directory; made if it is not there")->type_name("DIR");
   app.add_option("-s,--set", arguments.settings, "Change one value of the scene")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
@@ -105,6 +111,17 @@ void describe(CLI::App& app, Arguments& arguments) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_flag("--quiet", arguments.quiet, "Show warnings and errors only");
+  CLI::Option* probe = app.add_option("--probe", arguments.probe,
+                                      "Instead: step a piece of the run, and write what all of it would cost as JSON");
+  probe->type_name("FILE");
+  app.add_option("--probe-cpu", arguments.probe_cpu, "CPU time of the steps, about; 0 tells only what is on and off")
+      ->type_name("SECONDS")
+      ->check(CLI::Range(0.0, 3600.0))
+      ->needs(probe)
+      ->capture_default_str();
+  app.add_option("--probe-from", arguments.probe_from, "Directory of a run of the same system, to start from its state")
+      ->type_name("DIR")
+      ->needs(probe);
 }
 
 int run_scene(const scene::RunPlan& plan, const Arguments& arguments) {
@@ -144,6 +161,45 @@ int run_scene(const scene::RunPlan& plan, const Arguments& arguments) {
   return kExitFailed;
 }
 
+/// The state that the run in `folder` was last saved in.
+Result<std::vector<std::byte>> saved_state(const std::filesystem::path& folder) {
+  const run::RunDirectory directory{folder};
+  const Result<std::string> text = run::read_file(directory.scene());
+  if (!text) return text.error();
+  const auto plan = scene::load_scene(*text, directory.scene().string());
+  if (!plan.value) return Error{to_string(plan.problems)};
+  auto checkpoint = run::read_checkpoint(directory.checkpoint(), scene::run_id(*plan.value));
+  if (!checkpoint) return checkpoint.error();
+  return std::move(checkpoint->simulation);
+}
+
+int probe_scene(const scene::RunPlan& plan, const Arguments& arguments) {
+  std::vector<std::byte> start;
+  if (!arguments.probe_from.empty()) {
+    auto state = saved_state(arguments.probe_from);
+    if (!state) {
+      fmt::print(stderr, "{}: {}\n", arguments.probe_from, state.error().message);
+      return kExitBadInput;
+    }
+    start = std::move(state).value();
+  }
+  std::optional<run::Probe> probe;
+  if (arguments.probe_cpu > 0) {
+    auto probed = run::probe(plan, {arguments.probe_cpu, start});
+    if (!probed) {
+      fmt::print(stderr, "{}\n", probed.error().message);
+      return kExitFailed;
+    }
+    probe = std::move(probed).value();
+    if (!probe->movie_trouble.empty()) spdlog::warn("the movie could not be timed: {}", probe->movie_trouble);
+  }
+  if (auto error = run::write_file(arguments.probe, run::probe_report(plan, probe).dump(2) + "\n")) {
+    fmt::print(stderr, "{}\n", error->message);
+    return kExitFailed;
+  }
+  return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -155,6 +211,10 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
     return app.exit(problem) == 0 ? 0 : kExitBadInput;
+  }
+  if (arguments.out.empty() == arguments.probe.empty()) {
+    fmt::print(stderr, "one of --out and --probe is needed (see `shaken-worker --help`)\n");
+    return kExitBadInput;
   }
   std::signal(SIGTERM, request_stop);
   std::signal(SIGINT, request_stop);
@@ -170,6 +230,11 @@ int main(int argc, char** argv) {
   if (!plan.value) {
     fmt::print(stderr, "{}\n", to_string(plan.problems));
     return kExitBadInput;
+  }
+  if (!arguments.probe.empty()) {
+    std::signal(SIGTERM, SIG_DFL);  // nothing is lost
+    std::signal(SIGINT, SIG_DFL);
+    return probe_scene(*plan.value, arguments);
   }
   return run_scene(*plan.value, arguments);
 }

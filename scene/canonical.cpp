@@ -42,6 +42,7 @@ nlohmann::ordered_json to_json(const RunPlan& plan) {
     const bool is_off = !block.empty() && !std::get<bool>(field_at(block).fetch(plan));
     if (!field.fetch || is_off) continue;
     const Value value = field.fetch(plan);
+    if (std::holds_alternative<std::monostate>(value)) continue;  // has no meaning in this plan
     if (field.form != Form::kBlock) {
       object_at(scene, field.path) = to_json(field, value);
     } else if (std::get<bool>(value)) {

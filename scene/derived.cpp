@@ -13,7 +13,10 @@ double squared(double x) { return x * x; }
 
 }  // namespace
 
-double gamma_of(const Scene& scene) { return scene.amplitude * squared(2 * kPi * scene.frequency) / scene.gravity; }
+std::optional<double> gamma_of(const Scene& scene) {
+  if (scene.gravity == 0) return std::nullopt;
+  return scene.amplitude * squared(2 * kPi * scene.frequency) / scene.gravity;
+}
 
 double amplitude_for(double gamma, double frequency, double gravity) {
   return gamma * gravity / squared(2 * kPi * frequency);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
+
 #include "scene/run_plan.h"
 
 /// Quantities that a scene may be written in and that a plan does not store.
@@ -13,8 +15,8 @@ inline constexpr int kMaxBeads = 101;
 inline constexpr double kMaxAreaFractionAligned = 0.92;  ///< interlocked rows of tapered rods get no further
 inline constexpr double kMaxAreaFractionRandom = 0.45;   ///< random insertion of rods jams there
 
-/// Gamma = a (2 pi f)^2 / g.
-double gamma_of(const Scene& scene);
+/// Gamma = a (2 pi f)^2 / g; none without gravity.
+std::optional<double> gamma_of(const Scene& scene);
 /// a from Gamma, f and g [mm].
 double amplitude_for(double gamma, double frequency, double gravity);
 /// f from Gamma, a and g [Hz].

@@ -30,7 +30,7 @@ std::string slip_of_the_pen(const Field& field, const Written& written) {
   double least = std::abs(std::log(written_value->value() / *usual));
   const auto consider = [&](const Written& candidate) {
     const Result<Decimal> number = in_default_unit(candidate, field.dimension);
-    if (!number || number->value() < field.low || number->value() > field.high) return;
+    if (!number || !is_allowed(field, number->value())) return;
     const double distance = std::abs(std::log(number->value() / *usual));
     if (distance >= least) return;
     const std::string_view unit = candidate.unit.empty() ? default_unit(field.dimension) : candidate.unit;
@@ -111,13 +111,12 @@ class ValueReader {
     if (!number) return complain(node, given, number.error().message);
     const double value = number->value();
     given.value = value;
-    if (value >= field_.low && value <= field_.high) return;
+    if (is_allowed(field_, value)) return;
 
     std::string_view unit = written->unit.empty() ? default_unit(field_.dimension) : written->unit;
     complain(node, given,
              fmt::format("{}{}{} is outside {}{}", written->number.text(), unit.empty() ? "" : " ", unit,
-                         format_range(field_.low, field_.high, field_.dimension),
-                         did_you_mean(slip_of_the_pen(field_, *written))));
+                         range_of(field_), did_you_mean(slip_of_the_pen(field_, *written))));
   }
 
   void read_whole(const Node& node, Given& given) {

@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "scene/accuracy.h"
 #include "scene/derived.h"
 #include "scene/nearest.h"
 #include "sim/core/check.h"
@@ -130,6 +131,22 @@ Field steady_field() {
   return field;
 }
 
+/// A word for what other keys say in numbers.
+Field accuracy_field() {
+  Field field;
+  field.path = "accuracy";
+  field.form = Form::kName;
+  std::string steps;
+  for (const AccuracyLevel& level : accuracy_levels()) {
+    field.names.emplace_back(level.name);
+    steps +=
+        fmt::format("{}{} {}", steps.empty() ? "" : ", ", level.name, format_quantity(level.step, Dimension::kTime));
+  }
+  field.fallback_note = "none";
+  field.doc = fmt::format("A word in place of `time.step`: {}.", steps);
+  return field;
+}
+
 Field movie_size_field() {
   Field field;
   field.path = "movie.size";
@@ -205,8 +222,10 @@ std::vector<Field> make_table() {
       "box.gap", kLength, 0.05, 100, "w, between base and lid.", [](auto& p) -> auto& { return p.system.gap; }));
 
   add(instead("plates.gamma", kPlain, 0, 200, kDefaultGamma,
-              "Strength of shaking: largest acceleration of the plates over gravity.",
-              [](const RunPlan& p) { return Value(to_ten_digits(gamma_of(p.system))); }));
+              "Strength of shaking: largest acceleration of the plates over gravity.", [](const RunPlan& p) {
+                const std::optional<double> gamma = gamma_of(p.system);
+                return gamma ? Value(to_ten_digits(*gamma)) : Value();
+              }));
   add(derived(quantity(
                   "plates.amplitude", kLength, 0, 10, "a, of the plates' vibration.",
                   [](auto& p) -> auto& { return p.system.amplitude; }),
@@ -214,8 +233,11 @@ std::vector<Field> make_table() {
   add(quantity(
       "plates.frequency", kFrequency, 0.1, 1e5, "f, of the plates' vibration.",
       [](auto& p) -> auto& { return p.system.frequency; }));
-  add(quantity(
-      "gravity", kAcceleration, 100, 1e5, "g, downwards.", [](auto& p) -> auto& { return p.system.gravity; }));
+  Field gravity = quantity(
+      "gravity", kAcceleration, 100, 1e5, "g, downwards; 0: weightless, plates then by amplitude and frequency.",
+      [](auto& p) -> auto& { return p.system.gravity; });
+  gravity.or_zero = true;
+  add(std::move(gravity));
 
   add_contact(table, "rod_rod", "two rods", &Scene::rod_rod);
   add_contact(table, "rod_base", "rod and base", &Scene::rod_base);
@@ -229,6 +251,7 @@ std::vector<Field> make_table() {
       "contacts.sweeps", 1, 100, "Passes over the contacts of one tick.",
       [](auto& p) -> auto& { return p.system.solver_sweeps; }));
 
+  add(accuracy_field());
   add(quantity(
       "time.step", kTime, 1e-7, 1e-4, "The tick: the accuracy knob.", [](auto& p) -> auto& { return p.system.dt; }));
   add(choice<Engine>(
@@ -383,6 +406,14 @@ std::string suggest_path(std::string_view path) {
   return did_you_mean(whole_path.empty() ? same_name : whole_path);
 }
 
+bool is_allowed(const Field& field, double value) {
+  return (value >= field.low && value <= field.high) || (field.or_zero && value == 0);
+}
+
+std::string range_of(const Field& field) {
+  return (field.or_zero ? "0 or " : "") + format_range(field.low, field.high, field.dimension);
+}
+
 std::string show(const Field& field, const Value& value) {
   if (const bool* on = std::get_if<bool>(&value)) return *on ? "on" : "off";
   if (const double* number = std::get_if<double>(&value)) return format_quantity(*number, field.dimension);
@@ -404,7 +435,7 @@ std::string fields_as_markdown() {
     } else if (field.form != Form::kName) {
       const std::string range = field.form == Form::kWhole
                                     ? fmt::format("whole, {:.16g} to {:.16g}", field.low, field.high)
-                                    : format_range(field.low, field.high, field.dimension);
+                                    : range_of(field);
       allowed += (allowed.empty() ? "" : " or ") + range;
     }
     const std::string unit(default_unit(field.dimension));

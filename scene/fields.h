@@ -33,8 +33,9 @@ struct Field {
   std::string path;  ///< dotted: "rods.length"
   Form form = Form::kQuantity;
   Dimension dimension = Dimension::kPlain;
-  double low = 0;   ///< smallest value allowed, in default units
-  double high = 0;  ///< largest value allowed
+  double low = 0;        ///< smallest value allowed, in default units
+  double high = 0;       ///< largest value allowed
+  bool or_zero = false;  ///< 0 is allowed too, though it is below `low`
   std::vector<std::string> names;
   Value fallback;             ///< what holds if the key is absent; nothing where that is derived from other keys
   std::string fallback_note;  ///< says so in words, for the reference
@@ -65,6 +66,11 @@ std::string_view block_around(std::string_view path);
 
 /// "; did you mean rods.length?" for a dotted path that does not exist, by its siblings first, then by all paths.
 std::string suggest_path(std::string_view path);
+
+/// True if the field may have this value.
+bool is_allowed(const Field& field, double value);
+/// For people: "[0.1, 100] us", "0 or [0.1, 100] m/s^2".
+std::string range_of(const Field& field);
 
 /// For people: "4.5 mm", "\"aligned\"", "1280 x 720".
 std::string show(const Field& field, const Value& value);

@@ -8,6 +8,7 @@
 #include <initializer_list>
 #include <string_view>
 
+#include "scene/accuracy.h"
 #include "scene/derived.h"
 #include "sim/rod/species.h"
 
@@ -36,6 +37,7 @@ class Resolver {
       all_ok = all_ok && (!given || given->ok);
       store(fields()[i], given);
     }
+    accuracy();
     shape();
     shaking();
     packing();
@@ -90,6 +92,19 @@ class Resolver {
     }
     complain(causes, fmt::format("{} make {} {}, outside {}", said, path, show(field, value),
                                  format_range(field.low, field.high, field.dimension)));
+  }
+
+  // The step that a word for accuracy stands for.
+  void accuracy() {
+    const Given* word = draft_.find("accuracy");
+    if (!word || !ok({"accuracy", "time.step"})) return;
+    const AccuracyLevel* level = accuracy_level(std::get<std::string>(word->value));
+    if (given("time.step") && plan_.system.dt != level->step) {
+      complain({"accuracy"}, fmt::format("accuracy \"{}\" is a time.step of {}, but time.step {} is given; remove one",
+                                         level->name, time(level->step), time(plan_.system.dt)));
+      return;
+    }
+    plan_.system.dt = level->step;
   }
 
   // The number of beads, and whether they make a rod.
@@ -150,6 +165,7 @@ class Resolver {
   void shaking() {
     if (!ok({"plates.gamma", "plates.amplitude", "plates.frequency", "gravity"})) return;
     Scene& system = plan_.system;
+    if (system.gravity == 0) return shaking_without_weight();
     const double gamma = number("plates.gamma");
     if (!given("plates.amplitude")) {
       system.amplitude = amplitude_for(gamma, system.frequency, system.gravity);
@@ -159,13 +175,36 @@ class Resolver {
     } else if (!given("plates.frequency") && system.amplitude > 0 && gamma > 0) {
       system.frequency = frequency_for(gamma, system.amplitude, system.gravity);
       check_derived("plates.frequency", {"plates.gamma", "plates.amplitude"});
-    } else if (!agree(gamma_of(system), gamma)) {
+    } else if (!agree(*gamma_of(system), gamma)) {
       complain(
           {"plates.gamma"},
           fmt::format("plates.gamma {:.10g} contradicts plates.amplitude {} at plates.frequency {} and gravity {}, "
                       "which make {:.10g}; remove one",
                       gamma, length(system.amplitude), format_quantity(system.frequency, Dimension::kFrequency),
-                      format_quantity(system.gravity, Dimension::kAcceleration), gamma_of(system)));
+                      format_quantity(system.gravity, Dimension::kAcceleration), *gamma_of(system)));
+    }
+  }
+
+  // Gamma compares the plates with gravity. Without it only Gamma = 0, plates at rest, means anything.
+  void shaking_without_weight() {
+    Scene& system = plan_.system;
+    if (given("plates.gamma") && number("plates.gamma") != 0) {
+      complain({"plates.gamma"},
+               "plates.gamma compares the plates with gravity, which is 0; give plates.amplitude and plates.frequency "
+               "instead");
+    } else if (!given("plates.amplitude")) {
+      system.amplitude = 0;
+      if (given("plates.gamma")) return;
+      complain({"gravity"},
+               "without gravity plates.gamma has no meaning; give plates.amplitude (0: plates at rest) and "
+               "plates.frequency");
+    } else if (given("plates.gamma") && system.amplitude > 0) {
+      complain({"plates.gamma"},
+               fmt::format("plates.gamma 0 contradicts plates.amplitude {}; remove one", length(system.amplitude)));
+    } else if (system.amplitude > 0 && !given("plates.frequency")) {
+      complain({"gravity"},
+               fmt::format("without gravity plates.amplitude {} does not tell plates.frequency; give that too",
+                           length(system.amplitude)));
     }
   }
 
@@ -231,7 +270,7 @@ class Resolver {
     if (!ok({"time.step"})) return;
     if (ok({"plates.frequency", "plates.gamma", "plates.amplitude"}) &&
         system.dt * system.frequency * kLeastTicksPerPeriod > 1) {
-      complain({"time.step", "plates.frequency", "plates.amplitude"},
+      complain({"time.step", "accuracy", "plates.frequency", "plates.amplitude"},
                fmt::format("a step of {} is too long for plates at {}: at most {}", time(system.dt),
                            format_quantity(system.frequency, Dimension::kFrequency),
                            time(1 / (kLeastTicksPerPeriod * system.frequency))));
@@ -242,7 +281,7 @@ class Resolver {
       if (!is_interval || !draft_.is_on(block) || !draft_.is_ok(field.path)) continue;
       const double every = std::get<double>(field.fetch(plan_));
       if (every < system.dt) {
-        complain({field.path, "time.step"},
+        complain({field.path, "time.step", "accuracy"},
                  fmt::format("{} {} is shorter than time.step {}", field.path, time(every), time(system.dt)));
       }
     }

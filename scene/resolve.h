@@ -17,6 +17,7 @@ namespace shaken::scene {
 ///   Gamma g = a (2 pi f)^2                  a missing one of gamma, amplitude, frequency; defaults gamma, frequency
 ///   count = round(area_fraction side^2 / A) a missing one of count, area_fraction, side;  defaults side, area_fraction
 ///   beads                                   from length, end_diameter and bead_pitch
+///   time.step                               from accuracy
 ///   smoothing, grid                         from length
 std::optional<RunPlan> resolve(const Draft& draft, std::vector<Problem>& problems);
 

@@ -19,6 +19,11 @@ Result<Simulation> Simulation::start(const Scene& scene) {
   return Simulation(std::move(world).value());
 }
 
+Simulation Simulation::start_from(World world) {
+  world.start = content(world);
+  return Simulation(std::move(world));
+}
+
 Result<Simulation> Simulation::resume(const Scene& scene, std::span<const std::byte> checkpoint) {
   auto world = restore_checkpoint(scene, checkpoint);
   if (!world) return world.error();

@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "client/estimate.h"
 #include "client/print.h"
 #include "client/scene_input.h"
 #include "client/target.h"
@@ -24,7 +25,7 @@ class Submit : public Verb {
             "  shaken submit scene.json\n"
             "  shaken submit scene.json -s rods.length=2.5,3.5,4.5 -s rods.area_fraction=0.55:0.75:0.05\n"
             "  shaken submit sweep.json --replicas 4 --name phases\n"
-            "  shaken submit sweep.json --dry-run           only checks and shows the points\n"
+            "  shaken submit sweep.json --dry-run           only checks, shows the points and what they would cost\n"
             "  shaken submit scene.json --wait && shaken results"};
   }
 
@@ -34,12 +35,15 @@ class Submit : public Verb {
                          "Change one value, or sweep it: VALUE,VALUE or FROM:TO:STEP; repeatable");
     arguments.option("--replicas", replicas_, "N", "Runs of each point, each with a seed of its own");
     arguments.option("--name", name_, "NAME", "Of the sweep; the file's name if left out");
-    arguments.flag("--dry-run", dry_run_, "Check everything and show the points, but queue nothing");
+    arguments.flag("--dry-run", dry_run_,
+                   "Check everything, show the points and what they would cost, but queue nothing");
+    arguments.flag("--no-probe", no_probe_, "With --dry-run: leave out the costs, which have to be measured");
     arguments.flag("--wait", wait_, "Wait until all jobs have ended; exit code 0 only if all are done");
     arguments.flag("--json", json_, "Print the daemon's answer as JSON");
   }
 
   ExitCode run(const Context& context) override {
+    if (no_probe_ && !dry_run_) throw Failure(ExitCode::kBadInput, "--no-probe has a meaning with --dry-run only");
     const SceneInput input = read_scene_input(file_);
     // Read here as the daemon reads it: mistakes are told even without a daemon, and rods can be counted.
     const scene::Sweep sweep = load_points(input, settings_, replicas_);
@@ -78,12 +82,18 @@ class Submit : public Verb {
       table.add_row({short_id(derived.at("id").get<std::string>()), std::to_string(point.plan.system.n_rods),
                      number_text(point.plan.total_time()), point.label});
     }
-    if (json_) {
-      console.out << Json{{"points", list}}.dump(2) << "\n";
-    } else {
+    Json json{{"points", list}};
+    if (!json_) {
       console.out << fmt::format("{}: {} points, nothing queued\n{}", sweep.name, sweep.points.size(),
-                                 table.text(console.width));
+                                 table.text(console.width))
+                  << std::flush;
     }
+    if (!no_probe_) {
+      const Estimate estimate = estimate_cost(sweep, {});
+      json["estimate"] = estimate_json(estimate);
+      if (!json_) console.out << "\nOn this machine, on one core:\n" << estimate_text(estimate, console.width);
+    }
+    if (json_) console.out << json.dump(2) << "\n";
   }
 
   static void show(const Json& answer, const scene::Sweep& local, Console& console) {
@@ -127,6 +137,7 @@ class Submit : public Verb {
   std::optional<int> replicas_;
   std::string name_;
   bool dry_run_ = false;
+  bool no_probe_ = false;
   bool wait_ = false;
   bool json_ = false;
 };

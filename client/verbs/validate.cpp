@@ -97,7 +97,9 @@ class Validate : public Verb {
                  {"POINT"}});
     for (const scene::SweepPoint& point : points) {
       const Json derived = derived_quantities(point);
-      const auto number = [&derived](const char* key) { return number_text(derived.at(key).get<double>()); };
+      const auto number = [&derived](const char* key) {
+        return derived.at(key).is_null() ? "-" : number_text(derived.at(key).get<double>());
+      };
       table.add_row({short_id(derived.at("id").get<std::string>()), number("n_rods"), number("area_fraction"),
                      number("gamma"), number("amplitude_mm"), number("sim_seconds"), number("ticks"),
                      number("trajectory_frames"), point.label});

@@ -14,6 +14,7 @@ inline constexpr const char* kHelpGroup = "Set-up and help";
 
 std::unique_ptr<Verb> make_init();
 std::unique_ptr<Verb> make_validate();
+std::unique_ptr<Verb> make_explain();
 std::unique_ptr<Verb> make_run();
 std::unique_ptr<Verb> make_submit();
 std::unique_ptr<Verb> make_status();

@@ -21,7 +21,8 @@ SHAKEN_INLINE F safe_time(const F& gap, const F& rate, const F& pull) {
 }
 
 struct Constants {
-  float half_length, mid_radius, end_radius;
+  float half_length, mid_radius;
+  float head_length, head_radius, tail_length, tail_radius;
   float gravity, pull_base, pull_lid;
   float dt, per_dt, horizon;
 };
@@ -62,16 +63,20 @@ struct PlateKernel {
     const F rise = velocity - k.gravity * t - plate_velocity;
     const F bend = h * lanes::load<W>(rods.rate2 + l);  // bounds the ends' own acceleration
     const F sag = 0.5F * bend * t * t;                  // how much further an end may be than its tangent says
-    const F end = h * (lanes::load<W>(rods.n_z + l) + n_z_rate * t);
-    const F end_rate = h * n_z_rate;
+    const F n_z = lanes::load<W>(rods.n_z + l) + n_z_rate * t;
+    const F head = k.head_length * n_z;  // of the head's bead above the centre
+    const F tail = k.tail_length * n_z;  // of the tail's below
+    const F head_rate = k.head_length * n_z_rate;
+    const F tail_rate = k.tail_length * n_z_rate;
     const F gap_margin = kLengthRounding * (1.0F + h + lanes::abs(height) + lanes::abs(lid));
     const F rate_margin = 1e-4F + kRateRounding * (lanes::abs(velocity) + k.gravity * t + lanes::abs(plate_velocity) +
-                                                   lanes::abs(end_rate));
+                                                   h * lanes::abs(n_z_rate));
     const F above = height - base - gap_margin;  // centre above the base
     const F below = lid - height - gap_margin;   // centre below the lid
     const F up = rise - rate_margin;
     const F down = -rise - rate_margin;
-    const F end_room = sag + k.end_radius;
+    const F head_room = sag + k.head_radius;
+    const F tail_room = sag + k.tail_radius;
     const F slow = bend * t;
     const F pull_base = k.pull_base + bend;
     const F pull_lid = lanes::not_below_zero(k.pull_lid + bend);
@@ -79,10 +84,10 @@ struct PlateKernel {
     F time = safe_time(above - k.mid_radius, up, lanes::all<W>(k.pull_base));
     time =
         lanes::smaller(time, safe_time(below - k.mid_radius, down, lanes::not_below_zero(lanes::all<W>(k.pull_lid))));
-    time = lanes::smaller(time, safe_time(above + end - end_room, up + end_rate - slow, pull_base));
-    time = lanes::smaller(time, safe_time(above - end - end_room, up - end_rate - slow, pull_base));
-    time = lanes::smaller(time, safe_time(below - end - end_room, down - end_rate - slow, pull_lid));
-    time = lanes::smaller(time, safe_time(below + end - end_room, down + end_rate - slow, pull_lid));
+    time = lanes::smaller(time, safe_time(above + head - head_room, up + head_rate - slow, pull_base));
+    time = lanes::smaller(time, safe_time(above - tail - tail_room, up - tail_rate - slow, pull_base));
+    time = lanes::smaller(time, safe_time(below - head - head_room, down - head_rate - slow, pull_lid));
+    time = lanes::smaller(time, safe_time(below + tail - tail_room, down + tail_rate - slow, pull_lid));
     const F more = lanes::truncated(lanes::smaller(time * k.per_dt, lanes::all<W>(k.horizon)));
     lanes::store(safe + l, lanes::smaller(ticks + more, lanes::all<W>(k.horizon)));
   }
@@ -95,7 +100,10 @@ void plate_safe_ticks(const Species& species, const PlateMotion& plates, const P
   const Constants k{
       static_cast<float>(species.half_length),
       static_cast<float>(species.mid_radius),
-      static_cast<float>(species.n_beads() > 1 ? species.end_radius : species.mid_radius),
+      static_cast<float>(species.head.length),
+      static_cast<float>(species.head.radius),
+      static_cast<float>(species.tail.length),
+      static_cast<float>(species.tail.radius),
       static_cast<float>(gravity),
       static_cast<float>((plates.peak_acceleration() + gravity) * (1.0 + 1e-6)),
       static_cast<float>((plates.peak_acceleration() - gravity) + 1e-6 * (plates.peak_acceleration() + gravity)),

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "sim/effects/compose.h"
 #include "sim/neighbors/neighbor_list.h"
 #include "sim/stepping/stepper.h"
 #include "sim/stepping/tick.h"
@@ -20,6 +21,7 @@ class ReferenceStepper final : public Stepper {
   std::optional<NumericalTrouble> step(World& world, Tick now) override;
 
   TickRules rules_;
+  Kernels kernels_;
   NeighborList neighbors_;
   std::vector<RodAtTick> rods_;
   std::vector<Pose> poses_;

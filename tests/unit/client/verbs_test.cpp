@@ -130,7 +130,7 @@ TEST_F(Verbs, SubmitOfABadSceneNeverReachesTheDaemon) {
 TEST_F(Verbs, SubmitDryRunQueuesNothing) {
   const std::string file = (root_.path() / "scene.json").string();
   std::ofstream(file) << R"({"box": {"side": 30}})";
-  const Outcome outcome = run({"submit", file, "--dry-run", "-s", "rods.count=100,200,300"});
+  const Outcome outcome = run({"submit", file, "--dry-run", "--no-probe", "-s", "rods.count=100,200,300"});
   EXPECT_EQ(outcome.code, ExitCode::kOk) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("3 points, nothing queued"));
   EXPECT_THAT(outcome.out, HasSubstr("  300  "));

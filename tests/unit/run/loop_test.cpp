@@ -103,12 +103,45 @@ void expect_same_results(const std::filesystem::path& a, const std::filesystem::
   }
 }
 
+/// Work of all effects of a run that are off, and how many they are.
+std::pair<int, double> work_of_effects_off(const nlohmann::json& summary) {
+  int n_off = 0;
+  double work = 0;
+  for (const auto& [name, effect] : summary["effects"].items()) {
+    if (effect["on"]) continue;
+    ++n_off;
+    for (const auto& [key, amount] : effect.items()) work += key == "on" ? 0.0 : amount.get<double>();
+  }
+  return {n_off, work};
+}
+
 /// One undisturbed run, made once, to compare the others with.
 const std::filesystem::path& undisturbed() {
   static const TemporaryFolder folder;
   static const bool made = run_in(folder.path(), small_plan()).state == RunState::kDone;
   EXPECT_TRUE(made);
   return folder.path();
+}
+
+TEST(Run, EffectsThatAreOffDoNoWork) {
+  const TemporaryFolder folder;
+  scene::RunPlan plan = small_plan();
+  plan.measure_time = 0.05;
+  for (ContactParameters* contact : {&plan.system.rod_rod, &plan.system.rod_base, &plan.system.rod_lid}) {
+    *contact = {0.0, 0.0};
+  }
+  plan.system.gravity = 0;
+  plan.system.amplitude = 0;
+  plan.system.rod.end_diameter = plan.system.rod.mid_diameter;
+  plan.order.reset();
+  plan.trajectory.reset();
+  ASSERT_EQ(run_in(folder.path(), plan).state, RunState::kDone);
+  const auto summary = summary_in(folder.path());
+  const auto [n_off, work] = work_of_effects_off(summary);
+  EXPECT_EQ(n_off,
+            3 * 2 + 4 + 6);  // contacts; gravity, vibration, taper, spin; order, g2, msd, trajectory, stream, movie
+  EXPECT_EQ(work, 0);
+  EXPECT_GT(summary["effects"]["rod_base_collisions"]["impulses"].get<int>(), 0);
 }
 
 TEST(Run, FillsItsDirectory) {
@@ -122,6 +155,8 @@ TEST(Run, FillsItsDirectory) {
   EXPECT_EQ(summary["effects"]["measure_order"]["samples"], 151);
   EXPECT_EQ(summary["effects"]["trajectory"]["frames"], 31);
   EXPECT_EQ(summary["effects"]["stream"]["on"], false);
+  EXPECT_GT(summary["effects"]["rod_base_friction"]["impulses"].get<int>(), 0);
+  EXPECT_EQ(summary["effects"]["vibration"]["periods"], 60);
   EXPECT_EQ(read_progress(directory.progress())->state, "done");
   EXPECT_EQ(read_progress(directory.progress())->fraction(), 1.0);
 

@@ -74,6 +74,15 @@ TEST(Canonical, ReadsBackAsTheIdenticalPlan) {
   });
 }
 
+TEST(Canonical, ReadsBackWithoutGravity) {
+  for (const char* text : {R"({"gravity": 0, "plates": {"amplitude": 0.05, "frequency": 100}})",
+                           R"({"gravity": 0, "plates": {"gamma": 0}})", R"({"plates": {"gamma": 0}})"}) {
+    const RunPlan plan = plan_of(text);
+    EXPECT_EQ(plan_of(to_json(plan).dump()), plan) << text;
+  }
+  EXPECT_FALSE(to_json(plan_of(R"({"gravity": 0, "plates": {"amplitude": 0}})"))["plates"].contains("gamma"));
+}
+
 TEST(Canonical, HoldsWhatWasDerived) {
   const auto scene = to_json(plan_of(R"({"box": {"side": 40}, "measure": {"defects": {}}})"));
   EXPECT_EQ(scene["rods"]["beads"], 15);

@@ -38,8 +38,8 @@ TEST(Fields, EveryDefaultIsAllowedAndReadsBack) {
 }
 
 TEST(Fields, KnowTheTreeOfNames) {
-  EXPECT_EQ(names_in(""), (std::vector<std::string>{"rods", "box", "plates", "gravity", "contacts", "time", "measure",
-                                                    "trajectory", "stream", "movie"}));
+  EXPECT_EQ(names_in(""), (std::vector<std::string>{"rods", "box", "plates", "gravity", "contacts", "accuracy", "time",
+                                                    "measure", "trajectory", "stream", "movie"}));
   EXPECT_EQ(names_in("contacts.rod_lid"), (std::vector<std::string>{"friction", "restitution"}));
   EXPECT_TRUE(is_group("contacts.rod_lid"));
   EXPECT_FALSE(is_group("movie"));

@@ -16,11 +16,11 @@ TEST(Shaking, AnyTwoOfGammaAmplitudeAndFrequencyGiveTheThird) {
   EXPECT_DOUBLE_EQ(plan_of(R"({"plates": {"gamma": 7, "frequency": 100}})").system.amplitude, kAmplitudeOf7 * 4);
   EXPECT_DOUBLE_EQ(plan_of(R"({"plates": {"frequency": 100}})").system.amplitude, kAmplitudeOf7 * 4);
   EXPECT_DOUBLE_EQ(plan_of(R"({"gravity": "19.62 m/s^2"})").system.amplitude, kAmplitudeOf7 * 2);
-  EXPECT_DOUBLE_EQ(gamma_of(plan_of(R"({"plates": {"amplitude": "0.1 mm"}})").system), 0.7 / kAmplitudeOf7);
+  EXPECT_DOUBLE_EQ(*gamma_of(plan_of(R"({"plates": {"amplitude": "0.1 mm"}})").system), 0.7 / kAmplitudeOf7);
 
   const Scene by_both = plan_of(R"({"plates": {"gamma": 14, "amplitude": 0.1}})").system;
   EXPECT_DOUBLE_EQ(by_both.frequency, 200 * std::sqrt(2 * kAmplitudeOf7 / 0.1));
-  EXPECT_DOUBLE_EQ(gamma_of(by_both), 14);
+  EXPECT_DOUBLE_EQ(*gamma_of(by_both), 14);
 
   EXPECT_EQ(plan_of(R"({"plates": {"gamma": 0}})").system.amplitude, 0);
 }
@@ -38,6 +38,27 @@ TEST(Shaking, WhatFollowsMustBePossible) {
   EXPECT_EQ(problem_of(R"({"plates": {"gamma": 200, "frequency": 0.5}})"),
             "run.json:1:22: /plates/gamma: plates.gamma 200 and plates.frequency 0.5 Hz make plates.amplitude "
             "198792.1623 mm, outside [0, 10] mm");
+}
+
+TEST(Shaking, WithoutGravityIsByAmplitudeAndFrequency) {
+  const Scene shaken = plan_of(R"({"gravity": 0, "plates": {"amplitude": 0.05, "frequency": 100}})").system;
+  EXPECT_EQ(shaken.gravity, 0);
+  EXPECT_EQ(shaken.amplitude, 0.05);
+  EXPECT_FALSE(gamma_of(shaken).has_value());
+  EXPECT_EQ(plan_of(R"({"gravity": 0, "plates": {"amplitude": 0}})").system.amplitude, 0);
+  EXPECT_EQ(plan_of(R"({"gravity": "0 m/s^2", "plates": {"gamma": 0}})").system.amplitude, 0);
+
+  EXPECT_EQ(problem_of(R"({"gravity": 0})"),
+            "run.json:1:13: /gravity: without gravity plates.gamma has no meaning; give plates.amplitude (0: plates at "
+            "rest) and plates.frequency");
+  EXPECT_EQ(problem_of(R"({"gravity": 0, "plates": {"gamma": 7}})"),
+            "run.json:1:36: /plates/gamma: plates.gamma compares the plates with gravity, which is 0; give "
+            "plates.amplitude and plates.frequency instead");
+  EXPECT_EQ(problem_of(R"({"gravity": 0, "plates": {"amplitude": 0.05}})"),
+            "run.json:1:13: /gravity: without gravity plates.amplitude 0.05 mm does not tell plates.frequency; give "
+            "that too");
+  EXPECT_EQ(problem_of(R"({"gravity": 0, "plates": {"amplitude": 0.05, "gamma": 0, "frequency": 100}})"),
+            "run.json:1:55: /plates/gamma: plates.gamma 0 contradicts plates.amplitude 0.05 mm; remove one");
 }
 
 TEST(Packing, AnyTwoOfFractionCountAndSideGiveTheThird) {

@@ -33,7 +33,7 @@ TEST(Problems, ValuesOutOfRangeComeWithTheRangeAndWhatMayHaveBeenMeant) {
   EXPECT_EQ(problem_of(R"({"time": {"step": 4}})"),
             "run.json:1:19: /time/step: 4 s is outside [0.1, 100] us; did you mean 4 us?");
   EXPECT_EQ(problem_of(R"({"gravity": 9.81})"),
-            "run.json:1:13: /gravity: 9.81 mm/s^2 is outside [0.1, 100] m/s^2; did you mean 9.81 m/s^2?");
+            "run.json:1:13: /gravity: 9.81 mm/s^2 is outside 0 or [0.1, 100] m/s^2; did you mean 9.81 m/s^2?");
   EXPECT_EQ(problem_of(R"({"rods": {"area_fraction": 75}})"),
             "run.json:1:28: /rods/area_fraction: 75 is outside [1e-06, 0.92]; did you mean 0.75?");
   EXPECT_EQ(problem_of(R"({"rods": {"area_fraction": 0.99}})"),

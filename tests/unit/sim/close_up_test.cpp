@@ -48,7 +48,7 @@ TEST(CloseUp, ShowsEveryRodAsTheSnapshotDoesAndEveryContactOnce) {
     for (int i = 0; i < 80; ++i) {
       for (int j = i + 1; j < 80; ++j) {
         found.clear();
-        find_bead_contacts(world.species, all.director[i], world.species, all.director[j],
+        find_bead_contacts(world.species[0], all.director[i], world.species[0], all.director[j],
                            nearest_image(all.position[i], all.position[j], world.scene.box_side), found);
         EXPECT_EQ((contacts[{i, j}]), static_cast<int>(found.size())) << i << " " << j;
         n_contacts += static_cast<int>(found.size());

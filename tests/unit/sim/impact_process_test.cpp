@@ -304,15 +304,5 @@ TEST(ImpactProcess, NewtonsRuleMakesEnergyWhereSlipStopsAndTheOthersDoNot) {
   EXPECT_EQ(n_newton, 9);  // slip to one side, at each friction
 }
 
-TEST(ImpactProcess, PolicyAndSwitchAreTheFunctions) {
-  test::RodImpacts impacts(8);
-  const ImpactInput i = impacts.next();
-  const ContactParameters contact{0.3, 0.5};
-  EXPECT_EQ(impulse_by(ImpulseLaw::kNewton, i.K, i.normal, i.u, contact), newton_impulse(i, contact));
-  EXPECT_EQ(impulse_by(ImpulseLaw::kPoisson, i.K, i.normal, i.u, contact), poisson_impulse(i, contact));
-  EXPECT_EQ(impulse_by(ImpulseLaw::kEnergetic, i.K, i.normal, i.u, contact), energetic_impulse(i, contact));
-  EXPECT_NE(poisson_impulse(i, contact), energetic_impulse(i, contact));
-}
-
 }  // namespace
 }  // namespace shaken

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/json.h"
+#include "scene/sweep.h"
+
+namespace shaken::client {
+
+struct EstimateOptions {
+  bool probe = true;  ///< step a piece of some runs; otherwise only what is on and off
+  double cpu = 1;     ///< CPU time of each probe's steps, about [s]
+  std::string from;   ///< directory of a run of the same system to start from; empty: the run's own start
+};
+
+/// What all runs of a sweep cost together at one step.
+struct LevelCost {
+  std::string name;            ///< of the level of accuracy; "as written" for the steps of the scenes themselves
+  double step = 0;             ///< [s]; 0 where the scenes have several
+  std::string error;           ///< why there is no figure, if so
+  std::optional<double> cpu;   ///< [s], all runs together
+  std::optional<double> disk;  ///< [bytes]
+};
+
+/// What a sweep would cost on this machine, on one core.
+struct Estimate {
+  std::size_t n_runs = 0;
+  std::size_t n_distinct = 0;  ///< runs that differ in more than their seed
+  std::size_t n_probed = 0;    ///< of these
+  std::size_t shown = 0;       ///< the point that `report` is of
+  Json report;                 ///< of `shaken-worker --probe` (run/probe/report.h)
+  std::vector<LevelCost> levels;
+};
+
+/// At most this many of a sweep's points are probed.
+inline constexpr std::size_t kMostProbes = 5;
+
+/// Probes the points by `shaken-worker --probe`: a handful, as different from each other as can be. Costs of the others
+/// are interpolated, per rod and simulated second. Other steps are probed at the most ordinary point, and taken to
+/// change the cost of all others by the same factor. Throws Failure if a point cannot be simulated.
+Estimate estimate_cost(const scene::Sweep& sweep, const EstimateOptions& options);
+
+/// The costs as a table, and a line on where they come from; empty if nothing was probed.
+std::string estimate_text(const Estimate& estimate, int width);
+Json estimate_json(const Estimate& estimate);
+
+/// "3.2 MB"
+std::string bytes_text(double bytes);
+/// "12.3 CPU-hours", "4.1 CPU-minutes"
+std::string cpu_text(double seconds);
+
+}  // namespace shaken::client

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "client/estimate.h"
+#include "client/print.h"
+#include "client/scene_input.h"
+#include "client/verbs/verbs.h"
+#include "scene/accuracy.h"
+#include "scene/derived.h"
+#include "scene/units.h"
+
+namespace shaken::client {
+namespace {
+
+using Align = Table::Align;
+using scene::Dimension;
+
+std::string percent(const Json& share) {
+  return share.is_null() ? "-" : fmt::format("{:.1f}", 100 * share.get<double>());
+}
+
+class Explain : public Verb {
+ public:
+  VerbInfo info() const override {
+    return {"explain", kPrepareGroup, "What a scene calls for, and what it would cost on this machine",
+            "  shaken explain scene.json                   effects on and off, CPU time and disk at each accuracy\n"
+            "  shaken explain scene.json -s movie=null     what it would cost without\n"
+            "  shaken explain sweep.json                   the sum over a sweep, from a handful of its points\n"
+            "  shaken explain scene.json --cpu 10          longer probes, closer to the steady state\n"
+            "  shaken explain scene.json --from runs/first   the state of a run of the same system\n"
+            "  shaken explain scene.json --no-probe        only what is on and off, and why"};
+  }
+
+  void declare(Arguments& arguments) override {
+    arguments.required("SCENE", file_, "A scene or sweep file; - reads stdin", Names::kFile);
+    arguments.repeatable("-s,--set", settings_, "PATH=VALUE", "Change or sweep one value; repeatable");
+    arguments.option("--replicas", replicas_, "N", "Runs of each point, each with a seed of its own");
+    arguments.flag("--no-probe", no_probe_, "Step nothing: leaves out all that has to be measured");
+    arguments.option("--cpu", cpu_, "S", "CPU time for the steps of each probe, about; 1 if not given");
+    arguments.option("--from", from_, "DIR", "Probe from the saved state of this run, of the same system and step",
+                     Names::kFolder);
+    arguments.flag("--json", json_, "Print JSON");
+  }
+
+  ExitCode run(const Context& context) override {
+    check_options();
+    const scene::Sweep sweep = load_points(read_scene_input(file_), settings_, replicas_);
+    const Estimate estimate = estimate_cost(sweep, {!no_probe_, cpu_.value_or(1), from_});
+    const scene::SweepPoint& point = sweep.points[estimate.shown];
+    Console& console = context.console;
+    if (json_) {
+      Json json = estimate_json(estimate);
+      json["name"] = sweep.name;
+      json["shown"] = {{"label", point.label}, {"parameters", point.parameters}};
+      json["shown"].update(derived_quantities(point));
+      json.update(estimate.report);
+      console.out << json.dump(2) << "\n";
+      return ExitCode::kOk;
+    }
+    show_scene(sweep, point, console);
+    show_effects(estimate.report, console);
+    if (no_probe_) return ExitCode::kOk;
+    show_stages(estimate.report, console);
+    console.out << "\nOn this machine, on one core:\n" << estimate_text(estimate, console.width);
+    return ExitCode::kOk;
+  }
+
+ private:
+  void check_options() const {
+    std::string problems;
+    const auto complain = [&](const char* problem) { problems.append(problems.empty() ? "" : "\n").append(problem); };
+    if (cpu_ && !(*cpu_ > 0 && *cpu_ <= 3600)) complain("--cpu must be more than 0 and at most 3600 seconds");
+    if (no_probe_ && cpu_) complain("--cpu has no meaning with --no-probe");
+    if (no_probe_ && !from_.empty()) complain("--from has no meaning with --no-probe");
+    if (!problems.empty()) throw Failure(ExitCode::kBadInput, problems);
+  }
+
+  static void show_scene(const scene::Sweep& sweep, const scene::SweepPoint& point, Console& console) {
+    const Scene& s = point.plan.system;
+    const auto length = [](double value) { return scene::format_quantity(value, Dimension::kLength); };
+    std::string text = console.painted(Colour::kBold, sweep.name);
+    if (sweep.points.size() > 1) {
+      text += fmt::format(": {} runs; shown is {}", sweep.points.size(), point.label);
+    }
+    const auto gamma = scene::gamma_of(s);
+    const double total = point.plan.total_time();
+    text += fmt::format("\n  rods    {} of {}, {} thick, {} at the ends ({} beads); area fraction {}\n", s.n_rods,
+                        length(s.rod.length), length(s.rod.mid_diameter), length(s.rod.end_diameter), s.rod.n_beads,
+                        number_text(scene::area_fraction_of(s)));
+    text += fmt::format("  box     {} square, periodic; plates {} apart\n", length(s.box_side), length(s.gap));
+    text += fmt::format("  plates  {}a = {} mm, f = {}; gravity {}\n",
+                        gamma ? fmt::format("Gamma = {}, ", number_text(*gamma)) : "", number_text(s.amplitude),
+                        scene::format_quantity(s.frequency, Dimension::kFrequency),
+                        scene::format_quantity(s.gravity, Dimension::kAcceleration));
+    std::string level;
+    for (const scene::AccuracyLevel& known : scene::accuracy_levels()) {
+      if (known.step == s.dt) level = fmt::format(" (\"{}\")", known.name);
+    }
+    text += fmt::format("  time    {} in {} steps of {}{}; steady state {}\n",
+                        scene::format_quantity(total, Dimension::kTime), number_text(std::round(total / s.dt)),
+                        scene::format_quantity(s.dt, Dimension::kTime), level,
+                        point.plan.steady ? "from " + scene::format_quantity(*point.plan.steady, Dimension::kTime)
+                                          : std::string("found from S(t)"));
+    console.out << text << "\n";
+  }
+
+  static void show_effects(const Json& report, Console& console) {
+    const bool probed = report.contains("probe");
+    std::vector<Table::Column> columns{{"EFFECT"}, {""}, {"BECAUSE"}};
+    if (probed) columns = {{"EFFECT"}, {""}, {"CPU %", Align::kRight}, {"BECAUSE"}, {"THAT IS"}};
+    Table table(columns);
+    for (const Json& effect : report.at("effects")) {
+      const bool on = effect.at("on").get<bool>();
+      std::vector<std::string> row{effect.at("name").get<std::string>(),
+                                   on ? console.painted(Colour::kGreen, "on") : console.painted(Colour::kDim, "off")};
+      if (probed) row.push_back(on ? percent(effect.at("cpu_share")) : "");
+      row.push_back(effect.at("why").get<std::string>());
+      if (probed) row.push_back(effect.value("note", ""));
+      table.add_row(std::move(row));
+    }
+    console.out << table.text(console.width);
+  }
+
+  void show_stages(const Json& report, Console& console) const {
+    const double movie = report.at("cpu_seconds").get<double>();
+    Table table({{"STAGE"}, {"CPU %", Align::kRight}, {"WHAT"}});
+    for (const Json& stage : report.at("stages")) {
+      table.add_row(
+          {stage.at("name").get<std::string>(), percent(stage.at("cpu_share")), stage.at("what").get<std::string>()});
+    }
+    table.add_row(
+        {"snapshots", percent(report.at("snapshots_cpu_share")), "all rods evaluated, for samples and frames"});
+    table.add_row({"checkpoints", percent(report.at("checkpoints_cpu_share")), "the state, twice a minute"});
+    const Json& probe = report.at("probe");
+    console.out << fmt::format(
+        "\nShares are of the CPU time of the whole run, {}. They overlap: collisions and friction are parts of\nthe "
+        "stages below, measurements, frames and movie come on top. \"-\": cannot be told apart.\n\n{}",
+        cpu_text(movie), table.text(console.width));
+    console.out << fmt::format(
+        "\nProbe: {} s of the run stepped in {} CPU-seconds, {} rod-seconds per CPU-second, {}.\n",
+        number_text(probe.at("simulated_s").get<double>()), number_text(probe.at("cpu_s").get<double>()),
+        number_text(probe.at("rod_seconds_per_cpu_second").get<double>()),
+        from_.empty() ? fmt::format("after {} s from the rods' start,\nwhich is not the steady state (--from DIR "
+                                    "begins with that of another run)",
+                                    number_text(probe.at("warm_up_s").get<double>()))
+                      : "from the state in " + from_);
+  }
+
+  std::string file_;
+  std::vector<std::string> settings_;
+  std::optional<int> replicas_;
+  std::optional<double> cpu_;
+  std::string from_;
+  bool no_probe_ = false;
+  bool json_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_explain() { return std::make_unique<Explain>(); }
+
+}  // namespace shaken::client

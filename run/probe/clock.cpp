@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "run/probe/clock.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <ctime>
+
+namespace shaken::run {
+namespace {
+
+/// Of one reading, the least of several batches [s].
+double cost_of_reading() {
+  constexpr int kBatches = 10;
+  constexpr int kReadings = 2000;
+  double least = 1;
+  for (int batch = 0; batch < kBatches; ++batch) {
+    const double start = thread_cpu_seconds();
+    double last = start;
+    for (int i = 0; i < kReadings; ++i) last = thread_cpu_seconds();
+    least = std::min(least, (last - start) / kReadings);
+  }
+  return least;
+}
+
+double seconds_of(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+}  // namespace
+
+double thread_cpu_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+double thread_cpu_seconds_without_readings() {
+  static const double cost = cost_of_reading();
+  static std::int64_t readings = 0;
+  return thread_cpu_seconds() - cost * static_cast<double>(readings++);
+}
+
+double children_cpu_seconds() {
+  rusage usage{};
+  getrusage(RUSAGE_CHILDREN, &usage);
+  return seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
+}
+
+double time_of(const std::function<void()>& work, double cpu, int least) {
+  const double start = thread_cpu_seconds();
+  double taken = 0;
+  int calls = 0;
+  while (taken < cpu || calls < least) {
+    work();
+    ++calls;
+    taken = thread_cpu_seconds() - start;
+  }
+  return taken / calls;
+}
+
+}  // namespace shaken::run

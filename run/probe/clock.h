@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+
+namespace shaken::run {
+
+/// CPU time of this thread [s]. Other programs on the machine do not count towards it, though they slow it down through
+/// what they share.
+double thread_cpu_seconds();
+
+/// The same less the time that reading it has taken so far: a reading costs a system call, which would weigh on short
+/// phases. Not for several threads at once.
+double thread_cpu_seconds_without_readings();
+
+/// CPU time of the children of this process that have ended [s].
+double children_cpu_seconds();
+
+/// CPU time of one call of `work`, the mean over as many as fill `cpu` seconds, at least `least` calls [s].
+double time_of(const std::function<void()>& work, double cpu, int least);
+
+}  // namespace shaken::run

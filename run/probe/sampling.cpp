@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include "run/probe/sampling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "run/measurements.h"
+#include "run/probe/clock.h"
+#include "run/probe/scratch_folder.h"
+#include "run/session.h"
+
+namespace shaken::run {
+namespace {
+
+constexpr double kCpu = 0.02;  ///< for timing one kind of sample, about [s]
+
+/// How state and file of a measurement grow with the number of samples.
+enum class Growth {
+  kSeries,  ///< in proportion
+  kBlocks,  ///< the state up to 64 samples' worth (analysis/blocked.h), the file not at all
+  kLags,    ///< with the logarithm (analysis/msd.h)
+};
+
+/// One measurement of the plan by itself.
+struct Single {
+  std::string effect;
+  scene::RunPlan plan;
+  double every = 0;  ///< [s]
+  Growth growth = Growth::kSeries;
+};
+
+std::vector<Single> measurements_of(const scene::RunPlan& plan) {
+  scene::RunPlan bare = plan;
+  bare.order.reset();
+  bare.angles.reset();
+  bare.tilt.reset();
+  bare.defects.reset();
+  bare.g2.reset();
+  bare.msd.reset();
+  bare.steady = 0;  // from the first sample on
+
+  std::vector<Single> singles;
+  const auto add = [&](const char* name, auto member, Growth growth) {
+    if (!(plan.*member)) return;
+    Single single{std::string("measure_") + name, bare, (plan.*member)->every, growth};
+    single.plan.*member = plan.*member;
+    singles.push_back(std::move(single));
+  };
+  add("order", &scene::RunPlan::order, Growth::kSeries);
+  add("angles", &scene::RunPlan::angles, Growth::kBlocks);
+  add("tilt", &scene::RunPlan::tilt, Growth::kBlocks);
+  add("defects", &scene::RunPlan::defects, Growth::kSeries);
+  add("g2", &scene::RunPlan::g2, Growth::kBlocks);
+  add("msd", &scene::RunPlan::msd, Growth::kLags);
+  return singles;
+}
+
+double bytes_of(const Observables& arrays) {
+  std::size_t n = 0;
+  for (const auto& [path, values] : arrays) n += values.size();
+  return 8.0 * static_cast<double>(n);
+}
+
+/// Blocks in use after so many samples: at most 64, and twice as long when those are used up (analysis/blocked.h).
+double blocks(std::int64_t samples) {
+  std::int64_t length = 1;
+  while (samples > 64 * length) length *= 2;
+  return static_cast<double>((samples + length - 1) / length);
+}
+
+/// Samples that are kept for lags to come: of each of 16 levels the last 8 of every 2^k-th (analysis/msd.h).
+double kept_for_lags(std::int64_t samples) {
+  double kept = 0;
+  for (int k = 0; k < 16; ++k) kept += static_cast<double>(std::min<std::int64_t>(8, (samples + (1 << k) - 1) >> k));
+  return kept;
+}
+
+}  // namespace
+
+SamplingCost time_sampling(const scene::RunPlan& plan, const Species& species, const Snapshot& snapshot) {
+  SamplingCost cost;
+  Observables arrays;
+  double later_bytes = 0;  // of arrays, beyond those at hand
+  for (const Single& single : measurements_of(plan)) {
+    const Cadence cadence(single.every, plan.system.dt);
+    Measurements measurements(single.plan, species);
+    Snapshot due = snapshot;
+    Tick taken = 0;
+    const auto sample = [&] {
+      due.tick = taken * cadence.period();
+      due.time = static_cast<double>(due.tick) * plan.system.dt;
+      measurements.sample(due);
+      ++taken;
+    };
+    sample();
+    const double first_bytes = static_cast<double>(measurements.save().size());
+
+    Cost& samples = cost.samples[single.effect];
+    samples.count = total_ticks(plan) / cadence.period() + 1;
+    const double begin = thread_cpu_seconds();
+    const std::int64_t most = std::max<std::int64_t>(samples.count, 3);  // not more than the run will take
+    while (taken < 3 || (taken < most && thread_cpu_seconds() - begin < kCpu)) sample();
+    samples.each = (thread_cpu_seconds() - begin) / static_cast<double>(taken - 1);
+
+    const double more = static_cast<double>(samples.count - taken);
+    const double state = static_cast<double>(measurements.save().size());
+    const double per_sample = (state - first_bytes) / static_cast<double>(taken - 1);
+    const Observables found = measurements.reduce(due.time).arrays;
+    switch (single.growth) {
+      case Growth::kSeries:
+        cost.state_bytes += state + per_sample * more;
+        later_bytes += bytes_of(found) / static_cast<double>(taken) * more;
+        break;
+      case Growth::kBlocks: {
+        const double per_block = (state - first_bytes) / (blocks(taken) - 1);
+        cost.state_bytes += first_bytes + per_block * (blocks(samples.count) - 1);
+        break;
+      }
+      case Growth::kLags:  // the file has four numbers a lag, and four lags an octave: little
+        cost.state_bytes += kept_for_lags(samples.count) * 2 * 8 * plan.system.n_rods;
+        break;
+    }
+    arrays.insert(found.begin(), found.end());
+  }
+  const ScratchFolder folder;
+  const auto file = folder.path() / "observables.h5";
+  if (!write_observables(file, arrays)) {
+    cost.file_bytes = static_cast<double>(std::filesystem::file_size(file)) + later_bytes;
+  }
+  return cost;
+}
+
+}  // namespace shaken::run

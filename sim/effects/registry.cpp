@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include "sim/effects/registry.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace shaken {
+namespace {
+
+std::string setting(const std::string& key, double value, const char* unit = "") {
+  char text[100];
+  std::snprintf(text, sizeof text, "%s = %.6g%s", key.c_str(), value, unit);
+  return text;
+}
+
+std::int64_t n_rods(const World& world) { return static_cast<std::int64_t>(world.rods.size()); }
+
+// --- what every rod does
+
+struct Gravity {
+  static bool is_on(const Scene& scene) { return scene.gravity > 0; }
+  static std::string why(const Scene& scene) { return setting("gravity", scene.gravity, " mm/s^2"); }
+  static std::int64_t work(const World& world) { return world.tick * n_rods(world); }
+  static void switch_off(Scene& scene) { scene.gravity = 0; }
+};
+
+struct Vibration {
+  static bool is_on(const Scene& scene) { return scene.amplitude > 0 && scene.frequency > 0; }
+  static std::string why(const Scene& scene) {
+    return setting("plates.amplitude", scene.amplitude, " mm, ") + setting("plates.frequency", scene.frequency, " Hz");
+  }
+  static std::int64_t work(const World& world) {
+    const double time = static_cast<double>(world.tick) * world.scene.dt;
+    return static_cast<std::int64_t>(std::floor(time * world.scene.frequency));
+  }
+  static void switch_off(Scene& scene) { scene.amplitude = 0; }
+};
+
+struct Taper {
+  static bool is_on(const Scene& scene) {
+    return scene.rod.n_beads > 1 && scene.rod.end_diameter != scene.rod.mid_diameter;
+  }
+  static std::string why(const Scene& scene) {
+    if (scene.rod.n_beads == 1) return setting("rods.beads", 1);
+    return setting("rods.mid_diameter", scene.rod.mid_diameter, " mm, ") +
+           setting("rods.end_diameter", scene.rod.end_diameter, " mm");
+  }
+  static std::int64_t work(const World& world) { return n_rods(world); }
+  static void switch_off(Scene& scene) { scene.rod.end_diameter = scene.rod.mid_diameter; }
+};
+
+// --- what one kind of contact does
+
+struct RodRod {
+  static constexpr const char* kKey = "contacts.rod_rod";
+  static constexpr auto kParameters = &Scene::rod_rod;
+  static constexpr auto kImpulses = &Counters::impulses_rod_rod;
+};
+struct RodBase {
+  static constexpr const char* kKey = "contacts.rod_base";
+  static constexpr auto kParameters = &Scene::rod_base;
+  static constexpr auto kImpulses = &Counters::impulses_rod_base;
+};
+struct RodLid {
+  static constexpr const char* kKey = "contacts.rod_lid";
+  static constexpr auto kParameters = &Scene::rod_lid;
+  static constexpr auto kImpulses = &Counters::impulses_rod_lid;
+};
+
+struct RodCollisions {
+  static bool is_on(const Scene& scene) { return scene.n_rods > 1; }
+  static std::string why(const Scene& scene) { return setting("rods.count", scene.n_rods); }
+  static std::int64_t work(const World& world) { return world.counters.impulses_rod_rod; }
+  static constexpr void (*switch_off)(Scene&) = nullptr;
+};
+
+template <class Contact>
+struct PlateCollisions {
+  static bool is_on(const Scene&) { return true; }
+  static std::string why(const Scene& scene) { return setting("box.gap", scene.gap, " mm"); }
+  static std::int64_t work(const World& world) { return world.counters.*Contact::kImpulses; }
+  static constexpr void (*switch_off)(Scene&) = nullptr;
+};
+
+template <class Contact>
+struct Friction {
+  static double mu(const Scene& scene) { return (scene.*Contact::kParameters).friction; }
+  static bool is_on(const Scene& scene) { return mu(scene) > 0; }
+  static std::string why(const Scene& scene) { return setting(std::string(Contact::kKey) + ".friction", mu(scene)); }
+  static std::int64_t work(const World& world) { return world.counters.*Contact::kImpulses; }
+  static void switch_off(Scene& scene) { (scene.*Contact::kParameters).friction = 0; }
+};
+
+template <class Contact>
+struct Restitution {
+  static double e(const Scene& scene) { return (scene.*Contact::kParameters).restitution; }
+  static bool is_on(const Scene& scene) { return e(scene) > 0; }
+  static std::string why(const Scene& scene) { return setting(std::string(Contact::kKey) + ".restitution", e(scene)); }
+  static std::int64_t work(const World& world) { return world.counters.*Contact::kImpulses; }
+  static void switch_off(Scene& scene) { (scene.*Contact::kParameters).restitution = 0; }
+};
+
+/// A rod's spin about its own axis: an impulse along the normal passes through that axis, so only friction changes it.
+struct Spin {
+  template <class Contact>
+  static std::int64_t rubbed(const World& world) {
+    return Friction<Contact>::is_on(world.scene) ? world.counters.*Contact::kImpulses : 0;
+  }
+  static bool is_on(const Scene& scene) {
+    return Friction<RodRod>::is_on(scene) || Friction<RodBase>::is_on(scene) || Friction<RodLid>::is_on(scene);
+  }
+  static std::string why(const Scene& scene) {
+    if (Friction<RodRod>::is_on(scene)) return Friction<RodRod>::why(scene);
+    if (Friction<RodBase>::is_on(scene)) return Friction<RodBase>::why(scene);
+    if (Friction<RodLid>::is_on(scene)) return Friction<RodLid>::why(scene);
+    return "every contacts.*.friction = 0";
+  }
+  static std::int64_t work(const World& world) {
+    return rubbed<RodRod>(world) + rubbed<RodBase>(world) + rubbed<RodLid>(world);
+  }
+  static void switch_off(Scene& scene) {
+    Friction<RodRod>::switch_off(scene);
+    Friction<RodBase>::switch_off(scene);
+    Friction<RodLid>::switch_off(scene);
+  }
+};
+
+/// A line of the table: `E` says when it is on and what it did.
+template <class E>
+constexpr Effect line(std::string_view name, std::string_view unit, std::string_view what) {
+  return {name,
+          what,
+          E::is_on,
+          E::why,
+          [](const World& world) { return E::is_on(world.scene) ? E::work(world) : std::int64_t{0}; },
+          unit,
+          E::switch_off};
+}
+
+constexpr std::array kEffects{
+    line<Gravity>("gravity", "rod_ticks", "Rods fall."),
+    line<Vibration>("vibration", "periods", "Both plates vibrate."),
+    line<Taper>("taper", "rods", "Rods are thinner at their ends than in the middle, or thicker."),
+    line<Spin>("spin", "impulses", "Rods spin about their own axes."),
+    line<RodCollisions>("rod_rod_collisions", "impulses", "Rods collide with each other."),
+    line<Friction<RodRod>>("rod_rod_friction", "impulses", "Coulomb's friction between two rods."),
+    line<Restitution<RodRod>>("rod_rod_restitution", "impulses", "Rods bounce off each other."),
+    line<PlateCollisions<RodBase>>("rod_base_collisions", "impulses", "Rods collide with the base."),
+    line<Friction<RodBase>>("rod_base_friction", "impulses", "Coulomb's friction between rod and base."),
+    line<Restitution<RodBase>>("rod_base_restitution", "impulses", "Rods bounce off the base."),
+    line<PlateCollisions<RodLid>>("rod_lid_collisions", "impulses", "Rods collide with the lid."),
+    line<Friction<RodLid>>("rod_lid_friction", "impulses", "Coulomb's friction between rod and lid."),
+    line<Restitution<RodLid>>("rod_lid_restitution", "impulses", "Rods bounce off the lid."),
+};
+
+}  // namespace
+
+std::span<const Effect> all_effects() { return kEffects; }
+
+}  // namespace shaken

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "run/probe/probe.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "run/effects.h"
+#include "run/files/atomic_file.h"
+#include "run/loop.h"
+#include "run/probe/report.h"
+#include "run/session.h"
+#include "tests/unit/run/temporary_folder.h"
+
+namespace shaken::run {
+namespace {
+
+scene::RunPlan busy_plan() {
+  scene::RunPlan plan;
+  plan.system.rod.n_beads = 7;
+  plan.system.rod.length = 2.5;
+  plan.system.n_rods = 60;
+  plan.system.box_side = 14;
+  plan.system.dt = 1e-5;
+  plan.measure_time = 1.5;
+  plan.order = scene::MeasureOrder{0.002};
+  plan.angles = scene::MeasureAngles{0.004, 36};
+  plan.tilt = scene::MeasureTilt{0.003, 10};
+  plan.defects = scene::MeasureDefects{0.02, 1.25, 0.3125};
+  plan.g2 = scene::MeasureG2{0.05, 20};
+  plan.msd = scene::MeasureMsd{0.01};
+  plan.trajectory = scene::Trajectory{0.01};
+  return plan;
+}
+
+double bytes_of(const std::filesystem::path& file) { return static_cast<double>(std::filesystem::file_size(file)); }
+
+TEST(Probe, FindsWhatARunThenTakes) {
+  const scene::RunPlan plan = busy_plan();
+  const auto probed = probe(plan, {0.2, {}});
+  ASSERT_TRUE(probed) << probed.error().message;
+
+  const TemporaryFolder folder;
+  RunOptions options;
+  options.directory = folder.path();
+  options.job_id = "job";
+  ASSERT_EQ(run(plan, options, {}).state, RunState::kDone);
+  const RunDirectory directory{folder.path()};
+  const auto summary = nlohmann::json::parse(*read_file(directory.summary()));
+
+  // counts are exact
+  EXPECT_EQ(probed->run_ticks, summary["exit"]["tick"].get<double>());
+  for (const auto& [effect, cost] : probed->samples) {
+    EXPECT_EQ(cost.count, summary["effects"][effect]["samples"].get<std::int64_t>()) << effect;
+  }
+  EXPECT_EQ(probed->samples.size(), 6u);
+  EXPECT_EQ(probed->trajectory.count, summary["effects"]["trajectory"]["frames"].get<std::int64_t>());
+  // samples every 2, 3, 4, 10, 20 and 50 ms: multiples of 2 or 3 ms
+  EXPECT_EQ(probed->snapshots.count, 751 + 501 - 251);
+  // files
+  EXPECT_NEAR(probed->disk.trajectory / bytes_of(directory.trajectory()), 1, 0.1);
+  EXPECT_NEAR(probed->disk.observables / bytes_of(directory.observables()), 1, 0.15);
+  EXPECT_NEAR(probed->disk.checkpoints / bytes_of(directory.checkpoint()), 1, 0.2);
+  // the machine may do other things meanwhile
+  const double cpu = probed->total() / summary["cpu_seconds"].get<double>();
+  EXPECT_GT(cpu, 1.0 / 3);
+  EXPECT_LT(cpu, 3);
+}
+
+TEST(Probe, SharesArePartsOfOneWhole) {
+  const auto probed = probe(busy_plan(), {0.1, {}});
+  ASSERT_TRUE(probed) << probed.error().message;
+  const double stages = std::accumulate(probed->stages.begin(), probed->stages.end(), 0.0);
+  EXPECT_GT(stages, 0.5);
+  EXPECT_LE(stages, 1 + 1e-12);
+  EXPECT_GT(probed->impulse_cpu.at("rod_base_friction"), 0);
+
+  const auto report = probe_report(busy_plan(), *probed);
+  double sum = report["snapshots_cpu_share"].get<double>() + report["checkpoints_cpu_share"].get<double>();
+  for (const auto& stage : report["stages"]) sum += stage["cpu_share"].get<double>();
+  int n_on = 0;
+  for (const auto& effect : report["effects"]) {
+    EXPECT_EQ(effect.contains("cpu_share"), effect["on"].get<bool>()) << effect["name"];
+    if (!effect["on"]) continue;
+    ++n_on;
+    const std::string name = effect["name"];
+    const bool besides = name.starts_with("measure_") || name == "trajectory" || name == "stream";
+    if (besides) sum += effect["cpu_share"].get<double>();
+  }
+  EXPECT_EQ(n_on, 13 + 6 + 1);  // the physics, the measurements, the trajectory
+  EXPECT_GT(sum, 0.5);
+  EXPECT_LE(sum, 1.001);
+}
+
+TEST(Probe, GoesOnFromACheckpointOfTheSameSystemOnly) {
+  const scene::RunPlan plan = busy_plan();
+  auto simulation = Simulation::start(plan.system);
+  ASSERT_TRUE(static_cast<bool>(simulation));
+  ASSERT_FALSE(simulation->advance_to(100).has_value());
+  const std::vector<std::byte> checkpoint = simulation->checkpoint();
+  EXPECT_TRUE(probe(plan, {0.02, checkpoint}));
+  scene::RunPlan other = plan;
+  other.system.gap = 1.5;
+  const auto refused = probe(other, {0.02, checkpoint});
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("another scene"), std::string::npos);
+}
+
+TEST(Probe, TellsWhatDoesNotFit) {
+  scene::RunPlan plan = busy_plan();
+  plan.system.n_rods = 5000;
+  const auto refused = probe(plan, {0.02, {}});
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("do not fit"), std::string::npos);
+}
+
+TEST(Effects, AreListedWithTheKeyThatDecides) {
+  scene::RunPlan plan = busy_plan();
+  plan.trajectory.reset();
+  plan.movie = scene::Movie{};
+  plan.stream.reset();
+  std::map<std::string, EffectLine> lines;
+  for (const EffectLine& line : list_effects(plan)) EXPECT_TRUE(lines.emplace(line.name, line).second) << line.name;
+  EXPECT_TRUE(lines.at("measure_order").on);
+  EXPECT_EQ(lines.at("measure_order").why, "measure.order.every = 2 ms");
+  EXPECT_TRUE(lines.at("trajectory").on) << "a movie is drawn from it";
+  EXPECT_EQ(lines.at("trajectory").why, "movie.every = 50 ms");
+  EXPECT_FALSE(lines.at("stream").on);
+  EXPECT_EQ(lines.at("stream").why, "stream is absent");
+  EXPECT_EQ(lines.at("rod_lid_friction").why, "contacts.rod_lid.friction = 0.01");
+}
+
+}  // namespace
+}  // namespace shaken::run

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+#include "sim/effects/registry.h"
+#include "sim/simulation.h"
+
+namespace shaken {
+namespace {
+
+/// A scene in which every effect is on and all kinds of contact occur within 2,000 ticks.
+Scene everything_on() {
+  Scene scene;
+  scene.rod = {.length = 2.5, .n_beads = 9};
+  scene.box_side = 12;
+  scene.n_rods = 50;  // as many as fit without taper, too
+  return scene;
+}
+
+Simulation stepped(const Scene& scene, Tick ticks) {
+  auto simulation = Simulation::start(scene);
+  EXPECT_TRUE(static_cast<bool>(simulation)) << simulation.error().message;
+  EXPECT_FALSE(simulation->advance_to(ticks).has_value());
+  return std::move(simulation).value();
+}
+
+const Effect& effect_named(std::string_view name) {
+  for (const Effect& effect : all_effects()) {
+    if (effect.name == name) return effect;
+  }
+  throw std::out_of_range(std::string(name));
+}
+
+/// The neutral parameter of each effect that can be switched off, by hand.
+const std::map<std::string_view, void (*)(Scene&)>& neutral_by_hand() {
+  static const std::map<std::string_view, void (*)(Scene&)> table{
+      {"gravity", [](Scene& s) { s.gravity = 0.0; }},
+      {"vibration", [](Scene& s) { s.amplitude = 0.0; }},
+      {"taper", [](Scene& s) { s.rod.end_diameter = s.rod.mid_diameter; }},
+      {"spin", [](Scene& s) { s.rod_rod.friction = s.rod_base.friction = s.rod_lid.friction = 0.0; }},
+      {"rod_rod_friction", [](Scene& s) { s.rod_rod.friction = 0.0; }},
+      {"rod_rod_restitution", [](Scene& s) { s.rod_rod.restitution = 0.0; }},
+      {"rod_base_friction", [](Scene& s) { s.rod_base.friction = 0.0; }},
+      {"rod_base_restitution", [](Scene& s) { s.rod_base.restitution = 0.0; }},
+      {"rod_lid_friction", [](Scene& s) { s.rod_lid.friction = 0.0; }},
+      {"rod_lid_restitution", [](Scene& s) { s.rod_lid.restitution = 0.0; }},
+  };
+  return table;
+}
+
+TEST(Effects, NamesAreUnique) {
+  std::set<std::string_view> names;
+  for (const Effect& effect : all_effects()) {
+    EXPECT_TRUE(names.insert(effect.name).second) << effect.name;
+    EXPECT_FALSE(effect.what.empty()) << effect.name;
+    EXPECT_FALSE(effect.unit.empty()) << effect.name;
+  }
+}
+
+TEST(Effects, WorkWhenTheyAreOn) {
+  const Simulation simulation = stepped(everything_on(), 10000);
+  for (const Effect& effect : all_effects()) {
+    EXPECT_TRUE(effect.is_on(simulation.world().scene)) << effect.name;
+    EXPECT_GT(effect.work(simulation.world()), 0) << effect.name;
+  }
+}
+
+class EffectOff : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(EffectOff, IsTheNeutralParameterBitForBitAndDoesNoWork) {
+  const Effect& effect = effect_named(GetParam());
+  Scene off = everything_on();
+  effect.switch_off(off);
+  Scene by_hand = everything_on();
+  neutral_by_hand().at(GetParam())(by_hand);
+  EXPECT_EQ(off, by_hand);
+  EXPECT_FALSE(effect.is_on(off));
+
+  const Simulation without = stepped(off, 2000);
+  EXPECT_EQ(without.state_hash(), stepped(by_hand, 2000).state_hash());
+  EXPECT_EQ(effect.work(without.world()), 0);
+  // it mattered, so "off" was not simply the same scene
+  EXPECT_NE(without.state_hash(), stepped(everything_on(), 2000).state_hash());
+
+  // the oracle agrees
+  off.engine = Engine::kReference;
+  EXPECT_EQ(without.state_hash(), stepped(off, 2000).state_hash());
+}
+
+std::vector<const char*> can_be_off() {
+  std::vector<const char*> names;
+  for (const Effect& effect : all_effects()) {
+    if (effect.switch_off != nullptr) names.push_back(effect.name.data());
+  }
+  return names;
+}
+INSTANTIATE_TEST_SUITE_P(All, EffectOff, ::testing::ValuesIn(can_be_off()),
+                         [](const auto& about) { return std::string(about.param); });
+
+TEST(Effects, TellWhatSwitchesThem) {
+  Scene scene;
+  EXPECT_EQ(effect_named("rod_rod_friction").why(scene), "contacts.rod_rod.friction = 0.05");
+  EXPECT_EQ(effect_named("spin").why(scene), "contacts.rod_rod.friction = 0.05");
+  effect_named("spin").switch_off(scene);
+  EXPECT_EQ(effect_named("spin").why(scene), "every contacts.*.friction = 0");
+  EXPECT_EQ(effect_named("gravity").why(scene), "gravity = 9810 mm/s^2");
+}
+
+TEST(Effects, FrictionlessRodsDoNotSpin) {
+  Scene scene = everything_on();
+  effect_named("spin").switch_off(scene);
+  for (const Flight& rod : stepped(scene, 20000).world().rods) EXPECT_LT(std::abs(rod.spin), 1e-9);
+  double fastest = 0;
+  for (const Flight& rod : stepped(everything_on(), 20000).world().rods)
+    fastest = std::max(fastest, std::abs(rod.spin));
+  EXPECT_GT(fastest, 1.0);
+}
+
+// Without gravity nothing pulls a rod down: only the plates can turn its vertical velocity round.
+TEST(Effects, WithoutGravityARodFliesStraight) {
+  Scene scene = everything_on();
+  scene.gravity = 0;
+  scene.amplitude = 0;
+  scene.n_rods = 1;
+  scene.gap = 20;
+  auto simulation = Simulation::start(scene);
+  ASSERT_TRUE(static_cast<bool>(simulation));
+  const Snapshot before = simulation->snapshot();
+  ASSERT_FALSE(simulation->advance_to(10000).has_value());
+  const Snapshot after = simulation->snapshot();
+  EXPECT_EQ(after.velocity[0], before.velocity[0]);
+  EXPECT_NEAR(after.position[0].z() - before.position[0].z(), 0.04 * before.velocity[0].z(), 1e-12);
+}
+
+}  // namespace
+}  // namespace shaken
