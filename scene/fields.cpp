@@ -362,7 +362,9 @@ std::vector<Field> make_table() {
   add_contact(table, "rod_base", "rod and base", &Scene::rod_base);
   add_contact(table, "rod_lid", "rod and lid", &Scene::rod_lid);
   add(choice<ImpulseLaw>(
-      "contacts.law", {{"newton", ImpulseLaw::kNewton}}, "Impulse law.",
+      "contacts.law",
+      {{"newton", ImpulseLaw::kNewton}, {"poisson", ImpulseLaw::kPoisson}, {"energetic", ImpulseLaw::kEnergetic}},
+      "Impulse law: restitution of velocity, of impulse, or of work (docs/stability.md).",
       [](auto& p) -> auto& { return p.system.law; }));
   add(whole(
       "contacts.sweeps", 1, 100, "Passes over the contacts of one tick.",

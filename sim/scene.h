@@ -36,14 +36,19 @@ struct AddedRods {
   friend bool operator==(const AddedRods&, const AddedRods&) = default;
 };
 
-/// Newton's restitution and Coulomb's friction of one kind of contact.
+/// Restitution and Coulomb's friction of one kind of contact; what restitution is of, the impulse law says.
 struct ContactParameters {
   double friction = 0.0;     ///< mu >= 0
   double restitution = 1.0;  ///< e in [0, 1]
   friend bool operator==(const ContactParameters&, const ContactParameters&) = default;
 };
 
-enum class ImpulseLaw { kNewton };
+/// What becomes of the relative velocity at a contact (sim/contact/impulse_law.h).
+enum class ImpulseLaw {
+  kNewton,     ///< restitution of the normal velocity
+  kPoisson,    ///< of the normal impulse
+  kEnergetic,  ///< of the normal impulse's work; never makes energy
+};
 /// When an impact within a tick takes place.
 enum class ImpactTime {
   kTickEnd,    ///< at the end of the tick, where it is found: what the paper does; first order in the tick

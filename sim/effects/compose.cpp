@@ -42,6 +42,12 @@ Kernels by_law(const Scene& scene, bool surface_friction, bool rod_friction, boo
     case ImpulseLaw::kNewton:
       put(NewtonLaw{});
       break;
+    case ImpulseLaw::kPoisson:
+      put(PoissonLaw{});
+      break;
+    case ImpulseLaw::kEnergetic:
+      put(EnergeticLaw{});
+      break;
   }
   return kernels;
 }

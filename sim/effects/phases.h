@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "sim/contact/impulse.h"
+#include "sim/contact/impulse_law.h"
 #include "sim/effects/rotational_noise.h"
 #include "sim/effects/side_walls.h"
 #include "sim/stepping/tick.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sim/contact/bead_contacts.h"
-#include "sim/contact/impulse.h"
+#include "sim/contact/impulse_law.h"
 #include "sim/motion/flight.h"
 #include "sim/motion/plates.h"
 #include "sim/neighbors/neighbor_list.h"

@@ -14,13 +14,14 @@ using test::compare_threads;
 
 std::string describe(const Scene& s) {
   char text[400];
-  std::snprintf(text, sizeof text,
-                "l %g d %g/%g beads %d, N %d, L %g, w %g, a %g, f %g, g %g, e %g %g, mu %g %g, dt %g, sweeps %d, start "
-                "%s, seed %d",
-                s.rod.length, s.rod.mid_diameter, s.rod.end_diameter, s.rod.n_beads, s.n_rods, s.box_side, s.gap,
-                s.amplitude, s.frequency, s.gravity, s.rod_rod.restitution, s.rod_base.restitution, s.rod_rod.friction,
-                s.rod_base.friction, s.dt, s.solver_sweeps, s.start == Start::kAligned ? "aligned" : "random",
-                static_cast<int>(s.seed));
+  std::snprintf(
+      text, sizeof text,
+      "l %g d %g/%g beads %d, N %d, L %g, w %g, a %g, f %g, g %g, e %g %g, mu %g %g, dt %g, sweeps %d, law %d, "
+      "start %s, seed %d",
+      s.rod.length, s.rod.mid_diameter, s.rod.end_diameter, s.rod.n_beads, s.n_rods, s.box_side, s.gap, s.amplitude,
+      s.frequency, s.gravity, s.rod_rod.restitution, s.rod_base.restitution, s.rod_rod.friction, s.rod_base.friction,
+      s.dt, s.solver_sweeps, static_cast<int>(s.law), s.start == Start::kAligned ? "aligned" : "random",
+      static_cast<int>(s.seed));
   return text;
 }
 
@@ -31,6 +32,7 @@ struct Case {
   Start start = Start::kAligned;
   double end_diameter = 0.4;
   int n_beads = 0;  ///< 0: pitch 0.3 mm
+  ImpulseLaw law = ImpulseLaw::kNewton;
 };
 
 Scene scene_of(const Case& c, std::uint64_t seed) {
@@ -47,6 +49,7 @@ Scene scene_of(const Case& c, std::uint64_t seed) {
   scene.rod_rod = scene.rod_base = scene.rod_lid = {c.friction, c.restitution};
   scene.dt = c.dt_us * 1e-6;
   scene.start = c.start;
+  scene.law = c.law;
   scene.seed = seed;
   return scene;
 }
@@ -86,6 +89,11 @@ INSTANTIATE_TEST_SUITE_P(
         // friction
         Case{4.5, 0.70, 1.2, 7, 0.3, 0.0, 4, 80, 10000}, Case{4.5, 0.70, 1.2, 7, 0.3, 0.3, 4, 80, 10000},
         Case{2.5, 0.60, 1.2, 7, 0.3, 1.0, 4, 80, 10000},
+        // impulse laws
+        Case{4.5, 0.70, 1.2, 7, 0.3, 1.0, 4, 80, 10000, Start::kAligned, 0.4, 0, ImpulseLaw::kPoisson},
+        Case{4.5, 0.70, 1.2, 7, 0.3, 1.0, 4, 80, 10000, Start::kAligned, 0.4, 0, ImpulseLaw::kEnergetic},
+        Case{2.5, 0.60, 1.2, 7, 0.9, 1.0, 4, 80, 10000, Start::kAligned, 0.4, 0, ImpulseLaw::kPoisson},
+        Case{2.5, 0.60, 1.2, 7, 0.9, 1.0, 4, 80, 10000, Start::kAligned, 0.4, 0, ImpulseLaw::kEnergetic},
         // ticks
         Case{4.5, 0.70, 1.2, 7, 0.3, 0.05, 1, 60, 20000}, Case{2.5, 0.60, 1.2, 7, 0.3, 0.05, 1, 60, 20000},
         Case{4.5, 0.70, 1.2, 7, 0.3, 0.05, 16, 80, 5000}, Case{2.5, 0.60, 1.2, 7, 0.3, 0.05, 40, 80, 5000},
@@ -123,6 +131,7 @@ RC_GTEST_PROP(SteppersAgreeProperty, RandomScenes, ()) {
   c.ticks = 4000;
   c.start = *rc::gen::inRange(0, 2) == 1 && c.area_fraction < 0.42 ? Start::kRandom : Start::kAligned;
   c.end_diameter = 0.2 + 0.1 * *rc::gen::inRange(0, 7);
+  c.law = *rc::gen::element(ImpulseLaw::kNewton, ImpulseLaw::kPoisson, ImpulseLaw::kEnergetic);
   const Scene scene = scene_of(c, static_cast<std::uint64_t>(*rc::gen::inRange(1, 1000)));
   const std::string difference = compare(scene, c.ticks, *rc::gen::inRange<Tick>(1, c.ticks));
   if (!difference.empty()) RC_FAIL(difference + ": " + describe(scene));
