@@ -19,11 +19,6 @@ Result<Simulation> Simulation::start(const Scene& scene) {
   return Simulation(std::move(world).value());
 }
 
-Simulation Simulation::start_from(World world) {
-  world.start = content(world);
-  return Simulation(std::move(world));
-}
-
 Result<Simulation> Simulation::resume(const Scene& scene, std::span<const std::byte> checkpoint) {
   auto world = restore_checkpoint(scene, checkpoint);
   if (!world) return world.error();
@@ -31,7 +26,8 @@ Result<Simulation> Simulation::resume(const Scene& scene, std::span<const std::b
 }
 
 Simulation Simulation::start_from(World world) {
-  SHAKEN_CHECK(world.rods.size() == static_cast<std::size_t>(world.scene.n_rods), "as many flights as rods");
+  SHAKEN_CHECK(world.rods.size() == static_cast<std::size_t>(world.scene.n_all_rods()), "as many flights as rods");
+  world.start = content(world);
   return Simulation(std::move(world));
 }
 
