@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "sim/checkpoint.h"
 
-#include <array>
 #include <bit>
 #include <cstring>
 
@@ -79,11 +78,14 @@ void each_counter(Archive&& visit, C& counters) {
   visit(counters.impacts_at_instant);
 }
 
-/// The ledger's sums in a fixed order.
-template <class L>
-auto sums_of(L& ledger) {
-  return std::array{&ledger.lost_rod_rod, &ledger.lost_surfaces, &ledger.given,      &ledger.noise,
-                    &ledger.momentum[0],  &ledger.momentum[1],   &ledger.momentum[2]};
+/// Calls visit(sum) for the ledger's sums in a fixed order.
+template <class Visit, class L>
+void each_sum(const Visit& visit, L& ledger) {
+  visit(ledger.lost_rod_rod);
+  visit(ledger.lost_surfaces);
+  visit(ledger.given);
+  visit(ledger.noise);
+  for (auto& sum : ledger.momentum) visit(sum);
 }
 
 /// What must be the same for a checkpoint to fit: everything that the stored numbers depend on.
@@ -117,11 +119,13 @@ std::vector<std::byte> save_checkpoint(const World& world) {
   writer.put(kMagic);
   each_scene_key([&](const auto& key) { writer.put(key); }, world.scene);
   each_counter([&](const auto& counter) { writer.put(counter); }, world.counters);
-  for (const ExactSum* sum : sums_of(world.counters.ledger)) {
-    writer.put(sum->low());
-    writer.put(sum->high());
-    writer.put(static_cast<std::uint8_t>(sum->overflow()));
-  }
+  each_sum(
+      [&](const auto& sum) {
+        writer.put(sum.low());
+        writer.put(sum.high());
+        writer.put(static_cast<std::uint8_t>(sum.overflow()));
+      },
+      world.counters.ledger);
   writer.put(world.start.tick);
   writer.put(world.start.energy);
   writer.put(world.start.momentum);
@@ -146,15 +150,17 @@ Result<World> restore_checkpoint(const Scene& scene, std::span<const std::byte> 
 
   World world = empty_world(scene);
   each_counter([&](auto& counter) { reader.get(counter); }, world.counters);
-  for (ExactSum* sum : sums_of(world.counters.ledger)) {
-    std::uint64_t low = 0;
-    std::int64_t high = 0;
-    std::uint8_t overflow = 0;
-    reader.get(low);
-    reader.get(high);
-    reader.get(overflow);
-    sum->restore(low, high, overflow != 0);
-  }
+  each_sum(
+      [&](auto& sum) {
+        std::uint64_t low = 0;
+        std::int64_t high = 0;
+        std::uint8_t overflow = 0;
+        reader.get(low);
+        reader.get(high);
+        reader.get(overflow);
+        sum.restore(low, high, overflow != 0);
+      },
+      world.counters.ledger);
   reader.get(world.start.tick);
   reader.get(world.start.energy);
   reader.get(world.start.momentum);

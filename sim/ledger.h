@@ -15,11 +15,14 @@ namespace shaken {
 /// -P . (u + u') / 2 out of the relative motion; a surface that moves at V gives its rod P . V besides (Landau &
 /// Lifshitz, Mechanics, sections 16 to 17).
 struct Ledger {
-  ExactSum lost_rod_rod;             ///< energy lost in impacts of rods with each other [pJ]
-  ExactSum lost_surfaces;            ///< the same with plates and side walls [pJ]
-  ExactSum given;                    ///< energy that moving plates and walls gave [pJ]
-  ExactSum noise;                    ///< energy that rotational noise gave, if positive [pJ]
-  std::array<ExactSum, 3> momentum;  ///< that plates and walls gave [mg mm/s]
+  // A rod at rest gives the same tiny terms at every tick, and with them the same rounding: hence so many bits.
+  using Energy = ExactSum<34>;
+  using Momentum = ExactSum<44>;
+  Energy lost_rod_rod;               ///< energy lost in impacts of rods with each other [pJ]
+  Energy lost_surfaces;              ///< the same with plates and side walls [pJ]
+  Energy given;                      ///< energy that moving plates and walls gave [pJ]
+  Energy noise;                      ///< energy that rotational noise gave, if positive [pJ]
+  std::array<Momentum, 3> momentum;  ///< that plates and walls gave [mg mm/s]
 
   void add(const Ledger& more) {
     lost_rod_rod.add(more.lost_rod_rod);

@@ -7,7 +7,9 @@
 namespace shaken {
 
 /// A sum that comes out the same, to the last bit, in whatever order its terms are added: each is rounded once, to
-/// 2^-32 of the unit, and then added exactly, in 128 bits. Threads may sum on their own and join later.
+/// 2^-kBits of the unit, and then added exactly, in 128 bits. Threads may sum on their own and join later. Terms may be
+/// as large as 2^(62 - kBits).
+template <int kBits>
 class ExactSum {
  public:
   void add(double term) {
@@ -21,7 +23,7 @@ class ExactSum {
     units_ += more.units_;
     overflow_ = overflow_ || more.overflow_;
   }
-  /// NaN if a term was not a number or beyond 2^30.
+  /// NaN if a term was not a number or too large.
   double value() const { return overflow_ ? NAN : static_cast<double>(units_) / kPerUnit; }
 
   // for checkpoints
@@ -36,8 +38,8 @@ class ExactSum {
  private:
   __extension__ using Fixed = __int128;
   __extension__ using UnsignedFixed = unsigned __int128;
-  static constexpr double kPerUnit = 4294967296.0;
-  static constexpr double kLargest = 1073741824.0;
+  static constexpr double kPerUnit = static_cast<double>(1LL << kBits);
+  static constexpr double kLargest = static_cast<double>(1LL << (62 - kBits));
   Fixed units_ = 0;
   bool overflow_ = false;
 };

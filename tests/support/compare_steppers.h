@@ -21,9 +21,9 @@ inline bool same(const Counters& a, const Counters& b) {
                                c.max_overlap_rod_rod,
                                c.max_overlap_rod_plate};
     const Ledger& ledger = c.ledger;
-    for (const ExactSum* sum : {&ledger.lost_rod_rod, &ledger.lost_surfaces, &ledger.given, &ledger.noise,
-                                &ledger.momentum[0], &ledger.momentum[1], &ledger.momentum[2]})
+    for (const auto* sum : {&ledger.lost_rod_rod, &ledger.lost_surfaces, &ledger.given, &ledger.noise})
       values.push_back(sum->value());
+    for (const auto& sum : ledger.momentum) values.push_back(sum.value());
     return values;
   };
   return all(a) == all(b);
