@@ -33,6 +33,13 @@ struct Impulse {
   double lost;  ///< -P . (u + u') / 2 [pJ]
 };
 
+/// -P . (u + K P / 2), written out so that the compiler keeps it in registers.
+inline double work_lost(const Vec3& P, const Vec3& u, const Mat3& K) {
+  double lost = 0;
+  for (Eigen::Index r = 0; r < 3; ++r) lost -= P[r] * (u[r] + 0.5 * (K(r, 0) * P[0] + K(r, 1) * P[1] + K(r, 2) * P[2]));
+  return lost;
+}
+
 /// The bead of a rod at which it is hit.
 struct Struck {
   const RodKind& kind;
@@ -83,7 +90,7 @@ struct Surface {
 
 /// Gives the bead an impulse if it approaches.
 template <class E>
-bool hit(const Struck& bead, const Surface& surface, Counters& counters) {
+[[gnu::always_inline]] inline bool hit(const Struck& bead, const Surface& surface, Counters& counters) {
   Vec3 u = point_velocity(bead.rod.motion, bead.arm);
   u.z() -= surface.velocity;
   const double u_n = u.dot(surface.normal);
@@ -96,7 +103,7 @@ bool hit(const Struck& bead, const Surface& surface, Counters& counters) {
     if constexpr (E::kFriction) {
       const Mat3 K = point_compliance(bead.kind.inverse, director, bead.arm);
       impulse.P = E::ImpulseLaw::impulse(K, surface.normal, u, surface.contact);
-      impulse.lost = -impulse.P.dot(u + 0.5 * (K * impulse.P));
+      impulse.lost = work_lost(impulse.P, u, K);
     }
     take(bead, impulse.P);
   } else {
@@ -223,8 +230,8 @@ std::optional<NumericalTrouble> meet_surfaces(int index, RodAtTick& rod, const F
 
 /// Gives both rods an impulse if their beads approach.
 template <class E>
-bool collide(const Struck& i, const Struck& j, const Vec3& normal, const ContactParameters& contact,
-             Counters& counters) {
+[[gnu::always_inline]] inline bool collide(const Struck& i, const Struck& j, const Vec3& normal,
+                                           const ContactParameters& contact, Counters& counters) {
   const Vec3 u = point_velocity(j.rod.motion, j.arm) - point_velocity(i.rod.motion, i.arm);
   if (!(u.dot(normal) < 0)) return false;
   const Vec3& n_i = i.rod.pose.director;
@@ -234,7 +241,7 @@ bool collide(const Struck& i, const Struck& j, const Vec3& normal, const Contact
     if (contact.friction != 0) {
       const Mat3 K = point_compliance(i.kind.inverse, n_i, i.arm) + point_compliance(j.kind.inverse, n_j, j.arm);
       impulse.P = E::ImpulseLaw::impulse(K, normal, u, contact);
-      impulse.lost = -impulse.P.dot(u + 0.5 * (K * impulse.P));
+      impulse.lost = work_lost(impulse.P, u, K);
       take(j, impulse.P);
       take(i, -impulse.P);
       i.rod.changed = j.rod.changed = true;
