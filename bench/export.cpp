@@ -91,7 +91,7 @@ ExitCode run(const Words& words) {
 
   const std::filesystem::path cache = words.cache.empty() ? default_cache() : std::filesystem::path(words.cache);
   Simulation simulation = resumed(*wanted, steady_state(*wanted, cache), Engine::kScheduled);
-  Json json = system_json(*wanted, simulation.world().species);
+  Json json = system_json(*wanted, simulation.world().species[0]);
   json["start"] = frame_json(simulation);
   const Tick stride = std::max<Tick>(1, std::llround(every / wanted->dt));
   for (int k = 0; k < frames; ++k) {

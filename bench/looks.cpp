@@ -64,8 +64,8 @@ Outlook outlook(const World& world, int i, const Vec3& director) {
 
 void follow(const Simulation& simulation, const Snapshot& now, float horizon, std::vector<Course>& courses) {
   const World& world = simulation.world();
-  const Hull hull(world.species);
-  const BeadLanes lanes(world.species);
+  const Hull hull(world.species[0]);
+  const BeadLanes lanes(world.species[0]);
   PairLanes pair_lanes{};
   HullSafeTimes hull_safe;
   for (Course& course : courses) {
@@ -76,7 +76,7 @@ void follow(const Simulation& simulation, const Snapshot& now, float horizon, st
     pair_lanes.set(0, D, o_i, o_j);
     hull_safe_times(hull, hull, pair_lanes, Allowance{}, horizon, hull_safe);
     const SafeTime beads = bead_safe_time(lanes, o_i, lanes, o_j, D, Allowance{}, horizon);
-    course.gap.push_back(nearest_beads(world.species, now.director[i], now.director[j], D));
+    course.gap.push_back(nearest_beads(world.species[0], now.director[i], now.director[j], D));
     course.bounds.push_back({std::max(hull_safe.steady[0], beads.steady), 0});
     course.was_hit.push_back(world.rods[i].since == world.tick || world.rods[j].since == world.tick);
   }
@@ -125,7 +125,7 @@ ExitCode run(const Words& words) {
   for (int i = 0; i < static_cast<int>(now.n_rods()); ++i) {
     for (int j = i + 1; j < static_cast<int>(now.n_rods()); ++j) {
       const Vec3 D = nearest_image(now.position[i], now.position[j], simulation.world().scene.box_side);
-      if (nearest_beads(simulation.world().species, now.director[i], now.director[j], D) < 0.3)
+      if (nearest_beads(simulation.world().species[0], now.director[i], now.director[j], D) < 0.3)
         courses.push_back({{i, j}, {}, {}, {}});
     }
   }

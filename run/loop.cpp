@@ -17,6 +17,7 @@
 #include "run/publisher.h"
 #include "run/session.h"
 #include "run/summary.h"
+#include "run/trouble_file.h"
 #include "scene/canonical.h"
 #include "scene/load.h"
 
@@ -48,6 +49,7 @@ class Loop {
         run_id_(scene::run_id(plan)),
         session_(std::move(session)),
         end_(total_ticks(plan)),
+        checkpoint_tick_(session_.simulation.tick()),
         begin_(WallClock::now()),
         cpu_begin_(process_cpu_seconds()),
         started_(utc_now()),
@@ -143,7 +145,9 @@ class Loop {
   }
 
   [[nodiscard]] std::optional<Error> checkpoint() {
-    return write_checkpoint(directory_, run_id_, make_checkpoint(session_, cpu_seconds(), wall_seconds()));
+    auto error = write_checkpoint(directory_, run_id_, make_checkpoint(session_, cpu_seconds(), wall_seconds()));
+    if (!error) checkpoint_tick_ = tick();
+    return error;
   }
 
   Summary summarize(const Reduction& reduction) const {
@@ -186,6 +190,8 @@ class Loop {
   }
 
   RunOutcome finish_done() {
+    std::error_code ignored;
+    std::filesystem::remove(directory_.trouble(), ignored);  // met by a program before this one
     if (auto error = checkpoint()) return finish_without_disk(*error);
     if (auto error = write_results("done", "", {})) return finish_without_disk(*error);
     report("running");  // all of it; what is left is to draw it
@@ -200,9 +206,12 @@ class Loop {
 
   /// The last good checkpoint stays as it is: the trouble can be looked at again from there.
   RunOutcome finish_in_trouble(const NumericalTrouble& trouble) {
-    const std::string message =
-        fmt::format("numerical trouble at tick {} ({:.6f} s), rods {}: {}", trouble.tick,
-                    static_cast<double>(trouble.tick) * plan_.system.dt, fmt::join(trouble.rods, ", "), trouble.what);
+    const std::string message = describe(trouble, plan_.system.dt);
+    // no flight changes before a tick's last phase, so the world still knows where the rods were one tick before
+    const CloseUp before = look_closely(session_.simulation.world(), trouble.tick - 1, trouble.rods);
+    if (auto error = write_trouble(directory_.trouble(), plan_, {trouble, checkpoint_tick_, before})) {
+      return finish_without_disk(*error);
+    }
     if (auto error = write_results("failed", message, trouble.rods)) return finish_without_disk(*error);
     report("failed", message);
     return {RunState::kFailed, message};
@@ -221,6 +230,7 @@ class Loop {
   std::string run_id_;
   Session session_;
   Tick end_;
+  Tick checkpoint_tick_;  ///< of the last sound checkpoint; 0: there is none
   WallClock::time_point begin_;
   double cpu_begin_;
   std::string started_;

@@ -86,9 +86,9 @@ frame_static_t make_frame_static(const World& world, const std::string& label) {
   message.n_rods = static_cast<std::int32_t>(world.rods.size());
   message.box_side_mm = world.scene.box_side;
   message.gap_mm = world.scene.gap;
-  message.n_beads = world.species.n_beads();
-  message.bead_offset_mm = world.species.bead_offset;
-  message.bead_radius_mm = world.species.bead_radius;
+  message.n_beads = world.species[0].n_beads();
+  message.bead_offset_mm = world.species[0].bead_offset;
+  message.bead_radius_mm = world.species[0].bead_radius;
   message.label = label;
   return message;
 }

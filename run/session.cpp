@@ -20,8 +20,8 @@ TrajectoryHeader trajectory_header(const World& world, const std::string& scene_
   header.box_side = world.scene.box_side;
   header.gap = world.scene.gap;
   header.dt = world.scene.dt;
-  header.bead_offset = world.species.bead_offset;
-  header.bead_radius = world.species.bead_radius;
+  header.bead_offset = world.species[0].bead_offset;
+  header.bead_radius = world.species[0].bead_radius;
   header.scene_json = scene_json;
   return header;
 }
@@ -29,7 +29,7 @@ TrajectoryHeader trajectory_header(const World& world, const std::string& scene_
 namespace {
 
 Session make_session(const scene::RunPlan& plan, Simulation simulation) {
-  Measurements measurements(plan, simulation.world().species);
+  Measurements measurements(plan, simulation.world().species.front(), simulation.world().kinds);
   return {std::move(simulation), std::move(measurements), recording_of(plan), std::nullopt, 0, 0};
 }
 

@@ -16,6 +16,7 @@
 #include "run/loop.h"
 #include "run/movie_process.h"
 #include "run/probe/report.h"
+#include "run/replay.h"
 #include "run/terminal.h"
 #include "scene/canonical.h"
 #include "scene/load.h"
@@ -34,6 +35,7 @@ constexpr const char* kFooter = R"(Examples:
   shaken-worker quickstart.json --out runs/long -s time.measure="60 s" -s time.seed=7 --no-lcm
   shaken-worker quickstart.json --out runs/quick      goes on from the last checkpoint, or says that it is done
   shaken-worker quickstart.json --probe cost.json     runs nothing, but tells what the run would cost
+  shaken-worker replay runs/wild                      meets a failed run's numerical trouble again
 
 Exit codes: 0 done, 1 failed, 2 bad input, 99 stopped by a signal after a checkpoint.)";
 
@@ -200,6 +202,7 @@ int probe_scene(const scene::RunPlan& plan, const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc > 1 && std::string_view(argv[1]) == "replay") return run::replay_command(argc - 1, argv + 1);
   CLI::App app("Runs one scene from start to end in a run directory.", "shaken-worker");
   Arguments arguments;
   describe(app, arguments);

@@ -32,6 +32,7 @@ nlohmann::ordered_json to_json(const Field& field, const Value& value) {
   if (const auto* size = std::get_if<std::array<double, 2>>(&value)) {
     return {static_cast<int>((*size)[0]), static_cast<int>((*size)[1])};
   }
+  if (const auto* numbers = std::get_if<std::vector<double>>(&value)) return *numbers;
   return nullptr;
 }
 
@@ -43,6 +44,7 @@ nlohmann::ordered_json to_json(const RunPlan& plan) {
     if (!field.fetch || is_off) continue;
     const Value value = field.fetch(plan);
     if (std::holds_alternative<std::monostate>(value)) continue;  // has no meaning in this plan
+    if (field.omit_if_default && value == field.fallback) continue;
     if (field.form != Form::kBlock) {
       object_at(scene, field.path) = to_json(field, value);
     } else if (std::get<bool>(value)) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sim/checkpoint.h"
 
+#include <array>
 #include <bit>
 #include <cstring>
 
@@ -9,7 +10,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "checkpoints are little-endian");
 
-constexpr std::uint64_t kMagic = 0x31304e454b414853;  // "SHAKEN01"
+constexpr std::uint64_t kMagic = 0x32304e454b414853;  // "SHAKEN02"
 
 class Writer {
  public:
@@ -73,12 +74,23 @@ void each_counter(Archive&& visit, C& counters) {
   visit(counters.impulses_rod_lid);
   visit(counters.max_overlap_rod_rod);
   visit(counters.max_overlap_rod_plate);
+  visit(counters.impulses_rod_wall);
+  visit(counters.noise_kicks);
+  visit(counters.impacts_at_instant);
+}
+
+/// The ledger's sums in a fixed order.
+template <class L>
+auto sums_of(L& ledger) {
+  return std::array{&ledger.lost_rod_rod, &ledger.lost_surfaces, &ledger.given,      &ledger.noise,
+                    &ledger.momentum[0],  &ledger.momentum[1],   &ledger.momentum[2]};
 }
 
 /// What must be the same for a checkpoint to fit: everything that the stored numbers depend on.
 template <class Archive>
 void each_scene_key(Archive&& visit, const Scene& scene) {
   visit(static_cast<std::int64_t>(scene.n_rods));
+  visit(static_cast<std::int64_t>(scene.n_all_rods()));
   visit(static_cast<std::int64_t>(scene.rod.n_beads));
   visit(scene.rod.length);
   visit(scene.rod.mid_diameter);
@@ -105,6 +117,13 @@ std::vector<std::byte> save_checkpoint(const World& world) {
   writer.put(kMagic);
   each_scene_key([&](const auto& key) { writer.put(key); }, world.scene);
   each_counter([&](const auto& counter) { writer.put(counter); }, world.counters);
+  for (const ExactSum* sum : sums_of(world.counters.ledger)) {
+    writer.put(sum->low());
+    writer.put(sum->high());
+    writer.put(static_cast<std::uint8_t>(sum->overflow()));
+  }
+  writer.put(world.start.energy);
+  writer.put(world.start.momentum);
   writer.append(state_bytes(world));
   return writer.take();
 }
@@ -126,8 +145,19 @@ Result<World> restore_checkpoint(const Scene& scene, std::span<const std::byte> 
 
   World world = empty_world(scene);
   each_counter([&](auto& counter) { reader.get(counter); }, world.counters);
+  for (ExactSum* sum : sums_of(world.counters.ledger)) {
+    std::uint64_t low = 0;
+    std::int64_t high = 0;
+    std::uint8_t overflow = 0;
+    reader.get(low);
+    reader.get(high);
+    reader.get(overflow);
+    sum->restore(low, high, overflow != 0);
+  }
+  reader.get(world.start.energy);
+  reader.get(world.start.momentum);
   reader.get(world.tick);
-  world.rods.resize(scene.n_rods);
+  world.rods.resize(static_cast<std::size_t>(scene.n_all_rods()));
   for (Flight& flight : world.rods) {
     each_field([&](auto& field) { reader.get(field); }, flight);
     flight.prepare();

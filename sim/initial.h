@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "sim/core/result.h"
@@ -10,6 +11,9 @@
 
 namespace shaken {
 
+/// Standard deviation of each velocity component at the start [mm/s].
+inline constexpr double kStartSpeed = 20.0;
+
 /// Flights at tick 0 for every rod of the scene. No two rods and no rod and plate overlap; heights are near the middle
 /// of the gap; velocities are Gaussian with 20 mm/s in each direction and 5 rad/s about each axis across the rod.
 ///
@@ -18,6 +22,9 @@ namespace shaken {
 ///           for n_rods the roomiest is taken; sites left over are vacancies at random places.
 /// kRandom:  random places and directions one after the other (random sequential insertion).
 /// Errors:   the rods do not fit; the message names the largest area fraction that does.
-Result<std::vector<Flight>> initial_flights(const Scene& scene, const Species& species);
+/// Several species share one lattice, roomy enough for any two of them side by side. Of an arena, the sites within it
+/// are used. In a planar scene (Scene::is_planar) velocities are planar too.
+Result<std::vector<Flight>> initial_flights(const Scene& scene, std::span<const Species> species,
+                                            std::span<const std::uint8_t> kinds);
 
 }  // namespace shaken

@@ -1,31 +1,59 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 #include "sim/core/types.h"
 
 namespace shaken {
 
+/// How the radii of a rod's beads go along it.
+enum class Profile {
+  kSymmetric,  ///< from the centre bead down to both ends: the same fore and aft
+  kPolar,      ///< from the tail down to the head, the end that the director points to
+};
+
 /// The shape of one kind of rod: equally spaced beads on a line, whose radius falls linearly from the centre bead to
-/// the two ends (Sharma & Soni 2024, section 2).
+/// the two ends (Sharma & Soni 2024, section 2), from tail to head, or goes as one likes.
 struct RodShape {
   double length = 4.5;        ///< tip to tip [mm]
-  double mid_diameter = 0.8;  ///< of the centre bead [mm]
-  double end_diameter = 0.4;  ///< of the two end beads [mm]
-  int n_beads = 15;           ///< odd; 1 is a sphere of diameter `mid_diameter`
-  double density = 8.5;       ///< [mg/mm^3]; brass. Sets the unit of energy only: equal rods move alike at any density
+  double mid_diameter = 0.8;  ///< of the centre bead; polar: of the tail [mm]
+  double end_diameter = 0.4;  ///< of the two end beads; polar: of the head [mm]
+  int n_beads = 15;           ///< odd, unless each is given; 1 is a sphere of diameter `mid_diameter`
+  double density = 8.5;       ///< [mg/mm^3]; brass. Sets the unit of energy only where all rods have the same
+  Profile profile = Profile::kSymmetric;
+  std::vector<double> bead_diameters{};  ///< (n_beads) from tail to head, in place of a profile; or empty [mm]
   friend bool operator==(const RodShape&, const RodShape&) = default;
 };
 
-/// Newton's restitution and Coulomb's friction of one kind of contact.
+/// Rods of another kind beside the first.
+struct AddedRods {
+  RodShape rod;
+  int count = 1;
+  friend bool operator==(const AddedRods&, const AddedRods&) = default;
+};
+
+/// Restitution and Coulomb's friction of one kind of contact; what restitution is of, the impulse law says.
 struct ContactParameters {
   double friction = 0.0;     ///< mu >= 0
   double restitution = 1.0;  ///< e in [0, 1]
   friend bool operator==(const ContactParameters&, const ContactParameters&) = default;
 };
 
-enum class ImpulseLaw { kNewton };
+/// What becomes of the relative velocity at a contact (sim/contact/impulse_law.h).
+enum class ImpulseLaw {
+  kNewton,     ///< restitution of the normal velocity
+  kPoisson,    ///< of the normal impulse
+  kEnergetic,  ///< of the normal impulse's work; never makes energy
+};
+/// When an impact within a tick takes place.
+enum class ImpactTime {
+  kTickEnd,    ///< at the end of the tick, where it is found: what the paper does; first order in the tick
+  kAtInstant,  ///< at the instant of touching, by going back along the free flights: second order
+};
 /// How the run is stepped; the trajectory is bitwise the same.
 enum class Engine {
   kReference,  ///< visits every rod and pair at every tick
@@ -36,28 +64,54 @@ enum class Start {
   kRandom,   ///< random places and directions, one after the other (dilute systems)
 };
 
+enum class Arena { kDisc, kSquare, kAnnulus };
+/// Walls that stand upright on the base and move with it, round an arena in the middle of the box.
+struct SideWalls {
+  Arena arena = Arena::kDisc;
+  double size = 40.0;   ///< diameter of the disc or of the annulus' outer wall, side of the square [mm]
+  double inner = 10.0;  ///< diameter of the annulus' inner wall [mm]
+  ContactParameters contact{0.01, 0.3};
+  friend bool operator==(const SideWalls&, const SideWalls&) = default;
+};
+
 /// The physical system and how it is stepped: all that `make_world` needs. What to measure, record and draw is not
 /// the simulation's business and lives in scene/run_plan.h. The defaults are the paper's (Sharma & Soni 2024).
 struct Scene {
   RodShape rod;
-  int n_rods = 2109;        ///< number of rods
-  double box_side = 83.73;  ///< L, of the square box, periodic in x and y [mm]
-  double gap = 1.2;         ///< w, between base and lid [mm]
+  int n_rods = 2109;                              ///< number of rods of this kind
+  std::array<std::optional<AddedRods>, 2> added;  ///< other kinds
+  double box_side = 83.73;                        ///< L, of the square box, periodic in x and y [mm]
+  double gap = 1.2;                               ///< w, between base and lid [mm]
 
   double amplitude = 0.043486;  ///< a, of the plates' vibration [mm]; Gamma = a (2 pi f)^2 / g
   double frequency = 200.0;     ///< f, of the plates' vibration [Hz]
   double gravity = 9810.0;      ///< g, downwards [mm/s^2]
+  bool base = true;             ///< whether there is a plate below
+  bool lid = true;              ///< whether there is one above
+  std::optional<SideWalls> walls;
 
   ContactParameters rod_rod{0.05, 0.3};
   ContactParameters rod_base{0.01, 0.3};
   ContactParameters rod_lid{0.01, 0.3};
   ImpulseLaw law = ImpulseLaw::kNewton;
   int solver_sweeps = 1;  ///< passes over the contacts of one tick
+  ImpactTime impacts = ImpactTime::kTickEnd;
+  /// Roughness of the plates: each hit turns the rod about the vertical by this much per speed of the hit, to either
+  /// side at random [rad/mm].
+  double rotational_noise = 0.0;
 
   double dt = 4e-6;  ///< the tick [s]: the accuracy knob
   Engine engine = Engine::kScheduled;
   Start start = Start::kAligned;
   std::uint64_t seed = 1;
+
+  int n_all_rods() const {
+    int n = n_rods;
+    for (const auto& more : added) n += more ? more->count : 0;
+    return n;
+  }
+  /// Nothing pushes or pulls across the plane, and rods that start in it stay there to the last bit.
+  bool is_planar() const { return !base && !lid && gravity == 0; }
 
   friend bool operator==(const Scene&, const Scene&) = default;
 };

@@ -4,17 +4,23 @@
 #include <xxhash.h>
 
 #include "sim/checkpoint.h"
+#include "sim/core/rng.h"
 #include "sim/initial.h"
 
 namespace shaken {
 namespace {
 
-/// Pose and motion of rod i at the world's tick.
-std::pair<Pose, Motion> evaluate(const World& world, const Flight& flight) {
-  const double tau = static_cast<double>(world.tick - flight.since) * world.scene.dt;
-  const Pose pose = pose_after(flight, tau, world.scene.gravity);
-  return {pose, motion_after(flight, tau, world.scene.gravity, pose.director,
-                             world.species.inertia_par / world.species.inertia_perp)};
+/// Kinds in random order (Fisher & Yates), by the seed.
+std::vector<std::uint8_t> draw_kinds(const Scene& scene) {
+  std::vector<std::uint8_t> kinds(static_cast<std::size_t>(scene.n_rods), 0);
+  std::uint8_t kind = 0;
+  for (const auto& more : scene.added) {
+    if (more) kinds.insert(kinds.end(), static_cast<std::size_t>(more->count), ++kind);
+  }
+  if (kind == 0) return kinds;
+  Rng shuffle(scene.seed, RngStream::kKinds, 0);
+  for (std::size_t k = kinds.size() - 1; k > 0; --k) std::swap(kinds[k], kinds[shuffle.below(k + 1)]);
+  return kinds;
 }
 
 }  // namespace
@@ -22,16 +28,21 @@ std::pair<Pose, Motion> evaluate(const World& world, const Flight& flight) {
 World empty_world(const Scene& scene) {
   World world;
   world.scene = scene;
-  world.species = make_species(scene.rod);
+  world.species.push_back(make_species(scene.rod));
+  for (const auto& more : scene.added) {
+    if (more) world.species.push_back(make_species(more->rod));
+  }
+  world.kinds = draw_kinds(scene);
   world.plates = PlateMotion(scene.amplitude, scene.frequency, scene.gap, scene.dt);
   return world;
 }
 
 Result<World> make_world(const Scene& scene) {
   World world = empty_world(scene);
-  auto flights = initial_flights(scene, world.species);
+  auto flights = initial_flights(scene, world.species, world.kinds);
   if (!flights) return flights.error();
   world.rods = std::move(flights).value();
+  world.start = content(world);
   return world;
 }
 
@@ -46,8 +57,13 @@ Snapshot snapshot(const World& world) {
   out.director.reserve(n);
   out.velocity.reserve(n);
   out.angular_velocity.reserve(n);
-  for (const Flight& flight : world.rods) {
-    auto [pose, motion] = evaluate(world, flight);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Flight& flight = world.rods[i];
+    const Species& species = world.species_of(i);
+    const double tau = static_cast<double>(world.tick - flight.since) * world.scene.dt;
+    Pose pose = pose_after(flight, tau, world.scene.gravity);
+    const Motion motion =
+        motion_after(flight, tau, world.scene.gravity, pose.director, species.inertia_par / species.inertia_perp);
     auto image = flight.image;
     wrap(pose.position.x(), image[0], world.scene.box_side);
     wrap(pose.position.y(), image[1], world.scene.box_side);
@@ -58,21 +74,6 @@ Snapshot snapshot(const World& world) {
     out.angular_velocity.push_back(motion.angular_velocity);
   }
   return out;
-}
-
-KineticEnergy kinetic_energy(const World& world) {
-  KineticEnergy energy;
-  const Species& species = world.species;
-  for (const Flight& flight : world.rods) {
-    const auto [pose, motion] = evaluate(world, flight);
-    const Vec3& v = motion.velocity;
-    energy.translation_xy += 0.5 * species.mass * (v.x() * v.x() + v.y() * v.y());
-    energy.translation_z += 0.5 * species.mass * v.z() * v.z();
-    const double along = motion.angular_velocity.dot(pose.director);
-    const double across2 = motion.angular_velocity.squaredNorm() - along * along;
-    energy.rotation += 0.5 * (species.inertia_perp * across2 + species.inertia_par * along * along);
-  }
-  return energy;
 }
 
 std::uint64_t state_hash(const World& world) {

@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "sim/balance.h"
 #include "sim/core/result.h"
+#include "sim/ledger.h"
 #include "sim/motion/flight.h"
 #include "sim/motion/plates.h"
 #include "sim/rod/species.h"
@@ -21,15 +23,23 @@ struct Counters {
   std::int64_t impulses_rod_rod = 0;
   std::int64_t impulses_rod_base = 0;
   std::int64_t impulses_rod_lid = 0;
-  double max_overlap_rod_rod = 0;    ///< deepest bead-bead overlap seen at a contact [mm]
-  double max_overlap_rod_plate = 0;  ///< deepest bead-plate overlap seen at a contact [mm]
+  std::int64_t impulses_rod_wall = 0;
+  std::int64_t noise_kicks = 0;
+  std::int64_t impacts_at_instant = 0;  ///< impulses given at their own instant within a tick
+  double max_overlap_rod_rod = 0;       ///< deepest bead-bead overlap seen at a contact [mm]
+  double max_overlap_rod_plate = 0;     ///< deepest overlap of a bead with plate or wall seen at a contact [mm]
+  Ledger ledger;
 
   void add(const Counters& more) {
     impulses_rod_rod += more.impulses_rod_rod;
     impulses_rod_base += more.impulses_rod_base;
     impulses_rod_lid += more.impulses_rod_lid;
+    impulses_rod_wall += more.impulses_rod_wall;
+    noise_kicks += more.noise_kicks;
+    impacts_at_instant += more.impacts_at_instant;
     max_overlap_rod_rod = std::max(max_overlap_rod_rod, more.max_overlap_rod_rod);
     max_overlap_rod_plate = std::max(max_overlap_rod_plate, more.max_overlap_rod_plate);
+    ledger.add(more.ledger);
   }
   double max_overlap() const { return std::max(max_overlap_rod_rod, max_overlap_rod_plate); }
 };
@@ -44,14 +54,18 @@ struct NumericalTrouble {
 /// All mutable data of a simulation. What can be derived from it (neighbour lists, schedules) belongs to the stepper.
 struct World {
   Scene scene;
-  Species species;  ///< of every rod
+  std::vector<Species> species;     ///< (n_species) the kinds of rods
+  std::vector<std::uint8_t> kinds;  ///< (n_rods) index of each rod's species
   PlateMotion plates;
   Tick tick = 0;
   std::vector<Flight> rods;  ///< (n_rods)
   Counters counters;
+  Content start;  ///< energy and momentum at tick 0
+
+  const Species& species_of(std::size_t i) const { return species[kinds[i]]; }
 };
 
-/// The scene's species and plates at tick 0, without rods.
+/// The scene's species and plates at tick 0, without rods. Which rods are of which kind is drawn from the seed.
 World empty_world(const Scene& scene);
 
 /// Places the rods as the scene says (initial.h). Fails if they cannot be packed.
@@ -59,15 +73,6 @@ Result<World> make_world(const Scene& scene);
 
 /// Every rod evaluated at the world's tick.
 Snapshot snapshot(const World& world);
-
-/// Translation and rotation of all rods at the world's tick [pJ].
-struct KineticEnergy {
-  double translation_xy = 0;
-  double translation_z = 0;
-  double rotation = 0;
-  double total() const { return translation_xy + translation_z + rotation; }
-};
-KineticEnergy kinetic_energy(const World& world);
 
 /// XXH3 (64 bit) of tick and stored rod states.
 std::uint64_t state_hash(const World& world);

@@ -25,9 +25,9 @@ constexpr double kPairReach = 1.1;
 /// What does not change from impulse to impulse.
 struct Rules {
   explicit Rules(const World& world)
-      : species(world.species),
-        inverse(inverse_inertia(world.species)),
-        ratio(world.species.inertia_par / world.species.inertia_perp),
+      : species(world.species[0]),
+        inverse(inverse_inertia(world.species[0])),
+        ratio(world.species[0].inertia_par / world.species[0].inertia_perp),
         gravity(world.scene.gravity),
         dt(world.scene.dt),
         side(world.scene.box_side),

@@ -25,6 +25,7 @@ std::unique_ptr<Verb> make_cancel();
 std::unique_ptr<Verb> make_results();
 std::unique_ptr<Verb> make_plot();
 std::unique_ptr<Verb> make_movie();
+std::unique_ptr<Verb> make_replay();
 std::unique_ptr<Verb> make_bench();
 std::unique_ptr<Verb> make_doctor();
 std::unique_ptr<Verb> make_completion();

@@ -41,7 +41,7 @@ class Prober {
     result_.run_ticks = static_cast<double>(total_ticks(plan_));
     if (auto error = step()) return *error;
     time_impulse_laws();
-    const SamplingCost sampling = time_sampling(plan_, simulation_.world().species, snapshots_);
+    const SamplingCost sampling = time_sampling(plan_, simulation_.world().species.front(), snapshots_);
     result_.samples = sampling.samples;
     result_.disk.observables = sampling.file_bytes;
     result_.snapshots = {snapshots_in_run(), time_of([&] { snapshots_.back() = simulation_.snapshot(); }, kCpu, 2), 0};
@@ -136,7 +136,7 @@ class Prober {
 
   /// Ticks of the run at which anything is sampled or recorded.
   std::int64_t snapshots_in_run() const {
-    const Measurements measurements(plan_, simulation_.world().species);
+    const Measurements measurements(plan_, simulation_.world().species.front());
     const std::optional<Cadence> recording = recording_of(plan_);
     const Tick end = total_ticks(plan_);
     std::int64_t n = 0;

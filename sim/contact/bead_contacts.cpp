@@ -35,7 +35,8 @@ void find_bead_contacts(const Species& i, const Vec3& n_i, const Species& j, con
 void find_bead_contacts(const Species& i, const Vec3& n_i, const Species& j, const Vec3& n_j, const Vec3& D,
                         BeadRange beads, std::vector<BeadContact>& contacts) {
   const int last = j.n_beads() - 1;
-  const double pitch = last > 0 ? 2.0 * j.half_length / last : 1.0;
+  const double pitch = j.pitch();
+  const double first = j.bead_offset.front();
   for (int a = beads.from; a < beads.to; ++a) {
     const Vec3 from_a = D - i.bead_offset[a] * n_i;  // bead a -> centre of j
     const double foot = -from_a.dot(n_j);            // coordinate on j's axis nearest to bead a
@@ -43,8 +44,8 @@ void find_bead_contacts(const Species& i, const Vec3& n_i, const Species& j, con
     const double across2 = from_a.squaredNorm() - foot * foot;
     if (across2 > cut * cut) continue;
     const double half_chord = std::sqrt(cut * cut - std::max(across2, 0.0));
-    const int from = std::max(0, static_cast<int>(std::ceil((foot - half_chord + j.half_length) / pitch)));
-    const int to = std::min(last, static_cast<int>(std::floor((foot + half_chord + j.half_length) / pitch)));
+    const int from = std::max(0, static_cast<int>(std::ceil((foot - half_chord - first) / pitch)));
+    const int to = std::min(last, static_cast<int>(std::floor((foot + half_chord - first) / pitch)));
     for (int b = from; b <= to; ++b) {
       const Vec3 r = from_a + j.bead_offset[b] * n_j;
       const double touch = i.bead_radius[a] + j.bead_radius[b];

@@ -30,7 +30,7 @@ SHAKEN_INLINE lanes::Vectors<F> to_center(const Shared& in, const F& offset_i) {
 /// Index of the bead of j nearest to a coordinate on its axis.
 template <class F>
 SHAKEN_INLINE F nearest_bead(const BeadLanes& j, const F& foot) {
-  const F place = (foot + j.half_length) * (1.0F / j.pitch);
+  const F place = (foot - j.first) * (1.0F / j.pitch);
   return lanes::truncated(lanes::smaller(lanes::larger(place, F{}), F{} + j.last) + 0.5F);
 }
 
@@ -54,7 +54,13 @@ struct Untried {
 template <class F>
 SHAKEN_INLINE F bead_offset(const BeadLanes& j, const F& nearest, int k) {
   const F index = lanes::smaller(lanes::larger(nearest + static_cast<float>(k), F{}), F{} + j.last);
-  return index * j.pitch - j.half_length;
+  return index * j.pitch + j.first;
+}
+
+/// Radius of the hull of j at a coordinate on its axis: that of a bead there, or more.
+template <class F>
+SHAKEN_INLINE F hull_radius(const BeadLanes& j, const F& s) {
+  return j.mid_radius - j.taper * lanes::abs(s) - j.skew * s;
 }
 
 /// A time as a fraction, so that the smallest of many is found without dividing.
@@ -120,7 +126,7 @@ struct OverlapKernel {
     for (int k = -j.reach; k <= j.reach; ++k) {
       const F s_j = bead_offset(j, nearest, k);
       const lanes::Vectors<F> r{x.x + s_j * in.n_j[0], x.y + s_j * in.n_j[1], x.z + s_j * in.n_j[2]};
-      const F touch = lanes::not_below_zero(radius + j.mid_radius - j.taper * lanes::abs(s_j));
+      const F touch = lanes::not_below_zero(radius + hull_radius(j, s_j));
       clear = lanes::smaller(clear, lanes::dot(r, r) - touch * touch);
     }
     if (lanes::least(clear) > 0.0F) return {};
@@ -170,7 +176,7 @@ struct SafeTimeKernel {
       const lanes::Vectors<F> r{x.x + s_j * in.n_j[0], x.y + s_j * in.n_j[1], x.z + s_j * in.n_j[2]};
       const F distance = lanes::sqrt(lanes::dot(r, r));
       const F inverse = 1.0F / (distance + 1e-20F);
-      const F gap = distance - (radius + j.mid_radius - j.taper * lanes::abs(s_j));
+      const F gap = distance - (radius + hull_radius(j, s_j));
       take_safe_time(safe_steady, steady, s_i, s_j, r, inverse, gap, horizon);
       take_safe_time(safe_straying, straying, s_i, s_j, r, inverse, gap, horizon);
     }
@@ -218,13 +224,15 @@ BeadLanes::BeadLanes(const Species& species)
     : half_length(static_cast<float>(species.half_length)),
       mid_radius(static_cast<float>(species.mid_radius)),
       max_radius(static_cast<float>(species.max_radius)),
-      taper(static_cast<float>(species.taper())),
+      taper(static_cast<float>(0.5 * (species.taper(species.head) + species.taper(species.tail)))),
+      skew(static_cast<float>(0.5 * (species.taper(species.head) - species.taper(species.tail)))),
+      first(static_cast<float>(species.bead_offset.front())),
       last(static_cast<float>(species.n_beads() - 1)),
-      pitch(species.n_beads() > 1 ? static_cast<float>(2.0 * species.half_length / (species.n_beads() - 1)) : 1.0F),
+      pitch(static_cast<float>(species.pitch())),
       reach(species.n_beads() > 1 ? static_cast<int>(std::ceil(1.1F * max_radius / pitch - 0.5F)) : 0),
       beyond((static_cast<float>(reach) + 0.5F) * pitch) {
-  // a thinning of more than this would let `widest` fall to where rods touch
-  if (taper > 0.0F && taper < 0.3F) thinning = taper;
+  // a thinning of more than this would let `widest` fall to where rods touch; and Untried looks at both ends alike
+  if (taper > 0.0F && taper < 0.3F && species.tail.length == species.head.length && skew == 0.0F) thinning = taper;
   widest = thinning > 0.0F ? beyond * std::sqrt(1.0F / (thinning * thinning) - 1.0F) : 1e6F;
   const int n_lanes = (species.n_beads() + kLanes - 1) / kLanes * kLanes;
   for (int lane = 0; lane < n_lanes; ++lane) {

@@ -14,7 +14,9 @@ struct BeadLanes {
   explicit BeadLanes(const Species& species);
   std::vector<float> offset;  ///< (n_beads rounded up to a multiple of kLanes) [mm]
   std::vector<float> radius;  ///< the same; lanes past the last bead hold a bead that is never near [mm]
-  float half_length, mid_radius, max_radius, taper;
+  float half_length, mid_radius, max_radius;
+  float taper, skew;   ///< loss of the hull's radius per length: taper + skew towards the head, taper - skew the tail
+  float first;         ///< offset of the first bead, < 0 [mm]
   float last;          ///< index of the last bead
   float pitch;         ///< distance of neighbouring beads [mm]
   int reach;           ///< beads to each side of a foot that are tried one by one

@@ -38,6 +38,21 @@ inline void apply_impulse(Motion& motion, const InverseInertia& inverse, const V
   motion.angular_velocity += inverse.perp * torque + ((inverse.par - inverse.perp) * torque.dot(director)) * director;
 }
 
+/// The same along the normal of a bead at `offset` on the rod, whose normal passes through the rod's axis:
+/// n . K n = 1/m + |offset director x normal|^2 / I_perp [1/mg].
+inline double normal_compliance(const InverseInertia& inverse, const Vec3& director, double offset,
+                                const Vec3& normal) {
+  const double along = director.dot(normal);
+  return inverse.mass + inverse.perp * (offset * offset * (1.0 - along * along));
+}
+
+/// Applies an impulse along the normal of the bead at `offset`. It passes through the axis, so the spin stays as it is.
+inline void apply_normal_impulse(Motion& motion, const InverseInertia& inverse, const Vec3& director, double offset,
+                                 const Vec3& impulse) {
+  motion.velocity += inverse.mass * impulse;
+  motion.angular_velocity += (inverse.perp * offset) * director.cross(impulse);
+}
+
 /// Impulse on the body that `normal` points to, by Newton's restitution and Coulomb's friction.
 /// Model:  u = velocity of that body relative to the other at the contact, u_n = u . normal < 0 (approaching). Stick if
 ///         the impulse that gives u_n' = -e u_n and u_t' = 0 lies in the friction cone |P_t| <= mu P_n; otherwise slip:
@@ -47,5 +62,12 @@ inline void apply_impulse(Motion& motion, const InverseInertia& inverse, const V
 /// Numerics: never pulls. With friction so strong that the slip direction would jam (possible only beyond mu of about
 ///         1/taper), the tangential part of the sticking impulse, cut to the cone, takes the place of -t.
 Vec3 newton_coulomb_impulse(const Mat3& K, const Vec3& normal, const Vec3& u, const ContactParameters& contact);
+
+/// Newton's restitution with Coulomb's friction, as a policy of the inner loops (effects/compose.h).
+struct NewtonLaw {
+  static Vec3 impulse(const Mat3& K, const Vec3& normal, const Vec3& u, const ContactParameters& contact) {
+    return newton_coulomb_impulse(K, normal, u, contact);
+  }
+};
 
 }  // namespace shaken

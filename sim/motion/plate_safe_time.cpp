@@ -20,8 +20,17 @@ SHAKEN_INLINE F safe_time(const F& gap, const F& rate, const F& pull) {
   return above / below;
 }
 
+/// A bead that may be the lowest or the highest of its rod.
+struct OuterBead {
+  float offset, size;  ///< along the rod from its centre, and without sign [mm]
+  float radius;
+};
+
 struct Constants {
-  float half_length, mid_radius, end_radius;
+  OuterBead beads[kMostBeads];
+  int n_beads;
+  bool has_base, has_lid;
+  float half_length;
   float gravity, pull_base, pull_lid;
   float dt, per_dt, horizon;
 };
@@ -60,29 +69,28 @@ struct PlateKernel {
 
     const F height = lanes::load<W>(rods.z + l) + (velocity - 0.5F * k.gravity * t) * t;
     const F rise = velocity - k.gravity * t - plate_velocity;
-    const F bend = h * lanes::load<W>(rods.rate2 + l);  // bounds the ends' own acceleration
-    const F sag = 0.5F * bend * t * t;                  // how much further an end may be than its tangent says
-    const F end = h * (lanes::load<W>(rods.n_z + l) + n_z_rate * t);
-    const F end_rate = h * n_z_rate;
+    const F rate2 = lanes::load<W>(rods.rate2 + l);
+    const F n_z = lanes::load<W>(rods.n_z + l) + n_z_rate * t;
     const F gap_margin = kLengthRounding * (1.0F + h + lanes::abs(height) + lanes::abs(lid));
     const F rate_margin = 1e-4F + kRateRounding * (lanes::abs(velocity) + k.gravity * t + lanes::abs(plate_velocity) +
-                                                   lanes::abs(end_rate));
+                                                   h * lanes::abs(n_z_rate));
     const F above = height - base - gap_margin;  // centre above the base
     const F below = lid - height - gap_margin;   // centre below the lid
     const F up = rise - rate_margin;
     const F down = -rise - rate_margin;
-    const F end_room = sag + k.end_radius;
-    const F slow = bend * t;
-    const F pull_base = k.pull_base + bend;
-    const F pull_lid = lanes::not_below_zero(k.pull_lid + bend);
-
-    F time = safe_time(above - k.mid_radius, up, lanes::all<W>(k.pull_base));
-    time =
-        lanes::smaller(time, safe_time(below - k.mid_radius, down, lanes::not_below_zero(lanes::all<W>(k.pull_lid))));
-    time = lanes::smaller(time, safe_time(above + end - end_room, up + end_rate - slow, pull_base));
-    time = lanes::smaller(time, safe_time(above - end - end_room, up - end_rate - slow, pull_base));
-    time = lanes::smaller(time, safe_time(below - end - end_room, down - end_rate - slow, pull_lid));
-    time = lanes::smaller(time, safe_time(below + end - end_room, down + end_rate - slow, pull_lid));
+    F time = lanes::all<W>(k.horizon * k.dt);
+    for (int b = 0; b < k.n_beads; ++b) {
+      const OuterBead& bead = k.beads[b];
+      const F bend = bead.size * rate2;                  // bounds the bead's own acceleration
+      const F room = bead.radius + 0.5F * bend * t * t;  // it may be that much further than its tangent says
+      const F slow = bend * t;
+      const F ahead = bead.offset * n_z;
+      const F ahead_rate = bead.offset * n_z_rate;
+      const F pull_lid = lanes::not_below_zero(k.pull_lid + bend);
+      if (k.has_base)
+        time = lanes::smaller(time, safe_time(above + ahead - room, up + ahead_rate - slow, k.pull_base + bend));
+      if (k.has_lid) time = lanes::smaller(time, safe_time(below - ahead - room, down - ahead_rate - slow, pull_lid));
+    }
     const F more = lanes::truncated(lanes::smaller(time * k.per_dt, lanes::all<W>(k.horizon)));
     lanes::store(safe + l, lanes::smaller(ticks + more, lanes::all<W>(k.horizon)));
   }
@@ -91,17 +99,23 @@ struct PlateKernel {
 }  // namespace
 
 void plate_safe_ticks(const Species& species, const PlateMotion& plates, const PlateLanes& rods, int n, double gravity,
-                      double dt, Tick now, Tick horizon, Tick* safe) {
-  const Constants k{
-      static_cast<float>(species.half_length),
-      static_cast<float>(species.mid_radius),
-      static_cast<float>(species.n_beads() > 1 ? species.end_radius : species.mid_radius),
-      static_cast<float>(gravity),
-      static_cast<float>((plates.peak_acceleration() + gravity) * (1.0 + 1e-6)),
-      static_cast<float>((plates.peak_acceleration() - gravity) + 1e-6 * (plates.peak_acceleration() + gravity)),
-      static_cast<float>(dt),
-      static_cast<float>((1.0 - 1e-5) / dt),
-      static_cast<float>(horizon)};
+                      double dt, Tick now, Tick horizon, Tick* safe, PlatesThere there) {
+  Constants k;
+  k.n_beads = 0;
+  for (const int b : species.outer_beads) {
+    const auto offset = static_cast<float>(species.bead_offset[b]);
+    k.beads[k.n_beads++] = {offset, std::abs(offset), static_cast<float>(species.bead_radius[b])};
+  }
+  k.has_base = there.base;
+  k.has_lid = there.lid;
+  k.half_length = static_cast<float>(species.half_length);
+  k.gravity = static_cast<float>(gravity);
+  k.pull_base = static_cast<float>((plates.peak_acceleration() + gravity) * (1.0 + 1e-6));
+  k.pull_lid =
+      static_cast<float>((plates.peak_acceleration() - gravity) + 1e-6 * (plates.peak_acceleration() + gravity));
+  k.dt = static_cast<float>(dt);
+  k.per_dt = static_cast<float>((1.0 - 1e-5) / dt);
+  k.horizon = static_cast<float>(horizon);
   constexpr int kSteps = 3;
   alignas(64) float ticks[kLanes] = {};
   PlatesAt at;

@@ -18,11 +18,17 @@ struct PlateLanes {
   alignas(64) float rate2[kLanes];     ///< |precession|^2 [1/s^2]
 };
 
+/// Which plates there are.
+struct PlatesThere {
+  bool base = true;
+  bool lid = true;
+};
+
 /// Number of ticks after `now` for which no bead of each rod begins to touch a plate or, if it is in one, begins to
-/// approach it; at most `horizon`, for the first `n` rods. Rigorous: the plates are followed exactly, the rod's ends by
-/// n_z(t) in n_z + n_z' t -+ W^2 t^2 / 2, and between the ticks looked at the relative acceleration is bounded by
+/// approach it; at most `horizon`, for the first `n` rods. Rigorous: the plates are followed exactly, the outer beads
+/// by n_z(t) in n_z + n_z' t -+ W^2 t^2 / 2, and between the ticks looked at the relative acceleration is bounded by
 /// g + a Omega^2 + h W^2. Numerics: floats, with margins for their rounding.
 void plate_safe_ticks(const Species& species, const PlateMotion& plates, const PlateLanes& rods, int n, double gravity,
-                      double dt, Tick now, Tick horizon, Tick* safe);
+                      double dt, Tick now, Tick horizon, Tick* safe, PlatesThere there = {});
 
 }  // namespace shaken

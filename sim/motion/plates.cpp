@@ -46,6 +46,15 @@ PlateState PlateMotion::at_phase(double cycles) const {
   return {base, base + gap_, -amplitude_ * angular_frequency_ * angle.sin};
 }
 
+PlateState PlateMotion::before(const PlateState& then, double seconds) const {
+  if (!(angular_frequency_ > 0)) return then;
+  const SinCos turn = sincos(angular_frequency_ * seconds);
+  const double cos = then.base - amplitude_;               // a cos(phase)
+  const double sin = -then.velocity / angular_frequency_;  // a sin(phase)
+  const double base = amplitude_ + cos * turn.cos + sin * turn.sin;
+  return {base, base + gap_, -angular_frequency_ * (sin * turn.cos - cos * turn.sin)};
+}
+
 PlateState PlateMotion::at_phase_of(Tick k) const {
   const Fixed128 phase = phase_per_tick_ * static_cast<Fixed128>(k);
   return at_phase(static_cast<double>(static_cast<std::uint64_t>(phase >> 64)) * 0x1p-64);

@@ -29,8 +29,14 @@ class PlateMotion {
     return table_.empty() ? at_phase_of(k) : table_[static_cast<std::size_t>(k) % table_.size()];
   }
 
+  /// `seconds` (of either sign) before an instant at which the plates were `then`.
+  PlateState before(const PlateState& then, double seconds) const;
+
   /// Largest acceleration of the plates, a (2 pi f)^2 [mm/s^2].
   double peak_acceleration() const { return amplitude_ * angular_frequency_ * angular_frequency_; }
+
+  /// Largest speed of the plates [mm/s].
+  double peak_speed() const { return amplitude_ * angular_frequency_; }
 
   /// Ticks per period if that is a whole number, otherwise 0.
   Tick period_ticks() const { return static_cast<Tick>(table_.size()); }

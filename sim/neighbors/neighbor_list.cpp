@@ -9,31 +9,38 @@
 
 namespace shaken {
 
-NeighborList::NeighborList(const Species& species, double box_side, double skin)
-    : half_length_(species.half_length), reach_(2.0 * species.max_radius + skin), skin_(skin), box_side_(box_side) {
-  // cells at least as wide as two centres of a pair can be apart; below 3 x 3 cells every rod is a candidate
-  n_cells_ = static_cast<int>(std::floor(box_side / (2.0 * half_length_ + reach_)));
+NeighborList::NeighborList(std::span<const Species> species, std::span<const std::uint8_t> kinds, double box_side,
+                           double skin)
+    : kinds_(kinds.begin(), kinds.end()), skin_(skin), box_side_(box_side) {
+  double farthest = 0;  // that two centres of a pair can be apart
+  for (const Species& kind : species) {
+    shadows_.push_back({kind.half_length, kind.max_radius});
+    farthest = std::max(farthest, 2.0 * kind.half_length + (2.0 * kind.max_radius + skin));
+  }
+  // cells at least as wide; below 3 x 3 cells every rod is a candidate
+  n_cells_ = static_cast<int>(std::floor(box_side / farthest));
   if (n_cells_ < 3) n_cells_ = 1;
 }
 
 std::size_t NeighborList::bytes() const {
-  std::size_t bytes =
-      heap_bytes(placed_center_, placed_half_, cell_, members_, pairs_, unused_, pairs_of_, n_pairs_of_, near_, mark_);
+  std::size_t bytes = heap_bytes(kinds_, placed_center_, placed_half_, cell_, members_, pairs_, unused_, pairs_of_,
+                                 n_pairs_of_, near_, mark_);
   for (const auto& members : members_) bytes += heap_bytes(members);
   return bytes;
 }
 
-Vec2 NeighborList::flat_half(const Pose& pose) const {
+Vec2 NeighborList::flat_half(int i, const Pose& pose) const {
+  const double half_length = shadow(i).half_length;
   const Vec2 n(pose.director.x(), pose.director.y());
   const double length = n.norm();
   // an upright rod's shadow fits whatever angle it is given
-  return length > 0 ? Vec2(n * (half_length_ / length)) : Vec2(half_length_, 0.0);
+  return length > 0 ? Vec2(n * (half_length / length)) : Vec2(half_length, 0.0);
 }
 
 double NeighborList::slack(int i, const Pose& pose) const {
   const Vec3 from(placed_center_[i].x(), placed_center_[i].y(), 0);
   const Vec2 shift = nearest_image(from, pose.position, box_side_).head<2>();
-  const Vec2 turn = flat_half(pose) - placed_half_[i];
+  const Vec2 turn = flat_half(i, pose) - placed_half_[i];
   return 0.5 * skin_ - std::sqrt(std::max((shift + turn).squaredNorm(), (shift - turn).squaredNorm()));
 }
 
@@ -79,11 +86,14 @@ void NeighborList::for_candidates(int i, const Each& each) const {
 bool NeighborList::are_near(int i, int j) const {
   const auto level = [](const Vec2& v) { return Vec3(v.x(), v.y(), 0); };
   const Vec3 D = nearest_image(level(placed_center_[i]), level(placed_center_[j]), box_side_);
-  const double centers = 2.0 * half_length_ + reach_;
+  const auto& [h_i, radius_i] = shadow(i);
+  const auto& [h_j, radius_j] = shadow(j);
+  const double reach = radius_i + radius_j + skin_;
+  const double centers = h_i + h_j + reach;
   if (D.squaredNorm() > centers * centers) return false;
-  if (half_length_ == 0) return D.squaredNorm() <= reach_ * reach_;
-  return segment_distance_squared(D, level(placed_half_[i]) / half_length_, half_length_,
-                                  level(placed_half_[j]) / half_length_, half_length_) <= reach_ * reach_;
+  const auto direction = [&](const Vec2& half, double h) { return h > 0 ? Vec3(level(half) / h) : Vec3(1, 0, 0); };
+  return segment_distance_squared(D, direction(placed_half_[i], h_i), h_i, direction(placed_half_[j], h_j), h_j) <=
+         reach * reach;
 }
 
 // ---- pairs
@@ -130,7 +140,7 @@ void NeighborList::build(std::span<const Pose> poses) {
   members_.assign(static_cast<std::size_t>(n_cells_) * n_cells_, {});
   for (int i = 0; i < n; ++i) {
     placed_center_[i] = {poses[i].position.x(), poses[i].position.y()};
-    placed_half_[i] = flat_half(poses[i]);
+    placed_half_[i] = flat_half(i, poses[i]);
     put_into_cell(i, cell_of(placed_center_[i]));
   }
   pairs_.clear();
@@ -150,7 +160,7 @@ void NeighborList::build(std::span<const Pose> poses) {
 
 void NeighborList::place(int i, const Pose& pose, std::vector<int>& gained, std::vector<int>& lost) {
   placed_center_[i] = {pose.position.x(), pose.position.y()};
-  placed_half_[i] = flat_half(pose);
+  placed_half_[i] = flat_half(i, pose);
   const int cell = cell_of(placed_center_[i]);
   if (cell != cell_[i]) {
     auto& old = members_[cell_[i]];

@@ -41,7 +41,8 @@ class NeighborList {
     int j = -1;  ///< > i
   };
 
-  NeighborList(const Species& species, double box_side, double skin);
+  /// `kinds` (n_rods): the index of each rod's species.
+  NeighborList(std::span<const Species> species, std::span<const std::uint8_t> kinds, double box_side, double skin);
 
   /// True if the list may be incomplete for these poses (or was never built).
   bool is_due(std::span<const Pose> poses) const;
@@ -64,7 +65,13 @@ class NeighborList {
   std::size_t bytes() const;
 
  private:
-  Vec2 flat_half(const Pose& pose) const;  ///< from the centre to the end of the flattened segment
+  /// The stadium of one kind of rod.
+  struct Shadow {
+    double half_length;
+    double radius;
+  };
+  const Shadow& shadow(int i) const { return shadows_[kinds_[i]]; }
+  Vec2 flat_half(int i, const Pose& pose) const;  ///< from the centre to the end of the flattened segment
   int cell_of(const Vec2& center) const;
   void put_into_cell(int i, int cell);
   bool are_near(int i, int j) const;
@@ -75,8 +82,8 @@ class NeighborList {
   void add_to(int i, int p);
   void remove_from(int i, int p);
 
-  double half_length_;
-  double reach_;  ///< centre lines closer than this make a pair [mm]
+  std::vector<Shadow> shadows_;      ///< (n_species)
+  std::vector<std::uint8_t> kinds_;  ///< (n_rods)
   double skin_;
   double box_side_;
   int n_cells_;  ///< per side; 1: no grid

@@ -15,6 +15,7 @@ struct ProfileIntegrals {
   double r1 = 0;    ///< of R
   double r2 = 0;    ///< of R^2
   double r4 = 0;    ///< of R^4
+  double r2x = 0;   ///< of R^2 x
   double r2x2 = 0;  ///< of R^2 x^2
 };
 
@@ -68,27 +69,102 @@ ProfileIntegrals integrate_profile(const std::vector<double>& offset, const std:
       const double r2 = r * r - (x - s) * (x - s);
       sum.r2 += w * r2;
       sum.r4 += w * r2 * r2;
+      sum.r2x += w * r2 * x;
       sum.r2x2 += w * r2 * x * x;
     }
   }
   return sum;
 }
 
-}  // namespace
-
-Species make_species(const RodShape& shape) {
+/// Beads whose radius falls linearly from the middle one to both ends; the hull follows them exactly.
+void place_symmetric_beads(const RodShape& shape, Species& species) {
   SHAKEN_CHECK(shape.n_beads >= 1 && shape.n_beads % 2 == 1, "a rod has an odd number of beads");
-  Species species;
   species.mid_radius = 0.5 * shape.mid_diameter;
   species.end_radius = shape.n_beads > 1 ? 0.5 * shape.end_diameter : species.mid_radius;
-  species.max_radius = std::max(species.mid_radius, species.end_radius);
   species.half_length = shape.n_beads > 1 ? 0.5 * shape.length - species.end_radius : 0.0;
+  species.tail = species.head = {species.half_length, species.end_radius};
   const int middle = shape.n_beads / 2;
   for (int b = 0; b < shape.n_beads; ++b) {
     const double along = middle > 0 ? static_cast<double>(b - middle) / middle : 0.0;  // -1 .. 1, exactly antisymmetric
     species.bead_offset.push_back(species.half_length * along);
     species.bead_radius.push_back(species.mid_radius - (species.mid_radius - species.end_radius) * std::abs(along));
   }
+  species.outer_beads = middle > 0 ? std::vector<int>{0, middle, shape.n_beads - 1} : std::vector<int>{0};
+}
+
+/// The beads' diameters from tail to head.
+std::vector<double> diameters_of(const RodShape& shape) {
+  if (!shape.bead_diameters.empty()) return shape.bead_diameters;
+  std::vector<double> diameters(shape.n_beads);
+  for (int b = 0; b < shape.n_beads; ++b) {
+    const double along = shape.n_beads > 1 ? static_cast<double>(b) / (shape.n_beads - 1) : 0.0;
+    diameters[b] = shape.mid_diameter + along * (shape.end_diameter - shape.mid_diameter);
+  }
+  return diameters;
+}
+
+/// The corners of the upper hull of the points (offset, radius), from tail to head (Andrew 1979).
+std::vector<int> outer_beads_of(const std::vector<double>& offset, const std::vector<double>& radius) {
+  std::vector<int> corners;
+  for (int b = 0; b < static_cast<int>(offset.size()); ++b) {
+    const auto is_below = [&](int a, int middle) {
+      return (radius[middle] - radius[a]) * (offset[b] - offset[a]) <=
+             (radius[b] - radius[a]) * (offset[middle] - offset[a]);
+    };
+    while (corners.size() >= 2 && is_below(corners[corners.size() - 2], corners.back())) corners.pop_back();
+    corners.push_back(b);
+  }
+  return corners;
+}
+
+/// Beads as given, round their centre of mass, and the hull of one straight line to each side of it that clears them.
+void place_free_beads(const RodShape& shape, Species& species) {
+  const std::vector<double> diameters = diameters_of(shape);
+  const std::size_t n = diameters.size();
+  const double from = 0.5 * diameters.front();
+  const double pitch = n > 1 ? (shape.length - from - 0.5 * diameters.back()) / static_cast<double>(n - 1) : 0.0;
+  std::vector<double>& offset = species.bead_offset;
+  std::vector<double>& radius = species.bead_radius;
+  for (std::size_t b = 0; b < n; ++b) {
+    offset.push_back(from + static_cast<double>(b) * pitch);
+    radius.push_back(0.5 * diameters[b]);
+  }
+  const ProfileIntegrals profile = integrate_profile(offset, radius);
+  for (double& s : offset) s -= profile.r2x / profile.r2;
+  species.outer_beads = outer_beads_of(offset, radius);
+  species.mid_radius = species.end_radius = radius.front();
+  if (n == 1) {
+    offset.front() = 0;
+    species.tail = species.head = {0.0, radius.front()};
+    return;
+  }
+  species.half_length = std::max(-offset.front(), offset.back());
+  for (std::size_t c = 0; c + 1 < species.outer_beads.size(); ++c) {
+    const int a = species.outer_beads[c];
+    const int b = species.outer_beads[c + 1];
+    if (offset[a] > 0 || offset[b] < 0) continue;
+    species.mid_radius = radius[a] + (radius[b] - radius[a]) * (0.0 - offset[a]) / (offset[b] - offset[a]);
+  }
+  species.mid_radius *= 1.0 + 1e-12;  // so that rounding leaves no bead outside
+  double tail_taper = INFINITY;
+  double head_taper = INFINITY;
+  for (std::size_t b = 0; b < n; ++b) {
+    double& taper = offset[b] < 0 ? tail_taper : head_taper;
+    if (offset[b] != 0) taper = std::min(taper, (species.mid_radius - radius[b]) / std::abs(offset[b]));
+  }
+  species.tail = {-offset.front(), species.mid_radius + tail_taper * offset.front()};
+  species.head = {offset.back(), species.mid_radius - head_taper * offset.back()};
+  species.end_radius = species.mid_radius - std::min(tail_taper, head_taper) * species.half_length;
+}
+
+}  // namespace
+
+Species make_species(const RodShape& shape) {
+  Species species;
+  const bool is_symmetric = shape.profile == Profile::kSymmetric && shape.bead_diameters.empty();
+  is_symmetric ? place_symmetric_beads(shape, species) : place_free_beads(shape, species);
+  SHAKEN_CHECK(species.n_beads() <= kMostBeads, "too many beads");
+  species.max_radius = std::max({species.mid_radius, species.tail.radius, species.head.radius});
 
   const ProfileIntegrals profile = integrate_profile(species.bead_offset, species.bead_radius);
   species.area = 2.0 * profile.r1;

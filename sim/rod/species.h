@@ -7,21 +7,39 @@
 
 namespace shaken {
 
-/// One kind of rod, ready for use: beads, the convex hull they lie in, and what quadrature gives of their union.
+/// No rod has more beads.
+inline constexpr int kMostBeads = 128;
+
+/// One end of a rod's hull.
+struct HullEnd {
+  double length = 0;  ///< from the rod's centre to the end-bead's [mm]
+  double radius = 0;  ///< of the hull there [mm]
+};
+
+/// One kind of rod, ready for use: beads, the hull they lie in, and what quadrature gives of their union. The centre of
+/// a rod is its centre of mass; for rods that are the same fore and aft that is the middle.
+///
+/// The hull's radius is mid_radius at the centre and changes linearly to both ends; every bead lies in it.
 struct Species {
-  std::vector<double> bead_offset;  ///< (n_beads) of the bead centres along the rod, ascending, symmetric about 0 [mm]
+  std::vector<double> bead_offset;  ///< (n_beads) of the bead centres along the rod, ascending, equally spaced [mm]
   std::vector<double> bead_radius;  ///< (n_beads) [mm]
-  double half_length = 0;           ///< h, distance of the end-bead centres from the rod's centre [mm]
-  double mid_radius = 0;            ///< of the centre bead [mm]
-  double end_radius = 0;            ///< of the end beads [mm]
-  double max_radius = 0;            ///< the larger of the two [mm]
+  std::vector<int> outer_beads;     ///< those that can be the lowest or the highest of the rod, ascending
+  double half_length = 0;           ///< h, distance of the farther end-bead's centre from the rod's centre [mm]
+  double mid_radius = 0;            ///< of the hull at the centre [mm]
+  double end_radius = 0;            ///< mid_radius - taper() half_length [mm]
+  double max_radius = 0;            ///< the largest of the hull [mm]
+  HullEnd tail, head;               ///< at the first and at the last bead
   double area = 0;                  ///< of the union of the beads' discs, axis in the plane [mm^2]
   double mass = 0;                  ///< [mg]
   double inertia_perp = 0;          ///< about an axis through the centre, across the rod [mg mm^2]
   double inertia_par = 0;           ///< about the rod's axis [mg mm^2]
 
   int n_beads() const { return static_cast<int>(bead_offset.size()); }
-  /// Loss of radius per length along the axis, (mid_radius - end_radius) / half_length; 0 for a sphere.
+  /// Distance of neighbouring beads [mm]; 1 for a sphere.
+  double pitch() const { return n_beads() > 1 ? (bead_offset.back() - bead_offset.front()) / (n_beads() - 1) : 1.0; }
+  /// Loss of the hull's radius per length towards an end; 0 for a sphere.
+  double taper(const HullEnd& end) const { return end.length > 0 ? (mid_radius - end.radius) / end.length : 0.0; }
+  /// That towards the end where it is less.
   double taper() const { return half_length > 0 ? (mid_radius - end_radius) / half_length : 0.0; }
 };
 

@@ -11,9 +11,10 @@ constexpr double kSkin = 0.3;
 
 }  // namespace
 
-ReferenceStepper::ReferenceStepper(const World& world)
+ReferenceStepper::ReferenceStepper(const World& world, const Kernels& kernels)
     : rules_(world),
-      neighbors_(world.species, world.scene.box_side, kSkin),
+      kernels_(kernels),
+      neighbors_(world.species, world.kinds, world.scene.box_side, kSkin),
       rods_(world.rods.size()),
       poses_(world.rods.size()) {}
 
@@ -29,10 +30,10 @@ std::optional<NumericalTrouble> ReferenceStepper::step(World& world, Tick now) {
     poses_[i] = rods_[i].pose;
   }
 
-  // 1. plates
+  // 1. surfaces
   const PlateState plates = world.plates.at(now);
   for (int i = 0; i < n; ++i) {
-    if (auto trouble = collide_with_plates(i, rods_[i], world.rods[i], plates, now, rules_, world.counters))
+    if (auto trouble = kernels_.meet_surfaces(i, rods_[i], world.rods[i], plates, now, rules_, world.counters))
       return trouble;
   }
 
@@ -45,14 +46,15 @@ std::optional<NumericalTrouble> ReferenceStepper::step(World& world, Tick now) {
   for (const auto& [i, j] : neighbors_.pairs()) {
     bead_contacts_.clear();
     const Vec3 D = nearest_image(poses_[i].position, poses_[j].position, rules_.box_side);
-    find_bead_contacts(rules_.species, poses_[i].director, rules_.species, poses_[j].director, D, bead_contacts_);
+    find_bead_contacts(rules_.kind_of(i).species, poses_[i].director, rules_.kind_of(j).species, poses_[j].director, D,
+                       bead_contacts_);
     for (const BeadContact& beads : bead_contacts_) contacts_.push_back({i, j, beads});
   }
 
   phase_times.lap(Phase::kDetection);
 
   // 3. response
-  if (auto trouble = respond(contacts_, rods_, world, now, rules_)) return trouble;
+  if (auto trouble = kernels_.respond(contacts_, rods_, world, now, rules_)) return trouble;
 
   phase_times.lap(Phase::kResponse);
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "sim/core/prefetch.h"
+#include "sim/effects/side_walls.h"
 
 namespace shaken {
 namespace {
@@ -35,9 +36,8 @@ constexpr double kRateMore = 10;  ///< [rad/s]
 
 ScheduledStepper::ScheduledStepper(const World& world, int n_threads, int grain)
     : rules_(world),
-      hull_(world.species),
-      lanes_(world.species),
-      neighbors_(world.species, world.scene.box_side, kSkin),
+      kernels_(compose(world.scene)),
+      neighbors_(world.species, world.kinds, world.scene.box_side, kSkin),
       team_(n_threads),
       grain_(grain),
       rods_(world.rods.size()),
@@ -47,6 +47,11 @@ ScheduledStepper::ScheduledStepper(const World& world, int n_threads, int grain)
       rod_owners_(world.rods.size()),
       rod_wheel_(world.rods.size()),
       workers_(n_threads) {
+  for (const RodKind& kind : rules_.kinds) {
+    hulls_.emplace_back(kind.species);
+    lanes_.emplace_back(kind.species);
+  }
+  if (world.scene.impacts == ImpactTime::kAtInstant) found_.resize(world.rods.size());
   // rods are numbered along the rows that they start in, so these are bands of the plane
   const std::size_t n = world.rods.size();
   for (std::size_t i = 0; i < n; ++i) rod_owners_[i] = static_cast<std::uint8_t>(i * workers_.size() / n);
@@ -54,7 +59,7 @@ ScheduledStepper::ScheduledStepper(const World& world, int n_threads, int grain)
 
 std::size_t ScheduledStepper::bytes() const {
   std::size_t bytes = neighbors_.bytes() + rod_wheel_.bytes() + pair_wheel_.bytes();
-  bytes += heap_bytes(rods_, records_, marks_, outlooks_, rod_owners_);
+  bytes += heap_bytes(rods_, found_, records_, marks_, outlooks_, rod_owners_);
   bytes += heap_bytes(pair_rods_, directions_, detected_at_, pair_marks_, pair_owners_);
   bytes += heap_bytes(due_rods_, due_pairs_, contacts_, changed_, to_pose_, to_look_at_, to_schedule_, to_bound_,
                       may_change_, gained_, lost_);
@@ -88,6 +93,28 @@ void ScheduledStepper::share(const std::vector<int>& list, const std::vector<std
   });
 }
 
+template <class Group>
+void ScheduledStepper::sort_by(const Group& group, std::vector<int>& list) const {
+  if (rules_.kinds.size() == 1) return;
+  std::stable_sort(list.begin(), list.end(), [&](int a, int b) { return group(a) < group(b); });
+}
+
+template <class Group, class Visit>
+void ScheduledStepper::in_lanes(const Group& group, std::span<const int> list, const Visit& visit) const {
+  const bool mixed = rules_.kinds.size() > 1;
+  while (!list.empty()) {
+    std::size_t n = std::min<std::size_t>(kLanes, list.size());
+    if (mixed) {
+      const int first = group(list.front());
+      std::size_t alike = 1;
+      while (alike < n && group(list[alike]) == first) ++alike;
+      n = alike;
+    }
+    visit(list.first(n));
+    list = list.subspan(n);
+  }
+}
+
 std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
   phase_times.start();
   if (is_new_) {
@@ -99,8 +126,8 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
   }
   phase_times.lap(Phase::kSchedule);
 
-  // 1. plates
-  if (auto trouble = collide_with_plates_due(world, now)) return trouble;
+  // 1. surfaces
+  if (auto trouble = meet_surfaces_due(world, now)) return trouble;
   phase_times.lap(Phase::kPlates);
 
   // 2. detection
@@ -114,7 +141,7 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
   phase_times.lap(Phase::kDetection);
 
   // 3. response
-  if (auto trouble = respond(contacts_, rods_, world, now, rules_)) return trouble;
+  if (auto trouble = kernels_.respond(contacts_, rods_, world, now, rules_)) return trouble;
   phase_times.lap(Phase::kResponse);
 
   // 4. storing
@@ -151,11 +178,14 @@ void ScheduledStepper::pose(const World& world, Tick now) {
     prefetch(rods_[i]);
   };
   share(to_pose_, rod_owners_, [&](Worker& worker) {
-    visit_ahead(worker.mine, ask, [&](int i) { rods_[i] = rod_at_tick(world.rods[i], now, rules_); });
+    visit_ahead(worker.mine, ask, [&](int i) {
+      rods_[i] = rod_at_tick(world.rods[i], now, rules_);
+      if (!found_.empty()) found_[i] = rods_[i].pose;
+    });
   });
 }
 
-std::optional<NumericalTrouble> ScheduledStepper::collide_with_plates_due(World& world, Tick now) {
+std::optional<NumericalTrouble> ScheduledStepper::meet_surfaces_due(World& world, Tick now) {
   changed_.clear();
   if (due_rods_.empty()) return {};
   for (const int i : due_rods_) marks_[i].posed_at = marks_[i].listed_at = stamp(now);
@@ -168,11 +198,12 @@ std::optional<NumericalTrouble> ScheduledStepper::collide_with_plates_due(World&
   share(due_rods_, rod_owners_, [&](Worker& worker) {
     visit_ahead(worker.mine, ask, [&](int i) {
       rods_[i] = rod_at_tick(world.rods[i], now, rules_);
+      if (!found_.empty()) found_[i] = rods_[i].pose;
       if (slack_left(i, now) < kLeastSlack) {
         measure_slack(i, now);
         if (records_[i].slack < kLeastSlack) worker.to_place.push_back(i);
       }
-      auto trouble = collide_with_plates(i, rods_[i], world.rods[i], plates, now, rules_, worker.counters);
+      auto trouble = kernels_.meet_surfaces(i, rods_[i], world.rods[i], plates, now, rules_, worker.counters);
       if (trouble) worker.note(std::move(*trouble));
       if (rods_[i].changed) worker.hit.push_back(i);
     });
@@ -245,19 +276,22 @@ void ScheduledStepper::list_pairs(const World& world, Tick now) {
 
 bool ScheduledStepper::detect(int p, Worker& worker) {
   const auto& [i, j] = pair_rods_[p];
-  const Pose& pose_i = rods_[i].pose;
-  const Pose& pose_j = rods_[j].pose;
+  const Pose& pose_i = found(i);
+  const Pose& pose_j = found(j);
+  const std::uint8_t kind_i = rules_.rod_kinds[i];
+  const std::uint8_t kind_j = rules_.rod_kinds[j];
   const Vec3 D = nearest_image(pose_i.position, pose_j.position, rules_.box_side);
   // most pairs are still apart in the direction in which they were
   constexpr double kMargin = 1e-5;
   const Vec3 d(directions_[p][0], directions_[p][1], directions_[p][2]);
-  if (hull_gap(hull_, std::abs(pose_i.director.dot(d)), hull_, std::abs(pose_j.director.dot(d)), D.dot(d)) > kMargin)
+  if (hull_gap(hulls_[kind_i], std::abs(pose_i.director.dot(d)), hulls_[kind_j], std::abs(pose_j.director.dot(d)),
+               D.dot(d)) > kMargin)
     return false;
-  const BeadRange beads_i = beads_may_overlap(lanes_, pose_i.director, lanes_, pose_j.director, D);
+  const BeadRange beads_i = beads_may_overlap(lanes_[kind_i], pose_i.director, lanes_[kind_j], pose_j.director, D);
   if (beads_i.empty()) return false;
   worker.bead_contacts.clear();
-  find_bead_contacts(rules_.species, pose_i.director, rules_.species, pose_j.director, D, beads_i,
-                     worker.bead_contacts);
+  find_bead_contacts(rules_.kinds[kind_i].species, pose_i.director, rules_.kinds[kind_j].species, pose_j.director, D,
+                     beads_i, worker.bead_contacts);
   for (const BeadContact& beads : worker.bead_contacts) worker.contacts.push_back({i, j, beads});
   return !worker.bead_contacts.empty();
 }
@@ -347,8 +381,16 @@ std::optional<NumericalTrouble> ScheduledStepper::store_changed(World& world, Ti
       velocity.z() -= rules_.gravity * (static_cast<double>(now - flight.since) * rules_.dt);
       if (auto trouble = store(i, flight, rods_[i], now, rules_)) worker.note(std::move(*trouble));
       add_vector(record.strayed_velocity, flight.velocity - velocity);
-      add_vector(record.strayed_turning, (flight.precession - precession).cross(flight.director));
-      if (within_limits(record, flight)) continue;
+      const Vec3 turned = flight.precession - precession;
+      add_vector(record.strayed_turning, turned.cross(flight.director));
+      if (rods_[i].n_displaced > 0) {
+        // hit a little before now, where the director was not yet quite what it is; and displaced against the path that
+        // the list of neighbours knows of
+        record.blur += static_cast<float>(turned.norm() * static_cast<double>(record.rate_limit) * rules_.dt);
+        measure_slack(i, now);
+      }
+      // hit more than once, each at its instant, the rod is where no path within its limits may have led it
+      if (rods_[i].n_displaced <= 1 && within_limits(record, flight)) continue;
       set_limits(record, flight);
       worker.strayed.push_back(i);
     }
@@ -361,17 +403,18 @@ std::optional<NumericalTrouble> ScheduledStepper::store_changed(World& world, Ti
 bool ScheduledStepper::within_limits(const RodRecord& record, const Flight& flight) const {
   const auto within = [](const float* strayed, float across, float along_z) {
     constexpr float kKept = 0.998F;  // for rounding: what strayed is a sum of many floats
-    return strayed[0] * strayed[0] + strayed[1] * strayed[1] <= kKept * across * across &&
+    return across > 0 && along_z > 0 && strayed[0] * strayed[0] + strayed[1] * strayed[1] <= kKept * across * across &&
            std::abs(strayed[2]) <= kKept * along_z;
   };
   return flight.rate <= static_cast<double>(record.rate_limit) &&
          within(record.strayed_velocity, kAllowance.velocity_xy, kAllowance.velocity_z) &&
-         within(record.strayed_turning, kAllowance.turning_xy, kAllowance.turning_z);
+         within(record.strayed_turning, kAllowance.turning_xy - record.blur, kAllowance.turning_z - record.blur);
 }
 
 void ScheduledStepper::set_limits(RodRecord& record, const Flight& flight) {
   std::fill_n(record.strayed_velocity, 3, 0.0F);
   std::fill_n(record.strayed_turning, 3, 0.0F);
+  record.blur = 0;
   record.rate_limit = static_cast<float>(kRateFactor * flight.rate + kRateMore);
 }
 
@@ -410,12 +453,13 @@ void ScheduledStepper::measure_slack(int i, Tick now) {
 }
 
 void ScheduledStepper::schedule_rods(const World& world, Tick now) {
+  const auto group = [this](int i) { return rod_group(i); };
+  sort_by(group, to_schedule_);
   share(to_schedule_, rod_owners_, [&](Worker& worker) {
-    worker.next.resize(worker.mine.size());
+    worker.next.clear();
     PlateLanes& lanes = worker.plate_lanes;
     Tick off_plates[kLanes];
-    for (std::size_t first = 0; first < worker.mine.size(); first += kLanes) {
-      const auto rods = worker.mine.subspan(first, std::min<std::size_t>(kLanes, worker.mine.size() - first));
+    in_lanes(group, worker.mine, [&](std::span<const int> rods) {
       for (std::size_t lane = 0; lane < rods.size(); ++lane) {
         const Flight& flight = world.rods[rods[lane]];
         const Pose& pose = rods_[rods[lane]].pose;
@@ -427,18 +471,33 @@ void ScheduledStepper::schedule_rods(const World& world, Tick now) {
             static_cast<float>(flight.precession.x() * pose.director.y() - flight.precession.y() * pose.director.x());
         lanes.rate2[lane] = static_cast<float>(flight.rate * flight.rate);
       }
-      plate_safe_ticks(rules_.species, world.plates, lanes, static_cast<int>(rods.size()), rules_.gravity, rules_.dt,
-                       now, TimingWheel::horizon() - 1, off_plates);
-      for (std::size_t lane = 0; lane < rods.size(); ++lane) {
-        worker.next[first + lane] = now + 1 + std::min(off_plates[lane], listed_ticks(world, rods[lane], now));
+      std::fill_n(off_plates, kLanes, TimingWheel::horizon() - 1);
+      if (rules_.has_base || rules_.has_lid) {
+        plate_safe_ticks(rules_.kind_of(rods.front()).species, world.plates, lanes, static_cast<int>(rods.size()),
+                         rules_.gravity, rules_.dt, now, TimingWheel::horizon() - 1, off_plates,
+                         {rules_.has_base, rules_.has_lid});
       }
-    }
+      for (std::size_t lane = 0; lane < rods.size(); ++lane) {
+        const int i = rods[lane];
+        Tick safe = std::min(off_plates[lane], listed_ticks(world, i, now));
+        if (rules_.walls) safe = std::min(safe, off_walls_ticks(world, i));
+        worker.next.push_back(now + 1 + safe);
+      }
+    });
   });
   phase_times.lap(Phase::kBounds);
   for (const Worker& worker : workers_) {
     for (std::size_t k = 0; k < worker.mine.size(); ++k) rod_wheel_.set(worker.mine[k], worker.next[k]);
   }
   phase_times.lap(Phase::kSchedule);
+}
+
+/// Ticks for which rod i certainly touches no side wall.
+Tick ScheduledStepper::off_walls_ticks(const World& world, int i) const {
+  const double horizon = static_cast<double>(TimingWheel::horizon() - 1) * rules_.dt;
+  const double time =
+      wall_safe_time(*rules_.walls, rules_.box_side, rules_.kind_of(i).species, rods_[i].pose, world.rods[i], horizon);
+  return static_cast<Tick>(time / rules_.dt * (1.0 - 1e-9));
 }
 
 /// Ticks for which the neighbour list certainly covers rod i.
@@ -457,7 +516,7 @@ Tick ScheduledStepper::listed_ticks(const World& world, int i, Tick now) {
   const double flat2 = n.x() * n.x() + n.y() * n.y();
   double speed = std::sqrt(v.x() * v.x() + v.y() * v.y());
   double time = static_cast<double>(TimingWheel::horizon()) * rules_.dt;  // a rod at rest has all the time there is
-  const double h = rules_.species.half_length;
+  const double h = rules_.kind_of(i).species.half_length;
   if (h > 0 && flight.rate > 0) {  // a sphere has no segment
     const double upright = 0.1 * std::sqrt(flat2) / flight.rate - rules_.dt;
     if (!(upright > 0)) {  // it may turn any way at once: to be measured at the next tick
@@ -506,6 +565,8 @@ void ScheduledStepper::schedule_pairs(const World& world, Tick now) {
     }
   }
   phase_times.lap(Phase::kSchedule);
+  const auto group = [this](int p) { return pair_group(p); };
+  sort_by(group, to_bound_);
   pose(world, now);
   const auto ask = [&](int i) {
     prefetch(records_[i]);
@@ -516,9 +577,7 @@ void ScheduledStepper::schedule_pairs(const World& world, Tick now) {
   share(to_bound_, pair_owners_, [&](Worker& worker) {
     worker.next.clear();
     worker.next_steady.clear();
-    for (std::size_t first = 0; first < worker.mine.size(); first += kLanes) {
-      bound_pairs(worker.mine.subspan(first, std::min<std::size_t>(kLanes, worker.mine.size() - first)), now, worker);
-    }
+    in_lanes(group, worker.mine, [&](std::span<const int> pairs) { bound_pairs(pairs, now, worker); });
   });
   phase_times.lap(Phase::kBounds);
   for (const Worker& worker : workers_) {
@@ -535,6 +594,10 @@ void ScheduledStepper::schedule_pairs(const World& world, Tick now) {
 /// Appends to the worker's `next` and `next_steady`, for up to kLanes pairs.
 void ScheduledStepper::bound_pairs(std::span<const int> pairs, Tick now, Worker& worker) {
   PairLanes& lanes = worker.pair_lanes;
+  const auto [kind_i, kind_j] = [&] {
+    const auto& [i, j] = pair_rods_[pairs.front()];
+    return std::pair(rules_.rod_kinds[i], rules_.rod_kinds[j]);
+  }();
   HullSafeTimes hull;
   Vec3 D[kLanes];
   for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
@@ -543,7 +606,7 @@ void ScheduledStepper::bound_pairs(std::span<const int> pairs, Tick now, Worker&
     lanes.set(static_cast<int>(lane), D[lane], outlooks_[i], outlooks_[j]);
   }
   const auto horizon = static_cast<float>(static_cast<double>(TimingWheel::horizon() - 1) * rules_.dt);
-  hull_safe_times(hull_, hull_, lanes, kAllowance, horizon, hull);
+  hull_safe_times(hulls_[kind_i], hulls_[kind_j], lanes, kAllowance, horizon, hull);
 
   const auto per_dt = static_cast<float>((1.0 - 1e-5) / rules_.dt);
   for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
@@ -552,8 +615,8 @@ void ScheduledStepper::bound_pairs(std::span<const int> pairs, Tick now, Worker&
     float straying = hull.straying[lane] * per_dt;
     if (steady < kShortBound && straying < kShortBound) {
       const auto& [i, j] = pair_rods_[pairs[lane]];
-      const SafeTime beads = bead_safe_time(lanes_, outlooks_[i], lanes_, outlooks_[j], D[lane], kAllowance,
-                                            kBeadHorizon * static_cast<float>(rules_.dt));
+      const SafeTime beads = bead_safe_time(lanes_[kind_i], outlooks_[i], lanes_[kind_j], outlooks_[j], D[lane],
+                                            kAllowance, kBeadHorizon * static_cast<float>(rules_.dt));
       steady = std::max(steady, beads.steady * per_dt);
       straying = std::max(straying, beads.straying * per_dt);
     }

@@ -8,6 +8,7 @@
 #include "sim/contact/bead_safe_time.h"
 #include "sim/contact/hull_safe_time.h"
 #include "sim/core/thread_team.h"
+#include "sim/effects/compose.h"
 #include "sim/motion/plate_safe_time.h"
 #include "sim/neighbors/neighbor_list.h"
 #include "sim/stepping/stepper.h"
@@ -44,6 +45,7 @@ class ScheduledStepper final : public Stepper {
   struct RodRecord {
     float strayed_velocity[3] = {0, 0, 0};  ///< change by hits since the rod's limits were set [mm/s]
     float strayed_turning[3] = {0, 0, 0};   ///< the same for d director / dt [1/s]
+    float blur = 0;                         ///< what strayed_turning may be wrong by [1/s]
     float rate_limit = 0;                   ///< of the precession; part of the limits [rad/s]
     float slack = 1e30F;                    ///< of the neighbour list at `slack_at`, at least [mm]
     float slack_speed = 0;                  ///< at which it shrinks, at most [mm/s]
@@ -91,7 +93,7 @@ class ScheduledStepper final : public Stepper {
   std::optional<NumericalTrouble> step(World& world, Tick now) override;
 
   // phases of a tick
-  std::optional<NumericalTrouble> collide_with_plates_due(World& world, Tick now);
+  std::optional<NumericalTrouble> meet_surfaces_due(World& world, Tick now);
   void list_pairs(const World& world, Tick now);
   void detect_due(const World& world, Tick now);
   void detect_touching(const World& world, Tick now);
@@ -109,6 +111,7 @@ class ScheduledStepper final : public Stepper {
   void list_to_pose(int i, Tick now);
   void pose(const World& world, Tick now);
   bool detect(int p, Worker& worker);
+  const Pose& found(int i) const { return found_.empty() ? rods_[i].pose : found_[i]; }
   void turn_touching(int p);
   void mark_steady(int p, bool steady);
   bool within_limits(const RodRecord& record, const Flight& flight) const;
@@ -117,16 +120,31 @@ class ScheduledStepper final : public Stepper {
   float slack_left(int i, Tick now) const;
   void measure_slack(int i, Tick now);
   Tick listed_ticks(const World& world, int i, Tick now);
+  Tick off_walls_ticks(const World& world, int i) const;
   void bound_pairs(std::span<const int> pairs, Tick now, Worker& worker);
 
+  // with several species, lists are sorted so that what is bounded together is of one kind
+  int rod_group(int i) const { return rules_.rod_kinds[i]; }
+  int pair_group(int p) const {
+    return rod_group(pair_rods_[p][0]) * static_cast<int>(rules_.kinds.size()) + rod_group(pair_rods_[p][1]);
+  }
+  /// Sorts a list by group.
+  template <class Group>
+  void sort_by(const Group& group, std::vector<int>& list) const;
+  /// Calls visit(part) for parts of the list that are of one group and fit into the lanes.
+  template <class Group, class Visit>
+  void in_lanes(const Group& group, std::span<const int> list, const Visit& visit) const;
+
   TickRules rules_;
-  Hull hull_;
-  BeadLanes lanes_;
+  Kernels kernels_;
+  std::vector<Hull> hulls_;       ///< (n_species)
+  std::vector<BeadLanes> lanes_;  ///< (n_species)
   NeighborList neighbors_;
   ThreadTeam team_;
   int grain_;
 
   std::vector<RodAtTick> rods_;
+  std::vector<Pose> found_;  ///< where free flight brought the rods of rods_, if impacts may displace them; or empty
   std::vector<RodRecord> records_;
   std::vector<RodMarks> marks_;
   std::vector<Outlook> outlooks_;

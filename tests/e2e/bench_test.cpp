@@ -77,6 +77,56 @@ TEST_F(Bench, SpeedOfThreadsAndStepsToo) {
   EXPECT_EQ(text_of("scaling_dt.png").substr(1, 3), "PNG");
 }
 
+TEST_F(Bench, AccuracyWritesErrorsAndOrders) {
+  const Finished finished = bench({"accuracy", "deterministic", "--cases", "head-on,dozen", "--steps", "64,32,16,8",
+                                   "--members", "4", "--out", out()});
+  ASSERT_EQ(finished.code, 0) << finished.output;
+  EXPECT_THAT(finished.output, AllOf(HasSubstr("Order of convergence"), HasSubstr("converged solution at 125 ns")));
+  const Json report = json_of("deterministic.json");
+  ASSERT_EQ(report.at("orders").size() % 2, 0u);
+  ASSERT_EQ(report.at("rows").size(), 4 * report.at("orders").size());
+  for (const Json& row : report.at("rows")) {
+    EXPECT_GT(row.at("error").at("position").at("median").get<double>(), 0);
+    EXPECT_TRUE(row.at("states_equal").get<bool>());
+  }
+  EXPECT_EQ(text_of("convergence.png").substr(1, 3), "PNG");
+  EXPECT_EQ(text_of("work_precision.png").substr(1, 3), "PNG");
+}
+
+TEST_F(Bench, AccuracyWritesBiases) {
+  const Finished finished = bench({"accuracy", "statistical", "--side", "12", "--steps", "64,32", "--measure", "0.03",
+                                   "--warm-up", "0.01", "--replicas", "2", "--out", out()});
+  ASSERT_EQ(finished.code, 0) << finished.output;
+  EXPECT_THAT(finished.output, HasSubstr("Largest step up to which the bias is below 1 %"));
+  const Json rows = json_of("statistical.json").at("rows");
+  ASSERT_EQ(rows.size(), 2u + 2u + 5u + 4u);  // steps of two scenes, bead pitches, sweeps
+  for (const Json& row : rows) {
+    EXPECT_GT(row.at("T_z").at("value").get<double>(), 0);
+    EXPECT_GT(row.at("S").at("sem").get<double>(), 0);
+    EXPECT_GT(row.at("cpu_s_per_rod_s").get<double>(), 0);
+  }
+  for (const char* name : {"bias.png", "tilt.png", "model.png"}) EXPECT_EQ(text_of(name).substr(1, 3), "PNG");
+}
+
+TEST_F(Bench, AccuracyWritesTheErrorOfOrder) {
+  const Finished finished =
+      bench({"accuracy", "error", "--sides", "12,13,14,15", "--measure", "0.1", "--warm-up", "0.01", "--out", out()});
+  ASSERT_EQ(finished.code, 0) << finished.output;
+  EXPECT_THAT(finished.output, HasSubstr("tau below 100"));
+  const Json report = json_of("error.json");
+  ASSERT_EQ(report.at("rows").size(), 4u);
+  EXPECT_EQ(report.at("rows").at(0).at("replicas"), 2);
+  EXPECT_GT(report.at("rows").at(3).at("tau_s").get<double>(), 0);
+  EXPECT_EQ(text_of("error.png").substr(1, 3), "PNG");
+}
+
+TEST_F(Bench, AccuracyRefusesWhatItDoesNotKnow) {
+  const Finished finished = bench({"accuracy", "guess", "--cases", "sideways", "--steps", "3,64", "--quick", "--full"});
+  EXPECT_EQ(finished.code, 2);
+  EXPECT_THAT(finished.output, AllOf(HasSubstr("'guess' is not a part"), HasSubstr("'sideways' is not one of"),
+                                     HasSubstr("3 is not 64 us halved"), HasSubstr("contradict")));
+}
+
 TEST_F(Bench, ExportGivesAState) {
   const Finished finished =
       bench({"export", "--side", "12", "--warm-up", "0.005", "--frames", "2", "--out", out() + ".json"});

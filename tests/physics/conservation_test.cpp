@@ -17,13 +17,13 @@ Scene base_scene() {
 
 double potential_energy(const World& world) {
   double sum = 0;
-  for (const Vec3& r : snapshot(world).position) sum += world.species.mass * world.scene.gravity * r.z();
+  for (const Vec3& r : snapshot(world).position) sum += world.species[0].mass * world.scene.gravity * r.z();
   return sum;
 }
 
 Vec3 momentum(const World& world) {
   Vec3 sum = Vec3::Zero();
-  for (const Vec3& v : snapshot(world).velocity) sum += world.species.mass * v;
+  for (const Vec3& v : snapshot(world).velocity) sum += world.species[0].mass * v;
   return sum;
 }
 
@@ -34,7 +34,7 @@ TEST(Conservation, MomentumInThePlaneWithoutPlateFriction) {
   auto simulation = Simulation::start(scene);
   ASSERT_TRUE(static_cast<bool>(simulation));
   const Vec3 start = momentum(simulation->world());
-  const double scale = simulation->world().species.mass * 20 * scene.n_rods;
+  const double scale = simulation->world().species[0].mass * 20 * scene.n_rods;
   for (Tick k = 500; k <= 10000; k += 500) {
     ASSERT_FALSE(simulation->advance_to(k).has_value());
     const Vec3 change = momentum(simulation->world()) - start;
@@ -52,7 +52,7 @@ TEST(Conservation, PlateFrictionDoesTakeMomentum) {
   const Vec3 start = momentum(simulation->world());
   ASSERT_FALSE(simulation->advance_to(10000).has_value());
   const Vec3 change = momentum(simulation->world()) - start;
-  EXPECT_GT(std::hypot(change.x(), change.y()), 1e-6 * simulation->world().species.mass * 20 * scene.n_rods);
+  EXPECT_GT(std::hypot(change.x(), change.y()), 1e-6 * simulation->world().species[0].mass * 20 * scene.n_rods);
 }
 
 TEST(Conservation, EnergyNeverGrowsBetweenPlatesAtRest) {

@@ -4,72 +4,25 @@
 #include <rapidcheck/gtest.h>
 
 #include "sim/simulation.h"
+#include "tests/support/compare_steppers.h"
 
 namespace shaken {
 namespace {
 
+using test::compare;
+using test::compare_threads;
+
 std::string describe(const Scene& s) {
   char text[400];
-  std::snprintf(text, sizeof text,
-                "l %g d %g/%g beads %d, N %d, L %g, w %g, a %g, f %g, g %g, e %g %g, mu %g %g, dt %g, sweeps %d, start "
-                "%s, seed %d",
-                s.rod.length, s.rod.mid_diameter, s.rod.end_diameter, s.rod.n_beads, s.n_rods, s.box_side, s.gap,
-                s.amplitude, s.frequency, s.gravity, s.rod_rod.restitution, s.rod_base.restitution, s.rod_rod.friction,
-                s.rod_base.friction, s.dt, s.solver_sweeps, s.start == Start::kAligned ? "aligned" : "random",
-                static_cast<int>(s.seed));
+  std::snprintf(
+      text, sizeof text,
+      "l %g d %g/%g beads %d, N %d, L %g, w %g, a %g, f %g, g %g, e %g %g, mu %g %g, dt %g, sweeps %d, law %d, "
+      "start %s, seed %d",
+      s.rod.length, s.rod.mid_diameter, s.rod.end_diameter, s.rod.n_beads, s.n_rods, s.box_side, s.gap, s.amplitude,
+      s.frequency, s.gravity, s.rod_rod.restitution, s.rod_base.restitution, s.rod_rod.friction, s.rod_base.friction,
+      s.dt, s.solver_sweeps, static_cast<int>(s.law), s.start == Start::kAligned ? "aligned" : "random",
+      static_cast<int>(s.seed));
   return text;
-}
-
-/// Steps on 2 and 4 threads, shared as finely as can be, give the same as on one. Not for long: threads wait for each
-/// other in every tick. Returns what differed, or an empty string.
-std::string compare_threads(Scene scene, Tick ticks) {
-  auto one = Simulation::start(scene);
-  if (!one) return "";
-  if (one->advance_to(ticks)) return "";
-  for (const int n_threads : {2, 4}) {
-    auto several = Simulation::start(scene);
-    several->use_threads(n_threads, 1);
-    if (several->advance_to(ticks)) return "trouble on several threads only";
-    if (one->state_hash() != several->state_hash()) return "states differ on " + std::to_string(n_threads) + " threads";
-    const Counters& a = one->world().counters;
-    const Counters& b = several->world().counters;
-    if (a.impulses_rod_rod != b.impulses_rod_rod || a.impulses_rod_base != b.impulses_rod_base ||
-        a.impulses_rod_lid != b.impulses_rod_lid || a.max_overlap_rod_rod != b.max_overlap_rod_rod ||
-        a.max_overlap_rod_plate != b.max_overlap_rod_plate) {
-      return "counters differ on " + std::to_string(n_threads) + " threads";
-    }
-  }
-  return "";
-}
-
-/// Steps both, compares the hashes at several ticks, and once more after a checkpoint and restart at tick `stop`.
-/// Returns what differed, or an empty string.
-std::string compare(Scene scene, Tick ticks, Tick stop) {
-  scene.engine = Engine::kReference;
-  auto reference = Simulation::start(scene);
-  if (!reference) return "";  // does not fit: nothing to compare
-  scene.engine = Engine::kScheduled;
-  auto scheduled = Simulation::start(scene);
-  std::vector<Tick> looks{1, 2, stop, ticks / 2, ticks};
-  std::sort(looks.begin(), looks.end());
-  for (const Tick k : looks) {
-    const auto trouble_r = reference->advance_to(k);
-    const auto trouble_s = scheduled->advance_to(k);
-    if (trouble_r.has_value() != trouble_s.has_value())
-      return "only one of them met trouble by tick " + std::to_string(k);
-    if (trouble_r)
-      return trouble_r->tick == trouble_s->tick && trouble_r->rods == trouble_s->rods ? "" : "different trouble";
-    if (reference->state_hash() != scheduled->state_hash()) return "states differ at tick " + std::to_string(k);
-    const Counters& r = reference->world().counters;
-    const Counters& s = scheduled->world().counters;
-    if (r.impulses_rod_rod != s.impulses_rod_rod || r.impulses_rod_base != s.impulses_rod_base ||
-        r.impulses_rod_lid != s.impulses_rod_lid || r.max_overlap_rod_rod != s.max_overlap_rod_rod ||
-        r.max_overlap_rod_plate != s.max_overlap_rod_plate) {
-      return "counters differ at tick " + std::to_string(k);
-    }
-    if (k == stop) scheduled = Simulation::resume(scene, scheduled->checkpoint());
-  }
-  return "";
 }
 
 struct Case {
@@ -79,6 +32,7 @@ struct Case {
   Start start = Start::kAligned;
   double end_diameter = 0.4;
   int n_beads = 0;  ///< 0: pitch 0.3 mm
+  ImpulseLaw law = ImpulseLaw::kNewton;
 };
 
 Scene scene_of(const Case& c, std::uint64_t seed) {
@@ -95,6 +49,7 @@ Scene scene_of(const Case& c, std::uint64_t seed) {
   scene.rod_rod = scene.rod_base = scene.rod_lid = {c.friction, c.restitution};
   scene.dt = c.dt_us * 1e-6;
   scene.start = c.start;
+  scene.law = c.law;
   scene.seed = seed;
   return scene;
 }
@@ -134,6 +89,11 @@ INSTANTIATE_TEST_SUITE_P(
         // friction
         Case{4.5, 0.70, 1.2, 7, 0.3, 0.0, 4, 80, 10000}, Case{4.5, 0.70, 1.2, 7, 0.3, 0.3, 4, 80, 10000},
         Case{2.5, 0.60, 1.2, 7, 0.3, 1.0, 4, 80, 10000},
+        // impulse laws
+        Case{4.5, 0.70, 1.2, 7, 0.3, 1.0, 4, 80, 10000, Start::kAligned, 0.4, 0, ImpulseLaw::kPoisson},
+        Case{4.5, 0.70, 1.2, 7, 0.3, 1.0, 4, 80, 10000, Start::kAligned, 0.4, 0, ImpulseLaw::kEnergetic},
+        Case{2.5, 0.60, 1.2, 7, 0.9, 1.0, 4, 80, 10000, Start::kAligned, 0.4, 0, ImpulseLaw::kPoisson},
+        Case{2.5, 0.60, 1.2, 7, 0.9, 1.0, 4, 80, 10000, Start::kAligned, 0.4, 0, ImpulseLaw::kEnergetic},
         // ticks
         Case{4.5, 0.70, 1.2, 7, 0.3, 0.05, 1, 60, 20000}, Case{2.5, 0.60, 1.2, 7, 0.3, 0.05, 1, 60, 20000},
         Case{4.5, 0.70, 1.2, 7, 0.3, 0.05, 16, 80, 5000}, Case{2.5, 0.60, 1.2, 7, 0.3, 0.05, 40, 80, 5000},
@@ -171,6 +131,7 @@ RC_GTEST_PROP(SteppersAgreeProperty, RandomScenes, ()) {
   c.ticks = 4000;
   c.start = *rc::gen::inRange(0, 2) == 1 && c.area_fraction < 0.42 ? Start::kRandom : Start::kAligned;
   c.end_diameter = 0.2 + 0.1 * *rc::gen::inRange(0, 7);
+  c.law = *rc::gen::element(ImpulseLaw::kNewton, ImpulseLaw::kPoisson, ImpulseLaw::kEnergetic);
   const Scene scene = scene_of(c, static_cast<std::uint64_t>(*rc::gen::inRange(1, 1000)));
   const std::string difference = compare(scene, c.ticks, *rc::gen::inRange<Tick>(1, c.ticks));
   if (!difference.empty()) RC_FAIL(difference + ": " + describe(scene));

@@ -76,7 +76,7 @@ TEST(Messages, DefectsAndStaticPartCanBeSent) {
   const auto constants = proto::decode<frame_static_t>(proto::encode(make_frame_static(world, "rods.length=4.5")));
   ASSERT_TRUE(constants);
   EXPECT_EQ(constants->n_rods, 4);
-  EXPECT_EQ(constants->bead_radius_mm, world.species.bead_radius);
+  EXPECT_EQ(constants->bead_radius_mm, world.species[0].bead_radius);
   EXPECT_EQ(constants->label, "rods.length=4.5");
 }
 

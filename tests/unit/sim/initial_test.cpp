@@ -5,6 +5,7 @@
 
 #include "sim/contact/bead_contacts.h"
 #include "sim/neighbors/neighbor_list.h"
+#include "sim/world.h"
 
 namespace shaken {
 namespace {
@@ -20,6 +21,11 @@ Scene scene_at(double length, double area_fraction, double side, Start start = S
 }
 
 /// Every pair, no neighbour list: nothing touches, nothing sticks into a plate.
+Result<std::vector<Flight>> flights_of(const Scene& scene) {
+  const World world = empty_world(scene);
+  return initial_flights(scene, world.species, world.kinds);
+}
+
 void expect_free(const Scene& scene, const std::vector<Flight>& flights) {
   const Species species = make_species(scene.rod);
   ASSERT_EQ(static_cast<int>(flights.size()), scene.n_rods);
@@ -43,7 +49,7 @@ TEST(InitialFlights, AlignedReaches085ForAllLengths) {
     for (const double fraction : {0.45, 0.70, 0.85}) {
       const Scene scene = scene_at(length, fraction, 41.865);
       SCOPED_TRACE(testing::Message() << "l = " << length << ", area fraction " << fraction);
-      const auto flights = initial_flights(scene, make_species(scene.rod));
+      const auto flights = flights_of(scene);
       ASSERT_TRUE(static_cast<bool>(flights)) << flights.error().message;
       expect_free(scene, *flights);
       for (const Flight& flight : *flights) EXPECT_EQ(flight.director.y(), 0.0);
@@ -53,14 +59,14 @@ TEST(InitialFlights, AlignedReaches085ForAllLengths) {
 
 TEST(InitialFlights, FullSizeOfThePaper) {
   const Scene scene = scene_at(4.5, 0.85, 83.73);
-  const auto flights = initial_flights(scene, make_species(scene.rod));
+  const auto flights = flights_of(scene);
   ASSERT_TRUE(static_cast<bool>(flights)) << flights.error().message;
   EXPECT_NEAR(flights->size(), 2400, 50);
 }
 
 TEST(InitialFlights, RandomStartIsFreeAndIsotropic) {
   const Scene scene = scene_at(2.5, 0.35, 60, Start::kRandom);
-  const auto flights = initial_flights(scene, make_species(scene.rod));
+  const auto flights = flights_of(scene);
   ASSERT_TRUE(static_cast<bool>(flights)) << flights.error().message;
   expect_free(scene, *flights);
   double c = 0, s = 0;
@@ -75,7 +81,7 @@ TEST(InitialFlights, RandomStartIsFreeAndIsotropic) {
 TEST(InitialFlights, WhatDoesNotFitIsRefusedWithTheLargestFraction) {
   for (const Start start : {Start::kAligned, Start::kRandom}) {
     const Scene scene = scene_at(4.5, start == Start::kAligned ? 0.99 : 0.75, 25, start);
-    const auto flights = initial_flights(scene, make_species(scene.rod));
+    const auto flights = flights_of(scene);
     ASSERT_FALSE(static_cast<bool>(flights));
     EXPECT_NE(flights.error().message.find("at most"), std::string::npos) << flights.error().message;
   }
@@ -84,10 +90,10 @@ TEST(InitialFlights, WhatDoesNotFitIsRefusedWithTheLargestFraction) {
 TEST(InitialFlights, DependOnTheSeedAlone) {
   Scene scene = scene_at(4.5, 0.6, 25);
   const Species species = make_species(scene.rod);
-  const auto first = initial_flights(scene, species);
-  const auto again = initial_flights(scene, species);
+  const auto first = flights_of(scene);
+  const auto again = flights_of(scene);
   scene.seed = 2;
-  const auto other = initial_flights(scene, species);
+  const auto other = flights_of(scene);
   EXPECT_EQ((*first)[5].velocity, (*again)[5].velocity);
   EXPECT_NE((*first)[5].velocity, (*other)[5].velocity);
 }

@@ -12,6 +12,12 @@
 namespace shaken {
 namespace {
 
+/// A list for rods of one kind; no test here has more of them than this.
+NeighborList list_of(const Species& rod, double side, double skin) {
+  static const std::vector<std::uint8_t> kinds(4096, 0);
+  return {std::span(&rod, 1), kinds, side, skin};
+}
+
 bool holds(const NeighborList& list, int i, int j) {
   const auto own = list.pairs_of(i);
   return std::any_of(own.begin(), own.end(), [&](int p) { return list.pairs()[p].i == i && list.pairs()[p].j == j; });
@@ -56,7 +62,7 @@ TEST(NeighborList, HoldsEveryTouchingPairUntilItIsDue) {
   for (int trial = 0; trial < 60; ++trial) {
     const double side = draw.uniform(10, 40);
     const Species rod = make_species({.length = draw.uniform(2.5, 4.5), .n_beads = 9});
-    NeighborList list(rod, side, 0.3);
+    NeighborList list = list_of(rod, side, 0.3);
     std::vector<Pose> poses = random_poses(draw, side, trial % 3 == 0);
     EXPECT_TRUE(list.is_due(poses));
     list.build(poses);
@@ -80,7 +86,7 @@ TEST(NeighborList, KeptUpRodByRodItStaysCompleteAndSaysWhatChanged) {
   for (int trial = 0; trial < 40; ++trial) {
     const double side = draw.uniform(10, 40);
     const Species rod = make_species({.length = draw.uniform(2.5, 4.5), .n_beads = 9});
-    NeighborList list(rod, side, 0.3);
+    NeighborList list = list_of(rod, side, 0.3);
     std::vector<Pose> poses = random_poses(draw, side, trial % 3 == 0);
     list.build(poses);
     std::set<int> listed;
@@ -121,7 +127,8 @@ TEST(NeighborList, CellsGiveTheSameAsAllPairs) {
   const Species rod = make_species({.length = 2.5, .n_beads = 9});
   std::vector<Pose> poses(40);
   for (Pose& pose : poses) pose = {Vec3(draw.uniform(20, 26), draw.uniform(20, 26), 0.6), draw.flat_direction(0.3)};
-  NeighborList many_cells(rod, 60, 0.3), few_cells(rod, 8, 0.3);
+  NeighborList many_cells = list_of(rod, 60, 0.3);
+  NeighborList few_cells = list_of(rod, 8, 0.3);
   many_cells.build(poses);
   few_cells.build(poses);
   for (const auto& [i, j] : many_cells.pairs()) EXPECT_TRUE(holds(few_cells, i, j));
@@ -142,7 +149,7 @@ TEST(NearestImage, RoundsAsTheLibraryDoes) {
 
 TEST(NeighborList, TiltAloneNeverMakesItDue) {
   const Species rod = make_species({});
-  NeighborList list(rod, 30, 0.3);
+  NeighborList list = list_of(rod, 30, 0.3);
   std::vector<Pose> poses{{Vec3(5, 5, 0.6), Vec3::UnitX()}};
   list.build(poses);
   poses[0].director = Vec3(std::cos(0.3), 0, std::sin(0.3));

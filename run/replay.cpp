@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "run/replay.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+
+#include "run/checkpoint_file.h"
+#include "run/files/atomic_file.h"
+#include "run/files/directory.h"
+#include "scene/canonical.h"
+#include "scene/load.h"
+#include "sim/simulation.h"
+
+namespace shaken::run {
+namespace {
+
+constexpr int kExitOther = 1;
+constexpr int kExitBadInput = 2;
+
+Result<scene::RunPlan> read_plan(const RunDirectory& directory) {
+  const Result<std::string> text = read_file(directory.scene());
+  if (!text) return text.error();
+  const scene::Loaded<scene::RunPlan> plan = scene::load_scene(*text, directory.scene().string());
+  if (!plan.value) return Error{to_string(plan.problems)};
+  return *plan.value;
+}
+
+/// The newest whole checkpoint before `tick`, or the beginning.
+Result<Simulation> simulation_before(const scene::RunPlan& plan, const RunDirectory& directory, Tick tick) {
+  for (const auto& file : {directory.checkpoint(), directory.previous_checkpoint()}) {
+    const Result<Checkpoint> checkpoint = read_checkpoint(file, scene::run_id(plan));
+    if (!checkpoint) continue;
+    Result<Simulation> simulation = Simulation::resume(plan.system, checkpoint->simulation);
+    if (simulation && simulation->tick() < tick) return simulation;
+  }
+  return Simulation::start(plan.system);
+}
+
+std::string vector_text(const Vec3& v) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x(), v.y(), v.z()); }
+
+}  // namespace
+
+Result<Replay> replay(const std::filesystem::path& root) {
+  const RunDirectory directory{root};
+  if (!std::filesystem::exists(directory.trouble())) {
+    return Error{root.string() + " holds no trouble.json: its run has met no numerical trouble"};
+  }
+  Result<TroubleReport> recorded = read_trouble(directory.trouble());
+  if (!recorded) return recorded.error();
+  const Result<scene::RunPlan> plan = read_plan(directory);
+  if (!plan) return plan.error();
+  const NumericalTrouble& trouble = recorded->trouble;
+  Result<Simulation> simulation = simulation_before(*plan, directory, trouble.tick);
+  if (!simulation) return simulation.error();
+
+  Replay replay{*recorded, simulation->tick(), {}, {}};
+  replay.met = simulation->advance_to(trouble.tick - 1);
+  if (replay.met) return replay;  // earlier than it was
+  std::vector<int> rods;
+  for (const int rod : trouble.rods) {
+    if (rod >= 0 && rod < plan->system.n_all_rods()) rods.push_back(rod);
+  }
+  replay.before = look_closely(simulation->world(), simulation->tick(), rods);
+  replay.met = simulation->advance_to(trouble.tick);
+  return replay;
+}
+
+std::string as_text(const Replay& replay, double dt) {
+  std::string text = fmt::format("recorded: {}\n", describe(replay.recorded.trouble, dt));
+  text += replay.started_at > 0 ? fmt::format("from the checkpoint at tick {}", replay.started_at)
+                                : std::string("from the beginning");
+  text += fmt::format("; at tick {}, base at {:.6g} mm, moving at {:.6g} mm/s:\n", replay.before.tick,
+                      replay.before.plates.base, replay.before.plates.velocity);
+  for (const CloseUp::Rod& rod : replay.before.rods) {
+    text +=
+        fmt::format("  rod {}{}\n    position {} mm, director {}\n    velocity {} mm/s, turning at {} rad/s\n", rod.rod,
+                    rod.concerned ? "" : " (neighbour)", vector_text(rod.pose.position), vector_text(rod.pose.director),
+                    vector_text(rod.motion.velocity), vector_text(rod.motion.angular_velocity));
+  }
+  for (const CloseUp::Contact& contact : replay.before.contacts) {
+    const std::string other = contact.other >= 0
+                                  ? fmt::format("bead {} of rod {}", contact.other_bead, contact.other)
+                                  : std::string(contact.other == CloseUp::kBase ? "the base" : "the lid");
+    text += fmt::format("  bead {} of rod {} is {:.6g} mm deep in {}, {} at {:.6g} mm/s\n", contact.bead, contact.rod,
+                        contact.overlap, other, contact.approach > 0 ? "approaching" : "parting",
+                        std::abs(contact.approach));
+  }
+  if (replay.before.contacts.empty()) text += "  no contacts at this tick\n";
+  text += fmt::format("now:      {}\n", replay.met ? describe(*replay.met, dt) : "no trouble at this tick");
+  text += replay.same() ? "the same trouble at the same tick\n"
+                        : "NOT the same: this program, or this machine, differs from the one that ran it\n";
+  return text;
+}
+
+int replay_command(int argc, char** argv) {
+  CLI::App app("Meets a run's numerical trouble once more and shows the rods concerned.", "shaken-worker replay");
+  std::string directory;
+  bool json = false;
+  app.add_option("DIR", directory, "Run directory with a trouble.json")->required();
+  app.add_flag("--json", json, "Print JSON");
+  app.footer("Exit codes: 0 the same trouble came back, 1 it did not, 2 bad input.");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& problem) {
+    return app.exit(problem) == 0 ? 0 : kExitBadInput;
+  }
+  const Result<Replay> result = replay(directory);
+  if (!result) {
+    fmt::print(stderr, "{}\n", result.error().message);
+    return kExitBadInput;
+  }
+  const Result<scene::RunPlan> plan = read_plan(RunDirectory{directory});
+  if (json) {
+    const auto trouble_json = [](const NumericalTrouble& trouble) {
+      return nlohmann::ordered_json{{"tick", trouble.tick}, {"rods", trouble.rods}, {"what", trouble.what}};
+    };
+    nlohmann::ordered_json out{{"recorded", trouble_json(result->recorded.trouble)},
+                               {"started_at_tick", result->started_at},
+                               {"before", to_json(result->before)},
+                               {"met", nullptr},
+                               {"same", result->same()}};
+    if (result->met) out["met"] = trouble_json(*result->met);
+    fmt::print("{}\n", out.dump(2));
+  } else {
+    fmt::print("{}", as_text(*result, plan->system.dt));
+  }
+  return result->same() ? 0 : kExitOther;
+}
+
+}  // namespace shaken::run

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "run/trouble_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "run/files/atomic_file.h"
+#include "run/files/version.h"
+#include "scene/canonical.h"
+
+namespace shaken::run {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json vector_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+}  // namespace
+
+std::string describe(const NumericalTrouble& trouble, double dt) {
+  return fmt::format("numerical trouble at tick {} ({:.6f} s), rods {}: {}", trouble.tick,
+                     static_cast<double>(trouble.tick) * dt, fmt::join(trouble.rods, ", "), trouble.what);
+}
+
+Json to_json(const CloseUp& close_up) {
+  Json rods = Json::array();
+  for (const CloseUp::Rod& rod : close_up.rods) {
+    rods.push_back({{"rod", rod.rod},
+                    {"concerned", rod.concerned},
+                    {"position_mm", vector_json(rod.pose.position)},
+                    {"director", vector_json(rod.pose.director)},
+                    {"velocity_mm_s", vector_json(rod.motion.velocity)},
+                    {"angular_velocity_rad_s", vector_json(rod.motion.angular_velocity)}});
+  }
+  Json contacts = Json::array();
+  for (const CloseUp::Contact& contact : close_up.contacts) {
+    Json json{{"rod", contact.rod}, {"bead", contact.bead}};
+    if (contact.other >= 0) {
+      json["other_rod"] = contact.other;
+      json["other_bead"] = contact.other_bead;
+    } else {
+      json["plate"] = contact.other == CloseUp::kBase ? "base" : "lid";
+    }
+    json["overlap_mm"] = contact.overlap;
+    json["approach_mm_s"] = contact.approach;
+    contacts.push_back(std::move(json));
+  }
+  return {{"tick", close_up.tick},
+          {"base_mm", close_up.plates.base},
+          {"lid_mm", close_up.plates.lid},
+          {"plate_velocity_mm_s", close_up.plates.velocity},
+          {"rods", rods},
+          {"contacts", contacts},
+          {"unknown_rods", close_up.unknown}};
+}
+
+std::optional<Error> write_trouble(const std::filesystem::path& file, const scene::RunPlan& plan,
+                                   const TroubleReport& report) {
+  const Json json{{"run_id", scene::run_id(plan)},
+                  {"version", version()},
+                  {"tick", report.trouble.tick},
+                  {"time_s", static_cast<double>(report.trouble.tick) * plan.system.dt},
+                  {"rods", report.trouble.rods},
+                  {"what", report.trouble.what},
+                  {"checkpoint_tick", report.checkpoint_tick},
+                  {"before", to_json(report.before)},
+                  {"scene", scene::to_json(plan)}};
+  return write_file_atomically(file, json.dump(2) + "\n");
+}
+
+Result<TroubleReport> read_trouble(const std::filesystem::path& file) {
+  const Result<std::string> text = read_file(file);
+  if (!text) return text.error();
+  try {
+    const Json json = Json::parse(*text);
+    TroubleReport report;
+    report.trouble.tick = json.at("tick").get<Tick>();
+    report.trouble.rods = json.at("rods").get<std::vector<int>>();
+    report.trouble.what = json.at("what").get<std::string>();
+    report.checkpoint_tick = json.at("checkpoint_tick").get<Tick>();
+    return report;
+  } catch (const Json::exception& problem) {
+    return Error{file.string() + " cannot be read: " + problem.what()};
+  }
+}
+
+}  // namespace shaken::run

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "sim/balance.h"
+
+#include <cmath>
+
+#include "sim/world.h"
+
+namespace shaken {
+namespace {
+
+/// Calls visit(species, pose, motion) for every rod at the world's tick.
+template <class Visit>
+void for_each_rod(const World& world, const Visit& visit) {
+  for (std::size_t i = 0; i < world.rods.size(); ++i) {
+    const Species& species = world.species_of(i);
+    const Flight& flight = world.rods[i];
+    const double tau = static_cast<double>(world.tick - flight.since) * world.scene.dt;
+    const Pose pose = pose_after(flight, tau, world.scene.gravity);
+    visit(species, pose,
+          motion_after(flight, tau, world.scene.gravity, pose.director, species.inertia_par / species.inertia_perp));
+  }
+}
+
+double mass_of_all(const World& world) {
+  double mass = 0;
+  for (std::size_t i = 0; i < world.rods.size(); ++i) mass += world.species_of(i).mass;
+  return mass;
+}
+
+}  // namespace
+
+KineticEnergy kinetic_energy(const World& world) {
+  KineticEnergy energy;
+  for_each_rod(world, [&](const Species& species, const Pose& pose, const Motion& motion) {
+    const Vec3& v = motion.velocity;
+    energy.translation_xy += 0.5 * species.mass * (v.x() * v.x() + v.y() * v.y());
+    energy.translation_z += 0.5 * species.mass * v.z() * v.z();
+    const double along = motion.angular_velocity.dot(pose.director);
+    const double across2 = motion.angular_velocity.squaredNorm() - along * along;
+    energy.rotation += 0.5 * (species.inertia_perp * across2 + species.inertia_par * along * along);
+  });
+  return energy;
+}
+
+Content content(const World& world) {
+  Content content;
+  content.energy = kinetic_energy(world).total();
+  for_each_rod(world, [&](const Species& species, const Pose& pose, const Motion& motion) {
+    content.energy += species.mass * world.scene.gravity * pose.position.z();
+    content.momentum += species.mass * motion.velocity;
+  });
+  return content;
+}
+
+Balance balance(const World& world) {
+  const Ledger& ledger = world.counters.ledger;
+  const Content now = content(world);
+  Balance balance;
+  balance.energy_start = world.start.energy;
+  balance.energy_given = ledger.given.value() + ledger.noise.value();
+  balance.energy_lost = ledger.lost_rod_rod.value() + ledger.lost_surfaces.value();
+  balance.energy_now = now.energy;
+  balance.energy_unexplained = balance.energy_start + balance.energy_given - balance.energy_lost - balance.energy_now;
+  balance.momentum_unexplained = world.start.momentum - now.momentum;
+  for (int c = 0; c < 3; ++c) balance.momentum_unexplained[c] += ledger.momentum[static_cast<std::size_t>(c)].value();
+  balance.momentum_unexplained.z() -=
+      mass_of_all(world) * world.scene.gravity * static_cast<double>(world.tick) * world.scene.dt;
+  return balance;
+}
+
+double Balance::energy_error() const {
+  const double turnover =
+      std::abs(energy_start) + std::abs(energy_given) + std::abs(energy_lost) + std::abs(energy_now);
+  return turnover > 0 ? std::abs(energy_unexplained) / turnover : 0.0;
+}
+
+}  // namespace shaken

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "sim/core/types.h"
+
+namespace shaken {
+
+struct World;
+
+/// Translation and rotation of all rods at the world's tick [pJ].
+struct KineticEnergy {
+  double translation_xy = 0;
+  double translation_z = 0;
+  double rotation = 0;
+  double total() const { return translation_xy + translation_z + rotation; }
+};
+KineticEnergy kinetic_energy(const World& world);
+
+/// What the rods have at one tick.
+struct Content {
+  double energy = 0;             ///< kinetic, and potential above z = 0 [pJ]
+  Vec3 momentum = Vec3::Zero();  ///< [mg mm/s]
+};
+Content content(const World& world);
+
+/// The books of a run: what the rods had, got, lost and have. What remains unexplained is rounding.
+struct Balance {
+  double energy_start = 0;                   ///< [pJ]
+  double energy_given = 0;                   ///< by moving plates and walls, and by noise [pJ]
+  double energy_lost = 0;                    ///< in impacts [pJ]
+  double energy_now = 0;                     ///< [pJ]
+  double energy_unexplained = 0;             ///< start + given - lost - now [pJ]
+  Vec3 momentum_unexplained = Vec3::Zero();  ///< start + given by plates, walls and gravity - now [mg mm/s]
+  /// The unexplained energy as a fraction of all that changed hands.
+  double energy_error() const;
+};
+Balance balance(const World& world);
+
+}  // namespace shaken

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+#include "sim/contact/impact_process.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/contact/impulse.h"
+
+namespace shaken {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+/// Slip that is as small as this fraction of the velocity at the start is stopped at once.
+constexpr double kTrace = 1e-9;
+/// Slip counts as straight if its direction is wrong by no more than this times the square of `turn`; for a stop it is
+/// weighed with the part of the impact that it takes.
+constexpr double kStraight = 1.0 / 64;
+/// What is left of a phase may be done by the leg before, if it is no more than this part of it.
+constexpr double kStretch = 0.05;
+/// After so many legs times `turn` what is left goes without friction. Never reached by any impact tried.
+constexpr double kMaxTurns = 100;
+
+/// The unit vector s for which `pull` - mu tt s points along s: where slip goes that starts from rest.
+/// |(lambda + mu tt)^-1 pull| = 1 has one root lambda > 0 if sticking needs more than mu; Newton's method on
+/// 1 - 1/|...|, from the left, approaches it without overshooting (More & Sorensen 1983).
+Vec2 slip_from_rest(const Eigen::Matrix2d& tt, double mu, const Vec2& pull) {
+  const double a = mu * tt(0, 0), b = mu * tt(0, 1), d = mu * tt(1, 1);
+  double lambda = 0;
+  Vec2 s;
+  for (int step = 0; step < 30; ++step) {
+    const double det = (lambda + a) * (lambda + d) - b * b;
+    s = Vec2((lambda + d) * pull.x() - b * pull.y(), (lambda + a) * pull.y() - b * pull.x()) / det;
+    const double norm2 = s.squaredNorm();
+    const double norm = std::sqrt(norm2);
+    // (lambda + mu tt)^-1 s
+    const Vec2 more = Vec2((lambda + d) * s.x() - b * s.y(), (lambda + a) * s.y() - b * s.x()) / det;
+    const double change = (norm - 1.0) * norm2 / s.dot(more);
+    if (!(change > 1e-16 * (lambda + a + d))) break;
+    lambda += change;
+  }
+  return s.normalized();
+}
+
+}  // namespace
+
+ImpactProcess::ImpactProcess(const Mat3& K, const Vec3& normal, const Vec3& u, double friction, double turn)
+    : normal_(normal), mu_(friction), turn_(turn), straight_(kStraight * turn * turn) {
+  // two tangents without a case that is near to none (Duff et al. 2017, J. Comput. Graph. Tech. 6, 1)
+  const double sign = std::copysign(1.0, normal.z());
+  const double a = -1.0 / (sign + normal.z());
+  const double b = normal.x() * normal.y() * a;
+  tangent_1_ = {1.0 + sign * normal.x() * normal.x() * a, sign * b, -sign * normal.x()};
+  tangent_2_ = {b, sign + normal.y() * normal.y() * a, -normal.y()};
+
+  const Vec3 along = K * normal;
+  const Vec3 along_1 = K * tangent_1_;
+  nn_ = normal.dot(along);
+  nt_ = {tangent_1_.dot(along), tangent_2_.dot(along)};
+  const double across = tangent_2_.dot(along_1);
+  tt_ << tangent_1_.dot(along_1), across, across, tangent_2_.dot(K * tangent_2_);
+  const double det = tt_(0, 0) * tt_(1, 1) - across * across;
+  softness_ << tt_(1, 1), -across, -across, tt_(0, 0);
+  softness_ /= det;
+  hold_ = softness_ * nt_;
+
+  u_n_ = normal.dot(u);
+  u_t_ = {tangent_1_.dot(u), tangent_2_.dot(u)};
+  trace_ = kTrace * u.norm();
+  scale_ = -u_n_ / nn_;
+}
+
+void ImpactProcess::advance(const Vec2& q, double length) {
+  const double change = rate_n(q) * length;
+  work_ += (u_n_ + 0.5 * change) * length;
+  u_n_ += change;
+  u_t_ += rate_t(q) * length;
+  p_ += length;
+  p_t_ += q * length;
+  ++n_legs_;
+}
+
+ImpactProcess::Leg ImpactProcess::leg_from_rest() const {
+  if (hold_.squaredNorm() <= mu_ * mu_) return {-hold_, kNever, true};
+  return {-mu_ * slip_from_rest(tt_, mu_, nt_), kNever, false};
+}
+
+template <class End>
+ImpactProcess::Leg ImpactProcess::slipping_leg(const End& end) const {
+  const double speed = u_t_.norm();
+
+  // The shortest straight way to u_t = 0 within the cone: |g + hold x| = mu x.
+  const Vec2 g = softness_ * u_t_;
+  const double A = hold_.squaredNorm() - mu_ * mu_;
+  const double B = hold_.dot(g);
+  const double C = g.squaredNorm();
+  const double discriminant = B * B - A * C;
+  if (discriminant >= 0) {
+    const double denominator = std::sqrt(discriminant) - B;
+    const double x = C / denominator;
+    if (denominator > 0 && x < kNever) {
+      const Vec2 q = -(g / x + hold_);
+      const double bend = (q / mu_ + u_t_ / speed).norm();
+      const double part = std::min(x, end(rate_n(q))) / scale_;
+      if (q.dot(u_t_) <= 0 && bend * part <= straight_) return {q, x, true};
+    }
+  }
+
+  const Vec2 direction = u_t_ / speed;
+  const Vec2 across(-direction.y(), direction.x());
+  const Vec2 q_here = -mu_ * direction;
+  const Vec2 rate = rate_t(q_here);
+  const double along = rate.dot(direction);
+  const double aside = rate.dot(across);
+  // How `aside` changes with the direction of slip: where it falls, slip settles.
+  const double settling = mu_ * (direction.dot(tt_ * direction) - across.dot(tt_ * across)) - nt_.dot(direction);
+  if (settling < 0 && std::abs(aside) <= -straight_ * settling) {
+    const Vec2 q = -mu_ * (direction - aside / settling * across).normalized();
+    const double faster = -q.dot(rate_t(q));
+    return {q, faster < 0 ? -0.5 * mu_ * speed / faster : kNever, false};
+  }
+
+  // Explicit midpoint rule, over the rest of the phase or as far as u_t stays nearly what it is.
+  const double change = std::abs(settling) + std::max(0.0, -2.0 * along);
+  double length = std::min({end(rate_n(q_here)), turn_ * speed / std::abs(aside), 4.0 * turn_ * speed / change});
+  for (int halving = 0; halving < 60; ++halving, length *= 0.5) {
+    const Vec2 q = -mu_ * (u_t_ + 0.5 * length * rate).normalized();
+    // friction must not do work on the way, nor as far as the leg may be stretched
+    const double furthest = (1.0 + kStretch) * length;
+    const bool takes_energy = q.dot(u_t_) <= 0 && q.dot(u_t_ + 0.5 * furthest * rate_t(q)) <= 0;
+    if (takes_energy) return {q, length, false};
+  }
+  return {Vec2::Zero(), length, false};
+}
+
+template <class End>
+void ImpactProcess::run(const End& end) {
+  while (n_legs_ * turn_ < kMaxTurns) {
+    Leg leg;
+    if (u_t_.squaredNorm() <= trace_ * trace_) {
+      if (!u_t_.isZero(0)) {
+        // stopped by a trace of friction, at this instant of the process
+        const Vec2 stop = -(softness_ * u_t_);
+        p_t_ += stop;
+        u_n_ += nt_.dot(stop);
+        u_t_.setZero();
+      }
+      leg = leg_from_rest();
+    } else {
+      leg = slipping_leg(end);
+    }
+    double left = end(rate_n(leg.q));
+    if (left == kNever && leg.length == kNever) {  // rounding of a K that is hardly positive definite
+      leg.q.setZero();
+      left = end(nn_);
+    }
+    if (left <= (leg.stops ? 1.0 : 1.0 + kStretch) * leg.length) {
+      const bool at_rest = u_t_.isZero(0) && leg.stops;
+      advance(leg.q, left);
+      if (at_rest) u_t_.setZero();
+      return;
+    }
+    advance(leg.q, leg.length);
+    if (leg.stops) u_t_.setZero();
+  }
+  advance(Vec2::Zero(), end(nn_));
+}
+
+void ImpactProcess::compress() {
+  run([this](double rate) { return rate > 0 ? std::max(0.0, -u_n_ / rate) : kNever; });
+  u_n_ = 0;
+}
+
+void ImpactProcess::restore_impulse(double impulse) {
+  const double goal = p_ + impulse;
+  run([this, goal](double rate) {
+    const double left = std::max(0.0, goal - p_);
+    return rate < 0 ? std::min(left, std::max(0.0, -u_n_ / rate)) : left;
+  });
+}
+
+void ImpactProcess::restore_work(double work) {
+  const double goal = work_ + work;
+  run([this, goal](double rate) {
+    // u_n x + rate x^2 / 2 = what is left
+    const double left = std::max(0.0, goal - work_);
+    const double u_n = std::max(0.0, u_n_);
+    const double square = u_n * u_n + 2.0 * rate * left;
+    if (square < 0) return -u_n / rate;
+    const double denominator = u_n + std::sqrt(square);
+    return denominator > 0 ? 2.0 * left / denominator : 0.0;
+  });
+}
+
+Vec3 poisson_impulse(const Mat3& K, const Vec3& normal, const Vec3& u, const ContactParameters& contact) {
+  // without friction the two bodies bounce as by Newton's law
+  if (contact.friction == 0.0) return newton_coulomb_impulse(K, normal, u, contact);
+  ImpactProcess impact(K, normal, u, contact.friction);
+  impact.compress();
+  if (contact.restitution > 0) impact.restore_impulse(contact.restitution * impact.normal_impulse());
+  return impact.impulse();
+}
+
+Vec3 energetic_impulse(const Mat3& K, const Vec3& normal, const Vec3& u, const ContactParameters& contact) {
+  if (contact.friction == 0.0) return newton_coulomb_impulse(K, normal, u, contact);
+  ImpactProcess impact(K, normal, u, contact.friction);
+  impact.compress();
+  if (contact.restitution > 0) impact.restore_work(-contact.restitution * contact.restitution * impact.normal_work());
+  return impact.impulse();
+}
+
+}  // namespace shaken

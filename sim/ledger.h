@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+
+#include "sim/core/exact_sum.h"
+#include "sim/core/types.h"
+
+namespace shaken {
+
+/// Where energy and momentum came from and went to since tick 0, entered impact by impact; with what the rods had at
+/// the start and have now it must add up (balance.h).
+///
+/// An impulse P at a contact where the surfaces move at u before and u' after relative to each other takes the energy
+/// -P . (u + u') / 2 out of the relative motion; a surface that moves at V gives its rod P . V besides (Landau &
+/// Lifshitz, Mechanics, sections 16 to 17).
+struct Ledger {
+  ExactSum lost_rod_rod;             ///< energy lost in impacts of rods with each other [pJ]
+  ExactSum lost_surfaces;            ///< the same with plates and side walls [pJ]
+  ExactSum given;                    ///< energy that moving plates and walls gave [pJ]
+  ExactSum noise;                    ///< energy that rotational noise gave, if positive [pJ]
+  std::array<ExactSum, 3> momentum;  ///< that plates and walls gave [mg mm/s]
+
+  void add(const Ledger& more) {
+    lost_rod_rod.add(more.lost_rod_rod);
+    lost_surfaces.add(more.lost_surfaces);
+    given.add(more.given);
+    noise.add(more.noise);
+    for (std::size_t c = 0; c < 3; ++c) momentum[c].add(more.momentum[c]);
+  }
+};
+
+}  // namespace shaken
