@@ -44,6 +44,7 @@ KineticEnergy kinetic_energy(const World& world) {
 
 Content content(const World& world) {
   Content content;
+  content.tick = world.tick;
   content.energy = kinetic_energy(world).total();
   for_each_rod(world, [&](const Species& species, const Pose& pose, const Motion& motion) {
     content.energy += species.mass * world.scene.gravity * pose.position.z();
@@ -64,7 +65,7 @@ Balance balance(const World& world) {
   balance.momentum_unexplained = world.start.momentum - now.momentum;
   for (int c = 0; c < 3; ++c) balance.momentum_unexplained[c] += ledger.momentum[static_cast<std::size_t>(c)].value();
   balance.momentum_unexplained.z() -=
-      mass_of_all(world) * world.scene.gravity * static_cast<double>(world.tick) * world.scene.dt;
+      mass_of_all(world) * world.scene.gravity * static_cast<double>(world.tick - world.start.tick) * world.scene.dt;
   return balance;
 }
 

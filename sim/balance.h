@@ -18,6 +18,7 @@ KineticEnergy kinetic_energy(const World& world);
 
 /// What the rods have at one tick.
 struct Content {
+  Tick tick = 0;
   double energy = 0;             ///< kinetic, and potential above z = 0 [pJ]
   Vec3 momentum = Vec3::Zero();  ///< [mg mm/s]
 };

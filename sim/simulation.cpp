@@ -8,7 +8,8 @@
 namespace shaken {
 
 Simulation::Simulation(World world)
-    : world_(std::make_unique<World>(std::move(world))), stepper_(make_stepper(*world_, 1, kGrain)) {}
+    : world_(std::make_unique<World>(std::move(world))),
+      stepper_(make_stepper(*world_, 1, kGrain, compose(world_->scene))) {}
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
@@ -19,11 +20,6 @@ Result<Simulation> Simulation::start(const Scene& scene) {
   return Simulation(std::move(world).value());
 }
 
-Simulation Simulation::start_from(World world) {
-  world.start = content(world);
-  return Simulation(std::move(world));
-}
-
 Result<Simulation> Simulation::resume(const Scene& scene, std::span<const std::byte> checkpoint) {
   auto world = restore_checkpoint(scene, checkpoint);
   if (!world) return world.error();
@@ -31,7 +27,8 @@ Result<Simulation> Simulation::resume(const Scene& scene, std::span<const std::b
 }
 
 Simulation Simulation::start_from(World world) {
-  SHAKEN_CHECK(world.rods.size() == static_cast<std::size_t>(world.scene.n_rods), "as many flights as rods");
+  SHAKEN_CHECK(world.rods.size() == static_cast<std::size_t>(world.scene.n_all_rods()), "as many flights as rods");
+  world.start = content(world);
   return Simulation(std::move(world));
 }
 
@@ -42,7 +39,11 @@ std::optional<NumericalTrouble> Simulation::advance_to(Tick target) {
 
 void Simulation::use_threads(int n_threads, int grain) {
   SHAKEN_CHECK(n_threads >= 1 && grain >= 1, "a run needs a thread, and a thread something to do");
-  stepper_ = make_stepper(*world_, n_threads, grain);
+  stepper_ = make_stepper(*world_, n_threads, grain, compose(world_->scene));
+}
+
+void Simulation::compile_in_everything() {
+  stepper_ = make_stepper(*world_, 1, kGrain, compose_everything(world_->scene));
 }
 
 void Simulation::time_phases(PhaseTimes::Clock clock) { stepper_->phase_times.use(clock); }

@@ -24,13 +24,12 @@ class Simulation {
  public:
   /// Places the rods as the scene says. Fails, with the largest area fraction that fits, if they cannot be packed.
   static Result<Simulation> start(const Scene& scene);
-  /// Starts from a world made by hand; what its rods have now is what the ledger starts from.
-  static Simulation start_from(World world);
   /// Continues from bytes made by checkpoint(), bitwise as if there had been no stop.
   /// Fails if the bytes are damaged or belong to another scene.
   static Result<Simulation> resume(const Scene& scene, std::span<const std::byte> checkpoint);
 
-  /// Begins with a world made by hand: empty_world(scene), at any tick, with a prepared flight for each of its n_rods.
+  /// Begins with a world made by hand: empty_world(scene), at any tick, with a prepared flight for each of its rods.
+  /// What they have then is what the books begin with.
   static Simulation start_from(World world);
 
   Simulation(Simulation&&) noexcept;
@@ -45,6 +44,9 @@ class Simulation {
   /// 5,000 rods on. Times of phases start anew. Loops over fewer than `grain` rods or pairs per thread are not shared.
   void use_threads(int n_threads, int grain = kGrain);
   static constexpr int kGrain = 12;
+  /// From now on, steps on one thread by loops into which every effect is compiled, needed or not (effects/compose.h).
+  /// The trajectory stays bitwise the same; for measuring what it saves to leave out the others.
+  void compile_in_everything();
   /// From now on, the time spent in each phase of a tick is taken by `clock`; nullptr ends it.
   void time_phases(PhaseTimes::Clock clock);
   const PhaseTimes& phase_times() const;
