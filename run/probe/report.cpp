@@ -9,7 +9,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::array<const char*, kPhases> kStageWhat{
-    "rods against base and lid",         "overlapping beads of neighbouring rods",   "impulses between rods",
+    "rods against base, lid and walls",  "overlapping beads of neighbouring rods",   "impulses between rods",
     "new flights of rods that were hit", "bounds on the times to the next contacts", "what comes up at which tick",
     "which rods are near each other"};
 
@@ -28,8 +28,8 @@ OwnCost cost_of(const std::string& effect, const Probe& probe) {
   if (effect == "rod_rod_collisions") {
     return {stage(Phase::kDetection) + stage(Phase::kResponse), "stages detection and response"};
   }
-  if (effect == "rod_base_collisions" || effect == "rod_lid_collisions") {
-    return {stage(Phase::kPlates), "stage plates, base and lid together"};
+  if (effect == "rod_base_collisions" || effect == "rod_lid_collisions" || effect == "side_walls") {
+    return {stage(Phase::kPlates), "stage plates, all surfaces together"};
   }
   if (effect == "trajectory") return {probe.trajectory.cpu(), ""};
   if (effect == "stream") return {probe.stream.cpu(), ""};

@@ -66,7 +66,8 @@ double bytes_of(const Observables& arrays) {
 double blocks(std::int64_t samples) {
   std::int64_t length = 1;
   while (samples > 64 * length) length *= 2;
-  return static_cast<double>((samples + length - 1) / length);
+  const std::int64_t n = (samples + length - 1) / length;
+  return static_cast<double>(n);
 }
 
 /// Samples that are kept for lags to come: of each of 16 levels the last 8 of every 2^k-th (analysis/msd.h).

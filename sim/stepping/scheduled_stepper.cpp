@@ -34,9 +34,9 @@ constexpr double kRateMore = 10;  ///< [rad/s]
 
 }  // namespace
 
-ScheduledStepper::ScheduledStepper(const World& world, int n_threads, int grain)
+ScheduledStepper::ScheduledStepper(const World& world, int n_threads, int grain, const Kernels& kernels)
     : rules_(world),
-      kernels_(compose(world.scene)),
+      kernels_(kernels),
       neighbors_(world.species, world.kinds, world.scene.box_side, kSkin),
       team_(n_threads),
       grain_(grain),

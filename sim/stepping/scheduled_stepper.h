@@ -33,7 +33,7 @@ namespace shaken {
 class ScheduledStepper final : public Stepper {
  public:
   /// Loops are shared if there are at least `grain` items for each thread.
-  ScheduledStepper(const World& world, int n_threads, int grain);
+  ScheduledStepper(const World& world, int n_threads, int grain, const Kernels& kernels);
   std::size_t bytes() const override;
 
  private:

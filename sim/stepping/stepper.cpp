@@ -7,12 +7,12 @@
 
 namespace shaken {
 
-std::unique_ptr<Stepper> make_stepper(const World& world, int n_threads, int grain) {
+std::unique_ptr<Stepper> make_stepper(const World& world, int n_threads, int grain, const Kernels& kernels) {
   switch (world.scene.engine) {
     case Engine::kReference:
-      return std::make_unique<ReferenceStepper>(world);
+      return std::make_unique<ReferenceStepper>(world, kernels);
     case Engine::kScheduled:
-      return std::make_unique<ScheduledStepper>(world, n_threads, grain);
+      return std::make_unique<ScheduledStepper>(world, n_threads, grain, kernels);
   }
   SHAKEN_CHECK(false, "unknown engine");
 }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "sim/effects/compose.h"
 #include "sim/stepping/phase_times.h"
 #include "sim/world.h"
 
@@ -38,6 +39,6 @@ class Stepper {
 };
 
 /// The stepper that the scene asks for, on so many threads (the reference stepper uses one).
-std::unique_ptr<Stepper> make_stepper(const World& world, int n_threads, int grain);
+std::unique_ptr<Stepper> make_stepper(const World& world, int n_threads, int grain, const Kernels& kernels);
 
 }  // namespace shaken
