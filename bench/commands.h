@@ -18,5 +18,6 @@ using Work = std::function<ExitCode()>;
 void add_speed(CLI::App& app, Work& work);
 void add_export(CLI::App& app, Work& work);
 void add_looks(CLI::App& app, Work& work);
+void add_hard(CLI::App& app, Work& work);
 
 }  // namespace shaken::bench

@@ -43,6 +43,7 @@ nlohmann::ordered_json to_json(const RunPlan& plan) {
     if (!field.fetch || is_off) continue;
     const Value value = field.fetch(plan);
     if (std::holds_alternative<std::monostate>(value)) continue;  // has no meaning in this plan
+    if (field.omit_if_default && value == field.fallback) continue;
     if (field.form != Form::kBlock) {
       object_at(scene, field.path) = to_json(field, value);
     } else if (std::get<bool>(value)) {

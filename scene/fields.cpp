@@ -170,7 +170,7 @@ Field movie_size_field() {
 void add_contact(std::vector<Field>& table, const std::string& kind, const std::string& what,
                  ContactParameters Scene::*member) {
   table.push_back(quantity(
-      "contacts." + kind + ".friction", Dimension::kPlain, 0, 10,
+      "contacts." + kind + ".friction", Dimension::kPlain, 0, 1000,
       "Coulomb's friction coefficient between " + what + ".", [member](auto& p) -> auto& {
         return (p.system.*member).friction;
       }));
@@ -250,6 +250,13 @@ std::vector<Field> make_table() {
   add(whole(
       "contacts.sweeps", 1, 100, "Passes over the contacts of one tick.",
       [](auto& p) -> auto& { return p.system.solver_sweeps; }));
+  Field order = choice<ContactOrder>(
+      "contacts.order",
+      {{"sorted", ContactOrder::kSorted}, {"reversed", ContactOrder::kReversed}, {"shuffled", ContactOrder::kShuffled}},
+      "Order in which the contacts of one tick get their impulses; no statistics should depend on it.",
+      [](auto& p) -> auto& { return p.system.order; });
+  order.omit_if_default = true;
+  add(std::move(order));
 
   add(accuracy_field());
   add(quantity(

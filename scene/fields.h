@@ -37,9 +37,11 @@ struct Field {
   double high = 0;       ///< largest value allowed
   bool or_zero = false;  ///< 0 is allowed too, though it is below `low`
   std::vector<std::string> names;
-  Value fallback;             ///< what holds if the key is absent; nothing where that is derived from other keys
-  std::string fallback_note;  ///< says so in words, for the reference
-  std::string doc;            ///< one line
+  Value fallback;                ///< what holds if the key is absent; nothing where that is derived from other keys
+  std::string fallback_note;     ///< says so in words, for the reference
+  std::string doc;               ///< one line
+  bool omit_if_default = false;  ///< left out of the canonical scene where it has its default value, so that scenes
+                                 ///< from before the key keep their names
 
   /// The value in a plan; asked only if the block that the field is in is on. Empty for keys that only help to write a
   /// scene (bead_pitch).

@@ -25,7 +25,14 @@ struct Constants {
   float head_length, head_radius, tail_length, tail_radius;
   float gravity, pull_base, pull_lid;
   float dt, per_dt, horizon;
+  float half_fall, rise_rate;
 };
+
+/// The same for the base: in it, safe only for as long as the bead leaves faster than it must.
+template <class F>
+SHAKEN_INLINE F safe_time_off_base(const Constants& k, const F& gap, const F& rate, const F& pull) {
+  return safe_time(gap, F(gap > 0.0F ? rate : rate - k.half_fall + k.rise_rate * gap), pull);
+}
 
 /// The plates as each lane sees them.
 struct PlatesAt {
@@ -81,11 +88,11 @@ struct PlateKernel {
     const F pull_base = k.pull_base + bend;
     const F pull_lid = lanes::not_below_zero(k.pull_lid + bend);
 
-    F time = safe_time(above - k.mid_radius, up, lanes::all<W>(k.pull_base));
+    F time = safe_time_off_base(k, above - k.mid_radius, up, lanes::all<W>(k.pull_base));
     time =
         lanes::smaller(time, safe_time(below - k.mid_radius, down, lanes::not_below_zero(lanes::all<W>(k.pull_lid))));
-    time = lanes::smaller(time, safe_time(above + head - head_room, up + head_rate - slow, pull_base));
-    time = lanes::smaller(time, safe_time(above - tail - tail_room, up - tail_rate - slow, pull_base));
+    time = lanes::smaller(time, safe_time_off_base(k, above + head - head_room, up + head_rate - slow, pull_base));
+    time = lanes::smaller(time, safe_time_off_base(k, above - tail - tail_room, up - tail_rate - slow, pull_base));
     time = lanes::smaller(time, safe_time(below - head - head_room, down - head_rate - slow, pull_lid));
     time = lanes::smaller(time, safe_time(below + tail - tail_room, down + tail_rate - slow, pull_lid));
     const F more = lanes::truncated(lanes::smaller(time * k.per_dt, lanes::all<W>(k.horizon)));
@@ -96,7 +103,7 @@ struct PlateKernel {
 }  // namespace
 
 void plate_safe_ticks(const Species& species, const PlateMotion& plates, const PlateLanes& rods, int n, double gravity,
-                      double dt, Tick now, Tick horizon, Tick* safe) {
+                      double dt, Tick now, Tick horizon, Tick* safe, RestSpeed rest) {
   const Constants k{
       static_cast<float>(species.half_length),
       static_cast<float>(species.mid_radius),
@@ -109,7 +116,9 @@ void plate_safe_ticks(const Species& species, const PlateMotion& plates, const P
       static_cast<float>((plates.peak_acceleration() - gravity) + 1e-6 * (plates.peak_acceleration() + gravity)),
       static_cast<float>(dt),
       static_cast<float>((1.0 - 1e-5) / dt),
-      static_cast<float>(horizon)};
+      static_cast<float>(horizon),
+      static_cast<float>(rest.half_fall * (1.0 + 1e-6)),
+      static_cast<float>(rest.rise_rate * (1.0 + 1e-6))};
   constexpr int kSteps = 3;
   alignas(64) float ticks[kLanes] = {};
   PlatesAt at;
