@@ -38,7 +38,7 @@ ALLOWED = {
     "client": ["proto", "scene", "run/files", "sim/core", "sim/rod", "sim/scene.h"],
     # benches time whole simulations, and the kernels of an impulse by themselves
     "bench": ["scene", "run/files", "analysis", "sim/core", "sim/rod", "sim/motion", "sim/contact", "sim/scene.h",
-              "sim/snapshot.h", "sim/world.h", "sim/simulation.h", "sim/neighbors"],
+              "sim/snapshot.h", "sim/world.h", "sim/simulation.h", "sim/neighbors", "sim/effects/registry.h"],
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"')
 FOLDERS = ("proto", "sim", "scene", "analysis", "run", "render", "server", "client", "tests", "bench")

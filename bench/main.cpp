@@ -11,6 +11,7 @@ namespace {
 constexpr const char* kFooter = R"(Examples:
   shaken-bench speed --quick
   shaken-bench speed --help
+  shaken-bench accuracy --quick
 
 Exit codes: 0 done, 1 a check did not hold or something failed, 2 bad input.)";
 
@@ -25,8 +26,10 @@ int main(int argc, char** argv) {
   app.get_formatter()->label("SUBCOMMAND", "BENCH");
   Work work;
   add_speed(app, work);
+  add_accuracy(app, work);
   add_export(app, work);
   add_looks(app, work);
+  add_effects(app, work);
   add_hard(app, work);
   try {
     app.parse(argc, argv);

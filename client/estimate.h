@@ -12,7 +12,7 @@ namespace shaken::client {
 
 struct EstimateOptions {
   bool probe = true;  ///< step a piece of some runs; otherwise only what is on and off
-  double cpu = 1;     ///< CPU time of each probe's steps, about [s]
+  double cpu = 1.5;     ///< CPU time of each probe's steps, about [s]
   std::string from;   ///< directory of a run of the same system to start from; empty: the run's own start
 };
 

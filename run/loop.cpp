@@ -161,7 +161,9 @@ class Loop {
     summary.collisions_rod_rod = world.counters.impulses_rod_rod;
     summary.collisions_rod_base = world.counters.impulses_rod_base;
     summary.collisions_rod_lid = world.counters.impulses_rod_lid;
+    summary.collisions_rod_wall = world.counters.impulses_rod_wall;
     summary.max_overlap = world.counters.max_overlap();
+    summary.balance = balance(world);
     summary.t_steady = reduction.t_steady;
     summary.order = reduction.order;
     if (reduction.defects) {

@@ -16,7 +16,13 @@ double largest_tilt(const Species& species, double gap) {
   return std::clamp((gap / 2 - species.end_radius) / species.half_length, 0.0, 1.0);
 }
 
-Measurements::Measurements(const scene::RunPlan& plan, const Species& species) : steady_(plan.steady) {
+Measurements::Measurements(const scene::RunPlan& plan, const Species& species, std::span<const std::uint8_t> kinds)
+    : steady_(plan.steady) {
+  if (std::any_of(kinds.begin(), kinds.end(), [](std::uint8_t kind) { return kind != 0; })) {
+    for (std::size_t i = 0; i < kinds.size(); ++i) {
+      if (kinds[i] == 0) measured_.push_back(i);
+    }
+  }
   const double dt = plan.system.dt;
   if (plan.order) order_.emplace(Timed<analysis::OrderSeries>{{plan.order->every, dt}, {}});
   if (plan.angles) {
@@ -74,6 +80,22 @@ Tick Measurements::next_due(Tick from) const {
 }
 
 void Measurements::sample(const Snapshot& snapshot) {
+  if (measured_.empty()) return sample_rods(snapshot);
+  Snapshot rods;
+  rods.tick = snapshot.tick;
+  rods.time = snapshot.time;
+  rods.box_side = snapshot.box_side;
+  for (const std::size_t i : measured_) {
+    rods.position.push_back(snapshot.position[i]);
+    rods.image.push_back(snapshot.image[i]);
+    rods.director.push_back(snapshot.director[i]);
+    rods.velocity.push_back(snapshot.velocity[i]);
+    rods.angular_velocity.push_back(snapshot.angular_velocity[i]);
+  }
+  sample_rods(rods);
+}
+
+void Measurements::sample_rods(const Snapshot& snapshot) {
   const auto due = [&](auto& timed) {
     if (!timed || !timed->cadence.due(snapshot.tick)) return false;
     ++timed->samples;

@@ -38,7 +38,8 @@ struct Reduction {
 /// measurement's own period, tick 0 included. What the plan does not ask for costs nothing.
 class Measurements {
  public:
-  Measurements(const scene::RunPlan& plan, const Species& species);
+  /// Of rods of the first kind; `kinds` (n_rods) says which these are, or is empty if there is no other.
+  Measurements(const scene::RunPlan& plan, const Species& species, std::span<const std::uint8_t> kinds = {});
 
   /// The first tick >= `from` at which a sample is due; kNever if nothing is measured.
   Tick next_due(Tick from) const;
@@ -73,11 +74,13 @@ class Measurements {
     Accumulator accumulator;
     std::int64_t samples = 0;
   };
+  void sample_rods(const Snapshot& snapshot);
   template <class Visitor>
   void visit(Visitor visitor);
   template <class Visitor>
   void visit(Visitor visitor) const;
 
+  std::vector<std::size_t> measured_;  // rods of the first kind, where there are others; or empty
   std::optional<double> steady_;
   double smoothing_ = 0;  // of the director field [mm]
   double mesh_ = 0;       // of its grid, at most [mm]

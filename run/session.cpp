@@ -29,7 +29,7 @@ TrajectoryHeader trajectory_header(const World& world, const std::string& scene_
 namespace {
 
 Session make_session(const scene::RunPlan& plan, Simulation simulation) {
-  Measurements measurements(plan, simulation.world().species[0]);
+  Measurements measurements(plan, simulation.world().species.front(), simulation.world().kinds);
   return {std::move(simulation), std::move(measurements), recording_of(plan), std::nullopt, 0, 0};
 }
 

@@ -30,6 +30,16 @@ Json to_json(const EffectReport& effect) {
   return json;
 }
 
+Json to_json(const Balance& balance) {
+  return {{"start", balance.energy_start},
+          {"given_by_plates", balance.energy_given_by_surfaces},
+          {"given_by_noise", balance.energy_given_by_noise},
+          {"lost_rod_rod", balance.energy_lost_rod_rod},
+          {"lost_surfaces", balance.energy_lost_surfaces},
+          {"left", balance.energy_now},
+          {"unexplained", balance.energy_unexplained}};
+}
+
 }  // namespace
 
 std::optional<Error> write_summary(const std::filesystem::path& file, const Summary& summary) {
@@ -44,8 +54,13 @@ std::optional<Error> write_summary(const std::filesystem::path& file, const Summ
       {"collisions",
        {{"rod_rod", summary.collisions_rod_rod},
         {"rod_base", summary.collisions_rod_base},
-        {"rod_lid", summary.collisions_rod_lid}}},
+        {"rod_lid", summary.collisions_rod_lid},
+        {"rod_wall", summary.collisions_rod_wall}}},
       {"max_overlap_mm", summary.max_overlap},
+      {"energy_pJ", to_json(summary.balance)},
+      {"momentum_unexplained_mg_mm_s",
+       {summary.balance.momentum_unexplained.x(), summary.balance.momentum_unexplained.y(),
+        summary.balance.momentum_unexplained.z()}},
       {"t_steady_s", summary.t_steady},
       {"order", nullptr},
       {"defects", nullptr},

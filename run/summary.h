@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "analysis/time_series.h"
+#include "sim/balance.h"
 #include "sim/core/result.h"
 #include "sim/core/types.h"
 
@@ -30,7 +31,9 @@ struct Summary {
   std::int64_t collisions_rod_rod = 0;
   std::int64_t collisions_rod_base = 0;
   std::int64_t collisions_rod_lid = 0;
+  std::int64_t collisions_rod_wall = 0;
   double max_overlap = 0;                        ///< [mm]
+  Balance balance;                               ///< of energy and momentum
   double t_steady = 0;                           ///< where the steady state begins [s]
   std::optional<analysis::SteadySummary> order;  ///< if S(t) was measured
   std::optional<double> defects_mean_plus;       ///< in the steady state, if defects were measured

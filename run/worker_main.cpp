@@ -84,7 +84,7 @@ struct Arguments {
   double checkpoint_every = 30;
   bool quiet = false;
   std::string probe;
-  double probe_cpu = 1;
+  double probe_cpu = 1.5;
   std::string probe_from;
 };
 
@@ -161,31 +161,30 @@ int run_scene(const scene::RunPlan& plan, const Arguments& arguments) {
   return kExitFailed;
 }
 
-/// The state that the run in `folder` was last saved in.
-Result<std::vector<std::byte>> saved_state(const std::filesystem::path& folder) {
+/// A simulation of `system` from the state that the run in `folder` was last saved in.
+Result<Simulation> resume_from(const std::filesystem::path& folder, const Scene& system) {
   const run::RunDirectory directory{folder};
   const Result<std::string> text = run::read_file(directory.scene());
   if (!text) return text.error();
   const auto plan = scene::load_scene(*text, directory.scene().string());
   if (!plan.value) return Error{to_string(plan.problems)};
-  auto checkpoint = run::read_checkpoint(directory.checkpoint(), scene::run_id(*plan.value));
+  const auto checkpoint = run::read_checkpoint(directory.checkpoint(), scene::run_id(*plan.value));
   if (!checkpoint) return checkpoint.error();
-  return std::move(checkpoint->simulation);
+  Result<Simulation> simulation = Simulation::resume(system, checkpoint->simulation);
+  if (!simulation) return Error{folder.string() + ": " + simulation.error().message};
+  return simulation;
 }
 
 int probe_scene(const scene::RunPlan& plan, const Arguments& arguments) {
-  std::vector<std::byte> start;
-  if (!arguments.probe_from.empty()) {
-    auto state = saved_state(arguments.probe_from);
-    if (!state) {
-      fmt::print(stderr, "{}: {}\n", arguments.probe_from, state.error().message);
-      return kExitBadInput;
-    }
-    start = std::move(state).value();
-  }
   std::optional<run::Probe> probe;
   if (arguments.probe_cpu > 0) {
-    auto probed = run::probe(plan, {arguments.probe_cpu, start});
+    Result<Simulation> simulation =
+        arguments.probe_from.empty() ? Simulation::start(plan.system) : resume_from(arguments.probe_from, plan.system);
+    if (!simulation) {
+      fmt::print(stderr, "{}\n", simulation.error().message);
+      return kExitBadInput;
+    }
+    auto probed = run::probe(plan, std::move(simulation).value(), arguments.probe_cpu);
     if (!probed) {
       fmt::print(stderr, "{}\n", probed.error().message);
       return kExitFailed;

@@ -32,6 +32,7 @@ nlohmann::ordered_json to_json(const Field& field, const Value& value) {
   if (const auto* size = std::get_if<std::array<double, 2>>(&value)) {
     return {static_cast<int>((*size)[0]), static_cast<int>((*size)[1])};
   }
+  if (const auto* numbers = std::get_if<std::vector<double>>(&value)) return *numbers;
   return nullptr;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "sim/effects/side_walls.h"
 #include "sim/rod/species.h"
 
 namespace shaken::scene {
@@ -26,8 +27,12 @@ double frequency_for(double gamma, double amplitude, double gravity) {
   return std::sqrt(gamma * gravity / amplitude) / (2 * kPi);
 }
 
-double area_fraction_of(const Scene& scene) {
-  return scene.n_rods * make_species(scene.rod).area / squared(scene.box_side);
+double area_for_rods(const Scene& scene) { return scene.walls ? arena_area(*scene.walls) : squared(scene.box_side); }
+
+double area_fraction_of(const Scene& scene) { return area_fraction_of(scene, scene.rod, scene.n_rods); }
+
+double area_fraction_of(const Scene& scene, const RodShape& rod, int count) {
+  return count * make_species(rod).area / area_for_rods(scene);
 }
 
 }  // namespace shaken::scene

@@ -22,7 +22,11 @@ double amplitude_for(double gamma, double frequency, double gravity);
 /// f from Gamma, a and g [Hz].
 double frequency_for(double gamma, double amplitude, double gravity);
 
-/// N A / L^2, with A the area of one rod lying flat.
+/// L^2, or the area within side walls [mm^2].
+double area_for_rods(const Scene& scene);
+/// Of the rods of the first kind: N A / L^2, with A the area of one rod lying flat.
 double area_fraction_of(const Scene& scene);
+/// Of rods of any kind.
+double area_fraction_of(const Scene& scene, const RodShape& rod, int count);
 
 }  // namespace shaken::scene

@@ -56,6 +56,10 @@ std::string example_for(const Field& field) {
       return "one of " + quoted(field.names);
     case Form::kSize:
       return "[width, height]";
+    case Form::kSwitch:
+      return "true or false";
+    case Form::kNumbers:
+      return fmt::format("a list of numbers in {} or of texts with a unit", default_unit(field.dimension));
     case Form::kBlock:
       return "an object, null or false";
   }
@@ -81,6 +85,16 @@ class ValueReader {
         break;
       case Form::kSize:
         read_size(node, given);
+        break;
+      case Form::kSwitch:
+        if (node.kind != Node::Kind::kBoolean) {
+          expected(node, given);
+        } else {
+          given.value = node.boolean;
+        }
+        break;
+      case Form::kNumbers:
+        read_numbers(node, given);
         break;
       case Form::kBlock:
         SHAKEN_CHECK(false, "blocks are the draft's business");
@@ -117,6 +131,18 @@ class ValueReader {
     complain(node, given,
              fmt::format("{}{}{} is outside {}{}", written->number.text(), unit.empty() ? "" : " ", unit,
                          range_of(field_), did_you_mean(slip_of_the_pen(field_, *written))));
+  }
+
+  void read_numbers(const Node& node, Given& given) {
+    if (node.kind != Node::Kind::kArray || node.items.empty()) return expected(node, given);
+    std::vector<double> numbers;
+    for (const Node& item : node.items) {
+      Given one{{}, item.place, true};
+      read_quantity(item, one);
+      given.ok = given.ok && one.ok;
+      if (one.ok) numbers.push_back(std::get<double>(one.value));
+    }
+    given.value = std::move(numbers);
   }
 
   void read_whole(const Node& node, Given& given) {

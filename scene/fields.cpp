@@ -115,6 +115,39 @@ Field instead(std::string path, Dimension dimension, double low, double high, do
   return field;
 }
 
+/// A key that came later: left out where it says what held before there was a choice.
+Field later(Field field) {
+  field.omit_if_default = true;
+  return field;
+}
+
+template <class Access>
+Field on_or_off(std::string path, std::string doc, Access access) {
+  Field field;
+  field.path = std::move(path);
+  field.form = Form::kSwitch;
+  field.doc = std::move(doc);
+  field.fetch = [access](const RunPlan& plan) { return Value(access(plan)); };
+  field.store = [access](RunPlan& plan, const Value& on) { access(plan) = std::get<bool>(on); };
+  return field;
+}
+
+/// A block that is an optional of the system.
+template <class Access>
+Field system_block(std::string path, std::string doc, Access access) {
+  Field field;
+  field.path = std::move(path);
+  field.form = Form::kBlock;
+  field.doc = std::move(doc);
+  field.fallback = false;
+  field.fetch = [access](const RunPlan& plan) { return Value(access(plan).has_value()); };
+  field.store = [access](RunPlan& plan, const Value& is_on) {
+    access(plan).reset();
+    if (std::get<bool>(is_on)) access(plan).emplace();
+  };
+  return field;
+}
+
 Field steady_field() {
   Field field;
   field.path = "time.steady";
@@ -181,39 +214,96 @@ void add_contact(std::vector<Field>& table, const std::string& kind, const std::
       }));
 }
 
+/// One kind of rod. The first has an area fraction by default, the others need a number.
+template <class Shape, class Count, class Fraction>
+void add_rods(std::vector<Field>& table, const std::string& name, Shape shape, Count count, Fraction fraction,
+              bool is_first) {
+  using enum Dimension;
+  const auto add = [&](const char* key, Field field) {
+    field.path = name + "." + key;
+    table.push_back(std::move(field));
+  };
+  add("length", quantity(
+                    "", kLength, 0.5, 50, "From tip to tip.", [shape](auto& p) -> auto& { return shape(p).length; }));
+  add("mid_diameter",
+      quantity(
+          "", kLength, 0.05, 20,
+          "Of the centre bead; of a polar rod's tail.", [shape](auto& p) -> auto& { return shape(p).mid_diameter; }));
+  add("end_diameter",
+      quantity(
+          "", kLength, 0.05, 20,
+          "Of the two end beads; of a polar rod's head.", [shape](auto& p) -> auto& { return shape(p).end_diameter; }));
+  add("profile", later(choice<Profile>(
+                     "", {{"symmetric", Profile::kSymmetric}, {"polar", Profile::kPolar}},
+                     "Thickness falls from the centre to both ends; or from tail to head.", [shape](auto& p) -> auto& {
+                       return shape(p).profile;
+                     })));
+  Field diameters;
+  diameters.form = Form::kNumbers;
+  diameters.dimension = kLength;
+  diameters.low = 0.05;
+  diameters.high = 20;
+  diameters.doc = "Of each bead from tail to head, in place of a profile.";
+  diameters.fallback_note = "none";
+  diameters.fetch = [shape](const RunPlan& p) {
+    return shape(p).bead_diameters.empty() ? Value() : Value(shape(p).bead_diameters);
+  };
+  diameters.store = [shape](RunPlan& p, const Value& value) {
+    shape(p).bead_diameters = std::get<std::vector<double>>(value);
+  };
+  add("bead_diameters", std::move(diameters));
+  add("bead_pitch", instead("", kLength, 0.01, 10, kDefaultBeadPitch,
+                            "Largest distance of neighbouring beads; the fewest beads that keep to it are taken.", {}));
+  add("beads", derived(whole(
+                           "", 1, kMaxBeads,
+                           "Number of beads, odd, in place of bead_pitch; 1 is a sphere of diameter mid_diameter.",
+                           [shape](auto& p) -> auto& { return shape(p).n_beads; }),
+                       "from bead_pitch"));
+  add("density",
+      quantity(
+          "", kDensity, 0.001, 100,
+          is_first ? "Of the material. Sets the unit of energy only." : "Of the material.", [shape](auto& p) -> auto& {
+            return shape(p).density;
+          }));
+  Field area = instead("", kPlain, 1e-6, kMaxAreaFractionAligned, kDefaultAreaFraction,
+                       is_first ? "Area of all rods, lying flat, per area of the box (or arena)."
+                                : "Area of these rods, lying flat, per area of the box (or arena).",
+                       [fraction](const RunPlan& p) { return Value(to_ten_digits(fraction(p))); });
+  if (!is_first) {
+    area.fallback = Value();
+    area.fallback_note = "from count";
+  }
+  add("area_fraction", std::move(area));
+  add("count", derived(whole(
+                           "", 1, 1e6, "Number of rods.", [count](auto& p) -> auto& { return count(p); }),
+                       is_first ? "from area_fraction and side" : "from area_fraction"));
+}
+
 std::vector<Field> make_table() {
   using enum Dimension;
   std::vector<Field> table;
   const auto add = [&](Field field) { table.push_back(std::move(field)); };
 
-  add(quantity(
-      "rods.length", kLength, 0.5, 50, "From tip to tip.", [](auto& p) -> auto& { return p.system.rod.length; }));
-  add(quantity(
-      "rods.mid_diameter", kLength, 0.05, 20, "Of the centre bead.",
-      [](auto& p) -> auto& { return p.system.rod.mid_diameter; }));
-  add(quantity(
-      "rods.end_diameter", kLength, 0.05, 20, "Of the two end beads.",
-      [](auto& p) -> auto& { return p.system.rod.end_diameter; }));
-  add(instead("rods.bead_pitch", kLength, 0.01, 10, kDefaultBeadPitch,
-              "Largest distance of neighbouring beads; the fewest beads that keep to it are taken.", {}));
-  add(derived(whole(
-                  "rods.beads", 1, kMaxBeads,
-                  "Number of beads, odd, in place of bead_pitch; 1 is a sphere of diameter mid_diameter.",
-                  [](auto& p) -> auto& { return p.system.rod.n_beads; }),
-              "from bead_pitch"));
-  add(quantity(
-      "rods.density", kDensity, 0.001, 100, "Of the material. Sets the unit of energy only.",
-      [](auto& p) -> auto& { return p.system.rod.density; }));
-  add(instead("rods.area_fraction", kPlain, 1e-6, kMaxAreaFractionAligned, kDefaultAreaFraction,
-              "Area of all rods, lying flat, per area of the box.",
-              [](const RunPlan& p) { return Value(to_ten_digits(area_fraction_of(p.system))); }));
-  add(derived(whole(
-                  "rods.count", 1, 1e6, "Number of rods.", [](auto& p) -> auto& { return p.system.n_rods; }),
-              "from area_fraction and side"));
+  add_rods(
+      table, "rods", [](auto& p) -> auto& { return p.system.rod; }, [](auto& p) -> auto& { return p.system.n_rods; },
+      [](const RunPlan& p) { return area_fraction_of(p.system); }, true);
   add(choice<Start>(
       "rods.start", {{"aligned", Start::kAligned}, {"random", Start::kRandom}},
       "Rods in rows along x, every other row shifted by half a rod; or at random (dilute systems).",
       [](auto& p) -> auto& { return p.system.start; }));
+
+  for (std::size_t k = 0; k < 2; ++k) {
+    const std::string name = fmt::format("rods_{}", k + 2);
+    add(system_block(
+        name, "Rods of another kind among the first, at random places.", [k](auto& p) -> auto& {
+          return p.system.added[k];
+        }));
+    add_rods(
+        table, name, [k](auto& p) -> auto& { return p.system.added[k]->rod; },
+        [k](auto& p) -> auto& { return p.system.added[k]->count; },
+        [k](const RunPlan& p) { return area_fraction_of(p.system, p.system.added[k]->rod, p.system.added[k]->count); },
+        false);
+  }
 
   add(quantity(
       "box.side", kLength, 1, 2000, "L, of the square box, periodic in x and y.",
@@ -238,6 +328,35 @@ std::vector<Field> make_table() {
       [](auto& p) -> auto& { return p.system.gravity; });
   gravity.or_zero = true;
   add(std::move(gravity));
+
+  add(later(on_or_off(
+      "plates.base", "Whether there is a base.", [](auto& p) -> auto& { return p.system.base; })));
+  add(later(on_or_off(
+      "plates.lid", "Whether there is a lid.", [](auto& p) -> auto& { return p.system.lid; })));
+  add(later(quantity(
+      "plates.noise", kPlain, 0, 10,
+      "Rotational noise, rad/mm: each hit by a plate turns the rod about the vertical by this much per speed of the "
+      "hit, to either side at random.",
+      [](auto& p) -> auto& { return p.system.rotational_noise; })));
+  add(system_block(
+      "walls", "Side walls round an arena in the middle of the box, in place of periodic borders.",
+      [](auto& p) -> auto& { return p.system.walls; }));
+  add(choice<Arena>(
+      "walls.arena", {{"disc", Arena::kDisc}, {"square", Arena::kSquare}, {"annulus", Arena::kAnnulus}}, "Its shape.",
+      [](auto& p) -> auto& { return p.system.walls->arena; }));
+  add(derived(quantity(
+                  "walls.size", kLength, 1, 2000, "Diameter of the disc or of the outer wall, or side of the square.",
+                  [](auto& p) -> auto& { return p.system.walls->size; }),
+              "as large as box.side allows"));
+  add(quantity(
+      "walls.inner", kLength, 0.1, 2000, "Diameter of an annulus' inner wall.",
+      [](auto& p) -> auto& { return p.system.walls->inner; }));
+  add(quantity(
+      "walls.friction", kPlain, 0, 1000, "Coulomb's friction coefficient between rod and wall.",
+      [](auto& p) -> auto& { return p.system.walls->contact.friction; }));
+  add(quantity(
+      "walls.restitution", kPlain, 0, 1, "Coefficient of restitution between rod and wall.",
+      [](auto& p) -> auto& { return p.system.walls->contact.restitution; }));
 
   add_contact(table, "rod_rod", "two rods", &Scene::rod_rod);
   add_contact(table, "rod_base", "rod and base", &Scene::rod_base);
@@ -265,6 +384,10 @@ std::vector<Field> make_table() {
       "time.engine", {{"scheduled", Engine::kScheduled}, {"reference", Engine::kReference}},
       "How the rods are stepped; both give bitwise the same trajectory.",
       [](auto& p) -> auto& { return p.system.engine; }));
+  add(later(choice<ImpactTime>(
+      "time.impacts", {{"tick_end", ImpactTime::kTickEnd}, {"at_instant", ImpactTime::kAtInstant}},
+      "Impacts take place at the end of their tick, as in the paper, or at their own instant within it.",
+      [](auto& p) -> auto& { return p.system.impacts; })));
   add(steady_field());
   add(quantity(
       "time.measure", kTime, 1e-6, 1e7, "Length of the run after `steady`.",
@@ -428,6 +551,12 @@ std::string show(const Field& field, const Value& value) {
   if (const auto* size = std::get_if<std::array<double, 2>>(&value)) {
     return fmt::format("[{}, {}]", (*size)[0], (*size)[1]);
   }
+  if (const auto* numbers = std::get_if<std::vector<double>>(&value)) {
+    std::string text;
+    for (const double number : *numbers)
+      text += fmt::format("{}{}", text.empty() ? "" : ", ", format_quantity(number, field.dimension));
+    return "[" + text + "]";
+  }
   return "none";
 }
 
@@ -439,6 +568,10 @@ std::string fields_as_markdown() {
       allowed += fmt::format("{}`\"{}\"`", allowed.empty() ? "" : " or ", name);
     if (field.form == Form::kBlock) {
       allowed = "object or `null`";
+    } else if (field.form == Form::kSwitch) {
+      allowed = "`true` or `false`";
+    } else if (field.form == Form::kNumbers) {
+      allowed = "list of " + range_of(field);
     } else if (field.form != Form::kName) {
       const std::string range = field.form == Form::kWhole
                                     ? fmt::format("whole, {:.16g} to {:.16g}", field.low, field.high)

@@ -14,9 +14,9 @@
 
 namespace shaken::scene {
 
-/// The value of one field: nothing, on or off (blocks), a number in the default unit, one of the field's names, or a
-/// pair of whole numbers (sizes).
-using Value = std::variant<std::monostate, bool, double, std::string, std::array<double, 2>>;
+/// The value of one field: nothing, on or off (blocks and switches), a number in the default unit, one of the field's
+/// names, a pair of whole numbers (sizes), or a list of numbers in the default unit.
+using Value = std::variant<std::monostate, bool, double, std::string, std::array<double, 2>, std::vector<double>>;
 
 /// How a field is written.
 enum class Form {
@@ -24,6 +24,8 @@ enum class Form {
   kWhole,     ///< a whole number
   kName,      ///< one of `names`
   kSize,      ///< [width, height], even numbers
+  kSwitch,    ///< true or false
+  kNumbers,   ///< a list of numbers or strings with a unit
   kBlock,     ///< an object that switches something on; null or false switches it off
 };
 
@@ -37,11 +39,12 @@ struct Field {
   double high = 0;       ///< largest value allowed
   bool or_zero = false;  ///< 0 is allowed too, though it is below `low`
   std::vector<std::string> names;
-  Value fallback;                ///< what holds if the key is absent; nothing where that is derived from other keys
-  std::string fallback_note;     ///< says so in words, for the reference
-  std::string doc;               ///< one line
-  bool omit_if_default = false;  ///< left out of the canonical scene where it has its default value, so that scenes
-                                 ///< from before the key keep their names
+  Value fallback;             ///< what holds if the key is absent; nothing where that is derived from other keys
+  std::string fallback_note;  ///< says so in words, for the reference
+  std::string doc;            ///< one line
+  /// Left out of the canonical scene where it has its default value, so that scenes from before the key keep their
+  /// names.
+  bool omit_if_default = false;
 
   /// The value in a plan; asked only if the block that the field is in is on. Empty for keys that only help to write a
   /// scene (bead_pitch).

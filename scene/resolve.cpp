@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "scene/accuracy.h"
 #include "scene/derived.h"
@@ -17,6 +18,7 @@ namespace shaken::scene {
 namespace {
 
 constexpr double kAgreement = 1e-6;       // relative, of quantities given twice
+constexpr double kRoomRoundArena = 0.2;   // [mm]
 constexpr double kLeastBoxLengths = 2.2;  // a rod must not meet two images of another; and some room for the lists
 constexpr double kLeastTicksPerPeriod = 20;
 
@@ -38,17 +40,19 @@ class Resolver {
       store(fields()[i], given);
     }
     accuracy();
-    shape();
+    shapes();
     shaking();
+    arena();
     packing();
     box();
+    gap();
     schedule();
     if (!all_ok || problems_.size() > n_before) return std::nullopt;
     return plan_;
   }
 
  private:
-  using Paths = std::initializer_list<std::string_view>;
+  using Paths = std::vector<std::string>;
 
   void store(const Field& field, const Given* given) {
     const Value& value = given && given->ok ? given->value : field.fallback;
@@ -65,28 +69,28 @@ class Resolver {
     return std::get<double>(found && found->ok ? found->value : field_at(path).fallback);
   }
 
-  bool ok(Paths paths) const {
-    return std::all_of(paths.begin(), paths.end(), [&](std::string_view path) { return draft_.is_ok(path); });
+  bool ok(const Paths& paths) const {
+    return std::all_of(paths.begin(), paths.end(), [&](const std::string& path) { return draft_.is_ok(path); });
   }
 
   /// Reports a problem of several fields where the first of them that was given stands.
-  void complain(Paths paths, std::string message) {
-    for (const std::string_view path : paths) {
+  void complain(const Paths& paths, std::string message) {
+    for (const std::string& path : paths) {
       if (const Given* found = draft_.find(path)) {
         problems_.push_back(problem_at(found->place, path, std::move(message)));
         return;
       }
     }
-    problems_.push_back(problem_at(draft_.place(), *paths.begin(), std::move(message)));
+    problems_.push_back(problem_at(draft_.place(), paths.front(), std::move(message)));
   }
 
   /// Complains if what followed from `causes` lies outside of the field's range.
-  void check_derived(std::string_view path, Paths causes) {
+  void check_derived(std::string_view path, const Paths& causes) {
     const Field& field = field_at(path);
     const double value = std::get<double>(field.fetch(plan_));
     if (value >= field.low && value <= field.high) return;
     std::string said;
-    for (const std::string_view cause : causes) {
+    for (const std::string& cause : causes) {
       const Field& given_field = field_at(cause);
       said += fmt::format("{}{} {}", said.empty() ? "" : " and ", cause, show(given_field, given_field.fetch(plan_)));
     }
@@ -107,58 +111,120 @@ class Resolver {
     plan_.system.dt = level->step;
   }
 
+  /// Every kind of rod that is there: the name of its group, its shape and number.
+  struct Kind {
+    std::string name;
+    RodShape& rod;
+    int& count;
+    std::string path(const char* key) const { return name + "." + key; }
+  };
+  std::vector<Kind> kinds() {
+    std::vector<Kind> all{{"rods", plan_.system.rod, plan_.system.n_rods}};
+    for (std::size_t k = 0; k < plan_.system.added.size(); ++k) {
+      if (auto& added = plan_.system.added[k]) all.push_back({fmt::format("rods_{}", k + 2), added->rod, added->count});
+    }
+    return all;
+  }
+
   // The number of beads, and whether they make a rod.
-  void shape() {
-    RodShape& rod = plan_.system.rod;
-    if (!ok({"rods.length", "rods.mid_diameter", "rods.end_diameter", "rods.beads", "rods.bead_pitch"})) return;
-    if (given("rods.beads") && given("rods.bead_pitch")) {
-      return complain({"rods.beads"}, "rods.beads and rods.bead_pitch are both given; remove one");
+  void shapes() {
+    shapes_ok_ = true;
+    for (const Kind& kind : kinds()) shapes_ok_ = shape(kind) && shapes_ok_;
+  }
+
+  bool shape(const Kind& kind) {
+    RodShape& rod = kind.rod;
+    const std::string length_path = kind.path("length"), mid = kind.path("mid_diameter"),
+                      end = kind.path("end_diameter"), beads = kind.path("beads"), pitch_path = kind.path("bead_pitch"),
+                      list = kind.path("bead_diameters");
+    if (!ok({length_path, mid, end, beads, pitch_path, list})) return false;
+    if (!rod.bead_diameters.empty()) return free_shape(kind);
+    if (given(beads) && given(pitch_path)) {
+      complain({beads}, fmt::format("{} and {} are both given; remove one", beads, pitch_path));
+      return false;
     }
-    if (given("rods.beads") && rod.n_beads % 2 == 0) {
-      return complain({"rods.beads"},
-                      fmt::format("{} is even; a rod has a centre bead, so an odd number; did you mean {}?",
-                                  rod.n_beads, rod.n_beads + 1));
+    if (given(beads) && rod.n_beads % 2 == 0) {
+      complain({beads}, fmt::format("{} is even; a rod has a centre bead, so an odd number; did you mean {}?",
+                                    rod.n_beads, rod.n_beads + 1));
+      return false;
     }
-    if (given("rods.beads") && rod.n_beads == 1) {
-      if (rod.length != rod.mid_diameter) {
-        complain({"rods.length", "rods.beads"},
-                 fmt::format("one bead is a sphere: rods.length ({}) must be rods.mid_diameter ({})",
-                             length(rod.length), length(rod.mid_diameter)));
-        return;
-      }
-      shape_ok_ = true;
-      return;
+    if (given(beads) && rod.n_beads == 1) {
+      if (!given(length_path)) rod.length = rod.mid_diameter;
+      if (rod.length == rod.mid_diameter) return true;
+      complain({length_path, beads}, fmt::format("one bead is a sphere: {} ({}) must be {} ({})", length_path,
+                                                 length(rod.length), mid, length(rod.mid_diameter)));
+      return false;
     }
     const double thickest = std::max(rod.mid_diameter, rod.end_diameter);
     if (rod.length <= thickest) {
-      complain({"rods.length", "rods.mid_diameter", "rods.end_diameter"},
-               fmt::format("a rod of length {} is not longer than its thickest bead ({})", length(rod.length),
-                           length(thickest)));
-      return;
+      complain({length_path, mid, end}, fmt::format("a rod of length {} is not longer than its thickest bead ({})",
+                                                    length(rod.length), length(thickest)));
+      return false;
     }
-    if (!given("rods.beads")) {
-      const double pitch = number("rods.bead_pitch");
+    if (!given(beads)) {
+      const double pitch = number(pitch_path);
       if ((rod.length - rod.end_diameter) / pitch > kMaxBeads - 1) {
-        complain({"rods.bead_pitch", "rods.length"}, fmt::format("beads every {} make more than {} on a rod of {}",
-                                                                 length(pitch), kMaxBeads, length(rod.length)));
-        return;
+        complain({pitch_path, length_path}, fmt::format("beads every {} make more than {} on a rod of {}",
+                                                        length(pitch), kMaxBeads, length(rod.length)));
+        return false;
       }
       rod.n_beads = beads_for_pitch(rod.length, rod.end_diameter, pitch);
     }
-    const auto touching = [](const RodShape& candidate) {
-      const Species species = make_species(candidate);
-      return species.bead_radius[0] + species.bead_radius[1] >= species.bead_offset[1] - species.bead_offset[0] &&
-             species.max_radius * 2 >= species.bead_offset[1] - species.bead_offset[0];
-    };
     if (rod.n_beads > 1 && !touching(rod)) {
       RodShape enough = rod;
       while (!touching(enough) && enough.n_beads < kMaxBeads) enough.n_beads += 2;
-      complain({"rods.beads", "rods.bead_pitch", "rods.length"},
+      complain({beads, pitch_path, length_path},
                fmt::format("{} beads leave holes between them on a rod of {}; take at least {}", rod.n_beads,
                            length(rod.length), enough.n_beads));
-      return;
+      return false;
     }
-    shape_ok_ = true;
+    return true;
+  }
+
+  static bool touching(const RodShape& candidate) {
+    const Species species = make_species(candidate);
+    for (int b = 0; b + 1 < species.n_beads(); ++b) {
+      if (species.bead_radius[b] + species.bead_radius[b + 1] < species.pitch()) return false;
+    }
+    return true;
+  }
+
+  // Beads one by one: what the other keys say of them follows.
+  bool free_shape(const Kind& kind) {
+    RodShape& rod = kind.rod;
+    const std::vector<double>& diameters = rod.bead_diameters;
+    const std::string list = kind.path("bead_diameters");
+    const auto n = static_cast<int>(diameters.size());
+    const double thickest = *std::max_element(diameters.begin(), diameters.end());
+    bool fine = true;
+    const auto follows = [&](const char* key, double value) {
+      if (given(kind.path(key)) && number(kind.path(key)) != value) {
+        complain({kind.path(key)},
+                 fmt::format("{} follows from {}, which makes it {:.10g}; remove it", kind.path(key), list, value));
+        fine = false;
+      }
+      return value;
+    };
+    if (n > kMaxBeads) {
+      complain({list}, fmt::format("{} beads are more than {}", n, kMaxBeads));
+      return false;
+    }
+    rod.n_beads = static_cast<int>(follows("beads", n));
+    rod.mid_diameter = follows("mid_diameter", thickest);
+    rod.end_diameter = follows("end_diameter", diameters.back());
+    if (!fine) return false;
+    if (n == 1) rod.length = thickest;
+    if (n > 1 && rod.length <= thickest) {
+      complain({kind.path("length"), list}, fmt::format("a rod of length {} is not longer than its thickest bead ({})",
+                                                        length(rod.length), length(thickest)));
+      return false;
+    }
+    if (!touching(rod)) {
+      complain({list}, fmt::format("{} beads of these diameters leave holes between them on a rod of {}; give more", n,
+                                   length(rod.length)));
+      return false;
+    }
+    return true;
   }
 
   // Gamma, amplitude and frequency.
@@ -208,59 +274,125 @@ class Resolver {
     }
   }
 
+  // Arena and box fit into each other.
+  void arena() {
+    Scene& system = plan_.system;
+    if (!system.walls || !ok({"walls.size", "walls.inner", "walls.arena", "box.side"}) || !shapes_ok_) return;
+    double thickest = 0;
+    double longest = 0;
+    for (const Kind& kind : kinds()) {
+      thickest = std::max(thickest, 2.0 * make_species(kind.rod).max_radius);
+      longest = std::max(longest, kind.rod.length);
+    }
+    const double room = thickest + kRoomRoundArena;  // so that rods do not meet through the periodic border
+    SideWalls& walls = *system.walls;
+    if (!given("walls.size")) walls.size = system.box_side - room;
+    if (!given("box.side")) system.box_side = walls.size + room;
+    if (system.box_side < walls.size + room * (1 - 1e-12)) {
+      complain({"walls.size", "box.side"},
+               fmt::format("an arena of {} does not fit into a box of {}: at most {}; or leave box.side out",
+                           length(walls.size), length(system.box_side), length(system.box_side - room)));
+    } else if (walls.arena == Arena::kAnnulus && walls.size - walls.inner < 2.0 * longest) {
+      complain({"walls.inner", "walls.size"},
+               fmt::format("an annulus from {} to {} leaves no room for rods of {} to turn: its walls must be a rod "
+                           "length apart",
+                           length(walls.inner), length(walls.size), length(longest)));
+    }
+  }
+
   // Number of rods, box and area fraction.
   void packing() {
-    if (!shape_ok_ || !ok({"rods.area_fraction", "rods.count", "box.side"})) return;
-    Scene& system = plan_.system;
-    const double area = make_species(system.rod).area;
-    const double wanted = number("rods.area_fraction");
-    const auto count_for = [&] { return std::round(wanted * system.box_side * system.box_side / area); };
-
-    if (!given("rods.count")) {
-      const Field& field = field_at("rods.count");
-      if (count_for() < field.low || count_for() > field.high) {
-        complain({"rods.area_fraction", "box.side"},
-                 fmt::format("rods.area_fraction {:.10g} and box.side {} make {} rods, outside [{:.10g}, {:.10g}]",
-                             wanted, length(system.box_side), count_for(), field.low, field.high));
-        return;
-      }
-      system.n_rods = static_cast<int>(count_for());
-    } else if (given("rods.area_fraction") && !given("box.side")) {
-      system.box_side = std::sqrt(system.n_rods * area / wanted);
-      check_derived("box.side", {"rods.count", "rods.area_fraction"});
-    } else if (given("rods.area_fraction") && count_for() != system.n_rods &&
-               !agree(area_fraction_of(system), wanted)) {
-      complain({"rods.area_fraction"},
-               fmt::format("rods.area_fraction {:.10g} contradicts rods.count {} in box.side {}, which make {:.10g}; "
-                           "remove one",
-                           wanted, system.n_rods, length(system.box_side), area_fraction_of(system)));
-      return;
+    if (!shapes_ok_ || !ok({"box.side", "walls.size", "walls.inner", "walls.arena"})) return;
+    for (const Kind& kind : kinds()) {
+      if (!ok({kind.path("area_fraction"), kind.path("count")}) || !numbers_of(kind)) return;
     }
-    const double fraction = area_fraction_of(system);
+    Scene& system = plan_.system;
+    double fraction = 0;
+    Paths causes;
+    std::string all;
+    for (const Kind& kind : kinds()) {
+      fraction += area_fraction_of(system, kind.rod, kind.count);
+      causes.push_back(kind.path("area_fraction"));
+      causes.push_back(kind.path("count"));
+    }
+    causes.insert(causes.end(), {"walls.size", "box.side", "rods.start"});
     const bool random = system.start == Start::kRandom;
     const double most = random ? kMaxAreaFractionRandom : kMaxAreaFractionAligned;
     if (draft_.is_ok("rods.start") && fraction > most) {
-      complain({"rods.area_fraction", "rods.count", "box.side", "rods.start"},
-               fmt::format("{} rods in a box of {} are an area fraction of {:.4g}; {} at most {} can be placed{}",
-                           system.n_rods, length(system.box_side), fraction, random ? "at random" : "in rows", most,
-                           random ? "; start \"aligned\" packs more" : ""));
+      complain(causes,
+               fmt::format("{} rods in {} of {} are an area fraction of {:.4g}; {} at most {} can be placed{}",
+                           system.n_all_rods(), system.walls ? "an arena" : "a box",
+                           length(system.walls ? system.walls->size : system.box_side), fraction,
+                           random ? "at random" : "in rows", most, random ? "; start \"aligned\" packs more" : ""));
     } else {
       check_derived("rods.area_fraction", {"rods.count", "box.side"});
     }
   }
 
+  /// Number and area fraction of one kind of rod; false after a complaint.
+  bool numbers_of(const Kind& kind) {
+    Scene& system = plan_.system;
+    const std::string fraction_path = kind.path("area_fraction"), count_path = kind.path("count");
+    const bool is_first = kind.name == "rods";
+    const double area = make_species(kind.rod).area;
+    if (!is_first && !given(count_path) && !given(fraction_path)) {
+      complain({kind.name, fraction_path}, fmt::format("how many rods? Give {} or {}", count_path, fraction_path));
+      return false;
+    }
+    const double wanted = given(fraction_path) || is_first ? number(fraction_path) : 0.0;
+    const auto count_for = [&] { return std::round(wanted * area_for_rods(system) / area); };
+    if (!given(count_path)) {
+      const Field& field = field_at(count_path);
+      if (count_for() < field.low || count_for() > field.high) {
+        complain({fraction_path, "walls.size", "box.side"},
+                 fmt::format("{} {:.10g} and {} {} make {} rods, outside [{:.10g}, {:.10g}]", fraction_path, wanted,
+                             system.walls ? "walls.size" : "box.side",
+                             length(system.walls ? system.walls->size : system.box_side), count_for(), field.low,
+                             field.high));
+        return false;
+      }
+      kind.count = static_cast<int>(count_for());
+    } else if (is_first && given(fraction_path) && !given("box.side") && !system.walls) {
+      system.box_side = std::sqrt(kind.count * area / wanted);
+      check_derived("box.side", {"rods.count", "rods.area_fraction"});
+    } else if (given(fraction_path) && count_for() != kind.count &&
+               !agree(area_fraction_of(system, kind.rod, kind.count), wanted)) {
+      complain({fraction_path},
+               fmt::format("{} {:.10g} contradicts {} {} in {} {}, which make {:.10g}; remove one", fraction_path,
+                           wanted, count_path, kind.count, system.walls ? "walls.size" : "box.side",
+                           length(system.walls ? system.walls->size : system.box_side),
+                           area_fraction_of(system, kind.rod, kind.count)));
+      return false;
+    }
+    return true;
+  }
+
   void box() {
     const Scene& system = plan_.system;
-    if (shape_ok_ && ok({"box.side", "rods.count", "rods.area_fraction"}) &&
-        system.box_side < kLeastBoxLengths * system.rod.length) {
-      complain({"box.side", "rods.count", "rods.length"},
-               fmt::format("a periodic box of {} is too small for rods of {}: at least {}", length(system.box_side),
-                           length(system.rod.length), length(kLeastBoxLengths * system.rod.length)));
+    if (!shapes_ok_) return;
+    for (const Kind& kind : kinds()) {
+      if (ok({"box.side", kind.path("count"), kind.path("area_fraction")}) &&
+          system.box_side < kLeastBoxLengths * kind.rod.length) {
+        complain({"box.side", "walls.size", kind.path("count"), kind.path("length")},
+                 fmt::format("a periodic box of {} is too small for rods of {}: at least {}", length(system.box_side),
+                             length(kind.rod.length), length(kLeastBoxLengths * kind.rod.length)));
+      }
     }
-    const double thickest = std::max(system.rod.mid_diameter, system.rod.end_diameter);
-    if (ok({"box.gap", "rods.mid_diameter", "rods.end_diameter"}) && system.gap <= thickest) {
-      complain({"box.gap", "rods.mid_diameter", "rods.end_diameter"},
+  }
+
+  void gap() {
+    const Scene& system = plan_.system;
+    for (const Kind& kind : kinds()) {
+      const Paths diameters{kind.path("mid_diameter"), kind.path("end_diameter"), kind.path("bead_diameters")};
+      const double thickest = kind.rod.bead_diameters.empty()
+                                  ? std::max(kind.rod.mid_diameter, kind.rod.end_diameter)
+                                  : *std::max_element(kind.rod.bead_diameters.begin(), kind.rod.bead_diameters.end());
+      if (!ok({"box.gap"}) || !ok(diameters) || system.gap > thickest) continue;
+      complain({"box.gap", diameters[0], diameters[1], diameters[2]},
                fmt::format("a gap of {} is too small for rods {} thick", length(system.gap), length(thickest)));
+    }
+    if (!system.base && system.gravity > 0 && ok({"plates.base", "gravity"})) {
+      complain({"plates.base", "gravity"}, "without a base rods fall out of sight: set gravity to 0");
     }
   }
 
@@ -294,7 +426,7 @@ class Resolver {
   const Draft& draft_;
   std::vector<Problem>& problems_;
   RunPlan plan_;
-  bool shape_ok_ = false;
+  bool shapes_ok_ = false;
 };
 
 }  // namespace

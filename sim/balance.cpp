@@ -44,6 +44,7 @@ KineticEnergy kinetic_energy(const World& world) {
 
 Content content(const World& world) {
   Content content;
+  content.tick = world.tick;
   content.energy = kinetic_energy(world).total();
   for_each_rod(world, [&](const Species& species, const Pose& pose, const Motion& motion) {
     content.energy += species.mass * world.scene.gravity * pose.position.z();
@@ -57,20 +58,25 @@ Balance balance(const World& world) {
   const Content now = content(world);
   Balance balance;
   balance.energy_start = world.start.energy;
-  balance.energy_given = ledger.given.value() + ledger.noise.value();
-  balance.energy_lost = ledger.lost_rod_rod.value() + ledger.lost_surfaces.value();
+  balance.energy_given_by_surfaces = ledger.given.value();
+  balance.energy_given_by_noise = ledger.noise.value();
+  balance.energy_lost_rod_rod = ledger.lost_rod_rod.value();
+  balance.energy_lost_surfaces = ledger.lost_surfaces.value();
   balance.energy_now = now.energy;
-  balance.energy_unexplained = balance.energy_start + balance.energy_given - balance.energy_lost - balance.energy_now;
+  balance.energy_unexplained = balance.energy_start + balance.energy_given_by_surfaces + balance.energy_given_by_noise -
+                               balance.energy_lost_rod_rod - balance.energy_lost_surfaces - balance.energy_now;
   balance.momentum_unexplained = world.start.momentum - now.momentum;
   for (int c = 0; c < 3; ++c) balance.momentum_unexplained[c] += ledger.momentum[static_cast<std::size_t>(c)].value();
   balance.momentum_unexplained.z() -=
-      mass_of_all(world) * world.scene.gravity * static_cast<double>(world.tick) * world.scene.dt;
+      mass_of_all(world) * world.scene.gravity * static_cast<double>(world.tick - world.start.tick) * world.scene.dt;
   return balance;
 }
 
 double Balance::energy_error() const {
-  const double turnover =
-      std::abs(energy_start) + std::abs(energy_given) + std::abs(energy_lost) + std::abs(energy_now);
+  double turnover = 0;
+  for (const double amount : {energy_start, energy_given_by_surfaces, energy_given_by_noise, energy_lost_rod_rod,
+                              energy_lost_surfaces, energy_now})
+    turnover += std::abs(amount);
   return turnover > 0 ? std::abs(energy_unexplained) / turnover : 0.0;
 }
 

@@ -18,6 +18,7 @@ KineticEnergy kinetic_energy(const World& world);
 
 /// What the rods have at one tick.
 struct Content {
+  Tick tick = 0;
   double energy = 0;             ///< kinetic, and potential above z = 0 [pJ]
   Vec3 momentum = Vec3::Zero();  ///< [mg mm/s]
 };
@@ -26,8 +27,10 @@ Content content(const World& world);
 /// The books of a run: what the rods had, got, lost and have. What remains unexplained is rounding.
 struct Balance {
   double energy_start = 0;                   ///< [pJ]
-  double energy_given = 0;                   ///< by moving plates and walls, and by noise [pJ]
-  double energy_lost = 0;                    ///< in impacts [pJ]
+  double energy_given_by_surfaces = 0;       ///< by moving plates and walls [pJ]
+  double energy_given_by_noise = 0;          ///< [pJ]
+  double energy_lost_rod_rod = 0;            ///< in impacts of rods with each other [pJ]
+  double energy_lost_surfaces = 0;           ///< in impacts with plates and walls [pJ]
   double energy_now = 0;                     ///< [pJ]
   double energy_unexplained = 0;             ///< start + given - lost - now [pJ]
   Vec3 momentum_unexplained = Vec3::Zero();  ///< start + given by plates, walls and gravity - now [mg mm/s]

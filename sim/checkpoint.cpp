@@ -122,6 +122,7 @@ std::vector<std::byte> save_checkpoint(const World& world) {
     writer.put(sum->high());
     writer.put(static_cast<std::uint8_t>(sum->overflow()));
   }
+  writer.put(world.start.tick);
   writer.put(world.start.energy);
   writer.put(world.start.momentum);
   writer.append(state_bytes(world));
@@ -154,6 +155,7 @@ Result<World> restore_checkpoint(const Scene& scene, std::span<const std::byte> 
     reader.get(overflow);
     sum->restore(low, high, overflow != 0);
   }
+  reader.get(world.start.tick);
   reader.get(world.start.energy);
   reader.get(world.start.momentum);
   reader.get(world.tick);

@@ -19,15 +19,16 @@ Result<Simulation> Simulation::start(const Scene& scene) {
   return Simulation(std::move(world).value());
 }
 
-Simulation Simulation::start_from(World world) {
-  world.start = content(world);
-  return Simulation(std::move(world));
-}
-
 Result<Simulation> Simulation::resume(const Scene& scene, std::span<const std::byte> checkpoint) {
   auto world = restore_checkpoint(scene, checkpoint);
   if (!world) return world.error();
   return Simulation(std::move(world).value());
+}
+
+Simulation Simulation::start_from(World world) {
+  SHAKEN_CHECK(world.rods.size() == static_cast<std::size_t>(world.scene.n_all_rods()), "as many flights as rods");
+  world.start = content(world);
+  return Simulation(std::move(world));
 }
 
 std::optional<NumericalTrouble> Simulation::advance_to(Tick target) {

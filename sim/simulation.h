@@ -24,11 +24,13 @@ class Simulation {
  public:
   /// Places the rods as the scene says. Fails, with the largest area fraction that fits, if they cannot be packed.
   static Result<Simulation> start(const Scene& scene);
-  /// Starts from a world made by hand; what its rods have now is what the ledger starts from.
-  static Simulation start_from(World world);
   /// Continues from bytes made by checkpoint(), bitwise as if there had been no stop.
   /// Fails if the bytes are damaged or belong to another scene.
   static Result<Simulation> resume(const Scene& scene, std::span<const std::byte> checkpoint);
+
+  /// Begins with a world made by hand: empty_world(scene), at any tick, with a prepared flight for each of its rods.
+  /// What they have then is what the books begin with.
+  static Simulation start_from(World world);
 
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;

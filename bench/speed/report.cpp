@@ -71,6 +71,14 @@ double memory_cpu(const SceneSpeed& scene) {
   return memory_alone(scene.bounds, scene.scheduled.plate_impulses, scene.scheduled.rod_impulses);
 }
 
+/// A field of a CSV file: quoted if need be (RFC 4180).
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
 void flatten(const Json& value, const std::string& name, std::vector<std::pair<std::string, std::string>>& cells) {
   if (value.is_object()) {
     for (const auto& [key, member] : value.items())
@@ -80,7 +88,7 @@ void flatten(const Json& value, const std::string& name, std::vector<std::pair<s
     for (const Json& element : value) text += (text.empty() ? "" : " ") + element.dump();
     cells.emplace_back(name, text);
   } else {
-    cells.emplace_back(name, value.is_string() ? value.get<std::string>() : value.dump());
+    cells.emplace_back(name, value.is_string() ? csv_field(value.get<std::string>()) : value.dump());
   }
 }
 

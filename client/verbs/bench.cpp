@@ -10,6 +10,7 @@ class Bench : public Verb {
   VerbInfo info() const override {
     return {"bench", kHelpGroup, "Measure this build on this machine; without a name: lists the benches",
             "  shaken bench speed --quick                    rod-seconds per CPU-second, in about a minute\n"
+            "  shaken bench effects                          CPU time with each effect switched off\n"
             "  shaken bench speed --help"};
   }
 

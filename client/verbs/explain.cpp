@@ -38,7 +38,7 @@ class Explain : public Verb {
     arguments.repeatable("-s,--set", settings_, "PATH=VALUE", "Change or sweep one value; repeatable");
     arguments.option("--replicas", replicas_, "N", "Runs of each point, each with a seed of its own");
     arguments.flag("--no-probe", no_probe_, "Step nothing: leaves out all that has to be measured");
-    arguments.option("--cpu", cpu_, "S", "CPU time for the steps of each probe, about; 1 if not given");
+    arguments.option("--cpu", cpu_, "S", "CPU time for the steps of each probe, about; 1.5 if not given");
     arguments.option("--from", from_, "DIR", "Probe from the saved state of this run, of the same system and step",
                      Names::kFolder);
     arguments.flag("--json", json_, "Print JSON");
@@ -47,7 +47,7 @@ class Explain : public Verb {
   ExitCode run(const Context& context) override {
     check_options();
     const scene::Sweep sweep = load_points(read_scene_input(file_), settings_, replicas_);
-    const Estimate estimate = estimate_cost(sweep, {!no_probe_, cpu_.value_or(1), from_});
+    const Estimate estimate = estimate_cost(sweep, {!no_probe_, cpu_.value_or(EstimateOptions{}.cpu), from_});
     const scene::SweepPoint& point = sweep.points[estimate.shown];
     Console& console = context.console;
     if (json_) {
@@ -142,8 +142,8 @@ class Explain : public Verb {
         "\nProbe: {} s of the run stepped in {} CPU-seconds, {} rod-seconds per CPU-second, {}.\n",
         number_text(probe.at("simulated_s").get<double>()), number_text(probe.at("cpu_s").get<double>()),
         number_text(probe.at("rod_seconds_per_cpu_second").get<double>()),
-        from_.empty() ? fmt::format("after {} s from the rods' start,\nwhich is not the steady state (--from DIR "
-                                    "begins with that of another run)",
+        from_.empty() ? fmt::format("after {} s from the rods' start,\nfrom where it may be long to the "
+                                    "steady state (--cpu 10 goes further, --from DIR begins there)",
                                     number_text(probe.at("warm_up_s").get<double>()))
                       : "from the state in " + from_);
   }

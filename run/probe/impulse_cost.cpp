@@ -26,7 +26,7 @@ struct Hit {
 
 /// Each rod is hit where its surface is in the direction -normal from one end. The normals are all around.
 std::vector<Hit> hits_on(const World& world) {
-  const Species& species = world.species;
+  const Species& species = world.species.front();
   const InverseInertia inverse = inverse_inertia(species);
   const double ratio = species.inertia_par / species.inertia_perp;
   std::vector<Hit> hits;

@@ -23,6 +23,7 @@ namespace shaken::run {
 namespace {
 
 constexpr double kCpu = 0.02;   ///< for timing one kind of work, about [s]
+constexpr int kSnapshots = 8;   ///< states that measurements are tried on
 constexpr int kFrames = 8;      ///< recorded to see what a frame costs
 constexpr int kShortMovie = 4;  ///< frames of the shorter of two movies; the longer has three times as many
 constexpr double kCheckpointEvery =
@@ -33,17 +34,17 @@ double bytes_in(const std::filesystem::path& file) { return static_cast<double>(
 
 class Prober {
  public:
-  Prober(const scene::RunPlan& plan, const ProbeOptions& options, Simulation simulation)
-      : plan_(plan), options_(options), simulation_(std::move(simulation)), dt_(plan.system.dt), snapshot_() {}
+  Prober(const scene::RunPlan& plan, Simulation simulation, double cpu)
+      : plan_(plan), simulation_(std::move(simulation)), cpu_(cpu), dt_(plan.system.dt) {}
 
   Result<Probe> run() {
     result_.run_ticks = static_cast<double>(total_ticks(plan_));
     if (auto error = step()) return *error;
     time_impulse_laws();
-    const SamplingCost sampling = time_sampling(plan_, simulation_.world().species, snapshot_);
+    const SamplingCost sampling = time_sampling(plan_, simulation_.world().species.front(), snapshots_);
     result_.samples = sampling.samples;
     result_.disk.observables = sampling.file_bytes;
-    result_.snapshots = {snapshots_in_run(), time_of([&] { snapshot_ = simulation_.snapshot(); }, kCpu, 2), 0};
+    result_.snapshots = {snapshots_in_run(), time_of([&] { snapshots_.back() = simulation_.snapshot(); }, kCpu, 2), 0};
     if (auto error = time_recording()) return *error;
     if (plan_.movie) time_movie();
     if (auto error = time_checkpoints(sampling.state_bytes)) return *error;
@@ -83,12 +84,12 @@ class Prober {
 
   [[nodiscard]] std::optional<Error> step() {
     // From a checkpoint too: lists and schedules have to be built.
-    const auto warm_up = step_for(options_.start.empty() ? options_.cpu / 4 : options_.cpu / 16, thread_cpu_seconds);
+    const auto warm_up = step_for(simulation_.tick() == 0 ? cpu_ / 2 : cpu_ / 16, thread_cpu_seconds);
     if (!warm_up) return warm_up.error();
     result_.warm_up = static_cast<double>(warm_up->ticks) * dt_;
 
     const Counters before = simulation_.world().counters;
-    const auto timed = step_for(options_.cpu / 2, thread_cpu_seconds);
+    const auto timed = step_for(0.375 * cpu_, thread_cpu_seconds);
     if (!timed) return timed.error();
     const Counters after = simulation_.world().counters;
     result_.simulated = static_cast<double>(timed->ticks) * dt_;
@@ -101,7 +102,7 @@ class Prober {
 
     // reading the clock costs time, so the stages come from a stretch of their own
     simulation_.time_phases(thread_cpu_seconds_without_readings);
-    const auto phased = step_for(options_.cpu / 4, thread_cpu_seconds_without_readings);
+    const auto phased = step_for(cpu_ / 8, thread_cpu_seconds_without_readings);
     if (!phased) return phased.error();
     for (std::size_t p = 0; p < kPhases; ++p) {
       result_.stages[p] = std::max(0.0, simulation_.phase_times().seconds(static_cast<Phase>(p)) / phased->cpu);
@@ -112,7 +113,11 @@ class Prober {
       for (double& share : result_.stages) share /= sum;
     }
     simulation_.time_phases(nullptr);
-    snapshot_ = simulation_.snapshot();
+    for (int k = 0; k < kSnapshots; ++k) {
+      const auto between = step_for(cpu_ / 8 / kSnapshots, thread_cpu_seconds);
+      if (!between) return between.error();
+      snapshots_.push_back(simulation_.snapshot());
+    }
     return std::nullopt;
   }
 
@@ -131,7 +136,7 @@ class Prober {
 
   /// Ticks of the run at which anything is sampled or recorded.
   std::int64_t snapshots_in_run() const {
-    const Measurements measurements(plan_, simulation_.world().species);
+    const Measurements measurements(plan_, simulation_.world().species.front());
     const std::optional<Cadence> recording = recording_of(plan_);
     const Tick end = total_ticks(plan_);
     std::int64_t n = 0;
@@ -150,7 +155,7 @@ class Prober {
     auto writer = TrajectoryWriter::create(
         folder / "trajectory.h5", trajectory_header(simulation_.world(), scene::to_json(plan_).dump(2) + "\n"));
     if (!writer) return writer.error();
-    Snapshot frame = snapshot_;
+    Snapshot frame = snapshots_.back();
     const double begin = thread_cpu_seconds();
     for (int k = 0; k < n; ++k) {
       frame.tick = k * cadence.period();
@@ -224,11 +229,11 @@ class Prober {
   }
 
   const scene::RunPlan& plan_;
-  const ProbeOptions& options_;
   Simulation simulation_;
+  double cpu_;
   double dt_;
   Probe result_;
-  Snapshot snapshot_;
+  std::vector<Snapshot> snapshots_;
   double rod_rod_ = 0, rod_base_ = 0, rod_lid_ = 0;  ///< impulses of the whole run
 };
 
@@ -240,11 +245,8 @@ double Probe::total() const {
   return sum;
 }
 
-Result<Probe> probe(const scene::RunPlan& plan, const ProbeOptions& options) {
-  auto simulation =
-      options.start.empty() ? Simulation::start(plan.system) : Simulation::resume(plan.system, options.start);
-  if (!simulation) return simulation.error();
-  return Prober(plan, options, std::move(simulation).value()).run();
+Result<Probe> probe(const scene::RunPlan& plan, Simulation simulation, double cpu) {
+  return Prober(plan, std::move(simulation), cpu).run();
 }
 
 }  // namespace shaken::run

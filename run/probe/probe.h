@@ -2,25 +2,16 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <map>
-#include <span>
 #include <string>
-#include <vector>
 
 #include "scene/run_plan.h"
 #include "sim/core/result.h"
+#include "sim/simulation.h"
 #include "sim/stepping/phase_times.h"
 
 namespace shaken::run {
-
-struct ProbeOptions {
-  double cpu = 1.0;  ///< CPU time that stepping may take, about [s]
-  /// A Simulation::checkpoint() of the same system to start from. Empty: the run's own start, stepped for a quarter of
-  /// `cpu` before anything is timed.
-  std::span<const std::byte> start;
-};
 
 /// What a part of the run will cost.
 struct Cost {
@@ -62,8 +53,9 @@ struct Probe {
   double total() const;
 };
 
-/// Steps a piece of the run, and times once what the run does now and then beside stepping. Fails if the rods do not
-/// fit, the checkpoint is not of this system, or the steps meet numerical trouble. Files go to a temporary folder.
-Result<Probe> probe(const scene::RunPlan& plan, const ProbeOptions& options);
+/// Goes on with `simulation`, of this plan's system, for about `cpu` seconds, and times once what the run does now and
+/// then beside stepping. At tick 0 half of `cpu` goes by before anything is timed. Fails if the steps meet
+/// numerical trouble or the disk refuses. Files go to a temporary folder.
+Result<Probe> probe(const scene::RunPlan& plan, Simulation simulation, double cpu);
 
 }  // namespace shaken::run

@@ -78,16 +78,17 @@ double kept_for_lags(std::int64_t samples) {
 
 }  // namespace
 
-SamplingCost time_sampling(const scene::RunPlan& plan, const Species& species, const Snapshot& snapshot) {
+SamplingCost time_sampling(const scene::RunPlan& plan, const Species& species, const std::vector<Snapshot>& snapshots) {
   SamplingCost cost;
   Observables arrays;
   double later_bytes = 0;  // of arrays, beyond those at hand
   for (const Single& single : measurements_of(plan)) {
     const Cadence cadence(single.every, plan.system.dt);
     Measurements measurements(single.plan, species);
-    Snapshot due = snapshot;
+    std::vector<Snapshot> states = snapshots;
     Tick taken = 0;
     const auto sample = [&] {
+      Snapshot& due = states[static_cast<std::size_t>(taken) % states.size()];
       due.tick = taken * cadence.period();
       due.time = static_cast<double>(due.tick) * plan.system.dt;
       measurements.sample(due);
@@ -106,7 +107,7 @@ SamplingCost time_sampling(const scene::RunPlan& plan, const Species& species, c
     const double more = static_cast<double>(samples.count - taken);
     const double state = static_cast<double>(measurements.save().size());
     const double per_sample = (state - first_bytes) / static_cast<double>(taken - 1);
-    const Observables found = measurements.reduce(due.time).arrays;
+    const Observables found = measurements.reduce(static_cast<double>(taken) * single.every).arrays;
     switch (single.growth) {
       case Growth::kSeries:
         cost.state_bytes += state + per_sample * more;

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "run/probe/probe.h"
 #include "sim/rod/species.h"
@@ -17,7 +18,7 @@ struct SamplingCost {
   double state_bytes = 0;               ///< of the measurements in the checkpoint at the end of the run
 };
 
-/// Takes a few samples of each measurement at one state of the plan's rods.
-SamplingCost time_sampling(const scene::RunPlan& plan, const Species& species, const Snapshot& snapshot);
+/// Takes a few samples of each measurement at some states of the plan's rods, at least one.
+SamplingCost time_sampling(const scene::RunPlan& plan, const Species& species, const std::vector<Snapshot>& snapshots);
 
 }  // namespace shaken::run

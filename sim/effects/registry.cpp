@@ -37,17 +37,46 @@ struct Vibration {
   static void switch_off(Scene& scene) { scene.amplitude = 0; }
 };
 
+struct Tilt {
+  static bool is_on(const Scene& scene) { return !scene.is_planar(); }
+  static std::string why(const Scene& scene) {
+    if (scene.is_planar()) return "no base, no lid, gravity = 0";
+    if (scene.base) return "plates.base = true";
+    return scene.lid ? "plates.lid = true" : setting("gravity", scene.gravity, " mm/s^2");
+  }
+  static std::int64_t work(const World& world) { return world.tick * n_rods(world); }
+  static void switch_off(Scene& scene) {
+    scene.base = scene.lid = false;
+    scene.gravity = 0;
+  }
+};
+
+struct SeveralSpecies {
+  static bool is_on(const Scene& scene) { return scene.added[0] || scene.added[1]; }
+  static std::string why(const Scene& scene) {
+    if (scene.added[0]) return setting("rods_2.count", scene.added[0]->count);
+    return scene.added[1] ? setting("rods_3.count", scene.added[1]->count) : "neither rods_2 nor rods_3";
+  }
+  static std::int64_t work(const World& world) { return n_rods(world) - static_cast<std::int64_t>(world.scene.n_rods); }
+  static void switch_off(Scene& scene) { scene.added = {}; }
+};
+
 struct Taper {
   static bool is_on(const Scene& scene) {
-    return scene.rod.n_beads > 1 && scene.rod.end_diameter != scene.rod.mid_diameter;
+    return !scene.rod.bead_diameters.empty() ||
+           (scene.rod.n_beads > 1 && scene.rod.end_diameter != scene.rod.mid_diameter);
   }
   static std::string why(const Scene& scene) {
+    if (!scene.rod.bead_diameters.empty()) return "rods.bead_diameters";
     if (scene.rod.n_beads == 1) return setting("rods.beads", 1);
     return setting("rods.mid_diameter", scene.rod.mid_diameter, " mm, ") +
            setting("rods.end_diameter", scene.rod.end_diameter, " mm");
   }
   static std::int64_t work(const World& world) { return n_rods(world); }
-  static void switch_off(Scene& scene) { scene.rod.end_diameter = scene.rod.mid_diameter; }
+  static void switch_off(Scene& scene) {
+    scene.rod.end_diameter = scene.rod.mid_diameter;
+    scene.rod.bead_diameters.clear();
+  }
 };
 
 // --- what one kind of contact does
@@ -61,15 +90,19 @@ struct RodBase {
   static constexpr const char* kKey = "contacts.rod_base";
   static constexpr auto kParameters = &Scene::rod_base;
   static constexpr auto kImpulses = &Counters::impulses_rod_base;
+  static constexpr const char* kPlate = "plates.base";
+  static constexpr auto kIsThere = &Scene::base;
 };
 struct RodLid {
   static constexpr const char* kKey = "contacts.rod_lid";
   static constexpr auto kParameters = &Scene::rod_lid;
   static constexpr auto kImpulses = &Counters::impulses_rod_lid;
+  static constexpr const char* kPlate = "plates.lid";
+  static constexpr auto kIsThere = &Scene::lid;
 };
 
 struct RodCollisions {
-  static bool is_on(const Scene& scene) { return scene.n_rods > 1; }
+  static bool is_on(const Scene& scene) { return scene.n_all_rods() > 1; }
   static std::string why(const Scene& scene) { return setting("rods.count", scene.n_rods); }
   static std::int64_t work(const World& world) { return world.counters.impulses_rod_rod; }
   static constexpr void (*switch_off)(Scene&) = nullptr;
@@ -77,16 +110,28 @@ struct RodCollisions {
 
 template <class Contact>
 struct PlateCollisions {
-  static bool is_on(const Scene&) { return true; }
-  static std::string why(const Scene& scene) { return setting("box.gap", scene.gap, " mm"); }
+  static bool is_on(const Scene& scene) { return scene.*Contact::kIsThere; }
+  static std::string why(const Scene& scene) {
+    return std::string(Contact::kPlate) + (is_on(scene) ? " = true" : " = false");
+  }
   static std::int64_t work(const World& world) { return world.counters.*Contact::kImpulses; }
-  static constexpr void (*switch_off)(Scene&) = nullptr;
+  static void switch_off(Scene& scene) { scene.*Contact::kIsThere = false; }
 };
+
+/// Both bodies of a kind of contact are there.
+template <class Contact>
+bool is_there(const Scene& scene) {
+  if constexpr (requires { Contact::kIsThere; }) {
+    return scene.*Contact::kIsThere;
+  } else {
+    return true;
+  }
+}
 
 template <class Contact>
 struct Friction {
   static double mu(const Scene& scene) { return (scene.*Contact::kParameters).friction; }
-  static bool is_on(const Scene& scene) { return mu(scene) > 0; }
+  static bool is_on(const Scene& scene) { return is_there<Contact>(scene) && mu(scene) > 0; }
   static std::string why(const Scene& scene) { return setting(std::string(Contact::kKey) + ".friction", mu(scene)); }
   static std::int64_t work(const World& world) { return world.counters.*Contact::kImpulses; }
   static void switch_off(Scene& scene) { (scene.*Contact::kParameters).friction = 0; }
@@ -95,10 +140,46 @@ struct Friction {
 template <class Contact>
 struct Restitution {
   static double e(const Scene& scene) { return (scene.*Contact::kParameters).restitution; }
-  static bool is_on(const Scene& scene) { return e(scene) > 0; }
+  static bool is_on(const Scene& scene) { return is_there<Contact>(scene) && e(scene) > 0; }
   static std::string why(const Scene& scene) { return setting(std::string(Contact::kKey) + ".restitution", e(scene)); }
   static std::int64_t work(const World& world) { return world.counters.*Contact::kImpulses; }
   static void switch_off(Scene& scene) { (scene.*Contact::kParameters).restitution = 0; }
+};
+
+struct WallCollisions {
+  static bool is_on(const Scene& scene) { return scene.walls.has_value(); }
+  static std::string why(const Scene& scene) {
+    return scene.walls ? setting("walls.size", scene.walls->size, " mm") : "no walls: the box is periodic";
+  }
+  static std::int64_t work(const World& world) { return world.counters.impulses_rod_wall; }
+  static void switch_off(Scene& scene) { scene.walls.reset(); }
+};
+
+struct WallFriction {
+  static bool is_on(const Scene& scene) { return scene.walls && scene.walls->contact.friction > 0; }
+  static std::string why(const Scene& scene) {
+    return scene.walls ? setting("walls.friction", scene.walls->contact.friction) : WallCollisions::why(scene);
+  }
+  static std::int64_t work(const World& world) { return world.counters.impulses_rod_wall; }
+  static void switch_off(Scene& scene) {
+    if (scene.walls) scene.walls->contact.friction = 0;
+  }
+};
+
+struct RotationalNoise {
+  static bool is_on(const Scene& scene) { return scene.rotational_noise > 0; }
+  static std::string why(const Scene& scene) { return setting("plates.noise", scene.rotational_noise, " rad/mm"); }
+  static std::int64_t work(const World& world) { return world.counters.noise_kicks; }
+  static void switch_off(Scene& scene) { scene.rotational_noise = 0; }
+};
+
+struct ImpactsAtInstant {
+  static bool is_on(const Scene& scene) { return scene.impacts == ImpactTime::kAtInstant; }
+  static std::string why(const Scene& scene) {
+    return is_on(scene) ? "time.impacts = at_instant" : "time.impacts = tick_end";
+  }
+  static std::int64_t work(const World& world) { return world.counters.impacts_at_instant; }
+  static void switch_off(Scene& scene) { scene.impacts = ImpactTime::kTickEnd; }
 };
 
 /// A rod's spin about its own axis: an impulse along the normal passes through that axis, so only friction changes it.
@@ -108,21 +189,24 @@ struct Spin {
     return Friction<Contact>::is_on(world.scene) ? world.counters.*Contact::kImpulses : 0;
   }
   static bool is_on(const Scene& scene) {
-    return Friction<RodRod>::is_on(scene) || Friction<RodBase>::is_on(scene) || Friction<RodLid>::is_on(scene);
+    return Friction<RodRod>::is_on(scene) || Friction<RodBase>::is_on(scene) || Friction<RodLid>::is_on(scene) ||
+           WallFriction::is_on(scene);
   }
   static std::string why(const Scene& scene) {
     if (Friction<RodRod>::is_on(scene)) return Friction<RodRod>::why(scene);
     if (Friction<RodBase>::is_on(scene)) return Friction<RodBase>::why(scene);
     if (Friction<RodLid>::is_on(scene)) return Friction<RodLid>::why(scene);
-    return "every contacts.*.friction = 0";
+    return WallFriction::is_on(scene) ? WallFriction::why(scene) : "every friction = 0";
   }
   static std::int64_t work(const World& world) {
-    return rubbed<RodRod>(world) + rubbed<RodBase>(world) + rubbed<RodLid>(world);
+    return rubbed<RodRod>(world) + rubbed<RodBase>(world) + rubbed<RodLid>(world) +
+           (WallFriction::is_on(world.scene) ? WallFriction::work(world) : 0);
   }
   static void switch_off(Scene& scene) {
     Friction<RodRod>::switch_off(scene);
     Friction<RodBase>::switch_off(scene);
     Friction<RodLid>::switch_off(scene);
+    WallFriction::switch_off(scene);
   }
 };
 
@@ -141,6 +225,8 @@ constexpr Effect line(std::string_view name, std::string_view unit, std::string_
 constexpr std::array kEffects{
     line<Gravity>("gravity", "rod_ticks", "Rods fall."),
     line<Vibration>("vibration", "periods", "Both plates vibrate."),
+    line<Tilt>("tilt", "rod_ticks", "Rods leave the plane and tilt out of it."),
+    line<SeveralSpecies>("species", "rods", "Rods of other kinds beside the first."),
     line<Taper>("taper", "rods", "Rods are thinner at their ends than in the middle, or thicker."),
     line<Spin>("spin", "impulses", "Rods spin about their own axes."),
     line<RodCollisions>("rod_rod_collisions", "impulses", "Rods collide with each other."),
@@ -152,6 +238,10 @@ constexpr std::array kEffects{
     line<PlateCollisions<RodLid>>("rod_lid_collisions", "impulses", "Rods collide with the lid."),
     line<Friction<RodLid>>("rod_lid_friction", "impulses", "Coulomb's friction between rod and lid."),
     line<Restitution<RodLid>>("rod_lid_restitution", "impulses", "Rods bounce off the lid."),
+    line<WallCollisions>("side_walls", "impulses", "Walls round an arena."),
+    line<WallFriction>("side_wall_friction", "impulses", "Coulomb's friction between rod and side wall."),
+    line<RotationalNoise>("rotational_noise", "kicks", "Rough plates turn rods at random."),
+    line<ImpactsAtInstant>("impacts_at_instant", "impulses", "Impacts take place at their own instant in a tick."),
 };
 
 }  // namespace

@@ -20,9 +20,17 @@ SHAKEN_INLINE F safe_time(const F& gap, const F& rate, const F& pull) {
   return above / below;
 }
 
+/// A bead that may be the lowest or the highest of its rod.
+struct OuterBead {
+  float offset, size;  ///< along the rod from its centre, and without sign [mm]
+  float radius;
+};
+
 struct Constants {
-  float half_length, mid_radius;
-  float head_length, head_radius, tail_length, tail_radius;
+  OuterBead beads[kMostBeads];
+  int n_beads;
+  bool has_base, has_lid;
+  float half_length;
   float gravity, pull_base, pull_lid;
   float dt, per_dt, horizon;
   float half_fall, rise_rate;
@@ -68,13 +76,8 @@ struct PlateKernel {
 
     const F height = lanes::load<W>(rods.z + l) + (velocity - 0.5F * k.gravity * t) * t;
     const F rise = velocity - k.gravity * t - plate_velocity;
-    const F bend = h * lanes::load<W>(rods.rate2 + l);  // bounds the ends' own acceleration
-    const F sag = 0.5F * bend * t * t;                  // how much further an end may be than its tangent says
+    const F rate2 = lanes::load<W>(rods.rate2 + l);
     const F n_z = lanes::load<W>(rods.n_z + l) + n_z_rate * t;
-    const F head = k.head_length * n_z;  // of the head's bead above the centre
-    const F tail = k.tail_length * n_z;  // of the tail's below
-    const F head_rate = k.head_length * n_z_rate;
-    const F tail_rate = k.tail_length * n_z_rate;
     const F gap_margin = kLengthRounding * (1.0F + h + lanes::abs(height) + lanes::abs(lid));
     const F rate_margin = 1e-4F + kRateRounding * (lanes::abs(velocity) + k.gravity * t + lanes::abs(plate_velocity) +
                                                    h * lanes::abs(n_z_rate));
@@ -82,19 +85,20 @@ struct PlateKernel {
     const F below = lid - height - gap_margin;   // centre below the lid
     const F up = rise - rate_margin;
     const F down = -rise - rate_margin;
-    const F head_room = sag + k.head_radius;
-    const F tail_room = sag + k.tail_radius;
-    const F slow = bend * t;
-    const F pull_base = k.pull_base + bend;
-    const F pull_lid = lanes::not_below_zero(k.pull_lid + bend);
-
-    F time = safe_time_off_base(k, above - k.mid_radius, up, lanes::all<W>(k.pull_base));
-    time =
-        lanes::smaller(time, safe_time(below - k.mid_radius, down, lanes::not_below_zero(lanes::all<W>(k.pull_lid))));
-    time = lanes::smaller(time, safe_time_off_base(k, above + head - head_room, up + head_rate - slow, pull_base));
-    time = lanes::smaller(time, safe_time_off_base(k, above - tail - tail_room, up - tail_rate - slow, pull_base));
-    time = lanes::smaller(time, safe_time(below - head - head_room, down - head_rate - slow, pull_lid));
-    time = lanes::smaller(time, safe_time(below + tail - tail_room, down + tail_rate - slow, pull_lid));
+    F time = lanes::all<W>(k.horizon * k.dt);
+    for (int b = 0; b < k.n_beads; ++b) {
+      const OuterBead& bead = k.beads[b];
+      const F bend = bead.size * rate2;                  // bounds the bead's own acceleration
+      const F room = bead.radius + 0.5F * bend * t * t;  // it may be that much further than its tangent says
+      const F slow = bend * t;
+      const F ahead = bead.offset * n_z;
+      const F ahead_rate = bead.offset * n_z_rate;
+      const F pull_lid = lanes::not_below_zero(k.pull_lid + bend);
+      if (k.has_base)
+        time = lanes::smaller(time,
+                              safe_time_off_base(k, above + ahead - room, up + ahead_rate - slow, k.pull_base + bend));
+      if (k.has_lid) time = lanes::smaller(time, safe_time(below - ahead - room, down - ahead_rate - slow, pull_lid));
+    }
     const F more = lanes::truncated(lanes::smaller(time * k.per_dt, lanes::all<W>(k.horizon)));
     lanes::store(safe + l, lanes::smaller(ticks + more, lanes::all<W>(k.horizon)));
   }
@@ -103,22 +107,25 @@ struct PlateKernel {
 }  // namespace
 
 void plate_safe_ticks(const Species& species, const PlateMotion& plates, const PlateLanes& rods, int n, double gravity,
-                      double dt, Tick now, Tick horizon, Tick* safe, RestSpeed rest) {
-  const Constants k{
-      static_cast<float>(species.half_length),
-      static_cast<float>(species.mid_radius),
-      static_cast<float>(species.head.length),
-      static_cast<float>(species.head.radius),
-      static_cast<float>(species.tail.length),
-      static_cast<float>(species.tail.radius),
-      static_cast<float>(gravity),
-      static_cast<float>((plates.peak_acceleration() + gravity) * (1.0 + 1e-6)),
-      static_cast<float>((plates.peak_acceleration() - gravity) + 1e-6 * (plates.peak_acceleration() + gravity)),
-      static_cast<float>(dt),
-      static_cast<float>((1.0 - 1e-5) / dt),
-      static_cast<float>(horizon),
-      static_cast<float>(rest.half_fall * (1.0 + 1e-6)),
-      static_cast<float>(rest.rise_rate * (1.0 + 1e-6))};
+                      double dt, Tick now, Tick horizon, Tick* safe, PlatesThere there) {
+  Constants k;
+  k.n_beads = 0;
+  for (const int b : species.outer_beads) {
+    const auto offset = static_cast<float>(species.bead_offset[b]);
+    k.beads[k.n_beads++] = {offset, std::abs(offset), static_cast<float>(species.bead_radius[b])};
+  }
+  k.has_base = there.base;
+  k.has_lid = there.lid;
+  k.half_length = static_cast<float>(species.half_length);
+  k.gravity = static_cast<float>(gravity);
+  k.pull_base = static_cast<float>((plates.peak_acceleration() + gravity) * (1.0 + 1e-6));
+  k.pull_lid =
+      static_cast<float>((plates.peak_acceleration() - gravity) + 1e-6 * (plates.peak_acceleration() + gravity));
+  k.dt = static_cast<float>(dt);
+  k.per_dt = static_cast<float>((1.0 - 1e-5) / dt);
+  k.horizon = static_cast<float>(horizon);
+  k.half_fall = static_cast<float>(there.rest.half_fall * (1.0 + 1e-6));
+  k.rise_rate = static_cast<float>(there.rest.rise_rate * (1.0 + 1e-6));
   constexpr int kSteps = 3;
   alignas(64) float ticks[kLanes] = {};
   PlatesAt at;

@@ -29,12 +29,19 @@ struct RestSpeed {
   bool matters() const { return half_fall > 0; }
 };
 
+/// Which plates there are, and how rods rest on the base.
+struct PlatesThere {
+  bool base = true;
+  bool lid = true;
+  RestSpeed rest = {};
+};
+
 /// Number of ticks after `now` for which no bead of each rod begins to touch a plate or, if it is in one, begins to
-/// approach it, or on the base is about to leave it slower than rods at rest must (`rest`); at most `horizon`, for the
-/// first `n` rods. Rigorous: the plates are followed exactly, the rod's ends by n_z(t) in n_z + n_z' t -+ W^2 t^2 / 2,
-/// and between the ticks looked at the relative acceleration is bounded by g + a Omega^2 + h W^2. Numerics: floats,
-/// with margins for their rounding.
+/// approach it, or on the base is about to leave it slower than rods at rest must; at most `horizon`, for the first `n`
+/// rods. Rigorous: the plates are followed exactly, the outer beads by n_z(t) in n_z + n_z' t -+ W^2 t^2 / 2, and
+/// between the ticks looked at the relative acceleration is bounded by g + a Omega^2 + h W^2. Numerics: floats, with
+/// margins for their rounding.
 void plate_safe_ticks(const Species& species, const PlateMotion& plates, const PlateLanes& rods, int n, double gravity,
-                      double dt, Tick now, Tick horizon, Tick* safe, RestSpeed rest = {});
+                      double dt, Tick now, Tick horizon, Tick* safe, PlatesThere there = {});
 
 }  // namespace shaken

@@ -163,6 +163,7 @@ Species make_species(const RodShape& shape) {
   Species species;
   const bool is_symmetric = shape.profile == Profile::kSymmetric && shape.bead_diameters.empty();
   is_symmetric ? place_symmetric_beads(shape, species) : place_free_beads(shape, species);
+  SHAKEN_CHECK(species.n_beads() <= kMostBeads, "too many beads");
   species.max_radius = std::max({species.mid_radius, species.tail.radius, species.head.radius});
 
   const ProfileIntegrals profile = integrate_profile(species.bead_offset, species.bead_radius);

@@ -7,6 +7,9 @@
 
 namespace shaken {
 
+/// No rod has more beads.
+inline constexpr int kMostBeads = 128;
+
 /// One end of a rod's hull.
 struct HullEnd {
   double length = 0;  ///< from the rod's centre to the end-bead's [mm]

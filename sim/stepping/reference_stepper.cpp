@@ -11,9 +11,9 @@ constexpr double kSkin = 0.3;
 
 }  // namespace
 
-ReferenceStepper::ReferenceStepper(const World& world)
+ReferenceStepper::ReferenceStepper(const World& world, const Kernels& kernels)
     : rules_(world),
-      kernels_(compose(world.scene)),
+      kernels_(kernels),
       neighbors_(world.species, world.kinds, world.scene.box_side, kSkin),
       rods_(world.rods.size()),
       poses_(world.rods.size()) {}

@@ -14,7 +14,9 @@ namespace shaken {
 /// oracle that any other stepper must match bit by bit.
 class ReferenceStepper final : public Stepper {
  public:
-  explicit ReferenceStepper(const World& world);
+  explicit ReferenceStepper(const World& world) : ReferenceStepper(world, compose(world.scene)) {}
+  /// With kernels of one's own choice.
+  ReferenceStepper(const World& world, const Kernels& kernels);
   std::size_t bytes() const override;
 
  private:

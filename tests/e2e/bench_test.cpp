@@ -77,6 +77,56 @@ TEST_F(Bench, SpeedOfThreadsAndStepsToo) {
   EXPECT_EQ(text_of("scaling_dt.png").substr(1, 3), "PNG");
 }
 
+TEST_F(Bench, AccuracyWritesErrorsAndOrders) {
+  const Finished finished = bench({"accuracy", "deterministic", "--cases", "head-on,dozen", "--steps", "64,32,16,8",
+                                   "--members", "4", "--out", out()});
+  ASSERT_EQ(finished.code, 0) << finished.output;
+  EXPECT_THAT(finished.output, AllOf(HasSubstr("Order of convergence"), HasSubstr("converged solution at 125 ns")));
+  const Json report = json_of("deterministic.json");
+  ASSERT_EQ(report.at("orders").size() % 2, 0u);
+  ASSERT_EQ(report.at("rows").size(), 4 * report.at("orders").size());
+  for (const Json& row : report.at("rows")) {
+    EXPECT_GT(row.at("error").at("position").at("median").get<double>(), 0);
+    EXPECT_TRUE(row.at("states_equal").get<bool>());
+  }
+  EXPECT_EQ(text_of("convergence.png").substr(1, 3), "PNG");
+  EXPECT_EQ(text_of("work_precision.png").substr(1, 3), "PNG");
+}
+
+TEST_F(Bench, AccuracyWritesBiases) {
+  const Finished finished = bench({"accuracy", "statistical", "--side", "12", "--steps", "64,32", "--measure", "0.03",
+                                   "--warm-up", "0.01", "--replicas", "2", "--out", out()});
+  ASSERT_EQ(finished.code, 0) << finished.output;
+  EXPECT_THAT(finished.output, HasSubstr("Largest step up to which the bias is below 1 %"));
+  const Json rows = json_of("statistical.json").at("rows");
+  ASSERT_EQ(rows.size(), 2u + 2u + 5u + 4u);  // steps of two scenes, bead pitches, sweeps
+  for (const Json& row : rows) {
+    EXPECT_GT(row.at("T_z").at("value").get<double>(), 0);
+    EXPECT_GT(row.at("S").at("sem").get<double>(), 0);
+    EXPECT_GT(row.at("cpu_s_per_rod_s").get<double>(), 0);
+  }
+  for (const char* name : {"bias.png", "tilt.png", "model.png"}) EXPECT_EQ(text_of(name).substr(1, 3), "PNG");
+}
+
+TEST_F(Bench, AccuracyWritesTheErrorOfOrder) {
+  const Finished finished =
+      bench({"accuracy", "error", "--sides", "12,13,14,15", "--measure", "0.1", "--warm-up", "0.01", "--out", out()});
+  ASSERT_EQ(finished.code, 0) << finished.output;
+  EXPECT_THAT(finished.output, HasSubstr("tau below 100"));
+  const Json report = json_of("error.json");
+  ASSERT_EQ(report.at("rows").size(), 4u);
+  EXPECT_EQ(report.at("rows").at(0).at("replicas"), 2);
+  EXPECT_GT(report.at("rows").at(3).at("tau_s").get<double>(), 0);
+  EXPECT_EQ(text_of("error.png").substr(1, 3), "PNG");
+}
+
+TEST_F(Bench, AccuracyRefusesWhatItDoesNotKnow) {
+  const Finished finished = bench({"accuracy", "guess", "--cases", "sideways", "--steps", "3,64", "--quick", "--full"});
+  EXPECT_EQ(finished.code, 2);
+  EXPECT_THAT(finished.output, AllOf(HasSubstr("'guess' is not a part"), HasSubstr("'sideways' is not one of"),
+                                     HasSubstr("3 is not 64 us halved"), HasSubstr("contradict")));
+}
+
 TEST_F(Bench, ExportGivesAState) {
   const Finished finished =
       bench({"export", "--side", "12", "--warm-up", "0.005", "--frames", "2", "--out", out() + ".json"});
@@ -100,6 +150,27 @@ TEST_F(Bench, LooksFollowsAPair) {
   EXPECT_GT(looks, 0);
   EXPECT_LT(looks, 250);
   EXPECT_EQ(text_of("looks.png").substr(1, 3), "PNG");
+}
+
+TEST_F(Bench, EffectsAreSwitchedOffOneByOne) {
+  const Finished finished = bench({"effects", "--side", "12", "--area-fraction", "0.5", "--warm-up", "0.02", "--cpu",
+                                   "0.01", "--repeat", "2", "--out", out()});
+  ASSERT_EQ(finished.code, 0) << finished.output;
+  EXPECT_THAT(finished.output, AllOf(HasSubstr("rod_rod_friction"), HasSubstr("contacts.rod_rod.friction = 0")));
+  const Json report = json_of("effects.json");
+  EXPECT_GE(report.at("rows").size(), 10u);
+  for (const Json& row : report.at("rows")) {
+    EXPECT_GT(row.at("own_state").at("cpu_ratio").get<double>(), 0) << row;
+    EXPECT_EQ(row.at("own_state").at("cpu_s").size(), 2u);
+    const bool is_of_contacts = row.at("neutral").get<std::string>().starts_with("contacts.");
+    if (is_of_contacts) {
+      EXPECT_GT(row.at("same_state").at("cpu_ratio").get<double>(), 0) << row;
+    }
+    EXPECT_EQ(row.at("without") == "(nothing)", row.at("neutral") == "") << row;
+  }
+  EXPECT_EQ(text_of("effects.png").substr(1, 3), "PNG");
+  EXPECT_THAT(text_of("effects.csv"), HasSubstr("cpu_ratio"));
+  EXPECT_EQ(bench({"effects", "--length", "0", "--repeat", "x"}).code, 2);
 }
 
 TEST_F(Bench, BadArgumentsAreAllListed) {

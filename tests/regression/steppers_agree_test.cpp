@@ -4,9 +4,13 @@
 #include <rapidcheck/gtest.h>
 
 #include "sim/simulation.h"
+#include "tests/support/compare_steppers.h"
 
 namespace shaken {
 namespace {
+
+using test::compare;
+using test::compare_threads;
 
 std::string describe(const Scene& s) {
   char text[400];
@@ -19,58 +23,6 @@ std::string describe(const Scene& s) {
       s.dt, s.solver_sweeps, static_cast<int>(s.law), s.start == Start::kAligned ? "aligned" : "random",
       static_cast<int>(s.seed));
   return text;
-}
-
-/// Steps on 2 and 4 threads, shared as finely as can be, give the same as on one. Not for long: threads wait for each
-/// other in every tick. Returns what differed, or an empty string.
-std::string compare_threads(Scene scene, Tick ticks) {
-  auto one = Simulation::start(scene);
-  if (!one) return "";
-  if (one->advance_to(ticks)) return "";
-  for (const int n_threads : {2, 4}) {
-    auto several = Simulation::start(scene);
-    several->use_threads(n_threads, 1);
-    if (several->advance_to(ticks)) return "trouble on several threads only";
-    if (one->state_hash() != several->state_hash()) return "states differ on " + std::to_string(n_threads) + " threads";
-    const Counters& a = one->world().counters;
-    const Counters& b = several->world().counters;
-    if (a.impulses_rod_rod != b.impulses_rod_rod || a.impulses_rod_base != b.impulses_rod_base ||
-        a.impulses_rod_lid != b.impulses_rod_lid || a.max_overlap_rod_rod != b.max_overlap_rod_rod ||
-        a.max_overlap_rod_plate != b.max_overlap_rod_plate) {
-      return "counters differ on " + std::to_string(n_threads) + " threads";
-    }
-  }
-  return "";
-}
-
-/// Steps both, compares the hashes at several ticks, and once more after a checkpoint and restart at tick `stop`.
-/// Returns what differed, or an empty string.
-std::string compare(Scene scene, Tick ticks, Tick stop) {
-  scene.engine = Engine::kReference;
-  auto reference = Simulation::start(scene);
-  if (!reference) return "";  // does not fit: nothing to compare
-  scene.engine = Engine::kScheduled;
-  auto scheduled = Simulation::start(scene);
-  std::vector<Tick> looks{1, 2, stop, ticks / 2, ticks};
-  std::sort(looks.begin(), looks.end());
-  for (const Tick k : looks) {
-    const auto trouble_r = reference->advance_to(k);
-    const auto trouble_s = scheduled->advance_to(k);
-    if (trouble_r.has_value() != trouble_s.has_value())
-      return "only one of them met trouble by tick " + std::to_string(k);
-    if (trouble_r)
-      return trouble_r->tick == trouble_s->tick && trouble_r->rods == trouble_s->rods ? "" : "different trouble";
-    if (reference->state_hash() != scheduled->state_hash()) return "states differ at tick " + std::to_string(k);
-    const Counters& r = reference->world().counters;
-    const Counters& s = scheduled->world().counters;
-    if (r.impulses_rod_rod != s.impulses_rod_rod || r.impulses_rod_base != s.impulses_rod_base ||
-        r.impulses_rod_lid != s.impulses_rod_lid || r.max_overlap_rod_rod != s.max_overlap_rod_rod ||
-        r.max_overlap_rod_plate != s.max_overlap_rod_plate) {
-      return "counters differ at tick " + std::to_string(k);
-    }
-    if (k == stop) scheduled = Simulation::resume(scene, scheduled->checkpoint());
-  }
-  return "";
 }
 
 struct Case {

@@ -41,6 +41,7 @@ TEST(Csv, NamesNestedValuesWithDots) {
   EXPECT_EQ(as_csv(nlohmann::ordered_json::parse(R"([{"a": {"b": 1, "c": "x"}, "d": [1, 2]},
                                                       {"a": {"b": 2, "c": "y"}, "d": [3, 4]}])")),
             "a.b,a.c,d\n1,x,1 2\n2,y,3 4\n");
+  EXPECT_EQ(as_csv(nlohmann::ordered_json::parse(R"([{"a": "x, \"y\""}])")), "a\n\"x, \"\"y\"\"\"\n");
 }
 
 TEST(Report, OfScenesHasRatesRatioAndBounds) {

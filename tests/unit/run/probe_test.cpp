@@ -34,11 +34,15 @@ scene::RunPlan busy_plan() {
   return plan;
 }
 
+Result<Probe> probed_from_start(const scene::RunPlan& plan, double cpu) {
+  return probe(plan, Simulation::start(plan.system).value(), cpu);
+}
+
 double bytes_of(const std::filesystem::path& file) { return static_cast<double>(std::filesystem::file_size(file)); }
 
 TEST(Probe, FindsWhatARunThenTakes) {
   const scene::RunPlan plan = busy_plan();
-  const auto probed = probe(plan, {0.2, {}});
+  const auto probed = probed_from_start(plan, 0.2);
   ASSERT_TRUE(probed) << probed.error().message;
 
   const TemporaryFolder folder;
@@ -60,7 +64,8 @@ TEST(Probe, FindsWhatARunThenTakes) {
   EXPECT_EQ(probed->snapshots.count, 751 + 501 - 251);
   // files
   EXPECT_NEAR(probed->disk.trajectory / bytes_of(directory.trajectory()), 1, 0.1);
-  EXPECT_NEAR(probed->disk.observables / bytes_of(directory.observables()), 1, 0.15);
+  // how many defects there will be is not known
+  EXPECT_NEAR(probed->disk.observables / bytes_of(directory.observables()), 1, 0.4);
   EXPECT_NEAR(probed->disk.checkpoints / bytes_of(directory.checkpoint()), 1, 0.2);
   // the machine may do other things meanwhile
   const double cpu = probed->total() / summary["cpu_seconds"].get<double>();
@@ -69,7 +74,7 @@ TEST(Probe, FindsWhatARunThenTakes) {
 }
 
 TEST(Probe, SharesArePartsOfOneWhole) {
-  const auto probed = probe(busy_plan(), {0.1, {}});
+  const auto probed = probed_from_start(busy_plan(), 0.1);
   ASSERT_TRUE(probed) << probed.error().message;
   const double stages = std::accumulate(probed->stages.begin(), probed->stages.end(), 0.0);
   EXPECT_GT(stages, 0.5);
@@ -93,26 +98,24 @@ TEST(Probe, SharesArePartsOfOneWhole) {
   EXPECT_LE(sum, 1.001);
 }
 
-TEST(Probe, GoesOnFromACheckpointOfTheSameSystemOnly) {
+TEST(Probe, GoesOnFromAnyState) {
   const scene::RunPlan plan = busy_plan();
   auto simulation = Simulation::start(plan.system);
   ASSERT_TRUE(static_cast<bool>(simulation));
   ASSERT_FALSE(simulation->advance_to(100).has_value());
-  const std::vector<std::byte> checkpoint = simulation->checkpoint();
-  EXPECT_TRUE(probe(plan, {0.02, checkpoint}));
-  scene::RunPlan other = plan;
-  other.system.gap = 1.5;
-  const auto refused = probe(other, {0.02, checkpoint});
-  ASSERT_FALSE(refused);
-  EXPECT_NE(refused.error().message.find("another scene"), std::string::npos);
+  const auto probed = probe(plan, std::move(simulation).value(), 0.02);
+  ASSERT_TRUE(probed) << probed.error().message;
+  EXPECT_GT(probed->simulated, 0);
+  EXPECT_GT(probed->tick_cpu, 0);
 }
 
-TEST(Probe, TellsWhatDoesNotFit) {
+TEST(Probe, EndsInTroubleWithItsWords) {
   scene::RunPlan plan = busy_plan();
-  plan.system.n_rods = 5000;
-  const auto refused = probe(plan, {0.02, {}});
+  plan.system.amplitude = 5;
+  plan.system.dt = 2e-4;  // too long a step for such plates
+  const auto refused = probed_from_start(plan, 0.02);
   ASSERT_FALSE(refused);
-  EXPECT_NE(refused.error().message.find("do not fit"), std::string::npos);
+  EXPECT_NE(refused.error().message.find("numerical trouble at tick"), std::string::npos);
 }
 
 TEST(Effects, AreListedWithTheKeyThatDecides) {

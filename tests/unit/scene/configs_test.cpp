@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "scene/sweep.h"
-#include "sim/initial.h"
+#include "sim/world.h"
 #include "sim/rod/species.h"
 #include "tests/unit/scene/support.h"
 
@@ -24,7 +24,7 @@ TEST(Configs, AreAllValidAndCanStart) {
     EXPECT_TRUE(sweep.value) << to_string(sweep.problems);
     if (!sweep.value) continue;
     for (const SweepPoint& point : sweep.value->points) {
-      const auto flights = initial_flights(point.plan.system, make_species(point.plan.system.rod));
+      const auto flights = make_world(point.plan.system);
       EXPECT_TRUE(flights) << entry.path() << " " << point.label << ": " << flights.error().message;
     }
   }

@@ -99,8 +99,33 @@ TEST(Problems, ImpossibleGeometry) {
   EXPECT_EQ(problem_of(R"({"rods": {"length": 0.7}})"),
             "run.json:1:21: /rods/length: a rod of length 0.7 mm is not longer than its thickest bead (0.8 mm)");
   EXPECT_EQ(
-      problem_of(R"({"rods": {"beads": 1}})"),
-      "run.json:1:20: /rods/beads: one bead is a sphere: rods.length (4.5 mm) must be rods.mid_diameter (0.8 mm)");
+      problem_of(R"({"rods": {"length": "4.5 mm", "beads": 1}})"),
+      "run.json:1:21: /rods/length: one bead is a sphere: rods.length (4.5 mm) must be rods.mid_diameter (0.8 mm)");
+}
+
+TEST(Problems, OfSeveralKindsOfRods) {
+  EXPECT_EQ(problem_of(R"({"rods": {"area_fraction": 0.3}, "rods_2": {"beads": 1}})"),
+            "run.json:1:44: /rods_2: how many rods? Give rods_2.count or rods_2.area_fraction");
+  EXPECT_EQ(
+      problem_of(R"({"rods_3": {"area_fraction": 0.3}})"),
+      "run.json:1:30: /rods_3/area_fraction: 2954 rods in a box of 83.73 mm are an area fraction of 1.05; in rows at "
+      "most 0.92 can be placed");
+  EXPECT_EQ(
+      problem_of(R"({"rods": {"bead_diameters": [0.4, 0.3, 0.8], "length": 4.5}})"),
+      "run.json:1:29: /rods/bead_diameters: 3 beads of these diameters leave holes between them on a rod of 4.5 mm; "
+      "give more");
+  EXPECT_EQ(problem_of(R"({"rods": {"bead_diameters": [0.8, 0.6], "length": 1, "beads": 3}})"),
+            "run.json:1:63: /rods/beads: rods.beads follows from rods.bead_diameters, which makes it 2; remove it");
+}
+
+TEST(Problems, OfWallsAndPlates) {
+  EXPECT_EQ(problem_of(R"({"walls": {"size": "50 mm"}, "box": {"side": "50 mm"}})"),
+            "run.json:1:20: /walls/size: an arena of 50 mm does not fit into a box of 50 mm: at most 49 mm; or leave "
+            "box.side out");
+  EXPECT_EQ(problem_of(R"({"plates": {"base": false}})"),
+            "run.json:1:21: /plates/base: without a base rods fall out of sight: set gravity to 0");
+  EXPECT_EQ(problem_of(R"({"plates": {"lid": 1}})"),
+            "run.json:1:20: /plates/lid: expected true or false, not the number 1");
 }
 
 TEST(Problems, TimesThatDoNotFitTogether) {

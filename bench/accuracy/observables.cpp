@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "bench/accuracy/observables.h"
+
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "analysis/order.h"
+#include "analysis/time_series.h"
+
+namespace shaken::bench {
+namespace {
+
+constexpr int kTiltBins = 16;
+constexpr double kTiltRange = 0.4;
+
+/// Mean of -sign(n_z) v_along over the rods with 0.1 < |n_z| < 0.25: where the taper lies flat on a plate.
+std::optional<double> drift_of(const Snapshot& rods) {
+  double sum = 0;
+  int n = 0;
+  for (std::size_t i = 0; i < rods.n_rods(); ++i) {
+    const Vec3& director = rods.director[i];
+    const double tilt = std::abs(director.z());
+    if (tilt < 0.1 || tilt > 0.25) continue;
+    const double along = director.x() * rods.velocity[i].x() + director.y() * rods.velocity[i].y();
+    sum -= (director.z() > 0 ? along : -along) / std::hypot(director.x(), director.y());
+    ++n;
+  }
+  if (n == 0) return std::nullopt;
+  return sum / n;
+}
+
+}  // namespace
+
+ObservableSeries::ObservableSeries() : tilt_(kTiltBins, kTiltRange) {}
+
+void ObservableSeries::sample(const Simulation& simulation) {
+  const World& world = simulation.world();
+  const Snapshot rods = simulation.snapshot();
+  const auto n = static_cast<double>(rods.n_rods());
+
+  const KineticEnergy energy = kinetic_energy(world);
+  add(Observable::kTemperatureXy, energy.translation_xy / (n * world.species.mass));
+  add(Observable::kTemperatureZ, 2 * energy.translation_z / (n * world.species.mass));
+  add(Observable::kRotation, energy.rotation / (n * world.species.inertia_perp));
+  add(Observable::kOrder, analysis::nematic_order(rods.director).order);
+  double n_z2 = 0;
+  for (const Vec3& director : rods.director) n_z2 += director.z() * director.z() / n;
+  add(Observable::kTilt, std::sqrt(n_z2));
+  if (const auto drift = drift_of(rods)) add(Observable::kDrift, *drift);
+  tilt_.accumulate(rods.director, rods.velocity);
+
+  std::vector<Vec2> places;
+  for (std::size_t i = 0; i < rods.n_rods(); ++i) {
+    places.emplace_back(rods.position[i].x() + rods.image[i][0] * rods.box_side,
+                        rods.position[i].y() + rods.image[i][1] * rods.box_side);
+  }
+  if (places_.size() == kLagSamples) {
+    double square = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) square += (places[i] - places_.front()[i]).squaredNorm() / n;
+    add(Observable::kDisplacement, square);
+    places_.pop_front();
+  }
+  places_.push_back(std::move(places));
+
+  double hit = 0;
+  for (const Flight& flight : world.rods) {
+    hit += static_cast<double>(world.tick - flight.since) * world.scene.dt < kRecently * (1 - 1e-9) ? 1 / n : 0;
+  }
+  add(Observable::kHit, hit);
+
+  const Counters& now = world.counters;
+  if (places_.size() > 1) {
+    const auto plates = [](const Counters& of) { return of.impulses_rod_base + of.impulses_rod_lid; };
+    add(Observable::kRodImpulses, static_cast<double>(now.impulses_rod_rod - last_.impulses_rod_rod) / (n * kEvery));
+    add(Observable::kPlateImpulses, static_cast<double>(plates(now) - plates(last_)) / (n * kEvery));
+  }
+  last_ = now;
+}
+
+Mean mean_of(const std::vector<double>& values) {
+  const auto n = static_cast<double>(values.size());
+  if (values.empty()) return {};
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
+  double variance = 0;
+  for (const double value : values) variance += (value - mean) * (value - mean) / n;
+  return {mean, std::sqrt(variance * analysis::statistical_inefficiency(values) / n)};
+}
+
+Mean mean_of(const std::vector<Mean>& replicas) {
+  Mean mean;
+  const auto n = static_cast<double>(replicas.size());
+  for (const Mean& replica : replicas) {
+    mean.value += replica.value / n;
+    mean.sem += replica.sem * replica.sem / (n * n);
+  }
+  mean.sem = std::sqrt(mean.sem);
+  return mean;
+}
+
+}  // namespace shaken::bench

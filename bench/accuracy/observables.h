@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <deque>
+#include <vector>
+
+#include "analysis/tilt.h"
+#include "sim/simulation.h"
+
+namespace shaken::bench {
+
+/// What is averaged over time, one number per sample.
+enum class Observable {
+  kTemperatureXy,  ///< mean square of a velocity component in the plane: granular temperature per mass
+  kTemperatureZ,   ///< and of the upright one
+  kRotation,       ///< mean square of an angular velocity across the rod, as hardly a rod spins about its axis
+  kOrder,          ///< S
+  kTilt,           ///< root mean square of n_z
+  kDrift,          ///< mean velocity along the rod against its tilt, of rods with 0.1 < |n_z| < 0.25
+  kDisplacement,   ///< mean square displacement in the plane after kLag
+  kHit,            ///< share of rods hit within the last kRecently
+  kRodImpulses,    ///< impulses between rods per rod and second
+  kPlateImpulses,  ///< impulses from plates per rod and second
+};
+inline constexpr int kObservables = 10;
+
+struct ObservableInfo {
+  const char* name;
+  const char* unit;
+  bool has_limit;  ///< as dt -> 0; a rod at rest on a plate gets an impulse at every tick, so impulses have none
+};
+inline constexpr std::array<ObservableInfo, kObservables> kObservableInfo{{{"T_xy", "mm^2/s^2", true},
+                                                                           {"T_z", "mm^2/s^2", true},
+                                                                           {"T_rot", "rad^2/s^2", true},
+                                                                           {"S", "1", true},
+                                                                           {"rms_n_z", "1", true},
+                                                                           {"drift", "mm/s", true},
+                                                                           {"msd", "mm^2", true},
+                                                                           {"hit", "1", true},
+                                                                           {"rod_impulses", "1/s", false},
+                                                                           {"plate_impulses", "1/s", false}}};
+
+/// A mean over time and its statistical error.
+struct Mean {
+  double value = 0;
+  double sem = 0;
+};
+
+/// Samples of one run, taken every kEvery.
+class ObservableSeries {
+ public:
+  /// Not a simple fraction of the plates' 5 ms, so that samples see all their phases in turn; a whole number of any
+  /// tick that is 64 us halved some times [s].
+  static constexpr double kEvery = 27 * 64e-6;
+  static constexpr int kLagSamples = 12;
+  static constexpr double kLag = kLagSamples * kEvery;  ///< 20.7 ms
+  static constexpr double kRecently = 64e-6;            ///< [s]
+
+  ObservableSeries();
+  void sample(const Simulation& simulation);
+
+  const std::vector<double>& values(Observable of) const { return values_[static_cast<std::size_t>(of)]; }
+  const analysis::TiltVelocity& tilt() const { return tilt_; }
+
+ private:
+  void add(Observable of, double value) { values_[static_cast<std::size_t>(of)].push_back(value); }
+
+  std::array<std::vector<double>, kObservables> values_;
+  analysis::TiltVelocity tilt_;
+  std::deque<std::vector<Vec2>> places_;  ///< unwrapped, of the last kLagSamples samples
+  Counters last_;
+};
+
+/// Over all of one run's samples, with the error from their autocorrelation.
+Mean mean_of(const std::vector<double>& values);
+/// Over independent runs of one length.
+Mean mean_of(const std::vector<Mean>& replicas);
+
+}  // namespace shaken::bench

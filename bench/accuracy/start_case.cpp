@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include "bench/accuracy/start_case.h"
+
+#include <cmath>
+
+#include "bench/failure.h"
+#include "bench/steady_state.h"
+#include "sim/core/rng.h"
+
+namespace shaken::bench {
+namespace {
+
+constexpr std::uint64_t kSeed = 20240908;
+
+/// A rod in flight from tick 0 on, without spin about its axis; the director need not be of length 1, and of the
+/// angular velocity `turn` only the part across the rod counts.
+Flight thrown(const Vec3& position, const Vec3& director, const Vec3& velocity, const Vec3& turn) {
+  Flight flight;
+  flight.position = position;
+  flight.director = director.normalized();
+  flight.velocity = velocity;
+  flight.precession = turn - turn.dot(flight.director) * flight.director;
+  flight.prepare();
+  return flight;
+}
+
+Vec3 jitter(Rng& rng, double size) {
+  const double x = rng.uniform(-size, size);
+  const double y = rng.uniform(-size, size);
+  return {x, y, rng.uniform(-size, size)};
+}
+
+/// The paper's rods between the paper's plates.
+StartCase between_plates(std::string name, std::string what, int n_rods, double side, double duration, int members) {
+  StartCase start{std::move(name), std::move(what), duration, members, {}, {}};
+  start.scene.n_rods = n_rods;
+  start.scene.box_side = side;
+  start.scene.seed = kSeed;
+  return start;
+}
+
+/// Two rods that fall freely side by side, far from any plate: only they can hit each other.
+StartCase in_free_fall(std::string name, std::string what, double duration) {
+  StartCase start = between_plates(std::move(name), std::move(what), 2, 30, duration, 128);
+  start.scene.gap = 20;
+  return start;
+}
+
+StartCase rattling() {
+  StartCase start = between_plates("rattling", "one rod hits lid and base in turn", 1, 30, 128 * kLongestStep, 128);
+  start.rods = [](int member) {
+    Rng rng(kSeed, RngStream::kVelocity, static_cast<std::uint64_t>(member));
+    const double z = 0.687 + rng.uniform(-0.1, 0.1);
+    const Vec3 velocity = Vec3(20, 10, 150) + jitter(rng, 20);
+    return std::vector{thrown({15, 15, z}, Vec3(1, 0.3, 0.02), velocity, Vec3(0, 3, 0) + jitter(rng, 3))};
+  };
+  return start;
+}
+
+StartCase wedged() {
+  StartCase start = between_plates("wedged", "one rod, tilted, touches base and lid", 1, 30, 64 * kLongestStep, 128);
+  start.rods = [](int member) {
+    Rng rng(kSeed, RngStream::kVelocity, static_cast<std::uint64_t>(member));
+    // both ends 0.01 mm from their plates, and turning towards them
+    const double n_z = 0.39 / (0.5 * 4.5 - 0.2);
+    const double z = 2 * 0.043486 + 0.6 + rng.uniform(-0.005, 0.005);
+    const Vec3 velocity = Vec3(20, 0, -20) + jitter(rng, 10);
+    return std::vector{
+        thrown({15, 15, z}, {std::sqrt(1 - n_z * n_z), 0, n_z}, velocity, Vec3(0, -20, 2) + jitter(rng, 5))};
+  };
+  return start;
+}
+
+StartCase head_on() {
+  StartCase start = in_free_fall("head-on", "two rods in line, tip to tip", 64 * kLongestStep);
+  start.rods = [](int member) {
+    Rng rng(kSeed, RngStream::kVelocity, static_cast<std::uint64_t>(member));
+    const double gap = rng.uniform(0.10, 0.16);
+    const Vec3 apart(4.5 + gap, rng.uniform(-0.1, 0.1), rng.uniform(-0.1, 0.1));
+    return std::vector{thrown({13, 15, 10}, {1, 0, 0}, Vec3(50, 0, 0) + jitter(rng, 5), jitter(rng, 3)),
+                       thrown(Vec3(13, 15, 10) + apart, {1, 0, 0}, Vec3(-50, 0, 0) + jitter(rng, 5), jitter(rng, 3))};
+  };
+  return start;
+}
+
+StartCase glancing() {
+  StartCase start = in_free_fall("glancing", "two rods side by side that slide along each other", 64 * kLongestStep);
+  start.rods = [](int member) {
+    Rng rng(kSeed, RngStream::kVelocity, static_cast<std::uint64_t>(member));
+    const Vec3 apart(rng.uniform(0.5, 1.5), 0.83 + rng.uniform(-0.03, 0.01), rng.uniform(-0.1, 0.1));
+    return std::vector{
+        thrown({13, 15, 10}, {1, 0, 0}, Vec3(50, 20, 0) + jitter(rng, 5), jitter(rng, 3)),
+        thrown(Vec3(13, 15, 10) + apart, {1, 0.05, 0}, Vec3(-50, -20, 0) + jitter(rng, 5), jitter(rng, 3))};
+  };
+  return start;
+}
+
+StartCase crossing() {
+  StartCase start = in_free_fall("crossing", "the end of one rod hits the flank of the other", 64 * kLongestStep);
+  start.rods = [](int member) {
+    Rng rng(kSeed, RngStream::kVelocity, static_cast<std::uint64_t>(member));
+    const Vec3 apart(rng.uniform(-1.5, 1.5), 2.25 + 0.4 + rng.uniform(0.10, 0.16), rng.uniform(-0.1, 0.1));
+    return std::vector{thrown({15, 13, 10}, {1, 0, 0}, Vec3(0, 50, 0) + jitter(rng, 5), jitter(rng, 3)),
+                       thrown(Vec3(15, 13, 10) + apart, {0, 1, 0}, Vec3(0, -50, 0) + jitter(rng, 5), jitter(rng, 3))};
+  };
+  return start;
+}
+
+/// Two columns of six rods, close together, that jostle.
+StartCase dozen() {
+  StartCase start = between_plates("dozen", "twelve rods packed side by side", 12, 20, 64 * kLongestStep, 64);
+  start.rods = [](int member) {
+    Rng rng(kSeed, RngStream::kVelocity, static_cast<std::uint64_t>(member));
+    std::vector<Flight> rods;
+    for (int k = 0; k < 12; ++k) {
+      const int row = k / 2;
+      const Vec3 place(8 + 4.52 * (k % 2) + 2.25 * (row % 2), 8 + 0.64 * row, 0.687);
+      rods.push_back(thrown(place + jitter(rng, 0.004), {1, 0, 0}, jitter(rng, 40), jitter(rng, 8)));
+    }
+    return rods;
+  };
+  return start;
+}
+
+/// A dense box in the middle of its motion.
+StartCase hundred() {
+  StartCase start = between_plates("hundred", "a hundred rods at area fraction 0.75, shaken for 0.2 s before", 100,
+                                   18.235, 32 * kLongestStep, 32);
+  start.rods = [scene = start.scene](int member) {
+    Scene before = scene;
+    before.seed = kSeed + static_cast<std::uint64_t>(member);
+    Result<Simulation> simulation = Simulation::start(before);
+    if (!simulation) throw Failure(ExitCode::kFailed, simulation.error().message);
+    advance(*simulation, 40 * 1250);  // whole vibrations: the plates stand as at tick 0
+    const Snapshot rods = simulation->snapshot();
+    std::vector<Flight> flights;
+    for (std::size_t i = 0; i < rods.n_rods(); ++i) {
+      flights.push_back(thrown(rods.position[i], rods.director[i], rods.velocity[i], rods.angular_velocity[i]));
+    }
+    return flights;
+  };
+  return start;
+}
+
+}  // namespace
+
+const std::vector<StartCase>& start_cases() {
+  static const std::vector<StartCase> all{rattling(), wedged(), head_on(), glancing(), crossing(), dozen(), hundred()};
+  return all;
+}
+
+Simulation begin(const StartCase& start, const std::vector<Flight>& rods, const Variant& variant, Engine engine,
+                 double dt) {
+  Scene scene = start.scene;
+  variant.apply(scene);
+  scene.engine = engine;
+  scene.dt = dt;
+  World world = empty_world(scene);
+  world.rods = rods;
+  return Simulation::start_from(std::move(world));
+}
+
+}  // namespace shaken::bench

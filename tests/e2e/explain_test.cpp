@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+// What `shaken explain` and `shaken submit --dry-run` promise, against what runs then take. Without a daemon.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/e2e/process.h"
+
+namespace shaken::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Json = nlohmann::json;
+
+class Explain : public ::testing::Test {
+ protected:
+  Finished shaken(std::vector<std::string> words) const {
+    words.insert(words.begin(), std::string(SHAKEN_BIN_DIR) + "/shaken");
+    return run_command(words);
+  }
+  Json json(std::vector<std::string> words) const {
+    words.insert(words.end(), {"--cpu", "0.1", "--json"});
+    const Finished finished = shaken(std::move(words));
+    EXPECT_EQ(finished.code, 0) << finished.output;
+    return Json::parse(finished.output);
+  }
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_.path() / name) << text;
+    return (folder_.path() / name).string();
+  }
+  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
+
+  TemporaryDirectory folder_;
+};
+
+constexpr const char* kScene = R"({
+  "rods": { "length": "2.5 mm", "area_fraction": 0.6 }, "box": { "side": "15 mm" }, "time": { "measure": "1 s" },
+  "measure": { "order": {}, "defects": { "every": "20 ms" } }, "trajectory": { "every": "5 ms" }, "stream": null })";
+
+const Json& level_named(const Json& report, const std::string& name) {
+  for (const Json& level : report.at("levels")) {
+    if (level.at("name") == name) return level;
+  }
+  throw std::out_of_range(name);
+}
+
+TEST_F(Explain, PromisesWhatTheRunThenTakes) {
+  const std::string scene = write("scene.json", kScene);
+  const Json report = json({"explain", scene});
+  const Finished ran = shaken({"run", scene, "--out", path("run")});
+  ASSERT_EQ(ran.code, 0) << ran.output;
+  const Json summary = Json::parse(std::ifstream(path("run/summary.json")));
+
+  EXPECT_EQ(report.at("shown").at("id"), summary.at("run_id"));
+  for (const Json& effect : report.at("effects")) {
+    const Json& did = summary.at("effects").at(effect.at("name").get<std::string>());
+    EXPECT_EQ(effect.at("on"), did.at("on")) << effect;
+    EXPECT_FALSE(effect.at("why").get<std::string>().empty());
+  }
+  EXPECT_EQ(report.at("effects").size(), summary.at("effects").size());
+
+  const Json& written = level_named(report, "as written");
+  double bytes = 0;
+  for (const char* name : {"trajectory.h5", "observables.h5", "checkpoint.bin"}) {
+    bytes += static_cast<double>(std::filesystem::file_size(path("run/") + name));
+  }
+  EXPECT_NEAR(written.at("disk_bytes").get<double>() / bytes, 1, 0.15);
+  // other programs may slow down either
+  const double cpu = written.at("cpu_seconds").get<double>() / summary.at("cpu_seconds").get<double>();
+  EXPECT_GT(cpu, 0.33);
+  EXPECT_LT(cpu, 3);
+
+  // the scene is at the level "paper", and a finer step costs more
+  EXPECT_EQ(level_named(report, "paper").at("cpu_seconds"), written.at("cpu_seconds"));
+  EXPECT_GT(level_named(report, "fine").at("cpu_seconds"), level_named(report, "draft").at("cpu_seconds"));
+
+  // from the state of that run, and not from that of another
+  EXPECT_GT(json({"explain", scene, "--from", path("run")}).at("cpu_seconds").get<double>(), 0);
+  const Finished other = shaken({"explain", scene, "--from", path("run"), "-s", "box.gap=1.3"});
+  EXPECT_EQ(other.code, 2);
+  EXPECT_THAT(other.output, HasSubstr("another scene"));
+}
+
+TEST_F(Explain, AddsUpASweep) {
+  const std::string sweep = write("sweep.json", std::string(R"({"scene": )") + kScene +
+                                                    R"(, "sweep": {"grid": {"rods.area_fraction": "0.30:0.65:0.05"},
+                                                       "replicas": 2}})");
+  const Json report = json({"explain", sweep});
+  EXPECT_EQ(report.at("n_runs"), 16);
+  EXPECT_EQ(report.at("n_distinct"), 8);
+  EXPECT_EQ(report.at("n_probed"), 5);
+  const Json single = json({"explain", write("scene.json", kScene)});
+  const double ratio = level_named(report, "as written").at("cpu_seconds").get<double>() /
+                       level_named(single, "as written").at("cpu_seconds").get<double>();
+  EXPECT_GT(ratio, 2);  // 16 runs with 12.5 times the rods, which cost less each
+  EXPECT_LT(ratio, 40);
+  const Finished text = shaken({"explain", sweep, "--cpu", "0.05"});
+  EXPECT_THAT(text.output, AllOf(HasSubstr("16 runs"), HasSubstr("as written"), HasSubstr("5 of them were probed"),
+                                 HasSubstr("interpolated")));
+}
+
+TEST_F(Explain, WithoutProbeTellsWhatIsOn) {
+  const Finished finished = shaken({"explain", write("scene.json", kScene), "--no-probe", "-s", "gravity=0", "-s",
+                                    "plates.amplitude=0", "-s", "accuracy=draft"});
+  ASSERT_EQ(finished.code, 0) << finished.output;
+  EXPECT_THAT(finished.output, AllOf(HasSubstr("gravity = 0 mm/s^2"), HasSubstr("measure.msd is absent"),
+                                     HasSubstr("16 us (\"draft\")"), Not(HasSubstr("CPU"))));
+}
+
+TEST_F(Explain, DryRunTellsTheSameAndQueuesNothing) {
+  const std::string scene = write("scene.json", kScene);
+  // no daemon is there: nothing can be submitted
+  const Finished finished = shaken({"submit", scene, "--dry-run", "--json", "--root", path("nowhere")});
+  ASSERT_EQ(finished.code, 0) << finished.output;
+  const Json report = Json::parse(finished.output);
+  EXPECT_EQ(report.at("points").size(), 1u);
+  const Json& estimate = report.at("estimate");
+  const Json explained = json({"explain", scene});
+  ASSERT_EQ(estimate.at("levels").size(), explained.at("levels").size());
+  for (std::size_t k = 0; k < estimate.at("levels").size(); ++k) {
+    EXPECT_EQ(estimate.at("levels")[k].at("step_s"), explained.at("levels")[k].at("step_s"));
+    EXPECT_GT(estimate.at("levels")[k].at("cpu_seconds").get<double>(), 0);
+  }
+  EXPECT_FALSE(std::filesystem::exists(path("nowhere")));
+}
+
+TEST_F(Explain, RefusesWhatCannotBe) {
+  EXPECT_EQ(shaken({"explain", path("missing.json")}).code, 2);
+  EXPECT_EQ(shaken({"explain"}).code, 2);
+  const std::string scene = write("scene.json", kScene);
+  const Finished options = shaken({"explain", scene, "--no-probe", "--cpu", "-1", "--from", "x"});
+  EXPECT_EQ(options.code, 2);
+  EXPECT_THAT(options.output, AllOf(HasSubstr("--cpu must be"), HasSubstr("--from has no meaning")));
+  const Finished full = shaken({"explain", scene, "-s", "rods.area_fraction=0.92"});
+  EXPECT_EQ(full.code, 2);
+  EXPECT_THAT(full.output, HasSubstr("do not fit"));
+  const Finished both = shaken({"explain", scene, "-s", "accuracy=fine", "-s", "time.step=\"2 us\""});
+  EXPECT_EQ(both.code, 2);
+  EXPECT_THAT(both.output, HasSubstr("remove one"));
+}
+
+}  // namespace
+}  // namespace shaken::test
