@@ -20,5 +20,6 @@ void add_accuracy(CLI::App& app, Work& work);
 void add_export(CLI::App& app, Work& work);
 void add_looks(CLI::App& app, Work& work);
 void add_effects(CLI::App& app, Work& work);
+void add_hard(CLI::App& app, Work& work);
 
 }  // namespace shaken::bench

@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
   add_export(app, work);
   add_looks(app, work);
   add_effects(app, work);
+  add_hard(app, work);
   try {
     app.parse(argc, argv);
     return static_cast<int>(work());

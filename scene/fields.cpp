@@ -369,6 +369,13 @@ std::vector<Field> make_table() {
   add(whole(
       "contacts.sweeps", 1, 100, "Passes over the contacts of one tick.",
       [](auto& p) -> auto& { return p.system.solver_sweeps; }));
+  Field order = choice<ContactOrder>(
+      "contacts.order",
+      {{"sorted", ContactOrder::kSorted}, {"reversed", ContactOrder::kReversed}, {"shuffled", ContactOrder::kShuffled}},
+      "Order in which the contacts of one tick get their impulses; no statistics should depend on it.",
+      [](auto& p) -> auto& { return p.system.order; });
+  order.omit_if_default = true;
+  add(std::move(order));
 
   add(accuracy_field());
   add(quantity(

@@ -54,6 +54,12 @@ enum class ImpactTime {
   kTickEnd,    ///< at the end of the tick, where it is found: what the paper does; first order in the tick
   kAtInstant,  ///< at the instant of touching, by going back along the free flights: second order
 };
+/// In which order the contacts of one tick get their impulses. No physics tells; statistics must not depend on it.
+enum class ContactOrder {
+  kSorted,    ///< by rods and beads
+  kReversed,  ///< the other way round
+  kShuffled,  ///< at random, anew in each tick
+};
 /// How the run is stepped; the trajectory is bitwise the same.
 enum class Engine {
   kReference,  ///< visits every rod and pair at every tick
@@ -95,6 +101,7 @@ struct Scene {
   ContactParameters rod_lid{0.01, 0.3};
   ImpulseLaw law = ImpulseLaw::kNewton;
   int solver_sweeps = 1;  ///< passes over the contacts of one tick
+  ContactOrder order = ContactOrder::kSorted;
   ImpactTime impacts = ImpactTime::kTickEnd;
   /// Roughness of the plates: each hit turns the rod about the vertical by this much per speed of the hit, to either
   /// side at random [rad/mm].

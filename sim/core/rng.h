@@ -10,7 +10,14 @@
 namespace shaken {
 
 /// Who draws random numbers: one entry for each use, so that no two uses share a sequence.
-enum class RngStream : std::uint64_t { kLattice = 1, kVelocity = 2, kInsertion = 3, kKinds = 4, kNoise = 5 };
+enum class RngStream : std::uint64_t {
+  kLattice = 1,
+  kVelocity = 2,
+  kInsertion = 3,
+  kKinds = 4,
+  kNoise = 5,
+  kContacts = 6
+};
 
 /// Random numbers keyed by (seed, stream, index): what a rod draws depends on nothing but its own index, not on the
 /// order of loops or on threads. SplitMix64 (Steele, Lea & Flood 2014) over a counter.

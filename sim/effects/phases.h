@@ -5,8 +5,10 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "sim/contact/impulse_law.h"
+#include "sim/core/rng.h"
 #include "sim/effects/rotational_noise.h"
 #include "sim/effects/side_walls.h"
 #include "sim/stepping/tick.h"
@@ -86,6 +88,7 @@ struct Surface {
   Vec3 normal;      ///< away from it
   double velocity;  ///< along z [mm/s]
   const ContactParameters& contact;
+  double rest_speed;  ///< at which the bead must leave it at least [mm/s]
 };
 
 /// Gives the bead an impulse if it approaches.
@@ -94,7 +97,7 @@ template <class E>
   Vec3 u = point_velocity(bead.rod.motion, bead.arm);
   u.z() -= surface.velocity;
   const double u_n = u.dot(surface.normal);
-  if (!(u_n < 0)) return false;
+  if (!(u_n < surface.rest_speed)) return false;
   const Vec3& director = bead.rod.pose.director;
   Impulse impulse;
   bool has_friction = false;
@@ -102,13 +105,22 @@ template <class E>
   if (has_friction) {
     if constexpr (E::kFriction) {
       const Mat3 K = point_compliance(bead.kind.inverse, director, bead.arm);
-      impulse.P = E::ImpulseLaw::impulse(K, surface.normal, u, surface.contact);
+      impulse.P.setZero();
+      if (u_n < 0) impulse.P = E::ImpulseLaw::impulse(K, surface.normal, u, surface.contact);
+      if (surface.rest_speed > 0) {
+        const double lacking = surface.rest_speed - surface.normal.dot(u + K * impulse.P);
+        if (lacking > 0) impulse.P += (lacking / surface.normal.dot(K * surface.normal)) * surface.normal;
+      }
       impulse.lost = work_lost(impulse.P, u, K);
     }
     take(bead, impulse.P);
   } else {
     const double compliance = normal_compliance(bead.kind.inverse, director, bead.offset, surface.normal);
     impulse = impulse_along<E>(surface.normal, u, compliance, surface.contact);
+    if (surface.rest_speed > -surface.contact.restitution * u_n) {
+      const double p = (surface.rest_speed - u_n) / compliance;
+      impulse = {p * surface.normal, -p * (u_n + 0.5 * p * compliance)};
+    }
     apply_normal_impulse(bead.rod.motion, bead.kind.inverse, director, bead.offset, impulse.P);
   }
   bead.rod.changed = true;
@@ -126,12 +138,14 @@ bool meet(int b, RodAtTick& rod, const RodKind& kind, const Vec3& normal, double
   const double offset = kind.species.bead_offset[b];
   const double radius = kind.species.bead_radius[b];
   const auto struck = [&] { return Struck{kind, rod, offset, offset * rod.pose.director - radius * normal}; };
+  const bool rests = rules.rest.matters() && contact.restitution < 1 && normal.z() > 0;
+  const double rest_speed = rests ? rules.rest.at(overlap) : 0.0;
   if constexpr (E::kAtInstant) {
     const Struck bead = struck();
     const double speed = -(point_velocity(rod.motion, bead.arm).dot(normal) - velocity_at(0.0) * normal.z());
     if (const auto ago = time_since_touch(overlap, speed, rules.dt)) {
       fly(rod, -*ago, kind, rules.gravity);
-      const bool was_hit = hit<E>(struck(), {normal, velocity_at(*ago), contact}, counters);
+      const bool was_hit = hit<E>(struck(), {normal, velocity_at(*ago), contact, rest_speed}, counters);
       fly(rod, *ago, kind, rules.gravity);
       if (was_hit) {
         ++rod.n_displaced;
@@ -140,7 +154,7 @@ bool meet(int b, RodAtTick& rod, const RodKind& kind, const Vec3& normal, double
       }
     }
   }
-  return hit<E>(struck(), {normal, velocity_at(0.0), contact}, counters);
+  return hit<E>(struck(), {normal, velocity_at(0.0), contact, rest_speed}, counters);
 }
 
 inline NumericalTrouble too_deep(Tick now, int index, int bead, double overlap, const char* where) {
@@ -321,6 +335,28 @@ inline std::optional<NumericalTrouble> check_overlap(const PairContact& contact,
                               std::to_string(contact.beads.overlap) + " mm"};
 }
 
+/// The contacts of a tick in the order in which they get their impulses, if that is not the sorted one. What a contact
+/// draws depends on the contact alone: steppers may leave out some that cannot take part.
+inline std::vector<PairContact> in_order(const std::vector<PairContact>& sorted, const Scene& scene, Tick now) {
+  std::vector<PairContact> contacts(sorted.rbegin(), sorted.rend());
+  if (scene.order == ContactOrder::kReversed) return contacts;
+  struct Drawn {
+    std::uint64_t number;
+    PairContact contact;
+  };
+  std::vector<Drawn> drawn;
+  for (const PairContact& contact : sorted) {
+    const auto index = (static_cast<std::uint64_t>(contact.i) << 40) ^ (static_cast<std::uint64_t>(contact.j) << 16) ^
+                       (static_cast<std::uint64_t>(contact.beads.bead_i) << 8) ^
+                       static_cast<std::uint64_t>(contact.beads.bead_j);
+    Rng rng(scene.seed ^ static_cast<std::uint64_t>(now), RngStream::kContacts, index);
+    drawn.push_back({rng.bits(), contact});
+  }
+  std::stable_sort(drawn.begin(), drawn.end(), [](const Drawn& a, const Drawn& b) { return a.number < b.number; });
+  std::transform(drawn.begin(), drawn.end(), contacts.begin(), [](const Drawn& d) { return d.contact; });
+  return contacts;
+}
+
 template <class E>
 std::optional<NumericalTrouble> respond(const std::vector<PairContact>& contacts, std::vector<RodAtTick>& rods,
                                         World& world, Tick now, const TickRules& rules) {
@@ -329,10 +365,17 @@ std::optional<NumericalTrouble> respond(const std::vector<PairContact>& contacts
     world.counters.max_overlap_rod_rod = std::max(world.counters.max_overlap_rod_rod, contact.beads.overlap);
     for (const int i : {contact.i, contact.j}) evaluate_motion(rods[i], world.rods[i], now, rules.kind_of(i), rules);
   }
-  for (int sweep = 0; sweep < world.scene.solver_sweeps; ++sweep) {
-    for (const PairContact& contact : contacts) {
-      respond_to<E>(contact, rods[contact.i], rods[contact.j], rules, world.counters);
+  const auto pass_over = [&](const std::vector<PairContact>& ordered) {
+    for (int sweep = 0; sweep < world.scene.solver_sweeps; ++sweep) {
+      for (const PairContact& contact : ordered) {
+        respond_to<E>(contact, rods[contact.i], rods[contact.j], rules, world.counters);
+      }
     }
+  };
+  if (world.scene.order == ContactOrder::kSorted) {
+    pass_over(contacts);
+  } else {
+    pass_over(in_order(contacts, world.scene, now));
   }
   return {};
 }

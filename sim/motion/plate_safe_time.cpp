@@ -33,7 +33,14 @@ struct Constants {
   float half_length;
   float gravity, pull_base, pull_lid;
   float dt, per_dt, horizon;
+  float half_fall, rise_rate;
 };
+
+/// The same for the base: in it, safe only for as long as the bead leaves faster than it must.
+template <class F>
+SHAKEN_INLINE F safe_time_off_base(const Constants& k, const F& gap, const F& rate, const F& pull) {
+  return safe_time(gap, F(gap > 0.0F ? rate : rate - k.half_fall + k.rise_rate * gap), pull);
+}
 
 /// The plates as each lane sees them.
 struct PlatesAt {
@@ -88,7 +95,8 @@ struct PlateKernel {
       const F ahead_rate = bead.offset * n_z_rate;
       const F pull_lid = lanes::not_below_zero(k.pull_lid + bend);
       if (k.has_base)
-        time = lanes::smaller(time, safe_time(above + ahead - room, up + ahead_rate - slow, k.pull_base + bend));
+        time = lanes::smaller(time,
+                              safe_time_off_base(k, above + ahead - room, up + ahead_rate - slow, k.pull_base + bend));
       if (k.has_lid) time = lanes::smaller(time, safe_time(below - ahead - room, down - ahead_rate - slow, pull_lid));
     }
     const F more = lanes::truncated(lanes::smaller(time * k.per_dt, lanes::all<W>(k.horizon)));
@@ -116,6 +124,8 @@ void plate_safe_ticks(const Species& species, const PlateMotion& plates, const P
   k.dt = static_cast<float>(dt);
   k.per_dt = static_cast<float>((1.0 - 1e-5) / dt);
   k.horizon = static_cast<float>(horizon);
+  k.half_fall = static_cast<float>(there.rest.half_fall * (1.0 + 1e-6));
+  k.rise_rate = static_cast<float>(there.rest.rise_rate * (1.0 + 1e-6));
   constexpr int kSteps = 3;
   alignas(64) float ticks[kLanes] = {};
   PlatesAt at;

@@ -475,7 +475,7 @@ void ScheduledStepper::schedule_rods(const World& world, Tick now) {
       if (rules_.has_base || rules_.has_lid) {
         plate_safe_ticks(rules_.kind_of(rods.front()).species, world.plates, lanes, static_cast<int>(rods.size()),
                          rules_.gravity, rules_.dt, now, TimingWheel::horizon() - 1, off_plates,
-                         {rules_.has_base, rules_.has_lid});
+                         {rules_.has_base, rules_.has_lid, rules_.rest});
       }
       for (std::size_t lane = 0; lane < rods.size(); ++lane) {
         const int i = rods[lane];

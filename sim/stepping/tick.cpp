@@ -33,6 +33,7 @@ TickRules::TickRules(const World& world)
       plates(world.plates) {
   for (const Species& species : world.species) kinds.emplace_back(species);
   max_speed2 = max_speed(world) * max_speed(world);
+  if (plates.peak_acceleration() < gravity) rest = {0.5 * gravity * dt, kRiseRate};
 }
 
 }  // namespace shaken

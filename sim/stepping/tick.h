@@ -10,6 +10,7 @@
 #include "sim/contact/bead_contacts.h"
 #include "sim/contact/impulse_law.h"
 #include "sim/motion/flight.h"
+#include "sim/motion/plate_safe_time.h"
 #include "sim/motion/plates.h"
 #include "sim/neighbors/neighbor_list.h"
 #include "sim/world.h"
@@ -33,6 +34,9 @@ struct RodKind {
   InverseInertia inverse;
   double inertia_ratio;  ///< I_par / I_perp
 };
+
+/// Rate at which rods at rest on the base come out of it again [1/s].
+inline constexpr double kRiseRate = 20.0;
 
 /// A rod that is faster than this many times the speeds that the scene has by itself is trouble.
 inline constexpr double kMaxSpeedFactor = 100.0;
@@ -59,6 +63,7 @@ struct TickRules {
   std::uint64_t seed;
   PlateMotion plates;
   double max_speed2;  ///< [mm^2/s^2]
+  RestSpeed rest;
 };
 
 /// A rod during one tick.

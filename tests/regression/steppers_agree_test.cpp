@@ -33,6 +33,7 @@ struct Case {
   double end_diameter = 0.4;
   int n_beads = 0;  ///< 0: pitch 0.3 mm
   ImpulseLaw law = ImpulseLaw::kNewton;
+  ContactOrder order = ContactOrder::kSorted;
 };
 
 Scene scene_of(const Case& c, std::uint64_t seed) {
@@ -50,6 +51,7 @@ Scene scene_of(const Case& c, std::uint64_t seed) {
   scene.dt = c.dt_us * 1e-6;
   scene.start = c.start;
   scene.law = c.law;
+  scene.order = c.order;
   scene.seed = seed;
   return scene;
 }
@@ -94,6 +96,11 @@ INSTANTIATE_TEST_SUITE_P(
         Case{4.5, 0.70, 1.2, 7, 0.3, 1.0, 4, 80, 10000, Start::kAligned, 0.4, 0, ImpulseLaw::kEnergetic},
         Case{2.5, 0.60, 1.2, 7, 0.9, 1.0, 4, 80, 10000, Start::kAligned, 0.4, 0, ImpulseLaw::kPoisson},
         Case{2.5, 0.60, 1.2, 7, 0.9, 1.0, 4, 80, 10000, Start::kAligned, 0.4, 0, ImpulseLaw::kEnergetic},
+        // orders of contacts
+        Case{4.5, 0.80, 1.2, 7, 0.3, 0.05, 16, 80, 5000, Start::kAligned, 0.4, 0, ImpulseLaw::kNewton,
+             ContactOrder::kReversed},
+        Case{4.5, 0.80, 1.2, 7, 0.3, 0.05, 16, 80, 5000, Start::kAligned, 0.4, 0, ImpulseLaw::kNewton,
+             ContactOrder::kShuffled},
         // ticks
         Case{4.5, 0.70, 1.2, 7, 0.3, 0.05, 1, 60, 20000}, Case{2.5, 0.60, 1.2, 7, 0.3, 0.05, 1, 60, 20000},
         Case{4.5, 0.70, 1.2, 7, 0.3, 0.05, 16, 80, 5000}, Case{2.5, 0.60, 1.2, 7, 0.3, 0.05, 40, 80, 5000},
@@ -132,6 +139,7 @@ RC_GTEST_PROP(SteppersAgreeProperty, RandomScenes, ()) {
   c.start = *rc::gen::inRange(0, 2) == 1 && c.area_fraction < 0.42 ? Start::kRandom : Start::kAligned;
   c.end_diameter = 0.2 + 0.1 * *rc::gen::inRange(0, 7);
   c.law = *rc::gen::element(ImpulseLaw::kNewton, ImpulseLaw::kPoisson, ImpulseLaw::kEnergetic);
+  c.order = *rc::gen::element(ContactOrder::kSorted, ContactOrder::kReversed, ContactOrder::kShuffled);
   const Scene scene = scene_of(c, static_cast<std::uint64_t>(*rc::gen::inRange(1, 1000)));
   const std::string difference = compare(scene, c.ticks, *rc::gen::inRange<Tick>(1, c.ticks));
   if (!difference.empty()) RC_FAIL(difference + ": " + describe(scene));

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: MIT
+#include "bench/hard/made_cases.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "sim/simulation.h"
+
+namespace shaken::bench {
+namespace {
+
+constexpr double kRounding = 1e-11;
+
+/// What a rod at rest on the base is given, half the fall of a tick upwards, is of this order of its energy.
+constexpr double kRest = 1e-5;
+
+/// Rods of 2.5 mm in a large box between plates at rest.
+Scene quiet_scene(double end_diameter) {
+  Scene scene;
+  scene.rod = {.length = 2.5, .end_diameter = end_diameter, .n_beads = 9};
+  scene.box_side = 30;
+  scene.gap = 10;
+  scene.amplitude = 0;
+  return scene;
+}
+
+Flight flight_of(const Vec3& position, const Vec3& director, const Vec3& velocity) {
+  Flight flight;
+  flight.position = position;
+  flight.director = director.normalized();
+  flight.velocity = velocity;
+  flight.prepare();
+  return flight;
+}
+
+Simulation simulation_of(Scene scene, const std::vector<Flight>& rods) {
+  scene.n_rods = static_cast<int>(rods.size());
+  World world = empty_world(scene);
+  world.rods = rods;
+  return Simulation::start_from(std::move(world));
+}
+
+/// Lets rods meet by every law, with little and with much friction, on both engines.
+HardCase meeting(const std::string& name, const std::string& what, const Scene& scene, const std::vector<Flight>& rods,
+                 Tick ticks, bool in_the_air = true) {
+  HardCase result{name, what, {}};
+  double overlap = 0, growth = 0, ledger = 0, momentum = 0, fewest = std::numeric_limits<double>::infinity();
+  int n_trouble = 0, n_different = 0;
+  for (const ImpulseLaw law : {ImpulseLaw::kNewton, ImpulseLaw::kPoisson, ImpulseLaw::kEnergetic}) {
+    for (const double mu : {0.0, 0.05, 1.0}) {
+      for (const double e : {0.0, 0.3, 1.0}) {
+        // Newton's law may make energy with friction: seen here with mu = 0.05 and e = 1, an upright rod on the base
+        if (law == ImpulseLaw::kNewton && (mu > 0.1 || mu * e > 0.02)) continue;
+        Scene varied = scene;
+        varied.law = law;
+        varied.rod_rod = varied.rod_base = varied.rod_lid = {mu, e};
+        varied.engine = Engine::kReference;
+        Simulation reference = simulation_of(varied, rods);
+        varied.engine = Engine::kScheduled;
+        Simulation scheduled = simulation_of(varied, rods);
+        double before = content(scheduled.world()).energy;
+        const double start = before;
+        const Vec3 push = content(scheduled.world()).momentum;
+        for (Tick tick = 100; tick <= ticks; tick += 100) {
+          const bool trouble = reference.advance_to(tick).has_value();
+          if (trouble != scheduled.advance_to(tick).has_value()) ++n_different;
+          n_trouble += trouble;
+          if (trouble) break;
+          const double energy = content(scheduled.world()).energy;
+          growth = std::max(growth, (energy - before) / start);
+          before = energy;
+        }
+        n_different += reference.state_hash() != scheduled.state_hash();
+        const World& world = scheduled.world();
+        overlap = std::max(overlap, world.counters.max_overlap() / world.species.front().end_radius);
+        ledger = std::max(ledger, balance(world).energy_error());
+        const double scale = world.species.front().mass * 100.0;
+        const Vec3 change = content(world).momentum - push;
+        if (in_the_air) momentum = std::max(momentum, std::hypot(change.x(), change.y()) / scale);
+        const Counters& counters = world.counters;
+        fewest = std::min(fewest, static_cast<double>(counters.impulses_rod_rod + counters.impulses_rod_base));
+      }
+    }
+  }
+  result.outcomes = {{"runs that meet trouble", static_cast<double>(n_trouble), 0},
+                     {"runs in which the engines differ", static_cast<double>(n_different), 0},
+                     {"impulses in a run", fewest, 1, true},
+                     {"overlap / end bead's radius", overlap, 0.1},
+                     {"energy made / energy", growth, in_the_air ? kRounding : kRest},
+                     {"energy unaccounted for / turnover", ledger, kRounding}};
+  if (in_the_air) {
+    result.outcomes.push_back({"change of momentum in the plane / that of a rod at 100 mm/s", momentum, kRounding});
+  }
+  return result;
+}
+
+const Vec3 kX = Vec3::UnitX(), kY = Vec3::UnitY(), kZ = Vec3::UnitZ();
+const Vec3 kMiddle(15, 15, 5);
+
+HardCase parallel() {
+  return meeting("parallel", "two equal cylinders side by side, exactly parallel: all beads meet at once",
+                 quiet_scene(0.8),
+                 {flight_of(kMiddle - 0.5 * kY, kX, 50 * kY), flight_of(kMiddle + 0.5 * kY, kX, -50 * kY)}, 2000);
+}
+HardCase collinear() {
+  return meeting("collinear", "two rods in one line, end to end", quiet_scene(0.4),
+                 {flight_of(kMiddle - 1.3 * kX, kX, 50 * kX), flight_of(kMiddle + 1.3 * kX, kX, -50 * kX)}, 2000);
+}
+HardCase crossing() {
+  return meeting("crossing", "two rods crossing at right angles, exactly centre on centre", quiet_scene(0.4),
+                 {flight_of(kMiddle - 0.5 * kZ, kX, 50 * kZ), flight_of(kMiddle + 0.5 * kZ, kY, -50 * kZ)}, 2000);
+}
+HardCase simultaneous() {
+  return meeting("simultaneous", "a rod hit from both sides at the same instant", quiet_scene(0.4),
+                 {flight_of(kMiddle, kX, Vec3::Zero()), flight_of(kMiddle - 0.9 * kY, kX, 50 * kY),
+                  flight_of(kMiddle + 0.9 * kY, kX, -50 * kY)},
+                 4000);
+}
+HardCase row() {
+  std::vector<Flight> rods;
+  for (int i = 0; i < 10; ++i) rods.push_back(flight_of(Vec3(15, 8 + 0.8 * i + 1e-3 * (i > 0), 5), kX, Vec3::Zero()));
+  rods.front().velocity = 50 * kY;
+  return meeting("row", "a row of ten rods in touch, hit at its end", quiet_scene(0.4), rods, 4000);
+}
+HardCase half_rod_flat() {
+  const Scene scene = quiet_scene(0.4);
+  const double taper = make_species(scene.rod).taper();
+  const Vec3 director(std::sqrt(1 - taper * taper), 0, taper);
+  return meeting("half-rod-flat", "tilted by the taper: one half of the rod falls flat on the base", scene,
+                 {flight_of(Vec3(15, 15, 0.5), director, -50 * kZ)}, 3000, false);
+}
+HardCase upright() {
+  return meeting("upright", "rods exactly upright, falling on the base, side by side", quiet_scene(0.4),
+                 {flight_of(Vec3(15, 15, 1.3), kZ, -50 * kZ), flight_of(Vec3(15.81, 15, 1.3), kZ, Vec3(-20, 0, -50))},
+                 4000, false);
+}
+
+/// A run that must end at once, with words.
+HardCase ends(const std::string& name, const std::string& what, Simulation simulation, Tick within) {
+  const auto trouble = simulation.advance_to(within);
+  HardCase result{name, what, {}};
+  result.outcomes.push_back({fmt::format("ends within {} ticks with a clear word", within),
+                             trouble && !trouble->what.empty() ? 1.0 : 0.0, 1, true,
+                             trouble ? fmt::format("tick {}: {}", trouble->tick, trouble->what) : "went on"});
+  bool finite = true;
+  for (const Flight& flight : simulation.world().rods) {
+    finite = finite && flight.position.allFinite() && flight.velocity.allFinite() && flight.director.allFinite();
+  }
+  result.outcomes.push_back({"rods whose state is not a number", finite ? 0.0 : 1.0, 0});
+  return result;
+}
+
+HardCase coincident() {
+  return ends("coincident", "two rods in the same place",
+              simulation_of(quiet_scene(0.4), {flight_of(kMiddle, kX, 10 * kY), flight_of(kMiddle, kX, -10 * kY)}), 1);
+}
+HardCase overlapping() {
+  return ends("overlapping", "a start with rods half inside each other",
+              simulation_of(quiet_scene(0.4),
+                            {flight_of(kMiddle, kX, Vec3::Zero()), flight_of(kMiddle + 0.4 * kY, kX, Vec3::Zero())}),
+              1);
+}
+HardCase through_the_base() {
+  return ends("through-base", "a start with a rod in the base",
+              simulation_of(quiet_scene(0.4), {flight_of(Vec3(15, 15, 0.1), kX, Vec3::Zero())}), 1);
+}
+HardCase blow_up() {
+  Scene scene;
+  scene.rod = {.length = 2.5, .n_beads = 9};
+  scene.box_side = 12;
+  scene.n_rods = 84;
+  scene.amplitude *= 100.0 / 7.0;
+  scene.dt = 1e-4;
+  return ends("blow-up", "Gamma = 100 with a tick 25 times too long", std::move(Simulation::start(scene)).value(),
+              2000);
+}
+HardCase does_not_fit() {
+  Scene scene;
+  scene.rod = {.length = 2.5, .n_beads = 9};
+  scene.box_side = 12;
+  scene.n_rods = 110;
+  const auto simulation = Simulation::start(scene);
+  HardCase result{"does-not-fit", "more rods than can be placed", {}};
+  result.outcomes.push_back({"is refused with the most that would fit",
+                             !simulation && simulation.error().message.find("at most") != std::string::npos ? 1.0 : 0.0,
+                             1, true, simulation ? "was not refused" : simulation.error().message});
+  return result;
+}
+
+/// A run that stands at tick 10^9, with every rod 10^6 mm away, goes on as one that starts now.
+HardCase late_and_far() {
+  Scene scene;
+  scene.rod = {.length = 2.5, .n_beads = 9};
+  scene.box_side = 12;
+  scene.n_rods = 70;
+  HardCase result{"late-and-far", "a thousand million ticks into a run, rods 10^6 mm from where they began", {}};
+  Simulation fresh = std::move(Simulation::start(scene)).value();
+  World late_world = fresh.world();
+  constexpr Tick kLate = 1'000'000'000;  // a whole number of the 1250 ticks of a period
+  const auto boxes = static_cast<std::int32_t>(1e6 / scene.box_side);
+  late_world.tick += kLate;
+  for (Flight& flight : late_world.rods) {
+    flight.since += kLate;
+    flight.image[0] += boxes;
+    flight.image[1] -= boxes;
+  }
+  Simulation late = Simulation::start_from(std::move(late_world));
+  constexpr Tick kTicks = 20000;
+  const bool trouble = fresh.advance_to(kTicks).has_value() || late.advance_to(kLate + kTicks).has_value();
+  const Snapshot a = fresh.snapshot();
+  const Snapshot b = late.snapshot();
+  double apart = 0;
+  for (std::size_t i = 0; i < a.position.size(); ++i) {
+    apart = std::max({apart, (a.position[i] - b.position[i]).norm(), (a.director[i] - b.director[i]).norm()});
+    if (b.image[i][0] - a.image[i][0] != boxes || a.image[i][1] - b.image[i][1] != boxes) apart = 1e6;
+  }
+  result.outcomes.push_back({"numerical trouble", trouble ? 1.0 : 0.0, 0});
+  result.outcomes.push_back({"apart after 20,000 ticks [mm]", apart, 0, false, "the same bits"});
+  return result;
+}
+
+/// Rods and grains with a hundredth of their mass.
+HardCase two_sizes() {
+  Scene scene;
+  scene.rod = {.length = 4.5, .n_beads = 15};
+  scene.n_rods = 12;
+  scene.added[0] = AddedRods{{.length = 0.7, .mid_diameter = 0.25, .end_diameter = 0.25, .n_beads = 3}, 60};
+  scene.box_side = 15;
+  scene.start = Start::kRandom;
+  scene.law = ImpulseLaw::kEnergetic;
+  scene.rod_rod.friction = 0.5;
+  HardCase result{"two-sizes", "rods among grains of a hundredth of their mass", {}};
+  scene.engine = Engine::kReference;
+  auto reference = Simulation::start(scene);
+  scene.engine = Engine::kScheduled;
+  auto scheduled = Simulation::start(scene);
+  if (!reference || !scheduled) {
+    result.outcomes.push_back({"the rods can be placed", 1, 0, false, scheduled.error().message});
+    return result;
+  }
+  const bool trouble = scheduled->advance_to(5000).has_value() || reference->advance_to(5000).has_value();
+  const bool differ = scheduled->state_hash() != reference->state_hash();
+  result.outcomes.push_back(
+      {"runs that meet trouble", trouble || scheduled->advance_to(50000).has_value() ? 1.0 : 0.0, 0});
+  result.outcomes.push_back({"runs in which the engines differ", differ ? 1.0 : 0.0, 0});
+  const World& world = scheduled->world();
+  result.outcomes.push_back({"overlap / thinnest bead's radius", world.counters.max_overlap() / 0.125, 0.25});
+  result.outcomes.push_back({"energy unaccounted for / turnover", balance(world).energy_error(), kRounding});
+  return result;
+}
+
+}  // namespace
+
+const std::vector<MadeCase>& made_cases() {
+  static const std::vector<MadeCase> cases{{"parallel", parallel},
+                                           {"collinear", collinear},
+                                           {"crossing", crossing},
+                                           {"simultaneous", simultaneous},
+                                           {"row", row},
+                                           {"half-rod-flat", half_rod_flat},
+                                           {"upright", upright},
+                                           {"coincident", coincident},
+                                           {"overlapping", overlapping},
+                                           {"through-base", through_the_base},
+                                           {"blow-up", blow_up},
+                                           {"does-not-fit", does_not_fit},
+                                           {"late-and-far", late_and_far},
+                                           {"two-sizes", two_sizes}};
+  return cases;
+}
+
+}  // namespace shaken::bench
