@@ -31,7 +31,7 @@ Examples:
   shaken bench accuracy deterministic --out accuracy     convergence.png, work_precision.png, CSV, JSON
   shaken bench accuracy deterministic --cases head-on,wedged --steps 64,32,16,8,4,2,1
   shaken bench accuracy statistical --out accuracy       bias.png, tilt.png, model.png, CSV, JSON
-  shaken bench accuracy statistical --steps 1,2,4,8,16 --measure 200 --replicas 4
+  shaken bench accuracy statistical --knobs step --variants newton,instant --measure 200 --replicas 4
   shaken bench accuracy error --sides 15,20,30,40 --measure 100 --out accuracy
 
 Exit codes: 0 done, 1 the steppers' states differ or something failed, 2 bad input.)";
@@ -40,13 +40,14 @@ const std::vector<std::string> kParts{"deterministic", "statistical", "error"};
 
 /// The options as the user wrote them; empty where nothing was said.
 struct Words {
-  std::string part, cases, steps, members, side, sides, measure, warm_up, replicas, cache, out;
+  std::string part, cases, variants, knobs, steps, members, side, sides, measure, warm_up, replicas, cache, out;
   bool quick = false, full = false, json = false;
 };
 
 struct Task {
   std::vector<std::string> parts;
   std::vector<const StartCase*> cases;
+  std::vector<const Variant*> variants;
   ConvergenceEffort convergence;
   std::vector<StatisticsTask> statistics;
   std::vector<std::pair<Case, double>> orders;  ///< boxes, and the time to be measured in each [s]
@@ -92,24 +93,26 @@ std::vector<double> asked_steps(const std::string& words, OptionReader& options)
   return steps;
 }
 
-std::vector<const StartCase*> asked_cases(const std::string& words, OptionReader& options) {
-  std::vector<const StartCase*> cases;
+/// Those of `all` that `words` names; all of them if it is empty.
+template <class Named>
+std::vector<const Named*> asked_of(const std::vector<Named>& all, const std::string& option, const std::string& words,
+                                   OptionReader& options) {
+  std::vector<const Named*> asked;
   if (words.empty()) {
-    for (const StartCase& start : start_cases()) cases.push_back(&start);
-    return cases;
+    for (const Named& one : all) asked.push_back(&one);
+    return asked;
   }
   for (const std::string& name : split(words)) {
-    const auto found = std::find_if(start_cases().begin(), start_cases().end(),
-                                    [&](const StartCase& start) { return start.name == name; });
-    if (found != start_cases().end()) {
-      cases.push_back(&*found);
+    const auto found = std::find_if(all.begin(), all.end(), [&](const Named& one) { return one.name == name; });
+    if (found != all.end()) {
+      asked.push_back(&*found);
       continue;
     }
     std::string known;
-    for (const StartCase& start : start_cases()) known += (known.empty() ? "" : ", ") + start.name;
-    options.complain(fmt::format("--cases: '{}' is not one of {}", name, known));
+    for (const Named& one : all) known += (known.empty() ? "" : ", ") + std::string(one.name);
+    options.complain(fmt::format("{}: '{}' is not one of {}", option, name, known));
   }
-  return cases;
+  return asked;
 }
 
 /// What the knobs are turned in: the paper's dense rods, and shorter ones that drift.
@@ -126,13 +129,24 @@ void ask_statistics(const Words& words, double warm_up, Task& task, OptionReader
     if (!words.side.empty()) side = options.number("--side", words.side, low, high);
     if (!words.measure.empty()) measure = options.number("--measure", words.measure, 0.01, 1e6);
     const auto scene = make_case(length, fraction, side, kPaperStep, warm_up, options);
-    if (scene)
-      task.statistics.push_back({*scene, knob, std::move(values), measure, std::min(1.0, warm_up), task.replicas});
+    if (!scene) return;
+    for (const Variant* variant : task.variants) {
+      if (words.variants.empty() && variant != &variants().front()) continue;
+      task.statistics.push_back({*scene, variant, knob, values, measure, std::min(1.0, warm_up), task.replicas});
+    }
   };
-  add(4.5, 0.75, 25, Knob::kStep, steps, 30 * effort);
-  add(2.5, 0.60, 20, Knob::kStep, steps, 50 * effort);
-  add(4.5, 0.75, 25, Knob::kPitch, {0.15, 0.2, 0.3, 0.45, 0.6}, 15 * effort);
-  add(4.5, 0.75, 25, Knob::kSweeps, {8, 4, 2, 1}, 15 * effort);
+  for (const std::string& knob : split(words.knobs.empty() ? "step,pitch,sweeps" : words.knobs)) {
+    if (knob == "step") {
+      add(4.5, 0.75, 25, Knob::kStep, steps, 30 * effort);
+      add(2.5, 0.60, 20, Knob::kStep, steps, 50 * effort);
+    } else if (knob == "pitch") {
+      add(4.5, 0.75, 25, Knob::kPitch, {0.15, 0.2, 0.3, 0.45, 0.6}, 15 * effort);
+    } else if (knob == "sweeps") {
+      add(4.5, 0.75, 25, Knob::kSweeps, {8, 4, 2, 1}, 15 * effort);
+    } else {
+      options.complain(fmt::format("--knobs: '{}' is not one of step, pitch, sweeps", knob));
+    }
+  }
 }
 
 void ask_orders(const Words& words, double warm_up, Task& task, OptionReader& options) {
@@ -165,7 +179,8 @@ Task read(const Words& words) {
     task.parts = {words.part};
   }
   if (words.quick && words.full) options.complain("--full and --quick contradict each other");
-  task.cases = asked_cases(words.cases, options);
+  task.cases = asked_of(start_cases(), "--cases", words.cases, options);
+  task.variants = asked_of(variants(), "--variants", words.variants, options);
   task.convergence.steps =
       words.steps.empty() ? halved_steps(words.quick ? 1e-6 : 0.25e-6) : asked_steps(words.steps, options);
   if (words.quick) task.convergence.members = 16;
@@ -197,8 +212,8 @@ void deliver(const Words& words, const std::string& name, const std::string& tex
 void run_deterministic(const Task& task, const Words& words) {
   std::vector<Convergence> measured;
   for (const StartCase* start : task.cases) {
-    for (const Variant& variant : variants()) {
-      measured.push_back(measure_convergence(*start, variant, task.convergence));
+    for (const Variant* variant : task.variants) {
+      measured.push_back(measure_convergence(*start, *variant, task.convergence));
     }
   }
   deliver(words, "deterministic", as_text(measured), as_json(measured));
@@ -253,6 +268,9 @@ void add_accuracy(CLI::App& app, Work& work) {
   accuracy->add_flag("--quick", words->quick, "Fewer and shorter measurements");
   accuracy->add_flag("--full", words->full, "More and longer ones");
   option("--cases", words->cases, "LIST", "deterministic: only these");
+  option("--variants", words->variants, "LIST",
+         "How impacts are treated, of newton, instant, poisson, energetic; deterministic: all, statistical: newton");
+  option("--knobs", words->knobs, "LIST", "statistical: only these of step, pitch, sweeps");
   option("--steps", words->steps, "LIST", "Steps [us]: 64 halved some times");
   option("--members", words->members, "N", "deterministic: starts in each ensemble");
   option("--measure", words->measure, "S", "statistical, error: simulated seconds per value and replica");

@@ -46,7 +46,7 @@ Convergence measure_convergence(const StartCase& start, const Variant& variant, 
   for (const double dt : effort.steps) result.steps.push_back({dt, {}, 0, 0, true, 0});
 
   std::vector<Samples> errors(effort.steps.size());
-  Samples floor;
+  Samples floor, from_first;
   ProgressLine progress(fmt::format("{}, {}", start.name, variant.name));
   for (int member = 0; member < result.members; ++member) {
     const std::vector<Flight> rods = start.rods(member);
@@ -57,6 +57,10 @@ Convergence measure_convergence(const StartCase& start, const Variant& variant, 
       throw Failure(ExitCode::kFailed, fmt::format("{}: numerical trouble in the converged solution", start.name));
     }
     add(floor, errors_between(nearly.world(), truth.world()));
+    if (&variant != &variants().front()) {
+      Simulation first = begin(start, rods, variants().front(), Engine::kScheduled, result.converged_dt);
+      if (finish(first, start, unused)) add(from_first, errors_between(truth.world(), first.world()));
+    }
     const Counters& done = truth.world().counters;
     result.impulses += static_cast<double>(done.impulses_rod_rod + done.impulses_rod_base + done.impulses_rod_lid);
     for (std::size_t k = 0; k < effort.steps.size(); ++k) {
@@ -79,6 +83,7 @@ Convergence measure_convergence(const StartCase& start, const Variant& variant, 
 
   result.impulses /= result.members;
   result.floor = reduced(floor);
+  if (!from_first[0].empty()) result.from_first = reduced(from_first);
   for (std::size_t k = 0; k < effort.steps.size(); ++k) {
     result.steps[k].errors = reduced(errors[k]);
     result.steps[k].scheduled_cpu /= result.members;

@@ -38,7 +38,9 @@ struct Convergence {
   double converged_dt = 0;              ///< of the converged solution [s]
   double impulses = 0;                  ///< in the converged solution, per member
   std::array<Quartiles, kNorms> floor;  ///< distance of the converged solution from one of twice its step
-  std::vector<StepErrors> steps;        ///< rising dt
+  /// Of another variant than the first: distance of its converged solution from the first one's.
+  std::optional<std::array<Quartiles, kNorms>> from_first;
+  std::vector<StepErrors> steps;                       ///< rising dt
   std::array<std::optional<OrderFit>, kNorms> orders;  ///< of the median
 
   double simulated() const { return start->duration; }

@@ -49,10 +49,16 @@ std::string data_of(const std::vector<Convergence>& measured) {
   return data;
 }
 
-/// A line of text per series, in place of a key that would hide data.
-std::string legend(std::size_t place, const char* colour_of, const std::string& text) {
-  return fmt::format("set label {} \"{}\" at graph {} textcolor '{}' font ',13' front\n", place + 1, text,
-                     fmt::format("0.97,{:.3f} right", 0.06 + 0.085 * static_cast<double>(place)), colour_of);
+/// The last panel: a line of text per series, where it hides no data.
+std::string legend_panel(const std::vector<std::string>& series) {
+  std::string script =
+      "unset label\nunset title\nunset xlabel\nunset ylabel\nunset border\nunset xtics\nunset ytics\nunset grid\n"
+      "unset logscale\nset xrange [0:1]\nset yrange [0:1]\n";
+  for (std::size_t k = 0; k < series.size(); ++k) {
+    script += fmt::format("set label {} \"{}\" at graph 0,{:.3f} textcolor '{}' front\n", k + 1, series[k],
+                          0.9 - 0.1 * static_cast<double>(k), colour(k));
+  }
+  return script + "plot NaN notitle\nunset multiplot\n";
 }
 
 constexpr std::array<const char*, kNorms> kColumns{"2:3:4", "5:6:7", "8:9:10"};
@@ -60,7 +66,7 @@ constexpr std::array<const char*, kNorms> kColumns{"2:3:4", "5:6:7", "8:9:10"};
 /// Errors against the step, a panel per case: the three norms of the first variant, or the positions of all.
 std::string convergence_script(const std::vector<Convergence>& measured) {
   const std::vector<Panel> panels = panels_of(measured);
-  std::string script = multiplot("convergence", panels.size());
+  std::string script = multiplot("convergence", panels.size() + 1);
   script += "set xlabel 'step (μs)' offset 0,0.6\nset xtics ('0.25' 0.25, '1' 1, '4' 4, '16' 16, '64' 64)\n";
   for (const Panel& panel : panels) {
     const bool one = panel.of.size() == 1;
@@ -71,13 +77,10 @@ std::string convergence_script(const std::vector<Convergence>& measured) {
     for (const std::size_t m : panel.of) {
       for (int n = 0; n < (one ? kNorms : 1); ++n, ++series) {
         const auto& fit = measured[m].orders[n];
-        const std::string order = fit ? fmt::format("order {:.2f}±{:.2f}", fit->order, fit->order_error) : "no order";
-        const std::string name = one ? fmt::format("{}{}", kNormNames[n],
-                                                   n == 0   ? " (mm)"
-                                                   : n == 1 ? " (rad)"
-                                                            : "")
-                                     : measured[m].variant->name;
-        script += legend(series, colour(series), name + ", " + order);
+        script +=
+            fmt::format("set label {} \"{}\" at graph 0.97,{:.3f} right textcolor '{}' font ',13' front\n", series + 1,
+                        fit ? fmt::format("order {:.2f}±{:.2f}", fit->order, fit->order_error) : "no order",
+                        0.06 + 0.085 * static_cast<double>(series), colour(series));
         plot += fmt::format(
             "'convergence.dat' index {0} using ($1*{3:.2f}):{1} with yerrorbars pointtype 7 pointsize 0.9 linecolor "
             "'{2}' "
@@ -108,25 +111,27 @@ std::string convergence_script(const std::vector<Convergence>& measured) {
     plot.resize(plot.size() - 2);
     script += plot + "\n";
   }
-  return script + "unset multiplot\n";
+  std::vector<std::string> names;
+  if (panels.front().of.size() == 1) {
+    names = {"position (mm)", "director (rad)", "kinetic energy (relative)"};
+  } else {
+    for (const std::size_t m : panels.front().of) names.emplace_back(measured[m].variant->name);
+  }
+  return script + legend_panel(names);
 }
 
 /// Errors of position against CPU time, a panel per case, a line per variant and stepper.
 std::string work_script(const std::vector<Convergence>& measured) {
   const std::vector<Panel> panels = panels_of(measured);
-  std::string script = multiplot("work_precision", panels.size());
+  std::string script = multiplot("work_precision", panels.size() + 1);
   script += "set xlabel 'CPU time (μs)' offset 0,0.6\nset format x '10^{%L}'\nset ylabel 'error of position (mm)'\n";
   for (const Panel& panel : panels) {
     script += fmt::format("unset label\nset title '{}, {:.3g} ms'\n", panel.start->name, 1e3 * panel.start->duration);
     std::string plot = "plot ";
     std::size_t series = 0;
     for (const std::size_t m : panel.of) {
-      const std::string name = panel.of.size() == 1 ? "" : std::string(measured[m].variant->name) + ", ";
       for (const bool scheduled : {true, false}) {
         if (!scheduled && m != panel.of[0]) continue;  // one shows how much the stepper matters
-        script += fmt::format("set label {} \"{}\" at graph 0.04,{:.3f} textcolor '{}' font ',13' front\n", series + 1,
-                              name + (scheduled ? "scheduled" : "reference"),
-                              0.06 + 0.085 * static_cast<double>(series), colour(series));
         plot += fmt::format(
             "'work_precision.dat' index {} using {}:2 with linespoints pointtype {} pointsize 0.9 linewidth 1.2 "
             "linecolor '{}' "
@@ -138,7 +143,12 @@ std::string work_script(const std::vector<Convergence>& measured) {
     plot.resize(plot.size() - 2);
     script += "set yrange [*:*]\n" + plot + "\n";
   }
-  return script + "unset multiplot\n";
+  std::vector<std::string> names;
+  for (const std::size_t m : panels.front().of) {
+    names.push_back(std::string(measured[m].variant->name) + ", scheduled");
+    if (m == panels.front().of[0]) names.push_back(std::string(measured[m].variant->name) + ", reference");
+  }
+  return script + legend_panel(names);
 }
 
 }  // namespace

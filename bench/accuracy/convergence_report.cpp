@@ -44,6 +44,11 @@ std::string as_text(const std::vector<Convergence>& measured) {
         "converged solution at {:.4g} ns; one of twice that step is off by {} mm, {} rad, {} (upper quartile)\n",
         1e9 * of.converged_dt, short_number(of.floor[0].upper), short_number(of.floor[1].upper),
         short_number(of.floor[2].upper));
+    if (of.from_first) {
+      text += fmt::format("distance from the converged solution of {}: {} mm, {} rad, {} (median)\n",
+                          variants().front().name, short_number((*of.from_first)[0].median),
+                          short_number((*of.from_first)[1].median), short_number((*of.from_first)[2].median));
+    }
   }
   std::vector<Row> orders{{"case", "variant", "position", "director", "energy"}};
   for (const Convergence& of : measured) {
@@ -84,6 +89,7 @@ Json as_json(const std::vector<Convergence>& measured) {
       Json& norm = orders[kNormNames[n]];
       norm["unit"] = kNormUnits[n];
       norm["floor"] = quartiles_json(of.floor[n]);
+      if (of.from_first) norm["from_first"] = quartiles_json((*of.from_first)[n]);
       norm["order"] = nullptr;
       if (const auto& fit = of.orders[n]) {
         norm["order"] = fit->order;

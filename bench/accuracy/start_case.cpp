@@ -41,13 +41,13 @@ StartCase between_plates(std::string name, std::string what, int n_rods, double 
 
 /// Two rods that fall freely side by side, far from any plate: only they can hit each other.
 StartCase in_free_fall(std::string name, std::string what, double duration) {
-  StartCase start = between_plates(std::move(name), std::move(what), 2, 30, duration, 128);
+  StartCase start = between_plates(std::move(name), std::move(what), 2, 30, duration, 64);
   start.scene.gap = 20;
   return start;
 }
 
 StartCase rattling() {
-  StartCase start = between_plates("rattling", "one rod hits lid and base in turn", 1, 30, 128 * kLongestStep, 128);
+  StartCase start = between_plates("rattling", "one rod hits lid and base in turn", 1, 30, 128 * kLongestStep, 64);
   start.rods = [](int member) {
     Rng rng(kSeed, RngStream::kVelocity, static_cast<std::uint64_t>(member));
     const double z = 0.687 + rng.uniform(-0.1, 0.1);
@@ -58,7 +58,7 @@ StartCase rattling() {
 }
 
 StartCase wedged() {
-  StartCase start = between_plates("wedged", "one rod, tilted, touches base and lid", 1, 30, 64 * kLongestStep, 128);
+  StartCase start = between_plates("wedged", "one rod, tilted, touches base and lid", 1, 30, 64 * kLongestStep, 64);
   start.rods = [](int member) {
     Rng rng(kSeed, RngStream::kVelocity, static_cast<std::uint64_t>(member));
     // both ends 0.01 mm from their plates, and turning towards them

@@ -27,6 +27,7 @@ Case start_of(const StatisticsTask& task, double value, int replica) {
 
 Scene scene_of(const StatisticsTask& task, const Case& start, double value) {
   Scene scene = start.system();
+  task.variant->apply(scene);
   if (task.knob == Knob::kStep) scene.dt = 1e-6 * value;
   if (task.knob == Knob::kSweeps) scene.solver_sweeps = static_cast<int>(value);
   return scene;
@@ -72,7 +73,7 @@ Simulation continued(const Simulation& from, Scene scene) {
     Flight flight;
     flight.image = rods.image[i];
     begin_flight(flight, world.tick, {rods.position[i], rods.director[i]}, {rods.velocity[i], rods.angular_velocity[i]},
-                 scene.box_side, world.species.front().inertia_par / world.species.front().inertia_perp);
+                 scene.box_side, world.species[0].inertia_par / world.species[0].inertia_perp);
     world.rods.push_back(flight);
   }
   return Simulation::start_from(std::move(world));

@@ -10,6 +10,7 @@
 #include "analysis/tilt.h"
 #include "bench/accuracy/bias.h"
 #include "bench/accuracy/observables.h"
+#include "bench/accuracy/variant.h"
 #include "bench/case.h"
 
 namespace shaken::bench {
@@ -22,6 +23,7 @@ inline constexpr std::array<const char*, 3> kKnobUnits{"us", "mm", "1"};
 /// One knob turned in one scene.
 struct StatisticsTask {
   Case scene;  ///< its plan: everything but the knob
+  const Variant* variant = &variants().front();
   Knob knob = Knob::kStep;
   std::vector<double> values;  ///< from most to least accurate [kKnobUnits]
   double measure = 0;          ///< simulated per value and replica [s]

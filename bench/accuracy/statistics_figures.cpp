@@ -33,7 +33,8 @@ std::vector<const Statistics*> of_knob(const std::vector<Statistics>& measured, 
 }
 
 std::string scene_text(const Statistics& of) {
-  return fmt::format("ℓ {:g} mm, φ {:g}", of.task.scene.length, of.task.scene.area_fraction);
+  return fmt::format("ℓ {:g} mm, φ {:g}{}", of.task.scene.length, of.task.scene.area_fraction,
+                     of.task.variant == &variants().front() ? "" : std::string(", ") + of.task.variant->name);
 }
 
 /// One block per series: value, cost, then bias and its error of every observable [%].

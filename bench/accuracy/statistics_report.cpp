@@ -23,8 +23,9 @@ const char* verdict_text(Verdict verdict) {
 Json mean_json(const Mean& mean) { return {{"value", mean.value}, {"sem", mean.sem}}; }
 
 std::string heading_of(const Statistics& of) {
-  return fmt::format("\n{}, N = {}: {}; {} x {:.10g} s of each, after {:.10g} s\n", of.task.scene.label(),
-                     of.task.scene.system().n_rods, knob_of(of), of.task.replicas, of.task.measure, of.task.settle);
+  return fmt::format("\n{}, N = {}, {}: {}; {} x {:.10g} s of each, after {:.10g} s\n", of.task.scene.label(),
+                     of.task.scene.system().n_rods, of.task.variant->name, knob_of(of), of.task.replicas,
+                     of.task.measure, of.task.settle);
 }
 
 /// "T_xy: 8 us (16 us: open)" for every observable with a limit.
@@ -102,6 +103,7 @@ Json as_json(const std::vector<Statistics>& measured) {
                {"area_fraction", of.task.scene.area_fraction},
                {"side_mm", of.task.scene.side},
                {"n_rods", of.task.scene.system().n_rods},
+               {"variant", of.task.variant->name},
                {"knob", knob_of(of)},
                {"value", point.value},
                {"simulated_s", of.task.replicas * of.task.measure},
@@ -115,6 +117,7 @@ Json as_json(const std::vector<Statistics>& measured) {
       }
       report["rows"].push_back(std::move(row));
       report["tilt"].push_back({{"length_mm", of.task.scene.length},
+                                {"variant", of.task.variant->name},
                                 {"knob", knob_of(of)},
                                 {"value", point.value},
                                 {"n_z", point.tilt.n_z},
@@ -124,6 +127,7 @@ Json as_json(const std::vector<Statistics>& measured) {
     for (int o = 0; o < kObservables; ++o) {
       if (!of.limits[o]) continue;
       report["limits"].push_back({{"length_mm", of.task.scene.length},
+                                  {"variant", of.task.variant->name},
                                   {"observable", kObservableInfo[o].name},
                                   {"unit", kObservableInfo[o].unit},
                                   {"limit", mean_json(of.limits[o]->at_zero)},

@@ -15,11 +15,18 @@ const StartCase& start_named(const std::string& name) {
   throw std::logic_error("no start " + name);
 }
 
-Convergence measured(const std::string& name) {
+const Variant& variant_named(const std::string& name) {
+  for (const Variant& variant : variants()) {
+    if (variant.name == name) return variant;
+  }
+  throw std::logic_error("no variant " + name);
+}
+
+Convergence measured(const std::string& name, const Variant& variant = variants().front()) {
   ConvergenceEffort effort;
   effort.steps = {1e-6, 2e-6, 4e-6, 8e-6, 16e-6, 32e-6};
   effort.members = 64;
-  return measure_convergence(start_named(name), variants().front(), effort);
+  return measure_convergence(start_named(name), variant, effort);
 }
 
 TEST(Convergence, OneImpactIsOfOrderOne) {
@@ -42,6 +49,26 @@ TEST(Convergence, ARodThatTouchesBothPlatesIsToo) {
   ASSERT_TRUE(of.orders[0]);
   EXPECT_NEAR(of.orders[0]->order, 1.0, 0.25);
   EXPECT_GT(of.impulses, 100) << "chatters between the plates";
+}
+
+TEST(Convergence, AtTheirInstantImpactsAreOfOrderTwo) {
+  const Convergence late = measured("rattling");
+  const Convergence of = measured("rattling", variant_named("instant"));
+  for (int n = 0; n < kNorms; ++n) {
+    ASSERT_TRUE(of.orders[n]) << kNormNames[n];
+    EXPECT_NEAR(of.orders[n]->order, 2.0, 0.25) << kNormNames[n];
+    // two ways to one limit: as far apart as the way of order 1 still is from it
+    EXPECT_LT((*of.from_first)[n].median, 3 * late.floor[n].upper) << kNormNames[n];
+    EXPECT_LT(of.steps.front().errors[n].median, 0.01 * late.steps.front().errors[n].median) << kNormNames[n];
+  }
+}
+
+TEST(Convergence, OtherLawsAreOfOrderOneToo) {
+  for (const char* law : {"poisson", "energetic"}) {
+    const Convergence of = measured("crossing", variant_named(law));
+    ASSERT_TRUE(of.orders[0]) << law;
+    EXPECT_NEAR(of.orders[0]->order, 1.0, 0.15) << law;
+  }
 }
 
 }  // namespace
