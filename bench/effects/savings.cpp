@@ -101,12 +101,16 @@ std::vector<Saving> measure_savings(const Case& everything, const std::filesyste
     if (const auto started = Simulation::start(scene.system()); !started) {
       saving.impossible = started.error().message;
     } else {
-      const SteadyState own = steady_state(scene, cache);
-      ProgressLine progress("measuring without " + saving.effect);
-      saving.own_state = compare(contender(saving.effect, scene, own), all_on, effort.repeat, 0, effort.cpu);
-      if (Simulation::resume(scene.system(), state.checkpoint)) {
-        saving.same_state =
-            compare(contender(saving.effect, scene, state), all_on, kOften * effort.repeat, kFewPeriods, 0);
+      try {
+        const SteadyState own = steady_state(scene, cache);
+        ProgressLine progress("measuring without " + saving.effect);
+        saving.own_state = compare(contender(saving.effect, scene, own), all_on, effort.repeat, 0, effort.cpu);
+        if (Simulation::resume(scene.system(), state.checkpoint)) {
+          saving.same_state =
+              compare(contender(saving.effect, scene, state), all_on, kOften * effort.repeat, kFewPeriods, 0);
+        }
+      } catch (const Failure& failure) {  // without a base, say, rods fall until they are too fast
+        saving.impossible = failure.what();
       }
     }
     savings.push_back(std::move(saving));
