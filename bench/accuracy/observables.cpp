@@ -40,9 +40,9 @@ void ObservableSeries::sample(const Simulation& simulation) {
   const auto n = static_cast<double>(rods.n_rods());
 
   const KineticEnergy energy = kinetic_energy(world);
-  add(Observable::kTemperatureXy, energy.translation_xy / (n * world.species.mass));
-  add(Observable::kTemperatureZ, 2 * energy.translation_z / (n * world.species.mass));
-  add(Observable::kRotation, energy.rotation / (n * world.species.inertia_perp));
+  add(Observable::kTemperatureXy, energy.translation_xy / (n * world.species.front().mass));
+  add(Observable::kTemperatureZ, 2 * energy.translation_z / (n * world.species.front().mass));
+  add(Observable::kRotation, energy.rotation / (n * world.species.front().inertia_perp));
   add(Observable::kOrder, analysis::nematic_order(rods.director).order);
   double n_z2 = 0;
   for (const Vec3& director : rods.director) n_z2 += director.z() * director.z() / n;

@@ -72,7 +72,7 @@ Simulation continued(const Simulation& from, Scene scene) {
     Flight flight;
     flight.image = rods.image[i];
     begin_flight(flight, world.tick, {rods.position[i], rods.director[i]}, {rods.velocity[i], rods.angular_velocity[i]},
-                 scene.box_side, world.species.inertia_par / world.species.inertia_perp);
+                 scene.box_side, world.species.front().inertia_par / world.species.front().inertia_perp);
     world.rods.push_back(flight);
   }
   return Simulation::start_from(std::move(world));
