@@ -23,17 +23,18 @@ ALLOWED = {
     # everything outside sim/ sees simulations, not steppers
     "analysis": ["sim/core"],
     "scene": ["sim/core", "sim/rod", "sim/scene.h"],
-    "run/files": ["sim/core", "sim/snapshot.h"],
+    "run/files": ["sim/core", "sim/scene.h", "sim/snapshot.h"],
     "run": ["proto", "scene", "analysis", "run/files", "sim/core", "sim/rod", "sim/scene.h", "sim/snapshot.h",
-            "sim/world.h", "sim/simulation.h", "sim/close_up.h", "sim/effects/registry.h"],
+            "sim/world.h", "sim/simulation.h", "sim/close_up.h", "sim/effects/registry.h",
+            "sim/effects/side_walls.h"],
     # what a run costs: times the kernels of an impulse by themselves
     "run/probe": ["proto", "scene", "analysis", "run", "sim/core", "sim/rod", "sim/motion", "sim/contact", "sim/scene.h",
                   "sim/snapshot.h", "sim/world.h", "sim/simulation.h", "sim/stepping/phase_times.h"],
     # drawing knows rods and fields; only the program's sources of frames know files and the bus
-    "render/main.cpp": ["render", "run/files", "proto", "sim/core", "sim/snapshot.h", "analysis"],
-    "render/sources.h": ["render", "run/files", "proto", "sim/core", "sim/snapshot.h", "analysis"],
-    "render/sources.cpp": ["render", "run/files", "proto", "sim/core", "sim/snapshot.h", "analysis"],
-    "render": ["sim/core", "analysis"],
+    "render/main.cpp": ["render", "run/files", "proto", "sim/core", "sim/scene.h", "sim/snapshot.h", "analysis"],
+    "render/sources.h": ["render", "run/files", "proto", "sim/core", "sim/scene.h", "sim/snapshot.h", "analysis"],
+    "render/sources.cpp": ["render", "run/files", "proto", "sim/core", "sim/scene.h", "sim/snapshot.h", "analysis"],
+    "render": ["sim/core", "sim/scene.h", "analysis"],
     "server": ["proto", "scene", "run/files", "sim/core"],
     "client": ["proto", "scene", "run/files", "sim/core", "sim/rod", "sim/scene.h"],
     # benches time whole simulations, and the kernels of an impulse by themselves

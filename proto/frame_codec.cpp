@@ -21,7 +21,7 @@ std::int16_t wrap(double steps) {
 bool plausible(const frame_t& chunk) {
   const auto n = static_cast<std::size_t>(std::max(chunk.n_chunk_rods, 0));
   return chunk.n_chunks > 0 && chunk.chunk >= 0 && chunk.chunk < chunk.n_chunks && chunk.first_rod >= 0 &&
-         chunk.n_chunk_rods >= 0 && chunk.x.size() == n && chunk.y.size() == n && chunk.theta.size() == n &&
+         chunk.n_chunk_rods >= 0 && chunk.x.size() == n && chunk.y.size() == n && chunk.heading.size() == n &&
          chunk.n_z.size() == n;
 }
 
@@ -37,10 +37,7 @@ std::array<double, 3> RodPose::axis() const {
 }
 
 RodPose make_pose(double x, double y, const std::array<double, 3>& axis) {
-  const double theta = std::atan2(axis[1], axis[0]);
-  if (theta >= kPi / 2) return {x, y, theta - kPi, -axis[2]};
-  if (theta < -kPi / 2) return {x, y, theta + kPi, -axis[2]};
-  return {x, y, theta, axis[2]};
+  return {x, y, std::atan2(axis[1], axis[0]), axis[2]};
 }
 
 std::vector<frame_t> encode_frame(const Frame& frame) {
@@ -64,13 +61,10 @@ std::vector<frame_t> encode_frame(const Frame& frame) {
     chunk.n_chunk_rods = std::min(kRodsPerChunk, n_rods - chunk.first_rod);
     for (int i = chunk.first_rod; i < chunk.first_rod + chunk.n_chunk_rods; ++i) {
       const RodPose& rod = frame.rods[static_cast<std::size_t>(i)];
-      const std::int16_t theta = wrap(rod.theta * kSteps / kPi);
-      // An angle just below pi/2 may round up to pi/2 and so to -pi/2: the rod's other end.
-      const double n_z = theta < 0 && rod.theta > 0 ? -rod.n_z : rod.n_z;
       chunk.x.push_back(wrap((rod.x / frame.box_side_mm - 0.5) * kSteps));
       chunk.y.push_back(wrap((rod.y / frame.box_side_mm - 0.5) * kSteps));
-      chunk.theta.push_back(theta);
-      chunk.n_z.push_back(static_cast<std::int16_t>(std::lround(std::clamp(n_z, -1.0, 1.0) * kLargestNz)));
+      chunk.heading.push_back(wrap(rod.theta * kSteps / (2 * kPi)));
+      chunk.n_z.push_back(static_cast<std::int16_t>(std::lround(std::clamp(rod.n_z, -1.0, 1.0) * kLargestNz)));
     }
     chunks.push_back(std::move(chunk));
   }
@@ -82,7 +76,7 @@ std::vector<RodPose> decode_chunk(const frame_t& chunk) {
   rods.reserve(chunk.x.size());
   for (std::size_t i = 0; i < chunk.x.size(); ++i) {
     rods.push_back({(chunk.x[i] / kSteps + 0.5) * chunk.box_side_mm, (chunk.y[i] / kSteps + 0.5) * chunk.box_side_mm,
-                    chunk.theta[i] * kPi / kSteps, std::max(-1.0, chunk.n_z[i] / kLargestNz)});
+                    chunk.heading[i] * 2 * kPi / kSteps, std::max(-1.0, chunk.n_z[i] / kLargestNz)});
   }
   return rods;
 }

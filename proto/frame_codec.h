@@ -15,15 +15,14 @@ namespace shaken::proto {
 /// Rods of one chunk at most: 8 bytes each, so that a message stays under 60 kB and within one datagram.
 inline constexpr int kRodsPerChunk = 7000;
 
-/// One rod seen from above. The rod has no head: of its two ends, `theta` points along the one with theta in
-/// [-pi/2, pi/2), and n_z is the vertical part of the axis towards that end.
+/// One rod seen from above.
 struct RodPose {
   double x = 0;      ///< of the centre, in [0, box side) [mm]
   double y = 0;      ///< the same [mm]
-  double theta = 0;  ///< in-plane angle [rad]; 0 for an upright rod
-  double n_z = 0;    ///< in [-1, 1]
+  double theta = 0;  ///< in-plane angle of its axis, in [-pi, pi] [rad]; 0 for an upright rod
+  double n_z = 0;    ///< vertical part of its axis, in [-1, 1]
 
-  /// The unit vector along the rod.
+  /// The unit vector along the rod, to its head.
   std::array<double, 3> axis() const;
 };
 
@@ -44,7 +43,7 @@ struct Frame {
 };
 
 /// The messages of a frame, at least one. Errors of the quantities after decode_chunk: half of box_side/65536 in x and
-/// y, pi/131072 in theta, 1/65534 in n_z.
+/// y, pi/65536 in theta, 1/65534 in n_z.
 std::vector<frame_t> encode_frame(const Frame& frame);
 
 /// The rods of one chunk, in order.

@@ -57,6 +57,12 @@ std::optional<std::size_t> message_size(std::string_view layout, std::span<const
       case 'D':
         fits = fits && walker.skip(8 * n);
         break;
+      case 'W':
+        fits = fits && walker.skip(4 * n);
+        break;
+      case 'B':
+        fits = fits && walker.skip(n);
+        break;
       case 'H':
         fits = fits && walker.skip(2 * n);
         break;

@@ -16,7 +16,7 @@
 namespace shaken::proto {
 
 /// The fields of a message in order, one letter each: `8` and `4` are numbers of that many bytes, `s` a string, `n` the
-/// length of the arrays that follow, `D` an array of n numbers of 8 bytes, `H` one of n numbers of 2 bytes.
+/// length of the arrays that follow, `D`, `W`, `H` and `B` arrays of n numbers of 8, 4, 2 bytes and 1 byte.
 /// lcm-gen's decoders trust lengths inside a payload (a large one makes them read past its end), so every payload is
 /// held against this first. Spaces are for the reader: common head, then the rest.
 template <class T>
@@ -28,7 +28,7 @@ inline constexpr std::string_view kLayout<job_t> = "88s sss s4 88888";
 template <>
 inline constexpr std::string_view kLayout<observables_t> = "88s8 84 88888888 888 88";
 template <>
-inline constexpr std::string_view kLayout<frame_static_t> = "88s8 488 nDD s";
+inline constexpr std::string_view kLayout<frame_static_t> = "88s8 488 nW nDD nB s88 s";
 template <>
 inline constexpr std::string_view kLayout<frame_t> = "88s8 8888 4444 nHHHH";
 template <>

@@ -42,6 +42,8 @@ constexpr double kFullAngle = 15 * kPi / 180;  // the angle of the fully grown c
 const Oklab kNeutral = polar(0.93, 0.012, 60);
 const Oklab kRed = polar(0.60, 0.235, 29);
 const Oklab kMagenta = polar(0.57, 0.25, 334);
+const Oklab kTeal = polar(0.68, 0.055, 205);
+const Oklab kSlate = polar(0.47, 0.025, 255);
 
 }  // namespace
 
@@ -52,7 +54,11 @@ Colour layer_colour(double theta) {
 
 Colour wheel_colour(double angle) { return to_srgb(polar(0.74, 0.126, 29 + angle * 360 / kPi)); }
 
-Colour rod_colour(const RodPicture& picture, const Vec3& director, Colouring colouring) {
+Colour kind_colour(std::size_t kind) { return to_srgb(kind == 1 ? kTeal : kSlate); }
+
+Colour rod_colour(const RodPicture& picture, std::size_t i, Colouring colouring) {
+  if (const std::size_t kind = picture.kind_of(i); kind != 0) return kind_colour(kind);
+  const Vec3& director = picture.director[i];
   const double angle = std::atan2(director.y(), director.x());
   return colouring == Colouring::kLayers ? layer_colour(analysis::fold_half_turn(angle - picture.director_angle))
                                          : wheel_colour(angle);
@@ -60,9 +66,9 @@ Colour rod_colour(const RodPicture& picture, const Vec3& director, Colouring col
 
 Palette palette(Theme theme) {
   if (theme == Theme::kDark) {
-    return {{0.071, 0.078, 0.094}, {0.11, 0.118, 0.137}, {0.92, 0.925, 0.935}, {0.56, 0.58, 0.62}};
+    return {{0.071, 0.078, 0.094}, {0.11, 0.118, 0.137}, {0.92, 0.925, 0.935}, {0.56, 0.58, 0.62}, {0.21, 0.22, 0.245}};
   }
-  return {{1, 1, 1}, {0.965, 0.96, 0.95}, {0.11, 0.12, 0.14}, {0.45, 0.46, 0.49}};
+  return {{1, 1, 1}, {0.965, 0.96, 0.95}, {0.11, 0.12, 0.14}, {0.45, 0.46, 0.49}, {0.84, 0.845, 0.855}};
 }
 
 }  // namespace shaken::render

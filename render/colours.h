@@ -18,8 +18,11 @@ Colour layer_colour(double theta);
 /// (Ottosson 2020), so equal turns look equally large.
 Colour wheel_colour(double angle);
 
-/// The colour that a rod of the picture has.
-Colour rod_colour(const RodPicture& picture, const Vec3& director, Colouring colouring);
+/// Colour of all rods of another kind than the first, 1 or 2: duller than those of angles, and apart in lightness.
+Colour kind_colour(std::size_t kind);
+
+/// The colour that rod `i` of the picture has.
+Colour rod_colour(const RodPicture& picture, std::size_t i, Colouring colouring);
 
 /// The colours around the rods.
 struct Palette {
@@ -27,6 +30,7 @@ struct Palette {
   Colour floor;  ///< the base plate
   Colour ink;    ///< text and lines
   Colour faint;  ///< secondary text and lines
+  Colour walls;  ///< what lies beyond the side walls
 };
 Palette palette(Theme theme);
 

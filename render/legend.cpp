@@ -52,14 +52,14 @@ void draw_layer_legend(const Canvas& canvas, const Rect& place, double unit, con
   constexpr double kReach = 45;  // degrees on either side
   constexpr int kBins = 60;
   std::vector<double> angles;
-  for (const Vec3& n : picture.director)
+  for (const Vec3& n : picture.first_directors())
     angles.push_back(analysis::fold_half_turn(std::atan2(n.y(), n.x()) - picture.director_angle));
   const std::vector<double> counts = scaled_histogram(angles, -kReach * kDegree, kReach * kDegree, kBins);
 
   const double title = 20 * unit, bar = 11 * unit, ticks = 22 * unit;
   canvas.colour(colours.ink);
   canvas.text(place.x, place.y + 12 * unit, "Angle to the director", 13 * unit);
-  if (picture.n_rods() > 0) {
+  if (!angles.empty()) {
     draw_axis(canvas, place.right() - 18 * unit, place.y + 10 * unit, picture.director_angle, unit);
   }
   const Rect plot{place.x, place.y + title + 8 * unit, place.width, place.height - title - 8 * unit - bar - ticks};
@@ -110,7 +110,7 @@ void draw_wheel_legend(const Canvas& canvas, const Rect& place, double unit, con
                        const Palette& colours) {
   constexpr int kBins = 60;
   std::vector<double> angles;
-  for (const Vec3& n : picture.director) {
+  for (const Vec3& n : picture.first_directors()) {
     const double angle = analysis::fold_half_turn(std::atan2(n.y(), n.x()));
     angles.push_back(angle < 0 ? angle + kPi : angle);
   }
@@ -144,7 +144,7 @@ void draw_wheel_legend(const Canvas& canvas, const Rect& place, double unit, con
     cairo_close_path(cr);
     cairo_fill(cr);
   }
-  if (picture.n_rods() > 0) {
+  if (!angles.empty()) {
     // The director, drawn over the upper half.
     const double angle = picture.director_angle < 0 ? picture.director_angle + kPi : picture.director_angle;
     canvas.colour(colours.ink);

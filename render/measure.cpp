@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <vector>
+
 #include "analysis/defects.h"
 #include "analysis/director_field.h"
 #include "analysis/order.h"
@@ -7,15 +9,21 @@
 namespace shaken::render {
 
 void measure(RodPicture& picture, bool with_defects) {
-  const analysis::NematicOrder mean = analysis::nematic_order(picture.director);
+  const std::vector<Vec3> directors = picture.first_directors();
+  const analysis::NematicOrder mean = analysis::nematic_order(directors);
   picture.order = mean.order;
   picture.director_angle = mean.director;
   picture.defects.clear();
-  if (!with_defects || picture.n_rods() == 0) return;
+  if (!with_defects || directors.empty()) return;
+  std::vector<Vec3> positions;
+  for (std::size_t i = 0; i < picture.n_rods(); ++i) {
+    if (picture.kind_of(i) == 0) positions.push_back(picture.position[i]);
+  }
   const double length = picture.rod_length();
   const int nodes = analysis::grid_nodes(picture.box_side, length / 8);
-  picture.defects = analysis::find_defects(
-      analysis::DirectorField(picture.position, picture.director, picture.box_side, nodes, length / 2));
+  picture.defects =
+      analysis::find_defects(analysis::DirectorField(positions, directors, picture.box_side, nodes, length / 2));
+  std::erase_if(picture.defects, [&](const analysis::Defect& defect) { return !picture.is_inside(defect.position); });
 }
 
 }  // namespace shaken::render

@@ -139,6 +139,41 @@ void draw_key(const Canvas& canvas, const Layout& layout, const RodPicture& pict
   canvas.text(x2 + 46 * u, y2 + 5 * u, fmt::format("\u2212\u00bd defects: {}", minus), 13 * u);
 }
 
+/// A rod of each kind, seen from above in one scale, and how many there are. The first kind has no colour of its own.
+void draw_kinds(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const Palette& colours) {
+  const double u = layout.unit;
+  const double column = layout.kinds.width / static_cast<double>(picture.n_kinds());
+  const double words = 52 * u;     // room for a number
+  double longest = 0, widest = 0;  // [mm]
+  const auto length_of = [](const BeadRow& beads) {
+    return beads.offset.back() + beads.radius.back() - beads.offset.front() + beads.radius.front();
+  };
+  for (std::size_t kind = 0; kind < picture.n_kinds(); ++kind) {
+    const BeadRow& beads = picture.beads_of(kind);
+    longest = std::max(longest, length_of(beads));
+    widest = std::max(widest, 2 * *std::max_element(beads.radius.begin(), beads.radius.end()));
+  }
+  const double scale = std::min((column - words) / longest, 16 * u / widest);  // pixels per mm
+  cairo_t* cr = canvas.cairo();
+  const double y = layout.kinds.y + 11 * u;
+  for (std::size_t kind = 0; kind < picture.n_kinds(); ++kind) {
+    const BeadRow& beads = picture.beads_of(kind);
+    const double x = layout.kinds.x + static_cast<double>(kind) * column;
+    const double centre = x + scale * (beads.radius.front() - beads.offset.front());
+    for (const bool rim : {true, false}) {  // the rim keeps pale rods visible on a white page
+      canvas.colour(rim ? colours.faint : kind == 0 ? layer_colour(0) : kind_colour(kind));
+      for (std::size_t i = 0; i < beads.offset.size(); ++i) {
+        cairo_new_sub_path(cr);
+        cairo_arc(cr, centre + scale * beads.offset[i], y, scale * beads.radius[i] + (rim ? 0.5 : -0.5) * u, 0,
+                  2 * kPi);
+      }
+      cairo_fill(cr);
+    }
+    canvas.colour(colours.ink);
+    canvas.text(x + scale * length_of(beads) + 7 * u, y + 5 * u, fmt::format("{}", picture.count(kind)), 13 * u);
+  }
+}
+
 void draw_scale_bar(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style,
                     const Palette& colours) {
   const double u = layout.unit;
@@ -168,6 +203,7 @@ void draw_overlay(const Canvas& canvas, const Layout& layout, const RodPicture& 
   if (layout.numbers.width > 0) draw_numbers(canvas, layout, picture, colours);
   if (layout.history.width > 0) draw_history(canvas, layout, picture, colours);
   if (layout.legend.width > 0) draw_legend(canvas, layout.legend, layout.unit, picture, style);
+  if (layout.kinds.width > 0) draw_kinds(canvas, layout, picture, colours);
   if (layout.key.width > 0) draw_key(canvas, layout, picture, colours);
   if (layout.scale_bar.width > 0) draw_scale_bar(canvas, layout, picture, style, colours);
 }

@@ -15,7 +15,7 @@ Result<Painter> Painter::create() {
 
 Result<Image> Painter::paint(const RodPicture& picture, const PictureStyle& style) {
   if (auto error = check(style)) return *error;
-  const Layout layout = layout_of(style, !picture.history.time.empty(), !picture.label.empty());
+  const Layout layout = layout_of(style, !picture.history.time.empty(), !picture.label.empty(), picture.n_kinds() > 1);
   Result<Image> rods = rods_.draw(picture, style, layout.box_side);
   if (!rods) return rods.error();
   Canvas canvas(style.width, style.height, palette(style.theme).page);

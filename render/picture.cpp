@@ -6,27 +6,91 @@
 
 namespace shaken::render {
 
-double RodPicture::rod_length() const {
-  double half = 0;
-  for (std::size_t i = 0; i < bead_offset.size(); ++i) half = std::max(half, std::abs(bead_offset[i]) + bead_radius[i]);
-  return 2 * half;
+namespace {
+
+/// Where a row of beads begins and ends along the rod [mm].
+struct Ends {
+  double tail = 0, head = 0;
+};
+Ends ends_of(const BeadRow& beads) {
+  Ends ends;
+  for (std::size_t i = 0; i < beads.offset.size(); ++i) {
+    ends.tail = std::min(ends.tail, beads.offset[i] - beads.radius[i]);
+    ends.head = std::max(ends.head, beads.offset[i] + beads.radius[i]);
+  }
+  return ends;
 }
 
-double RodPicture::area_fraction() const {
-  // The outline's half width at x is the greatest of the beads' there; the midpoint rule is good to 4 digits.
+/// Of the outline [mm^2]: its half width at x is the greatest of the beads' there; the midpoint rule is good to 4
+/// digits.
+double outline_area(const BeadRow& beads) {
   constexpr int kSlices = 2000;
-  const double length = rod_length(), dx = length / kSlices;
+  const Ends ends = ends_of(beads);
+  const double dx = (ends.head - ends.tail) / kSlices;
   double area = 0;
   for (int k = 0; k < kSlices; ++k) {
-    const double x = -length / 2 + (k + 0.5) * dx;
+    const double x = ends.tail + (k + 0.5) * dx;
     double half_width = 0;
-    for (std::size_t i = 0; i < bead_offset.size(); ++i) {
-      const double square = bead_radius[i] * bead_radius[i] - (x - bead_offset[i]) * (x - bead_offset[i]);
+    for (std::size_t i = 0; i < beads.offset.size(); ++i) {
+      const double square = beads.radius[i] * beads.radius[i] - (x - beads.offset[i]) * (x - beads.offset[i]);
       if (square > 0) half_width = std::max(half_width, std::sqrt(square));
     }
     area += 2 * half_width * dx;
   }
-  return area * static_cast<double>(n_rods()) / (box_side * box_side);
+  return area;
+}
+
+/// What the rods have to share [mm^2].
+double floor_area(const RodPicture& picture) {
+  if (!picture.walls) return picture.box_side * picture.box_side;
+  const double size = picture.walls->size, inner = picture.walls->inner;
+  switch (picture.walls->arena) {
+    case Arena::kSquare:
+      return size * size;
+    case Arena::kDisc:
+      return kPi / 4 * size * size;
+    case Arena::kAnnulus:
+      return kPi / 4 * (size * size - inner * inner);
+  }
+  return 0;
+}
+
+}  // namespace
+
+std::size_t RodPicture::count(std::size_t kind) const {
+  if (kinds.empty()) return kind == 0 ? n_rods() : 0;
+  return static_cast<std::size_t>(std::count(kinds.begin(), kinds.end(), kind));
+}
+
+std::vector<Vec3> RodPicture::first_directors() const {
+  if (kinds.empty()) return director;
+  std::vector<Vec3> directors;
+  for (std::size_t i = 0; i < n_rods(); ++i) {
+    if (kinds[i] == 0) directors.push_back(director[i]);
+  }
+  return directors;
+}
+
+double RodPicture::rod_length() const {
+  const Ends ends = ends_of(beads);
+  return ends.head - ends.tail;
+}
+
+bool RodPicture::is_inside(const Vec2& place) const {
+  if (!walls) return true;
+  const Vec2 from_middle = place - Vec2(box_side, box_side) / 2;
+  const double half = walls->size / 2;
+  if (walls->arena == Arena::kSquare) return from_middle.cwiseAbs().maxCoeff() < half;
+  const double r = from_middle.norm();
+  return r < half && (walls->arena == Arena::kDisc || r > walls->inner / 2);
+}
+
+double RodPicture::area_fraction() const {
+  double covered = 0;
+  for (std::size_t kind = 0; kind < n_kinds(); ++kind) {
+    covered += static_cast<double>(count(kind)) * outline_area(beads_of(kind));
+  }
+  return covered / floor_area(*this);
 }
 
 std::optional<Error> check(const PictureStyle& style) {

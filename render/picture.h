@@ -2,13 +2,16 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "analysis/defects.h"
+#include "sim/core/bead_row.h"
 #include "sim/core/result.h"
 #include "sim/core/types.h"
+#include "sim/scene.h"
 
 namespace shaken::render {
 
@@ -26,11 +29,14 @@ struct RodPicture {
   double box_side = 0;  ///< of the square box, periodic in x and y [mm]
   double gap = 0;       ///< between the plates [mm]
 
-  std::vector<double> bead_offset;  ///< (n_beads) along a rod from its centre [mm]
-  std::vector<double> bead_radius;  ///< (n_beads) [mm]
+  BeadRow beads;                    ///< of a rod of the first kind
+  std::vector<BeadRow> added;       ///< of rods of the other kinds
+  std::vector<std::uint8_t> kinds;  ///< (n_rods) kind of each rod, from 0; empty if there is one
   std::vector<Vec3> position;       ///< (n_rods) centres [mm]
-  std::vector<Vec3> director;       ///< (n_rods) unit vectors
+  std::vector<Vec3> director;       ///< (n_rods) unit vectors, to the head
+  std::optional<SideWalls> walls;   ///< of the arena in the middle of the box, if there are any
 
+  // Of the rods of the first kind.
   double order = 0;           ///< S, nematic order in the plane
   double director_angle = 0;  ///< of the mean director N, against the x axis [rad]
   std::vector<analysis::Defect> defects;
@@ -38,14 +44,23 @@ struct RodPicture {
   std::string label;  ///< what makes this run different, "rods.length=2.5 rods.area_fraction=0.6"
 
   std::size_t n_rods() const { return position.size(); }
-  /// Tip to tip [mm].
+  std::size_t n_kinds() const { return 1 + added.size(); }
+  std::size_t kind_of(std::size_t rod) const { return kinds.empty() ? 0 : kinds[rod]; }
+  const BeadRow& beads_of(std::size_t kind) const { return kind == 0 ? beads : added[kind - 1]; }
+  /// Rods of one kind.
+  std::size_t count(std::size_t kind) const;
+  /// The directors of the rods of the first kind, which order and colours are about.
+  std::vector<Vec3> first_directors() const;
+  /// Tip to tip, of the first kind [mm].
   double rod_length() const;
-  /// Share of the box covered by the rods' projections, lying flat and side by side.
+  /// Whether a place in the box, in [0, box_side), lies within the side walls; everywhere if there are none.
+  bool is_inside(const Vec2& place) const;
+  /// Share of the arena, or of the box, covered by the projections of all rods, lying flat and side by side.
   double area_fraction() const;
 };
 
-/// Fills order, director_angle and, if asked, defects from the rods. The director field is smoothed over half a rod
-/// length on a mesh of an eighth of one.
+/// Fills order, director_angle and, if asked, defects from the rods of the first kind; defects are looked for within
+/// the side walls. The director field is smoothed over half a rod length on a mesh of an eighth of one.
 void measure(RodPicture& picture, bool with_defects);
 
 enum class Colouring {

@@ -48,14 +48,17 @@ std::array<float, 3> to_floats(const Vec3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
 
-/// All rods, and their periodic images, of which a part may lie in the view.
-std::vector<Instance> instances_in(const RodPicture& picture, const View& view, Colouring colouring, double margin) {
+/// All rods of one kind, and their periodic images, of which a part may lie in the view. `reach` is how far from its
+/// centre anything of a rod is drawn.
+std::vector<Instance> instances_in(const RodPicture& picture, std::size_t kind, const View& view, Colouring colouring,
+                                   double reach) {
   std::vector<Instance> instances;
-  instances.reserve(picture.n_rods() + picture.n_rods() / 4);
-  const double reach = picture.rod_length() / 2 + margin;
+  const std::size_t n = picture.count(kind);
+  instances.reserve(n + n / 4);
   for (std::size_t i = 0; i < picture.n_rods(); ++i) {
+    if (picture.kind_of(i) != kind) continue;
     const Vec3& x = picture.position[i];
-    const Colour colour = rod_colour(picture, picture.director[i], colouring);
+    const Colour colour = rod_colour(picture, i, colouring);
     // Image numbers k for which x + k L lies within `reach` of the view.
     const auto first = [&](double low) { return std::ceil((low - reach) / picture.box_side); };
     const auto last = [&](double low) { return std::floor((low + view.side + reach) / picture.box_side); };
@@ -69,6 +72,29 @@ std::vector<Instance> instances_in(const RodPicture& picture, const View& view, 
   }
   return instances;
 }
+
+/// The rods of one kind in the view.
+struct Batch {
+  std::vector<float> beads;  // offset, radius of each
+  Vec2 ends;                 // offsets of the first and the last bead
+  double thick = 0;          // greatest radius
+  double margin = 0;         // of the shadow
+  std::vector<Instance> instances;
+
+  Batch(const RodPicture& picture, std::size_t kind, const View& view, Colouring colouring) {
+    const BeadRow& row = picture.beads_of(kind);
+    double half = 0;
+    for (std::size_t i = 0; i < row.offset.size(); ++i) {
+      beads.push_back(static_cast<float>(row.offset[i]));
+      beads.push_back(static_cast<float>(row.radius[i]));
+      half = std::max(half, std::abs(row.offset[i]) + row.radius[i]);
+    }
+    ends = Vec2(row.offset.front(), row.offset.back());
+    thick = *std::max_element(row.radius.begin(), row.radius.end());
+    margin = 1.1 * thick;
+    instances = instances_in(picture, kind, view, colouring, half + 2 * margin);
+  }
+};
 
 /// Averages the samples of each pixel and turns the rows round. Goes through the samples as they lie in memory.
 Image averaged(const std::vector<std::uint8_t>& rgba, int side) {
@@ -100,10 +126,18 @@ std::optional<Error> check(const RodPicture& picture, int side) {
   }
   if (!(picture.box_side > 0)) return Error{"the box has no size"};
   if (picture.director.size() != picture.position.size()) return Error{"as many directors as positions are needed"};
-  if (picture.bead_offset.empty() || picture.bead_offset.size() != picture.bead_radius.size() ||
-      picture.bead_offset.size() > RodsPass::kMaxBeads) {
-    return Error{"a rod of " + std::to_string(picture.bead_offset.size()) +
-                 " beads cannot be drawn; possible are 1 to " + std::to_string(RodsPass::kMaxBeads)};
+  for (std::size_t kind = 0; kind < picture.n_kinds(); ++kind) {
+    const BeadRow& beads = picture.beads_of(kind);
+    if (beads.offset.empty() || beads.offset.size() != beads.radius.size() ||
+        beads.offset.size() > RodsPass::kMaxBeads) {
+      return Error{"a rod of " + std::to_string(beads.offset.size()) + " beads cannot be drawn; possible are 1 to " +
+                   std::to_string(RodsPass::kMaxBeads)};
+    }
+  }
+  if (picture.n_kinds() > 1 && picture.kinds.size() != picture.n_rods()) return Error{"each rod's kind is needed"};
+  if (std::any_of(picture.kinds.begin(), picture.kinds.end(),
+                  [&](std::uint8_t kind) { return kind >= picture.n_kinds(); })) {
+    return Error{"a rod is of a kind whose beads are not given"};
   }
   return std::nullopt;
 }
@@ -119,6 +153,7 @@ View view_of(const RodPicture& picture, const PictureStyle& style) {
 struct RodsPass::Programs {
   GLuint body = 0;
   GLuint shadow = 0;
+  GLuint walls = 0;
   GLuint vertex_array = 0;
   GLuint buffer = 0;
 };
@@ -137,7 +172,9 @@ Result<RodsPass> RodsPass::create() {
   std::string message;
   programs->body = link_program(shaders::kQuad, shaders::kBody, message);
   programs->shadow = link_program(shaders::kQuad, shaders::kShadow, message);
-  if (!programs->body || !programs->shadow) return Error{"the rasteriser refuses a shader: " + message};
+  programs->walls = link_program(shaders::kView, shaders::kWalls, message);
+  if (!programs->body || !programs->shadow || !programs->walls)
+    return Error{"the rasteriser refuses a shader: " + message};
 
   glGenVertexArrays(1, &programs->vertex_array);
   glBindVertexArray(programs->vertex_array);
@@ -157,56 +194,72 @@ Result<Image> RodsPass::draw(const RodPicture& picture, const PictureStyle& styl
   if (auto error = context_.bind(side * kSamples)) return *error;
 
   const View view = view_of(picture, style);
-  const double thick = *std::max_element(picture.bead_radius.begin(), picture.bead_radius.end());
-  const double shadow_margin = 1.1 * thick;
-  const std::vector<Instance> instances = instances_in(picture, view, style.colouring, 2 * shadow_margin);
+  std::vector<Batch> batches;
+  double thick = 0;
+  for (std::size_t kind = 0; kind < picture.n_kinds(); ++kind) {
+    batches.emplace_back(picture, kind, view, style.colouring);
+    thick = std::max(thick, batches.back().thick);
+  }
+  const Palette colours = palette(style.theme);
+  const auto set_colour = [](GLint at, const Colour& colour) {
+    glUniform3f(at, static_cast<float>(colour[0]), static_cast<float>(colour[1]), static_cast<float>(colour[2]));
+  };
   glBindVertexArray(programs_->vertex_array);
   glBindBuffer(GL_ARRAY_BUFFER, programs_->buffer);
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(instances.size() * sizeof(Instance)), instances.data(),
-               GL_STREAM_DRAW);
-
-  std::vector<float> beads;
-  double tip = 0;
-  for (std::size_t i = 0; i < picture.bead_offset.size(); ++i) {
-    beads.push_back(static_cast<float>(picture.bead_offset[i]));
-    beads.push_back(static_cast<float>(picture.bead_radius[i]));
-    tip = std::max(tip, std::abs(picture.bead_offset[i]));
-  }
-  const auto draw_with = [&](GLuint program, double margin, const Vec2& shift) {
+  const auto draw_with = [&](GLuint program, const Batch& batch, double margin, const Vec2& shift) {
     const auto at = [&](const char* name) { return glGetUniformLocation(program, name); };
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(batch.instances.size() * sizeof(Instance)),
+                 batch.instances.data(), GL_STREAM_DRAW);
     glUseProgram(program);
-    glUniform2fv(at("beads"), static_cast<GLsizei>(picture.bead_offset.size()), beads.data());
-    glUniform1i(at("n_beads"), static_cast<GLint>(picture.bead_offset.size()));
-    glUniform1f(at("tip"), static_cast<float>(tip));
+    const auto n_beads = static_cast<GLsizei>(batch.beads.size() / 2);
+    glUniform2fv(at("beads"), n_beads, batch.beads.data());
+    glUniform1i(at("n_beads"), n_beads);
+    glUniform2f(at("ends"), static_cast<float>(batch.ends.x()), static_cast<float>(batch.ends.y()));
     glUniform1f(at("view_side"), static_cast<float>(view.side));
     glUniform1f(at("margin"), static_cast<float>(margin));
     glUniform2f(at("shift"), static_cast<float>(shift.x()), static_cast<float>(shift.y()));
     // A rod may stand up by as much as the lid lets it; a little more than that is spanned on either side.
     glUniform1f(at("low"), static_cast<float>(-thick));
     glUniform1f(at("high"), static_cast<float>(std::max(picture.gap, 2 * thick) + thick));
-    const Colour floor = palette(style.theme).floor;
-    glUniform3f(at("floor_colour"), static_cast<float>(floor[0]), static_cast<float>(floor[1]),
-                static_cast<float>(floor[2]));
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(instances.size()));
+    set_colour(at("floor_colour"), colours.floor);
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(batch.instances.size()));
+  };
+  const auto draw_walls = [&](const SideWalls& walls) {
+    const GLuint program = programs_->walls;
+    const auto at = [&](const char* name) { return glGetUniformLocation(program, name); };
+    glUseProgram(program);
+    glUniform1i(at("arena"), walls.arena == Arena::kDisc ? 0 : walls.arena == Arena::kSquare ? 1 : 2);
+    glUniform1f(at("size"), static_cast<float>(walls.size));
+    glUniform1f(at("inner"), static_cast<float>(walls.inner));
+    glUniform1f(at("box_side"), static_cast<float>(picture.box_side));
+    glUniform1f(at("view_side"), static_cast<float>(view.side));
+    glUniform2f(at("view_corner"), static_cast<float>(view.corner.x()), static_cast<float>(view.corner.y()));
+    glUniform1f(at("line"), static_cast<float>(std::max(1.0, side / 480.0) * view.side / side));
+    set_colour(at("wall_colour"), colours.walls);
+    set_colour(at("line_colour"), colours.ink);
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   };
 
-  const Colour floor = palette(style.theme).floor;
-  glClearColor(static_cast<float>(floor[0]), static_cast<float>(floor[1]), static_cast<float>(floor[2]), 1);
+  glClearColor(static_cast<float>(colours.floor[0]), static_cast<float>(colours.floor[1]),
+               static_cast<float>(colours.floor[2]), 1);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 
   // Shadows do not add up: the darkest counts, so their order does not matter.
   glDisable(GL_DEPTH_TEST);
   glEnable(GL_BLEND);
   glBlendEquation(GL_MIN);
-  draw_with(programs_->shadow, shadow_margin, Vec2(0.20, -0.24) * thick);
+  for (const Batch& batch : batches) {
+    draw_with(programs_->shadow, batch, batch.margin, Vec2(0.20, -0.24) * batch.thick);
+  }
 
   glDisable(GL_BLEND);
+  if (picture.walls) draw_walls(*picture.walls);
   glEnable(GL_DEPTH_TEST);
-  draw_with(programs_->body, 0, Vec2(0, 0));
+  for (const Batch& batch : batches) draw_with(programs_->body, batch, 0, Vec2(0, 0));
 
   const std::vector<std::uint8_t>& pixels = context_.finished_pixels();
   if (const GLenum code = glGetError(); code != GL_NO_ERROR) {
-    return Error{"OpenGL error " + std::to_string(code) + " while drawing " + std::to_string(instances.size()) +
+    return Error{"OpenGL error " + std::to_string(code) + " while drawing " + std::to_string(picture.n_rods()) +
                  " rods"};
   }
   return averaged(pixels, side);

@@ -40,7 +40,7 @@ void main() {
 inline constexpr const char* kBody = R"(#version 330 core
 uniform vec2 beads[255];
 uniform int n_beads;
-uniform float tip;       // offset of the last bead
+uniform vec2 ends;       // offsets of the first and the last bead
 uniform float low;       // heights that the depth buffer spans
 uniform float high;
 flat in vec3 rod_axis;
@@ -73,7 +73,7 @@ void main() {
 
   // The beads' own normals, eased towards those of a smooth spindle: round bodies rather than strings of pearls.
   vec3 hit = vec3(place, top);
-  vec3 spindle = hit - clamp(dot(hit, rod_axis), -tip, tip) * rod_axis;
+  vec3 spindle = hit - clamp(dot(hit, rod_axis), ends.x, ends.y) * rod_axis;
   normal = normalize(mix(normal, normalize(spindle), 0.8));
 
   // Never quite at the floor of the depth buffer, where nothing is drawn.
@@ -93,7 +93,7 @@ void main() {
 inline constexpr const char* kShadow = R"(#version 330 core
 uniform vec2 beads[255];
 uniform int n_beads;
-uniform float tip;
+uniform vec2 ends;
 uniform float margin;
 uniform vec3 floor_colour;
 flat in vec3 rod_axis;
@@ -104,11 +104,51 @@ out vec4 pixel;
 
 void main() {
   float flat_part = max(dot(rod_axis.xy, rod_axis.xy), 1e-9);
-  float o = clamp(dot(place, rod_axis.xy) / flat_part, -tip, tip);
-  float radius = mix(beads[n_beads / 2].y, beads[0].y, tip > 0.0 ? abs(o) / tip : 0.0);
+  float o = clamp(dot(place, rod_axis.xy) / flat_part, ends.x, ends.y);
+  // Between two beads the radius changes linearly. They stand at equal distances.
+  float between = ends.y > ends.x ? (o - ends.x) / (ends.y - ends.x) * float(n_beads - 1) : 0.0;
+  int lower = min(int(between), n_beads - 1);
+  float radius = mix(beads[lower].y, beads[min(lower + 1, n_beads - 1)].y, between - float(lower));
   float outside = (length(place - o * rod_axis.xy) - radius) / margin;
   float dark = 1.0 - clamp(outside, 0.0, 1.0);
   pixel = vec4(floor_colour * (1.0 - 0.50 * dark * dark), 1.0);
+}
+)";
+
+/// The whole view as one quad.
+inline constexpr const char* kView = R"(#version 330 core
+uniform float view_side;
+out vec2 place;
+
+void main() {
+  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+  place = corner * view_side;
+  gl_Position = vec4(corner * 2.0 - 1.0, 0.0, 1.0);
+}
+)";
+
+/// What lies beyond the side walls, with a line along its edge. Walls stand upright: no shadow falls there.
+inline constexpr const char* kWalls = R"(#version 330 core
+uniform int arena;        // 0 disc, 1 square, 2 annulus
+uniform float size;       // diameter, or side of the square
+uniform float inner;      // diameter of the annulus' inner wall
+uniform float box_side;
+uniform vec2 view_corner;
+uniform float line;       // its thickness
+uniform vec3 wall_colour;
+uniform vec3 line_colour;
+in vec2 place;
+out vec4 pixel;
+
+void main() {
+  // From the middle of the nearest periodic image of the box.
+  vec2 from_middle = mod(view_corner + place, box_side) - 0.5 * box_side;
+  float r = length(from_middle);
+  float outside = r - 0.5 * size;
+  if (arena == 1) outside = max(abs(from_middle.x), abs(from_middle.y)) - 0.5 * size;
+  if (arena == 2) outside = max(outside, 0.5 * inner - r);
+  if (outside <= 0.0) discard;
+  pixel = vec4(outside < line ? line_colour : wall_colour, 1.0);
 }
 )";
 

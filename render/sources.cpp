@@ -35,6 +35,48 @@ std::string shaking(const std::string& scene_json) {
   return gamma && frequency ? fmt::format("\u0393 = {:.4g}, f = {:.4g} Hz", *gamma, *frequency) : "";
 }
 
+std::optional<SideWalls> walls_of(const frame_static_t& message) {
+  SideWalls walls;
+  if (message.arena == "disc") {
+    walls.arena = Arena::kDisc;
+  } else if (message.arena == "square") {
+    walls.arena = Arena::kSquare;
+  } else if (message.arena == "annulus") {
+    walls.arena = Arena::kAnnulus;
+  } else {
+    return std::nullopt;
+  }
+  walls.size = message.arena_size_mm;
+  walls.inner = message.arena_inner_mm;
+  return walls;
+}
+
+/// Kinds of rods and side walls out of a message, whose counts need not agree.
+std::optional<Error> take_constants(const frame_static_t& message, std::size_t n_rods, RodPicture& picture) {
+  const Error garbled{"the job's static part contradicts itself"};
+  std::vector<BeadRow> rows;
+  std::size_t begin = 0;
+  for (const std::int32_t n : message.species_beads) {
+    if (n < 1 || static_cast<std::size_t>(n) > message.bead_offset_mm.size() - begin) return garbled;
+    const auto piece = [&](const std::vector<double>& all) {
+      const auto first = all.begin() + static_cast<std::ptrdiff_t>(begin);
+      return std::vector<double>(first, first + n);
+    };
+    rows.push_back({piece(message.bead_offset_mm), piece(message.bead_radius_mm)});
+    begin += static_cast<std::size_t>(n);
+  }
+  if (rows.empty() || begin != message.bead_offset_mm.size()) return garbled;
+  if (message.kind.size() != (rows.size() > 1 ? n_rods : 0)) return garbled;
+  if (std::any_of(message.kind.begin(), message.kind.end(), [&](std::uint8_t kind) { return kind >= rows.size(); })) {
+    return garbled;
+  }
+  picture.beads = rows.front();
+  picture.added.assign(rows.begin() + 1, rows.end());
+  picture.kinds = message.kind;
+  picture.walls = walls_of(message);
+  return std::nullopt;
+}
+
 }  // namespace
 
 Result<TrajectorySource> TrajectorySource::open(const std::filesystem::path& run_or_file) {
@@ -90,11 +132,16 @@ std::optional<Error> TrajectorySource::read_history() {
   constexpr std::size_t kMostPoints = 400;
   const std::size_t last = n_frames() - 1, points = std::min(kMostPoints, last + 1);
   OrderHistory history;
+  const std::vector<std::uint8_t>& kinds = reader_.header().kinds;
   for (std::size_t k = 0; k < points; ++k) {
     const Result<run::TrajectoryFrame> frame = reader_.frame(points == 1 ? last : k * last / (points - 1));
     if (!frame) return frame.error();
     history.time.push_back(frame->time);
-    history.order.push_back(analysis::nematic_order(frame->director).order);
+    std::vector<Vec3> directors;  // of rods of the first kind
+    for (std::size_t i = 0; i < frame->director.size(); ++i) {
+      if (kinds.empty() || kinds[i] == 0) directors.push_back(frame->director[i]);
+    }
+    history.order.push_back(analysis::nematic_order(directors).order);
   }
   history.start = history.time.front();
   history.end = history.time.back();
@@ -111,8 +158,10 @@ Result<RodPicture> TrajectorySource::picture(std::size_t index, bool with_defect
   picture.box_side = header.box_side;
   picture.gap = header.gap;
   picture.label = shaking(header.scene_json);
-  picture.bead_offset = header.bead_offset;
-  picture.bead_radius = header.bead_radius;
+  picture.beads = {header.bead_offset, header.bead_radius};
+  picture.added = header.added_beads;
+  picture.kinds = header.kinds;
+  picture.walls = header.walls;
   picture.position = std::move(frame->position);
   picture.director = std::move(frame->director);
   measure(picture, with_defects);
@@ -164,8 +213,7 @@ Result<RodPicture> live_picture(const std::string& lcm_url, const std::string& j
   picture.time = frame->sim_time_s;
   picture.box_side = frame->box_side_mm;
   picture.gap = constants->gap_mm;
-  picture.bead_offset = constants->bead_offset_mm;
-  picture.bead_radius = constants->bead_radius_mm;
+  if (auto error = take_constants(*constants, frame->rods.size(), picture)) return *error;
   picture.label = constants->label;
   for (const proto::RodPose& rod : frame->rods) {
     const std::array<double, 3> axis = rod.axis();

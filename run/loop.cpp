@@ -131,7 +131,7 @@ class Loop {
     if (record) {
       if (auto error = session_.trajectory->append(snapshot)) return error;
     }
-    if (show) publisher_->offer(make_frame(snapshot));
+    if (show) publisher_->offer(make_frame(snapshot, kinds_if_several(session_.simulation.world())));
     const auto& defects = session_.measurements.last_defects();
     if (publisher_ && defects && defects->tick == tick() && defects_pacer_.take(WallClock::now())) {
       publisher_->offer(make_defects(*defects));

@@ -2,9 +2,11 @@
 #include "run/measurements.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "analysis/director_field.h"
 #include "analysis/steady.h"
+#include "sim/effects/side_walls.h"
 
 namespace shaken::run {
 
@@ -17,7 +19,7 @@ double largest_tilt(const Species& species, double gap) {
 }
 
 Measurements::Measurements(const scene::RunPlan& plan, const Species& species, std::span<const std::uint8_t> kinds)
-    : steady_(plan.steady) {
+    : steady_(plan.steady), walls_(plan.system.walls) {
   if (std::any_of(kinds.begin(), kinds.end(), [](std::uint8_t kind) { return kind != 0; })) {
     for (std::size_t i = 0; i < kinds.size(); ++i) {
       if (kinds[i] == 0) measured_.push_back(i);
@@ -107,7 +109,14 @@ void Measurements::sample_rods(const Snapshot& snapshot) {
   if (due(defects_)) {
     const analysis::DirectorField field(snapshot.position, snapshot.director, snapshot.box_side,
                                         analysis::grid_nodes(snapshot.box_side, mesh_), smoothing_);
-    last_defects_ = DefectSample{snapshot.tick, snapshot.time, smoothing_, analysis::find_defects(field)};
+    std::vector<analysis::Defect> defects = analysis::find_defects(field);
+    if (walls_) {  // beyond them there are no rods to have any
+      std::erase_if(defects, [&](const analysis::Defect& defect) {
+        const Vec3 place(defect.position.x(), defect.position.y(), 0);
+        return distance_to_walls(*walls_, snapshot.box_side, place) < 0;
+      });
+    }
+    last_defects_ = DefectSample{snapshot.tick, snapshot.time, smoothing_, std::move(defects)};
     defects_->accumulator.accumulate(snapshot.time, last_defects_->defects);
   }
   if (due(g2_)) {

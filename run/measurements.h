@@ -82,6 +82,7 @@ class Measurements {
 
   std::vector<std::size_t> measured_;  // rods of the first kind, where there are others; or empty
   std::optional<double> steady_;
+  std::optional<SideWalls> walls_;
   double smoothing_ = 0;  // of the director field [mm]
   double mesh_ = 0;       // of its grid, at most [mm]
   std::optional<Timed<analysis::OrderSeries>> order_;

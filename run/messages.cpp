@@ -10,10 +10,41 @@ namespace {
 
 constexpr double kMicrojoulePerPicojoule = 1e-6;
 
+/// Of the rods of the first kind.
+analysis::NematicOrder order_of(const Snapshot& snapshot, std::span<const std::uint8_t> kinds) {
+  if (kinds.empty()) return analysis::nematic_order(snapshot.director);
+  std::vector<Vec3> directors;
+  for (std::size_t i = 0; i < snapshot.n_rods(); ++i) {
+    if (kinds[i] == 0) directors.push_back(snapshot.director[i]);
+  }
+  return analysis::nematic_order(directors);
+}
+
+void append(std::vector<double>& all, const std::vector<double>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+const char* name_of(Arena arena) {
+  switch (arena) {
+    case Arena::kDisc:
+      return "disc";
+    case Arena::kSquare:
+      return "square";
+    case Arena::kAnnulus:
+      return "annulus";
+  }
+  return "";
+}
+
 }  // namespace
 
-proto::Frame make_frame(const Snapshot& snapshot) {
-  const analysis::NematicOrder order = analysis::nematic_order(snapshot.director);
+std::span<const std::uint8_t> kinds_if_several(const World& world) {
+  if (world.species.size() > 1) return world.kinds;
+  return {};
+}
+
+proto::Frame make_frame(const Snapshot& snapshot, std::span<const std::uint8_t> kinds) {
+  const analysis::NematicOrder order = order_of(snapshot, kinds);
   proto::Frame frame;
   frame.sim_time_s = snapshot.time;
   frame.tick = snapshot.tick;
@@ -29,7 +60,7 @@ proto::Frame make_frame(const Snapshot& snapshot) {
 }
 
 observables_t make_observables(const World& world, const Snapshot& snapshot, const Progress& progress) {
-  const analysis::NematicOrder order = analysis::nematic_order(snapshot.director);
+  const analysis::NematicOrder order = order_of(snapshot, kinds_if_several(world));
   double speed2_xy = 0;
   double speed2_z = 0;
   double n2_z = 0;
@@ -86,9 +117,23 @@ frame_static_t make_frame_static(const World& world, const std::string& label) {
   message.n_rods = static_cast<std::int32_t>(world.rods.size());
   message.box_side_mm = world.scene.box_side;
   message.gap_mm = world.scene.gap;
-  message.n_beads = world.species[0].n_beads();
-  message.bead_offset_mm = world.species[0].bead_offset;
-  message.bead_radius_mm = world.species[0].bead_radius;
+  message.n_species = static_cast<std::int32_t>(world.species.size());
+  for (const Species& species : world.species) {
+    message.species_beads.push_back(species.n_beads());
+    append(message.bead_offset_mm, species.bead_offset);
+    append(message.bead_radius_mm, species.bead_radius);
+  }
+  message.n_beads = static_cast<std::int32_t>(message.bead_offset_mm.size());
+  const std::span<const std::uint8_t> kinds = kinds_if_several(world);
+  message.kind.assign(kinds.begin(), kinds.end());
+  message.n_kinds = static_cast<std::int32_t>(message.kind.size());
+  message.arena_size_mm = 0;
+  message.arena_inner_mm = 0;
+  if (const auto& walls = world.scene.walls) {
+    message.arena = name_of(walls->arena);
+    message.arena_size_mm = walls->size;
+    message.arena_inner_mm = walls->arena == Arena::kAnnulus ? walls->inner : 0;
+  }
   message.label = label;
   return message;
 }

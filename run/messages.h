@@ -4,6 +4,7 @@
 #include <shaken/defects_t.hpp>
 #include <shaken/frame_static_t.hpp>
 #include <shaken/observables_t.hpp>
+#include <span>
 #include <string>
 
 #include "proto/frame_codec.h"
@@ -13,8 +14,12 @@
 
 namespace shaken::run {
 
-/// State into wire messages. Head fields (utime, sequence, job_id) are left to the sender.
-proto::Frame make_frame(const Snapshot& snapshot);
+/// Kind of each rod; empty if there is but one kind.
+std::span<const std::uint8_t> kinds_if_several(const World& world);
+
+/// State into wire messages. Head fields (utime, sequence, job_id) are left to the sender. Order and director are those
+/// of the rods of the first kind, as in the measurements.
+proto::Frame make_frame(const Snapshot& snapshot, std::span<const std::uint8_t> kinds = {});
 observables_t make_observables(const World& world, const Snapshot& snapshot, const Progress& progress);
 defects_t make_defects(const Measurements::DefectSample& sample);
 frame_static_t make_frame_static(const World& world, const std::string& label);

@@ -23,6 +23,11 @@ TrajectoryHeader trajectory_header(const World& world, const std::string& scene_
   header.bead_offset = world.species[0].bead_offset;
   header.bead_radius = world.species[0].bead_radius;
   header.scene_json = scene_json;
+  for (std::size_t k = 1; k < world.species.size(); ++k) {
+    header.added_beads.push_back({world.species[k].bead_offset, world.species[k].bead_radius});
+  }
+  if (!header.added_beads.empty()) header.kinds = world.kinds;
+  header.walls = world.scene.walls;
   return header;
 }
 

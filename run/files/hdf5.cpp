@@ -160,6 +160,18 @@ void read_attribute(hid_t where, const std::string& name, hid_t type, void* valu
   check(H5Aread(attribute, type, value), "read " + name);
 }
 
+std::string read_text_attribute(hid_t where, const std::string& name) {
+  const Id attribute(check(H5Aopen(where, name.c_str(), H5P_DEFAULT), "find " + name), H5Aclose);
+  const Id type(check(H5Aget_type(attribute), "look at " + name), H5Tclose);
+  const Id space(check(H5Aget_space(attribute), "look at " + name), H5Sclose);
+  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 || H5Sget_simple_extent_npoints(space) != 1) {
+    throw Failure("cannot read " + name + ": it is not a text of fixed length");
+  }
+  std::string value(H5Tget_size(type), '\0');
+  check(H5Aread(attribute, type, value.data()), "read " + name);
+  return value.substr(0, value.find('\0'));
+}
+
 void write_string(hid_t where, const std::string& name, const std::string& value) {
   const Id type = text_type(false, value.size());
   const Id space = scalar_space();

@@ -81,6 +81,8 @@ void write_attribute(hid_t where, const std::string& name, const std::string& va
 void write_attribute(hid_t where, const std::string& name, const std::vector<std::string>& values);
 void write_attribute(hid_t where, const std::string& name, hid_t type, const Shape& shape, const void* values);
 void read_attribute(hid_t where, const std::string& name, hid_t type, void* value);
+/// A string of fixed length, as write_attribute makes it.
+std::string read_text_attribute(hid_t where, const std::string& name);
 
 void write_string(hid_t where, const std::string& name, const std::string& value);
 std::string read_string(hid_t where, const std::string& name);

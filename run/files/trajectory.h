@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "sim/core/bead_row.h"
 #include "sim/core/result.h"
+#include "sim/scene.h"
 #include "sim/snapshot.h"
 
 namespace shaken::run {
@@ -17,12 +19,15 @@ namespace shaken::run {
 /// What does not change along a trajectory, and what drawing it needs.
 struct TrajectoryHeader {
   int n_rods = 0;
-  double box_side = 0;              ///< [mm]
-  double gap = 0;                   ///< [mm]
-  double dt = 0;                    ///< [s]
-  std::vector<double> bead_offset;  ///< (n_beads) along the rod from its centre [mm]
-  std::vector<double> bead_radius;  ///< (n_beads) [mm]
-  std::string scene_json;           ///< the resolved scene
+  double box_side = 0;                 ///< [mm]
+  double gap = 0;                      ///< [mm]
+  double dt = 0;                       ///< [s]
+  std::vector<double> bead_offset;     ///< (n_beads) of the first kind of rod, along it from its centre [mm]
+  std::vector<double> bead_radius;     ///< (n_beads) [mm]
+  std::string scene_json;              ///< the resolved scene
+  std::vector<BeadRow> added_beads{};  ///< of the other kinds of rods
+  std::vector<std::uint8_t> kinds{};   ///< (n_rods) kind of each rod, from 0; empty if there is one
+  std::optional<SideWalls> walls{};    ///< of the arena, if there are any
 };
 
 /// One recorded frame: positions wrapped into the box, float32 in the file.
@@ -36,7 +41,9 @@ struct TrajectoryFrame {
 };
 
 /// Writes trajectory.h5 in H5MD (de Buyl, Colberg, Hoefling 2014): /particles/trajectory/{position, image, velocity,
-/// orientation, box}, where orientation is the unit quaternion (w, x, y, z) that turns z into the director. A frame is
+/// orientation, box}, where orientation is the unit quaternion (w, x, y, z) that turns z into the director; with
+/// several kinds of rods also H5MD's fixed element `species`, the kind of each rod from 0, whose beads stand in
+/// /parameters and /parameters/species_2, species_3. Side walls are the attributes of /parameters/walls. A frame is
 /// with the operating system when `append` returns; a torn last frame is left out by the reader and trimmed on
 /// reopening. Chunks carry checksums. No SWMR: a killed SWMR file cannot be opened without repair.
 class TrajectoryWriter {

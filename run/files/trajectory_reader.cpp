@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <thread>
@@ -13,6 +14,43 @@ namespace {
 
 using trajectory_layout::DataSets;
 
+std::vector<double> read_doubles(hid_t where, const char* name) {
+  return hdf5::read_vector<double>(hdf5::open_dataset(where, name), H5T_NATIVE_DOUBLE);
+}
+
+SideWalls read_walls(hid_t file) {
+  const hdf5::Id group = hdf5::open_group(file, trajectory_layout::kWalls);
+  const std::string name = hdf5::read_text_attribute(group, "arena");
+  const auto known = std::find_if(trajectory_layout::kArenas.begin(), trajectory_layout::kArenas.end(),
+                                  [&](const auto& arena) { return arena.second == name; });
+  if (known == trajectory_layout::kArenas.end()) throw hdf5::Failure("there is no arena '" + name + "'");
+  SideWalls walls;
+  walls.arena = known->first;
+  hdf5::read_attribute(group, "size_mm", H5T_NATIVE_DOUBLE, &walls.size);
+  if (walls.arena == Arena::kAnnulus) hdf5::read_attribute(group, "inner_mm", H5T_NATIVE_DOUBLE, &walls.inner);
+  hdf5::read_attribute(group, "friction", H5T_NATIVE_DOUBLE, &walls.contact.friction);
+  hdf5::read_attribute(group, "restitution", H5T_NATIVE_DOUBLE, &walls.contact.restitution);
+  return walls;
+}
+
+/// The other kinds of rods, and which rod is of which.
+void read_species(hid_t file, TrajectoryHeader& header) {
+  for (std::size_t k = 0; hdf5::exists(file, trajectory_layout::added_beads(k)); ++k) {
+    const hdf5::Id group = hdf5::open_group(file, trajectory_layout::added_beads(k));
+    header.added_beads.push_back({read_doubles(group, "bead_offset_mm"), read_doubles(group, "bead_radius_mm")});
+  }
+  if (header.added_beads.empty()) return;
+  header.kinds =
+      hdf5::read_vector<std::uint8_t>(hdf5::open_dataset(file, trajectory_layout::kSpecies), H5T_NATIVE_UINT8);
+  if (header.kinds.size() != static_cast<std::size_t>(header.n_rods)) {
+    throw hdf5::Failure("species does not have the shape (n_rods)");
+  }
+  if (std::any_of(header.kinds.begin(), header.kinds.end(),
+                  [&](std::uint8_t kind) { return kind > header.added_beads.size(); })) {
+    throw hdf5::Failure("species names a kind of rod whose beads are not there");
+  }
+}
+
 TrajectoryHeader read_header(hid_t file) {
   const hdf5::Id parameters = hdf5::open_group(file, "/parameters");
   TrajectoryHeader header;
@@ -20,13 +58,12 @@ TrajectoryHeader read_header(hid_t file) {
   hdf5::read_attribute(parameters, "box_side_mm", H5T_NATIVE_DOUBLE, &header.box_side);
   hdf5::read_attribute(parameters, "gap_mm", H5T_NATIVE_DOUBLE, &header.gap);
   hdf5::read_attribute(parameters, "dt_s", H5T_NATIVE_DOUBLE, &header.dt);
-  const auto vector = [&](const char* name) {
-    return hdf5::read_vector<double>(hdf5::open_dataset(parameters, name), H5T_NATIVE_DOUBLE);
-  };
-  header.bead_offset = vector("bead_offset_mm");
-  header.bead_radius = vector("bead_radius_mm");
+  header.bead_offset = read_doubles(parameters, "bead_offset_mm");
+  header.bead_radius = read_doubles(parameters, "bead_radius_mm");
   header.scene_json = hdf5::read_string(parameters, "scene_json");
   if (header.n_rods < 0) throw hdf5::Failure("n_rods is negative");
+  read_species(file, header);
+  if (hdf5::exists(file, trajectory_layout::kWalls)) header.walls = read_walls(file);
   return header;
 }
 

@@ -30,21 +30,39 @@ void write_h5md_group(hid_t file) {
   hdf5::write_attribute(creator, "version", version());
 }
 
+void write_beads(hid_t where, const std::vector<double>& offset, const std::vector<double>& radius) {
+  hdf5::write_dataset(where, "bead_offset_mm", H5T_NATIVE_DOUBLE, {offset.size()}, offset.data());
+  hdf5::write_dataset(where, "bead_radius_mm", H5T_NATIVE_DOUBLE, {radius.size()}, radius.data());
+}
+
+void write_walls(hid_t file, const SideWalls& walls) {
+  const hdf5::Id group = hdf5::create_group(file, trajectory_layout::kWalls);
+  for (const auto& [arena, name] : trajectory_layout::kArenas) {
+    if (arena == walls.arena) hdf5::write_attribute(group, "arena", name);
+  }
+  hdf5::write_attribute(group, "size_mm", H5T_NATIVE_DOUBLE, {}, &walls.size);
+  if (walls.arena == Arena::kAnnulus) hdf5::write_attribute(group, "inner_mm", H5T_NATIVE_DOUBLE, {}, &walls.inner);
+  hdf5::write_attribute(group, "friction", H5T_NATIVE_DOUBLE, {}, &walls.contact.friction);
+  hdf5::write_attribute(group, "restitution", H5T_NATIVE_DOUBLE, {}, &walls.contact.restitution);
+}
+
 void write_parameters(hid_t file, const TrajectoryHeader& header) {
   const hdf5::Id parameters = hdf5::create_group(file, "parameters");
   hdf5::write_attribute(parameters, "n_rods", H5T_NATIVE_INT, {}, &header.n_rods);
   hdf5::write_attribute(parameters, "box_side_mm", H5T_NATIVE_DOUBLE, {}, &header.box_side);
   hdf5::write_attribute(parameters, "gap_mm", H5T_NATIVE_DOUBLE, {}, &header.gap);
   hdf5::write_attribute(parameters, "dt_s", H5T_NATIVE_DOUBLE, {}, &header.dt);
-  hdf5::write_dataset(parameters, "bead_offset_mm", H5T_NATIVE_DOUBLE, {header.bead_offset.size()},
-                      header.bead_offset.data());
-  hdf5::write_dataset(parameters, "bead_radius_mm", H5T_NATIVE_DOUBLE, {header.bead_radius.size()},
-                      header.bead_radius.data());
+  write_beads(parameters, header.bead_offset, header.bead_radius);
   hdf5::write_string(parameters, "scene_json", header.scene_json);
   const hdf5::Id units = hdf5::create_group(parameters, "units");
   for (const auto& [quantity, unit] : {std::pair{"length", "mm"}, {"time", "s"}, {"velocity", "mm/s"}}) {
     hdf5::write_attribute(units, quantity, unit);
   }
+  for (std::size_t k = 0; k < header.added_beads.size(); ++k) {
+    const hdf5::Id group = hdf5::create_group(file, trajectory_layout::added_beads(k));
+    write_beads(group, header.added_beads[k].offset, header.added_beads[k].radius);
+  }
+  if (header.walls) write_walls(file, *header.walls);
 }
 
 void hard_link(hid_t file, const std::string& existing, const std::string& name) {
@@ -60,6 +78,10 @@ void write_particles(hid_t file, const TrajectoryHeader& header) {
   hdf5::write_attribute(box, "boundary", {"periodic", "periodic", "none"});
 
   const auto n_rods = static_cast<hsize_t>(header.n_rods);
+  if (!header.added_beads.empty()) {
+    hdf5::write_dataset(file, trajectory_layout::kSpecies, H5T_NATIVE_UINT8, {header.kinds.size()},
+                        header.kinds.data());
+  }
   for (const char* element : trajectory_layout::kElements) hdf5::create_group(trajectory, element);
   const hdf5::Id position = hdf5::open_group(trajectory, "position");
   hdf5::create_growing(position, "step", H5T_NATIVE_INT64, {}, kSmallRows, false);

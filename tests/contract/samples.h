@@ -82,9 +82,16 @@ inline frame_static_t make() {
   m.n_rods = 2109;
   m.box_side_mm = 83.73;
   m.gap_mm = 1.2;
-  m.n_beads = 3;
-  m.bead_offset_mm = {-2, 0, 2};
-  m.bead_radius_mm = {0.2, 0.4, 0.2};
+  m.n_species = 2;
+  m.species_beads = {3, 1};
+  m.n_beads = 4;
+  m.bead_offset_mm = {-2, 0, 2, 0};
+  m.bead_radius_mm = {0.2, 0.4, 0.2, 0.5};
+  m.n_kinds = 5;
+  m.kind = {0, 1, 0, 0, 1};
+  m.arena = "annulus";
+  m.arena_size_mm = 70;
+  m.arena_inner_mm = 20;
   m.label = "rods.length=4.5";
   return m;
 }
@@ -107,7 +114,7 @@ inline frame_t make() {
   m.n_chunk_rods = 3;
   m.x = {-32768, 0, 32767};
   m.y = {1, -2, 3};
-  m.theta = {-32768, 5, 32767};
+  m.heading = {-32768, 5, 32767};
   m.n_z = {-32767, 0, 32767};
   return m;
 }

@@ -21,9 +21,9 @@ constexpr std::uint64_t kFingerprint<job_t> = 0x1de0a0e67079db2f;
 template <>
 constexpr std::uint64_t kFingerprint<observables_t> = 0x59b43e22b4b3c113;
 template <>
-constexpr std::uint64_t kFingerprint<frame_static_t> = 0x273a6e3f6af86ae2;
+constexpr std::uint64_t kFingerprint<frame_static_t> = 0x8212a13e6522b138;
 template <>
-constexpr std::uint64_t kFingerprint<frame_t> = 0x9cf4fc60e9c961f3;
+constexpr std::uint64_t kFingerprint<frame_t> = 0x1efd27b8e565207f;
 template <>
 constexpr std::uint64_t kFingerprint<defects_t> = 0xeddba365494e32b5;
 
@@ -101,6 +101,15 @@ TEST(MessageSize, CountsWhatTheLayoutSays) {
   EXPECT_EQ(message_size("snH", payload), payload.size());
   EXPECT_EQ(message_size("sn", payload), payload.size() - 4);
   EXPECT_EQ(message_size("snHH", payload), std::nullopt);
+}
+
+TEST(MessageSize, ArraysGoByTheLastCount) {
+  // Fingerprint, count 2, two numbers of 4 bytes, count 3, three bytes.
+  const std::vector<std::uint8_t> payload{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 1, 2,
+                                          3, 4, 5, 6, 7, 8, 0, 0, 0, 3, 1, 2, 3};
+  EXPECT_EQ(message_size("nW nB", payload), payload.size());
+  EXPECT_EQ(message_size("nW n", payload), payload.size() - 3);
+  EXPECT_EQ(message_size("nW nBB", payload), std::nullopt);
 }
 
 TEST(MessageSize, StringsMustEndInNul) {

@@ -232,10 +232,10 @@ TEST(EndToEnd, SweepIsRunStreamedTabledPlottedAndDrawn) {
         };
         ASSERT_LT(around(unfold("x") - frame.position[i].x()), side / 65536);
         ASSERT_LT(around(unfold("y") - frame.position[i].y()), side / 65536);
-        const double theta = message.at("theta")[i].get<double>() * kPi / 65536;
+        const double theta = message.at("heading")[i].get<double>() * 2 * kPi / 65536;
         const double n_z = message.at("n_z")[i].get<double>() / 32767;
         const Vec3 n(std::sqrt(1 - n_z * n_z) * std::cos(theta), std::sqrt(1 - n_z * n_z) * std::sin(theta), n_z);
-        ASSERT_GT(std::abs(n.dot(frame.director[i])), 1 - 1e-7);
+        ASSERT_GT(n.dot(frame.director[i]), 1 - 1e-7);
       }
     }
   }

@@ -27,7 +27,7 @@ Json fields(const shaken::frame_static_t& m) {
 Json fields(const shaken::frame_t& m) {
   return {{"job", m.job_id},  {"tick", m.tick},     {"box_side_mm", m.box_side_mm},
           {"order", m.order}, {"n_rods", m.n_rods}, {"n_chunks", m.n_chunks},
-          {"x", m.x},         {"y", m.y},           {"theta", m.theta},
+          {"x", m.x},         {"y", m.y},           {"heading", m.heading},
           {"n_z", m.n_z}};
 }
 Json fields(const shaken::defects_t& m) { return {{"job", m.job_id}, {"charge", m.charge}}; }

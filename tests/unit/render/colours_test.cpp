@@ -68,13 +68,34 @@ TEST(WheelColour, EqualTurnsAreEqualStepsInOklabAtOneLightness) {
 TEST(RodColour, LayersFollowTheDirectorTheWheelTheBox) {
   RodPicture picture;
   picture.director_angle = 40 * kDegree;
-  const auto along = [](double degrees) { return Vec3(std::cos(degrees * kDegree), std::sin(degrees * kDegree), 0); };
-  const Colour layer = rod_colour(picture, along(50), Colouring::kLayers), expected = layer_colour(10 * kDegree);
+  const Vec3 along(std::cos(50 * kDegree), std::sin(50 * kDegree), 0);
+  picture.director = {along, -along};
+  picture.position.resize(2);
+  const Colour layer = rod_colour(picture, 0, Colouring::kLayers), expected = layer_colour(10 * kDegree);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(layer[i], expected[i], 1e-9);
-  EXPECT_EQ(rod_colour(picture, along(50), Colouring::kWheel), wheel_colour(50 * kDegree));
+  EXPECT_EQ(rod_colour(picture, 0, Colouring::kWheel), wheel_colour(50 * kDegree));
   // Head and tail are the same.
-  const Colour turned = rod_colour(picture, -along(50), Colouring::kLayers);
+  const Colour turned = rod_colour(picture, 1, Colouring::kLayers);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(turned[i], expected[i], 1e-9);
+}
+
+TEST(RodColour, RodsOfOtherKindsHaveTheirOwnWhateverTheirAngle) {
+  RodPicture picture;
+  picture.added.resize(2);
+  picture.kinds = {1, 1, 2};
+  picture.director = {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(1, 0, 0)};
+  picture.position.resize(3);
+  for (const Colouring colouring : {Colouring::kLayers, Colouring::kWheel}) {
+    EXPECT_EQ(rod_colour(picture, 0, colouring), rod_colour(picture, 1, colouring));
+    // Told apart by lightness alone, so by anybody: from each other.
+    const auto lightness = [](const Colour& c) { return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]; };
+    EXPECT_GT(lightness(rod_colour(picture, 0, colouring)), 1.4 * lightness(rod_colour(picture, 2, colouring)));
+  }
+  // Grey beside the colours of angles.
+  const auto vividness = [](const Colour& c) {
+    return *std::max_element(c.begin(), c.end()) - *std::min_element(c.begin(), c.end());
+  };
+  for (const std::size_t kind : {1, 2}) EXPECT_LT(2 * vividness(kind_colour(kind)), vividness(layer_colour(0.5)));
 }
 
 }  // namespace

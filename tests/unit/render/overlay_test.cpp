@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "render/colours.h"
+#include "render/layout.h"
 #include "render/rods_pass.h"
 #include "tests/unit/render/support.h"
 
@@ -171,6 +173,34 @@ TEST(RoundLength, IsTheLongestOneTwoFive) {
   EXPECT_DOUBLE_EQ(round_length(7), 5);
   EXPECT_DOUBLE_EQ(round_length(37), 20);
   EXPECT_DOUBLE_EQ(round_length(0.3), 0.2);
+}
+
+TEST(Overlay, SeveralKindsOfRodsAreShownBesideTheLegend) {
+  RodPicture picture = empty_picture(kBox);
+  picture.added = {{{0}, {0.8}}};
+  for (int i = 0; i < 5; ++i) {
+    add_rod(picture, 3 * i + 1, 10, 0.2);
+    picture.kinds.push_back(i < 3 ? 0 : 1);
+  }
+  const PictureStyle style;
+  const Layout layout = layout_of(style, false, false, true);
+  const Image image = painter().paint(picture, style).value();
+  // The second of the two columns begins with a teal disc, the first with a pale rod.
+  const int y = static_cast<int>(layout.kinds.y + layout.kinds.height / 2);
+  const auto at = [&](double x) { return image.pixel(static_cast<int>(x), y); };
+  const std::uint8_t* disc = at(layout.kinds.x + layout.kinds.width / 2 + 6);
+  const std::uint8_t* rod = at(layout.kinds.x + 12);
+  const Colour teal = kind_colour(1), pale = layer_colour(0);
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_NEAR(disc[c], 255 * teal[c], 2) << c;
+    EXPECT_NEAR(rod[c], 255 * pale[c], 2) << c;
+  }
+  // One kind alone needs no such thing.
+  picture.added.clear();
+  picture.kinds.clear();
+  EXPECT_EQ(layout_of(style, false, false).kinds.width, 0);
+  const Image plain = painter().paint(picture, style).value();
+  EXPECT_EQ(plain.pixel(static_cast<int>(layout.kinds.x + layout.kinds.width / 2 + 6), y)[0], 255);
 }
 
 }  // namespace

@@ -22,10 +22,45 @@ TEST(RodPicture, AreaFractionOfThePapersSystem) {
 TEST(RodPicture, AreaFractionOfASphereIsADiscs) {
   RodPicture picture;
   picture.box_side = 2;
-  picture.bead_offset = {0};
-  picture.bead_radius = {0.5};
+  picture.beads.offset = {0};
+  picture.beads.radius = {0.5};
   picture.position.resize(1);
   EXPECT_NEAR(picture.area_fraction(), kPi * 0.25 / 4, 1e-4);
+}
+
+TEST(RodPicture, AreaFractionIsOfAllKindsAndPerArena) {
+  RodPicture picture;
+  picture.box_side = 40;
+  picture.beads = {{0}, {0.5}};
+  picture.added = {{{0}, {1}}};
+  picture.kinds = {1, 0, 1};
+  picture.position.resize(3);
+  const double discs = kPi * (0.25 + 1 + 1);
+  EXPECT_NEAR(picture.area_fraction(), discs / 1600, 1e-4 * discs / 1600);
+  for (const auto& [arena, area] :
+       {std::pair{Arena::kDisc, kPi * 225}, {Arena::kSquare, 900.0}, {Arena::kAnnulus, kPi * 200}}) {
+    picture.walls = SideWalls{arena, 30, 10};
+    EXPECT_NEAR(picture.area_fraction(), discs / area, 1e-4 * discs / area);
+  }
+}
+
+TEST(RodPicture, LengthOfARodWithAHeadIsTipToTip) {
+  RodPicture picture;
+  picture.beads = {{-1.5, 0.5, 2.5}, {0.5, 0.4, 0.3}};
+  EXPECT_DOUBLE_EQ(picture.rod_length(), 4.8);
+}
+
+TEST(Measure, AsksOnlyRodsOfTheFirstKind) {
+  RodPicture picture = empty_picture(20);
+  picture.added = {{{0}, {0.5}}};
+  for (int i = 0; i < 40; ++i) {
+    add_rod(picture, 0.5 * i, 0.5 * i, i % 2 ? 0.7 : 0.13 * i);
+    picture.kinds.push_back(i % 2 ? 0 : 1);
+  }
+  measure(picture, true);
+  EXPECT_NEAR(picture.director_angle, 0.7, 1e-12);
+  EXPECT_NEAR(picture.order, 1, 1e-12);
+  EXPECT_TRUE(picture.defects.empty());
 }
 
 TEST(Measure, FindsOrderAndDirector) {
@@ -55,6 +90,24 @@ TEST(Measure, FindsAPlantedPairOfDefects) {
   EXPECT_EQ(picture.defects[0].charge + picture.defects[1].charge, 0);
   measure(picture, false);
   EXPECT_TRUE(picture.defects.empty());
+}
+
+TEST(Measure, FindsNoDefectsBeyondTheWalls) {
+  RodPicture picture = empty_picture(60);
+  for (int i = 0; i < 900; ++i) add_rod(picture, 2 * (i % 30) + 1, 2 * (i / 30) + 1, 0.9 * i * i);  // any directions
+  measure(picture, true);
+  const std::vector<analysis::Defect> everywhere = picture.defects;
+  for (const Arena arena : {Arena::kDisc, Arena::kSquare, Arena::kAnnulus}) {
+    picture.walls = SideWalls{arena, 40, 16};
+    measure(picture, true);
+    EXPECT_FALSE(picture.defects.empty());
+    EXPECT_LT(picture.defects.size(), everywhere.size());
+    for (const analysis::Defect& defect : picture.defects) {
+      const Vec2 from_middle = defect.position - Vec2(30, 30);
+      EXPECT_LT(arena == Arena::kSquare ? from_middle.cwiseAbs().maxCoeff() : from_middle.norm(), 20);
+      EXPECT_GT(from_middle.norm(), arena == Arena::kAnnulus ? 8 : 0);
+    }
+  }
 }
 
 TEST(Measure, NoRods) {

@@ -5,6 +5,9 @@
 
 #include <cmath>
 #include <functional>
+#include <map>
+#include <utility>
+#include <vector>
 
 #include "render/colours.h"
 #include "tests/unit/render/support.h"
@@ -210,22 +213,144 @@ TEST(RodsPass, SamePictureSameBits) {
   // Heights are all the same: the order of the rods decides nothing but ties.
 }
 
+/// Some of the floor's light is lost under a rod and in its shadow; the lower left corner is the floor's own.
+bool is_floor(const Image& image, int x, int y) {
+  const std::uint8_t* pixel = image.pixel(x, y);
+  const std::uint8_t* floor = image.pixel(0, image.height - 1);
+  return std::abs(pixel[0] - floor[0]) + std::abs(pixel[1] - floor[1]) + std::abs(pixel[2] - floor[2]) <= 3;
+}
+
+/// Rods of a second kind alone in a box of 10 mm, the first of them in its middle.
+RodPicture second_kind(const BeadRow& beads, double angle) {
+  RodPicture picture = empty_picture(kBox);
+  picture.added = {beads};
+  picture.kinds = {1};
+  add_rod(picture, 5, 5, angle);
+  return picture;
+}
+
+/// Where a teal rod, of the second kind, is seen.
+std::vector<std::pair<int, int>> coloured(const Image& image) {
+  std::vector<std::pair<int, int>> places;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const std::uint8_t* p = image.pixel(x, y);
+      if (p[2] - p[0] > 12) places.emplace_back(x, y);  // bluer than any floor or shadow
+    }
+  }
+  return places;
+}
+
+TEST(RodsPass, ASphereAmongRodsIsRound) {
+  const double radius = 0.6;
+  RodPicture picture = second_kind({{0}, {radius}}, 0.8);
+  add_rod(picture, 2, 2, 0.3);
+  picture.kinds.push_back(0);
+  const auto places = coloured(draw(picture));
+  double most = 0;
+  for (const auto& [x, y] : places) most = std::max(most, std::hypot(x + 0.5 - 500, y + 0.5 - 500));
+  EXPECT_NEAR(most, radius * kScale, 1.5);
+  EXPECT_NEAR(static_cast<double>(places.size()), kPi * radius * radius * kScale * kScale,
+              0.03 * kPi * radius * radius * kScale * kScale);
+}
+
+TEST(RodsPass, ARodWithAHeadShowsItAtItsDirector) {
+  const BeadRow polar{{-1.2, -0.4, 0.4, 1.2}, {0.45, 0.4, 0.35, 0.2}};
+  for (const double angle : {0.0, kPi}) {
+    const Image image = draw(second_kind(polar, angle));
+    const int sign = angle == 0 ? 1 : -1;
+    std::map<int, int> width;  // by column from the centre towards the head
+    for (const auto& [x, y] : coloured(image)) ++width[sign * (x - 500)];
+    EXPECT_NEAR(width[120], 40, 3) << angle;
+    EXPECT_NEAR(width[-120], 90, 3) << angle;
+  }
+}
+
+TEST(RodsPass, TheShadowKeepsToAFreeProfile) {
+  // Thin in the middle: the shadow must not bridge it. Far above is no other rod, far below only floor.
+  const BeadRow dumbbell{{-1, -0.5, 0, 0.5, 1}, {0.6, 0.3, 0.1, 0.3, 0.6}};
+  const Image image = draw(second_kind(dumbbell, 0));
+  const auto reach = [&](int x) {  // pixels from the axis down to the end of the shadow
+    int y = 500;
+    while (y < kSide - 1 && !is_floor(image, x, y)) ++y;
+    return y - 500;
+  };
+  const double shift = 0.24 * 0.6, margin = 1.1 * 0.6;
+  EXPECT_NEAR(reach(600), (0.6 + shift + margin) * kScale, 14);  // the last of it is too faint to be seen
+  EXPECT_NEAR(reach(512), (0.1 + shift + margin) * kScale, 14);
+}
+
+TEST(RodsPass, BeyondTheWallsTheFloorIsTinted) {
+  const auto colour_at = [](const Image& image, double x, double y) {
+    const std::uint8_t* p = image.pixel(static_cast<int>(x * kScale), static_cast<int>(kSide - y * kScale));
+    return Colour{p[0] / 255.0, p[1] / 255.0, p[2] / 255.0};
+  };
+  const auto is = [](const Colour& a, const Colour& b) {
+    return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]) < 0.02;
+  };
+  for (const Theme theme : {Theme::kLight, Theme::kDark}) {
+    PictureStyle style;
+    style.theme = theme;
+    const Palette colours = palette(theme);
+    RodPicture picture = empty_picture(kBox);
+    picture.walls = SideWalls{Arena::kAnnulus, 8, 2};
+    const Image annulus = draw(picture, style);
+    picture.walls->arena = Arena::kDisc;
+    const Image disc = draw(picture, style);
+    picture.walls->arena = Arena::kSquare;
+    const Image square = draw(picture, style);
+    for (const Image& image : {annulus, disc, square}) {
+      EXPECT_TRUE(is(colour_at(image, 5, 8.95), colours.floor));
+      EXPECT_TRUE(is(colour_at(image, 5, 9.005), colours.ink)) << "a line along the edge";
+      EXPECT_TRUE(is(colour_at(image, 5, 9.1), colours.walls));
+      EXPECT_TRUE(is(colour_at(image, 0.5, 5), colours.walls));
+    }
+    EXPECT_TRUE(is(colour_at(disc, 8.8, 8.8), colours.walls));
+    EXPECT_TRUE(is(colour_at(square, 8.8, 8.8), colours.floor));
+    EXPECT_TRUE(is(colour_at(disc, 5, 5), colours.floor));
+    EXPECT_TRUE(is(colour_at(annulus, 5, 5), colours.walls));
+    EXPECT_TRUE(is(colour_at(annulus, 5, 6.05), colours.floor));
+    // In a view across the border the arena's images show.
+    style.zoom = 2;
+    style.focus = Vec2(0, 0.5);
+    picture.walls->arena = Arena::kDisc;
+    const Image border = draw(picture, style);
+    EXPECT_TRUE(is(colour_at(border, 5, 5), colours.walls));
+    EXPECT_TRUE(is(colour_at(border, 9, 5), colours.floor));
+    EXPECT_TRUE(is(colour_at(border, 1, 5), colours.floor));
+  }
+}
+
+TEST(RodsPass, NoShadowFallsBeyondAWallButRodsAtItAreWhole) {
+  RodPicture picture = second_kind({{0}, {0.5}}, 0);
+  picture.walls = SideWalls{Arena::kSquare, 8};
+  picture.position[0] = Vec3(5, 1.5, 0.6);  // touches the lower wall
+  const Image image = draw(picture);
+  EXPECT_TRUE(is_floor(image, 500, 910)) << "here meaning: as any place beyond the walls";
+  EXPECT_NEAR(static_cast<double>(coloured(image).size()), kPi * 0.25 * kScale * kScale, 0.03 * 7854);
+}
+
 TEST(RodsPass, RefusesWhatCannotBeDrawn) {
   const auto message = [](const RodPicture& picture, int side = 64) {
     const Result<Image> image = rods_pass().draw(picture, {}, side);
     return image ? std::string("drawn") : image.error().message;
   };
   RodPicture no_beads = red_picture();
-  no_beads.bead_offset.clear();
-  no_beads.bead_radius.clear();
+  no_beads.beads.offset.clear();
+  no_beads.beads.radius.clear();
   EXPECT_NE(message(no_beads).find("0 beads"), std::string::npos);
   RodPicture many_beads = red_picture();
-  many_beads.bead_offset.assign(RodsPass::kMaxBeads + 1, 0);
-  many_beads.bead_radius.assign(RodsPass::kMaxBeads + 1, 1);
+  many_beads.beads.offset.assign(RodsPass::kMaxBeads + 1, 0);
+  many_beads.beads.radius.assign(RodsPass::kMaxBeads + 1, 1);
   EXPECT_NE(message(many_beads).find("256 beads"), std::string::npos);
   RodPicture uneven = red_picture();
   uneven.position.emplace_back(1, 1, 1);
   EXPECT_NE(message(uneven).find("directors"), std::string::npos);
+  RodPicture unknown_kind = second_kind({{0}, {0.5}}, 0);
+  unknown_kind.kinds[0] = 2;
+  EXPECT_NE(message(unknown_kind).find("kind"), std::string::npos);
+  unknown_kind.kinds.clear();
+  EXPECT_NE(message(unknown_kind).find("each rod's kind"), std::string::npos);
   EXPECT_NE(message(empty_picture(0)).find("no size"), std::string::npos);
   EXPECT_NE(message(red_picture(), 0).find("pixels wide"), std::string::npos);
   EXPECT_NE(message(red_picture(), RodsPass::kMaxSide + 1).find("pixels wide"), std::string::npos);

@@ -103,9 +103,11 @@ std::string record_two_jobs(const std::filesystem::path& log) {
     constants.n_rods = 9000;
     constants.box_side_mm = 20;
     constants.gap_mm = 1.2;
+    constants.n_species = 1;
+    constants.species_beads = {15};
     constants.n_beads = 15;
-    constants.bead_offset_mm = shape.bead_offset;
-    constants.bead_radius_mm = shape.bead_radius;
+    constants.bead_offset_mm = shape.beads.offset;
+    constants.bead_radius_mm = shape.beads.radius;
     constants.label = "job " + job;
     bus.bus->publish(proto::kFrameStaticChannel, constants);
     proto::Frame frame;
@@ -132,6 +134,74 @@ TEST(LivePicture, PutsTheFrameOfTheJobTogetherFromItsChunks) {
   EXPECT_NEAR(picture->director_angle, -0.4, 1e-4);
   EXPECT_NEAR(picture->position[8999].x(), 17.998, 20.0 / 65536);
   EXPECT_DOUBLE_EQ(picture->rod_length(), 4.5);
+}
+
+/// A rod, a rod with a head that points down the y axis, and a sphere, in a square arena.
+frame_static_t mixed_constants() {
+  frame_static_t constants{};
+  constants.job_id = "cccc0003";
+  constants.n_rods = 3;
+  constants.box_side_mm = 20;
+  constants.gap_mm = 1.2;
+  constants.n_species = 3;
+  constants.species_beads = {3, 2, 1};
+  constants.n_beads = 6;
+  constants.bead_offset_mm = {-1, 0, 1, -0.5, 0.7, 0};
+  constants.bead_radius_mm = {0.2, 0.4, 0.2, 0.4, 0.3, 0.5};
+  constants.n_kinds = 3;
+  constants.kind = {0, 1, 2};
+  constants.arena = "square";
+  constants.arena_size_mm = 15;
+  return constants;
+}
+
+Result<RodPicture> live(const std::filesystem::path& log, const frame_static_t& constants) {
+  {
+    proto::Bus::Opened bus = proto::Bus::open("file://" + log.string() + "?mode=w");
+    EXPECT_TRUE(bus) << bus.reason;
+    bus.bus->publish(proto::kFrameStaticChannel, constants);
+    proto::Frame frame;
+    frame.job_id = constants.job_id;
+    frame.box_side_mm = 20;
+    for (const double angle : {0.3, -kPi / 2, 2.0}) {
+      frame.rods.push_back(proto::make_pose(10, 10, {std::cos(angle), std::sin(angle), 0}));
+    }
+    for (const frame_t& chunk : proto::encode_frame(frame)) bus.bus->publish(proto::kFrameChannel, chunk);
+  }
+  return live_picture("file://" + log.string() + "?mode=r&speed=0", "cccc", std::chrono::seconds(10), false);
+}
+
+TEST(LivePicture, KnowsKindsOfRodsTheirHeadsAndTheWalls) {
+  const ScratchFolder folder;
+  const Result<RodPicture> picture = live(folder / "live.lcmlog", mixed_constants());
+  ASSERT_TRUE(picture) << picture.error().message;
+  EXPECT_EQ(picture->beads, (BeadRow{{-1, 0, 1}, {0.2, 0.4, 0.2}}));
+  EXPECT_EQ(picture->added, (std::vector<BeadRow>{{{-0.5, 0.7}, {0.4, 0.3}}, {{0}, {0.5}}}));
+  EXPECT_EQ(picture->kinds, (std::vector<std::uint8_t>{0, 1, 2}));
+  ASSERT_TRUE(picture->walls);
+  EXPECT_EQ(picture->walls->arena, Arena::kSquare);
+  EXPECT_EQ(picture->walls->size, 15);
+  EXPECT_NEAR(picture->director_angle, 0.3, 1e-4) << "of the first kind alone";
+  EXPECT_NEAR(picture->director[1].y(), -1, 1e-6);
+}
+
+TEST(LivePicture, RefusesAStaticPartThatContradictsItself) {
+  const ScratchFolder folder;
+  const auto refuses = [&](auto&& spoil) {
+    frame_static_t bad = mixed_constants();
+    spoil(bad);
+    const Result<RodPicture> picture = live(folder / "bad.lcmlog", bad);
+    return !picture && picture.error().message.find("contradicts") != std::string::npos;
+  };
+  EXPECT_FALSE(refuses([](frame_static_t&) {}));
+  EXPECT_TRUE(refuses([](frame_static_t& m) { m.kind[1] = 3; }));
+  EXPECT_TRUE(refuses([](frame_static_t& m) { m.species_beads = {3, 2, 2}; }));
+  EXPECT_TRUE(refuses([](frame_static_t& m) { m.species_beads = {3, 1, 1}; }));
+  EXPECT_TRUE(refuses([](frame_static_t& m) { m.species_beads = {6, 1, -1}; }));
+  EXPECT_TRUE(refuses([](frame_static_t& m) {
+    m.kind.pop_back();
+    m.n_kinds = 2;
+  }));
 }
 
 TEST(LivePicture, TimesOutWithAReason) {

@@ -24,8 +24,8 @@ RodPicture empty_picture(double box_side) {
   picture.box_side = box_side;
   picture.gap = 1.2;
   for (int i = -7; i <= 7; ++i) {
-    picture.bead_offset.push_back(2.05 * i / 7);
-    picture.bead_radius.push_back(0.4 - 0.2 * std::abs(i) / 7);
+    picture.beads.offset.push_back(2.05 * i / 7);
+    picture.beads.radius.push_back(0.4 - 0.2 * std::abs(i) / 7);
   }
   return picture;
 }
@@ -38,8 +38,8 @@ void add_rod(RodPicture& picture, double x, double y, double angle, double n_z) 
 
 double half_width(const RodPicture& picture, double x) {
   double widest = 0;
-  for (std::size_t i = 0; i < picture.bead_offset.size(); ++i) {
-    const double d = x - picture.bead_offset[i], r = picture.bead_radius[i];
+  for (std::size_t i = 0; i < picture.beads.offset.size(); ++i) {
+    const double d = x - picture.beads.offset[i], r = picture.beads.radius[i];
     if (std::abs(d) < r) widest = std::max(widest, std::sqrt(r * r - d * d));
   }
   return widest;
@@ -89,8 +89,8 @@ void plant_trajectory(const std::filesystem::path& directory, int n_frames, cons
   header.box_side = 10;
   header.gap = 1.2;
   header.dt = 4e-6;
-  header.bead_offset = shape.bead_offset;
-  header.bead_radius = shape.bead_radius;
+  header.bead_offset = shape.beads.offset;
+  header.bead_radius = shape.beads.radius;
   header.scene_json = scene_json;
   Result<run::TrajectoryWriter> writer = run::TrajectoryWriter::create(directory / "trajectory.h5", header);
   ASSERT_TRUE(writer) << writer.error().message;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -107,6 +108,24 @@ TEST(Measurements, ParallelRodsHaveOrderOneAndNoDefects) {
   EXPECT_NEAR(reduction.arrays.at("/order/order").at(0), 1, 1e-12);
   EXPECT_NEAR(reduction.arrays.at("/order/director_rad").at(0), 0.3, 1e-12);
   EXPECT_EQ(reduction.arrays.at("/defects/n_plus").at(0), 0);
+}
+
+TEST(Measurements, DefectsBeyondTheSideWallsDoNotCount) {
+  scene::RunPlan p = plan();
+  const auto defects_of = [&] {
+    Measurements measurements(p, species());
+    measurements.sample(random_snapshot(0));
+    return measurements.last_defects()->defects;
+  };
+  const std::vector<analysis::Defect> everywhere = defects_of();
+  p.system.walls = SideWalls{Arena::kDisc, 14};
+  const std::vector<analysis::Defect> inside = defects_of();
+  const auto expected = std::count_if(everywhere.begin(), everywhere.end(), [](const analysis::Defect& defect) {
+    return (defect.position - Vec2(10, 10)).norm() <= 7;
+  });
+  EXPECT_EQ(static_cast<std::ptrdiff_t>(inside.size()), expected);
+  EXPECT_GT(inside.size(), 0U);
+  EXPECT_LT(inside.size(), everywhere.size());
 }
 
 TEST(Measurements, DisplacementsCountCrossingsOfTheBorderFromTheSteadyTimeOn) {

@@ -32,7 +32,7 @@ Snapshot two_rods() {
   return s;
 }
 
-TEST(Messages, FrameShowsEachRodFromItsRightHandEnd) {
+TEST(Messages, FrameShowsEachRodWithItsHead) {
   const proto::Frame frame = make_frame(two_rods());
   EXPECT_EQ(frame.tick, 12);
   EXPECT_EQ(frame.sim_time_s, 0.5);
@@ -42,8 +42,8 @@ TEST(Messages, FrameShowsEachRodFromItsRightHandEnd) {
   ASSERT_EQ(frame.rods.size(), 2U);
   EXPECT_NEAR(frame.rods[0].theta, 0, 1e-12);
   EXPECT_NEAR(frame.rods[0].n_z, 0.8, 1e-12);
-  EXPECT_NEAR(frame.rods[1].theta, 0, 1e-12);
-  EXPECT_NEAR(frame.rods[1].n_z, -0.8, 1e-12) << "seen from the end with theta in [-pi/2, pi/2)";
+  EXPECT_NEAR(std::abs(frame.rods[1].theta), kPi, 1e-12);
+  EXPECT_NEAR(frame.rods[1].n_z, 0.8, 1e-12);
 }
 
 TEST(Messages, ObservablesAreRootMeanSquaresInTheirUnits) {
@@ -78,6 +78,68 @@ TEST(Messages, DefectsAndStaticPartCanBeSent) {
   EXPECT_EQ(constants->n_rods, 4);
   EXPECT_EQ(constants->bead_radius_mm, world.species[0].bead_radius);
   EXPECT_EQ(constants->label, "rods.length=4.5");
+}
+
+/// A disc with rods, rods with a head, and spheres.
+World mixed_world() {
+  Scene scene;
+  scene.n_rods = 3;
+  scene.box_side = 40;
+  RodShape polar;
+  polar.profile = Profile::kPolar;
+  polar.length = 3;
+  RodShape sphere;
+  sphere.n_beads = 1;
+  scene.added = {AddedRods{polar, 2}, AddedRods{sphere, 1}};
+  scene.walls = SideWalls{};
+  scene.walls->size = 30;
+  Result<World> world = make_world(scene);
+  EXPECT_TRUE(world);
+  return std::move(world).value();
+}
+
+TEST(Messages, StaticPartKnowsKindsOfRodsAndSideWalls) {
+  const World world = mixed_world();
+  const auto constants = proto::decode<frame_static_t>(proto::encode(make_frame_static(world, "")));
+  ASSERT_TRUE(constants);
+  EXPECT_EQ(constants->n_rods, 6);
+  EXPECT_EQ(constants->species_beads,
+            (std::vector<std::int32_t>{world.species[0].n_beads(), world.species[1].n_beads(), 1}));
+  EXPECT_EQ(constants->bead_radius_mm.back(), world.species[2].bead_radius[0]);
+  EXPECT_EQ(constants->bead_offset_mm[static_cast<std::size_t>(constants->species_beads[0])],
+            world.species[1].bead_offset[0]);
+  EXPECT_EQ(constants->kind, world.kinds);
+  EXPECT_EQ(constants->arena, "disc");
+  EXPECT_EQ(constants->arena_size_mm, 30);
+
+  const auto plain = make_frame_static(small_world(), "");
+  EXPECT_EQ(plain.n_species, 1);
+  EXPECT_TRUE(plain.kind.empty());
+  EXPECT_EQ(plain.arena, "");
+}
+
+TEST(Messages, StaticPartOfManyRodsFitsIntoOneDatagram) {
+  World world = mixed_world();
+  world.kinds.assign(18000, 1);
+  for (Species& species : world.species) {
+    species.bead_offset.assign(kMostBeads, 0);
+    species.bead_radius.assign(kMostBeads, 1);
+  }
+  EXPECT_LT(proto::encode(make_frame_static(world, std::string(200, 'x'))).size(), 60000U);
+}
+
+TEST(Messages, OrderIsOfTheFirstKindOfRod) {
+  Snapshot s = two_rods();
+  s.director = {Vec3(1, 0, 0), Vec3(0, 1, 0)};
+  EXPECT_NEAR(make_frame(s).order, 0, 1e-12);
+  const std::vector<std::uint8_t> kinds{1, 0};
+  EXPECT_NEAR(make_frame(s, kinds).order, 1, 1e-12);
+  EXPECT_NEAR(std::abs(make_frame(s, kinds).director_rad), kPi / 2, 1e-12);
+  EXPECT_EQ(make_frame(s, kinds).rods.size(), 2U);
+
+  World world = mixed_world();
+  world.kinds = kinds;
+  EXPECT_NEAR(make_observables(world, s, {}).order, 1, 1e-12);
 }
 
 }  // namespace

@@ -74,6 +74,9 @@ TEST(Trajectory, ComesBackAsWritten) {
   EXPECT_EQ(reader->header().bead_offset, header().bead_offset);
   EXPECT_EQ(reader->header().bead_radius, header().bead_radius);
   EXPECT_EQ(reader->header().scene_json, header().scene_json);
+  EXPECT_TRUE(reader->header().added_beads.empty());
+  EXPECT_TRUE(reader->header().kinds.empty());
+  EXPECT_FALSE(reader->header().walls);
   ASSERT_EQ(reader->n_frames(), 3U);
   for (std::size_t i = 0; i < 3; ++i) {
     const auto frame = reader->frame(i);
@@ -81,6 +84,52 @@ TEST(Trajectory, ComesBackAsWritten) {
     expect_same(*frame, snapshot(1000 * static_cast<Tick>(i)));
   }
   EXPECT_FALSE(reader->frame(3));
+}
+
+TEST(Trajectory, KindsOfRodsAndSideWallsComeBack) {
+  const TemporaryFolder folder;
+  TrajectoryHeader several = header();
+  several.added_beads = {{{0}, {0.45}}, {{-1.2, 0.1, 1.4}, {0.45, 0.3, 0.2}}};
+  for (int i = 0; i < kRods; ++i)
+    several.kinds.push_back(static_cast<std::uint8_t>(i % 7 == 0 ? 1 : i % 5 == 0 ? 2 : 0));
+  for (const Arena arena : {Arena::kDisc, Arena::kSquare, Arena::kAnnulus}) {
+    several.walls = SideWalls{};
+    several.walls->arena = arena;
+    several.walls->size = 70.25;
+    if (arena == Arena::kAnnulus) several.walls->inner = 12.5;
+    several.walls->contact = {0.02, 0.7};
+    const auto file = folder / "t.h5";
+    std::filesystem::remove(file);
+    {
+      auto writer = TrajectoryWriter::create(file, several);
+      ASSERT_TRUE(writer) << writer.error().message;
+      ASSERT_FALSE(writer->append(snapshot(0)));
+    }
+    ASSERT_FALSE(TrajectoryWriter::reopen(file, 0)->append(snapshot(1)));
+    const auto reader = TrajectoryReader::open(file);
+    ASSERT_TRUE(reader) << reader.error().message;
+    EXPECT_EQ(reader->header().bead_radius, several.bead_radius);
+    EXPECT_EQ(reader->header().added_beads, several.added_beads);
+    EXPECT_EQ(reader->header().kinds, several.kinds);
+    EXPECT_EQ(reader->header().walls, several.walls);
+    ASSERT_EQ(reader->n_frames(), 2U);
+    expect_same(*reader->frame(1), snapshot(1));
+  }
+}
+
+TEST(Trajectory, AKindWithoutBeadsIsRefused) {
+  const TemporaryFolder folder;
+  TrajectoryHeader several = header();
+  several.added_beads = {{{0}, {0.45}}};
+  several.kinds.assign(kRods, 2);
+  ASSERT_TRUE(TrajectoryWriter::create(folder / "t.h5", several));
+  const auto reader = TrajectoryReader::open(folder / "t.h5");
+  ASSERT_FALSE(reader);
+  EXPECT_NE(reader.error().message.find("beads are not there"), std::string::npos) << reader.error().message;
+  several.kinds.assign(kRods - 1, 1);
+  std::filesystem::remove(folder / "t.h5");
+  ASSERT_TRUE(TrajectoryWriter::create(folder / "t.h5", several));
+  EXPECT_FALSE(TrajectoryReader::open(folder / "t.h5")) << "a kind for each rod";
 }
 
 TEST(Trajectory, PositionsStayInTheBoxWhenRounded) {
@@ -324,6 +373,13 @@ TEST_F(H5mdStructure, UnitsStandUnderParametersOnly) {
   }
   EXPECT_TRUE(has_attribute("/parameters/units", "length"));
   EXPECT_TRUE(has_attribute("/parameters/units", "time"));
+}
+
+/// Files of one kind of rod in a box without walls are as they were before there were others.
+TEST_F(H5mdStructure, OneKindOfRodNeedsNoSpecies) {
+  EXPECT_EQ(address("/particles/trajectory/species"), HADDR_UNDEF);
+  EXPECT_EQ(address("/parameters/species_2"), HADDR_UNDEF);
+  EXPECT_EQ(address("/parameters/walls"), HADDR_UNDEF);
 }
 
 TEST_F(H5mdStructure, NamesItsFormatAndBox) {
