@@ -25,7 +25,7 @@ ALLOWED = {
     "scene": ["sim/core", "sim/rod", "sim/scene.h"],
     "run/files": ["sim/core", "sim/scene.h", "sim/snapshot.h"],
     "run": ["proto", "scene", "analysis", "run/files", "sim/core", "sim/rod", "sim/scene.h", "sim/snapshot.h",
-            "sim/world.h", "sim/simulation.h", "sim/close_up.h", "sim/effects/registry.h",
+            "sim/world.h", "sim/simulation.h", "sim/balance.h", "sim/close_up.h", "sim/effects/registry.h",
             "sim/effects/side_walls.h"],
     # what a run costs: times the kernels of an impulse by themselves
     "run/probe": ["proto", "scene", "analysis", "run", "sim/core", "sim/rod", "sim/motion", "sim/contact", "sim/scene.h",

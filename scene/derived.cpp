@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "sim/effects/side_walls.h"
 #include "sim/rod/species.h"
 
 namespace shaken::scene {
@@ -27,7 +26,7 @@ double frequency_for(double gamma, double amplitude, double gravity) {
   return std::sqrt(gamma * gravity / amplitude) / (2 * kPi);
 }
 
-double area_for_rods(const Scene& scene) { return scene.walls ? arena_area(*scene.walls) : squared(scene.box_side); }
+double area_for_rods(const Scene& scene) { return scene.walls ? scene.walls->area() : squared(scene.box_side); }
 
 double area_fraction_of(const Scene& scene) { return area_fraction_of(scene, scene.rod, scene.n_rods); }
 

@@ -177,7 +177,7 @@ Error does_not_fit(const Placement& rods, int n_fit, const char* way_out) {
   const Scene& scene = rods.scene;
   double area = 0;
   for (int i = 0; i < rods.n_rods(); ++i) area += rods.species_of(i).area;
-  const double room = scene.walls ? arena_area(*scene.walls) : scene.box_side * scene.box_side;
+  const double room = scene.walls ? scene.walls->area() : scene.box_side * scene.box_side;
   const double per_rod = area / rods.n_rods() / room;
   char text[256];
   std::snprintf(text, sizeof text,

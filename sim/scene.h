@@ -77,6 +77,11 @@ struct SideWalls {
   double size = 40.0;   ///< diameter of the disc or of the annulus' outer wall, side of the square [mm]
   double inner = 10.0;  ///< diameter of the annulus' inner wall [mm]
   ContactParameters contact{0.01, 0.3};
+  /// Area that the rods have to share [mm^2].
+  double area() const {
+    if (arena == Arena::kSquare) return size * size;
+    return 0.25 * kPi * (size * size - (arena == Arena::kAnnulus ? inner * inner : 0.0));
+  }
   friend bool operator==(const SideWalls&, const SideWalls&) = default;
 };
 

@@ -51,16 +51,4 @@ double wall_safe_time(const SideWalls& walls, double box_side, const Species& sp
   return speed * horizon > gap ? gap / speed : horizon;
 }
 
-double arena_area(const SideWalls& walls) {
-  switch (walls.arena) {
-    case Arena::kSquare:
-      return walls.size * walls.size;
-    case Arena::kDisc:
-      return 0.25 * kPi * walls.size * walls.size;
-    case Arena::kAnnulus:
-      return 0.25 * kPi * (walls.size * walls.size - walls.inner * walls.inner);
-  }
-  return 0.0;
-}
-
 }  // namespace shaken

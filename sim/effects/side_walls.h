@@ -33,7 +33,4 @@ bool is_within(const SideWalls& walls, double box_side, const Species& species, 
 double wall_safe_time(const SideWalls& walls, double box_side, const Species& species, const Pose& pose,
                       const Flight& flight, double horizon);
 
-/// Area that the rods have to share [mm^2].
-double arena_area(const SideWalls& walls);
-
 }  // namespace shaken
