@@ -143,13 +143,14 @@ void draw_key(const Canvas& canvas, const Layout& layout, const RodPicture& pict
 void draw_kinds(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const Palette& colours) {
   const double u = layout.unit;
   const double column = layout.kinds.width / static_cast<double>(picture.n_kinds());
-  const double words = 52 * u;     // room for a number
+  double words = 0;                // room for a number [pixels]
   double longest = 0, widest = 0;  // [mm]
   const auto length_of = [](const BeadRow& beads) {
     return beads.offset.back() + beads.radius.back() - beads.offset.front() + beads.radius.front();
   };
   for (std::size_t kind = 0; kind < picture.n_kinds(); ++kind) {
     const BeadRow& beads = picture.beads_of(kind);
+    words = std::max(words, canvas.text_width(fmt::format("{}", picture.count(kind)), 13 * u) + 17 * u);
     longest = std::max(longest, length_of(beads));
     widest = std::max(widest, 2 * *std::max_element(beads.radius.begin(), beads.radius.end()));
   }
