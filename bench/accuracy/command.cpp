@@ -24,7 +24,7 @@ constexpr const char* kFooter = R"(Parts:
   deterministic  errors of a few rods against converged solutions, and their order
   statistical    bias of temperatures, order, drift, displacements with step, bead pitch and sweeps
   error          how the statistical error of S falls with simulated time, and what it costs
-  (none)         all of them: about half an hour of CPU time; 5 minutes with --quick
+  (none)         all of them: about 40 minutes of CPU time, a quarter of that with --quick
 
 Examples:
   shaken bench accuracy --quick
@@ -152,8 +152,8 @@ void ask_statistics(const Words& words, double warm_up, Task& task, OptionReader
 void ask_orders(const Words& words, double warm_up, Task& task, OptionReader& options) {
   const double effort = words.quick ? 0.2 : words.full ? 4 : 1;
   const auto& [low, high] = limits_of("box.side");
-  // at least a hundred correlation times of S, as far as they are known
-  std::vector<std::pair<double, double>> boxes{{15, 60}, {21, 60}, {30, 50}, {42, 40}};
+  // with two replicas about a hundred correlation times of S, a second each
+  std::vector<std::pair<double, double>> boxes{{15, 80}, {21, 80}, {30, 60}, {42, 40}};
   if (!words.sides.empty()) {
     boxes.clear();
     for (const double side : options.numbers("--sides", words.sides, low, high)) boxes.emplace_back(side, 50);

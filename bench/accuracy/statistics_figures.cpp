@@ -129,7 +129,8 @@ void draw_tilt(const std::filesystem::path& folder, const std::vector<const Stat
       if (rows.empty()) continue;
       data += rows + "\n\n";
       script += fmt::format(
-          "set yrange [*:*]\nset label {} \"{:g} μs\" at graph 0.97,{:.3f} right textcolor '{}' font ',13' front\n",
+          "set yrange [*:*]\nset offsets 0,0,graph 0.4,0\nset label {} \"{:g} μs\" at graph 0.97,{:.3f} right "
+          "textcolor '{}' font ',13' front\n",
           shown + 1, of->points[p].value, 0.95 - 0.075 * static_cast<double>(shown), colour(shown));
       plot += fmt::format(
           ", 'tilt.dat' index {0} using 1:2:3 with yerrorbars pointtype 7 pointsize 0.8 linewidth 0.8 linecolor '{1}' "
