@@ -84,7 +84,7 @@ struct Rates {
   double disk = 0;      ///< bytes per rod and simulated second
 };
 
-double rod_seconds(const scene::RunPlan& plan) { return plan.system.n_rods * plan.total_time(); }
+double rod_seconds(const scene::RunPlan& plan) { return plan.system.n_all_rods() * plan.total_time(); }
 
 Rates rates_of(const Json& report, const scene::RunPlan& plan) {
   const double stepping = report.at("stepping_cpu_seconds").get<double>();

@@ -39,7 +39,7 @@ Json derived_quantities(const scene::SweepPoint& point) {
   const scene::RunPlan& plan = point.plan;
   const Scene& system = plan.system;
   Json json{{"id", scene::run_id(plan)},
-            {"n_rods", system.n_rods},
+            {"n_rods", system.n_all_rods()},
             {"area_fraction", scene::area_fraction_of(system)},
             {"gamma", nullptr},  // where there is no gravity
             {"amplitude_mm", system.amplitude},

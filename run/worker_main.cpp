@@ -140,7 +140,7 @@ int run_scene(const scene::RunPlan& plan, const Arguments& arguments) {
   callbacks.on_owned = [&] {
     log_to_file_too(directory.log());
     spdlog::info("run {}{}: {} rods, {} s, in {}", scene::run_id(plan),
-                 arguments.sweep_id.empty() ? "" : " of sweep " + arguments.sweep_id, plan.system.n_rods,
+                 arguments.sweep_id.empty() ? "" : " of sweep " + arguments.sweep_id, plan.system.n_all_rods(),
                  plan.total_time(), arguments.out);
   };
   callbacks.on_progress = [&](const run::Progress& progress) { display.show(progress); };

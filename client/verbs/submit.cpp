@@ -79,7 +79,7 @@ class Submit : public Verb {
                       {"parameters", point.parameters},
                       {"replica", point.replica},
                       {"n_rods", derived.at("n_rods")}});
-      table.add_row({short_id(derived.at("id").get<std::string>()), std::to_string(point.plan.system.n_rods),
+      table.add_row({short_id(derived.at("id").get<std::string>()), std::to_string(point.plan.system.n_all_rods()),
                      number_text(point.plan.total_time()), point.label});
     }
     Json json{{"points", list}};
@@ -99,7 +99,7 @@ class Submit : public Verb {
   static void show(const Json& answer, const scene::Sweep& local, Console& console) {
     std::map<std::string, int> n_rods;
     for (const scene::SweepPoint& point : local.points) {
-      n_rods[derived_quantities(point).at("id").get<std::string>()] = point.plan.system.n_rods;
+      n_rods[derived_quantities(point).at("id").get<std::string>()] = point.plan.system.n_all_rods();
     }
     const Json& sweep = answer.at("sweep");
     const Json& jobs = answer.at("jobs");

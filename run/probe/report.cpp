@@ -60,7 +60,7 @@ Json probe_report(const scene::RunPlan& plan, const std::optional<Probe>& probe)
   report["probe"] = {{"warm_up_s", probe->warm_up},
                      {"simulated_s", probe->simulated},
                      {"cpu_s", probe->cpu},
-                     {"rod_seconds_per_cpu_second", plan.system.n_rods * probe->simulated / probe->cpu}};
+                     {"rod_seconds_per_cpu_second", plan.system.n_all_rods() * probe->simulated / probe->cpu}};
   report["stages"] = Json::array();
   for (std::size_t p = 0; p < kPhases; ++p) {
     report["stages"].push_back({{"name", kPhaseNames[p]},

@@ -8,7 +8,8 @@ namespace shaken {
 
 /// Rotational noise: plates are rough, so each hit by one also turns the rod about the vertical, to either side at
 /// random.
-/// Model:  angular velocity += +-epsilon |u_n| (z - n_z n), u_n the speed of the hit, both signs alike likely; what of z
+/// Model:  angular velocity += +-epsilon |u_n| (z - n_z n), u_n the speed of the hit, both signs alike likely; what of
+/// z
 ///         lies along the rod is left out, so that rods do not begin to spin about themselves.
 /// Units:  epsilon [rad/mm] (Scene::rotational_noise), u_n [mm/s].
 /// The sign depends on seed, rod, bead and tick only, so it is the same for every stepper and number of threads.
