@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 
 #include "client/estimate.h"
@@ -86,10 +87,32 @@ class Explain : public Verb {
     }
     const auto gamma = scene::gamma_of(s);
     const double total = point.plan.total_time();
-    text += fmt::format("\n  rods    {} of {}, {} thick, {} at the ends ({} beads); area fraction {}\n", s.n_rods,
-                        length(s.rod.length), length(s.rod.mid_diameter), length(s.rod.end_diameter), s.rod.n_beads,
-                        number_text(scene::area_fraction_of(s)));
-    text += fmt::format("  box     {} square, periodic; plates {} apart\n", length(s.box_side), length(s.gap));
+    const auto rods = [&](const RodShape& rod, int count) {
+      std::string shape = fmt::format("{} of {}, ", count, length(rod.length));
+      if (rod.n_beads == 1) {
+        shape = fmt::format("{} spheres of {}", count, length(rod.mid_diameter));
+      } else if (!rod.bead_diameters.empty()) {
+        shape += fmt::format("{} beads of given diameters", rod.n_beads);
+      } else if (rod.profile == Profile::kPolar) {
+        shape += fmt::format("{} thick at the tail, {} at the head ({} beads)", length(rod.mid_diameter),
+                             length(rod.end_diameter), rod.n_beads);
+      } else {
+        shape += fmt::format("{} thick, {} at the ends ({} beads)", length(rod.mid_diameter), length(rod.end_diameter),
+                             rod.n_beads);
+      }
+      return fmt::format("{}; area fraction {}\n", shape, number_text(scene::area_fraction_of(s, rod, count)));
+    };
+    text += "\n  rods    " + rods(s.rod, s.n_rods);
+    for (const auto& added : s.added) {
+      if (added) text += "          " + rods(added->rod, added->count);
+    }
+    if (s.walls) {
+      constexpr std::array kArenas{"disc", "square", "annulus"};
+      text += fmt::format("  arena   {} of {} between side walls; plates {} apart\n",
+                          kArenas.at(static_cast<std::size_t>(s.walls->arena)), length(s.walls->size), length(s.gap));
+    } else {
+      text += fmt::format("  box     {} square, periodic; plates {} apart\n", length(s.box_side), length(s.gap));
+    }
     text += fmt::format("  plates  {}a = {} mm, f = {}; gravity {}\n",
                         gamma ? fmt::format("Gamma = {}, ", number_text(*gamma)) : "", number_text(s.amplitude),
                         scene::format_quantity(s.frequency, Dimension::kFrequency),
