@@ -80,9 +80,8 @@ std::string as_text(const Replay& replay, double dt) {
                     vector_text(rod.motion.velocity), vector_text(rod.motion.angular_velocity));
   }
   for (const CloseUp::Contact& contact : replay.before.contacts) {
-    const std::string other = contact.other >= 0
-                                  ? fmt::format("bead {} of rod {}", contact.other_bead, contact.other)
-                                  : std::string(contact.other == CloseUp::kBase ? "the base" : "the lid");
+    const std::string other = contact.other >= 0 ? fmt::format("bead {} of rod {}", contact.other_bead, contact.other)
+                                                 : std::string("the ") + surface_name(contact.other);
     text += fmt::format("  bead {} of rod {} is {:.6g} mm deep in {}, {} at {:.6g} mm/s\n", contact.bead, contact.rod,
                         contact.overlap, other, contact.approach > 0 ? "approaching" : "parting",
                         std::abs(contact.approach));

@@ -39,7 +39,7 @@ Json to_json(const CloseUp& close_up) {
       json["other_rod"] = contact.other;
       json["other_bead"] = contact.other_bead;
     } else {
-      json["plate"] = contact.other == CloseUp::kBase ? "base" : "lid";
+      json["surface"] = surface_name(contact.other);
     }
     json["overlap_mm"] = contact.overlap;
     json["approach_mm_s"] = contact.approach;

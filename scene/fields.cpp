@@ -224,7 +224,7 @@ void add_rods(std::vector<Field>& table, const std::string& name, Shape shape, C
     table.push_back(std::move(field));
   };
   add("length", quantity(
-                    "", kLength, 0.5, 50, "From tip to tip.", [shape](auto& p) -> auto& { return shape(p).length; }));
+                    "", kLength, 0.05, 50, "From tip to tip.", [shape](auto& p) -> auto& { return shape(p).length; }));
   add("mid_diameter",
       quantity(
           "", kLength, 0.05, 20,

@@ -212,11 +212,26 @@ class Resolver {
     rod.n_beads = static_cast<int>(follows("beads", n));
     rod.mid_diameter = follows("mid_diameter", thickest);
     rod.end_diameter = follows("end_diameter", diameters.back());
+    for (const char* key : {"profile", "bead_pitch"}) {
+      if (!given(kind.path(key))) continue;
+      complain({kind.path(key)}, fmt::format("{} and {} are both given; remove one", list, kind.path(key)));
+      fine = false;
+    }
+    if (n == 1) rod.length = follows("length", thickest);
     if (!fine) return false;
-    if (n == 1) rod.length = thickest;
     if (n > 1 && rod.length <= thickest) {
       complain({kind.path("length"), list}, fmt::format("a rod of length {} is not longer than its thickest bead ({})",
                                                         length(rod.length), length(thickest)));
+      return false;
+    }
+    const double pitch = n > 1 ? (rod.length - 0.5 * (diameters.front() + diameters.back())) / (n - 1) : 0.0;
+    for (int b = 0; b < n; ++b) {
+      const double center = 0.5 * diameters.front() + b * pitch;
+      const double radius = 0.5 * diameters[static_cast<std::size_t>(b)];
+      if (center - radius >= -1e-9 && center + radius <= rod.length + 1e-9) continue;
+      complain({list, kind.path("length")},
+               fmt::format("bead {} of {} would stick out beyond the tips of a rod of {}", b + 1,
+                           length(diameters[static_cast<std::size_t>(b)]), length(rod.length)));
       return false;
     }
     if (!touching(rod)) {
@@ -286,8 +301,14 @@ class Resolver {
     }
     const double room = thickest + kRoomRoundArena;  // so that rods do not meet through the periodic border
     SideWalls& walls = *system.walls;
-    if (!given("walls.size")) walls.size = system.box_side - room;
-    if (!given("box.side")) system.box_side = walls.size + room;
+    if (!given("walls.size")) {
+      walls.size = system.box_side - room;
+      check_derived("walls.size", {"box.side"});
+    }
+    if (!given("box.side")) {
+      system.box_side = walls.size + room;
+      check_derived("box.side", {"walls.size"});
+    }
     if (system.box_side < walls.size + room * (1 - 1e-12)) {
       complain({"walls.size", "box.side"},
                fmt::format("an arena of {} does not fit into a box of {}: at most {}; or leave box.side out",
@@ -325,7 +346,9 @@ class Resolver {
                            length(system.walls ? system.walls->size : system.box_side), fraction,
                            random ? "at random" : "in rows", most, random ? "; start \"aligned\" packs more" : ""));
     } else {
-      check_derived("rods.area_fraction", {"rods.count", "box.side"});
+      for (const Kind& kind : kinds()) {
+        check_derived(kind.path("area_fraction"), {kind.path("count"), "box.side"});
+      }
     }
   }
 

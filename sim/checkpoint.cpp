@@ -93,10 +93,31 @@ template <class Archive>
 void each_scene_key(Archive&& visit, const Scene& scene) {
   visit(static_cast<std::int64_t>(scene.n_rods));
   visit(static_cast<std::int64_t>(scene.n_all_rods()));
-  visit(static_cast<std::int64_t>(scene.rod.n_beads));
-  visit(scene.rod.length);
-  visit(scene.rod.mid_diameter);
-  visit(scene.rod.end_diameter);
+  const auto shape = [&](const RodShape& rod) {
+    visit(static_cast<std::int64_t>(rod.n_beads));
+    visit(rod.length);
+    visit(rod.mid_diameter);
+    visit(rod.end_diameter);
+    visit(rod.density);
+    visit(static_cast<std::int64_t>(rod.profile));
+    for (const double diameter : rod.bead_diameters) visit(diameter);
+  };
+  shape(scene.rod);
+  bool mixed = false;
+  for (const auto& more : scene.added) {
+    if (!more) continue;
+    visit(static_cast<std::int64_t>(more->count));
+    shape(more->rod);
+    mixed = true;
+  }
+  if (mixed) visit(static_cast<std::int64_t>(scene.seed));  // it tells which rod is of which kind
+  visit(static_cast<std::int64_t>(scene.base));
+  visit(static_cast<std::int64_t>(scene.lid));
+  if (scene.walls) {
+    visit(static_cast<std::int64_t>(scene.walls->arena));
+    visit(scene.walls->size);
+    visit(scene.walls->inner);
+  }
   visit(scene.box_side);
   visit(scene.gap);
   visit(scene.amplitude);

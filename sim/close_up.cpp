@@ -7,6 +7,7 @@
 
 #include "sim/contact/bead_contacts.h"
 #include "sim/contact/impulse.h"
+#include "sim/effects/side_walls.h"
 #include "sim/neighbors/neighbor_list.h"
 
 namespace shaken {
@@ -39,6 +40,22 @@ void add_plate_contacts(const World& world, const CloseUp::Rod& rod, CloseUp& ou
   }
 }
 
+void add_wall_contacts(const World& world, const CloseUp::Rod& rod, CloseUp& out) {
+  if (!world.scene.walls) return;
+  const Species& species = world.species_of(static_cast<std::size_t>(rod.rod));
+  for (int bead = 0; bead < species.n_beads(); ++bead) {
+    const Vec3 center = rod.pose.position + species.bead_offset[bead] * rod.pose.director;
+    const WallsSeen seen = see_walls(*world.scene.walls, world.scene.box_side, center);
+    for (int w = 0; w < seen.n; ++w) {
+      const double overlap = species.bead_radius[bead] - seen.walls[w].distance;
+      if (!(overlap > 0)) continue;
+      const Vec3 arm = center - rod.pose.position - species.bead_radius[bead] * seen.walls[w].normal;
+      const double u_n = point_velocity(rod.motion, arm).dot(seen.walls[w].normal);
+      out.contacts.push_back({rod.rod, CloseUp::kWall, bead, -1, overlap, -u_n});
+    }
+  }
+}
+
 void add_rod_contacts(const World& world, const CloseUp::Rod& i, const CloseUp::Rod& j, const Vec3& D, CloseUp& out) {
   std::vector<BeadContact> found;
   const Species& species_i = world.species_of(static_cast<std::size_t>(i.rod));
@@ -56,6 +73,11 @@ void add_rod_contacts(const World& world, const CloseUp::Rod& i, const CloseUp::
 
 }  // namespace
 
+const char* surface_name(int other) {
+  if (other == CloseUp::kWall) return "side wall";
+  return other == CloseUp::kBase ? "base" : "lid";
+}
+
 CloseUp look_closely(const World& world, Tick tick, const std::vector<int>& concerned, double reach) {
   CloseUp out;
   out.tick = tick;
@@ -70,7 +92,11 @@ CloseUp look_closely(const World& world, Tick tick, const std::vector<int>& conc
     }
   }
   const std::size_t n_asked = out.rods.size();
-  for (std::size_t a = 0; a < n_asked; ++a) add_plate_contacts(world, out.rods[a], out);
+  for (std::size_t a = 0; a < n_asked; ++a) {
+    const CloseUp::Rod rod = out.rods[a];
+    add_plate_contacts(world, rod, out);
+    add_wall_contacts(world, rod, out);
+  }
 
   for (int other = 0; other < static_cast<int>(world.rods.size()); ++other) {
     const auto state = rod_at(world, tick, other, false);

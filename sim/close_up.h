@@ -13,6 +13,7 @@ namespace shaken {
 struct CloseUp {
   static constexpr int kBase = -1;  ///< in place of a rod
   static constexpr int kLid = -2;   ///< the same
+  static constexpr int kWall = -3;  ///< the same
 
   struct Rod {
     int rod;
@@ -22,7 +23,7 @@ struct CloseUp {
   };
   struct Contact {
     int rod;
-    int other;  ///< a rod, kBase or kLid
+    int other;  ///< a rod, kBase, kLid or kWall
     int bead;
     int other_bead;   ///< of a rod
     double overlap;   ///< [mm]
@@ -35,6 +36,9 @@ struct CloseUp {
   std::vector<Contact> contacts;  ///< overlaps of those asked for
   std::vector<int> unknown;       ///< asked for, but their flight began after `tick`
 };
+
+/// "base", "lid" or "side wall".
+const char* surface_name(int other);
 
 /// The rods of `concerned` and all that come closer to them than `reach` [mm], as they are or were at `tick`. Their
 /// flights must have begun by then; those that have not are left out.

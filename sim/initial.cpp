@@ -50,8 +50,8 @@ class Placement {
   double rod_extent() const {
     double extent = 0;
     for (const Species& kind : species) {
-      extent = std::max(extent, 2.0 * std::max({kind.tail.length + kind.bead_radius.front(),
-                                                kind.head.length + kind.bead_radius.back(), kind.max_radius}));
+      for (int b = 0; b < kind.n_beads(); ++b)
+        extent = std::max(extent, 2.0 * (std::abs(kind.bead_offset[b]) + kind.bead_radius[b]));
     }
     return extent;
   }
@@ -65,9 +65,13 @@ class Placement {
     return std::sqrt(least2);
   }
 
+  /// Of the thickest bead.
+  static double thickest(const Species& kind) {
+    return *std::max_element(kind.bead_radius.begin(), kind.bead_radius.end());
+  }
   double max_radius() const {
     double radius = 0;
-    for (const Species& kind : species) radius = std::max(radius, kind.max_radius);
+    for (const Species& kind : species) radius = std::max(radius, thickest(kind));
     return radius;
   }
 
@@ -154,7 +158,7 @@ void lift_and_push(Flight& flight, const Placement& rods, const Species& species
   const Scene& scene = rods.scene;
   const bool planar = scene.is_planar();
   const double base = 2.0 * scene.amplitude;  // cos(0) = 1: the plates start at the top of their stroke
-  const double room = 0.5 * scene.gap - species.max_radius;
+  const double room = 0.5 * scene.gap - Placement::thickest(species);
   flight.position.z() = base + 0.5 * scene.gap + (planar ? 0.0 : 0.3 * room * rng.uniform(-1, 1));
   const double tilt = !flat && !planar && species.half_length > 0
                           ? std::min(0.02, 0.3 * room / species.half_length) * rng.uniform(-1, 1)

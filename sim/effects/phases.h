@@ -123,7 +123,7 @@ template <class E>
     }
     apply_normal_impulse(bead.rod.motion, bead.kind.inverse, director, bead.offset, impulse.P);
   }
-  bead.rod.changed = true;
+  bead.rod.note_hit();
   Ledger& ledger = counters.ledger;
   ledger.lost_surfaces.add(impulse.lost);
   ledger.given.add(impulse.P.z() * surface.velocity);
@@ -148,7 +148,7 @@ bool meet(int b, RodAtTick& rod, const RodKind& kind, const Vec3& normal, double
       const bool was_hit = hit<E>(struck(), {normal, velocity_at(*ago), contact, rest_speed}, counters);
       fly(rod, *ago, kind, rules.gravity);
       if (was_hit) {
-        ++rod.n_displaced;
+        rod.displaced = true;
         ++counters.impacts_at_instant;
         return true;
       }
@@ -258,7 +258,8 @@ template <class E>
       impulse.lost = work_lost(impulse.P, u, K);
       take(j, impulse.P);
       take(i, -impulse.P);
-      i.rod.changed = j.rod.changed = true;
+      i.rod.note_hit();
+      j.rod.note_hit();
       counters.ledger.lost_rod_rod.add(impulse.lost);
       return true;
     }
@@ -268,7 +269,8 @@ template <class E>
   impulse = impulse_along<E>(normal, u, compliance, contact);
   apply_normal_impulse(j.rod.motion, j.kind.inverse, n_j, j.offset, impulse.P);
   apply_normal_impulse(i.rod.motion, i.kind.inverse, n_i, i.offset, -impulse.P);
-  i.rod.changed = j.rod.changed = true;
+  i.rod.note_hit();
+  j.rod.note_hit();
   counters.ledger.lost_rod_rod.add(impulse.lost);
   return true;
 }
@@ -310,8 +312,7 @@ void respond_to(const PairContact& contact, RodAtTick& rod_i, RodAtTick& rod_j, 
       fly(rod_i, *ago, kind_i, rules.gravity);
       fly(rod_j, *ago, kind_j, rules.gravity);
       if (have_hit) {
-        ++rod_i.n_displaced;
-        ++rod_j.n_displaced;
+        rod_i.displaced = rod_j.displaced = true;
         ++counters.impacts_at_instant;
         ++counters.impulses_rod_rod;
         return;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sim/effects/registry.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -62,11 +63,17 @@ struct SeveralSpecies {
 };
 
 struct Taper {
+  static bool is_on(const RodShape& rod) {
+    if (rod.bead_diameters.empty()) return rod.n_beads > 1 && rod.end_diameter != rod.mid_diameter;
+    return std::any_of(rod.bead_diameters.begin(), rod.bead_diameters.end(),
+                       [&](double diameter) { return diameter != rod.bead_diameters.front(); });
+  }
   static bool is_on(const Scene& scene) {
-    return !scene.rod.bead_diameters.empty() ||
-           (scene.rod.n_beads > 1 && scene.rod.end_diameter != scene.rod.mid_diameter);
+    return is_on(scene.rod) || std::any_of(scene.added.begin(), scene.added.end(),
+                                           [](const auto& added) { return added && is_on(added->rod); });
   }
   static std::string why(const Scene& scene) {
+    if (!is_on(scene.rod) && is_on(scene)) return "rods_2 or rods_3";
     if (!scene.rod.bead_diameters.empty()) return "rods.bead_diameters";
     if (scene.rod.n_beads == 1) return setting("rods.beads", 1);
     return setting("rods.mid_diameter", scene.rod.mid_diameter, " mm, ") +
@@ -74,8 +81,14 @@ struct Taper {
   }
   static std::int64_t work(const World& world) { return n_rods(world); }
   static void switch_off(Scene& scene) {
-    scene.rod.end_diameter = scene.rod.mid_diameter;
-    scene.rod.bead_diameters.clear();
+    const auto straighten = [](RodShape& rod) {
+      rod.end_diameter = rod.mid_diameter;
+      std::fill(rod.bead_diameters.begin(), rod.bead_diameters.end(), rod.mid_diameter);
+    };
+    straighten(scene.rod);
+    for (auto& added : scene.added) {
+      if (added) straighten(added->rod);
+    }
   }
 };
 
@@ -215,7 +228,7 @@ template <class E>
 constexpr Effect line(std::string_view name, std::string_view unit, std::string_view what) {
   return {name,
           what,
-          E::is_on,
+          [](const Scene& scene) { return E::is_on(scene); },
           E::why,
           [](const World& world) { return E::is_on(world.scene) ? E::work(world) : std::int64_t{0}; },
           unit,

@@ -22,7 +22,7 @@ inline void turn_at_random(int index, int bead, RodAtTick& rod, const RodKind& k
   const Vec3 turn = kick * (Vec3::UnitZ() - n.z() * n);
   const double gained = kind.species.inertia_perp * (rod.motion.angular_velocity + 0.5 * turn).dot(turn);
   rod.motion.angular_velocity += turn;
-  rod.changed = true;
+  rod.note_hit();
   counters.ledger.noise.add(gained);
   ++counters.noise_kicks;
 }

@@ -233,7 +233,7 @@ void ScheduledStepper::list_pairs(const World& world, Tick now) {
   gained_.clear();
   if (is_new_) {
     std::vector<Pose> poses(world.rods.size());
-    for (std::size_t i = 0; i < poses.size(); ++i) poses[i] = rods_[i].pose;
+    for (std::size_t i = 0; i < poses.size(); ++i) poses[i] = found(static_cast<int>(i));
     neighbors_.build(poses);
     for (int i = 0; i < static_cast<int>(world.rods.size()); ++i) measure_slack(i, now);
     gained_.resize(neighbors_.pairs().size());
@@ -243,7 +243,7 @@ void ScheduledStepper::list_pairs(const World& world, Tick now) {
   lost_.clear();
   for (Worker& worker : workers_) {
     for (const int i : worker.to_place) {
-      neighbors_.place(i, rods_[i].pose, gained_, lost_);
+      neighbors_.place(i, found(i), gained_, lost_);
       measure_slack(i, now);
     }
     worker.to_place.clear();
@@ -383,14 +383,15 @@ std::optional<NumericalTrouble> ScheduledStepper::store_changed(World& world, Ti
       add_vector(record.strayed_velocity, flight.velocity - velocity);
       const Vec3 turned = flight.precession - precession;
       add_vector(record.strayed_turning, turned.cross(flight.director));
-      if (rods_[i].n_displaced > 0) {
+      if (rods_[i].displaced) {
         // hit a little before now, where the director was not yet quite what it is; and displaced against the path that
         // the list of neighbours knows of
         record.blur += static_cast<float>(turned.norm() * static_cast<double>(record.rate_limit) * rules_.dt);
         measure_slack(i, now);
       }
-      // hit more than once, each at its instant, the rod is where no path within its limits may have led it
-      if (rods_[i].n_displaced <= 1 && within_limits(record, flight)) continue;
+      // hit once, at its instant, it has followed one path within its limits; hit more often, it is where none may have
+      // led it
+      if (!(rods_[i].displaced && rods_[i].hit_again) && within_limits(record, flight)) continue;
       set_limits(record, flight);
       worker.strayed.push_back(i);
     }
@@ -622,7 +623,11 @@ void ScheduledStepper::bound_pairs(std::span<const int> pairs, Tick now, Worker&
     }
     const bool is_steady = straying < kLongBound && straying * kMuchLonger < steady;
     worker.next_steady.push_back(is_steady);
-    worker.next.push_back(now + 1 + static_cast<Tick>(is_steady ? steady : straying));
+    // Whether a pair is touching was found where free flight had brought its rods. Displaced since, they may overlap
+    // and recede without being marked, if their hulls do: to be looked at again at once.
+    const auto& [rod_i, rod_j] = pair_rods_[pairs[lane]];
+    const bool unmarked = hull.steady[lane] <= 0.0F && (rods_[rod_i].displaced || rods_[rod_j].displaced);
+    worker.next.push_back(unmarked ? now + 1 : now + 1 + static_cast<Tick>(is_steady ? steady : straying));
   }
 }
 

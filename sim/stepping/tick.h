@@ -69,10 +69,16 @@ struct TickRules {
 /// A rod during one tick.
 struct RodAtTick {
   Pose pose;
-  Motion motion;                 ///< evaluated when first needed
-  bool has_motion = false;       ///< `motion` has been evaluated
-  bool changed = false;          ///< an impulse changed `motion`
-  std::uint8_t n_displaced = 0;  ///< impulses that changed `pose` too, by taking place earlier within the tick
+  Motion motion;            ///< evaluated when first needed
+  bool has_motion = false;  ///< `motion` has been evaluated
+  bool changed = false;     ///< an impulse changed `motion`
+  bool displaced = false;   ///< one changed `pose` too, by taking place earlier within the tick
+  bool hit_again = false;   ///< there was more than one
+
+  void note_hit() {
+    hit_again = changed;
+    changed = true;
+  }
 };
 
 /// Overlap beyond this fraction of the smaller radius ends the run: the contact's normal would soon lose its meaning.
@@ -80,7 +86,12 @@ struct RodAtTick {
 inline constexpr double kMaxOverlapFraction = 0.5;
 
 inline RodAtTick rod_at_tick(const Flight& flight, Tick now, const TickRules& rules) {
-  return {pose_after(flight, static_cast<double>(now - flight.since) * rules.dt, rules.gravity), {}, false, false, 0};
+  return {pose_after(flight, static_cast<double>(now - flight.since) * rules.dt, rules.gravity),
+          {},
+          false,
+          false,
+          false,
+          false};
 }
 
 /// Makes the rod's motion at the tick available.

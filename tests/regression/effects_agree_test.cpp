@@ -27,6 +27,18 @@ const RodShape kPolarRod{.length = 3.0, .mid_diameter = 0.9, .n_beads = 11, .pro
 const RodShape kSphere{.length = 0.8, .n_beads = 1};
 const RodShape kBowlingPin{.length = 2.5, .bead_diameters{0.9, 0.8, 0.6, 0.4, 0.5, 0.7, 0.5, 0.3}};
 
+/// 40 rods of 3 mm in a narrow gap that bounce well, with a tick of 50 us.
+void coarse_and_bouncy(Scene& scene) {
+  scene.rod = {.length = 3.0, .n_beads = 11};
+  scene.n_rods = 40;
+  scene.box_side = std::sqrt(40 * make_species(scene.rod).area / 0.8);
+  scene.gap = 1.1;
+  scene.impacts = ImpactTime::kAtInstant;
+  scene.rod_rod.restitution = 0.9;
+  scene.rod_base.restitution = scene.rod_lid.restitution = 0.8;
+  scene.dt = 50e-6;
+}
+
 struct Case {
   const char* name;
   void (*set)(Scene&);
@@ -58,6 +70,26 @@ INSTANTIATE_TEST_SUITE_P(
                            s.dt = 40e-6;
                          },
                          0.75, 4000},
+                    // coarse and bouncy: displaced rods overlap and recede, and are hit by plates that nearly cancel
+                    Case{"AtInstantCoarseBouncy",
+                         [](Scene& s) {
+                           coarse_and_bouncy(s);
+                           s.seed = 9;
+                         },
+                         0.8, 5000},
+                    Case{"AtInstantCoarseBouncyAgain",
+                         [](Scene& s) {
+                           coarse_and_bouncy(s);
+                           s.seed = 11;
+                         },
+                         0.8, 5000},
+                    Case{"AtInstantCoarseBouncySweeps",
+                         [](Scene& s) {
+                           coarse_and_bouncy(s);
+                           s.seed = 2;
+                           s.solver_sweeps = 2;
+                         },
+                         0.8, 7000},
                     Case{"AtInstantFrictionlessSweeps",
                          [](Scene& s) {
                            s.impacts = ImpactTime::kAtInstant;

@@ -29,7 +29,7 @@ TEST(Problems, DuplicateKeys) {
 
 TEST(Problems, ValuesOutOfRangeComeWithTheRangeAndWhatMayHaveBeenMeant) {
   EXPECT_EQ(problem_of(R"({"rods": {"length": "450 mm"}})"),
-            "run.json:1:21: /rods/length: 450 mm is outside [0.5, 50] mm; did you mean 4.5 mm?");
+            "run.json:1:21: /rods/length: 450 mm is outside [0.05, 50] mm; did you mean 4.5 mm?");
   EXPECT_EQ(problem_of(R"({"time": {"step": 4}})"),
             "run.json:1:19: /time/step: 4 s is outside [0.1, 100] us; did you mean 4 us?");
   EXPECT_EQ(problem_of(R"({"gravity": 9.81})"),

@@ -60,7 +60,12 @@ const std::map<std::string_view, void (*)(Scene&)>& neutral_by_hand() {
       {"side_wall_friction", [](Scene& s) { s.walls->contact.friction = 0.0; }},
       {"rotational_noise", [](Scene& s) { s.rotational_noise = 0.0; }},
       {"impacts_at_instant", [](Scene& s) { s.impacts = ImpactTime::kTickEnd; }},
-      {"taper", [](Scene& s) { s.rod.end_diameter = s.rod.mid_diameter; }},
+      {"taper",
+       [](Scene& s) {
+         s.rod.end_diameter = s.rod.mid_diameter;
+         s.added[0]->rod.end_diameter = s.added[0]->rod.mid_diameter;
+         s.added[1]->rod.end_diameter = s.added[1]->rod.mid_diameter;
+       }},
       {"spin",
        [](Scene& s) {
          s.rod_rod.friction = s.rod_base.friction = s.rod_lid.friction = s.walls->contact.friction = 0.0;
