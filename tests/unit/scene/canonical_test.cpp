@@ -53,6 +53,17 @@ nlohmann::json random_scene() {
     if (maybe()) measure["tilt"]["bins"] = *rc::gen::inRange(2, 200);
   }
   if (maybe()) scene["trajectory"]["every"] = between(1e-4, 1);
+  if (maybe())
+    scene["rods_2"] = {{"length", between(1.5, 4)}, {"profile", "polar"}, {"area_fraction", between(1e-3, 0.01)}};
+  if (maybe())
+    scene["rods_3"] = {{"beads", 1}, {"mid_diameter", between(0.1, 0.9)}, {"count", *rc::gen::inRange(1, 20)}};
+  if (!rods.contains("count") && !(scene.contains("box") && scene["box"].contains("side")) && maybe()) {
+    scene["walls"] = {{"arena", "disc"}};
+    if (maybe()) scene["walls"]["size"] = between(40, 120);
+  }
+  if (maybe()) scene["plates"]["noise"] = between(0, 1);
+  if (maybe()) scene["plates"]["lid"] = false;
+  if (maybe()) scene["time"]["impacts"] = "at_instant";
   if (maybe()) scene["stream"] = nullptr;
   if (maybe()) scene["movie"] = {{"every", between(0.001, 1)}, {"size", {2 * *rc::gen::inRange(32, 1000), 480}}};
   return scene;
