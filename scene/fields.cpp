@@ -209,7 +209,7 @@ void add_contact(std::vector<Field>& table, const std::string& kind, const std::
       }));
   table.push_back(quantity(
       "contacts." + kind + ".restitution", Dimension::kPlain, 0, 1,
-      "Newton's coefficient of restitution between " + what + ".", [member](auto& p) -> auto& {
+      "Coefficient of restitution between " + what + ".", [member](auto& p) -> auto& {
         return (p.system.*member).restitution;
       }));
 }
