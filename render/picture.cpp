@@ -42,17 +42,7 @@ double outline_area(const BeadRow& beads) {
 
 /// What the rods have to share [mm^2].
 double floor_area(const RodPicture& picture) {
-  if (!picture.walls) return picture.box_side * picture.box_side;
-  const double size = picture.walls->size, inner = picture.walls->inner;
-  switch (picture.walls->arena) {
-    case Arena::kSquare:
-      return size * size;
-    case Arena::kDisc:
-      return kPi / 4 * size * size;
-    case Arena::kAnnulus:
-      return kPi / 4 * (size * size - inner * inner);
-  }
-  return 0;
+  return picture.walls ? picture.walls->area() : picture.box_side * picture.box_side;
 }
 
 }  // namespace

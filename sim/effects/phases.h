@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "sim/contact/impulse_law.h"
@@ -54,8 +55,7 @@ inline void take(const Struck& bead, const Vec3& P) {
   apply_impulse(bead.rod.motion, bead.kind.inverse, bead.rod.pose.director, bead.arm, P);
 }
 
-template <class E>
-Impulse impulse_along(const Vec3& normal, const Vec3& u, double compliance, const ContactParameters& contact) {
+inline Impulse impulse_along(const Vec3& normal, const Vec3& u, double compliance, const ContactParameters& contact) {
   const double u_n = u.dot(normal);
   const double p = -(1.0 + contact.restitution) * u_n / compliance;
   return {p * normal, -p * (u_n + 0.5 * p * compliance)};
@@ -116,7 +116,7 @@ template <class E>
     take(bead, impulse.P);
   } else {
     const double compliance = normal_compliance(bead.kind.inverse, director, bead.offset, surface.normal);
-    impulse = impulse_along<E>(surface.normal, u, compliance, surface.contact);
+    impulse = impulse_along(surface.normal, u, compliance, surface.contact);
     if (surface.rest_speed > -surface.contact.restitution * u_n) {
       const double p = (surface.rest_speed - u_n) / compliance;
       impulse = {p * surface.normal, -p * (u_n + 0.5 * p * compliance)};
@@ -131,9 +131,9 @@ template <class E>
   return true;
 }
 
-/// The bead `b` of a rod against a surface that it overlaps. `velocity_at(s)` is the surface's, s seconds ago.
-template <class E, class VelocityAt>
-bool meet(int b, RodAtTick& rod, const RodKind& kind, const Vec3& normal, double overlap, const VelocityAt& velocity_at,
+/// The bead `b` of a rod against a plate or wall that it overlaps; both move as the plates do.
+template <class E>
+bool meet(int b, RodAtTick& rod, const RodKind& kind, const Vec3& normal, double overlap, const PlateState& plates,
           const ContactParameters& contact, const TickRules& rules, Counters& counters) {
   const double offset = kind.species.bead_offset[b];
   const double radius = kind.species.bead_radius[b];
@@ -142,10 +142,11 @@ bool meet(int b, RodAtTick& rod, const RodKind& kind, const Vec3& normal, double
   const double rest_speed = rests ? rules.rest.at(overlap) : 0.0;
   if constexpr (E::kAtInstant) {
     const Struck bead = struck();
-    const double speed = -(point_velocity(rod.motion, bead.arm).dot(normal) - velocity_at(0.0) * normal.z());
+    const double speed = -(point_velocity(rod.motion, bead.arm).dot(normal) - plates.velocity * normal.z());
     if (const auto ago = time_since_touch(overlap, speed, rules.dt)) {
       fly(rod, -*ago, kind, rules.gravity);
-      const bool was_hit = hit<E>(struck(), {normal, velocity_at(*ago), contact, rest_speed}, counters);
+      const bool was_hit =
+          hit<E>(struck(), {normal, rules.plates.before(plates, *ago).velocity, contact, rest_speed}, counters);
       fly(rod, *ago, kind, rules.gravity);
       if (was_hit) {
         rod.displaced = true;
@@ -154,7 +155,7 @@ bool meet(int b, RodAtTick& rod, const RodKind& kind, const Vec3& normal, double
       }
     }
   }
-  return hit<E>(struck(), {normal, velocity_at(0.0), contact, rest_speed}, counters);
+  return hit<E>(struck(), {normal, plates.velocity, contact, rest_speed}, counters);
 }
 
 inline NumericalTrouble too_deep(Tick now, int index, int bead, double overlap, const char* where) {
@@ -185,15 +186,12 @@ std::optional<NumericalTrouble> meet_plates(int index, RodAtTick& rod, const Fli
       if (overlap > kMaxOverlapFraction * radius) return too_deep(now, index, bead, overlap, side > 0 ? "base" : "lid");
       evaluate_motion(rod, flight, now, kind, rules);
       counters.max_overlap_rod_plate = std::max(counters.max_overlap_rod_plate, overlap);
-      const auto velocity_at = [&](double ago) {
-        return ago > 0 ? rules.plates.before(plates, ago).velocity : plates.velocity;
-      };
       double speed = 0;  // of the hit
       if constexpr (E::kRough) {
         const Vec3 arm = species.bead_offset[bead] * rod.pose.director - radius * side * Vec3::UnitZ();
         speed = std::abs(point_velocity(rod.motion, arm).z() - plates.velocity);
       }
-      if (!meet<E>(bead, rod, kind, Vec3(0, 0, side), overlap, velocity_at, contact, rules, counters)) continue;
+      if (!meet<E>(bead, rod, kind, Vec3(0, 0, side), overlap, plates, contact, rules, counters)) continue;
       ++(side > 0 ? counters.impulses_rod_base : counters.impulses_rod_lid);
       if (E::kRough && rules.rotational_noise > 0) turn_at_random(index, bead, rod, kind, speed, now, rules, counters);
     }
@@ -220,10 +218,7 @@ std::optional<NumericalTrouble> meet_side_walls(int index, RodAtTick& rod, const
       if (overlap > kMaxOverlapFraction * radius) return too_deep(now, index, bead, overlap, "side wall");
       evaluate_motion(rod, flight, now, kind, rules);
       counters.max_overlap_rod_plate = std::max(counters.max_overlap_rod_plate, overlap);
-      const auto velocity_at = [&](double ago) {
-        return ago > 0 ? rules.plates.before(plates, ago).velocity : plates.velocity;
-      };
-      if (meet<E>(bead, rod, kind, seen.walls[w].normal, overlap, velocity_at, walls.contact, rules, counters))
+      if (meet<E>(bead, rod, kind, seen.walls[w].normal, overlap, plates, walls.contact, rules, counters))
         ++counters.impulses_rod_wall;
     }
   }
@@ -266,7 +261,7 @@ template <class E>
   }
   const double compliance = normal_compliance(i.kind.inverse, n_i, i.offset, normal) +
                             normal_compliance(j.kind.inverse, n_j, j.offset, normal);
-  impulse = impulse_along<E>(normal, u, compliance, contact);
+  impulse = impulse_along(normal, u, compliance, contact);
   apply_normal_impulse(j.rod.motion, j.kind.inverse, n_j, j.offset, impulse.P);
   apply_normal_impulse(i.rod.motion, i.kind.inverse, n_i, i.offset, -impulse.P);
   i.rod.note_hit();
