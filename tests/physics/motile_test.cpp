@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <vector>
 
 #include "sim/simulation.h"
@@ -41,6 +42,7 @@ Drift drift_of(Profile profile, double plate_friction) {
     squares += sum / n_frames * (sum / n_frames);
   }
   drift.error = std::sqrt((squares / n - drift.mean * drift.mean) / (n - 1));
+  std::printf("plate friction %g: mean of v.n = %.2f +- %.2f mm/s\n", plate_friction, drift.mean, drift.error);
   return drift;
 }
 
@@ -88,6 +90,7 @@ double turned(double noise) {
   double mean2 = 0;
   for (const double angle_turned : sum) mean2 += angle_turned * angle_turned / static_cast<double>(sum.size());
   EXPECT_EQ(simulation->world().counters.noise_kicks > 0, noise > 0);
+  std::printf("noise %g rad/mm: mean square angle in 0.5 s = %.1f rad^2\n", noise, mean2);
   return mean2;
 }
 
