@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "run/measure/registry.h"
 #include "scene/fields.h"
 #include "sim/effects/registry.h"
 
@@ -27,7 +28,8 @@ std::vector<EffectLine> list_effects(const scene::RunPlan& plan) {
     lines.push_back(
         {std::string(effect.name), std::string(effect.what), effect.is_on(plan.system), effect.why(plan.system)});
   }
-  for (const std::string name : {"order", "angles", "tilt", "defects", "g2", "msd"}) {
+  for (const MeasurementKind& kind : measurement_kinds()) {
+    const std::string name(kind.name);
     lines.push_back(of_block(plan, "measure_" + name, "measure." + name, "every"));
   }
   EffectLine trajectory = of_block(plan, "trajectory", "trajectory", "every");

@@ -132,8 +132,8 @@ class Loop {
       if (auto error = session_.trajectory->append(snapshot)) return error;
     }
     if (show) publisher_->offer(make_frame(snapshot, kinds_if_several(session_.simulation.world())));
-    const auto& defects = session_.measurements.last_defects();
-    if (publisher_ && defects && defects->tick == tick() && defects_pacer_.take(WallClock::now())) {
+    const DefectSample* defects = session_.measurements.last_defects();
+    if (publisher_ && defects != nullptr && defects->tick == tick() && defects_pacer_.take(WallClock::now())) {
       publisher_->offer(make_defects(*defects));
     }
     return std::nullopt;
@@ -166,6 +166,7 @@ class Loop {
     summary.balance = balance(world);
     summary.t_steady = reduction.t_steady;
     summary.order = reduction.order;
+    summary.scalars = reduction.scalars;
     if (reduction.defects) {
       summary.defects_mean_plus = reduction.defects->n_plus;
       summary.defects_mean_minus = reduction.defects->n_minus;

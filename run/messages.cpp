@@ -93,7 +93,7 @@ observables_t make_observables(const World& world, const Snapshot& snapshot, con
   return message;
 }
 
-defects_t make_defects(const Measurements::DefectSample& sample) {
+defects_t make_defects(const DefectSample& sample) {
   defects_t message;
   message.utime = 0;
   message.sequence = 0;

@@ -21,7 +21,7 @@ std::span<const std::uint8_t> kinds_if_several(const World& world);
 /// of the rods of the first kind, as in the measurements.
 proto::Frame make_frame(const Snapshot& snapshot, std::span<const std::uint8_t> kinds = {});
 observables_t make_observables(const World& world, const Snapshot& snapshot, const Progress& progress);
-defects_t make_defects(const Measurements::DefectSample& sample);
+defects_t make_defects(const DefectSample& sample);
 frame_static_t make_frame_static(const World& world, const std::string& label);
 
 }  // namespace shaken::run

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "run/files/atomic_file.h"
@@ -29,6 +30,9 @@ Json to_json(const EffectReport& effect) {
   }
   return json;
 }
+
+/// JSON has no NaN.
+Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json to_json(const Balance& balance) {
   return {{"start", balance.energy_start},
@@ -75,6 +79,10 @@ std::optional<Error> write_summary(const std::filesystem::path& file, const Summ
   }
   if (summary.defects_mean_plus && summary.defects_mean_minus) {
     json["defects"] = {{"mean_plus", *summary.defects_mean_plus}, {"mean_minus", *summary.defects_mean_minus}};
+  }
+  json["measured"] = Json::object();
+  for (const auto& [name, scalar] : summary.scalars) {
+    json["measured"][name] = {{"value", number_or_null(scalar.value)}, {"sem", number_or_null(scalar.sem)}};
   }
   for (const auto& [name, effect] : summary.effects) json["effects"][name] = to_json(effect);
   json["state_hash"] = fmt::format("{:016x}", summary.state_hash);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "analysis/time_series.h"
+#include "run/measure/reduction.h"
 #include "sim/balance.h"
 #include "sim/core/result.h"
 #include "sim/core/types.h"
@@ -36,6 +37,7 @@ struct Summary {
   Balance balance;                               ///< of energy and momentum
   double t_steady = 0;                           ///< where the steady state begins [s]
   std::optional<analysis::SteadySummary> order;  ///< if S(t) was measured
+  std::map<std::string, Scalar> scalars;         ///< of the other measurements, in the steady state
   std::optional<double> defects_mean_plus;       ///< in the steady state, if defects were measured
   std::optional<double> defects_mean_minus;
   std::map<std::string, EffectReport> effects;

@@ -15,13 +15,6 @@ namespace {
 
 constexpr double kCpu = 0.02;  ///< for timing one kind of sample, about [s]
 
-/// How state and file of a measurement grow with the number of samples.
-enum class Growth {
-  kSeries,  ///< in proportion
-  kBlocks,  ///< the state up to 64 samples' worth (analysis/blocked.h), the file not at all
-  kLags,    ///< with the logarithm (analysis/msd.h)
-};
-
 /// One measurement of the plan by itself.
 struct Single {
   std::string effect;
@@ -31,28 +24,17 @@ struct Single {
 };
 
 std::vector<Single> measurements_of(const scene::RunPlan& plan) {
-  scene::RunPlan bare = plan;
-  bare.order.reset();
-  bare.angles.reset();
-  bare.tilt.reset();
-  bare.defects.reset();
-  bare.g2.reset();
-  bare.msd.reset();
-  bare.steady = 0;  // from the first sample on
-
   std::vector<Single> singles;
-  const auto add = [&](const char* name, auto member, Growth growth) {
-    if (!(plan.*member)) return;
-    Single single{std::string("measure_") + name, bare, (plan.*member)->every, growth};
-    single.plan.*member = plan.*member;
+  for (const MeasurementKind& kind : measurement_kinds()) {
+    const std::optional<double> every = kind.every(plan);
+    if (!every) continue;
+    Single single{"measure_" + std::string(kind.name), plan, *every, kind.growth};
+    single.plan.steady = 0;  // from the first sample on
+    for (const MeasurementKind& other : measurement_kinds()) {
+      if (other.name != kind.name) other.switch_off(single.plan);
+    }
     singles.push_back(std::move(single));
-  };
-  add("order", &scene::RunPlan::order, Growth::kSeries);
-  add("angles", &scene::RunPlan::angles, Growth::kBlocks);
-  add("tilt", &scene::RunPlan::tilt, Growth::kBlocks);
-  add("defects", &scene::RunPlan::defects, Growth::kSeries);
-  add("g2", &scene::RunPlan::g2, Growth::kBlocks);
-  add("msd", &scene::RunPlan::msd, Growth::kLags);
+  }
   return singles;
 }
 

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <random>
 
+#include "run/measure/largest_tilt.h"
+
 namespace shaken::run {
 namespace {
 

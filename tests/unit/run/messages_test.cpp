@@ -63,7 +63,7 @@ TEST(Messages, ObservablesAreRootMeanSquaresInTheirUnits) {
 }
 
 TEST(Messages, DefectsAndStaticPartCanBeSent) {
-  Measurements::DefectSample sample;
+  DefectSample sample;
   sample.time = 1.5;
   sample.smoothing = 2.25;
   sample.defects = {{Vec2(1, 2), 0.5, 0.1}, {Vec2(3, 4), -0.5, 0.2}};

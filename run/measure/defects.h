@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "analysis/defect_series.h"
+#include "run/measure/measurement.h"
+
+namespace shaken::run {
+
+/// Defects of one sample.
+struct DefectSample {
+  Tick tick = 0;
+  double time = 0;       ///< [s]
+  double smoothing = 0;  ///< of the director field [mm]
+  std::vector<analysis::Defect> defects;
+};
+
+/// Topological defects of the smoothed director field.
+class MeasuredDefects : public Measurement {
+ public:
+  explicit MeasuredDefects(const MeasureContext& context);
+  void sample(const Moment& moment) override;
+  void reduce(Reduction& result) const override;
+  void save(analysis::StateWriter& writer) const override { series_.save(writer); }
+  void restore(analysis::StateReader& reader) override { series_.restore(reader); }
+
+  /// The last sample, for viewers; none before the first and after a restart.
+  const std::optional<DefectSample>& last() const { return last_; }
+
+ private:
+  std::optional<SideWalls> walls_;
+  double smoothing_;  ///< [mm]
+  double mesh_;       ///< of the field's grid, at most [mm]
+  analysis::DefectSeries series_;
+  std::optional<DefectSample> last_;
+};
+
+}  // namespace shaken::run

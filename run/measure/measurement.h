@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "analysis/state_io.h"
+#include "run/measure/moment.h"
+#include "run/measure/reduction.h"
+#include "scene/run_plan.h"
+#include "sim/rod/species.h"
+
+namespace shaken::run {
+
+/// One observable of a run: what stands between a snapshot and the accumulators of analysis/.
+class Measurement {
+ public:
+  virtual ~Measurement() = default;
+
+  /// Called at the integer multiples of the measurement's own period, tick 0 included.
+  virtual void sample(const Moment& moment) = 0;
+  /// Adds arrays and scalars of the steady state, which begins at result.t_steady.
+  virtual void reduce(Reduction& result) const = 0;
+
+  virtual void save(analysis::StateWriter& writer) const = 0;
+  /// Throws analysis::StateError if the bytes are not of such a measurement.
+  virtual void restore(analysis::StateReader& reader) = 0;
+};
+
+/// What a measurement may know of its run when it is made.
+struct MeasureContext {
+  const scene::RunPlan& plan;
+  const Species& species;  ///< of the rods that are measured
+  double interval;         ///< between its samples: a whole number of ticks [s]
+};
+
+}  // namespace shaken::run

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "analysis/order.h"
+#include "sim/snapshot.h"
+
+namespace shaken::run {
+
+/// The measured rods at one tick, with what several measurements need of them, worked out once and only on demand.
+class Moment {
+ public:
+  /// `rods` must outlive the moment.
+  explicit Moment(const Snapshot& rods) : rods_(rods) {}
+
+  const Snapshot* operator->() const { return &rods_; }
+
+  /// Nematic order and director of all rods.
+  const analysis::NematicOrder& order() const {
+    if (!order_) order_ = analysis::nematic_order(rods_.director);
+    return *order_;
+  }
+  /// Centres without the jumps at the borders of the box (n_rods) [mm].
+  const std::vector<Vec3>& unwrapped() const {
+    if (unwrapped_.empty()) {
+      unwrapped_ = rods_.position;
+      for (std::size_t i = 0; i < unwrapped_.size(); ++i) {
+        unwrapped_[i] += rods_.box_side * Vec3(rods_.image[i][0], rods_.image[i][1], 0);
+      }
+    }
+    return unwrapped_;
+  }
+
+ private:
+  const Snapshot& rods_;
+  mutable std::optional<analysis::NematicOrder> order_;
+  mutable std::vector<Vec3> unwrapped_;
+};
+
+}  // namespace shaken::run

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#include "run/measure/registry.h"
+
+namespace shaken::run {
+namespace {
+
+using scene::RunPlan;
+
+/// A kind whose settings are the optional block `member` of the plan.
+template <auto member>
+constexpr MeasurementKind kind(std::string_view name, std::unique_ptr<Measurement> (*make)(const MeasureContext&),
+                               Growth growth = Growth::kBlocks) {
+  return {name, [](const RunPlan& plan) { return plan.*member ? std::optional((plan.*member)->every) : std::nullopt; },
+          [](RunPlan& plan) { (plan.*member).reset(); }, make, growth};
+}
+
+constexpr MeasurementKind kKinds[] = {
+    kind<&RunPlan::order>("order", make_order, Growth::kSeries),
+    kind<&RunPlan::angles>("angles", make_angles),
+    kind<&RunPlan::tilt>("tilt", make_tilt),
+    kind<&RunPlan::defects>("defects", make_defects, Growth::kSeries),
+    kind<&RunPlan::g2>("g2", make_g2),
+    kind<&RunPlan::msd>("msd", make_msd, Growth::kLags),
+};
+
+}  // namespace
+
+std::span<const MeasurementKind> measurement_kinds() { return kKinds; }
+
+}  // namespace shaken::run

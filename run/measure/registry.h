@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "run/measure/measurement.h"
+
+namespace shaken::run {
+
+/// How state and file of a measurement grow with the number of samples.
+enum class Growth {
+  kSeries,  ///< in proportion
+  kBlocks,  ///< the state up to 64 samples' worth (analysis/blocked.h), the file not at all
+  kLags,    ///< with the logarithm
+};
+
+/// One thing that can be measured: the block "measure.NAME" of a scene.
+struct MeasurementKind {
+  std::string_view name;
+  std::optional<double> (*every)(const scene::RunPlan&);  ///< the period asked for [s]; none: it is not measured
+  void (*switch_off)(scene::RunPlan&);
+  std::unique_ptr<Measurement> (*make)(const MeasureContext&);
+  Growth growth;
+};
+
+/// All of them, in the order in which they sample and are saved.
+std::span<const MeasurementKind> measurement_kinds();
+
+std::unique_ptr<Measurement> make_order(const MeasureContext& context);
+std::unique_ptr<Measurement> make_angles(const MeasureContext& context);
+std::unique_ptr<Measurement> make_tilt(const MeasureContext& context);
+std::unique_ptr<Measurement> make_defects(const MeasureContext& context);
+std::unique_ptr<Measurement> make_g2(const MeasureContext& context);
+std::unique_ptr<Measurement> make_msd(const MeasureContext& context);
+
+}  // namespace shaken::run
