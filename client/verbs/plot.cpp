@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include "client/figures.h"
+#include "client/plotting/run_figures.h"
 #include "client/result_rows.h"
 #include "client/run_location.h"
 #include "client/target.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "client/figures.h"
+#include "client/plotting/run_figures.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "client/figure.h"
+#include "client/plotting/figure.h"
 
 #include <fmt/format.h>
 
@@ -59,37 +59,74 @@ std::string curve_colour(std::size_t index, std::size_t count) {
   return colour;
 }
 
+std::size_t n_blocks(const Figure& figure) { return figure.curves.size() + (figure.map ? 1 : 0); }
+
+namespace {
+
+std::string curve_data(const Curve& curve, const std::string& fallback) {
+  std::string text = fmt::format("# {}\n# x  y{}\n", curve.label.empty() ? fallback : curve.label,
+                                 has_errors(curve) ? "  y_error" : "");
+  bool any = false;
+  for (std::size_t k = 0; k < curve.x.size(); ++k) {
+    if (!std::isfinite(curve.x[k]) || !std::isfinite(curve.y[k])) continue;
+    text += fmt::format("{:.10g} {:.10g}", curve.x[k], curve.y[k]);
+    if (has_errors(curve)) text += fmt::format(" {:.10g}", std::isfinite(curve.y_error[k]) ? curve.y_error[k] : 0.0);
+    text += '\n';
+    any = true;
+  }
+  // An empty block would not be counted by `index`.
+  if (!any) text += has_errors(curve) ? "NaN NaN NaN\n" : "NaN NaN\n";
+  return text;
+}
+
+/// Every point a line, every row a group of lines: what `with image` reads.
+std::string map_data(const Map& map) {
+  std::string text = "# x  y  value\n";
+  for (std::size_t j = 0; j < map.y.size(); ++j) {
+    if (j > 0) text += '\n';
+    for (std::size_t i = 0; i < map.x.size(); ++i) {
+      const double z = map.z[j * map.x.size() + i];
+      text +=
+          fmt::format("{:.6g} {:.6g} {}\n", map.x[i], map.y[j], std::isfinite(z) ? fmt::format("{:.5g}", z) : "NaN");
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
 std::string figure_data(const Figure& figure) {
   std::string text;
-  for (std::size_t i = 0; i < figure.curves.size(); ++i) {
-    const Curve& curve = figure.curves[i];
-    if (i > 0) text += "\n\n";
-    text += fmt::format("# {}\n# x  y{}\n", curve.label.empty() ? figure.name : curve.label,
-                        has_errors(curve) ? "  y_error" : "");
-    bool any = false;
-    for (std::size_t k = 0; k < curve.x.size(); ++k) {
-      if (!std::isfinite(curve.x[k]) || !std::isfinite(curve.y[k])) continue;
-      text += fmt::format("{:.10g} {:.10g}", curve.x[k], curve.y[k]);
-      if (has_errors(curve)) text += fmt::format(" {:.10g}", std::isfinite(curve.y_error[k]) ? curve.y_error[k] : 0.0);
-      text += '\n';
-      any = true;
-    }
-    // An empty block would not be counted by `index`.
-    if (!any) text += has_errors(curve) ? "NaN NaN NaN\n" : "NaN NaN\n";
+  if (figure.map) text += map_data(*figure.map);
+  for (const Curve& curve : figure.curves) {
+    if (!text.empty()) text += "\n\n";
+    text += curve_data(curve, figure.name);
   }
   return text;
 }
 
 std::string figure_script(const Figure& figure) {
-  std::string script = fmt::format(R"(# gnuplot {0}.gp  draws {0}.png from {0}.dat
+  return fmt::format(R"(# gnuplot {0}.gp  draws {0}.png from {0}.dat
 set terminal pngcairo size 1400,950 enhanced font 'DejaVu Sans,20' linewidth 2 background '#ffffff'
 set output '{0}.png'
-set border 3 linecolor '#333333'
+)",
+                     figure.name) +
+         plot_commands(figure, figure.name + ".dat", 0);
+}
+
+std::string plot_commands(const Figure& figure, const std::string& data_file, std::size_t first_block) {
+  std::string script = figure.title.empty() ? "" : fmt::format("set title {}\n", quoted(figure.title));
+  if (!figure.picture.empty()) {
+    return script + fmt::format(
+                        "unset border\nunset tics\nunset key\nset size ratio -1\nset lmargin 1\nset rmargin 1\n"
+                        "plot {} binary filetype=png with rgbimage notitle\n",
+                        quoted(figure.picture.string()));
+  }
+  script += R"(set border 3 linecolor '#333333'
 set tics nomirror out textcolor '#333333'
 set grid linetype 1 linecolor '#e2e2e2' linewidth 0.5
 set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'
-)",
-                                   figure.name);
+)";
   const std::size_t n_labels = static_cast<std::size_t>(
       std::count_if(figure.curves.begin(), figure.curves.end(), [](const Curve& c) { return !c.label.empty(); }));
   if (n_labels == 0 || n_labels > kMostKeyEntries) {
@@ -102,39 +139,58 @@ set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'
         fmt::format("set key outside top center horizontal maxcols {}\n", longest < 16 ? 5 : (longest < 32 ? 3 : 2));
   }
   script += fmt::format("set xlabel {}\nset ylabel {}\n", quoted(figure.x_title), quoted(figure.y_title));
+  if (figure.map) {
+    script += figure.map->diverging
+                  ? "set palette defined (-1 '#2166ac', -0.5 '#92c5de', 0 '#f7f7f7', 0.5 '#f4a582', 1 '#b2182b')\n"
+                  : "set palette defined (0 '#440154', 0.25 '#3b528b', 0.5 '#21918c', 0.75 '#5ec962', 1 '#fde725')\n";
+    script += "unset grid\nset size ratio -1\nset autoscale xfix\nset autoscale yfix\n";
+  }
   for (const std::string& command : figure.commands) script += command + "\n";
 
   std::size_t n_colours = 0;
   for (const Curve& curve : figure.curves) n_colours = std::max(n_colours, curve.colour + 1);
   std::vector<std::string> plots;
-  for (std::size_t i = 0; i < figure.curves.size(); ++i) {
-    const Curve& curve = figure.curves[i];
+  std::size_t block = first_block;
+  if (figure.map)
+    plots.push_back(fmt::format("{} index {} using 1:2:3 with image notitle", quoted(data_file), block++));
+  for (const Curve& curve : figure.curves) {
     const std::string colour = curve_colour(curve.colour, n_colours);
-    const std::string data = fmt::format("'{}.dat' index {}", figure.name, i);
+    const std::string data = fmt::format("{} index {}", quoted(data_file), block++);
     const std::string title = curve.label.empty() ? "notitle" : "title " + quoted(curve.label);
-    const bool lines = figure.style != Figure::Style::kPoints;
-    const bool points = figure.style != Figure::Style::kLines;
+    bool lines = figure.style != Figure::Style::kPoints;
+    bool points = figure.style != Figure::Style::kLines;
+    if (curve.look != Curve::Look::kAsFigure) {
+      points = curve.look == Curve::Look::kPoints;
+      lines = !points;
+    }
     if (has_errors(curve)) {
       plots.push_back(
           fmt::format("{} using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '{}' notitle", data, colour));
     }
-    plots.push_back(fmt::format("{} using 1:2 with {} linecolor '{}'{} {}", data,
+    plots.push_back(fmt::format("{} using 1:2 with {} linecolor '{}'{}{} {}", data,
                                 lines && points ? "linespoints" : (lines ? "lines" : "points"), colour,
-                                points ? " pointtype 7 pointsize 1.2" : " linewidth 1", title));
+                                points ? " pointtype 7 pointsize 1.2" : " linewidth 1",
+                                curve.look == Curve::Look::kDashes ? " dashtype 2" : "", title));
   }
+  if (plots.empty()) plots.push_back("NaN notitle");  // axes without data still say what is missing
   script += "plot ";
   for (std::size_t i = 0; i < plots.size(); ++i) script += (i > 0 ? ", \\\n     " : "") + plots[i];
   return script + "\n";
 }
 
 std::filesystem::path draw(const Figure& figure, const std::filesystem::path& folder) {
+  return draw_files(figure.name, figure_data(figure), figure_script(figure), folder);
+}
+
+std::filesystem::path draw_files(const std::string& name, const std::string& data, const std::string& script,
+                                 const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw Failure(ExitCode::kFailed, fmt::format("{}: {}", folder.string(), error.message()));
-  write_or_fail(folder / (figure.name + ".dat"), figure_data(figure));
-  write_or_fail(folder / (figure.name + ".gp"), figure_script(figure));
-  const ChildResult gnuplot = run_captured({"gnuplot", figure.name + ".gp"}, folder);
-  const std::filesystem::path picture = folder / (figure.name + ".png");
+  write_or_fail(folder / (name + ".dat"), data);
+  write_or_fail(folder / (name + ".gp"), script);
+  const ChildResult gnuplot = run_captured({"gnuplot", name + ".gp"}, folder);
+  const std::filesystem::path picture = folder / (name + ".png");
   if (gnuplot.exit_code == 127) {
     throw Failure(ExitCode::kFailed,
                   "gnuplot is not here: `apt install gnuplot-nox`; the data and the script are in " + folder.string());
