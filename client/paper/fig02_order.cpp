@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// Nematic order against area fraction and rod length, and where it sets in.
+#include <cmath>
+
+#include "client/paper/figures.h"
+
+namespace shaken::client {
+namespace {
+
+/// <S> on the plane of area fraction and rod length.
+Map phase_map(const RunSet& runs) {
+  Map map{.x = values_of(runs, "rods.area_fraction"), .y = values_of(runs, "rods.length")};
+  for (const double length : map.y) {
+    for (const double fraction : map.x) {
+      const RunSet here = where(where(runs, "rods.length", length), "rods.area_fraction", fraction);
+      map.z.push_back(mean_scalar(here, "order.mean").value);
+    }
+  }
+  return map;
+}
+
+/// Area fraction at which <S> passes 0.5, for every rod length that has one.
+Curve transition_curve(const std::vector<Curve>& order_curves, const std::vector<double>& lengths) {
+  Curve curve{.label = "⟨S⟩ = 0.5", .look = Curve::Look::kPoints};
+  for (std::size_t i = 0; i < order_curves.size(); ++i) {
+    const Quantity phi = crossing(order_curves[i], 0.5);
+    if (!phi.is_known()) continue;
+    curve.x.push_back(phi.value);
+    curve.y.push_back(lengths[i]);
+  }
+  return curve;
+}
+
+}  // namespace
+
+Sheet order_figure(const Material& material) {
+  const RunSet& runs = material.runs["phases"];
+  const std::vector<double> lengths = values_of(runs, "rods.length");
+  const std::vector<Curve> mean = scalar_curves(runs, "rods.length", "rods.area_fraction", "order.mean");
+  std::vector<Curve> spread = scalar_curves(runs, "rods.length", "rods.area_fraction", "order.std");
+  for (Curve& curve : spread) curve.y_error.clear();
+  const RunSet longest = lengths.empty() ? RunSet{} : where(runs, "rods.length", lengths.back());
+
+  Sheet sheet{.title = "Nematic order"};
+  sheet.panels.push_back({.x_title = "time t (s)",
+                          .y_title = "nematic order S",
+                          .commands = {"set xrange [0:*]", "set yrange [0:1]"},
+                          .curves = array_curves(longest, "rods.area_fraction", "/order/time_s", "/order/order"),
+                          .title = "(a) from the aligned start, longest rods"});
+  sheet.panels.push_back({.x_title = axis_of("rods.area_fraction"),
+                          .y_title = "⟨S⟩ ± standard error",
+                          .style = Figure::Style::kLinesPoints,
+                          .commands = {"set yrange [0:1]", level_line(0.5)},
+                          .curves = mean,
+                          .title = "(b) mean order"});
+  Map map = phase_map(runs);
+  sheet.panels.push_back({.x_title = axis_of("rods.area_fraction"),
+                          .y_title = axis_of("rods.length"),
+                          .commands = {"set cbrange [0:1]", "set size noratio", "set cblabel '⟨S⟩'"},
+                          .curves = {transition_curve(mean, lengths)},
+                          .title = "(c) phase diagram",
+                          .map = std::move(map)});
+  sheet.panels.push_back({.x_title = axis_of("rods.area_fraction"),
+                          .y_title = "standard deviation of S(t)",
+                          .style = Figure::Style::kLinesPoints,
+                          .commands = {"set yrange [0:*]"},
+                          .curves = spread,
+                          .title = "(d) fluctuations: largest at the transition"});
+  return sheet;
+}
+
+}  // namespace shaken::client

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// theta_m and lambda of the layers against packing, rod length and end diameter.
+#include "client/paper/figures.h"
+
+namespace shaken::client {
+namespace {
+
+/// The runs that differ from the reference (longest rods, thinnest ends, packing 0.80 or what there is) in `key` alone.
+RunSet along(const RunSet& all, const std::string& key) {
+  RunSet runs = all;
+  for (const auto& [other, largest] : {std::pair{"rods.end_diameter", false}, {"rods.length", true}}) {
+    if (key == other) continue;
+    const auto values = values_of(runs, other);
+    if (!values.empty()) runs = where(runs, other, largest ? values.back() : values.front());
+  }
+  if (key != "rods.area_fraction" && !runs.empty()) {
+    // the packing at which most values of the key were run
+    RunSet best;
+    for (const double fraction : values_of(runs, "rods.area_fraction")) {
+      const RunSet here = where(runs, "rods.area_fraction", fraction);
+      if (here.size() >= best.size()) best = here;
+    }
+    runs = best;
+  }
+  return runs;
+}
+
+}  // namespace
+
+Sheet layer_trends_figure(const Material& material) {
+  const RunSet& all = material.runs["layers"];
+  Sheet sheet{.title = "Angle and wavelength of the layers", .columns = 3};
+  char letter = 'a';
+  for (const char* scalar : {"theta_m_deg", "wavelength_mm"}) {
+    for (const char* key : {"rods.area_fraction", "rods.length", "rods.end_diameter"}) {
+      const bool is_angle = std::string_view(scalar) == "theta_m_deg";
+      sheet.panels.push_back({.x_title = axis_of(key),
+                              .y_title = is_angle ? "{/Symbol q}_m (degrees)" : "wavelength {/Symbol l} (mm)",
+                              .style = Figure::Style::kLinesPoints,
+                              .commands = {"set yrange [0:*]", "set offsets graph 0.08, graph 0.08, graph 0.1, 0"},
+                              .curves = {scalar_curve(along(all, key), key, scalar, "", 0)},
+                              .title = std::string("(") + letter++ + ")"});
+    }
+  }
+  return sheet;
+}
+
+}  // namespace shaken::client

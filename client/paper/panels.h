@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "client/paper/run_set.h"
+#include "client/plotting/sheet.h"
+
+namespace shaken::client {
+
+/// What a figure is drawn from.
+struct Material {
+  const Library& runs;
+  /// A picture of a run's last recorded frame; an empty path if it has none or cannot be drawn.
+  std::function<std::filesystem::path(const FinishedRun&)> snapshot;
+};
+
+/// Arrays "x" and "y" of replicas, averaged where they have the same x; empty if no run has them. `sem` names the array
+/// of errors that a single run has of its own; of several runs the scatter between them is taken.
+Curve array_curve(const RunSet& replicas, const std::string& x, const std::string& y, std::string label,
+                  std::size_t colour, const std::string& sem = "");
+
+/// A scalar against a key of the scene: one point per value of the key, averaged over replicas, with error bars.
+Curve scalar_curve(const RunSet& runs, const std::string& key, const std::string& scalar, std::string label,
+                   std::size_t colour);
+
+/// One curve of arrays for each value of a key, labelled with it: "φ = 0.65".
+std::vector<Curve> array_curves(const RunSet& runs, const std::string& key, const std::string& x, const std::string& y,
+                                const std::string& sem = "");
+/// One curve of a scalar against `key` for each value of `series`.
+std::vector<Curve> scalar_curves(const RunSet& runs, const std::string& series, const std::string& key,
+                                 const std::string& scalar);
+
+/// "φ = 0.65", "ℓ = 4.5 mm".
+std::string value_label(const std::string& key, double value);
+
+/// A law or a fit, dashed, at `n` places from `from` to `to`.
+Curve law_curve(const std::function<double(double)>& law, double from, double to, std::string label, std::size_t colour,
+                int n = 80);
+
+/// Only points with positive x and y, for logarithmic axes.
+std::vector<Curve> positive(std::vector<Curve> curves);
+/// Without error bars, where many curves would hide each other.
+std::vector<Curve> bare(std::vector<Curve> curves);
+/// All together, coloured one after the other.
+std::vector<Curve> together(std::vector<std::vector<Curve>> groups);
+
+/// A map stored flattened beside its two axes.
+Map map_of(const FinishedRun& run, const std::string& x, const std::string& y, const std::string& z, bool diverging);
+
+/// A picture of the run under a title; says so where there is none.
+Figure snapshot_panel(const Material& material, const RunSet& runs, std::string title);
+
+/// Where y rises through `level`, interpolated linearly between neighbouring x, with the error that those of y give.
+/// Unknown if it does not. Points need not be in order.
+Quantity crossing(const Curve& curve, double level);
+
+/// The title of an axis that shows a key of the scene.
+std::string axis_of(const std::string& key);
+
+/// gnuplot: a thin line at y over the whole plot.
+std::string level_line(double y);
+
+}  // namespace shaken::client

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "client/paper/run_set.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "client/failure.h"
+#include "client/results.h"
+#include "run/files/atomic_file.h"
+#include "run/files/directory.h"
+
+namespace shaken::client {
+namespace {
+
+std::shared_ptr<const Json> read_json(const std::filesystem::path& file) {
+  const auto text = run::read_file(file);
+  if (!text) throw Failure(ExitCode::kFailed, text.error().message);
+  Json json = Json::parse(*text, nullptr, false);
+  if (!json.is_object()) throw Failure(ExitCode::kFailed, file.string() + " is no JSON object");
+  return std::make_shared<const Json>(std::move(json));
+}
+
+/// The member at a dotted path; null if there is none.
+const Json* find(const Json& json, const std::string& path) {
+  const Json* at = &json;
+  std::size_t begin = 0;
+  while (begin <= path.size()) {
+    const std::size_t end = std::min(path.find('.', begin), path.size());
+    const std::string key = path.substr(begin, end - begin);
+    if (!at->is_object() || !at->contains(key)) return nullptr;
+    at = &at->at(key);
+    begin = end + 1;
+  }
+  return at;
+}
+
+double number_or_nan(const Json* json) {
+  return json != nullptr && json->is_number() ? json->get<double>() : std::numeric_limits<double>::quiet_NaN();
+}
+
+bool same(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max({1.0, std::abs(a), std::abs(b)}); }
+
+}  // namespace
+
+bool Quantity::is_known() const { return std::isfinite(value); }
+
+FinishedRun::FinishedRun(std::filesystem::path directory) : directory_(std::move(directory)) {
+  const run::RunDirectory files{directory_};
+  scene_ = read_json(files.scene());
+  summary_ = read_json(files.summary());
+}
+
+double FinishedRun::number(const std::string& path) const { return number_or_nan(find(*scene_, path)); }
+
+Quantity FinishedRun::scalar(const std::string& name) const {
+  if (const Json* measured = find(*summary_, "measured"); measured != nullptr && measured->contains(name)) {
+    const Json& scalar = measured->at(name);
+    return {number_or_nan(find(scalar, "value")), number_or_nan(find(scalar, "sem"))};
+  }
+  Quantity quantity{number_or_nan(find(*summary_, name))};
+  if (name == "order.mean") quantity.sem = number_or_nan(find(*summary_, "order.sem"));
+  return quantity;
+}
+
+const std::vector<double>& FinishedRun::array(const std::string& path) const {
+  static const std::vector<double> kNone;
+  if (!observables_) {
+    auto read = run::read_observables(run::RunDirectory{directory_}.observables());
+    if (!read) throw Failure(ExitCode::kFailed, read.error().message);
+    observables_ = std::make_shared<const run::Observables>(*std::move(read));
+  }
+  const auto found = observables_->find(path);
+  return found == observables_->end() ? kNone : found->second;
+}
+
+bool is_finished(const std::filesystem::path& directory) {
+  const auto text = run::read_file(run::RunDirectory{directory}.summary());
+  if (!text) return false;
+  const Json summary = Json::parse(*text, nullptr, false);
+  const Json* state = find(summary, "exit.state");
+  return state != nullptr && *state == "done";
+}
+
+RunSet where(const RunSet& runs, const std::string& path, double value) {
+  RunSet chosen;
+  std::copy_if(runs.begin(), runs.end(), std::back_inserter(chosen),
+               [&](const FinishedRun& run) { return same(run.number(path), value); });
+  return chosen;
+}
+
+std::vector<double> values_of(const RunSet& runs, const std::string& path) {
+  std::vector<double> values;
+  for (const FinishedRun& run : runs) {
+    const double value = run.number(path);
+    if (std::isnan(value)) continue;
+    if (std::none_of(values.begin(), values.end(), [&](double known) { return same(known, value); })) {
+      values.push_back(value);
+    }
+  }
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
+Quantity mean_scalar(const RunSet& replicas, const std::string& name) {
+  std::vector<double> values;
+  double variances = 0;
+  for (const FinishedRun& run : replicas) {
+    const Quantity quantity = run.scalar(name);
+    if (!quantity.is_known()) continue;
+    values.push_back(quantity.value);
+    variances += quantity.sem * quantity.sem;  // NaN spreads: an unknown error makes that of the mean unknown
+  }
+  if (values.empty()) return {};
+  const MeanAndError mean = mean_and_error(values);
+  const double own = std::sqrt(variances) / static_cast<double>(values.size());
+  return {mean.mean, mean.sem ? std::fmax(*mean.sem, own) : own};
+}
+
+const RunSet& Library::operator[](const std::string& name) const {
+  static const RunSet kNone;
+  const auto found = sets_.find(name);
+  return found == sets_.end() ? kNone : found->second;
+}
+
+}  // namespace shaken::client

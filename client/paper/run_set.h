@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "client/json.h"
+#include "run/files/observables_file.h"
+
+namespace shaken::client {
+
+/// A measured number. NaN: the runs do not say.
+struct Quantity {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  double sem = std::numeric_limits<double>::quiet_NaN();  ///< standard error
+  bool is_known() const;
+};
+
+/// A run that is done, as its directory tells it. Files are read once, when they are first asked for.
+class FinishedRun {
+ public:
+  /// Throws Failure if the directory holds no scene and no summary.
+  explicit FinishedRun(std::filesystem::path directory);
+
+  const std::filesystem::path& directory() const { return directory_; }
+  /// A key of the resolved scene, "rods.length", in its default unit; NaN if it is not there or no number.
+  double number(const std::string& path) const;
+  /// A number of summary.json: "order.mean" (with its error), "cpu_seconds", or one of "measured".
+  Quantity scalar(const std::string& name) const;
+  /// An array of observables.h5; empty if it is not there.
+  const std::vector<double>& array(const std::string& path) const;
+
+ private:
+  std::filesystem::path directory_;
+  std::shared_ptr<const Json> scene_, summary_;
+  mutable std::shared_ptr<const run::Observables> observables_;
+};
+
+/// Whether `directory` holds a run that came to its end.
+bool is_finished(const std::filesystem::path& directory);
+
+using RunSet = std::vector<FinishedRun>;
+
+/// The runs whose scene has `value` at `path`, up to rounding.
+RunSet where(const RunSet& runs, const std::string& path, double value);
+/// The values that the runs have at `path`, rising, each once.
+std::vector<double> values_of(const RunSet& runs, const std::string& path);
+
+/// Mean of a scalar over replicas. Its error: of one run its own; of several the scatter between them, but not less
+/// than their own errors together give. Runs that do not know the scalar are left out.
+Quantity mean_scalar(const RunSet& replicas, const std::string& name);
+
+/// The finished runs of each sweep, by the sweep's name; one that has none is an empty set.
+class Library {
+ public:
+  void add(const std::string& name, RunSet runs) { sets_[name] = std::move(runs); }
+  const RunSet& operator[](const std::string& name) const;
+
+ private:
+  std::map<std::string, RunSet> sets_;
+};
+
+}  // namespace shaken::client

@@ -1,0 +1,406 @@
+// SPDX-License-Identifier: MIT
+#include "client/paper/figures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <memory>
+#include <set>
+
+#include "client/estimate.h"
+#include "client/interrupt.h"
+#include "client/own_daemon.h"
+#include "client/paper/claims.h"
+#include "client/print.h"
+#include "client/process.h"
+#include "client/scene_input.h"
+#include "client/target.h"
+#include "client/verbs/verbs.h"
+#include "run/files/atomic_file.h"
+#include "run/files/directory.h"
+
+namespace shaken::client {
+namespace {
+
+namespace fs = std::filesystem;
+using Align = Table::Align;
+using Clock = std::chrono::steady_clock;
+
+/// Between lines of progress where there is no terminal to redraw.
+constexpr std::chrono::minutes kQuiet{1};
+
+fs::path default_configs() {
+  if (const char* given = std::getenv("SHAKEN_CONFIGS"); given != nullptr && *given != '\0') return given;
+  if (fs::exists("configs/figures")) return "configs";
+  return SHAKEN_CONFIGS_DIR;
+}
+
+/// A sweep that figures are drawn from.
+struct NamedSweep {
+  std::string name;
+  SceneInput input;
+  scene::Sweep sweep;
+  std::optional<Target> target{};  ///< once the daemon knows it
+};
+
+double rod_seconds(const scene::Sweep& sweep) {
+  double sum = 0;
+  for (const scene::SweepPoint& point : sweep.points) sum += point.plan.system.n_all_rods() * point.plan.total_time();
+  return sum;
+}
+
+class Figures : public Verb {
+ public:
+  VerbInfo info() const override {
+    return {"figures", kResultsGroup, "The figures of Sharma & Soni (2024), and some beyond: runs, waits, draws",
+            "  shaken figures                        everything at laptop scale, into figures-laptop/\n"
+            "  shaken figures --list                 what there is, and the runs that each needs\n"
+            "  shaken figures 2 6 7                  the phase diagram and the layers\n"
+            "  shaken figures --scale tiny           seconds: to see that all is there\n"
+            "  shaken figures --scale paper --dry-run   what the paper's sizes would cost here\n"
+            "  shaken figures --draw-only            from the runs that are done, while others go on\n"
+            "Stop it at any time: the same command goes on where it stopped. `shaken watch` and `shaken status` work\n"
+            "meanwhile. Beside each PNG lie its data (.dat) and the script that draws it again (.gp)."};
+  }
+
+  void declare(Arguments& arguments) override {
+    arguments.list("FIGURE", ids_, "2 to 10, or a name of --list; all if left out", Names::kAnything, 0);
+    arguments.option("--scale", scale_, "tiny|laptop|paper", "Size of the runs; laptop if left out");
+    arguments.option("-o,--out", out_, "DIR", "Where to draw; figures-SCALE if left out", Names::kFolder);
+    arguments.option("--configs", configs_, "DIR", "Folder that holds figures/SCALE/*.json", Names::kFolder);
+    arguments.flag("--list", list_, "List the figures and the sweeps they need, and do nothing");
+    arguments.flag("--dry-run", dry_run_, "Check the sweeps and say what they would cost on this machine");
+    arguments.flag("--draw-only", draw_only_, "Queue nothing: draw from the runs that are done");
+    arguments.option("--report", report_, "FILE",
+                     "Put the table of claims between the marks in this Markdown file, as in docs/validation.md",
+                     Names::kFile);
+    arguments.flag("--json", json_, "Print what was made as JSON");
+  }
+
+  ExitCode run(const Context& context) override {
+    choose();
+    if (list_) return show_list(context.console);
+    load();
+    if (dry_run_) return show_cost(context.console);
+    if (out_.empty()) out_ = "figures-" + scale_;
+
+    runs_folder_ = context.root / "runs";
+    const InterruptGuard guard;
+    if (draw_only_) {
+      for (const PaperFigure* figure : chosen_) draw_one(*figure, context.console);
+      conclude(context.console);
+      return ExitCode::kOk;
+    }
+    const OwnDaemon daemon(context.root);
+    if (daemon.started_here()) {
+      context.console.err << fmt::format("shakend started for {}; it stops with this command\n", context.root.string());
+    }
+    Session session(context.root);
+    submit(session);
+    const bool complete = wait_and_draw(session, guard, context.console);
+    if (guard.interrupted()) {
+      context.console.err << "interrupted: the same command goes on from here\n";
+      return ExitCode::kFailed;
+    }
+    conclude(context.console);
+    return complete ? ExitCode::kOk : ExitCode::kFailed;
+  }
+
+ private:
+  /// The figures asked for, and their sweeps, in the order of all_sets().
+  void choose() {
+    static constexpr std::string_view kScales[] = {"tiny", "laptop", "paper"};
+    std::vector<std::string> problems;
+    if (std::find(std::begin(kScales), std::end(kScales), scale_) == std::end(kScales)) {
+      problems.push_back(fmt::format("--scale takes tiny, laptop or paper, not '{}'", scale_));
+    }
+    if (draw_only_ && dry_run_) problems.emplace_back("--draw-only and --dry-run exclude each other");
+    for (const std::string& id : ids_) {
+      const auto all = paper_figures();
+      if (std::none_of(all.begin(), all.end(), [&](const PaperFigure& figure) { return figure.id == id; })) {
+        problems.push_back(fmt::format("there is no figure '{}'", id));
+      }
+    }
+    if (!problems.empty()) {
+      std::string text;
+      for (const std::string& problem : problems) text += problem + "\n";
+      std::string names;
+      for (const PaperFigure& figure : paper_figures()) names += fmt::format(" {}", figure.id);
+      throw Failure(ExitCode::kBadInput, text + "figures:" + names);
+    }
+    std::set<std::string_view> needed;
+    for (const PaperFigure& figure : paper_figures()) {
+      if (!ids_.empty() && std::find(ids_.begin(), ids_.end(), figure.id) == ids_.end()) continue;
+      chosen_.push_back(&figure);
+      needed.insert(figure.sets.begin(), figure.sets.end());
+    }
+    for (const std::string_view set : all_sets()) {
+      if (needed.contains(set)) sweeps_.push_back({std::string(set), {}, {}});
+    }
+  }
+
+  fs::path folder() const { return (configs_.empty() ? default_configs() : fs::path(configs_)) / "figures" / scale_; }
+
+  void load() {
+    for (NamedSweep& sweep : sweeps_) {
+      sweep.input = read_scene_input((folder() / (sweep.name + ".json")).string());
+      sweep.sweep = load_points(sweep.input, {}, std::nullopt);
+    }
+  }
+
+  ExitCode show_list(Console& console) const {
+    if (json_) {
+      Json list = Json::array();
+      for (const PaperFigure* figure : chosen_) {
+        list.push_back({{"id", figure->id}, {"title", figure->title}, {"sweeps", figure->sets}});
+      }
+      console.out << list.dump(2) << "\n";
+      return ExitCode::kOk;
+    }
+    Table table({{"FIGURE"}, {"SHOWS"}, {"SWEEPS"}});
+    for (const PaperFigure* figure : chosen_) {
+      std::string sets;
+      for (const std::string_view set : figure->sets) sets += (sets.empty() ? "" : " ") + std::string(set);
+      table.add_row({std::string(figure->id), std::string(figure->title), sets});
+    }
+    console.out << table.text(console.width) << fmt::format("Sweeps: {}\n", folder().string());
+    return ExitCode::kOk;
+  }
+
+  ExitCode show_cost(Console& console) const {
+    Table table({{"SWEEP"}, {"RUNS", Align::kRight}, {"ROD-SECONDS", Align::kRight}, {"CPU"}, {"DISK"}});
+    Json list = Json::array();
+    double cpu = 0, disk = 0;
+    for (const NamedSweep& sweep : sweeps_) {
+      const Estimate estimate = estimate_cost(sweep.sweep, {});
+      const LevelCost& cost = estimate.levels.front();  // as written
+      cpu += cost.cpu.value_or(0);
+      disk += cost.disk.value_or(0);
+      table.add_row({sweep.name, std::to_string(sweep.sweep.points.size()), number_text(rod_seconds(sweep.sweep)),
+                     cost.cpu ? cpu_text(*cost.cpu) : "?", cost.disk ? bytes_text(*cost.disk) : "?"});
+      list.push_back({{"sweep", sweep.name},
+                      {"runs", sweep.sweep.points.size()},
+                      {"rod_seconds", rod_seconds(sweep.sweep)},
+                      {"cpu_seconds", cost.cpu ? Json(*cost.cpu) : Json()},
+                      {"disk_bytes", cost.disk ? Json(*cost.disk) : Json()}});
+    }
+    if (json_) {
+      console.out << Json{{"scale", scale_}, {"sweeps", list}, {"cpu_seconds", cpu}, {"disk_bytes", disk}}.dump(2)
+                  << "\n";
+    } else {
+      console.out << table.text(console.width)
+                  << fmt::format("together {} and {}: divide by the cores of this machine\n", cpu_text(cpu),
+                                 bytes_text(disk));
+    }
+    return ExitCode::kOk;
+  }
+
+  void submit(Session& session) {
+    for (NamedSweep& sweep : sweeps_) {
+      const Json answer = session.post(
+          "/v1/sweeps", {{"text", sweep.input.text}, {"file", sweep.input.file}, {"settings", Json::array()}});
+      sweep.target = find_target(session, answer.at("sweep").at("id").get<std::string>());
+    }
+  }
+
+  static bool has_ended(const NamedSweep& sweep) {
+    const std::vector<Json> jobs = jobs_of(*sweep.target);
+    return std::all_of(jobs.begin(), jobs.end(), [](const Json& job) { return is_final(text_of(job, "state")); });
+  }
+
+  bool can_be_drawn(const PaperFigure& figure) const {
+    return std::all_of(sweeps_.begin(), sweeps_.end(), [&](const NamedSweep& sweep) {
+      const bool needed = std::find(figure.sets.begin(), figure.sets.end(), sweep.name) != figure.sets.end();
+      return !needed || has_ended(sweep);
+    });
+  }
+
+  /// Draws each figure as soon as its runs have ended. False if a run has not come to its end.
+  bool wait_and_draw(Session& session, const InterruptGuard& guard, Console& console) {
+    std::vector<const PaperFigure*> left = chosen_;
+    Clock::time_point last_line{};
+    for (;;) {
+      for (auto figure = left.begin(); figure != left.end();) {
+        if (guard.interrupted()) return false;
+        if (can_be_drawn(**figure)) {
+          draw_one(**figure, console);
+          figure = left.erase(figure);
+        } else {
+          ++figure;
+        }
+      }
+      if (left.empty()) break;
+      show_progress(console, last_line);
+      guard.sleep_for(std::chrono::milliseconds(500));
+      if (guard.interrupted()) {
+        if (console.err_is_terminal) console.err << "\n";
+        return false;
+      }
+      for (NamedSweep& sweep : sweeps_) {
+        if (!has_ended(sweep)) refresh(session, *sweep.target);
+      }
+    }
+    bool complete = true;
+    for (const NamedSweep& sweep : sweeps_) {
+      for (const Json& job : jobs_of(*sweep.target)) {
+        if (text_of(job, "state") == "done") continue;
+        complete = false;
+        console.err << fmt::format("{} {} {}: {} {}\n", sweep.name, short_id(text_of(job, "id")), text_of(job, "label"),
+                                   text_of(job, "state"), text_of(job, "reason"));
+      }
+    }
+    return complete;
+  }
+
+  void show_progress(Console& console, Clock::time_point& last_line) const {
+    const bool quiet = !console.err_is_terminal;
+    if (quiet && Clock::now() - last_line < kQuiet) return;
+    last_line = Clock::now();
+    double done = 0, all = 0, eta = -1;
+    int n_ended = 0, n_jobs = 0;
+    for (const NamedSweep& sweep : sweeps_) {
+      const std::vector<Json> jobs = jobs_of(*sweep.target);
+      // what a run costs goes about with its rods and its time
+      for (std::size_t k = 0; k < std::min(jobs.size(), sweep.sweep.points.size()); ++k) {
+        const scene::RunPlan& plan = sweep.sweep.points[k].plan;
+        const double cost = plan.system.n_all_rods() * plan.total_time();
+        const bool ended = is_final(text_of(jobs[k], "state"));
+        all += cost;
+        done += cost * (ended ? 1.0 : job_fraction(jobs[k]));
+        n_ended += ended;
+        ++n_jobs;
+      }
+    }
+    const double elapsed = std::chrono::duration<double>(Clock::now() - begin_).count();
+    if (first_done_ < 0) first_done_ = done;
+    if (elapsed > 5 && done > first_done_) eta = (all - done) * elapsed / (done - first_done_);
+    const double fraction = all > 0 ? done / all : 1;
+    std::string line = fmt::format("{} {:3.0f} %  {}/{} runs", bar_text(fraction, 24), 100 * fraction, n_ended, n_jobs);
+    if (eta >= 0) {
+      const auto now =
+          std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch())
+              .count();
+      line += fmt::format("  ETA {} ({})", duration_text(eta), clock_text(eta, now));
+    }
+    if (quiet) {
+      console.err << line << std::endl;
+    } else {
+      console.err << "\r" << fitted(line, console.width > 0 ? static_cast<std::size_t>(console.width - 1) : 79)
+                  << "\x1b[K" << std::flush;
+    }
+  }
+
+  /// The runs of a sweep that are done, in its order.
+  RunSet done_runs(const NamedSweep& sweep) const {
+    RunSet set;
+    for (const scene::SweepPoint& point : sweep.sweep.points) {
+      const fs::path directory = runs_folder_ / derived_quantities(point).at("id").get<std::string>();
+      if (is_finished(directory)) set.emplace_back(directory);
+    }
+    return set;
+  }
+
+  Library library() const {
+    Library runs;
+    for (const NamedSweep& sweep : sweeps_) runs.add(sweep.name, done_runs(sweep));
+    return runs;
+  }
+
+  /// A picture of the run's last frame in OUT/pictures, drawn once.
+  fs::path snapshot(const FinishedRun& run) const {
+    if (!fs::exists(run::RunDirectory{run.directory()}.trajectory())) return {};
+    const fs::path folder = fs::absolute(out_) / "pictures";
+    const fs::path picture = folder / (run.directory().filename().string() + ".png");
+    if (fs::exists(picture)) return picture;
+    fs::create_directories(folder);
+    const ChildResult drawn =
+        run_captured({sibling_program("shaken-render").string(), "picture", run.directory().string(), "--frame", "last",
+                      "--size", "900x640", "-o", picture.string()});
+    return drawn.exit_code == 0 ? picture : fs::path();
+  }
+
+  void draw_one(const PaperFigure& figure, Console& console) {
+    if (console.err_is_terminal) console.err << "\r\x1b[K" << std::flush;
+    if (figure.draw == nullptr) return collect_films(console);
+    const Library runs = library();
+    Sheet sheet = figure.draw({runs, [this](const FinishedRun& run) { return snapshot(run); }});
+    sheet.name = std::string(figure.file);
+    if (sheet.panels.empty()) {
+      console.err << fmt::format("figure {}: no run is done yet\n", figure.id);
+      return;
+    }
+    tell(figure.id, client::draw(sheet, out_), console);
+  }
+
+  /// S1.mp4, S2.mp4, ... in the order of the sweep, and a picture of the end of each.
+  void collect_films(Console& console) {
+    const auto movies = std::find_if(sweeps_.begin(), sweeps_.end(), [](const auto& s) { return s.name == "movies"; });
+    const fs::path folder = fs::path(out_) / "movies";
+    fs::create_directories(folder);
+    for (std::size_t k = 0; k < movies->sweep.points.size(); ++k) {
+      const fs::path directory = runs_folder_ / derived_quantities(movies->sweep.points[k]).at("id").get<std::string>();
+      const run::RunDirectory files{directory};
+      if (!is_finished(directory) || !fs::exists(files.movie())) continue;
+      const std::string name = fmt::format("S{}", k + 1);
+      const fs::path film = folder / (name + ".mp4");
+      std::error_code error;
+      fs::copy_file(files.movie(), film, fs::copy_options::overwrite_existing, error);
+      if (error) {
+        console.err << fmt::format("{}: {}\n", film.string(), error.message());
+        continue;
+      }
+      if (const fs::path picture = snapshot(FinishedRun(directory)); !picture.empty()) {
+        fs::copy_file(picture, folder / (name + ".png"), fs::copy_options::overwrite_existing, error);
+      }
+      tell(name, film, console);
+    }
+  }
+
+  void tell(std::string_view id, const fs::path& file, Console& console) {
+    made_.push_back({{"figure", id}, {"file", file.string()}});
+    if (!json_) console.out << file.string() << std::endl;
+  }
+
+  /// The claims, from all runs at hand.
+  void conclude(Console& console) {
+    const Library runs = library();
+    const std::string table = claims_table(runs);
+    const auto save = [](const fs::path& file, const std::string& text) {
+      if (const auto error = run::write_file_atomically(file, text)) throw Failure(ExitCode::kFailed, error->message);
+    };
+    save(fs::path(out_) / "claims.md", table);
+    save(fs::path(out_) / "claims.json", claims_json(runs).dump(2) + "\n");
+    if (!report_.empty()) {
+      const auto text = run::read_file(report_);
+      if (!text) throw Failure(ExitCode::kBadInput, text.error().message);
+      save(report_, with_measured(*text, table));
+    }
+    if (json_) {
+      console.out << Json{{"scale", scale_}, {"made", made_}, {"claims", claims_json(runs)}}.dump(2) << "\n";
+    } else {
+      console.out << (fs::path(out_) / "claims.md").string() << "\n";
+    }
+  }
+
+  std::vector<std::string> ids_;
+  std::string scale_ = "laptop";
+  std::string out_;
+  std::string configs_;
+  std::string report_;
+  bool list_ = false, dry_run_ = false, draw_only_ = false, json_ = false;
+
+  fs::path runs_folder_;
+  std::vector<const PaperFigure*> chosen_;
+  std::vector<NamedSweep> sweeps_;
+  Json made_ = Json::array();
+  Clock::time_point begin_ = Clock::now();
+  mutable double first_done_ = -1;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_figures() { return std::make_unique<Figures>(); }
+
+}  // namespace shaken::client
