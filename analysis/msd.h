@@ -1,60 +1,72 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
+#include <array>
+#include <limits>
 #include <span>
+#include <string_view>
 #include <vector>
 
+#include "analysis/diffusion.h"
+#include "analysis/estimate.h"
+#include "analysis/lag_average.h"
 #include "analysis/state_io.h"
 #include "sim/core/types.h"
 
 namespace shaken::analysis {
 
-/// In-plane mean square displacements; all of shape (lags met so far).
-struct MsdCurve {
-  std::vector<double> lag;     ///< [s], rising
-  std::vector<double> total;   ///< [mm^2], = along + across
-  std::vector<double> along;   ///< along the nematic director at the origin time [mm^2]
-  std::vector<double> across;  ///< across it [mm^2]
+/// In-plane displacements of each rod between two samples, squared.
+struct DisplacementKernel {
+  static constexpr std::string_view kName = "MeanSquareDisplacement";
+  static constexpr std::size_t kColumns = 2;  // x, y unwrapped [mm]
+  /// Along and across the director at the origin time, of the rods and of their centre of mass [mm^2].
+  static constexpr std::size_t kQuantities = 4;
+  static constexpr bool kLagZero = false;
+  static LagPair<kQuantities> between(const LagFrame<kColumns>& origin, const LagFrame<kColumns>& later);
 };
 
-/// Mean square displacement against lag, while the run goes on. "Along" and "across" refer to the nematic director of
-/// all rods at the origin time, not to the single rod.
-/// Level k of `n_levels` keeps the last 8 of every 2^k-th sample and gives the lags (1..8 for k = 0, 5..8 else) 2^k:
-/// four an octave up to 8 * 2^(n_levels - 1) samples, exact, without averaging. Memory is at most 128 bytes per level
-/// and rod, however long the run.
+/// In-plane mean square displacements [mm^2]; all of shape (lags met so far).
+struct MsdCurve {
+  std::vector<double> lag;  ///< [s], rising
+  EstimateCurve total;      ///< = along + across
+  EstimateCurve along;      ///< along the nematic director at the origin time
+  EstimateCurve across;     ///< across it
+  /// The same of displacements less the mean displacement of all rods: without the drift of the whole. Of N independent
+  /// rods it is smaller by the factor 1 - 1/N; of one rod it is 0.
+  EstimateCurve relative_total, relative_along, relative_across;
+  EstimateCurve exponent;  ///< d ln total / d ln lag (see local_exponent)
+};
+
+/// What the mean square displacements come down to (see growth for the windows). MSD = 4 D t in the plane and 2 D t
+/// along one axis: D is a quarter of the slope of `total`, half the slope of `along` and `across`.
+struct Diffusion {
+  ShortAndLong total, along, across, relative;  ///< growth of the MSD [mm^2/s]; `relative` of relative_total
+  Estimate d_short, d_long;                     ///< in the plane [mm^2/s]
+  Estimate d_along, d_across;                   ///< at long lags [mm^2/s]
+  Estimate d_relative;                          ///< in the plane at long lags, without the drift of the whole [mm^2/s]
+};
+
+/// Mean square displacement against lag, while the run goes on, at the lags of LagAverage and in its memory (128 bytes
+/// per level and rod). "Along" and "across" refer to the nematic director of all rods at the origin time, not to the
+/// single rod. A position that is not finite spoils the lags that meet it, and no rods give no lags.
 class MeanSquareDisplacement {
  public:
   /// `interval`: time between successive accumulate calls [s].
-  explicit MeanSquareDisplacement(double interval, int n_levels = 16);
+  explicit MeanSquareDisplacement(double interval, int n_levels = 16) : average_(interval, n_levels) {}
 
-  /// Unwrapped centres (n_rods) [mm] and directors (n_rods); n_rods is the same in every call.
-  void accumulate(std::span<const Vec3> unwrapped, std::span<const Vec3> directors);
-  MsdCurve reduce() const;
-  void reset();
+  /// At `time` [s]: unwrapped centres (n_rods) [mm], and the angle of the nematic director [rad]; n_rods is the same in
+  /// every call.
+  void accumulate(double time, std::span<const Vec3> unwrapped, double director);
+  /// Of the origins from `t_steady` [s] on.
+  MsdCurve reduce(double t_steady = -std::numeric_limits<double>::max()) const;
+  Diffusion diffusion(double t_steady = -std::numeric_limits<double>::max()) const;
+  void reset() { average_.reset(); }
 
-  void save(StateWriter& writer) const;
-  void restore(StateReader& reader);
+  void save(StateWriter& writer) const { average_.save(writer); }
+  void restore(StateReader& reader) { average_.restore(reader); }
 
  private:
-  static constexpr int kFrames = 8;
-  /// One sample kept as an origin.
-  struct Frame {
-    std::vector<double> x, y;  // (n_rods) unwrapped [mm]
-    double director = 0;       // of all rods at that time [rad]
-  };
-  struct Level {
-    std::vector<Frame> frames;  // the last kFrames samples; sample f is at f % kFrames
-    std::int64_t n_frames = 0;  // taken so far
-  };
-  std::size_t n_rods() const { return calls_ == 0 ? 0 : levels_[0].frames[0].x.size(); }
-  void add(std::size_t k, const std::vector<double>& x, const std::vector<double>& y, double director);
-
-  double interval_;
-  std::vector<Level> levels_;
-  std::vector<double> along_, across_;  // (n_levels * kFrames) sums over origins of the mean over rods
-  std::vector<std::int64_t> origins_;   // (n_levels * kFrames)
-  std::int64_t calls_ = 0;
+  LagAverage<DisplacementKernel> average_;
 };
 
 }  // namespace shaken::analysis

@@ -431,6 +431,29 @@ std::vector<Field> make_table() {
   add(every(
       "measure.msd.every", "Time between samples: the shortest lag.", [](auto& p) -> auto& { return p.msd->every; }));
 
+  add(block("measure.rotation", false, "Rotation in the plane against lag: MSAD and C2(t).", &RunPlan::rotation));
+  add(every(
+      "measure.rotation.every", "Time between samples: the shortest lag. Rods turn by much less than a quarter turn.",
+      [](auto& p) -> auto& { return p.rotation->every; }));
+  add(block("measure.velocity", false, "Velocity autocorrelation C_v(t).", &RunPlan::velocity));
+  add(every(
+      "measure.velocity.every", "Time between samples: the shortest lag.",
+      [](auto& p) -> auto& { return p.velocity->every; }));
+  add(quantity(
+      "measure.velocity.window", kTime, 1e-7, 1e5,
+      "Velocities are displacements over this time; rounded to a multiple of `every`.",
+      [](auto& p) -> auto& { return p.velocity->window; }));
+  add(block("measure.rods", false, "Where single rods go, from the steady time on (from the start if it is \"auto\").",
+            &RunPlan::rods));
+  add(every(
+      "measure.rods.every", "Time between samples.", [](auto& p) -> auto& { return p.rods->every; }));
+  add(whole(
+      "measure.rods.count", 1, 1000, "Number of rods, spread evenly over their indices.",
+      [](auto& p) -> auto& { return p.rods->count; }));
+  add(quantity(
+      "measure.rods.duration", kTime, 1e-6, 1e7, "How long they are followed.",
+      [](auto& p) -> auto& { return p.rods->duration; }));
+
   add(block("trajectory", false, "Rod positions and directions into trajectory.h5.", &RunPlan::trajectory));
   add(every(
       "trajectory.every", "Time between frames.", [](auto& p) -> auto& { return p.trajectory->every; }));

@@ -440,6 +440,12 @@ class Resolver {
                  fmt::format("{} {} is shorter than time.step {}", field.path, time(every), time(system.dt)));
       }
     }
+    if (plan_.velocity && ok({"measure.velocity.every", "measure.velocity.window"}) &&
+        plan_.velocity->window < plan_.velocity->every) {
+      complain({"measure.velocity.window", "measure.velocity.every"},
+               fmt::format("measure.velocity.window {} is shorter than measure.velocity.every {}",
+                           time(plan_.velocity->window), time(plan_.velocity->every)));
+    }
     if (plan_.defects && ok({"rods.length", "measure.defects.smoothing", "measure.defects.grid"})) {
       if (!given("measure.defects.smoothing")) plan_.defects->smoothing = plan_.system.rod.length / 2;
       if (!given("measure.defects.grid")) plan_.defects->grid = plan_.system.rod.length / 8;

@@ -43,6 +43,24 @@ struct MeasureMsd {
   double every = 0.01;  ///< [s]
   friend bool operator==(const MeasureMsd&, const MeasureMsd&) = default;
 };
+/// Rotation in the plane against lag.
+struct MeasureRotation {
+  double every = 0.01;  ///< [s]
+  friend bool operator==(const MeasureRotation&, const MeasureRotation&) = default;
+};
+/// Autocorrelation of velocities averaged over a window.
+struct MeasureVelocity {
+  double every = 0.1;   ///< [s]
+  double window = 0.4;  ///< [s]
+  friend bool operator==(const MeasureVelocity&, const MeasureVelocity&) = default;
+};
+/// The ways of single rods.
+struct MeasureRods {
+  double every = 0.01;   ///< [s]
+  int count = 4;         ///< of rods
+  double duration = 30;  ///< [s]
+  friend bool operator==(const MeasureRods&, const MeasureRods&) = default;
+};
 /// Rod positions and directions into trajectory.h5.
 struct Trajectory {
   double every = 0.1;  ///< [s]
@@ -75,6 +93,9 @@ struct RunPlan {
   std::optional<MeasureDefects> defects;
   std::optional<MeasureG2> g2;
   std::optional<MeasureMsd> msd;
+  std::optional<MeasureRotation> rotation;
+  std::optional<MeasureVelocity> velocity;
+  std::optional<MeasureRods> rods;
   std::optional<Trajectory> trajectory;
   std::optional<Stream> stream;
   std::optional<Movie> movie;

@@ -15,10 +15,16 @@ namespace shaken::run {
 ///   /order/{time_s, order, director_rad}                     S(t) and the director's angle
 ///   /angles/{theta_rad, density_per_rad}                     P(theta) about the director, in the steady state
 ///   /tilt/{n_z, v_along_mm_s, v_along_sem_mm_s, v_across_mm_s, v_across_sem_mm_s, density}   against the tilt
+///   /tilt/folded/{n_z, v_along_mm_s, v_along_sem_mm_s}       for n_z > 0, with v(-n_z) = -v(n_z)
 ///   /defects/{time_s, n_plus, n_minus}                       defects at each sample
 ///   /defects/list/{time_s, x_mm, y_mm, charge, direction_rad}  every defect found
 ///   /g2/{r_mm, g2}                                           orientational correlation
 ///   /msd/{lag_s, total_mm2, along_mm2, across_mm2}           mean square displacement
+///   /msd/{relative_total_mm2, relative_along_mm2, relative_across_mm2}   without the drift of all rods together
+///   /msd/{NAME_sem_mm2, exponent, exponent_sem}              errors of these; d ln total / d ln lag
+///   /rotation/{lag_s, msad_rad2, msad_sem_rad2, c2, c2_sem}  mean square angular displacement, C_2(t)
+///   /velocity/{lag_s, c_v, c_v_sem, c_v_along, c_v_along_sem, c_v_across, c_v_across_sem}   C_v(t)
+///   /rods/trace/time_s, /rods/trace/K/{x_mm, y_mm, theta_rad, n_z}   where rod K of those kept goes
 using Observables = std::map<std::string, std::vector<double>>;
 
 [[nodiscard]] std::optional<Error> write_observables(const std::filesystem::path& file, const Observables& arrays);

@@ -9,9 +9,13 @@ using scene::RunPlan;
 /// A kind whose settings are the optional block `member` of the plan.
 template <auto member>
 constexpr MeasurementKind kind(std::string_view name, std::unique_ptr<Measurement> (*make)(const MeasureContext&),
-                               Growth growth = Growth::kBlocks) {
-  return {name, [](const RunPlan& plan) { return plan.*member ? std::optional((plan.*member)->every) : std::nullopt; },
-          [](RunPlan& plan) { (plan.*member).reset(); }, make, growth};
+                               Growth growth = Growth::kBlocks, double (*keeps_for)(const RunPlan&) = nullptr) {
+  return {name,
+          [](const RunPlan& plan) { return plan.*member ? std::optional((plan.*member)->every) : std::nullopt; },
+          [](RunPlan& plan) { (plan.*member).reset(); },
+          make,
+          growth,
+          keeps_for};
 }
 
 constexpr MeasurementKind kKinds[] = {
@@ -21,6 +25,9 @@ constexpr MeasurementKind kKinds[] = {
     kind<&RunPlan::defects>("defects", make_defects, Growth::kSeries),
     kind<&RunPlan::g2>("g2", make_g2),
     kind<&RunPlan::msd>("msd", make_msd, Growth::kLags),
+    kind<&RunPlan::rotation>("rotation", make_rotation, Growth::kLags),
+    kind<&RunPlan::velocity>("velocity", make_velocity, Growth::kLags),
+    kind<&RunPlan::rods>("rods", make_rods, Growth::kSeries, [](const RunPlan& plan) { return plan.rods->duration; }),
 };
 
 }  // namespace

@@ -24,6 +24,8 @@ struct MeasurementKind {
   void (*switch_off)(scene::RunPlan&);
   std::unique_ptr<Measurement> (*make)(const MeasureContext&);
   Growth growth;
+  /// Samples are kept for no longer than this [s]; null: for the whole run.
+  double (*keeps_for)(const scene::RunPlan&) = nullptr;
 };
 
 /// All of them, in the order in which they sample and are saved.
@@ -35,5 +37,8 @@ std::unique_ptr<Measurement> make_tilt(const MeasureContext& context);
 std::unique_ptr<Measurement> make_defects(const MeasureContext& context);
 std::unique_ptr<Measurement> make_g2(const MeasureContext& context);
 std::unique_ptr<Measurement> make_msd(const MeasureContext& context);
+std::unique_ptr<Measurement> make_rotation(const MeasureContext& context);
+std::unique_ptr<Measurement> make_velocity(const MeasureContext& context);
+std::unique_ptr<Measurement> make_rods(const MeasureContext& context);
 
 }  // namespace shaken::run

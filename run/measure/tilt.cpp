@@ -4,6 +4,8 @@
 #include <algorithm>
 
 #include "analysis/blocked.h"
+#include "analysis/tilt_summary.h"
+#include "run/measure/estimates.h"
 #include "run/measure/largest_tilt.h"
 #include "run/measure/registry.h"
 
@@ -23,6 +25,14 @@ class MeasuredTilt : public Measurement {
     result.arrays["/tilt/v_across_mm_s"] = curve.v_across;
     result.arrays["/tilt/v_across_sem_mm_s"] = curve.v_across_sem;
     result.arrays["/tilt/density"] = curve.density;
+    const analysis::FoldedTilt folded = analysis::fold_tilt(curve);
+    result.arrays["/tilt/folded/n_z"] = folded.n_z;
+    put(result, "/tilt/folded/v_along", "_mm_s", folded.v_along);
+    const analysis::TiltSummary summary = analysis::summarize_tilt(curve);
+    result.scalars["tilt_largest_velocity_mm_s"] = scalar(summary.v_largest);
+    result.scalars["tilt_largest_n_z"] = {summary.n_z_largest};
+    result.scalars["tilt_zero_n_z"] = {summary.n_z_zero};
+    result.scalars["tilt_zero_sigma"] = {summary.zero_sigma};
   }
   void save(analysis::StateWriter& writer) const override { tilt_.save(writer); }
   void restore(analysis::StateReader& reader) override { tilt_.restore(reader); }

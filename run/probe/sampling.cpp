@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "run/measurements.h"
@@ -21,6 +22,7 @@ struct Single {
   scene::RunPlan plan;
   double every = 0;  ///< [s]
   Growth growth = Growth::kSeries;
+  double keeps_for = std::numeric_limits<double>::infinity();  ///< [s]
 };
 
 std::vector<Single> measurements_of(const scene::RunPlan& plan) {
@@ -29,6 +31,7 @@ std::vector<Single> measurements_of(const scene::RunPlan& plan) {
     const std::optional<double> every = kind.every(plan);
     if (!every) continue;
     Single single{"measure_" + std::string(kind.name), plan, *every, kind.growth};
+    if (kind.keeps_for != nullptr) single.keeps_for = kind.keeps_for(plan);
     single.plan.steady = 0;  // from the first sample on
     for (const MeasurementKind& other : measurement_kinds()) {
       if (other.name != kind.name) other.switch_off(single.plan);
@@ -52,7 +55,7 @@ double blocks(std::int64_t samples) {
   return static_cast<double>(n);
 }
 
-/// Samples that are kept for lags to come: of each of 16 levels the last 8 of every 2^k-th (analysis/msd.h).
+/// Samples that are kept for lags to come: of each of 16 levels the last 8 of every 2^k-th (analysis/lag_average.h).
 double kept_for_lags(std::int64_t samples) {
   double kept = 0;
   for (int k = 0; k < 16; ++k) kept += static_cast<double>(std::min<std::int64_t>(8, (samples + (1 << k) - 1) >> k));
@@ -87,7 +90,8 @@ SamplingCost time_sampling(const scene::RunPlan& plan, const Species& species, c
     while (taken < 3 || (taken < most && thread_cpu_seconds() - begin < kCpu)) sample();
     samples.each = (thread_cpu_seconds() - begin) / static_cast<double>(taken - 1);
 
-    const double more = static_cast<double>(samples.count - taken);
+    const double kept = std::min(static_cast<double>(samples.count), single.keeps_for / single.every + 1);
+    const double more = std::max(0.0, kept - static_cast<double>(taken));
     const double state = static_cast<double>(measurements.save().size());
     const double per_sample = (state - first_bytes) / static_cast<double>(taken - 1);
     const Observables found = measurements.reduce(static_cast<double>(taken) * single.every).arrays;
@@ -101,8 +105,8 @@ SamplingCost time_sampling(const scene::RunPlan& plan, const Species& species, c
         cost.state_bytes += first_bytes + per_block * (blocks(samples.count) - 1);
         break;
       }
-      case Growth::kLags:  // the file has four numbers a lag, and four lags an octave: little
-        cost.state_bytes += kept_for_lags(samples.count) * 2 * 8 * plan.system.n_rods;
+      case Growth::kLags:  // the file has some numbers a lag, and four lags an octave: little
+        cost.state_bytes += state * kept_for_lags(samples.count) / kept_for_lags(taken);
         break;
     }
     arrays.insert(found.begin(), found.end());

@@ -3,50 +3,44 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/unit/analysis/samples.h"
 #include "tests/unit/analysis/state_checks.h"
+#include "tests/unit/analysis/walks.h"
 
 namespace shaken::analysis {
 namespace {
 
-using Frames = std::vector<std::vector<Vec3>>;
-
-/// Independent walks with steps of spread `along` and `across` an axis at `theta`.
-Frames walks(Draw& draw, std::size_t n_rods, std::size_t n_frames, double theta, double along, double across) {
-  Frames frames{std::vector<Vec3>(n_rods, Vec3::Zero())};
-  const Vec3 n(std::cos(theta), std::sin(theta), 0), m(-std::sin(theta), std::cos(theta), 0);
-  while (frames.size() < n_frames) {
-    std::vector<Vec3> next = frames.back();
-    for (Vec3& r : next) r += along * draw.normal() * n + across * draw.normal() * m;
-    frames.push_back(next);
+MeanSquareDisplacement msd_of(const Frames& frames, double director, double interval = 1.0, int n_levels = 16) {
+  MeanSquareDisplacement msd(interval, n_levels);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    msd.accumulate(static_cast<double>(i) * interval, frames[i], director);
   }
-  return frames;
+  return msd;
 }
 
 TEST(MeanSquareDisplacement, LagsAreFourAnOctave) {
-  MeanSquareDisplacement msd(0.5, 3);
-  const std::vector<Vec3> still(2, Vec3::Zero()), directors(2, axis(0));
-  EXPECT_TRUE(msd.reduce().lag.empty());
-  for (int i = 0; i < 100; ++i) msd.accumulate(still, directors);
-  EXPECT_EQ(msd.reduce().lag, (std::vector<double>{0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4, 5, 6, 7, 8, 10, 12, 14, 16}));
-  EXPECT_EQ(msd.reduce().total, std::vector<double>(16, 0.0));
+  EXPECT_TRUE(MeanSquareDisplacement(0.5, 3).reduce().lag.empty());
+  const MsdCurve curve = msd_of(Frames(100, std::vector<Vec3>(2, Vec3::Zero())), 0, 0.5, 3).reduce();
+  EXPECT_EQ(curve.lag, (std::vector<double>{0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4, 5, 6, 7, 8, 10, 12, 14, 16}));
+  EXPECT_EQ(curve.total.value, std::vector<double>(16, 0.0));
 }
 
 TEST(MeanSquareDisplacement, OfFlightIsTheSquareOfTheWay) {
-  MeanSquareDisplacement msd(0.1, 6);
   const double theta = 0.6;
+  Frames frames;
   for (int i = 0; i < 300; ++i) {
     // Far from the origin: sums of squares of whole positions would lose eight digits.
-    msd.accumulate(std::vector<Vec3>{{1e4 + 3.0 * 0.1 * i, 4.0 * 0.1 * i, 0}}, std::vector<Vec3>{axis(theta)});
+    frames.push_back({{1e4 + 3.0 * 0.1 * i, 4.0 * 0.1 * i, 0}});
   }
-  const MsdCurve curve = msd.reduce();
+  const MsdCurve curve = msd_of(frames, theta, 0.1, 6).reduce();
   const double along = 3 * std::cos(theta) + 4 * std::sin(theta), across = 4 * std::cos(theta) - 3 * std::sin(theta);
   ASSERT_EQ(curve.lag.size(), 8u + 5 * 4);
   for (std::size_t i = 0; i < curve.lag.size(); ++i) {
     const double t2 = curve.lag[i] * curve.lag[i];
-    EXPECT_NEAR(curve.total[i], 25 * t2, 1e-8 * t2);
-    EXPECT_NEAR(curve.along[i], along * along * t2, 1e-8 * t2);
-    EXPECT_NEAR(curve.across[i], across * across * t2, 1e-8 * t2);
+    EXPECT_NEAR(curve.total.value[i], 25 * t2, 1e-8 * t2);
+    EXPECT_NEAR(curve.along.value[i], along * along * t2, 1e-8 * t2);
+    EXPECT_NEAR(curve.across.value[i], across * across * t2, 1e-8 * t2);
+    EXPECT_NEAR(curve.relative_total.value[i], 0, 1e-8 * t2);
+    EXPECT_NEAR(curve.exponent.value[i], 2, 1e-8);
   }
 }
 
@@ -55,25 +49,31 @@ TEST(MeanSquareDisplacement, EqualsTheSumOverAllFrames) {
   constexpr double kTheta = -1.1;
   Draw draw(71);
   const Frames frames = walks(draw, 5, 200, kTheta, 1.0, 0.3);
-  MeanSquareDisplacement msd(1.0, 5);
-  for (const std::vector<Vec3>& frame : frames) msd.accumulate(frame, std::vector<Vec3>(5, axis(kTheta)));
-  const MsdCurve curve = msd.reduce();
+  const Vec3 n(std::cos(kTheta), std::sin(kTheta), 0), m(-std::sin(kTheta), std::cos(kTheta), 0);
+  const MsdCurve curve = msd_of(frames, kTheta, 1.0, 5).reduce();
+  ASSERT_EQ(curve.lag.size(), 8u + 4 * 4);
   for (std::size_t i = 0; i < curve.lag.size(); ++i) {
     const auto lag = static_cast<std::size_t>(curve.lag[i]);
-    std::size_t spacing = 1;
-    while (lag > 8 * spacing) spacing *= 2;
-    double along = 0, across = 0, n = 0;
-    for (std::size_t origin = 0; origin + lag < frames.size(); origin += spacing) {
+    double along = 0, across = 0, relative_along = 0, relative_across = 0, pairs = 0;
+    for (std::size_t origin = 0; origin + lag < frames.size(); origin += origin_spacing(lag)) {
+      Vec3 drift = Vec3::Zero();
+      for (std::size_t rod = 0; rod < 5; ++rod) drift += (frames[origin + lag][rod] - frames[origin][rod]) / 5;
       for (std::size_t rod = 0; rod < 5; ++rod) {
         const Vec3 d = frames[origin + lag][rod] - frames[origin][rod];
-        along += std::pow(d.x() * std::cos(kTheta) + d.y() * std::sin(kTheta), 2);
-        across += std::pow(d.y() * std::cos(kTheta) - d.x() * std::sin(kTheta), 2);
-        n += 1;
+        along += std::pow(d.dot(n), 2);
+        across += std::pow(d.dot(m), 2);
+        relative_along += std::pow((d - drift).dot(n), 2);
+        relative_across += std::pow((d - drift).dot(m), 2);
+        pairs += 1;
       }
     }
-    EXPECT_NEAR(curve.along[i], along / n, 1e-10 * along);
-    EXPECT_NEAR(curve.across[i], across / n, 1e-10 * along);
-    EXPECT_NEAR(curve.total[i], (along + across) / n, 1e-10 * along);
+    const double tolerance = 1e-12 * along;
+    EXPECT_NEAR(curve.along.value[i], along / pairs, tolerance);
+    EXPECT_NEAR(curve.across.value[i], across / pairs, tolerance);
+    EXPECT_NEAR(curve.total.value[i], (along + across) / pairs, tolerance);
+    EXPECT_NEAR(curve.relative_along.value[i], relative_along / pairs, tolerance);
+    EXPECT_NEAR(curve.relative_across.value[i], relative_across / pairs, tolerance);
+    EXPECT_NEAR(curve.relative_total.value[i], (relative_along + relative_across) / pairs, tolerance);
   }
 }
 
@@ -83,38 +83,109 @@ TEST(MeanSquareDisplacement, OfRandomWalksIsLinear) {
   constexpr std::size_t kRods = 1000;
   constexpr double kTheta = 0.8;
   Draw draw(72);
-  MeanSquareDisplacement msd(1.0);
-  for (const std::vector<Vec3>& frame : walks(draw, kRods, 300, kTheta, 1.0, 0.5)) {
-    msd.accumulate(frame, std::vector<Vec3>(kRods, axis(kTheta)));
-  }
-  const MsdCurve curve = msd.reduce();
+  const MsdCurve curve = msd_of(walks(draw, kRods, 300, kTheta, 1.0, 0.5), kTheta).reduce();
   for (std::size_t i = 0; i < curve.lag.size(); ++i) {
-    EXPECT_LT(std::abs(curve.along[i] / curve.lag[i] - 1.0) / std::sqrt(2.0 / kRods), 4.5);
-    EXPECT_LT(std::abs(curve.across[i] / curve.lag[i] / 0.25 - 1.0) / std::sqrt(2.0 / kRods), 4.5);
+    EXPECT_LT(std::abs(curve.along.value[i] / curve.lag[i] - 1.0) / std::sqrt(2.0 / kRods), 4.5);
+    EXPECT_LT(std::abs(curve.across.value[i] / curve.lag[i] / 0.25 - 1.0) / std::sqrt(2.0 / kRods), 4.5);
   }
 }
 
 TEST(MeanSquareDisplacement, RefersToTheDirectorAtTheOriginTime) {
   MeanSquareDisplacement msd(1.0);
-  msd.accumulate(std::vector<Vec3>{{0, 0, 0}}, std::vector<Vec3>{axis(0)});
-  msd.accumulate(std::vector<Vec3>{{2, 0, 0}}, std::vector<Vec3>{axis(kPi / 2)});
-  EXPECT_NEAR(msd.reduce().along[0], 4.0, 1e-14);
-  EXPECT_NEAR(msd.reduce().across[0], 0.0, 1e-14);
-  EXPECT_THROW(msd.accumulate(std::vector<Vec3>(2, Vec3::Zero()), std::vector<Vec3>(2, axis(0))), std::logic_error);
+  msd.accumulate(0, std::vector<Vec3>{{0, 0, 0}}, 0);
+  msd.accumulate(1, std::vector<Vec3>{{2, 0, 0}}, kPi / 2);
+  EXPECT_NEAR(msd.reduce().along.value[0], 4.0, 1e-14);
+  EXPECT_NEAR(msd.reduce().across.value[0], 0.0, 1e-14);
+  EXPECT_TRUE(std::isnan(msd.reduce().along.sem[0]));
+  EXPECT_THROW(msd.accumulate(2, std::vector<Vec3>(2, Vec3::Zero()), 0), std::logic_error);
+  EXPECT_THROW(msd.accumulate(3, std::vector<Vec3>(1, Vec3::Zero()), 0), std::logic_error) << "one was left out";
+}
+
+// A common drift of 0.1 a sample on walks with steps of 1 in each direction: over 64 samples it adds 41 to 128.
+// Without it N walkers leave 1 - 1/N.
+TEST(MeanSquareDisplacement, RelativeMotionIsFreeOfTheDriftOfTheWhole) {
+  Draw draw(74);
+  Frames still = walks(draw, 25, 2000, 0, 1.0, 1.0), drifting = still;
+  for (std::size_t i = 0; i < drifting.size(); ++i) {
+    for (Vec3& r : drifting[i]) r += 0.1 * static_cast<double>(i) * Vec3(0.6, 0.8, 0);
+  }
+  const MsdCurve a = msd_of(still, 0).reduce(), b = msd_of(drifting, 0).reduce();
+  for (std::size_t i = 0; i < a.lag.size() && a.lag[i] <= 64; ++i) {
+    EXPECT_NEAR(a.relative_total.value[i], b.relative_total.value[i], 1e-8 * a.lag[i]);
+    EXPECT_NEAR(a.relative_total.value[i] / a.total.value[i], 24.0 / 25, 0.03);
+    if (a.lag[i] == 64) {
+      EXPECT_GT(b.total.value[i], 1.25 * a.total.value[i]);
+    }
+  }
+}
+
+// "auto": the steady part is known only afterwards. Origins count from the next stretch on; here of 1000 samples in
+// stretches of 16 the origins from 512 on.
+TEST(MeanSquareDisplacement, CountsOriginsFromTheSteadyTimeOn) {
+  Draw draw(75);
+  Frames frames = walks(draw, 3, 1000, 0, 1.0, 1.0);
+  for (std::size_t i = 0; i < 500; ++i) frames[i][1] *= 100.0;  // wild before
+  const MsdCurve curve = msd_of(frames, 0).reduce(500);
+  ASSERT_GT(curve.lag.size(), 20u);
+  for (std::size_t i = 0; i < curve.lag.size(); ++i) {
+    const auto lag = static_cast<std::size_t>(curve.lag[i]), spacing = origin_spacing(lag);
+    double sum = 0, pairs = 0;
+    for (std::size_t origin = (512 + spacing - 1) / spacing * spacing; origin + lag < 1000; origin += spacing) {
+      for (std::size_t rod = 0; rod < 3; ++rod) sum += (frames[origin + lag][rod] - frames[origin][rod]).squaredNorm();
+      pairs += 3;
+    }
+    EXPECT_NEAR(curve.total.value[i], sum / pairs, 1e-12 * sum) << lag;
+  }
+}
+
+// Errors against the scatter of 300 repeated experiments; that of a ratio of two such is 6 %. At long lags ways
+// overlap: errors from stretches shorter than the lag would be half as large. 15 % of slack for that stretches still
+// share some of a way (7 %), and for the few that long lags leave.
+TEST(MeanSquareDisplacement, ErrorsAreTheScatterOfRepeatedExperiments) {
+  Draw draw(76);
+  constexpr int kRepeats = 300;
+  std::vector<double> squares, variances, lags;
+  for (int repeat = 0; repeat < kRepeats; ++repeat) {
+    const MsdCurve curve = msd_of(walks(draw, 4, 700, 0, 1.0, 1.0), 0).reduce();
+    squares.resize(curve.lag.size());
+    variances.resize(curve.lag.size());
+    lags = curve.lag;
+    for (std::size_t i = 0; i < curve.lag.size(); ++i) {
+      squares[i] += std::pow(curve.total.value[i] - 2 * curve.lag[i], 2);
+      variances[i] += std::pow(curve.total.sem[i], 2);
+    }
+  }
+  for (std::size_t i = 0; i < lags.size(); ++i) {
+    if (lags[i] <= 64) {
+      EXPECT_NEAR(std::sqrt(variances[i] / squares[i]), 1.0, 0.2) << lags[i];
+    }
+    if (lags[i] > 200) {
+      EXPECT_TRUE(std::isnan(variances[i])) << "too few stretches of twice the lag";
+    }
+  }
+}
+
+TEST(MeanSquareDisplacement, NothingAndOneRodDoNotCrash) {
+  const MeanSquareDisplacement none = msd_of(Frames(20), 0), one = msd_of(Frames(20, {Vec3(1, 2, 3)}), 0);
+  EXPECT_TRUE(none.reduce().lag.empty());
+  EXPECT_TRUE(std::isnan(none.diffusion().d_long.value));
+  EXPECT_EQ(one.reduce().total.value[0], 0.0);
+  EXPECT_TRUE(std::isnan(one.reduce().exponent.value[0]));
+  EXPECT_TRUE(one.reduce(1e9).lag.empty());
 }
 
 TEST(MeanSquareDisplacement, GoesOnBitwiseFromItsSavedState) {
   Draw draw(73);
-  const std::vector<Vec3> directors = random_axes(draw, 4);
   MeanSquareDisplacement straight(0.1, 4), stopped(0.1, 4);
   int i = 0;
   for (const std::vector<Vec3>& frame : walks(draw, 4, 90, 0.2, 1.0, 1.0)) {
-    straight.accumulate(frame, directors);
-    stopped.accumulate(frame, directors);
+    straight.accumulate(0.1 * i, frame, 0.1 * i);
+    stopped.accumulate(0.1 * i, frame, 0.1 * i);
     if (++i % 7 == 0) stop_and_go_on(stopped);
   }
   EXPECT_EQ(state(straight), state(stopped));
-  expect_every_truncation_found(stopped);
+  MeanSquareDisplacement small = msd_of(walks(draw, 2, 20, 0, 1, 1), 0, 1.0, 2);
+  expect_every_truncation_found(small);
   const std::vector<std::byte> bytes = state(straight);
   MeanSquareDisplacement of_other_interval(0.2, 4), of_other_levels(0.1, 5);
   StateReader first(bytes), second(bytes);

@@ -25,6 +25,9 @@ scene::RunPlan plan() {
   p.defects = scene::MeasureDefects{0.05, 0, 0};
   p.g2 = scene::MeasureG2{0.05, 20};
   p.msd = scene::MeasureMsd{0.01};
+  p.rotation = scene::MeasureRotation{0.01};
+  p.velocity = scene::MeasureVelocity{0.01, 0.03};
+  p.rods = scene::MeasureRods{0.005, 3, 0.02};
   return p;
 }
 
@@ -70,9 +73,15 @@ TEST(Cadence, IsDueAtMultiplesFromZero) {
 TEST(Measurements, EachKeepsItsOwnTime) {
   Measurements measurements(plan(), species());
   measure(measurements, 0, 10000);  // 0.1 s
-  EXPECT_EQ(measurements.counts(),
-            (std::map<std::string, std::int64_t>{
-                {"order", 11}, {"angles", 6}, {"tilt", 21}, {"defects", 3}, {"g2", 3}, {"msd", 11}}));
+  EXPECT_EQ(measurements.counts(), (std::map<std::string, std::int64_t>{{"order", 11},
+                                                                        {"angles", 6},
+                                                                        {"tilt", 21},
+                                                                        {"defects", 3},
+                                                                        {"g2", 3},
+                                                                        {"msd", 11},
+                                                                        {"rotation", 11},
+                                                                        {"velocity", 11},
+                                                                        {"rods", 21}}));
   const Reduction reduction = measurements.reduce(0.1);
   EXPECT_EQ(reduction.arrays.at("/order/time_s").size(), 11U);
   EXPECT_EQ(reduction.arrays.at("/defects/time_s").size(), 3U);
@@ -81,6 +90,13 @@ TEST(Measurements, EachKeepsItsOwnTime) {
   EXPECT_EQ(reduction.arrays.at("/g2/g2").size(), 20U);
   EXPECT_EQ(reduction.arrays.at("/g2/r_mm").back(), 9.75);  // bins over [0, L / 2)
   EXPECT_NEAR(reduction.arrays.at("/msd/lag_s").front(), 0.01, 1e-12);
+  EXPECT_EQ(reduction.arrays.at("/msd/total_sem_mm2").size(), reduction.arrays.at("/msd/lag_s").size());
+  EXPECT_EQ(reduction.arrays.at("/rotation/c2_sem").size(), reduction.arrays.at("/rotation/lag_s").size());
+  EXPECT_NEAR(reduction.arrays.at("/rotation/lag_s").back(), 0.1, 1e-12);
+  EXPECT_NEAR(reduction.arrays.at("/velocity/lag_s").back(), 0.07, 1e-12) << "the window ends at 0.1 s";
+  EXPECT_EQ(reduction.arrays.at("/velocity/c_v").front(), 1.0);
+  EXPECT_EQ(reduction.arrays.at("/rods/trace/time_s").size(), 5U) << "for 0.02 s";
+  EXPECT_EQ(reduction.arrays.at("/rods/trace/2/theta_rad").size(), 5U);
   EXPECT_EQ(reduction.arrays.at("/defects/list/x_mm").size(), reduction.arrays.at("/defects/list/charge").size());
 }
 
@@ -152,6 +168,39 @@ TEST(Measurements, DisplacementsCountCrossingsOfTheBorderFromTheSteadyTimeOn) {
     EXPECT_NEAR(reduction.arrays.at("/msd/across_mm2")[k], 0, 1e-9);
   }
   EXPECT_NEAR(reduction.arrays.at("/msd/lag_s").back(), 0.05, 1e-9);
+}
+
+// Where the steady state is found only afterwards, curves against lag are of the origins after it all the same: here
+// rods stand still up to 2 s, and then go at 30 mm/s and turn at 2 rad/s.
+TEST(Measurements, AnAutomaticSteadyStateHoldsForCurvesAgainstLag) {
+  scene::RunPlan p = plan();
+  p.steady.reset();
+  p.order.reset();  // half the run is steady
+  p.defects.reset();
+  p.g2.reset();
+  Measurements measurements(p, species());
+  for (Tick tick = 0; tick <= 400000; tick += 500) {
+    Snapshot s = random_snapshot(tick);
+    const double moving = std::max(0.0, s.time - 2.0);
+    for (std::size_t i = 0; i < s.n_rods(); ++i) {
+      s.position[i] = Vec3(30 * moving, 10, 0.6);
+      s.director[i] = Vec3(std::cos(2 * moving), std::sin(2 * moving), 0);
+    }
+    measurements.sample(s);
+  }
+  const Reduction reduction = measurements.reduce(4.0);
+  EXPECT_EQ(reduction.t_steady, 2.0);
+  ASSERT_GT(reduction.arrays.at("/msd/lag_s").size(), 20U);
+  for (std::size_t k = 0; k < reduction.arrays.at("/msd/lag_s").size(); ++k) {
+    const double lag = reduction.arrays.at("/msd/lag_s")[k];
+    EXPECT_NEAR(reduction.arrays.at("/msd/total_mm2")[k], 900 * lag * lag, 1e-8);
+    EXPECT_NEAR(reduction.arrays.at("/rotation/msad_rad2")[k], 4 * lag * lag, 1e-8);
+    EXPECT_NEAR(reduction.arrays.at("/rotation/c2")[k], std::cos(4 * lag), 1e-8);
+  }
+  EXPECT_NEAR(reduction.scalars.at("velocity_rms_mm_s").value, 30, 1e-8);
+  EXPECT_NEAR(reduction.scalars.at("alpha_long").value, 2, 1e-8);
+  EXPECT_EQ(reduction.scalars.at("large_turns").value, 0);
+  EXPECT_EQ(reduction.arrays.at("/rods/trace/time_s").front(), 0.0) << "they do not wait";
 }
 
 TEST(Measurements, SteadyStateIsGivenFoundOrHalfTheRun) {

@@ -46,9 +46,11 @@ nlohmann::json random_scene() {
   if (maybe()) scene["time"]["seed"] = *rc::gen::inRange<std::int64_t>(0, 9007199254740992);
   if (maybe()) {
     auto& measure = scene["measure"] = nlohmann::json::object();
-    for (const char* what : {"order", "angles", "tilt", "defects", "g2", "msd"}) {
+    for (const char* what : {"order", "angles", "tilt", "defects", "g2", "msd", "rotation", "rods"}) {
       if (maybe()) measure[what]["every"] = between(1e-5, 1);
     }
+    if (maybe()) measure["velocity"] = {{"every", between(1e-5, 0.3)}, {"window", between(0.3, 2)}};
+    if (maybe()) measure["rods"]["count"] = *rc::gen::inRange(1, 20);
     if (maybe()) measure["defects"]["smoothing"] = between(0.5, 5);
     if (maybe()) measure["tilt"]["bins"] = *rc::gen::inRange(2, 200);
   }

@@ -129,6 +129,9 @@ TEST(Problems, OfWallsAndPlates) {
 }
 
 TEST(Problems, TimesThatDoNotFitTogether) {
+  EXPECT_EQ(problem_of(R"({"measure": {"velocity": {"window": "50 ms"}}})"),
+            "run.json:1:37: /measure/velocity/window: measure.velocity.window 50 ms is shorter than "
+            "measure.velocity.every 100 ms");
   EXPECT_EQ(problem_of(R"({"measure": {"tilt": {"every": "3 us"}}})"),
             "run.json:1:32: /measure/tilt/every: measure.tilt.every 3 us is shorter than time.step 4 us");
   EXPECT_EQ(problem_of(R"({"plates": {"frequency": "20 kHz"}})"),

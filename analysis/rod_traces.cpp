@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/rod_traces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "analysis/steady.h"
+#include "sim/core/check.h"
+
+namespace shaken::analysis {
+
+RodTraces::RodTraces(int count, double duration)
+    : count_(static_cast<std::size_t>(std::max(count, 0))), duration_(duration) {
+  SHAKEN_CHECK(count >= 0 && duration >= 0.0, "some rods for some time");
+}
+
+void RodTraces::accumulate(double time, std::span<const Vec3> unwrapped, std::span<const Vec3> directors) {
+  SHAKEN_CHECK(unwrapped.size() == directors.size(), "one position for each director");
+  // The sample that is due at the end itself still belongs.
+  if (!times_.empty() && !is_steady(times_.front() + duration_, time)) return;
+  if (times_.empty()) traces_.resize(std::min(count_, unwrapped.size()));
+  SHAKEN_CHECK(traces_.size() == std::min(count_, unwrapped.size()), "as many rods as before");
+  times_.push_back(time);
+  for (std::size_t k = 0; k < traces_.size(); ++k) {
+    const std::size_t rod = k * unwrapped.size() / traces_.size();
+    const Vec3& n = directors[rod];
+    const bool upright = n.x() == 0.0 && n.y() == 0.0;
+    traces_[k].x.push_back(unwrapped[rod].x());
+    traces_[k].y.push_back(unwrapped[rod].y());
+    traces_[k].theta.push_back(upright ? std::numeric_limits<double>::quiet_NaN() : std::atan2(n.y(), n.x()));
+    traces_[k].n_z.push_back(n.z());
+  }
+}
+
+void RodTraces::reset() {
+  times_.clear();
+  traces_.clear();
+}
+
+void RodTraces::save(StateWriter& writer) const {
+  writer.tag("RodTraces");
+  writer.put(duration_);
+  writer.put(static_cast<std::int64_t>(count_));
+  writer.put(times_);
+  writer.put(static_cast<std::int64_t>(traces_.size()));
+  for (const RodTrace& trace : traces_) {
+    writer.put(trace.x);
+    writer.put(trace.y);
+    writer.put(trace.theta);
+    writer.put(trace.n_z);
+  }
+}
+
+void RodTraces::restore(StateReader& reader) {
+  reader.tag("RodTraces");
+  const auto count = static_cast<std::int64_t>(count_);
+  if (reader.real() != duration_ || reader.integer() != count) {
+    throw StateError("saved analysis state: RodTraces of another number or duration");
+  }
+  std::vector<double> times = reader.reals();
+  std::vector<RodTrace> traces(static_cast<std::size_t>(reader.integer(0, count)));
+  for (RodTrace& trace : traces) {
+    trace.x = reader.reals(times.size());
+    trace.y = reader.reals(times.size());
+    trace.theta = reader.reals(times.size());
+    trace.n_z = reader.reals(times.size());
+  }
+  times_ = std::move(times);
+  traces_ = std::move(traces);
+}
+
+}  // namespace shaken::analysis

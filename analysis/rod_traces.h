@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "analysis/state_io.h"
+#include "sim/core/types.h"
+
+namespace shaken::analysis {
+
+/// The way of one rod; all of shape (samples).
+struct RodTrace {
+  std::vector<double> x, y;   ///< unwrapped centre [mm]
+  std::vector<double> theta;  ///< in-plane angle of the director with its label, in (-pi, pi] [rad]; NaN if upright
+  std::vector<double> n_z;    ///< vertical component of the director
+};
+
+/// Where some rods go, sample by sample, from the first one on for a given time and no longer: 32 bytes a sample and
+/// rod. Of n_rods rods, numbers k n_rods / count are kept, k = 0 .. count - 1; all if there are not more.
+class RodTraces {
+ public:
+  /// `count` rods for `duration` [s].
+  RodTraces(int count, double duration);
+
+  /// At `time` [s]: unwrapped centres (n_rods) [mm] and directors (n_rods); n_rods is the same in every call.
+  void accumulate(double time, std::span<const Vec3> unwrapped, std::span<const Vec3> directors);
+  const std::vector<double>& times() const { return times_; }      ///< (samples) [s]
+  const std::vector<RodTrace>& traces() const { return traces_; }  ///< (rods kept)
+  void reset();
+
+  void save(StateWriter& writer) const;
+  void restore(StateReader& reader);
+
+ private:
+  std::size_t count_;
+  double duration_;
+  std::vector<double> times_;
+  std::vector<RodTrace> traces_;
+};
+
+}  // namespace shaken::analysis

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/velocity_correlation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "analysis/decay.h"
+#include "sim/core/check.h"
+
+namespace shaken::analysis {
+namespace {
+
+// Weights of the kernel's quantities.
+constexpr double kTotal[] = {1, 1};
+constexpr double kAlong[] = {1, 0};
+constexpr double kAcross[] = {0, 1};
+
+double product(const LagCurve& curve, std::span<const double> weights, std::size_t lag) {
+  return weights[0] * curve.mean(0, lag) + weights[1] * curve.mean(1, lag);
+}
+
+/// Change of a result with the correlation at one lag.
+struct Derivative {
+  std::size_t lag = 0;
+  double of_result = 0;
+};
+
+/// The error to first order of a result made of correlations, which are ratios of means.
+double sem_of(const LagCurve& curve, std::span<const double> weights, std::span<const Derivative> derivatives) {
+  const double square = product(curve, weights, 0);
+  std::vector<LagTerm> terms;
+  double by_square = 0;
+  for (const Derivative& d : derivatives) {
+    for (std::size_t q = 0; q < weights.size(); ++q) terms.push_back({q, d.lag, d.of_result * weights[q] / square});
+    by_square -= d.of_result * product(curve, weights, d.lag) / square / square;
+  }
+  for (std::size_t q = 0; q < weights.size(); ++q) terms.push_back({q, 0, by_square * weights[q]});
+  return curve.sem(terms);
+}
+
+EstimateCurve correlation(const LagCurve& curve, std::span<const double> weights) {
+  EstimateCurve result;
+  for (std::size_t lag = 0; lag < curve.lags().size(); ++lag) {
+    const Derivative itself{lag, 1.0};
+    result.push_back({product(curve, weights, lag) / product(curve, weights, 0), sem_of(curve, weights, {&itself, 1})});
+  }
+  return result;
+}
+
+/// Integral of C_v up to its first zero.
+Estimate integral_to_zero(const LagCurve& curve) {
+  const std::vector<double>& lags = curve.lags();
+  std::vector<Derivative> derivatives;
+  double sum = 0;
+  for (std::size_t i = 0; i + 1 < lags.size(); ++i) {
+    const double width = lags[i + 1] - lags[i];
+    const double here = product(curve, kTotal, i) / product(curve, kTotal, 0);
+    const double next = product(curve, kTotal, i + 1) / product(curve, kTotal, 0);
+    if (next <= 0) {  // a triangle of height `here` is left
+      const double drop = here - next;
+      sum += width * here * here / drop / 2;
+      derivatives.push_back({i, width * here * (here - 2 * next) / (drop * drop) / 2});
+      derivatives.push_back({i + 1, width * here * here / (drop * drop) / 2});
+      return {sum, sem_of(curve, kTotal, derivatives)};
+    }
+    sum += width * (here + next) / 2;
+    derivatives.push_back({i, width / 2});
+    derivatives.push_back({i + 1, width / 2});
+  }
+  return {};
+}
+
+}  // namespace
+
+LagPair<VelocityKernel::kQuantities> VelocityKernel::between(const LagFrame<kColumns>& origin,
+                                                             const LagFrame<kColumns>& later) {
+  const auto& [x0, y0] = origin.column;
+  const auto& [x1, y1] = later.column;
+  const double c = std::cos(origin.director);
+  const double s = std::sin(origin.director);
+  LagPair<kQuantities> pair;
+  pair.rods = static_cast<double>(x0.size());
+  for (std::size_t i = 0; i < x0.size(); ++i) {
+    pair.sums[0] += (c * x0[i] + s * y0[i]) * (c * x1[i] + s * y1[i]);
+    pair.sums[1] += (c * y0[i] - s * x0[i]) * (c * y1[i] - s * x1[i]);
+  }
+  return pair;
+}
+
+VelocityCorrelation::VelocityCorrelation(double interval, double window, int n_levels)
+    : steps_(static_cast<std::size_t>(std::max<long>(1, std::lround(window / interval)))),
+      average_(interval, n_levels) {
+  SHAKEN_CHECK(window > 0.0, "a velocity is averaged over some time");
+}
+
+void VelocityCorrelation::accumulate(double time, std::span<const Vec3> unwrapped, double director) {
+  Places now{time, {}};
+  now.frame.director = director;
+  for (std::vector<double>& column : now.frame.column) column.resize(unwrapped.size());
+  for (std::size_t i = 0; i < unwrapped.size(); ++i) {
+    now.frame.column[0][i] = unwrapped[i].x();
+    now.frame.column[1][i] = unwrapped[i].y();
+  }
+  if (!places_.empty()) {
+    SHAKEN_CHECK(places_.back().frame.column[0].size() == unwrapped.size(), "as many rods as before");
+  }
+  if (places_.size() == steps_) {
+    Places then = std::move(places_.front());
+    places_.erase(places_.begin());
+    const double window = static_cast<double>(steps_) * average_.interval();
+    for (std::size_t k = 0; k < 2; ++k) {
+      std::vector<double>& v = then.frame.column[k];
+      for (std::size_t i = 0; i < v.size(); ++i) v[i] = (now.frame.column[k][i] - v[i]) / window;
+    }
+    average_.accumulate(then.time, std::move(then.frame));
+  }
+  places_.push_back(std::move(now));
+}
+
+VelocityCurve VelocityCorrelation::reduce(double t_steady) const {
+  const LagCurve curve = average_.after(t_steady);
+  return {curve.lags(), correlation(curve, kTotal), correlation(curve, kAlong), correlation(curve, kAcross)};
+}
+
+VelocitySummary VelocityCorrelation::summarize(double t_steady) const {
+  const LagCurve curve = average_.after(t_steady);
+  VelocitySummary summary;
+  if (curve.lags().empty()) return summary;
+  summary.correlation_time = integral_to_zero(curve);
+  summary.decay_time = decay_time(curve.lags(), correlation(curve, kTotal));
+  const LagTerm square[] = {{0, 0, 1.0}, {1, 0, 1.0}};
+  summary.mean_square = {product(curve, kTotal, 0), curve.sem(square)};
+  return summary;
+}
+
+void VelocityCorrelation::reset() {
+  places_.clear();
+  average_.reset();
+}
+
+void VelocityCorrelation::save(StateWriter& writer) const {
+  writer.put(static_cast<std::int64_t>(steps_));
+  writer.put(static_cast<std::int64_t>(places_.size()));
+  for (const Places& places : places_) {
+    writer.put(places.time);
+    writer.put(places.frame.column[0]);
+    writer.put(places.frame.column[1]);
+    writer.put(places.frame.director);
+  }
+  average_.save(writer);
+}
+
+void VelocityCorrelation::restore(StateReader& reader) {
+  const auto steps = static_cast<std::int64_t>(steps_);
+  if (reader.integer() != steps) throw StateError("saved analysis state: VelocityCorrelation of another window");
+  std::vector<Places> saved(static_cast<std::size_t>(reader.integer(0, steps)));
+  for (Places& places : saved) {
+    places.time = reader.real();
+    places.frame.column[0] = reader.reals();
+    places.frame.column[1] = reader.reals(places.frame.column[0].size());
+    places.frame.director = reader.real();
+  }
+  average_.restore(reader);
+  places_ = std::move(saved);
+}
+
+}  // namespace shaken::analysis

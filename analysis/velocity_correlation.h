@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "analysis/estimate.h"
+#include "analysis/lag_average.h"
+#include "analysis/state_io.h"
+#include "sim/core/types.h"
+
+namespace shaken::analysis {
+
+/// Products of the velocities of each rod in two samples.
+struct VelocityKernel {
+  static constexpr std::string_view kName = "VelocityCorrelation";
+  static constexpr std::size_t kColumns = 2;     // v_x, v_y [mm/s]
+  static constexpr std::size_t kQuantities = 2;  // along and across the director at the origin time [mm^2/s^2]
+  static constexpr bool kLagZero = true;
+  static LagPair<kQuantities> between(const LagFrame<kColumns>& origin, const LagFrame<kColumns>& later);
+};
+
+/// Velocity autocorrelation against lag; all of shape (lags met so far), lag 0 included. 1 at lag 0; NaN where nothing
+/// moves.
+struct VelocityCurve {
+  std::vector<double> lag;  ///< [s], rising from 0
+  EstimateCurve c_v;        ///< <v(t0) . v(t0 + t)> / <v^2>, in the plane
+  EstimateCurve along;      ///< of the component along the nematic director at t0, over its own mean square
+  EstimateCurve across;     ///< of the component across it
+};
+
+struct VelocitySummary {
+  Estimate correlation_time;  ///< integral of C_v (trapezia) up to its first zero [s]; NaN if it has none
+  Estimate decay_time;        ///< at which C_v falls to 1/e (see decay_time) [s]; NaN if it does not
+  Estimate mean_square;       ///< <v^2> of the averaged velocity, in the plane [mm^2/s^2]
+};
+
+/// Autocorrelation of velocities averaged over a window, v(t) = (r(t + window) - r(t)) / window, as Sharma & Soni 2024
+/// average over 400 ms; at the lags of LagAverage and in 128 bytes per level and rod, and the positions of one window.
+/// Averaging leaves its mark: of a random walk C_v(t) = 1 - t / window up to the window, where it falls to 0.
+class VelocityCorrelation {
+ public:
+  /// `interval`: time between successive accumulate calls [s]. The window is rounded to a multiple of it, at least one.
+  VelocityCorrelation(double interval, double window, int n_levels = 16);
+
+  /// At `time` [s]: unwrapped centres (n_rods) [mm], and the angle of the nematic director [rad]; n_rods is the same in
+  /// every call.
+  void accumulate(double time, std::span<const Vec3> unwrapped, double director);
+  /// Of the origins t0 from `t_steady` [s] on.
+  VelocityCurve reduce(double t_steady = -std::numeric_limits<double>::max()) const;
+  VelocitySummary summarize(double t_steady = -std::numeric_limits<double>::max()) const;
+  void reset();
+
+  void save(StateWriter& writer) const;
+  void restore(StateReader& reader);
+
+ private:
+  struct Places {
+    double time = 0;
+    LagFrame<2> frame;  // x, y unwrapped [mm]
+  };
+
+  std::size_t steps_;           // of a window
+  std::vector<Places> places_;  // the last up to steps_ samples, oldest first
+  LagAverage<VelocityKernel> average_;
+};
+
+}  // namespace shaken::analysis

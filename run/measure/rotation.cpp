@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/rotation.h"
+
+#include <optional>
+
+#include "analysis/steady.h"
+#include "run/measure/estimates.h"
+#include "run/measure/registry.h"
+
+namespace shaken::run {
+namespace {
+
+class MeasuredRotation : public Measurement {
+ public:
+  MeasuredRotation(double interval, std::optional<double> steady) : steady_(steady), rotation_(interval) {}
+
+  void sample(const Moment& moment) override {
+    if (!analysis::is_steady(moment->time, steady_.value_or(0.0))) return;
+    rotation_.accumulate(moment->time, moment->director);
+  }
+  void reduce(Reduction& result) const override {
+    const double from = steady_.value_or(result.t_steady);
+    const analysis::RotationCurve curve = rotation_.reduce(from);
+    result.arrays["/rotation/lag_s"] = curve.lag;
+    put(result, "/rotation/msad", "_rad2", curve.msad);
+    put(result, "/rotation/c2", "", curve.c2);
+    const analysis::RotationSummary summary = rotation_.summarize(from);
+    result.scalars["rotational_diffusion_rad2_s"] = scalar(summary.d_r);
+    result.scalars["alpha_rotation_short"] = scalar(summary.growth.at_short.exponent);
+    result.scalars["alpha_rotation_long"] = scalar(summary.growth.at_long.exponent);
+    result.scalars["c2_plateau"] = scalar(summary.c2_plateau);
+    result.scalars["c2_decay_time_s"] = scalar(summary.c2_decay_time);
+    result.scalars["large_turns"] = {summary.large_turns};
+    result.scalars["rotation_lag_from_s"] = {summary.growth.at_long.lag_from};
+    result.scalars["rotation_lag_to_s"] = {summary.growth.at_long.lag_to};
+    result.scalars["rotation_short_lag_from_s"] = {summary.growth.at_short.lag_from};
+    result.scalars["rotation_short_lag_to_s"] = {summary.growth.at_short.lag_to};
+  }
+  void save(analysis::StateWriter& writer) const override { rotation_.save(writer); }
+  void restore(analysis::StateReader& reader) override { rotation_.restore(reader); }
+
+ private:
+  std::optional<double> steady_;  ///< [s]; given, it leaves out what is before, or else the reduction does
+  analysis::Rotation rotation_;
+};
+
+}  // namespace
+
+std::unique_ptr<Measurement> make_rotation(const MeasureContext& context) {
+  return std::make_unique<MeasuredRotation>(context.interval, context.plan.steady);
+}
+
+}  // namespace shaken::run

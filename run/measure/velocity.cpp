@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <optional>
+
+#include "analysis/steady.h"
+#include "analysis/velocity_correlation.h"
+#include "run/measure/estimates.h"
+#include "run/measure/registry.h"
+
+namespace shaken::run {
+namespace {
+
+class MeasuredVelocity : public Measurement {
+ public:
+  MeasuredVelocity(double interval, double window, std::optional<double> steady)
+      : steady_(steady), velocity_(interval, window) {}
+
+  void sample(const Moment& moment) override {
+    if (!analysis::is_steady(moment->time, steady_.value_or(0.0))) return;
+    velocity_.accumulate(moment->time, moment.unwrapped(), moment.order().director);
+  }
+  void reduce(Reduction& result) const override {
+    const double from = steady_.value_or(result.t_steady);
+    const analysis::VelocityCurve curve = velocity_.reduce(from);
+    result.arrays["/velocity/lag_s"] = curve.lag;
+    put(result, "/velocity/c_v", "", curve.c_v);
+    put(result, "/velocity/c_v_along", "", curve.along);
+    put(result, "/velocity/c_v_across", "", curve.across);
+    const analysis::VelocitySummary summary = velocity_.summarize(from);
+    result.scalars["velocity_correlation_time_s"] = scalar(summary.correlation_time);
+    result.scalars["velocity_decay_time_s"] = scalar(summary.decay_time);
+    const double rms = std::sqrt(summary.mean_square.value);
+    result.scalars["velocity_rms_mm_s"] = {rms, summary.mean_square.sem / (2 * rms)};
+  }
+  void save(analysis::StateWriter& writer) const override { velocity_.save(writer); }
+  void restore(analysis::StateReader& reader) override { velocity_.restore(reader); }
+
+ private:
+  std::optional<double> steady_;  ///< [s]; given, it leaves out what is before, or else the reduction does
+  analysis::VelocityCorrelation velocity_;
+};
+
+}  // namespace
+
+std::unique_ptr<Measurement> make_velocity(const MeasureContext& context) {
+  return std::make_unique<MeasuredVelocity>(context.interval, context.plan.velocity->window, context.plan.steady);
+}
+
+}  // namespace shaken::run

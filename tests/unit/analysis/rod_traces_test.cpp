@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/rod_traces.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/analysis/samples.h"
+#include "tests/unit/analysis/state_checks.h"
+
+namespace shaken::analysis {
+namespace {
+
+/// Rod i at (i, 2 i + time), angle 0.1 i - 1.
+void sample(RodTraces& traces, double time, std::size_t n_rods) {
+  std::vector<Vec3> places, directors;
+  for (std::size_t i = 0; i < n_rods; ++i) {
+    const auto x = static_cast<double>(i);
+    places.push_back({x, 2 * x + time, 0.5});
+    directors.push_back(axis(0.1 * x - 1, 0.01 * x));
+  }
+  traces.accumulate(time, places, directors);
+}
+
+TEST(RodTraces, KeepsRodsSpreadOverTheIndicesForTheDuration) {
+  RodTraces traces(4, 0.3);
+  for (int i = 7; i < 30; ++i) sample(traces, 0.1 * i, 21);
+  ASSERT_EQ(traces.times().size(), 4u) << "begin and end included";
+  EXPECT_DOUBLE_EQ(traces.times().front(), 0.7);
+  EXPECT_DOUBLE_EQ(traces.times().back(), 1.0);
+  ASSERT_EQ(traces.traces().size(), 4u);
+  const double rods[] = {0, 5, 10, 15};
+  for (std::size_t k = 0; k < 4; ++k) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_EQ(traces.traces()[k].x.at(i), rods[k]);
+      EXPECT_EQ(traces.traces()[k].y.at(i), 2 * rods[k] + traces.times()[i]);
+      EXPECT_NEAR(traces.traces()[k].theta.at(i), 0.1 * rods[k] - 1, 1e-12);
+      EXPECT_EQ(traces.traces()[k].n_z.at(i), 0.01 * rods[k]);
+    }
+  }
+}
+
+TEST(RodTraces, FewAndUprightRods) {
+  RodTraces traces(4, 10);
+  traces.accumulate(0, std::vector<Vec3>(2, Vec3::Zero()), std::vector<Vec3>{{0, 0, 1}, {-1, 0, 0}});
+  ASSERT_EQ(traces.traces().size(), 2u);
+  EXPECT_TRUE(std::isnan(traces.traces()[0].theta[0]));
+  EXPECT_EQ(traces.traces()[0].n_z[0], 1.0);
+  EXPECT_DOUBLE_EQ(traces.traces()[1].theta[0], kPi);
+  EXPECT_THROW(sample(traces, 1, 3), std::logic_error);
+  RodTraces none(4, 10);
+  sample(none, 0, 0);
+  EXPECT_TRUE(none.traces().empty());
+}
+
+TEST(RodTraces, GoesOnBitwiseFromItsSavedState) {
+  RodTraces straight(3, 2.0), stopped(3, 2.0);
+  for (int i = 0; i < 40; ++i) {
+    sample(straight, 0.1 * i, 9);
+    sample(stopped, 0.1 * i, 9);
+    if (i % 7 == 0) stop_and_go_on(stopped);
+  }
+  EXPECT_EQ(state(straight), state(stopped));
+  EXPECT_EQ(straight.times().size(), 21u);
+  expect_every_truncation_found(stopped);
+  const std::vector<std::byte> bytes = state(straight);
+  RodTraces other(4, 2.0);
+  StateReader reader(bytes);
+  EXPECT_THROW(other.restore(reader), StateError);
+}
+
+}  // namespace
+}  // namespace shaken::analysis

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "tests/unit/analysis/samples.h"
+
+namespace shaken::analysis {
+
+/// Positions of all rods, sample by sample.
+using Frames = std::vector<std::vector<Vec3>>;
+
+/// Independent walks with steps of spread `along` and `across` an axis at `theta`.
+inline Frames walks(Draw& draw, std::size_t n_rods, std::size_t n_frames, double theta, double along, double across) {
+  Frames frames{std::vector<Vec3>(n_rods, Vec3::Zero())};
+  const Vec3 n(std::cos(theta), std::sin(theta), 0), m(-std::sin(theta), std::cos(theta), 0);
+  while (frames.size() < n_frames) {
+    std::vector<Vec3> next = frames.back();
+    for (Vec3& r : next) r += along * draw.normal() * n + across * draw.normal() * m;
+    frames.push_back(next);
+  }
+  return frames;
+}
+
+/// The spacing of the origins that a lag [samples] of LagAverage uses.
+inline std::size_t origin_spacing(std::size_t lag) {
+  std::size_t spacing = 1;
+  while (lag > 8 * spacing) spacing *= 2;
+  return spacing;
+}
+
+}  // namespace shaken::analysis
