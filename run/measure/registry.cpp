@@ -21,6 +21,8 @@ constexpr MeasurementKind kKinds[] = {
     kind<&RunPlan::defects>("defects", make_defects, Growth::kSeries),
     kind<&RunPlan::g2>("g2", make_g2),
     kind<&RunPlan::msd>("msd", make_msd, Growth::kLags),
+    kind<&RunPlan::fluctuations>("fluctuations", make_fluctuations),
+    kind<&RunPlan::frank>("frank", make_frank),
 };
 
 }  // namespace
