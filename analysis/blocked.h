@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -39,6 +41,20 @@ class Blocked {
     }
     return sum;
   }
+  /// What after() adds up, in order of time, as at most `most` parts of the same number of stretches (the last one may
+  /// be shorter): blocks for the errors of what is made of them.
+  std::vector<Accumulator> parts_after(double t_steady, std::size_t most) const {
+    std::size_t first = 0;
+    while (first < blocks_.size() && !is_steady(blocks_[first].start, t_steady)) ++first;
+    const std::size_t length = std::max<std::size_t>(1, (blocks_.size() - first + most - 1) / most);
+    std::vector<Accumulator> parts;
+    for (std::size_t i = first; i < blocks_.size(); ++i) {
+      if ((i - first) % length == 0) parts.push_back(empty_);
+      parts.back().merge(blocks_[i].content);
+    }
+    return parts;
+  }
+  const Accumulator& empty() const { return empty_; }
   /// All samples.
   Accumulator all() const { return after(-std::numeric_limits<double>::max()); }
 

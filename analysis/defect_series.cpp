@@ -8,61 +8,65 @@
 
 namespace shaken::analysis {
 
-void DefectSeries::accumulate(double time, std::span<const Defect> defects) {
-  SHAKEN_CHECK(times_.empty() || time > times_.back(), "samples must come in order of time");
+void DefectSeries::accumulate(double time, std::span<const Defect> defects, std::span<const std::int64_t> tracks) {
+  SHAKEN_CHECK(defects.size() == tracks.size(), "one track for each defect");
   double n_plus = 0, n_minus = 0;
-  for (const Defect& defect : defects) {
-    (defect.charge > 0 ? n_plus : n_minus) += 1;
+  for (const Defect& defect : defects) (defect.charge > 0 ? n_plus : n_minus) += 1;
+  counts_.accumulate(time, {n_plus, n_minus});
+  if (!keeps_list_) return;
+  for (std::size_t i = 0; i < defects.size(); ++i) {
     list_.time.push_back(time);
-    list_.x.push_back(defect.position.x());
-    list_.y.push_back(defect.position.y());
-    list_.charge.push_back(defect.charge);
-    list_.direction.push_back(defect.direction);
+    list_.x.push_back(defects[i].position.x());
+    list_.y.push_back(defects[i].position.y());
+    list_.charge.push_back(defects[i].charge);
+    list_.direction.push_back(defects[i].direction);
+    list_.track.push_back(static_cast<double>(tracks[i]));
   }
-  times_.push_back(time);
-  n_plus_.push_back(n_plus);
-  n_minus_.push_back(n_minus);
 }
 
 DefectSeries::MeanCounts DefectSeries::reduce(double t_steady) const {
   MeanCounts mean;
-  double samples = 0;
-  for (std::size_t i = 0; i < times_.size(); ++i) {
-    if (!is_steady(times_[i], t_steady)) continue;
-    mean.n_plus += n_plus_[i];
-    mean.n_minus += n_minus_[i];
-    samples += 1;
+  double points = 0;
+  for (std::size_t i = 0; i < times().size(); ++i) {
+    if (!is_steady(times()[i], t_steady)) continue;
+    mean.n_plus += n_plus()[i];
+    mean.n_minus += n_minus()[i];
+    points += 1;
   }
-  if (samples > 0) {
-    mean.n_plus /= samples;
-    mean.n_minus /= samples;
+  if (points > 0) {
+    mean.n_plus /= points;
+    mean.n_minus /= points;
   }
   return mean;
 }
 
-void DefectSeries::reset() { *this = {}; }
+void DefectSeries::reset() { *this = DefectSeries(keeps_list_); }
 
 void DefectSeries::save(StateWriter& writer) const {
   writer.tag("DefectSeries");
-  for (const auto* array :
-       {&times_, &n_plus_, &n_minus_, &list_.time, &list_.x, &list_.y, &list_.charge, &list_.direction}) {
+  counts_.save(writer);
+  writer.put(std::int64_t{keeps_list_});
+  if (!keeps_list_) return;
+  for (const auto* array : {&list_.time, &list_.x, &list_.y, &list_.charge, &list_.direction, &list_.track}) {
     writer.put(*array);
   }
 }
 
 void DefectSeries::restore(StateReader& reader) {
   reader.tag("DefectSeries");
-  DefectSeries saved;
-  saved.times_ = reader.reals();
-  const std::size_t n_samples = saved.times_.size();
-  saved.n_plus_ = reader.reals(n_samples);
-  saved.n_minus_ = reader.reals(n_samples);
-  saved.list_.time = reader.reals();
-  const std::size_t n_defects = saved.list_.time.size();
-  saved.list_.x = reader.reals(n_defects);
-  saved.list_.y = reader.reals(n_defects);
-  saved.list_.charge = reader.reals(n_defects);
-  saved.list_.direction = reader.reals(n_defects);
+  DefectSeries saved(keeps_list_);
+  saved.counts_.restore(reader);
+  if ((reader.integer(0, 1) == 1) != keeps_list_) {
+    throw StateError("saved analysis state: DefectSeries with the list of defects where none is kept, or without");
+  }
+  if (keeps_list_) {
+    saved.list_.time = reader.reals();
+    const std::size_t n_defects = saved.list_.time.size();
+    for (auto* array :
+         {&saved.list_.x, &saved.list_.y, &saved.list_.charge, &saved.list_.direction, &saved.list_.track}) {
+      *array = reader.reals(n_defects);
+    }
+  }
   *this = std::move(saved);
 }
 

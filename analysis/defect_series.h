@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
+#include "analysis/bounded_series.h"
 #include "analysis/defects.h"
 #include "analysis/state_io.h"
 
@@ -15,29 +17,36 @@ struct DefectList {
   std::vector<double> x, y;       ///< [mm]
   std::vector<double> charge;     ///< +1/2 or -1/2
   std::vector<double> direction;  ///< [rad], see Defect
+  std::vector<double> track;      ///< see DefectTracks
 };
 
-/// Numbers of defects against time and the list of all of them. Grows by three numbers a sample and five a defect.
+/// Numbers of defects against time, in bounded memory; and the list of all of them if it is asked for, which grows by
+/// six numbers a defect.
 class DefectSeries {
  public:
-  void accumulate(double time, std::span<const Defect> defects);
-  /// Mean numbers over the samples from `t_steady` on.
+  explicit DefectSeries(bool keeps_list = false) : keeps_list_(keeps_list) {}
+
+  /// The defects at `time` [s], later than all before, and the track of each (n_defects).
+  void accumulate(double time, std::span<const Defect> defects, std::span<const std::int64_t> tracks);
+  /// Mean numbers over the points from `t_steady` on.
   struct MeanCounts {
     double n_plus = 0, n_minus = 0;
   };
   MeanCounts reduce(double t_steady) const;
   void reset();
 
-  const std::vector<double>& times() const { return times_; }      ///< (n) [s]
-  const std::vector<double>& n_plus() const { return n_plus_; }    ///< (n) defects of positive charge
-  const std::vector<double>& n_minus() const { return n_minus_; }  ///< (n)
+  const std::vector<double>& times() const { return counts_.times(); }      ///< (n) [s]
+  const std::vector<double>& n_plus() const { return counts_.column(0); }   ///< (n) defects of positive charge
+  const std::vector<double>& n_minus() const { return counts_.column(1); }  ///< (n)
+  bool keeps_list() const { return keeps_list_; }
   const DefectList& list() const { return list_; }
 
   void save(StateWriter& writer) const;
   void restore(StateReader& reader);
 
  private:
-  std::vector<double> times_, n_plus_, n_minus_;
+  bool keeps_list_;
+  BoundedSeries<2> counts_;
   DefectList list_;
 };
 

@@ -421,6 +421,13 @@ std::vector<Field> make_table() {
                   "measure.defects.grid", kLength, 0.01, 200, "Width of the mesh.",
                   [](auto& p) -> auto& { return p.defects->grid; }),
               "an eighth of a rod length"));
+  add(later(on_or_off(
+      "measure.defects.list", "Keep every defect found, with its track. Takes memory in proportion to the run.",
+      [](auto& p) -> auto& { return p.defects->list; })));
+  add(later(quantity(
+      "measure.defects.min_lifetime", kTime, 1e-7, 1e5,
+      "Tracks seen for so long are told by themselves as lasting ones: noise makes short-lived pairs.",
+      [](auto& p) -> auto& { return p.defects->min_lifetime; })));
   add(block("measure.g2", false, "Orientational correlation G2(r).", &RunPlan::g2));
   add(every(
       "measure.g2.every", "Time between samples.", [](auto& p) -> auto& { return p.g2->every; }));
@@ -430,6 +437,17 @@ std::vector<Field> make_table() {
   add(block("measure.msd", false, "Mean square displacement against lag.", &RunPlan::msd));
   add(every(
       "measure.msd.every", "Time between samples: the shortest lag.", [](auto& p) -> auto& { return p.msd->every; }));
+  add(block("measure.fluctuations", false,
+            "Giant number fluctuations: numbers of rods in boxes of 1/4 to 1/400 of the area.",
+            &RunPlan::fluctuations));
+  add(every(
+      "measure.fluctuations.every", "Time between samples.", [](auto& p) -> auto& { return p.fluctuations->every; }));
+  add(block(
+      "measure.frank", false,
+      "The director's fluctuations against the wave vector, and the ratio of the Frank constants of bend and splay.",
+      &RunPlan::frank));
+  add(every(
+      "measure.frank.every", "Time between samples.", [](auto& p) -> auto& { return p.frank->every; }));
 
   add(block("measure.rotation", false, "Rotation in the plane against lag: MSAD and C2(t).", &RunPlan::rotation));
   add(every(

@@ -446,6 +446,9 @@ class Resolver {
                fmt::format("measure.velocity.window {} is shorter than measure.velocity.every {}",
                            time(plan_.velocity->window), time(plan_.velocity->every)));
     }
+    if (plan_.frank && plan_.system.walls) {
+      complain({"measure.frank", "walls"}, "measure.frank is of the waves of a periodic box: walls leave none");
+    }
     if (plan_.defects && ok({"rods.length", "measure.defects.smoothing", "measure.defects.grid"})) {
       if (!given("measure.defects.smoothing")) plan_.defects->smoothing = plan_.system.rod.length / 2;
       if (!given("measure.defects.grid")) plan_.defects->grid = plan_.system.rod.length / 8;

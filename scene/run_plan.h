@@ -27,9 +27,11 @@ struct MeasureTilt {
 };
 /// Topological defects of the smoothed director field.
 struct MeasureDefects {
-  double every = 0.1;      ///< [s]
-  double smoothing = 0.0;  ///< standard deviation of the Gaussian [mm]; half a rod length in a loaded plan
-  double grid = 0.0;       ///< mesh width [mm]; an eighth of a rod length in a loaded plan
+  double every = 0.1;         ///< [s]
+  double smoothing = 0.0;     ///< standard deviation of the Gaussian [mm]; half a rod length in a loaded plan
+  double grid = 0.0;          ///< mesh width [mm]; an eighth of a rod length in a loaded plan
+  bool list = false;          ///< whether every defect found is kept, which takes memory in proportion to the run
+  double min_lifetime = 0.5;  ///< of tracks that count as lasting [s]
   friend bool operator==(const MeasureDefects&, const MeasureDefects&) = default;
 };
 /// Orientational correlation G2(r).
@@ -60,6 +62,16 @@ struct MeasureRods {
   int count = 4;         ///< of rods
   double duration = 30;  ///< [s]
   friend bool operator==(const MeasureRods&, const MeasureRods&) = default;
+};
+/// Giant number fluctuations.
+struct MeasureFluctuations {
+  double every = 0.5;  ///< [s]
+  friend bool operator==(const MeasureFluctuations&, const MeasureFluctuations&) = default;
+};
+/// The director's fluctuations in q-space and the Frank constants' ratio.
+struct MeasureFrank {
+  double every = 0.1;  ///< [s]
+  friend bool operator==(const MeasureFrank&, const MeasureFrank&) = default;
 };
 /// Rod positions and directions into trajectory.h5.
 struct Trajectory {
@@ -96,6 +108,8 @@ struct RunPlan {
   std::optional<MeasureRotation> rotation;
   std::optional<MeasureVelocity> velocity;
   std::optional<MeasureRods> rods;
+  std::optional<MeasureFluctuations> fluctuations;
+  std::optional<MeasureFrank> frank;
   std::optional<Trajectory> trajectory;
   std::optional<Stream> stream;
   std::optional<Movie> movie;

@@ -17,8 +17,14 @@ namespace shaken::run {
 ///   /tilt/{n_z, v_along_mm_s, v_along_sem_mm_s, v_across_mm_s, v_across_sem_mm_s, density}   against the tilt
 ///   /tilt/folded/{n_z, v_along_mm_s, v_along_sem_mm_s}       for n_z > 0, with v(-n_z) = -v(n_z)
 ///   /defects/{time_s, n_plus, n_minus}                       defects at each sample
-///   /defects/list/{time_s, x_mm, y_mm, charge, direction_rad}  every defect found
+///   /defects/tracks/{span_s, speed_plus_mm_s, speed_minus_mm_s, speed_plus_along_mm_s, speed_plus_across_mm_s} and
+///     their ..._sem_mm_s: mean speeds of +1/2 and -1/2 against the time they are taken over, and the +1/2's velocity
+///     along and across the ray on which its director is radial (its tail); of tracks that last: /defects/tracks/lasting
+///   /defects/list/{time_s, x_mm, y_mm, charge, direction_rad, track}  every defect found, if the scene asks for it
 ///   /g2/{r_mm, g2}                                           orientational correlation
+///   /fluctuations/{area_fraction, mean_n, std_n, std_n_sem, std_n_without_map, std_n_without_map_sem}   numbers of
+///     rods in boxes, over boxes and time and about each box's own mean
+///   /frank/{q_along_per_mm, q_across_per_mm, power_mm2, power_sem_mm2, fit_mm2}   the director's fluctuations
 ///   /msd/{lag_s, total_mm2, along_mm2, across_mm2}           mean square displacement
 ///   /msd/{relative_total_mm2, relative_along_mm2, relative_across_mm2}   without the drift of all rods together
 ///   /msd/{NAME_sem_mm2, exponent, exponent_sem}              errors of these; d ln total / d ln lag

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "run/measure/defects.h"
 
+#include <string>
 #include <utility>
 
 #include "analysis/director_field.h"
@@ -9,7 +10,49 @@
 
 namespace shaken::run {
 
-MeasuredDefects::MeasuredDefects(const MeasureContext& context) : walls_(context.plan.system.walls) {
+namespace {
+
+analysis::DefectTracks::Settings track_settings(const MeasureContext& context) {
+  const Scene& system = context.plan.system;
+  const double area = system.walls ? system.walls->area() : system.box_side * system.box_side;
+  return {system.box_side, area, context.interval, system.rod.length, context.plan.defects->min_lifetime};
+}
+
+/// "/defects/tracks/NAME_mm_s" and its error, against the span.
+void put_speeds(const std::string& path, const std::vector<analysis::Estimate>& speeds, Observables& arrays) {
+  std::vector<double>& values = arrays[path + "_mm_s"];
+  std::vector<double>& sems = arrays[path + "_sem_mm_s"];
+  for (const analysis::Estimate& speed : speeds) {
+    values.push_back(speed.value);
+    sems.push_back(speed.sem);
+  }
+}
+
+void put_tracks(const analysis::TrackSummary::Tracks& tracks, const std::string& folder, const std::string& prefix,
+                Reduction& result) {
+  put_speeds(folder + "speed_plus", tracks.speed_plus, result.arrays);
+  put_speeds(folder + "speed_minus", tracks.speed_minus, result.arrays);
+  put_speeds(folder + "speed_plus_along", tracks.along, result.arrays);
+  put_speeds(folder + "speed_plus_across", tracks.across, result.arrays);
+  const auto put = [&](const std::string& name, const analysis::Estimate& estimate) {
+    result.scalars[prefix + name] = {estimate.value, estimate.sem};
+  };
+  put("density_per_mm2", tracks.density);
+  put("creation_rate_per_mm2_s", tracks.creation_rate);
+  put("annihilation_rate_per_mm2_s", tracks.annihilation_rate);
+  put("lone_birth_rate_per_mm2_s", tracks.lone_birth_rate);
+  put("lone_death_rate_per_mm2_s", tracks.lone_death_rate);
+  put("lifetime_s", tracks.lifetime);
+  put("speed_plus_mm_s", tracks.speed_plus[analysis::kTrackSpan]);
+  put("speed_minus_mm_s", tracks.speed_minus[analysis::kTrackSpan]);
+  put("speed_plus_along_mm_s", tracks.along[analysis::kTrackSpan]);
+  put("speed_plus_across_mm_s", tracks.across[analysis::kTrackSpan]);
+}
+
+}  // namespace
+
+MeasuredDefects::MeasuredDefects(const MeasureContext& context)
+    : walls_(context.plan.system.walls), series_(context.plan.defects->list), tracks_(track_settings(context)) {
   const double length = context.plan.system.rod.length;
   smoothing_ = context.plan.defects->smoothing > 0 ? context.plan.defects->smoothing : length / 2;
   mesh_ = context.plan.defects->grid > 0 ? context.plan.defects->grid : length / 8;
@@ -26,7 +69,8 @@ void MeasuredDefects::sample(const Moment& moment) {
     });
   }
   last_ = DefectSample{moment->tick, moment->time, smoothing_, std::move(defects)};
-  series_.accumulate(moment->time, last_->defects);
+  tracks_.accumulate(moment->time, last_->defects);
+  series_.accumulate(moment->time, last_->defects, tracks_.ids());
 }
 
 void MeasuredDefects::reduce(Reduction& result) const {
@@ -34,11 +78,28 @@ void MeasuredDefects::reduce(Reduction& result) const {
   result.arrays["/defects/time_s"] = series_.times();
   result.arrays["/defects/n_plus"] = series_.n_plus();
   result.arrays["/defects/n_minus"] = series_.n_minus();
+  const analysis::TrackSummary tracks = tracks_.reduce(result.t_steady);
+  result.arrays["/defects/tracks/span_s"] = tracks.span;
+  put_tracks(tracks.all, "/defects/tracks/", "defect_", result);
+  put_tracks(tracks.lasting, "/defects/tracks/lasting/", "lasting_defect_", result);
+  result.scalars["defect_charge"] = {tracks.charge.value, tracks.charge.sem};
+  if (!series_.keeps_list()) return;
   result.arrays["/defects/list/time_s"] = series_.list().time;
   result.arrays["/defects/list/x_mm"] = series_.list().x;
   result.arrays["/defects/list/y_mm"] = series_.list().y;
   result.arrays["/defects/list/charge"] = series_.list().charge;
   result.arrays["/defects/list/direction_rad"] = series_.list().direction;
+  result.arrays["/defects/list/track"] = series_.list().track;
+}
+
+void MeasuredDefects::save(analysis::StateWriter& writer) const {
+  series_.save(writer);
+  tracks_.save(writer);
+}
+
+void MeasuredDefects::restore(analysis::StateReader& reader) {
+  series_.restore(reader);
+  tracks_.restore(reader);
 }
 
 std::unique_ptr<Measurement> make_defects(const MeasureContext& context) {

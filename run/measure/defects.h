@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analysis/defect_series.h"
+#include "analysis/defect_tracks.h"
 #include "run/measure/measurement.h"
 
 namespace shaken::run {
@@ -17,14 +18,14 @@ struct DefectSample {
   std::vector<analysis::Defect> defects;
 };
 
-/// Topological defects of the smoothed director field.
+/// Topological defects of the smoothed director field, and their tracks.
 class MeasuredDefects : public Measurement {
  public:
   explicit MeasuredDefects(const MeasureContext& context);
   void sample(const Moment& moment) override;
   void reduce(Reduction& result) const override;
-  void save(analysis::StateWriter& writer) const override { series_.save(writer); }
-  void restore(analysis::StateReader& reader) override { series_.restore(reader); }
+  void save(analysis::StateWriter& writer) const override;
+  void restore(analysis::StateReader& reader) override;
 
   /// The last sample, for viewers; none before the first and after a restart.
   const std::optional<DefectSample>& last() const { return last_; }
@@ -34,6 +35,7 @@ class MeasuredDefects : public Measurement {
   double smoothing_;  ///< [mm]
   double mesh_;       ///< of the field's grid, at most [mm]
   analysis::DefectSeries series_;
+  analysis::DefectTracks tracks_;
   std::optional<DefectSample> last_;
 };
 

@@ -28,6 +28,8 @@ constexpr MeasurementKind kKinds[] = {
     kind<&RunPlan::rotation>("rotation", make_rotation, Growth::kLags),
     kind<&RunPlan::velocity>("velocity", make_velocity, Growth::kLags),
     kind<&RunPlan::rods>("rods", make_rods, Growth::kSeries, [](const RunPlan& plan) { return plan.rods->duration; }),
+    kind<&RunPlan::fluctuations>("fluctuations", make_fluctuations),
+    kind<&RunPlan::frank>("frank", make_frank),
 };
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace shaken::run {
 
 /// How state and file of a measurement grow with the number of samples.
 enum class Growth {
-  kSeries,  ///< in proportion
+  kSeries,  ///< in proportion, but for blocks besides
   kBlocks,  ///< the state up to 64 samples' worth (analysis/blocked.h), the file not at all
   kLags,    ///< with the logarithm
 };
@@ -36,6 +36,8 @@ std::unique_ptr<Measurement> make_angles(const MeasureContext& context);
 std::unique_ptr<Measurement> make_tilt(const MeasureContext& context);
 std::unique_ptr<Measurement> make_defects(const MeasureContext& context);
 std::unique_ptr<Measurement> make_g2(const MeasureContext& context);
+std::unique_ptr<Measurement> make_fluctuations(const MeasureContext& context);
+std::unique_ptr<Measurement> make_frank(const MeasureContext& context);
 std::unique_ptr<Measurement> make_msd(const MeasureContext& context);
 std::unique_ptr<Measurement> make_rotation(const MeasureContext& context);
 std::unique_ptr<Measurement> make_velocity(const MeasureContext& context);

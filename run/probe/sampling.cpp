@@ -82,6 +82,7 @@ SamplingCost time_sampling(const scene::RunPlan& plan, const Species& species, c
     };
     sample();
     const double first_bytes = static_cast<double>(measurements.save().size());
+    const double first_array_bytes = bytes_of(measurements.reduce(single.every).arrays);
 
     Cost& samples = cost.samples[single.effect];
     samples.count = total_ticks(plan) / cadence.period() + 1;
@@ -93,13 +94,17 @@ SamplingCost time_sampling(const scene::RunPlan& plan, const Species& species, c
     const double kept = std::min(static_cast<double>(samples.count), single.keeps_for / single.every + 1);
     const double more = std::max(0.0, kept - static_cast<double>(taken));
     const double state = static_cast<double>(measurements.save().size());
-    const double per_sample = (state - first_bytes) / static_cast<double>(taken - 1);
     const Observables found = measurements.reduce(static_cast<double>(taken) * single.every).arrays;
     switch (single.growth) {
-      case Growth::kSeries:
-        cost.state_bytes += state + per_sample * more;
-        later_bytes += bytes_of(found) / static_cast<double>(taken) * more;
+      case Growth::kSeries: {  // what the file gains is kept sample by sample; the rest of the state is in blocks
+        const double per_sample = (bytes_of(found) - first_array_bytes) / static_cast<double>(taken - 1);
+        const double per_block =
+            (state - first_bytes - per_sample * static_cast<double>(taken - 1)) / (blocks(taken) - 1);
+        cost.state_bytes +=
+            first_bytes + per_sample * static_cast<double>(samples.count - 1) + per_block * (blocks(samples.count) - 1);
+        later_bytes += per_sample * more;
         break;
+      }
       case Growth::kBlocks: {
         const double per_block = (state - first_bytes) / (blocks(taken) - 1);
         cost.state_bytes += first_bytes + per_block * (blocks(samples.count) - 1);

@@ -42,6 +42,22 @@ TEST(Blocked, EqualsDirectAccumulation) {
   }
 }
 
+TEST(Blocked, PartsAddUpToAllOfIt) {
+  for (const int n : {0, 1, 5, 16, 17, 200}) {
+    const auto all = frames(n);
+    Blocked<AngleDistribution> blocked{AngleDistribution(30)};
+    for (int i = 0; i < n; ++i) blocked.accumulate(0.1 * i, all[static_cast<std::size_t>(i)]);
+    for (const double from : {0.0, 0.05 * n}) {
+      AngleDistribution sum = blocked.empty();
+      const std::vector<AngleDistribution> parts = blocked.parts_after(from, 16);
+      for (const AngleDistribution& part : parts) sum.merge(part);
+      EXPECT_EQ(state(sum), state(blocked.after(from))) << n;
+      EXPECT_LE(parts.size(), 16U);
+      EXPECT_GE(parts.size(), static_cast<std::size_t>(std::min(n / 2, 8))) << n;
+    }
+  }
+}
+
 TEST(Blocked, PassesAllArgumentsOnAndResets) {
   Blocked<TiltVelocity> blocked{TiltVelocity(4, 0.5)};
   for (int i = 0; i < 200; ++i) {

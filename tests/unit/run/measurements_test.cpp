@@ -22,12 +22,14 @@ scene::RunPlan plan() {
   p.order = scene::MeasureOrder{0.01};
   p.angles = scene::MeasureAngles{0.02, 18};
   p.tilt = scene::MeasureTilt{0.005, 10};
-  p.defects = scene::MeasureDefects{0.05, 0, 0};
+  p.defects = scene::MeasureDefects{0.05, 0, 0, true, 0.02};
   p.g2 = scene::MeasureG2{0.05, 20};
   p.msd = scene::MeasureMsd{0.01};
   p.rotation = scene::MeasureRotation{0.01};
   p.velocity = scene::MeasureVelocity{0.01, 0.03};
   p.rods = scene::MeasureRods{0.005, 3, 0.02};
+  p.fluctuations = scene::MeasureFluctuations{0.05};
+  p.frank = scene::MeasureFrank{0.02};
   return p;
 }
 
@@ -81,7 +83,9 @@ TEST(Measurements, EachKeepsItsOwnTime) {
                                                                         {"msd", 11},
                                                                         {"rotation", 11},
                                                                         {"velocity", 11},
-                                                                        {"rods", 21}}));
+                                                                        {"rods", 21},
+                                                                        {"fluctuations", 3},
+                                                                        {"frank", 6}}));
   const Reduction reduction = measurements.reduce(0.1);
   EXPECT_EQ(reduction.arrays.at("/order/time_s").size(), 11U);
   EXPECT_EQ(reduction.arrays.at("/defects/time_s").size(), 3U);
@@ -98,6 +102,7 @@ TEST(Measurements, EachKeepsItsOwnTime) {
   EXPECT_EQ(reduction.arrays.at("/rods/trace/time_s").size(), 5U) << "for 0.02 s";
   EXPECT_EQ(reduction.arrays.at("/rods/trace/2/theta_rad").size(), 5U);
   EXPECT_EQ(reduction.arrays.at("/defects/list/x_mm").size(), reduction.arrays.at("/defects/list/charge").size());
+  EXPECT_DOUBLE_EQ(reduction.arrays.at("/fluctuations/mean_n").at(0), 25);  // of 100 rods in a quarter of the box
 }
 
 TEST(Measurements, WhatIsNotInThePlanDoesNotExist) {
@@ -115,6 +120,64 @@ TEST(Measurements, WhatIsNotInThePlanDoesNotExist) {
   EXPECT_FALSE(reduction.order);
   EXPECT_FALSE(reduction.defects);
   EXPECT_EQ(reduction.t_steady, 1.0);
+}
+
+// Every defect of the list has its place, and the means are those of the list.
+TEST(Measurements, DefectsHaveTracksAndAListOnlyIfAskedFor) {
+  scene::RunPlan p = plan();
+  Measurements measurements(p, species());
+  measure(measurements, 0, 50000);
+  const Reduction reduction = measurements.reduce(0.5);
+  const auto& arrays = reduction.arrays;
+  const std::vector<double>& track = arrays.at("/defects/list/track");
+  const std::vector<double>& time = arrays.at("/defects/list/time_s");
+  ASSERT_EQ(track.size(), time.size());
+  ASSERT_GT(track.size(), 11U);
+  // Without a first sample to have lived before: density times area is the mean over the other ten samples.
+  const auto later = std::count_if(time.begin(), time.end(), [](double t) { return t > 0.01; });
+  EXPECT_NEAR(reduction.scalars.at("defect_density_per_mm2").value * 20 * 20, static_cast<double>(later) / 10, 1e-9);
+  EXPECT_EQ(reduction.scalars.at("defect_charge").value, 0);
+  EXPECT_GT(reduction.scalars.at("defect_density_per_mm2").value,
+            reduction.scalars.at("lasting_defect_density_per_mm2").value);
+  EXPECT_EQ(arrays.at("/defects/tracks/span_s").at(2), 4 * 0.05);
+  EXPECT_EQ(arrays.at("/defects/tracks/lasting/speed_plus_along_sem_mm_s").size(), 5U);
+
+  p.defects->list = false;
+  Measurements without(p, species());
+  measure(without, 0, 50000);
+  EXPECT_FALSE(without.reduce(0.5).arrays.contains("/defects/list/track"));
+  EXPECT_EQ(without.reduce(0.5).arrays.at("/defects/n_plus"), arrays.at("/defects/n_plus"));
+}
+
+// Rods along x in four columns, rigidly turned by a wave along x: power at that wave only, whose floor is not noise.
+TEST(Measurements, FluctuationsOfALattice) {
+  scene::RunPlan p = plan();
+  Measurements measurements(p, species());
+  Snapshot s = random_snapshot(0);
+  for (std::size_t i = 0; i < s.position.size(); ++i) {
+    s.position[i] = 2.0 * Vec3(static_cast<double>(i % 10) + 0.5, static_cast<double>(i / 10) + 0.5, 0.3);
+    const double theta = 0.01 * std::sin(2 * kPi / 20 * s.position[i].x());
+    s.director[i] = Vec3(std::cos(theta), std::sin(theta), 0);
+  }
+  measurements.sample(s);
+  const Reduction reduction = measurements.reduce(0);
+  EXPECT_EQ(reduction.arrays.at("/fluctuations/std_n").at(0), 0);  // 25 in every quarter
+  const std::vector<double>& q = reduction.arrays.at("/frank/q_along_per_mm");
+  const std::vector<double>& power = reduction.arrays.at("/frank/power_mm2");
+  const auto most = static_cast<std::size_t>(std::max_element(power.begin(), power.end()) - power.begin());
+  EXPECT_NEAR(q.at(most), 2 * kPi / 20, 1e-6);
+  EXPECT_EQ(reduction.arrays.at("/frank/fit_mm2").size(), q.size());
+  EXPECT_TRUE(reduction.scalars.contains("frank_ratio"));
+}
+
+TEST(Measurements, NumbersAreOfBoxesInsideTheWalls) {
+  scene::RunPlan p = plan();
+  p.system.walls = SideWalls{Arena::kDisc, 14};
+  Measurements measurements(p, species());
+  measurements.sample(random_snapshot(0));
+  const std::vector<double> area = measurements.reduce(0).arrays.at("/fluctuations/area_fraction");
+  // Of a disc of 14 mm in a box of 20: not the quarters of the box, but its inmost ninth.
+  EXPECT_NEAR(area.at(0), std::pow(20.0 / 3, 2) / (kPi * 49), 1e-12);
 }
 
 TEST(Measurements, ParallelRodsHaveOrderOneAndNoDefects) {

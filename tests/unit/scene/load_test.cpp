@@ -54,9 +54,11 @@ TEST(LoadScene, ReadsEveryKey) {
                   "rod_lid":  { "restitution": 1 }, "law": "newton", "sweeps": 3 },
     "time": { "step": "2 us", "engine": "reference", "steady": "3 min", "measure": "1 h", "seed": 77 },
     "measure": { "order": {"every": "20 ms"}, "angles": {"every": "30 ms", "bins": 90}, "tilt": {"bins": 20},
-                 "defects": {"every": "1 s", "smoothing": "2 mm", "grid": "0.5 mm"}, "g2": {"bins": 50, "every": 0.2},
+                 "defects": {"every": "1 s", "smoothing": "2 mm", "grid": "0.5 mm", "list": true,
+                             "min_lifetime": "2 s"}, "g2": {"bins": 50, "every": 0.2},
                  "msd": {"every": "5 ms"}, "rotation": {"every": "2 ms"}, "velocity": {"every": "50 ms", "window": "1 s"},
-                 "rods": {"every": "20 ms", "count": 7, "duration": "1 min"} },
+                 "rods": {"every": "20 ms", "count": 7, "duration": "1 min"},
+                 "fluctuations": {"every": "3 s"}, "frank": {"every": "0.3 s"} },
     "trajectory": {"every": "40 ms"}, "stream": {"rate": "5 Hz"}, "movie": {"every": "25 ms", "size": [640, 480]} })");
   RunPlan want;
   want.system.rod = {.length = 3.5, .mid_diameter = 0.9, .end_diameter = 0.3, .n_beads = 11, .density = 2.7};
@@ -79,12 +81,14 @@ TEST(LoadScene, ReadsEveryKey) {
   want.order = MeasureOrder{0.02};
   want.angles = MeasureAngles{0.03, 90};
   want.tilt = MeasureTilt{0.001, 20};
-  want.defects = MeasureDefects{1, 2, 0.5};
+  want.defects = MeasureDefects{1, 2, 0.5, true, 2};
   want.g2 = MeasureG2{0.2, 50};
   want.msd = MeasureMsd{0.005};
   want.rotation = MeasureRotation{0.002};
   want.velocity = MeasureVelocity{0.05, 1};
   want.rods = MeasureRods{0.02, 7, 60};
+  want.fluctuations = MeasureFluctuations{3};
+  want.frank = MeasureFrank{0.3};
   want.trajectory = Trajectory{0.04};
   want.stream = Stream{5};
   want.movie = Movie{0.025, 640, 480};
@@ -97,6 +101,7 @@ TEST(LoadScene, BlocksAreOffWhenAbsentAndExactlyThoseNamedAreOn) {
   EXPECT_EQ(plan.msd, MeasureMsd{});
   EXPECT_EQ(plan.movie, Movie{});
   EXPECT_FALSE(plan.order || plan.g2 || plan.stream || plan.trajectory || plan.angles || plan.defects);
+  EXPECT_FALSE(plan.fluctuations || plan.frank);
   EXPECT_FALSE(plan_of(R"({"stream": false})").stream);
   EXPECT_FALSE(plan_of(R"({"measure": {}})").order);
   EXPECT_FALSE(plan_of(R"({"measure": null})").order);

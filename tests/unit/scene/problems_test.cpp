@@ -119,6 +119,8 @@ TEST(Problems, OfSeveralKindsOfRods) {
 }
 
 TEST(Problems, OfWallsAndPlates) {
+  EXPECT_EQ(problem_of(R"({"walls": {}, "measure": {"frank": {}}})"),
+            "run.json:1:36: /measure/frank: measure.frank is of the waves of a periodic box: walls leave none");
   EXPECT_EQ(problem_of(R"({"walls": {"size": "50 mm"}, "box": {"side": "50 mm"}})"),
             "run.json:1:20: /walls/size: an arena of 50 mm does not fit into a box of 50 mm: at most 49 mm; or leave "
             "box.side out");

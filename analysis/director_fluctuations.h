@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "analysis/blocked.h"
+#include "analysis/jackknife.h"
+#include "analysis/state_io.h"
+#include "sim/core/types.h"
+
+namespace shaken::analysis {
+
+/// Fluctuations of the director against the wave vector, and the elastic constants that they tell of.
+struct DirectorSpectrum {
+  /// Means over squares of side 2 pi / L of the quadrant |q_along|, |q_across| that any wave vector fell into; all of
+  /// the same length.
+  std::vector<double> q_along, q_across;  ///< [1/mm]
+  std::vector<Estimate> power;            ///< L^2 <|dtheta_q|^2> without the floor of uncorrelated rods [mm^2]
+  std::vector<double> fit;                ///< what the fit makes of it [mm^2]
+  double floor = 0;                       ///< what was taken off [mm^2]; NaN without samples
+
+  Estimate splay, bend;  ///< K1 and K3 in units of the effective temperature
+  Estimate ratio;        ///< K3 / K1
+  /// chi^2 per degree of freedom over the squares of the fit, from their own errors: about 1 where the law holds.
+  double chi2 = 0;
+  std::int64_t samples = 0;  ///< that had a director
+};
+
+/// The director's fluctuations in q-space, of rods in a periodic square box that are ordered: with the director at
+/// angle theta_N, S the order and n rods,
+///   dtheta_q = (1 / n) sum_i sin 2 (theta_i - theta_N) / (2 S) exp(-i q . r_i),   q = 2 pi (m, n) / L, |m|, |n| <= 6.
+/// Dividing by S makes it linear in the director's angle whatever the rods' own noise. A nematic of splay constant K1
+/// and bend constant K3 in two dimensions has (de Gennes & Prost, The Physics of Liquid Crystals, section 3.4)
+///   L^2 <|dtheta_q|^2> = 1 / (K1 q_across^2 + K3 q_along^2),
+/// K in units of the temperature. Shaken rods have none: their K are effective, and only the ratio and the law itself
+/// can be held against theory.
+///
+/// Floor: rods whose angles are independent of one another add L^2 <s^2> / n, s being the summand, at every q. Of that
+/// the part that the measured waves themselves make of s is no noise if the rods are spaced evenly, but is if they
+/// stand at random: sum_ij f_i f_j exp(..) / n^2 of a wave f of wave vector k is |f|^2 S(q - k) / n, with the structure
+/// factor S. So floor = (L^2 <s^2> - (1 - S_0) sum_q (P_q - floor)) / n, with S_0 the mean structure factor over the
+/// same waves; of fewer than 336 rods, S_0 = 1.
+///
+/// The director may wander: samples are summed in sectors of 5 degrees of its angle, and every sector has its own
+/// wave vectors along and across.
+class DirectorFluctuations {
+ public:
+  /// Samples with less order have no director to speak of and are left out.
+  static constexpr double kMinOrder = 0.3;
+
+  /// In a box of side `box_side` [mm]; the fit uses |q| <= q_max [1/mm].
+  DirectorFluctuations(double box_side, double q_max);
+
+  /// Centres (n_rods) [mm] and directors (n_rods). Rods exactly upright, or not finite, are left out.
+  void accumulate(std::span<const Vec3> positions, std::span<const Vec3> directors);
+  void reset() { sectors_.clear(); }
+  /// Adds the samples of `other`, of the same box.
+  void merge(const DirectorFluctuations& other);
+
+  /// With errors from at most 16 blocks of `blocks` from `t_steady` [s] on. The fit is by weighted least squares of the
+  /// powers with weights iterated from the fit itself, as their scatter is as large as they are: the same as the
+  /// maximum likelihood of exponentially distributed powers (Whittle 1953). Powers may be negative. NaN where there is
+  /// no fit.
+  static DirectorSpectrum reduce(const Blocked<DirectorFluctuations>& blocks, double t_steady);
+
+  void save(StateWriter& writer) const;
+  void restore(StateReader& reader);
+
+ private:
+  static constexpr int kWaves = 6;
+  static constexpr int kModes = ((2 * kWaves + 1) * (2 * kWaves + 1) - 1) / 2;  // q and -q are one
+  struct Sector {
+    std::int64_t samples = 0;
+    double cosine = 0, sine = 0;         // sums of cos, sin of twice the director's angle
+    double floor = 0;                    // sum
+    std::array<double, kModes> power{};  // sums, without the floor
+  };
+  struct Point {
+    double along2, across2, power;  // q_along^2, q_across^2 [1/mm^2]; mean power [mm^2]
+    double samples;
+  };
+  std::vector<Point> points() const;
+  std::vector<double> numbers() const;
+
+  double box_side_, q_max_;
+  std::map<std::int64_t, Sector> sectors_;  // by the director's angle
+};
+
+}  // namespace shaken::analysis

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "analysis/blocked.h"
+#include "analysis/number_fluctuations.h"
+#include "run/measure/registry.h"
+#include "sim/effects/side_walls.h"
+
+namespace shaken::run {
+namespace {
+
+class MeasuredFluctuations : public Measurement {
+ public:
+  explicit MeasuredFluctuations(analysis::NumberFluctuations empty) : counts_(std::move(empty)) {}
+
+  void sample(const Moment& moment) override { counts_.accumulate(moment->time, moment->position); }
+  void reduce(Reduction& result) const override {
+    const analysis::NumberFluctuationCurve curve = analysis::NumberFluctuations::reduce(counts_, result.t_steady);
+    result.arrays["/fluctuations/area_fraction"] = curve.area_fraction;
+    result.arrays["/fluctuations/mean_n"] = curve.mean_n;
+    const auto put = [&](const std::string& path, const std::vector<analysis::Estimate>& spreads) {
+      std::vector<double>& values = result.arrays[path];
+      std::vector<double>& sems = result.arrays[path + "_sem"];
+      for (const analysis::Estimate& spread : spreads) {
+        values.push_back(spread.value);
+        sems.push_back(spread.sem);
+      }
+    };
+    put("/fluctuations/std_n", curve.std_n);
+    put("/fluctuations/std_n_without_map", curve.std_n_without_map);
+    result.scalars["fluctuation_exponent"] = {curve.exponent.value, curve.exponent.sem};
+    result.scalars["fluctuation_exponent_without_map"] = {curve.exponent_without_map.value,
+                                                          curve.exponent_without_map.sem};
+  }
+  void save(analysis::StateWriter& writer) const override { counts_.save(writer); }
+  void restore(analysis::StateReader& reader) override { counts_.restore(reader); }
+
+ private:
+  analysis::Blocked<analysis::NumberFluctuations> counts_;
+};
+
+}  // namespace
+
+std::unique_ptr<Measurement> make_fluctuations(const MeasureContext& context) {
+  const Scene& system = context.plan.system;
+  double area = system.box_side * system.box_side;
+  analysis::NumberFluctuations::Where counts;
+  if (system.walls) {
+    area = system.walls->area();
+    counts = [walls = *system.walls, box = system.box_side](const Vec2& centre, double side) {
+      const double to_the_corner = side / std::numbers::sqrt2;
+      return distance_to_walls(walls, box, Vec3(centre.x(), centre.y(), 0)) >= to_the_corner;
+    };
+  }
+  return std::make_unique<MeasuredFluctuations>(analysis::NumberFluctuations(system.box_side, area, counts));
+}
+
+}  // namespace shaken::run

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/number_fluctuations.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/unit/analysis/samples.h"
+#include "tests/unit/analysis/state_checks.h"
+
+namespace shaken::analysis {
+namespace {
+
+constexpr double kBox = 60;
+
+Blocked<NumberFluctuations> counting() { return Blocked(NumberFluctuations(kBox, kBox * kBox)); }
+
+/// A square lattice of m x m rods, each up to `jitter` spacings off in each direction.
+std::vector<Vec3> lattice(Draw& draw, int m, double jitter) {
+  std::vector<Vec3> places;
+  for (int j = 0; j < m; ++j) {
+    for (int i = 0; i < m; ++i) {
+      places.push_back(kBox / m * Vec3(i + draw.uniform(-jitter, jitter), j + draw.uniform(-jitter, jitter), 0));
+    }
+  }
+  return places;
+}
+
+// N rods at random, N given: a box of area fraction f holds a binomial number, std^2 = N f (1 - f), about its own mean
+// as well. The variance's own relative error is sqrt(2 / (samples * boxes)) or less: below 5 % here, of std 2.5 %.
+TEST(NumberFluctuations, OfIndependentRods) {
+  Draw draw(91);
+  auto blocks = counting();
+  constexpr std::size_t kRods = 1200;
+  for (int i = 0; i < 400; ++i) blocks.accumulate(i, random_places(draw, kRods, kBox));
+  const NumberFluctuationCurve curve = NumberFluctuations::reduce(blocks, 0);
+  ASSERT_EQ(curve.mean_n.size(), 10U);
+  for (std::size_t k = 0; k < 10; ++k) {
+    const double f = curve.area_fraction[k];
+    const double want = std::sqrt(kRods * f * (1 - f));
+    EXPECT_NEAR(curve.mean_n[k], kRods * f, 1e-9);
+    EXPECT_NEAR(curve.std_n[k].value / want, 1, 0.06) << f;
+    EXPECT_NEAR(curve.std_n_without_map[k].value / want, 1, 0.06) << f;
+    // The error: that of the variance of independent boxes, at least within a factor of two from 16 blocks.
+    const double boxes = 1 / f;
+    const double sem = want / std::sqrt(2 * 400 * (boxes - 1));
+    EXPECT_GT(curve.std_n[k].sem, 0.4 * sem) << f;
+    EXPECT_LT(curve.std_n[k].sem, 2.5 * sem) << f;
+  }
+  EXPECT_DOUBLE_EQ(curve.area_fraction[0], 0.25);
+  EXPECT_NEAR(curve.exponent.value, 0.5, 4 * curve.exponent.sem);
+  EXPECT_LT(curve.exponent.sem, 0.01);
+  EXPECT_NEAR(curve.exponent_without_map.value, 0.5, 4 * curve.exponent_without_map.sem);
+  EXPECT_LT(curve.exponent_without_map.sem, 0.02);
+}
+
+// Two halves of the box with unlike densities, rods else independent: the difference grows as <N>, so the exponent of
+// the raw numbers nears 1; without the map they are independent rods again.
+TEST(NumberFluctuations, OfADensityMapThatStandsStill) {
+  Draw draw(92);
+  auto blocks = counting();
+  for (int i = 0; i < 300; ++i) {
+    std::vector<Vec3> places = random_places(draw, 4000, kBox);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      places[k].x() = (k % 10 < 8 ? places[k].x() : places[k].x() + kBox) / 2;
+    }
+    blocks.accumulate(i, places);
+  }
+  const NumberFluctuationCurve curve = NumberFluctuations::reduce(blocks, 0);
+  // Boxes of an even number of columns lie in one half: N = 1.6 or 0.4 times the mean.
+  for (const std::size_t k : {0U, 2U}) EXPECT_NEAR(curve.std_n[k].value / curve.mean_n[k], 0.6, 0.01);
+  EXPECT_GT(curve.exponent.value, 0.8);
+  EXPECT_NEAR(curve.exponent_without_map.value, 0.5, 0.03);
+  // A quarter holds each of the 3200 rods of its half with probability 1/2, or each of the 800 of the other half.
+  EXPECT_NEAR(curve.std_n_without_map[0].value, std::sqrt((3200 * 0.25 + 800 * 0.25) / 2), 1.5);
+}
+
+// Frozen clumps: large raw numbers, none without the map.
+TEST(NumberFluctuations, OfFrozenClumps) {
+  Draw draw(93);
+  std::vector<Vec3> places;
+  for (int clump = 0; clump < 30; ++clump) {
+    const Vec3 centre(draw.uniform(0, kBox), draw.uniform(0, kBox), 0);
+    for (int k = 0; k < 40; ++k) places.push_back(centre + Vec3(draw.normal(), draw.normal(), 0));
+  }
+  auto blocks = counting();
+  for (int i = 0; i < 10; ++i) blocks.accumulate(i, places);
+  const NumberFluctuationCurve curve = NumberFluctuations::reduce(blocks, 0);
+  for (std::size_t k = 0; k < 7; ++k) {
+    EXPECT_GT(curve.std_n[k].value, 1.8 * std::sqrt(curve.mean_n[k] * (1 - curve.area_fraction[k]))) << k;
+    EXPECT_EQ(curve.std_n_without_map[k].value, 0) << k;
+  }
+  EXPECT_TRUE(std::isnan(curve.exponent_without_map.value));
+}
+
+// A loose lattice, another each time: only rods next to a border matter, std^2 ~ perimeter ~ sqrt <N>, exponent 1/4.
+TEST(NumberFluctuations, OfALattice) {
+  Draw draw(94);
+  auto blocks = counting();
+  for (int i = 0; i < 400; ++i) {
+    std::vector<Vec3> places = lattice(draw, 60, 0.5);
+    const Vec3 shift(draw.uniform(0, kBox), draw.uniform(0, kBox), 0);
+    for (Vec3& place : places) place += shift;
+    blocks.accumulate(i, places);
+  }
+  const NumberFluctuationCurve curve = NumberFluctuations::reduce(blocks, 0);
+  EXPECT_NEAR(curve.exponent.value, 0.25, 0.04);
+  for (std::size_t k = 0; k < 7; ++k) EXPECT_LT(curve.std_n[k].value, 0.5 * std::sqrt(curve.mean_n[k]));
+}
+
+TEST(NumberFluctuations, LeavesOutBoxesThatDoNotCountAndRodsThatAreNowhere) {
+  const auto left_half = [](const Vec2& centre, double side) { return centre.x() + side / 2 <= kBox / 2 * (1 + 1e-9); };
+  Blocked<NumberFluctuations> blocks(NumberFluctuations(kBox, kBox * kBox / 2, left_half));
+  Draw draw(95);
+  for (int i = 0; i < 200; ++i) {
+    std::vector<Vec3> places = random_places(draw, 1000, kBox);
+    for (Vec3& place : places) place.x() = place.x() / 2 + 3 * kBox;  // in an image
+    places[7].x() = std::numeric_limits<double>::quiet_NaN();
+    blocks.accumulate(i, places);
+  }
+  const NumberFluctuationCurve curve = NumberFluctuations::reduce(blocks, 0);
+  EXPECT_DOUBLE_EQ(curve.area_fraction[0], 0.5);
+  EXPECT_NEAR(curve.mean_n[0], 999 / 2.0, 1e-9);
+  EXPECT_NEAR(curve.mean_n[2], 999 / 8.0, 1e-9);
+  EXPECT_NEAR(curve.std_n[2].value, std::sqrt(999 / 8.0 * 7 / 8), 0.6);
+  EXPECT_NEAR(curve.exponent.value, 0.5, 0.05);
+  Blocked<NumberFluctuations> none(NumberFluctuations(kBox, 1, [](const Vec2&, double) { return false; }));
+  none.accumulate(0, random_places(draw, 10, kBox));
+  EXPECT_TRUE(NumberFluctuations::reduce(none, 0).mean_n.empty());
+}
+
+TEST(NumberFluctuations, NothingOrOneRod) {
+  auto blocks = counting();
+  EXPECT_TRUE(std::isnan(NumberFluctuations::reduce(blocks, 0).mean_n[0]));
+  blocks.accumulate(0, std::vector<Vec3>{});
+  EXPECT_EQ(NumberFluctuations::reduce(blocks, 0).mean_n[0], 0);
+  EXPECT_TRUE(std::isnan(NumberFluctuations::reduce(blocks, 0).exponent.value));
+  blocks.accumulate(1, std::vector<Vec3>{Vec3(kBox, -1e-18, 0)});
+  EXPECT_DOUBLE_EQ(NumberFluctuations::reduce(blocks, 0).mean_n[0], 0.125);
+}
+
+TEST(NumberFluctuations, MergeAndSavedState) {
+  Draw draw(96);
+  NumberFluctuations straight(kBox, 1), stopped(kBox, 1), first(kBox, 1), second(kBox, 1);
+  for (int i = 0; i < 6; ++i) {
+    const std::vector<Vec3> places = random_places(draw, 100, kBox);
+    straight.accumulate(places);
+    stopped.accumulate(places);
+    (i < 4 ? first : second).accumulate(places);
+    stop_and_go_on(stopped);
+  }
+  first.merge(second);
+  EXPECT_EQ(state(straight), state(stopped));
+  EXPECT_EQ(state(straight), state(first));
+  NumberFluctuations other(kBox / 2, 1);
+  const std::vector<std::byte> bytes = state(straight);
+  StateReader reader(bytes);
+  EXPECT_THROW(other.restore(reader), StateError);
+  EXPECT_THROW(other.merge(straight), std::logic_error);
+}
+
+}  // namespace
+}  // namespace shaken::analysis
