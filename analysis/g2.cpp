@@ -41,6 +41,7 @@ void OrientationCorrelation::accumulate(std::span<const Vec3> positions, std::sp
   const std::size_t stride = std::max<std::size_t>(1, (rods.size() + kMaxReferences - 1) / kMaxReferences);
   for (std::size_t i = static_cast<std::size_t>(calls_) % stride; i < rods.size(); i += stride) {
     const Rod a = rods[i];
+    expected_per_area_ += static_cast<double>(rods.size()) / (box_side * box_side);
     for (std::size_t j = 0; j < rods.size(); ++j) {
       const Rod& b = rods[j];
       const double dx = std::abs(a.x - b.x);
@@ -64,6 +65,9 @@ OrientationCurve OrientationCorrelation::reduce() const {
     curve.r.push_back((static_cast<double>(bin) + 0.5) * width);
     curve.g2.push_back(pairs_[bin] > 0 ? sums_[bin] / static_cast<double>(pairs_[bin])
                                        : std::numeric_limits<double>::quiet_NaN());
+    const double ring = kPi * width * width * (2.0 * static_cast<double>(bin) + 1.0);
+    curve.g.push_back(expected_per_area_ > 0 ? static_cast<double>(pairs_[bin]) / (expected_per_area_ * ring)
+                                             : std::numeric_limits<double>::quiet_NaN());
   }
   return curve;
 }
@@ -72,11 +76,13 @@ void OrientationCorrelation::reset() {
   calls_ = 0;
   std::fill(pairs_.begin(), pairs_.end(), 0);
   std::fill(sums_.begin(), sums_.end(), 0.0);
+  expected_per_area_ = 0;
 }
 
 void OrientationCorrelation::merge(const OrientationCorrelation& other) {
   SHAKEN_CHECK(pairs_.size() == other.pairs_.size() && r_max_ == other.r_max_, "correlations of different bins");
   calls_ += other.calls_;
+  expected_per_area_ += other.expected_per_area_;
   for (std::size_t bin = 0; bin < pairs_.size(); ++bin) {
     pairs_[bin] += other.pairs_[bin];
     sums_[bin] += other.sums_[bin];
@@ -87,6 +93,7 @@ void OrientationCorrelation::save(StateWriter& writer) const {
   writer.tag("OrientationCorrelation");
   writer.put(r_max_);
   writer.put(calls_);
+  writer.put(expected_per_area_);
   writer.put(pairs_);
   writer.put(sums_);
 }
@@ -95,9 +102,11 @@ void OrientationCorrelation::restore(StateReader& reader) {
   reader.tag("OrientationCorrelation");
   if (reader.real() != r_max_) throw StateError("saved analysis state: OrientationCorrelation of another range");
   const std::int64_t calls = reader.integer(0, std::numeric_limits<std::int64_t>::max() / 2);
+  const double expected_per_area = reader.real();
   std::vector<std::int64_t> pairs = reader.integers(pairs_.size());
   sums_ = reader.reals(sums_.size());
   pairs_ = std::move(pairs);
+  expected_per_area_ = expected_per_area;
   calls_ = calls;
 }
 
