@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "analysis/nearest_image.h"
 #include "analysis/order.h"
 #include "analysis/wave_sums.h"
 #include "sim/core/check.h"
@@ -71,8 +72,8 @@ void LatticeOrder::accumulate(std::span<const Vec3> positions, std::span<const V
   const double cosine = std::cos(director), sine = std::sin(director);
   std::vector<double> xs(n), ys(n);
   for (std::size_t i = 0; i < n; ++i) {
-    xs[i] = positions[i].x() - box * std::floor(positions[i].x() / box);
-    ys[i] = positions[i].y() - box * std::floor(positions[i].y() / box);
+    xs[i] = wrapped(positions[i].x(), box);
+    ys[i] = wrapped(positions[i].y(), box);
   }
   const std::size_t stride = (n + kMaxReferences - 1) / kMaxReferences;
   const std::size_t first = static_cast<std::size_t>(calls_++) % stride;
@@ -85,11 +86,8 @@ void LatticeOrder::accumulate(std::span<const Vec3> positions, std::span<const V
     double local = 0;
     Bonds raw(n), compressed(n);
     for (std::size_t i = first; i < n; i += stride) {
-      const double half = box / 2;
       for (std::size_t j = 0; j < n; ++j) {
-        double dx = xs[j] - xs[i], dy = ys[j] - ys[i];
-        dx += (dx < -half ? box : 0.0) - (dx > half ? box : 0.0);
-        dy += (dy < -half ? box : 0.0) - (dy > half ? box : 0.0);
+        const double dx = nearest_image(xs[j] - xs[i], box), dy = nearest_image(ys[j] - ys[i], box);
         raw.x[j] = dx * cosine + dy * sine;
         raw.y[j] = dy * cosine - dx * sine;
         raw.square[j] = dx * dx + dy * dy;
