@@ -10,15 +10,18 @@
 
 namespace shaken::analysis {
 
-/// G2(r); both of shape (bins).
+/// G2(r) and g(r); all of shape (bins).
 struct OrientationCurve {
   std::vector<double> r;   ///< bin centres [mm]
   std::vector<double> g2;  ///< in [-1, 1]; NaN where no pair was met
+  std::vector<double> g;   ///< pairs met over pairs expected of a gas of the same density; NaN without samples
 };
 
 /// G2(r) = <cos 2 (theta_i - theta_j)> over pairs of rods at in-plane distance r (nearest periodic image) below r_max.
-/// One sample costs at most 1024 n_rods pairs: of more than 1024 rods, every k-th is taken as i, another set each time,
-/// against all rods as j. Rods exactly upright are left out.
+/// The same pairs give the distribution g(r): their number in a ring over references x rho x the ring's area, with rho
+/// = n / L^2. Of n rods a gas then has 1 - 1 / n, as is usual. One sample costs at most 1024 n_rods pairs: of more than
+/// 1024 rods, every k-th is taken as i, another set each time, against all rods as j. Rods exactly upright are left
+/// out.
 class OrientationCorrelation {
  public:
   /// `bins` equal bins over [0, r_max) [mm].
@@ -39,6 +42,7 @@ class OrientationCorrelation {
   std::int64_t calls_ = 0;
   std::vector<std::int64_t> pairs_;  // (bins)
   std::vector<double> sums_;         // (bins) of cos 2 (theta_i - theta_j)
+  double expected_per_area_ = 0;     // sum over references of rho [1/mm^2]
 };
 
 }  // namespace shaken::analysis

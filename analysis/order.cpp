@@ -3,11 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <numeric>
 
 #include "analysis/fold.h"
-#include "sim/core/check.h"
 
 namespace shaken::analysis {
+
+namespace {
+
+/// The angle of an axis from the cosine and sine of twice it, times any length.
+double axis_of(double cosine, double sine) { return fold_half_turn(0.5 * std::atan2(sine, cosine)); }
+
+}  // namespace
 
 NematicOrder nematic_order(std::span<const Vec3> directors) {
   Vec2 sum = Vec2::Zero();
@@ -19,46 +27,27 @@ NematicOrder nematic_order(std::span<const Vec3> directors) {
     ++n;
   }
   if (n == 0) return {};
-  return {std::min(1.0, sum.norm() / static_cast<double>(n)), fold_half_turn(0.5 * std::atan2(sum.y(), sum.x()))};
+  return {std::min(1.0, sum.norm() / static_cast<double>(n)), axis_of(sum.x(), sum.y())};
 }
 
-void OrderSeries::accumulate(double time, std::span<const Vec3> directors) {
-  SHAKEN_CHECK(times_.empty() || time > times_.back(), "samples must come in order of time");
-  const NematicOrder sample = nematic_order(directors);
-  times_.push_back(time);
-  orders_.push_back(sample.order);
-  directors_.push_back(sample.director);
-  later_half_sum_ += sample.order;
-  if (const std::size_t n = orders_.size(); n % 2 == 0) later_half_sum_ -= orders_[n / 2 - 1];
+void OrderSeries::accumulate(double time, const NematicOrder& sample) {
+  const double angle = 2 * sample.director;
+  series_.accumulate(time, {sample.order, sample.order * std::cos(angle), sample.order * std::sin(angle)});
 }
 
 SteadySummary OrderSeries::reduce(std::optional<double> steady_start) const {
-  return summarize_series(times_, orders_, steady_start);
+  return summarize_series(times(), orders(), steady_start);
 }
 
-void OrderSeries::reset() { *this = {}; }
+std::vector<double> OrderSeries::directors() const {
+  std::vector<double> result(times().size());
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] = axis_of(series_.column(1)[i], series_.column(2)[i]);
+  return result;
+}
 
 double OrderSeries::running_mean() const {
-  const std::size_t n = orders_.size();
-  return n == 0 ? 0.0 : later_half_sum_ / static_cast<double>(n - n / 2);
-}
-
-void OrderSeries::save(StateWriter& writer) const {
-  writer.tag("OrderSeries");
-  writer.put(times_);
-  writer.put(orders_);
-  writer.put(directors_);
-  writer.put(later_half_sum_);
-}
-
-void OrderSeries::restore(StateReader& reader) {
-  reader.tag("OrderSeries");
-  OrderSeries saved;
-  saved.times_ = reader.reals();
-  saved.orders_ = reader.reals(saved.times_.size());
-  saved.directors_ = reader.reals(saved.times_.size());
-  saved.later_half_sum_ = reader.real();
-  *this = std::move(saved);
+  const std::span<const double> later = std::span(orders()).subspan(orders().size() / 2);
+  return later.empty() ? 0.0 : std::accumulate(later.begin(), later.end(), 0.0) / static_cast<double>(later.size());
 }
 
 }  // namespace shaken::analysis

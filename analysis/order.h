@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "analysis/bounded_series.h"
 #include "analysis/state_io.h"
 #include "analysis/time_series.h"
 #include "sim/core/types.h"
@@ -23,27 +23,29 @@ struct NematicOrder {
 /// Without any rod that has one, {0, 0}.
 NematicOrder nematic_order(std::span<const Vec3> directors);
 
-/// S(t) and the director's angle. Grows by three numbers a sample.
+/// S(t) and the director's angle, in bounded memory: of a long run a point is the mean over several successive samples,
+/// that of the director being the axis of the mean of S exp(2 i theta) (see BoundedSeries). That leaves mean and error
+/// of the mean of S as they are; the spread is then that of the averages.
 class OrderSeries {
  public:
   /// Takes a sample at `time` [s], later than all before.
-  void accumulate(double time, std::span<const Vec3> directors);
+  void accumulate(double time, const NematicOrder& sample);
+  void accumulate(double time, std::span<const Vec3> directors) { accumulate(time, nematic_order(directors)); }
   /// Mean, spread and error of S in the steady state (see summarize_series).
   SteadySummary reduce(std::optional<double> steady_start = std::nullopt) const;
-  void reset();
+  void reset() { series_.reset(); }
 
-  const std::vector<double>& times() const { return times_; }          ///< (n) [s]
-  const std::vector<double>& orders() const { return orders_; }        ///< (n)
-  const std::vector<double>& directors() const { return directors_; }  ///< (n) [rad], in [-pi/2, pi/2)
-  /// Mean of S over the later half of the samples so far (the larger half of an odd number); 0 without samples.
+  const std::vector<double>& times() const { return series_.times(); }     ///< (n) [s]
+  const std::vector<double>& orders() const { return series_.column(0); }  ///< (n)
+  std::vector<double> directors() const;                                   ///< (n) [rad], in [-pi/2, pi/2)
+  /// Mean of S over the later half of the points so far (the larger half of an odd number); 0 without points.
   double running_mean() const;
 
-  void save(StateWriter& writer) const;
-  void restore(StateReader& reader);
+  void save(StateWriter& writer) const { series_.save(writer); }
+  void restore(StateReader& reader) { series_.restore(reader); }
 
  private:
-  std::vector<double> times_, orders_, directors_;
-  double later_half_sum_ = 0;  // of orders_[n / 2 .. n)
+  BoundedSeries<3> series_;  // S, S cos 2 theta, S sin 2 theta
 };
 
 }  // namespace shaken::analysis

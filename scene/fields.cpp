@@ -428,7 +428,7 @@ std::vector<Field> make_table() {
       "measure.defects.min_lifetime", kTime, 1e-7, 1e5,
       "Tracks seen for so long are told by themselves as lasting ones: noise makes short-lived pairs.",
       [](auto& p) -> auto& { return p.defects->min_lifetime; })));
-  add(block("measure.g2", false, "Orientational correlation G2(r).", &RunPlan::g2));
+  add(block("measure.g2", false, "Orientational correlation G2(r) and pair distribution g(r).", &RunPlan::g2));
   add(every(
       "measure.g2.every", "Time between samples.", [](auto& p) -> auto& { return p.g2->every; }));
   add(whole(
@@ -471,6 +471,23 @@ std::vector<Field> make_table() {
   add(quantity(
       "measure.rods.duration", kTime, 1e-6, 1e7, "How long they are followed.",
       [](auto& p) -> auto& { return p.rods->duration; }));
+  add(block("measure.pairs", false, "Maps of g(x, y) and G2(x, y) in the frame of the director, and cuts through them.",
+            &RunPlan::pairs));
+  add(every(
+      "measure.pairs.every", "Time between samples.", [](auto& p) -> auto& { return p.pairs->every; }));
+  add(whole(
+      "measure.pairs.bins", 2, 1000, "Of the map each way; an odd number has one about 0.",
+      [](auto& p) -> auto& { return p.pairs->bins; }));
+  add(derived(quantity(
+                  "measure.pairs.range", kLength, 0.01, 1000, "Half the width of the map, at most half the box.",
+                  [](auto& p) -> auto& { return p.pairs->range; }),
+              "three rod lengths, at most half the box"));
+  add(block("measure.layers", false, "Layers along the director: spectrum, wavelength and order.", &RunPlan::layers));
+  add(every(
+      "measure.layers.every", "Time between samples.", [](auto& p) -> auto& { return p.layers->every; }));
+  add(block("measure.lattice", false, "Crystals: psi_6 and the largest Bragg peak.", &RunPlan::lattice));
+  add(every(
+      "measure.lattice.every", "Time between samples.", [](auto& p) -> auto& { return p.lattice->every; }));
 
   add(block("trajectory", false, "Rod positions and directions into trajectory.h5.", &RunPlan::trajectory));
   add(every(

@@ -453,6 +453,16 @@ class Resolver {
       if (!given("measure.defects.smoothing")) plan_.defects->smoothing = plan_.system.rod.length / 2;
       if (!given("measure.defects.grid")) plan_.defects->grid = plan_.system.rod.length / 8;
     }
+    if (plan_.pairs && ok({"rods.length", "box.side", "measure.pairs.range"})) {
+      const double half_box = plan_.system.box_side / 2;
+      if (!given("measure.pairs.range")) plan_.pairs->range = std::min(3 * plan_.system.rod.length, half_box);
+      if (plan_.pairs->range > half_box * (1 + 1e-12)) {
+        complain(
+            {"measure.pairs.range", "box.side"},
+            fmt::format("a map of {} each way reaches beyond half the box, {}: distances have no nearest image there",
+                        length(plan_.pairs->range), length(half_box)));
+      }
+    }
   }
 
   const Draft& draft_;

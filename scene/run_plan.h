@@ -34,7 +34,7 @@ struct MeasureDefects {
   double min_lifetime = 0.5;  ///< of tracks that count as lasting [s]
   friend bool operator==(const MeasureDefects&, const MeasureDefects&) = default;
 };
-/// Orientational correlation G2(r).
+/// Orientational correlation G2(r) and pair distribution g(r).
 struct MeasureG2 {
   double every = 0.1;  ///< [s]
   int bins = 100;      ///< over [0, L/2)
@@ -73,6 +73,23 @@ struct MeasureFrank {
   double every = 0.1;  ///< [s]
   friend bool operator==(const MeasureFrank&, const MeasureFrank&) = default;
 };
+/// Maps of g and G2 in the frame of the director.
+struct MeasurePairs {
+  double every = 0.5;  ///< [s]
+  int bins = 81;       ///< each way
+  double range = 0.0;  ///< half the map's width [mm]; three rod lengths or half the box in a loaded plan
+  friend bool operator==(const MeasurePairs&, const MeasurePairs&) = default;
+};
+/// Spectrum, wavelength and order of layers.
+struct MeasureLayers {
+  double every = 0.1;  ///< [s]
+  friend bool operator==(const MeasureLayers&, const MeasureLayers&) = default;
+};
+/// psi_6 and the largest Bragg peak.
+struct MeasureLattice {
+  double every = 1.0;  ///< [s]
+  friend bool operator==(const MeasureLattice&, const MeasureLattice&) = default;
+};
 /// Rod positions and directions into trajectory.h5.
 struct Trajectory {
   double every = 0.1;  ///< [s]
@@ -110,6 +127,9 @@ struct RunPlan {
   std::optional<MeasureRods> rods;
   std::optional<MeasureFluctuations> fluctuations;
   std::optional<MeasureFrank> frank;
+  std::optional<MeasurePairs> pairs;
+  std::optional<MeasureLayers> layers;
+  std::optional<MeasureLattice> lattice;
   std::optional<Trajectory> trajectory;
   std::optional<Stream> stream;
   std::optional<Movie> movie;

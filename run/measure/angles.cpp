@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "analysis/angles.h"
 
-#include "analysis/blocked.h"
+#include <limits>
+#include <optional>
+
+#include "analysis/two_peaks.h"
+#include "run/measure/block_estimates.h"
 #include "run/measure/registry.h"
 
 namespace shaken::run {
 namespace {
 
+/// P(theta), and theta_m where it has two peaks.
 class MeasuredAngles : public Measurement {
  public:
   explicit MeasuredAngles(int bins) : angles_(analysis::AngleDistribution(bins)) {}
@@ -16,6 +21,13 @@ class MeasuredAngles : public Measurement {
     const analysis::AnglePdf pdf = angles_.after(result.t_steady).reduce();
     result.arrays["/angles/theta_rad"] = pdf.theta;
     result.arrays["/angles/density_per_rad"] = pdf.density;
+    const auto peaks = block_estimates(angles_, result.t_steady, [](const analysis::AngleDistribution& angles) {
+      constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+      const std::optional<analysis::TwoPeaks> found = analysis::find_two_peaks(angles.reduce());
+      return found ? std::vector<double>{found->theta_m * 180 / kPi, found->dip} : std::vector<double>{kNone, kNone};
+    });
+    result.scalars["theta_m_deg"] = peaks[0];
+    result.scalars["dip"] = peaks[1];
   }
   void save(analysis::StateWriter& writer) const override { angles_.save(writer); }
   void restore(analysis::StateReader& reader) override { angles_.restore(reader); }

@@ -18,6 +18,7 @@ class MeasuredG2 : public Measurement {
     const analysis::OrientationCurve curve = g2_.after(result.t_steady).reduce();
     result.arrays["/g2/r_mm"] = curve.r;
     result.arrays["/g2/g2"] = curve.g2;
+    result.arrays["/g2/g"] = curve.g;
   }
   void save(analysis::StateWriter& writer) const override { g2_.save(writer); }
   void restore(analysis::StateReader& reader) override { g2_.restore(reader); }

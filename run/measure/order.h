@@ -1,23 +1,29 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "analysis/blocked.h"
 #include "analysis/order.h"
+#include "analysis/order_statistics.h"
 #include "run/measure/measurement.h"
 
 namespace shaken::run {
 
-/// S(t); the other measurements take from it when the steady state begins.
+/// S(t), P[S] and what follows from its moments; the other measurements take from it when the steady state begins.
 class MeasuredOrder : public Measurement {
  public:
+  explicit MeasuredOrder(int n_rods) : n_rods_(n_rods) {}
+
   void sample(const Moment& moment) override;
   void reduce(Reduction& result) const override;
-  void save(analysis::StateWriter& writer) const override { series_.save(writer); }
-  void restore(analysis::StateReader& reader) override { series_.restore(reader); }
+  void save(analysis::StateWriter& writer) const override;
+  void restore(analysis::StateReader& reader) override;
 
   const analysis::OrderSeries& series() const { return series_; }
 
  private:
+  int n_rods_;
   analysis::OrderSeries series_;
+  analysis::Blocked<analysis::OrderStatistics> statistics_{analysis::OrderStatistics(100)};
 };
 
 }  // namespace shaken::run

@@ -30,6 +30,9 @@ constexpr MeasurementKind kKinds[] = {
     kind<&RunPlan::rods>("rods", make_rods, Growth::kSeries, [](const RunPlan& plan) { return plan.rods->duration; }),
     kind<&RunPlan::fluctuations>("fluctuations", make_fluctuations),
     kind<&RunPlan::frank>("frank", make_frank),
+    kind<&RunPlan::pairs>("pairs", make_pairs),
+    kind<&RunPlan::layers>("layers", make_layers),
+    kind<&RunPlan::lattice>("lattice", make_lattice),
 };
 
 }  // namespace

@@ -42,5 +42,8 @@ std::unique_ptr<Measurement> make_msd(const MeasureContext& context);
 std::unique_ptr<Measurement> make_rotation(const MeasureContext& context);
 std::unique_ptr<Measurement> make_velocity(const MeasureContext& context);
 std::unique_ptr<Measurement> make_rods(const MeasureContext& context);
+std::unique_ptr<Measurement> make_pairs(const MeasureContext& context);
+std::unique_ptr<Measurement> make_layers(const MeasureContext& context);
+std::unique_ptr<Measurement> make_lattice(const MeasureContext& context);
 
 }  // namespace shaken::run

@@ -139,6 +139,46 @@ TEST(OrderSeries, ReduceStartsWhereToldAndResetForgets) {
   EXPECT_EQ(series.reduce().n_effective, 0.0);
 }
 
+// Twice as many samples as there are points, and a half again: then each point is the mean over four successive ones.
+TEST(OrderSeries, OfALongRunIsOfAverages) {
+  constexpr std::size_t kPoints = BoundedSeries<3>::kMaxPoints;
+  constexpr std::size_t kSamples = 5 * kPoints / 2 + 3;
+  const auto order = [](std::size_t i) { return 0.5 + 0.4 * std::sin(0.1 * static_cast<double>(i)); };
+  const auto director = [](std::size_t i) {
+    return 1.5 + 0.1 * std::cos(0.01 * static_cast<double>(i));
+  };  // passes pi/2
+  OrderSeries series, stopped;
+  std::size_t most = 0;
+  for (std::size_t i = 0; i < kSamples; ++i) {
+    const NematicOrder sample{order(i), fold_half_turn(director(i))};
+    series.accumulate(0.01 * static_cast<double>(i), sample);
+    stopped.accumulate(0.01 * static_cast<double>(i), sample);
+    if (i % 50001 == 0 || i == kPoints || i == kPoints + 1 || i == 2 * kPoints + 1) stop_and_go_on(stopped);
+    most = std::max(most, series.times().size());
+  }
+  EXPECT_EQ(most, kPoints - 1);
+  EXPECT_EQ(state(series), state(stopped));
+  ASSERT_EQ(series.times().size(), kSamples / 4);
+  for (const std::size_t k :
+       {std::size_t{0}, std::size_t{1}, std::size_t{777}, kPoints / 2 - 1, kPoints / 2, kSamples / 4 - 1}) {
+    double mean = 0, time = 0;
+    Vec2 axis_sum = Vec2::Zero();
+    for (std::size_t i = 4 * k; i < 4 * k + 4; ++i) {
+      mean += order(i) / 4;
+      time += 0.01 * static_cast<double>(i) / 4;
+      axis_sum += order(i) * Vec2(std::cos(2 * director(i)), std::sin(2 * director(i)));
+    }
+    EXPECT_NEAR(series.orders()[k], mean, 1e-12) << k;
+    EXPECT_NEAR(series.times()[k], time, 1e-9) << k;
+    const double expected = 0.5 * std::atan2(axis_sum.y(), axis_sum.x());
+    EXPECT_NEAR(fold_half_turn(series.directors()[k] - expected), 0.0, 1e-9) << k;
+  }
+  const std::vector<double>& s = series.orders();
+  const auto later = s.begin() + static_cast<std::ptrdiff_t>(s.size() / 2);
+  EXPECT_NEAR(series.running_mean(), std::accumulate(later, s.end(), 0.0) / static_cast<double>(s.end() - later), 1e-9);
+  EXPECT_THROW(series.accumulate(0.01 * static_cast<double>(kSamples - 1), NematicOrder{}), std::logic_error);
+}
+
 TEST(OrderSeries, GoesOnBitwiseFromItsSavedState) {
   Draw draw(4);
   OrderSeries straight, stopped;

@@ -30,6 +30,9 @@ scene::RunPlan plan() {
   p.rods = scene::MeasureRods{0.005, 3, 0.02};
   p.fluctuations = scene::MeasureFluctuations{0.05};
   p.frank = scene::MeasureFrank{0.02};
+  p.pairs = scene::MeasurePairs{0.05, 11, 0};
+  p.layers = scene::MeasureLayers{0.02};
+  p.lattice = scene::MeasureLattice{0.05};
   return p;
 }
 
@@ -85,7 +88,10 @@ TEST(Measurements, EachKeepsItsOwnTime) {
                                                                         {"velocity", 11},
                                                                         {"rods", 21},
                                                                         {"fluctuations", 3},
-                                                                        {"frank", 6}}));
+                                                                        {"frank", 6},
+                                                                        {"pairs", 3},
+                                                                        {"layers", 6},
+                                                                        {"lattice", 3}}));
   const Reduction reduction = measurements.reduce(0.1);
   EXPECT_EQ(reduction.arrays.at("/order/time_s").size(), 11U);
   EXPECT_EQ(reduction.arrays.at("/defects/time_s").size(), 3U);
@@ -93,6 +99,13 @@ TEST(Measurements, EachKeepsItsOwnTime) {
   EXPECT_EQ(reduction.arrays.at("/tilt/n_z").size(), 10U);
   EXPECT_EQ(reduction.arrays.at("/g2/g2").size(), 20U);
   EXPECT_EQ(reduction.arrays.at("/g2/r_mm").back(), 9.75);  // bins over [0, L / 2)
+  EXPECT_EQ(reduction.arrays.at("/g2/g").size(), 20U);
+  EXPECT_EQ(reduction.arrays.at("/order/pdf/density").size(), reduction.arrays.at("/order/pdf/order").size());
+  EXPECT_EQ(reduction.arrays.at("/pairs/g").size(), 121U);
+  EXPECT_EQ(reduction.arrays.at("/pairs/g2").size(), 121U);
+  EXPECT_NEAR(reduction.arrays.at("/pairs/along_mm").back(), 10 * 10.0 / 11, 1e-12);  // half the box: less than 3 rods
+  EXPECT_EQ(reduction.arrays.at("/pairs/cut/g2_across").size(), reduction.arrays.at("/pairs/cut/r_mm").size());
+  EXPECT_NEAR(reduction.arrays.at("/layers/q_per_mm").front(), 2 * kPi / 20, 1e-12);
   EXPECT_NEAR(reduction.arrays.at("/msd/lag_s").front(), 0.01, 1e-12);
   EXPECT_EQ(reduction.arrays.at("/msd/total_sem_mm2").size(), reduction.arrays.at("/msd/lag_s").size());
   EXPECT_EQ(reduction.arrays.at("/rotation/c2_sem").size(), reduction.arrays.at("/rotation/lag_s").size());
@@ -189,6 +202,45 @@ TEST(Measurements, ParallelRodsHaveOrderOneAndNoDefects) {
   EXPECT_NEAR(reduction.arrays.at("/order/order").at(0), 1, 1e-12);
   EXPECT_NEAR(reduction.arrays.at("/order/director_rad").at(0), 0.3, 1e-12);
   EXPECT_EQ(reduction.arrays.at("/defects/n_plus").at(0), 0);
+}
+
+// Stripes at +-theta_m across y, four to the box: every measurement of layers finds them. A square wave has the order
+// 4 / pi sin 2 theta_m; G2 across has its maximum at the wavelength.
+TEST(Measurements, FindPlantedLayers) {
+  constexpr double kThetaM = 15 * kPi / 180, kWavelength = 5;
+  scene::RunPlan p = plan();
+  p.angles->bins = 180;
+  p.pairs->bins = 41;
+  Measurements measurements(p, species());
+  std::mt19937_64 rng(5);
+  std::normal_distribution<double> normal;
+  for (Tick tick = 0; tick <= 200000; tick = measurements.next_due(tick + 1)) {
+    Snapshot s = random_snapshot(tick);
+    const double phase = 2 * kPi * static_cast<double>(rng() % 1000) / 1000;
+    for (std::size_t i = 0; i < s.n_rods(); ++i) {
+      const double wave = std::sin(2 * kPi * s.position[i].y() / kWavelength + phase);
+      const double theta = (wave > 0 ? kThetaM : -kThetaM) + 0.03 * normal(rng);
+      s.director[i] = Vec3(std::cos(theta), std::sin(theta), 0);
+    }
+    measurements.sample(s);
+  }
+  const std::map<std::string, Scalar> scalars = measurements.reduce(2.0).scalars;
+  const auto check = [&](const char* name, double expected, double tolerance) {
+    const Scalar& scalar = scalars.at(name);
+    EXPECT_NEAR(scalar.value, expected, tolerance) << name;
+    EXPECT_GT(scalar.sem, 0) << name;
+    EXPECT_LT(scalar.sem, 3 * tolerance) << name;
+  };
+  check("theta_m_deg", 15, 1);
+  check("dip", 0, 0.05);
+  check("wavelength_mm", kWavelength, 0.1);
+  check("layers_per_box", 4, 0.1);
+  check("layer_order", 4 / kPi * std::sin(2 * kThetaM), 0.04);
+  check("wavelength_g2_mm", kWavelength, 0.5);
+  check("binder", 1, 0.01);
+  EXPECT_LT(scalars.at("bragg_peak").value, 0.2);
+  EXPECT_LT(scalars.at("psi_6").value, 0.2);
+  EXPECT_GT(scalars.at("susceptibility").value, 0);
 }
 
 TEST(Measurements, DefectsBeyondTheSideWallsDoNotCount) {

@@ -31,6 +31,9 @@ scene::RunPlan busy_plan() {
   plan.defects = scene::MeasureDefects{0.02, 1.25, 0.3125};
   plan.g2 = scene::MeasureG2{0.05, 20};
   plan.msd = scene::MeasureMsd{0.01};
+  plan.pairs = scene::MeasurePairs{0.1, 21, 0};
+  plan.layers = scene::MeasureLayers{0.05};
+  plan.lattice = scene::MeasureLattice{0.3};
   plan.trajectory = scene::Trajectory{0.01};
   return plan;
 }
@@ -59,7 +62,7 @@ TEST(Probe, FindsWhatARunThenTakes) {
   for (const auto& [effect, cost] : probed->samples) {
     EXPECT_EQ(cost.count, summary["effects"][effect]["samples"].get<std::int64_t>()) << effect;
   }
-  EXPECT_EQ(probed->samples.size(), 6u);
+  EXPECT_EQ(probed->samples.size(), 9u);
   EXPECT_EQ(probed->trajectory.count, summary["effects"]["trajectory"]["frames"].get<std::int64_t>());
   // samples every 2, 3, 4, 10, 20 and 50 ms: multiples of 2 or 3 ms
   EXPECT_EQ(probed->snapshots.count, 751 + 501 - 251);
@@ -96,7 +99,7 @@ TEST(Probe, SharesArePartsOfOneWhole) {
   }
   int n_physics = 0;
   for (const Effect& effect : all_effects()) n_physics += effect.is_on(busy_plan().system) ? 1 : 0;
-  EXPECT_EQ(n_on, n_physics + 6 + 1);  // the measurements, the trajectory
+  EXPECT_EQ(n_on, n_physics + 9 + 1);  // the measurements, the trajectory
   EXPECT_GT(sum, 0.5);
   EXPECT_LE(sum, 1.001);
 }

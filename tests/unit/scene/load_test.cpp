@@ -29,6 +29,7 @@ TEST(LoadScene, AnEmptyObjectIsThePapersSystem) {
   EXPECT_EQ(plan.order, MeasureOrder{0.01});
   EXPECT_EQ(plan.stream, Stream{20});
   EXPECT_FALSE(plan.angles || plan.tilt || plan.defects || plan.g2 || plan.msd || plan.trajectory || plan.movie);
+  EXPECT_FALSE(plan.pairs || plan.layers || plan.lattice);
 }
 
 // Sharma & Soni 2024: 2,500 to 4,400 rods of 2.5 mm and 1,400 to 2,400 of 4.5 mm for area fractions 0.50 to 0.85.
@@ -58,7 +59,9 @@ TEST(LoadScene, ReadsEveryKey) {
                              "min_lifetime": "2 s"}, "g2": {"bins": 50, "every": 0.2},
                  "msd": {"every": "5 ms"}, "rotation": {"every": "2 ms"}, "velocity": {"every": "50 ms", "window": "1 s"},
                  "rods": {"every": "20 ms", "count": 7, "duration": "1 min"},
-                 "fluctuations": {"every": "3 s"}, "frank": {"every": "0.3 s"} },
+                 "fluctuations": {"every": "3 s"}, "frank": {"every": "0.3 s"},
+                 "pairs": {"every": "0.4 s", "bins": 41, "range": "9 mm"}, "layers": {"every": "0.3 s"},
+                 "lattice": {"every": "2 s"} },
     "trajectory": {"every": "40 ms"}, "stream": {"rate": "5 Hz"}, "movie": {"every": "25 ms", "size": [640, 480]} })");
   RunPlan want;
   want.system.rod = {.length = 3.5, .mid_diameter = 0.9, .end_diameter = 0.3, .n_beads = 11, .density = 2.7};
@@ -89,6 +92,9 @@ TEST(LoadScene, ReadsEveryKey) {
   want.rods = MeasureRods{0.02, 7, 60};
   want.fluctuations = MeasureFluctuations{3};
   want.frank = MeasureFrank{0.3};
+  want.pairs = MeasurePairs{0.4, 41, 9};
+  want.layers = MeasureLayers{0.3};
+  want.lattice = MeasureLattice{2};
   want.trajectory = Trajectory{0.04};
   want.stream = Stream{5};
   want.movie = Movie{0.025, 640, 480};
@@ -110,6 +116,11 @@ TEST(LoadScene, BlocksAreOffWhenAbsentAndExactlyThoseNamedAreOn) {
 TEST(LoadScene, DefectFieldFollowsTheRodsLength) {
   const RunPlan plan = plan_of(R"({"rods": {"length": 3}, "measure": {"defects": {}}})");
   EXPECT_EQ(plan.defects, (MeasureDefects{0.1, 1.5, 0.375}));
+}
+
+TEST(LoadScene, PairMapFollowsTheRodsLengthAndTheBox) {
+  EXPECT_EQ(plan_of(R"({"rods": {"length": 3}, "measure": {"pairs": {}}})").pairs, (MeasurePairs{0.5, 81, 9}));
+  EXPECT_EQ(plan_of(R"({"box": {"side": 20}, "measure": {"pairs": {}}})").pairs, (MeasurePairs{0.5, 81, 10}));
 }
 
 TEST(LoadScene, NullIsAsIfTheKeyWereNotThere) {

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/lattice.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <vector>
+
+#include "analysis/nearest_image.h"
+#include "analysis/order.h"
+#include "analysis/wave_sums.h"
+#include "sim/core/check.h"
+
+namespace shaken::analysis {
+namespace {
+
+/// Bounds of the cost: rods looked at in one sample, waves to the side of the box.
+constexpr std::size_t kMaxReferences = 1024;
+constexpr int kMostWaves = 128;
+constexpr std::size_t kNeighbours = 6;
+/// Distances that differ by less than this share of themselves are the same.
+constexpr double kSame = 1e-6;
+
+/// Bonds from one rod to all: squared length (n), and their ends in the frame of the director.
+struct Bonds {
+  std::vector<double> x, y, square;
+  explicit Bonds(std::size_t n) : x(n), y(n), square(n) {}
+};
+
+/// psi_6 of one rod, whose own entry has an infinite length.
+std::complex<double> psi_6(const Bonds& bonds) {
+  std::array<double, kNeighbours> nearest;
+  nearest.fill(std::numeric_limits<double>::infinity());
+  for (const double square : bonds.square) {
+    if (square >= nearest.back()) continue;
+    std::size_t place = kNeighbours - 1;
+    for (; place > 0 && nearest[place - 1] > square; --place) nearest[place] = nearest[place - 1];
+    nearest[place] = square;
+  }
+  const double sure = nearest.back() * (1 - 2 * kSame), last = nearest.back() * (1 + 2 * kSame);
+  std::complex<double> near_sum = 0, last_sum = 0;
+  double n_near = 0, n_last = 0;
+  for (std::size_t j = 0; j < bonds.square.size(); ++j) {
+    if (!(bonds.square[j] <= last)) continue;
+    const std::complex<double> bond(bonds.x[j], bonds.y[j]);
+    const double length = std::abs(bond);
+    if (length == 0) continue;  // in one place: no direction
+    const std::complex<double> unit = bond / length, cube = unit * unit * unit;
+    (bonds.square[j] < sure ? near_sum : last_sum) += cube * cube;
+    (bonds.square[j] < sure ? n_near : n_last) += 1;
+  }
+  if (n_last == 0) return 0;
+  const double share = (static_cast<double>(kNeighbours) - n_near) / n_last;
+  return (near_sum + share * last_sum) / static_cast<double>(kNeighbours);
+}
+
+}  // namespace
+
+LatticeOrder::LatticeOrder(const Shape& shape) : shape_(shape) {
+  SHAKEN_CHECK(shape.box_side > 0 && shape.ratio > 0, "a box and rods with a shape");
+  SHAKEN_CHECK(shape.shortest > 0 && shape.longest > shape.shortest, "wavelengths to look at");
+}
+
+void LatticeOrder::accumulate(std::span<const Vec3> positions, std::span<const Vec3> directors) {
+  SHAKEN_CHECK(positions.size() == directors.size(), "one position for each director");
+  const std::size_t n = positions.size();
+  if (n == 0) return;
+  const double box = shape_.box_side;
+  const double director = nematic_order(directors).director;
+  const double cosine = std::cos(director), sine = std::sin(director);
+  std::vector<double> xs(n), ys(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    xs[i] = wrapped(positions[i].x(), box);
+    ys[i] = wrapped(positions[i].y(), box);
+  }
+  const std::size_t stride = (n + kMaxReferences - 1) / kMaxReferences;
+  const std::size_t first = static_cast<std::size_t>(calls_++) % stride;
+  std::vector<Vec2> places;
+  for (std::size_t i = first; i < n; i += stride) places.emplace_back(xs[i], ys[i]);
+  const auto n_places = static_cast<double>(places.size());
+
+  if (n > kNeighbours) {
+    std::complex<double> sum = 0, raw_sum = 0;
+    double local = 0;
+    Bonds raw(n), compressed(n);
+    for (std::size_t i = first; i < n; i += stride) {
+      for (std::size_t j = 0; j < n; ++j) {
+        const double dx = nearest_image(xs[j] - xs[i], box), dy = nearest_image(ys[j] - ys[i], box);
+        raw.x[j] = dx * cosine + dy * sine;
+        raw.y[j] = dy * cosine - dx * sine;
+        raw.square[j] = dx * dx + dy * dy;
+        compressed.x[j] = raw.x[j] / shape_.ratio;
+        compressed.y[j] = raw.y[j];
+        compressed.square[j] = compressed.x[j] * compressed.x[j] + compressed.y[j] * compressed.y[j];
+      }
+      raw.square[i] = compressed.square[i] = std::numeric_limits<double>::infinity();
+      const std::complex<double> psi = psi_6(compressed);
+      sum += psi;
+      local += std::abs(psi);
+      raw_sum += psi_6(raw);
+    }
+    sums_.psi_6 += std::abs(sum) / n_places;
+    sums_.psi_6_local += local / n_places;
+    sums_.psi_6_raw += std::abs(raw_sum) / n_places;
+  }
+
+  const double most = box / shape_.shortest, fewest = box / shape_.longest;
+  const int waves = std::max(1, static_cast<int>(std::min<double>(most, kMostWaves)));
+  const WavePowers powers = wave_powers(places, std::vector<double>(places.size(), 1.0), box, waves);
+  double largest = 0;
+  for (int m = 0; m <= waves; ++m) {
+    for (int k = -waves; k <= waves; ++k) {
+      const double length = std::hypot(m, k);
+      if (length >= fewest && length <= most && length > 0) largest = std::max(largest, powers.at(m, k));
+    }
+  }
+  sums_.bragg_peak += largest / (n_places * n_places);
+  ++samples_;
+}
+
+LatticeMeans LatticeOrder::reduce() const {
+  const auto n = static_cast<double>(samples_);
+  return {sums_.psi_6 / n, sums_.psi_6_local / n, sums_.psi_6_raw / n, sums_.bragg_peak / n};
+}
+
+void LatticeOrder::reset() { *this = LatticeOrder(shape_); }
+
+void LatticeOrder::merge(const LatticeOrder& other) {
+  SHAKEN_CHECK(shape_ == other.shape_, "lattices of different shapes");
+  calls_ += other.calls_;
+  samples_ += other.samples_;
+  sums_.psi_6 += other.sums_.psi_6;
+  sums_.psi_6_local += other.sums_.psi_6_local;
+  sums_.psi_6_raw += other.sums_.psi_6_raw;
+  sums_.bragg_peak += other.sums_.bragg_peak;
+}
+
+void LatticeOrder::save(StateWriter& writer) const {
+  writer.tag("LatticeOrder");
+  for (const double number : {shape_.box_side, shape_.ratio, shape_.shortest, shape_.longest}) writer.put(number);
+  writer.put(calls_);
+  writer.put(samples_);
+  for (const double sum : {sums_.psi_6, sums_.psi_6_local, sums_.psi_6_raw, sums_.bragg_peak}) writer.put(sum);
+}
+
+void LatticeOrder::restore(StateReader& reader) {
+  reader.tag("LatticeOrder");
+  for (const double number : {shape_.box_side, shape_.ratio, shape_.shortest, shape_.longest}) {
+    if (reader.real() != number) throw StateError("saved analysis state: LatticeOrder of another shape");
+  }
+  LatticeOrder saved(shape_);
+  saved.calls_ = reader.integer(0, std::numeric_limits<std::int64_t>::max() / 2);
+  saved.samples_ = reader.integer(0, std::numeric_limits<std::int64_t>::max() / 2);
+  for (double* sum : {&saved.sums_.psi_6, &saved.sums_.psi_6_local, &saved.sums_.psi_6_raw, &saved.sums_.bragg_peak}) {
+    *sum = reader.real();
+  }
+  *this = saved;
+}
+
+}  // namespace shaken::analysis

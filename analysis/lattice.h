@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "analysis/state_io.h"
+#include "sim/core/types.h"
+
+namespace shaken::analysis {
+
+/// Order of the places of the rods, averaged over samples; NaN without any.
+struct LatticeMeans {
+  double psi_6 = 0;        ///< |<psi_6j>_j| in coordinates compressed along the director
+  double psi_6_local = 0;  ///< <|psi_6j|>_j, the same without regard to other rods' axes
+  double psi_6_raw = 0;    ///< |<psi_6j>_j| in coordinates as they are; high also where all six stand in a row
+  double bragg_peak = 0;   ///< max over q of |sum exp(-i q . r)|^2 / N^2
+};
+
+/// Two measures of a crystal.
+/// psi_6j is the mean of exp(6 i a) over the bonds of rod j to its six nearest neighbours (neighbours as far as the
+/// sixth share the places that are left), a being the bond's angle to the director. A hexagonal lattice, compressed
+/// across by rods that are `ratio` times as long as wide, has psi_6 = 1; a square one has 0, a gas 1 / sqrt(6 N) with
+/// psi_6_local = 0.37.
+/// The Bragg peak is the largest among the wave vectors of the box with wavelengths between `shortest` and `longest`, 1
+/// for a perfect lattice that fits the box, about ln(number of wave vectors) / N for a gas.
+/// One sample takes at most 1024 rods, of more every k-th, another set each time: N above is their number. Neighbours
+/// are taken from all rods. Neighbours must be nearer than half the box: not so with fewer than some fifty rods. Fewer
+/// than seven rods have no psi_6, which counts as 0, and no rod counts as no sample.
+class LatticeOrder {
+ public:
+  struct Shape {
+    double box_side;  ///< [mm]
+    double ratio;     ///< of a rod's length to its width; distances along the director are divided by it
+    double shortest;  ///< wavelength [mm]; at most 128 waves to the side of the box are looked at
+    double longest;   ///< [mm]
+    friend bool operator==(const Shape&, const Shape&) = default;
+  };
+  explicit LatticeOrder(const Shape& shape);
+
+  /// Centres (n_rods) [mm] and directors (n_rods); of the latter only the mean axis is used.
+  void accumulate(std::span<const Vec3> positions, std::span<const Vec3> directors);
+  LatticeMeans reduce() const;
+  void reset();
+  /// Adds the samples of `other`, which has the same shape.
+  void merge(const LatticeOrder& other);
+
+  void save(StateWriter& writer) const;
+  void restore(StateReader& reader);
+
+ private:
+  Shape shape_;
+  std::int64_t calls_ = 0;
+  std::int64_t samples_ = 0;
+  LatticeMeans sums_;
+};
+
+}  // namespace shaken::analysis

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/layers.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "analysis/fold.h"
+#include "analysis/order.h"
+#include "analysis/wave_sums.h"
+#include "sim/core/check.h"
+
+namespace shaken::analysis {
+namespace {
+
+/// Bounds the cost: a sample takes 4 n_rods (waves + 1)^2 multiplications.
+constexpr int kMostWaves = 40;
+/// Half the opening of a cone of wave vectors about an axis.
+constexpr double kCone = kPi / 6;
+
+/// The wave vectors of a half plane, |(m, n)| <= waves, one of each pair: visit(m, n, |(m, n)|).
+template <class Visitor>
+void for_half_plane(int waves, const Visitor& visit) {
+  for (int m = 0; m <= waves; ++m) {
+    for (int n = m == 0 ? 1 : -waves; n <= waves; ++n) {
+      const double length = std::hypot(m, n);
+      if (length <= waves) visit(m, n, length);
+    }
+  }
+}
+
+}  // namespace
+
+LayerOrder::LayerOrder(double box_side, double shortest) : box_side_(box_side), waves_(kMostWaves) {
+  SHAKEN_CHECK(box_side > 0 && shortest > 0, "a box and waves in it");
+  if (box_side / shortest < kMostWaves) waves_ = std::max(1, static_cast<int>(box_side / shortest));
+  const auto waves = static_cast<std::size_t>(waves_);
+  amplitudes_.resize((waves + 1) * (2 * waves + 1));
+  across_.resize(waves);
+  along_.resize(waves);
+  n_across_.resize(waves);
+  n_along_.resize(waves);
+}
+
+std::size_t LayerOrder::index(int m, int n) const {
+  return static_cast<std::size_t>(m) * static_cast<std::size_t>(2 * waves_ + 1) + static_cast<std::size_t>(n + waves_);
+}
+
+void LayerOrder::accumulate(std::span<const Vec3> positions, std::span<const Vec3> directors) {
+  SHAKEN_CHECK(positions.size() == directors.size(), "one position for each director");
+  const double director = nematic_order(directors).director;
+  const double cosine = std::cos(director), sine = std::sin(director);
+  const double c2 = std::cos(2 * director), s2 = std::sin(2 * director);
+  std::vector<Vec2> places;
+  std::vector<double> tilts;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const Vec2 angle = double_angle(directors[i]);
+    if (angle == Vec2::Zero()) continue;
+    places.push_back(positions[i].head<2>());
+    tilts.push_back(angle.y() * c2 - angle.x() * s2);
+  }
+  if (places.empty()) return;
+  const WavePowers powers = wave_powers(places, tilts, box_side_, waves_);
+  const auto n_rods = static_cast<double>(places.size());
+  const double nearest = std::cos(kCone);
+  for_half_plane(waves_, [&](int m, int n, double length) {
+    const double per_rod = powers.at(m, n) / n_rods;
+    const auto shell = static_cast<std::size_t>(std::lround(length)) - 1;
+    if (std::abs(n * cosine - m * sine) >= nearest * length) {
+      amplitudes_[index(m, n)] += 4 * per_rod / n_rods;
+      across_[shell] += per_rod;
+      ++n_across_[shell];
+    } else if (std::abs(m * cosine + n * sine) >= nearest * length) {
+      along_[shell] += per_rod;
+      ++n_along_[shell];
+    }
+  });
+  ++samples_;
+}
+
+LayerSpectrum LayerOrder::reduce() const {
+  LayerSpectrum spectrum;
+  const auto mean = [](double sum, std::int64_t n) {
+    return n > 0 ? sum / static_cast<double>(n) : std::numeric_limits<double>::quiet_NaN();
+  };
+  for (std::size_t shell = 0; shell < across_.size(); ++shell) {
+    spectrum.q.push_back(2 * kPi * static_cast<double>(shell + 1) / box_side_);
+    spectrum.across.push_back(mean(across_[shell], n_across_[shell]));
+    spectrum.along.push_back(mean(along_[shell], n_along_[shell]));
+  }
+  return spectrum;
+}
+
+double LayerOrder::power(int m, int n) const {
+  if (m < 0) return power(-m, -n);
+  if (m == 0 && n < 0) return power(0, -n);
+  if (m > waves_ || std::abs(n) > waves_ || samples_ == 0) return 0;
+  return amplitudes_[index(m, n)] / static_cast<double>(samples_);
+}
+
+std::optional<LayerPeak> LayerOrder::peak() const {
+  if (samples_ == 0) return std::nullopt;
+  int best_m = 0, best_n = 1;
+  for_half_plane(waves_, [&](int m, int n, double) {
+    if (power(m, n) > power(best_m, best_n)) {
+      best_m = m;
+      best_n = n;
+    }
+  });
+  return peak_at(best_m, best_n);
+}
+
+LayerPeak LayerOrder::peak_at(int m, int n) const {
+  SHAKEN_CHECK(m >= 0 && m <= waves_ && std::abs(n) <= waves_ && (m != 0 || n != 0), "a wave vector that is kept");
+  double weight = power(m, n);
+  Vec2 mean = weight * Vec2(m, n);
+  constexpr std::array<std::pair<int, int>, 4> kNeighbours{{{1, 0}, {0, 1}, {1, 1}, {1, -1}}};
+  for (const auto& [dm, dn] : kNeighbours) {
+    // The mean over the box, (0, 0), is no wave; without it its opposite is left out as well.
+    if ((m == dm && n == dn) || (m == -dm && n == -dn)) continue;
+    for (const int sign : {1, -1}) {
+      const double share = power(m + sign * dm, n + sign * dn);
+      weight += share;
+      mean += share * Vec2(m + sign * dm, n + sign * dn);
+    }
+  }
+  const double waves = weight > 0 ? mean.norm() / weight : std::hypot(m, n);
+  return {m, n, box_side_ / waves, std::sqrt(power(m, n))};
+}
+
+void LayerOrder::reset() {
+  samples_ = 0;
+  for (std::vector<double>* sums : {&amplitudes_, &across_, &along_}) std::fill(sums->begin(), sums->end(), 0.0);
+  for (std::vector<std::int64_t>* counts : {&n_across_, &n_along_}) std::fill(counts->begin(), counts->end(), 0);
+}
+
+void LayerOrder::merge(const LayerOrder& other) {
+  SHAKEN_CHECK(box_side_ == other.box_side_ && waves_ == other.waves_, "layers of different boxes");
+  samples_ += other.samples_;
+  for (std::size_t i = 0; i < amplitudes_.size(); ++i) amplitudes_[i] += other.amplitudes_[i];
+  for (std::size_t i = 0; i < across_.size(); ++i) {
+    across_[i] += other.across_[i];
+    along_[i] += other.along_[i];
+    n_across_[i] += other.n_across_[i];
+    n_along_[i] += other.n_along_[i];
+  }
+}
+
+void LayerOrder::save(StateWriter& writer) const {
+  writer.tag("LayerOrder");
+  writer.put(box_side_);
+  writer.put(samples_);
+  writer.put(amplitudes_);
+  writer.put(across_);
+  writer.put(along_);
+  writer.put(n_across_);
+  writer.put(n_along_);
+}
+
+void LayerOrder::restore(StateReader& reader) {
+  reader.tag("LayerOrder");
+  if (reader.real() != box_side_) throw StateError("saved analysis state: LayerOrder of another box");
+  LayerOrder saved = *this;
+  saved.samples_ = reader.integer(0, std::numeric_limits<std::int64_t>::max() / 2);
+  saved.amplitudes_ = reader.reals(amplitudes_.size());
+  saved.across_ = reader.reals(across_.size());
+  saved.along_ = reader.reals(along_.size());
+  saved.n_across_ = reader.integers(n_across_.size());
+  saved.n_along_ = reader.integers(n_along_.size());
+  *this = std::move(saved);
+}
+
+}  // namespace shaken::analysis

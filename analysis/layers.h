@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "analysis/state_io.h"
+#include "sim/core/types.h"
+
+namespace shaken::analysis {
+
+/// Power of s_i = sin 2 (theta_i - theta_N) against wave number, |sum_i s_i exp(-i q . r_i)|^2 / N, averaged over the
+/// wave vectors of the box within half a step of q and within 30 degrees of an axis. All of shape (shells); NaN where
+/// the box has no such wave vector. Without correlation it is <s^2>.
+struct LayerSpectrum {
+  std::vector<double> q;       ///< 2 pi k / L, k = 1, 2, ... [rad/mm]
+  std::vector<double> across;  ///< wave vectors along the normal to the director
+  std::vector<double> along;   ///< along the director
+};
+
+/// A wave of tilt across the director.
+struct LayerPeak {
+  int m = 0, n = 0;       ///< the wave vector 2 pi (m, n) / L with the most power
+  double wavelength = 0;  ///< [mm]; of the mean wave vector, see below
+  double order = 0;       ///< 2 |sum_i s_i exp(-i q . r_i)| / N, root mean square over time
+};
+
+/// Order of the layered phase: stripes along the director in which rods are tilted to either side by turns. theta_N is
+/// the director of the same instant.
+/// The peak is looked for among wave vectors within 30 degrees of the normal to the director. Its order is the
+/// amplitude of the wave in s: a for s = a sin(q . r), (4 / pi) sin 2 theta_m for stripes of equal width at +-theta_m
+/// (0.435 at 10 degrees), 2 sqrt(<s^2> / N) without layers, somewhat more as the peak is the largest of many. Layers
+/// that turn out of the cone count as none while they do. Waves must divide the box, so that wavelengths come in steps
+/// of about lambda^2 / L: quote L / lambda. The wavelength is that of the mean of the peak's wave vector and its
+/// neighbours (m +- 1, n +- 1), each with its power, in opposite pairs so that a flat background does not move it. A
+/// wavelength near L is the long-wave bend of a nematic, not layers.
+class LayerOrder {
+ public:
+  /// Waves no shorter than `shortest` [mm], and at most 40 of them to the box's side `box_side` [mm].
+  LayerOrder(double box_side, double shortest);
+
+  /// Centres (n_rods) [mm] and directors (n_rods). Rods exactly upright are left out; without any other, nothing
+  /// counts.
+  void accumulate(std::span<const Vec3> positions, std::span<const Vec3> directors);
+  LayerSpectrum reduce() const;
+  /// The peak with the most power; none without samples.
+  std::optional<LayerPeak> peak() const;
+  /// The same of the wave vector (m, n), m >= 0, which need not have the most.
+  LayerPeak peak_at(int m, int n) const;
+  void reset();
+  /// Adds the samples of `other`, which is of the same box.
+  void merge(const LayerOrder& other);
+
+  void save(StateWriter& writer) const;
+  void restore(StateReader& reader);
+
+ private:
+  /// Mean of 4 |sum|^2 / N^2 within the cone; 0 beyond the wave vectors that are kept.
+  double power(int m, int n) const;
+  std::size_t index(int m, int n) const;
+
+  double box_side_;
+  int waves_;
+  std::int64_t samples_ = 0;
+  std::vector<double> amplitudes_;      // (waves + 1, 2 waves + 1), sum over samples of 4 |sum|^2 / N^2 within the cone
+  std::vector<double> across_, along_;  // (shells) sums of |sum|^2 / N
+  std::vector<std::int64_t> n_across_, n_along_;  // (shells) terms of them
+};
+
+}  // namespace shaken::analysis

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/pair_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "analysis/fold.h"
+#include "analysis/nearest_image.h"
+#include "analysis/order.h"
+#include "sim/core/check.h"
+
+namespace shaken::analysis {
+namespace {
+
+/// Rods taken as the first of a pair in one sample, at most.
+constexpr std::size_t kMaxReferences = 1024;
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+/// Bins of a cut: their far corners lie within half the box.
+std::size_t cut_bins(const PairMap::Shape& shape) {
+  const double half_box = shape.box_side / 2, half_strip = shape.strip / 2;
+  const double reach = std::sqrt(std::max(half_box * half_box - half_strip * half_strip, 0.0));
+  return static_cast<std::size_t>(reach * shape.bins / (2 * shape.range));
+}
+
+}  // namespace
+
+PairMap::PairMap(const Shape& shape)
+    : shape_(shape),
+      bins_(static_cast<std::size_t>(std::max(shape.bins, 0))),
+      width_(2 * shape.range / std::max(shape.bins, 1)),
+      map_(bins_ * bins_),
+      cut_along_(cut_bins(shape)),
+      cut_across_(cut_along_.pairs.size()) {
+  SHAKEN_CHECK(shape.bins >= 1 && shape.range > 0 && shape.strip > 0, "bins, range and strip must not be empty");
+  SHAKEN_CHECK(2 * shape.range <= shape.box_side * (1 + 1e-12), "distances beyond half the box have no nearest image");
+}
+
+void PairMap::accumulate(std::span<const Vec3> positions, std::span<const Vec3> directors) {
+  SHAKEN_CHECK(positions.size() == directors.size(), "one position for each director");
+  const double box = shape_.box_side;
+  const double director = nematic_order(directors).director;
+  const double cosine = std::cos(director), sine = std::sin(director);
+  std::vector<double> xs, ys, cs, ss;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const Vec2 angle = double_angle(directors[i]);
+    if (angle == Vec2::Zero()) continue;
+    xs.push_back(wrapped(positions[i].x(), box));
+    ys.push_back(wrapped(positions[i].y(), box));
+    cs.push_back(angle.x());
+    ss.push_back(angle.y());
+  }
+  const std::size_t n = xs.size();
+  const double bins_per_mm = 1 / width_;
+  const double half_strip = shape_.strip / 2;
+  const double cut_length = width_ * static_cast<double>(cut_along_.pairs.size());
+  const auto count = [](Bins& bins, std::size_t bin, double value) {
+    ++bins.pairs[bin];
+    bins.sums[bin] += value;
+  };
+  const auto count_cut = [&](Bins& cut, double distance, double value) {
+    if (distance >= cut_length) return;
+    count(cut, std::min(static_cast<std::size_t>(distance * bins_per_mm), cut.pairs.size() - 1), value);
+  };
+  const std::size_t stride = std::max<std::size_t>(1, (n + kMaxReferences - 1) / kMaxReferences);
+  // In two passes, the first without branches: it becomes vector instructions.
+  std::vector<double> alongs(n), acrosses(n);
+  for (std::size_t i = static_cast<std::size_t>(calls_) % stride; i < n; i += stride) {
+    expected_per_area_ += static_cast<double>(n) / (box * box);
+    const double xi = xs[i], yi = ys[i];
+    for (std::size_t j = 0; j < n; ++j) {
+      const double dx = nearest_image(xs[j] - xi, box), dy = nearest_image(ys[j] - yi, box);
+      alongs[j] = dx * cosine + dy * sine;
+      acrosses[j] = dy * cosine - dx * sine;
+    }
+    for (std::size_t j = 0; j < n; ++j) {
+      const double far_along = std::abs(alongs[j]), far_across = std::abs(acrosses[j]);
+      const bool in_map = std::max(far_along, far_across) < shape_.range;
+      if ((!in_map && std::min(far_along, far_across) >= half_strip) || i == j) continue;
+      const double value = cs[i] * cs[j] + ss[i] * ss[j];
+      if (in_map) {
+        const auto column = static_cast<std::size_t>((alongs[j] + shape_.range) * bins_per_mm);
+        const auto row = static_cast<std::size_t>((acrosses[j] + shape_.range) * bins_per_mm);
+        count(map_, std::min(row, bins_ - 1) * bins_ + std::min(column, bins_ - 1), value);
+      }
+      if (far_across < half_strip) count_cut(cut_along_, far_along, value);
+      if (far_along < half_strip) count_cut(cut_across_, far_across, value);
+    }
+  }
+  ++calls_;
+}
+
+PairCurves PairMap::reduce() const {
+  PairCurves curves;
+  for (std::size_t i = 0; i < bins_; ++i) {
+    curves.along.push_back((static_cast<double>(i) + 0.5) * width_ - shape_.range);
+  }
+  curves.across = curves.along;
+  const auto ratio = [](double a, double b) { return b > 0 ? a / b : kUnknown; };
+  for (std::size_t row = 0; row < bins_; ++row) {
+    for (std::size_t column = 0; column < bins_; ++column) {
+      // the other way round: (n - 1 - row, n - 1 - column)
+      const std::size_t bin = row * bins_ + column, mirrored = bins_ * bins_ - 1 - bin;
+      const double far =
+          std::hypot(std::abs(curves.across[row]) + width_ / 2, std::abs(curves.along[column]) + width_ / 2);
+      const bool known = far <= shape_.box_side / 2;
+      const auto pairs = static_cast<double>(map_.pairs[bin] + map_.pairs[mirrored]);
+      curves.g.push_back(known ? ratio(pairs, 2 * expected_per_area_ * width_ * width_) : kUnknown);
+      curves.g2.push_back(known ? ratio(map_.sums[bin] + map_.sums[mirrored], pairs) : kUnknown);
+    }
+  }
+  for (std::size_t bin = 0; bin < cut_along_.pairs.size(); ++bin) {
+    curves.r.push_back((static_cast<double>(bin) + 0.5) * width_);
+    const double expected = expected_per_area_ * 2 * width_ * shape_.strip;  // both sides of 0
+    const auto along = static_cast<double>(cut_along_.pairs[bin]), across = static_cast<double>(cut_across_.pairs[bin]);
+    curves.g_along.push_back(ratio(along, expected));
+    curves.g_across.push_back(ratio(across, expected));
+    curves.g2_along.push_back(ratio(cut_along_.sums[bin], along));
+    curves.g2_across.push_back(ratio(cut_across_.sums[bin], across));
+  }
+  return curves;
+}
+
+void PairMap::reset() { *this = PairMap(shape_); }
+
+void PairMap::merge(const PairMap& other) {
+  SHAKEN_CHECK(shape_ == other.shape_, "pair maps of different bins");
+  calls_ += other.calls_;
+  expected_per_area_ += other.expected_per_area_;
+  const auto add = [](Bins& to, const Bins& from) {
+    for (std::size_t i = 0; i < to.pairs.size(); ++i) {
+      to.pairs[i] += from.pairs[i];
+      to.sums[i] += from.sums[i];
+    }
+  };
+  add(map_, other.map_);
+  add(cut_along_, other.cut_along_);
+  add(cut_across_, other.cut_across_);
+}
+
+void PairMap::save(StateWriter& writer) const {
+  writer.tag("PairMap");
+  writer.put(shape_.range);
+  writer.put(shape_.strip);
+  writer.put(shape_.box_side);
+  writer.put(calls_);
+  writer.put(expected_per_area_);
+  for (const Bins* bins : {&map_, &cut_along_, &cut_across_}) {
+    writer.put(bins->pairs);
+    writer.put(bins->sums);
+  }
+}
+
+void PairMap::restore(StateReader& reader) {
+  reader.tag("PairMap");
+  for (const double expected : {shape_.range, shape_.strip, shape_.box_side}) {
+    if (reader.real() != expected) throw StateError("saved analysis state: PairMap of another shape");
+  }
+  PairMap saved(shape_);
+  saved.calls_ = reader.integer(0, std::numeric_limits<std::int64_t>::max() / 2);
+  saved.expected_per_area_ = reader.real();
+  for (Bins* bins : {&saved.map_, &saved.cut_along_, &saved.cut_across_}) {
+    bins->pairs = reader.integers(bins->pairs.size());
+    bins->sums = reader.reals(bins->sums.size());
+  }
+  *this = std::move(saved);
+}
+
+}  // namespace shaken::analysis

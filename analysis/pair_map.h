@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "analysis/state_io.h"
+#include "sim/core/types.h"
+
+namespace shaken::analysis {
+
+/// Maps of g and G2 over the displacement between two rods, and cuts through them. NaN stands for what is not known: a
+/// bin without samples, one that reaches beyond half the box, and G2 where no pair was met.
+struct PairCurves {
+  std::vector<double> along;   ///< (bins) bin centres along the director [mm]
+  std::vector<double> across;  ///< (bins) across it [mm]
+  std::vector<double> g;       ///< (bins, bins) pair distribution, 1 in a gas (1 - 1 / n of n rods); across slowest
+  std::vector<double> g2;      ///< (bins, bins) mean of cos 2 (theta_i - theta_j)
+  std::vector<double> r;       ///< (cut bins) bin centres [mm], up to half the box
+  std::vector<double> g_along, g_across;    ///< (cut bins) in a strip about each axis
+  std::vector<double> g2_along, g2_across;  ///< (cut bins)
+};
+
+/// g(x, y) and G2(x, y) = <cos 2 (theta_i - theta_j)> over the displacement (x, y) of a pair in the frame of the
+/// nematic director of its instant: x along the director, y across it. A pair counts with either rod as the first,
+/// which makes the maps even in (x, y) -> (-x, -y); nothing else is symmetrised, so that g(x, y) = g(x, -y) is a
+/// measurement. The displacement is that to the nearest periodic image. The box is not aligned with the director, so
+/// that a map is unbiased within r < L / 2 only: bins that reach further are NaN. The cuts have their own bins, as wide
+/// as those of the map, up to L / 2: along from pairs with |y| < strip / 2 at |x|, across the other way round. One
+/// sample costs at most 1024 n_rods pairs: of more than 1024 rods, every k-th is taken as i, another set each time.
+/// Rods exactly upright are left out.
+class PairMap {
+ public:
+  struct Shape {
+    int bins = 81;    ///< each way; an odd number has one about 0
+    double range;     ///< the map covers (-range, range) each way [mm]
+    double strip;     ///< full width of the strips of the cuts [mm]
+    double box_side;  ///< of the periodic box [mm]
+    friend bool operator==(const Shape&, const Shape&) = default;
+  };
+  explicit PairMap(const Shape& shape);
+
+  /// Centres (n_rods) [mm] and directors (n_rods).
+  void accumulate(std::span<const Vec3> positions, std::span<const Vec3> directors);
+  PairCurves reduce() const;
+  void reset();
+  /// Adds the samples of `other`, which has the same shape.
+  void merge(const PairMap& other);
+
+  void save(StateWriter& writer) const;
+  void restore(StateReader& reader);
+
+ private:
+  struct Bins {
+    std::vector<std::int64_t> pairs;
+    std::vector<double> sums;  // of cos 2 (theta_i - theta_j)
+    explicit Bins(std::size_t n) : pairs(n), sums(n) {}
+  };
+  Shape shape_;
+  std::size_t bins_;  // each way
+  double width_;      // of a bin [mm]
+  std::int64_t calls_ = 0;
+  double expected_per_area_ = 0;  // sum over references of rho [1/mm^2]
+  Bins map_, cut_along_, cut_across_;
+};
+
+}  // namespace shaken::analysis

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/lattice.h"
+
+#include "run/measure/block_estimates.h"
+#include "run/measure/registry.h"
+#include "run/measure/rod_size.h"
+
+namespace shaken::run {
+namespace {
+
+/// Order of the places of the rods.
+class MeasuredLattice : public Measurement {
+ public:
+  explicit MeasuredLattice(const analysis::LatticeOrder::Shape& shape) : lattice_(analysis::LatticeOrder(shape)) {}
+
+  void sample(const Moment& moment) override { lattice_.accumulate(moment->time, moment->position, moment->director); }
+  void reduce(Reduction& result) const override {
+    const auto means = block_estimates(lattice_, result.t_steady, [](const analysis::LatticeOrder& lattice) {
+      const analysis::LatticeMeans found = lattice.reduce();
+      return std::vector<double>{found.psi_6, found.psi_6_local, found.psi_6_raw, found.bragg_peak};
+    });
+    result.scalars["psi_6"] = means[0];
+    result.scalars["psi_6_local"] = means[1];
+    result.scalars["psi_6_raw"] = means[2];
+    result.scalars["bragg_peak"] = means[3];
+  }
+  void save(analysis::StateWriter& writer) const override { lattice_.save(writer); }
+  void restore(analysis::StateReader& reader) override { lattice_.restore(reader); }
+
+ private:
+  analysis::Blocked<analysis::LatticeOrder> lattice_;
+};
+
+}  // namespace
+
+std::unique_ptr<Measurement> make_lattice(const MeasureContext& context) {
+  const double length = rod_length(context.species), width = rod_width(context.species);
+  return std::make_unique<MeasuredLattice>(
+      analysis::LatticeOrder::Shape{context.plan.system.box_side, length / width, width / 2, 2 * length});
+}
+
+}  // namespace shaken::run

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/layers.h"
+
+#include <cmath>
+
+#include "run/measure/block_estimates.h"
+#include "run/measure/registry.h"
+#include "run/measure/rod_size.h"
+
+namespace shaken::run {
+namespace {
+
+/// Layers: their spectrum, wavelength and order.
+class MeasuredLayers : public Measurement {
+ public:
+  MeasuredLayers(double box_side, double shortest)
+      : box_side_(box_side), layers_(analysis::LayerOrder(box_side, shortest)) {}
+
+  void sample(const Moment& moment) override { layers_.accumulate(moment->time, moment->position, moment->director); }
+  void reduce(Reduction& result) const override {
+    const analysis::LayerOrder layers = layers_.after(result.t_steady);
+    const analysis::LayerSpectrum spectrum = layers.reduce();
+    result.arrays["/layers/q_per_mm"] = spectrum.q;
+    result.arrays["/layers/spectrum_across"] = spectrum.across;
+    result.arrays["/layers/spectrum_along"] = spectrum.along;
+    const std::optional<analysis::LayerPeak> peak = layers.peak();
+    if (!peak) return;
+    // The errors are those of the one peak, not of which is the highest.
+    const auto found = block_estimates(layers_, result.t_steady, [&](const analysis::LayerOrder& part) {
+      const analysis::LayerPeak same = part.peak_at(peak->m, peak->n);
+      return std::vector<double>{same.wavelength, box_side_ / same.wavelength, same.order};
+    });
+    result.scalars["wavelength_mm"] = found[0];
+    result.scalars["layers_per_box"] = found[1];
+    result.scalars["layer_order"] = found[2];
+  }
+  void save(analysis::StateWriter& writer) const override { layers_.save(writer); }
+  void restore(analysis::StateReader& reader) override { layers_.restore(reader); }
+
+ private:
+  double box_side_;  ///< [mm]
+  analysis::Blocked<analysis::LayerOrder> layers_;
+};
+
+}  // namespace
+
+std::unique_ptr<Measurement> make_layers(const MeasureContext& context) {
+  return std::make_unique<MeasuredLayers>(context.plan.system.box_side, rod_length(context.species) / 2);
+}
+
+}  // namespace shaken::run

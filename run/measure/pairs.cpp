@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <limits>
+
+#include "analysis/oscillation.h"
+#include "analysis/pair_map.h"
+#include "run/measure/block_estimates.h"
+#include "run/measure/registry.h"
+#include "run/measure/rod_size.h"
+
+namespace shaken::run {
+namespace {
+
+/// g and G2 in the frame of the director, and the wavelength of layers as G2 across it tells.
+class MeasuredPairs : public Measurement {
+ public:
+  explicit MeasuredPairs(const analysis::PairMap::Shape& shape)
+      : strip_(shape.strip), pairs_(analysis::PairMap(shape)) {}
+
+  void sample(const Moment& moment) override { pairs_.accumulate(moment->time, moment->position, moment->director); }
+  void reduce(Reduction& result) const override {
+    const analysis::PairCurves curves = pairs_.after(result.t_steady).reduce();
+    result.arrays["/pairs/along_mm"] = curves.along;
+    result.arrays["/pairs/across_mm"] = curves.across;
+    result.arrays["/pairs/g"] = curves.g;
+    result.arrays["/pairs/g2"] = curves.g2;
+    result.arrays["/pairs/cut/r_mm"] = curves.r;
+    result.arrays["/pairs/cut/g_along"] = curves.g_along;
+    result.arrays["/pairs/cut/g_across"] = curves.g_across;
+    result.arrays["/pairs/cut/g2_along"] = curves.g2_along;
+    result.arrays["/pairs/cut/g2_across"] = curves.g2_across;
+    // Rods side by side make a ripple of their own width: smoothed over the strip, which is as wide, it is gone.
+    const auto wavelength = block_estimates(pairs_, result.t_steady, [&](const analysis::PairMap& pairs) {
+      constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+      const analysis::PairCurves cut = pairs.reduce();
+      return std::vector<double>{analysis::first_period(cut.r, cut.g2_across, strip_).value_or(kNone)};
+    });
+    result.scalars["wavelength_g2_mm"] = wavelength[0];
+  }
+  void save(analysis::StateWriter& writer) const override { pairs_.save(writer); }
+  void restore(analysis::StateReader& reader) override { pairs_.restore(reader); }
+
+ private:
+  double strip_;  ///< [mm]
+  analysis::Blocked<analysis::PairMap> pairs_;
+};
+
+}  // namespace
+
+std::unique_ptr<Measurement> make_pairs(const MeasureContext& context) {
+  const scene::MeasurePairs& pairs = *context.plan.pairs;
+  const double box = context.plan.system.box_side;
+  const double range = pairs.range > 0 ? pairs.range : 3 * rod_length(context.species);
+  return std::make_unique<MeasuredPairs>(analysis::PairMap::Shape{pairs.bins, std::min(range, box / 2),
+                                                                  std::min(rod_width(context.species), box / 2), box});
+}
+
+}  // namespace shaken::run
