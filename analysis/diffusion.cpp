@@ -7,8 +7,9 @@
 namespace shaken::analysis {
 namespace {
 
-/// Between flight, 2, and diffusion, 1.
-constexpr double kEndOfFlight = 1.5;
+/// Between flight, 2, and diffusion, 1: close to the latter, since the exponent of persistent motion falls as slowly as
+/// 1 + tau / t.
+constexpr double kEndOfFlight = 1.1;
 /// Length of the window of short lags.
 constexpr double kShortWindow = 4.0;
 

@@ -22,7 +22,7 @@ struct GrowthFit {
 /// Growth at short and at long lags.
 struct ShortAndLong {
   /// From the end of the ballistic flight on, which is the shortest lag whose local exponent to the next lag is below
-  /// 1.5, over two octaves (the first two if there is none: the exponent near 2 then says so).
+  /// 1.1, over two octaves. Where there is no such lag, over the first two octaves: the exponent says so.
   GrowthFit at_short;
   /// Over LagCurve::last_octave; NaN where that is empty.
   GrowthFit at_long;

@@ -29,7 +29,7 @@ class MeasuredRotation : public Measurement {
     result.scalars["alpha_rotation_short"] = scalar(summary.growth.at_short.exponent);
     result.scalars["alpha_rotation_long"] = scalar(summary.growth.at_long.exponent);
     result.scalars["c2_plateau"] = scalar(summary.c2_plateau);
-    result.scalars["c2_decay_time_s"] = scalar(summary.c2_decay_time);
+    result.scalars["c2_decay_s"] = scalar(summary.c2_decay_time);
     result.scalars["large_turns"] = {summary.large_turns};
     result.scalars["rotation_lag_from_s"] = {summary.growth.at_long.lag_from};
     result.scalars["rotation_lag_to_s"] = {summary.growth.at_long.lag_to};

@@ -29,10 +29,10 @@ class MeasuredTilt : public Measurement {
     result.arrays["/tilt/folded/n_z"] = folded.n_z;
     put(result, "/tilt/folded/v_along", "_mm_s", folded.v_along);
     const analysis::TiltSummary summary = analysis::summarize_tilt(curve);
-    result.scalars["tilt_largest_velocity_mm_s"] = scalar(summary.v_largest);
-    result.scalars["tilt_largest_n_z"] = {summary.n_z_largest};
-    result.scalars["tilt_zero_n_z"] = {summary.n_z_zero};
-    result.scalars["tilt_zero_sigma"] = {summary.zero_sigma};
+    result.scalars["tilt_fastest_mm_s"] = scalar(summary.v_largest);
+    result.scalars["tilt_fastest_n_z"] = {summary.n_z_largest};
+    result.scalars["tilt_reversal_n_z"] = {summary.n_z_zero};
+    result.scalars["tilt_reversal_sigmas"] = {summary.zero_sigma};
   }
   void save(analysis::StateWriter& writer) const override { tilt_.save(writer); }
   void restore(analysis::StateReader& reader) override { tilt_.restore(reader); }

@@ -27,8 +27,8 @@ class MeasuredVelocity : public Measurement {
     put(result, "/velocity/c_v_along", "", curve.along);
     put(result, "/velocity/c_v_across", "", curve.across);
     const analysis::VelocitySummary summary = velocity_.summarize(from);
-    result.scalars["velocity_correlation_time_s"] = scalar(summary.correlation_time);
-    result.scalars["velocity_decay_time_s"] = scalar(summary.decay_time);
+    result.scalars["velocity_correlation_s"] = scalar(summary.correlation_time);
+    result.scalars["velocity_decay_s"] = scalar(summary.decay_time);
     const double rms = std::sqrt(summary.mean_square.value);
     result.scalars["velocity_rms_mm_s"] = {rms, summary.mean_square.sem / (2 * rms)};
   }
