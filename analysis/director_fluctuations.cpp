@@ -14,6 +14,7 @@
 namespace shaken::analysis {
 namespace {
 
+constexpr int kMaxWave = 6;
 constexpr int kSectors = 36;  // over half a turn
 constexpr std::size_t kErrorBlocks = 16;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -75,6 +76,82 @@ std::optional<Constants> fit_constants(const Points& points) {
   return std::nullopt;
 }
 
+constexpr std::size_t kRow = 2 * kMaxWave + 1;
+
+/// Sums of exp(-2 pi i (m x + n y)) for m = -6 .. 6, n = 0 .. 6, as [n][m + 6].
+struct Waves {
+  std::array<std::array<double, kRow>, kMaxWave + 1> re{}, im{};
+
+  /// The waves at one place (in units of the box), as products of powers of exp(-2 pi i x) and exp(-2 pi i y).
+  struct Row {
+    explicit Row(const Vec2& place) {
+      const std::complex<double> x = std::polar(1.0, -2 * kPi * place.x());
+      const std::complex<double> y = std::polar(1.0, -2 * kPi * place.y());
+      std::complex<double> power = 1.0;
+      for (std::size_t m = 0; m <= kMaxWave; ++m, power *= x) {
+        x_re[kMaxWave + m] = x_re[kMaxWave - m] = power.real();
+        x_im[kMaxWave + m] = power.imag();
+        x_im[kMaxWave - m] = -power.imag();
+      }
+      power = 1.0;
+      for (std::size_t n = 0; n <= kMaxWave; ++n, power *= y) {
+        y_re[n] = power.real();
+        y_im[n] = power.imag();
+      }
+    }
+    std::array<double, kRow> x_re{}, x_im{};
+    std::array<double, kMaxWave + 1> y_re{}, y_im{};
+  };
+  void add(const Row& row, double weight) {
+    for (std::size_t n = 0; n <= kMaxWave; ++n) {
+      const double c = weight * row.y_re[n], s = weight * row.y_im[n];
+      for (std::size_t m = 0; m < kRow; ++m) {
+        re[n][m] += row.x_re[m] * c - row.x_im[m] * s;
+        im[n][m] += row.x_re[m] * s + row.x_im[m] * c;
+      }
+    }
+  }
+  double square(std::size_t n, std::size_t m) const { return re[n][m] * re[n][m] + im[n][m] * im[n][m]; }
+};
+
+/// Of each place in the periodic unit square the index of the nearest other one; its own if there is no other.
+std::vector<std::size_t> nearest_of_each(const std::vector<Vec2>& places) {
+  const int side = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(places.size()))));
+  const auto cell_at = [side](const Vec2& place) {
+    const auto index = [side](double x) { return std::min(static_cast<int>(x * side), side - 1); };
+    return std::pair(index(place.x()), index(place.y()));
+  };
+  std::vector<std::vector<std::size_t>> cells(static_cast<std::size_t>(side * side));
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto [x, y] = cell_at(places[i]);
+    cells[static_cast<std::size_t>(y * side + x)].push_back(i);
+  }
+  std::vector<std::size_t> nearest(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto [x, y] = cell_at(places[i]);
+    double best = std::numeric_limits<double>::infinity();
+    nearest[i] = i;
+    // Rings of cells round its own, until what lies beyond them is further away than what was found.
+    for (int ring = 0; 2 * ring <= side + 1 && best * side * side > (ring - 1) * std::abs(ring - 1); ++ring) {
+      for (int dy = -ring; dy <= ring; ++dy) {
+        const int step = std::abs(dy) == ring ? 1 : std::max(1, 2 * ring);
+        for (int dx = -ring; dx <= ring; dx += step) {
+          const int cx = (x + dx + 2 * side) % side, cy = (y + dy + 2 * side) % side;
+          for (const std::size_t j : cells[static_cast<std::size_t>(cy * side + cx)]) {
+            Vec2 d = (places[j] - places[i]).cwiseAbs();
+            d = d.cwiseMin(Vec2::Ones() - d);
+            if (j != i && d.squaredNorm() < best) {
+              best = d.squaredNorm();
+              nearest[i] = j;
+            }
+          }
+        }
+      }
+    }
+  }
+  return nearest;
+}
+
 }  // namespace
 
 DirectorFluctuations::DirectorFluctuations(double box_side, double q_max) : box_side_(box_side), q_max_(q_max) {
@@ -83,69 +160,54 @@ DirectorFluctuations::DirectorFluctuations(double box_side, double q_max) : box_
 
 void DirectorFluctuations::accumulate(std::span<const Vec3> positions, std::span<const Vec3> directors) {
   SHAKEN_CHECK(positions.size() == directors.size(), "one position for each director");
-  std::vector<std::size_t> rods;
+  std::vector<Vec2> places, angles;
   Vec2 axis = Vec2::Zero();
   for (std::size_t i = 0; i < directors.size(); ++i) {
     const Vec2 angle = double_angle(directors[i]);
     if (!angle.allFinite() || angle == Vec2::Zero() || !positions[i].head<2>().allFinite()) continue;
-    rods.push_back(i);
+    places.emplace_back(positions[i].head<2>() / box_side_);
+    places.back() -= places.back().array().floor().matrix();
+    angles.push_back(angle);
     axis += angle;
   }
-  const auto n = static_cast<double>(rods.size());
-  if (rods.empty() || axis.norm() < kMinOrder * n) return;
+  const auto n = static_cast<double>(places.size());
+  if (places.empty() || axis.norm() < kMinOrder * n) return;
   const double order = axis.norm() / n;
   axis.normalize();
 
-  // exp(-i q . r) as a product of powers of exp(-2 pi i x / L) and exp(-2 pi i y / L), for m = -6 .. 6, n = 0 .. 6.
-  using Complex = std::complex<double>;
-  constexpr int kRow = 2 * kWaves + 1;
-  struct Parts {
-    double re[kRow] = {}, im[kRow] = {};
-  };
-  std::array<Parts, kWaves + 1> wave{}, density{};
-  double squares = 0;
-  for (const std::size_t i : rods) {
-    const Vec2 angle = double_angle(directors[i]);
-    const double s = (angle.y() * axis.x() - angle.x() * axis.y()) / (2 * order);
-    squares += s * s;
-    const Complex x = std::polar(1.0, -2 * kPi * positions[i].x() / box_side_);
-    const Complex y = std::polar(1.0, -2 * kPi * positions[i].y() / box_side_);
-    Parts row;
-    Complex power = 1.0;
-    for (int m = 0; m <= kWaves; ++m, power *= x) {
-      row.re[kWaves + m] = row.re[kWaves - m] = power.real();
-      row.im[kWaves + m] = power.imag();
-      row.im[kWaves - m] = -power.imag();
-    }
-    power = 1.0;
-    for (std::size_t k = 0; k <= kWaves; ++k, power *= y) {
-      const double re = power.real(), im = power.imag();
-      for (int m = 0; m < kRow; ++m) {
-        const double c = row.re[m] * re - row.im[m] * im;
-        const double d = row.re[m] * im + row.im[m] * re;
-        density[k].re[m] += c;
-        density[k].im[m] += d;
-        wave[k].re[m] += s * c;
-        wave[k].im[m] += s * d;
-      }
-    }
+  std::vector<double> s;
+  double squares = 0;  // <s^2>
+  for (const Vec2& angle : angles) {
+    s.push_back((angle.y() * axis.x() - angle.x() * axis.y()) / (2 * order));
+    squares += s.back() * s.back() / n;
+  }
+  Waves wave{}, density{}, apart{};
+  double shared = 0;  // <s s'>
+  const std::vector<std::size_t> nearest = nearest_of_each(places);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Waves::Row row(places[i]);
+    wave.add(row, s[i]);
+    density.add(row, 1);
+    if (places.size() < 2) continue;
+    apart.add(Waves::Row(places[nearest[i]] - places[i]), 1 / n);
+    shared += s[i] * s[nearest[i]] / n;
   }
 
   const double area = box_side_ * box_side_;
   std::array<double, kModes> powers{};
-  double sum = 0, structure = 0;
+  double structure = 0, unshared_power = 0, unshared = 0;  // sums over both signs of q, the first their mean
   std::size_t mode = 0;
-  for (std::size_t k = 0; k <= kWaves; ++k) {
-    for (int m = k == 0 ? kWaves + 1 : 0; m < kRow; ++m, ++mode) {
-      const auto square = [m](const Parts& parts) { return parts.re[m] * parts.re[m] + parts.im[m] * parts.im[m]; };
-      powers[mode] = area * square(wave[k]) / (n * n);
-      sum += powers[mode];
-      structure += square(density[k]) / n / kModes;
+  static_assert(2 * kModes + 1 == kRow * kRow);
+  for (std::size_t k = 0; k <= kMaxWave; ++k) {
+    for (std::size_t m = k == 0 ? kMaxWave + 1 : 0; m < kRow; ++m, ++mode) {
+      powers[mode] = area * wave.square(k, m) / (n * n);
+      structure += density.square(k, m) / n / kModes;
+      unshared_power += 2 * powers[mode] * (1 - apart.re[k][m]);
+      unshared += 2 * (1 - apart.re[k][m]);
     }
   }
-  const double all_modes = 2 * kModes;
-  const double not_noise = n < 2 * all_modes ? 0.0 : 1 - structure;
-  const double floor = (area * squares / n - not_noise * 2 * sum) / n / (1 - not_noise * all_modes / n);
+  const double even = n < 4 * kModes ? 0.0 : 1 - structure;
+  const double floor = (area * (squares - even * shared) - even * unshared_power) / (n - even * unshared);
 
   const double theta = 0.5 * std::atan2(axis.y(), axis.x());
   const auto place = static_cast<std::int64_t>(std::floor((theta / kPi + 0.5) * kSectors));
@@ -177,8 +239,8 @@ std::vector<DirectorFluctuations::Point> DirectorFluctuations::points() const {
     const Vec2 along(std::cos(theta), std::sin(theta));
     const auto samples = static_cast<double>(sector.samples);
     std::size_t mode = 0;
-    for (int n = 0; n <= kWaves; ++n) {
-      for (int m = n == 0 ? 1 : -kWaves; m <= kWaves; ++m, ++mode) {
+    for (int n = 0; n <= kMaxWave; ++n) {
+      for (int m = n == 0 ? 1 : -kMaxWave; m <= kMaxWave; ++m, ++mode) {
         const Vec2 q = unit * Vec2(m, n);
         const double q_along = q.dot(along);
         const double q_across = q.y() * along.x() - q.x() * along.y();

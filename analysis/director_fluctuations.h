@@ -39,11 +39,15 @@ struct DirectorSpectrum {
 /// K in units of the temperature. Shaken rods have none: their K are effective, and only the ratio and the law itself
 /// can be held against theory.
 ///
-/// Floor: rods whose angles are independent of one another add L^2 <s^2> / n, s being the summand, at every q. Of that
-/// the part that the measured waves themselves make of s is no noise if the rods are spaced evenly, but is if they
-/// stand at random: sum_ij f_i f_j exp(..) / n^2 of a wave f of wave vector k is |f|^2 S(q - k) / n, with the structure
-/// factor S. So floor = (L^2 <s^2> - (1 - S_0) sum_q (P_q - floor)) / n, with S_0 the mean structure factor over the
-/// same waves; of fewer than 336 rods, S_0 = 1.
+/// Floor: let s be the summand, s = f + e, f of waves and e each rod's own. At every q, e adds L^2 <e^2> / n; and a
+/// wave of wave vector k and power |f_k|^2 adds L^2 |f_k|^2 S(q - k) / n, with the structure factor S of the rods'
+/// places: as much again as noise if they stand at random, nothing if they are spaced evenly. So, with S_0 the mean of
+/// S over the measured waves,
+///   n floor = L^2 ((1 - S_0) <e^2> + S_0 <s^2>).
+/// What rods do not share with the rod nearest to them, after the measured waves' part of that, is their own:
+///   <e^2> = <s^2> - <s s'> - sum_q (P_q - floor) / L^2 (1 - <cos q . (r - r')>),   ' of the nearest.
+/// Without the last two, rods side by side that lean together count as noise, and the short waves come out negative.
+/// Of fewer than 336 rods, S_0 = 1.
 ///
 /// The director may wander: samples are summed in sectors of 5 degrees of its angle, and every sector has its own
 /// wave vectors along and across.
@@ -71,8 +75,7 @@ class DirectorFluctuations {
   void restore(StateReader& reader);
 
  private:
-  static constexpr int kWaves = 6;
-  static constexpr int kModes = ((2 * kWaves + 1) * (2 * kWaves + 1) - 1) / 2;  // q and -q are one
+  static constexpr int kModes = 84;  // |m|, |n| <= 6; q and -q are one
   struct Sector {
     std::int64_t samples = 0;
     double cosine = 0, sine = 0;         // sums of cos, sin of twice the director's angle
