@@ -45,13 +45,17 @@ bool same(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max({1.0, 
 
 bool Quantity::is_known() const { return std::isfinite(value); }
 
-FinishedRun::FinishedRun(std::filesystem::path directory) : directory_(std::move(directory)) {
+FinishedRun::FinishedRun(std::filesystem::path directory, Json parameters)
+    : directory_(std::move(directory)), parameters_(std::move(parameters)) {
   const run::RunDirectory files{directory_};
   scene_ = read_json(files.scene());
   summary_ = read_json(files.summary());
 }
 
-double FinishedRun::number(const std::string& path) const { return number_or_nan(find(*scene_, path)); }
+double FinishedRun::number(const std::string& path) const {
+  if (parameters_.contains(path)) return number_or_nan(&parameters_.at(path));
+  return number_or_nan(find(*scene_, path));
+}
 
 Quantity FinishedRun::scalar(const std::string& name) const {
   if (const Json* measured = find(*summary_, "measured"); measured != nullptr && measured->contains(name)) {

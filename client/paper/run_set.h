@@ -23,11 +23,13 @@ struct Quantity {
 /// A run that is done, as its directory tells it. Files are read once, when they are first asked for.
 class FinishedRun {
  public:
-  /// Throws Failure if the directory holds no scene and no summary.
-  explicit FinishedRun(std::filesystem::path directory);
+  /// `parameters` are the swept ones, {path: value} as they were asked for: an area fraction of 0.75 is 0.7486 in the
+  /// resolved scene, by whole rods. Throws Failure if the directory holds no scene and no summary.
+  explicit FinishedRun(std::filesystem::path directory, Json parameters = Json::object());
 
   const std::filesystem::path& directory() const { return directory_; }
-  /// A key of the resolved scene, "rods.length", in its default unit; NaN if it is not there or no number.
+  /// A key of the scene, "rods.length", in its default unit: as it was asked for if it was swept, else as resolved. NaN
+  /// if it is not there or no number.
   double number(const std::string& path) const;
   /// A number of summary.json: "order.mean" (with its error), "cpu_seconds", or one of "measured".
   Quantity scalar(const std::string& name) const;
@@ -36,6 +38,7 @@ class FinishedRun {
 
  private:
   std::filesystem::path directory_;
+  Json parameters_;
   std::shared_ptr<const Json> scene_, summary_;
   mutable std::shared_ptr<const run::Observables> observables_;
 };

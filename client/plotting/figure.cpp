@@ -172,8 +172,15 @@ set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'
                                 points ? " pointtype 7 pointsize 1.2" : " linewidth 1",
                                 curve.look == Curve::Look::kDashes ? " dashtype 2" : "", title));
   }
-  if (plots.empty()) plots.push_back("NaN notitle");  // axes without data still say what is missing
-  script += "plot ";
+  // Axes without data still say what is missing; gnuplot wants a range then.
+  const bool any = std::any_of(figure.curves.begin(), figure.curves.end(), [](const Curve& curve) {
+    for (std::size_t k = 0; k < curve.x.size(); ++k) {
+      if (std::isfinite(curve.x[k]) && std::isfinite(curve.y[k])) return true;
+    }
+    return false;
+  });
+  if (!any && !figure.map) plots.assign(1, "NaN notitle");
+  script += any || figure.map ? "plot " : "plot [1:2][1:2] ";
   for (std::size_t i = 0; i < plots.size(); ++i) script += (i > 0 ? ", \\\n     " : "") + plots[i];
   return script + "\n";
 }

@@ -297,7 +297,7 @@ class Figures : public Verb {
     RunSet set;
     for (const scene::SweepPoint& point : sweep.sweep.points) {
       const fs::path directory = runs_folder_ / derived_quantities(point).at("id").get<std::string>();
-      if (is_finished(directory)) set.emplace_back(directory);
+      if (is_finished(directory)) set.emplace_back(directory, point.parameters);
     }
     return set;
   }

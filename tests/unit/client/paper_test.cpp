@@ -30,14 +30,14 @@ class Runs {
     std::filesystem::create_directories(folder);
     const run::RunDirectory files{folder};
     std::ofstream(files.scene()) << Json{
-        {"rods", {{"length", length}, {"area_fraction", fraction}, {"end_diameter", 0.4}}},
+        {"rods", {{"length", length}, {"area_fraction", 0.998 * fraction}, {"end_diameter", 0.4}}},
         {"box", {{"side", side}, {"gap", 1.2}}}};
     std::ofstream(files.summary()) << Json{{"n_rods", 400},
                                            {"order", {{"mean", order}, {"sem", sem}, {"std", 3 * sem}}},
                                            {"measured", measured},
                                            {"exit", {{"state", "done"}}}};
     EXPECT_FALSE(run::write_observables(files.observables(), arrays));
-    return FinishedRun(folder);
+    return FinishedRun(folder, {{"rods.area_fraction", fraction}});
   }
   const std::filesystem::path& path() const { return folder_.path(); }
 

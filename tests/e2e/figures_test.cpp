@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// `shaken figures --scale tiny` as a user runs it: a daemon of its own, every figure, interrupted and gone on with.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "tests/e2e/process.h"
+
+namespace shaken::test {
+namespace {
+
+using ::testing::HasSubstr;
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+const std::string kShaken = SHAKEN_BIN_DIR "/shaken";
+
+std::vector<std::string> command(const TemporaryDirectory& root, std::vector<std::string> words) {
+  words.insert(words.begin(), {kShaken, "--root", root.path().string(), "figures", "--scale", "tiny", "--configs",
+                               SHAKEN_SOURCE_DIR "/configs"});
+  return words;
+}
+
+bool is_png(const fs::path& file) {
+  std::string head(8, '\0');
+  std::ifstream(file, std::ios::binary).read(head.data(), 8);
+  return head == "\x89PNG\r\n\x1a\n";
+}
+
+std::set<fs::path> runs_under(const fs::path& root) {
+  std::set<fs::path> runs;
+  for (const auto& entry : fs::directory_iterator(root / "runs")) runs.insert(entry.path());
+  return runs;
+}
+
+TEST(Figures, TinyScaleMakesEveryFigureAndGoesOnAfterAnInterruption) {
+  const TemporaryDirectory root, out;
+  const fs::path folder = out.path() / "figures";
+  {
+    Process first(command(root, {"-o", folder.string()}), out.path() / "first.txt");
+    ASSERT_TRUE(first.wait_for("fig08-mechanism.png", std::chrono::seconds(120))) << first.output();
+    first.signal(SIGINT);
+    EXPECT_EQ(first.wait(std::chrono::seconds(60)), 1);
+    EXPECT_THAT(first.output(), HasSubstr("goes on from here"));
+    EXPECT_FALSE(fs::exists(root.path() / "shakend.sock")) << "its daemon has gone with it";
+  }
+  std::set<fs::path> done;
+  for (const fs::path& run : runs_under(root.path())) {
+    if (fs::exists(run / "summary.json") &&
+        Json::parse(std::ifstream(run / "summary.json"))["exit"]["state"] == "done") {
+      done.insert(run);
+    }
+  }
+  EXPECT_FALSE(done.empty());
+  std::map<fs::path, fs::file_time_type> written;
+  for (const fs::path& run : done) written[run] = fs::last_write_time(run / "summary.json");
+
+  const Finished second = run_command(command(root, {"-o", folder.string(), "--json"}), std::chrono::seconds(240));
+  ASSERT_EQ(second.code, 0) << second.output;
+  for (const auto& [run, time] : written) {
+    EXPECT_EQ(fs::last_write_time(run / "summary.json"), time) << run << " was done again";
+  }
+  const Finished list = run_command(command(root, {"--list", "--json"}));
+  int n_figures = 0;
+  for (const Json& figure : Json::parse(list.output)) n_figures += figure["id"] != "movies";
+  int n_pages = 0;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() != ".gp") continue;
+    ++n_pages;
+    fs::path beside = entry.path();
+    EXPECT_TRUE(is_png(beside.replace_extension(".png"))) << beside;
+    EXPECT_GT(fs::file_size(beside.replace_extension(".dat")), 100u) << beside;
+  }
+  EXPECT_EQ(n_pages, n_figures);
+  EXPECT_TRUE(fs::exists(folder / "movies" / "S1.mp4"));
+  for (const Json& claim : Json::parse(std::ifstream(folder / "claims.json"))) {
+    EXPECT_FALSE(claim["verdict"].get<std::string>().empty());
+  }
+
+  // Redrawn from what is there, without any daemon.
+  fs::remove_all(folder);
+  const Finished again = run_command(command(root, {"2", "--draw-only", "-o", folder.string()}));
+  EXPECT_EQ(again.code, 0) << again.output;
+  EXPECT_TRUE(is_png(folder / "fig02-order.png"));
+  EXPECT_FALSE(fs::exists(root.path() / "shakend.sock"));
+}
+
+TEST(Figures, WrongWordsAreAllTold) {
+  const TemporaryDirectory root;
+  const Finished refused = run_command({kShaken, "figures", "17", "layers?", "--scale", "huge"});
+  EXPECT_EQ(refused.code, 2);
+  for (const char* word : {"17", "layers?", "huge", "larger-box"}) EXPECT_THAT(refused.output, HasSubstr(word));
+}
+
+}  // namespace
+}  // namespace shaken::test
