@@ -26,43 +26,50 @@ struct Constants {
   double inverse(double along2, double across2) const { return splay * across2 + bend * along2; }
 };
 
-/// Minimises sum n (P D - ln D), D = K1 q_across^2 + K3 q_along^2, which is convex, by Newton's method; nothing if
-/// there is no minimum.
+/// Minimises sum n (R / M + ln M), R = P + floor being the power as measured and M = 1 / D + floor what it should be,
+/// D = K1 q_across^2 + K3 q_along^2, by Fisher scoring; nothing if that leads nowhere.
 template <class Points>
 std::optional<Constants> fit_constants(const Points& points) {
   double n = 0, nq = 0;
   for (const auto& p : points) {
     n += p.samples;
-    nq += p.samples * p.power * (p.along2 + p.across2);
+    nq += p.samples * (p.power + p.floor) * (p.along2 + p.across2);
   }
   if (points.size() < 2 || !(nq > 0)) return std::nullopt;
   const auto cost = [&](const Constants& k) {
     double sum = 0;
     for (const auto& p : points) {
       const double d = k.inverse(p.along2, p.across2);
-      if (!(d > 0)) return std::numeric_limits<double>::infinity();
-      sum += p.samples * (p.power * d - std::log(d));
+      const double expected = 1 / d + p.floor;
+      if (!(d > 0 && expected > 0)) return std::numeric_limits<double>::infinity();
+      sum += p.samples * ((p.power + p.floor) / expected + std::log(expected));
     }
     return sum;
   };
   Constants k{n / nq, n / nq};
-  for (int iteration = 0; iteration < 100; ++iteration) {
+  for (int iteration = 0; iteration < 200; ++iteration) {
     double g1 = 0, g3 = 0, h11 = 0, h13 = 0, h33 = 0;
     for (const auto& p : points) {
       const double d = k.inverse(p.along2, p.across2);
-      const double slope = p.samples * (p.power - 1 / d);
-      const double bow = p.samples / (d * d);
-      g1 += slope * p.across2;
-      g3 += slope * p.along2;
-      h11 += bow * p.across2 * p.across2;
-      h13 += bow * p.across2 * p.along2;
-      h33 += bow * p.along2 * p.along2;
+      const double expected = 1 / d + p.floor;
+      const double slope1 = p.across2 / (d * d * expected), slope3 = p.along2 / (d * d * expected);  // of -ln M
+      const double misfit = p.samples * (p.power - 1 / d) / expected;
+      g1 += misfit * slope1;
+      g3 += misfit * slope3;
+      h11 += p.samples * slope1 * slope1;
+      h13 += p.samples * slope1 * slope3;
+      h33 += p.samples * slope3 * slope3;
     }
     const double determinant = h11 * h33 - h13 * h13;
     if (!(determinant > 1e-12 * h11 * h33)) return std::nullopt;  // all q in one direction
     const double step1 = -(h33 * g1 - h13 * g3) / determinant;
     const double step3 = -(h11 * g3 - h13 * g1) / determinant;
-    if (std::abs(step1) <= 1e-10 * std::abs(k.splay) && std::abs(step3) <= 1e-10 * std::abs(k.bend)) return k;
+    const double change = std::max(std::abs(step1 / k.splay), std::abs(step3 / k.bend));
+    if (change <= 1e-9) return k;
+    if (change <= 1e-5) {  // the cost is too flat here to tell better from worse
+      k = {k.splay + step1, k.bend + step3};
+      continue;
+    }
     const double now = cost(k);
     double fraction = 1;
     Constants next{};
@@ -244,7 +251,8 @@ std::vector<DirectorFluctuations::Point> DirectorFluctuations::points() const {
         const Vec2 q = unit * Vec2(m, n);
         const double q_along = q.dot(along);
         const double q_across = q.y() * along.x() - q.x() * along.y();
-        points.push_back({q_along * q_along, q_across * q_across, sector.power[mode] / samples, samples});
+        points.push_back(
+            {q_along * q_along, q_across * q_across, sector.power[mode] / samples, sector.floor / samples, samples});
       }
     }
   }

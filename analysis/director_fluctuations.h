@@ -66,9 +66,9 @@ class DirectorFluctuations {
   void merge(const DirectorFluctuations& other);
 
   /// With errors from at most 16 blocks of `blocks` from `t_steady` [s] on. The fit is by weighted least squares of the
-  /// powers with weights iterated from the fit itself, as their scatter is as large as they are: the same as the
-  /// maximum likelihood of exponentially distributed powers (Whittle 1953). Powers may be negative. NaN where there is
-  /// no fit.
+  /// powers with weights iterated from the fit itself, 1 / (fit + floor)^2, as powers scatter by as much as they are:
+  /// the same as the maximum likelihood of exponentially distributed ones (Whittle 1953). Powers less the floor may be
+  /// negative; waves well below the floor hardly count. NaN where there is no fit.
   static DirectorSpectrum reduce(const Blocked<DirectorFluctuations>& blocks, double t_steady);
 
   void save(StateWriter& writer) const;
@@ -83,7 +83,8 @@ class DirectorFluctuations {
     std::array<double, kModes> power{};  // sums, without the floor
   };
   struct Point {
-    double along2, across2, power;  // q_along^2, q_across^2 [1/mm^2]; mean power [mm^2]
+    double along2, across2;  // q_along^2, q_across^2 [1/mm^2]
+    double power, floor;     // mean [mm^2]
     double samples;
   };
   std::vector<Point> points() const;

@@ -41,10 +41,10 @@ class MeasuredFrank : public Measurement {
 
 std::unique_ptr<Measurement> make_frank(const MeasureContext& context) {
   const Scene& system = context.plan.system;
-  // Elasticity is of waves long against a rod; the four longest of the box are always taken.
-  const double two_rods = kPi / system.rod.length;
+  // Elasticity is of waves long against a rod, three of them at least; the four longest of the box are always taken.
+  const double three_rods = 2 * kPi / (3 * system.rod.length);
   const double longest = 2 * kPi / system.box_side * 1.5;
-  return std::make_unique<MeasuredFrank>(system.box_side, std::max(two_rods, longest));
+  return std::make_unique<MeasuredFrank>(system.box_side, std::max(three_rods, longest));
 }
 
 }  // namespace shaken::run
