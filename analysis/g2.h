@@ -18,10 +18,10 @@ struct OrientationCurve {
 };
 
 /// G2(r) = <cos 2 (theta_i - theta_j)> over pairs of rods at in-plane distance r (nearest periodic image) below r_max.
-/// The same pairs give the distribution g(r): their number in a ring over references x rho x the ring's area, with rho
-/// = n / L^2. Of n rods a gas then has 1 - 1 / n, as is usual. One sample costs at most 1024 n_rods pairs: of more than
-/// 1024 rods, every k-th is taken as i, another set each time, against all rods as j. Rods exactly upright are left
-/// out.
+/// The same pairs give the distribution g(r): their number in a ring over references x rho x the ring's area. rho is n
+/// / L^2, that of the whole box also where side walls leave less of it; of n rods a gas then has 1 - 1 / n, as is
+/// usual. One sample costs at most 1024 n_rods pairs: of more than 1024 rods, every k-th is taken as i, another set
+/// each time, against all rods as j. Rods exactly upright are left out.
 class OrientationCorrelation {
  public:
   /// `bins` equal bins over [0, r_max) [mm].

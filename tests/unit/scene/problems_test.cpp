@@ -27,6 +27,12 @@ TEST(Problems, DuplicateKeys) {
             "run.json:2:1: /box/gap: duplicate key, first given at 1:10");
 }
 
+TEST(Problems, MapsBeyondHalfTheBox) {
+  EXPECT_EQ(problem_of(R"({"box": {"side": 20}, "measure": {"pairs": {"range": 10.1}}})"),
+            "run.json:1:54: /measure/pairs/range: a map of 10.1 mm each way reaches beyond half the box, 10 mm: "
+            "distances have no nearest image there");
+}
+
 TEST(Problems, ValuesOutOfRangeComeWithTheRangeAndWhatMayHaveBeenMeant) {
   EXPECT_EQ(problem_of(R"({"rods": {"length": "450 mm"}})"),
             "run.json:1:21: /rods/length: 450 mm is outside [0.05, 50] mm; did you mean 4.5 mm?");
