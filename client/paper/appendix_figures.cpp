@@ -57,7 +57,7 @@ Sheet gap_figure(const Material& material) {
     sheet.panels.push_back(snapshot_panel(material, where(both, "box.gap", gap),
                                           std::string("(") + letter++ + ") " + value_label("box.gap", gap)));
   }
-  while (sheet.panels.size() % 3 != 0) sheet.panels.push_back({.commands = {"unset border", "unset tics"}});
+  while (sheet.panels.size() % 3 != 0) sheet.panels.push_back(empty_panel());
   sheet.panels.push_back({.x_title = "angle to the director {/Symbol q} (rad)",
                           .y_title = "P({/Symbol q}) (1/rad)",
                           .commands = {"set xrange [-0.8:0.8]", "set yrange [0:*]"},

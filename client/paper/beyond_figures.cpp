@@ -42,37 +42,29 @@ Sheet shaking_figure(const Material& material) {
 Sheet melting_figure(const Material& material) {
   const RunSet& runs = material.runs["phases"];
   const RunSet& tracked = material.runs["defects"];
-  return {
-      .title = "Defects and melting",
-      .panels = {against_packing(runs, "defect_density_per_mm2", "defects per area (1/mm^2)", "(a) defect density",
-                                 {"set yrange [0:*]"}),
-                 {.x_title = "⟨S⟩",
-                  .y_title = "defects per area (1/mm^2)",
-                  .style = Figure::Style::kPoints,
-                  .commands = {"set xrange [0:1]", "set yrange [0:*]"},
-                  .curves =
-                      [&] {
-                        std::vector<Curve> curves;
-                        for (const double length : values_of(runs, "rods.length")) {
-                          Curve curve{.label = value_label("rods.length", length), .colour = curves.size()};
-                          for (const FinishedRun& run : where(runs, "rods.length", length)) {
-                            curve.x.push_back(run.scalar("order.mean").value);
-                            curve.y.push_back(run.scalar("defect_density_per_mm2").value);
-                          }
-                          curves.push_back(std::move(curve));
-                        }
-                        return curves;
-                      }(),
-                  .title = "(b) where there is order, there are no defects"},
-                 {.x_title = "speed of a core (mm/s)",
-                  .y_title = "density (s/mm)",
-                  .commands = {"set xrange [0:*]", "set yrange [0:*]"},
-                  .curves = bare(together({{array_curve(tracked, "/defects/tracks/speed_mm_s",
-                                                        "/defects/tracks/speed_density_plus", "charge +1/2", 0)},
-                                           {array_curve(tracked, "/defects/tracks/speed_mm_s",
-                                                        "/defects/tracks/speed_density_minus", "charge −1/2", 1)}})),
-                  .title = "(c) speeds of +1/2 and −1/2"},
-                 against_packing(runs, "order.mean", "⟨S⟩", "(d) order", {"set yrange [0:1]", level_line(0.5)})}};
+  return {.title = "Defects and melting",
+          .panels = {against_packing(runs, "defect_density_per_mm2", "defects per area (1/mm^2)", "(a) defect density",
+                                     {"set yrange [0:*]"}),
+                     {.x_title = "⟨S⟩",
+                      .y_title = "defects per area (1/mm^2)",
+                      .style = Figure::Style::kPoints,
+                      .commands = {"set xrange [0:1]", "set yrange [0:*]"},
+                      .curves =
+                          [&] {
+                            std::vector<Curve> curves;
+                            for (const double length : values_of(runs, "rods.length")) {
+                              Curve curve{.label = value_label("rods.length", length), .colour = curves.size()};
+                              for (const FinishedRun& run : where(runs, "rods.length", length)) {
+                                curve.x.push_back(run.scalar("order.mean").value);
+                                curve.y.push_back(run.scalar("defect_density_per_mm2").value);
+                              }
+                              curves.push_back(std::move(curve));
+                            }
+                            return curves;
+                          }(),
+                      .title = "(b) where there is order, there are no defects"},
+                     defect_speed_panel(tracked, "(c) speeds of +1/2 and −1/2"),
+                     against_packing(runs, "order.mean", "⟨S⟩", "(d) order", {"set yrange [0:1]", level_line(0.5)})}};
 }
 
 Sheet size_figure(const Material& material) {
@@ -145,7 +137,7 @@ Sheet elasticity_figure(const Material& material) {
     for (const FinishedRun& run : point) {
       const auto& q_along = run.array("/frank/q_along_per_mm");
       const auto& q_across = run.array("/frank/q_across_per_mm");
-      const auto& power = run.array("/frank/power");
+      const auto& power = run.array("/frank/power_mm2");
       for (std::size_t k = 0; k < std::min({q_along.size(), q_across.size(), power.size()}); ++k) {
         const double a = std::abs(q_along[k]), b = std::abs(q_across[k]);
         if ((along ? b : a) > 0.35 * (along ? a : b)) continue;

@@ -343,7 +343,7 @@ Finding tilt_and_velocity(const Library& runs) {
   const bool place = std::abs(fastest.value - 0.2) < 0.04;
   const bool reverses = zero.is_known() && beyond.value > kSigmas;
   return {opposite && place && reverses ? Verdict::kAgrees : (opposite ? Verdict::kPartly : Verdict::kDisagrees),
-          fmt::format("largest at |n_z| = {:.2f}, {} mm/s against the tilt; {}", fastest.value, text(speed),
+          fmt::format("largest at n_z = ±{:.2f}, {} mm/s against the tilt; {}", fastest.value, text(speed),
                       zero.is_known() ? fmt::format("reversed beyond {:.2f} by {:.1f} errors", zero.value, beyond.value)
                                       : "no reversal seen")};
 }
@@ -367,12 +367,13 @@ Finding rotation_subdiffusive(const Library& runs) {
 
 Finding defects_move(const Library& runs) {
   const RunSet& here = runs["defects"];
-  const Quantity plus = mean_scalar(here, "speed_plus_mm_s"), minus = mean_scalar(here, "speed_minus_mm_s");
-  const Quantity along = mean_scalar(here, "speed_plus_along_mm_s");
+  const Quantity plus = mean_scalar(here, "lasting_defect_speed_plus_mm_s"),
+                 minus = mean_scalar(here, "lasting_defect_speed_minus_mm_s");
+  const Quantity along = mean_scalar(here, "lasting_defect_speed_plus_along_mm_s");
   if (!plus.is_known() || !along.is_known()) return {};
   const bool motile = std::abs(along.value) > kSigmas * sem_or_zero(along);
   return {motile ? Verdict::kAgrees : Verdict::kUnresolved,
-          fmt::format("+1/2 move at {} mm/s, −1/2 at {} mm/s; +1/2 along their own axis: {} mm/s", text(plus),
+          fmt::format("+1/2 move at {} mm/s, −1/2 at {} mm/s; +1/2 towards their own tail: {} mm/s", text(plus),
                       text(minus), text(along, 3))};
 }
 
@@ -424,7 +425,7 @@ std::span<const Claim> paper_claims() {
       {"wavelength-end", "7", "The wavelength grows with the end radius", wavelength_grows_with_end},
       {"larger-box", "larger-box", "In a larger box the wavelength is larger and θ_m smaller", larger_box},
       {"oblique", "steady", "ℓ = 3.5 mm at 0.85 orders along an oblique axis", oblique_axis},
-      {"tilt", "8", "Rods swim against their tilt, fastest near |n_z| = 0.2, the other way beyond 0.3",
+      {"tilt", "8", "Rods swim against their tilt, fastest near n_z = ±0.2, the other way beyond 0.3",
        tilt_and_velocity},
       {"diffusion-rises", "9", "Short rods diffuse faster when denser", diffusion_rises},
       {"diffusion-law", "9", "D = 1.7 + 480 (φ − 0.64)² mm²/s for ℓ = 2.5 mm", diffusion_law},

@@ -4,6 +4,21 @@
 
 namespace shaken::client {
 
+Figure defect_speed_panel(const RunSet& runs, std::string title) {
+  const auto curve = [&](const std::string& name, std::string label) {
+    return array_curve(runs, "/defects/tracks/span_s", "/defects/tracks/lasting/" + name + "_mm_s", std::move(label), 0,
+                       "/defects/tracks/lasting/" + name + "_sem_mm_s");
+  };
+  return {.x_title = "time over which a core's way is taken (s)",
+          .y_title = "mean speed (mm/s)",
+          .style = Figure::Style::kLinesPoints,
+          .commands = {"set logscale x 2", "set xzeroaxis linecolor '#999999'"},
+          .curves = together({{curve("speed_plus", "charge +1/2")},
+                              {curve("speed_minus", "charge −1/2")},
+                              {curve("speed_plus_along", "+1/2, towards its tail")}}),
+          .title = std::move(title)};
+}
+
 Sheet defects_figure(const Material& material) {
   const RunSet& runs = material.runs["defects"];
   Sheet sheet{.title = "Defects of a locally ordered system"};
@@ -17,15 +32,7 @@ Sheet defects_figure(const Material& material) {
                           .commands = {"set xrange [0:*]", "set yrange [0:*]"},
                           .curves = bare({array_curve(runs, "/defects/time_s", "/defects/n_plus", "", 0)}),
                           .title = "(b) number, equal to that of charge −1/2"});
-  sheet.panels.push_back(
-      {.x_title = "speed of a core (mm/s)",
-       .y_title = "density (s/mm)",
-       .commands = {"set xrange [0:*]", "set yrange [0:*]"},
-       .curves = bare(together(
-           {{array_curve(runs, "/defects/tracks/speed_mm_s", "/defects/tracks/speed_density_plus", "charge +1/2", 0)},
-            {array_curve(runs, "/defects/tracks/speed_mm_s", "/defects/tracks/speed_density_minus", "charge −1/2",
-                         1)}})),
-       .title = "(c) speeds of long-lived defects"});
+  sheet.panels.push_back(defect_speed_panel(runs, "(c) speeds of defects that last"));
   sheet.panels.push_back({.x_title = "distance r (mm)",
                           .y_title = "G_2(r)",
                           .commands = {"set xrange [0:*]", level_line(0)},

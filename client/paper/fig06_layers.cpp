@@ -28,7 +28,7 @@ Sheet layers_figure(const Material& material) {
         snapshot_panel(material, where(runs, "rods.area_fraction", fraction),
                        std::string("(") + letter++ + ") " + value_label("rods.area_fraction", fraction)));
   }
-  while (sheet.panels.size() % 3 != 0) sheet.panels.push_back({.commands = {"unset border", "unset tics"}});
+  while (sheet.panels.size() % 3 != 0) sheet.panels.push_back(empty_panel());
   sheet.panels.push_back(
       {.x_title = "angle to the director {/Symbol q} (rad)",
        .y_title = "P({/Symbol q}) (1/rad)",

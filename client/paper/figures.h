@@ -35,6 +35,8 @@ Sheet mechanism_figure(const Material& material);         ///< 8
 Sheet diffusion_figure(const Material& material);         ///< 9
 Sheet rotation_figure(const Material& material);          ///< 10
 Sheet defects_figure(const Material& material);
+/// How fast defects move, by the time over which their way is taken.
+Figure defect_speed_panel(const RunSet& runs, std::string title);
 Sheet larger_box_figure(const Material& material);
 Sheet gap_figure(const Material& material);
 Sheet steady_state_figure(const Material& material);

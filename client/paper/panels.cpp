@@ -131,6 +131,8 @@ Figure snapshot_panel(const Material& material, const RunSet& runs, std::string 
   return panel;
 }
 
+Figure empty_panel() { return {.commands = {"unset border", "unset tics", "unset label"}}; }
+
 Quantity crossing(const Curve& curve, double level) {
   std::vector<std::size_t> order(curve.x.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

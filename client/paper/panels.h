@@ -54,6 +54,9 @@ Map map_of(const FinishedRun& run, const std::string& x, const std::string& y, c
 /// A picture of the run under a title; says so where there is none.
 Figure snapshot_panel(const Material& material, const RunSet& runs, std::string title);
 
+/// A place on the page that stays empty.
+Figure empty_panel();
+
 /// Where y rises through `level`, interpolated linearly between neighbouring x, with the error that those of y give.
 /// Unknown if it does not. Points need not be in order.
 Quantity crossing(const Curve& curve, double level);

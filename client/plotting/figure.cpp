@@ -179,7 +179,10 @@ set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'
     }
     return false;
   });
-  if (!any && !figure.map) plots.assign(1, "NaN notitle");
+  if (!any && !figure.map) {
+    if (!figure.x_title.empty()) script += "set label 'no data' at graph 0.5, graph 0.5 center textcolor '#999999'\n";
+    plots.assign(1, "NaN notitle");
+  }
   script += any || figure.map ? "plot " : "plot [1:2][1:2] ";
   for (std::size_t i = 0; i < plots.size(); ++i) script += (i > 0 ? ", \\\n     " : "") + plots[i];
   return script + "\n";

@@ -148,13 +148,39 @@ Figure defects_figure(const std::vector<PlottedRun>& runs) {
   return figure;
 }
 
-Figure g2_figure(const std::vector<PlottedRun>& runs) {
-  return {.name = "g2",
-          .x_title = "distance r (mm)",
-          .y_title = "G_2(r) = ⟨cos 2({/Symbol q}_i − {/Symbol q}_j)⟩",
+/// Curves of one array against another, averaged over replicas.
+Figure lines_figure(const std::vector<PlottedRun>& runs, std::string name, std::string x_title, std::string y_title,
+                    std::vector<std::string> commands, const std::string& x, const std::string& y) {
+  return {.name = std::move(name),
+          .x_title = std::move(x_title),
+          .y_title = std::move(y_title),
           .style = Figure::Style::kLines,
-          .commands = {"set xrange [0:*]", "set xzeroaxis linecolor '#999999'"},
-          .curves = averaged_lines(curves_of(runs, "/g2/r_mm", "/g2/g2"))};
+          .commands = std::move(commands),
+          .curves = averaged_lines(curves_of(runs, x, y))};
+}
+
+const char* const kZeroAxis = "set xzeroaxis linecolor '#999999'";
+const char* const kLogX = "set logscale x";
+
+/// Observables that need no more than a line each.
+std::vector<Figure> line_figures(const std::vector<PlottedRun>& runs) {
+  const std::string distance = "distance r (mm)", lag = "lag t (s)";
+  return {
+      lines_figure(runs, "order_pdf", "nematic order S", "P[S]", {"set xrange [0:1]", "set yrange [0:*]"},
+                   "/order/pdf/order", "/order/pdf/density"),
+      lines_figure(runs, "g2", distance, "G_2(r) = ⟨cos 2({/Symbol q}_i − {/Symbol q}_j)⟩",
+                   {"set xrange [0:*]", kZeroAxis}, "/g2/r_mm", "/g2/g2"),
+      lines_figure(runs, "g", distance, "g(r)", {"set xrange [0:*]", "set yrange [0:*]"}, "/g2/r_mm", "/g2/g"),
+      lines_figure(runs, "g2_across", "distance across the director (mm)", "G_2", {"set xrange [0:*]", kZeroAxis},
+                   "/pairs/cut/r_mm", "/pairs/cut/g2_across"),
+      lines_figure(runs, "layers", "wave number across the director (1/mm)",
+                   "spectrum of sin 2({/Symbol q} − {/Symbol q}_N)", {"set xrange [0:*]", "set yrange [0:*]"},
+                   "/layers/q_per_mm", "/layers/spectrum_across"),
+      lines_figure(runs, "orientation_memory", lag, "C_2(t)", {kLogX, kZeroAxis}, "/rotation/lag_s", "/rotation/c2"),
+      lines_figure(runs, "velocity_memory", lag, "C_v(t)", {kLogX, kZeroAxis}, "/velocity/lag_s", "/velocity/c_v"),
+      lines_figure(runs, "number_fluctuations", "mean number in a box ⟨N⟩", "standard deviation {/Symbol D}N",
+                   {"set logscale xy"}, "/fluctuations/mean_n", "/fluctuations/std_n"),
+  };
 }
 
 Figure msd_figure(const std::vector<PlottedRun>& runs) {
@@ -203,8 +229,10 @@ std::string axis_title(const std::string& path) {
 
 std::vector<Figure> run_figures(const std::vector<PlottedRun>& runs) {
   std::vector<Figure> figures;
-  for (Figure& figure : std::vector<Figure>{order_figure(runs), angles_figure(runs), tilt_figure(runs),
-                                            defects_figure(runs), g2_figure(runs), msd_figure(runs)}) {
+  std::vector<Figure> all{order_figure(runs), angles_figure(runs), tilt_figure(runs), defects_figure(runs),
+                          msd_figure(runs)};
+  for (Figure& figure : line_figures(runs)) all.push_back(std::move(figure));
+  for (Figure& figure : all) {
     if (!figure.curves.empty()) figures.push_back(std::move(figure));
   }
   return figures;

@@ -317,7 +317,7 @@ class Figures : public Verb {
     fs::create_directories(folder);
     const ChildResult drawn =
         run_captured({sibling_program("shaken-render").string(), "picture", run.directory().string(), "--frame", "last",
-                      "--size", "900x640", "-o", picture.string()});
+                      "--bare", "--size", "640x640", "-o", picture.string()});
     return drawn.exit_code == 0 ? picture : fs::path();
   }
 
