@@ -15,6 +15,8 @@ const char* value_name_of(Names names) {
       return "DIR";
     case Names::kId:
       return "ID";
+    case Names::kFigure:
+      return "FIGURE";
     case Names::kAnything:
       break;
   }
@@ -27,7 +29,7 @@ constexpr const char* kNothing = " ";
 }  // namespace
 
 Names meaning(const CLI::Option& option) {
-  for (const Names names : {Names::kFile, Names::kFolder, Names::kId}) {
+  for (const Names names : {Names::kFile, Names::kFolder, Names::kId, Names::kFigure}) {
     if (option.get_type_name() == value_name_of(names)) return names;
   }
   return Names::kAnything;

@@ -13,7 +13,7 @@ class Option;
 namespace shaken::client {
 
 /// What an argument names, for shell completion.
-enum class Names { kAnything, kFile, kFolder, kId };
+enum class Names { kAnything, kFile, kFolder, kId, kFigure };
 
 /// Declares the command line of a verb. Keeps CLI11 out of the verbs: its header costs seconds per source file.
 /// The variables must outlive the parsing; one that is not given keeps its value.

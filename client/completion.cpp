@@ -6,12 +6,13 @@
 #include <CLI/CLI.hpp>
 
 #include "client/arguments.h"
+#include "client/paper/figures.h"
 
 namespace shaken::client {
 namespace {
 
 /// What bash is to offer for a value.
-const char* action_of(Names names) {
+std::string action_of(Names names) {
   switch (names) {
     case Names::kFile:
       return "COMPREPLY=($(compgen -f -- \"$word\"))";
@@ -20,6 +21,11 @@ const char* action_of(Names names) {
     case Names::kId:
       return "COMPREPLY=($(compgen -W \"$(shaken completion ids 2>/dev/null)\" -- \"$word\") $(compgen -d -- "
              "\"$word\"))";
+    case Names::kFigure: {
+      std::string ids;
+      for (const PaperFigure& figure : paper_figures()) ids += (ids.empty() ? "" : " ") + std::string(figure.id);
+      return fmt::format("COMPREPLY=($(compgen -W \"{}\" -- \"$word\"))", ids);
+    }
     case Names::kAnything:
       break;
   }

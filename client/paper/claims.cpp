@@ -486,15 +486,15 @@ Json claims_json(const Library& runs) {
   return list;
 }
 
-std::string with_measured(const std::string& document, const std::string& table) {
-  static const std::string kBegin = "<!-- measured: begin -->\n", kEnd = "<!-- measured: end -->";
-  const std::size_t begin = document.find(kBegin);
-  const std::size_t end = document.find(kEnd);
+std::string with_section(const std::string& document, const std::string& name, const std::string& table) {
+  const std::string begin_mark = fmt::format("<!-- {}: begin -->\n", name);
+  const std::string end_mark = fmt::format("<!-- {}: end -->", name);
+  const std::size_t begin = document.find(begin_mark);
+  const std::size_t end = document.find(end_mark);
   if (begin == std::string::npos || end == std::string::npos || end < begin) {
-    throw Failure(ExitCode::kBadInput,
-                  "the report lacks the lines <!-- measured: begin --> and <!-- measured: end -->");
+    throw Failure(ExitCode::kBadInput, fmt::format("the report lacks the lines {}{}", begin_mark, end_mark));
   }
-  return document.substr(0, begin + kBegin.size()) + table + document.substr(end);
+  return document.substr(0, begin + begin_mark.size()) + table + document.substr(end);
 }
 
 }  // namespace shaken::client

@@ -41,8 +41,8 @@ std::string claims_table(const Library& runs);
 /// The same as JSON: [{"claim", "figure", "verdict", "found"}].
 Json claims_json(const Library& runs);
 
-/// Puts `table` between the lines "<!-- measured: begin -->" and "<!-- measured: end -->" of `document`; throws Failure
-/// if it lacks them.
-std::string with_measured(const std::string& document, const std::string& table);
+/// Puts `table` between the lines "<!-- NAME: begin -->" and "<!-- NAME: end -->" of `document`; throws Failure if it
+/// lacks them.
+std::string with_section(const std::string& document, const std::string& name, const std::string& table);
 
 }  // namespace shaken::client

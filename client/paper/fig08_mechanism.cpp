@@ -2,9 +2,44 @@
 // Velocity against tilt, the distribution of tilts, and single rods on their way.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "client/paper/figures.h"
 
 namespace shaken::client {
+namespace {
+
+/// As much of a trace as can be seen in print: the first two seconds.
+Curve beginning(Curve trace) {
+  std::size_t n = 0;
+  while (n < trace.x.size() && trace.x[n] < trace.x.front() + 2.0) ++n;
+  trace.x.resize(n);
+  trace.y.resize(n);
+  return trace;
+}
+
+/// The same scale for both axes, with all curves inside.
+std::vector<std::string> square_ranges(const std::vector<Curve>& curves) {
+  double low[2] = {0, 0}, high[2] = {0, 0};
+  for (const Curve& curve : curves) {
+    for (std::size_t k = 0; k < curve.x.size(); ++k) {
+      const double place[2] = {curve.x[k], curve.y[k]};
+      for (int axis = 0; axis < 2; ++axis) {
+        low[axis] = std::min(low[axis], place[axis]);
+        high[axis] = std::max(high[axis], place[axis]);
+      }
+    }
+  }
+  const double half = 0.55 * std::max({high[0] - low[0], high[1] - low[1], 1e-6});
+  std::vector<std::string> commands{"set size ratio 1"};
+  for (int axis = 0; axis < 2; ++axis) {
+    const double middle = (low[axis] + high[axis]) / 2;
+    commands.push_back(fmt::format("set {}range [{}:{}]", axis == 0 ? 'x' : 'y', middle - half, middle + half));
+  }
+  return commands;
+}
+
+}  // namespace
 
 Sheet mechanism_figure(const Material& material) {
   const RunSet& all = material.runs["mechanism"];
@@ -34,8 +69,8 @@ Sheet mechanism_figure(const Material& material) {
                           .title = "(c) how often a tilt occurs"});
   sheet.panels.push_back({.x_title = "time t (s)",
                           .y_title = "tilt n_z",
-                          .commands = {"set xrange [*:*] noextend"},
-                          .curves = bare({array_curve(first, "/rods/trace/time_s", "/rods/trace/0/n_z", "", 0)}),
+                          .commands = {"set xrange [*:*] noextend", "set yrange [-0.4:0.4]"},
+                          .curves = {beginning(array_curve(first, "/rods/trace/time_s", "/rods/trace/0/n_z", "", 0))},
                           .title = "(d) tilt of one rod" + point});
   char letter = 'e';
   for (const double fraction : fractions) {
@@ -55,7 +90,7 @@ Sheet mechanism_figure(const Material& material) {
     sheet.panels.push_back(
         {.x_title = "x (mm)",
          .y_title = "y (mm)",
-         .commands = {"set size ratio -1"},
+         .commands = square_ranges(traces),
          .curves = bare(std::move(traces)),
          .title = std::string("(") + letter++ + ") paths, " + value_label("rods.area_fraction", fraction)});
   }

@@ -8,9 +8,9 @@
 namespace shaken::client {
 namespace {
 
-constexpr int kPanelWidth = 900;  ///< [pixels]
-constexpr int kPanelHeight = 680;
-constexpr int kTitleHeight = 60;
+constexpr int kPanelWidth = 720;  ///< [pixels]
+constexpr int kPanelHeight = 560;
+constexpr int kTitleHeight = 50;
 
 /// What one panel has set must not reach the next.
 constexpr const char* kAfresh = R"(
@@ -27,9 +27,9 @@ std::filesystem::path draw(const Sheet& sheet, const std::filesystem::path& fold
   const int n = static_cast<int>(sheet.panels.size());
   const int rows = (n + sheet.columns - 1) / sheet.columns;
   std::string script = fmt::format(R"(# gnuplot {0}.gp  draws {0}.png from {0}.dat
-set terminal pngcairo size {1},{2} enhanced font 'DejaVu Sans,17' linewidth 2 background '#ffffff'
+set terminal pngcairo size {1},{2} enhanced font 'DejaVu Sans,14' linewidth 1.6 background '#ffffff'
 set output '{0}.png'
-set multiplot layout {3},{4} title "{5}" font ',20'
+set multiplot layout {3},{4} title "{5}" font ',17'
 )",
                                    sheet.name, sheet.columns * kPanelWidth, rows * kPanelHeight + kTitleHeight, rows,
                                    sheet.columns, sheet.title);

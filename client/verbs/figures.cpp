@@ -13,6 +13,7 @@
 #include "client/interrupt.h"
 #include "client/own_daemon.h"
 #include "client/paper/claims.h"
+#include "client/paper/cost.h"
 #include "client/print.h"
 #include "client/process.h"
 #include "client/scene_input.h"
@@ -42,6 +43,7 @@ struct NamedSweep {
   std::string name;
   SceneInput input;
   scene::Sweep sweep;
+  bool needed = false;             ///< for the figures asked for; the claims look at all
   std::optional<Target> target{};  ///< once the daemon knows it
 };
 
@@ -66,7 +68,7 @@ class Figures : public Verb {
   }
 
   void declare(Arguments& arguments) override {
-    arguments.list("FIGURE", ids_, "2 to 10, or a name of --list; all if left out", Names::kAnything, 0);
+    arguments.list("FIGURE", ids_, "2 to 10, or a name of --list; all if left out", Names::kFigure, 0);
     arguments.option("--scale", scale_, "tiny|laptop|paper", "Size of the runs; laptop if left out");
     arguments.option("-o,--out", out_, "DIR", "Where to draw; figures-SCALE if left out", Names::kFolder);
     arguments.option("--configs", configs_, "DIR", "Folder that holds figures/SCALE/*.json", Names::kFolder);
@@ -74,7 +76,7 @@ class Figures : public Verb {
     arguments.flag("--dry-run", dry_run_, "Check the sweeps and say what they would cost on this machine");
     arguments.flag("--draw-only", draw_only_, "Queue nothing: draw from the runs that are done");
     arguments.option("--report", report_, "FILE",
-                     "Put the table of claims between the marks in this Markdown file, as in docs/validation.md",
+                     "Put claims and costs between the marks in this Markdown file, as in docs/validation.md",
                      Names::kFile);
     arguments.flag("--json", json_, "Print what was made as JSON");
   }
@@ -137,7 +139,7 @@ class Figures : public Verb {
       needed.insert(figure.sets.begin(), figure.sets.end());
     }
     for (const std::string_view set : all_sets()) {
-      if (needed.contains(set)) sweeps_.push_back({std::string(set), {}, {}});
+      sweeps_.push_back({.name = std::string(set), .input = {}, .sweep = {}, .needed = needed.contains(set)});
     }
   }
 
@@ -174,6 +176,7 @@ class Figures : public Verb {
     Json list = Json::array();
     double cpu = 0, disk = 0;
     for (const NamedSweep& sweep : sweeps_) {
+      if (!sweep.needed) continue;
       const Estimate estimate = estimate_cost(sweep.sweep, {});
       const LevelCost& cost = estimate.levels.front();  // as written
       cpu += cost.cpu.value_or(0);
@@ -199,6 +202,7 @@ class Figures : public Verb {
 
   void submit(Session& session) {
     for (NamedSweep& sweep : sweeps_) {
+      if (!sweep.needed) continue;
       const Json answer = session.post(
           "/v1/sweeps", {{"text", sweep.input.text}, {"file", sweep.input.file}, {"settings", Json::array()}});
       sweep.target = find_target(session, answer.at("sweep").at("id").get<std::string>());
@@ -239,11 +243,12 @@ class Figures : public Verb {
         return false;
       }
       for (NamedSweep& sweep : sweeps_) {
-        if (!has_ended(sweep)) refresh(session, *sweep.target);
+        if (sweep.needed && !has_ended(sweep)) refresh(session, *sweep.target);
       }
     }
     bool complete = true;
     for (const NamedSweep& sweep : sweeps_) {
+      if (!sweep.needed) continue;
       for (const Json& job : jobs_of(*sweep.target)) {
         if (text_of(job, "state") == "done") continue;
         complete = false;
@@ -261,6 +266,7 @@ class Figures : public Verb {
     double done = 0, all = 0, eta = -1;
     int n_ended = 0, n_jobs = 0;
     for (const NamedSweep& sweep : sweeps_) {
+      if (!sweep.needed) continue;
       const std::vector<Json> jobs = jobs_of(*sweep.target);
       // what a run costs goes about with its rods and its time
       for (std::size_t k = 0; k < std::min(jobs.size(), sweep.sweep.points.size()); ++k) {
@@ -375,7 +381,9 @@ class Figures : public Verb {
     if (!report_.empty()) {
       const auto text = run::read_file(report_);
       if (!text) throw Failure(ExitCode::kBadInput, text.error().message);
-      save(report_, with_measured(*text, table));
+      std::string report = with_section(*text, "claims", table);
+      report = with_section(report, "sweeps", sweep_cost_table(runs, all_sets()));
+      save(report_, with_section(report, "figures", figure_cost_table(runs)));
     }
     if (json_) {
       console.out << Json{{"scale", scale_}, {"made", made_}, {"claims", claims_json(runs)}}.dump(2) << "\n";

@@ -173,8 +173,9 @@ TEST(Claims, PointAtFiguresThatExist) {
 
 TEST(Report, TableGoesBetweenTheMarks) {
   const std::string document = "a\n<!-- measured: begin -->\nold\n<!-- measured: end -->\nb\n";
-  EXPECT_EQ(with_measured(document, "new\n"), "a\n<!-- measured: begin -->\nnew\n<!-- measured: end -->\nb\n");
-  EXPECT_THROW(with_measured("no marks", "new\n"), Failure);
+  EXPECT_EQ(with_section(document, "measured", "new\n"),
+            "a\n<!-- measured: begin -->\nnew\n<!-- measured: end -->\nb\n");
+  EXPECT_THROW(with_section("no marks", "measured", "new\n"), Failure);
 }
 
 TEST(PaperFigures, OfNothingAreDrawnWithoutData) {
