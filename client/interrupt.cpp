@@ -11,6 +11,7 @@ namespace {
 volatile std::sig_atomic_t g_interrupted = 0;
 struct sigaction g_old_int;
 struct sigaction g_old_term;
+struct sigaction g_old_hup;
 
 void note_signal(int) { g_interrupted = 1; }
 
@@ -23,11 +24,13 @@ InterruptGuard::InterruptGuard() {
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, &g_old_int);
   sigaction(SIGTERM, &action, &g_old_term);
+  sigaction(SIGHUP, &action, &g_old_hup);
 }
 
 InterruptGuard::~InterruptGuard() {
   sigaction(SIGINT, &g_old_int, nullptr);
   sigaction(SIGTERM, &g_old_term, nullptr);
+  sigaction(SIGHUP, &g_old_hup, nullptr);
 }
 
 bool InterruptGuard::interrupted() const { return g_interrupted != 0; }

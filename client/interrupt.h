@@ -5,7 +5,7 @@
 
 namespace shaken::client {
 
-/// While it lives, SIGINT and SIGTERM no longer end the program: they are noted, for loops that must leave the
+/// While it lives, SIGINT, SIGTERM and SIGHUP no longer end the program: they are noted, for loops that must leave the
 /// terminal in order.
 class InterruptGuard {
  public:

@@ -7,23 +7,9 @@ namespace {
 
 /// The state point that the appendices vary: longest rods, thinnest ends, the packing in the middle.
 RunSet layered_point(const RunSet& all) {
-  RunSet runs = all;
-  if (const auto lengths = values_of(runs, "rods.length"); !lengths.empty()) {
-    runs = where(runs, "rods.length", lengths.back());
-  }
-  if (const auto ends = values_of(runs, "rods.end_diameter"); !ends.empty()) {
-    runs = where(runs, "rods.end_diameter", ends.front());
-  }
-  if (const auto fractions = values_of(runs, "rods.area_fraction"); !fractions.empty()) {
-    runs = where(runs, "rods.area_fraction", fractions[fractions.size() / 2]);
-  }
-  return runs;
-}
-
-RunSet joined(const RunSet& a, const RunSet& b) {
-  RunSet all = a;
-  all.insert(all.end(), b.begin(), b.end());
-  return all;
+  const RunSet runs = with_extreme(with_extreme(all, "rods.length", true), "rods.end_diameter", false);
+  const std::vector<double> fractions = values_of(runs, "rods.area_fraction");
+  return fractions.empty() ? runs : where(runs, "rods.area_fraction", fractions[fractions.size() / 2]);
 }
 
 }  // namespace

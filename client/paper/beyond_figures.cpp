@@ -5,11 +5,6 @@
 namespace shaken::client {
 namespace {
 
-RunSet of_length(const RunSet& runs, bool longest) {
-  const auto lengths = values_of(runs, "rods.length");
-  return lengths.empty() ? RunSet{} : where(runs, "rods.length", longest ? lengths.back() : lengths.front());
-}
-
 Figure against_packing(const RunSet& runs, const std::string& scalar, std::string y_title, std::string title,
                        std::vector<std::string> commands = {}) {
   return {.x_title = axis_of("rods.area_fraction"),
@@ -62,34 +57,36 @@ Sheet melting_figure(const Material& material) {
                             }
                             return curves;
                           }(),
-                      .title = "(b) where there is order, there are no defects"},
+                      .title = "(b) defect density against order"},
                      defect_speed_panel(tracked, "(c) speeds of +1/2 and −1/2"),
                      against_packing(runs, "order.mean", "⟨S⟩", "(d) order", {"set yrange [0:1]", level_line(0.5)})}};
 }
 
 Sheet size_figure(const Material& material) {
-  RunSet runs = material.runs["size"];
-  for (const FinishedRun& run : of_length(material.runs["phases"], true)) runs.push_back(run);
+  const RunSet runs = joined(material.runs["size"], with_extreme(material.runs["phases"], "rods.length", true));
+  RunSet common;  // packings that were run in several boxes
+  for (const double fraction : values_of(material.runs["size"], "rods.area_fraction")) {
+    common = joined(common, where(runs, "rods.area_fraction", fraction));
+  }
   return {.title = "Order against the size of the box",
-          .panels = {
-              {.x_title = axis_of("rods.area_fraction"),
-               .y_title = "⟨S⟩",
-               .style = Figure::Style::kLinesPoints,
-               .commands = {"set yrange [0:1]", level_line(0.5)},
-               .curves = scalar_curves(runs, "box.side", "rods.area_fraction", "order.mean"),
-               .title = "(a) order"},
-              {.x_title = axis_of("rods.area_fraction"),
-               .y_title = "Binder cumulant",
-               .style = Figure::Style::kLinesPoints,
-               .commands = {level_line(0), level_line(1)},
-               .curves = scalar_curves(runs, "box.side", "rods.area_fraction", "binder"),
-               .title = "(b) curves of all sizes cross at a transition"},
-              {.x_title = axis_of("box.side"),
-               .y_title = "⟨S⟩",
-               .style = Figure::Style::kLinesPoints,
-               .commands = {"set logscale xy", "set xtics (10, 20, 40, 80, 160)"},
-               .curves = positive(scalar_curves(material.runs["size"], "rods.area_fraction", "box.side", "order.mean")),
-               .title = "(c) a power of L: quasi-long-range; 1/L: none; level: long-range"}}};
+          .panels = {{.x_title = axis_of("rods.area_fraction"),
+                      .y_title = "⟨S⟩",
+                      .style = Figure::Style::kLinesPoints,
+                      .commands = {"set yrange [0:1]", level_line(0.5)},
+                      .curves = scalar_curves(runs, "box.side", "rods.area_fraction", "order.mean"),
+                      .title = "(a) order"},
+                     {.x_title = axis_of("rods.area_fraction"),
+                      .y_title = "Binder cumulant",
+                      .style = Figure::Style::kLinesPoints,
+                      .commands = {level_line(0), level_line(1)},
+                      .curves = scalar_curves(runs, "box.side", "rods.area_fraction", "binder"),
+                      .title = "(b) Binder cumulant"},
+                     {.x_title = axis_of("box.side"),
+                      .y_title = "⟨S⟩",
+                      .style = Figure::Style::kLinesPoints,
+                      .commands = {"set logscale xy", "set xtics (10, 20, 40, 80, 160)"},
+                      .curves = positive(scalar_curves(common, "rods.area_fraction", "box.side", "order.mean")),
+                      .title = "(c) order against size: level, a small power, or 1/L"}}};
 }
 
 Sheet fluctuations_figure(const Material& material) {
@@ -104,9 +101,9 @@ Sheet fluctuations_figure(const Material& material) {
     figure.curves.push_back(std::move(law));
     return figure;
   };
-  const RunSet longest = of_length(material.runs["phases"], true);
-  const RunSet shortest = of_length(material.runs["phases"], false);
-  const RunSet equilibrium = of_length(material.runs["equilibrium"], true);
+  const RunSet longest = with_extreme(material.runs["phases"], "rods.length", true);
+  const RunSet shortest = with_extreme(material.runs["phases"], "rods.length", false);
+  const RunSet equilibrium = with_extreme(material.runs["equilibrium"], "rods.length", true);
   return {.title = "Number fluctuations",
           .panels = {
               panel(longest, "/fluctuations/std_n", "(a) longest rods"),
@@ -117,7 +114,8 @@ Sheet fluctuations_figure(const Material& material) {
 
 Sheet elasticity_figure(const Material& material) {
   const RunSet& runs = material.runs["layers"];
-  std::vector<Curve> ratio{scalar_curve(of_length(runs, true), "rods.area_fraction", "frank_ratio", "", 0)};
+  std::vector<Curve> ratio{
+      scalar_curve(with_extreme(runs, "rods.length", true), "rods.area_fraction", "frank_ratio", "", 0)};
   Sheet sheet{.title = "Director fluctuations"};
   sheet.panels.push_back({.x_title = axis_of("rods.area_fraction"),
                           .y_title = "K_3 / K_1 (bend / splay)",
@@ -126,7 +124,7 @@ Sheet elasticity_figure(const Material& material) {
                           .curves = std::move(ratio),
                           .title = "(a) from the spectrum of the director"});
   const RunSet point = [&] {
-    const RunSet longest = of_length(runs, true);
+    const RunSet longest = with_extreme(runs, "rods.length", true);
     const auto fractions = values_of(longest, "rods.area_fraction");
     return fractions.empty() ? RunSet{} : where(longest, "rods.area_fraction", fractions.front());
   }();
@@ -162,7 +160,7 @@ Sheet equilibrium_figure(const Material& material) {
   Sheet sheet{.title = "Shaken against equilibrium"};
   char letter = 'a';
   for (const bool longest : {true, false}) {
-    const RunSet a = of_length(driven, longest), b = of_length(still, longest);
+    const RunSet a = with_extreme(driven, "rods.length", longest), b = with_extreme(still, "rods.length", longest);
     const std::string point = b.empty() ? "" : ", " + value_label("rods.length", b.front().number("rods.length"));
     sheet.panels.push_back(
         {.x_title = axis_of("rods.area_fraction"),

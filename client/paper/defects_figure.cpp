@@ -37,7 +37,7 @@ Sheet defects_figure(const Material& material) {
                           .y_title = "G_2(r)",
                           .commands = {"set xrange [0:*]", level_line(0)},
                           .curves = bare({array_curve(runs, "/g2/r_mm", "/g2/g2", "", 0)}),
-                          .title = "(d) order here and there, none over all"});
+                          .title = "(d) orientational correlation"});
   return sheet;
 }
 

@@ -37,8 +37,16 @@ Sheet order_figure(const Material& material) {
   const RunSet& runs = material.runs["phases"];
   const std::vector<double> lengths = values_of(runs, "rods.length");
   const std::vector<Curve> mean = scalar_curves(runs, "rods.length", "rods.area_fraction", "order.mean");
-  std::vector<Curve> spread = scalar_curves(runs, "rods.length", "rods.area_fraction", "order.std");
-  for (Curve& curve : spread) curve.y_error.clear();
+  std::vector<Curve> spread;
+  for (const double length : lengths) {
+    Curve curve{.label = value_label("rods.length", length), .colour = spread.size()};
+    const RunSet column = where(runs, "rods.length", length);
+    for (const double fraction : values_of(column, "rods.area_fraction")) {
+      curve.x.push_back(fraction);
+      curve.y.push_back(order_spread(where(column, "rods.area_fraction", fraction)));
+    }
+    spread.push_back(std::move(curve));
+  }
   const RunSet longest = lengths.empty() ? RunSet{} : where(runs, "rods.length", lengths.back());
 
   Sheet sheet{.title = "Nematic order"};
@@ -65,7 +73,7 @@ Sheet order_figure(const Material& material) {
                           .style = Figure::Style::kLinesPoints,
                           .commands = {"set yrange [0:*]"},
                           .curves = spread,
-                          .title = "(d) fluctuations: largest at the transition"});
+                          .title = "(d) fluctuations of the order"});
   return sheet;
 }
 

@@ -5,18 +5,9 @@
 namespace shaken::client {
 
 Sheet pair_map_figure(const Material& material) {
-  const RunSet& all = material.runs["layers"];
   // the state point with the least packing, for it has no layers
-  RunSet runs = all;
-  for (const char* key : {"rods.end_diameter"}) {
-    if (const auto values = values_of(runs, key); !values.empty()) runs = where(runs, key, values.front());
-  }
-  if (const auto lengths = values_of(runs, "rods.length"); !lengths.empty()) {
-    runs = where(runs, "rods.length", lengths.back());
-  }
-  if (const auto fractions = values_of(runs, "rods.area_fraction"); !fractions.empty()) {
-    runs = where(runs, "rods.area_fraction", fractions.front());
-  }
+  RunSet runs = with_extreme(material.runs["layers"], "rods.end_diameter", false);
+  runs = with_extreme(with_extreme(runs, "rods.length", true), "rods.area_fraction", false);
   Sheet sheet{.title = "Correlations along and across the director"};
   if (runs.empty()) return sheet;
   const std::string point = value_label("rods.length", runs.front().number("rods.length")) + ", " +

@@ -3,24 +3,9 @@
 #include "client/paper/figures.h"
 
 namespace shaken::client {
-namespace {
-
-/// Runs of the longest rods with the thinnest ends: packing alone differs.
-RunSet by_packing(const RunSet& all) {
-  RunSet runs = all;
-  if (const auto lengths = values_of(runs, "rods.length"); !lengths.empty()) {
-    runs = where(runs, "rods.length", lengths.back());
-  }
-  if (const auto ends = values_of(runs, "rods.end_diameter"); !ends.empty()) {
-    runs = where(runs, "rods.end_diameter", ends.front());
-  }
-  return runs;
-}
-
-}  // namespace
-
 Sheet layers_figure(const Material& material) {
-  const RunSet runs = by_packing(material.runs["layers"]);
+  const RunSet runs =
+      with_extreme(with_extreme(material.runs["layers"], "rods.length", true), "rods.end_diameter", false);
   Sheet sheet{.title = "The layered phase", .columns = 3};
   char letter = 'a';
   for (const double fraction : values_of(runs, "rods.area_fraction")) {
@@ -34,7 +19,7 @@ Sheet layers_figure(const Material& material) {
        .y_title = "P({/Symbol q}) (1/rad)",
        .commands = {"set xrange [-0.8:0.8]", "set yrange [0:*]"},
        .curves = bare(array_curves(runs, "rods.area_fraction", "/angles/theta_rad", "/angles/density_per_rad")),
-       .title = std::string("(") + letter++ + ") two peaks in the layers"});
+       .title = std::string("(") + letter++ + ") distribution of angles"});
   sheet.panels.push_back(
       {.x_title = "distance across the director (mm)",
        .y_title = "G_2",

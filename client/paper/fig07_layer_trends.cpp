@@ -8,11 +8,8 @@ namespace {
 /// The runs that differ from the reference (longest rods, thinnest ends, packing 0.80 or what there is) in `key` alone.
 RunSet along(const RunSet& all, const std::string& key) {
   RunSet runs = all;
-  for (const auto& [other, largest] : {std::pair{"rods.end_diameter", false}, {"rods.length", true}}) {
-    if (key == other) continue;
-    const auto values = values_of(runs, other);
-    if (!values.empty()) runs = where(runs, other, largest ? values.back() : values.front());
-  }
+  if (key != "rods.end_diameter") runs = with_extreme(runs, "rods.end_diameter", false);
+  if (key != "rods.length") runs = with_extreme(runs, "rods.length", true);
   if (key != "rods.area_fraction" && !runs.empty()) {
     // the packing at which most values of the key were run
     RunSet best;

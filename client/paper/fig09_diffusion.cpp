@@ -23,15 +23,13 @@ Sheet diffusion_figure(const Material& material) {
   sheet.panels.push_back(msd(shortest, "/msd/total_mm2", "(a) in the plane" + of_short));
   sheet.panels.push_back(msd(longest, "/msd/along_mm2", "(b) along the director" + of_long));
   sheet.panels.push_back(msd(longest, "/msd/across_mm2", "(c) across it" + of_long));
-  // Sharma & Soni's fit to their long-time diffusion constants.
-  const auto fit = [](double phi) { return 1.7 + 480 * (phi - 0.64) * (phi - 0.64); };
   sheet.panels.push_back(
       {.x_title = axis_of("rods.area_fraction"),
        .y_title = "D = MSD / 4t (mm^2/s)",
        .commands = {"set yrange [0:*]"},
        .curves = together({{scalar_curve(shortest, "rods.area_fraction", "diffusion_mm2_s", "long times", 0)},
                            {scalar_curve(shortest, "rods.area_fraction", "diffusion_short_mm2_s", "short times", 1)},
-                           {law_curve(fit, 0.6, 0.85, "Sharma & Soni's fit", 2)}}),
+                           {law_curve(papers_diffusion, 0.6, 0.85, "Sharma & Soni's fit", 2)}}),
        .title = "(d) diffusion constant" + of_short});
   sheet.panels.back().style = Figure::Style::kLinesPoints;
   sheet.panels.push_back(

@@ -16,12 +16,13 @@ Sheet rotation_figure(const Material& material) {
     return Figure{.x_title = "lag t (s)",
                   .y_title = std::move(y_title),
                   .commands = std::move(commands),
-                  .curves = positive(bare(array_curves(runs, "rods.area_fraction", lag, array))),
+                  .curves = bare(array_curves(runs, "rods.area_fraction", lag, array)),
                   .title = std::move(title)};
   };
-  const std::vector<std::string> log_x{"set logscale x", "set format x '10^{%T}'", "set yrange [0:1.05]"};
+  const std::vector<std::string> log_x{"set logscale x", "set format x '10^{%T}'", "set yrange [-0.2:1.05]",
+                                       level_line(0)};
   const std::vector<std::string> log_log{"set logscale xy", "set format xy '10^{%T}'"};
-  const std::vector<std::string> early{"set xrange [0:5]", "set yrange [0:1.05]"};
+  const std::vector<std::string> early{"set xrange [0:5]", "set yrange [-0.2:1.05]", level_line(0)};
   Sheet sheet{.title = "Correlations in time", .columns = 3};
   sheet.panels.push_back(
       panel(shortest, "/velocity/lag_s", "/velocity/c_v", "C_v(t)", "(a) velocity" + of_short, early));
@@ -33,6 +34,7 @@ Sheet rotation_figure(const Material& material) {
       panel(longest, "/rotation/lag_s", "/rotation/c2", "C_2(t)", "(d) orientation" + of_long, log_x));
   sheet.panels.push_back(panel(shortest, "/rotation/lag_s", "/rotation/msad_rad2",
                                "mean square angular displacement (rad^2)", "(e) rotation" + of_short, log_log));
+  sheet.panels.back().curves = positive(std::move(sheet.panels.back().curves));
   sheet.panels.push_back(
       {.x_title = axis_of("rods.area_fraction"),
        .y_title = "D_r (rad^2/s)",

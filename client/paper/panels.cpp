@@ -39,7 +39,7 @@ Curve array_curve(const RunSet& replicas, const std::string& x, const std::strin
     }
     const MeanAndError mean = values.empty() ? MeanAndError{NAN, {}} : mean_and_error(values);
     curve.y.push_back(mean.mean);
-    curve.y_error[k] = mean.sem.value_or(0.0);
+    curve.y_error[k] = mean.sem.value_or(NAN);
   }
   return curve;
 }
@@ -52,7 +52,7 @@ Curve scalar_curve(const RunSet& runs, const std::string& key, const std::string
     if (!quantity.is_known()) continue;
     curve.x.push_back(value);
     curve.y.push_back(quantity.value);
-    curve.y_error.push_back(std::isfinite(quantity.sem) ? quantity.sem : 0.0);
+    curve.y_error.push_back(quantity.sem);
   }
   return curve;
 }
@@ -129,6 +129,13 @@ Figure snapshot_panel(const Material& material, const RunSet& runs, std::string 
     panel.commands = {"unset border", "unset tics", "set xrange [0:1]", "set yrange [0:1]"};
   }
   return panel;
+}
+
+double papers_diffusion(double area_fraction) { return 1.7 + 480 * std::pow(area_fraction - 0.64, 2); }
+
+double order_spread(const RunSet& replicas) {
+  if (replicas.empty()) return NAN;
+  return std::sqrt(mean_scalar(replicas, "susceptibility").value / replicas.front().scalar("n_rods").value);
 }
 
 Figure empty_panel() { return {.commands = {"unset border", "unset tics", "unset label"}}; }

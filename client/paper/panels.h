@@ -23,7 +23,8 @@ struct Material {
 Curve array_curve(const RunSet& replicas, const std::string& x, const std::string& y, std::string label,
                   std::size_t colour, const std::string& sem = "");
 
-/// A scalar against a key of the scene: one point per value of the key, averaged over replicas, with error bars.
+/// A scalar against a key of the scene: one point per value of the key, averaged over replicas, with error bars; the
+/// error is NaN where it is not known, and then has no bar.
 Curve scalar_curve(const RunSet& runs, const std::string& key, const std::string& scalar, std::string label,
                    std::size_t colour);
 
@@ -56,6 +57,13 @@ Figure snapshot_panel(const Material& material, const RunSet& runs, std::string 
 
 /// A place on the page that stays empty.
 Figure empty_panel();
+
+/// Sharma & Soni's fit to the diffusion constant of 2.5 mm rods [mm^2/s] against the area fraction, above 0.6.
+double papers_diffusion(double area_fraction);
+
+/// Standard deviation of S(t) over the samples of replicas, sqrt(susceptibility / N): of samples as they were taken,
+/// however long the run. NaN if not measured.
+double order_spread(const RunSet& replicas);
 
 /// Where y rises through `level`, interpolated linearly between neighbouring x, with the error that those of y give.
 /// Unknown if it does not. Points need not be in order.

@@ -106,19 +106,31 @@ std::vector<double> values_of(const RunSet& runs, const std::string& path) {
   return values;
 }
 
+RunSet joined(const RunSet& a, const RunSet& b) {
+  RunSet all = a;
+  all.insert(all.end(), b.begin(), b.end());
+  return all;
+}
+
+RunSet with_extreme(const RunSet& runs, const std::string& path, bool largest) {
+  const std::vector<double> values = values_of(runs, path);
+  return values.empty() ? runs : where(runs, path, largest ? values.back() : values.front());
+}
+
 Quantity mean_scalar(const RunSet& replicas, const std::string& name) {
   std::vector<double> values;
   double variances = 0;
   for (const FinishedRun& run : replicas) {
     const Quantity quantity = run.scalar(name);
-    if (!quantity.is_known()) continue;
+    if (!quantity.is_known()) return {};
     values.push_back(quantity.value);
     variances += quantity.sem * quantity.sem;  // NaN spreads: an unknown error makes that of the mean unknown
   }
   if (values.empty()) return {};
   const MeanAndError mean = mean_and_error(values);
   const double own = std::sqrt(variances) / static_cast<double>(values.size());
-  return {mean.mean, mean.sem ? std::fmax(*mean.sem, own) : own};
+  if (std::isnan(own) || !mean.sem) return {mean.mean, own};
+  return {mean.mean, std::max(*mean.sem, own)};
 }
 
 const RunSet& Library::operator[](const std::string& name) const {

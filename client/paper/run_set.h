@@ -53,8 +53,13 @@ RunSet where(const RunSet& runs, const std::string& path, double value);
 /// The values that the runs have at `path`, rising, each once.
 std::vector<double> values_of(const RunSet& runs, const std::string& path);
 
-/// Mean of a scalar over replicas. Its error: of one run its own; of several the scatter between them, but not less
-/// than their own errors together give. Runs that do not know the scalar are left out.
+/// Both together.
+RunSet joined(const RunSet& a, const RunSet& b);
+/// The runs with the largest (or smallest) value at `path`; all of them if none has any.
+RunSet with_extreme(const RunSet& runs, const std::string& path, bool largest);
+
+/// Mean of a scalar over replicas; unknown unless every one of them knows it. Its error: of one run its own; of several
+/// the scatter between them, but not less than their own errors together give.
 Quantity mean_scalar(const RunSet& replicas, const std::string& name);
 
 /// The finished runs of each sweep, by the sweep's name; one that has none is an empty set.

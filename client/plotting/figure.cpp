@@ -59,9 +59,20 @@ std::string curve_colour(std::size_t index, std::size_t count) {
   return colour;
 }
 
-std::size_t n_blocks(const Figure& figure) { return figure.curves.size() + (figure.map ? 1 : 0); }
-
 namespace {
+
+bool has_map(const Figure& figure) { return figure.map && !figure.map->z.empty(); }
+
+/// Where the cell of each place ends towards its neighbours: half way, and as far out at the ends.
+std::vector<double> cell_borders(const std::vector<double>& places) {
+  std::vector<double> borders;
+  for (std::size_t k = 0; k + 1 < places.size(); ++k) borders.push_back((places[k] + places[k + 1]) / 2);
+  const double first = borders.empty() ? 0.5 : borders.front() - places.front();
+  const double last = borders.empty() ? 0.5 : places.back() - borders.back();
+  borders.insert(borders.begin(), places.front() - first);
+  borders.push_back(places.back() + last);
+  return borders;
+}
 
 std::string curve_data(const Curve& curve, const std::string& fallback) {
   std::string text = fmt::format("# {}\n# x  y{}\n", curve.label.empty() ? fallback : curve.label,
@@ -70,7 +81,7 @@ std::string curve_data(const Curve& curve, const std::string& fallback) {
   for (std::size_t k = 0; k < curve.x.size(); ++k) {
     if (!std::isfinite(curve.x[k]) || !std::isfinite(curve.y[k])) continue;
     text += fmt::format("{:.10g} {:.10g}", curve.x[k], curve.y[k]);
-    if (has_errors(curve)) text += fmt::format(" {:.10g}", std::isfinite(curve.y_error[k]) ? curve.y_error[k] : 0.0);
+    if (has_errors(curve)) text += fmt::format(" {:.10g}", curve.y_error[k]);
     text += '\n';
     any = true;
   }
@@ -79,25 +90,29 @@ std::string curve_data(const Curve& curve, const std::string& fallback) {
   return text;
 }
 
-/// Every point a line, every row a group of lines: what `with image` reads.
+/// A line for each cell, with its borders: grids need not be even.
 std::string map_data(const Map& map) {
-  std::string text = "# x  y  value\n";
+  std::string text = "# x  y  value  x_low  x_high  y_low  y_high\n";
+  const std::vector<double> x = cell_borders(map.x), y = cell_borders(map.y);
   for (std::size_t j = 0; j < map.y.size(); ++j) {
-    if (j > 0) text += '\n';
     for (std::size_t i = 0; i < map.x.size(); ++i) {
       const double z = map.z[j * map.x.size() + i];
-      text +=
-          fmt::format("{:.6g} {:.6g} {}\n", map.x[i], map.y[j], std::isfinite(z) ? fmt::format("{:.5g}", z) : "NaN");
+      if (!std::isfinite(z)) continue;
+      text += fmt::format("{:.5g} {:.5g} {:.5g} {:.5g} {:.5g} {:.5g} {:.5g}\n", map.x[i], map.y[j], z, x[i], x[i + 1],
+                          y[j], y[j + 1]);
     }
   }
-  return text;
+  // An empty block would not be counted by `index`.
+  return text + (text.back() == '\n' && std::count(text.begin(), text.end(), '\n') > 1 ? "" : "NaN NaN NaN 0 0 0 0\n");
 }
 
 }  // namespace
 
+std::size_t n_blocks(const Figure& figure) { return figure.curves.size() + (has_map(figure) ? 1 : 0); }
+
 std::string figure_data(const Figure& figure) {
   std::string text;
-  if (figure.map) text += map_data(*figure.map);
+  if (has_map(figure)) text += map_data(*figure.map);
   for (const Curve& curve : figure.curves) {
     if (!text.empty()) text += "\n\n";
     text += curve_data(curve, figure.name);
@@ -139,7 +154,7 @@ set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'
         fmt::format("set key outside top center horizontal maxcols {}\n", longest < 16 ? 5 : (longest < 32 ? 3 : 2));
   }
   script += fmt::format("set xlabel {}\nset ylabel {}\n", quoted(figure.x_title), quoted(figure.y_title));
-  if (figure.map) {
+  if (has_map(figure)) {
     script += figure.map->diverging
                   ? "set palette defined (-1 '#2166ac', -0.5 '#92c5de', 0 '#f7f7f7', 0.5 '#f4a582', 1 '#b2182b')\n"
                   : "set palette defined (0 '#440154', 0.25 '#3b528b', 0.5 '#21918c', 0.75 '#5ec962', 1 '#fde725')\n";
@@ -179,11 +194,11 @@ set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'
     }
     return false;
   });
-  if (!any && !figure.map) {
+  if (!any && !has_map(figure)) {
     if (!figure.x_title.empty()) script += "set label 'no data' at graph 0.5, graph 0.5 center textcolor '#999999'\n";
     plots.assign(1, "NaN notitle");
   }
-  script += any || figure.map ? "plot " : "plot [1:2][1:2] ";
+  script += any || has_map(figure) ? "plot " : "plot [1:2][1:2] ";
   for (std::size_t i = 0; i < plots.size(); ++i) script += (i > 0 ? ", \\\n     " : "") + plots[i];
   return script + "\n";
 }

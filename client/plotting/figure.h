@@ -9,7 +9,7 @@
 
 namespace shaken::client {
 
-/// Points of one curve. `y_error` is empty, or as long as x and y.
+/// Points of one curve. `y_error` is empty, or as long as x and y; not finite: not known, no bar.
 struct Curve {
   enum class Look { kAsFigure, kLine, kDashes, kPoints };  ///< dashes are for laws and fits, not for data
 
@@ -21,7 +21,7 @@ struct Curve {
   Look look = Look::kAsFigure;
 };
 
-/// Values on a rectangular grid, shown in colours.
+/// Values on a rectangular grid, shown in colours; empty: there is nothing to show.
 struct Map {
   std::vector<double> x{};  ///< (nx) centres
   std::vector<double> y{};  ///< (ny)

@@ -155,8 +155,16 @@ TEST(Claims, PeaksOfPOfSAreCounted) {
                                {{"/order/pdf/order", s}, {"/order/pdf/density", density}})});
     return l;
   };
-  EXPECT_EQ(verdict_of(library({0, 1, 3, 2.8, 3.1, 1, 0}), "unimodal"), "agrees") << "noise is no peak";
-  EXPECT_EQ(verdict_of(library({0, 3, 0.5, 3, 0}), "unimodal"), "not resolved");
+  const auto bumps = [](std::initializer_list<double> centres) {
+    std::vector<double> density(100);
+    for (std::size_t k = 0; k < density.size(); ++k) {
+      for (const double centre : centres) density[k] += std::exp(-std::pow((static_cast<double>(k) - centre) / 6, 2));
+      density[k] *= k % 2 == 0 ? 1.2 : 0.8;  // noise from bin to bin
+    }
+    return density;
+  };
+  EXPECT_EQ(verdict_of(library(bumps({60})), "unimodal"), "agrees") << "noise is no peak";
+  EXPECT_EQ(verdict_of(library(bumps({30, 60})), "unimodal"), "not resolved");
 }
 
 TEST(Claims, WithoutRunsThereIsNoData) {
