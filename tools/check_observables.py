@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Works out a run's observables again by other programs, from its trajectory, and compares.
 
-    tools/check_observables.py RUN_DIR [--all] [--observables FILE]
+    tools/check_observables.py RUN_DIR [--all] [--only NAME...] [--observables FILE]
 
 RUN_DIR holds trajectory.h5, observables.h5 and summary.json of a run without side walls, of one kind of rods, whose
 measurements fall on instants that were recorded (configs/tests/observables.json is such a scene). Every number of
@@ -201,12 +201,27 @@ def jackknife(parts, function):
 
 
 def references(n, sample):
-    """Rods that are the first of a pair in a sample: at most 1024, of more every k-th."""
+    """Rods that are the first of a pair in a sample: at most 1024, of more every k-th, another set each time."""
     stride = -(-n // 1024)
-    length = 1
-    while sample >= 64 * length:
-        length *= 2
-    return np.arange(sample % length % stride, n, stride)
+    return np.arange(sample % stride, n, stride)
+
+
+def drawn(n, sample):
+    """Rods that LatticeOrder takes: of each k successive ones the one that sim/core/rng.h draws."""
+    stride = -(-n // 1024)
+    if stride == 1:
+        return np.arange(n)
+    mask, stream = (1 << 64) - 1, 7
+
+    def mix(z):
+        z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9 & mask
+        z = (z ^ (z >> 27)) * 0x94D049BB133111EB & mask
+        return z ^ (z >> 31)
+
+    def uniform(index):
+        return (mix((mix(mix(mix(int(sample)) ^ stream) ^ index) + 0x9E3779B97F4A7C15) & mask) >> 11) * 2.0**-53
+
+    return np.array([first + int(uniform(first) * min(stride, n - first)) for first in range(0, n, stride)])
 
 
 def scalar(run, table, name, by, value, sem=None, allowed=None, remark=""):
@@ -685,7 +700,7 @@ def check_lattice(run, table):
     m, n = m[keep], n[keep]
     for sample in np.concatenate(parts):
         f = frames[sample]
-        first = references(run.n, sample)
+        first = drawn(run.n, sample)
         c, s = np.cos(run.axis[f]), np.sin(run.axis[f])
         turned = np.array([[c, s], [-s, c]])
         psi = []
