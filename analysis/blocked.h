@@ -15,7 +15,8 @@ namespace shaken::analysis {
 
 /// An accumulator kept in at most 64 stretches of time, so that the steady part can be reduced when its beginning is
 /// known only at the end of the run. When the stretches are used up, neighbours are merged and new ones are twice as
-/// long. Accumulator: copyable, with accumulate(args...), merge(const Accumulator&), save and restore.
+/// long. Accumulator: copyable, with accumulate(args...), merge(const Accumulator&), save and restore; where what it
+/// takes depends on the number of the sample, also start_at(samples before its first).
 template <class Accumulator>
 class Blocked {
  public:
@@ -27,7 +28,10 @@ class Blocked {
   void accumulate(double time, const Args&... args) {
     if (blocks_.empty() || blocks_.back().calls == calls_per_block_) {
       if (blocks_.size() == kMaxBlocks) merge_pairs();
+      std::int64_t samples = 0;
+      for (const Block& block : blocks_) samples += block.calls;
       blocks_.push_back({time, 0, empty_});
+      if constexpr (requires { blocks_.back().content.start_at(samples); }) blocks_.back().content.start_at(samples);
     }
     blocks_.back().content.accumulate(args...);
     ++blocks_.back().calls;

@@ -90,7 +90,7 @@ void OrientationCorrelation::reset() {
 
 void OrientationCorrelation::merge(const OrientationCorrelation& other) {
   SHAKEN_CHECK(pairs_.size() == other.pairs_.size() && r_max_ == other.r_max_, "correlations of different bins");
-  calls_ += other.calls_;
+  calls_ = std::max(calls_, other.calls_);
   expected_per_area_ += other.expected_per_area_;
   for (std::size_t bin = 0; bin < pairs_.size(); ++bin) {
     pairs_[bin] += other.pairs_[bin];

@@ -29,6 +29,8 @@ class OrientationCorrelation {
 
   /// Centres (n_rods) [mm] and directors (n_rods) in a periodic box of side `box_side` >= 2 r_max [mm].
   void accumulate(std::span<const Vec3> positions, std::span<const Vec3> directors, double box_side);
+  /// Samples that others have taken before: whose turn it is as the first of a pair depends on it.
+  void start_at(std::int64_t samples) { calls_ = samples; }
   OrientationCurve reduce() const;
   void reset();
   /// Adds the samples of `other`, which has the same bins.
@@ -39,7 +41,7 @@ class OrientationCorrelation {
 
  private:
   double r_max_;
-  std::int64_t calls_ = 0;
+  std::int64_t calls_ = 0;           // samples so far, those before start_at included
   std::vector<std::int64_t> pairs_;  // (bins)
   std::vector<double> sums_;         // (bins) of cos 2 (theta_i - theta_j)
   double expected_per_area_ = 0;     // sum over references of rho [1/mm^2]

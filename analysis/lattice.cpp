@@ -12,6 +12,7 @@
 #include "analysis/order.h"
 #include "analysis/wave_sums.h"
 #include "sim/core/check.h"
+#include "sim/core/rng.h"
 
 namespace shaken::analysis {
 namespace {
@@ -22,6 +23,17 @@ constexpr int kMostWaves = 128;
 constexpr std::size_t kNeighbours = 6;
 /// Distances that differ by less than this share of themselves are the same.
 constexpr double kSame = 1e-6;
+
+/// The rods that one sample takes, in rising order (see LatticeOrder).
+std::vector<std::size_t> references(std::size_t n, std::int64_t sample) {
+  const std::size_t stride = (n + kMaxReferences - 1) / kMaxReferences;
+  std::vector<std::size_t> rods;
+  for (std::size_t first = 0; first < n; first += stride) {
+    Rng draw(static_cast<std::uint64_t>(sample), RngStream::kReferences, first);
+    rods.push_back(first + draw.below(std::min(stride, n - first)));
+  }
+  return rods;
+}
 
 /// Bonds from one rod to all: squared length (n), and their ends in the frame of the director.
 struct Bonds {
@@ -75,17 +87,16 @@ void LatticeOrder::accumulate(std::span<const Vec3> positions, std::span<const V
     xs[i] = wrapped(positions[i].x(), box);
     ys[i] = wrapped(positions[i].y(), box);
   }
-  const std::size_t stride = (n + kMaxReferences - 1) / kMaxReferences;
-  const std::size_t first = static_cast<std::size_t>(calls_++) % stride;
+  const std::vector<std::size_t> rods = references(n, calls_++);
   std::vector<Vec2> places;
-  for (std::size_t i = first; i < n; i += stride) places.emplace_back(xs[i], ys[i]);
+  for (const std::size_t i : rods) places.emplace_back(xs[i], ys[i]);
   const auto n_places = static_cast<double>(places.size());
 
   if (n > kNeighbours) {
     std::complex<double> sum = 0, raw_sum = 0;
     double local = 0;
     Bonds raw(n), compressed(n);
-    for (std::size_t i = first; i < n; i += stride) {
+    for (const std::size_t i : rods) {
       for (std::size_t j = 0; j < n; ++j) {
         const double dx = nearest_image(xs[j] - xs[i], box), dy = nearest_image(ys[j] - ys[i], box);
         raw.x[j] = dx * cosine + dy * sine;
@@ -129,7 +140,7 @@ void LatticeOrder::reset() { *this = LatticeOrder(shape_); }
 
 void LatticeOrder::merge(const LatticeOrder& other) {
   SHAKEN_CHECK(shape_ == other.shape_, "lattices of different shapes");
-  calls_ += other.calls_;
+  calls_ = std::max(calls_, other.calls_);
   samples_ += other.samples_;
   sums_.psi_6 += other.sums_.psi_6;
   sums_.psi_6_local += other.sums_.psi_6_local;

@@ -24,9 +24,11 @@ struct LatticeMeans {
 /// psi_6_local = 0.37.
 /// The Bragg peak is the largest among the wave vectors of the box with wavelengths between `shortest` and `longest`, 1
 /// for a perfect lattice that fits the box, about ln(number of wave vectors) / N for a gas.
-/// One sample takes at most 1024 rods, of more every k-th, another set each time: N above is their number. Neighbours
-/// are taken from all rods. Neighbours must be nearer than half the box: not so with fewer than some fifty rods. Fewer
-/// than seven rods have no psi_6, which counts as 0, and no rod counts as no sample.
+/// One sample takes at most 1024 rods, of more one of each k successive ones: N above is their number. Which one is
+/// left to chance, since every k-th rod of a lattice counted through makes a lattice of its own, with peaks at
+/// wavelengths that the rods do not have, and higher ones as those are longer. Neighbours are taken from all rods.
+/// Neighbours must be nearer than half the box: not so with fewer than some fifty rods. Fewer than seven rods have no
+/// psi_6, which counts as 0, and no rod counts as no sample.
 class LatticeOrder {
  public:
   struct Shape {
@@ -40,6 +42,8 @@ class LatticeOrder {
 
   /// Centres (n_rods) [mm] and directors (n_rods); of the latter only the mean axis is used.
   void accumulate(std::span<const Vec3> positions, std::span<const Vec3> directors);
+  /// Samples that others have taken before: which rods are taken next depends on it.
+  void start_at(std::int64_t samples) { calls_ = samples; }
   LatticeMeans reduce() const;
   void reset();
   /// Adds the samples of `other`, which has the same shape.
@@ -50,7 +54,7 @@ class LatticeOrder {
 
  private:
   Shape shape_;
-  std::int64_t calls_ = 0;
+  std::int64_t calls_ = 0;  // samples so far, those before start_at included
   std::int64_t samples_ = 0;
   LatticeMeans sums_;
 };

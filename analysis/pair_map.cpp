@@ -126,7 +126,7 @@ void PairMap::reset() { *this = PairMap(shape_); }
 
 void PairMap::merge(const PairMap& other) {
   SHAKEN_CHECK(shape_ == other.shape_, "pair maps of different bins");
-  calls_ += other.calls_;
+  calls_ = std::max(calls_, other.calls_);
   expected_per_area_ += other.expected_per_area_;
   const auto add = [](Bins& to, const Bins& from) {
     for (std::size_t i = 0; i < to.pairs.size(); ++i) {

@@ -43,6 +43,8 @@ class PairMap {
 
   /// Centres (n_rods) [mm] and directors (n_rods).
   void accumulate(std::span<const Vec3> positions, std::span<const Vec3> directors);
+  /// Samples that others have taken before: whose turn it is as the first of a pair depends on it.
+  void start_at(std::int64_t samples) { calls_ = samples; }
   PairCurves reduce() const;
   void reset();
   /// Adds the samples of `other`, which has the same shape.
@@ -58,9 +60,9 @@ class PairMap {
     explicit Bins(std::size_t n) : pairs(n), sums(n) {}
   };
   Shape shape_;
-  std::size_t bins_;  // each way
-  double width_;      // of a bin [mm]
-  std::int64_t calls_ = 0;
+  std::size_t bins_;              // each way
+  double width_;                  // of a bin [mm]
+  std::int64_t calls_ = 0;        // samples so far, those before start_at included
   double expected_per_area_ = 0;  // sum over references of rho [1/mm^2]
   Bins map_, cut_along_, cut_across_;
 };

@@ -16,7 +16,8 @@ enum class RngStream : std::uint64_t {
   kInsertion = 3,
   kKinds = 4,
   kNoise = 5,
-  kContacts = 6
+  kContacts = 6,
+  kReferences = 7
 };
 
 /// Random numbers keyed by (seed, stream, index): what a rod draws depends on nothing but its own index, not on the

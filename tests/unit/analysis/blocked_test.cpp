@@ -42,6 +42,23 @@ TEST(Blocked, EqualsDirectAccumulation) {
   }
 }
 
+/// Takes down the number of each sample.
+struct Numbers {
+  std::int64_t next = 0;
+  std::vector<std::int64_t> taken;
+  void start_at(std::int64_t samples) { next = samples; }
+  void accumulate() { taken.push_back(next++); }
+  void merge(const Numbers& other) { taken.insert(taken.end(), other.taken.begin(), other.taken.end()); }
+};
+
+TEST(Blocked, StretchesKnowHowManySamplesCameBefore) {
+  Blocked<Numbers> blocked{Numbers{}};
+  for (int i = 0; i < 300; ++i) blocked.accumulate(0.1 * i);
+  const std::vector<std::int64_t> taken = blocked.all().taken;
+  ASSERT_EQ(taken.size(), 300U);
+  for (std::size_t i = 0; i < taken.size(); ++i) EXPECT_EQ(taken[i], static_cast<std::int64_t>(i));
+}
+
 TEST(Blocked, PartsAddUpToAllOfIt) {
   for (const int n : {0, 1, 5, 16, 17, 200}) {
     const auto all = frames(n);

@@ -58,6 +58,19 @@ TEST(LatticeOrder, BraggPeakOfAShakingLattice) {
   EXPECT_NEAR(lattice.reduce().bragg_peak, expected, 0.04);
 }
 
+// As many in rows of 48: every third would be a lattice of columns 3 apart, whose peak, exp(-q^2 s^2 / 9), is higher.
+TEST(LatticeOrder, RodsTakenMakeNoLatticeOfTheirOwn) {
+  constexpr double kSpread = 0.12;
+  Draw draw(174);
+  LatticeOrder lattice({48, 1.0, 0.45, 4});
+  for (int t = 0; t < 6; ++t) {
+    std::vector<Vec3> places = square_lattice(48, 1.0);
+    for (Vec3& place : places) place += kSpread * Vec3(draw.normal(), draw.normal(), 0);
+    lattice.accumulate(places, std::vector<Vec3>(places.size(), axis(0)));
+  }
+  EXPECT_NEAR(lattice.reduce().bragg_peak, std::exp(-4 * kPi * kPi * kSpread * kSpread), 0.04);
+}
+
 // A gas: sums over random phases are exponential, the largest of K of them near (ln K + 0.577) / N; psi_6 a walk of N
 // steps of 1 / sqrt(6) (neighbours of neighbours make it a little longer).
 TEST(LatticeOrder, OfAGasIsTheFloor) {
@@ -80,6 +93,7 @@ TEST(LatticeOrder, MergeSaveAndOddInput) {
   const LatticeOrder::Shape shape{10, 2.0, 1.0, 6};
   Draw draw(173);
   LatticeOrder straight(shape), stopped(shape), first(shape), second(shape);
+  second.start_at(2);
   for (int t = 0; t < 4; ++t) {
     const std::vector<Vec3> places = random_places(draw, 1100, 10), axes = random_axes(draw, 1100);
     straight.accumulate(places, axes);

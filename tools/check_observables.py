@@ -1,0 +1,1382 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""Works out a run's observables again by other programs, from its trajectory, and compares.
+
+    tools/check_observables.py RUN_DIR [--all] [--only NAME...] [--observables FILE]
+
+RUN_DIR holds trajectory.h5, observables.h5 and summary.json of a run without side walls, of one kind of rods, whose
+measurements fall on instants that were recorded (configs/tests/observables.json is such a scene). Every number of
+observables.h5 and summary.json is worked out from positions and directors: by MDAnalysis (reading the file, pairs,
+mean square displacements), emcee and pymbar (autocorrelation, steady state), scipy (fits, neighbours) where they have
+it, otherwise by twins: the shortest numpy that follows the definitions of docs/physics.md and of the headers in
+analysis/. Prints a table; of a curve, the point furthest from agreement. Exit code 1 if anything disagrees.
+
+What is allowed follows from the file's single precision: single numbers RELATIVE of themselves; histograms the samples
+so near an edge that rounding may have put them into the next bin. Where the other program has another definition, its
+row says so and what is allowed is a statistical error.
+
+Debian packages: python3-numpy, -scipy, -h5py, -mdanalysis, -pymbar, -emcee. `./dev validate` installs them."""
+import argparse
+import json
+import os
+import sys
+import warnings
+from dataclasses import dataclass, field
+
+import h5py
+import numpy as np
+import scipy.ndimage
+import scipy.optimize
+import scipy.spatial
+
+warnings.filterwarnings("ignore")
+import xdrlib  # noqa: E402, F401  MDAnalysis does, with a warning that it lets through
+import emcee.autocorr  # noqa: E402
+import MDAnalysis  # noqa: E402
+import MDAnalysis.analysis.msd  # noqa: E402
+import MDAnalysis.analysis.rdf  # noqa: E402
+import pymbar.timeseries  # noqa: E402
+
+RELATIVE = 2e-5  # of numbers made of single-precision positions and directors
+EDGE = 1e-5  # a sample this near a bin's edge, in mm or rad, may be in either bin
+
+
+# ---- the table ----
+
+
+@dataclass
+class Table:
+    rows: list = field(default_factory=list)
+    compared: set = field(default_factory=set)  # paths and names of ours
+
+    def add(self, name, by, ours, theirs, allowed=None, remark=""):
+        """Numbers or curves. `allowed` in units of the values; without it RELATIVE of the curve's largest value."""
+        self.compared.add(name)
+        ours, theirs = np.atleast_1d(np.asarray(ours, float)), np.atleast_1d(np.asarray(theirs, float))
+        label = name if ours.size == 1 else f"{name} [{ours.size}]"
+        if ours.shape != theirs.shape:
+            self.rows.append((label, by, f"{ours.size} values", f"{theirs.size} values", "", "", False, remark))
+            return
+        known = np.isfinite(ours) & np.isfinite(theirs)
+        if allowed is None:
+            allowed = RELATIVE * np.max(np.abs(theirs[known]), initial=0) + 1e-12
+        allowed = np.broadcast_to(np.asarray(allowed, float), ours.shape)
+        difference = np.where(np.isnan(ours) & np.isnan(theirs), 0, np.abs(ours - theirs))
+        difference = np.where(np.isfinite(difference), difference, np.inf)
+        if ours.size == 0:
+            return
+        excess = np.where(difference > 0, difference / np.maximum(allowed, 1e-300), 0)
+        worst = int(np.argmax(excess))
+        if not known.any() and (excess <= 1).all():
+            remark = remark or "neither has one"
+        elif excess.max() == 0:
+            worst = int(np.flatnonzero(known)[np.argmax(np.abs(theirs[known]))]) if known.any() else 0
+        number = "{:.7g}".format
+        self.rows.append((label, by, number(ours[worst]), number(theirs[worst]), f"{difference[worst]:.1e}",
+                          f"{allowed[worst]:.1e}", bool((excess <= 1).all()), remark))
+
+    def show(self, everything):
+        head = ("observable", "other implementation", "ours", "theirs", "difference", "allowed", "verdict")
+        lines = [head]
+        for *cells, agrees, remark in self.rows:
+            if agrees and not everything and cells[0].startswith("sem of "):
+                continue
+            lines.append((*cells, ("agrees" if agrees else "DISAGREES") + (f" ({remark})" if remark else "")))
+        widths = [max(len(line[k]) for line in lines) for k in range(len(head))]
+        for line in lines:
+            print("  ".join(cell.ljust(width) for cell, width in zip(line, widths)).rstrip())
+        errors = [row for row in self.rows if row[0].startswith("sem of ")]
+        failed = [row for row in self.rows if not row[-2]]
+        hidden = "" if everything else ", those that agree not shown"
+        print(f"\n{len(self.rows)} comparisons, {len(errors)} of them of errors (sem{hidden}); {len(failed)} disagree")
+        return not failed
+
+
+# ---- the run ----
+
+
+class Run:
+    """Trajectory, results and scene of a run; arrays of shape (frames, rods, ...) [mm, s]."""
+
+    def __init__(self, directory, observables):
+        self.scene = json.load(open(os.path.join(directory, "scene.json")))
+        self.summary = json.load(open(os.path.join(directory, "summary.json")))
+        self.scalars = self.summary["measured"]
+        self.arrays = {}
+        with h5py.File(observables) as file:
+            file.visititems(lambda name, item: self.arrays.__setitem__("/" + name, item[()])
+                            if isinstance(item, h5py.Dataset) else None)
+        self.path = os.path.join(directory, "trajectory.h5")
+        with h5py.File(self.path) as file:
+            particles = file["particles/trajectory"]
+            self.tick = particles["position/step"][()]
+            self.time = particles["position/time"][()]
+            self.position = particles["position/value"][()].astype(float)
+            self.image = particles["image/value"][()]
+            self.velocity = particles["velocity/value"][()].astype(float)
+            w, x, y, z = np.moveaxis(particles["orientation/value"][()].astype(float), -1, 0)
+            parameters = file["parameters"]
+            self.box = float(parameters.attrs["box_side_mm"])
+            self.gap = float(parameters.attrs["gap_mm"])
+            self.dt = float(parameters.attrs["dt_s"])
+            offset, radius = parameters["bead_offset_mm"][()], parameters["bead_radius_mm"][()]
+            if "species" in particles or "walls" in parameters:
+                sys.exit("rods of several kinds and side walls are not dealt with here")
+        director = np.stack([2 * (x * z + w * y), 2 * (y * z - w * x), w * w - x * x - y * y + z * z], axis=-1)
+        self.director = director / np.linalg.norm(director, axis=-1, keepdims=True)
+        self.theta = np.arctan2(self.director[..., 1], self.director[..., 0])
+        self.unwrapped = (self.position + self.box * self.image)[..., :2]
+        self.place = self.position[..., :2] % self.box
+        self.n = self.position.shape[1]
+        self.length = np.max(offset + radius) - np.min(offset - radius)
+        self.width = 2 * np.max(radius)
+        self.n_z_max = min(max((self.gap / 2 - radius[-1]) / np.max(offset), 0), 1)
+        # the director of all rods from the larger eigenvalue of the order tensor
+        plane = self.director[..., :2] / np.linalg.norm(self.director[..., :2], axis=-1, keepdims=True)
+        tensor = 2 * np.einsum("tia,tib->tab", plane, plane) / self.n - np.eye(2)
+        values, vectors = np.linalg.eigh(tensor)
+        self.order = values[:, 1]
+        self.axis = fold(np.arctan2(vectors[:, 1, 1], vectors[:, 0, 1]))
+        self.steady_given = None if self.scene["time"]["steady"] == "auto" else self.scene["time"]["steady"]
+        self.t_steady = self.summary["t_steady_s"]
+
+    def frames(self, name):
+        """Frames at which measure.NAME took its samples."""
+        period = max(1, round(self.scene["measure"][name]["every"] / self.dt))
+        frames = np.flatnonzero(self.tick % period == 0)
+        if not np.array_equal(self.tick[frames], np.arange(len(frames)) * period) or (
+                len(frames) != self.summary["effects"]["measure_" + name]["samples"]):
+            sys.exit(f"not every sample of measure.{name} was recorded: let trajectory.every divide its `every`")
+        return frames
+
+    def measured(self, name):
+        """Value of a number of the summary; NaN for null."""
+        value = self.scalars[name]["value"]
+        return np.nan if value is None else value
+
+    def sem(self, name):
+        sem = self.scalars[name]["sem"]
+        return np.nan if sem is None else sem
+
+
+def fold(angle):
+    """Of an axis, into [-pi/2, pi/2)."""
+    return (angle + np.pi / 2) % np.pi - np.pi / 2
+
+
+def is_steady(time, t_steady):
+    return time >= t_steady - 1e-9 * max(1, abs(t_steady))
+
+
+def nearest(difference, box):
+    return difference - box * np.round(difference / box)
+
+
+def most_blocks(n, limit=64):
+    """Samples in a block when at most `limit` blocks are kept and their length doubles."""
+    length = 1
+    while n > limit * length:
+        length *= 2
+    return length
+
+
+def steady_parts(run, frames, most=16):
+    """What analysis/blocked.h says counts: sample numbers in whole blocks from the steady time on, in `most` parts."""
+    length = most_blocks(len(frames))
+    blocks = [np.arange(i, min(i + length, len(frames))) for i in range(0, len(frames), length)
+              if is_steady(run.time[frames[i]], run.t_steady)]
+    joined = max(1, -(-len(blocks) // most))
+    return [np.concatenate(blocks[i:i + joined]) for i in range(0, len(blocks), joined)]
+
+
+def jackknife(parts, function):
+    """function(samples) of all, and its error by leaving out one part at a time."""
+    value = np.asarray(function(np.concatenate(parts)), float)
+    if len(parts) < 2:
+        return value, np.full(value.shape, np.nan)
+    left = np.array([function(np.concatenate([p for k, p in enumerate(parts) if k != leave]))
+                     for leave in range(len(parts))], float)
+    sem = np.sqrt((len(parts) - 1) / len(parts) * np.sum((left - left.mean(0)) ** 2, axis=0))
+    return value, np.where(np.isfinite(sem), sem, np.nan)
+
+
+def references(n, sample):
+    """Rods that are the first of a pair in a sample: at most 1024, of more every k-th, another set each time."""
+    stride = -(-n // 1024)
+    return np.arange(sample % stride, n, stride)
+
+
+def drawn(n, sample):
+    """Rods that LatticeOrder takes: of each k successive ones the one that sim/core/rng.h draws."""
+    stride = -(-n // 1024)
+    if stride == 1:
+        return np.arange(n)
+    mask, stream = (1 << 64) - 1, 7
+
+    def mix(z):
+        z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9 & mask
+        z = (z ^ (z >> 27)) * 0x94D049BB133111EB & mask
+        return z ^ (z >> 31)
+
+    def uniform(index):
+        return (mix((mix(mix(mix(int(sample)) ^ stream) ^ index) + 0x9E3779B97F4A7C15) & mask) >> 11) * 2.0**-53
+
+    return np.array([first + int(uniform(first) * min(stride, n - first)) for first in range(0, n, stride)])
+
+
+def scalar(run, table, name, by, value, sem=None, allowed=None, remark=""):
+    table.add(name, by, run.measured(name), value, allowed if allowed is not None else RELATIVE * abs(value) + 1e-12,
+              remark)
+    if sem is not None:
+        table.add("sem of " + name, by, run.sem(name), sem, 1e-3 * abs(sem) + 1e-9)
+
+
+# ---- reading ----
+
+
+def check_reading(run, table):
+    universe = MDAnalysis.Universe.empty(run.n, trajectory=True, velocities=True)
+    universe.load_new(run.path, format="H5MD", convert_units=False)
+    positions, velocities, times, boxes = [], [], [], []
+    for step in universe.trajectory:
+        positions.append(step.positions.copy())
+        velocities.append(step.velocities.copy())
+        times.append(step.data.get("time", step.time))
+        boxes.append(step.dimensions.copy())
+    table.add("trajectory: frames", "MDAnalysis H5MDReader", len(run.time), len(universe.trajectory), 0)
+    table.add("trajectory: times", "MDAnalysis H5MDReader", run.time, times, 1e-9)
+    table.add("trajectory: positions", "MDAnalysis H5MDReader", run.position.ravel(), np.ravel(positions), 0)
+    table.add("trajectory: velocities", "MDAnalysis H5MDReader", run.velocity.ravel(), np.ravel(velocities), 0)
+    box = np.array([run.box, run.box, run.gap, 90, 90, 90])
+    table.add("trajectory: box", "MDAnalysis H5MDReader", box, boxes[-1], 1e-5)
+    followed = np.cumsum(nearest(np.diff(positions, axis=0)[..., :2].astype(float), run.box), axis=0)
+    table.add("trajectory: image", "shortest steps", (run.unwrapped[1:] - run.unwrapped[0]).ravel(), followed.ravel(), 1e-4)
+
+
+def universe_of(run, frames, coordinates, box):
+    """MDAnalysis' view of coordinates (frames, rods, 2) in the plane."""
+    flat = np.concatenate([coordinates, np.zeros((*coordinates.shape[:2], 1))], axis=-1).astype(np.float32)
+    universe = MDAnalysis.Universe.empty(run.n, trajectory=True)
+    universe.load_new(flat, dimensions=np.tile([box, box, 10 * box, 90, 90, 90], (len(frames), 1)))
+    return universe
+
+
+# ---- order ----
+
+
+def check_order(run, table):
+    frames = run.frames("order")
+    order, times = run.order[frames], run.time[frames]
+    ours = run.arrays["/order/order"]
+    table.add("/order/time_s", "trajectory", run.arrays["/order/time_s"], times)
+    table.add("/order/order", "eigenvalue of Q", ours, order, 1e-6)
+    turned = fold(run.arrays["/order/director_rad"] - run.axis[frames])
+    table.add("/order/director_rad", "eigenvector of Q", turned, 0 * turned, 1e-6 / order)
+
+    summary = run.summary["order"]
+    first = int(np.flatnonzero(is_steady(times, summary["t_steady_s"]))[0])
+    steady = ours[first:]
+    tau = emcee.autocorr.integrated_time(steady, c=5, tol=0)[0]
+    tau = max(tau, 1)  # ours is not below independence
+    n = len(steady)
+    interval = times[1] - times[0]
+    table.add("order: mean", "numpy", summary["mean"], steady.mean(), 1e-9)
+    table.add("order: std", "numpy", summary["std"], steady.std(ddof=1), 1e-9)
+    table.add("order: tau_s", "emcee.autocorr", summary["tau_s"], (tau - 1) / 2 * interval, 1e-9)
+    table.add("order: sem", "emcee.autocorr", summary["sem"], steady.std(ddof=1) * np.sqrt(tau / n), 1e-9)
+    table.add("order: n_effective", "emcee.autocorr", summary["n_effective"], n / tau, 1e-6)
+    # another window: to the first rho < 0. Either g has an error of sqrt(20 / n_effective) of itself (Sokal 1997).
+    g = pymbar.timeseries.statisticalInefficiency(steady)
+    table.add("order: ln g", "pymbar", np.log(n / summary["n_effective"]), np.log(g),
+              2 * np.sqrt(20 / summary["n_effective"]), "another window; 2 errors")
+    if run.steady_given is None:
+        # the start that leaves most effective samples: all of them tried, with emcee's time
+        effective = [(len(ours) - t) / max(1, emcee.autocorr.integrated_time(ours[t:], c=5, tol=0)[0])
+                     for t in range(3 * len(ours) // 4 + 1)]
+        best = max(effective)
+        table.add("order: n_effective of 'auto'", "emcee, every start", summary["n_effective"], best, 0.1 * best,
+                  "ours tries some 60 starts")
+        t0, g, _ = pymbar.timeseries.detectEquilibration(ours)
+        mean = ours[t0:].mean()
+        error = np.hypot(ours[t0:].std(ddof=1) * np.sqrt(g / len(ours[t0:])), summary["sem"])
+        table.add("order: mean of 'auto'", "pymbar detectEquilibration", summary["mean"], mean, 4 * error,
+                  f"its t0 {times[t0]:.2f} s, ours {summary['t_steady_s']:.2f} s; 4 errors")
+    else:
+        table.add("t_steady_s", "scene", run.t_steady, run.steady_given, 1e-9)
+
+    parts = steady_parts(run, frames)
+    kept = np.concatenate(parts)
+    bins = len(run.arrays["/order/pdf/order"])
+    expected, doubt = histogram(order[kept] * bins, bins, 1e-6 * bins)
+    table.add("/order/pdf/order", "definition", run.arrays["/order/pdf/order"], (np.arange(bins) + 0.5) / bins)
+    table.add("/order/pdf/density", "numpy", run.arrays["/order/pdf/density"], expected * bins / len(kept),
+              doubt * bins / len(kept) + 1e-9)
+    numbers, sems = jackknife(parts, lambda some: [2 - np.mean(order[some] ** 4) / np.mean(order[some] ** 2) ** 2,
+                                                   run.n * order[some].var()])
+    scalar(run, table, "binder", "numpy", numbers[0], sems[0], allowed=1e-5)
+    scalar(run, table, "susceptibility", "numpy", numbers[1], sems[1], allowed=1e-4 * numbers[1])
+
+
+def histogram(place, bins, edge):
+    """Counts of places [bins] in [0, bins), and how many of those nearby lie within `edge` of a bin's edge."""
+    inside = (place > -edge) & (place < bins + edge)
+    place = place[inside]
+    bin_of = np.floor(np.clip(place, 0, bins - 1e-9)).astype(int)
+    counts = np.bincount(bin_of[(place >= 0) & (place < bins)], minlength=bins).astype(float)
+    doubt = np.bincount(bin_of[np.abs(place - np.round(place)) < edge], minlength=bins).astype(float)
+    return counts, np.convolve(doubt, np.ones(3), mode="same")
+
+
+# ---- angles ----
+
+
+def two_gaussians(theta, density):
+    """theta_m [rad] and dip of analysis/two_peaks.h, fitted by scipy; NaN where there are not two peaks."""
+    none = (np.nan, np.nan)
+    width = np.pi / len(theta)
+    if len(theta) < 8 or not density.max() > 0:
+        return none
+
+    def model(x, at, sigma, height, background):
+        return height * (np.exp(-(fold(x - at) / sigma) ** 2 / 2) + np.exp(-(fold(x + at) / sigma) ** 2 / 2)) + background
+
+    spread = np.sqrt(np.sum(density * theta ** 2) * width)
+    best = None
+    for share in (0.3, 0.6, 0.8, 0.95):
+        try:
+            found, _ = scipy.optimize.curve_fit(
+                model, theta, density, [share * spread, spread * np.sqrt(1 - share ** 2), density.max() / 2, 0],
+                xtol=1e-12, ftol=1e-12, maxfev=4000)
+        except RuntimeError:
+            continue
+        misfit = np.sum((model(theta, *found) - density) ** 2)
+        if best is None or misfit < best[0]:
+            best = (misfit, found)
+    if best is None:
+        return none
+    at, sigma, height, background = np.abs(best[1][0]), np.abs(best[1][1]), best[1][2], best[1][3]
+    at_centre, at_peak = model(0, at, sigma, height, background), model(at, at, sigma, height, background)
+    residual = model(theta, at, sigma, height, background) - density
+    error = np.sqrt(np.average(residual ** 2, weights=density) * min(1, width / sigma))
+    dip = at_centre / at_peak
+    two = height > 0 and at > sigma and at > 1.5 * width and at < np.pi / 2 and dip < 1
+    return (np.degrees(at), dip) if two and at_peak - at_centre > 4 * error else none
+
+
+def check_angles(run, table):
+    frames = run.frames("angles")
+    parts = steady_parts(run, frames)
+    kept = np.concatenate(parts)
+    centres = run.arrays["/angles/theta_rad"]
+    bins = len(centres)
+    width = np.pi / bins
+    angle = fold(run.theta[frames] - run.axis[frames][:, None])
+    counts = np.array([np.histogram(a, bins, (-np.pi / 2, np.pi / 2))[0] for a in angle])
+    _, doubt = histogram((angle[kept].ravel() + np.pi / 2) / width, bins, EDGE / width)
+    norm = len(kept) * run.n * width
+    table.add("/angles/theta_rad", "definition", centres, -np.pi / 2 + (np.arange(bins) + 0.5) * width)
+    table.add("/angles/density_per_rad", "numpy", run.arrays["/angles/density_per_rad"], counts[kept].sum(0) / norm,
+              doubt / norm + 1e-9)
+    numbers, sems = jackknife(parts, lambda some: two_gaussians(centres, counts[some].sum(0) / (len(some) * run.n * width)))
+    for name, value, sem in zip(("theta_m_deg", "dip"), numbers, sems):
+        scalar(run, table, name, "scipy curve_fit", value, None, allowed=1e-3 * abs(value))
+        table.add("sem of " + name, "scipy curve_fit", run.sem(name), sem, 0.05 * abs(sem))
+
+
+# ---- tilt ----
+
+
+def check_tilt(run, table):
+    frames = run.frames("tilt")
+    parts = steady_parts(run, frames)
+    kept = frames[np.concatenate(parts)]
+    bins = len(run.arrays["/tilt/n_z"])
+    width = 2 * run.n_z_max / bins
+    n_z, plane = run.director[kept][..., 2], run.director[kept][..., :2]
+    plane = plane / np.linalg.norm(plane, axis=-1, keepdims=True)
+    v = run.velocity[kept][..., :2]
+    along = np.einsum("tia,tia->ti", v, plane)
+    across = plane[..., 0] * v[..., 1] - plane[..., 1] * v[..., 0]
+    place = (n_z + run.n_z_max) / width
+    inside = (place >= 0) & (place <= bins)
+    bin_of = np.minimum(place.astype(int), bins - 1)
+    counts, doubt = histogram(place.ravel(), bins, 1e-6 / width)
+    centres = -run.n_z_max + (np.arange(bins) + 0.5) * width
+    table.add("/tilt/n_z", "definition", run.arrays["/tilt/n_z"], centres)
+    density = counts / (n_z.size * width)
+    table.add("/tilt/density", "numpy", run.arrays["/tilt/density"], density, doubt / (n_z.size * width) + 1e-9)
+    doubt_v = doubt * np.abs(v).max() / np.maximum(counts, 1) * 2 + 1e-4
+    curves = {}
+    for name, component in (("along", along), ("across", across)):
+        sums = np.bincount(bin_of[inside], component[inside], minlength=bins)
+        curves[name] = np.where(counts > 0, sums / np.where(counts > 0, counts, 1), np.nan)
+        table.add(f"/tilt/v_{name}_mm_s", "numpy", run.arrays[f"/tilt/v_{name}_mm_s"], curves[name], doubt_v)
+        # errors by another division into blocks of time
+        n_blocks = min(20, len(kept) // 2)
+        deviations = np.zeros((n_blocks, bins))
+        for b, some in enumerate(np.array_split(np.arange(len(kept)), n_blocks)):
+            where = inside[some]
+            c = np.bincount(bin_of[some][where], minlength=bins)
+            deviations[b] = np.bincount(bin_of[some][where], component[some][where], minlength=bins) - c * np.nan_to_num(
+                curves[name])
+        sem = np.sqrt(np.sum(deviations ** 2, 0) * n_blocks / (n_blocks - 1)) / np.maximum(counts, 1)
+        ours = run.arrays[f"/tilt/v_{name}_sem_mm_s"]
+        busy = counts > 20 * n_blocks
+        if busy.any():
+            table.add(f"sem of /tilt/v_{name}", "20 blocks", np.median(ours[busy] / sem[busy]), 1, 0.35,
+                      "other blocks; median ratio")
+        table.compared.add(f"/tilt/v_{name}_sem_mm_s")
+
+    # folding and summary, from our curve
+    ours, sems = run.arrays["/tilt/v_along_mm_s"], run.arrays["/tilt/v_along_sem_mm_s"]
+    rows = []
+    for k in range((bins + 1) // 2, bins):
+        pair = [(w, s * ours[i], sems[i]) for i, s in ((k, 1), (bins - 1 - k, -1))
+                if (w := run.arrays["/tilt/density"][i]) > 0]
+        if not pair:
+            continue
+        total = sum(p[0] for p in pair)
+        if any(np.isfinite(p[2]) for p in pair):
+            pair = [p for p in pair if np.isfinite(p[2])]
+        w = np.array([p[0] for p in pair])
+        rows.append((centres[k], np.sum(w * [p[1] for p in pair]) / w.sum(),
+                     np.sqrt(np.sum((w * [p[2] for p in pair]) ** 2)) / w.sum(), total))
+    x, value, error, weight = np.array(rows).T
+    table.add("/tilt/folded/n_z", "definition", run.arrays["/tilt/folded/n_z"], x)
+    table.add("/tilt/folded/v_along_mm_s", "definition", run.arrays["/tilt/folded/v_along_mm_s"], value)
+    table.add("/tilt/folded/v_along_sem_mm_s", "definition", run.arrays["/tilt/folded/v_along_sem_mm_s"], error)
+    fastest = fastest_sem = at = reversal = sigmas = np.nan
+    sure = np.flatnonzero(np.abs(value) > 3 * np.nan_to_num(error, nan=np.inf))
+    if sure.size:
+        top = sure[np.argmax(np.abs(value[sure]))]
+        fastest, fastest_sem, at = value[top], error[top], x[top]
+        for i in range(top, len(x) - 1):
+            if not (value[i] * fastest > 0 and value[i + 1] * fastest <= 0):
+                continue
+            beyond = np.arange(i + 1, len(x))
+            beyond = beyond[np.isfinite(error[beyond])]
+            sigma = -np.sign(fastest) * np.sum((weight * value)[beyond]) / np.sqrt(np.sum((weight * error)[beyond] ** 2))
+            if not sigma <= sigmas and not np.isnan(sigma):
+                reversal, sigmas = np.interp(0, *zip(*sorted([(value[i], x[i]), (value[i + 1], x[i + 1])]))), sigma
+    scalar(run, table, "tilt_fastest_mm_s", "definition", fastest, fastest_sem)
+    scalar(run, table, "tilt_fastest_n_z", "definition", at)
+    scalar(run, table, "tilt_reversal_n_z", "definition", reversal)
+    scalar(run, table, "tilt_reversal_sigmas", "definition", sigmas)
+
+
+# ---- pairs ----
+
+
+def pair_sums(run, frames, samples, visit):
+    """visit(displacements (references, rods, 2), cos 2 (theta_i - theta_j), not itself, frame) of every sample."""
+    for sample in samples:
+        frame = frames[sample]
+        first = references(run.n, sample)
+        d = nearest(run.place[frame][None] - run.place[frame][first][:, None], run.box)
+        value = np.cos(2 * (run.theta[frame][None] - run.theta[frame][first][:, None]))
+        other = np.ones(value.shape, bool)
+        other[np.arange(len(first)), first] = False
+        yield visit(d, value, other, frame)
+
+
+def check_g2(run, table):
+    frames = run.frames("g2")
+    kept = np.concatenate(steady_parts(run, frames))
+    bins = len(run.arrays["/g2/r_mm"])
+    width = run.box / 2 / bins
+    pairs, doubt, sums = np.zeros(bins), np.zeros(bins), np.zeros(bins)
+
+    def visit(d, value, other, _):
+        place = np.hypot(d[..., 0], d[..., 1])[other] / width
+        count, uncertain = histogram(place, bins, EDGE / width)
+        near = place < bins
+        return count, uncertain, np.bincount(place[near].astype(int), value[other][near], minlength=bins)
+
+    for count, uncertain, s in pair_sums(run, frames, kept, visit):
+        pairs, doubt, sums = pairs + count, doubt + uncertain, sums + s
+    n_references = sum(len(references(run.n, s)) for s in kept)
+    ring = np.pi * width ** 2 * (2 * np.arange(bins) + 1)
+    expected = n_references * run.n / run.box ** 2 * ring
+    table.add("/g2/r_mm", "definition", run.arrays["/g2/r_mm"], (np.arange(bins) + 0.5) * width)
+    table.add("/g2/g", "numpy O(N^2)", run.arrays["/g2/g"], pairs / expected, doubt / expected + 1e-9)
+    table.add("/g2/g2", "numpy O(N^2)", run.arrays["/g2/g2"], np.where(pairs > 0, sums / np.maximum(pairs, 1), np.nan),
+              2 * doubt / np.maximum(pairs, 1) + 1e-6)
+    if run.n <= 1024:
+        universe = universe_of(run, frames, run.place[frames], run.box)
+        rdf = MDAnalysis.analysis.rdf.InterRDF(universe.atoms, universe.atoms, bins, (0, run.box / 2),
+                                               exclusion_block=(1, 1), norm="none")
+        rdf.run(frames=[int(k) for k in kept])
+        table.add("/g2/g", "MDAnalysis InterRDF, its counts", run.arrays["/g2/g"], rdf.results.count / expected,
+                  doubt / expected + 1e-9)
+
+
+def check_pairs(run, table):
+    frames = run.frames("pairs")
+    parts = steady_parts(run, frames)
+    kept = np.concatenate(parts)
+    along = run.arrays["/pairs/along_mm"]
+    bins = len(along)
+    reach = min(run.scene["measure"]["pairs"]["range"], run.box / 2)
+    width, strip = 2 * reach / bins, min(run.width, run.box / 2)
+    cut_bins = len(run.arrays["/pairs/cut/r_mm"])
+    edges = np.linspace(-reach, reach, bins + 1)
+
+    def visit(d, value, other, frame):
+        c, s = np.cos(run.axis[frame]), np.sin(run.axis[frame])
+        x, y = (d[..., 0] * c + d[..., 1] * s)[other], (d[..., 1] * c - d[..., 0] * s)[other]
+        value = value[other]
+        near = np.zeros(len(x), bool)
+        for place in ((x + reach) / width, (y + reach) / width):
+            near |= np.abs(place - np.round(place)) < EDGE / width
+        inside = (np.abs(x) < reach) & (np.abs(y) < reach)
+        bin_of = (np.floor((y + reach) / width) * bins + np.floor((x + reach) / width)).astype(int)
+        count, total, doubt = (np.bincount(bin_of[some], weight[some], bins * bins).reshape(bins, bins)
+                               for some, weight in ((inside, np.ones(len(x))), (inside, value),
+                                                    (inside & near, np.ones(len(x)))))
+        cuts = []
+        for r, off in ((np.abs(x), np.abs(y)), (np.abs(y), np.abs(x))):
+            close = off < strip
+            r, off, cosine = r[close], off[close], value[close]
+            inside = off < strip / 2
+            cuts.append(np.histogram(r[inside], cut_bins, (0, cut_bins * width))[0])
+            cuts.append(np.histogram(r[inside], cut_bins, (0, cut_bins * width), weights=cosine[inside])[0])
+            unsure = (np.abs(off - strip / 2) < EDGE) | (inside & (np.abs(r / width - np.round(r / width)) < EDGE / width))
+            cuts.append(np.convolve(np.histogram(r[unsure], cut_bins, (0, cut_bins * width))[0], np.ones(3), "same"))
+        return count, total, doubt, np.array(cuts)
+
+    sampled = list(pair_sums(run, frames, kept, visit))
+    counts, sums, doubt = (sum(s[k] for s in sampled) for k in range(3))
+    doubt = 9 * scipy.ndimage.uniform_filter(doubt, 3, mode="constant")
+    density = run.n / run.box ** 2 * np.array([len(references(run.n, s)) for s in kept])
+    expected = density.sum() * width ** 2
+    # either rod may be the first: the map and its point reflection
+    counts, sums, doubt = (a + a[::-1, ::-1] for a in (counts, sums, doubt))
+    corner = np.hypot(np.abs(along)[:, None] + width / 2, np.abs(along)[None] + width / 2)
+    known = corner <= run.box / 2
+    g = np.where(known, counts / (2 * expected), np.nan)
+    g2 = np.where(known & (counts > 0), sums / np.maximum(counts, 1), np.nan)
+    table.add("/pairs/along_mm", "definition", along, (edges[1:] + edges[:-1]) / 2)
+    table.add("/pairs/across_mm", "definition", run.arrays["/pairs/across_mm"], (edges[1:] + edges[:-1]) / 2)
+    table.add("/pairs/g", "numpy O(N^2)", run.arrays["/pairs/g"], g.ravel(), doubt.ravel() / (2 * expected) + 1e-9)
+    # bins that rounding may have given their only pair are left out
+    ours = np.where((counts <= doubt).ravel() & (counts < 4).ravel(), g2.ravel(), run.arrays["/pairs/g2"])
+    table.add("/pairs/g2", "numpy O(N^2)", ours, g2.ravel(), (2 * doubt / np.maximum(counts, 1)).ravel() + 1e-6)
+
+    r = (np.arange(cut_bins) + 0.5) * width
+    table.add("/pairs/cut/r_mm", "definition", run.arrays["/pairs/cut/r_mm"], r)
+    cuts = np.array([s[3] for s in sampled])
+    total = cuts.sum(0)
+    expected = density.sum() * 2 * width * strip
+    for k, name in ((0, "along"), (3, "across")):
+        table.add(f"/pairs/cut/g_{name}", "numpy O(N^2)", run.arrays[f"/pairs/cut/g_{name}"], total[k] / expected,
+                  total[k + 2] / expected + 1e-9)
+        table.add(f"/pairs/cut/g2_{name}", "numpy O(N^2)", run.arrays[f"/pairs/cut/g2_{name}"],
+                  np.where(total[k] > 0, total[k + 1] / np.maximum(total[k], 1), np.nan),
+                  2 * total[k + 2] / np.maximum(total[k], 1) + 1e-6)
+
+    place_of = {sample: i for i, sample in enumerate(kept)}
+
+    def wavelength(some):
+        cut = cuts[[place_of[s] for s in some]].sum(0)
+        with np.errstate(invalid="ignore"):
+            return [first_period(r, cut[4] / cut[3], strip)]
+
+    value, sem = jackknife(parts, wavelength)
+    scalar(run, table, "wavelength_g2_mm", "numpy polyfit", value[0], None, allowed=1e-3 * abs(value[0]))
+    table.add("sem of wavelength_g2_mm", "numpy polyfit", run.sem("wavelength_g2_mm"), sem[0], 0.05 * abs(sem[0]))
+
+
+def first_period(r, values, smoothing):
+    """First maximum after the first minimum, of analysis/oscillation.h."""
+    known = np.isfinite(values)
+    x, y = r[known], values[known]
+    window = max(1, round(smoothing / (r[1] - r[0])))
+    if len(x) < max(5, window + 4):
+        return np.nan
+    smooth = np.convolve(y, np.full(window, 1 / window), "valid")
+    centre = (x[:len(smooth)] + x[window - 1:]) / 2
+    far = y[len(y) // 2:]
+    step = max(6 * np.sqrt(np.mean(np.diff(far) ** 2 / 2) / window), 1e-9)
+    # down from the first maximum, up from the minimum, down from the maximum that is looked for
+    extremes, start = [], 0
+    for sign in (1, -1, 1):
+        rest = sign * smooth[start:]
+        left = np.flatnonzero(rest < np.maximum.accumulate(rest) - step)
+        if not left.size:
+            return np.nan
+        extremes.append(start + int(np.argmax(rest[:left[0]])))
+        start += int(left[0])
+    _, lowest, highest = extremes
+    below = smooth <= smooth[highest] - 0.3 * (smooth[highest] - smooth[lowest])
+    before, after = np.flatnonzero(below[:highest]), np.flatnonzero(below[highest:])
+    first = before[-1] + 1 if before.size else 0
+    last = highest + after[0] - 1 if after.size else len(smooth) - 1
+    reach = min(highest - first, last - highest)
+    if reach == 0:
+        return centre[highest]
+    a, b, _ = np.polyfit(np.arange(-reach, reach + 1), smooth[highest - reach:highest + reach + 1], 2)
+    if not a < 0 or abs(b / (2 * a)) > reach:
+        return centre[highest]
+    return centre[highest] - b / (2 * a) * (r[1] - r[0])
+
+
+# ---- waves ----
+
+
+def wave_sums(places, weights, m, n, box):
+    """sum w exp(-i q . r) for q = 2 pi (m, n) / L."""
+    step = -2j * np.pi / box
+    waves = [np.arange(k.min(), k.max() + 1) for k in (m, n)]
+    of_x, of_y = (np.exp(step * np.multiply.outer(places[:, k], waves[k])) for k in (0, 1))
+    return ((of_x * np.asarray(weights)[:, None]).T @ of_y)[m - m.min(), n - n.min()]
+
+
+def half_plane(most, everything=False):
+    m, n = np.meshgrid(np.arange(0, most + 1), np.arange(-most, most + 1), indexing="ij")
+    m, n = m.ravel(), n.ravel()
+    keep = (m > 0) | (n > 0)
+    if not everything:
+        keep &= np.hypot(m, n) <= most
+    return m[keep], n[keep]
+
+
+def check_layers(run, table):
+    frames = run.frames("layers")
+    parts = steady_parts(run, frames)
+    kept = np.concatenate(parts)
+    waves = max(1, int(min(40, run.box / (run.length / 2))))
+    m, n = half_plane(waves)
+    size = np.hypot(m, n)
+    shell = np.floor(size + 0.5).astype(int) - 1
+    shells = waves
+    power = np.zeros((len(frames), len(m)))
+    across = np.zeros((len(frames), len(m)), bool)
+    along = np.zeros((len(frames), len(m)), bool)
+    for sample in kept:
+        f = frames[sample]
+        s = np.sin(2 * (run.theta[f] - run.axis[f]))
+        power[sample] = np.abs(wave_sums(run.place[f], s, m, n, run.box)) ** 2
+        to_director = fold(np.arctan2(n, m) - run.axis[f])
+        along[sample] = np.abs(to_director) <= np.pi / 6
+        across[sample] = np.abs(to_director) >= np.pi / 3
+    table.add("/layers/q_per_mm", "definition", run.arrays["/layers/q_per_mm"],
+              2 * np.pi / run.box * np.arange(1, shells + 1))
+    for name, cone in (("across", across), ("along", along)):
+        sums = np.array([(power[kept][:, shell == k] * cone[kept][:, shell == k]).sum() for k in range(shells)])
+        terms = np.array([cone[kept][:, shell == k].sum() for k in range(shells)])
+        table.add(f"/layers/spectrum_{name}", "direct sums", run.arrays[f"/layers/spectrum_{name}"],
+                  np.where(terms > 0, sums / np.maximum(terms, 1) / run.n, np.nan))
+    amplitude = 4 * power * across / run.n ** 2
+    best = int(np.argmax(amplitude[kept].mean(0)))
+    number = {}
+    for k in range(len(m)):
+        number[m[k], n[k]] = number[-m[k], -n[k]] = k
+
+    def peak(some):
+        mean = amplitude[some].mean(0)
+        at = lambda a, b: mean[number[a, b]] if (a, b) in number else 0.0  # noqa: E731
+        weight, centre = mean[best], mean[best] * np.array([m[best], n[best]], float)
+        for dm, dn in ((1, 0), (0, 1), (1, 1), (1, -1)):
+            ends = [(m[best] + s * dm, n[best] + s * dn) for s in (1, -1)]
+            if (0, 0) in ends:
+                continue
+            for end in ends:
+                weight += at(*end)
+                centre += at(*end) * np.array(end)
+        waves_to_box = np.linalg.norm(centre) / weight if weight > 0 else size[best]
+        return run.box / waves_to_box, waves_to_box, np.sqrt(mean[best])
+
+    for name, value, sem in zip(("wavelength_mm", "layers_per_box", "layer_order"), *jackknife(parts, peak)):
+        scalar(run, table, name, "direct sums", value, sem)
+
+
+def check_lattice(run, table):
+    frames = run.frames("lattice")
+    parts = steady_parts(run, frames)
+    found = np.full((len(frames), 4), np.nan)
+    m, n = half_plane(max(1, int(min(128, run.box / (run.width / 2)))), everything=True)
+    size = np.hypot(m, n)
+    keep = (size >= run.box / (2 * run.length)) & (size <= run.box / (run.width / 2))
+    m, n = m[keep], n[keep]
+    for sample in np.concatenate(parts):
+        f = frames[sample]
+        first = drawn(run.n, sample)
+        c, s = np.cos(run.axis[f]), np.sin(run.axis[f])
+        turned = np.array([[c, s], [-s, c]])
+        psi = []
+        for squeeze in (np.diag([run.width / run.length, 1]) @ turned, turned):
+            # neighbours among all images of the box next to it, in the squeezed frame
+            images = np.concatenate([run.place[f] + run.box * np.array([a, b]) for a in (-1, 0, 1) for b in (-1, 0, 1)])
+            # only an image that is nearest in the plane counts
+            tree = scipy.spatial.cKDTree(images @ squeeze.T)
+            distance, other = tree.query(run.place[f][first] @ squeeze.T, 7)
+            bond = (images[other[:, 1:]] - run.place[f][first][:, None]) @ squeeze.T
+            psi.append(np.exp(6j * np.arctan2(bond[..., 1], bond[..., 0])).mean(1))
+        bragg = np.abs(wave_sums(run.place[f][first], np.ones(len(first)), m, n, run.box)) ** 2
+        found[sample] = (abs(psi[0].mean()), np.abs(psi[0]).mean(), abs(psi[1].mean()), bragg.max() / len(first) ** 2)
+    values, sems = jackknife(parts, lambda some: found[some].mean(0))
+    for name, by, value, sem in zip(("psi_6", "psi_6_local", "psi_6_raw", "bragg_peak"),
+                                    ("scipy cKDTree",) * 3 + ("direct sums",), values, sems):
+        scalar(run, table, name, by, value, sem, allowed=1e-4 * value)
+
+
+# ---- against lag ----
+
+
+class Lags:
+    """All pairs of samples that analysis/lag_average.h takes, O(T) origins of each lag at once.
+
+    kernel(origins, ends) gives rods (pairs) and sums (pairs, quantities); samples are numbered from the first."""
+
+    def __init__(self, run, times, n_samples, kernel, zero=False, levels=16):
+        interval = times[1] - times[0]
+        last_origin = n_samples - 1 if zero else n_samples - 2
+        per_stretch = 1
+        while last_origin // per_stretch >= 64:
+            per_stretch *= 2
+        from_time = run.steady_given if run.steady_given is not None else run.t_steady
+        starts = np.arange(0, last_origin + 1, per_stretch)
+        starts = starts[is_steady(times[starts], from_time)]
+        self.first, self.per_stretch, self.interval = int(starts[0]), per_stretch, interval
+        self.stretches = len(starts)
+        self.lags, self.strides, self.rods, self.sums, self.looks = [], [], [], [], []
+        wanted = [(0, 1)] * zero + [(lag << k, 1 << k) for k in range(levels) for lag in range(1 if k == 0 else 5, 9)]
+        for lag, stride in wanted:
+            origins = np.arange(-(-self.first // stride) * stride, n_samples - lag, stride)
+            if not origins.size:
+                continue
+            rods, sums = kernel(origins, origins + lag)
+            if not rods.sum() > 0:
+                continue
+            stretch = (origins - self.first) // per_stretch
+            self.lags.append(lag * interval)
+            self.strides.append(stride)
+            self.looks.append(len(origins) * stride / max(lag, stride))
+            self.rods.append(np.bincount(stretch, rods, minlength=self.stretches))
+            self.sums.append(np.array([np.bincount(stretch, s, minlength=self.stretches) for s in sums.T]))
+        self.lags, self.looks = np.array(self.lags), np.array(self.looks)
+        self.rods, self.sums = np.array(self.rods), np.array(self.sums)  # (lags, stretches), (lags, quantities, stretches)
+        self.mean = self.sums.sum(-1) / self.rods.sum(-1)[:, None]  # (lags, quantities)
+
+    def sem(self, terms):
+        """Of sum coefficient * mean; terms are (lag number, quantity, coefficient)."""
+        longest = max(t[0] for t in terms)
+        joined = max(1, int(np.ceil(2 * self.lags[longest] / (self.per_stretch * self.interval) * (1 - 1e-9))))
+        deviation = sum(c * (self.sums[lag, q] - self.mean[lag, q] * self.rods[lag]) / self.rods[lag].sum()
+                        for lag, q, c in terms)
+        groups = np.arange(self.stretches) // joined
+        deviation = np.bincount(groups, deviation)
+        n = np.count_nonzero(np.bincount(groups, self.rods[longest]) > 0)
+        return np.sqrt(np.sum(deviation ** 2) * n / (n - 1)) if n >= 4 else np.nan
+
+    def curve(self, weights):
+        value = self.mean @ weights
+        return value, np.array([self.sem([(k, q, w) for q, w in enumerate(weights)]) for k in range(len(self.lags))])
+
+    def last_octave(self):
+        sure = np.flatnonzero(self.looks >= 10)
+        if not sure.size:
+            return np.array([], int)
+        longest = self.lags[sure[-1]]
+        window = np.flatnonzero((self.lags >= longest / 2 * (1 - 1e-9)) & (self.lags <= longest * (1 + 1e-9)) & (self.lags > 0))
+        return window if len(window) >= 3 else np.array([], int)
+
+    def fit(self, weights, window, log=False):
+        """Slope by numpy's polyfit, and its error through the coefficients that it is linear in."""
+        value = self.mean @ weights
+        if len(window) < 3 - log or (log and not (value[window] > 0).all()):
+            return np.nan, np.nan
+        x, y = (np.log(self.lags[window]), np.log(value[window])) if log else (self.lags[window], value[window])
+        slope = np.polyfit(x, y, 1)[0]
+        c = (x - x.mean()) / np.sum((x - x.mean()) ** 2)
+        if log:
+            c = c / value[window]
+        return slope, self.sem([(lag, q, ci * w) for lag, ci in zip(window, c) for q, w in enumerate(weights)])
+
+    def growth(self, weights):
+        """(from, to, slope, its error, exponent, its error) at short and at long lags, of analysis/diffusion.h."""
+        value = self.mean @ weights
+        first = int(self.lags[0] == 0)
+        exponents = np.diff(np.log(value[first:])) / np.diff(np.log(self.lags[first:]))
+        slow = np.flatnonzero(exponents < 1.1)
+        start = first + (slow[0] if slow.size else 0)
+        short = np.flatnonzero((self.lags >= self.lags[start] * (1 - 1e-9)) & (self.lags <= 4 * self.lags[start] * (1 + 1e-9)))
+        result = []
+        for window in (short, self.last_octave()):
+            if len(window) < 3:
+                result.append([np.nan] * 6)
+            else:
+                result.append([self.lags[window[0]], self.lags[window[-1]], *self.fit(weights, window),
+                               *self.fit(weights, window, log=True)])
+        return result
+
+
+def lag_frames(run, name):
+    frames = run.frames(name)
+    if run.steady_given is not None:
+        frames = frames[is_steady(run.time[frames], run.steady_given)]
+    return frames
+
+
+def decay_time(lags, value, sem):
+    """Where a correlation falls to 1/e, its logarithm interpolated, and the error: that of the value over the slope."""
+    t, c = np.concatenate([[0], lags]), np.concatenate([[1], value])
+    below = np.flatnonzero(c <= np.exp(-1))
+    if not below.size:
+        return np.nan, np.nan
+    k = below[0]
+    error = max(([0, *sem])[k - 1], sem[k - 1])
+    step = t[k] - t[k - 1]
+    if c[k] > 0:
+        return (np.interp(1, -np.log(c[k - 1:k + 1]), t[k - 1:k + 1]),
+                error / (np.exp(-1) * np.log(c[k - 1] / c[k]) / step))
+    return np.interp(-np.exp(-1), -c[k - 1:k + 1], t[k - 1:k + 1]), error / ((c[k - 1] - c[k]) / step)
+
+
+def check_msd(run, table):
+    frames = lag_frames(run, "msd")
+    r, axis, n = run.unwrapped[frames], run.axis[frames], run.n
+
+    def kernel(origins, ends):
+        d = r[ends] - r[origins]
+        c, s = np.cos(axis[origins])[:, None], np.sin(axis[origins])[:, None]
+        along, across = d[..., 0] * c + d[..., 1] * s, d[..., 1] * c - d[..., 0] * s
+        return np.full(len(origins), float(n)), np.stack(
+            [np.sum(along ** 2, 1), np.sum(across ** 2, 1), n * along.mean(1) ** 2, n * across.mean(1) ** 2], axis=1)
+
+    lags = Lags(run, run.time[frames], len(frames), kernel)
+    table.add("/msd/lag_s", "definition", run.arrays["/msd/lag_s"], lags.lags)
+    weights = {"total": [1, 1, 0, 0], "along": [1, 0, 0, 0], "across": [0, 1, 0, 0], "relative_total": [1, 1, -1, -1],
+               "relative_along": [1, 0, -1, 0], "relative_across": [0, 1, 0, -1]}
+    for name, w in weights.items():
+        value, sem = lags.curve(w)
+        table.add(f"/msd/{name}_mm2", "numpy O(T^2)", run.arrays[f"/msd/{name}_mm2"], value, RELATIVE * value + 1e-9)
+        table.add(f"sem of /msd/{name}", "numpy O(T^2)", run.arrays[f"/msd/{name}_sem_mm2"], sem, 1e-3 * sem + 1e-9)
+        table.compared.add(f"/msd/{name}_sem_mm2")
+    # every 2^k-th sample: MDAnalysis' windowed algorithm with that step
+    for name, moved in (("total", r), ("relative_total", r - r.mean(1, keepdims=True))):
+        universe = universe_of(run, frames, moved - moved[:1], run.box)
+        theirs = np.empty(len(lags.lags))
+        for stride in sorted(set(lags.strides)):
+            msd = MDAnalysis.analysis.msd.EinsteinMSD(universe, select="all", msd_type="xy", fft=False)
+            msd.run(start=-(-lags.first // stride) * stride, step=stride)
+            for k in np.flatnonzero(np.array(lags.strides) == stride):
+                theirs[k] = msd.results.timeseries[round(lags.lags[k] / lags.interval) // stride]
+        table.add(f"/msd/{name}_mm2", "MDAnalysis EinsteinMSD", run.arrays[f"/msd/{name}_mm2"], theirs,
+                  RELATIVE * theirs + 1e-9)
+
+    exponents = np.array([lags.fit(weights["total"], np.arange(max(k - 1, 0), min(k + 2, len(lags.lags))), log=True)
+                          for k in range(len(lags.lags))])
+    table.add("/msd/exponent", "numpy polyfit", run.arrays["/msd/exponent"], exponents[:, 0], 1e-4)
+    table.add("/msd/exponent_sem", "numpy polyfit", run.arrays["/msd/exponent_sem"], exponents[:, 1],
+              1e-3 * exponents[:, 1] + 1e-9)
+    short, long = zip(*(lags.growth(weights[name]) for name in ("total", "along", "across", "relative_total")))
+    for name, fit, dimensions in (("diffusion_mm2_s", long[0], 2), ("diffusion_short_mm2_s", short[0], 2),
+                                  ("diffusion_along_mm2_s", long[1], 1), ("diffusion_across_mm2_s", long[2], 1),
+                                  ("diffusion_relative_mm2_s", long[3], 2)):
+        scalar(run, table, name, "numpy polyfit", fit[2] / (2 * dimensions), fit[3] / (2 * dimensions),
+               allowed=1e-4 * abs(fit[2]))
+    for name, fit in (("alpha_short", short[0]), ("alpha_long", long[0]), ("alpha_along_short", short[1]),
+                      ("alpha_along_long", long[1]), ("alpha_across_short", short[2]), ("alpha_across_long", long[2])):
+        scalar(run, table, name, "numpy polyfit", fit[4], fit[5], allowed=1e-4)
+    for name, value in zip(("diffusion_lag_from_s", "diffusion_lag_to_s"), long[0]):
+        scalar(run, table, name, "definition", value)
+    for name, value in zip(("diffusion_short_lag_from_s", "diffusion_short_lag_to_s"), short[0]):
+        scalar(run, table, name, "definition", value)
+
+
+def check_rotation(run, table):
+    frames = lag_frames(run, "rotation")
+    angle = np.unwrap(run.theta[frames], period=np.pi, axis=0)
+
+    def kernel(origins, ends):
+        turn = angle[ends] - angle[origins]
+        return np.full(len(origins), float(run.n)), np.stack([np.sum(turn ** 2, 1), np.cos(2 * turn).sum(1)], axis=1)
+
+    lags = Lags(run, run.time[frames], len(frames), kernel)
+    table.add("/rotation/lag_s", "definition", run.arrays["/rotation/lag_s"], lags.lags)
+    (msad, msad_sem), (c2, c2_sem) = lags.curve([1, 0]), lags.curve([0, 1])
+    table.add("/rotation/msad_rad2", "numpy.unwrap O(T^2)", run.arrays["/rotation/msad_rad2"], msad, RELATIVE * msad)
+    table.add("/rotation/msad_sem_rad2", "numpy.unwrap O(T^2)", run.arrays["/rotation/msad_sem_rad2"], msad_sem)
+    table.add("/rotation/c2", "numpy O(T^2)", run.arrays["/rotation/c2"], c2, 1e-6)
+    table.add("/rotation/c2_sem", "numpy O(T^2)", run.arrays["/rotation/c2_sem"], c2_sem)
+    short, long = lags.growth([1, 0])
+    scalar(run, table, "rotational_diffusion_rad2_s", "numpy polyfit", long[2] / 2, long[3] / 2, allowed=1e-4 * abs(long[2]))
+    scalar(run, table, "alpha_rotation_short", "numpy polyfit", short[4], short[5], allowed=1e-4)
+    scalar(run, table, "alpha_rotation_long", "numpy polyfit", long[4], long[5], allowed=1e-4)
+    for name, value in zip(("rotation_short_lag_from_s", "rotation_short_lag_to_s", "rotation_lag_from_s",
+                            "rotation_lag_to_s"), (*short[:2], *long[:2])):
+        scalar(run, table, name, "definition", value)
+    window = lags.last_octave()
+    plateau = (c2[window].mean(), lags.sem([(k, 1, 1 / len(window)) for k in window])) if window.size else (np.nan, np.nan)
+    scalar(run, table, "c2_plateau", "numpy", *plateau)
+    scalar(run, table, "c2_decay_s", "numpy interp", *decay_time(lags.lags, c2, c2_sem))
+    steps = np.abs(np.diff(angle, axis=0))
+    scalar(run, table, "large_turns", "numpy", float(np.sum(steps > np.pi / 3)),
+           allowed=np.sum(np.abs(steps - np.pi / 3) < 1e-5))
+
+
+def check_velocity(run, table):
+    frames = lag_frames(run, "velocity")
+    times = run.time[frames]
+    steps = max(1, round(run.scene["measure"]["velocity"]["window"] / (times[1] - times[0])))
+    window = steps * (times[1] - times[0])
+    v = (run.unwrapped[frames][steps:] - run.unwrapped[frames][:-steps]) / window
+    axis = run.axis[frames]
+
+    def kernel(origins, ends):
+        c, s = np.cos(axis[origins])[:, None], np.sin(axis[origins])[:, None]
+        turned = [(u[..., 0] * c + u[..., 1] * s, u[..., 1] * c - u[..., 0] * s) for u in (v[origins], v[ends])]
+        return np.full(len(origins), float(run.n)), np.stack(
+            [np.sum(turned[0][k] * turned[1][k], 1) for k in (0, 1)], axis=1)
+
+    lags = Lags(run, times, len(v), kernel, zero=True)
+    table.add("/velocity/lag_s", "definition", run.arrays["/velocity/lag_s"], lags.lags)
+    for name, weights in (("c_v", [1, 1]), ("c_v_along", [1, 0]), ("c_v_across", [0, 1])):
+        product = lags.mean @ weights
+        value = product / product[0]
+        sem = [lags.sem([(k, q, w / product[0]) for q, w in enumerate(weights)]
+                        + [(0, q, -value[k] * w / product[0]) for q, w in enumerate(weights)]) for k in range(len(value))]
+        table.add(f"/velocity/{name}", "numpy O(T^2)", run.arrays[f"/velocity/{name}"], value, RELATIVE)
+        table.add(f"/velocity/{name}_sem", "numpy O(T^2)", run.arrays[f"/velocity/{name}_sem"], sem, 1e-3 * np.nanmax(sem))
+        if name == "c_v":
+            c_v, c_v_sem = value, sem
+    rms = np.sqrt(lags.mean[0].sum())
+    scalar(run, table, "velocity_rms_mm_s", "numpy", rms, lags.sem([(0, 0, 1), (0, 1, 1)]) / (2 * rms))
+
+    def integral(mean):
+        c = mean.sum(1) / mean[0].sum()
+        k = np.flatnonzero(c <= 0)[0]  # trapezia, the last one cut off at zero
+        return np.trapz([*c[:k], 0], [*lags.lags[:k], np.interp(0, [-c[k - 1], -c[k]], lags.lags[k - 1:k + 1])])
+
+    value = sem = np.nan
+    if (c_v <= 0).any():
+        value, terms = integral(lags.mean), []
+        for lag in range(np.flatnonzero(c_v <= 0)[0] + 1):
+            for q in (0, 1):  # derivatives by differences
+                step = np.zeros(lags.mean.shape)
+                step[lag, q] = 1e-6 * lags.mean[0].sum()
+                slope = (integral(lags.mean + step) - integral(lags.mean - step)) / (2 * step[lag, q])
+                terms.append((lag, q, slope))
+        sem = lags.sem(terms)
+    scalar(run, table, "velocity_correlation_s", "numpy trapz", value, sem)
+    scalar(run, table, "velocity_decay_s", "numpy interp", *decay_time(lags.lags[1:], c_v[1:], c_v_sem[1:]))
+
+
+def check_rods(run, table):
+    frames = run.frames("rods")
+    start = run.steady_given or 0
+    duration = run.scene["measure"]["rods"]["duration"]
+    frames = frames[is_steady(run.time[frames], start) & (run.time[frames] <= start + duration + 1e-9)]
+    count = min(run.scene["measure"]["rods"]["count"], run.n)
+    table.add("/rods/trace/time_s", "trajectory", run.arrays["/rods/trace/time_s"], run.time[frames])
+    for k in range(count):
+        rod = k * run.n // count
+        for name, value, allowed in (("x_mm", run.unwrapped[frames, rod, 0], 1e-5), ("y_mm", run.unwrapped[frames, rod, 1], 1e-5),
+                                     ("n_z", run.director[frames, rod, 2], 1e-6)):
+            table.add(f"/rods/trace/{k}/{name}", "trajectory", run.arrays[f"/rods/trace/{k}/{name}"], value, allowed)
+        turned = run.arrays[f"/rods/trace/{k}/theta_rad"] - run.theta[frames, rod]
+        table.add(f"/rods/trace/{k}/theta_rad", "trajectory", np.abs(np.exp(1j * turned) - 1), 0 * turned, 1e-5)
+
+
+# ---- numbers in boxes ----
+
+
+def check_fluctuations(run, table):
+    frames = run.frames("fluctuations")
+    parts = steady_parts(run, frames)
+    divisions = [2, 3, 4, 5, 6, 8, 10, 12, 16, 20]
+    counts = {m: np.array([np.histogram2d(p[:, 1], p[:, 0], m, [[0, run.box]] * 2)[0].ravel() for p in run.place[frames]])
+              for m in divisions}
+    share = np.array([1 / m ** 2 for m in divisions])
+
+    def numbers(some):
+        mean = [counts[m][some].mean() for m in divisions]
+        std = [counts[m][some].std() for m in divisions]
+        own = [np.sqrt(np.mean(counts[m][some].var(0, ddof=1))) for m in divisions]
+        fit = (share >= 0.01 * (1 - 1e-9)) & (share <= 0.25 * (1 + 1e-9))
+        slopes = []
+        for spread in (std, own):
+            y = np.log(np.array(spread) / np.sqrt(1 - share))[fit]
+            slopes.append(np.polyfit(np.log(mean)[fit], y, 1, w=np.array(divisions)[fit])[0])  # w multiplies residuals
+        return np.array([*mean, *std, *own, *slopes])
+
+    values, sems = jackknife(parts, numbers)
+    k = len(divisions)
+    by = "numpy histogram2d"
+    table.add("/fluctuations/area_fraction", "definition", run.arrays["/fluctuations/area_fraction"], share)
+    table.add("/fluctuations/mean_n", by, run.arrays["/fluctuations/mean_n"], values[:k])
+    for name, some in (("std_n", slice(k, 2 * k)), ("std_n_without_map", slice(2 * k, 3 * k))):
+        table.add(f"/fluctuations/{name}", by, run.arrays[f"/fluctuations/{name}"], values[some], 1e-3 * values[some])
+        table.add(f"/fluctuations/{name}_sem", by, run.arrays[f"/fluctuations/{name}_sem"], sems[some], 0.02 * sems[some])
+    scalar(run, table, "fluctuation_exponent", "numpy polyfit", values[-2], sems[-2], allowed=1e-3)
+    scalar(run, table, "fluctuation_exponent_without_map", "numpy polyfit", values[-1], sems[-1], allowed=1e-3)
+
+
+# ---- the director's fluctuations ----
+
+
+def check_frank(run, table):
+    frames = run.frames("frank")
+    parts = steady_parts(run, frames)
+    m, n = half_plane(6, everything=True)
+    unit = 2 * np.pi / run.box
+    q_max = max(2 * np.pi / (3 * run.scene["rods"]["length"]), 1.5 * unit)
+    area = run.box ** 2
+    powers, floors = np.full((len(frames), len(m)), np.nan), np.full(len(frames), np.nan)
+    for sample in np.concatenate(parts):
+        f = frames[sample]
+        if run.order[f] < 0.3:
+            continue
+        s = np.sin(2 * (run.theta[f] - run.axis[f])) / (2 * run.order[f])
+        power = area * np.abs(wave_sums(run.place[f], s, m, n, run.box)) ** 2 / run.n ** 2
+        structure = np.mean(np.abs(wave_sums(run.place[f], np.ones(run.n), m, n, run.box)) ** 2) / run.n
+        _, other = scipy.spatial.cKDTree(run.place[f], boxsize=run.box * (1 + 1e-12)).query(run.place[f], 2)
+        other = other[:, 1]
+        shared = np.mean(s * s[other])
+        apart = 1 - np.real(wave_sums(run.place[f] - run.place[f][other], np.full(run.n, 1 / run.n), m, n, run.box))
+        even = 1 - structure if run.n >= 4 * len(m) else 0
+
+        # the floor stands on both sides of its own definition: by bisection
+        def misfit(floor):
+            own = np.mean(s ** 2) - shared - 2 * np.sum((power - floor) / area * apart)
+            return run.n * floor - area * (even * own + (1 - even) * np.mean(s ** 2))
+
+        floors[sample] = scipy.optimize.brentq(misfit, -10 * area, 10 * area, xtol=1e-14)
+        powers[sample] = power - floors[sample]
+
+    def spectrum(some):
+        some = some[np.isfinite(floors[some])]
+        rows = []
+        axis = run.axis[frames[some]]
+        sector = np.floor((axis / np.pi + 0.5) * 36).astype(int)
+        for k in np.unique(sector):
+            inside = some[sector == k]
+            mean_axis = np.angle(np.mean(np.exp(2j * run.axis[frames[inside]]))) / 2
+            c, s = np.cos(mean_axis), np.sin(mean_axis)
+            rows.append(np.stack([np.abs(unit * (m * c + n * s)), np.abs(unit * (n * c - m * s)), powers[inside].mean(0),
+                                  np.full(len(m), floors[inside].mean()), np.full(len(m), float(len(inside)))], axis=1))
+        squares = np.full((100, 5), np.nan)
+        if not rows:
+            return np.array([np.nan] * 4 + list(squares.ravel()))
+        along, across, power, floor, weight = np.concatenate(rows).T
+        fitted = along ** 2 + across ** 2 <= q_max ** 2 * (1 + 1e-9)
+        a, b, p, e, w = (x[fitted] for x in (along, across, power, floor, weight))
+
+        def cost(constants):
+            stiff = constants[0] * b ** 2 + constants[1] * a ** 2
+            expected = 1 / stiff + e
+            if not ((stiff > 0) & (expected > 0)).all():
+                return np.inf
+            return np.sum(w * ((p + e) / expected + np.log(expected)))
+
+        guess = w.sum() / np.sum(w * (p + e) * (a ** 2 + b ** 2))
+        found = scipy.optimize.minimize(lambda x: cost(np.exp(x)), np.log([guess, guess]), method="Nelder-Mead",
+                                        options={"xatol": 1e-8, "fatol": 1e-12, "maxiter": 2000})
+        splay, bend = np.exp(found.x)
+        fit = 1 / (splay * across ** 2 + bend * along ** 2)
+        place = np.minimum(np.floor(across / unit + 0.5), 9) * 10 + np.minimum(np.floor(along / unit + 0.5), 9)
+        for k in np.unique(place.astype(int)):
+            here = place == k
+            squares[k] = [*(np.average(x[here], weights=weight[here]) for x in (along, across, power, fit)),
+                          fitted[here].all()]
+        return np.array([splay, bend, bend / splay, np.average(floor, weights=weight), *squares.ravel()])
+
+    values, sems = jackknife(parts, spectrum)
+    squares, square_sems = values[4:].reshape(100, 5), sems[4:].reshape(100, 5)
+    met = np.isfinite(squares[:, 0])
+    by = "direct sums, cKDTree"
+    for k, name in ((0, "q_along_per_mm"), (1, "q_across_per_mm"), (2, "power_mm2")):
+        table.add(f"/frank/{name}", by, run.arrays[f"/frank/{name}"], squares[met, k])
+    table.add("/frank/power_sem_mm2", by, run.arrays["/frank/power_sem_mm2"], square_sems[met, 2])
+    table.add("/frank/fit_mm2", "scipy Nelder-Mead", run.arrays["/frank/fit_mm2"], squares[met, 3], 1e-3 * squares[met, 3])
+    for k, name in enumerate(("frank_splay", "frank_bend", "frank_ratio")):
+        table.add(name, "scipy Nelder-Mead", run.measured(name), values[k], 1e-3 * values[k])
+        table.add("sem of " + name, "scipy Nelder-Mead", run.sem(name), sems[k], 0.01 * sems[k])
+    scalar(run, table, "frank_floor_mm2", by, values[3])
+    pulls = ((squares[:, 2] - squares[:, 3]) / square_sems[:, 2])[squares[:, 4] == 1]
+    pulls = pulls[np.isfinite(pulls)]
+    chi2 = np.sum(pulls ** 2) / (len(pulls) - 2) if len(pulls) > 2 else np.nan
+    scalar(run, table, "frank_chi2", "definition", chi2, allowed=1e-3 * abs(chi2))
+
+
+# ---- defects ----
+
+
+def winding(q):
+    """Charge of every plaquette of a periodic grid of complex Q (y, x), from phases of quotients of neighbours."""
+    corners = [q, np.roll(q, -1, 1), np.roll(q, (-1, -1), (0, 1)), np.roll(q, -1, 0)]
+    turn = sum(np.angle(corners[(k + 1) % 4] * np.conj(corners[k])) for k in range(4))
+    return np.round(turn / (2 * np.pi)).astype(int) / 2
+
+
+def coarse_field(run, frame, nodes, smoothing):
+    """Mean of exp(2 i theta) with Gaussian weights at the nodes (y, x): every rod, every node."""
+    mesh = run.box / nodes
+    grid = np.arange(nodes) * mesh
+    reach = min(4 * smoothing, run.box / 2)
+    weights = []
+    for k in (0, 1):
+        d = nearest(grid[:, None] - run.place[frame][None, :, k], run.box)
+        weights.append(np.where(np.abs(d) <= reach, np.exp(-d ** 2 / (2 * smoothing ** 2)), 0))
+    total = weights[1] @ weights[0].T
+    q = (weights[1] * np.exp(2j * run.theta[frame])) @ weights[0].T
+    return np.where(total > 0, q / np.where(total > 0, total, 1), 0)
+
+
+def direction_of(q, mesh, x, y, charge, radius):
+    """Ray along which the director is radial: from the phase of the winding mode on a ring of 64 points."""
+    phi = 2 * np.pi * np.arange(64) / 64
+    on_ring = [scipy.ndimage.map_coordinates(part, [(y + radius * np.sin(phi)) / mesh, (x + radius * np.cos(phi)) / mesh],
+                                             order=1, mode="grid-wrap") for part in (q.real, q.imag)]
+    mode = np.mean((on_ring[0] + 1j * on_ring[1]) * np.exp(-2j * charge * phi))
+    return np.angle(mode) / 2 / (1 - charge)
+
+
+def check_defects(run, table):
+    frames = run.frames("defects")
+    plan = run.scene["measure"]["defects"]
+    smoothing = plan.get("smoothing") or run.length / 2
+    mesh = plan.get("grid") or run.length / 8
+    nodes = max(4, int(np.ceil(run.box / mesh - 1e-9)))
+    mesh = run.box / nodes
+    table.add("/defects/time_s", "trajectory", run.arrays["/defects/time_s"], run.time[frames])
+    n_plus, n_minus = np.zeros(len(frames)), np.zeros(len(frames))
+    listed = "/defects/list/x_mm" in run.arrays
+    if listed:
+        ours = np.stack([run.arrays["/defects/list/" + k] for k in ("time_s", "x_mm", "y_mm", "charge", "direction_rad")], axis=1)
+    apart, turned, met, missed = [], [], 0, 0
+    for sample, frame in enumerate(frames):
+        q = coarse_field(run, frame, nodes, smoothing)
+        charge = winding(q)
+        n_plus[sample], n_minus[sample] = np.sum(charge > 0), np.sum(charge < 0)
+        if not listed:
+            continue
+        rows = ours[np.abs(ours[:, 0] - run.time[frame]) < 1e-9]
+        j, i = np.nonzero(charge)
+        found = []
+        for a, b in zip(j, i):
+            # zero of the bilinear Q
+            corner = [[q[(a + y) % nodes, (b + x) % nodes] for x in (0, 1)] for y in (0, 1)]
+
+            def at(p):
+                value = ((1 - p[1]) * ((1 - p[0]) * corner[0][0] + p[0] * corner[0][1])
+                         + p[1] * ((1 - p[0]) * corner[1][0] + p[0] * corner[1][1]))
+                return [value.real, value.imag]
+
+            for start in ([0.5, 0.5], [0.1, 0.1], [0.9, 0.1], [0.1, 0.9], [0.9, 0.9]):
+                core, _, status, _ = scipy.optimize.fsolve(at, start, full_output=True)
+                if status == 1 and (core > -1e-6).all() and (core < 1 + 1e-6).all():
+                    break
+            found.append(((b + core[0]) * mesh % run.box, (a + core[1]) * mesh % run.box, charge[a, b]))
+        found = np.array(found).reshape(-1, 3)
+        taken = set()
+        for x, y, c in found:
+            d = np.hypot(nearest(rows[:, 1] - x, run.box), nearest(rows[:, 2] - y, run.box))
+            d[(rows[:, 3] != c) | np.isin(np.arange(len(rows)), list(taken))] = np.inf
+            if not d.size or d.min() > mesh * np.sqrt(2):
+                missed += 1
+                continue
+            k = int(np.argmin(d))
+            taken.add(k)
+            apart.append(d[k])
+            # a lone one: its ring is as wide as the smoothing
+            rest = np.hypot(nearest(found[:, 0] - x, run.box), nearest(found[:, 1] - y, run.box))
+            alone = np.sort(rest)[1] if len(rest) > 1 else np.inf
+            if alone >= 2 * smoothing and abs(c) == 0.5:
+                period = np.pi / (1 - c)
+                off = rows[k, 4] - direction_of(q, mesh, x, y, c, smoothing)
+                turned.append(abs((off + period / 2) % period - period / 2) / (period / 2))
+        met += len(rows)
+    doubt = max(2, 1e-3 * met)
+    by = "rods x nodes, phases round plaquettes"
+    for name, count in (("n_plus", n_plus), ("n_minus", n_minus)):
+        table.add(f"/defects/{name}", by, run.arrays[f"/defects/{name}"], count, 1, "1: rounding in one plaquette")
+        table.add(f"/defects/{name}: sum", by, run.arrays[f"/defects/{name}"].sum(), count.sum(), doubt)
+    charge, charge_sem = jackknife(steady_parts(run, frames), lambda some: np.mean(n_plus[some] - n_minus[some]) / 2)
+    scalar(run, table, "defect_charge", by, float(charge), float(charge_sem), allowed=0)
+    steady = is_steady(run.time[frames], run.t_steady)
+    for name, count in (("mean_plus", n_plus), ("mean_minus", n_minus)):
+        table.add("defects: " + name, by, run.summary["defects"][name], count[steady].mean(), doubt / steady.sum())
+    if listed and met:
+        table.add("/defects/list: not found again", by, missed, 0, doubt)
+        table.add("/defects/list/x_mm, y_mm: 99th percentile", "scipy fsolve", np.quantile(apart, 0.99), 0, 0.02 * mesh)
+        if turned:
+            table.add("/defects/list/direction_rad: median", "winding mode on a ring", np.median(turned), 0, 0.15,
+                      f"another estimate; of half its period, {len(turned)} lone ones")
+    for name in ("time_s", "x_mm", "y_mm", "charge", "direction_rad"):
+        table.compared.add("/defects/list/" + name)
+    if listed:
+        check_tracks(run, table, frames, plan)
+
+
+def check_tracks(run, table, frames, plan):
+    """Tracks of the defects of our list, linked again, and what they come down to."""
+    area, interval = run.box ** 2, run.time[frames[1]] - run.time[frames[0]]
+    spans = (1, 2, 4, 8, 16)
+    columns = [run.arrays["/defects/list/" + k] for k in ("time_s", "x_mm", "y_mm", "charge", "direction_rad", "track")]
+    next_id, alive, ids = 0, [], []
+    sums = [{"all": {}, "lasting": {}} for _ in frames]
+
+    def count(sample, group, key, value=1.0):
+        sums[sample][group][key] = sums[sample][group].get(key, 0.0) + value
+
+    def pairs_of(first, second, allowed):
+        """Closest pairs first: (index, index) of rows of positions, where allowed."""
+        d = np.hypot(*(nearest(first[:, None, k] - second[None, :, k], run.box) for k in (0, 1)))
+        d = np.where(allowed & (d <= np.inf), d, np.inf)
+        result = []
+        while d.size and np.isfinite(d.min()):
+            i, j = np.unravel_index(np.argmin(d), d.shape)
+            result.append((i, j))
+            d[i], d[:, j] = np.inf, np.inf
+        return result
+
+    def places(tracks):
+        return np.array([t["trail"][-1][1:3] for t in tracks]).reshape(-1, 2)
+
+    for sample, frame in enumerate(frames):
+        time = run.time[frame]
+        here = np.abs(columns[0] - time) < 1e-9
+        now = np.stack([c[here] for c in columns], axis=1)
+        step = interval if sample else 0.0
+        limit = {c: min(run.length, 0.5 * np.sqrt(area / max(np.sum(now[:, 3] == c), sum(t["charge"] == c for t in alive), 1)))
+                 for c in (0.5, -0.5)}
+        before, charges = places(alive), np.array([t["charge"] for t in alive])
+        d = np.hypot(*(nearest(before[:, None, k] - now[None, :, 1 + k], run.box) for k in (0, 1)))
+        same = (charges[:, None] == now[None, :, 3]) if len(alive) else np.zeros((0, len(now)), bool)
+        reach = np.where(now[:, 3] > 0, limit[0.5], limit[-0.5])
+        links = pairs_of(before, now[:, 1:3], same & (d <= reach[None]))
+        goes_on = {i for i, _ in links}
+        both = limit[0.5] + limit[-0.5]
+        dead = [t for i, t in enumerate(alive) if i not in goes_on]
+        plus, minus = [t for t in dead if t["charge"] > 0], [t for t in dead if t["charge"] < 0]
+        apart = np.hypot(*(nearest(places(plus)[:, None, k] - places(minus)[None, :, k], run.box) for k in (0, 1)))
+        met = pairs_of(places(plus), places(minus), apart <= both)
+        met_lasting = sum(plus[i]["lasting"] and minus[j]["lasting"] for i, j in met)
+        old = sum(t["lasting"] for t in dead)
+        for group, n_pairs, n_dead in (("all", len(met), len(dead)), ("lasting", met_lasting, old)):
+            count(sample, group, "annihilations", n_pairs)
+            count(sample, group, "deaths", n_dead)
+            count(sample, group, "deaths_alone", n_dead - 2 * n_pairs)
+        source = {j: i for i, j in links}
+        following, born = [], []
+        for j, row in enumerate(now):
+            ray = np.exp(1j * row[4])
+            if j in source:
+                track = alive[source[j]]
+                last = track["trail"][-1]
+                track["trail"].append((time, last[1] + nearest(row[1] - last[1], run.box),
+                                       last[2] + nearest(row[2] - last[2], run.box), ray))
+                sign = "plus" if row[3] > 0 else "minus"
+                for k in spans:
+                    if len(track["trail"]) <= k:
+                        break
+                    path = track["trail"][-1 - k:]
+                    v = complex(path[-1][1] - path[0][1], path[-1][2] - path[0][2]) / (path[-1][0] - path[0][0])
+                    p = sum(place[3] for place in path)
+                    relative = v * np.conj(p / abs(p))
+                    for key, value in (("n", 1.0), ("speed", abs(v)), ("along", relative.real), ("across", relative.imag)):
+                        count(sample, "all", (sign, k, key), value)
+                        if track["lasting"]:
+                            count(sample, "lasting", (sign, k, key), value)
+                        else:
+                            track["pending"][sign, k, key] = track["pending"].get((sign, k, key), 0.0) + value
+            else:
+                track = {"id": next_id, "charge": row[3], "born": time, "seen": sample > 0, "partner": None, "lasting": False,
+                         "trail": [(time, row[1], row[2], ray)], "pending": {}}
+                next_id += 1
+                if sample:
+                    born.append(track)
+            following.append(track)
+            count(sample, "all", "lived", step)
+            if track["lasting"]:
+                count(sample, "lasting", "lived", step)
+            else:
+                track["pending"]["lived"] = track["pending"].get("lived", 0.0) + step
+        alive = following
+        ids.extend(t["id"] for t in alive)
+        plus, minus = [t for t in born if t["charge"] > 0], [t for t in born if t["charge"] < 0]
+        apart = np.hypot(*(nearest(places(plus)[:, None, k] - places(minus)[None, :, k], run.box) for k in (0, 1)))
+        couples = pairs_of(places(plus), places(minus), apart <= both)
+        for i, j in couples:
+            plus[i]["partner"], minus[j]["partner"] = minus[j], plus[i]
+        count(sample, "all", "creations", len(couples))
+        count(sample, "all", "births_alone", len(born) - 2 * len(couples))
+        grown = [t for t in alive if not t["lasting"] and time - t["born"] >= plan["min_lifetime"] - 1e-6 * interval]
+        for track in grown:
+            track["lasting"] = True
+            for key, value in track["pending"].items():
+                count(sample, "lasting", key, value)
+        for track in grown:
+            if not track["seen"]:
+                continue
+            together = any(track["partner"] is t for t in grown)
+            if together and track["charge"] > 0:
+                count(sample, "lasting", "creations")
+            if not together:
+                count(sample, "lasting", "births_alone")
+
+    by = "own linking of our list"
+    table.add("/defects/list/track", by, columns[5], ids, 0)
+    keys = [("lived", "density_per_mm2"), ("creations", "creation_rate_per_mm2_s"), ("annihilations", "annihilation_rate_per_mm2_s"),
+            ("births_alone", "lone_birth_rate_per_mm2_s"), ("deaths_alone", "lone_death_rate_per_mm2_s")]
+    speeds = [("speed_plus", "plus", "speed"), ("speed_minus", "minus", "speed"), ("speed_plus_along", "plus", "along"),
+              ("speed_plus_across", "plus", "across")]
+    parts = steady_parts(run, frames)
+    table.add("/defects/tracks/span_s", "definition", run.arrays["/defects/tracks/span_s"], np.array(spans) * interval)
+    for group, prefix, folder in (("all", "defect_", ""), ("lasting", "lasting_defect_", "lasting/")):
+
+        def total(some, key):
+            return sum(sums[s][group].get(key, 0.0) for s in some)
+
+        def numbers(some):
+            room = area * interval * np.sum(some > 0)
+            with np.errstate(invalid="ignore", divide="ignore"):
+                result = [np.float64(total(some, key)) / room for key, _ in keys]
+                deaths = total(some, "deaths")
+                result.append(total(some, "lived") / deaths if deaths else np.nan)
+                for _, sign, key in speeds:
+                    result += [np.float64(total(some, (sign, k, key))) / total(some, (sign, k, "n")) for k in spans]
+            return result
+
+        values, errors = jackknife(parts, numbers)
+        for k, (_, name) in enumerate(keys):
+            scalar(run, table, prefix + name, by, values[k], errors[k])
+        scalar(run, table, prefix + "lifetime_s", by, values[5], errors[5])
+        for k, (name, _, _) in enumerate(speeds):
+            curve, sem = values[6 + 5 * k:11 + 5 * k], errors[6 + 5 * k:11 + 5 * k]
+            path = f"/defects/tracks/{folder}{name}"
+            table.add(path + "_mm_s", by, run.arrays[path + "_mm_s"], curve)
+            table.add(path + "_sem_mm_s", by, run.arrays[path + "_sem_mm_s"], sem)
+            scalar(run, table, prefix + name + "_mm_s", by, curve[2], sem[2])
+
+
+CHECKS = {"order": check_order, "angles": check_angles, "tilt": check_tilt, "defects": check_defects, "g2": check_g2,
+          "pairs": check_pairs, "layers": check_layers, "lattice": check_lattice, "fluctuations": check_fluctuations,
+          "frank": check_frank, "msd": check_msd, "rotation": check_rotation, "velocity": check_velocity, "rods": check_rods}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("run", metavar="RUN_DIR")
+    parser.add_argument("--all", action="store_true", help="show errors (sem) that agree as well")
+    parser.add_argument("--only", metavar="NAME", nargs="+", choices=CHECKS, help="these measurements only")
+    parser.add_argument("--observables", metavar="FILE", help="instead of RUN_DIR/observables.h5")
+    arguments = parser.parse_args()
+    run = Run(arguments.run, arguments.observables or os.path.join(arguments.run, "observables.h5"))
+    table = Table()
+    check_reading(run, table)
+    for name in arguments.only or CHECKS:
+        if run.scene["measure"].get(name):
+            CHECKS[name](run, table)
+    errors = ["sem of " + name for name in run.scalars if np.isfinite(run.sem(name))]
+    for name in [*run.arrays, *run.scalars, *errors]:  # nothing may go unchecked
+        if not arguments.only and name not in table.compared:
+            table.rows.append((name, "", "", "", "", "", False, "nothing to compare with"))
+    agrees = table.show(arguments.all)
+    return 0 if agrees else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
