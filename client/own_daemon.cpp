@@ -3,7 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -33,33 +33,31 @@ bool somebody_listens(const std::filesystem::path& root) {
   }
 }
 
+/// The child between fork and exec: only async-signal-safe calls.
+[[noreturn]] void become_daemon(char* const* arguments, pid_t parent) {
+  prctl(PR_SET_PDEATHSIG, SIGTERM);  // a client that is killed leaves no daemon behind
+  if (getppid() != parent) _exit(1);
+  setpgid(0, 0);  // Ctrl-C is for the client, which stops the daemon in order
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) std::signal(number, SIG_DFL);
+  const int null = open("/dev/null", O_RDWR);  // it keeps a log of its own
+  for (const int end : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(null, end);
+  close_range(3, ~0U, CLOSE_RANGE_CLOEXEC);
+  execv(arguments[0], arguments);
+  _exit(127);
+}
+
 pid_t start(const std::filesystem::path& root) {
-  const std::string program = sibling_program("shakend").string();
-  const std::string root_text = root.string();
-  std::vector<std::string> words{program, "--root", root_text};
+  std::vector<std::string> words{sibling_program("shakend").string(), "--root", root.string()};
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
-
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  for (const int end : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {  // it keeps a log of its own
-    posix_spawn_file_actions_addopen(&actions, end, "/dev/null", O_RDWR, 0);
-  }
-  // A process group of its own: Ctrl-C is for us, and we stop it in order.
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  sigset_t defaults;
-  sigemptyset(&defaults);
-  for (const int signal : {SIGINT, SIGTERM, SIGPIPE}) sigaddset(&defaults, signal);
-  posix_spawnattr_setsigdefault(&attributes, &defaults);
-  posix_spawnattr_setpgroup(&attributes, 0);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
-  pid_t pid = 0;
-  const int failure = posix_spawnp(&pid, arguments[0], &actions, &attributes, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  posix_spawnattr_destroy(&attributes);
-  if (failure != 0) throw Failure(ExitCode::kFailed, fmt::format("{}: {}", program, std::strerror(failure)));
+  const pid_t parent = getpid();
+  const pid_t pid = fork();
+  if (pid == 0) become_daemon(arguments.data(), parent);
+  if (pid < 0) throw Failure(ExitCode::kFailed, fmt::format("{}: {}", words[0], std::strerror(errno)));
   return pid;
 }
 
@@ -76,14 +74,15 @@ OwnDaemon::OwnDaemon(const std::filesystem::path& root) {
   pid_ = start(root);
   const auto begin = std::chrono::steady_clock::now();
   while (!somebody_listens(root)) {
-    int status = 0;
-    const bool ended = waitpid(pid_, &status, WNOHANG) == pid_;
-    if (ended || std::chrono::steady_clock::now() - begin > kPatience) {
-      if (!ended) stop(pid_);
+    // One that ends at once may have lost a race for the root directory: then somebody else will listen.
+    if (pid_ != 0 && waitpid(pid_, nullptr, WNOHANG) == pid_) pid_ = 0;
+    if (std::chrono::steady_clock::now() - begin > kPatience) {
+      if (pid_ != 0) stop(pid_);
       throw Failure(ExitCode::kFailed, fmt::format("shakend did not start; see {}", (root / "shakend.log").string()));
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
+  if (pid_ != 0 && waitpid(pid_, nullptr, WNOHANG) == pid_) pid_ = 0;
 }
 
 OwnDaemon::~OwnDaemon() {

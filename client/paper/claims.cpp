@@ -30,6 +30,12 @@ Verdict verdict_of(const std::vector<Answer>& answers) {
   return n(Answer::kYes) > 0 ? Verdict::kAgrees : Verdict::kDisagrees;
 }
 
+/// Of what is said to hold everywhere: one no is enough.
+Verdict verdict_everywhere(const std::vector<Answer>& answers) {
+  const bool refuted = std::find(answers.begin(), answers.end(), Answer::kNo) != answers.end();
+  return refuted ? Verdict::kDisagrees : verdict_of(answers);
+}
+
 bool has_error(const Quantity& q) { return q.is_known() && std::isfinite(q.sem); }
 
 /// a > b, by their errors. A number without an error tells nothing.
@@ -140,7 +146,7 @@ Finding short_rods_do_not_order(const Library& runs) {
                                   value_label("rods.area_fraction", fraction));
     }
   }
-  finding.verdict = verdict_of(answers);
+  finding.verdict = verdict_everywhere(answers);
   return finding;
 }
 
@@ -228,7 +234,7 @@ Finding one_peak(const Library& runs) {
     finding.found += fmt::format("{}{} peaks at {} ({:.0f} independent samples)", finding.found.empty() ? "" : "; ",
                                  peaks, value_label("rods.area_fraction", run.number("rods.area_fraction")), n);
   }
-  finding.verdict = verdict_of(answers);
+  finding.verdict = verdict_everywhere(answers);
   if (finding.verdict == Verdict::kAgrees) finding.found = "one peak at every packing";
   return finding;
 }

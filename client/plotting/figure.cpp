@@ -166,8 +166,11 @@ set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'
   for (const Curve& curve : figure.curves) n_colours = std::max(n_colours, curve.colour + 1);
   std::vector<std::string> plots;
   std::size_t block = first_block;
-  if (figure.map)
-    plots.push_back(fmt::format("{} index {} using 1:2:3 with image notitle", quoted(data_file), block++));
+  if (has_map(figure)) {
+    plots.push_back(
+        fmt::format("{} index {} using 1:2:4:5:6:7:3 with boxxyerror fillstyle solid noborder palette notitle",
+                    quoted(data_file), block++));
+  }
   for (const Curve& curve : figure.curves) {
     const std::string colour = curve_colour(curve.colour, n_colours);
     const std::string data = fmt::format("{} index {}", quoted(data_file), block++);

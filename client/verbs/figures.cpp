@@ -32,6 +32,9 @@ using Clock = std::chrono::steady_clock;
 /// Between lines of progress where there is no terminal to redraw.
 constexpr std::chrono::minutes kQuiet{1};
 
+/// A daemon that goes away more often than that has a reason.
+constexpr int kMostRestarts = 3;
+
 fs::path default_configs() {
   if (const char* given = std::getenv("SHAKEN_CONFIGS"); given != nullptr && *given != '\0') return given;
   if (fs::exists("configs/figures")) return "configs";
@@ -90,23 +93,30 @@ class Figures : public Verb {
 
     runs_folder_ = context.root / "runs";
     const InterruptGuard guard;
+    prepare();
+    bool complete = true;
     if (draw_only_) {
-      for (const PaperFigure* figure : chosen_) draw_one(*figure, context.console);
-      conclude(context.console);
-      return ExitCode::kOk;
+      for (const PaperFigure* figure : chosen_) {
+        if (!guard.interrupted()) complete &= draw_one(*figure, context.console);
+      }
+    } else {
+      std::optional<OwnDaemon> daemon;
+      daemon.emplace(context.root);
+      if (daemon->started_here()) {
+        context.console.err << fmt::format("shakend started for {}; it stops with this command\n",
+                                           context.root.string());
+      }
+      Session session(context.root);
+      submit(session);
+      complete = wait_and_draw(session, context.root, daemon, guard, context.console);
+      if (!guard.interrupted()) conclude(context.console);
+      if (daemon->started_here()) let_others_finish(session, guard, context.console);
     }
-    const OwnDaemon daemon(context.root);
-    if (daemon.started_here()) {
-      context.console.err << fmt::format("shakend started for {}; it stops with this command\n", context.root.string());
-    }
-    Session session(context.root);
-    submit(session);
-    const bool complete = wait_and_draw(session, guard, context.console);
     if (guard.interrupted()) {
       context.console.err << "interrupted: the same command goes on from here\n";
       return ExitCode::kFailed;
     }
-    conclude(context.console);
+    if (draw_only_) conclude(context.console);
     return complete ? ExitCode::kOk : ExitCode::kFailed;
   }
 
@@ -150,6 +160,38 @@ class Figures : public Verb {
       sweep.input = read_scene_input((folder() / (sweep.name + ".json")).string());
       sweep.sweep = load_points(sweep.input, {}, std::nullopt);
     }
+  }
+
+  /// What would otherwise fail only after hours.
+  void prepare() const {
+    std::string problems;
+    if (run_captured({"gnuplot", "--version"}).exit_code != 0) {
+      problems += "gnuplot is not here: `apt install gnuplot-nox`\n";
+    }
+    std::error_code error;
+    fs::create_directories(out_, error);
+    const fs::path trial = fs::path(out_) / ".trial";
+    if (!error && run::write_file_atomically(trial, "")) error = std::make_error_code(std::errc::permission_denied);
+    std::error_code ignored;
+    fs::remove(trial, ignored);
+    if (error) problems += fmt::format("{}: cannot be written to: {}\n", out_, error.message());
+    if (!report_.empty()) {
+      try {
+        written_report("", "", "");
+      } catch (const Failure& failure) {
+        problems += fmt::format("{}: {}\n", report_, failure.what());
+      }
+    }
+    if (problems.empty()) return;
+    problems.pop_back();
+    throw Failure(ExitCode::kBadInput, problems);
+  }
+
+  /// The report file with these sections in place of those that it has.
+  std::string written_report(const std::string& claims, const std::string& sweeps, const std::string& figures) const {
+    const auto text = run::read_file(report_);
+    if (!text) throw Failure(ExitCode::kBadInput, text.error().message);
+    return with_section(with_section(with_section(*text, "claims", claims), "sweeps", sweeps), "figures", figures);
   }
 
   ExitCode show_list(Console& console) const {
@@ -221,15 +263,19 @@ class Figures : public Verb {
     });
   }
 
-  /// Draws each figure as soon as its runs have ended. False if a run has not come to its end.
-  bool wait_and_draw(Session& session, const InterruptGuard& guard, Console& console) {
+  /// Draws each figure as soon as its runs have ended. False if a run has not come to its end, or a figure could not be
+  /// drawn. A daemon that goes away meanwhile is started again.
+  bool wait_and_draw(Session& session, const fs::path& root, std::optional<OwnDaemon>& daemon,
+                     const InterruptGuard& guard, Console& console) {
     std::vector<const PaperFigure*> left = chosen_;
+    bool complete = true;
+    int n_restarts = 0;
     Clock::time_point last_line{};
     for (;;) {
       for (auto figure = left.begin(); figure != left.end();) {
         if (guard.interrupted()) return false;
         if (can_be_drawn(**figure)) {
-          draw_one(**figure, console);
+          complete &= draw_one(**figure, console);
           figure = left.erase(figure);
         } else {
           ++figure;
@@ -242,11 +288,16 @@ class Figures : public Verb {
         if (console.err_is_terminal) console.err << "\n";
         return false;
       }
-      for (NamedSweep& sweep : sweeps_) {
-        if (sweep.needed && !has_ended(sweep)) refresh(session, *sweep.target);
+      try {
+        for (NamedSweep& sweep : sweeps_) {
+          if (sweep.needed && !has_ended(sweep)) refresh(session, *sweep.target);
+        }
+      } catch (const Failure& failure) {
+        if (failure.code != ExitCode::kNoDaemon || ++n_restarts > kMostRestarts) throw;
+        console.err << "the daemon has gone; starting one\n";
+        daemon.emplace(root);
       }
     }
-    bool complete = true;
     for (const NamedSweep& sweep : sweeps_) {
       if (!sweep.needed) continue;
       for (const Json& job : jobs_of(*sweep.target)) {
@@ -257,6 +308,22 @@ class Figures : public Verb {
       }
     }
     return complete;
+  }
+
+  /// The daemon goes with this command; jobs that others have queued with it meanwhile come to their end first.
+  static void let_others_finish(Session& session, const InterruptGuard& guard, Console& console) {
+    bool told = false;
+    while (!guard.interrupted()) {
+      const Json jobs = session.get("/v1/status").at("jobs");
+      const int n = jobs.value("queued", 0) + jobs.value("running", 0) + jobs.value("stopping", 0);
+      if (n == 0) return;
+      if (!told) {
+        console.err << fmt::format(
+            "waiting for {} jobs that others have queued here (Ctrl-C: they stop, and can go on)\n", n);
+      }
+      told = true;
+      guard.sleep_for(std::chrono::seconds(2));
+    }
   }
 
   void show_progress(Console& console, Clock::time_point& last_line) const {
@@ -315,7 +382,7 @@ class Figures : public Verb {
   }
 
   /// A picture of the run's last frame in OUT/pictures, drawn once.
-  fs::path snapshot(const FinishedRun& run) const {
+  fs::path snapshot(const FinishedRun& run, Console& console) const {
     if (!fs::exists(run::RunDirectory{run.directory()}.trajectory())) return {};
     const fs::path folder = fs::absolute(out_) / "pictures";
     const fs::path picture = folder / (run.directory().filename().string() + ".png");
@@ -324,27 +391,38 @@ class Figures : public Verb {
     const ChildResult drawn =
         run_captured({sibling_program("shaken-render").string(), "picture", run.directory().string(), "--frame", "last",
                       "--bare", "--size", "640x640", "-o", picture.string()});
-    return drawn.exit_code == 0 ? picture : fs::path();
+    if (drawn.exit_code == 0) return picture;
+    console.err << fmt::format("no picture of {}: {}\n", run.directory().string(), drawn.output);
+    return {};
   }
 
-  void draw_one(const PaperFigure& figure, Console& console) {
+  /// False if it could not be drawn, which is told; the others go on.
+  bool draw_one(const PaperFigure& figure, Console& console) {
     if (console.err_is_terminal) console.err << "\r\x1b[K" << std::flush;
-    if (figure.draw == nullptr) return collect_films(console);
-    const Library runs = library();
-    Sheet sheet = figure.draw({runs, [this](const FinishedRun& run) { return snapshot(run); }});
-    sheet.name = std::string(figure.file);
-    if (sheet.panels.empty()) {
-      console.err << fmt::format("figure {}: no run is done yet\n", figure.id);
-      return;
+    try {
+      if (figure.draw == nullptr) return collect_films(console);
+      const Library runs = library();
+      if (std::all_of(figure.sets.begin(), figure.sets.end(),
+                      [&](std::string_view set) { return runs[std::string(set)].empty(); })) {
+        console.err << fmt::format("figure {}: no run is done yet\n", figure.id);
+        return false;
+      }
+      Sheet sheet = figure.draw({runs, [&](const FinishedRun& run) { return snapshot(run, console); }});
+      sheet.name = std::string(figure.file);
+      tell(figure.id, client::draw(sheet, out_), console);
+      return true;
+    } catch (const std::exception& problem) {
+      console.err << fmt::format("figure {}: {}\n", figure.id, problem.what());
+      return false;
     }
-    tell(figure.id, client::draw(sheet, out_), console);
   }
 
   /// S1.mp4, S2.mp4, ... in the order of the sweep, and a picture of the end of each.
-  void collect_films(Console& console) {
+  bool collect_films(Console& console) {
     const auto movies = std::find_if(sweeps_.begin(), sweeps_.end(), [](const auto& s) { return s.name == "movies"; });
     const fs::path folder = fs::path(out_) / "movies";
     fs::create_directories(folder);
+    std::size_t n_films = 0;
     for (std::size_t k = 0; k < movies->sweep.points.size(); ++k) {
       const fs::path directory = runs_folder_ / derived_quantities(movies->sweep.points[k]).at("id").get<std::string>();
       const run::RunDirectory files{directory};
@@ -357,11 +435,14 @@ class Figures : public Verb {
         console.err << fmt::format("{}: {}\n", film.string(), error.message());
         continue;
       }
-      if (const fs::path picture = snapshot(FinishedRun(directory)); !picture.empty()) {
+      if (const fs::path picture = snapshot(FinishedRun(directory), console); !picture.empty()) {
         fs::copy_file(picture, folder / (name + ".png"), fs::copy_options::overwrite_existing, error);
       }
       tell(name, film, console);
+      ++n_films;
     }
+    if (n_films == 0) console.err << "movies: no run is done yet\n";
+    return n_films == movies->sweep.points.size();
   }
 
   void tell(std::string_view id, const fs::path& file, Console& console) {
@@ -379,11 +460,7 @@ class Figures : public Verb {
     save(fs::path(out_) / "claims.md", table);
     save(fs::path(out_) / "claims.json", claims_json(runs).dump(2) + "\n");
     if (!report_.empty()) {
-      const auto text = run::read_file(report_);
-      if (!text) throw Failure(ExitCode::kBadInput, text.error().message);
-      std::string report = with_section(*text, "claims", table);
-      report = with_section(report, "sweeps", sweep_cost_table(runs, all_sets()));
-      save(report_, with_section(report, "figures", figure_cost_table(runs)));
+      save(report_, written_report(table, sweep_cost_table(runs, all_sets()), figure_cost_table(runs)));
     }
     if (json_) {
       console.out << Json{{"scale", scale_}, {"made", made_}, {"claims", claims_json(runs)}}.dump(2) << "\n";

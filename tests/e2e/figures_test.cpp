@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -30,6 +31,14 @@ bool is_png(const fs::path& file) {
   std::string head(8, '\0');
   std::ifstream(file, std::ios::binary).read(head.data(), 8);
   return head == "\x89PNG\r\n\x1a\n";
+}
+
+/// Lines of a data file that hold numbers.
+int n_points(const fs::path& file) {
+  int n = 0;
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) n += !line.empty() && line[0] != '#' && line.find("NaN") == line.npos;
+  return n;
 }
 
 std::set<fs::path> runs_under(const fs::path& root) {
@@ -74,13 +83,14 @@ TEST(Figures, TinyScaleMakesEveryFigureAndGoesOnAfterAnInterruption) {
     ++n_pages;
     fs::path beside = entry.path();
     EXPECT_TRUE(is_png(beside.replace_extension(".png"))) << beside;
-    EXPECT_GT(fs::file_size(beside.replace_extension(".dat")), 100u) << beside;
+    EXPECT_GT(n_points(beside.replace_extension(".dat")), 2) << beside;
   }
   EXPECT_EQ(n_pages, n_figures);
   EXPECT_TRUE(fs::exists(folder / "movies" / "S1.mp4"));
-  for (const Json& claim : Json::parse(std::ifstream(folder / "claims.json"))) {
-    EXPECT_FALSE(claim["verdict"].get<std::string>().empty());
-  }
+  int n_with_data = 0;
+  for (const Json& claim : Json::parse(std::ifstream(folder / "claims.json")))
+    n_with_data += claim["verdict"] != "no data";
+  EXPECT_GT(n_with_data, 5);
 
   // Redrawn from what is there, without any daemon.
   fs::remove_all(folder);
@@ -88,6 +98,32 @@ TEST(Figures, TinyScaleMakesEveryFigureAndGoesOnAfterAnInterruption) {
   EXPECT_EQ(again.code, 0) << again.output;
   EXPECT_TRUE(is_png(folder / "fig02-order.png"));
   EXPECT_FALSE(fs::exists(root.path() / "shakend.sock"));
+}
+
+TEST(Figures, WhatWouldFailAfterHoursFailsAtOnce) {
+  const TemporaryDirectory root, out;
+  std::ofstream(out.path() / "plain.md") << "no marks\n";
+  const std::string blocked = (out.path() / "plain.md" / "below-a-file").string();
+  const Finished refused = run_command(command(root, {"-o", blocked, "--report", (out.path() / "plain.md").string()}));
+  EXPECT_EQ(refused.code, 2) << refused.output;
+  EXPECT_THAT(refused.output, HasSubstr("below-a-file"));
+  EXPECT_THAT(refused.output, HasSubstr("claims: begin"));
+  EXPECT_FALSE(fs::exists(root.path() / "runs"));
+  const Finished nothing = run_command(command(root, {"2", "--draw-only", "-o", (out.path() / "none").string()}));
+  EXPECT_EQ(nothing.code, 1);
+  EXPECT_THAT(nothing.output, HasSubstr("figure 2: no run is done yet"));
+}
+
+TEST(Figures, ADaemonThatDiesIsStartedAgain) {
+  const TemporaryDirectory root, out;
+  Process figures(command(root, {"8", "-o", (out.path() / "figures").string()}), out.path() / "out.txt");
+  ASSERT_TRUE(figures.wait_for("0/2 runs", std::chrono::seconds(60))) << figures.output();
+  const Finished status = run_command(
+      {"/usr/bin/curl", "-s", "--unix-socket", (root.path() / "shakend.sock").string(), "http://shaken/v1/status"});
+  kill(Json::parse(status.output).at("pid").get<pid_t>(), SIGKILL);
+  EXPECT_EQ(figures.wait(std::chrono::seconds(120)), 0) << figures.output();
+  EXPECT_THAT(figures.output(), HasSubstr("starting one"));
+  EXPECT_TRUE(is_png(out.path() / "figures" / "fig08-mechanism.png"));
 }
 
 TEST(Figures, WrongWordsAreAllTold) {

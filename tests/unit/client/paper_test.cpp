@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
 #include "client/failure.h"
@@ -128,6 +129,53 @@ TEST(Claims, FollowTheRuns) {
   EXPECT_EQ(verdict_of(inverted, "transition"), "disagrees");
 }
 
+TEST(Claims, UnknownErrorsAndValuesDecideNothing) {
+  Runs runs;
+  const Json unknown{{"diffusion_mm2_s", {{"value", 1.0}, {"sem", nullptr}}},
+                     {"rotational_diffusion_rad2_s", {{"value", nullptr}, {"sem", nullptr}}}};
+  Json later = unknown;
+  later["diffusion_mm2_s"]["value"] = 23.0;
+  Library l;
+  l.add("phases", {runs.make(2.5, 0.65, 0.1, 0.01, unknown), runs.make(2.5, 0.85, 0.1, 0.01, later)});
+  EXPECT_EQ(verdict_of(l, "diffusion-rises"), "not resolved");
+  EXPECT_EQ(verdict_of(l, "diffusion-law"), "not resolved");
+  EXPECT_EQ(verdict_of(l, "rotation"), "not resolved");
+  l.add("phases", {runs.make(4.5, 0.75, 0.9, 0.2), runs.make(4.5, 0.45, 0.05, 0.2)});
+  EXPECT_EQ(verdict_of(l, "ordered"), "not resolved") << "the error is larger than what is allowed";
+  EXPECT_EQ(verdict_of(l, "disordered"), "not resolved");
+}
+
+TEST(Claims, TrendsAreHeldAgainstTheirErrors) {
+  Runs runs;
+  const auto library = [&](double dilute, double dense, double sem) {
+    const auto with = [&](double value) {
+      return Json{{"rotational_diffusion_rad2_s", {{"value", value}, {"sem", sem}}}};
+    };
+    Library l;
+    l.add("phases", {runs.make(2.5, 0.45, 0.1, 0.01, with(dilute)), runs.make(2.5, 0.85, 0.1, 0.01, with(dense))});
+    return l;
+  };
+  EXPECT_EQ(verdict_of(library(2.0, 1.0, 0.1), "rotation"), "agrees");
+  EXPECT_EQ(verdict_of(library(1.0, 2.0, 0.1), "rotation"), "disagrees");
+  EXPECT_EQ(verdict_of(library(1.1, 1.0, 0.1), "rotation"), "not resolved");
+}
+
+TEST(Claims, LayersMustBeThereWhenDenseAndNotBefore) {
+  Runs runs;
+  const auto point = [&](double phi, std::optional<double> theta) {
+    const Json value = theta ? Json(*theta) : Json();
+    return runs.make(4.5, phi, 0.9, 0.01, {{"theta_m_deg", {{"value", value}, {"sem", 0.3}}}});
+  };
+  const auto library = [&](std::optional<double> a, std::optional<double> b, std::optional<double> c) {
+    Library l;
+    l.add("layers", {point(0.75, a), point(0.80, b), point(0.85, c)});
+    return l;
+  };
+  EXPECT_EQ(verdict_of(library({}, 9.5, 11), "layers"), "agrees");
+  EXPECT_EQ(verdict_of(library(8, 9.5, 11), "layers"), "in part") << "layers before 0.80";
+  EXPECT_EQ(verdict_of(library(8, {}, 25), "layers"), "disagrees");
+}
+
 TEST(Claims, DiffusionLawIsThePapersFit) {
   Runs runs;
   const auto library = [&](double factor) {
@@ -215,6 +263,22 @@ TEST(PaperFigures, NeedSweepsThatExistAtEveryScale) {
   }
 }
 
+TEST(PaperFigures, OfNothingAreDrawnByGnuplotToo) {
+  if (run_captured({"gnuplot", "--version"}).exit_code != 0) GTEST_SKIP() << "no gnuplot";
+  const TemporaryFolder folder;
+  Runs runs;
+  Library one;  // a map of one cell
+  one.add("phases", {runs.make(4.5, 0.75, 0.9, 0.01)});
+  for (const Library& library : {Library(), one}) {
+    for (const auto figure : {order_figure, pair_map_figure, melting_figure}) {
+      Sheet sheet = figure({library, [](const FinishedRun&) { return std::filesystem::path(); }});
+      sheet.name = "sheet";
+      if (sheet.panels.empty()) continue;
+      EXPECT_TRUE(std::filesystem::exists(draw(sheet, folder.path())));
+    }
+  }
+}
+
 TEST(Sheet, DrawsPlotsMapsAndPicturesOnOnePage) {
   if (run_captured({"gnuplot", "--version"}).exit_code != 0) GTEST_SKIP() << "no gnuplot";
   const TemporaryFolder folder;
@@ -233,7 +297,7 @@ TEST(Sheet, DrawsPlotsMapsAndPicturesOnOnePage) {
   std::ifstream in(folder.path() / "sheets/page.dat");
   const std::string data((std::istreambuf_iterator<char>(in)), {});
   EXPECT_THAT(data, HasSubstr("# panel 3: map"));
-  EXPECT_THAT(data, HasSubstr("1 1 3\n"));
+  EXPECT_THAT(data, HasSubstr("1 1 3 0.5 1.5 0.5 1.5\n"));
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "sheets/page-2.png")) << "pictures lie beside the page";
 }
 
