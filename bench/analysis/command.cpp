@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/analysis/shares.h"
+#include "bench/case_words.h"
 #include "bench/commands.h"
 #include "bench/machine.h"
 #include "bench/options.h"
@@ -35,7 +36,8 @@ Examples:
 Exit codes: 0 done, 1 something failed, 2 bad input.)";
 
 struct Words {
-  std::string length, fraction, side, warm_up, seconds, cache, out;
+  CaseWords scene{83.73};
+  std::string seconds, cache, out;
   bool json = false;
 };
 
@@ -94,20 +96,8 @@ std::string as_text(const Case& scene, const AnalysisShares& shares) {
 
 ExitCode run(const Words& words) {
   OptionReader options;
-  const auto number = [&](const char* option, const std::string& text, double low, double high, double otherwise) {
-    return text.empty() ? otherwise : options.number(option, text, low, high);
-  };
-  const auto quantity = [&](const char* option, const std::string& text, const char* field, double otherwise) {
-    const auto& [low, high] = limits_of(field);
-    return number(option, text, low, high, otherwise);
-  };
-  const double length = quantity("--length", words.length, "rods.length", 4.5);
-  const double fraction = quantity("--area-fraction", words.fraction, "rods.area_fraction", 0.75);
-  const double side = quantity("--side", words.side, "box.side", 83.73);
-  const double warm_up = number("--warm-up", words.warm_up, 1e-3, 1e4, 0.5);
-  const double seconds = number("--seconds", words.seconds, 1e-3, 1e4, 1.0);
-  options.finish();
-  const auto scene = make_case(length, fraction, side, 4e-6, warm_up, options);
+  const auto scene = words.scene.read(options);
+  const double seconds = words.seconds.empty() ? 1.0 : options.number("--seconds", words.seconds, 1e-3, 1e4);
   options.finish();
 
   const std::filesystem::path cache = words.cache.empty() ? default_cache() : std::filesystem::path(words.cache);
@@ -132,10 +122,7 @@ void add_analysis(CLI::App& app, Work& work) {
   const auto option = [&](const char* name, std::string& word, const char* type, const char* help) {
     analysis->add_option(name, word, help)->type_name(type);
   };
-  option("--length", words->length, "MM", "Rod length [mm]; 4.5");
-  option("--area-fraction", words->fraction, "PHI", "Area fraction; 0.75");
-  option("--side", words->side, "MM", "Side of the box [mm]; 83.73");
-  option("--warm-up", words->warm_up, "S", "Simulated seconds before anything is timed; 0.5");
+  words->scene.declare(*analysis);
   option("--seconds", words->seconds, "S", "Simulated seconds that are timed; 1");
   option("--cache", words->cache, "DIR", "Where states after the warm-up are kept; $XDG_CACHE_HOME/shaken/bench");
   option("-o,--out", words->out, "DIR", "Also write analysis.json there");

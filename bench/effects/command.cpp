@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "bench/case_words.h"
 #include "bench/commands.h"
 #include "bench/effects/report.h"
 #include "bench/options.h"
@@ -27,30 +28,20 @@ Exit codes: 0 done, 1 something failed, 2 bad input.)";
 
 /// The options as the user wrote them; empty where nothing was said.
 struct Words {
-  std::string length, fraction, side, warm_up, cpu, repeat, cache, out;
+  CaseWords scene{41.865};
+  std::string cpu, repeat, cache, out;
   bool json = false;
 };
 
 ExitCode run(const Words& words) {
   OptionReader options;
-  const auto number = [&](const char* option, const std::string& text, double low, double high, double otherwise) {
-    return text.empty() ? otherwise : options.number(option, text, low, high);
-  };
-  const auto quantity = [&](const char* option, const std::string& text, const char* field, double otherwise) {
-    const auto& [low, high] = limits_of(field);
-    return number(option, text, low, high, otherwise);
-  };
   Conditions conditions;
   conditions.machine = this_machine();
-  conditions.warm_up = number("--warm-up", words.warm_up, 1e-3, 1e4, 0.5);
-  conditions.effort.cpu = number("--cpu", words.cpu, 1e-3, 1e3, 0.5);
+  conditions.effort.cpu = words.cpu.empty() ? 0.5 : options.number("--cpu", words.cpu, 1e-3, 1e3);
   conditions.effort.repeat = words.repeat.empty() ? 5 : options.whole("--repeat", words.repeat, 1, 1000);
-  const double length = quantity("--length", words.length, "rods.length", 4.5);
-  const double fraction = quantity("--area-fraction", words.fraction, "rods.area_fraction", 0.75);
-  const double side = quantity("--side", words.side, "box.side", 41.865);
+  const auto scene = words.scene.read(options);
   options.finish();
-  const auto scene = make_case(length, fraction, side, 4e-6, conditions.warm_up, options);
-  options.finish();
+  conditions.warm_up = scene->warm_up;
 
   const std::filesystem::path cache = words.cache.empty() ? default_cache() : std::filesystem::path(words.cache);
   const std::vector<Saving> savings = measure_savings(*scene, cache, conditions.effort);
@@ -75,10 +66,7 @@ void add_effects(CLI::App& app, Work& work) {
   const auto option = [&](const char* name, std::string& word, const char* type, const char* help) {
     effects->add_option(name, word, help)->type_name(type);
   };
-  option("--length", words->length, "MM", "Rod length [mm]; 4.5");
-  option("--area-fraction", words->fraction, "PHI", "Area fraction; 0.75");
-  option("--side", words->side, "MM", "Side of the box [mm]; 41.865");
-  option("--warm-up", words->warm_up, "S", "Simulated seconds of each scene before it is timed; 0.5");
+  words->scene.declare(*effects);
   option("--cpu", words->cpu, "S", "CPU time of one timed stretch, about; 0.5");
   option("--repeat", words->repeat, "N", "Repetitions, of which the best counts; 5");
   option("--cache", words->cache, "DIR", "Where states after the warm-up are kept; $XDG_CACHE_HOME/shaken/bench");

@@ -5,12 +5,7 @@
 namespace shaken::client {
 
 Sheet diffusion_figure(const Material& material) {
-  const RunSet& all = material.runs["phases"];
-  const std::vector<double> lengths = values_of(all, "rods.length");
-  const RunSet shortest = lengths.empty() ? RunSet{} : where(all, "rods.length", lengths.front());
-  const RunSet longest = lengths.empty() ? RunSet{} : where(all, "rods.length", lengths.back());
-  const std::string of_short = lengths.empty() ? "" : ", " + value_label("rods.length", lengths.front());
-  const std::string of_long = lengths.empty() ? "" : ", " + value_label("rods.length", lengths.back());
+  const auto [shortest, longest, of_short, of_long] = BothLengths(material.runs["phases"]);
   const std::vector<std::string> log_log{"set logscale xy", "set format xy '10^{%T}'"};
   const auto msd = [&](const RunSet& runs, const char* array, std::string title) {
     return Figure{.x_title = "lag {/Symbol t} (s)",

@@ -6,11 +6,7 @@ namespace shaken::client {
 
 Sheet rotation_figure(const Material& material) {
   const RunSet& all = material.runs["phases"];
-  const std::vector<double> lengths = values_of(all, "rods.length");
-  const RunSet shortest = lengths.empty() ? RunSet{} : where(all, "rods.length", lengths.front());
-  const RunSet longest = lengths.empty() ? RunSet{} : where(all, "rods.length", lengths.back());
-  const std::string of_short = lengths.empty() ? "" : ", " + value_label("rods.length", lengths.front());
-  const std::string of_long = lengths.empty() ? "" : ", " + value_label("rods.length", lengths.back());
+  const auto [shortest, longest, of_short, of_long] = BothLengths(all);
   const auto panel = [](const RunSet& runs, const char* lag, const char* array, std::string y_title, std::string title,
                         std::vector<std::string> commands) {
     return Figure{.x_title = "lag t (s)",

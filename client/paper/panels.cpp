@@ -57,6 +57,13 @@ Curve scalar_curve(const RunSet& runs, const std::string& key, const std::string
   return curve;
 }
 
+BothLengths::BothLengths(const RunSet& runs)
+    : shortest(with_extreme(runs, "rods.length", false)), longest(with_extreme(runs, "rods.length", true)) {
+  if (shortest.empty()) return;
+  of_short = ", " + value_label("rods.length", shortest.front().number("rods.length"));
+  of_long = ", " + value_label("rods.length", longest.front().number("rods.length"));
+}
+
 std::string value_label(const std::string& key, double value) { return point_label(Json{{key, value}}); }
 
 std::vector<Curve> array_curves(const RunSet& runs, const std::string& key, const std::string& x, const std::string& y,

@@ -11,6 +11,13 @@
 
 namespace shaken::client {
 
+/// The shortest and the longest rods of a set, and how titles call them: ", l = 2.5 mm".
+struct BothLengths {
+  explicit BothLengths(const RunSet& runs);
+  RunSet shortest, longest;
+  std::string of_short, of_long;
+};
+
 /// What a figure is drawn from.
 struct Material {
   const Library& runs;
