@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "analysis/lattice.h"
 
-#include "run/measure/block_estimates.h"
+#include "run/measure/estimates.h"
 #include "run/measure/registry.h"
 #include "run/measure/rod_size.h"
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "run/measure/block_estimates.h"
+#include "run/measure/estimates.h"
 #include "run/measure/registry.h"
 #include "run/measure/rod_size.h"
 

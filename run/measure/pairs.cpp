@@ -4,7 +4,7 @@
 
 #include "analysis/oscillation.h"
 #include "analysis/pair_map.h"
-#include "run/measure/block_estimates.h"
+#include "run/measure/estimates.h"
 #include "run/measure/registry.h"
 #include "run/measure/rod_size.h"
 
