@@ -5,7 +5,6 @@
 
 #include "run/measure/estimates.h"
 #include "run/measure/registry.h"
-#include "run/measure/rod_size.h"
 
 namespace shaken::run {
 namespace {
@@ -45,7 +44,8 @@ class MeasuredLayers : public Measurement {
 }  // namespace
 
 std::unique_ptr<Measurement> make_layers(const MeasureContext& context) {
-  return std::make_unique<MeasuredLayers>(context.plan.system.box_side, rod_length(context.species) / 2);
+  const Scene& system = context.plan.system;
+  return std::make_unique<MeasuredLayers>(system.box_side, system.rod.length / 2);
 }
 
 }  // namespace shaken::run
