@@ -39,4 +39,12 @@ constexpr MeasurementKind kKinds[] = {
 
 std::span<const MeasurementKind> measurement_kinds() { return kKinds; }
 
+RunPlan only(RunPlan plan, const MeasurementKind& kind) {
+  plan.steady = 0;
+  for (const MeasurementKind& other : kKinds) {
+    if (other.name != kind.name) other.switch_off(plan);
+  }
+  return plan;
+}
+
 }  // namespace shaken::run

@@ -31,6 +31,9 @@ struct MeasurementKind {
 /// All of them, in the order in which they sample and are saved.
 std::span<const MeasurementKind> measurement_kinds();
 
+/// The plan with `kind` as all that is measured, from its start on.
+scene::RunPlan only(scene::RunPlan plan, const MeasurementKind& kind);
+
 std::unique_ptr<Measurement> make_order(const MeasureContext& context);
 std::unique_ptr<Measurement> make_angles(const MeasureContext& context);
 std::unique_ptr<Measurement> make_tilt(const MeasureContext& context);

@@ -16,31 +16,6 @@ namespace {
 
 constexpr double kCpu = 0.02;  ///< for timing one kind of sample, about [s]
 
-/// One measurement of the plan by itself.
-struct Single {
-  std::string effect;
-  scene::RunPlan plan;
-  double every = 0;  ///< [s]
-  Growth growth = Growth::kSeries;
-  double keeps_for = std::numeric_limits<double>::infinity();  ///< [s]
-};
-
-std::vector<Single> measurements_of(const scene::RunPlan& plan) {
-  std::vector<Single> singles;
-  for (const MeasurementKind& kind : measurement_kinds()) {
-    const std::optional<double> every = kind.every(plan);
-    if (!every) continue;
-    Single single{"measure_" + std::string(kind.name), plan, *every, kind.growth};
-    if (kind.keeps_for != nullptr) single.keeps_for = kind.keeps_for(plan);
-    single.plan.steady = 0;  // from the first sample on
-    for (const MeasurementKind& other : measurement_kinds()) {
-      if (other.name != kind.name) other.switch_off(single.plan);
-    }
-    singles.push_back(std::move(single));
-  }
-  return singles;
-}
-
 double bytes_of(const Observables& arrays) {
   std::size_t n = 0;
   for (const auto& [path, values] : arrays) n += values.size();
@@ -68,9 +43,11 @@ SamplingCost time_sampling(const scene::RunPlan& plan, const Species& species, c
   SamplingCost cost;
   Observables arrays;
   double later_bytes = 0;  // of arrays, beyond those at hand
-  for (const Single& single : measurements_of(plan)) {
-    const Cadence cadence(single.every, plan.system.dt);
-    Measurements measurements(single.plan, species);
+  for (const MeasurementKind& kind : measurement_kinds()) {
+    const std::optional<double> every = kind.every(plan);
+    if (!every) continue;
+    const Cadence cadence(*every, plan.system.dt);
+    Measurements measurements(only(plan, kind), species);
     std::vector<Snapshot> states = snapshots;
     Tick taken = 0;
     const auto sample = [&] {
@@ -82,20 +59,21 @@ SamplingCost time_sampling(const scene::RunPlan& plan, const Species& species, c
     };
     sample();
     const double first_bytes = static_cast<double>(measurements.save().size());
-    const double first_array_bytes = bytes_of(measurements.reduce(single.every).arrays);
+    const double first_array_bytes = bytes_of(measurements.reduce(*every).arrays);
 
-    Cost& samples = cost.samples[single.effect];
+    Cost& samples = cost.samples["measure_" + std::string(kind.name)];
     samples.count = total_ticks(plan) / cadence.period() + 1;
     const double begin = thread_cpu_seconds();
     const std::int64_t most = std::max<std::int64_t>(samples.count, 3);  // not more than the run will take
     while (taken < 3 || (taken < most && thread_cpu_seconds() - begin < kCpu)) sample();
     samples.each = (thread_cpu_seconds() - begin) / static_cast<double>(taken - 1);
 
-    const double kept = std::min(static_cast<double>(samples.count), single.keeps_for / single.every + 1);
+    const double keeps_for = kind.keeps_for != nullptr ? kind.keeps_for(plan) : std::numeric_limits<double>::infinity();
+    const double kept = std::min(static_cast<double>(samples.count), keeps_for / *every + 1);
     const double more = std::max(0.0, kept - static_cast<double>(taken));
     const double state = static_cast<double>(measurements.save().size());
-    const Observables found = measurements.reduce(static_cast<double>(taken) * single.every).arrays;
-    switch (single.growth) {
+    const Observables found = measurements.reduce(static_cast<double>(taken) * *every).arrays;
+    switch (kind.growth) {
       case Growth::kSeries: {  // what the file gains is kept sample by sample; the rest of the state is in blocks
         const double per_sample = (bytes_of(found) - first_array_bytes) / static_cast<double>(taken - 1);
         const double per_block =

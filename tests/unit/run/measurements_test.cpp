@@ -135,6 +135,19 @@ TEST(Measurements, WhatIsNotInThePlanDoesNotExist) {
   EXPECT_EQ(reduction.t_steady, 1.0);
 }
 
+TEST(MeasurementKinds, EachByItself) {
+  scene::RunPlan p = plan();
+  p.steady = 3.0;
+  ASSERT_EQ(measurement_kinds().size(), 14U);
+  for (const MeasurementKind& kind : measurement_kinds()) {
+    const scene::RunPlan alone = only(p, kind);
+    EXPECT_EQ(alone.steady, 0.0);
+    for (const MeasurementKind& other : measurement_kinds()) {
+      EXPECT_EQ(other.every(alone), other.name == kind.name ? kind.every(p) : std::nullopt) << kind.name << other.name;
+    }
+  }
+}
+
 // Every defect of the list has its place, and the means are those of the list.
 TEST(Measurements, DefectsHaveTracksAndAListOnlyIfAskedFor) {
   scene::RunPlan p = plan();
