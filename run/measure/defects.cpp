@@ -16,7 +16,8 @@ namespace {
 analysis::DefectTracks::Settings track_settings(const MeasureContext& context) {
   const Scene& system = context.plan.system;
   const double area = system.walls ? system.walls->area() : system.box_side * system.box_side;
-  return {system.box_side, area, context.interval, system.rod.length, context.plan.defects->min_lifetime};
+  return {system.box_side, area, context.interval, system.rod.length, context.plan.defects->min_lifetime,
+          !system.walls};
 }
 
 void put_tracks(const analysis::TrackSummary::Tracks& tracks, const std::string& folder, const std::string& prefix,

@@ -274,6 +274,26 @@ TEST(Measurements, DefectsBeyondTheSideWallsDoNotCount) {
   EXPECT_LT(inside.size(), everywhere.size());
 }
 
+TEST(Measurements, DefectsAreNotTrackedThroughSideWalls) {
+  scene::RunPlan p;
+  p.system = plan().system;
+  p.system.walls = SideWalls{Arena::kSquare, 19};
+  p.steady = 0.0;
+  p.defects = plan().defects;
+  Measurements measurements(p, species());
+  const double length = p.system.rod.length;
+  analysis::DefectTracks within({20, 19 * 19, 0.05, length, 0.02, false});
+  analysis::DefectTracks through({20, 19 * 19, 0.05, length, 0.02, true});
+  for (Tick tick = 0; tick <= 50000; tick += 5000) {
+    measurements.sample(random_snapshot(tick));
+    within.accumulate(static_cast<double>(tick) * kDt, measurements.last_defects()->defects);
+    through.accumulate(static_cast<double>(tick) * kDt, measurements.last_defects()->defects);
+  }
+  const double alone = measurements.reduce(0.5).scalars.at("defect_lone_death_rate_per_mm2_s").value;
+  EXPECT_NEAR(alone, within.reduce(0).all.lone_death_rate.value, 1e-12);
+  EXPECT_GT(std::abs(alone - through.reduce(0).all.lone_death_rate.value), 1e-6);
+}
+
 TEST(Measurements, DisplacementsCountCrossingsOfTheBorderFromTheSteadyTimeOn) {
   scene::RunPlan p = plan();
   p.steady = 0.05;

@@ -127,6 +127,15 @@ TEST(Problems, OfSeveralKindsOfRods) {
 TEST(Problems, OfWallsAndPlates) {
   EXPECT_EQ(problem_of(R"({"walls": {}, "measure": {"frank": {}}})"),
             "run.json:1:36: /measure/frank: measure.frank is of the waves of a periodic box: walls leave none");
+  EXPECT_THAT(
+      problems_of(R"({"walls": {}, "measure": {"g2": {}, "lattice": {}, "layers": {}, "pairs": {}, "frank": {}}})"),
+      ElementsAre("run.json:1:48: /measure/lattice: measure.lattice is of the nearest images and waves of a periodic "
+                  "box: walls leave none",
+                  "run.json:1:62: /measure/layers: measure.layers is of the waves of a periodic box: walls leave none",
+                  "run.json:1:75: /measure/pairs: measure.pairs is of the nearest images of a periodic box: walls "
+                  "leave none",
+                  "run.json:1:88: /measure/frank: measure.frank is of the waves of a periodic box: walls leave none"));
+  plan_of(R"({"walls": {}, "measure": {"defects": {}, "g2": {}, "pairs": null, "layers": false}})");
   EXPECT_EQ(problem_of(R"({"walls": {"size": "50 mm"}, "box": {"side": "50 mm"}})"),
             "run.json:1:20: /walls/size: an arena of 50 mm does not fit into a box of 50 mm: at most 49 mm; or leave "
             "box.side out");
