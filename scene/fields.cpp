@@ -483,7 +483,10 @@ std::vector<Field> make_table() {
   add(every(
       "measure.pairs.every", "Time between samples.", [](auto& p) -> auto& { return p.pairs->every; }));
   add(whole(
-      "measure.pairs.bins", 2, 1000, "Of the map each way; an odd number has one about 0.",
+      "measure.pairs.bins", 2, 201,
+      "Of the map each way; an odd number has one about 0. A run keeps 64 maps of its stretches of time, 16 bytes a "
+      "bin: "
+      "41 MB at most.",
       [](auto& p) -> auto& { return p.pairs->bins; }));
   add(derived(quantity(
                   "measure.pairs.range", kLength, 0.01, 1000, "Half the width of the map, at most half the box.",

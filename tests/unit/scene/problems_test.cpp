@@ -124,6 +124,12 @@ TEST(Problems, OfSeveralKindsOfRods) {
             "run.json:1:63: /rods/beads: rods.beads follows from rods.bead_diameters, which makes it 2; remove it");
 }
 
+TEST(Problems, MapsThatTakeTooMuchMemory) {
+  EXPECT_EQ(plan_of(R"({"measure": {"pairs": {"bins": 201}}})").pairs->bins, 201);
+  EXPECT_EQ(problem_of(R"({"measure": {"pairs": {"bins": 1000}}})"),
+            "run.json:1:32: /measure/pairs/bins: 1000 is outside [2, 201]");
+}
+
 TEST(Problems, OfWallsAndPlates) {
   EXPECT_EQ(problem_of(R"({"walls": {}, "measure": {"frank": {}}})"),
             "run.json:1:36: /measure/frank: measure.frank is of the waves of a periodic box: walls leave none");
