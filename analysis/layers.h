@@ -34,7 +34,8 @@ struct LayerPeak {
 /// (0.435 at 10 degrees), 2 sqrt(<s^2> / N) without layers, somewhat more as the peak is the largest of many. Layers
 /// that turn out of the cone count as none while they do. Waves must divide the box, so that wavelengths come in steps
 /// of about lambda^2 / L: quote L / lambda. The wavelength is that of the mean of the peak's wave vector and its
-/// neighbours (m +- 1, n +- 1), each with its power, in opposite pairs so that a flat background does not move it. A
+/// neighbours (m +- 1, n +- 1), each with its mean power while it was within the cone, in opposite pairs so that a flat
+/// background does not move it; pairs of which one was there for less than half as long as the peak are left out. A
 /// wavelength near L is the long-wave bend of a nematic, not layers.
 class LayerOrder {
  public:
@@ -57,14 +58,19 @@ class LayerOrder {
   void restore(StateReader& reader);
 
  private:
-  /// Mean of 4 |sum|^2 / N^2 within the cone; 0 beyond the wave vectors that are kept.
-  double power(int m, int n) const;
+  /// A wave vector that is kept has a place in the tables, as has its opposite.
+  std::optional<std::size_t> find(int m, int n) const;
   std::size_t index(int m, int n) const;
+  /// Mean of 4 |sum|^2 / N^2, which is 0 while the wave vector is out of the cone; 0 beyond those that are kept.
+  double power(int m, int n) const;
+  /// The mean over the samples with the wave vector within the cone; none where they are fewer than `at_least`.
+  std::optional<double> power_within(int m, int n, std::int64_t at_least) const;
 
   double box_side_;
   int waves_;
   std::int64_t samples_ = 0;
   std::vector<double> amplitudes_;      // (waves + 1, 2 waves + 1), sum over samples of 4 |sum|^2 / N^2 within the cone
+  std::vector<std::int64_t> within_;    // (waves + 1, 2 waves + 1), samples with the wave vector within the cone
   std::vector<double> across_, along_;  // (shells) sums of |sum|^2 / N
   std::vector<std::int64_t> n_across_, n_along_;  // (shells) terms of them
 };

@@ -124,6 +124,29 @@ TEST(LayerOrder, InterpolatesBetweenWavesOfTheBox) {
   EXPECT_NEAR(kBox / layers.peak()->wavelength, 6.5, 0.05);
 }
 
+// A weak wave on the background of uncorrelated rods, with neighbours at the edge of the cone of 30 degrees: those of
+// (0, 2) at 45 degrees are out and their opposites, at 18, in; those of (0, 3) at 27 degrees go in and out as the
+// director turns. The background has a tenth of the wave's power at each of eight neighbours. One counted with its
+// opposite left out, or less often, would move the wavelength by 0.12 of a wave to the box for (0, 2), 0.04 for (0, 3).
+TEST(LayerOrder, ABackgroundAtTheEdgeOfTheConeMovesNothing) {
+  constexpr double kAmplitude = 0.06, kSpread = 0.15;
+  for (const int waves : {2, 3}) {
+    for (const double turns : {0.0, 0.25}) {
+      Draw draw(167);
+      LayerOrder layers(kBox, 4.5);
+      for (int t = 0; t < 400; ++t) {
+        const double director = draw.uniform(-turns, turns);
+        const Rods rods = layered(draw, 1000, director, 0, waves, [&](double phase) {
+          return 0.5 * std::asin(kAmplitude * std::sin(phase)) + kSpread * draw.normal();
+        });
+        layers.accumulate(rods.places, rods.axes);
+      }
+      ASSERT_EQ(layers.peak()->n, waves);
+      EXPECT_NEAR(kBox / layers.peak()->wavelength, waves, 0.025) << waves << " waves, turning by " << turns;
+    }
+  }
+}
+
 TEST(LayerOrder, MergeSaveAndOddInput) {
   Draw draw(166);
   LayerOrder straight(kBox, 10), stopped(kBox, 10), first(kBox, 10), second(kBox, 10);
