@@ -56,11 +56,13 @@ void LayerOrder::accumulate(std::span<const Vec3> positions, std::span<const Vec
   const double c2 = std::cos(2 * director), s2 = std::sin(2 * director);
   std::vector<Vec2> places;
   std::vector<double> tilts;
+  double squares = 0;
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const Vec2 angle = double_angle(directors[i]);
     if (angle == Vec2::Zero()) continue;
     places.push_back(positions[i].head<2>());
     tilts.push_back(angle.y() * c2 - angle.x() * s2);
+    squares += tilts.back() * tilts.back();
   }
   if (places.empty()) return;
   const WavePowers powers = wave_powers(places, tilts, box_side_, waves_);
@@ -79,6 +81,7 @@ void LayerOrder::accumulate(std::span<const Vec3> positions, std::span<const Vec
       ++n_along_[shell];
     }
   });
+  floor_ += 4 * squares / (n_rods * n_rods);
   ++samples_;
 }
 
@@ -140,11 +143,13 @@ LayerPeak LayerOrder::peak_at(int m, int n) const {
     mean += *after * Vec2(m + dm, n + dn) + *before * Vec2(m - dm, n - dn);
   }
   const double waves = weight > 0 ? mean.norm() / weight : std::hypot(m, n);
-  return {m, n, box_side_ / waves, std::sqrt(power(m, n))};
+  const double floor = samples_ > 0 ? floor_ / static_cast<double>(samples_) : 0.0;
+  return {m, n, box_side_ / waves, std::sqrt(power(m, n)), std::sqrt(floor)};
 }
 
 void LayerOrder::reset() {
   samples_ = 0;
+  floor_ = 0;
   for (std::vector<double>* sums : {&amplitudes_, &across_, &along_}) std::fill(sums->begin(), sums->end(), 0.0);
   for (std::vector<std::int64_t>* counts : {&within_, &n_across_, &n_along_})
     std::fill(counts->begin(), counts->end(), 0);
@@ -153,6 +158,7 @@ void LayerOrder::reset() {
 void LayerOrder::merge(const LayerOrder& other) {
   SHAKEN_CHECK(box_side_ == other.box_side_ && waves_ == other.waves_, "layers of different boxes");
   samples_ += other.samples_;
+  floor_ += other.floor_;
   for (std::size_t i = 0; i < amplitudes_.size(); ++i) {
     amplitudes_[i] += other.amplitudes_[i];
     within_[i] += other.within_[i];
@@ -169,6 +175,7 @@ void LayerOrder::save(StateWriter& writer) const {
   writer.tag("LayerOrder");
   writer.put(box_side_);
   writer.put(samples_);
+  writer.put(floor_);
   writer.put(amplitudes_);
   writer.put(within_);
   writer.put(across_);
@@ -182,6 +189,7 @@ void LayerOrder::restore(StateReader& reader) {
   if (reader.real() != box_side_) throw StateError("saved analysis state: LayerOrder of another box");
   LayerOrder saved = *this;
   saved.samples_ = reader.integer(0, std::numeric_limits<std::int64_t>::max() / 2);
+  saved.floor_ = reader.real();
   saved.amplitudes_ = reader.reals(amplitudes_.size());
   saved.within_ = reader.integers(within_.size());
   saved.across_ = reader.reals(across_.size());

@@ -78,6 +78,8 @@ TEST(LayerOrder, OfStripes) {
   }
   EXPECT_NEAR(layers.peak()->wavelength, kBox / 4, 0.2);
   EXPECT_NEAR(layers.peak()->order / (4 / kPi * std::sin(2 * kThetaM)), 1.0, 0.03);
+  EXPECT_NEAR(layers.peak()->floor, 2 * std::sin(2 * kThetaM) / std::sqrt(2000), 1e-3);
+  EXPECT_TRUE(layers.peak()->stands_out());
 }
 
 // A nematic without layers: the spectrum is <s^2>, flat, and the order the floor 2 sqrt(<s^2> / N) a little raised by
@@ -101,6 +103,8 @@ TEST(LayerOrder, OfAUniformNematicIsTheFloor) {
   const double floor = 2 * std::sqrt(square / kRods);
   EXPECT_GT(layers.peak()->order, floor);
   EXPECT_LT(layers.peak()->order, 1.2 * floor);
+  EXPECT_NEAR(layers.peak()->floor / floor, 1.0, 0.02);
+  EXPECT_FALSE(layers.peak()->stands_out());
 }
 
 // A wave along the director is no layer; one that has it at a steep angle is out of the cone.
@@ -161,6 +165,7 @@ TEST(LayerOrder, MergeSaveAndOddInput) {
   expect_every_truncation_found(stopped);
   first.merge(second);
   EXPECT_NEAR(first.peak()->order, straight.peak()->order, 1e-12);
+  EXPECT_NEAR(first.peak()->floor, straight.peak()->floor, 1e-12);
   EXPECT_THROW(LayerOrder(kBox, 12).merge(first), std::logic_error);
   EXPECT_THROW(LayerOrder(kBox, 0), std::logic_error);
   const std::vector<std::byte> bytes = state(straight);

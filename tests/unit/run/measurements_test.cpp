@@ -246,14 +246,39 @@ TEST(Measurements, FindPlantedLayers) {
   };
   check("theta_m_deg", 15, 1);
   check("dip", 0, 0.05);
-  check("wavelength_mm", kWavelength, 0.1);
+  check("wavelength_mm", kWavelength, 0.2);
   check("layers_per_box", 4, 0.1);
+  // Wherever layers would like to be, four or five of them must fit the box.
+  EXPECT_NEAR(scalars.at("layers_per_box").sem, 1 / std::sqrt(12), 0.03);
+  EXPECT_NEAR(scalars.at("wavelength_mm").sem, 25 / 20.0 / std::sqrt(12), 0.04);
   check("layer_order", 4 / kPi * std::sin(2 * kThetaM), 0.04);
   check("wavelength_g2_mm", kWavelength, 0.5);
   check("binder", 1, 0.01);
   EXPECT_LT(scalars.at("bragg_peak").value, 0.2);
   EXPECT_LT(scalars.at("psi_6").value, 0.2);
   EXPECT_GT(scalars.at("susceptibility").value, 0);
+}
+
+// Rods a little off the director at random: a peak there is, but no layers to have a wavelength.
+TEST(Measurements, NoLayersHaveNoWavelength) {
+  Measurements measurements(plan(), species());
+  std::mt19937_64 rng(6);
+  std::normal_distribution<double> normal;
+  for (Tick tick = 0; tick <= 100000; tick = measurements.next_due(tick + 1)) {
+    Snapshot s = random_snapshot(tick);
+    for (Vec3& n : s.director) {
+      const double theta = 0.2 * normal(rng);
+      n = Vec3(std::cos(theta), std::sin(theta), 0);
+    }
+    measurements.sample(s);
+  }
+  const std::map<std::string, Scalar> scalars = measurements.reduce(1.0).scalars;
+  for (const char* name : {"wavelength_mm", "layers_per_box"}) {
+    EXPECT_TRUE(std::isnan(scalars.at(name).value)) << name;
+    EXPECT_TRUE(std::isnan(scalars.at(name).sem)) << name;
+  }
+  EXPECT_NEAR(scalars.at("layer_order").value, 2 * 0.37 / std::sqrt(100), 0.03);
+  EXPECT_GT(scalars.at("layer_order").sem, 0);
 }
 
 TEST(Measurements, DefectsBeyondTheSideWallsDoNotCount) {
