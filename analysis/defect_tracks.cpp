@@ -72,6 +72,7 @@ DefectTracks::DefectTracks(const Settings& settings) : settings_(settings) {
 }
 
 Vec2 DefectTracks::shortest(const Vec2& difference) const {
+  if (!settings_.periodic) return difference;
   const double box = settings_.box_side;
   return {std::remainder(difference.x(), box), std::remainder(difference.y(), box)};
 }

@@ -63,14 +63,15 @@ struct TrackSummary {
   Tracks lasting;            ///< of tracks at least the minimal lifetime long
 };
 
-/// Tracks of the defects in successive samples, of a periodic square box.
+/// Tracks of the defects in successive samples, of a periodic square box or of an arena within walls.
 ///
 /// Linking: a defect goes on as the nearest one of the same charge in the next sample, the closest pairs of all first,
 /// none further apart than the cut-off: half the mean spacing of that charge, sqrt(area / n) / 2, and at most
 /// `max_step`. Where steps are small against the spacing that is the best assignment of all. What is left over are
 /// births and deaths; of these, those of opposite charge closest together are one creation or annihilation, up to the
 /// sum of the two cut-offs apart (either may have gone one cut-off since or before they met). The rest came or went
-/// alone, which topology forbids in a periodic box: they are jumps beyond the cut-off, and counted.
+/// alone, which topology forbids in a periodic box: they are jumps beyond the cut-off, and counted. Walls let defects
+/// come and go alone.
 ///
 /// Noise makes pairs a mesh apart that vanish again within a sample or two. So everything is told twice: of all
 /// tracks, and of the lasting ones, seen for at least `min_lifetime`. These are counted with all of their life, from
@@ -90,11 +91,12 @@ struct TrackSummary {
 class DefectTracks {
  public:
   struct Settings {
-    double box_side;      ///< [mm]
-    double area;          ///< of the arena [mm^2]
-    double interval;      ///< between samples [s]
-    double max_step;      ///< [mm]
-    double min_lifetime;  ///< [s]
+    double box_side;       ///< [mm]
+    double area;           ///< of the arena [mm^2]
+    double interval;       ///< between samples [s]
+    double max_step;       ///< [mm]
+    double min_lifetime;   ///< [s]
+    bool periodic = true;  ///< distances are those to the nearest image; or plain ones, within walls
   };
   explicit DefectTracks(const Settings& settings);
 
@@ -115,7 +117,7 @@ class DefectTracks {
  private:
   struct Place {
     double time;
-    Vec2 position;  // without the jumps at the border of the box
+    Vec2 position;  // without the jumps at the border of a periodic box
     Vec2 ray;       // unit vector of the direction
   };
   struct Track {

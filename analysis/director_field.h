@@ -15,6 +15,8 @@ int grid_nodes(double box_side, double mesh);
 ///   Q_ab(x) = sum_i K(x - x_i) (n_a n_b - delta_ab / 2) / sum_i K(x - x_i),
 /// n being the unit in-plane direction of rod i and K a Gaussian of standard deviation `smoothing`, cut at four of
 /// them. Q_xx = (S/2) cos 2 theta and Q_xy = (S/2) sin 2 theta give the local order S and the director's angle theta.
+/// The grid is periodic even where walls stand round the rods: nodes within four smoothing lengths of its border also
+/// see the rods across it.
 /// Node (i, j) lies at x = i * mesh, y = j * mesh; i and j may be any integer.
 class DirectorField {
  public:

@@ -6,10 +6,10 @@
 
 namespace shaken::analysis {
 
-/// A number and the standard error of its mean; NaN where unknown.
+/// A number and its standard error.
 struct Estimate {
-  double value = std::numeric_limits<double>::quiet_NaN();
-  double sem = std::numeric_limits<double>::quiet_NaN();
+  double value = std::numeric_limits<double>::quiet_NaN();  ///< NaN: not to be had from the samples
+  double sem = std::numeric_limits<double>::quiet_NaN();    ///< NaN: unknown
 };
 
 inline Estimate operator/(const Estimate& a, double divisor) { return {a.value / divisor, a.sem / divisor}; }

@@ -3,16 +3,11 @@
 
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
-namespace shaken::analysis {
+#include "analysis/estimate.h"
 
-/// A number and its standard error.
-struct Estimate {
-  double value = std::numeric_limits<double>::quiet_NaN();  ///< NaN: not to be had from the samples
-  double sem = std::numeric_limits<double>::quiet_NaN();    ///< NaN: unknown
-};
+namespace shaken::analysis {
 
 /// What `function` makes of all samples, with errors by the delete-one jackknife over blocks of time (Miller,
 /// Biometrika 61, 1 (1974)): sem^2 = (B - 1) / B sum_b (f_b - mean f)^2, f_b being the function of all blocks but b. Of

@@ -38,6 +38,7 @@ LayerOrder::LayerOrder(double box_side, double shortest) : box_side_(box_side), 
   if (box_side / shortest < kMostWaves) waves_ = std::max(1, static_cast<int>(box_side / shortest));
   const auto waves = static_cast<std::size_t>(waves_);
   amplitudes_.resize((waves + 1) * (2 * waves + 1));
+  within_.resize(amplitudes_.size());
   across_.resize(waves);
   along_.resize(waves);
   n_across_.resize(waves);
@@ -55,11 +56,13 @@ void LayerOrder::accumulate(std::span<const Vec3> positions, std::span<const Vec
   const double c2 = std::cos(2 * director), s2 = std::sin(2 * director);
   std::vector<Vec2> places;
   std::vector<double> tilts;
+  double squares = 0;
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const Vec2 angle = double_angle(directors[i]);
     if (angle == Vec2::Zero()) continue;
     places.push_back(positions[i].head<2>());
     tilts.push_back(angle.y() * c2 - angle.x() * s2);
+    squares += tilts.back() * tilts.back();
   }
   if (places.empty()) return;
   const WavePowers powers = wave_powers(places, tilts, box_side_, waves_);
@@ -70,6 +73,7 @@ void LayerOrder::accumulate(std::span<const Vec3> positions, std::span<const Vec
     const auto shell = static_cast<std::size_t>(std::lround(length)) - 1;
     if (std::abs(n * cosine - m * sine) >= nearest * length) {
       amplitudes_[index(m, n)] += 4 * per_rod / n_rods;
+      ++within_[index(m, n)];
       across_[shell] += per_rod;
       ++n_across_[shell];
     } else if (std::abs(m * cosine + n * sine) >= nearest * length) {
@@ -77,6 +81,7 @@ void LayerOrder::accumulate(std::span<const Vec3> positions, std::span<const Vec
       ++n_along_[shell];
     }
   });
+  floor_ += 4 * squares / (n_rods * n_rods);
   ++samples_;
 }
 
@@ -93,11 +98,21 @@ LayerSpectrum LayerOrder::reduce() const {
   return spectrum;
 }
 
+std::optional<std::size_t> LayerOrder::find(int m, int n) const {
+  if (m < 0 || (m == 0 && n < 0)) return find(-m, -n);
+  if (m > waves_ || std::abs(n) > waves_) return std::nullopt;
+  return index(m, n);
+}
+
 double LayerOrder::power(int m, int n) const {
-  if (m < 0) return power(-m, -n);
-  if (m == 0 && n < 0) return power(0, -n);
-  if (m > waves_ || std::abs(n) > waves_ || samples_ == 0) return 0;
-  return amplitudes_[index(m, n)] / static_cast<double>(samples_);
+  const std::optional<std::size_t> wave = find(m, n);
+  return wave && samples_ > 0 ? amplitudes_[*wave] / static_cast<double>(samples_) : 0.0;
+}
+
+std::optional<double> LayerOrder::power_within(int m, int n, std::int64_t at_least) const {
+  const std::optional<std::size_t> wave = find(m, n);
+  if (!wave || within_[*wave] < at_least) return std::nullopt;
+  return amplitudes_[*wave] / static_cast<double>(within_[*wave]);
 }
 
 std::optional<LayerPeak> LayerOrder::peak() const {
@@ -114,32 +129,40 @@ std::optional<LayerPeak> LayerOrder::peak() const {
 
 LayerPeak LayerOrder::peak_at(int m, int n) const {
   SHAKEN_CHECK(m >= 0 && m <= waves_ && std::abs(n) <= waves_ && (m != 0 || n != 0), "a wave vector that is kept");
-  double weight = power(m, n);
+  const std::int64_t often = std::max<std::int64_t>(1, (within_[index(m, n)] + 1) / 2);
+  double weight = power_within(m, n, often).value_or(0.0);
   Vec2 mean = weight * Vec2(m, n);
   constexpr std::array<std::pair<int, int>, 4> kNeighbours{{{1, 0}, {0, 1}, {1, 1}, {1, -1}}};
   for (const auto& [dm, dn] : kNeighbours) {
     // The mean over the box, (0, 0), is no wave; without it its opposite is left out as well.
     if ((m == dm && n == dn) || (m == -dm && n == -dn)) continue;
-    for (const int sign : {1, -1}) {
-      const double share = power(m + sign * dm, n + sign * dn);
-      weight += share;
-      mean += share * Vec2(m + sign * dm, n + sign * dn);
-    }
+    const std::optional<double> after = power_within(m + dm, n + dn, often);
+    const std::optional<double> before = power_within(m - dm, n - dn, often);
+    if (!after || !before) continue;
+    weight += *after + *before;
+    mean += *after * Vec2(m + dm, n + dn) + *before * Vec2(m - dm, n - dn);
   }
   const double waves = weight > 0 ? mean.norm() / weight : std::hypot(m, n);
-  return {m, n, box_side_ / waves, std::sqrt(power(m, n))};
+  const double floor = samples_ > 0 ? floor_ / static_cast<double>(samples_) : 0.0;
+  return {m, n, box_side_ / waves, std::sqrt(power(m, n)), std::sqrt(floor)};
 }
 
 void LayerOrder::reset() {
   samples_ = 0;
+  floor_ = 0;
   for (std::vector<double>* sums : {&amplitudes_, &across_, &along_}) std::fill(sums->begin(), sums->end(), 0.0);
-  for (std::vector<std::int64_t>* counts : {&n_across_, &n_along_}) std::fill(counts->begin(), counts->end(), 0);
+  for (std::vector<std::int64_t>* counts : {&within_, &n_across_, &n_along_})
+    std::fill(counts->begin(), counts->end(), 0);
 }
 
 void LayerOrder::merge(const LayerOrder& other) {
   SHAKEN_CHECK(box_side_ == other.box_side_ && waves_ == other.waves_, "layers of different boxes");
   samples_ += other.samples_;
-  for (std::size_t i = 0; i < amplitudes_.size(); ++i) amplitudes_[i] += other.amplitudes_[i];
+  floor_ += other.floor_;
+  for (std::size_t i = 0; i < amplitudes_.size(); ++i) {
+    amplitudes_[i] += other.amplitudes_[i];
+    within_[i] += other.within_[i];
+  }
   for (std::size_t i = 0; i < across_.size(); ++i) {
     across_[i] += other.across_[i];
     along_[i] += other.along_[i];
@@ -152,7 +175,9 @@ void LayerOrder::save(StateWriter& writer) const {
   writer.tag("LayerOrder");
   writer.put(box_side_);
   writer.put(samples_);
+  writer.put(floor_);
   writer.put(amplitudes_);
+  writer.put(within_);
   writer.put(across_);
   writer.put(along_);
   writer.put(n_across_);
@@ -164,7 +189,9 @@ void LayerOrder::restore(StateReader& reader) {
   if (reader.real() != box_side_) throw StateError("saved analysis state: LayerOrder of another box");
   LayerOrder saved = *this;
   saved.samples_ = reader.integer(0, std::numeric_limits<std::int64_t>::max() / 2);
+  saved.floor_ = reader.real();
   saved.amplitudes_ = reader.reals(amplitudes_.size());
+  saved.within_ = reader.integers(within_.size());
   saved.across_ = reader.reals(across_.size());
   saved.along_ = reader.reals(along_.size());
   saved.n_across_ = reader.integers(n_across_.size());

@@ -25,6 +25,10 @@ struct LayerPeak {
   int m = 0, n = 0;       ///< the wave vector 2 pi (m, n) / L with the most power
   double wavelength = 0;  ///< [mm]; of the mean wave vector, see below
   double order = 0;       ///< 2 |sum_i s_i exp(-i q . r_i)| / N, root mean square over time
+  double floor = 0;       ///< 2 sqrt(<s^2> / N), the order without layers or any other correlation
+  /// Twice the floor: among rods without correlation the largest wave of a thousand gets there by chance in fewer than
+  /// about five independent samples only. Says nothing of why: the long waves of a nematic stand out as well.
+  bool stands_out() const { return order > 2 * floor; }
 };
 
 /// Order of the layered phase: stripes along the director in which rods are tilted to either side by turns. theta_N is
@@ -33,9 +37,11 @@ struct LayerPeak {
 /// amplitude of the wave in s: a for s = a sin(q . r), (4 / pi) sin 2 theta_m for stripes of equal width at +-theta_m
 /// (0.435 at 10 degrees), 2 sqrt(<s^2> / N) without layers, somewhat more as the peak is the largest of many. Layers
 /// that turn out of the cone count as none while they do. Waves must divide the box, so that wavelengths come in steps
-/// of about lambda^2 / L: quote L / lambda. The wavelength is that of the mean of the peak's wave vector and its
-/// neighbours (m +- 1, n +- 1), each with its power, in opposite pairs so that a flat background does not move it. A
-/// wavelength near L is the long-wave bend of a nematic, not layers.
+/// of about lambda^2 / L, and the one that rods would have in a box without end is known no better than to
+/// lambda^2 / (L sqrt(12)), the spread over one step: quote L / lambda. The wavelength is that of the mean of the
+/// peak's wave vector and its neighbours (m +- 1, n +- 1), each with its mean power while it was within the cone, in
+/// opposite pairs so that a flat background does not move it; pairs of which one was there for less than half as long
+/// as the peak are left out. A wavelength near L is the long-wave bend of a nematic, not layers.
 class LayerOrder {
  public:
   /// Waves no shorter than `shortest` [mm], and at most 40 of them to the box's side `box_side` [mm].
@@ -57,14 +63,20 @@ class LayerOrder {
   void restore(StateReader& reader);
 
  private:
-  /// Mean of 4 |sum|^2 / N^2 within the cone; 0 beyond the wave vectors that are kept.
-  double power(int m, int n) const;
+  /// A wave vector that is kept has a place in the tables, as has its opposite.
+  std::optional<std::size_t> find(int m, int n) const;
   std::size_t index(int m, int n) const;
+  /// Mean of 4 |sum|^2 / N^2, which is 0 while the wave vector is out of the cone; 0 beyond those that are kept.
+  double power(int m, int n) const;
+  /// The mean over the samples with the wave vector within the cone; none where they are fewer than `at_least`.
+  std::optional<double> power_within(int m, int n, std::int64_t at_least) const;
 
   double box_side_;
   int waves_;
   std::int64_t samples_ = 0;
+  double floor_ = 0;                    // sum over samples of 4 <s^2> / N
   std::vector<double> amplitudes_;      // (waves + 1, 2 waves + 1), sum over samples of 4 |sum|^2 / N^2 within the cone
+  std::vector<std::int64_t> within_;    // (waves + 1, 2 waves + 1), samples with the wave vector within the cone
   std::vector<double> across_, along_;  // (shells) sums of |sum|^2 / N
   std::vector<std::int64_t> n_across_, n_along_;  // (shells) terms of them
 };

@@ -410,7 +410,10 @@ std::vector<Field> make_table() {
   add(whole(
       "measure.tilt.bins", 2, 10000, "From the largest tilt that the gap allows downwards to upwards.",
       [](auto& p) -> auto& { return p.tilt->bins; }));
-  add(block("measure.defects", false, "Topological defects of the smoothed director field.", &RunPlan::defects));
+  add(block("measure.defects", false,
+            "Topological defects of the smoothed director field, which is smoothed through the border of the box, "
+            "walls or not.",
+            &RunPlan::defects));
   add(every(
       "measure.defects.every", "Time between samples.", [](auto& p) -> auto& { return p.defects->every; }));
   add(derived(quantity(
@@ -428,7 +431,10 @@ std::vector<Field> make_table() {
       "measure.defects.min_lifetime", kTime, 1e-7, 1e5,
       "Tracks seen for so long are told by themselves as lasting ones: noise makes short-lived pairs.",
       [](auto& p) -> auto& { return p.defects->min_lifetime; })));
-  add(block("measure.g2", false, "Orientational correlation G2(r) and pair distribution g(r).", &RunPlan::g2));
+  add(block("measure.g2", false,
+            "Orientational correlation G2(r) and pair distribution g(r). Distances go through the border of the box, "
+            "walls or not.",
+            &RunPlan::g2));
   add(every(
       "measure.g2.every", "Time between samples.", [](auto& p) -> auto& { return p.g2->every; }));
   add(whole(
@@ -442,10 +448,10 @@ std::vector<Field> make_table() {
             &RunPlan::fluctuations));
   add(every(
       "measure.fluctuations.every", "Time between samples.", [](auto& p) -> auto& { return p.fluctuations->every; }));
-  add(block(
-      "measure.frank", false,
-      "The director's fluctuations against the wave vector, and the ratio of the Frank constants of bend and splay.",
-      &RunPlan::frank));
+  add(block("measure.frank", false,
+            "The director's fluctuations against the wave vector, and the ratio of the Frank constants of bend and "
+            "splay. Not with walls.",
+            &RunPlan::frank));
   add(every(
       "measure.frank.every", "Time between samples.", [](auto& p) -> auto& { return p.frank->every; }));
 
@@ -471,21 +477,27 @@ std::vector<Field> make_table() {
   add(quantity(
       "measure.rods.duration", kTime, 1e-6, 1e7, "How long they are followed.",
       [](auto& p) -> auto& { return p.rods->duration; }));
-  add(block("measure.pairs", false, "Maps of g(x, y) and G2(x, y) in the frame of the director, and cuts through them.",
+  add(block("measure.pairs", false,
+            "Maps of g(x, y) and G2(x, y) in the frame of the director, and cuts through them. Not with walls.",
             &RunPlan::pairs));
   add(every(
       "measure.pairs.every", "Time between samples.", [](auto& p) -> auto& { return p.pairs->every; }));
   add(whole(
-      "measure.pairs.bins", 2, 1000, "Of the map each way; an odd number has one about 0.",
+      "measure.pairs.bins", 2, 201,
+      "Of the map each way; an odd number has one about 0. A run keeps 64 maps of its stretches of time, 16 bytes a "
+      "bin: "
+      "41 MB at most.",
       [](auto& p) -> auto& { return p.pairs->bins; }));
   add(derived(quantity(
                   "measure.pairs.range", kLength, 0.01, 1000, "Half the width of the map, at most half the box.",
                   [](auto& p) -> auto& { return p.pairs->range; }),
               "three rod lengths, at most half the box"));
-  add(block("measure.layers", false, "Layers along the director: spectrum, wavelength and order.", &RunPlan::layers));
+  add(block("measure.layers", false, "Layers along the director: spectrum, wavelength and order. Not with walls.",
+            &RunPlan::layers));
   add(every(
       "measure.layers.every", "Time between samples.", [](auto& p) -> auto& { return p.layers->every; }));
-  add(block("measure.lattice", false, "Crystals: psi_6 and the largest Bragg peak.", &RunPlan::lattice));
+  add(block("measure.lattice", false, "Crystals: psi_6 and the largest Bragg peak. Not with walls.",
+            &RunPlan::lattice));
   add(every(
       "measure.lattice.every", "Time between samples.", [](auto& p) -> auto& { return p.lattice->every; }));
 

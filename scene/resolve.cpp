@@ -47,6 +47,7 @@ class Resolver {
     box();
     gap();
     schedule();
+    periodic();
     if (!all_ok || problems_.size() > n_before) return std::nullopt;
     return plan_;
   }
@@ -446,9 +447,6 @@ class Resolver {
                fmt::format("measure.velocity.window {} is shorter than measure.velocity.every {}",
                            time(plan_.velocity->window), time(plan_.velocity->every)));
     }
-    if (plan_.frank && plan_.system.walls) {
-      complain({"measure.frank", "walls"}, "measure.frank is of the waves of a periodic box: walls leave none");
-    }
     if (plan_.defects && ok({"rods.length", "measure.defects.smoothing", "measure.defects.grid"})) {
       if (!given("measure.defects.smoothing")) plan_.defects->smoothing = plan_.system.rod.length / 2;
       if (!given("measure.defects.grid")) plan_.defects->grid = plan_.system.rod.length / 8;
@@ -463,6 +461,19 @@ class Resolver {
                         length(plan_.pairs->range), length(half_box)));
       }
     }
+  }
+
+  // What is only there without walls.
+  void periodic() {
+    if (!plan_.system.walls) return;
+    const auto refuse = [&](bool is_on, const std::string& block, const char* what) {
+      if (!is_on) return;
+      complain({block, "walls"}, fmt::format("{} is of {} of a periodic box: walls leave none", block, what));
+    };
+    refuse(plan_.frank.has_value(), "measure.frank", "the waves");
+    refuse(plan_.pairs.has_value(), "measure.pairs", "the nearest images");
+    refuse(plan_.layers.has_value(), "measure.layers", "the waves");
+    refuse(plan_.lattice.has_value(), "measure.lattice", "the nearest images and waves");
   }
 
   const Draft& draft_;

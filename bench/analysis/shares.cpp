@@ -24,15 +24,10 @@ std::vector<Single> singles_of(const scene::RunPlan& plan, const Species& specie
   for (const run::MeasurementKind& kind : run::measurement_kinds()) {
     const std::optional<double> every = kind.every(plan);
     if (!every) continue;
-    scene::RunPlan alone = plan;
-    alone.steady = 0;
-    for (const run::MeasurementKind& other : run::measurement_kinds()) {
-      if (other.name != kind.name) other.switch_off(alone);
-    }
     Single& single = singles.emplace_back();
     single.cost.name = kind.name;
     single.cost.every = *every;
-    single.measurements = std::make_unique<run::Measurements>(alone, species);
+    single.measurements = std::make_unique<run::Measurements>(only(plan, kind), species);
   }
   return singles;
 }

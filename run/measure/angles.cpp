@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "analysis/two_peaks.h"
-#include "run/measure/block_estimates.h"
+#include "run/measure/estimates.h"
 #include "run/measure/registry.h"
 
 namespace shaken::run {

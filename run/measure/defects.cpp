@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "analysis/director_field.h"
+#include "run/measure/estimates.h"
 #include "run/measure/registry.h"
 #include "sim/effects/side_walls.h"
 
@@ -15,38 +16,29 @@ namespace {
 analysis::DefectTracks::Settings track_settings(const MeasureContext& context) {
   const Scene& system = context.plan.system;
   const double area = system.walls ? system.walls->area() : system.box_side * system.box_side;
-  return {system.box_side, area, context.interval, system.rod.length, context.plan.defects->min_lifetime};
-}
-
-/// "/defects/tracks/NAME_mm_s" and its error, against the span.
-void put_speeds(const std::string& path, const std::vector<analysis::Estimate>& speeds, Observables& arrays) {
-  std::vector<double>& values = arrays[path + "_mm_s"];
-  std::vector<double>& sems = arrays[path + "_sem_mm_s"];
-  for (const analysis::Estimate& speed : speeds) {
-    values.push_back(speed.value);
-    sems.push_back(speed.sem);
-  }
+  return {system.box_side, area, context.interval, system.rod.length, context.plan.defects->min_lifetime,
+          !system.walls};
 }
 
 void put_tracks(const analysis::TrackSummary::Tracks& tracks, const std::string& folder, const std::string& prefix,
                 Reduction& result) {
-  put_speeds(folder + "speed_plus", tracks.speed_plus, result.arrays);
-  put_speeds(folder + "speed_minus", tracks.speed_minus, result.arrays);
-  put_speeds(folder + "speed_plus_along", tracks.along, result.arrays);
-  put_speeds(folder + "speed_plus_across", tracks.across, result.arrays);
-  const auto put = [&](const std::string& name, const analysis::Estimate& estimate) {
-    result.scalars[prefix + name] = {estimate.value, estimate.sem};
+  put(result, folder + "speed_plus", "_mm_s", tracks.speed_plus);
+  put(result, folder + "speed_minus", "_mm_s", tracks.speed_minus);
+  put(result, folder + "speed_plus_along", "_mm_s", tracks.along);
+  put(result, folder + "speed_plus_across", "_mm_s", tracks.across);
+  const auto number = [&](const char* name, const analysis::Estimate& estimate) {
+    result.scalars[prefix + name] = scalar(estimate);
   };
-  put("density_per_mm2", tracks.density);
-  put("creation_rate_per_mm2_s", tracks.creation_rate);
-  put("annihilation_rate_per_mm2_s", tracks.annihilation_rate);
-  put("lone_birth_rate_per_mm2_s", tracks.lone_birth_rate);
-  put("lone_death_rate_per_mm2_s", tracks.lone_death_rate);
-  put("lifetime_s", tracks.lifetime);
-  put("speed_plus_mm_s", tracks.speed_plus[analysis::kTrackSpan]);
-  put("speed_minus_mm_s", tracks.speed_minus[analysis::kTrackSpan]);
-  put("speed_plus_along_mm_s", tracks.along[analysis::kTrackSpan]);
-  put("speed_plus_across_mm_s", tracks.across[analysis::kTrackSpan]);
+  number("density_per_mm2", tracks.density);
+  number("creation_rate_per_mm2_s", tracks.creation_rate);
+  number("annihilation_rate_per_mm2_s", tracks.annihilation_rate);
+  number("lone_birth_rate_per_mm2_s", tracks.lone_birth_rate);
+  number("lone_death_rate_per_mm2_s", tracks.lone_death_rate);
+  number("lifetime_s", tracks.lifetime);
+  number("speed_plus_mm_s", tracks.speed_plus[analysis::kTrackSpan]);
+  number("speed_minus_mm_s", tracks.speed_minus[analysis::kTrackSpan]);
+  number("speed_plus_along_mm_s", tracks.along[analysis::kTrackSpan]);
+  number("speed_plus_across_mm_s", tracks.across[analysis::kTrackSpan]);
 }
 
 }  // namespace
@@ -82,7 +74,7 @@ void MeasuredDefects::reduce(Reduction& result) const {
   result.arrays["/defects/tracks/span_s"] = tracks.span;
   put_tracks(tracks.all, "/defects/tracks/", "defect_", result);
   put_tracks(tracks.lasting, "/defects/tracks/lasting/", "lasting_defect_", result);
-  result.scalars["defect_charge"] = {tracks.charge.value, tracks.charge.sem};
+  result.scalars["defect_charge"] = scalar(tracks.charge);
   if (!series_.keeps_list()) return;
   result.arrays["/defects/list/time_s"] = series_.list().time;
   result.arrays["/defects/list/x_mm"] = series_.list().x;

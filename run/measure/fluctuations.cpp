@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 #include <numbers>
-#include <string>
 #include <utility>
 
 #include "analysis/blocked.h"
 #include "analysis/number_fluctuations.h"
+#include "run/measure/estimates.h"
 #include "run/measure/registry.h"
 #include "sim/effects/side_walls.h"
 
@@ -21,19 +21,10 @@ class MeasuredFluctuations : public Measurement {
     const analysis::NumberFluctuationCurve curve = analysis::NumberFluctuations::reduce(counts_, result.t_steady);
     result.arrays["/fluctuations/area_fraction"] = curve.area_fraction;
     result.arrays["/fluctuations/mean_n"] = curve.mean_n;
-    const auto put = [&](const std::string& path, const std::vector<analysis::Estimate>& spreads) {
-      std::vector<double>& values = result.arrays[path];
-      std::vector<double>& sems = result.arrays[path + "_sem"];
-      for (const analysis::Estimate& spread : spreads) {
-        values.push_back(spread.value);
-        sems.push_back(spread.sem);
-      }
-    };
-    put("/fluctuations/std_n", curve.std_n);
-    put("/fluctuations/std_n_without_map", curve.std_n_without_map);
-    result.scalars["fluctuation_exponent"] = {curve.exponent.value, curve.exponent.sem};
-    result.scalars["fluctuation_exponent_without_map"] = {curve.exponent_without_map.value,
-                                                          curve.exponent_without_map.sem};
+    put(result, "/fluctuations/std_n", "", curve.std_n);
+    put(result, "/fluctuations/std_n_without_map", "", curve.std_n_without_map);
+    result.scalars["fluctuation_exponent"] = scalar(curve.exponent);
+    result.scalars["fluctuation_exponent_without_map"] = scalar(curve.exponent_without_map);
   }
   void save(analysis::StateWriter& writer) const override { counts_.save(writer); }
   void restore(analysis::StateReader& reader) override { counts_.restore(reader); }

@@ -3,6 +3,7 @@
 
 #include "analysis/blocked.h"
 #include "analysis/director_fluctuations.h"
+#include "run/measure/estimates.h"
 #include "run/measure/registry.h"
 
 namespace shaken::run {
@@ -18,15 +19,10 @@ class MeasuredFrank : public Measurement {
     result.arrays["/frank/q_along_per_mm"] = spectrum.q_along;
     result.arrays["/frank/q_across_per_mm"] = spectrum.q_across;
     result.arrays["/frank/fit_mm2"] = spectrum.fit;
-    std::vector<double>& power = result.arrays["/frank/power_mm2"];
-    std::vector<double>& sem = result.arrays["/frank/power_sem_mm2"];
-    for (const analysis::Estimate& square : spectrum.power) {
-      power.push_back(square.value);
-      sem.push_back(square.sem);
-    }
-    result.scalars["frank_ratio"] = {spectrum.ratio.value, spectrum.ratio.sem};
-    result.scalars["frank_splay"] = {spectrum.splay.value, spectrum.splay.sem};
-    result.scalars["frank_bend"] = {spectrum.bend.value, spectrum.bend.sem};
+    put(result, "/frank/power", "_mm2", spectrum.power);
+    result.scalars["frank_ratio"] = scalar(spectrum.ratio);
+    result.scalars["frank_splay"] = scalar(spectrum.splay);
+    result.scalars["frank_bend"] = scalar(spectrum.bend);
     result.scalars["frank_chi2"].value = spectrum.chi2;
     result.scalars["frank_floor_mm2"].value = spectrum.floor;
   }

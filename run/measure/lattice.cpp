@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "analysis/lattice.h"
 
-#include "run/measure/block_estimates.h"
+#include "run/measure/estimates.h"
 #include "run/measure/registry.h"
-#include "run/measure/rod_size.h"
 
 namespace shaken::run {
 namespace {
@@ -34,7 +33,7 @@ class MeasuredLattice : public Measurement {
 }  // namespace
 
 std::unique_ptr<Measurement> make_lattice(const MeasureContext& context) {
-  const double length = rod_length(context.species), width = rod_width(context.species);
+  const double length = context.plan.system.rod.length, width = 2 * context.species.max_radius;
   return std::make_unique<MeasuredLattice>(
       analysis::LatticeOrder::Shape{context.plan.system.box_side, length / width, width / 2, 2 * length});
 }

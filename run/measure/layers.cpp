@@ -3,9 +3,8 @@
 
 #include <cmath>
 
-#include "run/measure/block_estimates.h"
+#include "run/measure/estimates.h"
 #include "run/measure/registry.h"
-#include "run/measure/rod_size.h"
 
 namespace shaken::run {
 namespace {
@@ -25,13 +24,17 @@ class MeasuredLayers : public Measurement {
     result.arrays["/layers/spectrum_along"] = spectrum.along;
     const std::optional<analysis::LayerPeak> peak = layers.peak();
     if (!peak) return;
-    // The errors are those of the one peak, not of which is the highest.
+    // The errors are those of the one peak, not of which is the highest; and of the steps in which waves fit the box.
     const auto found = block_estimates(layers_, result.t_steady, [&](const analysis::LayerOrder& part) {
       const analysis::LayerPeak same = part.peak_at(peak->m, peak->n);
       return std::vector<double>{same.wavelength, box_side_ / same.wavelength, same.order};
     });
-    result.scalars["wavelength_mm"] = found[0];
-    result.scalars["layers_per_box"] = found[1];
+    const auto with_steps = [&](const Scalar& of_blocks, double step) -> Scalar {
+      if (!peak->stands_out()) return {};  // there are no layers to have a wavelength
+      return {of_blocks.value, std::hypot(of_blocks.sem, step / std::sqrt(12.0))};
+    };
+    result.scalars["wavelength_mm"] = with_steps(found[0], peak->wavelength * peak->wavelength / box_side_);
+    result.scalars["layers_per_box"] = with_steps(found[1], 1);
     result.scalars["layer_order"] = found[2];
   }
   void save(analysis::StateWriter& writer) const override { layers_.save(writer); }
@@ -45,7 +48,8 @@ class MeasuredLayers : public Measurement {
 }  // namespace
 
 std::unique_ptr<Measurement> make_layers(const MeasureContext& context) {
-  return std::make_unique<MeasuredLayers>(context.plan.system.box_side, rod_length(context.species) / 2);
+  const Scene& system = context.plan.system;
+  return std::make_unique<MeasuredLayers>(system.box_side, system.rod.length / 2);
 }
 
 }  // namespace shaken::run

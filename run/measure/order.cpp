@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "run/measure/order.h"
 
-#include "run/measure/block_estimates.h"
+#include "run/measure/estimates.h"
 #include "run/measure/registry.h"
 
 namespace shaken::run {

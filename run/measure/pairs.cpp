@@ -4,9 +4,8 @@
 
 #include "analysis/oscillation.h"
 #include "analysis/pair_map.h"
-#include "run/measure/block_estimates.h"
+#include "run/measure/estimates.h"
 #include "run/measure/registry.h"
-#include "run/measure/rod_size.h"
 
 namespace shaken::run {
 namespace {
@@ -50,9 +49,10 @@ class MeasuredPairs : public Measurement {
 std::unique_ptr<Measurement> make_pairs(const MeasureContext& context) {
   const scene::MeasurePairs& pairs = *context.plan.pairs;
   const double box = context.plan.system.box_side;
-  const double range = pairs.range > 0 ? pairs.range : 3 * rod_length(context.species);
-  return std::make_unique<MeasuredPairs>(analysis::PairMap::Shape{pairs.bins, std::min(range, box / 2),
-                                                                  std::min(rod_width(context.species), box / 2), box});
+  const double width = 2 * context.species.max_radius;
+  const double range = pairs.range > 0 ? pairs.range : 3 * context.plan.system.rod.length;
+  return std::make_unique<MeasuredPairs>(
+      analysis::PairMap::Shape{pairs.bins, std::min(range, box / 2), std::min(width, box / 2), box});
 }
 
 }  // namespace shaken::run

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -12,7 +13,7 @@ namespace shaken::run {
 
 /// How state and file of a measurement grow with the number of samples.
 enum class Growth {
-  kSeries,  ///< in proportion, but for blocks besides
+  kSeries,  ///< with those that are kept one by one (MeasurementKind::kept), but for blocks besides
   kBlocks,  ///< the state up to 64 samples' worth (analysis/blocked.h), the file not at all
   kLags,    ///< with the logarithm
 };
@@ -24,12 +25,15 @@ struct MeasurementKind {
   void (*switch_off)(scene::RunPlan&);
   std::unique_ptr<Measurement> (*make)(const MeasureContext&);
   Growth growth;
-  /// Samples are kept for no longer than this [s]; null: for the whole run.
-  double (*keeps_for)(const scene::RunPlan&) = nullptr;
+  /// How many of so many samples are kept one by one; null: all.
+  std::int64_t (*kept)(const scene::RunPlan&, std::int64_t samples) = nullptr;
 };
 
 /// All of them, in the order in which they sample and are saved.
 std::span<const MeasurementKind> measurement_kinds();
+
+/// The plan with `kind` as all that is measured, from its start on.
+scene::RunPlan only(scene::RunPlan plan, const MeasurementKind& kind);
 
 std::unique_ptr<Measurement> make_order(const MeasureContext& context);
 std::unique_ptr<Measurement> make_angles(const MeasureContext& context);

@@ -2,8 +2,6 @@
 #include "run/probe/sampling.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <vector>
 
 #include "run/measurements.h"
@@ -16,41 +14,18 @@ namespace {
 
 constexpr double kCpu = 0.02;  ///< for timing one kind of sample, about [s]
 
-/// One measurement of the plan by itself.
-struct Single {
-  std::string effect;
-  scene::RunPlan plan;
-  double every = 0;  ///< [s]
-  Growth growth = Growth::kSeries;
-  double keeps_for = std::numeric_limits<double>::infinity();  ///< [s]
-};
-
-std::vector<Single> measurements_of(const scene::RunPlan& plan) {
-  std::vector<Single> singles;
-  for (const MeasurementKind& kind : measurement_kinds()) {
-    const std::optional<double> every = kind.every(plan);
-    if (!every) continue;
-    Single single{"measure_" + std::string(kind.name), plan, *every, kind.growth};
-    if (kind.keeps_for != nullptr) single.keeps_for = kind.keeps_for(plan);
-    single.plan.steady = 0;  // from the first sample on
-    for (const MeasurementKind& other : measurement_kinds()) {
-      if (other.name != kind.name) other.switch_off(single.plan);
-    }
-    singles.push_back(std::move(single));
-  }
-  return singles;
-}
-
 double bytes_of(const Observables& arrays) {
   std::size_t n = 0;
   for (const auto& [path, values] : arrays) n += values.size();
   return 8.0 * static_cast<double>(n);
 }
 
+constexpr std::int64_t kMostBlocks = 64;
+
 /// Blocks in use after so many samples: at most 64, and twice as long when those are used up (analysis/blocked.h).
 double blocks(std::int64_t samples) {
   std::int64_t length = 1;
-  while (samples > 64 * length) length *= 2;
+  while (samples > kMostBlocks * length) length *= 2;
   const std::int64_t n = (samples + length - 1) / length;
   return static_cast<double>(n);
 }
@@ -68,9 +43,11 @@ SamplingCost time_sampling(const scene::RunPlan& plan, const Species& species, c
   SamplingCost cost;
   Observables arrays;
   double later_bytes = 0;  // of arrays, beyond those at hand
-  for (const Single& single : measurements_of(plan)) {
-    const Cadence cadence(single.every, plan.system.dt);
-    Measurements measurements(single.plan, species);
+  for (const MeasurementKind& kind : measurement_kinds()) {
+    const std::optional<double> every = kind.every(plan);
+    if (!every) continue;
+    const Cadence cadence(*every, plan.system.dt);
+    Measurements measurements(only(plan, kind), species);
     std::vector<Snapshot> states = snapshots;
     Tick taken = 0;
     const auto sample = [&] {
@@ -82,27 +59,44 @@ SamplingCost time_sampling(const scene::RunPlan& plan, const Species& species, c
     };
     sample();
     const double first_bytes = static_cast<double>(measurements.save().size());
-    const double first_array_bytes = bytes_of(measurements.reduce(single.every).arrays);
+    const double first_array_bytes = bytes_of(measurements.reduce(*every).arrays);
 
-    Cost& samples = cost.samples[single.effect];
+    Cost& samples = cost.samples["measure_" + std::string(kind.name)];
     samples.count = total_ticks(plan) / cadence.period() + 1;
-    const double begin = thread_cpu_seconds();
+    double begin = thread_cpu_seconds();
+    double early_bytes = first_bytes;                                    // with every block in use for the first time
     const std::int64_t most = std::max<std::int64_t>(samples.count, 3);  // not more than the run will take
-    while (taken < 3 || (taken < most && thread_cpu_seconds() - begin < kCpu)) sample();
+    while (taken < 3 || (taken < most && thread_cpu_seconds() - begin < kCpu)) {
+      sample();
+      if (taken != kMostBlocks) continue;
+      const double pause = thread_cpu_seconds();
+      early_bytes = static_cast<double>(measurements.save().size());
+      begin += thread_cpu_seconds() - pause;
+    }
     samples.each = (thread_cpu_seconds() - begin) / static_cast<double>(taken - 1);
 
-    const double kept = std::min(static_cast<double>(samples.count), single.keeps_for / single.every + 1);
-    const double more = std::max(0.0, kept - static_cast<double>(taken));
     const double state = static_cast<double>(measurements.save().size());
-    const Observables found = measurements.reduce(static_cast<double>(taken) * single.every).arrays;
-    switch (single.growth) {
-      case Growth::kSeries: {  // what the file gains is kept sample by sample; the rest of the state is in blocks
-        const double per_sample = (bytes_of(found) - first_array_bytes) / static_cast<double>(taken - 1);
-        const double per_block =
-            (state - first_bytes - per_sample * static_cast<double>(taken - 1)) / (blocks(taken) - 1);
+    const Observables found = measurements.reduce(static_cast<double>(taken) * *every).arrays;
+    switch (kind.growth) {
+      case Growth::kSeries: {
+        const auto kept = [&](std::int64_t n) {
+          return static_cast<double>(kind.kept != nullptr ? kind.kept(plan, n) : n);
+        };
+        const double gained = kept(taken) - 1;
+        const double in_file = gained > 0 ? (bytes_of(found) - first_array_bytes) / gained : 0.0;
+        later_bytes += in_file * std::max(0.0, kept(samples.count) - kept(taken));
+        // The state has two unknowns, a sample's bytes and a block's. While every sample makes a block they cannot be
+        // told apart: then what the file gains is taken for the sample's.
+        const double early = kept(kMostBlocks) - 1, late = kept(taken) - kept(kMostBlocks),
+                     more = blocks(taken) - kMostBlocks;
+        const double determinant = late * (kMostBlocks - 1) - early * more;
+        double per_sample = in_file;
+        if (taken >= 2 * kMostBlocks && determinant > 0) {
+          per_sample = ((state - early_bytes) * (kMostBlocks - 1) - (early_bytes - first_bytes) * more) / determinant;
+        }
+        const double per_block = (state - first_bytes - per_sample * gained) / (blocks(taken) - 1);
         cost.state_bytes +=
-            first_bytes + per_sample * static_cast<double>(samples.count - 1) + per_block * (blocks(samples.count) - 1);
-        later_bytes += per_sample * more;
+            first_bytes + per_sample * (kept(samples.count) - 1) + per_block * (blocks(samples.count) - 1);
         break;
       }
       case Growth::kBlocks: {

@@ -51,6 +51,23 @@ TEST(DefectTracks, FollowsThroughTheBorders) {
   EXPECT_NEAR(summary.span[kTrackSpan], 0.4, 1e-12);
 }
 
+// Within walls nothing is near through the border: what was there goes alone, what comes on the other side does too,
+// and those at opposite borders that vanish together are no pair.
+TEST(DefectTracks, NothingGoesThroughWalls) {
+  DefectTracks through = tracking();
+  DefectTracks within({kBox, kArea, kInterval, 3.0, 0.45, false});
+  for (DefectTracks* tracks : {&through, &within}) {
+    tracks->accumulate(0, std::vector{at(0.3, 20, 0.5), at(39.7, 5, 0.5), at(0.3, 5, -0.5)});
+    tracks->accumulate(kInterval, std::vector{at(39.8, 20, 0.5)});
+  }
+  EXPECT_EQ(through.ids(), (std::vector<std::int64_t>{0}));
+  EXPECT_NEAR(events(through.reduce(0).all.annihilation_rate, 2), 1, 1e-9);
+  EXPECT_EQ(within.ids(), (std::vector<std::int64_t>{3}));
+  EXPECT_EQ(within.reduce(0).all.annihilation_rate.value, 0);
+  EXPECT_NEAR(events(within.reduce(0).all.lone_death_rate, 2), 3, 1e-9);
+  EXPECT_NEAR(events(within.reduce(0).all.lone_birth_rate, 2), 1, 1e-9);
+}
+
 // Across: to the left of the tail's ray is positive.
 TEST(DefectTracks, AcrossHasASign) {
   DefectTracks tracks = tracking();

@@ -78,6 +78,8 @@ TEST(LayerOrder, OfStripes) {
   }
   EXPECT_NEAR(layers.peak()->wavelength, kBox / 4, 0.2);
   EXPECT_NEAR(layers.peak()->order / (4 / kPi * std::sin(2 * kThetaM)), 1.0, 0.03);
+  EXPECT_NEAR(layers.peak()->floor, 2 * std::sin(2 * kThetaM) / std::sqrt(2000), 1e-3);
+  EXPECT_TRUE(layers.peak()->stands_out());
 }
 
 // A nematic without layers: the spectrum is <s^2>, flat, and the order the floor 2 sqrt(<s^2> / N) a little raised by
@@ -101,6 +103,8 @@ TEST(LayerOrder, OfAUniformNematicIsTheFloor) {
   const double floor = 2 * std::sqrt(square / kRods);
   EXPECT_GT(layers.peak()->order, floor);
   EXPECT_LT(layers.peak()->order, 1.2 * floor);
+  EXPECT_NEAR(layers.peak()->floor / floor, 1.0, 0.02);
+  EXPECT_FALSE(layers.peak()->stands_out());
 }
 
 // A wave along the director is no layer; one that has it at a steep angle is out of the cone.
@@ -124,6 +128,29 @@ TEST(LayerOrder, InterpolatesBetweenWavesOfTheBox) {
   EXPECT_NEAR(kBox / layers.peak()->wavelength, 6.5, 0.05);
 }
 
+// A weak wave on the background of uncorrelated rods, with neighbours at the edge of the cone of 30 degrees: those of
+// (0, 2) at 45 degrees are out and their opposites, at 18, in; those of (0, 3) at 27 degrees go in and out as the
+// director turns. The background has a tenth of the wave's power at each of eight neighbours. One counted with its
+// opposite left out, or less often, would move the wavelength by 0.12 of a wave to the box for (0, 2), 0.04 for (0, 3).
+TEST(LayerOrder, ABackgroundAtTheEdgeOfTheConeMovesNothing) {
+  constexpr double kAmplitude = 0.06, kSpread = 0.15;
+  for (const int waves : {2, 3}) {
+    for (const double turns : {0.0, 0.25}) {
+      Draw draw(167);
+      LayerOrder layers(kBox, 4.5);
+      for (int t = 0; t < 400; ++t) {
+        const double director = draw.uniform(-turns, turns);
+        const Rods rods = layered(draw, 1000, director, 0, waves, [&](double phase) {
+          return 0.5 * std::asin(kAmplitude * std::sin(phase)) + kSpread * draw.normal();
+        });
+        layers.accumulate(rods.places, rods.axes);
+      }
+      ASSERT_EQ(layers.peak()->n, waves);
+      EXPECT_NEAR(kBox / layers.peak()->wavelength, waves, 0.025) << waves << " waves, turning by " << turns;
+    }
+  }
+}
+
 TEST(LayerOrder, MergeSaveAndOddInput) {
   Draw draw(166);
   LayerOrder straight(kBox, 10), stopped(kBox, 10), first(kBox, 10), second(kBox, 10);
@@ -138,6 +165,7 @@ TEST(LayerOrder, MergeSaveAndOddInput) {
   expect_every_truncation_found(stopped);
   first.merge(second);
   EXPECT_NEAR(first.peak()->order, straight.peak()->order, 1e-12);
+  EXPECT_NEAR(first.peak()->floor, straight.peak()->floor, 1e-12);
   EXPECT_THROW(LayerOrder(kBox, 12).merge(first), std::logic_error);
   EXPECT_THROW(LayerOrder(kBox, 0), std::logic_error);
   const std::vector<std::byte> bytes = state(straight);

@@ -135,6 +135,19 @@ TEST(Measurements, WhatIsNotInThePlanDoesNotExist) {
   EXPECT_EQ(reduction.t_steady, 1.0);
 }
 
+TEST(MeasurementKinds, EachByItself) {
+  scene::RunPlan p = plan();
+  p.steady = 3.0;
+  ASSERT_EQ(measurement_kinds().size(), 14U);
+  for (const MeasurementKind& kind : measurement_kinds()) {
+    const scene::RunPlan alone = only(p, kind);
+    EXPECT_EQ(alone.steady, 0.0);
+    for (const MeasurementKind& other : measurement_kinds()) {
+      EXPECT_EQ(other.every(alone), other.name == kind.name ? kind.every(p) : std::nullopt) << kind.name << other.name;
+    }
+  }
+}
+
 // Every defect of the list has its place, and the means are those of the list.
 TEST(Measurements, DefectsHaveTracksAndAListOnlyIfAskedFor) {
   scene::RunPlan p = plan();
@@ -233,14 +246,39 @@ TEST(Measurements, FindPlantedLayers) {
   };
   check("theta_m_deg", 15, 1);
   check("dip", 0, 0.05);
-  check("wavelength_mm", kWavelength, 0.1);
+  check("wavelength_mm", kWavelength, 0.2);
   check("layers_per_box", 4, 0.1);
+  // Wherever layers would like to be, four or five of them must fit the box.
+  EXPECT_NEAR(scalars.at("layers_per_box").sem, 1 / std::sqrt(12), 0.03);
+  EXPECT_NEAR(scalars.at("wavelength_mm").sem, 25 / 20.0 / std::sqrt(12), 0.04);
   check("layer_order", 4 / kPi * std::sin(2 * kThetaM), 0.04);
   check("wavelength_g2_mm", kWavelength, 0.5);
   check("binder", 1, 0.01);
   EXPECT_LT(scalars.at("bragg_peak").value, 0.2);
   EXPECT_LT(scalars.at("psi_6").value, 0.2);
   EXPECT_GT(scalars.at("susceptibility").value, 0);
+}
+
+// Rods a little off the director at random: a peak there is, but no layers to have a wavelength.
+TEST(Measurements, NoLayersHaveNoWavelength) {
+  Measurements measurements(plan(), species());
+  std::mt19937_64 rng(6);
+  std::normal_distribution<double> normal;
+  for (Tick tick = 0; tick <= 100000; tick = measurements.next_due(tick + 1)) {
+    Snapshot s = random_snapshot(tick);
+    for (Vec3& n : s.director) {
+      const double theta = 0.2 * normal(rng);
+      n = Vec3(std::cos(theta), std::sin(theta), 0);
+    }
+    measurements.sample(s);
+  }
+  const std::map<std::string, Scalar> scalars = measurements.reduce(1.0).scalars;
+  for (const char* name : {"wavelength_mm", "layers_per_box"}) {
+    EXPECT_TRUE(std::isnan(scalars.at(name).value)) << name;
+    EXPECT_TRUE(std::isnan(scalars.at(name).sem)) << name;
+  }
+  EXPECT_NEAR(scalars.at("layer_order").value, 2 * 0.37 / std::sqrt(100), 0.03);
+  EXPECT_GT(scalars.at("layer_order").sem, 0);
 }
 
 TEST(Measurements, DefectsBeyondTheSideWallsDoNotCount) {
@@ -259,6 +297,26 @@ TEST(Measurements, DefectsBeyondTheSideWallsDoNotCount) {
   EXPECT_EQ(static_cast<std::ptrdiff_t>(inside.size()), expected);
   EXPECT_GT(inside.size(), 0U);
   EXPECT_LT(inside.size(), everywhere.size());
+}
+
+TEST(Measurements, DefectsAreNotTrackedThroughSideWalls) {
+  scene::RunPlan p;
+  p.system = plan().system;
+  p.system.walls = SideWalls{Arena::kSquare, 19};
+  p.steady = 0.0;
+  p.defects = plan().defects;
+  Measurements measurements(p, species());
+  const double length = p.system.rod.length;
+  analysis::DefectTracks within({20, 19 * 19, 0.05, length, 0.02, false});
+  analysis::DefectTracks through({20, 19 * 19, 0.05, length, 0.02, true});
+  for (Tick tick = 0; tick <= 50000; tick += 5000) {
+    measurements.sample(random_snapshot(tick));
+    within.accumulate(static_cast<double>(tick) * kDt, measurements.last_defects()->defects);
+    through.accumulate(static_cast<double>(tick) * kDt, measurements.last_defects()->defects);
+  }
+  const double alone = measurements.reduce(0.5).scalars.at("defect_lone_death_rate_per_mm2_s").value;
+  EXPECT_NEAR(alone, within.reduce(0).all.lone_death_rate.value, 1e-12);
+  EXPECT_GT(std::abs(alone - through.reduce(0).all.lone_death_rate.value), 1e-6);
 }
 
 TEST(Measurements, DisplacementsCountCrossingsOfTheBorderFromTheSteadyTimeOn) {

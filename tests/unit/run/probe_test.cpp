@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
@@ -10,6 +11,7 @@
 #include "run/files/atomic_file.h"
 #include "run/loop.h"
 #include "run/probe/report.h"
+#include "run/probe/sampling.h"
 #include "run/session.h"
 #include "sim/effects/registry.h"
 #include "tests/unit/run/temporary_folder.h"
@@ -75,6 +77,56 @@ TEST(Probe, FindsWhatARunThenTakes) {
   const double cpu = probed->total() / summary["cpu_seconds"].get<double>();
   EXPECT_GT(cpu, 1.0 / 3);
   EXPECT_LT(cpu, 3);
+}
+
+// What is kept of a long run is bounded: S(t) and the numbers of defects at 65,536 points, single rods' ways by their
+// duration; but for the list of defects.
+TEST(Sampling, FindsWhatALongRunThenKeeps) {
+  const scene::RunPlan busy = busy_plan();
+  std::vector<Snapshot> states{Simulation::start(busy.system).value().snapshot()};
+  for (std::size_t i = 0; i < states[0].n_rods(); ++i) {  // for some defects
+    const auto angle = static_cast<double>(i * i);
+    states[0].director[i] = Vec3(std::cos(angle), std::sin(angle), 0);
+  }
+  const Species species = make_species(busy.system.rod);
+  const auto promised = [&](const scene::RunPlan& plan) { return time_sampling(plan, species, states); };
+  scene::RunPlan nothing;
+  nothing.system = busy.system;
+  nothing.order.reset();
+
+  scene::RunPlan plan = nothing;
+  plan.measure_time = 6000;
+  plan.order = scene::MeasureOrder{0.001};
+  EXPECT_LT(promised(plan).state_bytes, 3e6);
+  EXPECT_LT(promised(plan).file_bytes, 3e6);
+  EXPECT_GT(promised(plan).file_bytes, 32768 * 24);
+  plan.order.reset();
+  plan.defects = scene::MeasureDefects{0.01, 1.25, 0.3125};
+  EXPECT_LT(promised(plan).state_bytes, 5e6);
+  const double counts = promised(plan).file_bytes;
+  EXPECT_LT(counts, 3e6);
+  plan.defects->list = true;
+  EXPECT_GT(promised(plan).file_bytes, counts + 1e6);
+
+  // against as many samples: 1.5 times what one sample a point has room for, and longer than rods are followed
+  plan = nothing;
+  plan.measure_time = 100;
+  plan.order = scene::MeasureOrder{0.001};
+  plan.rods = scene::MeasureRods{0.01, 4, 20};
+  const SamplingCost cost = promised(plan);
+  plan.steady = 0;
+  Measurements measurements(plan, species);
+  Snapshot state = states.front();
+  const Tick end = total_ticks(plan);
+  for (Tick tick = 0; tick <= end; tick = measurements.next_due(tick + 1)) {
+    state.tick = tick;
+    state.time = static_cast<double>(tick) * plan.system.dt;
+    measurements.sample(state);
+  }
+  EXPECT_NEAR(cost.state_bytes / static_cast<double>(measurements.save().size()), 1, 0.02);
+  const TemporaryFolder folder;
+  ASSERT_FALSE(write_observables(folder.path() / "observables.h5", measurements.reduce(100).arrays));
+  EXPECT_NEAR(cost.file_bytes / bytes_of(folder.path() / "observables.h5"), 1, 0.02);
 }
 
 TEST(Probe, SharesArePartsOfOneWhole) {

@@ -124,9 +124,24 @@ TEST(Problems, OfSeveralKindsOfRods) {
             "run.json:1:63: /rods/beads: rods.beads follows from rods.bead_diameters, which makes it 2; remove it");
 }
 
+TEST(Problems, MapsThatTakeTooMuchMemory) {
+  EXPECT_EQ(plan_of(R"({"measure": {"pairs": {"bins": 201}}})").pairs->bins, 201);
+  EXPECT_EQ(problem_of(R"({"measure": {"pairs": {"bins": 1000}}})"),
+            "run.json:1:32: /measure/pairs/bins: 1000 is outside [2, 201]");
+}
+
 TEST(Problems, OfWallsAndPlates) {
   EXPECT_EQ(problem_of(R"({"walls": {}, "measure": {"frank": {}}})"),
             "run.json:1:36: /measure/frank: measure.frank is of the waves of a periodic box: walls leave none");
+  EXPECT_THAT(
+      problems_of(R"({"walls": {}, "measure": {"g2": {}, "lattice": {}, "layers": {}, "pairs": {}, "frank": {}}})"),
+      ElementsAre("run.json:1:48: /measure/lattice: measure.lattice is of the nearest images and waves of a periodic "
+                  "box: walls leave none",
+                  "run.json:1:62: /measure/layers: measure.layers is of the waves of a periodic box: walls leave none",
+                  "run.json:1:75: /measure/pairs: measure.pairs is of the nearest images of a periodic box: walls "
+                  "leave none",
+                  "run.json:1:88: /measure/frank: measure.frank is of the waves of a periodic box: walls leave none"));
+  plan_of(R"({"walls": {}, "measure": {"defects": {}, "g2": {}, "pairs": null, "layers": false}})");
   EXPECT_EQ(problem_of(R"({"walls": {"size": "50 mm"}, "box": {"side": "50 mm"}})"),
             "run.json:1:20: /walls/size: an arena of 50 mm does not fit into a box of 50 mm: at most 49 mm; or leave "
             "box.side out");
