@@ -674,20 +674,35 @@ def check_layers(run, table):
 
     def peak(some):
         mean = amplitude[some].mean(0)
-        at = lambda a, b: mean[number[a, b]] if (a, b) in number else 0.0  # noqa: E731
-        weight, centre = mean[best], mean[best] * np.array([m[best], n[best]], float)
+        times = across[some].sum(0)
+        often = max(1, (times[best] + 1) // 2)
+
+        def within(a, b):  # mean while it is within the cone
+            k = number.get((a, b))
+            return amplitude[some][:, k].sum() / times[k] if k is not None and times[k] >= often else None
+
+        weight = within(m[best], n[best]) or 0.0
+        centre = weight * np.array([m[best], n[best]], float)
         for dm, dn in ((1, 0), (0, 1), (1, 1), (1, -1)):
             ends = [(m[best] + s * dm, n[best] + s * dn) for s in (1, -1)]
-            if (0, 0) in ends:
+            powers = [within(*end) for end in ends]
+            if (0, 0) in ends or None in powers:
                 continue
-            for end in ends:
-                weight += at(*end)
-                centre += at(*end) * np.array(end)
+            weight += sum(powers)
+            centre += sum(power * np.array(end) for power, end in zip(powers, ends))
         waves_to_box = np.linalg.norm(centre) / weight if weight > 0 else size[best]
         return run.box / waves_to_box, waves_to_box, np.sqrt(mean[best])
 
-    for name, value, sem in zip(("wavelength_mm", "layers_per_box", "layer_order"), *jackknife(parts, peak)):
-        scalar(run, table, name, "direct sums", value, sem)
+    value, sem = jackknife(parts, peak)
+    floor = 2 * np.sqrt(np.mean([np.mean(np.sin(2 * (run.theta[frames[k]] - run.axis[frames[k]])) ** 2)
+                                 for k in kept]) / run.n)
+    if value[2] > 2 * floor:  # waves fit the box in steps of one
+        sem[0] = np.hypot(sem[0], value[0] ** 2 / run.box / np.sqrt(12))
+        sem[1] = np.hypot(sem[1], 1 / np.sqrt(12))
+    else:
+        value[:2] = sem[:2] = np.nan
+    for k, name in enumerate(("wavelength_mm", "layers_per_box", "layer_order")):
+        scalar(run, table, name, "direct sums", value[k], sem[k])
 
 
 def check_lattice(run, table):

@@ -325,21 +325,33 @@ Finding angle_falls_with_length(const Library& runs) {
 Finding angle_falls_with_end(const Library& runs) {
   return trend(layered_by_end(runs), "rods.end_diameter", "theta_m_deg", false, 1, " (degrees)");
 }
+/// A trend of the wavelength, over runs that have layers.
+Finding wavelength_trend(const RunSet& runs, const std::string& key, bool rising) {
+  const RunSet with_layers = layered(runs);
+  if (values_of(runs, key).size() < 2) return {};
+  if (values_of(with_layers, key).size() < 2) {
+    return {Verdict::kUnresolved, "layers at " + std::to_string(values_of(with_layers, key).size()) + " of " +
+                                      std::to_string(values_of(runs, key).size()) + " points"};
+  }
+  return trend(with_layers, key, "wavelength_mm", rising, 1, " (mm)");
+}
+
 Finding wavelength_falls_with_packing(const Library& runs) {
-  return trend(layered_by_packing(runs), "rods.area_fraction", "wavelength_mm", false, 1, " (mm)");
+  return wavelength_trend(layered_by_packing(runs), "rods.area_fraction", false);
 }
 Finding wavelength_grows_with_length(const Library& runs) {
-  return trend(layered_by_length(runs), "rods.length", "wavelength_mm", true, 1, " (mm)");
+  return wavelength_trend(layered_by_length(runs), "rods.length", true);
 }
 Finding wavelength_grows_with_end(const Library& runs) {
-  return trend(layered_by_end(runs), "rods.end_diameter", "wavelength_mm", true, 1, " (mm)");
+  return wavelength_trend(layered_by_end(runs), "rods.end_diameter", true);
 }
 
 Finding larger_box(const Library& runs) {
   const RunSet small = layers(runs, 4.5, 0.80);
   const RunSet& large = runs["large"];
   if (small.empty() || large.empty()) return {};
-  const Quantity lambda[] = {mean_scalar(small, "wavelength_mm"), mean_scalar(large, "wavelength_mm")};
+  const Quantity lambda[] = {mean_scalar(layered(small), "wavelength_mm"),
+                             mean_scalar(layered(large), "wavelength_mm")};
   const Quantity theta[] = {mean_scalar(small, "theta_m_deg"), mean_scalar(large, "theta_m_deg")};
   return {verdict_of({larger(lambda[1], lambda[0]), larger(theta[0], theta[1])}),
           fmt::format("λ = {} mm and {} mm, θ_m = {}° and {}°, boxes of {:.1f} and {:.1f} mm", text(lambda[0], 1),

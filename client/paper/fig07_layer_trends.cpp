@@ -35,7 +35,7 @@ Sheet layer_trends_figure(const Material& material) {
                               .y_title = is_angle ? "{/Symbol q}_m (degrees)" : "wavelength {/Symbol l} (mm)",
                               .style = Figure::Style::kLinesPoints,
                               .commands = {"set yrange [0:*]", "set offsets graph 0.08, graph 0.08, graph 0.1, 0"},
-                              .curves = {scalar_curve(along(all, key), key, scalar, "", 0)},
+                              .curves = {scalar_curve(layered(along(all, key)), key, scalar, "", 0)},
                               .title = std::string("(") + letter++ + ")"});
     }
   }

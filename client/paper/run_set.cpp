@@ -117,6 +117,13 @@ RunSet with_extreme(const RunSet& runs, const std::string& path, bool largest) {
   return values.empty() ? runs : where(runs, path, largest ? values.back() : values.front());
 }
 
+RunSet layered(const RunSet& runs) {
+  RunSet chosen;
+  std::copy_if(runs.begin(), runs.end(), std::back_inserter(chosen),
+               [](const FinishedRun& run) { return run.scalar("theta_m_deg").is_known(); });
+  return chosen;
+}
+
 Quantity mean_scalar(const RunSet& replicas, const std::string& name) {
   std::vector<double> values;
   double variances = 0;

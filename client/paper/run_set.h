@@ -58,6 +58,9 @@ RunSet joined(const RunSet& a, const RunSet& b);
 /// The runs with the largest (or smallest) value at `path`; all of them if none has any.
 RunSet with_extreme(const RunSet& runs, const std::string& path, bool largest);
 
+/// The runs whose P(theta) has two peaks. Others may have a wavelength too, that of the director's slow bend.
+RunSet layered(const RunSet& runs);
+
 /// Mean of a scalar over replicas; unknown unless every one of them knows it. Its error: of one run its own; of several
 /// the scatter between them, but not less than their own errors together give.
 Quantity mean_scalar(const RunSet& replicas, const std::string& name);
