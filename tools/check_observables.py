@@ -732,7 +732,9 @@ def check_lattice(run, table):
     values, sems = jackknife(parts, lambda some: found[some].mean(0))
     for name, by, value, sem in zip(("psi_6", "psi_6_local", "psi_6_raw", "bragg_peak"),
                                     ("scipy cKDTree",) * 3 + ("direct sums",), values, sems):
-        scalar(run, table, name, by, value, sem, allowed=1e-4 * value)
+        # two neighbours as good as equally far may change places by the rounding of the trajectory: a third of a bond's worth
+        flips = 0 if name == "bragg_peak" else 2 / 3 / (len(first) * sum(map(len, parts)))
+        scalar(run, table, name, by, value, sem, allowed=1e-4 * value + flips)
 
 
 # ---- against lag ----
