@@ -36,7 +36,7 @@ Sheet shaking_figure(const Material& material) {
 
 Sheet melting_figure(const Material& material) {
   const RunSet& runs = material.runs["phases"];
-  const RunSet& tracked = material.runs["defects"];
+  const RunSet tracked = with_most_defects(material.runs["defects"]);
   return {.title = "Defects and melting",
           .panels = {against_packing(runs, "defect_density_per_mm2", "defects per area (1/mm^2)", "(a) defect density",
                                      {"set yrange [0:*]"}),

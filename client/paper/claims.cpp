@@ -434,14 +434,16 @@ Finding rotation_subdiffusive(const Library& runs) {
 }
 
 Finding defects_move(const Library& runs) {
-  const RunSet& here = runs["defects"];
+  const RunSet here = with_most_defects(runs["defects"]);
   if (here.empty()) return {};
   const Quantity plus = mean_scalar(here, "lasting_defect_speed_plus_mm_s"),
                  minus = mean_scalar(here, "lasting_defect_speed_minus_mm_s"),
                  along = mean_scalar(here, "lasting_defect_speed_plus_along_mm_s");
   const bool motile = has_error(along) && std::abs(along.value) > kSigmas * along.sem;
   return {motile ? Verdict::kAgrees : Verdict::kUnresolved,
-          fmt::format("+1/2 move at {} mm/s, −1/2 at {} mm/s; +1/2 towards their own tail: {} mm/s", text(plus),
+          fmt::format("{}, {}: +1/2 move at {} mm/s, −1/2 at {} mm/s; +1/2 towards their own tail: {} mm/s",
+                      value_label("rods.length", here.front().number("rods.length")),
+                      value_label("rods.area_fraction", here.front().number("rods.area_fraction")), text(plus),
                       text(minus), text(along, 3))};
 }
 
@@ -522,7 +524,8 @@ std::span<const Claim> paper_claims() {
       {"rotation", "10", "The rotational diffusion constant falls with packing (ℓ = 2.5 mm)", rotation_slows},
       {"rotation-short", "10", "At short times rotation is sub-diffusive, the more so the denser",
        rotation_subdiffusive},
-      {"defects", "defects", "Defects of the locally ordered system (ℓ = 3.0 mm, 0.85) move by themselves",
+      {"defects", "defects",
+       "Defects of a system that is ordered here and there move by themselves (the paper: ℓ = 3.0 mm at 0.85)",
        defects_move},
   };
   return kClaims;

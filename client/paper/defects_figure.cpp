@@ -19,25 +19,38 @@ Figure defect_speed_panel(const RunSet& runs, std::string title) {
           .title = std::move(title)};
 }
 
+RunSet with_most_defects(const RunSet& runs) {
+  RunSet most;
+  for (const FinishedRun& run : runs) {
+    const double density = run.scalar("defect_density_per_mm2").value;
+    if (most.empty() || density > most.front().scalar("defect_density_per_mm2").value) most = {run};
+  }
+  return most;
+}
+
 Sheet defects_figure(const Material& material) {
   const RunSet& runs = material.runs["defects"];
-  Sheet sheet{.title = "Defects of a locally ordered system"};
-  const std::string point = runs.empty()
-                                ? ""
-                                : value_label("rods.length", runs.front().number("rods.length")) + ", " +
-                                      value_label("rods.area_fraction", runs.front().number("rods.area_fraction"));
-  sheet.panels.push_back(snapshot_panel(material, runs, "(a) " + point));
+  Sheet sheet{.title = "Defects of systems that are ordered here and there", .columns = 3};
+  char letter = 'a';
+  for (const double length : values_of(runs, "rods.length")) {
+    const RunSet here = where(runs, "rods.length", length);
+    sheet.panels.push_back(
+        snapshot_panel(material, here,
+                       std::string("(") + letter++ + ") " + value_label("rods.length", length) + ", " +
+                           value_label("rods.area_fraction", here.front().number("rods.area_fraction"))));
+  }
   sheet.panels.push_back({.x_title = "time t (s)",
                           .y_title = "defects of charge +1/2",
                           .commands = {"set xrange [0:*]", "set yrange [0:*]"},
-                          .curves = bare({array_curve(runs, "/defects/time_s", "/defects/n_plus", "", 0)}),
-                          .title = "(b) number, equal to that of charge −1/2"});
-  sheet.panels.push_back(defect_speed_panel(runs, "(c) speeds of defects that last"));
+                          .curves = bare(array_curves(runs, "rods.length", "/defects/time_s", "/defects/n_plus")),
+                          .title = std::string("(") + letter++ + ") number, equal to that of charge −1/2"});
+  sheet.panels.push_back(defect_speed_panel(
+      with_most_defects(runs), std::string("(") + letter++ + ") speeds of those that last, where there are most"));
   sheet.panels.push_back({.x_title = "distance r (mm)",
                           .y_title = "G_2(r)",
                           .commands = {"set xrange [0:*]", level_line(0)},
-                          .curves = bare({array_curve(runs, "/g2/r_mm", "/g2/g2", "", 0)}),
-                          .title = "(d) orientational correlation"});
+                          .curves = bare(array_curves(runs, "rods.length", "/g2/r_mm", "/g2/g2")),
+                          .title = std::string("(") + letter++ + ") orientational correlation"});
   return sheet;
 }
 

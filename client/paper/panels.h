@@ -72,6 +72,9 @@ double papers_diffusion(double area_fraction);
 /// however long the run. NaN if not measured.
 double order_spread(const RunSet& replicas);
 
+/// The run with the most defects per area; none of none.
+RunSet with_most_defects(const RunSet& runs);
+
 /// Where y rises through `level`, interpolated linearly between neighbouring x, with the error that those of y give.
 /// Unknown if it does not. Points need not be in order.
 Quantity crossing(const Curve& curve, double level);
