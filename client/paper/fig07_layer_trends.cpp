@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// theta_m and lambda of the layers against packing, rod length and end diameter.
+// theta_m, lambda and order of the layers against packing, rod length and end diameter.
 #include "client/paper/figures.h"
 
 namespace shaken::client {
@@ -28,15 +28,23 @@ Sheet layer_trends_figure(const Material& material) {
   const RunSet& all = material.runs["layers"];
   Sheet sheet{.title = "Angle and wavelength of the layers", .columns = 3};
   char letter = 'a';
-  for (const char* scalar : {"theta_m_deg", "wavelength_mm"}) {
+  const struct {
+    const char* scalar;
+    const char* title;
+    bool of_layers_only;
+  } rows[] = {{"theta_m_deg", "{/Symbol q}_m (degrees)", true},
+              {"wavelength_mm", "wavelength {/Symbol l} (mm)", true},
+              {"layer_order", "order of the layers", false}};
+  for (const auto& row : rows) {
     for (const char* key : {"rods.area_fraction", "rods.length", "rods.end_diameter"}) {
-      const bool is_angle = std::string_view(scalar) == "theta_m_deg";
-      sheet.panels.push_back({.x_title = axis_of(key),
-                              .y_title = is_angle ? "{/Symbol q}_m (degrees)" : "wavelength {/Symbol l} (mm)",
-                              .style = Figure::Style::kLinesPoints,
-                              .commands = {"set yrange [0:*]", "set offsets graph 0.08, graph 0.08, graph 0.1, 0"},
-                              .curves = {scalar_curve(layered(along(all, key)), key, scalar, "", 0)},
-                              .title = std::string("(") + letter++ + ")"});
+      const RunSet runs = along(all, key);
+      sheet.panels.push_back(
+          {.x_title = axis_of(key),
+           .y_title = row.title,
+           .style = Figure::Style::kLinesPoints,
+           .commands = {"set yrange [0:*]", "set offsets graph 0.08, graph 0.08, graph 0.1, 0"},
+           .curves = {scalar_curve(row.of_layers_only ? layered(runs) : runs, key, row.scalar, "", 0)},
+           .title = std::string("(") + letter++ + ")"});
     }
   }
   return sheet;

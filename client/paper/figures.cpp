@@ -18,7 +18,7 @@ std::span<const PaperFigure> paper_figures() {
       {"6", "fig06-layers", "Layers tilted by ±θ", {"layers"}, layers_figure},
       {"7",
        "fig07-layer-trends",
-       "Layer angle and wavelength against packing, length and end radius",
+       "Layer angle, wavelength and order against packing, length and end radius",
        {"layers"},
        layer_trends_figure},
       {"8", "fig08-mechanism", "How a rod swims: velocity against tilt", {"mechanism"}, mechanism_figure},
