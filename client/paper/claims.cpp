@@ -56,9 +56,11 @@ Answer close_to(const Quantity& q, double target, double tolerance) {
   return away - kSigmas * q.sem > tolerance ? Answer::kNo : Answer::kUnknown;
 }
 
+/// With at least `digits` decimals, and as many as the error needs to show.
 std::string text(const Quantity& q, int digits = 2) {
   if (!q.is_known()) return "-";
   if (!std::isfinite(q.sem)) return fmt::format("{:.{}f} ± ?", q.value, digits);
+  if (q.sem > 0) digits = std::clamp(static_cast<int>(std::ceil(-std::log10(q.sem))), digits, 6);
   return fmt::format("{:.{}f} ± {:.{}f}", q.value, digits, q.sem, digits);
 }
 
@@ -81,15 +83,20 @@ std::string values_text(const RunSet& runs, const std::string& key, const std::s
   return words;
 }
 
-/// A scalar at the values of a key, and whether it rises (or falls) from the first to the last of them.
+/// A scalar at the values of a key, and whether it rises (or falls) from the first to the last at which it is known.
 Finding trend(const RunSet& runs, const std::string& key, const std::string& scalar, bool rising, int digits,
               const std::string& unit) {
   const std::vector<double> values = values_of(runs, key);
   if (values.size() < 2) return {};
-  const Quantity first = mean_scalar(where(runs, key, values.front()), scalar);
-  const Quantity last = mean_scalar(where(runs, key, values.back()), scalar);
-  return {verdict_of({rising ? larger(last, first) : larger(first, last)}),
-          values_text(runs, key, scalar, digits) + unit};
+  std::vector<Quantity> known;
+  for (const double value : values) {
+    const Quantity quantity = mean_scalar(where(runs, key, value), scalar);
+    if (has_error(quantity)) known.push_back(quantity);
+  }
+  const Answer answer = known.size() < 2 ? Answer::kUnknown
+                        : rising         ? larger(known.back(), known.front())
+                                         : larger(known.front(), known.back());
+  return {verdict_of({answer}), values_text(runs, key, scalar, digits) + unit};
 }
 
 /// Area fraction at which <S> passes 0.5 for rods of this length.

@@ -46,6 +46,7 @@ set multiplot layout {3},{4} title "{5}" font ',17'
       }
       panel.picture = copy;
     }
+    panel.commands.insert(panel.commands.begin(), "set key font ',11' spacing 1.0");  // panels are small
     const std::string blocks = figure_data(panel);
     if (!data.empty() && !blocks.empty()) data += "\n\n";
     if (!blocks.empty()) data += fmt::format("# panel {}: {}\n{}", i + 1, panel.title, blocks);
