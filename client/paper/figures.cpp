@@ -7,13 +7,21 @@ namespace shaken::client {
 
 std::span<const PaperFigure> paper_figures() {
   static const std::vector<PaperFigure> kFigures{
-      {"2", "fig02-order", "Nematic order against area fraction and rod length", {"phases"}, order_figure},
+      {"2",
+       "fig02-order",
+       "Nematic order against area fraction and rod length",
+       {"phases", "transition"},
+       order_figure},
       {"3",
        "fig03-order-statistics",
        "Fluctuations of the order: P[S], Binder cumulant",
-       {"phases"},
+       {"phases", "transition"},
        order_statistics_figure},
-      {"4", "fig04-correlations", "Correlations against distance: G_2(r), g(r)", {"phases"}, correlation_figure},
+      {"4",
+       "fig04-correlations",
+       "Correlations against distance: G_2(r), g(r)",
+       {"phases", "transition"},
+       correlation_figure},
       {"5", "fig05-maps", "Correlations along and across the director", {"layers"}, pair_map_figure},
       {"6", "fig06-layers", "Layers tilted by ±θ", {"layers"}, layers_figure},
       {"7",
@@ -22,29 +30,33 @@ std::span<const PaperFigure> paper_figures() {
        {"layers"},
        layer_trends_figure},
       {"8", "fig08-mechanism", "How a rod swims: velocity against tilt", {"mechanism"}, mechanism_figure},
-      {"9", "fig09-diffusion", "Mean square displacement and diffusion", {"phases"}, diffusion_figure},
-      {"10", "fig10-rotation", "Correlations in time: velocity, orientation, rotation", {"phases"}, rotation_figure},
+      {"9", "fig09-diffusion", "Mean square displacement and diffusion", {"phases", "transition"}, diffusion_figure},
+      {"10",
+       "fig10-rotation",
+       "Correlations in time: velocity, orientation, rotation",
+       {"phases", "transition"},
+       rotation_figure},
       {"defects", "fig11-defects", "Defects of a locally ordered system", {"defects"}, defects_figure},
       {"larger-box", "figA1-larger-box", "The layers in a box twice as wide", {"layers", "large"}, larger_box_figure},
       {"gap", "figA2-gap", "The gap between the plates: crystal, layers, no layers", {"layers", "gaps"}, gap_figure},
       {"steady",
        "figA3-steady-state",
        "On the way to the steady state at l = 3.5 mm",
-       {"phases", "layers"},
+       {"phases", "transition", "layers"},
        steady_state_figure},
       {"shaking", "figB1-shaking", "Order and diffusion against the strength of shaking", {"shaking"}, shaking_figure},
-      {"melting", "figB2-melting", "Defect density and melting", {"phases", "defects"}, melting_figure},
-      {"size", "figB3-size", "Order against the size of the box", {"phases", "size"}, size_figure},
+      {"melting", "figB2-melting", "Defect density and melting", {"phases", "transition", "defects"}, melting_figure},
+      {"size", "figB3-size", "Order against the size of the box", {"phases", "transition", "size"}, size_figure},
       {"fluctuations",
        "figB4-number-fluctuations",
        "Number fluctuations, with and without the mean density map",
-       {"phases", "layers", "equilibrium"},
+       {"phases", "transition", "layers", "equilibrium"},
        fluctuations_figure},
       {"elasticity", "figB5-elasticity", "Director fluctuations: bend against splay", {"layers"}, elasticity_figure},
       {"equilibrium",
        "figB6-equilibrium",
        "The equilibrium reference: e = 1, no friction",
-       {"phases", "equilibrium"},
+       {"phases", "transition", "equilibrium"},
        equilibrium_figure},
       {"movies", "movies", "Films S1 to S7", {"movies"}, nullptr},
   };
@@ -52,7 +64,8 @@ std::span<const PaperFigure> paper_figures() {
 }
 
 std::vector<std::string_view> all_sets() {
-  return {"mechanism", "phases", "layers", "gaps", "equilibrium", "shaking", "defects", "size", "large", "movies"};
+  return {"mechanism", "phases",  "layers", "transition", "gaps",  "equilibrium",
+          "shaking",   "defects", "size",   "large",      "movies"};
 }
 
 }  // namespace shaken::client

@@ -80,8 +80,8 @@ std::string curve_data(const Curve& curve, const std::string& fallback) {
   bool any = false;
   for (std::size_t k = 0; k < curve.x.size(); ++k) {
     if (!std::isfinite(curve.x[k]) || !std::isfinite(curve.y[k])) continue;
-    text += fmt::format("{:.10g} {:.10g}", curve.x[k], curve.y[k]);
-    if (has_errors(curve)) text += fmt::format(" {:.10g}", curve.y_error[k]);
+    text += fmt::format("{:.7g} {:.7g}", curve.x[k], curve.y[k]);
+    if (has_errors(curve)) text += fmt::format(" {:.4g}", curve.y_error[k]);
     text += '\n';
     any = true;
   }

@@ -375,9 +375,17 @@ class Figures : public Verb {
     return set;
   }
 
-  Library library() const {
+  /// The runs that are there, by sweep.
+  Library sweeps() const {
     Library runs;
     for (const NamedSweep& sweep : sweeps_) runs.add(sweep.name, done_runs(sweep));
+    return runs;
+  }
+
+  /// As figures and claims see them: `transition` holds replicas of points of `phases`.
+  Library library() const {
+    Library runs = sweeps();
+    runs.add("phases", joined(runs["phases"], runs["transition"]));
     return runs;
   }
 
@@ -460,7 +468,7 @@ class Figures : public Verb {
     save(fs::path(out_) / "claims.md", table);
     save(fs::path(out_) / "claims.json", claims_json(runs).dump(2) + "\n");
     if (!report_.empty()) {
-      save(report_, written_report(table, sweep_cost_table(runs, all_sets()), figure_cost_table(runs)));
+      save(report_, written_report(table, sweep_cost_table(sweeps(), all_sets()), figure_cost_table(sweeps())));
     }
     if (json_) {
       console.out << Json{{"scale", scale_}, {"made", made_}, {"claims", claims_json(runs)}}.dump(2) << "\n";
