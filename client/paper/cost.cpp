@@ -50,11 +50,14 @@ std::string figure_cost_table(const Library& runs) {
   for (const PaperFigure& figure : paper_figures()) {
     std::string sweeps;
     double cpu = 0;
+    bool known = true;  // a sweep without runs has no cost yet, not none
     for (const std::string_view set : figure.sets) {
       sweeps += (sweeps.empty() ? "" : ", ") + std::string(set);
       cpu += sum_of(runs[std::string(set)], "cpu_seconds") / 3600;
+      known &= !runs[std::string(set)].empty();
     }
-    table += fmt::format("| {} | {} | {} | {:.2f} |\n", figure.id, figure.title, sweeps, cpu);
+    table += fmt::format("| {} | {} | {} | {} |\n", figure.id, figure.title, sweeps,
+                         known ? fmt::format("{:.2f}", cpu) : "not run");
   }
   return table;
 }

@@ -93,17 +93,19 @@ std::string curve_data(const Curve& curve, const std::string& fallback) {
 /// A line for each cell, with its borders: grids need not be even.
 std::string map_data(const Map& map) {
   std::string text = "# x  y  value  x_low  x_high  y_low  y_high\n";
+  bool any = false;
   const std::vector<double> x = cell_borders(map.x), y = cell_borders(map.y);
   for (std::size_t j = 0; j < map.y.size(); ++j) {
     for (std::size_t i = 0; i < map.x.size(); ++i) {
       const double z = map.z[j * map.x.size() + i];
       if (!std::isfinite(z)) continue;
+      any = true;
       text += fmt::format("{:.5g} {:.5g} {:.5g} {:.5g} {:.5g} {:.5g} {:.5g}\n", map.x[i], map.y[j], z, x[i], x[i + 1],
                           y[j], y[j + 1]);
     }
   }
   // An empty block would not be counted by `index`.
-  return text + (text.back() == '\n' && std::count(text.begin(), text.end(), '\n') > 1 ? "" : "NaN NaN NaN 0 0 0 0\n");
+  return any ? text : text + "NaN NaN NaN 0 0 0 0\n";
 }
 
 }  // namespace

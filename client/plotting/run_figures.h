@@ -16,9 +16,9 @@ struct PlottedRun {
   run::Observables observables;  ///< as read from observables.h5
 };
 
-/// A figure for each observable that at least one run has: S(t), P(theta), the tilt curve, defects, G2, MSD. Replicas
-/// share a colour; of what does not depend on time their mean is drawn, for the tilt curve with the standard error
-/// between them.
+/// A figure for each observable that at least one run has and that one curve can show: S(t), P[S], P(theta), the tilt
+/// curve, defects, G2 and g, layers, MSD, C_2, C_v, number fluctuations. Replicas share a colour; of what does not
+/// depend on time their mean is drawn, for the tilt curve with the standard error between them.
 std::vector<Figure> run_figures(const std::vector<PlottedRun>& runs);
 
 /// S against the swept parameter with the most values, from aggregated rows: one curve for each combination of the

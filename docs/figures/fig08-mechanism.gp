@@ -1,0 +1,105 @@
+# gnuplot fig08-mechanism.gp  draws fig08-mechanism.png from fig08-mechanism.dat
+set terminal pngcairo size 2160,1170 enhanced font 'DejaVu Sans,14' linewidth 1.6 background '#ffffff'
+set output 'fig08-mechanism.png'
+set multiplot layout 2,3 title "How a rod swims" font ',17'
+
+reset
+unset title
+set title '(a) velocity along the rod, φ = 0.6'
+set border 3 linecolor '#333333'
+set tics nomirror out textcolor '#333333'
+set grid linetype 1 linecolor '#e2e2e2' linewidth 0.5
+set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'
+unset key
+set xlabel 'tilt n_z'
+set ylabel '⟨v^n⟩ along the rod (mm/s)'
+set key font ',11' spacing 1.0
+set xzeroaxis linecolor '#999999'
+set yzeroaxis linecolor '#999999'
+plot 'fig08-mechanism.dat' index 0 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#355e8c' notitle, \
+     'fig08-mechanism.dat' index 0 using 1:2 with linespoints linecolor '#355e8c' pointtype 7 pointsize 1.2 notitle
+
+reset
+unset title
+set title '(b) velocity across the rod, φ = 0.6'
+set border 3 linecolor '#333333'
+set tics nomirror out textcolor '#333333'
+set grid linetype 1 linecolor '#e2e2e2' linewidth 0.5
+set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'
+unset key
+set xlabel 'tilt n_z'
+set ylabel '⟨v^t⟩ across the rod (mm/s)'
+set key font ',11' spacing 1.0
+set xzeroaxis linecolor '#999999'
+set yzeroaxis linecolor '#999999'
+plot 'fig08-mechanism.dat' index 1 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#355e8c' notitle, \
+     'fig08-mechanism.dat' index 1 using 1:2 with linespoints linecolor '#355e8c' pointtype 7 pointsize 1.2 notitle
+
+reset
+unset title
+set title '(c) how often a tilt occurs'
+set border 3 linecolor '#333333'
+set tics nomirror out textcolor '#333333'
+set grid linetype 1 linecolor '#e2e2e2' linewidth 0.5
+set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'
+set key outside top center horizontal maxcols 5
+set xlabel 'tilt n_z'
+set ylabel 'P(n_z)'
+set key font ',11' spacing 1.0
+set yrange [0:*]
+plot 'fig08-mechanism.dat' index 2 using 1:2 with lines linecolor '#440154' linewidth 1 title 'φ = 0.6', \
+     'fig08-mechanism.dat' index 3 using 1:2 with lines linecolor '#9ad83c' linewidth 1 title 'φ = 0.65'
+
+reset
+unset title
+set title '(d) tilt of one rod, φ = 0.6'
+set border 3 linecolor '#333333'
+set tics nomirror out textcolor '#333333'
+set grid linetype 1 linecolor '#e2e2e2' linewidth 0.5
+set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'
+unset key
+set xlabel 'time t (s)'
+set ylabel 'tilt n_z'
+set key font ',11' spacing 1.0
+set xrange [*:*] noextend
+set yrange [-0.4:0.4]
+plot 'fig08-mechanism.dat' index 4 using 1:2 with lines linecolor '#355e8c' linewidth 1 notitle
+
+reset
+unset title
+set title '(e) paths, φ = 0.6'
+set border 3 linecolor '#333333'
+set tics nomirror out textcolor '#333333'
+set grid linetype 1 linecolor '#e2e2e2' linewidth 0.5
+set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'
+unset key
+set xlabel 'x (mm)'
+set ylabel 'y (mm)'
+set key font ',11' spacing 1.0
+set size ratio 1
+set xrange [-13.722747179569707:21.632561844195514]
+set yrange [-22.21791617244318:13.137392851322044]
+plot 'fig08-mechanism.dat' index 5 using 1:2 with lines linecolor '#440154' linewidth 1 notitle, \
+     'fig08-mechanism.dat' index 6 using 1:2 with lines linecolor '#375a8c' linewidth 1 notitle, \
+     'fig08-mechanism.dat' index 7 using 1:2 with lines linecolor '#249f87' linewidth 1 notitle, \
+     'fig08-mechanism.dat' index 8 using 1:2 with lines linecolor '#9ad83c' linewidth 1 notitle
+
+reset
+unset title
+set title '(f) paths, φ = 0.65'
+set border 3 linecolor '#333333'
+set tics nomirror out textcolor '#333333'
+set grid linetype 1 linecolor '#e2e2e2' linewidth 0.5
+set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'
+unset key
+set xlabel 'x (mm)'
+set ylabel 'y (mm)'
+set key font ',11' spacing 1.0
+set size ratio 1
+set xrange [-20.050736895061025:20.727828600370326]
+set yrange [-24.67632078954097:16.10224470589038]
+plot 'fig08-mechanism.dat' index 9 using 1:2 with lines linecolor '#440154' linewidth 1 notitle, \
+     'fig08-mechanism.dat' index 10 using 1:2 with lines linecolor '#375a8c' linewidth 1 notitle, \
+     'fig08-mechanism.dat' index 11 using 1:2 with lines linecolor '#249f87' linewidth 1 notitle, \
+     'fig08-mechanism.dat' index 12 using 1:2 with lines linecolor '#9ad83c' linewidth 1 notitle
+unset multiplot
