@@ -15,10 +15,11 @@ RunSet layered_point(const RunSet& all) {
 }  // namespace
 
 Sheet larger_box_figure(const Material& material) {
-  const RunSet small = layered_point(material.runs["layers"]);
   const RunSet& large = material.runs["large"];
+  const RunSet small =
+      large.empty() ? layered_point(material.runs["layers"]) : at_point_of(material.runs["layers"], large.front());
   const RunSet both = joined(small, large);
-  Sheet sheet{.title = "The layers in a box twice as wide"};
+  Sheet sheet{.title = "The layers in a larger box"};
   sheet.panels.push_back(snapshot_panel(material, small, "(a) smaller box"));
   sheet.panels.push_back(snapshot_panel(material, large, "(b) larger box"));
   sheet.panels.push_back(

@@ -320,7 +320,11 @@ Finding no_layers_at_other_gaps(const Library& runs) {
 }
 
 RunSet layered_by_packing(const Library& runs) { return joined(layers(runs, 4.5, 0.80), layers(runs, 4.5, 0.85)); }
-RunSet layered_by_length(const Library& runs) { return joined(layers(runs, 4.0, 0.80), layers(runs, 4.5, 0.80)); }
+RunSet layered_by_length(const Library& runs) {
+  RunSet found;
+  for (const double length : {3.5, 4.0, 4.5}) found = joined(found, layers(runs, length, 0.85));
+  return found;
+}
 RunSet layered_by_end(const Library& runs) { return of(runs, "layers", 4.5, 0.80); }
 
 Finding angle_grows_with_packing(const Library& runs) {
@@ -354,14 +358,16 @@ Finding wavelength_grows_with_end(const Library& runs) {
 }
 
 Finding larger_box(const Library& runs) {
-  const RunSet small = layers(runs, 4.5, 0.80);
   const RunSet& large = runs["large"];
-  if (small.empty() || large.empty()) return {};
+  const RunSet small = large.empty() ? large : at_point_of(runs["layers"], large.front());
+  if (small.empty()) return {};
   const Quantity lambda[] = {mean_scalar(layered(small), "wavelength_mm"),
                              mean_scalar(layered(large), "wavelength_mm")};
   const Quantity theta[] = {mean_scalar(small, "theta_m_deg"), mean_scalar(large, "theta_m_deg")};
   return {verdict_of({larger(lambda[1], lambda[0]), larger(theta[0], theta[1])}),
-          fmt::format("λ = {} mm and {} mm, θ_m = {}° and {}°, boxes of {:.1f} and {:.1f} mm", text(lambda[0], 1),
+          fmt::format("{}, {}: λ = {} mm and {} mm, θ_m = {}° and {}°, boxes of {:.1f} and {:.1f} mm",
+                      value_label("rods.length", large.front().number("rods.length")),
+                      value_label("rods.area_fraction", large.front().number("rods.area_fraction")), text(lambda[0], 1),
                       text(lambda[1], 1), text(theta[0], 1), text(theta[1], 1), small.front().number("box.side"),
                       large.front().number("box.side"))};
 }

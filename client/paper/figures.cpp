@@ -37,7 +37,7 @@ std::span<const PaperFigure> paper_figures() {
        {"phases", "transition"},
        rotation_figure},
       {"defects", "fig11-defects", "Defects of a locally ordered system", {"defects"}, defects_figure},
-      {"larger-box", "figA1-larger-box", "The layers in a box twice as wide", {"layers", "large"}, larger_box_figure},
+      {"larger-box", "figA1-larger-box", "The layers in a larger box", {"layers", "large"}, larger_box_figure},
       {"gap", "figA2-gap", "The gap between the plates: crystal, layers, no layers", {"layers", "gaps"}, gap_figure},
       {"steady",
        "figA3-steady-state",

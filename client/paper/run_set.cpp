@@ -117,6 +117,14 @@ RunSet with_extreme(const RunSet& runs, const std::string& path, bool largest) {
   return values.empty() ? runs : where(runs, path, largest ? values.back() : values.front());
 }
 
+RunSet at_point_of(const RunSet& runs, const FinishedRun& point) {
+  RunSet found = runs;
+  for (const char* key : {"rods.length", "rods.end_diameter", "rods.area_fraction"}) {
+    found = where(found, key, point.number(key));
+  }
+  return found;
+}
+
 RunSet layered(const RunSet& runs) {
   RunSet chosen;
   std::copy_if(runs.begin(), runs.end(), std::back_inserter(chosen),

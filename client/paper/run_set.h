@@ -58,6 +58,9 @@ RunSet joined(const RunSet& a, const RunSet& b);
 /// The runs with the largest (or smallest) value at `path`; all of them if none has any.
 RunSet with_extreme(const RunSet& runs, const std::string& path, bool largest);
 
+/// The runs of the same rods at the same packing as `point`.
+RunSet at_point_of(const RunSet& runs, const FinishedRun& point);
+
 /// The runs whose P(theta) has two peaks. Others may have a wavelength too, that of the director's slow bend.
 RunSet layered(const RunSet& runs);
 
