@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <unsupported/Eigen/NonLinearOptimization>
 #include <vector>
 
@@ -39,9 +40,27 @@ struct Residuals {
   }
 };
 
+/// P(0) / max P, of P(theta) and P(-theta) together, averaged over `half` [rad] and at least one bin to either side.
+double dip_of(const AnglePdf& pdf, double half) {
+  const std::size_t bins = pdf.density.size();
+  const auto reach = std::clamp<std::size_t>(
+      static_cast<std::size_t>(std::lround(half * static_cast<double>(bins) / kPi)), 1, bins / 2);
+  const std::size_t about_zero = bins / 2 - reach, length = (bins - 1) / 2 + reach + 1 - about_zero;
+  const auto sum_from = [&](std::size_t first) {
+    double sum = 0;
+    for (std::size_t k = first; k < first + length; ++k) {
+      sum += pdf.density[k % bins] + pdf.density[bins - 1 - k % bins];
+    }
+    return sum;
+  };
+  double highest = 0;
+  for (std::size_t first = 0; first < bins; ++first) highest = std::max(highest, sum_from(first));
+  return sum_from(about_zero) / highest;
+}
+
 }  // namespace
 
-std::optional<TwoPeaks> find_two_peaks(const AnglePdf& pdf) {
+std::optional<TwoPeaks> fit_two_peaks(const AnglePdf& pdf) {
   const std::size_t bins = pdf.theta.size();
   if (bins < 8) return std::nullopt;
   const double highest = *std::max_element(pdf.density.begin(), pdf.density.end());
@@ -72,24 +91,10 @@ std::optional<TwoPeaks> find_two_peaks(const AnglePdf& pdf) {
   peaks.width = std::abs(best[1]);
   peaks.height = best[2];
   peaks.background = best[3];
-  const double bin = kPi / static_cast<double>(bins);
-  const double ratio = peaks.theta_m / peaks.width;
-  const double at_centre = 2 * peaks.height * std::exp(-ratio * ratio / 2) + peaks.background;
-  const double at_peak = peaks.height * (1 + std::exp(-2 * ratio * ratio)) + peaks.background;
-  peaks.dip = at_centre / at_peak;
-  // Residuals grow with the density: those that count are where the rods are. The fit averages about width / bin bins.
-  Eigen::VectorXd residual(static_cast<Eigen::Index>(bins));
-  residuals(best, residual);
-  double weight = 0, weighted_squares = 0;
-  for (std::size_t i = 0; i < bins; ++i) {
-    weight += pdf.density[i];
-    weighted_squares +=
-        pdf.density[i] * residual[static_cast<Eigen::Index>(i)] * residual[static_cast<Eigen::Index>(i)];
-  }
-  const double error = std::sqrt(weighted_squares / weight * std::min(1.0, bin / peaks.width));
-  const bool two = peaks.height > 0 && peaks.theta_m > peaks.width && peaks.theta_m > 1.5 * bin &&
-                   peaks.theta_m < kPi / 2 && peaks.dip < 1 && at_peak - at_centre > 4 * error;
-  return two ? std::optional(peaks) : std::nullopt;
+  peaks.dip = dip_of(pdf, peaks.width / 4);
+  return peaks;
 }
+
+bool are_two(const Estimate& dip) { return dip.value + 2 * dip.sem < 1; }
 
 }  // namespace shaken::analysis

@@ -4,24 +4,30 @@
 #include <optional>
 
 #include "analysis/angles.h"
+#include "analysis/estimate.h"
 
 namespace shaken::analysis {
 
 /// Two mirrored Gaussians and a background under P(theta),
-///   P = height (exp(-(theta - theta_m)^2 / 2 width^2) + exp(-(theta + theta_m)^2 / 2 width^2)) + background.
+///   P = height (exp(-(theta - theta_m)^2 / 2 width^2) + exp(-(theta + theta_m)^2 / 2 width^2)) + background,
+/// and how far P itself dips between them.
 struct TwoPeaks {
-  double theta_m = 0;     ///< [rad], in (0, pi/2)
+  double theta_m = 0;     ///< [rad], in [0, pi/2)
   double width = 0;       ///< [rad]
   double height = 0;      ///< [1/rad]
   double background = 0;  ///< [1/rad]
-  double dip = 0;         ///< P(0) / P(theta_m) of the fit, below 1
+  /// P(0) / max P of the samples, both hands taken together, each averaged over width / 2: below 1 if there are two
+  /// peaks, but for noise; 1 if there is one.
+  double dip = 0;
 };
 
-/// Least squares on the bins of `pdf` (Levenberg-Marquardt, from several starts). It is two peaks only where theta_m >
-/// width, so that the curve has a minimum at 0, where a bin lies between them, and where the minimum is deeper than
-/// four times its error as the residuals show it; otherwise, and of fewer than eight bins or no samples, there is none.
-/// The dip of a shallow pair is filled up: theta_m is where the Gaussians stand, a little more than where P has its
-/// maximum.
-std::optional<TwoPeaks> find_two_peaks(const AnglePdf& pdf);
+/// Least squares on the bins of `pdf` (Levenberg-Marquardt, from several starts). One broad peak is fitted as well; it
+/// is the dip that tells. That of a shallow pair is filled up: theta_m is where the Gaussians stand, a little more than
+/// where P has its maximum. Nothing of fewer than eight bins or no samples.
+std::optional<TwoPeaks> fit_two_peaks(const AnglePdf& pdf);
+
+/// Whether a dip shows two peaks: deeper than twice its error, which samples from different times tell. Not if the
+/// error is unknown.
+bool are_two(const Estimate& dip);
 
 }  // namespace shaken::analysis

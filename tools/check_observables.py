@@ -331,7 +331,7 @@ def histogram(place, bins, edge):
 
 
 def two_gaussians(theta, density):
-    """theta_m [rad] and dip of analysis/two_peaks.h, fitted by scipy; NaN where there are not two peaks."""
+    """theta_m [degrees] and dip of analysis/two_peaks.h, fitted by scipy; NaN without samples."""
     none = (np.nan, np.nan)
     width = np.pi / len(theta)
     if len(theta) < 8 or not density.max() > 0:
@@ -355,12 +355,11 @@ def two_gaussians(theta, density):
     if best is None:
         return none
     at, sigma, height, background = np.abs(best[1][0]), np.abs(best[1][1]), best[1][2], best[1][3]
-    at_centre, at_peak = model(0, at, sigma, height, background), model(at, at, sigma, height, background)
-    residual = model(theta, at, sigma, height, background) - density
-    error = np.sqrt(np.average(residual ** 2, weights=density) * min(1, width / sigma))
-    dip = at_centre / at_peak
-    two = height > 0 and at > sigma and at > 1.5 * width and at < np.pi / 2 and dip < 1
-    return (np.degrees(at), dip) if two and at_peak - at_centre > 4 * error else none
+    reach = min(max(1, int(np.floor(sigma / 4 / width + 0.5))), len(theta) // 2)
+    both = density + density[::-1]
+    length = (len(theta) % 2) + 2 * reach
+    sums = np.convolve(np.concatenate([both, both[:length - 1]]), np.ones(length), mode="valid")
+    return np.degrees(at), sums[len(theta) // 2 - reach] / sums.max()
 
 
 def check_angles(run, table):
@@ -379,6 +378,8 @@ def check_angles(run, table):
               doubt / norm + 1e-9)
     numbers, sems = jackknife(parts, lambda some: two_gaussians(centres, counts[some].sum(0) / (len(some) * run.n * width)))
     for name, value, sem in zip(("theta_m_deg", "dip"), numbers, sems):
+        if name == "theta_m_deg" and not numbers[1] + 2 * sems[1] < 1:
+            value = sem = np.nan
         scalar(run, table, name, "scipy curve_fit", value, None, allowed=1e-3 * abs(value))
         table.add("sem of " + name, "scipy curve_fit", run.sem(name), sem, 0.05 * abs(sem))
 

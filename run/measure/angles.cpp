@@ -23,11 +23,12 @@ class MeasuredAngles : public Measurement {
     result.arrays["/angles/density_per_rad"] = pdf.density;
     const auto peaks = block_estimates(angles_, result.t_steady, [](const analysis::AngleDistribution& angles) {
       constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-      const std::optional<analysis::TwoPeaks> found = analysis::find_two_peaks(angles.reduce());
+      const std::optional<analysis::TwoPeaks> found = analysis::fit_two_peaks(angles.reduce());
       return found ? std::vector<double>{found->theta_m * 180 / kPi, found->dip} : std::vector<double>{kNone, kNone};
     });
-    result.scalars["theta_m_deg"] = peaks[0];
-    result.scalars["dip"] = peaks[1];
+    const Scalar& dip = peaks[1];
+    result.scalars["theta_m_deg"] = analysis::are_two({dip.value, dip.sem}) ? peaks[0] : Scalar{};
+    result.scalars["dip"] = dip;
   }
   void save(analysis::StateWriter& writer) const override { angles_.save(writer); }
   void restore(analysis::StateReader& reader) override { angles_.restore(reader); }

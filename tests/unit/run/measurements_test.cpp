@@ -232,7 +232,7 @@ TEST(Measurements, FindPlantedLayers) {
     const double phase = 2 * kPi * static_cast<double>(rng() % 1000) / 1000;
     for (std::size_t i = 0; i < s.n_rods(); ++i) {
       const double wave = std::sin(2 * kPi * s.position[i].y() / kWavelength + phase);
-      const double theta = (wave > 0 ? kThetaM : -kThetaM) + 0.03 * normal(rng);
+      const double theta = (wave > 0 ? kThetaM : -kThetaM) + 0.08 * normal(rng);
       s.director[i] = Vec3(std::cos(theta), std::sin(theta), 0);
     }
     measurements.sample(s);
