@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // theta_m, lambda and order of the layers against packing, rod length and end diameter.
+#include <fmt/format.h>
+
 #include "client/paper/figures.h"
 
 namespace shaken::client {
@@ -22,6 +24,13 @@ RunSet along(const RunSet& all, const std::string& key) {
   return runs;
 }
 
+/// The same places on the axis in every row, also where few runs have layers.
+std::string range_of(const std::vector<double>& values) {
+  if (values.size() < 2) return "";
+  const double margin = 0.1 * (values.back() - values.front());
+  return fmt::format("set xrange [{}:{}]", values.front() - margin, values.back() + margin);
+}
+
 }  // namespace
 
 Sheet layer_trends_figure(const Material& material) {
@@ -42,7 +51,8 @@ Sheet layer_trends_figure(const Material& material) {
           {.x_title = axis_of(key),
            .y_title = row.title,
            .style = Figure::Style::kLinesPoints,
-           .commands = {"set yrange [0:*]", "set offsets graph 0.08, graph 0.08, graph 0.1, 0"},
+           .commands = {"set yrange [0:*]", "set offsets graph 0.08, graph 0.08, graph 0.1, 0",
+                        range_of(values_of(runs, key))},
            .curves = {scalar_curve(row.of_layers_only ? layered(runs) : runs, key, row.scalar, "", 0)},
            .title = std::string("(") + letter++ + ")"});
     }
