@@ -78,7 +78,7 @@ Sheet size_figure(const Material& material) {
                      {.x_title = axis_of("rods.area_fraction"),
                       .y_title = "Binder cumulant",
                       .style = Figure::Style::kLinesPoints,
-                      .commands = {level_line(0), level_line(1)},
+                      .commands = {"set yrange [-0.2:1.1]", level_line(0), level_line(1)},
                       .curves = scalar_curves(runs, "box.side", "rods.area_fraction", "binder"),
                       .title = "(b) Binder cumulant"},
                      {.x_title = axis_of("box.side"),

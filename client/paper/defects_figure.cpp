@@ -48,7 +48,7 @@ Sheet defects_figure(const Material& material) {
       with_most_defects(runs), std::string("(") + letter++ + ") speeds of those that last, where there are most"));
   sheet.panels.push_back({.x_title = "distance r (mm)",
                           .y_title = "G_2(r)",
-                          .commands = {"set xrange [0:*]", level_line(0)},
+                          .commands = {"set xrange [0:*]", "set yrange [*<0:*]", level_line(0)},
                           .curves = bare(array_curves(runs, "rods.length", "/g2/r_mm", "/g2/g2")),
                           .title = std::string("(") + letter++ + ") orientational correlation"});
   return sheet;
