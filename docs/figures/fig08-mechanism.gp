@@ -48,7 +48,8 @@ set ylabel 'P(n_z)'
 set key font ',11' spacing 1.0
 set yrange [0:*]
 plot 'fig08-mechanism.dat' index 2 using 1:2 with lines linecolor '#440154' linewidth 1 title 'φ = 0.6', \
-     'fig08-mechanism.dat' index 3 using 1:2 with lines linecolor '#9ad83c' linewidth 1 title 'φ = 0.65'
+     'fig08-mechanism.dat' index 3 using 1:2 with lines linecolor '#287d8e' linewidth 1 title 'φ = 0.65', \
+     'fig08-mechanism.dat' index 4 using 1:2 with lines linecolor '#9ad83c' linewidth 1 title 'φ = 0.85'
 
 reset
 unset title
@@ -63,30 +64,11 @@ set ylabel 'tilt n_z'
 set key font ',11' spacing 1.0
 set xrange [*:*] noextend
 set yrange [-0.4:0.4]
-plot 'fig08-mechanism.dat' index 4 using 1:2 with lines linecolor '#355e8c' linewidth 1 notitle
+plot 'fig08-mechanism.dat' index 5 using 1:2 with lines linecolor '#355e8c' linewidth 1 notitle
 
 reset
 unset title
-set title '(e) paths, φ = 0.6'
-set border 3 linecolor '#333333'
-set tics nomirror out textcolor '#333333'
-set grid linetype 1 linecolor '#e2e2e2' linewidth 0.5
-set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'
-unset key
-set xlabel 'x (mm)'
-set ylabel 'y (mm)'
-set key font ',11' spacing 1.0
-set size ratio 1
-set xrange [-13.722747179569707:21.632561844195514]
-set yrange [-22.21791617244318:13.137392851322044]
-plot 'fig08-mechanism.dat' index 5 using 1:2 with lines linecolor '#440154' linewidth 1 notitle, \
-     'fig08-mechanism.dat' index 6 using 1:2 with lines linecolor '#375a8c' linewidth 1 notitle, \
-     'fig08-mechanism.dat' index 7 using 1:2 with lines linecolor '#249f87' linewidth 1 notitle, \
-     'fig08-mechanism.dat' index 8 using 1:2 with lines linecolor '#9ad83c' linewidth 1 notitle
-
-reset
-unset title
-set title '(f) paths, φ = 0.65'
+set title '(e) paths, φ = 0.65'
 set border 3 linecolor '#333333'
 set tics nomirror out textcolor '#333333'
 set grid linetype 1 linecolor '#e2e2e2' linewidth 0.5
@@ -98,8 +80,27 @@ set key font ',11' spacing 1.0
 set size ratio 1
 set xrange [-20.050736895061025:20.727828600370326]
 set yrange [-24.67632078954097:16.10224470589038]
-plot 'fig08-mechanism.dat' index 9 using 1:2 with lines linecolor '#440154' linewidth 1 notitle, \
-     'fig08-mechanism.dat' index 10 using 1:2 with lines linecolor '#375a8c' linewidth 1 notitle, \
-     'fig08-mechanism.dat' index 11 using 1:2 with lines linecolor '#249f87' linewidth 1 notitle, \
-     'fig08-mechanism.dat' index 12 using 1:2 with lines linecolor '#9ad83c' linewidth 1 notitle
+plot 'fig08-mechanism.dat' index 6 using 1:2 with lines linecolor '#440154' linewidth 1 notitle, \
+     'fig08-mechanism.dat' index 7 using 1:2 with lines linecolor '#375a8c' linewidth 1 notitle, \
+     'fig08-mechanism.dat' index 8 using 1:2 with lines linecolor '#249f87' linewidth 1 notitle, \
+     'fig08-mechanism.dat' index 9 using 1:2 with lines linecolor '#9ad83c' linewidth 1 notitle
+
+reset
+unset title
+set title '(f) paths, φ = 0.85'
+set border 3 linecolor '#333333'
+set tics nomirror out textcolor '#333333'
+set grid linetype 1 linecolor '#e2e2e2' linewidth 0.5
+set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'
+unset key
+set xlabel 'x (mm)'
+set ylabel 'y (mm)'
+set key font ',11' spacing 1.0
+set size ratio 1
+set xrange [-34.80145627128839:27.8477778699298]
+set yrange [-15.136659713461142:47.512574427757045]
+plot 'fig08-mechanism.dat' index 10 using 1:2 with lines linecolor '#440154' linewidth 1 notitle, \
+     'fig08-mechanism.dat' index 11 using 1:2 with lines linecolor '#375a8c' linewidth 1 notitle, \
+     'fig08-mechanism.dat' index 12 using 1:2 with lines linecolor '#249f87' linewidth 1 notitle, \
+     'fig08-mechanism.dat' index 13 using 1:2 with lines linecolor '#9ad83c' linewidth 1 notitle
 unset multiplot
