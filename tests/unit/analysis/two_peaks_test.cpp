@@ -98,7 +98,7 @@ TEST(TwoPeaks, AreNotSeenWhereThereAreNone) {
     EXPECT_TRUE(are_two(
         sampled(40000, [&] { return ((draw.uniform(0, 1) < 0.5 ? 10 : -10) + 7 * draw.normal()) * kDegree; }).dip));
   }
-  EXPECT_LE(wrong, 4) << "of 180";
+  EXPECT_LE(wrong, 2) << "of 180";
   EXPECT_FALSE(fit_two_peaks(AngleDistribution(180).reduce()));
   EXPECT_FALSE(fit_two_peaks(AngleDistribution(2).reduce()));
   EXPECT_FALSE(are_two(sampled(400, [] { return 0.5; }).dip));

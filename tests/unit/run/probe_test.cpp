@@ -73,10 +73,10 @@ TEST(Probe, FindsWhatARunThenTakes) {
   // how many defects there will be is not known
   EXPECT_NEAR(probed->disk.observables / bytes_of(directory.observables()), 1, 0.4);
   EXPECT_NEAR(probed->disk.checkpoints / bytes_of(directory.checkpoint()), 1, 0.2);
-  // the right order of magnitude: the machine may do other things meanwhile
+  // the machine may do other things meanwhile
   const double cpu = probed->total() / summary["cpu_seconds"].get<double>();
-  EXPECT_GT(cpu, 1.0 / 10);
-  EXPECT_LT(cpu, 10);
+  EXPECT_GT(cpu, 1.0 / 3);
+  EXPECT_LT(cpu, 3);
 }
 
 // What is kept of a long run is bounded: S(t) and the numbers of defects at 65,536 points, single rods' ways by their
