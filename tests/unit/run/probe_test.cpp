@@ -69,7 +69,7 @@ TEST(Probe, FindsWhatARunThenTakes) {
   // samples every 2, 3, 4, 10, 20 and 50 ms: multiples of 2 or 3 ms
   EXPECT_EQ(probed->snapshots.count, 751 + 501 - 251);
   // files; the probe sees the start only, whose rods still stand in rows and compress better
-  EXPECT_NEAR(probed->disk.trajectory / bytes_of(directory.trajectory()), 1, 0.25);
+  EXPECT_NEAR(probed->disk.trajectory / bytes_of(directory.trajectory()), 1, 0.15);
   // how many defects there will be is not known
   EXPECT_NEAR(probed->disk.observables / bytes_of(directory.observables()), 1, 0.4);
   EXPECT_NEAR(probed->disk.checkpoints / bytes_of(directory.checkpoint()), 1, 0.2);
