@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "client/plotting/run_figures.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <fstream>
 
+#include "client/plotting/run_figures.h"
 #include "client/process.h"
 #include "tests/unit/client/fake_daemon.h"
 #include "tests/unit/client/run_client.h"
