@@ -20,20 +20,20 @@ namespace shaken::run {
 ///   /defects/{time_s, n_plus, n_minus}                       defects at each sample
 ///   /defects/tracks/{span_s, speed_plus_mm_s, speed_minus_mm_s, speed_plus_along_mm_s, speed_plus_across_mm_s} and
 ///     their ..._sem_mm_s: mean speeds of +1/2 and -1/2 against the time they are taken over, and the +1/2's velocity
-///     along and across the ray on which its director is radial (its tail); of tracks that last:
-///     /defects/tracks/lasting
+///     along and across the ray on which its director is radial (its tail). /defects/tracks/lasting: of those that last
 ///   /defects/list/{time_s, x_mm, y_mm, charge, direction_rad, track}  every defect found, if the scene asks for it
 ///   /g2/{r_mm, g2, g}                                        orientational correlation, pair distribution
 ///   /fluctuations/{area_fraction, mean_n, std_n, std_n_sem, std_n_without_map, std_n_without_map_sem}   numbers of
 ///     rods in boxes, over boxes and time and about each box's own mean
 ///   /frank/{q_along_per_mm, q_across_per_mm, power_mm2, power_sem_mm2, fit_mm2}   the director's fluctuations
-///   /pairs/{along_mm, across_mm, g, g2}                      maps (across, along) in the director's frame, across
-///   slowest /pairs/cut/{r_mm, g_along, g_across, g2_along, g2_across}  cuts through them /layers/{q_per_mm,
-///   spectrum_across, spectrum_along}      power of sin 2 (theta - director) against wave number /msd/{lag_s,
-///   total_mm2, along_mm2, across_mm2}           mean square displacement /msd/{relative_total_mm2, relative_along_mm2,
-///   relative_across_mm2}   without the drift of all rods together /msd/{NAME_sem_mm2, exponent, exponent_sem} errors
-///   of these; d ln total / d ln lag /rotation/{lag_s, msad_rad2, msad_sem_rad2, c2, c2_sem}  mean square angular
-///   displacement, C_2(t) /velocity/{lag_s, c_v, c_v_sem, c_v_along, c_v_along_sem, c_v_across, c_v_across_sem} C_v(t)
+///   /pairs/{along_mm, across_mm, g, g2}                      maps in the director's frame, across slowest
+///   /pairs/cut/{r_mm, g_along, g_across, g2_along, g2_across}  cuts through them
+///   /layers/{q_per_mm, spectrum_across, spectrum_along}      power of sin 2 (theta - director) against wave number
+///   /msd/{lag_s, total_mm2, along_mm2, across_mm2}           mean square displacement
+///   /msd/{relative_total_mm2, relative_along_mm2, relative_across_mm2}   without the drift of all rods together
+///   /msd/{NAME_sem_mm2, exponent, exponent_sem}              errors of these; d ln total / d ln lag
+///   /rotation/{lag_s, msad_rad2, msad_sem_rad2, c2, c2_sem}  mean square angular displacement, C_2(t)
+///   /velocity/{lag_s, c_v, c_v_sem, c_v_along, c_v_along_sem, c_v_across, c_v_across_sem}   C_v(t)
 ///   /rods/trace/time_s, /rods/trace/K/{x_mm, y_mm, theta_rad, n_z}   where rod K of those kept goes
 using Observables = std::map<std::string, std::vector<double>>;
 
