@@ -13,8 +13,6 @@
 namespace shaken::analysis {
 namespace {
 
-constexpr std::size_t kErrorBlocks = 16;
-
 using SumsAsArray = std::array<double, sizeof(TrackSums) / sizeof(double)>;
 using TracksAsArray = std::array<double, sizeof(TrackSums::Tracks) / sizeof(double)>;
 
@@ -255,7 +253,7 @@ std::vector<double> DefectTracks::numbers(const TrackSums& sums) const {
 }
 
 TrackSummary DefectTracks::reduce(double t_steady) const {
-  const std::vector<Estimate> estimates = jackknife(blocks_.empty(), blocks_.parts_after(t_steady, kErrorBlocks),
+  const std::vector<Estimate> estimates = jackknife(blocks_.empty(), blocks_.parts_after(t_steady, kMostParts),
                                                     [this](const TrackSums& sums) { return numbers(sums); });
   auto next = estimates.begin();
   TrackSummary summary;

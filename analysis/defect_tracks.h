@@ -58,7 +58,7 @@ struct TrackSummary {
     std::vector<Estimate> speed_plus, speed_minus, along, across;
   };
   std::vector<double> span;  ///< [s]
-  Estimate charge;           ///< mean total charge; zero in a periodic box
+  Estimate charge;           ///< mean total charge; zero in a periodic box that is full of rods
   Tracks all;                ///< every defect found
   Tracks lasting;            ///< of tracks at least the minimal lifetime long
 };
@@ -70,8 +70,8 @@ struct TrackSummary {
 /// `max_step`. Where steps are small against the spacing that is the best assignment of all. What is left over are
 /// births and deaths; of these, those of opposite charge closest together are one creation or annihilation, up to the
 /// sum of the two cut-offs apart (either may have gone one cut-off since or before they met). The rest came or went
-/// alone, which topology forbids in a periodic box: they are jumps beyond the cut-off, and counted. Walls let defects
-/// come and go alone.
+/// alone, which topology forbids in a periodic box that is full of rods: they are jumps beyond the cut-off, and
+/// counted. Walls and voids let defects come and go alone.
 ///
 /// Noise makes pairs a mesh apart that vanish again within a sample or two. So everything is told twice: of all
 /// tracks, and of the lasting ones, seen for at least `min_lifetime`. These are counted with all of their life, from
@@ -107,7 +107,7 @@ class DefectTracks {
   /// Tracks so far.
   std::int64_t n_tracks() const { return next_id_; }
 
-  /// From `t_steady` [s] on, errors from at most 16 blocks.
+  /// From `t_steady` [s] on, errors from the stretches of time.
   TrackSummary reduce(double t_steady) const;
   void reset();
 

@@ -73,20 +73,25 @@ Vec2 core_position(const DirectorField& field, int i, int j) {
   const Vec2 inside = common_zero(xx, xy).value_or(Vec2(0.5, 0.5));
   Vec2 position = (Vec2(i, j) + inside) * field.mesh();
   for (double& x : position) {
-    if (x >= field.box_side()) x -= field.box_side();
+    if (x >= field.region().box_side()) x -= field.region().box_side();
   }
   return position;
 }
 
-double distance_to_next(const std::vector<Defect>& defects, std::size_t self, double box_side) {
+double distance_to_next(const std::vector<Defect>& defects, std::size_t self, const Region& region) {
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < defects.size(); ++k) {
-    if (k == self) continue;
-    Vec2 d = (defects[k].position - defects[self].position).cwiseAbs();
-    d = d.cwiseMin((Vec2::Constant(box_side) - d).cwiseAbs());
-    nearest = std::min(nearest, d.norm());
+    if (k != self) {
+      nearest = std::min(nearest, region.shortest(defects[k].position - defects[self].position).norm());
+    }
   }
   return nearest;
+}
+
+/// At all corners of a plaquette.
+bool is_defined(const DirectorField& field, int i, int j) {
+  return field.is_defined(i, j) && field.is_defined(i + 1, j) && field.is_defined(i, j + 1) &&
+         field.is_defined(i + 1, j + 1);
 }
 
 /// Vromans & Giomi 2016, eq. 5.
@@ -112,16 +117,18 @@ double core_direction(const DirectorField& field, const Defect& defect, double r
 std::vector<Defect> find_defects(const DirectorField& field) {
   const int n = field.n();
   const std::vector<int> charges = twice_charges(field);
+  // Within walls no plaquette reaches round the box.
+  const int plaquettes = field.region().is_periodic() ? n : n - 1;
   std::vector<Defect> defects;
-  for (int j = 0; j < n; ++j) {
-    for (int i = 0; i < n; ++i) {
+  for (int j = 0; j < plaquettes; ++j) {
+    for (int i = 0; i < plaquettes; ++i) {
       const int charge = charges[static_cast<std::size_t>(j * n + i)];
-      if (charge != 0) defects.push_back({core_position(field, i, j), 0.5 * charge, 0.0});
+      if (charge != 0 && is_defined(field, i, j)) defects.push_back({core_position(field, i, j), 0.5 * charge, 0.0});
     }
   }
   for (std::size_t k = 0; k < defects.size(); ++k) {
     if (std::abs(defects[k].charge) != 0.5) continue;
-    const double half_way = 0.5 * distance_to_next(defects, k, field.box_side());
+    const double half_way = 0.5 * distance_to_next(defects, k, field.region());
     const double radius = std::max(field.mesh(), std::min(field.smoothing(), half_way));
     defects[k].direction = core_direction(field, defects[k], radius);
   }

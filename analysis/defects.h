@@ -18,11 +18,12 @@ struct Defect {
 };
 
 /// All defects of the field: every plaquette of the grid round whose four edges the director turns by +-pi, each step
-/// taken the shorter way. Position: zero of the bilinear Q in the plaquette. Direction: Vromans & Giomi, Soft Matter
+/// taken the shorter way, and is defined at all four corners (DirectorField::is_defined): there are none in the void
+/// and none beyond walls. Position: zero of the bilinear Q in the plaquette. Direction: Vromans & Giomi, Soft Matter
 /// 12, 6490 (2016), eq. 5, averaged over a ring round the core whose radius is the smoothing length, or half the
-/// distance to the next defect if that is less. The charges of a periodic box add up to exactly zero, whatever the
-/// field. Nothing is merged or left out: where the order is low, noise makes +- pairs a mesh apart, and they are
-/// reported.
+/// distance to the next defect if that is less. The charges of a periodic box add up to exactly zero where the director
+/// is defined everywhere, whatever it is. Nothing is merged: where the order is low, noise makes +- pairs a mesh apart,
+/// and they are reported.
 std::vector<Defect> find_defects(const DirectorField& field);
 
 }  // namespace shaken::analysis

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "analysis/diffusion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -22,18 +23,17 @@ double mean_square(const LagCurve& curve, std::span<const double> weights, std::
 /// sum of coefficient * MS, or ln MS, over the lags of a window.
 Estimate linear(const LagCurve& curve, std::span<const double> weights, const LagCurve::Window& window,
                 std::span<const double> coefficients, bool logarithm) {
-  Estimate result{0, 0};
+  double result = 0;
   std::vector<LagTerm> terms;
   for (std::size_t i = 0; i < window.size(); ++i) {
     const std::size_t lag = window.first + i;
     const double value = mean_square(curve, weights, lag);
     if (logarithm && !(value > 0)) return {};
-    result.value += coefficients[i] * (logarithm ? std::log(value) : value);
+    result += coefficients[i] * (logarithm ? std::log(value) : value);
     const double derivative = coefficients[i] / (logarithm ? value : 1.0);
     for (std::size_t q = 0; q < weights.size(); ++q) terms.push_back({q, lag, derivative * weights[q]});
   }
-  result.sem = curve.sem(terms);
-  return result;
+  return curve.estimate(result, terms);
 }
 
 /// Coefficients c with sum c_i y_i = slope of the least-squares line through (x_i, y_i).
@@ -69,20 +69,20 @@ std::size_t first_lag(const LagCurve& curve) { return !curve.lags().empty() && c
 
 ShortAndLong growth(const LagCurve& curve, std::span<const double> weights) {
   const std::vector<double>& lags = curve.lags();
-  std::size_t first = first_lag(curve);
-  for (std::size_t i = first; i + 1 < lags.size(); ++i) {
+  const std::size_t first = first_lag(curve);
+  const LagCurve::Window at_long = curve.last_octave();
+  const std::size_t end = at_long.size() > 0 ? at_long.first : lags.size();  // of the short lags
+  ShortAndLong result;
+  result.at_long = growth_in(curve, weights, at_long);
+  if (end <= first) return result;
+  // Where the flight ends too late, or not at all, the window stands before the long lags.
+  double from = std::max(lags[first], lags[end - 1] / kShortWindow);
+  for (std::size_t i = first; i < end && lags[i] < from; ++i) {
     const double exponent =
         std::log(mean_square(curve, weights, i + 1) / mean_square(curve, weights, i)) / std::log(lags[i + 1] / lags[i]);
-    if (exponent < kEndOfFlight) {
-      first = i;
-      break;
-    }
+    if (exponent < kEndOfFlight) from = lags[i];
   }
-  ShortAndLong result;
-  if (first < lags.size()) {
-    result.at_short = growth_in(curve, weights, curve.between(lags[first], kShortWindow * lags[first]));
-  }
-  result.at_long = growth_in(curve, weights, curve.last_octave());
+  result.at_short = growth_in(curve, weights, curve.between(from, std::min(kShortWindow * from, lags[end - 1])));
   return result;
 }
 

@@ -21,10 +21,11 @@ struct GrowthFit {
 
 /// Growth at short and at long lags.
 struct ShortAndLong {
-  /// From the end of the ballistic flight on, which is the shortest lag whose local exponent to the next lag is below
-  /// 1.1, over two octaves. Where there is no such lag, over the first two octaves: the exponent says so.
+  /// Two octaves from the end of the ballistic flight on, which is the shortest lag whose local exponent to the next
+  /// lag is below 1.1; where that comes so late that they would reach into the long lags, the two octaves next before
+  /// these: the exponent says that the motion still remembers. NaN where fewer than three lags are left.
   GrowthFit at_short;
-  /// Over LagCurve::last_octave; NaN where that is empty.
+  /// Over LagCurve::last_octave, the longest lags that have an error; NaN where that is empty.
   GrowthFit at_long;
 };
 

@@ -19,25 +19,51 @@ int wrapped(int i, int n) {
   return remainder < 0 ? remainder + n : remainder;
 }
 
-/// The grid lines that one rod reaches in one direction, and their weights.
+/// The grid lines that one place reaches in one direction, and their weights.
 struct Reach {
   std::vector<int> node;
   std::vector<double> weight;
 };
 
-void fill_reach(Reach& reach, double coordinate, double mesh, int n, double smoothing) {
+/// `place` in meshes; lines beyond the border are those of the other side, or none.
+void fill_reach(Reach& reach, double place, double mesh, int n, double smoothing, bool periodic) {
   reach.node.clear();
   reach.weight.clear();
-  const double place = coordinate / mesh;
   // At most n lines, the nearest ones: in a small box each line is then met by the nearest image only.
-  const double half_width = std::min(kCut * smoothing / mesh, 0.5 * n);
+  const double half_width = std::min(kCut * smoothing / mesh, periodic ? 0.5 * n : 2.0 * n);
   const auto first = static_cast<int>(std::ceil(place - half_width));
-  const int last = std::min(static_cast<int>(std::floor(place + half_width)), first + n - 1);
+  int last = static_cast<int>(std::floor(place + half_width));
+  if (periodic) last = std::min(last, first + n - 1);
   for (int i = first; i <= last; ++i) {
+    if (!periodic && (i < 0 || i >= n)) continue;
     const double distance = (i - place) * mesh / smoothing;
     reach.node.push_back(wrapped(i, n));
     reach.weight.push_back(std::exp(-0.5 * distance * distance));
   }
+}
+
+/// What the Gaussian about each node finds of the nodes within the region (n * n).
+std::vector<double> covered(const std::vector<bool>& inside, int n, double mesh, double smoothing, bool periodic) {
+  const auto m = static_cast<std::size_t>(n);
+  std::vector<double> rows(m * m, 0.0), all(m * m, 0.0);
+  Reach reach;
+  for (std::size_t i = 0; i < m; ++i) {
+    fill_reach(reach, static_cast<double>(i), mesh, n, smoothing, periodic);
+    for (std::size_t k = 0; k < reach.node.size(); ++k) {
+      const auto from = static_cast<std::size_t>(reach.node[k]);
+      for (std::size_t j = 0; j < m; ++j) {
+        if (inside[j * m + from]) rows[j * m + i] += reach.weight[k];
+      }
+    }
+  }
+  for (std::size_t j = 0; j < m; ++j) {
+    fill_reach(reach, static_cast<double>(j), mesh, n, smoothing, periodic);
+    for (std::size_t k = 0; k < reach.node.size(); ++k) {
+      const std::size_t from = static_cast<std::size_t>(reach.node[k]) * m;
+      for (std::size_t i = 0; i < m; ++i) all[j * m + i] += reach.weight[k] * rows[from + i];
+    }
+  }
+  return all;
 }
 
 double theta_of(const Vec2& q) { return fold_half_turn(0.5 * std::atan2(q.y(), q.x())); }
@@ -52,24 +78,28 @@ int grid_nodes(double box_side, double mesh) {
   return std::max(4, static_cast<int>(std::ceil(box_side / mesh - 1e-9)));
 }
 
-DirectorField::DirectorField(std::span<const Vec3> positions, std::span<const Vec3> directors, double box_side, int n,
-                             double smoothing)
-    : n_(n), box_side_(box_side), smoothing_(smoothing) {
+DirectorField::DirectorField(std::span<const Vec3> positions, std::span<const Vec3> directors, const Region& region,
+                             int n, double smoothing)
+    : n_(n), region_(region), smoothing_(smoothing) {
   SHAKEN_CHECK(positions.size() == directors.size(), "one position for each director");
-  SHAKEN_CHECK(n >= 2 && box_side > 0.0 && smoothing > 0.0, "grid, box and smoothing must be positive");
+  SHAKEN_CHECK(n >= 2 && smoothing > 0.0, "grid and smoothing must be positive");
   const auto n_nodes = static_cast<std::size_t>(n) * static_cast<std::size_t>(n);
+  const double box_side = region.box_side();
+  const bool periodic = region.is_periodic();
   q_xx_.assign(n_nodes, 0.0);
   q_xy_.assign(n_nodes, 0.0);
   std::vector<double> weight(n_nodes, 0.0);
+  double rods = 0;
   Reach x, y;
   for (std::size_t i_rod = 0; i_rod < positions.size(); ++i_rod) {
     const Vec2 angle = double_angle(directors[i_rod]);
     if (angle == Vec2::Zero()) continue;
+    rods += 1;
     // A Gaussian is a product, so a rod costs exponentials for its lines only, not for its nodes.
     const Vec2 place =
         positions[i_rod].head<2>() - box_side * (positions[i_rod].head<2>() / box_side).array().floor().matrix();
-    fill_reach(x, place.x(), mesh(), n, smoothing);
-    fill_reach(y, place.y(), mesh(), n, smoothing);
+    fill_reach(x, place.x() / mesh(), mesh(), n, smoothing, periodic);
+    fill_reach(y, place.y() / mesh(), mesh(), n, smoothing, periodic);
     for (std::size_t b = 0; b < y.node.size(); ++b) {
       const std::size_t row = index(0, y.node[b]);
       for (std::size_t a = 0; a < x.node.size(); ++a) {
@@ -81,7 +111,16 @@ DirectorField::DirectorField(std::span<const Vec3> positions, std::span<const Ve
       }
     }
   }
+  defined_.assign(n_nodes, true);
+  if (!periodic) {
+    for (int j = 0; j < n; ++j) {
+      for (int i = 0; i < n; ++i) defined_[index(i, j)] = region.contains(Vec2(i, j) * mesh());
+    }
+  }
+  const auto inside = static_cast<double>(std::count(defined_.begin(), defined_.end(), true));
+  const std::vector<double> room = covered(defined_, n, mesh(), smoothing, periodic);
   for (std::size_t node = 0; node < n_nodes; ++node) {
+    if (!(weight[node] * inside >= kFloor * rods * room[node] && weight[node] > 0.0)) defined_[node] = false;
     if (weight[node] == 0.0) continue;
     q_xx_[node] /= weight[node];
     q_xy_[node] /= weight[node];
@@ -108,8 +147,10 @@ double DirectorField::theta_at(const Vec2& position) const { return theta_of(q_a
 double DirectorField::order_at(const Vec2& position) const { return order_of(q_at(position)); }
 
 std::size_t DirectorField::index(int i, int j) const {
-  return static_cast<std::size_t>(wrapped(j, n_)) * static_cast<std::size_t>(n_) +
-         static_cast<std::size_t>(wrapped(i, n_));
+  const auto on_grid = [this](int k) {
+    return static_cast<std::size_t>(region_.is_periodic() ? wrapped(k, n_) : std::clamp(k, 0, n_ - 1));
+  };
+  return on_grid(j) * static_cast<std::size_t>(n_) + on_grid(i);
 }
 
 }  // namespace shaken::analysis

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "analysis/region.h"
 #include "sim/core/types.h"
 
 namespace shaken::analysis {
@@ -11,27 +12,35 @@ namespace shaken::analysis {
 /// Nodes of the coarsest square grid over `box_side` whose mesh is at most `mesh` (both [mm]); at least 4.
 int grid_nodes(double box_side, double mesh);
 
-/// The smoothed in-plane order tensor on a periodic grid of n x n nodes,
+/// The smoothed in-plane order tensor on a square grid of n x n nodes over the box,
 ///   Q_ab(x) = sum_i K(x - x_i) (n_a n_b - delta_ab / 2) / sum_i K(x - x_i),
 /// n being the unit in-plane direction of rod i and K a Gaussian of standard deviation `smoothing`, cut at four of
 /// them. Q_xx = (S/2) cos 2 theta and Q_xy = (S/2) sin 2 theta give the local order S and the director's angle theta.
-/// The grid is periodic even where walls stand round the rods: nodes within four smoothing lengths of its border also
-/// see the rods across it.
-/// Node (i, j) lies at x = i * mesh, y = j * mesh; i and j may be any integer.
+/// Node (i, j) lies at x = i * mesh, y = j * mesh; i and j may be any integer. In a periodic box the grid is periodic;
+/// within walls no rod is smoothed across the border of the box, and nodes beyond it are those at it.
+///
+/// Where there are no rods there is no director. The density at a node is what the Gaussian finds of rods over what it
+/// finds of the region, sum_i K(x - x_i) / sum_nodes K(x - x_node) over the nodes within walls; below half of the
+/// mean, or beyond the walls, the director is undefined. Q there is still that of the few rods in reach.
 class DirectorField {
  public:
+  /// The density below which there is no director, in units of the mean.
+  static constexpr double kFloor = 0.5;
+
   /// From centres (n_rods) [mm], anywhere (wrapped here), and directors (n_rods). Rods exactly upright are left out; a
   /// node that no rod reaches has Q = 0.
-  DirectorField(std::span<const Vec3> positions, std::span<const Vec3> directors, double box_side, int n,
+  DirectorField(std::span<const Vec3> positions, std::span<const Vec3> directors, const Region& region, int n,
                 double smoothing);
 
   int n() const { return n_; }
-  double box_side() const { return box_side_; }    ///< [mm]
-  double mesh() const { return box_side_ / n_; }   ///< [mm]
-  double smoothing() const { return smoothing_; }  ///< [mm]
+  const Region& region() const { return region_; }
+  double mesh() const { return region_.box_side() / n_; }  ///< [mm]
+  double smoothing() const { return smoothing_; }          ///< [mm]
 
   double q_xx(int i, int j) const { return q_xx_[index(i, j)]; }
   double q_xy(int i, int j) const { return q_xy_[index(i, j)]; }
+  /// Whether there are rods enough at a node within the walls for a director.
+  bool is_defined(int i, int j) const { return defined_[index(i, j)]; }
   double theta(int i, int j) const;  ///< in [-pi/2, pi/2) [rad]; 0 where Q = 0
   double order(int i, int j) const;  ///< local S in [0, 1]
 
@@ -44,8 +53,10 @@ class DirectorField {
   std::size_t index(int i, int j) const;
 
   int n_;
-  double box_side_, smoothing_;
+  Region region_;
+  double smoothing_;
   std::vector<double> q_xx_, q_xy_;  // (n * n), i fastest
+  std::vector<bool> defined_;        // (n * n)
 };
 
 }  // namespace shaken::analysis

@@ -16,7 +16,6 @@ namespace {
 
 constexpr int kMaxWave = 6;
 constexpr int kSectors = 36;  // over half a turn
-constexpr std::size_t kErrorBlocks = 16;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr int kSquares = 10;  // squares of the quadrant along each axis: 6 sqrt(2) and half a square
 
@@ -301,7 +300,7 @@ std::vector<double> DirectorFluctuations::numbers() const {
 }
 
 DirectorSpectrum DirectorFluctuations::reduce(const Blocked<DirectorFluctuations>& blocks, double t_steady) {
-  const std::vector<Estimate> all = jackknife(blocks.empty(), blocks.parts_after(t_steady, kErrorBlocks),
+  const std::vector<Estimate> all = jackknife(blocks.empty(), blocks.parts_after(t_steady, kMostParts),
                                               [](const DirectorFluctuations& part) { return part.numbers(); });
   DirectorSpectrum spectrum;
   spectrum.splay = all[0];

@@ -65,7 +65,7 @@ class DirectorFluctuations {
   /// Adds the samples of `other`, of the same box.
   void merge(const DirectorFluctuations& other);
 
-  /// With errors from at most 16 blocks of `blocks` from `t_steady` [s] on. The fit is by weighted least squares of the
+  /// With errors from the stretches of `blocks` from `t_steady` [s] on. The fit is by weighted least squares of the
   /// powers with weights iterated from the fit itself, 1 / (fit + floor)^2, as powers scatter by as much as they are:
   /// the same as the maximum likelihood of exponentially distributed ones (Whittle 1953). Powers less the floor may be
   /// negative; waves well below the floor hardly count. NaN where there is no fit.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace shaken::analysis {
@@ -10,9 +11,17 @@ namespace shaken::analysis {
 struct Estimate {
   double value = std::numeric_limits<double>::quiet_NaN();  ///< NaN: not to be had from the samples
   double sem = std::numeric_limits<double>::quiet_NaN();    ///< NaN: unknown
+  /// Independent samples behind the error; NaN: unknown.
+  double n_effective = std::numeric_limits<double>::quiet_NaN();
+  /// Whether what it averages over is steady; none: it is no average over time, or that cannot be told.
+  std::optional<bool> steady = std::nullopt;
 };
 
-inline Estimate operator/(const Estimate& a, double divisor) { return {a.value / divisor, a.sem / divisor}; }
+inline Estimate operator/(Estimate a, double divisor) {
+  a.value /= divisor;
+  a.sem /= divisor;
+  return a;
+}
 
 /// Estimates along a curve; both of the curve's length.
 struct EstimateCurve {

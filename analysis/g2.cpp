@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "analysis/fold.h"
 #include "analysis/nearest_image.h"
@@ -18,14 +19,19 @@ constexpr std::size_t kMaxReferences = 1024;
 }  // namespace
 
 OrientationCorrelation::OrientationCorrelation(int bins, double r_max)
-    : r_max_(r_max), pairs_(static_cast<std::size_t>(std::max(bins, 0))), sums_(pairs_.size()) {
+    : r_max_(r_max),
+      pairs_(static_cast<std::size_t>(std::max(bins, 0))),
+      sums_(pairs_.size()),
+      expected_(pairs_.size()) {
   SHAKEN_CHECK(bins >= 1 && r_max > 0.0, "bins and range must not be empty");
 }
 
 void OrientationCorrelation::accumulate(std::span<const Vec3> positions, std::span<const Vec3> directors,
-                                        double box_side) {
+                                        const Region& region) {
   SHAKEN_CHECK(positions.size() == directors.size(), "one position for each director");
-  SHAKEN_CHECK(2.0 * r_max_ <= box_side * (1.0 + 1e-12), "distances beyond half the box have no nearest image");
+  const double box_side = region.box_side();
+  SHAKEN_CHECK(!region.is_periodic() || 2.0 * r_max_ <= box_side * (1.0 + 1e-12),
+               "distances beyond half the box have no nearest image");
   std::vector<double> xs, ys, cs, ss;
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const Vec2 angle = double_angle(directors[i]);
@@ -38,20 +44,28 @@ void OrientationCorrelation::accumulate(std::span<const Vec3> positions, std::sp
   const std::size_t n = xs.size();
   const double bins_per_mm = static_cast<double>(pairs_.size()) / r_max_;
   const std::size_t stride = std::max<std::size_t>(1, (n + kMaxReferences - 1) / kMaxReferences);
+  // Within walls no image is nearer.
+  const double period = region.is_periodic() ? box_side : std::numeric_limits<double>::infinity();
   // In two passes, the first without branches: it becomes vector instructions. What is too far goes into a bin of its
   // own.
   const auto too_far = static_cast<int>(pairs_.size());
   std::vector<int> bins(n);
   std::vector<double> values(n), sums(pairs_.size() + 1);
   std::vector<std::int64_t> pairs(pairs_.size() + 1);
+  double references = 0;
   for (std::size_t i = static_cast<std::size_t>(calls_) % stride; i < n; i += stride) {
-    expected_per_area_ += static_cast<double>(n) / (box_side * box_side);
+    references += 1;
     const double xi = xs[i], yi = ys[i], ci = cs[i], si = ss[i];
     for (std::size_t j = 0; j < n; ++j) {
       const double dx = std::abs(xi - xs[j]), dy = std::abs(yi - ys[j]);
-      const double x = std::min(dx, box_side - dx), y = std::min(dy, box_side - dy);
+      const double x = std::min(dx, period - dx), y = std::min(dy, period - dy);
       bins[j] = std::min(static_cast<int>(std::sqrt(x * x + y * y) * bins_per_mm), too_far);
       values[j] = ci * cs[j] + si * ss[j];
+    }
+    if (region.hidden_radius() > 0) {
+      for (std::size_t j = 0; j < n; ++j) {
+        if (!region.in_sight({xi, yi}, {xs[j], ys[j]})) bins[j] = too_far;
+      }
     }
     bins[i] = too_far;
     for (std::size_t j = 0; j < n; ++j) {
@@ -59,12 +73,26 @@ void OrientationCorrelation::accumulate(std::span<const Vec3> positions, std::sp
       ++pairs[bin];
       sums[bin] += values[j];
     }
+    if (!region.is_periodic()) expect({xi, yi}, region, static_cast<double>(n) / region.area());
   }
+  // In a periodic box every place sees the same.
+  if (region.is_periodic()) expect(Vec2::Zero(), region, references * static_cast<double>(n) / region.area());
   for (std::size_t bin = 0; bin < pairs_.size(); ++bin) {
     pairs_[bin] += pairs[bin];
     sums_[bin] += sums[bin];
   }
   ++calls_;
+}
+
+/// Adds what a gas of `density` [1/mm^2] has in the rings about a place.
+void OrientationCorrelation::expect(const Vec2& place, const Region& region, double density) {
+  double within = 0;
+  for (std::size_t bin = 0; bin < expected_.size(); ++bin) {
+    const double radius = r_max_ * static_cast<double>(bin + 1) / static_cast<double>(expected_.size());
+    const double area = region.area_in_sight(place, radius);
+    expected_[bin] += density * (area - within);
+    within = area;
+  }
 }
 
 OrientationCurve OrientationCorrelation::reduce() const {
@@ -74,9 +102,8 @@ OrientationCurve OrientationCorrelation::reduce() const {
     curve.r.push_back((static_cast<double>(bin) + 0.5) * width);
     curve.g2.push_back(pairs_[bin] > 0 ? sums_[bin] / static_cast<double>(pairs_[bin])
                                        : std::numeric_limits<double>::quiet_NaN());
-    const double ring = kPi * width * width * (2.0 * static_cast<double>(bin) + 1.0);
-    curve.g.push_back(expected_per_area_ > 0 ? static_cast<double>(pairs_[bin]) / (expected_per_area_ * ring)
-                                             : std::numeric_limits<double>::quiet_NaN());
+    curve.g.push_back(expected_[bin] > 0 ? static_cast<double>(pairs_[bin]) / expected_[bin]
+                                         : std::numeric_limits<double>::quiet_NaN());
   }
   return curve;
 }
@@ -85,16 +112,16 @@ void OrientationCorrelation::reset() {
   calls_ = 0;
   std::fill(pairs_.begin(), pairs_.end(), 0);
   std::fill(sums_.begin(), sums_.end(), 0.0);
-  expected_per_area_ = 0;
+  std::fill(expected_.begin(), expected_.end(), 0.0);
 }
 
 void OrientationCorrelation::merge(const OrientationCorrelation& other) {
   SHAKEN_CHECK(pairs_.size() == other.pairs_.size() && r_max_ == other.r_max_, "correlations of different bins");
   calls_ = std::max(calls_, other.calls_);
-  expected_per_area_ += other.expected_per_area_;
   for (std::size_t bin = 0; bin < pairs_.size(); ++bin) {
     pairs_[bin] += other.pairs_[bin];
     sums_[bin] += other.sums_[bin];
+    expected_[bin] += other.expected_[bin];
   }
 }
 
@@ -102,20 +129,20 @@ void OrientationCorrelation::save(StateWriter& writer) const {
   writer.tag("OrientationCorrelation");
   writer.put(r_max_);
   writer.put(calls_);
-  writer.put(expected_per_area_);
   writer.put(pairs_);
   writer.put(sums_);
+  writer.put(expected_);
 }
 
 void OrientationCorrelation::restore(StateReader& reader) {
   reader.tag("OrientationCorrelation");
   if (reader.real() != r_max_) throw StateError("saved analysis state: OrientationCorrelation of another range");
   const std::int64_t calls = reader.integer(0, std::numeric_limits<std::int64_t>::max() / 2);
-  const double expected_per_area = reader.real();
   std::vector<std::int64_t> pairs = reader.integers(pairs_.size());
-  sums_ = reader.reals(sums_.size());
+  std::vector<double> sums = reader.reals(sums_.size());
+  expected_ = reader.reals(expected_.size());
+  sums_ = std::move(sums);
   pairs_ = std::move(pairs);
-  expected_per_area_ = expected_per_area;
   calls_ = calls;
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "analysis/region.h"
 #include "analysis/state_io.h"
 #include "sim/core/types.h"
 
@@ -17,18 +18,20 @@ struct OrientationCurve {
   std::vector<double> g;   ///< pairs met over pairs expected of a gas of the same density; NaN without samples
 };
 
-/// G2(r) = <cos 2 (theta_i - theta_j)> over pairs of rods at in-plane distance r (nearest periodic image) below r_max.
-/// The same pairs give the distribution g(r): their number in a ring over references x rho x the ring's area. rho is n
-/// / L^2, that of the whole box also where side walls leave less of it; of n rods a gas then has 1 - 1 / n, as is
-/// usual. One sample costs at most 1024 n_rods pairs: of more than 1024 rods, every k-th is taken as i, another set
-/// each time, against all rods as j. Rods exactly upright are left out.
+/// G2(r) = <cos 2 (theta_i - theta_j)> over pairs of rods at in-plane distance r below r_max: that to the nearest image
+/// of a periodic box, the plain one within walls, where pairs count whose straight line stays in the region (an
+/// annulus' inner wall hides what is behind it). The same pairs give the distribution g(r): their number over that of a
+/// gas, references x rho x what of the ring about each reference is in its sight (Region::area_in_sight, exact). rho is
+/// n over the region's area; of n rods a gas then has 1 - 1 / n, as is usual. One sample costs at most 1024 n_rods
+/// pairs: of more than 1024 rods, every k-th is taken as i, another set each time, against all rods as j. Rods exactly
+/// upright are left out.
 class OrientationCorrelation {
  public:
   /// `bins` equal bins over [0, r_max) [mm].
   OrientationCorrelation(int bins, double r_max);
 
-  /// Centres (n_rods) [mm] and directors (n_rods) in a periodic box of side `box_side` >= 2 r_max [mm].
-  void accumulate(std::span<const Vec3> positions, std::span<const Vec3> directors, double box_side);
+  /// Centres (n_rods) [mm] and directors (n_rods); the side of a periodic box is at least 2 r_max [mm].
+  void accumulate(std::span<const Vec3> positions, std::span<const Vec3> directors, const Region& region);
   /// Samples that others have taken before: whose turn it is as the first of a pair depends on it.
   void start_at(std::int64_t samples) { calls_ = samples; }
   OrientationCurve reduce() const;
@@ -40,11 +43,13 @@ class OrientationCorrelation {
   void restore(StateReader& reader);
 
  private:
+  void expect(const Vec2& place, const Region& region, double density);
+
   double r_max_;
   std::int64_t calls_ = 0;           // samples so far, those before start_at included
   std::vector<std::int64_t> pairs_;  // (bins)
   std::vector<double> sums_;         // (bins) of cos 2 (theta_i - theta_j)
-  double expected_per_area_ = 0;     // sum over references of rho [1/mm^2]
+  std::vector<double> expected_;     // (bins) pairs of a gas
 };
 
 }  // namespace shaken::analysis

@@ -9,21 +9,20 @@
 namespace shaken::analysis {
 namespace {
 
-/// A stretch for errors is at least this many lags long.
+/// Stretches for errors are this many lags long ...
 constexpr double kLagsPerStretch = 2.0;
+/// ... unless there would be fewer than these: then shorter, but not shorter than a lag.
+constexpr double kGoodStretches = 8.0;
 /// Fewer stretches say too little of their scatter.
-constexpr std::size_t kMinStretches = 4;
-/// A lag is trusted for fits if the origins span it this often.
-constexpr double kMinIndependent = 10.0;
+constexpr std::size_t kMinStretches = 5;
 
 }  // namespace
 
 LagCurve::LagCurve(std::vector<double> lags, std::vector<double> independent, std::size_t quantities,
-                   double stretch_length, std::vector<Stretch> stretches)
+                   std::vector<Stretch> stretches)
     : lags_(std::move(lags)),
       independent_(std::move(independent)),
       quantities_(quantities),
-      stretch_length_(stretch_length),
       stretches_(std::move(stretches)),
       rods_(lags_.size()),
       means_(quantities * lags_.size()) {
@@ -34,33 +33,53 @@ LagCurve::LagCurve(std::vector<double> lags, std::vector<double> independent, st
   for (std::size_t i = 0; i < means_.size(); ++i) means_[i] /= rods_[i % lags_.size()];
 }
 
-double LagCurve::sem(std::span<const LagTerm> terms) const {
+LagCurve::Groups LagCurve::groups(std::size_t lag) const {
+  Groups groups;
+  const double spans = independent_[lag] * (1 + 1e-9);
+  const double long_ones = std::floor(spans / kLagsPerStretch);
+  double wanted = long_ones >= kGoodStretches ? long_ones : std::min(kGoodStretches, std::floor(spans));
+  if (wanted < 1 || !(rods_[lag] > 0)) return groups;
+  // No more than there are full stretches, and by the middle of what each holds: the last one, which may be nearly
+  // empty, does not stand alone.
+  double fullest = 0;
+  for (const Stretch& stretch : stretches_) fullest = std::max(fullest, stretch.rods[lag]);
+  wanted = std::min(wanted, std::round(rods_[lag] / fullest));
+  double before = 0;
+  std::size_t last = std::numeric_limits<std::size_t>::max();
+  for (const Stretch& stretch : stretches_) {
+    const double middle = (before + stretch.rods[lag] / 2) / rods_[lag];
+    const auto group = static_cast<std::size_t>(std::min(middle * wanted, wanted - 1));
+    if (group != last) ++groups.n;
+    last = group;
+    groups.of_stretch.push_back(groups.n - 1);
+    before += stretch.rods[lag];
+  }
+  groups.lags_each = std::max(1.0, spans / static_cast<double>(groups.n));
+  return groups;
+}
+
+double LagCurve::sem(std::span<const LagTerm> terms) const { return estimate(0, terms).sem; }
+
+Estimate LagCurve::estimate(double value, std::span<const LagTerm> terms) const {
+  if (terms.empty()) return {value};
   std::size_t longest = 0;
   for (const LagTerm& term : terms) longest = std::max(longest, term.lag);
-  std::size_t joined = 1;
-  if (!terms.empty()) {
-    const double stretches = kLagsPerStretch * lags_[longest] / stretch_length_;
-    joined = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(stretches * (1.0 - 1e-9))));
+  const Groups joined = groups(longest);
+  if (joined.n < kMinStretches) return {value};
+  std::vector<double> deviations(joined.n);
+  for (std::size_t s = 0; s < stretches_.size(); ++s) {
+    const Stretch& stretch = stretches_[s];
+    for (const LagTerm& term : terms) {
+      const std::size_t place = term.quantity * lags_.size() + term.lag;
+      const double expected = means_[place] * stretch.rods[term.lag];
+      deviations[joined.of_stretch[s]] += term.coefficient * (stretch.sums[place] - expected) / rods_[term.lag];
+    }
   }
   double squares = 0;
-  std::size_t n = 0;
-  for (std::size_t first = 0; first < stretches_.size(); first += joined) {
-    double deviation = 0;
-    bool counts = false;
-    for (std::size_t s = first; s < std::min(first + joined, stretches_.size()); ++s) {
-      const Stretch& stretch = stretches_[s];
-      for (const LagTerm& term : terms) {
-        const std::size_t place = term.quantity * lags_.size() + term.lag;
-        const double expected = means_[place] * stretch.rods[term.lag];
-        deviation += term.coefficient * (stretch.sums[place] - expected) / rods_[term.lag];
-      }
-      counts = counts || (!terms.empty() && stretch.rods[longest] > 0);
-    }
-    squares += deviation * deviation;
-    if (counts) ++n;
-  }
-  if (n < kMinStretches) return std::numeric_limits<double>::quiet_NaN();
-  return std::sqrt(squares * static_cast<double>(n) / static_cast<double>(n - 1));
+  for (const double deviation : deviations) squares += deviation * deviation;
+  const auto n = static_cast<double>(joined.n);
+  const double shared = 1 - 1 / (4 * joined.lags_each);
+  return {value, std::sqrt(squares * n / (n - 3) / shared), n};
 }
 
 EstimateCurve LagCurve::combination(std::span<const double> weights) const {
@@ -72,7 +91,7 @@ EstimateCurve LagCurve::combination(std::span<const double> weights) const {
       terms[q] = {q, i, weights[q]};
       value += weights[q] * mean(q, i);
     }
-    curve.push_back({value, sem(terms)});
+    curve.push_back(estimate(value, terms));
   }
   return curve;
 }
@@ -85,7 +104,7 @@ LagCurve::Window LagCurve::between(double from, double to) const {
 
 LagCurve::Window LagCurve::last_octave() const {
   std::size_t end = lags_.size();
-  while (end > 0 && !(independent_[end - 1] >= kMinIndependent)) --end;
+  while (end > 0 && groups(end - 1).n < kMinStretches) --end;
   if (end == 0) return {};
   Window window = between(lags_[end - 1] / 2, lags_[end - 1]);
   if (lags_[window.first] == 0.0) ++window.first;

@@ -27,8 +27,8 @@ class LagCurve {
   };
 
   LagCurve() = default;
-  /// `lags` [s] rising; `independent` (lags): see below; stretches of `stretch_length` [s] in order of time.
-  LagCurve(std::vector<double> lags, std::vector<double> independent, std::size_t quantities, double stretch_length,
+  /// `lags` [s] rising; `independent` (lags): see below; stretches of the same length in order of time.
+  LagCurve(std::vector<double> lags, std::vector<double> independent, std::size_t quantities,
            std::vector<Stretch> stretches);
 
   const std::vector<double>& lags() const { return lags_; }  ///< [s], rising
@@ -37,12 +37,15 @@ class LagCurve {
   /// Mean over rods and origins.
   double mean(std::size_t quantity, std::size_t lag) const { return means_[quantity * lags_.size() + lag]; }
 
-  /// Standard error of sum coefficient * mean, to first order also of any function with these derivatives. From the
-  /// scatter between stretches of origin time, joined until they are at least twice as long as the longest lag in
-  /// `terms`: pairs whose ways overlap then lie in one stretch but for its ends, which leaves the error of a random
-  /// walk's mean square 7 % too small at worst. Right once a stretch is longer than the correlation time. NaN with
-  /// fewer than four such stretches.
+  /// Standard error of sum coefficient * mean, to first order also of any function with these derivatives, from the
+  /// scatter between n stretches of origin time. Pairs whose ways overlap should lie in one stretch, so these are at
+  /// least twice as long as the longest lag in `terms` where eight such fit, down to one lag long to make eight, and at
+  /// least five (NaN with fewer). What neighbours of c lags share all the same is made up for as a random walk's mean
+  /// square has it, 1 / (1 - 1 / 4c) in the square; and that few stretches tell little of their own scatter by the
+  /// variance of Student's t, (n - 1) / (n - 3). Right once a stretch is longer than the correlation time.
   double sem(std::span<const LagTerm> terms) const;
+  /// A value made of these terms, with that error and the number of stretches behind it.
+  Estimate estimate(double value, std::span<const LagTerm> terms) const;
 
   /// One linear combination of the quantities against lag; `weights` (quantities).
   EstimateCurve combination(std::span<const double> weights) const;
@@ -55,14 +58,21 @@ class LagCurve {
   };
   /// All lags in [from, to] [s].
   Window between(double from, double to) const;
-  /// The last octave, [t/2, t], of lags up to the longest t that the origins span at least ten times; empty if it
-  /// holds fewer than three lags.
+  /// The last octave, [t/2, t], of lags up to the longest t with enough stretches for an error (see sem), about a sixth
+  /// of the run; empty if it holds fewer than three lags.
   Window last_octave() const;
 
  private:
+  /// The stretches joined to such as errors at one lag are taken from.
+  struct Groups {
+    std::size_t n = 0;
+    std::vector<std::size_t> of_stretch;  ///< (stretches) in which of the n each one is
+    double lags_each = 0;                 ///< their length in lags
+  };
+  Groups groups(std::size_t lag) const;
+
   std::vector<double> lags_, independent_;
   std::size_t quantities_ = 0;
-  double stretch_length_ = 0;
   std::vector<Stretch> stretches_;
   std::vector<double> rods_;   // (lags)
   std::vector<double> means_;  // (quantities * lags)

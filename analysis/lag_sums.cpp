@@ -54,7 +54,7 @@ LagCurve LagSums::after(double t_steady, double start, double interval) const {
     }
     stretches.push_back(std::move(stretch));
   }
-  return {std::move(lags), std::move(independent), quantities_, stretch_length, std::move(stretches)};
+  return {std::move(lags), std::move(independent), quantities_, std::move(stretches)};
 }
 
 void LagSums::save(StateWriter& writer) const {

@@ -29,7 +29,7 @@ std::vector<std::size_t> references(std::size_t n, std::int64_t sample) {
   const std::size_t stride = (n + kMaxReferences - 1) / kMaxReferences;
   std::vector<std::size_t> rods;
   for (std::size_t first = 0; first < n; first += stride) {
-    Rng draw(static_cast<std::uint64_t>(sample), RngStream::kReferences, first);
+    Rng draw(static_cast<std::uint64_t>(sample), RngStream::kReferences, 0, first);
     rods.push_back(first + draw.below(std::min(stride, n - first)));
   }
   return rods;

@@ -15,6 +15,15 @@ constexpr double kRelativeTotal[] = {1, 1, -1, -1};
 constexpr double kRelativeAlong[] = {1, 0, -1, 0};
 constexpr double kRelativeAcross[] = {0, 1, 0, -1};
 
+/// A mean square displacement over 2 d t.
+EstimateCurve diffusivity(const std::vector<double>& lags, const EstimateCurve& msd, double dimensions) {
+  EstimateCurve curve;
+  for (std::size_t i = 0; i < lags.size(); ++i) {
+    curve.push_back(Estimate{msd.value[i], msd.sem[i]} / (2 * dimensions * lags[i]));
+  }
+  return curve;
+}
+
 }  // namespace
 
 LagPair<DisplacementKernel::kQuantities> DisplacementKernel::between(const LagFrame<kColumns>& origin,
@@ -56,14 +65,21 @@ void MeanSquareDisplacement::accumulate(double time, std::span<const Vec3> unwra
 
 MsdCurve MeanSquareDisplacement::reduce(double t_steady) const {
   const LagCurve curve = average_.after(t_steady);
-  return {curve.lags(),
-          curve.combination(kTotal),
-          curve.combination(kAlong),
-          curve.combination(kAcross),
-          curve.combination(kRelativeTotal),
-          curve.combination(kRelativeAlong),
-          curve.combination(kRelativeAcross),
-          local_exponent(curve, kTotal)};
+  MsdCurve result{curve.lags(),
+                  curve.combination(kTotal),
+                  curve.combination(kAlong),
+                  curve.combination(kAcross),
+                  curve.combination(kRelativeTotal),
+                  curve.combination(kRelativeAlong),
+                  curve.combination(kRelativeAcross),
+                  local_exponent(curve, kTotal),
+                  {},
+                  {},
+                  {}};
+  result.d_total = diffusivity(result.lag, result.total, 2);
+  result.d_along = diffusivity(result.lag, result.along, 1);
+  result.d_across = diffusivity(result.lag, result.across, 1);
+  return result;
 }
 
 Diffusion MeanSquareDisplacement::diffusion(double t_steady) const {

@@ -35,6 +35,9 @@ struct MsdCurve {
   /// rods it is smaller by the factor 1 - 1/N; of one rod it is 0.
   EstimateCurve relative_total, relative_along, relative_across;
   EstimateCurve exponent;  ///< d ln total / d ln lag (see local_exponent)
+  /// MSD / (2 d t) of the above, d = 2 for the total and 1 along an axis [mm^2/s]: level where motion is diffusive. It
+  /// nears D more slowly than the slope does.
+  EstimateCurve d_total, d_along, d_across;
 };
 
 /// What the mean square displacements come down to (see growth for the windows). MSD = 4 D t in the plane and 2 D t

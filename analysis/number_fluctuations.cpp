@@ -13,11 +13,10 @@ namespace shaken::analysis {
 namespace {
 
 constexpr std::array kDivisions{2, 3, 4, 5, 6, 8, 10, 12, 16, 20};
-constexpr double kFitFrom = 0.01, kFitTo = 0.25;
-constexpr std::size_t kErrorBlocks = 16;
+constexpr double kFitTo = 0.25;  // of the area
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// Slope of a straight line through the points that are finite, weighted; NaN with fewer than two.
+/// Slope of a straight line through the points that are finite, weighted; NaN with fewer than three.
 double slope(std::span<const double> x, std::span<const double> y, std::span<const double> weight) {
   double w = 0, wx = 0, wy = 0, wxx = 0, wxy = 0;
   std::size_t n = 0;
@@ -30,12 +29,13 @@ double slope(std::span<const double> x, std::span<const double> y, std::span<con
     wxy += weight[i] * x[i] * y[i];
     ++n;
   }
-  return n < 2 ? kNaN : (w * wxy - wx * wy) / (w * wxx - wx * wx);
+  return n < NumberFluctuations::kMinSizes ? kNaN : (w * wxy - wx * wy) / (w * wxx - wx * wx);
 }
 
 }  // namespace
 
-NumberFluctuations::NumberFluctuations(double box_side, double area, const Where& counts) : box_side_(box_side) {
+NumberFluctuations::NumberFluctuations(double box_side, double area, double fit_from, const Where& counts)
+    : box_side_(box_side), fit_from_(fit_from) {
   SHAKEN_CHECK(box_side > 0 && area > 0, "a box without room");
   std::size_t n_boxes = 0;
   for (const int m : kDivisions) {
@@ -112,6 +112,10 @@ NumberFluctuations::Moments NumberFluctuations::moments(const Size& size) const 
   return {mean, std::max(0.0, square - mean * mean), without_map};
 }
 
+bool NumberFluctuations::is_fitted(const Size& size) const {
+  return box_side_ / size.divisions >= fit_from_ * (1 - 1e-9) && size.area_fraction <= kFitTo * (1 + 1e-9);
+}
+
 /// Mean and both spreads of each size, then the two exponents.
 std::vector<double> NumberFluctuations::numbers() const {
   std::vector<double> result;
@@ -119,7 +123,7 @@ std::vector<double> NumberFluctuations::numbers() const {
   for (const Size& size : sizes_) {
     const Moments m = moments(size);
     result.insert(result.end(), {m.mean, std::sqrt(m.variance), std::sqrt(m.variance_without_map)});
-    if (size.area_fraction < kFitFrom * (1 - 1e-9) || size.area_fraction > kFitTo * (1 + 1e-9)) continue;
+    if (!is_fitted(size)) continue;
     const double rest = 1 - size.area_fraction;
     log_n.push_back(std::log(m.mean));
     log_std.push_back(0.5 * std::log(m.variance / rest));
@@ -133,7 +137,7 @@ std::vector<double> NumberFluctuations::numbers() const {
 
 NumberFluctuationCurve NumberFluctuations::reduce(const Blocked<NumberFluctuations>& blocks, double t_steady) {
   const NumberFluctuations& empty = blocks.empty();
-  const std::vector<Estimate> estimates = jackknife(empty, blocks.parts_after(t_steady, kErrorBlocks),
+  const std::vector<Estimate> estimates = jackknife(empty, blocks.parts_after(t_steady, kMostParts),
                                                     [](const NumberFluctuations& part) { return part.numbers(); });
   NumberFluctuationCurve curve;
   for (std::size_t k = 0; k < empty.sizes_.size(); ++k) {
@@ -142,6 +146,8 @@ NumberFluctuationCurve NumberFluctuations::reduce(const Blocked<NumberFluctuatio
     curve.std_n.push_back(estimates[3 * k + 1]);
     curve.std_n_without_map.push_back(estimates[3 * k + 2]);
   }
+  curve.fitted = static_cast<std::size_t>(
+      std::count_if(empty.sizes_.begin(), empty.sizes_.end(), [&](const Size& size) { return empty.is_fitted(size); }));
   curve.exponent = estimates[estimates.size() - 2];
   curve.exponent_without_map = estimates.back();
   return curve;

@@ -74,7 +74,7 @@ RotationSummary Rotation::summarize(double t_steady) const {
       terms.push_back({1, lag, share});
       sum += share * curve.mean(1, lag);
     }
-    summary.c2_plateau = {sum, curve.sem(terms)};
+    summary.c2_plateau = curve.estimate(sum, terms);
   }
   return summary;
 }

@@ -1,71 +1,122 @@
 // SPDX-License-Identifier: MIT
 #include "analysis/tilt_summary.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
+
+#include "analysis/jackknife.h"
 
 namespace shaken::analysis {
 namespace {
 
 /// A bin counts as moving if its velocity is more than this many of its errors.
 constexpr double kSignificant = 3.0;
+/// Bins whose velocities differ by less than this many errors may stand in either order.
+constexpr double kAlike = 2.0;
 
-}  // namespace
+/// A bin of n_z > 0 and its mirror image, from all rods in either.
+struct Folded {
+  std::vector<double> n_z, v_along, density;
+};
 
-FoldedTilt fold_tilt(const TiltCurve& curve) {
-  FoldedTilt folded;
-  const std::size_t n = curve.n_z.size();
+/// All bins with n_z > 0, also those without samples, whose velocity is NaN.
+Folded fold(const TiltVelocity& part) {
+  const TiltMeans means = part.means();
+  Folded folded;
+  const std::size_t n = means.n_z.size();
   for (std::size_t up = (n + 1) / 2; up < n; ++up) {
     const std::size_t down = n - 1 - up;
-    double w_up = curve.density[up], w_down = curve.density[down];
-    if (!(w_up + w_down > 0)) continue;
-    const double density = w_up + w_down;
-    const bool error_up = std::isfinite(curve.v_along_sem[up]), error_down = std::isfinite(curve.v_along_sem[down]);
-    if (error_up && !error_down) w_down = 0;
-    if (error_down && !error_up) w_up = 0;
-    double sum = 0, variance = 0;
-    if (w_up > 0) {
-      sum += w_up * curve.v_along[up];
-      variance += std::pow(w_up * curve.v_along_sem[up], 2);
-    }
-    if (w_down > 0) {
-      sum -= w_down * curve.v_along[down];
-      variance += std::pow(w_down * curve.v_along_sem[down], 2);
-    }
-    folded.n_z.push_back(curve.n_z[up]);
+    const double density = means.density[up] + means.density[down];
+    const double sum = (means.density[up] > 0 ? means.density[up] * means.v_along[up] : 0.0) -
+                       (means.density[down] > 0 ? means.density[down] * means.v_along[down] : 0.0);
+    folded.n_z.push_back(means.n_z[up]);
+    folded.v_along.push_back(sum / density);
     folded.density.push_back(density);
-    folded.v_along.push_back({sum / (w_up + w_down), std::sqrt(variance) / (w_up + w_down)});
   }
   return folded;
 }
 
-TiltSummary summarize_tilt(const TiltCurve& curve) {
-  const FoldedTilt folded = fold_tilt(curve);
-  const std::vector<double>& v = folded.v_along.value;
-  const std::vector<double>& sem = folded.v_along.sem;
-  TiltSummary summary;
-  std::size_t largest = v.size();
-  for (std::size_t i = 0; i < v.size(); ++i) {
-    if (!(std::abs(v[i]) > kSignificant * sem[i])) continue;
-    if (largest == v.size() || std::abs(v[i]) > std::abs(v[largest])) largest = i;
+/// The folded curve, with errors where enough blocks met the bin, or its mirror image.
+FoldedTilt folded_curve(const TiltVelocity& empty, const std::vector<TiltVelocity>& blocks) {
+  TiltVelocity all = empty;
+  for (const TiltVelocity& block : blocks) all.merge(block);
+  const Folded means = fold(all);
+  const std::vector<Estimate> v = jackknife(empty, blocks, [](const TiltVelocity& part) { return fold(part).v_along; });
+  const std::vector<std::size_t> met = blocks_met(blocks);
+  FoldedTilt folded;
+  for (std::size_t i = 0; i < means.n_z.size(); ++i) {
+    if (!(means.density[i] > 0)) continue;
+    const std::size_t up = met.size() - means.n_z.size() + i, down = met.size() - 1 - up;
+    const bool known = std::max(met[up], met[down]) >= kFewestParts;
+    folded.n_z.push_back(means.n_z[i]);
+    folded.v_along.push_back(known ? v[i] : Estimate{v[i].value});
+    folded.density.push_back(means.density[i]);
   }
-  if (largest == v.size()) return summary;
-  summary.v_largest = {v[largest], sem[largest]};
-  summary.n_z_largest = folded.n_z[largest];
+  return folded;
+}
 
-  const double sign = v[largest] > 0 ? 1.0 : -1.0;
-  for (std::size_t i = largest; i + 1 < v.size(); ++i) {
-    if (!(sign * v[i] > 0 && sign * v[i + 1] <= 0)) continue;
-    double sum = 0, variance = 0;
-    for (std::size_t j = i + 1; j < v.size(); ++j) {
-      if (!std::isfinite(sem[j])) continue;
-      sum -= sign * folded.density[j] * v[j];
-      variance += std::pow(folded.density[j] * sem[j], 2);
-    }
-    const double sigma = sum / std::sqrt(variance);
+/// Where the velocity changes sign between the folded bins `below` and the next, and its mean beyond that.
+std::vector<double> crossing(const TiltVelocity& part, double below, double sign) {
+  const Folded folded = fold(part);
+  std::size_t i = 0;
+  while (i + 1 < folded.n_z.size() && folded.n_z[i] < below) ++i;
+  double sum = 0, density = 0;
+  for (std::size_t j = i + 1; j < folded.n_z.size(); ++j) {
+    if (!(folded.density[j] > 0)) continue;
+    sum -= sign * folded.density[j] * folded.v_along[j];
+    density += folded.density[j];
+  }
+  std::size_t next = i + 1;
+  while (next < folded.n_z.size() && !(folded.density[next] > 0)) ++next;
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  if (next >= folded.n_z.size()) return {kNone, kNone};
+  const double share = folded.v_along[i] / (folded.v_along[i] - folded.v_along[next]);
+  return {folded.n_z[i] + share * (folded.n_z[next] - folded.n_z[i]), sum / density};
+}
+
+/// The place of `largest` among bins that may be larger by chance.
+Estimate place_of(const FoldedTilt& folded, std::size_t largest, double width) {
+  const Estimate& v = folded.v_along[largest];
+  double from = folded.n_z[largest], to = from;
+  for (std::size_t i = 0; i < folded.n_z.size(); ++i) {
+    const Estimate& other = folded.v_along[i];
+    const double less = std::abs(v.value) - (v.value > 0 ? other.value : -other.value);
+    if (!(less < kAlike * std::hypot(v.sem, other.sem))) continue;
+    from = std::min(from, folded.n_z[i]);
+    to = std::max(to, folded.n_z[i]);
+  }
+  return {folded.n_z[largest], (to - from + width) / std::sqrt(12.0), v.n_effective, v.steady};
+}
+
+}  // namespace
+
+TiltSummary summarize_tilt(const TiltVelocity& empty, const std::vector<TiltVelocity>& blocks) {
+  TiltSummary summary;
+  if (blocks.empty()) return summary;
+  summary.folded = folded_curve(empty, blocks);
+  const std::vector<double>& n_z = summary.folded.n_z;
+  const std::vector<Estimate>& v = summary.folded.v_along;
+  std::optional<std::size_t> largest;
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    if (!(std::abs(v[i].value) > kSignificant * v[i].sem)) continue;
+    if (!largest || std::abs(v[i].value) > std::abs(v[*largest].value)) largest = i;
+  }
+  if (!largest) return summary;
+  const std::vector<double> centres = empty.means().n_z;
+  summary.v_largest = v[*largest];
+  summary.n_z_largest =
+      place_of(summary.folded, *largest, 2 * centres.back() / static_cast<double>(centres.size() - 1));
+
+  const double sign = v[*largest].value > 0 ? 1.0 : -1.0;
+  for (std::size_t i = *largest; i + 1 < v.size(); ++i) {
+    if (!(sign * v[i].value > 0 && sign * v[i + 1].value <= 0)) continue;
+    const std::vector<Estimate> found =
+        jackknife(empty, blocks, [&](const TiltVelocity& part) { return crossing(part, n_z[i] * (1 - 1e-9), sign); });
+    const double sigma = found[1].value / found[1].sem;
     if (std::isnan(sigma)) continue;
     if (std::isnan(summary.zero_sigma) || sigma > summary.zero_sigma) {
-      const double share = v[i] / (v[i] - v[i + 1]);
-      summary.n_z_zero = folded.n_z[i] + share * (folded.n_z[i + 1] - folded.n_z[i]);
+      summary.n_z_zero = found[0];
       summary.zero_sigma = sigma;
     }
   }

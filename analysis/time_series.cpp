@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "analysis/parts.h"
 #include "analysis/steady.h"
 
 namespace shaken::analysis {
@@ -15,8 +16,11 @@ constexpr double kWindow = 5.0;
 /// Products spent on one level of averaging before the series is halved. Series up to about 8000 are never halved.
 constexpr std::size_t kBudget = std::size_t{1} << 25;
 /// Chodera's search works on at most this many points.
-constexpr std::size_t kSearchPoints = 4096;
-constexpr std::size_t kSearchCandidates = 48;
+constexpr std::size_t kSearchPoints = 512;
+/// A series worth more samples by the sum over lags has its error from that alone.
+constexpr double kWorthMany = 500;
+/// It takes the first t0 that leaves this share of the most samples: what is left differs by chance.
+constexpr double kNearlyMost = 0.9;
 
 double mean_of(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -48,6 +52,15 @@ std::vector<double> group_means(std::span<const double> values, std::size_t leng
   std::vector<double> means(values.size() / length);
   for (std::size_t i = 0; i < means.size(); ++i) means[i] = mean_of(values.subspan(i * length, length));
   return means;
+}
+
+/// Samples worth one independent one each, by the error that parts of the series give its mean.
+double effective_samples(std::span<const double> values) {
+  const auto n = static_cast<double>(values.size());
+  const double of_mean = variance_of_mean(parts_of_series(values));
+  if (of_mean == 0.0) return n;
+  const std::vector<double> x = centred(values);
+  return std::min(n, product_sum(x, 0) / (n - 1.0) / of_mean);
 }
 
 }  // namespace
@@ -114,28 +127,16 @@ std::size_t steady_index(std::span<const double> values) {
   if (values.empty()) return 0;
   const std::size_t group = (values.size() + kSearchPoints - 1) / kSearchPoints;
   const std::vector<double> points = group_means(values, group);
-  const std::size_t n = points.size();
-  const std::size_t last = 3 * n / 4;
+  const std::size_t last = 3 * points.size() / 4;
+  const auto from = [&](std::size_t t0) { return std::span<const double>(points).subspan(t0); };
 
-  std::size_t best = 0;
-  double best_n_effective = 0.0;
-  const auto consider = [&](std::size_t t0) {
-    const double n_effective =
-        static_cast<double>(n - t0) / statistical_inefficiency(std::span<const double>(points).subspan(t0));
-    if (n_effective > best_n_effective) {
-      best = t0;
-      best_n_effective = n_effective;
-    }
-  };
-  std::size_t step = std::max<std::size_t>(1, last / kSearchCandidates);
-  for (std::size_t t0 = 0; t0 <= last; t0 += step) consider(t0);
-  while (step > 1) {
-    const std::size_t from = best > step ? best - step : 0;
-    const std::size_t to = std::min(best + step, last);
-    step = std::max<std::size_t>(1, step / 8);
-    for (std::size_t t0 = from; t0 <= to; t0 += step) consider(t0);
-  }
-  return best * group;
+  std::vector<double> n_effective;
+  for (std::size_t t0 = 0; t0 <= last; ++t0) n_effective.push_back(effective_samples(from(t0)));
+  const double enough = kNearlyMost * *std::max_element(n_effective.begin(), n_effective.end());
+  std::size_t t0 = 0;
+  while (n_effective[t0] < enough) ++t0;
+  const bool drifts = summarize_parts(parts_of_series(from(t0))).steady == false;
+  return (drifts ? last : t0) * group;
 }
 
 SteadySummary summarize_series(std::span<const double> times, std::span<const double> values,
@@ -154,11 +155,16 @@ SteadySummary summarize_series(std::span<const double> times, std::span<const do
   const double n = static_cast<double>(steady.size());
   const std::vector<double> x = centred(steady);
   const double g = statistical_inefficiency(steady);
+  const PartsSummary parts = summarize_parts(parts_of_series(steady));
   summary.mean = steady[0] - x[0];
-  summary.n_effective = n / g;
+  summary.n_effective = n / g > kWorthMany ? n / g : std::min(n / g, effective_samples(steady));
+  summary.drift = parts.drift;
+  const bool long_enough = !(parts.drift.n_effective < kEnoughForSteadyState);  // NaN: nothing varies
+  const bool early_enough = steady_start || 2 * first <= values.size();
+  summary.steady = parts.steady.value_or(false) && long_enough && early_enough;
   if (steady.size() < 2) return summary;
   summary.std = std::sqrt(product_sum(x, 0) / (n - 1.0));
-  summary.sem = summary.std * std::sqrt(g / n);
+  if (std::isfinite(parts.sem)) summary.sem = summary.std / std::sqrt(summary.n_effective);
   summary.tau = 0.5 * (g - 1.0) * (times.back() - times[first]) / (n - 1.0);
   return summary;
 }

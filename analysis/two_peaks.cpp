@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "analysis/two_peaks.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <unsupported/Eigen/NonLinearOptimization>
 #include <vector>
 
@@ -58,6 +60,39 @@ double dip_of(const AnglePdf& pdf, double half) {
   return sum_from(about_zero) / highest;
 }
 
+/// Where P(theta) + P(-theta) is highest, from `start` on: the maximum of the cubic fitted to it with a Gaussian of
+/// standard deviation `reach` about that maximum as weight, again until it stays (local polynomial regression: Fan &
+/// Gijbels 1996). NaN where the cubic has none.
+double maximum_of(const AnglePdf& pdf, double start, double reach) {
+  const auto bins = static_cast<Eigen::Index>(pdf.density.size());
+  Eigen::MatrixXd powers(bins, 4);
+  Eigen::VectorXd both(bins);
+  double place = start;
+  for (int step = 0; step < 100; ++step) {
+    for (Eigen::Index k = 0; k < bins; ++k) {
+      const auto bin = static_cast<std::size_t>(k);
+      const double x = fold_half_turn(pdf.theta[bin] - place) / reach;
+      const double root_of_weight = std::exp(-x * x / 4);
+      powers.row(k) << root_of_weight, root_of_weight * x, root_of_weight * x * x, root_of_weight * x * x * x;
+      both[k] = root_of_weight * (pdf.density[bin] + pdf.density[pdf.density.size() - 1 - bin]);
+    }
+    const Eigen::VectorXd c = powers.colPivHouseholderQr().solve(both);
+    const double discriminant = c[2] * c[2] - 3 * c[1] * c[3];
+    if (!(discriminant >= 0)) return std::numeric_limits<double>::quiet_NaN();
+    const double shift = std::clamp(c[1] / (std::sqrt(discriminant) - c[2]), -1.0, 1.0);
+    place += shift * reach;
+    if (std::abs(shift) < 1e-9) break;
+  }
+  return std::abs(fold_half_turn(place));
+}
+
+/// Of the two Gaussians alone: x = theta_m tanh(x theta_m / width^2).
+double maximum_of_model(double theta_m, double width) {
+  double x = theta_m;
+  for (int step = 0; step < 200; ++step) x = theta_m * std::tanh(x * theta_m / (width * width));
+  return x;
+}
+
 }  // namespace
 
 std::optional<TwoPeaks> fit_two_peaks(const AnglePdf& pdf) {
@@ -92,6 +127,9 @@ std::optional<TwoPeaks> fit_two_peaks(const AnglePdf& pdf) {
   peaks.height = best[2];
   peaks.background = best[3];
   peaks.dip = dip_of(pdf, peaks.width / 4);
+  const double bin = kPi / static_cast<double>(bins);
+  peaks.maximum =
+      maximum_of(pdf, maximum_of_model(peaks.theta_m, peaks.width), std::clamp(peaks.width / 2, 2 * bin, kPi / 8));
   return peaks;
 }
 

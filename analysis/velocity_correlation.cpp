@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
+#include <vector>
 
 #include "analysis/decay.h"
 #include "sim/core/check.h"
@@ -12,12 +14,16 @@ namespace shaken::analysis {
 namespace {
 
 // Weights of the kernel's quantities.
-constexpr double kTotal[] = {1, 1};
-constexpr double kAlong[] = {1, 0};
-constexpr double kAcross[] = {0, 1};
+constexpr double kTotal[] = {1, 1, 0, 0};
+constexpr double kAlong[] = {1, 0, 0, 0};
+constexpr double kAcross[] = {0, 1, 0, 0};
+constexpr double kDirections[] = {0, 0, 1, 0};
+constexpr double kDirectionAndVelocity[] = {0, 0, 0, 1};
 
 double product(const LagCurve& curve, std::span<const double> weights, std::size_t lag) {
-  return weights[0] * curve.mean(0, lag) + weights[1] * curve.mean(1, lag);
+  double sum = 0;
+  for (std::size_t q = 0; q < weights.size(); ++q) sum += weights[q] * curve.mean(q, lag);
+  return sum;
 }
 
 /// Change of a result with the correlation at one lag.
@@ -26,49 +32,81 @@ struct Derivative {
   double of_result = 0;
 };
 
-/// The error to first order of a result made of correlations, which are ratios of means.
-double sem_of(const LagCurve& curve, std::span<const double> weights, std::span<const Derivative> derivatives) {
-  const double square = product(curve, weights, 0);
+/// With the error to first order of a result made of means of products.
+Estimate estimate_of(const LagCurve& curve, std::span<const double> weights, double value,
+                     std::span<const Derivative> derivatives) {
   std::vector<LagTerm> terms;
+  for (const Derivative& d : derivatives) {
+    for (std::size_t q = 0; q < weights.size(); ++q) terms.push_back({q, d.lag, d.of_result * weights[q]});
+  }
+  return curve.estimate(value, terms);
+}
+
+/// The same made of correlations, which are ratios of means to that at lag zero.
+Estimate estimate_of_ratios(const LagCurve& curve, std::span<const double> weights, double value,
+                            std::span<const Derivative> derivatives) {
+  const double square = product(curve, weights, 0);
+  std::vector<Derivative> of_products;
   double by_square = 0;
   for (const Derivative& d : derivatives) {
-    for (std::size_t q = 0; q < weights.size(); ++q) terms.push_back({q, d.lag, d.of_result * weights[q] / square});
+    of_products.push_back({d.lag, d.of_result / square});
     by_square -= d.of_result * product(curve, weights, d.lag) / square / square;
   }
-  for (std::size_t q = 0; q < weights.size(); ++q) terms.push_back({q, 0, by_square * weights[q]});
-  return curve.sem(terms);
+  of_products.push_back({0, by_square});
+  return estimate_of(curve, weights, value, of_products);
 }
 
 EstimateCurve correlation(const LagCurve& curve, std::span<const double> weights) {
   EstimateCurve result;
   for (std::size_t lag = 0; lag < curve.lags().size(); ++lag) {
     const Derivative itself{lag, 1.0};
-    result.push_back({product(curve, weights, lag) / product(curve, weights, 0), sem_of(curve, weights, {&itself, 1})});
+    const double value = product(curve, weights, lag) / product(curve, weights, 0);
+    result.push_back(estimate_of_ratios(curve, weights, value, {&itself, 1}));
   }
   return result;
 }
 
-/// Integral of C_v up to its first zero.
-Estimate integral_to_zero(const LagCurve& curve) {
-  const std::vector<double>& lags = curve.lags();
+/// Integral of the means of products up to their first zero; NaN where there is none.
+struct Integral {
+  double value = std::numeric_limits<double>::quiet_NaN();
   std::vector<Derivative> derivatives;
+};
+Integral integral_to_zero(const LagCurve& curve, std::span<const double> weights) {
+  const std::vector<double>& lags = curve.lags();
+  Integral integral;
   double sum = 0;
   for (std::size_t i = 0; i + 1 < lags.size(); ++i) {
     const double width = lags[i + 1] - lags[i];
-    const double here = product(curve, kTotal, i) / product(curve, kTotal, 0);
-    const double next = product(curve, kTotal, i + 1) / product(curve, kTotal, 0);
+    const double here = product(curve, weights, i), next = product(curve, weights, i + 1);
     if (next <= 0) {  // a triangle of height `here` is left
       const double drop = here - next;
-      sum += width * here * here / drop / 2;
-      derivatives.push_back({i, width * here * (here - 2 * next) / (drop * drop) / 2});
-      derivatives.push_back({i + 1, width * here * here / (drop * drop) / 2});
-      return {sum, sem_of(curve, kTotal, derivatives)};
+      integral.value = sum + width * here * here / drop / 2;
+      integral.derivatives.push_back({i, width * here * (here - 2 * next) / (drop * drop) / 2});
+      integral.derivatives.push_back({i + 1, width * here * here / (drop * drop) / 2});
+      return integral;
     }
     sum += width * (here + next) / 2;
-    derivatives.push_back({i, width / 2});
-    derivatives.push_back({i + 1, width / 2});
+    integral.derivatives.push_back({i, width / 2});
+    integral.derivatives.push_back({i + 1, width / 2});
   }
   return {};
+}
+
+Estimate estimate(const LagCurve& curve, std::span<const double> weights, const Integral& integral) {
+  if (!std::isfinite(integral.value)) return {};
+  return estimate_of(curve, weights, integral.value, integral.derivatives);
+}
+
+/// Of the correlation, which is 1 at lag zero.
+Estimate normalised(const LagCurve& curve, std::span<const double> weights, const Integral& integral) {
+  if (!std::isfinite(integral.value)) return {};
+  const double square = product(curve, weights, 0);
+  return estimate_of_ratios(curve, weights, integral.value / square, integral.derivatives);
+}
+
+Estimate at_zero(const LagCurve& curve, std::span<const double> weights) {
+  const Derivative itself{0, 1.0};
+  return estimate_of(curve, weights, product(curve, weights, 0), {&itself, 1});
 }
 
 }  // namespace
@@ -84,6 +122,11 @@ LagPair<VelocityKernel::kQuantities> VelocityKernel::between(const LagFrame<kCol
   for (std::size_t i = 0; i < x0.size(); ++i) {
     pair.sums[0] += (c * x0[i] + s * y0[i]) * (c * x1[i] + s * y1[i]);
     pair.sums[1] += (c * y0[i] - s * x0[i]) * (c * y1[i] - s * x1[i]);
+    const double before = std::hypot(x0[i], y0[i]), after = std::hypot(x1[i], y1[i]);
+    if (!(before > 0 && after > 0)) continue;
+    const double way = (x0[i] * x1[i] + y0[i] * y1[i]) / before;
+    pair.sums[2] += way / after;
+    pair.sums[3] += way;
   }
   return pair;
 }
@@ -120,17 +163,27 @@ void VelocityCorrelation::accumulate(double time, std::span<const Vec3> unwrappe
 
 VelocityCurve VelocityCorrelation::reduce(double t_steady) const {
   const LagCurve curve = average_.after(t_steady);
-  return {curve.lags(), correlation(curve, kTotal), correlation(curve, kAlong), correlation(curve, kAcross)};
+  return {curve.lags(),
+          correlation(curve, kTotal),
+          correlation(curve, kAlong),
+          correlation(curve, kAcross),
+          curve.combination(kTotal),
+          curve.combination(kAlong),
+          curve.combination(kAcross),
+          curve.combination(kDirections)};
 }
 
 VelocitySummary VelocityCorrelation::summarize(double t_steady) const {
   const LagCurve curve = average_.after(t_steady);
   VelocitySummary summary;
   if (curve.lags().empty()) return summary;
-  summary.correlation_time = integral_to_zero(curve);
+  summary.correlation_time = normalised(curve, kTotal, integral_to_zero(curve, kTotal));
   summary.decay_time = decay_time(curve.lags(), correlation(curve, kTotal));
-  const LagTerm square[] = {{0, 0, 1.0}, {1, 0, 1.0}};
-  summary.mean_square = {product(curve, kTotal, 0), curve.sem(square)};
+  summary.mean_square = at_zero(curve, kTotal);
+  summary.mean_square_along = at_zero(curve, kAlong);
+  summary.mean_square_across = at_zero(curve, kAcross);
+  summary.persistence_time = estimate(curve, kDirections, integral_to_zero(curve, kDirections));
+  summary.persistence_length = estimate(curve, kDirectionAndVelocity, integral_to_zero(curve, kDirectionAndVelocity));
   return summary;
 }
 

@@ -16,8 +16,10 @@ namespace shaken::analysis {
 /// Products of the velocities of each rod in two samples.
 struct VelocityKernel {
   static constexpr std::string_view kName = "VelocityCorrelation";
-  static constexpr std::size_t kColumns = 2;     // v_x, v_y [mm/s]
-  static constexpr std::size_t kQuantities = 2;  // along and across the director at the origin time [mm^2/s^2]
+  static constexpr std::size_t kColumns = 2;  // v_x, v_y [mm/s]
+  /// Along and across the director at the origin time [mm^2/s^2]; of the unit vector of the velocity at the origin time
+  /// with that of the later one, and with the later velocity [mm/s]. A rod at rest has no unit vector and adds nothing.
+  static constexpr std::size_t kQuantities = 4;
   static constexpr bool kLagZero = true;
   static LagPair<kQuantities> between(const LagFrame<kColumns>& origin, const LagFrame<kColumns>& later);
 };
@@ -29,17 +31,31 @@ struct VelocityCurve {
   EstimateCurve c_v;        ///< <v(t0) . v(t0 + t)> / <v^2>, in the plane
   EstimateCurve along;      ///< of the component along the nematic director at t0, over its own mean square
   EstimateCurve across;     ///< of the component across it
+  /// The same, not normalised [mm^2/s^2]; at lag 0 the mean squares.
+  EstimateCurve product, product_along, product_across;
+  /// <u(t0) . u(t0 + t)> of the unit vectors u of the velocities: how long a way keeps its direction.
+  EstimateCurve direction;
 };
 
 struct VelocitySummary {
   Estimate correlation_time;  ///< integral of C_v (trapezia) up to its first zero [s]; NaN if it has none
   Estimate decay_time;        ///< at which C_v falls to 1/e (see decay_time) [s]; NaN if it does not
   Estimate mean_square;       ///< <v^2> of the averaged velocity, in the plane [mm^2/s^2]
+  Estimate mean_square_along, mean_square_across;  ///< of its components [mm^2/s^2]
+  /// How long a rod keeps its direction: the integral of <u(t0) . u(t0 + t)> (trapezia) up to its first zero [s].
+  Estimate persistence_time;
+  /// How far it gets in that direction, the mean way along u(t0): the integral of <u(t0) . v(t0 + t)> up to its first
+  /// zero [mm] (the projection on the first bond that defines a polymer's persistence length: Flory, Statistical
+  /// Mechanics of Chain Molecules, 1969, ch. IV). NaN where no zero is met. Of correlations that fade slowly it is
+  /// noise that sets the zero, which the errors of all three integrals do not know: of runs and tumbles they come out a
+  /// quarter too small.
+  Estimate persistence_length;
 };
 
 /// Autocorrelation of velocities averaged over a window, v(t) = (r(t + window) - r(t)) / window, as Sharma & Soni 2024
 /// average over 400 ms; at the lags of LagAverage and in 128 bytes per level and rod, and the positions of one window.
-/// Averaging leaves its mark: of a random walk C_v(t) = 1 - t / window up to the window, where it falls to 0.
+/// Averaging leaves its mark: of a random walk C_v(t) = 1 - t / window up to the window, where it falls to 0, so that
+/// persistence times below a window are the window's.
 class VelocityCorrelation {
  public:
   /// `interval`: time between successive accumulate calls [s]. The window is rounded to a multiple of it, at least one.

@@ -5,6 +5,7 @@
 
 #include "bench/commands.h"
 #include "run/files/version.h"
+#include "scene/nearest.h"
 
 namespace {
 
@@ -14,6 +15,17 @@ constexpr const char* kFooter = R"(Examples:
   shaken-bench accuracy --quick
 
 Exit codes: 0 done, 1 a check did not hold or something failed, 2 bad input.)";
+
+/// What is wrong with the command line. An unknown bench comes before that none was chosen, which is all that CLI11
+/// says.
+std::string complaint(const CLI::App& app, const CLI::ParseError& problem) {
+  const std::vector<std::string> left_over = app.remaining();
+  if (left_over.empty() || !app.get_subcommands().empty()) return problem.what();
+  std::vector<std::string> names;
+  for (const CLI::App* bench : app.get_subcommands(nullptr)) names.push_back(bench->get_name());
+  return fmt::format("there is no bench '{}'{}", left_over.front(),
+                     shaken::scene::did_you_mean(shaken::scene::nearest(left_over.front(), names)));
+}
 
 }  // namespace
 
@@ -36,7 +48,9 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
     return static_cast<int>(work());
   } catch (const CLI::ParseError& problem) {
-    return app.exit(problem) == 0 ? 0 : static_cast<int>(ExitCode::kBadInput);
+    if (problem.get_exit_code() == 0) return app.exit(problem);
+    fmt::print(stderr, "shaken-bench: {} (see `shaken-bench --help`)\n", complaint(app, problem));
+    return static_cast<int>(ExitCode::kBadInput);
   } catch (const Failure& failure) {
     fmt::print(stderr, "shaken-bench: {}\n", failure.what());
     return static_cast<int>(failure.code);

@@ -2,6 +2,8 @@
 #include "client/arguments.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
 
 namespace shaken::client {
 namespace {
@@ -15,8 +17,12 @@ const char* value_name_of(Names names) {
       return "DIR";
     case Names::kId:
       return "ID";
+    case Names::kRun:
+      return "ID|DIR";
     case Names::kFigure:
       return "FIGURE";
+    case Names::kSetting:
+      return "PATH=VALUE";
     case Names::kAnything:
       break;
   }
@@ -29,10 +35,24 @@ constexpr const char* kNothing = " ";
 }  // namespace
 
 Names meaning(const CLI::Option& option) {
-  for (const Names names : {Names::kFile, Names::kFolder, Names::kId, Names::kFigure}) {
+  for (const Names names : {Names::kFile, Names::kFolder, Names::kId, Names::kRun, Names::kFigure, Names::kSetting}) {
     if (option.get_type_name() == value_name_of(names)) return names;
   }
   return Names::kAnything;
+}
+
+std::vector<std::string> choices(const CLI::Option& option) {
+  const std::string& name = option.get_type_name();
+  std::vector<std::string> words;
+  if (name.find('|') == std::string::npos) return words;
+  for (std::size_t begin = 0; begin <= name.size();) {
+    const std::size_t end = std::min(name.find('|', begin), name.size());
+    const std::string word = name.substr(begin, end - begin);
+    // Capitals stand for something, as N in "N|last".
+    if (!word.empty() && std::islower(static_cast<unsigned char>(word.front())) != 0) words.push_back(word);
+    begin = end + 1;
+  }
+  return words;
 }
 
 void Arguments::required(const std::string& name, std::string& value, const std::string& help, Names names) {

@@ -13,7 +13,15 @@ class Option;
 namespace shaken::client {
 
 /// What an argument names, for shell completion.
-enum class Names { kAnything, kFile, kFolder, kId, kFigure };
+enum class Names {
+  kAnything,  ///< or one of some words, where the value's name in the help lists them: "tiny|laptop|paper"
+  kFile,
+  kFolder,
+  kId,       ///< a sweep or a job of the daemon
+  kRun,      ///< the same, or a run directory
+  kFigure,   ///< of the paper
+  kSetting,  ///< PATH=VALUE, with a key of the scene
+};
 
 /// Declares the command line of a verb. Keeps CLI11 out of the verbs: its header costs seconds per source file.
 /// The variables must outlive the parsing; one that is not given keeps its value.
@@ -48,5 +56,7 @@ class Arguments {
 
 /// How an argument's meaning is kept in its CLI11 option, for completion.cpp to read.
 Names meaning(const CLI::Option& option);
+/// The words that an option takes, where its value's name lists them.
+std::vector<std::string> choices(const CLI::Option& option);
 
 }  // namespace shaken::client

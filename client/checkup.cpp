@@ -17,12 +17,12 @@ namespace shaken::client {
 namespace {
 
 namespace fs = std::filesystem;
-using Level = Finding::Level;
+using Level = CheckResult::Level;
 
 /// The first line of `text`.
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
-Finding check_sibling(const std::string& name, Level if_missing, const std::string& needed_for) {
+CheckResult check_sibling(const std::string& name, Level if_missing, const std::string& needed_for) {
   const fs::path program = sibling_program(name);
   const ChildResult result = run_captured({program.string(), "--version"});
   const std::string version = first_line(result.output);
@@ -40,7 +40,7 @@ Finding check_sibling(const std::string& name, Level if_missing, const std::stri
   return {Level::kOk, name, version, ""};
 }
 
-Finding check_daemon(const fs::path& root) {
+CheckResult check_daemon(const fs::path& root) {
   try {
     const Json status = Session(root).get("/v1/status");
     const std::string version = text_of(status, "version");
@@ -62,21 +62,21 @@ Finding check_daemon(const fs::path& root) {
   }
 }
 
-Finding check_lcm() {
+CheckResult check_lcm() {
   const std::string url = proto::default_url();
   const proto::Bus::Opened opened = proto::Bus::open(url);
   if (opened) return {Level::kOk, "lcm", url, ""};
   return {Level::kWarn, "lcm", fmt::format("{}: {}", url, opened.reason), "sudo ip route add 224.0.0.0/4 dev lo"};
 }
 
-Finding check_gnuplot() {
+CheckResult check_gnuplot() {
   const ChildResult result = run_captured({"gnuplot", "-e", "set terminal pngcairo; print GPVAL_VERSION"});
   if (result.exit_code == 0) return {Level::kOk, "gnuplot", first_line(result.output) + ", pngcairo", ""};
   return {Level::kWarn, "gnuplot", result.exit_code == 127 ? "not found" : first_line(result.output),
           "sudo apt install gnuplot-nox"};
 }
 
-Finding check_disk(fs::path folder) {
+CheckResult check_disk(fs::path folder) {
   static constexpr double kGigabyte = 1e9;
   std::error_code error;
   while (!fs::exists(folder, error) && folder.has_relative_path()) folder = folder.parent_path();
@@ -92,14 +92,14 @@ Finding check_disk(fs::path folder) {
   return {Level::kOk, "disk", message, ""};
 }
 
-Finding check_cores() {
+CheckResult check_cores() {
   const unsigned n = std::thread::hardware_concurrency();
   return {Level::kOk, "cores", fmt::format("{}: as many runs at once", n), ""};
 }
 
 }  // namespace
 
-std::vector<Finding> checkup(const fs::path& root) {
+std::vector<CheckResult> checkup(const fs::path& root) {
   return {{Level::kOk, "shaken", fmt::format("{}, {}", run::version(), run::compiler()), ""},
           check_sibling("shakend", Level::kWarn, "for sweeps"),
           check_sibling("shaken-worker", Level::kFail, "for every run"),

@@ -8,7 +8,7 @@
 namespace shaken::client {
 
 /// One thing that `shaken doctor` has looked at.
-struct Finding {
+struct CheckResult {
   enum class Level { kOk, kWarn, kFail };
   Level level = Level::kOk;
   std::string what;     ///< "gnuplot"
@@ -19,6 +19,6 @@ struct Finding {
 /// Looks at everything that Shaken needs on this machine: programs beside this one, daemon, live state, off-screen
 /// drawing, gnuplot, disk and cores. What makes simulating impossible is kFail, what makes a part of it unavailable
 /// kWarn.
-std::vector<Finding> checkup(const std::filesystem::path& root);
+std::vector<CheckResult> checkup(const std::filesystem::path& root);
 
 }  // namespace shaken::client

@@ -17,7 +17,8 @@ constexpr const char* kFooter = R"(Examples:
   shaken submit scene.json -s rods.area_fraction=0.55:0.75:0.05 --wait
   shaken watch && shaken results && shaken plot
 
-Exit codes:  0 done   1 failed   2 bad input   3 no daemon
+Exit codes:  0 done   1 failed   2 bad input   3 no daemon   130 interrupted by Ctrl-C, but of a run:
+             99 stopped with a checkpoint, the same command goes on
 Environment: SHAKEN_ROOT  the daemon's root directory;  LCM_DEFAULT_URL  the bus of the live state;  NO_COLOR
 `shaken VERB --help` tells more.)";
 

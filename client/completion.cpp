@@ -7,29 +7,43 @@
 
 #include "client/arguments.h"
 #include "client/paper/figures.h"
+#include "scene/fields.h"
 
 namespace shaken::client {
 namespace {
 
-/// What bash is to offer for a value.
-std::string action_of(Names names) {
-  switch (names) {
+std::string offer(const std::string& words) {
+  return fmt::format("COMPREPLY=($(compgen -W \"{}\" -- \"$word\"))", words);
+}
+
+/// What bash is to offer for the value of `option`.
+std::string action_of(const CLI::Option& option) {
+  switch (meaning(option)) {
     case Names::kFile:
       return "COMPREPLY=($(compgen -f -- \"$word\"))";
     case Names::kFolder:
       return "COMPREPLY=($(compgen -d -- \"$word\"))";
     case Names::kId:
+      return "COMPREPLY=($(compgen -W \"$(shaken completion ids 2>/dev/null)\" -- \"$word\"))";
+    case Names::kRun:
       return "COMPREPLY=($(compgen -W \"$(shaken completion ids 2>/dev/null)\" -- \"$word\") $(compgen -d -- "
              "\"$word\"))";
+    case Names::kSetting: {
+      std::string paths;
+      for (const scene::Field& field : scene::fields()) paths += (paths.empty() ? "" : " ") + field.path + "=";
+      return fmt::format("compopt -o nospace 2>/dev/null; {}", offer(paths));
+    }
     case Names::kFigure: {
       std::string ids;
       for (const PaperFigure& figure : paper_figures()) ids += (ids.empty() ? "" : " ") + std::string(figure.id);
-      return fmt::format("COMPREPLY=($(compgen -W \"{}\" -- \"$word\"))", ids);
+      return offer(ids);
     }
     case Names::kAnything:
       break;
   }
-  return "";
+  std::string words;
+  for (const std::string& word : choices(option)) words += (words.empty() ? "" : " ") + word;
+  return words.empty() ? "" : offer(words);
 }
 
 std::string all_names(const CLI::Option& option) {
@@ -52,15 +66,20 @@ std::string bash_completion(const CLI::App& app) {
     for (const CLI::Option* option : verb->get_options()) {
       const std::string names = all_names(*option);
       if (names.empty()) {
-        if (positional.empty()) positional = action_of(meaning(*option));
+        if (positional.empty()) positional = action_of(*option);
         continue;
       }
       options += (options.empty() ? "" : " ") + names;
       if (option->get_type_size() == 0) continue;
       std::string pattern = names;
       for (std::size_t at; (at = pattern.find(' ')) != std::string::npos;) pattern.replace(at, 1, "|");
-      const std::string action = action_of(meaning(*option));
+      const std::string action = action_of(*option);
       values += fmt::format("        {}) {}{}return ;;\n", pattern, action, action.empty() ? "" : "; ");
+    }
+    if (verb->get_prefix_command()) {  // only the other program knows
+      cases += fmt::format("    {0}) _shaken_help shaken-{0} \"${{COMP_WORDS[@]:i+1:COMP_CWORD-i-1}}\" ;;\n",
+                           verb->get_name());
+      continue;
     }
     cases += fmt::format("    {})\n      case \"$previous\" in\n{}      esac\n", verb->get_name(), values);
     cases += fmt::format("      if [[ $word == -* ]]; then COMPREPLY=($(compgen -W \"{}\" -- \"$word\")); return; fi\n",
@@ -70,6 +89,25 @@ std::string bash_completion(const CLI::App& app) {
   }
   return fmt::format(R"sh(# Completion of the program `shaken` for bash. To have it in every new shell:
 #   echo 'eval "$(shaken completion bash)"' >> ~/.bashrc
+
+# Options and subcommands of the program "$@", as its help lists them.
+_shaken_help() {{
+  local help
+  help=$("$@" --help 2>/dev/null)
+  if [[ $word == -* ]]; then
+    COMPREPLY=($(compgen -W "$(grep -oE -- '--[a-z][a-z-]*' <<< "$help" | sort -u)" -- "$word"))
+  else
+    COMPREPLY=($(compgen -W "$(sed -nE 's/^  ([a-z]+) +[A-Z].*/\1/p' <<< "$help")" -- "$word") $(compgen -f -- "$word"))
+  fi
+}}
+_shaken_program() {{
+  local word=${{COMP_WORDS[COMP_CWORD]}} sub=()
+  COMPREPLY=()
+  if ((COMP_CWORD > 1)) && [[ ${{COMP_WORDS[1]}} != -* ]]; then sub=("${{COMP_WORDS[1]}}"); fi
+  _shaken_help "$1" "${{sub[@]}}"
+}}
+complete -o filenames -F _shaken_program shakend shaken-render
+
 _shaken() {{
   local word=${{COMP_WORDS[COMP_CWORD]}} previous=${{COMP_WORDS[COMP_CWORD-1]}} verb= i
   COMPREPLY=()

@@ -45,6 +45,17 @@ std::string Console::painted(Colour colour_wanted, std::string_view text) const 
   return escape_of(colour_wanted) + std::string(text) + "\x1b[0m";
 }
 
+bool Console::agrees(const std::string& question, bool otherwise) const {
+  for (;;) {
+    err << question << (otherwise ? " [Y/n] " : " [y/N] ") << std::flush;
+    std::string answer;
+    if (in == nullptr || !std::getline(*in, answer)) return otherwise;
+    if (answer.empty()) return otherwise;
+    if (answer == "y" || answer == "Y" || answer == "yes") return true;
+    if (answer == "n" || answer == "N" || answer == "no") return false;
+  }
+}
+
 Console process_console() {
   Console console{.out = std::cout, .err = std::cerr};
   const char* terminal = std::getenv("TERM");
@@ -52,6 +63,7 @@ Console process_console() {
   const char* no_colour = std::getenv("NO_COLOR");
   console.interactive = isatty(STDOUT_FILENO) == 1 && !dumb;
   console.err_is_terminal = isatty(STDERR_FILENO) == 1 && !dumb;
+  if (isatty(STDIN_FILENO) == 1 && isatty(STDERR_FILENO) == 1) console.in = &std::cin;
   console.colour = console.interactive && (no_colour == nullptr || *no_colour == '\0');
   if (console.interactive) console.width = 80;
   console.refresh_size();

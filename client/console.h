@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <istream>
 #include <ostream>
 #include <string>
 #include <string_view>
@@ -13,12 +14,15 @@ enum class Colour { kPlain, kGreen, kYellow, kRed, kBlue, kDim, kBold };
 struct Console {
   std::ostream& out;
   std::ostream& err;
-  bool interactive = false;  ///< `out` is a terminal that can be redrawn
+  std::istream* in = nullptr;  ///< somebody who can be asked on `err` and answers here; null: nobody
+  bool interactive = false;    ///< `out` is a terminal that can be redrawn
   bool err_is_terminal = false;
   bool colour = false;  ///< `out` understands colours and the user has not set NO_COLOR
   int width = 0;        ///< columns of the terminal; 0: not a terminal, lines may be of any length
   int height = 24;      ///< lines of the terminal
 
+  /// Asks `question`, to be answered with y or n; an empty answer, or none, is `otherwise`.
+  bool agrees(const std::string& question, bool otherwise) const;
   /// Asks the terminal for its present size.
   void refresh_size();
   /// `text` in a colour, or as it is where colours are not wanted.

@@ -1,19 +1,33 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "client/console.h"
 #include "client/json.h"
 #include "scene/sweep.h"
 
 namespace shaken::client {
 
+/// Shows how many probes of a run are made, with nothing left of it at the end.
+using ProbeProgress = std::function<void(std::size_t done, std::size_t all)>;
+/// A line on a terminal's stderr, redrawn; nothing where there is no terminal.
+ProbeProgress probe_progress(const Console& console);
+
+/// At most this many of a sweep's points are probed.
+inline constexpr std::size_t kMostProbes = 5;
+
 struct EstimateOptions {
-  bool probe = true;  ///< step a piece of some runs; otherwise only what is on and off
-  double cpu = 1.5;   ///< CPU time of each probe's steps, about [s]
-  std::string from;   ///< directory of a run of the same system to start from; empty: the run's own start
+  bool probe = true;   ///< step a piece of some runs; otherwise only what is on and off
+  double cpu = 1.5;    ///< CPU time of each probe's steps, about [s]
+  std::string from{};  ///< directory of a run of the same system to start from; empty: the run's own start
+  std::size_t most_probes = kMostProbes;  ///< points of a sweep that are probed, at most
+  bool levels = true;                     ///< probe the steps of the levels of accuracy too
+  ProbeProgress on_probe{};               ///< called before the first probe and after each
 };
 
 /// What all runs of a sweep cost together at one step.
@@ -34,9 +48,6 @@ struct Estimate {
   Json report;                 ///< of `shaken-worker --probe` (run/probe/report.h)
   std::vector<LevelCost> levels;
 };
-
-/// At most this many of a sweep's points are probed.
-inline constexpr std::size_t kMostProbes = 5;
 
 /// Probes the points by `shaken-worker --probe`: a handful, as different from each other as can be. Costs of the others
 /// are interpolated, per rod and simulated second. Other steps are probed at the most ordinary point, and taken to

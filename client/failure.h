@@ -12,6 +12,8 @@ enum class ExitCode : int {
   kFailed = 1,    ///< the work was understood but did not succeed
   kBadInput = 2,  ///< wrong arguments, a refused scene, an ID that names nothing
   kNoDaemon = 3,  ///< nobody listens on the socket
+  // 99 is that of a run which has stopped with a checkpoint (run/worker_main.cpp).
+  kInterrupted = 130,  ///< Ctrl-C, as the shell has it for a program that the signal ends
 };
 
 /// Ends the verb: the message goes to stderr, the code to the shell. A program of one action per call has no better

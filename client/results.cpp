@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "client/failure.h"
@@ -53,7 +54,80 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(begin, text.find_last_not_of(" \t") - begin + 1));
 }
 
+bool ends_with(std::string_view text, std::string_view end) {
+  return text == end || (text.size() > end.size() && text.ends_with(end) && text[text.size() - end.size() - 1] == '.');
+}
+
+/// What every one of `done` (replicas of one point) tells, put together into `point`.
+void average(const std::vector<ResultRow>& done, ResultRow& point) {
+  const std::vector<std::string> names = field_names(done);
+  std::set<std::string> own_errors;
+  for (const std::string& name : names) own_errors.insert(own_error_field(name));
+  for (const std::string& name : names) {
+    if (kNames.contains(name) || point.parameters.contains(name) || own_errors.contains(name)) continue;
+    std::vector<double> values, sems;
+    bool all_steady = true;
+    std::size_t n_told = 0;
+    for (const ResultRow& row : done) {
+      const auto value = row.fields.find(name);
+      if (value == row.fields.end()) continue;
+      ++n_told;
+      if (value->is_boolean()) all_steady &= value->get<bool>();
+      if (!value->is_number()) continue;
+      values.push_back(value->get<double>());
+      sems.push_back(standard_error(row, name));
+    }
+    if (ends_with(name, "steady")) {
+      if (!all_steady) {
+        point.fields[name] = false;
+      } else if (n_told == done.size()) {
+        point.fields[name] = true;
+      }
+    }
+    if (values.size() < done.size()) continue;
+    if (ends_with(name, "n_effective")) {
+      point.fields[name] = std::accumulate(values.begin(), values.end(), 0.0);
+      continue;
+    }
+    const MeanAndError result = replica_mean(values, sems);
+    point.fields[name] = result.mean;
+    if (result.sem) point.fields[name + ":sem"] = *result.sem;
+  }
+}
+
 }  // namespace
+
+std::string own_error_field(const std::string& field) {
+  if (field == "order.mean") return "order.sem";
+  static constexpr std::string_view kValue = ".value";
+  if (!field.ends_with(kValue)) return {};
+  return field.substr(0, field.size() - kValue.size()) + ".sem";
+}
+
+double standard_error(const ResultRow& row, const std::string& field) {
+  if (row.fields.contains(field + ":sem")) return row.number(field + ":sem");
+  return row.number(own_error_field(field));
+}
+
+bool still_relaxes(const ResultRow& row, const std::string& field) {
+  const bool is_average = field == "order.mean" || field == "order.std" || field.starts_with("defects.mean") ||
+                          (field.starts_with("measured.") && field.ends_with(".value"));
+  if (!is_average) return false;
+  for (const std::string& told : {field.substr(0, field.rfind('.')) + ".steady", std::string("steady")}) {
+    const auto steady = row.fields.find(told);
+    if (steady != row.fields.end() && steady->is_boolean()) return !steady->get<bool>();
+  }
+  return false;
+}
+
+std::string resolved_field(const std::vector<ResultRow>& rows, const std::string& word) {
+  const std::vector<std::string> names = field_names(rows);
+  for (const std::string& name : {word, "measured." + word + ".value"}) {
+    if (std::find(names.begin(), names.end(), name) != names.end()) return name;
+  }
+  throw Failure(ExitCode::kBadInput,
+                fmt::format("no row has a field '{}'{}", word, scene::did_you_mean(scene::nearest(word, names))));
+}
 
 double ResultRow::number(const std::string& field) const {
   const auto value = fields.find(field);
@@ -110,14 +184,9 @@ bool Condition::matches(const ResultRow& row) const {
   return left >= right;
 }
 
-std::vector<ResultRow> filtered(const std::vector<ResultRow>& rows, std::span<const Condition> conditions) {
+std::vector<ResultRow> filtered(const std::vector<ResultRow>& rows, std::vector<Condition> conditions) {
   if (!rows.empty()) {
-    const std::vector<std::string> names = field_names(rows);
-    for (const Condition& condition : conditions) {
-      if (std::find(names.begin(), names.end(), condition.field()) != names.end()) continue;
-      throw Failure(ExitCode::kBadInput, fmt::format("no row has a field '{}'{}", condition.field(),
-                                                     scene::did_you_mean(scene::nearest(condition.field(), names))));
-    }
+    for (Condition& condition : conditions) condition.set_field(resolved_field(rows, condition.field()));
   }
   std::vector<ResultRow> kept;
   for (const ResultRow& row : rows) {
@@ -126,17 +195,6 @@ std::vector<ResultRow> filtered(const std::vector<ResultRow>& rows, std::span<co
     }
   }
   return kept;
-}
-
-MeanAndError mean_and_error(std::span<const double> values) {
-  const auto n = static_cast<double>(values.size());
-  MeanAndError result;
-  for (const double value : values) result.mean += value / n;
-  if (values.size() < 2) return result;
-  double squares = 0;
-  for (const double value : values) squares += (value - result.mean) * (value - result.mean);
-  result.sem = std::sqrt(squares / (n - 1) / n);
-  return result;
 }
 
 std::vector<ResultRow> aggregated(const std::vector<ResultRow>& rows) {
@@ -171,21 +229,7 @@ std::vector<ResultRow> aggregated(const std::vector<ResultRow>& rows) {
     point.fields["n_done"] = done.size();
     if (!done.empty() && done.front().fields.contains(kVersion)) point.fields[kVersion] = done.front().fields[kVersion];
     point.state = done.size() == group.size() ? "done" : "partial";
-    for (const std::string& name : field_names(done)) {
-      if (kNames.contains(name) || point.parameters.contains(name)) continue;
-      std::vector<double> values;
-      for (const ResultRow& row : done) {
-        const auto value = row.fields.find(name);
-        if (value != row.fields.end() && value->is_number()) values.push_back(value->get<double>());
-      }
-      if (values.empty()) continue;
-      const MeanAndError result = mean_and_error(values);
-      point.fields[name] = result.mean;
-      if (result.sem) point.fields[name + ":sem"] = *result.sem;
-    }
-    if (point.fields.contains("order.sem") && !point.fields.contains("order.mean:sem")) {
-      point.fields["order.mean:sem"] = point.fields.at("order.sem");
-    }
+    average(done, point);
     points.push_back(std::move(point));
   }
   return points;
@@ -224,8 +268,8 @@ std::string field_text(const ResultRow& row, const std::string& field) {
   return value->is_string() ? value->get<std::string>() : value->dump();
 }
 
-std::string to_csv(const std::vector<ResultRow>& rows) {
-  const std::vector<std::string> names = field_names(rows);
+std::string to_csv(const std::vector<ResultRow>& rows, std::vector<std::string> fields) {
+  const std::vector<std::string> names = fields.empty() ? field_names(rows) : std::move(fields);
   std::string csv;
   const auto add_line = [&csv, &names](auto text_of_name) {
     for (std::size_t i = 0; i < names.size(); ++i) {

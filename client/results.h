@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "client/json.h"
+#include "client/replicas.h"
 
 namespace shaken::client {
 
@@ -36,6 +37,7 @@ class Condition {
   /// Throws Failure (kBadInput) where < or > meets a text.
   bool matches(const ResultRow& row) const;
   const std::string& field() const { return field_; }
+  void set_field(std::string field) { field_ = std::move(field); }
 
  private:
   std::string field_;
@@ -43,23 +45,30 @@ class Condition {
   std::string value_;
 };
 
-/// The rows that match all conditions. Throws Failure (kBadInput), with the nearest name, if no row at all has one of
-/// the fields.
-std::vector<ResultRow> filtered(const std::vector<ResultRow>& rows, std::span<const Condition> conditions);
-
-/// Mean of `values`, and the standard error of that mean: standard deviation (n-1) / sqrt(n); none for n < 2.
-struct MeanAndError {
-  double mean = 0;
-  std::optional<double> sem;
-};
-/// Needs at least one value.
-MeanAndError mean_and_error(std::span<const double> values);
+/// The rows that match all conditions, whose fields are named as in resolved_field. Throws Failure (kBadInput), with
+/// the nearest name, if no row at all has one of the fields.
+std::vector<ResultRow> filtered(const std::vector<ResultRow>& rows, std::vector<Condition> conditions);
 
 /// One row per point and program version: replicas of equal parameters together. Fields: the parameters,
-/// "versions.shaken", "n_replicas", "n_done", and for each number F of the summary its mean over done replicas as F and
-/// the standard error between them as "F:sem". Where only one replica is done, "order.mean:sem" is that run's own
-/// "order.sem".
+/// "versions.shaken", "n_replicas", "n_done", and of what every done replica tells: for each number F its mean as F and
+/// the standard error of that (replica_mean) as "F:sem", in place of the runs' own; for "n_effective" the sum; for
+/// "steady" true if all are, false if one is not.
 std::vector<ResultRow> aggregated(const std::vector<ResultRow>& rows);
+
+/// The field that holds a run's own standard error of `field`: "order.sem" of "order.mean", "measured.X.sem" of
+/// "measured.X.value"; empty if there is none.
+std::string own_error_field(const std::string& field);
+
+/// Standard error of `field` in a row, aggregated or not; NaN where it is not known.
+double standard_error(const ResultRow& row, const std::string& field);
+
+/// Whether `field` is an average over a time in which the run still relaxed: its own "steady" is false, or is not known
+/// and the run's is false. False for what is no average, and where nothing is known.
+bool still_relaxes(const ResultRow& row, const std::string& field);
+
+/// The field that `word` means: itself, or "measured.WORD.value". Throws Failure (kBadInput), with the nearest name, if
+/// no row has it.
+std::string resolved_field(const std::vector<ResultRow>& rows, const std::string& word);
 
 /// The fields of all rows, in the order met.
 std::vector<std::string> field_names(const std::vector<ResultRow>& rows);
@@ -68,7 +77,7 @@ std::vector<std::string> swept_parameters(const std::vector<ResultRow>& rows);
 
 /// A field's value as text; empty if the row does not have it.
 std::string field_text(const ResultRow& row, const std::string& field);
-/// All fields of all rows, with a line of names.
-std::string to_csv(const std::vector<ResultRow>& rows);
+/// The rows with a line of names: the given fields, in their order; all fields of all rows if none are given.
+std::string to_csv(const std::vector<ResultRow>& rows, std::vector<std::string> fields = {});
 
 }  // namespace shaken::client

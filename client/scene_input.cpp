@@ -11,6 +11,8 @@
 #include "run/files/atomic_file.h"
 #include "scene/canonical.h"
 #include "scene/derived.h"
+#include "scene/placement.h"
+#include "scene/remarks.h"
 
 namespace shaken::client {
 
@@ -30,7 +32,7 @@ std::string refusal_text(const std::vector<scene::Problem>& problems) {
 
 scene::Sweep load_points(const SceneInput& input, const std::vector<std::string>& settings,
                          std::optional<int> replicas) {
-  auto loaded = scene::load_sweep(input.text, input.file, settings, replicas);
+  auto loaded = scene::load_runs(input.text, input.file, settings, replicas);
   if (!loaded.value) throw Failure(ExitCode::kBadInput, refusal_text(loaded.problems));
   return *std::move(loaded.value);
 }
@@ -38,14 +40,27 @@ scene::Sweep load_points(const SceneInput& input, const std::vector<std::string>
 Json derived_quantities(const scene::SweepPoint& point) {
   const scene::RunPlan& plan = point.plan;
   const Scene& system = plan.system;
+  Json kinds = Json::array();
+  double area_fraction = 0;
+  const auto add_kind = [&](const std::string& name, const RodShape& rod, int count) {
+    const double fraction = scene::area_fraction_of(system, rod, count);
+    kinds.push_back({{"name", name}, {"count", count}, {"area_fraction", fraction}});
+    area_fraction += fraction;
+  };
+  add_kind("rods", system.rod, system.n_rods);
+  for (std::size_t k = 0; k < system.added.size(); ++k) {
+    if (const auto& added = system.added[k]) add_kind(fmt::format("rods_{}", k + 2), added->rod, added->count);
+  }
   Json json{{"id", scene::run_id(plan)},
             {"n_rods", system.n_all_rods()},
-            {"area_fraction", scene::area_fraction_of(system)},
+            {"area_fraction", area_fraction},
+            {"kinds", kinds},
             {"gamma", nullptr},  // where there is no gravity
             {"amplitude_mm", system.amplitude},
             {"sim_seconds", plan.total_time()},
             {"ticks", std::llround(plan.total_time() / system.dt)},
-            {"trajectory_frames", 0}};
+            {"trajectory_frames", 0},
+            {"remarks", scene::remarks(plan)}};
   if (const auto gamma = scene::gamma_of(system)) json["gamma"] = *gamma;
   if (plan.trajectory) json["trajectory_frames"] = std::llround(plan.total_time() / plan.trajectory->every) + 1;
   return json;

@@ -38,6 +38,10 @@ double eta_of(const std::vector<Target>& targets) {
 }  // namespace
 
 ExitCode wait_for(Session& session, std::vector<Target> targets, std::optional<double> timeout_s, Console& console) {
+  if (targets.empty()) {
+    console.err << "no job is queued or running\n";
+    return ExitCode::kOk;
+  }
   const InterruptGuard guard;
   const Clock::time_point start = Clock::now();
   Clock::time_point last_answer = start;
@@ -54,7 +58,7 @@ ExitCode wait_for(Session& session, std::vector<Target> targets, std::optional<d
       const std::string state = text_of(job, "state");
       n_done += state == "done";
       n_ended += is_final(state);
-      fraction += (is_final(state) ? 1.0 : job_fraction(job)) / static_cast<double>(jobs.size());
+      fraction += job_fraction(job) / static_cast<double>(jobs.size());
     }
     const int n_jobs = static_cast<int>(jobs.size());
     if (console.err_is_terminal) {
@@ -71,8 +75,9 @@ ExitCode wait_for(Session& session, std::vector<Target> targets, std::optional<d
       for (const auto& [id, job] : jobs) {
         const std::string state = text_of(job, "state");
         if (state == "done") continue;
-        console.err << fmt::format("{} {}: {} ({})\n", short_id(id), state, text_of(job, "reason"),
-                                   text_of(job, "label"));
+        const std::string reason = text_of(job, "reason"), label = text_of(job, "label");
+        console.err << fmt::format("{} {}{}{}\n", short_id(id), state, reason.empty() ? "" : ": " + reason,
+                                   label.empty() ? "" : " (" + label + ")");
       }
       return n_done == n_jobs ? ExitCode::kOk : ExitCode::kFailed;
     }
@@ -81,7 +86,7 @@ ExitCode wait_for(Session& session, std::vector<Target> targets, std::optional<d
       clear_line();
       console.err << fmt::format("{}: {} of {} jobs have not ended; they go on\n",
                                  guard.interrupted() ? "interrupted" : "time is up", n_jobs - n_ended, n_jobs);
-      return ExitCode::kFailed;
+      return guard.interrupted() ? ExitCode::kInterrupted : ExitCode::kFailed;
     }
 
     const double left = timeout_s ? std::max(0.0, *timeout_s - elapsed) : 1.0;

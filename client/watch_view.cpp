@@ -44,7 +44,7 @@ std::string summary_line(const LiveJobs& jobs, const std::string& title, const C
   double fraction = 0;
   for (const LiveJob& job : jobs.jobs()) {
     counts[job.state] = counts.value(job.state, 0) + 1;
-    fraction += (is_final(job.state) ? 1.0 : job.fraction()) / static_cast<double>(jobs.jobs().size());
+    fraction += job.fraction() / static_cast<double>(jobs.jobs().size());
   }
   return fmt::format("{}  {} {:3.0f} %  {}", console.painted(Colour::kBold, title),
                      console.painted(Colour::kBlue, bar_text(fraction, 16)), 100 * fraction, counts_text(counts));

@@ -12,20 +12,30 @@ endif()
 
 find_program(CCACHE ccache)
 if(CCACHE)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+  # depend mode: a file that is not in the cache is read once, not once by the preprocessor and again by the compiler;
+  # the sloppiness is what precompiled headers ask for (no file of ours writes the time into the program)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_DEPEND=1 CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE})
 endif()
 
 add_library(shaken_options INTERFACE)
 add_library(shaken::options ALIAS shaken_options)
 target_include_directories(shaken_options INTERFACE ${CMAKE_SOURCE_DIR})
 target_compile_options(shaken_options INTERFACE
+  -pthread  # everywhere: a precompiled header serves only files that see the same macros
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
-  -Wno-restrict  # g++ 12 sees overlaps in "text" + std::string that are not there (GCC bug 105651)
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>  # g++ 12 sees overlaps in "text" + std::string that are not there (GCC bug 105651)
   # One rounding per operation, on every machine and at every optimisation level: the steppers promise bitwise equal
   # trajectories, and a fused multiply-add in one of two copies of a kernel breaks that.
   -ffp-contract=off
   # Square roots and comparisons may become vector instructions; no result depends on errno or on floating-point traps.
   -fno-math-errno -fno-trapping-math)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+  target_compile_options(shaken_options INTERFACE "SHELL:-Xclang -fno-pch-timestamp")  # else ccache keeps none of it
+endif()
+# Builds with sanitizers: what waits for files and sockets is not optimised, which halves the time to compile it; what
+# computes (a library says target_compile_options(NAME PRIVATE ${SHAKEN_COMPUTES})) is, or its tests would take too long.
+set(CMAKE_CXX_FLAGS_SANITIZE "-O0 -g1")
+set(SHAKEN_COMPUTES $<$<CONFIG:Sanitize>:-O1>)
 # Eigen adds up in another order where vectors are wider, and its small fixed sizes gain nothing from them.
 target_compile_definitions(shaken_options INTERFACE EIGEN_DONT_VECTORIZE)
 if(SHAKEN_WERROR)

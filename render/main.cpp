@@ -25,7 +25,7 @@
 namespace shaken::render {
 namespace {
 
-enum ExitCode { kDone = 0, kFailed = 1, kBadInput = 2 };
+enum ExitCode { kDone = 0, kFailed = 1, kBadInput = 2, kInterrupted = 130 };
 
 struct Failure : std::runtime_error {
   Failure(ExitCode exit_code, const std::string& message) : std::runtime_error(message), code(exit_code) {}
@@ -233,10 +233,11 @@ void make_movie_file(const Options& options) {
   std::signal(SIGTERM, [](int) { stop_requested = 1; });
   {
     const ProgressLine progress(n_frames);
-    fail_on(make_movie(painter, out, style, movie, n_frames, picture, [&](std::size_t i) {
+    const auto error = make_movie(painter, out, style, movie, n_frames, picture, [&](std::size_t i) {
       progress.show(i + 1);
       return stop_requested == 0;
-    }));
+    });
+    if (error) throw Failure(stop_requested != 0 ? kInterrupted : kFailed, error->message);
   }
   report(options, out, n_frames, style, watch);
 }
@@ -281,7 +282,7 @@ int run(int argc, char** argv) {
       "  shaken-render movie runs/first                             -> runs/first/movie.mp4\n"
       "  shaken-render movie runs/first -o m.mp4 --from 10 --to 20 --every 2 --frames\n"
       "  shaken-render live 1f0c -o now.png                         a running job, from LCM\n"
-      "Exit codes: 0 done, 1 failed, 2 bad input.");
+      "Exit codes: 0 done, 1 failed, 2 bad input, 130 interrupted by Ctrl-C.");
 
   CLI::App* picture = app.add_subcommand("picture", "One frame of a recorded run as a PNG");
   picture->add_option("run", options.source, "Run directory or trajectory.h5")->required();
@@ -323,7 +324,9 @@ int run(int argc, char** argv) {
     if (live->parsed()) make_live_picture(options);
     return kDone;
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kDone : kBadInput;
+    if (error.get_exit_code() == 0) return app.exit(error);
+    fmt::print(stderr, "shaken-render: {} (see `shaken-render --help`)\n", error.what());
+    return kBadInput;
   } catch (const Failure& failure) {
     fmt::print(stderr, "shaken-render: {}\n", failure.what());
     return failure.code;

@@ -20,10 +20,9 @@ void measure(RodPicture& picture, bool with_defects) {
     if (picture.kind_of(i) == 0) positions.push_back(picture.position[i]);
   }
   const double length = picture.rod_length();
+  const analysis::Region region(picture.box_side, picture.walls);
   const int nodes = analysis::grid_nodes(picture.box_side, length / 8);
-  picture.defects =
-      analysis::find_defects(analysis::DirectorField(positions, directors, picture.box_side, nodes, length / 2));
-  std::erase_if(picture.defects, [&](const analysis::Defect& defect) { return !picture.is_inside(defect.position); });
+  picture.defects = analysis::find_defects(analysis::DirectorField(positions, directors, region, nodes, length / 2));
 }
 
 }  // namespace shaken::render

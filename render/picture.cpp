@@ -66,15 +66,6 @@ double RodPicture::rod_length() const {
   return ends.head - ends.tail;
 }
 
-bool RodPicture::is_inside(const Vec2& place) const {
-  if (!walls) return true;
-  const Vec2 from_middle = place - Vec2(box_side, box_side) / 2;
-  const double half = walls->size / 2;
-  if (walls->arena == Arena::kSquare) return from_middle.cwiseAbs().maxCoeff() < half;
-  const double r = from_middle.norm();
-  return r < half && (walls->arena == Arena::kDisc || r > walls->inner / 2);
-}
-
 double RodPicture::area_fraction() const {
   double covered = 0;
   for (std::size_t kind = 0; kind < n_kinds(); ++kind) {

@@ -53,14 +53,13 @@ struct RodPicture {
   std::vector<Vec3> first_directors() const;
   /// Tip to tip, of the first kind [mm].
   double rod_length() const;
-  /// Whether a place in the box, in [0, box_side), lies within the side walls; everywhere if there are none.
-  bool is_inside(const Vec2& place) const;
   /// Share of the arena, or of the box, covered by the projections of all rods, lying flat and side by side.
   double area_fraction() const;
 };
 
 /// Fills order, director_angle and, if asked, defects from the rods of the first kind; defects are looked for within
-/// the side walls. The director field is smoothed over half a rod length on a mesh of an eighth of one.
+/// the side walls, and where there are rods (analysis/director_field.h). The director field is smoothed over half a rod
+/// length on a mesh of an eighth of one.
 void measure(RodPicture& picture, bool with_defects);
 
 enum class Colouring {

@@ -20,6 +20,7 @@
 #include "run/trouble_file.h"
 #include "scene/canonical.h"
 #include "scene/load.h"
+#include "sim/balance.h"
 
 namespace shaken::run {
 namespace {
@@ -184,11 +185,15 @@ class Loop {
   [[nodiscard]] std::optional<Error> write_results(const std::string& state, const std::string& reason,
                                                    const std::vector<int>& rods) {
     const Reduction reduction = session_.measurements.reduce(session_.simulation.time());
-    if (auto error = write_observables(directory_.observables(), reduction.arrays)) return error;
+    if (auto error = write_observables(directory_.observables(), reduction.arrays, provenance_of(plan_))) return error;
     Summary summary = summarize(reduction);
     summary.state = state;
     summary.reason = reason;
     summary.rods = rods;
+    if (state == "done" && summary.order) {
+      const std::string trouble = why_not_steady(*summary.order, summary.sim_seconds);
+      if (!trouble.empty()) spdlog::warn("{}", trouble);
+    }
     return write_summary(directory_.summary(), summary);
   }
 

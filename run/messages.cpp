@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "analysis/order.h"
+#include "sim/balance.h"
 
 namespace shaken::run {
 namespace {

@@ -44,6 +44,8 @@ std::string vector_text(const Vec3& v) { return fmt::format("({:.6g}, {:.6g}, {:
 
 Result<Replay> replay(const std::filesystem::path& root) {
   const RunDirectory directory{root};
+  if (!std::filesystem::is_directory(root)) return Error{root.string() + ": there is no such directory"};
+  if (!std::filesystem::exists(directory.scene())) return Error{root.string() + " holds no run (no scene.json)"};
   if (!std::filesystem::exists(directory.trouble())) {
     return Error{root.string() + " holds no trouble.json: its run has met no numerical trouble"};
   }
@@ -103,7 +105,9 @@ int replay_command(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
-    return app.exit(problem) == 0 ? 0 : kExitBadInput;
+    if (problem.get_exit_code() == 0) return app.exit(problem);
+    fmt::print(stderr, "shaken-worker replay: {} (see `shaken-worker replay --help`)\n", problem.what());
+    return kExitBadInput;
   }
   const Result<Replay> result = replay(directory);
   if (!result) {

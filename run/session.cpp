@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/canonical.h"
+
 namespace shaken::run {
 
 std::optional<Cadence> recording_of(const scene::RunPlan& plan) {
@@ -31,6 +33,8 @@ TrajectoryHeader trajectory_header(const World& world, const std::string& scene_
   return header;
 }
 
+Provenance provenance_of(const scene::RunPlan& plan) { return {scene::run_id(plan), plan.system.seed}; }
+
 namespace {
 
 Session make_session(const scene::RunPlan& plan, Simulation simulation) {
@@ -53,8 +57,9 @@ Result<Session> start_session(const scene::RunPlan& plan, const RunDirectory& di
   if (!simulation) return simulation.error();
   Session session = make_session(plan, std::move(simulation).value());
   if (session.recording) {
-    auto trajectory =
-        TrajectoryWriter::create(directory.trajectory(), trajectory_header(session.simulation.world(), scene_json));
+    TrajectoryHeader header = trajectory_header(session.simulation.world(), scene_json);
+    header.provenance = provenance_of(plan);
+    auto trajectory = TrajectoryWriter::create(directory.trajectory(), header);
     if (!trajectory) return trajectory.error();
     session.trajectory = std::move(trajectory).value();
   }

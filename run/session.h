@@ -31,6 +31,8 @@ struct Session {
 std::optional<Cadence> recording_of(const scene::RunPlan& plan);
 /// What a trajectory says of the world besides its frames.
 TrajectoryHeader trajectory_header(const World& world, const std::string& scene_json);
+/// The run that the files of a plan are of.
+Provenance provenance_of(const scene::RunPlan& plan);
 
 /// Ticks from start to end of the plan.
 Tick total_ticks(const scene::RunPlan& plan);

@@ -7,8 +7,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "analysis/parts.h"
 #include "run/files/atomic_file.h"
 #include "run/files/version.h"
+#include "sim/core/physics_version.h"
 
 namespace shaken::run {
 namespace {
@@ -46,6 +48,23 @@ Json to_json(const Balance& balance) {
 
 }  // namespace
 
+std::string why_not_steady(const analysis::SteadySummary& order, double sim_seconds) {
+  if (order.steady) return "";
+  if (std::abs(order.drift.value) > analysis::kDriftErrors * order.drift.sem) {
+    return fmt::format(
+        "S still drifts: it changes by {:.2g} +- {:.1g} from the first half of its average to the second; measure "
+        "longer",
+        order.drift.value, order.drift.sem);
+  }
+  if (!(order.drift.n_effective >= analysis::kEnoughForSteadyState)) {
+    return fmt::format(
+        "whether S is steady cannot be told: its average is worth about {:.0f} independent samples; measure longer",
+        order.n_effective);
+  }
+  return fmt::format("S was on its way until {:.4g} s of {:.4g} s, beyond half of the run; measure longer",
+                     order.t_steady, sim_seconds);
+}
+
 std::optional<Error> write_summary(const std::filesystem::path& file, const Summary& summary) {
   Json json{
       {"run_id", summary.run_id},
@@ -66,28 +85,37 @@ std::optional<Error> write_summary(const std::filesystem::path& file, const Summ
        {summary.balance.momentum_unexplained.x(), summary.balance.momentum_unexplained.y(),
         summary.balance.momentum_unexplained.z()}},
       {"t_steady_s", summary.t_steady},
+      {"steady", summary.order ? Json(summary.order->steady) : Json(nullptr)},
       {"order", nullptr},
       {"defects", nullptr},
   };
   if (summary.order) {
-    json["order"] = {{"mean", summary.order->mean},
-                     {"std", summary.order->std},
-                     {"sem", summary.order->sem},
-                     {"tau_s", summary.order->tau},
-                     {"t_steady_s", summary.order->t_steady},
-                     {"n_effective", summary.order->n_effective}};
+    json["order"] = {
+        {"mean", summary.order->mean},
+        {"std", summary.order->std},
+        {"sem", number_or_null(summary.order->sem)},
+        {"tau_s", summary.order->tau},
+        {"t_steady_s", summary.order->t_steady},
+        {"n_effective", summary.order->n_effective},
+        {"steady", summary.order->steady},
+        {"drift",
+         {{"value", number_or_null(summary.order->drift.value)}, {"sem", number_or_null(summary.order->drift.sem)}}}};
   }
   if (summary.defects_mean_plus && summary.defects_mean_minus) {
     json["defects"] = {{"mean_plus", *summary.defects_mean_plus}, {"mean_minus", *summary.defects_mean_minus}};
   }
   json["measured"] = Json::object();
   for (const auto& [name, scalar] : summary.scalars) {
-    json["measured"][name] = {{"value", number_or_null(scalar.value)}, {"sem", number_or_null(scalar.sem)}};
+    json["measured"][name] = {{"value", number_or_null(scalar.value)},
+                              {"sem", number_or_null(scalar.sem)},
+                              {"n_effective", number_or_null(scalar.n_effective)},
+                              {"steady", scalar.steady ? Json(*scalar.steady) : Json(nullptr)}};
+    if (!scalar.reason.empty()) json["measured"][name]["reason"] = scalar.reason;
   }
   for (const auto& [name, effect] : summary.effects) json["effects"][name] = to_json(effect);
   json["state_hash"] = fmt::format("{:016x}", summary.state_hash);
   json["exit"] = {{"state", summary.state}, {"reason", summary.reason}, {"tick", summary.tick}, {"rods", summary.rods}};
-  json["versions"] = {{"shaken", version()}, {"compiler", compiler()}};
+  json["versions"] = {{"shaken", version()}, {"physics", kPhysicsVersion}, {"compiler", compiler()}};
   json["host"] = host_name();
   json["started"] = summary.started;
   json["finished"] = summary.finished;

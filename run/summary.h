@@ -51,6 +51,9 @@ struct Summary {
   std::vector<int> rods;       ///< concerned by numerical trouble
 };
 
+/// Why S is not called steady after so long a run, and what to do about it, in a sentence; empty if it is.
+std::string why_not_steady(const analysis::SteadySummary& order, double sim_seconds);
+
 [[nodiscard]] std::optional<Error> write_summary(const std::filesystem::path& file, const Summary& summary);
 
 /// Whether `file` says that run `run_id` has been done.

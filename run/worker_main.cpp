@@ -11,6 +11,7 @@
 
 #include "proto/bus.h"
 #include "run/checkpoint_file.h"
+#include "run/ending.h"
 #include "run/files/atomic_file.h"
 #include "run/files/version.h"
 #include "run/loop.h"
@@ -20,6 +21,7 @@
 #include "run/terminal.h"
 #include "scene/canonical.h"
 #include "scene/load.h"
+#include "scene/placement.h"
 
 namespace {
 
@@ -124,6 +126,16 @@ void describe(CLI::App& app, Arguments& arguments) {
       ->needs(probe);
 }
 
+/// What came out, on stdout; nothing where the summary cannot be read, which has been told then.
+void tell_ending(const run::RunDirectory& directory) {
+  const Result<std::string> text = run::read_file(directory.summary());
+  if (!text) return;
+  const auto summary = nlohmann::json::parse(*text, nullptr, false);
+  if (!summary.is_object()) return;
+  fmt::print("{}", run::describe_ending(summary, directory.root));
+  std::fflush(stdout);
+}
+
 int run_scene(const scene::RunPlan& plan, const Arguments& arguments) {
   const run::RunDirectory directory{arguments.out};
   run::RunOptions options;
@@ -150,6 +162,7 @@ int run_scene(const scene::RunPlan& plan, const Arguments& arguments) {
   switch (outcome.state) {
     case run::RunState::kDone:
       spdlog::info("done");
+      if (!arguments.quiet) tell_ending(directory);
       return 0;
     case run::RunState::kStopped:
       spdlog::info("stopped; start again to go on");
@@ -209,7 +222,9 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
-    return app.exit(problem) == 0 ? 0 : kExitBadInput;
+    if (problem.get_exit_code() == 0) return app.exit(problem);
+    fmt::print(stderr, "shaken-worker: {} (see `shaken-worker --help`)\n", problem.what());
+    return kExitBadInput;
   }
   if (arguments.out.empty() == arguments.probe.empty()) {
     fmt::print(stderr, "one of --out and --probe is needed (see `shaken-worker --help`)\n");
@@ -228,6 +243,10 @@ int main(int argc, char** argv) {
   const scene::Loaded<scene::RunPlan> plan = scene::load_scene(*text, arguments.scene, arguments.settings);
   if (!plan.value) {
     fmt::print(stderr, "{}\n", to_string(plan.problems));
+    return kExitBadInput;
+  }
+  if (const auto problem = scene::placement_problem(*plan.value, arguments.scene)) {
+    fmt::print(stderr, "{}\n", to_string(*problem));
     return kExitBadInput;
   }
   if (!arguments.probe.empty()) {

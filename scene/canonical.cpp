@@ -6,6 +6,8 @@
 
 #include <cstdint>
 
+#include "sim/core/physics_version.h"
+
 namespace shaken::scene {
 
 namespace {

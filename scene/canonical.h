@@ -9,14 +9,12 @@
 
 namespace shaken::scene {
 
-/// Part of every run's name. Raise it whenever the same scene leads to another trajectory than before.
-inline constexpr int kPhysicsVersion = 2;
-
 /// The resolved scene: every key that matters, derived ones too, numbers in default units. Reading it again gives the
 /// identical plan.
 nlohmann::ordered_json to_json(const RunPlan& plan);
 
-/// 16 hex digits that name a run: XXH3-64 of the physics version and of the canonical scene without `stream`.
+/// 16 hex digits that name a run: XXH3-64 of the physics version (sim/core/physics_version.h) and of the canonical
+/// scene without `stream`.
 std::string run_id(const RunPlan& plan);
 
 /// One value as JSON, in its default unit.

@@ -13,6 +13,9 @@ namespace {
 
 constexpr int kMaxDigits = 18;      // fit into std::int64_t
 constexpr int kMaxMagnitude = 300;  // well inside the range of a double
+// Sizes that are written without a power of ten: 0.000001 to 9999999999.
+constexpr int kLeastPlainMagnitude = -6;
+constexpr int kMostPlainMagnitude = 9;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -27,13 +30,15 @@ double Decimal::value() const {
 
 std::string Decimal::text() const {
   const char* sign = digits < 0 ? "-" : "";
-  const std::int64_t size = std::abs(digits);
-  if (exponent < -12 || exponent > 9) return fmt::format("{}{}e{}", sign, size, exponent);
-  if (exponent >= 0) return fmt::format("{}{}{:0<{}}", sign, size, "", exponent);
-  const std::string padded = fmt::format("{:0>{}}", size, 1 - exponent);  // at least one digit before the point
+  const std::string all = fmt::format("{}", std::abs(digits));
+  const int magnitude = static_cast<int>(all.size()) - 1 + exponent;  // of the first digit
+  if (digits != 0 && (magnitude < kLeastPlainMagnitude || magnitude > kMostPlainMagnitude)) {
+    return fmt::format("{}{}{}{}e{}", sign, all.substr(0, 1), all.size() > 1 ? "." : "", all.substr(1), magnitude);
+  }
+  if (exponent >= 0) return fmt::format("{}{}{:0<{}}", sign, all, "", exponent);
+  const std::string padded = fmt::format("{:0>{}}", all, 1 - exponent);  // at least one digit before the point
   const std::size_t point = padded.size() - static_cast<std::size_t>(-exponent);
-  const std::string_view all = padded;
-  return fmt::format("{}{}.{}", sign, all.substr(0, point), all.substr(point));
+  return fmt::format("{}{}.{}", sign, padded.substr(0, point), padded.substr(point));
 }
 
 Decimal make_decimal(std::int64_t digits, int exponent) {

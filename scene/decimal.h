@@ -18,7 +18,7 @@ struct Decimal {
 
   /// The nearest double.
   double value() const;
-  /// "0.45", "1500", "4e-12".
+  /// For people: "0.45", "1500"; very small and large numbers with a power of ten, "5.4e-7".
   std::string text() const;
   bool is_whole() const { return exponent >= 0; }
 

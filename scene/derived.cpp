@@ -26,6 +26,13 @@ double frequency_for(double gamma, double amplitude, double gravity) {
   return std::sqrt(gamma * gravity / amplitude) / (2 * kPi);
 }
 
+double peak_speed_of(const Scene& scene) { return 2 * kPi * scene.frequency * scene.amplitude; }
+
+double arena_size_for(const SideWalls& walls, double area) {
+  if (walls.arena == Arena::kSquare) return std::sqrt(area);
+  return std::sqrt(4.0 * area / kPi + (walls.arena == Arena::kAnnulus ? squared(walls.inner) : 0.0));
+}
+
 double area_for_rods(const Scene& scene) { return scene.walls ? scene.walls->area() : squared(scene.box_side); }
 
 double area_fraction_of(const Scene& scene) { return area_fraction_of(scene, scene.rod, scene.n_rods); }

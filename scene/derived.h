@@ -22,6 +22,11 @@ double amplitude_for(double gamma, double frequency, double gravity);
 /// f from Gamma, a and g [Hz].
 double frequency_for(double gamma, double amplitude, double gravity);
 
+/// 2 pi f a, of the plates [mm/s].
+double peak_speed_of(const Scene& scene);
+
+/// The `size` [mm] at which walls of this shape and `inner` leave the rods `area` [mm^2].
+double arena_size_for(const SideWalls& walls, double area);
 /// L^2, or the area within side walls [mm^2].
 double area_for_rods(const Scene& scene);
 /// Of the rods of the first kind: N A / L^2, with A the area of one rod lying flat.

@@ -348,9 +348,14 @@ std::vector<Field> make_table() {
                   "walls.size", kLength, 1, 2000, "Diameter of the disc or of the outer wall, or side of the square.",
                   [](auto& p) -> auto& { return p.system.walls->size; }),
               "as large as box.side allows"));
-  add(quantity(
+  Field inner = quantity(
       "walls.inner", kLength, 0.1, 2000, "Diameter of an annulus' inner wall.",
-      [](auto& p) -> auto& { return p.system.walls->inner; }));
+      [](auto& p) -> auto& { return p.system.walls->inner; });
+  inner.fallback = SideWalls{}.inner;
+  inner.fetch = [](const RunPlan& p) {
+    return p.system.walls->arena == Arena::kAnnulus ? Value(p.system.walls->inner) : Value();
+  };
+  add(std::move(inner));
   add(quantity(
       "walls.friction", kPlain, 0, 1000, "Coulomb's friction coefficient between rod and wall.",
       [](auto& p) -> auto& { return p.system.walls->contact.friction; }));
@@ -411,8 +416,8 @@ std::vector<Field> make_table() {
       "measure.tilt.bins", 2, 10000, "From the largest tilt that the gap allows downwards to upwards.",
       [](auto& p) -> auto& { return p.tilt->bins; }));
   add(block("measure.defects", false,
-            "Topological defects of the smoothed director field, which is smoothed through the border of the box, "
-            "walls or not.",
+            "Topological defects of the smoothed director field, within walls if there are any, and where there are "
+            "rods.",
             &RunPlan::defects));
   add(every(
       "measure.defects.every", "Time between samples.", [](auto& p) -> auto& { return p.defects->every; }));
@@ -432,8 +437,7 @@ std::vector<Field> make_table() {
       "Tracks seen for so long are told by themselves as lasting ones: noise makes short-lived pairs.",
       [](auto& p) -> auto& { return p.defects->min_lifetime; })));
   add(block("measure.g2", false,
-            "Orientational correlation G2(r) and pair distribution g(r). Distances go through the border of the box, "
-            "walls or not.",
+            "Orientational correlation G2(r) and pair distribution g(r), within walls if there are any.",
             &RunPlan::g2));
   add(every(
       "measure.g2.every", "Time between samples.", [](auto& p) -> auto& { return p.g2->every; }));

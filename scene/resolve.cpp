@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,10 +18,10 @@ namespace shaken::scene {
 
 namespace {
 
-constexpr double kAgreement = 1e-6;       // relative, of quantities given twice
-constexpr double kRoomRoundArena = 0.2;   // [mm]
-constexpr double kLeastBoxLengths = 2.2;  // a rod must not meet two images of another; and some room for the lists
+constexpr double kAgreement = 1e-6;      // relative, of quantities given twice
+constexpr double kRoomRoundArena = 0.2;  // [mm]
 constexpr double kLeastTicksPerPeriod = 20;
+constexpr double kDeepestOverlap = 0.5;  // of a bead's radius, beyond which a run ends
 
 bool agree(double a, double b) { return std::abs(a - b) <= kAgreement * std::max(std::abs(a), std::abs(b)); }
 
@@ -41,9 +42,10 @@ class Resolver {
     }
     accuracy();
     shapes();
+    const std::size_t n_before_shaking = problems_.size();
     shaking();
-    arena();
-    packing();
+    shaking_ok_ = problems_.size() == n_before_shaking;
+    if (arena()) packing();
     box();
     gap();
     schedule();
@@ -290,10 +292,11 @@ class Resolver {
     }
   }
 
-  // Arena and box fit into each other.
-  void arena() {
+  // Arena and box fit into each other; false where they do not, or cannot be told.
+  bool arena() {
     Scene& system = plan_.system;
-    if (!system.walls || !ok({"walls.size", "walls.inner", "walls.arena", "box.side"}) || !shapes_ok_) return;
+    if (!ok({"walls.size", "walls.inner", "walls.arena", "box.side"}) || !shapes_ok_) return false;
+    if (!system.walls) return true;
     double thickest = 0;
     double longest = 0;
     for (const Kind& kind : kinds()) {
@@ -302,7 +305,18 @@ class Resolver {
     }
     const double room = thickest + kRoomRoundArena;  // so that rods do not meet through the periodic border
     SideWalls& walls = *system.walls;
-    if (!given("walls.size")) {
+    const std::size_t n_before = problems_.size();
+    if (given("walls.inner") && walls.arena != Arena::kAnnulus) {
+      const Field& arena = field_at("walls.arena");
+      complain({"walls.inner"}, fmt::format("only an annulus has an inner wall, and walls.arena is {}; remove "
+                                            "walls.inner, or set walls.arena to \"annulus\"",
+                                            show(arena, arena.fetch(plan_))));
+    }
+    if (!given("walls.size") && !given("box.side") && given("rods.count") && given("rods.area_fraction")) {
+      if (!ok({"rods.count", "rods.area_fraction"})) return false;
+      walls.size = arena_size_for(walls, system.n_rods * make_species(system.rod).area / number("rods.area_fraction"));
+      check_derived("walls.size", {"rods.count", "rods.area_fraction"});
+    } else if (!given("walls.size")) {
       walls.size = system.box_side - room;
       check_derived("walls.size", {"box.side"});
     }
@@ -314,17 +328,30 @@ class Resolver {
       complain({"walls.size", "box.side"},
                fmt::format("an arena of {} does not fit into a box of {}: at most {}; or leave box.side out",
                            length(walls.size), length(system.box_side), length(system.box_side - room)));
+    } else if (walls.arena == Arena::kAnnulus && walls.inner >= walls.size) {
+      complain({"walls.inner", "walls.size"},
+               fmt::format("an inner wall of {} does not fit into an outer one of {}, {}", length(walls.inner),
+                           length(walls.size), given("walls.size") ? "walls.size" : "as large as box.side allows"));
     } else if (walls.arena == Arena::kAnnulus && walls.size - walls.inner < 2.0 * longest) {
       complain({"walls.inner", "walls.size"},
                fmt::format("an annulus from {} to {} leaves no room for rods of {} to turn: its walls must be a rod "
                            "length apart",
                            length(walls.inner), length(walls.size), length(longest)));
     }
+    return problems_.size() == n_before;
+  }
+
+  /// What sets the area that the rods share, as it was written: "box.side 40 mm".
+  std::string room_for_rods() const {
+    const Scene& system = plan_.system;
+    const std::string box = "box.side " + length(system.box_side);
+    if (!system.walls) return box;
+    if (given("walls.size")) return "walls.size " + length(system.walls->size);
+    return fmt::format("{} (an arena of {})", box, length(system.walls->size));
   }
 
   // Number of rods, box and area fraction.
   void packing() {
-    if (!shapes_ok_ || !ok({"box.side", "walls.size", "walls.inner", "walls.arena"})) return;
     for (const Kind& kind : kinds()) {
       if (!ok({kind.path("area_fraction"), kind.path("count")}) || !numbers_of(kind)) return;
     }
@@ -348,7 +375,8 @@ class Resolver {
                            random ? "at random" : "in rows", most, random ? "; start \"aligned\" packs more" : ""));
     } else {
       for (const Kind& kind : kinds()) {
-        check_derived(kind.path("area_fraction"), {kind.path("count"), "box.side"});
+        check_derived(kind.path("area_fraction"),
+                      {kind.path("count"), given("walls.size") ? "walls.size" : "box.side"});
       }
     }
   }
@@ -369,10 +397,8 @@ class Resolver {
       const Field& field = field_at(count_path);
       if (count_for() < field.low || count_for() > field.high) {
         complain({fraction_path, "walls.size", "box.side"},
-                 fmt::format("{} {:.10g} and {} {} make {} rods, outside [{:.10g}, {:.10g}]", fraction_path, wanted,
-                             system.walls ? "walls.size" : "box.side",
-                             length(system.walls ? system.walls->size : system.box_side), count_for(), field.low,
-                             field.high));
+                 fmt::format("{} {:.10g} and {} make {} rods, outside [{:.10g}, {:.10g}]", fraction_path, wanted,
+                             room_for_rods(), count_for(), field.low, field.high));
         return false;
       }
       kind.count = static_cast<int>(count_for());
@@ -382,10 +408,8 @@ class Resolver {
     } else if (given(fraction_path) && count_for() != kind.count &&
                !agree(area_fraction_of(system, kind.rod, kind.count), wanted)) {
       complain({fraction_path},
-               fmt::format("{} {:.10g} contradicts {} {} in {} {}, which make {:.10g}; remove one", fraction_path,
-                           wanted, count_path, kind.count, system.walls ? "walls.size" : "box.side",
-                           length(system.walls ? system.walls->size : system.box_side),
-                           area_fraction_of(system, kind.rod, kind.count)));
+               fmt::format("{} {:.10g} contradicts {} {} in {}, which make {:.10g}; remove one", fraction_path, wanted,
+                           count_path, kind.count, room_for_rods(), area_fraction_of(system, kind.rod, kind.count)));
       return false;
     }
     return true;
@@ -395,11 +419,12 @@ class Resolver {
     const Scene& system = plan_.system;
     if (!shapes_ok_) return;
     for (const Kind& kind : kinds()) {
-      if (ok({"box.side", kind.path("count"), kind.path("area_fraction")}) &&
-          system.box_side < kLeastBoxLengths * kind.rod.length) {
+      const Species species = make_species(kind.rod);
+      const double least = least_box_side(std::span(&species, 1));
+      if (ok({"box.side", kind.path("count"), kind.path("area_fraction")}) && system.box_side < least * (1.0 - 1e-9)) {
         complain({"box.side", "walls.size", kind.path("count"), kind.path("length")},
                  fmt::format("a periodic box of {} is too small for rods of {}: at least {}", length(system.box_side),
-                             length(kind.rod.length), length(kLeastBoxLengths * kind.rod.length)));
+                             length(kind.rod.length), length(least)));
       }
     }
   }
@@ -424,12 +449,14 @@ class Resolver {
   void schedule() {
     const Scene& system = plan_.system;
     if (!ok({"time.step"})) return;
-    if (ok({"plates.frequency", "plates.gamma", "plates.amplitude"}) &&
-        system.dt * system.frequency * kLeastTicksPerPeriod > 1) {
+    const bool shaking_given = ok({"plates.frequency", "plates.gamma", "plates.amplitude"});
+    if (shaking_given && system.dt * system.frequency * kLeastTicksPerPeriod > 1) {
       complain({"time.step", "accuracy", "plates.frequency", "plates.amplitude"},
                fmt::format("a step of {} is too long for plates at {}: at most {}", time(system.dt),
                            format_quantity(system.frequency, Dimension::kFrequency),
                            time(1 / (kLeastTicksPerPeriod * system.frequency))));
+    } else if (shaking_given && ok({"gravity"}) && shaking_ok_ && shapes_ok_) {
+      plates_in_a_tick();
     }
     for (const Field& field : fields()) {
       const std::string_view block = block_around(field.path);
@@ -463,6 +490,26 @@ class Resolver {
     }
   }
 
+  // Plates that go deeper into a rod within a tick than any overlap may be: a run must sooner or later meet that
+  // (kMaxOverlapFraction in sim/stepping/tick.h).
+  void plates_in_a_tick() {
+    const Scene& system = plan_.system;
+    if (!system.base && !system.lid) return;
+    const double speed = peak_speed_of(system);
+    double thinnest = INFINITY;
+    for (const Kind& kind : kinds()) {
+      const Species species = make_species(kind.rod);
+      thinnest = std::min(thinnest, *std::min_element(species.bead_radius.begin(), species.bead_radius.end()));
+    }
+    const double deepest = kDeepestOverlap * thinnest;
+    if (speed * system.dt <= deepest) return;
+    complain({"time.step", "accuracy", "plates.gamma", "plates.amplitude", "plates.frequency"},
+             fmt::format("plates as fast as {:.4g} mm/s move further in a step of {} than half the radius of the "
+                         "thinnest bead, {}, the deepest overlap there may be: the run would end in numerical "
+                         "trouble; take a step of at most {}, or shake less",
+                         speed, time(system.dt), length(deepest), time(deepest / speed)));
+  }
+
   // What is only there without walls.
   void periodic() {
     if (!plan_.system.walls) return;
@@ -480,6 +527,7 @@ class Resolver {
   std::vector<Problem>& problems_;
   RunPlan plan_;
   bool shapes_ok_ = false;
+  bool shaking_ok_ = false;
 };
 
 }  // namespace

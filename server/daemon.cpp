@@ -73,11 +73,13 @@ void make_private_directory(const std::filesystem::path& directory) {
   if (error) throw std::runtime_error("cannot protect " + directory.string() + ": " + error.message());
 }
 
+std::filesystem::path log_file(const DaemonConfig& config) { return config.root / "shakend.log"; }
+
 void start_log(const DaemonConfig& config) {
-  const auto to_file = std::make_shared<spdlog::sinks::rotating_file_sink_mt>((config.root / "shakend.log").string(),
-                                                                              kLogBytes, kOldLogs);
-  const auto to_stderr = std::make_shared<spdlog::sinks::stderr_sink_mt>();
-  const auto logger = std::make_shared<spdlog::logger>("shakend", spdlog::sinks_init_list{to_stderr, to_file});
+  const auto to_file =
+      std::make_shared<spdlog::sinks::rotating_file_sink_mt>(log_file(config).string(), kLogBytes, kOldLogs);
+  const auto logger = std::make_shared<spdlog::logger>("shakend", to_file);
+  if (!config.quiet) logger->sinks().push_back(std::make_shared<spdlog::sinks::stderr_sink_mt>());
   logger->set_pattern("%Y-%m-%dT%H:%M:%S.%e%z %l: %v");
   logger->set_level(spdlog::level::from_str(config.log_level));
   logger->flush_on(spdlog::level::info);
@@ -160,7 +162,8 @@ void run_daemon(const DaemonConfig& config) {
   HttpServer http(info.socket(), [&api](const Request& request) { return api.handle(request); });
 
   spdlog::info("shakend {} ready: {} (pid {}), {} slots", info.version, info.root.string(), info.pid, info.slots);
-  std::printf("shakend ready: %s (pid %d)\n", info.root.c_str(), info.pid);
+  std::printf("shakend ready: %s (pid %d)%s\n", info.root.c_str(), info.pid,
+              config.quiet ? (", log in " + log_file(config).string()).c_str() : "");
   std::fflush(stdout);
 
   do {

@@ -14,6 +14,7 @@ struct DaemonConfig {
   int threads = 1;               ///< of each worker
   std::string lcm_url;           ///< empty: no live state
   std::string log_level = "info";
+  bool quiet = false;                       ///< log to ROOT/shakend.log only, not to stderr
   std::chrono::milliseconds grace{20'000};  ///< between the request that a worker stops and its kill
 };
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
@@ -22,10 +24,13 @@ constexpr const char* kExamples =
     "Examples:\n"
     "  shakend                              # ~/.local/share/shaken, one worker per core\n"
     "  shakend --root /data/rods --slots 8\n"
-    "  shakend --root /tmp/try --no-lcm &   # no live state, nothing on the network\n"
+    "  shakend --root /tmp/try --no-lcm &   # no live state, nothing on the network; behind a prompt it is quiet\n"
     "  curl --unix-socket /tmp/try/shakend.sock http://shaken/v1/status\n"
     "\n"
     "Exit codes: 0 stopped in order, 1 could not start or lost its disk, 2 bad arguments.";
+
+/// Whether stderr is a terminal on which somebody else is at work: a log there would run into what is typed.
+bool behind_a_prompt() { return isatty(STDERR_FILENO) == 1 && tcgetpgrp(STDERR_FILENO) != getpgrp(); }
 
 }  // namespace
 
@@ -62,16 +67,21 @@ int main(int argc, char** argv) {
   app.add_option("--log-level", config.log_level, "What goes to stderr and ROOT/shakend.log")
       ->check(CLI::IsMember({"debug", "info", "warn", "error", "off"}))
       ->capture_default_str();
+  app.add_flag("--quiet", config.quiet,
+               "Log to ROOT/shakend.log only; also where it is started in the background of a terminal (`shakend &`)");
   app.add_flag("--foreground", foreground, "Stay in the foreground: the only mode, for service managers");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& outcome) {
-    return app.exit(outcome) == 0 ? 0 : kBadArguments;
+    if (outcome.get_exit_code() == 0) return app.exit(outcome);
+    std::fprintf(stderr, "shakend: %s (see `shakend --help`)\n", outcome.what());
+    return kBadArguments;
   }
   if (config.root.empty()) {
     std::fprintf(stderr, "shakend: no root directory: set --root, SHAKEN_ROOT or HOME\n");
     return kBadArguments;
   }
+  config.quiet = config.quiet || behind_a_prompt();
   if (no_lcm) config.lcm_url.clear();
   try {
     shaken::server::run_daemon(config);

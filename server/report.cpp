@@ -48,7 +48,7 @@ Json sweep_report(const Sweep& sweep, std::span<const Job> active, std::optional
                   const std::filesystem::path& runs) {
   const std::int64_t n_jobs = sweep.counts.total();
   const std::int64_t n_queued = sweep.counts[JobState::kQueued];
-  double finished = static_cast<double>(n_jobs - n_queued) - static_cast<double>(active.size());
+  auto finished = static_cast<double>(sweep.counts[JobState::kDone]);
   double longest = 0;  // wall seconds to the end of the last active job
   double sum = 0;
   bool known = n_queued == 0 || mean_duration.has_value();

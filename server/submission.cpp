@@ -9,7 +9,7 @@
 #include "run/files/directory.h"
 #include "scene/canonical.h"
 #include "scene/nearest.h"
-#include "scene/sweep.h"
+#include "scene/placement.h"
 #include "server/job.h"
 
 namespace shaken::server {
@@ -82,7 +82,7 @@ SubmitRequest parse_submit_request(std::string_view body) {
 }
 
 scene::Loaded<Submission> expand(const SubmitRequest& request, const std::filesystem::path& runs) {
-  const auto sweep = scene::load_sweep(request.text, request.file, request.settings, request.replicas);
+  const auto sweep = scene::load_runs(request.text, request.file, request.settings, request.replicas);
   if (!sweep.value) return {std::nullopt, sweep.problems};
   Submission submission{request.name.empty() ? sweep.value->name : request.name, request.priority, {}};
   for (const scene::SweepPoint& point : sweep.value->points) {

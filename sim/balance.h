@@ -2,10 +2,9 @@
 #pragma once
 
 #include "sim/core/types.h"
+#include "sim/world.h"
 
 namespace shaken {
-
-struct World;
 
 /// Translation and rotation of all rods at the world's tick [pJ].
 struct KineticEnergy {
@@ -16,12 +15,7 @@ struct KineticEnergy {
 };
 KineticEnergy kinetic_energy(const World& world);
 
-/// What the rods have at one tick.
-struct Content {
-  Tick tick = 0;
-  double energy = 0;             ///< kinetic, and potential above z = 0 [pJ]
-  Vec3 momentum = Vec3::Zero();  ///< [mg mm/s]
-};
+/// What all rods have at the world's tick.
 Content content(const World& world);
 
 /// The books of a run: what the rods had, got, lost and have. What remains unexplained is rounding.

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "sim/checkpoint.h"
 
+#include <xxhash.h>
+
 #include <bit>
 #include <cstring>
+#include <string>
+
+#include "sim/core/physics_version.h"
 
 namespace shaken {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "checkpoints are little-endian");
 
-constexpr std::uint64_t kMagic = 0x32304e454b414853;  // "SHAKEN02"
+constexpr std::uint64_t kMagic = 0x33304e454b414853;  // "SHAKEN03"
 
 class Writer {
  public:
@@ -135,9 +140,15 @@ std::vector<std::byte> state_bytes(const World& world) {
   return writer.take();
 }
 
+std::uint64_t state_hash(const World& world) {
+  const std::vector<std::byte> bytes = state_bytes(world);
+  return XXH3_64bits(bytes.data(), bytes.size());
+}
+
 std::vector<std::byte> save_checkpoint(const World& world) {
   Writer writer;
   writer.put(kMagic);
+  writer.put(static_cast<std::int64_t>(kPhysicsVersion));
   each_scene_key([&](const auto& key) { writer.put(key); }, world.scene);
   each_counter([&](const auto& counter) { writer.put(counter); }, world.counters);
   each_sum(
@@ -159,6 +170,13 @@ Result<World> restore_checkpoint(const Scene& scene, std::span<const std::byte> 
   std::uint64_t magic = 0;
   reader.get(magic);
   if (magic != kMagic) return Error{"not a checkpoint of this version of Shaken"};
+  std::int64_t physics = 0;
+  reader.get(physics);
+  if (physics != kPhysicsVersion) {
+    return Error{"the checkpoint is of physics version " + std::to_string(physics) + ", this program has version " +
+                 std::to_string(kPhysicsVersion) +
+                 " and would go on in another way: finish the run with the program that began it, or start it anew"};
+  }
   bool same_scene = true;
   each_scene_key(
       [&](const auto& key) {

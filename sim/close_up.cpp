@@ -7,7 +7,7 @@
 
 #include "sim/contact/bead_contacts.h"
 #include "sim/contact/impulse.h"
-#include "sim/effects/side_walls.h"
+#include "sim/motion/side_walls.h"
 #include "sim/neighbors/neighbor_list.h"
 
 namespace shaken {

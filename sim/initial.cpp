@@ -6,11 +6,13 @@
 #include <cstdio>
 #include <numeric>
 #include <optional>
+#include <string>
 
+#include "sim/balance.h"
 #include "sim/contact/bead_contacts.h"
 #include "sim/core/check.h"
 #include "sim/core/rng.h"
-#include "sim/effects/side_walls.h"
+#include "sim/motion/side_walls.h"
 #include "sim/neighbors/neighbor_list.h"
 
 namespace shaken {
@@ -110,13 +112,16 @@ Vec3 site_position(const Lattice& lattice, double side, int site) {
 /// Sites at which any rod is clear of the side walls, whichever way it lies along x.
 std::vector<int> usable_sites(const Lattice& lattice, const Placement& rods) {
   const double side = rods.scene.box_side;
+  const double reach = 0.5 * rods.rod_extent() + kClearance;  // beyond it no bead is near a wall, however the rod lies
   std::vector<int> sites;
   for (int site = 0; site < lattice.sites(); ++site) {
+    const Vec3 position = site_position(lattice, side, site);
     bool clear = true;
-    for (std::size_t k = 0; rods.scene.walls && k < rods.species.size() && clear; ++k) {
-      for (const double sign : {1.0, -1.0}) {
-        Pose pose{site_position(lattice, side, site), Vec3(sign, 0, 0)};
-        clear = clear && is_within(*rods.scene.walls, side, rods.species[k], pose);
+    if (rods.scene.walls && distance_to_walls(*rods.scene.walls, side, position) < reach) {
+      for (const Species& kind : rods.species) {
+        for (const double sign : {1.0, -1.0}) {
+          clear = clear && is_within(*rods.scene.walls, side, kind, Pose{position, Vec3(sign, 0, 0)});
+        }
       }
     }
     if (clear) sites.push_back(site);
@@ -124,32 +129,59 @@ std::vector<int> usable_sites(const Lattice& lattice, const Placement& rods) {
   return sites;
 }
 
-/// The roomiest lattice with at least `n_rods` sites; also tells the most sites that any lattice offers.
-std::optional<Lattice> find_lattice(const Placement& rods, int& most_sites) {
+int n_usable(const Lattice& lattice, const Placement& rods) {
+  return rods.scene.walls ? static_cast<int>(usable_sites(lattice, rods).size()) : lattice.sites();
+}
+
+/// The lattices with so many rods to a row: every even number of rows up to `max_rows`.
+struct Columns {
+  int columns = 0;
+  double pitch = 0;      ///< of the rods in a row [mm]
+  double next_row = 0;   ///< least distance of a row to the next [mm]
+  double row_after = 0;  ///< and to the one after it [mm]
+  int max_rows = 0;
+};
+std::vector<Columns> possible_columns(const Placement& rods) {
   const double side = rods.scene.box_side;
-  const int n_rods = rods.n_rods();
-  const double extent = rods.rod_extent();
-  most_sites = 0;
-  std::optional<Lattice> best;
-  const int max_columns = static_cast<int>(side / (extent + kClearance));
+  const int max_columns = static_cast<int>(side / (rods.rod_extent() + kClearance));
+  std::vector<Columns> all;
   for (int columns = 1; columns <= max_columns; ++columns) {
     const double pitch = side / columns;
     const double next_row = rods.least_row_distance(pitch, 0.5 * pitch) + kClearance;
     const double row_after = rods.least_row_distance(pitch, 0.0) + kClearance;
     const int max_rows = static_cast<int>(std::min(side / next_row, 2.0 * side / row_after)) / 2 * 2;
-    const auto n_usable = [&](int rows) {
-      const Lattice lattice{columns, rows, 0};
-      return rods.scene.walls ? static_cast<int>(usable_sites(lattice, rods).size()) : lattice.sites();
-    };
-    most_sites = std::max(most_sites, n_usable(max_rows));
+    all.push_back({columns, pitch, next_row, row_after, max_rows});
+  }
+  return all;
+}
+
+/// The roomiest lattice with a usable site for every rod.
+std::optional<Lattice> find_lattice(const Placement& rods) {
+  const double side = rods.scene.box_side;
+  const int n_rods = rods.n_rods();
+  const double extent = rods.rod_extent();
+  std::optional<Lattice> best;
+  for (const auto& [columns, pitch, next_row, row_after, max_rows] : possible_columns(rods)) {
     int rows = (n_rods + columns - 1) / columns + ((n_rods + columns - 1) / columns) % 2;
-    while (rows <= max_rows && n_usable(rows) < n_rods) rows += 2;
+    while (rows <= max_rows && n_usable({columns, rows, 0}, rods) < n_rods) rows += 2;
     if (rows > max_rows) continue;
     const double row_pitch = side / rows;
     const double clearance = std::min({pitch - extent, row_pitch - next_row, 2.0 * row_pitch - row_after});
     if (!best || clearance > best->clearance) best = Lattice{columns, rows, clearance};
   }
   return best;
+}
+
+/// The most rods for which find_lattice finds one. Within walls that need not be the lattice of the most rows: its rows
+/// may lie worse against the walls.
+int most_usable_sites(const Placement& rods) {
+  int most = 0;
+  for (const Columns& of : possible_columns(rods)) {
+    for (int rows = of.max_rows; rows >= 2 && of.columns * rows > most; rows -= 2) {
+      most = std::max(most, n_usable({of.columns, rows, 0}, rods));
+    }
+  }
+  return most;
 }
 
 /// Height and tilt that keep the rod off both plates, and a random motion.
@@ -166,8 +198,9 @@ void lift_and_push(Flight& flight, const Placement& rods, const Species& species
   const SinCos plane = sincos(in_plane_angle);
   const double level = std::sqrt(1.0 - tilt * tilt);
   flight.director = {level * plane.cos, level * plane.sin, tilt};
-  flight.velocity = kStartSpeed * Vec3(rng.normal(), rng.normal(), rng.normal());
-  Vec3 turn = kTurnSpeed * Vec3(rng.normal(), rng.normal(), rng.normal());
+  // in braces, whose order of evaluation is the same everywhere
+  flight.velocity = kStartSpeed * Vec3{rng.normal(), rng.normal(), rng.normal()};
+  Vec3 turn = kTurnSpeed * Vec3{rng.normal(), rng.normal(), rng.normal()};
   if (planar) {
     flight.velocity.z() = 0;
     turn.head<2>().setZero();
@@ -177,35 +210,37 @@ void lift_and_push(Flight& flight, const Placement& rods, const Species& species
   flight.prepare();
 }
 
-Error does_not_fit(const Placement& rods, int n_fit, const char* way_out) {
+/// "300 rods (area fraction 0.675)"
+std::string amount(const Placement& rods, int count) {
   const Scene& scene = rods.scene;
   double area = 0;
   for (int i = 0; i < rods.n_rods(); ++i) area += rods.species_of(i).area;
   const double room = scene.walls ? scene.walls->area() : scene.box_side * scene.box_side;
-  const double per_rod = area / rods.n_rods() / room;
-  char text[256];
-  std::snprintf(text, sizeof text,
-                "%d rods (area fraction %.3f) do not fit into the %s: at most %d (%.3f) can be placed%s", rods.n_rods(),
-                rods.n_rods() * per_rod, scene.walls ? "arena" : "box", n_fit, n_fit * per_rod, way_out);
-  return {text};
+  char text[64];
+  std::snprintf(text, sizeof text, "%d rods (area fraction %.3f)", count, area / rods.n_rods() * count / room);
+  return text;
+}
+
+Error does_not_fit(const Placement& rods, const std::string& why) {
+  return {amount(rods, rods.n_rods()) + " do not fit into the " + (rods.scene.walls ? "arena" : "box") + ": " + why};
 }
 
 Result<std::vector<Flight>> place_aligned(const Placement& rods) {
   const Scene& scene = rods.scene;
-  int most_sites = 0;
-  const auto lattice = find_lattice(rods, most_sites);
-  if (!lattice) return does_not_fit(rods, most_sites, "");
+  const auto lattice = find_lattice(rods);
+  if (!lattice)
+    return does_not_fit(rods, "in rows at most " + amount(rods, most_usable_sites(rods)) + " can be placed");
 
   // which sites stay empty: the tail of a random permutation (Fisher & Yates)
   std::vector<int> sites = usable_sites(*lattice, rods);
-  Rng shuffle(scene.seed, RngStream::kLattice, 0);
+  Rng shuffle(scene.seed, RngStream::kLattice, 0, 0);
   for (std::size_t k = sites.size() - 1; k > 0; --k) std::swap(sites[k], sites[shuffle.below(k + 1)]);
   sites.resize(static_cast<std::size_t>(rods.n_rods()));
   std::sort(sites.begin(), sites.end());
 
   std::vector<Flight> flights(sites.size());
   for (int i = 0; i < rods.n_rods(); ++i) {
-    Rng rng(scene.seed, RngStream::kVelocity, static_cast<std::uint64_t>(i));
+    Rng rng(scene.seed, RngStream::kVelocity, 0, static_cast<std::uint64_t>(i));
     flights[i].position = site_position(*lattice, scene.box_side, sites[i]);
     // polar rods point either way
     const bool turned = Placement::is_polar(rods.species_of(i)) && rng.uniform() < 0.5;
@@ -252,7 +287,7 @@ Result<std::vector<Flight>> place_random(const Placement& rods) {
   };
 
   for (int i = 0; i < rods.n_rods(); ++i) {
-    Rng place(scene.seed, RngStream::kInsertion, static_cast<std::uint64_t>(i));
+    Rng place(scene.seed, RngStream::kInsertion, 0, static_cast<std::uint64_t>(i));
     Flight candidate;
     bool placed = false;
     for (int attempt = 0; attempt < kMaxInsertions && !placed; ++attempt) {
@@ -261,11 +296,14 @@ Result<std::vector<Flight>> place_random(const Placement& rods) {
       const SinCos plane = sincos(angle);
       candidate.director = {plane.cos, plane.sin, 0};
       if (!is_free(candidate, rods.species_of(i))) continue;
-      Rng rng(scene.seed, RngStream::kVelocity, static_cast<std::uint64_t>(i));
+      Rng rng(scene.seed, RngStream::kVelocity, 0, static_cast<std::uint64_t>(i));
       lift_and_push(candidate, rods, rods.species_of(i), angle, true, rng);
       placed = true;
     }
-    if (!placed) return does_not_fit(rods, i, " at random; start \"aligned\" packs more");
+    if (!placed) {
+      return does_not_fit(rods, "at random there was no room for another after " + amount(rods, i) + ", in " +
+                                    std::to_string(kMaxInsertions) + " tries; rods.start \"aligned\" packs more");
+    }
     members[cell_of(candidate.position.y()) * cells + cell_of(candidate.position.x())].push_back(i);
     flights.push_back(candidate);
   }
@@ -278,6 +316,9 @@ Result<std::vector<Flight>> initial_flights(const Scene& scene, std::span<const 
                                             std::span<const std::uint8_t> kinds) {
   const Placement rods(scene, species, kinds);
   if (scene.gap < 2.0 * rods.max_radius()) return Error{"the gap is smaller than the thickest bead"};
+  if (const double least = least_box_side(species); scene.box_side < least * (1.0 - 1e-9)) {
+    return Error{"the box is too small: rods might meet two images of another below " + std::to_string(least) + " mm"};
+  }
   auto flights = scene.start == Start::kAligned ? place_aligned(rods) : place_random(rods);
   if (!flights) return flights;
 
@@ -293,6 +334,15 @@ Result<std::vector<Flight>> initial_flights(const Scene& scene, std::span<const 
   }
   SHAKEN_CHECK(contacts.empty(), std::to_string(contacts.size()) + " overlaps in the initial state");
   return flights;
+}
+
+Result<World> make_world(const Scene& scene) {
+  World world = empty_world(scene);
+  auto flights = initial_flights(scene, world.species, world.kinds);
+  if (!flights) return flights.error();
+  world.rods = std::move(flights).value();
+  world.start = content(world);
+  return world;
 }
 
 }  // namespace shaken

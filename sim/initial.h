@@ -8,6 +8,7 @@
 #include "sim/motion/flight.h"
 #include "sim/rod/species.h"
 #include "sim/scene.h"
+#include "sim/world.h"
 
 namespace shaken {
 
@@ -21,10 +22,14 @@ inline constexpr double kStartSpeed = 20.0;
 ///           rods of l = 2.5 mm do not fit beyond area fraction 0.7, with it they fit to 0.9. Of all lattices with room
 ///           for n_rods the roomiest is taken; sites left over are vacancies at random places.
 /// kRandom:  random places and directions one after the other (random sequential insertion).
-/// Errors:   the rods do not fit; the message names the largest area fraction that does.
+/// Errors:   the rods do not fit; the message names the most that can be placed in rows, or how many had been placed at
+///           random when there was no room for another.
 /// Several species share one lattice, roomy enough for any two of them side by side. Of an arena, the sites within it
 /// are used. In a planar scene (Scene::is_planar) velocities are planar too.
 Result<std::vector<Flight>> initial_flights(const Scene& scene, std::span<const Species> species,
                                             std::span<const std::uint8_t> kinds);
+
+/// The world at tick 0, with the rods placed so. Fails as initial_flights() does.
+Result<World> make_world(const Scene& scene);
 
 }  // namespace shaken

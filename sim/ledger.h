@@ -8,6 +8,13 @@
 
 namespace shaken {
 
+/// What the rods have at one tick.
+struct Content {
+  Tick tick = 0;
+  double energy = 0;             ///< kinetic, and potential above z = 0 [pJ]
+  Vec3 momentum = Vec3::Zero();  ///< [mg mm/s]
+};
+
 /// Where energy and momentum came from and went to since tick 0, entered impact by impact; with what the rods had at
 /// the start and have now it must add up (balance.h).
 ///

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "sim/simulation.h"
 
+#include "sim/balance.h"
 #include "sim/checkpoint.h"
 #include "sim/core/check.h"
+#include "sim/initial.h"
 #include "sim/stepping/stepper.h"
 
 namespace shaken {

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "sim/world.h"
 
-#include <xxhash.h>
+#include <utility>
 
-#include "sim/checkpoint.h"
 #include "sim/core/rng.h"
-#include "sim/initial.h"
 
 namespace shaken {
 namespace {
@@ -18,7 +16,7 @@ std::vector<std::uint8_t> draw_kinds(const Scene& scene) {
     if (more) kinds.insert(kinds.end(), static_cast<std::size_t>(more->count), ++kind);
   }
   if (kind == 0) return kinds;
-  Rng shuffle(scene.seed, RngStream::kKinds, 0);
+  Rng shuffle(scene.seed, RngStream::kKinds, 0, 0);
   for (std::size_t k = kinds.size() - 1; k > 0; --k) std::swap(kinds[k], kinds[shuffle.below(k + 1)]);
   return kinds;
 }
@@ -34,15 +32,6 @@ World empty_world(const Scene& scene) {
   }
   world.kinds = draw_kinds(scene);
   world.plates = PlateMotion(scene.amplitude, scene.frequency, scene.gap, scene.dt);
-  return world;
-}
-
-Result<World> make_world(const Scene& scene) {
-  World world = empty_world(scene);
-  auto flights = initial_flights(scene, world.species, world.kinds);
-  if (!flights) return flights.error();
-  world.rods = std::move(flights).value();
-  world.start = content(world);
   return world;
 }
 
@@ -74,11 +63,6 @@ Snapshot snapshot(const World& world) {
     out.angular_velocity.push_back(motion.angular_velocity);
   }
   return out;
-}
-
-std::uint64_t state_hash(const World& world) {
-  const std::vector<std::byte> bytes = state_bytes(world);
-  return XXH3_64bits(bytes.data(), bytes.size());
 }
 
 }  // namespace shaken

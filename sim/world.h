@@ -7,8 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "sim/balance.h"
-#include "sim/core/result.h"
 #include "sim/ledger.h"
 #include "sim/motion/flight.h"
 #include "sim/motion/plates.h"
@@ -68,13 +66,7 @@ struct World {
 /// The scene's species and plates at tick 0, without rods. Which rods are of which kind is drawn from the seed.
 World empty_world(const Scene& scene);
 
-/// Places the rods as the scene says (initial.h). Fails if they cannot be packed.
-Result<World> make_world(const Scene& scene);
-
 /// Every rod evaluated at the world's tick.
 Snapshot snapshot(const World& world);
-
-/// XXH3 (64 bit) of tick and stored rod states.
-std::uint64_t state_hash(const World& world);
 
 }  // namespace shaken

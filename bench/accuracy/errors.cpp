@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "sim/balance.h"
+
 namespace shaken::bench {
 
 Errors errors_between(const World& state, const World& truth) {

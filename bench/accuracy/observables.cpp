@@ -7,6 +7,7 @@
 
 #include "analysis/order.h"
 #include "analysis/time_series.h"
+#include "sim/balance.h"
 
 namespace shaken::bench {
 namespace {
@@ -32,7 +33,7 @@ std::optional<double> drift_of(const Snapshot& rods) {
 
 }  // namespace
 
-ObservableSeries::ObservableSeries() : tilt_(kTiltBins, kTiltRange) {}
+ObservableSeries::ObservableSeries() : tilt_(analysis::TiltVelocity(kTiltBins, kTiltRange)) {}
 
 void ObservableSeries::sample(const Simulation& simulation) {
   const World& world = simulation.world();
@@ -48,7 +49,7 @@ void ObservableSeries::sample(const Simulation& simulation) {
   for (const Vec3& director : rods.director) n_z2 += director.z() * director.z() / n;
   add(Observable::kTilt, std::sqrt(n_z2));
   if (const auto drift = drift_of(rods)) add(Observable::kDrift, *drift);
-  tilt_.accumulate(rods.director, rods.velocity);
+  tilt_.accumulate(simulation.time(), rods.director, rods.velocity);
 
   std::vector<Vec2> places;
   for (std::size_t i = 0; i < rods.n_rods(); ++i) {

@@ -5,6 +5,7 @@
 #include <deque>
 #include <vector>
 
+#include "analysis/blocked.h"
 #include "analysis/tilt.h"
 #include "sim/simulation.h"
 
@@ -61,13 +62,13 @@ class ObservableSeries {
   void sample(const Simulation& simulation);
 
   const std::vector<double>& values(Observable of) const { return values_[static_cast<std::size_t>(of)]; }
-  const analysis::TiltVelocity& tilt() const { return tilt_; }
+  const analysis::Blocked<analysis::TiltVelocity>& tilt() const { return tilt_; }
 
  private:
   void add(Observable of, double value) { values_[static_cast<std::size_t>(of)].push_back(value); }
 
   std::array<std::vector<double>, kObservables> values_;
-  analysis::TiltVelocity tilt_;
+  analysis::Blocked<analysis::TiltVelocity> tilt_;
   std::deque<std::vector<Vec2>> places_;  ///< unwrapped, of the last kLagSamples samples
   Counters last_;
 };

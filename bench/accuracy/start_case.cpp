@@ -49,7 +49,7 @@ StartCase in_free_fall(std::string name, std::string what, double duration) {
 StartCase rattling() {
   StartCase start = between_plates("rattling", "one rod hits lid and base in turn", 1, 30, 128 * kLongestStep, 64);
   start.rods = [](int member) {
-    Rng rng(kSeed, RngStream::kVelocity, static_cast<std::uint64_t>(member));
+    Rng rng(kSeed, RngStream::kVelocity, 0, static_cast<std::uint64_t>(member));
     const double z = 0.687 + rng.uniform(-0.1, 0.1);
     const Vec3 velocity = Vec3(20, 10, 150) + jitter(rng, 20);
     return std::vector{thrown({15, 15, z}, Vec3(1, 0.3, 0.02), velocity, Vec3(0, 3, 0) + jitter(rng, 3))};
@@ -60,7 +60,7 @@ StartCase rattling() {
 StartCase wedged() {
   StartCase start = between_plates("wedged", "one rod, tilted, touches base and lid", 1, 30, 64 * kLongestStep, 64);
   start.rods = [](int member) {
-    Rng rng(kSeed, RngStream::kVelocity, static_cast<std::uint64_t>(member));
+    Rng rng(kSeed, RngStream::kVelocity, 0, static_cast<std::uint64_t>(member));
     // both ends 0.01 mm from their plates, and turning towards them
     const double n_z = 0.39 / (0.5 * 4.5 - 0.2);
     const double z = 2 * 0.043486 + 0.6 + rng.uniform(-0.005, 0.005);
@@ -74,7 +74,7 @@ StartCase wedged() {
 StartCase head_on() {
   StartCase start = in_free_fall("head-on", "two rods in line, tip to tip", 64 * kLongestStep);
   start.rods = [](int member) {
-    Rng rng(kSeed, RngStream::kVelocity, static_cast<std::uint64_t>(member));
+    Rng rng(kSeed, RngStream::kVelocity, 0, static_cast<std::uint64_t>(member));
     const double gap = rng.uniform(0.10, 0.16);
     const Vec3 apart(4.5 + gap, rng.uniform(-0.1, 0.1), rng.uniform(-0.1, 0.1));
     return std::vector{thrown({13, 15, 10}, {1, 0, 0}, Vec3(50, 0, 0) + jitter(rng, 5), jitter(rng, 3)),
@@ -86,7 +86,7 @@ StartCase head_on() {
 StartCase glancing() {
   StartCase start = in_free_fall("glancing", "two rods side by side that slide along each other", 64 * kLongestStep);
   start.rods = [](int member) {
-    Rng rng(kSeed, RngStream::kVelocity, static_cast<std::uint64_t>(member));
+    Rng rng(kSeed, RngStream::kVelocity, 0, static_cast<std::uint64_t>(member));
     const Vec3 apart(rng.uniform(0.5, 1.5), 0.83 + rng.uniform(-0.03, 0.01), rng.uniform(-0.1, 0.1));
     return std::vector{
         thrown({13, 15, 10}, {1, 0, 0}, Vec3(50, 20, 0) + jitter(rng, 5), jitter(rng, 3)),
@@ -98,7 +98,7 @@ StartCase glancing() {
 StartCase crossing() {
   StartCase start = in_free_fall("crossing", "the end of one rod hits the flank of the other", 64 * kLongestStep);
   start.rods = [](int member) {
-    Rng rng(kSeed, RngStream::kVelocity, static_cast<std::uint64_t>(member));
+    Rng rng(kSeed, RngStream::kVelocity, 0, static_cast<std::uint64_t>(member));
     const Vec3 apart(rng.uniform(-1.5, 1.5), 2.25 + 0.4 + rng.uniform(0.10, 0.16), rng.uniform(-0.1, 0.1));
     return std::vector{thrown({15, 13, 10}, {1, 0, 0}, Vec3(0, 50, 0) + jitter(rng, 5), jitter(rng, 3)),
                        thrown(Vec3(15, 13, 10) + apart, {0, 1, 0}, Vec3(0, -50, 0) + jitter(rng, 5), jitter(rng, 3))};
@@ -110,7 +110,7 @@ StartCase crossing() {
 StartCase dozen() {
   StartCase start = between_plates("dozen", "twelve rods packed side by side", 12, 20, 64 * kLongestStep, 64);
   start.rods = [](int member) {
-    Rng rng(kSeed, RngStream::kVelocity, static_cast<std::uint64_t>(member));
+    Rng rng(kSeed, RngStream::kVelocity, 0, static_cast<std::uint64_t>(member));
     std::vector<Flight> rods;
     for (int k = 0; k < 12; ++k) {
       const int row = k / 2;

@@ -5,7 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
 
+#include "analysis/parts.h"
 #include "bench/clock.h"
 #include "bench/progress.h"
 #include "bench/steady_state.h"
@@ -85,21 +89,21 @@ Statistics measure_statistics(const StatisticsTask& task, const std::filesystem:
     StatisticsPoint point;
     point.value = value;
     std::array<std::vector<Mean>, kObservables> replicas;
-    std::optional<analysis::TiltVelocity> tilt;
+    std::optional<analysis::TiltVelocity> no_tilt;
+    std::vector<analysis::TiltVelocity> tilt;
     double cpu = 0;
     for (int replica = 0; replica < task.replicas; ++replica) {
       ObservableSeries series;
       const Replica result = run(task, value, replica, cache, series, point.max_overlap);
       for (int o = 0; o < kObservables; ++o) replicas[o].push_back(result.means[o]);
       cpu += result.cpu;
-      if (tilt) {
-        tilt->merge(series.tilt());
-      } else {
-        tilt = series.tilt();
+      no_tilt = series.tilt().empty();
+      for (analysis::TiltVelocity& part : series.tilt().parts_after(0.0, analysis::kMostParts)) {
+        tilt.push_back(std::move(part));
       }
     }
     for (int o = 0; o < kObservables; ++o) point.means[o] = mean_of(replicas[o]);
-    point.tilt = tilt->reduce();
+    point.tilt = analysis::TiltVelocity::reduce(*no_tilt, tilt);
     point.cpu_per_rod_second = cpu / (task.scene.system().n_rods * task.measure * task.replicas);
     statistics.points.push_back(std::move(point));
   }

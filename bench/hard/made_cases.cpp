@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/balance.h"
 #include "sim/simulation.h"
 
 namespace shaken::bench {

@@ -13,6 +13,7 @@
 
 #include "bench/failure.h"
 #include "scene/load.h"
+#include "sim/balance.h"
 #include "sim/simulation.h"
 
 namespace shaken::bench {

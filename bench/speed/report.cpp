@@ -85,7 +85,10 @@ void flatten(const Json& value, const std::string& name, std::vector<std::pair<s
       flatten(member, name.empty() ? key : fmt::format("{}.{}", name, key), cells);
   } else if (value.is_array()) {
     std::string text;
-    for (const Json& element : value) text += (text.empty() ? "" : " ") + element.dump();
+    for (const Json& element : value) {
+      if (!text.empty()) text += ' ';
+      text += element.dump();
+    }
     cells.emplace_back(name, text);
   } else {
     cells.emplace_back(name, value.is_string() ? csv_field(value.get<std::string>()) : value.dump());

@@ -15,6 +15,21 @@ Figure against_packing(const RunSet& runs, const std::string& scalar, std::strin
           .title = std::move(title)};
 }
 
+/// Area fraction at which <S> passes 0.5, in each box.
+Curve transition_against_size(const RunSet& runs) {
+  Curve curve;
+  for (const double side : values_of(runs, "box.side")) {
+    const Quantity phi =
+        crossing(scalar_points(where(runs, "box.side", side), "rods.area_fraction", "order.mean"), 0.5);
+    if (!phi.is_known()) continue;
+    curve.x.push_back(side);
+    curve.y.push_back(phi.value);
+    curve.y_error.push_back(phi.sem);
+    curve.relaxing.push_back(phi.steadiness == Steadiness::kRelaxing);
+  }
+  return curve;
+}
+
 }  // namespace
 
 Sheet shaking_figure(const Material& material) {
@@ -86,7 +101,13 @@ Sheet size_figure(const Material& material) {
                       .style = Figure::Style::kLinesPoints,
                       .commands = {"set logscale xy", "set xtics (10, 20, 40, 80, 160)"},
                       .curves = positive(scalar_curves(common, "rods.area_fraction", "box.side", "order.mean")),
-                      .title = "(c) order against size: level, a small power, or 1/L"}}};
+                      .title = "(c) order against size: level, a small power, or 1/L"},
+                     {.x_title = axis_of("box.side"),
+                      .y_title = axis_of("rods.area_fraction"),
+                      .style = Figure::Style::kLinesPoints,
+                      .commands = {"set logscale x", "set xtics (10, 20, 40, 80, 160)"},
+                      .curves = {transition_against_size(runs)},
+                      .title = "(d) where ⟨S⟩ passes 0.5"}}};
 }
 
 Sheet fluctuations_figure(const Material& material) {

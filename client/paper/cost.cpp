@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "client/paper/figures.h"
 
@@ -43,6 +44,27 @@ std::string sweep_cost_table(const Library& runs, std::span<const std::string_vi
                          range_text(set, "sim_seconds"), cpu);
   }
   return table + fmt::format("| all | {} | | | {:.2f} |\n", n_all, all);
+}
+
+std::string origin_text(const Library& runs, std::span<const std::string_view> sweeps) {
+  struct Made {
+    int n = 0;
+    std::string last;
+  };
+  std::map<std::string, Made> by_version;
+  for (const std::string_view name : sweeps) {
+    for (const FinishedRun& run : runs[std::string(name)]) {
+      Made& made = by_version[run.versions()];
+      ++made.n;
+      made.last = std::max(made.last, run.finished());
+    }
+  }
+  if (by_version.empty()) return "No run is there.\n";
+  std::string list;
+  for (const auto& [version, made] : by_version) {
+    list += fmt::format("- {} runs by {}, the last of them finished at {}\n", made.n, version, made.last);
+  }
+  return list;
 }
 
 std::string figure_cost_table(const Library& runs) {

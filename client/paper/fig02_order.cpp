@@ -20,13 +20,15 @@ Map phase_map(const RunSet& runs) {
 }
 
 /// Area fraction at which <S> passes 0.5, for every rod length that has one.
-Curve transition_curve(const std::vector<Curve>& order_curves, const std::vector<double>& lengths) {
+Curve transition_curve(const RunSet& runs) {
   Curve curve{.label = "⟨S⟩ = 0.5", .look = Curve::Look::kPoints};
-  for (std::size_t i = 0; i < order_curves.size(); ++i) {
-    const Quantity phi = crossing(order_curves[i], 0.5);
+  for (const double length : values_of(runs, "rods.length")) {
+    const Quantity phi =
+        crossing(scalar_points(where(runs, "rods.length", length), "rods.area_fraction", "order.mean"), 0.5);
     if (!phi.is_known()) continue;
     curve.x.push_back(phi.value);
-    curve.y.push_back(lengths[i]);
+    curve.y.push_back(length);
+    curve.relaxing.push_back(phi.steadiness == Steadiness::kRelaxing);
   }
   return curve;
 }
@@ -36,14 +38,17 @@ Curve transition_curve(const std::vector<Curve>& order_curves, const std::vector
 Sheet order_figure(const Material& material) {
   const RunSet& runs = material.runs["phases"];
   const std::vector<double> lengths = values_of(runs, "rods.length");
-  const std::vector<Curve> mean = scalar_curves(runs, "rods.length", "rods.area_fraction", "order.mean");
+  // The paper's bars are the standard deviation of S(t), how far it swings, not the error of its mean.
+  std::vector<Curve> mean = scalar_curves(runs, "rods.length", "rods.area_fraction", "order.mean");
   std::vector<Curve> spread;
-  for (const double length : lengths) {
-    Curve curve{.label = value_label("rods.length", length), .colour = spread.size()};
-    const RunSet column = where(runs, "rods.length", length);
-    for (const double fraction : values_of(column, "rods.area_fraction")) {
-      curve.x.push_back(fraction);
-      curve.y.push_back(order_spread(where(column, "rods.area_fraction", fraction)));
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    Curve curve{.label = value_label("rods.length", lengths[i]), .colour = i};
+    const RunSet column = where(runs, "rods.length", lengths[i]);
+    for (std::size_t k = 0; k < mean[i].x.size(); ++k) {
+      curve.x.push_back(mean[i].x[k]);
+      curve.y.push_back(order_spread(where(column, "rods.area_fraction", mean[i].x[k])));
+      curve.relaxing.push_back(mean[i].relaxing[k]);
+      mean[i].y_error[k] = curve.y.back();
     }
     spread.push_back(std::move(curve));
   }
@@ -57,7 +62,7 @@ Sheet order_figure(const Material& material) {
                                                  "/order/time_s", "/order/order"),
                           .title = "(a) from the aligned start, longest rods"});
   sheet.panels.push_back({.x_title = axis_of("rods.area_fraction"),
-                          .y_title = "⟨S⟩ ± standard error",
+                          .y_title = "⟨S⟩; bars: standard deviation of S(t)",
                           .style = Figure::Style::kLinesPoints,
                           .commands = {"set yrange [0:1]", level_line(0.5)},
                           .curves = mean,
@@ -66,7 +71,7 @@ Sheet order_figure(const Material& material) {
   sheet.panels.push_back({.x_title = axis_of("rods.area_fraction"),
                           .y_title = axis_of("rods.length"),
                           .commands = {"set cbrange [0:1]", "set size noratio", "set cblabel '⟨S⟩'"},
-                          .curves = {transition_curve(mean, lengths)},
+                          .curves = {transition_curve(runs)},
                           .title = "(c) phase diagram",
                           .map = std::move(map)});
   sheet.panels.push_back({.x_title = axis_of("rods.area_fraction"),

@@ -94,6 +94,15 @@ Sheet mechanism_figure(const Material& material) {
          .curves = bare(std::move(traces)),
          .title = std::string("(") + letter++ + ") paths, " + value_label("rods.area_fraction", fraction)});
   }
+  sheet.panels.push_back(
+      {.x_title = axis_of("rods.area_fraction"),
+       .y_title = "time (s)",
+       .style = Figure::Style::kLinesPoints,
+       .commands = {"set yrange [0:*]"},
+       .curves =
+           together({{scalar_curve(all, "rods.area_fraction", "persistence_time_s", "a way persists", 0)},
+                     {scalar_curve(all, "rods.area_fraction", "n_z_switching_time_s", "a tilt keeps its sign", 1)}}),
+       .title = std::string("(") + letter + ") how long rods keep their way"});
   return sheet;
 }
 

@@ -38,6 +38,24 @@ Sheet rotation_figure(const Material& material) {
        .commands = {"set logscale y"},
        .curves = positive(scalar_curves(all, "rods.length", "rods.area_fraction", "rotational_diffusion_rad2_s")),
        .title = "(f) rotational diffusion"});
+  sheet.panels.push_back(panel(longest, "/rotation/lag_s", "/rotation/msad_rad2",
+                               "mean square angular displacement (rad^2)", "(g) rotation" + of_long, log_log));
+  sheet.panels.back().curves = positive(std::move(sheet.panels.back().curves));
+  const auto against_packing = [&](std::string y_title, std::string title, std::vector<Curve> curves) {
+    return Figure{.x_title = axis_of("rods.area_fraction"),
+                  .y_title = std::move(y_title),
+                  .style = Figure::Style::kLinesPoints,
+                  .commands = {"set yrange [0:*]"},
+                  .curves = std::move(curves),
+                  .title = std::move(title)};
+  };
+  const std::string key = "rods.area_fraction";
+  sheet.panels.push_back(against_packing("plateau of C_2", "(h) what of the orientation stays" + of_long,
+                                         {scalar_curve(longest, key, "c2_plateau", "", 0)}));
+  sheet.panels.push_back(
+      against_packing("C_v(0) (mm^2/s^2)", "(i) variance of the velocity" + of_long,
+                      together({{scalar_curve(longest, key, "velocity_variance_along_mm2_s2", "along the director", 0)},
+                                {scalar_curve(longest, key, "velocity_variance_across_mm2_s2", "across", 1)}})));
   return sheet;
 }
 

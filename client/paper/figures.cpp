@@ -22,7 +22,7 @@ std::span<const PaperFigure> paper_figures() {
        "Correlations against distance: G_2(r), g(r)",
        {"phases", "transition"},
        correlation_figure},
-      {"5", "fig05-maps", "Correlations along and across the director", {"layers"}, pair_map_figure},
+      {"5", "fig05-maps", "Correlations along and across the director", {"layers", "size"}, pair_map_figure},
       {"6", "fig06-layers", "Layers tilted by ±θ", {"layers"}, layers_figure},
       {"7",
        "fig07-layer-trends",
@@ -30,7 +30,11 @@ std::span<const PaperFigure> paper_figures() {
        {"layers"},
        layer_trends_figure},
       {"8", "fig08-mechanism", "How a rod swims: velocity against tilt", {"mechanism"}, mechanism_figure},
-      {"9", "fig09-diffusion", "Mean square displacement and diffusion", {"phases", "transition"}, diffusion_figure},
+      {"9",
+       "fig09-diffusion",
+       "Mean square displacement and diffusion",
+       {"phases", "transition", "diffusion"},
+       diffusion_figure},
       {"10",
        "fig10-rotation",
        "Correlations in time: velocity, orientation, rotation",
@@ -44,7 +48,11 @@ std::span<const PaperFigure> paper_figures() {
        "On the way to the steady state at l = 3.5 mm",
        {"phases", "transition", "layers"},
        steady_state_figure},
-      {"shaking", "figB1-shaking", "Order and diffusion against the strength of shaking", {"shaking"}, shaking_figure},
+      {"shaking",
+       "figB1-shaking",
+       "Order and diffusion against the strength of shaking",
+       {"shaking", "rest"},
+       shaking_figure},
       {"melting", "figB2-melting", "Defect density and melting", {"phases", "transition", "defects"}, melting_figure},
       {"size", "figB3-size", "Order against the size of the box", {"phases", "transition", "size"}, size_figure},
       {"fluctuations",
@@ -64,8 +72,8 @@ std::span<const PaperFigure> paper_figures() {
 }
 
 std::vector<std::string_view> all_sets() {
-  return {"mechanism", "phases",  "layers", "transition", "gaps",  "equilibrium",
-          "shaking",   "defects", "size",   "large",      "movies"};
+  return {"mechanism", "phases",  "layers", "diffusion", "transition", "gaps",  "equilibrium",
+          "shaking",   "defects", "size",   "large",     "rest",       "movies"};
 }
 
 }  // namespace shaken::client

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "client/plotting/run_figures.h"
 #include "client/results.h"
@@ -47,12 +46,12 @@ Curve array_curve(const RunSet& replicas, const std::string& x, const std::strin
 Curve scalar_curve(const RunSet& runs, const std::string& key, const std::string& scalar, std::string label,
                    std::size_t colour) {
   Curve curve{.label = std::move(label), .colour = colour};
-  for (const double value : values_of(runs, key)) {
-    const Quantity quantity = mean_scalar(where(runs, key, value), scalar);
+  for (const auto& [value, quantity] : scalar_points(runs, key, scalar)) {
     if (!quantity.is_known()) continue;
     curve.x.push_back(value);
     curve.y.push_back(quantity.value);
     curve.y_error.push_back(quantity.sem);
+    curve.relaxing.push_back(quantity.steadiness == Steadiness::kRelaxing);
   }
   return curve;
 }
@@ -146,24 +145,6 @@ double order_spread(const RunSet& replicas) {
 }
 
 Figure empty_panel() { return {.commands = {"unset border", "unset tics", "unset label"}}; }
-
-Quantity crossing(const Curve& curve, double level) {
-  std::vector<std::size_t> order(curve.x.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return curve.x[a] < curve.x[b]; });
-  for (std::size_t k = 0; k + 1 < order.size(); ++k) {
-    const std::size_t a = order[k], b = order[k + 1];
-    if (!(curve.y[a] < level) || !(curve.y[b] >= level)) continue;
-    const double slope = (curve.y[b] - curve.y[a]) / (curve.x[b] - curve.x[a]);
-    const double part = (level - curve.y[a]) / (curve.y[b] - curve.y[a]);
-    Quantity found{curve.x[a] + part * (curve.x[b] - curve.x[a]), NAN};
-    if (curve.y_error.size() == curve.y.size()) {
-      found.sem = std::hypot((1 - part) * curve.y_error[a], part * curve.y_error[b]) / slope;
-    }
-    return found;
-  }
-  return {};
-}
 
 std::string axis_of(const std::string& key) { return axis_title(key); }
 

@@ -31,7 +31,7 @@ Curve array_curve(const RunSet& replicas, const std::string& x, const std::strin
                   std::size_t colour, const std::string& sem = "");
 
 /// A scalar against a key of the scene: one point per value of the key, averaged over replicas, with error bars; the
-/// error is NaN where it is not known, and then has no bar.
+/// error is NaN where it is not known, and then has no bar. Points of runs that still relax are hollow.
 Curve scalar_curve(const RunSet& runs, const std::string& key, const std::string& scalar, std::string label,
                    std::size_t colour);
 
@@ -74,10 +74,6 @@ double order_spread(const RunSet& replicas);
 
 /// The run with the most defects per area; none of none.
 RunSet with_most_defects(const RunSet& runs);
-
-/// Where y rises through `level`, interpolated linearly between neighbouring x, with the error that those of y give.
-/// Unknown if it does not. Points need not be in order.
-Quantity crossing(const Curve& curve, double level);
 
 /// The title of an axis that shows a key of the scene.
 std::string axis_of(const std::string& key);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,12 +14,25 @@
 
 namespace shaken::client {
 
+/// Whether a number was averaged over a steady state.
+enum class Steadiness {
+  kUnknown,  ///< nobody tested it: no S(t), too short a run, a file of an older version
+  kSteady,
+  kRelaxing,
+};
+
 /// A measured number. NaN: the runs do not say.
 struct Quantity {
   double value = std::numeric_limits<double>::quiet_NaN();
   double sem = std::numeric_limits<double>::quiet_NaN();  ///< standard error
+  Steadiness steadiness = Steadiness::kUnknown;
   bool is_known() const;
 };
+
+/// A number that was not measured but given: exact, and the same for ever.
+Quantity exactly(double value);
+/// That of a number made of two others.
+Steadiness worse(Steadiness a, Steadiness b);
 
 /// A run that is done, as its directory tells it. Files are read once, when they are first asked for.
 class FinishedRun {
@@ -26,13 +40,21 @@ class FinishedRun {
   /// `parameters` are the swept ones, {path: value} as they were asked for: an area fraction of 0.75 is 0.7486 in the
   /// resolved scene, by whole rods. Throws Failure if the directory holds no scene and no summary.
   explicit FinishedRun(std::filesystem::path directory, Json parameters = Json::object());
+  /// The same, of contents that need no directory.
+  FinishedRun(Json scene, Json summary, run::Observables observables, Json parameters = Json::object());
 
   const std::filesystem::path& directory() const { return directory_; }
   /// A key of the scene, "rods.length", in its default unit: as it was asked for if it was swept, else as resolved. NaN
   /// if it is not there or no number.
   double number(const std::string& path) const;
-  /// A number of summary.json: "order.mean" (with its error), "cpu_seconds", or one of "measured".
+  /// A number of summary.json: "order.mean" (with its error), "cpu_seconds", or one of "measured". It is steady if the
+  /// run is, or says so of this number, and neither says that it still relaxes.
   Quantity scalar(const std::string& name) const;
+  /// Of the whole run: "steady" of summary.json.
+  Steadiness steadiness() const;
+  /// What made it, as summary.json tells: "shaken 0.2.0, compiler g++ 12.2"; and when it was finished.
+  std::string versions() const;
+  std::string finished() const;
   /// An array of observables.h5; empty if it is not there.
   const std::vector<double>& array(const std::string& path) const;
 
@@ -64,9 +86,21 @@ RunSet at_point_of(const RunSet& runs, const FinishedRun& point);
 /// The runs whose P(theta) has two peaks. Others may have a wavelength too, that of the director's slow bend.
 RunSet layered(const RunSet& runs);
 
-/// Mean of a scalar over replicas; unknown unless every one of them knows it. Its error: of one run its own; of several
-/// the scatter between them, but not less than their own errors together give.
+/// Mean over replicas; unknown unless every one of them knows it, steady if every one of them is. Its error is that of
+/// replica_mean().
+Quantity mean_of(std::span<const Quantity> replicas);
 Quantity mean_scalar(const RunSet& replicas, const std::string& name);
+
+/// A number at a value of a key of the scene.
+struct Point {
+  double at = 0;
+  Quantity quantity{};
+};
+/// A scalar at each value of a key, rising, averaged over replicas; unknown where they do not know it.
+std::vector<Point> scalar_points(const RunSet& runs, const std::string& key, const std::string& scalar);
+/// Where a quantity rises through `level`, interpolated linearly between neighbouring points, with the error that
+/// theirs give. Unknown if it does not. Points need not be in order.
+Quantity crossing(std::vector<Point> points, double level);
 
 /// The finished runs of each sweep, by the sweep's name; one that has none is an empty set.
 class Library {

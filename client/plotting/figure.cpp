@@ -30,6 +30,15 @@ std::string quoted(const std::string& text) {
 
 bool has_errors(const Curve& curve) { return !curve.y_error.empty(); }
 
+bool any_relaxes(const Curve& curve) {
+  return std::find(curve.relaxing.begin(), curve.relaxing.end(), true) != curve.relaxing.end();
+}
+
+/// Whether any point has an error to be shown.
+bool shows_errors(const Curve& curve) {
+  return std::any_of(curve.y_error.begin(), curve.y_error.end(), [](double error) { return std::isfinite(error); });
+}
+
 void write_or_fail(const std::filesystem::path& file, const std::string& text) {
   if (const auto error = run::write_file_atomically(file, text)) throw Failure(ExitCode::kFailed, error->message);
 }
@@ -75,13 +84,14 @@ std::vector<double> cell_borders(const std::vector<double>& places) {
 }
 
 std::string curve_data(const Curve& curve, const std::string& fallback) {
-  std::string text = fmt::format("# {}\n# x  y{}\n", curve.label.empty() ? fallback : curve.label,
-                                 has_errors(curve) ? "  y_error" : "");
+  std::string text = fmt::format("# {}\n# x  y{}{}\n", curve.label.empty() ? fallback : curve.label,
+                                 has_errors(curve) ? "  y_error" : "", curve.relaxing.empty() ? "" : "  relaxing");
   bool any = false;
   for (std::size_t k = 0; k < curve.x.size(); ++k) {
     if (!std::isfinite(curve.x[k]) || !std::isfinite(curve.y[k])) continue;
     text += fmt::format("{:.7g} {:.7g}", curve.x[k], curve.y[k]);
     if (has_errors(curve)) text += fmt::format(" {:.4g}", curve.y_error[k]);
+    if (!curve.relaxing.empty()) text += curve.relaxing[k] ? " 1" : " 0";
     text += '\n';
     any = true;
   }
@@ -122,12 +132,21 @@ std::string figure_data(const Figure& figure) {
   return text;
 }
 
-std::string figure_script(const Figure& figure) {
-  return fmt::format(R"(# gnuplot {0}.gp  draws {0}.png from {0}.dat
-set terminal pngcairo size 1400,950 enhanced font 'DejaVu Sans,20' linewidth 2 background '#ffffff'
-set output '{0}.png'
+const char* suffix_of(PictureFormat format) {
+  static constexpr std::array kSuffixes{"png", "pdf", "svg"};
+  return kSuffixes.at(static_cast<std::size_t>(format));
+}
+
+std::string figure_script(const Figure& figure, PictureFormat format) {
+  // On paper a figure is one column and a half wide, with letters as large as those around it.
+  static constexpr std::array kTerminals{"pngcairo size 1400,950 enhanced font 'DejaVu Sans,20' linewidth 2",
+                                         "pdfcairo size 14cm,9.5cm enhanced font 'DejaVu Sans,20' fontscale 0.42",
+                                         "svg size 1400,950 enhanced font 'DejaVu Sans,20' linewidth 2"};
+  return fmt::format(R"(# gnuplot {0}.gp  draws {0}.{1} from {0}.dat
+set terminal {2} background '#ffffff'
+set output '{0}.{1}'
 )",
-                     figure.name) +
+                     figure.name, suffix_of(format), kTerminals.at(static_cast<std::size_t>(format))) +
          plot_commands(figure, figure.name + ".dat", 0);
 }
 
@@ -183,7 +202,12 @@ set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'
       points = curve.look == Curve::Look::kPoints;
       lines = !points;
     }
-    if (has_errors(curve)) {
+    if (shows_errors(curve) && curve.band) {
+      plots.push_back(
+          fmt::format("{} using 1:($2-$3):($2+$3) with filledcurves fillcolor '{}' fillstyle transparent solid 0.2 "
+                      "noborder notitle",
+                      data, colour));
+    } else if (shows_errors(curve)) {
       plots.push_back(
           fmt::format("{} using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '{}' notitle", data, colour));
     }
@@ -191,6 +215,11 @@ set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'
                                 lines && points ? "linespoints" : (lines ? "lines" : "points"), colour,
                                 points ? " pointtype 7 pointsize 1.2" : " linewidth 1",
                                 curve.look == Curve::Look::kDashes ? " dashtype 2" : "", title));
+    if (points && any_relaxes(curve)) {
+      const std::string relaxing = fmt::format("{} using 1:(${}==1?$2:NaN) with points pointsize 0.9 pointtype 7", data,
+                                               has_errors(curve) ? 4 : 3);
+      plots.push_back(relaxing + " linecolor '#ffffff' notitle");
+    }
   }
   // Axes without data still say what is missing; gnuplot wants a range then.
   const bool any = std::any_of(figure.curves.begin(), figure.curves.end(), [](const Curve& curve) {
@@ -208,19 +237,19 @@ set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'
   return script + "\n";
 }
 
-std::filesystem::path draw(const Figure& figure, const std::filesystem::path& folder) {
-  return draw_files(figure.name, figure_data(figure), figure_script(figure), folder);
+std::filesystem::path draw(const Figure& figure, const std::filesystem::path& folder, PictureFormat format) {
+  return draw_files(figure.name, figure_data(figure), figure_script(figure, format), folder, format);
 }
 
 std::filesystem::path draw_files(const std::string& name, const std::string& data, const std::string& script,
-                                 const std::filesystem::path& folder) {
+                                 const std::filesystem::path& folder, PictureFormat format) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw Failure(ExitCode::kFailed, fmt::format("{}: {}", folder.string(), error.message()));
   write_or_fail(folder / (name + ".dat"), data);
   write_or_fail(folder / (name + ".gp"), script);
   const ChildResult gnuplot = run_captured({"gnuplot", name + ".gp"}, folder);
-  const std::filesystem::path picture = folder / (name + ".png");
+  const std::filesystem::path picture = folder / (name + "." + suffix_of(format));
   if (gnuplot.exit_code == 127) {
     throw Failure(ExitCode::kFailed,
                   "gnuplot is not here: `apt install gnuplot-nox`; the data and the script are in " + folder.string());

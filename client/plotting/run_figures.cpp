@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -13,6 +14,16 @@
 
 namespace shaken::client {
 namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// The label of a point, with a word if one of its replicas still relaxed.
+std::string label_of(const std::string& point, const std::vector<PlottedRun>& runs) {
+  const bool relaxes =
+      std::any_of(runs.begin(), runs.end(), [&](const PlottedRun& run) { return run.point == point && run.relaxing; });
+  if (!relaxes) return point;
+  return point.empty() ? "still relaxing" : point + " (still relaxing)";
+}
 
 /// The arrays "x" and "y" (and "y_error") of every run that has them, as curves in the colour of their point. The first
 /// of a point bears its label.
@@ -31,33 +42,40 @@ std::vector<Curve> curves_of(const std::vector<PlottedRun>& runs, const std::str
     Curve curve{.colour = static_cast<std::size_t>(point - points.begin()), .x = xs->second, .y = ys->second};
     if (point == points.end()) {
       points.push_back(run.point);
-      curve.label = run.point;
+      curve.label = label_of(run.point, runs);
     }
     curve.x.resize(n);
     curve.y.resize(n);
     if (const auto errors = run.observables.find(y_error); errors != run.observables.end()) {
       curve.y_error = errors->second;
-      curve.y_error.resize(n, 0.0);
+      curve.y_error.resize(n, kNone);
     }
+    if (run.relaxing) curve.relaxing.assign(n, true);
     curves.push_back(std::move(curve));
   }
   return curves;
 }
 
-/// The mean of curves over the same x; its errors are those between the curves.
+/// The mean of curves over the same x, with the errors of replica_mean.
 Curve mean_curve(const std::vector<Curve>& replicas) {
-  if (replicas.size() == 1) return replicas.front();
   Curve mean = replicas.front();
-  mean.y_error.assign(mean.x.size(), 0.0);
-  for (std::size_t k = 0; k < mean.x.size(); ++k) {
-    std::vector<double> values;
+  if (replicas.size() == 1) return mean;
+  const std::size_t n = mean.x.size();
+  mean.y_error.assign(n, kNone);
+  for (const Curve& replica : replicas) {
+    if (!replica.relaxing.empty()) mean.relaxing = replica.relaxing;
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    std::vector<double> values, sems;
     for (const Curve& replica : replicas) {
-      if (std::isfinite(replica.y[k])) values.push_back(replica.y[k]);
+      if (!std::isfinite(replica.y[k])) continue;
+      values.push_back(replica.y[k]);
+      sems.push_back(replica.y_error.empty() ? kNone : replica.y_error[k]);
     }
     if (values.empty()) continue;
-    const MeanAndError result = mean_and_error(values);
+    const MeanAndError result = replica_mean(values, sems);
     mean.y[k] = result.mean;
-    mean.y_error[k] = result.sem.value_or(0.0);
+    mean.y_error[k] = result.sem.value_or(kNone);
   }
   return mean;
 }
@@ -75,14 +93,14 @@ std::vector<Curve> averaged(const std::vector<Curve>& curves) {
   return means;
 }
 
-/// As averaged, without bars: they would hide curves of many bins.
+/// As averaged, with errors as bands: bars would hide curves of many bins.
 std::vector<Curve> averaged_lines(const std::vector<Curve>& curves) {
   std::vector<Curve> means = averaged(curves);
-  for (Curve& curve : means) curve.y_error.clear();
+  for (Curve& curve : means) curve.band = true;
   return means;
 }
 
-/// How a parameter is called in print.
+/// How a parameter, or a field of the results, is called in print.
 struct Symbol {
   const char* name;
   const char* symbol;
@@ -101,6 +119,13 @@ const std::map<std::string, Symbol>& symbols() {
       {"plates.amplitude", {"amplitude of the plates", "a", "mm"}},
       {"plates.frequency", {"frequency of the plates", "f", "Hz"}},
       {"time.step", {"time step", "Δt", "s"}},
+      {"order.mean", {"nematic order", "⟨S⟩", ""}},
+      {"order.std", {"fluctuation of the nematic order", "std S", ""}},
+      {"measured.theta_m_deg.value", {"tilt of the layers", "θ_m", "°"}},
+      {"measured.wavelength_mm.value", {"wavelength of the layers", "λ", "mm"}},
+      {"measured.diffusion_mm2_s.value", {"diffusion coefficient", "D", "mm^2/s"}},
+      {"measured.rotational_diffusion_rad2_s.value", {"rotational diffusion", "D_r", "rad^2/s"}},
+      {"cpu_seconds", {"CPU time", "", "s"}},
   };
   return kSymbols;
 }
@@ -150,13 +175,14 @@ Figure defects_figure(const std::vector<PlottedRun>& runs) {
 
 /// Curves of one array against another, averaged over replicas.
 Figure lines_figure(const std::vector<PlottedRun>& runs, std::string name, std::string x_title, std::string y_title,
-                    std::vector<std::string> commands, const std::string& x, const std::string& y) {
+                    std::vector<std::string> commands, const std::string& x, const std::string& y,
+                    const std::string& y_error = "") {
   return {.name = std::move(name),
           .x_title = std::move(x_title),
           .y_title = std::move(y_title),
           .style = Figure::Style::kLines,
           .commands = std::move(commands),
-          .curves = averaged_lines(curves_of(runs, x, y))};
+          .curves = averaged_lines(curves_of(runs, x, y, y_error))};
 }
 
 const char* const kZeroAxis = "set xzeroaxis linecolor '#999999'";
@@ -176,10 +202,12 @@ std::vector<Figure> line_figures(const std::vector<PlottedRun>& runs) {
       lines_figure(runs, "layers", "wave number across the director (1/mm)",
                    "spectrum of sin 2({/Symbol q} − {/Symbol q}_N)", {"set xrange [0:*]", "set yrange [0:*]"},
                    "/layers/q_per_mm", "/layers/spectrum_across"),
-      lines_figure(runs, "orientation_memory", lag, "C_2(t)", {kLogX, kZeroAxis}, "/rotation/lag_s", "/rotation/c2"),
-      lines_figure(runs, "velocity_memory", lag, "C_v(t)", {kLogX, kZeroAxis}, "/velocity/lag_s", "/velocity/c_v"),
+      lines_figure(runs, "orientation_memory", lag, "C_2(t)", {kLogX, kZeroAxis}, "/rotation/lag_s", "/rotation/c2",
+                   "/rotation/c2_sem"),
+      lines_figure(runs, "velocity_memory", lag, "C_v(t)", {kLogX, kZeroAxis}, "/velocity/lag_s", "/velocity/c_v",
+                   "/velocity/c_v_sem"),
       lines_figure(runs, "number_fluctuations", "mean number in a box ⟨N⟩", "standard deviation {/Symbol D}N",
-                   {"set logscale xy"}, "/fluctuations/mean_n", "/fluctuations/std_n"),
+                   {"set logscale xy"}, "/fluctuations/mean_n", "/fluctuations/std_n", "/fluctuations/std_n_sem"),
   };
 }
 
@@ -189,7 +217,7 @@ Figure msd_figure(const std::vector<PlottedRun>& runs) {
                 .y_title = "mean square displacement (mm^2)",
                 .style = Figure::Style::kLines,
                 .commands = {"set logscale xy", "set format xy '10^{%T}'"},
-                .curves = averaged_lines(curves_of(runs, "/msd/lag_s", "/msd/total_mm2"))};
+                .curves = averaged_lines(curves_of(runs, "/msd/lag_s", "/msd/total_mm2", "/msd/total_sem_mm2"))};
   // Logarithms: zero lag has no place.
   for (Curve& curve : figure.curves) {
     for (std::size_t k = 0; k < curve.x.size(); ++k) {
@@ -217,11 +245,20 @@ std::string point_label(const Json& parameters) {
 std::string axis_title(const std::string& path) {
   if (const auto found = symbols().find(path); found != symbols().end()) {
     const auto& [name, symbol, unit] = found->second;
-    return *unit == '\0' ? fmt::format("{} {}", name, symbol) : fmt::format("{} {} ({})", name, symbol, unit);
+    std::string title = name;
+    if (*symbol != '\0') title += std::string(" ") + symbol;
+    if (*unit != '\0') title += std::string(" (") + unit + ")";
+    return title;
   }
-  // Paths hold underscores, which enhanced text would take for subscripts.
+  // "measured.NAME.value" by its name, which ends with its unit.
+  static constexpr std::string_view kMeasured = "measured.", kValue = ".value";
+  std::string name = path;
+  if (name.starts_with(kMeasured) && name.ends_with(kValue)) {
+    name = name.substr(kMeasured.size(), name.size() - kMeasured.size() - kValue.size());
+  }
+  // Names hold underscores, which enhanced text would take for subscripts.
   std::string escaped;
-  for (const char c : path) escaped += c == '_' ? std::string("\\_") : std::string(1, c);
+  for (const char c : name) escaped += c == '_' ? std::string("\\_") : std::string(1, c);
   const std::string_view unit =
       scene::field_index(path) >= 0 ? scene::default_unit(scene::field_at(path).dimension) : std::string_view();
   return unit.empty() ? escaped : fmt::format("{} ({})", escaped, unit);
@@ -238,21 +275,38 @@ std::vector<Figure> run_figures(const std::vector<PlottedRun>& runs) {
   return figures;
 }
 
-std::vector<Figure> sweep_figures(const std::vector<ResultRow>& points) {
-  // The parameter with the most values becomes the x axis.
-  std::string x_path;
-  std::size_t most_values = 0;
-  const std::vector<std::string> swept = swept_parameters(points);
+namespace {
+
+/// The one of `swept` with the most values; empty if none has two.
+std::string longest_parameter(const std::vector<ResultRow>& points, const std::vector<std::string>& swept) {
+  std::string longest;
+  std::size_t most_values = 1;
   for (const std::string& path : swept) {
     std::set<double> values;
     for (const ResultRow& point : points) {
       if (const double value = point.number(path); !std::isnan(value)) values.insert(value);
     }
-    if (values.size() > std::max<std::size_t>(1, most_values)) {
+    if (values.size() > most_values) {
       most_values = values.size();
-      x_path = path;
+      longest = path;
     }
   }
+  return longest;
+}
+
+std::string file_name(std::string field) {
+  for (const std::string_view part : {"measured.", ".value", ".mean"}) {
+    if (const auto at = field.find(part); at != std::string::npos) field.erase(at, part.size());
+  }
+  std::replace(field.begin(), field.end(), '.', '_');
+  return field;
+}
+
+}  // namespace
+
+std::vector<Figure> sweep_figures(const std::vector<ResultRow>& points, const SweepAxes& axes) {
+  const std::vector<std::string> swept = swept_parameters(points);
+  const std::string x_path = axes.x.empty() ? longest_parameter(points, swept) : axes.x;
   if (x_path.empty()) return {};
 
   std::vector<std::string> others;
@@ -260,10 +314,12 @@ std::vector<Figure> sweep_figures(const std::vector<ResultRow>& points) {
                [&](const auto& path) { return path != x_path; });
   struct Point {
     double x, y, error;
+    bool relaxes;
   };
   std::vector<std::pair<std::string, std::vector<Point>>> groups;
   for (const ResultRow& point : points) {
-    const Point p{point.number(x_path), point.number("order.mean"), point.number("order.mean:sem")};
+    const Point p{point.number(x_path), point.number(axes.y), standard_error(point, axes.y),
+                  still_relaxes(point, axes.y)};
     if (std::isnan(p.x) || std::isnan(p.y)) continue;
     Json named = Json::object();
     for (const std::string& path : others) named[path] = point.parameters.value(path, Json());
@@ -274,25 +330,33 @@ std::vector<Figure> sweep_figures(const std::vector<ResultRow>& points) {
   }
   if (groups.empty()) return {};
 
-  std::string file_name = "order_" + x_path;
-  std::replace(file_name.begin(), file_name.end(), '.', '_');
-  Figure figure{.name = file_name,
+  Figure figure{.name = file_name(axes.y) + "_" + file_name(x_path),
                 .x_title = axis_title(x_path),
-                .y_title = "nematic order ⟨S⟩ ± standard error",
+                .y_title = axis_title(axes.y),
                 .style = Figure::Style::kLinesPoints,
-                .commands = {"set yrange [0:1]", "set offsets graph 0.04, graph 0.04, 0, 0",
-                             "set arrow from graph 0, first 0.5 to graph 1, first 0.5 nohead linecolor '#999999' "
-                             "dashtype 2 back"}};
+                .commands = {"set offsets graph 0.04, graph 0.04, 0, 0"}};
+  if (axes.y == "order.mean") {
+    figure.commands.insert(figure.commands.end(),
+                           {"set yrange [0:1]",
+                            "set arrow from graph 0, first 0.5 to graph 1, first 0.5 nohead linecolor '#999999' "
+                            "dashtype 2 back"});
+  }
+  bool any_error = false, any_relaxes = false;
   for (auto& [label, group] : groups) {
     std::sort(group.begin(), group.end(), [](const Point& a, const Point& b) { return a.x < b.x; });
     Curve curve{.label = label, .colour = figure.curves.size()};
     for (const Point& point : group) {
       curve.x.push_back(point.x);
       curve.y.push_back(point.y);
-      curve.y_error.push_back(std::isnan(point.error) ? 0.0 : point.error);
+      curve.y_error.push_back(point.error);
+      curve.relaxing.push_back(point.relaxes);
+      any_error |= !std::isnan(point.error);
+      any_relaxes |= point.relaxes;
     }
     figure.curves.push_back(std::move(curve));
   }
+  if (any_error) figure.y_title += " ± standard error";
+  if (any_relaxes) figure.title = "hollow: still relaxing, run longer";
   return {figure};
 }
 

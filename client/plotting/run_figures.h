@@ -14,22 +14,31 @@ namespace shaken::client {
 struct PlottedRun {
   std::string point;             ///< its swept parameters, the same for all replicas
   run::Observables observables;  ///< as read from observables.h5
+  bool relaxing = false;         ///< its averages are from a state that still relaxed
 };
 
 /// A figure for each observable that at least one run has and that one curve can show: S(t), P[S], P(theta), the tilt
 /// curve, defects, G2 and g, layers, MSD, C_2, C_v, number fluctuations. Replicas share a colour; of what does not
-/// depend on time their mean is drawn, for the tilt curve with the standard error between them.
+/// depend on time their mean is drawn, with the standard error of replica_mean: as bars at the points of the tilt
+/// curve, elsewhere as a band. Points of which one replica still relaxed say so: hollow, or by the curve's label.
 std::vector<Figure> run_figures(const std::vector<PlottedRun>& runs);
 
-/// S against the swept parameter with the most values, from aggregated rows: one curve for each combination of the
-/// other swept parameters, bars of one standard error, and a line at S = 0.5. None if no numeric parameter is swept or
-/// no point has a result.
-std::vector<Figure> sweep_figures(const std::vector<ResultRow>& points);
+/// What sweep_figures draws against what; fields as in ResultRow.
+struct SweepAxes {
+  std::string x{};  ///< empty: the swept parameter with the most values
+  std::string y = "order.mean";
+};
+
+/// A number of the results against a swept parameter (or another number), from aggregated rows: one curve for each
+/// combination of the other swept parameters, bars of one standard error, points that still relaxed hollow, and for S a
+/// line at 0.5. None if no numeric parameter is swept or no point has a result.
+std::vector<Figure> sweep_figures(const std::vector<ResultRow>& points, const SweepAxes& axes = {});
 
 /// Parameters as they are called in print: "φ = 0.6, ℓ = 2.5 mm".
 std::string point_label(const Json& parameters);
 
-/// A parameter's name and unit for an axis, in gnuplot's enhanced text: "rod length l (mm)".
+/// Name and unit of a parameter, or of a field of the results, for an axis, in gnuplot's enhanced text:
+/// "rod length l (mm)".
 std::string axis_title(const std::string& path);
 
 }  // namespace shaken::client

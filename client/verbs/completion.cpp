@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 #include "client/command_line.h"
 #include "client/target.h"
 #include "client/verbs/verbs.h"
@@ -34,7 +36,14 @@ class Completion : public Verb {
       Session session(context.root);
       const Json sweeps = session.get("/v1/sweeps");
       const Json jobs = session.get("/v1/jobs");
-      for (const Json& sweep : sweeps.at("sweeps")) out << sweep.at("id").get<std::string>() << "\n";
+      std::set<std::string> words;  // sweeps may share a name
+      for (const Json& sweep : sweeps.at("sweeps")) {
+        words.insert(sweep.at("id").get<std::string>());
+        // A name with a space would be two words to the shell.
+        if (const std::string name = text_of(sweep, "name"); name.find(' ') == std::string::npos) words.insert(name);
+      }
+      words.erase("");
+      for (const std::string& word : words) out << word << "\n";
       for (const Json& job : jobs.at("jobs")) out << short_id(job.at("id").get<std::string>()) << "\n";
     } else {
       throw Failure(ExitCode::kBadInput, fmt::format("no completion for '{}': bash, zsh, or ids", what_));

@@ -21,10 +21,10 @@ class Doctor : public Verb {
   void declare(Arguments& arguments) override { arguments.flag("--json", json_, "Print the findings as JSON"); }
 
   ExitCode run(const Context& context) override {
-    const std::vector<Finding> findings = checkup(context.root);
+    const std::vector<CheckResult> findings = checkup(context.root);
     Console& console = context.console;
     Json list = Json::array();
-    for (const Finding& finding : findings) {
+    for (const CheckResult& finding : findings) {
       list.push_back({{"check", finding.what},
                       {"level", word(finding.level)},
                       {"message", finding.message},
@@ -36,18 +36,19 @@ class Doctor : public Verb {
       if (!finding.remedy.empty()) console.out << fmt::format("{:<20}-> {}\n", "", finding.remedy);
     }
     if (json_) console.out << Json{{"checks", list}}.dump(2) << "\n";
-    const bool failed = std::any_of(findings.begin(), findings.end(),
-                                    [](const Finding& finding) { return finding.level == Finding::Level::kFail; });
+    const bool failed = std::any_of(findings.begin(), findings.end(), [](const CheckResult& finding) {
+      return finding.level == CheckResult::Level::kFail;
+    });
     return failed ? ExitCode::kFailed : ExitCode::kOk;
   }
 
  private:
-  static const char* word(Finding::Level level) {
-    return level == Finding::Level::kOk ? "ok" : (level == Finding::Level::kWarn ? "warn" : "fail");
+  static const char* word(CheckResult::Level level) {
+    return level == CheckResult::Level::kOk ? "ok" : (level == CheckResult::Level::kWarn ? "warn" : "fail");
   }
-  static Colour colour(Finding::Level level) {
-    return level == Finding::Level::kOk ? Colour::kGreen
-                                        : (level == Finding::Level::kWarn ? Colour::kYellow : Colour::kRed);
+  static Colour colour(CheckResult::Level level) {
+    return level == CheckResult::Level::kOk ? Colour::kGreen
+                                            : (level == CheckResult::Level::kWarn ? Colour::kYellow : Colour::kRed);
   }
 
   bool json_ = false;

@@ -48,9 +48,11 @@ class Explain : public Verb {
   ExitCode run(const Context& context) override {
     check_options();
     const scene::Sweep sweep = load_points(read_scene_input(file_), settings_, replicas_);
-    const Estimate estimate = estimate_cost(sweep, {!no_probe_, cpu_.value_or(EstimateOptions{}.cpu), from_});
-    const scene::SweepPoint& point = sweep.points[estimate.shown];
     Console& console = context.console;
+    EstimateOptions options{.probe = !no_probe_, .cpu = cpu_.value_or(EstimateOptions{}.cpu), .from = from_};
+    options.on_probe = probe_progress(console);
+    const Estimate estimate = estimate_cost(sweep, options);
+    const scene::SweepPoint& point = sweep.points[estimate.shown];
     if (json_) {
       Json json = estimate_json(estimate);
       json["name"] = sweep.name;
@@ -108,8 +110,11 @@ class Explain : public Verb {
     }
     if (s.walls) {
       constexpr std::array kArenas{"disc", "square", "annulus"};
-      text += fmt::format("  arena   {} of {} between side walls; plates {} apart\n",
-                          kArenas.at(static_cast<std::size_t>(s.walls->arena)), length(s.walls->size), length(s.gap));
+      const std::string inner =
+          s.walls->arena == Arena::kAnnulus ? fmt::format(", {} inside", length(s.walls->inner)) : "";
+      text += fmt::format("  arena   {} of {}{} between side walls; plates {} apart\n",
+                          kArenas.at(static_cast<std::size_t>(s.walls->arena)), length(s.walls->size), inner,
+                          length(s.gap));
     } else {
       text += fmt::format("  box     {} square, periodic; plates {} apart\n", length(s.box_side), length(s.gap));
     }

@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <memory>
 #include <set>
+#include <thread>
+#include <utility>
 
 #include "client/estimate.h"
 #include "client/interrupt.h"
@@ -67,7 +69,8 @@ class Figures : public Verb {
             "  shaken figures --scale paper --dry-run   what the paper's sizes would cost here\n"
             "  shaken figures --draw-only            from the runs that are done, while others go on\n"
             "Stop it at any time: the same command goes on where it stopped. `shaken watch` and `shaken status` work\n"
-            "meanwhile. Beside each PNG lie its data (.dat) and the script that draws it again (.gp)."};
+            "meanwhile. What it will cost is told before it starts, and asked on a terminal. Beside each PNG lie its "
+            "data (.dat) and the script that draws it again (.gp)."};
   }
 
   void declare(Arguments& arguments) override {
@@ -77,9 +80,10 @@ class Figures : public Verb {
     arguments.option("--configs", configs_, "DIR", "Folder that holds figures/SCALE/*.json", Names::kFolder);
     arguments.flag("--list", list_, "List the figures and the sweeps they need, and do nothing");
     arguments.flag("--dry-run", dry_run_, "Check the sweeps and say what they would cost on this machine");
+    arguments.flag("-y,--yes", yes_, "Start without asking, also on a terminal");
     arguments.flag("--draw-only", draw_only_, "Queue nothing: draw from the runs that are done");
     arguments.option("--report", report_, "FILE",
-                     "Put claims and costs between the marks in this Markdown file, as in docs/validation.md",
+                     "Put claims, costs and versions between the marks in this Markdown file, as in docs/validation.md",
                      Names::kFile);
     arguments.flag("--json", json_, "Print what was made as JSON");
   }
@@ -100,6 +104,11 @@ class Figures : public Verb {
         if (!guard.interrupted()) complete &= draw_one(*figure, context.console);
       }
     } else {
+      if (!is_agreed_to(context)) {
+        context.console.err << "nothing was started\n";
+        return ExitCode::kFailed;
+      }
+      begin_ = Clock::now();
       std::optional<OwnDaemon> daemon;
       daemon.emplace(context.root);
       if (daemon->started_here()) {
@@ -114,7 +123,7 @@ class Figures : public Verb {
     }
     if (guard.interrupted()) {
       context.console.err << "interrupted: the same command goes on from here\n";
-      return ExitCode::kFailed;
+      return ExitCode::kInterrupted;
     }
     if (draw_only_) conclude(context.console);
     return complete ? ExitCode::kOk : ExitCode::kFailed;
@@ -177,7 +186,7 @@ class Figures : public Verb {
     if (error) problems += fmt::format("{}: cannot be written to: {}\n", out_, error.message());
     if (!report_.empty()) {
       try {
-        written_report("", "", "");
+        written_report("", "", "", "");
       } catch (const Failure& failure) {
         problems += fmt::format("{}: {}\n", report_, failure.what());
       }
@@ -188,10 +197,22 @@ class Figures : public Verb {
   }
 
   /// The report file with these sections in place of those that it has.
-  std::string written_report(const std::string& claims, const std::string& sweeps, const std::string& figures) const {
+  std::string written_report(const std::string& origin, const std::string& claims, const std::string& sweeps,
+                             const std::string& figures) const {
     const auto text = run::read_file(report_);
     if (!text) throw Failure(ExitCode::kBadInput, text.error().message);
-    return with_section(with_section(with_section(*text, "claims", claims), "sweeps", sweeps), "figures", figures);
+    std::string document = *text, problems;
+    const std::pair<const char*, const std::string&> sections[] = {
+        {"origin", origin}, {"claims", claims}, {"sweeps", sweeps}, {"figures", figures}};
+    for (const auto& [name, section] : sections) {
+      try {
+        document = with_section(document, name, section);
+      } catch (const Failure& failure) {
+        problems += (problems.empty() ? "" : "\n") + std::string(failure.what());
+      }
+    }
+    if (!problems.empty()) throw Failure(ExitCode::kBadInput, problems);
+    return document;
   }
 
   ExitCode show_list(Console& console) const {
@@ -240,6 +261,35 @@ class Figures : public Verb {
                                  bytes_text(disk));
     }
     return ExitCode::kOk;
+  }
+
+  /// Tells what the runs that are not done yet will cost, and asks where there is somebody to ask. Whether to start.
+  bool is_agreed_to(const Context& context) const {
+    // A glance at each sweep: hours or minutes is the question.
+    EstimateOptions glance{.cpu = 0.2, .most_probes = 2, .levels = false};
+    Console& console = context.console;
+    std::size_t n_runs = 0;
+    double cpu = 0, disk = 0;
+    for (const NamedSweep& sweep : sweeps_) {
+      if (!sweep.needed) continue;
+      scene::Sweep rest = sweep.sweep;
+      std::erase_if(rest.points, [&](const scene::SweepPoint& point) {
+        return is_finished(runs_folder_ / derived_quantities(point).at("id").get<std::string>());
+      });
+      if (rest.points.empty()) continue;
+      if (console.err_is_terminal)
+        console.err << fmt::format("\r\x1b[Kwhat will it cost? {}", sweep.name) << std::flush;
+      const LevelCost cost = estimate_cost(rest, glance).levels.front();
+      n_runs += rest.points.size();
+      cpu += cost.cpu.value_or(0);
+      disk += cost.disk.value_or(0);
+    }
+    if (console.err_is_terminal) console.err << "\r\x1b[K" << std::flush;
+    if (n_runs == 0) return true;
+    const unsigned n_cores = std::max(1U, std::thread::hardware_concurrency());
+    console.err << fmt::format("{} runs to be done: about {}, {} on {} cores, and {} in {}\n", n_runs, cpu_text(cpu),
+                               duration_text(cpu / n_cores), n_cores, bytes_text(disk), runs_folder_.string());
+    return yes_ || console.in == nullptr || console.agrees("Go on?", true);
   }
 
   void submit(Session& session) {
@@ -458,20 +508,25 @@ class Figures : public Verb {
     if (!json_) console.out << file.string() << std::endl;
   }
 
-  /// The claims, from all runs at hand.
+  /// The claims that belong to the figures asked for, from all runs at hand.
   void conclude(Console& console) {
     const Library runs = library();
-    const std::string table = claims_table(runs);
+    std::vector<std::string_view> figures;
+    for (const PaperFigure* figure : chosen_) figures.push_back(figure->id);
+    const std::vector<Claim> claims = claims_of(figures);
+    const std::string table = claims_table(runs, claims);
     const auto save = [](const fs::path& file, const std::string& text) {
       if (const auto error = run::write_file_atomically(file, text)) throw Failure(ExitCode::kFailed, error->message);
     };
     save(fs::path(out_) / "claims.md", table);
-    save(fs::path(out_) / "claims.json", claims_json(runs).dump(2) + "\n");
+    save(fs::path(out_) / "claims.json", claims_json(runs, claims).dump(2) + "\n");
     if (!report_.empty()) {
-      save(report_, written_report(table, sweep_cost_table(sweeps(), all_sets()), figure_cost_table(sweeps())));
+      // a report is of everything, whatever was drawn
+      save(report_, written_report(origin_text(sweeps(), all_sets()), claims_table(runs, paper_claims()),
+                                   sweep_cost_table(sweeps(), all_sets()), figure_cost_table(sweeps())));
     }
     if (json_) {
-      console.out << Json{{"scale", scale_}, {"made", made_}, {"claims", claims_json(runs)}}.dump(2) << "\n";
+      console.out << Json{{"scale", scale_}, {"made", made_}, {"claims", claims_json(runs, claims)}}.dump(2) << "\n";
     } else {
       console.out << (fs::path(out_) / "claims.md").string() << "\n";
     }
@@ -482,7 +537,7 @@ class Figures : public Verb {
   std::string out_;
   std::string configs_;
   std::string report_;
-  bool list_ = false, dry_run_ = false, draw_only_ = false, json_ = false;
+  bool list_ = false, dry_run_ = false, draw_only_ = false, yes_ = false, json_ = false;
 
   fs::path runs_folder_;
   std::vector<const PaperFigure*> chosen_;

@@ -32,7 +32,8 @@ class Logs : public Verb {
       context.console.out << text << std::flush;
       offset = answer.at("offset").get<std::int64_t>();
       state = answer.at("state").get<std::string>();
-      if (!context.console.out.good() || guard.interrupted()) return ExitCode::kOk;
+      if (guard.interrupted()) return ExitCode::kInterrupted;
+      if (!context.console.out.good()) return ExitCode::kOk;
       // A long log comes in pieces, also where it is not followed.
       if (!text.empty()) continue;
       if (!follow_) return ExitCode::kOk;

@@ -21,7 +21,7 @@ class Movie : public Verb {
   }
 
   void declare(Arguments& arguments) override {
-    arguments.required("JOB", id_, "A job, by the beginning of its id, or a run directory", Names::kId);
+    arguments.required("JOB", id_, "A job, by the beginning of its id, or a run directory", Names::kRun);
     arguments.option("-o,--out", out_, "FILE", "Where to write; named after the job if left out", Names::kFile);
     arguments.option("--frame", frame_, "N|last", "One frame as a PNG instead of a film");
     arguments.flag("--live", live_, "The present state of a running job as a PNG");
@@ -42,6 +42,13 @@ class Movie : public Verb {
       job_id = job.at("id").get<std::string>();
       directory = job.at("directory").get<std::string>();
       name = short_id(job_id);
+      const std::string state = text_of(job, "state");
+      if (live_ && state != "running" && state != "stopping") {
+        throw Failure(ExitCode::kFailed,
+                      fmt::format("job {} is {}: nothing of it is live. `shaken movie {} --frame last` draws its last "
+                                  "recorded frame",
+                                  short_id(job_id), state, id_));
+      }
       if (live_ && lcm_url_.empty()) lcm_url_ = text_of(session.get("/v1/status").at("lcm"), "url");
     } else if (live_) {
       throw Failure(ExitCode::kBadInput, "--live takes the ID of a running job, not a directory");

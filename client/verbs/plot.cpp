@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <map>
+#include <optional>
+
 #include "client/plotting/run_figures.h"
 #include "client/result_rows.h"
 #include "client/run_location.h"
 #include "client/target.h"
 #include "client/verbs/verbs.h"
+#include "run/files/atomic_file.h"
 #include "run/files/directory.h"
 
 namespace shaken::client {
@@ -19,51 +23,152 @@ class Plot : public Verb {
     return {"plot", kResultsGroup, "Figures of a sweep, a job or a run directory, by gnuplot",
             "  shaken plot                   the newest sweep, into plots-s3/\n"
             "  shaken plot s3 -o figures     S(t), S against the swept parameter, P(theta), tilt, G2, MSD\n"
+            "  shaken plot s3 --x rods.area_fraction --y theta_m_deg -o theta.pdf\n"
+            "  shaken plot s3 --format svg   as PDF or SVG instead of PNG\n"
             "  shaken plot runs/first        what `shaken run` has left there\n"
             "  gnuplot figures/order_time.gp  draws one again, after changing it to taste"};
   }
 
   void declare(Arguments& arguments) override {
-    arguments.optional("ID", id_, "A sweep, a job or a run directory; the newest sweep if left out", Names::kId);
-    arguments.option("-o,--out", out_, "DIR", "Where to write; plots-ID if left out", Names::kFolder);
+    arguments.optional("ID", id_, "A sweep, a job or a run directory; the newest sweep if left out", Names::kRun);
+    arguments.option("--x", x_, "PATH",
+                     "One figure: against this parameter or field; the longest swept one if left out",
+                     Names::kAnything);
+    arguments.option("--y", y_, "FIELD",
+                     "One figure: of this field of `results --csv`, or scalar; order.mean if left out",
+                     Names::kAnything);
+    arguments.option("-o,--out", out_, "DIR", "Where to write; plots-ID if left out. With --x or --y also a file",
+                     Names::kFolder);
+    arguments.option("--format", format_, "png|pdf|svg", "png if left out; with --x or --y also by the suffix of --out",
+                     Names::kAnything);
   }
 
   ExitCode run(const Context& context) override {
+    const std::optional<PictureFile> file = read_options();
+    Console& console = context.console;
     std::vector<PlottedRun> runs;
     std::vector<Figure> figures;
-    Console& console = context.console;
+    LeftOut left_out;
     if (!id_.empty() && is_run_directory(id_)) {
+      if (one_figure()) throw Failure(ExitCode::kBadInput, "--x and --y are for sweeps, not for a run directory");
       if (out_.empty()) out_ = (fs::path(id_) / "plots").string();
-      add_run(id_, "", runs, console);
+      add_run(id_, "", "", runs, left_out);
     } else {
       Session session(context.root);
       const Target target = find_target_or_newest(session, id_);
       const Json& named = target.answer.at(target.is_sweep ? "sweep" : "job");
       if (out_.empty()) out_ = "plots-" + short_id(named.at("id").get<std::string>());
-      for (const Json& job : jobs_of(target)) {
-        if (text_of(job, "state") == "queued") continue;
-        add_run(job.at("directory").get<std::string>(), point_label(job.at("parameters")), runs, console);
+      const std::vector<ResultRow> points = aggregated(result_rows(session, target));
+      if (one_figure()) {
+        figures = one_figure_of(points);
+      } else {
+        for (const Json& job : jobs_of(target)) {
+          if (text_of(job, "state") == "queued") continue;
+          add_run(job.at("directory").get<std::string>(), point_label(job.at("parameters")), text_of(job, "state"),
+                  runs, left_out);
+        }
+        figures = sweep_figures(points);
       }
-      figures = sweep_figures(aggregated(result_rows(session, target)));
+    }
+    for (const auto& [why, n] : left_out) {
+      console.err << fmt::format("left out: {}{}\n", n > 1 ? fmt::format("{} runs, ", n) : "", why);
     }
     for (Figure& figure : run_figures(runs)) figures.push_back(std::move(figure));
     if (figures.empty()) throw Failure(ExitCode::kFailed, "there is nothing to plot yet");
-    for (const Figure& figure : figures) console.out << draw(figure, out_).string() << "\n";
+    if (file) {
+      figures.front().name = file->name;
+      out_ = file->folder.string();
+    }
+    for (const Figure& figure : figures) console.out << draw(figure, out_, picture_format_).string() << "\n";
     return ExitCode::kOk;
   }
 
  private:
-  /// A run without readable observables is named and left out; the others are plotted.
-  static void add_run(const fs::path& directory, const std::string& point, std::vector<PlottedRun>& runs,
-                      Console& console) {
-    auto observables = run::read_observables(run::RunDirectory{directory}.observables());
-    if (observables) {
-      runs.push_back({point, *std::move(observables)});
-    } else {
-      console.err << fmt::format("left out: {}\n", observables.error().message);
+  /// --out as a single picture.
+  struct PictureFile {
+    fs::path folder;
+    std::string name;
+  };
+  using LeftOut = std::map<std::string, int>;  ///< why, and how often
+
+  bool one_figure() const { return !x_.empty() || !y_.empty(); }
+
+  static std::optional<PictureFormat> format_of(std::string_view word) {
+    for (const PictureFormat format : {PictureFormat::kPng, PictureFormat::kPdf, PictureFormat::kSvg}) {
+      if (word == suffix_of(format)) return format;
     }
+    return std::nullopt;
   }
 
+  /// Sets the format; returns the picture that --out names, if it names one.
+  std::optional<PictureFile> read_options() {
+    const fs::path out(out_);
+    const std::string suffix = out.has_extension() ? out.extension().string().substr(1) : "";
+    const std::optional<PictureFormat> of_suffix = format_of(suffix);
+    const std::optional<PictureFormat> asked = format_of(format_);
+    std::string problems;
+    if (!format_.empty() && !asked) problems += fmt::format("--format takes png, pdf or svg, not '{}'\n", format_);
+    if (of_suffix && !one_figure()) {
+      problems += fmt::format("{} is one picture, and this draws several: give a folder, or --x and --y\n", out_);
+    }
+    if (of_suffix && asked && suffix != format_) {
+      problems += fmt::format("--format {} does not go with {}\n", format_, out_);
+    }
+    if (!problems.empty()) {
+      problems.pop_back();
+      throw Failure(ExitCode::kBadInput, problems);
+    }
+    if (asked) {
+      picture_format_ = *asked;
+    } else if (of_suffix) {
+      picture_format_ = *of_suffix;
+    }
+    if (!of_suffix) return std::nullopt;
+    return PictureFile{out.has_parent_path() ? out.parent_path() : fs::path("."), out.stem().string()};
+  }
+
+  std::vector<Figure> one_figure_of(const std::vector<ResultRow>& points) const {
+    SweepAxes axes;
+    if (!x_.empty()) axes.x = resolved_field(points, x_);
+    if (!y_.empty()) axes.y = resolved_field(points, y_);
+    std::vector<Figure> figures = sweep_figures(points, axes);
+    if (figures.empty()) {
+      throw Failure(ExitCode::kFailed, axes.x.empty()
+                                           ? "no numeric parameter is swept: --x names a field to plot against"
+                                           : fmt::format("no point has both {} and {} as numbers", axes.x, axes.y));
+    }
+    return figures;
+  }
+
+  /// A run without observables is counted by its reason and left out; the others are plotted.
+  static void add_run(const fs::path& directory, const std::string& point, const std::string& state,
+                      std::vector<PlottedRun>& runs, LeftOut& left_out) {
+    const run::RunDirectory files{directory};
+    if (!fs::exists(files.observables())) {
+      ++left_out[state.empty() || state == "done" ? "no observables.h5 there: " + directory.string()
+                                                  : state + " before anything was measured"];
+      return;
+    }
+    auto observables = run::read_observables(files.observables());
+    if (!observables) {
+      ++left_out[observables.error().message];
+      return;
+    }
+    runs.push_back({point, *std::move(observables), still_relaxed(files.summary())});
+  }
+
+  /// Whether a run's summary says that its averages are from a state that still relaxed.
+  static bool still_relaxed(const fs::path& summary) {
+    const auto text = run::read_file(summary);
+    if (!text) return false;
+    const Json json = Json::parse(*text, nullptr, false);
+    return json.is_object() && json.contains("steady") && json.at("steady") == false;
+  }
+
+  std::string x_;
+  std::string y_;
+  std::string format_;
+  PictureFormat picture_format_ = PictureFormat::kPng;
   std::string id_;
   std::string out_;
 };

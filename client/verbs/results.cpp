@@ -14,28 +14,45 @@
 namespace shaken::client {
 namespace {
 
-/// What the table on the terminal shows of a summary; --csv and --json have everything.
+/// What the table on the terminal shows of a summary; --csv and --json have everything. Where there is no room the
+/// highest ranks go first.
 struct SummaryColumn {
   const char* title;
   const char* field;
+  int rank;
 };
 constexpr SummaryColumn kColumns[] = {
-    {"N", "n_rods"},
-    {"S", "order.mean"},
-    {"SEM", "order.sem"},
-    {"STD", "order.std"},
-    {"TAU s", "order.tau_s"},
-    {"STEADY s", "order.t_steady_s"},
-    {"SIM s", "sim_seconds"},
-    {"CPU s", "cpu_seconds"},
-    {"ROD-S/CPU-S", "rod_seconds_per_cpu_second"},
-    {"OVERLAP mm", "max_overlap_mm"},
+    {"N", "n_rods", 3},
+    {"S", "order.mean", 0},
+    {"SEM", "order.sem", 1},
+    {"STD", "order.std", 5},
+    {"N_EFF", "order.n_effective", 4},
+    {"THETA_M deg", "measured.theta_m_deg.value", 2},
+    {"SEM deg", "measured.theta_m_deg.sem", 2},
+    {"TAU s", "order.tau_s", 8},
+    {"STEADY s", "order.t_steady_s", 6},
+    {"SIM s", "sim_seconds", 6},
+    {"CPU s", "cpu_seconds", 7},
+    {"ROD-S/CPU-S", "rod_seconds_per_cpu_second", 9},
+    {"OVERLAP mm", "max_overlap_mm", 10},
 };
 constexpr SummaryColumn kAggregateColumns[] = {
-    {"REPLICAS", "n_replicas"}, {"DONE", "n_done"},        {"N", "n_rods"},
-    {"S", "order.mean"},        {"SEM", "order.mean:sem"}, {"STD", "order.std"},
-    {"TAU s", "order.tau_s"},   {"SIM s", "sim_seconds"},  {"CPU s", "cpu_seconds"},
+    {"REPLICAS", "n_replicas", 4},
+    {"DONE", "n_done", 3},
+    {"N", "n_rods", 3},
+    {"S", "order.mean", 0},
+    {"SEM", "order.mean:sem", 1},
+    {"STD", "order.std", 5},
+    {"N_EFF", "order.n_effective", 4},
+    {"THETA_M deg", "measured.theta_m_deg.value", 2},
+    {"SEM deg", "measured.theta_m_deg.value:sem", 2},
+    {"TAU s", "order.tau_s", 8},
+    {"SIM s", "sim_seconds", 6},
+    {"CPU s", "cpu_seconds", 7},
 };
+
+/// Before a value from a time in which the run still relaxed.
+constexpr const char* kRelaxingMark = "~";
 
 class Results : public Verb {
  public:
@@ -44,13 +61,17 @@ class Results : public Verb {
             "  shaken results                               the newest sweep\n"
             "  shaken results s3 --aggregate                replicas as mean and standard error\n"
             "  shaken results s3 --where 'rods.area_fraction>0.6' --where 'order.mean>=0.5'\n"
-            "  shaken results s3 --csv > order.csv          every field of every summary"};
+            "  shaken results s3 --columns job,order.mean,theta_m_deg\n"
+            "  shaken results s3 --csv > order.csv          every field of every summary: the names for --columns\n"
+            "A value marked ~ is an average over a time in which the run still relaxed: run it longer."};
   }
 
   void declare(Arguments& arguments) override {
     arguments.optional("ID", id_, "A sweep (id or name) or a job; the newest sweep if left out", Names::kId);
     arguments.repeatable("-w,--where", where_, "COMPARISON", "Only rows that match, e.g. 'order.mean>0.5'; repeatable");
     arguments.flag("-a,--aggregate", aggregate_, "Replicas of a point as mean and standard error");
+    arguments.option("--columns", columns_, "FIELD,FIELD", "These fields only, as a table or with --csv",
+                     Names::kAnything);
     arguments.flag("--csv", csv_, "All fields as CSV");
     arguments.flag("--json", json_, "The daemon's rows, or the aggregated ones, as JSON");
   }
@@ -64,7 +85,7 @@ class Results : public Verb {
     std::vector<ResultRow> rows = result_rows(session, target);
     // Conditions are on the rows shown: with --aggregate on means.
     if (aggregate_) rows = aggregated(rows);
-    rows = filtered(rows, conditions);
+    rows = filtered(rows, std::move(conditions));
 
     Console& console = context.console;
     if (json_) {
@@ -72,7 +93,7 @@ class Results : public Verb {
       for (const ResultRow& row : rows) list.push_back(aggregate_ ? row.fields : row.source);
       console.out << Json{{"rows", list}}.dump(2) << "\n";
     } else if (csv_) {
-      console.out << to_csv(rows);
+      console.out << to_csv(rows, chosen_fields(rows));
     } else {
       if (id_.empty()) console.err << target.title() << "\n";
       print_table(rows, console);
@@ -81,6 +102,26 @@ class Results : public Verb {
   }
 
  private:
+  /// As --columns names them; none if it is not given. All that no row has are refused together.
+  std::vector<std::string> chosen_fields(const std::vector<ResultRow>& rows) const {
+    std::vector<std::string> fields;
+    if (rows.empty()) return fields;
+    std::string problems;
+    for (std::size_t begin = 0; begin < columns_.size();) {
+      const std::size_t end = std::min(columns_.find(',', begin), columns_.size());
+      const std::string word = columns_.substr(begin, end - begin);
+      begin = end + 1;
+      if (word.empty()) continue;
+      try {
+        fields.push_back(resolved_field(rows, word));
+      } catch (const Failure& failure) {
+        problems += (problems.empty() ? "" : "\n") + std::string(failure.what());
+      }
+    }
+    if (!problems.empty()) throw Failure(ExitCode::kBadInput, problems + "\n--csv shows all names");
+    return fields;
+  }
+
   void print_table(const std::vector<ResultRow>& rows, Console& console) const {
     if (rows.empty()) {
       console.out << "No rows.\n";
@@ -88,36 +129,37 @@ class Results : public Verb {
     }
     std::vector<Table::Column> columns;
     std::vector<std::string> fields;
-    const auto add_column = [&](const std::string& title, const std::string& field, Table::Align align) {
-      const bool filled =
-          std::any_of(rows.begin(), rows.end(), [&](const ResultRow& r) { return r.fields.contains(field); });
+    const auto add_column = [&](const std::string& title, const std::string& field, int rank) {
+      bool filled = false, numbers = true;
+      for (const ResultRow& row : rows) {
+        const auto value = row.fields.find(field);
+        if (value == row.fields.end()) continue;
+        filled = true;
+        numbers &= value->is_number();
+      }
       if (!filled) return;
-      columns.push_back({title, align});
+      columns.push_back({title, numbers ? Table::Align::kRight : Table::Align::kLeft, rank});
       fields.push_back(field);
     };
-    if (!aggregate_) {
-      add_column("JOB", "job", Table::Align::kLeft);
-      add_column("STATE", "state", Table::Align::kLeft);
-    }
-    for (const std::string& path : swept_parameters(rows)) add_column(path, path, Table::Align::kRight);
-    if (aggregate_) {
-      for (const auto& column : kAggregateColumns) add_column(column.title, column.field, Table::Align::kRight);
+    if (const std::vector<std::string> chosen = chosen_fields(rows); !chosen.empty()) {
+      for (const std::string& field : chosen) add_column(field, field, 0);
     } else {
-      const bool has_replicas =
-          std::any_of(rows.begin(), rows.end(), [](const ResultRow& r) { return r.number("replica") > 0; });
-      if (has_replicas) add_column("REPLICA", "replica", Table::Align::kRight);
-      for (const auto& column : kColumns) add_column(column.title, column.field, Table::Align::kRight);
+      add_default_columns(rows, add_column);
     }
 
     Table table(columns);
+    bool any_relaxes = false;
     for (const ResultRow& row : rows) {
       std::vector<std::string> cells;
       for (const std::string& field : fields) {
         const auto value = row.fields.find(field);
+        const bool relaxes = value != row.fields.end() && still_relaxes(row, field);
+        any_relaxes |= relaxes;
         if (field == "job") {
           cells.push_back(short_id(field_text(row, field)));
         } else if (value != row.fields.end() && value->is_number()) {
-          cells.push_back(number_text(value->get<double>()));
+          const std::string text = number_text(value->get<double>());
+          cells.push_back(relaxes ? console.painted(Colour::kYellow, kRelaxingMark + text) : text);
         } else {
           cells.push_back(field_text(row, field));
         }
@@ -125,10 +167,37 @@ class Results : public Verb {
       table.add_row(std::move(cells));
     }
     console.out << table.text(console.width);
+    if (any_relaxes) {
+      console.out << console.painted(Colour::kYellow, kRelaxingMark) << " still relaxing: no steady state yet, "
+                  << "run it longer (-s time.measure=...)\n";
+    }
+    std::string left_out;
+    for (const std::string& title : table.left_out(console.width)) left_out += (left_out.empty() ? "" : ", ") + title;
+    if (!left_out.empty()) {
+      console.err << fmt::format("no room for {} (--columns FIELD,... chooses, --csv has all)\n", left_out);
+    }
+  }
+
+  template <class AddColumn>
+  void add_default_columns(const std::vector<ResultRow>& rows, const AddColumn& add_column) const {
+    const auto any = [&rows](auto holds) { return std::any_of(rows.begin(), rows.end(), holds); };
+    if (!aggregate_) {
+      add_column("JOB", "job", 0);
+      const bool all_done = !any([](const ResultRow& row) { return row.state != "done"; });
+      add_column("STATE", "state", all_done ? 3 : 0);
+    }
+    for (const std::string& path : swept_parameters(rows)) add_column(path, path, 0);
+    if (aggregate_) {
+      for (const auto& [title, field, rank] : kAggregateColumns) add_column(title, field, rank);
+      return;
+    }
+    if (any([](const ResultRow& row) { return row.number("replica") > 1; })) add_column("REPLICA", "replica", 1);
+    for (const auto& [title, field, rank] : kColumns) add_column(title, field, rank);
   }
 
   std::string id_;
   std::vector<std::string> where_;
+  std::string columns_;
   bool aggregate_ = false;
   bool csv_ = false;
   bool json_ = false;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include "client/process.h"
 #include "client/verbs/verbs.h"
 
@@ -13,7 +15,8 @@ class Run : public Verb {
             "  shaken run scene.json --out runs/dilute -s rods.area_fraction=0.5 -s time.measure=5\n"
             "  shaken run large.json --out runs/large --threads 2\n"
             "  shaken run scene.json --out runs/first        goes on from the last checkpoint\n"
-            "  shaken plot runs/first && shaken movie runs/first"};
+            "  shaken plot runs/first && shaken movie runs/first\n"
+            "Exit codes: 0 done, 1 failed, 2 bad input, 99 stopped by Ctrl-C or a signal after a checkpoint."};
   }
 
   void declare(Arguments& arguments) override {
@@ -25,17 +28,25 @@ class Run : public Verb {
   }
 
   ExitCode run(const Context&) override {
-    if (out_.empty()) throw Failure(ExitCode::kBadInput, "run needs a directory to write to: --out DIR");
+    std::string problems;
+    if (out_.empty()) problems += "run needs a directory to write to: --out DIR\n";
+    if (threads_ && (*threads_ < 1 || *threads_ > 64)) {
+      problems += fmt::format("--threads takes a number from 1 to 64, not {}\n", *threads_);
+    }
+    if (!problems.empty()) {
+      problems.pop_back();
+      throw Failure(ExitCode::kBadInput, problems);
+    }
     std::vector<std::string> command{sibling_program("shaken-worker").string(), scene_, "--out", out_};
     for (const std::string& setting : settings_) command.insert(command.end(), {"-s", setting});
-    if (!threads_.empty()) command.insert(command.end(), {"--threads", threads_});
+    if (threads_) command.insert(command.end(), {"--threads", std::to_string(*threads_)});
     become(command);
   }
 
  private:
   std::string scene_;
   std::string out_;
-  std::string threads_;
+  std::optional<int> threads_;
   std::vector<std::string> settings_;
 };
 

@@ -25,6 +25,7 @@ class Submit : public Verb {
             "  shaken submit scene.json\n"
             "  shaken submit scene.json -s rods.length=2.5,3.5,4.5 -s rods.area_fraction=0.55:0.75:0.05\n"
             "  shaken submit sweep.json --replicas 4 --name phases\n"
+            "  shaken submit urgent.json --priority 10      starts before all that waits\n"
             "  shaken submit sweep.json --dry-run           only checks, shows the points and what they would cost\n"
             "  shaken submit scene.json --wait && shaken results"};
   }
@@ -35,6 +36,7 @@ class Submit : public Verb {
                          "Change one value, or sweep it: VALUE,VALUE or FROM:TO:STEP; repeatable");
     arguments.option("--replicas", replicas_, "N", "Runs of each point, each with a seed of its own");
     arguments.option("--name", name_, "NAME", "Of the sweep; the file's name if left out");
+    arguments.option("--priority", priority_, "N", "Jobs of a higher priority start first; 0 if left out");
     arguments.flag("--dry-run", dry_run_,
                    "Check everything, show the points and what they would cost, but queue nothing");
     arguments.flag("--no-probe", no_probe_, "With --dry-run: leave out the costs, which have to be measured");
@@ -55,6 +57,7 @@ class Submit : public Verb {
     Json request{{"text", input.text}, {"file", input.file}, {"settings", settings_}};
     if (replicas_) request["replicas"] = *replicas_;
     if (!name_.empty()) request["name"] = name_;
+    if (priority_) request["priority"] = *priority_;
     Session session(context.root);
     const Json answer = session.post("/v1/sweeps", request);
     if (json_) {
@@ -89,7 +92,9 @@ class Submit : public Verb {
                   << std::flush;
     }
     if (!no_probe_) {
-      const Estimate estimate = estimate_cost(sweep, {});
+      EstimateOptions options;
+      options.on_probe = probe_progress(console);
+      const Estimate estimate = estimate_cost(sweep, options);
       json["estimate"] = estimate_json(estimate);
       if (!json_) console.out << "\nOn this machine, on one core:\n" << estimate_text(estimate, console.width);
     }
@@ -136,6 +141,7 @@ class Submit : public Verb {
   std::vector<std::string> settings_;
   std::optional<int> replicas_;
   std::string name_;
+  std::optional<int> priority_;
   bool dry_run_ = false;
   bool no_probe_ = false;
   bool wait_ = false;

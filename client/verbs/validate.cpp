@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <map>
+
 #include "client/print.h"
 #include "client/scene_input.h"
 #include "client/target.h"
 #include "client/verbs/verbs.h"
 #include "scene/canonical.h"
+#include "scene/placement.h"
 
 namespace shaken::client {
 namespace {
@@ -19,7 +22,10 @@ class Validate : public Verb {
             "  shaken validate scene.json\n"
             "  shaken validate sweep.json -s rods.length=2.5,3.5,4.5 --replicas 3\n"
             "  shaken validate scene.json --resolved     every value, defaults filled in\n"
-            "  shaken validate scene.json --json         problems or derived quantities, for programs"};
+            "  shaken validate scene.json --json         problems, or what follows, for programs\n"
+            "\nThe rods are placed, to see whether they fit. A remark is of what is allowed but hardly meant; the exit "
+            "code is "
+            "0 all the same."};
   }
 
   void declare(Arguments& arguments) override {
@@ -33,7 +39,7 @@ class Validate : public Verb {
   ExitCode run(const Context& context) override {
     const SceneInput input = read_scene_input(file_);
     Console& console = context.console;
-    const auto loaded = scene::load_sweep(input.text, input.file, settings_, replicas_);
+    const auto loaded = scene::load_runs(input.text, input.file, settings_, replicas_);
     if (!loaded.value) {
       if (!json_) throw Failure(ExitCode::kBadInput, refusal_text(loaded.problems));
       print_problems(loaded.problems, console);
@@ -84,7 +90,8 @@ class Validate : public Verb {
   }
 
   void print_summary(const std::vector<scene::SweepPoint>& points, Console& console) const {
-    console.out << fmt::format("{} {}: {}\n", file_, console.painted(Colour::kGreen, "is fine"),
+    console.out << fmt::format("{} {}: {}\n", file_ == "-" ? "stdin" : file_,
+                               console.painted(Colour::kGreen, "is fine"),
                                points.size() == 1 ? "one run" : fmt::format("{} runs", points.size()));
     Table table({{"RUN"},
                  {"RODS", Align::kRight},
@@ -95,16 +102,33 @@ class Validate : public Verb {
                  {"TICKS", Align::kRight},
                  {"FRAMES", Align::kRight},
                  {"POINT"}});
+    std::map<std::string, std::size_t> remarks;
     for (const scene::SweepPoint& point : points) {
       const Json derived = derived_quantities(point);
       const auto number = [&derived](const char* key) {
         return derived.at(key).is_null() ? "-" : number_text(derived.at(key).get<double>());
       };
-      table.add_row({short_id(derived.at("id").get<std::string>()), number("n_rods"), number("area_fraction"),
-                     number("gamma"), number("amplitude_mm"), number("sim_seconds"), number("ticks"),
-                     number("trajectory_frames"), point.label});
+      table.add_row({short_id(derived.at("id").get<std::string>()), of_kinds(derived, "n_rods", "count"),
+                     of_kinds(derived, "area_fraction", "area_fraction"), number("gamma"), number("amplitude_mm"),
+                     number("sim_seconds"), number("ticks"), number("trajectory_frames"), point.label});
+      for (const Json& remark : derived.at("remarks")) ++remarks[remark.get<std::string>()];
     }
     console.out << table.text(console.width);
+    for (const auto& [remark, count] : remarks) {
+      console.out << fmt::format("{}: {}{}\n", console.painted(Colour::kYellow, "remark"), remark,
+                                 points.size() == 1 ? "" : fmt::format(" (in {} of {} runs)", count, points.size()));
+    }
+  }
+
+  /// "0.7" of one kind of rod; "0.7 = 0.5 + 0.2" of several.
+  static std::string of_kinds(const Json& derived, const char* total, const char* of_each) {
+    std::string text = number_text(derived.at(total).get<double>());
+    const Json& kinds = derived.at("kinds");
+    if (kinds.size() == 1) return text;
+    for (const Json& kind : kinds) {
+      text += (&kind == &kinds.front() ? " = " : " + ") + number_text(kind.at(of_each).get<double>());
+    }
+    return text;
   }
 
   std::string file_;

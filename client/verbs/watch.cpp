@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <map>
 
@@ -41,7 +42,7 @@ class Watch : public Verb {
  public:
   VerbInfo info() const override {
     return {"watch", kControlGroup, "Live: S(t), progress, collisions, defects, time to the end",
-            "  shaken watch                  the newest sweep\n"
+            "  shaken watch                  all that is queued or runs, of any sweep; else the newest sweep\n"
             "  shaken watch 1f0c             one job\n"
             "  shaken watch s3 --for 60      leaves after a minute; the jobs go on\n"
             "  shaken watch s3 | tee log     a line per second and job, where stdout is no terminal\n"
@@ -49,7 +50,7 @@ class Watch : public Verb {
   }
 
   void declare(Arguments& arguments) override {
-    arguments.optional("ID", id_, "A sweep (id or name) or a job; the newest sweep if left out", Names::kId);
+    arguments.optional("ID", id_, "A sweep (id or name) or a job; all that runs if left out", Names::kId);
     arguments.option("--for", seconds_, "SECONDS", "Leave after this time");
     arguments.option("--every", every_, "SECONDS", "Between lines, where stdout is no terminal; 1 if left out");
     arguments.option("--lcm-url", lcm_url_, "URL", "The bus; the daemon's if left out");
@@ -61,9 +62,15 @@ class Watch : public Verb {
       throw Failure(ExitCode::kBadInput, "--every takes seconds between 0 and 86400");
     }
     Session session(context.root);
-    Target target = find_target_or_newest(session, id_);
+    std::vector<Target> targets;
+    if (!id_.empty()) {
+      targets.push_back(find_target(session, id_));
+    } else {
+      add_unfinished_sweeps(session, targets);
+      if (targets.empty()) targets.push_back(find_target_or_newest(session, ""));
+    }
     LiveJobs jobs;
-    for (const Json& job : jobs_of(target)) jobs.note_api(job);
+    note(targets, jobs);
 
     const proto::Bus::Opened opened = open_bus(session);
     if (opened) {
@@ -76,16 +83,40 @@ class Watch : public Verb {
     }
 
     if (!opened && !console.interactive) console.err << source_note(jobs, opened, {}) << "\n";
+    const InterruptGuard guard;
     {
-      const InterruptGuard guard;
       ScreenPage page(console);
-      follow(session, target, jobs, opened, guard, page, console);
+      follow(session, targets, jobs, opened, guard, page, console);
     }
     for (const LiveJob& job : jobs.jobs()) console.out << watch_line(job) << "\n";
-    return ExitCode::kOk;
+    return guard.interrupted() ? ExitCode::kInterrupted : ExitCode::kOk;
   }
 
  private:
+  /// Adds the sweeps that have a job to be waited for and are not among `targets` yet, in the order submitted.
+  static void add_unfinished_sweeps(Session& session, std::vector<Target>& targets) {
+    const Json answer = session.get("/v1/sweeps");
+    for (const Json& sweep : answer.at("sweeps")) {
+      const std::string id = sweep.at("id").get<std::string>();
+      const Json& counts = sweep.at("counts");
+      if (counts.value("queued", 0) + counts.value("running", 0) + counts.value("stopping", 0) == 0) continue;
+      const bool is_known =
+          std::any_of(targets.begin(), targets.end(), [&](const Target& t) { return t.sweep_id() == id; });
+      if (!is_known) targets.push_back(find_target(session, id));
+    }
+  }
+
+  static void note(const std::vector<Target>& targets, LiveJobs& jobs) {
+    for (const Target& target : targets) {
+      for (const Json& job : jobs_of(target)) jobs.note_api(job);
+    }
+  }
+
+  static std::string title_of(const std::vector<Target>& targets) {
+    if (targets.size() == 1) return targets.front().title();
+    return fmt::format("{} sweeps", targets.size());
+  }
+
   proto::Bus::Opened open_bus(Session& session) const {
     std::string url = lcm_url_;
     if (url.empty()) {
@@ -97,7 +128,7 @@ class Watch : public Verb {
   }
 
   /// Until the jobs have ended, the time is over, Ctrl-C, or nobody reads any more.
-  void follow(Session& session, Target& target, LiveJobs& jobs, const proto::Bus::Opened& opened,
+  void follow(Session& session, std::vector<Target>& targets, LiveJobs& jobs, const proto::Bus::Opened& opened,
               const InterruptGuard& guard, ScreenPage& page, Console& console) const {
     static constexpr std::chrono::seconds kAskEvery{1};
     static constexpr std::chrono::seconds kDaemonMayBeAway{10};
@@ -114,8 +145,9 @@ class Watch : public Verb {
       if (now >= next_question) {
         next_question = now + kAskEvery;
         try {
-          refresh(session, target);
-          for (const Json& job : jobs_of(target)) jobs.note_api(job);
+          for (Target& target : targets) refresh(session, target);
+          if (id_.empty()) add_unfinished_sweeps(session, targets);
+          note(targets, jobs);
           last_answer = now;
         } catch (const Failure& failure) {
           if (failure.code != ExitCode::kNoDaemon || now - last_answer > kDaemonMayBeAway) throw;
@@ -127,7 +159,7 @@ class Watch : public Verb {
         next_drawing = now + redraw_every;
         if (console.interactive) {
           console.refresh_size();
-          page.show(watch_screen(jobs, target.title(), source_note(jobs, opened, now - start), console));
+          page.show(watch_screen(jobs, title_of(targets), source_note(jobs, opened, now - start), console));
         } else if (!over) {
           for (const LiveJob& job : jobs.jobs()) {
             // Jobs that wait or have ended are worth a line when that changes.

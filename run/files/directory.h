@@ -21,7 +21,6 @@ struct RunDirectory {
   std::filesystem::path previous_checkpoint() const { return root / "checkpoint.prev.bin"; }
   std::filesystem::path trouble() const { return root / "trouble.json"; }
   std::filesystem::path log() const { return root / "worker.log"; }
-  std::filesystem::path frames() const { return root / "frames"; }
   std::filesystem::path movie() const { return root / "movie.mp4"; }
   std::filesystem::path lock() const { return root / "lock"; }
 };

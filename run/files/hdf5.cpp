@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "run/files/version.h"
+
 namespace shaken::run::hdf5 {
 namespace {
 
@@ -147,6 +149,20 @@ void write_attribute(hid_t where, const std::string& name, const std::vector<std
   std::vector<const char*> pointers;
   for (const auto& value : values) pointers.push_back(value.c_str());
   put_attribute(where, name, text_type(true, 0), simple_space({values.size()}), pointers.data());
+}
+
+void write_free_text_attribute(hid_t where, const std::string& name, const std::string& value) {
+  const char* text = value.c_str();
+  put_attribute(where, name, text_type(true, 0), scalar_space(), &text);
+}
+
+void write_unit(hid_t dataset, const std::string& unit) { write_free_text_attribute(dataset, "unit", unit); }
+
+void write_provenance(hid_t file, const Provenance& provenance) {
+  if (provenance.run_id.empty()) return;
+  write_free_text_attribute(file, "run_id", provenance.run_id);
+  write_attribute(file, "seed", H5T_NATIVE_UINT64, {}, &provenance.seed);
+  write_free_text_attribute(file, "shaken_version", version());
 }
 
 void write_attribute(hid_t where, const std::string& name, hid_t type, const Shape& extent, const void* values) {

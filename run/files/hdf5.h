@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "run/files/provenance.h"
+
 /// The little of HDF5's C interface that Shaken uses, with owners and exceptions. The exceptions do not leave
 /// run/files.
 namespace shaken::run::hdf5 {
@@ -79,10 +81,18 @@ std::vector<T> read_vector(hid_t dataset, hid_t type);
 
 void write_attribute(hid_t where, const std::string& name, const std::string& value);
 void write_attribute(hid_t where, const std::string& name, const std::vector<std::string>& values);
+/// A text of any length, which Python's h5py reads as str and MDAnalysis as a unit; it takes a text of fixed length,
+/// which H5MD asks for, for bytes.
+void write_free_text_attribute(hid_t where, const std::string& name, const std::string& value);
+/// The attribute `unit` of a data set, as H5MD's module "units" writes it: "mm s-1"; "1" where there is none.
+void write_unit(hid_t dataset, const std::string& unit);
 void write_attribute(hid_t where, const std::string& name, hid_t type, const Shape& shape, const void* values);
 void read_attribute(hid_t where, const std::string& name, hid_t type, void* value);
 /// A string of fixed length, as write_attribute makes it.
 std::string read_text_attribute(hid_t where, const std::string& name);
+
+/// Nothing if there is no run.
+void write_provenance(hid_t file, const Provenance& provenance);
 
 void write_string(hid_t where, const std::string& name, const std::string& value);
 std::string read_string(hid_t where, const std::string& name);

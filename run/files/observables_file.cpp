@@ -3,12 +3,14 @@
 
 #include "run/files/atomic_file.h"
 #include "run/files/hdf5.h"
+#include "run/files/units.h"
 
 namespace shaken::run {
 namespace {
 
-void write_arrays(const std::filesystem::path& file, const Observables& arrays) {
+void write_arrays(const std::filesystem::path& file, const Observables& arrays, const Provenance& provenance) {
   hdf5::Id out = hdf5::create_file(file);
+  hdf5::write_provenance(out, provenance);
   const hdf5::Id links(hdf5::check(H5Pcreate(H5P_LINK_CREATE), "prepare groups"), H5Pclose);
   hdf5::check(H5Pset_create_intermediate_group(links, 1), "prepare groups");
   for (const auto& [path, values] : arrays) {
@@ -19,6 +21,7 @@ void write_arrays(const std::filesystem::path& file, const Observables& arrays) 
           hdf5::check(H5Gcreate2(out, folder.c_str(), links, H5P_DEFAULT, H5P_DEFAULT), "create " + folder), H5Gclose);
     }
     hdf5::write_dataset(out, path, H5T_NATIVE_DOUBLE, {values.size()}, values.data());
+    hdf5::write_unit(hdf5::open_dataset(out, path), unit_of_name(path));
   }
   hdf5::check(H5Fflush(out, H5F_SCOPE_GLOBAL), "write the file");
   out.close("finish the file");
@@ -42,11 +45,12 @@ herr_t collect(hid_t root, const char* name, const H5O_info_t* info, void* conte
 
 }  // namespace
 
-std::optional<Error> write_observables(const std::filesystem::path& file, const Observables& arrays) {
+std::optional<Error> write_observables(const std::filesystem::path& file, const Observables& arrays,
+                                       const Provenance& provenance) {
   hdf5::be_quiet();
   const std::filesystem::path temporary = temporary_for(file);
   try {
-    write_arrays(temporary, arrays);
+    write_arrays(temporary, arrays, provenance);
   } catch (const hdf5::Failure& failure) {
     std::error_code ignored;
     std::filesystem::remove(temporary, ignored);

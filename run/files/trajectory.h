@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "run/files/provenance.h"
 #include "sim/core/bead_row.h"
 #include "sim/core/result.h"
 #include "sim/scene.h"
@@ -28,6 +29,7 @@ struct TrajectoryHeader {
   std::vector<BeadRow> added_beads{};  ///< of the other kinds of rods
   std::vector<std::uint8_t> kinds{};   ///< (n_rods) kind of each rod, from 0; empty if there is one
   std::optional<SideWalls> walls{};    ///< of the arena, if there are any
+  Provenance provenance{};             ///< written, not read back
 };
 
 /// One recorded frame: positions wrapped into the box, float32 in the file.
@@ -43,7 +45,8 @@ struct TrajectoryFrame {
 /// Writes trajectory.h5 in H5MD (de Buyl, Colberg, Hoefling 2014): /particles/trajectory/{position, image, velocity,
 /// orientation, box}, where orientation is the unit quaternion (w, x, y, z) that turns z into the director; with
 /// several kinds of rods also H5MD's fixed element `species`, the kind of each rod from 0, whose beads stand in
-/// /parameters and /parameters/species_2, species_3. Side walls are the attributes of /parameters/walls. A frame is
+/// /parameters and /parameters/species_2, species_3. Side walls are the attributes of /parameters/walls. Units are
+/// those of H5MD's module "units", in the attribute `unit` of each data set (docs/files.md). A frame is
 /// with the operating system when `append` returns; a torn last frame is left out by the reader and trimmed on
 /// reopening. Chunks carry checksums. No SWMR: a killed SWMR file cannot be opened without repair.
 class TrajectoryWriter {

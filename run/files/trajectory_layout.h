@@ -12,8 +12,8 @@
 #include "sim/scene.h"
 
 /// What writer and reader of trajectory.h5 both know of the file. The shape of it follows what readers in use accept:
-/// MDAnalysis 2.4 wants time-dependent (frames, 3, 3) box edges and an explicit step array, and refuses a length unit
-/// that it does not know; units therefore stand in /parameters/units.
+/// MDAnalysis 2.4 wants time-dependent (frames, 3, 3) box edges and an explicit step array; it knows no millimetre
+/// until it is told (docs/files.md).
 namespace shaken::run::trajectory_layout {
 
 inline constexpr const char* kGroup = "/particles/trajectory";

@@ -28,11 +28,17 @@ void write_h5md_group(hid_t file) {
   const hdf5::Id creator = hdf5::create_group(h5md, "creator");
   hdf5::write_attribute(creator, "name", "Shaken");
   hdf5::write_attribute(creator, "version", version());
+  const hdf5::Id units = hdf5::create_group(hdf5::create_group(h5md, "modules"), "units");
+  const std::array<int, 2> units_version{1, 0};
+  hdf5::write_attribute(units, "version", H5T_NATIVE_INT, {2}, units_version.data());
+  hdf5::write_attribute(units, "system", "SI");
 }
 
 void write_beads(hid_t where, const std::vector<double>& offset, const std::vector<double>& radius) {
-  hdf5::write_dataset(where, "bead_offset_mm", H5T_NATIVE_DOUBLE, {offset.size()}, offset.data());
-  hdf5::write_dataset(where, "bead_radius_mm", H5T_NATIVE_DOUBLE, {radius.size()}, radius.data());
+  for (const auto& [name, values] : {std::pair{"bead_offset_mm", &offset}, {"bead_radius_mm", &radius}}) {
+    hdf5::write_dataset(where, name, H5T_NATIVE_DOUBLE, {values->size()}, values->data());
+    hdf5::write_unit(hdf5::open_dataset(where, name), "mm");
+  }
 }
 
 void write_walls(hid_t file, const SideWalls& walls) {
@@ -54,10 +60,6 @@ void write_parameters(hid_t file, const TrajectoryHeader& header) {
   hdf5::write_attribute(parameters, "dt_s", H5T_NATIVE_DOUBLE, {}, &header.dt);
   write_beads(parameters, header.bead_offset, header.bead_radius);
   hdf5::write_string(parameters, "scene_json", header.scene_json);
-  const hdf5::Id units = hdf5::create_group(parameters, "units");
-  for (const auto& [quantity, unit] : {std::pair{"length", "mm"}, {"time", "s"}, {"velocity", "mm/s"}}) {
-    hdf5::write_attribute(units, quantity, unit);
-  }
   for (std::size_t k = 0; k < header.added_beads.size(); ++k) {
     const hdf5::Id group = hdf5::create_group(file, trajectory_layout::added_beads(k));
     write_beads(group, header.added_beads[k].offset, header.added_beads[k].radius);
@@ -91,6 +93,12 @@ void write_particles(hid_t file, const TrajectoryHeader& header) {
   hdf5::create_growing(trajectory, "velocity/value", H5T_NATIVE_FLOAT, {n_rods, 3}, 1, true);
   hdf5::create_growing(trajectory, "orientation/value", H5T_NATIVE_FLOAT, {n_rods, 4}, 1, true);
   hdf5::create_growing(trajectory, "box/edges/value", H5T_NATIVE_DOUBLE, {3, 3}, kSmallRows, false);
+  for (const auto& [dataset, unit] : {std::pair{"position/time", "s"},
+                                      {"position/value", "mm"},
+                                      {"velocity/value", "mm s-1"},
+                                      {"box/edges/value", "mm"}}) {
+    hdf5::write_unit(hdf5::open_dataset(trajectory, dataset), unit);
+  }
   for (const char* element : trajectory_layout::kElements) {
     const std::string group = std::string(trajectory_layout::kGroup) + "/" + element;
     if (group + "/step" == trajectory_layout::kStep) continue;
@@ -181,6 +189,7 @@ Result<TrajectoryWriter> TrajectoryWriter::create(const std::filesystem::path& f
   hdf5::be_quiet();
   try {
     hdf5::Id out = hdf5::create_file(file);
+    hdf5::write_provenance(out, header.provenance);
     write_h5md_group(out);
     write_parameters(out, header);
     write_particles(out, header);

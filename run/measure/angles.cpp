@@ -24,10 +24,13 @@ class MeasuredAngles : public Measurement {
     const auto peaks = block_estimates(angles_, result.t_steady, [](const analysis::AngleDistribution& angles) {
       constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
       const std::optional<analysis::TwoPeaks> found = analysis::fit_two_peaks(angles.reduce());
-      return found ? std::vector<double>{found->theta_m * 180 / kPi, found->dip} : std::vector<double>{kNone, kNone};
+      if (!found) return std::vector<double>{kNone, kNone, kNone};
+      return std::vector<double>{found->theta_m * 180 / kPi, found->dip, found->maximum * 180 / kPi};
     });
     const Scalar& dip = peaks[1];
-    result.scalars["theta_m_deg"] = analysis::are_two({dip.value, dip.sem}) ? peaks[0] : Scalar{};
+    const bool two = analysis::are_two({dip.value, dip.sem});
+    result.scalars["theta_m_deg"] = two ? peaks[0] : Scalar{};
+    result.scalars["theta_m_maximum_deg"] = two ? peaks[2] : Scalar{};
     result.scalars["dip"] = dip;
   }
   void save(analysis::StateWriter& writer) const override { angles_.save(writer); }

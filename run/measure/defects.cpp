@@ -7,7 +7,6 @@
 #include "analysis/director_field.h"
 #include "run/measure/estimates.h"
 #include "run/measure/registry.h"
-#include "sim/effects/side_walls.h"
 
 namespace shaken::run {
 
@@ -15,9 +14,9 @@ namespace {
 
 analysis::DefectTracks::Settings track_settings(const MeasureContext& context) {
   const Scene& system = context.plan.system;
-  const double area = system.walls ? system.walls->area() : system.box_side * system.box_side;
-  return {system.box_side, area, context.interval, system.rod.length, context.plan.defects->min_lifetime,
-          !system.walls};
+  const analysis::Region region(system.box_side, system.walls);
+  return {region.box_side(),   region.area(), context.interval, system.rod.length, context.plan.defects->min_lifetime,
+          region.is_periodic()};
 }
 
 void put_tracks(const analysis::TrackSummary::Tracks& tracks, const std::string& folder, const std::string& prefix,
@@ -44,22 +43,18 @@ void put_tracks(const analysis::TrackSummary::Tracks& tracks, const std::string&
 }  // namespace
 
 MeasuredDefects::MeasuredDefects(const MeasureContext& context)
-    : walls_(context.plan.system.walls), series_(context.plan.defects->list), tracks_(track_settings(context)) {
+    : region_(context.plan.system.box_side, context.plan.system.walls),
+      series_(context.plan.defects->list),
+      tracks_(track_settings(context)) {
   const double length = context.plan.system.rod.length;
   smoothing_ = context.plan.defects->smoothing > 0 ? context.plan.defects->smoothing : length / 2;
   mesh_ = context.plan.defects->grid > 0 ? context.plan.defects->grid : length / 8;
 }
 
 void MeasuredDefects::sample(const Moment& moment) {
-  const analysis::DirectorField field(moment->position, moment->director, moment->box_side,
-                                      analysis::grid_nodes(moment->box_side, mesh_), smoothing_);
+  const analysis::DirectorField field(moment->position, moment->director, region_,
+                                      analysis::grid_nodes(region_.box_side(), mesh_), smoothing_);
   std::vector<analysis::Defect> defects = analysis::find_defects(field);
-  if (walls_) {  // beyond them there are no rods to have any
-    std::erase_if(defects, [&](const analysis::Defect& defect) {
-      const Vec3 place(defect.position.x(), defect.position.y(), 0);
-      return distance_to_walls(*walls_, moment->box_side, place) < 0;
-    });
-  }
   last_ = DefectSample{moment->tick, moment->time, smoothing_, std::move(defects)};
   tracks_.accumulate(moment->time, last_->defects);
   series_.accumulate(moment->time, last_->defects, tracks_.ids());

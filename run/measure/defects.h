@@ -6,6 +6,7 @@
 
 #include "analysis/defect_series.h"
 #include "analysis/defect_tracks.h"
+#include "analysis/region.h"
 #include "run/measure/measurement.h"
 
 namespace shaken::run {
@@ -31,7 +32,7 @@ class MeasuredDefects : public Measurement {
   const std::optional<DefectSample>& last() const { return last_; }
 
  private:
-  std::optional<SideWalls> walls_;
+  analysis::Region region_;
   double smoothing_;  ///< [mm]
   double mesh_;       ///< of the field's grid, at most [mm]
   analysis::DefectSeries series_;

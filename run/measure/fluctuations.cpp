@@ -7,7 +7,7 @@
 #include "analysis/number_fluctuations.h"
 #include "run/measure/estimates.h"
 #include "run/measure/registry.h"
-#include "sim/effects/side_walls.h"
+#include "sim/motion/side_walls.h"
 
 namespace shaken::run {
 namespace {
@@ -23,8 +23,14 @@ class MeasuredFluctuations : public Measurement {
     result.arrays["/fluctuations/mean_n"] = curve.mean_n;
     put(result, "/fluctuations/std_n", "", curve.std_n);
     put(result, "/fluctuations/std_n_without_map", "", curve.std_n_without_map);
-    result.scalars["fluctuation_exponent"] = scalar(curve.exponent);
-    result.scalars["fluctuation_exponent_without_map"] = scalar(curve.exponent_without_map);
+    result.scalars["fluctuation_sizes"].value = static_cast<double>(curve.fitted);
+    // In an arena boxes that lie within are fewer still.
+    const char* reason = curve.fitted < analysis::NumberFluctuations::kMinSizes
+                             ? "fewer than three sizes of boxes hold two rod lengths: a periodic box of at least eight "
+                               "rod lengths has them"
+                             : "the numbers do not vary";
+    result.scalars["fluctuation_exponent"] = scalar_or(curve.exponent, reason);
+    result.scalars["fluctuation_exponent_without_map"] = scalar_or(curve.exponent_without_map, reason);
   }
   void save(analysis::StateWriter& writer) const override { counts_.save(writer); }
   void restore(analysis::StateReader& reader) override { counts_.restore(reader); }
@@ -46,7 +52,8 @@ std::unique_ptr<Measurement> make_fluctuations(const MeasureContext& context) {
       return distance_to_walls(walls, box, Vec3(centre.x(), centre.y(), 0)) >= to_the_corner;
     };
   }
-  return std::make_unique<MeasuredFluctuations>(analysis::NumberFluctuations(system.box_side, area, counts));
+  return std::make_unique<MeasuredFluctuations>(
+      analysis::NumberFluctuations(system.box_side, area, 2 * system.rod.length, counts));
 }
 
 }  // namespace shaken::run

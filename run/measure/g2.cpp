@@ -2,6 +2,8 @@
 #include "analysis/g2.h"
 
 #include "analysis/blocked.h"
+#include "analysis/region.h"
+#include "run/measure/estimates.h"
 #include "run/measure/registry.h"
 
 namespace shaken::run {
@@ -9,28 +11,40 @@ namespace {
 
 class MeasuredG2 : public Measurement {
  public:
-  MeasuredG2(int bins, double r_max) : g2_(analysis::OrientationCorrelation(bins, r_max)) {}
+  MeasuredG2(int bins, const analysis::Region& region)
+      : region_(region), g2_(analysis::OrientationCorrelation(bins, region.box_side() / 2)) {}
 
   void sample(const Moment& moment) override {
-    g2_.accumulate(moment->time, moment->position, moment->director, moment->box_side);
+    g2_.accumulate(moment->time, moment->position, moment->director, region_);
   }
   void reduce(Reduction& result) const override {
-    const analysis::OrientationCurve curve = g2_.after(result.t_steady).reduce();
-    result.arrays["/g2/r_mm"] = curve.r;
-    result.arrays["/g2/g2"] = curve.g2;
-    result.arrays["/g2/g"] = curve.g;
+    result.arrays["/g2/r_mm"] = g2_.empty().reduce().r;
+    // Both curves one behind the other.
+    const auto numbers = block_estimates(g2_, result.t_steady, [](const analysis::OrientationCorrelation& part) {
+      analysis::OrientationCurve curve = part.reduce();
+      curve.g2.insert(curve.g2.end(), curve.g.begin(), curve.g.end());
+      return curve.g2;
+    });
+    analysis::EstimateCurve g2, g;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      (i < numbers.size() / 2 ? g2 : g).push_back({numbers[i].value, numbers[i].sem});
+    }
+    put(result, "/g2/g2", "", g2);
+    put(result, "/g2/g", "", g);
   }
   void save(analysis::StateWriter& writer) const override { g2_.save(writer); }
   void restore(analysis::StateReader& reader) override { g2_.restore(reader); }
 
  private:
+  analysis::Region region_;
   analysis::Blocked<analysis::OrientationCorrelation> g2_;
 };
 
 }  // namespace
 
 std::unique_ptr<Measurement> make_g2(const MeasureContext& context) {
-  return std::make_unique<MeasuredG2>(context.plan.g2->bins, context.plan.system.box_side / 2);
+  const Scene& system = context.plan.system;
+  return std::make_unique<MeasuredG2>(context.plan.g2->bins, analysis::Region(system.box_side, system.walls));
 }
 
 }  // namespace shaken::run

@@ -31,7 +31,9 @@ class MeasuredLayers : public Measurement {
     });
     const auto with_steps = [&](const Scalar& of_blocks, double step) -> Scalar {
       if (!peak->stands_out()) return {};  // there are no layers to have a wavelength
-      return {of_blocks.value, std::hypot(of_blocks.sem, step / std::sqrt(12.0))};
+      Scalar scalar = of_blocks;
+      scalar.sem = std::hypot(of_blocks.sem, step / std::sqrt(12.0));
+      return scalar;
     };
     result.scalars["wavelength_mm"] = with_steps(found[0], peak->wavelength * peak->wavelength / box_side_);
     result.scalars["layers_per_box"] = with_steps(found[1], 1);

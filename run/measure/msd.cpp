@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "analysis/msd.h"
 
+#include <cmath>
 #include <optional>
 
 #include "analysis/steady.h"
@@ -9,6 +10,11 @@
 
 namespace shaken::run {
 namespace {
+
+Scalar read_off(const analysis::Estimate& estimate, const analysis::GrowthFit& fit) {
+  return scalar_or(estimate, std::isnan(fit.lag_from) ? "the run is too short: too few lags fit five times into it"
+                                                      : "nothing moves");
+}
 
 class MeasuredDisplacement : public Measurement {
  public:
@@ -29,22 +35,26 @@ class MeasuredDisplacement : public Measurement {
     put(result, "/msd/relative_along", "_mm2", curve.relative_along);
     put(result, "/msd/relative_across", "_mm2", curve.relative_across);
     put(result, "/msd/exponent", "", curve.exponent);
+    put(result, "/msd/d_total", "_mm2_s", curve.d_total);
+    put(result, "/msd/d_along", "_mm2_s", curve.d_along);
+    put(result, "/msd/d_across", "_mm2_s", curve.d_across);
     const analysis::Diffusion diffusion = msd_.diffusion(from);
-    result.scalars["diffusion_mm2_s"] = scalar(diffusion.d_long);
-    result.scalars["diffusion_short_mm2_s"] = scalar(diffusion.d_short);
-    result.scalars["diffusion_along_mm2_s"] = scalar(diffusion.d_along);
-    result.scalars["diffusion_across_mm2_s"] = scalar(diffusion.d_across);
-    result.scalars["diffusion_relative_mm2_s"] = scalar(diffusion.d_relative);
-    result.scalars["alpha_short"] = scalar(diffusion.total.at_short.exponent);
-    result.scalars["alpha_long"] = scalar(diffusion.total.at_long.exponent);
-    result.scalars["alpha_along_short"] = scalar(diffusion.along.at_short.exponent);
-    result.scalars["alpha_along_long"] = scalar(diffusion.along.at_long.exponent);
-    result.scalars["alpha_across_short"] = scalar(diffusion.across.at_short.exponent);
-    result.scalars["alpha_across_long"] = scalar(diffusion.across.at_long.exponent);
-    result.scalars["diffusion_lag_from_s"] = {diffusion.total.at_long.lag_from};
-    result.scalars["diffusion_lag_to_s"] = {diffusion.total.at_long.lag_to};
-    result.scalars["diffusion_short_lag_from_s"] = {diffusion.total.at_short.lag_from};
-    result.scalars["diffusion_short_lag_to_s"] = {diffusion.total.at_short.lag_to};
+    const analysis::ShortAndLong &total = diffusion.total, &along = diffusion.along, &across = diffusion.across;
+    result.scalars["diffusion_mm2_s"] = read_off(diffusion.d_long, total.at_long);
+    result.scalars["diffusion_short_mm2_s"] = read_off(diffusion.d_short, total.at_short);
+    result.scalars["diffusion_along_mm2_s"] = read_off(diffusion.d_along, along.at_long);
+    result.scalars["diffusion_across_mm2_s"] = read_off(diffusion.d_across, across.at_long);
+    result.scalars["diffusion_relative_mm2_s"] = read_off(diffusion.d_relative, diffusion.relative.at_long);
+    result.scalars["alpha_short"] = read_off(total.at_short.exponent, total.at_short);
+    result.scalars["alpha_long"] = read_off(total.at_long.exponent, total.at_long);
+    result.scalars["alpha_along_short"] = read_off(along.at_short.exponent, along.at_short);
+    result.scalars["alpha_along_long"] = read_off(along.at_long.exponent, along.at_long);
+    result.scalars["alpha_across_short"] = read_off(across.at_short.exponent, across.at_short);
+    result.scalars["alpha_across_long"] = read_off(across.at_long.exponent, across.at_long);
+    result.scalars["diffusion_lag_from_s"] = {total.at_long.lag_from};
+    result.scalars["diffusion_lag_to_s"] = {total.at_long.lag_to};
+    result.scalars["diffusion_short_lag_from_s"] = {total.at_short.lag_from};
+    result.scalars["diffusion_short_lag_to_s"] = {total.at_short.lag_to};
   }
   void save(analysis::StateWriter& writer) const override { msd_.save(writer); }
   void restore(analysis::StateReader& reader) override { msd_.restore(reader); }

@@ -28,6 +28,14 @@ class MeasuredPairs : public Measurement {
     result.arrays["/pairs/cut/g_across"] = curves.g_across;
     result.arrays["/pairs/cut/g2_along"] = curves.g2_along;
     result.arrays["/pairs/cut/g2_across"] = curves.g2_across;
+    const auto errors = block_errors(pairs_, result.t_steady, [](const analysis::PairMap& part) {
+      const analysis::PairCurves cut = part.reduce();
+      return std::vector{cut.g_along, cut.g_across, cut.g2_along, cut.g2_across};
+    });
+    const char* const cuts[] = {"g_along", "g_across", "g2_along", "g2_across"};
+    for (std::size_t k = 0; k < std::size(cuts); ++k) {
+      result.arrays[std::string("/pairs/cut/") + cuts[k] + "_sem"] = errors[k];
+    }
     // Rods side by side make a ripple of their own width: smoothed over the strip, which is as wide, it is gone.
     const auto wavelength = block_estimates(pairs_, result.t_steady, [&](const analysis::PairMap& pairs) {
       constexpr double kNone = std::numeric_limits<double>::quiet_NaN();

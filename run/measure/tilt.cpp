@@ -5,6 +5,7 @@
 
 #include "analysis/blocked.h"
 #include "analysis/tilt_summary.h"
+#include "analysis/tilt_switches.h"
 #include "run/measure/estimates.h"
 #include "run/measure/largest_tilt.h"
 #include "run/measure/registry.h"
@@ -14,31 +15,45 @@ namespace {
 
 class MeasuredTilt : public Measurement {
  public:
-  MeasuredTilt(int bins, double n_z_max) : tilt_(analysis::TiltVelocity(bins, n_z_max)) {}
+  MeasuredTilt(int bins, double n_z_max) : tilt_(analysis::TiltVelocity(bins, n_z_max)), switches_(n_z_max / 2) {}
 
-  void sample(const Moment& moment) override { tilt_.accumulate(moment->time, moment->director, moment->velocity); }
+  void sample(const Moment& moment) override {
+    tilt_.accumulate(moment->time, moment->director, moment->velocity);
+    switches_.accumulate(moment->time, moment->director);
+  }
   void reduce(Reduction& result) const override {
-    const analysis::TiltCurve curve = tilt_.after(result.t_steady).reduce();
+    const std::vector<analysis::TiltVelocity> blocks = tilt_.parts_after(result.t_steady, analysis::kMostParts);
+    const analysis::TiltCurve curve = analysis::TiltVelocity::reduce(tilt_.empty(), blocks);
     result.arrays["/tilt/n_z"] = curve.n_z;
     result.arrays["/tilt/v_along_mm_s"] = curve.v_along;
     result.arrays["/tilt/v_along_sem_mm_s"] = curve.v_along_sem;
     result.arrays["/tilt/v_across_mm_s"] = curve.v_across;
     result.arrays["/tilt/v_across_sem_mm_s"] = curve.v_across_sem;
     result.arrays["/tilt/density"] = curve.density;
-    const analysis::FoldedTilt folded = analysis::fold_tilt(curve);
-    result.arrays["/tilt/folded/n_z"] = folded.n_z;
-    put(result, "/tilt/folded/v_along", "_mm_s", folded.v_along);
-    const analysis::TiltSummary summary = analysis::summarize_tilt(curve);
+    const analysis::TiltSummary summary = analysis::summarize_tilt(tilt_.empty(), blocks);
+    result.arrays["/tilt/folded/n_z"] = summary.folded.n_z;
+    put(result, "/tilt/folded/v_along", "_mm_s", summary.folded.v_along);
+    result.scalars["n_z_switching_time_s"] =
+        block_estimates(switches_.sums(), result.t_steady, [](const analysis::SwitchSums& sums) {
+          return std::vector<double>{analysis::TiltSwitches::switching_time(sums)};
+        })[0];
     result.scalars["tilt_fastest_mm_s"] = scalar(summary.v_largest);
-    result.scalars["tilt_fastest_n_z"] = {summary.n_z_largest};
-    result.scalars["tilt_reversal_n_z"] = {summary.n_z_zero};
+    result.scalars["tilt_fastest_n_z"] = scalar(summary.n_z_largest);
+    result.scalars["tilt_reversal_n_z"] = scalar(summary.n_z_zero);
     result.scalars["tilt_reversal_sigmas"] = {summary.zero_sigma};
   }
-  void save(analysis::StateWriter& writer) const override { tilt_.save(writer); }
-  void restore(analysis::StateReader& reader) override { tilt_.restore(reader); }
+  void save(analysis::StateWriter& writer) const override {
+    tilt_.save(writer);
+    switches_.save(writer);
+  }
+  void restore(analysis::StateReader& reader) override {
+    tilt_.restore(reader);
+    switches_.restore(reader);
+  }
 
  private:
   analysis::Blocked<analysis::TiltVelocity> tilt_;
+  analysis::TiltSwitches switches_;
 };
 
 }  // namespace

@@ -26,11 +26,21 @@ class MeasuredVelocity : public Measurement {
     put(result, "/velocity/c_v", "", curve.c_v);
     put(result, "/velocity/c_v_along", "", curve.along);
     put(result, "/velocity/c_v_across", "", curve.across);
+    put(result, "/velocity/product", "_mm2_s2", curve.product);
+    put(result, "/velocity/product_along", "_mm2_s2", curve.product_along);
+    put(result, "/velocity/product_across", "_mm2_s2", curve.product_across);
+    put(result, "/velocity/direction", "", curve.direction);
     const analysis::VelocitySummary summary = velocity_.summarize(from);
     result.scalars["velocity_correlation_s"] = scalar(summary.correlation_time);
     result.scalars["velocity_decay_s"] = scalar(summary.decay_time);
+    result.scalars["velocity_variance_along_mm2_s2"] = scalar(summary.mean_square_along);
+    result.scalars["velocity_variance_across_mm2_s2"] = scalar(summary.mean_square_across);
+    result.scalars["persistence_time_s"] = scalar(summary.persistence_time);
+    result.scalars["persistence_length_mm"] = scalar(summary.persistence_length);
     const double rms = std::sqrt(summary.mean_square.value);
-    result.scalars["velocity_rms_mm_s"] = {rms, summary.mean_square.sem / (2 * rms)};
+    Scalar& velocity_rms = result.scalars["velocity_rms_mm_s"] = scalar(summary.mean_square);
+    velocity_rms.value = rms;
+    velocity_rms.sem /= 2 * rms;
   }
   void save(analysis::StateWriter& writer) const override { velocity_.save(writer); }
   void restore(analysis::StateReader& reader) override { velocity_.restore(reader); }

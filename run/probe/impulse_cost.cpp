@@ -52,7 +52,7 @@ std::vector<Hit> hits_on(const World& world, Against what) {
   return hits;
 }
 
-/// One impulse as the inner loops give it (effects/phases.h).
+/// One impulse as the inner loops give it (stepping/phases.h).
 template <class Law>
 Motion after_hit(const Hit& hit, const ContactParameters& contact) {
   Motion motion = hit.motion;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "sim/core/natural_log.h"
 #include "sim/core/sincos.h"
 #include "sim/core/types.h"
 
@@ -20,12 +21,15 @@ enum class RngStream : std::uint64_t {
   kReferences = 7
 };
 
-/// Random numbers keyed by (seed, stream, index): what a rod draws depends on nothing but its own index, not on the
-/// order of loops or on threads. SplitMix64 (Steele, Lea & Flood 2014) over a counter.
+/// Random numbers keyed by (seed, stream, tick, index): what a rod draws depends on nothing but its own index and the
+/// tick (0 for what is drawn once), not on the order of loops or on threads. Each part of the key is mixed in by
+/// itself, so that neighbouring seeds and ticks have nothing in common. SplitMix64 (Steele, Lea & Flood 2014) over a
+/// counter.
 class Rng {
  public:
-  Rng(std::uint64_t seed, RngStream stream, std::uint64_t index)
-      : state_(mix(mix(mix(seed) ^ static_cast<std::uint64_t>(stream)) ^ index)) {}
+  Rng(std::uint64_t seed, RngStream stream, Tick tick, std::uint64_t index)
+      : state_(
+            mix(mix(mix(mix(seed) ^ static_cast<std::uint64_t>(stream)) ^ static_cast<std::uint64_t>(tick)) ^ index)) {}
 
   std::uint64_t bits() {
     state_ += 0x9e3779b97f4a7c15ull;
@@ -39,7 +43,7 @@ class Rng {
   std::uint64_t below(std::uint64_t n) { return static_cast<std::uint64_t>(uniform() * static_cast<double>(n)); }
   /// Mean 0, variance 1 (Box & Muller 1958).
   double normal() {
-    const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
+    const double radius = std::sqrt(-2.0 * natural_log(1.0 - uniform()));
     return radius * sincos(2.0 * kPi * uniform()).cos;
   }
 

@@ -20,6 +20,7 @@ NeighborList::NeighborList(std::span<const Species> species, std::span<const std
   // cells at least as wide; below 3 x 3 cells every rod is a candidate
   n_cells_ = static_cast<int>(std::floor(box_side / farthest));
   if (n_cells_ < 3) n_cells_ = 1;
+  n_images_ = static_cast<int>(std::floor(farthest / box_side + 0.5));
 }
 
 std::size_t NeighborList::bytes() const {
@@ -85,7 +86,18 @@ void NeighborList::for_candidates(int i, const Each& each) const {
 
 bool NeighborList::are_near(int i, int j) const {
   const auto level = [](const Vec2& v) { return Vec3(v.x(), v.y(), 0); };
-  const Vec3 D = nearest_image(level(placed_center_[i]), level(placed_center_[j]), box_side_);
+  const Vec3 nearest = nearest_image(level(placed_center_[i]), level(placed_center_[j]), box_side_);
+  // of two rods in a small box, it may be the ends of an image further away that come near
+  for (int x = -n_images_; x <= n_images_; ++x) {
+    for (int y = -n_images_; y <= n_images_; ++y) {
+      if (are_near(i, j, nearest + box_side_ * Vec3(x, y, 0))) return true;
+    }
+  }
+  return false;
+}
+
+bool NeighborList::are_near(int i, int j, const Vec3& D) const {
+  const auto level = [](const Vec2& v) { return Vec3(v.x(), v.y(), 0); };
   const auto& [h_i, radius_i] = shadow(i);
   const auto& [h_j, radius_j] = shadow(j);
   const double reach = radius_i + radius_j + skin_;

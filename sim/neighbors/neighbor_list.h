@@ -31,9 +31,9 @@ inline Vec3 nearest_image(const Vec3& from, const Vec3& to, double box_side) {
 /// milliseconds.
 ///
 /// A rod's shadow lies in the stadium of radius max_radius round the segment of half-length h along its in-plane
-/// angle (h as if it lay flat). The list holds every pair of stadiums closer than `skin`, each as it was when its rod
-/// was placed; it is complete as long as the ends of no segment have moved by half of that since. A rod that has can be
-/// placed anew by itself, so the fastest of many rods costs no more than itself.
+/// angle (h as if it lay flat). The list holds every pair of which any images have stadiums closer than `skin`, each as
+/// it was when its rod was placed; it is complete as long as the ends of no segment have moved by half of that since. A
+/// rod that has can be placed anew by itself, so the fastest of many rods costs no more than itself.
 class NeighborList {
  public:
   struct Pair {
@@ -74,7 +74,8 @@ class NeighborList {
   Vec2 flat_half(int i, const Pose& pose) const;  ///< from the centre to the end of the flattened segment
   int cell_of(const Vec2& center) const;
   void put_into_cell(int i, int cell);
-  bool are_near(int i, int j) const;
+  bool are_near(int i, int j) const;                 ///< in any image
+  bool are_near(int i, int j, const Vec3& D) const;  ///< with D from the centre of i to that of j
   /// Calls each(j) for every other rod whose centre may be near enough to i's.
   template <class Each>
   void for_candidates(int i, const Each& each) const;
@@ -86,7 +87,8 @@ class NeighborList {
   std::vector<std::uint8_t> kinds_;  ///< (n_rods)
   double skin_;
   double box_side_;
-  int n_cells_;  ///< per side; 1: no grid
+  int n_cells_;   ///< per side; 1: no grid
+  int n_images_;  ///< to each side of the nearest that may be near; 0 in a box twice as wide as pairs are long
 
   std::vector<Vec2> placed_center_;
   std::vector<Vec2> placed_half_;

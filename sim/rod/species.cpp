@@ -174,6 +174,19 @@ Species make_species(const RodShape& shape) {
   return species;
 }
 
+double Species::reach() const {
+  double farthest = 0;
+  for (std::size_t b = 0; b < bead_offset.size(); ++b)
+    farthest = std::max(farthest, std::abs(bead_offset[b]) + bead_radius[b]);
+  return farthest;
+}
+
+double least_box_side(std::span<const Species> species) {
+  double farthest = 0;
+  for (const Species& kind : species) farthest = std::max(farthest, kind.reach());
+  return 1.1 * (4.0 * farthest);
+}
+
 int beads_for_pitch(double length, double end_diameter, double pitch) {
   const double axis = length - end_diameter;
   // a pitch that fits up to rounding fits

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "sim/scene.h"
@@ -37,6 +38,8 @@ struct Species {
   int n_beads() const { return static_cast<int>(bead_offset.size()); }
   /// Distance of neighbouring beads [mm]; 1 for a sphere.
   double pitch() const { return n_beads() > 1 ? (bead_offset.back() - bead_offset.front()) / (n_beads() - 1) : 1.0; }
+  /// The farthest that any bead reaches from the centre; half of the length, if the rod is the same fore and aft [mm].
+  double reach() const;
   /// Loss of the hull's radius per length towards an end; 0 for a sphere.
   double taper(const HullEnd& end) const { return end.length > 0 ? (mid_radius - end.radius) / end.length : 0.0; }
   /// That towards the end where it is less.
@@ -46,6 +49,10 @@ struct Species {
 /// Model: uniform solid of revolution of the union of the beads; profile R(x) = max over beads of
 /// sqrt(r_b^2 - (x - s_b)^2), integrated piece by piece between the circles' crossings, so exact to rounding.
 Species make_species(const RodShape& shape);
+
+/// The narrowest periodic box for rods of these kinds [mm]. Two rods whose centres are half a box apart must not touch,
+/// so that only the nearest image of a rod can: four times the farthest reach, and a tenth of that for good measure.
+double least_box_side(std::span<const Species> species);
 
 /// The fewest beads, an odd number, whose distance does not exceed `pitch` [mm].
 int beads_for_pitch(double length, double end_diameter, double pitch);

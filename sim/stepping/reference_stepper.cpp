@@ -39,7 +39,7 @@ std::optional<NumericalTrouble> ReferenceStepper::step(World& world, Tick now) {
 
   phase_times.lap(Phase::kPlates);
 
-  // 2. detection; a list just built is in ascending order, so the contacts come out sorted
+  // 2. detection
   if (neighbors_.is_due(poses_)) neighbors_.build(poses_);
   phase_times.lap(Phase::kNeighbors);
   contacts_.clear();
@@ -50,6 +50,7 @@ std::optional<NumericalTrouble> ReferenceStepper::step(World& world, Tick now) {
                        bead_contacts_);
     for (const BeadContact& beads : bead_contacts_) contacts_.push_back({i, j, beads});
   }
+  sort_contacts(contacts_, rods_, rules_);
 
   phase_times.lap(Phase::kDetection);
 
@@ -61,7 +62,10 @@ std::optional<NumericalTrouble> ReferenceStepper::step(World& world, Tick now) {
   // 4. storing
   for (int i = 0; i < n; ++i) {
     if (!rods_[i].changed) continue;
-    if (auto trouble = store(i, world.rods[i], rods_[i], now, rules_)) return trouble;
+    if (auto trouble = check_motion(i, rods_[i], now, rules_)) return trouble;
+  }
+  for (int i = 0; i < n; ++i) {
+    if (rods_[i].changed) store(i, world.rods[i], rods_[i], now, rules_);
   }
   phase_times.lap(Phase::kStoring);
   return {};

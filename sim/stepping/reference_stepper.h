@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "sim/effects/compose.h"
 #include "sim/neighbors/neighbor_list.h"
+#include "sim/stepping/compose.h"
 #include "sim/stepping/stepper.h"
 #include "sim/stepping/tick.h"
 

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
+#include "sim/contact/image_safe_time.h"
 #include "sim/core/prefetch.h"
-#include "sim/effects/side_walls.h"
+#include "sim/motion/side_walls.h"
 
 namespace shaken {
 namespace {
@@ -50,6 +50,7 @@ ScheduledStepper::ScheduledStepper(const World& world, int n_threads, int grain,
   for (const RodKind& kind : rules_.kinds) {
     hulls_.emplace_back(kind.species);
     lanes_.emplace_back(kind.species);
+    reach_.push_back(kind.species.reach());
   }
   if (world.scene.impacts == ImpactTime::kAtInstant) found_.resize(world.rods.size());
   // rods are numbered along the rows that they start in, so these are bands of the plane
@@ -135,9 +136,7 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
   phase_times.lap(Phase::kNeighbors);
   detect_due(world, now);
   detect_touching(world, now);
-  std::sort(contacts_.begin(), contacts_.end(), [](const PairContact& a, const PairContact& b) {
-    return std::tie(a.i, a.j, a.beads.bead_i, a.beads.bead_j) < std::tie(b.i, b.j, b.beads.bead_i, b.beads.bead_j);
-  });
+  sort_contacts(contacts_, rods_, rules_);
   phase_times.lap(Phase::kDetection);
 
   // 3. response
@@ -150,8 +149,8 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
     for (const int i : {contact.i, contact.j}) {
       if (!rods_[i].changed) continue;
       list_changed(i, now);
-      if (marks_[i].listed_at == stamp(now)) continue;
-      marks_[i].listed_at = stamp(now);
+      if (marks_[i].listed_at == now) continue;
+      marks_[i].listed_at = now;
       to_schedule_.push_back(i);
     }
   }
@@ -167,8 +166,8 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
 // ---- phases
 
 void ScheduledStepper::list_to_pose(int i, Tick now) {
-  if (marks_[i].posed_at == stamp(now)) return;
-  marks_[i].posed_at = stamp(now);
+  if (marks_[i].posed_at == now) return;
+  marks_[i].posed_at = now;
   to_pose_.push_back(i);
 }
 
@@ -188,7 +187,7 @@ void ScheduledStepper::pose(const World& world, Tick now) {
 std::optional<NumericalTrouble> ScheduledStepper::meet_surfaces_due(World& world, Tick now) {
   changed_.clear();
   if (due_rods_.empty()) return {};
-  for (const int i : due_rods_) marks_[i].posed_at = marks_[i].listed_at = stamp(now);
+  for (const int i : due_rods_) marks_[i].posed_at = marks_[i].listed_at = now;
   const PlateState plates = world.plates.at(now);
   const auto ask = [&](int i) {
     prefetch(world.rods[i]);
@@ -251,7 +250,7 @@ void ScheduledStepper::list_pairs(const World& world, Tick now) {
   const std::size_t n_pairs = neighbors_.pairs().size();
   pair_rods_.resize(n_pairs, kUnused);
   directions_.resize(n_pairs);
-  detected_at_.resize(n_pairs);
+  detected_at_.resize(n_pairs, kNever);
   pair_marks_.resize(n_pairs);
   pair_owners_.resize(n_pairs);
   pair_wheel_.make_room(n_pairs);
@@ -301,7 +300,7 @@ void ScheduledStepper::detect_due(const World& world, Tick now) {
   if (due_pairs_.empty()) return;
   to_pose_.clear();
   for (const int p : due_pairs_) {
-    detected_at_[p] = stamp(now);
+    detected_at_[p] = now;
     for (const int i : pair_rods_[p]) list_to_pose(i, now);
   }
   pose(world, now);
@@ -351,9 +350,9 @@ void ScheduledStepper::detect_touching(const World& world, Tick now) {
   for (std::size_t m = 0; m < may_change_.size(); ++m) {
     const int i = may_change_[m];
     for (const int p : neighbors_.pairs_of(i)) {
-      if (!(pair_marks_[p] & kTouching) || detected_at_[p] == stamp(now)) continue;
+      if (!(pair_marks_[p] & kTouching) || detected_at_[p] == now) continue;
       due_pairs_.push_back(p);
-      detected_at_[p] = stamp(now);
+      detected_at_[p] = now;
       to_pose_.clear();
       for (const int rod : pair_rods_[p]) list_to_pose(rod, now);
       pose(world, now);
@@ -366,12 +365,18 @@ void ScheduledStepper::detect_touching(const World& world, Tick now) {
 }
 
 void ScheduledStepper::list_changed(int i, Tick now) {
-  if (marks_[i].changed_at == stamp(now)) return;
-  marks_[i].changed_at = stamp(now);
+  if (marks_[i].changed_at == now) return;
+  marks_[i].changed_at = now;
   changed_.push_back(i);
 }
 
 std::optional<NumericalTrouble> ScheduledStepper::store_changed(World& world, Tick now) {
+  share(changed_, rod_owners_, [&](Worker& worker) {
+    for (const int i : worker.mine) {
+      if (auto trouble = check_motion(i, rods_[i], now, rules_)) worker.note(std::move(*trouble));
+    }
+  });
+  if (auto trouble = first_trouble()) return trouble;
   share(changed_, rod_owners_, [&](Worker& worker) {
     for (const int i : worker.mine) {
       Flight& flight = world.rods[i];
@@ -379,7 +384,7 @@ std::optional<NumericalTrouble> ScheduledStepper::store_changed(World& world, Ti
       const Vec3 precession = flight.precession;
       Vec3 velocity = flight.velocity;
       velocity.z() -= rules_.gravity * (static_cast<double>(now - flight.since) * rules_.dt);
-      if (auto trouble = store(i, flight, rods_[i], now, rules_)) worker.note(std::move(*trouble));
+      store(i, flight, rods_[i], now, rules_);
       add_vector(record.strayed_velocity, flight.velocity - velocity);
       const Vec3 turned = flight.precession - precession;
       add_vector(record.strayed_turning, turned.cross(flight.director));
@@ -396,7 +401,7 @@ std::optional<NumericalTrouble> ScheduledStepper::store_changed(World& world, Ti
       worker.strayed.push_back(i);
     }
   });
-  return first_trouble();
+  return {};
 }
 
 // ---- a rod's limits
@@ -443,14 +448,14 @@ Outlook ScheduledStepper::outlook(const World& world, int i, Tick now) const {
 
 float ScheduledStepper::slack_left(int i, Tick now) const {
   const RodRecord& record = records_[i];
-  const Stamp ticks = stamp(now) - record.slack_at;
+  const Tick ticks = now - record.slack_at;
   return record.slack - record.slack_speed * (static_cast<float>(ticks) * static_cast<float>(rules_.dt));
 }
 
 void ScheduledStepper::measure_slack(int i, Tick now) {
   // a little is kept for the rounding of floats
   records_[i].slack = static_cast<float>(neighbors_.slack(i, rods_[i].pose)) - 1e-4F;
-  records_[i].slack_at = stamp(now);
+  records_[i].slack_at = now;
 }
 
 void ScheduledStepper::schedule_rods(const World& world, Tick now) {
@@ -506,7 +511,7 @@ Tick ScheduledStepper::listed_ticks(const World& world, int i, Tick now) {
   const Flight& flight = world.rods[i];
   RodRecord& record = records_[i];
   record.slack = slack_left(i, now);
-  record.slack_at = stamp(now);
+  record.slack_at = now;
   if (record.slack < kLowSlack) measure_slack(i, now);
   // The segment turns at (p_z - n_z p.n) / |n_xy|^2, with p the precession and p.n a constant; |n_xy| changes by at
   // most |p| per time, so it keeps nine tenths for a while: up to the visit, which may come a tick later than said
@@ -559,8 +564,8 @@ void ScheduledStepper::schedule_pairs(const World& world, Tick now) {
   to_look_at_.clear();
   for (const int p : to_bound_) {
     for (const int i : pair_rods_[p]) {
-      if (marks_[i].outlook_at == stamp(now)) continue;
-      marks_[i].outlook_at = stamp(now);
+      if (marks_[i].outlook_at == now) continue;
+      marks_[i].outlook_at = now;
       to_look_at_.push_back(i);
       list_to_pose(i, now);
     }
@@ -614,18 +619,21 @@ void ScheduledStepper::bound_pairs(std::span<const int> pairs, Tick now, Worker&
     directions_[pairs[lane]] = {hull.direction[0][lane], hull.direction[1][lane], hull.direction[2][lane]};
     float steady = hull.steady[lane] * per_dt;
     float straying = hull.straying[lane] * per_dt;
+    const auto& [rod_i, rod_j] = pair_rods_[pairs[lane]];
     if (steady < kShortBound && straying < kShortBound) {
-      const auto& [i, j] = pair_rods_[pairs[lane]];
-      const SafeTime beads = bead_safe_time(lanes_[kind_i], outlooks_[i], lanes_[kind_j], outlooks_[j], D[lane],
+      const SafeTime beads = bead_safe_time(lanes_[kind_i], outlooks_[rod_i], lanes_[kind_j], outlooks_[rod_j], D[lane],
                                             kAllowance, kBeadHorizon * static_cast<float>(rules_.dt));
       steady = std::max(steady, beads.steady * per_dt);
       straying = std::max(straying, beads.straying * per_dt);
     }
+    const SafeTime images = image_safe_time(D[lane], outlooks_[rod_i], outlooks_[rod_j], kAllowance, rules_.box_side,
+                                            reach_[kind_i] + reach_[kind_j], horizon);
+    steady = std::min(steady, images.steady * per_dt);
+    straying = std::min(straying, images.straying * per_dt);
     const bool is_steady = straying < kLongBound && straying * kMuchLonger < steady;
     worker.next_steady.push_back(is_steady);
     // Whether a pair is touching was found where free flight had brought its rods. Displaced since, they may overlap
     // and recede without being marked, if their hulls do: to be looked at again at once.
-    const auto& [rod_i, rod_j] = pair_rods_[pairs[lane]];
     const bool unmarked = hull.steady[lane] <= 0.0F && (rods_[rod_i].displaced || rods_[rod_j].displaced);
     worker.next.push_back(unmarked ? now + 1 : now + 1 + static_cast<Tick>(is_steady ? steady : straying));
   }

@@ -8,9 +8,9 @@
 #include "sim/contact/bead_safe_time.h"
 #include "sim/contact/hull_safe_time.h"
 #include "sim/core/thread_team.h"
-#include "sim/effects/compose.h"
 #include "sim/motion/plate_safe_time.h"
 #include "sim/neighbors/neighbor_list.h"
+#include "sim/stepping/compose.h"
 #include "sim/stepping/stepper.h"
 #include "sim/stepping/tick.h"
 #include "sim/stepping/timing_wheel.h"
@@ -37,9 +37,7 @@ class ScheduledStepper final : public Stepper {
   std::size_t bytes() const override;
 
  private:
-  /// A tick, to be compared with the present one only: its low bits do.
-  using Stamp = std::uint32_t;
-  static Stamp stamp(Tick now) { return static_cast<Stamp>(now) + 1; }  // 0: never
+  static constexpr Tick kNever = -1;
 
   /// What the stepper knows of a rod beside its flight; its owner's.
   struct RodRecord {
@@ -49,14 +47,14 @@ class ScheduledStepper final : public Stepper {
     float rate_limit = 0;                   ///< of the precession; part of the limits [rad/s]
     float slack = 1e30F;                    ///< of the neighbour list at `slack_at`, at least [mm]
     float slack_speed = 0;                  ///< at which it shrinks, at most [mm/s]
-    Stamp slack_at = 0;
+    Tick slack_at = kNever;
   };
   /// The same, the first thread's.
   struct RodMarks {
-    Stamp posed_at = 0;           ///< tick for which rods_ holds the rod
-    Stamp listed_at = 0;          ///< tick at which it was last to be scheduled
-    Stamp changed_at = 0;         ///< tick at which it was last hit
-    Stamp outlook_at = 0;         ///< tick for which outlooks_ holds the rod
+    Tick posed_at = kNever;       ///< tick for which rods_ holds the rod
+    Tick listed_at = kNever;      ///< tick at which it was last to be scheduled
+    Tick changed_at = kNever;     ///< tick at which it was last hit
+    Tick outlook_at = kNever;     ///< tick for which outlooks_ holds the rod
     std::int16_t n_touching = 0;  ///< pairs of the rod that are touching
     std::int16_t n_steady = 0;    ///< pairs whose bound holds for steady flight only
   };
@@ -139,6 +137,7 @@ class ScheduledStepper final : public Stepper {
   Kernels kernels_;
   std::vector<Hull> hulls_;       ///< (n_species)
   std::vector<BeadLanes> lanes_;  ///< (n_species)
+  std::vector<double> reach_;     ///< (n_species) [mm]
   NeighborList neighbors_;
   ThreadTeam team_;
   int grain_;
@@ -154,7 +153,7 @@ class ScheduledStepper final : public Stepper {
   // pairs, numbered as in the neighbour list
   std::vector<PairRods> pair_rods_;
   std::vector<Direction> directions_;
-  std::vector<Stamp> detected_at_;         ///< tick of the last search for contacts
+  std::vector<Tick> detected_at_;          ///< tick of the last search for contacts
   std::vector<std::uint8_t> pair_marks_;   ///< of PairMark
   std::vector<std::uint8_t> pair_owners_;  ///< the thread of each pair
   TimingWheel pair_wheel_;

@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "sim/effects/compose.h"
+#include "sim/stepping/compose.h"
 #include "sim/stepping/phase_times.h"
 #include "sim/world.h"
 

@@ -36,4 +36,20 @@ TickRules::TickRules(const World& world)
   if (plates.peak_acceleration() < gravity) rest = {0.5 * gravity * dt, kRiseRate};
 }
 
+void sort_contacts(std::vector<PairContact>& contacts, const std::vector<RodAtTick>& rods, const TickRules& rules) {
+  const auto place = [&](int i, int bead) -> Vec3 {
+    return rules.kind_of(i).species.bead_offset[bead] * rods[i].pose.director;
+  };
+  const auto compare = [](const Vec3& a, const Vec3& b) {
+    return std::lexicographical_compare_three_way(a.begin(), a.end(), b.begin(), b.end());
+  };
+  std::sort(contacts.begin(), contacts.end(), [&](const PairContact& a, const PairContact& b) {
+    if (a.i != b.i) return a.i < b.i;
+    if (a.j != b.j) return a.j < b.j;
+    if (a.beads.overlap != b.beads.overlap) return a.beads.overlap > b.beads.overlap;
+    const auto of_i = compare(place(a.i, a.beads.bead_i), place(b.i, b.beads.bead_i));
+    return of_i != 0 ? of_i < 0 : compare(place(a.j, a.beads.bead_j), place(b.j, b.beads.bead_j)) < 0;
+  });
+}
+
 }  // namespace shaken

@@ -16,14 +16,16 @@
 #include "sim/world.h"
 
 /// What a tick means: the one definition that all steppers share. At tick k, in this order:
-///   1. surfaces:   every rod against base, lid and side walls, in this order; of each the outer beads in bead order
+///   1. surfaces:   every rod against base, lid and side walls, in this order; of each the deepest bead first
 ///   2. detection:  overlapping bead pairs of every neighbour pair, from the poses at tick k
-///   3. response:   those contacts, sorted by (i, j, bead of i, bead of j), each that approaches gets an impulse
+///   3. response:   those contacts, sorted by (i, j, depth), each that approaches gets an impulse
 ///   4. storing:    rods whose velocity changed begin a new flight at tick k
 /// Detection takes poses as free flight brought them, so no phase depends on the order in which a loop visits rods or
-/// pairs, and a rod or pair without contact is left untouched down to the last bit.
+/// pairs, and a rod or pair without contact is left untouched down to the last bit. None depends on which end of a rod
+/// is called its head either: a rod that is the same fore and aft, turned end for end, flies the same, down to the last
+/// bit.
 ///
-/// What happens in phases 1 and 3 is composed from the effects that the scene calls for (effects/compose.h).
+/// What happens in phases 1 and 3 is composed from the effects that the scene calls for (stepping/compose.h).
 namespace shaken {
 
 /// One kind of rod, as the phases need it.
@@ -110,9 +112,13 @@ struct PairContact {
   BeadContact beads;
 };
 
-/// Phase 4 for one changed rod. Trouble if its motion is no longer a number, or out of all proportion.
-inline std::optional<NumericalTrouble> store(int index, Flight& flight, const RodAtTick& rod, Tick now,
-                                             const TickRules& rules) {
+/// Sorts contacts into the order of response: by rods, of each pair the deepest first. Two of the same depth come by
+/// where they lie, so that no bead order has a say. `rods` holds those concerned.
+void sort_contacts(std::vector<PairContact>& contacts, const std::vector<RodAtTick>& rods, const TickRules& rules);
+
+/// Trouble if the motion of a changed rod is no longer a number, or out of all proportion. To be asked of every one
+/// before phase 4: as long as there is trouble, the world stays what it was one tick before.
+inline std::optional<NumericalTrouble> check_motion(int index, const RodAtTick& rod, Tick now, const TickRules& rules) {
   const double speed2 = rod.motion.velocity.squaredNorm();
   if (!(speed2 <= rules.max_speed2)) {
     return NumericalTrouble{now,
@@ -124,8 +130,12 @@ inline std::optional<NumericalTrouble> store(int index, Flight& flight, const Ro
   }
   if (!std::isfinite(rod.motion.angular_velocity.sum() + rod.pose.position.sum()))
     return NumericalTrouble{now, {index}, "velocity or position is not a finite number"};
-  begin_flight(flight, now, rod.pose, rod.motion, rules.box_side, rules.kind_of(index).inertia_ratio);
   return {};
+}
+
+/// Phase 4 for one changed rod.
+inline void store(int index, Flight& flight, const RodAtTick& rod, Tick now, const TickRules& rules) {
+  begin_flight(flight, now, rod.pose, rod.motion, rules.box_side, rules.kind_of(index).inertia_ratio);
 }
 
 }  // namespace shaken

@@ -104,6 +104,55 @@ Pixels read_png(const std::filesystem::path& file) {
   return pixels;
 }
 
+TEST(EndToEnd, EveryProgramNamesItselfWhereItsArgumentsAreWrong) {
+  const TemporaryDirectory out;
+  const std::string nowhere = (out.path() / "nowhere").string();
+  struct Case {
+    std::vector<std::string> command;
+    std::string words;
+  };
+  const std::vector<Case> cases{
+      {{program("shakend"), "--bogus"}, "shakend: "},
+      {{program("shaken-worker"), "scene.json", "--bogus"}, "shaken-worker: "},
+      {{program("shaken-render"), "picture", "--bogus"}, "shaken-render: "},
+      {{program("shaken-bench"), "sped"}, "shaken-bench: there is no bench 'sped'; did you mean speed?"},
+      {{program("shaken"), "replay", nowhere}, nowhere + ": there is no such directory"},
+      {{program("shaken"), "run", "scene.json", "--threads", "0"}, "--threads takes a number from 1 to 64, not 0"}};
+  for (const auto& [command, words] : cases) {
+    const Finished finished = run_command(command);
+    EXPECT_EQ(finished.code, 2) << words;
+    EXPECT_NE(finished.output.find(words), std::string::npos) << finished.output;
+  }
+}
+
+TEST(EndToEnd, ARunEndsWithWhatCameOut) {
+  const TemporaryDirectory out;
+  const auto scene = write_file(out.path() / "scene.json", R"({
+    "rods": { "length": "2.5 mm", "area_fraction": 0.5 }, "box": { "side": "10 mm" },
+    "time": { "measure": "100 ms" }, "measure": { "order": { "every": "1 ms" } } })");
+  const std::string folder = (out.path() / "run").string();
+  const Finished run = run_command({program("shaken"), "run", scene.string(), "--out", folder});
+  ASSERT_EQ(run.code, 0) << run.output;
+  EXPECT_NE(run.output.find("S = 0."), std::string::npos) << run.output;
+  EXPECT_NE(run.output.find("  summary.json "), std::string::npos) << run.output;
+  EXPECT_EQ(run.output.find("  trajectory.h5 "), std::string::npos) << "there is none";
+  EXPECT_NE(run.output.find("next: shaken plot " + folder), std::string::npos) << run.output;
+}
+
+TEST(EndToEnd, AQuietDaemonKeepsItsLogToItsFile) {
+  const TemporaryDirectory root;
+  Process daemon({program("shakend"), "--root", root.path().string(), "--no-lcm", "--quiet"}, root.path() / "stdout");
+  ASSERT_TRUE(daemon.wait_for("shakend ready", seconds(20))) << daemon.output();
+  daemon.signal(SIGTERM);
+  EXPECT_EQ(daemon.wait(seconds(20)), 0);
+  const std::string output = daemon.output();
+  EXPECT_NE(output.find("log in " + (root.path() / "shakend.log").string()), std::string::npos) << output;
+  EXPECT_EQ(std::count(output.begin(), output.end(), '\n'), 1) << output;
+  std::ifstream log(root.path() / "shakend.log");
+  const std::string logged((std::istreambuf_iterator<char>(log)), {});
+  EXPECT_NE(logged.find("stopped"), std::string::npos) << logged;
+}
+
 TEST(EndToEnd, SweepIsRunStreamedTabledPlottedAndDrawn) {
   Daemon daemon;
   const TemporaryDirectory out;
@@ -317,6 +366,30 @@ TEST(EndToEnd, MalformedSceneTellsEveryMistakeAtOnce) {
                            "bad.json:3:", "kg", "bad.json:4:"}) {
     EXPECT_NE(finished.output.find(part), std::string::npos) << part << " is missing in\n" << finished.output;
   }
+}
+
+TEST(EndToEnd, WhatCannotBePlacedIsRefusedByEveryVerbInTheSameWords) {
+  const TemporaryDirectory out;
+  const auto file = write_file(out.path() / "dense.json", R"({"rods": {"area_fraction": 0.915}, "box": {"side": 25}})");
+  const auto directory = out.path() / "run";
+  const std::vector<std::vector<std::string>> verbs{
+      {"validate", file},
+      {"run", file, "--out", directory},
+      {"explain", file},
+      {"submit", file, "--dry-run"},
+      {"submit", file, "--root", out.path() / "nowhere"},
+  };
+  for (const std::vector<std::string>& verb : verbs) {
+    std::vector<std::string> command{program("shaken")};
+    command.insert(command.end(), verb.begin(), verb.end());
+    const Finished finished = run_command(command);
+    EXPECT_EQ(finished.code, 2) << verb.front();
+    EXPECT_NE(finished.output.find("dense.json: /rods: 229 rods (area fraction 0.913) do not fit into the box: in rows "
+                                   "at most 220 rods"),
+              std::string::npos)
+        << verb.front() << ": " << finished.output;
+  }
+  EXPECT_FALSE(std::filesystem::exists(directory));
 }
 
 }  // namespace

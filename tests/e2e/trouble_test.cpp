@@ -94,6 +94,10 @@ TEST_F(Trouble, AnotherOutcomeIsToldApart) {
 
 TEST_F(Trouble, NoTroubleIsBadInput) {
   std::filesystem::create_directory(run_);
+  const Finished nothing = replay();
+  EXPECT_EQ(nothing.code, 2);
+  EXPECT_NE(nothing.output.find("holds no run"), std::string::npos) << nothing.output;
+  std::filesystem::copy(directory_.path() / "wild.json", file("scene.json"));
   const Finished none = replay();
   EXPECT_EQ(none.code, 2);
   EXPECT_NE(none.output.find("no trouble.json"), std::string::npos) << none.output;

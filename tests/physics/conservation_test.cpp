@@ -2,6 +2,7 @@
 // Conservation laws of whole runs, tick by tick.
 #include <gtest/gtest.h>
 
+#include "sim/balance.h"
 #include "sim/simulation.h"
 
 namespace shaken {

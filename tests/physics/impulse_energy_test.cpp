@@ -2,10 +2,7 @@
 // Energy in ten million impacts by each impulse law.
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <cstdio>
-#include <ctime>
-#include <vector>
+#include <algorithm>
 
 #include "sim/contact/impulse_law.h"
 #include "tests/support/random_impacts.h"
@@ -49,33 +46,6 @@ TEST(ImpulseEnergy, TenMillionImpactsOfRods) {
   // what this test would show of a law that makes energy
   EXPECT_GT(newton.n, 10'000);
   EXPECT_GT(newton.most, 0.1);
-}
-
-/// CPU time of an impulse [ns], best of five rounds.
-template <class Law>
-double cost(const std::vector<test::ImpactInput>& impacts, const ContactParameters& contact) {
-  double best = INFINITY;
-  for (int round = 0; round < 5; ++round) {
-    Vec3 sum = Vec3::Zero();
-    const std::clock_t begin = std::clock();
-    for (const test::ImpactInput& i : impacts) sum += Law::impulse(i.K, i.normal, i.u, contact);
-    best = std::min(best, 1e9 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
-    EXPECT_TRUE(sum.allFinite());
-  }
-  return best / static_cast<double>(impacts.size());
-}
-
-TEST(ImpulseEnergy, TheLawsCostSoMuch) {
-  test::RodImpacts draw(1);
-  std::vector<test::ImpactInput> impacts;
-  for (int i = 0; i < 100'000; ++i) impacts.push_back(draw.next());
-  const ContactParameters contact{0.05, 0.3};
-  const double newton = cost<NewtonLaw>(impacts, contact);
-  const double poisson = cost<PoissonLaw>(impacts, contact);
-  const double energetic = cost<EnergeticLaw>(impacts, contact);
-  std::printf("CPU time of an impulse: newton %.0f ns, poisson %.1f times that, energetic %.1f times\n", newton,
-              poisson / newton, energetic / newton);
-  EXPECT_LT(energetic, 100 * newton);
 }
 
 }  // namespace

@@ -2,7 +2,8 @@
 // The books close: energy and momentum that rods have are what they had, got and lost, entered impact by impact.
 #include <gtest/gtest.h>
 
-#include "sim/effects/side_walls.h"
+#include "sim/balance.h"
+#include "sim/motion/side_walls.h"
 #include "sim/simulation.h"
 
 namespace shaken {
@@ -71,20 +72,88 @@ INSTANTIATE_TEST_SUITE_P(Scenes, LedgerOf,
                                               }}),
                          [](const auto& about) { return std::string(about.param.name); });
 
-// Side walls take what friction with them does not.
-TEST(Ledger, MomentumOfTheDiscComesFromItsWall) {
+/// Momentum of all rods in the plane, and their angular momentum about the middle of the box, upwards.
+struct InThePlane {
+  Vec2 momentum = Vec2::Zero();  ///< [mg mm/s]
+  double angular = 0;            ///< [mg mm^2/s]
+};
+InThePlane in_the_plane(const World& world) {
+  const Snapshot now = snapshot(world);
+  InThePlane sum;
+  for (std::size_t i = 0; i < now.n_rods(); ++i) {
+    const Species& species = world.species_of(i);
+    const Vec3& n = now.director[i];
+    const Vec3& spin = now.angular_velocity[i];
+    const Vec3 arm = now.position[i] - Vec3(0.5, 0.5, 0) * world.scene.box_side;
+    const Vec3 turning = species.inertia_perp * spin + (species.inertia_par - species.inertia_perp) * spin.dot(n) * n;
+    sum.momentum += species.mass * now.velocity[i].head<2>();
+    sum.angular += species.mass * arm.cross(now.velocity[i]).z() + turning.z();
+  }
+  return sum;
+}
+
+/// 30 rods in a disc without friction, that lose little to each other.
+Scene rods_in_a_disc() {
   Scene scene = rods();
-  scene.walls = SideWalls{Arena::kDisc, 11.0, 1.0, {0.0, 0.3}};
+  scene.walls = SideWalls{Arena::kDisc, 11.0, 1.0, {0.0, 0.9}};
   scene.n_rods = 30;
+  scene.rod_rod = {0.0, 0.9};
   scene.rod_base.friction = scene.rod_lid.friction = 0;
-  auto simulation = Simulation::start(scene);
+  return scene;
+}
+
+// With plates that have no friction, the wall alone gives momentum in the plane.
+TEST(Ledger, MomentumOfTheDiscComesFromItsWall) {
+  auto simulation = Simulation::start(rods_in_a_disc());
   ASSERT_TRUE(static_cast<bool>(simulation)) << simulation.error().message;
-  ASSERT_FALSE(simulation->advance_to(25000).has_value());
   const World& world = simulation->world();
-  EXPECT_GT(world.counters.impulses_rod_wall, 10);
-  for (std::size_t i = 0; i < world.rods.size(); ++i) {
+  const double scale = world.species[0].mass * 20 * world.scene.n_rods;
+  Vec2 before = in_the_plane(world).momentum;
+  std::int64_t n_before = 0;
+  int n_changes = 0;
+  for (Tick k = 1; k <= 25000; ++k) {
+    ASSERT_FALSE(simulation->advance_to(k).has_value());
+    const std::int64_t n_now = world.counters.impulses_rod_wall;
+    const Vec2 now = in_the_plane(world).momentum;
+    if (n_now == n_before) {
+      ASSERT_LT((now - before).norm(), 1e-12 * scale) << "no wall was met at tick " << k;
+    } else {
+      n_changes += (now - before).norm() > 1e-4 * scale;
+    }
+    before = now;
+    n_before = n_now;
+  }
+  EXPECT_GT(n_changes, 50);
+  const Ledger& ledger = world.counters.ledger;
+  const Vec2 booked(ledger.momentum[0].value(), ledger.momentum[1].value());
+  EXPECT_LT((before - world.start.momentum.head<2>() - booked).norm(), 1e-9 * scale);
+  EXPECT_GT(booked.norm(), 1e-2 * scale);
+}
+
+// A round wall without friction pushes towards the middle only: nothing turns the rods about it.
+TEST(Ledger, ARoundWallWithoutFrictionGivesNoAngularMomentum) {
+  for (const double friction : {0.0, 0.1}) {
+    Scene scene = rods_in_a_disc();
+    scene.base = scene.lid = false;
+    scene.gravity = 0;
+    scene.walls->contact.friction = friction;
+    auto simulation = Simulation::start(scene);
+    ASSERT_TRUE(static_cast<bool>(simulation)) << simulation.error().message;
+    const World& world = simulation->world();
+    const double scale = world.species[0].mass * 20 * 5 * scene.n_rods;
+    const double start = in_the_plane(world).angular;
+    ASSERT_FALSE(simulation->advance_to(50000).has_value());
+    EXPECT_GT(world.counters.impulses_rod_wall, 50);
+    EXPECT_GT(world.counters.impulses_rod_rod, 50);
+    const double change = std::abs(in_the_plane(world).angular - start);
+    if (friction > 0) {
+      EXPECT_GT(change, 1e-6 * scale) << "friction does turn them: the twin that shows that this test can fail";
+    } else {
+      EXPECT_LT(change, 1e-11 * scale);
+    }
     const Snapshot now = simulation->snapshot();
-    EXPECT_GT(distance_to_walls(*scene.walls, scene.box_side, now.position[i]), 0.0) << "rod " << i << " is outside";
+    for (const Vec3& position : now.position)
+      EXPECT_GT(distance_to_walls(*scene.walls, scene.box_side, position), 0.0) << "a rod is outside";
   }
 }
 

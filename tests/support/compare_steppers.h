@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/initial.h"
 #include "sim/simulation.h"
 
 /// Whether two ways of stepping the same scene give the same, to the last bit: states, counters and ledgers.
@@ -29,46 +30,90 @@ inline bool same(const Counters& a, const Counters& b) {
   return all(a) == all(b);
 }
 
+/// What came of a comparison.
+struct Compared {
+  std::string difference{};  ///< empty: there was none
+  bool in_full = false;      ///< both went through at least half of the ticks asked for
+  bool fits = true;          ///< the rods could be placed; otherwise nothing was compared
+};
+
+/// What differed, or why too little was compared; empty if all is well.
+inline std::string problem(const Compared& compared) {
+  if (!compared.difference.empty()) return compared.difference;
+  if (!compared.fits) return "the rods cannot be placed";
+  return compared.in_full ? "" : "both meet trouble before half of the ticks";
+}
+
+/// Counts comparisons of random scenes: those that found no difference because there was little to compare must stay
+/// rare. A scene whose rods cannot be placed is to be drawn again, and does not count.
+class Tally {
+ public:
+  void add(const Compared& compared) {
+    n_all_ += 1;
+    n_in_full_ += compared.in_full;
+  }
+  int n_all() const { return n_all_; }
+  double part_in_full() const { return n_all_ > 0 ? static_cast<double>(n_in_full_) / n_all_ : 0.0; }
+
+ private:
+  int n_all_ = 0;
+  int n_in_full_ = 0;
+};
+
 /// Steps on 2 and 4 threads, shared as finely as can be, give the same as on one. Not for long: threads wait for each
-/// other in every tick. Returns what differed, or an empty string.
-inline std::string compare_threads(Scene scene, Tick ticks) {
+/// other in every tick.
+inline Compared compare_threads(const Scene& scene, Tick ticks) {
   auto one = Simulation::start(scene);
-  if (!one) return "";
-  if (one->advance_to(ticks)) return "";
+  if (!one) return {.fits = false};
+  const auto trouble = one->advance_to(ticks);
   for (const int n_threads : {2, 4}) {
     auto several = Simulation::start(scene);
     several->use_threads(n_threads, 1);
-    if (several->advance_to(ticks)) return "trouble on several threads only";
-    if (one->state_hash() != several->state_hash()) return "states differ on " + std::to_string(n_threads) + " threads";
-    if (!same(one->world().counters, several->world().counters))
-      return "counters differ on " + std::to_string(n_threads) + " threads";
+    const auto its = several->advance_to(ticks);
+    const std::string where = " on " + std::to_string(n_threads) + " threads";
+    if (trouble.has_value() != its.has_value() || (trouble && trouble->rods != its->rods))
+      return {"other trouble" + where};
+    if (one->tick() != several->tick() || one->state_hash() != several->state_hash()) return {"states differ" + where};
+    if (!trouble && !same(one->world().counters, several->world().counters)) return {"counters differ" + where};
   }
-  return "";
+  return {"", one->tick() >= ticks / 2};
 }
 
-/// Steps both, compares the hashes at several ticks, and once more after a checkpoint and restart at tick `stop`.
-/// Returns what differed, or an empty string.
-inline std::string compare(Scene scene, Tick ticks, Tick stop) {
-  scene.engine = Engine::kReference;
-  auto reference = Simulation::start(scene);
-  if (!reference) return "";  // does not fit: nothing to compare
-  scene.engine = Engine::kScheduled;
-  auto scheduled = Simulation::start(scene);
+/// Steps both from the same world, compares the hashes at several ticks, and once more after a checkpoint and restart
+/// at tick `stop`; ticks are counted from where the world is.
+inline Compared compare(World world, Tick ticks, Tick stop) {
+  const Tick begin = world.tick;
+  world.scene.engine = Engine::kReference;
+  Simulation reference = Simulation::start_from(world);
+  world.scene.engine = Engine::kScheduled;
+  const Scene scene = world.scene;
+  Simulation scheduled = Simulation::start_from(std::move(world));
   std::vector<Tick> looks{1, 2, stop, ticks / 2, ticks};
   std::sort(looks.begin(), looks.end());
   for (const Tick k : looks) {
-    const auto trouble_r = reference->advance_to(k);
-    const auto trouble_s = scheduled->advance_to(k);
-    if (trouble_r.has_value() != trouble_s.has_value())
-      return "only one of them met trouble by tick " + std::to_string(k);
-    if (trouble_r)
-      return trouble_r->tick == trouble_s->tick && trouble_r->rods == trouble_s->rods ? "" : "different trouble";
-    if (reference->state_hash() != scheduled->state_hash()) return "states differ at tick " + std::to_string(k);
-    if (!same(reference->world().counters, scheduled->world().counters))
-      return "counters differ at tick " + std::to_string(k);
-    if (k == stop) scheduled = Simulation::resume(scene, scheduled->checkpoint());
+    const auto trouble_r = reference.advance_to(begin + k);
+    const auto trouble_s = scheduled.advance_to(begin + k);
+    const std::string when = " at tick " + std::to_string(k);
+    if (trouble_r.has_value() != trouble_s.has_value()) return {"only one of them met trouble by then" + when};
+    if (trouble_r && (trouble_r->tick != trouble_s->tick || trouble_r->rods != trouble_s->rods))
+      return {"different trouble"};
+    if (reference.state_hash() != scheduled.state_hash()) return {"states differ" + when};
+    if (trouble_r) return {"", trouble_r->tick - begin >= ticks / 2};
+    if (!same(reference.world().counters, scheduled.world().counters)) return {"counters differ" + when};
+    if (k == stop) {
+      auto resumed = Simulation::resume(scene, scheduled.checkpoint());
+      if (!resumed) return {resumed.error().message};
+      scheduled = std::move(resumed).value();
+    }
   }
-  return "";
+  return {"", true};
+}
+
+/// The same from the scene's start.
+inline Compared compare(const Scene& scene, Tick ticks, Tick stop) {
+  auto world = make_world(scene);
+  if (!world) return {.fits = false};
+  return compare(std::move(world).value(), ticks, stop);
 }
 
 }  // namespace shaken::test

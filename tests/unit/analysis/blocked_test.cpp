@@ -80,10 +80,10 @@ TEST(Blocked, PassesAllArgumentsOnAndResets) {
   for (int i = 0; i < 200; ++i) {
     blocked.accumulate(i, std::vector<Vec3>{axis(0, 0.1)}, std::vector<Vec3>{Vec3(i < 100 ? 5 : 1, 0, 0)});
   }
-  EXPECT_DOUBLE_EQ(blocked.after(100).reduce().v_along[2], 1.0);
-  EXPECT_DOUBLE_EQ(blocked.all().reduce().v_along[2], 3.0);
+  EXPECT_DOUBLE_EQ(blocked.after(100).means().v_along[2], 1.0);
+  EXPECT_DOUBLE_EQ(blocked.all().means().v_along[2], 3.0);
   blocked.reset();
-  EXPECT_TRUE(std::isnan(blocked.all().reduce().v_along[2]));
+  EXPECT_TRUE(std::isnan(blocked.all().means().v_along[2]));
 }
 
 TEST(Blocked, GoesOnBitwiseFromItsSavedState) {

@@ -85,6 +85,70 @@ TEST(DirectorField, WhereNoRodReachesQIsZero) {
   EXPECT_EQ(field.theta(0, 0), 0.0);
 }
 
+/// Rods over density of rods per node, by the definition.
+double slow_density(const std::vector<Vec3>& positions, const Region& region, int n, double smoothing, const Vec2& at) {
+  const auto weight = [&](const Vec2& place) {
+    const Vec2 d = region.shortest(place - at).cwiseAbs();
+    return d.maxCoeff() > 4 * smoothing ? 0.0 : std::exp(-d.squaredNorm() / (2 * smoothing * smoothing));
+  };
+  double rods = 0, room = 0, nodes = 0;
+  for (const Vec3& p : positions) rods += weight(p.head<2>());
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i) {
+      const Vec2 node = Vec2(i, j) * region.box_side() / n;
+      if (!region.contains(node)) continue;
+      room += weight(node);
+      nodes += 1;
+    }
+  }
+  return rods / room * nodes / static_cast<double>(positions.size());
+}
+
+// Half the box empty; in arenas too, where half of what a node at the wall sees is no room at all.
+TEST(DirectorField, IsUndefinedInTheVoidAndBeyondWalls) {
+  constexpr double kBox = 40, kSmoothing = 1.5;
+  constexpr int kNodes = 40;
+  Draw draw(45);
+  for (const Region& region :
+       {Region(kBox), Region(kBox, SideWalls{Arena::kDisc, 39}), Region(kBox, SideWalls{Arena::kAnnulus, 39, 15}),
+        Region(kBox, SideWalls{Arena::kSquare, 39})}) {
+    std::vector<Vec3> positions;
+    for (const Vec3& p : random_places(draw, 1500, kBox)) {
+      if (region.contains(p.head<2>()) && p.x() < kBox / 2) positions.push_back(p);
+    }
+    const DirectorField field(positions, random_axes(draw, positions.size()), region, kNodes, kSmoothing);
+    int defined = 0, at_walls = 0;
+    for (int j = 0; j < kNodes; ++j) {
+      for (int i = 0; i < kNodes; ++i) {
+        const Vec2 node = Vec2(i, j) * field.mesh();
+        const double density = slow_density(positions, region, kNodes, kSmoothing, node);
+        if (std::abs(density - 0.5) < 1e-6) continue;
+        EXPECT_EQ(field.is_defined(i, j), region.contains(node) && density > 0.5) << node.transpose();
+        defined += field.is_defined(i, j) ? 1 : 0;
+        at_walls += field.is_defined(i, j) && !region.contains(node - Vec2(1.5, 0)) ? 1 : 0;
+      }
+    }
+    EXPECT_GT(defined, kNodes * kNodes / 8);
+    if (!region.is_periodic()) {
+      EXPECT_GT(at_walls, 8) << "walls do not thin the rods out";
+      EXPECT_FALSE(field.is_defined(0, 0));
+    }
+  }
+  EXPECT_FALSE(DirectorField({}, {}, kBox, 8, 1.0).is_defined(3, 3));
+}
+
+// Rods along x at the left wall, along y at the right one: 1 mm from either border, they do not meet within walls.
+TEST(DirectorField, IsNotSmoothedThroughWalls) {
+  const std::vector<Vec3> positions{{1, 20, 0}, {39, 20, 0}, {39, 21, 0}};
+  const std::vector<Vec3> directors{axis(0), axis(kPi / 2), axis(kPi / 2)};
+  const DirectorField within(positions, directors, Region(40, SideWalls{Arena::kDisc, 39}), 40, 1.5);
+  const DirectorField periodic(positions, directors, 40, 40, 1.5);
+  EXPECT_EQ(within.order(1, 20), 1.0);
+  EXPECT_LT(periodic.order(1, 20), 0.9);
+  EXPECT_NEAR(within.theta(1, 20), 0, 1e-12);
+  EXPECT_NEAR(within.theta_at({-3, 20}), 0, 1e-12) << "beyond the border as at it";
+}
+
 TEST(DirectorField, NodesFromMesh) {
   EXPECT_EQ(grid_nodes(10, 0.1), 100);
   EXPECT_EQ(grid_nodes(10, 0.3), 34);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/unit/analysis/lattices.h"
 #include "tests/unit/analysis/samples.h"
 #include "tests/unit/analysis/state_checks.h"
@@ -133,6 +135,62 @@ TEST(OrientationCorrelation, PairDistributionOfLattices) {
       EXPECT_NEAR(found, number, 1e-9) << distance;
     }
   }
+}
+
+/// Places at random in a region.
+std::vector<Vec3> gas(Draw& draw, const Region& region, std::size_t n) {
+  std::vector<Vec3> places;
+  while (places.size() < n) {
+    const Vec3 place(draw.uniform(0, region.box_side()), draw.uniform(0, region.box_side()), 0.5);
+    if (region.contains(place.head<2>())) places.push_back(place);
+  }
+  return places;
+}
+
+// A gas in an arena is a gas: as much of each ring as lies within and in sight has its share of rods. Taken as
+// periodic, of the mean density of the box, g of the disc would be 1.4 at first and fall to 0.9; with the rings cut by
+// the walls but not by what they hide, the annulus' would fall short by a third at 20 mm. Pairs are counted from both
+// ends, and rods near walls have fewer, so that the variance is a little more than twice the pairs: |z| < 4.5 over 60
+// bins.
+TEST(OrientationCorrelation, PairDistributionOfAGasInAnArenaIsOne) {
+  constexpr double kBox = 42;
+  constexpr std::size_t kRods = 800;
+  Draw draw(66);
+  for (const SideWalls& walls :
+       {SideWalls{Arena::kDisc, 40}, SideWalls{Arena::kSquare, 40}, SideWalls{Arena::kAnnulus, 40, 20}}) {
+    const Region region(kBox, walls);
+    OrientationCorrelation g2(20, 21);
+    constexpr int kSamples = 20;
+    for (int i = 0; i < kSamples; ++i) {
+      g2.accumulate(gas(draw, region, kRods), random_axes(draw, kRods), region);
+    }
+    const OrientationCurve curve = g2.reduce();
+    for (std::size_t i = 0; i < 20; ++i) {
+      // At most the pairs of a gas whose rings lie inside.
+      const double pairs = kSamples * kRods * kRods / region.area() * 2 * kPi * curve.r[i] * 21 / 20;
+      EXPECT_NEAR(curve.g[i], 1 - 1.0 / kRods, 4.5 * std::sqrt(4 / pairs) + 0.01) << walls.size << " " << curve.r[i];
+    }
+  }
+}
+
+// Rods at opposite walls are near to each other only through the border, and those on either side of an annulus' hole
+// do not see each other.
+TEST(OrientationCorrelation, HasNoPairsThroughWalls) {
+  const std::vector<Vec3> opposite{{1.2, 21, 0}, {40.8, 21, 0}}, across_hole{{30.5, 21, 0}, {11.5, 21, 0}};
+  const std::vector<Vec3> parallel(2, axis(0.3));
+  const auto pairs_met = [&](const std::vector<Vec3>& places, const Region& region) {
+    OrientationCorrelation g2(21, 21);
+    g2.accumulate(places, parallel, region);
+    const OrientationCurve curve = g2.reduce();
+    return std::count_if(curve.g2.begin(), curve.g2.end(), [](double value) { return !std::isnan(value); });
+  };
+  EXPECT_EQ(pairs_met(opposite, 42.0), 1) << "2.4 mm apart";
+  EXPECT_EQ(pairs_met(opposite, Region(42, SideWalls{Arena::kDisc, 40})), 0);
+  EXPECT_EQ(pairs_met(opposite, Region(42, SideWalls{Arena::kSquare, 40})), 0);
+  EXPECT_EQ(pairs_met(across_hole, Region(42, SideWalls{Arena::kDisc, 40})), 1) << "19 mm apart";
+  EXPECT_EQ(pairs_met(across_hole, Region(42, SideWalls{Arena::kAnnulus, 40, 10})), 0);
+  const std::vector<Vec3> beside_hole{{30.5, 27, 0}, {11.5, 27, 0}};
+  EXPECT_EQ(pairs_met(beside_hole, Region(42, SideWalls{Arena::kAnnulus, 40, 10})), 1);
 }
 
 TEST(OrientationCorrelation, MergeAndSavedState) {

@@ -138,29 +138,35 @@ TEST(MeanSquareDisplacement, CountsOriginsFromTheSteadyTimeOn) {
   }
 }
 
-// Errors against the scatter of 300 repeated experiments; that of a ratio of two such is 6 %. At long lags ways
-// overlap: errors from stretches shorter than the lag would be half as large. 15 % of slack for that stretches still
-// share some of a way (7 %), and for the few that long lags leave.
+// chi^2 / n of 200 repeated experiments of 20 rods: 10 % itself with many stretches. At the longest lags, up to a sixth
+// of the run, there are but five, whose chi^2 has no variance: there 95 of 100 results must lie within two errors.
 TEST(MeanSquareDisplacement, ErrorsAreTheScatterOfRepeatedExperiments) {
   Draw draw(76);
-  constexpr int kRepeats = 300;
-  std::vector<double> squares, variances, lags;
+  constexpr int kRepeats = 200;
+  std::vector<double> chi2, lags;
+  std::vector<double> within_two;
   for (int repeat = 0; repeat < kRepeats; ++repeat) {
-    const MsdCurve curve = msd_of(walks(draw, 4, 700, 0, 1.0, 1.0), 0).reduce();
-    squares.resize(curve.lag.size());
-    variances.resize(curve.lag.size());
+    const MsdCurve curve = msd_of(walks(draw, 20, 700, 0, 1.0, 1.0), 0).reduce();
+    chi2.resize(curve.lag.size());
+    within_two.resize(curve.lag.size());
     lags = curve.lag;
     for (std::size_t i = 0; i < curve.lag.size(); ++i) {
-      squares[i] += std::pow(curve.total.value[i] - 2 * curve.lag[i], 2);
-      variances[i] += std::pow(curve.total.sem[i], 2);
+      const double z = (curve.total.value[i] - 2 * curve.lag[i]) / curve.total.sem[i];
+      chi2[i] += z * z / kRepeats;
+      within_two[i] += std::abs(z) < 2 ? 1.0 / kRepeats : 0;
+      EXPECT_DOUBLE_EQ(curve.d_total.value[i], curve.total.value[i] / (4 * curve.lag[i]));
+      EXPECT_DOUBLE_EQ(curve.d_along.value[i], curve.along.value[i] / (2 * curve.lag[i]));
+      EXPECT_EQ(curve.d_across.sem[i] > 0, curve.across.sem[i] > 0);
     }
   }
   for (std::size_t i = 0; i < lags.size(); ++i) {
     if (lags[i] <= 64) {
-      EXPECT_NEAR(std::sqrt(variances[i] / squares[i]), 1.0, 0.2) << lags[i];
+      EXPECT_NEAR(chi2[i], 1.0, 0.35) << lags[i];
     }
-    if (lags[i] > 200) {
-      EXPECT_TRUE(std::isnan(variances[i])) << "too few stretches of twice the lag";
+    if (lags[i] <= 112) {
+      EXPECT_NEAR(within_two[i], 0.95, 0.045) << lags[i];
+    } else {
+      EXPECT_TRUE(std::isnan(chi2[i])) << "too few stretches of the lag";
     }
   }
 }

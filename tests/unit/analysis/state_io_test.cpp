@@ -11,22 +11,22 @@ namespace shaken::analysis {
 namespace {
 
 TEST(StateIo, ReadsBackWhatWasWrittenExactly) {
-  rc::check("round trip",
-            [](double real, std::int64_t integer, std::vector<double> reals, std::vector<std::int64_t> integers) {
-              StateWriter writer;
-              writer.tag("Thing");
-              writer.put(real);
-              writer.put(reals);
-              writer.put(integer);
-              writer.put(integers);
-              StateReader reader(writer.bytes());
-              reader.tag("Thing");
-              RC_ASSERT(reader.real() == real);
-              RC_ASSERT(reader.reals() == reals);
-              RC_ASSERT(reader.integer() == integer);
-              RC_ASSERT(reader.integers(integers.size()) == integers);
-              reader.end();
-            });
+  EXPECT_TRUE(rc::check("round trip", [](double real, std::int64_t integer, std::vector<double> reals,
+                                         std::vector<std::int64_t> integers) {
+    StateWriter writer;
+    writer.tag("Thing");
+    writer.put(real);
+    writer.put(reals);
+    writer.put(integer);
+    writer.put(integers);
+    StateReader reader(writer.bytes());
+    reader.tag("Thing");
+    RC_ASSERT(reader.real() == real);
+    RC_ASSERT(reader.reals() == reals);
+    RC_ASSERT(reader.integer() == integer);
+    RC_ASSERT(reader.integers(integers.size()) == integers);
+    reader.end();
+  }));
 }
 
 TEST(StateIo, KeepsEveryBitOfADouble) {

@@ -26,7 +26,7 @@ Found found_in(const Blocked<AngleDistribution>& samples) {
     const std::optional<TwoPeaks> peaks = fit_two_peaks(angles.reduce());
     return peaks ? std::vector{peaks->theta_m / kDegree, peaks->dip} : std::vector{std::nan(""), std::nan("")};
   };
-  const auto estimates = jackknife(samples.empty(), samples.parts_after(0.0, 16), numbers);
+  const auto estimates = jackknife(samples.empty(), samples.parts_after(0.0, kMostParts), numbers);
   return {estimates[0], estimates[1]};
 }
 
@@ -60,6 +60,66 @@ TEST(TwoPeaks, OfTheCurveItself) {
       EXPECT_NEAR(peaks->dip, pdf.density[middle] / *std::max_element(pdf.density.begin(), pdf.density.end()), 0.03);
     }
   }
+}
+
+// The maximum of a mixture solves x = theta_m tanh(x theta_m / width^2): below theta_m where the peaks overlap.
+double maximum_of_mixture(double theta_m, double width) {
+  double x = theta_m;
+  for (int step = 0; step < 1000; ++step) x = theta_m * std::tanh(x * theta_m / (width * width));
+  return x;
+}
+
+TEST(TwoPeaks, MaximumOfTheCurveItself) {
+  for (const double width : {4.0, 8.0}) {
+    for (const double ratio : {1.25, 1.5, 2.0, 3.0}) {
+      const double theta_m = ratio * width;
+      AnglePdf pdf = AngleDistribution(180).reduce();
+      for (std::size_t i = 0; i < pdf.theta.size(); ++i) {
+        const double right = (pdf.theta[i] - theta_m * kDegree) / (width * kDegree);
+        const double left = (pdf.theta[i] + theta_m * kDegree) / (width * kDegree);
+        // More rods to one side: both hands are taken together.
+        pdf.density[i] = 3 * std::exp(-right * right / 2) + 1 * std::exp(-left * left / 2);
+      }
+      const double known = maximum_of_mixture(theta_m, width);
+      const double found = fit_two_peaks(pdf)->maximum / kDegree;
+      EXPECT_NEAR(found, known, width * (ratio < 1.3 ? 0.045 : 0.006)) << theta_m << ' ' << width;
+      if (ratio < 1.3) {
+        EXPECT_LT(known, 0.9 * theta_m);
+      }
+    }
+  }
+}
+
+// 60 experiments: the jackknife's error of the maximum is its scatter (chi^2 / n, 18 % itself, and 32 blocks' own).
+TEST(TwoPeaks, MaximumHasTheErrorOfItsScatter) {
+  Draw draw(124);
+  constexpr int kRepeats = 60;
+  const double known = maximum_of_mixture(10, 7);
+  double chi2 = 0, off = 0, sem = 0;
+  int n = 0;
+  for (int repeat = 0; repeat < kRepeats; ++repeat) {
+    Blocked<AngleDistribution> samples(AngleDistribution(180));
+    for (int t = 0; t < 32; ++t) {
+      std::vector<Vec3> rods;
+      for (int i = 0; i < 600; ++i) rods.push_back(axis(0.3 + ((i % 2 == 0 ? 10 : -10) + 7 * draw.normal()) * kDegree));
+      samples.accumulate(t, rods);
+    }
+    const Estimate maximum =
+        jackknife(samples.empty(), samples.parts_after(0.0, 64), [](const AngleDistribution& angles) {
+          return std::vector{fit_two_peaks(angles.reduce())->maximum / kDegree};
+        })[0];
+    off += (maximum.value - known) / kRepeats;
+    if (std::isnan(maximum.sem)) continue;  // by chance too few independent parts
+    chi2 += std::pow((maximum.value - known) / maximum.sem, 2);
+    sem += maximum.sem;
+    ++n;
+  }
+  ASSERT_GT(n, 50);
+  chi2 /= n;
+  sem /= n;
+  EXPECT_GT(chi2, 0.55);
+  EXPECT_LT(chi2, 1.6);
+  EXPECT_LT(std::abs(off), 0.5 * sem + 0.012 * 7);
 }
 
 // Sampled mixtures in 40 stretches: theta_m within 4.5 of the error that the stretches tell, and that error near the

@@ -18,7 +18,7 @@ Case box(double side) {
 
 /// A series whose correlation falls by `memory` from sample to sample, of variance 0.02^2 about 0.9.
 std::vector<double> correlated(double memory, int n, std::uint64_t seed) {
-  Rng rng(seed, RngStream::kVelocity, 0);
+  Rng rng(seed, RngStream::kVelocity, 0, 0);
   std::vector<double> values;
   double x = rng.normal();
   for (int k = 0; k < n; ++k) {

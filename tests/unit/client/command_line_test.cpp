@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "client/arguments.h"
+#include "client/json.h"
 #include "client/process.h"
 #include "client/verb.h"
 #include "tests/unit/client/fake_daemon.h"
@@ -135,10 +136,51 @@ TEST(Validate, StarterSceneIsFineAndItsNumbersFollow) {
   const Outcome summary = run_client({"validate", file});
   EXPECT_EQ(summary.code, ExitCode::kOk) << summary.err;
   EXPECT_THAT(summary.out, HasSubstr("is fine: one run"));
-  // 2 s in ticks of 4 us.
-  EXPECT_THAT(summary.out, HasSubstr("500000"));
+  // 100 s in ticks of 4 us.
+  EXPECT_THAT(summary.out, HasSubstr("2.5e+07"));
+
   EXPECT_THAT(run_client({"validate", file, "--resolved"}).out, HasSubstr("\"amplitude\""));
   EXPECT_THAT(run_client({"validate", file, "-s", "rods.length=2.5,3.5", "--replicas", "2"}).out, HasSubstr("4 runs"));
+}
+
+TEST(Validate, ShowsThePackingOfEachKindAndOfAll) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "scene.json").string();
+  std::ofstream(file)
+      << R"({"rods": {"area_fraction": 0.3}, "rods_2": {"beads": 1, "count": 40}, "box": {"side": 40}})";
+  const Outcome summary = run_client({"validate", file});
+  EXPECT_EQ(summary.code, ExitCode::kOk) << summary.err;
+  EXPECT_THAT(summary.out, HasSubstr("233 = 193 + 40"));
+  EXPECT_THAT(summary.out, HasSubstr("0.3132 = 0.3006 + 0.01257"));
+  const Json json = Json::parse(run_client({"validate", file, "--json"}).out);
+  const Json& point = json.at("points").at(0);
+  EXPECT_EQ(point.at("n_rods"), 233);
+  EXPECT_NEAR(point.at("area_fraction").get<double>(), 0.3132, 1e-4);
+  EXPECT_EQ(point.at("kinds").at(1).at("name"), "rods_2");
+  EXPECT_EQ(point.at("kinds").at(1).at("count"), 40);
+}
+
+TEST(Validate, PlacesTheRods) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "scene.json").string();
+  std::ofstream(file) << R"({"rods": {"area_fraction": 0.915}, "box": {"side": 25}})";
+  const Outcome outcome = run_client({"validate", file});
+  EXPECT_EQ(outcome.code, ExitCode::kBadInput);
+  EXPECT_THAT(outcome.err, HasSubstr("do not fit into the box: in rows at most "));
+  EXPECT_THAT(run_client({"validate", file, "--json"}).out, HasSubstr("\"path\": \"/rods\""));
+}
+
+TEST(Validate, RemarksOnWhatIsHardlyMeant) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "scene.json").string();
+  std::ofstream(file) << R"({"box": {"side": 25}, "trajectory": {"every": "20 s"}, "time": {"measure": "10 s"}})";
+  const Outcome summary = run_client({"validate", file, "-s", "plates.gamma=0.5,7"});
+  EXPECT_EQ(summary.code, ExitCode::kOk) << summary.err;
+  EXPECT_THAT(summary.out, HasSubstr("remark: plates.gamma is 0.5"));
+  EXPECT_THAT(summary.out, HasSubstr("(in 1 of 2 runs)"));
+  EXPECT_THAT(summary.out, HasSubstr("a single frame, of the start (in 2 of 2 runs)"));
+  const Json json = Json::parse(run_client({"validate", file, "--json"}).out);
+  EXPECT_EQ(json.at("points").at(0).at("remarks").size(), 1u);
 }
 
 TEST(Init, DoesNotReplaceAFile) {
@@ -164,6 +206,13 @@ TEST(Completion, BashScriptCompletesVerbsAndOptions) {
   EXPECT_EQ(completed("shaken sta", 1), "status\n");
   EXPECT_EQ(completed("shaken --root /tmp wat", 3), "watch\n");
   EXPECT_EQ(completed("shaken results --agg", 2), "--aggregate\n");
+  EXPECT_EQ(completed("shaken figures --scale la", 3), "laptop\n");
+  EXPECT_EQ(completed("shaken plot --format s", 3), "svg\n");
+  EXPECT_EQ(completed("shaken submit -s rods.le", 3), "rods.length=\n");
+  EXPECT_EQ(completed("shaken movie " + folder.path().string().substr(0, folder.path().string().size() - 1), 2),
+            folder.path().string() + "\n");
+  EXPECT_EQ(completed("shaken status " + folder.path().string().substr(0, folder.path().string().size() - 1), 2), "\n")
+      << "a directory is no job";
   EXPECT_EQ(completed("shaken validate " + folder.path().string() + "/sh", 2), script + "\n");
   EXPECT_EQ(run_captured({"bash", "-n", script}).exit_code, 0);
 }

@@ -14,6 +14,7 @@ namespace shaken::client {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 bool have_gnuplot() { return run_captured({"gnuplot", "--version"}).exit_code == 0; }
 
@@ -105,9 +106,41 @@ TEST(RunFigures, ReplicasShareAColourAndTheirMeanIsDrawn) {
   EXPECT_NE(order[2].colour, order[0].colour);
   const auto& tilt = figures[1].curves;
   ASSERT_EQ(tilt.size(), 2u);
-  EXPECT_EQ(tilt[0].y, (std::vector<double>{2, 2}));        // the mean of 1 and 3; of 2 alone
-  EXPECT_EQ(tilt[0].y_error, (std::vector<double>{1, 0}));  // |3 - 1| / 2
-  EXPECT_EQ(tilt[1].y_error, (std::vector<double>{9, 9}));  // its own
+  EXPECT_EQ(tilt[0].y, (std::vector<double>{2, 2}));  // the mean of 1 and 3; of 2 alone
+  // Of two the errors of both together, 9 / sqrt(2), which is more than their scatter; of one its own.
+  EXPECT_EQ(tilt[0].y_error, (std::vector<double>{std::sqrt(2 * 81.0) / 2, 9}));
+  EXPECT_EQ(tilt[1].y_error, (std::vector<double>{9, 9}));
+}
+
+TEST(RunFigures, WhatStillRelaxesSaysSo) {
+  const run::Observables arrays{
+      {"/tilt/n_z", {-0.1, 0.1}}, {"/tilt/v_along_mm_s", {1, 2}}, {"/g2/r_mm", {1, 2}}, {"/g2/g2", {0.5, 0.25}}};
+  const auto figures = run_figures({{"a", arrays, true}, {"b", arrays, false}});
+  ASSERT_EQ(figures.size(), 2u);
+  for (const Figure& figure : figures) {
+    EXPECT_EQ(figure.curves[0].label, "a (still relaxing)") << figure.name;
+    EXPECT_EQ(figure.curves[1].label, "b") << figure.name;
+  }
+  EXPECT_EQ(figures[0].name, "tilt");
+  EXPECT_EQ(figures[0].curves[0].relaxing, std::vector<bool>(2, true));
+  EXPECT_THAT(figure_data(figures[0]), HasSubstr("# x  y  relaxing\n-0.1 1 1\n"));
+  EXPECT_THAT(figure_script(figures[0]), HasSubstr("using 1:($3==1?$2:NaN) with points"));
+  EXPECT_EQ(run_figures({{"", arrays, true}})[0].curves[0].label, "still relaxing");
+}
+
+TEST(RunFigures, ErrorsOfCurvesAreBands) {
+  const run::Observables arrays{{"/msd/lag_s", {1, 2}}, {"/msd/total_mm2", {1, 2}}, {"/msd/total_sem_mm2", {0.1, 0.2}}};
+  const auto figures = run_figures({{"a", arrays}});
+  ASSERT_EQ(figures.size(), 1u);
+  EXPECT_EQ(figures[0].curves[0].y_error, (std::vector<double>{0.1, 0.2}));
+  EXPECT_THAT(figure_script(figures[0]), HasSubstr("using 1:($2-$3):($2+$3) with filledcurves"));
+}
+
+TEST(FigureScript, FormatsForThePaperAndTheWeb) {
+  const Figure figure{.name = "f", .curves = {{.label = "a", .x = {1}, .y = {2}}}};
+  EXPECT_THAT(figure_script(figure, PictureFormat::kPdf), HasSubstr("pdfcairo"));
+  EXPECT_THAT(figure_script(figure, PictureFormat::kPdf), HasSubstr("set output 'f.pdf'"));
+  EXPECT_THAT(figure_script(figure, PictureFormat::kSvg), HasSubstr("set output 'f.svg'"));
 }
 
 TEST(PointLabel, AsInPrint) {
@@ -137,6 +170,28 @@ TEST(SweepFigures, LongestParameterIsTheAxisOthersAreCurves) {
   EXPECT_EQ(figures[0].curves[0].y, (std::vector<double>{0.1, 0.2, 0.3}));
   EXPECT_EQ(figures[0].curves[0].y_error, (std::vector<double>{0.01, 0.02, 0.03}));
   EXPECT_EQ(figures[0].curves[1].x, (std::vector<double>{0.6}));
+}
+
+TEST(SweepFigures, AnyFieldAgainstAnyOther) {
+  ResultRow a = point(2.5, 0.5, 0.1, 0.01), b = point(2.5, 0.7, 0.3, 0.03), without = point(2.5, 0.9, 0.3, 0.03);
+  a.fields["measured.theta_m_deg.value"] = 8.5;
+  a.fields["measured.theta_m_deg.value:sem"] = 0.5;
+  b.fields["measured.theta_m_deg.value"] = 9.5;
+  b.fields["steady"] = false;
+  const auto figures = sweep_figures({a, b, without}, {.y = "measured.theta_m_deg.value"});
+  ASSERT_EQ(figures.size(), 1u);
+  EXPECT_EQ(figures[0].name, "theta_m_deg_rods_area_fraction");
+  ASSERT_EQ(figures[0].curves.size(), 1u);
+  const Curve& curve = figures[0].curves[0];
+  EXPECT_EQ(curve.x, (std::vector<double>{0.5, 0.7}));
+  EXPECT_EQ(curve.y, (std::vector<double>{8.5, 9.5}));
+  EXPECT_EQ(curve.y_error[0], 0.5);
+  EXPECT_TRUE(std::isnan(curve.y_error[1])) << "no error is not an error of zero";
+  EXPECT_EQ(curve.relaxing, (std::vector<bool>{false, true}));
+  EXPECT_THAT(figures[0].title, HasSubstr("hollow: still relaxing"));
+  const auto other = sweep_figures({a, b}, {.x = "order.mean", .y = "measured.theta_m_deg.value"});
+  ASSERT_EQ(other.size(), 1u);
+  EXPECT_EQ(other[0].x_title, "nematic order ⟨S⟩");
 }
 
 TEST(SweepFigures, NothingSweptNothingDrawn) {
@@ -197,8 +252,27 @@ TEST(Plot, DrawsASweepFromTheDaemon) {
   const Outcome outcome = run_client({"plot", "s1", "--root", root.path().string(), "-o", out.string()});
   EXPECT_EQ(outcome.code, ExitCode::kOk) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("left out: "));
+  EXPECT_THAT(outcome.err, Not(HasSubstr("errno"))) << "in words, not in those of the library";
   EXPECT_TRUE(is_png(out / "order_rods_area_fraction.png"));
   EXPECT_TRUE(is_png(out / "order_time.png"));
+
+  const auto one = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"plot", "s1", "--root", root.path().string()});
+    return run_client(options);
+  };
+  const auto pdf = root.path() / "paper" / "s.pdf";
+  const Outcome drawn = one({"--x", "rods.area_fraction", "--y", "order.mean", "-o", pdf.string()});
+  EXPECT_EQ(drawn.code, ExitCode::kOk) << drawn.err;
+  EXPECT_EQ(drawn.out, pdf.string() + "\n");
+  std::string head(4, '\0');
+  std::ifstream(pdf).read(head.data(), 4);
+  EXPECT_EQ(head, "%PDF");
+  const Outcome svg = one({"--y", "order.mean", "--format", "svg", "-o", (root.path() / "web").string()});
+  EXPECT_EQ(svg.code, ExitCode::kOk) << svg.err;
+  EXPECT_TRUE(std::filesystem::exists(root.path() / "web" / "order_rods_area_fraction.svg"));
+  EXPECT_EQ(one({"-o", "all.pdf"}).code, ExitCode::kBadInput) << "several figures, one file";
+  EXPECT_EQ(one({"--format", "gif"}).code, ExitCode::kBadInput);
+  EXPECT_EQ(one({"--y", "order.maen"}).code, ExitCode::kBadInput);
 }
 
 TEST(Plot, NothingMeasuredIsAFailure) {

@@ -6,16 +6,16 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <set>
 
 #include "client/failure.h"
 #include "client/paper/claims.h"
+#include "client/paper/cost.h"
 #include "client/paper/figures.h"
 #include "client/plotting/sheet.h"
 #include "client/process.h"
 #include "run/files/directory.h"
 #include "tests/unit/client/fake_daemon.h"
+#include "tests/unit/client/made_up_run.h"
 
 namespace shaken::client {
 namespace {
@@ -80,151 +80,56 @@ TEST(MeanScalar, OfReplicasHasTheLargerOfBothErrors) {
   EXPECT_FALSE(mean_scalar({}, "order.mean").is_known());
 }
 
+TEST(MeanScalar, OfReplicasIsAsSteadyAsTheWorstOfThem) {
+  const MadeUp steady = MadeUp(4.5, 0.75).order(0.9), relaxing = MadeUp(4.5, 0.75).order(0.9).relaxing(),
+               untested = MadeUp(4.5, 0.75).order(0.9).untested();
+  const auto of = [](const MadeUp& a, const MadeUp& b) {
+    return mean_scalar({a.run(), b.run()}, "order.mean").steadiness;
+  };
+  EXPECT_EQ(of(steady, steady), Steadiness::kSteady);
+  EXPECT_EQ(of(steady, relaxing), Steadiness::kRelaxing);
+  EXPECT_EQ(of(steady, untested), Steadiness::kUnknown);
+  EXPECT_EQ(of(untested, relaxing), Steadiness::kRelaxing);
+}
+
+TEST(FinishedRun, NumbersAreAsSteadyAsTheySayAndTheirRun) {
+  const auto of = [](const Json& run, const Json& own) {
+    const Json scalar{{"value", 1.0}, {"sem", 0.1}, {"steady", own}};
+    return FinishedRun(Json::object(), Json{{"steady", run}, {"measured", {{"x", scalar}}}}, {}).scalar("x").steadiness;
+  };
+  EXPECT_EQ(of(true, nullptr), Steadiness::kSteady) << "no average over time: as its run";
+  EXPECT_EQ(of(true, true), Steadiness::kSteady);
+  EXPECT_EQ(of(nullptr, true), Steadiness::kSteady) << "S was not measured";
+  EXPECT_EQ(of(true, false), Steadiness::kRelaxing);
+  EXPECT_EQ(of(false, true), Steadiness::kRelaxing);
+  EXPECT_EQ(of(nullptr, nullptr), Steadiness::kUnknown);
+}
+
 TEST(Crossing, IsInterpolatedWithItsError) {
-  const Curve curve{.x = {0.7, 0.5, 0.6}, .y = {0.9, 0.1, 0.3}, .y_error = {0.03, 0.01, 0.03}};
-  const Quantity at = crossing(curve, 0.5);
-  EXPECT_NEAR(at.value, 0.6 + 0.1 * 0.2 / 0.6, 1e-12);
+  const auto at = [](double x, double y, double sem) { return Point{x, {y, sem, Steadiness::kSteady}}; };
+  const std::vector<Point> points{at(0.7, 0.9, 0.03), at(0.5, 0.1, 0.01), at(0.6, 0.3, 0.03)};
+  const Quantity found = crossing(points, 0.5);
+  EXPECT_NEAR(found.value, 0.6 + 0.1 * 0.2 / 0.6, 1e-12);
   // y at that place has the error of 2/3 and 1/3 of its neighbours; the slope is 6
-  EXPECT_NEAR(at.sem, std::hypot(2.0 / 3 * 0.03, 1.0 / 3 * 0.03) / 6, 1e-12);
-  EXPECT_FALSE(crossing(curve, 0.95).is_known());
-  EXPECT_FALSE(crossing({.x = {0, 1}, .y = {1, 0}}, 0.5).is_known()) << "it falls";
+  EXPECT_NEAR(found.sem, std::hypot(2.0 / 3 * 0.03, 1.0 / 3 * 0.03) / 6, 1e-12);
+  EXPECT_EQ(found.steadiness, Steadiness::kSteady);
+  EXPECT_FALSE(crossing(points, 0.95).is_known());
+  EXPECT_FALSE(crossing({at(0, 1, 0), at(1, 0, 0)}, 0.5).is_known()) << "it falls";
   EXPECT_FALSE(crossing({}, 0.5).is_known());
 }
 
-/// S against packing that passes 0.5 at `transition`.
-void add_column(Runs& runs, RunSet& set, double length, double transition, const Json& measured = Json::object()) {
-  for (const double fraction : {0.45, 0.55, 0.65, 0.75, 0.85}) {
-    const double order = 0.05 + 0.85 / (1 + std::exp(-(fraction - transition) / 0.02));
-    set.push_back(runs.make(length, fraction, order, 0.01, measured));
-  }
-}
-
-std::string verdict_of(const Library& library, const std::string& claim) {
-  for (const Json& finding : claims_json(library)) {
-    if (finding.at("claim") == claim) return finding.at("verdict");
-  }
-  return "no such claim";
-}
-
-TEST(Claims, FollowTheRuns) {
-  Runs runs;
-  Library paper_like, inverted;
-  RunSet set;
-  add_column(runs, set, 2.5, 2);
-  add_column(runs, set, 3.5, 0.75);
-  add_column(runs, set, 4.5, 0.55);
-  paper_like.add("phases", set);
-  EXPECT_EQ(verdict_of(paper_like, "ordered"), "agrees");
-  EXPECT_EQ(verdict_of(paper_like, "disordered"), "agrees");
-  EXPECT_EQ(verdict_of(paper_like, "short"), "agrees");
-  EXPECT_EQ(verdict_of(paper_like, "transition"), "agrees");
-
-  set.clear();
-  add_column(runs, set, 2.5, 0.5);
-  add_column(runs, set, 3.5, 0.55);
-  add_column(runs, set, 4.5, 0.80);
-  inverted.add("phases", set);
-  EXPECT_EQ(verdict_of(inverted, "ordered"), "disagrees");
-  EXPECT_EQ(verdict_of(inverted, "short"), "disagrees");
-  EXPECT_EQ(verdict_of(inverted, "transition"), "disagrees");
-}
-
-TEST(Claims, UnknownErrorsAndValuesDecideNothing) {
-  Runs runs;
-  const Json unknown{{"diffusion_mm2_s", {{"value", 1.0}, {"sem", nullptr}}},
-                     {"rotational_diffusion_rad2_s", {{"value", nullptr}, {"sem", nullptr}}}};
-  Json later = unknown;
-  later["diffusion_mm2_s"]["value"] = 23.0;
-  Library l;
-  l.add("phases", {runs.make(2.5, 0.65, 0.1, 0.01, unknown), runs.make(2.5, 0.85, 0.1, 0.01, later)});
-  EXPECT_EQ(verdict_of(l, "diffusion-rises"), "not resolved");
-  EXPECT_EQ(verdict_of(l, "diffusion-law"), "not resolved");
-  EXPECT_EQ(verdict_of(l, "rotation"), "not resolved");
-  l.add("phases", {runs.make(4.5, 0.75, 0.9, 0.2), runs.make(4.5, 0.45, 0.05, 0.2)});
-  EXPECT_EQ(verdict_of(l, "ordered"), "not resolved") << "the error is larger than what is allowed";
-  EXPECT_EQ(verdict_of(l, "disordered"), "not resolved");
-}
-
-TEST(Claims, TrendsAreHeldAgainstTheirErrors) {
-  Runs runs;
-  const auto library = [&](double dilute, double dense, double sem) {
-    const auto with = [&](double value) {
-      return Json{{"rotational_diffusion_rad2_s", {{"value", value}, {"sem", sem}}}};
-    };
-    Library l;
-    l.add("phases", {runs.make(2.5, 0.45, 0.1, 0.01, with(dilute)), runs.make(2.5, 0.85, 0.1, 0.01, with(dense))});
-    return l;
+TEST(Origin, NamesTheVersionsThatMadeTheRuns) {
+  const auto by = [](const char* version, const char* finished) {
+    return MadeUp(4.5, 0.75)
+        .number(Json::json_pointer("/versions/shaken"), version)
+        .number(Json::json_pointer("/finished"), finished);
   };
-  EXPECT_EQ(verdict_of(library(2.0, 1.0, 0.1), "rotation"), "agrees");
-  EXPECT_EQ(verdict_of(library(1.0, 2.0, 0.1), "rotation"), "disagrees");
-  EXPECT_EQ(verdict_of(library(1.1, 1.0, 0.1), "rotation"), "not resolved");
-}
-
-TEST(Claims, LayersMustBeThereWhenDenseAndNotBefore) {
-  Runs runs;
-  const auto point = [&](double phi, std::optional<double> theta) {
-    const Json value = theta ? Json(*theta) : Json();
-    return runs.make(4.5, phi, 0.9, 0.01, {{"theta_m_deg", {{"value", value}, {"sem", 0.3}}}});
-  };
-  const auto library = [&](std::optional<double> a, std::optional<double> b, std::optional<double> c) {
-    Library l;
-    l.add("layers", {point(0.75, a), point(0.80, b), point(0.85, c)});
-    return l;
-  };
-  EXPECT_EQ(verdict_of(library({}, 9.5, 11), "layers"), "agrees");
-  EXPECT_EQ(verdict_of(library(8, 9.5, 11), "layers"), "in part") << "layers before 0.80";
-  EXPECT_EQ(verdict_of(library(8, {}, 25), "layers"), "disagrees");
-}
-
-TEST(Claims, DiffusionLawIsThePapersFit) {
-  Runs runs;
-  const auto library = [&](double factor) {
-    RunSet set;
-    for (const double phi : {0.65, 0.75, 0.85}) {
-      const double d = factor * (1.7 + 480 * (phi - 0.64) * (phi - 0.64));
-      set.push_back(runs.make(2.5, phi, 0.1, 0.01, {{"diffusion_mm2_s", {{"value", d}, {"sem", 0.02 * d}}}}));
-    }
-    Library l;
-    l.add("phases", set);
-    return l;
-  };
-  EXPECT_EQ(verdict_of(library(1.0), "diffusion-law"), "agrees");
-  EXPECT_EQ(verdict_of(library(2.0), "diffusion-law"), "disagrees");
-  EXPECT_EQ(verdict_of(library(1.0), "diffusion-rises"), "agrees");
-}
-
-TEST(Claims, PeaksOfPOfSAreCounted) {
-  Runs runs;
-  const auto library = [&](std::vector<double> density) {
-    std::vector<double> s;
-    for (std::size_t k = 0; k < density.size(); ++k) s.push_back(static_cast<double>(k));
-    Library l;
-    l.add("phases", {runs.make(4.5, 0.65, 0.5, 0.01, Json::object(),
-                               {{"/order/pdf/order", s}, {"/order/pdf/density", density}})});
-    return l;
-  };
-  const auto bumps = [](std::initializer_list<double> centres) {
-    std::vector<double> density(100);
-    for (std::size_t k = 0; k < density.size(); ++k) {
-      for (const double centre : centres) density[k] += std::exp(-std::pow((static_cast<double>(k) - centre) / 6, 2));
-      density[k] *= k % 2 == 0 ? 1.2 : 0.8;  // noise from bin to bin
-    }
-    return density;
-  };
-  EXPECT_EQ(verdict_of(library(bumps({60})), "unimodal"), "agrees") << "noise is no peak";
-  EXPECT_EQ(verdict_of(library(bumps({30, 60})), "unimodal"), "not resolved");
-}
-
-TEST(Claims, WithoutRunsThereIsNoData) {
-  for (const Json& finding : claims_json(Library())) EXPECT_EQ(finding.at("verdict"), "no data") << finding;
-  const std::string table = claims_table(Library());
-  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), static_cast<std::ptrdiff_t>(paper_claims().size() + 2));
-}
-
-TEST(Claims, PointAtFiguresThatExist) {
-  std::set<std::string_view> figures;
-  for (const PaperFigure& figure : paper_figures()) EXPECT_TRUE(figures.insert(figure.id).second) << figure.id;
-  for (const Claim& claim : paper_claims()) EXPECT_TRUE(figures.contains(claim.figure)) << claim.id;
+  const Library runs =
+      library_of({{"phases", {by("1.0", "2026-01-02"), by("1.0", "2026-01-03"), by("1.1", "2026-02-01")}}});
+  const std::string_view sweeps[] = {"phases"};
+  EXPECT_EQ(origin_text(runs, sweeps),
+            "- 2 runs by shaken 1.0, the last of them finished at 2026-01-03\n"
+            "- 1 runs by shaken 1.1, the last of them finished at 2026-02-01\n");
 }
 
 TEST(Report, TableGoesBetweenTheMarks) {
@@ -245,6 +150,32 @@ TEST(PaperFigures, OfNothingAreDrawnWithoutData) {
       }
     }
   }
+}
+
+TEST(PaperFigures, DiffusionShowsWhereDIsRead) {
+  MadeUp run(2.5, 0.80);
+  run.scalar("diffusion_lag_from_s", 4).scalar("diffusion_lag_to_s", 8);
+  run.array("/msd/lag_s", {0, 1, 2, 4, 8, 16}).array("/msd/d_total_mm2_s", {NAN, 1, 2, 3, 3.5, 3.6});
+  const Library library = library_of({{"diffusion", {run}}, {"phases", {MadeUp(2.5, 0.80).box(33)}}});
+  const Sheet sheet = diffusion_figure({library, [](const FinishedRun&) { return std::filesystem::path(); }});
+  const auto panel = std::find_if(sheet.panels.begin(), sheet.panels.end(),
+                                  [](const Figure& figure) { return figure.y_title.starts_with("MSD / 4t"); });
+  ASSERT_NE(panel, sheet.panels.end());
+  ASSERT_EQ(panel->curves.size(), 2u) << "the long run alone, and its window";
+  EXPECT_EQ(panel->curves[0].x.size(), 6u);
+  EXPECT_EQ(panel->curves[1].x, (std::vector<double>{4, 8}));
+  EXPECT_EQ(panel->curves[1].y, (std::vector<double>{3, 3.5}));
+}
+
+TEST(PaperFigures, OrderHasTheSpreadAsBarsAndRingsWhereItRelaxes) {
+  const Library library =
+      library_of({{"phases",
+                   {MadeUp(4.5, 0.75).order(0.9, 0.001).scalar("susceptibility", 4, 1),
+                    MadeUp(4.5, 0.80).order(0.9, 0.001).scalar("susceptibility", 1, 1).relaxing()}}});
+  const Sheet sheet = order_figure({library, [](const FinishedRun&) { return std::filesystem::path(); }});
+  const Curve& mean = sheet.panels[1].curves.at(0);
+  EXPECT_EQ(mean.y_error, (std::vector<double>{0.1, 0.05})) << "sqrt(susceptibility / 400), not the standard error";
+  EXPECT_EQ(mean.relaxing, (std::vector<bool>{false, true}));
 }
 
 TEST(PaperFigures, NeedSweepsThatExistAtEveryScale) {

@@ -93,6 +93,28 @@ TEST(TableText, NarrowTerminalShortensTheWidestColumn) {
   EXPECT_EQ(table.text(1), "ID    POI…\n1f0c  rod…\n");
 }
 
+TEST(TableText, NumbersAndNamesAreLeftOutWholeButNeverCut) {
+  using Align = Table::Align;
+  Table table({{"JOB"}, {"S", Align::kRight}, {"OVERLAP", Align::kRight, 2}, {"CPU s", Align::kRight, 1}});
+  table.add_row({"1f0c5e2a", "0.9496", "0.003418", "12.25"});
+  EXPECT_EQ(table.text(33), "JOB            S   OVERLAP  CPU s\n1f0c5e2a  0.9496  0.003418  12.25\n");
+  EXPECT_EQ(table.text(32), "JOB            S  CPU s\n1f0c5e2a  0.9496  12.25\n");
+  EXPECT_EQ(table.left_out(32), std::vector<std::string>{"OVERLAP"});
+  EXPECT_EQ(table.text(5), "JOB            S\n1f0c5e2a  0.9496\n") << "what has to stay, stays whole";
+  EXPECT_TRUE(table.left_out(0).empty());
+}
+
+TEST(Agrees, AsksUntilTheAnswerIsClear) {
+  std::ostringstream out;
+  std::istringstream answers("perhaps\nn\n\ny\n");
+  const Console console{.out = out, .err = out, .in = &answers};
+  EXPECT_FALSE(console.agrees("Go on?", true));
+  EXPECT_EQ(out.str(), "Go on? [Y/n] Go on? [Y/n] ");
+  EXPECT_TRUE(console.agrees("Go on?", true)) << "an empty answer";
+  EXPECT_TRUE(console.agrees("Go on?", false));
+  EXPECT_FALSE(console.agrees("Go on?", false)) << "no answer at all";
+}
+
 TEST(Painted, ColoursOnlyWhereWanted) {
   std::ostringstream out;
   Console console{.out = out, .err = out};

@@ -15,11 +15,12 @@ struct Outcome {
   std::string err;
 };
 
-/// The program as a shell would start it, with both outputs caught; neither is a terminal.
-inline Outcome run_client(const std::vector<std::string>& arguments) {
+/// The program as a shell would start it, with both outputs caught; neither is a terminal, but lines may have a width
+/// as if there were one.
+inline Outcome run_client(const std::vector<std::string>& arguments, int width = 0) {
   std::ostringstream out;
   std::ostringstream err;
-  Console console{.out = out, .err = err};
+  Console console{.out = out, .err = err, .width = width};
   const ExitCode code = run_program(arguments, console);
   return {code, out.str(), err.str()};
 }

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <csignal>
 #include <fstream>
+#include <thread>
 
 #include "client/json.h"
 #include "tests/unit/client/fake_daemon.h"
@@ -17,9 +20,19 @@ using ::testing::Not;
 /// Verbs against a daemon whose answers are laid down (docs/protocol.md).
 class Verbs : public ::testing::Test {
  protected:
-  Outcome run(std::vector<std::string> arguments) {
+  Outcome run(std::vector<std::string> arguments, int width = 0) {
     arguments.insert(arguments.end(), {"--root", root_.path().string()});
-    return run_client(arguments);
+    return run_client(arguments, width);
+  }
+  /// Runs a verb that waits, and presses Ctrl-C once it has asked the daemon `n_requests` times.
+  Outcome run_interrupted(const std::vector<std::string>& arguments, std::size_t n_requests) {
+    std::thread finger([&] {
+      while (daemon_.requests().size() < n_requests) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      kill(getpid(), SIGINT);
+    });
+    Outcome outcome = run(arguments);
+    finger.join();
+    return outcome;
   }
 
   static Json job(const std::string& id, const std::string& state) {
@@ -118,6 +131,18 @@ TEST_F(Verbs, SubmitSendsTheFileAndShowsThePoints) {
   EXPECT_EQ(sent.at("name"), "phases");
 }
 
+TEST_F(Verbs, SubmitHandsThePriorityOn) {
+  const std::string file = (root_.path() / "scene.json").string();
+  std::ofstream(file) << R"({"box": {"side": 30}})";
+  Json answer = sweep({job("1f0c000000000000", "queued")});
+  answer["counts"] = {{"new", 1}, {"queued", 1}};
+  daemon_.on("POST /v1/sweeps", {{201, text(answer)}});
+  EXPECT_EQ(run({"submit", file, "--priority", "10"}).code, ExitCode::kOk);
+  EXPECT_EQ(Json::parse(daemon_.requests().back().body).at("priority"), 10);
+  EXPECT_EQ(run({"submit", file}).code, ExitCode::kOk);
+  EXPECT_FALSE(Json::parse(daemon_.requests().back().body).contains("priority"));
+}
+
 TEST_F(Verbs, SubmitOfABadSceneNeverReachesTheDaemon) {
   const std::string file = (root_.path() / "scene.json").string();
   std::ofstream(file) << R"({"box": {"sied": 30}})";
@@ -157,6 +182,32 @@ TEST_F(Verbs, WaitGivesUpAfterTheTimeout) {
   const Outcome outcome = run({"wait", "s1", "--timeout", "0.2"});
   EXPECT_EQ(outcome.code, ExitCode::kFailed);
   EXPECT_THAT(outcome.err, HasSubstr("time is up: 1 of 1 jobs"));
+}
+
+TEST_F(Verbs, CtrlCIsExitCode130) {
+  daemon_.on("GET /v1/sweeps/s1", text(sweep({job("1f0c000000000000", "running")})));
+  daemon_.on("GET /v1/jobs/1f0c", text({{"job", job("1f0c000000000000", "running")}}));
+  daemon_.on("GET /v1/jobs/1f0c000000000000/log?offset=0", R"({"text": "", "offset": 0, "state": "running"})");
+  daemon_.on("GET /v1/status", R"({"lcm": {"url": "", "ok": false, "message": "no multicast route"}})");
+  EXPECT_EQ(run_interrupted({"wait", "s1"}, 3).code, ExitCode::kInterrupted);
+  EXPECT_EQ(run_interrupted({"logs", "1f0c", "-f"}, daemon_.requests().size() + 4).code, ExitCode::kInterrupted);
+  EXPECT_EQ(run_interrupted({"watch", "s1"}, daemon_.requests().size() + 4).code, ExitCode::kInterrupted);
+}
+
+TEST_F(Verbs, WaitForNothingSaysSo) {
+  for (const char* state : {"queued", "running", "stopping"}) {
+    daemon_.on(std::string("GET /v1/jobs?state=") + state, R"({"jobs": []})");
+  }
+  const Outcome outcome = run({"wait"});
+  EXPECT_EQ(outcome.code, ExitCode::kOk);
+  EXPECT_EQ(outcome.err, "no job is queued or running\n");
+}
+
+TEST_F(Verbs, WaitLeavesOutWhatAFailedJobDoesNotHave) {
+  Json failed = job("2a0c000000000000", "cancelled");
+  failed["label"] = "";
+  daemon_.on("GET /v1/sweeps/s1", text(sweep({failed})));
+  EXPECT_EQ(run({"wait", "s1"}).err, "2a0c0000 cancelled\n");
 }
 
 TEST_F(Verbs, WaitWithoutAnIdTakesWhatIsUnfinished) {
@@ -216,12 +267,105 @@ TEST_F(Verbs, ResultsAsTableCsvAndJson) {
             "1f0c0000  done         2  271  0.75  0.01   12.5\n");
   const Outcome aggregate = run({"results", "s1", "--aggregate"});
   EXPECT_EQ(aggregate.out,
-            "rods.length  REPLICAS  DONE    N     S  SEM  CPU s\n"
-            "        2.5         2     2  271  0.75    0   12.5\n"
-            "        4.5         2     2  271  0.75    0   12.5\n");
+            "rods.length  REPLICAS  DONE    N     S       SEM  CPU s\n"
+            "        2.5         2     2  271  0.75  0.007071   12.5\n"
+            "        4.5         2     2  271  0.75  0.007071   12.5\n");
   EXPECT_THAT(run({"results", "s1", "--csv"}).out,
               HasSubstr("job,sweep,state,label,rods.length,replica,n_rods,order.mean,order.sem,cpu_seconds\n"));
   EXPECT_EQ(Json::parse(run({"results", "s1", "--json"}).out).at("rows"), rows);
+}
+
+Json results_with(const Json& rows) { return {{"rows", rows}}; }
+
+TEST_F(Verbs, ResultsMarkWhatStillRelaxesAndFitTheTerminal) {
+  const auto summary = [](bool steady) {
+    return Json{{"n_rods", 271},
+                {"sim_seconds", 2.0},
+                {"cpu_seconds", 12.5},
+                {"rod_seconds_per_cpu_second", 241.71},
+                {"max_overlap_mm", 0.0034187},
+                {"steady", steady},
+                {"order",
+                 {{"mean", 0.94961},
+                  {"std", 0.012345},
+                  {"sem", 0.00092341},
+                  {"tau_s", 0.12345},
+                  {"t_steady_s", 1.5},
+                  {"n_effective", 11.25},
+                  {"steady", steady}}},
+                {"measured", {{"theta_m_deg", {{"value", 8.5}, {"sem", 0.25}, {"steady", nullptr}}}}}};
+  };
+  Json rows = Json::array();
+  for (const int k : {0, 1}) {
+    rows.push_back({{"job", "1f0c5e2a0000000" + std::to_string(k)},
+                    {"sweep", "s1"},
+                    {"state", "done"},
+                    {"label", "x"},
+                    {"parameters", {{"rods.area_fraction", k == 0 ? 0.7 : 0.8}}},
+                    {"replica", 1},
+                    {"summary", summary(k == 1)}});
+  }
+  daemon_.on("GET /v1/sweeps/s1", text(sweep({})));
+  daemon_.on("GET /v1/results?sweep=s1", text(results_with(rows)));
+
+  const Outcome table = run({"results", "s1"}, 80);
+  EXPECT_EQ(table.code, ExitCode::kOk) << table.err;
+  std::istringstream lines(table.out);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80U) << line;
+  EXPECT_THAT(table.out, Not(HasSubstr("…")));
+  EXPECT_THAT(table.out, HasSubstr("1f0c5e2a"));
+  EXPECT_THAT(table.out, HasSubstr(" ~0.9496  0.0009234"));
+  EXPECT_THAT(table.out, HasSubstr("  0.9496  0.0009234"));
+  EXPECT_THAT(table.out, HasSubstr(" ~8.5"));
+  EXPECT_THAT(table.out, HasSubstr("\n~ still relaxing: "));
+  EXPECT_THAT(table.err, HasSubstr("no room for "));
+  EXPECT_THAT(table.err, HasSubstr("OVERLAP mm"));
+
+  const Outcome chosen = run({"results", "s1", "--columns", "order.mean,theta_m_deg,order.steady"}, 80);
+  EXPECT_EQ(chosen.out,
+            "order.mean  measured.theta_m_deg.value  order.steady\n"
+            "   ~0.9496                        ~8.5  false\n"
+            "    0.9496                         8.5  true\n"
+            "~ still relaxing: no steady state yet, run it longer (-s time.measure=...)\n");
+  EXPECT_EQ(run({"results", "s1", "--csv", "--columns", "rods.area_fraction,steady,order.n_effective"}).out,
+            "rods.area_fraction,steady,order.n_effective\n0.7,false,11.25\n0.8,true,11.25\n");
+  const Outcome wrong = run({"results", "s1", "--columns", "order.maen,nothing"});
+  EXPECT_EQ(wrong.code, ExitCode::kBadInput);
+  EXPECT_THAT(wrong.err, HasSubstr("did you mean order.mean?"));
+  EXPECT_THAT(wrong.err, HasSubstr("'nothing'"));
+  EXPECT_THAT(run({"results", "s1", "--csv"}).out, HasSubstr("order.steady"));
+}
+
+TEST_F(Verbs, WatchWithoutAnIdShowsEverythingThatRuns) {
+  const auto named = [](Json sweep, const char* id) {
+    sweep["sweep"]["id"] = id;
+    for (Json& job : sweep["jobs"]) job["sweep"] = id;
+    return sweep;
+  };
+  const Json one = named(sweep({job("1f0c000000000000", "running")}), "s1");
+  const Json two = named(sweep({job("2a0c000000000000", "done")}), "s2");
+  const Json three = named(sweep({job("3b0c000000000000", "queued")}), "s3");
+  Json none = Json::array({one.at("sweep"), two.at("sweep"), three.at("sweep")});
+  daemon_.on("GET /v1/sweeps", text({{"sweeps", none}}));
+  daemon_.on("GET /v1/sweeps/s1",
+             {{200, text(one)}, {200, text(named(sweep({job("1f0c000000000000", "done")}), "s1"))}});
+  daemon_.on("GET /v1/sweeps/s2", text(two));
+  daemon_.on("GET /v1/sweeps/s3",
+             {{200, text(three)}, {200, text(named(sweep({job("3b0c000000000000", "cancelled")}), "s3"))}});
+  daemon_.on("GET /v1/status", R"({"lcm": {"url": "", "ok": false, "message": "no multicast route"}})");
+  const Outcome outcome = run({"watch"});
+  EXPECT_EQ(outcome.code, ExitCode::kOk) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("1f0c0000 running"));
+  EXPECT_THAT(outcome.out, HasSubstr("3b0c0000 queued"));
+  EXPECT_THAT(outcome.out, HasSubstr("3b0c0000 cancelled"));
+  EXPECT_THAT(outcome.out, Not(HasSubstr("2a0c0000"))) << "it has ended long ago";
+}
+
+TEST_F(Verbs, MovieOfWhatIsNotRunningHasNothingLive) {
+  daemon_.on("GET /v1/jobs/1f0c", text({{"job", job("1f0c000000000000", "done")}}));
+  const Outcome outcome = run({"movie", "1f0c", "--live"});
+  EXPECT_EQ(outcome.code, ExitCode::kFailed);
+  EXPECT_THAT(outcome.err, HasSubstr("job 1f0c0000 is done: nothing of it is live. `shaken movie 1f0c --frame last`"));
 }
 
 TEST_F(Verbs, WatchWithoutLiveStateAsksTheDaemonUntilTheEnd) {
@@ -241,7 +385,7 @@ TEST_F(Verbs, WatchWithoutLiveStateAsksTheDaemonUntilTheEnd) {
 TEST_F(Verbs, CompletionKnowsTheIds) {
   daemon_.on("GET /v1/sweeps", text({{"sweeps", {sweep({}).at("sweep")}}}));
   daemon_.on("GET /v1/jobs", text({{"jobs", {job("1f0c000000000000", "done")}}}));
-  EXPECT_EQ(run({"completion", "ids"}).out, "s1\n1f0c0000\n");
+  EXPECT_EQ(run({"completion", "ids"}).out, "phases\ns1\n1f0c0000\n");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "analysis/director_field.h"
 #include "run/measure/largest_tilt.h"
 
 namespace shaken::run {
@@ -196,6 +197,52 @@ TEST(Measurements, FluctuationsOfALattice) {
   EXPECT_TRUE(reduction.scalars.contains("frank_ratio"));
 }
 
+TEST(Measurements, WhatCannotBeToldSaysWhy) {
+  Measurements measurements(plan(), species());
+  measure(measurements, 0, 10000);
+  const std::map<std::string, Scalar> scalars = measurements.reduce(0.1).scalars;
+  EXPECT_TRUE(std::isnan(scalars.at("fluctuation_exponent").value)) << "a box of four and a half rod lengths";
+  EXPECT_EQ(scalars.at("fluctuation_sizes").value, 1);
+  EXPECT_NE(scalars.at("fluctuation_exponent").reason.find("eight rod lengths"), std::string::npos);
+  EXPECT_TRUE(std::isnan(scalars.at("diffusion_mm2_s").value)) << "eleven samples";
+  EXPECT_NE(scalars.at("diffusion_mm2_s").reason.find("too short"), std::string::npos);
+  EXPECT_TRUE(scalars.at("velocity_rms_mm_s").reason.empty());
+}
+
+// What is measured of single rods, and where it is to be found.
+TEST(Measurements, WaysAndTiltsOfSingleRods) {
+  scene::RunPlan p = plan();
+  p.velocity = scene::MeasureVelocity{0.01, 0.01};
+  Measurements measurements(p, species());
+  // At 30 mm/s to and fro, turning every 0.1 s; tilted to either side for 50 ms.
+  const double tilt = largest_tilt(species(), p.system.gap);
+  for (Tick tick = 0; tick <= 200000; tick = measurements.next_due(tick + 1)) {
+    Snapshot s = random_snapshot(0);
+    s.tick = tick;
+    s.time = static_cast<double>(tick) * kDt;
+    const double phase = std::remainder(s.time, 0.2);
+    for (std::size_t i = 0; i < s.n_rods(); ++i) {
+      s.position[i] = Vec3(10 + 30 * std::abs(phase), 10, 0.6);
+      const double n_z = (tick / 5000 % 2 == 0 ? 0.6 : -0.6) * tilt;
+      s.director[i] = Vec3(std::sqrt(1 - n_z * n_z), 0, n_z);
+    }
+    measurements.sample(s);
+  }
+  const Reduction reduction = measurements.reduce(2.0);
+  EXPECT_NEAR(reduction.scalars.at("n_z_switching_time_s").value, 0.05, 0.002);
+  EXPECT_NEAR(reduction.scalars.at("velocity_variance_along_mm2_s2").value, 900, 1e-6);
+  EXPECT_NEAR(reduction.scalars.at("velocity_variance_across_mm2_s2").value, 0, 1e-6);
+  EXPECT_NEAR(reduction.arrays.at("/velocity/product_mm2_s2").at(0), 900, 1e-6);
+  // <u u'> falls from 1 to -1 in 0.1 s: a triangle of 0.05 s, 0.025 s in area, and as much way at 30 mm/s.
+  EXPECT_NEAR(reduction.scalars.at("persistence_time_s").value, 0.025, 0.001);
+  EXPECT_NEAR(reduction.scalars.at("persistence_length_mm").value, 0.75, 0.03);
+  EXPECT_EQ(reduction.arrays.at("/velocity/direction").at(0), 1.0);
+  for (std::size_t i = 0; i < reduction.arrays.at("/msd/lag_s").size(); ++i) {
+    EXPECT_NEAR(reduction.arrays.at("/msd/d_along_mm2_s")[i],
+                reduction.arrays.at("/msd/along_mm2")[i] / (2 * reduction.arrays.at("/msd/lag_s")[i]), 1e-9);
+  }
+}
+
 TEST(Measurements, NumbersAreOfBoxesInsideTheWalls) {
   scene::RunPlan p = plan();
   p.system.walls = SideWalls{Arena::kDisc, 14};
@@ -281,22 +328,44 @@ TEST(Measurements, NoLayersHaveNoWavelength) {
   EXPECT_GT(scalars.at("layer_order").sem, 0);
 }
 
-TEST(Measurements, DefectsBeyondTheSideWallsDoNotCount) {
+// Those of the director field within the walls, smoothed within them.
+TEST(Measurements, DefectsAreThoseWithinTheSideWalls) {
   scene::RunPlan p = plan();
-  const auto defects_of = [&] {
+  p.system.walls = SideWalls{Arena::kDisc, 18};
+  Snapshot inside = random_snapshot(0);
+  for (std::size_t i = 0; i < inside.n_rods(); ++i) {
+    inside.position[i] = Vec3(10, 10, 0.6) + 8.9 / 14.2 * (inside.position[i] - Vec3(10, 10, 0.6));
+  }
+  Measurements measurements(p, species());
+  measurements.sample(inside);
+  const std::vector<analysis::Defect>& defects = measurements.last_defects()->defects;
+  const double length = p.system.rod.length;
+  const analysis::DirectorField field(inside.position, inside.director, analysis::Region(20, p.system.walls),
+                                      analysis::grid_nodes(20, length / 8), length / 2);
+  EXPECT_EQ(defects.size(), analysis::find_defects(field).size());
+  EXPECT_GT(defects.size(), 0U);
+  for (const analysis::Defect& defect : defects) EXPECT_LE((defect.position - Vec2(10, 10)).norm(), 9);
+}
+
+// No distances through walls: the two rods at opposite walls are not near to each other.
+TEST(Measurements, PairsAreThoseWithinTheSideWalls) {
+  scene::RunPlan p = plan();
+  Snapshot two = random_snapshot(0);
+  two.position.resize(2);
+  two.director.resize(2);
+  two.velocity.resize(2);
+  two.angular_velocity.resize(2);
+  two.image.resize(2);
+  two.position[0] = Vec3(0.5, 10, 0.6);
+  two.position[1] = Vec3(19.4, 10, 0.6);
+  const auto g_near = [&] {
     Measurements measurements(p, species());
-    measurements.sample(random_snapshot(0));
-    return measurements.last_defects()->defects;
+    measurements.sample(two);
+    return measurements.reduce(0).arrays.at("/g2/g").at(2);  // of bins of 0.5 mm the one of 1 mm
   };
-  const std::vector<analysis::Defect> everywhere = defects_of();
-  p.system.walls = SideWalls{Arena::kDisc, 14};
-  const std::vector<analysis::Defect> inside = defects_of();
-  const auto expected = std::count_if(everywhere.begin(), everywhere.end(), [](const analysis::Defect& defect) {
-    return (defect.position - Vec2(10, 10)).norm() <= 7;
-  });
-  EXPECT_EQ(static_cast<std::ptrdiff_t>(inside.size()), expected);
-  EXPECT_GT(inside.size(), 0U);
-  EXPECT_LT(inside.size(), everywhere.size());
+  EXPECT_GT(g_near(), 0);
+  p.system.walls = SideWalls{Arena::kDisc, 19.5};
+  EXPECT_EQ(g_near(), 0);
 }
 
 TEST(Measurements, DefectsAreNotTrackedThroughSideWalls) {
@@ -309,7 +378,7 @@ TEST(Measurements, DefectsAreNotTrackedThroughSideWalls) {
   const double length = p.system.rod.length;
   analysis::DefectTracks within({20, 19 * 19, 0.05, length, 0.02, false});
   analysis::DefectTracks through({20, 19 * 19, 0.05, length, 0.02, true});
-  for (Tick tick = 0; tick <= 50000; tick += 5000) {
+  for (Tick tick = 0; tick <= 500000; tick += 5000) {
     measurements.sample(random_snapshot(tick));
     within.accumulate(static_cast<double>(tick) * kDt, measurements.last_defects()->defects);
     through.accumulate(static_cast<double>(tick) * kDt, measurements.last_defects()->defects);

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "proto/codec.h"
+#include "sim/balance.h"
+#include "sim/initial.h"
 
 namespace shaken::run {
 namespace {

@@ -2,10 +2,14 @@
 #include "run/files/observables_file.h"
 
 #include <gtest/gtest.h>
+#include <hdf5.h>
 
 #include <cmath>
 
 #include "run/files/atomic_file.h"
+#include "run/files/units.h"
+#include "run/files/version.h"
+#include "tests/unit/run/hdf5_attributes.h"
 #include "tests/unit/run/temporary_folder.h"
 
 namespace shaken::run {
@@ -21,6 +25,36 @@ TEST(ObservablesFile, KeepsEveryNumberExactly) {
   const auto read = read_observables(folder / "observables.h5");
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(*read, written);
+}
+
+TEST(ObservablesFile, EveryArrayHasItsUnitAndTheFileItsRun) {
+  const TemporaryFolder folder;
+  const Observables written{{"/order/time_s", {0}}, {"/order/order", {1}}, {"/velocity/c_v_along_sem_mm2_s2", {1}}};
+  ASSERT_FALSE(write_observables(folder / "observables.h5", written, {"0123456789abcdef", 77}));
+  const hid_t file = H5Fopen((folder / "observables.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  ASSERT_GE(file, 0);
+  EXPECT_EQ(hdf5_text_attribute(file, "/order/time_s", "unit"), "s");
+  EXPECT_EQ(hdf5_text_attribute(file, "/order/order", "unit"), "1");
+  EXPECT_EQ(hdf5_text_attribute(file, "/velocity/c_v_along_sem_mm2_s2", "unit"), "mm2 s-2");
+  EXPECT_EQ(hdf5_text_attribute(file, "/", "run_id"), "0123456789abcdef");
+  EXPECT_EQ(hdf5_text_attribute(file, "/", "shaken_version"), version());
+  EXPECT_GT(H5Aexists_by_name(file, "/", "seed", H5P_DEFAULT), 0);
+  H5Fclose(file);
+}
+
+TEST(UnitOfName, IsWhatTheNameEndsIn) {
+  EXPECT_EQ(unit_of_name("/order/time_s"), "s");
+  EXPECT_EQ(unit_of_name("/tilt/v_along_sem_mm_s"), "mm s-1");
+  EXPECT_EQ(unit_of_name("/msd/d_total_mm2_s"), "mm2 s-1");
+  EXPECT_EQ(unit_of_name("/layers/q_per_mm"), "mm-1");
+  EXPECT_EQ(unit_of_name("defect_created_per_mm2_s"), "mm-2 s-1");
+  EXPECT_EQ(unit_of_name("/angles/density_per_rad"), "rad-1");
+  EXPECT_EQ(unit_of_name("rotational_diffusion_rad2_s"), "rad2 s-1");
+  EXPECT_EQ(unit_of_name("theta_m_deg"), "deg");
+  EXPECT_EQ(unit_of_name("/g2/g2"), "1");
+  EXPECT_EQ(unit_of_name("/tilt/n_z"), "1");
+  EXPECT_EQ(unit_of_name("layers_per_box"), "1");
+  EXPECT_EQ(unit_of_name(""), "1");
 }
 
 TEST(ObservablesFile, NotANumberComesBack) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "run/files/atomic_file.h"
@@ -23,7 +24,7 @@ Summary example() {
   s.collisions_rod_lid = 3;
   s.max_overlap = 0.001;
   s.t_steady = 2;
-  s.order = analysis::SteadySummary{0.9, 0.02, 0.001, 0.5, 2, 400};
+  s.order = analysis::SteadySummary{0.9, 0.02, 0.001, 0.5, 2, 400, true, {}};
   s.effects["rod_rod_friction"] = {true, {{"impulses", 5e9}}};
   s.effects["movie"] = {};
   s.state_hash = 0xab;
@@ -54,6 +55,47 @@ TEST(Summary, HasTheAgreedFields) {
   EXPECT_EQ(json["exit"]["state"], "done");
   EXPECT_EQ(json["exit"]["tick"], 2'500'000);
   EXPECT_EQ(json["versions"]["shaken"], "0.1.0");
+}
+
+TEST(Summary, SaysOfEveryNumberWhatItIsWorth) {
+  Summary summary = example();
+  summary.order->steady = true;
+  summary.order->drift = {0.01, 0.02};
+  summary.scalars["theta_m_deg"] = {12.5, 0.25, 30, true};
+  summary.scalars["dip"] = {0.5, NAN, 3, std::nullopt};
+  summary.scalars["psi_6"] = {0.5, 0.01, 20, false};
+  auto json = written(summary);
+  EXPECT_EQ(json["steady"], true);
+  EXPECT_EQ(json["order"]["steady"], true);
+  EXPECT_EQ(json["order"]["drift"], nlohmann::json::parse(R"({"value": 0.01, "sem": 0.02})"));
+  EXPECT_EQ(json["measured"]["theta_m_deg"],
+            nlohmann::json::parse(R"({"value": 12.5, "sem": 0.25, "n_effective": 30.0, "steady": true})"));
+  EXPECT_EQ(json["measured"]["dip"],
+            nlohmann::json::parse(R"({"value": 0.5, "sem": null, "n_effective": 3.0, "steady": null})"));
+  EXPECT_EQ(json["measured"]["psi_6"]["steady"], false);
+
+  summary.order->steady = false;
+  summary.order->sem = NAN;
+  json = written(summary);
+  EXPECT_EQ(json["steady"], false);
+  EXPECT_TRUE(json["order"]["sem"].is_null());
+  summary.order.reset();
+  EXPECT_TRUE(written(summary)["steady"].is_null()) << "what was not measured is not known";
+}
+
+TEST(Summary, SaysWhyItIsNotSteady) {
+  analysis::SteadySummary order{0.9, 0.02, 0.001, 0.5, 8, 400, true, {}};
+  EXPECT_EQ(why_not_steady(order, 10), "");
+  order.steady = false;
+  order.drift = {-0.02, 0.004, 40};
+  EXPECT_NE(why_not_steady(order, 10).find("drifts: it changes by -0.02 +- 0.004"), std::string::npos);
+  order.drift = {-0.002, 0.004, 40};
+  EXPECT_NE(why_not_steady(order, 10).find("until 8 s of 10 s"), std::string::npos);
+  order.drift = {-0.002, 0.004, 6};
+  order.n_effective = 7.2;
+  EXPECT_NE(why_not_steady(order, 10).find("about 7 independent samples"), std::string::npos);
+  order.drift = {};
+  EXPECT_NE(why_not_steady(order, 10).find("cannot be told"), std::string::npos);
 }
 
 TEST(Summary, TellsTheTrouble) {

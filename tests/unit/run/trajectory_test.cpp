@@ -9,6 +9,8 @@
 #include <random>
 
 #include "run/files/atomic_file.h"
+#include "run/files/version.h"
+#include "tests/unit/run/hdf5_attributes.h"
 #include "tests/unit/run/temporary_folder.h"
 
 namespace shaken::run {
@@ -20,7 +22,9 @@ constexpr double kDt = 4e-6;
 constexpr int kRods = 300;
 
 TrajectoryHeader header() {
-  return {kRods, kSide, kGap, kDt, {-2.05, 0, 2.05}, {0.2, 0.4, 0.2}, R"({"rods": {"count": 300}})"};
+  TrajectoryHeader header{kRods, kSide, kGap, kDt, {-2.05, 0, 2.05}, {0.2, 0.4, 0.2}, R"({"rods": {"count": 300}})"};
+  header.provenance = {"0123456789abcdef", 77};
+  return header;
 }
 
 Snapshot snapshot(Tick tick) {
@@ -342,6 +346,11 @@ class H5mdStructure : public testing::Test {
     return H5Aexists_by_name(file_, path.c_str(), name.c_str(), H5P_DEFAULT) > 0;
   }
 
+  std::string text_attribute(const std::string& path, const std::string& name) const {
+    return hdf5_text_attribute(file_, path, name);
+  }
+  std::string unit(const std::string& path) const { return text_attribute(path, "unit"); }
+
   TemporaryFolder folder_;
   hid_t file_ = -1;
 };
@@ -367,12 +376,29 @@ TEST_F(H5mdStructure, StepAndTimeAreOneDataSet) {
   }
 }
 
-TEST_F(H5mdStructure, UnitsStandUnderParametersOnly) {
-  for (const char* path : {"position", "position/value", "position/time", "velocity", "velocity/value"}) {
-    EXPECT_FALSE(has_attribute(std::string("/particles/trajectory/") + path, "unit")) << path;
+TEST_F(H5mdStructure, ValuesAndTimesHaveTheirUnits) {
+  const std::string group = "/particles/trajectory/";
+  EXPECT_EQ(unit(group + "position/value"), "mm");
+  EXPECT_EQ(unit(group + "velocity/value"), "mm s-1");
+  EXPECT_EQ(unit(group + "box/edges/value"), "mm");
+  for (const char* element : {"position", "image", "velocity", "orientation", "box/edges"}) {
+    EXPECT_EQ(unit(group + element + "/time"), "s") << element;
   }
-  EXPECT_TRUE(has_attribute("/parameters/units", "length"));
-  EXPECT_TRUE(has_attribute("/parameters/units", "time"));
+  EXPECT_EQ(unit("/parameters/bead_offset_mm"), "mm");
+  EXPECT_EQ(unit("/parameters/bead_radius_mm"), "mm");
+  EXPECT_FALSE(has_attribute(group + "orientation/value", "unit"));
+  EXPECT_TRUE(has_attribute("/h5md/modules/units", "version"));
+  EXPECT_TRUE(has_attribute("/h5md/modules/units", "system"));
+}
+
+TEST_F(H5mdStructure, SaysWhichRunItIsOf) {
+  EXPECT_EQ(text_attribute("/", "run_id"), "0123456789abcdef");
+  EXPECT_EQ(text_attribute("/", "shaken_version"), version());
+  std::uint64_t seed = 0;
+  const hid_t attribute = H5Aopen(file_, "seed", H5P_DEFAULT);
+  EXPECT_GE(H5Aread(attribute, H5T_NATIVE_UINT64, &seed), 0);
+  H5Aclose(attribute);
+  EXPECT_EQ(seed, 77U);
 }
 
 /// Files of one kind of rod in a box without walls are as they were before there were others.

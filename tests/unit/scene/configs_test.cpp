@@ -5,8 +5,8 @@
 #include <sstream>
 
 #include "scene/sweep.h"
+#include "sim/initial.h"
 #include "sim/rod/species.h"
-#include "sim/world.h"
 #include "tests/unit/scene/support.h"
 
 namespace shaken::scene {

@@ -85,6 +85,36 @@ TEST(Packing, AllThreeMustAgree) {
             "which make 0.4673192449; remove one");
 }
 
+TEST(Packing, FractionAndCountMakeTheArena) {
+  const double area = 300 * make_species(plan_of("{}").system.rod).area / 0.5;
+  const Scene disc = plan_of(R"({"rods": {"count": 300, "area_fraction": 0.5}, "walls": {}})").system;
+  EXPECT_EQ(disc.n_rods, 300);
+  EXPECT_DOUBLE_EQ(disc.walls->size, std::sqrt(4 * area / kPi));
+  EXPECT_DOUBLE_EQ(disc.box_side, disc.walls->size + 1.0);
+  EXPECT_NEAR(area_fraction_of(disc), 0.5, 1e-12);
+  const Scene square =
+      plan_of(R"({"rods": {"count": 300, "area_fraction": 0.5}, "walls": {"arena": "square"}})").system;
+  EXPECT_DOUBLE_EQ(square.walls->size, std::sqrt(area));
+  const Scene annulus =
+      plan_of(R"({"rods": {"count": 300, "area_fraction": 0.5}, "walls": {"arena": "annulus", "inner": 15}})").system;
+  EXPECT_NEAR(area_fraction_of(annulus), 0.5, 1e-12);
+  EXPECT_EQ(annulus.walls->inner, 15);
+  // of several kinds it is the first that says so
+  const Scene mixed =
+      plan_of(R"({"rods": {"count": 300, "area_fraction": 0.5}, "rods_2": {"count": 20}, "walls": {}})").system;
+  EXPECT_EQ(mixed.walls->size, disc.walls->size);
+}
+
+TEST(Packing, OfTooMuchTheKeyThatWasGivenIsNamed) {
+  EXPECT_EQ(
+      problem_of(R"({"rods": {"count": 300, "area_fraction": 0.5}, "walls": {}, "box": {"side": 50}})").substr(0, 121),
+      "run.json:1:42: /rods/area_fraction: rods.area_fraction 0.5 contradicts rods.count 300 in box.side 50 mm "
+      "(an arena of 49 m");
+  EXPECT_NE(
+      problem_of(R"({"rods": {"count": 300, "area_fraction": 0.5}, "walls": {"size": 50}})").find("walls.size 50"),
+      std::string::npos);
+}
+
 TEST(Packing, ImpossibleOnesAreRefused) {
   EXPECT_EQ(problem_of(R"({"rods": {"count": 2000}, "box": {"side": 40}})").substr(0, 58),
             "run.json:1:20: /rods/count: 2000 rods in a box of 40 mm ar");

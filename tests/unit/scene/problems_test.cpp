@@ -151,6 +151,41 @@ TEST(Problems, OfWallsAndPlates) {
             "run.json:1:20: /plates/lid: expected true or false, not the number 1");
 }
 
+TEST(Problems, OfTheInnerWall) {
+  EXPECT_EQ(
+      problem_of(R"({"walls": {"arena": "annulus", "inner": "90 mm"}})"),
+      "run.json:1:41: /walls/inner: an inner wall of 90 mm does not fit into an outer one of 82.73 mm, as large as "
+      "box.side allows");
+  EXPECT_EQ(problem_of(R"({"walls": {"arena": "annulus", "size": 50, "inner": 50}})"),
+            "run.json:1:53: /walls/inner: an inner wall of 50 mm does not fit into an outer one of 50 mm, walls.size");
+  EXPECT_EQ(
+      problem_of(R"({"walls": {"arena": "annulus", "size": 50, "inner": 45}})"),
+      "run.json:1:53: /walls/inner: an annulus from 45 mm to 50 mm leaves no room for rods of 4.5 mm to turn: its "
+      "walls must be a rod length apart");
+  EXPECT_EQ(problem_of(R"({"walls": {"inner": "10 mm"}})"),
+            "run.json:1:21: /walls/inner: only an annulus has an inner wall, and walls.arena is \"disc\"; remove "
+            "walls.inner, or set walls.arena to \"annulus\"");
+  EXPECT_EQ(problems_of(R"({"walls": {"arena": "square"}})", {"walls.inner=3"}).size(), 1u);
+}
+
+TEST(Problems, PlatesTooFastForTheStep) {
+  const char* wild = R"({"plates": {"gamma": 150, "frequency": 100}})";
+  const std::string problem = problem_of(wild, {"time.step=100 us"});
+  const std::string expected =
+      "-s time.step=100 us: /time/step: plates as fast as 2342 mm/s move further in a step of 100 us than half the "
+      "radius of the thinnest bead, 0.1 mm, the deepest overlap there may be: the run would end in numerical trouble; "
+      "take a step of at most 42.699";
+  EXPECT_EQ(problem.substr(0, expected.size()), expected);
+  plan_of(wild, {"time.step=42 us"});
+  plan_of(wild);
+}
+
+TEST(Problems, SmallNumbersReadWell) {
+  EXPECT_EQ(problem_of(R"({"rods": {"area_fraction": 5.454153912e-7}})"),
+            "run.json:1:28: /rods/area_fraction: 5.454153912e-7 is outside [1e-06, 0.92]; did you mean "
+            "0.0005454153912?");
+}
+
 TEST(Problems, TimesThatDoNotFitTogether) {
   EXPECT_EQ(problem_of(R"({"measure": {"velocity": {"window": "50 ms"}}})"),
             "run.json:1:37: /measure/velocity/window: measure.velocity.window 50 ms is shorter than "

@@ -47,7 +47,7 @@ TEST(Values, RangesAreExactDecimals) {
 }
 
 TEST(Values, RangesOfAnyStepAreTheDecimalsOfTheirIndex) {
-  rc::check("the i-th value is (from + i step) to the last bit", [] {
+  EXPECT_TRUE(rc::check("the i-th value is (from + i step) to the last bit", [] {
     const auto from = *rc::gen::inRange<std::int64_t>(-100000, 100000);
     const auto step = *rc::gen::inRange<std::int64_t>(1, 5000);
     const auto n = *rc::gen::inRange<std::int64_t>(1, 200);
@@ -58,7 +58,7 @@ TEST(Values, RangesOfAnyStepAreTheDecimalsOfTheirIndex) {
       RC_ASSERT(parse_decimal(found[static_cast<std::size_t>(i)])->value() ==
                 static_cast<double>(from + i * step) / 1000);
     }
-  });
+  }));
 }
 
 TEST(Values, ArraysMixValuesAndRanges) {

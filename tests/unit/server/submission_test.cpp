@@ -52,6 +52,17 @@ TEST(SubmitRequestTest, WhatIsWrongIsSaidInWords) {
   EXPECT_THAT(refusal(R"({"text": "", "name": "s12"})"), HasSubstr("sweep's id"));
 }
 
+TEST(Submission, RodsThatCannotBePlacedAreRefusedAtOnce) {
+  SubmitRequest request;
+  request.text = R"({"rods": {"area_fraction": 0.915}, "box": {"side": 25}})";
+  request.file = "dense.json";
+  const auto submission = expand(request, "/nonexistent");
+  ASSERT_FALSE(submission.value);
+  ASSERT_EQ(submission.problems.size(), 1u);
+  EXPECT_THAT(scene::to_string(submission.problems.front()), HasSubstr("dense.json: /rods: "));
+  EXPECT_THAT(submission.problems.front().message, HasSubstr("do not fit into the box: in rows at most "));
+}
+
 TEST(SubmitRequestTest, NoBytesCrashIt) {
   EXPECT_TRUE(rc::check("any bytes", [](const std::string& body) { refusal(body); }));
   const std::string good = R"({"text": "{}", "settings": ["x=1"], "replicas": 3, "name": "n"})";

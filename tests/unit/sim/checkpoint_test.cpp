@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
+#include "sim/core/physics_version.h"
 #include "sim/simulation.h"
 
 namespace shaken {
@@ -46,6 +49,20 @@ TEST(Checkpoint, RefusesAnotherSceneAndDamage) {
   bytes.push_back(std::byte{0});
   EXPECT_FALSE(static_cast<bool>(Simulation::resume(scene, bytes)));
   EXPECT_FALSE(static_cast<bool>(Simulation::resume(scene, {})));
+}
+
+TEST(Checkpoint, RefusesAnotherPhysicsVersionByName) {
+  const Scene scene = small_scene();
+  auto simulation = Simulation::start(scene);
+  ASSERT_TRUE(static_cast<bool>(simulation));
+  auto bytes = simulation->checkpoint();
+  ASSERT_EQ(bytes[8], static_cast<std::byte>(kPhysicsVersion));  // behind the magic
+  bytes[8] = static_cast<std::byte>(kPhysicsVersion - 1);
+  const auto resumed = Simulation::resume(scene, bytes);
+  ASSERT_FALSE(static_cast<bool>(resumed));
+  EXPECT_NE(resumed.error().message.find("physics version " + std::to_string(kPhysicsVersion - 1)), std::string::npos)
+      << resumed.error().message;
+  EXPECT_NE(resumed.error().message.find("version " + std::to_string(kPhysicsVersion)), std::string::npos);
 }
 
 TEST(StateHash, SeesEveryRod) {

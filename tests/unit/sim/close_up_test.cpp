@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "sim/contact/bead_contacts.h"
@@ -77,6 +78,58 @@ TEST(CloseUp, LeavesOutFlightsThatBeganLater) {
   const CloseUp seen = look_closely(simulation->world(), 0, {rod});
   EXPECT_EQ(seen.unknown, std::vector<int>{rod});
   EXPECT_TRUE(seen.rods.empty());
+}
+
+/// The world one tick before `now`, with one rod much too fast for what it is going to do at `now`.
+World with_a_runaway(World world, int rod, Tick now) {
+  Flight& flight = world.rods[static_cast<std::size_t>(rod)];
+  const Species& species = world.species_of(static_cast<std::size_t>(rod));
+  const double ratio = species.inertia_par / species.inertia_perp;
+  const double tau = static_cast<double>(now - 1 - flight.since) * world.scene.dt;
+  const Pose pose = pose_after(flight, tau, world.scene.gravity);
+  Motion motion = motion_after(flight, tau, world.scene.gravity, pose.director, ratio);
+  motion.velocity.x() = 1e5;
+  begin_flight(flight, now - 1, pose, motion, world.scene.box_side, ratio);
+  return world;
+}
+
+// Trouble that is met where flights are stored leaves all of them as they were: the world is that of one tick before,
+// and a close-up of it shows every neighbour.
+TEST(CloseUp, AfterTroubleWhileStoringNoRodIsUnknown) {
+  Scene scene = dense_scene();
+  scene.box_side = 60;  // room enough for the runaway to meet the plates alone
+  scene.n_rods = 200;
+  int n_troubles = 0, n_others = 0;
+  for (const Engine engine : {Engine::kReference, Engine::kScheduled}) {
+    scene.engine = engine;
+    auto simulation = Simulation::start(scene);
+    ASSERT_TRUE(static_cast<bool>(simulation));
+    ASSERT_FALSE(simulation->advance_to(2000).has_value());
+    for (Tick now = 2001; now < 2700; ++now) {
+      const World before = simulation->world();
+      ASSERT_FALSE(simulation->advance_to(now).has_value());
+      std::vector<int> hit;
+      for (int i = 0; i < 200; ++i) {
+        if (simulation->world().rods[static_cast<std::size_t>(i)].since == now) hit.push_back(i);
+      }
+      if (hit.size() < 2) continue;
+      const int runaway = hit.back();  // the others are stored before it
+      Simulation fatal = Simulation::start_from(with_a_runaway(before, runaway, now));
+      const auto trouble = fatal.advance_to(now);
+      if (!trouble || trouble->what.find("a speed of") == std::string::npos) continue;
+      ++n_troubles;
+      n_others += static_cast<int>(hit.size()) - 1;
+      EXPECT_EQ(trouble->rods, std::vector<int>{runaway});
+      for (const Flight& flight : fatal.world().rods) EXPECT_LT(flight.since, now);
+      std::vector<int> everyone(200);
+      std::iota(everyone.begin(), everyone.end(), 0);
+      const CloseUp seen = look_closely(fatal.world(), now - 1, everyone);
+      EXPECT_EQ(seen.rods.size(), 200U);
+      EXPECT_TRUE(seen.unknown.empty());
+    }
+  }
+  EXPECT_GT(n_troubles, 10);
+  EXPECT_GT(n_others, 10);
 }
 
 }  // namespace

@@ -5,7 +5,9 @@
 #include <map>
 #include <set>
 
+#include "sim/checkpoint.h"
 #include "sim/effects/registry.h"
+#include "sim/initial.h"
 #include "sim/simulation.h"
 #include "sim/stepping/reference_stepper.h"
 

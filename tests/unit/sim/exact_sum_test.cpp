@@ -12,7 +12,7 @@ namespace shaken {
 namespace {
 
 TEST(ExactSum, DoesNotDependOnTheOrderOfItsTerms) {
-  Rng rng(1, RngStream::kVelocity, 0);
+  Rng rng(1, RngStream::kVelocity, 0, 0);
   std::vector<double> terms;
   for (int k = 0; k < 10000; ++k) terms.push_back(rng.normal() * std::pow(10.0, rng.uniform(-8, 6)));
   ExactSum<34> forwards, backwards, halves[2], both;

@@ -78,7 +78,7 @@ TEST(Impulse, ComplianceIsWhatAnImpulseDoes) {
 
 TEST(Impulse, LawsHoldForTenThousandRandomContacts) {
   test::Draw draw(5);
-  int n_stick = 0, n_slip = 0;
+  int n_stick = 0, n_slip = 0, n_could_stick = 0;
   for (int trial = 0; trial < 10000; ++trial) {
     Impact impact = random_impact(draw);
     const ContactParameters contact{draw.integer(0, 3) == 0 ? draw.uniform(0, 1) : draw.uniform(0, 0.1),
@@ -114,12 +114,23 @@ TEST(Impulse, LawsHoldForTenThousandRandomContacts) {
       ++n_slip;
       EXPECT_NEAR(P_t.dot(before_t), -P_t.norm() * before_t.norm(), 1e-7 * (1 + P_t.norm() * before_t.norm()));
     }
+    // it sticks if and only if the impulse that leaves no sliding lies in the cone
+    const Vec3 sticking = K.inverse() * (-(1 + contact.restitution) * u_n * impact.normal - before_t);
+    const double sticking_n = sticking.dot(impact.normal);
+    const double sticking_t = (sticking - sticking_n * impact.normal).norm();
+    if (sticking_t < contact.friction * sticking_n * (1 - 1e-9)) {
+      ++n_could_stick;
+      EXPECT_LT((P - sticking).norm(), 1e-9 * (1 + sticking.norm())) << "it could have stuck, and did not";
+    } else if (sticking_t > contact.friction * sticking_n * (1 + 1e-9)) {
+      EXPECT_GT((P - sticking).norm(), 1e-12 * sticking.norm()) << "it stuck beyond the cone";
+    }
     // at the friction of the paper no impact makes energy (Stronge 1991 tells when Newton's rule could)
     if (contact.friction <= 0.1) {
       EXPECT_LE(impact.energy(), energy * (1 + 1e-12));
     }
   }
   EXPECT_GT(n_stick, 100);
+  EXPECT_GT(n_could_stick, 100);
   EXPECT_GT(n_slip, 1000);
 }
 

@@ -83,8 +83,44 @@ TEST(InitialFlights, WhatDoesNotFitIsRefusedWithTheLargestFraction) {
     const Scene scene = scene_at(4.5, start == Start::kAligned ? 0.99 : 0.75, 25, start);
     const auto flights = flights_of(scene);
     ASSERT_FALSE(static_cast<bool>(flights));
-    EXPECT_NE(flights.error().message.find("at most"), std::string::npos) << flights.error().message;
+    const std::string telling = start == Start::kAligned ? "in rows at most " : "no room for another after ";
+    EXPECT_NE(flights.error().message.find(telling), std::string::npos) << flights.error().message;
   }
+}
+
+/// The number that a refusal says can be placed.
+int promised(const Scene& scene) {
+  const auto flights = flights_of(scene);
+  if (flights) return -1;
+  const std::string& message = flights.error().message;
+  const std::string before = "in rows at most ";
+  const std::size_t at = message.find(before);
+  return at == std::string::npos ? -1 : std::stoi(message.substr(at + before.size()));
+}
+
+TEST(InitialFlights, TheMostThatIsPromisedCanBePlacedAndNotOneMore) {
+  for (const Arena arena : {Arena::kDisc, Arena::kSquare, Arena::kAnnulus}) {
+    for (double size = 13.26; size < 34; size += 1.3) {
+      Scene scene = scene_at(4.5, 0.5, size + 1);
+      scene.walls = SideWalls{arena, size, 4.0, {}};
+      SCOPED_TRACE(testing::Message() << "arena " << static_cast<int>(arena) << " of " << size << " mm");
+      scene.n_rods = 1000;
+      const int most = promised(scene);
+      ASSERT_GT(most, 0);
+      scene.n_rods = most;
+      const auto flights = flights_of(scene);
+      ASSERT_TRUE(static_cast<bool>(flights)) << flights.error().message;
+      expect_free(scene, *flights);
+      scene.n_rods = most + 1;
+      EXPECT_EQ(promised(scene), most) << "one more than is promised";
+    }
+  }
+  Scene periodic = scene_at(4.5, 1.1, 25);
+  const int most = promised(periodic);
+  periodic.n_rods = most;
+  EXPECT_TRUE(static_cast<bool>(flights_of(periodic)));
+  periodic.n_rods = most + 1;
+  EXPECT_EQ(promised(periodic), most);
 }
 
 TEST(InitialFlights, DependOnTheSeedAlone) {

@@ -121,6 +121,82 @@ TEST(NeighborList, KeptUpRodByRodItStaysCompleteAndSaysWhatChanged) {
   EXPECT_GT(n_lost, 500);
 }
 
+/// The slow twin of who is near whom: of every image within three boxes, the distance of the two flattened segments.
+bool are_near(const Species& rod, const Pose& a, const Pose& b, double side, double skin) {
+  const auto flat = [](const Vec3& n) { return Vec3(n.x(), n.y(), 0).normalized(); };
+  const double reach = 2 * rod.max_radius + skin;
+  for (int x = -3; x <= 3; ++x) {
+    for (int y = -3; y <= 3; ++y) {
+      Vec3 D = b.position - a.position + side * Vec3(x, y, 0);
+      D.z() = 0;
+      if (segment_distance_squared(D, flat(a.director), rod.half_length, flat(b.director), rod.half_length) <=
+          reach * reach)
+        return true;
+    }
+  }
+  return false;
+}
+
+std::vector<Species> small_and_large() {
+  return {make_species({.length = 2.5, .n_beads = 9}), make_species({.length = 4.5, .n_beads = 15}),
+          make_species({.length = 0.8, .n_beads = 1}),
+          make_species({.length = 0.2, .mid_diameter = 0.2, .end_diameter = 0.2, .n_beads = 1}),
+          make_species({.length = 2.5, .bead_diameters{0.9, 0.8, 0.6, 0.4, 0.5, 0.7, 0.5, 0.3}})};
+}
+
+TEST(NeighborList, HoldsPairsOfWhichAnyImagesAreNear) {
+  test::Draw draw(15);
+  int n_near = 0, n_far = 0;
+  for (const Species& rod : small_and_large()) {
+    const double least = least_box_side(std::span(&rod, 1));
+    for (int trial = 0; trial < 80; ++trial) {
+      const double side = trial == 0 ? least : draw.uniform(least, 2.5 * least);
+      NeighborList list = list_of(rod, side, 0.4);
+      std::vector<Pose> poses = random_poses(draw, side, trial % 3 == 0);
+      list.build(poses);
+      for (int i = 0; i < static_cast<int>(poses.size()); ++i) {
+        for (int j = i + 1; j < static_cast<int>(poses.size()); ++j) {
+          const bool near = are_near(rod, poses[i], poses[j], side, 0.4);
+          ++(near ? n_near : n_far);
+          ASSERT_EQ(holds(list, i, j), near) << "half-length " << rod.half_length << ", box " << side;
+        }
+      }
+    }
+  }
+  EXPECT_GT(n_near, 40000);
+  EXPECT_GT(n_far, 4000);
+}
+
+TEST(NeighborList, StaysCompleteInSmallBoxes) {
+  test::Draw draw(16);
+  int n_touching = 0;
+  for (const Species& rod : small_and_large()) {
+    const double least = least_box_side(std::span(&rod, 1));
+    for (int trial = 0; trial < 100; ++trial) {
+      const double side = trial == 0 ? least : draw.uniform(least, 1.4 * least);
+      NeighborList list = list_of(rod, side, 0.4);
+      // few, and straight on their way: pairs that come near in another image than that in which they leave
+      std::vector<Pose> poses(3);
+      std::vector<Vec3> steps(3);
+      for (int i = 0; i < 3; ++i) {
+        poses[i] = {Vec3(draw.uniform(0, side), draw.uniform(0, side), 0.6), draw.flat_direction(0.3)};
+        steps[i] = draw.vector(0.02);
+        steps[i].z() = 0;
+      }
+      list.build(poses);
+      std::vector<int> gained, lost;
+      for (int move = 0; move < 400; ++move) {
+        for (int i = 0; i < 3; ++i) {
+          poses[i].position += steps[i];
+          if (list.slack(i, poses[i]) < 0) list.place(i, poses[i], gained, lost);
+        }
+        n_touching += expect_complete(list, rod, poses, side);
+      }
+    }
+  }
+  EXPECT_GT(n_touching, 5000);
+}
+
 TEST(NeighborList, CellsGiveTheSameAsAllPairs) {
   // the same rods in a box small enough for all pairs and, without periodic partners, in one with many cells
   test::Draw draw(12);

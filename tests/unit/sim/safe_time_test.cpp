@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "sim/contact/bead_contacts.h"
 #include "sim/contact/bead_safe_time.h"
 #include "sim/contact/hull_safe_time.h"
+#include "sim/contact/image_safe_time.h"
 #include "sim/motion/flight.h"
 #include "sim/motion/plate_safe_time.h"
 #include "sim/motion/plates.h"
@@ -116,6 +118,102 @@ struct FlyingPair {
 
 constexpr double kHorizon = 4e-3;
 constexpr Allowance kNone{};
+
+/// From 16 ms, the stepper's horizon at 4 us, to the 400 ms of ticks of 100 us: slower rods, further apart, and skewed
+/// ones among them.
+struct FarPair : FlyingPair {
+  double horizon;
+
+  explicit FarPair(test::Draw& draw) : FlyingPair(draw), horizon(16e-3 * std::pow(25.0, draw.uniform(0, 1))) {
+    switch (draw.integer(0, 2)) {
+      case 0:
+        species = make_species({.length = 2.5, .bead_diameters{0.9, 0.8, 0.6, 0.4, 0.5, 0.7, 0.5, 0.3}});
+        break;
+      case 1:
+        species = make_species({.length = 3.0, .mid_diameter = 0.9, .n_beads = 11, .profile = Profile::kPolar});
+        break;
+      default:
+        break;
+    }
+    ratio = species.inertia_par / species.inertia_perp;
+    const double slow = 0.1 / horizon;  // a tenth of a millimetre or of a rod length in all that time, or more
+    const double fast = std::pow(10.0, draw.uniform(0, 2)) * slow;
+    D *= draw.uniform(1, 3);
+    for (int r = 0; r < 2; ++r) {
+      Flight& f = flight[r];
+      const Vec3 director = f.director;
+      begin_flight(f, 0, {Vec3(1000, 1000, 0) + (r == 1 ? D : Vec3(Vec3::Zero())), director},
+                   {draw.vector(fast), draw.vector(draw.integer(0, 1) ? 0.1 * fast : fast)}, 1e9, ratio);
+      set_limits(r, Vec3::Zero(), Vec3::Zero(), f.rate);
+    }
+  }
+};
+
+TEST(SafeTime, NoPairCollidesBeforeItsBoundOverLongHorizons) {
+  test::Draw draw(27);
+  AnyWidth width;
+  std::int64_t n_long = 0, n_limited = 0, n_skewed = 0;
+  for (int trial = 0; trial < 100000; ++trial) {
+    width.draw(draw);
+    const FarPair pair(draw);
+    const double hull = pair.hull_bound(kNone, pair.horizon).steady;
+    const double bead = pair.bead_bound(kNone, std::min(pair.horizon, 20e-3)).steady;  // asked no further ahead
+    n_long += hull > 16e-3;
+    n_limited += hull > 0 && hull < 0.999 * pair.horizon;
+    n_skewed += hull > 0 && pair.species.tail.length != pair.species.head.length;
+    for (const double safe : {hull, bead}) {
+      if (safe <= 0) continue;
+      ASSERT_FALSE(pair.collides_at(safe)) << "trial " << trial << " collides at its bound of " << safe << " s";
+      ASSERT_FALSE(pair.collides_at(safe * draw.uniform(0, 1))) << "trial " << trial;
+      ASSERT_FALSE(pair.collides_at(safe * draw.uniform(0.9, 1))) << "trial " << trial;
+    }
+  }
+  EXPECT_GT(n_long, 15000);
+  EXPECT_GT(n_limited, 15000);
+  EXPECT_GT(n_skewed, 15000);
+}
+
+TEST(ImageSafeTime, NoOtherImageTouchesBeforeIt) {
+  test::Draw draw(28);
+  int n_short = 0, n_full = 0;
+  for (int trial = 0; trial < 100000; ++trial) {
+    const double reach = draw.uniform(0.5, 5);
+    const double side = 2.2 * reach * (draw.integer(0, 1) ? 1 : draw.uniform(1, 3));
+    const double horizon = 16e-3 * std::pow(25.0, draw.uniform(0, 1));
+    const Allowance allowance{static_cast<float>(draw.uniform(0, 2)), 0, 0, 0};
+    const Vec3 D(draw.uniform(-0.5, 0.5) * side, draw.uniform(-0.5, 0.5) * side, draw.uniform(-0.3, 0.3));
+    Outlook i{}, j{};
+    const double fast = std::pow(10.0, draw.uniform(0, 3));
+    set_vector(i.velocity, draw.vector(fast));
+    set_vector(j.velocity, draw.vector(fast));
+    set_vector(i.velocity_center, Vec3(i.velocity[0], i.velocity[1], 0) + draw.vector(0.5));
+    set_vector(j.velocity_center, Vec3(j.velocity[0], j.velocity[1], 0) + draw.vector(0.5));
+    const SafeTime safe = image_safe_time(D, i, j, allowance, side, reach, static_cast<float>(horizon));
+    ASSERT_GT(safe.steady, 0.0F);
+    ASSERT_LE(safe.steady, static_cast<float>(horizon));
+    ++(safe.steady < static_cast<float>(horizon) ? n_short : n_full);
+    // the slow twin: every other image, at the last safe instant, whatever a straying pair did on the way
+    for (const bool straying : {false, true}) {
+      const double t = straying ? safe.straying : safe.steady;
+      for (int x = -2; x <= 2; ++x) {
+        for (int y = -2; y <= 2; ++y) {
+          if (x == 0 && y == 0) continue;
+          Vec3 at = D + side * Vec3(x, y, 0);
+          for (int c = 0; c < 2; ++c) {
+            const double v = straying ? static_cast<double>(j.velocity_center[c]) - i.velocity_center[c]
+                                      : static_cast<double>(j.velocity[c]) - i.velocity[c];
+            const double stray = straying ? 2.0 * allowance.velocity_xy : 0.0;
+            const double nearest = std::abs(at[c] + v * t) - stray * t;  // the nearest that it can be by then
+            at[c] = std::max(0.0, nearest);
+          }
+          ASSERT_GE(std::max(at.x(), at.y()), reach) << "trial " << trial << ", image " << x << ' ' << y;
+        }
+      }
+    }
+  }
+  EXPECT_GT(n_short, 10000);
+  EXPECT_GT(n_full, 10000);
+}
 
 TEST(SafeTime, NoPairCollidesBeforeItsBound) {
   test::Draw draw(20);

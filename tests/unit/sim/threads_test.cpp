@@ -13,16 +13,22 @@ TEST(Threads, ShareATickWithoutChangingABit) {
   Scene scene;
   scene.n_rods = 120;
   scene.box_side = std::sqrt(scene.n_rods * make_species(scene.rod).area / 0.75);
-  constexpr Tick kTicks = 400;
   auto one = Simulation::start(scene);
   ASSERT_TRUE(one) << one.error().message;
-  ASSERT_FALSE(one->advance_to(kTicks));
+  constexpr Tick kBegin = 10000;  // off the lattice: by then rods hit each other all the time
+  constexpr Tick kEnd = kBegin + 400;
+  ASSERT_FALSE(one->advance_to(kBegin));
+  const auto begin = one->checkpoint();
+  const auto n_begin = one->world().counters.impulses_rod_rod;
+  ASSERT_FALSE(one->advance_to(kEnd));
+  EXPECT_GT(one->world().counters.impulses_rod_rod - n_begin, 40);
   for (const int n_threads : {2, 3, 4}) {
-    auto several = Simulation::start(scene);
+    auto several = Simulation::resume(scene, begin);
+    ASSERT_TRUE(several) << several.error().message;
     several->use_threads(n_threads, 1);
-    ASSERT_FALSE(several->advance_to(kTicks / 2));
+    ASSERT_FALSE(several->advance_to((kBegin + kEnd) / 2));
     several->use_threads(n_threads - 1, 1);  // a new stepper, half way
-    ASSERT_FALSE(several->advance_to(kTicks));
+    ASSERT_FALSE(several->advance_to(kEnd));
     EXPECT_EQ(several->state_hash(), one->state_hash()) << n_threads << " threads";
     EXPECT_EQ(several->world().counters.impulses_rod_rod, one->world().counters.impulses_rod_rod);
   }

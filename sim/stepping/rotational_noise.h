@@ -12,11 +12,12 @@ namespace shaken {
 /// z
 ///         lies along the rod is left out, so that rods do not begin to spin about themselves.
 /// Units:  epsilon [rad/mm] (Scene::rotational_noise), u_n [mm/s].
-/// The sign depends on seed, rod, bead and tick only, so it is the same for every stepper and number of threads.
-inline void turn_at_random(int index, int bead, RodAtTick& rod, const RodKind& kind, double speed, Tick now,
+/// The sign depends on seed, rod, tick and `hit`, which of the rod's hits in the tick this is, only, so it is the same
+/// for every stepper and number of threads.
+inline void turn_at_random(int index, int hit, RodAtTick& rod, const RodKind& kind, double speed, Tick now,
                            const TickRules& rules, Counters& counters) {
-  Rng rng(rules.seed ^ (static_cast<std::uint64_t>(now) * 0x9e3779b97f4a7c15ULL), RngStream::kNoise,
-          (static_cast<std::uint64_t>(index) << 16) + static_cast<std::uint64_t>(bead));
+  Rng rng(rules.seed, RngStream::kNoise, now,
+          (static_cast<std::uint64_t>(index) << 16) + static_cast<std::uint64_t>(hit));
   const Vec3& n = rod.pose.director;
   const double kick = (rng.bits() >> 63 ? 1.0 : -1.0) * rules.rotational_noise * speed;
   const Vec3 turn = kick * (Vec3::UnitZ() - n.z() * n);

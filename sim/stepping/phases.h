@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -10,8 +11,8 @@
 
 #include "sim/contact/impulse_law.h"
 #include "sim/core/rng.h"
-#include "sim/effects/rotational_noise.h"
-#include "sim/effects/side_walls.h"
+#include "sim/motion/side_walls.h"
+#include "sim/stepping/rotational_noise.h"
 #include "sim/stepping/tick.h"
 
 /// Phases 1 and 3 of a tick (stepping/tick.h) as templates over the effects that take part; compose.cpp instantiates
@@ -158,6 +159,35 @@ bool meet(int b, RodAtTick& rod, const RodKind& kind, const Vec3& normal, double
   return hit<E>(struck(), {normal, plates.velocity, contact, rest_speed}, counters);
 }
 
+/// Looks for the deepest of a rod's beads in its surfaces. No bead order and no sign of the director has a say: two of
+/// the same depth come by where they lie, so a rod turned end for end meets its surfaces in the same way.
+class Deepest {
+ public:
+  explicit Deepest(const Vec3& director) : director_(director) {}
+
+  void see(int item, double offset, double overlap) {
+    if (!(overlap > 0) || overlap < overlap_ || (overlap == overlap_ && !lies_before(offset))) return;
+    item_ = item;
+    offset_ = offset;
+    overlap_ = overlap;
+  }
+  bool found() const { return item_ >= 0; }
+  int item() const { return item_; }
+  double overlap() const { return overlap_; }
+
+ private:
+  bool lies_before(double offset) const {
+    const Vec3 here = offset * director_;
+    const Vec3 there = offset_ * director_;
+    return std::lexicographical_compare(here.begin(), here.end(), there.begin(), there.end());
+  }
+
+  const Vec3& director_;
+  int item_ = -1;
+  double offset_ = 0;
+  double overlap_ = 0;
+};
+
 inline NumericalTrouble too_deep(Tick now, int index, int bead, double overlap, const char* where) {
   return {now, {index}, "bead " + std::to_string(bead) + " is " + std::to_string(overlap) + " mm deep in the " + where};
 }
@@ -174,15 +204,24 @@ std::optional<NumericalTrouble> meet_plates(int index, RodAtTick& rod, const Fli
         std::max(species.mid_radius, species.end_radius + species.half_length * std::abs(rod.pose.director.z()));
     if (z - extent >= plates.base && z + extent <= plates.lid) return {};
   }
+  int n_hits = 0;
   for (const double side : {1.0, -1.0}) {  // +1: base, pushes up; -1: lid, pushes down
     if (!(side > 0 ? rules.has_base : rules.has_lid)) continue;
     const double plate = side > 0 ? plates.base : plates.lid;
     const ContactParameters& contact = side > 0 ? rules.rod_base : rules.rod_lid;
-    for (const int bead : species.outer_beads) {
+    std::bitset<kMostBeads> met;
+    while (true) {  // one bead after the other, the deepest first, as the rod is by then
+      Deepest deepest(rod.pose.director);
+      for (const int bead : species.outer_beads) {
+        const double offset = species.bead_offset[bead];
+        const double above = side * (rod.pose.position.z() + offset * rod.pose.director.z() - plate);
+        if (!met[bead]) deepest.see(bead, offset, species.bead_radius[bead] - above);
+      }
+      if (!deepest.found()) break;
+      const int bead = deepest.item();
       const double radius = species.bead_radius[bead];
-      const double overlap =
-          radius - side * (rod.pose.position.z() + species.bead_offset[bead] * rod.pose.director.z() - plate);
-      if (!(overlap > 0)) continue;
+      const double overlap = deepest.overlap();
+      met.set(bead);
       if (overlap > kMaxOverlapFraction * radius) return too_deep(now, index, bead, overlap, side > 0 ? "base" : "lid");
       evaluate_motion(rod, flight, now, kind, rules);
       counters.max_overlap_rod_plate = std::max(counters.max_overlap_rod_plate, overlap);
@@ -193,7 +232,9 @@ std::optional<NumericalTrouble> meet_plates(int index, RodAtTick& rod, const Fli
       }
       if (!meet<E>(bead, rod, kind, Vec3(0, 0, side), overlap, plates, contact, rules, counters)) continue;
       ++(side > 0 ? counters.impulses_rod_base : counters.impulses_rod_lid);
-      if (E::kRough && rules.rotational_noise > 0) turn_at_random(index, bead, rod, kind, speed, now, rules, counters);
+      if (E::kRough && rules.rotational_noise > 0)
+        turn_at_random(index, n_hits, rod, kind, speed, now, rules, counters);
+      ++n_hits;
     }
   }
   return {};
@@ -208,21 +249,31 @@ std::optional<NumericalTrouble> meet_side_walls(int index, RodAtTick& rod, const
   const SideWalls& walls = *rules.walls;
   if (distance_to_walls(walls, rules.box_side, rod.pose.position) >= species.half_length + species.max_radius)
     return {};
-  for (int bead = 0; bead < species.n_beads(); ++bead) {
-    const double radius = species.bead_radius[bead];
-    const auto center = [&] { return rod.pose.position + species.bead_offset[bead] * rod.pose.director; };
-    const WallsSeen seen = see_walls(walls, rules.box_side, center());
-    for (int w = 0; w < seen.n; ++w) {
-      const double overlap = radius - seen.walls[w].distance;
-      if (!(overlap > 0)) continue;
-      if (overlap > kMaxOverlapFraction * radius) return too_deep(now, index, bead, overlap, "side wall");
-      evaluate_motion(rod, flight, now, kind, rules);
-      counters.max_overlap_rod_plate = std::max(counters.max_overlap_rod_plate, overlap);
-      if (meet<E>(bead, rod, kind, seen.walls[w].normal, overlap, plates, walls.contact, rules, counters))
-        ++counters.impulses_rod_wall;
+  const auto seen_by = [&](int bead) {
+    return see_walls(walls, rules.box_side, rod.pose.position + species.bead_offset[bead] * rod.pose.director);
+  };
+  std::bitset<2 * kMostBeads> met;  // of each bead one wall or two
+  while (true) {
+    Deepest deepest(rod.pose.director);
+    for (int bead = 0; bead < species.n_beads(); ++bead) {
+      const WallsSeen seen = seen_by(bead);
+      for (int w = 0; w < seen.n; ++w) {
+        const int item = 2 * bead + w;
+        if (!met[item])
+          deepest.see(item, species.bead_offset[bead], species.bead_radius[bead] - seen.walls[w].distance);
+      }
     }
+    if (!deepest.found()) return {};
+    const int bead = deepest.item() / 2;
+    const double overlap = deepest.overlap();
+    met.set(deepest.item());
+    if (overlap > kMaxOverlapFraction * species.bead_radius[bead])
+      return too_deep(now, index, bead, overlap, "side wall");
+    evaluate_motion(rod, flight, now, kind, rules);
+    counters.max_overlap_rod_plate = std::max(counters.max_overlap_rod_plate, overlap);
+    const Vec3 normal = seen_by(bead).walls[deepest.item() % 2].normal;
+    if (meet<E>(bead, rod, kind, normal, overlap, plates, walls.contact, rules, counters)) ++counters.impulses_rod_wall;
   }
-  return {};
 }
 
 template <class E>
@@ -332,7 +383,7 @@ inline std::optional<NumericalTrouble> check_overlap(const PairContact& contact,
 }
 
 /// The contacts of a tick in the order in which they get their impulses, if that is not the sorted one. What a contact
-/// draws depends on the contact alone: steppers may leave out some that cannot take part.
+/// draws depends on its rods and on which of theirs it is: steppers may leave out pairs that cannot take part.
 inline std::vector<PairContact> in_order(const std::vector<PairContact>& sorted, const Scene& scene, Tick now) {
   std::vector<PairContact> contacts(sorted.rbegin(), sorted.rend());
   if (scene.order == ContactOrder::kReversed) return contacts;
@@ -341,11 +392,13 @@ inline std::vector<PairContact> in_order(const std::vector<PairContact>& sorted,
     PairContact contact;
   };
   std::vector<Drawn> drawn;
-  for (const PairContact& contact : sorted) {
-    const auto index = (static_cast<std::uint64_t>(contact.i) << 40) ^ (static_cast<std::uint64_t>(contact.j) << 16) ^
-                       (static_cast<std::uint64_t>(contact.beads.bead_i) << 8) ^
-                       static_cast<std::uint64_t>(contact.beads.bead_j);
-    Rng rng(scene.seed ^ static_cast<std::uint64_t>(now), RngStream::kContacts, index);
+  std::uint64_t rank = 0;  // among those of the pair
+  for (std::size_t c = 0; c < sorted.size(); ++c) {
+    const PairContact& contact = sorted[c];
+    rank = c > 0 && sorted[c - 1].i == contact.i && sorted[c - 1].j == contact.j ? rank + 1 : 0;
+    const auto index =
+        (static_cast<std::uint64_t>(contact.i) << 40) ^ (static_cast<std::uint64_t>(contact.j) << 16) ^ rank;
+    Rng rng(scene.seed, RngStream::kContacts, now, index);
     drawn.push_back({rng.bits(), contact});
   }
   std::stable_sort(drawn.begin(), drawn.end(), [](const Drawn& a, const Drawn& b) { return a.number < b.number; });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "sim/effects/compose.h"
+#include "sim/stepping/compose.h"
 
-#include "sim/effects/phases.h"
+#include "sim/stepping/phases.h"
 
 namespace shaken {
 namespace {

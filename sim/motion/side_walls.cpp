@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sim/effects/side_walls.h"
+#include "sim/motion/side_walls.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "sim/core/types.h"
+#include "sim/scene.h"
+
+namespace shaken::analysis {
+
+/// The part of the plane that rods can be in: all of a periodic square box, or the arena within side walls in its
+/// middle. What is measured between places is measured within it: not across the border of the box where walls stand
+/// there, and not through an annulus' inner wall.
+class Region {
+ public:
+  /// A periodic box of side `box_side` [mm], or the arena that `walls` leave of it. Not explicit: a box is a region.
+  Region(double box_side, const std::optional<SideWalls>& walls = std::nullopt);
+
+  double box_side() const { return box_side_; }  ///< [mm]
+  bool is_periodic() const { return !walls_; }
+  double area() const { return walls_ ? walls_->area() : box_side_ * box_side_; }  ///< [mm^2]
+  /// Whether a place in the box lies within the walls.
+  bool contains(const Vec2& place) const;
+  /// From one place to another the shortest way: to the nearest image, or plainly where walls leave none.
+  Vec2 shortest(const Vec2& difference) const;
+  /// Half the diameter of the inner wall, which hides what lies behind it; 0 if there is none [mm].
+  double hidden_radius() const { return walls_ && walls_->arena == Arena::kAnnulus ? walls_->inner / 2 : 0.0; }
+  /// Whether the straight line between two places of the region stays in it: but for an annulus it always does.
+  bool in_sight(const Vec2& a, const Vec2& b) const;
+
+  /// Area of what lies at most `radius` from `place` and within its sight, so that the straight line to it stays in the
+  /// region [mm^2]; exact. pi radius^2 of a periodic box, of which `radius` must be at most half the side.
+  double area_in_sight(const Vec2& place, double radius) const;
+
+ private:
+  double box_side_;
+  std::optional<SideWalls> walls_;
+};
+
+}  // namespace shaken::analysis

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/tilt_switches.h"
+
+#include <cmath>
+#include <utility>
+
+#include "sim/core/check.h"
+
+namespace shaken::analysis {
+
+void SwitchSums::merge(const SwitchSums& other) {
+  switches += other.switches;
+  lived += other.lived;
+}
+
+void SwitchSums::save(StateWriter& writer) const {
+  writer.put(switches);
+  writer.put(lived);
+}
+
+void SwitchSums::restore(StateReader& reader) {
+  switches = reader.real();
+  lived = reader.real();
+}
+
+TiltSwitches::TiltSwitches(double threshold) : threshold_(threshold) {
+  SHAKEN_CHECK(threshold > 0, "between up and down there is something");
+}
+
+void TiltSwitches::accumulate(double time, std::span<const Vec3> directors) {
+  SHAKEN_CHECK(time > last_time_, "samples must come in order of time");
+  const bool first = !std::isfinite(last_time_);
+  if (first) sides_.assign(directors.size(), 0);
+  SHAKEN_CHECK(sides_.size() == directors.size(), "as many rods as before");
+  SwitchSums sums;
+  for (std::size_t i = 0; i < directors.size(); ++i) {
+    const double n_z = directors[i].z();
+    const std::int64_t before = sides_[i];
+    if (before != 0) sums.lived += time - last_time_;
+    if (std::abs(n_z) <= threshold_) continue;
+    sides_[i] = n_z > 0 ? 1 : -1;
+    if (before != 0 && sides_[i] != before) sums.switches += 1;
+  }
+  blocks_.accumulate(time, sums);
+  last_time_ = time;
+}
+
+double TiltSwitches::switching_time(const SwitchSums& sums) {
+  return sums.switches > 0 ? sums.lived / sums.switches : std::numeric_limits<double>::quiet_NaN();
+}
+
+void TiltSwitches::reset() { *this = TiltSwitches(threshold_); }
+
+void TiltSwitches::save(StateWriter& writer) const {
+  writer.tag("TiltSwitches");
+  writer.put(threshold_);
+  writer.put(last_time_);
+  writer.put(sides_);
+  blocks_.save(writer);
+}
+
+void TiltSwitches::restore(StateReader& reader) {
+  reader.tag("TiltSwitches");
+  if (reader.real() != threshold_) throw StateError("saved analysis state: TiltSwitches of another threshold");
+  TiltSwitches saved(threshold_);
+  saved.last_time_ = reader.real();
+  saved.sides_ = reader.integers();
+  saved.blocks_.restore(reader);
+  *this = std::move(saved);
+}
+
+}  // namespace shaken::analysis

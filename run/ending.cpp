@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "run/ending.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "run/files/directory.h"
+#include "run/terminal.h"
+
+namespace shaken::run {
+namespace {
+
+using Json = nlohmann::json;
+
+/// The number at object[key]; NaN if there is none.
+double number(const Json& object, const char* key) {
+  const auto found = object.is_object() ? object.find(key) : object.end();
+  return found != object.end() && found->is_number() ? found->get<double>() : std::nan("");
+}
+
+/// "0.880 +- 0.002": as many digits as two of the error's make sense.
+std::string with_error(double value, double sem) {
+  if (!(sem > 0)) return fmt::format("{:.3g} (error unknown)", value);
+  const int digits = std::clamp(1 - static_cast<int>(std::floor(std::log10(sem))), 0, 12);
+  return fmt::format("{:.{}f} +- {:.{}f}", value, digits, sem, digits);
+}
+
+std::string order_text(const Json& summary) {
+  if (!summary.contains("order") || !summary["order"].is_object()) return "S was not measured\n";
+  const Json& order = summary["order"];
+  std::string text = fmt::format("S = {}", with_error(number(order, "mean"), number(order, "sem")));
+  const double n_effective = number(order, "n_effective");
+  text += fmt::format(", from {:.3g} s on", number(order, "t_steady_s"));
+  if (n_effective > 0) text += fmt::format(", {:.3g} independent samples", n_effective);
+  const Json steady = summary.value("steady", Json());
+  if (steady == true) return text + ": steady\n";
+  if (steady != false) return text + "; whether it is steady is not known\n";
+  text += "\nSTILL RELAXING: this is no steady state yet";
+  if (const auto drift = order.find("drift"); drift != order.end() && std::isfinite(number(*drift, "value"))) {
+    text += fmt::format(" (S changes by {} from the first half of that time to the second)",
+                        with_error(number(*drift, "value"), number(*drift, "sem")));
+  }
+  return text + fmt::format(".\nRun longer, for example -s time.measure={:.3g}\n", 4 * number(summary, "sim_seconds"));
+}
+
+}  // namespace
+
+std::string describe_ending(const Json& summary, const std::filesystem::path& directory) {
+  const RunDirectory files{directory};
+  std::string text = fmt::format("{} rods, {:.4g} s, in {} of CPU time\n{}",
+                                 static_cast<long>(number(summary, "n_rods")), number(summary, "sim_seconds"),
+                                 describe_duration(number(summary, "cpu_seconds")), order_text(summary));
+  text += fmt::format("in {}:\n", directory.string());
+  const auto list = [&text](const std::filesystem::path& file, const char* what) {
+    if (std::filesystem::exists(file)) text += fmt::format("  {:<16}{}\n", file.filename().string(), what);
+  };
+  list(files.summary(), "all numbers, with their errors");
+  list(files.observables(), "curves: S(t), P(theta), ...");
+  list(files.trajectory(), "every rod, frame by frame");
+  list(files.movie(), "the film");
+  text += fmt::format("next: shaken plot {}", directory.string());
+  if (std::filesystem::exists(files.trajectory())) {
+    text += fmt::format(";  shaken movie {} --frame last", directory.string());
+  }
+  return text + "\n";
+}
+
+}  // namespace shaken::run

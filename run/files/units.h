@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace shaken::run {
+
+/// The unit that the name of an array or number ends in, as H5MD writes units: "/velocity/c_v_mm2_s2" is in "mm2 s-2",
+/// "q_per_mm" in "mm-1"; "1" if it ends in none. The first unit of a name stands above the line and all that follow it
+/// below; after "per" all of them do.
+std::string unit_of_name(std::string_view name);
+
+}  // namespace shaken::run

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "scene/problem.h"
+#include "scene/sweep.h"
+
+namespace shaken::scene {
+
+/// The problem that the simulation cannot place the rods of `plan`, if so. It is asked: this costs as much as a start.
+/// `file` and, of a sweep's point, `label` are for the message.
+std::optional<Problem> placement_problem(const RunPlan& plan, const std::string& file, const std::string& label = {});
+
+/// load_sweep for runs that are to be started: also every point whose rods cannot be placed is a problem.
+Loaded<Sweep> load_runs(std::string_view text, const std::string& file, std::span<const std::string> settings = {},
+                        std::optional<int> replicas = std::nullopt);
+
+}  // namespace shaken::scene

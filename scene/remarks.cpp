@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include "scene/remarks.h"
+
+#include <fmt/format.h>
+
+#include "scene/derived.h"
+#include "scene/units.h"
+
+namespace shaken::scene {
+
+std::vector<std::string> remarks(const RunPlan& plan) {
+  std::vector<std::string> list;
+  const double total = plan.total_time();
+  const auto remark_one_frame = [&](const char* path, double every) {
+    if (every <= total) return;
+    list.push_back(fmt::format("{} {} is longer than the run, {}: there will be a single frame, of the start", path,
+                               format_quantity(every, Dimension::kTime), format_quantity(total, Dimension::kTime)));
+  };
+  if (plan.trajectory) remark_one_frame("trajectory.every", plan.trajectory->every);
+  if (plan.movie) remark_one_frame("movie.every", plan.movie->every);
+  const auto gamma = gamma_of(plan.system);
+  if (gamma && *gamma < 1 && plan.system.base) {
+    list.push_back(
+        fmt::format("plates.gamma is {:.4g}: below 1 the base never falls faster than the rods, which come "
+                    "to rest on it",
+                    *gamma));
+  }
+  return list;
+}
+
+}  // namespace shaken::scene

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/run_plan.h"
+
+namespace shaken::scene {
+
+/// What is allowed, but hardly meant: a sentence for each.
+std::vector<std::string> remarks(const RunPlan& plan);
+
+}  // namespace shaken::scene

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "analysis/region.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/analysis/samples.h"
+
+namespace shaken::analysis {
+namespace {
+
+constexpr double kBox = 42;
+
+Region disc() { return {kBox, SideWalls{Arena::kDisc, 40}}; }
+Region square() { return {kBox, SideWalls{Arena::kSquare, 40}}; }
+Region annulus(double inner = 20) { return {kBox, SideWalls{Arena::kAnnulus, 40, inner}}; }
+
+/// The slow twin: along each of many rays as far as the region goes, in small steps.
+double slow_area(const Region& region, const Vec2& place, double radius) {
+  constexpr int kRays = 600, kSteps = 1000;
+  double area = 0;
+  for (int k = 0; k < kRays; ++k) {
+    const double phi = 2 * kPi * (k + 0.5) / kRays;
+    int step = 0;
+    while (step < kSteps &&
+           region.contains(place + (step + 0.5) * radius / kSteps * Vec2(std::cos(phi), std::sin(phi))))
+      ++step;
+    area += kPi / kRays * std::pow(step * radius / kSteps, 2);
+  }
+  return area;
+}
+
+TEST(Region, AreaInSightIsThatOfRaysUpToTheWalls) {
+  Draw draw(21);
+  for (const Region& region : {disc(), square(), annulus(), annulus(2), annulus(34)}) {
+    for (int k = 0; k < 6; ++k) {
+      Vec2 place;
+      do place = Vec2(draw.uniform(0, kBox), draw.uniform(0, kBox));
+      while (!region.contains(place));
+      for (const double radius : {0.5, 3.0, 9.0, 14.0, 21.0, 38.0, 60.0}) {
+        const double known = slow_area(region, place, radius);
+        EXPECT_NEAR(region.area_in_sight(place, radius) / known, 1, 6e-3) << place.transpose() << " " << radius;
+      }
+    }
+  }
+}
+
+TEST(Region, KnownAreasInSight) {
+  const Vec2 centre(21, 21);
+  EXPECT_NEAR(Region(kBox).area_in_sight(centre, 20), kPi * 400, 1e-9);
+  EXPECT_EQ(disc().area_in_sight(centre, 0), 0);
+  EXPECT_NEAR(disc().area_in_sight(centre, 12), kPi * 144, 1e-9);
+  EXPECT_NEAR(disc().area_in_sight(centre, 30), kPi * 400, 1e-9);
+  // All of a disc from its rim; half a lens: two circles of radius R at distance R share R^2 (2 pi / 3 - sqrt(3) / 2).
+  EXPECT_NEAR(disc().area_in_sight(Vec2(41, 21), 40), kPi * 400, 1e-9);
+  EXPECT_NEAR(disc().area_in_sight(Vec2(41, 21), 20), 400 * (2 * kPi / 3 - std::sqrt(3.0) / 2), 1e-9);
+  EXPECT_NEAR(square().area_in_sight(Vec2(1, 1), 10), kPi * 25, 1e-9);
+  EXPECT_NEAR(square().area_in_sight(centre, 29), 1600, 1e-9);
+  EXPECT_NEAR(square().area_in_sight(Vec2(41, 21), 10), kPi * 50, 1e-9);
+  // From the outer wall of an annulus 40/20: all but the lens' shadow; from the inner wall a half plane's segment.
+  EXPECT_NEAR(annulus().area_in_sight(Vec2(31, 21), 100), 400 * (kPi / 3 - std::sqrt(3.0) / 4), 1e-9);
+  EXPECT_NEAR(annulus().area_in_sight(Vec2(36, 21), 5), kPi * 25, 1e-9);
+}
+
+TEST(Region, ContainsWhatIsWithinItsWalls) {
+  EXPECT_TRUE(Region(kBox).contains({-3, 100}));
+  EXPECT_TRUE(disc().contains({40.9, 21}));
+  EXPECT_FALSE(disc().contains({41.1, 21}));
+  EXPECT_TRUE(square().contains({40.9, 1.1}));
+  EXPECT_FALSE(square().contains({0.9, 21}));
+  EXPECT_FALSE(annulus().contains({21, 21}));
+  EXPECT_TRUE(annulus().contains({31.1, 21}));
+  EXPECT_EQ(annulus().hidden_radius(), 10);
+  EXPECT_EQ(disc().hidden_radius(), 0);
+}
+
+TEST(Region, WaysGoThroughTheBorderOnlyWhereThereAreNoWalls) {
+  EXPECT_EQ(Region(kBox).shortest({40, -2}), Vec2(-2, -2));
+  EXPECT_EQ(disc().shortest({38, -2}), Vec2(38, -2));
+  EXPECT_NEAR(annulus().area(), kPi * 300, 1e-9);
+  EXPECT_EQ(Region(kBox).area(), kBox * kBox);
+}
+
+}  // namespace
+}  // namespace shaken::analysis

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "run/ending.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/unit/run/temporary_folder.h"
+
+namespace shaken::run {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Json = nlohmann::json;
+
+Json summary(const Json& steady) {
+  return {{"n_rods", 120},
+          {"sim_seconds", 2.0},
+          {"cpu_seconds", 12.25},
+          {"steady", steady},
+          {"order",
+           {{"mean", 0.94961},
+            {"sem", 0.00092},
+            {"t_steady_s", 1.5},
+            {"n_effective", 11.0},
+            {"drift", {{"value", -0.0213}, {"sem", 0.004}}}}}};
+}
+
+TEST(Ending, SaysWhatCameOutAndWhereItIs) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "summary.json") << "{}";
+  const std::string text = describe_ending(summary(true), folder.path());
+  EXPECT_THAT(text, HasSubstr("120 rods, 2 s, in 12 s of CPU time\n"));
+  EXPECT_THAT(text, HasSubstr("S = 0.94961 +- 0.00092, from 1.5 s on, 11 independent samples: steady\n"));
+  EXPECT_THAT(text, HasSubstr("  summary.json    all numbers"));
+  EXPECT_THAT(text, Not(HasSubstr("trajectory.h5"))) << "only what is there";
+  EXPECT_THAT(text, HasSubstr("next: shaken plot " + folder.path().string()));
+  EXPECT_THAT(text, Not(HasSubstr("RELAXING")));
+}
+
+TEST(Ending, ARunThatRelaxesIsToldSoWithAWayOut) {
+  const std::string text = describe_ending(summary(false), "runs/a");
+  EXPECT_THAT(text, HasSubstr("STILL RELAXING"));
+  EXPECT_THAT(text, HasSubstr("changes by -0.0213 +- 0.0040"));
+  EXPECT_THAT(text, HasSubstr("-s time.measure=8\n"));
+  EXPECT_THAT(text, Not(HasSubstr(": steady")));
+}
+
+TEST(Ending, WhatIsNotKnownIsNotClaimed) {
+  EXPECT_THAT(describe_ending(summary(nullptr), "a"), HasSubstr("whether it is steady is not known"));
+  Json without_error = summary(true);
+  without_error["order"]["sem"] = nullptr;
+  EXPECT_THAT(describe_ending(without_error, "a"), HasSubstr("S = 0.95 (error unknown)"));
+  EXPECT_THAT(describe_ending(Json{{"n_rods", 3}, {"order", nullptr}}, "a"), HasSubstr("S was not measured"));
+}
+
+}  // namespace
+}  // namespace shaken::run

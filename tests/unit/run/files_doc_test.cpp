@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+// docs/files.md against the files themselves: it names all that a run writes, with the units that the files say, and
+// nothing else.
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
+
+#include "run/files/atomic_file.h"
+#include "run/files/directory.h"
+#include "run/loop.h"
+#include "run/trouble_file.h"
+#include "tests/unit/run/hdf5_attributes.h"
+#include "tests/unit/run/temporary_folder.h"
+
+namespace shaken::run {
+namespace {
+
+/// The page from the headline "## title" to the next.
+std::string section(const std::string& title) {
+  const auto page = read_file(std::filesystem::path(SHAKEN_SOURCE_DIR) / "docs" / "files.md");
+  EXPECT_TRUE(page) << page.error().message;
+  const std::size_t begin = page->find("\n## " + title + "\n");
+  EXPECT_NE(begin, std::string::npos) << title;
+  return begin == std::string::npos ? "" : page->substr(begin, page->find("\n## ", begin + 1) - begin);
+}
+
+/// A row of one of the page's tables of data sets.
+struct Row {
+  std::string unit;
+  bool has_error = false;
+};
+
+/// The rows by path, by the titles of the columns "unit" and, where there is one, "error".
+std::map<std::string, Row> rows_of(const std::string& title) {
+  std::map<std::string, Row> rows;
+  std::istringstream lines(section(title));
+  std::vector<std::string> columns;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("| ")) continue;
+    std::vector<std::string> cells;
+    std::istringstream parts(line.substr(1));
+    for (std::string cell; std::getline(parts, cell, '|');) {
+      const std::size_t first = cell.find_first_not_of(' ');
+      cells.push_back(first == std::string::npos ? "" : cell.substr(first, cell.find_last_not_of(' ') + 1 - first));
+    }
+    if (columns.empty()) columns = cells;
+    if (!cells.front().starts_with("`/")) continue;
+    Row row;
+    for (std::size_t c = 0; c < std::min(cells.size(), columns.size()); ++c) {
+      if (columns[c] == "unit") row.unit = cells[c];
+      if (columns[c] == "error") row.has_error = cells[c] == "±";
+    }
+    rows[cells.front().substr(1, cells.front().size() - 2)] = row;
+  }
+  EXPECT_FALSE(rows.empty()) << title;
+  return rows;
+}
+
+/// Every data set of an HDF5 file with its unit; "1" if it has none.
+std::map<std::string, std::string> data_sets(const std::filesystem::path& path) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  EXPECT_GE(file, 0) << path;
+  std::vector<std::string> names;
+  // by links: one data set may have several names
+  const auto collect = [](hid_t root, const char* name, const H5L_info_t*, void* context) -> herr_t {
+    H5O_info_t info;
+    if (H5Oget_info_by_name2(root, name, &info, H5O_INFO_BASIC, H5P_DEFAULT) < 0) return -1;
+    if (info.type == H5O_TYPE_DATASET)
+      static_cast<std::vector<std::string>*>(context)->push_back("/" + std::string(name));
+    return 0;
+  };
+  EXPECT_GE(H5Lvisit(file, H5_INDEX_NAME, H5_ITER_INC, collect, &names), 0);
+  std::map<std::string, std::string> found;
+  for (const std::string& name : names) {
+    const std::string unit = hdf5_text_attribute(file, name, "unit");
+    found[name] = unit.empty() ? "1" : unit;
+  }
+  H5Fclose(file);
+  return found;
+}
+
+/// A small run that measures and records everything, of rods and spheres.
+scene::RunPlan everything() {
+  scene::RunPlan plan;
+  plan.system.rod.n_beads = 7;
+  plan.system.rod.length = 2.5;
+  plan.system.n_rods = 40;
+  plan.system.added[0] = AddedRods{{0.8, 0.8, 0.8, 1}, 5};
+  plan.system.box_side = 14;
+  plan.system.dt = 2e-5;
+  plan.measure_time = 0.4;
+  plan.order = scene::MeasureOrder{0.002};
+  plan.angles = scene::MeasureAngles{0.004, 36};
+  plan.tilt = scene::MeasureTilt{0.001, 10};
+  plan.defects = scene::MeasureDefects{0.02, 1.25, 0.3125, true, 0.02};
+  plan.g2 = scene::MeasureG2{0.02, 20};
+  plan.msd = scene::MeasureMsd{0.002};
+  plan.rotation = scene::MeasureRotation{0.002};
+  plan.velocity = scene::MeasureVelocity{0.002, 0.01};
+  plan.rods = scene::MeasureRods{0.01, 2, 0.2};
+  plan.fluctuations = scene::MeasureFluctuations{0.01};
+  plan.frank = scene::MeasureFrank{0.01};
+  plan.pairs = scene::MeasurePairs{0.02, 9, 6};
+  plan.layers = scene::MeasureLayers{0.01};
+  plan.lattice = scene::MeasureLattice{0.02};
+  plan.trajectory = scene::Trajectory{0.1};
+  plan.stream.reset();
+  plan.movie.reset();
+  return plan;
+}
+
+/// The files of such a run, made once.
+const RunDirectory& files() {
+  static const TemporaryFolder folder;
+  static const RunDirectory directory = [] {
+    RunOptions options;
+    options.directory = folder / "run";
+    const RunOutcome outcome = run(everything(), options);
+    EXPECT_EQ(outcome.state, RunState::kDone) << outcome.message;
+    return RunDirectory{options.directory};
+  }();
+  return directory;
+}
+
+TEST(FilesPage, NamesEveryObservableWithItsUnit) {
+  const auto documented = rows_of("observables.h5");
+  std::map<std::string, std::string> written;
+  for (const auto& [path, unit] : data_sets(files().observables())) {
+    written[std::regex_replace(path, std::regex("/trace/[0-9]+/"), "/trace/K/")] = unit;
+  }
+  for (const auto& [path, unit] : written) {
+    const bool is_error = path.find("_sem") != std::string::npos;
+    const auto row = documented.find(is_error ? std::regex_replace(path, std::regex("_sem"), "") : path);
+    ASSERT_NE(row, documented.end()) << path << " is not in docs/files.md";
+    EXPECT_EQ(row->second.unit, unit) << path;
+    EXPECT_TRUE(!is_error || row->second.has_error) << path << " has no ± in docs/files.md";
+  }
+  for (const auto& [path, row] : documented) {
+    EXPECT_TRUE(written.count(path)) << path << " is in docs/files.md only";
+    const bool has_error = std::any_of(written.begin(), written.end(), [&, &name = path](const auto& other) {
+      return other.first.find("_sem") != std::string::npos &&
+             std::regex_replace(other.first, std::regex("_sem"), "") == name;
+    });
+    EXPECT_EQ(has_error, row.has_error) << path;
+  }
+}
+
+TEST(FilesPage, NamesEveryPartOfTheTrajectoryWithItsUnit) {
+  const auto documented = rows_of("trajectory.h5");
+  const auto written = data_sets(files().trajectory());
+  for (const auto& [path, unit] : written) {
+    // one data set under several names
+    const std::string name =
+        std::regex_replace(path, std::regex("/(image|velocity|orientation|box/edges)/(step|time)"), "/position/$2");
+    const auto row = documented.find(name);
+    ASSERT_NE(row, documented.end()) << path << " is not in docs/files.md";
+    EXPECT_EQ(row->second.unit, unit) << path;
+  }
+  for (const auto& [path, row] : documented) EXPECT_TRUE(written.count(path)) << path << " is in docs/files.md only";
+}
+
+/// Expects every key of `json`, and of the objects in it down to `depth`, in backticks.
+void expect_named(const std::string& text, const nlohmann::json& json, int depth, const std::string& above = "") {
+  for (const auto& [key, value] : json.items()) {
+    EXPECT_NE(text.find("`" + key + "`"), std::string::npos) << above << key << " is not in docs/files.md";
+    if (value.is_object() && depth > 1) expect_named(text, value, depth - 1, above + key + ".");
+  }
+}
+
+nlohmann::json json_in(const std::filesystem::path& file) {
+  const auto text = read_file(file);
+  EXPECT_TRUE(text) << text.error().message;
+  return nlohmann::json::parse(*text);
+}
+
+TEST(FilesPage, NamesEveryKeyOfTheJsonFiles) {
+  nlohmann::json summary = json_in(files().summary());
+  const nlohmann::json measured = summary["measured"];
+  ASSERT_FALSE(measured.empty());
+  for (const char* named_elsewhere : {"measured", "effects"}) summary[named_elsewhere] = nlohmann::json::object();
+  expect_named(section("summary.json"), summary, 3);
+  for (const auto& [name, scalar] : measured.items()) expect_named(section("summary.json"), scalar, 1, name + ".");
+
+  expect_named(section("progress.json"), json_in(files().progress()), 1);
+
+  CloseUp before;
+  before.rods.push_back({});
+  before.contacts.push_back({});
+  before.contacts.push_back({});
+  before.contacts.back().other = -1;
+  ASSERT_FALSE(write_trouble(files().trouble(), everything(), {{}, 0, before}));
+  nlohmann::json trouble = json_in(files().trouble());
+  trouble.erase("scene");
+  for (const char* list : {"rods", "contacts"}) {
+    for (const nlohmann::json& entry : trouble["before"][list]) expect_named(section("trouble.json"), entry, 1);
+  }
+  expect_named(section("trouble.json"), trouble, 2);
+}
+
+TEST(FilesPage, NamesEveryFile) {
+  const std::string page = read_file(std::filesystem::path(SHAKEN_SOURCE_DIR) / "docs" / "files.md").value();
+  for (const auto& file : std::filesystem::directory_iterator(files().root)) {
+    EXPECT_NE(page.find("\n| `" + file.path().filename().string() + "` |"), std::string::npos) << file.path();
+  }
+  for (const auto& path : {files().scene(), files().checkpoint(), files().previous_checkpoint(), files().progress(),
+                           files().trouble(), files().log(), files().movie(), files().lock()}) {
+    EXPECT_NE(page.find("\n| `" + path.filename().string() + "` |"), std::string::npos) << path;
+  }
+}
+
+}  // namespace
+}  // namespace shaken::run

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// Scenes that are all right key by key and yet cannot be started, or must end in trouble.
+#include "scene/placement.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "sim/simulation.h"
+#include "sim/stepping/tick.h"
+#include "tests/unit/scene/support.h"
+
+namespace shaken::scene {
+namespace {
+
+using testing::HasSubstr;
+
+/// A mixture that is too dense for one lattice, though not for its area.
+constexpr const char* kMixture = R"({
+  "rods": {"area_fraction": 0.5}, "rods_2": {"beads": 1, "count": 150},
+  "rods_3": {"length": 2.5, "area_fraction": 0.1}, "box": {"side": "40 mm"}})";
+
+TEST(Placement, WhatCannotBePlacedIsRefused) {
+  EXPECT_TRUE(load_sweep(kMixture, "mix.json").value);
+  const Loaded<Sweep> refused = load_runs(kMixture, "mix.json");
+  ASSERT_FALSE(refused.value);
+  ASSERT_EQ(refused.problems.size(), 1u);
+  EXPECT_THAT(to_string(refused.problems.front()), HasSubstr("mix.json: /rods: "));
+  EXPECT_THAT(refused.problems.front().message, HasSubstr("do not fit into the box: in rows at most "));
+}
+
+TEST(Placement, IsWhatTheSimulationSays) {
+  int n_refused = 0;
+  int n_placed = 0;
+  for (const char* start : {"aligned", "random"}) {
+    for (const char* walls : {"{}", "null", R"({"arena": "annulus", "inner": 8})"}) {
+      for (const double fraction : {0.2, 0.35, 0.45, 0.6, 0.7, 0.8, 0.9}) {
+        const std::vector<std::string> settings{"rods.start=" + std::string(start), "walls=" + std::string(walls),
+                                                "rods.area_fraction=" + std::to_string(fraction), "box.side=25"};
+        const Loaded<RunPlan> plan = load_scene("{}", "s", settings);
+        if (!plan.value) continue;  // beyond what any box takes
+        const Result<Simulation> started = Simulation::start(plan.value->system);
+        const Loaded<Sweep> runs = load_runs("{}", "s", settings);
+        ASSERT_EQ(runs.value.has_value(), static_cast<bool>(started)) << settings[0] << settings[1] << settings[2];
+        EXPECT_EQ(placement_problem(*plan.value, "s").has_value(), !started);
+        if (!started) {
+          EXPECT_EQ(runs.problems.front().message, started.error().message);
+        }
+        ++(started ? n_placed : n_refused);
+      }
+    }
+  }
+  EXPECT_GE(n_refused, 4);
+  EXPECT_GE(n_placed, 10);
+}
+
+TEST(Placement, EveryPointOfASweepIsPlacedAndNamed) {
+  const Loaded<Sweep> runs =
+      load_runs(R"({"box": {"side": 25}})", "s.json",
+                std::vector<std::string>{"rods.area_fraction=0.5,0.91,0.915", "time.step=4e-6,2e-6"}, 2);
+  ASSERT_FALSE(runs.value);
+  ASSERT_EQ(runs.problems.size(), 2u) << "the step and the seed do not matter: " << to_string(runs.problems);
+  EXPECT_THAT(runs.problems[0].message, HasSubstr("rods.area_fraction=0.91 time.step=4e-06 replica=1: "));
+  EXPECT_THAT(runs.problems[1].message, HasSubstr("rods.area_fraction=0.915 time.step=4e-06 replica=1: "));
+}
+
+/// The bound on the plates' speed is the depth at which the simulation ends a run.
+TEST(FastPlates, AreRefusedWhereTheSimulationWouldEnd) {
+  const char* scene = R"({"box": {"side": 14}, "rods": {"area_fraction": 0.4}, "time": {"step": "100 us"},
+                          "plates": {"frequency": 100}})";
+  int n_refused = 0;
+  for (const double gamma : {7.0, 60.0, 64.0, 64.2, 80.0, 150.0}) {
+    const Loaded<RunPlan> plan = load_scene(scene, "s", std::vector{"plates.gamma=" + std::to_string(gamma)});
+    Scene system = plan_of(scene).system;
+    system.amplitude *= gamma / 7;
+    const World world = empty_world(system);
+    const auto& radius = world.species[0].bead_radius;
+    const double deepest = kMaxOverlapFraction * *std::min_element(radius.begin(), radius.end());
+    EXPECT_EQ(plan.value.has_value(), world.plates.peak_speed() * system.dt <= deepest) << gamma;
+    if (plan.value) continue;
+    ++n_refused;
+    Result<Simulation> simulation = Simulation::start(system);
+    ASSERT_TRUE(static_cast<bool>(simulation));
+    EXPECT_TRUE(simulation->advance_to(100000).has_value()) << gamma << ": a thousand periods without trouble";
+  }
+  EXPECT_EQ(n_refused, 3);
+}
+
+}  // namespace
+}  // namespace shaken::scene

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#include "scene/remarks.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/unit/scene/support.h"
+
+namespace shaken::scene {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+TEST(Remarks, AreOfWhatIsHardlyMeant) {
+  EXPECT_THAT(remarks(plan_of("{}")), IsEmpty());
+  EXPECT_THAT(remarks(plan_of(R"({"trajectory": {"every": "10 s"}, "movie": {"every": 10}, "time": {"measure": 10}})")),
+              IsEmpty());
+  EXPECT_THAT(remarks(plan_of(R"({"trajectory": {"every": "10.1 s"}, "time": {"measure": 10}})")),
+              ElementsAre("trajectory.every 10.1 s is longer than the run, 10 s: there will be a single frame, of the "
+                          "start"));
+  EXPECT_THAT(remarks(plan_of(R"({"movie": {"every": "10 s"}, "time": {"steady": 4, "measure": 5}})")),
+              ElementsAre("movie.every 10 s is longer than the run, 9 s: there will be a single frame, of the start"));
+  EXPECT_THAT(remarks(plan_of(R"({"plates": {"gamma": 0.9}})")),
+              ElementsAre("plates.gamma is 0.9: below 1 the base never falls faster than the rods, which come to rest "
+                          "on it"));
+  EXPECT_THAT(remarks(plan_of(R"({"plates": {"gamma": 1}})")), IsEmpty());
+  EXPECT_THAT(remarks(plan_of(R"({"gravity": 0, "plates": {"amplitude": 0, "base": false, "lid": false}})")),
+              IsEmpty());
+}
+
+}  // namespace
+}  // namespace shaken::scene
