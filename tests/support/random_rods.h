@@ -14,7 +14,7 @@ class Draw {
   double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
   double normal() { return std::normal_distribution<double>()(engine_); }
   int integer(int low, int high) { return std::uniform_int_distribution<int>(low, high)(engine_); }
-  Vec3 vector(double scale) { return scale * Vec3(normal(), normal(), normal()); }
+  Vec3 vector(double scale) { return scale * Vec3{normal(), normal(), normal()}; }  // braces: in this order
   Vec3 direction() { return vector(1).normalized(); }
   /// A direction in the plane, tilted out of it by up to `n_z`.
   Vec3 flat_direction(double n_z) {

@@ -43,7 +43,7 @@ struct Nematic {
     directors.clear();
     for (int k = 0; k < kLattice * kLattice; ++k) {
       const Vec3 site(k % kLattice, static_cast<double>(k / kLattice), 0);
-      positions.push_back(kBox / kLattice * (site + disorder * Vec3(draw.normal(), draw.normal(), 0)));
+      positions.push_back(kBox / kLattice * (site + disorder * Vec3{draw.normal(), draw.normal(), 0}));
       double angle = theta + noise * draw.normal();
       for (const Wave& wave : waves) {
         const double phase = wave.q.dot(positions.back().head<2>());

@@ -51,7 +51,7 @@ TEST(LatticeOrder, BraggPeakOfAShakingLattice) {
   LatticeOrder lattice({50, 1.0, 0.45, 4});
   for (int t = 0; t < 6; ++t) {
     std::vector<Vec3> places = square_lattice(50, 1.0);
-    for (Vec3& place : places) place += kSpread * Vec3(draw.normal(), draw.normal(), 0);
+    for (Vec3& place : places) place += kSpread * Vec3{draw.normal(), draw.normal(), 0};
     lattice.accumulate(places, std::vector<Vec3>(places.size(), axis(0)));
   }
   const double expected = std::exp(-4 * kPi * kPi * kSpread * kSpread);
@@ -65,7 +65,7 @@ TEST(LatticeOrder, RodsTakenMakeNoLatticeOfTheirOwn) {
   LatticeOrder lattice({48, 1.0, 0.45, 4});
   for (int t = 0; t < 6; ++t) {
     std::vector<Vec3> places = square_lattice(48, 1.0);
-    for (Vec3& place : places) place += kSpread * Vec3(draw.normal(), draw.normal(), 0);
+    for (Vec3& place : places) place += kSpread * Vec3{draw.normal(), draw.normal(), 0};
     lattice.accumulate(places, std::vector<Vec3>(places.size(), axis(0)));
   }
   EXPECT_NEAR(lattice.reduce().bragg_peak, std::exp(-4 * kPi * kPi * kSpread * kSpread), 0.04);

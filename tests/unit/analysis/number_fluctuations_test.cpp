@@ -24,7 +24,7 @@ std::vector<Vec3> lattice(Draw& draw, int m, double jitter) {
   std::vector<Vec3> places;
   for (int j = 0; j < m; ++j) {
     for (int i = 0; i < m; ++i) {
-      places.push_back(kBox / m * Vec3(i + draw.uniform(-jitter, jitter), j + draw.uniform(-jitter, jitter), 0));
+      places.push_back(kBox / m * Vec3{i + draw.uniform(-jitter, jitter), j + draw.uniform(-jitter, jitter), 0});
     }
   }
   return places;
@@ -96,7 +96,7 @@ TEST(NumberFluctuations, OfFrozenClumps) {
   std::vector<Vec3> places;
   for (int clump = 0; clump < 30; ++clump) {
     const Vec3 centre(draw.uniform(0, kBox), draw.uniform(0, kBox), 0);
-    for (int k = 0; k < 40; ++k) places.push_back(centre + Vec3(draw.normal(), draw.normal(), 0));
+    for (int k = 0; k < 40; ++k) places.push_back(centre + Vec3{draw.normal(), draw.normal(), 0});
   }
   auto blocks = counting();
   for (int i = 0; i < 10; ++i) blocks.accumulate(i, places);
@@ -135,7 +135,7 @@ TEST(NumberFluctuations, AreFittedToBoxesLargerThanRods) {
       if (draw.uniform(0, 1) < 0.5) continue;
       for (int k = 0; k < 20; ++k) {
         places.push_back(kBox / kCells *
-                         Vec3(cell % kCells + draw.uniform(0, 1), cell / kCells + draw.uniform(0, 1), 0));
+                         Vec3{cell % kCells + draw.uniform(0, 1), cell / kCells + draw.uniform(0, 1), 0});
       }
     }
     for (auto* blocks : {&from_large, &from_small, &too_few}) blocks->accumulate(i, places);

@@ -123,7 +123,7 @@ TEST(VelocityCorrelation, OfAnOrnsteinUhlenbeckVelocityIsItsSmoothedExponential)
   for (int step = 0; step < 20000; ++step) {
     if (step % 10 == 0) frames.push_back(r);
     for (std::size_t i = 0; i < kRods; ++i) {
-      const Vec3 next = keep * v[i] + std::sqrt(1 - keep * keep) * Vec3(draw.normal(), draw.normal(), 0);
+      const Vec3 next = keep * v[i] + std::sqrt(1 - keep * keep) * Vec3{draw.normal(), draw.normal(), 0};
       r[i] += kDt / 2 * (v[i] + next);
       v[i] = next;
     }

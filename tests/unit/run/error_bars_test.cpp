@@ -84,7 +84,7 @@ void layered(Draw& draw, Snapshot& rods, std::size_t i) {
 
 /// A rod anywhere, in any direction: what makes many defects.
 void isotropic(Draw& draw, Snapshot& rods, std::size_t i) {
-  rods.position[i] = Vec3(draw.uniform(0, kBox), draw.uniform(0, kBox), 0.6);
+  rods.position[i] = Vec3{draw.uniform(0, kBox), draw.uniform(0, kBox), 0.6};
   rods.director[i] = analysis::axis(draw.uniform(-kPi, kPi));
   rods.velocity[i] = Vec3::Zero();
 }
@@ -95,7 +95,7 @@ class Waves {
  public:
   Waves(std::uint64_t seed, double share) : draw_(seed), keeps_(1 - share) {
     for (std::size_t i = 0; i < kRods; ++i) {
-      rods_.position.push_back(Vec3(draw_.uniform(0, kBox), draw_.uniform(0, kBox), 0.6));
+      rods_.position.push_back(Vec3{draw_.uniform(0, kBox), draw_.uniform(0, kBox), 0.6});
       rods_.director.push_back(Vec3(1, 0, 0));
     }
     rods_.image.resize(kRods);
@@ -114,7 +114,7 @@ class Waves {
     }
     for (std::size_t i = 0; i < kRods; ++i) {
       // Rods that stay where they are would see the waves through one pattern of places, which no error in time knows.
-      if (draw_.uniform(0, 1) >= keeps_) rods_.position[i] = Vec3(draw_.uniform(0, kBox), draw_.uniform(0, kBox), 0.6);
+      if (draw_.uniform(0, 1) >= keeps_) rods_.position[i] = Vec3{draw_.uniform(0, kBox), draw_.uniform(0, kBox), 0.6};
       double theta = 0.05 * draw_.normal();
       for (const Wave& wave : waves_) {
         const double phase = 2 * kPi / kBox * (wave.m * rods_.position[i].x() + wave.n * rods_.position[i].y());

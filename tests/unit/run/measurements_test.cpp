@@ -49,7 +49,7 @@ Snapshot random_snapshot(Tick tick) {
   s.box_side = 20;
   for (int i = 0; i < 100; ++i) {
     s.position.emplace_back(20 * unit(rng), 20 * unit(rng), 0.6);
-    s.director.push_back(Vec3(normal(rng), normal(rng), 0.1 * normal(rng)).normalized());
+    s.director.push_back(Vec3{normal(rng), normal(rng), 0.1 * normal(rng)}.normalized());
     s.velocity.emplace_back(normal(rng), normal(rng), normal(rng));
     s.angular_velocity.emplace_back(0, 0, 0);
     s.image.push_back({0, 0});

@@ -37,7 +37,7 @@ Snapshot snapshot(Tick tick) {
   s.box_side = kSide;
   for (int i = 0; i < kRods; ++i) {
     s.position.emplace_back(kSide * unit(rng), kSide * unit(rng), kGap * unit(rng));
-    s.director.push_back(Vec3(normal(rng), normal(rng), normal(rng)).normalized());
+    s.director.push_back(Vec3{normal(rng), normal(rng), normal(rng)}.normalized());
     s.velocity.emplace_back(10 * normal(rng), 10 * normal(rng), 100 * normal(rng));
     s.angular_velocity.emplace_back(0, 0, 0);
     s.image.push_back({static_cast<std::int32_t>(normal(rng) * 100), static_cast<std::int32_t>(tick)});

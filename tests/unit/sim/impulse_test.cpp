@@ -78,7 +78,7 @@ TEST(Impulse, ComplianceIsWhatAnImpulseDoes) {
 
 TEST(Impulse, LawsHoldForTenThousandRandomContacts) {
   test::Draw draw(5);
-  int n_stick = 0, n_slip = 0, n_could_stick = 0;
+  int n_stick = 0, n_slip = 0, n_could_stick = 0, n_of_paper = 0;
   for (int trial = 0; trial < 10000; ++trial) {
     Impact impact = random_impact(draw);
     const ContactParameters contact{draw.integer(0, 3) == 0 ? draw.uniform(0, 1) : draw.uniform(0, 0.1),
@@ -124,14 +124,17 @@ TEST(Impulse, LawsHoldForTenThousandRandomContacts) {
     } else if (sticking_t > contact.friction * sticking_n * (1 + 1e-9)) {
       EXPECT_GT((P - sticking).norm(), 1e-12 * sticking.norm()) << "it stuck beyond the cone";
     }
-    // at the friction of the paper no impact makes energy (Stronge 1991 tells when Newton's rule could)
-    if (contact.friction <= 0.1) {
+    // within the paper's friction and restitution no impact makes energy (Stronge 1991 tells when Newton's rule can: of
+    // rods at a friction of 0.1 and a restitution near 1 some make two parts in a thousand)
+    if (contact.friction <= 0.05 && contact.restitution <= 0.3) {
+      ++n_of_paper;
       EXPECT_LE(impact.energy(), energy * (1 + 1e-12));
     }
   }
   EXPECT_GT(n_stick, 100);
   EXPECT_GT(n_could_stick, 100);
   EXPECT_GT(n_slip, 1000);
+  EXPECT_GT(n_of_paper, 500);
 }
 
 TEST(Impulse, ElasticFrictionlessKeepsEnergy) {

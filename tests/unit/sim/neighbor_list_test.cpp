@@ -42,7 +42,7 @@ int expect_complete(const NeighborList& list, const Species& rod, const std::vec
 std::vector<Pose> random_poses(test::Draw& draw, double side, bool upright) {
   std::vector<Pose> poses(draw.integer(2, 60));
   for (Pose& pose : poses) {
-    pose = {Vec3(draw.uniform(0, side), draw.uniform(0, side), draw.uniform(0.4, 0.8)),
+    pose = {Vec3{draw.uniform(0, side), draw.uniform(0, side), draw.uniform(0.4, 0.8)},
             draw.flat_direction(upright ? 1.0 : 0.3)};
   }
   return poses;
@@ -51,7 +51,7 @@ std::vector<Pose> random_poses(test::Draw& draw, double side, bool upright) {
 /// A random walk of places, angles and tilts, across the border too.
 void stir(test::Draw& draw, std::vector<Pose>& poses) {
   for (Pose& pose : poses) {
-    pose.position += Vec3(draw.normal(), draw.normal(), 0) * 0.01;
+    pose.position += Vec3{draw.normal(), draw.normal(), 0} * 0.01;
     pose.director = (pose.director + draw.vector(0.005) + Vec3(0, 0, 0.02 * draw.normal())).normalized();
   }
 }
@@ -179,7 +179,7 @@ TEST(NeighborList, StaysCompleteInSmallBoxes) {
       std::vector<Pose> poses(3);
       std::vector<Vec3> steps(3);
       for (int i = 0; i < 3; ++i) {
-        poses[i] = {Vec3(draw.uniform(0, side), draw.uniform(0, side), 0.6), draw.flat_direction(0.3)};
+        poses[i] = {Vec3{draw.uniform(0, side), draw.uniform(0, side), 0.6}, draw.flat_direction(0.3)};
         steps[i] = draw.vector(0.02);
         steps[i].z() = 0;
       }
@@ -202,7 +202,7 @@ TEST(NeighborList, CellsGiveTheSameAsAllPairs) {
   test::Draw draw(12);
   const Species rod = make_species({.length = 2.5, .n_beads = 9});
   std::vector<Pose> poses(40);
-  for (Pose& pose : poses) pose = {Vec3(draw.uniform(20, 26), draw.uniform(20, 26), 0.6), draw.flat_direction(0.3)};
+  for (Pose& pose : poses) pose = {Vec3{draw.uniform(20, 26), draw.uniform(20, 26), 0.6}, draw.flat_direction(0.3)};
   NeighborList many_cells = list_of(rod, 60, 0.3);
   NeighborList few_cells = list_of(rod, 8, 0.3);
   many_cells.build(poses);
