@@ -55,7 +55,7 @@ double total_charge(const std::vector<Defect>& defects) {
 TEST(Defects, OnePlantedPair) {
   Draw draw(51);
   for (int k = 0; k < 12; ++k) {
-    const Vec2 centre(draw.uniform(0, kBox), draw.uniform(0, kBox));
+    const Vec2 centre{draw.uniform(0, kBox), draw.uniform(0, kBox)};
     const double phase = draw.uniform(-kPi, kPi);
     const Rods rods = plant(draw, 4000, 0.1, [&](const Vec2& p) { return one_pair(p, centre, phase); });
     const DirectorField field(rods.positions, rods.directors, kBox, 100, 2.0);
@@ -153,7 +153,7 @@ TEST(Defects, InAnArena) {
   const Vec2 centre(kBox / 2, kBox / 2), off = centre + Vec2(kBox / 8, 0);
   Rods rods;
   while (rods.positions.size() < 3000) {
-    const Vec3 place(draw.uniform(0, kBox), draw.uniform(0, kBox), 0);
+    const Vec3 place{draw.uniform(0, kBox), draw.uniform(0, kBox), 0};
     if (!region.contains(place.head<2>())) continue;
     const Vec2 d = place.head<2>() - off;
     rods.positions.push_back(place);

@@ -95,7 +95,7 @@ TEST(NumberFluctuations, OfFrozenClumps) {
   Draw draw(93);
   std::vector<Vec3> places;
   for (int clump = 0; clump < 30; ++clump) {
-    const Vec3 centre(draw.uniform(0, kBox), draw.uniform(0, kBox), 0);
+    const Vec3 centre{draw.uniform(0, kBox), draw.uniform(0, kBox), 0};
     for (int k = 0; k < 40; ++k) places.push_back(centre + Vec3{draw.normal(), draw.normal(), 0});
   }
   auto blocks = counting();
@@ -114,7 +114,7 @@ TEST(NumberFluctuations, OfALattice) {
   auto blocks = counting();
   for (int i = 0; i < 400; ++i) {
     std::vector<Vec3> places = lattice(draw, 60, 0.5);
-    const Vec3 shift(draw.uniform(0, kBox), draw.uniform(0, kBox), 0);
+    const Vec3 shift{draw.uniform(0, kBox), draw.uniform(0, kBox), 0};
     for (Vec3& place : places) place += shift;
     blocks.accumulate(i, places);
   }

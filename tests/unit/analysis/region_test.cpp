@@ -34,7 +34,7 @@ TEST(Region, AreaInSightIsThatOfRaysUpToTheWalls) {
   for (const Region& region : {disc(), square(), annulus(), annulus(2), annulus(34)}) {
     for (int k = 0; k < 6; ++k) {
       Vec2 place;
-      do place = Vec2(draw.uniform(0, kBox), draw.uniform(0, kBox));
+      do place = Vec2{draw.uniform(0, kBox), draw.uniform(0, kBox)};
       while (!region.contains(place));
       for (const double radius : {0.5, 3.0, 9.0, 14.0, 21.0, 38.0, 60.0}) {
         const double known = slow_area(region, place, radius);

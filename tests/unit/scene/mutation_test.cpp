@@ -5,6 +5,7 @@
 
 #include "scene/canonical.h"
 #include "scene/sweep.h"
+#include "tests/support/effort.h"
 #include "tests/unit/scene/support.h"
 
 namespace shaken::scene {
@@ -79,7 +80,7 @@ TEST(Mutation, TheOriginalsAreValid) {
 
 TEST(Mutation, NothingCrashes) {
   std::mt19937_64 random(20240801);
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < test::draws(20000); ++i) {
     const std::string text = mutated(i % 2 == 0 ? kScene : kSweep, random);
     ASSERT_NO_THROW(check(text)) << text;
     if (testing::Test::HasFatalFailure()) return;
@@ -91,7 +92,7 @@ TEST(Mutation, SettingsNeitherCrash) {
   constexpr auto kSettings =
       std::to_array<std::string_view>({"rods.length=2.5,3.5", "measure={\"order\":{}}", "box.gap=1.2:1.4:0.1 mm",
                                        "movie.size=[640,480]", "stream=null"});
-  for (int i = 0; i < 5000; ++i) {
+  for (int i = 0; i < test::draws(5000); ++i) {
     const std::vector<std::string> settings{mutated(kSettings[random() % kSettings.size()], random)};
     ASSERT_NO_THROW({
       const auto scene = load_scene("{}", "f", settings);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/contact/impulse_law.h"
+#include "tests/support/effort.h"
 #include "tests/support/random_impacts.h"
 
 namespace shaken {
@@ -247,7 +248,7 @@ TEST(ImpactProcess, LawsHoldForAMillionImpactsOfRods) {
   const double restitutions[] = {0, 0.05, 0.3, 1};
   double most_energetic = -1, most_poisson = -1;
   int most_legs = 0;
-  for (int trial = 0; trial < 1'000'000; ++trial) {
+  for (int trial = 0; trial < test::draws(1'000'000); ++trial) {
     const ImpactInput impact = impacts.next();
     const double mu = frictions[trial % 4];
     const double e = restitutions[trial / 4 % 4];
@@ -273,7 +274,7 @@ TEST(ImpactProcess, LawsHoldForAMillionImpactsOfRods) {
 TEST(ImpactProcess, EnergeticLawNeverMakesEnergyWhateverTheCompliance) {
   test::RodImpacts impacts(7);
   double most = -1;
-  for (int trial = 0; trial < 200'000; ++trial) {
+  for (int trial = 0; trial < test::draws(200'000); ++trial) {
     const ImpactInput impact = impacts.next_of_any_compliance(trial % 5);
     const double mu = std::pow(10.0, trial % 7 - 3), e = 0.25 * (trial % 5);
     const Vec3 P = energetic_impulse(impact, {mu, e});

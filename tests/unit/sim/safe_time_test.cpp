@@ -13,6 +13,7 @@
 #include "sim/motion/flight.h"
 #include "sim/motion/plate_safe_time.h"
 #include "sim/motion/plates.h"
+#include "tests/support/effort.h"
 #include "tests/support/random_rods.h"
 #include "tests/support/safe_time_twins.h"
 
@@ -153,7 +154,7 @@ TEST(SafeTime, NoPairCollidesBeforeItsBoundOverLongHorizons) {
   test::Draw draw(27);
   AnyWidth width;
   std::int64_t n_long = 0, n_limited = 0, n_skewed = 0;
-  for (int trial = 0; trial < 100000; ++trial) {
+  for (int trial = 0; trial < test::draws(100000); ++trial) {
     width.draw(draw);
     const FarPair pair(draw);
     const double hull = pair.hull_bound(kNone, pair.horizon).steady;
@@ -168,20 +169,20 @@ TEST(SafeTime, NoPairCollidesBeforeItsBoundOverLongHorizons) {
       ASSERT_FALSE(pair.collides_at(safe * draw.uniform(0.9, 1))) << "trial " << trial;
     }
   }
-  EXPECT_GT(n_long, 15000);
-  EXPECT_GT(n_limited, 15000);
-  EXPECT_GT(n_skewed, 15000);
+  EXPECT_GT(n_long, test::draws(15000));
+  EXPECT_GT(n_limited, test::draws(15000));
+  EXPECT_GT(n_skewed, test::draws(15000));
 }
 
 TEST(ImageSafeTime, NoOtherImageTouchesBeforeIt) {
   test::Draw draw(28);
   int n_short = 0, n_full = 0;
-  for (int trial = 0; trial < 100000; ++trial) {
+  for (int trial = 0; trial < test::draws(100000); ++trial) {
     const double reach = draw.uniform(0.5, 5);
     const double side = 2.2 * reach * (draw.integer(0, 1) ? 1 : draw.uniform(1, 3));
     const double horizon = 16e-3 * std::pow(25.0, draw.uniform(0, 1));
     const Allowance allowance{static_cast<float>(draw.uniform(0, 2)), 0, 0, 0};
-    const Vec3 D(draw.uniform(-0.5, 0.5) * side, draw.uniform(-0.5, 0.5) * side, draw.uniform(-0.3, 0.3));
+    const Vec3 D{draw.uniform(-0.5, 0.5) * side, draw.uniform(-0.5, 0.5) * side, draw.uniform(-0.3, 0.3)};
     Outlook i{}, j{};
     const double fast = std::pow(10.0, draw.uniform(0, 3));
     set_vector(i.velocity, draw.vector(fast));
@@ -211,15 +212,15 @@ TEST(ImageSafeTime, NoOtherImageTouchesBeforeIt) {
       }
     }
   }
-  EXPECT_GT(n_short, 10000);
-  EXPECT_GT(n_full, 10000);
+  EXPECT_GT(n_short, test::draws(10000));
+  EXPECT_GT(n_full, test::draws(10000));
 }
 
 TEST(SafeTime, NoPairCollidesBeforeItsBound) {
   test::Draw draw(20);
   AnyWidth width;
   std::int64_t n_hull = 0, n_bead = 0;
-  for (int trial = 0; trial < 1000000; ++trial) {
+  for (int trial = 0; trial < test::draws(1000000); ++trial) {
     width.draw(draw);
     const FlyingPair pair(draw);
     const double hull = pair.hull_bound(kNone, kHorizon).steady;
@@ -234,8 +235,8 @@ TEST(SafeTime, NoPairCollidesBeforeItsBound) {
     const double longest = std::max(hull, bead);
     ASSERT_FALSE(longest > 0 && pair.collides_at(longest * draw.uniform(0, 1))) << "trial " << trial;
   }
-  EXPECT_GT(n_hull, 300000);
-  EXPECT_GT(n_bead, 500000);
+  EXPECT_GT(n_hull, test::draws(300000));
+  EXPECT_GT(n_bead, test::draws(500000));
 }
 
 /// A random vector in a cylinder round z.
@@ -250,7 +251,7 @@ TEST(SafeTime, LimitsCoverEveryChangeOfMotionWithinThem) {
   AnyWidth width;
   const Allowance allow{1.0F, 25.0F, 1.0F, 12.0F};
   int n_kicks = 0;
-  for (int trial = 0; trial < 200000; ++trial) {
+  for (int trial = 0; trial < test::draws(200000); ++trial) {
     width.draw(draw);
     FlyingPair pair(draw);
     Vec3 strayed_velocity[2], strayed_turning[2];
@@ -295,14 +296,14 @@ TEST(SafeTime, LimitsCoverEveryChangeOfMotionWithinThem) {
     ASSERT_FALSE(pair.collides_at(safe - t)) << "trial " << trial;
     ASSERT_FALSE(pair.collides_at((safe - t) * draw.uniform(0, 1))) << "trial " << trial;
   }
-  EXPECT_GT(n_kicks, 300000);
+  EXPECT_GT(n_kicks, test::draws(300000));
 }
 
 TEST(SafeTime, BoundsAreTight) {
   // share of the true time to the first collision, found by marching at 1 us
   test::Draw draw(22);
   std::vector<double> share;
-  for (int trial = 0; trial < 6000 && share.size() < 600; ++trial) {
+  for (int trial = 0; trial < test::draws(6000) && share.size() < 600; ++trial) {
     const FlyingPair pair(draw);
     if (pair.collides_at(0)) continue;
     const double bound = std::max(pair.hull_bound(kNone, kHorizon).steady, pair.bead_bound(kNone, kHorizon).steady);
@@ -311,7 +312,7 @@ TEST(SafeTime, BoundsAreTight) {
     if (contact >= kHorizon) continue;
     share.push_back(bound / contact);
   }
-  ASSERT_GT(share.size(), 300u);
+  ASSERT_GT(share.size(), test::kSanitized ? 30u : 300u);
   std::sort(share.begin(), share.end());
   std::printf("bound / true time to contact: median %.3f, lower quartile %.3f, lowest %.3f (%zu pairs)\n",
               share[share.size() / 2], share[share.size() / 4], share.front(), share.size());
@@ -326,7 +327,7 @@ TEST(SafeTime, LanesMatchTheirTwins) {
   test::Draw draw(23);
   AnyWidth width;
   std::vector<double> hull_share, bead_share;
-  for (int trial = 0; trial < 100000; ++trial) {
+  for (int trial = 0; trial < test::draws(100000); ++trial) {
     width.draw(draw);
     FlyingPair pair(draw);
     const auto some = [&](double most) { return static_cast<float>(draw.uniform(0, most)); };
@@ -363,7 +364,7 @@ TEST(BeadsMayOverlap, NamesEveryBeadThatDoes) {
   test::Draw draw(26);
   AnyWidth width;
   int n_contacts = 0, n_named = 0, n_pairs = 0;
-  for (int trial = 0; trial < 60000; ++trial) {
+  for (int trial = 0; trial < test::draws(60000); ++trial) {
     width.draw(draw);
     FlyingPair pair(draw);
     if (draw.integer(0, 1)) {  // longer rods than a vector has lanes, up to a whole number of them
@@ -386,7 +387,7 @@ TEST(BeadsMayOverlap, NamesEveryBeadThatDoes) {
     n_pairs += !all.empty();
     if (!all.empty()) n_named += range.to - range.from;
   }
-  EXPECT_GT(n_contacts, 20000);
+  EXPECT_GT(n_contacts, test::draws(20000));
   EXPECT_LT(n_named, 12 * n_pairs);  // a few, not the whole rod
 }
 
@@ -455,7 +456,7 @@ TEST(PlateSafeTicks, NoRodHitsAPlateBeforeItsBound) {
   AnyWidth width;
   std::vector<double> share;
   int n_rods = 0;
-  for (int trial = 0; n_rods < 1000000; ++trial) {
+  for (int trial = 0; n_rods < test::draws(1000000); ++trial) {
     width.draw(draw);
     const FlyingRods rods(draw);
     const auto bounds = rods.bounds();
