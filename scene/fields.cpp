@@ -155,7 +155,7 @@ Field steady_field() {
   field.low = 0;
   field.high = 1e7;
   field.names = {"auto"};
-  field.doc = "Time before measuring begins. \"auto\": found from S(t) afterwards.";
+  field.doc = "Time before measuring begins. With \"auto\" it is determined from S(t) afterwards.";
   field.fetch = [](const RunPlan& plan) { return plan.steady ? Value(*plan.steady) : Value("auto"); };
   field.store = [](RunPlan& plan, const Value& value) {
     plan.steady.reset();
@@ -176,7 +176,7 @@ Field accuracy_field() {
         fmt::format("{}{} {}", steps.empty() ? "" : ", ", level.name, format_quantity(level.step, Dimension::kTime));
   }
   field.fallback_note = "none";
-  field.doc = fmt::format("A word in place of `time.step`: {}.", steps);
+  field.doc = fmt::format("Named level of accuracy, in place of `time.step`: {}.", steps);
   return field;
 }
 
@@ -186,7 +186,7 @@ Field movie_size_field() {
   field.form = Form::kSize;
   field.low = 64;
   field.high = 7680;
-  field.doc = "Width and height in pixels; even numbers.";
+  field.doc = "Width and height in pixels, both even.";
   field.fetch = [](const RunPlan& plan) {
     return Value(
         std::array<double, 2>{static_cast<double>(plan.movie->width), static_cast<double>(plan.movie->height)});
@@ -204,7 +204,7 @@ void add_contact(std::vector<Field>& table, const std::string& kind, const std::
                  ContactParameters Scene::*member) {
   table.push_back(quantity(
       "contacts." + kind + ".friction", Dimension::kPlain, 0, 1000,
-      "Coulomb's friction coefficient between " + what + ".", [member](auto& p) -> auto& {
+      "Coefficient of Coulomb friction between " + what + ".", [member](auto& p) -> auto& {
         return (p.system.*member).friction;
       }));
   table.push_back(quantity(
@@ -223,27 +223,31 @@ void add_rods(std::vector<Field>& table, const std::string& name, Shape shape, C
     field.path = name + "." + key;
     table.push_back(std::move(field));
   };
-  add("length", quantity(
-                    "", kLength, 0.05, 50, "From tip to tip.", [shape](auto& p) -> auto& { return shape(p).length; }));
-  add("mid_diameter",
+  add("length",
       quantity(
-          "", kLength, 0.05, 20,
-          "Of the centre bead; of a polar rod's tail.", [shape](auto& p) -> auto& { return shape(p).mid_diameter; }));
-  add("end_diameter",
-      quantity(
-          "", kLength, 0.05, 20,
-          "Of the two end beads; of a polar rod's head.", [shape](auto& p) -> auto& { return shape(p).end_diameter; }));
-  add("profile", later(choice<Profile>(
-                     "", {{"symmetric", Profile::kSymmetric}, {"polar", Profile::kPolar}},
-                     "Thickness falls from the centre to both ends; or from tail to head.", [shape](auto& p) -> auto& {
-                       return shape(p).profile;
-                     })));
+          "", kLength, 0.05, 50, "Length from tip to tip.", [shape](auto& p) -> auto& { return shape(p).length; }));
+  add("mid_diameter", quantity(
+                          "", kLength, 0.05, 20,
+                          "Diameter of the centre bead, or of the tail of a polar rod.", [shape](auto& p) -> auto& {
+                            return shape(p).mid_diameter;
+                          }));
+  add("end_diameter", quantity(
+                          "", kLength, 0.05, 20,
+                          "Diameter of the two end beads, or of the head of a polar rod.", [shape](auto& p) -> auto& {
+                            return shape(p).end_diameter;
+                          }));
+  add("profile",
+      later(choice<Profile>(
+          "", {{"symmetric", Profile::kSymmetric}, {"polar", Profile::kPolar}},
+          "Whether the thickness falls from the centre to both ends, or from tail to head.", [shape](auto& p) -> auto& {
+            return shape(p).profile;
+          })));
   Field diameters;
   diameters.form = Form::kNumbers;
   diameters.dimension = kLength;
   diameters.low = 0.05;
   diameters.high = 20;
-  diameters.doc = "Of each bead from tail to head, in place of a profile.";
+  diameters.doc = "Diameter of each bead from tail to head, in place of a profile.";
   diameters.fallback_note = "none";
   diameters.fetch = [shape](const RunPlan& p) {
     return shape(p).bead_diameters.empty() ? Value() : Value(shape(p).bead_diameters);
@@ -252,22 +256,24 @@ void add_rods(std::vector<Field>& table, const std::string& name, Shape shape, C
     shape(p).bead_diameters = std::get<std::vector<double>>(value);
   };
   add("bead_diameters", std::move(diameters));
-  add("bead_pitch", instead("", kLength, 0.01, 10, kDefaultBeadPitch,
-                            "Largest distance of neighbouring beads; the fewest beads that keep to it are taken.", {}));
+  add("bead_pitch",
+      instead(
+          "", kLength, 0.01, 10, kDefaultBeadPitch,
+          "Largest distance between neighbouring beads; a rod gets the smallest odd number of beads that keeps to it.",
+          {}));
   add("beads", derived(whole(
                            "", 1, kMaxBeads,
-                           "Number of beads, odd, in place of bead_pitch; 1 is a sphere of diameter mid_diameter.",
+                           "Number of beads, odd, in place of bead_pitch; 1 makes a sphere of diameter mid_diameter.",
                            [shape](auto& p) -> auto& { return shape(p).n_beads; }),
                        "from bead_pitch"));
   add("density",
       quantity(
           "", kDensity, 0.001, 100,
-          is_first ? "Of the material. Sets the unit of energy only." : "Of the material.", [shape](auto& p) -> auto& {
-            return shape(p).density;
-          }));
+          is_first ? "Density of the material. It only sets the unit of energy." : "Density of the material.",
+          [shape](auto& p) -> auto& { return shape(p).density; }));
   Field area = instead("", kPlain, 1e-6, kMaxAreaFractionAligned, kDefaultAreaFraction,
-                       is_first ? "Area of all rods, lying flat, per area of the box (or arena)."
-                                : "Area of these rods, lying flat, per area of the box (or arena).",
+                       is_first ? "Area of all rods, lying flat, divided by the area of the box (or arena)."
+                                : "Area of these rods, lying flat, divided by the area of the box (or arena).",
                        [fraction](const RunPlan& p) { return Value(to_ten_digits(fraction(p))); });
   if (!is_first) {
     area.fallback = Value();
@@ -289,13 +295,13 @@ std::vector<Field> make_table() {
       [](const RunPlan& p) { return area_fraction_of(p.system); }, true);
   add(choice<Start>(
       "rods.start", {{"aligned", Start::kAligned}, {"random", Start::kRandom}},
-      "Rods in rows along x, every other row shifted by half a rod; or at random (dilute systems).",
+      "Whether rods start in rows along x, every other row shifted by half a rod, or at random (for dilute systems).",
       [](auto& p) -> auto& { return p.system.start; }));
 
   for (std::size_t k = 0; k < 2; ++k) {
     const std::string name = fmt::format("rods_{}", k + 2);
     add(system_block(
-        name, "Rods of another kind among the first, at random places.", [k](auto& p) -> auto& {
+        name, "Rods of another kind, at random places among the first.", [k](auto& p) -> auto& {
           return p.system.added[k];
         }));
     add_rods(
@@ -306,25 +312,27 @@ std::vector<Field> make_table() {
   }
 
   add(quantity(
-      "box.side", kLength, 1, 2000, "L, of the square box, periodic in x and y.",
+      "box.side", kLength, 1, 2000, "Side L of the square box, which is periodic in x and y.",
       [](auto& p) -> auto& { return p.system.box_side; }));
   add(quantity(
-      "box.gap", kLength, 0.05, 100, "w, between base and lid.", [](auto& p) -> auto& { return p.system.gap; }));
+      "box.gap", kLength, 0.05, 100, "Distance w between base and lid.",
+      [](auto& p) -> auto& { return p.system.gap; }));
 
   add(instead("plates.gamma", kPlain, 0, 200, kDefaultGamma,
-              "Strength of shaking: largest acceleration of the plates over gravity.", [](const RunPlan& p) {
+              "Strength of shaking: the largest acceleration of the plates divided by gravity.", [](const RunPlan& p) {
                 const std::optional<double> gamma = gamma_of(p.system);
                 return gamma ? Value(to_ten_digits(*gamma)) : Value();
               }));
   add(derived(quantity(
-                  "plates.amplitude", kLength, 0, 10, "a, of the plates' vibration.",
+                  "plates.amplitude", kLength, 0, 10, "Amplitude a of the plates' vibration.",
                   [](auto& p) -> auto& { return p.system.amplitude; }),
               "from gamma and frequency"));
   add(quantity(
-      "plates.frequency", kFrequency, 0.1, 1e5, "f, of the plates' vibration.",
+      "plates.frequency", kFrequency, 0.1, 1e5, "Frequency f of the plates' vibration.",
       [](auto& p) -> auto& { return p.system.frequency; }));
   Field gravity = quantity(
-      "gravity", kAcceleration, 100, 1e5, "g, downwards; 0: weightless, plates then by amplitude and frequency.",
+      "gravity", kAcceleration, 100, 1e5,
+      "Gravitational acceleration g, downwards. If it is 0, amplitude and frequency must set the vibration.",
       [](auto& p) -> auto& { return p.system.gravity; });
   gravity.or_zero = true;
   add(std::move(gravity));
@@ -335,21 +343,21 @@ std::vector<Field> make_table() {
       "plates.lid", "Whether there is a lid.", [](auto& p) -> auto& { return p.system.lid; })));
   add(later(quantity(
       "plates.noise", kPlain, 0, 10,
-      "Rotational noise, rad/mm: each hit by a plate turns the rod about the vertical by this much per speed of the "
-      "hit, to either side at random.",
+      "Rotational noise in rad/mm: each hit by a plate changes the rod's angular velocity about the vertical by this "
+      "much per speed of the hit, to either side at random.",
       [](auto& p) -> auto& { return p.system.rotational_noise; })));
   add(system_block(
-      "walls", "Side walls round an arena in the middle of the box, in place of periodic borders.",
+      "walls", "Side walls around an arena in the middle of the box, in place of periodic boundaries.",
       [](auto& p) -> auto& { return p.system.walls; }));
   add(choice<Arena>(
-      "walls.arena", {{"disc", Arena::kDisc}, {"square", Arena::kSquare}, {"annulus", Arena::kAnnulus}}, "Its shape.",
-      [](auto& p) -> auto& { return p.system.walls->arena; }));
+      "walls.arena", {{"disc", Arena::kDisc}, {"square", Arena::kSquare}, {"annulus", Arena::kAnnulus}},
+      "Shape of the arena.", [](auto& p) -> auto& { return p.system.walls->arena; }));
   add(derived(quantity(
                   "walls.size", kLength, 1, 2000, "Diameter of the disc or of the outer wall, or side of the square.",
                   [](auto& p) -> auto& { return p.system.walls->size; }),
               "as large as box.side allows"));
   Field inner = quantity(
-      "walls.inner", kLength, 0.1, 2000, "Diameter of an annulus' inner wall.",
+      "walls.inner", kLength, 0.1, 2000, "Diameter of the inner wall of an annulus.",
       [](auto& p) -> auto& { return p.system.walls->inner; });
   inner.fallback = SideWalls{}.inner;
   inner.fetch = [](const RunPlan& p) {
@@ -357,7 +365,7 @@ std::vector<Field> make_table() {
   };
   add(std::move(inner));
   add(quantity(
-      "walls.friction", kPlain, 0, 1000, "Coulomb's friction coefficient between rod and wall.",
+      "walls.friction", kPlain, 0, 1000, "Coefficient of Coulomb friction between rod and wall.",
       [](auto& p) -> auto& { return p.system.walls->contact.friction; }));
   add(quantity(
       "walls.restitution", kPlain, 0, 1, "Coefficient of restitution between rod and wall.",
@@ -369,149 +377,157 @@ std::vector<Field> make_table() {
   add(choice<ImpulseLaw>(
       "contacts.law",
       {{"newton", ImpulseLaw::kNewton}, {"poisson", ImpulseLaw::kPoisson}, {"energetic", ImpulseLaw::kEnergetic}},
-      "Impulse law: restitution of velocity, of impulse, or of work (docs/stability.md).",
+      "Impulse law: whether restitution is a ratio of velocities, of impulses, or of works (docs/stability.md).",
       [](auto& p) -> auto& { return p.system.law; }));
   add(whole(
-      "contacts.sweeps", 1, 100, "Passes over the contacts of one tick.",
+      "contacts.sweeps", 1, 100, "Number of passes over the contacts of one tick.",
       [](auto& p) -> auto& { return p.system.solver_sweeps; }));
   Field order = choice<ContactOrder>(
       "contacts.order",
       {{"sorted", ContactOrder::kSorted}, {"reversed", ContactOrder::kReversed}, {"shuffled", ContactOrder::kShuffled}},
-      "Order in which the contacts of one tick get their impulses; no statistics should depend on it.",
+      "Order in which the contacts of one tick get their impulses. No average should depend on it.",
       [](auto& p) -> auto& { return p.system.order; });
   order.omit_if_default = true;
   add(std::move(order));
 
   add(accuracy_field());
   add(quantity(
-      "time.step", kTime, 1e-7, 1e-4, "The tick: the accuracy knob.", [](auto& p) -> auto& { return p.system.dt; }));
+      "time.step", kTime, 1e-7, 1e-4, "Length of a tick (the time step). It determines the accuracy.",
+      [](auto& p) -> auto& { return p.system.dt; }));
   add(choice<Engine>(
       "time.engine", {{"scheduled", Engine::kScheduled}, {"reference", Engine::kReference}},
-      "How the rods are stepped; both give bitwise the same trajectory.",
-      [](auto& p) -> auto& { return p.system.engine; }));
+      "Which stepper runs. Both give bitwise the same trajectory.", [](auto& p) -> auto& { return p.system.engine; }));
   add(later(choice<ImpactTime>(
       "time.impacts", {{"tick_end", ImpactTime::kTickEnd}, {"at_instant", ImpactTime::kAtInstant}},
-      "Impacts take place at the end of their tick, as in the paper, or at their own instant within it.",
+      "Whether impacts take effect at the end of their tick, as in the paper, or at their own instant within it.",
       [](auto& p) -> auto& { return p.system.impacts; })));
   add(steady_field());
   add(quantity(
-      "time.measure", kTime, 1e-6, 1e7, "Length of the run after `steady`.",
+      "time.measure", kTime, 1e-6, 1e7, "Length of the run after `time.steady`.",
       [](auto& p) -> auto& { return p.measure_time; }));
   add(whole(
-      "time.seed", 0, 9007199254740992.0, "Of all random numbers. Replica k of a sweep has seed + k - 1.",
+      "time.seed", 0, 9007199254740992.0, "Seed of all random numbers. Replica k of a sweep has seed + k - 1.",
       [](auto& p) -> auto& { return p.system.seed; }));
 
-  add(block("measure.order", true, "Nematic order S(t) in the plane.", &RunPlan::order));
+  add(block("measure.order", true, "Nematic order parameter S(t) in the plane.", &RunPlan::order));
   add(every(
       "measure.order.every", "Time between samples.", [](auto& p) -> auto& { return p.order->every; }));
-  add(block("measure.angles", false, "Distribution of the angle to the director.", &RunPlan::angles));
+  add(block("measure.angles", false, "Distribution of the angle between a rod and the director.", &RunPlan::angles));
   add(every(
       "measure.angles.every", "Time between samples.", [](auto& p) -> auto& { return p.angles->every; }));
   add(whole(
-      "measure.angles.bins", 2, 10000, "Over [-pi/2, pi/2).", [](auto& p) -> auto& { return p.angles->bins; }));
+      "measure.angles.bins", 2, 10000, "Number of bins over [-pi/2, pi/2).",
+      [](auto& p) -> auto& { return p.angles->bins; }));
   add(block("measure.tilt", false, "Mean velocity along and across the rod against its tilt n_z.", &RunPlan::tilt));
   add(every(
       "measure.tilt.every", "Time between samples.", [](auto& p) -> auto& { return p.tilt->every; }));
   add(whole(
-      "measure.tilt.bins", 2, 10000, "From the largest tilt that the gap allows downwards to upwards.",
+      "measure.tilt.bins", 2, 10000,
+      "Number of bins, from the largest downward to the largest upward tilt that the gap allows.",
       [](auto& p) -> auto& { return p.tilt->bins; }));
-  add(block("measure.defects", false,
-            "Topological defects of the smoothed director field, within walls if there are any, and where there are "
-            "rods.",
-            &RunPlan::defects));
+  add(block(
+      "measure.defects", false,
+      "Topological defects of the smoothed director field, where there are rods (and only within the walls, if any).",
+      &RunPlan::defects));
   add(every(
       "measure.defects.every", "Time between samples.", [](auto& p) -> auto& { return p.defects->every; }));
   add(derived(quantity(
-                  "measure.defects.smoothing", kLength, 0.01, 200, "Standard deviation of the Gaussian.",
+                  "measure.defects.smoothing", kLength, 0.01, 200,
+                  "Standard deviation of the Gaussian that smooths the director field.",
                   [](auto& p) -> auto& { return p.defects->smoothing; }),
               "half a rod length"));
   add(derived(quantity(
-                  "measure.defects.grid", kLength, 0.01, 200, "Width of the mesh.",
+                  "measure.defects.grid", kLength, 0.01, 200, "Mesh width of the director field.",
                   [](auto& p) -> auto& { return p.defects->grid; }),
               "an eighth of a rod length"));
   add(later(on_or_off(
-      "measure.defects.list", "Keep every defect found, with its track. Takes memory in proportion to the run.",
+      "measure.defects.list",
+      "Whether every defect found is kept, with its track. The memory for this grows in proportion to the run.",
       [](auto& p) -> auto& { return p.defects->list; })));
   add(later(quantity(
       "measure.defects.min_lifetime", kTime, 1e-7, 1e5,
-      "Tracks seen for so long are told by themselves as lasting ones: noise makes short-lived pairs.",
+      "Tracks at least this long are also reported separately, because noise makes short-lived pairs.",
       [](auto& p) -> auto& { return p.defects->min_lifetime; })));
   add(block("measure.g2", false,
-            "Orientational correlation G2(r) and pair distribution g(r), within walls if there are any.",
+            "Orientational correlation G2(r) and pair distribution g(r) (only within the walls, if any).",
             &RunPlan::g2));
   add(every(
       "measure.g2.every", "Time between samples.", [](auto& p) -> auto& { return p.g2->every; }));
   add(whole(
-      "measure.g2.bins", 2, 10000, "Over distances from 0 to half the box.",
+      "measure.g2.bins", 2, 10000, "Number of bins over distances from 0 to half the box.",
       [](auto& p) -> auto& { return p.g2->bins; }));
-  add(block("measure.msd", false, "Mean square displacement against lag.", &RunPlan::msd));
+  add(block("measure.msd", false, "Mean square displacement (MSD) against lag.", &RunPlan::msd));
   add(every(
-      "measure.msd.every", "Time between samples: the shortest lag.", [](auto& p) -> auto& { return p.msd->every; }));
+      "measure.msd.every", "Time between samples, which is the shortest lag.",
+      [](auto& p) -> auto& { return p.msd->every; }));
   add(block("measure.fluctuations", false,
-            "Giant number fluctuations: numbers of rods in boxes of 1/4 to 1/400 of the area.",
+            "Giant number fluctuations, from the numbers of rods in boxes of 1/4 to 1/400 of the area.",
             &RunPlan::fluctuations));
   add(every(
       "measure.fluctuations.every", "Time between samples.", [](auto& p) -> auto& { return p.fluctuations->every; }));
   add(block("measure.frank", false,
-            "The director's fluctuations against the wave vector, and the ratio of the Frank constants of bend and "
-            "splay. Not with walls.",
+            "Fluctuations of the director against the wave vector, and the ratio of the Frank constants of bend and "
+            "splay. Not available with walls.",
             &RunPlan::frank));
   add(every(
       "measure.frank.every", "Time between samples.", [](auto& p) -> auto& { return p.frank->every; }));
 
-  add(block("measure.rotation", false, "Rotation in the plane against lag: MSAD and C2(t).", &RunPlan::rotation));
+  add(block("measure.rotation", false,
+            "Rotation in the plane against lag: mean square angular displacement (MSAD) and C2(t).",
+            &RunPlan::rotation));
   add(every(
-      "measure.rotation.every", "Time between samples: the shortest lag. Rods turn by much less than a quarter turn.",
+      "measure.rotation.every",
+      "Time between samples, which is the shortest lag. In this time a rod must turn by much less than a quarter turn.",
       [](auto& p) -> auto& { return p.rotation->every; }));
   add(block("measure.velocity", false, "Velocity autocorrelation C_v(t).", &RunPlan::velocity));
   add(every(
-      "measure.velocity.every", "Time between samples: the shortest lag.",
+      "measure.velocity.every", "Time between samples, which is the shortest lag.",
       [](auto& p) -> auto& { return p.velocity->every; }));
   add(quantity(
       "measure.velocity.window", kTime, 1e-7, 1e5,
-      "Velocities are displacements over this time; rounded to a multiple of `every`.",
+      "Velocities are displacements over this time, which is rounded to a multiple of `every`.",
       [](auto& p) -> auto& { return p.velocity->window; }));
-  add(block("measure.rods", false, "Where single rods go, from the steady time on (from the start if it is \"auto\").",
+  add(block("measure.rods", false, "Paths of single rods, from `time.steady` on (from the start if that is \"auto\").",
             &RunPlan::rods));
   add(every(
       "measure.rods.every", "Time between samples.", [](auto& p) -> auto& { return p.rods->every; }));
   add(whole(
-      "measure.rods.count", 1, 1000, "Number of rods, spread evenly over their indices.",
+      "measure.rods.count", 1, 1000, "Number of rods that are followed. They are spread evenly over the indices.",
       [](auto& p) -> auto& { return p.rods->count; }));
   add(quantity(
-      "measure.rods.duration", kTime, 1e-6, 1e7, "How long they are followed.",
+      "measure.rods.duration", kTime, 1e-6, 1e7, "Time for which these rods are followed.",
       [](auto& p) -> auto& { return p.rods->duration; }));
-  add(block("measure.pairs", false,
-            "Maps of g(x, y) and G2(x, y) in the frame of the director, and cuts through them. Not with walls.",
-            &RunPlan::pairs));
+  add(block(
+      "measure.pairs", false,
+      "Maps of g(x, y) and G2(x, y) in the frame of the director, and cuts through them. Not available with walls.",
+      &RunPlan::pairs));
   add(every(
       "measure.pairs.every", "Time between samples.", [](auto& p) -> auto& { return p.pairs->every; }));
   add(whole(
       "measure.pairs.bins", 2, 201,
-      "Of the map each way; an odd number has one about 0. A run keeps 64 maps of its stretches of time, 16 bytes a "
-      "bin: "
-      "41 MB at most.",
+      "Number of bins of a map in each direction; use an odd number to have a bin centred on 0. A run keeps 64 maps, "
+      "one for each interval of time, with 16 bytes per bin: 41 MB at most.",
       [](auto& p) -> auto& { return p.pairs->bins; }));
   add(derived(quantity(
-                  "measure.pairs.range", kLength, 0.01, 1000, "Half the width of the map, at most half the box.",
+                  "measure.pairs.range", kLength, 0.01, 1000, "Half the width of the map. It is at most half the box.",
                   [](auto& p) -> auto& { return p.pairs->range; }),
               "three rod lengths, at most half the box"));
-  add(block("measure.layers", false, "Layers along the director: spectrum, wavelength and order. Not with walls.",
-            &RunPlan::layers));
+  add(block("measure.layers", false,
+            "Layers along the director: spectrum, wavelength and order. Not available with walls.", &RunPlan::layers));
   add(every(
       "measure.layers.every", "Time between samples.", [](auto& p) -> auto& { return p.layers->every; }));
-  add(block("measure.lattice", false, "Crystals: psi_6 and the largest Bragg peak. Not with walls.",
+  add(block("measure.lattice", false, "Crystalline order: psi_6 and the largest Bragg peak. Not available with walls.",
             &RunPlan::lattice));
   add(every(
       "measure.lattice.every", "Time between samples.", [](auto& p) -> auto& { return p.lattice->every; }));
 
-  add(block("trajectory", false, "Rod positions and directions into trajectory.h5.", &RunPlan::trajectory));
+  add(block("trajectory", false, "Positions and directions of the rods, in trajectory.h5.", &RunPlan::trajectory));
   add(every(
       "trajectory.every", "Time between frames.", [](auto& p) -> auto& { return p.trajectory->every; }));
-  add(block("stream", true, "Live state over LCM. Has no influence on results nor on the run's name.",
+  add(block("stream", true, "Live state over LCM. It influences neither the results nor the name of the run.",
             &RunPlan::stream));
   add(quantity(
-      "stream.rate", kFrequency, 0.1, 100, "Frames per wall-clock second, at most.",
+      "stream.rate", kFrequency, 0.1, 100, "Largest number of frames per second of wall-clock time.",
       [](auto& p) -> auto& { return p.stream->rate; }));
   add(block("movie", false, "A movie of the finished run.", &RunPlan::movie));
   add(every(
