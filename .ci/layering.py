@@ -14,37 +14,38 @@ SIM = ["sim/core", "sim/scene.h", "sim/snapshot.h", "sim/rod", "sim/motion", "si
        "sim/checkpoint", "sim/simulation"]
 ALLOWED = {
     "proto": [],
+    "base": ["sim/core"],
     # everything outside sim/ sees simulations, not steppers
     "analysis": ["sim/core", "sim/scene.h"],
     "scene": ["sim/core", "sim/rod", "sim/scene.h"],
     # whether rods can be placed, the simulation itself says
     "scene/placement.cpp": ["scene", "sim/core", "sim/rod", "sim/scene.h", "sim/initial.h"],
-    "run/files": ["sim/core", "sim/scene.h", "sim/snapshot.h"],
-    "run": ["proto", "scene", "analysis", "run/files", "sim/core", "sim/rod", "sim/scene.h", "sim/snapshot.h",
+    "run/files": ["base", "sim/core", "sim/scene.h", "sim/snapshot.h"],
+    "run": ["proto", "base", "scene", "analysis", "run/files", "sim/core", "sim/rod", "sim/scene.h", "sim/snapshot.h",
             "sim/world.h", "sim/simulation.h", "sim/balance.h", "sim/close_up.h", "sim/effects/registry.h",
             "sim/motion/side_walls.h"],
     # what a run costs: times the kernels of an impulse by themselves
-    "run/probe": ["proto", "scene", "analysis", "run", "sim/core", "sim/rod", "sim/motion", "sim/contact", "sim/scene.h",
+    "run/probe": ["proto", "base", "scene", "analysis", "run", "sim/core", "sim/rod", "sim/motion", "sim/contact", "sim/scene.h",
                   "sim/snapshot.h", "sim/world.h", "sim/simulation.h", "sim/stepping/phase_times.h"],
     # drawing knows rods and fields; only the program's sources of frames know files and the bus
-    "render/main.cpp": ["render", "run/files", "proto", "sim/core", "sim/scene.h", "sim/snapshot.h", "analysis"],
+    "render/main.cpp": ["render", "base", "run/files", "proto", "sim/core", "sim/scene.h", "sim/snapshot.h", "analysis"],
     "render/sources.h": ["render", "run/files", "proto", "sim/core", "sim/scene.h", "sim/snapshot.h", "analysis"],
     "render/sources.cpp": ["render", "run/files", "proto", "sim/core", "sim/scene.h", "sim/snapshot.h", "analysis"],
     "render": ["sim/core", "sim/scene.h", "analysis"],
-    "server": ["proto", "scene", "run/files", "sim/core"],
-    "client": ["proto", "scene", "run/files", "sim/core", "sim/rod", "sim/scene.h"],
+    "server": ["proto", "base", "scene", "run/files", "sim/core"],
+    "client": ["proto", "base", "scene", "run/files", "sim/core", "sim/rod", "sim/scene.h"],
     # benches time whole simulations, and the kernels of an impulse by themselves
     # what observables cost is timed with the run's own measurements
-    "bench/analysis": ["bench", "scene", "run", "analysis", "sim/core", "sim/rod", "sim/scene.h", "sim/snapshot.h",
+    "bench/analysis": ["bench", "base", "scene", "run", "analysis", "sim/core", "sim/rod", "sim/scene.h", "sim/snapshot.h",
                        "sim/world.h", "sim/simulation.h"],
-    "bench": ["scene", "run/files", "analysis", "sim/core", "sim/rod", "sim/motion", "sim/contact", "sim/scene.h",
+    "bench": ["base", "scene", "run/files", "analysis", "sim/core", "sim/rod", "sim/motion", "sim/contact", "sim/scene.h",
               "sim/snapshot.h", "sim/world.h", "sim/balance.h", "sim/simulation.h", "sim/neighbors", "sim/effects/registry.h"],
 }
 for floor, name in enumerate(SIM):
     for part in [name] if "." in name else [name, name + ".h", name + ".cpp"]:
         ALLOWED[part] = [below + end for below in SIM[:floor + 1] for end in ("", ".h", ".cpp")]
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"')
-FOLDERS = ("proto", "sim", "scene", "analysis", "run", "render", "server", "client", "tests", "bench")
+FOLDERS = ("proto", "base", "sim", "scene", "analysis", "run", "render", "server", "client", "tests", "bench")
 
 
 def rule(path):

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "bench/failure.h"
+#include "base/failure.h"
 
 namespace CLI {
 class App;

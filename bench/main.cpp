@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/failure.h"
 #include "bench/commands.h"
 #include "run/files/version.h"
 #include "scene/nearest.h"
@@ -30,6 +31,7 @@ std::string complaint(const CLI::App& app, const CLI::ParseError& problem) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  using namespace shaken;
   using namespace shaken::bench;
   CLI::App app("Measures Shaken.", "shaken-bench");
   app.set_version_flag("--version", std::string("shaken-bench ") + shaken::run::version());

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/failure.h"
+#include "base/failure.h"
 #include "scene/decimal.h"
 
 namespace shaken::bench {

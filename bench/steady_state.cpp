@@ -9,9 +9,9 @@
 #include <string>
 #include <string_view>
 
-#include "bench/failure.h"
+#include "base/failure.h"
+#include "base/progress_line.h"
 #include "bench/picture.h"
-#include "bench/progress.h"
 #include "run/files/atomic_file.h"
 #include "scene/canonical.h"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "client/print.h"
+#include "base/text.h"
 
 namespace shaken::client {
 namespace {

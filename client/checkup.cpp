@@ -6,8 +6,8 @@
 
 #include <thread>
 
-#include "client/failure.h"
-#include "client/process.h"
+#include "base/failure.h"
+#include "base/process.h"
 #include "client/session.h"
 #include "client/target.h"
 #include "proto/bus.h"
@@ -24,7 +24,7 @@ std::string first_line(const std::string& text) { return text.substr(0, text.fin
 
 CheckResult check_sibling(const std::string& name, Level if_missing, const std::string& needed_for) {
   const fs::path program = sibling_program(name);
-  const ChildResult result = run_captured({program.string(), "--version"});
+  const Captured result = run_captured({program.string(), "--version"});
   const std::string version = first_line(result.output);
   if (result.exit_code != 0) {
     const bool is_there = fs::exists(program);
@@ -70,7 +70,7 @@ CheckResult check_lcm() {
 }
 
 CheckResult check_gnuplot() {
-  const ChildResult result = run_captured({"gnuplot", "-e", "set terminal pngcairo; print GPVAL_VERSION"});
+  const Captured result = run_captured({"gnuplot", "-e", "set terminal pngcairo; print GPVAL_VERSION"});
   if (result.exit_code == 0) return {Level::kOk, "gnuplot", first_line(result.output) + ", pngcairo", ""};
   return {Level::kWarn, "gnuplot", result.exit_code == 127 ? "not found" : first_line(result.output),
           "sudo apt install gnuplot-nox"};

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "client/console.h"
 
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cstdlib>
 #include <iostream>
+
+#include "base/terminal.h"
 
 namespace shaken::client {
 namespace {
@@ -33,10 +34,10 @@ const char* escape_of(Colour colour) {
 }  // namespace
 
 void Console::refresh_size() {
-  winsize size{};
-  if (interactive && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 0) {
-    width = size.ws_col;
-    height = size.ws_row;
+  if (!interactive) return;
+  if (const auto size = terminal_size(STDOUT_FILENO)) {
+    width = size->columns;
+    height = size->lines;
   }
 }
 

@@ -12,9 +12,9 @@
 #include <map>
 #include <numeric>
 
-#include "client/failure.h"
-#include "client/print.h"
-#include "client/process.h"
+#include "base/failure.h"
+#include "base/process.h"
+#include "base/table.h"
 #include "run/files/atomic_file.h"
 #include "scene/accuracy.h"
 #include "scene/canonical.h"
@@ -65,7 +65,7 @@ Json probe(const scene::RunPlan& plan, const std::string& label, double cpu, con
                                    "--probe-cpu",
                                    fmt::format("{}", cpu)};
   if (!from.empty()) command.insert(command.end(), {"--probe-from", from});
-  const ChildResult result = run_captured(command);
+  const Captured result = run_captured(command);
   if (result.exit_code != 0) {
     std::string words = result.output;
     words.erase(words.find_last_not_of('\n') + 1);

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "base/failure.h"
 #include "client/console.h"
-#include "client/failure.h"
 
 namespace shaken::client {
 

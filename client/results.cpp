@@ -11,8 +11,8 @@
 #include <numeric>
 #include <set>
 
-#include "client/failure.h"
-#include "client/print.h"
+#include "base/failure.h"
+#include "base/text.h"
 #include "client/target.h"
 #include "scene/nearest.h"
 

@@ -7,7 +7,7 @@
 #include <iostream>
 #include <iterator>
 
-#include "client/failure.h"
+#include "base/failure.h"
 #include "run/files/atomic_file.h"
 #include "scene/canonical.h"
 #include "scene/derived.h"

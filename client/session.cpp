@@ -7,7 +7,7 @@
 
 #include <cstdlib>
 
-#include "client/failure.h"
+#include "base/failure.h"
 #include "scene/problem.h"
 
 namespace shaken::client {

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "client/failure.h"
+#include "base/failure.h"
 
 namespace shaken::client {
 

@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
+#include "base/failure.h"
 #include "client/arguments.h"
 #include "client/console.h"
-#include "client/failure.h"
 
 namespace shaken::client {
 

@@ -7,8 +7,10 @@
 #include <chrono>
 #include <map>
 
-#include "client/interrupt.h"
-#include "client/print.h"
+#include "base/clock.h"
+#include "base/interrupt.h"
+#include "base/progress_line.h"
+#include "base/text.h"
 
 namespace shaken::client {
 namespace {
@@ -45,9 +47,7 @@ ExitCode wait_for(Session& session, std::vector<Target> targets, std::optional<d
   const InterruptGuard guard;
   const Clock::time_point start = Clock::now();
   Clock::time_point last_answer = start;
-  const auto clear_line = [&] {
-    if (console.err_is_terminal) console.err << "\r\x1b[K" << std::flush;
-  };
+  ProgressLine progress(console.err, console.err_is_terminal, console.width, 0);
 
   for (;;) {
     const auto jobs = jobs_of_all(targets);
@@ -61,17 +61,10 @@ ExitCode wait_for(Session& session, std::vector<Target> targets, std::optional<d
       fraction += job_fraction(job) / static_cast<double>(jobs.size());
     }
     const int n_jobs = static_cast<int>(jobs.size());
-    if (console.err_is_terminal) {
-      const double eta = eta_of(targets);
-      std::string line =
-          fmt::format("{} {:3.0f} %  {}/{} jobs", bar_text(fraction, 24), 100 * fraction, n_ended, n_jobs);
-      if (eta >= 0) line += fmt::format("  ETA {} ({})", duration_text(eta), clock_text(eta, now_utime()));
-      console.err << "\r" << fitted(line, console.width > 0 ? static_cast<std::size_t>(console.width - 1) : 79)
-                  << "\x1b[K" << std::flush;
-    }
+    progress.show(progress_text(fraction, fmt::format("{}/{} jobs", n_ended, n_jobs), eta_of(targets)));
 
     if (n_ended == n_jobs) {
-      clear_line();
+      progress.clear();
       for (const auto& [id, job] : jobs) {
         const std::string state = text_of(job, "state");
         if (state == "done") continue;
@@ -83,7 +76,7 @@ ExitCode wait_for(Session& session, std::vector<Target> targets, std::optional<d
     }
     const double elapsed = std::chrono::duration<double>(Clock::now() - start).count();
     if (guard.interrupted() || (timeout_s && elapsed >= *timeout_s)) {
-      clear_line();
+      progress.clear();
       console.err << fmt::format("{}: {} of {} jobs have not ended; they go on\n",
                                  guard.interrupted() ? "interrupted" : "time is up", n_jobs - n_ended, n_jobs);
       return guard.interrupted() ? ExitCode::kInterrupted : ExitCode::kFailed;
@@ -96,7 +89,7 @@ ExitCode wait_for(Session& session, std::vector<Target> targets, std::optional<d
       last_answer = Clock::now();
     } catch (const Failure& failure) {
       if (failure.code != ExitCode::kNoDaemon || Clock::now() - last_answer > kDaemonMayBeAway) {
-        clear_line();
+        progress.clear();
         throw;
       }
     }

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "base/failure.h"
 #include "client/console.h"
-#include "client/failure.h"
 #include "client/session.h"
 #include "client/target.h"
 

@@ -6,8 +6,9 @@
 #include <algorithm>
 #include <map>
 
+#include "base/clock.h"
+#include "base/text.h"
 #include "client/chart.h"
-#include "client/print.h"
 #include "client/target.h"
 
 namespace shaken::client {
@@ -21,7 +22,7 @@ std::string bar_line(const LiveJob& job, const Console& console) {
                      console.painted(Colour::kBold, short_id(job.id)),
                      console.painted(Colour::kBlue, bar_text(job.fraction(), 16)), 100 * job.fraction(),
                      duration_text(job.sim_time), duration_text(job.sim_time_total), job.sim_rate,
-                     duration_text(job.eta), clock_text(job.eta, now_utime()), job.label);
+                     duration_text(job.eta), clock_text(job.eta, utime_now()), job.label);
 }
 
 std::string numbers_line(const LiveJob& job, const Console& console) {

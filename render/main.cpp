@@ -15,6 +15,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/failure.h"
+#include "base/progress_line.h"
 #include "proto/bus.h"
 #include "render/make_movie.h"
 #include "render/painter.h"
@@ -25,13 +27,6 @@
 namespace shaken::render {
 namespace {
 
-enum ExitCode { kDone = 0, kFailed = 1, kBadInput = 2, kInterrupted = 130 };
-
-struct Failure : std::runtime_error {
-  Failure(ExitCode exit_code, const std::string& message) : std::runtime_error(message), code(exit_code) {}
-  ExitCode code;
-};
-
 template <class T>
 T value_or_fail(Result<T> result, ExitCode code) {
   if (!result) throw Failure(code, result.error().message);
@@ -39,7 +34,7 @@ T value_or_fail(Result<T> result, ExitCode code) {
 }
 
 void fail_on(const std::optional<Error>& error) {
-  if (error) throw Failure(kFailed, error->message);
+  if (error) throw Failure(ExitCode::kFailed, error->message);
 }
 
 /// What the command line asks for.
@@ -75,7 +70,7 @@ std::pair<T, T> parse_pair(const std::string& text, char separator, const std::s
   T first, second;
   char between = 0;
   if (!(in >> first >> between >> second) || between != separator || in.peek() != EOF) {
-    throw Failure(kBadInput, fmt::format("{}, not '{}'", what, text));
+    throw Failure(ExitCode::kBadInput, fmt::format("{}, not '{}'", what, text));
   }
   return {first, second};
 }
@@ -96,7 +91,7 @@ PictureStyle style_of(const Options& options) {
   style.caption = !options.no_caption && !options.bare;
   style.legend = !options.no_legend && !options.bare;
   style.scale_bar = !options.no_scale_bar && !options.bare;
-  if (auto error = check(style)) throw Failure(kBadInput, error->message);
+  if (auto error = check(style)) throw Failure(ExitCode::kBadInput, error->message);
   return style;
 }
 
@@ -126,8 +121,8 @@ void report(const Options& options, const std::string& path, std::size_t frames,
 void paint_to_file(const Options& options, const PictureStyle& style, RodPicture picture, const std::string& out,
                    const Stopwatch& watch) {
   if (!options.label.empty()) picture.label = options.label;
-  Painter painter = value_or_fail(Painter::create(), kFailed);
-  const Image image = value_or_fail(painter.paint(picture, style), kFailed);
+  Painter painter = value_or_fail(Painter::create(), ExitCode::kFailed);
+  const Image image = value_or_fail(painter.paint(picture, style), ExitCode::kFailed);
   fail_on(write_png(out, image, picture_texts(picture)));
   report(options, out, 1, style, watch);
 }
@@ -140,21 +135,21 @@ std::string out_of(const Options& options, const TrajectorySource& source, const
 void make_picture(const Options& options) {
   const Stopwatch watch;
   const PictureStyle style = style_of(options);
-  TrajectorySource source = value_or_fail(TrajectorySource::open(options.source), kBadInput);
+  TrajectorySource source = value_or_fail(TrajectorySource::open(options.source), ExitCode::kBadInput);
   std::size_t index = source.n_frames() - 1;
   if (options.time_s) {
-    index = value_or_fail(source.nearest_frame(*options.time_s), kFailed);
+    index = value_or_fail(source.nearest_frame(*options.time_s), ExitCode::kFailed);
   } else if (options.frame != "last") {
     const bool digits = !options.frame.empty() && options.frame.size() < 10 &&
                         options.frame.find_first_not_of("0123456789") == std::string::npos;
     if (!digits || std::stoul(options.frame) >= source.n_frames()) {
-      throw Failure(kBadInput, fmt::format("--frame takes 'last' or a number from 0 to {}, not '{}'",
-                                           source.n_frames() - 1, options.frame));
+      throw Failure(ExitCode::kBadInput, fmt::format("--frame takes 'last' or a number from 0 to {}, not '{}'",
+                                                     source.n_frames() - 1, options.frame));
     }
     index = std::stoul(options.frame);
   }
   if (style.caption) fail_on(source.read_history());
-  paint_to_file(options, style, value_or_fail(source.picture(index, style.mark_defects), kFailed),
+  paint_to_file(options, style, value_or_fail(source.picture(index, style.mark_defects), ExitCode::kFailed),
                 out_of(options, source, "picture.png"), watch);
 }
 
@@ -163,45 +158,23 @@ void make_live_picture(const Options& options) {
   const PictureStyle style = style_of(options);
   const auto timeout = std::chrono::milliseconds(std::llround(options.timeout_s * 1000));
   RodPicture picture =
-      value_or_fail(live_picture(options.lcm_url, options.source, timeout, style.mark_defects), kFailed);
+      value_or_fail(live_picture(options.lcm_url, options.source, timeout, style.mark_defects), ExitCode::kFailed);
   paint_to_file(options, style, std::move(picture), options.out, watch);
 }
 
 volatile std::sig_atomic_t stop_requested = 0;
 
-/// "frame 120/600  20 %  0:35 to go", rewritten in place on a terminal.
-class ProgressLine {
- public:
-  explicit ProgressLine(std::size_t n_frames) : n_frames_(n_frames), on_terminal_(isatty(STDERR_FILENO) == 1) {}
-  ~ProgressLine() {
-    if (on_terminal_) fmt::print(stderr, "\r\033[K");
-  }
-
-  void show(std::size_t done) const {
-    if (!on_terminal_) return;
-    const double part = static_cast<double>(done) / static_cast<double>(n_frames_);
-    const auto left = std::llround(watch_.seconds() * (1 - part) / part);
-    fmt::print(stderr, "\r\033[Kframe {}/{}  {:.0f} %  {}:{:02d} to go", done, n_frames_, 100 * part, left / 60,
-               left % 60);
-    std::fflush(stderr);
-  }
-
- private:
-  std::size_t n_frames_;
-  bool on_terminal_;
-  Stopwatch watch_;
-};
-
 /// How many recorded frames make up `every` seconds; at least 1.
 std::size_t stride_for(const TrajectorySource& source, double every) {
   if (source.n_frames() < 2) return 1;
-  const double first = value_or_fail(source.time_of(0), kFailed), second = value_or_fail(source.time_of(1), kFailed);
+  const double first = value_or_fail(source.time_of(0), ExitCode::kFailed),
+               second = value_or_fail(source.time_of(1), ExitCode::kFailed);
   return second > first ? static_cast<std::size_t>(std::max(1.0, std::round(every / (second - first)))) : 1;
 }
 
 void make_movie_file(const Options& options) {
   const Stopwatch watch;
-  TrajectorySource source = value_or_fail(TrajectorySource::open(options.source), kBadInput);
+  TrajectorySource source = value_or_fail(TrajectorySource::open(options.source), ExitCode::kBadInput);
   PictureStyle style = style_of(options);
   // What the command line leaves open, the scene may say.
   const std::optional<MovieWish> wish = source.movie_wish();
@@ -210,12 +183,13 @@ void make_movie_file(const Options& options) {
     style.height = wish->height;
   }
   if (style.width % 2 != 0 || style.height % 2 != 0) {
-    throw Failure(kBadInput, "a movie needs an even width and height, not " + options.size);
+    throw Failure(ExitCode::kBadInput, "a movie needs an even width and height, not " + options.size);
   }
-  const std::size_t first = options.from_s ? value_or_fail(source.nearest_frame(*options.from_s), kFailed) : 0;
+  const std::size_t first =
+      options.from_s ? value_or_fail(source.nearest_frame(*options.from_s), ExitCode::kFailed) : 0;
   const std::size_t last =
-      options.to_s ? value_or_fail(source.nearest_frame(*options.to_s), kFailed) : source.n_frames() - 1;
-  if (last < first) throw Failure(kBadInput, "--from is later than --to");
+      options.to_s ? value_or_fail(source.nearest_frame(*options.to_s), ExitCode::kFailed) : source.n_frames() - 1;
+  if (last < first) throw Failure(ExitCode::kBadInput, "--from is later than --to");
   const std::size_t stride = options.every ? *options.every : wish ? stride_for(source, wish->every) : 1;
   const std::size_t n_frames = (last - first) / stride + 1;
 
@@ -228,16 +202,16 @@ void make_movie_file(const Options& options) {
     if (rods && !options.label.empty()) rods->label = options.label;
     return rods;
   };
-  Painter painter = value_or_fail(Painter::create(), kFailed);
+  Painter painter = value_or_fail(Painter::create(), ExitCode::kFailed);
   std::signal(SIGINT, [](int) { stop_requested = 1; });
   std::signal(SIGTERM, [](int) { stop_requested = 1; });
   {
-    const ProgressLine progress(n_frames);
+    ProgressLine progress("drawing");
     const auto error = make_movie(painter, out, style, movie, n_frames, picture, [&](std::size_t i) {
-      progress.show(i + 1);
+      progress.show(static_cast<double>(i + 1) / static_cast<double>(n_frames));
       return stop_requested == 0;
     });
-    if (error) throw Failure(stop_requested != 0 ? kInterrupted : kFailed, error->message);
+    if (error) throw Failure(stop_requested != 0 ? ExitCode::kInterrupted : ExitCode::kFailed, error->message);
   }
   report(options, out, n_frames, style, watch);
 }
@@ -322,17 +296,17 @@ int run(int argc, char** argv) {
     if (picture->parsed()) make_picture(options);
     if (movie->parsed()) make_movie_file(options);
     if (live->parsed()) make_live_picture(options);
-    return kDone;
+    return static_cast<int>(ExitCode::kOk);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
     fmt::print(stderr, "shaken-render: {} (see `shaken-render --help`)\n", error.what());
-    return kBadInput;
+    return static_cast<int>(ExitCode::kBadInput);
   } catch (const Failure& failure) {
     fmt::print(stderr, "shaken-render: {}\n", failure.what());
-    return failure.code;
+    return static_cast<int>(failure.code);
   } catch (const std::exception& error) {
     fmt::print(stderr, "shaken-render: {}\n", error.what());
-    return kFailed;
+    return static_cast<int>(ExitCode::kFailed);
   }
 }
 

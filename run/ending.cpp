@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.h"
 #include "run/files/directory.h"
-#include "run/terminal.h"
 
 namespace shaken::run {
 namespace {
@@ -49,9 +49,9 @@ std::string order_text(const Json& summary) {
 
 std::string describe_ending(const Json& summary, const std::filesystem::path& directory) {
   const RunDirectory files{directory};
-  std::string text = fmt::format("{} rods, {:.4g} s, in {} of CPU time\n{}",
-                                 static_cast<long>(number(summary, "n_rods")), number(summary, "sim_seconds"),
-                                 describe_duration(number(summary, "cpu_seconds")), order_text(summary));
+  std::string text =
+      fmt::format("{} rods, {:.4g} s, in {} of CPU time\n{}", static_cast<long>(number(summary, "n_rods")),
+                  number(summary, "sim_seconds"), duration_text(number(summary, "cpu_seconds")), order_text(summary));
   text += fmt::format("in {}:\n", directory.string());
   const auto list = [&text](const std::filesystem::path& file, const char* what) {
     if (std::filesystem::exists(file)) text += fmt::format("  {:<16}{}\n", file.filename().string(), what);

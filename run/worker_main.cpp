@@ -8,7 +8,12 @@
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <csignal>
+#include <iostream>
+#include <optional>
 
+#include "base/failure.h"
+#include "base/progress_line.h"
+#include "base/terminal.h"
 #include "proto/bus.h"
 #include "run/checkpoint_file.h"
 #include "run/ending.h"
@@ -27,10 +32,7 @@ namespace {
 
 using namespace shaken;
 
-constexpr int kExitFailed = 1;
-constexpr int kExitBadInput = 2;
-/// As batch systems have it: ended with a checkpoint, please start me again.
-constexpr int kExitStopped = 99;
+constexpr double kProgressPeriod = 5;  ///< between two lines of progress in a log [s]
 
 constexpr const char* kFooter = R"(Examples:
   shaken-worker quickstart.json --out runs/quick
@@ -136,7 +138,7 @@ void tell_ending(const run::RunDirectory& directory) {
   std::fflush(stdout);
 }
 
-int run_scene(const scene::RunPlan& plan, const Arguments& arguments) {
+ExitCode run_scene(const scene::RunPlan& plan, const Arguments& arguments) {
   const run::RunDirectory directory{arguments.out};
   run::RunOptions options;
   options.directory = arguments.out;
@@ -147,7 +149,11 @@ int run_scene(const scene::RunPlan& plan, const Arguments& arguments) {
   options.checkpoint_every = run::WallSeconds(arguments.checkpoint_every);
   options.stop = &stop_requested;
 
-  run::ProgressDisplay display(arguments.quiet);
+  std::optional<ProgressLine> line;
+  if (!arguments.quiet) {
+    const auto size = terminal_size(STDERR_FILENO);
+    line.emplace(std::cerr, isatty(STDERR_FILENO) == 1, size ? size->columns : 0, kProgressPeriod);
+  }
   run::RunCallbacks callbacks;
   callbacks.on_owned = [&] {
     log_to_file_too(directory.log());
@@ -155,7 +161,11 @@ int run_scene(const scene::RunPlan& plan, const Arguments& arguments) {
                  arguments.sweep_id.empty() ? "" : " of sweep " + arguments.sweep_id, plan.system.n_all_rods(),
                  plan.total_time(), arguments.out);
   };
-  callbacks.on_progress = [&](const run::Progress& progress) { display.show(progress); };
+  callbacks.on_progress = [&](const run::Progress& progress) {
+    if (!line) return;
+    const std::string text = run::describe_progress(progress);
+    run::is_under_way(progress) ? line->show(text) : line->end_with(text);
+  };
   callbacks.make_movie = [&] { return run::render_movie(arguments.out, stop_requested); };
 
   const run::RunOutcome outcome = run::run(plan, options, callbacks);
@@ -163,15 +173,15 @@ int run_scene(const scene::RunPlan& plan, const Arguments& arguments) {
     case run::RunState::kDone:
       spdlog::info("done");
       if (!arguments.quiet) tell_ending(directory);
-      return 0;
+      return ExitCode::kOk;
     case run::RunState::kStopped:
       spdlog::info("stopped; start again to go on");
-      return kExitStopped;
+      return ExitCode::kStopped;
     case run::RunState::kFailed:
       spdlog::error("{}", outcome.message);
-      return kExitFailed;
+      return ExitCode::kFailed;
   }
-  return kExitFailed;
+  return ExitCode::kFailed;
 }
 
 /// A simulation of `system` from the state that the run in `folder` was last saved in.
@@ -188,28 +198,38 @@ Result<Simulation> resume_from(const std::filesystem::path& folder, const Scene&
   return simulation;
 }
 
-int probe_scene(const scene::RunPlan& plan, const Arguments& arguments) {
+void probe_scene(const scene::RunPlan& plan, const Arguments& arguments) {
   std::optional<run::Probe> probe;
   if (arguments.probe_cpu > 0) {
     Result<Simulation> simulation =
         arguments.probe_from.empty() ? Simulation::start(plan.system) : resume_from(arguments.probe_from, plan.system);
-    if (!simulation) {
-      fmt::print(stderr, "{}\n", simulation.error().message);
-      return kExitBadInput;
-    }
+    if (!simulation) throw Failure(ExitCode::kBadInput, simulation.error().message);
     auto probed = run::probe(plan, std::move(simulation).value(), arguments.probe_cpu);
-    if (!probed) {
-      fmt::print(stderr, "{}\n", probed.error().message);
-      return kExitFailed;
-    }
+    if (!probed) throw Failure(ExitCode::kFailed, probed.error().message);
     probe = std::move(probed).value();
     if (!probe->movie_trouble.empty()) spdlog::warn("the movie could not be timed: {}", probe->movie_trouble);
   }
   if (auto error = run::write_file(arguments.probe, run::probe_report(plan, probe).dump(2) + "\n")) {
-    fmt::print(stderr, "{}\n", error->message);
-    return kExitFailed;
+    throw Failure(ExitCode::kFailed, error->message);
   }
-  return 0;
+}
+
+ExitCode work(const Arguments& arguments) {
+  if (arguments.out.empty() == arguments.probe.empty()) {
+    throw Failure(ExitCode::kBadInput, "one of --out and --probe is needed (see `shaken-worker --help`)");
+  }
+  const Result<std::string> text = run::read_file(arguments.scene);
+  if (!text) throw Failure(ExitCode::kBadInput, text.error().message);
+  const scene::Loaded<scene::RunPlan> plan = scene::load_scene(*text, arguments.scene, arguments.settings);
+  if (!plan.value) throw Failure(ExitCode::kBadInput, to_string(plan.problems));
+  if (const auto problem = scene::placement_problem(*plan.value, arguments.scene)) {
+    throw Failure(ExitCode::kBadInput, to_string(*problem));
+  }
+  if (arguments.probe.empty()) return run_scene(*plan.value, arguments);
+  std::signal(SIGTERM, SIG_DFL);  // nothing is lost
+  std::signal(SIGINT, SIG_DFL);
+  probe_scene(*plan.value, arguments);
+  return ExitCode::kOk;
 }
 
 }  // namespace
@@ -219,40 +239,19 @@ int main(int argc, char** argv) {
   CLI::App app("Runs one scene from start to end in a run directory.", "shaken-worker");
   Arguments arguments;
   describe(app, arguments);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& problem) {
-    if (problem.get_exit_code() == 0) return app.exit(problem);
-    fmt::print(stderr, "shaken-worker: {} (see `shaken-worker --help`)\n", problem.what());
-    return kExitBadInput;
-  }
-  if (arguments.out.empty() == arguments.probe.empty()) {
-    fmt::print(stderr, "one of --out and --probe is needed (see `shaken-worker --help`)\n");
-    return kExitBadInput;
-  }
   std::signal(SIGTERM, request_stop);
   std::signal(SIGINT, request_stop);
   std::signal(SIGPIPE, SIG_IGN);
-  log_to_stderr(arguments.quiet);
-
-  const Result<std::string> text = run::read_file(arguments.scene);
-  if (!text) {
-    fmt::print(stderr, "{}\n", text.error().message);
-    return kExitBadInput;
+  try {
+    app.parse(argc, argv);
+    log_to_stderr(arguments.quiet);
+    return static_cast<int>(work(arguments));
+  } catch (const CLI::ParseError& problem) {
+    if (problem.get_exit_code() == 0) return app.exit(problem);
+    fmt::print(stderr, "shaken-worker: {} (see `shaken-worker --help`)\n", problem.what());
+    return static_cast<int>(ExitCode::kBadInput);
+  } catch (const Failure& failure) {
+    fmt::print(stderr, "{}\n", failure.what());
+    return static_cast<int>(failure.code);
   }
-  const scene::Loaded<scene::RunPlan> plan = scene::load_scene(*text, arguments.scene, arguments.settings);
-  if (!plan.value) {
-    fmt::print(stderr, "{}\n", to_string(plan.problems));
-    return kExitBadInput;
-  }
-  if (const auto problem = scene::placement_problem(*plan.value, arguments.scene)) {
-    fmt::print(stderr, "{}\n", to_string(*problem));
-    return kExitBadInput;
-  }
-  if (!arguments.probe.empty()) {
-    std::signal(SIGTERM, SIG_DFL);  // nothing is lost
-    std::signal(SIGINT, SIG_DFL);
-    return probe_scene(*plan.value, arguments);
-  }
-  return run_scene(*plan.value, arguments);
 }

@@ -7,9 +7,9 @@
 #include <shaken/job_t.hpp>
 #include <shaken/status_t.hpp>
 
+#include "base/clock.h"
 #include "run/files/directory.h"
 #include "run/files/progress.h"
-#include "server/clock.h"
 
 namespace shaken::server {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "server/clock.h"
+#include "base/clock.h"
 #include "server/queue_schema.h"
 #include "sim/core/check.h"
 

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "base/failure.h"
 #include "run/files/progress.h"
 
 namespace shaken::server {
@@ -12,8 +13,8 @@ namespace {
 
 using enum Verdict::Outcome;
 
-constexpr int kBadInput = 2;
-constexpr int kStoppedOnRequest = 99;
+constexpr auto kBadInput = static_cast<int>(ExitCode::kBadInput);
+constexpr auto kStoppedOnRequest = static_cast<int>(ExitCode::kStopped);
 
 /// The last line of the worker with anything on it, of the last 4 KiB.
 std::string last_line(const std::filesystem::path& file) {

@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "bench/clock.h"
-#include "bench/failure.h"
-#include "bench/progress.h"
+#include "base/clock.h"
+#include "base/failure.h"
+#include "base/progress_line.h"
 
 namespace shaken::bench {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include "base/table.h"
 #include "bench/accuracy/report.h"
-#include "bench/table.h"
 
 namespace shaken::bench {
 namespace {

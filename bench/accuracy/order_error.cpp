@@ -9,8 +9,8 @@
 
 #include "analysis/order.h"
 #include "analysis/time_series.h"
-#include "bench/clock.h"
-#include "bench/progress.h"
+#include "base/clock.h"
+#include "base/progress_line.h"
 #include "bench/steady_state.h"
 
 namespace shaken::bench {

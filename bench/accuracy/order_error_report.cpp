@@ -5,10 +5,10 @@
 #include <array>
 #include <cmath>
 
+#include "base/table.h"
 #include "bench/accuracy/report.h"
 #include "bench/accuracy/style.h"
 #include "bench/picture.h"
-#include "bench/table.h"
 
 namespace shaken::bench {
 namespace {

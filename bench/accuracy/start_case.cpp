@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "bench/failure.h"
+#include "base/failure.h"
 #include "bench/steady_state.h"
 #include "sim/core/rng.h"
 

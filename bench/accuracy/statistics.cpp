@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "analysis/parts.h"
-#include "bench/clock.h"
-#include "bench/progress.h"
+#include "base/clock.h"
+#include "base/progress_line.h"
 #include "bench/steady_state.h"
 #include "sim/rod/species.h"
 

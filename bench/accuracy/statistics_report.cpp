@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "base/table.h"
 #include "bench/accuracy/report.h"
-#include "bench/table.h"
 
 namespace shaken::bench {
 namespace {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "base/table.h"
 #include "bench/analysis/shares.h"
 #include "bench/case_words.h"
 #include "bench/commands.h"
@@ -14,7 +15,6 @@
 #include "bench/options.h"
 #include "bench/picture.h"
 #include "bench/steady_state.h"
-#include "bench/table.h"
 #include "run/files/version.h"
 #include "run/measure/registry.h"
 #include "scene/load.h"

@@ -6,8 +6,8 @@
 #include <memory>
 #include <optional>
 
-#include "bench/clock.h"
-#include "bench/failure.h"
+#include "base/clock.h"
+#include "base/failure.h"
 #include "run/measurements.h"
 
 namespace shaken::bench {

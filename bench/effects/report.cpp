@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
+#include "base/table.h"
 #include "bench/picture.h"
-#include "bench/table.h"
 #include "run/files/version.h"
 
 namespace shaken::bench {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "bench/failure.h"
-#include "bench/progress.h"
+#include "base/failure.h"
+#include "base/progress_line.h"
 #include "sim/effects/registry.h"
 
 namespace shaken::bench {

@@ -7,13 +7,13 @@
 #include <limits>
 #include <memory>
 
+#include "base/progress_line.h"
 #include "bench/commands.h"
 #include "bench/hard/made_cases.h"
 #include "bench/hard/report.h"
 #include "bench/hard/scene_cases.h"
 #include "bench/options.h"
 #include "bench/picture.h"
-#include "bench/progress.h"
 #include "bench/speed/report.h"
 
 namespace shaken::bench {

@@ -11,7 +11,7 @@
 #include <limits>
 #include <optional>
 
-#include "bench/failure.h"
+#include "base/failure.h"
 #include "scene/load.h"
 #include "sim/balance.h"
 #include "sim/simulation.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/clock.h"
+#include "base/clock.h"
 
 namespace shaken::bench {
 

@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "bench/clock.h"
+#include "base/clock.h"
 #include "sim/contact/impulse.h"
 #include "sim/motion/flight.h"
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "bench/table.h"
+#include "base/table.h"
 #include "run/files/version.h"
 
 namespace shaken::bench {

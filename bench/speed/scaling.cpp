@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "bench/progress.h"
+#include "base/progress_line.h"
 
 namespace shaken::bench {
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "bench/clock.h"
-#include "bench/progress.h"
+#include "base/clock.h"
+#include "base/progress_line.h"
 
 namespace shaken::bench {
 
@@ -41,10 +41,10 @@ SceneSpeed measure_scene(const Case& scene, const SteadyState& state, const Effo
   advance(timed, speed.compared_ticks + settle);
   speed.bounds = measure_lower_bounds(timed.world());
   count();
-  timed.time_phases(cpu_seconds_without_readings);
-  const double start = cpu_seconds_without_readings();
+  timed.time_phases(thread_cpu_seconds_without_readings);
+  const double start = thread_cpu_seconds_without_readings();
   advance(timed, scheduled_ticks);
-  speed.phases_cpu = cpu_seconds_without_readings() - start;
+  speed.phases_cpu = thread_cpu_seconds_without_readings() - start;
   for (std::size_t p = 0; p < kPhases; ++p) speed.phases[p] = timed.phase_times().seconds(static_cast<Phase>(p));
   return speed;
 }

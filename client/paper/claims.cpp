@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "client/failure.h"
+#include "base/failure.h"
 
 namespace shaken::client {
 

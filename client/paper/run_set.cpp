@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "client/failure.h"
+#include "base/failure.h"
 #include "client/replicas.h"
 #include "client/results.h"
 #include "run/files/atomic_file.h"

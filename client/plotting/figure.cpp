@@ -7,9 +7,9 @@
 #include <array>
 #include <cmath>
 
-#include "client/failure.h"
-#include "client/print.h"
-#include "client/process.h"
+#include "base/failure.h"
+#include "base/process.h"
+#include "base/text.h"
 #include "run/files/atomic_file.h"
 
 namespace shaken::client {
@@ -248,7 +248,7 @@ std::filesystem::path draw_files(const std::string& name, const std::string& dat
   if (error) throw Failure(ExitCode::kFailed, fmt::format("{}: {}", folder.string(), error.message()));
   write_or_fail(folder / (name + ".dat"), data);
   write_or_fail(folder / (name + ".gp"), script);
-  const ChildResult gnuplot = run_captured({"gnuplot", name + ".gp"}, folder);
+  const Captured gnuplot = run_captured({"gnuplot", name + ".gp"}, folder);
   const std::filesystem::path picture = folder / (name + "." + suffix_of(format));
   if (gnuplot.exit_code == 127) {
     throw Failure(ExitCode::kFailed,

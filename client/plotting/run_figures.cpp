@@ -9,7 +9,7 @@
 #include <map>
 #include <set>
 
-#include "client/print.h"
+#include "base/text.h"
 #include "scene/fields.h"
 
 namespace shaken::client {

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "client/failure.h"
+#include "base/failure.h"
 
 namespace shaken::client {
 namespace {

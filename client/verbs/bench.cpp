@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "client/process.h"
+#include "base/process.h"
 #include "client/verbs/verbs.h"
 
 namespace shaken::client {

@@ -4,8 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "base/table.h"
+#include "base/text.h"
 #include "client/estimate.h"
-#include "client/print.h"
 #include "client/scene_input.h"
 #include "client/verbs/verbs.h"
 #include "scene/accuracy.h"

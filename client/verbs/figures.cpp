@@ -11,13 +11,15 @@
 #include <thread>
 #include <utility>
 
+#include "base/interrupt.h"
+#include "base/process.h"
+#include "base/progress_line.h"
+#include "base/table.h"
+#include "base/text.h"
 #include "client/estimate.h"
-#include "client/interrupt.h"
 #include "client/own_daemon.h"
 #include "client/paper/claims.h"
 #include "client/paper/cost.h"
-#include "client/print.h"
-#include "client/process.h"
 #include "client/scene_input.h"
 #include "client/target.h"
 #include "client/verbs/verbs.h"
@@ -32,7 +34,7 @@ using Align = Table::Align;
 using Clock = std::chrono::steady_clock;
 
 /// Between lines of progress where there is no terminal to redraw.
-constexpr std::chrono::minutes kQuiet{1};
+constexpr double kQuiet = 60;  ///< between two lines of progress in a log [s]
 
 /// A daemon that goes away more often than that has a reason.
 constexpr int kMostRestarts = 3;
@@ -320,7 +322,7 @@ class Figures : public Verb {
     std::vector<const PaperFigure*> left = chosen_;
     bool complete = true;
     int n_restarts = 0;
-    Clock::time_point last_line{};
+    ProgressLine progress(console.err, console.err_is_terminal, console.width, kQuiet);
     for (;;) {
       for (auto figure = left.begin(); figure != left.end();) {
         if (guard.interrupted()) return false;
@@ -332,10 +334,9 @@ class Figures : public Verb {
         }
       }
       if (left.empty()) break;
-      show_progress(console, last_line);
+      show_progress(progress);
       guard.sleep_for(std::chrono::milliseconds(500));
       if (guard.interrupted()) {
-        if (console.err_is_terminal) console.err << "\n";
         return false;
       }
       try {
@@ -376,10 +377,7 @@ class Figures : public Verb {
     }
   }
 
-  void show_progress(Console& console, Clock::time_point& last_line) const {
-    const bool quiet = !console.err_is_terminal;
-    if (quiet && Clock::now() - last_line < kQuiet) return;
-    last_line = Clock::now();
+  void show_progress(ProgressLine& progress) const {
     double done = 0, all = 0, eta = -1;
     int n_ended = 0, n_jobs = 0;
     for (const NamedSweep& sweep : sweeps_) {
@@ -400,19 +398,7 @@ class Figures : public Verb {
     if (first_done_ < 0) first_done_ = done;
     if (elapsed > 5 && done > first_done_) eta = (all - done) * elapsed / (done - first_done_);
     const double fraction = all > 0 ? done / all : 1;
-    std::string line = fmt::format("{} {:3.0f} %  {}/{} runs", bar_text(fraction, 24), 100 * fraction, n_ended, n_jobs);
-    if (eta >= 0) {
-      const auto now =
-          std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch())
-              .count();
-      line += fmt::format("  ETA {} ({})", duration_text(eta), clock_text(eta, now));
-    }
-    if (quiet) {
-      console.err << line << std::endl;
-    } else {
-      console.err << "\r" << fitted(line, console.width > 0 ? static_cast<std::size_t>(console.width - 1) : 79)
-                  << "\x1b[K" << std::flush;
-    }
+    progress.show(progress_text(fraction, fmt::format("{}/{} runs", n_ended, n_jobs), eta));
   }
 
   /// The runs of a sweep that are done, in its order.
@@ -446,9 +432,8 @@ class Figures : public Verb {
     const fs::path picture = folder / (run.directory().filename().string() + ".png");
     if (fs::exists(picture)) return picture;
     fs::create_directories(folder);
-    const ChildResult drawn =
-        run_captured({sibling_program("shaken-render").string(), "picture", run.directory().string(), "--frame", "last",
-                      "--bare", "--size", "640x640", "-o", picture.string()});
+    const Captured drawn = run_captured({sibling_program("shaken-render").string(), "picture", run.directory().string(),
+                                         "--frame", "last", "--bare", "--size", "640x640", "-o", picture.string()});
     if (drawn.exit_code == 0) return picture;
     console.err << fmt::format("no picture of {}: {}\n", run.directory().string(), drawn.output);
     return {};

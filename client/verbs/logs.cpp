@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include "client/interrupt.h"
+#include "base/interrupt.h"
 #include "client/target.h"
 #include "client/verbs/verbs.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include "client/process.h"
+#include "base/process.h"
 #include "client/run_location.h"
 #include "client/target.h"
 #include "client/verbs/verbs.h"

@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "client/print.h"
+#include "base/table.h"
+#include "base/text.h"
 #include "client/result_rows.h"
 #include "client/target.h"
 #include "client/verbs/verbs.h"

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include "client/print.h"
+#include "base/clock.h"
+#include "base/table.h"
+#include "base/text.h"
 #include "client/target.h"
 #include "client/verbs/verbs.h"
 
@@ -20,7 +22,7 @@ Colour colour_of(std::string_view state) {
 
 /// Time to the end and when that is; empty if it is not known.
 std::string eta_text(double seconds) {
-  return seconds >= 0 ? fmt::format("{} ({})", duration_text(seconds), clock_text(seconds, now_utime())) : "";
+  return seconds >= 0 ? fmt::format("{} ({})", duration_text(seconds), clock_text(seconds, utime_now())) : "";
 }
 
 std::string sweep_eta_text(const Json& sweep) {

@@ -3,8 +3,9 @@
 
 #include <map>
 
+#include "base/table.h"
+#include "base/text.h"
 #include "client/estimate.h"
-#include "client/print.h"
 #include "client/scene_input.h"
 #include "client/target.h"
 #include "client/verbs/verbs.h"

@@ -3,7 +3,8 @@
 
 #include <map>
 
-#include "client/print.h"
+#include "base/table.h"
+#include "base/text.h"
 #include "client/scene_input.h"
 #include "client/target.h"
 #include "client/verbs/verbs.h"

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <map>
 
-#include "client/interrupt.h"
+#include "base/interrupt.h"
 #include "client/live.h"
 #include "client/target.h"
 #include "client/verbs/verbs.h"

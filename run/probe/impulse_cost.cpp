@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "run/probe/clock.h"
+#include "base/clock.h"
 #include "sim/contact/impulse.h"
 #include "sim/contact/impulse_law.h"
 

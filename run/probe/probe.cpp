@@ -9,10 +9,10 @@
 #include <numeric>
 #include <optional>
 
+#include "base/clock.h"
 #include "proto/frame_codec.h"
 #include "run/messages.h"
 #include "run/movie_process.h"
-#include "run/probe/clock.h"
 #include "run/probe/impulse_cost.h"
 #include "run/probe/sampling.h"
 #include "run/probe/scratch_folder.h"

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/clock.h"
 #include "run/measurements.h"
-#include "run/probe/clock.h"
 #include "run/probe/scratch_folder.h"
 #include "run/session.h"
 

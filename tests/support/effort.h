@@ -16,8 +16,8 @@ inline constexpr bool kSanitized = false;
 inline constexpr bool kSanitized = false;
 #endif
 
-/// Of `n` draws, as many as this build makes. Sanitizers look at what the code touches, and a tenth of the draws touches
-/// it all; that a law holds in every one of them is for the build without to show.
+/// Of `n` draws, as many as this build makes. Sanitizers look at what the code touches, and a tenth of the draws
+/// touches it all; that a law holds in every one of them is for the build without to show.
 constexpr int draws(int n) { return kSanitized ? n / 10 : n; }
 
 }  // namespace shaken::test

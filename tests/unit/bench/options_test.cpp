@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/failure.h"
 #include "bench/case.h"
-#include "bench/failure.h"
 
 namespace shaken::bench {
 namespace {

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bench/table.h"
+#include "base/table.h"
 
 namespace shaken::bench {
 namespace {

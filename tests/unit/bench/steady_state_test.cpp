@@ -7,7 +7,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "bench/failure.h"
+#include "base/failure.h"
 #include "tests/unit/run/temporary_folder.h"
 
 namespace shaken::bench {

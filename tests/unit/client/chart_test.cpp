@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "client/print.h"
+#include "base/text.h"
 
 namespace shaken::client {
 namespace {

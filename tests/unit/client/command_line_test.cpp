@@ -5,9 +5,9 @@
 #include <CLI/CLI.hpp>
 #include <fstream>
 
+#include "base/process.h"
 #include "client/arguments.h"
 #include "client/json.h"
-#include "client/process.h"
 #include "client/verb.h"
 #include "tests/unit/client/fake_daemon.h"
 #include "tests/unit/client/run_client.h"

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <fstream>
 
+#include "base/process.h"
 #include "client/plotting/run_figures.h"
-#include "client/process.h"
 #include "tests/unit/client/fake_daemon.h"
 #include "tests/unit/client/run_client.h"
 

@@ -6,7 +6,7 @@
 
 #include <sstream>
 
-#include "client/print.h"
+#include "base/text.h"
 #include "client/watch_view.h"
 
 namespace shaken::client {

@@ -7,12 +7,12 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "client/failure.h"
+#include "base/failure.h"
+#include "base/process.h"
 #include "client/paper/claims.h"
 #include "client/paper/cost.h"
 #include "client/paper/figures.h"
 #include "client/plotting/sheet.h"
-#include "client/process.h"
 #include "run/files/directory.h"
 #include "tests/unit/client/fake_daemon.h"
 #include "tests/unit/client/made_up_run.h"

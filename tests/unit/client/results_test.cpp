@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "client/failure.h"
+#include "base/failure.h"
 
 namespace shaken::client {
 namespace {

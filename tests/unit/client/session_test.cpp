@@ -9,7 +9,7 @@
 
 #include <cstring>
 
-#include "client/failure.h"
+#include "base/failure.h"
 #include "client/target.h"
 #include "tests/unit/client/fake_daemon.h"
 

@@ -1,12 +1,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <functional>
 
-namespace shaken::run {
+namespace shaken {
 
-/// CPU time of this thread [s]. Other programs on the machine do not count towards it, though they slow it down through
-/// what they share.
+/// Microseconds since 1970-01-01 UTC: for people and for the wire. Durations are measured with the other clocks.
+std::int64_t utime_now();
+
+/// Time on the wall since some instant [s]; never set back.
+double wall_seconds();
+
+/// CPU time of this process, all threads together [s]. Other programs on the machine do not count towards it, though
+/// they slow it down through what they share: caches, memory, the clock rate.
+double cpu_seconds();
+
+/// CPU time of this thread [s].
 double thread_cpu_seconds();
 
 /// The same less the time that reading it has taken so far: a reading costs a system call, which would weigh on short
@@ -19,4 +29,4 @@ double children_cpu_seconds();
 /// CPU time of one call of `work`, the mean over as many as fill `cpu` seconds, at least `least` calls [s].
 double time_of(const std::function<void()>& work, double cpu, int least);
 
-}  // namespace shaken::run
+}  // namespace shaken

@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-namespace shaken::client {
+namespace shaken {
 
 /// While it lives, SIGINT, SIGTERM and SIGHUP no longer end the program: they are noted, for loops that must leave the
 /// terminal in order.
@@ -20,4 +20,4 @@ class InterruptGuard {
   void sleep_for(std::chrono::milliseconds time) const;
 };
 
-}  // namespace shaken::client
+}  // namespace shaken

@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: MIT
-#include "run/probe/clock.h"
+#include "base/clock.h"
 
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <cstdint>
+#include <chrono>
 #include <ctime>
 
-namespace shaken::run {
+namespace shaken {
 namespace {
 
-/// Of one reading, the least of several batches [s].
+double read_clock(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// Of one reading of this thread's clock, the least of several batches [s].
 double cost_of_reading() {
-  constexpr int kBatches = 10;
+  constexpr int kBatches = 20;
   constexpr int kReadings = 2000;
   double least = 1;
   for (int batch = 0; batch < kBatches; ++batch) {
@@ -30,11 +36,16 @@ double seconds_of(const timeval& time) {
 
 }  // namespace
 
-double thread_cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+std::int64_t utime_now() {
+  using namespace std::chrono;
+  return duration_cast<microseconds>(system_clock::now().time_since_epoch()).count();
 }
+
+double wall_seconds() { return read_clock(CLOCK_MONOTONIC); }
+
+double cpu_seconds() { return read_clock(CLOCK_PROCESS_CPUTIME_ID); }
+
+double thread_cpu_seconds() { return read_clock(CLOCK_THREAD_CPUTIME_ID); }
 
 double thread_cpu_seconds_without_readings() {
   static const double cost = cost_of_reading();
@@ -60,4 +71,4 @@ double time_of(const std::function<void()>& work, double cpu, int least) {
   return taken / calls;
 }
 
-}  // namespace shaken::run
+}  // namespace shaken

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "client/print.h"
+#include "base/text.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>
-#include <sstream>
+#include <ctime>
 
-#include "client/console.h"
-
-namespace shaken::client {
+namespace shaken {
 namespace {
 
 TEST(DisplayWidth, CountsCharactersNotBytesNorColours) {
@@ -74,55 +72,5 @@ TEST(CsvField, QuotesOnlyWhereNeeded) {
   EXPECT_EQ(csv_field("two\nlines"), "\"two\nlines\"");
 }
 
-TEST(TableText, AlignsColumns) {
-  Table table({{"NAME"}, {"N", Table::Align::kRight}});
-  table.add_row({"Γ", "5"});
-  table.add_row({"longer", "12345"});
-  EXPECT_EQ(table.text(0),
-            "NAME        N\n"
-            "Γ           5\n"
-            "longer  12345\n");
-}
-
-TEST(TableText, NarrowTerminalShortensTheWidestColumn) {
-  Table table({{"ID"}, {"POINT"}});
-  table.add_row({"1f0c", "rods.length=2.5 rods.area_fraction=0.6"});
-  const std::string text = table.text(20);
-  EXPECT_EQ(text, "ID    POINT\n1f0c  rods.length=2…\n");
-  // No column becomes narrower than 4, whatever the terminal.
-  EXPECT_EQ(table.text(1), "ID    POI…\n1f0c  rod…\n");
-}
-
-TEST(TableText, NumbersAndNamesAreLeftOutWholeButNeverCut) {
-  using Align = Table::Align;
-  Table table({{"JOB"}, {"S", Align::kRight}, {"OVERLAP", Align::kRight, 2}, {"CPU s", Align::kRight, 1}});
-  table.add_row({"1f0c5e2a", "0.9496", "0.003418", "12.25"});
-  EXPECT_EQ(table.text(33), "JOB            S   OVERLAP  CPU s\n1f0c5e2a  0.9496  0.003418  12.25\n");
-  EXPECT_EQ(table.text(32), "JOB            S  CPU s\n1f0c5e2a  0.9496  12.25\n");
-  EXPECT_EQ(table.left_out(32), std::vector<std::string>{"OVERLAP"});
-  EXPECT_EQ(table.text(5), "JOB            S\n1f0c5e2a  0.9496\n") << "what has to stay, stays whole";
-  EXPECT_TRUE(table.left_out(0).empty());
-}
-
-TEST(Agrees, AsksUntilTheAnswerIsClear) {
-  std::ostringstream out;
-  std::istringstream answers("perhaps\nn\n\ny\n");
-  const Console console{.out = out, .err = out, .in = &answers};
-  EXPECT_FALSE(console.agrees("Go on?", true));
-  EXPECT_EQ(out.str(), "Go on? [Y/n] Go on? [Y/n] ");
-  EXPECT_TRUE(console.agrees("Go on?", true)) << "an empty answer";
-  EXPECT_TRUE(console.agrees("Go on?", false));
-  EXPECT_FALSE(console.agrees("Go on?", false)) << "no answer at all";
-}
-
-TEST(Painted, ColoursOnlyWhereWanted) {
-  std::ostringstream out;
-  Console console{.out = out, .err = out};
-  EXPECT_EQ(console.painted(Colour::kRed, "x"), "x");
-  console.colour = true;
-  EXPECT_EQ(console.painted(Colour::kRed, "x"), "\x1b[31mx\x1b[0m");
-  EXPECT_EQ(console.painted(Colour::kPlain, "x"), "x");
-}
-
 }  // namespace
-}  // namespace shaken::client
+}  // namespace shaken

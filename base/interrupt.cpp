@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "client/interrupt.h"
+#include "base/interrupt.h"
 
 #include <algorithm>
 #include <csignal>
 #include <ctime>
 
-namespace shaken::client {
+namespace shaken {
 namespace {
 
 volatile std::sig_atomic_t g_interrupted = 0;
@@ -46,4 +46,4 @@ void InterruptGuard::sleep_for(std::chrono::milliseconds time) const {
   }
 }
 
-}  // namespace shaken::client
+}  // namespace shaken

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "base/process.h"
+
+#include <fcntl.h>
+#include <linux/close_range.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+
+#include "base/descriptor.h"
+#include "base/failure.h"
+#include "sim/core/check.h"
+
+namespace shaken {
+namespace {
+
+constexpr int kParentHasGone = 1;
+constexpr int kCannotRun = 127;
+
+std::vector<char*> argument_vector(const std::vector<std::string>& command) {
+  std::vector<char*> arguments;
+  for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  return arguments;
+}
+
+/// The child between fork and exec: only async-signal-safe calls, for other threads may hold any lock. Reports errno of
+/// what failed through `report`, which a successful exec closes.
+[[noreturn]] void become_child(const ChildSetup& setup, char* const* arguments, int null, int report, pid_t parent) {
+  if (setup.ends_with_us) {
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (getppid() != parent) _exit(kParentHasGone);  // it ended before prctl
+  }
+  if (setup.own_group) setpgid(0, 0);
+
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  std::signal(SIGPIPE, SIG_DFL);  // we ignore it; others are not written for that
+
+  dup2(null, STDIN_FILENO);
+  if (setup.output >= 0) {
+    dup2(setup.output, STDOUT_FILENO);
+    dup2(setup.output, STDERR_FILENO);
+  }
+  close_range(3, ~0U, CLOSE_RANGE_CLOEXEC);  // sockets of cpp-httplib would leak otherwise
+  if (setup.folder.empty() || chdir(setup.folder.c_str()) == 0) execvp(arguments[0], arguments);
+
+  const int reason = errno;
+  [[maybe_unused]] const ssize_t written = write(report, &reason, sizeof(reason));
+  _exit(kCannotRun);
+}
+
+ProcessEnd end_of(int status) {
+  return WIFEXITED(status) ? ProcessEnd{WEXITSTATUS(status), 0} : ProcessEnd{0, WTERMSIG(status)};
+}
+
+}  // namespace
+
+std::filesystem::path sibling_program(const std::string& name) {
+  std::error_code error;
+  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
+  return error ? std::filesystem::path(name) : self.parent_path() / name;
+}
+
+std::string ProcessEnd::text() const {
+  return signal != 0 ? "was ended by signal " + std::to_string(signal)
+                     : "failed with exit code " + std::to_string(exit_code);
+}
+
+Result<pid_t> start_child(const ChildSetup& setup) {
+  const auto arguments = argument_vector(setup.command);
+  const Descriptor null(open("/dev/null", O_RDONLY | O_CLOEXEC));
+  if (!null) return system_error("/dev/null");
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) return system_error("pipe");
+  const Descriptor report_reader(ends[0]);
+
+  pid_t child = -1;
+  {
+    const Descriptor report_writer(ends[1]);
+    const pid_t parent = getpid();
+    child = fork();
+    if (child == 0) become_child(setup, arguments.data(), null.value(), report_writer.value(), parent);
+    if (child < 0) return system_error("cannot start " + setup.command[0]);
+  }
+  int reason = 0;
+  ssize_t n = 0;
+  do n = read(report_reader.value(), &reason, sizeof(reason));
+  while (n < 0 && errno == EINTR);
+  if (n > 0) {
+    wait_for_child(child);
+    errno = reason;
+    return system_error(setup.command[0] + " cannot be run");
+  }
+  return child;
+}
+
+ProcessEnd wait_for_child(pid_t child) {
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0) {
+    SHAKEN_CHECK(errno == EINTR, "waitpid(" + std::to_string(child) + "): " + std::strerror(errno));
+  }
+  return end_of(status);
+}
+
+std::optional<ProcessEnd> poll_child(pid_t child) {
+  int status = 0;
+  const pid_t ended = waitpid(child, &status, WNOHANG);
+  if (ended == child) return end_of(status);
+  SHAKEN_CHECK(ended == 0 || errno == EINTR, "waitpid(" + std::to_string(child) + "): " + std::strerror(errno));
+  return std::nullopt;
+}
+
+Captured run_captured(const std::vector<std::string>& command, const std::filesystem::path& folder) {
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) return {kCannotRun, std::strerror(errno)};
+  const Descriptor reader(ends[0]);
+  Result<pid_t> child = [&] {
+    const Descriptor writer(ends[1]);
+    return start_child({.command = command, .folder = folder, .output = writer.value()});
+  }();
+  if (!child) return {kCannotRun, child.error().message};
+
+  Captured captured;
+  char buffer[4096];
+  for (;;) {
+    const ssize_t n = read(reader.value(), buffer, sizeof buffer);
+    if (n > 0) captured.output.append(buffer, static_cast<std::size_t>(n));
+    if (n == 0 || (n < 0 && errno != EINTR)) break;
+  }
+  captured.exit_code = wait_for_child(*child).shell_code();
+  return captured;
+}
+
+void become(const std::vector<std::string>& command) {
+  std::signal(SIGPIPE, SIG_DFL);
+  const auto arguments = argument_vector(command);
+  execvp(arguments[0], arguments.data());
+  throw Failure(ExitCode::kFailed, system_error(command[0] + " cannot be run").message);
+}
+
+}  // namespace shaken

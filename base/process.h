@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// Other programs: found, started, waited for.
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/core/result.h"
+
+namespace shaken {
+
+/// The program `name` that was installed beside this one; `name` alone where this one cannot tell its own place.
+std::filesystem::path sibling_program(const std::string& name);
+
+/// How a child process ended.
+struct ProcessEnd {
+  int exit_code = 0;  ///< 0 if a signal ended it
+  int signal = 0;     ///< 0 if it exited
+
+  bool is_success() const { return exit_code == 0 && signal == 0; }
+  /// As shells tell it: the exit code, or 128 + the signal.
+  int shell_code() const { return signal == 0 ? exit_code : 128 + signal; }
+  /// "failed with exit code 3", "was ended by signal 9".
+  std::string text() const;
+};
+
+/// What is started, and what it has in common with this process.
+struct ChildSetup {
+  std::vector<std::string> command = {};  ///< a path, or a name that is looked for in PATH; then the arguments
+  std::filesystem::path folder = {};      ///< where it runs; where this process runs if empty
+  int output = -1;                        ///< descriptor that takes its stdout and stderr; -1: where ours go
+  bool own_group = false;                 ///< a Ctrl-C on the terminal is not for it, nor for what it starts
+  bool ends_with_us = false;              ///< gets SIGTERM when the thread that started it ends
+};
+
+/// Starts a child with an empty stdin, no other descriptor of ours and no signal blocked. Fails if the program cannot
+/// be run, with its name and the system's reason.
+Result<pid_t> start_child(const ChildSetup& setup);
+/// Waits for a child, and reaps it.
+ProcessEnd wait_for_child(pid_t child);
+/// How a child ended, which is then reaped; nothing while it runs.
+std::optional<ProcessEnd> poll_child(pid_t child);
+
+struct Captured {
+  int exit_code = 0;   ///< 128 + signal if a signal ended it; 127 if it could not be started
+  std::string output;  ///< stdout and stderr, in the order written
+};
+
+/// Runs `command` in `folder` until it ends.
+Captured run_captured(const std::vector<std::string>& command, const std::filesystem::path& folder = ".");
+
+/// Becomes `command`: the caller's terminal, signals and exit code are then its own. Throws Failure if that fails.
+[[noreturn]] void become(const std::vector<std::string>& command);
+
+}  // namespace shaken

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace shaken {
+
+/// Columns that `text` fills on a terminal: one per character, none for colour sequences.
+std::size_t display_width(std::string_view text);
+/// `text`, cut to `width` columns with an ellipsis if it is longer; 0 stands for any width.
+std::string fitted(std::string_view text, std::size_t width);
+
+/// "0.4 s", "12 s", "3 min 20 s", "2 h 05 min", "3 d 04 h"; "?" for a negative, unknown or endless time.
+std::string duration_text(double seconds);
+/// The local time `seconds` from `now_utime` (microseconds since 1970): "14:32", or "Tue 14:32" on another day, or the
+/// date beyond a week; "?" as in duration_text.
+std::string clock_text(double seconds, std::int64_t now_utime);
+/// Up to four significant digits: "0.9134", "2109", "1.2e+06".
+std::string number_text(double value);
+/// A bar of `width` columns, filled in steps of an eighth of a column.
+std::string bar_text(double fraction, int width);
+/// "██████····  61 %  7/12 jobs  ETA 5 min 17 s (14:32)"; an unknown time left (negative) is left out.
+std::string progress_text(double fraction, const std::string& count, double eta);
+/// A field of a CSV file: quoted if need be (RFC 4180).
+std::string csv_field(std::string_view text);
+
+}  // namespace shaken

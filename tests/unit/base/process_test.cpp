@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "base/process.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <thread>
+
+#include "base/descriptor.h"
+
+namespace shaken {
+namespace {
+
+TEST(RunCaptured, GivesWhatWasWrittenAndTheCode) {
+  const Captured result = run_captured({"sh", "-c", "echo out; echo err >&2; exit 3"});
+  EXPECT_EQ(result.output, "out\nerr\n");
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_EQ(run_captured({"sh", "-c", "kill -9 $$"}).exit_code, 128 + SIGKILL);
+}
+
+TEST(RunCaptured, TellsWhyAProgramCannotBeRun) {
+  const Captured missing = run_captured({"/nowhere/at-all"});
+  EXPECT_EQ(missing.exit_code, 127);
+  EXPECT_EQ(missing.output, "/nowhere/at-all cannot be run: No such file or directory");
+  EXPECT_EQ(run_captured({"true"}, "/nowhere").output, "true cannot be run: No such file or directory");
+}
+
+TEST(RunCaptured, RunsInTheFolder) { EXPECT_EQ(run_captured({"pwd", "-P"}, "/").output, "/\n"); }
+
+// A child that waited for our terminal would never end, and one that kept our descriptors would hold their locks.
+TEST(StartChild, HasAnEmptyStdinAndNoDescriptorOfOurs) {
+  const Descriptor open_here(open("/dev/zero", O_RDONLY));  // without O_CLOEXEC, as libraries open theirs
+  EXPECT_EQ(run_captured({"sh", "-c", "cat | wc -c"}).output, "0\n");
+  const std::string ours = "/proc/self/fd/" + std::to_string(open_here.value());
+  EXPECT_NE(run_captured({"sh", "-c", "test -e " + ours}).exit_code, 0);
+}
+
+TEST(StartChild, GivesBackTheSignalsThatWeIgnoreOrBlock) {
+  sigset_t pipe, before;
+  sigemptyset(&pipe);
+  sigaddset(&pipe, SIGPIPE);
+  sigprocmask(SIG_BLOCK, &pipe, &before);
+  const auto old = std::signal(SIGPIPE, SIG_IGN);
+  EXPECT_EQ(run_captured({"sh", "-c", "kill -PIPE $$; echo alive"}).exit_code, 128 + SIGPIPE);
+  std::signal(SIGPIPE, old);
+  sigprocmask(SIG_SETMASK, &before, nullptr);
+}
+
+TEST(StartChild, OfItsOwnGroupIsOutOfReachOfACtrlC) {
+  const Result<pid_t> child = start_child({.command = {"sleep", "60"}, .own_group = true});
+  ASSERT_TRUE(child);
+  EXPECT_EQ(getpgid(*child), *child);
+  EXPECT_FALSE(poll_child(*child));
+  kill(*child, SIGTERM);
+  EXPECT_EQ(wait_for_child(*child).signal, SIGTERM);
+}
+
+TEST(StartChild, EndsWithTheThreadThatStartedIt) {
+  pid_t child = 0;
+  std::thread([&] { child = start_child({.command = {"sleep", "60"}, .ends_with_us = true}).value(); }).join();
+  EXPECT_EQ(wait_for_child(child).signal, SIGTERM);
+}
+
+TEST(ProcessEnd, InWords) {
+  EXPECT_EQ((ProcessEnd{3, 0}.text()), "failed with exit code 3");
+  EXPECT_EQ((ProcessEnd{0, 9}.text()), "was ended by signal 9");
+  EXPECT_EQ((ProcessEnd{0, 9}.shell_code()), 137);
+  EXPECT_TRUE((ProcessEnd{0, 0}.is_success()));
+}
+
+}  // namespace
+}  // namespace shaken
