@@ -335,8 +335,9 @@ std::vector<Field> make_table() {
       "plates.lid", "Whether there is a lid.", [](auto& p) -> auto& { return p.system.lid; })));
   add(later(quantity(
       "plates.noise", kPlain, 0, 10,
-      "Rotational noise, rad/mm: each hit by a plate turns the rod about the vertical by this much per speed of the "
-      "hit, to either side at random.",
+      "Rotational noise, rad/mm: each hit by a plate changes the rod's angular velocity about the vertical by this "
+      "much "
+      "per speed of the hit, to either side at random.",
       [](auto& p) -> auto& { return p.system.rotational_noise; })));
   add(system_block(
       "walls", "Side walls round an arena in the middle of the box, in place of periodic borders.",
