@@ -336,8 +336,7 @@ std::vector<Field> make_table() {
   add(later(quantity(
       "plates.noise", kPlain, 0, 10,
       "Rotational noise, rad/mm: each hit by a plate changes the rod's angular velocity about the vertical by this "
-      "much "
-      "per speed of the hit, to either side at random.",
+      "much per speed of the hit, to either side at random.",
       [](auto& p) -> auto& { return p.system.rotational_noise; })));
   add(system_block(
       "walls", "Side walls round an arena in the middle of the box, in place of periodic borders.",
