@@ -23,7 +23,7 @@ constexpr int kSettling = 11;        ///< one part in so many of a replica is no
 
 struct Quantity {
   const char* name;
-  /// Of a difference, as a fraction of the mean: about four errors of the difference of two orders at the effort that
+  /// Of a difference, as a fraction of the mean: four errors or more of that of two orders at the effort that
   /// is the default, so that means that are the same are nearly always shown to be.
   double bound;
 };
