@@ -66,23 +66,26 @@ EstimateCurve correlation(const LagCurve& curve, std::span<const double> weights
   return result;
 }
 
-/// Integral of the means of products up to their first zero; NaN where there is none.
+/// Integral of the means of products, trapezia on the lags, up to where they first fall to `share` of that at lag zero;
+/// NaN where they do not.
 struct Integral {
   double value = std::numeric_limits<double>::quiet_NaN();
   std::vector<Derivative> derivatives;
 };
-Integral integral_to_zero(const LagCurve& curve, std::span<const double> weights) {
+Integral integral_to(double share, const LagCurve& curve, std::span<const double> weights) {
   const std::vector<double>& lags = curve.lags();
+  const double level = share * product(curve, weights, 0);
   Integral integral;
   double sum = 0;
   for (std::size_t i = 0; i + 1 < lags.size(); ++i) {
     const double width = lags[i + 1] - lags[i];
     const double here = product(curve, weights, i), next = product(curve, weights, i + 1);
-    if (next <= 0) {  // a triangle of height `here` is left
-      const double drop = here - next;
-      integral.value = sum + width * here * here / drop / 2;
-      integral.derivatives.push_back({i, width * here * (here - 2 * next) / (drop * drop) / 2});
-      integral.derivatives.push_back({i + 1, width * here * here / (drop * drop) / 2});
+    if (next <= level) {  // what is left is a trapezium from `here` to `level`
+      const double drop = here - next, squares = here * here - level * level;
+      integral.value = sum + width * squares / drop / 2;
+      integral.derivatives.push_back({i, width * (2 * here * drop - squares) / (drop * drop) / 2});
+      integral.derivatives.push_back({i + 1, width * squares / (drop * drop) / 2});
+      integral.derivatives.push_back({0, -width * level / drop * share});
       return integral;
     }
     sum += width * (here + next) / 2;
@@ -90,6 +93,19 @@ Integral integral_to_zero(const LagCurve& curve, std::span<const double> weights
     integral.derivatives.push_back({i + 1, width / 2});
   }
   return {};
+}
+Integral integral_to_zero(const LagCurve& curve, std::span<const double> weights) {
+  return integral_to(0, curve, weights);
+}
+
+/// Up to where the products have fallen to 1/e^2, over the share of an exponential's integral that lies before: all of
+/// it where they are one, and never of lags at which there is nothing but noise.
+Integral integral_as_of_exponential(const LagCurve& curve, std::span<const double> weights) {
+  const double left = std::exp(-2.0);
+  Integral integral = integral_to(left, curve, weights);
+  integral.value /= 1 - left;
+  for (Derivative& d : integral.derivatives) d.of_result /= 1 - left;
+  return integral;
 }
 
 Estimate estimate(const LagCurve& curve, std::span<const double> weights, const Integral& integral) {
@@ -182,8 +198,9 @@ VelocitySummary VelocityCorrelation::summarize(double t_steady) const {
   summary.mean_square = at_zero(curve, kTotal);
   summary.mean_square_along = at_zero(curve, kAlong);
   summary.mean_square_across = at_zero(curve, kAcross);
-  summary.persistence_time = estimate(curve, kDirections, integral_to_zero(curve, kDirections));
-  summary.persistence_length = estimate(curve, kDirectionAndVelocity, integral_to_zero(curve, kDirectionAndVelocity));
+  summary.persistence_time = estimate(curve, kDirections, integral_as_of_exponential(curve, kDirections));
+  summary.persistence_length =
+      estimate(curve, kDirectionAndVelocity, integral_as_of_exponential(curve, kDirectionAndVelocity));
   return summary;
 }
 

@@ -42,13 +42,14 @@ struct VelocitySummary {
   Estimate decay_time;        ///< at which C_v falls to 1/e (see decay_time) [s]; NaN if it does not
   Estimate mean_square;       ///< <v^2> of the averaged velocity, in the plane [mm^2/s^2]
   Estimate mean_square_along, mean_square_across;  ///< of its components [mm^2/s^2]
-  /// How long a rod keeps its direction: the integral of <u(t0) . u(t0 + t)> (trapezia) up to its first zero [s].
+  /// How long a rod keeps its direction: the integral of <u(t0) . u(t0 + t)> (trapezia) up to where it first falls to
+  /// 1/e^2, over 1 - 1/e^2: of an exponential that is the whole integral, its decay time [s]. What is slower and lies
+  /// below 1/e^2 does not count. NaN where it does not fall so far.
   Estimate persistence_time;
-  /// How far it gets in that direction, the mean way along u(t0): the integral of <u(t0) . v(t0 + t)> up to its first
-  /// zero [mm] (the projection on the first bond that defines a polymer's persistence length: Flory, Statistical
-  /// Mechanics of Chain Molecules, 1969, ch. IV). NaN where no zero is met. Of correlations that fade slowly it is
-  /// noise that sets the zero, which the errors of all three integrals do not know: of runs and tumbles they come out a
-  /// quarter too small.
+  /// How far it gets in that direction, the mean way along u(t0): the same of <u(t0) . v(t0 + t)>, up to 1/e^2 of its
+  /// value at lag 0 [mm] (the projection on the first bond that defines a polymer's persistence length: Flory,
+  /// Statistical Mechanics of Chain Molecules, 1969, ch. IV). Up to a zero, as once, both would be of what noise does
+  /// at long lags, and their errors, which do not know of that, a quarter too small.
   Estimate persistence_length;
 };
 

@@ -1090,25 +1090,27 @@ def check_velocity(run, table):
     rms = np.sqrt(lags.mean[0, :2].sum())
     scalar(run, table, "velocity_rms_mm_s", "numpy", rms, lags.sem([(0, 0, 1), (0, 1, 1)]) / (2 * rms))
 
-    def integral(mean, weights, normalised):
+    def integral(mean, weights, normalised, share):
         c = mean @ weights
-        k = np.flatnonzero(c <= 0)[0]  # trapezia, the last one cut off at zero
-        area = np.trapz([*c[:k], 0], [*lags.lags[:k], np.interp(0, [-c[k - 1], -c[k]], lags.lags[k - 1:k + 1])])
+        level = share * c[0]
+        k = np.flatnonzero(c <= level)[0]  # trapezia, the last one cut off where the level is met
+        met = np.interp(-level, [-c[k - 1], -c[k]], lags.lags[k - 1:k + 1])
+        area = np.trapz([*c[:k], level], [*lags.lags[:k], met]) / (1 - share)
         return area / c[0] if normalised else area
 
-    for name, weights, normalised in (("velocity_correlation_s", np.array([1, 1, 0, 0]), True),
-                                      ("persistence_time_s", np.array([0, 0, 1, 0]), False),
-                                      ("persistence_length_mm", np.array([0, 0, 0, 1]), False)):
+    for name, weights, normalised, share in (("velocity_correlation_s", np.array([1, 1, 0, 0]), True, 0),
+                                             ("persistence_time_s", np.array([0, 0, 1, 0]), False, np.exp(-2)),
+                                             ("persistence_length_mm", np.array([0, 0, 0, 1]), False, np.exp(-2))):
         value = sem = np.nan
         products = lags.mean @ weights
-        if (products <= 0).any():
-            value, terms = integral(lags.mean, weights, normalised), []
-            for lag in range(np.flatnonzero(products <= 0)[0] + 1):
+        if (products <= share * products[0]).any():
+            value, terms = integral(lags.mean, weights, normalised, share), []
+            for lag in range(np.flatnonzero(products <= share * products[0])[0] + 1):
                 for q in np.flatnonzero(weights):  # derivatives by differences
                     step = np.zeros(lags.mean.shape)
                     step[lag, q] = 1e-6 * products[0]
-                    slope = (integral(lags.mean + step, weights, normalised)
-                             - integral(lags.mean - step, weights, normalised)) / (2 * step[lag, q])
+                    slope = (integral(lags.mean + step, weights, normalised, share)
+                             - integral(lags.mean - step, weights, normalised, share)) / (2 * step[lag, q])
                     terms.append((lag, q, slope))
             sem = lags.sem(terms)
         scalar(run, table, name, "numpy trapz", value, sem)

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <array>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -91,11 +90,11 @@ double energy_limit(const World& world) {
   return 0.5 * world.species.front().mass * speed * speed;
 }
 
-std::string text_of(const NumericalTrouble& trouble) {
+}  // namespace
+
+std::string to_text(const NumericalTrouble& trouble) {
   return fmt::format("tick {}, rods {}: {}", trouble.tick, fmt::join(trouble.rods, ", "), trouble.what);
 }
-
-}  // namespace
 
 const std::vector<SceneCase>& scene_cases() {
   static const std::vector<SceneCase> cases{
@@ -153,7 +152,7 @@ HardCase run_scene_case(const SceneCase& wanted, const scene::RunPlan& plan, dou
   const Seen seen = watch_run(*simulation, duration, watch);
   const World& world = simulation->world();
   if (seen.trouble) {
-    result.outcomes.push_back({"no numerical trouble", 1, 0, false, text_of(*seen.trouble)});
+    result.outcomes.push_back({"no numerical trouble", 1, 0, false, to_text(*seen.trouble)});
     return result;
   }
   result.outcomes.push_back(
@@ -186,79 +185,6 @@ HardCase run_scene_case(const SceneCase& wanted, const scene::RunPlan& plan, dou
   result.outcomes.push_back({"energy unaccounted for / turnover", balance(world).energy_error(),
                              std::max(kLedgerLimit, kLedgerPerImpulse * n_impulses)});
   result.outcomes.push_back({"length of a director, off 1 by", seen.longest_director, 1e-14});
-  return result;
-}
-
-HardCase run_order_case(const std::filesystem::path& folder, double seconds, const Watch& watch) {
-  HardCase result{kOrderCase, "contacts of a tick sorted, reversed, shuffled: the same statistics", {}};
-  constexpr int kBlocks = 12;
-  // all of them settle within milliseconds; S takes minutes
-  constexpr int kQuantities = 5;
-  constexpr std::array<const char*, kQuantities> kNames{"energy in the plane", "energy across", "impulses", "tilt",
-                                                        "drift along the tilted rod"};
-  struct Estimate {
-    double mean = 0, error2 = 0;
-  };
-  std::array<std::array<Estimate, kQuantities>, 3> found;
-  int k = 0;
-  for (const char* name : {"order-sorted", "order-reversed", "order-shuffled"}) {
-    const scene::RunPlan plan = read_hard_scene(folder, name);
-    auto simulation = Simulation::start(plan.system);
-    if (!simulation) throw Failure(ExitCode::kBadInput, simulation.error().message);
-    const World& world = simulation->world();
-    const double duration = std::min(seconds, plan.total_time());
-    const auto block_ticks = static_cast<Tick>(duration / plan.system.dt / (kBlocks + 2));
-    const Tick stride = std::max<Tick>(1, std::llround(kLookEvery / plan.system.dt));
-    std::array<std::vector<double>, kQuantities> blocks;
-    for (int block = -2; block < kBlocks; ++block) {  // the first two are not counted
-      std::array<double, kQuantities> sum{};
-      int n_looks = 0;
-      const std::int64_t impulses = world.counters.impulses_rod_rod;
-      const Tick block_end = simulation->tick() + block_ticks;
-      while (simulation->tick() < block_end) {
-        if (const auto trouble = simulation->advance_to(std::min(block_end, simulation->tick() + stride))) {
-          result.outcomes.push_back({"no numerical trouble", 1, 0, false, text_of(*trouble)});
-          return result;
-        }
-        const KineticEnergy energy = kinetic_energy(world);
-        sum[0] += energy.translation_xy;
-        sum[1] += energy.translation_z;
-        const Snapshot snapshot = simulation->snapshot();
-        const auto n = static_cast<double>(snapshot.director.size());
-        for (std::size_t i = 0; i < snapshot.director.size(); ++i) {
-          const Vec3& director = snapshot.director[i];
-          const Vec3& velocity = snapshot.velocity[i];
-          sum[3] += std::abs(director.z()) / n;
-          sum[4] += std::copysign(1.0, director.z()) * (velocity.x() * director.x() + velocity.y() * director.y()) / n;
-        }
-        ++n_looks;
-      }
-      watch((k + (block + 3.0) / (kBlocks + 2)) / 3);
-      if (block < 0) continue;
-      for (double& s : sum) s /= n_looks;
-      sum[2] = static_cast<double>(world.counters.impulses_rod_rod - impulses);
-      for (int q = 0; q < kQuantities; ++q) blocks[q].push_back(sum[q]);
-    }
-    for (int q = 0; q < kQuantities; ++q) {
-      Estimate& estimate = found[k][q];
-      for (const double value : blocks[q]) estimate.mean += value / kBlocks;
-      for (const double value : blocks[q]) {
-        estimate.error2 += (value - estimate.mean) * (value - estimate.mean) / (kBlocks * (kBlocks - 1.0));
-      }
-    }
-    ++k;
-  }
-  for (int q = 0; q < kQuantities; ++q) {
-    double worst = 0;
-    double difference = 0;
-    for (const auto& [a, b] : {std::pair{0, 1}, std::pair{0, 2}, std::pair{1, 2}}) {
-      const double apart = std::abs(found[a][q].mean - found[b][q].mean);
-      worst = std::max(worst, apart / std::sqrt(found[a][q].error2 + found[b][q].error2));
-      difference = std::max(difference, std::abs(apart / found[0][q].mean));
-    }
-    result.outcomes.push_back({fmt::format("{}: difference / standard error", kNames[q]), worst, 4, false,
-                               fmt::format("{:.2g} % apart", 100 * difference)});
-  }
   return result;
 }
 

@@ -8,6 +8,7 @@
 
 #include "bench/hard/outcome.h"
 #include "scene/run_plan.h"
+#include "sim/world.h"
 
 namespace shaken::bench {
 
@@ -20,19 +21,16 @@ struct SceneCase {
 };
 const std::vector<SceneCase>& scene_cases();
 
-/// The three scenes order-sorted, order-reversed and order-shuffled, of which the statistics are compared.
-inline constexpr const char* kOrderCase = "order";
-
 /// Reads DIR/NAME.json. Throws Failure if that cannot be done.
 scene::RunPlan read_hard_scene(const std::filesystem::path& folder, const std::string& name);
+
+/// Tick, rods and values.
+std::string to_text(const NumericalTrouble& trouble);
 
 /// Called now and then with the part of the work that is done.
 using Watch = std::function<void(double)>;
 
 /// Runs the scene to its end, or for `seconds` if that is sooner, and looks at it every 2 ms of its time.
 HardCase run_scene_case(const SceneCase& wanted, const scene::RunPlan& plan, double seconds, const Watch& watch);
-
-/// Statistics of one scene under three orders of the contacts of a tick.
-HardCase run_order_case(const std::filesystem::path& folder, double seconds, const Watch& watch);
 
 }  // namespace shaken::bench

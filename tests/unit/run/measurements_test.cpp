@@ -233,9 +233,11 @@ TEST(Measurements, WaysAndTiltsOfSingleRods) {
   EXPECT_NEAR(reduction.scalars.at("velocity_variance_along_mm2_s2").value, 900, 1e-6);
   EXPECT_NEAR(reduction.scalars.at("velocity_variance_across_mm2_s2").value, 0, 1e-6);
   EXPECT_NEAR(reduction.arrays.at("/velocity/product_mm2_s2").at(0), 900, 1e-6);
-  // <u u'> falls from 1 to -1 in 0.1 s: a triangle of 0.05 s, 0.025 s in area, and as much way at 30 mm/s.
-  EXPECT_NEAR(reduction.scalars.at("persistence_time_s").value, 0.025, 0.001);
-  EXPECT_NEAR(reduction.scalars.at("persistence_length_mm").value, 0.75, 0.03);
+  // <u u'> falls from 1 to -1 in 0.1 s: up to 1/e^2, over 1 - 1/e^2, half of 0.05 (1 + 1/e^2) s, and as much way at 30
+  // mm/s.
+  const double persistence = 0.025 * (1 + std::exp(-2.0));
+  EXPECT_NEAR(reduction.scalars.at("persistence_time_s").value, persistence, 0.001);
+  EXPECT_NEAR(reduction.scalars.at("persistence_length_mm").value, 30 * persistence, 0.03);
   EXPECT_EQ(reduction.arrays.at("/velocity/direction").at(0), 1.0);
   for (std::size_t i = 0; i < reduction.arrays.at("/msd/lag_s").size(); ++i) {
     EXPECT_NEAR(reduction.arrays.at("/msd/d_along_mm2_s")[i],
