@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "bench/failure.h"
+#include "base/failure.h"
 #include "bench/hard/same_mean.h"
 #include "sim/balance.h"
 #include "sim/simulation.h"
