@@ -140,14 +140,20 @@ inline int widest() {
 inline int machine_width = widest();
 
 #if defined(__x86_64__)
-// Multiply and add may be fused here, and only here: trajectories are computed elsewhere.
+// Multiply and add may be fused here, and only here: trajectories are computed elsewhere. To clang that is a property
+// of the text of a function, not of what it is inlined into, so that its builds do without.
+#if defined(__clang__)
+#define SHAKEN_MAY_FUSE
+#else
+#define SHAKEN_MAY_FUSE [[gnu::optimize("fp-contract=fast")]]
+#endif
 
 template <class Kernel>
-[[gnu::target("avx512f,fma"), gnu::optimize("fp-contract=fast"), gnu::noinline]] auto run_16(const Kernel& kernel) {
+SHAKEN_MAY_FUSE [[gnu::target("avx512f,fma"), gnu::noinline]] auto run_16(const Kernel& kernel) {
   return kernel.template run<16>();
 }
 template <class Kernel>
-[[gnu::target("avx2,fma"), gnu::optimize("fp-contract=fast"), gnu::noinline]] auto run_8(const Kernel& kernel) {
+SHAKEN_MAY_FUSE [[gnu::target("avx2,fma"), gnu::noinline]] auto run_8(const Kernel& kernel) {
   return kernel.template run<8>();
 }
 #endif
