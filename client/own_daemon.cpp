@@ -52,6 +52,7 @@ bool somebody_listens(const std::filesystem::path& root) {
 pid_t start(const std::filesystem::path& root) {
   std::vector<std::string> words{sibling_program("shakend").string(), "--root", root.string()};
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   const pid_t parent = getpid();

@@ -74,6 +74,7 @@ Result<int> LocalExecutor::start(const Launch& launch) {
   std::vector<std::string> words{program_.string()};
   words.insert(words.end(), launch.arguments.begin(), launch.arguments.end());
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
 
