@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "analysis/estimate.h"
 #include "analysis/fold.h"
 #include "sim/core/check.h"
 
@@ -16,7 +17,6 @@ namespace {
 
 constexpr int kMaxWave = 6;
 constexpr int kSectors = 36;  // over half a turn
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr int kSquares = 10;  // squares of the quadrant along each axis: 6 sqrt(2) and half a square
 
 /// K1 and K3.
@@ -277,7 +277,7 @@ std::vector<double> DirectorFluctuations::numbers() const {
     double weight = 0, q_along = 0, q_across = 0, power = 0, fit = 0;
     bool inside = true;
   };
-  std::vector<Square> squares(kSquares * kSquares);
+  std::vector<Square> squares(std::size_t{kSquares} * kSquares);
   const double unit = 2 * kPi / box_side_;
   for (const Point& p : all) {
     const double q_along = std::sqrt(p.along2), q_across = std::sqrt(p.across2);

@@ -7,12 +7,15 @@
 
 namespace shaken::analysis {
 
+/// A number that is not to be had, or not known.
+inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
 /// A number and its standard error.
 struct Estimate {
-  double value = std::numeric_limits<double>::quiet_NaN();  ///< NaN: not to be had from the samples
-  double sem = std::numeric_limits<double>::quiet_NaN();    ///< NaN: unknown
+  double value = kNaN;  ///< NaN: not to be had from the samples
+  double sem = kNaN;    ///< NaN: unknown
   /// Independent samples behind the error; NaN: unknown.
-  double n_effective = std::numeric_limits<double>::quiet_NaN();
+  double n_effective = kNaN;
   /// Whether what it averages over is steady; none: it is no average over time, or that cannot be told.
   std::optional<bool> steady = std::nullopt;
 };

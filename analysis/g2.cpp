@@ -14,7 +14,7 @@ namespace shaken::analysis {
 namespace {
 
 /// Rods taken as the first of a pair in one sample, at most.
-constexpr std::size_t kMaxReferences = 1024;
+constexpr std::size_t kMaxReferencesOfG2 = 1024;
 
 }  // namespace
 
@@ -43,7 +43,7 @@ void OrientationCorrelation::accumulate(std::span<const Vec3> positions, std::sp
   }
   const std::size_t n = xs.size();
   const double bins_per_mm = static_cast<double>(pairs_.size()) / r_max_;
-  const std::size_t stride = std::max<std::size_t>(1, (n + kMaxReferences - 1) / kMaxReferences);
+  const std::size_t stride = std::max<std::size_t>(1, (n + kMaxReferencesOfG2 - 1) / kMaxReferencesOfG2);
   // Within walls no image is nearer.
   const double period = region.is_periodic() ? box_side : std::numeric_limits<double>::infinity();
   // In two passes, the first without branches: it becomes vector instructions. What is too far goes into a bin of its

@@ -18,15 +18,15 @@ namespace shaken::analysis {
 namespace {
 
 /// Bounds of the cost: rods looked at in one sample, waves to the side of the box.
-constexpr std::size_t kMaxReferences = 1024;
-constexpr int kMostWaves = 128;
+constexpr std::size_t kMaxReferencesOfPeak = 1024;
+constexpr int kMostPeakWaves = 128;
 constexpr std::size_t kNeighbours = 6;
 /// Distances that differ by less than this share of themselves are the same.
 constexpr double kSame = 1e-6;
 
 /// The rods that one sample takes, in rising order (see LatticeOrder).
 std::vector<std::size_t> references(std::size_t n, std::int64_t sample) {
-  const std::size_t stride = (n + kMaxReferences - 1) / kMaxReferences;
+  const std::size_t stride = (n + kMaxReferencesOfPeak - 1) / kMaxReferencesOfPeak;
   std::vector<std::size_t> rods;
   for (std::size_t first = 0; first < n; first += stride) {
     Rng draw(static_cast<std::uint64_t>(sample), RngStream::kReferences, 0, first);
@@ -89,6 +89,7 @@ void LatticeOrder::accumulate(std::span<const Vec3> positions, std::span<const V
   }
   const std::vector<std::size_t> rods = references(n, calls_++);
   std::vector<Vec2> places;
+  places.reserve(rods.size());
   for (const std::size_t i : rods) places.emplace_back(xs[i], ys[i]);
   const auto n_places = static_cast<double>(places.size());
 
@@ -118,7 +119,7 @@ void LatticeOrder::accumulate(std::span<const Vec3> positions, std::span<const V
   }
 
   const double most = box / shape_.shortest, fewest = box / shape_.longest;
-  const int waves = std::max(1, static_cast<int>(std::min<double>(most, kMostWaves)));
+  const int waves = std::max(1, static_cast<int>(std::min<double>(most, kMostPeakWaves)));
   const WavePowers powers = wave_powers(places, std::vector<double>(places.size(), 1.0), box, waves);
   double largest = 0;
   for (int m = 0; m <= waves; ++m) {

@@ -16,7 +16,7 @@ namespace shaken::analysis {
 namespace {
 
 /// Bounds the cost: a sample takes 4 n_rods (waves + 1)^2 multiplications.
-constexpr int kMostWaves = 40;
+constexpr int kMostLayerWaves = 40;
 /// Half the opening of a cone of wave vectors about an axis.
 constexpr double kCone = kPi / 6;
 
@@ -33,9 +33,9 @@ void for_half_plane(int waves, const Visitor& visit) {
 
 }  // namespace
 
-LayerOrder::LayerOrder(double box_side, double shortest) : box_side_(box_side), waves_(kMostWaves) {
+LayerOrder::LayerOrder(double box_side, double shortest) : box_side_(box_side), waves_(kMostLayerWaves) {
   SHAKEN_CHECK(box_side > 0 && shortest > 0, "a box and waves in it");
-  if (box_side / shortest < kMostWaves) waves_ = std::max(1, static_cast<int>(box_side / shortest));
+  if (box_side / shortest < kMostLayerWaves) waves_ = std::max(1, static_cast<int>(box_side / shortest));
   const auto waves = static_cast<std::size_t>(waves_);
   amplitudes_.resize((waves + 1) * (2 * waves + 1));
   within_.resize(amplitudes_.size());

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "analysis/estimate.h"
 #include "sim/core/check.h"
 
 namespace shaken::analysis {
@@ -14,7 +15,6 @@ namespace {
 
 constexpr std::array kDivisions{2, 3, 4, 5, 6, 8, 10, 12, 16, 20};
 constexpr double kFitTo = 0.25;  // of the area
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Slope of a straight line through the points that are finite, weighted; NaN with fewer than three.
 double slope(std::span<const double> x, std::span<const double> y, std::span<const double> weight) {

@@ -14,7 +14,7 @@ namespace shaken::analysis {
 namespace {
 
 /// Rods taken as the first of a pair in one sample, at most.
-constexpr std::size_t kMaxReferences = 1024;
+constexpr std::size_t kMaxReferencesOfMap = 1024;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Bins of a cut: their far corners lie within half the box.
@@ -63,7 +63,7 @@ void PairMap::accumulate(std::span<const Vec3> positions, std::span<const Vec3> 
     if (distance >= cut_length) return;
     count(cut, std::min(static_cast<std::size_t>(distance * bins_per_mm), cut.pairs.size() - 1), value);
   };
-  const std::size_t stride = std::max<std::size_t>(1, (n + kMaxReferences - 1) / kMaxReferences);
+  const std::size_t stride = std::max<std::size_t>(1, (n + kMaxReferencesOfMap - 1) / kMaxReferencesOfMap);
   // In two passes, the first without branches: it becomes vector instructions.
   std::vector<double> alongs(n), acrosses(n);
   for (std::size_t i = static_cast<std::size_t>(calls_) % stride; i < n; i += stride) {

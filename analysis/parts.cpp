@@ -9,15 +9,10 @@
 namespace shaken::analysis {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// What differs by less than this part of itself differs by rounding.
 constexpr double kRounding = 1e-11;
 /// Beyond this correlation of neighbours there is but one independent part.
 constexpr double kMostCorrelation = 0.97;
-
-double mean_of(std::span<const double> values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
 
 /// Noise of a series less its mean or trend.
 struct Noise {
@@ -76,6 +71,10 @@ std::vector<double> less_parabola(std::span<const double> parts) {
 }
 
 }  // namespace
+
+double mean_of(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
 
 double variance_of_mean(std::span<const double> parts) {
   if (parts.size() < 2) return 0.0;

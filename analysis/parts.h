@@ -21,6 +21,8 @@ inline constexpr double kEnoughIndependent = 12;
 /// So many of its errors a difference of the halves is a drift: by chance in one of a hundred steady series.
 inline constexpr double kDriftErrors = 2.6;
 
+double mean_of(std::span<const double> values);
+
 /// What the numbers of successive, equally long parts of a run say of their mean.
 struct PartsSummary {
   double mean = 0;

@@ -22,10 +22,6 @@ constexpr double kWorthMany = 500;
 /// It takes the first t0 that leaves this share of the most samples: what is left differs by chance.
 constexpr double kNearlyMost = 0.9;
 
-double mean_of(std::span<const double> values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
 /// Less the mean. Taken from the first value before, so that a constant series becomes exactly zero.
 std::vector<double> centred(std::span<const double> values) {
   std::vector<double> x(values.size());

@@ -14,9 +14,9 @@ namespace shaken::analysis {
 namespace {
 
 // Weights of the kernel's quantities.
-constexpr double kTotal[] = {1, 1, 0, 0};
-constexpr double kAlong[] = {1, 0, 0, 0};
-constexpr double kAcross[] = {0, 1, 0, 0};
+constexpr double kVelocity[] = {1, 1, 0, 0};
+constexpr double kVelocityAlong[] = {1, 0, 0, 0};
+constexpr double kVelocityAcross[] = {0, 1, 0, 0};
 constexpr double kDirections[] = {0, 0, 1, 0};
 constexpr double kDirectionAndVelocity[] = {0, 0, 0, 1};
 
@@ -180,12 +180,12 @@ void VelocityCorrelation::accumulate(double time, std::span<const Vec3> unwrappe
 VelocityCurve VelocityCorrelation::reduce(double t_steady) const {
   const LagCurve curve = average_.after(t_steady);
   return {curve.lags(),
-          correlation(curve, kTotal),
-          correlation(curve, kAlong),
-          correlation(curve, kAcross),
-          curve.combination(kTotal),
-          curve.combination(kAlong),
-          curve.combination(kAcross),
+          correlation(curve, kVelocity),
+          correlation(curve, kVelocityAlong),
+          correlation(curve, kVelocityAcross),
+          curve.combination(kVelocity),
+          curve.combination(kVelocityAlong),
+          curve.combination(kVelocityAcross),
           curve.combination(kDirections)};
 }
 
@@ -193,11 +193,11 @@ VelocitySummary VelocityCorrelation::summarize(double t_steady) const {
   const LagCurve curve = average_.after(t_steady);
   VelocitySummary summary;
   if (curve.lags().empty()) return summary;
-  summary.correlation_time = normalised(curve, kTotal, integral_to_zero(curve, kTotal));
-  summary.decay_time = decay_time(curve.lags(), correlation(curve, kTotal));
-  summary.mean_square = at_zero(curve, kTotal);
-  summary.mean_square_along = at_zero(curve, kAlong);
-  summary.mean_square_across = at_zero(curve, kAcross);
+  summary.correlation_time = normalised(curve, kVelocity, integral_to_zero(curve, kVelocity));
+  summary.decay_time = decay_time(curve.lags(), correlation(curve, kVelocity));
+  summary.mean_square = at_zero(curve, kVelocity);
+  summary.mean_square_along = at_zero(curve, kVelocityAlong);
+  summary.mean_square_across = at_zero(curve, kVelocityAcross);
   summary.persistence_time = estimate(curve, kDirections, integral_as_of_exponential(curve, kDirections));
   summary.persistence_length =
       estimate(curve, kDirectionAndVelocity, integral_as_of_exponential(curve, kDirectionAndVelocity));

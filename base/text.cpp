@@ -63,7 +63,7 @@ std::string duration_text(double seconds) {
   if (s < 60) return fmt::format("{} s", s);
   if (s < 3600) return fmt::format("{} min {:02} s", s / 60, s % 60);
   const std::int64_t minutes = (s + 30) / 60;
-  if (minutes < 24 * 60) return fmt::format("{} h {:02} min", minutes / 60, minutes % 60);
+  if (minutes < std::int64_t{24} * 60) return fmt::format("{} h {:02} min", minutes / 60, minutes % 60);
   const std::int64_t hours = (s + 1800) / 3600;
   return fmt::format("{} d {:02} h", hours / 24, hours % 24);
 }

@@ -15,7 +15,10 @@ namespace {
 /// A grid of dots, each 2 x 4 of them one braille character.
 class DotGrid {
  public:
-  DotGrid(int columns, int lines) : columns_(columns), lines_(lines), cells_(columns * lines, 0) {}
+  DotGrid(int columns, int lines)
+      : columns_(columns),
+        lines_(lines),
+        cells_(static_cast<std::size_t>(columns) * static_cast<std::size_t>(lines), 0) {}
   int width() const { return 2 * columns_; }
   int height() const { return 4 * lines_; }
 

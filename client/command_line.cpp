@@ -24,6 +24,7 @@ Environment: SHAKEN_ROOT  the daemon's root directory;  LCM_DEFAULT_URL  the bus
 
 std::vector<std::string> verb_names(const std::vector<std::unique_ptr<Verb>>& verbs) {
   std::vector<std::string> names;
+  names.reserve(verbs.size());
   for (const auto& verb : verbs) names.emplace_back(verb->info().name);
   return names;
 }

@@ -19,7 +19,7 @@
 namespace shaken::client {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 constexpr const char* kVersion = "versions.shaken";
 
@@ -29,7 +29,9 @@ const std::set<std::string> kNames{"job", "sweep", "state", "label", "replica", 
 /// Puts the scalars of `object` into `fields`, members of members as "outer.inner".
 void flatten(const Json& object, const std::string& prefix, Json& fields) {
   for (const auto& [key, value] : object.items()) {
-    const std::string name = prefix.empty() ? key : prefix + "." + key;
+    std::string name = prefix;
+    if (!prefix.empty()) name += '.';
+    name += key;
     if (value.is_object()) {
       flatten(value, name, fields);
     } else if (value.is_primitive() && !value.is_null()) {
@@ -41,11 +43,11 @@ void flatten(const Json& object, const std::string& prefix, Json& fields) {
 /// A number, or one at the beginning of a text that goes on with a unit.
 double leading_number(const Json& value) {
   if (value.is_number()) return value.get<double>();
-  if (!value.is_string()) return kNone;
+  if (!value.is_string()) return kNoNumber;
   const std::string text = value.get<std::string>();
   char* end = nullptr;
   const double number = std::strtod(text.c_str(), &end);
-  return end == text.c_str() ? kNone : number;
+  return end == text.c_str() ? kNoNumber : number;
 }
 
 std::string trimmed(std::string_view text) {
@@ -131,7 +133,7 @@ std::string resolved_field(const std::vector<ResultRow>& rows, const std::string
 
 double ResultRow::number(const std::string& field) const {
   const auto value = fields.find(field);
-  return value == fields.end() ? kNone : leading_number(*value);
+  return value == fields.end() ? kNoNumber : leading_number(*value);
 }
 
 ResultRow result_row(const Json& row) {

@@ -83,7 +83,8 @@ void draw_numbers(const Canvas& canvas, const Layout& layout, const RodPicture& 
   const double pitch = std::min(58 * u, (place.height + 12 * u) / rows);
   for (int i = 0; i < 6; ++i) {
     const double x = place.x + (i % columns) * place.width / columns;
-    const double y = place.y + (i / columns) * pitch;
+    const int row = i / columns;
+    const double y = place.y + row * pitch;
     canvas.colour(colours.faint);
     canvas.text(x, y + 11 * u, numbers[i].name, 12 * u * shrink);
     canvas.colour(colours.ink);

@@ -182,7 +182,9 @@ Result<RodsPass> RodsPass::create() {
   glBindBuffer(GL_ARRAY_BUFFER, programs->buffer);
   for (GLuint i = 0; i < 3; ++i) {
     glEnableVertexAttribArray(i);
+    // OpenGL takes an offset into the buffer as a pointer.
     glVertexAttribPointer(i, 3, GL_FLOAT, GL_FALSE, sizeof(Instance),
+                          // NOLINTNEXTLINE(performance-no-int-to-ptr)
                           reinterpret_cast<const void*>(i * sizeof(Instance::centre)));
     glVertexAttribDivisor(i, 1);
   }

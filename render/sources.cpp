@@ -203,8 +203,9 @@ Result<RodPicture> live_picture(const std::string& lcm_url, const std::string& j
   while (!frame) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
     if (left.count() <= 0) {
-      return Error{"no frame of job " + job + " came within " + std::to_string(timeout.count() / 1000) + " s at " +
-                   lcm_url + ": is it running, with a \"stream\" block in its scene?"};
+      return Error{
+          fmt::format("no frame of job {} came within {} s at {}: is it running, with a \"stream\" block in its scene?",
+                      job, timeout.count() / 1000, lcm_url)};
     }
     opened.bus->handle(static_cast<int>(std::min<std::int64_t>(left.count(), 200)));
   }

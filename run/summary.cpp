@@ -15,7 +15,7 @@
 namespace shaken::run {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 std::string host_name() {
   char name[256] = "";
@@ -23,20 +23,20 @@ std::string host_name() {
   return name;
 }
 
-Json to_json(const EffectReport& effect) {
-  Json json{{"on", effect.on}};
+OrderedJson to_json(const EffectReport& effect) {
+  OrderedJson json{{"on", effect.on}};
   for (const auto& [name, amount] : effect.work) {
     // Counts as whole numbers, whatever their size.
     const auto whole = static_cast<std::int64_t>(amount);
-    json[name] = static_cast<double>(whole) == amount ? Json(whole) : Json(amount);
+    json[name] = static_cast<double>(whole) == amount ? OrderedJson(whole) : OrderedJson(amount);
   }
   return json;
 }
 
 /// JSON has no NaN.
-Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+OrderedJson number_or_null(double value) { return std::isfinite(value) ? OrderedJson(value) : OrderedJson(nullptr); }
 
-Json to_json(const Balance& balance) {
+OrderedJson to_json(const Balance& balance) {
   return {{"start", balance.energy_start},
           {"given_by_plates", balance.energy_given_by_surfaces},
           {"given_by_noise", balance.energy_given_by_noise},
@@ -66,7 +66,7 @@ std::string why_not_steady(const analysis::SteadySummary& order, double sim_seco
 }
 
 std::optional<Error> write_summary(const std::filesystem::path& file, const Summary& summary) {
-  Json json{
+  OrderedJson json{
       {"run_id", summary.run_id},
       {"n_rods", summary.n_rods},
       {"sim_seconds", summary.sim_seconds},
@@ -85,7 +85,7 @@ std::optional<Error> write_summary(const std::filesystem::path& file, const Summ
        {summary.balance.momentum_unexplained.x(), summary.balance.momentum_unexplained.y(),
         summary.balance.momentum_unexplained.z()}},
       {"t_steady_s", summary.t_steady},
-      {"steady", summary.order ? Json(summary.order->steady) : Json(nullptr)},
+      {"steady", summary.order ? OrderedJson(summary.order->steady) : OrderedJson(nullptr)},
       {"order", nullptr},
       {"defects", nullptr},
   };
@@ -104,12 +104,12 @@ std::optional<Error> write_summary(const std::filesystem::path& file, const Summ
   if (summary.defects_mean_plus && summary.defects_mean_minus) {
     json["defects"] = {{"mean_plus", *summary.defects_mean_plus}, {"mean_minus", *summary.defects_mean_minus}};
   }
-  json["measured"] = Json::object();
+  json["measured"] = OrderedJson::object();
   for (const auto& [name, scalar] : summary.scalars) {
     json["measured"][name] = {{"value", number_or_null(scalar.value)},
                               {"sem", number_or_null(scalar.sem)},
                               {"n_effective", number_or_null(scalar.n_effective)},
-                              {"steady", scalar.steady ? Json(*scalar.steady) : Json(nullptr)}};
+                              {"steady", scalar.steady ? OrderedJson(*scalar.steady) : OrderedJson(nullptr)}};
     if (!scalar.reason.empty()) json["measured"][name]["reason"] = scalar.reason;
   }
   for (const auto& [name, effect] : summary.effects) json["effects"][name] = to_json(effect);
@@ -119,7 +119,7 @@ std::optional<Error> write_summary(const std::filesystem::path& file, const Summ
   json["host"] = host_name();
   json["started"] = summary.started;
   json["finished"] = summary.finished;
-  return write_file_atomically(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  return write_file_atomically(file, json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n");
 }
 
 bool is_done(const std::filesystem::path& file, const std::string& run_id) {

@@ -11,9 +11,9 @@
 namespace shaken::run {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
-Json vector_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+OrderedJson vector_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 }  // namespace
 
@@ -22,8 +22,8 @@ std::string describe(const NumericalTrouble& trouble, double dt) {
                      static_cast<double>(trouble.tick) * dt, fmt::join(trouble.rods, ", "), trouble.what);
 }
 
-Json to_json(const CloseUp& close_up) {
-  Json rods = Json::array();
+OrderedJson to_json(const CloseUp& close_up) {
+  OrderedJson rods = OrderedJson::array();
   for (const CloseUp::Rod& rod : close_up.rods) {
     rods.push_back({{"rod", rod.rod},
                     {"concerned", rod.concerned},
@@ -32,9 +32,9 @@ Json to_json(const CloseUp& close_up) {
                     {"velocity_mm_s", vector_json(rod.motion.velocity)},
                     {"angular_velocity_rad_s", vector_json(rod.motion.angular_velocity)}});
   }
-  Json contacts = Json::array();
+  OrderedJson contacts = OrderedJson::array();
   for (const CloseUp::Contact& contact : close_up.contacts) {
-    Json json{{"rod", contact.rod}, {"bead", contact.bead}};
+    OrderedJson json{{"rod", contact.rod}, {"bead", contact.bead}};
     if (contact.other >= 0) {
       json["other_rod"] = contact.other;
       json["other_bead"] = contact.other_bead;
@@ -56,15 +56,15 @@ Json to_json(const CloseUp& close_up) {
 
 std::optional<Error> write_trouble(const std::filesystem::path& file, const scene::RunPlan& plan,
                                    const TroubleReport& report) {
-  const Json json{{"run_id", scene::run_id(plan)},
-                  {"version", version()},
-                  {"tick", report.trouble.tick},
-                  {"time_s", static_cast<double>(report.trouble.tick) * plan.system.dt},
-                  {"rods", report.trouble.rods},
-                  {"what", report.trouble.what},
-                  {"checkpoint_tick", report.checkpoint_tick},
-                  {"before", to_json(report.before)},
-                  {"scene", scene::to_json(plan)}};
+  const OrderedJson json{{"run_id", scene::run_id(plan)},
+                         {"version", version()},
+                         {"tick", report.trouble.tick},
+                         {"time_s", static_cast<double>(report.trouble.tick) * plan.system.dt},
+                         {"rods", report.trouble.rods},
+                         {"what", report.trouble.what},
+                         {"checkpoint_tick", report.checkpoint_tick},
+                         {"before", to_json(report.before)},
+                         {"scene", scene::to_json(plan)}};
   return write_file_atomically(file, json.dump(2) + "\n");
 }
 
@@ -72,14 +72,14 @@ Result<TroubleReport> read_trouble(const std::filesystem::path& file) {
   const Result<std::string> text = read_file(file);
   if (!text) return text.error();
   try {
-    const Json json = Json::parse(*text);
+    const OrderedJson json = OrderedJson::parse(*text);
     TroubleReport report;
     report.trouble.tick = json.at("tick").get<Tick>();
     report.trouble.rods = json.at("rods").get<std::vector<int>>();
     report.trouble.what = json.at("what").get<std::string>();
     report.checkpoint_tick = json.at("checkpoint_tick").get<Tick>();
     return report;
-  } catch (const Json::exception& problem) {
+  } catch (const OrderedJson::exception& problem) {
     return Error{file.string() + " cannot be read: " + problem.what()};
   }
 }

@@ -344,7 +344,7 @@ class Resolver {
   /// What sets the area that the rods share, as it was written: "box.side 40 mm".
   std::string room_for_rods() const {
     const Scene& system = plan_.system;
-    const std::string box = "box.side " + length(system.box_side);
+    std::string box = "box.side " + length(system.box_side);
     if (!system.walls) return box;
     if (given("walls.size")) return "walls.size " + length(system.walls->size);
     return fmt::format("{} (an arena of {})", box, length(system.walls->size));

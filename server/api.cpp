@@ -260,6 +260,7 @@ Job Api::find_job(const std::string& prefix) const {
   // A shortened id is compared with ids that are shortened alike.
   const auto all = queue_.ids_beginning_with("", kMostCompared);
   std::vector<std::string> shortened;
+  shortened.reserve(all.size());
   for (const std::string& id : all) shortened.push_back(id.substr(0, prefix.size()));
   const auto near = std::find(shortened.begin(), shortened.end(), scene::nearest(prefix, shortened));
   const std::string hint = near == shortened.end() ? "" : all[static_cast<std::size_t>(near - shortened.begin())];

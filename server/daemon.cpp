@@ -115,7 +115,7 @@ std::filesystem::path default_root() {
   const auto variable = [](const char* name) {
     return std::filesystem::path(std::getenv(name) ? std::getenv(name) : "");
   };
-  if (const auto root = variable("SHAKEN_ROOT"); !root.empty()) return root;
+  if (auto root = variable("SHAKEN_ROOT"); !root.empty()) return root;
   if (const auto data = variable("XDG_DATA_HOME"); !data.empty()) return data / "shaken";
   if (const auto home = variable("HOME"); !home.empty()) return home / ".local/share/shaken";
   return {};

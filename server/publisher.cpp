@@ -31,11 +31,11 @@ Publisher::Publisher(const Queue& queue, std::unique_ptr<proto::Bus> bus, Daemon
       bus_(std::move(bus)),
       info_(std::move(info)),
       last_change_(queue.last_change()),
-      thread_([this](std::stop_token stop) { run(std::move(stop)); }) {}
+      thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 Publisher::~Publisher() = default;
 
-void Publisher::run(std::stop_token stop) {
+void Publisher::run(const std::stop_token& stop) {
   auto next_tick = steady_clock::now();
   do {
     try {

@@ -18,7 +18,7 @@ class Publisher {
   ~Publisher();
 
  private:
-  void run(std::stop_token stop);
+  void run(const std::stop_token& stop);
   void publish_status();
   void publish_running();
   /// False once all are sent that there are.

@@ -11,8 +11,6 @@
 namespace shaken::server {
 namespace {
 
-using enum Verdict::Outcome;
-
 constexpr auto kBadInput = static_cast<int>(ExitCode::kBadInput);
 constexpr auto kStoppedOnRequest = static_cast<int>(ExitCode::kStopped);
 
@@ -48,17 +46,17 @@ std::string signal_name(int signal) {
 
 Verdict judge(const WorkerEnd& end, int pid, bool stop_asked, const run::RunDirectory& directory) {
   if (end.signal == SIGTERM || (end.signal == SIGKILL && stop_asked)) {
-    return {kStopped, "the worker was stopped by " + signal_name(end.signal)};
+    return {Verdict::Outcome::kStopped, "the worker was stopped by " + signal_name(end.signal)};
   }
-  if (end.signal != 0) return {kFailed, "worker was killed by " + signal_name(end.signal)};
+  if (end.signal != 0) return {Verdict::Outcome::kFailed, "worker was killed by " + signal_name(end.signal)};
   if (end.exit_code == 0) {
-    if (std::filesystem::exists(directory.summary())) return {kDone, ""};
-    return {kFailed, "exit 0, but there is no " + directory.summary().string()};
+    if (std::filesystem::exists(directory.summary())) return {Verdict::Outcome::kDone, ""};
+    return {Verdict::Outcome::kFailed, "exit 0, but there is no " + directory.summary().string()};
   }
-  if (end.exit_code == kStoppedOnRequest) return {kStopped, "the worker has stopped at a checkpoint"};
+  if (end.exit_code == kStoppedOnRequest) return {Verdict::Outcome::kStopped, "the worker has stopped at a checkpoint"};
   std::string reason = "exit " + std::to_string(end.exit_code) + (end.exit_code == kBadInput ? " (bad input)" : "");
   if (const std::string why = explanation(pid, directory); !why.empty()) reason += ": " + why;
-  return {kFailed, reason};
+  return {Verdict::Outcome::kFailed, reason};
 }
 
 }  // namespace shaken::server

@@ -131,7 +131,7 @@ StartCase hundred() {
     before.seed = kSeed + static_cast<std::uint64_t>(member);
     Result<Simulation> simulation = Simulation::start(before);
     if (!simulation) throw Failure(ExitCode::kFailed, simulation.error().message);
-    advance(*simulation, 40 * 1250);  // whole vibrations: the plates stand as at tick 0
+    advance(*simulation, Tick{40} * 1250);  // whole vibrations: the plates stand as at tick 0
     const Snapshot rods = simulation->snapshot();
     std::vector<Flight> flights;
     for (std::size_t i = 0; i < rods.n_rods(); ++i) {

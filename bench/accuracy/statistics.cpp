@@ -69,7 +69,7 @@ Replica run(const StatisticsTask& task, double value, int replica, const std::fi
 
 }  // namespace
 
-Simulation continued(const Simulation& from, Scene scene) {
+Simulation continued(const Simulation& from, const Scene& scene) {
   const Snapshot rods = from.snapshot();
   World world = empty_world(scene);
   world.tick = std::llround(from.time() / scene.dt);

@@ -58,6 +58,6 @@ inline constexpr double kBound = 0.01;
 Statistics measure_statistics(const StatisticsTask& task, const std::filesystem::path& cache);
 
 /// A simulation at step `dt` that goes on from where `from` is, to the nearest tick.
-Simulation continued(const Simulation& from, Scene scene);
+Simulation continued(const Simulation& from, const Scene& scene);
 
 }  // namespace shaken::bench

@@ -12,11 +12,6 @@
 namespace shaken::bench {
 namespace {
 
-constexpr double kRounding = 1e-11;
-
-/// What a rod at rest on the base is given, half the fall of a tick upwards, is of this order of its energy.
-constexpr double kRest = 1e-5;
-
 /// Rods of 2.5 mm in a large box between plates at rest.
 Scene quiet_scene(double end_diameter) {
   Scene scene;
@@ -109,7 +104,7 @@ HardCase collinear() {
   return meeting("collinear", "two rods in one line, end to end", quiet_scene(0.4),
                  {flight_of(kMiddle - 1.3 * kX, kX, 50 * kX), flight_of(kMiddle + 1.3 * kX, kX, -50 * kX)}, 2000);
 }
-HardCase crossing() {
+HardCase crossed() {
   return meeting("crossing", "two rods crossing at right angles, exactly centre on centre", quiet_scene(0.4),
                  {flight_of(kMiddle - 0.5 * kZ, kX, 50 * kZ), flight_of(kMiddle + 0.5 * kZ, kY, -50 * kZ)}, 2000);
 }
@@ -121,6 +116,7 @@ HardCase simultaneous() {
 }
 HardCase row() {
   std::vector<Flight> rods;
+  rods.reserve(10);
   for (int i = 0; i < 10; ++i) rods.push_back(flight_of(Vec3(15, 8 + 0.8 * i + 1e-3 * (i > 0), 5), kX, Vec3::Zero()));
   rods.front().velocity = 50 * kY;
   return meeting("row", "a row of ten rods in touch, hit at its end", quiet_scene(0.4), rods, 4000);
@@ -257,7 +253,7 @@ HardCase two_sizes() {
 const std::vector<MadeCase>& made_cases() {
   static const std::vector<MadeCase> cases{{"parallel", parallel},
                                            {"collinear", collinear},
-                                           {"crossing", crossing},
+                                           {"crossing", crossed},
                                            {"simultaneous", simultaneous},
                                            {"row", row},
                                            {"half-rod-flat", half_rod_flat},

@@ -8,6 +8,11 @@
 
 namespace shaken::bench {
 
+/// What energy differs by from rounding alone, as a fraction.
+inline constexpr double kRounding = 1e-11;
+/// What a rod at rest on the base is given, half the fall of a tick upwards, is of this order of its energy.
+inline constexpr double kRest = 1e-5;
+
 /// One thing that must hold in a hard case, and how nearly it did not.
 struct Outcome {
   std::string holds;      ///< in words

@@ -24,9 +24,6 @@ constexpr double kStartSpeed = 20.0 * 1.7320508;
 /// The books must close to this, as a fraction of all that changed hands; and to a rounding for each impulse.
 constexpr double kLedgerLimit = 1e-12;
 constexpr double kLedgerPerImpulse = 1e-16;
-constexpr double kRounding = 1e-11;
-/// What a rod at rest on the base is given, half the fall of a tick upwards, is of this order of its energy.
-constexpr double kRest = 1e-5;
 
 /// What is seen of a run.
 struct Seen {

@@ -56,7 +56,7 @@ std::string claims_table(const Library& runs, std::span<const Claim> claims) {
     if (claim.reach == Reach::kCannotDisagree) says += ". *Runs like these can confirm it only:* ";
     if (claim.reach == Reach::kEitherWay && !claim.note.empty()) says += ". *Note:* ";
     says += claim.note;
-    if (finding.verdict == Verdict::kDisagrees) verdict = "**" + verdict + "**";
+    if (finding.verdict == Verdict::kDisagrees) verdict.insert(0, "**").append("**");
     if (!finding.why.empty()) verdict += ": " + finding.why;
     table += fmt::format("| {} | {} | {} | {} |\n", claim.figure, says, finding.found, verdict);
   }

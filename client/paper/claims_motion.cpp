@@ -92,6 +92,7 @@ Finding tilt_switches(const Library& runs) {
   const std::vector<Point> times = scalar_points(runs["mechanism"], "rods.area_fraction", "n_z_switching_time_s");
   if (times.empty()) return {};
   std::vector<Answer> answers;
+  answers.reserve(times.size());
   // several times within the 30 s over which the paper follows a rod
   for (const Point& point : times) answers.push_back(below(point.quantity, 10));
   return conclude(answers, "n_z keeps its sign for " + text(times, "rods.area_fraction") + " (s)");

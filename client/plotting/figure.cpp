@@ -249,7 +249,7 @@ std::filesystem::path draw_files(const std::string& name, const std::string& dat
   write_or_fail(folder / (name + ".dat"), data);
   write_or_fail(folder / (name + ".gp"), script);
   const Captured gnuplot = run_captured({"gnuplot", name + ".gp"}, folder);
-  const std::filesystem::path picture = folder / (name + "." + suffix_of(format));
+  std::filesystem::path picture = folder / (name + "." + suffix_of(format));
   if (gnuplot.exit_code == 127) {
     throw Failure(ExitCode::kFailed,
                   "gnuplot is not here: `apt install gnuplot-nox`; the data and the script are in " + folder.string());

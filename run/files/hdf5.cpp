@@ -147,6 +147,7 @@ void write_attribute(hid_t where, const std::string& name, const std::string& va
 
 void write_attribute(hid_t where, const std::string& name, const std::vector<std::string>& values) {
   std::vector<const char*> pointers;
+  pointers.reserve(values.size());
   for (const auto& value : values) pointers.push_back(value.c_str());
   put_attribute(where, name, text_type(true, 0), simple_space({values.size()}), pointers.data());
 }

@@ -6,7 +6,7 @@
 namespace shaken::run {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr std::array<const char*, kPhases> kStageWhat{
     "rods against base, lid and walls",  "overlapping beads of neighbouring rods",   "impulses between rods",
@@ -42,15 +42,15 @@ OwnCost cost_of(const std::string& effect, const Probe& probe) {
 
 }  // namespace
 
-Json probe_report(const scene::RunPlan& plan, const std::optional<Probe>& probe) {
-  Json report;
+OrderedJson probe_report(const scene::RunPlan& plan, const std::optional<Probe>& probe) {
+  OrderedJson report;
   const double total = probe ? probe->total() : 0;
-  report["effects"] = Json::array();
+  report["effects"] = OrderedJson::array();
   for (const EffectLine& line : list_effects(plan)) {
-    Json entry{{"name", line.name}, {"what", line.what}, {"on", line.on}, {"why", line.why}};
+    OrderedJson entry{{"name", line.name}, {"what", line.what}, {"on", line.on}, {"why", line.why}};
     if (probe && line.on) {
       const OwnCost cost = cost_of(line.name, *probe);
-      entry["cpu_share"] = cost.cpu ? Json(*cost.cpu / total) : Json();
+      entry["cpu_share"] = cost.cpu ? OrderedJson(*cost.cpu / total) : OrderedJson();
       if (*cost.note != '\0') entry["note"] = cost.note;
     }
     report["effects"].push_back(std::move(entry));
@@ -61,7 +61,7 @@ Json probe_report(const scene::RunPlan& plan, const std::optional<Probe>& probe)
                      {"simulated_s", probe->simulated},
                      {"cpu_s", probe->cpu},
                      {"rod_seconds_per_cpu_second", plan.system.n_all_rods() * probe->simulated / probe->cpu}};
-  report["stages"] = Json::array();
+  report["stages"] = OrderedJson::array();
   for (std::size_t p = 0; p < kPhases; ++p) {
     report["stages"].push_back({{"name", kPhaseNames[p]},
                                 {"what", kStageWhat[p]},

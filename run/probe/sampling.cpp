@@ -12,7 +12,7 @@
 namespace shaken::run {
 namespace {
 
-constexpr double kCpu = 0.02;  ///< for timing one kind of sample, about [s]
+constexpr double kCpuPerSample = 0.02;  ///< for timing one kind of sample, about [s]
 
 double bytes_of(const Observables& arrays) {
   std::size_t n = 0;
@@ -66,7 +66,7 @@ SamplingCost time_sampling(const scene::RunPlan& plan, const Species& species, c
     double begin = thread_cpu_seconds();
     double early_bytes = first_bytes;                                    // with every block in use for the first time
     const std::int64_t most = std::max<std::int64_t>(samples.count, 3);  // not more than the run will take
-    while (taken < 3 || (taken < most && thread_cpu_seconds() - begin < kCpu)) {
+    while (taken < 3 || (taken < most && thread_cpu_seconds() - begin < kCpuPerSample)) {
       sample();
       if (taken != kMostBlocks) continue;
       const double pause = thread_cpu_seconds();

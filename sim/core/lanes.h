@@ -126,29 +126,39 @@ SHAKEN_INLINE F size1(const Vectors<F>& a) {
 
 // ---- the machine's width
 
-#if defined(__x86_64__)
 namespace detail {
 
 inline int widest() {
+#if defined(__x86_64__)
   __builtin_cpu_init();
   if (__builtin_cpu_supports("avx512f")) return 16;
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") ? 8 : 4;
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return 8;
+#endif
+  return 4;
 }
-inline int machine_width = widest();  ///< tests narrow it
+/// Tests narrow it. Other processors than x86-64 have one width, and there it stays what it is.
+inline int machine_width = widest();
 
-// Multiply and add may be fused here, and only here: trajectories are computed elsewhere.
+#if defined(__x86_64__)
+// Multiply and add may be fused here, and only here: trajectories are computed elsewhere. To clang that is a property
+// of the text of a function, not of what it is inlined into, so that its builds do without.
+#if defined(__clang__)
+#define SHAKEN_MAY_FUSE
+#else
+#define SHAKEN_MAY_FUSE [[gnu::optimize("fp-contract=fast")]]
+#endif
 
 template <class Kernel>
-[[gnu::target("avx512f,fma"), gnu::optimize("fp-contract=fast"), gnu::noinline]] auto run_16(const Kernel& kernel) {
+SHAKEN_MAY_FUSE [[gnu::target("avx512f,fma"), gnu::noinline]] auto run_16(const Kernel& kernel) {
   return kernel.template run<16>();
 }
 template <class Kernel>
-[[gnu::target("avx2,fma"), gnu::optimize("fp-contract=fast"), gnu::noinline]] auto run_8(const Kernel& kernel) {
+SHAKEN_MAY_FUSE [[gnu::target("avx2,fma"), gnu::noinline]] auto run_8(const Kernel& kernel) {
   return kernel.template run<8>();
 }
+#endif
 
 }  // namespace detail
-#endif
 
 /// kernel.run<W>(), with W the number of floats in this machine's vectors. `run` must be SHAKEN_INLINE.
 template <class Kernel>

@@ -7,14 +7,14 @@ namespace shaken {
 namespace {
 
 /// Of the neighbour list [mm]. Wider: longer lists; narrower: more rebuilding. No choice changes the trajectory.
-constexpr double kSkin = 0.3;
+constexpr double kReferenceSkin = 0.3;
 
 }  // namespace
 
 ReferenceStepper::ReferenceStepper(const World& world, const Kernels& kernels)
     : rules_(world),
       kernels_(kernels),
-      neighbors_(world.species, world.kinds, world.scene.box_side, kSkin),
+      neighbors_(world.species, world.kinds, world.scene.box_side, kReferenceSkin),
       rods_(world.rods.size()),
       poses_(world.rods.size()) {}
 

@@ -2,6 +2,7 @@
 #include "sim/stepping/tick.h"
 
 #include <algorithm>
+#include <compare>
 
 #include "sim/initial.h"
 
@@ -48,7 +49,8 @@ void sort_contacts(std::vector<PairContact>& contacts, const std::vector<RodAtTi
     if (a.j != b.j) return a.j < b.j;
     if (a.beads.overlap != b.beads.overlap) return a.beads.overlap > b.beads.overlap;
     const auto of_i = compare(place(a.i, a.beads.bead_i), place(b.i, b.beads.bead_i));
-    return of_i != 0 ? of_i < 0 : compare(place(a.j, a.beads.bead_j), place(b.j, b.beads.bead_j)) < 0;
+    if (std::is_neq(of_i)) return std::is_lt(of_i);
+    return std::is_lt(compare(place(a.j, a.beads.bead_j), place(b.j, b.beads.bead_j)));
   });
 }
 
