@@ -32,7 +32,8 @@ PlateMotion::PlateMotion(double amplitude, double frequency, double gap, double 
   const double period = 1.0 / cycles;
   const double whole = std::round(period);
   if (whole <= static_cast<double>(kLongestTable) && std::abs(period - whole) <= 1e-12 * whole) {
-    for (double k = 0; k < whole; ++k) table_.push_back(at_phase(k / whole));
+    const auto ticks = static_cast<std::int64_t>(whole);
+    for (std::int64_t k = 0; k < ticks; ++k) table_.push_back(at_phase(static_cast<double>(k) / whole));
   } else {
     const double rest = std::fma(frequency, dt, -cycles);  // cycles + rest is the exact product
     phase_per_tick_ = to_fixed(cycles - std::floor(cycles));
