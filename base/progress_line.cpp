@@ -23,6 +23,7 @@ ProgressLine::ProgressLine(std::string what)
     : ProgressLine(std::cerr, isatty(STDERR_FILENO) == 1, terminal_size(STDERR_FILENO).value_or(TerminalSize{}).columns,
                    kLogPeriod) {
   what_ = std::move(what);
+  if (!is_terminal_) shown_ = begun_;
 }
 
 ProgressLine::ProgressLine(std::ostream& out, bool is_terminal, int width, double log_period)
@@ -31,7 +32,7 @@ ProgressLine::ProgressLine(std::ostream& out, bool is_terminal, int width, doubl
       width_(width > 0 ? width : kUsualWidth),
       period_(is_terminal ? kTerminalPeriod : log_period),
       begun_(wall_seconds()),
-      shown_(is_terminal ? begun_ - kTerminalPeriod : begun_) {}
+      shown_(begun_ - period_) {}
 
 bool ProgressLine::is_due() {
   const double now = wall_seconds();
