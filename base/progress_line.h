@@ -9,10 +9,10 @@ namespace shaken {
 /// How far a long piece of work is: on a terminal one line that is written over, in a log a line now and then.
 class ProgressLine {
  public:
-  /// Writes to stderr; `what` is being done.
+  /// Writes to stderr; `what` is being done. Short work leaves no line in a log.
   explicit ProgressLine(std::string what);
-  /// Writes to `out`; `width` columns of a terminal, 0 if they are not known. In a log a line follows the last one
-  /// after `log_period` [s] at the earliest; if that is 0, none is written.
+  /// Writes to `out`; `width` columns of a terminal, 0 if they are not known. In a log there is a line at once and
+  /// another `log_period` [s] after it at the earliest; if that is 0, there is none.
   ProgressLine(std::ostream& out, bool is_terminal, int width, double log_period);
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;

@@ -18,8 +18,7 @@
 namespace shaken::bench {
 namespace {
 
-constexpr double kLookEvery = 2e-3;  ///< [s]
-constexpr int kSettling = 11;        ///< one part in so many of a replica is not counted
+constexpr int kSettling = 11;  ///< one part in so many of a replica is not counted
 
 struct Quantity {
   const char* name;

@@ -8,6 +8,8 @@
 
 namespace shaken::bench {
 
+inline constexpr double kLookEvery = 2e-3;  ///< between two looks at the state of a scene [s]
+
 /// What energy differs by from rounding alone, as a fraction.
 inline constexpr double kRounding = 1e-11;
 /// What a rod at rest on the base is given, half the fall of a tick upwards, is of this order of its energy.

@@ -9,13 +9,13 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-struct Mean {
+struct ReplicaMean {
   double value = kNaN;
   double variance = kNaN;  ///< of the mean
   double freedom = 0;
 };
 
-Mean mean_of(std::span<const double> samples) {
+ReplicaMean mean_of(std::span<const double> samples) {
   if (samples.size() < 2) return {};
   const auto n = static_cast<double>(samples.size());
   double sum = 0, squares = 0;
@@ -44,7 +44,7 @@ Sameness Apart::within(double bound) const {
 }
 
 Apart compare(std::span<const double> first, std::span<const double> second) {
-  const Mean a = mean_of(first), b = mean_of(second);
+  const ReplicaMean a = mean_of(first), b = mean_of(second);
   const double size = std::abs(a.value + b.value) / 2;
   const double variance = a.variance + b.variance;
   const double freedom =

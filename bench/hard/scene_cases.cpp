@@ -18,7 +18,6 @@
 namespace shaken::bench {
 namespace {
 
-constexpr double kLookEvery = 2e-3;  ///< [s]
 /// Standard deviation of the speed at the start, three components (sim/initial.cpp) [mm/s].
 constexpr double kStartSpeed = 20.0 * 1.7320508;
 /// The books must close to this, as a fraction of all that changed hands; and to a rounding for each impulse.

@@ -9,6 +9,7 @@
 
 #include "analysis/blocked.h"
 #include "analysis/jackknife.h"
+#include "tests/support/effort.h"
 #include "tests/unit/analysis/samples.h"
 
 namespace shaken::analysis {
@@ -148,7 +149,7 @@ TEST(TwoPeaks, OfSampledMixtures) {
 TEST(TwoPeaks, AreNotSeenWhereThereAreNone) {
   Draw draw(122);
   int wrong = 0;
-  for (int repeat = 0; repeat < 20; ++repeat) {
+  for (int repeat = 0; repeat < test::draws(20); ++repeat) {
     for (const std::size_t samples : {400u, 4000u, 40000u}) {
       wrong += are_two(sampled(samples, [&] { return 8 * kDegree * draw.normal(); }).dip);
       wrong += are_two(sampled(samples, [&] { return draw.uniform(-kPi, kPi); }).dip);
