@@ -188,10 +188,13 @@ def steady_parts(run, frames):
             if is_steady(run.time[frames[i]], run.t_steady)]
 
 
+FEWEST_PARTS = 10  # that have any part in a number, or it has no error: analysis/parts.h
+
+
 def sem_of_parts(parts):
     """Error of the mean of successive numbers (parts, ...) as of an autoregressive series: analysis/parts.h."""
     n = len(parts)
-    if n < 8:
+    if n < FEWEST_PARTS:
         return np.full(parts.shape[1:], np.nan)
     rest = parts - parts.mean(0)
     squares = np.sum(rest ** 2, axis=0)
@@ -226,7 +229,10 @@ def jackknife(parts, function):
         return value, np.full(value.shape, np.nan)
     left = np.array([function(np.concatenate([p for k, p in enumerate(parts) if k != leave]))
                      for leave in range(len(parts))], float)
-    return value, sem_of_parts(value + (len(parts) - 1) * (value - left))
+    with np.errstate(invalid="ignore"):
+        pseudo = value + (len(parts) - 1) * (value - left)
+        takes_part = np.sum(~(np.abs(pseudo - value) <= 1e-11 * np.abs(value)), axis=0)
+        return value, np.where((takes_part > 0) & (takes_part < FEWEST_PARTS), np.nan, sem_of_parts(pseudo))
 
 
 def references(n, sample):
@@ -248,7 +254,7 @@ def drawn(n, sample):
         return z ^ (z >> 31)
 
     def uniform(index):
-        return (mix((mix(mix(mix(int(sample)) ^ stream) ^ index) + 0x9E3779B97F4A7C15) & mask) >> 11) * 2.0**-53
+        return (mix((mix(mix(mix(mix(int(sample)) ^ stream)) ^ index) + 0x9E3779B97F4A7C15) & mask) >> 11) * 2.0**-53
 
     return np.array([first + int(uniform(first) * min(stride, n - first)) for first in range(0, n, stride)])
 
@@ -403,6 +409,7 @@ def two_gaussians(theta, density):
     both = density + density[::-1]
     length = (len(theta) % 2) + 2 * reach
     sums = np.convolve(np.concatenate([both, both[:length - 1]]), np.ones(length), mode="valid")
+    dip = sums[len(theta) // 2 - reach] / sums.max()
     # highest place: of a weighted cubic about it, from that of the two Gaussians on
     reach = min(max(sigma / 2, 2 * width), np.pi / 8)
     top = at
@@ -420,7 +427,7 @@ def two_gaussians(theta, density):
         top += reach * np.clip(flat[0], -1, 1)
         if abs(flat[0]) < 1e-9:
             break
-    return np.degrees(at), sums[len(theta) // 2 - reach] / sums.max(), abs(np.degrees(fold(top)))
+    return np.degrees(at), dip, abs(np.degrees(fold(top)))
 
 
 def check_angles(run, table):
@@ -675,6 +682,17 @@ def check_pairs(run, table):
         cut = cuts[[place_of[s] for s in some]].sum(0)
         with np.errstate(invalid="ignore"):
             return [first_period(r, cut[4] / cut[3], strip)]
+
+    def curves(some):
+        chosen = [place_of[s] for s in some]
+        cut = cuts[chosen].sum(0)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            return np.array([cut[0], cut[3]] / (density[chosen].sum() * 2 * width * strip)).tolist() + \
+                [(cut[1] / cut[0]).tolist(), (cut[4] / cut[3]).tolist()]
+
+    for name, sem in zip(("g_along", "g_across", "g2_along", "g2_across"), jackknife(parts, curves)[1]):
+        table.add(f"/pairs/cut/{name}_sem", "numpy O(N^2)", run.arrays[f"/pairs/cut/{name}_sem"], sem,
+                  0.02 * np.nan_to_num(sem) + 1e-6)
 
     value, sem = jackknife(parts, wavelength)
     scalar(run, table, "wavelength_g2_mm", "numpy polyfit", value[0], None, allowed=1e-3 * abs(value[0]))
@@ -1246,7 +1264,8 @@ def check_frank(run, table):
     by = "direct sums, cKDTree"
     for k, name in ((0, "q_along_per_mm"), (1, "q_across_per_mm"), (2, "power_mm2")):
         table.add(f"/frank/{name}", by, run.arrays[f"/frank/{name}"], squares[met, k])
-    table.add("/frank/power_sem_mm2", by, run.arrays["/frank/power_sem_mm2"], square_sems[met, 2])
+    table.add("/frank/power_sem_mm2", by, run.arrays["/frank/power_sem_mm2"], square_sems[met, 2],
+              1e-4 * square_sems[met, 2])
     table.add("/frank/fit_mm2", "scipy Nelder-Mead", run.arrays["/frank/fit_mm2"], squares[met, 3], 1e-3 * squares[met, 3])
     for k, name in enumerate(("frank_splay", "frank_bend", "frank_ratio")):
         table.add(name, "scipy Nelder-Mead", run.measured(name), values[k], 1e-3 * values[k])
