@@ -157,7 +157,11 @@ SteadySummary summarize_series(std::span<const double> times, std::span<const do
   summary.drift = parts.drift;
   const bool long_enough = !(parts.drift.n_effective < kEnoughForSteadyState);  // NaN: nothing varies
   const bool early_enough = steady_start || 2 * first <= values.size();
-  summary.steady = parts.steady.value_or(false) && long_enough && early_enough;
+  if (parts.steady == false || !early_enough) {
+    summary.steady = false;
+  } else if (parts.steady == true && long_enough) {
+    summary.steady = true;
+  }
   if (steady.size() < 2) return summary;
   summary.std = std::sqrt(product_sum(x, 0) / (n - 1.0));
   if (std::isfinite(parts.sem)) summary.sem = summary.std / std::sqrt(summary.n_effective);

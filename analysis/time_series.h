@@ -56,8 +56,8 @@ struct SteadySummary {
   double t_steady = 0;     ///< time of the first sample that counts
   double n_effective = 0;  ///< independent samples; 0 if no sample counts
   /// Whether this is a steady state at all: it is long enough to tell, its halves do not differ (see summarize_parts),
-  /// and where it was looked for it was found in the first half.
-  bool steady = false;
+  /// and where it was looked for it was found in the first half. Nothing where it is too short to tell.
+  std::optional<bool> steady;
   Estimate drift;  ///< mean of its later half less that of its earlier one
 };
 

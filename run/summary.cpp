@@ -46,10 +46,13 @@ OrderedJson to_json(const Balance& balance) {
           {"unexplained", balance.energy_unexplained}};
 }
 
+/// Null where it is not known.
+OrderedJson json_of(std::optional<bool> known) { return known ? OrderedJson(*known) : OrderedJson(nullptr); }
+
 }  // namespace
 
 std::string why_not_steady(const analysis::SteadySummary& order, double sim_seconds) {
-  if (order.steady) return "";
+  if (order.steady == true) return "";
   if (std::abs(order.drift.value) > analysis::kDriftErrors * order.drift.sem) {
     return fmt::format(
         "S still drifts: it changes by {:.2g} +- {:.1g} from the first half of its average to the second; measure "
@@ -85,7 +88,7 @@ std::optional<Error> write_summary(const std::filesystem::path& file, const Summ
        {summary.balance.momentum_unexplained.x(), summary.balance.momentum_unexplained.y(),
         summary.balance.momentum_unexplained.z()}},
       {"t_steady_s", summary.t_steady},
-      {"steady", summary.order ? OrderedJson(summary.order->steady) : OrderedJson(nullptr)},
+      {"steady", summary.order ? json_of(summary.order->steady) : OrderedJson(nullptr)},
       {"order", nullptr},
       {"defects", nullptr},
   };
@@ -97,7 +100,7 @@ std::optional<Error> write_summary(const std::filesystem::path& file, const Summ
         {"tau_s", summary.order->tau},
         {"t_steady_s", summary.order->t_steady},
         {"n_effective", summary.order->n_effective},
-        {"steady", summary.order->steady},
+        {"steady", json_of(summary.order->steady)},
         {"drift",
          {{"value", number_or_null(summary.order->drift.value)}, {"sem", number_or_null(summary.order->drift.sem)}}}};
   }
@@ -109,7 +112,7 @@ std::optional<Error> write_summary(const std::filesystem::path& file, const Summ
     json["measured"][name] = {{"value", number_or_null(scalar.value)},
                               {"sem", number_or_null(scalar.sem)},
                               {"n_effective", number_or_null(scalar.n_effective)},
-                              {"steady", scalar.steady ? OrderedJson(*scalar.steady) : OrderedJson(nullptr)}};
+                              {"steady", json_of(scalar.steady)}};
     if (!scalar.reason.empty()) json["measured"][name]["reason"] = scalar.reason;
   }
   for (const auto& [name, effect] : summary.effects) json["effects"][name] = to_json(effect);
