@@ -8,6 +8,7 @@
 #include "run/files/atomic_file.h"
 
 namespace shaken::bench {
+
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);

@@ -11,6 +11,7 @@
 #include <thread>
 #include <utility>
 
+#include "base/clock.h"
 #include "proto/bus.h"
 
 namespace shaken::run {
@@ -21,11 +22,6 @@ constexpr std::chrono::seconds kStaticPeriod{2};
 constexpr std::chrono::seconds kPatienceAtEnd{1};
 /// Chunks of a large frame follow each other at this distance, so that receivers with small buffers keep up.
 constexpr std::chrono::microseconds kChunkPause{200};
-
-std::int64_t utime_now() {
-  using std::chrono::microseconds;
-  return std::chrono::duration_cast<microseconds>(std::chrono::system_clock::now().time_since_epoch()).count();
-}
 
 /// What waits to be sent: at most one of each kind.
 struct Outbox {

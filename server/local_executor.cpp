@@ -15,6 +15,7 @@
 #include "sim/core/check.h"
 
 namespace shaken::server {
+
 Result<int> LocalExecutor::start(const Launch& launch) {
   const std::filesystem::path log_file = run::RunDirectory{launch.directory}.log();
   const Descriptor log(open(log_file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600));
