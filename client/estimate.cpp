@@ -13,9 +13,9 @@
 #include <numeric>
 
 #include "base/failure.h"
+#include "base/files.h"
 #include "base/process.h"
 #include "base/table.h"
-#include "run/files/atomic_file.h"
 #include "scene/accuracy.h"
 #include "scene/canonical.h"
 #include "scene/derived.h"
@@ -55,7 +55,7 @@ class ScratchFile {
 Json probe(const scene::RunPlan& plan, const std::string& label, double cpu, const std::string& from) {
   const ScratchFile scene(".json");
   const ScratchFile answer(".json");
-  if (const auto error = run::write_file(scene.path(), scene::to_json(plan).dump())) {
+  if (const auto error = write_file(scene.path(), scene::to_json(plan).dump())) {
     throw Failure(ExitCode::kFailed, error->message);
   }
   std::vector<std::string> command{sibling_program("shaken-worker").string(),
@@ -72,7 +72,7 @@ Json probe(const scene::RunPlan& plan, const std::string& label, double cpu, con
     throw Failure(result.exit_code == 2 ? ExitCode::kBadInput : ExitCode::kFailed,
                   label.empty() ? words : fmt::format("{}: {}", label, words));
   }
-  const auto text = run::read_file(answer.path());
+  const auto text = read_file(answer.path());
   if (!text) throw Failure(ExitCode::kFailed, text.error().message);
   return Json::parse(*text);
 }

@@ -12,8 +12,8 @@
 #include <memory>
 
 #include "analysis/order.h"
+#include "base/files.h"
 #include "run/effects.h"
-#include "run/files/atomic_file.h"
 #include "run/publisher.h"
 #include "run/session.h"
 #include "run/summary.h"

@@ -6,8 +6,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/files.h"
 #include "run/checkpoint_file.h"
-#include "run/files/atomic_file.h"
 #include "run/files/directory.h"
 #include "scene/canonical.h"
 #include "scene/load.h"

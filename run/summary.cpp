@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/parts.h"
-#include "run/files/atomic_file.h"
+#include "base/files.h"
 #include "run/files/version.h"
 #include "sim/core/physics_version.h"
 

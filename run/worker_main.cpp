@@ -12,12 +12,12 @@
 #include <optional>
 
 #include "base/failure.h"
+#include "base/files.h"
 #include "base/progress_line.h"
 #include "base/terminal.h"
 #include "proto/bus.h"
 #include "run/checkpoint_file.h"
 #include "run/ending.h"
-#include "run/files/atomic_file.h"
 #include "run/files/version.h"
 #include "run/loop.h"
 #include "run/movie_process.h"
@@ -130,7 +130,7 @@ void describe(CLI::App& app, Arguments& arguments) {
 
 /// What came out, on stdout; nothing where the summary cannot be read, which has been told then.
 void tell_ending(const run::RunDirectory& directory) {
-  const Result<std::string> text = run::read_file(directory.summary());
+  const Result<std::string> text = read_file(directory.summary());
   if (!text) return;
   const auto summary = nlohmann::json::parse(*text, nullptr, false);
   if (!summary.is_object()) return;
@@ -187,7 +187,7 @@ ExitCode run_scene(const scene::RunPlan& plan, const Arguments& arguments) {
 /// A simulation of `system` from the state that the run in `folder` was last saved in.
 Result<Simulation> resume_from(const std::filesystem::path& folder, const Scene& system) {
   const run::RunDirectory directory{folder};
-  const Result<std::string> text = run::read_file(directory.scene());
+  const Result<std::string> text = read_file(directory.scene());
   if (!text) return text.error();
   const auto plan = scene::load_scene(*text, directory.scene().string());
   if (!plan.value) return Error{to_string(plan.problems)};
@@ -209,7 +209,7 @@ void probe_scene(const scene::RunPlan& plan, const Arguments& arguments) {
     probe = std::move(probed).value();
     if (!probe->movie_trouble.empty()) spdlog::warn("the movie could not be timed: {}", probe->movie_trouble);
   }
-  if (auto error = run::write_file(arguments.probe, run::probe_report(plan, probe).dump(2) + "\n")) {
+  if (auto error = write_file(arguments.probe, run::probe_report(plan, probe).dump(2) + "\n")) {
     throw Failure(ExitCode::kFailed, error->message);
   }
 }
@@ -218,7 +218,7 @@ ExitCode work(const Arguments& arguments) {
   if (arguments.out.empty() == arguments.probe.empty()) {
     throw Failure(ExitCode::kBadInput, "one of --out and --probe is needed (see `shaken-worker --help`)");
   }
-  const Result<std::string> text = run::read_file(arguments.scene);
+  const Result<std::string> text = read_file(arguments.scene);
   if (!text) throw Failure(ExitCode::kBadInput, text.error().message);
   const scene::Loaded<scene::RunPlan> plan = scene::load_scene(*text, arguments.scene, arguments.settings);
   if (!plan.value) throw Failure(ExitCode::kBadInput, to_string(plan.problems));

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "base/figure.h"
 #include "client/paper/run_set.h"
-#include "client/plotting/sheet.h"
 
 namespace shaken::client {
 

@@ -6,16 +6,16 @@
 #include <set>
 
 #include "base/failure.h"
+#include "base/files.h"
 #include "client/replicas.h"
 #include "client/results.h"
-#include "run/files/atomic_file.h"
 #include "run/files/directory.h"
 
 namespace shaken::client {
 namespace {
 
 std::shared_ptr<const Json> read_json(const std::filesystem::path& file) {
-  const auto text = run::read_file(file);
+  const auto text = read_file(file);
   if (!text) throw Failure(ExitCode::kFailed, text.error().message);
   Json json = Json::parse(*text, nullptr, false);
   if (!json.is_object()) throw Failure(ExitCode::kFailed, file.string() + " is no JSON object");
@@ -129,7 +129,7 @@ const std::vector<double>& FinishedRun::array(const std::string& path) const {
 }
 
 bool is_finished(const std::filesystem::path& directory) {
-  const auto text = run::read_file(run::RunDirectory{directory}.summary());
+  const auto text = read_file(run::RunDirectory{directory}.summary());
   if (!text) return false;
   const Json summary = Json::parse(*text, nullptr, false);
   const Json* state = find(summary, "exit.state");

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "client/plotting/figure.h"
+#include "base/figure.h"
 #include "client/results.h"
 #include "run/files/observables_file.h"
 

@@ -11,6 +11,7 @@
 #include <thread>
 #include <utility>
 
+#include "base/files.h"
 #include "base/interrupt.h"
 #include "base/process.h"
 #include "base/progress_line.h"
@@ -23,7 +24,6 @@
 #include "client/scene_input.h"
 #include "client/target.h"
 #include "client/verbs/verbs.h"
-#include "run/files/atomic_file.h"
 #include "run/files/directory.h"
 
 namespace shaken::client {
@@ -182,7 +182,7 @@ class Figures : public Verb {
     std::error_code error;
     fs::create_directories(out_, error);
     const fs::path trial = fs::path(out_) / ".trial";
-    if (!error && run::write_file_atomically(trial, "")) error = std::make_error_code(std::errc::permission_denied);
+    if (!error && write_file_atomically(trial, "")) error = std::make_error_code(std::errc::permission_denied);
     std::error_code ignored;
     fs::remove(trial, ignored);
     if (error) problems += fmt::format("{}: cannot be written to: {}\n", out_, error.message());
@@ -201,7 +201,7 @@ class Figures : public Verb {
   /// The report file with these sections in place of those that it has.
   std::string written_report(const std::string& origin, const std::string& claims, const std::string& sweeps,
                              const std::string& figures) const {
-    const auto text = run::read_file(report_);
+    const auto text = read_file(report_);
     if (!text) throw Failure(ExitCode::kBadInput, text.error().message);
     std::string document = *text, problems;
     const std::pair<const char*, const std::string&> sections[] = {
@@ -452,7 +452,7 @@ class Figures : public Verb {
       }
       Sheet sheet = figure.draw({runs, [&](const FinishedRun& run) { return snapshot(run, console); }});
       sheet.name = std::string(figure.file);
-      tell(figure.id, client::draw(sheet, out_), console);
+      tell(figure.id, draw(sheet, out_), console);
       return true;
     } catch (const std::exception& problem) {
       console.err << fmt::format("figure {}: {}\n", figure.id, problem.what());
@@ -501,7 +501,7 @@ class Figures : public Verb {
     const std::vector<Claim> claims = claims_of(figures);
     const std::string table = claims_table(runs, claims);
     const auto save = [](const fs::path& file, const std::string& text) {
-      if (const auto error = run::write_file_atomically(file, text)) throw Failure(ExitCode::kFailed, error->message);
+      if (const auto error = write_file_atomically(file, text)) throw Failure(ExitCode::kFailed, error->message);
     };
     save(fs::path(out_) / "claims.md", table);
     save(fs::path(out_) / "claims.json", claims_json(runs, claims).dump(2) + "\n");

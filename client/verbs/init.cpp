@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include "base/files.h"
 #include "client/starter_scene.h"
 #include "client/verbs/verbs.h"
-#include "run/files/atomic_file.h"
 
 namespace shaken::client {
 namespace {
@@ -30,7 +30,7 @@ class Init : public Verb {
     if (std::filesystem::exists(file_) && !force_) {
       throw Failure(ExitCode::kBadInput, fmt::format("{} exists: --force replaces it", file_));
     }
-    if (const auto error = run::write_file_atomically(file_, kStarterScene)) {
+    if (const auto error = write_file_atomically(file_, kStarterScene)) {
       throw Failure(ExitCode::kFailed, error->message);
     }
     context.console.out << fmt::format(

@@ -4,12 +4,12 @@
 #include <map>
 #include <optional>
 
+#include "base/files.h"
 #include "client/plotting/run_figures.h"
 #include "client/result_rows.h"
 #include "client/run_location.h"
 #include "client/target.h"
 #include "client/verbs/verbs.h"
-#include "run/files/atomic_file.h"
 #include "run/files/directory.h"
 
 namespace shaken::client {
@@ -159,7 +159,7 @@ class Plot : public Verb {
 
   /// Whether a run's summary says that its averages are from a state that still relaxed.
   static bool still_relaxed(const fs::path& summary) {
-    const auto text = run::read_file(summary);
+    const auto text = read_file(summary);
     if (!text) return false;
     const Json json = Json::parse(*text, nullptr, false);
     return json.is_object() && json.contains("steady") && json.at("steady") == false;

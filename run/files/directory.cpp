@@ -9,7 +9,7 @@
 #include <cstring>
 #include <utility>
 
-#include "run/files/atomic_file.h"
+#include "base/files.h"
 
 namespace shaken::run {
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,19 +7,17 @@
 #include <nlohmann/json.hpp>
 
 #include "base/failure.h"
+#include "base/figure.h"
 #include "base/process.h"
 #include "client/paper/claims.h"
 #include "client/paper/cost.h"
 #include "client/paper/figures.h"
-#include "client/plotting/sheet.h"
 #include "run/files/directory.h"
 #include "tests/unit/client/fake_daemon.h"
 #include "tests/unit/client/made_up_run.h"
 
 namespace shaken::client {
 namespace {
-
-using ::testing::HasSubstr;
 
 /// Run directories as a worker leaves them, with the numbers that a test wants.
 class Runs {
@@ -208,28 +205,6 @@ TEST(PaperFigures, OfNothingAreDrawnByGnuplotToo) {
       EXPECT_TRUE(std::filesystem::exists(draw(sheet, folder.path())));
     }
   }
-}
-
-TEST(Sheet, DrawsPlotsMapsAndPicturesOnOnePage) {
-  if (run_captured({"gnuplot", "--version"}).exit_code != 0) GTEST_SKIP() << "no gnuplot";
-  const TemporaryFolder folder;
-  const Figure plot{
-      .name = "inner", .x_title = "x", .y_title = "y", .curves = {{.label = "a", .x = {1, 2}, .y = {3, 4}}}};
-  const auto picture = draw(plot, folder.path());
-  Sheet sheet{.name = "page", .title = "All kinds", .panels = {plot, {.title = "picture", .picture = picture}}};
-  sheet.panels.push_back({.x_title = "x",
-                          .y_title = "y",
-                          .curves = {{.label = "cut", .x = {0, 1}, .y = {0, 1}}},
-                          .title = "map",
-                          .map = Map{.x = {0, 1}, .y = {0, 1, 2}, .z = {0, 1, 2, 3, NAN, 5}}});
-  sheet.panels.push_back({.x_title = "nothing", .y_title = "here"});
-  const auto page = draw(sheet, folder.path() / "sheets");
-  EXPECT_GT(std::filesystem::file_size(page), 20000u);
-  std::ifstream in(folder.path() / "sheets/page.dat");
-  const std::string data((std::istreambuf_iterator<char>(in)), {});
-  EXPECT_THAT(data, HasSubstr("# panel 3: map"));
-  EXPECT_THAT(data, HasSubstr("1 1 3 0.5 1.5 0.5 1.5\n"));
-  EXPECT_TRUE(std::filesystem::exists(folder.path() / "sheets/page-2.png")) << "pictures lie beside the page";
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "run/files/atomic_file.h"
+#include "base/files.h"
 #include "tests/unit/run/temporary_folder.h"
 
 namespace shaken::run {

@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
-namespace shaken::client {
+#include "base/plot.h"
+
+namespace shaken {
 
 /// Points of one curve. `y_error` is empty, or as long as x and y; not finite: not known, no bar.
 struct Curve {
@@ -50,29 +52,23 @@ struct Figure {
 /// The data: one block per curve, as gnuplot's `index` counts them, with its label and columns in comments. Points that
 /// are not finite are left out.
 std::string figure_data(const Figure& figure);
-/// What a picture is written as: for the screen, for a paper, for the web or a drawing program.
-enum class PictureFormat { kPng, kPdf, kSvg };
-/// "png", "pdf", "svg"
-const char* suffix_of(PictureFormat format);
-
 /// The gnuplot script: run in its folder, it reads NAME.dat and writes NAME.png (.pdf, .svg).
 std::string figure_script(const Figure& figure, PictureFormat format = PictureFormat::kPng);
 
-/// Writes NAME.dat and NAME.gp into `folder` and has gnuplot draw NAME.png (.pdf, .svg). Returns the picture's path.
-/// Throws Failure with gnuplot's words if it cannot be drawn; the two files stay.
+/// Draws it by draw_plot: NAME.dat, NAME.gp and NAME.png (.pdf, .svg) in `folder`. Returns the picture's path.
 std::filesystem::path draw(const Figure& figure, const std::filesystem::path& folder,
                            PictureFormat format = PictureFormat::kPng);
 
-/// The part of a script that draws `figure` from blocks `first_block`, ... of `data_file`, once terminal and output
-/// are set.
-std::string plot_commands(const Figure& figure, const std::string& data_file, std::size_t first_block);
-/// Blocks of data that a figure takes: one per curve, and one for a map.
-std::size_t n_blocks(const Figure& figure);
-/// Writes NAME.dat and NAME.gp into `folder` and has gnuplot draw NAME.png (.pdf, .svg), as draw() does.
-std::filesystem::path draw_files(const std::string& name, const std::string& data, const std::string& script,
-                                 const std::filesystem::path& folder, PictureFormat format = PictureFormat::kPng);
+/// Several plots on one page, row by row: a figure of a paper with its panels.
+struct Sheet {
+  std::string name{};  ///< of the files: NAME.png, NAME.dat, NAME.gp
+  std::string title{};
+  int columns = 2;
+  std::vector<Figure> panels{};  ///< their names are not used
+};
 
-/// Colour of curve `index` of `count`, "#rrggbb": along viridis without its palest end, so that order shows.
-std::string curve_colour(std::size_t index, std::size_t count);
+/// Draws NAME.dat, NAME.gp and NAME.png into `folder`; pictures of panels are copied beside them. Returns the path of
+/// NAME.png.
+std::filesystem::path draw(const Sheet& sheet, const std::filesystem::path& folder);
 
-}  // namespace shaken::client
+}  // namespace shaken

@@ -1,39 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "run/files/atomic_file.h"
+#include "base/files.h"
 
 #include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <system_error>
-#include <utility>
 
-namespace shaken::run {
+#include "base/descriptor.h"
+
+namespace shaken {
 namespace {
-
-Error system_error(const std::string& doing, const std::filesystem::path& path, int reason) {
-  return {"cannot " + doing + " " + path.string() + ": " + std::strerror(reason)};
-}
-
-/// A file descriptor that closes itself.
-class Descriptor {
- public:
-  Descriptor(const std::filesystem::path& path, int flags) : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int fd() const { return fd_; }
-  bool good() const { return fd_ >= 0; }
-  /// Closes now; network disks report lost writes only here. Returns false with errno set.
-  bool close() { return ::close(std::exchange(fd_, -1)) == 0; }
-
- private:
-  int fd_;
-};
 
 bool write_all(int fd, std::string_view content) {
   while (!content.empty()) {
@@ -45,15 +23,20 @@ bool write_all(int fd, std::string_view content) {
   return true;
 }
 
+Descriptor open_file(const std::filesystem::path& path, int flags) {
+  return Descriptor(::open(path.c_str(), flags | O_CLOEXEC, 0666));
+}
+
 std::optional<Error> write_through(const std::filesystem::path& file, std::string_view content) {
-  Descriptor out(file, O_WRONLY | O_CREAT | O_TRUNC);
-  if (!out.good() || !write_all(out.fd(), content) || !out.close()) return system_error("write", file, errno);
+  Descriptor out = open_file(file, O_WRONLY | O_CREAT | O_TRUNC);
+  if (!out || !write_all(out.value(), content) || !out.close_now())
+    return system_error("cannot write " + file.string());
   return std::nullopt;
 }
 
 std::optional<Error> sync(const std::filesystem::path& path, int flags) {
-  Descriptor opened(path, flags);
-  if (!opened.good() || ::fsync(opened.fd()) != 0) return system_error("bring to the disk", path, errno);
+  const Descriptor opened = open_file(path, flags);
+  if (!opened || ::fsync(opened.value()) != 0) return system_error("cannot bring to the disk " + path.string());
   return std::nullopt;
 }
 
@@ -67,7 +50,9 @@ std::filesystem::path temporary_for(const std::filesystem::path& file) {
 
 std::optional<Error> replace_file(const std::filesystem::path& written, const std::filesystem::path& file) {
   std::optional<Error> error = sync(written, O_RDONLY);
-  if (!error && std::rename(written.c_str(), file.c_str()) != 0) error = system_error("replace", file, errno);
+  if (!error && std::rename(written.c_str(), file.c_str()) != 0) {
+    error = system_error("cannot replace " + file.string());
+  }
   if (error) {
     std::error_code ignored;
     std::filesystem::remove(written, ignored);
@@ -93,17 +78,24 @@ std::optional<Error> write_file_atomically(const std::filesystem::path& file, st
 }
 
 Result<std::string> read_file(const std::filesystem::path& file) {
-  Descriptor in(file, O_RDONLY);
-  if (!in.good()) return system_error("open", file, errno);
+  const Descriptor in = open_file(file, O_RDONLY);
+  if (!in) return system_error("cannot open " + file.string());
   std::string content;
   char buffer[1 << 16];
   for (;;) {
-    const ssize_t got = ::read(in.fd(), buffer, sizeof(buffer));
+    const ssize_t got = ::read(in.value(), buffer, sizeof(buffer));
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0) return system_error("read", file, errno);
+    if (got < 0) return system_error("cannot read " + file.string());
     if (got == 0) return content;
     content.append(buffer, static_cast<std::size_t>(got));
   }
 }
 
-}  // namespace shaken::run
+std::optional<Error> make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) return Error{folder.string() + ": " + error.message()};
+  return std::nullopt;
+}
+
+}  // namespace shaken

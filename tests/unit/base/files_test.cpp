@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "run/files/atomic_file.h"
+#include "base/files.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/unit/run/temporary_folder.h"
 
-namespace shaken::run {
+namespace shaken {
 namespace {
+
+using run::in_child, run::limit_file_size, run::TemporaryFolder;
 
 TEST(AtomicFile, ReplacesTheWholeContent) {
   const TemporaryFolder folder;
@@ -54,4 +56,4 @@ TEST(AtomicFile, MissingFileCannotBeRead) {
 }
 
 }  // namespace
-}  // namespace shaken::run
+}  // namespace shaken

@@ -1,32 +1,30 @@
 // SPDX-License-Identifier: MIT
-#include "client/plotting/figure.h"
+#include "base/figure.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "base/failure.h"
-#include "base/process.h"
+#include "base/files.h"
 #include "base/text.h"
-#include "run/files/atomic_file.h"
 
-namespace shaken::client {
+namespace shaken {
 namespace {
 
 /// A key of more entries hides the plot.
 constexpr std::size_t kMostKeyEntries = 16;
 
-/// A string literal of gnuplot in which nothing is special.
-std::string quoted(const std::string& text) {
-  std::string literal = "'";
-  for (const char c : text) {
-    if (c == '\'') literal += '\'';
-    literal += c == '\n' ? ' ' : c;
-  }
-  return literal + "'";
-}
+constexpr int kPanelWidth = 720;  ///< [pixels]
+constexpr int kPanelHeight = 560;
+constexpr int kTitleHeight = 50;
+
+/// What one panel has set must not reach the next.
+constexpr const char* kAfresh = R"(
+reset
+unset title
+)";
 
 bool has_errors(const Curve& curve) { return !curve.y_error.empty(); }
 
@@ -38,37 +36,6 @@ bool any_relaxes(const Curve& curve) {
 bool shows_errors(const Curve& curve) {
   return std::any_of(curve.y_error.begin(), curve.y_error.end(), [](double error) { return std::isfinite(error); });
 }
-
-void write_or_fail(const std::filesystem::path& file, const std::string& text) {
-  if (const auto error = run::write_file_atomically(file, text)) throw Failure(ExitCode::kFailed, error->message);
-}
-
-}  // namespace
-
-std::string curve_colour(std::size_t index, std::size_t count) {
-  // Nine anchors of viridis (van der Walt & Smith 2015), at 0, 1/8, ..., 1.
-  static constexpr std::array<std::array<double, 3>, 9> kViridis{{{68, 1, 84},
-                                                                  {71, 44, 122},
-                                                                  {59, 81, 139},
-                                                                  {44, 113, 142},
-                                                                  {33, 144, 141},
-                                                                  {39, 173, 129},
-                                                                  {92, 200, 99},
-                                                                  {170, 220, 50},
-                                                                  {253, 231, 37}}};
-  static constexpr double kPalest = 0.85;
-  const double place = count < 2 ? 0.3 : kPalest * static_cast<double>(index) / static_cast<double>(count - 1);
-  const auto anchor = std::min<std::size_t>(static_cast<std::size_t>(place * 8), 7);
-  const double part = place * 8 - static_cast<double>(anchor);
-  std::string colour = "#";
-  for (std::size_t c = 0; c < 3; ++c) {
-    const double value = (1 - part) * kViridis[anchor][c] + part * kViridis[anchor + 1][c];
-    colour += fmt::format("{:02x}", static_cast<int>(std::lround(value)));
-  }
-  return colour;
-}
-
-namespace {
 
 bool has_map(const Figure& figure) { return figure.map && !figure.map->z.empty(); }
 
@@ -118,51 +85,20 @@ std::string map_data(const Map& map) {
   return any ? text : text + "NaN NaN NaN 0 0 0 0\n";
 }
 
-}  // namespace
-
+/// Blocks of data that a figure takes: one per curve, and one for a map.
 std::size_t n_blocks(const Figure& figure) { return figure.curves.size() + (has_map(figure) ? 1 : 0); }
 
-std::string figure_data(const Figure& figure) {
-  std::string text;
-  if (has_map(figure)) text += map_data(*figure.map);
-  for (const Curve& curve : figure.curves) {
-    if (!text.empty()) text += "\n\n";
-    text += curve_data(curve, figure.name);
-  }
-  return text;
-}
-
-const char* suffix_of(PictureFormat format) {
-  static constexpr std::array kSuffixes{"png", "pdf", "svg"};
-  return kSuffixes.at(static_cast<std::size_t>(format));
-}
-
-std::string figure_script(const Figure& figure, PictureFormat format) {
-  // On paper a figure is one column and a half wide, with letters as large as those around it.
-  static constexpr std::array kTerminals{"pngcairo size 1400,950 enhanced font 'DejaVu Sans,20' linewidth 2",
-                                         "pdfcairo size 14cm,9.5cm enhanced font 'DejaVu Sans,20' fontscale 0.42",
-                                         "svg size 1400,950 enhanced font 'DejaVu Sans,20' linewidth 2"};
-  return fmt::format(R"(# gnuplot {0}.gp  draws {0}.{1} from {0}.dat
-set terminal {2} background '#ffffff'
-set output '{0}.{1}'
-)",
-                     figure.name, suffix_of(format), kTerminals.at(static_cast<std::size_t>(format))) +
-         plot_commands(figure, figure.name + ".dat", 0);
-}
-
+/// The part of a script that draws `figure` from blocks `first_block`, ... of `data_file`, once terminal and output
+/// are set.
 std::string plot_commands(const Figure& figure, const std::string& data_file, std::size_t first_block) {
-  std::string script = figure.title.empty() ? "" : fmt::format("set title {}\n", quoted(figure.title));
+  std::string script = figure.title.empty() ? "" : fmt::format("set title {}\n", gnuplot_literal(figure.title));
   if (!figure.picture.empty()) {
     return script + fmt::format(
                         "unset border\nunset tics\nunset key\nset size ratio -1\nset lmargin 1\nset rmargin 1\n"
                         "plot {} binary filetype=png with rgbimage notitle\n",
-                        quoted(figure.picture.string()));
+                        gnuplot_literal(figure.picture.string()));
   }
-  script += R"(set border 3 linecolor '#333333'
-set tics nomirror out textcolor '#333333'
-set grid linetype 1 linecolor '#e2e2e2' linewidth 0.5
-set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'
-)";
+  script += plot_axes() + "set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'\n";
   const std::size_t n_labels = static_cast<std::size_t>(
       std::count_if(figure.curves.begin(), figure.curves.end(), [](const Curve& c) { return !c.label.empty(); }));
   if (n_labels == 0 || n_labels > kMostKeyEntries) {
@@ -174,7 +110,8 @@ set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'
     script +=
         fmt::format("set key outside top center horizontal maxcols {}\n", longest < 16 ? 5 : (longest < 32 ? 3 : 2));
   }
-  script += fmt::format("set xlabel {}\nset ylabel {}\n", quoted(figure.x_title), quoted(figure.y_title));
+  script +=
+      fmt::format("set xlabel {}\nset ylabel {}\n", gnuplot_literal(figure.x_title), gnuplot_literal(figure.y_title));
   if (has_map(figure)) {
     script += figure.map->diverging
                   ? "set palette defined (-1 '#2166ac', -0.5 '#92c5de', 0 '#f7f7f7', 0.5 '#f4a582', 1 '#b2182b')\n"
@@ -190,12 +127,12 @@ set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'
   if (has_map(figure)) {
     plots.push_back(
         fmt::format("{} index {} using 1:2:4:5:6:7:3 with boxxyerror fillstyle solid noborder palette notitle",
-                    quoted(data_file), block++));
+                    gnuplot_literal(data_file), block++));
   }
   for (const Curve& curve : figure.curves) {
     const std::string colour = curve_colour(curve.colour, n_colours);
-    const std::string data = fmt::format("{} index {}", quoted(data_file), block++);
-    const std::string title = curve.label.empty() ? "notitle" : "title " + quoted(curve.label);
+    const std::string data = fmt::format("{} index {}", gnuplot_literal(data_file), block++);
+    const std::string title = curve.label.empty() ? "notitle" : "title " + gnuplot_literal(curve.label);
     bool lines = figure.style != Figure::Style::kPoints;
     bool points = figure.style != Figure::Style::kLines;
     if (curve.look != Curve::Look::kAsFigure) {
@@ -237,28 +174,57 @@ set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'
   return script + "\n";
 }
 
+}  // namespace
+
+std::string figure_data(const Figure& figure) {
+  std::string text;
+  if (has_map(figure)) text += map_data(*figure.map);
+  for (const Curve& curve : figure.curves) {
+    if (!text.empty()) text += "\n\n";
+    text += curve_data(curve, figure.name);
+  }
+  return text;
+}
+
+std::string figure_script(const Figure& figure, PictureFormat format) {
+  // On paper this is one column and a half wide.
+  return plot_head(figure.name, {.font_size = 20}, format) + plot_commands(figure, figure.name + ".dat", 0);
+}
+
 std::filesystem::path draw(const Figure& figure, const std::filesystem::path& folder, PictureFormat format) {
-  return draw_files(figure.name, figure_data(figure), figure_script(figure, format), folder, format);
+  return draw_plot(folder, figure.name, figure_data(figure), figure_script(figure, format), format);
 }
 
-std::filesystem::path draw_files(const std::string& name, const std::string& data, const std::string& script,
-                                 const std::filesystem::path& folder, PictureFormat format) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw Failure(ExitCode::kFailed, fmt::format("{}: {}", folder.string(), error.message()));
-  write_or_fail(folder / (name + ".dat"), data);
-  write_or_fail(folder / (name + ".gp"), script);
-  const Captured gnuplot = run_captured({"gnuplot", name + ".gp"}, folder);
-  std::filesystem::path picture = folder / (name + "." + suffix_of(format));
-  if (gnuplot.exit_code == 127) {
-    throw Failure(ExitCode::kFailed,
-                  "gnuplot is not here: `apt install gnuplot-nox`; the data and the script are in " + folder.string());
+std::filesystem::path draw(const Sheet& sheet, const std::filesystem::path& folder) {
+  fail_if(make_folder(folder));
+  const int n = static_cast<int>(sheet.panels.size());
+  const int rows = (n + sheet.columns - 1) / sheet.columns;
+  std::string script =
+      plot_head(sheet.name, {sheet.columns * kPanelWidth, rows * kPanelHeight + kTitleHeight, 14, 1.6}) +
+      fmt::format("set multiplot layout {},{} title \"{}\" font ',17'\n", rows, sheet.columns, sheet.title);
+  std::string data;
+  std::size_t block = 0;
+  for (std::size_t i = 0; i < sheet.panels.size(); ++i) {
+    Figure panel = sheet.panels[i];
+    if (!panel.picture.empty()) {
+      const std::string copy = fmt::format("{}-{}.png", sheet.name, i + 1);
+      if (std::filesystem::absolute(panel.picture) != std::filesystem::absolute(folder / copy)) {
+        std::error_code error;
+        std::filesystem::copy_file(panel.picture, folder / copy, std::filesystem::copy_options::overwrite_existing,
+                                   error);
+        if (error) throw Failure(ExitCode::kFailed, fmt::format("{}: {}", panel.picture.string(), error.message()));
+      }
+      panel.picture = copy;
+    }
+    panel.commands.insert(panel.commands.begin(), "set key font ',11' spacing 1.0");  // panels are small
+    const std::string blocks = figure_data(panel);
+    if (!data.empty() && !blocks.empty()) data += "\n\n";
+    if (!blocks.empty()) data += fmt::format("# panel {}: {}\n{}", i + 1, panel.title, blocks);
+    script += kAfresh + plot_commands(panel, sheet.name + ".dat", block);
+    block += n_blocks(panel);
   }
-  if (gnuplot.exit_code != 0 || !std::filesystem::exists(picture)) {
-    throw Failure(ExitCode::kFailed, fmt::format("gnuplot did not draw {} (exit code {}): {}", picture.string(),
-                                                 gnuplot.exit_code, gnuplot.output));
-  }
-  return picture;
+  script += "unset multiplot\n";
+  return draw_plot(folder, sheet.name, data, script);
 }
 
-}  // namespace shaken::client
+}  // namespace shaken

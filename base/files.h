@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Whole files: written so that no crash leaves half of one, read, and the folders they lie in.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +9,7 @@
 
 #include "sim/core/result.h"
 
-namespace shaken::run {
+namespace shaken {
 
 /// Replaces `file` by `content` so that a reader, or a crash at any instant, sees the old file or the new, never a
 /// mixture: writes FILE.tmp, fsync, rename, fsync of the folder. Returns the reason if the disk refuses; the old file
@@ -29,4 +30,7 @@ std::filesystem::path temporary_for(const std::filesystem::path& file);
 /// The whole file, or why it cannot be read.
 Result<std::string> read_file(const std::filesystem::path& file);
 
-}  // namespace shaken::run
+/// Makes `folder` and those that lead to it, where they are missing.
+[[nodiscard]] std::optional<Error> make_folder(const std::filesystem::path& folder);
+
+}  // namespace shaken
