@@ -36,7 +36,7 @@ ALLOWED = {
     "client": ["proto", "base", "scene", "run/files", "sim/core", "sim/rod", "sim/scene.h"],
     # benches time whole simulations, and the kernels of an impulse by themselves
     # what observables cost is timed with the run's own measurements
-    "bench/analysis": ["bench", "base", "scene", "run", "analysis", "sim/core", "sim/rod", "sim/scene.h", "sim/snapshot.h",
+    "bench/analysis.cpp": ["bench", "base", "scene", "run", "analysis", "sim/core", "sim/rod", "sim/scene.h", "sim/snapshot.h",
                        "sim/world.h", "sim/simulation.h"],
     "bench": ["base", "scene", "run/files", "analysis", "sim/core", "sim/rod", "sim/motion", "sim/contact", "sim/scene.h",
               "sim/snapshot.h", "sim/world.h", "sim/balance.h", "sim/simulation.h", "sim/neighbors", "sim/effects/registry.h"],

@@ -50,19 +50,6 @@ set grid {}linetype 1 linecolor '#e2e2e2' linewidth 0.5
                      axes.empty() ? "" : axes + " ");
 }
 
-std::string panels_head(const std::string& name, std::size_t n_panels) {
-  const std::size_t columns = n_panels < 3 ? n_panels : (n_panels + 1) / 2;
-  const std::size_t rows = (n_panels + columns - 1) / columns;
-  const auto of_columns = [&](double share) { return share / static_cast<double>(columns); };
-  const auto of_rows = [&](double share) { return share / static_cast<double>(rows); };
-  return plot_head(name, {static_cast<int>(480 * columns), static_cast<int>(30 + 400 * rows)}) + plot_axes() +
-         fmt::format(
-             "set multiplot layout {},{} margins screen {:.4f},{:.4f},{:.4f},{:.4f} spacing screen {:.4f},{:.4f}\n",
-             rows, columns, of_columns(0.24), 1 - of_columns(0.06), of_rows(0.16), 1 - of_rows(0.12), of_columns(0.24),
-             of_rows(0.27)) +
-         "set logscale xy\nset format y '10^{%L}'\nset title offset 0,-0.5\nset ylabel offset 0.5,0\n";
-}
-
 std::string gnuplot_literal(const std::string& text) {
   std::string literal = "'";
   for (const char c : text) {
@@ -93,12 +80,6 @@ std::string curve_colour(std::size_t index, std::size_t count) {
     colour += fmt::format("{:02x}", static_cast<int>(std::lround(value)));
   }
   return colour;
-}
-
-const char* series_colour(std::size_t k) {
-  static constexpr std::array<const char*, 8> kBright{"#4477aa", "#ee6677", "#228833", "#aa3377",
-                                                      "#66ccee", "#ccbb44", "#bbbbbb", "#222222"};
-  return kBright[k % kBright.size()];
 }
 
 std::filesystem::path draw_plot(const std::filesystem::path& folder, const std::string& name, const std::string& data,

@@ -3,13 +3,63 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "base/failure.h"
+#include "base/files.h"
+#include "base/progress_line.h"
+#include "bench/bench.h"
+#include "scene/canonical.h"
 #include "scene/fields.h"
 #include "scene/load.h"
 
 namespace shaken::bench {
+namespace {
+
+/// Of one cached state: a line of text that names its owner and the checkpoint's state hash, then the checkpoint.
+std::string header_of(const std::string& key, std::uint64_t state_hash) {
+  return fmt::format("shaken steady state {} {:016x}\n", key, state_hash);
+}
+
+std::span<const std::byte> as_bytes_of(std::string_view text) {
+  return std::as_bytes(std::span(text.data(), text.size()));
+}
+
+/// The checkpoint in `file`, if it is whole and of this case.
+std::optional<std::vector<std::byte>> read_cached(const Case& wanted, const std::string& key,
+                                                  const std::filesystem::path& file) {
+  const Result<std::string> content = read_file(file);
+  if (!content) return std::nullopt;
+  const std::size_t line = content->find('\n');
+  if (line == std::string::npos) return std::nullopt;
+  const auto bytes = as_bytes_of(std::string_view(*content).substr(line + 1));
+  const Result<Simulation> simulation = Simulation::resume(wanted.system(), bytes);
+  if (!simulation || simulation->tick() != wanted.warm_up_ticks()) return std::nullopt;
+  if (content->substr(0, line + 1) != header_of(key, simulation->state_hash())) return std::nullopt;
+  return std::vector<std::byte>(bytes.begin(), bytes.end());
+}
+
+Simulation simulate(const Case& wanted) {
+  Result<Simulation> started = Simulation::start(wanted.system());
+  if (!started) throw Failure(ExitCode::kBadInput, wanted.label() + ": " + started.error().message);
+  Simulation simulation = std::move(started).value();
+  ProgressLine progress(fmt::format("steady state of {} (N = {}), {:.10g} s of it", wanted.label(),
+                                    wanted.system().n_rods, wanted.warm_up));
+  const Tick end = wanted.warm_up_ticks();
+  // short enough for progress to be shown, long enough to cost nothing
+  const Tick stride = std::max<Tick>(1, 200'000 / wanted.system().n_rods);
+  while (simulation.tick() < end) {
+    advance(simulation, std::min(stride, end - simulation.tick()));
+    progress.show(static_cast<double>(simulation.tick()) / static_cast<double>(end));
+  }
+  return simulation;
+}
+
+}  // namespace
 
 Tick Case::warm_up_ticks() const { return std::llround(warm_up / dt); }
 
@@ -25,20 +75,70 @@ std::pair<double, double> limits_of(std::string_view field) {
   return {scene::field_at(field).low, scene::field_at(field).high};
 }
 
-std::optional<Case> make_case(double length, double area_fraction, double side, double dt, double warm_up,
-                              OptionReader& options) {
+Case make_case(double length, double area_fraction, double side, double dt, double warm_up) {
   Case made{length, area_fraction, side, dt, warm_up, {}};
   const nlohmann::json scene{{"rods", {{"length", length}, {"area_fraction", area_fraction}}},
                              {"box", {{"side", side}}},
                              {"time", {{"step", dt}, {"steady", 0}, {"measure", warm_up}}},
                              {"measure", {{"order", nullptr}}}};
   const auto loaded = scene::load_scene(scene.dump(), "scene");
-  for (const scene::Problem& problem : loaded.problems) {
-    options.complain(fmt::format("{}: {}: {}", made.label(), problem.path, problem.message));
+  if (!loaded.value) {
+    std::string problems;
+    for (const scene::Problem& problem : loaded.problems) {
+      problems +=
+          fmt::format("{}{}: {}: {}", problems.empty() ? "" : "\n  ", made.label(), problem.path, problem.message);
+    }
+    throw Failure(ExitCode::kBadInput, problems);
   }
-  if (!loaded.value) return std::nullopt;
   made.plan = *loaded.value;
   return made;
+}
+
+void CaseOptions::declare(CLI::App& app) {
+  add_number(app, "--length", length, "MM", limits_of("rods.length"), "Rod length [mm]");
+  add_number(app, "--area-fraction", area_fraction, "PHI", limits_of("rods.area_fraction"), "Area fraction");
+  add_number(app, "--side", side, "MM", limits_of("box.side"), "Side of the box [mm]");
+  add_number(app, "--warm-up", warm_up, "S", kWarmUps, "Simulated seconds before anything is measured");
+}
+
+void Cache::declare(CLI::App& app) {
+  add_path(app, "--cache", folder, "DIR", "Where steady states are kept; $XDG_CACHE_HOME/shaken/bench");
+}
+
+std::filesystem::path default_cache() {
+  if (const char* base = std::getenv("XDG_CACHE_HOME"); base != nullptr && *base != '\0') {
+    return std::filesystem::path(base) / "shaken" / "bench";
+  }
+  const char* home = std::getenv("HOME");
+  return std::filesystem::path(home != nullptr ? home : ".") / ".cache" / "shaken" / "bench";
+}
+
+SteadyState steady_state(const Case& wanted, const std::filesystem::path& cache) {
+  const std::string key = scene::run_id(wanted.plan);
+  const std::filesystem::path file = cache / (key + ".state");
+  if (auto cached = read_cached(wanted, key, file)) return {std::move(*cached), true};
+
+  fail_if(make_folder(cache));
+  const Simulation simulation = simulate(wanted);
+  SteadyState made{simulation.checkpoint(), false};
+  std::string content = header_of(key, simulation.state_hash());
+  content.append(reinterpret_cast<const char*>(made.checkpoint.data()), made.checkpoint.size());
+  fail_if(write_file_atomically(file, content));
+  return made;
+}
+
+Simulation resumed(const Case& of, const SteadyState& state, Engine engine) {
+  Scene scene = of.system();
+  scene.engine = engine;
+  Result<Simulation> simulation = Simulation::resume(scene, state.checkpoint);
+  if (!simulation) throw Failure(ExitCode::kFailed, of.label() + ": " + simulation.error().message);
+  return std::move(simulation).value();
+}
+
+void advance(Simulation& simulation, Tick ticks) {
+  if (const auto trouble = simulation.advance_to(simulation.tick() + ticks)) {
+    throw Failure(ExitCode::kFailed, fmt::format("numerical trouble at tick {}: {}", trouble->tick, trouble->what));
+  }
 }
 
 }  // namespace shaken::bench

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
+#include <cstddef>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
-#include "bench/options.h"
 #include "scene/run_plan.h"
+#include "sim/simulation.h"
+
+namespace CLI {
+class App;
+}  // namespace CLI
 
 namespace shaken::bench {
 
@@ -31,11 +37,50 @@ struct Case {
   std::string label() const;
 };
 
+inline constexpr double kPaperStep = 4e-6;                       ///< [s]
+inline constexpr std::pair<double, double> kWarmUps{1e-3, 1e4};  ///< that may be asked for [s]
+
 /// The values that a scene's field may have, in its default unit.
 std::pair<double, double> limits_of(std::string_view field);
 
-/// Fills in the plan. Whatever is wrong goes to `options`; then there is no case.
-std::optional<Case> make_case(double length, double area_fraction, double side, double dt, double warm_up,
-                              OptionReader& options);
+/// Fills in the plan. Throws Failure with all that is wrong with the scene.
+Case make_case(double length, double area_fraction, double side, double dt, double warm_up);
+
+/// A case after its warm-up.
+struct SteadyState {
+  std::vector<std::byte> checkpoint;
+  bool was_cached = false;  ///< read from the cache, not simulated now
+};
+
+/// $XDG_CACHE_HOME/shaken/bench, or ~/.cache/shaken/bench.
+std::filesystem::path default_cache();
+
+/// The state of `wanted` after its warm-up: from `cache`, or simulated now and kept there. A file's name and content
+/// bear the hash of all that the state depends on, so that a damaged one, or one of another scene, is made anew.
+SteadyState steady_state(const Case& wanted, const std::filesystem::path& cache);
+
+/// A simulation that goes on from a steady state by either engine.
+Simulation resumed(const Case& of, const SteadyState& state, Engine engine);
+
+/// Steps on by `ticks`. Throws Failure on numerical trouble.
+void advance(Simulation& simulation, Tick ticks);
+
+/// Where a bench keeps steady states.
+struct Cache {
+  std::string folder = default_cache().string();
+  void declare(CLI::App& app);
+  SteadyState operator()(const Case& wanted) const { return steady_state(wanted, folder); }
+};
+
+/// The options of a bench that choose one case.
+struct CaseOptions {
+  double side;  ///< [mm]
+  double warm_up = 0.5;
+  double length = 4.5;
+  double area_fraction = 0.75;
+
+  void declare(CLI::App& app);
+  Case read() const { return make_case(length, area_fraction, side, kPaperStep, warm_up); }
+};
 
 }  // namespace shaken::bench

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 
-#include "bench/commands.h"
-#include "bench/options.h"
-#include "bench/picture.h"
-#include "bench/steady_state.h"
+#include "base/plot.h"
+#include "bench/bench.h"
+#include "bench/case.h"
 #include "sim/contact/bead_safe_time.h"
 #include "sim/contact/hull_safe_time.h"
 #include "sim/neighbors/neighbor_list.h"
@@ -18,17 +15,12 @@
 namespace shaken::bench {
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kLooksFooter =
     R"(Follows pairs of neighbouring rods through a real state, takes the one that collides after the longest approach,
 and draws its gap, the ticks at which its bounds make it be looked at, and the hits that renew them.
 
 Example:
   shaken bench looks --out looks        looks/looks.png, .dat and .gp)";
-
-struct Words {
-  std::string fraction = "0.75", side = "20", warm_up = "0.5", window = "0.008";
-  std::string cache, out;
-};
 
 /// A pair of rods as it is at some ticks, one after the other.
 struct Course {
@@ -103,61 +95,36 @@ std::size_t approach(const Course& course) {
   return static_cast<std::size_t>(contact - widest);
 }
 
-ExitCode run(const Words& words) {
-  OptionReader options;
-  const auto value = [&](const char* option, const std::string& word, const char* field) {
-    const auto& [low, high] = limits_of(field);
-    return options.number(option, word, low, high);
-  };
-  const double fraction = value("--area-fraction", words.fraction, "rods.area_fraction");
-  const double side = value("--side", words.side, "box.side");
-  const double warm_up = options.number("--warm-up", words.warm_up, 1e-3, 1e4);
-  const double window = options.number("--window", words.window, 1e-4, 0.1);
-  if (words.out.empty()) options.complain("--out: a folder for the picture is needed");
-  options.finish();
-  const auto wanted = make_case(Scene{}.rod.length, fraction, side, Scene{}.dt, warm_up, options);
-  options.finish();
-
-  const std::filesystem::path cache = words.cache.empty() ? default_cache() : std::filesystem::path(words.cache);
-  Simulation simulation = resumed(*wanted, steady_state(*wanted, cache), Engine::kScheduled);
-  Snapshot now = simulation.snapshot();
+/// Pairs of rods that are near each other now.
+std::vector<Course> near_pairs(const Simulation& simulation, const Snapshot& now) {
+  const World& world = simulation.world();
   std::vector<Course> courses;
   for (int i = 0; i < static_cast<int>(now.n_rods()); ++i) {
     for (int j = i + 1; j < static_cast<int>(now.n_rods()); ++j) {
-      const Vec3 D = nearest_image(now.position[i], now.position[j], simulation.world().scene.box_side);
-      if (nearest_beads(simulation.world().species[0], now.director[i], now.director[j], D) < 0.3)
+      const Vec3 D = nearest_image(now.position[i], now.position[j], world.scene.box_side);
+      if (nearest_beads(world.species[0], now.director[i], now.director[j], D) < 0.3)
         courses.push_back({{i, j}, {}, {}, {}});
     }
   }
   if (courses.empty())
     throw Failure(ExitCode::kFailed, "no two rods are near each other: take a larger --area-fraction");
-  const auto ticks = static_cast<Tick>(window / wanted->dt);
-  for (Tick k = 0; k < ticks; ++k) {
-    follow(simulation, now, static_cast<float>(window), courses);
-    advance(simulation, 1);
-    now = simulation.snapshot();
-  }
+  return courses;
+}
 
-  const Course& best = *std::max_element(courses.begin(), courses.end(),
-                                         [](const Course& a, const Course& b) { return approach(a) < approach(b); });
-  const std::vector<std::size_t> at = looks(best, wanted->dt);
-  const auto n_hits = std::count(best.was_hit.begin(), best.was_hit.end(), 1);
+void draw_looks(const std::filesystem::path& folder, const Course& course, const std::vector<std::size_t>& at,
+                double dt, double window) {
+  const auto ms = [&](std::size_t k) { return 1e3 * static_cast<double>(k) * dt; };
   std::string data;
-  for (std::size_t k = 0; k < best.gap.size(); ++k) {
-    const double ms = 1e3 * static_cast<double>(k) * wanted->dt;
-    data += fmt::format("{:.6f} {:.5f}\n", ms, 1e3 * best.gap[k]);
-  }
+  for (std::size_t k = 0; k < course.gap.size(); ++k)
+    data += fmt::format("{:.6f} {:.5f}\n", ms(k), 1e3 * course.gap[k]);
   data += "\n\n";
   for (const std::size_t k : at) {
-    const double ms = 1e3 * static_cast<double>(k) * wanted->dt;
-    const double safe = std::min(1e3 * static_cast<double>(best.bounds[k].steady), 1e3 * window - ms);
-    data += fmt::format("{:.6f} {:.5f} {:.6f} {}\n", ms, 1e3 * best.gap[k], safe, best.was_hit[k]);
+    const double safe = std::min(1e3 * static_cast<double>(course.bounds[k].steady), 1e3 * window - ms(k));
+    data += fmt::format("{:.6f} {:.5f} {:.6f} {}\n", ms(k), 1e3 * course.gap[k], safe, course.was_hit[k]);
   }
-  make_folder(words.out);
-  draw(words.out, "looks", data,
-       gnuplot_prologue("looks", 1000, 520) +
-           fmt::format(
-               R"gp(set title "One pair of rods for {:g} ms: {} ticks, {} looks ({} hits on its rods, by plates mostly)"
+  const auto n_hits = std::count(course.was_hit.begin(), course.was_hit.end(), 1);
+  const std::string script = fmt::format(
+      R"gp(set title "One pair of rods for {:g} ms: {} ticks, {} looks ({} hits on its rods, by plates mostly)"
 set xlabel "time [ms]"
 set ylabel "gap between the nearest beads [um]"
 set key bottom left
@@ -168,28 +135,48 @@ plot "looks.dat" index 0 using 1:2 with lines lw 2 lc rgb "#4477aa" title "gap",
      "looks.dat" index 1 using 1:($4==1?$2:1/0) with points pt 7 ps 0.7 lc rgb "#bbbbbb" title "a rod was hit: new bound", \
      "looks.dat" index 1 using 1:($4==0?$2:1/0) with points pt 7 ps 0.9 lc rgb "#ee6677" title "bound ran out: look"
 )gp",
-               1e3 * window, best.gap.size(), at.size(), n_hits, 1e3 * window));
-  fmt::print("{} ticks, {} looks, {} of them because a rod was hit: {}\n", best.gap.size(), at.size(), n_hits,
-             (std::filesystem::path(words.out) / "looks.png").string());
-  return ExitCode::kOk;
+      1e3 * window, course.gap.size(), at.size(), n_hits, 1e3 * window);
+  const auto picture = draw_plot(folder, "looks", data, plot_head("looks", {1000, 520}) + plot_axes("y") + script);
+  fmt::print("{} ticks, {} looks, {} of them because a rod was hit: {}\n", course.gap.size(), at.size(), n_hits,
+             picture.string());
 }
+
+struct LooksBench {
+  CaseOptions scene{.side = 20};
+  double window = 0.008;
+  Cache cache;
+  std::string out;
+
+  void declare(CLI::App& app) {
+    scene.declare(app);
+    add_number(app, "--window", window, "S", {1e-4, 0.1}, "Time that is drawn");
+    cache.declare(app);
+    add_path(app, "-o,--out", out, "DIR", "Where the picture goes")->required();
+  }
+
+  ExitCode run() const {
+    const Case wanted = scene.read();
+    Simulation simulation = resumed(wanted, cache(wanted), Engine::kScheduled);
+    Snapshot now = simulation.snapshot();
+    std::vector<Course> courses = near_pairs(simulation, now);
+    const auto ticks = static_cast<Tick>(window / wanted.dt);
+    for (Tick k = 0; k < ticks; ++k) {
+      follow(simulation, now, static_cast<float>(window), courses);
+      advance(simulation, 1);
+      now = simulation.snapshot();
+    }
+    const Course& best = *std::max_element(courses.begin(), courses.end(),
+                                           [](const Course& a, const Course& b) { return approach(a) < approach(b); });
+    draw_looks(out, best, looks(best, wanted.dt), wanted.dt, window);
+    return ExitCode::kOk;
+  }
+};
 
 }  // namespace
 
 void add_looks(CLI::App& app, Work& work) {
-  const auto words = std::make_shared<Words>();
-  CLI::App* app_looks = app.add_subcommand("looks", "A picture of how seldom the scheduled stepper looks at a pair");
-  app_looks->footer(kFooter);
-  const auto option = [&](const char* name, std::string& word, const char* type, const char* help) {
-    app_looks->add_option(name, word, help)->type_name(type)->capture_default_str();
-  };
-  option("--area-fraction", words->fraction, "PHI", "Area fraction");
-  option("--side", words->side, "MM", "Side of the box");
-  option("--warm-up", words->warm_up, "S", "Simulated seconds before the state");
-  option("--window", words->window, "S", "Time that is drawn");
-  option("--cache", words->cache, "DIR", "Where steady states are kept; $XDG_CACHE_HOME/shaken/bench");
-  option("-o,--out", words->out, "DIR", "Where the picture goes (required)");
-  app_looks->callback([words, &work] { work = [words] { return run(*words); }; });
+  add_bench<LooksBench>(app, work, "looks", "A picture of how seldom the scheduled stepper looks at a pair",
+                        kLooksFooter);
 }
 
 }  // namespace shaken::bench

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-
-#include "base/failure.h"
-#include "bench/commands.h"
+#include "bench/bench.h"
 #include "run/files/version.h"
 #include "scene/nearest.h"
 

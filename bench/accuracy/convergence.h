@@ -5,12 +5,23 @@
 #include <optional>
 #include <vector>
 
-#include "bench/accuracy/errors.h"
-#include "bench/accuracy/order_fit.h"
-#include "bench/accuracy/quartiles.h"
+#include "bench/accuracy/fits.h"
 #include "bench/accuracy/start_case.h"
+#include "bench/report.h"
+#include "sim/world.h"
 
 namespace shaken::bench {
+
+enum class Norm { kPosition, kDirector, kEnergy };
+inline constexpr int kNorms = 3;
+inline constexpr std::array<const char*, kNorms> kNormNames{"position", "director", "energy"};
+inline constexpr std::array<const char*, kNorms> kNormUnits{"mm", "rad", "1"};
+
+/// How far two states of the same rods at the same time are apart, by Norm: root mean square over the rods of the
+/// distance of their unwrapped centres [mm] and of the angle between their directors [rad]; difference of the kinetic
+/// energies over that of `truth`.
+using Errors = std::array<double, kNorms>;
+Errors errors_between(const World& state, const World& truth);
 
 /// How to measure convergence.
 struct ConvergenceEffort {
@@ -42,10 +53,10 @@ struct Convergence {
   std::optional<std::array<Quartiles, kNorms>> from_first;
   std::vector<StepErrors> steps;                       ///< rising dt
   std::array<std::optional<OrderFit>, kNorms> orders;  ///< of the median
-
-  double simulated() const { return start->duration; }
 };
 
 Convergence measure_convergence(const StartCase& start, const Variant& variant, const ConvergenceEffort& effort);
+
+Report convergence_report(const std::vector<Convergence>& measured);
 
 }  // namespace shaken::bench

@@ -7,6 +7,7 @@
 
 #include "analysis/blocked.h"
 #include "analysis/tilt.h"
+#include "bench/accuracy/fits.h"
 #include "sim/simulation.h"
 
 namespace shaken::bench {
@@ -41,12 +42,6 @@ inline constexpr std::array<ObservableInfo, kObservables> kObservableInfo{{{"T_x
                                                                            {"hit", "1", true},
                                                                            {"rod_impulses", "1/s", false},
                                                                            {"plate_impulses", "1/s", false}}};
-
-/// A mean over time and its statistical error.
-struct Mean {
-  double value = 0;
-  double sem = 0;
-};
 
 /// Samples of one run, taken every kEvery.
 class ObservableSeries {

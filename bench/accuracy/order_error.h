@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <vector>
 
-#include "bench/accuracy/bias.h"
-#include "bench/accuracy/order_fit.h"
+#include "bench/accuracy/fits.h"
 #include "bench/case.h"
+#include "bench/report.h"
 
 namespace shaken::bench {
 
@@ -46,7 +45,7 @@ struct OrderError {
 /// `series`: S(t) of each replica at equal intervals of `every` [s].
 OrderError reduce_order(const Case& scene, const std::vector<std::vector<double>>& series, double every);
 
-OrderError measure_order_error(const Case& scene, double measure, int replicas, const std::filesystem::path& cache);
+OrderError measure_order_error(const Case& scene, double measure, int replicas, const Cache& cache);
 
 /// What was measured in small boxes, continued to a large one by power laws of the side.
 struct Extrapolation {
@@ -61,5 +60,7 @@ struct Extrapolation {
 
 /// None from fewer than kLeast boxes, or where a power law does not hold.
 std::optional<Extrapolation> extrapolate(const std::vector<OrderError>& measured, const Case& large);
+
+Report order_error_report(const std::vector<OrderError>& measured, const std::optional<Extrapolation>& large);
 
 }  // namespace shaken::bench

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/failure.h"
-#include "bench/steady_state.h"
+#include "bench/case.h"
 #include "sim/core/rng.h"
 
 namespace shaken::bench {
@@ -143,6 +143,16 @@ StartCase hundred() {
 }
 
 }  // namespace
+
+const std::vector<Variant>& variants() {
+  static const std::vector<Variant> all{
+      {"newton", [](Scene& scene) { scene.law = ImpulseLaw::kNewton; }},
+      {"instant", [](Scene& scene) { scene.impacts = ImpactTime::kAtInstant; }},
+      {"poisson", [](Scene& scene) { scene.law = ImpulseLaw::kPoisson; }},
+      {"energetic", [](Scene& scene) { scene.law = ImpulseLaw::kEnergetic; }},
+  };
+  return all;
+}
 
 const std::vector<StartCase>& start_cases() {
   static const std::vector<StartCase> all{rattling(), wedged(), head_on(), glancing(), crossing(), dozen(), hundred()};

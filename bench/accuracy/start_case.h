@@ -5,12 +5,20 @@
 #include <string>
 #include <vector>
 
-#include "bench/accuracy/variant.h"
 #include "sim/motion/flight.h"
 #include "sim/scene.h"
 #include "sim/simulation.h"
 
 namespace shaken::bench {
+
+/// One way to treat impacts whose accuracy is measured.
+struct Variant {
+  const char* name;
+  void (*apply)(Scene& scene);  ///< sets what the variant is about, and nothing else
+};
+
+/// All of them; the first is the default of a scene.
+const std::vector<Variant>& variants();
 
 /// A start whose future is followed for a time short enough not to be chaos. Its members differ a little, so that their
 /// impacts fall anywhere within a tick.

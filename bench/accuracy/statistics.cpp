@@ -12,7 +12,6 @@
 #include "analysis/parts.h"
 #include "base/clock.h"
 #include "base/progress_line.h"
-#include "bench/steady_state.h"
 #include "sim/rod/species.h"
 
 namespace shaken::bench {
@@ -43,10 +42,10 @@ struct Replica {
   double cpu = 0;
 };
 
-Replica run(const StatisticsTask& task, double value, int replica, const std::filesystem::path& cache,
-            ObservableSeries& series, double& max_overlap) {
+Replica run(const StatisticsTask& task, double value, int replica, const Cache& cache, ObservableSeries& series,
+            double& max_overlap) {
   const Case start = start_of(task, value, replica);
-  const SteadyState state = steady_state(start, cache);
+  const SteadyState state = cache(start);
   Simulation simulation = continued(resumed(start, state, Engine::kScheduled), scene_of(task, start, value));
   const double dt = simulation.world().scene.dt;
   ProgressLine progress(fmt::format("{}, {} {:.10g}, seed {}", start.label(), kKnobNames[static_cast<int>(task.knob)],
@@ -83,7 +82,7 @@ Simulation continued(const Simulation& from, const Scene& scene) {
   return Simulation::start_from(std::move(world));
 }
 
-Statistics measure_statistics(const StatisticsTask& task, const std::filesystem::path& cache) {
+Statistics measure_statistics(const StatisticsTask& task, const Cache& cache) {
   Statistics statistics{task, {}, {}};
   for (const double value : task.values) {
     StatisticsPoint point;
@@ -126,6 +125,130 @@ Statistics measure_statistics(const StatisticsTask& task, const std::filesystem:
     if (!statistics.limits[o]) statistics.points.front().biases[o] = {0, 0};
   }
   return statistics;
+}
+
+namespace {
+
+const char* knob_of(const Statistics& of) { return kKnobNames[static_cast<std::size_t>(of.task.knob)]; }
+const char* unit_of(const Statistics& of) { return kKnobUnits[static_cast<std::size_t>(of.task.knob)]; }
+
+const char* verdict_text(Verdict verdict) {
+  return verdict == Verdict::kBelow ? "below" : verdict == Verdict::kAbove ? "above" : "open";
+}
+
+Json mean_json(const Mean& mean) { return {{"value", mean.value}, {"sem", mean.sem}}; }
+
+Json point_row(const Statistics& of, const StatisticsPoint& point) {
+  Json row{{"length_mm", of.task.scene.length},
+           {"area_fraction", of.task.scene.area_fraction},
+           {"side_mm", of.task.scene.side},
+           {"n_rods", of.task.scene.system().n_rods},
+           {"variant", of.task.variant->name},
+           {"knob", knob_of(of)},
+           {"value", point.value},
+           {"simulated_s", of.task.replicas * of.task.measure},
+           {"cpu_s_per_rod_s", point.cpu_per_rod_second},
+           {"max_overlap_mm", point.max_overlap}};
+  for (int o = 0; o < kObservables; ++o) {
+    Json& observable = row[kObservableInfo[o].name] = mean_json(point.means[o]);
+    observable["bias"] = point.biases[o].value;
+    observable["bias_error"] = point.biases[o].sem;
+    observable["verdict"] = verdict_text(judge(point.biases[o], kBound));
+  }
+  return row;
+}
+
+std::string heading_of(const Statistics& of) {
+  return fmt::format("\n{}, N = {}, {}: {}; {} x {:.10g} s of each, after {:.10g} s\n", of.task.scene.label(),
+                     of.task.scene.system().n_rods, of.task.variant->name, knob_of(of), of.task.replicas,
+                     of.task.measure, of.task.settle);
+}
+
+/// "T_xy: 8 us (16 us: open)" for every observable with a limit.
+std::string steps_below_text(const Statistics& of) {
+  std::string text;
+  for (int o = 0; o < kObservables; ++o) {
+    if (!of.limits[o]) continue;
+    std::vector<Mean> biases;
+    for (const StatisticsPoint& point : of.points) biases.push_back(point.biases[o]);
+    const auto last = last_below(biases, kBound);
+    const std::size_t next = last ? *last + 1 : 0;
+    std::string found = last ? fmt::format("{:.10g} us", of.points[*last].value) : "none";
+    if (next < biases.size()) {
+      found += fmt::format(" ({:.10g} us: {})", of.points[next].value, verdict_text(judge(biases[next], kBound)));
+    }
+    text += fmt::format("  {}: {}\n", kObservableInfo[o].name, found);
+  }
+  return text;
+}
+
+/// The means of every value of the knob, and their biases.
+std::string statistics_text(const Statistics& of, Json rows) {
+  std::vector<Column> means{{fmt::format("{} {}", knob_of(of), unit_of(of)), "value", "{:.10g}"}};
+  std::vector<Column> biases = means;
+  means.push_back({"CPU-s/rod-s", "cpu_s_per_rod_s", "{:.3g}"});
+  means.push_back({"overlap um", "max_overlap_mm", "{:.2f}", 1e3});
+  for (const ObservableInfo& info : kObservableInfo) {
+    const std::string name = info.name;
+    means.push_back({fmt::format("{} {}", name, info.unit), name + "/value", "{:.4g} +- {:.1g}", 1, name + "/sem"});
+    biases.push_back({name, name + "/bias", "{:.2f} +- {:.2f}", 100, name + "/bias_error"});
+  }
+  std::string text = heading_of(of) + table(rows, means);
+  if (of.task.knob != Knob::kStep) return text + "Difference from the first row in %:\n" + table(rows, biases);
+  Json quality{{"value", "chi2/f"}};
+  for (int o = 0; o < kObservables; ++o) {
+    const auto& limit = of.limits[o];
+    if (!limit || limit->freedom == 0) continue;
+    quality[kObservableInfo[o].name]["bias"] = fmt::format("{:.1f}", limit->chi_squared / limit->freedom);
+  }
+  rows.push_back(std::move(quality));
+  text += fmt::format(
+      "Bias in % of the limit dt -> 0, a line through the steps up to {:g} us (chi2 per degree of freedom below); of "
+      "impulses, in % of the first row:\n",
+      of.limit_step());
+  text += table(rows, biases);
+  return text +
+         fmt::format(
+             "Largest step up to which the bias is below {:g} % with two standard errors to spare (and the "
+             "next step):\n",
+             100 * kBound) +
+         steps_below_text(of);
+}
+
+}  // namespace
+
+Report statistics_report(const std::vector<Statistics>& measured) {
+  Report report("statistical", "accuracy statistical");
+  report.json["limits"] = Json::array();
+  report.json["tilt"] = Json::array();
+  for (const Statistics& of : measured) {
+    Json rows = Json::array();
+    const Json series{{"length_mm", of.task.scene.length}, {"variant", of.task.variant->name}};
+    for (const StatisticsPoint& point : of.points) {
+      rows.push_back(point_row(of, point));
+      Json tilt = series;
+      tilt.update({{"knob", knob_of(of)},
+                   {"value", point.value},
+                   {"n_z", point.tilt.n_z},
+                   {"v_along", point.tilt.v_along},
+                   {"v_along_sem", point.tilt.v_along_sem}});
+      report.json["tilt"].push_back(std::move(tilt));
+    }
+    for (int o = 0; o < kObservables; ++o) {
+      if (!of.limits[o]) continue;
+      Json limit = series;
+      limit.update({{"observable", kObservableInfo[o].name},
+                    {"unit", kObservableInfo[o].unit},
+                    {"limit", mean_json(of.limits[o]->at_zero)},
+                    {"slope_per_us", mean_json(of.limits[o]->slope)},
+                    {"chi_squared", of.limits[o]->chi_squared},
+                    {"freedom", of.limits[o]->freedom}});
+      report.json["limits"].push_back(std::move(limit));
+    }
+    report.text += statistics_text(of, rows);
+    report.json["rows"].insert(report.json["rows"].end(), rows.begin(), rows.end());
+  }
+  return report;
 }
 
 }  // namespace shaken::bench

@@ -2,16 +2,16 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "analysis/tilt.h"
-#include "bench/accuracy/bias.h"
+#include "bench/accuracy/fits.h"
 #include "bench/accuracy/observables.h"
-#include "bench/accuracy/variant.h"
+#include "bench/accuracy/start_case.h"
 #include "bench/case.h"
+#include "bench/report.h"
 
 namespace shaken::bench {
 
@@ -41,13 +41,16 @@ struct StatisticsPoint {
   analysis::TiltCurve tilt;
 };
 
+/// A straight line is believed up to so many times the finest step.
+inline constexpr double kLinear = 8;
+
 struct Statistics {
   StatisticsTask task;
   std::vector<StatisticsPoint> points;
   /// Steps: the limit dt -> 0 of those up to limit_step(). None for other knobs: their limit is the first value.
   std::array<std::optional<Limit>, kObservables> limits;
   /// Where a straight line is believed [us].
-  double limit_step() const { return 8 * task.values.front(); }
+  double limit_step() const { return kLinear * task.values.front(); }
 };
 
 /// Where the bias of an observable is settled.
@@ -55,7 +58,8 @@ inline constexpr double kBound = 0.01;
 
 /// Every value and replica in turn, each from the steady state of the scene with its seed, which comes from `cache`;
 /// with another bead pitch from a steady state of its own.
-Statistics measure_statistics(const StatisticsTask& task, const std::filesystem::path& cache);
+Statistics measure_statistics(const StatisticsTask& task, const Cache& cache);
+Report statistics_report(const std::vector<Statistics>& measured);
 
 /// A simulation at step `dt` that goes on from where `from` is, to the nearest tick.
 Simulation continued(const Simulation& from, const Scene& scene);

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "bench/hard/made_cases.h"
-
 #include <fmt/format.h>
 
 #include <cmath>
 #include <limits>
 
+#include "bench/hard/hard.h"
 #include "sim/balance.h"
 #include "sim/simulation.h"
 
@@ -39,9 +38,7 @@ Simulation simulation_of(Scene scene, const std::vector<Flight>& rods) {
 }
 
 /// Lets rods meet by every law, with little and with much friction, on both engines.
-HardCase meeting(const std::string& name, const std::string& what, const Scene& scene, const std::vector<Flight>& rods,
-                 Tick ticks, bool in_the_air = true) {
-  HardCase result{name, what, {}};
+std::vector<Outcome> meeting(const Scene& scene, const std::vector<Flight>& rods, Tick ticks, bool in_the_air = true) {
   double overlap = 0, growth = 0, ledger = 0, momentum = 0, fewest = std::numeric_limits<double>::infinity();
   int n_trouble = 0, n_different = 0;
   for (const ImpulseLaw law : {ImpulseLaw::kNewton, ImpulseLaw::kPoisson, ImpulseLaw::kEnergetic}) {
@@ -80,123 +77,82 @@ HardCase meeting(const std::string& name, const std::string& what, const Scene& 
       }
     }
   }
-  result.outcomes = {{"runs that meet trouble", static_cast<double>(n_trouble), 0},
-                     {"runs in which the engines differ", static_cast<double>(n_different), 0},
-                     {"impulses in a run", fewest, 1, true},
-                     {"overlap / end bead's radius", overlap, 0.1},
-                     {"energy made / energy", growth, in_the_air ? kRounding : kRest},
-                     {"energy unaccounted for / turnover", ledger, kRounding}};
+  std::vector<Outcome> outcomes{{"runs that meet trouble", static_cast<double>(n_trouble), 0},
+                                {"runs in which the engines differ", static_cast<double>(n_different), 0},
+                                {"impulses in a run", fewest, 1, true},
+                                {"overlap / end bead's radius", overlap, 0.1},
+                                {"energy made / energy", growth, in_the_air ? kRounding : kRest},
+                                {"energy unaccounted for / turnover", ledger, kRounding}};
   if (in_the_air) {
-    result.outcomes.push_back({"change of momentum in the plane / that of a rod at 100 mm/s", momentum, kRounding});
+    outcomes.push_back({"change of momentum in the plane / that of a rod at 100 mm/s", momentum, kRounding});
   }
-  return result;
+  return outcomes;
 }
 
 const Vec3 kX = Vec3::UnitX(), kY = Vec3::UnitY(), kZ = Vec3::UnitZ();
-const Vec3 kMiddle(15, 15, 5);
+const Vec3 kMiddle(15, 15, 5), kNone = Vec3::Zero();
 
-HardCase parallel() {
-  return meeting("parallel", "two equal cylinders side by side, exactly parallel: all beads meet at once",
-                 quiet_scene(0.8),
-                 {flight_of(kMiddle - 0.5 * kY, kX, 50 * kY), flight_of(kMiddle + 0.5 * kY, kX, -50 * kY)}, 2000);
-}
-HardCase collinear() {
-  return meeting("collinear", "two rods in one line, end to end", quiet_scene(0.4),
-                 {flight_of(kMiddle - 1.3 * kX, kX, 50 * kX), flight_of(kMiddle + 1.3 * kX, kX, -50 * kX)}, 2000);
-}
-HardCase crossed() {
-  return meeting("crossing", "two rods crossing at right angles, exactly centre on centre", quiet_scene(0.4),
-                 {flight_of(kMiddle - 0.5 * kZ, kX, 50 * kZ), flight_of(kMiddle + 0.5 * kZ, kY, -50 * kZ)}, 2000);
-}
-HardCase simultaneous() {
-  return meeting("simultaneous", "a rod hit from both sides at the same instant", quiet_scene(0.4),
-                 {flight_of(kMiddle, kX, Vec3::Zero()), flight_of(kMiddle - 0.9 * kY, kX, 50 * kY),
-                  flight_of(kMiddle + 0.9 * kY, kX, -50 * kY)},
-                 4000);
-}
-HardCase row() {
+/// A row of ten rods in touch, hit at its end.
+std::vector<Flight> row() {
   std::vector<Flight> rods;
   rods.reserve(10);
   for (int i = 0; i < 10; ++i) rods.push_back(flight_of(Vec3(15, 8 + 0.8 * i + 1e-3 * (i > 0), 5), kX, Vec3::Zero()));
   rods.front().velocity = 50 * kY;
-  return meeting("row", "a row of ten rods in touch, hit at its end", quiet_scene(0.4), rods, 4000);
+  return rods;
 }
-HardCase half_rod_flat() {
+
+/// Tilted by the taper, above the base.
+std::vector<Outcome> half_rod_flat() {
   const Scene scene = quiet_scene(0.4);
   const double taper = make_species(scene.rod).taper();
   const Vec3 director(std::sqrt(1 - taper * taper), 0, taper);
-  return meeting("half-rod-flat", "tilted by the taper: one half of the rod falls flat on the base", scene,
-                 {flight_of(Vec3(15, 15, 0.5), director, -50 * kZ)}, 3000, false);
-}
-HardCase upright() {
-  return meeting("upright", "rods exactly upright, falling on the base, side by side", quiet_scene(0.4),
-                 {flight_of(Vec3(15, 15, 1.3), kZ, -50 * kZ), flight_of(Vec3(15.81, 15, 1.3), kZ, Vec3(-20, 0, -50))},
-                 4000, false);
+  return meeting(scene, {flight_of(Vec3(15, 15, 0.5), director, -50 * kZ)}, 3000, false);
 }
 
 /// A run that must end at once, with words.
-HardCase ends(const std::string& name, const std::string& what, Simulation simulation, Tick within) {
+std::vector<Outcome> ends(Simulation simulation, Tick within) {
   const auto trouble = simulation.advance_to(within);
-  HardCase result{name, what, {}};
-  result.outcomes.push_back({fmt::format("ends within {} ticks with a clear word", within),
-                             trouble && !trouble->what.empty() ? 1.0 : 0.0, 1, true,
-                             trouble ? fmt::format("tick {}: {}", trouble->tick, trouble->what) : "went on"});
+  std::vector<Outcome> outcomes;
+  outcomes.push_back({fmt::format("ends within {} ticks with a clear word", within),
+                      trouble && !trouble->what.empty() ? 1.0 : 0.0, 1, true,
+                      trouble ? fmt::format("tick {}: {}", trouble->tick, trouble->what) : "went on"});
   bool finite = true;
   for (const Flight& flight : simulation.world().rods) {
     finite = finite && flight.position.allFinite() && flight.velocity.allFinite() && flight.director.allFinite();
   }
-  result.outcomes.push_back({"rods whose state is not a number", finite ? 0.0 : 1.0, 0});
-  return result;
+  outcomes.push_back({"rods whose state is not a number", finite ? 0.0 : 1.0, 0});
+  return outcomes;
 }
 
-HardCase coincident() {
-  return ends("coincident", "two rods in the same place",
-              simulation_of(quiet_scene(0.4), {flight_of(kMiddle, kX, 10 * kY), flight_of(kMiddle, kX, -10 * kY)}), 1);
-}
-HardCase overlapping() {
-  return ends("overlapping", "a start with rods half inside each other",
-              simulation_of(quiet_scene(0.4),
-                            {flight_of(kMiddle, kX, Vec3::Zero()), flight_of(kMiddle + 0.4 * kY, kX, Vec3::Zero())}),
-              1);
-}
-HardCase through_the_base() {
-  return ends("through-base", "a start with a rod in the base",
-              simulation_of(quiet_scene(0.4), {flight_of(Vec3(15, 15, 0.1), kX, Vec3::Zero())}), 1);
-}
-HardCase blow_up() {
+/// So many rods of 2.5 mm in a small box, shaken.
+Scene small_scene(int n_rods) {
   Scene scene;
   scene.rod = {.length = 2.5, .n_beads = 9};
   scene.box_side = 12;
-  scene.n_rods = 84;
+  scene.n_rods = n_rods;
+  return scene;
+}
+
+std::vector<Outcome> blow_up() {
+  Scene scene = small_scene(84);
   scene.amplitude *= 100.0 / 7.0;
   scene.dt = 1e-4;
-  return ends("blow-up", "Gamma = 100 with a tick 25 times too long", std::move(Simulation::start(scene)).value(),
-              2000);
+  return ends(std::move(Simulation::start(scene)).value(), 2000);
 }
-HardCase does_not_fit() {
-  Scene scene;
-  scene.rod = {.length = 2.5, .n_beads = 9};
-  scene.box_side = 12;
-  scene.n_rods = 110;
-  const auto simulation = Simulation::start(scene);
-  HardCase result{"does-not-fit", "more rods than can be placed", {}};
-  result.outcomes.push_back({"is refused with the most that would fit",
-                             !simulation && simulation.error().message.find("at most") != std::string::npos ? 1.0 : 0.0,
-                             1, true, simulation ? "was not refused" : simulation.error().message});
-  return result;
+
+std::vector<Outcome> does_not_fit() {
+  const auto simulation = Simulation::start(small_scene(110));
+  return {{"is refused with the most that would fit",
+           !simulation && simulation.error().message.find("at most") != std::string::npos ? 1.0 : 0.0, 1, true,
+           simulation ? "was not refused" : simulation.error().message}};
 }
 
 /// A run that stands at tick 10^9, with every rod 10^6 mm away, goes on as one that starts now.
-HardCase late_and_far() {
-  Scene scene;
-  scene.rod = {.length = 2.5, .n_beads = 9};
-  scene.box_side = 12;
-  scene.n_rods = 70;
-  HardCase result{"late-and-far", "a thousand million ticks into a run, rods 10^6 mm from where they began", {}};
-  Simulation fresh = std::move(Simulation::start(scene)).value();
+std::vector<Outcome> late_and_far() {
+  Simulation fresh = std::move(Simulation::start(small_scene(70))).value();
   World late_world = fresh.world();
   constexpr Tick kLate = 1'000'000'000;  // a whole number of the 1250 ticks of a period
-  const auto boxes = static_cast<std::int32_t>(1e6 / scene.box_side);
+  const auto boxes = static_cast<std::int32_t>(1e6 / late_world.scene.box_side);
   late_world.tick += kLate;
   for (Flight& flight : late_world.rods) {
     flight.since += kLate;
@@ -213,13 +169,12 @@ HardCase late_and_far() {
     apart = std::max({apart, (a.position[i] - b.position[i]).norm(), (a.director[i] - b.director[i]).norm()});
     if (b.image[i][0] - a.image[i][0] != boxes || a.image[i][1] - b.image[i][1] != boxes) apart = 1e6;
   }
-  result.outcomes.push_back({"numerical trouble", trouble ? 1.0 : 0.0, 0});
-  result.outcomes.push_back({"apart after 20,000 ticks [mm]", apart, 0, false, "the same bits"});
-  return result;
+  return {{"numerical trouble", trouble ? 1.0 : 0.0, 0},
+          {"apart after 20,000 ticks [mm]", apart, 0, false, "the same bits"}};
 }
 
 /// Rods and grains with a hundredth of their mass.
-HardCase two_sizes() {
+std::vector<Outcome> two_sizes() {
   Scene scene;
   scene.rod = {.length = 4.5, .n_beads = 15};
   scene.n_rods = 12;
@@ -228,43 +183,70 @@ HardCase two_sizes() {
   scene.start = Start::kRandom;
   scene.law = ImpulseLaw::kEnergetic;
   scene.rod_rod.friction = 0.5;
-  HardCase result{"two-sizes", "rods among grains of a hundredth of their mass", {}};
   scene.engine = Engine::kReference;
   auto reference = Simulation::start(scene);
   scene.engine = Engine::kScheduled;
   auto scheduled = Simulation::start(scene);
   if (!reference || !scheduled) {
-    result.outcomes.push_back({"the rods can be placed", 1, 0, false, scheduled.error().message});
-    return result;
+    return {{"the rods can be placed", 1, 0, false, scheduled.error().message}};
   }
   const bool trouble = scheduled->advance_to(5000).has_value() || reference->advance_to(5000).has_value();
   const bool differ = scheduled->state_hash() != reference->state_hash();
-  result.outcomes.push_back(
-      {"runs that meet trouble", trouble || scheduled->advance_to(50000).has_value() ? 1.0 : 0.0, 0});
-  result.outcomes.push_back({"runs in which the engines differ", differ ? 1.0 : 0.0, 0});
+  const bool later = trouble || scheduled->advance_to(50000).has_value();
   const World& world = scheduled->world();
-  result.outcomes.push_back({"overlap / thinnest bead's radius", world.counters.max_overlap() / 0.125, 0.25});
-  result.outcomes.push_back({"energy unaccounted for / turnover", balance(world).energy_error(), kRounding});
-  return result;
+  return {{"runs that meet trouble", later ? 1.0 : 0.0, 0},
+          {"runs in which the engines differ", differ ? 1.0 : 0.0, 0},
+          {"overlap / thinnest bead's radius", world.counters.max_overlap() / 0.125, 0.25},
+          {"energy unaccounted for / turnover", balance(world).energy_error(), kRounding}};
 }
 
 }  // namespace
 
 const std::vector<MadeCase>& made_cases() {
-  static const std::vector<MadeCase> cases{{"parallel", parallel},
-                                           {"collinear", collinear},
-                                           {"crossing", crossed},
-                                           {"simultaneous", simultaneous},
-                                           {"row", row},
-                                           {"half-rod-flat", half_rod_flat},
-                                           {"upright", upright},
-                                           {"coincident", coincident},
-                                           {"overlapping", overlapping},
-                                           {"through-base", through_the_base},
-                                           {"blow-up", blow_up},
-                                           {"does-not-fit", does_not_fit},
-                                           {"late-and-far", late_and_far},
-                                           {"two-sizes", two_sizes}};
+  const auto at = [](const Vec3& place, const Vec3& director, const Vec3& velocity) {
+    return flight_of(kMiddle + place, director, velocity);
+  };
+  static const std::vector<MadeCase> cases{
+      {"parallel", "two equal cylinders side by side, exactly parallel: all beads meet at once",
+       [=] {
+         return meeting(quiet_scene(0.8), {at(-0.5 * kY, kX, 50 * kY), at(0.5 * kY, kX, -50 * kY)}, 2000);
+       }},
+      {"collinear", "two rods in one line, end to end",
+       [=] {
+         return meeting(quiet_scene(0.4), {at(-1.3 * kX, kX, 50 * kX), at(1.3 * kX, kX, -50 * kX)}, 2000);
+       }},
+      {"crossing", "two rods crossing at right angles, exactly centre on centre",
+       [=] {
+         return meeting(quiet_scene(0.4), {at(-0.5 * kZ, kX, 50 * kZ), at(0.5 * kZ, kY, -50 * kZ)}, 2000);
+       }},
+      {"simultaneous", "a rod hit from both sides at the same instant",
+       [=] {
+         return meeting(quiet_scene(0.4),
+                        {at(kNone, kX, kNone), at(-0.9 * kY, kX, 50 * kY), at(0.9 * kY, kX, -50 * kY)}, 4000);
+       }},
+      {"row", "a row of ten rods in touch, hit at its end", [] { return meeting(quiet_scene(0.4), row(), 4000); }},
+      {"half-rod-flat", "tilted by the taper: one half of the rod falls flat on the base", half_rod_flat},
+      {"upright", "rods exactly upright, falling on the base, side by side",
+       [] {
+         return meeting(
+             quiet_scene(0.4),
+             {flight_of(Vec3(15, 15, 1.3), kZ, -50 * kZ), flight_of(Vec3(15.81, 15, 1.3), kZ, Vec3(-20, 0, -50))}, 4000,
+             false);
+       }},
+      {"coincident", "two rods in the same place",
+       [=] {
+         return ends(simulation_of(quiet_scene(0.4), {at(kNone, kX, 10 * kY), at(kNone, kX, -10 * kY)}), 1);
+       }},
+      {"overlapping", "a start with rods half inside each other",
+       [=] {
+         return ends(simulation_of(quiet_scene(0.4), {at(kNone, kX, kNone), at(0.4 * kY, kX, kNone)}), 1);
+       }},
+      {"through-base", "a start with a rod in the base",
+       [] { return ends(simulation_of(quiet_scene(0.4), {flight_of(Vec3(15, 15, 0.1), kX, kNone)}), 1); }},
+      {"blow-up", "Gamma = 100 with a tick 25 times too long", blow_up},
+      {"does-not-fit", "more rods than can be placed", does_not_fit},
+      {"late-and-far", "a thousand million ticks into a run, rods 10^6 mm from where they began", late_and_far},
+      {"two-sizes", "rods among grains of a hundredth of their mass", two_sizes}};
   return cases;
 }
 

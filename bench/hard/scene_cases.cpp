@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "bench/hard/scene_cases.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -11,6 +9,7 @@
 #include <optional>
 
 #include "base/failure.h"
+#include "bench/hard/hard.h"
 #include "scene/load.h"
 #include "sim/balance.h"
 #include "sim/simulation.h"

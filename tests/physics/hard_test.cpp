@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The hard cases of `shaken bench hard`: those made by hand in full, the scenes for a short while.
+#include "bench/hard/hard.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,9 +10,6 @@
 #include <iterator>
 #include <string>
 
-#include "bench/hard/made_cases.h"
-#include "bench/hard/order_case.h"
-#include "bench/hard/scene_cases.h"
 #include "sim/simulation.h"
 
 namespace shaken::bench {

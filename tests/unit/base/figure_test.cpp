@@ -50,12 +50,6 @@ TEST(PlotHead, SizesInPixelsOrCentimetres) {
   EXPECT_THAT(plot_head("f", {}, PictureFormat::kPdf), HasSubstr("pdfcairo size 14cm,9.5cm "));
 }
 
-TEST(PanelsHead, TwoRowsAtMost) {
-  EXPECT_THAT(panels_head("f", 2), HasSubstr("set multiplot layout 1,2 "));
-  EXPECT_THAT(panels_head("f", 5), HasSubstr("size 1440,830 "));
-  EXPECT_THAT(panels_head("f", 5), HasSubstr("set multiplot layout 2,3 "));
-}
-
 TEST(Sheet, DrawsPlotsMapsAndPicturesOnOnePage) {
   if (run_captured({"gnuplot", "--version"}).exit_code != 0) GTEST_SKIP() << "no gnuplot";
   const run::TemporaryFolder folder;

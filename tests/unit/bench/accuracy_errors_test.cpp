@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "bench/accuracy/errors.h"
+#include "bench/accuracy/convergence.h"
 
 namespace shaken::bench {
 namespace {

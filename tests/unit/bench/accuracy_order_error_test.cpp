@@ -9,12 +9,7 @@
 namespace shaken::bench {
 namespace {
 
-Case box(double side) {
-  OptionReader options;
-  const auto made = make_case(4.5, 0.75, side, 4e-6, 1, options);
-  options.finish();
-  return *made;
-}
+Case box(double side) { return make_case(4.5, 0.75, side, kPaperStep, 1); }
 
 /// A series whose correlation falls by `memory` from sample to sample, of variance 0.02^2 about 0.9.
 std::vector<double> correlated(double memory, int n, std::uint64_t seed) {

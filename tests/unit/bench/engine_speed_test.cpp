@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "bench/speed/engine_speed.h"
+#include "bench/engine_speed.h"
 
 #include <gtest/gtest.h>
 
 #include "base/clock.h"
-#include "bench/speed/lower_bounds.h"
+#include "bench/lower_bounds.h"
 #include "tests/unit/run/temporary_folder.h"
 
 namespace shaken::bench {
@@ -13,20 +13,13 @@ namespace {
 class SmallBox : public ::testing::Test {
  protected:
   SmallBox() {
-    OptionReader options;
-    case_ = *make_case(4.5, 0.6, 12, 4e-6, 0.01, options);
-    options.finish();
+    case_ = make_case(4.5, 0.6, 12, kPaperStep, 0.01);
     state_ = steady_state(case_, cache_.path());
   }
   run::TemporaryFolder cache_;
   Case case_;
   SteadyState state_;
 };
-
-TEST(Median, IsTheMiddle) {
-  EXPECT_EQ(median({3, 1, 2}), 2);
-  EXPECT_EQ(median({4, 1, 2, 3}), 2.5);
-}
 
 TEST(CpuClock, ReadingsCostNextToNothing) {
   const double start = thread_cpu_seconds_without_readings();

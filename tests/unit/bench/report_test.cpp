@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "bench/speed/report.h"
+#include "bench/report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/table.h"
+#include <algorithm>
+#include <cmath>
+
+#include "bench/bench.h"
+#include "bench/speed.h"
 
 namespace shaken::bench {
 namespace {
@@ -25,8 +29,7 @@ EngineSpeed engine(double cpu) {
 
 SceneSpeed scene() {
   SceneSpeed speed;
-  OptionReader options;
-  speed.scene = *make_case(4.5, 0.6, 12, 4e-6, 5, options);
+  speed.scene = make_case(4.5, 0.6, 12, kPaperStep, 5);
   speed.scheduled = engine(0.1);
   speed.reference = engine(2);
   speed.phases.fill(0.01);
@@ -35,17 +38,71 @@ SceneSpeed scene() {
   return speed;
 }
 
-TEST(Table, ColumnsAreFlushRight) { EXPECT_EQ(aligned({{"a", "bcd"}, {"12", "3"}}), " a  bcd\n12    3\n"); }
+TEST(Table, ShowsMembersOfRowsInTheirFormats) {
+  const Json rows = Json::parse(R"([{"n": 12, "of": {"mean": 0.12345, "sem": 0.002}, "same": true, "why": "so"},
+                                    {"n": 3, "of": {"mean": -1, "sem": 0.5}, "same": false}])");
+  EXPECT_EQ(table(rows, {{"N", "n"},
+                         {"%", "of/mean", "{:.1f}", 100},
+                         {"mean", "of/mean", "{:.2f} +- {:.1g}", 1, "of/sem"},
+                         {"same", "same"},
+                         {"why", "why"}}),
+            " N       %           mean  same  why\n"
+            "12    12.3  0.12 +- 0.002   yes   so\n"
+            " 3  -100.0   -1.00 +- 0.5    NO    -\n");
+}
 
 TEST(Csv, NamesNestedValuesWithDots) {
-  EXPECT_EQ(as_csv(nlohmann::ordered_json::parse(R"([{"a": {"b": 1, "c": "x"}, "d": [1, 2]},
-                                                      {"a": {"b": 2, "c": "y"}, "d": [3, 4]}])")),
+  EXPECT_EQ(csv(Json::parse(R"([{"a": {"b": 1, "c": "x"}, "d": [1, 2]}, {"a": {"b": 2, "c": "y"}, "d": [3, 4]}])")),
             "a.b,a.c,d\n1,x,1 2\n2,y,3 4\n");
-  EXPECT_EQ(as_csv(nlohmann::ordered_json::parse(R"([{"a": "x, \"y\""}])")), "a\n\"x, \"\"y\"\"\"\n");
+  EXPECT_EQ(csv(Json::parse(R"([{"a": "x, \"y\""}])")), "a\n\"x, \"\"y\"\"\"\n");
+}
+
+TEST(Plots, HaveTheNumbersOfTheRows) {
+  const Json rows = Json::parse(R"([{"name": "a", "x": 1, "y": 0.5, "e": 0.1}, {"name": "b", "x": 2}])");
+  const Column y{"share", "y", "", 100, "e"};
+  const Curve of = curve(rows, {"", "x"}, y);
+  EXPECT_EQ(of.label, "share");
+  EXPECT_EQ(of.x, (std::vector<double>{1, 2}));
+  EXPECT_EQ(of.y[0], 50);
+  EXPECT_EQ(of.y_error[0], 10);
+  EXPECT_TRUE(std::isnan(of.y[1]));
+  EXPECT_EQ(plot_data(rows, {{"name", "name"}, y}), "# name share, error\n\"a\" 50 10\n\"b\" nan nan\n");
+}
+
+/// What the options of a bench read, or the words of the error.
+struct Asked {
+  double side = 20;
+  int repeat = 5;
+  std::vector<double> lengths;
+  std::string problem;
+};
+Asked asked(std::vector<std::string> words) {
+  Asked asked;
+  CLI::App app;
+  add_number(app, "--side", asked.side, "MM", {9, 500}, "");
+  add_number(app, "--repeat", asked.repeat, "N", {1, 10}, "");
+  add_number(app, "--length", asked.lengths, "LIST", {0, 50}, "");
+  try {
+    std::reverse(words.begin(), words.end());
+    app.parse(words);
+  } catch (const CLI::ParseError& error) {
+    asked.problem = error.what();
+  }
+  return asked;
+}
+
+TEST(Options, AreNumbersWithinTheirRanges) {
+  EXPECT_EQ(asked({}).side, 20);
+  EXPECT_EQ(asked({"--side", "12.5"}).side, 12.5);
+  EXPECT_EQ(asked({"--length", "4.5,2.5"}).lengths, (std::vector{4.5, 2.5}));
+  EXPECT_THAT(asked({"--side", "5"}).problem, HasSubstr("--side: 5 is outside [9, 500]"));
+  EXPECT_THAT(asked({"--side", "long"}).problem, HasSubstr("--side: 'long' is not a number"));
+  EXPECT_THAT(asked({"--length", "4.5,60"}).problem, HasSubstr("--length: 60 is outside [0, 50]"));
+  EXPECT_THAT(asked({"--repeat", "2.5"}).problem, HasSubstr("--repeat = 2.5"));
 }
 
 TEST(Report, OfScenesHasRatesRatioAndBounds) {
-  const auto row = as_json({}, std::vector{scene()}).at("rows").at(0);
+  const auto row = speed_report({}, {scene()}).rows().at(0);
   EXPECT_DOUBLE_EQ(row.at("scheduled").at("rod_s_per_cpu_s"), 100);
   EXPECT_DOUBLE_EQ(row.at("scheduled").at("spread"), 1.1);
   EXPECT_DOUBLE_EQ(row.at("scheduled").at("ns_per_impulse"), 1e5);
@@ -58,29 +115,29 @@ TEST(Report, OfScenesHasRatesRatioAndBounds) {
 TEST(Report, SaysWhatIsNotTheSteadyState) {
   Conditions conditions;
   conditions.warm_up = 0.5;
-  EXPECT_THAT(as_text(conditions, std::vector{scene()}), HasSubstr("NOT the steady state"));
+  EXPECT_THAT(speed_report(conditions, {scene()}).text, HasSubstr("NOT the steady state"));
   conditions.warm_up = Conditions::kSteady;
-  EXPECT_THAT(as_text(conditions, std::vector{scene()}), Not(HasSubstr("NOT the steady state")));
+  EXPECT_THAT(speed_report(conditions, {scene()}).text, Not(HasSubstr("NOT the steady state")));
 }
 
 TEST(Report, SaysIfTheEnginesDiffer) {
   SceneSpeed differs = scene();
-  EXPECT_THAT(as_text({}, std::vector{differs}), Not(HasSubstr("NO\n")));
+  EXPECT_THAT(speed_report({}, {differs}).text, Not(HasSubstr("NO\n")));
   differs.scheduled_hash = 1;
-  EXPECT_THAT(as_text({}, std::vector{differs}), HasSubstr("NO\n"));
+  EXPECT_THAT(speed_report({}, {differs}).text, HasSubstr("NO\n"));
 }
 
 TEST(Report, OfScalingIsRelativeToTheFirst) {
-  Scaling scaling{Scaling::Of::kStep, {{scene().scene, engine(0.1)}, {scene().scene, engine(0.15)}}};
-  const auto rows = as_json({}, scaling).at("rows");
-  EXPECT_DOUBLE_EQ(rows.at(0).at("relative_cost"), 1);
-  EXPECT_DOUBLE_EQ(rows.at(1).at("relative_cost"), 1.5);
+  const Report report =
+      scaling_report({}, Scaling::kStep, {{scene().scene, engine(0.1)}, {scene().scene, engine(0.15)}});
+  EXPECT_DOUBLE_EQ(report.rows().at(0).at("relative_cost"), 1);
+  EXPECT_DOUBLE_EQ(report.rows().at(1).at("relative_cost"), 1.5);
 }
 
 TEST(Report, OfThreadsNamesTheSpeedUp) {
   ThreadsSpeed threads{scene().scene, {{1, engine(0.2), 7}, {2, engine(0.1), 7}}};
   EXPECT_TRUE(threads.hashes_equal());
-  EXPECT_DOUBLE_EQ(as_json({}, std::vector{threads}).at("rows").at(1).at("speed_up"), 2);
+  EXPECT_DOUBLE_EQ(threads_report({}, {threads}).rows().at(1).at("speed_up"), 2);
   threads.points[1].hash = 8;
   EXPECT_FALSE(threads.hashes_equal());
 }

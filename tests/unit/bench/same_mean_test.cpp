@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Whether two means are the same within a bound: made-up replicas, of which it is known.
-#include "bench/hard/same_mean.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
+#include "bench/hard/hard.h"
 #include "sim/core/rng.h"
 
 namespace shaken::bench {
@@ -29,7 +28,7 @@ struct Verdicts {
 Verdicts verdicts(double shift, int n = 15, double spread = 0.014) {
   Verdicts found;
   for (std::uint64_t seed = 1; seed <= 1000; ++seed) {
-    const Apart apart = compare(replicas(n, 1, spread, seed), replicas(n, 1 + shift, spread, 5000 + seed));
+    const Apart apart = compare_means(replicas(n, 1, spread, seed), replicas(n, 1 + shift, spread, 5000 + seed));
     const Sameness sameness = apart.within(0.025);
     ++(sameness == Sameness::kSame ? found.same : sameness == Sameness::kDifferent ? found.different : found.open);
   }
@@ -57,7 +56,7 @@ TEST(SameMean, TooFewOrTooShortReplicasLeaveItOpen) {
   EXPECT_EQ(verdicts(0, 15, 0.05).same, 0);
   EXPECT_EQ(verdicts(0, 15, 0.05).different, 0);
   EXPECT_EQ(verdicts(0, 1).open, 1000);
-  EXPECT_TRUE(std::isnan(compare({}, {}).half_width));
+  EXPECT_TRUE(std::isnan(compare_means({}, {}).half_width));
 }
 
 // Of four and of thirty replicas alike 95 of 100 intervals hold the true difference.
@@ -65,7 +64,7 @@ TEST(SameMean, IntervalsHoldTheTrueDifferenceNineteenTimesInTwenty) {
   for (const int n : {4, 15, 30}) {
     int held = 0;
     for (std::uint64_t seed = 1; seed <= 4000; ++seed) {
-      const Apart apart = compare(replicas(n, 1, 0.002, seed), replicas(n, 1.01, 0.004, 5000 + seed));
+      const Apart apart = compare_means(replicas(n, 1, 0.002, seed), replicas(n, 1.01, 0.004, 5000 + seed));
       held += std::abs(apart.difference - 0.01 / 1.005) <= apart.half_width;
     }
     EXPECT_NEAR(held / 4000.0, 0.95, 0.014) << n;  // four errors
@@ -75,7 +74,7 @@ TEST(SameMean, IntervalsHoldTheTrueDifferenceNineteenTimesInTwenty) {
 // Four and four samples.
 TEST(SameMean, AsWorkedOutByHand) {
   const std::vector<double> a{0.9, 1.1, 0.9, 1.1}, b{1.0, 1.4, 1.0, 1.4};
-  const Apart apart = compare(a, b);
+  const Apart apart = compare_means(a, b);
   EXPECT_NEAR(apart.difference, 0.2 / 1.1, 1e-12);
   // variances of the means: 0.04 / 3 / 4 and 0.16 / 3 / 4; degrees of freedom 25 / (1 / 3 + 16 / 3) = 4.4118, whose
   // t is 2.68

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "bench/accuracy/convergence.h"
+#include "bench/accuracy/figures.h"
+#include "bench/accuracy/order_error.h"
+#include "bench/accuracy/statistics.h"
+#include "bench/bench.h"
+
+namespace shaken::bench {
+namespace {
+
+constexpr const char* kAccuracyFooter = R"(Parts:
+  deterministic  errors of a few rods against converged solutions, and their order
+  statistical    bias of temperatures, order, drift, displacements with step, bead pitch and sweeps
+  error          how the statistical error of S falls with simulated time, and what it costs
+  (none)         all of them: about 40 minutes of CPU time, a quarter of that with --quick
+
+Examples:
+  shaken bench accuracy --quick
+  shaken bench accuracy deterministic --out accuracy     convergence.png, work_precision.png, CSV, JSON
+  shaken bench accuracy deterministic --cases head-on,wedged --steps 64,32,16,8,4,2,1
+  shaken bench accuracy statistical --out accuracy       bias.png, tilt.png, model.png, CSV, JSON
+  shaken bench accuracy statistical --knobs step --variants newton,instant --measure 200 --replicas 4
+  shaken bench accuracy error --sides 15,20,30,40 --measure 100 --out accuracy
+
+Exit codes: 0 done, 1 the steppers' states differ or something failed, 2 bad input.)";
+
+constexpr double kPaperSide = 83.73;  ///< [mm]
+
+/// kLongestStep / 2^k, finest first, down to `finest` [s].
+std::vector<double> halved_steps(double finest) {
+  std::vector<double> steps;
+  for (double dt = kLongestStep; dt > 0.9 * finest; dt /= 2) steps.insert(steps.begin(), dt);
+  return steps;
+}
+
+/// Says what is wrong with a step in microseconds, if anything is.
+std::string step_problem(const std::string& us) {
+  const double halvings = std::log2(1e6 * kLongestStep / std::strtod(us.c_str(), nullptr));
+  return halvings == std::round(halvings) ? "" : us + " is not 64 us halved some times";
+}
+
+template <class Named>
+std::vector<std::string> names_of(const std::vector<Named>& all) {
+  std::vector<std::string> names;
+  for (const Named& one : all) names.emplace_back(one.name);
+  return names;
+}
+
+/// Those of `all` that have been named; all of them if none was.
+template <class Named>
+std::vector<const Named*> chosen(const std::vector<Named>& all, const std::vector<std::string>& names) {
+  std::vector<const Named*> some;
+  for (const std::string& name : names.empty() ? names_of(all) : names) {
+    some.push_back(&*std::find_if(all.begin(), all.end(), [&](const Named& one) { return one.name == name; }));
+  }
+  return some;
+}
+
+struct AccuracyBench {
+  std::string part;
+  bool quick = false, full = false;
+  std::vector<std::string> cases, treatments, knobs;
+  std::vector<double> steps;  ///< [us]
+  std::optional<int> members, replicas;
+  std::optional<double> measure, side;
+  std::vector<double> sides;
+  double warm_up = 5;
+  Cache cache;
+  Output output;
+
+  void declare(CLI::App& app) {
+    app.add_option("part", part, "What to measure; everything if left out")
+        ->type_name("PART")
+        ->check(CLI::IsMember({"deterministic", "statistical", "error"}).description(""));
+    CLI::Option* less = app.add_flag("--quick", quick, "Fewer and shorter measurements");
+    app.add_flag("--full", full, "More and longer ones")->excludes(less);
+    add_names(app, "--cases", cases, "LIST", names_of(start_cases()), "deterministic: only these");
+    add_names(app, "--variants", treatments, "LIST", names_of(variants()),
+              "How impacts are treated; deterministic: all, statistical: newton");
+    add_names(app, "--knobs", knobs, "LIST", {"step", "pitch", "sweeps"}, "statistical: only these");
+    add_number(app, "--steps", steps, "LIST", {1.0 / 64, 1e6 * kLongestStep}, "Steps [us]: 64 halved some times")
+        ->check([](const std::string& us) { return step_problem(us); });
+    add_number(app, "--members", members, "N", {1, 100'000}, "deterministic: starts in each ensemble");
+    add_number(app, "--measure", measure, "S", {0.01, 1e6},
+               "statistical, error: simulated seconds per value and replica");
+    add_number(app, "--replicas", replicas, "N", {1, 1000},
+               "statistical, error: runs with seeds of their own; 2, or 1 with --quick");
+    add_number(app, "--side", side, "MM", limits_of("box.side"), "statistical: side of the box");
+    add_number(app, "--sides", sides, "LIST", limits_of("box.side"), "error: sides of the boxes [mm]");
+    add_number(app, "--warm-up", warm_up, "S", kWarmUps, "statistical, error: simulated seconds to the steady state");
+    cache.declare(app);
+    output.declare(app);
+  }
+
+  /// How much longer than usual things are measured.
+  double effort() const { return quick ? 0.2 : full ? 4 : 1; }
+  int n_replicas() const { return replicas.value_or(quick ? 1 : 2); }
+  /// The steps that were asked for, rising [s].
+  std::vector<double> asked_steps() const {
+    std::vector<double> asked;
+    for (const double us : steps) asked.push_back(1e-6 * us);
+    std::sort(asked.begin(), asked.end());
+    asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
+    return asked;
+  }
+
+  void run_deterministic() const {
+    ConvergenceEffort how;
+    how.steps = steps.empty() ? halved_steps(quick ? 1e-6 : 0.25e-6) : asked_steps();
+    if (full) how.converged_by = 128;
+    how.members = quick && !members ? 16 : members;
+    std::vector<Convergence> measured;
+    for (const StartCase* start : chosen(start_cases(), cases)) {
+      for (const Variant* variant : chosen(variants(), treatments)) {
+        measured.push_back(measure_convergence(*start, *variant, how));
+      }
+    }
+    const Report report = convergence_report(measured);
+    output.give(report);
+    if (!output.folder.empty()) draw_convergence(output.folder, report);
+    for (const Convergence& of : measured) {
+      for (const StepErrors& step : of.steps) {
+        if (step.states_equal) continue;
+        throw Failure(ExitCode::kFailed, fmt::format("{}, {}, {:.10g} us: the steppers' states differ", of.start->name,
+                                                     of.variant->name, 1e6 * step.dt));
+      }
+    }
+  }
+
+  /// What the knobs are turned in: the paper's dense rods, and shorter ones that drift.
+  std::vector<StatisticsTask> statistics_tasks() const {
+    std::vector<double> step_values{1, 2, 4, 8, 16, 32, 64};
+    if (!steps.empty()) {
+      step_values.clear();
+      for (const double dt : asked_steps()) step_values.push_back(1e6 * dt);
+    }
+    std::vector<StatisticsTask> tasks;
+    const auto add = [&](Knob knob, const std::vector<double>& values, double length, double fraction, double box,
+                         double seconds) {
+      const Case scene = make_case(length, fraction, side.value_or(box), kPaperStep, warm_up);
+      for (const Variant* variant : chosen(variants(), treatments)) {
+        if (treatments.empty() && variant != &variants().front()) continue;
+        tasks.push_back(
+            {scene, variant, knob, values, measure.value_or(seconds * effort()), std::min(1.0, warm_up), n_replicas()});
+      }
+    };
+    const auto asked = [&](const char* knob) {
+      return knobs.empty() || std::find(knobs.begin(), knobs.end(), knob) != knobs.end();
+    };
+    if (asked("step")) {
+      add(Knob::kStep, step_values, 4.5, 0.75, 25, 30);
+      add(Knob::kStep, step_values, 2.5, 0.60, 20, 50);
+    }
+    if (asked("pitch")) add(Knob::kPitch, {0.15, 0.2, 0.3, 0.45, 0.6}, 4.5, 0.75, 25, 15);
+    if (asked("sweeps")) add(Knob::kSweeps, {8, 4, 2, 1}, 4.5, 0.75, 25, 15);
+    return tasks;
+  }
+
+  void run_statistical() const {
+    std::vector<Statistics> measured;
+    for (const StatisticsTask& task : statistics_tasks()) measured.push_back(measure_statistics(task, cache));
+    const Report report = statistics_report(measured);
+    output.give(report);
+    if (!output.folder.empty()) draw_statistics(output.folder, report);
+  }
+
+  void run_error() const {
+    // with two replicas about a hundred correlation times of S, a second each
+    std::vector<std::pair<double, double>> boxes{{15, 80}, {21, 80}, {30, 60}, {42, 40}};
+    if (!sides.empty()) {
+      boxes.clear();
+      for (const double box : sides) boxes.emplace_back(box, 50);
+      std::sort(boxes.begin(), boxes.end());
+    }
+    std::vector<OrderError> measured;
+    for (const auto& [box, seconds] : boxes) {
+      const Case scene = make_case(4.5, 0.75, box, kPaperStep, warm_up);
+      measured.push_back(measure_order_error(scene, measure.value_or(seconds * effort()), n_replicas(), cache));
+    }
+    const auto large = extrapolate(measured, make_case(4.5, 0.75, kPaperSide, kPaperStep, warm_up));
+    const Report report = order_error_report(measured, large);
+    output.give(report);
+    if (!output.folder.empty()) draw_order_error(output.folder, report);
+  }
+
+  ExitCode run() const {
+    if (part.empty() || part == "deterministic") run_deterministic();
+    if (part.empty() || part == "statistical") run_statistical();
+    if (part.empty() || part == "error") run_error();
+    return ExitCode::kOk;
+  }
+};
+
+}  // namespace
+
+void add_accuracy(CLI::App& app, Work& work) {
+  add_bench<AccuracyBench>(app, work, "accuracy", "What accuracy costs: errors against the step and CPU time",
+                           kAccuracyFooter);
+}
+
+}  // namespace shaken::bench

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "bench/engine_speed.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/clock.h"
+#include "bench/accuracy/fits.h"
+
+namespace shaken::bench {
+
+double EngineSpeed::best_cpu() const { return *std::min_element(cpu.begin(), cpu.end()); }
+
+double EngineSpeed::best_wall() const { return *std::min_element(wall.begin(), wall.end()); }
+
+double EngineSpeed::spread() const { return quartiles_of(cpu).median / best_cpu(); }
+
+double EngineSpeed::wall_spread() const { return quartiles_of(wall).median / best_wall(); }
+
+Tick ticks_for(double cpu, const Case& of, const SteadyState& state, Engine engine) {
+  Simulation simulation = resumed(of, state, engine);
+  advance(simulation, 1);  // builds lists and schedules
+  const Tick period = of.period_ticks();
+  const double start = cpu_seconds();
+  Tick done = 0;
+  double taken = 0;
+  for (Tick stride = std::max<Tick>(1, period / 64); taken < 0.1 * cpu; stride *= 2) {
+    advance(simulation, stride);
+    done += stride;
+    taken = cpu_seconds() - start;
+  }
+  const double ticks = static_cast<double>(done) * cpu / taken;
+  const double periods = std::round(ticks / static_cast<double>(period));
+  return periods >= 1 ? static_cast<Tick>(periods) * period : std::max<Tick>(1, std::llround(ticks));
+}
+
+void time_stretch(Simulation& simulation, const Case& of, Tick ticks, EngineSpeed& speed) {
+  const Counters before = simulation.world().counters;
+  const double wall = wall_seconds();
+  const double cpu = cpu_seconds();
+  advance(simulation, ticks);
+  speed.cpu.push_back(cpu_seconds() - cpu);
+  speed.wall.push_back(wall_seconds() - wall);
+  const Counters after = simulation.world().counters;
+  speed.ticks = ticks;
+  speed.rod_seconds = of.rod_seconds(ticks);
+  speed.plate_impulses =
+      after.impulses_rod_base + after.impulses_rod_lid - before.impulses_rod_base - before.impulses_rod_lid;
+  speed.rod_impulses = after.impulses_rod_rod - before.impulses_rod_rod;
+  speed.bytes_per_rod = static_cast<double>(simulation.bytes()) / of.system().n_rods;
+  speed.max_overlap = after.max_overlap();
+}
+
+Json json_of(const Case& scene) {
+  return {{"length_mm", scene.length}, {"n_beads", scene.system().rod.n_beads}, {"area_fraction", scene.area_fraction},
+          {"side_mm", scene.side},     {"n_rods", scene.system().n_rods},       {"dt_s", scene.dt}};
+}
+
+Json json_of(const EngineSpeed& speed) {
+  return {{"rod_s_per_cpu_s", speed.rate()},
+          {"spread", speed.spread()},
+          {"cpu_s", speed.cpu},
+          {"ticks", speed.ticks},
+          {"rod_seconds", speed.rod_seconds},
+          {"plate_impulses", speed.plate_impulses},
+          {"rod_impulses", speed.rod_impulses},
+          {"impulses_per_cpu_s", static_cast<double>(speed.impulses()) / speed.best_cpu()},
+          {"ns_per_impulse", 1e9 * speed.best_cpu() / static_cast<double>(speed.impulses())},
+          {"bytes_per_rod", speed.bytes_per_rod}};
+}
+
+}  // namespace shaken::bench

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "bench/hard/hard.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "base/progress_line.h"
+#include "base/table.h"
+#include "bench/bench.h"
+#include "bench/report.h"
+
+namespace shaken::bench {
+namespace {
+
+constexpr const char* kHardFooter =
+    R"(Runs what is numerically hard and tells how far each thing that must hold was from not
+holding. Scenes are those of configs/hard; what is made by hand is bench/hard/made_cases.cpp.
+
+Examples:
+  shaken bench hard                              all cases, some ten minutes, nearly all of them for 'order'
+  shaken bench hard needle row --json
+  shaken bench hard --seconds 0.02               the scenes for 20 ms of their time, without 'order': a smoke test
+  shaken bench hard --out hard                   hard/hard.csv, .json and .png
+
+Exit codes: 0 all holds, 1 something does not hold, 2 bad input.)";
+
+Json hard_row(const HardCase& of, const Outcome& outcome) {
+  const double margin = outcome.margin();
+  return {{"case", of.name},
+          {"what", of.what},
+          {"holds", outcome.holds},
+          {"worst", outcome.worst},
+          {"limit", outcome.limit},
+          {"limit_is", outcome.at_least ? "least" : "most"},
+          {"margin", std::isfinite(margin) ? Json(margin) : Json(nullptr)},
+          {"ok", outcome.ok()},
+          {"note", outcome.note}};
+}
+
+Report hard_report(const std::vector<HardCase>& cases) {
+  Report report("hard", "hard");
+  Table shown({{"case"},
+               {"what must hold"},
+               {"worst", Table::Align::kRight},
+               {"limit", Table::Align::kRight},
+               {"margin", Table::Align::kRight},
+               {"verdict"}});
+  std::string notes;
+  for (const HardCase& of : cases) {
+    for (const Outcome& outcome : of.outcomes) {
+      report.json["rows"].push_back(hard_row(of, outcome));
+      const double margin = outcome.margin();
+      const bool has_margin = std::isfinite(margin) && margin > 0 && outcome.limit > 0;
+      shown.add_row({&outcome == &of.outcomes.front() ? of.name : "", outcome.holds,
+                     fmt::format("{:.3g}", outcome.worst),
+                     fmt::format("{} {:.3g}", outcome.at_least ? ">=" : "<=", outcome.limit),
+                     has_margin ? fmt::format("{:.2g}", margin) : "-", outcome.ok() ? "holds" : "DOES NOT HOLD"});
+      if (!outcome.ok()) notes += fmt::format("{}: {}: {}\n", of.name, outcome.holds, outcome.note);
+    }
+  }
+  report.text += shown.text(0) + notes;
+  return report;
+}
+
+/// hard.png: the smallest margin of each case that has more than yes and no.
+void draw_margins(const std::filesystem::path& folder, const std::vector<HardCase>& cases) {
+  Json least = Json::array();
+  for (const HardCase& of : cases) {
+    std::optional<double> margin;
+    for (const Outcome& outcome : of.outcomes) {
+      if (outcome.limit <= 0 || outcome.at_least || !std::isfinite(outcome.margin())) continue;
+      margin = std::min(margin.value_or(outcome.margin()), outcome.margin());
+    }
+    if (margin) least.push_back({{"case", of.name}, {"margin", *margin}});
+  }
+  const int n = static_cast<int>(least.size());
+  const std::string script = fmt::format(
+      R"(set logscale x
+set xrange [0.5:*]
+set yrange [{}:-1]
+set xlabel 'smallest margin: limit over worst value seen'
+set style fill solid
+set arrow from 1,graph 0 to 1,graph 1 nohead linecolor '#d62728' dashtype 2
+plot 'hard.dat' using (0.5):0:(0.5):2:($0-0.35):($0+0.35):ytic(1) with boxxyerror linecolor '#3b528b' notitle
+)",
+      n);
+  draw_plot(folder, "hard", plot_data(least, {{"case", "case"}, {"smallest margin", "margin"}}),
+            plot_head("hard", {1000, 200 + 28 * n}) + plot_axes("y") + script);
+}
+
+std::vector<std::string> case_names() {
+  std::vector<std::string> names;
+  for (const SceneCase& scene : scene_cases()) names.push_back(scene.name);
+  names.emplace_back(kOrderCase);
+  for (const MadeCase& made : made_cases()) names.push_back(made.name);
+  return names;
+}
+
+struct HardBench {
+  std::vector<std::string> names;
+  std::string folder = "configs/hard";
+  std::optional<double> seconds;
+  Output output;
+
+  void declare(CLI::App& app) {
+    app.add_option("CASE", names, "Cases; all if none is named")->check(CLI::IsMember(case_names()).description(""));
+    add_path(app, "--cases", folder, "DIR", "Folder of the scenes")->capture_default_str();
+    add_number(app, "--seconds", seconds, "S", {1e-4, 1e5}, "Simulated seconds of a scene, at most");
+    output.declare(app);
+  }
+
+  HardCase run_case(const std::string& name) const {
+    ProgressLine progress(name);
+    const Watch watch = [&](double fraction) { progress.show(fraction); };
+    const double at_most = seconds.value_or(std::numeric_limits<double>::infinity());
+    for (const MadeCase& made : made_cases()) {
+      if (made.name == name) return made.run();
+    }
+    for (const SceneCase& scene : scene_cases()) {
+      if (scene.name == name) return run_scene_case(scene, read_hard_scene(folder, name), at_most, watch);
+    }
+    return run_order_case(folder, {.seconds = at_most}, watch);
+  }
+
+  ExitCode run() const {
+    std::vector<HardCase> cases;
+    for (const std::string& name : names.empty() ? case_names() : names) {
+      // cut short it could only say that it does not know
+      if (names.empty() && seconds && name == kOrderCase) continue;
+      cases.push_back(run_case(name));
+    }
+    output.give(hard_report(cases));
+    if (!output.folder.empty()) draw_margins(output.folder, cases);
+    const bool ok = std::all_of(cases.begin(), cases.end(), [](const HardCase& of) { return of.ok(); });
+    return ok ? ExitCode::kOk : ExitCode::kFailed;
+  }
+};
+
+}  // namespace
+
+void add_hard(CLI::App& app, Work& work) {
+  add_bench<HardBench>(app, work, "hard", "What is numerically hard, and by what margin it goes well", kHardFooter);
+}
+
+}  // namespace shaken::bench

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene/run_plan.h"
+#include "sim/world.h"
+
+namespace shaken::bench {
+
+inline constexpr double kLookEvery = 2e-3;  ///< between two looks at the state of a scene [s]
+
+/// What energy differs by from rounding alone, as a fraction.
+inline constexpr double kRounding = 1e-11;
+/// What a rod at rest on the base is given, half the fall of a tick upwards, is of this order of its energy.
+inline constexpr double kRest = 1e-5;
+
+/// One thing that must hold in a hard case, and how nearly it did not.
+struct Outcome {
+  std::string holds;      ///< in words
+  double worst = 0;       ///< value seen
+  double limit = 0;       ///< largest value allowed, or the smallest if `at_least`
+  bool at_least = false;  ///< what must hold is worst >= limit
+  std::string note = {};  ///< what happened instead, or why the limit is what it is
+
+  bool ok() const { return at_least ? worst >= limit : worst <= limit; }
+  /// How often the worst value fits into the limit; below 1 it does not hold. Infinite where nothing was seen.
+  double margin() const { return at_least ? worst / limit : limit / worst; }
+};
+
+struct HardCase {
+  std::string name;
+  std::string what;  ///< one line: what is hard
+  std::vector<Outcome> outcomes;
+
+  bool ok() const {
+    return std::all_of(outcomes.begin(), outcomes.end(), [](const Outcome& outcome) { return outcome.ok(); });
+  }
+};
+
+/// A hard case made by hand: a few rods placed exactly so that something degenerates, or a run that must not go on.
+struct MadeCase {
+  std::string name;
+  std::string what;
+  std::function<std::vector<Outcome>()> outcomes;
+
+  HardCase run() const { return {name, what, outcomes()}; }
+};
+const std::vector<MadeCase>& made_cases();
+
+/// A hard case that is a scene file: DIR/NAME.json.
+struct SceneCase {
+  std::string name;
+  std::string what;
+  double max_overlap = 0.1;   ///< allowed, as a fraction of the thinnest bead's radius; 0.5 ends a run
+  bool makes_energy = false;  ///< known to, although nothing shakes it: the law's fault
+};
+const std::vector<SceneCase>& scene_cases();
+
+/// Reads DIR/NAME.json. Throws Failure if that cannot be done.
+scene::RunPlan read_hard_scene(const std::filesystem::path& folder, const std::string& name);
+
+/// Tick, rods and values.
+std::string to_text(const NumericalTrouble& trouble);
+
+/// Called now and then with the part of the work that is done.
+using Watch = std::function<void(double)>;
+
+/// Runs the scene to its end, or for `seconds` if that is sooner, and looks at it every 2 ms of its time.
+HardCase run_scene_case(const SceneCase& wanted, const scene::RunPlan& plan, double seconds, const Watch& watch);
+
+/// The three scenes order-sorted, order-reversed and order-shuffled, of which the statistics are compared.
+inline constexpr const char* kOrderCase = "order";
+
+/// How much is spent on that, and what counts as an answer.
+struct OrderEffort {
+  int replicas = 15;  ///< runs of each scene, which differ in their seed; each gives one sample of every mean
+  double seconds =
+      1e9;           ///< simulated, of a replica; that of the scene if it is less. The first eleventh is not counted
+  double slack = 1;  ///< the bounds are so many times wider, and say so
+};
+
+/// Means of one scene under three orders of the contacts of a tick. Each must be shown to be the same within its bound:
+/// what is left open for want of replicas does not hold.
+HardCase run_order_case(const std::filesystem::path& folder, const OrderEffort& effort, const Watch& watch);
+
+/// What is known of whether a mean is the same in two places.
+enum class Sameness {
+  kSame,       ///< all of the interval of confidence lies within the bound
+  kDifferent,  ///< all of it lies beyond
+  kOpen,       ///< neither: too few samples to tell
+};
+
+/// How far apart two means are, as fractions of the size of the mean of both.
+struct Apart {
+  double difference = 0;  ///< of the second less the first
+  double half_width = 0;  ///< of its interval of 95 % confidence; NaN where there are too few samples for one
+
+  /// The end of the interval that is farther from nought.
+  double farthest() const;
+  double nearest() const;
+  /// Whether they are the same but for `bound`. That no difference was seen does not make two means the same: the
+  /// interval must exclude one as large as the bound, so that too few samples leave the question open.
+  Sameness within(double bound) const;
+};
+
+/// Of independent samples, each of which is as good as any other. The interval is Welch's (Biometrika 34, 28 (1947)),
+/// with Student's t by its series in the degrees of freedom (Abramowitz & Stegun (1964), eq. 26.7.5), which needs three
+/// of them at least.
+Apart compare_means(std::span<const double> first, std::span<const double> second);
+
+}  // namespace shaken::bench

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include "bench/report.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+#include <thread>
+
+#include "base/failure.h"
+#include "base/files.h"
+#include "base/table.h"
+#include "base/text.h"
+#include "run/files/version.h"
+
+namespace shaken::bench {
+namespace {
+
+std::string cpu_name() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);) {
+    const std::size_t colon = line.find(": ");
+    if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
+  }
+  return "unknown CPU";
+}
+
+int n_cores() { return static_cast<int>(std::thread::hardware_concurrency()); }
+
+double number_of(const Json& row, const std::string& path) {
+  const Json& value = path.empty() ? Json() : member_of(row, path);
+  return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string cell(const Json& row, const Column& column) {
+  const Json& value = member_of(row, column.member);
+  if (value.is_null()) return "-";
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "NO";
+  if (value.is_string()) return value.get<std::string>();
+  return fmt::format(fmt::runtime(column.format), column.scale * value.get<double>(),
+                     column.scale * number_of(row, column.error));
+}
+
+/// The cells of a row of CSV, and their names.
+void flatten(const Json& value, const std::string& name, std::vector<std::pair<std::string, std::string>>& cells) {
+  if (value.is_object()) {
+    for (const auto& [key, member] : value.items()) flatten(member, name.empty() ? key : name + "." + key, cells);
+  } else if (value.is_array()) {
+    std::string text;
+    for (const Json& element : value) text += (text.empty() ? "" : " ") + element.dump();
+    cells.emplace_back(name, text);
+  } else {
+    cells.emplace_back(name, value.is_string() ? csv_field(value.get<std::string>()) : value.dump());
+  }
+}
+
+}  // namespace
+
+const Json& member_of(const Json& row, std::string_view path) {
+  static const Json nothing;
+  const Json::json_pointer pointer("/" + std::string(path));
+  return row.contains(pointer) ? row.at(pointer) : nothing;
+}
+
+std::string table(const Json& rows, const std::vector<Column>& columns) {
+  std::vector<Row> cells(1);
+  for (const Column& column : columns) cells[0].push_back(column.title);
+  for (const Json& row : rows) {
+    Row& line = cells.emplace_back();
+    for (const Column& column : columns) line.push_back(cell(row, column));
+  }
+  return aligned(cells);
+}
+
+std::string csv(const Json& rows) {
+  std::string text;
+  for (const Json& row : rows) {
+    std::vector<std::pair<std::string, std::string>> cells;
+    flatten(row, "", cells);
+    std::string titles, line;
+    for (const auto& [name, value] : cells) {
+      titles += (titles.empty() ? "" : ",") + name;
+      line += (&name == &cells.front().first ? "" : ",") + value;
+    }
+    if (text.empty()) text = titles + "\n";
+    text += line + "\n";
+  }
+  return text;
+}
+
+std::string plot_data(const Json& rows, const std::vector<Column>& columns) {
+  std::string text = "#";
+  for (const Column& column : columns) text += " " + column.title + (column.error.empty() ? "" : ", error");
+  for (const Json& row : rows) {
+    std::string line;
+    for (const Column& column : columns) {
+      const Json& value = member_of(row, column.member);
+      line += line.empty() ? "\n" : " ";
+      line += value.is_string() ? "\"" + value.get<std::string>() + "\""
+                                : fmt::format("{:.6g}", column.scale * number_of(row, column.member));
+      if (!column.error.empty()) line += fmt::format(" {:.4g}", column.scale * number_of(row, column.error));
+    }
+    text += line;
+  }
+  return text + "\n";
+}
+
+Curve curve(const Json& rows, const Column& x, const Column& y) {
+  Curve curve;
+  curve.label = y.title;
+  for (const Json& row : rows) {
+    curve.x.push_back(x.scale * number_of(row, x.member));
+    curve.y.push_back(y.scale * number_of(row, y.member));
+    if (!y.error.empty()) curve.y_error.push_back(y.scale * number_of(row, y.error));
+  }
+  return curve;
+}
+
+std::string this_machine() {
+  return fmt::format("{}, {} cores; {}; {}", cpu_name(), n_cores(), run::compiler(), SHAKEN_BENCH_FLAGS);
+}
+
+Report::Report(std::string file_name, const std::string& bench)
+    : name(std::move(file_name)),
+      json{{"bench", bench},
+           {"version", run::version()},
+           {"machine",
+            {{"cpu", cpu_name()}, {"cores", n_cores()}, {"compiler", run::compiler()}, {"flags", SHAKEN_BENCH_FLAGS}}},
+           {"rows", Json::array()}},
+      text(fmt::format("shaken {} on {}\n", run::version(), this_machine())) {}
+
+void Output::declare(CLI::App& app, const char* files) {
+  app.add_option("-o,--out", folder, fmt::format("Also write {} there", files))->type_name("DIR");
+  app.add_flag("--json", json, "Print JSON");
+}
+
+void Output::give(const Report& report) const {
+  const std::string text = report.json.dump(2) + "\n";
+  fmt::print("{}", json ? text : report.text);
+  std::fflush(stdout);
+  if (folder.empty()) return;
+  fail_if(make_folder(folder));
+  fail_if(write_file_atomically(std::filesystem::path(folder) / (report.name + ".json"), text));
+  fail_if(write_file_atomically(std::filesystem::path(folder) / (report.name + ".csv"), csv(report.rows())));
+}
+
+}  // namespace shaken::bench

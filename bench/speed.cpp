@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: MIT
+#include "bench/speed.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "base/clock.h"
+#include "base/progress_line.h"
+#include "bench/bench.h"
+
+namespace shaken::bench {
+
+Report report_under(const Conditions& conditions, const std::string& file_name, const std::string& bench) {
+  Report report(file_name, bench);
+  report.json["warm_up_s"] = conditions.warm_up;
+  report.json["steady"] = conditions.steady();
+  report.json["repeat"] = conditions.effort.repeat;
+  report.text += fmt::format(
+      "state after {:.10g} simulated seconds{}; best of {} repetitions\n", conditions.warm_up,
+      conditions.steady() ? "" : fmt::format(" (NOT the steady state: that takes {:.10g})", Conditions::kSteady),
+      conditions.effort.repeat);
+  return report;
+}
+
+std::vector<Column> scene_columns(const std::vector<Column>& more) {
+  std::vector<Column> columns{{"l mm", "length_mm", "{:.10g}"},
+                              {"phi", "area_fraction", "{:.10g}"},
+                              {"L mm", "side_mm", "{:.10g}"},
+                              {"N", "n_rods"}};
+  columns.insert(columns.end(), more.begin(), more.end());
+  return columns;
+}
+
+SceneSpeed measure_scene(const Case& scene, const SteadyState& state, const Effort& effort) {
+  SceneSpeed speed;
+  speed.scene = scene;
+  const Tick reference_ticks = ticks_for(effort.cpu, scene, state, Engine::kReference);
+  const Tick scheduled_ticks = std::max(ticks_for(effort.cpu, scene, state, Engine::kScheduled), scene.period_ticks());
+  // One tick builds the lists; from there on the reference is timed, and the scheduled engine settles.
+  speed.compared_ticks = 1 + reference_ticks;
+  const Tick settle = std::max<Tick>(0, scene.period_ticks() - speed.compared_ticks);
+
+  ProgressLine progress("measuring " + scene.label());
+  const double steps = 2.0 * effort.repeat + 2;
+  double step = 0;
+  const auto count = [&] { progress.show(++step / steps); };
+  for (int repetition = 0; repetition < effort.repeat; ++repetition) {
+    Simulation reference = resumed(scene, state, Engine::kReference);
+    advance(reference, 1);
+    time_stretch(reference, scene, reference_ticks, speed.reference);
+    speed.reference_hash = reference.state_hash();
+    count();
+    Simulation scheduled = resumed(scene, state, Engine::kScheduled);
+    advance(scheduled, speed.compared_ticks);
+    speed.scheduled_hash = scheduled.state_hash();
+    advance(scheduled, settle);
+    time_stretch(scheduled, scene, scheduled_ticks, speed.scheduled);
+    count();
+    if (!speed.hashes_equal()) break;  // nothing is worth more measuring
+  }
+
+  Simulation timed = resumed(scene, state, Engine::kScheduled);
+  advance(timed, speed.compared_ticks + settle);
+  speed.bounds = measure_lower_bounds(timed.world());
+  count();
+  timed.time_phases(thread_cpu_seconds_without_readings);
+  const double start = thread_cpu_seconds_without_readings();
+  advance(timed, scheduled_ticks);
+  speed.phases_cpu = thread_cpu_seconds_without_readings() - start;
+  for (std::size_t p = 0; p < kPhases; ++p) speed.phases[p] = timed.phase_times().seconds(static_cast<Phase>(p));
+  return speed;
+}
+
+namespace {
+
+Json speed_row(const SceneSpeed& scene) {
+  const EngineSpeed& scheduled = scene.scheduled;
+  const double cpu = scheduled.best_cpu();
+  Json row = json_of(scene.scene);
+  row["scheduled"] = json_of(scheduled);
+  row["reference"] = json_of(scene.reference);
+  row["scheduled"]["state_hash"] = fmt::format("{:016x}", scene.scheduled_hash);
+  row["reference"]["state_hash"] = fmt::format("{:016x}", scene.reference_hash);
+  row["ratio"] = scheduled.rate() / scene.reference.rate();
+  row["compared_ticks"] = scene.compared_ticks;
+  row["hashes_equal"] = scene.hashes_equal();
+  double other = 1;
+  for (std::size_t p = 0; p < kPhases; ++p) {
+    const double share = scene.phases[p] / scene.phases_cpu;
+    row["phase_shares"][kPhaseNames[p]] = share;
+    other -= share;
+  }
+  row["phase_shares"]["other"] = std::max(0.0, other);  // < 0: the clock's error
+  const auto alone = [&](auto bound) { return bound(scene.bounds, scheduled.plate_impulses, scheduled.rod_impulses); };
+  row["lower_bounds"] = {{"plate_impulse_ns", 1e9 * scene.bounds.plate_impulse},
+                         {"rod_impulse_ns", 1e9 * scene.bounds.rod_impulse},
+                         {"state_access_ns", 1e9 * scene.bounds.state_access},
+                         {"impulses_alone_share", alone(impulses_alone) / cpu},
+                         {"memory_alone_share", alone(memory_alone) / cpu}};
+  return row;
+}
+
+std::vector<Column> phase_columns() {
+  std::vector<Column> columns;
+  for (const char* name : kPhaseNames) {
+    columns.push_back({name, std::string("phase_shares/") + name, "{:.1f}", 100});
+  }
+  return columns;
+}
+
+}  // namespace
+
+Report speed_report(const Conditions& conditions, const std::vector<SceneSpeed>& scenes) {
+  Report report = report_under(conditions, "speed", "speed");
+  for (const SceneSpeed& scene : scenes) report.json["rows"].push_back(speed_row(scene));
+  report.text +=
+      "\nSimulated rod-seconds per CPU-second by either engine, in turn; spread is median over best CPU time of\n"
+      "the scheduled and of the reference engine; same state: bitwise, after as many ticks by either.\n" +
+      table(report.rows(), scene_columns({{"scheduled", "scheduled/rod_s_per_cpu_s", "{:.1f}"},
+                                          {"reference", "reference/rod_s_per_cpu_s", "{:.2f}"},
+                                          {"ratio", "ratio", "{:.1f}"},
+                                          {"spread", "scheduled/spread", "{:.3f}"},
+                                          {"spread", "reference/spread", "{:.3f}"},
+                                          {"impulses/CPU-s", "scheduled/impulses_per_cpu_s", "{:.3g}"},
+                                          {"ns/impulse", "scheduled/ns_per_impulse", "{:.0f}"},
+                                          {"bytes/rod", "scheduled/bytes_per_rod", "{:.0f}"},
+                                          {"same state", "hashes_equal"}}));
+  std::vector<Column> phases = phase_columns();
+  phases.push_back({"other", "phase_shares/other", "{:.1f}", 100});
+  report.text +=
+      "\nWhere the scheduled engine's CPU time goes, in % (from a run of its own, without the clock's time).\n" +
+      table(report.rows(), scene_columns(phases));
+  report.text +=
+      "\nLower bounds: the share of the scheduled engine's time that its impulses alone take, if finding contacts\n"
+      "were free, and the share that reading and writing the states of the rods hit takes, if computing were.\n" +
+      table(report.rows(), scene_columns({{"ns/plate impulse", "lower_bounds/plate_impulse_ns", "{:.0f}"},
+                                          {"ns/rod-rod impulse", "lower_bounds/rod_impulse_ns", "{:.0f}"},
+                                          {"ns/state", "lower_bounds/state_access_ns", "{:.1f}"},
+                                          {"impulses %", "lower_bounds/impulses_alone_share", "{:.1f}", 100},
+                                          {"memory %", "lower_bounds/memory_alone_share", "{:.1f}", 100}}));
+  return report;
+}
+
+namespace {
+
+constexpr const char* kSpeedFooter = R"(A steady state is simulated once (progress on stderr) and kept in the cache.
+
+Examples:
+  shaken bench speed                                    rods of 4.5 and 2.5 mm in a box of 41.865 mm
+  shaken bench speed --quick                            about a minute, not yet in the steady state
+  shaken bench speed --full --out speed                 24 scenes; speed/speed.csv, .json and .png
+  shaken bench speed --length 4.5,2.5 --area-fraction 0.75 --side 83.73
+  shaken bench speed --scaling n --out speed            cost per rod from 500 to 18,000 rods
+  shaken bench speed --scaling dt                       cost of a finer step
+  shaken bench speed --threads 1,2,4 --area-fraction 0.75 --side 83.73
+
+Exit codes: 0 done, 1 the engines' states differ or something failed, 2 bad input.)";
+
+constexpr double kSmallSide = 41.865;  // [mm]; half the paper's box
+
+void draw_speed(const std::filesystem::path& folder, const Report& report) {
+  std::vector<Column> columns{{"area fraction", "area_fraction"},
+                              {"length [mm]", "length_mm"},
+                              {"side [mm]", "side_mm"},
+                              {"scheduled", "scheduled/rod_s_per_cpu_s"},
+                              {"reference [rod-s/CPU-s]", "reference/rod_s_per_cpu_s"}};
+  for (const Column& phase : phase_columns()) columns.push_back(phase);
+  const std::size_t n = report.rows().size();
+  std::string script = plot_head("speed", {std::max(1400, 200 + 2 * 70 * static_cast<int>(n)), 700}) + plot_axes("y");
+  script += fmt::format(
+      R"(set style data histograms
+set style fill solid 1 border rgb '#ffffff'
+set xtics scale 0 font ',13' offset 0,-0.5
+set bmargin 6
+set key above horizontal samplen 1 spacing 1.1 font ',14'
+set multiplot layout 1,2
+set title 'simulated rod-seconds per CPU-second'
+set style histogram clustered gap 1
+set logscale y
+set yrange [1:*]
+set boxwidth 0.9
+set xrange [-0.6:{}]
+scene(phi, l, L) = sprintf("φ %g\nℓ %g\nL %.3g", phi, l, L)
+plot 'speed.dat' using 4:xtic(scene($1,$2,$3)) title 'scheduled' linecolor '#3b528b', \
+     '' using 5 title 'reference' linecolor '#5ec962', \
+     '' using ($0-0.17):4:(sprintf('%.0f', $4)) with labels font ',12' offset 0,0.6 notitle, \
+     '' using ($0+0.17):5:(sprintf('%.0f', $5)) with labels font ',12' offset 0,0.6 notitle
+unset logscale y
+set yrange [0:100]
+set title 'CPU time of the scheduled engine (%)'
+set style histogram rowstacked
+set boxwidth 0.7
+)",
+      static_cast<double>(n) - 0.4);
+  for (std::size_t p = 0; p < kPhases; ++p) {
+    script += fmt::format("{}'speed.dat' using {}{} title '{}' linecolor '{}'", p == 0 ? "plot " : ", ", 6 + p,
+                          p == 0 ? ":xtic(scene($1,$2,$3))" : "", kPhaseNames[p], curve_colour(p, kPhases));
+  }
+  draw_plot(folder, "speed", plot_data(report.rows(), columns), script + "\nunset multiplot\n");
+}
+
+struct SpeedBench {
+  std::vector<double> lengths, fractions, sides;
+  std::vector<int> threads;
+  std::optional<double> warm_up, cpu;
+  std::optional<int> repeat;
+  std::string scaling;
+  bool full = false, quick = false;
+  Cache cache;
+  Output output;
+
+  void declare(CLI::App& app) {
+    add_number(app, "--length", lengths, "LIST", limits_of("rods.length"), "Rod lengths [mm]");
+    add_number(app, "--area-fraction", fractions, "LIST", limits_of("rods.area_fraction"), "Area fractions");
+    add_number(app, "--side", sides, "LIST", limits_of("box.side"), "Sides of the box [mm]");
+    CLI::Option* all =
+        app.add_flag("--full", full, "All 24 scenes: 2 lengths, 4 area fractions, 3 boxes (an hour the first time)");
+    app.add_flag("--quick", quick, "Shorter warm-up and stretches: about a minute")->excludes(all);
+    add_number(app, "--warm-up", warm_up, "S", kWarmUps,
+               "Simulated seconds before measuring; 5, or 0.5 with --quick and --scaling");
+    add_number(app, "--cpu", cpu, "S", {1e-3, 1e3}, "CPU time of one timed stretch, about; 1.5, or 0.5 with --quick");
+    add_number(app, "--repeat", repeat, "N", {1, 1000}, "Repetitions, of which the best counts; 5, or 3 with --quick");
+    CLI::Option* series =
+        app.add_option("--scaling", scaling, "Instead: cost per rod against the number of rods, or the step");
+    series->type_name("n|dt")->check(CLI::IsMember({"n", "dt"}).description(""))->excludes(all);
+    add_number(app, "--threads", threads, "LIST", {1, 1024}, "Instead: wall time by so many threads")->excludes(series);
+    cache.declare(app);
+    output.declare(app);
+  }
+
+  Conditions conditions() const {
+    const bool brief = quick || !scaling.empty();
+    return {{cpu.value_or(quick ? 0.5 : 1.5), repeat.value_or(quick ? 3 : 5)},
+            warm_up.value_or(brief ? 0.5 : Conditions::kSteady)};
+  }
+
+  /// What was asked for, or else these.
+  static std::vector<double> given(const std::vector<double>& asked, const std::vector<double>& otherwise) {
+    return asked.empty() ? otherwise : asked;
+  }
+
+  std::vector<Case> scenes() const {
+    const double after = conditions().warm_up;
+    std::vector<Case> scenes;
+    for (const double side : given(sides, full ? std::vector{kSmallSide, 83.73, 167.46} : std::vector{kSmallSide})) {
+      for (const double length : given(lengths, full ? std::vector{4.5, 2.5} : std::vector{4.5})) {
+        for (const double fraction : given(fractions, {0.45, 0.60, 0.75, 0.85})) {
+          scenes.push_back(make_case(length, fraction, side, kPaperStep, after));
+        }
+      }
+    }
+    const bool any_list = !lengths.empty() || !fractions.empty() || !sides.empty();
+    if (!any_list && !full) scenes.push_back(make_case(2.5, 0.60, kSmallSide, kPaperStep, after));
+    return scenes;
+  }
+
+  ExitCode run_scaling() const {
+    const Scaling of = scaling == "n" ? Scaling::kRods : Scaling::kStep;
+    if (lengths.size() > 1 || fractions.size() > 1 || (of == Scaling::kStep && sides.size() > 1)) {
+      throw Failure(ExitCode::kBadInput, fmt::format("--scaling {} takes one value each of --length, --area-fraction{}",
+                                                     scaling, of == Scaling::kStep ? " and --side" : ""));
+    }
+    std::vector<Case> series;
+    const auto add = [&](double side, double dt) {
+      series.push_back(
+          make_case(given(lengths, {4.5})[0], given(fractions, {0.75})[0], side, dt, conditions().warm_up));
+    };
+    if (of == Scaling::kRods) {
+      for (const double side : given(sides, {kSmallSide, 83.73, 167.46, 244})) add(side, kPaperStep);
+    } else {
+      for (const double dt : {8e-6, 4e-6, 2e-6, 1e-6}) add(given(sides, {kSmallSide})[0], dt);
+    }
+    const Report report = scaling_report(conditions(), of, measure_scaling(series, cache, conditions().effort));
+    output.give(report);
+    if (!output.folder.empty()) draw_scaling(output.folder, of, report);
+    return ExitCode::kOk;
+  }
+
+  ExitCode run_threads() const {
+    std::vector<ThreadsSpeed> measured;
+    for (const Case& scene : scenes()) {
+      measured.push_back(measure_threads(scene, cache(scene), threads, conditions().effort));
+    }
+    output.give(threads_report(conditions(), measured));
+    for (const ThreadsSpeed& scene : measured) {
+      if (!scene.hashes_equal()) {
+        throw Failure(ExitCode::kFailed, scene.scene.label() + ": the number of threads changed the trajectory");
+      }
+    }
+    return ExitCode::kOk;
+  }
+
+  ExitCode run() const {
+    if (!scaling.empty()) return run_scaling();
+    if (!threads.empty()) return run_threads();
+    std::vector<SceneSpeed> measured;
+    for (const Case& scene : scenes()) {
+      measured.push_back(measure_scene(scene, cache(scene), conditions().effort));
+    }
+    const Report report = speed_report(conditions(), measured);
+    output.give(report);
+    if (!output.folder.empty()) draw_speed(output.folder, report);
+    for (const SceneSpeed& scene : measured) {
+      if (!scene.hashes_equal()) {
+        throw Failure(ExitCode::kFailed, fmt::format("{}: the engines' states differ after {} ticks",
+                                                     scene.scene.label(), scene.compared_ticks));
+      }
+    }
+    return ExitCode::kOk;
+  }
+};
+
+}  // namespace
+
+void add_speed(CLI::App& app, Work& work) {
+  add_bench<SpeedBench>(app, work, "speed", "Simulated rod-seconds per CPU-second, and what they are spent on",
+                        kSpeedFooter);
+}
+
+}  // namespace shaken::bench
