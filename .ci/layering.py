@@ -24,9 +24,6 @@ ALLOWED = {
     "run": ["proto", "base", "scene", "analysis", "run/files", "sim/core", "sim/rod", "sim/scene.h", "sim/snapshot.h",
             "sim/world.h", "sim/simulation.h", "sim/balance.h", "sim/close_up.h", "sim/effects/registry.h",
             "sim/motion/side_walls.h"],
-    # what a run costs: times the kernels of an impulse by themselves
-    "run/probe": ["proto", "base", "scene", "analysis", "run", "sim/core", "sim/rod", "sim/motion", "sim/contact", "sim/scene.h",
-                  "sim/snapshot.h", "sim/world.h", "sim/simulation.h", "sim/stepping/phase_times.h"],
     # drawing knows rods and fields; only the program's sources of frames know files and the bus
     "render/main.cpp": ["render", "base", "run/files", "proto", "sim/core", "sim/scene.h", "sim/snapshot.h", "analysis"],
     "render/sources.h": ["render", "run/files", "proto", "sim/core", "sim/scene.h", "sim/snapshot.h", "analysis"],

@@ -2,19 +2,16 @@
 #include "client/estimate.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
-#include <limits>
 #include <map>
-#include <numeric>
 
 #include "base/failure.h"
 #include "base/files.h"
 #include "base/process.h"
+#include "base/scratch_folder.h"
 #include "base/table.h"
 #include "scene/accuracy.h"
 #include "scene/canonical.h"
@@ -25,45 +22,15 @@
 namespace shaken::client {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr const char* kAsWritten = "as written";
-
-/// A file that goes with the object.
-class ScratchFile {
- public:
-  explicit ScratchFile(const char* ending) {
-    std::string name = (fs::temp_directory_path() / "shaken-XXXXXX").string() + ending;
-    const int fd = mkstemps(name.data(), static_cast<int>(std::string_view(ending).size()));
-    if (fd < 0) throw Failure(ExitCode::kFailed, name + " cannot be made");
-    close(fd);
-    path_ = name;
-  }
-  ScratchFile(const ScratchFile&) = delete;
-  ScratchFile& operator=(const ScratchFile&) = delete;
-  ~ScratchFile() {
-    std::error_code ignored;
-    fs::remove(path_, ignored);
-  }
-  std::string path() const { return path_.string(); }
-
- private:
-  fs::path path_;
-};
 
 /// What shaken-worker says of one run.
 Json probe(const scene::RunPlan& plan, const std::string& label, double cpu, const std::string& from) {
-  const ScratchFile scene(".json");
-  const ScratchFile answer(".json");
-  if (const auto error = write_file(scene.path(), scene::to_json(plan).dump())) {
-    throw Failure(ExitCode::kFailed, error->message);
-  }
-  std::vector<std::string> command{sibling_program("shaken-worker").string(),
-                                   scene.path(),
-                                   "--probe",
-                                   answer.path(),
-                                   "--probe-cpu",
-                                   fmt::format("{}", cpu)};
+  const ScratchFolder folder;
+  const std::string scene = folder.path() / "scene.json", answer = folder.path() / "cost.json";
+  fail_if(write_file(scene, scene::to_json(plan).dump()));
+  std::vector<std::string> command{
+      sibling_program("shaken-worker").string(), scene, "--probe", answer, "--probe-cpu", fmt::format("{}", cpu)};
   if (!from.empty()) command.insert(command.end(), {"--probe-from", from});
   const Captured result = run_captured(command);
   if (result.exit_code != 0) {
@@ -72,9 +39,7 @@ Json probe(const scene::RunPlan& plan, const std::string& label, double cpu, con
     throw Failure(result.exit_code == 2 ? ExitCode::kBadInput : ExitCode::kFailed,
                   label.empty() ? words : fmt::format("{}: {}", label, words));
   }
-  const auto text = read_file(answer.path());
-  if (!text) throw Failure(ExitCode::kFailed, text.error().message);
-  return Json::parse(*text);
+  return Json::parse(value_or_fail(read_file(answer)));
 }
 
 /// Costs of a run in the units that change least from run to run.
@@ -93,74 +58,6 @@ Rates rates_of(const Json& report, const scene::RunPlan& plan) {
           report.at("disk_bytes").at("total").get<double>() / all};
 }
 
-/// What the cost of a run depends on, apart from the step.
-using Features = std::array<double, 9>;
-
-Features features_of(const scene::RunPlan& plan) {
-  const Scene& s = plan.system;
-  return {std::log(s.n_rods),
-          scene::area_fraction_of(s),
-          std::log(s.rod.length),
-          s.rod.end_diameter / s.rod.mid_diameter,
-          std::log(s.gap),
-          s.amplitude * s.frequency,
-          s.rod_base.restitution + s.rod_lid.restitution,
-          s.rod_rod.restitution,
-          s.rod_rod.friction + s.rod_base.friction + s.rod_lid.friction};
-}
-
-/// Each feature over [0, 1].
-void normalise(std::vector<Features>& features) {
-  for (std::size_t f = 0; f < Features{}.size(); ++f) {
-    const auto less = [f](const Features& a, const Features& b) { return a[f] < b[f]; };
-    const auto [low, high] = std::minmax_element(features.begin(), features.end(), less);
-    const double from = (*low)[f];
-    const double width = (*high)[f] - from;
-    for (Features& row : features) row[f] = width > 0 ? (row[f] - from) / width : 0.0;
-  }
-}
-
-double distance2(const Features& a, const Features& b) {
-  return std::transform_reduce(a.begin(), a.end(), b.begin(), 0.0, std::plus<>(),
-                               [](double x, double y) { return (x - y) * (x - y); });
-}
-
-/// The one nearest to the middle of all, then each time the one furthest from those chosen.
-std::vector<std::size_t> spread_out(const std::vector<Features>& features, std::size_t n) {
-  Features middle;
-  middle.fill(0.5);
-  const auto nearer = [&](const Features& a, const Features& b) { return distance2(a, middle) < distance2(b, middle); };
-  std::vector<std::size_t> chosen{
-      static_cast<std::size_t>(std::min_element(features.begin(), features.end(), nearer) - features.begin())};
-  std::vector<double> away(features.size(), std::numeric_limits<double>::infinity());
-  while (chosen.size() < n) {
-    for (std::size_t i = 0; i < features.size(); ++i) {
-      away[i] = std::min(away[i], distance2(features[i], features[chosen.back()]));
-    }
-    chosen.push_back(static_cast<std::size_t>(std::max_element(away.begin(), away.end()) - away.begin()));
-  }
-  return chosen;
-}
-
-/// Cost per simulated second against the step: straight between the probed steps, both logarithmic, and beyond them.
-class StepCurve {
- public:
-  void add(double step, double cost) { points_[std::log(step)] = std::log(cost); }
-  double at(double step) const {
-    const double x = std::log(step);
-    if (points_.size() == 1) return std::exp(points_.begin()->second);
-    auto after = points_.lower_bound(x);
-    if (after == points_.begin()) ++after;
-    if (after == points_.end()) --after;
-    const auto before = std::prev(after);
-    const double slope = (after->second - before->second) / (after->first - before->first);
-    return std::exp(before->second + slope * (x - before->first));
-  }
-
- private:
-  std::map<double, double> points_;
-};
-
 /// The plan at another step, or what speaks against it.
 std::optional<scene::RunPlan> at_step(const scene::RunPlan& plan, double step, std::string& error) {
   nlohmann::ordered_json scene = scene::to_json(plan);
@@ -176,60 +73,66 @@ class Estimator {
 
   Estimate run() {
     find_distinct();
-    std::vector<Features> features;
-    for (const std::size_t point : distinct_) features.push_back(features_of(plan_of(point)));
-    normalise(features);
-    const auto probed = spread_out(features, std::min(distinct_.size(), options_.most_probes));
-    const std::size_t central = distinct_[probed.front()];
+    const std::size_t n = std::min(distinct_.size(), options_.most_probes);
+    // places in distinct_: evenly from the first to the last, or the middle one alone
+    std::vector<std::size_t> probed{distinct_.size() / 2};
+    if (n > 1) probed.clear();
+    for (std::size_t k = 0; n > 1 && k < n; ++k) probed.push_back(k * (distinct_.size() - 1) / (n - 1));
+    const std::size_t shown = probed[probed.size() / 2];
 
     result_.n_runs = sweep_.points.size();
     result_.n_distinct = distinct_.size();
-    result_.shown = central;
+    result_.shown = distinct_[shown];
     if (!options_.probe) {
-      result_.report = probe(plan_of(central), sweep_.points[central].label, 0, "");
+      result_.report = probe(plan_of(shown), label_of(shown), 0, "");
       return std::move(result_);
     }
     result_.n_probed = probed.size();
-    n_probes_ = probed.size() + (options_.from.empty() ? 0 : 1);
+    const bool levels = options_.levels && has_one_step();
+    n_probes_ = probed.size();
+    if (levels && !options_.from.empty()) ++n_probes_;
     for (const scene::AccuracyLevel& level : scene::accuracy_levels()) {
-      n_probes_ += options_.levels && level.step != plan_of(central).system.dt;
+      n_probes_ += levels && level.step != plan_of(shown).system.dt;
     }
     if (options_.on_probe) options_.on_probe(0, n_probes_);
-    result_.report = probe_point(central, options_.from);
-    probe_steps(central);
-
-    // at the step of the central point, so that they can be compared
-    const double step = plan_of(central).system.dt;
+    result_.report = probe_plan(plan_of(shown), label_of(shown), options_.from);
     std::vector<Rates> rates;
     for (const std::size_t k : probed) {
-      const std::size_t point = distinct_[k];
-      Rates rate = rates_of(point == central ? result_.report : probe_point(point, ""), plan_of(point));
-      rate.stepping *= steps_.at(step) / steps_.at(plan_of(point).system.dt);
-      rates.push_back(rate);
+      rates.push_back(rates_of(k == shown ? result_.report : probe_plan(plan_of(k), label_of(k), ""), plan_of(k)));
     }
-    std::vector<Rates> of_distinct;
-    for (std::size_t i = 0; i < distinct_.size(); ++i) of_distinct.push_back(interpolated(i, features, probed, rates));
-    add_up(of_distinct, step);
+    const Costs costs = add_up(probed, rates);
+    result_.levels.push_back({kAsWritten, has_one_step() ? plan_of(shown).system.dt : 0, "", costs.cpu(1), costs.disk});
+    if (levels) probe_levels(shown, costs);
     if (options_.on_probe) options_.on_probe(n_probes_, n_probes_);
     return std::move(result_);
   }
 
  private:
-  const scene::RunPlan& plan_of(std::size_t point) const { return sweep_.points[point].plan; }
-  Json probe_point(std::size_t point, const std::string& from) {
-    return probe_plan(plan_of(point), sweep_.points[point].label, from);
+  /// Of all runs together.
+  struct Costs {
+    double stepping = 0, besides = 0, disk = 0;
+    /// With a step that makes stepping so many times as long.
+    double cpu(double factor) const { return factor * stepping + besides; }
+  };
+
+  const scene::RunPlan& plan_of(std::size_t k) const { return sweep_.points[distinct_[k]].plan; }
+  const std::string& label_of(std::size_t k) const { return sweep_.points[distinct_[k]].label; }
+  bool has_one_step() const {
+    return std::all_of(sweep_.points.begin(), sweep_.points.end(), [&](const scene::SweepPoint& point) {
+      return point.plan.system.dt == sweep_.points.front().plan.system.dt;
+    });
   }
   Json probe_plan(const scene::RunPlan& plan, const std::string& label, const std::string& from) {
     Json report = probe(plan, label, options_.cpu, from);
-    ++n_probed_;
-    if (options_.on_probe) options_.on_probe(std::min(n_probed_, n_probes_ - 1), n_probes_);
+    ++n_done_;
+    if (options_.on_probe) options_.on_probe(std::min(n_done_, n_probes_ - 1), n_probes_);
     return report;
   }
 
   void find_distinct() {
     std::map<std::string, std::size_t> seen;
     for (std::size_t p = 0; p < sweep_.points.size(); ++p) {
-      scene::RunPlan plan = plan_of(p);
+      scene::RunPlan plan = sweep_.points[p].plan;
       plan.system.seed = 0;
       const auto [at, is_new] = seen.emplace(scene::run_id(plan), distinct_.size());
       if (is_new) {
@@ -240,72 +143,60 @@ class Estimator {
     }
   }
 
-  void probe_steps(std::size_t central) {
-    const scene::RunPlan& own = plan_of(central);
-    // A saved state fits one step only. So that steps can be compared, all of them begin where the run begins.
-    const Json from_start = options_.from.empty() ? result_.report : probe_point(central, "");
-    steps_.add(own.system.dt, rates_of(from_start, own).stepping);
-    if (!options_.levels) return;
+  /// Between two probed points the rates go straight from those of the one to those of the other.
+  Costs add_up(const std::vector<std::size_t>& probed, const std::vector<Rates>& rates) const {
+    Costs sum;
+    std::size_t next = 0;  // the first probed point that is not before k
+    for (std::size_t k = 0; k < distinct_.size(); ++k) {
+      while (next + 1 < probed.size() && probed[next] < k) ++next;
+      const std::size_t before = next > 0 ? next - 1 : 0;
+      const double width = static_cast<double>(probed[next] - probed[before]);
+      const double part = width > 0 ? static_cast<double>(k - probed[before]) / width : 1;
+      const double size = static_cast<double>(n_alike_[k]) * rod_seconds(plan_of(k));
+      const auto between = [&](double Rates::*rate) {
+        return size * std::lerp(rates[before].*rate, rates[next].*rate, part);
+      };
+      sum.stepping += between(&Rates::stepping);
+      sum.besides += between(&Rates::besides);
+      sum.disk += between(&Rates::disk);
+    }
+    return sum;
+  }
+
+  /// A saved state fits one step only. So that steps can be compared, all of them begin where the run begins.
+  void probe_levels(std::size_t shown, const Costs& costs) {
+    const scene::RunPlan& own = plan_of(shown);
+    const auto stepping_from_start = [&](const scene::RunPlan& plan, const std::string& label) {
+      return rates_of(probe_plan(plan, label, ""), plan).stepping;
+    };
+    const double yardstick =
+        options_.from.empty() ? rates_of(result_.report, own).stepping : stepping_from_start(own, label_of(shown));
     for (const scene::AccuracyLevel& level : scene::accuracy_levels()) {
       LevelCost cost{std::string(level.name), level.step, "", {}, {}};
+      double factor = 1;
       if (level.step != own.system.dt) {
-        if (const auto plan = at_step(own, level.step, cost.error)) {
-          try {
-            const std::string label = fmt::format("accuracy={}", level.name);
-            steps_.add(level.step, rates_of(probe_plan(*plan, label, ""), *plan).stepping);
-          } catch (const Failure& failure) {
-            cost.error = failure.what();
+        try {
+          if (const auto plan = at_step(own, level.step, cost.error)) {
+            factor = stepping_from_start(*plan, fmt::format("accuracy={}", level.name)) / yardstick;
           }
+        } catch (const Failure& failure) {
+          cost.error = failure.what();
         }
+      }
+      if (cost.error.empty()) {
+        cost.cpu = costs.cpu(factor);
+        cost.disk = costs.disk;
       }
       result_.levels.push_back(std::move(cost));
     }
   }
 
-  /// Means of logarithms, weighted with the inverse square of the distance (Shepard 1968).
-  static Rates interpolated(std::size_t i, const std::vector<Features>& features,
-                            const std::vector<std::size_t>& probed, const std::vector<Rates>& rates) {
-    double weights = 0;
-    double stepping = 0;
-    Rates mean;
-    for (std::size_t k = 0; k < probed.size(); ++k) {
-      if (probed[k] == i) return rates[k];
-      const double weight = 1 / std::max(1e-12, distance2(features[i], features[probed[k]]));
-      weights += weight;
-      stepping += weight * std::log(rates[k].stepping);
-      mean.besides += weight * rates[k].besides;
-      mean.disk += weight * rates[k].disk;
-    }
-    return {std::exp(stepping / weights), mean.besides / weights, mean.disk / weights};
-  }
-
-  void add_up(const std::vector<Rates>& rates, double step) {
-    LevelCost written{kAsWritten, plan_of(distinct_.front()).system.dt, "", 0.0, 0.0};
-    for (LevelCost& level : result_.levels) {
-      if (level.error.empty()) level.cpu = level.disk = 0;
-    }
-    for (std::size_t i = 0; i < distinct_.size(); ++i) {
-      const scene::RunPlan& plan = plan_of(distinct_[i]);
-      const double all = static_cast<double>(n_alike_[i]) * rod_seconds(plan);
-      const auto add = [&](LevelCost& level, double dt) {
-        if (!level.cpu) return;
-        *level.cpu += all * (rates[i].stepping * steps_.at(dt) / steps_.at(step) + rates[i].besides);
-        *level.disk += all * rates[i].disk;
-      };
-      add(written, plan.system.dt);
-      for (LevelCost& level : result_.levels) add(level, level.step);
-      if (plan.system.dt != written.step) written.step = 0;
-    }
-    result_.levels.insert(result_.levels.begin(), std::move(written));
-  }
-
   const scene::Sweep& sweep_;
   const EstimateOptions& options_;
   Estimate result_;
-  std::vector<std::size_t> distinct_;  ///< the first point of each kind
-  std::vector<std::size_t> n_alike_;   ///< (distinct_) how many points are of the kind
-  StepCurve steps_;
-  std::size_t n_probes_ = 0, n_probed_ = 0;  ///< to be made, and made
+  std::vector<std::size_t> distinct_;      ///< the first point of each kind
+  std::vector<std::size_t> n_alike_;       ///< (distinct_) how many points are of the kind
+  std::size_t n_probes_ = 0, n_done_ = 0;  ///< to be made, and made
 };
 
 std::string step_text(double step) {
@@ -390,9 +281,11 @@ std::string estimate_text(const Estimate& estimate, int width) {
     if (estimate.n_distinct < estimate.n_runs)
       text += fmt::format("{} differ in more than their seed. ", estimate.n_distinct);
     text += estimate.n_probed < estimate.n_distinct
-                ? fmt::format("{} of them were probed; the others are interpolated from these.\n", estimate.n_probed)
+                ? fmt::format("{} of them were probed; the others are interpolated between these.\n", estimate.n_probed)
                 : "Each of these was probed.\n";
-    text += "The steps of the levels were probed at one point, and change the cost of the others by the same factor.\n";
+    text += estimate.levels.size() > 1 ? "The steps of the levels were probed at one point, and change the cost of the "
+                                         "others by the same factor.\n"
+                                       : "";
   }
   static constexpr std::size_t kWidth = 100;
   return text + level_errors(estimate, width > 0 ? static_cast<std::size_t>(width) : kWidth);

@@ -26,7 +26,7 @@ struct EstimateOptions {
   double cpu = 1.5;    ///< CPU time of each probe's steps, about [s]
   std::string from{};  ///< directory of a run of the same system to start from; empty: the run's own start
   std::size_t most_probes = kMostProbes;  ///< points of a sweep that are probed, at most
-  bool levels = true;                     ///< probe the steps of the levels of accuracy too
+  bool levels = true;                     ///< probe the steps of the levels of accuracy too, if all points have one
   ProbeProgress on_probe{};               ///< called before the first probe and after each
 };
 
@@ -45,13 +45,13 @@ struct Estimate {
   std::size_t n_distinct = 0;  ///< runs that differ in more than their seed
   std::size_t n_probed = 0;    ///< of these
   std::size_t shown = 0;       ///< the point that `report` is of
-  Json report;                 ///< of `shaken-worker --probe` (run/probe/report.h)
+  Json report;                 ///< of `shaken-worker --probe` (run/probe/probe.h)
   std::vector<LevelCost> levels;
 };
 
-/// Probes the points by `shaken-worker --probe`: a handful, as different from each other as can be. Costs of the others
-/// are interpolated, per rod and simulated second. Other steps are probed at the most ordinary point, and taken to
-/// change the cost of all others by the same factor. Throws Failure if a point cannot be simulated.
+/// Probes a handful of points by `shaken-worker --probe`, evenly along the sweep; costs of those between them, per rod
+/// and simulated second, are interpolated. The steps of the levels are probed at one point, and taken to change the
+/// cost of all others by the same factor. Throws Failure if a point cannot be simulated.
 Estimate estimate_cost(const scene::Sweep& sweep, const EstimateOptions& options);
 
 /// The costs as a table, and a line on where they come from; empty if nothing was probed.

@@ -21,7 +21,7 @@
 #include "run/files/version.h"
 #include "run/loop.h"
 #include "run/movie_process.h"
-#include "run/probe/report.h"
+#include "run/probe/probe.h"
 #include "run/replay.h"
 #include "run/terminal.h"
 #include "scene/canonical.h"

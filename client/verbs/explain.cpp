@@ -19,9 +19,7 @@ namespace {
 using Align = Table::Align;
 using scene::Dimension;
 
-std::string percent(const Json& share) {
-  return share.is_null() ? "-" : fmt::format("{:.1f}", 100 * share.get<double>());
-}
+std::string percent(const Json& share) { return fmt::format("{:.1f}", 100 * share.get<double>()); }
 
 class Explain : public Verb {
  public:
@@ -66,7 +64,7 @@ class Explain : public Verb {
     show_scene(sweep, point, console);
     show_effects(estimate.report, console);
     if (no_probe_) return ExitCode::kOk;
-    show_stages(estimate.report, console);
+    show_probe(estimate.report, console);
     console.out << "\nOn this machine, on one core:\n" << estimate_text(estimate, console.width);
     return ExitCode::kOk;
   }
@@ -138,35 +136,27 @@ class Explain : public Verb {
   static void show_effects(const Json& report, Console& console) {
     const bool probed = report.contains("probe");
     std::vector<Table::Column> columns{{"EFFECT"}, {""}, {"BECAUSE"}};
-    if (probed) columns = {{"EFFECT"}, {""}, {"CPU %", Align::kRight}, {"BECAUSE"}, {"THAT IS"}};
+    if (probed) columns.insert(columns.begin() + 2, {"CPU %", Align::kRight});
     Table table(columns);
     for (const Json& effect : report.at("effects")) {
-      const bool on = effect.at("on").get<bool>();
-      std::vector<std::string> row{effect.at("name").get<std::string>(),
-                                   on ? console.painted(Colour::kGreen, "on") : console.painted(Colour::kDim, "off")};
-      if (probed) row.push_back(on ? percent(effect.at("cpu_share")) : "");
+      std::vector<std::string> row{effect.at("name").get<std::string>(), effect.at("on").get<bool>()
+                                                                             ? console.painted(Colour::kGreen, "on")
+                                                                             : console.painted(Colour::kDim, "off")};
+      if (probed) row.push_back(effect.contains("cpu_share") ? percent(effect.at("cpu_share")) : "");
       row.push_back(effect.at("why").get<std::string>());
-      if (probed) row.push_back(effect.value("note", ""));
       table.add_row(std::move(row));
     }
     console.out << table.text(console.width);
   }
 
-  void show_stages(const Json& report, Console& console) const {
-    const double movie = report.at("cpu_seconds").get<double>();
-    Table table({{"STAGE"}, {"CPU %", Align::kRight}, {"WHAT"}});
-    for (const Json& stage : report.at("stages")) {
-      table.add_row(
-          {stage.at("name").get<std::string>(), percent(stage.at("cpu_share")), stage.at("what").get<std::string>()});
-    }
-    table.add_row(
-        {"snapshots", percent(report.at("snapshots_cpu_share")), "all rods evaluated, for samples and frames"});
-    table.add_row({"checkpoints", percent(report.at("checkpoints_cpu_share")), "the state, twice a minute"});
-    const Json& probe = report.at("probe");
+  void show_probe(const Json& report, Console& console) const {
     console.out << fmt::format(
-        "\nShares are of the CPU time of the whole run, {}. They overlap: collisions and friction are parts of\nthe "
-        "stages below, measurements, frames and movie come on top. \"-\": cannot be told apart.\n\n{}",
-        cpu_text(movie), table.text(console.width));
+        "\nShares are of the CPU time of the whole run, {}. The rest of that time: {} % for stepping, which is all of\n"
+        "the physics, {} % for reading the rods for samples and frames, {} % for checkpoints. What one effect of the\n"
+        "physics costs, only a run without it tells: `shaken bench effects`.\n",
+        cpu_text(report.at("cpu_seconds").get<double>()), percent(report.at("stepping_cpu_share")),
+        percent(report.at("snapshots_cpu_share")), percent(report.at("checkpoints_cpu_share")));
+    const Json& probe = report.at("probe");
     console.out << fmt::format(
         "\nProbe: {} s of the run stepped in {} CPU-seconds, {} rod-seconds per CPU-second, {}.\n",
         number_text(probe.at("simulated_s").get<double>()), number_text(probe.at("cpu_s").get<double>()),

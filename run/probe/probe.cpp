@@ -6,16 +6,15 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include "base/clock.h"
+#include "base/scratch_folder.h"
 #include "proto/frame_codec.h"
+#include "run/effects.h"
 #include "run/messages.h"
 #include "run/movie_process.h"
-#include "run/probe/impulse_cost.h"
 #include "run/probe/sampling.h"
-#include "run/probe/scratch_folder.h"
 #include "run/session.h"
 #include "scene/canonical.h"
 
@@ -40,7 +39,6 @@ class Prober {
   Result<Probe> run() {
     result_.run_ticks = static_cast<double>(total_ticks(plan_));
     if (auto error = step()) return *error;
-    time_impulse_laws();
     const SamplingCost sampling = time_sampling(plan_, simulation_.world().species.front(), snapshots_);
     result_.samples = sampling.samples;
     result_.disk.observables = sampling.file_bytes;
@@ -59,11 +57,11 @@ class Prober {
   };
 
   /// Steps for about `cpu` seconds: whole vibrations, if it is at least one, as speed changes with the plates' phase.
-  Result<Stretch> step_for(double cpu, PhaseTimes::Clock clock) {
+  Result<Stretch> step_for(double cpu) {
     const auto period = static_cast<Tick>(std::max(1.0, std::round(1.0 / (plan_.system.frequency * dt_))));
     Stretch stretch;
     Tick stride = std::max<Tick>(1, period / 64);
-    const double begin = clock();
+    const double begin = thread_cpu_seconds();
     while (stretch.cpu < cpu || (stretch.ticks > period && stretch.ticks % period != 0)) {
       // doubled until it is worth a sixteenth of the time; then to the end of a vibration, if one was reached
       Tick ticks = stride;
@@ -77,69 +75,28 @@ class Prober {
                                  fmt::join(trouble->rods, ", "), trouble->what)};
       }
       stretch.ticks += ticks;
-      stretch.cpu = clock() - begin;
+      stretch.cpu = thread_cpu_seconds() - begin;
     }
     return stretch;
   }
 
   [[nodiscard]] std::optional<Error> step() {
     // From a checkpoint too: lists and schedules have to be built.
-    const auto warm_up = step_for(simulation_.tick() == 0 ? cpu_ / 2 : cpu_ / 16, thread_cpu_seconds);
+    const auto warm_up = step_for(simulation_.tick() == 0 ? cpu_ / 2 : cpu_ / 16);
     if (!warm_up) return warm_up.error();
     result_.warm_up = static_cast<double>(warm_up->ticks) * dt_;
 
-    const Counters before = simulation_.world().counters;
-    const auto timed = step_for(0.375 * cpu_, thread_cpu_seconds);
+    const auto timed = step_for(0.5 * cpu_);
     if (!timed) return timed.error();
-    const Counters after = simulation_.world().counters;
     result_.simulated = static_cast<double>(timed->ticks) * dt_;
     result_.cpu = timed->cpu;
     result_.tick_cpu = timed->cpu / static_cast<double>(timed->ticks);
-    const double runs = result_.run_ticks / static_cast<double>(timed->ticks);
-    rod_rod_ = runs * static_cast<double>(after.impulses_rod_rod - before.impulses_rod_rod);
-    rod_base_ = runs * static_cast<double>(after.impulses_rod_base - before.impulses_rod_base);
-    rod_lid_ = runs * static_cast<double>(after.impulses_rod_lid - before.impulses_rod_lid);
-    rod_wall_ = runs * static_cast<double>(after.impulses_rod_wall - before.impulses_rod_wall);
-
-    // reading the clock costs time, so the stages come from a stretch of their own
-    simulation_.time_phases(thread_cpu_seconds_without_readings);
-    const auto phased = step_for(cpu_ / 8, thread_cpu_seconds_without_readings);
-    if (!phased) return phased.error();
-    for (std::size_t p = 0; p < kPhases; ++p) {
-      result_.stages[p] = std::max(0.0, simulation_.phase_times().seconds(static_cast<Phase>(p)) / phased->cpu);
-    }
-    // small errors of the clock must not make more than the whole
-    const double sum = std::accumulate(result_.stages.begin(), result_.stages.end(), 0.0);
-    if (sum > 1) {
-      for (double& share : result_.stages) share /= sum;
-    }
-    simulation_.time_phases(nullptr);
     for (int k = 0; k < kSnapshots; ++k) {
-      const auto between = step_for(cpu_ / 8 / kSnapshots, thread_cpu_seconds);
+      const auto between = step_for(cpu_ / 8 / kSnapshots);
       if (!between) return between.error();
       snapshots_.push_back(simulation_.snapshot());
     }
     return std::nullopt;
-  }
-
-  /// What friction and bounce add to an impulse, times the impulses of the run. Made-up hits can be harder to compute
-  /// than those that occur, so no part is allowed more than its stage.
-  void time_impulse_laws() {
-    const auto add = [&](const std::string& kind, const ContactParameters& contact, Against what, double impulses) {
-      if (impulses == 0 || (contact.friction == 0 && contact.restitution == 0)) return;
-      const ImpulseCost cost = time_impulses(simulation_.world(), contact, what);
-      const Phase phase = kind == "rod_rod" ? Phase::kResponse : Phase::kPlates;
-      const double stage = result_.stages[static_cast<std::size_t>(phase)] * result_.stepping();
-      const auto put = [&](const char* part, double each) {
-        result_.impulse_cpu[kind + part] = std::min(stage, impulses * each);
-      };
-      if (contact.friction > 0) put("_friction", cost.friction);
-      if (contact.restitution > 0) put("_restitution", cost.restitution);
-    };
-    add("rod_rod", plan_.system.rod_rod, Against::kRod, rod_rod_);
-    add("rod_base", plan_.system.rod_base, Against::kPlate, rod_base_);
-    add("rod_lid", plan_.system.rod_lid, Against::kPlate, rod_lid_);
-    if (plan_.system.walls) add("side_wall", plan_.system.walls->contact, Against::kRod, rod_wall_);
   }
 
   /// Ticks of the run at which anything is sampled or recorded.
@@ -242,7 +199,6 @@ class Prober {
   double dt_;
   Probe result_;
   std::vector<Snapshot> snapshots_;
-  double rod_rod_ = 0, rod_base_ = 0, rod_lid_ = 0, rod_wall_ = 0;  ///< impulses of the whole run
 };
 
 }  // namespace
@@ -255,6 +211,48 @@ double Probe::total() const {
 
 Result<Probe> probe(const scene::RunPlan& plan, Simulation simulation, double cpu) {
   return Prober(plan, std::move(simulation), cpu).run();
+}
+
+namespace {
+
+/// CPU time of what is measured, recorded, sent or drawn [s]; none for the physics, and for a movie that could not be
+/// timed.
+std::optional<double> own_cpu(const std::string& effect, const Probe& probe) {
+  if (const auto found = probe.samples.find(effect); found != probe.samples.end()) return found->second.cpu();
+  if (effect == "trajectory") return probe.trajectory.cpu();
+  if (effect == "stream") return probe.stream.cpu();
+  if (effect == "movie" && probe.movie_trouble.empty()) return probe.movie.cpu();
+  return std::nullopt;
+}
+
+}  // namespace
+
+nlohmann::ordered_json probe_report(const scene::RunPlan& plan, const std::optional<Probe>& probe) {
+  using OrderedJson = nlohmann::ordered_json;
+  OrderedJson report;
+  const double total = probe ? probe->total() : 0;
+  report["effects"] = OrderedJson::array();
+  for (const EffectLine& line : list_effects(plan)) {
+    OrderedJson entry{{"name", line.name}, {"what", line.what}, {"on", line.on}, {"why", line.why}};
+    const auto cpu = probe && line.on ? own_cpu(line.name, *probe) : std::nullopt;
+    if (cpu) entry["cpu_share"] = *cpu / total;
+    report["effects"].push_back(std::move(entry));
+  }
+  if (!probe) return report;
+  report["probe"] = {{"warm_up_s", probe->warm_up},
+                     {"simulated_s", probe->simulated},
+                     {"cpu_s", probe->cpu},
+                     {"rod_seconds_per_cpu_second", plan.system.n_all_rods() * probe->simulated / probe->cpu}};
+  report["stepping_cpu_share"] = probe->stepping() / total;
+  report["snapshots_cpu_share"] = probe->snapshots.cpu() / total;
+  report["checkpoints_cpu_share"] = probe->checkpoints.cpu() / total;
+  report["cpu_seconds"] = total;
+  report["stepping_cpu_seconds"] = probe->stepping();
+  report["disk_bytes"] = {{"trajectory", probe->disk.trajectory},
+                          {"observables", probe->disk.observables},
+                          {"checkpoints", probe->disk.checkpoints},
+                          {"total", probe->disk.total()}};
+  return report;
 }
 
 }  // namespace shaken::run

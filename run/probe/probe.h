@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "scene/run_plan.h"
 #include "sim/core/result.h"
 #include "sim/simulation.h"
-#include "sim/stepping/phase_times.h"
 
 namespace shaken::run {
 
@@ -29,7 +29,8 @@ struct DiskUse {
   double total() const { return trajectory + observables + checkpoints; }
 };
 
-/// What a short piece of a run tells of the whole run on this machine, on one thread.
+/// What a short piece of a run tells of the whole run on this machine, on one thread: ticks times the time of a tick,
+/// and so many of each thing that the run does now and then times the time of one.
 struct Probe {
   // the piece
   double warm_up = 0;    ///< simulated before timing [s]
@@ -38,14 +39,12 @@ struct Probe {
 
   // the whole
   double run_ticks = 0;
-  double tick_cpu = 0;                        ///< CPU time of a tick [s]
-  std::array<double, kPhases> stages{};       ///< shares of the stepping, in the order of kPhaseNames
-  std::map<std::string, double> impulse_cpu;  ///< by effect: CPU time of its part in the impulse law [s]
-  Cost snapshots;                             ///< every rod evaluated, for samples and frames
-  std::map<std::string, Cost> samples;        ///< by effect, "measure_order"
-  Cost trajectory, stream, checkpoints;       ///< zero where they are off
-  Cost movie;                                 ///< drawn by a process of its own
-  std::string movie_trouble;                  ///< why the movie could not be timed, if so
+  double tick_cpu = 0;                   ///< CPU time of a tick [s]
+  Cost snapshots;                        ///< every rod evaluated, for samples and frames
+  std::map<std::string, Cost> samples;   ///< by effect, "measure_order"
+  Cost trajectory, stream, checkpoints;  ///< zero where they are off
+  Cost movie;                            ///< drawn by a process of its own
+  std::string movie_trouble;             ///< why the movie could not be timed, if so
   DiskUse disk;
 
   double stepping() const { return run_ticks * tick_cpu; }
@@ -57,5 +56,14 @@ struct Probe {
 /// then beside stepping. At tick 0 half of `cpu` goes by before anything is timed. Fails if the steps meet
 /// numerical trouble or the disk refuses. Files go to a temporary folder.
 Result<Probe> probe(const scene::RunPlan& plan, Simulation simulation, double cpu);
+
+/// What a plan calls for and, if it was probed, what that costs; what `shaken-worker --probe` writes:
+///   {"effects": [{"name", "what", "on", "why", "cpu_share"?}],
+///    "probe":  {"warm_up_s", "simulated_s", "cpu_s", "rod_seconds_per_cpu_second"},
+///    "stepping_cpu_share", "snapshots_cpu_share", "checkpoints_cpu_share",
+///    "cpu_seconds", "stepping_cpu_seconds", "disk_bytes": {"trajectory", "observables", "checkpoints", "total"}}
+/// All shares are of "cpu_seconds", the CPU time of the whole run with its movie, and add up to 1. What is measured,
+/// recorded or drawn has one of its own; the physics is stepping as a whole.
+nlohmann::ordered_json probe_report(const scene::RunPlan& plan, const std::optional<Probe>& probe);
 
 }  // namespace shaken::run

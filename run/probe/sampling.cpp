@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/clock.h"
+#include "base/scratch_folder.h"
 #include "run/measurements.h"
-#include "run/probe/scratch_folder.h"
 #include "run/session.h"
 
 namespace shaken::run {

@@ -7,13 +7,13 @@
 #include <string>
 #include <system_error>
 
-namespace shaken::run {
+namespace shaken {
 
 /// A temporary folder that goes with the object. Throws std::system_error if there can be none.
 class ScratchFolder {
  public:
   ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "shaken-probe.XXXXXX").string();
+    std::string name = (std::filesystem::temp_directory_path() / "shaken.XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr) throw std::system_error(errno, std::generic_category(), name);
     path_ = name;
   }
@@ -29,4 +29,4 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace shaken::run
+}  // namespace shaken
