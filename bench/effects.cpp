@@ -36,11 +36,9 @@ struct Contender {
 };
 
 /// The case from `state` on. One tick goes by before it is handed out, so that lists and schedules are there.
-/// `everything`: with every effect compiled in, needed or not.
-Contender contender(const Case& scene, const SteadyState& state, bool everything = false) {
-  return {scene, [scene, state, everything] {
+Contender contender(const Case& scene, const SteadyState& state) {
+  return {scene, [scene, state] {
             Simulation simulation = resumed(scene, state, Engine::kScheduled);
-            if (everything) simulation.compile_in_everything();
             advance(simulation, 1);
             return simulation;
           }};
@@ -141,32 +139,6 @@ void measure_savings(const Case& everything, const Cache& cache, const Effort& e
   }
 }
 
-/// Inner loops with every effect compiled in, against those that are composed for the scene (sim/stepping/compose.h),
-/// for the case as it is and without friction. Throws Failure if they do not give the same bits.
-Json measure_composing(const Case& everything, const Cache& cache, const Effort& effort) {
-  Case frictionless = everything;
-  for (const Effect& effect : all_effects()) {
-    if (effect.name == "spin") effect.switch_off(frictionless.plan.system);  // needs friction of any kind
-  }
-  const auto hash_after_a_period = [](const Contender& one) {
-    Simulation simulation = one.make();
-    advance(simulation, one.scene.period_ticks());
-    return simulation.state_hash();
-  };
-  Json comparisons = Json::object();
-  for (const auto& [name, scene] : {std::pair("as it is", everything), std::pair("without friction", frictionless)}) {
-    const SteadyState state = cache(scene);
-    ProgressLine progress(std::string("measuring loops with everything, ") + name);
-    const Contender general = contender(scene, state, true);
-    const Contender composed = contender(scene, state);
-    if (hash_after_a_period(general) != hash_after_a_period(composed)) {
-      throw Failure(ExitCode::kFailed, std::string(name) + ": the states differ with everything compiled in");
-    }
-    comparisons[name] = json_of(compare(general, composed, effort.repeat, 0, effort.cpu));
-  }
-  return comparisons;
-}
-
 std::string effects_text(const Case& scene, const Effort& effort, const Json& report) {
   std::string text = fmt::format(
       R"({}, N = {}, dt = {:.10g} us; states after {:.10g} simulated seconds; best of {} repetitions
@@ -189,11 +161,6 @@ makes of the rods. Impulses of rods with plates and with each other, per tick, a
   if (!report.at("impossible").empty()) text += "\nNot possible:\n";
   for (const auto& [effect, why] : report.at("impossible").items()) {
     text += fmt::format("{}: {}\n", effect, why.get<std::string>());
-  }
-  text += "\nLoops with every effect compiled in, in % of those composed for the scene; bitwise the same states:\n";
-  for (const auto& [name, of] : report.at("everything_compiled_in").items()) {
-    text += fmt::format("{}: {:.1f} +- {:.1f}\n", name, 100 * of.at("cpu_ratio").get<double>(),
-                        100 * of.at("cpu_ratio_error").get<double>());
   }
   return text;
 }
@@ -246,7 +213,6 @@ struct EffectsBench {
     report.json["repeat"] = effort.repeat;
     report.json.update(json_of(everything));
     measure_savings(everything, cache, effort, report);
-    report.json["everything_compiled_in"] = measure_composing(everything, cache, effort);
     report.text += effects_text(everything, effort, report.json);
     output.give(report);
     if (!output.folder.empty()) draw_effects(output.folder, report);

@@ -11,6 +11,7 @@ namespace shaken::bench {
 
 std::vector<ScalingPoint> measure_scaling(const std::vector<Case>& scenes, const Cache& cache, const Effort& effort) {
   std::vector<SteadyState> states;
+  states.reserve(scenes.size());
   for (const Case& scene : scenes) states.push_back(cache(scene));
   std::vector<ScalingPoint> points;
   std::vector<Tick> ticks;

@@ -104,6 +104,7 @@ Json speed_row(const SceneSpeed& scene) {
 
 std::vector<Column> phase_columns() {
   std::vector<Column> columns;
+  columns.reserve(kPhases + 1);
   for (const char* name : kPhaseNames) {
     columns.push_back({name, std::string("phase_shares/") + name, "{:.1f}", 100});
   }

@@ -67,17 +67,23 @@ std::optional<scene::RunPlan> at_step(const scene::RunPlan& plan, double step, s
   return loaded.value;
 }
 
+/// At most `most` of `n` places, from the first to the last; if only one is wanted, the middle. They are rounded, not
+/// cut off, so that they do not keep step with the inner axis of a grid.
+std::vector<std::size_t> evenly(std::size_t n, std::size_t most) {
+  const std::size_t steps = std::min(n, most) - 1;
+  if (steps == 0) return {n / 2};
+  std::vector<std::size_t> places;
+  for (std::size_t k = 0; k <= steps; ++k) places.push_back((k * (n - 1) + steps / 2) / steps);
+  return places;
+}
+
 class Estimator {
  public:
   Estimator(const scene::Sweep& sweep, const EstimateOptions& options) : sweep_(sweep), options_(options) {}
 
   Estimate run() {
     find_distinct();
-    const std::size_t n = std::min(distinct_.size(), options_.most_probes);
-    // places in distinct_: evenly from the first to the last, or the middle one alone
-    std::vector<std::size_t> probed{distinct_.size() / 2};
-    if (n > 1) probed.clear();
-    for (std::size_t k = 0; n > 1 && k < n; ++k) probed.push_back(k * (distinct_.size() - 1) / (n - 1));
+    const std::vector<std::size_t> probed = evenly(distinct_.size(), options_.most_probes);
     const std::size_t shown = probed[probed.size() / 2];
 
     result_.n_runs = sweep_.points.size();

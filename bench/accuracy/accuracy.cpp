@@ -48,6 +48,7 @@ std::string step_problem(const std::string& us) {
 template <class Named>
 std::vector<std::string> names_of(const std::vector<Named>& all) {
   std::vector<std::string> names;
+  names.reserve(all.size());
   for (const Named& one : all) names.emplace_back(one.name);
   return names;
 }

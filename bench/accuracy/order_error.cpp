@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "analysis/order.h"
@@ -51,7 +52,7 @@ OrderError reduce_order(const Case& scene, const std::vector<std::vector<double>
   of.mean = mean_of_samples(all).value;
   of.std = deviation(all);
 
-  double weights = 0, weighted = 0;
+  double weights = 0, weighted = 0, best = std::numeric_limits<double>::infinity();
   for (std::size_t length = 1;; length *= 2) {
     std::vector<double> means;
     for (const std::vector<double>& values : series) {
@@ -69,16 +70,10 @@ OrderError reduce_order(const Case& scene, const std::vector<std::vector<double>
     const double weight = 1 / std::pow(sem_error * scale, 2);
     weights += weight;
     weighted += weight * sem * scale;
+    best = std::min(best, sem_error * scale);
   }
   // the stretches of different lengths are of the same series: the best of them says how well c is known
-  if (weights > 0) {
-    double best = 1e300;
-    for (const StretchError& error : of.errors) {
-      if (error.time >= OrderError::kLong * of.tau)
-        best = std::min(best, error.sem_error * std::sqrt(error.time / (2 * of.tau)));
-    }
-    of.c = Mean{weighted / weights, best};
-  }
+  if (weights > 0) of.c = Mean{weighted / weights, best};
   return of;
 }
 
@@ -144,6 +139,7 @@ Json order_error_row(const OrderError& of) {
   row["expected_scatter"] = of.expected_scatter();
   row["cpu_s_per_rod_s"] = of.cpu_per_rod_second;
   for (const double sem : kWanted) row["cpu_s_for_sem"][fmt::format("{:g}", sem)] = of.cpu_for(sem);
+  row["stretch_s"] = row["sem"] = row["sem_error"] = Json::array();
   for (const StretchError& error : of.errors) {
     row["stretch_s"].push_back(error.time);
     row["sem"].push_back(error.sem);

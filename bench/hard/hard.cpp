@@ -20,7 +20,7 @@ constexpr const char* kHardFooter =
 holding. Scenes are those of configs/hard; what is made by hand is bench/hard/made_cases.cpp.
 
 Examples:
-  shaken bench hard                              all cases, some ten minutes, nearly all of them for 'order'
+  shaken bench hard                              all cases: nine CPU-minutes for 'order', half of one for the others
   shaken bench hard needle row --json
   shaken bench hard --seconds 0.02               the scenes for 20 ms of their time, without 'order': a smoke test
   shaken bench hard --out hard                   hard/hard.csv, .json and .png

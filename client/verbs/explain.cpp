@@ -152,10 +152,10 @@ class Explain : public Verb {
   void show_probe(const Json& report, Console& console) const {
     console.out << fmt::format(
         "\nShares are of the CPU time of the whole run, {}. The rest of that time: {} % for stepping, which is all of\n"
-        "the physics, {} % for reading the rods for samples and frames, {} % for checkpoints. What one effect of the\n"
-        "physics costs, only a run without it tells: `shaken bench effects`.\n",
+        "the physics, {} % for checkpoints. What one effect of the physics costs, only a run without it tells:\n"
+        "`shaken bench effects`.\n",
         cpu_text(report.at("cpu_seconds").get<double>()), percent(report.at("stepping_cpu_share")),
-        percent(report.at("snapshots_cpu_share")), percent(report.at("checkpoints_cpu_share")));
+        percent(report.at("checkpoints_cpu_share")));
     const Json& probe = report.at("probe");
     console.out << fmt::format(
         "\nProbe: {} s of the run stepped in {} CPU-seconds, {} rod-seconds per CPU-second, {}.\n",

@@ -27,7 +27,6 @@ constexpr int kFrames = 8;      ///< recorded to see what a frame costs
 constexpr int kShortMovie = 4;  ///< frames of the shorter of two movies; the longer has three times as many
 constexpr double kCheckpointEvery =
     30;  ///< the worker's default; wall-clock time, which is CPU time if it runs alone [s]
-constexpr Tick kMostSnapshots = 100'000;  ///< counted one by one
 
 double bytes_in(const std::filesystem::path& file) { return static_cast<double>(std::filesystem::file_size(file)); }
 
@@ -42,7 +41,9 @@ class Prober {
     const SamplingCost sampling = time_sampling(plan_, simulation_.world().species.front(), snapshots_);
     result_.samples = sampling.samples;
     result_.disk.observables = sampling.file_bytes;
-    result_.snapshots = {snapshots_in_run(), time_of([&] { snapshots_.back() = simulation_.snapshot(); }, kCpu, 2), 0};
+    // what is sampled or recorded is read first, all rods of it
+    snapshot_cpu_ = time_of([&] { snapshots_.back() = simulation_.snapshot(); }, kCpu, 2);
+    for (auto& [effect, cost] : result_.samples) cost.each += snapshot_cpu_;
     if (auto error = time_recording()) return *error;
     if (plan_.movie) time_movie();
     if (auto error = time_checkpoints(sampling.state_bytes)) return *error;
@@ -99,21 +100,6 @@ class Prober {
     return std::nullopt;
   }
 
-  /// Ticks of the run at which anything is sampled or recorded.
-  std::int64_t snapshots_in_run() const {
-    const Measurements measurements(plan_, simulation_.world().species.front());
-    const std::optional<Cadence> recording = recording_of(plan_);
-    const Tick end = total_ticks(plan_);
-    std::int64_t n = 0;
-    for (Tick tick = 0;; ++tick) {
-      tick = std::min(measurements.next_due(tick), recording ? recording->next(tick) : kNever);
-      if (tick > end) return n;
-      if (++n == kMostSnapshots) {
-        return std::llround(static_cast<double>(n) * static_cast<double>(end) / static_cast<double>(tick));
-      }
-    }
-  }
-
   /// Records `n` frames of the present state, `cadence` apart, into DIR/trajectory.h5. Returns the CPU time of one, or
   /// why they cannot be written.
   Result<double> record(const std::filesystem::path& folder, const Cadence& cadence, int n) {
@@ -139,7 +125,7 @@ class Prober {
       const ScratchFolder folder;
       const auto cpu = record(folder.path(), *recording, n);
       if (!cpu) return cpu.error();
-      result_.trajectory.each = *cpu;
+      result_.trajectory.each = *cpu + snapshot_cpu_;
       bytes[n > 1] = bytes_in(folder.path() / "trajectory.h5");
     }
     const double frame = (bytes[1] - bytes[0]) / kFrames;
@@ -199,12 +185,13 @@ class Prober {
   double dt_;
   Probe result_;
   std::vector<Snapshot> snapshots_;
+  double snapshot_cpu_ = 0;  ///< of reading all rods [s]
 };
 
 }  // namespace
 
 double Probe::total() const {
-  double sum = stepping() + snapshots.cpu() + trajectory.cpu() + stream.cpu() + checkpoints.cpu() + movie.cpu();
+  double sum = stepping() + trajectory.cpu() + stream.cpu() + checkpoints.cpu() + movie.cpu();
   for (const auto& [effect, cost] : samples) sum += cost.cpu();
   return sum;
 }
@@ -244,7 +231,6 @@ nlohmann::ordered_json probe_report(const scene::RunPlan& plan, const std::optio
                      {"cpu_s", probe->cpu},
                      {"rod_seconds_per_cpu_second", plan.system.n_all_rods() * probe->simulated / probe->cpu}};
   report["stepping_cpu_share"] = probe->stepping() / total;
-  report["snapshots_cpu_share"] = probe->snapshots.cpu() / total;
   report["checkpoints_cpu_share"] = probe->checkpoints.cpu() / total;
   report["cpu_seconds"] = total;
   report["stepping_cpu_seconds"] = probe->stepping();

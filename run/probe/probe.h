@@ -40,7 +40,6 @@ struct Probe {
   // the whole
   double run_ticks = 0;
   double tick_cpu = 0;                   ///< CPU time of a tick [s]
-  Cost snapshots;                        ///< every rod evaluated, for samples and frames
   std::map<std::string, Cost> samples;   ///< by effect, "measure_order"
   Cost trajectory, stream, checkpoints;  ///< zero where they are off
   Cost movie;                            ///< drawn by a process of its own
@@ -60,7 +59,7 @@ Result<Probe> probe(const scene::RunPlan& plan, Simulation simulation, double cp
 /// What a plan calls for and, if it was probed, what that costs; what `shaken-worker --probe` writes:
 ///   {"effects": [{"name", "what", "on", "why", "cpu_share"?}],
 ///    "probe":  {"warm_up_s", "simulated_s", "cpu_s", "rod_seconds_per_cpu_second"},
-///    "stepping_cpu_share", "snapshots_cpu_share", "checkpoints_cpu_share",
+///    "stepping_cpu_share", "checkpoints_cpu_share",
 ///    "cpu_seconds", "stepping_cpu_seconds", "disk_bytes": {"trajectory", "observables", "checkpoints", "total"}}
 /// All shares are of "cpu_seconds", the CPU time of the whole run with its movie, and add up to 1. What is measured,
 /// recorded or drawn has one of its own; the physics is stepping as a whole.

@@ -174,10 +174,6 @@ TEST_F(Bench, EffectsAreSwitchedOffOneByOne) {
     }
     EXPECT_EQ(row.at("without") == "(nothing)", row.at("neutral") == "") << row;
   }
-  for (const auto& [name, comparison] : report.at("everything_compiled_in").items()) {
-    EXPECT_GT(comparison.at("cpu_ratio").get<double>(), 0) << name;
-  }
-  EXPECT_EQ(report.at("everything_compiled_in").size(), 2u);
   EXPECT_EQ(text_of("effects.png").substr(1, 3), "PNG");
   EXPECT_THAT(text_of("effects.csv"), HasSubstr("cpu_ratio"));
   EXPECT_EQ(bench({"effects", "--length", "0", "--repeat", "x"}).code, 2);

@@ -103,6 +103,13 @@ TEST_F(Explain, AddsUpASweep) {
                                  HasSubstr("interpolated")));
 }
 
+TEST_F(Explain, ComparesLevelsWhereAllPointsHaveOneStep) {
+  const Json report = json({"explain", write("scene.json", kScene), "-s", "accuracy=draft,paper"});
+  ASSERT_EQ(report.at("levels").size(), 1u);
+  EXPECT_TRUE(report.at("levels")[0].at("step_s").is_null()) << "several";
+  EXPECT_GT(report.at("levels")[0].at("cpu_seconds").get<double>(), 0);
+}
+
 TEST_F(Explain, WithoutProbeTellsWhatIsOn) {
   const Finished finished = shaken({"explain", write("scene.json", kScene), "--no-probe", "-s", "gravity=0", "-s",
                                     "plates.amplitude=0", "-s", "accuracy=draft"});
