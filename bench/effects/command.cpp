@@ -45,9 +45,8 @@ ExitCode run(const Words& words) {
 
   const std::filesystem::path cache = words.cache.empty() ? default_cache() : std::filesystem::path(words.cache);
   const std::vector<Saving> savings = measure_savings(*scene, cache, conditions.effort);
-  const std::vector<Comparison> composing = measure_composing(*scene, cache, conditions.effort);
-  const nlohmann::ordered_json json = as_json(conditions, *scene, savings, composing);
-  fmt::print("{}", words.json ? json.dump(2) + "\n" : as_text(conditions, *scene, savings, composing));
+  const nlohmann::ordered_json json = as_json(conditions, *scene, savings);
+  fmt::print("{}", words.json ? json.dump(2) + "\n" : as_text(conditions, *scene, savings));
   std::fflush(stdout);
   if (words.out.empty()) return ExitCode::kOk;
   make_folder(words.out);

@@ -20,8 +20,7 @@ std::string per_tick(std::int64_t impulses, const EngineSpeed& speed) {
 
 }  // namespace
 
-std::string as_text(const Conditions& conditions, const Case& scene, const std::vector<Saving>& savings,
-                    const std::vector<Comparison>& composing) {
+std::string as_text(const Conditions& conditions, const Case& scene, const std::vector<Saving>& savings) {
   std::vector<Row> rows{
       {"without", "same state %", "+-", "own state %", "+-", "rod-s/CPU-s", "plate/tick", "rod-rod/tick", "that is"}};
   std::string impossible;
@@ -38,11 +37,6 @@ std::string as_text(const Conditions& conditions, const Case& scene, const std::
                     per_tick(own.speed.plate_impulses, own.speed), per_tick(own.speed.rod_impulses, own.speed),
                     saving.neutral});
   }
-  std::string composing_text =
-      "\nLoops with every effect compiled in, in % of those composed for the scene; bitwise the same states:\n";
-  for (const Comparison& c : composing) {
-    composing_text += fmt::format("{}: {} +- {}\n", c.name, percent(c.ratio()), percent(c.error()));
-  }
   return fmt::format(
              "shaken {} on {}\n{}, N = {}, dt = {:.10g} us; states after {:.10g} simulated seconds; best of {} "
              "repetitions\n\nCPU time per rod-second without an effect, in % of that with everything on, taken in "
@@ -54,11 +48,10 @@ std::string as_text(const Conditions& conditions, const Case& scene, const std::
              "other, per tick, and rates are of the own state.\n",
              run::version(), describe(conditions.machine), scene.label(), scene.system().n_rods, 1e6 * scene.dt,
              conditions.warm_up, conditions.effort.repeat) +
-         aligned(rows) + (impossible.empty() ? "" : "\nNot possible:\n" + impossible) + composing_text;
+         aligned(rows) + (impossible.empty() ? "" : "\nNot possible:\n" + impossible);
 }
 
-Json as_json(const Conditions& conditions, const Case& scene, const std::vector<Saving>& savings,
-             const std::vector<Comparison>& composing) {
+Json as_json(const Conditions& conditions, const Case& scene, const std::vector<Saving>& savings) {
   Json report{{"bench", "effects"},
               {"version", run::version()},
               {"machine", to_json(conditions.machine)},
@@ -92,8 +85,6 @@ Json as_json(const Conditions& conditions, const Case& scene, const std::vector<
                               {"same_state", comparison_json(saving.same_state)},
                               {"own_state", comparison_json(saving.own_state)}});
   }
-  report["everything_compiled_in"] = Json::object();
-  for (const Comparison& c : composing) report["everything_compiled_in"][c.name] = comparison_json(c);
   return report;
 }
 

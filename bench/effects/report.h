@@ -11,10 +11,8 @@
 
 namespace shaken::bench {
 
-std::string as_text(const Conditions& conditions, const Case& scene, const std::vector<Saving>& savings,
-                    const std::vector<Comparison>& composing);
-nlohmann::ordered_json as_json(const Conditions& conditions, const Case& scene, const std::vector<Saving>& savings,
-                               const std::vector<Comparison>& composing);
+std::string as_text(const Conditions& conditions, const Case& scene, const std::vector<Saving>& savings);
+nlohmann::ordered_json as_json(const Conditions& conditions, const Case& scene, const std::vector<Saving>& savings);
 void draw_savings(const std::filesystem::path& folder, const std::vector<Saving>& savings);
 
 }  // namespace shaken::bench

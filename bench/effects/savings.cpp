@@ -15,20 +15,12 @@ namespace {
 double cost(const EngineSpeed& speed) { return speed.best_cpu() / speed.rod_seconds; }
 
 /// The case from `state` on. One tick goes by before it is handed out, so that lists and schedules are there.
-/// `everything`: with every effect compiled in, needed or not.
-Contender contender(const std::string& name, const Case& scene, const SteadyState& state, bool everything = false) {
-  return {name, scene, [scene, state, everything] {
+Contender contender(const std::string& name, const Case& scene, const SteadyState& state) {
+  return {name, scene, [scene, state] {
             Simulation simulation = resumed(scene, state, Engine::kScheduled);
-            if (everything) simulation.compile_in_everything();
             advance(simulation, 1);
             return simulation;
           }};
-}
-
-std::uint64_t hash_after_a_period(const Contender& contender) {
-  Simulation simulation = contender.make();
-  advance(simulation, contender.scene.period_ticks());
-  return simulation.state_hash();
 }
 
 }  // namespace
@@ -67,26 +59,6 @@ Comparison compare(const Contender& contender, const Contender& yardstick, int r
     time_stretch(after, contender.scene, ticks, comparison.speed);
   }
   return comparison;
-}
-
-std::vector<Comparison> measure_composing(const Case& everything, const std::filesystem::path& cache,
-                                          const Effort& effort) {
-  Case frictionless = everything;
-  for (const Effect& effect : all_effects()) {
-    if (effect.name == "spin") effect.switch_off(frictionless.plan.system);  // needs friction of any kind
-  }
-  std::vector<Comparison> comparisons;
-  for (const auto& [name, scene] : {std::pair("as it is", everything), std::pair("without friction", frictionless)}) {
-    const SteadyState state = steady_state(scene, cache);
-    ProgressLine progress(std::string("measuring loops with everything, ") + name);
-    const Contender general = contender(name, scene, state, true);
-    const Contender composed = contender(name, scene, state);
-    if (hash_after_a_period(general) != hash_after_a_period(composed)) {
-      throw Failure(ExitCode::kFailed, std::string(name) + ": the states differ with everything compiled in");
-    }
-    comparisons.push_back(compare(general, composed, effort.repeat, 0, effort.cpu));
-  }
-  return comparisons;
 }
 
 std::vector<Saving> measure_savings(const Case& everything, const std::filesystem::path& cache, const Effort& effort) {

@@ -52,9 +52,4 @@ struct Saving {
 /// Switches off every effect of the case that can be off, one at a time. States after a warm-up are kept in `cache`.
 std::vector<Saving> measure_savings(const Case& everything, const std::filesystem::path& cache, const Effort& effort);
 
-/// Inner loops with every effect compiled in, against those that are composed for the scene (sim/stepping/compose.h),
-/// for the case as it is and without friction. Throws Failure if they do not give the same bits.
-std::vector<Comparison> measure_composing(const Case& everything, const std::filesystem::path& cache,
-                                          const Effort& effort);
-
 }  // namespace shaken::bench

@@ -52,14 +52,13 @@ std::vector<Hit> hits_on(const World& world, Against what) {
   return hits;
 }
 
-/// One impulse as the inner loops give it (stepping/phases.h).
-template <class Law>
-Motion after_hit(const Hit& hit, const ContactParameters& contact) {
+/// One impulse as the inner loops give it (stepping/impact.h).
+Motion after_hit(ImpulseFunction law, const Hit& hit, const ContactParameters& contact) {
   Motion motion = hit.motion;
   const Vec3 u = point_velocity(motion, hit.arm);
   if (contact.friction > 0) {
     const Mat3 K = point_compliance(hit.inverse, hit.director, hit.arm);
-    apply_impulse(motion, hit.inverse, hit.director, hit.arm, Law::impulse(K, hit.normal, u, contact));
+    apply_impulse(motion, hit.inverse, hit.director, hit.arm, law(K, hit.normal, u, contact));
   } else {
     const double compliance = normal_compliance(hit.inverse, hit.director, hit.offset, hit.normal);
     const Vec3 P = (-(1.0 + contact.restitution) * u.dot(hit.normal) / compliance) * hit.normal;
@@ -69,8 +68,8 @@ Motion after_hit(const Hit& hit, const ContactParameters& contact) {
 }
 
 /// CPU time of one impulse by each of the `contacts`, in turn, the least of several batches [s].
-template <class Law, std::size_t kContacts>
-std::array<double, kContacts> time_contacts(const std::vector<Hit>& hits,
+template <std::size_t kContacts>
+std::array<double, kContacts> time_contacts(ImpulseFunction law, const std::vector<Hit>& hits,
                                             const std::array<ContactParameters, kContacts>& contacts) {
   std::array<double, kContacts> least;
   least.fill(std::numeric_limits<double>::infinity());
@@ -80,7 +79,7 @@ std::array<double, kContacts> time_contacts(const std::vector<Hit>& hits,
       const double all = time_of(
           [&] {
             for (const Hit& hit : hits) {
-              const Motion motion = after_hit<Law>(hit, contacts[c]);
+              const Motion motion = after_hit(law, hit, contacts[c]);
               sum += motion.velocity + motion.angular_velocity;
             }
             asm volatile("" : : "r"(sum.data()) : "memory");  // the sum is wanted
@@ -92,11 +91,10 @@ std::array<double, kContacts> time_contacts(const std::vector<Hit>& hits,
   return least;
 }
 
-template <class Law>
-ImpulseCost time_law(const std::vector<Hit>& hits, const ContactParameters& contact) {
+ImpulseCost time_law(ImpulseFunction law, const std::vector<Hit>& hits, const ContactParameters& contact) {
   // The contact as it is stands there twice: what its two times differ by is the noise.
   const auto [as_it_is, again, without_friction, without_bounce] =
-      time_contacts<Law, 4>(hits, {contact, contact, {0.0, contact.restitution}, {contact.friction, 0.0}});
+      time_contacts<4>(law, hits, {contact, contact, {0.0, contact.restitution}, {contact.friction, 0.0}});
   const double with = std::min(as_it_is, again);
   const double noise = std::abs(as_it_is - again);
   const auto beyond_noise = [&](double difference) { return difference > noise ? difference : 0.0; };
@@ -108,15 +106,7 @@ ImpulseCost time_law(const std::vector<Hit>& hits, const ContactParameters& cont
 ImpulseCost time_impulses(const World& world, const ContactParameters& contact, Against what) {
   if (world.rods.empty()) return {};
   const std::vector<Hit> hits = hits_on(world, what);
-  switch (world.scene.law) {
-    case ImpulseLaw::kNewton:
-      return time_law<NewtonLaw>(hits, contact);
-    case ImpulseLaw::kPoisson:
-      return time_law<PoissonLaw>(hits, contact);
-    case ImpulseLaw::kEnergetic:
-      return time_law<EnergeticLaw>(hits, contact);
-  }
-  return {};
+  return time_law(impulse_function(world.scene.law), hits, contact);
 }
 
 }  // namespace shaken::run
