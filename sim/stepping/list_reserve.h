@@ -15,10 +15,12 @@ class ListReserve {
 
   void measure(const NeighborList& list, int rod, const Pose& pose, Tick now);
   /// At least [mm].
-  float left(Tick now, double dt) const { return left_ - speed_ * (static_cast<float>(now - at_) * static_cast<float>(dt)); }
+  float left(Tick now, double dt) const {
+    return left_ - speed_ * (static_cast<float>(now - at_) * static_cast<float>(dt));
+  }
 
-  /// Ticks after `now` for which the list certainly covers the rod, at most `horizon`. Counts down at the flight's speed
-  /// from then on.
+  /// Ticks after `now` for which the list certainly covers the rod, at most `horizon`. Counts down at the flight's
+  /// speed from then on.
   Tick covered_ticks(const NeighborList& list, int rod, const Flight& flight, const Pose& pose, double half_length,
                      Tick now, double dt, Tick horizon);
 

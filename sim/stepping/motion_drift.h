@@ -10,7 +10,8 @@ namespace shaken {
 inline constexpr MotionTolerance kMotionTolerance{1.0F, 25.0F, 1.0F, 12.0F};
 
 /// What hits have changed of a rod's motion since the bounds of its pairs were last renewed. Plates hit a rod thousands
-/// of times per second; as long as the sum of it stays within kMotionTolerance, those bounds hold (contact/safe_time.h).
+/// of times per second; as long as the sum of it stays within kMotionTolerance, those bounds hold
+/// (contact/safe_time.h).
 class MotionDrift {
  public:
   /// From now on, as the rod flies now.

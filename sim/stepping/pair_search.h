@@ -30,11 +30,11 @@ class PairSearch {
   bool find(const PairRods& pair, const Pose& pose_i, const Pose& pose_j, const Direction& direction,
             std::vector<BeadContact>& beads, std::vector<PairContact>& contacts) const;
 
-  /// Bounds for pairs of one pair of species, from the rods as they are at this tick and how they may move from then on.
-  /// There are two bounds on each pair (contact/safe_time.h): the one for flight perturbed by hits is taken where it is
-  /// long enough, since it need not be renewed at each hit.
-  void bound(std::span<const PairRods> pairs, const std::vector<RodAtTick>& rods, const std::vector<MotionBound>& motion,
-             PairLanes& lanes, PairBounds& bounds) const;
+  /// Bounds for pairs of one pair of species, from the rods as they are at this tick and how they may move from then
+  /// on. There are two bounds on each pair (contact/safe_time.h): the one for flight perturbed by hits is taken where
+  /// it is long enough, since it need not be renewed at each hit.
+  void bound(std::span<const PairRods> pairs, const std::vector<RodAtTick>& rods,
+             const std::vector<MotionBound>& motion, PairLanes& lanes, PairBounds& bounds) const;
 
  private:
   const TickRules& rules_;

@@ -47,12 +47,6 @@ void PairTable::set_unperturbed(int p, bool unperturbed) {
   count(n_unperturbed_, rods_[p], unperturbed);
 }
 
-void PairTable::list(int p, std::vector<int>& pairs) {
-  if (marks_[p] & kListed) return;
-  marks_[p] |= kListed;
-  pairs.push_back(p);
-}
-
 std::size_t PairTable::bytes() const {
   return wheel_.bytes() + heap_bytes(rods_, directions_, detected_at_, marks_, owners_, n_touching_, n_unperturbed_);
 }

@@ -44,7 +44,11 @@ class PairTable {
   void set_detected(int p, Tick now) { detected_at_[p] = now; }
 
   /// Puts pairs on a list once: appends p unless it is there already.
-  void list(int p, std::vector<int>& pairs);
+  void list(int p, std::vector<int>& pairs) {
+    if (marks_[p] & kListed) return;
+    marks_[p] |= kListed;
+    pairs.push_back(p);
+  }
   void unlist(int p) { marks_[p] &= static_cast<std::uint8_t>(~kListed); }
 
   TimingWheel& wheel() { return wheel_; }

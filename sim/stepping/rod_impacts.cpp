@@ -31,9 +31,9 @@ namespace {
   return true;
 }
 
-/// One contact. The motion of both rods must have been evaluated.
-void collide(const PairContact& contact, RodAtTick& rod_i, RodAtTick& rod_j, const TickRules& rules,
-                Counters& counters) {
+/// One contact. The motion of both rods must have been evaluated. Flattened as collide_with in surface_impacts.cpp.
+[[gnu::flatten]] void collide(const PairContact& contact, RodAtTick& rod_i, RodAtTick& rod_j, const TickRules& rules,
+                              Counters& counters) {
   const BeadContact& beads = contact.beads;
   const RodKind& kind_i = rules.kind_of(contact.i);
   const RodKind& kind_j = rules.kind_of(contact.j);
@@ -43,8 +43,8 @@ void collide(const PairContact& contact, RodAtTick& rod_i, RodAtTick& rod_j, con
   const double radius_j = kind_j.species.bead_radius[beads.bead_j];
   const auto collide_along = [&](const Vec3& normal) {
     return collide({kind_i, rod_i, offset_i, offset_i * rod_i.pose.director + radius_i * normal},
-                   {kind_j, rod_j, offset_j, offset_j * rod_j.pose.director - radius_j * normal}, normal,
-                   rules, counters.ledger);
+                   {kind_j, rod_j, offset_j, offset_j * rod_j.pose.director - radius_j * normal}, normal, rules,
+                   counters.ledger);
   };
   if (!rules.impacts_at_instant) {
     if (collide_along(beads.normal)) ++counters.impulses_rod_rod;

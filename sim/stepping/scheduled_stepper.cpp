@@ -95,7 +95,7 @@ void ScheduledStepper::list_due_rods(const World& world, Tick now) {
 
 // ---- poses at the tick
 
-void ScheduledStepper::pose_rod(int i, const World& world, Tick now) {
+[[gnu::always_inline]] inline void ScheduledStepper::pose_rod(int i, const World& world, Tick now) {
   rods_[i] = rod_at_tick(world.rods[i], now, rules_);
   if (!found_.empty()) found_[i] = rods_[i].pose;
 }
@@ -352,7 +352,7 @@ void ScheduledStepper::list_pairs_to_bound() {
   }
 }
 
-void ScheduledStepper::bound_motions(const World& world, Tick now) {
+[[gnu::flatten]] void ScheduledStepper::bound_motions(const World& world, Tick now) {
   to_pose_.clear();
   to_bound_motion_.clear();
   for (const int p : to_bound_) {

@@ -62,9 +62,10 @@ impact::Impulse impulse_without_friction(const Surface& surface, const Vec3& u, 
 }
 
 /// The bead `b` of a rod against a plate or wall that it overlaps; both move as the plates do. Returns whether it
-/// approached.
-bool collide_with(const Vec3& normal, int b, double overlap, const ContactParameters& contact, RodAtTick& rod,
-                  const RodKind& kind, const PlateState& plates, const TickRules& rules, Counters& counters) {
+/// approached. Flattened: or else its 3 x 3 matrices are copied through memory, which costs the engine 2 %.
+[[gnu::flatten]] bool collide_with(const Vec3& normal, int b, double overlap, const ContactParameters& contact,
+                                   RodAtTick& rod, const RodKind& kind, const PlateState& plates,
+                                   const TickRules& rules, Counters& counters) {
   const double offset = kind.species.bead_offset[b];
   const double radius = kind.species.bead_radius[b];
   const auto bead = [&] { return impact::Bead{kind, rod, offset, offset * rod.pose.director - radius * normal}; };
@@ -159,8 +160,7 @@ std::optional<NumericalTrouble> meet_plates(int index, RodAtTick& rod, const Fli
       }
       if (!collide_with(Vec3(0, 0, side), bead, overlap, contact, rod, kind, plates, rules, counters)) continue;
       ++(side > 0 ? counters.impulses_rod_base : counters.impulses_rod_lid);
-      if (rules.has_rotational_noise)
-        turn_at_random(index, n_hits, rod, kind, speed, now, rules, counters);
+      if (rules.has_rotational_noise) turn_at_random(index, n_hits, rod, kind, speed, now, rules, counters);
       ++n_hits;
     }
   }
