@@ -41,17 +41,17 @@ double nearest_beads(const Species& s, const Vec3& n_i, const Vec3& n_j, const V
   return least;
 }
 
-/// The rod's flight as a bound sees it; nothing strayed yet.
-Outlook outlook(const World& world, int i, const Vec3& director) {
+/// The rod's flight as a bound sees it; nothing has drifted yet.
+MotionBound bound(const World& world, int i, const Vec3& director) {
   const Flight& flight = world.rods[i];
   Vec3 velocity = flight.velocity;
   velocity.z() -= world.scene.gravity * static_cast<double>(world.tick - flight.since) * world.scene.dt;
-  Outlook outlook{};
-  set_vector(outlook.director, director);
-  set_vector(outlook.velocity, velocity);
-  set_vector(outlook.turning, flight.precession.cross(director));
-  outlook.half_rate2 = static_cast<float>(0.5 * flight.rate * flight.rate);
-  return outlook;
+  MotionBound bound{};
+  set_vector(bound.director, director);
+  set_vector(bound.velocity, velocity);
+  set_vector(bound.turning, flight.precession.cross(director));
+  bound.half_rate2 = static_cast<float>(0.5 * flight.rate * flight.rate);
+  return bound;
 }
 
 void follow(const Simulation& simulation, const Snapshot& now, float horizon, std::vector<Course>& courses) {
@@ -63,13 +63,13 @@ void follow(const Simulation& simulation, const Snapshot& now, float horizon, st
   for (Course& course : courses) {
     const auto& [i, j] = course.rod;
     const Vec3 D = nearest_image(now.position[i], now.position[j], world.scene.box_side);
-    const Outlook o_i = outlook(world, i, now.director[i]);
-    const Outlook o_j = outlook(world, j, now.director[j]);
+    const MotionBound o_i = bound(world, i, now.director[i]);
+    const MotionBound o_j = bound(world, j, now.director[j]);
     pair_lanes.set(0, D, o_i, o_j);
-    hull_safe_times(hull, hull, pair_lanes, Allowance{}, horizon, hull_safe);
-    const SafeTime beads = bead_safe_time(lanes, o_i, lanes, o_j, D, Allowance{}, horizon);
+    hull_safe_times(hull, hull, pair_lanes, MotionTolerance{}, horizon, hull_safe);
+    const SafeTime beads = bead_safe_time(lanes, o_i, lanes, o_j, D, MotionTolerance{}, horizon);
     course.gap.push_back(nearest_beads(world.species[0], now.director[i], now.director[j], D));
-    course.bounds.push_back({std::max(hull_safe.steady[0], beads.steady), 0});
+    course.bounds.push_back({std::max(hull_safe.unperturbed[0], beads.unperturbed), 0});
     course.was_hit.push_back(world.rods[i].since == world.tick || world.rods[j].since == world.tick);
   }
 }
@@ -82,7 +82,7 @@ std::vector<std::size_t> looks(const Course& course, double dt) {
   for (std::size_t k = 0; k < course.gap.size(); ++k) {
     if (static_cast<double>(k) < due && !course.was_hit[k]) continue;
     at.push_back(k);
-    due = static_cast<double>(k) + 1 + std::floor(static_cast<double>(course.bounds[k].steady) / dt * (1 - 1e-5));
+    due = static_cast<double>(k) + 1 + std::floor(static_cast<double>(course.bounds[k].unperturbed) / dt * (1 - 1e-5));
   }
   return at;
 }
@@ -119,7 +119,7 @@ void draw_looks(const std::filesystem::path& folder, const Course& course, const
     data += fmt::format("{:.6f} {:.5f}\n", ms(k), 1e3 * course.gap[k]);
   data += "\n\n";
   for (const std::size_t k : at) {
-    const double safe = std::min(1e3 * static_cast<double>(course.bounds[k].steady), 1e3 * window - ms(k));
+    const double safe = std::min(1e3 * static_cast<double>(course.bounds[k].unperturbed), 1e3 * window - ms(k));
     data += fmt::format("{:.6f} {:.5f} {:.6f} {}\n", ms(k), 1e3 * course.gap[k], safe, course.was_hit[k]);
   }
   const auto n_hits = std::count(course.was_hit.begin(), course.was_hit.end(), 1);

@@ -40,6 +40,7 @@ struct AddedRods {
 struct ContactParameters {
   double friction = 0.0;     ///< mu >= 0
   double restitution = 1.0;  ///< e in [0, 1]
+  bool has_friction() const { return friction > 0; }
   friend bool operator==(const ContactParameters&, const ContactParameters&) = default;
 };
 
@@ -122,6 +123,8 @@ struct Scene {
     for (const auto& more : added) n += more ? more->count : 0;
     return n;
   }
+  bool has_rotational_noise() const { return rotational_noise > 0; }
+  bool has_impacts_at_instant() const { return impacts == ImpactTime::kAtInstant; }
   /// Nothing pushes or pulls across the plane, and rods that start in it stay there to the last bit.
   bool is_planar() const { return !base && !lid && gravity == 0; }
 

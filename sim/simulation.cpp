@@ -10,8 +10,7 @@
 namespace shaken {
 
 Simulation::Simulation(World world)
-    : world_(std::make_unique<World>(std::move(world))),
-      stepper_(make_stepper(*world_, 1, kGrain, compose(world_->scene))) {}
+    : world_(std::make_unique<World>(std::move(world))), stepper_(make_stepper(*world_, 1, kGrain)) {}
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
@@ -41,11 +40,7 @@ std::optional<NumericalTrouble> Simulation::advance_to(Tick target) {
 
 void Simulation::use_threads(int n_threads, int grain) {
   SHAKEN_CHECK(n_threads >= 1 && grain >= 1, "a run needs a thread, and a thread something to do");
-  stepper_ = make_stepper(*world_, n_threads, grain, compose(world_->scene));
-}
-
-void Simulation::compile_in_everything() {
-  stepper_ = make_stepper(*world_, 1, kGrain, compose_everything(world_->scene));
+  stepper_ = make_stepper(*world_, n_threads, grain);
 }
 
 void Simulation::time_phases(PhaseTimes::Clock clock) { stepper_->phase_times.use(clock); }

@@ -44,9 +44,6 @@ class Simulation {
   /// 5,000 rods on. Times of phases start anew. Loops over fewer than `grain` rods or pairs per thread are not shared.
   void use_threads(int n_threads, int grain = kGrain);
   static constexpr int kGrain = 12;
-  /// From now on, steps on one thread by loops into which every effect is compiled, needed or not (stepping/compose.h).
-  /// The trajectory stays bitwise the same; for measuring what it saves to leave out the others.
-  void compile_in_everything();
   /// From now on, the time spent in each phase of a tick is taken by `clock`; nullptr ends it.
   void time_phases(PhaseTimes::Clock clock);
   const PhaseTimes& phase_times() const;

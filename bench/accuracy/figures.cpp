@@ -32,6 +32,11 @@ const std::vector<std::string> kLogLog{"set logscale xy", "set format y '10^{%L}
 const std::vector<std::string> kStepTics{"set xtics (0.25, 1, 4, 16, 64)"};
 constexpr const char* kZeroLine = "set xzeroaxis linetype 1 linecolor '#333333' linewidth 0.7";
 
+/// The 1 % that is looked for.
+constexpr const char* kBand =
+    "set object 1 rectangle from graph 0, first -1 to graph 1, first 1 fillcolor '#eeeeee' fillstyle solid noborder "
+    "behind";
+
 std::vector<std::string> joined(std::vector<std::string> commands, const std::vector<std::string>& more) {
   commands.insert(commands.end(), more.begin(), more.end());
   return commands;
@@ -132,11 +137,8 @@ void draw_bias(const std::filesystem::path& folder, const std::vector<Json>& ste
     if (!kObservableInfo[o].has_limit) continue;
     const std::string name = kObservableInfo[o].name;
     Figure panel{.x_title = "step (μs)", .y_title = "bias (%)", .style = Figure::Style::kPoints, .title = kTitles[o]};
-    // the 1 % that is looked for, as a band
-    panel.commands = joined({"set logscale x 2", "set xrange [0.7:90]", "set yrange [*<-1.5:1.5<*]", kZeroLine,
-                             "set object 1 rectangle from graph 0, first -1 to graph 1, first 1 fillcolor '#eeeeee' "
-                             "fillstyle solid noborder behind"},
-                            kStepTics);
+    panel.commands =
+        joined({"set logscale x 2", "set xrange [0.7:90]", "set yrange [*<-1.5:1.5<*]", kZeroLine, kBand}, kStepTics);
     for (std::size_t s = 0; s < steps.size(); ++s) {
       Json wanted = steps[s].at(0);
       wanted["observable"] = name;

@@ -12,12 +12,12 @@ struct Shared {
   float gap_margin;
 };
 
-/// How two rods move relative to each other: steadily, or straying within their limits.
+/// How two rods move relative to each other: unperturbed, or perturbed by hits within their tolerance.
 struct Relative {
   float v[3], turn_i[3], turn_j[3];
   float bend_i, bend_j;                  ///< halves of the bounds on the directors' second derivatives
-  float stray, stray_z;                  ///< what the centres' relative velocity may stray by, across and along z
-  float stray_turning, stray_turning_z;  ///< the same for each director's rate
+  float drift, drift_z;                  ///< what the centres' relative velocity may drift by, across and along z
+  float drift_turning, drift_turning_z;  ///< the same for each director's rate
   float fastest;                         ///< no two beads approach faster than this
 };
 
@@ -86,8 +86,8 @@ SHAKEN_INLINE void take_safe_time(Fraction<F>& safe, const Relative& m, const F&
   const F up = lanes::abs(r.z) * inverse_distance;
   const F size_i = lanes::abs(s_i);
   const F size_j = lanes::abs(s_j);
-  const F stray = m.stray + m.stray_z * up + (size_i + size_j) * (m.stray_turning + m.stray_turning_z * up);
-  const F rate = (vx * r.x + vy * r.y + vz * r.z) * inverse_distance - stray;
+  const F drift = m.drift + m.drift_z * up + (size_i + size_j) * (m.drift_turning + m.drift_turning_z * up);
+  const F rate = (vx * r.x + vy * r.y + vz * r.z) * inverse_distance - drift;
   const F curvature = size_i * m.bend_i + size_j * m.bend_j;
   const auto apart = gap > 0.0F;
   safe.take_smaller(apart ? gap : lanes::not_below_zero(rate),
@@ -140,8 +140,8 @@ struct OverlapKernel {
 /// Safe times of the beads of i in the lanes from `first` on against the beads of j around each one's foot on j's axis.
 struct SafeTimeKernel {
   const Shared& in;
-  const Relative& steady;
-  const Relative& straying;
+  const Relative& unperturbed;
+  const Relative& perturbed;
   const BeadLanes& i;
   const BeadLanes& j;
   std::size_t first;
@@ -152,8 +152,8 @@ struct SafeTimeKernel {
     SafeTime safe{horizon, horizon};
     for (int l = 0; l < kLanes; l += W) {
       const SafeTime some = bound<W>(static_cast<int>(first) + l);
-      safe.steady = std::min(safe.steady, some.steady);
-      safe.straying = std::min(safe.straying, some.straying);
+      safe.unperturbed = std::min(safe.unperturbed, some.unperturbed);
+      safe.perturbed = std::min(safe.perturbed, some.perturbed);
     }
     return safe;
   }
@@ -169,18 +169,18 @@ struct SafeTimeKernel {
     const Untried<F> untried(j, foot);
     const F across2 = lanes::not_below_zero(lanes::dot(x, x) - foot * foot);
     const F far = lanes::not_below_zero(lanes::sqrt(untried.distance2(j, across2)) - radius - untried.radius);
-    Fraction<F> safe_steady{far, lanes::all<W>(steady.fastest)};
-    Fraction<F> safe_straying{far, lanes::all<W>(straying.fastest)};
+    Fraction<F> safe_unperturbed{far, lanes::all<W>(unperturbed.fastest)};
+    Fraction<F> safe_perturbed{far, lanes::all<W>(perturbed.fastest)};
     for (int k = -j.reach; k <= j.reach; ++k) {
       const F s_j = bead_offset(j, nearest, k);
       const lanes::Vectors<F> r{x.x + s_j * in.n_j[0], x.y + s_j * in.n_j[1], x.z + s_j * in.n_j[2]};
       const F distance = lanes::sqrt(lanes::dot(r, r));
       const F inverse = 1.0F / (distance + 1e-20F);
       const F gap = distance - (radius + hull_radius(j, s_j));
-      take_safe_time(safe_steady, steady, s_i, s_j, r, inverse, gap, horizon);
-      take_safe_time(safe_straying, straying, s_i, s_j, r, inverse, gap, horizon);
+      take_safe_time(safe_unperturbed, unperturbed, s_i, s_j, r, inverse, gap, horizon);
+      take_safe_time(safe_perturbed, perturbed, s_i, s_j, r, inverse, gap, horizon);
     }
-    return {safe_steady.least(), safe_straying.least()};
+    return {safe_unperturbed.least(), safe_perturbed.least()};
   }
 };
 
@@ -196,7 +196,7 @@ Shared shared(const BeadLanes& i, const float* n_i, const BeadLanes& j, const fl
 }
 
 Relative relative(const BeadLanes& i, const BeadLanes& j, const float* v_i, const float* v_j, const float* turn_i,
-                  const float* turn_j, float half_rate2_i, float half_rate2_j, const Allowance& allow) {
+                  const float* turn_j, float half_rate2_i, float half_rate2_j, const MotionTolerance& allow) {
   Relative m;
   for (int c = 0; c < 3; ++c) {
     m.v[c] = v_j[c] - v_i[c];
@@ -205,15 +205,15 @@ Relative relative(const BeadLanes& i, const BeadLanes& j, const float* v_i, cons
   }
   m.bend_i = half_rate2_i;
   m.bend_j = half_rate2_j;
-  m.stray_z = 2.0F * allow.velocity_z;
-  m.stray_turning = allow.turning_xy;
-  m.stray_turning_z = allow.turning_z;
+  m.drift_z = 2.0F * allow.velocity_z;
+  m.drift_turning = allow.turning_xy;
+  m.drift_turning_z = allow.turning_z;
   // |turning| never exceeds the precession's rate
   const float fastest = norm(m.v) + i.half_length * (std::sqrt(2.0F * half_rate2_i)) +
                         j.half_length * (std::sqrt(2.0F * half_rate2_j)) +
                         2.0F * (allow.velocity_xy + allow.velocity_z) + 1e-3F;
   // floats carry 6e-8; a dozen roundings of speeds
-  m.stray = 2.0F * allow.velocity_xy + 1e-6F + 3e-6F * fastest;
+  m.drift = 2.0F * allow.velocity_xy + 1e-6F + 3e-6F * fastest;
   m.fastest = fastest * 1.00001F;
   return m;
 }
@@ -258,20 +258,20 @@ BeadRange beads_may_overlap(const BeadLanes& i, const Vec3& n_i, const BeadLanes
   return beads;
 }
 
-SafeTime bead_safe_time(const BeadLanes& i, const Outlook& a, const BeadLanes& j, const Outlook& b, const Vec3& D,
-                        const Allowance& allowance, float horizon) {
+SafeTime bead_safe_time(const BeadLanes& i, const MotionBound& a, const BeadLanes& j, const MotionBound& b,
+                        const Vec3& D, const MotionTolerance& tolerance, float horizon) {
   const Shared in = shared(i, a.director, j, b.director, D);
-  const Relative steady =
-      relative(i, j, a.velocity, b.velocity, a.turning, b.turning, a.half_rate2, b.half_rate2, Allowance{});
-  const Relative straying = relative(i, j, a.velocity_center, b.velocity_center, a.turning_center, b.turning_center,
-                                     a.limit_half_rate2, b.limit_half_rate2, allowance);
+  const Relative unperturbed =
+      relative(i, j, a.velocity, b.velocity, a.turning, b.turning, a.half_rate2, b.half_rate2, MotionTolerance{});
+  const Relative perturbed = relative(i, j, a.velocity_center, b.velocity_center, a.turning_center, b.turning_center,
+                                      a.limit_half_rate2, b.limit_half_rate2, tolerance);
   SafeTime safe{horizon, horizon};
   for (std::size_t first = 0; first < i.offset.size(); first += kLanes) {
-    const SafeTime some = lanes::with_widest_vectors(SafeTimeKernel{in, steady, straying, i, j, first, horizon});
-    safe.steady = std::min(safe.steady, some.steady);
-    safe.straying = std::min(safe.straying, some.straying);
+    const SafeTime some = lanes::with_widest_vectors(SafeTimeKernel{in, unperturbed, perturbed, i, j, first, horizon});
+    safe.unperturbed = std::min(safe.unperturbed, some.unperturbed);
+    safe.perturbed = std::min(safe.perturbed, some.perturbed);
   }
-  return {safe.steady * (1.0F - 1e-5F), safe.straying * (1.0F - 1e-5F)};
+  return {safe.unperturbed * (1.0F - 1e-5F), safe.perturbed * (1.0F - 1e-5F)};
 }
 
 }  // namespace shaken

@@ -36,7 +36,7 @@ BeadRange beads_may_overlap(const BeadLanes& i, const Vec3& n_i, const BeadLanes
 ///         bead of i is tried against the beads of j next to its foot on j's axis; those beyond are covered by their
 ///         distance and the fastest approach.
 /// Arguments: D is the vector from centre i to centre j [mm].
-SafeTime bead_safe_time(const BeadLanes& i, const Outlook& outlook_i, const BeadLanes& j, const Outlook& outlook_j,
-                        const Vec3& D, const Allowance& allowance, float horizon);
+SafeTime bead_safe_time(const BeadLanes& i, const MotionBound& bound_i, const BeadLanes& j, const MotionBound& bound_j,
+                        const Vec3& D, const MotionTolerance& tolerance, float horizon);
 
 }  // namespace shaken

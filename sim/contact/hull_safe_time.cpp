@@ -58,7 +58,7 @@ struct HullKernel {
   const Hull& i;
   const Hull& j;
   const PairLanes& pairs;
-  const Allowance& allowance;
+  const MotionTolerance& tolerance;
   float horizon;
   HullSafeTimes& safe;
 
@@ -115,30 +115,31 @@ struct HullKernel {
     const F c_j = lanes::dot(n_j, d);
     const F up = lanes::abs(d.z);
     const auto within = [&](const V& v, const V& turn_i, const V& turn_j, const F& q_i, const F& q_j,
-                            const Allowance& allow) __attribute__((always_inline)) {
-      const F stray = 2.0F * (allow.velocity_xy + up * allow.velocity_z);
-      const F stray_turning = allow.turning_xy + up * allow.turning_z;
+                            const MotionTolerance& allow) __attribute__((always_inline)) {
+      const F drift = 2.0F * (allow.velocity_xy + up * allow.velocity_z);
+      const F drift_turning = allow.turning_xy + up * allow.turning_z;
       const Gap<F> bound{i,
                          j,
                          gap,
-                         lanes::dot(v, d) - stray - (1e-4F + kRateRounding * lanes::size1(v)),
-                         {c_i, lanes::dot(turn_i, d), q_i, stray_turning + kRateRounding * lanes::size1(turn_i)},
-                         {c_j, lanes::dot(turn_j, d), q_j, stray_turning + kRateRounding * lanes::size1(turn_j)}};
+                         lanes::dot(v, d) - drift - (1e-4F + kRateRounding * lanes::size1(v)),
+                         {c_i, lanes::dot(turn_i, d), q_i, drift_turning + kRateRounding * lanes::size1(turn_i)},
+                         {c_j, lanes::dot(turn_j, d), q_j, drift_turning + kRateRounding * lanes::size1(turn_j)}};
       return bound.safe_time(horizon);
     };
-    lanes::store(safe.steady + l, within(lanes::load<W>(pairs.velocity, l), lanes::load<W>(pairs.turning_i, l),
-                                         lanes::load<W>(pairs.turning_j, l), lanes::load<W>(pairs.half_rate2_i + l),
-                                         lanes::load<W>(pairs.half_rate2_j + l), Allowance{}));
-    lanes::store(safe.straying + l,
+    lanes::store(safe.unperturbed + l,
+                 within(lanes::load<W>(pairs.velocity, l), lanes::load<W>(pairs.turning_i, l),
+                        lanes::load<W>(pairs.turning_j, l), lanes::load<W>(pairs.half_rate2_i + l),
+                        lanes::load<W>(pairs.half_rate2_j + l), MotionTolerance{}));
+    lanes::store(safe.perturbed + l,
                  within(lanes::load<W>(pairs.velocity_center, l), lanes::load<W>(pairs.turning_center_i, l),
                         lanes::load<W>(pairs.turning_center_j, l), lanes::load<W>(pairs.limit_half_rate2_i + l),
-                        lanes::load<W>(pairs.limit_half_rate2_j + l), allowance));
+                        lanes::load<W>(pairs.limit_half_rate2_j + l), tolerance));
   }
 };
 
 }  // namespace
 
-void PairLanes::set(int lane, const Vec3& D_ij, const Outlook& i, const Outlook& j) {
+void PairLanes::set(int lane, const Vec3& D_ij, const MotionBound& i, const MotionBound& j) {
   for (int c = 0; c < 3; ++c) {
     D[c][lane] = static_cast<float>(D_ij[c]);
     director_i[c][lane] = i.director[c];
@@ -156,9 +157,9 @@ void PairLanes::set(int lane, const Vec3& D_ij, const Outlook& i, const Outlook&
   limit_half_rate2_j[lane] = j.limit_half_rate2;
 }
 
-void hull_safe_times(const Hull& i, const Hull& j, const PairLanes& pairs, const Allowance& allowance, float horizon,
-                     HullSafeTimes& safe) {
-  lanes::with_widest_vectors(HullKernel{i, j, pairs, allowance, horizon, safe});
+void hull_safe_times(const Hull& i, const Hull& j, const PairLanes& pairs, const MotionTolerance& tolerance,
+                     float horizon, HullSafeTimes& safe) {
+  lanes::with_widest_vectors(HullKernel{i, j, pairs, tolerance, horizon, safe});
 }
 
 }  // namespace shaken

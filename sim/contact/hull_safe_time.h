@@ -44,23 +44,23 @@ struct PairLanes {
   alignas(64) float limit_half_rate2_i[kLanes];
   alignas(64) float limit_half_rate2_j[kLanes];
 
-  void set(int lane, const Vec3& D_ij, const Outlook& i, const Outlook& j);
+  void set(int lane, const Vec3& D_ij, const MotionBound& i, const MotionBound& j);
 };
 
 /// Bounds for kLanes pairs, and the directions that they were taken along.
 struct HullSafeTimes {
   alignas(64) float direction[3][kLanes];  ///< unit vectors from hull i towards hull j
-  alignas(64) float steady[kLanes];        ///< as in SafeTime
-  alignas(64) float straying[kLanes];
+  alignas(64) float unperturbed[kLanes];   ///< as in SafeTime
+  alignas(64) float perturbed[kLanes];
 };
 
 /// Times for which the hulls of rods stay apart, at most `horizon` [s]; 0 if they overlap.
 /// Model:  along a fixed direction d, gap(t) >= (D + v t) . d - width_i(t) - width_j(t); the centres' difference is
-///         linear in time because gravity acts on both alike, and the widths grow at most as Outlook says. The right
-///         side is concave in t, so a chord from a time at which it is positive to one at which it is not meets zero
-///         before it does. Any d gives a valid bound; this one is near the direction of the largest gap: closest points
-///         of the axes, moved twice towards the thick middles.
-void hull_safe_times(const Hull& i, const Hull& j, const PairLanes& pairs, const Allowance& allowance, float horizon,
-                     HullSafeTimes& safe);
+///         linear in time because gravity acts on both alike, and the widths grow at most as MotionBound says. The
+///         right side is concave in t, so a chord from a time at which it is positive to one at which it is not meets
+///         zero before it does. Any d gives a valid bound; this one is near the direction of the largest gap: closest
+///         points of the axes, moved twice towards the thick middles.
+void hull_safe_times(const Hull& i, const Hull& j, const PairLanes& pairs, const MotionTolerance& tolerance,
+                     float horizon, HullSafeTimes& safe);
 
 }  // namespace shaken

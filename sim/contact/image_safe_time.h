@@ -16,17 +16,17 @@ namespace shaken {
 ///         their centres are no further apart than `reach` along any axis. In a box that is wide enough
 ///         (least_box_side) the times are never 0.
 /// Arguments: D from centre i to the nearest centre j [mm], `reach` the sum of both rods' (Species::reach()) [mm].
-inline SafeTime image_safe_time(const Vec3& D, const Outlook& i, const Outlook& j, const Allowance& allowance,
-                                double box_side, double reach, float horizon) {
+inline SafeTime image_safe_time(const Vec3& D, const MotionBound& i, const MotionBound& j,
+                                const MotionTolerance& tolerance, double box_side, double reach, float horizon) {
   SafeTime safe{horizon, horizon};
   for (int c = 0; c < 2; ++c) {
     const auto room = static_cast<float>((box_side - std::abs(D[c]) - reach) - 1e-6 * box_side);  // less the rounding
-    const float steady = std::abs(j.velocity[c] - i.velocity[c]);
-    const float straying = std::abs(j.velocity_center[c] - i.velocity_center[c]) + 2.0F * allowance.velocity_xy;
-    if (std::max(steady, straying) * horizon <= room) continue;  // in all but small boxes
+    const float unperturbed = std::abs(j.velocity[c] - i.velocity[c]);
+    const float perturbed = std::abs(j.velocity_center[c] - i.velocity_center[c]) + 2.0F * tolerance.velocity_xy;
+    if (std::max(unperturbed, perturbed) * horizon <= room) continue;  // in all but small boxes
     const float open = std::max(room, 0.0F) * (1.0F - 1e-5F);
-    if (steady * safe.steady > open) safe.steady = open / steady;
-    if (straying * safe.straying > open) safe.straying = open / straying;
+    if (unperturbed * safe.unperturbed > open) safe.unperturbed = open / unperturbed;
+    if (perturbed * safe.perturbed > open) safe.perturbed = open / perturbed;
   }
   return safe;
 }

@@ -194,7 +194,7 @@ void ImpactProcess::restore_work(double work) {
 
 Vec3 poisson_impulse(const Mat3& K, const Vec3& normal, const Vec3& u, const ContactParameters& contact) {
   // without friction the two bodies bounce as by Newton's law
-  if (contact.friction == 0.0) return newton_coulomb_impulse(K, normal, u, contact);
+  if (!contact.has_friction()) return newton_coulomb_impulse(K, normal, u, contact);
   ImpactProcess impact(K, normal, u, contact.friction);
   impact.compress();
   if (contact.restitution > 0) impact.restore_impulse(contact.restitution * impact.normal_impulse());
@@ -202,7 +202,7 @@ Vec3 poisson_impulse(const Mat3& K, const Vec3& normal, const Vec3& u, const Con
 }
 
 Vec3 energetic_impulse(const Mat3& K, const Vec3& normal, const Vec3& u, const ContactParameters& contact) {
-  if (contact.friction == 0.0) return newton_coulomb_impulse(K, normal, u, contact);
+  if (!contact.has_friction()) return newton_coulomb_impulse(K, normal, u, contact);
   ImpactProcess impact(K, normal, u, contact.friction);
   impact.compress();
   if (contact.restitution > 0) impact.restore_work(-contact.restitution * contact.restitution * impact.normal_work());

@@ -33,7 +33,7 @@ Vec3 newton_coulomb_impulse(const Mat3& K, const Vec3& normal, const Vec3& u, co
   const double mu = contact.friction;
 
   // a frictionless contact needs neither the sticking impulse nor a slip direction
-  if (mu == 0.0) return (bounce / normal.dot(K * normal)) * normal;
+  if (!contact.has_friction()) return (bounce / normal.dot(K * normal)) * normal;
 
   const Vec3 u_t = u - u_n * normal;
   Vec3 stick = solve_symmetric(K, bounce * normal - u_t);

@@ -63,11 +63,4 @@ inline void apply_normal_impulse(Motion& motion, const InverseInertia& inverse, 
 ///         1/taper), the tangential part of the sticking impulse, cut to the cone, takes the place of -t.
 Vec3 newton_coulomb_impulse(const Mat3& K, const Vec3& normal, const Vec3& u, const ContactParameters& contact);
 
-/// Newton's restitution with Coulomb's friction, as a policy of the inner loops (stepping/compose.h).
-struct NewtonLaw {
-  static Vec3 impulse(const Mat3& K, const Vec3& normal, const Vec3& u, const ContactParameters& contact) {
-    return newton_coulomb_impulse(K, normal, u, contact);
-  }
-};
-
 }  // namespace shaken

@@ -3,20 +3,24 @@
 
 #include "sim/contact/impact_process.h"
 #include "sim/contact/impulse.h"
+#include "sim/core/check.h"
 
-/// The impulse laws other than Newton's (impulse.h) as policies, for kernels that are composed with one of them.
 namespace shaken {
 
-struct PoissonLaw {
-  static Vec3 impulse(const Mat3& K, const Vec3& normal, const Vec3& u, const ContactParameters& contact) {
-    return poisson_impulse(K, normal, u, contact);
-  }
-};
+/// Impulse on the body that `normal` points to, at a contact of compliance K whose bodies approach at u (impulse.h has
+/// units and meanings).
+using ImpulseFunction = Vec3 (*)(const Mat3& K, const Vec3& normal, const Vec3& u, const ContactParameters& contact);
 
-struct EnergeticLaw {
-  static Vec3 impulse(const Mat3& K, const Vec3& normal, const Vec3& u, const ContactParameters& contact) {
-    return energetic_impulse(K, normal, u, contact);
+inline ImpulseFunction impulse_function(ImpulseLaw law) {
+  switch (law) {
+    case ImpulseLaw::kNewton:
+      return &newton_coulomb_impulse;
+    case ImpulseLaw::kPoisson:
+      return &poisson_impulse;
+    case ImpulseLaw::kEnergetic:
+      return &energetic_impulse;
   }
-};
+  SHAKEN_CHECK(false, "unknown impulse law");
+}
 
 }  // namespace shaken

@@ -144,7 +144,9 @@ bool is_there(const Scene& scene) {
 template <class Contact>
 struct Friction {
   static double mu(const Scene& scene) { return (scene.*Contact::kParameters).friction; }
-  static bool is_on(const Scene& scene) { return is_there<Contact>(scene) && mu(scene) > 0; }
+  static bool is_on(const Scene& scene) {
+    return is_there<Contact>(scene) && (scene.*Contact::kParameters).has_friction();
+  }
   static std::string why(const Scene& scene) { return setting(std::string(Contact::kKey) + ".friction", mu(scene)); }
   static std::int64_t work(const World& world) { return world.counters.*Contact::kImpulses; }
   static void switch_off(Scene& scene) { (scene.*Contact::kParameters).friction = 0; }
@@ -169,7 +171,7 @@ struct WallCollisions {
 };
 
 struct WallFriction {
-  static bool is_on(const Scene& scene) { return scene.walls && scene.walls->contact.friction > 0; }
+  static bool is_on(const Scene& scene) { return scene.walls && scene.walls->contact.has_friction(); }
   static std::string why(const Scene& scene) {
     return scene.walls ? setting("walls.friction", scene.walls->contact.friction) : WallCollisions::why(scene);
   }
@@ -180,14 +182,14 @@ struct WallFriction {
 };
 
 struct RotationalNoise {
-  static bool is_on(const Scene& scene) { return scene.rotational_noise > 0; }
+  static bool is_on(const Scene& scene) { return scene.has_rotational_noise(); }
   static std::string why(const Scene& scene) { return setting("plates.noise", scene.rotational_noise, " rad/mm"); }
   static std::int64_t work(const World& world) { return world.counters.noise_kicks; }
   static void switch_off(Scene& scene) { scene.rotational_noise = 0; }
 };
 
 struct ImpactsAtInstant {
-  static bool is_on(const Scene& scene) { return scene.impacts == ImpactTime::kAtInstant; }
+  static bool is_on(const Scene& scene) { return scene.has_impacts_at_instant(); }
   static std::string why(const Scene& scene) {
     return is_on(scene) ? "time.impacts = at_instant" : "time.impacts = tick_end";
   }

@@ -2,6 +2,8 @@
 #include "sim/stepping/reference_stepper.h"
 
 #include "sim/core/heap_bytes.h"
+#include "sim/stepping/rod_impacts.h"
+#include "sim/stepping/surface_impacts.h"
 
 namespace shaken {
 namespace {
@@ -11,9 +13,8 @@ constexpr double kReferenceSkin = 0.3;
 
 }  // namespace
 
-ReferenceStepper::ReferenceStepper(const World& world, const Kernels& kernels)
+ReferenceStepper::ReferenceStepper(const World& world)
     : rules_(world),
-      kernels_(kernels),
       neighbors_(world.species, world.kinds, world.scene.box_side, kReferenceSkin),
       rods_(world.rods.size()),
       poses_(world.rods.size()) {}
@@ -33,8 +34,7 @@ std::optional<NumericalTrouble> ReferenceStepper::step(World& world, Tick now) {
   // 1. surfaces
   const PlateState plates = world.plates.at(now);
   for (int i = 0; i < n; ++i) {
-    if (auto trouble = kernels_.meet_surfaces(i, rods_[i], world.rods[i], plates, now, rules_, world.counters))
-      return trouble;
+    if (auto trouble = meet_surfaces(i, rods_[i], world.rods[i], plates, now, rules_, world.counters)) return trouble;
   }
 
   phase_times.lap(Phase::kPlates);
@@ -55,7 +55,7 @@ std::optional<NumericalTrouble> ReferenceStepper::step(World& world, Tick now) {
   phase_times.lap(Phase::kDetection);
 
   // 3. response
-  if (auto trouble = kernels_.respond(contacts_, rods_, world, now, rules_)) return trouble;
+  if (auto trouble = collide_rods(contacts_, rods_, world, now, rules_)) return trouble;
 
   phase_times.lap(Phase::kResponse);
 

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "sim/neighbors/neighbor_list.h"
-#include "sim/stepping/compose.h"
 #include "sim/stepping/stepper.h"
 #include "sim/stepping/tick.h"
 
@@ -14,16 +13,13 @@ namespace shaken {
 /// oracle that any other stepper must match bit by bit.
 class ReferenceStepper final : public Stepper {
  public:
-  explicit ReferenceStepper(const World& world) : ReferenceStepper(world, compose(world.scene)) {}
-  /// With kernels of one's own choice.
-  ReferenceStepper(const World& world, const Kernels& kernels);
+  explicit ReferenceStepper(const World& world);
   std::size_t bytes() const override;
 
  private:
   std::optional<NumericalTrouble> step(World& world, Tick now) override;
 
   TickRules rules_;
-  Kernels kernels_;
   NeighborList neighbors_;
   std::vector<RodAtTick> rods_;
   std::vector<Pose> poses_;

@@ -1,86 +1,72 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-#include <span>
 #include <vector>
 
-#include "sim/contact/bead_safe_time.h"
-#include "sim/contact/hull_safe_time.h"
-#include "sim/core/thread_team.h"
-#include "sim/motion/plate_safe_time.h"
-#include "sim/neighbors/neighbor_list.h"
-#include "sim/stepping/compose.h"
+#include "sim/stepping/list_reserve.h"
+#include "sim/stepping/loops.h"
+#include "sim/stepping/motion_drift.h"
+#include "sim/stepping/pair_search.h"
+#include "sim/stepping/pair_table.h"
 #include "sim/stepping/stepper.h"
 #include "sim/stepping/tick.h"
 #include "sim/stepping/timing_wheel.h"
 
 namespace shaken {
 
-/// Visits a rod or a pair only at the ticks at which contact is possible. Whenever one has been looked at, a rigorous
-/// bound (contact/safe_time.h, motion/plate_safe_time.h) tells up to when nothing can happen, and a timing wheel
-/// brings it back in time. What happens at a visit is tick.h's business, so the trajectory is the reference stepper's,
-/// bit by bit.
+/// Visits a rod or a pair only at the ticks at which contact is possible. After each visit a rigorous bound
+/// (contact/safe_time.h, motion/plate_safe_time.h) tells up to when nothing can happen, and a timing wheel brings the
+/// rod or pair back in time. What happens at a visit is tick.h's business, so the trajectory is the reference
+/// stepper's, bit by bit.
 ///
-/// Hits by the plates change a rod's velocity thousands of times per second. Most pairs do not care: their bounds
-/// provide for rods that stray within limits (Outlook, Allowance). Only a rod that leaves its limits has the bounds of
-/// all its pairs renewed; a pair on the point of touching has a bound for steady flight instead, which is longer, and
-/// renewed whenever one of its rods is hit.
+/// The life of a pair:
 ///
-/// Each phase of a tick is a loop over a list without order, which several threads may share: each rod and pair has an
-/// owner, so that what belongs to it stays in one thread's caches. Lists, marks, wheels and the impulses between rods
-/// are the first thread's.
+///     two rods come near      bound: nothing can happen         the bound ends
+///     (NeighborList)          for so many ticks                 (TimingWheel)
+///          |                        |                                |
+///          v                        v                                v
+///        visit ---------------->  bound ------- waits ----------->  visit --> ...
+///          |                        ^             |   |
+///          v                        |             |   +---> the rods have parted: forgotten (NeighborList)
+///      contacts?                    +-------------+
+///      response, storing             a rod has drifted beyond its tolerance (MotionDrift), or was hit while the
+///                                    bound holds for unperturbed flight only
+///
+/// Three things keep visits rare:
+///  1. Bounds provide for rods that drift within a tolerance. Plates change a rod's velocity thousands of times per
+///     second, and most pairs need not care.
+///  2. Where that bound is short, because the pair is about to touch, a bound for unperturbed flight takes its place.
+///  It
+///     is longer, but is renewed whenever one of the rods is hit.
+///  3. Beads that overlap but recede are left alone, unless a rod of theirs may be hit in this very tick.
+///
+/// Each phase of a tick is a loop over a list without order, which several threads may share (SharedLoops). Lists,
+/// marks, wheels and the impulses between rods are the first thread's.
 class ScheduledStepper final : public Stepper {
  public:
   /// Loops are shared if there are at least `grain` items for each thread.
-  ScheduledStepper(const World& world, int n_threads, int grain, const Kernels& kernels);
+  ScheduledStepper(const World& world, int n_threads, int grain);
   std::size_t bytes() const override;
 
  private:
-  static constexpr Tick kNever = -1;
-
-  /// What the stepper knows of a rod beside its flight; its owner's.
-  struct RodRecord {
-    float strayed_velocity[3] = {0, 0, 0};  ///< change by hits since the rod's limits were set [mm/s]
-    float strayed_turning[3] = {0, 0, 0};   ///< the same for d director / dt [1/s]
-    float blur = 0;                         ///< what strayed_turning may be wrong by [1/s]
-    float rate_limit = 0;                   ///< of the precession; part of the limits [rad/s]
-    float slack = 1e30F;                    ///< of the neighbour list at `slack_at`, at least [mm]
-    float slack_speed = 0;                  ///< at which it shrinks, at most [mm/s]
-    Tick slack_at = kNever;
-  };
-  /// The same, the first thread's.
+  /// What the first thread notes of a rod.
   struct RodMarks {
-    Tick posed_at = kNever;       ///< tick for which rods_ holds the rod
-    Tick listed_at = kNever;      ///< tick at which it was last to be scheduled
-    Tick changed_at = kNever;     ///< tick at which it was last hit
-    Tick outlook_at = kNever;     ///< tick for which outlooks_ holds the rod
-    std::int16_t n_touching = 0;  ///< pairs of the rod that are touching
-    std::int16_t n_steady = 0;    ///< pairs whose bound holds for steady flight only
-  };
-  /// In which direction a pair's hulls were apart at the last bound; 0: not known.
-  using Direction = std::array<float, 3>;
-  using PairRods = std::array<int, 2>;
-  static constexpr PairRods kUnused{-1, -1};  ///< of a number that the neighbour list does not use
-  /// Marks of a pair, the first thread's.
-  enum PairMark : std::uint8_t {
-    kSteady = 1,    ///< the bound holds for steady flight only
-    kTouching = 2,  ///< beads overlapped at the last search
-    kListed = 4,    ///< for a new bound
+    Tick posed_at = -1;    ///< tick for which rods_ holds the rod
+    Tick listed_at = -1;   ///< tick at which it was last to be scheduled
+    Tick changed_at = -1;  ///< tick at which it was last hit
+    Tick bounded_at = -1;  ///< tick for which motion_bounds_ holds the rod
   };
   /// What one thread has and gathers in a loop.
-  struct Worker {
+  struct Worker : LoopPart {
     void note(NumericalTrouble met);
 
-    std::vector<int> own;                   ///< items of a list that the thread owns
-    std::span<const int> mine;              ///< those that it visits: its own, or all if it is alone
-    std::vector<Tick> next;                 ///< ticks at which they are due
-    std::vector<std::uint8_t> next_steady;  ///< whether the pairs' new bounds hold for steady flight only
+    std::vector<Tick> next;                      ///< ticks at which `mine` are due
+    std::vector<std::uint8_t> next_unperturbed;  ///< whether the pairs' new bounds hold for unperturbed flight only
     Counters counters;
     std::optional<NumericalTrouble> trouble;  ///< that of the first rods
-    std::vector<int> hit;                     ///< rods, by a plate
-    std::vector<int> strayed;                 ///< rods, out of their limits: their pairs need new bounds
-    std::vector<int> to_place;                ///< rods that have used up their slack
+    std::vector<int> hit;                     ///< rods, by a surface
+    std::vector<int> drifted;                 ///< rods, beyond their tolerance: their pairs need new bounds
+    std::vector<int> to_place;                ///< rods that have used up their reserve in the neighbour list
     std::vector<BeadContact> bead_contacts;
     std::vector<PairContact> contacts;
     std::vector<int> turned;  ///< pairs that began or ceased to touch
@@ -90,87 +76,60 @@ class ScheduledStepper final : public Stepper {
 
   std::optional<NumericalTrouble> step(World& world, Tick now) override;
 
-  // phases of a tick
+  // parts of a tick, in this order
+  void list_due_rods(const World& world, Tick now);
   std::optional<NumericalTrouble> meet_surfaces_due(World& world, Tick now);
-  void list_pairs(const World& world, Tick now);
+  void list_due_pairs(const World& world, Tick now);
   void detect_due(const World& world, Tick now);
   void detect_touching(const World& world, Tick now);
+  void list_hit(Tick now);
   std::optional<NumericalTrouble> store_changed(World& world, Tick now);
   void schedule_rods(const World& world, Tick now);
-  void schedule_pairs(const World& world, Tick now);
+  void list_pairs_to_bound();
+  void bound_motions(const World& world, Tick now);
+  void schedule_pairs(Tick now);
 
-  /// Calls visit(worker) on each thread, worker.mine being its part of the list; on one if that is not worth it.
-  template <class Visit>
-  void share(const std::vector<int>& list, const std::vector<std::uint8_t>& owners, const Visit& visit);
-
-  // parts of them
-  std::optional<NumericalTrouble> first_trouble() const;
-  void list_changed(int i, Tick now);
+  void pose_rod(int i, const World& world, Tick now);
   void list_to_pose(int i, Tick now);
-  void pose(const World& world, Tick now);
-  bool detect(int p, Worker& worker);
-  const Pose& found(int i) const { return found_.empty() ? rods_[i].pose : found_[i]; }
-  void turn_touching(int p);
-  void mark_steady(int p, bool steady);
-  bool within_limits(const RodRecord& record, const Flight& flight) const;
-  static void set_limits(RodRecord& record, const Flight& flight);
-  Outlook outlook(const World& world, int i, Tick now) const;
-  float slack_left(int i, Tick now) const;
-  void measure_slack(int i, Tick now);
-  Tick listed_ticks(const World& world, int i, Tick now);
-  Tick off_walls_ticks(const World& world, int i) const;
+  void pose_listed(const World& world, Tick now);
+  void list_changed(int i, Tick now);
+  bool find_contacts(int p, Worker& worker);
+  void gather_contacts(Worker& worker);
   void bound_pairs(std::span<const int> pairs, Tick now, Worker& worker);
-
-  // with several species, lists are sorted so that what is bounded together is of one kind
-  int rod_group(int i) const { return rules_.rod_kinds[i]; }
-  int pair_group(int p) const {
-    return rod_group(pair_rods_[p][0]) * static_cast<int>(rules_.kinds.size()) + rod_group(pair_rods_[p][1]);
-  }
-  /// Sorts a list by group.
-  template <class Group>
-  void sort_by(const Group& group, std::vector<int>& list) const;
-  /// Calls visit(part) for parts of the list that are of one group and fit into the lanes.
-  template <class Group, class Visit>
-  void in_lanes(const Group& group, std::span<const int> list, const Visit& visit) const;
+  std::optional<NumericalTrouble> first_trouble() const;
+  /// Where free flight brought the rod; impacts at their instant may have displaced it since.
+  const Pose& found(int i) const { return found_.empty() ? rods_[i].pose : found_[i]; }
+  int species_of(int i) const { return rules_.rod_kinds[i]; }
 
   TickRules rules_;
-  Kernels kernels_;
-  std::vector<Hull> hulls_;       ///< (n_species)
-  std::vector<BeadLanes> lanes_;  ///< (n_species)
-  std::vector<double> reach_;     ///< (n_species) [mm]
+  PairSearch search_;
   NeighborList neighbors_;
-  ThreadTeam team_;
-  int grain_;
+  SharedLoops<Worker> loops_;
 
+  // of each rod
   std::vector<RodAtTick> rods_;
-  std::vector<Pose> found_;  ///< where free flight brought the rods of rods_, if impacts may displace them; or empty
-  std::vector<RodRecord> records_;
+  std::vector<Pose> found_;  ///< or empty, if nothing displaces rods
+  std::vector<MotionDrift> drifts_;
+  std::vector<ListReserve> reserves_;
   std::vector<RodMarks> marks_;
-  std::vector<Outlook> outlooks_;
-  std::vector<std::uint8_t> rod_owners_;  ///< the thread of each rod
-  TimingWheel rod_wheel_;
+  std::vector<MotionBound> motion_bounds_;
+  std::vector<std::uint8_t> owners_;  ///< the thread of each rod
+  TimingWheel wheel_;
 
-  // pairs, numbered as in the neighbour list
-  std::vector<PairRods> pair_rods_;
-  std::vector<Direction> directions_;
-  std::vector<Tick> detected_at_;          ///< tick of the last search for contacts
-  std::vector<std::uint8_t> pair_marks_;   ///< of PairMark
-  std::vector<std::uint8_t> pair_owners_;  ///< the thread of each pair
-  TimingWheel pair_wheel_;
+  PairTable pairs_;
   bool is_new_ = true;
 
   // lists of one tick
   std::vector<std::int32_t> due_rods_;
   std::vector<std::int32_t> due_pairs_;
   std::vector<PairContact> contacts_;
-  std::vector<int> changed_;      ///< rods hit in this tick
-  std::vector<int> to_pose_;      ///< rods whose pose is needed
-  std::vector<int> to_look_at_;   ///< rods whose outlook is
-  std::vector<int> to_schedule_;  ///< rods that need a bound
-  std::vector<int> to_bound_;     ///< pairs that need one
-  std::vector<int> may_change_;
-  std::vector<int> gained_, lost_;  ///< pairs
-  std::vector<Worker> workers_;
+  std::vector<int> changed_;          ///< rods hit in this tick
+  std::vector<int> to_pose_;          ///< rods
+  std::vector<int> to_bound_motion_;  ///< rods of pairs that need a bound
+  std::vector<int> to_schedule_;      ///< rods
+  std::vector<int> to_bound_;         ///< pairs
+  std::vector<int> may_change_;       ///< rods that touch another and may yet be hit in this tick
+  std::vector<int> gained_, lost_;    ///< pairs, by the neighbour list
 };
 
 }  // namespace shaken

@@ -7,12 +7,12 @@
 
 namespace shaken {
 
-std::unique_ptr<Stepper> make_stepper(const World& world, int n_threads, int grain, const Kernels& kernels) {
+std::unique_ptr<Stepper> make_stepper(const World& world, int n_threads, int grain) {
   switch (world.scene.engine) {
     case Engine::kReference:
-      return std::make_unique<ReferenceStepper>(world, kernels);
+      return std::make_unique<ReferenceStepper>(world);
     case Engine::kScheduled:
-      return std::make_unique<ScheduledStepper>(world, n_threads, grain, kernels);
+      return std::make_unique<ScheduledStepper>(world, n_threads, grain);
   }
   SHAKEN_CHECK(false, "unknown engine");
 }

@@ -5,7 +5,6 @@
 #include <memory>
 #include <optional>
 
-#include "sim/stepping/compose.h"
 #include "sim/stepping/phase_times.h"
 #include "sim/world.h"
 
@@ -39,6 +38,6 @@ class Stepper {
 };
 
 /// The stepper that the scene asks for, on so many threads (the reference stepper uses one).
-std::unique_ptr<Stepper> make_stepper(const World& world, int n_threads, int grain, const Kernels& kernels);
+std::unique_ptr<Stepper> make_stepper(const World& world, int n_threads, int grain);
 
 }  // namespace shaken

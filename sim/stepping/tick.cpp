@@ -26,9 +26,12 @@ TickRules::TickRules(const World& world)
       rod_rod(world.scene.rod_rod),
       rod_base(world.scene.rod_base),
       rod_lid(world.scene.rod_lid),
+      impulse(impulse_function(world.scene.law)),
+      impacts_at_instant(world.scene.has_impacts_at_instant()),
       has_base(world.scene.base),
       has_lid(world.scene.lid),
       walls(world.scene.walls),
+      has_rotational_noise(world.scene.has_rotational_noise()),
       rotational_noise(world.scene.rotational_noise),
       seed(world.scene.seed),
       plates(world.plates) {

@@ -25,7 +25,8 @@
 /// is called its head either: a rod that is the same fore and aft, turned end for end, flies the same, down to the last
 /// bit.
 ///
-/// What happens in phases 1 and 3 is composed from the effects that the scene calls for (stepping/compose.h).
+/// Phases 1 and 3 are in stepping/surface_impacts.h and stepping/rod_impacts.h. What an effect does there stands behind
+/// the same predicate of the scene (sim/scene.h) that the registry of effects asks (sim/effects/registry.h).
 namespace shaken {
 
 /// One kind of rod, as the phases need it.
@@ -59,9 +60,12 @@ struct TickRules {
   double dt;
   double box_side;
   ContactParameters rod_rod, rod_base, rod_lid;
+  ImpulseFunction impulse;  ///< of contacts with friction
+  bool impacts_at_instant;
   bool has_base, has_lid;
   std::optional<SideWalls> walls;
-  double rotational_noise;
+  bool has_rotational_noise;
+  double rotational_noise;  ///< [rad/mm]
   std::uint64_t seed;
   PlateMotion plates;
   double max_speed2;  ///< [mm^2/s^2]
@@ -94,6 +98,13 @@ inline RodAtTick rod_at_tick(const Flight& flight, Tick now, const TickRules& ru
           false,
           false,
           false};
+}
+
+/// Velocity of the rod's centre at the tick [mm/s].
+inline Vec3 velocity_at(const Flight& flight, Tick now, const TickRules& rules) {
+  Vec3 velocity = flight.velocity;
+  velocity.z() -= rules.gravity * (static_cast<double>(now - flight.since) * rules.dt);
+  return velocity;
 }
 
 /// Makes the rod's motion at the tick available.

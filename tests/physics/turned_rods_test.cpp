@@ -9,7 +9,7 @@
 
 #include "sim/initial.h"
 #include "sim/simulation.h"
-#include "sim/stepping/compose.h"
+#include "sim/stepping/surface_impacts.h"
 #include "tests/support/random_rods.h"
 
 namespace shaken {
@@ -169,14 +169,13 @@ TEST(TurnedRods, PlatesPushApolarRodsNeitherWayAndTiltedOnesOppositely) {
   scene.box_side = 20;
   const World world = empty_world(scene);
   const TickRules rules(world);
-  const Kernels kernels = compose(scene);
   test::Draw draw(41);
   Mean push, size, up, down;  // v . n that a tick gives: mean, mean size, where n points up and where it points down
   Counters counters;
   for (int trial = 0; trial < 200000; ++trial) {
     TwofoldHit hit(draw, world, rules);
     const Vec3 n = hit.rod.pose.director;
-    ASSERT_FALSE(kernels.meet_surfaces(0, hit.rod, hit.flight, world.plates.at(0), 0, rules, counters).has_value());
+    ASSERT_FALSE(meet_surfaces(0, hit.rod, hit.flight, world.plates.at(0), 0, rules, counters).has_value());
     if (!hit.rod.changed) continue;  // it did not approach
     const double along = (hit.rod.motion.velocity - hit.flight.velocity).head<2>().dot(n.head<2>());
     push.add(along);

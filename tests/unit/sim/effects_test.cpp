@@ -99,23 +99,6 @@ TEST(Effects, WorkWhenTheyAreOn) {
   }
 }
 
-// The kernels that a scene is composed of do what those with every effect compiled in do, bit by bit.
-TEST(Effects, ComposedKernelsAreBitwiseThoseWithEverythingCompiledIn) {
-  for (const Effect& effect : all_effects()) {
-    if (effect.switch_off == nullptr) continue;
-    Scene scene = everything_on();
-    effect.switch_off(scene);
-    std::array<std::uint64_t, 2> hashes{};
-    for (const bool everything : {false, true}) {
-      World world = *make_world(scene);
-      ReferenceStepper stepper(world, everything ? compose_everything(scene) : compose(scene));
-      ASSERT_FALSE(stepper.advance_to(world, 1500).has_value());
-      hashes[everything] = state_hash(world);
-    }
-    EXPECT_EQ(hashes[0], hashes[1]) << "without " << effect.name;
-  }
-}
-
 class EffectOff : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(EffectOff, IsTheNeutralParameterBitForBitAndDoesNoWork) {

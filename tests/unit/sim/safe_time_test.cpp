@@ -41,7 +41,7 @@ struct FlyingPair {
   double ratio;
   Flight flight[2];
   Vec3 D;
-  Outlook outlook[2];
+  MotionBound bound[2];
 
   explicit FlyingPair(test::Draw& draw) {
     const double length = draw.uniform(2.5, 4.5);
@@ -70,7 +70,7 @@ struct FlyingPair {
   void set_limits(int r, const Vec3& strayed_velocity, const Vec3& strayed_turning, double rate_limit) {
     const Flight& f = flight[r];
     const Vec3 turning = f.precession.cross(f.director);
-    Outlook& o = outlook[r];
+    MotionBound& o = bound[r];
     set_vector(o.director, f.director);
     set_vector(o.velocity, f.velocity);
     set_vector(o.turning, turning);
@@ -80,19 +80,19 @@ struct FlyingPair {
     o.limit_half_rate2 = static_cast<float>(0.5 * rate_limit * rate_limit * (1 + 1e-6));
   }
 
-  SafeTime hull_bound(const Allowance& allowance, double horizon, Vec3* direction = nullptr) const {
+  SafeTime hull_bound(const MotionTolerance& tolerance, double horizon, Vec3* direction = nullptr) const {
     const Hull hull(species);
     PairLanes lanes{};
     constexpr int kLane = 5;  // any will do
-    lanes.set(kLane, D, outlook[0], outlook[1]);
+    lanes.set(kLane, D, bound[0], bound[1]);
     HullSafeTimes safe;
-    hull_safe_times(hull, hull, lanes, allowance, static_cast<float>(horizon), safe);
+    hull_safe_times(hull, hull, lanes, tolerance, static_cast<float>(horizon), safe);
     if (direction) *direction = Vec3(safe.direction[0][kLane], safe.direction[1][kLane], safe.direction[2][kLane]);
-    return {safe.steady[kLane], safe.straying[kLane]};
+    return {safe.unperturbed[kLane], safe.perturbed[kLane]};
   }
-  SafeTime bead_bound(const Allowance& allowance, double horizon) const {
+  SafeTime bead_bound(const MotionTolerance& tolerance, double horizon) const {
     const BeadLanes lanes(species);
-    return bead_safe_time(lanes, outlook[0], lanes, outlook[1], D, allowance, static_cast<float>(horizon));
+    return bead_safe_time(lanes, bound[0], lanes, bound[1], D, tolerance, static_cast<float>(horizon));
   }
 
   /// Beads that overlap and approach at time t of the flights.
@@ -118,7 +118,7 @@ struct FlyingPair {
 };
 
 constexpr double kHorizon = 4e-3;
-constexpr Allowance kNone{};
+constexpr MotionTolerance kNone{};
 
 /// From 16 ms, the stepper's horizon at 4 us, to the 400 ms of ticks of 100 us: slower rods, further apart, and skewed
 /// ones among them.
@@ -157,8 +157,8 @@ TEST(SafeTime, NoPairCollidesBeforeItsBoundOverLongHorizons) {
   for (int trial = 0; trial < test::draws(100000); ++trial) {
     width.draw(draw);
     const FarPair pair(draw);
-    const double hull = pair.hull_bound(kNone, pair.horizon).steady;
-    const double bead = pair.bead_bound(kNone, std::min(pair.horizon, 20e-3)).steady;  // asked no further ahead
+    const double hull = pair.hull_bound(kNone, pair.horizon).unperturbed;
+    const double bead = pair.bead_bound(kNone, std::min(pair.horizon, 20e-3)).unperturbed;  // asked no further ahead
     n_long += hull > 16e-3;
     n_limited += hull > 0 && hull < 0.999 * pair.horizon;
     n_skewed += hull > 0 && pair.species.tail.length != pair.species.head.length;
@@ -181,30 +181,30 @@ TEST(ImageSafeTime, NoOtherImageTouchesBeforeIt) {
     const double reach = draw.uniform(0.5, 5);
     const double side = 2.2 * reach * (draw.integer(0, 1) ? 1 : draw.uniform(1, 3));
     const double horizon = 16e-3 * std::pow(25.0, draw.uniform(0, 1));
-    const Allowance allowance{static_cast<float>(draw.uniform(0, 2)), 0, 0, 0};
+    const MotionTolerance tolerance{static_cast<float>(draw.uniform(0, 2)), 0, 0, 0};
     const Vec3 D{draw.uniform(-0.5, 0.5) * side, draw.uniform(-0.5, 0.5) * side, draw.uniform(-0.3, 0.3)};
-    Outlook i{}, j{};
+    MotionBound i{}, j{};
     const double fast = std::pow(10.0, draw.uniform(0, 3));
     set_vector(i.velocity, draw.vector(fast));
     set_vector(j.velocity, draw.vector(fast));
     set_vector(i.velocity_center, Vec3(i.velocity[0], i.velocity[1], 0) + draw.vector(0.5));
     set_vector(j.velocity_center, Vec3(j.velocity[0], j.velocity[1], 0) + draw.vector(0.5));
-    const SafeTime safe = image_safe_time(D, i, j, allowance, side, reach, static_cast<float>(horizon));
-    ASSERT_GT(safe.steady, 0.0F);
-    ASSERT_LE(safe.steady, static_cast<float>(horizon));
-    ++(safe.steady < static_cast<float>(horizon) ? n_short : n_full);
-    // the slow twin: every other image, at the last safe instant, whatever a straying pair did on the way
-    for (const bool straying : {false, true}) {
-      const double t = straying ? safe.straying : safe.steady;
+    const SafeTime safe = image_safe_time(D, i, j, tolerance, side, reach, static_cast<float>(horizon));
+    ASSERT_GT(safe.unperturbed, 0.0F);
+    ASSERT_LE(safe.unperturbed, static_cast<float>(horizon));
+    ++(safe.unperturbed < static_cast<float>(horizon) ? n_short : n_full);
+    // the slow twin: every other image, at the last safe instant, whatever a perturbed pair did on the way
+    for (const bool perturbed : {false, true}) {
+      const double t = perturbed ? safe.perturbed : safe.unperturbed;
       for (int x = -2; x <= 2; ++x) {
         for (int y = -2; y <= 2; ++y) {
           if (x == 0 && y == 0) continue;
           Vec3 at = D + side * Vec3(x, y, 0);
           for (int c = 0; c < 2; ++c) {
-            const double v = straying ? static_cast<double>(j.velocity_center[c]) - i.velocity_center[c]
-                                      : static_cast<double>(j.velocity[c]) - i.velocity[c];
-            const double stray = straying ? 2.0 * allowance.velocity_xy : 0.0;
-            const double nearest = std::abs(at[c] + v * t) - stray * t;  // the nearest that it can be by then
+            const double v = perturbed ? static_cast<double>(j.velocity_center[c]) - i.velocity_center[c]
+                                       : static_cast<double>(j.velocity[c]) - i.velocity[c];
+            const double drift = perturbed ? 2.0 * tolerance.velocity_xy : 0.0;
+            const double nearest = std::abs(at[c] + v * t) - drift * t;  // the nearest that it can be by then
             at[c] = std::max(0.0, nearest);
           }
           ASSERT_GE(std::max(at.x(), at.y()), reach) << "trial " << trial << ", image " << x << ' ' << y;
@@ -223,8 +223,8 @@ TEST(SafeTime, NoPairCollidesBeforeItsBound) {
   for (int trial = 0; trial < test::draws(1000000); ++trial) {
     width.draw(draw);
     const FlyingPair pair(draw);
-    const double hull = pair.hull_bound(kNone, kHorizon).steady;
-    const double bead = pair.bead_bound(kNone, kHorizon).steady;
+    const double hull = pair.hull_bound(kNone, kHorizon).unperturbed;
+    const double bead = pair.bead_bound(kNone, kHorizon).unperturbed;
     n_hull += hull > 0;
     n_bead += bead > 0;
     // the last instant that is said to be safe, and one on the way
@@ -249,7 +249,7 @@ Vec3 in_cylinder(test::Draw& draw, double across, double along_z) {
 TEST(SafeTime, LimitsCoverEveryChangeOfMotionWithinThem) {
   test::Draw draw(21);
   AnyWidth width;
-  const Allowance allow{1.0F, 25.0F, 1.0F, 12.0F};
+  const MotionTolerance allow{1.0F, 25.0F, 1.0F, 12.0F};
   int n_kicks = 0;
   for (int trial = 0; trial < test::draws(200000); ++trial) {
     width.draw(draw);
@@ -264,7 +264,7 @@ TEST(SafeTime, LimitsCoverEveryChangeOfMotionWithinThem) {
     }
     const SafeTime hull = pair.hull_bound(allow, kHorizon);
     const SafeTime bead = pair.bead_bound(allow, kHorizon);
-    const double safe = std::max(hull.straying, bead.straying);
+    const double safe = std::max(hull.perturbed, bead.perturbed);
     if (safe <= 0) continue;
     // both rods are pushed and turned at some times on the way, to anywhere within their limits
     double t = 0;
@@ -306,7 +306,8 @@ TEST(SafeTime, BoundsAreTight) {
   for (int trial = 0; trial < test::draws(6000) && share.size() < 600; ++trial) {
     const FlyingPair pair(draw);
     if (pair.collides_at(0)) continue;
-    const double bound = std::max(pair.hull_bound(kNone, kHorizon).steady, pair.bead_bound(kNone, kHorizon).steady);
+    const double bound =
+        std::max(pair.hull_bound(kNone, kHorizon).unperturbed, pair.bead_bound(kNone, kHorizon).unperturbed);
     double contact = 0;
     while (contact < kHorizon && !pair.collides_at(contact)) contact += 1e-6;
     if (contact >= kHorizon) continue;
@@ -331,20 +332,20 @@ TEST(SafeTime, LanesMatchTheirTwins) {
     width.draw(draw);
     FlyingPair pair(draw);
     const auto some = [&](double most) { return static_cast<float>(draw.uniform(0, most)); };
-    const Allowance allowance{some(2), some(20), some(2), some(20)};
+    const MotionTolerance tolerance{some(2), some(20), some(2), some(20)};
     for (int r = 0; r < 2; ++r) pair.set_limits(r, draw.vector(1), draw.vector(1), pair.flight[r].rate + 5);
     Vec3 d;
-    const SafeTime hull = pair.hull_bound(allowance, kHorizon, &d);
-    const SafeTime bead = pair.bead_bound(allowance, kNear);
+    const SafeTime hull = pair.hull_bound(tolerance, kHorizon, &d);
+    const SafeTime bead = pair.bead_bound(tolerance, kNear);
     ASSERT_NEAR(d.norm(), 1, 1e-6);
-    for (const bool straying : {false, true}) {
-      const Allowance allow = straying ? allowance : kNone;
-      const double hull_twin = test::hull_safe_time_twin(pair.species, pair.outlook[0], pair.outlook[1], pair.D, d,
-                                                         allow, straying, kHorizon);
+    for (const bool perturbed : {false, true}) {
+      const MotionTolerance allow = perturbed ? tolerance : kNone;
+      const double hull_twin =
+          test::hull_safe_time_twin(pair.species, pair.bound[0], pair.bound[1], pair.D, d, allow, perturbed, kHorizon);
       const double bead_twin =
-          test::bead_safe_time_twin(pair.species, pair.outlook[0], pair.outlook[1], pair.D, allow, straying, kNear);
-      const double hull_lane = straying ? hull.straying : hull.steady;
-      const double bead_lane = straying ? bead.straying : bead.steady;
+          test::bead_safe_time_twin(pair.species, pair.bound[0], pair.bound[1], pair.D, allow, perturbed, kNear);
+      const double hull_lane = perturbed ? hull.perturbed : hull.unperturbed;
+      const double bead_lane = perturbed ? bead.perturbed : bead.unperturbed;
       ASSERT_LE(hull_lane, hull_twin * (1 + 1e-6)) << "trial " << trial;
       ASSERT_LE(bead_lane, bead_twin * (1 + 1e-6)) << "trial " << trial;
       if (hull_twin > 1e-5) hull_share.push_back(hull_lane / hull_twin);

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "sim/contact/bead_safe_time.h"
+#include "sim/contact/hull_safe_time.h"
+#include "sim/stepping/pair_table.h"
+#include "sim/stepping/tick.h"
+
+namespace shaken {
+
+/// For up to kLanes pairs: ticks for which nothing can happen, and what the bound rests on.
+struct PairBounds {
+  Tick ticks[kLanes];
+  bool unperturbed[kLanes];    ///< the bound holds only as long as neither rod is hit
+  bool hulls_overlap[kLanes];  ///< beads may overlap already
+  Direction direction[kLanes];
+};
+
+/// Finds the contacts of a pair, and the time before which it can have none.
+class PairSearch {
+ public:
+  /// Keeps a reference to `rules`.
+  explicit PairSearch(const TickRules& rules);
+
+  /// Appends the contacts of two rods at these poses; returns whether there are any. `direction` saves most searches:
+  /// most pairs are still apart where they last were. `beads` is scratch.
+  bool find(const PairRods& pair, const Pose& pose_i, const Pose& pose_j, const Direction& direction,
+            std::vector<BeadContact>& beads, std::vector<PairContact>& contacts) const;
+
+  /// Bounds for pairs of one pair of species, from the rods as they are at this tick and how they may move from then
+  /// on. There are two bounds on each pair (contact/safe_time.h): the one for flight perturbed by hits is taken where
+  /// it is long enough, since it need not be renewed at each hit.
+  void bound(std::span<const PairRods> pairs, const std::vector<RodAtTick>& rods,
+             const std::vector<MotionBound>& motion, PairLanes& lanes, PairBounds& bounds) const;
+
+ private:
+  const TickRules& rules_;
+  std::vector<Hull> hulls_;       ///< (n_species)
+  std::vector<BeadLanes> lanes_;  ///< (n_species)
+  std::vector<double> reach_;     ///< (n_species) [mm]
+};
+
+}  // namespace shaken

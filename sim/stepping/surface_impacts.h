@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "sim/stepping/tick.h"
+
+namespace shaken {
+
+/// Phase 1 of a tick (stepping/tick.h) for one rod: impulses from base, lid and side walls. Of each of them the deepest
+/// bead comes first, and the next one is looked for as the rod moves by then. `rod` is as of tick `now`. Returns
+/// trouble if a bead is too deep in one of them.
+std::optional<NumericalTrouble> meet_surfaces(int index, RodAtTick& rod, const Flight& flight, const PlateState& plates,
+                                              Tick now, const TickRules& rules, Counters& counters);
+
+}  // namespace shaken
