@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
+
+#include "sim/core/result.h"
 
 namespace shaken {
 
@@ -23,5 +27,17 @@ class Failure : public std::runtime_error {
   Failure(ExitCode exit_code, const std::string& message) : std::runtime_error(message), code(exit_code) {}
   ExitCode code;
 };
+
+/// The value of `result`, or Failure with the words of its error.
+template <class T>
+T value_or_fail(Result<T> result, ExitCode code = ExitCode::kFailed) {
+  if (!result) throw Failure(code, result.error().message);
+  return std::move(result).value();
+}
+
+/// Throws Failure with the words of `error` if there is one.
+inline void fail_if(const std::optional<Error>& error, ExitCode code = ExitCode::kFailed) {
+  if (error) throw Failure(code, error->message);
+}
 
 }  // namespace shaken

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "base/failure.h"
+#include "base/files.h"
 #include "base/process.h"
-#include "run/files/atomic_file.h"
 
 namespace shaken::bench {
 
@@ -16,7 +16,7 @@ void make_folder(const std::filesystem::path& folder) {
 }
 
 void write_text(const std::filesystem::path& file, const std::string& text) {
-  if (const auto error = run::write_file_atomically(file, text)) throw Failure(ExitCode::kFailed, error->message);
+  if (const auto error = write_file_atomically(file, text)) throw Failure(ExitCode::kFailed, error->message);
 }
 
 std::string gnuplot_prologue(const std::string& name, int width, int height) {

@@ -10,9 +10,9 @@
 #include <string_view>
 
 #include "base/failure.h"
+#include "base/files.h"
 #include "base/progress_line.h"
 #include "bench/picture.h"
-#include "run/files/atomic_file.h"
 #include "scene/canonical.h"
 
 namespace shaken::bench {
@@ -30,7 +30,7 @@ std::span<const std::byte> as_bytes_of(std::string_view text) {
 /// The checkpoint in `file`, if it is whole and of this case.
 std::optional<std::vector<std::byte>> read_cached(const Case& wanted, const std::string& key,
                                                   const std::filesystem::path& file) {
-  const Result<std::string> content = run::read_file(file);
+  const Result<std::string> content = read_file(file);
   if (!content) return std::nullopt;
   const std::size_t line = content->find('\n');
   if (line == std::string::npos) return std::nullopt;

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <string_view>
 
-#include "run/files/atomic_file.h"
+#include "base/files.h"
 
 namespace shaken::run {
 namespace {

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "run/files/atomic_file.h"
+#include "base/files.h"
 #include "run/files/version.h"
 #include "scene/canonical.h"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "run/files/atomic_file.h"
+#include "base/files.h"
 #include "run/files/directory.h"
 #include "run/files/progress.h"
 
@@ -12,7 +12,7 @@ namespace {
 
 /// The JSON object in a file; null if there is none to be read.
 Json read_object(const std::filesystem::path& file) {
-  const auto text = run::read_file(file);
+  const auto text = read_file(file);
   if (!text) return nullptr;
   Json json = Json::parse(*text, nullptr, false);
   return json.is_object() ? json : Json(nullptr);

@@ -4,7 +4,7 @@
 #include <fmt/chrono.h>
 #include <spdlog/spdlog.h>
 
-#include "run/files/atomic_file.h"
+#include "base/files.h"
 
 namespace shaken::server {
 namespace {
@@ -105,7 +105,7 @@ bool Supervisor::start(const Job& job) {
       complain("job " + job.id + " waits: " + lock.error().message);
       return false;
     }
-    if (const auto refused = run::write_file_atomically(directory.scene(), queue_.scene(job.id))) {
+    if (const auto refused = write_file_atomically(directory.scene(), queue_.scene(job.id))) {
       complain("job " + job.id + " waits: " + refused->message);
       return false;
     }

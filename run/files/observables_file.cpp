@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "run/files/observables_file.h"
 
-#include "run/files/atomic_file.h"
+#include "base/files.h"
 #include "run/files/hdf5.h"
 #include "run/files/units.h"
 

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "run/files/atomic_file.h"
+#include "base/files.h"
 
 namespace shaken::run {
 

@@ -50,26 +50,6 @@ run::Observables observables(double order) {
   return arrays;
 }
 
-TEST(CurveColour, RunsFromDarkToLight) {
-  EXPECT_EQ(curve_colour(0, 5), "#440154");
-  EXPECT_NE(curve_colour(4, 5), curve_colour(0, 5));
-  EXPECT_EQ(curve_colour(0, 1).size(), 7u);
-}
-
-TEST(FigureData, OneBlockPerCurveWithoutWhatIsNotFinite) {
-  const Figure figure{.name = "f",
-                      .curves = {{.label = "a", .x = {1, 2, 3}, .y = {4, NAN, 6}},
-                                 {.label = "b", .x = {1}, .y = {2}, .y_error = {0.5}},
-                                 {.label = "empty", .x = {1}, .y = {NAN}}}};
-  EXPECT_EQ(figure_data(figure),
-            "# a\n# x  y\n1 4\n3 6\n\n\n# b\n# x  y  y_error\n1 2 0.5\n\n\n# empty\n# x  y\nNaN NaN\n");
-}
-
-TEST(FigureScript, QuotesLabels) {
-  const Figure figure{.name = "f", .curves = {{.label = "it's a_b", .x = {1}, .y = {2}}}};
-  EXPECT_THAT(figure_script(figure), HasSubstr("title 'it''s a_b'"));
-}
-
 TEST(AxisTitle, NamesWithUnits) {
   EXPECT_EQ(axis_title("rods.length"), "rod length ℓ (mm)");
   EXPECT_EQ(axis_title("measure.order.every"), "measure.order.every (s)");
@@ -128,19 +108,23 @@ TEST(RunFigures, WhatStillRelaxesSaysSo) {
   EXPECT_EQ(run_figures({{"", arrays, true}})[0].curves[0].label, "still relaxing");
 }
 
+TEST(RunFigures, VersionsAreNoReplicasOfEachOther) {
+  const run::Observables one{{"/tilt/n_z", {-0.1, 0.1}}, {"/tilt/v_along_mm_s", {1, 2}}};
+  run::Observables two = one;
+  two["/tilt/v_along_mm_s"] = {3, 4};
+  const auto figures = run_figures({{"a", one, false, {"0.1.0", "3"}}, {"a", two, false, {"0.1.0", "4"}}});
+  ASSERT_EQ(figures.size(), 1u);
+  ASSERT_EQ(figures[0].curves.size(), 2u);
+  EXPECT_EQ(figures[0].curves[0].label, "a, shaken 0.1.0, physics 3");
+  EXPECT_EQ(figures[0].curves[1].label, "a, shaken 0.1.0, physics 4");
+}
+
 TEST(RunFigures, ErrorsOfCurvesAreBands) {
   const run::Observables arrays{{"/msd/lag_s", {1, 2}}, {"/msd/total_mm2", {1, 2}}, {"/msd/total_sem_mm2", {0.1, 0.2}}};
   const auto figures = run_figures({{"a", arrays}});
   ASSERT_EQ(figures.size(), 1u);
   EXPECT_EQ(figures[0].curves[0].y_error, (std::vector<double>{0.1, 0.2}));
   EXPECT_THAT(figure_script(figures[0]), HasSubstr("using 1:($2-$3):($2+$3) with filledcurves"));
-}
-
-TEST(FigureScript, FormatsForThePaperAndTheWeb) {
-  const Figure figure{.name = "f", .curves = {{.label = "a", .x = {1}, .y = {2}}}};
-  EXPECT_THAT(figure_script(figure, PictureFormat::kPdf), HasSubstr("pdfcairo"));
-  EXPECT_THAT(figure_script(figure, PictureFormat::kPdf), HasSubstr("set output 'f.pdf'"));
-  EXPECT_THAT(figure_script(figure, PictureFormat::kSvg), HasSubstr("set output 'f.svg'"));
 }
 
 TEST(PointLabel, AsInPrint) {

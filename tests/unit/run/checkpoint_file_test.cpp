@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "run/files/atomic_file.h"
+#include "base/files.h"
 #include "tests/unit/run/temporary_folder.h"
 
 namespace shaken::run {

@@ -10,7 +10,7 @@
 #include <regex>
 #include <sstream>
 
-#include "run/files/atomic_file.h"
+#include "base/files.h"
 #include "run/files/directory.h"
 #include "run/loop.h"
 #include "run/trouble_file.h"

@@ -10,10 +10,10 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "base/files.h"
 #include "proto/bus.h"
 #include "proto/frame_codec.h"
 #include "run/checkpoint_file.h"
-#include "run/files/atomic_file.h"
 #include "run/files/observables_file.h"
 #include "run/files/trajectory.h"
 #include "scene/canonical.h"

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "run/files/atomic_file.h"
+#include "base/files.h"
 #include "run/files/units.h"
 #include "run/files/version.h"
 #include "tests/unit/run/hdf5_attributes.h"

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "base/files.h"
 #include "run/effects.h"
-#include "run/files/atomic_file.h"
 #include "run/loop.h"
 #include "run/probe/report.h"
 #include "run/probe/sampling.h"

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <random>
 
-#include "run/files/atomic_file.h"
+#include "base/files.h"
 #include "run/files/version.h"
 #include "tests/unit/run/hdf5_attributes.h"
 #include "tests/unit/run/temporary_folder.h"

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "base/files.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <system_error>
+
+#include "base/descriptor.h"
+
+namespace shaken {
+namespace {
+
+bool write_all(int fd, std::string_view content) {
+  while (!content.empty()) {
+    const ssize_t written = ::write(fd, content.data(), content.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    content.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+Descriptor open_file(const std::filesystem::path& path, int flags) {
+  return Descriptor(::open(path.c_str(), flags | O_CLOEXEC, 0666));
+}
+
+std::optional<Error> write_through(const std::filesystem::path& file, std::string_view content) {
+  Descriptor out = open_file(file, O_WRONLY | O_CREAT | O_TRUNC);
+  if (!out || !write_all(out.value(), content) || !out.close_now())
+    return system_error("cannot write " + file.string());
+  return std::nullopt;
+}
+
+std::optional<Error> sync(const std::filesystem::path& path, int flags) {
+  const Descriptor opened = open_file(path, flags);
+  if (!opened || ::fsync(opened.value()) != 0) return system_error("cannot bring to the disk " + path.string());
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::filesystem::path temporary_for(const std::filesystem::path& file) {
+  std::filesystem::path temporary = file;
+  temporary += ".tmp";
+  return temporary;
+}
+
+std::optional<Error> replace_file(const std::filesystem::path& written, const std::filesystem::path& file) {
+  std::optional<Error> error = sync(written, O_RDONLY);
+  if (!error && std::rename(written.c_str(), file.c_str()) != 0) {
+    error = system_error("cannot replace " + file.string());
+  }
+  if (error) {
+    std::error_code ignored;
+    std::filesystem::remove(written, ignored);
+    return error;
+  }
+  const std::filesystem::path folder = file.parent_path();
+  return sync(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY);
+}
+
+std::optional<Error> write_file(const std::filesystem::path& file, std::string_view content) {
+  std::optional<Error> error = write_through(file, content);
+  if (error) {
+    std::error_code ignored;
+    std::filesystem::remove(file, ignored);
+  }
+  return error;
+}
+
+std::optional<Error> write_file_atomically(const std::filesystem::path& file, std::string_view content) {
+  const std::filesystem::path temporary = temporary_for(file);
+  if (auto error = write_file(temporary, content)) return error;
+  return replace_file(temporary, file);
+}
+
+Result<std::string> read_file(const std::filesystem::path& file) {
+  const Descriptor in = open_file(file, O_RDONLY);
+  if (!in) return system_error("cannot open " + file.string());
+  std::string content;
+  char buffer[1 << 16];
+  for (;;) {
+    const ssize_t got = ::read(in.value(), buffer, sizeof(buffer));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return system_error("cannot read " + file.string());
+    if (got == 0) return content;
+    content.append(buffer, static_cast<std::size_t>(got));
+  }
+}
+
+std::optional<Error> make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) return Error{folder.string() + ": " + error.message()};
+  return std::nullopt;
+}
+
+}  // namespace shaken

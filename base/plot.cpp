@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "base/plot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/failure.h"
+#include "base/files.h"
+#include "base/process.h"
+
+namespace shaken {
+namespace {
+
+constexpr int kNotFound = 127;  ///< exit code of a program that is not installed
+
+std::string terminal_of(const Canvas& canvas, PictureFormat format) {
+  const std::string font = fmt::format("enhanced font 'DejaVu Sans,{}'", canvas.font_size);
+  if (format == PictureFormat::kPdf) {
+    // letters as large as those of the text around the picture
+    return fmt::format("pdfcairo size {:g}cm,{:g}cm {} fontscale 0.42", canvas.width / 100.0, canvas.height / 100.0,
+                       font);
+  }
+  return fmt::format("{} size {},{} {} linewidth {:g}", format == PictureFormat::kSvg ? "svg" : "pngcairo",
+                     canvas.width, canvas.height, font, canvas.line_width);
+}
+
+}  // namespace
+
+const char* suffix_of(PictureFormat format) {
+  static constexpr std::array kSuffixes{"png", "pdf", "svg"};
+  return kSuffixes.at(static_cast<std::size_t>(format));
+}
+
+std::string plot_head(const std::string& name, const Canvas& canvas, PictureFormat format) {
+  return fmt::format(R"(# gnuplot {0}.gp  draws {0}.{1} from {0}.dat
+set terminal {2} background '#ffffff'
+set output '{0}.{1}'
+)",
+                     name, suffix_of(format), terminal_of(canvas, format));
+}
+
+std::string plot_axes(const std::string& axes) {
+  return fmt::format(R"(set border 3 linecolor '#333333'
+set tics nomirror out textcolor '#333333'
+set grid {}linetype 1 linecolor '#e2e2e2' linewidth 0.5
+)",
+                     axes.empty() ? "" : axes + " ");
+}
+
+std::string panels_head(const std::string& name, std::size_t n_panels) {
+  const std::size_t columns = n_panels < 3 ? n_panels : (n_panels + 1) / 2;
+  const std::size_t rows = (n_panels + columns - 1) / columns;
+  const auto of_columns = [&](double share) { return share / static_cast<double>(columns); };
+  const auto of_rows = [&](double share) { return share / static_cast<double>(rows); };
+  return plot_head(name, {static_cast<int>(480 * columns), static_cast<int>(30 + 400 * rows)}) + plot_axes() +
+         fmt::format(
+             "set multiplot layout {},{} margins screen {:.4f},{:.4f},{:.4f},{:.4f} spacing screen {:.4f},{:.4f}\n",
+             rows, columns, of_columns(0.24), 1 - of_columns(0.06), of_rows(0.16), 1 - of_rows(0.12), of_columns(0.24),
+             of_rows(0.27)) +
+         "set logscale xy\nset format y '10^{%L}'\nset title offset 0,-0.5\nset ylabel offset 0.5,0\n";
+}
+
+std::string gnuplot_literal(const std::string& text) {
+  std::string literal = "'";
+  for (const char c : text) {
+    if (c == '\'') literal += '\'';
+    literal += c == '\n' ? ' ' : c;
+  }
+  return literal + "'";
+}
+
+std::string curve_colour(std::size_t index, std::size_t count) {
+  // Nine anchors of viridis (van der Walt & Smith 2015), at 0, 1/8, ..., 1.
+  static constexpr std::array<std::array<double, 3>, 9> kViridis{{{68, 1, 84},
+                                                                  {71, 44, 122},
+                                                                  {59, 81, 139},
+                                                                  {44, 113, 142},
+                                                                  {33, 144, 141},
+                                                                  {39, 173, 129},
+                                                                  {92, 200, 99},
+                                                                  {170, 220, 50},
+                                                                  {253, 231, 37}}};
+  static constexpr double kPalest = 0.85;
+  const double place = count < 2 ? 0.3 : kPalest * static_cast<double>(index) / static_cast<double>(count - 1);
+  const auto anchor = std::min<std::size_t>(static_cast<std::size_t>(place * 8), 7);
+  const double part = place * 8 - static_cast<double>(anchor);
+  std::string colour = "#";
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double value = (1 - part) * kViridis[anchor][c] + part * kViridis[anchor + 1][c];
+    colour += fmt::format("{:02x}", static_cast<int>(std::lround(value)));
+  }
+  return colour;
+}
+
+const char* series_colour(std::size_t k) {
+  static constexpr std::array<const char*, 8> kBright{"#4477aa", "#ee6677", "#228833", "#aa3377",
+                                                      "#66ccee", "#ccbb44", "#bbbbbb", "#222222"};
+  return kBright[k % kBright.size()];
+}
+
+std::filesystem::path draw_plot(const std::filesystem::path& folder, const std::string& name, const std::string& data,
+                                const std::string& script, PictureFormat format) {
+  fail_if(make_folder(folder));
+  fail_if(write_file_atomically(folder / (name + ".dat"), data));
+  fail_if(write_file_atomically(folder / (name + ".gp"), script));
+  const Captured gnuplot = run_captured({"gnuplot", name + ".gp"}, folder);
+  std::filesystem::path picture = folder / (name + "." + suffix_of(format));
+  if (gnuplot.exit_code == kNotFound) {
+    throw Failure(ExitCode::kFailed,
+                  "gnuplot is not here: `apt install gnuplot-nox`; the data and the script are in " + folder.string());
+  }
+  if (gnuplot.exit_code != 0 || !std::filesystem::exists(picture)) {
+    throw Failure(ExitCode::kFailed, fmt::format("gnuplot did not draw {} (exit code {}): {}", picture.string(),
+                                                 gnuplot.exit_code, gnuplot.output));
+  }
+  return picture;
+}
+
+}  // namespace shaken

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Plots by gnuplot: NAME.dat with the numbers, NAME.gp that draws them, and the picture.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+namespace shaken {
+
+/// What a picture is written as: for the screen, for a paper, for the web or a drawing program.
+enum class PictureFormat { kPng, kPdf, kSvg };
+/// "png", "pdf", "svg"
+const char* suffix_of(PictureFormat format);
+
+/// Size of a picture, and of what is drawn on it.
+struct Canvas {
+  int width = 1400;  ///< [pixels]; on paper 100 of them are a centimetre
+  int height = 950;
+  int font_size = 16;
+  double line_width = 2;
+};
+
+/// The lines that every script begins with: what it draws, terminal and output.
+std::string plot_head(const std::string& name, const Canvas& canvas, PictureFormat format = PictureFormat::kPng);
+/// The lines that give axes their look, with a grid of lines from the tics of `axes`: "x y", "y"; from both if empty.
+std::string plot_axes(const std::string& axes = "");
+/// The lines that begin a PNG of so many panels with one look, up to two rows of them; both axes are logarithmic.
+/// "unset multiplot" ends it.
+std::string panels_head(const std::string& name, std::size_t n_panels);
+
+/// A string literal of gnuplot in which nothing is special.
+std::string gnuplot_literal(const std::string& text);
+
+/// Colour of curve `index` of `count`, "#rrggbb": along viridis without its palest end, so that order shows.
+std::string curve_colour(std::size_t index, std::size_t count);
+/// Colour of series k, "#rrggbb", where there is no order: Paul Tol's bright scheme, told apart by colour-blind readers
+/// too.
+const char* series_colour(std::size_t k);
+
+/// Writes NAME.dat and NAME.gp into `folder`, which is made if need be, and has gnuplot draw NAME.png (.pdf, .svg).
+/// Returns the picture's path. Throws Failure with gnuplot's words if it cannot be drawn; the two files stay.
+std::filesystem::path draw_plot(const std::filesystem::path& folder, const std::string& name, const std::string& data,
+                                const std::string& script, PictureFormat format = PictureFormat::kPng);
+
+}  // namespace shaken
