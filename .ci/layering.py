@@ -16,7 +16,7 @@ ALLOWED = {
     "proto": [],
     "base": ["sim/core"],
     # everything outside sim/ sees simulations, not steppers
-    "analysis": ["sim/core", "sim/scene.h"],
+    "analysis": ["base/estimate.h", "sim/core", "sim/scene.h"],
     "scene": ["sim/core", "sim/rod", "sim/scene.h"],
     # whether rods can be placed, the simulation itself says
     "scene/placement.cpp": ["scene", "sim/core", "sim/rod", "sim/scene.h", "sim/initial.h"],
@@ -31,6 +31,10 @@ ALLOWED = {
     "render": ["sim/core", "sim/scene.h", "analysis"],
     "server": ["proto", "base", "scene", "run/files", "sim/core"],
     "client": ["proto", "base", "scene", "run/files", "sim/core", "sim/rod", "sim/scene.h"],
+    # the program's verbs are the client's and the study's
+    "client/main.cpp": ["client", "study/verb.h"],
+    # a paper's figures and claims: a user of the client's libraries, and none of the client knows of it
+    "study": ["base", "client", "scene", "run/files", "sim/core"],
     # benches time whole simulations, and the kernels of an impulse by themselves
     # what observables cost is timed with the run's own measurements
     "bench/analysis.cpp": ["bench", "base", "scene", "run", "analysis", "sim/core", "sim/rod", "sim/scene.h", "sim/snapshot.h",
@@ -42,7 +46,7 @@ for floor, name in enumerate(SIM):
     for part in [name] if "." in name else [name, name + ".h", name + ".cpp"]:
         ALLOWED[part] = [below + end for below in SIM[:floor + 1] for end in ("", ".h", ".cpp")]
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"')
-FOLDERS = ("proto", "base", "sim", "scene", "analysis", "run", "render", "server", "client", "tests", "bench")
+FOLDERS = ("proto", "base", "sim", "scene", "analysis", "run", "render", "server", "client", "study", "tests", "bench")
 
 
 def rule(path):

@@ -2,29 +2,16 @@
 #pragma once
 
 #include <limits>
-#include <optional>
 #include <vector>
+
+#include "base/estimate.h"
 
 namespace shaken::analysis {
 
 /// A number that is not to be had, or not known.
 inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// A number and its standard error.
-struct Estimate {
-  double value = kNaN;  ///< NaN: not to be had from the samples
-  double sem = kNaN;    ///< NaN: unknown
-  /// Independent samples behind the error; NaN: unknown.
-  double n_effective = kNaN;
-  /// Whether what it averages over is steady; none: it is no average over time, or that cannot be told.
-  std::optional<bool> steady = std::nullopt;
-};
-
-inline Estimate operator/(Estimate a, double divisor) {
-  a.value /= divisor;
-  a.sem /= divisor;
-  return a;
-}
+using shaken::Estimate;
 
 /// Estimates along a curve; both of the curve's length.
 struct EstimateCurve {

@@ -19,8 +19,6 @@ const char* value_name_of(Names names) {
       return "ID";
     case Names::kRun:
       return "ID|DIR";
-    case Names::kFigure:
-      return "FIGURE";
     case Names::kSetting:
       return "PATH=VALUE";
     case Names::kAnything:
@@ -35,7 +33,7 @@ constexpr const char* kNothing = " ";
 }  // namespace
 
 Names meaning(const CLI::Option& option) {
-  for (const Names names : {Names::kFile, Names::kFolder, Names::kId, Names::kRun, Names::kFigure, Names::kSetting}) {
+  for (const Names names : {Names::kFile, Names::kFolder, Names::kId, Names::kRun, Names::kSetting}) {
     if (option.get_type_name() == value_name_of(names)) return names;
   }
   return Names::kAnything;
@@ -49,7 +47,7 @@ std::vector<std::string> choices(const CLI::Option& option) {
     const std::size_t end = std::min(name.find('|', begin), name.size());
     const std::string word = name.substr(begin, end - begin);
     // Capitals stand for something, as N in "N|last".
-    if (!word.empty() && std::islower(static_cast<unsigned char>(word.front())) != 0) words.push_back(word);
+    if (!word.empty() && std::isupper(static_cast<unsigned char>(word.front())) == 0) words.push_back(word);
     begin = end + 1;
   }
   return words;
@@ -67,6 +65,13 @@ void Arguments::list(const std::string& name, std::vector<std::string>& values, 
                      int minimum) {
   auto* option = app_.add_option(name, values, help)->type_name(value_name_of(names))->option_text(kNothing);
   if (minimum > 0) option->required();
+}
+
+void Arguments::list(const std::string& name, std::vector<std::string>& values, const std::string& help,
+                     const std::vector<std::string>& words) {
+  std::string choices;
+  for (const std::string& word : words) choices += word + "|";
+  app_.add_option(name, values, help)->type_name(choices)->option_text(kNothing);
 }
 
 void Arguments::rest(std::vector<std::string>& words) {

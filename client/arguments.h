@@ -19,7 +19,6 @@ enum class Names {
   kFolder,
   kId,       ///< a sweep or a job of the daemon
   kRun,      ///< the same, or a run directory
-  kFigure,   ///< of the paper
   kSetting,  ///< PATH=VALUE, with a key of the scene
 };
 
@@ -34,6 +33,9 @@ class Arguments {
   /// Any number of them, at least `minimum`.
   void list(const std::string& name, std::vector<std::string>& values, const std::string& help, Names names,
             int minimum);
+  /// Any number of them, also none; `words` are those that the shell offers.
+  void list(const std::string& name, std::vector<std::string>& values, const std::string& help,
+            const std::vector<std::string>& words);
 
   /// Everything from the first word on, options too, as it stands: for a verb that hands its words on.
   void rest(std::vector<std::string>& words);

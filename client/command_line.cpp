@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <utility>
 
 #include "run/files/version.h"
 #include "scene/nearest.h"
@@ -22,7 +23,7 @@ Exit codes:  0 done   1 failed   2 bad input   3 no daemon   130 interrupted by 
 Environment: SHAKEN_ROOT  the daemon's root directory;  LCM_DEFAULT_URL  the bus of the live state;  NO_COLOR
 `shaken VERB --help` tells more.)";
 
-std::vector<std::string> verb_names(const std::vector<std::unique_ptr<Verb>>& verbs) {
+std::vector<std::string> verb_names(const Verbs& verbs) {
   std::vector<std::string> names;
   names.reserve(verbs.size());
   for (const auto& verb : verbs) names.emplace_back(verb->info().name);
@@ -45,10 +46,10 @@ std::string with_one_newline(std::string text) {
 
 }  // namespace
 
-CommandLine::CommandLine()
+CommandLine::CommandLine(Verbs verbs)
     : app_(std::make_unique<CLI::App>("Simulates shaken granular nematics: sweeps, live state, plots, movies.",
                                       "shaken")),
-      verbs_(make_verbs()) {
+      verbs_(std::move(verbs)) {
   // Left-overs come back to parse(), which can say more about them than CLI11.
   app_->allow_extras();
   app_->require_subcommand(0, 1);

@@ -13,10 +13,10 @@ class App;
 
 namespace shaken::client {
 
-/// All verbs and the CLI11 application that fills their options.
+/// The verbs of a program and the CLI11 application that fills their options.
 class CommandLine {
  public:
-  CommandLine();
+  explicit CommandLine(Verbs verbs);
   CommandLine(const CommandLine&) = delete;
   CommandLine& operator=(const CommandLine&) = delete;
   ~CommandLine();
@@ -30,7 +30,7 @@ class CommandLine {
 
  private:
   std::unique_ptr<CLI::App> app_;
-  std::vector<std::unique_ptr<Verb>> verbs_;
+  Verbs verbs_;
   std::string root_;
 };
 

@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 
 #include "client/arguments.h"
-#include "client/paper/figures.h"
 #include "scene/fields.h"
 
 namespace shaken::client {
@@ -32,11 +31,6 @@ std::string action_of(const CLI::Option& option) {
       std::string paths;
       for (const scene::Field& field : scene::fields()) paths += (paths.empty() ? "" : " ") + field.path + "=";
       return fmt::format("compopt -o nospace 2>/dev/null; {}", offer(paths));
-    }
-    case Names::kFigure: {
-      std::string ids;
-      for (const PaperFigure& figure : paper_figures()) ids += (ids.empty() ? "" : " ") + std::string(figure.id);
-      return offer(ids);
     }
     case Names::kAnything:
       break;

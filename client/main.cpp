@@ -4,11 +4,12 @@
 #include <vector>
 
 #include "client/program.h"
+#include "study/verb.h"
 
 int main(int argc, char** argv) {
   // A daemon or a pager that goes away must show as a failed write, not end the program half-way.
   std::signal(SIGPIPE, SIG_IGN);
   shaken::client::Console console = shaken::client::process_console();
   const std::vector<std::string> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
-  return static_cast<int>(shaken::client::run_program(arguments, console));
+  return static_cast<int>(shaken::client::run_program(arguments, console, shaken::study::make_all_verbs()));
 }

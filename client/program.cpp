@@ -4,21 +4,21 @@
 #include <fmt/format.h>
 
 #include <ios>
+#include <utility>
 
 #include "client/command_line.h"
 #include "client/json.h"
-#include "client/session.h"
 #include "run/files/version.h"
 
 namespace shaken::client {
 
-ExitCode run_program(const std::vector<std::string>& arguments, Console& console) {
+ExitCode run_program(const std::vector<std::string>& arguments, Console& console, Verbs verbs) {
   ExitCode code = ExitCode::kOk;
   std::string message;
   try {
-    CommandLine command_line;
+    CommandLine command_line(std::move(verbs));
     if (Verb* verb = command_line.parse(arguments, console)) {
-      const Context context{console, daemon_root(command_line.root())};
+      const Context context{console, command_line.root(), command_line.app()};
       code = verb->run(context);
     }
   } catch (const Failure& failure) {

@@ -6,13 +6,13 @@
 
 namespace shaken::client {
 
-MeanAndError mean_and_error(std::span<const double> values) {
+Estimate mean_and_error(std::span<const double> values) {
   const auto n = static_cast<double>(values.size());
-  MeanAndError result;
-  for (const double value : values) result.mean += value / n;
+  Estimate result{.value = 0};
+  for (const double value : values) result.value += value / n;
   if (values.size() < 2) return result;
   double squares = 0;
-  for (const double value : values) squares += (value - result.mean) * (value - result.mean);
+  for (const double value : values) squares += (value - result.value) * (value - result.value);
   result.sem = std::sqrt(squares / (n - 1) / n);
   return result;
 }
@@ -22,7 +22,7 @@ double student_factor(std::size_t n) {
   return 1 + x * (0.5 + x * (0.25 + x * 0.0625));
 }
 
-MeanAndError replica_mean(std::span<const double> values, std::span<const double> sems) {
+Estimate replica_mean(std::span<const double> values, std::span<const double> sems) {
   const std::size_t n = values.size();
   double variances = 0;
   std::size_t n_known = 0;
@@ -33,9 +33,9 @@ MeanAndError replica_mean(std::span<const double> values, std::span<const double
   }
   const double within = std::sqrt(variances) / static_cast<double>(n);
   const bool all_known = n_known == n;
-  MeanAndError result = mean_and_error(values);
-  if (result.sem) {
-    result.sem = std::max(within, all_known ? *result.sem : student_factor(n) * *result.sem);
+  Estimate result = mean_and_error(values);
+  if (n > 1) {
+    result.sem = std::max(within, all_known ? result.sem : student_factor(n) * result.sem);
   } else if (all_known) {
     result.sem = within;
   }

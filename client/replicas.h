@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
+#include <cstddef>
 #include <span>
+
+#include "base/estimate.h"
 
 namespace shaken::client {
 
-/// A mean and its standard error, where that is known.
-struct MeanAndError {
-  double mean = 0;
-  std::optional<double> sem;
-};
-
 /// Mean of `values` (n >= 1), and the standard error of that mean from their scatter alone: standard deviation (n-1) /
-/// sqrt(n); none for n < 2.
-MeanAndError mean_and_error(std::span<const double> values);
+/// sqrt(n); unknown for n < 2.
+Estimate mean_and_error(std::span<const double> values);
 
 /// Mean over replicas of one point: `values` (n >= 1) of single runs, `sems` (n) their own standard errors, NaN where
 /// unknown. Every run counts the same. Its standard error:
@@ -23,8 +19,8 @@ MeanAndError mean_and_error(std::span<const double> values);
 ///   Particle Data Group, Review of Particle Physics (2022), section 5.2.2);
 /// - otherwise the scatter between the runs, widened by Student's t so that it covers 68 % for few runs too, but never
 ///   less than the known errors give;
-/// - of a single run its own, or none.
-MeanAndError replica_mean(std::span<const double> values, std::span<const double> sems);
+/// - of a single run its own.
+Estimate replica_mean(std::span<const double> values, std::span<const double> sems);
 
 /// The factor on the standard error of a mean of n >= 2 values by which +-1 of it holds 68.3 %, as for very many:
 /// Student's t with n - 1 degrees of freedom (Abramowitz & Stegun (1964), eq. 26.7.5; 1.3 % low for n = 2, else within

@@ -13,7 +13,6 @@
 
 #include "base/failure.h"
 #include "base/text.h"
-#include "client/target.h"
 #include "scene/nearest.h"
 
 namespace shaken::client {
@@ -21,10 +20,11 @@ namespace {
 
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
-constexpr const char* kVersion = "versions.shaken";
+constexpr const char* kProgram = "versions.shaken";
+constexpr const char* kPhysics = "versions.physics";
 
 /// Fields that name a row rather than measure something; never averaged.
-const std::set<std::string> kNames{"job", "sweep", "state", "label", "replica", kVersion};
+const std::set<std::string> kNames{"job", "sweep", "state", "label", "replica", kProgram, kPhysics};
 
 /// Puts the scalars of `object` into `fields`, members of members as "outer.inner".
 void flatten(const Json& object, const std::string& prefix, Json& fields) {
@@ -91,9 +91,9 @@ void average(const std::vector<ResultRow>& done, ResultRow& point) {
       point.fields[name] = std::accumulate(values.begin(), values.end(), 0.0);
       continue;
     }
-    const MeanAndError result = replica_mean(values, sems);
-    point.fields[name] = result.mean;
-    if (result.sem) point.fields[name + ":sem"] = *result.sem;
+    const Estimate result = replica_mean(values, sems);
+    point.fields[name] = result.value;
+    if (std::isfinite(result.sem)) point.fields[name + ":sem"] = result.sem;
   }
 }
 
@@ -150,6 +150,15 @@ ResultRow result_row(const Json& row) {
   return result;
 }
 
+std::vector<ResultRow> result_rows(Session& session, const Target& target) {
+  const Json answer = session.get("/v1/results?sweep=" + url_encoded(target.sweep_id()));
+  std::vector<ResultRow> rows;
+  for (const Json& row : answer.at("rows")) {
+    if (target.is_sweep || row.at("job") == target.answer.at("job").at("id")) rows.push_back(result_row(row));
+  }
+  return rows;
+}
+
 Condition::Condition(const std::string& text) {
   const auto begin = text.find_first_of("<>=!");
   const auto end = begin == std::string::npos ? begin : text.find_first_not_of("<>=!", begin);
@@ -199,20 +208,44 @@ std::vector<ResultRow> filtered(const std::vector<ResultRow>& rows, std::vector<
   return kept;
 }
 
+std::string RowVersion::text() const {
+  if (!is_known()) return "";
+  return fmt::format("shaken {}, physics {}", program.empty() ? "?" : program, physics.empty() ? "?" : physics);
+}
+
+RowVersion version_of(const ResultRow& row) { return {field_text(row, kProgram), field_text(row, kPhysics)}; }
+
+RowVersion version_of(const Json& versions) {
+  const auto text = [&](const char* key) {
+    const auto found = versions.is_object() ? versions.find(key) : versions.end();
+    if (found == versions.end()) return std::string();
+    return found->is_string() ? found->get<std::string>() : found->dump();
+  };
+  return {text("shaken"), text("physics")};
+}
+
+bool has_several_versions(const std::vector<ResultRow>& rows) {
+  std::set<RowVersion> versions;
+  for (const ResultRow& row : rows) {
+    if (const RowVersion version = version_of(row); version.is_known()) versions.insert(version);
+  }
+  return versions.size() > 1;
+}
+
 std::vector<ResultRow> aggregated(const std::vector<ResultRow>& rows) {
   // Groups in the order in which they are first met.
   std::vector<std::vector<const ResultRow*>> groups;
-  std::map<std::string, std::size_t> group_of;
+  std::map<std::pair<std::string, RowVersion>, std::size_t> group_of;
   // What different versions computed is never averaged; a run that has no version yet belongs to the newest.
-  std::map<std::string, std::string> newest_version;
+  std::map<std::string, RowVersion> newest_version;
   for (const ResultRow& row : rows) {
-    std::string& newest = newest_version[row.parameters.dump()];
-    newest = std::max(newest, field_text(row, kVersion));
+    RowVersion& newest = newest_version[row.parameters.dump()];
+    newest = std::max(newest, version_of(row));
   }
   for (const ResultRow& row : rows) {
     const std::string parameters = row.parameters.dump();
-    const std::string version = field_text(row, kVersion);
-    const std::string key = parameters + "\n" + (version.empty() ? newest_version[parameters] : version);
+    const RowVersion version = version_of(row);
+    const auto key = std::pair(parameters, version.is_known() ? version : newest_version[parameters]);
     const auto [place, is_new] = group_of.try_emplace(key, groups.size());
     if (is_new) groups.emplace_back();
     groups[place->second].push_back(&row);
@@ -229,7 +262,9 @@ std::vector<ResultRow> aggregated(const std::vector<ResultRow>& rows) {
       if (row->state == "done") done.push_back(*row);
     }
     point.fields["n_done"] = done.size();
-    if (!done.empty() && done.front().fields.contains(kVersion)) point.fields[kVersion] = done.front().fields[kVersion];
+    for (const char* version : {kProgram, kPhysics}) {
+      if (!done.empty() && done.front().fields.contains(version)) point.fields[version] = done.front().fields[version];
+    }
     point.state = done.size() == group.size() ? "done" : "partial";
     average(done, point);
     points.push_back(std::move(point));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <compare>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,6 +11,8 @@
 
 #include "client/json.h"
 #include "client/replicas.h"
+#include "client/session.h"
+#include "client/target.h"
 
 namespace shaken::client {
 
@@ -27,6 +30,8 @@ struct ResultRow {
 
 /// From one element of "rows" of GET /v1/results.
 ResultRow result_row(const Json& row);
+/// The daemon's results of a sweep, or of one job.
+std::vector<ResultRow> result_rows(Session& session, const Target& target);
 
 /// One comparison of --where: FIELD OP VALUE, with OP one of < <= > >= = == !=.
 class Condition {
@@ -49,9 +54,24 @@ class Condition {
 /// the nearest name, if no row at all has one of the fields.
 std::vector<ResultRow> filtered(const std::vector<ResultRow>& rows, std::vector<Condition> conditions);
 
-/// One row per point and program version: replicas of equal parameters together. Fields: the parameters,
-/// "versions.shaken", "n_replicas", "n_done", and of what every done replica tells: for each number F its mean as F and
-/// the standard error of that (replica_mean) as "F:sem", in place of the runs' own; for "n_effective" the sum; for
+/// What computed a row: program and physics, which both can change its numbers. Empty texts: it is not done yet.
+struct RowVersion {
+  std::string program;  ///< "0.1.0"
+  std::string physics;  ///< "3"
+  /// "shaken 0.1.0, physics 3"
+  std::string text() const;
+  bool is_known() const { return !program.empty() || !physics.empty(); }
+  friend auto operator<=>(const RowVersion&, const RowVersion&) = default;
+};
+RowVersion version_of(const ResultRow& row);
+/// From the member "versions" of a summary.json.
+RowVersion version_of(const Json& versions);
+/// Whether different versions computed these rows.
+bool has_several_versions(const std::vector<ResultRow>& rows);
+
+/// One row per point and version: replicas of equal parameters together. Fields: the parameters, "versions.shaken",
+/// "versions.physics", "n_replicas", "n_done", and of what every done replica tells: for each number F its mean as F
+/// and the standard error of that (replica_mean) as "F:sem", in place of the runs' own; for "n_effective" the sum; for
 /// "steady" true if all are, false if one is not.
 std::vector<ResultRow> aggregated(const std::vector<ResultRow>& rows);
 

@@ -20,9 +20,7 @@ SceneInput read_scene_input(const std::string& file) {
   if (file == "-") {
     return {"stdin", std::string(std::istreambuf_iterator<char>(std::cin), std::istreambuf_iterator<char>())};
   }
-  auto text = read_file(file);
-  if (!text) throw Failure(ExitCode::kBadInput, text.error().message);
-  return {file, *std::move(text)};
+  return {file, value_or_fail(read_file(file), ExitCode::kBadInput)};
 }
 
 std::string refusal_text(const std::vector<scene::Problem>& problems) {

@@ -5,25 +5,12 @@
 #include <httplib.h>
 #include <sys/un.h>
 
-#include <cstdlib>
-
 #include "base/failure.h"
 #include "scene/problem.h"
 
 namespace shaken::client {
 
 namespace fs = std::filesystem;
-
-fs::path daemon_root(const std::string& given) {
-  const auto variable = [](const char* name) {
-    const char* value = std::getenv(name);
-    return std::string(value == nullptr ? "" : value);
-  };
-  if (!given.empty()) return fs::absolute(given);
-  if (const std::string root = variable("SHAKEN_ROOT"); !root.empty()) return fs::absolute(root);
-  if (const std::string data = variable("XDG_DATA_HOME"); !data.empty()) return fs::path(data) / "shaken";
-  return fs::path(variable("HOME")) / ".local" / "share" / "shaken";
-}
 
 std::string url_encoded(std::string_view text) {
   static constexpr std::string_view kUnreserved = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~";

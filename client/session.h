@@ -11,9 +11,6 @@
 
 namespace shaken::client {
 
-/// The daemon's root directory: `given`, else $SHAKEN_ROOT, else $XDG_DATA_HOME/shaken, else ~/.local/share/shaken.
-std::filesystem::path daemon_root(const std::string& given);
-
 /// Text of one segment of a URL's path, or of one value of its query.
 std::string url_encoded(std::string_view text);
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/failure.h"
+#include "run/files/directory.h"
 
 namespace shaken::client {
 
@@ -19,6 +20,11 @@ std::string Target::title() const {
   const std::string name = text_of(sweep, "name");
   const std::string id = sweep.at("id").get<std::string>();
   return "sweep " + id + (name.empty() || name == id ? "" : " (" + name + ")");
+}
+
+bool is_run_directory(const std::string& id) {
+  std::error_code error;
+  return std::filesystem::exists(run::RunDirectory{id}.scene(), error);
 }
 
 Target find_target(Session& session, const std::string& id) {

@@ -26,6 +26,10 @@ Target find_target(Session& session, const std::string& id);
 /// As find_target; without an id, the newest sweep.
 Target find_target_or_newest(Session& session, const std::string& id);
 
+/// Whether `id` is the path of a run directory rather than the ID of a job: `shaken run` makes such directories without
+/// any daemon knowing of them.
+bool is_run_directory(const std::string& id);
+
 /// A job's full id, from the beginning of one.
 Json find_job(Session& session, const std::string& id);
 

@@ -3,18 +3,28 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "base/failure.h"
+#include "base/paths.h"
 #include "client/arguments.h"
 #include "client/console.h"
+
+namespace CLI {
+class App;
+}
 
 namespace shaken::client {
 
 /// What every verb may use.
 struct Context {
   Console& console;
-  std::filesystem::path root;  ///< the daemon's root directory
+  std::string given_root;  ///< as given with --root, or empty
+  const CLI::App& app;     ///< the whole command line, with the options of all verbs
+
+  /// The daemon's root directory. Throws Failure (kBadInput) if there is none.
+  std::filesystem::path root() const { return value_or_fail(data_root(given_root), ExitCode::kBadInput); }
 };
 
 struct VerbInfo {
@@ -34,7 +44,9 @@ class Verb {
   virtual ExitCode run(const Context& context) = 0;
 };
 
-/// The table of all verbs, in the order of the help.
-std::vector<std::unique_ptr<Verb>> make_verbs();
+using Verbs = std::vector<std::unique_ptr<Verb>>;
+
+/// The client's own verbs, in the order of the help.
+Verbs make_verbs();
 
 }  // namespace shaken::client

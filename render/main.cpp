@@ -27,16 +27,6 @@
 namespace shaken::render {
 namespace {
 
-template <class T>
-T value_or_fail(Result<T> result, ExitCode code) {
-  if (!result) throw Failure(code, result.error().message);
-  return std::move(*result);
-}
-
-void fail_on(const std::optional<Error>& error) {
-  if (error) throw Failure(ExitCode::kFailed, error->message);
-}
-
 /// What the command line asks for.
 struct Options {
   std::string source;  ///< run directory, trajectory.h5 or job
@@ -91,7 +81,7 @@ PictureStyle style_of(const Options& options) {
   style.caption = !options.no_caption && !options.bare;
   style.legend = !options.no_legend && !options.bare;
   style.scale_bar = !options.no_scale_bar && !options.bare;
-  if (auto error = check(style)) throw Failure(ExitCode::kBadInput, error->message);
+  fail_if(check(style), ExitCode::kBadInput);
   return style;
 }
 
@@ -123,7 +113,7 @@ void paint_to_file(const Options& options, const PictureStyle& style, RodPicture
   if (!options.label.empty()) picture.label = options.label;
   Painter painter = value_or_fail(Painter::create(), ExitCode::kFailed);
   const Image image = value_or_fail(painter.paint(picture, style), ExitCode::kFailed);
-  fail_on(write_png(out, image, picture_texts(picture)));
+  fail_if(write_png(out, image, picture_texts(picture)));
   report(options, out, 1, style, watch);
 }
 
@@ -148,7 +138,7 @@ void make_picture(const Options& options) {
     }
     index = std::stoul(options.frame);
   }
-  if (style.caption) fail_on(source.read_history());
+  if (style.caption) fail_if(source.read_history());
   paint_to_file(options, style, value_or_fail(source.picture(index, style.mark_defects), ExitCode::kFailed),
                 out_of(options, source, "picture.png"), watch);
 }
@@ -196,7 +186,7 @@ void make_movie_file(const Options& options) {
   const std::string out = out_of(options, source, "movie.mp4");
   MovieOptions movie{options.fps, options.label, std::nullopt};
   if (options.keep_frames) movie.keep_frames = std::filesystem::path(out).parent_path() / "frames";
-  if (style.caption) fail_on(source.read_history());
+  if (style.caption) fail_if(source.read_history());
   const auto picture = [&](std::size_t i) -> Result<RodPicture> {
     Result<RodPicture> rods = source.picture(first + i * stride, style.mark_defects);
     if (rods && !options.label.empty()) rods->label = options.label;

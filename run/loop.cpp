@@ -15,11 +15,11 @@
 #include "base/files.h"
 #include "run/effects.h"
 #include "run/publisher.h"
+#include "run/saved_run.h"
 #include "run/session.h"
 #include "run/summary.h"
 #include "run/trouble_file.h"
 #include "scene/canonical.h"
-#include "scene/load.h"
 #include "sim/balance.h"
 
 namespace shaken::run {
@@ -256,7 +256,7 @@ struct Opened {
 /// The session of the newest checkpoint that is whole and fits, or a new one.
 Result<Opened> open_session(const scene::RunPlan& plan, const RunDirectory& directory) {
   bool found = false;
-  for (const auto& file : {directory.checkpoint(), directory.previous_checkpoint()}) {
+  for (const auto& file : directory.checkpoints()) {
     if (!std::filesystem::exists(file)) continue;
     found = true;
     const Result<Checkpoint> checkpoint = read_checkpoint(file, scene::run_id(plan));
@@ -293,13 +293,11 @@ RunOutcome fail(const RunOptions& options, const RunCallbacks& callbacks, const 
 /// scene.json is written once; a directory of another scene is refused, never overwritten.
 [[nodiscard]] std::optional<Error> claim(const scene::RunPlan& plan, const RunDirectory& directory) {
   if (!std::filesystem::exists(directory.scene())) return write_file_atomically(directory.scene(), scene_text(plan));
-  const Result<std::string> text = read_file(directory.scene());
-  if (!text) return text.error();
-  const scene::Loaded<scene::RunPlan> present = scene::load_scene(*text, directory.scene().string());
-  if (!present.value) {
-    return Error{directory.root.string() + " holds a run whose scene cannot be read:\n" + to_string(present.problems)};
+  const Result<scene::RunPlan> present = read_plan(directory);
+  if (!present) {
+    return Error{directory.root.string() + " holds a run whose scene cannot be read:\n" + present.error().message};
   }
-  if (scene::run_id(*present.value) == scene::run_id(plan)) return std::nullopt;
+  if (scene::run_id(*present) == scene::run_id(plan)) return std::nullopt;
   return Error{directory.root.string() + " holds the run of another scene (see its scene.json); choose another one"};
 }
 
@@ -333,7 +331,7 @@ RunOutcome draw(const scene::RunPlan& plan, const RunOptions& options, const Run
 RunOutcome run_owned(const scene::RunPlan& plan, const RunOptions& options, const RunCallbacks& callbacks) {
   const RunDirectory directory{options.directory};
   if (auto error = claim(plan, directory)) return {RunState::kFailed, error->message};
-  if (is_done(directory.summary(), scene::run_id(plan))) {
+  if (is_done(directory, scene::run_id(plan))) {
     spdlog::info("{} is done already", directory.root.string());
     const Result<Progress> last = read_progress(directory.progress());
     return draw(plan, options, callbacks, last ? *last : Progress{});

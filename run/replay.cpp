@@ -6,11 +6,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "base/files.h"
-#include "run/checkpoint_file.h"
 #include "run/files/directory.h"
+#include "run/saved_run.h"
 #include "scene/canonical.h"
-#include "scene/load.h"
 #include "sim/simulation.h"
 
 namespace shaken::run {
@@ -18,25 +16,6 @@ namespace {
 
 constexpr int kExitOther = 1;
 constexpr int kExitBadInput = 2;
-
-Result<scene::RunPlan> read_plan(const RunDirectory& directory) {
-  const Result<std::string> text = read_file(directory.scene());
-  if (!text) return text.error();
-  const scene::Loaded<scene::RunPlan> plan = scene::load_scene(*text, directory.scene().string());
-  if (!plan.value) return Error{to_string(plan.problems)};
-  return *plan.value;
-}
-
-/// The newest whole checkpoint before `tick`, or the beginning.
-Result<Simulation> simulation_before(const scene::RunPlan& plan, const RunDirectory& directory, Tick tick) {
-  for (const auto& file : {directory.checkpoint(), directory.previous_checkpoint()}) {
-    const Result<Checkpoint> checkpoint = read_checkpoint(file, scene::run_id(plan));
-    if (!checkpoint) continue;
-    Result<Simulation> simulation = Simulation::resume(plan.system, checkpoint->simulation);
-    if (simulation && simulation->tick() < tick) return simulation;
-  }
-  return Simulation::start(plan.system);
-}
 
 std::string vector_text(const Vec3& v) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x(), v.y(), v.z()); }
 
@@ -54,7 +33,8 @@ Result<Replay> replay(const std::filesystem::path& root) {
   const Result<scene::RunPlan> plan = read_plan(directory);
   if (!plan) return plan.error();
   const NumericalTrouble& trouble = recorded->trouble;
-  Result<Simulation> simulation = simulation_before(*plan, directory, trouble.tick);
+  Result<Simulation> simulation = resume_last(directory, scene::run_id(*plan), plan->system, trouble.tick);
+  if (!simulation) simulation = Simulation::start(plan->system);
   if (!simulation) return simulation.error();
 
   Replay replay{*recorded, simulation->tick(), {}, {}};

@@ -125,13 +125,4 @@ std::optional<Error> write_summary(const std::filesystem::path& file, const Summ
   return write_file_atomically(file, json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n");
 }
 
-bool is_done(const std::filesystem::path& file, const std::string& run_id) {
-  const Result<std::string> text = read_file(file);
-  if (!text) return false;
-  const auto json = nlohmann::json::parse(*text, nullptr, false);
-  if (!json.is_object() || !json.contains("run_id") || !json.contains("exit")) return false;
-  const auto& exit = json["exit"];
-  return json["run_id"] == run_id && exit.is_object() && exit.contains("state") && exit["state"] == "done";
-}
-
 }  // namespace shaken::run

@@ -56,7 +56,4 @@ std::string why_not_steady(const analysis::SteadySummary& order, double sim_seco
 
 [[nodiscard]] std::optional<Error> write_summary(const std::filesystem::path& file, const Summary& summary);
 
-/// Whether `file` says that run `run_id` has been done.
-bool is_done(const std::filesystem::path& file, const std::string& run_id);
-
 }  // namespace shaken::run

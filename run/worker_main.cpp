@@ -16,13 +16,13 @@
 #include "base/progress_line.h"
 #include "base/terminal.h"
 #include "proto/bus.h"
-#include "run/checkpoint_file.h"
 #include "run/ending.h"
 #include "run/files/version.h"
 #include "run/loop.h"
 #include "run/movie_process.h"
 #include "run/probe/probe.h"
 #include "run/replay.h"
+#include "run/saved_run.h"
 #include "run/terminal.h"
 #include "scene/canonical.h"
 #include "scene/load.h"
@@ -187,40 +187,29 @@ ExitCode run_scene(const scene::RunPlan& plan, const Arguments& arguments) {
 /// A simulation of `system` from the state that the run in `folder` was last saved in.
 Result<Simulation> resume_from(const std::filesystem::path& folder, const Scene& system) {
   const run::RunDirectory directory{folder};
-  const Result<std::string> text = read_file(directory.scene());
-  if (!text) return text.error();
-  const auto plan = scene::load_scene(*text, directory.scene().string());
-  if (!plan.value) return Error{to_string(plan.problems)};
-  const auto checkpoint = run::read_checkpoint(directory.checkpoint(), scene::run_id(*plan.value));
-  if (!checkpoint) return checkpoint.error();
-  Result<Simulation> simulation = Simulation::resume(system, checkpoint->simulation);
-  if (!simulation) return Error{folder.string() + ": " + simulation.error().message};
-  return simulation;
+  const Result<scene::RunPlan> plan = run::read_plan(directory);
+  if (!plan) return plan.error();
+  return run::resume_last(directory, scene::run_id(*plan), system);
 }
 
 void probe_scene(const scene::RunPlan& plan, const Arguments& arguments) {
   std::optional<run::Probe> probe;
   if (arguments.probe_cpu > 0) {
-    Result<Simulation> simulation =
-        arguments.probe_from.empty() ? Simulation::start(plan.system) : resume_from(arguments.probe_from, plan.system);
-    if (!simulation) throw Failure(ExitCode::kBadInput, simulation.error().message);
-    auto probed = run::probe(plan, std::move(simulation).value(), arguments.probe_cpu);
-    if (!probed) throw Failure(ExitCode::kFailed, probed.error().message);
-    probe = std::move(probed).value();
+    Simulation simulation = value_or_fail(
+        arguments.probe_from.empty() ? Simulation::start(plan.system) : resume_from(arguments.probe_from, plan.system),
+        ExitCode::kBadInput);
+    probe = value_or_fail(run::probe(plan, std::move(simulation), arguments.probe_cpu));
     if (!probe->movie_trouble.empty()) spdlog::warn("the movie could not be timed: {}", probe->movie_trouble);
   }
-  if (auto error = write_file(arguments.probe, run::probe_report(plan, probe).dump(2) + "\n")) {
-    throw Failure(ExitCode::kFailed, error->message);
-  }
+  fail_if(write_file(arguments.probe, run::probe_report(plan, probe).dump(2) + "\n"));
 }
 
 ExitCode work(const Arguments& arguments) {
   if (arguments.out.empty() == arguments.probe.empty()) {
     throw Failure(ExitCode::kBadInput, "one of --out and --probe is needed (see `shaken-worker --help`)");
   }
-  const Result<std::string> text = read_file(arguments.scene);
-  if (!text) throw Failure(ExitCode::kBadInput, text.error().message);
-  const scene::Loaded<scene::RunPlan> plan = scene::load_scene(*text, arguments.scene, arguments.settings);
+  const std::string text = value_or_fail(read_file(arguments.scene), ExitCode::kBadInput);
+  const scene::Loaded<scene::RunPlan> plan = scene::load_scene(text, arguments.scene, arguments.settings);
   if (!plan.value) throw Failure(ExitCode::kBadInput, to_string(plan.problems));
   if (const auto problem = scene::placement_problem(*plan.value, arguments.scene)) {
     throw Failure(ExitCode::kBadInput, to_string(*problem));

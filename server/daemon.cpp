@@ -10,7 +10,6 @@
 #include <array>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <stdexcept>
 
@@ -110,16 +109,6 @@ void stop_workers(Supervisor& supervisor, const Signals& signals) {
 }
 
 }  // namespace
-
-std::filesystem::path default_root() {
-  const auto variable = [](const char* name) {
-    return std::filesystem::path(std::getenv(name) ? std::getenv(name) : "");
-  };
-  if (auto root = variable("SHAKEN_ROOT"); !root.empty()) return root;
-  if (const auto data = variable("XDG_DATA_HOME"); !data.empty()) return data / "shaken";
-  if (const auto home = variable("HOME"); !home.empty()) return home / ".local/share/shaken";
-  return {};
-}
 
 void run_daemon(const DaemonConfig& config) {
   if (access(config.worker.c_str(), X_OK) != 0) {

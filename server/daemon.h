@@ -18,9 +18,6 @@ struct DaemonConfig {
   std::chrono::milliseconds grace{20'000};  ///< between the request that a worker stops and its kill
 };
 
-/// SHAKEN_ROOT, else XDG_DATA_HOME/shaken, else HOME/.local/share/shaken. Empty if none of them is set.
-std::filesystem::path default_root();
-
 /// Runs the daemon until SIGTERM, SIGINT or SIGHUP; then its workers write a checkpoint and their jobs go back into the
 /// queue. A second signal kills the workers. Prints "shakend ready: ROOT (pid N)" to stdout once the socket answers.
 /// Throws std::runtime_error, with the reason in words, if it cannot start. Blocks signals in the calling thread.

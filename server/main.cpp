@@ -7,6 +7,7 @@
 #include <string>
 #include <thread>
 
+#include "base/paths.h"
 #include "proto/bus.h"
 #include "run/files/version.h"
 #include "server/daemon.h"
@@ -36,7 +37,7 @@ bool behind_a_prompt() { return isatty(STDERR_FILENO) == 1 && tcgetpgrp(STDERR_F
 
 int main(int argc, char** argv) {
   shaken::server::DaemonConfig config;
-  config.root = shaken::server::default_root();
+  std::string root;
   config.worker = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "shaken-worker";
   config.slots = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   config.lcm_url = shaken::proto::default_url();
@@ -46,7 +47,7 @@ int main(int argc, char** argv) {
   CLI::App app(kAbout);
   app.footer(kExamples);
   app.set_version_flag("--version", std::string("shakend ") + shaken::run::version());
-  app.add_option("--root", config.root,
+  app.add_option("--root", root,
                  "Directory of queue, socket, log and runs [default: $SHAKEN_ROOT, else "
                  "$XDG_DATA_HOME/shaken, else ~/.local/share/shaken]")
       ->type_name("DIR");
@@ -77,10 +78,12 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "shakend: %s (see `shakend --help`)\n", outcome.what());
     return kBadArguments;
   }
-  if (config.root.empty()) {
-    std::fprintf(stderr, "shakend: no root directory: set --root, SHAKEN_ROOT or HOME\n");
+  const shaken::Result<std::filesystem::path> data_root = shaken::data_root(root);
+  if (!data_root) {
+    std::fprintf(stderr, "shakend: %s\n", data_root.error().message.c_str());
     return kBadArguments;
   }
+  config.root = *data_root;
   config.quiet = config.quiet || behind_a_prompt();
   if (no_lcm) config.lcm_url.clear();
   try {

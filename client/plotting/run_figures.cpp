@@ -17,6 +17,46 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
+}  // namespace
+
+Curve mean_curve(const std::vector<Curve>& replicas) {
+  Curve mean = replicas.front();
+  if (replicas.size() == 1) return mean;
+  const std::size_t n = mean.x.size();
+  mean.y_error.assign(n, kNone);
+  for (const Curve& replica : replicas) {
+    if (!replica.relaxing.empty()) mean.relaxing = replica.relaxing;
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    std::vector<double> values, sems;
+    for (const Curve& replica : replicas) {
+      if (!std::isfinite(replica.y[k])) continue;
+      values.push_back(replica.y[k]);
+      sems.push_back(replica.y_error.empty() ? kNone : replica.y_error[k]);
+    }
+    if (values.empty()) continue;
+    const Estimate result = replica_mean(values, sems);
+    mean.y[k] = result.value;
+    mean.y_error[k] = result.sem;
+  }
+  return mean;
+}
+
+namespace {
+
+/// What different versions computed are different points, which say so; a run that is not done yet is of the newest.
+void name_versions(std::vector<PlottedRun>& runs) {
+  std::set<RowVersion> versions;
+  for (const PlottedRun& run : runs) {
+    if (run.version.is_known()) versions.insert(run.version);
+  }
+  if (versions.size() < 2) return;
+  for (PlottedRun& run : runs) {
+    const RowVersion& version = run.version.is_known() ? run.version : *versions.rbegin();
+    run.point += (run.point.empty() ? "" : ", ") + version.text();
+  }
+}
+
 /// The label of a point, with a word if one of its replicas still relaxed.
 std::string label_of(const std::string& point, const std::vector<PlottedRun>& runs) {
   const bool relaxes =
@@ -54,30 +94,6 @@ std::vector<Curve> curves_of(const std::vector<PlottedRun>& runs, const std::str
     curves.push_back(std::move(curve));
   }
   return curves;
-}
-
-/// The mean of curves over the same x, with the errors of replica_mean.
-Curve mean_curve(const std::vector<Curve>& replicas) {
-  Curve mean = replicas.front();
-  if (replicas.size() == 1) return mean;
-  const std::size_t n = mean.x.size();
-  mean.y_error.assign(n, kNone);
-  for (const Curve& replica : replicas) {
-    if (!replica.relaxing.empty()) mean.relaxing = replica.relaxing;
-  }
-  for (std::size_t k = 0; k < n; ++k) {
-    std::vector<double> values, sems;
-    for (const Curve& replica : replicas) {
-      if (!std::isfinite(replica.y[k])) continue;
-      values.push_back(replica.y[k]);
-      sems.push_back(replica.y_error.empty() ? kNone : replica.y_error[k]);
-    }
-    if (values.empty()) continue;
-    const MeanAndError result = replica_mean(values, sems);
-    mean.y[k] = result.mean;
-    mean.y_error[k] = result.sem.value_or(kNone);
-  }
-  return mean;
 }
 
 /// One curve per point where its replicas have the same x; the others as they are.
@@ -264,7 +280,8 @@ std::string axis_title(const std::string& path) {
   return unit.empty() ? escaped : fmt::format("{} ({})", escaped, unit);
 }
 
-std::vector<Figure> run_figures(const std::vector<PlottedRun>& runs) {
+std::vector<Figure> run_figures(std::vector<PlottedRun> runs) {
+  name_versions(runs);
   std::vector<Figure> figures;
   std::vector<Figure> all{order_figure(runs), angles_figure(runs), tilt_figure(runs), defects_figure(runs),
                           msd_figure(runs)};
@@ -317,13 +334,15 @@ std::vector<Figure> sweep_figures(const std::vector<ResultRow>& points, const Sw
     bool relaxes;
   };
   std::vector<std::pair<std::string, std::vector<Point>>> groups;
+  const bool several_versions = has_several_versions(points);
   for (const ResultRow& point : points) {
     const Point p{point.number(x_path), point.number(axes.y), standard_error(point, axes.y),
                   still_relaxes(point, axes.y)};
     if (std::isnan(p.x) || std::isnan(p.y)) continue;
     Json named = Json::object();
     for (const std::string& path : others) named[path] = point.parameters.value(path, Json());
-    const std::string label = point_label(named);
+    std::string label = point_label(named);
+    if (several_versions) label += (label.empty() ? "" : ", ") + version_of(point).text();
     auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& g) { return g.first == label; });
     if (group == groups.end()) group = groups.insert(groups.end(), {label, {}});
     group->second.push_back(p);

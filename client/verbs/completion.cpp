@@ -5,7 +5,6 @@
 
 #include <set>
 
-#include "client/command_line.h"
 #include "client/target.h"
 #include "client/verbs/verbs.h"
 
@@ -29,11 +28,11 @@ class Completion : public Verb {
   ExitCode run(const Context& context) override {
     std::ostream& out = context.console.out;
     if (what_ == "bash") {
-      out << bash_completion(CommandLine().app());
+      out << bash_completion(context.app);
     } else if (what_ == "zsh") {
-      out << zsh_completion(CommandLine().app());
+      out << zsh_completion(context.app);
     } else if (what_ == "ids") {
-      Session session(context.root);
+      Session session(context.root());
       const Json sweeps = session.get("/v1/sweeps");
       const Json jobs = session.get("/v1/jobs");
       std::set<std::string> words;  // sweeps may share a name

@@ -21,7 +21,7 @@ class Doctor : public Verb {
   void declare(Arguments& arguments) override { arguments.flag("--json", json_, "Print the findings as JSON"); }
 
   ExitCode run(const Context& context) override {
-    const std::vector<CheckResult> findings = checkup(context.root);
+    const std::vector<CheckResult> findings = checkup(context.root());
     Console& console = context.console;
     Json list = Json::array();
     for (const CheckResult& finding : findings) {

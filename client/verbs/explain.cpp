@@ -6,7 +6,7 @@
 
 #include "base/table.h"
 #include "base/text.h"
-#include "client/estimate.h"
+#include "client/cost_estimate.h"
 #include "client/scene_input.h"
 #include "client/verbs/verbs.h"
 #include "scene/accuracy.h"
@@ -50,10 +50,10 @@ class Explain : public Verb {
     Console& console = context.console;
     EstimateOptions options{.probe = !no_probe_, .cpu = cpu_.value_or(EstimateOptions{}.cpu), .from = from_};
     options.on_probe = probe_progress(console);
-    const Estimate estimate = estimate_cost(sweep, options);
+    const CostEstimate estimate = estimate_cost(sweep, options);
     const scene::SweepPoint& point = sweep.points[estimate.shown];
     if (json_) {
-      Json json = estimate_json(estimate);
+      Json json = cost_json(estimate);
       json["name"] = sweep.name;
       json["shown"] = {{"label", point.label}, {"parameters", point.parameters}};
       json["shown"].update(derived_quantities(point));
@@ -65,7 +65,7 @@ class Explain : public Verb {
     show_effects(estimate.report, console);
     if (no_probe_) return ExitCode::kOk;
     show_probe(estimate.report, console);
-    console.out << "\nOn this machine, on one core:\n" << estimate_text(estimate, console.width);
+    console.out << "\nOn this machine, on one core:\n" << cost_text(estimate, console.width);
     return ExitCode::kOk;
   }
 

@@ -6,8 +6,7 @@
 
 #include "base/files.h"
 #include "client/plotting/run_figures.h"
-#include "client/result_rows.h"
-#include "client/run_location.h"
+#include "client/results.h"
 #include "client/target.h"
 #include "client/verbs/verbs.h"
 #include "run/files/directory.h"
@@ -54,7 +53,7 @@ class Plot : public Verb {
       if (out_.empty()) out_ = (fs::path(id_) / "plots").string();
       add_run(id_, "", "", runs, left_out);
     } else {
-      Session session(context.root);
+      Session session(context.root());
       const Target target = find_target_or_newest(session, id_);
       const Json& named = target.answer.at(target.is_sweep ? "sweep" : "job");
       if (out_.empty()) out_ = "plots-" + short_id(named.at("id").get<std::string>());
@@ -73,7 +72,7 @@ class Plot : public Verb {
     for (const auto& [why, n] : left_out) {
       console.err << fmt::format("left out: {}{}\n", n > 1 ? fmt::format("{} runs, ", n) : "", why);
     }
-    for (Figure& figure : run_figures(runs)) figures.push_back(std::move(figure));
+    for (Figure& figure : run_figures(std::move(runs))) figures.push_back(std::move(figure));
     if (figures.empty()) throw Failure(ExitCode::kFailed, "there is nothing to plot yet");
     if (file) {
       figures.front().name = file->name;
@@ -154,15 +153,10 @@ class Plot : public Verb {
       ++left_out[observables.error().message];
       return;
     }
-    runs.push_back({point, *std::move(observables), still_relaxed(files.summary())});
-  }
-
-  /// Whether a run's summary says that its averages are from a state that still relaxed.
-  static bool still_relaxed(const fs::path& summary) {
-    const auto text = read_file(summary);
-    if (!text) return false;
-    const Json json = Json::parse(*text, nullptr, false);
-    return json.is_object() && json.contains("steady") && json.at("steady") == false;
+    const auto text = read_file(files.summary());
+    const Json summary = text ? Json::parse(*text, nullptr, false) : Json();
+    runs.push_back({point, *std::move(observables), summary.is_object() && summary.value("steady", Json()) == false,
+                    version_of(summary.is_object() ? summary.value("versions", Json()) : Json())});
   }
 
   std::string x_;

@@ -8,8 +8,6 @@
 
 #include "base/table.h"
 #include "base/text.h"
-#include "client/result_rows.h"
-#include "client/target.h"
 #include "client/verbs/verbs.h"
 
 namespace shaken::client {
@@ -81,7 +79,7 @@ class Results : public Verb {
     if (csv_ && json_) throw Failure(ExitCode::kBadInput, "--csv and --json exclude each other");
     std::vector<Condition> conditions;
     for (const std::string& text : where_) conditions.emplace_back(text);
-    Session session(context.root);
+    Session session(context.root());
     const Target target = find_target_or_newest(session, id_);
     std::vector<ResultRow> rows = result_rows(session, target);
     // Conditions are on the rows shown: with --aggregate on means.
@@ -188,6 +186,10 @@ class Results : public Verb {
       add_column("STATE", "state", all_done ? 3 : 0);
     }
     for (const std::string& path : swept_parameters(rows)) add_column(path, path, 0);
+    if (has_several_versions(rows)) {
+      add_column("SHAKEN", "versions.shaken", 0);
+      add_column("PHYSICS", "versions.physics", 0);
+    }
     if (aggregate_) {
       for (const auto& [title, field, rank] : kAggregateColumns) add_column(title, field, rank);
       return;

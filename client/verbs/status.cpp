@@ -61,7 +61,7 @@ class Status : public Verb {
   }
 
   ExitCode run(const Context& context) override {
-    Session session(context.root);
+    Session session(context.root());
     if (failed_) return show_failed(session, context.console);
     if (id_.empty()) return show_sweeps(session, context.console);
     const Target target = find_target(session, id_);

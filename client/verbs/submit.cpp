@@ -5,7 +5,7 @@
 
 #include "base/table.h"
 #include "base/text.h"
-#include "client/estimate.h"
+#include "client/cost_estimate.h"
 #include "client/scene_input.h"
 #include "client/target.h"
 #include "client/verbs/verbs.h"
@@ -59,7 +59,7 @@ class Submit : public Verb {
     if (replicas_) request["replicas"] = *replicas_;
     if (!name_.empty()) request["name"] = name_;
     if (priority_) request["priority"] = *priority_;
-    Session session(context.root);
+    Session session(context.root());
     const Json answer = session.post("/v1/sweeps", request);
     if (json_) {
       context.console.out << answer.dump(2) << "\n";
@@ -95,9 +95,9 @@ class Submit : public Verb {
     if (!no_probe_) {
       EstimateOptions options;
       options.on_probe = probe_progress(console);
-      const Estimate estimate = estimate_cost(sweep, options);
-      json["estimate"] = estimate_json(estimate);
-      if (!json_) console.out << "\nOn this machine, on one core:\n" << estimate_text(estimate, console.width);
+      const CostEstimate estimate = estimate_cost(sweep, options);
+      json["estimate"] = cost_json(estimate);
+      if (!json_) console.out << "\nOn this machine, on one core:\n" << cost_text(estimate, console.width);
     }
     if (json_) console.out << json.dump(2) << "\n";
   }

@@ -3,11 +3,11 @@
 
 namespace shaken::client {
 
-std::vector<std::unique_ptr<Verb>> make_verbs() {
-  std::vector<std::unique_ptr<Verb>> verbs;
-  for (const auto make : {make_init, make_validate, make_explain, make_run, make_submit, make_status, make_watch,
-                          make_logs, make_wait, make_cancel, make_results, make_plot, make_figures, make_movie,
-                          make_replay, make_bench, make_doctor, make_completion}) {
+Verbs make_verbs() {
+  Verbs verbs;
+  for (const auto make :
+       {make_init, make_validate, make_explain, make_run, make_submit, make_status, make_watch, make_logs, make_wait,
+        make_cancel, make_results, make_plot, make_movie, make_replay, make_bench, make_doctor, make_completion}) {
     verbs.push_back(make());
   }
   return verbs;

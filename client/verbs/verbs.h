@@ -24,7 +24,6 @@ std::unique_ptr<Verb> make_wait();
 std::unique_ptr<Verb> make_cancel();
 std::unique_ptr<Verb> make_results();
 std::unique_ptr<Verb> make_plot();
-std::unique_ptr<Verb> make_figures();
 std::unique_ptr<Verb> make_movie();
 std::unique_ptr<Verb> make_replay();
 std::unique_ptr<Verb> make_bench();

@@ -61,7 +61,7 @@ class Watch : public Verb {
     if (every_ && !(*every_ > 0 && *every_ < 86400)) {
       throw Failure(ExitCode::kBadInput, "--every takes seconds between 0 and 86400");
     }
-    Session session(context.root);
+    Session session(context.root());
     std::vector<Target> targets;
     if (!id_.empty()) {
       targets.push_back(find_target(session, id_));

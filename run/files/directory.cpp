@@ -6,40 +6,39 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "base/files.h"
 
 namespace shaken::run {
 
+bool is_done(const RunDirectory& directory, const std::string& run_id) {
+  const Result<std::string> text = read_file(directory.summary());
+  if (!text) return false;
+  const auto json = nlohmann::json::parse(*text, nullptr, false);
+  if (!json.is_object() || !json.contains("exit")) return false;
+  if (!run_id.empty() && (!json.contains("run_id") || json["run_id"] != run_id)) return false;
+  const auto& exit = json["exit"];
+  return exit.is_object() && exit.contains("state") && exit["state"] == "done";
+}
+
 Result<DirectoryLock> DirectoryLock::acquire(const std::filesystem::path& lock_file) {
-  const int fd = ::open(lock_file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (fd < 0) return Error{"cannot open " + lock_file.string() + ": " + std::strerror(errno)};
-  DirectoryLock lock(fd);
-  if (::flock(fd, LOCK_EX | LOCK_NB) != 0) {
-    if (errno != EWOULDBLOCK) return Error{"cannot lock " + lock_file.string() + ": " + std::strerror(errno)};
+  Descriptor file(::open(lock_file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
+  if (!file) return system_error("cannot open " + lock_file.string());
+  if (::flock(file.value(), LOCK_EX | LOCK_NB) != 0) {
+    if (errno != EWOULDBLOCK) return system_error("cannot lock " + lock_file.string());
     const Result<std::string> written = read_file(lock_file);
     std::string owner = written ? *written : "";
     owner.erase(owner.find_last_not_of('\n') + 1);
     return Error{lock_file.parent_path().string() + " is in use by process " + (owner.empty() ? "(unknown)" : owner)};
   }
   const std::string pid = std::to_string(::getpid()) + "\n";
-  if (::ftruncate(fd, 0) != 0 || ::pwrite(fd, pid.data(), pid.size(), 0) != static_cast<ssize_t>(pid.size())) {
-    return Error{"cannot write " + lock_file.string() + ": " + std::strerror(errno)};
+  if (::ftruncate(file.value(), 0) != 0 ||
+      ::pwrite(file.value(), pid.data(), pid.size(), 0) != static_cast<ssize_t>(pid.size())) {
+    return system_error("cannot write " + lock_file.string());
   }
-  return lock;
-}
-
-DirectoryLock::DirectoryLock(DirectoryLock&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
-
-DirectoryLock& DirectoryLock::operator=(DirectoryLock&& other) noexcept {
-  std::swap(fd_, other.fd_);
-  return *this;
-}
-
-DirectoryLock::~DirectoryLock() {
-  if (fd_ >= 0) ::close(fd_);  // and with it the lock
+  return DirectoryLock(std::move(file));
 }
 
 }  // namespace shaken::run

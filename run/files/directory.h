@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
+#include <utility>
 
+#include "base/descriptor.h"
 #include "sim/core/result.h"
 
 namespace shaken::run {
@@ -19,24 +22,26 @@ struct RunDirectory {
   std::filesystem::path progress() const { return root / "progress.json"; }
   std::filesystem::path checkpoint() const { return root / "checkpoint.bin"; }
   std::filesystem::path previous_checkpoint() const { return root / "checkpoint.prev.bin"; }
+  /// Both, the newer first.
+  std::array<std::filesystem::path, 2> checkpoints() const { return {checkpoint(), previous_checkpoint()}; }
   std::filesystem::path trouble() const { return root / "trouble.json"; }
   std::filesystem::path log() const { return root / "worker.log"; }
   std::filesystem::path movie() const { return root / "movie.mp4"; }
   std::filesystem::path lock() const { return root / "lock"; }
 };
 
+/// Whether a run came to its end in `directory`, as its summary says: run `run_id`, or any if that is empty.
+bool is_done(const RunDirectory& directory, const std::string& run_id = "");
+
 /// Sole ownership of a directory for as long as the object lives: flock(2) on DIR/lock, so it is never stale.
 class DirectoryLock {
  public:
   /// Creates the lock file if need be. Fails with the owner's pid in the message if another process holds it.
   static Result<DirectoryLock> acquire(const std::filesystem::path& lock_file);
-  DirectoryLock(DirectoryLock&& other) noexcept;
-  DirectoryLock& operator=(DirectoryLock&& other) noexcept;
-  ~DirectoryLock();
 
  private:
-  explicit DirectoryLock(int fd) : fd_(fd) {}
-  int fd_ = -1;
+  explicit DirectoryLock(Descriptor file) : file_(std::move(file)) {}
+  Descriptor file_;  ///< the lock goes with it
 };
 
 }  // namespace shaken::run

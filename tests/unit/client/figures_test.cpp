@@ -108,6 +108,17 @@ TEST(RunFigures, WhatStillRelaxesSaysSo) {
   EXPECT_EQ(run_figures({{"", arrays, true}})[0].curves[0].label, "still relaxing");
 }
 
+TEST(RunFigures, VersionsAreNoReplicasOfEachOther) {
+  const run::Observables one{{"/tilt/n_z", {-0.1, 0.1}}, {"/tilt/v_along_mm_s", {1, 2}}};
+  run::Observables two = one;
+  two["/tilt/v_along_mm_s"] = {3, 4};
+  const auto figures = run_figures({{"a", one, false, {"0.1.0", "3"}}, {"a", two, false, {"0.1.0", "4"}}});
+  ASSERT_EQ(figures.size(), 1u);
+  ASSERT_EQ(figures[0].curves.size(), 2u);
+  EXPECT_EQ(figures[0].curves[0].label, "a, shaken 0.1.0, physics 3");
+  EXPECT_EQ(figures[0].curves[1].label, "a, shaken 0.1.0, physics 4");
+}
+
 TEST(RunFigures, ErrorsOfCurvesAreBands) {
   const run::Observables arrays{{"/msd/lag_s", {1, 2}}, {"/msd/total_mm2", {1, 2}}, {"/msd/total_sem_mm2", {0.1, 0.2}}};
   const auto figures = run_figures({{"a", arrays}});

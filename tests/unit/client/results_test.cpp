@@ -111,6 +111,23 @@ TEST(Aggregated, NeverMixesVersions) {
   EXPECT_DOUBLE_EQ(points[1].number("order.mean"), 0.75);
 }
 
+TEST(Aggregated, NeverMixesVersionsOfThePhysics) {
+  const auto of = [](int replica, double order, int physics) {
+    ResultRow made = row(2.5, replica, order, "0.1.0");
+    made.fields["versions.physics"] = physics;
+    return made;
+  };
+  const std::vector<ResultRow> rows{of(1, 0.25, 3), of(2, 0.75, 4), of(3, 0.5, 4)};
+  const auto points = aggregated(rows);
+  ASSERT_EQ(points.size(), 2u);
+  EXPECT_DOUBLE_EQ(points[0].number("order.mean"), 0.25);
+  EXPECT_DOUBLE_EQ(points[1].number("order.mean"), 0.625);
+  EXPECT_EQ(version_of(points[1]).text(), "shaken 0.1.0, physics 4");
+  EXPECT_FALSE(points[1].fields.contains("versions.physics:sem")) << "a name, not a number";
+  EXPECT_TRUE(has_several_versions(rows));
+  EXPECT_FALSE(has_several_versions({rows[1], rows[2]}));
+}
+
 TEST(Aggregated, UnfinishedReplicasCountButDoNotEnterTheMean) {
   const auto points = aggregated({row(2.5, 1, 0.25), row(2.5, 2, -1), row(2.5, 3, 0.5)});
   ASSERT_EQ(points.size(), 1u);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
+#include "run/files/directory.h"
 #include "tests/unit/run/temporary_folder.h"
 
 namespace shaken::run {
@@ -110,19 +111,21 @@ TEST(Summary, TellsTheTrouble) {
 
 TEST(Summary, IsDoneOnlyForTheSameRun) {
   const TemporaryFolder folder;
-  const auto file = folder / "summary.json";
-  EXPECT_FALSE(is_done(file, "0123456789abcdef"));
+  const RunDirectory directory{folder.path()};
+  const auto file = directory.summary();
+  EXPECT_FALSE(is_done(directory, "0123456789abcdef"));
   Summary summary = example();
   ASSERT_FALSE(write_summary(file, summary));
-  EXPECT_TRUE(is_done(file, "0123456789abcdef"));
-  EXPECT_FALSE(is_done(file, "fedcba9876543210"));
+  EXPECT_TRUE(is_done(directory, "0123456789abcdef"));
+  EXPECT_FALSE(is_done(directory, "fedcba9876543210"));
+  EXPECT_TRUE(is_done(directory)) << "whichever run it is";
   summary.state = "stopped";
   ASSERT_FALSE(write_summary(file, summary));
-  EXPECT_FALSE(is_done(file, "0123456789abcdef"));
+  EXPECT_FALSE(is_done(directory, "0123456789abcdef"));
   for (const char* damaged : {"", "{", "[]", "{}", R"({"run_id": "0123456789abcdef", "exit": 3})",
                               R"({"run_id": 5, "exit": {"state": "done"}})"}) {
     ASSERT_FALSE(write_file_atomically(file, damaged));
-    EXPECT_FALSE(is_done(file, "0123456789abcdef")) << damaged;
+    EXPECT_FALSE(is_done(directory, "0123456789abcdef")) << damaged;
   }
 }
 

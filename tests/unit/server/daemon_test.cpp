@@ -269,16 +269,5 @@ TEST_F(DaemonTest, WhatCannotStartSaysWhy) {
   EXPECT_THAT(damaged.errors(), HasSubstr("queue.db"));
 }
 
-TEST(DefaultRootTest, TheFirstVariableThatIsSetDecides) {
-  setenv("HOME", "/h", 1);
-  unsetenv("SHAKEN_ROOT");
-  unsetenv("XDG_DATA_HOME");
-  EXPECT_EQ(default_root(), "/h/.local/share/shaken");
-  setenv("XDG_DATA_HOME", "/x", 1);
-  EXPECT_EQ(default_root(), "/x/shaken");
-  setenv("SHAKEN_ROOT", "/s", 1);
-  EXPECT_EQ(default_root(), "/s");
-}
-
 }  // namespace
 }  // namespace shaken::server

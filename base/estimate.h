@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace shaken {
+
+/// A number and its standard error.
+struct Estimate {
+  double value = std::numeric_limits<double>::quiet_NaN();  ///< NaN: not to be had from the samples
+  double sem = std::numeric_limits<double>::quiet_NaN();    ///< NaN: unknown
+  /// Independent samples behind the error; NaN: unknown.
+  double n_effective = std::numeric_limits<double>::quiet_NaN();
+  /// Whether what it averages over is steady; none: it is no average over time, or that cannot be told.
+  std::optional<bool> steady = std::nullopt;
+};
+
+inline bool is_known(const Estimate& estimate) { return std::isfinite(estimate.value); }
+
+inline Estimate operator/(Estimate a, double divisor) {
+  a.value /= divisor;
+  a.sem /= divisor;
+  return a;
+}
+
+}  // namespace shaken

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#include "base/paths.h"
+
+#include <cstdlib>
+
+namespace shaken {
+
+Result<std::filesystem::path> data_root(const std::string& given) {
+  const auto variable = [](const char* name) {
+    const char* value = std::getenv(name);
+    return std::filesystem::path(value == nullptr ? "" : value);
+  };
+  if (!given.empty()) return std::filesystem::absolute(given);
+  if (const auto root = variable("SHAKEN_ROOT"); !root.empty()) return std::filesystem::absolute(root);
+  if (const auto data = variable("XDG_DATA_HOME"); !data.empty()) return std::filesystem::absolute(data / "shaken");
+  if (const auto home = variable("HOME"); !home.empty()) return std::filesystem::absolute(home / ".local/share/shaken");
+  return Error{"no root directory: set --root, SHAKEN_ROOT or HOME"};
+}
+
+}  // namespace shaken

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "sim/core/result.h"
+
+namespace shaken {
+
+/// The root directory of the daemon's data: `given`, else $SHAKEN_ROOT, else $XDG_DATA_HOME/shaken, else
+/// ~/.local/share/shaken; absolute. Fails where none of them is set.
+Result<std::filesystem::path> data_root(const std::string& given = "");
+
+}  // namespace shaken

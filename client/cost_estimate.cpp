@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: MIT
+#include "client/cost_estimate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "base/failure.h"
+#include "base/files.h"
+#include "base/process.h"
+#include "base/scratch_folder.h"
+#include "base/table.h"
+#include "scene/accuracy.h"
+#include "scene/canonical.h"
+#include "scene/derived.h"
+#include "scene/load.h"
+#include "scene/units.h"
+
+namespace shaken::client {
+namespace {
+
+constexpr const char* kAsWritten = "as written";
+
+/// What shaken-worker says of one run.
+Json probe(const scene::RunPlan& plan, const std::string& label, double cpu, const std::string& from) {
+  const ScratchFolder folder;
+  const std::string scene = folder.path() / "scene.json", answer = folder.path() / "cost.json";
+  fail_if(write_file(scene, scene::to_json(plan).dump()));
+  std::vector<std::string> command{
+      sibling_program("shaken-worker").string(), scene, "--probe", answer, "--probe-cpu", fmt::format("{}", cpu)};
+  if (!from.empty()) command.insert(command.end(), {"--probe-from", from});
+  const Captured result = run_captured(command);
+  if (result.exit_code != 0) {
+    std::string words = result.output;
+    words.erase(words.find_last_not_of('\n') + 1);
+    throw Failure(result.exit_code == 2 ? ExitCode::kBadInput : ExitCode::kFailed,
+                  label.empty() ? words : fmt::format("{}: {}", label, words));
+  }
+  return Json::parse(value_or_fail(read_file(answer)));
+}
+
+/// Costs of a run in the units that change least from run to run.
+struct Rates {
+  double stepping = 0;  ///< CPU time per rod and simulated second
+  double besides = 0;   ///< the same of measuring, recording, drawing
+  double disk = 0;      ///< bytes per rod and simulated second
+};
+
+double rod_seconds(const scene::RunPlan& plan) { return plan.system.n_all_rods() * plan.total_time(); }
+
+Rates rates_of(const Json& report, const scene::RunPlan& plan) {
+  const double stepping = report.at("stepping_cpu_seconds").get<double>();
+  const double all = rod_seconds(plan);
+  return {stepping / all, (report.at("cpu_seconds").get<double>() - stepping) / all,
+          report.at("disk_bytes").at("total").get<double>() / all};
+}
+
+/// The plan at another step, or what speaks against it.
+std::optional<scene::RunPlan> at_step(const scene::RunPlan& plan, double step, std::string& error) {
+  nlohmann::ordered_json scene = scene::to_json(plan);
+  scene["time"]["step"] = step;
+  auto loaded = scene::load_scene(scene.dump(), "scene");
+  if (!loaded.value) error = loaded.problems.front().message;
+  return loaded.value;
+}
+
+/// At most `most` of `n` places, from the first to the last; if only one is wanted, the middle. They are rounded, not
+/// cut off, so that they do not keep step with the inner axis of a grid.
+std::vector<std::size_t> evenly(std::size_t n, std::size_t most) {
+  const std::size_t steps = std::min(n, most) - 1;
+  if (steps == 0) return {n / 2};
+  std::vector<std::size_t> places;
+  for (std::size_t k = 0; k <= steps; ++k) places.push_back((k * (n - 1) + steps / 2) / steps);
+  return places;
+}
+
+class Estimator {
+ public:
+  Estimator(const scene::Sweep& sweep, const EstimateOptions& options) : sweep_(sweep), options_(options) {}
+
+  CostEstimate run() {
+    find_distinct();
+    const std::vector<std::size_t> probed = evenly(distinct_.size(), options_.most_probes);
+    const std::size_t shown = probed[probed.size() / 2];
+
+    result_.n_runs = sweep_.points.size();
+    result_.n_distinct = distinct_.size();
+    result_.shown = distinct_[shown];
+    if (!options_.probe) {
+      result_.report = probe(plan_of(shown), label_of(shown), 0, "");
+      return std::move(result_);
+    }
+    result_.n_probed = probed.size();
+    const bool levels = options_.levels && has_one_step();
+    n_probes_ = probed.size();
+    if (levels && !options_.from.empty()) ++n_probes_;
+    for (const scene::AccuracyLevel& level : scene::accuracy_levels()) {
+      n_probes_ += levels && level.step != plan_of(shown).system.dt;
+    }
+    if (options_.on_probe) options_.on_probe(0, n_probes_);
+    result_.report = probe_plan(plan_of(shown), label_of(shown), options_.from);
+    std::vector<Rates> rates;
+    for (const std::size_t k : probed) {
+      rates.push_back(rates_of(k == shown ? result_.report : probe_plan(plan_of(k), label_of(k), ""), plan_of(k)));
+    }
+    const Costs costs = add_up(probed, rates);
+    result_.levels.push_back({kAsWritten, has_one_step() ? plan_of(shown).system.dt : 0, "", costs.cpu(1), costs.disk});
+    if (levels) probe_levels(shown, costs);
+    if (options_.on_probe) options_.on_probe(n_probes_, n_probes_);
+    return std::move(result_);
+  }
+
+ private:
+  /// Of all runs together.
+  struct Costs {
+    double stepping = 0, besides = 0, disk = 0;
+    /// With a step that makes stepping so many times as long.
+    double cpu(double factor) const { return factor * stepping + besides; }
+  };
+
+  const scene::RunPlan& plan_of(std::size_t k) const { return sweep_.points[distinct_[k]].plan; }
+  const std::string& label_of(std::size_t k) const { return sweep_.points[distinct_[k]].label; }
+  bool has_one_step() const {
+    return std::all_of(sweep_.points.begin(), sweep_.points.end(), [&](const scene::SweepPoint& point) {
+      return point.plan.system.dt == sweep_.points.front().plan.system.dt;
+    });
+  }
+  Json probe_plan(const scene::RunPlan& plan, const std::string& label, const std::string& from) {
+    Json report = probe(plan, label, options_.cpu, from);
+    ++n_done_;
+    if (options_.on_probe) options_.on_probe(std::min(n_done_, n_probes_ - 1), n_probes_);
+    return report;
+  }
+
+  void find_distinct() {
+    std::map<std::string, std::size_t> seen;
+    for (std::size_t p = 0; p < sweep_.points.size(); ++p) {
+      scene::RunPlan plan = sweep_.points[p].plan;
+      plan.system.seed = 0;
+      const auto [at, is_new] = seen.emplace(scene::run_id(plan), distinct_.size());
+      if (is_new) {
+        distinct_.push_back(p);
+        n_alike_.push_back(0);
+      }
+      ++n_alike_[at->second];
+    }
+  }
+
+  /// Between two probed points the rates go straight from those of the one to those of the other.
+  Costs add_up(const std::vector<std::size_t>& probed, const std::vector<Rates>& rates) const {
+    Costs sum;
+    std::size_t next = 0;  // the first probed point that is not before k
+    for (std::size_t k = 0; k < distinct_.size(); ++k) {
+      while (next + 1 < probed.size() && probed[next] < k) ++next;
+      const std::size_t before = next > 0 ? next - 1 : 0;
+      const double width = static_cast<double>(probed[next] - probed[before]);
+      const double part = width > 0 ? static_cast<double>(k - probed[before]) / width : 1;
+      const double size = static_cast<double>(n_alike_[k]) * rod_seconds(plan_of(k));
+      const auto between = [&](double Rates::*rate) {
+        return size * std::lerp(rates[before].*rate, rates[next].*rate, part);
+      };
+      sum.stepping += between(&Rates::stepping);
+      sum.besides += between(&Rates::besides);
+      sum.disk += between(&Rates::disk);
+    }
+    return sum;
+  }
+
+  /// A saved state fits one step only. So that steps can be compared, all of them begin where the run begins.
+  void probe_levels(std::size_t shown, const Costs& costs) {
+    const scene::RunPlan& own = plan_of(shown);
+    const auto stepping_from_start = [&](const scene::RunPlan& plan, const std::string& label) {
+      return rates_of(probe_plan(plan, label, ""), plan).stepping;
+    };
+    const double yardstick =
+        options_.from.empty() ? rates_of(result_.report, own).stepping : stepping_from_start(own, label_of(shown));
+    for (const scene::AccuracyLevel& level : scene::accuracy_levels()) {
+      LevelCost cost{std::string(level.name), level.step, "", {}, {}};
+      double factor = 1;
+      if (level.step != own.system.dt) {
+        try {
+          if (const auto plan = at_step(own, level.step, cost.error)) {
+            factor = stepping_from_start(*plan, fmt::format("accuracy={}", level.name)) / yardstick;
+          }
+        } catch (const Failure& failure) {
+          cost.error = failure.what();
+        }
+      }
+      if (cost.error.empty()) {
+        cost.cpu = costs.cpu(factor);
+        cost.disk = costs.disk;
+      }
+      result_.levels.push_back(std::move(cost));
+    }
+  }
+
+  const scene::Sweep& sweep_;
+  const EstimateOptions& options_;
+  CostEstimate result_;
+  std::vector<std::size_t> distinct_;      ///< the first point of each kind
+  std::vector<std::size_t> n_alike_;       ///< (distinct_) how many points are of the kind
+  std::size_t n_probes_ = 0, n_done_ = 0;  ///< to be made, and made
+};
+
+std::string step_text(double step) {
+  return step > 0 ? scene::format_quantity(step, scene::Dimension::kTime) : "several";
+}
+
+/// What the step of a level does to the system that the levels were measured with; lines of at most `width` columns.
+std::string level_errors(const CostEstimate& estimate, std::size_t width) {
+  std::string text;
+  for (const LevelCost& level : estimate.levels) {
+    const scene::AccuracyLevel* known = scene::accuracy_level(level.name);
+    if (known == nullptr || known->bias.empty()) continue;
+    const std::string indent(8, ' ');
+    std::string line = fmt::format("  {:<6}", level.name);
+    std::string separator;
+    for (const scene::Bias& bias : known->bias) {
+      const std::string item =
+          fmt::format("{} {:+.2g} +- {:.1g} {}", bias.observable, bias.value, bias.error, bias.unit);
+      if (line.size() + separator.size() + item.size() + 1 > width && line.size() > indent.size()) {
+        text += line + ",\n";
+        line = indent;
+        separator.clear();
+      }
+      line += separator + item;
+      separator = ", ";
+    }
+    text += line + "\n";
+  }
+  if (text.empty()) return text;
+  return "\nErrors of the levels, as measured with apolar rods of 4.5 mm at area fraction 0.75 in a box; this scene "
+         "may\n"
+         "have others (docs/accuracy.md):\n" +
+         text;
+}
+
+}  // namespace
+
+std::string bytes_text(double bytes) {
+  constexpr std::array<const char*, 5> kUnits{"B", "kB", "MB", "GB", "TB"};
+  std::size_t unit = 0;
+  while (bytes >= 999.5 && unit + 1 < kUnits.size()) {
+    bytes /= 1000;
+    ++unit;
+  }
+  return fmt::format("{:.3g} {}", bytes, kUnits[unit]);
+}
+
+std::string cpu_text(double seconds) {
+  if (seconds < 60) return fmt::format("{:.2g} CPU-seconds", seconds);
+  if (seconds < 3600) return fmt::format("{:.3g} CPU-minutes", seconds / 60);
+  return fmt::format("{:.4g} CPU-hours", seconds / 3600);
+}
+
+ProbeProgress probe_progress(const Console& console) {
+  if (!console.err_is_terminal) return {};
+  return [&err = console.err](std::size_t done, std::size_t all) {
+    err << "\r\x1b[K";
+    if (done < all) err << fmt::format("probing what it costs: {} of {}", done + 1, all);
+    err << std::flush;
+  };
+}
+
+CostEstimate estimate_cost(const scene::Sweep& sweep, const EstimateOptions& options) {
+  return Estimator(sweep, options).run();
+}
+
+std::string cost_text(const CostEstimate& estimate, int width) {
+  if (estimate.levels.empty()) return "";
+  Table table({{"ACCURACY"},
+               {"STEP", Table::Align::kRight},
+               {"CPU TIME", Table::Align::kRight},
+               {"DISK", Table::Align::kRight},
+               {""}});
+  for (const LevelCost& level : estimate.levels) {
+    table.add_row({level.name, step_text(level.step), level.cpu ? cpu_text(*level.cpu) : "-",
+                   level.disk ? bytes_text(*level.disk) : "-",
+                   level.error.empty() ? "" : "not possible: " + level.error});
+  }
+  std::string text = table.text(width);
+  if (estimate.n_runs > 1) {
+    text += fmt::format("All {} runs together. ", estimate.n_runs);
+    if (estimate.n_distinct < estimate.n_runs)
+      text += fmt::format("{} differ in more than their seed. ", estimate.n_distinct);
+    text += estimate.n_probed < estimate.n_distinct
+                ? fmt::format("{} of them were probed; the others are interpolated between these.\n", estimate.n_probed)
+                : "Each of these was probed.\n";
+    text += estimate.levels.size() > 1 ? "The steps of the levels were probed at one point, and change the cost of the "
+                                         "others by the same factor.\n"
+                                       : "";
+  }
+  static constexpr std::size_t kWidth = 100;
+  return text + level_errors(estimate, width > 0 ? static_cast<std::size_t>(width) : kWidth);
+}
+
+Json cost_json(const CostEstimate& estimate) {
+  Json json{{"n_runs", estimate.n_runs}, {"n_distinct", estimate.n_distinct}, {"n_probed", estimate.n_probed}};
+  json["levels"] = Json::array();
+  for (const LevelCost& level : estimate.levels) {
+    Json entry{{"name", level.name},
+               {"step_s", level.step > 0 ? Json(level.step) : Json()},
+               {"cpu_seconds", level.cpu ? Json(*level.cpu) : Json()},
+               {"disk_bytes", level.disk ? Json(*level.disk) : Json()}};
+    if (!level.error.empty()) entry["error"] = level.error;
+    if (const scene::AccuracyLevel* known = scene::accuracy_level(level.name)) {
+      entry["bias"] = Json::array();
+      for (const scene::Bias& bias : known->bias) {
+        entry["bias"].push_back(
+            {{"observable", bias.observable}, {"value", bias.value}, {"error", bias.error}, {"unit", bias.unit}});
+      }
+      if (known->cost) entry["relative_cost"] = *known->cost;
+    }
+    json["levels"].push_back(std::move(entry));
+  }
+  return json;
+}
+
+}  // namespace shaken::client

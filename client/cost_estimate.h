@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/console.h"
+#include "client/json.h"
+#include "scene/sweep.h"
+
+namespace shaken::client {
+
+/// Shows how many probes of a run are made, with nothing left of it at the end.
+using ProbeProgress = std::function<void(std::size_t done, std::size_t all)>;
+/// A line on a terminal's stderr, redrawn; nothing where there is no terminal.
+ProbeProgress probe_progress(const Console& console);
+
+/// At most this many of a sweep's points are probed.
+inline constexpr std::size_t kMostProbes = 5;
+
+struct EstimateOptions {
+  bool probe = true;   ///< step a piece of some runs; otherwise only what is on and off
+  double cpu = 1.5;    ///< CPU time of each probe's steps, about [s]
+  std::string from{};  ///< directory of a run of the same system to start from; empty: the run's own start
+  std::size_t most_probes = kMostProbes;  ///< points of a sweep that are probed, at most
+  bool levels = true;                     ///< probe the steps of the levels of accuracy too, if all points have one
+  ProbeProgress on_probe{};               ///< called before the first probe and after each
+};
+
+/// What all runs of a sweep cost together at one step.
+struct LevelCost {
+  std::string name;            ///< of the level of accuracy; "as written" for the steps of the scenes themselves
+  double step = 0;             ///< [s]; 0 where the scenes have several
+  std::string error;           ///< why there is no figure, if so
+  std::optional<double> cpu;   ///< [s], all runs together
+  std::optional<double> disk;  ///< [bytes]
+};
+
+/// What a sweep would cost on this machine, on one core.
+struct CostEstimate {
+  std::size_t n_runs = 0;
+  std::size_t n_distinct = 0;  ///< runs that differ in more than their seed
+  std::size_t n_probed = 0;    ///< of these
+  std::size_t shown = 0;       ///< the point that `report` is of
+  Json report;                 ///< of `shaken-worker --probe` (run/probe/probe.h)
+  std::vector<LevelCost> levels;
+};
+
+/// Probes a handful of points by `shaken-worker --probe`, evenly along the sweep; costs of those between them, per rod
+/// and simulated second, are interpolated. The steps of the levels are probed at one point, and taken to change the
+/// cost of all others by the same factor. Throws Failure if a point cannot be simulated.
+CostEstimate estimate_cost(const scene::Sweep& sweep, const EstimateOptions& options);
+
+/// The costs as a table, and a line on where they come from; empty if nothing was probed.
+std::string cost_text(const CostEstimate& estimate, int width);
+Json cost_json(const CostEstimate& estimate);
+
+/// "3.2 MB"
+std::string bytes_text(double bytes);
+/// "12.3 CPU-hours", "4.1 CPU-minutes"
+std::string cpu_text(double seconds);
+
+}  // namespace shaken::client

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "study/selection.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <set>
+
+#include "run/files/directory.h"
+
+namespace shaken::study {
+
+namespace fs = std::filesystem;
+
+double NamedSweep::rod_seconds() const {
+  double sum = 0;
+  for (const scene::SweepPoint& point : sweep.points) sum += point.plan.system.n_all_rods() * point.plan.total_time();
+  return sum;
+}
+
+Selection selected(const std::vector<std::string>& ids, std::string& problems) {
+  const auto all = paper_figures();
+  for (const std::string& id : ids) {
+    if (std::none_of(all.begin(), all.end(), [&](const PaperFigure& figure) { return figure.id == id; })) {
+      problems += fmt::format("there is no figure '{}'\n", id);
+    }
+  }
+  Selection selection;
+  std::set<std::string_view> needed;
+  for (const PaperFigure& figure : all) {
+    if (!ids.empty() && std::find(ids.begin(), ids.end(), figure.id) == ids.end()) continue;
+    selection.figures.push_back(&figure);
+    needed.insert(figure.sets.begin(), figure.sets.end());
+  }
+  for (const std::string_view set : all_sets()) {
+    selection.sweeps.push_back({.name = std::string(set), .needed = needed.contains(set)});
+  }
+  return selection;
+}
+
+fs::path sweeps_folder(const std::string& configs, const std::string& scale) {
+  const auto root = [&]() -> fs::path {
+    if (!configs.empty()) return configs;
+    if (const char* given = std::getenv("SHAKEN_CONFIGS"); given != nullptr && *given != '\0') return given;
+    return fs::exists("configs/figures") ? "configs" : SHAKEN_CONFIGS_DIR;
+  };
+  return root() / "figures" / scale;
+}
+
+void load(Selection& selection, const fs::path& folder) {
+  for (NamedSweep& sweep : selection.sweeps) {
+    sweep.input = client::read_scene_input((folder / (sweep.name + ".json")).string());
+    sweep.sweep = client::load_points(sweep.input, {}, std::nullopt);
+  }
+}
+
+fs::path directory_of(const scene::SweepPoint& point, const fs::path& runs_folder) {
+  return runs_folder / client::derived_quantities(point).at("id").get<std::string>();
+}
+
+scene::Sweep rest_of(const scene::Sweep& sweep, const fs::path& runs_folder) {
+  scene::Sweep rest = sweep;
+  std::erase_if(rest.points, [&](const scene::SweepPoint& point) {
+    return run::is_done(run::RunDirectory{directory_of(point, runs_folder)});
+  });
+  return rest;
+}
+
+Library done_runs(const Selection& selection, const fs::path& runs_folder) {
+  Library library;
+  for (const NamedSweep& sweep : selection.sweeps) {
+    RunSet set;
+    for (const scene::SweepPoint& point : sweep.sweep.points) {
+      const fs::path directory = directory_of(point, runs_folder);
+      if (run::is_done(run::RunDirectory{directory})) set.emplace_back(directory, point.parameters);
+    }
+    library.add(sweep.name, std::move(set));
+  }
+  return library;
+}
+
+Library for_figures(Library runs) {
+  runs.add("phases", joined(runs["phases"], runs["transition"]));
+  return runs;
+}
+
+}  // namespace shaken::study

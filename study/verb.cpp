@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+#include "study/verb.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "base/files.h"
+#include "base/interrupt.h"
+#include "base/process.h"
+#include "base/table.h"
+#include "client/verbs/verbs.h"
+#include "study/claims.h"
+#include "study/drawing.h"
+#include "study/report.h"
+#include "study/scheduling.h"
+#include "study/selection.h"
+
+namespace shaken::study {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> figure_ids() {
+  std::vector<std::string> ids;
+  for (const PaperFigure& figure : paper_figures()) ids.emplace_back(figure.id);
+  return ids;
+}
+
+class Figures : public client::Verb {
+ public:
+  client::VerbInfo info() const override {
+    return {"figures", client::kResultsGroup,
+            "The figures of Sharma & Soni (2024), and some beyond: runs, waits, draws",
+            "  shaken figures                        everything at laptop scale, into figures-laptop/\n"
+            "  shaken figures --list                 what there is, and the runs that each needs\n"
+            "  shaken figures 2 6 7                  the phase diagram and the layers\n"
+            "  shaken figures --scale tiny           seconds: to see that all is there\n"
+            "  shaken figures --scale paper --dry-run   what the paper's sizes would cost here\n"
+            "  shaken figures --draw-only            from the runs that are done, while others go on\n"
+            "Stop it at any time: the same command goes on where it stopped. `shaken watch` and `shaken status` work\n"
+            "meanwhile. What it will cost is told before it starts, and asked on a terminal. Beside each PNG lie its "
+            "data (.dat) and the script that draws it again (.gp)."};
+  }
+
+  void declare(client::Arguments& arguments) override {
+    arguments.list("FIGURE", ids_, "2 to 10, or a name of --list; all if left out", figure_ids());
+    arguments.option("--scale", scale_, "tiny|laptop|paper", "Size of the runs; laptop if left out");
+    arguments.option("-o,--out", out_, "DIR", "Where to draw; figures-SCALE if left out", client::Names::kFolder);
+    arguments.option("--configs", configs_, "DIR", "Folder that holds figures/SCALE/*.json", client::Names::kFolder);
+    arguments.flag("--list", list_, "List the figures and the sweeps they need, and do nothing");
+    arguments.flag("--dry-run", dry_run_, "Check the sweeps and say what they would cost on this machine");
+    arguments.flag("-y,--yes", yes_, "Start without asking, also on a terminal");
+    arguments.flag("--draw-only", draw_only_, "Queue nothing: draw from the runs that are done");
+    arguments.option("--report", report_, "FILE",
+                     "Put claims, costs and versions between the marks in this Markdown file, as in docs/validation.md",
+                     client::Names::kFile);
+    arguments.flag("--json", json_, "Print what was made as JSON");
+  }
+
+  ExitCode run(const client::Context& context) override {
+    client::Console& console = context.console;
+    choose();
+    if (list_) return show_list(console);
+    load(selection_, sweeps_folder(configs_, scale_));
+    if (dry_run_) {
+      show_cost(selection_, scale_, json_, console);
+      return ExitCode::kOk;
+    }
+    if (out_.empty()) out_ = "figures-" + scale_;
+
+    const fs::path root = context.root(), runs_folder = root / "runs";
+    const InterruptGuard guard;
+    prepare();
+    FigureMaker maker(selection_, runs_folder, out_, json_, console);
+    bool complete = true;
+    if (draw_only_) {
+      for (const PaperFigure* figure : selection_.figures) {
+        if (!guard.interrupted()) complete &= maker.draw(*figure);
+      }
+      if (!guard.interrupted()) conclude(runs_folder, maker.made(), console);
+    } else {
+      if (!is_agreed_to(selection_, runs_folder, yes_, console)) {
+        console.err << "nothing was started\n";
+        return ExitCode::kFailed;
+      }
+      Schedule schedule(selection_, root, console);
+      schedule.submit();
+      complete = schedule.wait(guard, [&](const PaperFigure& figure) { return maker.draw(figure); });
+      if (!guard.interrupted()) conclude(runs_folder, maker.made(), console);
+      schedule.let_others_finish(guard);
+    }
+    if (guard.interrupted()) {
+      console.err << "interrupted: the same command goes on from here\n";
+      return ExitCode::kInterrupted;
+    }
+    return complete ? ExitCode::kOk : ExitCode::kFailed;
+  }
+
+ private:
+  /// The figures asked for. Throws Failure with all that is wrong with the options.
+  void choose() {
+    static constexpr std::string_view kScales[] = {"tiny", "laptop", "paper"};
+    std::string problems;
+    if (std::find(std::begin(kScales), std::end(kScales), scale_) == std::end(kScales)) {
+      problems += fmt::format("--scale takes tiny, laptop or paper, not '{}'\n", scale_);
+    }
+    if (draw_only_ && dry_run_) problems += "--draw-only and --dry-run exclude each other\n";
+    selection_ = selected(ids_, problems);
+    if (problems.empty()) return;
+    std::string names;
+    for (const std::string& id : figure_ids()) names += " " + id;
+    throw Failure(ExitCode::kBadInput, problems + "figures:" + names);
+  }
+
+  /// What would otherwise fail only after hours.
+  void prepare() const {
+    std::string problems;
+    if (run_captured({"gnuplot", "--version"}).exit_code != 0) {
+      problems += "gnuplot is not here: `apt install gnuplot-nox`\n";
+    }
+    std::error_code error;
+    fs::create_directories(out_, error);
+    const fs::path trial = fs::path(out_) / ".trial";
+    if (!error && write_file_atomically(trial, "")) error = std::make_error_code(std::errc::permission_denied);
+    std::error_code ignored;
+    fs::remove(trial, ignored);
+    if (error) problems += fmt::format("{}: cannot be written to: {}\n", out_, error.message());
+    if (!report_.empty()) {
+      try {
+        with_sections(report_, report_sections({}));
+      } catch (const Failure& failure) {
+        problems += fmt::format("{}: {}\n", report_, failure.what());
+      }
+    }
+    if (problems.empty()) return;
+    problems.pop_back();
+    throw Failure(ExitCode::kBadInput, problems);
+  }
+
+  ExitCode show_list(client::Console& console) const {
+    if (json_) {
+      Json list = Json::array();
+      for (const PaperFigure* figure : selection_.figures) {
+        list.push_back({{"id", figure->id}, {"title", figure->title}, {"sweeps", figure->sets}});
+      }
+      console.out << list.dump(2) << "\n";
+      return ExitCode::kOk;
+    }
+    Table table({{"FIGURE"}, {"SHOWS"}, {"SWEEPS"}});
+    for (const PaperFigure* figure : selection_.figures) {
+      std::string sets;
+      for (const std::string_view set : figure->sets) sets += (sets.empty() ? "" : " ") + std::string(set);
+      table.add_row({std::string(figure->id), std::string(figure->title), sets});
+    }
+    console.out << table.text(console.width) << fmt::format("Sweeps: {}\n", sweeps_folder(configs_, scale_).string());
+    return ExitCode::kOk;
+  }
+
+  /// The claims that belong to the figures asked for, from all runs at hand.
+  void conclude(const fs::path& runs_folder, const Json& made, client::Console& console) const {
+    const Library by_sweep = done_runs(selection_, runs_folder), runs = for_figures(by_sweep);
+    std::vector<std::string_view> figures;
+    for (const PaperFigure* figure : selection_.figures) figures.push_back(figure->id);
+    const std::vector<Claim> claims = claims_of(figures);
+    const fs::path table = fs::path(out_) / "claims.md";
+    fail_if(write_file_atomically(table, claims_table(runs, claims)));
+    fail_if(write_file_atomically(fs::path(out_) / "claims.json", claims_json(runs, claims).dump(2) + "\n"));
+    // a report is of everything, whatever was drawn
+    if (!report_.empty()) {
+      fail_if(write_file_atomically(report_, with_sections(report_, report_sections(by_sweep))));
+    }
+    if (const std::set<std::string> versions = versions_of(by_sweep, all_sets()); versions.size() > 1) {
+      console.err << "runs of several versions together:\n" << origin_text(by_sweep, all_sets());
+    }
+    if (json_) {
+      console.out << Json{{"scale", scale_}, {"made", made}, {"claims", claims_json(runs, claims)}}.dump(2) << "\n";
+    } else {
+      console.out << table.string() << "\n";
+    }
+  }
+
+  std::vector<std::string> ids_;
+  std::string scale_ = "laptop";
+  std::string out_;
+  std::string configs_;
+  std::string report_;
+  bool list_ = false, dry_run_ = false, draw_only_ = false, yes_ = false, json_ = false;
+  Selection selection_;
+};
+
+}  // namespace
+
+std::unique_ptr<client::Verb> make_figures() { return std::make_unique<Figures>(); }
+
+std::vector<std::unique_ptr<client::Verb>> make_all_verbs() {
+  auto verbs = client::make_verbs();
+  const auto plot = std::find_if(verbs.begin(), verbs.end(),
+                                 [](const auto& verb) { return std::string_view(verb->info().name) == "plot"; });
+  verbs.insert(plot == verbs.end() ? plot : plot + 1, make_figures());
+  return verbs;
+}
+
+}  // namespace shaken::study

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// `shaken figures` as far as it needs no daemon; tests/e2e/figures_test.cpp has the rest.
+#include "study/verb.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "client/json.h"
+#include "study/figures.h"
+#include "tests/unit/client/run_client.h"
+
+namespace shaken::study {
+namespace {
+
+using client::Outcome;
+using ::testing::HasSubstr;
+
+Outcome run_shaken(const std::vector<std::string>& arguments) {
+  return client::run_client(arguments, 0, make_all_verbs());
+}
+
+TEST(AllVerbs, FiguresStandBehindPlot) {
+  std::string names;
+  for (const auto& verb : make_all_verbs()) names += std::string(verb->info().name) + " ";
+  EXPECT_THAT(names, HasSubstr(" results plot figures movie "));
+  const Outcome help = run_shaken({"figures", "--help"});
+  EXPECT_EQ(help.code, ExitCode::kOk);
+  EXPECT_THAT(help.out, HasSubstr("shaken figures --draw-only"));
+}
+
+TEST(Figures, ListsEveryOne) {
+  const Outcome list = run_shaken({"figures", "--list", "--json"});
+  EXPECT_EQ(list.code, ExitCode::kOk) << list.err;
+  EXPECT_EQ(Json::parse(list.out).size(), paper_figures().size());
+}
+
+TEST(Figures, RefusesAllThatIsWrongAtOnce) {
+  const Outcome outcome = run_shaken({"figures", "17", "layers?", "--scale", "huge", "--draw-only", "--dry-run"});
+  EXPECT_EQ(outcome.code, ExitCode::kBadInput);
+  for (const char* words : {"--scale takes tiny, laptop or paper, not 'huge'", "there is no figure '17'",
+                            "there is no figure 'layers?'", "exclude each other", "figures: 2 3 4 "}) {
+    EXPECT_THAT(outcome.err, HasSubstr(words));
+  }
+}
+
+TEST(Figures, ShellsAreOfferedNamesAndScales) {
+  const std::string script = run_shaken({"completion", "bash"}).out;
+  EXPECT_THAT(script, HasSubstr("figures)"));
+  EXPECT_THAT(script, HasSubstr("\"tiny laptop paper\""));
+  EXPECT_THAT(script, HasSubstr("\"2 3 4 5 6 7 8 9 10 defects "));
+}
+
+}  // namespace
+}  // namespace shaken::study
