@@ -55,7 +55,9 @@ class ScratchFile {
 Json probe(const scene::RunPlan& plan, const std::string& label, double cpu, const std::string& from) {
   const ScratchFile scene(".json");
   const ScratchFile answer(".json");
-  fail_if(write_file(scene.path(), scene::to_json(plan).dump()));
+  if (const auto error = write_file(scene.path(), scene::to_json(plan).dump())) {
+    throw Failure(ExitCode::kFailed, error->message);
+  }
   std::vector<std::string> command{sibling_program("shaken-worker").string(),
                                    scene.path(),
                                    "--probe",
@@ -70,7 +72,9 @@ Json probe(const scene::RunPlan& plan, const std::string& label, double cpu, con
     throw Failure(result.exit_code == 2 ? ExitCode::kBadInput : ExitCode::kFailed,
                   label.empty() ? words : fmt::format("{}: {}", label, words));
   }
-  return Json::parse(value_or_fail(read_file(answer.path())));
+  const auto text = read_file(answer.path());
+  if (!text) throw Failure(ExitCode::kFailed, text.error().message);
+  return Json::parse(*text);
 }
 
 /// Costs of a run in the units that change least from run to run.
@@ -368,7 +372,7 @@ CostEstimate estimate_cost(const scene::Sweep& sweep, const EstimateOptions& opt
   return Estimator(sweep, options).run();
 }
 
-std::string cost_text(const CostEstimate& estimate, int width) {
+std::string estimate_text(const CostEstimate& estimate, int width) {
   if (estimate.levels.empty()) return "";
   Table table({{"ACCURACY"},
                {"STEP", Table::Align::kRight},
@@ -394,7 +398,7 @@ std::string cost_text(const CostEstimate& estimate, int width) {
   return text + level_errors(estimate, width > 0 ? static_cast<std::size_t>(width) : kWidth);
 }
 
-Json cost_json(const CostEstimate& estimate) {
+Json estimate_json(const CostEstimate& estimate) {
   Json json{{"n_runs", estimate.n_runs}, {"n_distinct", estimate.n_distinct}, {"n_probed", estimate.n_probed}};
   json["levels"] = Json::array();
   for (const LevelCost& level : estimate.levels) {
