@@ -36,16 +36,10 @@ std::string shaking(const std::string& scene_json) {
 }
 
 std::optional<SideWalls> walls_of(const frame_static_t& message) {
+  const std::optional<Arena> arena = arena_of(message.arena);
+  if (!arena) return std::nullopt;
   SideWalls walls;
-  if (message.arena == "disc") {
-    walls.arena = Arena::kDisc;
-  } else if (message.arena == "square") {
-    walls.arena = Arena::kSquare;
-  } else if (message.arena == "annulus") {
-    walls.arena = Arena::kAnnulus;
-  } else {
-    return std::nullopt;
-  }
+  walls.arena = *arena;
   walls.size = message.arena_size_mm;
   walls.inner = message.arena_inner_mm;
   return walls;
