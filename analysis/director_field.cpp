@@ -142,10 +142,6 @@ Vec2 DirectorField::q_at(const Vec2& position) const {
          part.y() * ((1 - part.x()) * q(i, j + 1) + part.x() * q(i + 1, j + 1));
 }
 
-double DirectorField::theta_at(const Vec2& position) const { return theta_of(q_at(position)); }
-
-double DirectorField::order_at(const Vec2& position) const { return order_of(q_at(position)); }
-
 std::size_t DirectorField::index(int i, int j) const {
   const auto on_grid = [this](int k) {
     return static_cast<std::size_t>(region_.is_periodic() ? wrapped(k, n_) : std::clamp(k, 0, n_ - 1));

@@ -63,7 +63,6 @@ class MeanSquareDisplacement {
   /// Of the origins from `t_steady` [s] on.
   MsdCurve reduce(double t_steady = -std::numeric_limits<double>::max()) const;
   Diffusion diffusion(double t_steady = -std::numeric_limits<double>::max()) const;
-  void reset() { average_.reset(); }
 
   void save(StateWriter& writer) const { average_.save(writer); }
   void restore(StateReader& reader) { average_.restore(reader); }

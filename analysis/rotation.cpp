@@ -79,11 +79,6 @@ RotationSummary Rotation::summarize(double t_steady) const {
   return summary;
 }
 
-void Rotation::reset() {
-  average_.reset();
-  large_turns_ = 0;
-}
-
 void Rotation::save(StateWriter& writer) const {
   writer.put(large_turns_);
   average_.save(writer);

@@ -55,7 +55,6 @@ class Rotation {
   /// Of the origins from `t_steady` [s] on.
   RotationCurve reduce(double t_steady = -std::numeric_limits<double>::max()) const;
   RotationSummary summarize(double t_steady = -std::numeric_limits<double>::max()) const;
-  void reset();
 
   void save(StateWriter& writer) const;
   void restore(StateReader& reader);

@@ -204,11 +204,6 @@ VelocitySummary VelocityCorrelation::summarize(double t_steady) const {
   return summary;
 }
 
-void VelocityCorrelation::reset() {
-  places_.clear();
-  average_.reset();
-}
-
 void VelocityCorrelation::save(StateWriter& writer) const {
   writer.put(static_cast<std::int64_t>(steps_));
   writer.put(static_cast<std::int64_t>(places_.size()));
