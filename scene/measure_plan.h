@@ -96,6 +96,13 @@ struct MeasureLattice {
   double every = 1.0;  ///< [s]
   friend bool operator==(const MeasureLattice&, const MeasureLattice&) = default;
 };
+/// Structure factor of the rods' centres.
+struct MeasureStructure {
+  double every = 1.0;  ///< [s]
+  int waves = 64;      ///< wave numbers, 2 pi k / L for k = 1 .. waves
+  friend bool operator==(const MeasureStructure&, const MeasureStructure&) = default;
+};
+
 /// What a run measures. An absent observable is not measured and costs nothing.
 struct MeasurePlan {
   std::optional<MeasureOrder> order;
@@ -112,6 +119,7 @@ struct MeasurePlan {
   std::optional<MeasurePairs> pairs;
   std::optional<MeasureLayers> layers;
   std::optional<MeasureLattice> lattice;
+  std::optional<MeasureStructure> structure;
   friend bool operator==(const MeasurePlan&, const MeasurePlan&) = default;
 };
 

@@ -118,6 +118,13 @@ std::vector<Observable> make_observables() {
       .name = "lattice",
       .doc = "Crystalline order: psi_6 and the largest Bragg peak.",
       .periodic = "the nearest images and waves"}),
+    of<&Plan::structure>({
+      .name = "structure",
+      .doc = "Structure factor S(q) of the rods' centres: in all directions, along the director and across it.",
+      .periodic = "the waves",
+      .keys = {
+        whole("waves", at<&Plan::structure, &MeasureStructure::waves>, 2, 128,
+              "Number of wave numbers 2 pi k / L. The time that a sample takes grows with its square.")}}),
   };
 }
 // clang-format on

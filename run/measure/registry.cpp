@@ -9,7 +9,7 @@ std::span<const MeasurementKind> measurement_kinds() {
   static const std::vector<MeasurementKind> kinds{order_kind(),  angles_kind(),       tilt_kind(),     defects_kind(),
                                                   g2_kind(),     msd_kind(),          rotation_kind(), velocity_kind(),
                                                   rods_kind(),   fluctuations_kind(), frank_kind(),    pairs_kind(),
-                                                  layers_kind(), lattice_kind()};
+                                                  layers_kind(), lattice_kind(),      structure_kind()};
   return kinds;
 }
 

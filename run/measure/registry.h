@@ -61,6 +61,7 @@ MeasurementKind order_kind();
 MeasurementKind pairs_kind();
 MeasurementKind rods_kind();
 MeasurementKind rotation_kind();
+MeasurementKind structure_kind();
 MeasurementKind tilt_kind();
 MeasurementKind velocity_kind();
 
