@@ -53,48 +53,49 @@ inline constexpr At<steps...> at{};
 
 /// Fetches and stores the number at `access`.
 template <class Access>
-Field number(std::string path, Access access, Form form, Dimension dimension, double low, double high,
-             std::string doc) {
+Field number(const std::string& path, Access access, Form form, Dimension dimension, double low, double high,
+             const std::string& doc) {
   using Number = std::remove_cvref_t<decltype(access(std::declval<RunPlan&>()))>;
-  return {.path = std::move(path),
+  return {.path = path,
           .form = form,
           .dimension = dimension,
           .low = low,
           .high = high,
-          .doc = std::move(doc),
+          .doc = doc,
           .fetch = [access](const RunPlan& plan) { return Value(static_cast<double>(access(plan))); },
           .store = [access](RunPlan& plan,
                             const Value& value) { access(plan) = static_cast<Number>(std::get<double>(value)); }};
 }
 
 template <class Access>
-Field quantity(std::string path, Access access, Dimension dimension, double low, double high, std::string doc) {
-  return number(std::move(path), access, Form::kQuantity, dimension, low, high, std::move(doc));
+Field quantity(const std::string& path, Access access, Dimension dimension, double low, double high,
+               const std::string& doc) {
+  return number(path, access, Form::kQuantity, dimension, low, high, doc);
 }
 
 /// The time from one sample, or frame, to the next.
 template <class Access>
-Field every(std::string path, Access access, std::string doc) {
-  return quantity(std::move(path), access, Dimension::kTime, 1e-7, 1e5, std::move(doc));
+Field every(const std::string& path, Access access, const std::string& doc) {
+  return quantity(path, access, Dimension::kTime, 1e-7, 1e5, doc);
 }
 
 template <class Access>
-Field whole(std::string path, Access access, double low, double high, std::string doc) {
-  return number(std::move(path), access, Form::kWhole, Dimension::kPlain, low, high, std::move(doc));
+Field whole(const std::string& path, Access access, double low, double high, const std::string& doc) {
+  return number(path, access, Form::kWhole, Dimension::kPlain, low, high, doc);
 }
 
 template <class Access>
-Field on_or_off(std::string path, Access access, std::string doc) {
-  return {.path = std::move(path),
+Field on_or_off(const std::string& path, Access access, const std::string& doc) {
+  return {.path = path,
           .form = Form::kSwitch,
-          .doc = std::move(doc),
+          .doc = doc,
           .fetch = [access](const RunPlan& plan) { return Value(access(plan)); },
           .store = [access](RunPlan& plan, const Value& on) { access(plan) = std::get<bool>(on); }};
 }
 
 /// One of several values by name; `choices`: pairs of a name and its value.
 template <class Access, class Choices>
-Field choice(std::string path, Access access, const Choices& choices, std::string doc) {
+Field choice(const std::string& path, Access access, const Choices& choices, const std::string& doc) {
   using Enum = std::remove_cvref_t<decltype(access(std::declval<RunPlan&>()))>;
   const std::vector<std::pair<std::string, Enum>> known(choices.begin(), choices.end());
   const auto entry = [known](auto is_it) {
@@ -102,7 +103,7 @@ Field choice(std::string path, Access access, const Choices& choices, std::strin
     SHAKEN_CHECK(found != known.end(), "a name without value or a value without name");
     return *found;
   };
-  Field field{.path = std::move(path), .form = Form::kName, .doc = std::move(doc)};
+  Field field{.path = path, .form = Form::kName, .doc = doc};
   for (const auto& [name, value] : known) field.names.push_back(name);
   field.fetch = [access, entry](const RunPlan& plan) {
     return Value(entry([&](const auto& one) { return one.second == access(plan); }).first);
@@ -114,18 +115,18 @@ Field choice(std::string path, Access access, const Choices& choices, std::strin
 }
 
 template <class Enum, class Access>
-Field choice(std::string path, Access access, std::initializer_list<std::pair<const char*, Enum>> choices,
-             std::string doc) {
-  return choice(std::move(path), access, std::vector(choices), std::move(doc));
+Field choice(const std::string& path, Access access, std::initializer_list<std::pair<const char*, Enum>> choices,
+             const std::string& doc) {
+  return choice(path, access, std::vector(choices), doc);
 }
 
 /// An object that makes the optional at `access` be there; `is_on` says whether it is without being named.
 template <class Access>
-Field block(std::string path, Access access, bool is_on, std::string doc) {
-  return {.path = std::move(path),
+Field block(const std::string& path, Access access, bool is_on, const std::string& doc) {
+  return {.path = path,
           .form = Form::kBlock,
           .fallback = is_on,
-          .doc = std::move(doc),
+          .doc = doc,
           .fetch = [access](const RunPlan& plan) { return Value(access(plan).has_value()); },
           .store =
               [access](RunPlan& plan, const Value& is_there) {
@@ -135,8 +136,8 @@ Field block(std::string path, Access access, bool is_on, std::string doc) {
 }
 
 /// A key whose value follows from others unless it is given; `note` says from which.
-inline Field derived(Field field, std::string note) {
-  field.fallback_note = std::move(note);
+inline Field derived(Field field, const std::string& note) {
+  field.fallback_note = note;
   return field;
 }
 

@@ -26,14 +26,14 @@ inline constexpr auto sys = at<&RunPlan::system, steps...>;
 double to_ten_digits(double value) { return parse_decimal(fmt::format("{:.10g}", value)).value().value(); }
 
 /// A key that is given in place of another: it has no place in a plan.
-Field instead(std::string path, Fetch fetch, Dimension dimension, double low, double high, Value fallback,
-              std::string doc) {
-  return {.path = std::move(path),
+Field instead(const std::string& path, Fetch fetch, Dimension dimension, double low, double high, Value fallback,
+              const std::string& doc) {
+  return {.path = path,
           .dimension = dimension,
           .low = low,
           .high = high,
           .fallback = std::move(fallback),
-          .doc = std::move(doc),
+          .doc = doc,
           .fetch = fetch};
 }
 
@@ -109,8 +109,8 @@ Value fetch_gamma(const RunPlan& p) {
 
 /// The diameters of all beads; nothing where a profile gives them.
 template <class Access>
-Field bead_diameters(std::string path, Access access) {
-  return {.path = std::move(path),
+Field bead_diameters(const std::string& path, Access access) {
+  return {.path = path,
           .form = Form::kNumbers,
           .dimension = kLength,
           .low = 0.05,
