@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "analysis/estimate.h"
-#include "analysis/fold.h"
+#include "analysis/periodic.h"
 #include "sim/core/check.h"
 
 namespace shaken::analysis {

@@ -6,8 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "analysis/fold.h"
-#include "analysis/nearest_image.h"
+#include "analysis/periodic.h"
 #include "sim/core/check.h"
 
 namespace shaken::analysis {

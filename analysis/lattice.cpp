@@ -8,8 +8,8 @@
 #include <limits>
 #include <vector>
 
-#include "analysis/nearest_image.h"
 #include "analysis/order.h"
+#include "analysis/periodic.h"
 #include "analysis/wave_sums.h"
 #include "sim/core/check.h"
 #include "sim/core/rng.h"

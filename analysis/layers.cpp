@@ -7,8 +7,8 @@
 #include <limits>
 #include <utility>
 
-#include "analysis/fold.h"
 #include "analysis/order.h"
+#include "analysis/periodic.h"
 #include "analysis/wave_sums.h"
 #include "sim/core/check.h"
 

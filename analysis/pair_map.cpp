@@ -5,9 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/fold.h"
-#include "analysis/nearest_image.h"
 #include "analysis/order.h"
+#include "analysis/periodic.h"
 #include "sim/core/check.h"
 
 namespace shaken::analysis {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "analysis/decay.h"
-#include "analysis/fold.h"
+#include "analysis/lag_fits.h"
+#include "analysis/periodic.h"
 #include "sim/core/check.h"
 
 namespace shaken::analysis {

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/diffusion.h"
 #include "analysis/estimate.h"
 #include "analysis/lag_average.h"
+#include "analysis/lag_fits.h"
 #include "analysis/state_io.h"
 #include "sim/core/types.h"
 

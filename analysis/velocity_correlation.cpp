@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/decay.h"
+#include "analysis/lag_fits.h"
 #include "sim/core/check.h"
 
 namespace shaken::analysis {

@@ -972,7 +972,7 @@ class Lags:
         return slope, self.sem([(lag, q, ci * w) for lag, ci in zip(window, c) for q, w in enumerate(weights)])
 
     def growth(self, weights):
-        """(from, to, slope, its error, exponent, its error) at short and at long lags, of analysis/diffusion.h."""
+        """(from, to, slope, its error, exponent, its error) at short and at long lags, of analysis/lag_fits.h."""
         value = self.mean @ weights
         first = int(self.lags[0] == 0)
         long = self.last_octave()

@@ -69,7 +69,7 @@ class MeasuredDisplacement : public Measurement {
 MeasurementKind msd_kind() {
   return {
       .name = "msd",
-      .sources = "msd, diffusion, lag_average",
+      .sources = "msd, lag_fits, lag_average",
       .growth = Growth::kLags,
       .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
         return std::make_unique<MeasuredDisplacement>(context.interval, context.plan.steady);

@@ -6,7 +6,7 @@
 
 #include <numeric>
 
-#include "analysis/fold.h"
+#include "analysis/periodic.h"
 #include "tests/unit/analysis/samples.h"
 #include "tests/unit/analysis/state_checks.h"
 
