@@ -37,6 +37,7 @@ if(NOT SHAKEN_ONLY_SIM)
     set_target_properties(${library} PROPERTIES EXPORT_NAME ${name})
   endforeach()
   install(TARGETS ${SHAKEN_LIBRARIES} EXPORT shaken COMPONENT libraries)
+  install(FILES base/estimate.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/shaken/base COMPONENT libraries)
   install(DIRECTORY sim analysis DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/shaken COMPONENT libraries
     FILES_MATCHING PATTERN *.h)
   set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/shaken)
