@@ -28,6 +28,8 @@ ALLOWED = {
     "render/main.cpp": ["render", "base", "run/files", "proto", "sim/core", "sim/scene.h", "sim/snapshot.h", "analysis"],
     "render/sources.h": ["render", "run/files", "proto", "sim/core", "sim/scene.h", "sim/snapshot.h", "analysis"],
     "render/sources.cpp": ["render", "run/files", "proto", "sim/core", "sim/scene.h", "sim/snapshot.h", "analysis"],
+    # the defaults of the director field whose defects are drawn
+    "render/measure.cpp": ["render", "scene/measure_plan.h", "sim/core", "sim/scene.h", "analysis"],
     "render": ["sim/core", "sim/scene.h", "analysis"],
     "server": ["proto", "base", "scene", "run/files", "sim/core"],
     "client": ["proto", "base", "scene", "run/files", "sim/core", "sim/rod", "sim/scene.h"],

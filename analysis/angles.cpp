@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "analysis/fold.h"
 #include "analysis/order.h"
+#include "analysis/periodic.h"
 #include "sim/core/check.h"
 
 namespace shaken::analysis {
@@ -36,23 +36,6 @@ AnglePdf AngleDistribution::reduce() const {
     if (total > 0) pdf.density[i] = static_cast<double>(counts_[i]) / (total * width);
   }
   return pdf;
-}
-
-void AngleDistribution::reset() { std::fill(counts_.begin(), counts_.end(), 0); }
-
-void AngleDistribution::merge(const AngleDistribution& other) {
-  SHAKEN_CHECK(counts_.size() == other.counts_.size(), "histograms of different bins");
-  for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] += other.counts_[i];
-}
-
-void AngleDistribution::save(StateWriter& writer) const {
-  writer.tag("AngleDistribution");
-  writer.put(counts_);
-}
-
-void AngleDistribution::restore(StateReader& reader) {
-  reader.tag("AngleDistribution");
-  counts_ = reader.integers(counts_.size());
 }
 
 }  // namespace shaken::analysis

@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
+#include <tuple>
 #include <vector>
 
-#include "analysis/state_io.h"
+#include "analysis/summed.h"
 #include "sim/core/types.h"
 
 namespace shaken::analysis {
@@ -18,18 +20,15 @@ struct AnglePdf {
 
 /// Histogram of the in-plane angles of the rods, measured from the director of the same instant and folded into
 /// [-pi/2, pi/2). Two peaks at +-theta_m are the mark of the layered phase. Rods exactly upright are left out.
-class AngleDistribution {
+class AngleDistribution : public Summed<AngleDistribution> {
  public:
   explicit AngleDistribution(int bins);
 
   void accumulate(std::span<const Vec3> directors);
   AnglePdf reduce() const;
-  void reset();
-  /// Adds the samples of `other`, which has as many bins.
-  void merge(const AngleDistribution& other);
 
-  void save(StateWriter& writer) const;
-  void restore(StateReader& reader);
+  static constexpr std::string_view kName = "AngleDistribution";
+  static constexpr auto fields() { return std::tuple(&AngleDistribution::counts_); }
 
  private:
   std::vector<std::int64_t> counts_;

@@ -62,11 +62,6 @@ class Blocked {
   /// All samples.
   Accumulator all() const { return after(-std::numeric_limits<double>::max()); }
 
-  void reset() {
-    blocks_.clear();
-    calls_per_block_ = 1;
-  }
-
   void save(StateWriter& writer) const {
     writer.tag("Blocked");
     writer.put(calls_per_block_);

@@ -48,11 +48,8 @@ class BoundedSeries {
     return samples / samples_per_point;
   }
 
-  void reset() { *this = BoundedSeries(max_points_); }
-
   const std::vector<double>& times() const { return columns_[0]; }                    ///< (n) [s]
   const std::vector<double>& column(std::size_t k) const { return columns_[k + 1]; }  ///< (n)
-  std::int64_t samples_per_point() const { return samples_per_point_; }
 
   void save(StateWriter& writer) const {
     writer.tag("BoundedSeries");

@@ -40,8 +40,6 @@ DefectSeries::MeanCounts DefectSeries::reduce(double t_steady) const {
   return mean;
 }
 
-void DefectSeries::reset() { *this = DefectSeries(keeps_list_); }
-
 void DefectSeries::save(StateWriter& writer) const {
   writer.tag("DefectSeries");
   counts_.save(writer);

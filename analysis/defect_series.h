@@ -33,7 +33,6 @@ class DefectSeries {
     double n_plus = 0, n_minus = 0;
   };
   MeanCounts reduce(double t_steady) const;
-  void reset();
 
   const std::vector<double>& times() const { return counts_.times(); }      ///< (n) [s]
   const std::vector<double>& n_plus() const { return counts_.column(0); }   ///< (n) defects of positive charge

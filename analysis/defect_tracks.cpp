@@ -274,8 +274,6 @@ TrackSummary DefectTracks::reduce(double t_steady) const {
   return summary;
 }
 
-void DefectTracks::reset() { *this = DefectTracks(settings_); }
-
 void DefectTracks::save(StateWriter& writer) const {
   writer.tag("DefectTracks");
   writer.put(next_id_);

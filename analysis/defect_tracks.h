@@ -109,7 +109,6 @@ class DefectTracks {
 
   /// From `t_steady` [s] on, errors from the stretches of time.
   TrackSummary reduce(double t_steady) const;
-  void reset();
 
   void save(StateWriter& writer) const;
   void restore(StateReader& reader);

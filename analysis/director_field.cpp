@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/fold.h"
+#include "analysis/periodic.h"
 #include "sim/core/check.h"
 
 namespace shaken::analysis {
@@ -141,10 +141,6 @@ Vec2 DirectorField::q_at(const Vec2& position) const {
   return (1 - part.y()) * ((1 - part.x()) * q(i, j) + part.x() * q(i + 1, j)) +
          part.y() * ((1 - part.x()) * q(i, j + 1) + part.x() * q(i + 1, j + 1));
 }
-
-double DirectorField::theta_at(const Vec2& position) const { return theta_of(q_at(position)); }
-
-double DirectorField::order_at(const Vec2& position) const { return order_of(q_at(position)); }
 
 std::size_t DirectorField::index(int i, int j) const {
   const auto on_grid = [this](int k) {

@@ -46,8 +46,6 @@ class DirectorField {
 
   /// (Q_xx, Q_xy) anywhere [mm], bilinear between the nodes.
   Vec2 q_at(const Vec2& position) const;
-  double theta_at(const Vec2& position) const;  ///< of the interpolated Q
-  double order_at(const Vec2& position) const;  ///< of the interpolated Q
 
  private:
   std::size_t index(int i, int j) const;

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "analysis/estimate.h"
-#include "analysis/fold.h"
+#include "analysis/periodic.h"
 #include "sim/core/check.h"
 
 namespace shaken::analysis {
@@ -227,14 +227,7 @@ void DirectorFluctuations::accumulate(std::span<const Vec3> positions, std::span
 
 void DirectorFluctuations::merge(const DirectorFluctuations& other) {
   SHAKEN_CHECK(box_side_ == other.box_side_, "fluctuations in different boxes");
-  for (const auto& [place, from] : other.sectors_) {
-    Sector& to = sectors_[place];
-    to.samples += from.samples;
-    to.cosine += from.cosine;
-    to.sine += from.sine;
-    to.floor += from.floor;
-    for (std::size_t k = 0; k < to.power.size(); ++k) to.power[k] += from.power[k];
-  }
+  for (const auto& [place, from] : other.sectors_) sectors_[place].merge(from);
 }
 
 std::vector<DirectorFluctuations::Point> DirectorFluctuations::points() const {
@@ -331,11 +324,7 @@ void DirectorFluctuations::save(StateWriter& writer) const {
   writer.put(static_cast<std::int64_t>(sectors_.size()));
   for (const auto& [place, sector] : sectors_) {
     writer.put(place);
-    writer.put(sector.samples);
-    writer.put(sector.cosine);
-    writer.put(sector.sine);
-    writer.put(sector.floor);
-    writer.put(sector.power);
+    sector.save(writer);
   }
 }
 
@@ -348,15 +337,7 @@ void DirectorFluctuations::restore(StateReader& reader) {
   }
   std::map<std::int64_t, Sector> sectors;
   const std::int64_t n_sectors = reader.integer(0, kSectors);
-  for (std::int64_t k = 0; k < n_sectors; ++k) {
-    Sector& sector = sectors[reader.integer(0, kSectors - 1)];
-    sector.samples = reader.integer(1, std::numeric_limits<std::int64_t>::max() / 2);
-    sector.cosine = reader.real();
-    sector.sine = reader.real();
-    sector.floor = reader.real();
-    const std::vector<double> power = reader.reals(sector.power.size());
-    std::copy(power.begin(), power.end(), sector.power.begin());
-  }
+  for (std::int64_t k = 0; k < n_sectors; ++k) sectors[reader.integer(0, kSectors - 1)].restore(reader);
   sectors_ = std::move(sectors);
 }
 

@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <map>
 #include <span>
+#include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "analysis/blocked.h"
 #include "analysis/jackknife.h"
-#include "analysis/state_io.h"
+#include "analysis/summed.h"
 #include "sim/core/types.h"
 
 namespace shaken::analysis {
@@ -61,7 +63,6 @@ class DirectorFluctuations {
 
   /// Centres (n_rods) [mm] and directors (n_rods). Rods exactly upright, or not finite, are left out.
   void accumulate(std::span<const Vec3> positions, std::span<const Vec3> directors);
-  void reset() { sectors_.clear(); }
   /// Adds the samples of `other`, of the same box.
   void merge(const DirectorFluctuations& other);
 
@@ -76,11 +77,15 @@ class DirectorFluctuations {
 
  private:
   static constexpr int kModes = 84;  // |m|, |n| <= 6; q and -q are one
-  struct Sector {
+  struct Sector : Summed<Sector> {
     std::int64_t samples = 0;
     double cosine = 0, sine = 0;         // sums of cos, sin of twice the director's angle
     double floor = 0;                    // sum
     std::array<double, kModes> power{};  // sums, without the floor
+    static constexpr std::string_view kName = "";
+    static constexpr auto fields() {
+      return std::tuple(&Sector::samples, &Sector::cosine, &Sector::sine, &Sector::floor, &Sector::power);
+    }
   };
   struct Point {
     double along2, across2;  // q_along^2, q_across^2 [1/mm^2]

@@ -6,8 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "analysis/fold.h"
-#include "analysis/nearest_image.h"
+#include "analysis/periodic.h"
 #include "sim/core/check.h"
 
 namespace shaken::analysis {
@@ -106,44 +105,6 @@ OrientationCurve OrientationCorrelation::reduce() const {
                                          : std::numeric_limits<double>::quiet_NaN());
   }
   return curve;
-}
-
-void OrientationCorrelation::reset() {
-  calls_ = 0;
-  std::fill(pairs_.begin(), pairs_.end(), 0);
-  std::fill(sums_.begin(), sums_.end(), 0.0);
-  std::fill(expected_.begin(), expected_.end(), 0.0);
-}
-
-void OrientationCorrelation::merge(const OrientationCorrelation& other) {
-  SHAKEN_CHECK(pairs_.size() == other.pairs_.size() && r_max_ == other.r_max_, "correlations of different bins");
-  calls_ = std::max(calls_, other.calls_);
-  for (std::size_t bin = 0; bin < pairs_.size(); ++bin) {
-    pairs_[bin] += other.pairs_[bin];
-    sums_[bin] += other.sums_[bin];
-    expected_[bin] += other.expected_[bin];
-  }
-}
-
-void OrientationCorrelation::save(StateWriter& writer) const {
-  writer.tag("OrientationCorrelation");
-  writer.put(r_max_);
-  writer.put(calls_);
-  writer.put(pairs_);
-  writer.put(sums_);
-  writer.put(expected_);
-}
-
-void OrientationCorrelation::restore(StateReader& reader) {
-  reader.tag("OrientationCorrelation");
-  if (reader.real() != r_max_) throw StateError("saved analysis state: OrientationCorrelation of another range");
-  const std::int64_t calls = reader.integer(0, std::numeric_limits<std::int64_t>::max() / 2);
-  std::vector<std::int64_t> pairs = reader.integers(pairs_.size());
-  std::vector<double> sums = reader.reals(sums_.size());
-  expected_ = reader.reals(expected_.size());
-  sums_ = std::move(sums);
-  pairs_ = std::move(pairs);
-  calls_ = calls;
 }
 
 }  // namespace shaken::analysis

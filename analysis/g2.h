@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "analysis/region.h"
-#include "analysis/state_io.h"
+#include "analysis/summed.h"
 #include "sim/core/types.h"
 
 namespace shaken::analysis {
@@ -25,7 +27,7 @@ struct OrientationCurve {
 /// n over the region's area; of n rods a gas then has 1 - 1 / n, as is usual. One sample costs at most 1024 n_rods
 /// pairs: of more than 1024 rods, every k-th is taken as i, another set each time, against all rods as j. Rods exactly
 /// upright are left out.
-class OrientationCorrelation {
+class OrientationCorrelation : public Summed<OrientationCorrelation> {
  public:
   /// `bins` equal bins over [0, r_max) [mm].
   OrientationCorrelation(int bins, double r_max);
@@ -35,12 +37,13 @@ class OrientationCorrelation {
   /// Samples that others have taken before: whose turn it is as the first of a pair depends on it.
   void start_at(std::int64_t samples) { calls_ = samples; }
   OrientationCurve reduce() const;
-  void reset();
-  /// Adds the samples of `other`, which has the same bins.
-  void merge(const OrientationCorrelation& other);
 
-  void save(StateWriter& writer) const;
-  void restore(StateReader& reader);
+  static constexpr std::string_view kName = "OrientationCorrelation";
+  static constexpr auto fields() {
+    return std::tuple(Setting{"range", &OrientationCorrelation::r_max_}, Largest{&OrientationCorrelation::calls_},
+                      &OrientationCorrelation::pairs_, &OrientationCorrelation::sums_,
+                      &OrientationCorrelation::expected_);
+  }
 
  private:
   void expect(const Vec2& place, const Region& region, double density);

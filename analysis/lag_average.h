@@ -92,8 +92,6 @@ class LagAverage {
   LagCurve after(double t_steady) const { return sums_.after(t_steady, start_, interval_); }
   LagCurve all() const { return after(-std::numeric_limits<double>::max()); }
 
-  void reset() { *this = LagAverage(interval_, static_cast<int>(levels_.size())); }
-
   void save(StateWriter& writer) const {
     writer.tag(Kernel::kName);
     writer.put(interval_);

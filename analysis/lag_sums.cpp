@@ -63,11 +63,7 @@ void LagSums::save(StateWriter& writer) const {
   writer.put(static_cast<std::int64_t>(quantities_));
   writer.put(samples_per_stretch_);
   writer.put(static_cast<std::int64_t>(stretches_.size()));
-  for (const Stretch& stretch : stretches_) {
-    writer.put(stretch.pairs);
-    writer.put(stretch.rods);
-    writer.put(stretch.sums);
-  }
+  for (const Stretch& stretch : stretches_) stretch.save(writer);
 }
 
 void LagSums::restore(StateReader& reader) {
@@ -77,31 +73,24 @@ void LagSums::restore(StateReader& reader) {
   reader.integer(lags, lags);
   reader.integer(quantities, quantities);
   const std::int64_t samples_per_stretch = reader.integer(1, std::numeric_limits<std::int64_t>::max() / 2);
-  std::vector<Stretch> stretches(static_cast<std::size_t>(reader.integer(0, kMaxStretches)));
-  for (Stretch& stretch : stretches) {
-    stretch.pairs = reader.integers(lags_.size());
-    stretch.rods = reader.reals(lags_.size());
-    stretch.sums = reader.reals(quantities_ * lags_.size());
-  }
+  std::vector<Stretch> stretches(static_cast<std::size_t>(reader.integer(0, kMaxStretches)), empty());
+  for (Stretch& stretch : stretches) stretch.restore(reader);
   samples_per_stretch_ = samples_per_stretch;
   stretches_ = std::move(stretches);
 }
 
-void LagSums::Stretch::add(const Stretch& other) {
-  for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i] += other.pairs[i];
-  for (std::size_t i = 0; i < rods.size(); ++i) rods[i] += other.rods[i];
-  for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += other.sums[i];
-}
-
 LagSums::Stretch LagSums::empty() const {
-  return {std::vector<std::int64_t>(lags_.size()), std::vector<double>(lags_.size()),
-          std::vector<double>(quantities_ * lags_.size())};
+  Stretch stretch;
+  stretch.pairs.resize(lags_.size());
+  stretch.rods.resize(lags_.size());
+  stretch.sums.resize(quantities_ * lags_.size());
+  return stretch;
 }
 
 void LagSums::join_neighbours() {
   for (std::size_t s = 0; s < stretches_.size(); ++s) {
     if (s % 2 == 1) {
-      stretches_[s / 2].add(stretches_[s]);
+      stretches_[s / 2].merge(stretches_[s]);
     } else if (s > 0) {
       stretches_[s / 2] = std::move(stretches_[s]);
     }

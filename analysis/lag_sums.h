@@ -4,10 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "analysis/lag_curve.h"
-#include "analysis/state_io.h"
+#include "analysis/summed.h"
 
 namespace shaken::analysis {
 
@@ -39,11 +41,12 @@ class LagSums {
 
  private:
   static constexpr std::size_t kMaxStretches = 64;
-  struct Stretch {
+  struct Stretch : Summed<Stretch> {
     std::vector<std::int64_t> pairs;  // (lags)
     std::vector<double> rods;         // (lags)
     std::vector<double> sums;         // (quantities * lags), quantity by quantity
-    void add(const Stretch& other);
+    static constexpr std::string_view kName = "";
+    static constexpr auto fields() { return std::tuple(&Stretch::pairs, &Stretch::rods, &Stretch::sums); }
   };
   Stretch empty() const;
   void join_neighbours();

@@ -8,8 +8,8 @@
 #include <limits>
 #include <vector>
 
-#include "analysis/nearest_image.h"
 #include "analysis/order.h"
+#include "analysis/periodic.h"
 #include "analysis/wave_sums.h"
 #include "sim/core/check.h"
 #include "sim/core/rng.h"
@@ -135,40 +135,6 @@ void LatticeOrder::accumulate(std::span<const Vec3> positions, std::span<const V
 LatticeMeans LatticeOrder::reduce() const {
   const auto n = static_cast<double>(samples_);
   return {sums_.psi_6 / n, sums_.psi_6_local / n, sums_.psi_6_raw / n, sums_.bragg_peak / n};
-}
-
-void LatticeOrder::reset() { *this = LatticeOrder(shape_); }
-
-void LatticeOrder::merge(const LatticeOrder& other) {
-  SHAKEN_CHECK(shape_ == other.shape_, "lattices of different shapes");
-  calls_ = std::max(calls_, other.calls_);
-  samples_ += other.samples_;
-  sums_.psi_6 += other.sums_.psi_6;
-  sums_.psi_6_local += other.sums_.psi_6_local;
-  sums_.psi_6_raw += other.sums_.psi_6_raw;
-  sums_.bragg_peak += other.sums_.bragg_peak;
-}
-
-void LatticeOrder::save(StateWriter& writer) const {
-  writer.tag("LatticeOrder");
-  for (const double number : {shape_.box_side, shape_.ratio, shape_.shortest, shape_.longest}) writer.put(number);
-  writer.put(calls_);
-  writer.put(samples_);
-  for (const double sum : {sums_.psi_6, sums_.psi_6_local, sums_.psi_6_raw, sums_.bragg_peak}) writer.put(sum);
-}
-
-void LatticeOrder::restore(StateReader& reader) {
-  reader.tag("LatticeOrder");
-  for (const double number : {shape_.box_side, shape_.ratio, shape_.shortest, shape_.longest}) {
-    if (reader.real() != number) throw StateError("saved analysis state: LatticeOrder of another shape");
-  }
-  LatticeOrder saved(shape_);
-  saved.calls_ = reader.integer(0, std::numeric_limits<std::int64_t>::max() / 2);
-  saved.samples_ = reader.integer(0, std::numeric_limits<std::int64_t>::max() / 2);
-  for (double* sum : {&saved.sums_.psi_6, &saved.sums_.psi_6_local, &saved.sums_.psi_6_raw, &saved.sums_.bragg_peak}) {
-    *sum = reader.real();
-  }
-  *this = saved;
 }
 
 }  // namespace shaken::analysis

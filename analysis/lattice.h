@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
+#include <tuple>
 
-#include "analysis/state_io.h"
+#include "analysis/summed.h"
 #include "sim/core/types.h"
 
 namespace shaken::analysis {
@@ -15,6 +17,10 @@ struct LatticeMeans {
   double psi_6_local = 0;  ///< <|psi_6j|>_j, the same without regard to other rods' axes
   double psi_6_raw = 0;    ///< |<psi_6j>_j| in coordinates as they are; high also where all six stand in a row
   double bragg_peak = 0;   ///< max over q of |sum exp(-i q . r)|^2 / N^2
+  static constexpr auto fields() {
+    return std::tuple(&LatticeMeans::psi_6, &LatticeMeans::psi_6_local, &LatticeMeans::psi_6_raw,
+                      &LatticeMeans::bragg_peak);
+  }
 };
 
 /// Two measures of a crystal.
@@ -29,7 +35,7 @@ struct LatticeMeans {
 /// wavelengths that the rods do not have, and higher ones as those are longer. Neighbours are taken from all rods.
 /// Neighbours must be nearer than half the box: not so with fewer than some fifty rods. Fewer than seven rods have no
 /// psi_6, which counts as 0, and no rod counts as no sample.
-class LatticeOrder {
+class LatticeOrder : public Summed<LatticeOrder> {
  public:
   struct Shape {
     double box_side;  ///< [mm]
@@ -37,6 +43,9 @@ class LatticeOrder {
     double shortest;  ///< wavelength [mm]; at most 128 waves to the side of the box are looked at
     double longest;   ///< [mm]
     friend bool operator==(const Shape&, const Shape&) = default;
+    static constexpr auto fields() {
+      return std::tuple(&Shape::box_side, &Shape::ratio, &Shape::shortest, &Shape::longest);
+    }
   };
   explicit LatticeOrder(const Shape& shape);
 
@@ -45,12 +54,12 @@ class LatticeOrder {
   /// Samples that others have taken before: which rods are taken next depends on it.
   void start_at(std::int64_t samples) { calls_ = samples; }
   LatticeMeans reduce() const;
-  void reset();
-  /// Adds the samples of `other`, which has the same shape.
-  void merge(const LatticeOrder& other);
 
-  void save(StateWriter& writer) const;
-  void restore(StateReader& reader);
+  static constexpr std::string_view kName = "LatticeOrder";
+  static constexpr auto fields() {
+    return std::tuple(Setting{"shape", &LatticeOrder::shape_}, Largest{&LatticeOrder::calls_}, &LatticeOrder::samples_,
+                      &LatticeOrder::sums_);
+  }
 
  private:
   Shape shape_;

@@ -7,8 +7,8 @@
 #include <limits>
 #include <utility>
 
-#include "analysis/fold.h"
 #include "analysis/order.h"
+#include "analysis/periodic.h"
 #include "analysis/wave_sums.h"
 #include "sim/core/check.h"
 
@@ -145,58 +145,6 @@ LayerPeak LayerOrder::peak_at(int m, int n) const {
   const double waves = weight > 0 ? mean.norm() / weight : std::hypot(m, n);
   const double floor = samples_ > 0 ? floor_ / static_cast<double>(samples_) : 0.0;
   return {m, n, box_side_ / waves, std::sqrt(power(m, n)), std::sqrt(floor)};
-}
-
-void LayerOrder::reset() {
-  samples_ = 0;
-  floor_ = 0;
-  for (std::vector<double>* sums : {&amplitudes_, &across_, &along_}) std::fill(sums->begin(), sums->end(), 0.0);
-  for (std::vector<std::int64_t>* counts : {&within_, &n_across_, &n_along_})
-    std::fill(counts->begin(), counts->end(), 0);
-}
-
-void LayerOrder::merge(const LayerOrder& other) {
-  SHAKEN_CHECK(box_side_ == other.box_side_ && waves_ == other.waves_, "layers of different boxes");
-  samples_ += other.samples_;
-  floor_ += other.floor_;
-  for (std::size_t i = 0; i < amplitudes_.size(); ++i) {
-    amplitudes_[i] += other.amplitudes_[i];
-    within_[i] += other.within_[i];
-  }
-  for (std::size_t i = 0; i < across_.size(); ++i) {
-    across_[i] += other.across_[i];
-    along_[i] += other.along_[i];
-    n_across_[i] += other.n_across_[i];
-    n_along_[i] += other.n_along_[i];
-  }
-}
-
-void LayerOrder::save(StateWriter& writer) const {
-  writer.tag("LayerOrder");
-  writer.put(box_side_);
-  writer.put(samples_);
-  writer.put(floor_);
-  writer.put(amplitudes_);
-  writer.put(within_);
-  writer.put(across_);
-  writer.put(along_);
-  writer.put(n_across_);
-  writer.put(n_along_);
-}
-
-void LayerOrder::restore(StateReader& reader) {
-  reader.tag("LayerOrder");
-  if (reader.real() != box_side_) throw StateError("saved analysis state: LayerOrder of another box");
-  LayerOrder saved = *this;
-  saved.samples_ = reader.integer(0, std::numeric_limits<std::int64_t>::max() / 2);
-  saved.floor_ = reader.real();
-  saved.amplitudes_ = reader.reals(amplitudes_.size());
-  saved.within_ = reader.integers(within_.size());
-  saved.across_ = reader.reals(across_.size());
-  saved.along_ = reader.reals(along_.size());
-  saved.n_across_ = reader.integers(n_across_.size());
-  saved.n_along_ = reader.integers(n_along_.size());
-  *this = std::move(saved);
 }
 
 }  // namespace shaken::analysis

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
+#include <tuple>
 #include <vector>
 
-#include "analysis/state_io.h"
+#include "analysis/summed.h"
 #include "sim/core/types.h"
 
 namespace shaken::analysis {
@@ -42,7 +44,7 @@ struct LayerPeak {
 /// peak's wave vector and its neighbours (m +- 1, n +- 1), each with its mean power while it was within the cone, in
 /// opposite pairs so that a flat background does not move it; pairs of which one was there for less than half as long
 /// as the peak are left out. A wavelength near L is the long-wave bend of a nematic, not layers.
-class LayerOrder {
+class LayerOrder : public Summed<LayerOrder> {
  public:
   /// Waves no shorter than `shortest` [mm], and at most 40 of them to the box's side `box_side` [mm].
   LayerOrder(double box_side, double shortest);
@@ -55,12 +57,13 @@ class LayerOrder {
   std::optional<LayerPeak> peak() const;
   /// The same of the wave vector (m, n), m >= 0, which need not have the most.
   LayerPeak peak_at(int m, int n) const;
-  void reset();
-  /// Adds the samples of `other`, which is of the same box.
-  void merge(const LayerOrder& other);
 
-  void save(StateWriter& writer) const;
-  void restore(StateReader& reader);
+  static constexpr std::string_view kName = "LayerOrder";
+  static constexpr auto fields() {
+    return std::tuple(Setting{"box", &LayerOrder::box_side_}, &LayerOrder::samples_, &LayerOrder::floor_,
+                      &LayerOrder::amplitudes_, &LayerOrder::within_, &LayerOrder::across_, &LayerOrder::along_,
+                      &LayerOrder::n_across_, &LayerOrder::n_along_);
+  }
 
  private:
   /// A wave vector that is kept has a place in the tables, as has its opposite.

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/diffusion.h"
 #include "analysis/estimate.h"
 #include "analysis/lag_average.h"
+#include "analysis/lag_fits.h"
 #include "analysis/state_io.h"
 #include "sim/core/types.h"
 
@@ -63,7 +63,6 @@ class MeanSquareDisplacement {
   /// Of the origins from `t_steady` [s] on.
   MsdCurve reduce(double t_steady = -std::numeric_limits<double>::max()) const;
   Diffusion diffusion(double t_steady = -std::numeric_limits<double>::max()) const;
-  void reset() { average_.reset(); }
 
   void save(StateWriter& writer) const { average_.save(writer); }
   void restore(StateReader& reader) { average_.restore(reader); }

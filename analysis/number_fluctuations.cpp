@@ -80,21 +80,6 @@ void NumberFluctuations::accumulate(std::span<const Vec3> positions) {
   ++samples_;
 }
 
-void NumberFluctuations::reset() {
-  samples_ = 0;
-  std::fill(sums_.begin(), sums_.end(), 0);
-  std::fill(squares_.begin(), squares_.end(), 0);
-}
-
-void NumberFluctuations::merge(const NumberFluctuations& other) {
-  SHAKEN_CHECK(box_side_ == other.box_side_ && sums_.size() == other.sums_.size(), "counts in different boxes");
-  samples_ += other.samples_;
-  for (std::size_t box = 0; box < sums_.size(); ++box) {
-    sums_[box] += other.sums_[box];
-    squares_[box] += other.squares_[box];
-  }
-}
-
 NumberFluctuations::Moments NumberFluctuations::moments(const Size& size) const {
   if (samples_ == 0) return {kNaN, kNaN, kNaN};
   const auto samples = static_cast<double>(samples_);
@@ -151,24 +136,6 @@ NumberFluctuationCurve NumberFluctuations::reduce(const Blocked<NumberFluctuatio
   curve.exponent = estimates[estimates.size() - 2];
   curve.exponent_without_map = estimates.back();
   return curve;
-}
-
-void NumberFluctuations::save(StateWriter& writer) const {
-  writer.tag("NumberFluctuations");
-  writer.put(box_side_);
-  writer.put(samples_);
-  writer.put(sums_);
-  writer.put(squares_);
-}
-
-void NumberFluctuations::restore(StateReader& reader) {
-  reader.tag("NumberFluctuations");
-  if (reader.real() != box_side_) throw StateError("saved analysis state: NumberFluctuations of another box");
-  const std::int64_t samples = reader.integer(0, std::numeric_limits<std::int64_t>::max() / 2);
-  std::vector<std::int64_t> sums = reader.integers(sums_.size());
-  squares_ = reader.integers(squares_.size());
-  sums_ = std::move(sums);
-  samples_ = samples;
 }
 
 }  // namespace shaken::analysis

@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "analysis/blocked.h"
 #include "analysis/jackknife.h"
-#include "analysis/state_io.h"
+#include "analysis/summed.h"
 #include "sim/core/types.h"
 
 namespace shaken::analysis {
@@ -30,7 +32,7 @@ struct NumberFluctuationCurve {
 /// Giant number fluctuations: the square periodic box is cut into m x m boxes, m = 2, 3, 4, 5, 6, 8, 10, 12, 16, 20,
 /// and the centres in each are counted. A sample costs ten divisions a rod; the memory is 17 kB whatever the number of
 /// samples.
-class NumberFluctuations {
+class NumberFluctuations : public Summed<NumberFluctuations> {
  public:
   /// Exponents are fitted to so many sizes of boxes at least.
   static constexpr std::size_t kMinSizes = 3;
@@ -44,9 +46,6 @@ class NumberFluctuations {
 
   /// Centres (n_rods) [mm], in the box or one of its images; not finite ones are left out.
   void accumulate(std::span<const Vec3> positions);
-  void reset();
-  /// Adds the samples of `other`, which has the same boxes.
-  void merge(const NumberFluctuations& other);
 
   /// With errors from the stretches of `blocks` from `t_steady` [s] on. Both spreads are of the counts as they are:
   /// n rods thrown at random, their number given, have std = sqrt(<N> (1 - f)) in boxes of area fraction f. The
@@ -58,8 +57,11 @@ class NumberFluctuations {
   /// box's density needs to forget. Sizes of which no box counts are left out; NaN where there is no spread to tell of.
   static NumberFluctuationCurve reduce(const Blocked<NumberFluctuations>& blocks, double t_steady);
 
-  void save(StateWriter& writer) const;
-  void restore(StateReader& reader);
+  static constexpr std::string_view kName = "NumberFluctuations";
+  static constexpr auto fields() {
+    return std::tuple(Setting{"box", &NumberFluctuations::box_side_}, &NumberFluctuations::samples_,
+                      &NumberFluctuations::sums_, &NumberFluctuations::squares_);
+  }
 
  private:
   struct Size {

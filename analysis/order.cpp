@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <numeric>
 
-#include "analysis/fold.h"
+#include "analysis/periodic.h"
 
 namespace shaken::analysis {
 

@@ -33,7 +33,6 @@ class OrderSeries {
   void accumulate(double time, std::span<const Vec3> directors) { accumulate(time, nematic_order(directors)); }
   /// Mean, spread and error of S in the steady state (see summarize_series).
   SteadySummary reduce(std::optional<double> steady_start = std::nullopt) const;
-  void reset() { series_.reset(); }
 
   const std::vector<double>& times() const { return series_.times(); }     ///< (n) [s]
   const std::vector<double>& orders() const { return series_.column(0); }  ///< (n)

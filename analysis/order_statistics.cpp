@@ -38,8 +38,6 @@ OrderDistribution OrderStatistics::reduce() const {
   return result;
 }
 
-void OrderStatistics::reset() { *this = OrderStatistics(static_cast<int>(counts_.size())); }
-
 void OrderStatistics::merge(const OrderStatistics& other) {
   SHAKEN_CHECK(counts_.size() == other.counts_.size(), "histograms of different bins");
   if (other.samples_ == 0) return;
@@ -51,28 +49,6 @@ void OrderStatistics::merge(const OrderStatistics& other) {
   samples_ += other.samples_;
   square_ += other.square_;
   fourth_ += other.fourth_;
-}
-
-void OrderStatistics::save(StateWriter& writer) const {
-  writer.tag("OrderStatistics");
-  writer.put(counts_);
-  writer.put(samples_);
-  writer.put(mean_);
-  writer.put(squared_spread_);
-  writer.put(square_);
-  writer.put(fourth_);
-}
-
-void OrderStatistics::restore(StateReader& reader) {
-  reader.tag("OrderStatistics");
-  OrderStatistics saved = *this;
-  saved.counts_ = reader.integers(counts_.size());
-  saved.samples_ = reader.integer(0, std::numeric_limits<std::int64_t>::max() / 2);
-  saved.mean_ = reader.real();
-  saved.squared_spread_ = reader.real();
-  saved.square_ = reader.real();
-  saved.fourth_ = reader.real();
-  *this = std::move(saved);
 }
 
 }  // namespace shaken::analysis

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
+#include <tuple>
 #include <vector>
 
-#include "analysis/state_io.h"
+#include "analysis/summed.h"
 
 namespace shaken::analysis {
 
@@ -20,7 +22,7 @@ struct OrderDistribution {
 };
 
 /// Histogram and moments of the nematic order S over the samples of a run.
-class OrderStatistics {
+class OrderStatistics : public Summed<OrderStatistics> {
  public:
   /// `bins` equal bins over [0, 1].
   explicit OrderStatistics(int bins);
@@ -28,12 +30,14 @@ class OrderStatistics {
   /// S of one instant; what is not finite is left out.
   void accumulate(double order);
   OrderDistribution reduce() const;
-  void reset();
   /// Adds the samples of `other`, which has as many bins.
   void merge(const OrderStatistics& other);
 
-  void save(StateWriter& writer) const;
-  void restore(StateReader& reader);
+  static constexpr std::string_view kName = "OrderStatistics";
+  static constexpr auto fields() {
+    return std::tuple(&OrderStatistics::counts_, &OrderStatistics::samples_, &OrderStatistics::mean_,
+                      &OrderStatistics::squared_spread_, &OrderStatistics::square_, &OrderStatistics::fourth_);
+  }
 
  private:
   std::vector<std::int64_t> counts_;

@@ -5,9 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/fold.h"
-#include "analysis/nearest_image.h"
 #include "analysis/order.h"
+#include "analysis/periodic.h"
 #include "sim/core/check.h"
 
 namespace shaken::analysis {
@@ -120,51 +119,6 @@ PairCurves PairMap::reduce() const {
     curves.g2_across.push_back(ratio(cut_across_.sums[bin], across));
   }
   return curves;
-}
-
-void PairMap::reset() { *this = PairMap(shape_); }
-
-void PairMap::merge(const PairMap& other) {
-  SHAKEN_CHECK(shape_ == other.shape_, "pair maps of different bins");
-  calls_ = std::max(calls_, other.calls_);
-  expected_per_area_ += other.expected_per_area_;
-  const auto add = [](Bins& to, const Bins& from) {
-    for (std::size_t i = 0; i < to.pairs.size(); ++i) {
-      to.pairs[i] += from.pairs[i];
-      to.sums[i] += from.sums[i];
-    }
-  };
-  add(map_, other.map_);
-  add(cut_along_, other.cut_along_);
-  add(cut_across_, other.cut_across_);
-}
-
-void PairMap::save(StateWriter& writer) const {
-  writer.tag("PairMap");
-  writer.put(shape_.range);
-  writer.put(shape_.strip);
-  writer.put(shape_.box_side);
-  writer.put(calls_);
-  writer.put(expected_per_area_);
-  for (const Bins* bins : {&map_, &cut_along_, &cut_across_}) {
-    writer.put(bins->pairs);
-    writer.put(bins->sums);
-  }
-}
-
-void PairMap::restore(StateReader& reader) {
-  reader.tag("PairMap");
-  for (const double expected : {shape_.range, shape_.strip, shape_.box_side}) {
-    if (reader.real() != expected) throw StateError("saved analysis state: PairMap of another shape");
-  }
-  PairMap saved(shape_);
-  saved.calls_ = reader.integer(0, std::numeric_limits<std::int64_t>::max() / 2);
-  saved.expected_per_area_ = reader.real();
-  for (Bins* bins : {&saved.map_, &saved.cut_along_, &saved.cut_across_}) {
-    bins->pairs = reader.integers(bins->pairs.size());
-    bins->sums = reader.reals(bins->sums.size());
-  }
-  *this = std::move(saved);
 }
 
 }  // namespace shaken::analysis

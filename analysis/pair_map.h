@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
+#include <tuple>
 #include <vector>
 
-#include "analysis/state_io.h"
+#include "analysis/summed.h"
 #include "sim/core/types.h"
 
 namespace shaken::analysis {
@@ -30,7 +32,7 @@ struct PairCurves {
 /// as those of the map, up to L / 2: along from pairs with |y| < strip / 2 at |x|, across the other way round. One
 /// sample costs at most 1024 n_rods pairs: of more than 1024 rods, every k-th is taken as i, another set each time.
 /// Rods exactly upright are left out.
-class PairMap {
+class PairMap : public Summed<PairMap> {
  public:
   struct Shape {
     int bins = 81;    ///< each way; an odd number has one about 0
@@ -38,6 +40,7 @@ class PairMap {
     double strip;     ///< full width of the strips of the cuts [mm]
     double box_side;  ///< of the periodic box [mm]
     friend bool operator==(const Shape&, const Shape&) = default;
+    static constexpr auto fields() { return std::tuple(&Shape::range, &Shape::strip, &Shape::box_side); }
   };
   explicit PairMap(const Shape& shape);
 
@@ -46,18 +49,19 @@ class PairMap {
   /// Samples that others have taken before: whose turn it is as the first of a pair depends on it.
   void start_at(std::int64_t samples) { calls_ = samples; }
   PairCurves reduce() const;
-  void reset();
-  /// Adds the samples of `other`, which has the same shape.
-  void merge(const PairMap& other);
 
-  void save(StateWriter& writer) const;
-  void restore(StateReader& reader);
+  static constexpr std::string_view kName = "PairMap";
+  static constexpr auto fields() {
+    return std::tuple(Setting{"shape", &PairMap::shape_}, Largest{&PairMap::calls_}, &PairMap::expected_per_area_,
+                      &PairMap::map_, &PairMap::cut_along_, &PairMap::cut_across_);
+  }
 
  private:
   struct Bins {
     std::vector<std::int64_t> pairs;
     std::vector<double> sums;  // of cos 2 (theta_i - theta_j)
     explicit Bins(std::size_t n) : pairs(n), sums(n) {}
+    static constexpr auto fields() { return std::tuple(&Bins::pairs, &Bins::sums); }
   };
   Shape shape_;
   std::size_t bins_;              // each way

@@ -34,11 +34,6 @@ void RodTraces::accumulate(double time, std::span<const Vec3> unwrapped, std::sp
   }
 }
 
-void RodTraces::reset() {
-  times_.clear();
-  traces_.clear();
-}
-
 void RodTraces::save(StateWriter& writer) const {
   writer.tag("RodTraces");
   writer.put(duration_);

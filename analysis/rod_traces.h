@@ -27,7 +27,6 @@ class RodTraces {
   void accumulate(double time, std::span<const Vec3> unwrapped, std::span<const Vec3> directors);
   const std::vector<double>& times() const { return times_; }      ///< (samples) [s]
   const std::vector<RodTrace>& traces() const { return traces_; }  ///< (rods kept)
-  void reset();
 
   void save(StateWriter& writer) const;
   void restore(StateReader& reader);

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "analysis/decay.h"
-#include "analysis/fold.h"
+#include "analysis/lag_fits.h"
+#include "analysis/periodic.h"
 #include "sim/core/check.h"
 
 namespace shaken::analysis {
@@ -77,11 +77,6 @@ RotationSummary Rotation::summarize(double t_steady) const {
     summary.c2_plateau = curve.estimate(sum, terms);
   }
   return summary;
-}
-
-void Rotation::reset() {
-  average_.reset();
-  large_turns_ = 0;
 }
 
 void Rotation::save(StateWriter& writer) const {

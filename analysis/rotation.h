@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/diffusion.h"
 #include "analysis/estimate.h"
 #include "analysis/lag_average.h"
+#include "analysis/lag_fits.h"
 #include "analysis/state_io.h"
 #include "sim/core/types.h"
 
@@ -55,7 +55,6 @@ class Rotation {
   /// Of the origins from `t_steady` [s] on.
   RotationCurve reduce(double t_steady = -std::numeric_limits<double>::max()) const;
   RotationSummary summarize(double t_steady = -std::numeric_limits<double>::max()) const;
-  void reset();
 
   void save(StateWriter& writer) const;
   void restore(StateReader& reader);

@@ -75,38 +75,6 @@ TiltCurve TiltVelocity::reduce(const TiltVelocity& empty, const std::vector<Tilt
   return curve;
 }
 
-void TiltVelocity::reset() { *this = TiltVelocity(static_cast<int>(counts_.size()), n_z_max_); }
-
-void TiltVelocity::merge(const TiltVelocity& other) {
-  SHAKEN_CHECK(counts_.size() == other.counts_.size() && n_z_max_ == other.n_z_max_, "tilt curves of different bins");
-  outside_ += other.outside_;
-  for (std::size_t bin = 0; bin < counts_.size(); ++bin) {
-    counts_[bin] += other.counts_[bin];
-    along_[bin] += other.along_[bin];
-    across_[bin] += other.across_[bin];
-  }
-}
-
-void TiltVelocity::save(StateWriter& writer) const {
-  writer.tag("TiltVelocity");
-  writer.put(n_z_max_);
-  writer.put(outside_);
-  writer.put(counts_);
-  writer.put(along_);
-  writer.put(across_);
-}
-
-void TiltVelocity::restore(StateReader& reader) {
-  reader.tag("TiltVelocity");
-  if (reader.real() != n_z_max_) throw StateError("saved analysis state: TiltVelocity of another range of n_z");
-  TiltVelocity saved = *this;
-  saved.outside_ = reader.integer();
-  saved.counts_ = reader.integers(counts_.size());
-  saved.along_ = reader.reals(counts_.size());
-  saved.across_ = reader.reals(counts_.size());
-  *this = std::move(saved);
-}
-
 std::vector<std::size_t> blocks_met(const std::vector<TiltVelocity>& blocks) {
   std::vector<std::size_t> met;
   for (const TiltVelocity& block : blocks) {

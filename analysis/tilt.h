@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <span>
+#include <string_view>
+#include <tuple>
 #include <vector>
 
-#include "analysis/state_io.h"
+#include "analysis/summed.h"
 #include "sim/core/types.h"
 
 namespace shaken::analysis {
@@ -27,7 +29,7 @@ struct TiltCurve : TiltMeans {
 /// Mean in-plane velocity of rods against the vertical component n_z of their director (Sharma & Soni 2024, figure on
 /// v^n(n_z)): along n_xy / |n_xy|, and across it, along z x n_xy / |n_xy|. The sign of a director is a label that its
 /// rod carries; nothing is symmetrised, so that v_along is odd in n_z is a measurement.
-class TiltVelocity {
+class TiltVelocity : public Summed<TiltVelocity> {
  public:
   /// `bins` equal bins over [-n_z_max, n_z_max].
   TiltVelocity(int bins, double n_z_max);
@@ -35,16 +37,16 @@ class TiltVelocity {
   /// Director (n_rods) and velocity of the centre (n_rods) [mm/s] at one instant. Rods exactly upright are left out.
   void accumulate(std::span<const Vec3> directors, std::span<const Vec3> velocities);
   TiltMeans means() const;
-  void reset();
-  /// Adds the samples of `other`, which has the same bins.
-  void merge(const TiltVelocity& other);
 
   /// Of all `blocks`, successive stretches of time, with errors by the jackknife over them. `empty` is one without
   /// samples, of the same bins.
   static TiltCurve reduce(const TiltVelocity& empty, const std::vector<TiltVelocity>& blocks);
 
-  void save(StateWriter& writer) const;
-  void restore(StateReader& reader);
+  static constexpr std::string_view kName = "TiltVelocity";
+  static constexpr auto fields() {
+    return std::tuple(Setting{"range of n_z", &TiltVelocity::n_z_max_}, &TiltVelocity::outside_, &TiltVelocity::counts_,
+                      &TiltVelocity::along_, &TiltVelocity::across_);
+  }
 
  private:
   double n_z_max_;

@@ -8,21 +8,6 @@
 
 namespace shaken::analysis {
 
-void SwitchSums::merge(const SwitchSums& other) {
-  switches += other.switches;
-  lived += other.lived;
-}
-
-void SwitchSums::save(StateWriter& writer) const {
-  writer.put(switches);
-  writer.put(lived);
-}
-
-void SwitchSums::restore(StateReader& reader) {
-  switches = reader.real();
-  lived = reader.real();
-}
-
 TiltSwitches::TiltSwitches(double threshold) : threshold_(threshold) {
   SHAKEN_CHECK(threshold > 0, "between up and down there is something");
 }
@@ -48,8 +33,6 @@ void TiltSwitches::accumulate(double time, std::span<const Vec3> directors) {
 double TiltSwitches::switching_time(const SwitchSums& sums) {
   return sums.switches > 0 ? sums.lived / sums.switches : std::numeric_limits<double>::quiet_NaN();
 }
-
-void TiltSwitches::reset() { *this = TiltSwitches(threshold_); }
 
 void TiltSwitches::save(StateWriter& writer) const {
   writer.tag("TiltSwitches");

@@ -4,24 +4,25 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "analysis/blocked.h"
 #include "analysis/estimate.h"
-#include "analysis/state_io.h"
+#include "analysis/summed.h"
 #include "sim/core/types.h"
 
 namespace shaken::analysis {
 
 /// How many rods changed sides, in how much time of theirs.
-struct SwitchSums {
+struct SwitchSums : Summed<SwitchSums> {
   double switches = 0;
   double lived = 0;  ///< by all rods whose side is known, together [s]
 
-  void merge(const SwitchSums& other);
   void accumulate(const SwitchSums& other) { merge(other); }
-  void save(StateWriter& writer) const;
-  void restore(StateReader& reader);
+  static constexpr std::string_view kName = "";
+  static constexpr auto fields() { return std::tuple(&SwitchSums::switches, &SwitchSums::lived); }
 };
 
 /// How long rods stay tilted to one side. A rod is up, head higher than tail, from when its n_z rises beyond
@@ -39,7 +40,6 @@ class TiltSwitches {
   const Blocked<SwitchSums>& sums() const { return blocks_; }
   /// Mean time from switch to switch [s]; NaN where no rod has switched.
   static double switching_time(const SwitchSums& sums);
-  void reset();
 
   void save(StateWriter& writer) const;
   void restore(StateReader& reader);

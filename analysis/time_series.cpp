@@ -92,33 +92,6 @@ double autocorrelation_time(std::span<const double> values) {
   return values.empty() ? 0.0 : 0.5 * (statistical_inefficiency(values) - 1.0);
 }
 
-std::vector<BlockLevel> block_levels(std::span<const double> values) {
-  std::vector<BlockLevel> levels;
-  if (values.size() < 2) return levels;
-  std::vector<double> x = centred(values);
-  for (std::size_t length = 1; x.size() >= 2; length *= 2) {
-    const std::vector<double> deviation = centred(x);
-    const double n = static_cast<double>(x.size());
-    const double sem = std::sqrt(product_sum(deviation, 0) / (n * (n - 1.0)));
-    levels.push_back({length, x.size(), sem, sem / std::sqrt(2.0 * (n - 1.0))});
-    x = group_means(x, 2);
-  }
-  return levels;
-}
-
-double block_sem(std::span<const double> values) {
-  const std::vector<BlockLevel> levels = block_levels(values);
-  if (levels.empty()) return 0.0;
-  const double sem_1 = levels.front().sem;
-  if (sem_1 == 0.0) return 0.0;
-  for (const BlockLevel& level : levels) {
-    const double g = std::pow(level.sem / sem_1, 2);
-    const double length = static_cast<double>(level.block_length);
-    if (length * length * length > 2.0 * static_cast<double>(values.size()) * g * g) return level.sem;
-  }
-  return levels.back().sem;
-}
-
 std::size_t steady_index(std::span<const double> values) {
   if (values.empty()) return 0;
   const std::size_t group = (values.size() + kSearchPoints - 1) / kSearchPoints;

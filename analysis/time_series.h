@@ -21,19 +21,6 @@ double autocorrelation_time(std::span<const double> values);
 /// g = 1 + 2 tau: the number of samples worth one independent one, in [1, n].
 double statistical_inefficiency(std::span<const double> values);
 
-/// One level of the blocking transformation.
-struct BlockLevel {
-  std::size_t block_length = 1;  ///< samples in a block
-  std::size_t n_blocks = 0;
-  double sem = 0;        ///< standard error of the mean as if blocks were independent; grows to a plateau
-  double sem_error = 0;  ///< its own standard error, sem / sqrt(2 (n_blocks - 1))
-};
-/// Flyvbjerg & Petersen, J. Chem. Phys. 91, 461 (1989): levels of doubling block length down to two blocks.
-std::vector<BlockLevel> block_levels(std::span<const double> values);
-/// The standard error of the mean at the first block length B with B^3 > 2 n g_B^2, g_B = (sem_B / sem_1)^2
-/// (Lee et al., Phys. Rev. E 83, 066706 (2011)); the last level's if there is none, 0 below two samples.
-double block_sem(std::span<const double> values);
-
 /// Index at which the steady state begins: the first t0 that leaves nearly the most effective samples, nine tenths of
 /// the largest N_eff = (n - t0) / g(t0) (Chodera, J. Chem. Theory Comput. 12, 1799 (2016)), g being that of parts
 /// (variance_of_mean), which scatters less than a sum over lags. Long series are averaged to at most 512 points first;

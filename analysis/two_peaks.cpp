@@ -9,7 +9,7 @@
 #include <unsupported/Eigen/NonLinearOptimization>
 #include <vector>
 
-#include "analysis/fold.h"
+#include "analysis/periodic.h"
 
 namespace shaken::analysis {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/decay.h"
+#include "analysis/lag_fits.h"
 #include "sim/core/check.h"
 
 namespace shaken::analysis {
@@ -202,11 +202,6 @@ VelocitySummary VelocityCorrelation::summarize(double t_steady) const {
   summary.persistence_length =
       estimate(curve, kDirectionAndVelocity, integral_as_of_exponential(curve, kDirectionAndVelocity));
   return summary;
-}
-
-void VelocityCorrelation::reset() {
-  places_.clear();
-  average_.reset();
 }
 
 void VelocityCorrelation::save(StateWriter& writer) const {

@@ -68,7 +68,6 @@ class VelocityCorrelation {
   /// Of the origins t0 from `t_steady` [s] on.
   VelocityCurve reduce(double t_steady = -std::numeric_limits<double>::max()) const;
   VelocitySummary summarize(double t_steady = -std::numeric_limits<double>::max()) const;
-  void reset();
 
   void save(StateWriter& writer) const;
   void restore(StateReader& reader);

@@ -17,4 +17,11 @@ Result<std::filesystem::path> data_root(const std::string& given) {
   return Error{"no root directory: set --root, SHAKEN_ROOT or HOME"};
 }
 
+std::filesystem::path shipped_configs() {
+  std::error_code failed;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", failed);
+  const std::filesystem::path installed = program.parent_path().parent_path() / "share/shaken/configs";
+  return !failed && std::filesystem::is_directory(installed, failed) ? installed : SHAKEN_CONFIGS_DIR;
+}
+
 }  // namespace shaken

@@ -12,4 +12,8 @@ namespace shaken {
 /// ~/.local/share/shaken; absolute. Fails where none of them is set.
 Result<std::filesystem::path> data_root(const std::string& given = "");
 
+/// The folder of the scenes and sweeps that come with the programs: share/shaken/configs beside the folder of the
+/// running program, where it is installed; that of the source tree otherwise.
+std::filesystem::path shipped_configs();
+
 }  // namespace shaken

@@ -269,7 +269,7 @@ CostEstimate estimate_cost(const scene::Sweep& sweep, const EstimateOptions& opt
   return Estimator(sweep, options).run();
 }
 
-std::string cost_text(const CostEstimate& estimate, int width) {
+std::string estimate_text(const CostEstimate& estimate, int width) {
   if (estimate.levels.empty()) return "";
   Table table({{"ACCURACY"},
                {"STEP", Table::Align::kRight},
@@ -297,7 +297,7 @@ std::string cost_text(const CostEstimate& estimate, int width) {
   return text + level_errors(estimate, width > 0 ? static_cast<std::size_t>(width) : kWidth);
 }
 
-Json cost_json(const CostEstimate& estimate) {
+Json estimate_json(const CostEstimate& estimate) {
   Json json{{"n_runs", estimate.n_runs}, {"n_distinct", estimate.n_distinct}, {"n_probed", estimate.n_probed}};
   json["levels"] = Json::array();
   for (const LevelCost& level : estimate.levels) {

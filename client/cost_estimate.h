@@ -55,8 +55,8 @@ struct CostEstimate {
 CostEstimate estimate_cost(const scene::Sweep& sweep, const EstimateOptions& options);
 
 /// The costs as a table, and a line on where they come from; empty if nothing was probed.
-std::string cost_text(const CostEstimate& estimate, int width);
-Json cost_json(const CostEstimate& estimate);
+std::string estimate_text(const CostEstimate& estimate, int width);
+Json estimate_json(const CostEstimate& estimate);
 
 /// "3.2 MB"
 std::string bytes_text(double bytes);

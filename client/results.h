@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <compare>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -61,7 +61,9 @@ struct RowVersion {
   /// "shaken 0.1.0, physics 3"
   std::string text() const;
   bool is_known() const { return !program.empty() || !physics.empty(); }
-  friend auto operator<=>(const RowVersion&, const RowVersion&) = default;
+  friend bool operator<(const RowVersion& a, const RowVersion& b) {
+    return std::tie(a.program, a.physics) < std::tie(b.program, b.physics);
+  }
 };
 RowVersion version_of(const ResultRow& row);
 /// From the member "versions" of a summary.json.

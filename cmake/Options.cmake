@@ -19,18 +19,20 @@ endif()
 
 add_library(shaken_options INTERFACE)
 add_library(shaken::options ALIAS shaken_options)
-target_include_directories(shaken_options INTERFACE ${CMAKE_SOURCE_DIR})
+target_include_directories(shaken_options INTERFACE $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}> $<INSTALL_INTERFACE:include/shaken>)
+target_compile_features(shaken_options INTERFACE cxx_std_20)
 target_compile_options(shaken_options INTERFACE
   -pthread  # everywhere: a precompiled header serves only files that see the same macros
-  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
-  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>  # g++ 12 sees overlaps in "text" + std::string that are not there (GCC bug 105651)
+  # warnings are for this project; who links the libraries has his own
+  "$<BUILD_INTERFACE:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wnon-virtual-dtor>"
+  $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>>  # g++ 12 sees overlaps in "text" + std::string that are not there (GCC bug 105651)
   # One rounding per operation, on every machine and at every optimisation level: the steppers promise bitwise equal
   # trajectories, and a fused multiply-add in one of two copies of a kernel breaks that.
   -ffp-contract=off
   # Square roots and comparisons may become vector instructions; no result depends on errno or on floating-point traps.
   -fno-math-errno -fno-trapping-math)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
-  target_compile_options(shaken_options INTERFACE "SHELL:-Xclang -fno-pch-timestamp")  # else ccache keeps none of it
+  target_compile_options(shaken_options INTERFACE "$<BUILD_INTERFACE:SHELL:-Xclang -fno-pch-timestamp>")  # else ccache keeps none of it
 endif()
 # Builds with sanitizers: what waits for files and sockets is not optimised, which halves the time to compile it; what
 # computes (a library says target_compile_options(NAME PRIVATE ${SHAKEN_COMPUTES})) is, or its tests would take too long.
@@ -45,7 +47,7 @@ endfunction()
 # Eigen adds up in another order where vectors are wider, and its small fixed sizes gain nothing from them.
 target_compile_definitions(shaken_options INTERFACE EIGEN_DONT_VECTORIZE)
 if(SHAKEN_WERROR)
-  target_compile_options(shaken_options INTERFACE -Werror)
+  target_compile_options(shaken_options INTERFACE $<BUILD_INTERFACE:-Werror>)
 endif()
 if(SHAKEN_ARCH)
   target_compile_options(shaken_options INTERFACE -march=${SHAKEN_ARCH})

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/fold.h"
+#include "analysis/periodic.h"
 
 namespace shaken::render {
 namespace {

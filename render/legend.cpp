@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/fold.h"
+#include "analysis/periodic.h"
 #include "render/colours.h"
 
 namespace shaken::render {

@@ -5,6 +5,7 @@
 #include "analysis/director_field.h"
 #include "analysis/order.h"
 #include "render/picture.h"
+#include "scene/measure_plan.h"
 
 namespace shaken::render {
 
@@ -21,8 +22,12 @@ void measure(RodPicture& picture, bool with_defects) {
   }
   const double length = picture.rod_length();
   const analysis::Region region(picture.box_side, picture.walls);
-  const int nodes = analysis::grid_nodes(picture.box_side, length / 8);
-  picture.defects = analysis::find_defects(analysis::DirectorField(positions, directors, region, nodes, length / 2));
+  scene::MeasureDefects settings;
+  settings.smoothing = picture.smoothing;
+  settings.grid = picture.grid;
+  const int nodes = analysis::grid_nodes(picture.box_side, settings.grid_for(length));
+  picture.defects = analysis::find_defects(
+      analysis::DirectorField(positions, directors, region, nodes, settings.smoothing_for(length)));
 }
 
 }  // namespace shaken::render

@@ -40,6 +40,8 @@ struct RodPicture {
   double order = 0;           ///< S, nematic order in the plane
   double director_angle = 0;  ///< of the mean director N, against the x axis [rad]
   std::vector<analysis::Defect> defects;
+  /// Of the director field in which defects are looked for [mm]; 0: the defaults of a run.
+  double smoothing = 0, grid = 0;
   OrderHistory history;
   std::string label;  ///< what makes this run different, "rods.length=2.5 rods.area_fraction=0.6"
 
@@ -58,8 +60,7 @@ struct RodPicture {
 };
 
 /// Fills order, director_angle and, if asked, defects from the rods of the first kind; defects are looked for within
-/// the side walls, and where there are rods (analysis/director_field.h). The director field is smoothed over half a rod
-/// length on a mesh of an eighth of one.
+/// the side walls, and where there are rods (analysis/director_field.h), as a run does that measures them.
 void measure(RodPicture& picture, bool with_defects);
 
 enum class Colouring {

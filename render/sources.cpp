@@ -28,24 +28,17 @@ std::optional<double> number_at(const Json& scene, const char* pointer) {
   return scene.at(place).get<double>();
 }
 
-std::string shaking(const std::string& scene_json) {
-  const Json scene = Json::parse(scene_json, nullptr, false);
+std::string shaking(const Json& scene) {
   const std::optional<double> gamma = number_at(scene, "/plates/gamma"),
                               frequency = number_at(scene, "/plates/frequency");
   return gamma && frequency ? fmt::format("\u0393 = {:.4g}, f = {:.4g} Hz", *gamma, *frequency) : "";
 }
 
 std::optional<SideWalls> walls_of(const frame_static_t& message) {
+  const std::optional<Arena> arena = arena_of(message.arena);
+  if (!arena) return std::nullopt;
   SideWalls walls;
-  if (message.arena == "disc") {
-    walls.arena = Arena::kDisc;
-  } else if (message.arena == "square") {
-    walls.arena = Arena::kSquare;
-  } else if (message.arena == "annulus") {
-    walls.arena = Arena::kAnnulus;
-  } else {
-    return std::nullopt;
-  }
+  walls.arena = *arena;
   walls.size = message.arena_size_mm;
   walls.inner = message.arena_inner_mm;
   return walls;
@@ -157,11 +150,14 @@ Result<RodPicture> TrajectorySource::picture(std::size_t index, bool with_defect
   picture.time = frame->time;
   picture.box_side = header.box_side;
   picture.gap = header.gap;
-  picture.label = shaking(header.scene_json);
+  const Json scene = Json::parse(header.scene_json, nullptr, false);
+  picture.label = shaking(scene);
   picture.beads = {header.bead_offset, header.bead_radius};
   picture.added = header.added_beads;
   picture.kinds = header.kinds;
   picture.walls = header.walls;
+  picture.smoothing = number_at(scene, "/measure/defects/smoothing").value_or(0);
+  picture.grid = number_at(scene, "/measure/defects/grid").value_or(0);
   picture.position = std::move(frame->position);
   picture.director = std::move(frame->director);
   measure(picture, with_defects);

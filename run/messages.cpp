@@ -25,18 +25,6 @@ void append(std::vector<double>& all, const std::vector<double>& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
-const char* name_of(Arena arena) {
-  switch (arena) {
-    case Arena::kDisc:
-      return "disc";
-    case Arena::kSquare:
-      return "square";
-    case Arena::kAnnulus:
-      return "annulus";
-  }
-  return "";
-}
-
 }  // namespace
 
 std::span<const std::uint8_t> kinds_if_several(const World& world) {

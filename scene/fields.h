@@ -32,25 +32,25 @@ enum class Form {
 /// All that is known of one key of a scene. Everything that reads, checks, suggests, writes or documents keys asks this
 /// table and nothing else.
 struct Field {
-  std::string path;  ///< dotted: "rods.length"
+  std::string path = {};  ///< dotted: "rods.length"
   Form form = Form::kQuantity;
   Dimension dimension = Dimension::kPlain;
   double low = 0;        ///< smallest value allowed, in default units
   double high = 0;       ///< largest value allowed
   bool or_zero = false;  ///< 0 is allowed too, though it is below `low`
-  std::vector<std::string> names;
-  Value fallback;             ///< what holds if the key is absent; nothing where that is derived from other keys
-  std::string fallback_note;  ///< says so in words, for the reference
-  std::string doc;            ///< one line
+  std::vector<std::string> names = {};
+  Value fallback = {};             ///< what holds if the key is absent; nothing where that is derived from other keys
+  std::string fallback_note = {};  ///< says so in words, for the reference
+  std::string doc = {};            ///< one line
   /// Left out of the canonical scene where it has its default value, so that scenes from before the key keep their
   /// names.
   bool omit_if_default = false;
 
   /// The value in a plan; asked only if the block that the field is in is on. Empty for keys that only help to write a
   /// scene (bead_pitch).
-  std::function<Value(const RunPlan&)> fetch;
+  std::function<Value(const RunPlan&)> fetch = {};
   /// Puts a value into a plan; empty for fields whose value other fields carry (gamma, area_fraction, ...).
-  std::function<void(RunPlan&, const Value&)> store;
+  std::function<void(RunPlan&, const Value&)> store = {};
 };
 
 /// Every field, in canonical order; a block stands before the fields in it.

@@ -12,6 +12,7 @@
 
 #include "scene/accuracy.h"
 #include "scene/derived.h"
+#include "scene/observables.h"
 #include "sim/rod/species.h"
 
 namespace shaken::scene {
@@ -475,12 +476,12 @@ class Resolver {
                            time(plan_.velocity->window), time(plan_.velocity->every)));
     }
     if (plan_.defects && ok({"rods.length", "measure.defects.smoothing", "measure.defects.grid"})) {
-      if (!given("measure.defects.smoothing")) plan_.defects->smoothing = plan_.system.rod.length / 2;
-      if (!given("measure.defects.grid")) plan_.defects->grid = plan_.system.rod.length / 8;
+      plan_.defects->smoothing = plan_.defects->smoothing_for(plan_.system.rod.length);
+      plan_.defects->grid = plan_.defects->grid_for(plan_.system.rod.length);
     }
     if (plan_.pairs && ok({"rods.length", "box.side", "measure.pairs.range"})) {
       const double half_box = plan_.system.box_side / 2;
-      if (!given("measure.pairs.range")) plan_.pairs->range = std::min(3 * plan_.system.rod.length, half_box);
+      plan_.pairs->range = plan_.pairs->range_for(plan_.system.rod.length, plan_.system.box_side);
       if (plan_.pairs->range > half_box * (1 + 1e-12)) {
         complain(
             {"measure.pairs.range", "box.side"},
@@ -513,14 +514,12 @@ class Resolver {
   // What is only there without walls.
   void periodic() {
     if (!plan_.system.walls) return;
-    const auto refuse = [&](bool is_on, const std::string& block, const char* what) {
-      if (!is_on) return;
-      complain({block, "walls"}, fmt::format("{} is of {} of a periodic box: walls leave none", block, what));
-    };
-    refuse(plan_.frank.has_value(), "measure.frank", "the waves");
-    refuse(plan_.pairs.has_value(), "measure.pairs", "the nearest images");
-    refuse(plan_.layers.has_value(), "measure.layers", "the waves");
-    refuse(plan_.lattice.has_value(), "measure.lattice", "the nearest images and waves");
+    for (const Observable& observable : observables()) {
+      const std::string& block = observable.block.path;
+      if (observable.within_walls() || !draft_.is_on(block)) continue;
+      complain({block, "walls"},
+               fmt::format("{} is of {} of a periodic box: walls leave none", block, observable.periodic));
+    }
   }
 
   const Draft& draft_;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "sim/core/types.h"
@@ -72,6 +74,16 @@ enum class Start {
 };
 
 enum class Arena { kDisc, kSquare, kAnnulus };
+/// What scenes, files and messages call them.
+inline constexpr std::array kArenaNames{std::pair{"disc", Arena::kDisc}, std::pair{"square", Arena::kSquare},
+                                        std::pair{"annulus", Arena::kAnnulus}};
+constexpr const char* name_of(Arena arena) { return kArenaNames[static_cast<std::size_t>(arena)].first; }
+constexpr std::optional<Arena> arena_of(std::string_view name) {
+  for (const auto& [known, arena] : kArenaNames) {
+    if (known == name) return arena;
+  }
+  return std::nullopt;
+}
 /// Walls that stand upright on the base and move with it, round an arena in the middle of the box.
 struct SideWalls {
   Arena arena = Arena::kDisc;

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <set>
 
+#include "base/paths.h"
 #include "run/files/directory.h"
 
 namespace shaken::study {
@@ -43,7 +44,7 @@ fs::path sweeps_folder(const std::string& configs, const std::string& scale) {
   const auto root = [&]() -> fs::path {
     if (!configs.empty()) return configs;
     if (const char* given = std::getenv("SHAKEN_CONFIGS"); given != nullptr && *given != '\0') return given;
-    return fs::exists("configs/figures") ? "configs" : SHAKEN_CONFIGS_DIR;
+    return fs::exists("configs/figures") ? "configs" : shipped_configs();
   };
   return root() / "figures" / scale;
 }

@@ -818,6 +818,42 @@ def check_layers(run, table):
         scalar(run, table, name, "direct sums", value[k], sem[k])
 
 
+def check_structure(run, table):
+    frames = run.frames("structure")
+    parts = steady_parts(run, frames)
+    kept = np.concatenate(parts)
+    shells = run.scene["measure"]["structure"]["waves"]
+    m, n = half_plane(shells, everything=True)
+    shell = np.floor(np.hypot(m, n) + 0.5).astype(int) - 1
+    m, n, shell = m[shell < shells], n[shell < shells], shell[shell < shells]
+    power = np.zeros((len(frames), len(m)))
+    cones = {"": np.ones((len(frames), len(m)), bool)}
+    cones["_along"], cones["_across"] = (np.zeros((len(frames), len(m)), bool) for _ in range(2))
+    for sample in kept:
+        f = frames[sample]
+        power[sample] = np.abs(wave_sums(run.place[f], np.ones(run.n), m, n, run.box)) ** 2 / run.n
+        to_director = np.abs(fold(np.arctan2(n, m) - run.axis[f]))
+        cones["_along"][sample] = to_director <= np.pi / 6
+        cones["_across"][sample] = to_director >= np.pi / 3
+
+    def curve(cone):
+        def means(some):
+            terms = np.array([cone[some][:, shell == k].sum() for k in range(shells)])
+            sums = np.array([(power[some] * cone[some])[:, shell == k].sum() for k in range(shells)])
+            return np.where(terms > 0, sums / np.maximum(terms, 1), np.nan)
+        return means
+
+    table.add("/structure/q_per_mm", "definition", run.arrays["/structure/q_per_mm"],
+              2 * np.pi / run.box * np.arange(1, shells + 1))
+    for name, cone in cones.items():
+        value, sem = jackknife(parts, curve(cone))
+        table.add(f"/structure/factor{name}", "direct sums", run.arrays[f"/structure/factor{name}"], value)
+        table.add(f"/structure/factor{name}_sem", "jackknife", run.arrays[f"/structure/factor{name}_sem"], sem,
+                  allowed=1e-3 * np.nanmax(sem, initial=1e-12))
+        if not name:
+            scalar(run, table, "structure_longest_wave", "direct sums", value[0], sem[0])
+
+
 def check_lattice(run, table):
     frames = run.frames("lattice")
     parts = steady_parts(run, frames)
@@ -936,7 +972,7 @@ class Lags:
         return slope, self.sem([(lag, q, ci * w) for lag, ci in zip(window, c) for q, w in enumerate(weights)])
 
     def growth(self, weights):
-        """(from, to, slope, its error, exponent, its error) at short and at long lags, of analysis/diffusion.h."""
+        """(from, to, slope, its error, exponent, its error) at short and at long lags, of analysis/lag_fits.h."""
         value = self.mean @ weights
         first = int(self.lags[0] == 0)
         long = self.last_octave()
@@ -1534,7 +1570,8 @@ def check_tracks(run, table, frames, plan):
 
 
 CHECKS = {"order": check_order, "angles": check_angles, "tilt": check_tilt, "defects": check_defects, "g2": check_g2,
-          "pairs": check_pairs, "layers": check_layers, "lattice": check_lattice, "fluctuations": check_fluctuations,
+          "pairs": check_pairs, "layers": check_layers, "lattice": check_lattice, "structure": check_structure,
+          "fluctuations": check_fluctuations,
           "frank": check_frank, "msd": check_msd, "rotation": check_rotation, "velocity": check_velocity, "rods": check_rods}
 
 

@@ -53,7 +53,7 @@ class Explain : public Verb {
     const CostEstimate estimate = estimate_cost(sweep, options);
     const scene::SweepPoint& point = sweep.points[estimate.shown];
     if (json_) {
-      Json json = cost_json(estimate);
+      Json json = estimate_json(estimate);
       json["name"] = sweep.name;
       json["shown"] = {{"label", point.label}, {"parameters", point.parameters}};
       json["shown"].update(derived_quantities(point));
@@ -65,7 +65,7 @@ class Explain : public Verb {
     show_effects(estimate.report, console);
     if (no_probe_) return ExitCode::kOk;
     show_probe(estimate.report, console);
-    console.out << "\nOn this machine, on one core:\n" << cost_text(estimate, console.width);
+    console.out << "\nOn this machine, on one core:\n" << estimate_text(estimate, console.width);
     return ExitCode::kOk;
   }
 

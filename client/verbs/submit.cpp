@@ -96,8 +96,8 @@ class Submit : public Verb {
       EstimateOptions options;
       options.on_probe = probe_progress(console);
       const CostEstimate estimate = estimate_cost(sweep, options);
-      json["estimate"] = cost_json(estimate);
-      if (!json_) console.out << "\nOn this machine, on one core:\n" << cost_text(estimate, console.width);
+      json["estimate"] = estimate_json(estimate);
+      if (!json_) console.out << "\nOn this machine, on one core:\n" << estimate_text(estimate, console.width);
     }
     if (json_) console.out << json.dump(2) << "\n";
   }

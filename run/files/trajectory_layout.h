@@ -5,11 +5,9 @@
 #include <array>
 #include <cstddef>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "run/files/hdf5.h"
-#include "sim/scene.h"
 
 /// What writer and reader of trajectory.h5 both know of the file. The shape of it follows what readers in use accept:
 /// MDAnalysis 2.4 wants time-dependent (frames, 3, 3) box edges and an explicit step array; it knows no millimetre
@@ -27,9 +25,6 @@ inline constexpr const char* kWalls = "/parameters/walls";
 /// Beads of the k-th added kind, k = 0 being the second of all: they are counted from 1 as the scene's rods, rods_2
 /// are.
 inline std::string added_beads(std::size_t k) { return "/parameters/species_" + std::to_string(k + 2); }
-
-inline constexpr std::array kArenas{std::pair{Arena::kDisc, "disc"}, std::pair{Arena::kSquare, "square"},
-                                    std::pair{Arena::kAnnulus, "annulus"}};
 
 inline std::string values_of(const char* element) { return std::string(kGroup) + "/" + element + "/value"; }
 

@@ -21,11 +21,10 @@ std::vector<double> read_doubles(hid_t where, const char* name) {
 SideWalls read_walls(hid_t file) {
   const hdf5::Id group = hdf5::open_group(file, trajectory_layout::kWalls);
   const std::string name = hdf5::read_text_attribute(group, "arena");
-  const auto known = std::find_if(trajectory_layout::kArenas.begin(), trajectory_layout::kArenas.end(),
-                                  [&](const auto& arena) { return arena.second == name; });
-  if (known == trajectory_layout::kArenas.end()) throw hdf5::Failure("there is no arena '" + name + "'");
+  const std::optional<Arena> known = arena_of(name);
+  if (!known) throw hdf5::Failure("there is no arena '" + name + "'");
   SideWalls walls;
-  walls.arena = known->first;
+  walls.arena = *known;
   hdf5::read_attribute(group, "size_mm", H5T_NATIVE_DOUBLE, &walls.size);
   if (walls.arena == Arena::kAnnulus) hdf5::read_attribute(group, "inner_mm", H5T_NATIVE_DOUBLE, &walls.inner);
   hdf5::read_attribute(group, "friction", H5T_NATIVE_DOUBLE, &walls.contact.friction);

@@ -43,9 +43,7 @@ void write_beads(hid_t where, const std::vector<double>& offset, const std::vect
 
 void write_walls(hid_t file, const SideWalls& walls) {
   const hdf5::Id group = hdf5::create_group(file, trajectory_layout::kWalls);
-  for (const auto& [arena, name] : trajectory_layout::kArenas) {
-    if (arena == walls.arena) hdf5::write_attribute(group, "arena", name);
-  }
+  hdf5::write_attribute(group, "arena", name_of(walls.arena));
   hdf5::write_attribute(group, "size_mm", H5T_NATIVE_DOUBLE, {}, &walls.size);
   if (walls.arena == Arena::kAnnulus) hdf5::write_attribute(group, "inner_mm", H5T_NATIVE_DOUBLE, {}, &walls.inner);
   hdf5::write_attribute(group, "friction", H5T_NATIVE_DOUBLE, {}, &walls.contact.friction);

@@ -42,8 +42,27 @@ class MeasuredAngles : public Measurement {
 
 }  // namespace
 
-std::unique_ptr<Measurement> make_angles(const MeasureContext& context) {
-  return std::make_unique<MeasuredAngles>(context.plan.angles->bins);
+MeasurementKind angles_kind() {
+  return {
+      .name = "angles",
+      .sources = "angles, two_peaks",
+      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
+        return std::make_unique<MeasuredAngles>(context.plan.angles->bins);
+      },
+      .arrays =
+          {
+              {"theta_rad", "bin centres over [-π/2, π/2)"},
+              {"density_per_rad", "P(θ) about the director, of integral 1"},
+          },
+      .numbers =
+          {
+              {"theta_m_deg",
+               "tilt angle of layers: ± the means of two Gaussians fitted to P(θ); null if there is one peak"},
+              {"theta_m_maximum_deg",
+               "angle at which P(θ) itself is highest, both signs taken together; null if there is one peak"},
+              {"dip", "P(0) over the maximum of P: below 1 where there are two peaks"},
+          },
+  };
 }
 
 }  // namespace shaken::run

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "analysis/bounded_series.h"
 #include "analysis/director_field.h"
 #include "run/measure/estimates.h"
 #include "run/measure/registry.h"
@@ -44,12 +45,10 @@ void put_tracks(const analysis::TrackSummary::Tracks& tracks, const std::string&
 
 MeasuredDefects::MeasuredDefects(const MeasureContext& context)
     : region_(context.plan.system.box_side, context.plan.system.walls),
+      smoothing_(context.plan.defects->smoothing_for(context.plan.system.rod.length)),
+      mesh_(context.plan.defects->grid_for(context.plan.system.rod.length)),
       series_(context.plan.defects->list),
-      tracks_(track_settings(context)) {
-  const double length = context.plan.system.rod.length;
-  smoothing_ = context.plan.defects->smoothing > 0 ? context.plan.defects->smoothing : length / 2;
-  mesh_ = context.plan.defects->grid > 0 ? context.plan.defects->grid : length / 8;
-}
+      tracks_(track_settings(context)) {}
 
 void MeasuredDefects::sample(const Moment& moment) {
   const analysis::DirectorField field(moment->position, moment->director, region_,
@@ -89,8 +88,66 @@ void MeasuredDefects::restore(analysis::StateReader& reader) {
   tracks_.restore(reader);
 }
 
-std::unique_ptr<Measurement> make_defects(const MeasureContext& context) {
-  return std::make_unique<MeasuredDefects>(context);
+MeasurementKind defects_kind() {
+  return {
+      .name = "defects",
+      .sources = "defects, director_field, defect_series, defect_tracks",
+      .growth = Growth::kSeries,
+      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
+        return std::make_unique<MeasuredDefects>(context);
+      },
+      .arrays =
+          {
+              {"time_s", "times of the samples"},
+              {"n_plus", "number of defects of charge +1/2"},
+              {"n_minus", "number of defects of charge -1/2"},
+              {"tracks/span_s", "time over which a speed is measured"},
+              {"tracks/speed_plus_mm_s", "mean speed of +1/2 defects", kWithError},
+              {"tracks/speed_minus_mm_s", "mean speed of -1/2 defects", kWithError},
+              {"tracks/speed_plus_along_mm_s", "velocity of +1/2 defects along their tail, see above", kWithError},
+              {"tracks/speed_plus_across_mm_s", "velocity across the tail, to the left", kWithError},
+              {"tracks/lasting/speed_plus_mm_s", "the same of tracks that last `measure.defects.min_lifetime`",
+               kWithError},
+              {"tracks/lasting/speed_minus_mm_s", "the same of lasting tracks", kWithError},
+              {"tracks/lasting/speed_plus_along_mm_s", "the same of lasting tracks", kWithError},
+              {"tracks/lasting/speed_plus_across_mm_s", "the same of lasting tracks", kWithError},
+              {"list/time_s", "when it was found: one entry for every defect; with `measure.defects.list`"},
+              {"list/x_mm", "its place"},
+              {"list/y_mm", "its place"},
+              {"list/charge", "+1/2 or -1/2"},
+              {"list/direction_rad", "of the ray on which the director is radial"},
+              {"list/track", "number of its track"},
+          },
+      .numbers =
+          {
+              {"defect_density_per_mm2", "number per area, of both signs"},
+              {"defect_creation_rate_per_mm2_s", "pairs that appear, per area and time"},
+              {"defect_annihilation_rate_per_mm2_s", "pairs that vanish"},
+              {"defect_lone_birth_rate_per_mm2_s", "defects that appear without a partner"},
+              {"defect_lone_death_rate_per_mm2_s", "defects that vanish without a partner"},
+              {"defect_lifetime_s", "time lived by all defects over the number that vanished"},
+              {"defect_speed_plus_mm_s", "mean speed of +1/2 defects, over four samples"},
+              {"defect_speed_minus_mm_s", "mean speed of -1/2 defects"},
+              {"defect_speed_plus_along_mm_s", "velocity of +1/2 defects along their tail"},
+              {"defect_speed_plus_across_mm_s", "velocity across the tail, to the left"},
+              {"lasting_defect_density_per_mm2", "number per area, of tracks that last `measure.defects.min_lifetime`"},
+              {"lasting_defect_creation_rate_per_mm2_s", "the same of lasting tracks"},
+              {"lasting_defect_annihilation_rate_per_mm2_s", "the same of lasting tracks"},
+              {"lasting_defect_lone_birth_rate_per_mm2_s", "the same of lasting tracks"},
+              {"lasting_defect_lone_death_rate_per_mm2_s", "the same of lasting tracks"},
+              {"lasting_defect_lifetime_s", "the same of lasting tracks"},
+              {"lasting_defect_speed_plus_mm_s", "the same of lasting tracks"},
+              {"lasting_defect_speed_minus_mm_s", "the same of lasting tracks"},
+              {"lasting_defect_speed_plus_along_mm_s", "the same of lasting tracks"},
+              {"lasting_defect_speed_plus_across_mm_s", "the same of lasting tracks"},
+              {"defect_charge", "mean total charge; 0 in a periodic box that is full of rods"},
+          },
+      .kept =
+          [](const scene::RunPlan& plan, std::int64_t samples) {
+            // every defect found, if that is asked for, or their numbers only
+            return plan.defects->list ? samples : analysis::BoundedSeries<2>::points_of(samples);
+          },
+  };
 }
 
 }  // namespace shaken::run

@@ -41,19 +41,39 @@ class MeasuredFluctuations : public Measurement {
 
 }  // namespace
 
-std::unique_ptr<Measurement> make_fluctuations(const MeasureContext& context) {
-  const Scene& system = context.plan.system;
-  double area = system.box_side * system.box_side;
-  analysis::NumberFluctuations::Where counts;
-  if (system.walls) {
-    area = system.walls->area();
-    counts = [walls = *system.walls, box = system.box_side](const Vec2& centre, double side) {
-      const double to_the_corner = side / std::numbers::sqrt2;
-      return distance_to_walls(walls, box, Vec3(centre.x(), centre.y(), 0)) >= to_the_corner;
-    };
-  }
-  return std::make_unique<MeasuredFluctuations>(
-      analysis::NumberFluctuations(system.box_side, area, 2 * system.rod.length, counts));
+MeasurementKind fluctuations_kind() {
+  return {
+      .name = "fluctuations",
+      .sources = "number_fluctuations",
+      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
+        const Scene& system = context.plan.system;
+        double area = system.box_side * system.box_side;
+        analysis::NumberFluctuations::Where counts;
+        if (system.walls) {
+          area = system.walls->area();
+          counts = [walls = *system.walls, box = system.box_side](const Vec2& centre, double side) {
+            const double to_the_corner = side / std::numbers::sqrt2;
+            return distance_to_walls(walls, box, Vec3(centre.x(), centre.y(), 0)) >= to_the_corner;
+          };
+        }
+        return std::make_unique<MeasuredFluctuations>(
+            analysis::NumberFluctuations(system.box_side, area, 2 * system.rod.length, counts));
+      },
+      .arrays =
+          {
+              {"area_fraction", "area of a counting box as a fraction of the whole area"},
+              {"mean_n", "mean number of rods in a box"},
+              {"std_n", "standard deviation of that number over boxes and time", kWithError},
+              {"std_n_without_map", "standard deviation over time, about each box's own mean", kWithError},
+          },
+      .numbers =
+          {
+              {"fluctuation_exponent",
+               "x of ΔN ~ ⟨N⟩ˣ: 1/2 for rods that do not know of each other, up to 1 for giant fluctuations"},
+              {"fluctuation_exponent_without_map", "the same of the fluctuations about the mean of each box"},
+              {"fluctuation_sizes", "number of box sizes that the exponents are fitted to"},
+          },
+  };
 }
 
 }  // namespace shaken::run

@@ -35,12 +35,34 @@ class MeasuredFrank : public Measurement {
 
 }  // namespace
 
-std::unique_ptr<Measurement> make_frank(const MeasureContext& context) {
-  const Scene& system = context.plan.system;
-  // Elasticity is of waves long against a rod, three of them at least; the four longest of the box are always taken.
-  const double three_rods = 2 * kPi / (3 * system.rod.length);
-  const double longest = 2 * kPi / system.box_side * 1.5;
-  return std::make_unique<MeasuredFrank>(system.box_side, std::max(three_rods, longest));
+MeasurementKind frank_kind() {
+  return {
+      .name = "frank",
+      .sources = "director_fluctuations, wave_sums",
+      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
+        const Scene& system = context.plan.system;
+        // Elasticity is of waves long against a rod, three of them at least; the four longest of the box are always
+        // taken.
+        const double three_rods = 2 * kPi / (3 * system.rod.length);
+        const double longest = 2 * kPi / system.box_side * 1.5;
+        return std::make_unique<MeasuredFrank>(system.box_side, std::max(three_rods, longest));
+      },
+      .arrays =
+          {
+              {"q_along_per_mm", "wave vectors, one entry each: component along the director"},
+              {"q_across_per_mm", "component across it"},
+              {"power_mm2", "power of the director fluctuations", kWithError},
+              {"fit_mm2", "the same from the fitted Frank constants"},
+          },
+      .numbers =
+          {
+              {"frank_ratio", "K₃/K₁, bend over splay"},
+              {"frank_splay", "K₁, in units of the effective temperature"},
+              {"frank_bend", "K₃, in the same units"},
+              {"frank_chi2", "χ² per degree of freedom of the fit: about 1 where the law holds"},
+              {"frank_floor_mm2", "power of rods without correlation, which has been subtracted"},
+          },
+  };
 }
 
 }  // namespace shaken::run

@@ -42,9 +42,21 @@ class MeasuredG2 : public Measurement {
 
 }  // namespace
 
-std::unique_ptr<Measurement> make_g2(const MeasureContext& context) {
-  const Scene& system = context.plan.system;
-  return std::make_unique<MeasuredG2>(context.plan.g2->bins, analysis::Region(system.box_side, system.walls));
+MeasurementKind g2_kind() {
+  return {
+      .name = "g2",
+      .sources = "g2, region",
+      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
+        const Scene& system = context.plan.system;
+        return std::make_unique<MeasuredG2>(context.plan.g2->bins, analysis::Region(system.box_side, system.walls));
+      },
+      .arrays =
+          {
+              {"r_mm", "bin centres"},
+              {"g2", "G₂(r)", kWithError},
+              {"g", "g(r)", kWithError},
+          },
+  };
 }
 
 }  // namespace shaken::run

@@ -32,10 +32,23 @@ class MeasuredLattice : public Measurement {
 
 }  // namespace
 
-std::unique_ptr<Measurement> make_lattice(const MeasureContext& context) {
-  const double length = context.plan.system.rod.length, width = 2 * context.species.max_radius;
-  return std::make_unique<MeasuredLattice>(
-      analysis::LatticeOrder::Shape{context.plan.system.box_side, length / width, width / 2, 2 * length});
+MeasurementKind lattice_kind() {
+  return {
+      .name = "lattice",
+      .sources = "lattice, wave_sums",
+      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
+        const double length = context.plan.system.rod.length, width = 2 * context.species.max_radius;
+        return std::make_unique<MeasuredLattice>(
+            analysis::LatticeOrder::Shape{context.plan.system.box_side, length / width, width / 2, 2 * length});
+      },
+      .numbers =
+          {
+              {"psi_6", "\\|⟨ψ₆⟩\\| over the rods of an instant, in coordinates compressed along the director"},
+              {"psi_6_local", "⟨\\|ψ₆\\|⟩, without regard to the axes of other rods"},
+              {"psi_6_raw", "\\|⟨ψ₆⟩\\| in plain coordinates"},
+              {"bragg_peak", "largest Bragg peak: 1 for a perfect lattice"},
+          },
+  };
 }
 
 }  // namespace shaken::run

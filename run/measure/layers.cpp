@@ -49,9 +49,27 @@ class MeasuredLayers : public Measurement {
 
 }  // namespace
 
-std::unique_ptr<Measurement> make_layers(const MeasureContext& context) {
-  const Scene& system = context.plan.system;
-  return std::make_unique<MeasuredLayers>(system.box_side, system.rod.length / 2);
+MeasurementKind layers_kind() {
+  return {
+      .name = "layers",
+      .sources = "layers, wave_sums",
+      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
+        const Scene& system = context.plan.system;
+        return std::make_unique<MeasuredLayers>(system.box_side, system.rod.length / 2);
+      },
+      .arrays =
+          {
+              {"q_per_mm", "wave numbers 2πk/L"},
+              {"spectrum_across", "power of sin 2(θ - director), wave vectors across the director"},
+              {"spectrum_along", "wave vectors along it"},
+          },
+      .numbers =
+          {
+              {"wavelength_mm", "wavelength of the layers; null where there are none"},
+              {"layers_per_box", "side of the box over that wavelength"},
+              {"layer_order", "amplitude of the wave of sin 2(θ − θ_N) with the most power"},
+          },
+  };
 }
 
 }  // namespace shaken::run

@@ -66,8 +66,47 @@ class MeasuredDisplacement : public Measurement {
 
 }  // namespace
 
-std::unique_ptr<Measurement> make_msd(const MeasureContext& context) {
-  return std::make_unique<MeasuredDisplacement>(context.interval, context.plan.steady);
+MeasurementKind msd_kind() {
+  return {
+      .name = "msd",
+      .sources = "msd, lag_fits, lag_average",
+      .growth = Growth::kLags,
+      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
+        return std::make_unique<MeasuredDisplacement>(context.interval, context.plan.steady);
+      },
+      .arrays =
+          {
+              {"lag_s", "lags"},
+              {"total_mm2", "mean square displacement in the plane", kWithError},
+              {"along_mm2", "along the director", kWithError},
+              {"across_mm2", "across the director", kWithError},
+              {"relative_total_mm2", "in the plane, without the common drift of all rods", kWithError},
+              {"relative_along_mm2", "along the director, without that drift", kWithError},
+              {"relative_across_mm2", "across the director, without that drift", kWithError},
+              {"d_total_mm2_s", "MSD / (4 lag)", kWithError},
+              {"d_along_mm2_s", "MSD / (2 lag) of the displacement along the director", kWithError},
+              {"d_across_mm2_s", "MSD / (2 lag) of the displacement across it", kWithError},
+              {"exponent", "d ln(total) / d ln(lag)", kWithError},
+          },
+      .numbers =
+          {
+              {"diffusion_mm2_s", "D at long lags: a quarter of the slope of the MSD"},
+              {"diffusion_short_mm2_s", "the same at short lags"},
+              {"diffusion_along_mm2_s", "D along the director, at long lags"},
+              {"diffusion_across_mm2_s", "D across it"},
+              {"diffusion_relative_mm2_s", "D without the common drift of all rods, at long lags"},
+              {"alpha_short", "exponent of the MSD at short lags"},
+              {"alpha_long", "exponent at long lags"},
+              {"alpha_along_short", "exponent of the displacement along the director, at short lags"},
+              {"alpha_along_long", "the same at long lags"},
+              {"alpha_across_short", "exponent of the displacement across the director, at short lags"},
+              {"alpha_across_long", "the same at long lags"},
+              {"diffusion_lag_from_s", "shortest of the long lags"},
+              {"diffusion_lag_to_s", "longest of the long lags"},
+              {"diffusion_short_lag_from_s", "shortest of the short lags"},
+              {"diffusion_short_lag_to_s", "longest of the short lags"},
+          },
+  };
 }
 
 }  // namespace shaken::run

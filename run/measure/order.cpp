@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "run/measure/order.h"
 
+#include "analysis/bounded_series.h"
 #include "run/measure/estimates.h"
 #include "run/measure/registry.h"
 
@@ -36,8 +37,30 @@ void MeasuredOrder::restore(analysis::StateReader& reader) {
   statistics_.restore(reader);
 }
 
-std::unique_ptr<Measurement> make_order(const MeasureContext& context) {
-  return std::make_unique<MeasuredOrder>(context.plan.system.n_rods);
+MeasurementKind order_kind() {
+  return {
+      .name = "order",
+      .sources = "order, order_statistics, time_series",
+      .growth = Growth::kSeries,
+      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
+        return std::make_unique<MeasuredOrder>(context.plan.system.n_rods);
+      },
+      .arrays =
+          {
+              {"time_s", "times of S(t); of more than 65,536 samples, each point is a mean of several"},
+              {"order", "S(t)"},
+              {"director_rad", "angle of the director to the x axis"},
+              {"pdf/order", "bin centres"},
+              {"pdf/density", "P[S], of integral 1"},
+          },
+      .numbers =
+          {
+              {"binder", "Binder cumulant U₂ = 2 − ⟨S⁴⟩/⟨S²⟩²: 0 in disorder, 1 in order"},
+              {"susceptibility", "N · var S"},
+          },
+      .kept = [](const scene::RunPlan&,
+                 std::int64_t samples) { return analysis::BoundedSeries<2>::points_of(samples); },
+  };
 }
 
 }  // namespace shaken::run

@@ -54,13 +54,35 @@ class MeasuredPairs : public Measurement {
 
 }  // namespace
 
-std::unique_ptr<Measurement> make_pairs(const MeasureContext& context) {
-  const scene::MeasurePairs& pairs = *context.plan.pairs;
-  const double box = context.plan.system.box_side;
-  const double width = 2 * context.species.max_radius;
-  const double range = pairs.range > 0 ? pairs.range : 3 * context.plan.system.rod.length;
-  return std::make_unique<MeasuredPairs>(
-      analysis::PairMap::Shape{pairs.bins, std::min(range, box / 2), std::min(width, box / 2), box});
+MeasurementKind pairs_kind() {
+  return {
+      .name = "pairs",
+      .sources = "pair_map, oscillation",
+      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
+        const scene::MeasurePairs& pairs = *context.plan.pairs;
+        const double box = context.plan.system.box_side;
+        const double width = 2 * context.species.max_radius;
+        const double range = pairs.range_for(context.plan.system.rod.length, box);
+        return std::make_unique<MeasuredPairs>(
+            analysis::PairMap::Shape{pairs.bins, std::min(range, box / 2), std::min(width, box / 2), box});
+      },
+      .arrays =
+          {
+              {"along_mm", "(bins) bin centres along the director"},
+              {"across_mm", "(bins) bin centres across it"},
+              {"g", "(bins · bins) g(x, y), row by row: `g.reshape(bins, bins)[across, along]`"},
+              {"g2", "(bins · bins) G₂(x, y), in the same order"},
+              {"cut/r_mm", "bin centres of cuts through the maps"},
+              {"cut/g_along", "g along the director", kWithError},
+              {"cut/g_across", "g across it", kWithError},
+              {"cut/g2_along", "G₂ along the director", kWithError},
+              {"cut/g2_across", "G₂ across it", kWithError},
+          },
+      .numbers =
+          {
+              {"wavelength_g2_mm", "wavelength of layers: first period of G₂ across the director"},
+          },
+  };
 }
 
 }  // namespace shaken::run

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "run/measure/measurement.h"
 
@@ -18,15 +19,27 @@ enum class Growth {
   kLags,    ///< with the logarithm
 };
 
-/// One thing that can be measured: the block "measure.NAME" of a scene.
+/// One array of observables.h5, or one number of summary.json.
+struct Output {
+  std::string_view name;     ///< ends in the unit; of an array: its path below "/NAME/"
+  std::string_view meaning;  ///< for the pages
+  bool has_error = false;    ///< of an array: whether there is one with `_sem` as well (every number has an error)
+};
+inline constexpr bool kWithError = true;
+
+/// One thing that can be measured, the block "measure.NAME" of a scene, and all that becomes of it.
 struct MeasurementKind {
-  std::string_view name;
-  std::optional<double> (*every)(const scene::RunPlan&);  ///< the period asked for [s]; none: it is not measured
-  void (*switch_off)(scene::RunPlan&);
-  std::unique_ptr<Measurement> (*make)(const MeasureContext&);
-  Growth growth;
+  std::string_view name;     ///< as in scene/observables.cpp
+  std::string_view sources;  ///< files of analysis/, "tilt, tilt_summary"
+  Growth growth = Growth::kBlocks;
+  std::unique_ptr<Measurement> (*make)(const MeasureContext&) = nullptr;
+  std::vector<Output> arrays = {};
+  std::vector<Output> numbers = {};
   /// How many of so many samples are kept one by one; null: all.
   std::int64_t (*kept)(const scene::RunPlan&, std::int64_t samples) = nullptr;
+
+  /// The period asked for [s]; none: it is not measured.
+  std::optional<double> every(const scene::RunPlan& plan) const;
 };
 
 /// All of them, in the order in which they sample and are saved.
@@ -35,19 +48,21 @@ std::span<const MeasurementKind> measurement_kinds();
 /// The plan with `kind` as all that is measured, from its start on.
 scene::RunPlan only(scene::RunPlan plan, const MeasurementKind& kind);
 
-std::unique_ptr<Measurement> make_order(const MeasureContext& context);
-std::unique_ptr<Measurement> make_angles(const MeasureContext& context);
-std::unique_ptr<Measurement> make_tilt(const MeasureContext& context);
-std::unique_ptr<Measurement> make_defects(const MeasureContext& context);
-std::unique_ptr<Measurement> make_g2(const MeasureContext& context);
-std::unique_ptr<Measurement> make_fluctuations(const MeasureContext& context);
-std::unique_ptr<Measurement> make_frank(const MeasureContext& context);
-std::unique_ptr<Measurement> make_msd(const MeasureContext& context);
-std::unique_ptr<Measurement> make_rotation(const MeasureContext& context);
-std::unique_ptr<Measurement> make_velocity(const MeasureContext& context);
-std::unique_ptr<Measurement> make_rods(const MeasureContext& context);
-std::unique_ptr<Measurement> make_pairs(const MeasureContext& context);
-std::unique_ptr<Measurement> make_layers(const MeasureContext& context);
-std::unique_ptr<Measurement> make_lattice(const MeasureContext& context);
+// One in each file of this folder.
+MeasurementKind angles_kind();
+MeasurementKind defects_kind();
+MeasurementKind fluctuations_kind();
+MeasurementKind frank_kind();
+MeasurementKind g2_kind();
+MeasurementKind lattice_kind();
+MeasurementKind layers_kind();
+MeasurementKind msd_kind();
+MeasurementKind order_kind();
+MeasurementKind pairs_kind();
+MeasurementKind rods_kind();
+MeasurementKind rotation_kind();
+MeasurementKind structure_kind();
+MeasurementKind tilt_kind();
+MeasurementKind velocity_kind();
 
 }  // namespace shaken::run

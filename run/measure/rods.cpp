@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <cmath>
 #include <string>
 
 #include "analysis/rod_traces.h"
@@ -37,8 +38,28 @@ class MeasuredRods : public Measurement {
 
 }  // namespace
 
-std::unique_ptr<Measurement> make_rods(const MeasureContext& context) {
-  return std::make_unique<MeasuredRods>(*context.plan.rods, context.plan.steady.value_or(0.0));
+MeasurementKind rods_kind() {
+  return {
+      .name = "rods",
+      .sources = "rod_traces",
+      .growth = Growth::kSeries,
+      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
+        return std::make_unique<MeasuredRods>(*context.plan.rods, context.plan.steady.value_or(0.0));
+      },
+      .arrays =
+          {
+              {"trace/time_s", "times of the samples of single rods"},
+              {"trace/K/x_mm", "path of rod K without jumps; one group for each rod that is followed"},
+              {"trace/K/y_mm", "the same in y"},
+              {"trace/K/theta_rad", "angle of its axis in the plane, in (-π, π]"},
+              {"trace/K/n_z", "vertical component of its axis"},
+          },
+      .kept =
+          [](const scene::RunPlan& plan, std::int64_t samples) {
+            const double most = std::floor(plan.rods->duration / plan.rods->every * (1 + 1e-12)) + 1;
+            return most < static_cast<double>(samples) ? static_cast<std::int64_t>(most) : samples;
+          },
+  };
 }
 
 }  // namespace shaken::run

@@ -46,8 +46,35 @@ class MeasuredRotation : public Measurement {
 
 }  // namespace
 
-std::unique_ptr<Measurement> make_rotation(const MeasureContext& context) {
-  return std::make_unique<MeasuredRotation>(context.interval, context.plan.steady);
+MeasurementKind rotation_kind() {
+  return {
+      .name = "rotation",
+      .sources = "rotation, lag_fits, lag_average",
+      .growth = Growth::kLags,
+      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
+        return std::make_unique<MeasuredRotation>(context.interval, context.plan.steady);
+      },
+      .arrays =
+          {
+              {"lag_s", "lags"},
+              {"msad_rad2", "mean square angular displacement", kWithError},
+              {"c2", "C₂(t) = ⟨cos 2Δθ⟩", kWithError},
+          },
+      .numbers =
+          {
+              {"rotational_diffusion_rad2_s", "D_r at long lags: half the slope of the MSAD"},
+              {"alpha_rotation_short", "exponent of the MSAD at short lags"},
+              {"alpha_rotation_long", "exponent at long lags"},
+              {"c2_plateau", "mean of C₂ over the last octave of lags"},
+              {"c2_decay_s", "lag at which C₂ falls to 1/e; null if it does not"},
+              {"large_turns",
+               "turns by more than π/3 from one sample to the next: should be 0, or `every` is too long"},
+              {"rotation_lag_from_s", "shortest of the long lags"},
+              {"rotation_lag_to_s", "longest of the long lags"},
+              {"rotation_short_lag_from_s", "shortest of the short lags"},
+              {"rotation_short_lag_to_s", "longest of the short lags"},
+          },
+  };
 }
 
 }  // namespace shaken::run

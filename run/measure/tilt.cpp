@@ -58,10 +58,36 @@ class MeasuredTilt : public Measurement {
 
 }  // namespace
 
-std::unique_ptr<Measurement> make_tilt(const MeasureContext& context) {
-  // Soft overlaps let rods tilt a little further; a gap that lets them stand gives the whole range.
-  const double n_z_max = std::max(largest_tilt(context.species, context.plan.system.gap), 1e-6);
-  return std::make_unique<MeasuredTilt>(context.plan.tilt->bins, n_z_max);
+MeasurementKind tilt_kind() {
+  return {
+      .name = "tilt",
+      .sources = "tilt, tilt_summary, tilt_switches",
+      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
+        // Soft overlaps let rods tilt a little further; a gap that lets them stand gives the whole range.
+        const double n_z_max = std::max(largest_tilt(context.species, context.plan.system.gap), 1e-6);
+        return std::make_unique<MeasuredTilt>(context.plan.tilt->bins, n_z_max);
+      },
+      .arrays =
+          {
+              {"n_z", "bin centres of the vertical component of the axis"},
+              {"v_along_mm_s", "mean velocity along the rod's own direction in the plane", kWithError},
+              {"v_across_mm_s", "across that direction, to the left", kWithError},
+              {"density", "P(n_z)"},
+              {"folded/n_z", "bins with n_z > 0"},
+              {"folded/v_along_mm_s", "both signs of n_z combined, with v(-n_z) = -v(n_z)", kWithError},
+          },
+      .numbers =
+          {
+              {"n_z_switching_time_s", "mean time for which a rod stays tilted to one side"},
+              {"tilt_fastest_mm_s",
+               "folded mean velocity along the rod where its magnitude is largest; negative: away from the raised end"},
+              {"tilt_fastest_n_z", "tilt at which it is reached"},
+              {"tilt_reversal_n_z", "tilt at which the folded mean velocity changes sign"},
+              {"tilt_reversal_sigmas",
+               "mean velocity beyond that tilt over its error, positive if reversed; below about 3 there is no "
+               "reversal"},
+          },
+  };
 }
 
 }  // namespace shaken::run

@@ -52,8 +52,36 @@ class MeasuredVelocity : public Measurement {
 
 }  // namespace
 
-std::unique_ptr<Measurement> make_velocity(const MeasureContext& context) {
-  return std::make_unique<MeasuredVelocity>(context.interval, context.plan.velocity->window, context.plan.steady);
+MeasurementKind velocity_kind() {
+  return {
+      .name = "velocity",
+      .sources = "velocity_correlation, lag_average",
+      .growth = Growth::kLags,
+      .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
+        return std::make_unique<MeasuredVelocity>(context.interval, context.plan.velocity->window, context.plan.steady);
+      },
+      .arrays =
+          {
+              {"lag_s", "lags"},
+              {"c_v", "C_v(t), normalised to 1 at 0; velocities averaged over `measure.velocity.window`", kWithError},
+              {"c_v_along", "of the component along the director", kWithError},
+              {"c_v_across", "of the component across it", kWithError},
+              {"product_mm2_s2", "⟨v(t) · v(t + lag)⟩: C_v(t), not normalised", kWithError},
+              {"product_along_mm2_s2", "of the component along the director", kWithError},
+              {"product_across_mm2_s2", "of the component across it", kWithError},
+              {"direction", "⟨u(t) · u(t + lag)⟩ of the unit vectors u of the velocities: persistence", kWithError},
+          },
+      .numbers =
+          {
+              {"velocity_correlation_s", "integral of C_v up to its first zero"},
+              {"velocity_decay_s", "lag at which C_v falls to 1/e"},
+              {"velocity_variance_along_mm2_s2", "⟨v²⟩ along the director: C_v(0), not normalised"},
+              {"velocity_variance_across_mm2_s2", "⟨v²⟩ across it"},
+              {"persistence_time_s", "for how long a rod keeps its direction"},
+              {"persistence_length_mm", "how far it gets in that direction"},
+              {"velocity_rms_mm_s", "√⟨v²⟩ in the plane"},
+          },
+  };
 }
 
 }  // namespace shaken::run

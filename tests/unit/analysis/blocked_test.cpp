@@ -75,15 +75,14 @@ TEST(Blocked, PartsAddUpToAllOfIt) {
   }
 }
 
-TEST(Blocked, PassesAllArgumentsOnAndResets) {
+TEST(Blocked, PassesAllArgumentsOn) {
   Blocked<TiltVelocity> blocked{TiltVelocity(4, 0.5)};
   for (int i = 0; i < 200; ++i) {
     blocked.accumulate(i, std::vector<Vec3>{axis(0, 0.1)}, std::vector<Vec3>{Vec3(i < 100 ? 5 : 1, 0, 0)});
   }
   EXPECT_DOUBLE_EQ(blocked.after(100).means().v_along[2], 1.0);
   EXPECT_DOUBLE_EQ(blocked.all().means().v_along[2], 3.0);
-  blocked.reset();
-  EXPECT_TRUE(std::isnan(blocked.all().means().v_along[2]));
+  EXPECT_TRUE(std::isnan(blocked.empty().means().v_along[2]));
 }
 
 TEST(Blocked, GoesOnBitwiseFromItsSavedState) {
@@ -92,7 +91,7 @@ TEST(Blocked, GoesOnBitwiseFromItsSavedState) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     straight.accumulate(static_cast<double>(i), all[i]);
     stopped.accumulate(static_cast<double>(i), all[i]);
-    if (i % 11 == 0) stop_and_go_on(stopped);
+    if (i % 11 == 0) stop_and_go_on(stopped, Blocked(AngleDistribution(30)));
   }
   EXPECT_EQ(state(straight), state(stopped));
   expect_every_truncation_found(stopped);

@@ -285,7 +285,7 @@ TEST(DefectTracks, SavedState) {
       defects.push_back(at(10 * k + draw.normal(), draw.normal(), k % 2 - 0.5, draw.normal()));
     straight.accumulate(kInterval * i, defects);
     stopped.accumulate(kInterval * i, defects);
-    stop_and_go_on(stopped);
+    stop_and_go_on(stopped, tracking());
     EXPECT_EQ(straight.ids(), stopped.ids());
   }
   EXPECT_EQ(state(straight), state(stopped));

@@ -173,7 +173,7 @@ TEST(DirectorFluctuations, MergeAndSavedState) {
     straight.accumulate(nematic.positions, nematic.directors);
     stopped.accumulate(nematic.positions, nematic.directors);
     (i < 3 ? first : second).accumulate(nematic.positions, nematic.directors);
-    stop_and_go_on(stopped);
+    stop_and_go_on(stopped, DirectorFluctuations(kBox, 1));
   }
   first.merge(second);
   EXPECT_EQ(state(straight), state(stopped));

@@ -202,7 +202,7 @@ TEST(OrientationCorrelation, MergeAndSavedState) {
     straight.accumulate(positions, directors, kBox);
     stopped.accumulate(positions, directors, kBox);
     (i < 2 ? first : second).accumulate(positions, directors, kBox);
-    stop_and_go_on(stopped);
+    stop_and_go_on(stopped, OrientationCorrelation(8, 10));
   }
   EXPECT_EQ(state(straight), state(stopped));
   expect_every_truncation_found(stopped);

@@ -99,7 +99,7 @@ TEST(LatticeOrder, MergeSaveAndOddInput) {
     straight.accumulate(places, axes);
     stopped.accumulate(places, axes);
     (t < 2 ? first : second).accumulate(places, axes);
-    stop_and_go_on(stopped);
+    stop_and_go_on(stopped, LatticeOrder(shape));
   }
   EXPECT_EQ(state(straight), state(stopped));
   expect_every_truncation_found(stopped);
@@ -114,7 +114,7 @@ TEST(LatticeOrder, MergeSaveAndOddInput) {
   odd.accumulate(std::vector<Vec3>{{1, 1, 0}}, std::vector<Vec3>{{0, 0, 1}});
   EXPECT_EQ(odd.reduce().psi_6, 0.0);
   EXPECT_NEAR(odd.reduce().bragg_peak, 1.0, 1e-12);
-  odd.reset();
+  odd = LatticeOrder(shape);
   odd.accumulate(std::vector<Vec3>(8, Vec3(1, 1, 0)), std::vector<Vec3>(8, axis(0)));  // all in one place
   EXPECT_EQ(odd.reduce().psi_6_raw, 0.0);
 }

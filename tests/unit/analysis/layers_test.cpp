@@ -159,7 +159,7 @@ TEST(LayerOrder, MergeSaveAndOddInput) {
     straight.accumulate(places, axes);
     stopped.accumulate(places, axes);
     (t < 2 ? first : second).accumulate(places, axes);
-    stop_and_go_on(stopped);
+    stop_and_go_on(stopped, LayerOrder(kBox, 10));
   }
   EXPECT_EQ(state(straight), state(stopped));
   expect_every_truncation_found(stopped);

@@ -187,7 +187,7 @@ TEST(MeanSquareDisplacement, GoesOnBitwiseFromItsSavedState) {
   for (const std::vector<Vec3>& frame : walks(draw, 4, 90, 0.2, 1.0, 1.0)) {
     straight.accumulate(0.1 * i, frame, 0.1 * i);
     stopped.accumulate(0.1 * i, frame, 0.1 * i);
-    if (++i % 7 == 0) stop_and_go_on(stopped);
+    if (++i % 7 == 0) stop_and_go_on(stopped, MeanSquareDisplacement(0.1, 4));
   }
   EXPECT_EQ(state(straight), state(stopped));
   MeanSquareDisplacement small = msd_of(walks(draw, 2, 20, 0, 1, 1), 0, 1.0, 2);

@@ -192,7 +192,7 @@ TEST(NumberFluctuations, MergeAndSavedState) {
     straight.accumulate(places);
     stopped.accumulate(places);
     (i < 4 ? first : second).accumulate(places);
-    stop_and_go_on(stopped);
+    stop_and_go_on(stopped, NumberFluctuations(kBox, 1, 1));
   }
   first.merge(second);
   EXPECT_EQ(state(straight), state(stopped));

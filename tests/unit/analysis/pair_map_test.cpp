@@ -134,7 +134,7 @@ TEST(PairMap, MergeSaveAndOddInput) {
     straight.accumulate(positions, directors);
     stopped.accumulate(positions, directors);
     (i < 2 ? first : second).accumulate(positions, directors);
-    stop_and_go_on(stopped);
+    stop_and_go_on(stopped, PairMap(shape));
   }
   EXPECT_EQ(state(straight), state(stopped));
   expect_every_truncation_found(stopped);
@@ -156,7 +156,7 @@ TEST(PairMap, MergeSaveAndOddInput) {
   odd.accumulate(std::vector<Vec3>{{1, 1, 0}}, std::vector<Vec3>{axis(1)});
   EXPECT_EQ(odd.reduce().g[0], 0.0);
   EXPECT_TRUE(std::isnan(odd.reduce().g2[0]));
-  odd.reset();
+  odd = PairMap(shape);
   odd.accumulate(std::vector<Vec3>{{1, 1, 0}, {2, 1, 0}}, std::vector<Vec3>{axis(1), {0, 0, 1}});
   EXPECT_EQ(odd.reduce().g, std::vector<double>(81, 0.0));  // the rod upright is none
 }

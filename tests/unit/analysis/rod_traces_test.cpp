@@ -56,7 +56,7 @@ TEST(RodTraces, GoesOnBitwiseFromItsSavedState) {
   for (int i = 0; i < 40; ++i) {
     sample(straight, 0.1 * i, 9);
     sample(stopped, 0.1 * i, 9);
-    if (i % 7 == 0) stop_and_go_on(stopped);
+    if (i % 7 == 0) stop_and_go_on(stopped, RodTraces(3, 2.0));
   }
   EXPECT_EQ(state(straight), state(stopped));
   EXPECT_EQ(straight.times().size(), 21u);

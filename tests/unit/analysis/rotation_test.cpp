@@ -131,7 +131,7 @@ TEST(Rotation, GoesOnBitwiseFromItsSavedState) {
     for (const double theta : sample) directors.push_back(axis(theta));
     straight.accumulate(0.1 * i, directors);
     stopped.accumulate(0.1 * i, directors);
-    if (++i % 7 == 0) stop_and_go_on(stopped);
+    if (++i % 7 == 0) stop_and_go_on(stopped, Rotation(0.1, 4));
   }
   EXPECT_GT(straight.summarize().large_turns, 0.0);
   EXPECT_EQ(state(straight), state(stopped));

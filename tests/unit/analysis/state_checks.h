@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "analysis/state_io.h"
@@ -17,11 +18,11 @@ std::vector<std::byte> state(const Accumulator& accumulator) {
   return writer.bytes();
 }
 
-/// As a run does that stops and goes on: `accumulator` into bytes, forgotten, and back.
+/// As a run does that stops and goes on: `accumulator` into bytes, and back into a new one without samples.
 template <class Accumulator>
-void stop_and_go_on(Accumulator& accumulator) {
+void stop_and_go_on(Accumulator& accumulator, const std::type_identity_t<Accumulator>& empty) {
   const std::vector<std::byte> bytes = state(accumulator);
-  accumulator.reset();
+  accumulator = empty;
   StateReader reader(bytes);
   accumulator.restore(reader);
   reader.end();

@@ -100,7 +100,7 @@ TEST(TiltSwitches, GoOnBitwiseFromTheirSavedState) {
     const std::vector<Vec3> directors = random_axes(draw, 7);
     straight.accumulate(0.1 * i, directors);
     stopped.accumulate(0.1 * i, directors);
-    if (i % 7 == 0) stop_and_go_on(stopped);
+    if (i % 7 == 0) stop_and_go_on(stopped, TiltSwitches(0.1));
   }
   EXPECT_EQ(state(straight), state(stopped));
   EXPECT_GT(straight.sums().all().switches, 100);

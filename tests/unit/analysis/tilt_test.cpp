@@ -165,7 +165,7 @@ TEST(TiltVelocity, GoesOnBitwiseFromItsSavedState) {
     planted(draw, 20, directors, velocities);
     straight.accumulate(directors, velocities);
     stopped.accumulate(directors, velocities);
-    if (i % 13 == 0) stop_and_go_on(stopped);
+    if (i % 13 == 0) stop_and_go_on(stopped, TiltVelocity(8, kMaxTilt));
   }
   EXPECT_EQ(state(straight), state(stopped));
   expect_every_truncation_found(stopped);

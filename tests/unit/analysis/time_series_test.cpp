@@ -91,28 +91,13 @@ TEST(StatisticalInefficiency, IsOneWhereThereIsNothingToCorrelate) {
   EXPECT_EQ(statistical_inefficiency(alternating), 1.0);
 }
 
-// Blocking and the autocorrelation sum are independent estimates of one number; each is good to about 5 % here.
-TEST(BlockSem, AgreesWithTheAutocorrelationTime) {
+TEST(SummarizeSeries, ErrorOfALongSeries) {
   Draw draw(14);
   for (const double a : {0.0, 0.5, 0.9}) {
     const std::vector<double> x = ar1(draw, a, 200000);
     const double truth = std::sqrt((1 + a) / (1 - a) / 200000);
-    EXPECT_NEAR(block_sem(x), truth, 0.2 * truth) << a;
     EXPECT_NEAR(summarize_series(equal_times(x.size()), x, 0.0).sem, truth, 0.2 * truth) << a;
   }
-}
-
-TEST(BlockSem, LevelsAreTheBlockingTransformation) {
-  const std::vector<double> x{1, 3, 2, 6, 5, 9, 4};  // pairs 2 4 7 (the last is left over), then 3
-  const std::vector<BlockLevel> levels = block_levels(x);
-  ASSERT_EQ(levels.size(), 2u);
-  EXPECT_EQ(levels[1].block_length, 2u);
-  EXPECT_EQ(levels[1].n_blocks, 3u);
-  EXPECT_NEAR(levels[1].sem, std::sqrt(((7.0 / 3) * (7.0 / 3) + (1.0 / 3) * (1.0 / 3) + (8.0 / 3) * (8.0 / 3)) / 6),
-              1e-14);
-  EXPECT_NEAR(levels[1].sem_error, levels[1].sem / 2, 1e-14);
-  EXPECT_TRUE(block_levels(std::vector<double>{1}).empty());
-  EXPECT_EQ(block_sem(std::vector<double>(50, 0.3)), 0.0);
 }
 
 // The quoted error must cover: over 300 independent series, (mean - truth) / sem has mean square 1 within 8 % by

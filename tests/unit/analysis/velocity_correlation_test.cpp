@@ -253,7 +253,7 @@ TEST(VelocityCorrelation, GoesOnBitwiseFromItsSavedState) {
   for (const std::vector<Vec3>& frame : walks(draw, 4, 90, 0.2, 1.0, 1.0)) {
     straight.accumulate(0.1 * i, frame, 0.1 * i);
     stopped.accumulate(0.1 * i, frame, 0.1 * i);
-    if (++i % 3 == 0) stop_and_go_on(stopped);
+    if (++i % 3 == 0) stop_and_go_on(stopped, VelocityCorrelation(0.1, 0.4, 4));
   }
   EXPECT_EQ(state(straight), state(stopped));
   const std::vector<std::byte> bytes = state(straight);

@@ -81,6 +81,15 @@ TEST(TrajectorySource, TakesShakingAndMovieFromTheScene) {
   }
 }
 
+// The defects drawn are those that the run measured.
+TEST(TrajectorySource, TakesTheDirectorFieldFromTheScene) {
+  const ScratchFolder folder;
+  plant_trajectory(folder.path(), 1, R"({"measure": {"defects": {"smoothing": 1.5, "grid": 0.25}}})");
+  const RodPicture picture = TrajectorySource::open(folder.path())->picture(0, true).value();
+  EXPECT_DOUBLE_EQ(picture.smoothing, 1.5);
+  EXPECT_DOUBLE_EQ(picture.grid, 0.25);
+}
+
 TEST(TrajectorySource, SaysWhatIsMissing) {
   const ScratchFolder folder;
   const Result<TrajectorySource> nothing = TrajectorySource::open(folder.path());

@@ -230,6 +230,7 @@ ErrorCase of_layers(const char* name, double share, int samples) {
   p.tilt = scene::MeasureTilt{kEvery, 10};
   p.layers = scene::MeasureLayers{kEvery};
   p.lattice = scene::MeasureLattice{kEvery};
+  p.structure = scene::MeasureStructure{kEvery, 6};
   return {name,
           {},
           p,
@@ -237,7 +238,8 @@ ErrorCase of_layers(const char* name, double share, int samples) {
           samples,
           {"order", "binder", "susceptibility", "theta_m_deg", "dip", "tilt_fastest_mm_s", "tilt_reversal_n_z",
            "layer_order", "psi_6", "psi_6_local", "psi_6_raw", "bragg_peak", "/tilt/v_along_sem_mm_s",
-           "/tilt/v_across_sem_mm_s", "/tilt/folded/v_along_sem_mm_s"}};
+           "/tilt/v_across_sem_mm_s", "/tilt/folded/v_along_sem_mm_s", "structure_longest_wave",
+           "/structure/factor_sem", "/structure/factor_along_sem", "/structure/factor_across_sem"}};
 }
 
 TEST(ErrorBars, OfIndependentSamples) { expect_honest_errors(of_layers("independent", 1.0, 130), 200); }

@@ -8,12 +8,15 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <set>
 #include <sstream>
 
 #include "base/files.h"
 #include "run/files/directory.h"
 #include "run/loop.h"
+#include "run/measure/registry.h"
 #include "run/trouble_file.h"
+#include "scene/observables.h"
 #include "tests/unit/run/hdf5_attributes.h"
 #include "tests/unit/run/temporary_folder.h"
 
@@ -94,20 +97,18 @@ scene::RunPlan everything() {
   plan.system.box_side = 14;
   plan.system.dt = 2e-5;
   plan.measure_time = 0.4;
-  plan.order = scene::MeasureOrder{0.002};
-  plan.angles = scene::MeasureAngles{0.004, 36};
+  for (const scene::Observable& observable : scene::observables()) {
+    observable.block.store(plan, true);
+    observable.every.store(plan, 0.01);
+  }
+  for (double* every : {&plan.order->every, &plan.msd->every, &plan.rotation->every, &plan.velocity->every}) {
+    *every = 0.002;
+  }
   plan.tilt = scene::MeasureTilt{0.001, 10};
   plan.defects = scene::MeasureDefects{0.02, 1.25, 0.3125, true, 0.02};
-  plan.g2 = scene::MeasureG2{0.02, 20};
-  plan.msd = scene::MeasureMsd{0.002};
-  plan.rotation = scene::MeasureRotation{0.002};
-  plan.velocity = scene::MeasureVelocity{0.002, 0.01};
+  plan.velocity->window = 0.01;
   plan.rods = scene::MeasureRods{0.01, 2, 0.2};
-  plan.fluctuations = scene::MeasureFluctuations{0.01};
-  plan.frank = scene::MeasureFrank{0.01};
   plan.pairs = scene::MeasurePairs{0.02, 9, 6};
-  plan.layers = scene::MeasureLayers{0.01};
-  plan.lattice = scene::MeasureLattice{0.02};
   plan.trajectory = scene::Trajectory{0.1};
   plan.stream.reset();
   plan.movie.reset();
@@ -125,6 +126,12 @@ const RunDirectory& files() {
     return RunDirectory{options.directory};
   }();
   return directory;
+}
+
+nlohmann::json json_in(const std::filesystem::path& file) {
+  const auto text = read_file(file);
+  EXPECT_TRUE(text) << text.error().message;
+  return nlohmann::json::parse(*text);
 }
 
 TEST(FilesPage, NamesEveryObservableWithItsUnit) {
@@ -150,6 +157,17 @@ TEST(FilesPage, NamesEveryObservableWithItsUnit) {
   }
 }
 
+// docs/observables.md has a row for each of these (observables_doc_test.cpp).
+TEST(ObservablesPage, NamesEveryNumberThatARunWrites) {
+  std::set<std::string> declared, written;
+  for (const MeasurementKind& kind : measurement_kinds()) {
+    for (const Output& number : kind.numbers) EXPECT_TRUE(declared.emplace(number.name).second) << number.name;
+  }
+  const nlohmann::json measured = json_in(files().summary())["measured"];
+  for (const auto& [name, scalar] : measured.items()) written.insert(name);
+  EXPECT_EQ(written, declared) << "run/measure/NAME.cpp: what NAME_kind() lists and what reduce() gives";
+}
+
 TEST(FilesPage, NamesEveryPartOfTheTrajectoryWithItsUnit) {
   const auto documented = rows_of("trajectory.h5");
   const auto written = data_sets(files().trajectory());
@@ -170,12 +188,6 @@ void expect_named(const std::string& text, const nlohmann::json& json, int depth
     EXPECT_NE(text.find("`" + key + "`"), std::string::npos) << above << key << " is not in docs/files.md";
     if (value.is_object() && depth > 1) expect_named(text, value, depth - 1, above + key + ".");
   }
-}
-
-nlohmann::json json_in(const std::filesystem::path& file) {
-  const auto text = read_file(file);
-  EXPECT_TRUE(text) << text.error().message;
-  return nlohmann::json::parse(*text);
 }
 
 TEST(FilesPage, NamesEveryKeyOfTheJsonFiles) {

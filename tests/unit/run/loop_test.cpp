@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -16,6 +17,7 @@
 #include "run/checkpoint_file.h"
 #include "run/files/observables_file.h"
 #include "run/files/trajectory.h"
+#include "run/saved_run.h"
 #include "scene/canonical.h"
 #include "tests/unit/run/temporary_folder.h"
 
@@ -223,6 +225,28 @@ TEST(Run, StartsAnewIfTheTrajectoryIsLost) {
   std::filesystem::remove(RunDirectory{folder.path()}.trajectory());
   ASSERT_EQ(run_in(folder.path(), small_plan()).state, RunState::kDone);
   expect_same_results(undisturbed(), folder.path());
+}
+
+TEST(SavedRun, GoesOnFromTheNewestCheckpointThatCanBeUsed) {
+  const TemporaryFolder folder;
+  stop_twice(folder);
+  const RunDirectory directory{folder.path()};
+  const Result<scene::RunPlan> plan = read_plan(directory);
+  ASSERT_TRUE(plan);
+  const std::string id = scene::run_id(*plan);
+  const auto resumed = [&](Tick before = std::numeric_limits<Tick>::max()) {
+    return resume_last(directory, id, plan->system, before);
+  };
+  ASSERT_TRUE(resumed());
+  const Tick newest = resumed()->tick();
+  ASSERT_TRUE(resumed(newest));
+  const Tick older = resumed(newest)->tick();
+  EXPECT_LT(older, newest);
+  EXPECT_FALSE(resumed(older));
+  flip_a_byte(directory.checkpoint());
+  EXPECT_EQ(resumed()->tick(), older);
+  flip_a_byte(directory.previous_checkpoint());
+  EXPECT_NE(resumed().error().message.find("checkpoint.bin"), std::string::npos) << "of the newest";
 }
 
 TEST(Run, SurvivesASuddenEnd) {

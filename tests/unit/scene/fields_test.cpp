@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "scene/fields.h"
 
-#include <cstdlib>
-#include <fstream>
 #include <set>
-#include <sstream>
 
 #include "scene/canonical.h"
+#include "tests/support/generated_page.h"
 #include "tests/unit/scene/support.h"
 
 namespace shaken::scene {
@@ -61,22 +59,7 @@ TEST(Fields, SuggestPaths) {
 
 // The table in docs/scene.md is fields_as_markdown(). To write it anew: SHAKEN_UPDATE_DOCS=1 and run this test.
 TEST(Fields, TheReferenceIsUpToDate) {
-  const std::string file = SHAKEN_SOURCE_DIR "/docs/scene.md";
-  std::ifstream in(file);
-  std::stringstream content;
-  content << in.rdbuf();
-  std::string text = content.str();
-  const std::string begin = "<!-- keys: begin -->\n";
-  const std::size_t from = text.find(begin);
-  const std::size_t to = text.find("<!-- keys: end -->");
-  ASSERT_TRUE(from != std::string::npos && to != std::string::npos) << file << " has lost its marks";
-  const std::string written = text.substr(from + begin.size(), to - from - begin.size());
-  if (std::getenv("SHAKEN_UPDATE_DOCS")) {
-    text.replace(from + begin.size(), written.size(), fields_as_markdown());
-    std::ofstream(file) << text;
-  } else {
-    EXPECT_EQ(written, fields_as_markdown());
-  }
+  expect_generated(SHAKEN_SOURCE_DIR "/docs/scene.md", "keys", fields_as_markdown());
 }
 
 }  // namespace

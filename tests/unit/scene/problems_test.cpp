@@ -2,6 +2,7 @@
 // What users get to see when something is wrong: each kind of mistake, with its place and its remedy.
 #include <gmock/gmock.h>
 
+#include "scene/observables.h"
 #include "tests/unit/scene/support.h"
 
 namespace shaken::scene {
@@ -149,6 +150,13 @@ TEST(Problems, OfWallsAndPlates) {
             "run.json:1:21: /plates/base: without a base rods fall out of sight: set gravity to 0");
   EXPECT_EQ(problem_of(R"({"plates": {"lid": 1}})"),
             "run.json:1:20: /plates/lid: expected true or false, not the number 1");
+}
+
+TEST(Problems, OnlyWhatNeedsAPeriodicBoxIsRefusedWithinWalls) {
+  for (const Observable& observable : observables()) {
+    const std::string text = R"({"walls": {}, "measure": {")" + observable.name + R"(": {}}})";
+    EXPECT_EQ(load_scene(text, "run.json").value.has_value(), observable.within_walls()) << observable.name;
+  }
 }
 
 TEST(Problems, OfTheInnerWall) {

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: MIT
+// Every key of a scene but those of observables, which scene/observables.cpp has.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "scene/accuracy.h"
+#include "scene/derived.h"
+#include "scene/field_makers.h"
+#include "scene/observables.h"
+
+namespace shaken::scene {
+
+namespace {
+
+using Fetch = Value (*)(const RunPlan&);
+using enum Dimension;
+
+/// A value of the system.
+template <auto... steps>
+inline constexpr auto sys = at<&RunPlan::system, steps...>;
+
+/// Shown so that 7 stays 7 after a way through amplitude and frequency.
+double to_ten_digits(double value) { return parse_decimal(fmt::format("{:.10g}", value)).value().value(); }
+
+/// A key that is given in place of another: it has no place in a plan.
+Field instead(const std::string& path, Fetch fetch, Dimension dimension, double low, double high, Value fallback,
+              const std::string& doc) {
+  return {.path = path,
+          .dimension = dimension,
+          .low = low,
+          .high = high,
+          .fallback = std::move(fallback),
+          .doc = doc,
+          .fetch = fetch};
+}
+
+/// A word for what other keys say in numbers.
+Field accuracy() {
+  Field field{.path = "accuracy", .form = Form::kName, .fallback_note = "none"};
+  std::string steps;
+  for (const AccuracyLevel& level : accuracy_levels()) {
+    field.names.emplace_back(level.name);
+    steps +=
+        fmt::format("{}{} {}", steps.empty() ? "" : ", ", level.name, format_quantity(level.step, Dimension::kTime));
+  }
+  field.doc = fmt::format("Named level of accuracy, in place of `time.step`: {}.", steps);
+  return field;
+}
+
+Field gravity() {
+  Field field = quantity("gravity", sys<&Scene::gravity>, kAcceleration, 100, 1e5,
+                         "Gravitational acceleration g, downwards. If it is 0, amplitude and frequency must set the "
+                         "vibration.");
+  field.or_zero = true;
+  return field;
+}
+
+Field inner_wall() {
+  Field field = quantity("walls.inner", sys<&Scene::walls, &SideWalls::inner>, kLength, 0.1, 2000,
+                         "Diameter of the inner wall of an annulus.");
+  field.fallback = SideWalls{}.inner;
+  field.fetch = [](const RunPlan& p) {
+    return p.system.walls->arena == Arena::kAnnulus ? Value(p.system.walls->inner) : Value();
+  };
+  return field;
+}
+
+Field steady() {
+  return {.path = "time.steady",
+          .dimension = kTime,
+          .low = 0,
+          .high = 1e7,
+          .names = {"auto"},
+          .doc = "Time before measuring begins. With \"auto\" it is determined from S(t) afterwards.",
+          .fetch = [](const RunPlan& plan) { return plan.steady ? Value(*plan.steady) : Value("auto"); },
+          .store =
+              [](RunPlan& plan, const Value& value) {
+                plan.steady.reset();
+                if (const double* time = std::get_if<double>(&value)) plan.steady = *time;
+              }};
+}
+
+Field movie_size() {
+  return {.path = "movie.size",
+          .form = Form::kSize,
+          .low = 64,
+          .high = 7680,
+          .doc = "Width and height in pixels, both even.",
+          .fetch =
+              [](const RunPlan& plan) {
+                const auto [every, width, height] = *plan.movie;
+                return Value(std::array{static_cast<double>(width), static_cast<double>(height)});
+              },
+          .store =
+              [](RunPlan& plan, const Value& value) {
+                const auto& [width, height] = std::get<std::array<double, 2>>(value);
+                plan.movie->width = static_cast<int>(width);
+                plan.movie->height = static_cast<int>(height);
+              }};
+}
+
+Value fetch_gamma(const RunPlan& p) {
+  const std::optional<double> gamma = gamma_of(p.system);
+  return gamma ? Value(to_ten_digits(*gamma)) : Value();
+}
+
+/// The diameters of all beads; nothing where a profile gives them.
+template <class Access>
+Field bead_diameters(const std::string& path, Access access) {
+  return {.path = path,
+          .form = Form::kNumbers,
+          .dimension = kLength,
+          .low = 0.05,
+          .high = 20,
+          .fallback_note = "none",
+          .doc = "Diameter of each bead from tail to head, in place of a profile.",
+          .fetch = [access](const RunPlan& p) { return access(p).empty() ? Value() : Value(access(p)); },
+          .store = [access](RunPlan& p, const Value& value) { access(p) = std::get<std::vector<double>>(value); }};
+}
+
+/// Area fraction of the rods added as number k + 2.
+template <std::size_t k>
+Value added_fraction(const RunPlan& p) {
+  return Value(to_ten_digits(area_fraction_of(p.system, p.system.added[k]->rod, p.system.added[k]->count)));
+}
+
+// clang-format off
+
+/// The shape of one kind of rod, which lies at `rod` in a plan.
+template <auto... rod>
+std::vector<Field> shape(const std::string& name, const std::string& of_density) {
+  return {
+    quantity(name + ".length", at<rod..., &RodShape::length>, kLength, 0.05, 50, "Length from tip to tip."),
+    quantity(name + ".mid_diameter", at<rod..., &RodShape::mid_diameter>, kLength, 0.05, 20,
+             "Diameter of the centre bead, or of the tail of a polar rod."),
+    quantity(name + ".end_diameter", at<rod..., &RodShape::end_diameter>, kLength, 0.05, 20,
+             "Diameter of the two end beads, or of the head of a polar rod."),
+    later(choice<Profile>(name + ".profile", at<rod..., &RodShape::profile>,
+                          {{"symmetric", Profile::kSymmetric}, {"polar", Profile::kPolar}},
+                          "Whether the thickness falls from the centre to both ends, or from tail to head.")),
+    bead_diameters(name + ".bead_diameters", at<rod..., &RodShape::bead_diameters>),
+    instead(name + ".bead_pitch", nullptr, kLength, 0.01, 10, kDefaultBeadPitch,
+            "Largest distance between neighbouring beads; a rod gets the smallest odd number of beads that keeps to "
+            "it."),
+    derived(whole(name + ".beads", at<rod..., &RodShape::n_beads>, 1, kMaxBeads,
+                  "Number of beads, odd, in place of bead_pitch; 1 makes a sphere of diameter mid_diameter."),
+            "from bead_pitch"),
+    quantity(name + ".density", at<rod..., &RodShape::density>, kDensity, 0.001, 100,
+             "Density of the material." + of_density),
+  };
+}
+
+/// The rods that are added as number k + 2.
+template <std::size_t k>
+std::vector<Field> added_rods(const std::string& name) {
+  std::vector<Field> rows{
+    block(name, sys<&Scene::added, k>, false, "Rods of another kind, at random places among the first.")};
+  std::ranges::move(shape<&RunPlan::system, &Scene::added, k, &AddedRods::rod>(name, ""), std::back_inserter(rows));
+  rows.push_back(
+    derived(instead(name + ".area_fraction", added_fraction<k>, kPlain, 1e-6, kMaxAreaFractionAligned, {},
+                    "Area of these rods, lying flat, divided by the area of the box (or arena)."),
+            "from count"));
+  rows.push_back(
+    derived(whole(name + ".count", sys<&Scene::added, k, &AddedRods::count>, 1, 1e6, "Number of rods."),
+            "from area_fraction"));
+  return rows;
+}
+
+/// Friction and restitution of the contacts at `member` of the system.
+template <auto member>
+std::vector<Field> contact(const std::string& name, const std::string& between) {
+  return {
+    quantity("contacts." + name + ".friction", sys<member, &ContactParameters::friction>, kPlain, 0, 1000,
+             "Coefficient of Coulomb friction between " + between + "."),
+    quantity("contacts." + name + ".restitution", sys<member, &ContactParameters::restitution>, kPlain, 0, 1,
+             "Coefficient of restitution between " + between + "."),
+  };
+}
+
+/// The blocks of all observables.
+std::vector<Field> measure() {
+  std::vector<Field> rows;
+  for (const Observable& observable : observables()) {
+    rows.push_back(observable.block);
+    rows.push_back(observable.every);
+    rows.insert(rows.end(), observable.keys.begin(), observable.keys.end());
+  }
+  return rows;
+}
+
+/// All rows in canonical order, in groups.
+std::vector<std::vector<Field>> groups() {
+  return {
+    shape<&RunPlan::system, &Scene::rod>("rods", " It only sets the unit of energy."), {
+    instead("rods.area_fraction", [](const RunPlan& p) { return Value(to_ten_digits(area_fraction_of(p.system))); },
+            kPlain, 1e-6, kMaxAreaFractionAligned, kDefaultAreaFraction,
+            "Area of all rods, lying flat, divided by the area of the box (or arena)."),
+    derived(whole("rods.count", sys<&Scene::n_rods>, 1, 1e6, "Number of rods."), "from area_fraction and side"),
+    choice<Start>("rods.start", sys<&Scene::start>, {{"aligned", Start::kAligned}, {"random", Start::kRandom}},
+                  "Whether rods start in rows along x, every other row shifted by half a rod, or at random (for dilute "
+                  "systems)."),
+    }, added_rods<0>("rods_2"), added_rods<1>("rods_3"), {
+    quantity("box.side", sys<&Scene::box_side>, kLength, 1, 2000,
+             "Side L of the square box, which is periodic in x and y."),
+    quantity("box.gap", sys<&Scene::gap>, kLength, 0.05, 100, "Distance w between base and lid."),
+
+    instead("plates.gamma", fetch_gamma, kPlain, 0, 200, kDefaultGamma,
+            "Strength of shaking: the largest acceleration of the plates divided by gravity."),
+    derived(quantity("plates.amplitude", sys<&Scene::amplitude>, kLength, 0, 10,
+                     "Amplitude a of the plates' vibration."),
+            "from gamma and frequency"),
+    quantity("plates.frequency", sys<&Scene::frequency>, kFrequency, 0.1, 1e5,
+             "Frequency f of the plates' vibration."),
+    gravity(),
+    later(on_or_off("plates.base", sys<&Scene::base>, "Whether there is a base.")),
+    later(on_or_off("plates.lid", sys<&Scene::lid>, "Whether there is a lid.")),
+    later(quantity("plates.noise", sys<&Scene::rotational_noise>, kPlain, 0, 10,
+                   "Rotational noise in rad/mm: each hit by a plate changes the rod's angular velocity about the "
+                   "vertical by this much per speed of the hit, to either side at random.")),
+
+    block("walls", sys<&Scene::walls>, false,
+          "Side walls around an arena in the middle of the box, in place of periodic boundaries."),
+    choice("walls.arena", sys<&Scene::walls, &SideWalls::arena>, kArenaNames, "Shape of the arena."),
+    derived(quantity("walls.size", sys<&Scene::walls, &SideWalls::size>, kLength, 1, 2000,
+                     "Diameter of the disc or of the outer wall, or side of the square."),
+            "as large as box.side allows"),
+    inner_wall(),
+    quantity("walls.friction", sys<&Scene::walls, &SideWalls::contact, &ContactParameters::friction>, kPlain, 0, 1000,
+             "Coefficient of Coulomb friction between rod and wall."),
+    quantity("walls.restitution", sys<&Scene::walls, &SideWalls::contact, &ContactParameters::restitution>, kPlain,
+             0, 1, "Coefficient of restitution between rod and wall."),
+    },
+    contact<&Scene::rod_rod>("rod_rod", "two rods"),
+    contact<&Scene::rod_base>("rod_base", "rod and base"),
+    contact<&Scene::rod_lid>("rod_lid", "rod and lid"), {
+    choice<ImpulseLaw>("contacts.law", sys<&Scene::law>,
+                       {{"newton", ImpulseLaw::kNewton},
+                        {"poisson", ImpulseLaw::kPoisson},
+                        {"energetic", ImpulseLaw::kEnergetic}},
+                       "Impulse law: whether restitution is a ratio of velocities, of impulses, or of works "
+                       "(docs/stability.md)."),
+    whole("contacts.sweeps", sys<&Scene::solver_sweeps>, 1, 100, "Number of passes over the contacts of one tick."),
+    later(choice<ContactOrder>("contacts.order", sys<&Scene::order>,
+                               {{"sorted", ContactOrder::kSorted},
+                                {"reversed", ContactOrder::kReversed},
+                                {"shuffled", ContactOrder::kShuffled}},
+                               "Order in which the contacts of one tick get their impulses. No average should depend "
+                               "on it.")),
+
+    accuracy(),
+    quantity("time.step", sys<&Scene::dt>, kTime, 1e-7, 1e-4,
+             "Length of a tick (the time step). It determines the accuracy."),
+    choice<Engine>("time.engine", sys<&Scene::engine>,
+                   {{"scheduled", Engine::kScheduled}, {"reference", Engine::kReference}},
+                   "Which stepper runs. Both give bitwise the same trajectory."),
+    later(choice<ImpactTime>("time.impacts", sys<&Scene::impacts>,
+                             {{"tick_end", ImpactTime::kTickEnd}, {"at_instant", ImpactTime::kAtInstant}},
+                             "Whether impacts take effect at the end of their tick, as in the paper, or at their own "
+                             "instant within it.")),
+    steady(),
+    quantity("time.measure", at<&RunPlan::measure_time>, kTime, 1e-6, 1e7, "Length of the run after `time.steady`."),
+    whole("time.seed", sys<&Scene::seed>, 0, 9007199254740992.0,
+          "Seed of all random numbers. Replica k of a sweep has seed + k - 1."),
+    },
+    measure(), {
+    block("trajectory", at<&RunPlan::trajectory>, false, "Positions and directions of the rods, in trajectory.h5."),
+    every("trajectory.every", at<&RunPlan::trajectory, &Trajectory::every>, "Time between frames."),
+    block("stream", at<&RunPlan::stream>, true,
+          "Live state over LCM. It influences neither the results nor the name of the run."),
+    quantity("stream.rate", at<&RunPlan::stream, &Stream::rate>, kFrequency, 0.1, 100,
+             "Largest number of frames per second of wall-clock time."),
+    block("movie", at<&RunPlan::movie>, false, "A movie of the finished run."),
+    every("movie.every", at<&RunPlan::movie, &Movie::every>, "Simulated time between frames."),
+    movie_size(),
+    },
+  };
+}
+// clang-format on
+
+std::vector<Field> make_table() {
+  std::vector<Field> table;
+  for (std::vector<Field>& group : groups()) std::ranges::move(group, std::back_inserter(table));
+  // The defaults are those of the structs themselves.
+  RunPlan defaults;
+  for (const Field& field : table) {
+    if (field.form == Form::kBlock) field.store(defaults, true);
+  }
+  for (Field& field : table) {
+    const bool is_open = std::holds_alternative<std::monostate>(field.fallback) && field.fallback_note.empty();
+    if (is_open) field.fallback = field.fetch(defaults);
+  }
+  return table;
+}
+
+}  // namespace
+
+const std::vector<Field>& fields() {
+  static const std::vector<Field> table = make_table();
+  return table;
+}
+
+}  // namespace shaken::scene

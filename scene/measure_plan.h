@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <optional>
+
+namespace shaken::scene {
+
+// The settings of each observable, with their defaults: the block "measure.NAME" of a scene. Their keys, ranges and
+// descriptions are in scene/observables.cpp.
+
+/// When to sample the in-plane nematic order S(t).
+struct MeasureOrder {
+  double every = 0.01;  ///< [s]
+  friend bool operator==(const MeasureOrder&, const MeasureOrder&) = default;
+};
+/// Distribution of the angle to the director.
+struct MeasureAngles {
+  double every = 0.01;  ///< [s]
+  int bins = 180;       ///< over [-pi/2, pi/2)
+  friend bool operator==(const MeasureAngles&, const MeasureAngles&) = default;
+};
+/// Mean velocity along and across the rod against its tilt n_z.
+struct MeasureTilt {
+  double every = 0.001;  ///< [s]
+  int bins = 40;         ///< over [-1, 1] in n_z times the largest tilt that the gap allows
+  friend bool operator==(const MeasureTilt&, const MeasureTilt&) = default;
+};
+/// Topological defects of the smoothed director field.
+struct MeasureDefects {
+  double every = 0.1;         ///< [s]
+  double smoothing = 0.0;     ///< standard deviation of the Gaussian [mm]; 0: what smoothing_for() says
+  double grid = 0.0;          ///< mesh width [mm]; 0: what grid_for() says
+  bool list = false;          ///< whether every defect found is kept, which takes memory in proportion to the run
+  double min_lifetime = 0.5;  ///< of tracks that count as lasting [s]
+  double smoothing_for(double rod_length) const { return smoothing > 0 ? smoothing : rod_length / 2; }
+  double grid_for(double rod_length) const { return grid > 0 ? grid : rod_length / 8; }
+  friend bool operator==(const MeasureDefects&, const MeasureDefects&) = default;
+};
+/// Orientational correlation G2(r) and pair distribution g(r).
+struct MeasureG2 {
+  double every = 0.1;  ///< [s]
+  int bins = 100;      ///< over [0, L/2)
+  friend bool operator==(const MeasureG2&, const MeasureG2&) = default;
+};
+/// Mean square displacement against lag.
+struct MeasureMsd {
+  double every = 0.01;  ///< [s]
+  friend bool operator==(const MeasureMsd&, const MeasureMsd&) = default;
+};
+/// Rotation in the plane against lag.
+struct MeasureRotation {
+  double every = 0.01;  ///< [s]
+  friend bool operator==(const MeasureRotation&, const MeasureRotation&) = default;
+};
+/// Autocorrelation of velocities averaged over a window.
+struct MeasureVelocity {
+  double every = 0.1;   ///< [s]
+  double window = 0.4;  ///< [s]
+  friend bool operator==(const MeasureVelocity&, const MeasureVelocity&) = default;
+};
+/// The ways of single rods.
+struct MeasureRods {
+  double every = 0.01;   ///< [s]
+  int count = 4;         ///< of rods
+  double duration = 30;  ///< [s]
+  friend bool operator==(const MeasureRods&, const MeasureRods&) = default;
+};
+/// Giant number fluctuations.
+struct MeasureFluctuations {
+  double every = 0.5;  ///< [s]
+  friend bool operator==(const MeasureFluctuations&, const MeasureFluctuations&) = default;
+};
+/// The director's fluctuations in q-space and the Frank constants' ratio.
+struct MeasureFrank {
+  double every = 0.1;  ///< [s]
+  friend bool operator==(const MeasureFrank&, const MeasureFrank&) = default;
+};
+/// Maps of g and G2 in the frame of the director.
+struct MeasurePairs {
+  double every = 0.5;  ///< [s]
+  int bins = 81;       ///< each way
+  double range = 0.0;  ///< half the map's width [mm]; 0: what range_for() says
+  double range_for(double rod_length, double box_side) const {
+    return range > 0 ? range : std::min(3 * rod_length, box_side / 2);
+  }
+  friend bool operator==(const MeasurePairs&, const MeasurePairs&) = default;
+};
+/// Spectrum, wavelength and order of layers.
+struct MeasureLayers {
+  double every = 0.1;  ///< [s]
+  friend bool operator==(const MeasureLayers&, const MeasureLayers&) = default;
+};
+/// psi_6 and the largest Bragg peak.
+struct MeasureLattice {
+  double every = 1.0;  ///< [s]
+  friend bool operator==(const MeasureLattice&, const MeasureLattice&) = default;
+};
+/// Structure factor of the rods' centres.
+struct MeasureStructure {
+  double every = 1.0;  ///< [s]
+  int waves = 64;      ///< wave numbers, 2 pi k / L for k = 1 .. waves
+  friend bool operator==(const MeasureStructure&, const MeasureStructure&) = default;
+};
+
+/// What a run measures. An absent observable is not measured and costs nothing.
+struct MeasurePlan {
+  std::optional<MeasureOrder> order;
+  std::optional<MeasureAngles> angles;
+  std::optional<MeasureTilt> tilt;
+  std::optional<MeasureDefects> defects;
+  std::optional<MeasureG2> g2;
+  std::optional<MeasureMsd> msd;
+  std::optional<MeasureRotation> rotation;
+  std::optional<MeasureVelocity> velocity;
+  std::optional<MeasureRods> rods;
+  std::optional<MeasureFluctuations> fluctuations;
+  std::optional<MeasureFrank> frank;
+  std::optional<MeasurePairs> pairs;
+  std::optional<MeasureLayers> layers;
+  std::optional<MeasureLattice> lattice;
+  std::optional<MeasureStructure> structure;
+  friend bool operator==(const MeasurePlan&, const MeasurePlan&) = default;
+};
+
+}  // namespace shaken::scene
