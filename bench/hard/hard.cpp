@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "base/paths.h"
 #include "base/progress_line.h"
 #include "base/table.h"
 #include "bench/bench.h"
@@ -101,15 +102,20 @@ std::vector<std::string> case_names() {
 
 struct HardBench {
   std::vector<std::string> names;
-  std::string folder = "configs/hard";
+  std::string folder;
   std::optional<double> seconds;
   Output output;
 
   void declare(CLI::App& app) {
     app.add_option("CASE", names, "Cases; all if none is named")->check(CLI::IsMember(case_names()).description(""));
-    add_path(app, "--cases", folder, "DIR", "Folder of the scenes")->capture_default_str();
+    add_path(app, "--cases", folder, "DIR", "Folder of the scenes; configs/hard, or that of the installed files");
     add_number(app, "--seconds", seconds, "S", {1e-4, 1e5}, "Simulated seconds of a scene, at most");
     output.declare(app);
+  }
+
+  std::filesystem::path scenes() const {
+    if (!folder.empty()) return folder;
+    return std::filesystem::exists("configs/hard") ? "configs/hard" : shipped_configs() / "hard";
   }
 
   HardCase run_case(const std::string& name) const {
@@ -120,9 +126,9 @@ struct HardBench {
       if (made.name == name) return made.run();
     }
     for (const SceneCase& scene : scene_cases()) {
-      if (scene.name == name) return run_scene_case(scene, read_hard_scene(folder, name), at_most, watch);
+      if (scene.name == name) return run_scene_case(scene, read_hard_scene(scenes(), name), at_most, watch);
     }
-    return run_order_case(folder, {.seconds = at_most}, watch);
+    return run_order_case(scenes(), {.seconds = at_most}, watch);
   }
 
   ExitCode run() const {

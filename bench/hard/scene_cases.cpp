@@ -126,9 +126,9 @@ scene::RunPlan read_hard_scene(const std::filesystem::path& folder, const std::s
   const std::filesystem::path file = folder / (name + ".json");
   std::ifstream in(file);
   if (!in) {
-    throw Failure(
-        ExitCode::kBadInput,
-        fmt::format("cannot read {}; --cases DIR names the folder configs/hard of the sources", file.string()));
+    throw Failure(ExitCode::kBadInput,
+                  fmt::format("cannot read {}; --cases DIR names the folder of the scenes, configs/hard of the sources",
+                              file.string()));
   }
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   const scene::Loaded<scene::RunPlan> plan = scene::load_scene(text, file.string());
