@@ -9,39 +9,39 @@ import re
 import sys
 
 # Inside the physics library: each may include what stands before it, so there are no circles.
-SIM = ["sim/core", "sim/scene.h", "sim/snapshot.h", "sim/rod", "sim/motion", "sim/contact", "sim/neighbors",
+SIM = ["sim/core", "sim/system.h", "sim/snapshot.h", "sim/rod", "sim/motion", "sim/contact", "sim/neighbors",
        "sim/ledger.h", "sim/world", "sim/balance", "sim/initial", "sim/close_up", "sim/effects", "sim/stepping",
        "sim/checkpoint", "sim/simulation"]
 ALLOWED = {
     "proto": [],
     "base": ["sim/core"],
     # everything outside sim/ sees simulations, not steppers
-    "analysis": ["base/estimate.h", "sim/core", "sim/scene.h"],
-    "scene": ["sim/core", "sim/rod", "sim/scene.h"],
+    "analysis": ["base/estimate.h", "sim/core", "sim/system.h"],
+    "scene": ["sim/core", "sim/rod", "sim/system.h"],
     # whether rods can be placed, the simulation itself says
-    "scene/placement.cpp": ["scene", "sim/core", "sim/rod", "sim/scene.h", "sim/initial.h"],
-    "run/files": ["base", "sim/core", "sim/scene.h", "sim/snapshot.h"],
-    "run": ["proto", "base", "scene", "analysis", "run/files", "sim/core", "sim/rod", "sim/scene.h", "sim/snapshot.h",
+    "scene/placement.cpp": ["scene", "sim/core", "sim/rod", "sim/system.h", "sim/initial.h"],
+    "run/files": ["base", "sim/core", "sim/system.h", "sim/snapshot.h"],
+    "run": ["proto", "base", "scene", "analysis", "run/files", "sim/core", "sim/rod", "sim/system.h", "sim/snapshot.h",
             "sim/world.h", "sim/simulation.h", "sim/balance.h", "sim/close_up.h", "sim/effects/registry.h",
             "sim/motion/side_walls.h"],
     # drawing knows rods and fields; only the program's sources of frames know files and the bus
-    "render/main.cpp": ["render", "base", "run/files", "proto", "sim/core", "sim/scene.h", "sim/snapshot.h", "analysis"],
-    "render/sources.h": ["render", "run/files", "proto", "sim/core", "sim/scene.h", "sim/snapshot.h", "analysis"],
-    "render/sources.cpp": ["render", "run/files", "proto", "sim/core", "sim/scene.h", "sim/snapshot.h", "analysis"],
+    "render/main.cpp": ["render", "base", "run/files", "proto", "sim/core", "sim/system.h", "sim/snapshot.h", "analysis"],
+    "render/sources.h": ["render", "run/files", "proto", "sim/core", "sim/system.h", "sim/snapshot.h", "analysis"],
+    "render/sources.cpp": ["render", "run/files", "proto", "sim/core", "sim/system.h", "sim/snapshot.h", "analysis"],
     # the defaults of the director field whose defects are drawn
-    "render/measure.cpp": ["render", "scene/measure_plan.h", "sim/core", "sim/scene.h", "analysis"],
-    "render": ["sim/core", "sim/scene.h", "analysis"],
+    "render/measure.cpp": ["render", "scene/measure_plan.h", "sim/core", "sim/system.h", "analysis"],
+    "render": ["sim/core", "sim/system.h", "analysis"],
     "server": ["proto", "base", "scene", "run/files", "sim/core"],
-    "client": ["proto", "base", "scene", "run/files", "sim/core", "sim/rod", "sim/scene.h"],
+    "client": ["proto", "base", "scene", "run/files", "sim/core", "sim/rod", "sim/system.h"],
     # the program's verbs are the client's and the study's
     "client/main.cpp": ["client", "study/verb.h"],
     # a paper's figures and claims: a user of the client's libraries, and none of the client knows of it
     "study": ["base", "client", "scene", "run/files", "sim/core"],
     # benches time whole simulations, and the kernels of an impulse by themselves
     # what observables cost is timed with the run's own measurements
-    "bench/analysis.cpp": ["bench", "base", "scene", "run", "analysis", "sim/core", "sim/rod", "sim/scene.h", "sim/snapshot.h",
+    "bench/analysis.cpp": ["bench", "base", "scene", "run", "analysis", "sim/core", "sim/rod", "sim/system.h", "sim/snapshot.h",
                        "sim/world.h", "sim/simulation.h"],
-    "bench": ["base", "scene", "run/files", "analysis", "sim/core", "sim/rod", "sim/motion", "sim/contact", "sim/scene.h",
+    "bench": ["base", "scene", "run/files", "analysis", "sim/core", "sim/rod", "sim/motion", "sim/contact", "sim/system.h",
               "sim/snapshot.h", "sim/world.h", "sim/balance.h", "sim/simulation.h", "sim/neighbors", "sim/effects/registry.h"],
 }
 for floor, name in enumerate(SIM):

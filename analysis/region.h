@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "sim/core/types.h"
-#include "sim/scene.h"
+#include "sim/system.h"
 
 namespace shaken::analysis {
 

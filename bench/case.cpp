@@ -128,7 +128,7 @@ SteadyState steady_state(const Case& wanted, const std::filesystem::path& cache)
 }
 
 Simulation resumed(const Case& of, const SteadyState& state, Engine engine) {
-  Scene scene = of.system();
+  System scene = of.system();
   scene.engine = engine;
   Result<Simulation> simulation = Simulation::resume(scene, state.checkpoint);
   if (!simulation) throw Failure(ExitCode::kFailed, of.label() + ": " + simulation.error().message);

@@ -27,7 +27,7 @@ struct Case {
   double warm_up = 0;        ///< simulated before anything is measured [s]
   scene::RunPlan plan;       ///< `plan.system` is the scene; the run lasts for `warm_up`
 
-  const Scene& system() const { return plan.system; }
+  const System& system() const { return plan.system; }
   Tick warm_up_ticks() const;
   /// Ticks of one vibration, rounded.
   Tick period_ticks() const;

@@ -30,7 +30,7 @@ Json contact_json(const ContactParameters& contact) {
 }
 
 Json system_json(const Case& of, const Species& species) {
-  const Scene& system = of.system();
+  const System& system = of.system();
   return {{"n_rods", system.n_rods},
           {"area_fraction", of.area_fraction},
           {"side", system.box_side},

@@ -45,7 +45,7 @@ double nearest_beads(const Species& s, const Vec3& n_i, const Vec3& n_j, const V
 MotionBound bound(const World& world, int i, const Vec3& director) {
   const Flight& flight = world.rods[i];
   Vec3 velocity = flight.velocity;
-  velocity.z() -= world.scene.gravity * static_cast<double>(world.tick - flight.since) * world.scene.dt;
+  velocity.z() -= world.system.gravity * static_cast<double>(world.tick - flight.since) * world.system.dt;
   MotionBound bound{};
   set_vector(bound.director, director);
   set_vector(bound.velocity, velocity);
@@ -62,7 +62,7 @@ void follow(const Simulation& simulation, const Snapshot& now, float horizon, st
   HullSafeTimes hull_safe;
   for (Course& course : courses) {
     const auto& [i, j] = course.rod;
-    const Vec3 D = nearest_image(now.position[i], now.position[j], world.scene.box_side);
+    const Vec3 D = nearest_image(now.position[i], now.position[j], world.system.box_side);
     const MotionBound o_i = bound(world, i, now.director[i]);
     const MotionBound o_j = bound(world, j, now.director[j]);
     pair_lanes.set(0, D, o_i, o_j);
@@ -101,7 +101,7 @@ std::vector<Course> near_pairs(const Simulation& simulation, const Snapshot& now
   std::vector<Course> courses;
   for (int i = 0; i < static_cast<int>(now.n_rods()); ++i) {
     for (int j = i + 1; j < static_cast<int>(now.n_rods()); ++j) {
-      const Vec3 D = nearest_image(now.position[i], now.position[j], world.scene.box_side);
+      const Vec3 D = nearest_image(now.position[i], now.position[j], world.system.box_side);
       if (nearest_beads(world.species[0], now.director[i], now.director[j], D) < 0.3)
         courses.push_back({{i, j}, {}, {}, {}});
     }

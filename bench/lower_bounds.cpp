@@ -28,12 +28,12 @@ struct Rules {
       : species(world.species[0]),
         inverse(inverse_inertia(world.species[0])),
         ratio(world.species[0].inertia_par / world.species[0].inertia_perp),
-        gravity(world.scene.gravity),
-        dt(world.scene.dt),
-        side(world.scene.box_side),
+        gravity(world.system.gravity),
+        dt(world.system.dt),
+        side(world.system.box_side),
         now(world.tick),
-        rod_rod(world.scene.rod_rod),
-        rod_base(world.scene.rod_base),
+        rod_rod(world.system.rod_rod),
+        rod_base(world.system.rod_base),
         plate_velocity(world.plates.at(world.tick).velocity) {}
   const Species& species;
   InverseInertia inverse;

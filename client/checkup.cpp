@@ -8,7 +8,7 @@
 
 #include "base/failure.h"
 #include "base/process.h"
-#include "client/session.h"
+#include "client/api_client.h"
 #include "client/target.h"
 #include "proto/bus.h"
 #include "run/files/version.h"
@@ -42,7 +42,7 @@ CheckResult check_sibling(const std::string& name, Level if_missing, const std::
 
 CheckResult check_daemon(const fs::path& root) {
   try {
-    const Json status = Session(root).get("/v1/status");
+    const Json status = ApiClient(root).get("/v1/status");
     const std::string version = text_of(status, "version");
     const std::string message = fmt::format("{} at {}, pid {}, {} slots", version, (root / "shakend.sock").string(),
                                             status.value("pid", 0), status.value("slots", 0));

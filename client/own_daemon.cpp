@@ -12,7 +12,7 @@
 #include "base/descriptor.h"
 #include "base/failure.h"
 #include "base/process.h"
-#include "client/session.h"
+#include "client/api_client.h"
 
 namespace shaken::client {
 namespace {
@@ -21,7 +21,7 @@ constexpr std::chrono::seconds kPatience{20};
 
 bool somebody_listens(const std::filesystem::path& root) {
   try {
-    Session(root).get("/v1/status");
+    ApiClient(root).get("/v1/status");
     return true;
   } catch (const Failure& failure) {
     if (failure.code != ExitCode::kNoDaemon) throw;

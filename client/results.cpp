@@ -150,7 +150,7 @@ ResultRow result_row(const Json& row) {
   return result;
 }
 
-std::vector<ResultRow> result_rows(Session& session, const Target& target) {
+std::vector<ResultRow> result_rows(ApiClient& session, const Target& target) {
   const Json answer = session.get("/v1/results?sweep=" + url_encoded(target.sweep_id()));
   std::vector<ResultRow> rows;
   for (const Json& row : answer.at("rows")) {

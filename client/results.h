@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "client/api_client.h"
 #include "client/json.h"
 #include "client/replicas.h"
-#include "client/session.h"
 #include "client/target.h"
 
 namespace shaken::client {
@@ -31,7 +31,7 @@ struct ResultRow {
 /// From one element of "rows" of GET /v1/results.
 ResultRow result_row(const Json& row);
 /// The daemon's results of a sweep, or of one job.
-std::vector<ResultRow> result_rows(Session& session, const Target& target);
+std::vector<ResultRow> result_rows(ApiClient& session, const Target& target);
 
 /// One comparison of --where: FIELD OP VALUE, with OP one of < <= > >= = == !=.
 class Condition {

@@ -37,22 +37,22 @@ scene::Sweep load_points(const SceneInput& input, const std::vector<std::string>
 
 Json derived_quantities(const scene::SweepPoint& point) {
   const scene::RunPlan& plan = point.plan;
-  const Scene& system = plan.system;
-  Json kinds = Json::array();
+  const System& system = plan.system;
+  Json species = Json::array();
   double area_fraction = 0;
-  const auto add_kind = [&](const std::string& name, const RodShape& rod, int count) {
+  const auto add_species = [&](const std::string& name, const RodShape& rod, int count) {
     const double fraction = scene::area_fraction_of(system, rod, count);
-    kinds.push_back({{"name", name}, {"count", count}, {"area_fraction", fraction}});
+    species.push_back({{"name", name}, {"count", count}, {"area_fraction", fraction}});
     area_fraction += fraction;
   };
-  add_kind("rods", system.rod, system.n_rods);
+  add_species("rods", system.rod, system.n_rods);
   for (std::size_t k = 0; k < system.added.size(); ++k) {
-    if (const auto& added = system.added[k]) add_kind(fmt::format("rods_{}", k + 2), added->rod, added->count);
+    if (const auto& added = system.added[k]) add_species(fmt::format("rods_{}", k + 2), added->rod, added->count);
   }
   Json json{{"id", scene::run_id(plan)},
             {"n_rods", system.n_all_rods()},
             {"area_fraction", area_fraction},
-            {"kinds", kinds},
+            {"species", species},
             {"gamma", nullptr},  // where there is no gravity
             {"amplitude_mm", system.amplitude},
             {"sim_seconds", plan.total_time()},

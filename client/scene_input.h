@@ -28,7 +28,7 @@ scene::Sweep load_points(const SceneInput& input, const std::vector<std::string>
 std::string refusal_text(const std::vector<scene::Problem>& problems);
 
 /// What follows from a point's scene, besides its parameters: id, n_rods, area_fraction (both of all rods together),
-/// kinds (name, count and area_fraction of each), gamma (null without gravity), amplitude_mm, sim_seconds, ticks,
+/// species (name, count and area_fraction of each), gamma (null without gravity), amplitude_mm, sim_seconds, ticks,
 /// trajectory_frames, remarks (scene/remarks.h).
 Json derived_quantities(const scene::SweepPoint& point);
 

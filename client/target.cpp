@@ -27,7 +27,7 @@ bool is_run_directory(const std::string& id) {
   return std::filesystem::exists(run::RunDirectory{id}.scene(), error);
 }
 
-Target find_target(Session& session, const std::string& id) {
+Target find_target(ApiClient& session, const std::string& id) {
   if (id.empty()) throw Failure(ExitCode::kBadInput, "an empty ID names nothing");
   for (const bool is_sweep : {true, false}) {
     const std::string path = (is_sweep ? "/v1/sweeps/" : "/v1/jobs/") + url_encoded(id);
@@ -39,7 +39,7 @@ Target find_target(Session& session, const std::string& id) {
   throw Failure(ExitCode::kBadInput, fmt::format("no sweep or job is called '{}': `shaken status` lists them", id));
 }
 
-Target find_target_or_newest(Session& session, const std::string& id) {
+Target find_target_or_newest(ApiClient& session, const std::string& id) {
   if (!id.empty()) return find_target(session, id);
   const Json answer = session.get("/v1/sweeps");
   const Json& sweeps = answer.at("sweeps");
@@ -49,7 +49,7 @@ Target find_target_or_newest(Session& session, const std::string& id) {
   return find_target(session, sweeps.back().at("id").get<std::string>());
 }
 
-Json find_job(Session& session, const std::string& id) {
+Json find_job(ApiClient& session, const std::string& id) {
   if (id.empty()) throw Failure(ExitCode::kBadInput, "an empty ID names nothing");
   if (const std::optional<Json> answer = session.find("/v1/jobs/" + url_encoded(id))) return answer->at("job");
   if (const std::optional<Json> sweep = session.find("/v1/sweeps/" + url_encoded(id))) {
@@ -64,7 +64,7 @@ Json find_job(Session& session, const std::string& id) {
   throw Failure(ExitCode::kBadInput, fmt::format("no job is called '{}': `shaken status SWEEP` lists them", id));
 }
 
-void refresh(Session& session, Target& target) { target.answer = session.get(target.path); }
+void refresh(ApiClient& session, Target& target) { target.answer = session.get(target.path); }
 
 std::vector<Json> jobs_of(const Target& target) {
   if (!target.is_sweep) return {target.answer.at("job")};

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "client/api_client.h"
 #include "client/json.h"
-#include "client/session.h"
 
 namespace shaken::client {
 
@@ -22,19 +22,19 @@ struct Target {
 };
 
 /// Finds a sweep by id or name, or else a job by a prefix of its id. Throws Failure (kBadInput) if there is none.
-Target find_target(Session& session, const std::string& id);
+Target find_target(ApiClient& session, const std::string& id);
 /// As find_target; without an id, the newest sweep.
-Target find_target_or_newest(Session& session, const std::string& id);
+Target find_target_or_newest(ApiClient& session, const std::string& id);
 
 /// Whether `id` is the path of a run directory rather than the ID of a job: `shaken run` makes such directories without
 /// any daemon knowing of them.
 bool is_run_directory(const std::string& id);
 
 /// A job's full id, from the beginning of one.
-Json find_job(Session& session, const std::string& id);
+Json find_job(ApiClient& session, const std::string& id);
 
 /// Asks again.
-void refresh(Session& session, Target& target);
+void refresh(ApiClient& session, Target& target);
 /// The target's jobs as of the last answer.
 std::vector<Json> jobs_of(const Target& target);
 

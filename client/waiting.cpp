@@ -39,7 +39,7 @@ double eta_of(const std::vector<Target>& targets) {
 
 }  // namespace
 
-ExitCode wait_for(Session& session, std::vector<Target> targets, std::optional<double> timeout_s, Console& console) {
+ExitCode wait_for(ApiClient& session, std::vector<Target> targets, std::optional<double> timeout_s, Console& console) {
   if (targets.empty()) {
     console.err << "no job is queued or running\n";
     return ExitCode::kOk;

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/failure.h"
+#include "client/api_client.h"
 #include "client/console.h"
-#include "client/session.h"
 #include "client/target.h"
 
 namespace shaken::client {
@@ -15,6 +15,6 @@ namespace shaken::client {
 /// is done; kFailed if one failed or was cancelled (they are named on stderr) and after `timeout_s` seconds,
 /// kInterrupted after Ctrl-C: the jobs themselves go on then. A daemon that is restarted meanwhile is waited for, up to
 /// 10 s.
-ExitCode wait_for(Session& session, std::vector<Target> targets, std::optional<double> timeout_s, Console& console);
+ExitCode wait_for(ApiClient& session, std::vector<Target> targets, std::optional<double> timeout_s, Console& console);
 
 }  // namespace shaken::client

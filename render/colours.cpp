@@ -54,10 +54,10 @@ Colour layer_colour(double theta) {
 
 Colour wheel_colour(double angle) { return to_srgb(polar(0.74, 0.126, 29 + angle * 360 / kPi)); }
 
-Colour kind_colour(std::size_t kind) { return to_srgb(kind == 1 ? kTeal : kSlate); }
+Colour species_colour(std::size_t species) { return to_srgb(species == 1 ? kTeal : kSlate); }
 
 Colour rod_colour(const RodPicture& picture, std::size_t i, Colouring colouring) {
-  if (const std::size_t kind = picture.kind_of(i); kind != 0) return kind_colour(kind);
+  if (const std::size_t species = picture.species_of(i); species != 0) return species_colour(species);
   const Vec3& director = picture.director[i];
   const double angle = std::atan2(director.y(), director.x());
   return colouring == Colouring::kLayers ? layer_colour(analysis::fold_half_turn(angle - picture.director_angle))

@@ -18,8 +18,8 @@ Colour layer_colour(double theta);
 /// (Ottosson 2020), so equal turns look equally large.
 Colour wheel_colour(double angle);
 
-/// Colour of all rods of another kind than the first, 1 or 2: duller than those of angles, and apart in lightness.
-Colour kind_colour(std::size_t kind);
+/// Colour of all rods of another species than the first, 1 or 2: duller than those of angles, and apart in lightness.
+Colour species_colour(std::size_t species);
 
 /// The colour that rod `i` of the picture has.
 Colour rod_colour(const RodPicture& picture, std::size_t i, Colouring colouring);

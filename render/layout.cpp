@@ -29,16 +29,16 @@ Rect cut(Rect& rest, double height) {
 }
 
 void fill_column(Layout& layout, Rect panel, const PictureStyle& style, bool with_history, bool with_label,
-                 bool with_kinds) {
+                 bool with_species) {
   const double u = layout.unit;
   if (style.scale_bar) layout.scale_bar = cut(panel, -34 * u);
   if (style.mark_defects) {
     if (style.scale_bar) cut(panel, -16 * u);
     layout.key = cut(panel, panel.width < kNarrow * u ? -56 * u : -22 * u);
   }
-  if (style.legend && with_kinds) {
+  if (style.legend && with_species) {
     if (style.scale_bar || style.mark_defects) cut(panel, -12 * u);
-    layout.kinds = cut(panel, -22 * u);
+    layout.species = cut(panel, -22 * u);
   }
   if (style.caption) {
     if (with_label) layout.label = cut(panel, 42 * u);
@@ -56,7 +56,7 @@ void fill_column(Layout& layout, Rect panel, const PictureStyle& style, bool wit
   if (style.legend) layout.legend = cut(panel, plot);
 }
 
-void fill_strip(Layout& layout, Rect panel, const PictureStyle& style, bool with_label, bool with_kinds) {
+void fill_strip(Layout& layout, Rect panel, const PictureStyle& style, bool with_label, bool with_species) {
   const double u = layout.unit;
   if (style.caption && with_label) layout.label = cut(panel, 34 * u);
   const double gap = 30 * u;
@@ -70,7 +70,7 @@ void fill_strip(Layout& layout, Rect panel, const PictureStyle& style, bool with
   if (style.caption) layout.numbers = left;
   if (style.legend) layout.legend = middle;
   if (style.scale_bar) layout.scale_bar = cut(right, -34 * u);
-  if (style.legend && with_kinds) layout.kinds = cut(right, 22 * u);
+  if (style.legend && with_species) layout.species = cut(right, 22 * u);
   if (style.mark_defects) {
     cut(right, 10 * u);
     layout.key = cut(right, 50 * u);
@@ -79,7 +79,7 @@ void fill_strip(Layout& layout, Rect panel, const PictureStyle& style, bool with
 
 }  // namespace
 
-Layout layout_of(const PictureStyle& style, bool with_history, bool with_label, bool with_kinds) {
+Layout layout_of(const PictureStyle& style, bool with_history, bool with_label, bool with_species) {
   Layout layout;
   const double width = style.width, height = style.height;
   layout.unit = std::max(std::min(width, height) / 720, 0.7);  // below that, letters could not be read
@@ -96,7 +96,7 @@ Layout layout_of(const PictureStyle& style, bool with_history, bool with_label, 
     place_box(layout, margin, (height - side) / 2, side);
     const double x = margin + side + margin + (room - panel) / 2;
     fill_column(layout, {x, margin, panel, height - 2 * margin}, style, with_history, with_label && style.caption,
-                with_kinds);
+                with_species);
   } else {
     const double strip = (with_label && style.caption ? 170 : 136) * layout.unit;
     const double side = std::min(width - 2 * margin, height - 3 * margin - strip);
@@ -110,7 +110,7 @@ Layout layout_of(const PictureStyle& style, bool with_history, bool with_label, 
       layout.history = cut(below, -curve);
       cut(below, -margin);
     }
-    fill_strip(layout, below, style, with_label, with_kinds);
+    fill_strip(layout, below, style, with_label, with_species);
   }
   return layout;
 }

@@ -11,10 +11,10 @@ namespace shaken::render {
 struct Layout {
   double unit = 1;  ///< the size of everything that is not to scale: 1 in a picture 720 pixels high
   int box_x = 0, box_y = 0, box_side = 0;  ///< the square of the rods [pixels]
-  Rect label, numbers, history, legend, kinds, key, scale_bar;
+  Rect label, numbers, history, legend, species, key, scale_bar;
 };
 
-/// `with_kinds`: whether there are several kinds of rods to be told apart.
-Layout layout_of(const PictureStyle& style, bool with_history, bool with_label, bool with_kinds = false);
+/// `with_species`: whether there are several species to be told apart.
+Layout layout_of(const PictureStyle& style, bool with_history, bool with_label, bool with_species = false);
 
 }  // namespace shaken::render

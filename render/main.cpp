@@ -167,10 +167,10 @@ void make_movie_file(const Options& options) {
   TrajectorySource source = value_or_fail(TrajectorySource::open(options.source), ExitCode::kBadInput);
   PictureStyle style = style_of(options);
   // What the command line leaves open, the scene may say.
-  const std::optional<MovieWish> wish = source.movie_wish();
-  if (wish && options.size.empty()) {
-    style.width = wish->width;
-    style.height = wish->height;
+  const std::optional<MovieRequest> request = source.movie_request();
+  if (request && options.size.empty()) {
+    style.width = request->width;
+    style.height = request->height;
   }
   if (style.width % 2 != 0 || style.height % 2 != 0) {
     throw Failure(ExitCode::kBadInput, "a movie needs an even width and height, not " + options.size);
@@ -180,7 +180,7 @@ void make_movie_file(const Options& options) {
   const std::size_t last =
       options.to_s ? value_or_fail(source.nearest_frame(*options.to_s), ExitCode::kFailed) : source.n_frames() - 1;
   if (last < first) throw Failure(ExitCode::kBadInput, "--from is later than --to");
-  const std::size_t stride = options.every ? *options.every : wish ? stride_for(source, wish->every) : 1;
+  const std::size_t stride = options.every ? *options.every : request ? stride_for(source, request->every) : 1;
   const std::size_t n_frames = (last - first) / stride + 1;
 
   const std::string out = out_of(options, source, "movie.mp4");

@@ -18,7 +18,7 @@ void measure(RodPicture& picture, bool with_defects) {
   if (!with_defects || directors.empty()) return;
   std::vector<Vec3> positions;
   for (std::size_t i = 0; i < picture.n_rods(); ++i) {
-    if (picture.kind_of(i) == 0) positions.push_back(picture.position[i]);
+    if (picture.species_of(i) == 0) positions.push_back(picture.position[i]);
   }
   const double length = picture.rod_length();
   const analysis::Region region(picture.box_side, picture.walls);

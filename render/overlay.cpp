@@ -140,30 +140,31 @@ void draw_key(const Canvas& canvas, const Layout& layout, const RodPicture& pict
   canvas.text(x2 + 46 * u, y2 + 5 * u, fmt::format("\u2212\u00bd defects: {}", minus), 13 * u);
 }
 
-/// A rod of each kind, seen from above in one scale, and how many there are. The first kind has no colour of its own.
-void draw_kinds(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const Palette& colours) {
+/// A rod of each species, seen from above in one scale, and how many there are. The first species has no colour of its
+/// own.
+void draw_species(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const Palette& colours) {
   const double u = layout.unit;
-  const double column = layout.kinds.width / static_cast<double>(picture.n_kinds());
+  const double column = layout.species.width / static_cast<double>(picture.n_species());
   double words = 0;                // room for a number [pixels]
   double longest = 0, widest = 0;  // [mm]
   const auto length_of = [](const BeadRow& beads) {
     return beads.offset.back() + beads.radius.back() - beads.offset.front() + beads.radius.front();
   };
-  for (std::size_t kind = 0; kind < picture.n_kinds(); ++kind) {
-    const BeadRow& beads = picture.beads_of(kind);
-    words = std::max(words, canvas.text_width(fmt::format("{}", picture.count(kind)), 13 * u) + 17 * u);
+  for (std::size_t species = 0; species < picture.n_species(); ++species) {
+    const BeadRow& beads = picture.beads_of(species);
+    words = std::max(words, canvas.text_width(fmt::format("{}", picture.count(species)), 13 * u) + 17 * u);
     longest = std::max(longest, length_of(beads));
     widest = std::max(widest, 2 * *std::max_element(beads.radius.begin(), beads.radius.end()));
   }
   const double scale = std::min((column - words) / longest, 16 * u / widest);  // pixels per mm
   cairo_t* cr = canvas.cairo();
-  const double y = layout.kinds.y + 11 * u;
-  for (std::size_t kind = 0; kind < picture.n_kinds(); ++kind) {
-    const BeadRow& beads = picture.beads_of(kind);
-    const double x = layout.kinds.x + static_cast<double>(kind) * column;
+  const double y = layout.species.y + 11 * u;
+  for (std::size_t species = 0; species < picture.n_species(); ++species) {
+    const BeadRow& beads = picture.beads_of(species);
+    const double x = layout.species.x + static_cast<double>(species) * column;
     const double centre = x + scale * (beads.radius.front() - beads.offset.front());
     for (const bool rim : {true, false}) {  // the rim keeps pale rods visible on a white page
-      canvas.colour(rim ? colours.faint : kind == 0 ? layer_colour(0) : kind_colour(kind));
+      canvas.colour(rim ? colours.faint : species == 0 ? layer_colour(0) : species_colour(species));
       for (std::size_t i = 0; i < beads.offset.size(); ++i) {
         cairo_new_sub_path(cr);
         cairo_arc(cr, centre + scale * beads.offset[i], y, scale * beads.radius[i] + (rim ? 0.5 : -0.5) * u, 0,
@@ -172,7 +173,7 @@ void draw_kinds(const Canvas& canvas, const Layout& layout, const RodPicture& pi
       cairo_fill(cr);
     }
     canvas.colour(colours.ink);
-    canvas.text(x + scale * length_of(beads) + 7 * u, y + 5 * u, fmt::format("{}", picture.count(kind)), 13 * u);
+    canvas.text(x + scale * length_of(beads) + 7 * u, y + 5 * u, fmt::format("{}", picture.count(species)), 13 * u);
   }
 }
 
@@ -205,7 +206,7 @@ void draw_overlay(const Canvas& canvas, const Layout& layout, const RodPicture& 
   if (layout.numbers.width > 0) draw_numbers(canvas, layout, picture, colours);
   if (layout.history.width > 0) draw_history(canvas, layout, picture, colours);
   if (layout.legend.width > 0) draw_legend(canvas, layout.legend, layout.unit, picture, style);
-  if (layout.kinds.width > 0) draw_kinds(canvas, layout, picture, colours);
+  if (layout.species.width > 0) draw_species(canvas, layout, picture, colours);
   if (layout.key.width > 0) draw_key(canvas, layout, picture, colours);
   if (layout.scale_bar.width > 0) draw_scale_bar(canvas, layout, picture, style, colours);
 }

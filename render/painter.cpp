@@ -15,7 +15,8 @@ Result<Painter> Painter::create() {
 
 Result<Image> Painter::paint(const RodPicture& picture, const PictureStyle& style) {
   if (auto error = check(style)) return *error;
-  const Layout layout = layout_of(style, !picture.history.time.empty(), !picture.label.empty(), picture.n_kinds() > 1);
+  const Layout layout =
+      layout_of(style, !picture.history.time.empty(), !picture.label.empty(), picture.n_species() > 1);
   Result<Image> rods = rods_.draw(picture, style, layout.box_side);
   if (!rods) return rods.error();
   Canvas canvas(style.width, style.height, palette(style.theme).page);

@@ -47,16 +47,16 @@ double floor_area(const RodPicture& picture) {
 
 }  // namespace
 
-std::size_t RodPicture::count(std::size_t kind) const {
-  if (kinds.empty()) return kind == 0 ? n_rods() : 0;
-  return static_cast<std::size_t>(std::count(kinds.begin(), kinds.end(), kind));
+std::size_t RodPicture::count(std::size_t species) const {
+  if (species_of_rod.empty()) return species == 0 ? n_rods() : 0;
+  return static_cast<std::size_t>(std::count(species_of_rod.begin(), species_of_rod.end(), species));
 }
 
 std::vector<Vec3> RodPicture::first_directors() const {
-  if (kinds.empty()) return director;
+  if (species_of_rod.empty()) return director;
   std::vector<Vec3> directors;
   for (std::size_t i = 0; i < n_rods(); ++i) {
-    if (kinds[i] == 0) directors.push_back(director[i]);
+    if (species_of_rod[i] == 0) directors.push_back(director[i]);
   }
   return directors;
 }
@@ -68,8 +68,8 @@ double RodPicture::rod_length() const {
 
 double RodPicture::area_fraction() const {
   double covered = 0;
-  for (std::size_t kind = 0; kind < n_kinds(); ++kind) {
-    covered += static_cast<double>(count(kind)) * outline_area(beads_of(kind));
+  for (std::size_t species = 0; species < n_species(); ++species) {
+    covered += static_cast<double>(count(species)) * outline_area(beads_of(species));
   }
   return covered / floor_area(*this);
 }

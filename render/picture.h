@@ -11,7 +11,7 @@
 #include "sim/core/bead_row.h"
 #include "sim/core/result.h"
 #include "sim/core/types.h"
-#include "sim/scene.h"
+#include "sim/system.h"
 
 namespace shaken::render {
 
@@ -29,14 +29,14 @@ struct RodPicture {
   double box_side = 0;  ///< of the square box, periodic in x and y [mm]
   double gap = 0;       ///< between the plates [mm]
 
-  BeadRow beads;                    ///< of a rod of the first kind
-  std::vector<BeadRow> added;       ///< of rods of the other kinds
-  std::vector<std::uint8_t> kinds;  ///< (n_rods) kind of each rod, from 0; empty if there is one
-  std::vector<Vec3> position;       ///< (n_rods) centres [mm]
-  std::vector<Vec3> director;       ///< (n_rods) unit vectors, to the head
-  std::optional<SideWalls> walls;   ///< of the arena in the middle of the box, if there are any
+  BeadRow beads;                             ///< of a rod of the first species
+  std::vector<BeadRow> added;                ///< of rods of the other species
+  std::vector<std::uint8_t> species_of_rod;  ///< (n_rods) species of each rod, from 0; empty if there is one
+  std::vector<Vec3> position;                ///< (n_rods) centres [mm]
+  std::vector<Vec3> director;                ///< (n_rods) unit vectors, to the head
+  std::optional<SideWalls> walls;            ///< of the arena in the middle of the box, if there are any
 
-  // Of the rods of the first kind.
+  // Of the rods of the first species.
   double order = 0;           ///< S, nematic order in the plane
   double director_angle = 0;  ///< of the mean director N, against the x axis [rad]
   std::vector<analysis::Defect> defects;
@@ -46,20 +46,20 @@ struct RodPicture {
   std::string label;  ///< what makes this run different, "rods.length=2.5 rods.area_fraction=0.6"
 
   std::size_t n_rods() const { return position.size(); }
-  std::size_t n_kinds() const { return 1 + added.size(); }
-  std::size_t kind_of(std::size_t rod) const { return kinds.empty() ? 0 : kinds[rod]; }
-  const BeadRow& beads_of(std::size_t kind) const { return kind == 0 ? beads : added[kind - 1]; }
+  std::size_t n_species() const { return 1 + added.size(); }
+  std::size_t species_of(std::size_t rod) const { return species_of_rod.empty() ? 0 : species_of_rod[rod]; }
+  const BeadRow& beads_of(std::size_t species) const { return species == 0 ? beads : added[species - 1]; }
   /// Rods of one kind.
-  std::size_t count(std::size_t kind) const;
-  /// The directors of the rods of the first kind, which order and colours are about.
+  std::size_t count(std::size_t species) const;
+  /// The directors of the rods of the first species, which order and colours are about.
   std::vector<Vec3> first_directors() const;
-  /// Tip to tip, of the first kind [mm].
+  /// Tip to tip, of the first species [mm].
   double rod_length() const;
   /// Share of the arena, or of the box, covered by the projections of all rods, lying flat and side by side.
   double area_fraction() const;
 };
 
-/// Fills order, director_angle and, if asked, defects from the rods of the first kind; defects are looked for within
+/// Fills order, director_angle and, if asked, defects from the rods of the first species; defects are looked for within
 /// the side walls, and where there are rods (analysis/director_field.h), as a run does that measures them.
 void measure(RodPicture& picture, bool with_defects);
 

@@ -25,9 +25,9 @@ struct Instance {
 /// Compiles and links; empty on failure, with the compiler's words in `message`.
 GLuint link_program(const char* vertex_source, const char* fragment_source, std::string& message) {
   const GLuint program = glCreateProgram();
-  for (const auto& [kind, source] :
+  for (const auto& [species, source] :
        {std::pair{GL_VERTEX_SHADER, vertex_source}, std::pair{GL_FRAGMENT_SHADER, fragment_source}}) {
-    const GLuint shader = glCreateShader(static_cast<GLenum>(kind));
+    const GLuint shader = glCreateShader(static_cast<GLenum>(species));
     glShaderSource(shader, 1, &source, nullptr);
     glCompileShader(shader);
     glAttachShader(program, shader);
@@ -48,15 +48,15 @@ std::array<float, 3> to_floats(const Vec3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
 
-/// All rods of one kind, and their periodic images, of which a part may lie in the view. `reach` is how far from its
+/// All rods of one species, and their periodic images, of which a part may lie in the view. `reach` is how far from its
 /// centre anything of a rod is drawn.
-std::vector<Instance> instances_in(const RodPicture& picture, std::size_t kind, const View& view, Colouring colouring,
-                                   double reach) {
+std::vector<Instance> instances_in(const RodPicture& picture, std::size_t species, const View& view,
+                                   Colouring colouring, double reach) {
   std::vector<Instance> instances;
-  const std::size_t n = picture.count(kind);
+  const std::size_t n = picture.count(species);
   instances.reserve(n + n / 4);
   for (std::size_t i = 0; i < picture.n_rods(); ++i) {
-    if (picture.kind_of(i) != kind) continue;
+    if (picture.species_of(i) != species) continue;
     const Vec3& x = picture.position[i];
     const Colour colour = rod_colour(picture, i, colouring);
     // Image numbers k for which x + k L lies within `reach` of the view.
@@ -73,7 +73,7 @@ std::vector<Instance> instances_in(const RodPicture& picture, std::size_t kind, 
   return instances;
 }
 
-/// The rods of one kind in the view.
+/// The rods of one species in the view.
 struct Batch {
   std::vector<float> beads;  // offset, radius of each
   Vec2 ends;                 // offsets of the first and the last bead
@@ -81,8 +81,8 @@ struct Batch {
   double margin = 0;         // of the shadow
   std::vector<Instance> instances;
 
-  Batch(const RodPicture& picture, std::size_t kind, const View& view, Colouring colouring) {
-    const BeadRow& row = picture.beads_of(kind);
+  Batch(const RodPicture& picture, std::size_t species, const View& view, Colouring colouring) {
+    const BeadRow& row = picture.beads_of(species);
     double half = 0;
     for (std::size_t i = 0; i < row.offset.size(); ++i) {
       beads.push_back(static_cast<float>(row.offset[i]));
@@ -92,7 +92,7 @@ struct Batch {
     ends = Vec2(row.offset.front(), row.offset.back());
     thick = *std::max_element(row.radius.begin(), row.radius.end());
     margin = 1.1 * thick;
-    instances = instances_in(picture, kind, view, colouring, half + 2 * margin);
+    instances = instances_in(picture, species, view, colouring, half + 2 * margin);
   }
 };
 
@@ -126,17 +126,18 @@ std::optional<Error> check(const RodPicture& picture, int side) {
   }
   if (!(picture.box_side > 0)) return Error{"the box has no size"};
   if (picture.director.size() != picture.position.size()) return Error{"as many directors as positions are needed"};
-  for (std::size_t kind = 0; kind < picture.n_kinds(); ++kind) {
-    const BeadRow& beads = picture.beads_of(kind);
+  for (std::size_t species = 0; species < picture.n_species(); ++species) {
+    const BeadRow& beads = picture.beads_of(species);
     if (beads.offset.empty() || beads.offset.size() != beads.radius.size() ||
         beads.offset.size() > RodsPass::kMaxBeads) {
       return Error{"a rod of " + std::to_string(beads.offset.size()) + " beads cannot be drawn; possible are 1 to " +
                    std::to_string(RodsPass::kMaxBeads)};
     }
   }
-  if (picture.n_kinds() > 1 && picture.kinds.size() != picture.n_rods()) return Error{"each rod's kind is needed"};
-  if (std::any_of(picture.kinds.begin(), picture.kinds.end(),
-                  [&](std::uint8_t kind) { return kind >= picture.n_kinds(); })) {
+  if (picture.n_species() > 1 && picture.species_of_rod.size() != picture.n_rods())
+    return Error{"each rod's species is needed"};
+  if (std::any_of(picture.species_of_rod.begin(), picture.species_of_rod.end(),
+                  [&](std::uint8_t species) { return species >= picture.n_species(); })) {
     return Error{"a rod is of a kind whose beads are not given"};
   }
   return std::nullopt;
@@ -198,8 +199,8 @@ Result<Image> RodsPass::draw(const RodPicture& picture, const PictureStyle& styl
   const View view = view_of(picture, style);
   std::vector<Batch> batches;
   double thick = 0;
-  for (std::size_t kind = 0; kind < picture.n_kinds(); ++kind) {
-    batches.emplace_back(picture, kind, view, style.colouring);
+  for (std::size_t species = 0; species < picture.n_species(); ++species) {
+    batches.emplace_back(picture, species, view, style.colouring);
     thick = std::max(thick, batches.back().thick);
   }
   const Palette colours = palette(style.theme);

@@ -21,7 +21,7 @@ View view_of(const RodPicture& picture, const PictureStyle& style);
 /// Draws the rods in their box, seen from above along -z, without perspective.
 /// Model:    one quad for each rod, on which each pixel's ray is cut with the beads themselves, so the outline is that
 ///           of the simulated body; the depth is the surface's own. Rods are repeated across the periodic border and
-///           clipped to the view. Each kind of rod is drawn with its own beads. Beyond side walls the floor is tinted.
+///           clipped to the view. Each species is drawn with its own beads. Beyond side walls the floor is tinted.
 /// Numerics: 3 x 3 samples a pixel, averaged; the same bits for any number of rasteriser threads.
 class RodsPass {
  public:

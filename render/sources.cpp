@@ -44,7 +44,7 @@ std::optional<SideWalls> walls_of(const frame_static_t& message) {
   return walls;
 }
 
-/// Kinds of rods and side walls out of a message, whose counts need not agree.
+/// Species and side walls out of a message, whose counts need not agree.
 std::optional<Error> take_constants(const frame_static_t& message, std::size_t n_rods, RodPicture& picture) {
   const Error garbled{"the job's static part contradicts itself"};
   std::vector<BeadRow> rows;
@@ -59,13 +59,14 @@ std::optional<Error> take_constants(const frame_static_t& message, std::size_t n
     begin += static_cast<std::size_t>(n);
   }
   if (rows.empty() || begin != message.bead_offset_mm.size()) return garbled;
-  if (message.kind.size() != (rows.size() > 1 ? n_rods : 0)) return garbled;
-  if (std::any_of(message.kind.begin(), message.kind.end(), [&](std::uint8_t kind) { return kind >= rows.size(); })) {
+  if (message.rod_species.size() != (rows.size() > 1 ? n_rods : 0)) return garbled;
+  if (std::any_of(message.rod_species.begin(), message.rod_species.end(),
+                  [&](std::uint8_t kind) { return kind >= rows.size(); })) {
     return garbled;
   }
   picture.beads = rows.front();
   picture.added.assign(rows.begin() + 1, rows.end());
-  picture.kinds = message.kind;
+  picture.species_of_rod = message.rod_species;
   picture.walls = walls_of(message);
   return std::nullopt;
 }
@@ -113,26 +114,26 @@ Result<std::size_t> TrajectorySource::nearest_frame(double time) const {
   return time - *before <= *after - time ? low - 1 : low;
 }
 
-std::optional<MovieWish> TrajectorySource::movie_wish() const {
+std::optional<MovieRequest> TrajectorySource::movie_request() const {
   const Json scene = Json::parse(reader_.header().scene_json, nullptr, false);
   const std::optional<double> every = number_at(scene, "/movie/every"), width = number_at(scene, "/movie/size/0"),
                               height = number_at(scene, "/movie/size/1");
   if (!every || !width || !height) return std::nullopt;
-  return MovieWish{*every, static_cast<int>(*width), static_cast<int>(*height)};
+  return MovieRequest{*every, static_cast<int>(*width), static_cast<int>(*height)};
 }
 
 std::optional<Error> TrajectorySource::read_history() {
   constexpr std::size_t kMostPoints = 400;
   const std::size_t last = n_frames() - 1, points = std::min(kMostPoints, last + 1);
   OrderHistory history;
-  const std::vector<std::uint8_t>& kinds = reader_.header().kinds;
+  const std::vector<std::uint8_t>& species_of_rod = reader_.header().species_of_rod;
   for (std::size_t k = 0; k < points; ++k) {
     const Result<run::TrajectoryFrame> frame = reader_.frame(points == 1 ? last : k * last / (points - 1));
     if (!frame) return frame.error();
     history.time.push_back(frame->time);
-    std::vector<Vec3> directors;  // of rods of the first kind
+    std::vector<Vec3> directors;  // of rods of the first species
     for (std::size_t i = 0; i < frame->director.size(); ++i) {
-      if (kinds.empty() || kinds[i] == 0) directors.push_back(frame->director[i]);
+      if (species_of_rod.empty() || species_of_rod[i] == 0) directors.push_back(frame->director[i]);
     }
     history.order.push_back(analysis::nematic_order(directors).order);
   }
@@ -154,7 +155,7 @@ Result<RodPicture> TrajectorySource::picture(std::size_t index, bool with_defect
   picture.label = shaking(scene);
   picture.beads = {header.bead_offset, header.bead_radius};
   picture.added = header.added_beads;
-  picture.kinds = header.kinds;
+  picture.species_of_rod = header.species_of_rod;
   picture.walls = header.walls;
   picture.smoothing = number_at(scene, "/measure/defects/smoothing").value_or(0);
   picture.grid = number_at(scene, "/measure/defects/grid").value_or(0);

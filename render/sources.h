@@ -15,7 +15,7 @@
 namespace shaken::render {
 
 /// What the "movie" block of a recorded run's scene asks for.
-struct MovieWish {
+struct MovieRequest {
   double every = 0;           ///< [s] between frames
   int width = 0, height = 0;  ///< [pixels]
 };
@@ -35,7 +35,7 @@ class TrajectorySource {
   Result<std::size_t> nearest_frame(double time) const;
 
   /// None if the scene has no such block.
-  std::optional<MovieWish> movie_wish() const;
+  std::optional<MovieRequest> movie_request() const;
 
   /// Reads S(t) of the whole run, from at most 400 of its frames, for the curve beside the pictures.
   [[nodiscard]] std::optional<Error> read_history();

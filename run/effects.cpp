@@ -44,19 +44,19 @@ std::vector<EffectLine> list_effects(const scene::RunPlan& plan) {
   return lines;
 }
 
-std::map<std::string, EffectReport> report_effects(const scene::RunPlan& plan, const Session& session,
+std::map<std::string, EffectReport> report_effects(const scene::RunPlan& plan, const OpenRun& run,
                                                    std::optional<std::int64_t> n_live_frames) {
   std::map<std::string, EffectReport> reports;
   for (const EffectLine& line : list_effects(plan)) reports[line.name].on = line.on;
 
-  const World& world = session.simulation.world();
+  const World& world = run.simulation.world();
   for (const Effect& effect : all_effects()) {
     reports[std::string(effect.name)].work = {{std::string(effect.unit), static_cast<double>(effect.work(world))}};
   }
-  for (const auto& [name, samples] : session.measurements.counts()) {
+  for (const auto& [name, samples] : run.measurements.counts()) {
     reports["measure_" + name].work = {{"samples", static_cast<double>(samples)}};
   }
-  const double frames = session.trajectory ? static_cast<double>(session.trajectory->n_frames()) : 0.0;
+  const double frames = run.trajectory ? static_cast<double>(run.trajectory->n_frames()) : 0.0;
   reports["trajectory"].work = {{"frames", frames}};
   // asked for, but not sent where there is no bus
   reports["stream"] = {n_live_frames.has_value(), {{"frames", static_cast<double>(n_live_frames.value_or(0))}}};

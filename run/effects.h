@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "run/session.h"
+#include "run/open_run.h"
 #include "run/summary.h"
 
 namespace shaken::run {
@@ -21,7 +21,7 @@ struct EffectLine {
 std::vector<EffectLine> list_effects(const scene::RunPlan& plan);
 
 /// The same by name, with the work that each did in this run. `n_live_frames`: none if no live state was sent.
-std::map<std::string, EffectReport> report_effects(const scene::RunPlan& plan, const Session& session,
+std::map<std::string, EffectReport> report_effects(const scene::RunPlan& plan, const OpenRun& run,
                                                    std::optional<std::int64_t> n_live_frames);
 
 }  // namespace shaken::run

@@ -14,9 +14,9 @@
 #include "analysis/order.h"
 #include "base/files.h"
 #include "run/effects.h"
-#include "run/publisher.h"
+#include "run/frame_publisher.h"
+#include "run/open_run.h"
 #include "run/saved_run.h"
-#include "run/session.h"
 #include "run/summary.h"
 #include "run/trouble_file.h"
 #include "scene/canonical.h"
@@ -39,35 +39,35 @@ std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(
 
 std::string scene_text(const scene::RunPlan& plan) { return scene::to_json(plan).dump(2) + "\n"; }
 
-/// One run from where its session stands to its end.
+/// One run from where it stands to its end.
 class Loop {
  public:
-  Loop(const scene::RunPlan& plan, const RunOptions& options, const RunCallbacks& callbacks, Session session)
+  Loop(const scene::RunPlan& plan, const RunOptions& options, const RunCallbacks& callbacks, OpenRun run)
       : plan_(plan),
         options_(options),
         callbacks_(callbacks),
         directory_{options.directory},
         run_id_(scene::run_id(plan)),
-        session_(std::move(session)),
+        run_(std::move(run)),
         end_(total_ticks(plan)),
-        checkpoint_tick_(session_.simulation.tick()),
+        checkpoint_tick_(run_.simulation.tick()),
         begin_(WallClock::now()),
         cpu_begin_(process_cpu_seconds()),
         started_(utc_now()),
-        rate_(session_.simulation.time(), begin_),
+        rate_(run_.simulation.time(), begin_),
         progress_pacer_(options.progress_every, begin_),
         checkpoint_pacer_(options.checkpoint_every,
                           begin_ + std::chrono::duration_cast<WallClock::duration>(options.checkpoint_every)),
         frame_pacer_(live_period(), begin_),
         observables_pacer_(live_period(), begin_),
         defects_pacer_(live_period(), begin_) {
-    const World& world = session_.simulation.world();
+    const World& world = run_.simulation.world();
     progress_.pid = static_cast<int>(getpid());
     progress_.n_rods = static_cast<int>(world.rods.size());
     progress_.sim_time_total = static_cast<double>(end_) * plan.system.dt;
     if (plan.stream && options.lcm_url) {
       publisher_ =
-          std::make_unique<Publisher>(*options.lcm_url, options.job_id, make_frame_static(world, options.label));
+          std::make_unique<FramePublisher>(*options.lcm_url, options.job_id, make_frame_static(world, options.label));
     }
   }
 
@@ -77,10 +77,10 @@ class Loop {
     }
     Tick slice = 1;
     while (tick() < end_) {
-      const Tick target = std::min({end_, session_.next_due(tick() + 1), tick() + slice});
+      const Tick target = std::min({end_, run_.next_due(tick() + 1), tick() + slice});
       const Tick stepped = target - tick();
       const auto before = WallClock::now();
-      if (const auto trouble = session_.simulation.advance_to(target)) return finish_in_trouble(*trouble);
+      if (const auto trouble = run_.simulation.advance_to(target)) return finish_in_trouble(*trouble);
       const auto now = WallClock::now();
       if (now - before > kLongSlice) slice = std::max<Tick>(1, stepped / 2);
       if (now - before < kShortSlice && stepped == slice) slice *= 2;
@@ -99,15 +99,15 @@ class Loop {
 
   /// Writes and passes on progress.json. A disk that refuses it shows in the checkpoint, so that is not repeated here.
   void report(const std::string& state, const std::string& message = "") {
-    rate_.update(session_.simulation.time(), WallClock::now());
+    rate_.update(run_.simulation.time(), WallClock::now());
     progress_.state = state;
     progress_.message = message;
-    progress_.sim_time = session_.simulation.time();
+    progress_.sim_time = run_.simulation.time();
     progress_.sim_rate = rate_.rate();
     progress_.eta = state == "running" ? rate_.eta(progress_.sim_time_total) : -1.0;
-    progress_.order = analysis::nematic_order(session_.simulation.snapshot().director).order;
-    progress_.order_running_mean = session_.measurements.order_running_mean();
-    progress_.max_overlap = session_.simulation.world().counters.max_overlap();
+    progress_.order = analysis::nematic_order(run_.simulation.snapshot().director).order;
+    progress_.order_running_mean = run_.measurements.order_running_mean();
+    progress_.max_overlap = run_.simulation.world().counters.max_overlap();
     if (auto error = write_progress(directory_.progress(), progress_)) spdlog::warn("{}", error->message);
     if (callbacks_.on_progress) callbacks_.on_progress(progress_);
   }
@@ -115,25 +115,25 @@ class Loop {
   const Progress& progress() const { return progress_; }
 
  private:
-  Tick tick() const { return session_.simulation.tick(); }
+  Tick tick() const { return run_.simulation.tick(); }
   WallSeconds live_period() const { return WallSeconds(plan_.stream ? 1.0 / plan_.stream->rate : 1.0); }
-  double cpu_seconds() const { return session_.cpu_before + process_cpu_seconds() - cpu_begin_; }
-  double wall_seconds() const { return session_.wall_before + WallSeconds(WallClock::now() - begin_).count(); }
+  double cpu_seconds() const { return run_.cpu_before + process_cpu_seconds() - cpu_begin_; }
+  double wall_seconds() const { return run_.wall_before + WallSeconds(WallClock::now() - begin_).count(); }
 
   /// Measures, records and publishes what is due at this tick.
   [[nodiscard]] std::optional<Error> sample() {
-    const bool record = session_.recording && session_.recording->due(tick());
-    const bool measure = session_.measurements.next_due(tick()) == tick();
+    const bool record = run_.recording && run_.recording->due(tick());
+    const bool measure = run_.measurements.next_due(tick()) == tick();
     // Live frames are a subset of the recorded ones, where frames are recorded, so that the two can be compared.
-    const bool show = publisher_ && (record || !session_.recording) && frame_pacer_.take(WallClock::now());
+    const bool show = publisher_ && (record || !run_.recording) && frame_pacer_.take(WallClock::now());
     if (!record && !measure && !show) return std::nullopt;
-    const Snapshot snapshot = session_.simulation.snapshot();
-    if (measure) session_.measurements.sample(snapshot);
+    const Snapshot snapshot = run_.simulation.snapshot();
+    if (measure) run_.measurements.sample(snapshot);
     if (record) {
-      if (auto error = session_.trajectory->append(snapshot)) return error;
+      if (auto error = run_.trajectory->append(snapshot)) return error;
     }
-    if (show) publisher_->offer(make_frame(snapshot, kinds_if_several(session_.simulation.world())));
-    const DefectSample* defects = session_.measurements.last_defects();
+    if (show) publisher_->offer(make_frame(snapshot, kinds_if_several(run_.simulation.world())));
+    const DefectSample* defects = run_.measurements.last_defects();
     if (publisher_ && defects != nullptr && defects->tick == tick() && defects_pacer_.take(WallClock::now())) {
       publisher_->offer(make_defects(*defects));
     }
@@ -142,21 +142,21 @@ class Loop {
 
   void publish_observables(WallClock::time_point now) {
     if (!publisher_ || !observables_pacer_.take(now)) return;
-    publisher_->offer(make_observables(session_.simulation.world(), session_.simulation.snapshot(), progress_));
+    publisher_->offer(make_observables(run_.simulation.world(), run_.simulation.snapshot(), progress_));
   }
 
   [[nodiscard]] std::optional<Error> checkpoint() {
-    auto error = write_checkpoint(directory_, run_id_, make_checkpoint(session_, cpu_seconds(), wall_seconds()));
+    auto error = write_checkpoint(directory_, run_id_, make_checkpoint(run_, cpu_seconds(), wall_seconds()));
     if (!error) checkpoint_tick_ = tick();
     return error;
   }
 
   Summary summarize(const Reduction& reduction) const {
-    const World& world = session_.simulation.world();
+    const World& world = run_.simulation.world();
     Summary summary;
     summary.run_id = run_id_;
     summary.n_rods = static_cast<int>(world.rods.size());
-    summary.sim_seconds = session_.simulation.time();
+    summary.sim_seconds = run_.simulation.time();
     summary.cpu_seconds = cpu_seconds();
     summary.wall_seconds = wall_seconds();
     summary.collisions_rod_rod = world.counters.impulses_rod_rod;
@@ -172,9 +172,8 @@ class Loop {
       summary.defects_mean_plus = reduction.defects->n_plus;
       summary.defects_mean_minus = reduction.defects->n_minus;
     }
-    summary.effects =
-        report_effects(plan_, session_, publisher_ ? std::optional(publisher_->n_frames()) : std::nullopt);
-    summary.state_hash = session_.simulation.state_hash();
+    summary.effects = report_effects(plan_, run_, publisher_ ? std::optional(publisher_->n_frames()) : std::nullopt);
+    summary.state_hash = run_.simulation.state_hash();
     summary.started = started_;
     summary.finished = utc_now();
     summary.tick = tick();
@@ -184,7 +183,7 @@ class Loop {
   /// Observables and summary, in this order: a summary that says "done" is the last word.
   [[nodiscard]] std::optional<Error> write_results(const std::string& state, const std::string& reason,
                                                    const std::vector<int>& rods) {
-    const Reduction reduction = session_.measurements.reduce(session_.simulation.time());
+    const Reduction reduction = run_.measurements.reduce(run_.simulation.time());
     if (auto error = write_observables(directory_.observables(), reduction.arrays, provenance_of(plan_))) return error;
     Summary summary = summarize(reduction);
     summary.state = state;
@@ -216,7 +215,7 @@ class Loop {
   RunOutcome finish_in_trouble(const NumericalTrouble& trouble) {
     const std::string message = describe(trouble, plan_.system.dt);
     // no flight changes before a tick's last phase, so the world still knows where the rods were one tick before
-    const CloseUp before = look_closely(session_.simulation.world(), trouble.tick - 1, trouble.rods);
+    const CloseUp before = look_closely(run_.simulation.world(), trouble.tick - 1, trouble.rods);
     if (auto error = write_trouble(directory_.trouble(), plan_, {trouble, checkpoint_tick_, before})) {
       return finish_without_disk(*error);
     }
@@ -236,7 +235,7 @@ class Loop {
   const RunCallbacks& callbacks_;
   RunDirectory directory_;
   std::string run_id_;
-  Session session_;
+  OpenRun run_;
   Tick end_;
   Tick checkpoint_tick_;  ///< of the last sound checkpoint; 0: there is none
   WallClock::time_point begin_;
@@ -245,16 +244,16 @@ class Loop {
   RateMeter rate_;
   Pacer progress_pacer_, checkpoint_pacer_, frame_pacer_, observables_pacer_, defects_pacer_;
   Progress progress_;
-  std::unique_ptr<Publisher> publisher_;
+  std::unique_ptr<FramePublisher> publisher_;
 };
 
 struct Opened {
-  Session session;
+  OpenRun run;
   bool fresh = false;  ///< at tick 0, nothing sampled
 };
 
-/// The session of the newest checkpoint that is whole and fits, or a new one.
-Result<Opened> open_session(const scene::RunPlan& plan, const RunDirectory& directory) {
+/// The run from the newest checkpoint that is whole and fits, or a new one.
+Result<Opened> open_run(const scene::RunPlan& plan, const RunDirectory& directory) {
   bool found = false;
   for (const auto& file : directory.checkpoints()) {
     if (!std::filesystem::exists(file)) continue;
@@ -264,18 +263,18 @@ Result<Opened> open_session(const scene::RunPlan& plan, const RunDirectory& dire
       spdlog::warn("{}", checkpoint.error().message);
       continue;
     }
-    Result<Session> session = resume_session(plan, directory, *checkpoint);
-    if (!session) {
-      spdlog::warn("cannot go on from {}: {}", file.string(), session.error().message);
+    Result<OpenRun> run = resume_run(plan, directory, *checkpoint);
+    if (!run) {
+      spdlog::warn("cannot go on from {}: {}", file.string(), run.error().message);
       continue;
     }
-    spdlog::info("going on from {} at {:.6f} s", file.string(), session->simulation.time());
-    return Opened{std::move(session).value(), false};
+    spdlog::info("going on from {} at {:.6f} s", file.string(), run->simulation.time());
+    return Opened{std::move(run).value(), false};
   }
   if (found) spdlog::warn("no checkpoint can be used: starting from the beginning");
-  Result<Session> session = start_session(plan, directory, scene_text(plan));
-  if (!session) return session.error();
-  return Opened{std::move(session).value(), true};
+  Result<OpenRun> run = start_run(plan, directory, scene_text(plan));
+  if (!run) return run.error();
+  return Opened{std::move(run).value(), true};
 }
 
 /// Says in progress.json too why a run never got going.
@@ -338,11 +337,11 @@ RunOutcome run_owned(const scene::RunPlan& plan, const RunOptions& options, cons
   }
   Progress last;
   {
-    Result<Opened> opened = open_session(plan, directory);
+    Result<Opened> opened = open_run(plan, directory);
     if (!opened) return fail(options, callbacks, opened.error().message);
-    if (options.n_threads > 1) opened->session.simulation.use_threads(options.n_threads);
+    if (options.n_threads > 1) opened->run.simulation.use_threads(options.n_threads);
     const bool fresh = opened->fresh;
-    Loop loop(plan, options, callbacks, std::move(opened->session));
+    Loop loop(plan, options, callbacks, std::move(opened->run));
     loop.report("running");
     RunOutcome outcome = loop.run(fresh);
     if (outcome.state != RunState::kDone) return outcome;

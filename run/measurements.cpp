@@ -49,10 +49,10 @@ void Measurements::sample(const Snapshot& snapshot) {
       first_kind.angular_velocity.push_back(snapshot.angular_velocity[i]);
     }
   }
-  const Moment moment(measured_.empty() ? snapshot : first_kind);
+  const Sample sample(measured_.empty() ? snapshot : first_kind);
   for (Timed& timed : timed_) {
     if (!timed.cadence.due(snapshot.tick)) continue;
-    timed.measurement->sample(moment);
+    timed.measurement->sample(sample);
     ++timed.samples;
   }
 }

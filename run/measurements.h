@@ -25,8 +25,8 @@ namespace shaken::run {
 /// measurement's own period, tick 0 included. What the plan does not ask for costs nothing.
 class Measurements {
  public:
-  /// Of rods of the first kind; `kinds` (n_rods) says which these are, or is empty if there is no other.
-  Measurements(const scene::RunPlan& plan, const Species& species, std::span<const std::uint8_t> kinds = {});
+  /// Of rods of the first species; `kinds` (n_rods) says which these are, or is empty if there is no other.
+  Measurements(const scene::RunPlan& plan, const Species& species, std::span<const std::uint8_t> species_of_rod = {});
 
   /// The first tick >= `from` at which a sample is due; kNever if nothing is measured.
   Tick next_due(Tick from) const;
@@ -55,7 +55,7 @@ class Measurements {
     std::int64_t samples = 0;
   };
 
-  std::vector<std::size_t> measured_;  // rods of the first kind, where there are others; or empty
+  std::vector<std::size_t> measured_;  // rods of the first species, where there are others; or empty
   std::optional<double> steady_;
   std::vector<Timed> timed_;
   const MeasuredOrder* order_ = nullptr;      // one of timed_, or null

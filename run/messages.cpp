@@ -11,12 +11,12 @@ namespace {
 
 constexpr double kMicrojoulePerPicojoule = 1e-6;
 
-/// Of the rods of the first kind.
-analysis::NematicOrder order_of(const Snapshot& snapshot, std::span<const std::uint8_t> kinds) {
-  if (kinds.empty()) return analysis::nematic_order(snapshot.director);
+/// Of the rods of the first species.
+analysis::NematicOrder order_of(const Snapshot& snapshot, std::span<const std::uint8_t> species_of_rod) {
+  if (species_of_rod.empty()) return analysis::nematic_order(snapshot.director);
   std::vector<Vec3> directors;
   for (std::size_t i = 0; i < snapshot.n_rods(); ++i) {
-    if (kinds[i] == 0) directors.push_back(snapshot.director[i]);
+    if (species_of_rod[i] == 0) directors.push_back(snapshot.director[i]);
   }
   return analysis::nematic_order(directors);
 }
@@ -28,12 +28,12 @@ void append(std::vector<double>& all, const std::vector<double>& more) {
 }  // namespace
 
 std::span<const std::uint8_t> kinds_if_several(const World& world) {
-  if (world.species.size() > 1) return world.kinds;
+  if (world.species.size() > 1) return world.species_of_rod;
   return {};
 }
 
-proto::Frame make_frame(const Snapshot& snapshot, std::span<const std::uint8_t> kinds) {
-  const analysis::NematicOrder order = order_of(snapshot, kinds);
+proto::Frame make_frame(const Snapshot& snapshot, std::span<const std::uint8_t> species_of_rod) {
+  const analysis::NematicOrder order = order_of(snapshot, species_of_rod);
   proto::Frame frame;
   frame.sim_time_s = snapshot.time;
   frame.tick = snapshot.tick;
@@ -104,8 +104,8 @@ frame_static_t make_frame_static(const World& world, const std::string& label) {
   message.sequence = 0;
   message.sim_time_s = 0;
   message.n_rods = static_cast<std::int32_t>(world.rods.size());
-  message.box_side_mm = world.scene.box_side;
-  message.gap_mm = world.scene.gap;
+  message.box_side_mm = world.system.box_side;
+  message.gap_mm = world.system.gap;
   message.n_species = static_cast<std::int32_t>(world.species.size());
   for (const Species& species : world.species) {
     message.species_beads.push_back(species.n_beads());
@@ -113,12 +113,12 @@ frame_static_t make_frame_static(const World& world, const std::string& label) {
     append(message.bead_radius_mm, species.bead_radius);
   }
   message.n_beads = static_cast<std::int32_t>(message.bead_offset_mm.size());
-  const std::span<const std::uint8_t> kinds = kinds_if_several(world);
-  message.kind.assign(kinds.begin(), kinds.end());
-  message.n_kinds = static_cast<std::int32_t>(message.kind.size());
+  const std::span<const std::uint8_t> species_of_rod = kinds_if_several(world);
+  message.rod_species.assign(species_of_rod.begin(), species_of_rod.end());
+  message.n_rod_species = static_cast<std::int32_t>(message.rod_species.size());
   message.arena_size_mm = 0;
   message.arena_inner_mm = 0;
-  if (const auto& walls = world.scene.walls) {
+  if (const auto& walls = world.system.walls) {
     message.arena = name_of(walls->arena);
     message.arena_size_mm = walls->size;
     message.arena_inner_mm = walls->arena == Arena::kAnnulus ? walls->inner : 0;

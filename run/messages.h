@@ -14,12 +14,12 @@
 
 namespace shaken::run {
 
-/// Kind of each rod; empty if there is but one kind.
+/// Species of each rod; empty if there is but one species.
 std::span<const std::uint8_t> kinds_if_several(const World& world);
 
 /// State into wire messages. Head fields (utime, sequence, job_id) are left to the sender. Order and director are those
-/// of the rods of the first kind, as in the measurements.
-proto::Frame make_frame(const Snapshot& snapshot, std::span<const std::uint8_t> kinds = {});
+/// of the rods of the first species, as in the measurements.
+proto::Frame make_frame(const Snapshot& snapshot, std::span<const std::uint8_t> species_of_rod = {});
 observables_t make_observables(const World& world, const Snapshot& snapshot, const Progress& progress);
 defects_t make_defects(const DefectSample& sample);
 frame_static_t make_frame_static(const World& world, const std::string& label);

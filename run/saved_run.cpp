@@ -18,7 +18,7 @@ Result<scene::RunPlan> read_plan(const RunDirectory& directory) {
   return *plan.value;
 }
 
-Result<Simulation> resume_last(const RunDirectory& directory, const std::string& run_id, const Scene& system,
+Result<Simulation> resume_last(const RunDirectory& directory, const std::string& run_id, const System& system,
                                Tick before) {
   std::optional<Error> trouble;  // with the newest
   const auto fails = [&](const std::string& message) {

@@ -17,7 +17,7 @@ Result<scene::RunPlan> read_plan(const RunDirectory& directory);
 
 /// A simulation of `system` that goes on from the newest checkpoint of run `run_id` that is whole, fits, and lies
 /// before `before`. Fails with what is wrong with the newest if none does.
-Result<Simulation> resume_last(const RunDirectory& directory, const std::string& run_id, const Scene& system,
+Result<Simulation> resume_last(const RunDirectory& directory, const std::string& run_id, const System& system,
                                Tick before = std::numeric_limits<Tick>::max());
 
 }  // namespace shaken::run

@@ -185,7 +185,7 @@ ExitCode run_scene(const scene::RunPlan& plan, const Arguments& arguments) {
 }
 
 /// A simulation of `system` from the state that the run in `folder` was last saved in.
-Result<Simulation> resume_from(const std::filesystem::path& folder, const Scene& system) {
+Result<Simulation> resume_from(const std::filesystem::path& folder, const System& system) {
   const run::RunDirectory directory{folder};
   const Result<scene::RunPlan> plan = run::read_plan(directory);
   if (!plan) return plan.error();

@@ -13,7 +13,7 @@ double squared(double x) { return x * x; }
 
 }  // namespace
 
-std::optional<double> gamma_of(const Scene& scene) {
+std::optional<double> gamma_of(const System& scene) {
   if (scene.gravity == 0) return std::nullopt;
   return scene.amplitude * squared(2 * kPi * scene.frequency) / scene.gravity;
 }
@@ -26,18 +26,18 @@ double frequency_for(double gamma, double amplitude, double gravity) {
   return std::sqrt(gamma * gravity / amplitude) / (2 * kPi);
 }
 
-double peak_speed_of(const Scene& scene) { return 2 * kPi * scene.frequency * scene.amplitude; }
+double peak_speed_of(const System& scene) { return 2 * kPi * scene.frequency * scene.amplitude; }
 
 double arena_size_for(const SideWalls& walls, double area) {
   if (walls.arena == Arena::kSquare) return std::sqrt(area);
   return std::sqrt(4.0 * area / kPi + (walls.arena == Arena::kAnnulus ? squared(walls.inner) : 0.0));
 }
 
-double area_for_rods(const Scene& scene) { return scene.walls ? scene.walls->area() : squared(scene.box_side); }
+double area_for_rods(const System& scene) { return scene.walls ? scene.walls->area() : squared(scene.box_side); }
 
-double area_fraction_of(const Scene& scene) { return area_fraction_of(scene, scene.rod, scene.n_rods); }
+double area_fraction_of(const System& scene) { return area_fraction_of(scene, scene.rod, scene.n_rods); }
 
-double area_fraction_of(const Scene& scene, const RodShape& rod, int count) {
+double area_fraction_of(const System& scene, const RodShape& rod, int count) {
   return count * make_species(rod).area / area_for_rods(scene);
 }
 

@@ -16,22 +16,22 @@ inline constexpr double kMaxAreaFractionAligned = 0.92;  ///< interlocked rows o
 inline constexpr double kMaxAreaFractionRandom = 0.45;   ///< random insertion of rods jams there
 
 /// Gamma = a (2 pi f)^2 / g; none without gravity.
-std::optional<double> gamma_of(const Scene& scene);
+std::optional<double> gamma_of(const System& scene);
 /// a from Gamma, f and g [mm].
 double amplitude_for(double gamma, double frequency, double gravity);
 /// f from Gamma, a and g [Hz].
 double frequency_for(double gamma, double amplitude, double gravity);
 
 /// 2 pi f a, of the plates [mm/s].
-double peak_speed_of(const Scene& scene);
+double peak_speed_of(const System& scene);
 
 /// The `size` [mm] at which walls of this shape and `inner` leave the rods `area` [mm^2].
 double arena_size_for(const SideWalls& walls, double area);
 /// L^2, or the area within side walls [mm^2].
-double area_for_rods(const Scene& scene);
-/// Of the rods of the first kind: N A / L^2, with A the area of one rod lying flat.
-double area_fraction_of(const Scene& scene);
+double area_for_rods(const System& scene);
+/// Of the rods of the first species: N A / L^2, with A the area of one rod lying flat.
+double area_fraction_of(const System& scene);
 /// Of rods of any kind.
-double area_fraction_of(const Scene& scene, const RodShape& rod, int count);
+double area_fraction_of(const System& scene, const RodShape& rod, int count);
 
 }  // namespace shaken::scene

@@ -104,13 +104,13 @@ class ValueReader {
   }
 
  private:
-  void complain(const Node& node, Given& given, std::string message) {
+  void report(const Node& node, Given& given, std::string message) {
     problems_.push_back(problem_at(node.place, field_.path, std::move(message)));
     given.ok = false;
   }
 
   void expected(const Node& node, Given& given) {
-    complain(node, given, fmt::format("expected {}, not {}", example_for(field_), describe(node)));
+    report(node, given, fmt::format("expected {}, not {}", example_for(field_), describe(node)));
   }
 
   void read_quantity(const Node& node, Given& given) {
@@ -120,17 +120,17 @@ class ValueReader {
     }
     if (node.kind != Node::Kind::kNumber && node.kind != Node::Kind::kString) return expected(node, given);
     const Result<Written> written = split_quantity(node.text);
-    if (!written) return complain(node, given, written.error().message);
+    if (!written) return report(node, given, written.error().message);
     const Result<Decimal> number = in_default_unit(*written, field_.dimension);
-    if (!number) return complain(node, given, number.error().message);
+    if (!number) return report(node, given, number.error().message);
     const double value = number->value();
     given.value = value;
     if (is_allowed(field_, value)) return;
 
     std::string_view unit = written->unit.empty() ? default_unit(field_.dimension) : written->unit;
-    complain(node, given,
-             fmt::format("{}{}{} is outside {}{}", written->number.text(), unit.empty() ? "" : " ", unit,
-                         range_of(field_), did_you_mean(slip_of_the_pen(field_, *written))));
+    report(node, given,
+           fmt::format("{}{}{} is outside {}{}", written->number.text(), unit.empty() ? "" : " ", unit,
+                       range_of(field_), did_you_mean(slip_of_the_pen(field_, *written))));
   }
 
   void read_numbers(const Node& node, Given& given) {
@@ -148,11 +148,11 @@ class ValueReader {
   void read_whole(const Node& node, Given& given) {
     if (node.kind != Node::Kind::kNumber && node.kind != Node::Kind::kString) return expected(node, given);
     const Result<Decimal> number = parse_decimal(node.text);
-    if (!number) return complain(node, given, number.error().message);
-    if (!number->is_whole()) return complain(node, given, fmt::format("{} is not a whole number", node.text));
+    if (!number) return report(node, given, number.error().message);
+    if (!number->is_whole()) return report(node, given, fmt::format("{} is not a whole number", node.text));
     given.value = number->value();
     if (number->value() < field_.low || number->value() > field_.high) {
-      complain(node, given, fmt::format("{} is outside [{:.16g}, {:.16g}]", node.text, field_.low, field_.high));
+      report(node, given, fmt::format("{} is outside [{:.16g}, {:.16g}]", node.text, field_.low, field_.high));
     }
   }
 
@@ -163,8 +163,8 @@ class ValueReader {
     const std::string allowed = field_.form == Form::kQuantity
                                     ? fmt::format("neither {} nor {}", quoted(field_.names), example_for(field_))
                                     : fmt::format("not one of {}", quoted(field_.names));
-    complain(node, given,
-             fmt::format("\"{}\" is {}{}", node.text, allowed, did_you_mean(nearest(node.text, field_.names))));
+    report(node, given,
+           fmt::format("\"{}\" is {}{}", node.text, allowed, did_you_mean(nearest(node.text, field_.names))));
   }
 
   void read_size(const Node& node, Given& given) {
@@ -178,9 +178,8 @@ class ValueReader {
       if (!side.ok) continue;
       size[i] = std::get<double>(side.value);
       if (std::fmod(size[i], 2) != 0) {
-        complain(
-            item, given,
-            fmt::format("{} is odd; video needs even numbers of pixels; did you mean {}?", item.text, size[i] + 1));
+        report(item, given,
+               fmt::format("{} is odd; video needs even numbers of pixels; did you mean {}?", item.text, size[i] + 1));
       }
     }
     given.value = size;

@@ -32,20 +32,20 @@ class VariationReader {
         variation_.replicas = read_count("sweep.replicas", member.value, 1, kMaxReplicas, problems_).value_or(1);
       } else {
         const std::vector<std::string> names{"grid", "zip", "list", "random", "replicas"};
-        complain(member.place, "sweep." + member.key, "unknown key" + did_you_mean(nearest(member.key, names)));
+        report(member.place, "sweep." + member.key, "unknown key" + did_you_mean(nearest(member.key, names)));
       }
     }
     return std::move(variation_);
   }
 
  private:
-  void complain(const Place& place, std::string_view path, std::string message) {
+  void report(const Place& place, std::string_view path, std::string message) {
     problems_.push_back(problem_at(place, path, std::move(message)));
   }
 
   bool expect(const Node& node, Node::Kind kind, std::string_view path, std::string_view what) {
     if (node.kind == kind) return true;
-    complain(node.place, path, fmt::format("expected {}, not {}", what, describe(node)));
+    report(node.place, path, fmt::format("expected {}, not {}", what, describe(node)));
     return false;
   }
 
@@ -54,16 +54,16 @@ class VariationReader {
     const int index = field_index(member.key);
     if (index < 0 || fields()[static_cast<std::size_t>(index)].form == Form::kBlock) {
       const bool exists = index >= 0 || is_group(member.key);
-      complain(member.place, member.key,
-               exists ? "this is an object; sweep the keys in it" : "unknown key" + suggest_path(member.key));
+      report(member.place, member.key,
+             exists ? "this is an object; sweep the keys in it" : "unknown key" + suggest_path(member.key));
       return nullptr;
     }
     for (const Factor& factor : variation_.factors) {
       for (const Axis& axis : factor.axes) {
         if (axis.path != member.key) continue;
-        complain(member.place, member.key,
-                 fmt::format("swept twice, in \"{}\" at {}:{} before", name_of(factor.kind), axis.key.line,
-                             axis.key.column));
+        report(member.place, member.key,
+               fmt::format("swept twice, in \"{}\" at {}:{} before", name_of(factor.kind), axis.key.line,
+                           axis.key.column));
         return nullptr;
       }
     }
@@ -89,9 +89,9 @@ class VariationReader {
       Axis axis{member.key, member.place, read_values(*field, member.value, problems_)};
       if (axis.values.empty()) continue;
       if (!factor.axes.empty() && axis.values.size() != factor.n_choices) {
-        complain(member.place, member.key,
-                 fmt::format("{} values, but {} has {}; paths of a zip vary together", axis.values.size(),
-                             factor.axes.front().path, factor.n_choices));
+        report(member.place, member.key,
+               fmt::format("{} values, but {} has {}; paths of a zip vary together", axis.values.size(),
+                           factor.axes.front().path, factor.n_choices));
         continue;
       }
       factor.n_choices = axis.values.size();
@@ -123,7 +123,7 @@ class VariationReader {
     if (const Member* member = random.find("n")) {
       n = read_count("sweep.random.n", member->value, 1, kMaxPoints, problems_).value_or(0);
     } else {
-      complain(random.place, "sweep.random", "lacks \"n\", the number of draws");
+      report(random.place, "sweep.random", "lacks \"n\", the number of draws");
     }
     if (const Member* member = random.find("seed")) {
       seed = read_count("sweep.random.seed", member->value, 0, 1 << 30, problems_).value_or(1);

@@ -51,7 +51,7 @@ Field accuracy() {
 }
 
 Field gravity() {
-  Field field = quantity("gravity", sys<&Scene::gravity>, kAcceleration, 100, 1e5,
+  Field field = quantity("gravity", sys<&System::gravity>, kAcceleration, 100, 1e5,
                          "Gravitational acceleration g, downwards. If it is 0, amplitude and frequency must set the "
                          "vibration.");
   field.or_zero = true;
@@ -59,7 +59,7 @@ Field gravity() {
 }
 
 Field inner_wall() {
-  Field field = quantity("walls.inner", sys<&Scene::walls, &SideWalls::inner>, kLength, 0.1, 2000,
+  Field field = quantity("walls.inner", sys<&System::walls, &SideWalls::inner>, kLength, 0.1, 2000,
                          "Diameter of the inner wall of an annulus.");
   field.fallback = SideWalls{}.inner;
   field.fetch = [](const RunPlan& p) {
@@ -129,7 +129,7 @@ Value added_fraction(const RunPlan& p) {
 
 // clang-format off
 
-/// The shape of one kind of rod, which lies at `rod` in a plan.
+/// The shape of one species, which lies at `rod` in a plan.
 template <auto... rod>
 std::vector<Field> shape(const std::string& name, const std::string& of_density) {
   return {
@@ -157,14 +157,14 @@ std::vector<Field> shape(const std::string& name, const std::string& of_density)
 template <std::size_t k>
 std::vector<Field> added_rods(const std::string& name) {
   std::vector<Field> rows{
-    block(name, sys<&Scene::added, k>, false, "Rods of another kind, at random places among the first.")};
-  std::ranges::move(shape<&RunPlan::system, &Scene::added, k, &AddedRods::rod>(name, ""), std::back_inserter(rows));
+    block(name, sys<&System::added, k>, false, "Rods of another species, at random places among the first.")};
+  std::ranges::move(shape<&RunPlan::system, &System::added, k, &AddedRods::rod>(name, ""), std::back_inserter(rows));
   rows.push_back(
     derived(instead(name + ".area_fraction", added_fraction<k>, kPlain, 1e-6, kMaxAreaFractionAligned, {},
                     "Area of these rods, lying flat, divided by the area of the box (or arena)."),
             "from count"));
   rows.push_back(
-    derived(whole(name + ".count", sys<&Scene::added, k, &AddedRods::count>, 1, 1e6, "Number of rods."),
+    derived(whole(name + ".count", sys<&System::added, k, &AddedRods::count>, 1, 1e6, "Number of rods."),
             "from area_fraction"));
   return rows;
 }
@@ -194,56 +194,56 @@ std::vector<Field> measure() {
 /// All rows in canonical order, in groups.
 std::vector<std::vector<Field>> groups() {
   return {
-    shape<&RunPlan::system, &Scene::rod>("rods", " It only sets the unit of energy."), {
+    shape<&RunPlan::system, &System::rod>("rods", " It only sets the unit of energy."), {
     instead("rods.area_fraction", [](const RunPlan& p) { return Value(to_ten_digits(area_fraction_of(p.system))); },
             kPlain, 1e-6, kMaxAreaFractionAligned, kDefaultAreaFraction,
             "Area of all rods, lying flat, divided by the area of the box (or arena)."),
-    derived(whole("rods.count", sys<&Scene::n_rods>, 1, 1e6, "Number of rods."), "from area_fraction and side"),
-    choice<Start>("rods.start", sys<&Scene::start>, {{"aligned", Start::kAligned}, {"random", Start::kRandom}},
+    derived(whole("rods.count", sys<&System::n_rods>, 1, 1e6, "Number of rods."), "from area_fraction and side"),
+    choice<Start>("rods.start", sys<&System::start>, {{"aligned", Start::kAligned}, {"random", Start::kRandom}},
                   "Whether rods start in rows along x, every other row shifted by half a rod, or at random (for dilute "
                   "systems)."),
     }, added_rods<0>("rods_2"), added_rods<1>("rods_3"), {
-    quantity("box.side", sys<&Scene::box_side>, kLength, 1, 2000,
+    quantity("box.side", sys<&System::box_side>, kLength, 1, 2000,
              "Side L of the square box, which is periodic in x and y."),
-    quantity("box.gap", sys<&Scene::gap>, kLength, 0.05, 100, "Distance w between base and lid."),
+    quantity("box.gap", sys<&System::gap>, kLength, 0.05, 100, "Distance w between base and lid."),
 
     instead("plates.gamma", fetch_gamma, kPlain, 0, 200, kDefaultGamma,
             "Strength of shaking: the largest acceleration of the plates divided by gravity."),
-    derived(quantity("plates.amplitude", sys<&Scene::amplitude>, kLength, 0, 10,
+    derived(quantity("plates.amplitude", sys<&System::amplitude>, kLength, 0, 10,
                      "Amplitude a of the plates' vibration."),
             "from gamma and frequency"),
-    quantity("plates.frequency", sys<&Scene::frequency>, kFrequency, 0.1, 1e5,
+    quantity("plates.frequency", sys<&System::frequency>, kFrequency, 0.1, 1e5,
              "Frequency f of the plates' vibration."),
     gravity(),
-    later(on_or_off("plates.base", sys<&Scene::base>, "Whether there is a base.")),
-    later(on_or_off("plates.lid", sys<&Scene::lid>, "Whether there is a lid.")),
-    later(quantity("plates.noise", sys<&Scene::rotational_noise>, kPlain, 0, 10,
+    later(on_or_off("plates.base", sys<&System::base>, "Whether there is a base.")),
+    later(on_or_off("plates.lid", sys<&System::lid>, "Whether there is a lid.")),
+    later(quantity("plates.noise", sys<&System::rotational_noise>, kPlain, 0, 10,
                    "Rotational noise in rad/mm: each hit by a plate changes the rod's angular velocity about the "
                    "vertical by this much per speed of the hit, to either side at random.")),
 
-    block("walls", sys<&Scene::walls>, false,
+    block("walls", sys<&System::walls>, false,
           "Side walls around an arena in the middle of the box, in place of periodic boundaries."),
-    choice("walls.arena", sys<&Scene::walls, &SideWalls::arena>, kArenaNames, "Shape of the arena."),
-    derived(quantity("walls.size", sys<&Scene::walls, &SideWalls::size>, kLength, 1, 2000,
+    choice("walls.arena", sys<&System::walls, &SideWalls::arena>, kArenaNames, "Shape of the arena."),
+    derived(quantity("walls.size", sys<&System::walls, &SideWalls::size>, kLength, 1, 2000,
                      "Diameter of the disc or of the outer wall, or side of the square."),
             "as large as box.side allows"),
     inner_wall(),
-    quantity("walls.friction", sys<&Scene::walls, &SideWalls::contact, &ContactParameters::friction>, kPlain, 0, 1000,
+    quantity("walls.friction", sys<&System::walls, &SideWalls::contact, &ContactParameters::friction>, kPlain, 0, 1000,
              "Coefficient of Coulomb friction between rod and wall."),
-    quantity("walls.restitution", sys<&Scene::walls, &SideWalls::contact, &ContactParameters::restitution>, kPlain,
+    quantity("walls.restitution", sys<&System::walls, &SideWalls::contact, &ContactParameters::restitution>, kPlain,
              0, 1, "Coefficient of restitution between rod and wall."),
     },
-    contact<&Scene::rod_rod>("rod_rod", "two rods"),
-    contact<&Scene::rod_base>("rod_base", "rod and base"),
-    contact<&Scene::rod_lid>("rod_lid", "rod and lid"), {
-    choice<ImpulseLaw>("contacts.law", sys<&Scene::law>,
+    contact<&System::rod_rod>("rod_rod", "two rods"),
+    contact<&System::rod_base>("rod_base", "rod and base"),
+    contact<&System::rod_lid>("rod_lid", "rod and lid"), {
+    choice<ImpulseLaw>("contacts.law", sys<&System::law>,
                        {{"newton", ImpulseLaw::kNewton},
                         {"poisson", ImpulseLaw::kPoisson},
                         {"energetic", ImpulseLaw::kEnergetic}},
                        "Impulse law: whether restitution is a ratio of velocities, of impulses, or of works "
                        "(docs/stability.md)."),
-    whole("contacts.sweeps", sys<&Scene::solver_sweeps>, 1, 100, "Number of passes over the contacts of one tick."),
-    later(choice<ContactOrder>("contacts.order", sys<&Scene::order>,
+    whole("contacts.sweeps", sys<&System::solver_sweeps>, 1, 100, "Number of passes over the contacts of one tick."),
+    later(choice<ContactOrder>("contacts.order", sys<&System::order>,
                                {{"sorted", ContactOrder::kSorted},
                                 {"reversed", ContactOrder::kReversed},
                                 {"shuffled", ContactOrder::kShuffled}},
@@ -251,18 +251,18 @@ std::vector<std::vector<Field>> groups() {
                                "on it.")),
 
     accuracy(),
-    quantity("time.step", sys<&Scene::dt>, kTime, 1e-7, 1e-4,
+    quantity("time.step", sys<&System::dt>, kTime, 1e-7, 1e-4,
              "Length of a tick (the time step). It determines the accuracy."),
-    choice<Engine>("time.engine", sys<&Scene::engine>,
+    choice<Engine>("time.engine", sys<&System::engine>,
                    {{"scheduled", Engine::kScheduled}, {"reference", Engine::kReference}},
                    "Which stepper runs. Both give bitwise the same trajectory."),
-    later(choice<ImpactTime>("time.impacts", sys<&Scene::impacts>,
+    later(choice<ImpactTime>("time.impacts", sys<&System::impacts>,
                              {{"tick_end", ImpactTime::kTickEnd}, {"at_instant", ImpactTime::kAtInstant}},
                              "Whether impacts take effect at the end of their tick, as in the paper, or at their own "
                              "instant within it.")),
     steady(),
     quantity("time.measure", at<&RunPlan::measure_time>, kTime, 1e-6, 1e7, "Length of the run after `time.steady`."),
-    whole("time.seed", sys<&Scene::seed>, 0, 9007199254740992.0,
+    whole("time.seed", sys<&System::seed>, 0, 9007199254740992.0,
           "Seed of all random numbers. Replica k of a sweep has seed + k - 1."),
     },
     measure(), {

@@ -13,7 +13,7 @@ namespace {
 
 /// The same for all plans whose rods are placed alike, so that a sweep of other keys places them once.
 std::string placement_key(const RunPlan& plan) {
-  const Scene& system = plan.system;
+  const System& system = plan.system;
   RunPlan alike;
   alike.system.rod = system.rod;
   alike.system.n_rods = system.n_rods;

@@ -78,7 +78,7 @@ class Resolver {
   }
 
   /// Reports a problem of several fields where the first of them that was given stands.
-  void complain(const Paths& paths, std::string message) {
+  void report(const Paths& paths, std::string message) {
     for (const std::string& path : paths) {
       if (const Given* found = draft_.find(path)) {
         problems_.push_back(problem_at(found->place, path, std::move(message)));
@@ -98,8 +98,8 @@ class Resolver {
       const Field& given_field = field_at(cause);
       said += fmt::format("{}{} {}", said.empty() ? "" : " and ", cause, show(given_field, given_field.fetch(plan_)));
     }
-    complain(causes, fmt::format("{} make {} {}, outside {}", said, path, show(field, value),
-                                 format_range(field.low, field.high, field.dimension)));
+    report(causes, fmt::format("{} make {} {}, outside {}", said, path, show(field, value),
+                               format_range(field.low, field.high, field.dimension)));
   }
 
   // The step that a word for accuracy stands for.
@@ -108,14 +108,14 @@ class Resolver {
     if (!word || !ok({"accuracy", "time.step"})) return;
     const AccuracyLevel* level = accuracy_level(std::get<std::string>(word->value));
     if (given("time.step") && plan_.system.dt != level->step) {
-      complain({"accuracy"}, fmt::format("accuracy \"{}\" is a time.step of {}, but time.step {} is given; remove one",
-                                         level->name, time(level->step), time(plan_.system.dt)));
+      report({"accuracy"}, fmt::format("accuracy \"{}\" is a time.step of {}, but time.step {} is given; remove one",
+                                       level->name, time(level->step), time(plan_.system.dt)));
       return;
     }
     plan_.system.dt = level->step;
   }
 
-  /// Every kind of rod that is there: the name of its group, its shape and number.
+  /// Every species that is there: the name of its group, its shape and number.
   struct Kind {
     std::string name;
     RodShape& rod;
@@ -144,32 +144,32 @@ class Resolver {
     if (!ok({length_path, mid, end, beads, pitch_path, list})) return false;
     if (!rod.bead_diameters.empty()) return free_shape(kind);
     if (given(beads) && given(pitch_path)) {
-      complain({beads}, fmt::format("{} and {} are both given; remove one", beads, pitch_path));
+      report({beads}, fmt::format("{} and {} are both given; remove one", beads, pitch_path));
       return false;
     }
     if (given(beads) && rod.n_beads % 2 == 0) {
-      complain({beads}, fmt::format("{} is even; a rod has a centre bead, so an odd number; did you mean {}?",
-                                    rod.n_beads, rod.n_beads + 1));
+      report({beads}, fmt::format("{} is even; a rod has a centre bead, so an odd number; did you mean {}?",
+                                  rod.n_beads, rod.n_beads + 1));
       return false;
     }
     if (given(beads) && rod.n_beads == 1) {
       if (!given(length_path)) rod.length = rod.mid_diameter;
       if (rod.length == rod.mid_diameter) return true;
-      complain({length_path, beads}, fmt::format("one bead is a sphere: {} ({}) must be {} ({})", length_path,
-                                                 length(rod.length), mid, length(rod.mid_diameter)));
+      report({length_path, beads}, fmt::format("one bead is a sphere: {} ({}) must be {} ({})", length_path,
+                                               length(rod.length), mid, length(rod.mid_diameter)));
       return false;
     }
     const double thickest = std::max(rod.mid_diameter, rod.end_diameter);
     if (rod.length <= thickest) {
-      complain({length_path, mid, end}, fmt::format("a rod of length {} is not longer than its thickest bead ({})",
-                                                    length(rod.length), length(thickest)));
+      report({length_path, mid, end}, fmt::format("a rod of length {} is not longer than its thickest bead ({})",
+                                                  length(rod.length), length(thickest)));
       return false;
     }
     if (!given(beads)) {
       const double pitch = number(pitch_path);
       if ((rod.length - rod.end_diameter) / pitch > kMaxBeads - 1) {
-        complain({pitch_path, length_path}, fmt::format("beads every {} make more than {} on a rod of {}",
-                                                        length(pitch), kMaxBeads, length(rod.length)));
+        report({pitch_path, length_path}, fmt::format("beads every {} make more than {} on a rod of {}", length(pitch),
+                                                      kMaxBeads, length(rod.length)));
         return false;
       }
       rod.n_beads = beads_for_pitch(rod.length, rod.end_diameter, pitch);
@@ -177,9 +177,9 @@ class Resolver {
     if (rod.n_beads > 1 && !touching(rod)) {
       RodShape enough = rod;
       while (!touching(enough) && enough.n_beads < kMaxBeads) enough.n_beads += 2;
-      complain({beads, pitch_path, length_path},
-               fmt::format("{} beads leave holes between them on a rod of {}; take at least {}", rod.n_beads,
-                           length(rod.length), enough.n_beads));
+      report({beads, pitch_path, length_path},
+             fmt::format("{} beads leave holes between them on a rod of {}; take at least {}", rod.n_beads,
+                         length(rod.length), enough.n_beads));
       return false;
     }
     return true;
@@ -203,14 +203,14 @@ class Resolver {
     bool fine = true;
     const auto follows = [&](const char* key, double value) {
       if (given(kind.path(key)) && number(kind.path(key)) != value) {
-        complain({kind.path(key)},
-                 fmt::format("{} follows from {}, which makes it {:.10g}; remove it", kind.path(key), list, value));
+        report({kind.path(key)},
+               fmt::format("{} follows from {}, which makes it {:.10g}; remove it", kind.path(key), list, value));
         fine = false;
       }
       return value;
     };
     if (n > kMaxBeads) {
-      complain({list}, fmt::format("{} beads are more than {}", n, kMaxBeads));
+      report({list}, fmt::format("{} beads are more than {}", n, kMaxBeads));
       return false;
     }
     rod.n_beads = static_cast<int>(follows("beads", n));
@@ -218,14 +218,14 @@ class Resolver {
     rod.end_diameter = follows("end_diameter", diameters.back());
     for (const char* key : {"profile", "bead_pitch"}) {
       if (!given(kind.path(key))) continue;
-      complain({kind.path(key)}, fmt::format("{} and {} are both given; remove one", list, kind.path(key)));
+      report({kind.path(key)}, fmt::format("{} and {} are both given; remove one", list, kind.path(key)));
       fine = false;
     }
     if (n == 1) rod.length = follows("length", thickest);
     if (!fine) return false;
     if (n > 1 && rod.length <= thickest) {
-      complain({kind.path("length"), list}, fmt::format("a rod of length {} is not longer than its thickest bead ({})",
-                                                        length(rod.length), length(thickest)));
+      report({kind.path("length"), list}, fmt::format("a rod of length {} is not longer than its thickest bead ({})",
+                                                      length(rod.length), length(thickest)));
       return false;
     }
     const double pitch = n > 1 ? (rod.length - 0.5 * (diameters.front() + diameters.back())) / (n - 1) : 0.0;
@@ -233,14 +233,14 @@ class Resolver {
       const double center = 0.5 * diameters.front() + b * pitch;
       const double radius = 0.5 * diameters[static_cast<std::size_t>(b)];
       if (center - radius >= -1e-9 && center + radius <= rod.length + 1e-9) continue;
-      complain({list, kind.path("length")},
-               fmt::format("bead {} of {} would stick out beyond the tips of a rod of {}", b + 1,
-                           length(diameters[static_cast<std::size_t>(b)]), length(rod.length)));
+      report({list, kind.path("length")},
+             fmt::format("bead {} of {} would stick out beyond the tips of a rod of {}", b + 1,
+                         length(diameters[static_cast<std::size_t>(b)]), length(rod.length)));
       return false;
     }
     if (!touching(rod)) {
-      complain({list}, fmt::format("{} beads of these diameters leave holes between them on a rod of {}; give more", n,
-                                   length(rod.length)));
+      report({list}, fmt::format("{} beads of these diameters leave holes between them on a rod of {}; give more", n,
+                                 length(rod.length)));
       return false;
     }
     return true;
@@ -249,7 +249,7 @@ class Resolver {
   // Gamma, amplitude and frequency.
   void shaking() {
     if (!ok({"plates.gamma", "plates.amplitude", "plates.frequency", "gravity"})) return;
-    Scene& system = plan_.system;
+    System& system = plan_.system;
     if (system.gravity == 0) return shaking_without_weight();
     const double gamma = number("plates.gamma");
     if (!given("plates.amplitude")) {
@@ -261,41 +261,40 @@ class Resolver {
       system.frequency = frequency_for(gamma, system.amplitude, system.gravity);
       check_derived("plates.frequency", {"plates.gamma", "plates.amplitude"});
     } else if (!agree(*gamma_of(system), gamma)) {
-      complain(
-          {"plates.gamma"},
-          fmt::format("plates.gamma {:.10g} contradicts plates.amplitude {} at plates.frequency {} and gravity {}, "
-                      "which make {:.10g}; remove one",
-                      gamma, length(system.amplitude), format_quantity(system.frequency, Dimension::kFrequency),
-                      format_quantity(system.gravity, Dimension::kAcceleration), *gamma_of(system)));
+      report({"plates.gamma"},
+             fmt::format("plates.gamma {:.10g} contradicts plates.amplitude {} at plates.frequency {} and gravity {}, "
+                         "which make {:.10g}; remove one",
+                         gamma, length(system.amplitude), format_quantity(system.frequency, Dimension::kFrequency),
+                         format_quantity(system.gravity, Dimension::kAcceleration), *gamma_of(system)));
     }
   }
 
   // Gamma compares the plates with gravity. Without it only Gamma = 0, plates at rest, means anything.
   void shaking_without_weight() {
-    Scene& system = plan_.system;
+    System& system = plan_.system;
     if (given("plates.gamma") && number("plates.gamma") != 0) {
-      complain({"plates.gamma"},
-               "plates.gamma compares the plates with gravity, which is 0; give plates.amplitude and plates.frequency "
-               "instead");
+      report({"plates.gamma"},
+             "plates.gamma compares the plates with gravity, which is 0; give plates.amplitude and plates.frequency "
+             "instead");
     } else if (!given("plates.amplitude")) {
       system.amplitude = 0;
       if (given("plates.gamma")) return;
-      complain({"gravity"},
-               "without gravity plates.gamma has no meaning; give plates.amplitude (0: plates at rest) and "
-               "plates.frequency");
+      report({"gravity"},
+             "without gravity plates.gamma has no meaning; give plates.amplitude (0: plates at rest) and "
+             "plates.frequency");
     } else if (given("plates.gamma") && system.amplitude > 0) {
-      complain({"plates.gamma"},
-               fmt::format("plates.gamma 0 contradicts plates.amplitude {}; remove one", length(system.amplitude)));
+      report({"plates.gamma"},
+             fmt::format("plates.gamma 0 contradicts plates.amplitude {}; remove one", length(system.amplitude)));
     } else if (system.amplitude > 0 && !given("plates.frequency")) {
-      complain({"gravity"},
-               fmt::format("without gravity plates.amplitude {} does not tell plates.frequency; give that too",
-                           length(system.amplitude)));
+      report({"gravity"},
+             fmt::format("without gravity plates.amplitude {} does not tell plates.frequency; give that too",
+                         length(system.amplitude)));
     }
   }
 
   // Arena and box fit into each other; false where they do not, or cannot be told.
   bool arena() {
-    Scene& system = plan_.system;
+    System& system = plan_.system;
     if (!ok({"walls.size", "walls.inner", "walls.arena", "box.side"}) || !shapes_ok_) return false;
     if (!system.walls) return true;
     double thickest = 0;
@@ -309,9 +308,9 @@ class Resolver {
     const std::size_t n_before = problems_.size();
     if (given("walls.inner") && walls.arena != Arena::kAnnulus) {
       const Field& arena = field_at("walls.arena");
-      complain({"walls.inner"}, fmt::format("only an annulus has an inner wall, and walls.arena is {}; remove "
-                                            "walls.inner, or set walls.arena to \"annulus\"",
-                                            show(arena, arena.fetch(plan_))));
+      report({"walls.inner"}, fmt::format("only an annulus has an inner wall, and walls.arena is {}; remove "
+                                          "walls.inner, or set walls.arena to \"annulus\"",
+                                          show(arena, arena.fetch(plan_))));
     }
     if (!given("walls.size") && !given("box.side") && given("rods.count") && given("rods.area_fraction")) {
       if (!ok({"rods.count", "rods.area_fraction"})) return false;
@@ -326,25 +325,25 @@ class Resolver {
       check_derived("box.side", {"walls.size"});
     }
     if (system.box_side < walls.size + room * (1 - 1e-12)) {
-      complain({"walls.size", "box.side"},
-               fmt::format("an arena of {} does not fit into a box of {}: at most {}; or leave box.side out",
-                           length(walls.size), length(system.box_side), length(system.box_side - room)));
+      report({"walls.size", "box.side"},
+             fmt::format("an arena of {} does not fit into a box of {}: at most {}; or leave box.side out",
+                         length(walls.size), length(system.box_side), length(system.box_side - room)));
     } else if (walls.arena == Arena::kAnnulus && walls.inner >= walls.size) {
-      complain({"walls.inner", "walls.size"},
-               fmt::format("an inner wall of {} does not fit into an outer one of {}, {}", length(walls.inner),
-                           length(walls.size), given("walls.size") ? "walls.size" : "as large as box.side allows"));
+      report({"walls.inner", "walls.size"},
+             fmt::format("an inner wall of {} does not fit into an outer one of {}, {}", length(walls.inner),
+                         length(walls.size), given("walls.size") ? "walls.size" : "as large as box.side allows"));
     } else if (walls.arena == Arena::kAnnulus && walls.size - walls.inner < 2.0 * longest) {
-      complain({"walls.inner", "walls.size"},
-               fmt::format("an annulus from {} to {} leaves no room for rods of {} to turn: its walls must be a rod "
-                           "length apart",
-                           length(walls.inner), length(walls.size), length(longest)));
+      report({"walls.inner", "walls.size"},
+             fmt::format("an annulus from {} to {} leaves no room for rods of {} to turn: its walls must be a rod "
+                         "length apart",
+                         length(walls.inner), length(walls.size), length(longest)));
     }
     return problems_.size() == n_before;
   }
 
   /// What sets the area that the rods share, as it was written: "box.side 40 mm".
   std::string room_for_rods() const {
-    const Scene& system = plan_.system;
+    const System& system = plan_.system;
     std::string box = "box.side " + length(system.box_side);
     if (!system.walls) return box;
     if (given("walls.size")) return "walls.size " + length(system.walls->size);
@@ -356,7 +355,7 @@ class Resolver {
     for (const Kind& kind : kinds()) {
       if (!ok({kind.path("area_fraction"), kind.path("count")}) || !numbers_of(kind)) return;
     }
-    Scene& system = plan_.system;
+    System& system = plan_.system;
     double fraction = 0;
     Paths causes;
     std::string all;
@@ -369,11 +368,11 @@ class Resolver {
     const bool random = system.start == Start::kRandom;
     const double most = random ? kMaxAreaFractionRandom : kMaxAreaFractionAligned;
     if (draft_.is_ok("rods.start") && fraction > most) {
-      complain(causes,
-               fmt::format("{} rods in {} of {} are an area fraction of {:.4g}; {} at most {} can be placed{}",
-                           system.n_all_rods(), system.walls ? "an arena" : "a box",
-                           length(system.walls ? system.walls->size : system.box_side), fraction,
-                           random ? "at random" : "in rows", most, random ? "; start \"aligned\" packs more" : ""));
+      report(causes,
+             fmt::format("{} rods in {} of {} are an area fraction of {:.4g}; {} at most {} can be placed{}",
+                         system.n_all_rods(), system.walls ? "an arena" : "a box",
+                         length(system.walls ? system.walls->size : system.box_side), fraction,
+                         random ? "at random" : "in rows", most, random ? "; start \"aligned\" packs more" : ""));
     } else {
       for (const Kind& kind : kinds()) {
         check_derived(kind.path("area_fraction"),
@@ -382,14 +381,14 @@ class Resolver {
     }
   }
 
-  /// Number and area fraction of one kind of rod; false after a complaint.
+  /// Number and area fraction of one species; false after a complaint.
   bool numbers_of(const Kind& kind) {
-    Scene& system = plan_.system;
+    System& system = plan_.system;
     const std::string fraction_path = kind.path("area_fraction"), count_path = kind.path("count");
     const bool is_first = kind.name == "rods";
     const double area = make_species(kind.rod).area;
     if (!is_first && !given(count_path) && !given(fraction_path)) {
-      complain({kind.name, fraction_path}, fmt::format("how many rods? Give {} or {}", count_path, fraction_path));
+      report({kind.name, fraction_path}, fmt::format("how many rods? Give {} or {}", count_path, fraction_path));
       return false;
     }
     const double wanted = given(fraction_path) || is_first ? number(fraction_path) : 0.0;
@@ -397,9 +396,9 @@ class Resolver {
     if (!given(count_path)) {
       const Field& field = field_at(count_path);
       if (count_for() < field.low || count_for() > field.high) {
-        complain({fraction_path, "walls.size", "box.side"},
-                 fmt::format("{} {:.10g} and {} make {} rods, outside [{:.10g}, {:.10g}]", fraction_path, wanted,
-                             room_for_rods(), count_for(), field.low, field.high));
+        report({fraction_path, "walls.size", "box.side"},
+               fmt::format("{} {:.10g} and {} make {} rods, outside [{:.10g}, {:.10g}]", fraction_path, wanted,
+                           room_for_rods(), count_for(), field.low, field.high));
         return false;
       }
       kind.count = static_cast<int>(count_for());
@@ -408,54 +407,54 @@ class Resolver {
       check_derived("box.side", {"rods.count", "rods.area_fraction"});
     } else if (given(fraction_path) && count_for() != kind.count &&
                !agree(area_fraction_of(system, kind.rod, kind.count), wanted)) {
-      complain({fraction_path},
-               fmt::format("{} {:.10g} contradicts {} {} in {}, which make {:.10g}; remove one", fraction_path, wanted,
-                           count_path, kind.count, room_for_rods(), area_fraction_of(system, kind.rod, kind.count)));
+      report({fraction_path},
+             fmt::format("{} {:.10g} contradicts {} {} in {}, which make {:.10g}; remove one", fraction_path, wanted,
+                         count_path, kind.count, room_for_rods(), area_fraction_of(system, kind.rod, kind.count)));
       return false;
     }
     return true;
   }
 
   void box() {
-    const Scene& system = plan_.system;
+    const System& system = plan_.system;
     if (!shapes_ok_) return;
     for (const Kind& kind : kinds()) {
       const Species species = make_species(kind.rod);
       const double least = least_box_side(std::span(&species, 1));
       if (ok({"box.side", kind.path("count"), kind.path("area_fraction")}) && system.box_side < least * (1.0 - 1e-9)) {
-        complain({"box.side", "walls.size", kind.path("count"), kind.path("length")},
-                 fmt::format("a periodic box of {} is too small for rods of {}: at least {}", length(system.box_side),
-                             length(kind.rod.length), length(least)));
+        report({"box.side", "walls.size", kind.path("count"), kind.path("length")},
+               fmt::format("a periodic box of {} is too small for rods of {}: at least {}", length(system.box_side),
+                           length(kind.rod.length), length(least)));
       }
     }
   }
 
   void gap() {
-    const Scene& system = plan_.system;
+    const System& system = plan_.system;
     for (const Kind& kind : kinds()) {
       const Paths diameters{kind.path("mid_diameter"), kind.path("end_diameter"), kind.path("bead_diameters")};
       const double thickest = kind.rod.bead_diameters.empty()
                                   ? std::max(kind.rod.mid_diameter, kind.rod.end_diameter)
                                   : *std::max_element(kind.rod.bead_diameters.begin(), kind.rod.bead_diameters.end());
       if (!ok({"box.gap"}) || !ok(diameters) || system.gap > thickest) continue;
-      complain({"box.gap", diameters[0], diameters[1], diameters[2]},
-               fmt::format("a gap of {} is too small for rods {} thick", length(system.gap), length(thickest)));
+      report({"box.gap", diameters[0], diameters[1], diameters[2]},
+             fmt::format("a gap of {} is too small for rods {} thick", length(system.gap), length(thickest)));
     }
     if (!system.base && system.gravity > 0 && ok({"plates.base", "gravity"})) {
-      complain({"plates.base", "gravity"}, "without a base rods fall out of sight: set gravity to 0");
+      report({"plates.base", "gravity"}, "without a base rods fall out of sight: set gravity to 0");
     }
   }
 
   // The tick against the vibration, and sampling against the tick.
   void schedule() {
-    const Scene& system = plan_.system;
+    const System& system = plan_.system;
     if (!ok({"time.step"})) return;
     const bool shaking_given = ok({"plates.frequency", "plates.gamma", "plates.amplitude"});
     if (shaking_given && system.dt * system.frequency * kLeastTicksPerPeriod > 1) {
-      complain({"time.step", "accuracy", "plates.frequency", "plates.amplitude"},
-               fmt::format("a step of {} is too long for plates at {}: at most {}", time(system.dt),
-                           format_quantity(system.frequency, Dimension::kFrequency),
-                           time(1 / (kLeastTicksPerPeriod * system.frequency))));
+      report({"time.step", "accuracy", "plates.frequency", "plates.amplitude"},
+             fmt::format("a step of {} is too long for plates at {}: at most {}", time(system.dt),
+                         format_quantity(system.frequency, Dimension::kFrequency),
+                         time(1 / (kLeastTicksPerPeriod * system.frequency))));
     } else if (shaking_given && ok({"gravity"}) && shaking_ok_ && shapes_ok_) {
       plates_in_a_tick();
     }
@@ -465,15 +464,15 @@ class Resolver {
       if (!is_interval || !draft_.is_on(block) || !draft_.is_ok(field.path)) continue;
       const double every = std::get<double>(field.fetch(plan_));
       if (every < system.dt) {
-        complain({field.path, "time.step", "accuracy"},
-                 fmt::format("{} {} is shorter than time.step {}", field.path, time(every), time(system.dt)));
+        report({field.path, "time.step", "accuracy"},
+               fmt::format("{} {} is shorter than time.step {}", field.path, time(every), time(system.dt)));
       }
     }
     if (plan_.velocity && ok({"measure.velocity.every", "measure.velocity.window"}) &&
         plan_.velocity->window < plan_.velocity->every) {
-      complain({"measure.velocity.window", "measure.velocity.every"},
-               fmt::format("measure.velocity.window {} is shorter than measure.velocity.every {}",
-                           time(plan_.velocity->window), time(plan_.velocity->every)));
+      report({"measure.velocity.window", "measure.velocity.every"},
+             fmt::format("measure.velocity.window {} is shorter than measure.velocity.every {}",
+                         time(plan_.velocity->window), time(plan_.velocity->every)));
     }
     if (plan_.defects && ok({"rods.length", "measure.defects.smoothing", "measure.defects.grid"})) {
       plan_.defects->smoothing = plan_.defects->smoothing_for(plan_.system.rod.length);
@@ -483,7 +482,7 @@ class Resolver {
       const double half_box = plan_.system.box_side / 2;
       plan_.pairs->range = plan_.pairs->range_for(plan_.system.rod.length, plan_.system.box_side);
       if (plan_.pairs->range > half_box * (1 + 1e-12)) {
-        complain(
+        report(
             {"measure.pairs.range", "box.side"},
             fmt::format("a map of {} each way reaches beyond half the box, {}: distances have no nearest image there",
                         length(plan_.pairs->range), length(half_box)));
@@ -494,7 +493,7 @@ class Resolver {
   // Plates that go deeper into a rod within a tick than any overlap may be: a run must sooner or later meet that
   // (kMaxOverlapFraction in sim/stepping/tick.h).
   void plates_in_a_tick() {
-    const Scene& system = plan_.system;
+    const System& system = plan_.system;
     if (!system.base && !system.lid) return;
     const double speed = peak_speed_of(system);
     double thinnest = INFINITY;
@@ -504,11 +503,11 @@ class Resolver {
     }
     const double deepest = kDeepestOverlap * thinnest;
     if (speed * system.dt <= deepest) return;
-    complain({"time.step", "accuracy", "plates.gamma", "plates.amplitude", "plates.frequency"},
-             fmt::format("plates as fast as {:.4g} mm/s move further in a step of {} than half the radius of the "
-                         "thinnest bead, {}, the deepest overlap there may be: the run would end in numerical "
-                         "trouble; take a step of at most {}, or shake less",
-                         speed, time(system.dt), length(deepest), time(deepest / speed)));
+    report({"time.step", "accuracy", "plates.gamma", "plates.amplitude", "plates.frequency"},
+           fmt::format("plates as fast as {:.4g} mm/s move further in a step of {} than half the radius of the "
+                       "thinnest bead, {}, the deepest overlap there may be: the run would end in numerical "
+                       "trouble; take a step of at most {}, or shake less",
+                       speed, time(system.dt), length(deepest), time(deepest / speed)));
   }
 
   // What is only there without walls.
@@ -517,8 +516,8 @@ class Resolver {
     for (const Observable& observable : observables()) {
       const std::string& block = observable.block.path;
       if (observable.within_walls() || !draft_.is_on(block)) continue;
-      complain({block, "walls"},
-               fmt::format("{} is of {} of a periodic box: walls leave none", block, observable.periodic));
+      report({block, "walls"},
+             fmt::format("{} is of {} of a periodic box: walls leave none", block, observable.periodic));
     }
   }
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "scene/measure_plan.h"
-#include "sim/scene.h"
+#include "sim/system.h"
 
 namespace shaken::scene {
 
@@ -29,7 +29,7 @@ struct Movie {
 /// A resolved scene: the system, how long it runs, and what is measured, recorded, streamed and drawn.
 /// An absent optional is work that is not done.
 struct RunPlan : MeasurePlan {
-  Scene system;
+  System system;
 
   std::optional<double> steady;  ///< simulated seconds before measuring; none: found from S(t) afterwards ("auto")
   double measure_time = 10.0;    ///< simulated seconds of the run after `steady`

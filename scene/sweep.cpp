@@ -30,7 +30,7 @@ class Product {
     replicas_ = replicas;
     if (replicas >= 1 && replicas <= kMaxReplicas) return;
     const Place flag{std::make_shared<const std::string>(fmt::format("--replicas {}", replicas)), 0, 0};
-    complain(flag, {}, fmt::format("{} is outside [1, {}]", replicas, kMaxReplicas));
+    report(flag, {}, fmt::format("{} is outside [1, {}]", replicas, kMaxReplicas));
     replicas_ = 1;
   }
 
@@ -44,9 +44,8 @@ class Product {
     const auto swept =
         std::find_if(factors_.begin(), factors_.end(), [&](const Factor& factor) { return factor.has(setting.path); });
     if (swept != factors_.end() && swept->kind != Factor::Kind::kGrid) {
-      return complain(
-          setting.place, setting.path,
-          fmt::format("the file's \"{}\" sweeps it; a setting cannot take its place", name_of(swept->kind)));
+      return report(setting.place, setting.path,
+                    fmt::format("the file's \"{}\" sweeps it; a setting cannot take its place", name_of(swept->kind)));
     }
     if (values.size() == 1) {
       if (swept != factors_.end()) factors_.erase(swept);
@@ -72,14 +71,14 @@ class Product {
       for (const Factor& factor : factors_) {
         product += fmt::format("{}{} ({})", product.empty() ? "" : " x ", factor.n_choices, name_of(factor.kind));
       }
-      complain(base.place(), {},
-               fmt::format("the sweep has more than {} points: {} x {} replicas", kMaxPoints, product, replicas_));
+      report(base.place(), {},
+             fmt::format("the sweep has more than {} points: {} x {} replicas", kMaxPoints, product, replicas_));
       return {};
     }
     const bool seed_is_swept =
         std::any_of(factors_.begin(), factors_.end(), [](const Factor& factor) { return factor.has("time.seed"); });
     if (seed_is_swept && replicas_ > 1) {
-      complain(base.place(), "time.seed", "time.seed is swept and there are replicas, which vary it too; remove one");
+      report(base.place(), "time.seed", "time.seed is swept and there are replicas, which vary it too; remove one");
       return {};
     }
 
@@ -95,7 +94,7 @@ class Product {
   }
 
  private:
-  void complain(const Place& place, std::string_view path, std::string message) {
+  void report(const Place& place, std::string_view path, std::string message) {
     problems_.push_back(problem_at(place, path, std::move(message)));
   }
 
@@ -130,8 +129,8 @@ class Product {
     const Field& seed = field_at("time.seed");
     if (static_cast<double>(plan->system.seed) > seed.high - (replicas_ - 1)) {
       const Given* given = draft.find("time.seed");
-      return complain(given ? given->place : base.place(), "time.seed",
-                      fmt::format("{} replicas lead past the largest seed, {:.16g}", replicas_, seed.high));
+      return report(given ? given->place : base.place(), "time.seed",
+                    fmt::format("{} replicas lead past the largest seed, {:.16g}", replicas_, seed.high));
     }
     const std::string label = point.label;
     for (point.replica = 1; point.replica <= replicas_; ++point.replica) {

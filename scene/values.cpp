@@ -81,16 +81,16 @@ class RangeReader {
     }
     parts.push_back(rest);
     if (parts.size() != 3) {
-      return complain(node, fmt::format("\"{}\" is not a range; write from:to:step", node.text));
+      return report(node, fmt::format("\"{}\" is not a range; write from:to:step", node.text));
     }
     const Result<Bounds> bounds = read_bounds(parts);
-    if (!bounds) return complain(node, bounds.error().message);
+    if (!bounds) return report(node, bounds.error().message);
     return steps(node, *bounds);
   }
 
   std::vector<Node> object(const Node& node) {
     const bool by_count = node.find("n") != nullptr;
-    if (by_count && node.find("step")) return complain(node, "a range takes \"step\" or \"n\", not both");
+    if (by_count && node.find("step")) return report(node, "a range takes \"step\" or \"n\", not both");
     const std::string last_key = by_count ? "n" : "step";
     const auto bounds = keys(node, {"from", "to", last_key});
     if (!bounds) return {};
@@ -114,7 +114,7 @@ class RangeReader {
     if (!bounds) return {};
     const double from = bounds->numbers[0].value();
     const double to = bounds->numbers[1].value();
-    if (!(from < to)) return complain(node, "\"from\" must be less than \"to\"");
+    if (!(from < to)) return report(node, "\"from\" must be less than \"to\"");
     std::vector<Node> values;
     for (int i = 0; i < n; ++i) {
       const std::string key = fmt::format("{}/{}/{}", seed, field_.path, i);
@@ -128,14 +128,14 @@ class RangeReader {
   }
 
  private:
-  std::vector<Node> complain(const Node& node, std::string message) {
+  std::vector<Node> report(const Node& node, std::string message) {
     problems_.push_back(problem_at(node.place, field_.path, std::move(message)));
     return {};
   }
 
   std::vector<Node> steps(const Node& node, const Bounds& bounds) {
     const auto numbers = count_up(bounds.numbers[0], bounds.numbers[1], bounds.numbers[2]);
-    if (!numbers) return complain(node, numbers.error().message);
+    if (!numbers) return report(node, numbers.error().message);
     std::vector<Node> values;
     for (const Decimal& number : *numbers) values.push_back(value_node(number, bounds.unit, node.place));
     return values;

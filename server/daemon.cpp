@@ -19,8 +19,8 @@
 #include "server/daemon_info.h"
 #include "server/http_server.h"
 #include "server/local_executor.h"
-#include "server/publisher.h"
 #include "server/queue.h"
+#include "server/status_publisher.h"
 #include "server/supervisor.h"
 
 namespace shaken::server {
@@ -145,7 +145,7 @@ void run_daemon(const DaemonConfig& config) {
 
   LocalExecutor executor(config.worker);
   Supervisor supervisor(queue, executor, {info.runs(), config.slots, worker_options(config), config.grace});
-  std::optional<Publisher> publisher;
+  std::optional<StatusPublisher> publisher;
   if (lcm) publisher.emplace(queue, std::move(lcm.bus), info);
   const Api api(queue, info);
   HttpServer http(info.socket(), [&api](const Request& request) { return api.handle(request); });

@@ -36,24 +36,24 @@ void Supervisor::step() {
 void Supervisor::settle_ended() {
   for (auto entry = workers_.begin(); entry != workers_.end();) {
     auto& [id, worker] = *entry;
-    if (!worker.verdict) {
+    if (!worker.job_end) {
       if (const auto end = executor_.poll(worker.handle)) {
-        worker.verdict = judge(*end, worker.handle, worker.kill_at.has_value(), worker.directory);
+        worker.job_end = judge(*end, worker.handle, worker.kill_at.has_value(), worker.directory);
       }
     }
-    if (!worker.verdict) {
+    if (!worker.job_end) {
       ++entry;
       continue;
     }
-    const auto& [outcome, reason] = *worker.verdict;
+    const auto& [outcome, reason] = *worker.job_end;
     switch (outcome) {
-      case Verdict::Outcome::kDone:
+      case JobEnd::Outcome::kDone:
         queue_.finish(id, JobState::kDone, "");
         break;
-      case Verdict::Outcome::kFailed:
+      case JobEnd::Outcome::kFailed:
         queue_.finish(id, JobState::kFailed, reason);
         break;
-      case Verdict::Outcome::kStopped:
+      case JobEnd::Outcome::kStopped:
         queue_.stopped(id, reason);
         break;
     }
@@ -66,7 +66,7 @@ void Supervisor::stop_stopping() {
   const auto now = Clock::now();
   for (const Job& job : queue_.jobs(std::nullopt, JobState::kStopping)) {
     const auto entry = workers_.find(job.id);
-    if (entry == workers_.end() || entry->second.verdict) continue;
+    if (entry == workers_.end() || entry->second.job_end) continue;
     Worker& worker = entry->second;
     if (!worker.kill_at) {
       spdlog::info("job {}: asked to stop", job.id);
@@ -122,7 +122,7 @@ bool Supervisor::start(const Job& job) {
   worker.directory = directory;
   const auto handle = executor_.start(launch);
   if (!handle) {
-    worker.verdict = Verdict{Verdict::Outcome::kFailed, handle.error().message};
+    worker.job_end = JobEnd{JobEnd::Outcome::kFailed, handle.error().message};
     return false;
   }
   worker.handle = *handle;
@@ -140,7 +140,7 @@ void Supervisor::shut_down() {
     complain(problem.what());  // recover() of the next daemon does the same
   }
   for (auto& [id, worker] : workers_) {
-    if (worker.kill_at || worker.verdict) continue;
+    if (worker.kill_at || worker.job_end) continue;
     executor_.stop(worker.handle);
     worker.kill_at = Clock::now() + options_.grace;
   }
@@ -148,7 +148,7 @@ void Supervisor::shut_down() {
 
 void Supervisor::kill_all() {
   for (const auto& [id, worker] : workers_) {
-    if (!worker.verdict) executor_.kill(worker.handle);
+    if (!worker.job_end) executor_.kill(worker.handle);
   }
 }
 

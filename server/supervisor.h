@@ -11,8 +11,8 @@
 
 #include "run/files/directory.h"
 #include "server/executor.h"
+#include "server/job_end.h"
 #include "server/queue.h"
-#include "server/verdict.h"
 
 namespace shaken::server {
 
@@ -45,7 +45,7 @@ class Supervisor {
     run::RunDirectory directory;
     std::optional<Clock::time_point> kill_at;  ///< set when it was asked to stop
     bool killed = false;
-    std::optional<Verdict> verdict;  ///< on its end; kept until the queue has taken it
+    std::optional<JobEnd> job_end;  ///< on its end; kept until the queue has taken it
   };
 
   void settle_ended();

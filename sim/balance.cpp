@@ -14,10 +14,10 @@ void for_each_rod(const World& world, const Visit& visit) {
   for (std::size_t i = 0; i < world.rods.size(); ++i) {
     const Species& species = world.species_of(i);
     const Flight& flight = world.rods[i];
-    const double tau = static_cast<double>(world.tick - flight.since) * world.scene.dt;
-    const Pose pose = pose_after(flight, tau, world.scene.gravity);
+    const double tau = static_cast<double>(world.tick - flight.since) * world.system.dt;
+    const Pose pose = pose_after(flight, tau, world.system.gravity);
     visit(species, pose,
-          motion_after(flight, tau, world.scene.gravity, pose.director, species.inertia_par / species.inertia_perp));
+          motion_after(flight, tau, world.system.gravity, pose.director, species.inertia_par / species.inertia_perp));
   }
 }
 
@@ -47,7 +47,7 @@ Content content(const World& world) {
   content.tick = world.tick;
   content.energy = kinetic_energy(world).total();
   for_each_rod(world, [&](const Species& species, const Pose& pose, const Motion& motion) {
-    content.energy += species.mass * world.scene.gravity * pose.position.z();
+    content.energy += species.mass * world.system.gravity * pose.position.z();
     content.momentum += species.mass * motion.velocity;
   });
   return content;
@@ -68,7 +68,7 @@ Balance balance(const World& world) {
   balance.momentum_unexplained = world.start.momentum - now.momentum;
   for (int c = 0; c < 3; ++c) balance.momentum_unexplained[c] += ledger.momentum[static_cast<std::size_t>(c)].value();
   balance.momentum_unexplained.z() -=
-      mass_of_all(world) * world.scene.gravity * static_cast<double>(world.tick - world.start.tick) * world.scene.dt;
+      mass_of_all(world) * world.system.gravity * static_cast<double>(world.tick - world.start.tick) * world.system.dt;
   return balance;
 }
 

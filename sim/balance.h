@@ -18,7 +18,8 @@ KineticEnergy kinetic_energy(const World& world);
 /// What all rods have at the world's tick.
 Content content(const World& world);
 
-/// The books of a run: what the rods had, got, lost and have. What remains unexplained is rounding.
+/// The energy and momentum budget of a run: what the rods had, got, lost and have. What remains unexplained is
+/// rounding.
 struct Balance {
   double energy_start = 0;                   ///< [pJ]
   double energy_given_by_surfaces = 0;       ///< by moving plates and walls [pJ]

@@ -95,9 +95,9 @@ void each_sum(const Visit& visit, L& ledger) {
 
 /// What must be the same for a checkpoint to fit: everything that the stored numbers depend on.
 template <class Archive>
-void each_scene_key(Archive&& visit, const Scene& scene) {
-  visit(static_cast<std::int64_t>(scene.n_rods));
-  visit(static_cast<std::int64_t>(scene.n_all_rods()));
+void each_scene_key(Archive&& visit, const System& system) {
+  visit(static_cast<std::int64_t>(system.n_rods));
+  visit(static_cast<std::int64_t>(system.n_all_rods()));
   const auto shape = [&](const RodShape& rod) {
     visit(static_cast<std::int64_t>(rod.n_beads));
     visit(rod.length);
@@ -107,28 +107,28 @@ void each_scene_key(Archive&& visit, const Scene& scene) {
     visit(static_cast<std::int64_t>(rod.profile));
     for (const double diameter : rod.bead_diameters) visit(diameter);
   };
-  shape(scene.rod);
+  shape(system.rod);
   bool mixed = false;
-  for (const auto& more : scene.added) {
+  for (const auto& more : system.added) {
     if (!more) continue;
     visit(static_cast<std::int64_t>(more->count));
     shape(more->rod);
     mixed = true;
   }
-  if (mixed) visit(static_cast<std::int64_t>(scene.seed));  // it tells which rod is of which kind
-  visit(static_cast<std::int64_t>(scene.base));
-  visit(static_cast<std::int64_t>(scene.lid));
-  if (scene.walls) {
-    visit(static_cast<std::int64_t>(scene.walls->arena));
-    visit(scene.walls->size);
-    visit(scene.walls->inner);
+  if (mixed) visit(static_cast<std::int64_t>(system.seed));  // it tells which rod is of which kind
+  visit(static_cast<std::int64_t>(system.base));
+  visit(static_cast<std::int64_t>(system.lid));
+  if (system.walls) {
+    visit(static_cast<std::int64_t>(system.walls->arena));
+    visit(system.walls->size);
+    visit(system.walls->inner);
   }
-  visit(scene.box_side);
-  visit(scene.gap);
-  visit(scene.amplitude);
-  visit(scene.frequency);
-  visit(scene.gravity);
-  visit(scene.dt);
+  visit(system.box_side);
+  visit(system.gap);
+  visit(system.amplitude);
+  visit(system.frequency);
+  visit(system.gravity);
+  visit(system.dt);
 }
 
 }  // namespace
@@ -149,7 +149,7 @@ std::vector<std::byte> save_checkpoint(const World& world) {
   Writer writer;
   writer.put(kMagic);
   writer.put(static_cast<std::int64_t>(kPhysicsVersion));
-  each_scene_key([&](const auto& key) { writer.put(key); }, world.scene);
+  each_scene_key([&](const auto& key) { writer.put(key); }, world.system);
   each_counter([&](const auto& counter) { writer.put(counter); }, world.counters);
   each_sum(
       [&](const auto& sum) {
@@ -165,7 +165,7 @@ std::vector<std::byte> save_checkpoint(const World& world) {
   return writer.take();
 }
 
-Result<World> restore_checkpoint(const Scene& scene, std::span<const std::byte> bytes) {
+Result<World> restore_checkpoint(const System& system, std::span<const std::byte> bytes) {
   Reader reader(bytes);
   std::uint64_t magic = 0;
   reader.get(magic);
@@ -184,10 +184,10 @@ Result<World> restore_checkpoint(const Scene& scene, std::span<const std::byte> 
         reader.get(stored);
         same_scene = same_scene && stored == key;
       },
-      scene);
+      system);
   if (!same_scene) return Error{"the checkpoint belongs to another scene"};
 
-  World world = empty_world(scene);
+  World world = empty_world(system);
   each_counter([&](auto& counter) { reader.get(counter); }, world.counters);
   each_sum(
       [&](auto& sum) {
@@ -204,7 +204,7 @@ Result<World> restore_checkpoint(const Scene& scene, std::span<const std::byte> 
   reader.get(world.start.energy);
   reader.get(world.start.momentum);
   reader.get(world.tick);
-  world.rods.resize(static_cast<std::size_t>(scene.n_all_rods()));
+  world.rods.resize(static_cast<std::size_t>(system.n_all_rods()));
   for (Flight& flight : world.rods) {
     each_field([&](auto& field) { reader.get(field); }, flight);
     flight.prepare();

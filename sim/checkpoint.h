@@ -20,6 +20,6 @@ std::uint64_t state_hash(const World& world);
 /// state_bytes(), the counters, and enough of the scene to refuse another one's checkpoint. Nothing derived is stored:
 /// a stepper made anew from the restored world goes on bitwise as if it had never stopped.
 std::vector<std::byte> save_checkpoint(const World& world);
-Result<World> restore_checkpoint(const Scene& scene, std::span<const std::byte> bytes);
+Result<World> restore_checkpoint(const System& system, std::span<const std::byte> bytes);
 
 }  // namespace shaken

@@ -16,18 +16,18 @@ namespace {
 std::optional<CloseUp::Rod> rod_at(const World& world, Tick tick, int rod, bool concerned) {
   const Flight& flight = world.rods[static_cast<std::size_t>(rod)];
   if (flight.since > tick) return {};
-  const double tau = static_cast<double>(tick - flight.since) * world.scene.dt;
+  const double tau = static_cast<double>(tick - flight.since) * world.system.dt;
   const Species& species = world.species_of(static_cast<std::size_t>(rod));
   const double inertia_ratio = species.inertia_par / species.inertia_perp;
-  const Pose pose = pose_after(flight, tau, world.scene.gravity);
+  const Pose pose = pose_after(flight, tau, world.system.gravity);
   return CloseUp::Rod{rod, concerned, pose,
-                      motion_after(flight, tau, world.scene.gravity, pose.director, inertia_ratio)};
+                      motion_after(flight, tau, world.system.gravity, pose.director, inertia_ratio)};
 }
 
 void add_plate_contacts(const World& world, const CloseUp::Rod& rod, CloseUp& out) {
   const Species& species = world.species_of(static_cast<std::size_t>(rod.rod));
   for (const double side : {1.0, -1.0}) {  // base, lid
-    if (!(side > 0 ? world.scene.base : world.scene.lid)) continue;
+    if (!(side > 0 ? world.system.base : world.system.lid)) continue;
     for (int bead = 0; bead < species.n_beads(); ++bead) {
       const Vec3 center = rod.pose.position + species.bead_offset[bead] * rod.pose.director;
       const double plate = side > 0 ? out.plates.base : out.plates.lid;
@@ -41,11 +41,11 @@ void add_plate_contacts(const World& world, const CloseUp::Rod& rod, CloseUp& ou
 }
 
 void add_wall_contacts(const World& world, const CloseUp::Rod& rod, CloseUp& out) {
-  if (!world.scene.walls) return;
+  if (!world.system.walls) return;
   const Species& species = world.species_of(static_cast<std::size_t>(rod.rod));
   for (int bead = 0; bead < species.n_beads(); ++bead) {
     const Vec3 center = rod.pose.position + species.bead_offset[bead] * rod.pose.director;
-    const WallsSeen seen = see_walls(*world.scene.walls, world.scene.box_side, center);
+    const WallsSeen seen = see_walls(*world.system.walls, world.system.box_side, center);
     for (int w = 0; w < seen.n; ++w) {
       const double overlap = species.bead_radius[bead] - seen.walls[w].distance;
       if (!(overlap > 0)) continue;
@@ -106,7 +106,7 @@ CloseUp look_closely(const World& world, Tick tick, const std::vector<int>& conc
     for (std::size_t a = 0; a < n_asked; ++a) {
       const CloseUp::Rod rod = out.rods[a];
       if (rod.rod == other || (is_asked && rod.rod > other)) continue;
-      const Vec3 D = nearest_image(rod.pose.position, state->pose.position, world.scene.box_side);
+      const Vec3 D = nearest_image(rod.pose.position, state->pose.position, world.system.box_side);
       const Species& mine = world.species_of(static_cast<std::size_t>(rod.rod));
       const Species& its = world.species_of(static_cast<std::size_t>(other));
       const double near = mine.max_radius + its.max_radius + reach;

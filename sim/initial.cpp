@@ -33,8 +33,8 @@ struct Lattice {
 /// The species to be placed, and how each may lie along x.
 class Placement {
  public:
-  Placement(const Scene& for_scene, std::span<const Species> of_species, std::span<const std::uint8_t> of_kinds)
-      : scene(for_scene), species(of_species), kinds(of_kinds) {
+  Placement(const System& for_scene, std::span<const Species> of_species, std::span<const std::uint8_t> of_kinds)
+      : system(for_scene), species(of_species), species_of_rod(of_kinds) {
     for (const Species& kind : of_species) {
       Beads ahead{kind.bead_offset, kind.bead_radius};
       Beads back = ahead;
@@ -77,12 +77,12 @@ class Placement {
     return radius;
   }
 
-  int n_rods() const { return static_cast<int>(kinds.size()); }
-  const Species& species_of(int i) const { return species[kinds[static_cast<std::size_t>(i)]]; }
+  int n_rods() const { return static_cast<int>(species_of_rod.size()); }
+  const Species& species_of(int i) const { return species[species_of_rod[static_cast<std::size_t>(i)]]; }
 
-  const Scene& scene;
+  const System& system;
   std::span<const Species> species;
-  std::span<const std::uint8_t> kinds;
+  std::span<const std::uint8_t> species_of_rod;
 
  private:
   struct Beads {
@@ -111,16 +111,16 @@ Vec3 site_position(const Lattice& lattice, double side, int site) {
 
 /// Sites at which any rod is clear of the side walls, whichever way it lies along x.
 std::vector<int> usable_sites(const Lattice& lattice, const Placement& rods) {
-  const double side = rods.scene.box_side;
+  const double side = rods.system.box_side;
   const double reach = 0.5 * rods.rod_extent() + kClearance;  // beyond it no bead is near a wall, however the rod lies
   std::vector<int> sites;
   for (int site = 0; site < lattice.sites(); ++site) {
     const Vec3 position = site_position(lattice, side, site);
     bool clear = true;
-    if (rods.scene.walls && distance_to_walls(*rods.scene.walls, side, position) < reach) {
+    if (rods.system.walls && distance_to_walls(*rods.system.walls, side, position) < reach) {
       for (const Species& kind : rods.species) {
         for (const double sign : {1.0, -1.0}) {
-          clear = clear && is_within(*rods.scene.walls, side, kind, Pose{position, Vec3(sign, 0, 0)});
+          clear = clear && is_within(*rods.system.walls, side, kind, Pose{position, Vec3(sign, 0, 0)});
         }
       }
     }
@@ -130,7 +130,7 @@ std::vector<int> usable_sites(const Lattice& lattice, const Placement& rods) {
 }
 
 int n_usable(const Lattice& lattice, const Placement& rods) {
-  return rods.scene.walls ? static_cast<int>(usable_sites(lattice, rods).size()) : lattice.sites();
+  return rods.system.walls ? static_cast<int>(usable_sites(lattice, rods).size()) : lattice.sites();
 }
 
 /// The lattices with so many rods to a row: every even number of rows up to `max_rows`.
@@ -142,7 +142,7 @@ struct Columns {
   int max_rows = 0;
 };
 std::vector<Columns> possible_columns(const Placement& rods) {
-  const double side = rods.scene.box_side;
+  const double side = rods.system.box_side;
   const int max_columns = static_cast<int>(side / (rods.rod_extent() + kClearance));
   std::vector<Columns> all;
   for (int columns = 1; columns <= max_columns; ++columns) {
@@ -157,7 +157,7 @@ std::vector<Columns> possible_columns(const Placement& rods) {
 
 /// The roomiest lattice with a usable site for every rod.
 std::optional<Lattice> find_lattice(const Placement& rods) {
-  const double side = rods.scene.box_side;
+  const double side = rods.system.box_side;
   const int n_rods = rods.n_rods();
   const double extent = rods.rod_extent();
   std::optional<Lattice> best;
@@ -187,11 +187,11 @@ int most_usable_sites(const Placement& rods) {
 /// Height and tilt that keep the rod off both plates, and a random motion.
 void lift_and_push(Flight& flight, const Placement& rods, const Species& species, double in_plane_angle, bool flat,
                    Rng& rng) {
-  const Scene& scene = rods.scene;
-  const bool planar = scene.is_planar();
-  const double base = 2.0 * scene.amplitude;  // cos(0) = 1: the plates start at the top of their stroke
-  const double room = 0.5 * scene.gap - Placement::thickest(species);
-  flight.position.z() = base + 0.5 * scene.gap + (planar ? 0.0 : 0.3 * room * rng.uniform(-1, 1));
+  const System& system = rods.system;
+  const bool planar = system.is_planar();
+  const double base = 2.0 * system.amplitude;  // cos(0) = 1: the plates start at the top of their stroke
+  const double room = 0.5 * system.gap - Placement::thickest(species);
+  flight.position.z() = base + 0.5 * system.gap + (planar ? 0.0 : 0.3 * room * rng.uniform(-1, 1));
   const double tilt = !flat && !planar && species.half_length > 0
                           ? std::min(0.02, 0.3 * room / species.half_length) * rng.uniform(-1, 1)
                           : 0.0;
@@ -212,36 +212,36 @@ void lift_and_push(Flight& flight, const Placement& rods, const Species& species
 
 /// "300 rods (area fraction 0.675)"
 std::string amount(const Placement& rods, int count) {
-  const Scene& scene = rods.scene;
+  const System& system = rods.system;
   double area = 0;
   for (int i = 0; i < rods.n_rods(); ++i) area += rods.species_of(i).area;
-  const double room = scene.walls ? scene.walls->area() : scene.box_side * scene.box_side;
+  const double room = system.walls ? system.walls->area() : system.box_side * system.box_side;
   char text[64];
   std::snprintf(text, sizeof text, "%d rods (area fraction %.3f)", count, area / rods.n_rods() * count / room);
   return text;
 }
 
 Error does_not_fit(const Placement& rods, const std::string& why) {
-  return {amount(rods, rods.n_rods()) + " do not fit into the " + (rods.scene.walls ? "arena" : "box") + ": " + why};
+  return {amount(rods, rods.n_rods()) + " do not fit into the " + (rods.system.walls ? "arena" : "box") + ": " + why};
 }
 
 Result<std::vector<Flight>> place_aligned(const Placement& rods) {
-  const Scene& scene = rods.scene;
+  const System& system = rods.system;
   const auto lattice = find_lattice(rods);
   if (!lattice)
     return does_not_fit(rods, "in rows at most " + amount(rods, most_usable_sites(rods)) + " can be placed");
 
   // which sites stay empty: the tail of a random permutation (Fisher & Yates)
   std::vector<int> sites = usable_sites(*lattice, rods);
-  Rng shuffle(scene.seed, RngStream::kLattice, 0, 0);
+  Rng shuffle(system.seed, RngStream::kLattice, 0, 0);
   for (std::size_t k = sites.size() - 1; k > 0; --k) std::swap(sites[k], sites[shuffle.below(k + 1)]);
   sites.resize(static_cast<std::size_t>(rods.n_rods()));
   std::sort(sites.begin(), sites.end());
 
   std::vector<Flight> flights(sites.size());
   for (int i = 0; i < rods.n_rods(); ++i) {
-    Rng rng(scene.seed, RngStream::kVelocity, 0, static_cast<std::uint64_t>(i));
-    flights[i].position = site_position(*lattice, scene.box_side, sites[i]);
+    Rng rng(system.seed, RngStream::kVelocity, 0, static_cast<std::uint64_t>(i));
+    flights[i].position = site_position(*lattice, system.box_side, sites[i]);
     // polar rods point either way
     const bool turned = Placement::is_polar(rods.species_of(i)) && rng.uniform() < 0.5;
     lift_and_push(flights[i], rods, rods.species_of(i), turned ? kPi : 0.0, false, rng);
@@ -250,20 +250,21 @@ Result<std::vector<Flight>> place_aligned(const Placement& rods) {
 }
 
 Result<std::vector<Flight>> place_random(const Placement& rods) {
-  const Scene& scene = rods.scene;
+  const System& system = rods.system;
   std::vector<Flight> flights;
   std::vector<BeadContact> contacts;
   // rods are flat here, so centres further apart than one rod length cannot touch: cells of that width
   const double width = rods.rod_extent();
-  const int cells = std::max(1, static_cast<int>(scene.box_side / width));
+  const int cells = std::max(1, static_cast<int>(system.box_side / width));
   std::vector<std::vector<int>> members(static_cast<std::size_t>(cells) * cells);
-  const auto cell_of = [&](double x) { return std::min(cells - 1, static_cast<int>(x / scene.box_side * cells)); };
+  const auto cell_of = [&](double x) { return std::min(cells - 1, static_cast<int>(x / system.box_side * cells)); };
   const auto is_free = [&](const Flight& candidate, const Species& species) {
-    if (scene.walls && !is_within(*scene.walls, scene.box_side, species, Pose{candidate.position, candidate.director}))
+    if (system.walls &&
+        !is_within(*system.walls, system.box_side, species, Pose{candidate.position, candidate.director}))
       return false;
     const auto touches = [&](int other) {
       contacts.clear();
-      Vec3 D = nearest_image(candidate.position, flights[other].position, scene.box_side);
+      Vec3 D = nearest_image(candidate.position, flights[other].position, system.box_side);
       D.z() = 0;  // as if at one height: then it does not matter how high they jump
       find_bead_contacts(species, candidate.director, rods.species_of(other), flights[other].director, D, contacts);
       return !contacts.empty();
@@ -287,16 +288,16 @@ Result<std::vector<Flight>> place_random(const Placement& rods) {
   };
 
   for (int i = 0; i < rods.n_rods(); ++i) {
-    Rng place(scene.seed, RngStream::kInsertion, 0, static_cast<std::uint64_t>(i));
+    Rng place(system.seed, RngStream::kInsertion, 0, static_cast<std::uint64_t>(i));
     Flight candidate;
     bool placed = false;
     for (int attempt = 0; attempt < kMaxInsertions && !placed; ++attempt) {
-      candidate.position = {scene.box_side * place.uniform(), scene.box_side * place.uniform(), 0};
+      candidate.position = {system.box_side * place.uniform(), system.box_side * place.uniform(), 0};
       const double angle = (Placement::is_polar(rods.species_of(i)) ? 2.0 * kPi : kPi) * place.uniform();
       const SinCos plane = sincos(angle);
       candidate.director = {plane.cos, plane.sin, 0};
       if (!is_free(candidate, rods.species_of(i))) continue;
-      Rng rng(scene.seed, RngStream::kVelocity, 0, static_cast<std::uint64_t>(i));
+      Rng rng(system.seed, RngStream::kVelocity, 0, static_cast<std::uint64_t>(i));
       lift_and_push(candidate, rods, rods.species_of(i), angle, true, rng);
       placed = true;
     }
@@ -312,33 +313,33 @@ Result<std::vector<Flight>> place_random(const Placement& rods) {
 
 }  // namespace
 
-Result<std::vector<Flight>> initial_flights(const Scene& scene, std::span<const Species> species,
-                                            std::span<const std::uint8_t> kinds) {
-  const Placement rods(scene, species, kinds);
-  if (scene.gap < 2.0 * rods.max_radius()) return Error{"the gap is smaller than the thickest bead"};
-  if (const double least = least_box_side(species); scene.box_side < least * (1.0 - 1e-9)) {
+Result<std::vector<Flight>> initial_flights(const System& system, std::span<const Species> species,
+                                            std::span<const std::uint8_t> species_of_rod) {
+  const Placement rods(system, species, species_of_rod);
+  if (system.gap < 2.0 * rods.max_radius()) return Error{"the gap is smaller than the thickest bead"};
+  if (const double least = least_box_side(species); system.box_side < least * (1.0 - 1e-9)) {
     return Error{"the box is too small: rods might meet two images of another below " + std::to_string(least) + " mm"};
   }
-  auto flights = scene.start == Start::kAligned ? place_aligned(rods) : place_random(rods);
+  auto flights = system.start == Start::kAligned ? place_aligned(rods) : place_random(rods);
   if (!flights) return flights;
 
   // what was promised is checked, not believed
   std::vector<Pose> poses;
   for (const Flight& flight : *flights) poses.push_back({flight.position, flight.director});
-  NeighborList neighbors(species, kinds, scene.box_side, 0.01);
+  NeighborList neighbors(species, species_of_rod, system.box_side, 0.01);
   neighbors.build(poses);
   std::vector<BeadContact> contacts;
   for (const auto& [i, j] : neighbors.pairs()) {
     find_bead_contacts(rods.species_of(i), poses[i].director, rods.species_of(j), poses[j].director,
-                       nearest_image(poses[i].position, poses[j].position, scene.box_side), contacts);
+                       nearest_image(poses[i].position, poses[j].position, system.box_side), contacts);
   }
   SHAKEN_CHECK(contacts.empty(), std::to_string(contacts.size()) + " overlaps in the initial state");
   return flights;
 }
 
-Result<World> make_world(const Scene& scene) {
-  World world = empty_world(scene);
-  auto flights = initial_flights(scene, world.species, world.kinds);
+Result<World> make_world(const System& system) {
+  World world = empty_world(system);
+  auto flights = initial_flights(system, world.species, world.species_of_rod);
   if (!flights) return flights.error();
   world.rods = std::move(flights).value();
   world.start = content(world);

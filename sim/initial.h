@@ -7,7 +7,7 @@
 #include "sim/core/result.h"
 #include "sim/motion/flight.h"
 #include "sim/rod/species.h"
-#include "sim/scene.h"
+#include "sim/system.h"
 #include "sim/world.h"
 
 namespace shaken {
@@ -25,11 +25,11 @@ inline constexpr double kStartSpeed = 20.0;
 /// Errors:   the rods do not fit; the message names the most that can be placed in rows, or how many had been placed at
 ///           random when there was no room for another.
 /// Several species share one lattice, roomy enough for any two of them side by side. Of an arena, the sites within it
-/// are used. In a planar scene (Scene::is_planar) velocities are planar too.
-Result<std::vector<Flight>> initial_flights(const Scene& scene, std::span<const Species> species,
-                                            std::span<const std::uint8_t> kinds);
+/// are used. In a planar scene (System::is_planar) velocities are planar too.
+Result<std::vector<Flight>> initial_flights(const System& system, std::span<const Species> species,
+                                            std::span<const std::uint8_t> species_of_rod);
 
 /// The world at tick 0, with the rods placed so. Fails as initial_flights() does.
-Result<World> make_world(const Scene& scene);
+Result<World> make_world(const System& system);
 
 }  // namespace shaken

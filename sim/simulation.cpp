@@ -15,20 +15,20 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
-Result<Simulation> Simulation::start(const Scene& scene) {
-  auto world = make_world(scene);
+Result<Simulation> Simulation::start(const System& system) {
+  auto world = make_world(system);
   if (!world) return world.error();
   return Simulation(std::move(world).value());
 }
 
-Result<Simulation> Simulation::resume(const Scene& scene, std::span<const std::byte> checkpoint) {
-  auto world = restore_checkpoint(scene, checkpoint);
+Result<Simulation> Simulation::resume(const System& system, std::span<const std::byte> checkpoint) {
+  auto world = restore_checkpoint(system, checkpoint);
   if (!world) return world.error();
   return Simulation(std::move(world).value());
 }
 
 Simulation Simulation::start_from(World world) {
-  SHAKEN_CHECK(world.rods.size() == static_cast<std::size_t>(world.scene.n_all_rods()), "as many flights as rods");
+  SHAKEN_CHECK(world.rods.size() == static_cast<std::size_t>(world.system.n_all_rods()), "as many flights as rods");
   world.start = content(world);
   return Simulation(std::move(world));
 }
@@ -48,7 +48,7 @@ const PhaseTimes& Simulation::phase_times() const { return stepper_->phase_times
 std::size_t Simulation::bytes() const { return world_->rods.capacity() * sizeof(Flight) + stepper_->bytes(); }
 
 Tick Simulation::tick() const { return world_->tick; }
-double Simulation::time() const { return static_cast<double>(world_->tick) * world_->scene.dt; }
+double Simulation::time() const { return static_cast<double>(world_->tick) * world_->system.dt; }
 Snapshot Simulation::snapshot() const { return shaken::snapshot(*world_); }
 std::vector<std::byte> Simulation::checkpoint() const { return save_checkpoint(*world_); }
 std::uint64_t Simulation::state_hash() const { return shaken::state_hash(*world_); }

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "sim/core/result.h"
-#include "sim/scene.h"
 #include "sim/snapshot.h"
 #include "sim/stepping/phase_times.h"
+#include "sim/system.h"
 #include "sim/world.h"
 
 namespace shaken {
@@ -23,13 +23,13 @@ class Stepper;
 class Simulation {
  public:
   /// Places the rods as the scene says. Fails, with the largest area fraction that fits, if they cannot be packed.
-  static Result<Simulation> start(const Scene& scene);
+  static Result<Simulation> start(const System& system);
   /// Continues from bytes made by checkpoint(), bitwise as if there had been no stop.
   /// Fails if the bytes are damaged or belong to another scene.
-  static Result<Simulation> resume(const Scene& scene, std::span<const std::byte> checkpoint);
+  static Result<Simulation> resume(const System& system, std::span<const std::byte> checkpoint);
 
   /// Begins with a world made by hand: empty_world(scene), at any tick, with a prepared flight for each of its rods.
-  /// What they have then is what the books begin with.
+  /// What they have then is what the energy budget begins with.
   static Simulation start_from(World world);
 
   Simulation(Simulation&&) noexcept;

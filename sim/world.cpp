@@ -9,37 +9,38 @@ namespace shaken {
 namespace {
 
 /// Kinds in random order (Fisher & Yates), by the seed.
-std::vector<std::uint8_t> draw_kinds(const Scene& scene) {
-  std::vector<std::uint8_t> kinds(static_cast<std::size_t>(scene.n_rods), 0);
+std::vector<std::uint8_t> draw_kinds(const System& system) {
+  std::vector<std::uint8_t> species_of_rod(static_cast<std::size_t>(system.n_rods), 0);
   std::uint8_t kind = 0;
-  for (const auto& more : scene.added) {
-    if (more) kinds.insert(kinds.end(), static_cast<std::size_t>(more->count), ++kind);
+  for (const auto& more : system.added) {
+    if (more) species_of_rod.insert(species_of_rod.end(), static_cast<std::size_t>(more->count), ++kind);
   }
-  if (kind == 0) return kinds;
-  Rng shuffle(scene.seed, RngStream::kKinds, 0, 0);
-  for (std::size_t k = kinds.size() - 1; k > 0; --k) std::swap(kinds[k], kinds[shuffle.below(k + 1)]);
-  return kinds;
+  if (kind == 0) return species_of_rod;
+  Rng shuffle(system.seed, RngStream::kKinds, 0, 0);
+  for (std::size_t k = species_of_rod.size() - 1; k > 0; --k)
+    std::swap(species_of_rod[k], species_of_rod[shuffle.below(k + 1)]);
+  return species_of_rod;
 }
 
 }  // namespace
 
-World empty_world(const Scene& scene) {
+World empty_world(const System& system) {
   World world;
-  world.scene = scene;
-  world.species.push_back(make_species(scene.rod));
-  for (const auto& more : scene.added) {
+  world.system = system;
+  world.species.push_back(make_species(system.rod));
+  for (const auto& more : system.added) {
     if (more) world.species.push_back(make_species(more->rod));
   }
-  world.kinds = draw_kinds(scene);
-  world.plates = PlateMotion(scene.amplitude, scene.frequency, scene.gap, scene.dt);
+  world.species_of_rod = draw_kinds(system);
+  world.plates = PlateMotion(system.amplitude, system.frequency, system.gap, system.dt);
   return world;
 }
 
 Snapshot snapshot(const World& world) {
   Snapshot out;
   out.tick = world.tick;
-  out.time = static_cast<double>(world.tick) * world.scene.dt;
-  out.box_side = world.scene.box_side;
+  out.time = static_cast<double>(world.tick) * world.system.dt;
+  out.box_side = world.system.box_side;
   const std::size_t n = world.rods.size();
   out.position.reserve(n);
   out.image.reserve(n);
@@ -49,13 +50,13 @@ Snapshot snapshot(const World& world) {
   for (std::size_t i = 0; i < n; ++i) {
     const Flight& flight = world.rods[i];
     const Species& species = world.species_of(i);
-    const double tau = static_cast<double>(world.tick - flight.since) * world.scene.dt;
-    Pose pose = pose_after(flight, tau, world.scene.gravity);
+    const double tau = static_cast<double>(world.tick - flight.since) * world.system.dt;
+    Pose pose = pose_after(flight, tau, world.system.gravity);
     const Motion motion =
-        motion_after(flight, tau, world.scene.gravity, pose.director, species.inertia_par / species.inertia_perp);
+        motion_after(flight, tau, world.system.gravity, pose.director, species.inertia_par / species.inertia_perp);
     auto image = flight.image;
-    wrap(pose.position.x(), image[0], world.scene.box_side);
-    wrap(pose.position.y(), image[1], world.scene.box_side);
+    wrap(pose.position.x(), image[0], world.system.box_side);
+    wrap(pose.position.y(), image[1], world.system.box_side);
     out.position.push_back(pose.position);
     out.image.push_back(image);
     out.director.push_back(pose.director);

@@ -11,8 +11,8 @@
 #include "sim/motion/flight.h"
 #include "sim/motion/plates.h"
 #include "sim/rod/species.h"
-#include "sim/scene.h"
 #include "sim/snapshot.h"
+#include "sim/system.h"
 
 namespace shaken {
 
@@ -51,20 +51,20 @@ struct NumericalTrouble {
 
 /// All mutable data of a simulation. What can be derived from it (neighbour lists, schedules) belongs to the stepper.
 struct World {
-  Scene scene;
-  std::vector<Species> species;     ///< (n_species) the kinds of rods
-  std::vector<std::uint8_t> kinds;  ///< (n_rods) index of each rod's species
+  System system;
+  std::vector<Species> species;              ///< (n_species) the species
+  std::vector<std::uint8_t> species_of_rod;  ///< (n_rods) index of each rod's species
   PlateMotion plates;
   Tick tick = 0;
   std::vector<Flight> rods;  ///< (n_rods)
   Counters counters;
   Content start;  ///< energy and momentum at tick 0
 
-  const Species& species_of(std::size_t i) const { return species[kinds[i]]; }
+  const Species& species_of(std::size_t i) const { return species[species_of_rod[i]]; }
 };
 
 /// The scene's species and plates at tick 0, without rods. Which rods are of which kind is drawn from the seed.
-World empty_world(const Scene& scene);
+World empty_world(const System& system);
 
 /// Every rod evaluated at the world's tick.
 Snapshot snapshot(const World& world);

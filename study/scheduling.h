@@ -11,9 +11,9 @@
 
 #include "base/interrupt.h"
 #include "base/progress_line.h"
+#include "client/api_client.h"
 #include "client/console.h"
 #include "client/own_daemon.h"
-#include "client/session.h"
 #include "client/target.h"
 #include "study/selection.h"
 
@@ -57,7 +57,7 @@ class Schedule {
   std::filesystem::path root_;
   client::Console& console_;
   std::optional<client::OwnDaemon> daemon_;
-  std::optional<client::Session> session_;
+  std::optional<client::ApiClient> session_;
   std::vector<Queued> queued_;
   int n_restarts_ = 0;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();

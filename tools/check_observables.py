@@ -4,7 +4,7 @@
 
     tools/check_observables.py RUN_DIR [--all] [--only NAME...] [--observables FILE]
 
-RUN_DIR holds trajectory.h5, observables.h5 and summary.json of a run without side walls, of one kind of rods, whose
+RUN_DIR holds trajectory.h5, observables.h5 and summary.json of a run without side walls, of one species, whose
 measurements fall on instants that were recorded (configs/tests/observables.json is such a scene). Every number of
 observables.h5 and summary.json is worked out from positions and directors: by MDAnalysis (reading the file, pairs,
 mean square displacements), emcee and pymbar (autocorrelation, steady state), scipy (fits, neighbours) where they have
@@ -122,7 +122,7 @@ class Run:
             self.dt = float(parameters.attrs["dt_s"])
             offset, radius = parameters["bead_offset_mm"][()], parameters["bead_radius_mm"][()]
             if "species" in particles or "walls" in parameters:
-                sys.exit("rods of several kinds and side walls are not dealt with here")
+                sys.exit("rods of several species and side walls are not dealt with here")
         director = np.stack([2 * (x * z + w * y), 2 * (y * z - w * x), w * w - x * x - y * y + z * z], axis=-1)
         self.director = director / np.linalg.norm(director, axis=-1, keepdims=True)
         self.theta = np.arctan2(self.director[..., 1], self.director[..., 0])

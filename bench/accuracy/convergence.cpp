@@ -29,7 +29,7 @@ std::array<Quartiles, kNorms> reduced(const Samples& samples) {
 
 /// To the end of the case; the CPU time is added to `cpu`. False on numerical trouble.
 bool finish(Simulation& simulation, const StartCase& start, double& cpu) {
-  const Tick end = std::llround(start.duration / simulation.world().scene.dt);
+  const Tick end = std::llround(start.duration / simulation.world().system.dt);
   const double begun = cpu_seconds();
   const bool well = !simulation.advance_to(end);
   cpu += cpu_seconds() - begun;

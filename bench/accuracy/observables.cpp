@@ -66,7 +66,7 @@ void ObservableSeries::sample(const Simulation& simulation) {
 
   double hit = 0;
   for (const Flight& flight : world.rods) {
-    hit += static_cast<double>(world.tick - flight.since) * world.scene.dt < kRecently * (1 - 1e-9) ? 1 / n : 0;
+    hit += static_cast<double>(world.tick - flight.since) * world.system.dt < kRecently * (1 - 1e-9) ? 1 / n : 0;
   }
   add(Observable::kHit, hit);
 

@@ -127,7 +127,7 @@ StartCase hundred() {
   StartCase start = between_plates("hundred", "a hundred rods at area fraction 0.75, shaken for 0.2 s before", 100,
                                    18.235, 32 * kLongestStep, 32);
   start.rods = [scene = start.scene](int member) {
-    Scene before = scene;
+    System before = scene;
     before.seed = kSeed + static_cast<std::uint64_t>(member);
     Result<Simulation> simulation = Simulation::start(before);
     if (!simulation) throw Failure(ExitCode::kFailed, simulation.error().message);
@@ -146,10 +146,10 @@ StartCase hundred() {
 
 const std::vector<Variant>& variants() {
   static const std::vector<Variant> all{
-      {"newton", [](Scene& scene) { scene.law = ImpulseLaw::kNewton; }},
-      {"instant", [](Scene& scene) { scene.impacts = ImpactTime::kAtInstant; }},
-      {"poisson", [](Scene& scene) { scene.law = ImpulseLaw::kPoisson; }},
-      {"energetic", [](Scene& scene) { scene.law = ImpulseLaw::kEnergetic; }},
+      {"newton", [](System& scene) { scene.law = ImpulseLaw::kNewton; }},
+      {"instant", [](System& scene) { scene.impacts = ImpactTime::kAtInstant; }},
+      {"poisson", [](System& scene) { scene.law = ImpulseLaw::kPoisson; }},
+      {"energetic", [](System& scene) { scene.law = ImpulseLaw::kEnergetic; }},
   };
   return all;
 }
@@ -161,7 +161,7 @@ const std::vector<StartCase>& start_cases() {
 
 Simulation begin(const StartCase& start, const std::vector<Flight>& rods, const Variant& variant, Engine engine,
                  double dt) {
-  Scene scene = start.scene;
+  System scene = start.scene;
   variant.apply(scene);
   scene.engine = engine;
   scene.dt = dt;

@@ -6,15 +6,15 @@
 #include <vector>
 
 #include "sim/motion/flight.h"
-#include "sim/scene.h"
 #include "sim/simulation.h"
+#include "sim/system.h"
 
 namespace shaken::bench {
 
 /// One way to treat impacts whose accuracy is measured.
 struct Variant {
   const char* name;
-  void (*apply)(Scene& scene);  ///< sets what the variant is about, and nothing else
+  void (*apply)(System& scene);  ///< sets what the variant is about, and nothing else
 };
 
 /// All of them; the first is the default of a scene.
@@ -27,7 +27,7 @@ struct StartCase {
   std::string what;     ///< for people
   double duration = 0;  ///< a whole number of the longest step [s]
   int members = 0;      ///< of the ensemble, by default
-  Scene scene;          ///< at any dt
+  System scene;         ///< at any dt
   std::function<std::vector<Flight>(int member)> rods;
 };
 

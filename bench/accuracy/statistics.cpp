@@ -20,7 +20,7 @@ namespace {
 /// The scene that the rods of one value start from, with its own steady state.
 Case start_of(const StatisticsTask& task, double value, int replica) {
   Case start = task.scene;
-  Scene& scene = start.plan.system;
+  System& scene = start.plan.system;
   scene.seed = static_cast<std::uint64_t>(replica + 1);
   if (task.knob == Knob::kPitch) {
     scene.rod.n_beads = beads_for_pitch(scene.rod.length, scene.rod.end_diameter, value);
@@ -28,8 +28,8 @@ Case start_of(const StatisticsTask& task, double value, int replica) {
   return start;
 }
 
-Scene scene_of(const StatisticsTask& task, const Case& start, double value) {
-  Scene scene = start.system();
+System scene_of(const StatisticsTask& task, const Case& start, double value) {
+  System scene = start.system();
   task.variant->apply(scene);
   if (task.knob == Knob::kStep) scene.dt = 1e-6 * value;
   if (task.knob == Knob::kSweeps) scene.solver_sweeps = static_cast<int>(value);
@@ -47,7 +47,7 @@ Replica run(const StatisticsTask& task, double value, int replica, const Cache& 
   const Case start = start_of(task, value, replica);
   const SteadyState state = cache(start);
   Simulation simulation = continued(resumed(start, state, Engine::kScheduled), scene_of(task, start, value));
-  const double dt = simulation.world().scene.dt;
+  const double dt = simulation.world().system.dt;
   ProgressLine progress(fmt::format("{}, {} {:.10g}, seed {}", start.label(), kKnobNames[static_cast<int>(task.knob)],
                                     value, replica + 1));
   advance(simulation, std::llround(task.settle / dt));
@@ -68,7 +68,7 @@ Replica run(const StatisticsTask& task, double value, int replica, const Cache& 
 
 }  // namespace
 
-Simulation continued(const Simulation& from, const Scene& scene) {
+Simulation continued(const Simulation& from, const System& scene) {
   const Snapshot rods = from.snapshot();
   World world = empty_world(scene);
   world.tick = std::llround(from.time() / scene.dt);

@@ -62,6 +62,6 @@ Statistics measure_statistics(const StatisticsTask& task, const Cache& cache);
 Report statistics_report(const std::vector<Statistics>& measured);
 
 /// A simulation at step `dt` that goes on from where `from` is, to the nearest tick.
-Simulation continued(const Simulation& from, const Scene& scene);
+Simulation continued(const Simulation& from, const System& scene);
 
 }  // namespace shaken::bench

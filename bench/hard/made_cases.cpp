@@ -12,8 +12,8 @@ namespace shaken::bench {
 namespace {
 
 /// Rods of 2.5 mm in a large box between plates at rest.
-Scene quiet_scene(double end_diameter) {
-  Scene scene;
+System quiet_scene(double end_diameter) {
+  System scene;
   scene.rod = {.length = 2.5, .end_diameter = end_diameter, .n_beads = 9};
   scene.box_side = 30;
   scene.gap = 10;
@@ -30,7 +30,7 @@ Flight flight_of(const Vec3& position, const Vec3& director, const Vec3& velocit
   return flight;
 }
 
-Simulation simulation_of(Scene scene, const std::vector<Flight>& rods) {
+Simulation simulation_of(System scene, const std::vector<Flight>& rods) {
   scene.n_rods = static_cast<int>(rods.size());
   World world = empty_world(scene);
   world.rods = rods;
@@ -38,7 +38,7 @@ Simulation simulation_of(Scene scene, const std::vector<Flight>& rods) {
 }
 
 /// Lets rods meet by every law, with little and with much friction, on both engines.
-std::vector<Outcome> meeting(const Scene& scene, const std::vector<Flight>& rods, Tick ticks, bool in_the_air = true) {
+std::vector<Outcome> meeting(const System& scene, const std::vector<Flight>& rods, Tick ticks, bool in_the_air = true) {
   double overlap = 0, growth = 0, ledger = 0, momentum = 0, fewest = std::numeric_limits<double>::infinity();
   int n_trouble = 0, n_different = 0;
   for (const ImpulseLaw law : {ImpulseLaw::kNewton, ImpulseLaw::kPoisson, ImpulseLaw::kEnergetic}) {
@@ -46,7 +46,7 @@ std::vector<Outcome> meeting(const Scene& scene, const std::vector<Flight>& rods
       for (const double e : {0.0, 0.3, 1.0}) {
         // Newton's law may make energy with friction: seen here with mu = 0.05 and e = 1, an upright rod on the base
         if (law == ImpulseLaw::kNewton && (mu > 0.1 || mu * e > 0.02)) continue;
-        Scene varied = scene;
+        System varied = scene;
         varied.law = law;
         varied.rod_rod = varied.rod_base = varied.rod_lid = {mu, e};
         varied.engine = Engine::kReference;
@@ -103,7 +103,7 @@ std::vector<Flight> row() {
 
 /// Tilted by the taper, above the base.
 std::vector<Outcome> half_rod_flat() {
-  const Scene scene = quiet_scene(0.4);
+  const System scene = quiet_scene(0.4);
   const double taper = make_species(scene.rod).taper();
   const Vec3 director(std::sqrt(1 - taper * taper), 0, taper);
   return meeting(scene, {flight_of(Vec3(15, 15, 0.5), director, -50 * kZ)}, 3000, false);
@@ -125,8 +125,8 @@ std::vector<Outcome> ends(Simulation simulation, Tick within) {
 }
 
 /// So many rods of 2.5 mm in a small box, shaken.
-Scene small_scene(int n_rods) {
-  Scene scene;
+System small_scene(int n_rods) {
+  System scene;
   scene.rod = {.length = 2.5, .n_beads = 9};
   scene.box_side = 12;
   scene.n_rods = n_rods;
@@ -134,7 +134,7 @@ Scene small_scene(int n_rods) {
 }
 
 std::vector<Outcome> blow_up() {
-  Scene scene = small_scene(84);
+  System scene = small_scene(84);
   scene.amplitude *= 100.0 / 7.0;
   scene.dt = 1e-4;
   return ends(std::move(Simulation::start(scene)).value(), 2000);
@@ -152,7 +152,7 @@ std::vector<Outcome> late_and_far() {
   Simulation fresh = std::move(Simulation::start(small_scene(70))).value();
   World late_world = fresh.world();
   constexpr Tick kLate = 1'000'000'000;  // a whole number of the 1250 ticks of a period
-  const auto boxes = static_cast<std::int32_t>(1e6 / late_world.scene.box_side);
+  const auto boxes = static_cast<std::int32_t>(1e6 / late_world.system.box_side);
   late_world.tick += kLate;
   for (Flight& flight : late_world.rods) {
     flight.since += kLate;
@@ -175,7 +175,7 @@ std::vector<Outcome> late_and_far() {
 
 /// Rods and grains with a hundredth of their mass.
 std::vector<Outcome> two_sizes() {
-  Scene scene;
+  System scene;
   scene.rod = {.length = 4.5, .n_beads = 15};
   scene.n_rods = 12;
   scene.added[0] = AddedRods{{.length = 0.7, .mid_diameter = 0.25, .end_diameter = 0.25, .n_beads = 3}, 60};

@@ -45,7 +45,7 @@ constexpr std::array<Quantity, kQuantities> kAll{{{"S", 0.025},
 using Means = std::array<double, kQuantities>;
 
 /// Means of one replica over time.
-std::variant<Means, NumericalTrouble> means_of(const Scene& scene, double seconds) {
+std::variant<Means, NumericalTrouble> means_of(const System& scene, double seconds) {
   auto simulation = Simulation::start(scene);
   if (!simulation) throw Failure(ExitCode::kBadInput, simulation.error().message);
   const World& world = simulation->world();
@@ -124,7 +124,7 @@ HardCase run_order_case(const std::filesystem::path& folder, const OrderEffort& 
   for (const char* name : {"order-sorted", "order-reversed", "order-shuffled"}) {
     const scene::RunPlan plan = read_hard_scene(folder, name);
     for (int replica = 0; replica < effort.replicas; ++replica) {
-      Scene scene = plan.system;
+      System scene = plan.system;
       scene.seed += static_cast<std::uint64_t>(replica);
       const auto means = means_of(scene, std::min(effort.seconds, plan.total_time()));
       if (const auto* trouble = std::get_if<NumericalTrouble>(&means)) {

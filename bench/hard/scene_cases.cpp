@@ -19,7 +19,7 @@ namespace {
 
 /// Standard deviation of the speed at the start, three components (sim/initial.cpp) [mm/s].
 constexpr double kStartSpeed = 20.0 * 1.7320508;
-/// The books must close to this, as a fraction of all that changed hands; and to a rounding for each impulse.
+/// The energy budget must close to this, as a fraction of all that changed hands; and to a rounding for each impulse.
 constexpr double kLedgerLimit = 1e-12;
 constexpr double kLedgerPerImpulse = 1e-16;
 
@@ -41,8 +41,8 @@ Seen watch_run(Simulation& simulation, double seconds, const Watch& watch) {
   Seen seen;
   const World& world = simulation.world();
   const auto n = static_cast<double>(world.rods.size());
-  const auto end = static_cast<Tick>(std::llround(seconds / world.scene.dt));
-  const Tick stride = std::max<Tick>(1, std::llround(kLookEvery / world.scene.dt));
+  const auto end = static_cast<Tick>(std::llround(seconds / world.system.dt));
+  const Tick stride = std::max<Tick>(1, std::llround(kLookEvery / world.system.dt));
   const double start = total_energy(world);
   double before = start;
   while (simulation.tick() < end) {
@@ -78,7 +78,7 @@ double thinnest_radius(const World& world) {
 /// Energy that a rod cannot exceed on average, with a body hit by both plates again and again as the worst case: it
 /// leaves a plate at (1 + e) / (1 - e) of the plate's speed, and falls through the gap.
 double energy_limit(const World& world) {
-  const Scene& scene = world.scene;
+  const System& scene = world.system;
   const double e = std::max(scene.rod_base.restitution, scene.rod_lid.restitution);
   const double speed =
       (1 + e) / (1 - e) * world.plates.peak_speed() + std::sqrt(2 * scene.gravity * scene.gap) + kStartSpeed;
@@ -152,13 +152,13 @@ HardCase run_scene_case(const SceneCase& wanted, const scene::RunPlan& plan, dou
   }
   result.outcomes.push_back(
       {"overlap / thinnest bead's radius", world.counters.max_overlap() / thinnest_radius(world), wanted.max_overlap});
-  const bool shaken = world.scene.amplitude > 0;
+  const bool shaken = world.system.amplitude > 0;
   if (shaken) {
     result.outcomes.push_back({"kinetic energy per rod [pJ]", seen.most_energy, energy_limit(world)});
   } else if (wanted.makes_energy) {
     result.outcomes.push_back({"energy made in 2 ms / energy", seen.growth, 1e-4, true, "by this law, as is known"});
   } else {
-    const bool elastic = world.scene.rod_base.restitution == 1;
+    const bool elastic = world.system.rod_base.restitution == 1;
     result.outcomes.push_back(
         {"energy made in 2 ms / energy", std::max(0.0, seen.growth), elastic ? kRounding : kRest});
   }
@@ -168,7 +168,7 @@ HardCase run_scene_case(const SceneCase& wanted, const scene::RunPlan& plan, dou
   if (wanted.name == "rest") {
     // A tick of free fall, ended by the base, is all the bouncing there should be. What rolls goes on rolling: nothing
     // in the model stops it, but nothing drives it either.
-    const double tick_fall = world.scene.gravity * world.scene.dt;
+    const double tick_fall = world.system.gravity * world.system.dt;
     result.outcomes.push_back({"bouncing energy per rod after a tenth [pJ]", seen.late_bouncing,
                                world.species.front().mass * tick_fall * tick_fall});
     result.outcomes.push_back(

@@ -22,7 +22,7 @@ class Cancel : public Verb {
   }
 
   ExitCode run(const Context& context) override {
-    Session session(context.root());
+    ApiClient session(context.root());
     // All names are looked up before the first job is stopped: a slip in the last one must not cost the others.
     std::vector<Target> targets;
     for (const std::string& id : ids_) targets.push_back(find_target(session, id));

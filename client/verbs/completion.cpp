@@ -32,7 +32,7 @@ class Completion : public Verb {
     } else if (what_ == "zsh") {
       out << zsh_completion(context.app);
     } else if (what_ == "ids") {
-      Session session(context.root());
+      ApiClient session(context.root());
       const Json sweeps = session.get("/v1/sweeps");
       const Json jobs = session.get("/v1/jobs");
       std::set<std::string> words;  // sweeps may share a name

@@ -80,7 +80,7 @@ class Explain : public Verb {
   }
 
   static void show_scene(const scene::Sweep& sweep, const scene::SweepPoint& point, Console& console) {
-    const Scene& s = point.plan.system;
+    const System& s = point.plan.system;
     const auto length = [](double value) { return scene::format_quantity(value, Dimension::kLength); };
     std::string text = console.painted(Colour::kBold, sweep.name);
     if (sweep.points.size() > 1) {

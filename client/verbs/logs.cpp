@@ -22,7 +22,7 @@ class Logs : public Verb {
   }
 
   ExitCode run(const Context& context) override {
-    Session session(context.root());
+    ApiClient session(context.root());
     const std::string id = find_job(session, id_).at("id").get<std::string>();
     const InterruptGuard guard;
     std::string state;

@@ -36,7 +36,7 @@ class Movie : public Verb {
     std::string name = std::filesystem::weakly_canonical(id_).filename().string();
     std::string job_id;
     if (!is_run_directory(id_)) {
-      Session session(context.root());
+      ApiClient session(context.root());
       const Json job = find_job(session, id_);
       job_id = job.at("id").get<std::string>();
       directory = job.at("directory").get<std::string>();

@@ -53,7 +53,7 @@ class Plot : public Verb {
       if (out_.empty()) out_ = (fs::path(id_) / "plots").string();
       add_run(id_, "", "", runs, left_out);
     } else {
-      Session session(context.root());
+      ApiClient session(context.root());
       const Target target = find_target_or_newest(session, id_);
       const Json& named = target.answer.at(target.is_sweep ? "sweep" : "job");
       if (out_.empty()) out_ = "plots-" + short_id(named.at("id").get<std::string>());

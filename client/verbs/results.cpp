@@ -79,7 +79,7 @@ class Results : public Verb {
     if (csv_ && json_) throw Failure(ExitCode::kBadInput, "--csv and --json exclude each other");
     std::vector<Condition> conditions;
     for (const std::string& text : where_) conditions.emplace_back(text);
-    Session session(context.root());
+    ApiClient session(context.root());
     const Target target = find_target_or_newest(session, id_);
     std::vector<ResultRow> rows = result_rows(session, target);
     // Conditions are on the rows shown: with --aggregate on means.

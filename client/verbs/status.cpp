@@ -61,7 +61,7 @@ class Status : public Verb {
   }
 
   ExitCode run(const Context& context) override {
-    Session session(context.root());
+    ApiClient session(context.root());
     if (failed_) return show_failed(session, context.console);
     if (id_.empty()) return show_sweeps(session, context.console);
     const Target target = find_target(session, id_);
@@ -76,7 +76,7 @@ class Status : public Verb {
   }
 
  private:
-  ExitCode show_sweeps(Session& session, Console& console) const {
+  ExitCode show_sweeps(ApiClient& session, Console& console) const {
     const Json status = session.get("/v1/status");
     const Json answer = session.get("/v1/sweeps");
     if (json_) {
@@ -152,7 +152,7 @@ class Status : public Verb {
     line("time", time_text(job));
   }
 
-  ExitCode show_failed(Session& session, Console& console) const {
+  ExitCode show_failed(ApiClient& session, Console& console) const {
     std::vector<Json> failed;
     const Json answer = id_.empty() ? session.get("/v1/jobs?state=failed") : Json();
     const std::vector<Json> jobs = id_.empty() ? std::vector<Json>(answer.at("jobs").begin(), answer.at("jobs").end())

@@ -59,7 +59,7 @@ class Submit : public Verb {
     if (replicas_) request["replicas"] = *replicas_;
     if (!name_.empty()) request["name"] = name_;
     if (priority_) request["priority"] = *priority_;
-    Session session(context.root());
+    ApiClient session(context.root());
     const Json answer = session.post("/v1/sweeps", request);
     if (json_) {
       context.console.out << answer.dump(2) << "\n";

@@ -109,8 +109,8 @@ class Validate : public Verb {
       const auto number = [&derived](const char* key) {
         return derived.at(key).is_null() ? "-" : number_text(derived.at(key).get<double>());
       };
-      table.add_row({short_id(derived.at("id").get<std::string>()), of_kinds(derived, "n_rods", "count"),
-                     of_kinds(derived, "area_fraction", "area_fraction"), number("gamma"), number("amplitude_mm"),
+      table.add_row({short_id(derived.at("id").get<std::string>()), of_species(derived, "n_rods", "count"),
+                     of_species(derived, "area_fraction", "area_fraction"), number("gamma"), number("amplitude_mm"),
                      number("sim_seconds"), number("ticks"), number("trajectory_frames"), point.label});
       for (const Json& remark : derived.at("remarks")) ++remarks[remark.get<std::string>()];
     }
@@ -121,13 +121,13 @@ class Validate : public Verb {
     }
   }
 
-  /// "0.7" of one kind of rod; "0.7 = 0.5 + 0.2" of several.
-  static std::string of_kinds(const Json& derived, const char* total, const char* of_each) {
+  /// "0.7" of one species; "0.7 = 0.5 + 0.2" of several.
+  static std::string of_species(const Json& derived, const char* total, const char* of_each) {
     std::string text = number_text(derived.at(total).get<double>());
-    const Json& kinds = derived.at("kinds");
-    if (kinds.size() == 1) return text;
-    for (const Json& kind : kinds) {
-      text += (&kind == &kinds.front() ? " = " : " + ") + number_text(kind.at(of_each).get<double>());
+    const Json& species = derived.at("species");
+    if (species.size() == 1) return text;
+    for (const Json& one : species) {
+      text += (&one == &species.front() ? " = " : " + ") + number_text(one.at(of_each).get<double>());
     }
     return text;
   }

@@ -21,7 +21,7 @@ class Wait : public Verb {
   }
 
   ExitCode run(const Context& context) override {
-    Session session(context.root());
+    ApiClient session(context.root());
     std::vector<Target> targets;
     for (const std::string& id : ids_) targets.push_back(find_target(session, id));
     if (ids_.empty()) {

@@ -61,7 +61,7 @@ class Watch : public Verb {
     if (every_ && !(*every_ > 0 && *every_ < 86400)) {
       throw Failure(ExitCode::kBadInput, "--every takes seconds between 0 and 86400");
     }
-    Session session(context.root());
+    ApiClient session(context.root());
     std::vector<Target> targets;
     if (!id_.empty()) {
       targets.push_back(find_target(session, id_));
@@ -94,7 +94,7 @@ class Watch : public Verb {
 
  private:
   /// Adds the sweeps that have a job to be waited for and are not among `targets` yet, in the order submitted.
-  static void add_unfinished_sweeps(Session& session, std::vector<Target>& targets) {
+  static void add_unfinished_sweeps(ApiClient& session, std::vector<Target>& targets) {
     const Json answer = session.get("/v1/sweeps");
     for (const Json& sweep : answer.at("sweeps")) {
       const std::string id = sweep.at("id").get<std::string>();
@@ -117,7 +117,7 @@ class Watch : public Verb {
     return fmt::format("{} sweeps", targets.size());
   }
 
-  proto::Bus::Opened open_bus(Session& session) const {
+  proto::Bus::Opened open_bus(ApiClient& session) const {
     std::string url = lcm_url_;
     if (url.empty()) {
       const Json lcm = session.get("/v1/status").at("lcm");
@@ -128,7 +128,7 @@ class Watch : public Verb {
   }
 
   /// Until the jobs have ended, the time is over, Ctrl-C, or nobody reads any more.
-  void follow(Session& session, std::vector<Target>& targets, LiveJobs& jobs, const proto::Bus::Opened& opened,
+  void follow(ApiClient& session, std::vector<Target>& targets, LiveJobs& jobs, const proto::Bus::Opened& opened,
               const InterruptGuard& guard, ScreenPage& page, Console& console) const {
     static constexpr std::chrono::seconds kAskEvery{1};
     static constexpr std::chrono::seconds kDaemonMayBeAway{10};

@@ -12,24 +12,24 @@
 #include "run/files/provenance.h"
 #include "sim/core/bead_row.h"
 #include "sim/core/result.h"
-#include "sim/scene.h"
 #include "sim/snapshot.h"
+#include "sim/system.h"
 
 namespace shaken::run {
 
 /// What does not change along a trajectory, and what drawing it needs.
 struct TrajectoryHeader {
   int n_rods = 0;
-  double box_side = 0;                 ///< [mm]
-  double gap = 0;                      ///< [mm]
-  double dt = 0;                       ///< [s]
-  std::vector<double> bead_offset;     ///< (n_beads) of the first kind of rod, along it from its centre [mm]
-  std::vector<double> bead_radius;     ///< (n_beads) [mm]
-  std::string scene_json;              ///< the resolved scene
-  std::vector<BeadRow> added_beads{};  ///< of the other kinds of rods
-  std::vector<std::uint8_t> kinds{};   ///< (n_rods) kind of each rod, from 0; empty if there is one
-  std::optional<SideWalls> walls{};    ///< of the arena, if there are any
-  Provenance provenance{};             ///< written, not read back
+  double box_side = 0;                         ///< [mm]
+  double gap = 0;                              ///< [mm]
+  double dt = 0;                               ///< [s]
+  std::vector<double> bead_offset;             ///< (n_beads) of the first species, along it from its centre [mm]
+  std::vector<double> bead_radius;             ///< (n_beads) [mm]
+  std::string scene_json;                      ///< the resolved scene
+  std::vector<BeadRow> added_beads{};          ///< of the other species
+  std::vector<std::uint8_t> species_of_rod{};  ///< (n_rods) species of each rod, from 0; empty if there is one
+  std::optional<SideWalls> walls{};            ///< of the arena, if there are any
+  Provenance provenance{};                     ///< written, not read back
 };
 
 /// One recorded frame: positions wrapped into the box, float32 in the file.
@@ -44,7 +44,7 @@ struct TrajectoryFrame {
 
 /// Writes trajectory.h5 in H5MD (de Buyl, Colberg, Hoefling 2014): /particles/trajectory/{position, image, velocity,
 /// orientation, box}, where orientation is the unit quaternion (w, x, y, z) that turns z into the director; with
-/// several kinds of rods also H5MD's fixed element `species`, the kind of each rod from 0, whose beads stand in
+/// several species also H5MD's fixed element `species`, the species of each rod from 0, whose beads stand in
 /// /parameters and /parameters/species_2, species_3. Side walls are the attributes of /parameters/walls. Units are
 /// those of H5MD's module "units", in the attribute `unit` of each data set (docs/files.md). A frame is
 /// with the operating system when `append` returns; a torn last frame is left out by the reader and trimmed on

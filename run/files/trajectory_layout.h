@@ -19,7 +19,7 @@ inline constexpr std::array<const char*, 5> kElements{"position", "image", "velo
 inline constexpr const char* kStep = "/particles/trajectory/position/step";
 inline constexpr const char* kTime = "/particles/trajectory/position/time";
 
-/// (n_rods) kind of each rod, from 0; only where there are several.
+/// (n_rods) species of each rod, from 0; only where there are several.
 inline constexpr const char* kSpecies = "/particles/trajectory/species";
 inline constexpr const char* kWalls = "/parameters/walls";
 /// Beads of the k-th added kind, k = 0 being the second of all: they are counted from 1 as the scene's rods, rods_2

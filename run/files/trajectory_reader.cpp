@@ -32,21 +32,21 @@ SideWalls read_walls(hid_t file) {
   return walls;
 }
 
-/// The other kinds of rods, and which rod is of which.
+/// The other species, and which rod is of which.
 void read_species(hid_t file, TrajectoryHeader& header) {
   for (std::size_t k = 0; hdf5::exists(file, trajectory_layout::added_beads(k)); ++k) {
     const hdf5::Id group = hdf5::open_group(file, trajectory_layout::added_beads(k));
     header.added_beads.push_back({read_doubles(group, "bead_offset_mm"), read_doubles(group, "bead_radius_mm")});
   }
   if (header.added_beads.empty()) return;
-  header.kinds =
+  header.species_of_rod =
       hdf5::read_vector<std::uint8_t>(hdf5::open_dataset(file, trajectory_layout::kSpecies), H5T_NATIVE_UINT8);
-  if (header.kinds.size() != static_cast<std::size_t>(header.n_rods)) {
+  if (header.species_of_rod.size() != static_cast<std::size_t>(header.n_rods)) {
     throw hdf5::Failure("species does not have the shape (n_rods)");
   }
-  if (std::any_of(header.kinds.begin(), header.kinds.end(),
+  if (std::any_of(header.species_of_rod.begin(), header.species_of_rod.end(),
                   [&](std::uint8_t kind) { return kind > header.added_beads.size(); })) {
-    throw hdf5::Failure("species names a kind of rod whose beads are not there");
+    throw hdf5::Failure("species names a species whose beads are not there");
   }
 }
 

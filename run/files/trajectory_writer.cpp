@@ -79,8 +79,8 @@ void write_particles(hid_t file, const TrajectoryHeader& header) {
 
   const auto n_rods = static_cast<hsize_t>(header.n_rods);
   if (!header.added_beads.empty()) {
-    hdf5::write_dataset(file, trajectory_layout::kSpecies, H5T_NATIVE_UINT8, {header.kinds.size()},
-                        header.kinds.data());
+    hdf5::write_dataset(file, trajectory_layout::kSpecies, H5T_NATIVE_UINT8, {header.species_of_rod.size()},
+                        header.species_of_rod.data());
   }
   for (const char* element : trajectory_layout::kElements) hdf5::create_group(trajectory, element);
   const hdf5::Id position = hdf5::open_group(trajectory, "position");

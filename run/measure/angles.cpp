@@ -16,7 +16,7 @@ class MeasuredAngles : public Measurement {
  public:
   explicit MeasuredAngles(int bins) : angles_(analysis::AngleDistribution(bins)) {}
 
-  void sample(const Moment& moment) override { angles_.accumulate(moment->time, moment->director); }
+  void sample(const Sample& sample) override { angles_.accumulate(sample->time, sample->director); }
   void reduce(Reduction& result) const override {
     const analysis::AnglePdf pdf = angles_.after(result.t_steady).reduce();
     result.arrays["/angles/theta_rad"] = pdf.theta;

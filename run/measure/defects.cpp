@@ -14,7 +14,7 @@ namespace shaken::run {
 namespace {
 
 analysis::DefectTracks::Settings track_settings(const MeasureContext& context) {
-  const Scene& system = context.plan.system;
+  const System& system = context.plan.system;
   const analysis::Region region(system.box_side, system.walls);
   return {region.box_side(),   region.area(), context.interval, system.rod.length, context.plan.defects->min_lifetime,
           region.is_periodic()};
@@ -50,13 +50,13 @@ MeasuredDefects::MeasuredDefects(const MeasureContext& context)
       series_(context.plan.defects->list),
       tracks_(track_settings(context)) {}
 
-void MeasuredDefects::sample(const Moment& moment) {
-  const analysis::DirectorField field(moment->position, moment->director, region_,
+void MeasuredDefects::sample(const Sample& sample) {
+  const analysis::DirectorField field(sample->position, sample->director, region_,
                                       analysis::grid_nodes(region_.box_side(), mesh_), smoothing_);
   std::vector<analysis::Defect> defects = analysis::find_defects(field);
-  last_ = DefectSample{moment->tick, moment->time, smoothing_, std::move(defects)};
-  tracks_.accumulate(moment->time, last_->defects);
-  series_.accumulate(moment->time, last_->defects, tracks_.ids());
+  last_ = DefectSample{sample->tick, sample->time, smoothing_, std::move(defects)};
+  tracks_.accumulate(sample->time, last_->defects);
+  series_.accumulate(sample->time, last_->defects, tracks_.ids());
 }
 
 void MeasuredDefects::reduce(Reduction& result) const {

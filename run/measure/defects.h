@@ -23,7 +23,7 @@ struct DefectSample {
 class MeasuredDefects : public Measurement {
  public:
   explicit MeasuredDefects(const MeasureContext& context);
-  void sample(const Moment& moment) override;
+  void sample(const Sample& sample) override;
   void reduce(Reduction& result) const override;
   void save(analysis::StateWriter& writer) const override;
   void restore(analysis::StateReader& reader) override;

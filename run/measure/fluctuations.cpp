@@ -16,7 +16,7 @@ class MeasuredFluctuations : public Measurement {
  public:
   explicit MeasuredFluctuations(analysis::NumberFluctuations empty) : counts_(std::move(empty)) {}
 
-  void sample(const Moment& moment) override { counts_.accumulate(moment->time, moment->position); }
+  void sample(const Sample& sample) override { counts_.accumulate(sample->time, sample->position); }
   void reduce(Reduction& result) const override {
     const analysis::NumberFluctuationCurve curve = analysis::NumberFluctuations::reduce(counts_, result.t_steady);
     result.arrays["/fluctuations/area_fraction"] = curve.area_fraction;
@@ -46,7 +46,7 @@ MeasurementKind fluctuations_kind() {
       .name = "fluctuations",
       .sources = "number_fluctuations",
       .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
-        const Scene& system = context.plan.system;
+        const System& system = context.plan.system;
         double area = system.box_side * system.box_side;
         analysis::NumberFluctuations::Where counts;
         if (system.walls) {

@@ -13,7 +13,7 @@ class MeasuredFrank : public Measurement {
  public:
   MeasuredFrank(double box_side, double q_max) : waves_(analysis::DirectorFluctuations(box_side, q_max)) {}
 
-  void sample(const Moment& moment) override { waves_.accumulate(moment->time, moment->position, moment->director); }
+  void sample(const Sample& sample) override { waves_.accumulate(sample->time, sample->position, sample->director); }
   void reduce(Reduction& result) const override {
     const analysis::DirectorSpectrum spectrum = analysis::DirectorFluctuations::reduce(waves_, result.t_steady);
     result.arrays["/frank/q_along_per_mm"] = spectrum.q_along;
@@ -40,7 +40,7 @@ MeasurementKind frank_kind() {
       .name = "frank",
       .sources = "director_fluctuations, wave_sums",
       .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
-        const Scene& system = context.plan.system;
+        const System& system = context.plan.system;
         // Elasticity is of waves long against a rod, three of them at least; the four longest of the box are always
         // taken.
         const double three_rods = 2 * kPi / (3 * system.rod.length);

@@ -14,8 +14,8 @@ class MeasuredG2 : public Measurement {
   MeasuredG2(int bins, const analysis::Region& region)
       : region_(region), g2_(analysis::OrientationCorrelation(bins, region.box_side() / 2)) {}
 
-  void sample(const Moment& moment) override {
-    g2_.accumulate(moment->time, moment->position, moment->director, region_);
+  void sample(const Sample& sample) override {
+    g2_.accumulate(sample->time, sample->position, sample->director, region_);
   }
   void reduce(Reduction& result) const override {
     result.arrays["/g2/r_mm"] = g2_.empty().reduce().r;
@@ -47,7 +47,7 @@ MeasurementKind g2_kind() {
       .name = "g2",
       .sources = "g2, region",
       .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
-        const Scene& system = context.plan.system;
+        const System& system = context.plan.system;
         return std::make_unique<MeasuredG2>(context.plan.g2->bins, analysis::Region(system.box_side, system.walls));
       },
       .arrays =

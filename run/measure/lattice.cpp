@@ -12,7 +12,7 @@ class MeasuredLattice : public Measurement {
  public:
   explicit MeasuredLattice(const analysis::LatticeOrder::Shape& shape) : lattice_(analysis::LatticeOrder(shape)) {}
 
-  void sample(const Moment& moment) override { lattice_.accumulate(moment->time, moment->position, moment->director); }
+  void sample(const Sample& sample) override { lattice_.accumulate(sample->time, sample->position, sample->director); }
   void reduce(Reduction& result) const override {
     const auto means = block_estimates(lattice_, result.t_steady, [](const analysis::LatticeOrder& lattice) {
       const analysis::LatticeMeans found = lattice.reduce();

@@ -15,7 +15,7 @@ class MeasuredLayers : public Measurement {
   MeasuredLayers(double box_side, double shortest)
       : box_side_(box_side), layers_(analysis::LayerOrder(box_side, shortest)) {}
 
-  void sample(const Moment& moment) override { layers_.accumulate(moment->time, moment->position, moment->director); }
+  void sample(const Sample& sample) override { layers_.accumulate(sample->time, sample->position, sample->director); }
   void reduce(Reduction& result) const override {
     const analysis::LayerOrder layers = layers_.after(result.t_steady);
     const analysis::LayerSpectrum spectrum = layers.reduce();
@@ -54,7 +54,7 @@ MeasurementKind layers_kind() {
       .name = "layers",
       .sources = "layers, wave_sums",
       .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
-        const Scene& system = context.plan.system;
+        const System& system = context.plan.system;
         return std::make_unique<MeasuredLayers>(system.box_side, system.rod.length / 2);
       },
       .arrays =

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "analysis/state_io.h"
-#include "run/measure/moment.h"
 #include "run/measure/reduction.h"
+#include "run/measure/sample.h"
 #include "scene/run_plan.h"
 #include "sim/rod/species.h"
 
@@ -15,7 +15,7 @@ class Measurement {
   virtual ~Measurement() = default;
 
   /// Called at the integer multiples of the measurement's own period, tick 0 included.
-  virtual void sample(const Moment& moment) = 0;
+  virtual void sample(const Sample& sample) = 0;
   /// Adds arrays and scalars of the steady state, which begins at result.t_steady.
   virtual void reduce(Reduction& result) const = 0;
 

@@ -20,9 +20,9 @@ class MeasuredDisplacement : public Measurement {
  public:
   MeasuredDisplacement(double interval, std::optional<double> steady) : steady_(steady), msd_(interval) {}
 
-  void sample(const Moment& moment) override {
-    if (!analysis::is_steady(moment->time, steady_.value_or(0.0))) return;
-    msd_.accumulate(moment->time, moment.unwrapped(), moment.order().director);
+  void sample(const Sample& sample) override {
+    if (!analysis::is_steady(sample->time, steady_.value_or(0.0))) return;
+    msd_.accumulate(sample->time, sample.unwrapped(), sample.order().director);
   }
   void reduce(Reduction& result) const override {
     const double from = steady_.value_or(result.t_steady);

@@ -7,9 +7,9 @@
 
 namespace shaken::run {
 
-void MeasuredOrder::sample(const Moment& moment) {
-  series_.accumulate(moment->time, moment.order());
-  statistics_.accumulate(moment->time, moment.order().order);
+void MeasuredOrder::sample(const Sample& sample) {
+  series_.accumulate(sample->time, sample.order());
+  statistics_.accumulate(sample->time, sample.order().order);
 }
 
 void MeasuredOrder::reduce(Reduction& result) const {

@@ -13,7 +13,7 @@ class MeasuredOrder : public Measurement {
  public:
   explicit MeasuredOrder(int n_rods) : n_rods_(n_rods) {}
 
-  void sample(const Moment& moment) override;
+  void sample(const Sample& sample) override;
   void reduce(Reduction& result) const override;
   void save(analysis::StateWriter& writer) const override;
   void restore(analysis::StateReader& reader) override;

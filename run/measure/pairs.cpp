@@ -16,7 +16,7 @@ class MeasuredPairs : public Measurement {
   explicit MeasuredPairs(const analysis::PairMap::Shape& shape)
       : strip_(shape.strip), pairs_(analysis::PairMap(shape)) {}
 
-  void sample(const Moment& moment) override { pairs_.accumulate(moment->time, moment->position, moment->director); }
+  void sample(const Sample& sample) override { pairs_.accumulate(sample->time, sample->position, sample->director); }
   void reduce(Reduction& result) const override {
     const analysis::PairCurves curves = pairs_.after(result.t_steady).reduce();
     result.arrays["/pairs/along_mm"] = curves.along;

@@ -13,9 +13,9 @@ class MeasuredRods : public Measurement {
  public:
   MeasuredRods(const scene::MeasureRods& rods, double from) : from_(from), traces_(rods.count, rods.duration) {}
 
-  void sample(const Moment& moment) override {
-    if (!analysis::is_steady(moment->time, from_)) return;
-    traces_.accumulate(moment->time, moment.unwrapped(), moment->director);
+  void sample(const Sample& sample) override {
+    if (!analysis::is_steady(sample->time, from_)) return;
+    traces_.accumulate(sample->time, sample.unwrapped(), sample->director);
   }
   void reduce(Reduction& result) const override {
     result.arrays["/rods/trace/time_s"] = traces_.times();

@@ -14,9 +14,9 @@ class MeasuredRotation : public Measurement {
  public:
   MeasuredRotation(double interval, std::optional<double> steady) : steady_(steady), rotation_(interval) {}
 
-  void sample(const Moment& moment) override {
-    if (!analysis::is_steady(moment->time, steady_.value_or(0.0))) return;
-    rotation_.accumulate(moment->time, moment->director);
+  void sample(const Sample& sample) override {
+    if (!analysis::is_steady(sample->time, steady_.value_or(0.0))) return;
+    rotation_.accumulate(sample->time, sample->director);
   }
   void reduce(Reduction& result) const override {
     const double from = steady_.value_or(result.t_steady);

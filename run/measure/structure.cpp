@@ -10,8 +10,8 @@ class MeasuredStructure : public Measurement {
  public:
   explicit MeasuredStructure(const analysis::StructureFactor& empty) : structure_(empty) {}
 
-  void sample(const Moment& moment) override {
-    structure_.accumulate(moment->time, moment->position, moment->director);
+  void sample(const Sample& sample) override {
+    structure_.accumulate(sample->time, sample->position, sample->director);
   }
   void reduce(Reduction& result) const override {
     const analysis::StructureCurve curve = structure_.after(result.t_steady).reduce();

@@ -17,9 +17,9 @@ class MeasuredTilt : public Measurement {
  public:
   MeasuredTilt(int bins, double n_z_max) : tilt_(analysis::TiltVelocity(bins, n_z_max)), switches_(n_z_max / 2) {}
 
-  void sample(const Moment& moment) override {
-    tilt_.accumulate(moment->time, moment->director, moment->velocity);
-    switches_.accumulate(moment->time, moment->director);
+  void sample(const Sample& sample) override {
+    tilt_.accumulate(sample->time, sample->director, sample->velocity);
+    switches_.accumulate(sample->time, sample->director);
   }
   void reduce(Reduction& result) const override {
     const std::vector<analysis::TiltVelocity> blocks = tilt_.parts_after(result.t_steady, analysis::kMostParts);

@@ -15,9 +15,9 @@ class MeasuredVelocity : public Measurement {
   MeasuredVelocity(double interval, double window, std::optional<double> steady)
       : steady_(steady), velocity_(interval, window) {}
 
-  void sample(const Moment& moment) override {
-    if (!analysis::is_steady(moment->time, steady_.value_or(0.0))) return;
-    velocity_.accumulate(moment->time, moment.unwrapped(), moment.order().director);
+  void sample(const Sample& sample) override {
+    if (!analysis::is_steady(sample->time, steady_.value_or(0.0))) return;
+    velocity_.accumulate(sample->time, sample.unwrapped(), sample.order().director);
   }
   void reduce(Reduction& result) const override {
     const double from = steady_.value_or(result.t_steady);

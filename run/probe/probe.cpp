@@ -14,8 +14,8 @@
 #include "run/effects.h"
 #include "run/messages.h"
 #include "run/movie_process.h"
+#include "run/open_run.h"
 #include "run/probe/sampling.h"
-#include "run/session.h"
 #include "scene/canonical.h"
 
 namespace shaken::run {

@@ -7,7 +7,7 @@
 #include "base/clock.h"
 #include "base/scratch_folder.h"
 #include "run/measurements.h"
-#include "run/session.h"
+#include "run/open_run.h"
 
 namespace shaken::run {
 namespace {

@@ -263,7 +263,7 @@ SafeTime bead_safe_time(const BeadLanes& i, const MotionBound& a, const BeadLane
   const Shared in = shared(i, a.director, j, b.director, D);
   const Relative unperturbed =
       relative(i, j, a.velocity, b.velocity, a.turning, b.turning, a.half_rate2, b.half_rate2, MotionTolerance{});
-  const Relative perturbed = relative(i, j, a.velocity_center, b.velocity_center, a.turning_center, b.turning_center,
+  const Relative perturbed = relative(i, j, a.velocity_centre, b.velocity_centre, a.turning_centre, b.turning_centre,
                                       a.limit_half_rate2, b.limit_half_rate2, tolerance);
   SafeTime safe{horizon, horizon};
   for (std::size_t first = 0; first < i.offset.size(); first += kLanes) {

@@ -131,7 +131,7 @@ struct HullKernel {
                         lanes::load<W>(pairs.turning_j, l), lanes::load<W>(pairs.half_rate2_i + l),
                         lanes::load<W>(pairs.half_rate2_j + l), MotionTolerance{}));
     lanes::store(safe.perturbed + l,
-                 within(lanes::load<W>(pairs.velocity_center, l), lanes::load<W>(pairs.turning_center_i, l),
+                 within(lanes::load<W>(pairs.velocity_centre, l), lanes::load<W>(pairs.turning_center_i, l),
                         lanes::load<W>(pairs.turning_center_j, l), lanes::load<W>(pairs.limit_half_rate2_i + l),
                         lanes::load<W>(pairs.limit_half_rate2_j + l), tolerance));
   }
@@ -147,9 +147,9 @@ void PairLanes::set(int lane, const Vec3& D_ij, const MotionBound& i, const Moti
     turning_i[c][lane] = i.turning[c];
     turning_j[c][lane] = j.turning[c];
     velocity[c][lane] = j.velocity[c] - i.velocity[c];
-    turning_center_i[c][lane] = i.turning_center[c];
-    turning_center_j[c][lane] = j.turning_center[c];
-    velocity_center[c][lane] = j.velocity_center[c] - i.velocity_center[c];
+    turning_center_i[c][lane] = i.turning_centre[c];
+    turning_center_j[c][lane] = j.turning_centre[c];
+    velocity_centre[c][lane] = j.velocity_centre[c] - i.velocity_centre[c];
   }
   half_rate2_i[lane] = i.half_rate2;
   half_rate2_j[lane] = j.half_rate2;

@@ -40,7 +40,7 @@ struct PairLanes {
   alignas(64) float half_rate2_j[kLanes];
   alignas(64) float turning_center_i[3][kLanes];
   alignas(64) float turning_center_j[3][kLanes];
-  alignas(64) float velocity_center[3][kLanes];  ///< of j relative to i
+  alignas(64) float velocity_centre[3][kLanes];  ///< of j relative to i
   alignas(64) float limit_half_rate2_i[kLanes];
   alignas(64) float limit_half_rate2_j[kLanes];
 

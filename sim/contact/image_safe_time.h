@@ -22,7 +22,7 @@ inline SafeTime image_safe_time(const Vec3& D, const MotionBound& i, const Motio
   for (int c = 0; c < 2; ++c) {
     const auto room = static_cast<float>((box_side - std::abs(D[c]) - reach) - 1e-6 * box_side);  // less the rounding
     const float unperturbed = std::abs(j.velocity[c] - i.velocity[c]);
-    const float perturbed = std::abs(j.velocity_center[c] - i.velocity_center[c]) + 2.0F * tolerance.velocity_xy;
+    const float perturbed = std::abs(j.velocity_centre[c] - i.velocity_centre[c]) + 2.0F * tolerance.velocity_xy;
     if (std::max(unperturbed, perturbed) * horizon <= room) continue;  // in all but small boxes
     const float open = std::max(room, 0.0F) * (1.0F - 1e-5F);
     if (unperturbed * safe.unperturbed > open) safe.unperturbed = open / unperturbed;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sim/core/types.h"
-#include "sim/scene.h"
+#include "sim/system.h"
 
 namespace shaken {
 

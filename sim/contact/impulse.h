@@ -4,7 +4,7 @@
 #include "sim/core/types.h"
 #include "sim/motion/flight.h"
 #include "sim/rod/species.h"
-#include "sim/scene.h"
+#include "sim/system.h"
 
 namespace shaken {
 

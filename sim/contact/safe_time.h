@@ -28,8 +28,8 @@ struct MotionBound {
   float velocity[3];         ///< of the centre [mm/s]
   float turning[3];          ///< d director / dt [1/s]
   float half_rate2;          ///< |precession|^2 / 2, half of the director's largest second derivative [1/s^2]
-  float velocity_center[3];  ///< of the cylinder that the velocity drifts in [mm/s]
-  float turning_center[3];   ///< the same for d director / dt [1/s]
+  float velocity_centre[3];  ///< of the cylinder that the velocity drifts in [mm/s]
+  float turning_centre[3];   ///< the same for d director / dt [1/s]
   float limit_half_rate2;    ///< what half_rate2 may grow to [1/s^2]
 };
 

@@ -5,7 +5,7 @@
 
 namespace shaken {
 
-/// The beads of one kind of rod, from tail to head, equally spaced.
+/// The beads of one species, from tail to head, equally spaced.
 struct BeadRow {
   std::vector<double> offset;  ///< (n_beads) of the centres along the rod, from the rod's centre [mm]
   std::vector<double> radius;  ///< (n_beads) [mm]

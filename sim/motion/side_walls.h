@@ -5,7 +5,7 @@
 
 #include "sim/motion/flight.h"
 #include "sim/rod/species.h"
-#include "sim/scene.h"
+#include "sim/system.h"
 
 namespace shaken {
 

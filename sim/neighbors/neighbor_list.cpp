@@ -9,9 +9,9 @@
 
 namespace shaken {
 
-NeighborList::NeighborList(std::span<const Species> species, std::span<const std::uint8_t> kinds, double box_side,
-                           double skin)
-    : kinds_(kinds.begin(), kinds.end()), skin_(skin), box_side_(box_side) {
+NeighborList::NeighborList(std::span<const Species> species, std::span<const std::uint8_t> species_of_rod,
+                           double box_side, double skin)
+    : species_of_rod_(species_of_rod.begin(), species_of_rod.end()), skin_(skin), box_side_(box_side) {
   double farthest = 0;  // that two centres of a pair can be apart
   for (const Species& kind : species) {
     shadows_.push_back({kind.half_length, kind.max_radius});
@@ -24,8 +24,8 @@ NeighborList::NeighborList(std::span<const Species> species, std::span<const std
 }
 
 std::size_t NeighborList::bytes() const {
-  std::size_t bytes = heap_bytes(kinds_, placed_center_, placed_half_, cell_, members_, pairs_, unused_, pairs_of_,
-                                 n_pairs_of_, near_, mark_);
+  std::size_t bytes = heap_bytes(species_of_rod_, placed_center_, placed_half_, cell_, members_, pairs_, unused_,
+                                 pairs_of_, n_pairs_of_, near_, mark_);
   for (const auto& members : members_) bytes += heap_bytes(members);
   return bytes;
 }

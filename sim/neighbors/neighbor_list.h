@@ -42,7 +42,8 @@ class NeighborList {
   };
 
   /// `kinds` (n_rods): the index of each rod's species.
-  NeighborList(std::span<const Species> species, std::span<const std::uint8_t> kinds, double box_side, double skin);
+  NeighborList(std::span<const Species> species, std::span<const std::uint8_t> species_of_rod, double box_side,
+               double skin);
 
   /// True if the list may be incomplete for these poses (or was never built).
   bool is_due(std::span<const Pose> poses) const;
@@ -65,12 +66,12 @@ class NeighborList {
   std::size_t bytes() const;
 
  private:
-  /// The stadium of one kind of rod.
+  /// The stadium of one species.
   struct Shadow {
     double half_length;
     double radius;
   };
-  const Shadow& shadow(int i) const { return shadows_[kinds_[i]]; }
+  const Shadow& shadow(int i) const { return shadows_[species_of_rod_[i]]; }
   Vec2 flat_half(int i, const Pose& pose) const;  ///< from the centre to the end of the flattened segment
   int cell_of(const Vec2& center) const;
   void put_into_cell(int i, int cell);
@@ -83,8 +84,8 @@ class NeighborList {
   void add_to(int i, int p);
   void remove_from(int i, int p);
 
-  std::vector<Shadow> shadows_;      ///< (n_species)
-  std::vector<std::uint8_t> kinds_;  ///< (n_rods)
+  std::vector<Shadow> shadows_;               ///< (n_species)
+  std::vector<std::uint8_t> species_of_rod_;  ///< (n_rods)
   double skin_;
   double box_side_;
   int n_cells_;   ///< per side; 1: no grid

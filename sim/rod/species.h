@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/scene.h"
+#include "sim/system.h"
 
 namespace shaken {
 

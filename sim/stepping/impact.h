@@ -26,24 +26,24 @@ struct Impulse {
 
 /// The bead of a rod that takes part.
 struct Bead {
-  const RodKind& kind;
+  const SpeciesMechanics& species;
   RodAtTick& rod;
   double offset;  ///< of its centre from the rod's, along the director [mm]
   Vec3 arm;       ///< from the rod's centre to the contact [mm]
 
   Vec3 velocity() const { return point_velocity(rod.motion, arm); }
-  Mat3 compliance() const { return point_compliance(kind.inverse, rod.pose.director, arm); }
+  Mat3 compliance() const { return point_compliance(species.inverse, rod.pose.director, arm); }
   double compliance_along(const Vec3& normal) const {
-    return normal_compliance(kind.inverse, rod.pose.director, offset, normal);
+    return normal_compliance(species.inverse, rod.pose.director, offset, normal);
   }
   /// Any impulse P.
   void apply(const Vec3& P) const {
-    apply_impulse(rod.motion, kind.inverse, rod.pose.director, arm, P);
+    apply_impulse(rod.motion, species.inverse, rod.pose.director, arm, P);
     rod.note_hit();
   }
   /// One along the normal.
   void apply_along_normal(const Vec3& P) const {
-    apply_normal_impulse(rod.motion, kind.inverse, rod.pose.director, offset, P);
+    apply_normal_impulse(rod.motion, species.inverse, rod.pose.director, offset, P);
     rod.note_hit();
   }
 };
@@ -63,16 +63,16 @@ inline Impulse frictionless(const Vec3& normal, const Vec3& u, double compliance
 }
 
 /// Flies the rod freely for `seconds`, of either sign, from or to the end of the tick.
-inline void fly(RodAtTick& rod, double seconds, const RodKind& kind, double gravity) {
+inline void fly(RodAtTick& rod, double seconds, const SpeciesMechanics& species, double gravity) {
   Flight flight;
   flight.position = rod.pose.position;
   flight.velocity = rod.motion.velocity;
   flight.director = rod.pose.director;
   flight.spin = rod.motion.angular_velocity.dot(flight.director);
-  flight.precession = rod.motion.angular_velocity - (1.0 - kind.inertia_ratio) * flight.spin * flight.director;
+  flight.precession = rod.motion.angular_velocity - (1.0 - species.inertia_ratio) * flight.spin * flight.director;
   flight.prepare();
   rod.pose = pose_after(flight, seconds, gravity);
-  rod.motion = motion_after(flight, seconds, gravity, rod.pose.director, kind.inertia_ratio);
+  rod.motion = motion_after(flight, seconds, gravity, rod.pose.director, species.inertia_ratio);
 }
 
 /// How long ago an overlap began if the surfaces have approached at `speed` since [s]; none if not within this tick.

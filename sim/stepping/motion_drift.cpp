@@ -39,8 +39,8 @@ MotionBound MotionDrift::bound(const Flight& flight, const Vec3& velocity, const
   set_vector(bound.turning, flight.precession.cross(director));
   bound.half_rate2 = static_cast<float>(0.5 * flight.rate * flight.rate);
   for (int c = 0; c < 3; ++c) {
-    bound.velocity_center[c] = bound.velocity[c] - velocity_[c];
-    bound.turning_center[c] = bound.turning[c] - turning_[c];
+    bound.velocity_centre[c] = bound.velocity[c] - velocity_[c];
+    bound.turning_centre[c] = bound.turning[c] - turning_[c];
   }
   bound.limit_half_rate2 = 0.5F * rate_limit_ * rate_limit_;
   return bound;

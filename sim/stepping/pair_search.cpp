@@ -22,37 +22,38 @@ constexpr float kMuchLonger = 1.5;
 }  // namespace
 
 PairSearch::PairSearch(const TickRules& rules) : rules_(rules) {
-  for (const RodKind& kind : rules.kinds) {
-    hulls_.emplace_back(kind.species);
-    lanes_.emplace_back(kind.species);
-    reach_.push_back(kind.species.reach());
+  for (const SpeciesMechanics& species : rules.species) {
+    hulls_.emplace_back(species);
+    lanes_.emplace_back(species);
+    reach_.push_back(species.reach());
   }
 }
 
 bool PairSearch::find(const PairRods& pair, const Pose& pose_i, const Pose& pose_j, const Direction& direction,
                       std::vector<BeadContact>& beads, std::vector<PairContact>& contacts) const {
   const auto& [i, j] = pair;
-  const std::uint8_t kind_i = rules_.rod_kinds[i];
-  const std::uint8_t kind_j = rules_.rod_kinds[j];
+  const std::uint8_t species_i = rules_.species_of_rod[i];
+  const std::uint8_t species_j = rules_.species_of_rod[j];
   const Vec3 D = nearest_image(pose_i.position, pose_j.position, rules_.box_side);
   constexpr double kMargin = 1e-5;
   const Vec3 d(direction[0], direction[1], direction[2]);
-  if (hull_gap(hulls_[kind_i], std::abs(pose_i.director.dot(d)), hulls_[kind_j], std::abs(pose_j.director.dot(d)),
+  if (hull_gap(hulls_[species_i], std::abs(pose_i.director.dot(d)), hulls_[species_j], std::abs(pose_j.director.dot(d)),
                D.dot(d)) > kMargin)
     return false;
-  const BeadRange beads_i = beads_may_overlap(lanes_[kind_i], pose_i.director, lanes_[kind_j], pose_j.director, D);
+  const BeadRange beads_i =
+      beads_may_overlap(lanes_[species_i], pose_i.director, lanes_[species_j], pose_j.director, D);
   if (beads_i.empty()) return false;
   beads.clear();
-  find_bead_contacts(rules_.kinds[kind_i].species, pose_i.director, rules_.kinds[kind_j].species, pose_j.director, D,
-                     beads_i, beads);
+  find_bead_contacts(rules_.species[species_i], pose_i.director, rules_.species[species_j], pose_j.director, D, beads_i,
+                     beads);
   for (const BeadContact& contact : beads) contacts.push_back({i, j, contact});
   return !beads.empty();
 }
 
 void PairSearch::bound(std::span<const PairRods> pairs, const std::vector<RodAtTick>& rods,
                        const std::vector<MotionBound>& motion, PairLanes& lanes, PairBounds& bounds) const {
-  const std::uint8_t kind_i = rules_.rod_kinds[pairs.front()[0]];
-  const std::uint8_t kind_j = rules_.rod_kinds[pairs.front()[1]];
+  const std::uint8_t species_i = rules_.species_of_rod[pairs.front()[0]];
+  const std::uint8_t species_j = rules_.species_of_rod[pairs.front()[1]];
   HullSafeTimes hull;
   Vec3 D[kLanes];
   for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
@@ -61,7 +62,7 @@ void PairSearch::bound(std::span<const PairRods> pairs, const std::vector<RodAtT
     lanes.set(static_cast<int>(lane), D[lane], motion[i], motion[j]);
   }
   const auto horizon = static_cast<float>(static_cast<double>(TimingWheel::horizon() - 1) * rules_.dt);
-  hull_safe_times(hulls_[kind_i], hulls_[kind_j], lanes, kMotionTolerance, horizon, hull);
+  hull_safe_times(hulls_[species_i], hulls_[species_j], lanes, kMotionTolerance, horizon, hull);
 
   const auto per_dt = static_cast<float>((1.0 - 1e-5) / rules_.dt);
   for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
@@ -69,13 +70,13 @@ void PairSearch::bound(std::span<const PairRods> pairs, const std::vector<RodAtT
     float unperturbed = hull.unperturbed[lane] * per_dt;
     float perturbed = hull.perturbed[lane] * per_dt;
     if (unperturbed < kShortBound && perturbed < kShortBound) {
-      const SafeTime beads = bead_safe_time(lanes_[kind_i], motion[i], lanes_[kind_j], motion[j], D[lane],
+      const SafeTime beads = bead_safe_time(lanes_[species_i], motion[i], lanes_[species_j], motion[j], D[lane],
                                             kMotionTolerance, kBeadHorizon * static_cast<float>(rules_.dt));
       unperturbed = std::max(unperturbed, beads.unperturbed * per_dt);
       perturbed = std::max(perturbed, beads.perturbed * per_dt);
     }
     const SafeTime images = image_safe_time(D[lane], motion[i], motion[j], kMotionTolerance, rules_.box_side,
-                                            reach_[kind_i] + reach_[kind_j], horizon);
+                                            reach_[species_i] + reach_[species_j], horizon);
     unperturbed = std::min(unperturbed, images.unperturbed * per_dt);
     perturbed = std::min(perturbed, images.perturbed * per_dt);
     const bool take_unperturbed = perturbed < kLongBound && perturbed * kMuchLonger < unperturbed;

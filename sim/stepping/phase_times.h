@@ -8,10 +8,10 @@ namespace shaken {
 
 /// What a stepper spends its time on. The first five are the tick itself (stepping/tick.h); the others are what it
 /// takes to know where to look.
-enum class Phase { kPlates, kDetection, kResponse, kStoring, kBounds, kSchedule, kNeighbors };
+enum class Phase { kSurfaces, kDetection, kResponse, kStoring, kBounds, kSchedule, kNeighbors };
 inline constexpr std::size_t kPhases = 7;
-inline constexpr std::array<const char*, kPhases> kPhaseNames{"plates", "detection", "response", "storing",
-                                                              "bounds", "schedule",  "neighbors"};
+inline constexpr std::array<const char*, kPhases> kPhaseNames{"surfaces", "detection", "response", "storing",
+                                                              "bounds",   "schedule",  "neighbors"};
 
 /// Seconds per phase, by a clock that the caller lends: the physics library has none. Without one, a tick reads no
 /// clock and a lap costs one branch.
@@ -24,7 +24,7 @@ class PhaseTimes {
   void start() {
     if (clock_ != nullptr) last_ = clock_();
   }
-  /// Books the time since the last lap on `phase`.
+  /// Adds the time since the last lap to `phase`.
   void lap(Phase phase) {
     if (clock_ == nullptr) return;
     const double now = clock_();

@@ -15,7 +15,7 @@ constexpr double kReferenceSkin = 0.3;
 
 ReferenceStepper::ReferenceStepper(const World& world)
     : rules_(world),
-      neighbors_(world.species, world.kinds, world.scene.box_side, kReferenceSkin),
+      neighbors_(world.species, world.species_of_rod, world.system.box_side, kReferenceSkin),
       rods_(world.rods.size()),
       poses_(world.rods.size()) {}
 
@@ -37,7 +37,7 @@ std::optional<NumericalTrouble> ReferenceStepper::step(World& world, Tick now) {
     if (auto trouble = meet_surfaces(i, rods_[i], world.rods[i], plates, now, rules_, world.counters)) return trouble;
   }
 
-  phase_times.lap(Phase::kPlates);
+  phase_times.lap(Phase::kSurfaces);
 
   // 2. detection
   if (neighbors_.is_due(poses_)) neighbors_.build(poses_);
@@ -46,7 +46,7 @@ std::optional<NumericalTrouble> ReferenceStepper::step(World& world, Tick now) {
   for (const auto& [i, j] : neighbors_.pairs()) {
     bead_contacts_.clear();
     const Vec3 D = nearest_image(poses_[i].position, poses_[j].position, rules_.box_side);
-    find_bead_contacts(rules_.kind_of(i).species, poses_[i].director, rules_.kind_of(j).species, poses_[j].director, D,
+    find_bead_contacts(rules_.species_of(i), poses_[i].director, rules_.species_of(j), poses_[j].director, D,
                        bead_contacts_);
     for (const BeadContact& beads : bead_contacts_) contacts_.push_back({i, j, beads});
   }

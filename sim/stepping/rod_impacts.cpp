@@ -35,15 +35,15 @@ namespace {
 [[gnu::flatten]] void collide(const PairContact& contact, RodAtTick& rod_i, RodAtTick& rod_j, const TickRules& rules,
                               Counters& counters) {
   const BeadContact& beads = contact.beads;
-  const RodKind& kind_i = rules.kind_of(contact.i);
-  const RodKind& kind_j = rules.kind_of(contact.j);
-  const double offset_i = kind_i.species.bead_offset[beads.bead_i];
-  const double offset_j = kind_j.species.bead_offset[beads.bead_j];
-  const double radius_i = kind_i.species.bead_radius[beads.bead_i];
-  const double radius_j = kind_j.species.bead_radius[beads.bead_j];
+  const SpeciesMechanics& species_i = rules.species_of(contact.i);
+  const SpeciesMechanics& species_j = rules.species_of(contact.j);
+  const double offset_i = species_i.bead_offset[beads.bead_i];
+  const double offset_j = species_j.bead_offset[beads.bead_j];
+  const double radius_i = species_i.bead_radius[beads.bead_i];
+  const double radius_j = species_j.bead_radius[beads.bead_j];
   const auto collide_along = [&](const Vec3& normal) {
-    return collide({kind_i, rod_i, offset_i, offset_i * rod_i.pose.director + radius_i * normal},
-                   {kind_j, rod_j, offset_j, offset_j * rod_j.pose.director - radius_j * normal}, normal, rules,
+    return collide({species_i, rod_i, offset_i, offset_i * rod_i.pose.director + radius_i * normal},
+                   {species_j, rod_j, offset_j, offset_j * rod_j.pose.director - radius_j * normal}, normal, rules,
                    counters.ledger);
   };
   if (!rules.impacts_at_instant) {
@@ -64,11 +64,11 @@ namespace {
                         point_velocity(rod_j.motion, offset_j * rod_j.pose.director))
                            .dot(normal);
   if (const auto ago = impact::time_since_touch(overlap, speed, rules.dt)) {
-    impact::fly(rod_i, -*ago, kind_i, rules.gravity);
-    impact::fly(rod_j, -*ago, kind_j, rules.gravity);
+    impact::fly(rod_i, -*ago, species_i, rules.gravity);
+    impact::fly(rod_j, -*ago, species_j, rules.gravity);
     const bool have_hit = collide_along(bead_to_bead().normalized());
-    impact::fly(rod_i, *ago, kind_i, rules.gravity);
-    impact::fly(rod_j, *ago, kind_j, rules.gravity);
+    impact::fly(rod_i, *ago, species_i, rules.gravity);
+    impact::fly(rod_j, *ago, species_j, rules.gravity);
     if (have_hit) {
       rod_i.displaced = rod_j.displaced = true;
       ++counters.impacts_at_instant;
@@ -81,8 +81,8 @@ namespace {
 
 /// Trouble if the overlap of a contact is too deep.
 std::optional<NumericalTrouble> check_overlap(const PairContact& contact, Tick now, const TickRules& rules) {
-  const double smaller = std::min(rules.kind_of(contact.i).species.bead_radius[contact.beads.bead_i],
-                                  rules.kind_of(contact.j).species.bead_radius[contact.beads.bead_j]);
+  const double smaller = std::min(rules.species_of(contact.i).bead_radius[contact.beads.bead_i],
+                                  rules.species_of(contact.j).bead_radius[contact.beads.bead_j]);
   if (contact.beads.overlap <= kMaxOverlapFraction * smaller) return {};
   return NumericalTrouble{now,
                           {contact.i, contact.j},
@@ -93,9 +93,9 @@ std::optional<NumericalTrouble> check_overlap(const PairContact& contact, Tick n
 
 /// The contacts of a tick in the order in which they get their impulses, if that is not the sorted one. What a contact
 /// draws depends on its rods and on which of theirs it is: steppers may leave out pairs that cannot take part.
-std::vector<PairContact> in_order(const std::vector<PairContact>& sorted, const Scene& scene, Tick now) {
+std::vector<PairContact> in_order(const std::vector<PairContact>& sorted, const System& system, Tick now) {
   std::vector<PairContact> contacts(sorted.rbegin(), sorted.rend());
-  if (scene.order == ContactOrder::kReversed) return contacts;
+  if (system.order == ContactOrder::kReversed) return contacts;
   struct Drawn {
     std::uint64_t number;
     PairContact contact;
@@ -107,7 +107,7 @@ std::vector<PairContact> in_order(const std::vector<PairContact>& sorted, const 
     rank = c > 0 && sorted[c - 1].i == contact.i && sorted[c - 1].j == contact.j ? rank + 1 : 0;
     const auto index =
         (static_cast<std::uint64_t>(contact.i) << 40) ^ (static_cast<std::uint64_t>(contact.j) << 16) ^ rank;
-    Rng rng(scene.seed, RngStream::kContacts, now, index);
+    Rng rng(system.seed, RngStream::kContacts, now, index);
     drawn.push_back({rng.bits(), contact});
   }
   std::stable_sort(drawn.begin(), drawn.end(), [](const Drawn& a, const Drawn& b) { return a.number < b.number; });
@@ -122,19 +122,19 @@ std::optional<NumericalTrouble> collide_rods(const std::vector<PairContact>& con
   for (const PairContact& contact : contacts) {
     if (auto trouble = check_overlap(contact, now, rules)) return trouble;
     world.counters.max_overlap_rod_rod = std::max(world.counters.max_overlap_rod_rod, contact.beads.overlap);
-    for (const int i : {contact.i, contact.j}) evaluate_motion(rods[i], world.rods[i], now, rules.kind_of(i), rules);
+    for (const int i : {contact.i, contact.j}) evaluate_motion(rods[i], world.rods[i], now, rules.species_of(i), rules);
   }
   const auto pass_over = [&](const std::vector<PairContact>& ordered) {
-    for (int sweep = 0; sweep < world.scene.solver_sweeps; ++sweep) {
+    for (int sweep = 0; sweep < world.system.solver_sweeps; ++sweep) {
       for (const PairContact& contact : ordered) {
         collide(contact, rods[contact.i], rods[contact.j], rules, world.counters);
       }
     }
   };
-  if (world.scene.order == ContactOrder::kSorted) {
+  if (world.system.order == ContactOrder::kSorted) {
     pass_over(contacts);
   } else {
-    pass_over(in_order(contacts, world.scene, now));
+    pass_over(in_order(contacts, world.system, now));
   }
   return {};
 }

@@ -20,7 +20,7 @@ constexpr double kSkin = 0.4;  ///< of the neighbour list [mm]
 ScheduledStepper::ScheduledStepper(const World& world, int n_threads, int grain)
     : rules_(world),
       search_(rules_),
-      neighbors_(world.species, world.kinds, world.scene.box_side, kSkin),
+      neighbors_(world.species, world.species_of_rod, world.system.box_side, kSkin),
       loops_(n_threads, grain),
       rods_(world.rods.size()),
       drifts_(world.rods.size()),
@@ -55,7 +55,7 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
 
   // 1. surfaces
   if (auto trouble = meet_surfaces_due(world, now)) return trouble;
-  phase_times.lap(Phase::kPlates);
+  phase_times.lap(Phase::kSurfaces);
 
   // 2. detection
   list_due_pairs(world, now);
@@ -312,7 +312,7 @@ std::optional<NumericalTrouble> ScheduledStepper::store_changed(World& world, Ti
 
 void ScheduledStepper::schedule_rods(const World& world, Tick now) {
   constexpr Tick kHorizon = TimingWheel::horizon() - 1;
-  const Groups groups(rules_.kinds.size() > 1, [this](int i) { return species_of(i); });
+  const Groups groups(rules_.species.size() > 1, [this](int i) { return species_index(i); });
   groups.sort(to_schedule_);
   loops_.run(to_schedule_, owners_, [&](Worker& worker) {
     worker.next.clear();
@@ -321,9 +321,8 @@ void ScheduledStepper::schedule_rods(const World& world, Tick now) {
       off_surface_ticks(rods, world, rods_, now, kHorizon, rules_, worker.plate_lanes, ticks);
       for (std::size_t lane = 0; lane < rods.size(); ++lane) {
         const int i = rods[lane];
-        const Tick covered =
-            reserves_[i].covered_ticks(neighbors_, i, world.rods[i], rods_[i].pose,
-                                       rules_.kind_of(i).species.half_length, now, rules_.dt, kHorizon);
+        const Tick covered = reserves_[i].covered_ticks(neighbors_, i, world.rods[i], rods_[i].pose,
+                                                        rules_.species_of(i).half_length, now, rules_.dt, kHorizon);
         worker.next.push_back(now + 1 + std::min(ticks[lane], covered));
       }
     });
@@ -378,10 +377,10 @@ void ScheduledStepper::list_pairs_to_bound() {
 }
 
 void ScheduledStepper::schedule_pairs(Tick now) {
-  const int n_species = static_cast<int>(rules_.kinds.size());
+  const int n_species = static_cast<int>(rules_.species.size());
   const Groups groups(n_species > 1, [&](int p) {
     const auto& [i, j] = pairs_.rods(p);
-    return species_of(i) * n_species + species_of(j);
+    return species_index(i) * n_species + species_index(j);
   });
   groups.sort(to_bound_);
   loops_.run(to_bound_, pairs_.owners(), [&](Worker& worker) {

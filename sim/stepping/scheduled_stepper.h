@@ -99,7 +99,7 @@ class ScheduledStepper final : public Stepper {
   std::optional<NumericalTrouble> first_trouble() const;
   /// Where free flight brought the rod; impacts at their instant may have displaced it since.
   const Pose& found(int i) const { return found_.empty() ? rods_[i].pose : found_[i]; }
-  int species_of(int i) const { return rules_.rod_kinds[i]; }
+  int species_index(int i) const { return rules_.species_of_rod[i]; }
 
   TickRules rules_;
   PairSearch search_;

@@ -8,7 +8,7 @@
 namespace shaken {
 
 std::unique_ptr<Stepper> make_stepper(const World& world, int n_threads, int grain) {
-  switch (world.scene.engine) {
+  switch (world.system.engine) {
     case Engine::kReference:
       return std::make_unique<ReferenceStepper>(world);
     case Engine::kScheduled:

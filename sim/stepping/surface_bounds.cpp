@@ -9,7 +9,7 @@ namespace shaken {
 
 void off_surface_ticks(std::span<const int> rods, const World& world, const std::vector<RodAtTick>& at_tick, Tick now,
                        Tick horizon, const TickRules& rules, PlateLanes& lanes, Tick* ticks) {
-  const Species& species = rules.kind_of(rods.front()).species;
+  const Species& species = rules.species_of(rods.front());
   std::fill_n(ticks, kLanes, horizon);
   if (rules.has_base || rules.has_lid) {
     for (std::size_t lane = 0; lane < rods.size(); ++lane) {

@@ -64,20 +64,20 @@ impact::Impulse impulse_without_friction(const Surface& surface, const Vec3& u, 
 /// The bead `b` of a rod against a plate or wall that it overlaps; both move as the plates do. Returns whether it
 /// approached. Flattened: or else its 3 x 3 matrices are copied through memory, which costs the engine 2 %.
 [[gnu::flatten]] bool collide_with(const Vec3& normal, int b, double overlap, const ContactParameters& contact,
-                                   RodAtTick& rod, const RodKind& kind, const PlateState& plates,
+                                   RodAtTick& rod, const SpeciesMechanics& species, const PlateState& plates,
                                    const TickRules& rules, Counters& counters) {
-  const double offset = kind.species.bead_offset[b];
-  const double radius = kind.species.bead_radius[b];
-  const auto bead = [&] { return impact::Bead{kind, rod, offset, offset * rod.pose.director - radius * normal}; };
+  const double offset = species.bead_offset[b];
+  const double radius = species.bead_radius[b];
+  const auto bead = [&] { return impact::Bead{species, rod, offset, offset * rod.pose.director - radius * normal}; };
   const bool rests = rules.rest.matters() && contact.restitution < 1 && normal.z() > 0;
   const double rest_speed = rests ? rules.rest.at(overlap) : 0.0;
   if (rules.impacts_at_instant) {
     const double speed = -(bead().velocity().dot(normal) - plates.velocity * normal.z());
     if (const auto ago = impact::time_since_touch(overlap, speed, rules.dt)) {
-      impact::fly(rod, -*ago, kind, rules.gravity);
+      impact::fly(rod, -*ago, species, rules.gravity);
       const Surface surface{normal, rules.plates.before(plates, *ago).velocity, contact, rest_speed};
       const bool approached = collide(bead(), surface, rules.impulse, counters.ledger);
-      impact::fly(rod, *ago, kind, rules.gravity);
+      impact::fly(rod, *ago, species, rules.gravity);
       if (approached) {
         rod.displaced = true;
         ++counters.impacts_at_instant;
@@ -123,8 +123,7 @@ NumericalTrouble too_deep(Tick now, int index, int bead, double overlap, const c
 
 std::optional<NumericalTrouble> meet_plates(int index, RodAtTick& rod, const Flight& flight, const PlateState& plates,
                                             Tick now, const TickRules& rules, Counters& counters) {
-  const RodKind& kind = rules.kind_of(index);
-  const Species& species = kind.species;
+  const SpeciesMechanics& species = rules.species_of(index);
   {
     // quick way out for most rods
     const double z = rod.pose.position.z();
@@ -151,16 +150,16 @@ std::optional<NumericalTrouble> meet_plates(int index, RodAtTick& rod, const Fli
       const double overlap = deepest.overlap();
       met.set(bead);
       if (overlap > kMaxOverlapFraction * radius) return too_deep(now, index, bead, overlap, side > 0 ? "base" : "lid");
-      evaluate_motion(rod, flight, now, kind, rules);
+      evaluate_motion(rod, flight, now, species, rules);
       counters.max_overlap_rod_plate = std::max(counters.max_overlap_rod_plate, overlap);
       double speed = 0;  // of the hit
       if (rules.has_rotational_noise) {
         const Vec3 arm = species.bead_offset[bead] * rod.pose.director - radius * side * Vec3::UnitZ();
         speed = std::abs(point_velocity(rod.motion, arm).z() - plates.velocity);
       }
-      if (!collide_with(Vec3(0, 0, side), bead, overlap, contact, rod, kind, plates, rules, counters)) continue;
+      if (!collide_with(Vec3(0, 0, side), bead, overlap, contact, rod, species, plates, rules, counters)) continue;
       ++(side > 0 ? counters.impulses_rod_base : counters.impulses_rod_lid);
-      if (rules.has_rotational_noise) turn_at_random(index, n_hits, rod, kind, speed, now, rules, counters);
+      if (rules.has_rotational_noise) turn_at_random(index, n_hits, rod, species, speed, now, rules, counters);
       ++n_hits;
     }
   }
@@ -170,8 +169,7 @@ std::optional<NumericalTrouble> meet_plates(int index, RodAtTick& rod, const Fli
 std::optional<NumericalTrouble> meet_side_walls(int index, RodAtTick& rod, const Flight& flight,
                                                 const PlateState& plates, Tick now, const TickRules& rules,
                                                 Counters& counters) {
-  const RodKind& kind = rules.kind_of(index);
-  const Species& species = kind.species;
+  const SpeciesMechanics& species = rules.species_of(index);
   const SideWalls& walls = *rules.walls;
   if (distance_to_walls(walls, rules.box_side, rod.pose.position) >= species.half_length + species.max_radius)
     return {};
@@ -195,10 +193,10 @@ std::optional<NumericalTrouble> meet_side_walls(int index, RodAtTick& rod, const
     met.set(deepest.item());
     if (overlap > kMaxOverlapFraction * species.bead_radius[bead])
       return too_deep(now, index, bead, overlap, "side wall");
-    evaluate_motion(rod, flight, now, kind, rules);
+    evaluate_motion(rod, flight, now, species, rules);
     counters.max_overlap_rod_plate = std::max(counters.max_overlap_rod_plate, overlap);
     const Vec3 normal = seen_by(bead).walls[deepest.item() % 2].normal;
-    if (collide_with(normal, bead, overlap, walls.contact, rod, kind, plates, rules, counters))
+    if (collide_with(normal, bead, overlap, walls.contact, rod, species, plates, rules, counters))
       ++counters.impulses_rod_wall;
   }
 }

@@ -26,14 +26,15 @@
 /// bit.
 ///
 /// Phases 1 and 3 are in stepping/surface_impacts.h and stepping/rod_impacts.h. What an effect does there stands behind
-/// the same predicate of the scene (sim/scene.h) that the registry of effects asks (sim/effects/registry.h).
+/// the same predicate of the scene (sim/system.h) that the registry of effects asks (sim/effects/registry.h).
 namespace shaken {
 
-/// One kind of rod, as the phases need it.
-struct RodKind {
-  explicit RodKind(const Species& kind)
-      : species(kind), inverse(inverse_inertia(kind)), inertia_ratio(kind.inertia_par / kind.inertia_perp) {}
-  Species species;
+/// A species with what impulses need to know of it.
+struct SpeciesMechanics : Species {
+  explicit SpeciesMechanics(const Species& species)
+      : Species(species),
+        inverse(inverse_inertia(species)),
+        inertia_ratio(species.inertia_par / species.inertia_perp) {}
   InverseInertia inverse;
   double inertia_ratio;  ///< I_par / I_perp
 };
@@ -52,10 +53,10 @@ double max_speed(const World& world);
 struct TickRules {
   explicit TickRules(const World& world);
 
-  const RodKind& kind_of(int i) const { return kinds[rod_kinds[static_cast<std::size_t>(i)]]; }
+  const SpeciesMechanics& species_of(int i) const { return species[species_of_rod[static_cast<std::size_t>(i)]]; }
 
-  std::vector<RodKind> kinds;
-  std::vector<std::uint8_t> rod_kinds;  ///< (n_rods)
+  std::vector<SpeciesMechanics> species;
+  std::vector<std::uint8_t> species_of_rod;  ///< (n_rods)
   double gravity;
   double dt;
   double box_side;
@@ -108,11 +109,11 @@ inline Vec3 velocity_at(const Flight& flight, Tick now, const TickRules& rules) 
 }
 
 /// Makes the rod's motion at the tick available.
-inline void evaluate_motion(RodAtTick& rod, const Flight& flight, Tick now, const RodKind& kind,
+inline void evaluate_motion(RodAtTick& rod, const Flight& flight, Tick now, const SpeciesMechanics& species,
                             const TickRules& rules) {
   if (rod.has_motion) return;
   rod.motion = motion_after(flight, static_cast<double>(now - flight.since) * rules.dt, rules.gravity,
-                            rod.pose.director, kind.inertia_ratio);
+                            rod.pose.director, species.inertia_ratio);
   rod.has_motion = true;
 }
 
@@ -146,7 +147,7 @@ inline std::optional<NumericalTrouble> check_motion(int index, const RodAtTick& 
 
 /// Phase 4 for one changed rod.
 inline void store(int index, Flight& flight, const RodAtTick& rod, Tick now, const TickRules& rules) {
-  begin_flight(flight, now, rod.pose, rod.motion, rules.box_side, rules.kind_of(index).inertia_ratio);
+  begin_flight(flight, now, rod.pose, rod.motion, rules.box_side, rules.species_of(index).inertia_ratio);
 }
 
 }  // namespace shaken

@@ -87,8 +87,8 @@ inline frame_static_t make() {
   m.n_beads = 4;
   m.bead_offset_mm = {-2, 0, 2, 0};
   m.bead_radius_mm = {0.2, 0.4, 0.2, 0.5};
-  m.n_kinds = 5;
-  m.kind = {0, 1, 0, 0, 1};
+  m.n_rod_species = 5;
+  m.rod_species = {0, 1, 0, 0, 1};
   m.arena = "annulus";
   m.arena_size_mm = 70;
   m.arena_inner_mm = 20;

@@ -21,7 +21,7 @@ constexpr std::uint64_t kFingerprint<job_t> = 0x1de0a0e67079db2f;
 template <>
 constexpr std::uint64_t kFingerprint<observables_t> = 0x59b43e22b4b3c113;
 template <>
-constexpr std::uint64_t kFingerprint<frame_static_t> = 0x8212a13e6522b138;
+constexpr std::uint64_t kFingerprint<frame_static_t> = 0x81ca505f52ee1d2f;
 template <>
 constexpr std::uint64_t kFingerprint<frame_t> = 0x1efd27b8e565207f;
 template <>

@@ -6,7 +6,7 @@
 #include "sim/simulation.h"
 
 int main() {
-  shaken::Scene scene;  // the paper's plates and contacts
+  shaken::System scene;  // the paper's plates and contacts
   scene.rod.length = 4.5;
   scene.n_rods = 120;
   scene.box_side = 20;

@@ -8,17 +8,17 @@
 namespace shaken {
 namespace {
 
-Scene base_scene() {
-  Scene scene;
-  scene.rod = {.length = 2.5, .n_beads = 9};
-  scene.box_side = 12;
-  scene.n_rods = 74;
-  return scene;
+System base_scene() {
+  System system;
+  system.rod = {.length = 2.5, .n_beads = 9};
+  system.box_side = 12;
+  system.n_rods = 74;
+  return system;
 }
 
 double potential_energy(const World& world) {
   double sum = 0;
-  for (const Vec3& r : snapshot(world).position) sum += world.species[0].mass * world.scene.gravity * r.z();
+  for (const Vec3& r : snapshot(world).position) sum += world.species[0].mass * world.system.gravity * r.z();
   return sum;
 }
 
@@ -29,13 +29,13 @@ Vec3 momentum(const World& world) {
 }
 
 TEST(Conservation, MomentumInThePlaneWithoutPlateFriction) {
-  Scene scene = base_scene();
-  scene.rod_base.friction = 0;
-  scene.rod_lid.friction = 0;
-  auto simulation = Simulation::start(scene);
+  System system = base_scene();
+  system.rod_base.friction = 0;
+  system.rod_lid.friction = 0;
+  auto simulation = Simulation::start(system);
   ASSERT_TRUE(static_cast<bool>(simulation));
   const Vec3 start = momentum(simulation->world());
-  const double scale = simulation->world().species[0].mass * 20 * scene.n_rods;
+  const double scale = simulation->world().species[0].mass * 20 * system.n_rods;
   for (Tick k = 500; k <= 10000; k += 500) {
     ASSERT_FALSE(simulation->advance_to(k).has_value());
     const Vec3 change = momentum(simulation->world()) - start;
@@ -47,20 +47,20 @@ TEST(Conservation, MomentumInThePlaneWithoutPlateFriction) {
 
 TEST(Conservation, PlateFrictionDoesTakeMomentum) {
   // the twin that shows that the test above can fail
-  Scene scene = base_scene();
-  auto simulation = Simulation::start(scene);
+  System system = base_scene();
+  auto simulation = Simulation::start(system);
   ASSERT_TRUE(static_cast<bool>(simulation));
   const Vec3 start = momentum(simulation->world());
   ASSERT_FALSE(simulation->advance_to(10000).has_value());
   const Vec3 change = momentum(simulation->world()) - start;
-  EXPECT_GT(std::hypot(change.x(), change.y()), 1e-6 * simulation->world().species[0].mass * 20 * scene.n_rods);
+  EXPECT_GT(std::hypot(change.x(), change.y()), 1e-6 * simulation->world().species[0].mass * 20 * system.n_rods);
 }
 
 TEST(Conservation, EnergyNeverGrowsBetweenPlatesAtRest) {
-  Scene scene = base_scene();
-  scene.amplitude = 0;
-  scene.gravity = 0;
-  auto simulation = Simulation::start(scene);
+  System system = base_scene();
+  system.amplitude = 0;
+  system.gravity = 0;
+  auto simulation = Simulation::start(system);
   ASSERT_TRUE(static_cast<bool>(simulation));
   double energy = kinetic_energy(simulation->world()).total();
   const double start = energy;
@@ -74,12 +74,12 @@ TEST(Conservation, EnergyNeverGrowsBetweenPlatesAtRest) {
 }
 
 TEST(Conservation, UnderGravityRodsAtRestAreHeldUpByNoMoreThanAFallOfOneTick) {
-  Scene scene = base_scene();
-  scene.amplitude = 0;
-  auto simulation = Simulation::start(scene);
+  System system = base_scene();
+  system.amplitude = 0;
+  auto simulation = Simulation::start(system);
   ASSERT_TRUE(static_cast<bool>(simulation));
-  const double tick_fall = scene.gravity * scene.dt;
-  const double held = scene.n_rods * simulation->world().species.front().mass * tick_fall * tick_fall;
+  const double tick_fall = system.gravity * system.dt;
+  const double held = system.n_rods * simulation->world().species.front().mass * tick_fall * tick_fall;
   double energy = kinetic_energy(simulation->world()).total() + potential_energy(simulation->world());
   const double start = energy;
   for (Tick k = 1; k <= 8000; ++k) {
@@ -92,10 +92,10 @@ TEST(Conservation, UnderGravityRodsAtRestAreHeldUpByNoMoreThanAFallOfOneTick) {
 }
 
 TEST(Conservation, ElasticFrictionlessRodsBetweenPlatesAtRestKeepTheirEnergy) {
-  Scene scene = base_scene();
-  scene.amplitude = 0;
-  scene.rod_rod = scene.rod_base = scene.rod_lid = {0.0, 1.0};
-  auto simulation = Simulation::start(scene);
+  System system = base_scene();
+  system.amplitude = 0;
+  system.rod_rod = system.rod_base = system.rod_lid = {0.0, 1.0};
+  auto simulation = Simulation::start(system);
   ASSERT_TRUE(static_cast<bool>(simulation));
   const double start = kinetic_energy(simulation->world()).total() + potential_energy(simulation->world());
   ASSERT_FALSE(simulation->advance_to(10000).has_value());
@@ -105,9 +105,9 @@ TEST(Conservation, ElasticFrictionlessRodsBetweenPlatesAtRestKeepTheirEnergy) {
 }
 
 TEST(Conservation, FrictionlessContactsNeverTurnARodAboutItsAxis) {
-  Scene scene = base_scene();
-  scene.rod_rod.friction = scene.rod_base.friction = scene.rod_lid.friction = 0;
-  auto simulation = Simulation::start(scene);
+  System system = base_scene();
+  system.rod_rod.friction = system.rod_base.friction = system.rod_lid.friction = 0;
+  auto simulation = Simulation::start(system);
   ASSERT_TRUE(static_cast<bool>(simulation));
   ASSERT_FALSE(simulation->advance_to(10000).has_value());
   for (const Flight& flight : simulation->world().rods) EXPECT_NEAR(flight.spin, 0, 1e-11);
@@ -116,9 +116,9 @@ TEST(Conservation, FrictionlessContactsNeverTurnARodAboutItsAxis) {
 TEST(Overlap, ShrinksWithTheTick) {
   double last = 1e9;
   for (const double dt : {16e-6, 4e-6, 1e-6}) {
-    Scene scene = base_scene();
-    scene.dt = dt;
-    auto simulation = Simulation::start(scene);
+    System system = base_scene();
+    system.dt = dt;
+    auto simulation = Simulation::start(system);
     ASSERT_TRUE(static_cast<bool>(simulation));
     ASSERT_FALSE(simulation->advance_to(static_cast<Tick>(0.03 / dt)).has_value());
     const double overlap = simulation->world().counters.max_overlap();
@@ -130,9 +130,9 @@ TEST(Overlap, ShrinksWithTheTick) {
 
 TEST(Trouble, DeepOverlapStopsWithTickAndRods) {
   // a tick in which a rod crosses half the gap: nobody should believe what follows, and nobody is asked to
-  Scene scene = base_scene();
-  scene.dt = 4e-3;
-  auto simulation = Simulation::start(scene);
+  System system = base_scene();
+  system.dt = 4e-3;
+  auto simulation = Simulation::start(system);
   ASSERT_TRUE(static_cast<bool>(simulation));
   const auto trouble = simulation->advance_to(1000);
   ASSERT_TRUE(trouble.has_value());

@@ -75,7 +75,7 @@ TEST_P(SceneOfFile, HoldsForAWhile) {
   expect_ok(run_scene_case(GetParam(), plan, seconds, [](double) {}));
 }
 TEST_P(SceneOfFile, BothEnginesGiveTheSame) {
-  Scene scene = read_hard_scene(kFolder, GetParam().name).system;
+  System scene = read_hard_scene(kFolder, GetParam().name).system;
   scene.engine = Engine::kReference;
   auto reference = Simulation::start(scene);
   scene.engine = Engine::kScheduled;
@@ -133,10 +133,10 @@ TEST(OrderOfContacts, ABiasThatIsPlantedIsSeen) {
 
 // The scenes of the bench are those of the test above.
 TEST(EnergyOfRoughImpacts, ScenesDifferInTheLawOnly) {
-  const Scene newtons = read_hard_scene(kFolder, "elastic-rough-newton").system;
+  const System newtons = read_hard_scene(kFolder, "elastic-rough-newton").system;
   for (const auto& [name, law] : {std::pair{"elastic-rough-poisson", ImpulseLaw::kPoisson},
                                   std::pair{"elastic-rough-energetic", ImpulseLaw::kEnergetic}}) {
-    Scene scene = read_hard_scene(kFolder, name).system;
+    System scene = read_hard_scene(kFolder, name).system;
     EXPECT_EQ(scene.law, law);
     scene.law = newtons.law;
     EXPECT_EQ(scene, newtons) << name;

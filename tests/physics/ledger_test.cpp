@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The books close: energy and momentum that rods have are what they had, got and lost, entered impact by impact.
+// The budgets close: energy and momentum that rods have are what they had, got and lost, entered impact by impact.
 #include <gtest/gtest.h>
 
 #include "sim/balance.h"
@@ -11,60 +11,60 @@ namespace {
 
 constexpr double kRounding = 1e-11;  ///< of all energy that changed hands; 1e5 impacts, each right to 1e-16
 
-Scene rods() {
-  Scene scene;
-  scene.rod = {.length = 2.5, .n_beads = 9};
-  scene.box_side = 12;
-  scene.n_rods = 60;
-  return scene;
+System rods() {
+  System system;
+  system.rod = {.length = 2.5, .n_beads = 9};
+  system.box_side = 12;
+  system.n_rods = 60;
+  return system;
 }
 
 struct Case {
   const char* name;
-  void (*set)(Scene&);
+  void (*set)(System&);
 };
 
 class LedgerOf : public testing::TestWithParam<Case> {};
 
 TEST_P(LedgerOf, Closes) {
-  Scene scene = rods();
-  GetParam().set(scene);
-  auto simulation = Simulation::start(scene);
+  System system = rods();
+  GetParam().set(system);
+  auto simulation = Simulation::start(system);
   ASSERT_TRUE(static_cast<bool>(simulation)) << simulation.error().message;
-  const double momentum_scale = simulation->world().species[0].mass * 50 * scene.n_all_rods();
+  const double momentum_scale = simulation->world().species[0].mass * 50 * system.n_all_rods();
   for (const Tick k : {1, 5000, 25000}) {
     ASSERT_FALSE(simulation->advance_to(k).has_value());
-    const Balance books = balance(simulation->world());
-    EXPECT_LT(books.energy_error(), kRounding) << "tick " << k;
-    EXPECT_LT(books.momentum_unexplained.norm(), 1e-9 * momentum_scale) << "tick " << k;
-    if (k == 5000) simulation = Simulation::resume(scene, simulation->checkpoint());  // books go on
+    const Balance budget = balance(simulation->world());
+    EXPECT_LT(budget.energy_error(), kRounding) << "tick " << k;
+    EXPECT_LT(budget.momentum_unexplained.norm(), 1e-9 * momentum_scale) << "tick " << k;
+    if (k == 5000) simulation = Simulation::resume(system, simulation->checkpoint());  // the budget goes on
   }
-  const Balance books = balance(simulation->world());
-  EXPECT_GT(books.energy_lost_rod_rod, 0);
+  const Balance budget = balance(simulation->world());
+  EXPECT_GT(budget.energy_lost_rod_rod, 0);
   // an error of a millionth in what the impacts lose would show
-  EXPECT_GT(1e-6 * books.energy_lost_rod_rod, 10 * std::abs(books.energy_unexplained));
+  EXPECT_GT(1e-6 * budget.energy_lost_rod_rod, 10 * std::abs(budget.energy_unexplained));
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, LedgerOf,
-                         testing::Values(Case{"Paper", [](Scene&) {}},
+                         testing::Values(Case{"Paper", [](System&) {}},
                                          Case{"Frictionless",
-                                              [](Scene& s) {
+                                              [](System& s) {
                                                 s.rod_rod.friction = s.rod_base.friction = s.rod_lid.friction = 0;
                                               }},
-                                         Case{"PlatesAtRest", [](Scene& s) { s.amplitude = 0; }},
+                                         Case{"PlatesAtRest", [](System& s) { s.amplitude = 0; }},
                                          Case{"RoughAndSticky",
-                                              [](Scene& s) {
+                                              [](System& s) {
                                                 s.rod_rod.friction = s.rod_base.friction = 0.5;
                                                 s.rotational_noise = 0.1;
                                               }},
-                                         Case{"AtInstant", [](Scene& s) { s.impacts = ImpactTime::kAtInstant; }},
+                                         Case{"AtInstant", [](System& s) { s.impacts = ImpactTime::kAtInstant; }},
                                          Case{"EnergeticLaw",
-                                              [](Scene& s) {
+                                              [](System& s) {
                                                 s.law = ImpulseLaw::kEnergetic;
                                                 s.rod_rod.friction = 1;
                                               }},
                                          Case{"SpheresInADisc",
-                                              [](Scene& s) {
+                                              [](System& s) {
                                                 s.walls = SideWalls{Arena::kDisc, 11.0, 1.0, {0.2, 0.3}};
                                                 s.n_rods = 15;
                                                 s.added[0] = AddedRods{{.length = 0.8, .n_beads = 1}, 20};
@@ -84,7 +84,7 @@ InThePlane in_the_plane(const World& world) {
     const Species& species = world.species_of(i);
     const Vec3& n = now.director[i];
     const Vec3& spin = now.angular_velocity[i];
-    const Vec3 arm = now.position[i] - Vec3(0.5, 0.5, 0) * world.scene.box_side;
+    const Vec3 arm = now.position[i] - Vec3(0.5, 0.5, 0) * world.system.box_side;
     const Vec3 turning = species.inertia_perp * spin + (species.inertia_par - species.inertia_perp) * spin.dot(n) * n;
     sum.momentum += species.mass * now.velocity[i].head<2>();
     sum.angular += species.mass * arm.cross(now.velocity[i]).z() + turning.z();
@@ -93,13 +93,13 @@ InThePlane in_the_plane(const World& world) {
 }
 
 /// 30 rods in a disc without friction, that lose little to each other.
-Scene rods_in_a_disc() {
-  Scene scene = rods();
-  scene.walls = SideWalls{Arena::kDisc, 11.0, 1.0, {0.0, 0.9}};
-  scene.n_rods = 30;
-  scene.rod_rod = {0.0, 0.9};
-  scene.rod_base.friction = scene.rod_lid.friction = 0;
-  return scene;
+System rods_in_a_disc() {
+  System system = rods();
+  system.walls = SideWalls{Arena::kDisc, 11.0, 1.0, {0.0, 0.9}};
+  system.n_rods = 30;
+  system.rod_rod = {0.0, 0.9};
+  system.rod_base.friction = system.rod_lid.friction = 0;
+  return system;
 }
 
 // With plates that have no friction, the wall alone gives momentum in the plane.
@@ -107,7 +107,7 @@ TEST(Ledger, MomentumOfTheDiscComesFromItsWall) {
   auto simulation = Simulation::start(rods_in_a_disc());
   ASSERT_TRUE(static_cast<bool>(simulation)) << simulation.error().message;
   const World& world = simulation->world();
-  const double scale = world.species[0].mass * 20 * world.scene.n_rods;
+  const double scale = world.species[0].mass * 20 * world.system.n_rods;
   Vec2 before = in_the_plane(world).momentum;
   std::int64_t n_before = 0;
   int n_changes = 0;
@@ -133,14 +133,14 @@ TEST(Ledger, MomentumOfTheDiscComesFromItsWall) {
 // A round wall without friction pushes towards the middle only: nothing turns the rods about it.
 TEST(Ledger, ARoundWallWithoutFrictionGivesNoAngularMomentum) {
   for (const double friction : {0.0, 0.1}) {
-    Scene scene = rods_in_a_disc();
-    scene.base = scene.lid = false;
-    scene.gravity = 0;
-    scene.walls->contact.friction = friction;
-    auto simulation = Simulation::start(scene);
+    System system = rods_in_a_disc();
+    system.base = system.lid = false;
+    system.gravity = 0;
+    system.walls->contact.friction = friction;
+    auto simulation = Simulation::start(system);
     ASSERT_TRUE(static_cast<bool>(simulation)) << simulation.error().message;
     const World& world = simulation->world();
-    const double scale = world.species[0].mass * 20 * 5 * scene.n_rods;
+    const double scale = world.species[0].mass * 20 * 5 * system.n_rods;
     const double start = in_the_plane(world).angular;
     ASSERT_FALSE(simulation->advance_to(50000).has_value());
     EXPECT_GT(world.counters.impulses_rod_wall, 50);
@@ -153,7 +153,7 @@ TEST(Ledger, ARoundWallWithoutFrictionGivesNoAngularMomentum) {
     }
     const Snapshot now = simulation->snapshot();
     for (const Vec3& position : now.position)
-      EXPECT_GT(distance_to_walls(*scene.walls, scene.box_side, position), 0.0) << "a rod is outside";
+      EXPECT_GT(distance_to_walls(*system.walls, system.box_side, position), 0.0) << "a rod is outside";
   }
 }
 

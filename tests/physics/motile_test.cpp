@@ -20,19 +20,19 @@ struct Drift {
 /// Mean velocity along the director of 20 rods in a dilute gas, after one second of settling, for `seconds` each in
 /// gases that differ in their seed.
 Drift drift_of(const RodShape& rod, double plate_friction, double seconds, int n_gases) {
-  Scene scene;
-  scene.rod = rod;
-  scene.n_rods = 20;
-  scene.box_side = 25;
-  scene.start = Start::kRandom;
-  scene.rod_base.friction = scene.rod_lid.friction = plate_friction;
+  System system;
+  system.rod = rod;
+  system.n_rods = 20;
+  system.box_side = 25;
+  system.start = Start::kRandom;
+  system.rod_base.friction = system.rod_lid.friction = plate_friction;
   std::vector<double> means;
   for (int gas = 0; gas < n_gases; ++gas) {
-    scene.seed = 1 + static_cast<std::uint64_t>(gas);
-    auto simulation = Simulation::start(scene);
-    std::vector<double> along(static_cast<std::size_t>(scene.n_rods), 0.0);
+    system.seed = 1 + static_cast<std::uint64_t>(gas);
+    auto simulation = Simulation::start(system);
+    std::vector<double> along(static_cast<std::size_t>(system.n_rods), 0.0);
     int n_frames = 0;
-    const auto end = static_cast<Tick>(std::lround((1 + seconds) / scene.dt));
+    const auto end = static_cast<Tick>(std::lround((1 + seconds) / system.dt));
     for (Tick k = 250000; k <= end; k += 1000) {
       EXPECT_FALSE(simulation->advance_to(k).has_value());
       const Snapshot now = simulation->snapshot();

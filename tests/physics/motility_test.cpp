@@ -11,12 +11,12 @@
 namespace shaken {
 namespace {
 
-Scene scene_of_the_mechanism() {
-  Scene scene;
-  scene.rod = {.length = 2.5, .n_beads = 9};
-  scene.box_side = 15;
-  scene.n_rods = static_cast<int>(std::round(0.60 * 15 * 15 / make_species(scene.rod).area));
-  return scene;
+System scene_of_the_mechanism() {
+  System system;
+  system.rod = {.length = 2.5, .n_beads = 9};
+  system.box_side = 15;
+  system.n_rods = static_cast<int>(std::round(0.60 * 15 * 15 / make_species(system.rod).area));
+  return system;
 }
 
 TEST(Motility, TiltedRodsDriftAgainstTheirTilt) {

@@ -21,31 +21,32 @@ struct Bounce {
 };
 
 /// The plate's own motion, worked out here: z = a cos(2 pi f t) + a.
-double plate_velocity(const Scene& scene, double time) {
-  const double omega = 2 * kPi * scene.frequency;
-  return -scene.amplitude * omega * std::sin(omega * time);
+double plate_velocity(const System& system, double time) {
+  const double omega = 2 * kPi * system.frequency;
+  return -system.amplitude * omega * std::sin(omega * time);
 }
-double base_height(const Scene& scene, double time) {
-  return scene.amplitude * std::cos(2 * kPi * scene.frequency * time) + scene.amplitude;
+double base_height(const System& system, double time) {
+  return system.amplitude * std::cos(2 * kPi * system.frequency * time) + system.amplitude;
 }
 
 /// Lets a body that lies flat meet base (side 1) or lid (-1) at tick `hit`, at `speed` relative to it, sunk in by
 /// `share` of what it approaches in a tick.
-Bounce bounce(Scene scene, double side, Tick hit, double speed, double share) {
-  const double now = static_cast<double>(hit) * scene.dt;
+Bounce bounce(System system, double side, Tick hit, double speed, double share) {
+  const double now = static_cast<double>(hit) * system.dt;
   Bounce bounce;
-  const double plate = plate_velocity(scene, now);
+  const double plate = plate_velocity(system, now);
   bounce.before = plate - side * speed;
-  const double overlap = share * speed * scene.dt;
-  World world = empty_world(scene);
+  const double overlap = share * speed * system.dt;
+  World world = empty_world(system);
   world.tick = hit - 1;
   Flight flight;
   flight.since = hit - 1;
   const double radius = world.species[0].mid_radius;
-  const double surface = base_height(scene, now) + (side > 0 ? 0.0 : scene.gap);
-  flight.velocity = {0, 0, bounce.before + scene.gravity * scene.dt};
+  const double surface = base_height(system, now) + (side > 0 ? 0.0 : system.gap);
+  flight.velocity = {0, 0, bounce.before + system.gravity * system.dt};
   flight.position = {
-      5, 5, surface + side * (radius - overlap) - bounce.before * scene.dt - 0.5 * scene.gravity * scene.dt * scene.dt};
+      5, 5,
+      surface + side * (radius - overlap) - bounce.before * system.dt - 0.5 * system.gravity * system.dt * system.dt};
   flight.prepare();
   world.rods = {flight};
   Simulation simulation = Simulation::start_from(world);
@@ -53,9 +54,9 @@ Bounce bounce(Scene scene, double side, Tick hit, double speed, double share) {
   const Snapshot after = simulation.snapshot();
   EXPECT_LT(after.velocity[0].head<2>().norm() + after.angular_velocity[0].norm(), 1e-9) << "hit in its middle";
   bounce.after = after.velocity[0].z();
-  if (scene.impacts == ImpactTime::kAtInstant) bounce.since_hit = overlap / speed;
-  bounce.plate = plate_velocity(scene, now - bounce.since_hit);
-  bounce.before += scene.gravity * bounce.since_hit;
+  if (system.impacts == ImpactTime::kAtInstant) bounce.since_hit = overlap / speed;
+  bounce.plate = plate_velocity(system, now - bounce.since_hit);
+  bounce.before += system.gravity * bounce.since_hit;
   const Counters& counters = simulation.world().counters;
   bounce.n_hits = side > 0 ? counters.impulses_rod_base : counters.impulses_rod_lid;
   return bounce;
@@ -69,17 +70,17 @@ TEST(MovingPlate, ThrowsABodyBackAsNewtonSays) {
         for (const double friction : {0.0, 0.3}) {
           for (const double side : {1.0, -1.0}) {
             for (int phase = 0; phase < 16; ++phase) {
-              Scene scene;
-              scene.rod = body;
-              scene.n_rods = 1;
-              scene.box_side = 12;
-              scene.impacts = impacts;
-              scene.rod_base = scene.rod_lid = {friction, restitution};
-              const double period = 1 / (scene.frequency * scene.dt);
+              System system;
+              system.rod = body;
+              system.n_rods = 1;
+              system.box_side = 12;
+              system.impacts = impacts;
+              system.rod_base = system.rod_lid = {friction, restitution};
+              const double period = 1 / (system.frequency * system.dt);
               const auto hit = static_cast<Tick>(std::round(period * (7 + (phase + 0.3) / 16)));
-              const Bounce b = bounce(scene, side, hit, 25.0 + phase, 0.3);
+              const Bounce b = bounce(system, side, hit, 25.0 + phase, 0.3);
               ASSERT_EQ(b.n_hits, 1);
-              const double expected = b.plate + restitution * (b.plate - b.before) - scene.gravity * b.since_hit;
+              const double expected = b.plate + restitution * (b.plate - b.before) - system.gravity * b.since_hit;
               EXPECT_NEAR(b.after, expected, 1e-8) << "phase " << phase << ", e " << restitution << ", side " << side;
               fastest_up = std::max(fastest_up, b.plate);
               fastest_down = std::min(fastest_down, b.plate);
@@ -94,17 +95,17 @@ TEST(MovingPlate, ThrowsABodyBackAsNewtonSays) {
   EXPECT_LT(fastest_down, -50);
 }
 
-// The work that a moving plate does is what the books say that it gave.
-TEST(MovingPlate, GivesTheEnergyThatTheBooksSay) {
-  Scene scene;
-  scene.rod = kSphere;
-  scene.n_rods = 1;
-  scene.box_side = 12;
-  scene.rod_base = {0.0, 0.5};
-  const auto hit = static_cast<Tick>(std::round(0.8 / (scene.frequency * scene.dt)));  // upwards
-  World world = empty_world(scene);
+// The work that a moving plate does is what the energy budget says that it gave.
+TEST(MovingPlate, GivesTheEnergyThatTheBudgetSays) {
+  System system;
+  system.rod = kSphere;
+  system.n_rods = 1;
+  system.box_side = 12;
+  system.rod_base = {0.0, 0.5};
+  const auto hit = static_cast<Tick>(std::round(0.8 / (system.frequency * system.dt)));  // upwards
+  World world = empty_world(system);
   const double mass = world.species[0].mass;
-  const Bounce b = bounce(scene, 1.0, hit, 30, 0.3);
+  const Bounce b = bounce(system, 1.0, hit, 30, 0.3);
   const double impulse = mass * (b.after - b.before);
   EXPECT_GT(b.plate, 40);
   EXPECT_NEAR(0.5 * mass * (b.after * b.after - b.before * b.before),

@@ -19,15 +19,15 @@ namespace {
 
 constexpr double kGravity = 9810.0;
 
-Scene scene_of_one(double noise, std::uint64_t seed) {
-  Scene scene;
-  scene.rod = {.length = 2.5, .n_beads = 9};
-  scene.n_rods = 1;
-  scene.box_side = 12;
-  scene.rod_base.friction = scene.rod_lid.friction = 0;
-  scene.rotational_noise = noise;
-  scene.seed = seed;
-  return scene;
+System scene_of_one(double noise, std::uint64_t seed) {
+  System system;
+  system.rod = {.length = 2.5, .n_beads = 9};
+  system.n_rods = 1;
+  system.box_side = 12;
+  system.rod_base.friction = system.rod_lid.friction = 0;
+  system.rotational_noise = noise;
+  system.seed = seed;
+  return system;
 }
 
 /// A rod alone, followed from tick to tick.
@@ -48,7 +48,7 @@ class OneRod {
     if (n_hits == 0) return {};
     // as the rod came: the flight from before to the tick of the hit
     const Species& species = world.species[0];
-    const double tau = static_cast<double>(world.tick - before.since) * world.scene.dt;
+    const double tau = static_cast<double>(world.tick - before.since) * world.system.dt;
     const Vec3 n = pose_after(before, tau, kGravity).director;
     const Vec3 z = pose_after(before, tau, kGravity).position;
     const Motion came = motion_after(before, tau, kGravity, n, species.inertia_par / species.inertia_perp);
@@ -76,7 +76,7 @@ class OneRod {
   }
   Vec3 director() const {
     const World& world = simulation_.world();
-    const double tau = static_cast<double>(world.tick - world.rods[0].since) * world.scene.dt;
+    const double tau = static_cast<double>(world.tick - world.rods[0].since) * world.system.dt;
     return pose_after(world.rods[0], tau, kGravity).director;
   }
 
@@ -190,13 +190,13 @@ struct Turned {
 
 /// Of 60 rods in a dilute gas between plates of the usual friction, in 40 stretches of half a second.
 Turned turned(double noise) {
-  Scene scene;
-  scene.rod = {.length = 2.5, .n_beads = 9};
-  scene.n_rods = 60;
-  scene.box_side = 30;
-  scene.start = Start::kRandom;
-  scene.rotational_noise = noise;
-  auto simulation = Simulation::start(scene);
+  System system;
+  system.rod = {.length = 2.5, .n_beads = 9};
+  system.n_rods = 60;
+  system.box_side = 30;
+  system.start = Start::kRandom;
+  system.rotational_noise = noise;
+  auto simulation = Simulation::start(system);
   EXPECT_FALSE(simulation->advance_to(125000).has_value());
   Snapshot before = simulation->snapshot();
   constexpr int kStretches = 40;

@@ -19,17 +19,17 @@ namespace {
 
 struct Case {
   const char* name;
-  void (*set)(Scene&);
+  void (*set)(System&);
   double area_fraction = 0.7;
 };
 
-Scene scene_of(const Case& about) {
-  Scene scene;
-  scene.rod = {.length = 2.5, .n_beads = 9};
-  scene.box_side = 12;
-  scene.n_rods = static_cast<int>(about.area_fraction * 144 / make_species(scene.rod).area);
-  about.set(scene);
-  return scene;
+System scene_of(const Case& about) {
+  System system;
+  system.rod = {.length = 2.5, .n_beads = 9};
+  system.box_side = 12;
+  system.n_rods = static_cast<int>(about.area_fraction * 144 / make_species(system.rod).area);
+  about.set(system);
+  return system;
 }
 
 void turn_end_for_end(Flight& flight) {
@@ -55,7 +55,7 @@ TEST_P(TurnedRods, FlyTheSameDownToTheLastBit) {
   for (const Engine engine : {Engine::kScheduled, Engine::kReference}) {
     World one = world;
     World other = turned;
-    one.scene.engine = other.scene.engine = engine;
+    one.system.engine = other.system.engine = engine;
     Simulation plain = Simulation::start_from(one);
     Simulation twin = Simulation::start_from(other);
     const Tick ticks = engine == Engine::kScheduled ? 20000 : 4000;
@@ -79,40 +79,40 @@ TEST_P(TurnedRods, FlyTheSameDownToTheLastBit) {
 
 INSTANTIATE_TEST_SUITE_P(
     Scenes, TurnedRods,
-    testing::Values(Case{"Paper", [](Scene&) {}}, Case{"Packed", [](Scene&) {}, 0.82},
-                    Case{"LongTicks", [](Scene& s) { s.dt = 16e-6; }},
-                    Case{"AtInstant", [](Scene& s) { s.impacts = ImpactTime::kAtInstant; }},
-                    Case{"StickyPlates", [](Scene& s) { s.rod_base.friction = s.rod_lid.friction = 0.3; }},
+    testing::Values(Case{"Paper", [](System&) {}}, Case{"Packed", [](System&) {}, 0.82},
+                    Case{"LongTicks", [](System& s) { s.dt = 16e-6; }},
+                    Case{"AtInstant", [](System& s) { s.impacts = ImpactTime::kAtInstant; }},
+                    Case{"StickyPlates", [](System& s) { s.rod_base.friction = s.rod_lid.friction = 0.3; }},
                     Case{"Frictionless",
-                         [](Scene& s) { s.rod_rod.friction = s.rod_base.friction = s.rod_lid.friction = 0; }},
-                    Case{"Cylinders", [](Scene& s) { s.rod.end_diameter = s.rod.mid_diameter; }, 0.45},
-                    Case{"Rough", [](Scene& s) { s.rotational_noise = 0.1; }},
-                    Case{"Resting", [](Scene& s) { s.amplitude = 0; }},
+                         [](System& s) { s.rod_rod.friction = s.rod_base.friction = s.rod_lid.friction = 0; }},
+                    Case{"Cylinders", [](System& s) { s.rod.end_diameter = s.rod.mid_diameter; }, 0.45},
+                    Case{"Rough", [](System& s) { s.rotational_noise = 0.1; }},
+                    Case{"Resting", [](System& s) { s.amplitude = 0; }},
                     Case{"Disc",
-                         [](Scene& s) {
+                         [](System& s) {
                            s.walls = SideWalls{Arena::kDisc, 11.0, 1.0, {0.1, 0.3}};
                            s.n_rods = 26;
                          }},
                     Case{"Square",
-                         [](Scene& s) {
+                         [](System& s) {
                            s.walls = SideWalls{Arena::kSquare, 11.0, 1.0, {0.1, 0.3}};
                            s.n_rods = 36;
                          }},
                     Case{"WithSpheres",
-                         [](Scene& s) {
+                         [](System& s) {
                            s.n_rods = 36;
                            s.added[0] = AddedRods{{.length = 0.8, .n_beads = 1}, 20};
                          }},
                     Case{"Planar",
-                         [](Scene& s) {
+                         [](System& s) {
                            s.base = s.lid = false;
                            s.gravity = 0;
                          }},
-                    Case{"Reversed", [](Scene& s) { s.order = ContactOrder::kReversed; }},
-                    Case{"Shuffled", [](Scene& s) { s.order = ContactOrder::kShuffled; }},
-                    Case{"Sweeps", [](Scene& s) { s.solver_sweeps = 3; }},
+                    Case{"Reversed", [](System& s) { s.order = ContactOrder::kReversed; }},
+                    Case{"Shuffled", [](System& s) { s.order = ContactOrder::kShuffled; }},
+                    Case{"Sweeps", [](System& s) { s.solver_sweeps = 3; }},
                     Case{"Energetic",
-                         [](Scene& s) {
+                         [](System& s) {
                            s.law = ImpulseLaw::kEnergetic;
                            s.rod_rod.friction = s.rod_base.friction = s.rod_lid.friction = 0.5;
                          }}),
@@ -163,11 +163,11 @@ struct TwofoldHit {
 };
 
 TEST(TurnedRods, PlatesPushApolarRodsNeitherWayAndTiltedOnesOppositely) {
-  Scene scene;
-  scene.rod = {.length = 2.5, .n_beads = 9};
-  scene.n_rods = 1;
-  scene.box_side = 20;
-  const World world = empty_world(scene);
+  System system;
+  system.rod = {.length = 2.5, .n_beads = 9};
+  system.n_rods = 1;
+  system.box_side = 20;
+  const World world = empty_world(system);
   const TickRules rules(world);
   test::Draw draw(41);
   Mean push, size, up, down;  // v . n that a tick gives: mean, mean size, where n points up and where it points down

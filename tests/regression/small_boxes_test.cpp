@@ -17,16 +17,16 @@ using test::compare;
 using test::problem;
 
 /// Bodies that fly about in the plane and lose nothing: no plates, whose hits would have every bound renewed soon.
-Scene planar_scene(const RodShape& rod, int n_rods, double box_side, double dt) {
-  Scene scene;
-  scene.rod = rod;
-  scene.n_rods = n_rods;
-  scene.box_side = box_side;
-  scene.base = scene.lid = false;
-  scene.gravity = 0;
-  scene.rod_rod = {0.0, 1.0};
-  scene.dt = dt;
-  return scene;
+System planar_scene(const RodShape& rod, int n_rods, double box_side, double dt) {
+  System system;
+  system.rod = rod;
+  system.n_rods = n_rods;
+  system.box_side = box_side;
+  system.base = system.lid = false;
+  system.gravity = 0;
+  system.rod_rod = {0.0, 1.0};
+  system.dt = dt;
+  return system;
 }
 
 Flight flight_of(const Vec3& position, const Vec3& director, const Vec3& velocity, double turning = 0) {
@@ -40,7 +40,7 @@ Flight flight_of(const Vec3& position, const Vec3& director, const Vec3& velocit
 }
 
 /// Ticks of `seconds`.
-Tick ticks_of(const Scene& scene, double seconds) { return static_cast<Tick>(std::round(seconds / scene.dt)); }
+Tick ticks_of(const System& system, double seconds) { return static_cast<Tick>(std::round(seconds / system.dt)); }
 
 const RodShape kRod{.length = 2.5, .n_beads = 9};
 const RodShape kSphere{.length = 0.8, .n_beads = 1};
@@ -48,9 +48,9 @@ const RodShape kPin{.length = 2.5, .bead_diameters{0.9, 0.8, 0.6, 0.4, 0.5, 0.7,
 
 /// Two rods in a row drift apart: through the border they meet.
 World drifting_apart(double boxes, double dt) {
-  const Scene scene = planar_scene(kRod, 2, boxes * kRod.length, dt);
-  World world = empty_world(scene);
-  const double middle = 0.5 * scene.box_side;
+  const System system = planar_scene(kRod, 2, boxes * kRod.length, dt);
+  World world = empty_world(system);
+  const double middle = 0.5 * system.box_side;
   world.rods = {flight_of({middle - 1.3, middle, 0.6}, Vec3::UnitX(), {-15, 0, 0}),
                 flight_of({middle + 1.3, middle, 0.6}, Vec3::UnitX(), {15, 0, 0})};
   return world;
@@ -60,12 +60,12 @@ TEST(SmallBoxes, RodsThatDriftApartMeetTheNextImage) {
   for (const double dt : {4e-6, 16e-6}) {
     for (double boxes = 2.2; boxes < 3.0; boxes += 0.05) {
       World world = drifting_apart(boxes, dt);
-      const Tick ticks = ticks_of(world.scene, 0.5);
+      const Tick ticks = ticks_of(world.system, 0.5);
       EXPECT_EQ(problem(compare(world, ticks, ticks / 3)), "") << boxes << " rod lengths, " << dt;
       // to and fro between the two images: a contact each time that they have flown what the box leaves free
       Simulation simulation = Simulation::start_from(world);
       ASSERT_FALSE(simulation.advance_to(ticks).has_value());
-      const double free = world.scene.box_side - 2 * kRod.length;
+      const double free = world.system.box_side - 2 * kRod.length;
       const double path = 30 * 0.5 - (free - 0.1);  // relative to each other, from the first contact on
       EXPECT_NEAR(static_cast<double>(simulation.world().counters.impulses_rod_rod), 1 + std::floor(path / free), 1)
           << boxes << " rod lengths, " << dt;
@@ -77,12 +77,12 @@ TEST(SmallBoxes, RodsThatDriftApartMeetTheNextImage) {
 TEST(SmallBoxes, TwoShakenSpheres) {
   for (const double side : {1.76, 1.84, 2.0, 2.4}) {
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-      Scene scene;
-      scene.rod = kSphere;
-      scene.n_rods = 2;
-      scene.box_side = side;
-      scene.seed = seed;
-      EXPECT_EQ(problem(compare(scene, 120000, 30000)), "") << side << " mm, seed " << seed;
+      System system;
+      system.rod = kSphere;
+      system.n_rods = 2;
+      system.box_side = side;
+      system.seed = seed;
+      EXPECT_EQ(problem(compare(system, 120000, 30000)), "") << side << " mm, seed " << seed;
     }
   }
 }
@@ -104,16 +104,16 @@ TEST_P(SmallBoxesOf, BothSteppersAgreeAndNothingPassesThroughAnything) {
   int n_impulses = 0;
   for (const double dt : {4e-6, 16e-6}) {
     for (int k = 0; k < 16; ++k) {
-      Scene scene = planar_scene(*rod, n_rods, least + (3 * length - least) * k / 15, dt);
-      scene.start = Start::kRandom;
-      scene.seed = static_cast<std::uint64_t>(k + 1);
+      System system = planar_scene(*rod, n_rods, least + (3 * length - least) * k / 15, dt);
+      system.start = Start::kRandom;
+      system.seed = static_cast<std::uint64_t>(k + 1);
       constexpr Tick ticks = 75000;
-      EXPECT_EQ(problem(compare(scene, ticks, ticks / 3)), "") << scene.box_side << " mm, " << dt;
-      auto simulation = Simulation::start(scene);
+      EXPECT_EQ(problem(compare(system, ticks, ticks / 3)), "") << system.box_side << " mm, " << dt;
+      auto simulation = Simulation::start(system);
       ASSERT_TRUE(static_cast<bool>(simulation)) << simulation.error().message;
       ASSERT_FALSE(simulation->advance_to(ticks).has_value());
       n_impulses += static_cast<int>(simulation->world().counters.impulses_rod_rod);
-      EXPECT_LT(simulation->world().counters.max_overlap_rod_rod, 0.2e3 * dt) << scene.box_side << " mm, " << dt;
+      EXPECT_LT(simulation->world().counters.max_overlap_rod_rod, 0.2e3 * dt) << system.box_side << " mm, " << dt;
     }
   }
   EXPECT_GT(n_impulses, 50);

@@ -13,7 +13,7 @@ using test::compare;
 using test::compare_threads;
 using test::problem;
 
-std::string describe(const Scene& s) {
+std::string describe(const System& s) {
   char text[400];
   std::snprintf(
       text, sizeof text,
@@ -37,33 +37,33 @@ struct Case {
   ContactOrder order = ContactOrder::kSorted;
 };
 
-Scene scene_of(const Case& c, std::uint64_t seed) {
-  Scene scene;
-  scene.rod.length = c.length;
-  scene.rod.end_diameter = c.end_diameter;
-  scene.rod.n_beads = c.n_beads > 0 ? c.n_beads : beads_for_pitch(c.length, c.end_diameter, 0.3);
-  scene.n_rods = c.n_rods;
-  const double length = scene.rod.n_beads == 1 ? scene.rod.mid_diameter : c.length;
-  scene.box_side = std::max(2.2 * length + 1.0, std::sqrt(c.n_rods * make_species(scene.rod).area / c.area_fraction));
-  scene.gap = c.gap;
-  const double omega = 2 * kPi * scene.frequency;
-  scene.amplitude = c.gamma * scene.gravity / (omega * omega);
-  scene.rod_rod = scene.rod_base = scene.rod_lid = {c.friction, c.restitution};
-  scene.dt = c.dt_us * 1e-6;
-  scene.start = c.start;
-  scene.law = c.law;
-  scene.order = c.order;
-  scene.seed = seed;
-  return scene;
+System scene_of(const Case& c, std::uint64_t seed) {
+  System system;
+  system.rod.length = c.length;
+  system.rod.end_diameter = c.end_diameter;
+  system.rod.n_beads = c.n_beads > 0 ? c.n_beads : beads_for_pitch(c.length, c.end_diameter, 0.3);
+  system.n_rods = c.n_rods;
+  const double length = system.rod.n_beads == 1 ? system.rod.mid_diameter : c.length;
+  system.box_side = std::max(2.2 * length + 1.0, std::sqrt(c.n_rods * make_species(system.rod).area / c.area_fraction));
+  system.gap = c.gap;
+  const double omega = 2 * kPi * system.frequency;
+  system.amplitude = c.gamma * system.gravity / (omega * omega);
+  system.rod_rod = system.rod_base = system.rod_lid = {c.friction, c.restitution};
+  system.dt = c.dt_us * 1e-6;
+  system.start = c.start;
+  system.law = c.law;
+  system.order = c.order;
+  system.seed = seed;
+  return system;
 }
 
 class SteppersAgree : public testing::TestWithParam<Case> {};
 
 TEST_P(SteppersAgree, BitForBit) {
-  const Scene scene = scene_of(GetParam(), 7);
-  ASSERT_TRUE(static_cast<bool>(Simulation::start(scene))) << Simulation::start(scene).error().message;
-  EXPECT_EQ(problem(compare(scene, GetParam().ticks, GetParam().ticks / 3 + 11)), "") << describe(scene);
-  EXPECT_EQ(problem(compare_threads(scene, 1500)), "") << describe(scene);
+  const System system = scene_of(GetParam(), 7);
+  ASSERT_TRUE(static_cast<bool>(Simulation::start(system))) << Simulation::start(system).error().message;
+  EXPECT_EQ(problem(compare(system, GetParam().ticks, GetParam().ticks / 3 + 11)), "") << describe(system);
+  EXPECT_EQ(problem(compare_threads(system, 1500)), "") << describe(system);
 }
 
 constexpr Start kRandomStart = Start::kRandom;
@@ -129,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(
 // before it, where a stepper has seen next to nothing yet.
 TEST(SteppersAgree, WhereTicksOutgrow32Bits) {
   constexpr Tick kBorder = Tick{1} << 32;
-  const Scene scene = scene_of({4.5, 0.75, 1.2, 7, 0.3, 0.05, 4, 200, 0}, 7);
+  const System system = scene_of({4.5, 0.75, 1.2, 7, 0.3, 0.05, 4, 200, 0}, 7);
   // what a stepper that begins so many ticks before the border does at the border's last tick of 32 bits
   const auto hits_at_border = [](const World& world) {
     Simulation simulation = Simulation::start_from(world);
@@ -142,7 +142,7 @@ TEST(SteppersAgree, WhereTicksOutgrow32Bits) {
     return hits() - before;
   };
   for (const Tick ahead : {2, 3, 40, 900}) {
-    auto early = Simulation::start(scene);
+    auto early = Simulation::start(system);
     ASSERT_TRUE(static_cast<bool>(early)) << early.error().message;
     const Tick period = early->world().plates.period_ticks();
     ASSERT_GT(period, 0);
@@ -162,7 +162,7 @@ TEST(SteppersAgree, WhereTicksOutgrow32Bits) {
 }
 
 /// A random scene; `ticks` of it are to be compared.
-Scene draw_scene(Tick ticks) {
+System draw_scene(Tick ticks) {
   // integers shrink well: each is a step on the way from a plain scene to an odd one
   Case c{};
   c.length = 2.5 + 0.1 * *rc::gen::inRange(0, 21);
@@ -185,12 +185,13 @@ TEST(SteppersAgreeProperty, RandomScenes) {
   constexpr Tick kTicks = 4000;
   test::Tally tally;
   EXPECT_TRUE(rc::check("both steppers agree", [&] {
-    const Scene scene = draw_scene(kTicks);
-    const test::Compared compared = compare(scene, kTicks, *rc::gen::inRange<Tick>(1, kTicks));
+    const System system = draw_scene(kTicks);
+    const test::Compared compared = compare(system, kTicks, *rc::gen::inRange<Tick>(1, kTicks));
     RC_PRE(compared.fits);  // or drawn again
     tally.add(compared);
-    const std::string by_threads = compare_threads(scene, 300).difference;
-    if (!(compared.difference + by_threads).empty()) RC_FAIL(compared.difference + by_threads + ": " + describe(scene));
+    const std::string by_threads = compare_threads(system, 300).difference;
+    if (!(compared.difference + by_threads).empty())
+      RC_FAIL(compared.difference + by_threads + ": " + describe(system));
   }));
   EXPECT_GE(tally.n_all(), 90);
   EXPECT_GE(tally.part_in_full(), 0.9);

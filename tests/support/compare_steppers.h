@@ -62,12 +62,12 @@ class Tally {
 
 /// Steps on 2 and 4 threads, shared as finely as can be, give the same as on one. Not for long: threads wait for each
 /// other in every tick.
-inline Compared compare_threads(const Scene& scene, Tick ticks) {
-  auto one = Simulation::start(scene);
+inline Compared compare_threads(const System& system, Tick ticks) {
+  auto one = Simulation::start(system);
   if (!one) return {.fits = false};
   const auto trouble = one->advance_to(ticks);
   for (const int n_threads : {2, 4}) {
-    auto several = Simulation::start(scene);
+    auto several = Simulation::start(system);
     several->use_threads(n_threads, 1);
     const auto its = several->advance_to(ticks);
     const std::string where = " on " + std::to_string(n_threads) + " threads";
@@ -83,10 +83,10 @@ inline Compared compare_threads(const Scene& scene, Tick ticks) {
 /// at tick `stop`; ticks are counted from where the world is.
 inline Compared compare(World world, Tick ticks, Tick stop) {
   const Tick begin = world.tick;
-  world.scene.engine = Engine::kReference;
+  world.system.engine = Engine::kReference;
   Simulation reference = Simulation::start_from(world);
-  world.scene.engine = Engine::kScheduled;
-  const Scene scene = world.scene;
+  world.system.engine = Engine::kScheduled;
+  const System system = world.system;
   Simulation scheduled = Simulation::start_from(std::move(world));
   std::vector<Tick> looks{1, 2, stop, ticks / 2, ticks};
   std::sort(looks.begin(), looks.end());
@@ -101,7 +101,7 @@ inline Compared compare(World world, Tick ticks, Tick stop) {
     if (trouble_r) return {"", trouble_r->tick - begin >= ticks / 2};
     if (!same(reference.world().counters, scheduled.world().counters)) return {"counters differ" + when};
     if (k == stop) {
-      auto resumed = Simulation::resume(scene, scheduled.checkpoint());
+      auto resumed = Simulation::resume(system, scheduled.checkpoint());
       if (!resumed) return {resumed.error().message};
       scheduled = std::move(resumed).value();
     }
@@ -110,8 +110,8 @@ inline Compared compare(World world, Tick ticks, Tick stop) {
 }
 
 /// The same from the scene's start.
-inline Compared compare(const Scene& scene, Tick ticks, Tick stop) {
-  auto world = make_world(scene);
+inline Compared compare(const System& system, Tick ticks, Tick stop) {
+  auto world = make_world(system);
   if (!world) return {.fits = false};
   return compare(std::move(world).value(), ticks, stop);
 }

@@ -16,8 +16,8 @@ struct Limits {
   double half_rate2;
 };
 inline Limits limits(const MotionBound& o, bool perturbed) {
-  const float* v = perturbed ? o.velocity_center : o.velocity;
-  const float* w = perturbed ? o.turning_center : o.turning;
+  const float* v = perturbed ? o.velocity_centre : o.velocity;
+  const float* w = perturbed ? o.turning_centre : o.turning;
   return {Vec3(v[0], v[1], v[2]), Vec3(w[0], w[1], w[2]), perturbed ? o.limit_half_rate2 : o.half_rate2};
 }
 inline Vec3 director(const MotionBound& o) { return {o.director[0], o.director[1], o.director[2]}; }

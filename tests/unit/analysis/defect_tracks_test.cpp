@@ -215,8 +215,8 @@ TEST(DefectTracks, JitterIsSeenInTheSpans) {
   }
 }
 
-// Any series of neutral samples: whatever the linking does, the books are in balance.
-TEST(DefectTracks, BooksBalance) {
+// Any series of neutral samples: whatever the linking does, what began and what ended balance.
+TEST(DefectTracks, BeginningsAndEndsBalance) {
   constexpr int kSamples = 200;
   Draw draw(113);
   DefectTracks tracks = tracking(0);  // all last

@@ -9,7 +9,7 @@ namespace shaken::bench {
 namespace {
 
 World two_rods() {
-  Scene scene;
+  System scene;
   scene.n_rods = 2;
   scene.box_side = 20;
   World world = empty_world(scene);

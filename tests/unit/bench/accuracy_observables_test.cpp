@@ -9,8 +9,8 @@
 namespace shaken::bench {
 namespace {
 
-Scene dilute() {
-  Scene scene;
+System dilute() {
+  System scene;
   scene.n_rods = 5;
   scene.box_side = 30;
   scene.dt = 4e-6;
@@ -18,7 +18,7 @@ Scene dilute() {
   return scene;
 }
 
-Simulation started(const Scene& scene) {
+Simulation started(const System& scene) {
   auto simulation = Simulation::start(scene);
   if (!simulation) throw std::runtime_error(simulation.error().message);
   return std::move(simulation).value();
@@ -44,7 +44,7 @@ TEST(Observables, AreThoseOfTheSnapshot) {
 }
 
 TEST(Observables, OfOneTiltedRod) {
-  Scene scene = dilute();
+  System scene = dilute();
   scene.n_rods = 1;
   scene.gap = 20;
   World world = empty_world(scene);
@@ -70,7 +70,7 @@ TEST(Observables, OfOneTiltedRod) {
 }
 
 TEST(Observables, DisplacementsAreOverTheLag) {
-  Scene scene = dilute();
+  System scene = dilute();
   scene.amplitude = 0;
   scene.gap = 100;  // free flight
   scene.n_rods = 1;
@@ -101,7 +101,7 @@ TEST(Observables, TheErrorOfReplicasIsThatOfTheirMean) {
 TEST(Continued, RodsAreWhereTheyWereAtAnyStep) {
   Simulation from = started(dilute());
   ASSERT_FALSE(from.advance_to(16 * 100));
-  Scene coarse = dilute();
+  System coarse = dilute();
   coarse.dt = 64e-6;
   const Simulation simulation = continued(from, coarse);
   EXPECT_EQ(simulation.tick(), 100);

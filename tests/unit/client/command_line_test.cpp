@@ -168,8 +168,8 @@ TEST(Validate, ShowsThePackingOfEachKindAndOfAll) {
   const Json& point = json.at("points").at(0);
   EXPECT_EQ(point.at("n_rods"), 233);
   EXPECT_NEAR(point.at("area_fraction").get<double>(), 0.3132, 1e-4);
-  EXPECT_EQ(point.at("kinds").at(1).at("name"), "rods_2");
-  EXPECT_EQ(point.at("kinds").at(1).at("count"), 40);
+  EXPECT_EQ(point.at("species").at(1).at("name"), "rods_2");
+  EXPECT_EQ(point.at("species").at(1).at("count"), 40);
 }
 
 TEST(Validate, PlacesTheRods) {

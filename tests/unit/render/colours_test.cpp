@@ -82,7 +82,7 @@ TEST(RodColour, LayersFollowTheDirectorTheWheelTheBox) {
 TEST(RodColour, RodsOfOtherKindsHaveTheirOwnWhateverTheirAngle) {
   RodPicture picture;
   picture.added.resize(2);
-  picture.kinds = {1, 1, 2};
+  picture.species_of_rod = {1, 1, 2};
   picture.director = {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(1, 0, 0)};
   picture.position.resize(3);
   for (const Colouring colouring : {Colouring::kLayers, Colouring::kWheel}) {
@@ -95,7 +95,7 @@ TEST(RodColour, RodsOfOtherKindsHaveTheirOwnWhateverTheirAngle) {
   const auto vividness = [](const Colour& c) {
     return *std::max_element(c.begin(), c.end()) - *std::min_element(c.begin(), c.end());
   };
-  for (const std::size_t kind : {1, 2}) EXPECT_LT(2 * vividness(kind_colour(kind)), vividness(layer_colour(0.5)));
+  for (const std::size_t kind : {1, 2}) EXPECT_LT(2 * vividness(species_colour(kind)), vividness(layer_colour(0.5)));
 }
 
 }  // namespace

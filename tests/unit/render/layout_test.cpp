@@ -21,14 +21,14 @@ TEST(Layout, NothingOverlapsOrLeavesThePicture) {
   for (const auto& [width, height] : sizes) {
     for (const bool history : {false, true}) {
       for (const int more : {0, 1, 2, 3}) {
-        const bool label = more % 2 == 1, kinds = more >= 2;
+        const bool label = more % 2 == 1, species_of_rod = more >= 2;
         PictureStyle style;
         style.width = width;
         style.height = height;
-        const Layout layout = layout_of(style, history, label, kinds);
+        const Layout layout = layout_of(style, history, label, species_of_rod);
         const Rect box{double(layout.box_x), double(layout.box_y), double(layout.box_side), double(layout.box_side)};
         const std::vector<Rect> all = {box,           layout.label, layout.numbers,   layout.history,
-                                       layout.legend, layout.key,   layout.scale_bar, layout.kinds};
+                                       layout.legend, layout.key,   layout.scale_bar, layout.species};
         for (std::size_t i = 0; i < all.size(); ++i) {
           if (all[i].width == 0) continue;
           EXPECT_GT(all[i].height, 0) << i << " in " << width << 'x' << height;
@@ -42,7 +42,7 @@ TEST(Layout, NothingOverlapsOrLeavesThePicture) {
         }
         EXPECT_GT(layout.legend.width, 0);
         EXPECT_EQ(layout.label.width > 0, label);
-        EXPECT_EQ(layout.kinds.width > 0, kinds);
+        EXPECT_EQ(layout.species.width > 0, species_of_rod);
       }
     }
   }

@@ -180,27 +180,27 @@ TEST(Overlay, SeveralKindsOfRodsAreShownBesideTheLegend) {
   picture.added = {{{0}, {0.8}}};
   for (int i = 0; i < 5; ++i) {
     add_rod(picture, 3 * i + 1, 10, 0.2);
-    picture.kinds.push_back(i < 3 ? 0 : 1);
+    picture.species_of_rod.push_back(i < 3 ? 0 : 1);
   }
   const PictureStyle style;
   const Layout layout = layout_of(style, false, false, true);
   const Image image = painter().paint(picture, style).value();
   // The second of the two columns begins with a teal disc, the first with a pale rod.
-  const int y = static_cast<int>(layout.kinds.y + layout.kinds.height / 2);
+  const int y = static_cast<int>(layout.species.y + layout.species.height / 2);
   const auto at = [&](double x) { return image.pixel(static_cast<int>(x), y); };
-  const std::uint8_t* disc = at(layout.kinds.x + layout.kinds.width / 2 + 6);
-  const std::uint8_t* rod = at(layout.kinds.x + 12);
-  const Colour teal = kind_colour(1), pale = layer_colour(0);
+  const std::uint8_t* disc = at(layout.species.x + layout.species.width / 2 + 6);
+  const std::uint8_t* rod = at(layout.species.x + 12);
+  const Colour teal = species_colour(1), pale = layer_colour(0);
   for (std::size_t c = 0; c < 3; ++c) {
     EXPECT_NEAR(disc[c], 255 * teal[c], 2) << c;
     EXPECT_NEAR(rod[c], 255 * pale[c], 2) << c;
   }
-  // One kind alone needs no such thing.
+  // One species alone needs no such thing.
   picture.added.clear();
-  picture.kinds.clear();
-  EXPECT_EQ(layout_of(style, false, false).kinds.width, 0);
+  picture.species_of_rod.clear();
+  EXPECT_EQ(layout_of(style, false, false).species.width, 0);
   const Image plain = painter().paint(picture, style).value();
-  EXPECT_EQ(plain.pixel(static_cast<int>(layout.kinds.x + layout.kinds.width / 2 + 6), y)[0], 255);
+  EXPECT_EQ(plain.pixel(static_cast<int>(layout.species.x + layout.species.width / 2 + 6), y)[0], 255);
 }
 
 }  // namespace

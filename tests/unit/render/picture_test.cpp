@@ -34,7 +34,7 @@ TEST(RodPicture, AreaFractionIsOfAllKindsAndPerArena) {
   picture.box_side = 40;
   picture.beads = {{0}, {0.5}};
   picture.added = {{{0}, {1}}};
-  picture.kinds = {1, 0, 1};
+  picture.species_of_rod = {1, 0, 1};
   picture.position.resize(3);
   const double discs = kPi * (0.25 + 1 + 1);
   EXPECT_NEAR(picture.area_fraction(), discs / 1600, 1e-4 * discs / 1600);
@@ -56,7 +56,7 @@ TEST(Measure, AsksOnlyRodsOfTheFirstKind) {
   picture.added = {{{0}, {0.5}}};
   for (int i = 0; i < 40; ++i) {
     add_rod(picture, 0.5 * i, 0.5 * i, i % 2 ? 0.7 : 0.13 * i);
-    picture.kinds.push_back(i % 2 ? 0 : 1);
+    picture.species_of_rod.push_back(i % 2 ? 0 : 1);
   }
   measure(picture, true);
   EXPECT_NEAR(picture.director_angle, 0.7, 1e-12);

@@ -224,7 +224,7 @@ bool is_floor(const Image& image, int x, int y) {
 RodPicture second_kind(const BeadRow& beads, double angle) {
   RodPicture picture = empty_picture(kBox);
   picture.added = {beads};
-  picture.kinds = {1};
+  picture.species_of_rod = {1};
   add_rod(picture, 5, 5, angle);
   return picture;
 }
@@ -245,7 +245,7 @@ TEST(RodsPass, ASphereAmongRodsIsRound) {
   const double radius = 0.6;
   RodPicture picture = second_kind({{0}, {radius}}, 0.8);
   add_rod(picture, 2, 2, 0.3);
-  picture.kinds.push_back(0);
+  picture.species_of_rod.push_back(0);
   const auto places = coloured(draw(picture));
   double most = 0;
   for (const auto& [x, y] : places) most = std::max(most, std::hypot(x + 0.5 - 500, y + 0.5 - 500));
@@ -349,10 +349,10 @@ TEST(RodsPass, RefusesWhatCannotBeDrawn) {
   uneven.position.emplace_back(1, 1, 1);
   EXPECT_NE(message(uneven).find("directors"), std::string::npos);
   RodPicture unknown_kind = second_kind({{0}, {0.5}}, 0);
-  unknown_kind.kinds[0] = 2;
+  unknown_kind.species_of_rod[0] = 2;
   EXPECT_NE(message(unknown_kind).find("kind"), std::string::npos);
-  unknown_kind.kinds.clear();
-  EXPECT_NE(message(unknown_kind).find("each rod's kind"), std::string::npos);
+  unknown_kind.species_of_rod.clear();
+  EXPECT_NE(message(unknown_kind).find("each rod's species"), std::string::npos);
   EXPECT_NE(message(empty_picture(0)).find("no size"), std::string::npos);
   EXPECT_NE(message(red_picture(), 0).find("pixels wide"), std::string::npos);
   EXPECT_NE(message(red_picture(), RodsPass::kMaxSide + 1).find("pixels wide"), std::string::npos);

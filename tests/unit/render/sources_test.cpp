@@ -67,16 +67,16 @@ TEST(TrajectorySource, TakesShakingAndMovieFromTheScene) {
                    R"({"plates": {"gamma": 7.0, "frequency": 200.0}, "movie": {"every": 0.1, "size": [640, 360]}})");
   const TrajectorySource source = TrajectorySource::open(folder.path()).value();
   EXPECT_EQ(source.picture(0, false)->label, "\u0393 = 7, f = 200 Hz");
-  const std::optional<MovieWish> wish = source.movie_wish();
-  ASSERT_TRUE(wish);
-  EXPECT_DOUBLE_EQ(wish->every, 0.1);
-  EXPECT_EQ(wish->width, 640);
-  EXPECT_EQ(wish->height, 360);
+  const std::optional<MovieRequest> request = source.movie_request();
+  ASSERT_TRUE(request);
+  EXPECT_DOUBLE_EQ(request->every, 0.1);
+  EXPECT_EQ(request->width, 640);
+  EXPECT_EQ(request->height, 360);
   for (const char* scene : {"{}", "no json", R"({"movie": null})", R"({"movie": {"size": "big"}, "plates": 3})"}) {
     std::filesystem::remove(folder / "trajectory.h5");
     plant_trajectory(folder.path(), 1, scene);
     const TrajectorySource other = TrajectorySource::open(folder.path()).value();
-    EXPECT_FALSE(other.movie_wish()) << scene;
+    EXPECT_FALSE(other.movie_request()) << scene;
     EXPECT_EQ(other.picture(0, false)->label, "") << scene;
   }
 }
@@ -157,8 +157,8 @@ frame_static_t mixed_constants() {
   constants.n_beads = 6;
   constants.bead_offset_mm = {-1, 0, 1, -0.5, 0.7, 0};
   constants.bead_radius_mm = {0.2, 0.4, 0.2, 0.4, 0.3, 0.5};
-  constants.n_kinds = 3;
-  constants.kind = {0, 1, 2};
+  constants.n_rod_species = 3;
+  constants.rod_species = {0, 1, 2};
   constants.arena = "square";
   constants.arena_size_mm = 15;
   return constants;
@@ -186,11 +186,11 @@ TEST(LivePicture, KnowsKindsOfRodsTheirHeadsAndTheWalls) {
   ASSERT_TRUE(picture) << picture.error().message;
   EXPECT_EQ(picture->beads, (BeadRow{{-1, 0, 1}, {0.2, 0.4, 0.2}}));
   EXPECT_EQ(picture->added, (std::vector<BeadRow>{{{-0.5, 0.7}, {0.4, 0.3}}, {{0}, {0.5}}}));
-  EXPECT_EQ(picture->kinds, (std::vector<std::uint8_t>{0, 1, 2}));
+  EXPECT_EQ(picture->species_of_rod, (std::vector<std::uint8_t>{0, 1, 2}));
   ASSERT_TRUE(picture->walls);
   EXPECT_EQ(picture->walls->arena, Arena::kSquare);
   EXPECT_EQ(picture->walls->size, 15);
-  EXPECT_NEAR(picture->director_angle, 0.3, 1e-4) << "of the first kind alone";
+  EXPECT_NEAR(picture->director_angle, 0.3, 1e-4) << "of the first species alone";
   EXPECT_NEAR(picture->director[1].y(), -1, 1e-6);
 }
 
@@ -203,13 +203,13 @@ TEST(LivePicture, RefusesAStaticPartThatContradictsItself) {
     return !picture && picture.error().message.find("contradicts") != std::string::npos;
   };
   EXPECT_FALSE(refuses([](frame_static_t&) {}));
-  EXPECT_TRUE(refuses([](frame_static_t& m) { m.kind[1] = 3; }));
+  EXPECT_TRUE(refuses([](frame_static_t& m) { m.rod_species[1] = 3; }));
   EXPECT_TRUE(refuses([](frame_static_t& m) { m.species_beads = {3, 2, 2}; }));
   EXPECT_TRUE(refuses([](frame_static_t& m) { m.species_beads = {3, 1, 1}; }));
   EXPECT_TRUE(refuses([](frame_static_t& m) { m.species_beads = {6, 1, -1}; }));
   EXPECT_TRUE(refuses([](frame_static_t& m) {
-    m.kind.pop_back();
-    m.n_kinds = 2;
+    m.rod_species.pop_back();
+    m.n_rod_species = 2;
   }));
 }
 

@@ -13,7 +13,7 @@ namespace shaken::run {
 namespace {
 
 World small_world() {
-  Scene scene;
+  System scene;
   scene.n_rods = 4;
   scene.box_side = 20;
   Result<World> world = make_world(scene);
@@ -84,7 +84,7 @@ TEST(Messages, DefectsAndStaticPartCanBeSent) {
 
 /// A disc with rods, rods with a head, and spheres.
 World mixed_world() {
-  Scene scene;
+  System scene;
   scene.n_rods = 3;
   scene.box_side = 40;
   RodShape polar;
@@ -110,19 +110,19 @@ TEST(Messages, StaticPartKnowsKindsOfRodsAndSideWalls) {
   EXPECT_EQ(constants->bead_radius_mm.back(), world.species[2].bead_radius[0]);
   EXPECT_EQ(constants->bead_offset_mm[static_cast<std::size_t>(constants->species_beads[0])],
             world.species[1].bead_offset[0]);
-  EXPECT_EQ(constants->kind, world.kinds);
+  EXPECT_EQ(constants->rod_species, world.species_of_rod);
   EXPECT_EQ(constants->arena, "disc");
   EXPECT_EQ(constants->arena_size_mm, 30);
 
   const auto plain = make_frame_static(small_world(), "");
   EXPECT_EQ(plain.n_species, 1);
-  EXPECT_TRUE(plain.kind.empty());
+  EXPECT_TRUE(plain.rod_species.empty());
   EXPECT_EQ(plain.arena, "");
 }
 
 TEST(Messages, StaticPartOfManyRodsFitsIntoOneDatagram) {
   World world = mixed_world();
-  world.kinds.assign(18000, 1);
+  world.species_of_rod.assign(18000, 1);
   for (Species& species : world.species) {
     species.bead_offset.assign(kMostBeads, 0);
     species.bead_radius.assign(kMostBeads, 1);
@@ -134,13 +134,13 @@ TEST(Messages, OrderIsOfTheFirstKindOfRod) {
   Snapshot s = two_rods();
   s.director = {Vec3(1, 0, 0), Vec3(0, 1, 0)};
   EXPECT_NEAR(make_frame(s).order, 0, 1e-12);
-  const std::vector<std::uint8_t> kinds{1, 0};
-  EXPECT_NEAR(make_frame(s, kinds).order, 1, 1e-12);
-  EXPECT_NEAR(std::abs(make_frame(s, kinds).director_rad), kPi / 2, 1e-12);
-  EXPECT_EQ(make_frame(s, kinds).rods.size(), 2U);
+  const std::vector<std::uint8_t> species_of_rod{1, 0};
+  EXPECT_NEAR(make_frame(s, species_of_rod).order, 1, 1e-12);
+  EXPECT_NEAR(std::abs(make_frame(s, species_of_rod).director_rad), kPi / 2, 1e-12);
+  EXPECT_EQ(make_frame(s, species_of_rod).rods.size(), 2U);
 
   World world = mixed_world();
-  world.kinds = kinds;
+  world.species_of_rod = species_of_rod;
   EXPECT_NEAR(make_observables(world, s, {}).order, 1, 1e-12);
 }
 

@@ -9,8 +9,8 @@
 #include "base/files.h"
 #include "run/effects.h"
 #include "run/loop.h"
+#include "run/open_run.h"
 #include "run/probe/sampling.h"
-#include "run/session.h"
 #include "sim/effects/registry.h"
 #include "tests/unit/run/temporary_folder.h"
 

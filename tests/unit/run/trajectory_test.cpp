@@ -79,7 +79,7 @@ TEST(Trajectory, ComesBackAsWritten) {
   EXPECT_EQ(reader->header().bead_radius, header().bead_radius);
   EXPECT_EQ(reader->header().scene_json, header().scene_json);
   EXPECT_TRUE(reader->header().added_beads.empty());
-  EXPECT_TRUE(reader->header().kinds.empty());
+  EXPECT_TRUE(reader->header().species_of_rod.empty());
   EXPECT_FALSE(reader->header().walls);
   ASSERT_EQ(reader->n_frames(), 3U);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -95,7 +95,7 @@ TEST(Trajectory, KindsOfRodsAndSideWallsComeBack) {
   TrajectoryHeader several = header();
   several.added_beads = {{{0}, {0.45}}, {{-1.2, 0.1, 1.4}, {0.45, 0.3, 0.2}}};
   for (int i = 0; i < kRods; ++i)
-    several.kinds.push_back(static_cast<std::uint8_t>(i % 7 == 0 ? 1 : i % 5 == 0 ? 2 : 0));
+    several.species_of_rod.push_back(static_cast<std::uint8_t>(i % 7 == 0 ? 1 : i % 5 == 0 ? 2 : 0));
   for (const Arena arena : {Arena::kDisc, Arena::kSquare, Arena::kAnnulus}) {
     several.walls = SideWalls{};
     several.walls->arena = arena;
@@ -114,7 +114,7 @@ TEST(Trajectory, KindsOfRodsAndSideWallsComeBack) {
     ASSERT_TRUE(reader) << reader.error().message;
     EXPECT_EQ(reader->header().bead_radius, several.bead_radius);
     EXPECT_EQ(reader->header().added_beads, several.added_beads);
-    EXPECT_EQ(reader->header().kinds, several.kinds);
+    EXPECT_EQ(reader->header().species_of_rod, several.species_of_rod);
     EXPECT_EQ(reader->header().walls, several.walls);
     ASSERT_EQ(reader->n_frames(), 2U);
     expect_same(*reader->frame(1), snapshot(1));
@@ -125,12 +125,12 @@ TEST(Trajectory, AKindWithoutBeadsIsRefused) {
   const TemporaryFolder folder;
   TrajectoryHeader several = header();
   several.added_beads = {{{0}, {0.45}}};
-  several.kinds.assign(kRods, 2);
+  several.species_of_rod.assign(kRods, 2);
   ASSERT_TRUE(TrajectoryWriter::create(folder / "t.h5", several));
   const auto reader = TrajectoryReader::open(folder / "t.h5");
   ASSERT_FALSE(reader);
   EXPECT_NE(reader.error().message.find("beads are not there"), std::string::npos) << reader.error().message;
-  several.kinds.assign(kRods - 1, 1);
+  several.species_of_rod.assign(kRods - 1, 1);
   std::filesystem::remove(folder / "t.h5");
   ASSERT_TRUE(TrajectoryWriter::create(folder / "t.h5", several));
   EXPECT_FALSE(TrajectoryReader::open(folder / "t.h5")) << "a kind for each rod";
@@ -401,7 +401,7 @@ TEST_F(H5mdStructure, SaysWhichRunItIsOf) {
   EXPECT_EQ(seed, 77U);
 }
 
-/// Files of one kind of rod in a box without walls are as they were before there were others.
+/// Files of one species in a box without walls are as they were before there were others.
 TEST_F(H5mdStructure, OneKindOfRodNeedsNoSpecies) {
   EXPECT_EQ(address("/particles/trajectory/species"), HADDR_UNDEF);
   EXPECT_EQ(address("/parameters/species_2"), HADDR_UNDEF);

@@ -9,7 +9,7 @@ namespace {
 
 TEST(LoadScene, AnEmptyObjectIsThePapersSystem) {
   const RunPlan plan = plan_of("{}");
-  const Scene& system = plan.system;
+  const System& system = plan.system;
   EXPECT_EQ(system.rod,
             (RodShape{.length = 4.5, .mid_diameter = 0.8, .end_diameter = 0.4, .n_beads = 15, .density = 8.5}));
   EXPECT_EQ(system.box_side, 83.73);

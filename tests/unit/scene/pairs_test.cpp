@@ -18,7 +18,7 @@ TEST(Shaking, AnyTwoOfGammaAmplitudeAndFrequencyGiveTheThird) {
   EXPECT_DOUBLE_EQ(plan_of(R"({"gravity": "19.62 m/s^2"})").system.amplitude, kAmplitudeOf7 * 2);
   EXPECT_DOUBLE_EQ(*gamma_of(plan_of(R"({"plates": {"amplitude": "0.1 mm"}})").system), 0.7 / kAmplitudeOf7);
 
-  const Scene by_both = plan_of(R"({"plates": {"gamma": 14, "amplitude": 0.1}})").system;
+  const System by_both = plan_of(R"({"plates": {"gamma": 14, "amplitude": 0.1}})").system;
   EXPECT_DOUBLE_EQ(by_both.frequency, 200 * std::sqrt(2 * kAmplitudeOf7 / 0.1));
   EXPECT_DOUBLE_EQ(*gamma_of(by_both), 14);
 
@@ -41,7 +41,7 @@ TEST(Shaking, WhatFollowsMustBePossible) {
 }
 
 TEST(Shaking, WithoutGravityIsByAmplitudeAndFrequency) {
-  const Scene shaken = plan_of(R"({"gravity": 0, "plates": {"amplitude": 0.05, "frequency": 100}})").system;
+  const System shaken = plan_of(R"({"gravity": 0, "plates": {"amplitude": 0.05, "frequency": 100}})").system;
   EXPECT_EQ(shaken.gravity, 0);
   EXPECT_EQ(shaken.amplitude, 0.05);
   EXPECT_FALSE(gamma_of(shaken).has_value());
@@ -63,15 +63,15 @@ TEST(Shaking, WithoutGravityIsByAmplitudeAndFrequency) {
 
 TEST(Packing, AnyTwoOfFractionCountAndSideGiveTheThird) {
   const Species rod = make_species(plan_of("{}").system.rod);
-  const Scene by_fraction = plan_of(R"({"rods": {"area_fraction": 0.5}, "box": {"side": 40}})").system;
+  const System by_fraction = plan_of(R"({"rods": {"area_fraction": 0.5}, "box": {"side": 40}})").system;
   EXPECT_EQ(by_fraction.n_rods, std::round(0.5 * 1600 / rod.area));
 
-  const Scene by_count = plan_of(R"({"rods": {"count": 300}, "box": {"side": 40}})").system;
+  const System by_count = plan_of(R"({"rods": {"count": 300}, "box": {"side": 40}})").system;
   EXPECT_EQ(by_count.n_rods, 300);
   EXPECT_EQ(by_count.box_side, 40);
   EXPECT_DOUBLE_EQ(area_fraction_of(by_count), 300 * rod.area / 1600);
 
-  const Scene by_both = plan_of(R"({"rods": {"count": 300, "area_fraction": 0.6}})").system;
+  const System by_both = plan_of(R"({"rods": {"count": 300, "area_fraction": 0.6}})").system;
   EXPECT_DOUBLE_EQ(by_both.box_side, std::sqrt(300 * rod.area / 0.6));
   EXPECT_EQ(plan_of(R"({"rods": {"count": 300}})").system.box_side, 83.73);
 }
@@ -87,20 +87,20 @@ TEST(Packing, AllThreeMustAgree) {
 
 TEST(Packing, FractionAndCountMakeTheArena) {
   const double area = 300 * make_species(plan_of("{}").system.rod).area / 0.5;
-  const Scene disc = plan_of(R"({"rods": {"count": 300, "area_fraction": 0.5}, "walls": {}})").system;
+  const System disc = plan_of(R"({"rods": {"count": 300, "area_fraction": 0.5}, "walls": {}})").system;
   EXPECT_EQ(disc.n_rods, 300);
   EXPECT_DOUBLE_EQ(disc.walls->size, std::sqrt(4 * area / kPi));
   EXPECT_DOUBLE_EQ(disc.box_side, disc.walls->size + 1.0);
   EXPECT_NEAR(area_fraction_of(disc), 0.5, 1e-12);
-  const Scene square =
+  const System square =
       plan_of(R"({"rods": {"count": 300, "area_fraction": 0.5}, "walls": {"arena": "square"}})").system;
   EXPECT_DOUBLE_EQ(square.walls->size, std::sqrt(area));
-  const Scene annulus =
+  const System annulus =
       plan_of(R"({"rods": {"count": 300, "area_fraction": 0.5}, "walls": {"arena": "annulus", "inner": 15}})").system;
   EXPECT_NEAR(area_fraction_of(annulus), 0.5, 1e-12);
   EXPECT_EQ(annulus.walls->inner, 15);
-  // of several kinds it is the first that says so
-  const Scene mixed =
+  // of several species it is the first that says so
+  const System mixed =
       plan_of(R"({"rods": {"count": 300, "area_fraction": 0.5}, "rods_2": {"count": 20}, "walls": {}})").system;
   EXPECT_EQ(mixed.walls->size, disc.walls->size);
 }

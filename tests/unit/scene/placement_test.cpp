@@ -71,7 +71,7 @@ TEST(FastPlates, AreRefusedWhereTheSimulationWouldEnd) {
   int n_refused = 0;
   for (const double gamma : {7.0, 60.0, 64.0, 64.2, 80.0, 150.0}) {
     const Loaded<RunPlan> plan = load_scene(scene, "s", std::vector{"plates.gamma=" + std::to_string(gamma)});
-    Scene system = plan_of(scene).system;
+    System system = plan_of(scene).system;
     system.amplitude *= gamma / 7;
     const World world = empty_world(system);
     const auto& radius = world.species[0].bead_radius;

@@ -11,21 +11,21 @@
 namespace shaken {
 namespace {
 
-Scene small_scene() {
-  Scene scene;
-  scene.rod = {.length = 2.5, .n_beads = 9};
-  scene.box_side = 12;
-  scene.n_rods = 63;
-  return scene;
+System small_scene() {
+  System system;
+  system.rod = {.length = 2.5, .n_beads = 9};
+  system.box_side = 12;
+  system.n_rods = 63;
+  return system;
 }
 
 TEST(Checkpoint, RestoredRunIsBitwiseTheStraightRun) {
-  const Scene scene = small_scene();
-  auto straight = Simulation::start(scene);
+  const System system = small_scene();
+  auto straight = Simulation::start(system);
   ASSERT_TRUE(static_cast<bool>(straight));
   for (const Tick stop : {Tick{1}, Tick{4777}, Tick{10003}}) {
     ASSERT_FALSE(straight->advance_to(stop).has_value());
-    auto resumed = Simulation::resume(scene, straight->checkpoint());
+    auto resumed = Simulation::resume(system, straight->checkpoint());
     ASSERT_TRUE(static_cast<bool>(resumed)) << resumed.error().message;
     EXPECT_EQ(resumed->state_hash(), straight->state_hash());
     ASSERT_FALSE(resumed->advance_to(stop + 4000).has_value());
@@ -38,27 +38,27 @@ TEST(Checkpoint, RestoredRunIsBitwiseTheStraightRun) {
 }
 
 TEST(Checkpoint, RefusesAnotherSceneAndDamage) {
-  const Scene scene = small_scene();
-  auto simulation = Simulation::start(scene);
+  const System system = small_scene();
+  auto simulation = Simulation::start(system);
   ASSERT_TRUE(static_cast<bool>(simulation));
   auto bytes = simulation->checkpoint();
-  Scene other = scene;
+  System other = system;
   other.gap = 1.3;
   EXPECT_FALSE(static_cast<bool>(Simulation::resume(other, bytes)));
-  EXPECT_FALSE(static_cast<bool>(Simulation::resume(scene, std::span(bytes).first(bytes.size() - 1))));
+  EXPECT_FALSE(static_cast<bool>(Simulation::resume(system, std::span(bytes).first(bytes.size() - 1))));
   bytes.push_back(std::byte{0});
-  EXPECT_FALSE(static_cast<bool>(Simulation::resume(scene, bytes)));
-  EXPECT_FALSE(static_cast<bool>(Simulation::resume(scene, {})));
+  EXPECT_FALSE(static_cast<bool>(Simulation::resume(system, bytes)));
+  EXPECT_FALSE(static_cast<bool>(Simulation::resume(system, {})));
 }
 
 TEST(Checkpoint, RefusesAnotherPhysicsVersionByName) {
-  const Scene scene = small_scene();
-  auto simulation = Simulation::start(scene);
+  const System system = small_scene();
+  auto simulation = Simulation::start(system);
   ASSERT_TRUE(static_cast<bool>(simulation));
   auto bytes = simulation->checkpoint();
   ASSERT_EQ(bytes[8], static_cast<std::byte>(kPhysicsVersion));  // behind the magic
   bytes[8] = static_cast<std::byte>(kPhysicsVersion - 1);
-  const auto resumed = Simulation::resume(scene, bytes);
+  const auto resumed = Simulation::resume(system, bytes);
   ASSERT_FALSE(static_cast<bool>(resumed));
   EXPECT_NE(resumed.error().message.find("physics version " + std::to_string(kPhysicsVersion - 1)), std::string::npos)
       << resumed.error().message;

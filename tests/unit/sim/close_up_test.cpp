@@ -14,13 +14,13 @@
 namespace shaken {
 namespace {
 
-Scene dense_scene() {
-  Scene scene;
-  scene.rod = {.length = 2.5, .n_beads = 9};
-  scene.box_side = 12;
-  scene.n_rods = 80;
-  scene.dt = 2e-5;
-  return scene;
+System dense_scene() {
+  System system;
+  system.rod = {.length = 2.5, .n_beads = 9};
+  system.box_side = 12;
+  system.n_rods = 80;
+  system.dt = 2e-5;
+  return system;
 }
 
 TEST(CloseUp, ShowsEveryRodAsTheSnapshotDoesAndEveryContactOnce) {
@@ -50,7 +50,7 @@ TEST(CloseUp, ShowsEveryRodAsTheSnapshotDoesAndEveryContactOnce) {
       for (int j = i + 1; j < 80; ++j) {
         found.clear();
         find_bead_contacts(world.species[0], all.director[i], world.species[0], all.director[j],
-                           nearest_image(all.position[i], all.position[j], world.scene.box_side), found);
+                           nearest_image(all.position[i], all.position[j], world.system.box_side), found);
         EXPECT_EQ((contacts[{i, j}]), static_cast<int>(found.size())) << i << " " << j;
         n_contacts += static_cast<int>(found.size());
       }
@@ -85,24 +85,24 @@ World with_a_runaway(World world, int rod, Tick now) {
   Flight& flight = world.rods[static_cast<std::size_t>(rod)];
   const Species& species = world.species_of(static_cast<std::size_t>(rod));
   const double ratio = species.inertia_par / species.inertia_perp;
-  const double tau = static_cast<double>(now - 1 - flight.since) * world.scene.dt;
-  const Pose pose = pose_after(flight, tau, world.scene.gravity);
-  Motion motion = motion_after(flight, tau, world.scene.gravity, pose.director, ratio);
+  const double tau = static_cast<double>(now - 1 - flight.since) * world.system.dt;
+  const Pose pose = pose_after(flight, tau, world.system.gravity);
+  Motion motion = motion_after(flight, tau, world.system.gravity, pose.director, ratio);
   motion.velocity.x() = 1e5;
-  begin_flight(flight, now - 1, pose, motion, world.scene.box_side, ratio);
+  begin_flight(flight, now - 1, pose, motion, world.system.box_side, ratio);
   return world;
 }
 
 // Trouble that is met where flights are stored leaves all of them as they were: the world is that of one tick before,
 // and a close-up of it shows every neighbour.
 TEST(CloseUp, AfterTroubleWhileStoringNoRodIsUnknown) {
-  Scene scene = dense_scene();
-  scene.box_side = 60;  // room enough for the runaway to meet the plates alone
-  scene.n_rods = 200;
+  System system = dense_scene();
+  system.box_side = 60;  // room enough for the runaway to meet the plates alone
+  system.n_rods = 200;
   int n_troubles = 0, n_others = 0;
   for (const Engine engine : {Engine::kReference, Engine::kScheduled}) {
-    scene.engine = engine;
-    auto simulation = Simulation::start(scene);
+    system.engine = engine;
+    auto simulation = Simulation::start(system);
     ASSERT_TRUE(static_cast<bool>(simulation));
     ASSERT_FALSE(simulation->advance_to(2000).has_value());
     for (Tick now = 2001; now < 2700; ++now) {

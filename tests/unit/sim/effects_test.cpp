@@ -15,21 +15,21 @@ namespace shaken {
 namespace {
 
 /// A scene in which every effect is on and all kinds of contact occur within 2,000 ticks.
-Scene everything_on() {
-  Scene scene;
-  scene.rod = {.length = 2.5, .n_beads = 9};
-  scene.box_side = 19;
-  scene.n_rods = 60;
-  scene.added[0] = AddedRods{{.length = 2.5, .n_beads = 9, .profile = Profile::kPolar}, 25};
-  scene.added[1] = AddedRods{{.length = 0.8, .n_beads = 1}, 10};
-  scene.walls = SideWalls{Arena::kSquare, 18.0, 1.0, {0.1, 0.3}};
-  scene.rotational_noise = 0.05;
-  scene.impacts = ImpactTime::kAtInstant;
-  return scene;
+System everything_on() {
+  System system;
+  system.rod = {.length = 2.5, .n_beads = 9};
+  system.box_side = 19;
+  system.n_rods = 60;
+  system.added[0] = AddedRods{{.length = 2.5, .n_beads = 9, .profile = Profile::kPolar}, 25};
+  system.added[1] = AddedRods{{.length = 0.8, .n_beads = 1}, 10};
+  system.walls = SideWalls{Arena::kSquare, 18.0, 1.0, {0.1, 0.3}};
+  system.rotational_noise = 0.05;
+  system.impacts = ImpactTime::kAtInstant;
+  return system;
 }
 
-Simulation stepped(const Scene& scene, Tick ticks) {
-  auto simulation = Simulation::start(scene);
+Simulation stepped(const System& system, Tick ticks) {
+  auto simulation = Simulation::start(system);
   EXPECT_TRUE(static_cast<bool>(simulation)) << simulation.error().message;
   EXPECT_FALSE(simulation->advance_to(ticks).has_value());
   return std::move(simulation).value();
@@ -43,41 +43,41 @@ const Effect& effect_named(std::string_view name) {
 }
 
 /// The neutral parameter of each effect that can be switched off, by hand.
-const std::map<std::string_view, void (*)(Scene&)>& neutral_by_hand() {
-  static const std::map<std::string_view, void (*)(Scene&)> table{
-      {"gravity", [](Scene& s) { s.gravity = 0.0; }},
-      {"vibration", [](Scene& s) { s.amplitude = 0.0; }},
+const std::map<std::string_view, void (*)(System&)>& neutral_by_hand() {
+  static const std::map<std::string_view, void (*)(System&)> table{
+      {"gravity", [](System& s) { s.gravity = 0.0; }},
+      {"vibration", [](System& s) { s.amplitude = 0.0; }},
       {"tilt",
-       [](Scene& s) {
+       [](System& s) {
          s.base = s.lid = false;
          s.gravity = 0.0;
        }},
       {"species",
-       [](Scene& s) {
+       [](System& s) {
          s.added = {std::nullopt, std::nullopt};
        }},
-      {"rod_base_collisions", [](Scene& s) { s.base = false; }},
-      {"rod_lid_collisions", [](Scene& s) { s.lid = false; }},
-      {"side_walls", [](Scene& s) { s.walls = std::nullopt; }},
-      {"side_wall_friction", [](Scene& s) { s.walls->contact.friction = 0.0; }},
-      {"rotational_noise", [](Scene& s) { s.rotational_noise = 0.0; }},
-      {"impacts_at_instant", [](Scene& s) { s.impacts = ImpactTime::kTickEnd; }},
+      {"rod_base_collisions", [](System& s) { s.base = false; }},
+      {"rod_lid_collisions", [](System& s) { s.lid = false; }},
+      {"side_walls", [](System& s) { s.walls = std::nullopt; }},
+      {"side_wall_friction", [](System& s) { s.walls->contact.friction = 0.0; }},
+      {"rotational_noise", [](System& s) { s.rotational_noise = 0.0; }},
+      {"impacts_at_instant", [](System& s) { s.impacts = ImpactTime::kTickEnd; }},
       {"taper",
-       [](Scene& s) {
+       [](System& s) {
          s.rod.end_diameter = s.rod.mid_diameter;
          s.added[0]->rod.end_diameter = s.added[0]->rod.mid_diameter;
          s.added[1]->rod.end_diameter = s.added[1]->rod.mid_diameter;
        }},
       {"spin",
-       [](Scene& s) {
+       [](System& s) {
          s.rod_rod.friction = s.rod_base.friction = s.rod_lid.friction = s.walls->contact.friction = 0.0;
        }},
-      {"rod_rod_friction", [](Scene& s) { s.rod_rod.friction = 0.0; }},
-      {"rod_rod_restitution", [](Scene& s) { s.rod_rod.restitution = 0.0; }},
-      {"rod_base_friction", [](Scene& s) { s.rod_base.friction = 0.0; }},
-      {"rod_base_restitution", [](Scene& s) { s.rod_base.restitution = 0.0; }},
-      {"rod_lid_friction", [](Scene& s) { s.rod_lid.friction = 0.0; }},
-      {"rod_lid_restitution", [](Scene& s) { s.rod_lid.restitution = 0.0; }},
+      {"rod_rod_friction", [](System& s) { s.rod_rod.friction = 0.0; }},
+      {"rod_rod_restitution", [](System& s) { s.rod_rod.restitution = 0.0; }},
+      {"rod_base_friction", [](System& s) { s.rod_base.friction = 0.0; }},
+      {"rod_base_restitution", [](System& s) { s.rod_base.restitution = 0.0; }},
+      {"rod_lid_friction", [](System& s) { s.rod_lid.friction = 0.0; }},
+      {"rod_lid_restitution", [](System& s) { s.rod_lid.restitution = 0.0; }},
   };
   return table;
 }
@@ -94,7 +94,7 @@ TEST(Effects, NamesAreUnique) {
 TEST(Effects, WorkWhenTheyAreOn) {
   const Simulation simulation = stepped(everything_on(), 10000);
   for (const Effect& effect : all_effects()) {
-    EXPECT_TRUE(effect.is_on(simulation.world().scene)) << effect.name;
+    EXPECT_TRUE(effect.is_on(simulation.world().system)) << effect.name;
     EXPECT_GT(effect.work(simulation.world()), 0) << effect.name;
   }
 }
@@ -103,9 +103,9 @@ class EffectOff : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(EffectOff, IsTheNeutralParameterBitForBitAndDoesNoWork) {
   const Effect& effect = effect_named(GetParam());
-  Scene off = everything_on();
+  System off = everything_on();
   effect.switch_off(off);
-  Scene by_hand = everything_on();
+  System by_hand = everything_on();
   neutral_by_hand().at(GetParam())(by_hand);
   EXPECT_EQ(off, by_hand);
   EXPECT_FALSE(effect.is_on(off));
@@ -132,18 +132,18 @@ INSTANTIATE_TEST_SUITE_P(All, EffectOff, ::testing::ValuesIn(can_be_off()),
                          [](const auto& about) { return std::string(about.param); });
 
 TEST(Effects, TellWhatSwitchesThem) {
-  Scene scene;
-  EXPECT_EQ(effect_named("rod_rod_friction").why(scene), "contacts.rod_rod.friction = 0.05");
-  EXPECT_EQ(effect_named("spin").why(scene), "contacts.rod_rod.friction = 0.05");
-  effect_named("spin").switch_off(scene);
-  EXPECT_EQ(effect_named("spin").why(scene), "every friction = 0");
-  EXPECT_EQ(effect_named("gravity").why(scene), "gravity = 9810 mm/s^2");
+  System system;
+  EXPECT_EQ(effect_named("rod_rod_friction").why(system), "contacts.rod_rod.friction = 0.05");
+  EXPECT_EQ(effect_named("spin").why(system), "contacts.rod_rod.friction = 0.05");
+  effect_named("spin").switch_off(system);
+  EXPECT_EQ(effect_named("spin").why(system), "every friction = 0");
+  EXPECT_EQ(effect_named("gravity").why(system), "gravity = 9810 mm/s^2");
 }
 
 TEST(Effects, FrictionlessRodsDoNotSpin) {
-  Scene scene = everything_on();
-  effect_named("spin").switch_off(scene);
-  const Simulation without = stepped(scene, 20000);
+  System system = everything_on();
+  effect_named("spin").switch_off(system);
+  const Simulation without = stepped(system, 20000);
   for (const Flight& rod : without.world().rods) EXPECT_LT(std::abs(rod.spin), 1e-9);
   double fastest = 0;
   const Simulation with = stepped(everything_on(), 20000);
@@ -153,14 +153,14 @@ TEST(Effects, FrictionlessRodsDoNotSpin) {
 
 // Without gravity nothing pulls a rod down: only the plates can turn its vertical velocity round.
 TEST(Effects, WithoutGravityARodFliesStraight) {
-  Scene scene = everything_on();
-  scene.gravity = 0;
-  scene.amplitude = 0;
-  scene.walls.reset();
-  scene.added = {};
-  scene.n_rods = 1;
-  scene.gap = 20;
-  auto simulation = Simulation::start(scene);
+  System system = everything_on();
+  system.gravity = 0;
+  system.amplitude = 0;
+  system.walls.reset();
+  system.added = {};
+  system.n_rods = 1;
+  system.gap = 20;
+  auto simulation = Simulation::start(system);
   ASSERT_TRUE(static_cast<bool>(simulation));
   const Snapshot before = simulation->snapshot();
   ASSERT_FALSE(simulation->advance_to(10000).has_value());

@@ -12,7 +12,7 @@
 namespace shaken {
 namespace {
 
-/// A list for rods of one kind; no test here has more of them than this.
+/// A list for rods of one species; no test here has more of them than this.
 NeighborList list_of(const Species& rod, double side, double skin) {
   static const std::vector<std::uint8_t> kinds(4096, 0);
   return {std::span(&rod, 1), kinds, side, skin};

@@ -12,11 +12,11 @@ namespace {
 constexpr double kNoise = 0.03;  // [rad/mm]
 
 TickRules rules_of(std::uint64_t seed) {
-  Scene scene;
-  scene.n_rods = 1;
-  scene.rotational_noise = kNoise;
-  scene.seed = seed;
-  return TickRules(empty_world(scene));
+  System system;
+  system.n_rods = 1;
+  system.rotational_noise = kNoise;
+  system.seed = seed;
+  return TickRules(empty_world(system));
 }
 
 RodAtTick rod_at(const Vec3& director) {
@@ -32,13 +32,13 @@ double side_of(int index, int hit, Tick now, const TickRules& rules) {
   RodAtTick rod = rod_at(Vec3::UnitX());
   const double before = rod.motion.angular_velocity.z();
   Counters counters;
-  turn_at_random(index, hit, rod, rules.kinds[0], 1.0 / kNoise, now, rules, counters);
+  turn_at_random(index, hit, rod, rules.species[0], 1.0 / kNoise, now, rules, counters);
   return rod.motion.angular_velocity.z() - before;
 }
 
 TEST(RotationalNoise, AKickIsNoiseTimesSpeedInAngularVelocityAboutTheVerticalLessWhatLiesAlongTheRod) {
   const TickRules rules = rules_of(1);
-  const RodKind& kind = rules.kinds[0];
+  const SpeciesMechanics& kind = rules.species[0];
   int n_left = 0, n = 0;
   for (const Vec3& along : {Vec3(1, 0, 0), Vec3(1, 2, 0.4), Vec3(-3, 1, -1), Vec3(0.2, 0.1, 1), Vec3(0, 0, 1)}) {
     for (const double speed : {0.0, 1e-3, 55.0, 400.0}) {
@@ -54,15 +54,14 @@ TEST(RotationalNoise, AKickIsNoiseTimesSpeedInAngularVelocityAboutTheVerticalLes
         EXPECT_LT(off, 1e-14 * (1 + speed)) << along.transpose() << ", " << speed;
         EXPECT_NEAR(kick.dot(n_), 0, 1e-14 * (1 + speed)) << "no spin about the rod";
         n_left += kick.z() > 0;
-        // nothing but the turning has changed, and the books have what it took
+        // nothing but the turning has changed, and the budget has what it took
         EXPECT_EQ(rod.motion.velocity, before.motion.velocity);
         EXPECT_EQ(rod.pose.director, before.pose.director);
         EXPECT_TRUE(rod.changed);
         EXPECT_EQ(counters.noise_kicks, 1);
         const auto energy = [&](const Vec3& w) {
           const double spin = w.dot(n_);
-          return 0.5 * kind.species.inertia_perp * (w.squaredNorm() - spin * spin) +
-                 0.5 * kind.species.inertia_par * spin * spin;
+          return 0.5 * kind.inertia_perp * (w.squaredNorm() - spin * spin) + 0.5 * kind.inertia_par * spin * spin;
         };
         EXPECT_NEAR(counters.ledger.noise.value(),
                     energy(rod.motion.angular_velocity) - energy(before.motion.angular_velocity),
@@ -108,7 +107,7 @@ TEST(RotationalNoise, TheSideDependsOnTheKeyOnly) {
     RodAtTick rod = rod_at(Vec3(1, 1, 0.3));
     rod.motion.angular_velocity.z() = -40;
     Counters counters;
-    turn_at_random(5, 0, rod, rules.kinds[0], 123.0, now, rules, counters);
+    turn_at_random(5, 0, rod, rules.species[0], 123.0, now, rules, counters);
     EXPECT_EQ(rod.motion.angular_velocity.z() > -40, side_of(5, 0, now, rules) > 0) << now;
   }
 }

@@ -75,8 +75,8 @@ struct FlyingPair {
     set_vector(o.velocity, f.velocity);
     set_vector(o.turning, turning);
     o.half_rate2 = static_cast<float>(0.5 * f.rate * f.rate * (1 + 1e-6));
-    set_vector(o.velocity_center, f.velocity - strayed_velocity);
-    set_vector(o.turning_center, turning - strayed_turning);
+    set_vector(o.velocity_centre, f.velocity - strayed_velocity);
+    set_vector(o.turning_centre, turning - strayed_turning);
     o.limit_half_rate2 = static_cast<float>(0.5 * rate_limit * rate_limit * (1 + 1e-6));
   }
 
@@ -187,8 +187,8 @@ TEST(ImageSafeTime, NoOtherImageTouchesBeforeIt) {
     const double fast = std::pow(10.0, draw.uniform(0, 3));
     set_vector(i.velocity, draw.vector(fast));
     set_vector(j.velocity, draw.vector(fast));
-    set_vector(i.velocity_center, Vec3(i.velocity[0], i.velocity[1], 0) + draw.vector(0.5));
-    set_vector(j.velocity_center, Vec3(j.velocity[0], j.velocity[1], 0) + draw.vector(0.5));
+    set_vector(i.velocity_centre, Vec3(i.velocity[0], i.velocity[1], 0) + draw.vector(0.5));
+    set_vector(j.velocity_centre, Vec3(j.velocity[0], j.velocity[1], 0) + draw.vector(0.5));
     const SafeTime safe = image_safe_time(D, i, j, tolerance, side, reach, static_cast<float>(horizon));
     ASSERT_GT(safe.unperturbed, 0.0F);
     ASSERT_LE(safe.unperturbed, static_cast<float>(horizon));
@@ -201,7 +201,7 @@ TEST(ImageSafeTime, NoOtherImageTouchesBeforeIt) {
           if (x == 0 && y == 0) continue;
           Vec3 at = D + side * Vec3(x, y, 0);
           for (int c = 0; c < 2; ++c) {
-            const double v = perturbed ? static_cast<double>(j.velocity_center[c]) - i.velocity_center[c]
+            const double v = perturbed ? static_cast<double>(j.velocity_centre[c]) - i.velocity_centre[c]
                                        : static_cast<double>(j.velocity[c]) - i.velocity[c];
             const double drift = perturbed ? 2.0 * tolerance.velocity_xy : 0.0;
             const double nearest = std::abs(at[c] + v * t) - drift * t;  // the nearest that it can be by then

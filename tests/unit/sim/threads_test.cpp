@@ -10,10 +10,10 @@ namespace shaken {
 namespace {
 
 TEST(Threads, ShareATickWithoutChangingABit) {
-  Scene scene;
-  scene.n_rods = 120;
-  scene.box_side = std::sqrt(scene.n_rods * make_species(scene.rod).area / 0.75);
-  auto one = Simulation::start(scene);
+  System system;
+  system.n_rods = 120;
+  system.box_side = std::sqrt(system.n_rods * make_species(system.rod).area / 0.75);
+  auto one = Simulation::start(system);
   ASSERT_TRUE(one) << one.error().message;
   constexpr Tick kBegin = 10000;  // off the lattice: by then rods hit each other all the time
   constexpr Tick kEnd = kBegin + 400;
@@ -23,7 +23,7 @@ TEST(Threads, ShareATickWithoutChangingABit) {
   ASSERT_FALSE(one->advance_to(kEnd));
   EXPECT_GT(one->world().counters.impulses_rod_rod - n_begin, 40);
   for (const int n_threads : {2, 3, 4}) {
-    auto several = Simulation::resume(scene, begin);
+    auto several = Simulation::resume(system, begin);
     ASSERT_TRUE(several) << several.error().message;
     several->use_threads(n_threads, 1);
     ASSERT_FALSE(several->advance_to((kBegin + kEnd) / 2));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "run/publisher.h"
+#include "run/frame_publisher.h"
 
 #include <spdlog/spdlog.h>
 
@@ -34,7 +34,7 @@ struct Outbox {
 }  // namespace
 
 /// Outlives the publisher if its thread hangs in the network.
-struct Publisher::Shared {
+struct FramePublisher::Shared {
   std::mutex mutex;
   std::condition_variable changed;
   Outbox outbox;
@@ -89,7 +89,7 @@ class Sender {
 
 }  // namespace
 
-Publisher::Publisher(const std::string& lcm_url, const std::string& job_id, const frame_static_t& constants)
+FramePublisher::FramePublisher(const std::string& lcm_url, const std::string& job_id, const frame_static_t& constants)
     : shared_(std::make_shared<Shared>()) {
   const auto work = [shared = shared_, lcm_url, job_id, constants] {
     proto::Bus::Opened opened = proto::Bus::open(lcm_url);
@@ -124,31 +124,31 @@ Publisher::Publisher(const std::string& lcm_url, const std::string& job_id, cons
   std::thread(work).detach();  // the destructor waits for `finished`, but not for ever
 }
 
-Publisher::~Publisher() {
+FramePublisher::~FramePublisher() {
   std::unique_lock lock(shared_->mutex);
   shared_->closing = true;
   shared_->changed.notify_all();
   shared_->changed.wait_for(lock, kPatienceAtEnd, [&] { return shared_->finished; });
 }
 
-void Publisher::offer(proto::Frame frame) {
+void FramePublisher::offer(proto::Frame frame) {
   const std::lock_guard lock(shared_->mutex);
   shared_->outbox.frame = std::move(frame);
   shared_->changed.notify_all();
 }
 
-void Publisher::offer(observables_t message) {
+void FramePublisher::offer(observables_t message) {
   const std::lock_guard lock(shared_->mutex);
   shared_->outbox.observables = std::move(message);
   shared_->changed.notify_all();
 }
 
-void Publisher::offer(defects_t message) {
+void FramePublisher::offer(defects_t message) {
   const std::lock_guard lock(shared_->mutex);
   shared_->outbox.defects = std::move(message);
   shared_->changed.notify_all();
 }
 
-std::int64_t Publisher::n_frames() const { return shared_->n_frames; }
+std::int64_t FramePublisher::n_frames() const { return shared_->n_frames; }
 
 }  // namespace shaken::run

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "client/session.h"
+#include "client/api_client.h"
 
 #include <fmt/format.h>
 #include <httplib.h>
@@ -33,7 +33,7 @@ std::string problem_text(const Json& problem) {
                                   .message = problem.value("message", "")});
 }
 
-struct Session::Connection {
+struct ApiClient::Connection {
   explicit Connection(const fs::path& daemon_root)
       : root(daemon_root), socket(daemon_root / "shakend.sock"), http(socket.string()) {
     http.set_address_family(AF_UNIX);
@@ -53,7 +53,7 @@ struct Session::Connection {
   httplib::Client http;
 };
 
-void Session::Connection::fail_without_answer(httplib::Error error) const {
+void ApiClient::Connection::fail_without_answer(httplib::Error error) const {
   if (error == httplib::Error::Connection) {
     throw Failure(ExitCode::kNoDaemon,
                   fmt::format("no daemon at {}: start one with `shakend --root {} &`", socket.string(), root.string()));
@@ -62,7 +62,7 @@ void Session::Connection::fail_without_answer(httplib::Error error) const {
                                                  httplib::to_string(error), (root / "shakend.log").string()));
 }
 
-Json Session::Connection::checked(const httplib::Result& result, const std::string& request) const {
+Json ApiClient::Connection::checked(const httplib::Result& result, const std::string& request) const {
   if (!result) fail_without_answer(result.error());
   Json body = Json::parse(result->body, nullptr, false);
   const int status = result->status;
@@ -84,7 +84,7 @@ Json Session::Connection::checked(const httplib::Result& result, const std::stri
   throw Failure(status < 500 ? ExitCode::kBadInput : ExitCode::kFailed, message);
 }
 
-Session::Session(const fs::path& root) {
+ApiClient::ApiClient(const fs::path& root) {
   // A longer path would be cut by the kernel's interface, and another socket be opened.
   const std::size_t longest = sizeof(sockaddr_un::sun_path) - 1;
   if ((root / "shakend.sock").string().size() > longest) {
@@ -95,20 +95,20 @@ Session::Session(const fs::path& root) {
   connection_ = std::make_unique<Connection>(root);
 }
 
-Session::Session(Session&&) noexcept = default;
-Session::~Session() = default;
+ApiClient::ApiClient(ApiClient&&) noexcept = default;
+ApiClient::~ApiClient() = default;
 
-Json Session::get(const std::string& path) {
+Json ApiClient::get(const std::string& path) {
   return connection_->checked(connection_->http.Get(path.c_str()), "GET " + path);
 }
 
-std::optional<Json> Session::find(const std::string& path) {
+std::optional<Json> ApiClient::find(const std::string& path) {
   const auto result = connection_->http.Get(path.c_str());
   if (result && result->status == 404) return std::nullopt;
   return connection_->checked(result, "GET " + path);
 }
 
-Json Session::post(const std::string& path, const Json& body) {
+Json ApiClient::post(const std::string& path, const Json& body) {
   return connection_->checked(connection_->http.Post(path.c_str(), body.dump(), "application/json"), "POST " + path);
 }
 

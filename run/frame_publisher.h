@@ -11,13 +11,13 @@ namespace shaken::run {
 /// Sends the live state of one run over LCM from a thread of its own, so that neither a slow network nor a missing one
 /// costs the run anything: of each kind only the newest message waits, older ones are dropped before they get a number.
 /// If LCM cannot start, that is one warning in the log. The static part is sent at the start and every 2 s.
-class Publisher {
+class FramePublisher {
  public:
-  Publisher(const std::string& lcm_url, const std::string& job_id, const frame_static_t& constants);
+  FramePublisher(const std::string& lcm_url, const std::string& job_id, const frame_static_t& constants);
   /// Sends what waits; gives up after a second.
-  ~Publisher();
-  Publisher(const Publisher&) = delete;
-  Publisher& operator=(const Publisher&) = delete;
+  ~FramePublisher();
+  FramePublisher(const FramePublisher&) = delete;
+  FramePublisher& operator=(const FramePublisher&) = delete;
 
   void offer(proto::Frame frame);
   void offer(observables_t message);

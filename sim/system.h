@@ -18,7 +18,7 @@ enum class Profile {
   kPolar,      ///< from the tail down to the head, the end that the director points to
 };
 
-/// The shape of one kind of rod: equally spaced beads on a line, whose radius falls linearly from the centre bead to
+/// The shape of one species: equally spaced beads on a line, whose radius falls linearly from the centre bead to
 /// the two ends (Sharma & Soni 2024, section 2), from tail to head, or goes as one likes.
 struct RodShape {
   double length = 4.5;        ///< tip to tip [mm]
@@ -31,7 +31,7 @@ struct RodShape {
   friend bool operator==(const RodShape&, const RodShape&) = default;
 };
 
-/// Rods of another kind beside the first.
+/// Rods of another species beside the first.
 struct AddedRods {
   RodShape rod;
   int count = 1;
@@ -100,10 +100,10 @@ struct SideWalls {
 
 /// The physical system and how it is stepped: all that `make_world` needs. What to measure, record and draw is not
 /// the simulation's business and lives in scene/run_plan.h. The defaults are the paper's (Sharma & Soni 2024).
-struct Scene {
+struct System {
   RodShape rod;
   int n_rods = 2109;                              ///< number of rods of this kind
-  std::array<std::optional<AddedRods>, 2> added;  ///< other kinds
+  std::array<std::optional<AddedRods>, 2> added;  ///< other species
   double box_side = 83.73;                        ///< L, of the square box, periodic in x and y [mm]
   double gap = 1.2;                               ///< w, between base and lid [mm]
 
@@ -140,7 +140,7 @@ struct Scene {
   /// Nothing pushes or pulls across the plane, and rods that start in it stay there to the last bit.
   bool is_planar() const { return !base && !lid && gravity == 0; }
 
-  friend bool operator==(const Scene&, const Scene&) = default;
+  friend bool operator==(const System&, const System&) = default;
 };
 
 }  // namespace shaken

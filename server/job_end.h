@@ -13,7 +13,7 @@ namespace shaken::server {
 inline constexpr std::string_view kHeading = "--- shakend: ";
 
 /// What the end of a worker means for its job.
-struct Verdict {
+struct JobEnd {
   enum class Outcome { kDone, kFailed, kStopped };
   Outcome outcome;
   std::string reason;  ///< empty if done
@@ -21,6 +21,6 @@ struct Verdict {
 
 /// Exit 0 with a summary is done; exit 99 and SIGTERM are a stop on request, and so is SIGKILL if `stop_asked`;
 /// anything else is a failure, explained by what the worker wrote into progress.json or said last in worker.log.
-Verdict judge(const WorkerEnd& end, int pid, bool stop_asked, const run::RunDirectory& directory);
+JobEnd judge(const WorkerEnd& end, int pid, bool stop_asked, const run::RunDirectory& directory);
 
 }  // namespace shaken::server

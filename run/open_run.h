@@ -15,7 +15,7 @@
 namespace shaken::run {
 
 /// What a run consists of while it is under way; a checkpoint holds or pins down all of it.
-struct Session {
+struct OpenRun {
   Simulation simulation;
   Measurements measurements;
   std::optional<Cadence> recording;  ///< of the trajectory: the finer of what `trajectory` and `movie` ask for
@@ -38,13 +38,13 @@ Provenance provenance_of(const scene::RunPlan& plan);
 Tick total_ticks(const scene::RunPlan& plan);
 
 /// A run at tick 0, with the files that it records into. Nothing is sampled yet.
-Result<Session> start_session(const scene::RunPlan& plan, const RunDirectory& directory, const std::string& scene_json);
+Result<OpenRun> start_run(const scene::RunPlan& plan, const RunDirectory& directory, const std::string& scene_json);
 
 /// The run as it was at `checkpoint`, all samples up to its tick taken. Fails if the checkpoint, the measurements or
 /// the trajectory on the disk do not fit together.
-Result<Session> resume_session(const scene::RunPlan& plan, const RunDirectory& directory, const Checkpoint& checkpoint);
+Result<OpenRun> resume_run(const scene::RunPlan& plan, const RunDirectory& directory, const Checkpoint& checkpoint);
 
-/// A checkpoint of the session.
-Checkpoint make_checkpoint(const Session& session, double cpu_seconds, double wall_seconds);
+/// A checkpoint of the run.
+Checkpoint make_checkpoint(const OpenRun& run, double cpu_seconds, double wall_seconds);
 
 }  // namespace shaken::run

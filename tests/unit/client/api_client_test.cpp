@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "client/session.h"
+#include "client/api_client.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -40,19 +40,19 @@ TEST(ProblemText, NamesPlaceAndPath) {
             "a.json:3:7: /rods/length: no");
 }
 
-TEST(Session, GetsAndPosts) {
+TEST(ApiClient, GetsAndPosts) {
   const TemporaryFolder root;
   FakeDaemon daemon(root.path());
   daemon.on("GET /v1/status", R"({"version": "0.1.0"})");
   daemon.on("POST /v1/jobs/1f0c/cancel", R"({"cancelled": 1})");
-  Session session(root.path());
+  ApiClient session(root.path());
   EXPECT_EQ(session.get("/v1/status").at("version"), "0.1.0");
   EXPECT_EQ(session.post("/v1/jobs/1f0c/cancel", Json{{"a", 1}}).at("cancelled"), 1);
   ASSERT_EQ(daemon.requests().size(), 2u);
   EXPECT_EQ(daemon.requests()[1].body, R"({"a":1})");
 }
 
-TEST(Session, DaemonsWordsBecomeTheMessage) {
+TEST(ApiClient, DaemonsWordsBecomeTheMessage) {
   const TemporaryFolder root;
   FakeDaemon daemon(root.path());
   daemon.on("GET /bad", {{400, R"({"error": "state: 'x' is none of queued"})"}});
@@ -61,7 +61,7 @@ TEST(Session, DaemonsWordsBecomeTheMessage) {
       "POST /refused",
       {{422,
         R"({"error": "long", "problems": [{"file": "a.json", "line": 1, "column": 2, "path": "/box", "message": "bad"}]})"}});
-  Session session(root.path());
+  ApiClient session(root.path());
   EXPECT_EQ(failure_of([&] { session.get("/bad"); }),
             std::pair(ExitCode::kBadInput, std::string("state: 'x' is none of queued")));
   EXPECT_EQ(failure_of([&] { session.get("/broken"); }), std::pair(ExitCode::kFailed, std::string("the disk is full")));
@@ -71,10 +71,10 @@ TEST(Session, DaemonsWordsBecomeTheMessage) {
   EXPECT_FALSE(session.find("/missing").has_value());
 }
 
-TEST(Session, GarbageIsAFailureNotACrash) {
+TEST(ApiClient, GarbageIsAFailureNotACrash) {
   const TemporaryFolder root;
   FakeDaemon daemon(root.path());
-  Session session(root.path());
+  ApiClient session(root.path());
   for (const char* body : {"", "hello", "[]", "{", "null", "{\"a\": \xff}"}) {
     daemon.on("GET /v1/status", body);
     const auto [code, message] = failure_of([&] { session.get("/v1/status"); });
@@ -83,7 +83,7 @@ TEST(Session, GarbageIsAFailureNotACrash) {
   }
 }
 
-TEST(Session, SocketWithoutListenerIsNoDaemon) {
+TEST(ApiClient, SocketWithoutListenerIsNoDaemon) {
   const TemporaryFolder root;
   // What a daemon that was killed leaves behind.
   sockaddr_un address{};
@@ -92,7 +92,7 @@ TEST(Session, SocketWithoutListenerIsNoDaemon) {
   const int fd = socket(AF_UNIX, SOCK_STREAM, 0);
   ASSERT_EQ(bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
   close(fd);
-  const auto [code, message] = failure_of([&] { Session(root.path()).get("/v1/status"); });
+  const auto [code, message] = failure_of([&] { ApiClient(root.path()).get("/v1/status"); });
   EXPECT_EQ(code, ExitCode::kNoDaemon);
   EXPECT_THAT(message, HasSubstr("start one with"));
 }
@@ -104,7 +104,7 @@ TEST(FindTarget, SweepFirstThenJobThenNothing) {
             R"({"sweep": {"id": "s7", "name": "phases"}, "jobs": [{"id": "aa"}, {"id": "bb"}]})");
   daemon.on("GET /v1/jobs/1f", R"({"job": {"id": "1f0c", "sweep": "s7", "state": "done"}})");
   daemon.on("GET /v1/jobs/2", {{409, R"({"error": "'2' fits several jobs: 2a, 2b"})"}});
-  Session session(root.path());
+  ApiClient session(root.path());
 
   const Target sweep = find_target(session, "phases");
   EXPECT_TRUE(sweep.is_sweep);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "server/publisher.h"
+#include "server/status_publisher.h"
 
 #include <spdlog/spdlog.h>
 
@@ -26,16 +26,16 @@ constexpr milliseconds kPause{10};
 
 }  // namespace
 
-Publisher::Publisher(const Queue& queue, std::unique_ptr<proto::Bus> bus, DaemonInfo info)
+StatusPublisher::StatusPublisher(const Queue& queue, std::unique_ptr<proto::Bus> bus, DaemonInfo info)
     : queue_(queue),
       bus_(std::move(bus)),
       info_(std::move(info)),
       last_change_(queue.last_change()),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
-Publisher::~Publisher() = default;
+StatusPublisher::~StatusPublisher() = default;
 
-void Publisher::run(const std::stop_token& stop) {
+void StatusPublisher::run(const std::stop_token& stop) {
   auto next_tick = steady_clock::now();
   do {
     try {
@@ -59,7 +59,7 @@ void Publisher::run(const std::stop_token& stop) {
   }
 }
 
-void Publisher::publish_status() {
+void StatusPublisher::publish_status() {
   const JobCounts counts = queue_.counts();
   const auto n = [&](JobState state) { return static_cast<std::int32_t>(counts[state]); };
   shaken::status_t status;
@@ -79,13 +79,13 @@ void Publisher::publish_status() {
   bus_->publish(proto::kStatusChannel, status);
 }
 
-void Publisher::publish_running() {
+void StatusPublisher::publish_running() {
   for (const JobState state : {JobState::kRunning, JobState::kStopping}) {
     for (const Job& job : queue_.jobs(std::nullopt, state)) publish_job(job, std::string(to_word(state)));
   }
 }
 
-bool Publisher::publish_changes() {
+bool StatusPublisher::publish_changes() {
   const auto changes = queue_.changes_since(last_change_, kBurst);
   for (const Change& change : changes) {
     if (const auto job = queue_.job(change.job)) publish_job(*job, change.to);
@@ -96,7 +96,7 @@ bool Publisher::publish_changes() {
   return true;
 }
 
-void Publisher::publish_job(const Job& job, const std::string& state) {
+void StatusPublisher::publish_job(const Job& job, const std::string& state) {
   shaken::job_t message{};
   message.utime = utime_now();
   message.sequence = job_sequence_++;

@@ -10,10 +10,10 @@
 namespace shaken::run {
 
 /// The measured rods at one tick, with what several measurements need of them, worked out once and only on demand.
-class Moment {
+class Sample {
  public:
   /// `rods` must outlive the moment.
-  explicit Moment(const Snapshot& rods) : rods_(rods) {}
+  explicit Sample(const Snapshot& rods) : rods_(rods) {}
 
   const Snapshot* operator->() const { return &rods_; }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "server/verdict.h"
+#include "server/job_end.h"
 
 #include <csignal>
 #include <cstring>
@@ -44,19 +44,19 @@ std::string signal_name(int signal) {
 
 }  // namespace
 
-Verdict judge(const WorkerEnd& end, int pid, bool stop_asked, const run::RunDirectory& directory) {
+JobEnd judge(const WorkerEnd& end, int pid, bool stop_asked, const run::RunDirectory& directory) {
   if (end.signal == SIGTERM || (end.signal == SIGKILL && stop_asked)) {
-    return {Verdict::Outcome::kStopped, "the worker was stopped by " + signal_name(end.signal)};
+    return {JobEnd::Outcome::kStopped, "the worker was stopped by " + signal_name(end.signal)};
   }
-  if (end.signal != 0) return {Verdict::Outcome::kFailed, "worker was killed by " + signal_name(end.signal)};
+  if (end.signal != 0) return {JobEnd::Outcome::kFailed, "worker was killed by " + signal_name(end.signal)};
   if (end.exit_code == 0) {
-    if (std::filesystem::exists(directory.summary())) return {Verdict::Outcome::kDone, ""};
-    return {Verdict::Outcome::kFailed, "exit 0, but there is no " + directory.summary().string()};
+    if (std::filesystem::exists(directory.summary())) return {JobEnd::Outcome::kDone, ""};
+    return {JobEnd::Outcome::kFailed, "exit 0, but there is no " + directory.summary().string()};
   }
-  if (end.exit_code == kStoppedOnRequest) return {Verdict::Outcome::kStopped, "the worker has stopped at a checkpoint"};
+  if (end.exit_code == kStoppedOnRequest) return {JobEnd::Outcome::kStopped, "the worker has stopped at a checkpoint"};
   std::string reason = "exit " + std::to_string(end.exit_code) + (end.exit_code == kBadInput ? " (bad input)" : "");
   if (const std::string why = explanation(pid, directory); !why.empty()) reason += ": " + why;
-  return {Verdict::Outcome::kFailed, reason};
+  return {JobEnd::Outcome::kFailed, reason};
 }
 
 }  // namespace shaken::server

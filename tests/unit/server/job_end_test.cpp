@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "server/verdict.h"
+#include "server/job_end.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,12 +12,12 @@
 namespace shaken::server {
 namespace {
 
-using enum Verdict::Outcome;
+using enum JobEnd::Outcome;
 
 class VerdictTest : public testing::Test {
  protected:
-  Verdict exit(int code) const { return judge({code, 0}, 77, false, run_); }
-  Verdict killed(int signal, bool stop_asked) const { return judge({0, signal}, 77, stop_asked, run_); }
+  JobEnd exit(int code) const { return judge({code, 0}, 77, false, run_); }
+  JobEnd killed(int signal, bool stop_asked) const { return judge({0, signal}, 77, stop_asked, run_); }
 
   TempDirectory directory_;
   run::RunDirectory run_{directory_.path()};

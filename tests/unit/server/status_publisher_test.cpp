@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the publisher sends, read back from an LCM log file.
-#include "server/publisher.h"
+#include "server/status_publisher.h"
 
 #include <gtest/gtest.h>
 #include <lcm/eventlog.h>
@@ -52,7 +52,7 @@ class PublisherTest : public testing::Test {
 
   TempDirectory directory_;
   Queue queue_{directory_ / "queue.db"};
-  std::optional<Publisher> publisher_;
+  std::optional<StatusPublisher> publisher_;
   const std::string a_ = std::string(16, 'a');
 };
 

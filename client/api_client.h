@@ -20,11 +20,11 @@ std::string problem_text(const Json& problem);
 /// Requests to the daemon of one root directory (docs/protocol.md). Every function throws Failure: kNoDaemon if nobody
 /// listens, kBadInput with the daemon's words (and the list of problems) for 4xx, kFailed for 5xx and for answers that
 /// are not JSON objects.
-class Session {
+class ApiClient {
  public:
-  explicit Session(const std::filesystem::path& root);
-  Session(Session&&) noexcept;
-  ~Session();
+  explicit ApiClient(const std::filesystem::path& root);
+  ApiClient(ApiClient&&) noexcept;
+  ~ApiClient();
 
   Json get(const std::string& path);
   Json post(const std::string& path, const Json& body);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "run/session.h"
+#include "run/open_run.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,17 +19,17 @@ std::optional<Cadence> recording_of(const scene::RunPlan& plan) {
 TrajectoryHeader trajectory_header(const World& world, const std::string& scene_json) {
   TrajectoryHeader header;
   header.n_rods = static_cast<int>(world.rods.size());
-  header.box_side = world.scene.box_side;
-  header.gap = world.scene.gap;
-  header.dt = world.scene.dt;
+  header.box_side = world.system.box_side;
+  header.gap = world.system.gap;
+  header.dt = world.system.dt;
   header.bead_offset = world.species[0].bead_offset;
   header.bead_radius = world.species[0].bead_radius;
   header.scene_json = scene_json;
   for (std::size_t k = 1; k < world.species.size(); ++k) {
     header.added_beads.push_back({world.species[k].bead_offset, world.species[k].bead_radius});
   }
-  if (!header.added_beads.empty()) header.kinds = world.kinds;
-  header.walls = world.scene.walls;
+  if (!header.added_beads.empty()) header.species_of_rod = world.species_of_rod;
+  header.walls = world.system.walls;
   return header;
 }
 
@@ -37,8 +37,8 @@ Provenance provenance_of(const scene::RunPlan& plan) { return {scene::run_id(pla
 
 namespace {
 
-Session make_session(const scene::RunPlan& plan, Simulation simulation) {
-  Measurements measurements(plan, simulation.world().species.front(), simulation.world().kinds);
+OpenRun make_run(const scene::RunPlan& plan, Simulation simulation) {
+  Measurements measurements(plan, simulation.world().species.front(), simulation.world().species_of_rod);
   return {std::move(simulation), std::move(measurements), recording_of(plan), std::nullopt, 0, 0};
 }
 
@@ -46,54 +46,52 @@ Session make_session(const scene::RunPlan& plan, Simulation simulation) {
 
 Tick total_ticks(const scene::RunPlan& plan) { return std::llround(plan.total_time() / plan.system.dt); }
 
-Tick Session::next_due(Tick from) const {
+Tick OpenRun::next_due(Tick from) const {
   const Tick sample = measurements.next_due(from);
   return recording ? std::min(sample, recording->next(from)) : sample;
 }
 
-Result<Session> start_session(const scene::RunPlan& plan, const RunDirectory& directory,
-                              const std::string& scene_json) {
+Result<OpenRun> start_run(const scene::RunPlan& plan, const RunDirectory& directory, const std::string& scene_json) {
   Result<Simulation> simulation = Simulation::start(plan.system);
   if (!simulation) return simulation.error();
-  Session session = make_session(plan, std::move(simulation).value());
-  if (session.recording) {
-    TrajectoryHeader header = trajectory_header(session.simulation.world(), scene_json);
+  OpenRun run = make_run(plan, std::move(simulation).value());
+  if (run.recording) {
+    TrajectoryHeader header = trajectory_header(run.simulation.world(), scene_json);
     header.provenance = provenance_of(plan);
     auto trajectory = TrajectoryWriter::create(directory.trajectory(), header);
     if (!trajectory) return trajectory.error();
-    session.trajectory = std::move(trajectory).value();
+    run.trajectory = std::move(trajectory).value();
   }
-  return session;
+  return run;
 }
 
-Result<Session> resume_session(const scene::RunPlan& plan, const RunDirectory& directory,
-                               const Checkpoint& checkpoint) {
+Result<OpenRun> resume_run(const scene::RunPlan& plan, const RunDirectory& directory, const Checkpoint& checkpoint) {
   Result<Simulation> simulation = Simulation::resume(plan.system, checkpoint.simulation);
   if (!simulation) return simulation.error();
-  Session session = make_session(plan, std::move(simulation).value());
-  session.cpu_before = checkpoint.cpu_seconds;
-  session.wall_before = checkpoint.wall_seconds;
+  OpenRun run = make_run(plan, std::move(simulation).value());
+  run.cpu_before = checkpoint.cpu_seconds;
+  run.wall_before = checkpoint.wall_seconds;
   try {
-    session.measurements.restore(checkpoint.measurements);
+    run.measurements.restore(checkpoint.measurements);
   } catch (const analysis::StateError& problem) {
     return Error{std::string("the checkpoint's measurements are not of this plan: ") + problem.what()};
   }
-  if (session.recording) {
-    const Tick tick = session.simulation.tick();
+  if (run.recording) {
+    const Tick tick = run.simulation.tick();
     auto trajectory = TrajectoryWriter::reopen(directory.trajectory(), tick);
     if (!trajectory) return trajectory.error();
-    session.trajectory = std::move(trajectory).value();
-    const auto expected = static_cast<std::size_t>(tick / session.recording->period() + 1);
-    if (session.trajectory->n_frames() != expected) {
-      return Error{directory.trajectory().string() + " has " + std::to_string(session.trajectory->n_frames()) +
+    run.trajectory = std::move(trajectory).value();
+    const auto expected = static_cast<std::size_t>(tick / run.recording->period() + 1);
+    if (run.trajectory->n_frames() != expected) {
+      return Error{directory.trajectory().string() + " has " + std::to_string(run.trajectory->n_frames()) +
                    " frames up to the checkpoint instead of " + std::to_string(expected)};
     }
   }
-  return session;
+  return run;
 }
 
-Checkpoint make_checkpoint(const Session& session, double cpu_seconds, double wall_seconds) {
-  return {session.simulation.checkpoint(), session.measurements.save(), cpu_seconds, wall_seconds};
+Checkpoint make_checkpoint(const OpenRun& run, double cpu_seconds, double wall_seconds) {
+  return {run.simulation.checkpoint(), run.measurements.save(), cpu_seconds, wall_seconds};
 }
 
 }  // namespace shaken::run

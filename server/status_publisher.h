@@ -12,10 +12,10 @@ namespace shaken::server {
 
 /// Sends SHAKEN_STATUS once a second, and SHAKEN_JOB at every change of state and once a second for each job that
 /// runs. Its thread is the only one that touches the bus; it reads the queue and the progress files, nothing else.
-class Publisher {
+class StatusPublisher {
  public:
-  Publisher(const Queue& queue, std::unique_ptr<proto::Bus> bus, DaemonInfo info);
-  ~Publisher();
+  StatusPublisher(const Queue& queue, std::unique_ptr<proto::Bus> bus, DaemonInfo info);
+  ~StatusPublisher();
 
  private:
   void run(const std::stop_token& stop);
