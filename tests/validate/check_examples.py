@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Runs every Python example of a page of the documentation on a run directory. Exits 1 if one fails.
 
-    tools/check_examples.py docs/files.md RUN_DIR
+    tests/validate/check_examples.py docs/files.md RUN_DIR
 
 Debian packages: python3-h5py, python3-mdanalysis."""
 import re

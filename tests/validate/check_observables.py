@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Works out a run's observables again by other programs, from its trajectory, and compares.
 
-    tools/check_observables.py RUN_DIR [--all] [--only NAME...] [--observables FILE]
+    tests/validate/check_observables.py RUN_DIR [--all] [--only NAME...] [--observables FILE]
 
 RUN_DIR holds trajectory.h5, observables.h5 and summary.json of a run without side walls, of one species, whose
 measurements fall on instants that were recorded (configs/tests/observables.json is such a scene). Every number of
