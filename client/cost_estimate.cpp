@@ -103,6 +103,7 @@ class Estimator {
     if (options_.on_probe) options_.on_probe(0, n_probes_);
     result_.report = probe_plan(plan_of(shown), label_of(shown), options_.from);
     std::vector<Rates> rates;
+    rates.reserve(probed.size());
     for (const std::size_t k : probed) {
       rates.push_back(rates_of(k == shown ? result_.report : probe_plan(plan_of(k), label_of(k), ""), plan_of(k)));
     }

@@ -97,6 +97,13 @@ Schedule::Schedule(const Selection& selection, fs::path root, client::Console& c
 }
 
 void Schedule::submit() {
+  const Json jobs = session_->get("/v1/status").at("jobs");
+  if (const int n = jobs.value("queued", 0) + jobs.value("running", 0); n > 0) {
+    console_.err << fmt::format(
+        "{} jobs were queued here before, perhaps by an earlier `shaken figures`; they go first. `shaken status` lists "
+        "them, `shaken cancel SWEEP` takes them out\n",
+        n);
+  }
   for (const NamedSweep& sweep : selection_.sweeps) {
     if (!sweep.needed) continue;
     const Json answer = session_->post(

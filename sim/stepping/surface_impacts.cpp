@@ -176,7 +176,7 @@ std::optional<NumericalTrouble> meet_side_walls(int index, RodAtTick& rod, const
   const auto seen_by = [&](int bead) {
     return see_walls(walls, rules.box_side, rod.pose.position + species.bead_offset[bead] * rod.pose.director);
   };
-  std::bitset<2 * kMostBeads> met;  // of each bead one wall or two
+  std::bitset<std::size_t{2} * kMostBeads> met;  // of each bead one wall or two
   while (true) {
     Deepest deepest(rod.pose.director);
     for (int bead = 0; bead < species.n_beads(); ++bead) {

@@ -16,6 +16,7 @@ namespace shaken::test {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
@@ -132,6 +133,18 @@ TEST(Figures, ADaemonThatDiesIsStartedAgain) {
   EXPECT_EQ(figures.wait(std::chrono::seconds(120)), 0) << figures.output();
   EXPECT_THAT(figures.output(), HasSubstr("starting one"));
   EXPECT_TRUE(is_png(out.path() / "figures" / "fig08-mechanism.png"));
+}
+
+TEST(Figures, SaysWhatIsQueuedBeforeIt) {
+  const TemporaryDirectory root, out;
+  Process figures(command(root, {"8", "-o", (out.path() / "figures").string()}), out.path() / "out.txt");
+  ASSERT_TRUE(figures.wait_for("0/2 runs", std::chrono::seconds(60))) << figures.output();
+  EXPECT_THAT(figures.output(), Not(HasSubstr("were queued here before")));
+  figures.signal(SIGINT);
+  EXPECT_EQ(figures.wait(std::chrono::seconds(60)), 130) << figures.output();
+  const Finished again = run_command(command(root, {"8", "-o", (out.path() / "figures").string()}));
+  EXPECT_EQ(again.code, 0) << again.output;
+  EXPECT_THAT(again.output, HasSubstr("jobs were queued here before"));
 }
 
 TEST(Figures, WrongWordsAreAllTold) {
