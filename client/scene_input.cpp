@@ -60,7 +60,8 @@ Json derived_quantities(const scene::SweepPoint& point) {
             {"trajectory_frames", 0},
             {"remarks", scene::remarks(plan)}};
   if (const auto gamma = scene::gamma_of(system)) json["gamma"] = *gamma;
-  if (plan.trajectory) json["trajectory_frames"] = std::llround(plan.total_time() / plan.trajectory->every) + 1;
+  if (const auto every = plan.recording_every())
+    json["trajectory_frames"] = std::llround(plan.total_time() / *every) + 1;
   return json;
 }
 

@@ -9,11 +9,8 @@
 namespace shaken::run {
 
 std::optional<Cadence> recording_of(const scene::RunPlan& plan) {
-  double every = INFINITY;
-  if (plan.trajectory) every = std::min(every, plan.trajectory->every);
-  if (plan.movie) every = std::min(every, plan.movie->every);
-  if (std::isinf(every)) return std::nullopt;
-  return Cadence(every, plan.system.dt);
+  const std::optional<double> every = plan.recording_every();
+  return every ? std::optional(Cadence(*every, plan.system.dt)) : std::nullopt;
 }
 
 TrajectoryHeader trajectory_header(const World& world, const std::string& scene_json) {

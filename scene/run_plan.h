@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "scene/measure_plan.h"
@@ -40,6 +41,13 @@ struct RunPlan : MeasurePlan {
 
   /// Simulated seconds from start to end.
   double total_time() const { return steady.value_or(0.0) + measure_time; }
+  /// Simulated seconds between recorded frames: the finer of what `trajectory` and `movie` ask for; none if neither is
+  /// there, and nothing is recorded.
+  std::optional<double> recording_every() const {
+    if (!trajectory || !movie)
+      return trajectory ? std::optional(trajectory->every) : movie ? std::optional(movie->every) : std::nullopt;
+    return std::min(trajectory->every, movie->every);
+  }
 
   friend bool operator==(const RunPlan&, const RunPlan&) = default;
 };

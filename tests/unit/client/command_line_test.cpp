@@ -155,7 +155,7 @@ TEST(Validate, StarterSceneIsFineAndItsNumbersFollow) {
   EXPECT_THAT(run_client({"validate", file, "-s", "rods.length=2.5,3.5", "--replicas", "2"}).out, HasSubstr("4 runs"));
 }
 
-TEST(Validate, ShowsThePackingOfEachKindAndOfAll) {
+TEST(Validate, ShowsThePackingOfEachSpeciesAndOfAll) {
   const TemporaryFolder folder;
   const std::string file = (folder.path() / "scene.json").string();
   std::ofstream(file)
@@ -170,6 +170,19 @@ TEST(Validate, ShowsThePackingOfEachKindAndOfAll) {
   EXPECT_NEAR(point.at("area_fraction").get<double>(), 0.3132, 1e-4);
   EXPECT_EQ(point.at("species").at(1).at("name"), "rods_2");
   EXPECT_EQ(point.at("species").at(1).at("count"), 40);
+}
+
+TEST(Validate, CountsTheFramesThatAMovieRecords) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "scene.json").string();
+  const auto frames = [&](const std::string& recorded) {
+    std::ofstream(file) << R"({"time": {"steady": 0, "measure": 2})" << recorded << "}";
+    return Json::parse(run_client({"validate", file, "--json"}).out).at("points").at(0).at("trajectory_frames");
+  };
+  EXPECT_EQ(frames(""), 0);
+  EXPECT_EQ(frames(R"(, "movie": {"every": 0.1})"), 21);
+  EXPECT_EQ(frames(R"(, "movie": {"every": 0.1}, "trajectory": {"every": 0.5})"), 21);
+  EXPECT_EQ(frames(R"(, "movie": {"every": 0.5}, "trajectory": {"every": 0.1})"), 21);
 }
 
 TEST(Validate, PlacesTheRods) {
