@@ -49,7 +49,7 @@ struct RodPicture {
   std::size_t n_species() const { return 1 + added.size(); }
   std::size_t species_of(std::size_t rod) const { return species_of_rod.empty() ? 0 : species_of_rod[rod]; }
   const BeadRow& beads_of(std::size_t species) const { return species == 0 ? beads : added[species - 1]; }
-  /// Rods of one kind.
+  /// Rods of one species.
   std::size_t count(std::size_t species) const;
   /// The directors of the rods of the first species, which order and colours are about.
   std::vector<Vec3> first_directors() const;

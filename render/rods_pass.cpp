@@ -138,7 +138,7 @@ std::optional<Error> check(const RodPicture& picture, int side) {
     return Error{"each rod's species is needed"};
   if (std::any_of(picture.species_of_rod.begin(), picture.species_of_rod.end(),
                   [&](std::uint8_t species) { return species >= picture.n_species(); })) {
-    return Error{"a rod is of a kind whose beads are not given"};
+    return Error{"a rod is of a species whose beads are not given"};
   }
   return std::nullopt;
 }

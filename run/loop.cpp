@@ -132,7 +132,7 @@ class Loop {
     if (record) {
       if (auto error = run_.trajectory->append(snapshot)) return error;
     }
-    if (show) publisher_->offer(make_frame(snapshot, kinds_if_several(run_.simulation.world())));
+    if (show) publisher_->offer(make_frame(snapshot, species_if_several(run_.simulation.world())));
     const DefectSample* defects = run_.measurements.last_defects();
     if (publisher_ && defects != nullptr && defects->tick == tick() && defects_pacer_.take(WallClock::now())) {
       publisher_->offer(make_defects(*defects));

@@ -9,11 +9,12 @@ namespace shaken::run {
 using analysis::StateReader;
 using analysis::StateWriter;
 
-Measurements::Measurements(const scene::RunPlan& plan, const Species& species, std::span<const std::uint8_t> kinds)
+Measurements::Measurements(const scene::RunPlan& plan, const Species& species,
+                           std::span<const std::uint8_t> species_of_rod)
     : steady_(plan.steady) {
-  if (std::any_of(kinds.begin(), kinds.end(), [](std::uint8_t kind) { return kind != 0; })) {
-    for (std::size_t i = 0; i < kinds.size(); ++i) {
-      if (kinds[i] == 0) measured_.push_back(i);
+  if (std::any_of(species_of_rod.begin(), species_of_rod.end(), [](std::uint8_t kind) { return kind != 0; })) {
+    for (std::size_t i = 0; i < species_of_rod.size(); ++i) {
+      if (species_of_rod[i] == 0) measured_.push_back(i);
     }
   }
   const double dt = plan.system.dt;

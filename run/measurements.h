@@ -25,7 +25,7 @@ namespace shaken::run {
 /// measurement's own period, tick 0 included. What the plan does not ask for costs nothing.
 class Measurements {
  public:
-  /// Of rods of the first species; `kinds` (n_rods) says which these are, or is empty if there is no other.
+  /// Of rods of the first species; `species_of_rod` (n_rods) says which these are, or is empty if there is no other.
   Measurements(const scene::RunPlan& plan, const Species& species, std::span<const std::uint8_t> species_of_rod = {});
 
   /// The first tick >= `from` at which a sample is due; kNever if nothing is measured.

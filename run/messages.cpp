@@ -27,7 +27,7 @@ void append(std::vector<double>& all, const std::vector<double>& more) {
 
 }  // namespace
 
-std::span<const std::uint8_t> kinds_if_several(const World& world) {
+std::span<const std::uint8_t> species_if_several(const World& world) {
   if (world.species.size() > 1) return world.species_of_rod;
   return {};
 }
@@ -49,7 +49,7 @@ proto::Frame make_frame(const Snapshot& snapshot, std::span<const std::uint8_t> 
 }
 
 observables_t make_observables(const World& world, const Snapshot& snapshot, const Progress& progress) {
-  const analysis::NematicOrder order = order_of(snapshot, kinds_if_several(world));
+  const analysis::NematicOrder order = order_of(snapshot, species_if_several(world));
   double speed2_xy = 0;
   double speed2_z = 0;
   double n2_z = 0;
@@ -113,7 +113,7 @@ frame_static_t make_frame_static(const World& world, const std::string& label) {
     append(message.bead_radius_mm, species.bead_radius);
   }
   message.n_beads = static_cast<std::int32_t>(message.bead_offset_mm.size());
-  const std::span<const std::uint8_t> species_of_rod = kinds_if_several(world);
+  const std::span<const std::uint8_t> species_of_rod = species_if_several(world);
   message.rod_species.assign(species_of_rod.begin(), species_of_rod.end());
   message.n_rod_species = static_cast<std::int32_t>(message.rod_species.size());
   message.arena_size_mm = 0;

@@ -15,7 +15,7 @@
 namespace shaken::run {
 
 /// Species of each rod; empty if there is but one species.
-std::span<const std::uint8_t> kinds_if_several(const World& world);
+std::span<const std::uint8_t> species_if_several(const World& world);
 
 /// State into wire messages. Head fields (utime, sequence, job_id) are left to the sender. Order and director are those
 /// of the rods of the first species, as in the measurements.

@@ -115,7 +115,7 @@ void each_scene_key(Archive&& visit, const System& system) {
     shape(more->rod);
     mixed = true;
   }
-  if (mixed) visit(static_cast<std::int64_t>(system.seed));  // it tells which rod is of which kind
+  if (mixed) visit(static_cast<std::int64_t>(system.seed));  // it tells which rod is of which species
   visit(static_cast<std::int64_t>(system.base));
   visit(static_cast<std::int64_t>(system.lid));
   if (system.walls) {

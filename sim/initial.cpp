@@ -58,7 +58,8 @@ class Placement {
     return extent;
   }
 
-  /// Least distance of two rows of rods of any kinds, with a rod every `pitch`, shifted against each other by `shift`.
+  /// Least distance of two rows of rods of any species, with a rod every `pitch`, shifted against each other by
+  /// `shift`.
   double least_row_distance(double pitch, double shift) const {
     double least2 = 0;
     for (const Beads& one : poses_) {

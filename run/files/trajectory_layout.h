@@ -22,7 +22,7 @@ inline constexpr const char* kTime = "/particles/trajectory/position/time";
 /// (n_rods) species of each rod, from 0; only where there are several.
 inline constexpr const char* kSpecies = "/particles/trajectory/species";
 inline constexpr const char* kWalls = "/parameters/walls";
-/// Beads of the k-th added kind, k = 0 being the second of all: they are counted from 1 as the scene's rods, rods_2
+/// Beads of the k-th added species, k = 0 being the second of all: they are counted from 1 as the scene's rods, rods_2
 /// are.
 inline std::string added_beads(std::size_t k) { return "/parameters/species_" + std::to_string(k + 2); }
 

@@ -41,7 +41,7 @@ class NeighborList {
     int j = -1;  ///< > i
   };
 
-  /// `kinds` (n_rods): the index of each rod's species.
+  /// `species_of_rod` (n_rods): the index of each rod's species.
   NeighborList(std::span<const Species> species, std::span<const std::uint8_t> species_of_rod, double box_side,
                double skin);
 
