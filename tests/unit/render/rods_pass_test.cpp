@@ -350,7 +350,7 @@ TEST(RodsPass, RefusesWhatCannotBeDrawn) {
   EXPECT_NE(message(uneven).find("directors"), std::string::npos);
   RodPicture unknown_kind = second_kind({{0}, {0.5}}, 0);
   unknown_kind.species_of_rod[0] = 2;
-  EXPECT_NE(message(unknown_kind).find("kind"), std::string::npos);
+  EXPECT_NE(message(unknown_kind).find("of a species whose beads"), std::string::npos);
   unknown_kind.species_of_rod.clear();
   EXPECT_NE(message(unknown_kind).find("each rod's species"), std::string::npos);
   EXPECT_NE(message(empty_picture(0)).find("no size"), std::string::npos);
