@@ -351,7 +351,7 @@ void ScheduledStepper::list_pairs_to_bound() {
   }
 }
 
-// Flattened: or else each of its many appends to a list is a call, which costs the engine 1 %.
+// Flattened: or else each of its many appends to a list is a call: 2 % of all instructions (callgrind).
 [[gnu::flatten]] void ScheduledStepper::bound_motions(const World& world, Tick now) {
   to_pose_.clear();
   to_bound_motion_.clear();

@@ -62,7 +62,7 @@ impact::Impulse impulse_without_friction(const Surface& surface, const Vec3& u, 
 }
 
 /// The bead `b` of a rod against a plate or wall that it overlaps; both move as the plates do. Returns whether it
-/// approached. Flattened: or else its 3 x 3 matrices are copied through memory, which costs the engine 2 %.
+/// approached. Flattened: or else its 3 x 3 matrices are copied by a call: 2.5 % of all instructions (callgrind).
 [[gnu::flatten]] bool collide_with(const Vec3& normal, int b, double overlap, const ContactParameters& contact,
                                    RodAtTick& rod, const SpeciesMechanics& species, const PlateState& plates,
                                    const TickRules& rules, Counters& counters) {
