@@ -115,7 +115,7 @@ PartsSummary summarize_parts(std::span<const double> parts) {
 Estimate estimate_from_parts(double value, std::span<const double> parts) {
   if (!std::isfinite(value)) return {value};
   const PartsSummary summary = summarize_parts(parts);
-  return {value, summary.sem, summary.n_effective, summary.steady};
+  return {value, summary.sem, summary.n_effective, summary.steady, summary.drift.value, summary.drift.sem};
 }
 
 std::vector<double> parts_of_series(std::span<const double> values) {

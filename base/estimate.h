@@ -15,6 +15,9 @@ struct Estimate {
   double n_effective = std::numeric_limits<double>::quiet_NaN();
   /// Whether what it averages over is steady; none: it is no average over time, or that cannot be told.
   std::optional<bool> steady = std::nullopt;
+  /// Its mean over the later half of the time less that over the earlier one, and the error of this; NaN: unknown.
+  double drift = std::numeric_limits<double>::quiet_NaN();
+  double drift_sem = std::numeric_limits<double>::quiet_NaN();
 };
 
 inline bool is_known(const Estimate& estimate) { return std::isfinite(estimate.value); }
@@ -22,6 +25,8 @@ inline bool is_known(const Estimate& estimate) { return std::isfinite(estimate.v
 inline Estimate operator/(Estimate a, double divisor) {
   a.value /= divisor;
   a.sem /= divisor;
+  a.drift /= divisor;
+  a.drift_sem /= divisor;
   return a;
 }
 

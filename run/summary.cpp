@@ -46,6 +46,10 @@ OrderedJson to_json(const Balance& balance) {
           {"unexplained", balance.energy_unexplained}};
 }
 
+OrderedJson drift_json(double value, double sem) {
+  return {{"value", number_or_null(value)}, {"sem", number_or_null(sem)}};
+}
+
 /// Null where it is not known.
 OrderedJson json_of(std::optional<bool> known) { return known ? OrderedJson(*known) : OrderedJson(nullptr); }
 
@@ -93,16 +97,14 @@ std::optional<Error> write_summary(const std::filesystem::path& file, const Summ
       {"defects", nullptr},
   };
   if (summary.order) {
-    json["order"] = {
-        {"mean", summary.order->mean},
-        {"std", summary.order->std},
-        {"sem", number_or_null(summary.order->sem)},
-        {"tau_s", summary.order->tau},
-        {"t_steady_s", summary.order->t_steady},
-        {"n_effective", summary.order->n_effective},
-        {"steady", json_of(summary.order->steady)},
-        {"drift",
-         {{"value", number_or_null(summary.order->drift.value)}, {"sem", number_or_null(summary.order->drift.sem)}}}};
+    json["order"] = {{"mean", summary.order->mean},
+                     {"std", summary.order->std},
+                     {"sem", number_or_null(summary.order->sem)},
+                     {"tau_s", summary.order->tau},
+                     {"t_steady_s", summary.order->t_steady},
+                     {"n_effective", summary.order->n_effective},
+                     {"steady", json_of(summary.order->steady)},
+                     {"drift", drift_json(summary.order->drift.value, summary.order->drift.sem)}};
   }
   if (summary.defects_mean_plus && summary.defects_mean_minus) {
     json["defects"] = {{"mean_plus", *summary.defects_mean_plus}, {"mean_minus", *summary.defects_mean_minus}};
@@ -112,7 +114,8 @@ std::optional<Error> write_summary(const std::filesystem::path& file, const Summ
     json["measured"][name] = {{"value", number_or_null(scalar.value)},
                               {"sem", number_or_null(scalar.sem)},
                               {"n_effective", number_or_null(scalar.n_effective)},
-                              {"steady", json_of(scalar.steady)}};
+                              {"steady", json_of(scalar.steady)},
+                              {"drift", drift_json(scalar.drift, scalar.drift_sem)}};
     if (!scalar.reason.empty()) json["measured"][name]["reason"] = scalar.reason;
   }
   for (const auto& [name, effect] : summary.effects) json["effects"][name] = to_json(effect);

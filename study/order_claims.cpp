@@ -33,9 +33,8 @@ Estimate power_of_size(const RunSet& runs) {
   const auto& [l0, small] = points.front();
   const auto& [l1, large] = points.back();
   const double scale = std::log(l1 / l0);
-  return {.value = std::log(large.value / small.value) / scale,
-          .sem = std::hypot(small.sem / small.value, large.sem / large.value) / scale,
-          .steady = both_steady(small.steady, large.steady)};
+  return derived(std::log(large.value / small.value) / scale,
+                 std::vector<Term>{{-1 / (small.value * scale), small}, {1 / (large.value * scale), large}});
 }
 
 /// The longest rods of the phase diagram.

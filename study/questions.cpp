@@ -20,7 +20,7 @@ Answer compared(const Estimate& a, const Estimate& b, double sigmas) {
   for (const Estimate& estimate : {a, b}) {
     if (std::string why = doubt(estimate); !why.empty()) return unknown(std::move(why));
   }
-  const double margin = sigmas * std::hypot(a.sem, b.sem);
+  const double margin = sigmas * std::hypot(judged_error(a), judged_error(b));
   if (a.value - b.value > margin) return yes();
   return b.value - a.value > margin ? no() : unknown("the errors are too large");
 }
@@ -51,7 +51,7 @@ std::string doubt(const Estimate& estimate) {
   if (!is_known(estimate)) return "not measured everywhere";
   if (estimate.steady == false) return "a run still relaxes";
   if (!std::isfinite(estimate.sem)) return "too few independent samples for an error";
-  if (!estimate.steady) return "not known whether a run is steady";
+  if (!std::isfinite(judged_error(estimate))) return "not known whether a run is steady";
   return "";
 }
 
@@ -62,8 +62,9 @@ Answer below(const Estimate& estimate, double level) { return larger(exactly(lev
 Answer close_to(const Estimate& estimate, double target, double tolerance) {
   if (std::string why = doubt(estimate); !why.empty()) return unknown(std::move(why));
   const double away = std::abs(estimate.value - target);
-  if (away + kSigmas * estimate.sem <= tolerance) return yes();
-  return away - kSigmas * estimate.sem > tolerance ? no() : unknown("the errors are too large");
+  const double margin = kSigmas * judged_error(estimate);
+  if (away + margin <= tolerance) return yes();
+  return away - margin > tolerance ? no() : unknown("the errors are too large");
 }
 
 Answer trend(const std::vector<Point>& points, bool rising) {
@@ -118,7 +119,9 @@ std::string text(const Estimate& estimate, int digits) {
   } else {
     words = fmt::format("{:.{}f} ± ?", estimate.value, digits);
   }
-  return estimate.steady == false ? words + " (still relaxing)" : words;
+  if (estimate.steady == false) return words + " (still relaxing)";
+  if (estimate.steady || !std::isfinite(estimate.drift_sem)) return words;
+  return words + fmt::format(" (drift {:.{}f} ± {:.{}f})", estimate.drift, digits, estimate.drift_sem, digits);
 }
 
 std::string text(const std::vector<Point>& points, const std::string& key, int digits) {

@@ -40,10 +40,10 @@ struct Finding {
 inline constexpr double kSigmas = 2;
 
 /// Why a number decides nothing; empty if it does. A number decides if it is measured, has an error, and its run is
-/// known to be steady.
+/// known to be steady, or its drift is known (see judged_error).
 std::string doubt(const Estimate& estimate);
 
-/// a > b, by their errors.
+/// a > b, by the errors that they are judged with.
 Answer larger(const Estimate& a, const Estimate& b);
 Answer above(const Estimate& estimate, double level);
 Answer below(const Estimate& estimate, double level);
@@ -72,8 +72,8 @@ Finding conclude_everywhere(const std::vector<Answer>& answers, std::string foun
 /// Those that can tell; if none can, all.
 std::vector<Answer> telling(const std::vector<Answer>& answers);
 
-/// Value and error with at least `digits` decimals, and as many as the error needs to show; says so if the run still
-/// relaxes.
+/// Value and error with at least `digits` decimals, and as many as the error needs to show. Says so if the run still
+/// relaxes, and names the drift where it is not known whether it does.
 std::string text(const Estimate& estimate, int digits = 2);
 /// Points in words: "0.90 ± 0.01 at φ = 0.75; ...".
 std::string text(const std::vector<Point>& points, const std::string& key, int digits = 2);

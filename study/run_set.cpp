@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/parts.h"
 #include "base/failure.h"
 #include "base/files.h"
 #include "client/replicas.h"
@@ -42,16 +43,40 @@ std::optional<bool> flag_of(const Json* json) {
   return json != nullptr && json->is_boolean() ? std::optional(json->get<bool>()) : std::nullopt;
 }
 
-bool same(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max({1.0, std::abs(a), std::abs(b)}); }
-
-}  // namespace
-
-Estimate exactly(double value) { return {.value = value, .sem = 0, .steady = true}; }
-
+/// False if one is not, unknown if one is unknown.
 std::optional<bool> both_steady(std::optional<bool> a, std::optional<bool> b) {
   if (a == false || b == false) return false;
   return a && b ? std::optional(true) : std::nullopt;
 }
+
+/// Of an object at `path` with value and sem; unknown if it is not there.
+void read_drift(Estimate& estimate, const Json& json, const std::string& path) {
+  estimate.drift = number_or_nan(find(json, path + ".value"));
+  estimate.drift_sem = number_or_nan(find(json, path + ".sem"));
+}
+
+bool same(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max({1.0, std::abs(a), std::abs(b)}); }
+
+}  // namespace
+
+double judged_error(const Estimate& estimate) {
+  if (estimate.steady == true) return estimate.sem;
+  return std::hypot(estimate.sem, estimate.drift, estimate.drift_sem);
+}
+
+Estimate derived(double value, std::span<const Term> terms) {
+  Estimate result{.value = value, .sem = 0, .steady = true, .drift = 0, .drift_sem = 0};
+  for (const auto& [slope, estimate] : terms) {
+    result.sem = std::hypot(result.sem, slope * estimate.sem);
+    result.steady = both_steady(result.steady, estimate.steady);
+    if (estimate.steady == true) continue;  // what is steady drifts by chance alone
+    result.drift += slope * estimate.drift;
+    result.drift_sem = std::hypot(result.drift_sem, slope * estimate.drift_sem);
+  }
+  return result;
+}
+
+Estimate exactly(double value) { return {.value = value, .sem = 0, .steady = true}; }
 
 FinishedRun::FinishedRun(std::filesystem::path directory, Json parameters)
     : directory_(std::move(directory)), parameters_(std::move(parameters)) {
@@ -78,20 +103,35 @@ Estimate FinishedRun::scalar(const std::string& name) const {
     estimate.value = number_or_nan(find(scalar, "value"));
     estimate.sem = number_or_nan(find(scalar, "sem"));
     estimate.steady = flag_of(find(scalar, "steady"));
+    read_drift(estimate, scalar, "drift");
   } else {
     estimate.value = number_or_nan(find(*summary_, name));
     if (name == "order.mean") {
       estimate.sem = number_or_nan(find(*summary_, "order.sem"));
       estimate.steady = flag_of(find(*summary_, "order.steady"));
+      read_drift(estimate, *summary_, "order.drift");
     }
   }
-  // What the run cannot tell of this number it may tell of itself, and the other way round.
-  const std::optional<bool> own = estimate.steady, all = steady();
-  estimate.steady = own && all ? both_steady(own, all) : own ? own : all;
+  // What the run cannot tell of this number it may tell of itself, and the other way round. A number that knows its own
+  // drift is judged by that rather than by how little S drifts.
+  const std::optional<bool> own = estimate.steady, all = flag_of(find(*summary_, "steady"));
+  if (own == false || all == false) {
+    estimate.steady = false;
+  } else if (own || all) {
+    estimate.steady = true;
+  } else if (!std::isfinite(estimate.drift_sem)) {
+    estimate.steady = steady();
+  }
   return estimate;
 }
 
-std::optional<bool> FinishedRun::steady() const { return flag_of(find(*summary_, "steady")); }
+std::optional<bool> FinishedRun::steady() const {
+  if (const std::optional<bool> told = flag_of(find(*summary_, "steady"))) return told;
+  Estimate order;
+  read_drift(order, *summary_, "order.drift");
+  const bool hardly_drifts = std::abs(order.drift) + analysis::kDriftErrors * order.drift_sem < kSmallDriftOfOrder;
+  return hardly_drifts ? std::optional(true) : std::nullopt;
+}
 
 std::string FinishedRun::versions() const {
   std::string words;
@@ -167,17 +207,18 @@ RunSet layered(const RunSet& runs) {
 
 Estimate mean_of(std::span<const Estimate> replicas) {
   std::vector<double> values, errors;
-  std::optional<bool> steady = true;
+  std::vector<Term> terms;
   for (const Estimate& replica : replicas) {
     if (!is_known(replica)) return {};
     values.push_back(replica.value);
     errors.push_back(replica.sem);
-    steady = both_steady(steady, replica.steady);
+    terms.push_back({1 / static_cast<double>(replicas.size()), replica});
   }
   if (values.empty()) return {};
-  Estimate mean = client::replica_mean(values, errors);
-  mean.steady = steady;
-  return mean;
+  const Estimate mean = client::replica_mean(values, errors);
+  Estimate result = derived(mean.value, terms);
+  result.sem = mean.sem;
+  return result;
 }
 
 Estimate mean_over(const RunSet& replicas, const std::function<Estimate(const FinishedRun&)>& of) {
@@ -207,9 +248,7 @@ Estimate crossing(std::vector<Point> points, double level) {
     if (!(low.value < level) || !(high.value >= level)) continue;
     const double part = (level - low.value) / (high.value - low.value);
     const double slope = (high.value - low.value) / (x1 - x0);
-    return {.value = x0 + part * (x1 - x0),
-            .sem = std::hypot((1 - part) * low.sem, part * high.sem) / slope,
-            .steady = both_steady(low.steady, high.steady)};
+    return derived(x0 + part * (x1 - x0), std::vector<Term>{{-(1 - part) / slope, low}, {-part / slope, high}});
   }
   return {};
 }

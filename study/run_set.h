@@ -22,10 +22,23 @@ using client::Json;
 inline constexpr const char* kPacking = "rods.area_fraction";
 inline constexpr const char* kLength = "rods.length";
 
+/// A change of S by less than this leaves the other averages of its run what they are.
+inline constexpr double kSmallDriftOfOrder = 0.05;
+
 /// A number that was not measured but given: exact, and the same for ever.
 Estimate exactly(double value);
-/// Whether a number made of two others is of a steady state: false if one is not, unknown if one is unknown.
-std::optional<bool> both_steady(std::optional<bool> a, std::optional<bool> b);
+/// The standard error that a number is judged with: its own where it is steady. Where that cannot be told its drift,
+/// and the error of the drift, are added in quadrature: a mean that still relaxes, over no more than half of the time
+/// that it was taken from, is off by about what its halves differ, or less. NaN if any of these is unknown.
+double judged_error(const Estimate& estimate);
+
+/// A number that `estimate` goes into, with the derivative of that number by it.
+struct Term {
+  double slope = 0;
+  Estimate estimate{};
+};
+/// A number made of independent others, to first order: as steady as all of them, with their errors and drifts.
+Estimate derived(double value, std::span<const Term> terms);
 
 /// A run that is done, as its directory tells it. Files are read once, when they are first asked for.
 class FinishedRun {
@@ -43,7 +56,8 @@ class FinishedRun {
   /// A number of summary.json: "order.mean" (with its error), "cpu_seconds", or one of "measured". It is steady if the
   /// run is, or says so of this number, and neither says that it still relaxes.
   Estimate scalar(const std::string& name) const;
-  /// Of the whole run: "steady" of summary.json. None: nobody tested it (no S(t), too short a run, an older version).
+  /// Of the whole run: "steady" of summary.json; where that is left open, true if S is known to drift by less than
+  /// kSmallDriftOfOrder. None: that is not known either, or nobody tested it (no S(t), an older version).
   std::optional<bool> steady() const;
   /// A number that was worked out from this run's arrays, as steady as the run.
   Estimate estimate(double value, double sem) const { return {.value = value, .sem = sem, .steady = steady()}; }

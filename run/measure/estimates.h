@@ -12,9 +12,7 @@
 
 namespace shaken::run {
 
-inline Scalar scalar(const analysis::Estimate& estimate) {
-  return {estimate.value, estimate.sem, estimate.n_effective, estimate.steady};
-}
+inline Scalar scalar(const Estimate& estimate) { return {estimate}; }
 
 /// The same, and why it has no value if it has none.
 inline Scalar scalar_or(const analysis::Estimate& estimate, const char* reason) {

@@ -13,13 +13,7 @@
 namespace shaken::run {
 
 /// A number that a run comes down to.
-struct Scalar {
-  double value = std::numeric_limits<double>::quiet_NaN();  ///< NaN: the run does not say
-  double sem = std::numeric_limits<double>::quiet_NaN();    ///< standard error; NaN: not known
-  /// Independent samples behind the error; NaN: not known.
-  double n_effective = std::numeric_limits<double>::quiet_NaN();
-  /// Whether what it averages over is steady; none: it is no average over time, or that cannot be told.
-  std::optional<bool> steady = std::nullopt;
+struct Scalar : Estimate {
   /// Why there is no value, where it takes a word: a system too small, a run too short.
   std::string reason = {};
 };

@@ -62,17 +62,19 @@ TEST(Summary, SaysOfEveryNumberWhatItIsWorth) {
   Summary summary = example();
   summary.order->steady = true;
   summary.order->drift = {0.01, 0.02};
-  summary.scalars["theta_m_deg"] = {12.5, 0.25, 30, true};
-  summary.scalars["dip"] = {0.5, NAN, 3, std::nullopt};
-  summary.scalars["psi_6"] = {0.5, 0.01, 20, false};
+  summary.scalars["theta_m_deg"] = {{12.5, 0.25, 30, true, -0.5, 0.75}};
+  summary.scalars["dip"] = {{0.5, NAN, 3, std::nullopt}};
+  summary.scalars["psi_6"] = {{0.5, 0.01, 20, false}};
   auto json = written(summary);
   EXPECT_EQ(json["steady"], true);
   EXPECT_EQ(json["order"]["steady"], true);
   EXPECT_EQ(json["order"]["drift"], nlohmann::json::parse(R"({"value": 0.01, "sem": 0.02})"));
   EXPECT_EQ(json["measured"]["theta_m_deg"],
-            nlohmann::json::parse(R"({"value": 12.5, "sem": 0.25, "n_effective": 30.0, "steady": true})"));
+            nlohmann::json::parse(R"({"value": 12.5, "sem": 0.25, "n_effective": 30.0, "steady": true,
+                                      "drift": {"value": -0.5, "sem": 0.75}})"));
   EXPECT_EQ(json["measured"]["dip"],
-            nlohmann::json::parse(R"({"value": 0.5, "sem": null, "n_effective": 3.0, "steady": null})"));
+            nlohmann::json::parse(R"({"value": 0.5, "sem": null, "n_effective": 3.0, "steady": null,
+                                      "drift": {"value": null, "sem": null}})"));
   EXPECT_EQ(json["measured"]["psi_6"]["steady"], false);
 
   summary.order->steady = false;

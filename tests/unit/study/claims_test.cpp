@@ -643,10 +643,24 @@ TEST(Trend, IsHeldAgainstItsErrorsAndStepsBack) {
   EXPECT_EQ(trend(relaxing, true), unknown("a run still relaxes"));
 }
 
+TEST(Comparison, CountsADriftWhereNobodyKnowsWhetherTheRunIsSteady) {
+  Estimate estimate{.value = 1, .sem = 0.1, .steady = true, .drift = 0.3, .drift_sem = 0.2};
+  EXPECT_EQ(above(estimate, 0.7), yes()) << "three errors";
+  EXPECT_EQ(close_to(estimate, 1, 0.3), yes());
+  EXPECT_EQ(text(estimate), "1.00 ± 0.10");
+  estimate.steady = std::nullopt;  // judged with 0.37
+  EXPECT_EQ(above(estimate, 0.7), unknown("the errors are too large"));
+  EXPECT_EQ(above(estimate, 0.2), yes());
+  EXPECT_EQ(close_to(estimate, 1, 0.3), unknown("the errors are too large"));
+  EXPECT_EQ(text(estimate), "1.00 ± 0.10 (drift 0.30 ± 0.20)");
+}
+
 TEST(Doubt, IsWhatKeepsANumberFromDeciding) {
   EXPECT_EQ(doubt({.value = 1, .sem = 0.1, .steady = true}), "");
   EXPECT_EQ(doubt({.value = 1, .sem = 0.1, .steady = false}), "a run still relaxes");
   EXPECT_EQ(doubt({1, 0.1}), "not known whether a run is steady");
+  EXPECT_EQ(doubt({.value = 1, .sem = 0.1, .drift = 0.1, .drift_sem = 0.1}), "") << "a drift that is known";
+  EXPECT_EQ(doubt({.value = 1, .sem = 0.1, .steady = false, .drift = 0.1, .drift_sem = 0.1}), "a run still relaxes");
   EXPECT_EQ(doubt({.value = 1, .sem = NAN, .steady = true}), "too few independent samples for an error");
   EXPECT_EQ(doubt({}), "not measured everywhere");
 }

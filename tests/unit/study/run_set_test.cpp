@@ -68,6 +68,49 @@ TEST(FinishedRun, NumbersAreAsSteadyAsTheySayAndTheirRun) {
   EXPECT_EQ(of(nullptr, nullptr), std::nullopt);
 }
 
+TEST(FinishedRun, IsSteadyWhereSHardlyDrifts) {
+  const auto of = [](const Json& told, double drift, double error) {
+    const Json order{{"mean", 0.9}, {"sem", 0.01}, {"steady", told}, {"drift", {{"value", drift}, {"sem", error}}}};
+    return FinishedRun(Json::object(), Json{{"steady", told}, {"order", order}}, {});
+  };
+  EXPECT_EQ(of(nullptr, 0.01, 0.01).steady(), true);
+  EXPECT_EQ(of(nullptr, -0.01, 0.01).steady(), true);
+  EXPECT_EQ(of(nullptr, 0.01, 0.02).steady(), std::nullopt) << "the drift may be 0.06";
+  EXPECT_EQ(of(nullptr, -0.04, 0.01).steady(), std::nullopt);
+  EXPECT_EQ(of(false, 0.0, 0.001).steady(), false);
+  EXPECT_EQ(of(true, 0.1, 0.1).steady(), true);
+  const Estimate order = of(nullptr, 0.01, 0.02).scalar("order.mean");
+  EXPECT_EQ(order.steady, std::nullopt);
+  EXPECT_NEAR(judged_error(order), std::sqrt(0.01 * 0.01 + 0.01 * 0.01 + 0.02 * 0.02), 1e-12);
+  EXPECT_EQ(of(nullptr, 0.01, 0.01).scalar("order.mean").steady, std::nullopt) << "it knows its own drift";
+}
+
+TEST(JudgedError, HoldsForMeansThatStillRelaxAsItSays) {
+  // x = exp(-t / tau) over [0, T] has the mean tau / T (1 - exp(-T / tau)), and the truth is 0.
+  const auto mean = [](double tau, double from, double to) {
+    return tau / (to - from) * (std::exp(-from / tau) - std::exp(-to / tau));
+  };
+  const auto covered = [&](double tau) {
+    const Estimate estimate{
+        .value = mean(tau, 0, 1), .sem = 0, .drift = mean(tau, 0.5, 1) - mean(tau, 0, 0.5), .drift_sem = 0};
+    return estimate.value <= 1.1 * judged_error(estimate);
+  };
+  for (const double tau : {0.01, 0.1, 0.2, 0.3, 0.4, 0.5}) EXPECT_TRUE(covered(tau)) << tau;
+  EXPECT_FALSE(covered(1)) << "nobody sees a relaxation that takes longer than the run";
+}
+
+TEST(MeanScalar, OfReplicasDriftsAsTheyDo) {
+  const auto of = [](double drift, double error) {
+    return Estimate{.value = 1, .sem = 0.1, .drift = drift, .drift_sem = error};
+  };
+  const std::vector<Estimate> replicas{of(0.1, 0.03), of(0.3, 0.04)};
+  EXPECT_NEAR(mean_of(replicas).drift, 0.2, 1e-12) << "what all do does not average out";
+  EXPECT_NEAR(mean_of(replicas).drift_sem, 0.025, 1e-12);
+  const std::vector<Estimate> one_steady{{.value = 1, .sem = 0.1, .steady = true}, of(0.3, 0.04)};
+  EXPECT_NEAR(mean_of(one_steady).drift, 0.15, 1e-12) << "what is steady need not know its drift";
+  EXPECT_EQ(mean_of(one_steady).steady, std::nullopt);
+}
+
 TEST(Crossing, IsInterpolatedWithItsError) {
   const auto at = [](double x, double y, double sem) { return Point{x, {.value = y, .sem = sem, .steady = true}}; };
   const std::vector<Point> points{at(0.7, 0.9, 0.03), at(0.5, 0.1, 0.01), at(0.6, 0.3, 0.03)};
