@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/parts.h"
 #include "base/failure.h"
 #include "base/files.h"
 #include "client/replicas.h"
@@ -19,6 +18,9 @@ std::shared_ptr<const Json> read_json(const std::filesystem::path& file) {
   if (!json.is_object()) throw Failure(ExitCode::kFailed, file.string() + " is no JSON object");
   return std::make_shared<const Json>(std::move(json));
 }
+
+/// Errors that a small drift of S must have to spare: as many as make one larger than them a drift at all.
+constexpr double kDriftErrors = 2.6;
 
 /// The member at a dotted path; null if there is none.
 const Json* find(const Json& json, const std::string& path) {
@@ -129,7 +131,7 @@ std::optional<bool> FinishedRun::steady() const {
   if (const std::optional<bool> told = flag_of(find(*summary_, "steady"))) return told;
   Estimate order;
   read_drift(order, *summary_, "order.drift");
-  const bool hardly_drifts = std::abs(order.drift) + analysis::kDriftErrors * order.drift_sem < kSmallDriftOfOrder;
+  const bool hardly_drifts = std::abs(order.drift) + kDriftErrors * order.drift_sem < kSmallDriftOfOrder;
   return hardly_drifts ? std::optional(true) : std::nullopt;
 }
 
