@@ -76,7 +76,7 @@ std::optional<Error> take_constants(const frame_static_t& message, std::size_t n
 Result<TrajectorySource> TrajectorySource::open(const std::filesystem::path& run_or_file) {
   std::error_code ignored;
   const std::filesystem::path file =
-      std::filesystem::is_directory(run_or_file, ignored) ? run::RunDirectory{run_or_file}.trajectory() : run_or_file;
+      std::filesystem::is_directory(run_or_file, ignored) ? run::RunDirectory{run_or_file}.recorded() : run_or_file;
   if (!std::filesystem::exists(file, ignored)) {
     return Error{"there is no " + file.string() +
                  ": give a run directory or its trajectory.h5, of a scene with a \"trajectory\" or \"movie\" block"};

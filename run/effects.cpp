@@ -56,7 +56,7 @@ std::map<std::string, EffectReport> report_effects(const scene::RunPlan& plan, c
   for (const auto& [name, samples] : run.measurements.counts()) {
     reports["measure_" + name].work = {{"samples", static_cast<double>(samples)}};
   }
-  const double frames = run.trajectory ? static_cast<double>(run.trajectory->n_frames()) : 0.0;
+  const double frames = run.frames ? static_cast<double>(run.frames->n_frames()) : 0.0;
   reports["trajectory"].work = {{"frames", frames}};
   // asked for, but not sent where there is no bus
   reports["stream"] = {n_live_frames.has_value(), {{"frames", static_cast<double>(n_live_frames.value_or(0))}}};

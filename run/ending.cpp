@@ -58,10 +58,10 @@ std::string describe_ending(const Json& summary, const std::filesystem::path& di
   };
   list(files.summary(), "all numbers, with their errors");
   list(files.observables(), "curves: S(t), P(theta), ...");
-  list(files.trajectory(), "every rod, frame by frame");
+  list(files.recorded(), "every rod, frame by frame");
   list(files.movie(), "the film");
   text += fmt::format("next: shaken plot {}", directory.string());
-  if (std::filesystem::exists(files.trajectory())) {
+  if (std::filesystem::exists(files.recorded())) {
     text += fmt::format(";  shaken movie {} --frame last", directory.string());
   }
   return text + "\n";

@@ -130,7 +130,7 @@ class Loop {
     const Snapshot snapshot = run_.simulation.snapshot();
     if (measure) run_.measurements.sample(snapshot);
     if (record) {
-      if (auto error = run_.trajectory->append(snapshot)) return error;
+      if (auto error = run_.frames->append(shaken::run::record(snapshot))) return error;
     }
     if (show) publisher_->offer(make_frame(snapshot, species_if_several(run_.simulation.world())));
     const DefectSample* defects = run_.measurements.last_defects();
@@ -145,7 +145,11 @@ class Loop {
     publisher_->offer(make_observables(run_.simulation.world(), run_.simulation.snapshot(), progress_));
   }
 
+  /// Frames first: no checkpoint may know of one that the disk does not.
   [[nodiscard]] std::optional<Error> checkpoint() {
+    if (run_.frames) {
+      if (auto error = run_.frames->sync()) return error;
+    }
     auto error = write_checkpoint(directory_, run_id_, make_checkpoint(run_, cpu_seconds(), wall_seconds()));
     if (!error) checkpoint_tick_ = tick();
     return error;
@@ -180,6 +184,14 @@ class Loop {
     return summary;
   }
 
+  /// trajectory.h5 of all frames so far.
+  [[nodiscard]] std::optional<Error> write_frames() {
+    if (!run_.frames) return std::nullopt;
+    const Result<TrajectoryReader> frames = TrajectoryReader::open(directory_.frames());
+    if (!frames) return frames.error();
+    return write_trajectory(directory_.trajectory(), frames->recorded());
+  }
+
   /// Observables and summary, in this order: a summary that says "done" is the last word.
   [[nodiscard]] std::optional<Error> write_results(const std::string& state, const std::string& reason,
                                                    const std::vector<int>& rods) {
@@ -200,7 +212,9 @@ class Loop {
     std::error_code ignored;
     std::filesystem::remove(directory_.trouble(), ignored);  // met by a program before this one
     if (auto error = checkpoint()) return finish_without_disk(*error);
+    if (auto error = write_frames()) return finish_without_disk(*error);
     if (auto error = write_results("done", "", {})) return finish_without_disk(*error);
+    std::filesystem::remove(directory_.frames(), ignored);
     report("running");  // all of it; what is left is to draw it
     return {RunState::kDone, ""};
   }
@@ -219,6 +233,7 @@ class Loop {
     if (auto error = write_trouble(directory_.trouble(), plan_, {trouble, checkpoint_tick_, before})) {
       return finish_without_disk(*error);
     }
+    if (auto error = write_frames()) return finish_without_disk(*error);
     if (auto error = write_results("failed", message, trouble.rods)) return finish_without_disk(*error);
     report("failed", message);
     return {RunState::kFailed, message};
@@ -252,6 +267,20 @@ struct Opened {
   bool fresh = false;  ///< at tick 0, nothing sampled
 };
 
+/// Puts recorded frames aside that no checkpoint fits, rather than writing over them.
+void set_aside(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file)) return;
+  std::filesystem::path aside = file;
+  aside += ".damaged";
+  std::error_code reason;
+  std::filesystem::rename(file, aside, reason);
+  if (reason) {
+    spdlog::warn("cannot put {} aside: {}", file.string(), reason.message());
+  } else {
+    spdlog::warn("{} is kept as {}", file.string(), aside.string());
+  }
+}
+
 /// The run from the newest checkpoint that is whole and fits, or a new one.
 Result<Opened> open_run(const scene::RunPlan& plan, const RunDirectory& directory) {
   bool found = false;
@@ -271,7 +300,11 @@ Result<Opened> open_run(const scene::RunPlan& plan, const RunDirectory& director
     spdlog::info("going on from {} at {:.6f} s", file.string(), run->simulation.time());
     return Opened{std::move(run).value(), false};
   }
-  if (found) spdlog::warn("no checkpoint can be used: starting from the beginning");
+  if (found) {
+    spdlog::warn("no checkpoint can be used: starting from the beginning");
+    set_aside(directory.frames());
+    set_aside(directory.trajectory());
+  }
   Result<OpenRun> run = start_run(plan, directory, scene_text(plan));
   if (!run) return run.error();
   return Opened{std::move(run).value(), true};
@@ -332,6 +365,8 @@ RunOutcome run_owned(const scene::RunPlan& plan, const RunOptions& options, cons
   if (auto error = claim(plan, directory)) return {RunState::kFailed, error->message};
   if (is_done(directory, scene::run_id(plan))) {
     spdlog::info("{} is done already", directory.root.string());
+    std::error_code ignored;
+    std::filesystem::remove(directory.frames(), ignored);  // left by a worker that was killed right after its last word
     const Result<Progress> last = read_progress(directory.progress());
     return draw(plan, options, callbacks, last ? *last : Progress{});
   }

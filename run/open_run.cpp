@@ -13,7 +13,7 @@ std::optional<Cadence> recording_of(const scene::RunPlan& plan) {
   return every ? std::optional(Cadence(*every, plan.system.dt)) : std::nullopt;
 }
 
-TrajectoryHeader trajectory_header(const World& world, const std::string& scene_json) {
+TrajectoryHeader trajectory_header(const World& world, const std::string& scene_json, const Provenance& provenance) {
   TrajectoryHeader header;
   header.n_rods = static_cast<int>(world.rods.size());
   header.box_side = world.system.box_side;
@@ -27,6 +27,7 @@ TrajectoryHeader trajectory_header(const World& world, const std::string& scene_
   }
   if (!header.added_beads.empty()) header.species_of_rod = world.species_of_rod;
   header.walls = world.system.walls;
+  header.provenance = provenance;
   return header;
 }
 
@@ -53,11 +54,10 @@ Result<OpenRun> start_run(const scene::RunPlan& plan, const RunDirectory& direct
   if (!simulation) return simulation.error();
   OpenRun run = make_run(plan, std::move(simulation).value());
   if (run.recording) {
-    TrajectoryHeader header = trajectory_header(run.simulation.world(), scene_json);
-    header.provenance = provenance_of(plan);
-    auto trajectory = TrajectoryWriter::create(directory.trajectory(), header);
-    if (!trajectory) return trajectory.error();
-    run.trajectory = std::move(trajectory).value();
+    auto frames = FrameLog::create(directory.frames(),
+                                   trajectory_header(run.simulation.world(), scene_json, provenance_of(plan)));
+    if (!frames) return frames.error();
+    run.frames = std::move(frames).value();
   }
   return run;
 }
@@ -74,15 +74,10 @@ Result<OpenRun> resume_run(const scene::RunPlan& plan, const RunDirectory& direc
     return Error{std::string("the checkpoint's measurements are not of this plan: ") + problem.what()};
   }
   if (run.recording) {
-    const Tick tick = run.simulation.tick();
-    auto trajectory = TrajectoryWriter::reopen(directory.trajectory(), tick);
-    if (!trajectory) return trajectory.error();
-    run.trajectory = std::move(trajectory).value();
-    const auto expected = static_cast<std::size_t>(tick / run.recording->period() + 1);
-    if (run.trajectory->n_frames() != expected) {
-      return Error{directory.trajectory().string() + " has " + std::to_string(run.trajectory->n_frames()) +
-                   " frames up to the checkpoint instead of " + std::to_string(expected)};
-    }
+    auto frames =
+        reopen_frames(directory, static_cast<std::size_t>(run.simulation.tick() / run.recording->period() + 1));
+    if (!frames) return frames.error();
+    run.frames = std::move(frames).value();
   }
   return run;
 }

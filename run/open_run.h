@@ -19,7 +19,7 @@ struct OpenRun {
   Simulation simulation;
   Measurements measurements;
   std::optional<Cadence> recording;  ///< of the trajectory: the finer of what `trajectory` and `movie` ask for
-  std::optional<TrajectoryWriter> trajectory;
+  std::optional<FrameLog> frames;    ///< recorded so far
   double cpu_before = 0;   ///< seconds spent by predecessors
   double wall_before = 0;  ///< the same
 
@@ -30,7 +30,7 @@ struct OpenRun {
 /// When frames are recorded: the finer of what `trajectory` and `movie` ask for; none if neither is there.
 std::optional<Cadence> recording_of(const scene::RunPlan& plan);
 /// What a trajectory says of the world besides its frames.
-TrajectoryHeader trajectory_header(const World& world, const std::string& scene_json);
+TrajectoryHeader trajectory_header(const World& world, const std::string& scene_json, const Provenance& provenance);
 /// The run that the files of a plan are of.
 Provenance provenance_of(const scene::RunPlan& plan);
 

@@ -17,6 +17,10 @@ struct RunDirectory {
 
   std::filesystem::path scene() const { return root / "scene.json"; }
   std::filesystem::path trajectory() const { return root / "trajectory.h5"; }
+  /// Frames as they are recorded, until the run is done (run/files/frame_log.h).
+  std::filesystem::path frames() const { return root / "trajectory.part"; }
+  /// Where all frames are that there are so far: the one or the other.
+  std::filesystem::path recorded() const { return std::filesystem::exists(frames()) ? frames() : trajectory(); }
   std::filesystem::path observables() const { return root / "observables.h5"; }
   std::filesystem::path summary() const { return root / "summary.json"; }
   std::filesystem::path progress() const { return root / "progress.json"; }

@@ -124,16 +124,11 @@ Shape shape(hid_t dataset) {
 }
 
 void append_row(hid_t dataset, hid_t type, const void* values) {
-  const hsize_t row = shape(dataset).at(0);
-  resize_rows(dataset, row + 1);
+  Shape extent = shape(dataset);
+  const hsize_t row = extent.at(0)++;
+  check(H5Dset_extent(dataset, extent.data()), "lengthen a data set");
   const auto [file_space, memory_space] = row_spaces(dataset, row);
   check(H5Dwrite(dataset, type, memory_space, file_space, H5P_DEFAULT, values), "append to a data set");
-}
-
-void resize_rows(hid_t dataset, hsize_t n_rows) {
-  Shape extent = shape(dataset);
-  extent.at(0) = n_rows;
-  check(H5Dset_extent(dataset, extent.data()), "resize a data set");
 }
 
 void read_row(hid_t dataset, hid_t type, hsize_t row, void* values) {
@@ -164,6 +159,21 @@ void write_provenance(hid_t file, const Provenance& provenance) {
   write_free_text_attribute(file, "run_id", provenance.run_id);
   write_attribute(file, "seed", H5T_NATIVE_UINT64, {}, &provenance.seed);
   write_free_text_attribute(file, "shaken_version", version());
+}
+
+Provenance read_provenance(hid_t file) {
+  if (H5Aexists(file, "run_id") <= 0) return {};
+  Provenance provenance;
+  {
+    const Id attribute(check(H5Aopen(file, "run_id", H5P_DEFAULT), "find run_id"), H5Aclose);
+    const Id type = text_type(true, 0);
+    char* text = nullptr;
+    check(H5Aread(attribute, type, &text), "read run_id");
+    provenance.run_id = text;
+    check(H5free_memory(text), "read run_id");
+  }
+  read_attribute(file, "seed", H5T_NATIVE_UINT64, &provenance.seed);
+  return provenance;
 }
 
 void write_attribute(hid_t where, const std::string& name, hid_t type, const Shape& extent, const void* values) {

@@ -71,9 +71,7 @@ Id create_growing(hid_t where, const std::string& name, hid_t type, const Shape&
 Id open_dataset(hid_t where, const std::string& name);
 Shape shape(hid_t dataset);
 
-/// Appends one row, or cuts to `n_rows`.
 void append_row(hid_t dataset, hid_t type, const void* values);
-void resize_rows(hid_t dataset, hsize_t n_rows);
 void read_row(hid_t dataset, hid_t type, hsize_t row, void* values);
 /// A whole one-dimensional data set, or its first `n` values.
 template <class T>
@@ -93,6 +91,8 @@ std::string read_text_attribute(hid_t where, const std::string& name);
 
 /// Nothing if there is no run.
 void write_provenance(hid_t file, const Provenance& provenance);
+/// Empty where the file carries none.
+Provenance read_provenance(hid_t file);
 
 void write_string(hid_t where, const std::string& name, const std::string& value);
 std::string read_string(hid_t where, const std::string& name);

@@ -1,86 +1,44 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-#include <cstdint>
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <string>
-#include <vector>
 
-#include "run/files/provenance.h"
-#include "sim/core/bead_row.h"
+#include "run/files/directory.h"
+#include "run/files/frame_log.h"
+#include "run/files/recorded_frames.h"
 #include "sim/core/result.h"
-#include "sim/snapshot.h"
-#include "sim/system.h"
 
 namespace shaken::run {
-
-/// What does not change along a trajectory, and what drawing it needs.
-struct TrajectoryHeader {
-  int n_rods = 0;
-  double box_side = 0;                         ///< [mm]
-  double gap = 0;                              ///< [mm]
-  double dt = 0;                               ///< [s]
-  std::vector<double> bead_offset;             ///< (n_beads) of the first species, along it from its centre [mm]
-  std::vector<double> bead_radius;             ///< (n_beads) [mm]
-  std::string scene_json;                      ///< the resolved scene
-  std::vector<BeadRow> added_beads{};          ///< of the other species
-  std::vector<std::uint8_t> species_of_rod{};  ///< (n_rods) species of each rod, from 0; empty if there is one
-  std::optional<SideWalls> walls{};            ///< of the arena, if there are any
-  Provenance provenance{};                     ///< written, not read back
-};
-
-/// One recorded frame: positions wrapped into the box, float32 in the file.
-struct TrajectoryFrame {
-  Tick tick = 0;
-  double time = 0;             ///< [s]
-  std::vector<Vec3> position;  ///< [mm]
-  std::vector<Vec3> director;  ///< unit vectors
-  std::vector<Vec3> velocity;  ///< [mm/s]
-  std::vector<std::array<std::int32_t, 2>> image;
-};
 
 /// Writes trajectory.h5 in H5MD (de Buyl, Colberg, Hoefling 2014): /particles/trajectory/{position, image, velocity,
 /// orientation, box}, where orientation is the unit quaternion (w, x, y, z) that turns z into the director; with
 /// several species also H5MD's fixed element `species`, the species of each rod from 0, whose beads stand in
 /// /parameters and /parameters/species_2, species_3. Side walls are the attributes of /parameters/walls. Units are
-/// those of H5MD's module "units", in the attribute `unit` of each data set (docs/files.md). A frame is
-/// with the operating system when `append` returns; a torn last frame is left out by the reader and trimmed on
-/// reopening. Chunks carry checksums. No SWMR: a killed SWMR file cannot be opened without repair.
-class TrajectoryWriter {
- public:
-  static Result<TrajectoryWriter> create(const std::filesystem::path& file, const TrajectoryHeader& header);
-  /// Opens an existing file to go on after tick `last`: later frames, and a torn one, are cut off.
-  static Result<TrajectoryWriter> reopen(const std::filesystem::path& file, Tick last);
-  TrajectoryWriter(TrajectoryWriter&&) noexcept;
-  TrajectoryWriter& operator=(TrajectoryWriter&&) noexcept;
-  ~TrajectoryWriter();
-  [[nodiscard]] std::optional<Error> append(const Snapshot& snapshot);
-  std::size_t n_frames() const;
+/// those of H5MD's module "units", in the attribute `unit` of each data set (docs/files.md). Chunks carry checksums.
+/// The file is written as a whole: a crash leaves the former one, or none.
+[[nodiscard]] std::optional<Error> write_trajectory(const std::filesystem::path& file, const RecordedFrames& frames);
 
- private:
-  struct Impl;
-  explicit TrajectoryWriter(std::unique_ptr<Impl> impl);
-  std::unique_ptr<Impl> impl_;
-};
+/// The log of a run of which `n_frames` frames are recorded, to go on after these; made anew of trajectory.h5 where
+/// there is no log. Fails unless all of them are there and whole, and then changes nothing.
+Result<FrameLog> reopen_frames(const RunDirectory& directory, std::size_t n_frames);
 
-/// Reads trajectory.h5, also while it is being written.
+/// Frames of a trajectory.h5, or of a trajectory.part, also while that is being written.
 class TrajectoryReader {
  public:
   static Result<TrajectoryReader> open(const std::filesystem::path& file);
-  TrajectoryReader(TrajectoryReader&&) noexcept;
-  TrajectoryReader& operator=(TrajectoryReader&&) noexcept;
-  ~TrajectoryReader();
-  const TrajectoryHeader& header() const;
-  std::size_t n_frames() const;
+  const TrajectoryHeader& header() const { return frames_->header(); }
+  std::size_t n_frames() const { return frames_->n_frames(); }
   Result<TrajectoryFrame> frame(std::size_t index) const;
+  const RecordedFrames& recorded() const { return *frames_; }
 
  private:
-  struct Impl;
-  explicit TrajectoryReader(std::unique_ptr<Impl> impl);
-  std::unique_ptr<Impl> impl_;
+  TrajectoryReader(std::filesystem::path path, std::unique_ptr<RecordedFrames> frames)
+      : path_(std::move(path)), frames_(std::move(frames)) {}
+  std::filesystem::path path_;
+  std::unique_ptr<RecordedFrames> frames_;
 };
 
 }  // namespace shaken::run

@@ -43,7 +43,7 @@ struct DataSets {
   }
   std::array<hid_t, 7> all() const { return {step, time, position, image, velocity, orientation, edges}; }
 
-  /// Frames that every data set has. A writer that was killed may leave them of different lengths.
+  /// Frames that every data set has.
   std::size_t n_rows() const {
     hsize_t n = H5S_UNLIMITED;
     for (const hid_t dataset : all()) n = std::min(n, hdf5::shape(dataset).at(0));

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <fcntl.h>
-#include <unistd.h>
+#include <array>
+#include <system_error>
+#include <utility>
 
-#include <cerrno>
-#include <cmath>
-#include <cstring>
-
+#include "base/files.h"
 #include "run/files/hdf5.h"
-#include "run/files/quaternion.h"
 #include "run/files/trajectory.h"
 #include "run/files/trajectory_layout.h"
 #include "run/files/version.h"
@@ -105,146 +102,72 @@ void write_particles(hid_t file, const TrajectoryHeader& header) {
   }
 }
 
-int descriptor(hid_t file) {
-  void* handle = nullptr;
-  hdf5::check(H5Fget_vfd_handle(file, H5P_DEFAULT, &handle), "look at the file");
-  return *static_cast<const int*>(handle);
+/// Adds one row to each data set.
+void append(const DataSets& sets, const TrajectoryHeader& header, const RecordedFrame& frame) {
+  const std::array<double, 9> edges{header.box_side, 0, 0, 0, header.box_side, 0, 0, 0, header.gap};
+  hdf5::append_row(sets.position, H5T_NATIVE_FLOAT, frame.position.data());
+  hdf5::append_row(sets.image, H5T_NATIVE_INT32, frame.image.data());
+  hdf5::append_row(sets.velocity, H5T_NATIVE_FLOAT, frame.velocity.data());
+  hdf5::append_row(sets.orientation, H5T_NATIVE_FLOAT, frame.orientation.data());
+  hdf5::append_row(sets.edges, H5T_NATIVE_DOUBLE, edges.data());
+  hdf5::append_row(sets.time, H5T_NATIVE_DOUBLE, &frame.time);
+  hdf5::append_row(sets.step, H5T_NATIVE_INT64, &frame.tick);
 }
 
-off_t end_of_content(hid_t file) {
-  haddr_t end = 0;
-  hdf5::check(H5Fget_eoa(file, &end), "look at the file");
-  return static_cast<off_t>(end);
-}
-
-/// Makes the file system set `bytes` aside behind the content, or throws. A flush that fails halfway for want of space
-/// can leave a file that HDF5 does not open again; with this, a full disk is met before anything is written.
-void reserve(hid_t file, std::size_t bytes) {
-  const int reason = posix_fallocate(descriptor(file), end_of_content(file), static_cast<off_t>(bytes));
-  if (reason != 0) throw hdf5::Failure(std::string("no room for another frame: ") + std::strerror(reason));
-}
-
-/// Gives back what was reserved and not used.
-void release(hid_t file) {
-  if (ftruncate(descriptor(file), end_of_content(file)) != 0) {
-    throw hdf5::Failure(std::string("cannot set the file's size: ") + std::strerror(errno));
+/// Throws an hdf5::Failure.
+void write_file(const std::filesystem::path& path, const RecordedFrames& frames) {
+  const TrajectoryHeader& header = frames.header();
+  hdf5::Id file = hdf5::create_file(path);
+  hdf5::write_provenance(file, header.provenance);
+  write_h5md_group(file);
+  write_parameters(file, header);
+  write_particles(file, header);
+  {
+    const DataSets sets = DataSets::open(file);
+    for (std::size_t i = 0; i < frames.n_frames(); ++i) {
+      const Result<RecordedFrame> frame = frames.frame(i);
+      if (!frame) throw hdf5::Failure(frame.error().message);
+      append(sets, header, *frame);
+    }
   }
-}
-
-/// Rounds to float without leaving [0, side): 83.7299999999 must not become 83.73.
-float wrapped_float(double x, double side) {
-  auto rounded = static_cast<float>(x);
-  while (rounded > 0 && static_cast<double>(rounded) >= side) rounded = std::nextafterf(rounded, 0.0F);
-  return rounded;
+  file.close("write the file");
 }
 
 }  // namespace
 
-struct TrajectoryWriter::Impl {
-  std::filesystem::path path;
-  hdf5::Id file;
-  DataSets sets;
-  std::size_t n_rods = 0;
-  double box_side = 0;
-  double gap = 0;
-  std::size_t n_frames = 0;
-
-  /// More than a frame can take: its arrays uncompressed, and what HDF5 needs to find them again.
-  std::size_t most_bytes_per_frame() const {
-    constexpr std::size_t kIndexBytes = 1 << 16;
-    return n_rods * (3 + 3 + 3 + 4) * sizeof(float) * 9 / 8 + kIndexBytes;
-  }
-
-  void append(const Snapshot& snapshot) {
-    std::vector<float> position, velocity, orientation;
-    std::vector<std::int32_t> image;
-    for (std::size_t i = 0; i < n_rods; ++i) {
-      const Vec3& x = snapshot.position[i];
-      const Vec3& v = snapshot.velocity[i];
-      position.insert(position.end(),
-                      {wrapped_float(x.x(), box_side), wrapped_float(x.y(), box_side), static_cast<float>(x.z())});
-      velocity.insert(velocity.end(),
-                      {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())});
-      for (const double q : quaternion_of_director(snapshot.director[i])) orientation.push_back(static_cast<float>(q));
-      image.insert(image.end(), {snapshot.image[i][0], snapshot.image[i][1], 0});
-    }
-    reserve(file, most_bytes_per_frame());
-    const std::array<double, 9> edges{box_side, 0, 0, 0, box_side, 0, 0, 0, gap};
-    hdf5::append_row(sets.position, H5T_NATIVE_FLOAT, position.data());
-    hdf5::append_row(sets.image, H5T_NATIVE_INT32, image.data());
-    hdf5::append_row(sets.velocity, H5T_NATIVE_FLOAT, velocity.data());
-    hdf5::append_row(sets.orientation, H5T_NATIVE_FLOAT, orientation.data());
-    hdf5::append_row(sets.edges, H5T_NATIVE_DOUBLE, edges.data());
-    hdf5::append_row(sets.time, H5T_NATIVE_DOUBLE, &snapshot.time);
-    hdf5::append_row(sets.step, H5T_NATIVE_INT64, &snapshot.tick);
-    hdf5::check(H5Fflush(file, H5F_SCOPE_GLOBAL), "write a frame");
-    release(file);
-    ++n_frames;
-  }
-};
-
-Result<TrajectoryWriter> TrajectoryWriter::create(const std::filesystem::path& file, const TrajectoryHeader& header) {
+std::optional<Error> write_trajectory(const std::filesystem::path& file, const RecordedFrames& frames) {
   hdf5::be_quiet();
+  const std::filesystem::path written = temporary_for(file);
   try {
-    hdf5::Id out = hdf5::create_file(file);
-    hdf5::write_provenance(out, header.provenance);
-    write_h5md_group(out);
-    write_parameters(out, header);
-    write_particles(out, header);
-    hdf5::check(H5Fflush(out, H5F_SCOPE_GLOBAL), "write the header");
-    DataSets sets = DataSets::open(out);
-    return TrajectoryWriter(
-        std::make_unique<Impl>(Impl{file, std::move(out), std::move(sets), static_cast<std::size_t>(header.n_rods),
-                                    header.box_side, header.gap, 0}));
+    write_file(written, frames);
   } catch (const hdf5::Failure& failure) {
+    std::error_code ignored;
+    std::filesystem::remove(written, ignored);
     return Error{file.string() + ": " + failure.what()};
   }
+  return replace_file(written, file);
 }
 
-Result<TrajectoryWriter> TrajectoryWriter::reopen(const std::filesystem::path& file, Tick last) {
-  TrajectoryHeader header;
-  std::size_t n_whole = 0;
-  {
-    // The reader knows which frames are whole. It must be gone before the file is opened for writing.
-    const Result<TrajectoryReader> reader = TrajectoryReader::open(file);
-    if (!reader) return reader.error();
-    header = reader->header();
-    n_whole = reader->n_frames();
+Result<FrameLog> reopen_frames(const RunDirectory& directory, std::size_t n_frames) {
+  if (std::filesystem::exists(directory.frames()) || !std::filesystem::exists(directory.trajectory())) {
+    return FrameLog::reopen(directory.frames(), n_frames);
   }
-  try {
-    hdf5::Id out = hdf5::open_file(file, true);
-    DataSets sets = DataSets::open(out);
-    std::vector<Tick> ticks = hdf5::read_vector<Tick>(sets.step, H5T_NATIVE_INT64);
-    ticks.resize(std::min(ticks.size(), n_whole));
-    const auto n_kept = static_cast<std::size_t>(std::upper_bound(ticks.begin(), ticks.end(), last) - ticks.begin());
-    for (const hid_t dataset : sets.all()) hdf5::resize_rows(dataset, n_kept);
-    hdf5::check(H5Fflush(out, H5F_SCOPE_GLOBAL), "trim the file");
-    return TrajectoryWriter(
-        std::make_unique<Impl>(Impl{file, std::move(out), std::move(sets), static_cast<std::size_t>(header.n_rods),
-                                    header.box_side, header.gap, n_kept}));
-  } catch (const hdf5::Failure& failure) {
-    return Error{file.string() + ": " + failure.what()};
+  const Result<TrajectoryReader> trajectory = TrajectoryReader::open(directory.trajectory());
+  if (!trajectory) return trajectory.error();
+  if (trajectory->n_frames() < n_frames) {
+    return Error{directory.trajectory().string() + " has " + std::to_string(trajectory->n_frames()) +
+                 " frames instead of " + std::to_string(n_frames)};
   }
-}
-
-TrajectoryWriter::TrajectoryWriter(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-TrajectoryWriter::TrajectoryWriter(TrajectoryWriter&&) noexcept = default;
-TrajectoryWriter& TrajectoryWriter::operator=(TrajectoryWriter&&) noexcept = default;
-TrajectoryWriter::~TrajectoryWriter() = default;
-
-std::size_t TrajectoryWriter::n_frames() const { return impl_->n_frames; }
-
-std::optional<Error> TrajectoryWriter::append(const Snapshot& snapshot) {
-  if (snapshot.n_rods() != impl_->n_rods) {
-    return Error{impl_->path.string() + " holds " + std::to_string(impl_->n_rods) + " rods, the frame has " +
-                 std::to_string(snapshot.n_rods())};
+  const std::filesystem::path written = temporary_for(directory.frames());
+  Result<FrameLog> log = FrameLog::create(written, trajectory->header());
+  if (!log) return log.error();
+  for (std::size_t i = 0; i < n_frames; ++i) {
+    const Result<RecordedFrame> frame = trajectory->recorded().frame(i);
+    if (!frame) return frame.error();
+    if (auto error = log->append(*frame)) return *error;
   }
-  try {
-    impl_->append(snapshot);
-    return std::nullopt;
-  } catch (const hdf5::Failure& failure) {
-    return Error{impl_->path.string() + ": " + failure.what()};
-  }
+  if (auto error = replace_file(written, directory.frames())) return *error;
+  return FrameLog::reopen(directory.frames(), n_frames);
 }
 
 }  // namespace shaken::run

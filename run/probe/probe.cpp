@@ -100,19 +100,25 @@ class Prober {
     return std::nullopt;
   }
 
-  /// Records `n` frames of the present state, `cadence` apart, into DIR/trajectory.h5. Returns the CPU time of one, or
-  /// why they cannot be written.
+  /// Records `n` frames of the present state, `cadence` apart, as a run does, into DIR/trajectory.h5. Returns the CPU
+  /// time of one, or why they cannot be written.
   Result<double> record(const std::filesystem::path& folder, const Cadence& cadence, int n) {
-    auto writer = TrajectoryWriter::create(
-        folder / "trajectory.h5", trajectory_header(simulation_.world(), scene::to_json(plan_).dump(2) + "\n"));
-    if (!writer) return writer.error();
+    const RunDirectory directory{folder};
+    auto log = FrameLog::create(
+        directory.frames(), trajectory_header(simulation_.world(), scene::to_json(plan_).dump(2) + "\n", {}));
+    if (!log) return log.error();
     Snapshot frame = snapshots_.back();
     const double begin = thread_cpu_seconds();
     for (int k = 0; k < n; ++k) {
       frame.tick = k * cadence.period();
       frame.time = static_cast<double>(frame.tick) * dt_;
-      if (auto error = writer->append(frame)) return *error;
+      if (auto error = log->append(shaken::run::record(frame))) return *error;
     }
+    const Result<TrajectoryReader> frames = TrajectoryReader::open(directory.frames());
+    if (!frames) return frames.error();
+    if (auto error = write_trajectory(directory.trajectory(), frames->recorded())) return *error;
+    std::error_code ignored;
+    std::filesystem::remove(directory.frames(), ignored);
     return (thread_cpu_seconds() - begin) / n;
   }
 

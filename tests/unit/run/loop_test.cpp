@@ -222,7 +222,7 @@ TEST(Run, StartsAnewIfNoCheckpointIsWhole) {
 TEST(Run, StartsAnewIfTheTrajectoryIsLost) {
   const TemporaryFolder folder;
   stop_twice(folder);
-  std::filesystem::remove(RunDirectory{folder.path()}.trajectory());
+  std::filesystem::remove(RunDirectory{folder.path()}.frames());
   ASSERT_EQ(run_in(folder.path(), small_plan()).state, RunState::kDone);
   expect_same_results(undisturbed(), folder.path());
 }
@@ -291,10 +291,10 @@ TEST(Run, RefusesADirectoryInUse) {
 
 TEST(Run, NamesTheFileThatCannotBeWritten) {
   const TemporaryFolder folder;
-  std::filesystem::create_directories(RunDirectory{folder.path()}.trajectory());
+  std::filesystem::create_directories(RunDirectory{folder.path()}.frames());
   const RunOutcome outcome = run_in(folder.path(), small_plan());
   EXPECT_EQ(outcome.state, RunState::kFailed);
-  EXPECT_NE(outcome.message.find("trajectory.h5"), std::string::npos) << outcome.message;
+  EXPECT_NE(outcome.message.find("trajectory.part"), std::string::npos) << outcome.message;
   const auto progress = read_progress(RunDirectory{folder.path()}.progress());
   ASSERT_TRUE(progress);
   EXPECT_EQ(progress->state, "failed");

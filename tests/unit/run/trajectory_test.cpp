@@ -58,42 +58,69 @@ void expect_same(const TrajectoryFrame& frame, const Snapshot& s) {
   }
 }
 
-std::filesystem::path write_frames(const TemporaryFolder& folder, Tick n_frames) {
-  const auto file = folder / "trajectory.h5";
-  auto writer = TrajectoryWriter::create(file, header());
-  EXPECT_TRUE(writer);
-  for (Tick i = 0; i < n_frames; ++i) EXPECT_FALSE(writer->append(snapshot(1000 * i)));
+/// A log of frames at ticks 0, 1000, 2000 ...
+std::filesystem::path write_log(const TemporaryFolder& folder, Tick n_frames, const TrajectoryHeader& of = header()) {
+  const auto file = folder / "trajectory.part";
+  auto log = FrameLog::create(file, of);
+  EXPECT_TRUE(log) << log.error().message;
+  for (Tick i = 0; i < n_frames; ++i) EXPECT_FALSE(log->append(record(snapshot(1000 * i))));
   return file;
+}
+
+/// trajectory.h5 of such a log.
+std::filesystem::path write_frames(const TemporaryFolder& folder, Tick n_frames,
+                                   const TrajectoryHeader& of = header()) {
+  const auto file = folder / "trajectory.h5";
+  const auto frames = TrajectoryReader::open(write_log(folder, n_frames, of));
+  EXPECT_TRUE(frames) << frames.error().message;
+  const auto error = write_trajectory(file, frames->recorded());
+  EXPECT_FALSE(error) << error->message;
+  EXPECT_FALSE(std::filesystem::exists(folder / "trajectory.h5.tmp"));
+  return file;
+}
+
+void expect_same(const TrajectoryHeader& a, const TrajectoryHeader& b) {
+  EXPECT_EQ(a.n_rods, b.n_rods);
+  EXPECT_EQ(a.box_side, b.box_side);
+  EXPECT_EQ(a.gap, b.gap);
+  EXPECT_EQ(a.dt, b.dt);
+  EXPECT_EQ(a.bead_offset, b.bead_offset);
+  EXPECT_EQ(a.bead_radius, b.bead_radius);
+  EXPECT_EQ(a.scene_json, b.scene_json);
+  EXPECT_EQ(a.added_beads, b.added_beads);
+  EXPECT_EQ(a.species_of_rod, b.species_of_rod);
+  EXPECT_EQ(a.walls, b.walls);
+  EXPECT_EQ(a.provenance.run_id, b.provenance.run_id);
+  EXPECT_EQ(a.provenance.seed, b.provenance.seed);
+}
+
+/// Both kinds of file.
+void expect_frames(const TemporaryFolder& folder, Tick n_frames, const TrajectoryHeader& of) {
+  for (const auto& file : {write_log(folder, n_frames, of), write_frames(folder, n_frames, of)}) {
+    const auto reader = TrajectoryReader::open(file);
+    ASSERT_TRUE(reader) << reader.error().message;
+    expect_same(reader->header(), of);
+    ASSERT_EQ(reader->n_frames(), static_cast<std::size_t>(n_frames));
+    for (Tick i = 0; i < n_frames; ++i) {
+      const auto frame = reader->frame(static_cast<std::size_t>(i));
+      ASSERT_TRUE(frame) << frame.error().message;
+      expect_same(*frame, snapshot(1000 * i));
+    }
+    EXPECT_FALSE(reader->frame(static_cast<std::size_t>(n_frames)));
+  }
 }
 
 TEST(Trajectory, ComesBackAsWritten) {
   const TemporaryFolder folder;
-  const auto file = write_frames(folder, 3);
-  const auto reader = TrajectoryReader::open(file);
-  ASSERT_TRUE(reader) << reader.error().message;
-  EXPECT_EQ(reader->header().n_rods, kRods);
-  EXPECT_EQ(reader->header().box_side, kSide);
-  EXPECT_EQ(reader->header().gap, kGap);
-  EXPECT_EQ(reader->header().dt, kDt);
-  EXPECT_EQ(reader->header().bead_offset, header().bead_offset);
-  EXPECT_EQ(reader->header().bead_radius, header().bead_radius);
-  EXPECT_EQ(reader->header().scene_json, header().scene_json);
-  EXPECT_TRUE(reader->header().added_beads.empty());
-  EXPECT_TRUE(reader->header().species_of_rod.empty());
-  EXPECT_FALSE(reader->header().walls);
-  ASSERT_EQ(reader->n_frames(), 3U);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto frame = reader->frame(i);
-    ASSERT_TRUE(frame) << frame.error().message;
-    expect_same(*frame, snapshot(1000 * static_cast<Tick>(i)));
-  }
-  EXPECT_FALSE(reader->frame(3));
+  expect_frames(folder, 3, header());
+  expect_frames(folder, 0, header());
 }
 
-TEST(Trajectory, KindsOfRodsAndSideWallsComeBack) {
+TEST(Trajectory, SpeciesAndSideWallsComeBack) {
   const TemporaryFolder folder;
   TrajectoryHeader several = header();
-  several.added_beads = {{{0}, {0.45}}, {{-1.2, 0.1, 1.4}, {0.45, 0.3, 0.2}}};
+  several.gap = 0.1 + 0.2;  // no short decimal
+  several.added_beads = {{{0}, {0.45}}, {{-1.2, 0.1, 1.4}, {0.45, 1.0 / 3, 0.2}}};
   for (int i = 0; i < kRods; ++i)
     several.species_of_rod.push_back(static_cast<std::uint8_t>(i % 7 == 0 ? 1 : i % 5 == 0 ? 2 : 0));
   for (const Arena arena : {Arena::kDisc, Arena::kSquare, Arena::kAnnulus}) {
@@ -102,101 +129,84 @@ TEST(Trajectory, KindsOfRodsAndSideWallsComeBack) {
     several.walls->size = 70.25;
     if (arena == Arena::kAnnulus) several.walls->inner = 12.5;
     several.walls->contact = {0.02, 0.7};
-    const auto file = folder / "t.h5";
-    std::filesystem::remove(file);
-    {
-      auto writer = TrajectoryWriter::create(file, several);
-      ASSERT_TRUE(writer) << writer.error().message;
-      ASSERT_FALSE(writer->append(snapshot(0)));
-    }
-    ASSERT_FALSE(TrajectoryWriter::reopen(file, 0)->append(snapshot(1)));
-    const auto reader = TrajectoryReader::open(file);
-    ASSERT_TRUE(reader) << reader.error().message;
-    EXPECT_EQ(reader->header().bead_radius, several.bead_radius);
-    EXPECT_EQ(reader->header().added_beads, several.added_beads);
-    EXPECT_EQ(reader->header().species_of_rod, several.species_of_rod);
-    EXPECT_EQ(reader->header().walls, several.walls);
-    ASSERT_EQ(reader->n_frames(), 2U);
-    expect_same(*reader->frame(1), snapshot(1));
+    expect_frames(folder, 2, several);
   }
 }
 
-TEST(Trajectory, AKindWithoutBeadsIsRefused) {
+TEST(Trajectory, ASpeciesWithoutBeadsIsRefused) {
   const TemporaryFolder folder;
   TrajectoryHeader several = header();
   several.added_beads = {{{0}, {0.45}}};
   several.species_of_rod.assign(kRods, 2);
-  ASSERT_TRUE(TrajectoryWriter::create(folder / "t.h5", several));
-  const auto reader = TrajectoryReader::open(folder / "t.h5");
-  ASSERT_FALSE(reader);
-  EXPECT_NE(reader.error().message.find("beads are not there"), std::string::npos) << reader.error().message;
+  const auto log = FrameLog::create(folder / "t.part", several);
+  ASSERT_FALSE(log);
+  EXPECT_NE(log.error().message.find("beads are not there"), std::string::npos) << log.error().message;
   several.species_of_rod.assign(kRods - 1, 1);
-  std::filesystem::remove(folder / "t.h5");
-  ASSERT_TRUE(TrajectoryWriter::create(folder / "t.h5", several));
-  EXPECT_FALSE(TrajectoryReader::open(folder / "t.h5")) << "a kind for each rod";
+  EXPECT_FALSE(FrameLog::create(folder / "t.part", several)) << "a species for each rod";
 }
 
-TEST(Trajectory, PositionsStayInTheBoxWhenRounded) {
-  const TemporaryFolder folder;
+TEST(RecordedFrame, PositionsStayInTheBoxWhenRounded) {
   Snapshot s = snapshot(0);
   s.position[0] = Vec3(std::nextafter(kSide, 0.0), kSide - 1e-7, 0.6);
-  auto writer = TrajectoryWriter::create(folder / "t.h5", header());
-  ASSERT_FALSE(writer->append(s));
-  const auto reader = TrajectoryReader::open(folder / "t.h5");
-  const auto frame = reader->frame(0);
+  const auto frame = decode(record(s));
   EXPECT_LT(frame->position[0].x(), kSide);
   EXPECT_LT(frame->position[0].y(), kSide);
   EXPECT_NEAR(frame->position[0].x(), kSide, 1e-5);
 }
 
-TEST(Trajectory, DirectorsKeepTheirSignAlsoNearThePoles) {
-  const TemporaryFolder folder;
+TEST(RecordedFrame, DirectorsKeepTheirSignAlsoNearThePoles) {
   Snapshot s = snapshot(0);
   const std::vector<Vec3> special{{0, 0, 1},  {0, 0, -1},    {1, 0, 0},     {-1, 0, 0},    {0, 1, 0},
                                   {0, -1, 0}, {1e-5, 0, -1}, {0, -1e-4, 1}, {-1e-9, 0, -1}};
   for (std::size_t i = 0; i < special.size(); ++i) s.director[i] = special[i].normalized();
-  auto writer = TrajectoryWriter::create(folder / "t.h5", header());
-  ASSERT_FALSE(writer->append(s));
-  expect_same(*TrajectoryReader::open(folder / "t.h5")->frame(0), s);
+  expect_same(*decode(record(s)), s);
 }
 
-TEST(Trajectory, CanBeReadWhileItGrows) {
+TEST(RecordedFrame, AnOrientationThatIsNoneIsRefused) {
+  RecordedFrame frame = record(snapshot(0));
+  for (std::size_t k = 0; k < 4; ++k) frame.orientation[4 * 7 + k] = 0;
+  const auto decoded = decode(frame);
+  ASSERT_FALSE(decoded);
+  EXPECT_NE(decoded.error().message.find("rod 7"), std::string::npos) << decoded.error().message;
+}
+
+TEST(FrameLog, CanBeReadWhileItGrows) {
   const TemporaryFolder folder;
-  auto writer = TrajectoryWriter::create(folder / "t.h5", header());
+  auto log = FrameLog::create(folder / "t.part", header());
   for (Tick i = 0; i < 4; ++i) {
-    const auto reader = TrajectoryReader::open(folder / "t.h5");
+    const auto reader = TrajectoryReader::open(folder / "t.part");
     ASSERT_TRUE(reader) << reader.error().message;
     EXPECT_EQ(reader->n_frames(), static_cast<std::size_t>(i));
-    ASSERT_FALSE(writer->append(snapshot(i)));
+    ASSERT_FALSE(log->append(record(snapshot(i))));
   }
 }
 
-TEST(Trajectory, SurvivesTheWritersSuddenEnd) {
+TEST(FrameLog, SurvivesTheWritersSuddenEnd) {
   const TemporaryFolder folder;
   EXPECT_EQ(in_child([&] {
-              auto writer = TrajectoryWriter::create(folder / "t.h5", header());
+              auto log = FrameLog::create(folder / "t.part", header());
               for (Tick i = 0; i < 5; ++i) {
-                if (writer->append(snapshot(i))) return false;
+                if (log->append(record(snapshot(i)))) return false;
               }
               kill(getpid(), SIGKILL);
               return true;
             }),
             128);
-  const auto reader = TrajectoryReader::open(folder / "t.h5");
+  const auto reader = TrajectoryReader::open(folder / "t.part");
   ASSERT_TRUE(reader) << reader.error().message;
   ASSERT_EQ(reader->n_frames(), 5U);
   expect_same(*reader->frame(4), snapshot(4));
 }
 
-TEST(Trajectory, ReopeningCutsWhatCameAfterTheCheckpoint) {
+TEST(FrameLog, ReopeningCutsWhatCameAfterTheCheckpoint) {
   const TemporaryFolder folder;
-  const auto file = write_frames(folder, 5);
+  const auto file = write_log(folder, 5);
   {
-    auto writer = TrajectoryWriter::reopen(file, 2500);
-    ASSERT_TRUE(writer) << writer.error().message;
-    EXPECT_EQ(writer->n_frames(), 3U);
-    ASSERT_FALSE(writer->append(snapshot(2700)));
-    EXPECT_EQ(writer->n_frames(), 4U);
+    auto log = FrameLog::reopen(file, 3);
+    ASSERT_TRUE(log) << log.error().message;
+    EXPECT_EQ(log->n_frames(), 3U);
+    ASSERT_FALSE(log->append(record(snapshot(2700))));
+    EXPECT_EQ(log->n_frames(), 4U);
   }
   const auto reader = TrajectoryReader::open(file);
   ASSERT_EQ(reader->n_frames(), 4U);
@@ -204,41 +214,61 @@ TEST(Trajectory, ReopeningCutsWhatCameAfterTheCheckpoint) {
   expect_same(*reader->frame(3), snapshot(2700));
 }
 
-/// What a writer that was killed between two data sets leaves.
-TEST(Trajectory, TornLastFrameIsLeftOutAndCut) {
+/// What a killed writer, or a machine without power, leaves of the last frame: any part of it.
+TEST(FrameLog, HalfAFrameIsLeftOutAndCut) {
   const TemporaryFolder folder;
-  const auto file = write_frames(folder, 3);
-  const hid_t h5 = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-  ASSERT_GE(h5, 0);
-  for (const char* name : {"position", "image", "velocity", "orientation"}) {
-    const std::string path = std::string("/particles/trajectory/") + name + "/value";
-    const hid_t dataset = H5Dopen2(h5, path.c_str(), H5P_DEFAULT);
-    const hsize_t extent[3] = {4, kRods, name == std::string("orientation") ? 4U : 3U};
-    ASSERT_GE(H5Dset_extent(dataset, extent), 0);
-    H5Dclose(dataset);
+  const std::string two = *read_file(write_log(folder, 2)), three = *read_file(write_log(folder, 3));
+  const auto file = folder / "torn.part";
+  for (std::size_t size = two.size(); size < three.size(); size += 211) {
+    for (const char fill : {'\0', 'x'}) {  // nothing follows, or blocks that were never written
+      std::string torn = three.substr(0, size);
+      if (fill == '\0') torn.resize(three.size(), fill);
+      ASSERT_FALSE(write_file_atomically(file, torn));
+      EXPECT_EQ(TrajectoryReader::open(file)->n_frames(), 2U) << size;
+      EXPECT_FALSE(FrameLog::reopen(file, 3)) << size;
+      EXPECT_EQ(std::filesystem::file_size(file), torn.size()) << "refused, and left as it is";
+      auto log = FrameLog::reopen(file, 2);
+      ASSERT_TRUE(log) << log.error().message;
+      ASSERT_FALSE(log->append(record(snapshot(2000))));
+      EXPECT_EQ(*read_file(file), three) << size;
+    }
   }
-  H5Fclose(h5);
-  EXPECT_EQ(TrajectoryReader::open(file)->n_frames(), 3U) << "one more row in some of the data sets";
+}
 
-  const hid_t again = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-  for (const char* name : {"position/step", "position/time"}) {
-    const hid_t dataset = H5Dopen2(again, (std::string("/particles/trajectory/") + name).c_str(), H5P_DEFAULT);
-    const hsize_t extent[1] = {4};
-    ASSERT_GE(H5Dset_extent(dataset, extent), 0);
-    H5Dclose(dataset);
+/// Bits that rot must give an error, never another number.
+TEST(FrameLog, RottenFramesAreNoticed) {
+  const TemporaryFolder folder;
+  const std::string whole = *read_file(write_log(folder, 2));
+  const std::size_t frames_begin = whole.size() - 2 * ((whole.size() - read_file(write_log(folder, 0))->size()) / 2);
+  const auto file = folder / "rotten.part";
+  for (std::size_t at = 0; at < whole.size(); at += at < frames_begin ? 1 : 97) {
+    std::string rotten = whole;
+    rotten[at] = static_cast<char>(rotten[at] ^ 0x04);
+    ASSERT_FALSE(write_file_atomically(file, rotten));
+    const auto reader = TrajectoryReader::open(file);
+    if (at < frames_begin) {
+      EXPECT_FALSE(reader) << at;
+      continue;
+    }
+    ASSERT_TRUE(reader) << at << ": " << reader.error().message;
+    const std::size_t damaged = at < (frames_begin + whole.size()) / 2 ? 0 : 1;
+    EXPECT_EQ(reader->n_frames(), damaged == 0 ? 2U : 1U) << at << ": the last one may be half written";
+    EXPECT_EQ(static_cast<bool>(reader->frame(0)), damaged != 0) << at;
+    EXPECT_FALSE(FrameLog::reopen(file, 2)) << at;
   }
-  const hid_t edges = H5Dopen2(again, "/particles/trajectory/box/edges/value", H5P_DEFAULT);
-  const hsize_t extent[3] = {4, 3, 3};
-  ASSERT_GE(H5Dset_extent(edges, extent), 0);
-  H5Dclose(edges);
-  H5Fclose(again);
-  EXPECT_EQ(TrajectoryReader::open(file)->n_frames(), 3U) << "a row everywhere, but no content";
+}
 
-  auto writer = TrajectoryWriter::reopen(file, 1000000);
-  ASSERT_TRUE(writer) << writer.error().message;
-  EXPECT_EQ(writer->n_frames(), 3U);
-  ASSERT_FALSE(writer->append(snapshot(3000)));
-  expect_same(*TrajectoryReader::open(file)->frame(3), snapshot(3000));
+TEST(FrameLog, ContinuesATrajectoryThatIsDone) {
+  const TemporaryFolder folder;
+  const std::string log = *read_file(write_log(folder, 3));
+  write_frames(folder, 5);
+  const RunDirectory directory{folder.path()};
+  std::filesystem::remove(directory.frames());
+  EXPECT_FALSE(reopen_frames(directory, 6)) << "more than there are";
+  EXPECT_FALSE(std::filesystem::exists(directory.frames()));
+  ASSERT_TRUE(reopen_frames(directory, 3));
+  EXPECT_EQ(*read_file(directory.frames()), log);
+  EXPECT_EQ(TrajectoryReader::open(directory.trajectory())->n_frames(), 5U) << "that stays as it is";
 }
 
 /// Bits that rot inside a frame must give an error, never another number. (Headers of HDF5 itself carry no checksum in
@@ -274,26 +304,25 @@ TEST(Trajectory, RottenFramesAreNoticed) {
 
 TEST(Trajectory, ErrorsNameTheFile) {
   const TemporaryFolder folder;
-  const auto nowhere = TrajectoryWriter::create(folder / "no" / "t.h5", header());
+  const auto nowhere = FrameLog::create(folder / "no" / "t.part", header());
   ASSERT_FALSE(nowhere);
-  EXPECT_NE(nowhere.error().message.find("no/t.h5"), std::string::npos) << nowhere.error().message;
+  EXPECT_NE(nowhere.error().message.find("no/t.part"), std::string::npos) << nowhere.error().message;
   ASSERT_FALSE(write_file_atomically(folder / "t.h5", "not HDF5"));
   EXPECT_FALSE(TrajectoryReader::open(folder / "t.h5"));
-  EXPECT_FALSE(TrajectoryWriter::reopen(folder / "t.h5", 0));
+  EXPECT_FALSE(FrameLog::reopen(folder / "t.h5", 0));
   EXPECT_FALSE(TrajectoryReader::open(folder / "absent.h5"));
-  auto writer = TrajectoryWriter::create(folder / "t.h5", header());
-  ASSERT_TRUE(writer);
+  auto log = FrameLog::create(folder / "t.part", header());
+  ASSERT_TRUE(log);
   Snapshot other = snapshot(0);
   other.position.pop_back();
-  EXPECT_TRUE(writer->append(other)) << "another number of rods";
+  EXPECT_TRUE(log->append(record(other))) << "another number of rods";
 }
 
 /// The disk fills up at every possible place of a frame; the writer then closes its file, or is killed.
-TEST(Trajectory, FullDiskIsReportedAndTheFileGoesOnLater) {
+TEST(FrameLog, FullDiskIsReportedAndTheFileGoesOnLater) {
   const TemporaryFolder folder;
-  const auto whole = write_frames(folder, 2);
-  const auto file = folder / "filling.h5";
-  std::filesystem::copy_file(whole, file);
+  const auto whole = write_log(folder, 2);
+  const auto file = folder / "filling.part";
   constexpr unsigned kFrameBytes = kRods * 13 * sizeof(float);
   constexpr int kPlaces = 12;
   for (int place = 0; place < 2 * kPlaces; ++place) {
@@ -301,21 +330,39 @@ TEST(Trajectory, FullDiskIsReportedAndTheFileGoesOnLater) {
     std::filesystem::copy_file(whole, file, std::filesystem::copy_options::overwrite_existing);
     const auto limit = std::filesystem::file_size(whole) + kFrameBytes * static_cast<unsigned>(place / 2) / kPlaces;
     EXPECT_EQ(in_child([&] {
-                auto writer = TrajectoryWriter::reopen(file, 1000);
+                auto log = FrameLog::reopen(file, 2);
                 limit_file_size(limit);
-                const auto error = writer->append(snapshot(2000));
-                if (!error || error->message.find("filling.h5") == std::string::npos) return false;
+                const auto error = log->append(record(snapshot(2000)));
+                if (!error || error->message.find("filling.part") == std::string::npos) return false;
                 if (killed) _exit(0);
                 return true;
               }),
               0)
         << place;
-    auto writer = TrajectoryWriter::reopen(file, 1000);
-    ASSERT_TRUE(writer) << place << ": " << writer.error().message;
-    EXPECT_EQ(writer->n_frames(), 2U) << place;
-    ASSERT_FALSE(writer->append(snapshot(2000)));
+    auto log = FrameLog::reopen(file, 2);
+    ASSERT_TRUE(log) << place << ": " << log.error().message;
+    ASSERT_FALSE(log->append(record(snapshot(2000))));
     const auto reader = TrajectoryReader::open(file);
     for (std::size_t i = 0; i < 3; ++i) expect_same(*reader->frame(i), snapshot(1000 * static_cast<Tick>(i)));
+  }
+}
+
+TEST(Trajectory, AFullDiskLeavesTheFormerFile) {
+  const TemporaryFolder folder;
+  const auto file = write_frames(folder, 2);
+  const std::string before = *read_file(file);
+  const auto log = write_log(folder, 40);
+  for (const unsigned limit : {100U, 5000U, 40000U, 200000U}) {
+    EXPECT_EQ(in_child([&] {
+                const auto frames = TrajectoryReader::open(log);
+                limit_file_size(limit);
+                const auto error = write_trajectory(file, frames->recorded());
+                return error && error->message.find("trajectory.h5") != std::string::npos;
+              }),
+              0)
+        << limit;
+    EXPECT_EQ(*read_file(file), before) << limit;
+    EXPECT_FALSE(std::filesystem::exists(folder / "trajectory.h5.tmp")) << limit;
   }
 }
 

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: MIT
+#include "run/files/frame_log.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+#include <xxhash.h>
+
+#include <bit>
+#include <cerrno>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
+
+#include "base/files.h"
+
+namespace shaken::run {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "frame logs are little-endian");
+
+using Json = nlohmann::json;
+
+constexpr std::string_view kMagic = "SHKNFRAM";
+constexpr std::uint32_t kVersion = 1;
+constexpr std::size_t kHashBytes = sizeof(std::uint64_t);
+/// Of magic, version and length.
+constexpr std::size_t kPrefixBytes = kMagic.size() + 2 * sizeof(std::uint32_t);
+/// Of a header: one byte a rod and a scene; more is no header of ours.
+constexpr std::uint32_t kMostHeaderBytes = 1U << 28;
+
+std::uint64_t hash_of(std::string_view bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
+
+template <class Value>
+void put(std::string& out, const Value& value) {
+  out.append(reinterpret_cast<const char*>(&value), sizeof(Value));
+}
+
+template <class Value>
+void put(std::string& out, const std::vector<Value>& values) {
+  out.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value));
+}
+
+template <class Value>
+Value take(std::string_view& bytes) {
+  Value value;
+  std::memcpy(&value, bytes.data(), sizeof(Value));
+  bytes.remove_prefix(sizeof(Value));
+  return value;
+}
+
+template <class Value>
+std::vector<Value> take(std::string_view& bytes, std::size_t n) {
+  std::vector<Value> values(n);
+  if (n > 0) std::memcpy(values.data(), bytes.data(), n * sizeof(Value));
+  bytes.remove_prefix(n * sizeof(Value));
+  return values;
+}
+
+/// Bytes of one frame.
+std::size_t record_bytes(std::size_t n_rods) {
+  return sizeof(std::int64_t) + sizeof(double) + n_rods * (10 * sizeof(float) + 3 * sizeof(std::int32_t)) + kHashBytes;
+}
+
+std::string record_of(const RecordedFrame& frame) {
+  std::string record;
+  record.reserve(record_bytes(frame.position.size() / 3));
+  put(record, static_cast<std::int64_t>(frame.tick));
+  put(record, frame.time);
+  put(record, frame.position);
+  put(record, frame.velocity);
+  put(record, frame.orientation);
+  put(record, frame.image);
+  put(record, hash_of(record));
+  return record;
+}
+
+std::optional<RecordedFrame> frame_of(std::string_view record, std::size_t n_rods) {
+  std::string_view hash = record.substr(record.size() - kHashBytes);
+  if (take<std::uint64_t>(hash) != hash_of(record.substr(0, record.size() - kHashBytes))) return std::nullopt;
+  RecordedFrame frame;
+  frame.tick = take<std::int64_t>(record);
+  frame.time = take<double>(record);
+  frame.position = take<float>(record, 3 * n_rods);
+  frame.velocity = take<float>(record, 3 * n_rods);
+  frame.orientation = take<float>(record, 4 * n_rods);
+  frame.image = take<std::int32_t>(record, 3 * n_rods);
+  return frame;
+}
+
+Json json_of(const BeadRow& beads) { return {{"offset_mm", beads.offset}, {"radius_mm", beads.radius}}; }
+
+BeadRow beads_of(const Json& json) {
+  return {json.at("offset_mm").get<std::vector<double>>(), json.at("radius_mm").get<std::vector<double>>()};
+}
+
+Json json_of(const TrajectoryHeader& header) {
+  Json json{{"n_rods", header.n_rods},
+            {"box_side_mm", header.box_side},
+            {"gap_mm", header.gap},
+            {"dt_s", header.dt},
+            {"beads", {json_of(BeadRow{header.bead_offset, header.bead_radius})}},
+            {"species_of_rod", header.species_of_rod},
+            {"scene", header.scene_json},
+            {"run_id", header.provenance.run_id},
+            {"seed", header.provenance.seed}};
+  for (const BeadRow& beads : header.added_beads) json["beads"].push_back(json_of(beads));
+  if (header.walls) {
+    json["walls"] = {{"arena", name_of(header.walls->arena)},
+                     {"size_mm", header.walls->size},
+                     {"inner_mm", header.walls->inner},
+                     {"friction", header.walls->contact.friction},
+                     {"restitution", header.walls->contact.restitution}};
+  }
+  return json;
+}
+
+/// Throws what the JSON library throws if something is missing.
+TrajectoryHeader header_of(const Json& json) {
+  TrajectoryHeader header;
+  header.n_rods = json.at("n_rods");
+  header.box_side = json.at("box_side_mm");
+  header.gap = json.at("gap_mm");
+  header.dt = json.at("dt_s");
+  for (const Json& beads : json.at("beads")) header.added_beads.push_back(beads_of(beads));
+  header.bead_offset = header.added_beads.at(0).offset;
+  header.bead_radius = header.added_beads.at(0).radius;
+  header.added_beads.erase(header.added_beads.begin());
+  header.species_of_rod = json.at("species_of_rod").get<std::vector<std::uint8_t>>();
+  header.scene_json = json.at("scene");
+  header.provenance = {json.at("run_id"), json.at("seed")};
+  if (json.contains("walls")) {
+    const Json& from = json.at("walls");
+    SideWalls& walls = header.walls.emplace();
+    walls.arena = arena_of(from.at("arena").get<std::string>()).value();
+    walls.size = from.at("size_mm");
+    walls.inner = from.at("inner_mm");
+    walls.contact = {from.at("friction"), from.at("restitution")};
+  }
+  return header;
+}
+
+/// `size` bytes from `offset` on; fewer where the file ends.
+Result<std::string> read_at(int fd, std::size_t offset, std::size_t size) {
+  std::string bytes(size, '\0');
+  std::size_t n = 0;
+  while (n < size) {
+    const ssize_t got = ::pread(fd, bytes.data() + n, size - n, static_cast<off_t>(offset + n));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return system_error("cannot read");
+    if (got == 0) break;
+    n += static_cast<std::size_t>(got);
+  }
+  bytes.resize(n);
+  return bytes;
+}
+
+bool write_at(int fd, std::size_t offset, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::pwrite(fd, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+    offset += static_cast<std::size_t>(written);
+  }
+  return true;
+}
+
+class LoggedFrames final : public RecordedFrames {
+ public:
+  static Result<std::unique_ptr<LoggedFrames>> open(const std::filesystem::path& path) {
+    const auto refuse = [&](const std::string& why) { return Error{path.string() + " " + why}; };
+    Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    if (!file) return system_error("cannot open " + path.string());
+    const Result<std::string> prefix = read_at(file.value(), 0, kPrefixBytes);
+    if (!prefix) return Error{path.string() + ": " + prefix.error().message};
+    if (prefix->size() < kPrefixBytes || !prefix->starts_with(kMagic)) return refuse("holds no recorded frames");
+    std::string_view numbers = std::string_view(*prefix).substr(kMagic.size());
+    if (const auto version = take<std::uint32_t>(numbers); version != kVersion) {
+      return refuse("is of version " + std::to_string(version) + ", which this program cannot read");
+    }
+    const auto length = take<std::uint32_t>(numbers);
+    if (length > kMostHeaderBytes) return refuse("is damaged");
+    const Result<std::string> text = read_at(file.value(), kPrefixBytes, length + kHashBytes);
+    if (!text) return Error{path.string() + ": " + text.error().message};
+    if (text->size() < length + kHashBytes) return refuse("is damaged");
+    std::string_view hash = std::string_view(*text).substr(length);
+    if (take<std::uint64_t>(hash) != hash_of(std::string_view(*text).substr(0, length))) return refuse("is damaged");
+    TrajectoryHeader header;
+    try {
+      header = header_of(Json::parse(text->substr(0, length)));
+    } catch (const std::exception& problem) {
+      return refuse(std::string("has a header that cannot be read: ") + problem.what());
+    }
+    if (auto error = check(header)) return refuse("is damaged: " + error->message);
+    return std::unique_ptr<LoggedFrames>(
+        new LoggedFrames(path, std::move(file), kPrefixBytes + length + kHashBytes, std::move(header)));
+  }
+
+  const TrajectoryHeader& header() const override { return header_; }
+  std::size_t n_frames() const override { return n_frames_; }
+  Result<RecordedFrame> frame(std::size_t index) const override {
+    const std::size_t size = record_bytes(n_rods());
+    const Result<std::string> record = read_at(file_.value(), begin_ + index * size, size);
+    if (!record) return Error{path_.string() + ": " + record.error().message};
+    std::optional<RecordedFrame> frame = record->size() == size ? frame_of(*record, n_rods()) : std::nullopt;
+    if (!frame) return Error{path_.string() + ": frame " + std::to_string(index) + " is damaged"};
+    return std::move(*frame);
+  }
+  std::size_t begin() const { return begin_; }
+  std::size_t n_rods() const { return static_cast<std::size_t>(header_.n_rods); }
+
+ private:
+  LoggedFrames(std::filesystem::path path, Descriptor file, std::size_t begin, TrajectoryHeader header)
+      : path_(std::move(path)), file_(std::move(file)), begin_(begin), header_(std::move(header)) {
+    std::error_code ignored;
+    const std::uintmax_t size = std::filesystem::file_size(path_, ignored);
+    if (!ignored && size > begin_) n_frames_ = (size - begin_) / record_bytes(n_rods());
+    // The last one may be on its way to the file just now, or have been when its writer was killed.
+    if (n_frames_ > 0 && !frame(n_frames_ - 1)) --n_frames_;
+  }
+
+  std::filesystem::path path_;
+  Descriptor file_;
+  std::size_t begin_;
+  TrajectoryHeader header_;
+  std::size_t n_frames_ = 0;
+};
+
+}  // namespace
+
+std::optional<Error> check(const TrajectoryHeader& header) {
+  if (header.n_rods < 0) return Error{"n_rods is negative"};
+  if (header.added_beads.empty()) return std::nullopt;
+  if (header.species_of_rod.size() != static_cast<std::size_t>(header.n_rods)) {
+    return Error{"species does not have the shape (n_rods)"};
+  }
+  for (const std::uint8_t species : header.species_of_rod) {
+    if (species > header.added_beads.size()) return Error{"species names a species whose beads are not there"};
+  }
+  return std::nullopt;
+}
+
+FrameLog::FrameLog(std::filesystem::path path, Descriptor file, std::size_t begin, std::size_t n_rods,
+                   std::size_t n_frames)
+    : path_(std::move(path)), file_(std::move(file)), begin_(begin), n_rods_(n_rods), n_frames_(n_frames) {}
+
+Result<FrameLog> FrameLog::create(const std::filesystem::path& file, const TrajectoryHeader& header) {
+  const std::string text = json_of(header).dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string content(kMagic);
+  put(content, kVersion);
+  put(content, static_cast<std::uint32_t>(text.size()));
+  content += text;
+  put(content, hash_of(text));
+  if (auto error = write_file_atomically(file, content)) return *error;
+  return reopen(file, 0);
+}
+
+Result<FrameLog> FrameLog::reopen(const std::filesystem::path& file, std::size_t n_frames) {
+  const auto frames = LoggedFrames::open(file);
+  if (!frames) return frames.error();
+  if ((*frames)->n_frames() < n_frames) {
+    return Error{file.string() + " has " + std::to_string((*frames)->n_frames()) + " whole frames instead of " +
+                 std::to_string(n_frames)};
+  }
+  for (std::size_t i = 0; i < n_frames; ++i) {
+    if (const auto frame = (*frames)->frame(i); !frame) return frame.error();
+  }
+  FrameLog log(file, Descriptor(::open(file.c_str(), O_RDWR | O_CLOEXEC)), (*frames)->begin(), (*frames)->n_rods(),
+               n_frames);
+  if (!log.file_ || ::ftruncate(log.file_.value(), static_cast<off_t>(log.end())) != 0) {
+    return system_error("cannot write " + file.string());
+  }
+  return log;
+}
+
+std::size_t FrameLog::end() const { return begin_ + n_frames_ * record_bytes(n_rods_); }
+
+std::optional<Error> FrameLog::append(const RecordedFrame& frame) {
+  if (frame.position.size() != 3 * n_rods_) {
+    return Error{path_.string() + " holds " + std::to_string(n_rods_) + " rods, the frame has " +
+                 std::to_string(frame.position.size() / 3)};
+  }
+  if (!write_at(file_.value(), end(), record_of(frame))) {
+    const Error error = system_error("cannot write a frame to " + path_.string());
+    // Room for others; a reader leaves half a frame out anyway.
+    static_cast<void>(::ftruncate(file_.value(), static_cast<off_t>(end())) == 0);
+    return error;
+  }
+  ++n_frames_;
+  return std::nullopt;
+}
+
+std::optional<Error> FrameLog::sync() const {
+  if (::fsync(file_.value()) != 0) return system_error("cannot bring to the disk " + path_.string());
+  return std::nullopt;
+}
+
+Result<std::unique_ptr<RecordedFrames>> open_frame_log(const std::filesystem::path& file) {
+  auto frames = LoggedFrames::open(file);
+  if (!frames) return frames.error();
+  return std::unique_ptr<RecordedFrames>(std::move(frames).value());
+}
+
+bool is_frame_log(const std::filesystem::path& file) {
+  const Descriptor opened(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!opened) return false;
+  const Result<std::string> begin = read_at(opened.value(), 0, kMagic.size());
+  return begin && *begin == kMagic;
+}
+
+}  // namespace shaken::run

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "run/files/recorded_frame.h"
+
+#include <cmath>
+#include <string>
+
+#include "run/files/quaternion.h"
+
+namespace shaken::run {
+namespace {
+
+/// Rounds to float without leaving [0, side): 83.7299999999 must not become 83.73.
+float wrapped_float(double x, double side) {
+  auto rounded = static_cast<float>(x);
+  while (rounded > 0 && static_cast<double>(rounded) >= side) rounded = std::nextafterf(rounded, 0.0F);
+  return rounded;
+}
+
+}  // namespace
+
+RecordedFrame record(const Snapshot& snapshot) {
+  RecordedFrame frame;
+  frame.tick = snapshot.tick;
+  frame.time = snapshot.time;
+  const double side = snapshot.box_side;
+  for (std::size_t i = 0; i < snapshot.n_rods(); ++i) {
+    const Vec3& x = snapshot.position[i];
+    const Vec3& v = snapshot.velocity[i];
+    frame.position.insert(frame.position.end(),
+                          {wrapped_float(x.x(), side), wrapped_float(x.y(), side), static_cast<float>(x.z())});
+    frame.velocity.insert(frame.velocity.end(),
+                          {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())});
+    for (const double q : quaternion_of_director(snapshot.director[i])) {
+      frame.orientation.push_back(static_cast<float>(q));
+    }
+    frame.image.insert(frame.image.end(), {snapshot.image[i][0], snapshot.image[i][1], 0});
+  }
+  return frame;
+}
+
+Result<TrajectoryFrame> decode(const RecordedFrame& recorded) {
+  TrajectoryFrame frame;
+  frame.tick = recorded.tick;
+  frame.time = recorded.time;
+  const auto &x = recorded.position, &v = recorded.velocity, &q = recorded.orientation;
+  for (std::size_t i = 0; 3 * i < x.size(); ++i) {
+    const std::array<double, 4> turn{q[4 * i], q[4 * i + 1], q[4 * i + 2], q[4 * i + 3]};
+    const double norm2 = turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2] + turn[3] * turn[3];
+    if (!(std::abs(norm2 - 1) < 1e-3)) {
+      return Error{"the orientation of rod " + std::to_string(i) + " is not of unit length"};
+    }
+    frame.position.emplace_back(x[3 * i], x[3 * i + 1], x[3 * i + 2]);
+    frame.velocity.emplace_back(v[3 * i], v[3 * i + 1], v[3 * i + 2]);
+    frame.director.push_back(director_of_quaternion(turn));
+    frame.image.push_back({recorded.image[3 * i], recorded.image[3 * i + 1]});
+  }
+  return frame;
+}
+
+}  // namespace shaken::run

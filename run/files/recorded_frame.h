@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "sim/core/result.h"
+#include "sim/snapshot.h"
+
+namespace shaken::run {
+
+/// A frame as files keep it: in single precision, arrays rod by rod.
+struct RecordedFrame {
+  Tick tick = 0;
+  double time = 0;                  ///< [s]
+  std::vector<float> position;      ///< (n_rods, 3), wrapped into the box [mm]
+  std::vector<float> velocity;      ///< (n_rods, 3) [mm/s]
+  std::vector<float> orientation;   ///< (n_rods, 4): unit quaternion (w, x, y, z) that turns z into the director
+  std::vector<std::int32_t> image;  ///< (n_rods, 3): how often the box was left; the third is always 0
+};
+
+/// A frame as programs use it.
+struct TrajectoryFrame {
+  Tick tick = 0;
+  double time = 0;             ///< [s]
+  std::vector<Vec3> position;  ///< wrapped into the box [mm]
+  std::vector<Vec3> director;  ///< unit vectors
+  std::vector<Vec3> velocity;  ///< [mm/s]
+  std::vector<std::array<std::int32_t, 2>> image;
+};
+
+RecordedFrame record(const Snapshot& snapshot);
+/// Fails if an orientation is not of unit length.
+Result<TrajectoryFrame> decode(const RecordedFrame& frame);
+
+}  // namespace shaken::run
