@@ -20,8 +20,8 @@ struct OpenRun {
   Measurements measurements;
   std::optional<Cadence> recording;  ///< of the trajectory: the finer of what `trajectory` and `movie` ask for
   std::optional<FrameLog> frames;    ///< recorded so far
-  double cpu_before = 0;   ///< seconds spent by predecessors
-  double wall_before = 0;  ///< the same
+  double cpu_before = 0;             ///< seconds spent by predecessors
+  double wall_before = 0;            ///< the same
 
   /// The first tick >= `from` at which something is sampled or recorded.
   Tick next_due(Tick from) const;

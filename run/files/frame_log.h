@@ -16,9 +16,9 @@ namespace shaken::run {
 /// checkpoint is cut off by one ftruncate. HDF5 cannot promise that: an index that reaches the disk before the end of
 /// the file does is a file that does not open. trajectory.h5 is made of it as a whole (write_trajectory).
 ///
-/// Layout, little-endian: "SHKNFRAM"; version (u32); length of the header (u32); the header as JSON; its XXH3 (u64); then
-/// for each frame tick (i64), time (f64), the arrays position, velocity, orientation and image of RecordedFrame (f32,
-/// i32), and the XXH3 of all these (u64).
+/// Layout, little-endian: "SHKNFRAM"; version (u32); length of the header (u32); the header as JSON; its XXH3 (u64);
+/// then for each frame tick (i64), time (f64), the arrays position, velocity, orientation and image of RecordedFrame
+/// (f32, i32), and the XXH3 of all these (u64).
 class FrameLog {
  public:
   /// A new file without frames, which takes the place of one that is there.

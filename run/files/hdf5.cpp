@@ -2,6 +2,7 @@
 #include "run/files/hdf5.h"
 
 #include <algorithm>
+#include <string_view>
 
 #include "run/files/version.h"
 
@@ -53,11 +54,20 @@ std::pair<Id, Id> row_spaces(hid_t dataset, hsize_t row) {
 
 }  // namespace
 
-void be_quiet() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+void initialize() {
+  H5dont_atexit();
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
 
 void fail(const std::string& doing) {
   std::string reason;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, keep_innermost, &reason);  // ends at the innermost call
+  // of a refused write it tells time, addresses and sizes on two lines; what the system said stands in quotes
+  constexpr std::string_view kSaid = "error message = '";
+  if (const std::size_t said = reason.find(kSaid); said != std::string::npos) {
+    const std::size_t begin = said + kSaid.size();
+    reason = reason.substr(begin, reason.find('\'', begin) - begin);
+  }
   throw Failure("cannot " + doing + (reason.empty() ? "" : ": " + reason));
 }
 
@@ -87,11 +97,12 @@ bool exists(hid_t where, const std::string& name) { return H5Lexists(where, name
 
 void write_dataset(hid_t where, const std::string& name, hid_t type, const Shape& extent, const void* values) {
   const Id space = simple_space(extent);
-  const Id dataset(
+  Id dataset(
       check(H5Dcreate2(where, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), "create " + name),
       H5Dclose);
   const bool empty = std::find(extent.begin(), extent.end(), 0) != extent.end();
   if (!empty) check(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "write " + name);
+  dataset.close("write " + name);  // small values are written only now
 }
 
 Id create_growing(hid_t where, const std::string& name, hid_t type, const Shape& row, hsize_t rows_per_chunk,
@@ -202,10 +213,11 @@ std::string read_text_attribute(hid_t where, const std::string& name) {
 void write_string(hid_t where, const std::string& name, const std::string& value) {
   const Id type = text_type(false, value.size());
   const Id space = scalar_space();
-  const Id dataset(
+  Id dataset(
       check(H5Dcreate2(where, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), "create " + name),
       H5Dclose);
   check(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value.empty() ? "" : value.data()), "write " + name);
+  dataset.close("write " + name);
 }
 
 std::string read_string(hid_t where, const std::string& name) {

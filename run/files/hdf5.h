@@ -21,8 +21,9 @@ class Failure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// HDF5 prints every refused call to stderr unless told not to. Call before anything else.
-void be_quiet();
+/// Call before anything else. HDF5 prints every refused call to stderr unless told not to; and at the end of the
+/// program it closes what is open once more, which crashes (1.10.8) where a full disk kept a file from being closed.
+void initialize();
 
 /// Throws a Failure about `doing` if an HDF5 call returned a negative value.
 template <class Value>

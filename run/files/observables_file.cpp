@@ -47,7 +47,7 @@ herr_t collect(hid_t root, const char* name, const H5O_info_t* info, void* conte
 
 std::optional<Error> write_observables(const std::filesystem::path& file, const Observables& arrays,
                                        const Provenance& provenance) {
-  hdf5::be_quiet();
+  hdf5::initialize();
   const std::filesystem::path temporary = temporary_for(file);
   try {
     write_arrays(temporary, arrays, provenance);
@@ -60,7 +60,7 @@ std::optional<Error> write_observables(const std::filesystem::path& file, const 
 }
 
 Result<Observables> read_observables(const std::filesystem::path& file) {
-  hdf5::be_quiet();
+  hdf5::initialize();
   try {
     const hdf5::Id in = hdf5::open_file(file, false);
     Observables arrays;

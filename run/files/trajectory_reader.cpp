@@ -104,7 +104,7 @@ Result<TrajectoryReader> TrajectoryReader::open(const std::filesystem::path& fil
     if (!frames) return frames.error();
     return TrajectoryReader(file, std::move(frames).value());
   }
-  hdf5::be_quiet();
+  hdf5::initialize();
   try {
     return TrajectoryReader(file, std::make_unique<Hdf5Frames>(file));
   } catch (const hdf5::Failure& failure) {

@@ -129,6 +129,8 @@ void write_file(const std::filesystem::path& path, const RecordedFrames& frames)
       if (!frame) throw hdf5::Failure(frame.error().message);
       append(sets, header, *frame);
     }
+    // Here, for data sets that are closed with their last chunks unwritten have no way to say so.
+    hdf5::check(H5Fflush(file, H5F_SCOPE_GLOBAL), "write frames");
   }
   file.close("write the file");
 }
@@ -136,7 +138,7 @@ void write_file(const std::filesystem::path& path, const RecordedFrames& frames)
 }  // namespace
 
 std::optional<Error> write_trajectory(const std::filesystem::path& file, const RecordedFrames& frames) {
-  hdf5::be_quiet();
+  hdf5::initialize();
   const std::filesystem::path written = temporary_for(file);
   try {
     write_file(written, frames);

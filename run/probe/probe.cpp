@@ -104,8 +104,8 @@ class Prober {
   /// time of one, or why they cannot be written.
   Result<double> record(const std::filesystem::path& folder, const Cadence& cadence, int n) {
     const RunDirectory directory{folder};
-    auto log = FrameLog::create(
-        directory.frames(), trajectory_header(simulation_.world(), scene::to_json(plan_).dump(2) + "\n", {}));
+    auto log = FrameLog::create(directory.frames(),
+                                trajectory_header(simulation_.world(), scene::to_json(plan_).dump(2) + "\n", {}));
     if (!log) return log.error();
     Snapshot frame = snapshots_.back();
     const double begin = thread_cpu_seconds();

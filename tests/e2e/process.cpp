@@ -16,7 +16,7 @@ namespace shaken::test {
 using std::chrono::steady_clock;
 
 namespace {
-constexpr auto kPoll = std::chrono::milliseconds(20);
+constexpr auto kPoll = std::chrono::milliseconds(5);
 }
 
 Process::Process(const std::vector<std::string>& command, std::filesystem::path output) : output_(std::move(output)) {

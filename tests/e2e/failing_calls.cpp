@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// Loaded before libc (LD_PRELOAD): the n-th change that the process makes to files below a folder goes wrong. So every
+// instant can be tried at which a machine may stop, or a disk refuse, and none is left to chance.
+//
+//   SHAKEN_FAULT_BELOW=DIR   which files count
+//   SHAKEN_FAULT=kill:N      the process is killed at the N-th change, before it is made
+//   SHAKEN_FAULT=half:N      the same after half of the bytes, where the change is a write
+//   SHAKEN_FAULT=full:N      the N-th change and all later ones fail with ENOSPC; removing is still possible
+//   SHAKEN_FAULT=once:N      the N-th change fails with EIO
+#include <dlfcn.h>
+#include <errno.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/types.h>
+#include <unistd.h>
+
+#include <atomic>
+
+namespace {
+
+enum class Fault { kNone, kKill, kHalf, kFull, kOnce };
+
+struct Order {
+  Fault fault = Fault::kNone;
+  long number = 0;
+  const char* below = nullptr;
+};
+
+const Order& order() {
+  static const Order kOrder = [] {
+    Order order;
+    const char* text = getenv("SHAKEN_FAULT");
+    order.below = getenv("SHAKEN_FAULT_BELOW");
+    if (text == nullptr || order.below == nullptr) return order;
+    if (strncmp(text, "kill:", 5) == 0) order.fault = Fault::kKill;
+    if (strncmp(text, "half:", 5) == 0) order.fault = Fault::kHalf;
+    if (strncmp(text, "full:", 5) == 0) order.fault = Fault::kFull;
+    if (strncmp(text, "once:", 5) == 0) order.fault = Fault::kOnce;
+    order.number = atol(text + 5);
+    return order;
+  }();
+  return kOrder;
+}
+
+bool counts(const char* path) {
+  return order().fault != Fault::kNone && strncmp(path, order().below, strlen(order().below)) == 0;
+}
+
+bool counts(int fd) {
+  if (order().fault == Fault::kNone) return false;
+  char link[64], path[4096];
+  snprintf(link, sizeof(link), "/proc/self/fd/%d", fd);
+  const ssize_t length = readlink(link, path, sizeof(path) - 1);
+  if (length <= 0) return false;
+  path[length] = '\0';
+  return counts(path);
+}
+
+/// Counts a change; kills the process, or says with errno that the change shall fail, if it is its turn.
+bool fails() {
+  static std::atomic<long> changes{0};
+  const long number = ++changes;
+  const Order& now = order();
+  if (number == now.number) dprintf(STDERR_FILENO, "fault met\n");
+  if (now.fault == Fault::kFull && number >= now.number) return errno = ENOSPC, true;
+  if (number != now.number) return false;
+  if (now.fault == Fault::kOnce) return errno = EIO, true;
+  if (now.fault == Fault::kKill) raise(SIGKILL);
+  return now.fault == Fault::kHalf;
+}
+
+template <class Function>
+Function real(const char* name) {
+  return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
+}
+
+template <class Write>
+ssize_t guarded_write(int fd, size_t size, Write write) {
+  if (!counts(fd) || !fails()) return write(size);
+  if (order().fault == Fault::kHalf) {
+    write(size / 2);
+    raise(SIGKILL);
+  }
+  return -1;
+}
+
+/// Of a change that is made or not.
+template <class Change>
+int guarded(bool counted, Change change) {
+  if (!counted || !fails()) return change();
+  if (order().fault == Fault::kHalf) raise(SIGKILL);
+  return -1;
+}
+
+}  // namespace
+
+extern "C" {
+
+ssize_t write(int fd, const void* data, size_t size) {
+  static const auto next = real<ssize_t (*)(int, const void*, size_t)>("write");
+  return guarded_write(fd, size, [&](size_t n) { return next(fd, data, n); });
+}
+
+ssize_t pwrite(int fd, const void* data, size_t size, off_t offset) {
+  static const auto next = real<ssize_t (*)(int, const void*, size_t, off_t)>("pwrite");
+  return guarded_write(fd, size, [&](size_t n) { return next(fd, data, n, offset); });
+}
+
+ssize_t pwrite64(int fd, const void* data, size_t size, off64_t offset) {
+  static const auto next = real<ssize_t (*)(int, const void*, size_t, off64_t)>("pwrite64");
+  return guarded_write(fd, size, [&](size_t n) { return next(fd, data, n, offset); });
+}
+
+int ftruncate(int fd, off_t length) noexcept {
+  static const auto next = real<int (*)(int, off_t)>("ftruncate");
+  return guarded(counts(fd), [&] { return next(fd, length); });
+}
+
+int ftruncate64(int fd, off64_t length) noexcept {
+  static const auto next = real<int (*)(int, off64_t)>("ftruncate64");
+  return guarded(counts(fd), [&] { return next(fd, length); });
+}
+
+int fsync(int fd) {
+  static const auto next = real<int (*)(int)>("fsync");
+  return guarded(counts(fd), [&] { return next(fd); });
+}
+
+int rename(const char* from, const char* to) noexcept {
+  static const auto next = real<int (*)(const char*, const char*)>("rename");
+  return guarded(counts(to), [&] { return next(from, to); });
+}
+
+int remove(const char* path) noexcept {
+  static const auto next = real<int (*)(const char*)>("remove");
+  if (order().fault == Fault::kFull) return next(path);
+  return guarded(counts(path), [&] { return next(path); });
+}
+
+}  // extern "C"
