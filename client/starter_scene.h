@@ -12,7 +12,7 @@ namespace shaken::client {
 inline constexpr std::string_view kStarterScene = R"({
   // A scene of Shaken. Every number may carry a unit ("4.5 mm"); without one it is in mm, s, Hz, mm/s^2.
   // Whatever is left out has the value of Sharma & Soni, Soft Matter 20, 6608 (2024).
-  // `shaken validate FILE --resolved` shows all values.
+  // `shaken validate FILE --resolved` shows the others.
 
   "rods": {
     "length": "4.5 mm",        // from tip to tip; longer rods order more

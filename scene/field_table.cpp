@@ -194,7 +194,7 @@ std::vector<Field> measure() {
 /// All rows in canonical order, in groups.
 std::vector<std::vector<Field>> groups() {
   return {
-    shape<&RunPlan::system, &System::rod>("rods", " It only sets the unit of energy."), {
+    shape<&RunPlan::system, &System::rod>("rods", " It sets the unit of energy; between species it is the ratio that matters."), {
     instead("rods.area_fraction", [](const RunPlan& p) { return Value(to_ten_digits(area_fraction_of(p.system))); },
             kPlain, 1e-6, kMaxAreaFractionAligned, kDefaultAreaFraction,
             "Area of all rods, lying flat, divided by the area of the box (or arena)."),
@@ -255,13 +255,13 @@ std::vector<std::vector<Field>> groups() {
              "Length of a tick (the time step). It determines the accuracy."),
     choice<Engine>("time.engine", sys<&System::engine>,
                    {{"scheduled", Engine::kScheduled}, {"reference", Engine::kReference}},
-                   "Which stepper runs. Both give bitwise the same trajectory."),
+                   "Which stepper moves the rods. Both give bitwise the same trajectory."),
     later(choice<ImpactTime>("time.impacts", sys<&System::impacts>,
                              {{"tick_end", ImpactTime::kTickEnd}, {"at_instant", ImpactTime::kAtInstant}},
                              "Whether impacts take effect at the end of their tick, as in the paper, or at their own "
                              "instant within it.")),
     steady(),
-    quantity("time.measure", at<&RunPlan::measure_time>, kTime, 1e-6, 1e7, "Length of the run after `time.steady`."),
+    quantity("time.measure", at<&RunPlan::measure_time>, kTime, 1e-6, 1e7, "Length of the run after `time.steady`; of the whole run if that is \"auto\"."),
     whole("time.seed", sys<&System::seed>, 0, 9007199254740992.0,
           "Seed of all random numbers. Replica k of a sweep has seed + k - 1."),
     },

@@ -60,7 +60,7 @@ MeasurementKind frank_kind() {
               {"frank_splay", "K₁, in units of the effective temperature"},
               {"frank_bend", "K₃, in the same units"},
               {"frank_chi2", "χ² per degree of freedom of the fit: about 1 where the law holds"},
-              {"frank_floor_mm2", "power of rods without correlation, which has been subtracted"},
+              {"frank_floor_mm2", "noise level: power of rods without correlation, which has been subtracted"},
           },
   };
 }

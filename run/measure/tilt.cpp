@@ -84,8 +84,8 @@ MeasurementKind tilt_kind() {
               {"tilt_fastest_n_z", "tilt at which it is reached"},
               {"tilt_reversal_n_z", "tilt at which the folded mean velocity changes sign"},
               {"tilt_reversal_sigmas",
-               "mean velocity beyond that tilt over its error, positive if reversed; below about 3 there is no "
-               "reversal"},
+               "significance of the reversal: mean velocity beyond that tilt over its error, positive if reversed; "
+               "below about 3 none is seen"},
           },
   };
 }
