@@ -16,6 +16,7 @@ enum class ExitCode : int {
   kFailed = 1,         ///< the work was understood but did not succeed
   kBadInput = 2,       ///< wrong arguments, a refused scene, an ID that names nothing
   kNoDaemon = 3,       ///< nobody listens on the socket
+  kNoRoom = 97,        ///< a run found no room on the disk; the same command goes on from the last checkpoint
   kStopped = 99,       ///< a run has stopped with a checkpoint, from which the same command goes on
   kInterrupted = 130,  ///< Ctrl-C, as the shell has it for a program that the signal ends
 };

@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <system_error>
 
 #include "base/descriptor.h"
@@ -89,6 +90,11 @@ Result<std::string> read_file(const std::filesystem::path& file) {
     if (got == 0) return content;
     content.append(buffer, static_cast<std::size_t>(got));
   }
+}
+
+bool means_no_room(std::string_view message) {
+  return message.find(std::strerror(ENOSPC)) != std::string_view::npos ||
+         message.find(std::strerror(EDQUOT)) != std::string_view::npos;
 }
 
 std::optional<Error> make_folder(const std::filesystem::path& folder) {

@@ -30,6 +30,9 @@ std::filesystem::path temporary_for(const std::filesystem::path& file);
 /// The whole file, or why it cannot be read.
 Result<std::string> read_file(const std::filesystem::path& file);
 
+/// Whether the system refused something for want of room on the disk: then its words for that are in the message.
+bool means_no_room(std::string_view message);
+
 /// Makes `folder` and those that lead to it, where they are missing.
 [[nodiscard]] std::optional<Error> make_folder(const std::filesystem::path& folder);
 

@@ -20,6 +20,8 @@ std::string duration_text(double seconds);
 std::string clock_text(double seconds, std::int64_t now_utime);
 /// Up to four significant digits: "0.9134", "2109", "1.2e+06".
 std::string number_text(double value);
+/// "3.2 MB"
+std::string bytes_text(double bytes);
 /// A bar of `width` columns, filled in steps of an eighth of a column.
 std::string bar_text(double fraction, int width);
 /// "██████····  61 %  7/12 jobs  ETA 5 min 17 s (14:32)"; an unknown time left (negative) is left out.

@@ -19,7 +19,7 @@ constexpr const char* kFooter = R"(Examples:
   shaken watch && shaken results && shaken plot
 
 Exit codes:  0 done   1 failed   2 bad input   3 no daemon   130 interrupted by Ctrl-C, but of a run:
-             99 stopped with a checkpoint, the same command goes on
+             97 no room on the disk, 99 stopped with a checkpoint: the same command goes on
 Environment: SHAKEN_ROOT  the daemon's root directory;  LCM_DEFAULT_URL  the bus of the live state;  NO_COLOR
 `shaken VERB --help` tells more.)";
 

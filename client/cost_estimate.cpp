@@ -13,6 +13,7 @@
 #include "base/process.h"
 #include "base/scratch_folder.h"
 #include "base/table.h"
+#include "base/text.h"
 #include "scene/accuracy.h"
 #include "scene/canonical.h"
 #include "scene/derived.h"
@@ -240,16 +241,6 @@ std::string level_errors(const CostEstimate& estimate, std::size_t width) {
 }
 
 }  // namespace
-
-std::string bytes_text(double bytes) {
-  constexpr std::array<const char*, 5> kUnits{"B", "kB", "MB", "GB", "TB"};
-  std::size_t unit = 0;
-  while (bytes >= 999.5 && unit + 1 < kUnits.size()) {
-    bytes /= 1000;
-    ++unit;
-  }
-  return fmt::format("{:.3g} {}", bytes, kUnits[unit]);
-}
 
 std::string cpu_text(double seconds) {
   if (seconds < 60) return fmt::format("{:.2g} CPU-seconds", seconds);

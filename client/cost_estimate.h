@@ -58,8 +58,6 @@ CostEstimate estimate_cost(const scene::Sweep& sweep, const EstimateOptions& opt
 std::string estimate_text(const CostEstimate& estimate, int width);
 Json estimate_json(const CostEstimate& estimate);
 
-/// "3.2 MB"
-std::string bytes_text(double bytes);
 /// "12.3 CPU-hours", "4.1 CPU-minutes"
 std::string cpu_text(double seconds);
 

@@ -102,7 +102,7 @@ std::string text_of(const Json& object, const char* key) {
 
 std::string counts_text(const Json& counts) {
   std::string text;
-  for (const char* state : {"done", "running", "stopping", "queued", "failed", "cancelled"}) {
+  for (const char* state : {"done", "running", "stopping", "queued", "held", "failed", "cancelled"}) {
     const int n = counts.value(state, 0);
     if (n > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", n, state);
   }

@@ -39,6 +39,10 @@ std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(
 
 std::string scene_text(const scene::RunPlan& plan) { return scene::to_json(plan).dump(2) + "\n"; }
 
+RunOutcome failure(const std::string& message) {
+  return {means_no_room(message) ? RunState::kNoRoom : RunState::kFailed, message};
+}
+
 /// One run from where it stands to its end.
 class Loop {
  public:
@@ -242,7 +246,7 @@ class Loop {
   RunOutcome finish_without_disk(const Error& error) {
     const std::string message = error.message + "; the run goes on from its last checkpoint when started again";
     report("failed", message);
-    return {RunState::kFailed, message};
+    return failure(message);
   }
 
   const scene::RunPlan& plan_;
@@ -319,7 +323,7 @@ RunOutcome fail(const RunOptions& options, const RunCallbacks& callbacks, const 
   const RunDirectory directory{options.directory};
   if (auto error = write_progress(directory.progress(), progress)) spdlog::warn("{}", error->message);
   if (callbacks.on_progress) callbacks.on_progress(progress);
-  return {RunState::kFailed, message};
+  return failure(message);
 }
 
 /// scene.json is written once; a directory of another scene is refused, never overwritten.
@@ -362,7 +366,7 @@ RunOutcome draw(const scene::RunPlan& plan, const RunOptions& options, const Run
 
 RunOutcome run_owned(const scene::RunPlan& plan, const RunOptions& options, const RunCallbacks& callbacks) {
   const RunDirectory directory{options.directory};
-  if (auto error = claim(plan, directory)) return {RunState::kFailed, error->message};
+  if (auto error = claim(plan, directory)) return failure(error->message);
   if (is_done(directory, scene::run_id(plan))) {
     spdlog::info("{} is done already", directory.root.string());
     std::error_code ignored;
@@ -390,7 +394,7 @@ RunOutcome run_owned(const scene::RunPlan& plan, const RunOptions& options, cons
 RunOutcome run(const scene::RunPlan& plan, const RunOptions& options, const RunCallbacks& callbacks) {
   std::error_code reason;
   std::filesystem::create_directories(options.directory, reason);
-  if (reason) return {RunState::kFailed, "cannot create " + options.directory.string() + ": " + reason.message()};
+  if (reason) return failure("cannot create " + options.directory.string() + ": " + reason.message());
   const Result<DirectoryLock> lock = DirectoryLock::acquire(RunDirectory{options.directory}.lock());
   if (!lock) return {RunState::kFailed, lock.error().message};
   if (callbacks.on_owned) callbacks.on_owned();

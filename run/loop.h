@@ -36,7 +36,12 @@ struct RunCallbacks {
   std::function<std::optional<Error>()> make_movie;
 };
 
-enum class RunState { kDone, kFailed, kStopped };
+enum class RunState {
+  kDone,
+  kFailed,
+  kNoRoom,  ///< failed for want of room on the disk
+  kStopped,
+};
 
 struct RunOutcome {
   RunState state = RunState::kDone;

@@ -41,7 +41,7 @@ constexpr const char* kFooter = R"(Examples:
   shaken-worker quickstart.json --probe cost.json     runs nothing, but tells what the run would cost
   shaken-worker replay runs/wild                      meets a failed run's numerical trouble again
 
-Exit codes: 0 done, 1 failed, 2 bad input, 99 stopped by a signal after a checkpoint.)";
+Exit codes: 0 done, 1 failed, 2 bad input, 97 no room on the disk, 99 stopped by a signal after a checkpoint.)";
 
 std::atomic<bool> stop_requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
@@ -177,6 +177,9 @@ ExitCode run_scene(const scene::RunPlan& plan, const Arguments& arguments) {
     case run::RunState::kStopped:
       spdlog::info("stopped; start again to go on");
       return ExitCode::kStopped;
+    case run::RunState::kNoRoom:
+      spdlog::error("{}", outcome.message);
+      return ExitCode::kNoRoom;
     case run::RunState::kFailed:
       spdlog::error("{}", outcome.message);
       return ExitCode::kFailed;
@@ -230,6 +233,8 @@ int main(int argc, char** argv) {
   describe(app, arguments);
   std::signal(SIGTERM, request_stop);
   std::signal(SIGINT, request_stop);
+  // a terminal that is closed; nohup asks to outlive it
+  if (std::signal(SIGHUP, request_stop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
   try {
     app.parse(argc, argv);

@@ -88,11 +88,20 @@ std::span<const Api::Route> Api::routes() {
       {"POST", "/v1/sweeps", "", &Api::submit},
       {"GET", "/v1/sweeps", "", &Api::list_sweeps},
       {"GET", "/v1/sweeps/ID", "", &Api::show_sweep},
-      {"POST", "/v1/sweeps/ID/cancel", "", &Api::cancel_sweep},
+      {"POST", "/v1/sweeps/ID/cancel", "", &Api::control},
+      {"POST", "/v1/sweeps/ID/hold", "", &Api::control},
+      {"POST", "/v1/sweeps/ID/resume", "", &Api::control},
+      {"POST", "/v1/sweeps/ID/retry", "", &Api::control},
+      {"POST", "/v1/sweeps/ID/priority", "", &Api::control},
       {"GET", "/v1/jobs", "sweep state", &Api::list_jobs},
       {"GET", "/v1/jobs/ID", "", &Api::show_job},
       {"GET", "/v1/jobs/ID/log", "offset", &Api::show_log},
-      {"POST", "/v1/jobs/ID/cancel", "", &Api::cancel_job},
+      {"GET", "/v1/jobs/ID/history", "", &Api::show_history},
+      {"POST", "/v1/jobs/ID/cancel", "", &Api::control},
+      {"POST", "/v1/jobs/ID/hold", "", &Api::control},
+      {"POST", "/v1/jobs/ID/resume", "", &Api::control},
+      {"POST", "/v1/jobs/ID/retry", "", &Api::control},
+      {"POST", "/v1/jobs/ID/priority", "", &Api::control},
       {"GET", "/v1/results", "sweep state", &Api::results},
   };
   return kRoutes;
@@ -202,10 +211,6 @@ Api::Answer Api::show_sweep(const Call& call) const {
   return {200, {{"sweep", report(sweep)}, {"jobs", report(queue_.jobs(sweep.id))}}, ""};
 }
 
-Api::Answer Api::cancel_sweep(const Call& call) const {
-  return {200, {{"cancelled", queue_.cancel_sweep(find_sweep(call.id).id)}}, ""};
-}
-
 Api::Answer Api::list_jobs(const Call& call) const { return {200, {{"jobs", report(find_jobs(call))}}, ""}; }
 
 Api::Answer Api::show_job(const Call& call) const {
@@ -225,8 +230,40 @@ Api::Answer Api::show_log(const Call& call) const {
   return {200, {{"text", slice.text}, {"offset", slice.next}, {"state", to_word(job.state)}}, ""};
 }
 
-Api::Answer Api::cancel_job(const Call& call) const {
-  return {200, {{"cancelled", queue_.cancel_job(find_job(call.id).id)}}, ""};
+Api::Answer Api::show_history(const Call& call) const {
+  Json changes = Json::array();
+  for (const Change& change : queue_.history(find_job(call.id).id)) {
+    changes.push_back({{"utime", change.utime},
+                       {"from", change.from},
+                       {"to", change.to},
+                       {"attempt", change.attempt},
+                       {"cause", change.cause}});
+  }
+  return {200, {{"changes", changes}}, ""};
+}
+
+Api::Answer Api::control(const Call& call) const {
+  const auto parts = split(call.request.path, '/');
+  const std::string& action = parts.back();
+  const bool is_sweep = parts[1] == "sweeps";
+  const std::int64_t sweep = is_sweep ? find_sweep(call.id).id : 0;
+  const std::string job = is_sweep ? "" : find_job(call.id).id;
+  const auto answer = [](const char* changed, int n) { return Answer{200, {{changed, n}}, ""}; };
+  if (action == "cancel") return answer("cancelled", is_sweep ? queue_.cancel_sweep(sweep) : queue_.cancel_job(job));
+  if (action == "hold") return answer("held", is_sweep ? queue_.hold_sweep(sweep) : queue_.hold_job(job));
+  if (action == "priority") {
+    int priority = 0;
+    try {
+      priority = parse_priority(call.request.body);
+    } catch (const std::invalid_argument& problem) {
+      throw Refusal(400, problem.what());
+    }
+    return answer("changed",
+                  is_sweep ? queue_.set_priority_of_sweep(sweep, priority) : queue_.set_priority_of_job(job, priority));
+  }
+  const bool retry = action == "retry";
+  return answer(retry ? "retried" : "resumed",
+                is_sweep ? queue_.release_sweep(sweep, retry) : queue_.release_job(job, retry));
 }
 
 Api::Answer Api::results(const Call& call) const {

@@ -33,11 +33,12 @@ class Api {
   Answer submit(const Call& call) const;
   Answer list_sweeps(const Call& call) const;
   Answer show_sweep(const Call& call) const;
-  Answer cancel_sweep(const Call& call) const;
   Answer list_jobs(const Call& call) const;
   Answer show_job(const Call& call) const;
   Answer show_log(const Call& call) const;
-  Answer cancel_job(const Call& call) const;
+  Answer show_history(const Call& call) const;
+  /// Of "/v1/jobs/ID/ACTION" and "/v1/sweeps/ID/ACTION".
+  Answer control(const Call& call) const;
   Answer results(const Call& call) const;
 
   Sweep find_sweep(const std::string& word) const;

@@ -21,6 +21,7 @@
 #include "server/local_executor.h"
 #include "server/queue.h"
 #include "server/status_publisher.h"
+#include "server/submission.h"
 #include "server/supervisor.h"
 
 namespace shaken::server {
@@ -32,6 +33,8 @@ using std::chrono::milliseconds;
 constexpr milliseconds kRound{100};
 /// For open connections at the end. Everything is on the disk by then.
 constexpr milliseconds kLastAnswers{2000};
+/// For a queue that cannot be written to let itself be written after all.
+constexpr milliseconds kLastWrites{2000};
 constexpr std::size_t kLogBytes = std::size_t{10} << 20;
 constexpr std::size_t kOldLogs = 2;
 
@@ -95,11 +98,21 @@ std::vector<std::string> worker_options(const DaemonConfig& config) {
   return options;
 }
 
-/// Waits until every worker has ended, or until a second signal has killed them.
+/// Waits until every worker has ended, or until a second signal has killed them. A queue that cannot take their ends
+/// does not keep the daemon up: the next one finds out anew.
 void stop_workers(Supervisor& supervisor, const Signals& signals) {
   supervisor.shut_down();
   supervisor.step();
+  std::optional<std::chrono::steady_clock::time_point> give_up;
   while (!supervisor.idle()) {
+    if (supervisor.all_ended()) {
+      const auto now = std::chrono::steady_clock::now();
+      if (!give_up) give_up = now + kLastWrites;
+      if (now >= *give_up) {
+        spdlog::error("the queue cannot be written: how the workers ended, the next daemon will find out");
+        return;
+      }
+    }
     if (signals.wait(kRound)) {
       spdlog::warn("second signal: killing the workers");
       supervisor.kill_all();
@@ -144,7 +157,9 @@ void run_daemon(const DaemonConfig& config) {
   }
 
   LocalExecutor executor(config.worker);
-  Supervisor supervisor(queue, executor, {info.runs(), config.slots, worker_options(config), config.grace});
+  SupervisorOptions options{info.runs(), config.slots, worker_options(config), config.grace};
+  options.refuse = refuse_scene;
+  Supervisor supervisor(queue, executor, std::move(options));
   std::optional<StatusPublisher> publisher;
   if (lcm) publisher.emplace(queue, std::move(lcm.bus), info);
   const Api api(queue, info);

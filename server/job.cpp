@@ -7,8 +7,8 @@
 namespace shaken::server {
 namespace {
 
-constexpr std::array<std::string_view, kJobStates.size()> kWords{"queued", "running", "stopping",
-                                                                 "done",   "failed",  "cancelled"};
+constexpr std::array<std::string_view, kJobStates.size()> kWords{"queued", "held",   "running",  "stopping",
+                                                                 "done",   "failed", "cancelled"};
 
 }  // namespace
 
@@ -25,11 +25,13 @@ bool may_become(JobState from, JobState to) {
   using enum JobState;
   switch (from) {
     case kQueued:
-      return to == kRunning || to == kCancelled;
+      return to == kRunning || to == kHeld || to == kCancelled || to == kFailed;
+    case kHeld:
+      return to == kQueued || to == kCancelled;
     case kRunning:
-      return to == kStopping || to == kDone || to == kFailed || to == kQueued;
+      return to == kStopping || to == kDone || to == kFailed || to == kQueued || to == kHeld;
     case kStopping:
-      return to == kCancelled || to == kQueued || to == kDone || to == kFailed;
+      return to == kCancelled || to == kQueued || to == kDone || to == kFailed || to == kHeld;
     case kDone:  // again only if somebody has deleted its results
     case kFailed:
     case kCancelled:

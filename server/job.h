@@ -10,12 +10,21 @@
 namespace shaken::server {
 
 /// Where a job is in its life:
-///   queued -> running -> done | failed;  running -> stopping -> cancelled, or back to queued when the daemon stops.
-/// A failed or cancelled job that is submitted once more is queued again.
-enum class JobState { kQueued, kRunning, kStopping, kDone, kFailed, kCancelled };
+///   queued -> running -> done | failed;  running -> stopping -> cancelled, held, or back to queued when the daemon
+///   stops;  queued <-> held.
+/// A worker that crashes puts its job back into the queue, for a while; one that finds no room holds it. A failed or
+/// cancelled job that is submitted once more, or retried, is queued again.
+enum class JobState { kQueued, kHeld, kRunning, kStopping, kDone, kFailed, kCancelled };
 
-inline constexpr std::array kJobStates{JobState::kQueued, JobState::kRunning, JobState::kStopping,
-                                       JobState::kDone,   JobState::kFailed,  JobState::kCancelled};
+inline constexpr std::array kJobStates{JobState::kQueued, JobState::kHeld,   JobState::kRunning,  JobState::kStopping,
+                                       JobState::kDone,   JobState::kFailed, JobState::kCancelled};
+
+/// What a held job waits for.
+enum class Hold {
+  kNone,
+  kRequest,  ///< to be released
+  kRoom,     ///< room on the disk
+};
 
 /// The word for a state in the queue, in the API and on the bus; and back.
 std::string_view to_word(JobState state);
@@ -37,15 +46,19 @@ struct Job {
   std::string id;          ///< hash of the canonical scene: 16 hex digits
   std::int64_t sweep = 0;  ///< through which it is looked at; otherwise the last that asked for it
   JobState state = JobState::kQueued;
-  std::string reason;      ///< why it failed or was cancelled; otherwise empty
+  std::string reason;      ///< why it failed, is held or was cancelled, or what keeps a queued one waiting; or empty
   std::string label;       ///< its swept parameters, as words
   std::string parameters;  ///< its swept parameters, as a JSON object
   int replica = 0;
+  int priority = 0;
   int attempt = 0;  ///< how often it was started
   int pid = 0;      ///< of its worker while running or stopping, otherwise 0
   std::int64_t created = 0;
   std::int64_t started = 0;  ///< the last attempt
   std::int64_t finished = 0;
+  std::int64_t not_before = 0;  ///< a queued job that has crashed waits until then
+  Hold hold = Hold::kNone;
+  std::int64_t needed_bytes = 0;  ///< of room on the disk, where it waits for that
 };
 
 /// An ordered list of jobs asked for together.

@@ -11,7 +11,9 @@
 namespace shaken::server {
 namespace {
 
-constexpr auto kBadInput = static_cast<int>(ExitCode::kBadInput);
+constexpr auto kFailedCode = static_cast<int>(ExitCode::kFailed);
+constexpr auto kBadInputCode = static_cast<int>(ExitCode::kBadInput);
+constexpr auto kNoRoomCode = static_cast<int>(ExitCode::kNoRoom);
 constexpr auto kStoppedOnRequest = static_cast<int>(ExitCode::kStopped);
 
 /// The last line of the worker with anything on it, of the last 4 KiB.
@@ -44,19 +46,24 @@ std::string signal_name(int signal) {
 
 }  // namespace
 
-JobEnd judge(const WorkerEnd& end, int pid, bool stop_asked, const run::RunDirectory& directory) {
+JobEnd judge(const WorkerEnd& end, int pid, bool stop_asked, const std::string& id,
+             const run::RunDirectory& directory) {
+  using enum JobEnd::Outcome;
   if (end.signal == SIGTERM || (end.signal == SIGKILL && stop_asked)) {
-    return {JobEnd::Outcome::kStopped, "the worker was stopped by " + signal_name(end.signal)};
+    return {kStopped, "the worker was stopped by " + signal_name(end.signal)};
   }
-  if (end.signal != 0) return {JobEnd::Outcome::kFailed, "worker was killed by " + signal_name(end.signal)};
+  if (end.signal != 0) return {kCrashed, "worker was killed by " + signal_name(end.signal)};
   if (end.exit_code == 0) {
-    if (std::filesystem::exists(directory.summary())) return {JobEnd::Outcome::kDone, ""};
-    return {JobEnd::Outcome::kFailed, "exit 0, but there is no " + directory.summary().string()};
+    if (run::is_done(directory, id)) return {kDone, ""};
+    return {kFailed, "exit 0, but " + directory.summary().string() + " does not say that it is done"};
   }
-  if (end.exit_code == kStoppedOnRequest) return {JobEnd::Outcome::kStopped, "the worker has stopped at a checkpoint"};
-  std::string reason = "exit " + std::to_string(end.exit_code) + (end.exit_code == kBadInput ? " (bad input)" : "");
-  if (const std::string why = explanation(pid, directory); !why.empty()) reason += ": " + why;
-  return {JobEnd::Outcome::kFailed, reason};
+  if (end.exit_code == kStoppedOnRequest) return {kStopped, "the worker has stopped at a checkpoint"};
+  const std::string why = explanation(pid, directory);
+  if (end.exit_code == kNoRoomCode) return {kNoRoom, why.empty() ? "no room" : why};
+  std::string reason = "exit " + std::to_string(end.exit_code) + (end.exit_code == kBadInputCode ? " (bad input)" : "");
+  if (!why.empty()) reason += ": " + why;
+  const bool it_said_so = end.exit_code == kFailedCode || end.exit_code == kBadInputCode;
+  return {it_said_so ? kFailed : kCrashed, reason};
 }
 
 }  // namespace shaken::server

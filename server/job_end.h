@@ -14,13 +14,20 @@ inline constexpr std::string_view kHeading = "--- shakend: ";
 
 /// What the end of a worker means for its job.
 struct JobEnd {
-  enum class Outcome { kDone, kFailed, kStopped };
+  enum class Outcome {
+    kDone,
+    kFailed,   ///< it would fail again: numerical trouble, a bad scene
+    kStopped,  ///< at a checkpoint, on request
+    kCrashed,  ///< killed or ended without a word: it may go well another time
+    kNoRoom,   ///< the disk is full
+  };
   Outcome outcome;
   std::string reason;  ///< empty if done
 };
 
-/// Exit 0 with a summary is done; exit 99 and SIGTERM are a stop on request, and so is SIGKILL if `stop_asked`;
-/// anything else is a failure, explained by what the worker wrote into progress.json or said last in worker.log.
-JobEnd judge(const WorkerEnd& end, int pid, bool stop_asked, const run::RunDirectory& directory);
+/// Exit 0 with the summary of run `id` is done; exit 99 and SIGTERM are a stop on request, and so is SIGKILL if
+/// `stop_asked`; exit 97 is a full disk; any other signal is a crash, and so is any other exit code than 1 and 2. These
+/// are failures, explained by what the worker wrote into progress.json or said last in worker.log.
+JobEnd judge(const WorkerEnd& end, int pid, bool stop_asked, const std::string& id, const run::RunDirectory& directory);
 
 }  // namespace shaken::server

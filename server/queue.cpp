@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "server/queue.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "base/clock.h"
+#include "base/text.h"
 #include "server/queue_schema.h"
 #include "sim/core/check.h"
 
@@ -14,10 +17,15 @@ using enum JobState;
 
 const std::string kSelectJobs =
     "SELECT id, sweep, state, reason, label, parameters, replica, attempt, pid, created_utime, started_utime, "
-    "finished_utime FROM jobs ";
+    "finished_utime, priority, hold, needed_bytes, not_before_utime FROM jobs ";
 const std::string kSelectMembers =
     "SELECT j.id, m.sweep, j.state, j.reason, m.label, m.parameters, m.replica, j.attempt, j.pid, j.created_utime, "
-    "j.started_utime, j.finished_utime FROM members m JOIN jobs j ON j.number = m.job WHERE m.sweep = ?1 ";
+    "j.started_utime, j.finished_utime, j.priority, j.hold, j.needed_bytes, j.not_before_utime FROM members m JOIN "
+    "jobs j ON j.number = m.job WHERE m.sweep = ?1 ";
+
+/// What a held job waits for, as the table has it.
+constexpr std::string_view kOnRequest = "request";
+constexpr std::string_view kForRoom = "room";
 
 JobState stored_state(const std::string& word) {
   const auto state = job_state(word);
@@ -39,6 +47,10 @@ Job read_job(const Query& query) {
   job.created = query.integer(9);
   job.started = query.integer(10);
   job.finished = query.integer(11);
+  job.priority = static_cast<int>(query.integer(12));
+  job.hold = query.text(13) == kForRoom ? Hold::kRoom : query.text(13) == kOnRequest ? Hold::kRequest : Hold::kNone;
+  job.needed_bytes = query.integer(14);
+  job.not_before = query.integer(15);
   return job;
 }
 
@@ -48,11 +60,25 @@ std::vector<Job> read_jobs(Query query) {
   return jobs;
 }
 
+const std::string kSelectJournal = "SELECT sequence, utime, job, from_state, to_state, attempt, cause FROM journal ";
+
+std::vector<Change> read_changes(Query query) {
+  std::vector<Change> changes;
+  while (query.next()) {
+    changes.push_back({query.integer(0), query.integer(1), query.text(2), query.text(3), query.text(4),
+                       static_cast<int>(query.integer(5)), query.text(6)});
+  }
+  return changes;
+}
+
 JobCounts read_counts(Query query) {
   JobCounts counts;
   while (query.next()) counts[stored_state(query.text(0))] = query.integer(1);
   return counts;
 }
+
+const std::string kAsked = "cancelled on request";
+const std::string kHeldOnRequest = "held on request";
 
 bool has_ended(JobState state) { return state == kDone || state == kFailed || state == kCancelled; }
 
@@ -64,9 +90,19 @@ struct Queue::Current {
   JobState state;
   std::string after_stop;
   int attempt;
+  std::string hold;
+  int crashes;
+  int priority;
 
+  static constexpr const char* kSelect = "SELECT id, state, after_stop, attempt, hold, crashes, priority FROM jobs ";
   static Current read(const Query& query) {
-    return {query.text(0), stored_state(query.text(1)), query.text(2), static_cast<int>(query.integer(3))};
+    return {query.text(0),
+            stored_state(query.text(1)),
+            query.text(2),
+            static_cast<int>(query.integer(3)),
+            query.text(4),
+            static_cast<int>(query.integer(5)),
+            static_cast<int>(query.integer(6))};
   }
 };
 
@@ -82,10 +118,8 @@ std::vector<std::string> Queue::recover() {
   Transaction transaction(database_);
   std::vector<std::string> recovered;
   for (const Current& job : unfinished(std::nullopt)) {
-    if (job.state == kQueued) continue;
-    const bool cancelled = job.state == kStopping && job.after_stop == to_word(kCancelled);
-    change(job, cancelled ? kCancelled : kQueued, cancelled ? "cancelled on request" : "",
-           "the daemon ended without warning");
+    if (job.state != kRunning && job.state != kStopping) continue;
+    end_stopping(job, "the daemon ended without warning");
     recovered.push_back(job.id);
   }
   transaction.commit();
@@ -156,9 +190,11 @@ bool Queue::ask_again(const NewJob& job, int priority, std::int64_t sweep) {
   const Current known = *current(job.id);
   if (known.state == kStopping) {
     database_.run("UPDATE jobs SET after_stop = 'queued' WHERE id = ?1", job.id);
-    return known.after_stop == to_word(kCancelled);
+    return known.after_stop != to_word(kQueued);
   }
-  if (!has_ended(known.state) || (known.state == kDone && !job.results_lost)) return false;
+  const bool waits_for_room = known.state == kHeld && known.hold == kForRoom;
+  if (known.state == kQueued || known.state == kRunning || waits_for_room) return false;
+  if (known.state == kDone && !job.results_lost) return false;
   change(known, kQueued, "", "submitted again in " + sweep_word(sweep));
   return true;
 }
@@ -241,10 +277,14 @@ JobCounts Queue::counts() const {
   return read_counts(database_.query("SELECT state, COUNT(*) FROM jobs GROUP BY state"));
 }
 
+std::vector<Queue::Current> Queue::one(const std::string& id) const {
+  const auto job = current(id);
+  return job ? std::vector{*job} : std::vector<Current>();
+}
+
 int Queue::cancel_job(const std::string& id) {
   const std::lock_guard lock(mutex_);
-  const auto job = current(id);
-  return job ? cancel_all({&*job, 1}) : 0;
+  return cancel_all(one(id));
 }
 
 int Queue::cancel_sweep(std::int64_t sweep) {
@@ -252,16 +292,20 @@ int Queue::cancel_sweep(std::int64_t sweep) {
   return cancel_all(unfinished(sweep));
 }
 
+void Queue::stop_for(const Current& job, JobState after_stop, const std::string& cause) {
+  if (job.state == kRunning) change(job, kStopping, "", cause);
+  database_.run("UPDATE jobs SET after_stop = ?2 WHERE id = ?1", job.id, to_word(after_stop));
+}
+
 int Queue::cancel_all(std::span<const Current> jobs) {
   Transaction transaction(database_);
   int changed = 0;
   for (const Current& job : jobs) {
     if (has_ended(job.state) || job.after_stop == to_word(kCancelled)) continue;
-    if (job.state == kQueued) {
-      change(job, kCancelled, "cancelled on request", "cancelled on request");
+    if (job.state == kQueued || job.state == kHeld) {
+      change(job, kCancelled, kAsked, kAsked);
     } else {
-      if (job.state == kRunning) change(job, kStopping, "", "cancelled on request");
-      database_.run("UPDATE jobs SET after_stop = 'cancelled' WHERE id = ?1", job.id);
+      stop_for(job, kCancelled, kAsked);
     }
     ++changed;
   }
@@ -270,10 +314,94 @@ int Queue::cancel_all(std::span<const Current> jobs) {
   return changed;
 }
 
+int Queue::hold_job(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  return hold_all(one(id));
+}
+
+int Queue::hold_sweep(std::int64_t sweep) {
+  const std::lock_guard lock(mutex_);
+  return hold_all(unfinished(sweep));
+}
+
+int Queue::hold_all(std::span<const Current> jobs) {
+  Transaction transaction(database_);
+  int changed = 0;
+  for (const Current& job : jobs) {
+    if (has_ended(job.state) || job.hold == kOnRequest || job.after_stop == to_word(kHeld)) continue;
+    if (job.after_stop == to_word(kCancelled)) continue;  // that was asked for first
+    if (job.state == kQueued) {
+      change(job, kHeld, kHeldOnRequest, kHeldOnRequest);
+    } else if (job.state == kRunning || job.state == kStopping) {
+      stop_for(job, kHeld, kHeldOnRequest);
+    }
+    if (job.state == kQueued || job.state == kHeld) {
+      database_.run("UPDATE jobs SET hold = ?2, reason = ?3 WHERE id = ?1", job.id, kOnRequest, kHeldOnRequest);
+    }
+    ++changed;
+  }
+  transaction.commit();
+  committed();
+  return changed;
+}
+
+int Queue::release_job(const std::string& id, bool retry) {
+  const std::lock_guard lock(mutex_);
+  return release_all(one(id), retry);
+}
+
+int Queue::release_sweep(std::int64_t sweep, bool retry) {
+  const std::lock_guard lock(mutex_);
+  return release_all(all(sweep), retry);
+}
+
+int Queue::release_all(std::span<const Current> jobs, bool retry) {
+  Transaction transaction(database_);
+  int changed = 0;
+  for (const Current& job : jobs) {
+    if (job.state == kHeld || (retry && (job.state == kFailed || job.state == kCancelled))) {
+      change(job, kQueued, "", job.state == kHeld ? "released on request" : "retried on request");
+    } else if (job.state == kStopping && job.after_stop == to_word(kHeld)) {
+      stop_for(job, kQueued, "");
+    } else if (retry && job.state == kQueued && job.crashes > 0) {
+      database_.run("UPDATE jobs SET crashes = 0, not_before_utime = 0, reason = '' WHERE id = ?1", job.id);
+    } else {
+      continue;
+    }
+    ++changed;
+  }
+  transaction.commit();
+  committed();
+  return changed;
+}
+
+int Queue::set_priority_of_job(const std::string& id, int priority) {
+  const std::lock_guard lock(mutex_);
+  return set_priority(one(id), priority);
+}
+
+int Queue::set_priority_of_sweep(std::int64_t sweep, int priority) {
+  const std::lock_guard lock(mutex_);
+  return set_priority(unfinished(sweep), priority);
+}
+
+int Queue::set_priority(std::span<const Current> jobs, int priority) {
+  Transaction transaction(database_);
+  int changed = 0;
+  for (const Current& job : jobs) {
+    if (has_ended(job.state) || job.priority == priority) continue;
+    database_.run("UPDATE jobs SET priority = ?2 WHERE id = ?1", job.id, priority);
+    ++changed;
+  }
+  transaction.commit();
+  return changed;
+}
+
 std::vector<Job> Queue::next(int limit) const {
   const std::lock_guard lock(mutex_);
-  return read_jobs(
-      database_.query(kSelectJobs + "WHERE state = 'queued' ORDER BY priority DESC, number LIMIT ?1", limit));
+  return read_jobs(database_.query(
+      kSelectJobs + "WHERE state = 'queued' AND not_before_utime <= ?2 ORDER BY priority DESC, number LIMIT ?1", limit,
+      utime_now()));
 }
 
 std::optional<int> Queue::begin(const std::string& id) {
@@ -305,15 +433,94 @@ void Queue::finish(const std::string& id, JobState state, const std::string& rea
   committed();
 }
 
+void Queue::end_stopping(const Current& job, const std::string& cause) {
+  if (job.state == kStopping && job.after_stop == to_word(kCancelled)) {
+    change(job, kCancelled, kAsked, cause);
+  } else if (job.state == kStopping && job.after_stop == to_word(kHeld)) {
+    change(job, kHeld, kHeldOnRequest, cause);
+    database_.run("UPDATE jobs SET hold = ?2 WHERE id = ?1", job.id, kOnRequest);
+  } else {
+    change(job, kQueued, "", cause);
+  }
+}
+
 void Queue::stopped(const std::string& id, const std::string& cause) {
   const std::lock_guard lock(mutex_);
   const auto job = current(id);
   SHAKEN_CHECK(job.has_value(), "no job " + id);
-  const bool cancelled = job->state == kStopping && job->after_stop == to_word(kCancelled);
   Transaction transaction(database_);
-  change(*job, cancelled ? kCancelled : kQueued, cancelled ? "cancelled on request" : "", cause);
+  end_stopping(*job, cause);
   transaction.commit();
   committed();
+}
+
+void Queue::crashed(const std::string& id, const std::string& reason, bool went_on,
+                    std::span<const std::chrono::milliseconds> pauses) {
+  const std::lock_guard lock(mutex_);
+  const auto job = current(id);
+  SHAKEN_CHECK(job.has_value(), "no job " + id);
+  Transaction transaction(database_);
+  const auto before = static_cast<std::size_t>(went_on ? 0 : job->crashes);
+  if (job->state == kStopping) {
+    end_stopping(*job, reason);
+  } else if (before >= pauses.size()) {
+    change(*job, kFailed, fmt::format("{} times in a row, without a checkpoint between: {}", before + 1, reason),
+           reason);
+  } else {
+    const auto pause = pauses[before];
+    change(
+        *job, kQueued,
+        fmt::format("{}; is tried again after {}", reason, duration_text(std::chrono::duration<double>(pause).count())),
+        reason);
+    database_.run("UPDATE jobs SET crashes = ?2, not_before_utime = ?3 WHERE id = ?1", id,
+                  static_cast<std::int64_t>(before) + 1, utime_now() + 1000 * pause.count());
+  }
+  transaction.commit();
+  committed();
+}
+
+void Queue::no_room(const std::string& id, const std::string& reason, std::int64_t needed,
+                    std::chrono::milliseconds pause) {
+  const std::lock_guard lock(mutex_);
+  const auto job = current(id);
+  SHAKEN_CHECK(job.has_value(), "no job " + id);
+  Transaction transaction(database_);
+  if (job->state == kStopping) {
+    end_stopping(*job, reason);
+  } else {
+    change(*job, kHeld, reason, reason);
+    database_.run("UPDATE jobs SET hold = ?2, needed_bytes = ?3, not_before_utime = ?4 WHERE id = ?1", id, kForRoom,
+                  needed, utime_now() + 1000 * pause.count());
+  }
+  transaction.commit();
+  committed();
+}
+
+std::vector<std::string> Queue::there_is_room(std::int64_t free) {
+  const std::lock_guard lock(mutex_);
+  std::vector<Current> jobs;
+  {
+    Query query =
+        database_.query(std::string(Current::kSelect) +
+                            "WHERE state = 'held' AND hold = ?1 AND needed_bytes <= ?2 AND not_before_utime <= ?3",
+                        kForRoom, free, utime_now());
+    while (query.next()) jobs.push_back(Current::read(query));
+  }
+  std::vector<std::string> released;
+  if (jobs.empty()) return released;
+  Transaction transaction(database_);
+  for (const Current& job : jobs) {
+    change(job, kQueued, "", "there is room again");
+    released.push_back(job.id);
+  }
+  transaction.commit();
+  committed();
+  return released;
+}
+
+void Queue::set_reason(const std::string& id, const std::string& reason) {
+  const std::lock_guard lock(mutex_);
+  database_.run("UPDATE jobs SET reason = ?2 WHERE id = ?1 AND state = 'queued' AND reason <> ?2", id, reason);
 }
 
 void Queue::stop_all() {
@@ -326,6 +533,11 @@ void Queue::stop_all() {
   }
   transaction.commit();
   committed();
+}
+
+std::vector<Change> Queue::history(const std::string& id) const {
+  const std::lock_guard lock(mutex_);
+  return read_changes(database_.query(kSelectJournal + "WHERE job = ?1 ORDER BY sequence", id));
 }
 
 std::optional<double> Queue::mean_duration(std::int64_t sweep) const {
@@ -341,16 +553,8 @@ std::optional<double> Queue::mean_duration(std::int64_t sweep) const {
 
 std::vector<Change> Queue::changes_since(std::int64_t sequence, int limit) const {
   const std::lock_guard lock(mutex_);
-  std::vector<Change> changes;
-  Query query = database_.query(
-      "SELECT sequence, utime, job, from_state, to_state, attempt, cause FROM journal WHERE sequence > ?1 "
-      "ORDER BY sequence LIMIT ?2",
-      sequence, limit);
-  while (query.next()) {
-    changes.push_back({query.integer(0), query.integer(1), query.text(2), query.text(3), query.text(4),
-                       static_cast<int>(query.integer(5)), query.text(6)});
-  }
-  return changes;
+  return read_changes(
+      database_.query(kSelectJournal + "WHERE sequence > ?1 ORDER BY sequence LIMIT ?2", sequence, limit));
 }
 
 std::int64_t Queue::last_change() const {
@@ -364,18 +568,24 @@ void Queue::wait_for_change(std::int64_t sequence, std::chrono::milliseconds tim
 }
 
 std::optional<Queue::Current> Queue::current(const std::string& id) const {
-  Query query = database_.query("SELECT id, state, after_stop, attempt FROM jobs WHERE id = ?1", id);
+  Query query = database_.query(std::string(Current::kSelect) + "WHERE id = ?1", id);
   if (!query.next()) return std::nullopt;
   return Current::read(query);
 }
 
-std::vector<Queue::Current> Queue::unfinished(std::optional<std::int64_t> sweep) const {
+std::vector<Queue::Current> Queue::all(std::optional<std::int64_t> sweep) const {
   std::vector<Current> jobs;
-  Query query = database_.query(
-      "SELECT id, state, after_stop, attempt FROM jobs WHERE state IN ('queued', 'running', 'stopping') AND "
-      "(?1 = 0 OR number IN (SELECT job FROM members WHERE sweep = ?1)) ORDER BY number",
-      sweep.value_or(0));
+  Query query =
+      database_.query(std::string(Current::kSelect) +
+                          "WHERE ?1 = 0 OR number IN (SELECT job FROM members WHERE sweep = ?1) ORDER BY number",
+                      sweep.value_or(0));
   while (query.next()) jobs.push_back(Current::read(query));
+  return jobs;
+}
+
+std::vector<Queue::Current> Queue::unfinished(std::optional<std::int64_t> sweep) const {
+  std::vector<Current> jobs = all(sweep);
+  std::erase_if(jobs, [](const Current& job) { return has_ended(job.state); });
   return jobs;
 }
 
@@ -383,7 +593,8 @@ void Queue::change(const Current& job, JobState to, const std::string& reason, c
   SHAKEN_CHECK(may_become(job.state, to),
                job.id + " from " + std::string(to_word(job.state)) + " to " + std::string(to_word(to)));
   database_.run(
-      "UPDATE jobs SET state = ?2, reason = ?3, after_stop = '', finished_utime = ?4, "
+      "UPDATE jobs SET state = ?2, reason = ?3, after_stop = '', finished_utime = ?4, hold = '', needed_bytes = 0, "
+      "not_before_utime = 0, crashes = CASE WHEN ?2 IN ('running', 'stopping') THEN crashes ELSE 0 END, "
       "pid = CASE WHEN ?2 = 'stopping' THEN pid ELSE 0 END WHERE id = ?1",
       job.id, to_word(to), reason, has_ended(to) ? utime_now() : 0);
   record(job.id, to_word(job.state), to_word(to), job.attempt, cause);

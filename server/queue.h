@@ -24,7 +24,7 @@ struct NewJob {
   std::string label;       ///< swept parameters, as words
   std::string parameters;  ///< swept parameters, as a JSON object
   int replica = 0;
-  bool results_lost = false;  ///< its results are gone from the disk: do it again even if it is done
+  bool results_lost = false;  ///< no results of this run are on the disk: do it again even if it is done
 };
 
 /// What a submit did.
@@ -32,7 +32,7 @@ struct Submitted {
   std::int64_t sweep = 0;
   bool created = false;  ///< false: this very sweep was there already
   int n_new = 0;         ///< jobs never seen before
-  int n_requeued = 0;    ///< failed, cancelled or about to be cancelled ones, queued again
+  int n_requeued = 0;    ///< failed, cancelled, held or about to be cancelled ones, queued again
   JobCounts counts;      ///< of the sweep's jobs, afterwards
 };
 
@@ -81,21 +81,45 @@ class Queue {
   int cancel_job(const std::string& id);
   int cancel_sweep(std::int64_t sweep);
 
-  /// The next jobs to start: by priority, then by age.
+  /// Queued jobs are held until they are released; running ones stop at a checkpoint first. Returns how many changed.
+  int hold_job(const std::string& id);
+  int hold_sweep(std::int64_t sweep);
+  /// Held jobs are queued, and so are failed and cancelled ones if `retry`. Returns how many changed.
+  int release_job(const std::string& id, bool retry);
+  int release_sweep(std::int64_t sweep, bool retry);
+  /// Jobs that have not ended; the larger number goes first. Returns how many changed.
+  int set_priority_of_job(const std::string& id, int priority);
+  int set_priority_of_sweep(std::int64_t sweep, int priority);
+
+  /// The next jobs to start: by priority, then by age; without those that wait after a crash.
   std::vector<Job> next(int limit) const;
+  /// Says why a queued job does not start; "" if nothing keeps it.
+  void set_reason(const std::string& id, const std::string& reason);
   /// queued -> running. Returns the number of the attempt; none if the job is not queued any more.
   std::optional<int> begin(const std::string& id);
   void set_pid(const std::string& id, int pid);
-  /// running or stopping -> done or failed.
+  /// running or stopping -> done or failed; queued -> failed, of what cannot even be started.
   void finish(const std::string& id, JobState state, const std::string& reason);
-  /// The worker has stopped before the end: running -> queued, stopping -> cancelled or queued, as was asked.
+  /// The worker has stopped before the end: running -> queued; stopping -> cancelled, held or queued, as was asked.
   void stopped(const std::string& id, const std::string& cause);
+  /// The worker has crashed: running -> queued, not to start before the next of `pauses` is over; failed when there is
+  /// none left. They begin anew where there was a checkpoint since the last crash (`went_on`).
+  void crashed(const std::string& id, const std::string& reason, bool went_on,
+               std::span<const std::chrono::milliseconds> pauses);
+  /// The worker found no room on the disk: running -> held, until there are `needed` bytes, and for a `pause` at least:
+  /// a quota may allow less than the disk has.
+  void no_room(const std::string& id, const std::string& reason, std::int64_t needed, std::chrono::milliseconds pause);
+  /// Jobs that wait for room, no longer for the pause, and need at most `free` bytes: held -> queued. Returns their
+  /// ids.
+  std::vector<std::string> there_is_room(std::int64_t free);
   /// running -> stopping, and then queued: the daemon ends.
   void stop_all();
 
   /// Mean wall seconds that the done jobs of a sweep took; none if none is done.
   std::optional<double> mean_duration(std::int64_t sweep) const;
 
+  /// The journal of one job, oldest first.
+  std::vector<Change> history(const std::string& id) const;
   /// The journal after line `sequence`, oldest first, at most `limit` lines.
   std::vector<Change> changes_since(std::int64_t sequence, int limit) const;
   /// The last line of the journal.
@@ -108,7 +132,14 @@ class Queue {
   std::optional<Current> current(const std::string& id) const;
   void change(const Current& job, JobState to, const std::string& reason, const std::string& cause);
   void record(std::string_view job, std::string_view from, std::string_view to, int attempt, std::string_view cause);
+  void end_stopping(const Current& job, const std::string& cause);
+  void stop_for(const Current& job, JobState after_stop, const std::string& cause);
   int cancel_all(std::span<const Current> jobs);
+  int hold_all(std::span<const Current> jobs);
+  int release_all(std::span<const Current> jobs, bool retry);
+  int set_priority(std::span<const Current> jobs, int priority);
+  std::vector<Current> one(const std::string& id) const;
+  std::vector<Current> all(std::optional<std::int64_t> sweep) const;
   std::vector<Current> unfinished(std::optional<std::int64_t> sweep) const;
   std::optional<std::int64_t> same_sweep(const std::string& name, std::span<const NewJob> jobs) const;
   bool insert(const NewJob& job, int priority, std::int64_t sweep);

@@ -6,7 +6,7 @@
 namespace shaken::server {
 namespace {
 
-constexpr std::int64_t kVersion = 1;
+constexpr std::int64_t kVersion = 2;
 
 // Scenes have a table of their own: listing jobs must not read them.
 constexpr const char* kSchema = R"sql(
@@ -31,7 +31,11 @@ CREATE TABLE jobs(
   sweep INTEGER NOT NULL REFERENCES sweeps,  -- the last that asked for it, and under which name there
   label TEXT NOT NULL,
   parameters TEXT NOT NULL,
-  replica INTEGER NOT NULL);
+  replica INTEGER NOT NULL,
+  hold TEXT NOT NULL DEFAULT '',             -- what a held job waits for: 'request', 'room'
+  needed_bytes INTEGER NOT NULL DEFAULT 0,   -- of room
+  crashes INTEGER NOT NULL DEFAULT 0,        -- in a row, without a checkpoint between them
+  not_before_utime INTEGER NOT NULL DEFAULT 0);
 CREATE INDEX jobs_by_turn ON jobs(state, priority DESC, number);
 
 CREATE TABLE scenes(
@@ -57,6 +61,14 @@ CREATE TABLE journal(
   cause TEXT NOT NULL);
 )sql";
 
+/// What version 2 added.
+constexpr const char* kFromVersion1 = R"sql(
+ALTER TABLE jobs ADD COLUMN hold TEXT NOT NULL DEFAULT '';
+ALTER TABLE jobs ADD COLUMN needed_bytes INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE jobs ADD COLUMN crashes INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE jobs ADD COLUMN not_before_utime INTEGER NOT NULL DEFAULT 0;
+)sql";
+
 std::int64_t version(Database& database) {
   Query query = database.query("PRAGMA user_version");
   query.next();
@@ -77,12 +89,12 @@ void prepare_schema(Database& database) {
 
   const std::int64_t stored = version(database);
   if (stored == kVersion) return;
-  if (stored != 0) {
+  if (stored > kVersion || stored < 0) {
     throw StorageError("queue.db has schema version " + std::to_string(stored) + ", this shakend knows version " +
                        std::to_string(kVersion) + ": use the Shaken that wrote it, or another --root");
   }
   Transaction transaction(database);
-  database.execute(kSchema);
+  database.execute(stored == 0 ? kSchema : kFromVersion1);
   database.execute(("PRAGMA user_version = " + std::to_string(kVersion)).c_str());
   transaction.commit();
 }

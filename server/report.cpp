@@ -14,8 +14,18 @@ namespace {
 Json read_object(const std::filesystem::path& file) {
   const auto text = read_file(file);
   if (!text) return nullptr;
-  Json json = Json::parse(*text, nullptr, false);
+  // What is nested deeper than anything of ours is left out: printing it would take all of the stack.
+  constexpr int kDeepest = 64;
+  const auto keep = [](int depth, Json::parse_event_t, const Json&) { return depth < kDeepest; };
+  Json json = Json::parse(*text, keep, false);
   return json.is_object() ? json : Json(nullptr);
+}
+
+/// The summary of run `id`; null if there is none that can be read, or if it is another run's.
+Json summary_of(const std::string& id, const run::RunDirectory& directory) {
+  Json summary = read_object(directory.summary());
+  const auto run_id = summary.is_object() ? summary.find("run_id") : summary.end();
+  return run_id != summary.end() && *run_id == id ? summary : Json(nullptr);
 }
 
 Json parameters(const Job& job) {
@@ -35,12 +45,14 @@ Json job_report(const Job& job, const std::filesystem::path& runs) {
           {"label", job.label},
           {"parameters", parameters(job)},
           {"replica", job.replica},
+          {"priority", job.priority},
           {"attempt", job.attempt},
           {"pid", job.pid},
           {"directory", directory.root.string()},
           {"created_utime", job.created},
           {"started_utime", job.started},
           {"finished_utime", job.finished},
+          {"not_before_utime", job.not_before},
           {"progress", has_progress ? read_object(directory.progress()) : Json(nullptr)}};
 }
 
@@ -78,7 +90,7 @@ Json result_row(const Job& job, const std::filesystem::path& runs) {
           {"label", job.label},
           {"parameters", parameters(job)},
           {"replica", job.replica},
-          {"summary", done ? read_object(run::RunDirectory{runs / job.id}.summary()) : Json(nullptr)}};
+          {"summary", done ? summary_of(job.id, run::RunDirectory{runs / job.id}) : Json(nullptr)}};
 }
 
 Json counts_report(const JobCounts& counts) {

@@ -8,6 +8,7 @@
 
 #include "run/files/directory.h"
 #include "scene/canonical.h"
+#include "scene/load.h"
 #include "scene/nearest.h"
 #include "scene/placement.h"
 #include "server/job.h"
@@ -37,6 +38,25 @@ int integer_of(const json& value, const std::string& key, int least, int most) {
   return value.get<int>();
 }
 
+/// The body as an object with no other keys than `known`.
+json parse_object(std::string_view body, const std::vector<std::string>& known) {
+  json object;
+  try {
+    object = json::parse(body);
+  } catch (const json::exception& problem) {
+    throw std::invalid_argument(std::string("the body is not JSON: ") + problem.what());
+  }
+  if (!object.is_object()) throw std::invalid_argument("the body must be a JSON object");
+  for (const auto& [key, value] : object.items()) {
+    if (std::find(known.begin(), known.end(), key) == known.end()) {
+      throw std::invalid_argument("unknown key \"" + key + "\"" + scene::did_you_mean(scene::nearest(key, known)));
+    }
+  }
+  return object;
+}
+
+int priority_of(const json& value) { return integer_of(value, "priority", -kHighestPriority, kHighestPriority); }
+
 void check_name(const std::string& name) {
   const bool printable = std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20 || c == '/'; });
   if (name.empty() || name.size() > kLongestName || !printable) {
@@ -49,18 +69,7 @@ void check_name(const std::string& name) {
 }  // namespace
 
 SubmitRequest parse_submit_request(std::string_view body) {
-  json object;
-  try {
-    object = json::parse(body);
-  } catch (const json::exception& problem) {
-    throw std::invalid_argument(std::string("the body is not JSON: ") + problem.what());
-  }
-  if (!object.is_object()) throw std::invalid_argument("the body must be a JSON object");
-  for (const auto& [key, value] : object.items()) {
-    if (std::find(kKeys.begin(), kKeys.end(), key) == kKeys.end()) {
-      throw std::invalid_argument("unknown key \"" + key + "\"" + scene::did_you_mean(scene::nearest(key, kKeys)));
-    }
-  }
+  const json object = parse_object(body, kKeys);
   if (!object.contains("text")) throw std::invalid_argument("\"text\" is missing: a scene or sweep file");
 
   SubmitRequest request;
@@ -72,13 +81,19 @@ SubmitRequest parse_submit_request(std::string_view body) {
   }
   if (object.contains("replicas")) request.replicas = integer_of(object["replicas"], "replicas", 1, kMostReplicas);
   if (object.contains("priority")) {
-    request.priority = integer_of(object["priority"], "priority", -kHighestPriority, kHighestPriority);
+    request.priority = priority_of(object["priority"]);
   }
   if (object.contains("name")) {
     request.name = text_of(object["name"], "name");
     check_name(request.name);
   }
   return request;
+}
+
+int parse_priority(std::string_view body) {
+  const json object = parse_object(body, {"priority"});
+  if (!object.contains("priority")) throw std::invalid_argument("\"priority\" is missing: a whole number");
+  return priority_of(object["priority"]);
 }
 
 scene::Loaded<Submission> expand(const SubmitRequest& request, const std::filesystem::path& runs) {
@@ -92,10 +107,18 @@ scene::Loaded<Submission> expand(const SubmitRequest& request, const std::filesy
     job.label = point.label;
     job.parameters = point.parameters.dump();
     job.replica = point.replica;
-    job.results_lost = !std::filesystem::exists(run::RunDirectory{runs / job.id}.summary());
+    job.results_lost = !run::is_done(run::RunDirectory{runs / job.id}, job.id);
     submission.jobs.push_back(std::move(job));
   }
   return {std::move(submission), {}};
+}
+
+std::string refuse_scene(const std::string& id, const std::string& scene) {
+  const auto plan = scene::load_scene(scene, "its scene in the queue");
+  if (!plan.value) return scene::to_string(plan.problems);
+  if (scene::run_id(*plan.value) == id) return "";
+  return "its scene in the queue is not the one of this id: it was queued by a version with other physics, or queue.db "
+         "is damaged; submit it again";
 }
 
 }  // namespace shaken::server

@@ -32,8 +32,14 @@ struct Submission {
 /// Throws std::invalid_argument with a sentence for the user.
 SubmitRequest parse_submit_request(std::string_view body);
 
+/// The number of {"priority": n}. Throws std::invalid_argument as above.
+int parse_priority(std::string_view body);
+
 /// The sweep that a request asks for, or all that is wrong with its text.
 /// `runs`: folder of the run directories, where it is looked whether results are still there.
 scene::Loaded<Submission> expand(const SubmitRequest& request, const std::filesystem::path& runs);
+
+/// Why the scene that the queue has for job `id` is not to be run; empty if it is that job's.
+std::string refuse_scene(const std::string& id, const std::string& scene);
 
 }  // namespace shaken::server

@@ -4,7 +4,11 @@
 #include <fmt/chrono.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <limits>
+
 #include "base/files.h"
+#include "base/text.h"
 
 namespace shaken::server {
 namespace {
@@ -12,10 +16,36 @@ namespace {
 /// How far beyond the free slots the queue is searched when jobs at its head cannot start, because a worker of a
 /// predecessor still holds their directory.
 constexpr int kLookAhead = 16;
+constexpr std::chrono::milliseconds kLongestPause{60'000};
 
 std::string heading(int attempt) {
   const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   return fmt::format("{}attempt {}, {:%Y-%m-%dT%H:%M:%SZ}", kHeading, attempt, fmt::gmtime(now));
+}
+
+bool written_since(const std::filesystem::path& file, std::filesystem::file_time_type time) {
+  std::error_code error;
+  const auto written = std::filesystem::last_write_time(file, error);
+  return !error && written >= time;
+}
+
+std::int64_t bytes_in(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::int64_t bytes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    const auto size = entry.file_size(error);
+    if (!error) bytes += static_cast<std::int64_t>(size);
+  }
+  return bytes;
+}
+
+/// As many as can be where the system does not say.
+std::int64_t free_bytes(const std::filesystem::path& folder) {
+  std::error_code error;
+  const auto space = std::filesystem::space(folder, error);
+  constexpr auto kMost = std::numeric_limits<std::int64_t>::max();
+  return error || space.available > static_cast<std::uintmax_t>(kMost) ? kMost
+                                                                       : static_cast<std::int64_t>(space.available);
 }
 
 }  // namespace
@@ -38,28 +68,43 @@ void Supervisor::settle_ended() {
     auto& [id, worker] = *entry;
     if (!worker.job_end) {
       if (const auto end = executor_.poll(worker.handle)) {
-        worker.job_end = judge(*end, worker.handle, worker.kill_at.has_value(), worker.directory);
+        worker.job_end = judge(*end, worker.handle, worker.kill_at.has_value(), id, worker.directory);
       }
     }
     if (!worker.job_end) {
       ++entry;
       continue;
     }
-    const auto& [outcome, reason] = *worker.job_end;
-    switch (outcome) {
-      case JobEnd::Outcome::kDone:
-        queue_.finish(id, JobState::kDone, "");
-        break;
-      case JobEnd::Outcome::kFailed:
-        queue_.finish(id, JobState::kFailed, reason);
-        break;
-      case JobEnd::Outcome::kStopped:
-        queue_.stopped(id, reason);
-        break;
-    }
-    spdlog::info("job {}: {}", id, reason.empty() ? "done" : reason);
+    settle(id, worker);
     entry = workers_.erase(entry);
   }
+}
+
+void Supervisor::settle(const std::string& id, const Worker& worker) {
+  const auto& [outcome, reason] = *worker.job_end;
+  switch (outcome) {
+    case JobEnd::Outcome::kDone:
+      queue_.finish(id, JobState::kDone, "");
+      break;
+    case JobEnd::Outcome::kFailed:
+      queue_.finish(id, JobState::kFailed, reason);
+      break;
+    case JobEnd::Outcome::kStopped:
+      queue_.stopped(id, reason);
+      break;
+    case JobEnd::Outcome::kCrashed:
+      queue_.crashed(id, reason, written_since(worker.directory.checkpoint(), worker.started), options_.retry_pauses);
+      break;
+    case JobEnd::Outcome::kNoRoom: {
+      const std::int64_t needed = std::max(2 * options_.least_room, 2 * bytes_in(worker.directory.root));
+      queue_.no_room(
+          id,
+          fmt::format("{}. Goes on by itself once {} are free there", reason, bytes_text(static_cast<double>(needed))),
+          needed, options_.retry_pauses.empty() ? std::chrono::milliseconds(0) : options_.retry_pauses.front());
+      break;
+    }
+  }
+  spdlog::info("job {}: {}", id, reason.empty() ? "done" : reason);
 }
 
 void Supervisor::stop_stopping() {
@@ -82,12 +127,22 @@ void Supervisor::stop_stopping() {
 }
 
 void Supervisor::start_queued() {
+  if (Clock::now() < start_after_) return;
+  const std::int64_t room = free_bytes(options_.runs);
+  if (room >= options_.least_room) {
+    for (const std::string& id : queue_.there_is_room(room)) spdlog::info("job {}: there is room again", id);
+  }
   const int free = options_.slots - static_cast<int>(workers_.size());
   if (free <= 0) return;
   int started = 0;
   for (const Job& job : queue_.next(free + kLookAhead)) {
-    if (started == free) return;
-    if (start(job)) ++started;
+    if (started == free || Clock::now() < start_after_) return;
+    if (room < options_.least_room) {
+      wait(job, fmt::format("less than {} are free in {}", bytes_text(static_cast<double>(options_.least_room)),
+                            options_.runs.string()));
+    } else if (start(job)) {
+      ++started;
+    }
   }
 }
 
@@ -96,17 +151,23 @@ bool Supervisor::start(const Job& job) {
   std::error_code error;
   std::filesystem::create_directories(directory.root, error);
   if (error) {
-    complain(directory.root.string() + ": " + error.message());
+    wait(job, directory.root.string() + ": " + error.message());
+    return false;
+  }
+  const std::string scene = queue_.scene(job.id);
+  if (const std::string why = options_.refuse ? options_.refuse(job.id, scene) : ""; !why.empty()) {
+    spdlog::error("job {}: {}", job.id, why);
+    queue_.finish(job.id, JobState::kFailed, why);
     return false;
   }
   {
     const auto lock = run::DirectoryLock::acquire(directory.lock());
     if (!lock) {
-      complain("job " + job.id + " waits: " + lock.error().message);
+      wait(job, lock.error().message);
       return false;
     }
-    if (const auto refused = write_file_atomically(directory.scene(), queue_.scene(job.id))) {
-      complain("job " + job.id + " waits: " + refused->message);
+    if (const auto refused = write_file_atomically(directory.scene(), scene)) {
+      wait(job, refused->message);
       return false;
     }
   }
@@ -118,18 +179,39 @@ bool Supervisor::start(const Job& job) {
                  sweep_word(job.sweep), "--label", job.label},
                 heading(*attempt)};
   launch.arguments.insert(launch.arguments.end(), options_.worker_options.begin(), options_.worker_options.end());
-  Worker& worker = workers_[job.id];
-  worker.directory = directory;
+  const auto started = std::filesystem::file_time_type::clock::now();
   const auto handle = executor_.start(launch);
   if (!handle) {
-    worker.job_end = JobEnd{JobEnd::Outcome::kFailed, handle.error().message};
+    could_not_start(job.id, handle.error().message);
     return false;
   }
+  Worker& worker = workers_[job.id];
   worker.handle = *handle;
+  worker.directory = directory;
+  worker.started = started;
   queue_.set_pid(job.id, *handle);
   complaints_.clear();
+  pause_ = std::chrono::milliseconds(0);
   spdlog::info("job {}: attempt {}, worker {}: {}", job.id, *attempt, *handle, job.label);
   return true;
+}
+
+void Supervisor::could_not_start(const std::string& id, const std::string& why) {
+  pause_ = std::clamp(2 * pause_, options_.first_pause, kLongestPause);
+  start_after_ = Clock::now() + pause_;
+  const std::string told = "could not be started: " + why;
+  complain(fmt::format("job {} {}; next try in {} s", id, told, std::chrono::duration<double>(pause_).count()));
+  queue_.stopped(id, told);
+  queue_.set_reason(id, told);
+}
+
+void Supervisor::wait(const Job& job, const std::string& why) {
+  complain("job " + job.id + " waits: " + why);
+  if (job.reason != why) queue_.set_reason(job.id, why);
+}
+
+bool Supervisor::all_ended() const {
+  return std::all_of(workers_.begin(), workers_.end(), [](const auto& entry) { return entry.second.job_end; });
 }
 
 void Supervisor::shut_down() {

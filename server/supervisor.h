@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -21,10 +22,19 @@ struct SupervisorOptions {
   int slots = 1;                            ///< workers that may run at once
   std::vector<std::string> worker_options;  ///< appended to every worker's command line
   std::chrono::milliseconds grace{20'000};  ///< between the request to stop and the kill
+  /// Bytes free on the disk of `runs`, below which nothing is started.
+  std::int64_t least_room = 64'000'000;
+  /// What is wrong with the scene of a job, if anything; not asked where empty.
+  std::function<std::string(const std::string& id, const std::string& scene)> refuse{};
+  /// Before a job whose worker has crashed is tried again, from crash to crash.
+  std::vector<std::chrono::milliseconds> retry_pauses{std::chrono::seconds(5), std::chrono::seconds(30),
+                                                      std::chrono::minutes(3)};
+  std::chrono::milliseconds first_pause{1000};  ///< after a start that failed; doubled each time, up to a minute
 };
 
 /// Brings the workers in line with the queue: starts the next jobs while there are slots, stops those that are to
-/// stop, and writes into the queue how they ended. To be called by one thread, which must live as long as the workers.
+/// stop, and writes into the queue how they ended. A worker that cannot be started costs no job: it goes back into the
+/// queue, and the next start waits. To be called by one thread, which must live as long as the workers.
 class Supervisor {
  public:
   Supervisor(Queue& queue, Executor& executor, SupervisorOptions options);
@@ -36,13 +46,17 @@ class Supervisor {
   void shut_down();
   /// No more patience: ends every worker at once.
   void kill_all();
+  /// Whether there is nothing more to do: no worker, and none whose end the queue has yet to take.
   bool idle() const { return workers_.empty(); }
+  /// Whether no worker is alive. What the queue has not taken of their ends, the next daemon finds out anew.
+  bool all_ended() const;
 
  private:
   using Clock = std::chrono::steady_clock;
   struct Worker {
     int handle = 0;
     run::RunDirectory directory;
+    std::filesystem::file_time_type started{};
     std::optional<Clock::time_point> kill_at;  ///< set when it was asked to stop
     bool killed = false;
     std::optional<JobEnd> job_end;  ///< on its end; kept until the queue has taken it
@@ -50,8 +64,11 @@ class Supervisor {
 
   void settle_ended();
   void stop_stopping();
+  void settle(const std::string& id, const Worker& worker);
   void start_queued();
   bool start(const Job& job);
+  void could_not_start(const std::string& id, const std::string& why);
+  void wait(const Job& job, const std::string& why);
   void complain(const std::string& trouble);
 
   Queue& queue_;
@@ -60,6 +77,8 @@ class Supervisor {
   bool shutting_down_ = false;
   std::map<std::string, Worker> workers_;  ///< by job id
   std::set<std::string> complaints_;       ///< each logged once, not ten times a second
+  std::chrono::milliseconds pause_{0};     ///< after the last start, if that failed
+  Clock::time_point start_after_{};
 };
 
 }  // namespace shaken::server

@@ -48,7 +48,7 @@ void show_cost(const Selection& selection, const std::string& scale, bool json, 
     const client::LevelCost& cost = estimate.levels.front();  // as written
     sum.add(cost);
     table.add_row({sweep.name, std::to_string(sweep.sweep.points.size()), number_text(sweep.rod_seconds()),
-                   cost.cpu ? client::cpu_text(*cost.cpu) : "?", cost.disk ? client::bytes_text(*cost.disk) : "?"});
+                   cost.cpu ? client::cpu_text(*cost.cpu) : "?", cost.disk ? bytes_text(*cost.disk) : "?"});
     list.push_back({{"sweep", sweep.name},
                     {"runs", sweep.sweep.points.size()},
                     {"rod_seconds", sweep.rod_seconds()},
@@ -62,7 +62,7 @@ void show_cost(const Selection& selection, const std::string& scale, bool json, 
   }
   console.out << table.text(console.width)
               << fmt::format("together {} and {}: divide by the cores of this machine\n", client::cpu_text(sum.cpu),
-                             client::bytes_text(sum.disk));
+                             bytes_text(sum.disk));
 }
 
 bool is_agreed_to(const Selection& selection, const fs::path& runs_folder, bool yes, client::Console& console) {
@@ -82,8 +82,8 @@ bool is_agreed_to(const Selection& selection, const fs::path& runs_folder, bool 
   if (n_runs == 0) return true;
   const unsigned n_cores = std::max(1U, std::thread::hardware_concurrency());
   console.err << fmt::format("{} runs to be done: about {}, {} on {} cores, and {} in {}\n", n_runs,
-                             client::cpu_text(sum.cpu), duration_text(sum.cpu / n_cores), n_cores,
-                             client::bytes_text(sum.disk), runs_folder.string());
+                             client::cpu_text(sum.cpu), duration_text(sum.cpu / n_cores), n_cores, bytes_text(sum.disk),
+                             runs_folder.string());
   return yes || console.in == nullptr || console.agrees("Go on?", true);
 }
 

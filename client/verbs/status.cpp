@@ -16,7 +16,7 @@ Colour colour_of(std::string_view state) {
   if (state == "done") return Colour::kGreen;
   if (state == "failed") return Colour::kRed;
   if (state == "running") return Colour::kBlue;
-  if (state == "cancelled" || state == "stopping") return Colour::kYellow;
+  if (state == "cancelled" || state == "stopping" || state == "held") return Colour::kYellow;
   return Colour::kDim;
 }
 
@@ -27,7 +27,8 @@ std::string eta_text(double seconds) {
 
 std::string sweep_eta_text(const Json& sweep) {
   const Json& counts = sweep.at("counts");
-  const int unfinished = counts.value("queued", 0) + counts.value("running", 0) + counts.value("stopping", 0);
+  const int unfinished =
+      counts.value("queued", 0) + counts.value("held", 0) + counts.value("running", 0) + counts.value("stopping", 0);
   return unfinished > 0 ? eta_text(sweep.value("eta_s", -1.0)) : "";
 }
 

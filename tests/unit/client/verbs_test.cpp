@@ -226,7 +226,30 @@ TEST_F(Verbs, CancelLooksEverythingUpBeforeItStopsAnything) {
   EXPECT_THAT(run({"cancel", "s1"}).out, HasSubstr("3 jobs cancelled"));
   const Outcome again = run({"cancel", "s1"});
   EXPECT_EQ(again.code, ExitCode::kOk);
-  EXPECT_THAT(again.out, HasSubstr("nothing left to cancel"));
+  EXPECT_THAT(again.out, HasSubstr("nothing to be cancelled"));
+}
+
+TEST_F(Verbs, JobsAreHeldAndPutFirst) {
+  daemon_.on("GET /v1/sweeps/s1", text(sweep({job("1f0c000000000000", "running")})));
+  daemon_.on("POST /v1/sweeps/s1/hold", R"({"held": 1})");
+  daemon_.on("POST /v1/sweeps/s1/priority", R"({"changed": 2})");
+  EXPECT_THAT(run({"hold", "s1"}).out, HasSubstr("1 job held"));
+  EXPECT_THAT(run({"priority", "7", "s1"}).out, HasSubstr("2 jobs changed"));
+  EXPECT_EQ(daemon_.requests().back().body, R"({"priority":7})");
+  EXPECT_EQ(run({"priority", "much", "s1"}).code, ExitCode::kBadInput);
+}
+
+TEST_F(Verbs, HistoryTellsEveryChange) {
+  daemon_.on("GET /v1/jobs/1f0c", text({{"job", job("1f0c000000000000", "failed")}}));
+  daemon_.on(
+      "GET /v1/jobs/1f0c000000000000/history",
+      R"({"changes": [{"utime": 1700000000000000, "from": "", "to": "queued", "attempt": 0, "cause": "submitted"},
+                             {"utime": 1700000001000000, "from": "running", "to": "failed", "attempt": 1,
+                              "cause": "the gap is closed"}]})");
+  const std::string out = run({"history", "1f0c"}).out;
+  EXPECT_THAT(out, HasSubstr("WHEN"));
+  EXPECT_THAT(out, HasSubstr("failed"));
+  EXPECT_THAT(out, HasSubstr("the gap is closed"));
 }
 
 TEST_F(Verbs, LogsComeInPiecesAndFollowEndsWithTheJob) {

@@ -33,6 +33,10 @@ struct Response {
   std::string error() const { return json.value("error", ""); }
 };
 
+std::string done_summary(const std::string& id) {
+  return R"({"run_id": ")" + id + R"(", "n_rods": 7, "exit": {"state": "done"}})";
+}
+
 class ApiTest : public testing::Test {
  protected:
   ApiTest() { client_.set_address_family(AF_UNIX); }
@@ -116,7 +120,8 @@ TEST_F(ApiTest, StatusTellsAboutTheDaemon) {
   EXPECT_GE(status.json["uptime_s"], 0.0);
   EXPECT_EQ(status.json["slots"], 3);
   EXPECT_EQ(status.json["lcm"], Json({{"url", "memq://"}, {"ok", true}, {"message", ""}}));
-  EXPECT_EQ(status.json["jobs"].dump(), R"({"queued":4,"running":0,"stopping":0,"done":0,"failed":0,"cancelled":0})");
+  EXPECT_EQ(status.json["jobs"].dump(),
+            R"({"queued":4,"held":0,"running":0,"stopping":0,"done":0,"failed":0,"cancelled":0})");
 }
 
 TEST_F(ApiTest, TheSocketIsPrivate) {
@@ -156,7 +161,7 @@ TEST_F(ApiTest, TheSameSubmitAgainDoesNothingTwice) {
   queue_.begin(ids[0]);
   queue_.begin(ids[1]);
   std::filesystem::create_directories(directory_ / "runs" / ids[1]);
-  write_text(directory_ / "runs" / ids[1] / "summary.json", "{}");
+  write_text(directory_ / "runs" / ids[1] / "summary.json", done_summary(ids[1]));
   queue_.finish(ids[1], JobState::kDone, "");
   queue_.begin(ids[2]);
   queue_.finish(ids[2], JobState::kFailed, "why");
@@ -165,11 +170,61 @@ TEST_F(ApiTest, TheSameSubmitAgainDoesNothingTwice) {
   EXPECT_EQ(again.status, 200);
   EXPECT_EQ(again.json["sweep"]["id"], "s1");
   EXPECT_EQ(again.json["counts"].dump(),
-            R"({"queued":2,"running":1,"stopping":0,"done":1,"failed":0,"cancelled":0,"new":0,"requeued":1})");
+            R"({"queued":2,"held":0,"running":1,"stopping":0,"done":1,"failed":0,"cancelled":0,"new":0,"requeued":1})");
 
   // A done job whose results were deleted is done again.
   std::filesystem::remove_all(directory_ / "runs" / ids[1]);
   EXPECT_EQ(submit({{"text", kSweep}, {"name", "four"}}).json["counts"]["requeued"], 1);
+}
+
+TEST_F(ApiTest, ADoneJobWhoseResultsAreDamagedOrAnothersIsDoneAgain) {
+  const std::string id = submit_four()[0];
+  std::filesystem::create_directories(directory_ / "runs" / id);
+  for (const std::string& damaged :
+       {std::string(), std::string("{torn"), std::string("{}"), done_summary("fedcba9876543210")}) {
+    write_text(directory_ / "runs" / id / "summary.json", damaged);
+    queue_.begin(id);
+    queue_.finish(id, JobState::kDone, "");
+    EXPECT_TRUE(get("/v1/results?state=done").json["rows"][0]["summary"].is_null()) << damaged;
+    EXPECT_EQ(submit({{"text", kSweep}, {"name", "four"}}).json["counts"]["requeued"], 1) << damaged;
+  }
+}
+
+TEST_F(ApiTest, ASummaryNestedTooDeepIsNoDanger) {
+  const std::string id = submit_four()[0];
+  std::filesystem::create_directories(directory_ / "runs" / id);
+  write_text(directory_ / "runs" / id / "summary.json", R"({"run_id": ")" + id + R"(", "n_rods": 7, "deep": )" +
+                                                            std::string(200'000, '[') + std::string(200'000, ']') +
+                                                            "}");
+  queue_.begin(id);
+  queue_.finish(id, JobState::kDone, "");
+  EXPECT_EQ(get("/v1/results?state=done").json["rows"][0]["summary"]["n_rods"], 7);
+}
+
+TEST_F(ApiTest, JobsAreHeldResumedRetriedAndPutFirst) {
+  const auto ids = submit_four();
+  EXPECT_EQ(post("/v1/jobs/" + ids[1] + "/hold").json.dump(), R"({"held":1})");
+  EXPECT_EQ(get("/v1/jobs/" + ids[1]).json["job"]["state"], "held");
+  EXPECT_EQ(get("/v1/jobs/" + ids[1]).json["job"]["reason"], "held on request");
+  EXPECT_EQ(post("/v1/sweeps/s1/hold").json.dump(), R"({"held":3})");
+  EXPECT_TRUE(queue_.next(10).empty());
+  EXPECT_EQ(post("/v1/jobs/" + ids[1] + "/resume").json.dump(), R"({"resumed":1})");
+  EXPECT_EQ(post("/v1/jobs/" + ids[1] + "/resume").json.dump(), R"({"resumed":0})");
+  EXPECT_EQ(post("/v1/sweeps/s1/resume").json.dump(), R"({"resumed":3})");
+  EXPECT_EQ(post("/v1/jobs/" + ids[3] + "/priority", R"({"priority": 5})").json.dump(), R"({"changed":1})");
+  EXPECT_EQ(queue_.next(1).at(0).id, ids[3]);
+  EXPECT_EQ(post("/v1/jobs/" + ids[3] + "/priority", R"({"priority": "high"})").status, 400);
+  EXPECT_EQ(post("/v1/jobs/" + ids[3] + "/priority", R"({"prio": 5})").status, 400);
+  queue_.begin(ids[0]);
+  queue_.finish(ids[0], JobState::kFailed, "why");
+  queue_.cancel_job(ids[2]);
+  EXPECT_EQ(post("/v1/sweeps/s1/resume").json.dump(), R"({"resumed":0})");
+  EXPECT_EQ(post("/v1/sweeps/s1/retry").json.dump(), R"({"retried":2})");
+  EXPECT_EQ(queue_.counts()[JobState::kQueued], 4);
+  const Json changes = get("/v1/jobs/" + ids[0] + "/history").json["changes"];
+  EXPECT_EQ(changes.front()["to"], "queued");
+  EXPECT_EQ(changes.back()["cause"], "retried on request");
+  EXPECT_EQ(changes[changes.size() - 2]["cause"], "why");
 }
 
 TEST_F(ApiTest, SettingsAndReplicasAreApplied) {
@@ -229,7 +284,7 @@ TEST_F(ApiTest, JobsAreFilteredBySweepAndState) {
   EXPECT_EQ(get("/v1/jobs?state=running").json["jobs"][0]["id"], ids[2]);
   EXPECT_EQ(get("/v1/jobs?state=running&sweep=plain").json["jobs"].size(), 0U);
   EXPECT_EQ(get("/v1/jobs?state=runing").status, 400);
-  EXPECT_THAT(get("/v1/jobs?state=runing").error(), HasSubstr("queued, running"));
+  EXPECT_THAT(get("/v1/jobs?state=runing").error(), HasSubstr("queued, held, running"));
   EXPECT_THAT(get("/v1/jobs?stat=running").error(), HasSubstr("did you mean state?"));
   EXPECT_EQ(get("/v1/jobs?sweep=nobody").status, 404);
 }
@@ -293,7 +348,7 @@ TEST_F(ApiTest, ResultsAreARowPerJob) {
   const auto ids = submit_four();
   queue_.begin(ids[0]);
   std::filesystem::create_directories(directory_ / "runs" / ids[0]);
-  write_text(directory_ / "runs" / ids[0] / "summary.json", R"({"n_rods": 7})");
+  write_text(directory_ / "runs" / ids[0] / "summary.json", done_summary(ids[0]));
   queue_.finish(ids[0], JobState::kDone, "");
   const Response results = get("/v1/results?sweep=four");
   ASSERT_EQ(results.json["rows"].size(), 4U);

@@ -199,6 +199,27 @@ TEST_F(DaemonTest, ASecondSignalKillsDeafWorkers) {
   EXPECT_NE(kill(worker, 0), 0);
 }
 
+TEST_F(DaemonTest, AQueueThatCannotBeWrittenDoesNotKeepItUp) {
+  setenv("FAKE_WORKER", "run", 1);
+  Daemon shakend = daemon();
+  shakend.first_line();
+  shakend.call("/v1/sweeps", json{{"text", "{}"}});
+  const int worker = up(shakend);
+  {
+    Database other(directory_ / "root" / "queue.db");
+    other.execute("BEGIN IMMEDIATE");
+    shakend.send(SIGTERM);
+    EXPECT_EQ(shakend.wait(), 0);
+    EXPECT_NE(kill(worker, 0), 0);
+    EXPECT_THAT(shakend.errors(), HasSubstr("the next daemon will find out"));
+    other.execute("ROLLBACK");
+  }
+  setenv("FAKE_WORKER", "done", 1);
+  Daemon next = daemon();
+  next.first_line();
+  EXPECT_TRUE(becomes(next, "done"));
+}
+
 TEST_F(DaemonTest, TheEndOfItsTerminalStopsItUnlessUnderNohup) {
   Daemon shakend = daemon();
   shakend.first_line();

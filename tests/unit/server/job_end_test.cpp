@@ -16,16 +16,21 @@ using enum JobEnd::Outcome;
 
 class VerdictTest : public testing::Test {
  protected:
-  JobEnd exit(int code) const { return judge({code, 0}, 77, false, run_); }
-  JobEnd killed(int signal, bool stop_asked) const { return judge({0, signal}, 77, stop_asked, run_); }
+  JobEnd exit(int code) const { return judge({code, 0}, 77, false, "0123", run_); }
+  JobEnd killed(int signal, bool stop_asked) const { return judge({0, signal}, 77, stop_asked, "0123", run_); }
 
   TempDirectory directory_;
   run::RunDirectory run_{directory_.path()};
 };
 
 TEST_F(VerdictTest, ExitZeroNeedsASummary) {
-  EXPECT_EQ(exit(0).outcome, kFailed);
-  write_text(run_.summary(), "{}");
+  for (const char* text : {"", "{}", R"({"run_id": "0123", "exit": {"state": "stopped"}})",
+                           R"({"run_id": "4567", "exit": {"state": "done"}})"}) {
+    EXPECT_EQ(exit(0).outcome, kFailed) << text;
+    write_text(run_.summary(), text);
+  }
+  EXPECT_EQ(exit(0).outcome, kFailed) << "the run of another scene";
+  write_text(run_.summary(), R"({"run_id": "0123", "exit": {"state": "done"}})");
   EXPECT_EQ(exit(0).outcome, kDone);
   EXPECT_EQ(exit(0).reason, "");
 }
@@ -36,10 +41,19 @@ TEST_F(VerdictTest, StopsAreTold) {
   EXPECT_EQ(killed(SIGKILL, true).outcome, kStopped);
 }
 
-TEST_F(VerdictTest, OtherSignalsAreFailures) {
-  EXPECT_EQ(killed(SIGKILL, false).outcome, kFailed);
-  EXPECT_EQ(killed(SIGSEGV, true).outcome, kFailed);
+TEST_F(VerdictTest, OtherSignalsAndExitCodesAreCrashes) {
+  EXPECT_EQ(killed(SIGKILL, false).outcome, kCrashed);
+  EXPECT_EQ(killed(SIGSEGV, true).outcome, kCrashed);
+  EXPECT_EQ(exit(127).outcome, kCrashed);
+  EXPECT_EQ(exit(1).outcome, kFailed);
+  EXPECT_EQ(exit(2).outcome, kFailed);
   EXPECT_EQ(killed(SIGSEGV, true).reason, "worker was killed by signal 11 (SIGSEGV)");
+}
+
+TEST_F(VerdictTest, AFullDiskIsNoFailureOfTheJob) {
+  write_text(run_.log(), "checkpoint.bin.tmp: No space left on device\n");
+  EXPECT_EQ(exit(97).outcome, kNoRoom);
+  EXPECT_EQ(exit(97).reason, "checkpoint.bin.tmp: No space left on device");
 }
 
 TEST_F(VerdictTest, TheLastLineOfTheLogExplains) {

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <array>
+#include <chrono>
 #include <map>
 #include <memory>
 
@@ -16,14 +18,34 @@ using enum JobState;
 
 struct ModelJob {
   JobState state = kQueued;
-  bool cancel_asked = false;
+  JobState after_stop = kQueued;
+  bool waits_for_room = false;
+  int crashes = 0;
   int attempt = 0;
   int priority = 0;
   int arrival = 0;
 };
 
-enum class Operation { kSubmit, kBegin, kDone, kFail, kStopped, kCancel, kStopAll, kReopen, kCrash };
-constexpr int kOperations = 9;
+enum class Operation {
+  kSubmit,
+  kBegin,
+  kDone,
+  kFail,
+  kStopped,
+  kCancel,
+  kHold,
+  kResume,
+  kRetry,
+  kWorkerCrashes,
+  kNoRoom,
+  kRoom,
+  kStopAll,
+  kReopen,
+  kCrash
+};
+constexpr int kOperations = 15;
+/// As many crashes in a row are forgiven.
+constexpr std::array<std::chrono::milliseconds, 2> kPauses{};
 constexpr std::string_view kDigits = "abcde";
 
 class Model {
@@ -33,19 +55,46 @@ class Model {
     ModelJob& job = entry->second;
     if (is_new) job.arrival = static_cast<int>(jobs_.size());
     job.priority = is_new ? priority : std::max(job.priority, priority);
-    if (job.state == kFailed || job.state == kCancelled) job.state = kQueued;
-    job.cancel_asked = false;
+    const bool held = job.state == kHeld && !job.waits_for_room;
+    if (job.state == kFailed || job.state == kCancelled || held) become(job, kQueued);
+    job.after_stop = kQueued;
   }
-  void stop(ModelJob& job) {
-    job.state = job.cancel_asked ? kCancelled : kQueued;
-    job.cancel_asked = false;
+  static void become(ModelJob& job, JobState state) {
+    job.state = state;
+    job.after_stop = kQueued;
+    job.waits_for_room = false;
+    job.crashes = 0;
   }
-  void cancel(ModelJob& job) {
-    if (job.state == kQueued) job.state = kCancelled;
-    if (job.state == kRunning || job.state == kStopping) {
-      job.state = kStopping;
-      job.cancel_asked = true;
-    }
+  static void stop(ModelJob& job) { become(job, job.state == kStopping ? job.after_stop : kQueued); }
+  static void ask_to_stop(ModelJob& job, JobState after_stop) {
+    job.state = kStopping;
+    job.after_stop = after_stop;
+  }
+  static void cancel(ModelJob& job) {
+    if (job.state == kQueued || job.state == kHeld) become(job, kCancelled);
+    if (job.state == kRunning || job.state == kStopping) ask_to_stop(job, kCancelled);
+  }
+  static void hold(ModelJob& job) {
+    if (job.state == kQueued || job.state == kHeld) become(job, kHeld);
+    const bool is_cancelled = job.state == kStopping && job.after_stop == kCancelled;
+    if (job.state == kRunning || (job.state == kStopping && !is_cancelled)) ask_to_stop(job, kHeld);
+  }
+  static void release(ModelJob& job, bool retry) {
+    if (job.state == kHeld || (retry && (job.state == kFailed || job.state == kCancelled))) become(job, kQueued);
+    if (job.state == kStopping && job.after_stop == kHeld) job.after_stop = kQueued;
+    if (retry && job.state == kQueued) job.crashes = 0;
+  }
+  static void crash(ModelJob& job) {
+    if (job.state == kStopping) return stop(job);
+    const int crashes = job.crashes + 1;
+    const bool is_too_often = crashes > static_cast<int>(kPauses.size());
+    become(job, is_too_often ? kFailed : kQueued);
+    if (!is_too_often) job.crashes = crashes;
+  }
+  static void find_no_room(ModelJob& job) {
+    if (job.state == kStopping) return stop(job);
+    become(job, kHeld);
+    job.waits_for_room = true;
   }
   bool active(char digit) const {
     const auto job = jobs_.find(digit);
@@ -89,8 +138,7 @@ void apply(Operation operation, char digit, int priority, std::unique_ptr<Queue>
       if (!model.active(digit)) return;
       const JobState end = operation == Operation::kDone ? kDone : kFailed;
       queue->finish(id, end, "");
-      model.jobs_[digit].state = end;
-      model.jobs_[digit].cancel_asked = false;
+      Model::become(model.jobs_[digit], end);
       return;
     }
     case Operation::kStopped:
@@ -102,10 +150,35 @@ void apply(Operation operation, char digit, int priority, std::unique_ptr<Queue>
       queue->cancel_job(id);
       if (known) model.cancel(model.jobs_[digit]);
       return;
+    case Operation::kHold:
+      queue->hold_job(id);
+      if (known) Model::hold(model.jobs_[digit]);
+      return;
+    case Operation::kResume:
+    case Operation::kRetry:
+      queue->release_job(id, operation == Operation::kRetry);
+      if (known) Model::release(model.jobs_[digit], operation == Operation::kRetry);
+      return;
+    case Operation::kWorkerCrashes:
+      if (!model.active(digit)) return;
+      queue->crashed(id, "crash", false, kPauses);
+      Model::crash(model.jobs_[digit]);
+      return;
+    case Operation::kNoRoom:
+      if (!model.active(digit)) return;
+      queue->no_room(id, "no room", 1000 * priority, std::chrono::milliseconds(0));
+      Model::find_no_room(model.jobs_[digit]);
+      return;
+    case Operation::kRoom:
+      queue->there_is_room(1'000'000);
+      for (auto& [each, job] : model.jobs_) {
+        if (job.state == kHeld && job.waits_for_room) Model::become(job, kQueued);
+      }
+      return;
     case Operation::kStopAll:
       queue->stop_all();
       for (auto& [each, job] : model.jobs_) {
-        if (job.state == kRunning) job.state = kStopping;
+        if (job.state == kRunning) Model::ask_to_stop(job, kQueued);
       }
       return;
     case Operation::kReopen:

@@ -316,5 +316,43 @@ TEST(QueueFileTest, AFileOfANewerVersionIsRefusedWithAWayOut) {
 
 TEST(QueueFileTest, AnUnwritableFolderIsAnError) { EXPECT_THROW(Queue("/nonexistent/queue.db"), StorageError); }
 
+TEST_F(QueueTest, AFileOfTheFirstVersionIsTakenOver) {
+  const auto file = directory_ / "old.db";
+  {
+    Database old(file);
+    old.execute(R"sql(
+      CREATE TABLE sweeps(id INTEGER PRIMARY KEY AUTOINCREMENT, name TEXT NOT NULL, created_utime INTEGER NOT NULL);
+      CREATE TABLE jobs(
+        number INTEGER PRIMARY KEY AUTOINCREMENT, id TEXT NOT NULL UNIQUE, state TEXT NOT NULL,
+        after_stop TEXT NOT NULL DEFAULT '', reason TEXT NOT NULL DEFAULT '', priority INTEGER NOT NULL,
+        attempt INTEGER NOT NULL DEFAULT 0, pid INTEGER NOT NULL DEFAULT 0, created_utime INTEGER NOT NULL,
+        started_utime INTEGER NOT NULL DEFAULT 0, finished_utime INTEGER NOT NULL DEFAULT 0,
+        sweep INTEGER NOT NULL REFERENCES sweeps, label TEXT NOT NULL, parameters TEXT NOT NULL, replica INTEGER NOT NULL);
+      CREATE TABLE scenes(job INTEGER PRIMARY KEY REFERENCES jobs, scene TEXT NOT NULL);
+      CREATE TABLE members(
+        sweep INTEGER NOT NULL REFERENCES sweeps, position INTEGER NOT NULL, job INTEGER NOT NULL REFERENCES jobs,
+        label TEXT NOT NULL, parameters TEXT NOT NULL, replica INTEGER NOT NULL,
+        PRIMARY KEY(sweep, position)) WITHOUT ROWID;
+      CREATE TABLE journal(
+        sequence INTEGER PRIMARY KEY AUTOINCREMENT, utime INTEGER NOT NULL, job TEXT NOT NULL, from_state TEXT NOT NULL,
+        to_state TEXT NOT NULL, attempt INTEGER NOT NULL, cause TEXT NOT NULL);
+      INSERT INTO sweeps(name, created_utime) VALUES('old', 1);
+      INSERT INTO jobs(id, state, priority, created_utime, sweep, label, parameters, replica)
+        VALUES('aaaaaaaaaaaaaaaa', 'queued', 3, 1, 1, 'label', '{}', 1);
+      INSERT INTO scenes(job, scene) VALUES(1, '{}');
+      INSERT INTO members VALUES(1, 0, 1, 'label', '{}', 1);
+      PRAGMA user_version = 1;)sql");
+  }
+  for (int opened = 0; opened < 2; ++opened) {
+    Queue queue(file);
+    ASSERT_EQ(queue.jobs(1).size(), 1U);
+    EXPECT_EQ(queue.jobs(1)[0].state, kQueued);
+    EXPECT_EQ(queue.jobs(1)[0].priority, 3);
+    EXPECT_EQ(queue.jobs(1)[0].hold, Hold::kNone);
+    EXPECT_EQ(queue.hold_sweep(1), 1);
+    EXPECT_EQ(queue.release_sweep(1, false), 1);
+  }
+}
+
 }  // namespace
 }  // namespace shaken::server

@@ -7,9 +7,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
+#include <limits>
 
 #include "server/local_executor.h"
+#include "server/submission.h"
 #include "tests/unit/server/support.h"
 
 namespace shaken::server {
@@ -30,6 +33,11 @@ class SupervisorTest : public testing::Test {
     EXPECT_TRUE(step_until([&] { return supervisor_.idle(); }));
   }
 
+  SupervisorOptions options() const {
+    SupervisorOptions options{directory_ / "runs", 2, {"--no-lcm"}, kGrace};
+    options.retry_pauses = {std::chrono::milliseconds(400), std::chrono::milliseconds(100)};
+    return options;
+  }
   static std::string id(char digit) { return std::string(16, digit); }
   Job job(char digit) const { return *queue_.job(id(digit)); }
   std::filesystem::path directory(char digit) const { return directory_ / "runs" / id(digit); }
@@ -51,7 +59,7 @@ class SupervisorTest : public testing::Test {
   TempDirectory directory_;
   Queue queue_{directory_ / "queue.db"};
   LocalExecutor executor_{write_fake_worker(directory_.path())};
-  Supervisor supervisor_{queue_, executor_, {directory_ / "runs", 2, {"--no-lcm"}, kGrace}};
+  Supervisor supervisor_{queue_, executor_, options()};
 };
 
 TEST_F(SupervisorTest, AJobIsDoneByAWorkerInItsDirectory) {
@@ -89,14 +97,75 @@ TEST_F(SupervisorTest, SuccessWithoutResultsIsAFailure) {
   EXPECT_THAT(job('a').reason, HasSubstr("summary.json"));
 }
 
-TEST_F(SupervisorTest, AKilledWorkerFailsItsJobAndTheOthersGoOn) {
+TEST_F(SupervisorTest, AWorkerThatCrashesIsTriedAgainAfterPausesAndTheOthersGoOn) {
   submit('a', "crash");
   submit('b', "done");
   submit('c', "done");
-  ASSERT_TRUE(step_until('a', kFailed));
-  EXPECT_EQ(job('a').reason, "worker was killed by signal 9 (SIGKILL)");
   EXPECT_TRUE(step_until('b', kDone));
   EXPECT_TRUE(step_until('c', kDone));
+  ASSERT_TRUE(step_until([&] { return job('a').attempt == 1 && job('a').state == kQueued; }));
+  EXPECT_EQ(job('a').reason, "worker was killed by signal 9 (SIGKILL); is tried again after 0.4 s");
+  EXPECT_GT(job('a').not_before, 0);
+  ASSERT_TRUE(step_until('a', kFailed));
+  EXPECT_EQ(job('a').attempt, 3) << "as many pauses and one";
+  EXPECT_EQ(job('a').reason, "3 times in a row, without a checkpoint between: worker was killed by signal 9 (SIGKILL)");
+  std::vector<std::string> causes;
+  for (const Change& change : queue_.history(id('a'))) causes.push_back(change.cause);
+  EXPECT_EQ(std::count(causes.begin(), causes.end(), "worker was killed by signal 9 (SIGKILL)"), 3);
+}
+
+TEST_F(SupervisorTest, ACheckpointBetweenCrashesBeginsTheirCountAnew) {
+  submit('a', "crash after checkpoint");
+  ASSERT_TRUE(step_until([&] { return job('a').attempt == 5; }));
+  EXPECT_NE(job('a').state, kFailed);
+}
+
+TEST_F(SupervisorTest, WithoutRoomAJobIsHeldUntilThereIs) {
+  submit('a', "room");
+  ASSERT_TRUE(step_until('a', kHeld));
+  EXPECT_THAT(job('a').reason, StartsWith("checkpoint.bin.tmp: No space left on device. Goes on by itself once "));
+  EXPECT_EQ(job('a').hold, Hold::kRoom);
+  EXPECT_GT(job('a').needed_bytes, 0);
+  EXPECT_TRUE(step_until([&] { return job('a').attempt == 2; })) << "this disk has room";
+}
+
+TEST_F(SupervisorTest, NothingIsStartedOnADiskThatIsNearlyFull) {
+  SupervisorOptions options = this->options();
+  options.least_room = std::numeric_limits<std::int64_t>::max();
+  Supervisor supervisor(queue_, executor_, options);
+  std::filesystem::create_directories(directory_ / "runs");
+  submit('a', "done");
+  for (int i = 0; i < 5; ++i) supervisor.step();
+  EXPECT_EQ(job('a').state, kQueued);
+  EXPECT_EQ(job('a').attempt, 0);
+  EXPECT_THAT(job('a').reason, HasSubstr("are free in "));
+}
+
+TEST_F(SupervisorTest, HoldingLetsTheWorkerStopAndReleasingGoesOn) {
+  submit('a', "run");
+  ASSERT_TRUE(step_until_up('a'));
+  EXPECT_EQ(queue_.hold_job(id('a')), 1);
+  EXPECT_EQ(queue_.hold_job(id('a')), 0);
+  ASSERT_TRUE(step_until('a', kHeld));
+  EXPECT_EQ(job('a').reason, "held on request");
+  for (int i = 0; i < 5; ++i) supervisor_.step();
+  EXPECT_EQ(job('a').state, kHeld) << "room does not release it";
+  std::filesystem::remove(directory('a') / "up");
+  EXPECT_EQ(queue_.release_job(id('a'), false), 1);
+  EXPECT_TRUE(step_until_up('a'));
+}
+
+TEST_F(SupervisorTest, ASceneOfAnotherRunIsNotRun) {
+  SupervisorOptions options = this->options();
+  options.refuse = refuse_scene;
+  Supervisor supervisor(queue_, executor_, options);
+  NewJob changed = new_job('a');
+  changed.scene = R"({"rods": {"count": 10}, "box": {"side": 20}})";
+  queue_.submit("sweep", 0, {&changed, 1});
+  supervisor.step();
+  EXPECT_EQ(job('a').state, kFailed);
+  EXPECT_THAT(job('a').reason, HasSubstr("not the one of this id"));
+  EXPECT_FALSE(std::filesystem::exists(directory('a') / "scene.json"));
 }
 
 TEST_F(SupervisorTest, NoMoreWorkersThanSlots) {
@@ -168,6 +237,7 @@ TEST_F(SupervisorTest, ADirectoryInUseIsWaitedForWhileOthersRun) {
     ASSERT_TRUE(step_until('b', kDone));
     EXPECT_EQ(job('a').state, kQueued);
     EXPECT_EQ(job('a').attempt, 0);
+    EXPECT_THAT(job('a').reason, HasSubstr("in use by process"));
   }
   EXPECT_TRUE(step_until('a', kDone));
 }
@@ -181,14 +251,22 @@ TEST_F(SupervisorTest, ADiskThatRefusesLeavesTheJobQueued) {
   EXPECT_TRUE(step_until('a', kDone));
 }
 
-TEST_F(SupervisorTest, AProgramThatCannotRunFailsTheJob) {
-  LocalExecutor missing(directory_ / "nothing-here");
-  Supervisor supervisor(queue_, missing, {directory_ / "runs", 1, {}, kGrace});
-  submit('a', "done");
-  supervisor.step();
-  supervisor.step();
-  EXPECT_EQ(job('a').state, kFailed);
-  EXPECT_THAT(job('a').reason, HasSubstr("nothing-here cannot be run: No such file"));
+TEST_F(SupervisorTest, AProgramThatIsAwayCostsNoJob) {
+  LocalExecutor away(directory_ / "away");
+  SupervisorOptions options = this->options();
+  options.first_pause = std::chrono::milliseconds(30);
+  Supervisor supervisor(queue_, away, options);
+  for (const char digit : {'a', 'b', 'c', 'd'}) submit(digit, "done");
+  for (int i = 0; i < 50; ++i) supervisor.step();
+  EXPECT_EQ(queue_.counts()[kQueued], 4);
+  EXPECT_EQ(job('a').attempt, 1) << "the next start waits";
+  EXPECT_EQ(job('b').attempt, 0);
+  EXPECT_THAT(job('a').reason, HasSubstr("away cannot be run: No such file"));
+  std::filesystem::copy_file(write_fake_worker(directory_.path()), directory_ / "away");
+  EXPECT_TRUE(eventually([&] {
+    supervisor.step();
+    return queue_.counts()[kDone] == 4;
+  }));
 }
 
 class LocalExecutorTest : public testing::Test {

@@ -46,10 +46,13 @@ std::filesystem::path write_fake_worker(const std::filesystem::path& folder) {
 dir=$3
 exec 9>"$dir/lock"
 flock -n 9 || { echo "lock is held" >&2; exit 4; }
+id=$5
 hold() { : >"$dir/up"; while :; do sleep 0.02 9>&-; done; }
+summary() { echo "{\"n_rods\": 7, \"run_id\": \"$id\", \"exit\": {\"state\": \"done\"}}" >"$dir/summary.json"; }
 echo "$@"
 case "${FAKE_WORKER:-$9}" in
-  done) echo '{"n_rods": 7}' >"$dir/summary.json" ;;
+  done) summary ;;
+  room) echo "checkpoint.bin.tmp: No space left on device" >&2; exit 97 ;;
   empty) ;;
   fail) echo "the gap is closed" >&2; exit 1 ;;
   progress)
@@ -60,8 +63,9 @@ end
     exit 1 ;;
   bad) exit 2 ;;
   crash) kill -KILL $$ ;;
+  "crash after checkpoint") : >"$dir/checkpoint.bin"; kill -KILL $$ ;;
   run) trap 'exit 99' TERM; hold ;;
-  late) trap 'echo "{}" >"$dir/summary.json"; exit 0' TERM; hold ;;
+  late) trap 'summary; exit 0' TERM; hold ;;
   deaf) trap '' TERM; hold ;;
 esac
 )sh");

@@ -36,7 +36,8 @@ std::string read_text(const std::filesystem::path& file);
 ///   fail        "the gap is closed" on stderr, exit 1
 ///   progress    exit 1 with a message in progress.json
 ///   bad         exit 2
-///   crash       kills itself with SIGKILL
+///   crash       kills itself with SIGKILL; "crash after checkpoint": with a checkpoint.bin before
+///   room        says that there is no space left on the device, exit 97
 ///   run         runs until SIGTERM, then exit 99
 ///   late        runs until SIGTERM, then writes a summary and exit 0
 ///   deaf        runs, ignoring SIGTERM
