@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/state_io.h"
 #include "analysis/steady.h"
+#include "sim/core/state_io.h"
 
 namespace shaken::analysis {
 

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/state_io.h"
 #include "sim/core/check.h"
+#include "sim/core/state_io.h"
 
 namespace shaken::analysis {
 
@@ -69,7 +69,7 @@ class BoundedSeries {
     const std::vector<double> pending = reader.reals(Columns + 1);
     std::copy(pending.begin(), pending.end(), saved.pending_.begin());
     saved.columns_[0] = reader.reals();
-    if (saved.columns_[0].size() >= max_points_) throw StateError("saved analysis state: BoundedSeries overfull");
+    if (saved.columns_[0].size() >= max_points_) throw StateError("BoundedSeries overfull");
     for (std::size_t k = 1; k <= Columns; ++k) saved.columns_[k] = reader.reals(saved.columns_[0].size());
     *this = std::move(saved);
   }

@@ -55,7 +55,7 @@ void DefectSeries::restore(StateReader& reader) {
   DefectSeries saved(keeps_list_);
   saved.counts_.restore(reader);
   if ((reader.integer(0, 1) == 1) != keeps_list_) {
-    throw StateError("saved analysis state: DefectSeries with the list of defects where none is kept, or without");
+    throw StateError("DefectSeries with the list of defects where none is kept, or without");
   }
   if (keeps_list_) {
     saved.list_.time = reader.reals();

@@ -311,7 +311,7 @@ void DefectTracks::restore(StateReader& reader) {
     track.partner = reader.integer(-1, saved.next_id_ - 1);
     track.lasting = reader.integer(0, 1) == 1;
     const std::vector<double> trail = reader.reals();
-    if (trail.empty() || trail.size() % 5 != 0) throw StateError("saved analysis state: DefectTracks without a place");
+    if (trail.empty() || trail.size() % 5 != 0) throw StateError("DefectTracks without a place");
     for (std::size_t i = 0; i < trail.size(); i += 5) {
       track.trail.push_back({trail[i], {trail[i + 1], trail[i + 2]}, {trail[i + 3], trail[i + 4]}});
     }

@@ -10,7 +10,7 @@
 #include "analysis/blocked.h"
 #include "analysis/defects.h"
 #include "analysis/jackknife.h"
-#include "analysis/state_io.h"
+#include "sim/core/state_io.h"
 #include "sim/core/types.h"
 
 namespace shaken::analysis {

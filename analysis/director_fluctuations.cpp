@@ -333,7 +333,7 @@ void DirectorFluctuations::restore(StateReader& reader) {
   const double box_side = reader.real();
   const double q_max = reader.real();
   if (box_side != box_side_ || q_max != q_max_) {
-    throw StateError("saved analysis state: DirectorFluctuations of another box or range");
+    throw StateError("DirectorFluctuations of another box or range");
   }
   std::map<std::int64_t, Sector> sectors;
   const std::int64_t n_sectors = reader.integer(0, kSectors);

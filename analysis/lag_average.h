@@ -14,8 +14,8 @@
 
 #include "analysis/lag_curve.h"
 #include "analysis/lag_sums.h"
-#include "analysis/state_io.h"
 #include "sim/core/check.h"
+#include "sim/core/state_io.h"
 
 namespace shaken::analysis {
 
@@ -110,7 +110,7 @@ class LagAverage {
   void restore(StateReader& reader) {
     reader.tag(Kernel::kName);
     if (reader.real() != interval_) {
-      throw StateError("saved analysis state: " + std::string(Kernel::kName) + " of another interval");
+      throw StateError(std::string(Kernel::kName) + " of another interval");
     }
     LagAverage saved(interval_, static_cast<int>(levels_.size()));
     saved.start_ = reader.real();

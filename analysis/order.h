@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "analysis/bounded_series.h"
-#include "analysis/state_io.h"
 #include "analysis/time_series.h"
+#include "sim/core/state_io.h"
 #include "sim/core/types.h"
 
 namespace shaken::analysis {

@@ -52,7 +52,7 @@ void RodTraces::restore(StateReader& reader) {
   reader.tag("RodTraces");
   const auto count = static_cast<std::int64_t>(count_);
   if (reader.real() != duration_ || reader.integer() != count) {
-    throw StateError("saved analysis state: RodTraces of another number or duration");
+    throw StateError("RodTraces of another number or duration");
   }
   std::vector<double> times = reader.reals();
   std::vector<RodTrace> traces(static_cast<std::size_t>(reader.integer(0, count)));

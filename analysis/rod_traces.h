@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "analysis/state_io.h"
+#include "sim/core/state_io.h"
 #include "sim/core/types.h"
 
 namespace shaken::analysis {

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/state_io.h"
 #include "sim/core/check.h"
+#include "sim/core/state_io.h"
 
 namespace shaken::analysis {
 
@@ -132,7 +132,7 @@ class Summed {
     auto stored = saved.*setting.member;
     take(reader, stored);
     if (stored == saved.*setting.member) return;
-    throw StateError("saved analysis state: " + std::string(Self::kName) + " of another " + setting.what);
+    throw StateError(std::string(Self::kName) + " of another " + setting.what);
   }
 
   template <class T>

@@ -44,7 +44,7 @@ void TiltSwitches::save(StateWriter& writer) const {
 
 void TiltSwitches::restore(StateReader& reader) {
   reader.tag("TiltSwitches");
-  if (reader.real() != threshold_) throw StateError("saved analysis state: TiltSwitches of another threshold");
+  if (reader.real() != threshold_) throw StateError("TiltSwitches of another threshold");
   TiltSwitches saved(threshold_);
   saved.last_time_ = reader.real();
   saved.sides_ = reader.integers();

@@ -218,7 +218,7 @@ void VelocityCorrelation::save(StateWriter& writer) const {
 
 void VelocityCorrelation::restore(StateReader& reader) {
   const auto steps = static_cast<std::int64_t>(steps_);
-  if (reader.integer() != steps) throw StateError("saved analysis state: VelocityCorrelation of another window");
+  if (reader.integer() != steps) throw StateError("VelocityCorrelation of another window");
   std::vector<Places> saved(static_cast<std::size_t>(reader.integer(0, steps)));
   for (Places& places : saved) {
     places.time = reader.real();

@@ -8,7 +8,7 @@
 
 #include "analysis/estimate.h"
 #include "analysis/lag_average.h"
-#include "analysis/state_io.h"
+#include "sim/core/state_io.h"
 #include "sim/core/types.h"
 
 namespace shaken::analysis {

@@ -3,89 +3,51 @@
 
 #include <xxhash.h>
 
-#include <bit>
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <span>
 #include <string_view>
 
 #include "base/files.h"
+#include "sim/core/state_io.h"
 
 namespace shaken::run {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "checkpoints are little-endian");
-
 constexpr std::string_view kMagic = "SHKNCKPT";
 constexpr std::uint32_t kVersion = 1;
 
-template <class Number>
-void put(std::string& out, Number number) {
-  char bytes[sizeof(Number)];
-  std::memcpy(bytes, &number, sizeof(Number));
-  out.append(bytes, sizeof(Number));
+std::span<const std::byte> bytes_of(std::string_view text) { return std::as_bytes(std::span(text)); }
+
+std::string_view text_of(std::span<const std::byte> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-template <class Length>
-void put_bytes(std::string& out, const void* data, std::size_t size) {
-  put(out, static_cast<Length>(size));
-  out.append(static_cast<const char*>(data), size);
-}
+std::uint64_t hash_of(std::span<const std::byte> bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
 
-/// Takes parts off the front; once something does not fit, everything after fails too.
-class Parts {
- public:
-  explicit Parts(std::string_view rest) : rest_(rest) {}
-  std::string_view bytes(std::uint64_t size) {
-    if (size > rest_.size()) failed_ = true;
-    if (failed_) return {};
-    const std::string_view part = rest_.substr(0, size);
-    rest_.remove_prefix(size);
-    return part;
-  }
-  template <class Number>
-  Number number() {
-    Number value{};
-    const std::string_view part = bytes(sizeof(Number));
-    if (!part.empty()) std::memcpy(&value, part.data(), sizeof(Number));
-    return value;
-  }
-  /// Whether everything fitted and nothing is left.
-  bool whole() const { return !failed_ && rest_.empty(); }
-
- private:
-  std::string_view rest_;
-  bool failed_ = false;
-};
-
-std::string payload_of(const Checkpoint& checkpoint) {
-  std::string payload;
-  put(payload, checkpoint.cpu_seconds);
-  put(payload, checkpoint.wall_seconds);
-  put_bytes<std::uint64_t>(payload, checkpoint.simulation.data(), checkpoint.simulation.size());
-  put_bytes<std::uint64_t>(payload, checkpoint.measurements.data(), checkpoint.measurements.size());
-  return payload;
-}
-
-std::vector<std::byte> to_bytes(std::string_view part) {
-  const auto* begin = reinterpret_cast<const std::byte*>(part.data());
-  return {begin, begin + part.size()};
-}
+std::vector<std::byte> copy_of(std::span<const std::byte> bytes) { return {bytes.begin(), bytes.end()}; }
 
 }  // namespace
 
 std::optional<Error> write_checkpoint(const RunDirectory& directory, const std::string& run_id,
                                       const Checkpoint& checkpoint) {
-  const std::string payload = payload_of(checkpoint);
-  std::string content(kMagic);
-  put(content, kVersion);
-  put_bytes<std::uint32_t>(content, run_id.data(), run_id.size());
-  put_bytes<std::uint64_t>(content, payload.data(), payload.size());
-  put(content, static_cast<std::uint64_t>(XXH3_64bits(content.data(), content.size())));
+  StateWriter payload;
+  payload.put(checkpoint.cpu_seconds);
+  payload.put(checkpoint.wall_seconds);
+  payload.put(checkpoint.simulation);
+  payload.put(checkpoint.measurements);
+  StateWriter content;
+  content.append(bytes_of(kMagic));
+  content.put(kVersion);
+  content.put(static_cast<std::uint32_t>(run_id.size()));
+  content.append(bytes_of(run_id));
+  content.put(payload.bytes());
+  content.put(hash_of(content.bytes()));
 
   const std::filesystem::path file = directory.checkpoint();
-  if (auto error = write_file(temporary_for(file), content)) return error;
+  if (auto error = write_file(temporary_for(file), text_of(content.bytes()))) return error;
   // The new one is written by now: should the machine stop between the renames, the previous one is whole.
   if (std::rename(file.c_str(), directory.previous_checkpoint().c_str()) != 0 && errno != ENOENT) {
     return Error{"cannot keep " + file.string() + ": " + std::strerror(errno)};
@@ -102,25 +64,34 @@ Result<Checkpoint> read_checkpoint(const std::filesystem::path& file, const std:
   if (!content->starts_with(kMagic) || content->size() < kMagic.size() + kHashBytes) {
     return refuse("is not a checkpoint");
   }
-  const std::string_view hashed = std::string_view(*content).substr(0, content->size() - kHashBytes);
-  const auto stored_hash = Parts(std::string_view(*content).substr(hashed.size())).number<std::uint64_t>();
-  if (stored_hash != XXH3_64bits(hashed.data(), hashed.size())) return refuse("is damaged");
+  try {
+    StateReader whole(bytes_of(*content));
+    const std::span<const std::byte> hashed = whole.bytes(content->size() - kHashBytes);
+    std::uint64_t stored_hash = 0;
+    whole.get(stored_hash);
+    if (stored_hash != hash_of(hashed)) return refuse("is damaged");
 
-  Parts parts(hashed);
-  parts.bytes(kMagic.size());
-  const auto version = parts.number<std::uint32_t>();
-  if (version != kVersion)
-    return refuse("is of version " + std::to_string(version) + ", which this program cannot read");
-  const std::string_view owner = parts.bytes(parts.number<std::uint32_t>());
-  if (owner != run_id) return refuse("belongs to run " + std::string(owner) + ", not to " + run_id);
-  Parts payload(parts.bytes(parts.number<std::uint64_t>()));
-  Checkpoint checkpoint;
-  checkpoint.cpu_seconds = payload.number<double>();
-  checkpoint.wall_seconds = payload.number<double>();
-  checkpoint.simulation = to_bytes(payload.bytes(payload.number<std::uint64_t>()));
-  checkpoint.measurements = to_bytes(payload.bytes(payload.number<std::uint64_t>()));
-  if (!parts.whole() || !payload.whole()) return refuse("is damaged");
-  return checkpoint;
+    StateReader parts(hashed.subspan(kMagic.size()));
+    std::uint32_t version = 0;
+    parts.get(version);
+    if (version != kVersion)
+      return refuse("is of version " + std::to_string(version) + ", which this program cannot read");
+    std::uint32_t owner_size = 0;
+    parts.get(owner_size);
+    const std::string owner(text_of(parts.bytes(owner_size)));
+    if (owner != run_id) return refuse("belongs to run " + owner + ", not to " + run_id);
+    StateReader payload(parts.bytes());
+    parts.end();
+    Checkpoint checkpoint;
+    checkpoint.cpu_seconds = payload.real();
+    checkpoint.wall_seconds = payload.real();
+    checkpoint.simulation = copy_of(payload.bytes());
+    checkpoint.measurements = copy_of(payload.bytes());
+    payload.end();
+    return checkpoint;
+  } catch (const StateError&) {
+    return refuse("is damaged");
+  }
 }
 
 }  // namespace shaken::run

@@ -6,9 +6,6 @@
 
 namespace shaken::run {
 
-using analysis::StateReader;
-using analysis::StateWriter;
-
 Measurements::Measurements(const scene::RunPlan& plan, const Species& species,
                            std::span<const std::uint8_t> species_of_rod)
     : steady_(plan.steady) {
@@ -88,7 +85,7 @@ std::vector<std::byte> Measurements::save() const {
     writer.put(timed.samples);
     timed.measurement->save(writer);
   }
-  return writer.bytes();
+  return writer.take();
 }
 
 void Measurements::restore(std::span<const std::byte> bytes) {

@@ -44,7 +44,7 @@ class Measurements {
   std::map<std::string, std::int64_t> counts() const;
 
   std::vector<std::byte> save() const;
-  /// Takes up what save() gave; throws analysis::StateError if the bytes belong to another plan.
+  /// Takes up what save() gave; throws StateError if the bytes belong to another plan.
   void restore(std::span<const std::byte> bytes);
 
  private:

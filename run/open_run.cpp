@@ -70,8 +70,9 @@ Result<OpenRun> resume_run(const scene::RunPlan& plan, const RunDirectory& direc
   run.wall_before = checkpoint.wall_seconds;
   try {
     run.measurements.restore(checkpoint.measurements);
-  } catch (const analysis::StateError& problem) {
-    return Error{std::string("the checkpoint's measurements are not of this plan: ") + problem.what()};
+  } catch (const StateError& problem) {
+    return Error{std::string("the checkpoint's measurements are not of this plan: saved analysis state: ") +
+                 problem.what()};
   }
   if (run.recording) {
     auto frames =

@@ -3,60 +3,15 @@
 
 #include <xxhash.h>
 
-#include <bit>
-#include <cstring>
 #include <string>
 
 #include "sim/core/physics_version.h"
+#include "sim/core/state_io.h"
 
 namespace shaken {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "checkpoints are little-endian");
-
 constexpr std::uint64_t kMagic = 0x33304e454b414853;  // "SHAKEN03"
-
-class Writer {
- public:
-  template <class T>
-  void put(const T& value) {
-    static_assert(std::is_arithmetic_v<T>);
-    const auto* from = reinterpret_cast<const std::byte*>(&value);
-    bytes_.insert(bytes_.end(), from, from + sizeof(T));
-  }
-  void put(const Vec3& v) {
-    for (int c = 0; c < 3; ++c) put(v[c]);
-  }
-  void append(const std::vector<std::byte>& more) { bytes_.insert(bytes_.end(), more.begin(), more.end()); }
-  std::vector<std::byte> take() { return std::move(bytes_); }
-
- private:
-  std::vector<std::byte> bytes_;
-};
-
-class Reader {
- public:
-  explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}
-  template <class T>
-  void get(T& value) {
-    static_assert(std::is_arithmetic_v<T>);
-    if (bytes_.size() < sizeof(T)) {
-      short_ = true;
-      value = T{};
-      return;
-    }
-    std::memcpy(&value, bytes_.data(), sizeof(T));
-    bytes_ = bytes_.subspan(sizeof(T));
-  }
-  void get(Vec3& v) {
-    for (int c = 0; c < 3; ++c) get(v[c]);
-  }
-  bool read_all() const { return !short_ && bytes_.empty(); }
-
- private:
-  std::span<const std::byte> bytes_;
-  bool short_ = false;
-};
 
 /// One list of a flight's stored fields for both directions.
 template <class Archive, class F>
@@ -131,60 +86,20 @@ void each_scene_key(Archive&& visit, const System& system) {
   visit(system.dt);
 }
 
-}  // namespace
-
-std::vector<std::byte> state_bytes(const World& world) {
-  Writer writer;
+void put_state(StateWriter& writer, const World& world) {
   writer.put(world.tick);
   for (const Flight& flight : world.rods) each_field([&](const auto& field) { writer.put(field); }, flight);
-  return writer.take();
 }
 
-std::uint64_t state_hash(const World& world) {
-  const std::vector<std::byte> bytes = state_bytes(world);
-  return XXH3_64bits(bytes.data(), bytes.size());
-}
-
-std::vector<std::byte> save_checkpoint(const World& world) {
-  Writer writer;
-  writer.put(kMagic);
-  writer.put(static_cast<std::int64_t>(kPhysicsVersion));
-  each_scene_key([&](const auto& key) { writer.put(key); }, world.system);
-  each_counter([&](const auto& counter) { writer.put(counter); }, world.counters);
-  each_sum(
-      [&](const auto& sum) {
-        writer.put(sum.low());
-        writer.put(sum.high());
-        writer.put(static_cast<std::uint8_t>(sum.overflow()));
-      },
-      world.counters.ledger);
-  writer.put(world.start.tick);
-  writer.put(world.start.energy);
-  writer.put(world.start.momentum);
-  writer.append(state_bytes(world));
-  return writer.take();
-}
-
-Result<World> restore_checkpoint(const System& system, std::span<const std::byte> bytes) {
-  Reader reader(bytes);
-  std::uint64_t magic = 0;
-  reader.get(magic);
-  if (magic != kMagic) return Error{"not a checkpoint of this version of Shaken"};
-  std::int64_t physics = 0;
-  reader.get(physics);
-  if (physics != kPhysicsVersion) {
-    return Error{"the checkpoint is of physics version " + std::to_string(physics) + ", this program has version " +
-                 std::to_string(kPhysicsVersion) +
-                 " and would go on in another way: finish the run with the program that began it, or start it anew"};
-  }
+/// What follows the physics version. Throws StateError if there is too little or too much of it.
+Result<World> restore_world(const System& system, StateReader& reader) {
+  const auto is_next = [&](const auto& key) {
+    auto stored = key;
+    reader.get(stored);
+    return stored == key;
+  };
   bool same_scene = true;
-  each_scene_key(
-      [&](const auto& key) {
-        std::decay_t<decltype(key)> stored;
-        reader.get(stored);
-        same_scene = same_scene && stored == key;
-      },
-      system);
+  each_scene_key([&](const auto& key) { same_scene = same_scene && is_next(key); }, system);
   if (!same_scene) return Error{"the checkpoint belongs to another scene"};
 
   World world = empty_world(system);
@@ -209,8 +124,60 @@ Result<World> restore_checkpoint(const System& system, std::span<const std::byte
     each_field([&](auto& field) { reader.get(field); }, flight);
     flight.prepare();
   }
-  if (!reader.read_all()) return Error{"the checkpoint has the wrong length"};
+  reader.end();
   return world;
+}
+
+}  // namespace
+
+std::vector<std::byte> state_bytes(const World& world) {
+  StateWriter writer;
+  put_state(writer, world);
+  return writer.take();
+}
+
+std::uint64_t state_hash(const World& world) {
+  const std::vector<std::byte> bytes = state_bytes(world);
+  return XXH3_64bits(bytes.data(), bytes.size());
+}
+
+std::vector<std::byte> save_checkpoint(const World& world) {
+  StateWriter writer;
+  writer.put(kMagic);
+  writer.put(static_cast<std::int64_t>(kPhysicsVersion));
+  each_scene_key([&](const auto& key) { writer.put(key); }, world.system);
+  each_counter([&](const auto& counter) { writer.put(counter); }, world.counters);
+  each_sum(
+      [&](const auto& sum) {
+        writer.put(sum.low());
+        writer.put(sum.high());
+        writer.put(static_cast<std::uint8_t>(sum.overflow()));
+      },
+      world.counters.ledger);
+  writer.put(world.start.tick);
+  writer.put(world.start.energy);
+  writer.put(world.start.momentum);
+  put_state(writer, world);
+  return writer.take();
+}
+
+Result<World> restore_checkpoint(const System& system, std::span<const std::byte> bytes) {
+  StateReader reader(bytes);
+  try {
+    std::uint64_t magic = 0;
+    if (bytes.size() >= sizeof magic) reader.get(magic);
+    if (magic != kMagic) return Error{"not a checkpoint of this version of Shaken"};
+    std::int64_t physics = 0;
+    reader.get(physics);
+    if (physics != kPhysicsVersion) {
+      return Error{"the checkpoint is of physics version " + std::to_string(physics) + ", this program has version " +
+                   std::to_string(kPhysicsVersion) +
+                   " and would go on in another way: finish the run with the program that began it, or start it anew"};
+    }
+    return restore_world(system, reader);
+  } catch (const StateError&) {
+    return Error{"the checkpoint has the wrong length"};
+  }
 }
 
 }  // namespace shaken

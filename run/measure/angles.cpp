@@ -33,8 +33,8 @@ class MeasuredAngles : public Measurement {
     result.scalars["theta_m_maximum_deg"] = two ? peaks[2] : Scalar{};
     result.scalars["dip"] = dip;
   }
-  void save(analysis::StateWriter& writer) const override { angles_.save(writer); }
-  void restore(analysis::StateReader& reader) override { angles_.restore(reader); }
+  void save(StateWriter& writer) const override { angles_.save(writer); }
+  void restore(StateReader& reader) override { angles_.restore(reader); }
 
  private:
   analysis::Blocked<analysis::AngleDistribution> angles_;

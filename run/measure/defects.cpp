@@ -78,12 +78,12 @@ void MeasuredDefects::reduce(Reduction& result) const {
   result.arrays["/defects/list/track"] = series_.list().track;
 }
 
-void MeasuredDefects::save(analysis::StateWriter& writer) const {
+void MeasuredDefects::save(StateWriter& writer) const {
   series_.save(writer);
   tracks_.save(writer);
 }
 
-void MeasuredDefects::restore(analysis::StateReader& reader) {
+void MeasuredDefects::restore(StateReader& reader) {
   series_.restore(reader);
   tracks_.restore(reader);
 }

@@ -25,8 +25,8 @@ class MeasuredDefects : public Measurement {
   explicit MeasuredDefects(const MeasureContext& context);
   void sample(const Sample& sample) override;
   void reduce(Reduction& result) const override;
-  void save(analysis::StateWriter& writer) const override;
-  void restore(analysis::StateReader& reader) override;
+  void save(StateWriter& writer) const override;
+  void restore(StateReader& reader) override;
 
   /// The last sample, for viewers; none before the first and after a restart.
   const std::optional<DefectSample>& last() const { return last_; }

@@ -32,8 +32,8 @@ class MeasuredFluctuations : public Measurement {
     result.scalars["fluctuation_exponent"] = scalar_or(curve.exponent, reason);
     result.scalars["fluctuation_exponent_without_map"] = scalar_or(curve.exponent_without_map, reason);
   }
-  void save(analysis::StateWriter& writer) const override { counts_.save(writer); }
-  void restore(analysis::StateReader& reader) override { counts_.restore(reader); }
+  void save(StateWriter& writer) const override { counts_.save(writer); }
+  void restore(StateReader& reader) override { counts_.restore(reader); }
 
  private:
   analysis::Blocked<analysis::NumberFluctuations> counts_;

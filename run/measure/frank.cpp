@@ -26,8 +26,8 @@ class MeasuredFrank : public Measurement {
     result.scalars["frank_chi2"].value = spectrum.chi2;
     result.scalars["frank_floor_mm2"].value = spectrum.floor;
   }
-  void save(analysis::StateWriter& writer) const override { waves_.save(writer); }
-  void restore(analysis::StateReader& reader) override { waves_.restore(reader); }
+  void save(StateWriter& writer) const override { waves_.save(writer); }
+  void restore(StateReader& reader) override { waves_.restore(reader); }
 
  private:
   analysis::Blocked<analysis::DirectorFluctuations> waves_;

@@ -32,8 +32,8 @@ class MeasuredG2 : public Measurement {
     put(result, "/g2/g2", "", g2);
     put(result, "/g2/g", "", g);
   }
-  void save(analysis::StateWriter& writer) const override { g2_.save(writer); }
-  void restore(analysis::StateReader& reader) override { g2_.restore(reader); }
+  void save(StateWriter& writer) const override { g2_.save(writer); }
+  void restore(StateReader& reader) override { g2_.restore(reader); }
 
  private:
   analysis::Region region_;

@@ -23,8 +23,8 @@ class MeasuredLattice : public Measurement {
     result.scalars["psi_6_raw"] = means[2];
     result.scalars["bragg_peak"] = means[3];
   }
-  void save(analysis::StateWriter& writer) const override { lattice_.save(writer); }
-  void restore(analysis::StateReader& reader) override { lattice_.restore(reader); }
+  void save(StateWriter& writer) const override { lattice_.save(writer); }
+  void restore(StateReader& reader) override { lattice_.restore(reader); }
 
  private:
   analysis::Blocked<analysis::LatticeOrder> lattice_;

@@ -39,8 +39,8 @@ class MeasuredLayers : public Measurement {
     result.scalars["layers_per_box"] = with_steps(found[1], 1);
     result.scalars["layer_order"] = found[2];
   }
-  void save(analysis::StateWriter& writer) const override { layers_.save(writer); }
-  void restore(analysis::StateReader& reader) override { layers_.restore(reader); }
+  void save(StateWriter& writer) const override { layers_.save(writer); }
+  void restore(StateReader& reader) override { layers_.restore(reader); }
 
  private:
   double box_side_;  ///< [mm]

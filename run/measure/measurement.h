@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "analysis/state_io.h"
 #include "run/measure/reduction.h"
 #include "run/measure/sample.h"
 #include "scene/run_plan.h"
+#include "sim/core/state_io.h"
 #include "sim/rod/species.h"
 
 namespace shaken::run {
@@ -19,9 +19,9 @@ class Measurement {
   /// Adds arrays and scalars of the steady state, which begins at result.t_steady.
   virtual void reduce(Reduction& result) const = 0;
 
-  virtual void save(analysis::StateWriter& writer) const = 0;
-  /// Throws analysis::StateError if the bytes are not of such a measurement.
-  virtual void restore(analysis::StateReader& reader) = 0;
+  virtual void save(StateWriter& writer) const = 0;
+  /// Throws StateError if the bytes are not of such a measurement.
+  virtual void restore(StateReader& reader) = 0;
 };
 
 /// What a measurement may know of its run when it is made.

@@ -56,8 +56,8 @@ class MeasuredDisplacement : public Measurement {
     result.scalars["diffusion_short_lag_from_s"] = {total.at_short.lag_from};
     result.scalars["diffusion_short_lag_to_s"] = {total.at_short.lag_to};
   }
-  void save(analysis::StateWriter& writer) const override { msd_.save(writer); }
-  void restore(analysis::StateReader& reader) override { msd_.restore(reader); }
+  void save(StateWriter& writer) const override { msd_.save(writer); }
+  void restore(StateReader& reader) override { msd_.restore(reader); }
 
  private:
   std::optional<double> steady_;  ///< [s]; given, it leaves out what is before, or else the reduction does

@@ -27,12 +27,12 @@ void MeasuredOrder::reduce(Reduction& result) const {
   result.scalars["susceptibility"] = moments[1];
 }
 
-void MeasuredOrder::save(analysis::StateWriter& writer) const {
+void MeasuredOrder::save(StateWriter& writer) const {
   series_.save(writer);
   statistics_.save(writer);
 }
 
-void MeasuredOrder::restore(analysis::StateReader& reader) {
+void MeasuredOrder::restore(StateReader& reader) {
   series_.restore(reader);
   statistics_.restore(reader);
 }

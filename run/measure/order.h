@@ -15,8 +15,8 @@ class MeasuredOrder : public Measurement {
 
   void sample(const Sample& sample) override;
   void reduce(Reduction& result) const override;
-  void save(analysis::StateWriter& writer) const override;
-  void restore(analysis::StateReader& reader) override;
+  void save(StateWriter& writer) const override;
+  void restore(StateReader& reader) override;
 
   const analysis::OrderSeries& series() const { return series_; }
 

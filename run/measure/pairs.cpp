@@ -44,8 +44,8 @@ class MeasuredPairs : public Measurement {
     });
     result.scalars["wavelength_g2_mm"] = wavelength[0];
   }
-  void save(analysis::StateWriter& writer) const override { pairs_.save(writer); }
-  void restore(analysis::StateReader& reader) override { pairs_.restore(reader); }
+  void save(StateWriter& writer) const override { pairs_.save(writer); }
+  void restore(StateReader& reader) override { pairs_.restore(reader); }
 
  private:
   double strip_;  ///< [mm]

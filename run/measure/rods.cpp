@@ -28,8 +28,8 @@ class MeasuredRods : public Measurement {
       result.arrays[path + "n_z"] = trace.n_z;
     }
   }
-  void save(analysis::StateWriter& writer) const override { traces_.save(writer); }
-  void restore(analysis::StateReader& reader) override { traces_.restore(reader); }
+  void save(StateWriter& writer) const override { traces_.save(writer); }
+  void restore(StateReader& reader) override { traces_.restore(reader); }
 
  private:
   double from_;  ///< [s]

@@ -36,8 +36,8 @@ class MeasuredRotation : public Measurement {
     result.scalars["rotation_short_lag_from_s"] = {summary.growth.at_short.lag_from};
     result.scalars["rotation_short_lag_to_s"] = {summary.growth.at_short.lag_to};
   }
-  void save(analysis::StateWriter& writer) const override { rotation_.save(writer); }
-  void restore(analysis::StateReader& reader) override { rotation_.restore(reader); }
+  void save(StateWriter& writer) const override { rotation_.save(writer); }
+  void restore(StateReader& reader) override { rotation_.restore(reader); }
 
  private:
   std::optional<double> steady_;  ///< [s]; given, it leaves out what is before, or else the reduction does

@@ -27,8 +27,8 @@ class MeasuredStructure : public Measurement {
         structure_, result.t_steady,
         [](const analysis::StructureFactor& part) { return std::vector<double>{part.reduce().all.front()}; })[0];
   }
-  void save(analysis::StateWriter& writer) const override { structure_.save(writer); }
-  void restore(analysis::StateReader& reader) override { structure_.restore(reader); }
+  void save(StateWriter& writer) const override { structure_.save(writer); }
+  void restore(StateReader& reader) override { structure_.restore(reader); }
 
  private:
   analysis::Blocked<analysis::StructureFactor> structure_;

@@ -42,11 +42,11 @@ class MeasuredTilt : public Measurement {
     result.scalars["tilt_reversal_n_z"] = scalar(summary.n_z_zero);
     result.scalars["tilt_reversal_sigmas"] = {summary.zero_sigma};
   }
-  void save(analysis::StateWriter& writer) const override {
+  void save(StateWriter& writer) const override {
     tilt_.save(writer);
     switches_.save(writer);
   }
-  void restore(analysis::StateReader& reader) override {
+  void restore(StateReader& reader) override {
     tilt_.restore(reader);
     switches_.restore(reader);
   }

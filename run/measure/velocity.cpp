@@ -42,8 +42,8 @@ class MeasuredVelocity : public Measurement {
     velocity_rms.value = rms;
     velocity_rms.sem /= 2 * rms;
   }
-  void save(analysis::StateWriter& writer) const override { velocity_.save(writer); }
-  void restore(analysis::StateReader& reader) override { velocity_.restore(reader); }
+  void save(StateWriter& writer) const override { velocity_.save(writer); }
+  void restore(StateReader& reader) override { velocity_.restore(reader); }
 
  private:
   std::optional<double> steady_;  ///< [s]; given, it leaves out what is before, or else the reduction does

@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "analysis/state_io.h"
+#include "sim/core/state_io.h"
 
 namespace shaken::analysis {
 

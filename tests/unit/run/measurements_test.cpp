@@ -480,11 +480,11 @@ TEST(Measurements, RefuseTheStateOfAnotherPlan) {
   measure(full, 0, 5000);
   scene::RunPlan p = plan();
   p.tilt.reset();
-  EXPECT_THROW(Measurements(p, species()).restore(full.save()), analysis::StateError);
+  EXPECT_THROW(Measurements(p, species()).restore(full.save()), StateError);
   p = plan();
   p.angles->bins = 20;
-  EXPECT_THROW(Measurements(p, species()).restore(full.save()), analysis::StateError);
-  EXPECT_THROW(Measurements(plan(), species()).restore({}), analysis::StateError);
+  EXPECT_THROW(Measurements(p, species()).restore(full.save()), StateError);
+  EXPECT_THROW(Measurements(plan(), species()).restore({}), StateError);
 }
 
 TEST(LargestTilt, IsSetByTheGap) {

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-namespace shaken::analysis {
+#include "sim/core/types.h"
+
+namespace shaken {
 
 /// Saved bytes that are too short, too long, or not of the object that reads them.
 class StateError : public std::runtime_error {
@@ -16,21 +20,33 @@ class StateError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Appends numbers and arrays to bytes, exactly, in the byte order of the machine: the part of a checkpoint that the
-/// accumulators own. Guarding the bytes against rot is the checkpoint's business.
+/// Numbers that are saved as they are; a bool has no size that all machines agree on.
+template <class T>
+concept SavedNumber = (std::integral<T> || std::floating_point<T>)&&!std::same_as<T, bool>;
+
+/// Appends numbers and arrays to bytes, exactly and little-endian: all that checkpoints are made of. Guarding the bytes
+/// against rot is the business of who writes them into a file.
 class StateWriter {
  public:
   /// Opens the part of one object, so that a reader out of step finds out at once.
-  void tag(std::string_view name);
-  void put(double value);
-  void put(std::int64_t value);
+  void tag(std::string_view name) { put(std::as_bytes(std::span(name))); }
+  /// A number of as many bytes as its type has.
+  template <SavedNumber T>
+  void put(T value) {
+    append(std::as_bytes(std::span(&value, 1)));
+  }
+  void put(const Vec3& v) { append(std::as_bytes(std::span(v.data(), 3))); }
+  /// Arrays, behind their lengths (64 bits).
   void put(std::span<const double> values);
   void put(std::span<const std::int64_t> values);
+  void put(std::span<const std::byte> bytes);
+  /// Bytes without their length.
+  void append(std::span<const std::byte> bytes);
 
   const std::vector<std::byte>& bytes() const { return bytes_; }
+  std::vector<std::byte> take() { return std::move(bytes_); }
 
  private:
-  void append(const void* data, std::size_t size);
   std::vector<std::byte> bytes_;
 };
 
@@ -41,6 +57,11 @@ class StateReader {
   explicit StateReader(std::span<const std::byte> bytes) : rest_(bytes) {}
 
   void tag(std::string_view name);
+  template <SavedNumber T>
+  void get(T& value) {
+    fill(std::as_writable_bytes(std::span(&value, 1)));
+  }
+  void get(Vec3& v) { fill(std::as_writable_bytes(std::span(v.data(), 3))); }
   double real();
   std::int64_t integer();
   /// A count or an index: throws if it is outside [lowest, highest].
@@ -50,13 +71,18 @@ class StateReader {
   /// Arrays whose length is known; throw if the stored one differs.
   std::vector<double> reals(std::size_t length);
   std::vector<std::int64_t> integers(std::size_t length);
+  /// Bytes behind their length, and a number of bytes; a part of those that are read, not a copy.
+  std::span<const std::byte> bytes();
+  std::span<const std::byte> bytes(std::size_t size);
   /// Throws unless everything has been read.
   void end() const;
 
  private:
+  template <class T>
+  std::vector<T> array();
   std::size_t length_of(std::size_t element_size);
-  void take(void* data, std::size_t size);
+  void fill(std::span<std::byte> to);
   std::span<const std::byte> rest_;
 };
 
-}  // namespace shaken::analysis
+}  // namespace shaken

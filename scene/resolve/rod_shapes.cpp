@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "scene/derived.h"
+#include "scene/resolve/steps.h"
+#include "sim/rod/species.h"
+
+namespace shaken::scene {
+
+namespace {
+
+/// Neighbouring beads leave no hole between them.
+bool touching(const RodShape& candidate) {
+  const Species species = make_species(candidate);
+  for (int b = 0; b + 1 < species.n_beads(); ++b) {
+    if (species.bead_radius[b] + species.bead_radius[b + 1] < species.pitch()) return false;
+  }
+  return true;
+}
+
+/// Beads one by one: what the other keys say of them follows.
+bool resolve_listed_beads(Resolution& scene, const RodGroup& group) {
+  RodShape& rod = group.rod;
+  const std::vector<double>& diameters = rod.bead_diameters;
+  const std::string list = group.path("bead_diameters");
+  const auto n = static_cast<int>(diameters.size());
+  const double thickest = *std::max_element(diameters.begin(), diameters.end());
+  bool fine = true;
+  const auto follows = [&](const char* key, double value) {
+    if (scene.given(group.path(key)) && scene.number(group.path(key)) != value) {
+      scene.report({group.path(key)},
+                   fmt::format("{} follows from {}, which makes it {:.10g}; remove it", group.path(key), list, value));
+      fine = false;
+    }
+    return value;
+  };
+  if (n > kMaxBeads) {
+    return scene.refuse({list}, fmt::format("{} beads are more than {}", n, kMaxBeads));
+  }
+  rod.n_beads = static_cast<int>(follows("beads", n));
+  rod.mid_diameter = follows("mid_diameter", thickest);
+  rod.end_diameter = follows("end_diameter", diameters.back());
+  for (const char* key : {"profile", "bead_pitch"}) {
+    if (!scene.given(group.path(key))) continue;
+    scene.report({group.path(key)}, fmt::format("{} and {} are both given; remove one", list, group.path(key)));
+    fine = false;
+  }
+  if (n == 1) rod.length = follows("length", thickest);
+  if (!fine) return false;
+  if (n > 1 && rod.length <= thickest) {
+    return scene.refuse({group.path("length"), list},
+                        fmt::format("a rod of length {} is not longer than its thickest bead ({})",
+                                    length_text(rod.length), length_text(thickest)));
+  }
+  const double pitch = n > 1 ? (rod.length - 0.5 * (diameters.front() + diameters.back())) / (n - 1) : 0.0;
+  for (int b = 0; b < n; ++b) {
+    const double center = 0.5 * diameters.front() + b * pitch;
+    const double radius = 0.5 * diameters[static_cast<std::size_t>(b)];
+    if (center - radius >= -1e-9 && center + radius <= rod.length + 1e-9) continue;
+    return scene.refuse({list, group.path("length")},
+                        fmt::format("bead {} of {} would stick out beyond the tips of a rod of {}", b + 1,
+                                    length_text(diameters[static_cast<std::size_t>(b)]), length_text(rod.length)));
+  }
+  if (!touching(rod)) {
+    return scene.refuse({list},
+                        fmt::format("{} beads of these diameters leave holes between them on a rod of {}; give more", n,
+                                    length_text(rod.length)));
+  }
+  return true;
+}
+
+bool resolve_shape(Resolution& scene, const RodGroup& group) {
+  RodShape& rod = group.rod;
+  const std::string length_path = group.path("length"), mid = group.path("mid_diameter"),
+                    end = group.path("end_diameter"), beads = group.path("beads"),
+                    pitch_path = group.path("bead_pitch"), list = group.path("bead_diameters");
+  if (!scene.ok({length_path, mid, end, beads, pitch_path, list})) return false;
+  if (!rod.bead_diameters.empty()) return resolve_listed_beads(scene, group);
+  if (scene.given(beads) && scene.given(pitch_path)) {
+    return scene.refuse({beads}, fmt::format("{} and {} are both given; remove one", beads, pitch_path));
+  }
+  if (scene.given(beads) && rod.n_beads % 2 == 0) {
+    return scene.refuse({beads}, fmt::format("{} is even; a rod has a centre bead, so an odd number; did you mean {}?",
+                                             rod.n_beads, rod.n_beads + 1));
+  }
+  if (scene.given(beads) && rod.n_beads == 1) {
+    if (!scene.given(length_path)) rod.length = rod.mid_diameter;
+    if (rod.length == rod.mid_diameter) return true;
+    return scene.refuse({length_path, beads}, fmt::format("one bead is a sphere: {} ({}) must be {} ({})", length_path,
+                                                          length_text(rod.length), mid, length_text(rod.mid_diameter)));
+  }
+  const double thickest = std::max(rod.mid_diameter, rod.end_diameter);
+  if (rod.length <= thickest) {
+    return scene.refuse({length_path, mid, end},
+                        fmt::format("a rod of length {} is not longer than its thickest bead ({})",
+                                    length_text(rod.length), length_text(thickest)));
+  }
+  if (!scene.given(beads)) {
+    const double pitch = scene.number(pitch_path);
+    if ((rod.length - rod.end_diameter) / pitch > kMaxBeads - 1) {
+      return scene.refuse({pitch_path, length_path},
+                          fmt::format("beads every {} make more than {} on a rod of {}", length_text(pitch), kMaxBeads,
+                                      length_text(rod.length)));
+    }
+    rod.n_beads = beads_for_pitch(rod.length, rod.end_diameter, pitch);
+  }
+  if (rod.n_beads > 1 && !touching(rod)) {
+    RodShape enough = rod;
+    while (!touching(enough) && enough.n_beads < kMaxBeads) enough.n_beads += 2;
+    return scene.refuse({beads, pitch_path, length_path},
+                        fmt::format("{} beads leave holes between them on a rod of {}; take at least {}", rod.n_beads,
+                                    length_text(rod.length), enough.n_beads));
+  }
+  return true;
+}
+
+}  // namespace
+
+bool resolve_rod_shapes(Resolution& scene) {
+  bool all_ok = true;
+  for (const RodGroup& group : rod_groups(scene.plan.system)) all_ok = resolve_shape(scene, group) && all_ok;
+  return all_ok;
+}
+
+}  // namespace shaken::scene

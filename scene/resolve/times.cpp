@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/accuracy.h"
+#include "scene/derived.h"
+#include "scene/resolve/steps.h"
+#include "sim/rod/species.h"
+
+namespace shaken::scene {
+
+namespace {
+
+constexpr double kLeastTicksPerPeriod = 20;
+// Of a bead's radius, beyond which a run ends: kMaxOverlapFraction in sim/stepping/tick.h.
+constexpr double kDeepestOverlap = 0.5;
+
+}  // namespace
+
+void resolve_accuracy(Resolution& scene) {
+  System& system = scene.plan.system;
+  const Given* word = scene.draft.find("accuracy");
+  if (!word || !scene.ok({"accuracy", "time.step"})) return;
+  const AccuracyLevel* level = accuracy_level(std::get<std::string>(word->value));
+  if (!scene.given("time.step")) system.dt = level->step;
+  if (system.dt == level->step) return;
+  scene.report({"accuracy"}, fmt::format("accuracy \"{}\" is a time.step of {}, but time.step {} is given; remove one",
+                                         level->name, time_text(level->step), time_text(system.dt)));
+}
+
+bool check_step(Resolution& scene) {
+  if (!scene.ok({"plates.frequency", "plates.gamma", "plates.amplitude"})) return false;
+  const System& system = scene.plan.system;
+  if (system.dt * system.frequency * kLeastTicksPerPeriod <= 1) return true;
+  return scene.refuse({"time.step", "accuracy", "plates.frequency", "plates.amplitude"},
+                      fmt::format("a step of {} is too long for plates at {}: at most {}", time_text(system.dt),
+                                  format_quantity(system.frequency, Dimension::kFrequency),
+                                  time_text(1 / (kLeastTicksPerPeriod * system.frequency))));
+}
+
+void check_plates_in_a_tick(Resolution& scene) {
+  System& system = scene.plan.system;
+  if (!system.base && !system.lid) return;
+  const double speed = peak_speed_of(system);
+  double thinnest = INFINITY;
+  for (const RodGroup& group : rod_groups(system)) {
+    const Species species = make_species(group.rod);
+    thinnest = std::min(thinnest, *std::min_element(species.bead_radius.begin(), species.bead_radius.end()));
+  }
+  const double deepest = kDeepestOverlap * thinnest;
+  if (speed * system.dt <= deepest) return;
+  scene.report({"time.step", "accuracy", "plates.gamma", "plates.amplitude", "plates.frequency"},
+               fmt::format("plates as fast as {:.4g} mm/s move further in a step of {} than half the radius of the "
+                           "thinnest bead, {}, the deepest overlap there may be: the run would end in numerical "
+                           "trouble; take a step of at most {}, or shake less",
+                           speed, time_text(system.dt), length_text(deepest), time_text(deepest / speed)));
+}
+
+void check_intervals(Resolution& scene) {
+  const double step = scene.plan.system.dt;
+  for (const Field& field : fields()) {
+    const std::string_view block = block_around(field.path);
+    const bool is_interval = field.form == Form::kQuantity && field.dimension == Dimension::kTime && !block.empty();
+    if (!is_interval || !scene.draft.is_on(block) || !scene.draft.is_ok(field.path)) continue;
+    const double every = std::get<double>(field.fetch(scene.plan));
+    if (every < step) {
+      scene.report({field.path, "time.step", "accuracy"},
+                   fmt::format("{} {} is shorter than time.step {}", field.path, time_text(every), time_text(step)));
+    }
+  }
+}
+
+}  // namespace shaken::scene
