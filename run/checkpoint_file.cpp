@@ -75,8 +75,7 @@ std::vector<std::byte> to_bytes(std::string_view part) {
 
 }  // namespace
 
-std::optional<Error> write_checkpoint(const RunDirectory& directory, const std::string& run_id,
-                                      const Checkpoint& checkpoint) {
+Result<void> write_checkpoint(const RunDirectory& directory, const std::string& run_id, const Checkpoint& checkpoint) {
   const std::string payload = payload_of(checkpoint);
   std::string content(kMagic);
   put(content, kVersion);
@@ -85,7 +84,7 @@ std::optional<Error> write_checkpoint(const RunDirectory& directory, const std::
   put(content, static_cast<std::uint64_t>(XXH3_64bits(content.data(), content.size())));
 
   const std::filesystem::path file = directory.checkpoint();
-  if (auto error = write_file(temporary_for(file), content)) return error;
+  if (auto done = write_file(temporary_for(file), content); !done) return done.error();
   // The new one is written by now: should the machine stop between the renames, the previous one is whole.
   if (std::rename(file.c_str(), directory.previous_checkpoint().c_str()) != 0 && errno != ENOENT) {
     return Error{"cannot keep " + file.string() + ": " + std::strerror(errno)};

@@ -133,20 +133,21 @@ void run_daemon(const DaemonConfig& config) {
   info.pid = getpid();
   info.slots = config.slots;
   info.lcm_url = config.lcm_url;
-  proto::Bus::Opened lcm;
+  std::unique_ptr<proto::Bus> bus;
   if (config.lcm_url.empty()) {
     info.lcm_message = "switched off by --no-lcm";
+  } else if (auto opened = proto::Bus::open(config.lcm_url)) {
+    info.lcm_ok = true;
+    bus = std::move(opened).value();
   } else {
-    lcm = proto::Bus::open(config.lcm_url);
-    info.lcm_ok = static_cast<bool>(lcm);
-    info.lcm_message = lcm.reason;
-    if (!lcm) spdlog::warn("no live state: {}", lcm.reason);
+    info.lcm_message = opened.error().message;
+    spdlog::warn("no live state: {}", info.lcm_message);
   }
 
   LocalExecutor executor(config.worker);
   Supervisor supervisor(queue, executor, {info.runs(), config.slots, worker_options(config), config.grace});
   std::optional<StatusPublisher> publisher;
-  if (lcm) publisher.emplace(queue, std::move(lcm.bus), info);
+  if (bus) publisher.emplace(queue, std::move(bus), info);
   const Api api(queue, info);
   HttpServer http(info.socket(), [&api](const Request& request) { return api.handle(request); });
 

@@ -83,9 +83,9 @@ SubmitRequest parse_submit_request(std::string_view body) {
 
 scene::Loaded<Submission> expand(const SubmitRequest& request, const std::filesystem::path& runs) {
   const auto sweep = scene::load_runs(request.text, request.file, request.settings, request.replicas);
-  if (!sweep.value) return {std::nullopt, sweep.problems};
-  Submission submission{request.name.empty() ? sweep.value->name : request.name, request.priority, {}};
-  for (const scene::SweepPoint& point : sweep.value->points) {
+  if (!sweep) return sweep.error();
+  Submission submission{request.name.empty() ? sweep->name : request.name, request.priority, {}};
+  for (const scene::SweepPoint& point : sweep->points) {
     NewJob job;
     job.id = scene::run_id(point.plan);
     job.scene = scene::to_json(point.plan).dump(2) + "\n";
@@ -95,7 +95,7 @@ scene::Loaded<Submission> expand(const SubmitRequest& request, const std::filesy
     job.results_lost = !std::filesystem::exists(run::RunDirectory{runs / job.id}.summary());
     submission.jobs.push_back(std::move(job));
   }
-  return {std::move(submission), {}};
+  return submission;
 }
 
 }  // namespace shaken::server

@@ -105,8 +105,8 @@ bool Supervisor::start(const Job& job) {
       complain("job " + job.id + " waits: " + lock.error().message);
       return false;
     }
-    if (const auto refused = write_file_atomically(directory.scene(), queue_.scene(job.id))) {
-      complain("job " + job.id + " waits: " + refused->message);
+    if (auto done = write_file_atomically(directory.scene(), queue_.scene(job.id)); !done) {
+      complain("job " + job.id + " waits: " + done.error().message);
       return false;
     }
   }

@@ -57,7 +57,7 @@ class TrajectoryWriter {
   TrajectoryWriter(TrajectoryWriter&&) noexcept;
   TrajectoryWriter& operator=(TrajectoryWriter&&) noexcept;
   ~TrajectoryWriter();
-  [[nodiscard]] std::optional<Error> append(const Snapshot& snapshot);
+  Result<void> append(const Snapshot& snapshot);
   std::size_t n_frames() const;
 
  private:

@@ -234,14 +234,14 @@ TrajectoryWriter::~TrajectoryWriter() = default;
 
 std::size_t TrajectoryWriter::n_frames() const { return impl_->n_frames; }
 
-std::optional<Error> TrajectoryWriter::append(const Snapshot& snapshot) {
+Result<void> TrajectoryWriter::append(const Snapshot& snapshot) {
   if (snapshot.n_rods() != impl_->n_rods) {
     return Error{impl_->path.string() + " holds " + std::to_string(impl_->n_rods) + " rods, the frame has " +
                  std::to_string(snapshot.n_rods())};
   }
   try {
     impl_->append(snapshot);
-    return std::nullopt;
+    return {};
   } catch (const hdf5::Failure& failure) {
     return Error{impl_->path.string() + ": " + failure.what()};
   }
