@@ -11,8 +11,8 @@
 #include <csignal>
 #include <cstdio>
 #include <memory>
-#include <stdexcept>
 
+#include "base/failure.h"
 #include "run/files/directory.h"
 #include "run/files/version.h"
 #include "server/api.h"
@@ -67,9 +67,9 @@ std::string host_name() {
 void make_private_directory(const std::filesystem::path& directory) {
   std::error_code error;
   std::filesystem::create_directories(directory, error);
-  if (error) throw std::runtime_error("cannot make " + directory.string() + ": " + error.message());
+  if (error) throw Failure(ExitCode::kFailed, "cannot make " + directory.string() + ": " + error.message());
   std::filesystem::permissions(directory, std::filesystem::perms::owner_all, error);
-  if (error) throw std::runtime_error("cannot protect " + directory.string() + ": " + error.message());
+  if (error) throw Failure(ExitCode::kFailed, "cannot protect " + directory.string() + ": " + error.message());
 }
 
 std::filesystem::path log_file(const DaemonConfig& config) { return config.root / "shakend.log"; }
@@ -112,15 +112,15 @@ void stop_workers(Supervisor& supervisor, const Signals& signals) {
 
 void run_daemon(const DaemonConfig& config) {
   if (access(config.worker.c_str(), X_OK) != 0) {
-    throw std::runtime_error("there is no worker program at " + config.worker.string() +
-                             "; build or install it, or name it with --worker");
+    throw Failure(ExitCode::kFailed, "there is no worker program at " + config.worker.string() +
+                                         "; build or install it, or name it with --worker");
   }
   umask(0077);
   DaemonInfo info;
   info.root = std::filesystem::absolute(config.root).lexically_normal();
   make_private_directory(info.root);
   const auto lock = run::DirectoryLock::acquire(info.root / "shakend.lock");
-  if (!lock) throw std::runtime_error("another shakend is at work: " + lock.error().message);
+  if (!lock) throw Failure(ExitCode::kFailed, "another shakend is at work: " + lock.error().message);
   make_private_directory(info.runs());
   start_log(config);
   const Signals signals;
@@ -158,7 +158,7 @@ void run_daemon(const DaemonConfig& config) {
 
   do {
     supervisor.step();
-    if (http.ended_within(milliseconds(0))) throw std::runtime_error("the control socket has failed");
+    if (http.ended_within(milliseconds(0))) throw Failure(ExitCode::kFailed, "the control socket has failed");
   } while (!signals.wait(kRound));
 
   spdlog::info("stopping: workers write a checkpoint");
