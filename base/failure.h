@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -36,9 +35,9 @@ T value_or_fail(Result<T> result, ExitCode code = ExitCode::kFailed) {
   return std::move(result).value();
 }
 
-/// Throws Failure with the words of `error` if there is one.
-inline void fail_if(const std::optional<Error>& error, ExitCode code = ExitCode::kFailed) {
-  if (error) throw Failure(code, error->message);
+/// Failure with the words of the error if `result` is one.
+inline void done_or_fail(const Result<void>& result, ExitCode code = ExitCode::kFailed) {
+  if (!result) throw Failure(code, result.error().message);
 }
 
 }  // namespace shaken

@@ -196,7 +196,7 @@ std::filesystem::path draw(const Figure& figure, const std::filesystem::path& fo
 }
 
 std::filesystem::path draw(const Sheet& sheet, const std::filesystem::path& folder) {
-  fail_if(make_folder(folder));
+  done_or_fail(make_folder(folder));
   const int n = static_cast<int>(sheet.panels.size());
   const int rows = (n + sheet.columns - 1) / sheet.columns;
   std::string script =

@@ -28,17 +28,17 @@ Descriptor open_file(const std::filesystem::path& path, int flags) {
   return Descriptor(::open(path.c_str(), flags | O_CLOEXEC, 0666));
 }
 
-std::optional<Error> write_through(const std::filesystem::path& file, std::string_view content) {
+Result<void> write_through(const std::filesystem::path& file, std::string_view content) {
   Descriptor out = open_file(file, O_WRONLY | O_CREAT | O_TRUNC);
   if (!out || !write_all(out.value(), content) || !out.close_now())
     return system_error("cannot write " + file.string());
-  return std::nullopt;
+  return {};
 }
 
-std::optional<Error> sync(const std::filesystem::path& path, int flags) {
+Result<void> sync(const std::filesystem::path& path, int flags) {
   const Descriptor opened = open_file(path, flags);
   if (!opened || ::fsync(opened.value()) != 0) return system_error("cannot bring to the disk " + path.string());
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace
@@ -49,32 +49,30 @@ std::filesystem::path temporary_for(const std::filesystem::path& file) {
   return temporary;
 }
 
-std::optional<Error> replace_file(const std::filesystem::path& written, const std::filesystem::path& file) {
-  std::optional<Error> error = sync(written, O_RDONLY);
-  if (!error && std::rename(written.c_str(), file.c_str()) != 0) {
-    error = system_error("cannot replace " + file.string());
-  }
-  if (error) {
+Result<void> replace_file(const std::filesystem::path& written, const std::filesystem::path& file) {
+  Result<void> done = sync(written, O_RDONLY);
+  if (done && std::rename(written.c_str(), file.c_str()) != 0) done = system_error("cannot replace " + file.string());
+  if (!done) {
     std::error_code ignored;
     std::filesystem::remove(written, ignored);
-    return error;
+    return done;
   }
   const std::filesystem::path folder = file.parent_path();
   return sync(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY);
 }
 
-std::optional<Error> write_file(const std::filesystem::path& file, std::string_view content) {
-  std::optional<Error> error = write_through(file, content);
-  if (error) {
+Result<void> write_file(const std::filesystem::path& file, std::string_view content) {
+  Result<void> done = write_through(file, content);
+  if (!done) {
     std::error_code ignored;
     std::filesystem::remove(file, ignored);
   }
-  return error;
+  return done;
 }
 
-std::optional<Error> write_file_atomically(const std::filesystem::path& file, std::string_view content) {
+Result<void> write_file_atomically(const std::filesystem::path& file, std::string_view content) {
   const std::filesystem::path temporary = temporary_for(file);
-  if (auto error = write_file(temporary, content)) return error;
+  if (auto done = write_file(temporary, content); !done) return done.error();
   return replace_file(temporary, file);
 }
 
@@ -97,11 +95,11 @@ bool means_no_room(std::string_view message) {
          message.find(std::strerror(EDQUOT)) != std::string_view::npos;
 }
 
-std::optional<Error> make_folder(const std::filesystem::path& folder) {
+Result<void> make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) return Error{folder.string() + ": " + error.message()};
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace shaken

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -14,15 +13,14 @@ namespace shaken {
 /// Replaces `file` by `content` so that a reader, or a crash at any instant, sees the old file or the new, never a
 /// mixture: writes FILE.tmp, fsync, rename, fsync of the folder. Returns the reason if the disk refuses; the old file
 /// is then untouched.
-[[nodiscard]] std::optional<Error> write_file_atomically(const std::filesystem::path& file, std::string_view content);
+Result<void> write_file_atomically(const std::filesystem::path& file, std::string_view content);
 
 /// The second half of the above alone: fsync of `written`, rename to `file`, fsync of the folder. Both are in the same
 /// folder; `written` is gone if this fails.
-[[nodiscard]] std::optional<Error> replace_file(const std::filesystem::path& written,
-                                                const std::filesystem::path& file);
+Result<void> replace_file(const std::filesystem::path& written, const std::filesystem::path& file);
 
 /// The first half alone: writes `content` without making it last, or removes what there is of it.
-[[nodiscard]] std::optional<Error> write_file(const std::filesystem::path& file, std::string_view content);
+Result<void> write_file(const std::filesystem::path& file, std::string_view content);
 
 /// FILE.tmp, where the next content of `file` is prepared.
 std::filesystem::path temporary_for(const std::filesystem::path& file);
@@ -34,6 +32,6 @@ Result<std::string> read_file(const std::filesystem::path& file);
 bool means_no_room(std::string_view message);
 
 /// Makes `folder` and those that lead to it, where they are missing.
-[[nodiscard]] std::optional<Error> make_folder(const std::filesystem::path& folder);
+Result<void> make_folder(const std::filesystem::path& folder);
 
 }  // namespace shaken

@@ -84,9 +84,9 @@ std::string curve_colour(std::size_t index, std::size_t count) {
 
 std::filesystem::path draw_plot(const std::filesystem::path& folder, const std::string& name, const std::string& data,
                                 const std::string& script, PictureFormat format) {
-  fail_if(make_folder(folder));
-  fail_if(write_file_atomically(folder / (name + ".dat"), data));
-  fail_if(write_file_atomically(folder / (name + ".gp"), script));
+  done_or_fail(make_folder(folder));
+  done_or_fail(write_file_atomically(folder / (name + ".dat"), data));
+  done_or_fail(write_file_atomically(folder / (name + ".gp"), script));
   const Captured gnuplot = run_captured({"gnuplot", name + ".gp"}, folder);
   std::filesystem::path picture = folder / (name + "." + suffix_of(format));
   if (gnuplot.exit_code == kNotFound) {

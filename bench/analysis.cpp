@@ -60,8 +60,8 @@ scene::RunPlan measuring_everything(const Case& scene) {
                   {"box", {{"side", scene.side}}},
                   {"measure", measure}};
   const scene::Loaded<scene::RunPlan> plan = scene::load_scene(text.dump(), "the scene");
-  if (!plan.value) throw Failure(ExitCode::kFailed, to_string(plan.problems));
-  return *plan.value;
+  if (!plan) throw Failure(ExitCode::kFailed, to_string(plan.error()));
+  return *plan;
 }
 
 std::vector<Single> singles_of(const scene::RunPlan& plan, const Species& species) {

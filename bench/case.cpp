@@ -82,15 +82,15 @@ Case make_case(double length, double area_fraction, double side, double dt, doub
                              {"time", {{"step", dt}, {"steady", 0}, {"measure", warm_up}}},
                              {"measure", {{"order", nullptr}}}};
   const auto loaded = scene::load_scene(scene.dump(), "scene");
-  if (!loaded.value) {
+  if (!loaded) {
     std::string problems;
-    for (const scene::Problem& problem : loaded.problems) {
+    for (const scene::Problem& problem : loaded.error()) {
       problems +=
           fmt::format("{}{}: {}: {}", problems.empty() ? "" : "\n  ", made.label(), problem.path, problem.message);
     }
     throw Failure(ExitCode::kBadInput, problems);
   }
-  made.plan = *loaded.value;
+  made.plan = *loaded;
   return made;
 }
 
@@ -118,12 +118,12 @@ SteadyState steady_state(const Case& wanted, const std::filesystem::path& cache)
   const std::filesystem::path file = cache / (key + ".state");
   if (auto cached = read_cached(wanted, key, file)) return {std::move(*cached), true};
 
-  fail_if(make_folder(cache));
+  done_or_fail(make_folder(cache));
   const Simulation simulation = simulate(wanted);
   SteadyState made{simulation.checkpoint(), false};
   std::string content = header_of(key, simulation.state_hash());
   content.append(reinterpret_cast<const char*>(made.checkpoint.data()), made.checkpoint.size());
-  fail_if(write_file_atomically(file, content));
+  done_or_fail(write_file_atomically(file, content));
   return made;
 }
 

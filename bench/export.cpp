@@ -90,7 +90,7 @@ struct ExportBench {
     if (out.empty()) {
       fmt::print("{}\n", json.dump());
     } else {
-      fail_if(write_file_atomically(out, json.dump() + "\n"));
+      done_or_fail(write_file_atomically(out, json.dump() + "\n"));
     }
     return ExitCode::kOk;
   }

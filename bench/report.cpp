@@ -142,9 +142,9 @@ void Output::give(const Report& report) const {
   fmt::print("{}", json ? text : report.text);
   std::fflush(stdout);
   if (folder.empty()) return;
-  fail_if(make_folder(folder));
-  fail_if(write_file_atomically(std::filesystem::path(folder) / (report.name + ".json"), text));
-  fail_if(write_file_atomically(std::filesystem::path(folder) / (report.name + ".csv"), csv(report.rows())));
+  done_or_fail(make_folder(folder));
+  done_or_fail(write_file_atomically(std::filesystem::path(folder) / (report.name + ".json"), text));
+  done_or_fail(write_file_atomically(std::filesystem::path(folder) / (report.name + ".csv"), csv(report.rows())));
 }
 
 }  // namespace shaken::bench

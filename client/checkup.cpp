@@ -64,9 +64,9 @@ CheckResult check_daemon(const fs::path& root) {
 
 CheckResult check_lcm() {
   const std::string url = proto::default_url();
-  const proto::Bus::Opened opened = proto::Bus::open(url);
-  if (opened) return {Level::kOk, "lcm", url, ""};
-  return {Level::kWarn, "lcm", fmt::format("{}: {}", url, opened.reason), "sudo ip route add 224.0.0.0/4 dev lo"};
+  const Result<std::unique_ptr<proto::Bus>> bus = proto::Bus::open(url);
+  if (bus) return {Level::kOk, "lcm", url, ""};
+  return {Level::kWarn, "lcm", fmt::format("{}: {}", url, bus.error().message), "sudo ip route add 224.0.0.0/4 dev lo"};
 }
 
 CheckResult check_gnuplot() {

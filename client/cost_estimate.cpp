@@ -29,7 +29,7 @@ constexpr const char* kAsWritten = "as written";
 Json probe(const scene::RunPlan& plan, const std::string& label, double cpu, const std::string& from) {
   const ScratchFolder folder;
   const std::string scene = folder.path() / "scene.json", answer = folder.path() / "cost.json";
-  fail_if(write_file(scene, scene::to_json(plan).dump()));
+  done_or_fail(write_file(scene, scene::to_json(plan).dump()));
   std::vector<std::string> command{
       sibling_program("shaken-worker").string(), scene, "--probe", answer, "--probe-cpu", fmt::format("{}", cpu)};
   if (!from.empty()) command.insert(command.end(), {"--probe-from", from});
@@ -60,12 +60,12 @@ Rates rates_of(const Json& report, const scene::RunPlan& plan) {
 }
 
 /// The plan at another step, or what speaks against it.
-std::optional<scene::RunPlan> at_step(const scene::RunPlan& plan, double step, std::string& error) {
+Result<scene::RunPlan> at_step(const scene::RunPlan& plan, double step) {
   nlohmann::ordered_json scene = scene::to_json(plan);
   scene["time"]["step"] = step;
   auto loaded = scene::load_scene(scene.dump(), "scene");
-  if (!loaded.value) error = loaded.problems.front().message;
-  return loaded.value;
+  if (!loaded) return Error{loaded.error().front().message};
+  return std::move(loaded).value();
 }
 
 /// At most `most` of `n` places, from the first to the last; if only one is wanted, the middle. They are rounded, not
@@ -184,9 +184,8 @@ class Estimator {
       double factor = 1;
       if (level.step != own.system.dt) {
         try {
-          if (const auto plan = at_step(own, level.step, cost.error)) {
-            factor = stepping_from_start(*plan, fmt::format("accuracy={}", level.name)) / yardstick;
-          }
+          const scene::RunPlan plan = value_or_fail(at_step(own, level.step));
+          factor = stepping_from_start(plan, fmt::format("accuracy={}", level.name)) / yardstick;
         } catch (const Failure& failure) {
           cost.error = failure.what();
         }

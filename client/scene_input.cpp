@@ -31,8 +31,8 @@ std::string refusal_text(const std::vector<scene::Problem>& problems) {
 scene::Sweep load_points(const SceneInput& input, const std::vector<std::string>& settings,
                          std::optional<int> replicas) {
   auto loaded = scene::load_runs(input.text, input.file, settings, replicas);
-  if (!loaded.value) throw Failure(ExitCode::kBadInput, refusal_text(loaded.problems));
-  return *std::move(loaded.value);
+  if (!loaded) throw Failure(ExitCode::kBadInput, refusal_text(loaded.error()));
+  return std::move(loaded).value();
 }
 
 Json derived_quantities(const scene::SweepPoint& point) {

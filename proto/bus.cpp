@@ -12,7 +12,6 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <optional>
 #include <string_view>
 #include <thread>
 #include <utility>
@@ -26,9 +25,9 @@ constexpr milliseconds kLongestPause{5000};
 
 constexpr std::string_view kUdpm = "udpm://";
 
-/// Why udpm cannot start: connects a datagram socket to the group, which sends nothing but needs the same route. LCM
+/// Whether udpm can start: connects a datagram socket to the group, which sends nothing but needs the same route. LCM
 /// does this too, but then prints an uninitialised address to stderr.
-std::optional<std::string> udpm_trouble(const std::string& url) {
+Result<void> check_udpm(const std::string& url) {
   const std::string target = url.substr(kUdpm.size(), url.find('?') - kUdpm.size());
   const std::string address = target.substr(0, target.find(':'));
   sockaddr_in group{};
@@ -36,26 +35,27 @@ std::optional<std::string> udpm_trouble(const std::string& url) {
   group.sin_port = htons(7667);  // any port: only the route counts
   if (inet_aton(address.empty() ? "239.255.76.67" : address.c_str(), &group.sin_addr) == 0 ||
       !IN_MULTICAST(ntohl(group.sin_addr.s_addr))) {
-    return "LCM cannot start: '" + address + "' in '" + url +
-           "' is not a multicast address (224.0.0.0 to 239.255.255.255)";
+    return Error{"LCM cannot start: '" + address + "' in '" + url +
+                 "' is not a multicast address (224.0.0.0 to 239.255.255.255)"};
   }
   const int fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  if (fd < 0) return std::string("LCM cannot start: socket: ") + std::strerror(errno);
+  if (fd < 0) return Error{std::string("LCM cannot start: socket: ") + std::strerror(errno)};
   const bool routed = connect(fd, reinterpret_cast<const sockaddr*>(&group), sizeof(group)) == 0;
   const int reason = errno;
   close(fd);
-  if (routed) return std::nullopt;
-  return "LCM cannot start: no multicast route to " + (address.empty() ? std::string("239.255.76.67") : address) +
-         " (" + std::strerror(reason) + "). As root: ip route add 224.0.0.0/4 dev lo";
+  if (routed) return {};
+  return Error{"LCM cannot start: no multicast route to " + (address.empty() ? std::string("239.255.76.67") : address) +
+               " (" + std::strerror(reason) + "). As root: ip route add 224.0.0.0/4 dev lo"};
 }
 
-std::optional<std::string> url_trouble(const std::string& url) {
-  if (url.starts_with(kUdpm)) return udpm_trouble(url);
+Result<void> check_url(const std::string& url) {
+  if (url.starts_with(kUdpm)) return check_udpm(url);
   constexpr std::array<std::string_view, 3> kOthers{"tcpq://", "memq://", "file://"};
   if (std::any_of(kOthers.begin(), kOthers.end(), [&](auto prefix) { return url.starts_with(prefix); })) {
-    return std::nullopt;
+    return {};
   }
-  return "LCM cannot start: '" + url + "' is no LCM address; it begins with udpm://, tcpq://, memq:// or file://";
+  return Error{"LCM cannot start: '" + url +
+               "' is no LCM address; it begins with udpm://, tcpq://, memq:// or file://"};
 }
 
 }  // namespace
@@ -73,12 +73,12 @@ std::string default_url() {
   return set != nullptr && *set != '\0' ? set : kDefaultUrl;
 }
 
-Bus::Opened Bus::open(const std::string& url) {
-  if (auto trouble = url_trouble(url)) return {nullptr, *trouble};
+Result<std::unique_ptr<Bus>> Bus::open(const std::string& url) {
+  if (auto done = check_url(url); !done) return done.error();
   std::unique_ptr<Bus> bus(new Bus(url));
   bus->lcm_ = lcm_create(url.c_str());
-  if (bus->lcm_ == nullptr) return {nullptr, "LCM cannot start with '" + url + "'"};
-  return {std::move(bus), ""};
+  if (bus->lcm_ == nullptr) return Error{"LCM cannot start with '" + url + "'"};
+  return bus;
 }
 
 Bus::~Bus() {

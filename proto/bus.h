@@ -12,6 +12,7 @@
 
 #include "proto/channels.h"
 #include "proto/codec.h"
+#include "sim/core/result.h"
 
 using lcm_t = struct _lcm_t;
 
@@ -40,13 +41,8 @@ struct BusCounters {
 /// One thread per object: neither publish() nor handle() may run beside another call.
 class Bus {
  public:
-  struct Opened {
-    std::unique_ptr<Bus> bus;  ///< empty on failure
-    std::string reason;        ///< why, and what to do about it
-    explicit operator bool() const { return bus != nullptr; }
-  };
-  /// url: udpm://ADDRESS:PORT?..., tcpq://HOST:PORT, memq:// or file://PATH?mode=w|r.
-  static Opened open(const std::string& url = default_url());
+  /// url: udpm://ADDRESS:PORT?..., tcpq://HOST:PORT, memq:// or file://PATH?mode=w|r. An error says what to do.
+  static Result<std::unique_ptr<Bus>> open(const std::string& url = default_url());
   ~Bus();
   Bus(const Bus&) = delete;
   Bus& operator=(const Bus&) = delete;

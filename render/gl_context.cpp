@@ -33,14 +33,14 @@ Result<GlContext> GlContext::create() {
   return GlContext(context);
 }
 
-std::optional<Error> GlContext::bind(int side) {
+Result<void> GlContext::bind(int side) {
   const auto n = static_cast<std::size_t>(side);
   pixels_.resize(n * n * 4);
   if (!OSMesaMakeCurrent(static_cast<OSMesaContext>(context_.get()), pixels_.data(), GL_UNSIGNED_BYTE, side, side)) {
     return Error{"OSMesa refuses a frame buffer of " + std::to_string(side) + " x " + std::to_string(side) + " pixels"};
   }
   glViewport(0, 0, side, side);
-  return std::nullopt;
+  return {};
 }
 
 const std::vector<std::uint8_t>& GlContext::finished_pixels() {

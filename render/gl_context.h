@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "sim/core/result.h"
@@ -20,7 +19,7 @@ class GlContext {
   ~GlContext();
 
   /// Makes the context current in this thread, with a frame buffer of `side` x `side` pixels.
-  [[nodiscard]] std::optional<Error> bind(int side);
+  Result<void> bind(int side);
   /// The frame buffer after all drawing is done: RGBA, rows from bottom to top, (side * side * 4).
   const std::vector<std::uint8_t>& finished_pixels();
 

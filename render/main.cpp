@@ -81,7 +81,7 @@ PictureStyle style_of(const Options& options) {
   style.caption = !options.no_caption && !options.bare;
   style.legend = !options.no_legend && !options.bare;
   style.scale_bar = !options.no_scale_bar && !options.bare;
-  fail_if(check(style), ExitCode::kBadInput);
+  done_or_fail(check(style), ExitCode::kBadInput);
   return style;
 }
 
@@ -113,7 +113,7 @@ void paint_to_file(const Options& options, const PictureStyle& style, RodPicture
   if (!options.label.empty()) picture.label = options.label;
   Painter painter = value_or_fail(Painter::create(), ExitCode::kFailed);
   const Image image = value_or_fail(painter.paint(picture, style), ExitCode::kFailed);
-  fail_if(write_png(out, image, picture_texts(picture)));
+  done_or_fail(write_png(out, image, picture_texts(picture)));
   report(options, out, 1, style, watch);
 }
 
@@ -138,7 +138,7 @@ void make_picture(const Options& options) {
     }
     index = std::stoul(options.frame);
   }
-  if (style.caption) fail_if(source.read_history());
+  if (style.caption) done_or_fail(source.read_history());
   paint_to_file(options, style, value_or_fail(source.picture(index, style.mark_defects), ExitCode::kFailed),
                 out_of(options, source, "picture.png"), watch);
 }
@@ -186,7 +186,7 @@ void make_movie_file(const Options& options) {
   const std::string out = out_of(options, source, "movie.mp4");
   MovieOptions movie{options.fps, options.label, std::nullopt};
   if (options.keep_frames) movie.keep_frames = std::filesystem::path(out).parent_path() / "frames";
-  if (style.caption) fail_if(source.read_history());
+  if (style.caption) done_or_fail(source.read_history());
   const auto picture = [&](std::size_t i) -> Result<RodPicture> {
     Result<RodPicture> rods = source.picture(first + i * stride, style.mark_defects);
     if (rods && !options.label.empty()) rods->label = options.label;
@@ -197,11 +197,11 @@ void make_movie_file(const Options& options) {
   std::signal(SIGTERM, [](int) { stop_requested = 1; });
   {
     ProgressLine progress("drawing");
-    const auto error = make_movie(painter, out, style, movie, n_frames, picture, [&](std::size_t i) {
+    const Result<void> made = make_movie(painter, out, style, movie, n_frames, picture, [&](std::size_t i) {
       progress.show(static_cast<double>(i + 1) / static_cast<double>(n_frames));
       return stop_requested == 0;
     });
-    if (error) throw Failure(stop_requested != 0 ? ExitCode::kInterrupted : ExitCode::kFailed, error->message);
+    done_or_fail(made, stop_requested != 0 ? ExitCode::kInterrupted : ExitCode::kFailed);
   }
   report(options, out, n_frames, style, watch);
 }

@@ -8,10 +8,10 @@
 
 namespace shaken::render {
 
-std::optional<Error> make_movie(Painter& painter, const std::filesystem::path& file, const PictureStyle& style,
-                                const MovieOptions& options, std::size_t n_frames,
-                                const std::function<Result<RodPicture>(std::size_t)>& picture,
-                                const std::function<bool(std::size_t)>& on_frame) {
+Result<void> make_movie(Painter& painter, const std::filesystem::path& file, const PictureStyle& style,
+                        const MovieOptions& options, std::size_t n_frames,
+                        const std::function<Result<RodPicture>(std::size_t)>& picture,
+                        const std::function<bool(std::size_t)>& on_frame) {
   if (n_frames == 0) return Error{"there are no frames to make " + file.string() + " of"};
   if (options.keep_frames) {
     std::error_code code;
@@ -27,9 +27,9 @@ std::optional<Error> make_movie(Painter& painter, const std::filesystem::path& f
     if (!image) return image.error();
     if (options.keep_frames) {
       const auto name = *options.keep_frames / fmt::format("frame_{:06d}.png", i);
-      if (auto error = write_png(name, *image, picture_texts(*rods))) return error;
+      if (auto done = write_png(name, *image, picture_texts(*rods)); !done) return done.error();
     }
-    if (auto error = movie->add(*image)) return error;
+    if (auto done = movie->add(*image); !done) return done.error();
     if (on_frame && !on_frame(i)) return Error{"stopped after " + std::to_string(i + 1) + " frames"};
   }
   return movie->finish();

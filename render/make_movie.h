@@ -22,10 +22,9 @@ struct MovieOptions {
 /// Draws `n_frames` pictures and makes a movie of them. `picture(i)` gives frame i; `on_frame(i)`, if there is one, is
 /// called when frame i is in the movie, and may return false to stop, which is an error ("stopped").
 /// On any error no movie appears.
-[[nodiscard]] std::optional<Error> make_movie(Painter& painter, const std::filesystem::path& file,
-                                              const PictureStyle& style, const MovieOptions& options,
-                                              std::size_t n_frames,
-                                              const std::function<Result<RodPicture>(std::size_t)>& picture,
-                                              const std::function<bool(std::size_t)>& on_frame = {});
+Result<void> make_movie(Painter& painter, const std::filesystem::path& file, const PictureStyle& style,
+                        const MovieOptions& options, std::size_t n_frames,
+                        const std::function<Result<RodPicture>(std::size_t)>& picture,
+                        const std::function<bool(std::size_t)>& on_frame = {});
 
 }  // namespace shaken::render

@@ -58,11 +58,11 @@ struct MovieWriter::Impl {
 
   Error failed(const std::string& why) const { return Error{"cannot write " + file.string() + ": " + why}; }
 
-  std::optional<Error> open(int width, int height, double fps, const std::string& title);
-  std::optional<Error> encode(const AVFrame* picture);
+  Result<void> open(int width, int height, double fps, const std::string& title);
+  Result<void> encode(const AVFrame* picture);
 };
 
-std::optional<Error> MovieWriter::Impl::open(int width, int height, double fps, const std::string& title) {
+Result<void> MovieWriter::Impl::open(int width, int height, double fps, const std::string& title) {
   AVFormatContext* made = nullptr;
   if (const int code = avformat_alloc_output_context2(&made, nullptr, "mp4", unfinished.c_str()); code < 0) {
     return failed(av_words(code));
@@ -119,14 +119,14 @@ std::optional<Error> MovieWriter::Impl::open(int width, int height, double fps, 
   // The same matrix as the tags above name; the default would be BT.601. From full range RGB to limited range YUV.
   const int* bt709 = sws_getCoefficients(SWS_CS_ITU709);
   sws_setColorspaceDetails(scaler.get(), bt709, 1, bt709, 0, 0, 1 << 16, 1 << 16);
-  return std::nullopt;
+  return {};
 }
 
-std::optional<Error> MovieWriter::Impl::encode(const AVFrame* picture) {
+Result<void> MovieWriter::Impl::encode(const AVFrame* picture) {
   if (const int code = avcodec_send_frame(codec.get(), picture); code < 0) return failed(av_words(code));
   for (;;) {
     const int code = avcodec_receive_packet(codec.get(), packet.get());
-    if (code == AVERROR(EAGAIN) || code == AVERROR_EOF) return std::nullopt;
+    if (code == AVERROR(EAGAIN) || code == AVERROR_EOF) return {};
     if (code < 0) return failed(av_words(code));
     packet->stream_index = stream->index;
     packet->duration = 1;
@@ -152,11 +152,11 @@ Result<MovieWriter> MovieWriter::create(const std::filesystem::path& file, int w
   auto impl = std::make_unique<Impl>();
   impl->file = file;
   impl->unfinished = file.string() + ".tmp";
-  if (auto error = impl->open(width, height, fps, title)) return *error;
+  if (auto done = impl->open(width, height, fps, title); !done) return done.error();
   return MovieWriter(std::move(impl));
 }
 
-std::optional<Error> MovieWriter::add(const Image& image) {
+Result<void> MovieWriter::add(const Image& image) {
   AVFrame* frame = impl_->frame.get();
   if (image.width != frame->width || image.height != frame->height) {
     return impl_->failed("a frame of another size than the movie's");
@@ -166,18 +166,18 @@ std::optional<Error> MovieWriter::add(const Image& image) {
   const std::uint8_t* rows[] = {image.rgb.data()};
   const int strides[] = {image.width * 3};
   sws_scale(impl_->scaler.get(), rows, strides, 0, image.height, frame->data, frame->linesize);
-  if (auto error = impl_->encode(frame)) return error;
+  if (auto done = impl_->encode(frame); !done) return done.error();
   ++frame->pts;
-  return std::nullopt;
+  return {};
 }
 
-std::optional<Error> MovieWriter::finish() {
-  if (auto error = impl_->encode(nullptr)) return error;
+Result<void> MovieWriter::finish() {
+  if (auto done = impl_->encode(nullptr); !done) return done.error();
   if (const int code = av_write_trailer(impl_->format.get()); code < 0) return impl_->failed(av_words(code));
   if (const int code = avio_closep(&impl_->format->pb); code < 0) return impl_->failed(av_words(code));
   if (std::rename(impl_->unfinished.c_str(), impl_->file.c_str()) != 0) return impl_->failed(std::strerror(errno));
   impl_->finished = true;
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace shaken::render

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "render/image.h"
@@ -24,9 +23,9 @@ class MovieWriter {
   /// Removes the unfinished file if finish() was not called or failed.
   ~MovieWriter();
 
-  [[nodiscard]] std::optional<Error> add(const Image& image);
+  Result<void> add(const Image& image);
   /// Writes what the encoder still holds and gives the file its name.
-  [[nodiscard]] std::optional<Error> finish();
+  Result<void> finish();
 
  private:
   struct Impl;

@@ -14,7 +14,7 @@ Result<Painter> Painter::create() {
 }
 
 Result<Image> Painter::paint(const RodPicture& picture, const PictureStyle& style) {
-  if (auto error = check(style)) return *error;
+  if (auto done = check(style); !done) return done.error();
   const Layout layout =
       layout_of(style, !picture.history.time.empty(), !picture.label.empty(), picture.n_species() > 1);
   Result<Image> rods = rods_.draw(picture, style, layout.box_side);

@@ -74,14 +74,14 @@ double RodPicture::area_fraction() const {
   return covered / floor_area(*this);
 }
 
-std::optional<Error> check(const PictureStyle& style) {
+Result<void> check(const PictureStyle& style) {
   constexpr int kLeast = 64, kMost = 5000;
   if (std::min(style.width, style.height) < kLeast || std::max(style.width, style.height) > kMost) {
     return Error{"a picture of " + std::to_string(style.width) + "x" + std::to_string(style.height) +
                  " pixels is not possible; each side may be 64 to 5000"};
   }
   if (!(style.zoom >= 1) || !style.focus.allFinite()) return Error{"zoom must be at least 1, and focus finite"};
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace shaken::render

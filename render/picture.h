@@ -84,6 +84,6 @@ struct PictureStyle {
 };
 
 /// What is wrong with a style, if anything.
-std::optional<Error> check(const PictureStyle& style);
+Result<void> check(const PictureStyle& style);
 
 }  // namespace shaken::render

@@ -60,7 +60,7 @@ PngTexts picture_texts(const RodPicture& picture) {
   return texts;
 }
 
-std::optional<Error> write_png(const std::filesystem::path& file, const Image& image, const PngTexts& texts) {
+Result<void> write_png(const std::filesystem::path& file, const Image& image, const PngTexts& texts) {
   const auto failed = [&](const std::string& why) { return Error{"cannot write " + file.string() + ": " + why}; };
   const std::filesystem::path unfinished = file.string() + ".tmp";
   std::unique_ptr<std::FILE, CloseFile> stream(std::fopen(unfinished.c_str(), "wb"));
@@ -81,7 +81,7 @@ std::optional<Error> write_png(const std::filesystem::path& file, const Image& i
     good = false;
     message = std::strerror(errno);
   }
-  if (good && std::rename(unfinished.c_str(), file.c_str()) == 0) return std::nullopt;
+  if (good && std::rename(unfinished.c_str(), file.c_str()) == 0) return {};
   if (good) message = std::strerror(errno);
   stream.reset();
   std::remove(unfinished.c_str());

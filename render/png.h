@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,7 +19,6 @@ using PngTexts = std::vector<std::pair<std::string, std::string>>;
 PngTexts picture_texts(const RodPicture& picture);
 
 /// Writes a PNG; the file appears, or replaces an older one, only when it is complete.
-[[nodiscard]] std::optional<Error> write_png(const std::filesystem::path& file, const Image& image,
-                                             const PngTexts& texts = {});
+Result<void> write_png(const std::filesystem::path& file, const Image& image, const PngTexts& texts = {});
 
 }  // namespace shaken::render

@@ -119,7 +119,7 @@ Image averaged(const std::vector<std::uint8_t>& rgba, int side) {
   return image;
 }
 
-std::optional<Error> check(const RodPicture& picture, int side) {
+Result<void> check(const RodPicture& picture, int side) {
   if (side < 1 || side > RodsPass::kMaxSide) {
     return Error{"the box would be " + std::to_string(side) + " pixels wide; possible are 1 to " +
                  std::to_string(RodsPass::kMaxSide)};
@@ -140,7 +140,7 @@ std::optional<Error> check(const RodPicture& picture, int side) {
                   [&](std::uint8_t species) { return species >= picture.n_species(); })) {
     return Error{"a rod is of a species whose beads are not given"};
   }
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace
@@ -168,7 +168,7 @@ RodsPass::~RodsPass() = default;  // the GL objects go with their context
 Result<RodsPass> RodsPass::create() {
   Result<GlContext> context = GlContext::create();
   if (!context) return context.error();
-  if (auto error = context->bind(kSamples)) return *error;
+  if (auto done = context->bind(kSamples); !done) return done.error();
   auto programs = std::make_unique<Programs>();
   std::string message;
   programs->body = link_program(shaders::kQuad, shaders::kBody, message);
@@ -193,8 +193,8 @@ Result<RodsPass> RodsPass::create() {
 }
 
 Result<Image> RodsPass::draw(const RodPicture& picture, const PictureStyle& style, int side) {
-  if (auto error = check(picture, side)) return *error;
-  if (auto error = context_.bind(side * kSamples)) return *error;
+  if (auto done = check(picture, side); !done) return done.error();
+  if (auto done = context_.bind(side * kSamples); !done) return done.error();
 
   const View view = view_of(picture, style);
   std::vector<Batch> batches;

@@ -45,7 +45,7 @@ std::optional<SideWalls> walls_of(const frame_static_t& message) {
 }
 
 /// Species and side walls out of a message, whose counts need not agree.
-std::optional<Error> take_constants(const frame_static_t& message, std::size_t n_rods, RodPicture& picture) {
+Result<void> take_constants(const frame_static_t& message, std::size_t n_rods, RodPicture& picture) {
   const Error garbled{"the job's static part contradicts itself"};
   std::vector<BeadRow> rows;
   std::size_t begin = 0;
@@ -68,7 +68,7 @@ std::optional<Error> take_constants(const frame_static_t& message, std::size_t n
   picture.added.assign(rows.begin() + 1, rows.end());
   picture.species_of_rod = message.rod_species;
   picture.walls = walls_of(message);
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace
@@ -122,7 +122,7 @@ std::optional<MovieRequest> TrajectorySource::movie_request() const {
   return MovieRequest{*every, static_cast<int>(*width), static_cast<int>(*height)};
 }
 
-std::optional<Error> TrajectorySource::read_history() {
+Result<void> TrajectorySource::read_history() {
   constexpr std::size_t kMostPoints = 400;
   const std::size_t last = n_frames() - 1, points = std::min(kMostPoints, last + 1);
   OrderHistory history;
@@ -140,7 +140,7 @@ std::optional<Error> TrajectorySource::read_history() {
   history.start = history.time.front();
   history.end = history.time.back();
   history_ = std::move(history);
-  return std::nullopt;
+  return {};
 }
 
 Result<RodPicture> TrajectorySource::picture(std::size_t index, bool with_defects) const {
@@ -177,23 +177,25 @@ Result<RodPicture> TrajectorySource::picture(std::size_t index, bool with_defect
 
 Result<RodPicture> live_picture(const std::string& lcm_url, const std::string& job, std::chrono::milliseconds timeout,
                                 bool with_defects) {
-  const proto::Bus::Opened opened = proto::Bus::open(lcm_url);
-  if (!opened) return Error{opened.reason};
+  const Result<std::unique_ptr<proto::Bus>> opened = proto::Bus::open(lcm_url);
+  if (!opened) return opened.error();
+  proto::Bus& bus = **opened;
   // The unchanging part tells which job it is; only frames after it can be put together.
   std::optional<frame_static_t> constants;
   std::optional<proto::FrameAssembler> assembler;
   std::optional<proto::Frame> frame;
-  const bool subscribed = opened.bus->subscribe<frame_static_t>(proto::kFrameStaticChannel,
-                                                                [&](const frame_static_t& message) {
-                                                                  if (constants || !message.job_id.starts_with(job))
-                                                                    return;
-                                                                  constants = message;
-                                                                  assembler.emplace(message.job_id);
-                                                                }) &&
-                          opened.bus->subscribe<frame_t>(proto::kFrameChannel, [&](const frame_t& chunk) {
-                            if (assembler && !frame) frame = assembler->add(chunk);
-                          });
-  if (!subscribed) return Error{"LCM refuses a subscription at " + lcm_url};
+  const auto note_constants = [&](const frame_static_t& message) {
+    if (constants || !message.job_id.starts_with(job)) return;
+    constants = message;
+    assembler.emplace(message.job_id);
+  };
+  const auto note_chunk = [&](const frame_t& chunk) {
+    if (assembler && !frame) frame = assembler->add(chunk);
+  };
+  if (!bus.subscribe<frame_static_t>(proto::kFrameStaticChannel, note_constants) ||
+      !bus.subscribe<frame_t>(proto::kFrameChannel, note_chunk)) {
+    return Error{"LCM refuses a subscription at " + lcm_url};
+  }
 
   using Clock = std::chrono::steady_clock;
   const auto deadline = Clock::now() + timeout;
@@ -204,14 +206,14 @@ Result<RodPicture> live_picture(const std::string& lcm_url, const std::string& j
           fmt::format("no frame of job {} came within {} s at {}: is it running, with a \"stream\" block in its scene?",
                       job, timeout.count() / 1000, lcm_url)};
     }
-    opened.bus->handle(static_cast<int>(std::min<std::int64_t>(left.count(), 200)));
+    bus.handle(static_cast<int>(std::min<std::int64_t>(left.count(), 200)));
   }
 
   RodPicture picture;
   picture.time = frame->sim_time_s;
   picture.box_side = frame->box_side_mm;
   picture.gap = constants->gap_mm;
-  if (auto error = take_constants(*constants, frame->rods.size(), picture)) return *error;
+  if (auto done = take_constants(*constants, frame->rods.size(), picture); !done) return done.error();
   picture.label = constants->label;
   for (const proto::RodPose& rod : frame->rods) {
     const std::array<double, 3> axis = rod.axis();

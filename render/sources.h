@@ -38,7 +38,7 @@ class TrajectorySource {
   std::optional<MovieRequest> movie_request() const;
 
   /// Reads S(t) of the whole run, from at most 400 of its frames, for the curve beside the pictures.
-  [[nodiscard]] std::optional<Error> read_history();
+  Result<void> read_history();
   /// A frame with order, director and, if asked, defects; with S up to its time if the history has been read. The label
   /// says how the plates shake.
   Result<RodPicture> picture(std::size_t index, bool with_defects) const;

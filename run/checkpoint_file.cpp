@@ -31,8 +31,7 @@ std::vector<std::byte> copy_of(std::span<const std::byte> bytes) { return {bytes
 
 }  // namespace
 
-std::optional<Error> write_checkpoint(const RunDirectory& directory, const std::string& run_id,
-                                      const Checkpoint& checkpoint) {
+Result<void> write_checkpoint(const RunDirectory& directory, const std::string& run_id, const Checkpoint& checkpoint) {
   StateWriter payload;
   payload.put(checkpoint.cpu_seconds);
   payload.put(checkpoint.wall_seconds);
@@ -47,7 +46,7 @@ std::optional<Error> write_checkpoint(const RunDirectory& directory, const std::
   content.put(hash_of(content.bytes()));
 
   const std::filesystem::path file = directory.checkpoint();
-  if (auto error = write_file(temporary_for(file), text_of(content.bytes()))) return error;
+  if (auto done = write_file(temporary_for(file), text_of(content.bytes())); !done) return done.error();
   // The new one is written by now: should the machine stop between the renames, the previous one is whole.
   if (std::rename(file.c_str(), directory.previous_checkpoint().c_str()) != 0 && errno != ENOENT) {
     return Error{"cannot keep " + file.string() + ": " + std::strerror(errno)};

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,8 +23,7 @@ struct Checkpoint {
 ///
 /// File, little-endian: "SHKNCKPT", version u32, run id (u32 length, bytes), length of the payload u64, payload, XXH3
 /// (64 bit) of all before it.
-[[nodiscard]] std::optional<Error> write_checkpoint(const RunDirectory& directory, const std::string& run_id,
-                                                    const Checkpoint& checkpoint);
+Result<void> write_checkpoint(const RunDirectory& directory, const std::string& run_id, const Checkpoint& checkpoint);
 
 /// What is wrong with one checkpoint file, or what it holds.
 Result<Checkpoint> read_checkpoint(const std::filesystem::path& file, const std::string& run_id);

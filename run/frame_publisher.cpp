@@ -92,9 +92,8 @@ class Sender {
 FramePublisher::FramePublisher(const std::string& lcm_url, const std::string& job_id, const frame_static_t& constants)
     : shared_(std::make_shared<Shared>()) {
   const auto work = [shared = shared_, lcm_url, job_id, constants] {
-    proto::Bus::Opened opened = proto::Bus::open(lcm_url);
-    if (opened) {
-      Sender sender(std::move(opened.bus), job_id, constants);
+    if (auto bus = proto::Bus::open(lcm_url)) {
+      Sender sender(std::move(bus).value(), job_id, constants);
       Clock::time_point next_static = Clock::now();
       double sim_time = 0;
       for (bool closing = false; !closing;) {
@@ -115,7 +114,7 @@ FramePublisher::FramePublisher(const std::string& lcm_url, const std::string& jo
         if (outbox.defects) sender.send(*outbox.defects);
       }
     } else {
-      spdlog::warn("no live state: {}", opened.reason);
+      spdlog::warn("no live state: {}", bus.error().message);
     }
     const std::lock_guard lock(shared->mutex);
     shared->finished = true;

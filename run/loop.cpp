@@ -77,7 +77,7 @@ class Loop {
 
   RunOutcome run(bool fresh) {
     if (fresh) {
-      if (auto error = sample()) return finish_without_disk(*error);
+      if (auto done = sample(); !done) return finish_without_disk(done.error());
     }
     Tick slice = 1;
     while (tick() < end_) {
@@ -89,12 +89,12 @@ class Loop {
       if (now - before > kLongSlice) slice = std::max<Tick>(1, stepped / 2);
       if (now - before < kShortSlice && stepped == slice) slice *= 2;
 
-      if (auto error = sample()) return finish_without_disk(*error);
+      if (auto done = sample(); !done) return finish_without_disk(done.error());
       publish_observables(now);
       if (progress_pacer_.take(now)) report("running");
       const bool stop = options_.stop != nullptr && *options_.stop;
       if (stop || (checkpoint_pacer_.take(now) && tick() < end_)) {
-        if (auto error = checkpoint()) return finish_without_disk(*error);
+        if (auto done = checkpoint(); !done) return finish_without_disk(done.error());
       }
       if (stop && tick() < end_) return finish_stopped();
     }
@@ -112,7 +112,7 @@ class Loop {
     progress_.order = analysis::nematic_order(run_.simulation.snapshot().director).order;
     progress_.order_running_mean = run_.measurements.order_running_mean();
     progress_.max_overlap = run_.simulation.world().counters.max_overlap();
-    if (auto error = write_progress(directory_.progress(), progress_)) spdlog::warn("{}", error->message);
+    if (auto done = write_progress(directory_.progress(), progress_); !done) spdlog::warn("{}", done.error().message);
     if (callbacks_.on_progress) callbacks_.on_progress(progress_);
   }
 
@@ -125,23 +125,23 @@ class Loop {
   double wall_seconds() const { return run_.wall_before + WallSeconds(WallClock::now() - begin_).count(); }
 
   /// Measures, records and publishes what is due at this tick.
-  [[nodiscard]] std::optional<Error> sample() {
+  Result<void> sample() {
     const bool record = run_.recording && run_.recording->due(tick());
     const bool measure = run_.measurements.next_due(tick()) == tick();
     // Live frames are a subset of the recorded ones, where frames are recorded, so that the two can be compared.
     const bool show = publisher_ && (record || !run_.recording) && frame_pacer_.take(WallClock::now());
-    if (!record && !measure && !show) return std::nullopt;
+    if (!record && !measure && !show) return {};
     const Snapshot snapshot = run_.simulation.snapshot();
     if (measure) run_.measurements.sample(snapshot);
     if (record) {
-      if (auto error = run_.frames->append(shaken::run::record(snapshot))) return error;
+      if (auto done = run_.frames->append(shaken::run::record(snapshot)); !done) return done.error();
     }
     if (show) publisher_->offer(make_frame(snapshot, species_if_several(run_.simulation.world())));
     const DefectSample* defects = run_.measurements.last_defects();
     if (publisher_ && defects != nullptr && defects->tick == tick() && defects_pacer_.take(WallClock::now())) {
       publisher_->offer(make_defects(*defects));
     }
-    return std::nullopt;
+    return {};
   }
 
   void publish_observables(WallClock::time_point now) {
@@ -150,13 +150,13 @@ class Loop {
   }
 
   /// Frames first: no checkpoint may know of one that the disk does not.
-  [[nodiscard]] std::optional<Error> checkpoint() {
+  Result<void> checkpoint() {
     if (run_.frames) {
-      if (auto error = run_.frames->sync()) return error;
+      if (auto done = run_.frames->sync(); !done) return done.error();
     }
-    auto error = write_checkpoint(directory_, run_id_, make_checkpoint(run_, cpu_seconds(), wall_seconds()));
-    if (!error) checkpoint_tick_ = tick();
-    return error;
+    Result<void> done = write_checkpoint(directory_, run_id_, make_checkpoint(run_, cpu_seconds(), wall_seconds()));
+    if (done) checkpoint_tick_ = tick();
+    return done;
   }
 
   Summary summarize(const Reduction& reduction) const {
@@ -189,18 +189,18 @@ class Loop {
   }
 
   /// trajectory.h5 of all frames so far.
-  [[nodiscard]] std::optional<Error> write_frames() {
-    if (!run_.frames) return std::nullopt;
+  Result<void> write_frames() {
+    if (!run_.frames) return {};
     const Result<TrajectoryReader> frames = TrajectoryReader::open(directory_.frames());
     if (!frames) return frames.error();
     return write_trajectory(directory_.trajectory(), frames->recorded());
   }
 
   /// Observables and summary, in this order: a summary that says "done" is the last word.
-  [[nodiscard]] std::optional<Error> write_results(const std::string& state, const std::string& reason,
-                                                   const std::vector<int>& rods) {
+  Result<void> write_results(const std::string& state, const std::string& reason, const std::vector<int>& rods) {
     const Reduction reduction = run_.measurements.reduce(run_.simulation.time());
-    if (auto error = write_observables(directory_.observables(), reduction.arrays, provenance_of(plan_))) return error;
+    if (auto done = write_observables(directory_.observables(), reduction.arrays, provenance_of(plan_)); !done)
+      return done.error();
     Summary summary = summarize(reduction);
     summary.state = state;
     summary.reason = reason;
@@ -215,16 +215,16 @@ class Loop {
   RunOutcome finish_done() {
     std::error_code ignored;
     std::filesystem::remove(directory_.trouble(), ignored);  // met by a program before this one
-    if (auto error = checkpoint()) return finish_without_disk(*error);
-    if (auto error = write_frames()) return finish_without_disk(*error);
-    if (auto error = write_results("done", "", {})) return finish_without_disk(*error);
+    if (auto done = checkpoint(); !done) return finish_without_disk(done.error());
+    if (auto done = write_frames(); !done) return finish_without_disk(done.error());
+    if (auto done = write_results("done", "", {}); !done) return finish_without_disk(done.error());
     std::filesystem::remove(directory_.frames(), ignored);
     report("running");  // all of it; what is left is to draw it
     return {RunState::kDone, ""};
   }
 
   RunOutcome finish_stopped() {
-    if (auto error = write_results("stopped", "asked to stop", {})) return finish_without_disk(*error);
+    if (auto done = write_results("stopped", "asked to stop", {}); !done) return finish_without_disk(done.error());
     report("stopped", "asked to stop");
     return {RunState::kStopped, ""};
   }
@@ -234,11 +234,11 @@ class Loop {
     const std::string message = describe(trouble, plan_.system.dt);
     // no flight changes before a tick's last phase, so the world still knows where the rods were one tick before
     const CloseUp before = look_closely(run_.simulation.world(), trouble.tick - 1, trouble.rods);
-    if (auto error = write_trouble(directory_.trouble(), plan_, {trouble, checkpoint_tick_, before})) {
-      return finish_without_disk(*error);
+    if (auto done = write_trouble(directory_.trouble(), plan_, {trouble, checkpoint_tick_, before}); !done) {
+      return finish_without_disk(done.error());
     }
-    if (auto error = write_frames()) return finish_without_disk(*error);
-    if (auto error = write_results("failed", message, trouble.rods)) return finish_without_disk(*error);
+    if (auto done = write_frames(); !done) return finish_without_disk(done.error());
+    if (auto done = write_results("failed", message, trouble.rods); !done) return finish_without_disk(done.error());
     report("failed", message);
     return {RunState::kFailed, message};
   }
@@ -321,19 +321,19 @@ RunOutcome fail(const RunOptions& options, const RunCallbacks& callbacks, const 
   progress.message = message;
   progress.pid = static_cast<int>(getpid());
   const RunDirectory directory{options.directory};
-  if (auto error = write_progress(directory.progress(), progress)) spdlog::warn("{}", error->message);
+  if (auto done = write_progress(directory.progress(), progress); !done) spdlog::warn("{}", done.error().message);
   if (callbacks.on_progress) callbacks.on_progress(progress);
   return failure(message);
 }
 
 /// scene.json is written once; a directory of another scene is refused, never overwritten.
-[[nodiscard]] std::optional<Error> claim(const scene::RunPlan& plan, const RunDirectory& directory) {
+Result<void> claim(const scene::RunPlan& plan, const RunDirectory& directory) {
   if (!std::filesystem::exists(directory.scene())) return write_file_atomically(directory.scene(), scene_text(plan));
   const Result<scene::RunPlan> present = read_plan(directory);
   if (!present) {
     return Error{directory.root.string() + " holds a run whose scene cannot be read:\n" + present.error().message};
   }
-  if (scene::run_id(*present) == scene::run_id(plan)) return std::nullopt;
+  if (scene::run_id(*present) == scene::run_id(plan)) return {};
   return Error{directory.root.string() + " holds the run of another scene (see its scene.json); choose another one"};
 }
 
@@ -345,18 +345,18 @@ RunOutcome draw(const scene::RunPlan& plan, const RunOptions& options, const Run
     progress.state = state;
     progress.message = message;
     progress.eta = state == "rendering" ? -1 : 0;
-    if (auto error = write_progress(directory.progress(), progress)) spdlog::warn("{}", error->message);
+    if (auto done = write_progress(directory.progress(), progress); !done) spdlog::warn("{}", done.error().message);
     if (callbacks.on_progress) callbacks.on_progress(progress);
   };
   std::string message;
   if (plan.movie && callbacks.make_movie && !std::filesystem::exists(directory.movie())) {
     report("rendering", "");
-    if (auto error = callbacks.make_movie()) {
+    if (auto done = callbacks.make_movie(); !done) {
       if (options.stop != nullptr && *options.stop) {
         report("stopped", "asked to stop");
         return {RunState::kStopped, ""};
       }
-      message = "the run is done, but without its movie: " + error->message;
+      message = "the run is done, but without its movie: " + done.error().message;
       spdlog::error("{}", message);
     }
   }
@@ -366,7 +366,7 @@ RunOutcome draw(const scene::RunPlan& plan, const RunOptions& options, const Run
 
 RunOutcome run_owned(const scene::RunPlan& plan, const RunOptions& options, const RunCallbacks& callbacks) {
   const RunDirectory directory{options.directory};
-  if (auto error = claim(plan, directory)) return failure(error->message);
+  if (auto done = claim(plan, directory); !done) return failure(done.error().message);
   if (is_done(directory, scene::run_id(plan))) {
     spdlog::info("{} is done already", directory.root.string());
     std::error_code ignored;

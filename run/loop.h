@@ -33,7 +33,7 @@ struct RunCallbacks {
   std::function<void()> on_owned;                    ///< the directory is ours, nothing is written yet
   std::function<void(const Progress&)> on_progress;  ///< about twice a second, and at the end
   /// Draws the finished run, if the plan wants a movie. Null: none is drawn. A failure does not lose the run.
-  std::function<std::optional<Error>()> make_movie;
+  std::function<Result<void>()> make_movie;
 };
 
 enum class RunState {

@@ -88,14 +88,19 @@ std::vector<std::byte> Measurements::save() const {
   return writer.take();
 }
 
-void Measurements::restore(std::span<const std::byte> bytes) {
-  StateReader reader(bytes);
-  for (Timed& timed : timed_) {
-    reader.tag(timed.name);
-    timed.samples = reader.integer(0, kNever);
-    timed.measurement->restore(reader);
+Result<void> Measurements::restore(std::span<const std::byte> bytes) {
+  try {
+    StateReader reader(bytes);
+    for (Timed& timed : timed_) {
+      reader.tag(timed.name);
+      timed.samples = reader.integer(0, kNever);
+      timed.measurement->restore(reader);
+    }
+    reader.end();
+    return {};
+  } catch (const StateError& problem) {
+    return Error{problem.what()};
   }
-  reader.end();
 }
 
 }  // namespace shaken::run

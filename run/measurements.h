@@ -16,6 +16,7 @@
 #include "run/measure/reduction.h"
 #include "run/measure/registry.h"
 #include "scene/run_plan.h"
+#include "sim/core/result.h"
 #include "sim/rod/species.h"
 #include "sim/snapshot.h"
 
@@ -44,8 +45,8 @@ class Measurements {
   std::map<std::string, std::int64_t> counts() const;
 
   std::vector<std::byte> save() const;
-  /// Takes up what save() gave; throws StateError if the bytes belong to another plan.
-  void restore(std::span<const std::byte> bytes);
+  /// Takes up what save() gave. Fails if the bytes belong to another plan; the object is then of no more use.
+  Result<void> restore(std::span<const std::byte> bytes);
 
  private:
   struct Timed {

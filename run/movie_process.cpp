@@ -27,14 +27,14 @@ ProcessEnd wait_for(pid_t child, const std::atomic<bool>& stop) {
 
 }  // namespace
 
-std::optional<Error> render_movie(const std::filesystem::path& directory, const std::atomic<bool>& stop) {
+Result<void> render_movie(const std::filesystem::path& directory, const std::atomic<bool>& stop) {
   const std::string program = sibling_program("shaken-render").string();
   const Result<pid_t> child = start_child({.command = {program, "movie", directory.string()}, .ends_with_us = true});
   if (!child) return child.error();
   const ProcessEnd end = wait_for(*child, stop);
   if (stop) return Error{"stopped while drawing"};
   if (!end.is_success()) return Error{program + " " + end.text()};
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace shaken::run

@@ -3,7 +3,6 @@
 
 #include <atomic>
 #include <filesystem>
-#include <optional>
 
 #include "sim/core/result.h"
 
@@ -11,6 +10,6 @@ namespace shaken::run {
 
 /// Runs `shaken-render movie DIR`, found beside this program, and waits for it. Ends it when `stop` becomes true, or
 /// with this process. Returns why there is no movie.
-[[nodiscard]] std::optional<Error> render_movie(const std::filesystem::path& directory, const std::atomic<bool>& stop);
+Result<void> render_movie(const std::filesystem::path& directory, const std::atomic<bool>& stop);
 
 }  // namespace shaken::run

@@ -68,11 +68,8 @@ Result<OpenRun> resume_run(const scene::RunPlan& plan, const RunDirectory& direc
   OpenRun run = make_run(plan, std::move(simulation).value());
   run.cpu_before = checkpoint.cpu_seconds;
   run.wall_before = checkpoint.wall_seconds;
-  try {
-    run.measurements.restore(checkpoint.measurements);
-  } catch (const StateError& problem) {
-    return Error{std::string("the checkpoint's measurements are not of this plan: saved analysis state: ") +
-                 problem.what()};
+  if (auto done = run.measurements.restore(checkpoint.measurements); !done) {
+    return Error{"the checkpoint's measurements are not of this plan: saved analysis state: " + done.error().message};
   }
   if (run.recording) {
     auto frames =

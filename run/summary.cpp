@@ -72,7 +72,7 @@ std::string why_not_steady(const analysis::SteadySummary& order, double sim_seco
                      order.t_steady, sim_seconds);
 }
 
-std::optional<Error> write_summary(const std::filesystem::path& file, const Summary& summary) {
+Result<void> write_summary(const std::filesystem::path& file, const Summary& summary) {
   OrderedJson json{
       {"run_id", summary.run_id},
       {"n_rods", summary.n_rods},

@@ -54,6 +54,6 @@ struct Summary {
 /// Why S is not called steady after so long a run, and what to do about it, in a sentence; empty if it is.
 std::string why_not_steady(const analysis::SteadySummary& order, double sim_seconds);
 
-[[nodiscard]] std::optional<Error> write_summary(const std::filesystem::path& file, const Summary& summary);
+Result<void> write_summary(const std::filesystem::path& file, const Summary& summary);
 
 }  // namespace shaken::run

@@ -54,8 +54,7 @@ OrderedJson to_json(const CloseUp& close_up) {
           {"unknown_rods", close_up.unknown}};
 }
 
-std::optional<Error> write_trouble(const std::filesystem::path& file, const scene::RunPlan& plan,
-                                   const TroubleReport& report) {
+Result<void> write_trouble(const std::filesystem::path& file, const scene::RunPlan& plan, const TroubleReport& report) {
   const OrderedJson json{{"run_id", scene::run_id(plan)},
                          {"version", version()},
                          {"tick", report.trouble.tick},

@@ -25,8 +25,7 @@ std::string describe(const NumericalTrouble& trouble, double dt);
 /// The rods of a close-up as JSON: units in the names of the fields.
 nlohmann::ordered_json to_json(const CloseUp& close_up);
 
-[[nodiscard]] std::optional<Error> write_trouble(const std::filesystem::path& file, const scene::RunPlan& plan,
-                                                 const TroubleReport& report);
+Result<void> write_trouble(const std::filesystem::path& file, const scene::RunPlan& plan, const TroubleReport& report);
 
 /// The trouble and the checkpoint's tick, for a comparison. Fails if the file is not one of write_trouble's.
 Result<TroubleReport> read_trouble(const std::filesystem::path& file);

@@ -204,7 +204,7 @@ void probe_scene(const scene::RunPlan& plan, const Arguments& arguments) {
     probe = value_or_fail(run::probe(plan, std::move(simulation), arguments.probe_cpu));
     if (!probe->movie_trouble.empty()) spdlog::warn("the movie could not be timed: {}", probe->movie_trouble);
   }
-  fail_if(write_file(arguments.probe, run::probe_report(plan, probe).dump(2) + "\n"));
+  done_or_fail(write_file(arguments.probe, run::probe_report(plan, probe).dump(2) + "\n"));
 }
 
 ExitCode work(const Arguments& arguments) {
@@ -213,14 +213,14 @@ ExitCode work(const Arguments& arguments) {
   }
   const std::string text = value_or_fail(read_file(arguments.scene), ExitCode::kBadInput);
   const scene::Loaded<scene::RunPlan> plan = scene::load_scene(text, arguments.scene, arguments.settings);
-  if (!plan.value) throw Failure(ExitCode::kBadInput, to_string(plan.problems));
-  if (const auto problem = scene::placement_problem(*plan.value, arguments.scene)) {
+  if (!plan) throw Failure(ExitCode::kBadInput, to_string(plan.error()));
+  if (const auto problem = scene::placement_problem(*plan, arguments.scene)) {
     throw Failure(ExitCode::kBadInput, to_string(*problem));
   }
-  if (arguments.probe.empty()) return run_scene(*plan.value, arguments);
+  if (arguments.probe.empty()) return run_scene(*plan, arguments);
   std::signal(SIGTERM, SIG_DFL);  // nothing is lost
   std::signal(SIGINT, SIG_DFL);
-  probe_scene(*plan.value, arguments);
+  probe_scene(*plan, arguments);
   return ExitCode::kOk;
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <unordered_set>
 
 #include "scene/document.h"
@@ -35,10 +36,10 @@ void apply(const Setting& setting, Draft& draft, std::vector<Problem>& problems)
 Loaded<RunPlan> load_scene(std::string_view text, const std::string& file, std::span<const std::string> settings) {
   std::vector<Problem> problems;
   const std::optional<Node> root = parse_document(text, file, problems);
-  if (!root) return {std::nullopt, problems};
+  if (!root) return problems;
   if (const Member* sweep = root->find("sweep"); sweep || (sweep = root->find("scene"))) {
     problems.push_back(problem_at(sweep->place, sweep->key, "this is a sweep file; a single scene is wanted here"));
-    return {std::nullopt, tidied(problems)};
+    return tidied(problems);
   }
   Draft draft(root->place);
   draft.read(*root, problems);
@@ -46,8 +47,8 @@ Loaded<RunPlan> load_scene(std::string_view text, const std::string& file, std::
     if (const auto setting = parse_setting(written, problems)) apply(*setting, draft, problems);
   }
   std::optional<RunPlan> plan = resolve(draft, problems);
-  if (!problems.empty()) return {std::nullopt, tidied(problems)};
-  return {plan, {}};
+  if (!problems.empty()) return tidied(problems);
+  return std::move(plan).value();
 }
 
 std::vector<Problem> tidied(std::vector<Problem> problems) {

@@ -38,14 +38,14 @@ std::optional<Problem> placement_problem(const RunPlan& plan, const std::string&
 Loaded<Sweep> load_runs(std::string_view text, const std::string& file, std::span<const std::string> settings,
                         std::optional<int> replicas) {
   Loaded<Sweep> sweep = load_sweep(text, file, settings, replicas);
-  if (!sweep.value) return sweep;
+  if (!sweep) return sweep;
   std::unordered_set<std::string> placed;
   std::vector<Problem> problems;
-  for (const SweepPoint& point : sweep.value->points) {
+  for (const SweepPoint& point : sweep->points) {
     if (!placed.insert(placement_key(point.plan)).second) continue;
     if (auto problem = placement_problem(point.plan, file, point.label)) problems.push_back(*std::move(problem));
   }
-  if (!problems.empty()) return {std::nullopt, tidied(std::move(problems))};
+  if (!problems.empty()) return tidied(std::move(problems));
   return sweep;
 }
 

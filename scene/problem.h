@@ -2,10 +2,11 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "sim/core/result.h"
 
 namespace shaken::scene {
 
@@ -36,11 +37,8 @@ std::string to_string(const std::vector<Problem>& problems);
 /// The problem `message` with what stands at `place`; `path` is dotted ("rods.length").
 Problem problem_at(const Place& place, std::string_view path, std::string message);
 
-/// A value read from a text, or everything that is wrong with the text.
+/// A value read from a text, or everything that is wrong with the text: in its order, each once.
 template <class T>
-struct Loaded {
-  std::optional<T> value;         ///< there if and only if there is no problem
-  std::vector<Problem> problems;  ///< in the order of the text, each once
-};
+using Loaded = Result<T, std::vector<Problem>>;
 
 }  // namespace shaken::scene

@@ -151,7 +151,7 @@ Loaded<Sweep> load_sweep(std::string_view text, const std::string& file, std::sp
                          std::optional<int> replicas) {
   std::vector<Problem> problems;
   const std::optional<Node> root = parse_document(text, file, problems);
-  if (!root) return {std::nullopt, problems};
+  if (!root) return problems;
 
   Sweep sweep{std::filesystem::path(file).stem().string(), {}};
   Draft base(root->place);
@@ -184,8 +184,8 @@ Loaded<Sweep> load_sweep(std::string_view text, const std::string& file, std::sp
     if (const auto setting = parse_setting(written, problems)) product.apply_setting(*setting, base);
   }
   sweep.points = product.points(base);
-  if (!problems.empty()) return {std::nullopt, tidied(std::move(problems))};
-  return {std::move(sweep), {}};
+  if (!problems.empty()) return tidied(std::move(problems));
+  return sweep;
 }
 
 }  // namespace shaken::scene

@@ -173,20 +173,20 @@ Api::Answer Api::submit(const Call& call) const {
     throw Refusal(400, problem.what());
   }
   const auto submission = expand(request, info_.runs());
-  if (!submission.value) {
+  if (!submission) {
     Json problems = Json::array();
-    for (const scene::Problem& problem : submission.problems) {
+    for (const scene::Problem& problem : submission.error()) {
       problems.push_back({{"file", problem.file},
                           {"line", problem.line},
                           {"column", problem.column},
                           {"path", problem.path},
                           {"message", problem.message}});
     }
-    std::string sentence = scene::to_string(submission.problems.front());
+    std::string sentence = scene::to_string(submission.error().front());
     if (problems.size() > 1) sentence = std::to_string(problems.size()) + " problems; the first: " + sentence;
     return {422, {{"error", sentence}, {"problems", problems}}, ""};
   }
-  const auto& [name, priority, jobs] = *submission.value;
+  const auto& [name, priority, jobs] = *submission;
   const Submitted submitted = queue_.submit(name, priority, jobs);
   spdlog::info("sweep {} '{}': {} jobs, {} new, {} queued again", sweep_word(submitted.sweep), name,
                submitted.counts.total(), submitted.n_new, submitted.n_requeued);

@@ -11,8 +11,8 @@
 #include <csignal>
 #include <cstdio>
 #include <memory>
-#include <stdexcept>
 
+#include "base/failure.h"
 #include "run/files/directory.h"
 #include "run/files/version.h"
 #include "server/api.h"
@@ -70,9 +70,9 @@ std::string host_name() {
 void make_private_directory(const std::filesystem::path& directory) {
   std::error_code error;
   std::filesystem::create_directories(directory, error);
-  if (error) throw std::runtime_error("cannot make " + directory.string() + ": " + error.message());
+  if (error) throw Failure(ExitCode::kFailed, "cannot make " + directory.string() + ": " + error.message());
   std::filesystem::permissions(directory, std::filesystem::perms::owner_all, error);
-  if (error) throw std::runtime_error("cannot protect " + directory.string() + ": " + error.message());
+  if (error) throw Failure(ExitCode::kFailed, "cannot protect " + directory.string() + ": " + error.message());
 }
 
 std::filesystem::path log_file(const DaemonConfig& config) { return config.root / "shakend.log"; }
@@ -125,15 +125,15 @@ void stop_workers(Supervisor& supervisor, const Signals& signals) {
 
 void run_daemon(const DaemonConfig& config) {
   if (access(config.worker.c_str(), X_OK) != 0) {
-    throw std::runtime_error("there is no worker program at " + config.worker.string() +
-                             "; build or install it, or name it with --worker");
+    throw Failure(ExitCode::kFailed, "there is no worker program at " + config.worker.string() +
+                                         "; build or install it, or name it with --worker");
   }
   umask(0077);
   DaemonInfo info;
   info.root = std::filesystem::absolute(config.root).lexically_normal();
   make_private_directory(info.root);
   const auto lock = run::DirectoryLock::acquire(info.root / "shakend.lock");
-  if (!lock) throw std::runtime_error("another shakend is at work: " + lock.error().message);
+  if (!lock) throw Failure(ExitCode::kFailed, "another shakend is at work: " + lock.error().message);
   make_private_directory(info.runs());
   start_log(config);
   const Signals signals;
@@ -146,14 +146,15 @@ void run_daemon(const DaemonConfig& config) {
   info.pid = getpid();
   info.slots = config.slots;
   info.lcm_url = config.lcm_url;
-  proto::Bus::Opened lcm;
+  std::unique_ptr<proto::Bus> bus;
   if (config.lcm_url.empty()) {
     info.lcm_message = "switched off by --no-lcm";
+  } else if (auto opened = proto::Bus::open(config.lcm_url)) {
+    info.lcm_ok = true;
+    bus = std::move(opened).value();
   } else {
-    lcm = proto::Bus::open(config.lcm_url);
-    info.lcm_ok = static_cast<bool>(lcm);
-    info.lcm_message = lcm.reason;
-    if (!lcm) spdlog::warn("no live state: {}", lcm.reason);
+    info.lcm_message = opened.error().message;
+    spdlog::warn("no live state: {}", info.lcm_message);
   }
 
   LocalExecutor executor(config.worker);
@@ -161,7 +162,7 @@ void run_daemon(const DaemonConfig& config) {
   options.refuse = refuse_scene;
   Supervisor supervisor(queue, executor, std::move(options));
   std::optional<StatusPublisher> publisher;
-  if (lcm) publisher.emplace(queue, std::move(lcm.bus), info);
+  if (bus) publisher.emplace(queue, std::move(bus), info);
   const Api api(queue, info);
   HttpServer http(info.socket(), [&api](const Request& request) { return api.handle(request); });
 
@@ -172,7 +173,7 @@ void run_daemon(const DaemonConfig& config) {
 
   do {
     supervisor.step();
-    if (http.ended_within(milliseconds(0))) throw std::runtime_error("the control socket has failed");
+    if (http.ended_within(milliseconds(0))) throw Failure(ExitCode::kFailed, "the control socket has failed");
   } while (!signals.wait(kRound));
 
   spdlog::info("stopping: workers write a checkpoint");

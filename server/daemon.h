@@ -20,7 +20,7 @@ struct DaemonConfig {
 
 /// Runs the daemon until SIGTERM, SIGINT or SIGHUP; then its workers write a checkpoint and their jobs go back into the
 /// queue. A second signal kills the workers. Prints "shakend ready: ROOT (pid N)" to stdout once the socket answers.
-/// Throws std::runtime_error, with the reason in words, if it cannot start. Blocks signals in the calling thread.
+/// Throws Failure, with the reason in words, if it cannot start. Blocks signals in the calling thread.
 void run_daemon(const DaemonConfig& config);
 
 }  // namespace shaken::server

@@ -10,9 +10,10 @@
 #include <cstring>
 #include <future>
 #include <mutex>
-#include <stdexcept>
 #include <thread>
 #include <utility>
+
+#include "base/failure.h"
 
 namespace shaken::server {
 namespace {
@@ -136,17 +137,17 @@ struct HttpServer::Impl {
 
   void bind() {
     if (socket.native().size() >= sizeof(sockaddr_un::sun_path)) {
-      throw std::runtime_error("the path of the socket is too long for the system (" +
-                               std::to_string(socket.native().size()) + " of at most " +
-                               std::to_string(sizeof(sockaddr_un::sun_path) - 1) + " bytes): " + socket.string() +
-                               "; choose a shorter --root");
+      throw Failure(ExitCode::kFailed, "the path of the socket is too long for the system (" +
+                                           std::to_string(socket.native().size()) + " of at most " +
+                                           std::to_string(sizeof(sockaddr_un::sun_path) - 1) +
+                                           " bytes): " + socket.string() + "; choose a shorter --root");
     }
     std::filesystem::remove(socket);
     int fd = -1;
     server.set_address_family(AF_UNIX);
     server.set_socket_options([&fd](int listener) { fd = listener; });
     if (!server.bind_to_port(socket.string(), kUnusedPort)) {
-      throw std::runtime_error("cannot listen on " + socket.string() + ": " + std::strerror(errno));
+      throw Failure(ExitCode::kFailed, "cannot listen on " + socket.string() + ": " + std::strerror(errno));
     }
     ::chmod(socket.c_str(), 0600);
     ::listen(fd, kBacklog);

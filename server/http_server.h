@@ -33,7 +33,7 @@ class HttpServer {
   using Handler = std::function<Reply(const Request&)>;
 
   /// Answers from now on. A socket file that is there already is replaced: the caller holds the directory's lock.
-  /// Throws std::runtime_error with the reason if the socket cannot be made.
+  /// Throws Failure with the reason if the socket cannot be made.
   HttpServer(std::filesystem::path socket, Handler handler);
   /// Waits for every connection to end.
   ~HttpServer();

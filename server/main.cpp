@@ -7,6 +7,7 @@
 #include <string>
 #include <thread>
 
+#include "base/failure.h"
 #include "base/paths.h"
 #include "proto/bus.h"
 #include "run/files/version.h"
@@ -14,8 +15,7 @@
 
 namespace {
 
-constexpr int kFailure = 1;
-constexpr int kBadArguments = 2;
+using shaken::ExitCode;
 
 constexpr const char* kAbout =
     "shakend: runs queued simulations of shaken rods, one worker process per run.\n"
@@ -73,24 +73,20 @@ int main(int argc, char** argv) {
   app.add_flag("--foreground", foreground, "Stay in the foreground: the only mode, for service managers");
   try {
     app.parse(argc, argv);
+    config.root = shaken::value_or_fail(shaken::data_root(root), ExitCode::kBadInput);
+    config.quiet = config.quiet || behind_a_prompt();
+    if (no_lcm) config.lcm_url.clear();
+    shaken::server::run_daemon(config);
+    return static_cast<int>(ExitCode::kOk);
   } catch (const CLI::ParseError& outcome) {
     if (outcome.get_exit_code() == 0) return app.exit(outcome);
     std::fprintf(stderr, "shakend: %s (see `shakend --help`)\n", outcome.what());
-    return kBadArguments;
-  }
-  const shaken::Result<std::filesystem::path> data_root = shaken::data_root(root);
-  if (!data_root) {
-    std::fprintf(stderr, "shakend: %s\n", data_root.error().message.c_str());
-    return kBadArguments;
-  }
-  config.root = *data_root;
-  config.quiet = config.quiet || behind_a_prompt();
-  if (no_lcm) config.lcm_url.clear();
-  try {
-    shaken::server::run_daemon(config);
+    return static_cast<int>(ExitCode::kBadInput);
+  } catch (const shaken::Failure& failure) {
+    std::fprintf(stderr, "shakend: %s\n", failure.what());
+    return static_cast<int>(failure.code);
   } catch (const std::exception& problem) {
     std::fprintf(stderr, "shakend: %s\n", problem.what());
-    return kFailure;
+    return static_cast<int>(ExitCode::kFailed);
   }
-  return 0;
 }

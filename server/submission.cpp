@@ -98,9 +98,9 @@ int parse_priority(std::string_view body) {
 
 scene::Loaded<Submission> expand(const SubmitRequest& request, const std::filesystem::path& runs) {
   const auto sweep = scene::load_runs(request.text, request.file, request.settings, request.replicas);
-  if (!sweep.value) return {std::nullopt, sweep.problems};
-  Submission submission{request.name.empty() ? sweep.value->name : request.name, request.priority, {}};
-  for (const scene::SweepPoint& point : sweep.value->points) {
+  if (!sweep) return sweep.error();
+  Submission submission{request.name.empty() ? sweep->name : request.name, request.priority, {}};
+  for (const scene::SweepPoint& point : sweep->points) {
     NewJob job;
     job.id = scene::run_id(point.plan);
     job.scene = scene::to_json(point.plan).dump(2) + "\n";
@@ -110,13 +110,13 @@ scene::Loaded<Submission> expand(const SubmitRequest& request, const std::filesy
     job.results_lost = !run::is_done(run::RunDirectory{runs / job.id}, job.id);
     submission.jobs.push_back(std::move(job));
   }
-  return {std::move(submission), {}};
+  return submission;
 }
 
 std::string refuse_scene(const std::string& id, const std::string& scene) {
   const auto plan = scene::load_scene(scene, "its scene in the queue");
-  if (!plan.value) return scene::to_string(plan.problems);
-  if (scene::run_id(*plan.value) == id) return "";
+  if (!plan) return scene::to_string(plan.error());
+  if (scene::run_id(*plan) == id) return "";
   return "its scene in the queue is not the one of this id: it was queued by a version with other physics, or queue.db "
          "is damaged; submit it again";
 }

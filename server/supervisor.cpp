@@ -166,8 +166,8 @@ bool Supervisor::start(const Job& job) {
       wait(job, lock.error().message);
       return false;
     }
-    if (const auto refused = write_file_atomically(directory.scene(), scene)) {
-      wait(job, refused->message);
+    if (const auto done = write_file_atomically(directory.scene(), scene); !done) {
+      wait(job, done.error().message);
       return false;
     }
   }

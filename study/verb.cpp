@@ -125,7 +125,7 @@ class Figures : public client::Verb {
     std::error_code error;
     fs::create_directories(out_, error);
     const fs::path trial = fs::path(out_) / ".trial";
-    if (!error && write_file_atomically(trial, "")) error = std::make_error_code(std::errc::permission_denied);
+    if (!error && !write_file_atomically(trial, "")) error = std::make_error_code(std::errc::permission_denied);
     std::error_code ignored;
     fs::remove(trial, ignored);
     if (error) problems += fmt::format("{}: cannot be written to: {}\n", out_, error.message());
@@ -167,11 +167,11 @@ class Figures : public client::Verb {
     for (const PaperFigure* figure : selection_.figures) figures.push_back(figure->id);
     const std::vector<Claim> claims = claims_of(figures);
     const fs::path table = fs::path(out_) / "claims.md";
-    fail_if(write_file_atomically(table, claims_table(runs, claims)));
-    fail_if(write_file_atomically(fs::path(out_) / "claims.json", claims_json(runs, claims).dump(2) + "\n"));
+    done_or_fail(write_file_atomically(table, claims_table(runs, claims)));
+    done_or_fail(write_file_atomically(fs::path(out_) / "claims.json", claims_json(runs, claims).dump(2) + "\n"));
     // a report is of everything, whatever was drawn
     if (!report_.empty()) {
-      fail_if(write_file_atomically(report_, with_sections(report_, report_sections(by_sweep))));
+      done_or_fail(write_file_atomically(report_, with_sections(report_, report_sections(by_sweep))));
     }
     if (const std::set<std::string> versions = versions_of(by_sweep, all_sets()); versions.size() > 1) {
       console.err << "runs of several versions together:\n" << origin_text(by_sweep, all_sets());

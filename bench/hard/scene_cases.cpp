@@ -132,8 +132,8 @@ scene::RunPlan read_hard_scene(const std::filesystem::path& folder, const std::s
   }
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   const scene::Loaded<scene::RunPlan> plan = scene::load_scene(text, file.string());
-  if (!plan.value) throw Failure(ExitCode::kBadInput, to_string(plan.problems));
-  return *plan.value;
+  if (!plan) throw Failure(ExitCode::kBadInput, to_string(plan.error()));
+  return *plan;
 }
 
 HardCase run_scene_case(const SceneCase& wanted, const scene::RunPlan& plan, double seconds, const Watch& watch) {

@@ -30,7 +30,7 @@ class Init : public Verb {
     if (std::filesystem::exists(file_) && !force_) {
       throw Failure(ExitCode::kBadInput, fmt::format("{} exists: --force replaces it", file_));
     }
-    fail_if(write_file_atomically(file_, kStarterScene));
+    done_or_fail(write_file_atomically(file_, kStarterScene));
     context.console.out << fmt::format(
         "{0}: next `shaken validate {0}`, then `shaken run {0} --out runs/first` or "
         "`shaken submit {0}`\n",

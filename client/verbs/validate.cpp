@@ -41,12 +41,12 @@ class Validate : public Verb {
     const SceneInput input = read_scene_input(file_);
     Console& console = context.console;
     const auto loaded = scene::load_runs(input.text, input.file, settings_, replicas_);
-    if (!loaded.value) {
-      if (!json_) throw Failure(ExitCode::kBadInput, refusal_text(loaded.problems));
-      print_problems(loaded.problems, console);
+    if (!loaded) {
+      if (!json_) throw Failure(ExitCode::kBadInput, refusal_text(loaded.error()));
+      print_problems(loaded.error(), console);
       return ExitCode::kBadInput;
     }
-    const std::vector<scene::SweepPoint>& points = loaded.value->points;
+    const std::vector<scene::SweepPoint>& points = loaded->points;
     if (resolved_) {
       print_resolved(points, console);
     } else if (json_) {

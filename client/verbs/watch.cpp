@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
+#include <memory>
 
 #include "base/interrupt.h"
 #include "client/live.h"
@@ -16,6 +17,7 @@ namespace shaken::client {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+using OpenedBus = Result<std::unique_ptr<proto::Bus>>;
 
 /// Shows screens on a terminal's second page and gives the first one back when it goes.
 class ScreenPage {
@@ -72,21 +74,21 @@ class Watch : public Verb {
     LiveJobs jobs;
     note(targets, jobs);
 
-    const proto::Bus::Opened opened = open_bus(session);
-    if (opened) {
-      opened.bus->subscribe<job_t>(
+    const OpenedBus bus = open_bus(session);
+    if (bus) {
+      bus.value()->subscribe<job_t>(
           proto::kJobChannel, [&jobs](const job_t& message) { jobs.note(message); }, 100);
-      opened.bus->subscribe<observables_t>(
+      bus.value()->subscribe<observables_t>(
           proto::kObservablesChannel, [&jobs](const observables_t& message) { jobs.note(message); }, 500);
-      opened.bus->subscribe<defects_t>(
+      bus.value()->subscribe<defects_t>(
           proto::kDefectsChannel, [&jobs](const defects_t& message) { jobs.note(message); }, 100);
     }
 
-    if (!opened && !console.interactive) console.err << source_note(jobs, opened, {}) << "\n";
+    if (!bus && !console.interactive) console.err << source_note(jobs, bus, {}) << "\n";
     const InterruptGuard guard;
     {
       ScreenPage page(console);
-      follow(session, targets, jobs, opened, guard, page, console);
+      follow(session, targets, jobs, bus, guard, page, console);
     }
     for (const LiveJob& job : jobs.jobs()) console.out << watch_line(job) << "\n";
     return guard.interrupted() ? ExitCode::kInterrupted : ExitCode::kOk;
@@ -117,18 +119,18 @@ class Watch : public Verb {
     return fmt::format("{} sweeps", targets.size());
   }
 
-  proto::Bus::Opened open_bus(ApiClient& session) const {
+  OpenedBus open_bus(ApiClient& session) const {
     std::string url = lcm_url_;
     if (url.empty()) {
       const Json lcm = session.get("/v1/status").at("lcm");
-      if (!lcm.value("ok", false)) return {nullptr, text_of(lcm, "message")};
+      if (!lcm.value("ok", false)) return Error{text_of(lcm, "message")};
       url = text_of(lcm, "url");
     }
     return proto::Bus::open(url);
   }
 
   /// Until the jobs have ended, the time is over, Ctrl-C, or nobody reads any more.
-  void follow(ApiClient& session, std::vector<Target>& targets, LiveJobs& jobs, const proto::Bus::Opened& opened,
+  void follow(ApiClient& session, std::vector<Target>& targets, LiveJobs& jobs, const OpenedBus& bus,
               const InterruptGuard& guard, ScreenPage& page, Console& console) const {
     static constexpr std::chrono::seconds kAskEvery{1};
     static constexpr std::chrono::seconds kDaemonMayBeAway{10};
@@ -159,7 +161,7 @@ class Watch : public Verb {
         next_drawing = now + redraw_every;
         if (console.interactive) {
           console.refresh_size();
-          page.show(watch_screen(jobs, title_of(targets), source_note(jobs, opened, now - start), console));
+          page.show(watch_screen(jobs, title_of(targets), source_note(jobs, bus, now - start), console));
         } else if (!over) {
           for (const LiveJob& job : jobs.jobs()) {
             // Jobs that wait or have ended are worth a line when that changes.
@@ -171,21 +173,21 @@ class Watch : public Verb {
         }
       }
       if (over) return;
-      if (opened) {
-        opened.bus->handle(50);
+      if (bus) {
+        bus.value()->handle(50);
       } else {
         guard.sleep_for(std::chrono::milliseconds(50));
       }
     }
   }
 
-  static std::string source_note(const LiveJobs& jobs, const proto::Bus::Opened& opened, Clock::duration watched) {
-    if (!opened)
-      return fmt::format("no live state ({}): asking the daemon once a second. Ctrl-C leaves", opened.reason);
+  static std::string source_note(const LiveJobs& jobs, const OpenedBus& bus, Clock::duration watched) {
+    if (!bus)
+      return fmt::format("no live state ({}): asking the daemon once a second. Ctrl-C leaves", bus.error().message);
     const std::int64_t n = jobs.received();
     if (n == 0 && watched > std::chrono::seconds(3)) {
       return fmt::format("nothing heard on {} (has the scene a \"stream\" block?): asking the daemon. Ctrl-C leaves",
-                         opened.bus->url());
+                         bus.value()->url());
     }
     return fmt::format("live over LCM: {} messages, {} lost. Ctrl-C leaves", n, jobs.lost());
   }

@@ -192,7 +192,7 @@ class LoggedFrames final : public RecordedFrames {
     } catch (const std::exception& problem) {
       return refuse(std::string("has a header that cannot be read: ") + problem.what());
     }
-    if (auto error = check(header)) return refuse("is damaged: " + error->message);
+    if (auto done = check(header); !done) return refuse("is damaged: " + done.error().message);
     return std::unique_ptr<LoggedFrames>(
         new LoggedFrames(path, std::move(file), kPrefixBytes + length + kHashBytes, std::move(header)));
   }
@@ -229,16 +229,16 @@ class LoggedFrames final : public RecordedFrames {
 
 }  // namespace
 
-std::optional<Error> check(const TrajectoryHeader& header) {
+Result<void> check(const TrajectoryHeader& header) {
   if (header.n_rods < 0) return Error{"n_rods is negative"};
-  if (header.added_beads.empty()) return std::nullopt;
+  if (header.added_beads.empty()) return {};
   if (header.species_of_rod.size() != static_cast<std::size_t>(header.n_rods)) {
     return Error{"species does not have the shape (n_rods)"};
   }
   for (const std::uint8_t species : header.species_of_rod) {
     if (species > header.added_beads.size()) return Error{"species names a species whose beads are not there"};
   }
-  return std::nullopt;
+  return {};
 }
 
 FrameLog::FrameLog(std::filesystem::path path, Descriptor file, std::size_t begin, std::size_t n_rods,
@@ -252,7 +252,7 @@ Result<FrameLog> FrameLog::create(const std::filesystem::path& file, const Traje
   put(content, static_cast<std::uint32_t>(text.size()));
   content += text;
   put(content, hash_of(text));
-  if (auto error = write_file_atomically(file, content)) return *error;
+  if (auto done = write_file_atomically(file, content); !done) return done.error();
   return reopen(file, 0);
 }
 
@@ -276,7 +276,7 @@ Result<FrameLog> FrameLog::reopen(const std::filesystem::path& file, std::size_t
 
 std::size_t FrameLog::end() const { return begin_ + n_frames_ * record_bytes(n_rods_); }
 
-std::optional<Error> FrameLog::append(const RecordedFrame& frame) {
+Result<void> FrameLog::append(const RecordedFrame& frame) {
   if (frame.position.size() != 3 * n_rods_) {
     return Error{path_.string() + " holds " + std::to_string(n_rods_) + " rods, the frame has " +
                  std::to_string(frame.position.size() / 3)};
@@ -288,12 +288,12 @@ std::optional<Error> FrameLog::append(const RecordedFrame& frame) {
     return error;
   }
   ++n_frames_;
-  return std::nullopt;
+  return {};
 }
 
-std::optional<Error> FrameLog::sync() const {
+Result<void> FrameLog::sync() const {
   if (::fsync(file_.value()) != 0) return system_error("cannot bring to the disk " + path_.string());
-  return std::nullopt;
+  return {};
 }
 
 Result<std::unique_ptr<RecordedFrames>> open_frame_log(const std::filesystem::path& file) {

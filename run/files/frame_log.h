@@ -28,9 +28,9 @@ class FrameLog {
   static Result<FrameLog> reopen(const std::filesystem::path& file, std::size_t n_frames);
 
   /// Hands a frame to the operating system. If that fails, the file holds the frames from before.
-  [[nodiscard]] std::optional<Error> append(const RecordedFrame& frame);
+  Result<void> append(const RecordedFrame& frame);
   /// Brings all frames to the disk.
-  [[nodiscard]] std::optional<Error> sync() const;
+  Result<void> sync() const;
   std::size_t n_frames() const { return n_frames_; }
 
  private:

@@ -45,8 +45,8 @@ herr_t collect(hid_t root, const char* name, const H5O_info_t* info, void* conte
 
 }  // namespace
 
-std::optional<Error> write_observables(const std::filesystem::path& file, const Observables& arrays,
-                                       const Provenance& provenance) {
+Result<void> write_observables(const std::filesystem::path& file, const Observables& arrays,
+                               const Provenance& provenance) {
   hdf5::initialize();
   const std::filesystem::path temporary = temporary_for(file);
   try {

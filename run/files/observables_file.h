@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,8 +16,8 @@ namespace shaken::run {
 using Observables = std::map<std::string, std::vector<double>>;
 
 /// Every data set has its unit as the attribute `unit` (unit_of_name), the file says which run it is of.
-[[nodiscard]] std::optional<Error> write_observables(const std::filesystem::path& file, const Observables& arrays,
-                                                     const Provenance& provenance = {});
+Result<void> write_observables(const std::filesystem::path& file, const Observables& arrays,
+                               const Provenance& provenance = {});
 /// All one-dimensional arrays of the file.
 Result<Observables> read_observables(const std::filesystem::path& file);
 

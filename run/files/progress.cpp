@@ -7,7 +7,7 @@
 
 namespace shaken::run {
 
-std::optional<Error> write_progress(const std::filesystem::path& file, const Progress& progress) {
+Result<void> write_progress(const std::filesystem::path& file, const Progress& progress) {
   const nlohmann::ordered_json json{
       {"state", progress.state},
       {"message", progress.message},

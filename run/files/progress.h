@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 
 #include "sim/core/result.h"
@@ -27,7 +26,7 @@ struct Progress {
   double fraction() const { return sim_time_total > 0 ? sim_time / sim_time_total : 0.0; }
 };
 
-[[nodiscard]] std::optional<Error> write_progress(const std::filesystem::path& file, const Progress& progress);
+Result<void> write_progress(const std::filesystem::path& file, const Progress& progress);
 Result<Progress> read_progress(const std::filesystem::path& file);
 
 }  // namespace shaken::run

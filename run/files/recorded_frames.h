@@ -31,7 +31,7 @@ struct TrajectoryHeader {
 };
 
 /// Nothing if every rod is of a species that has beads; else what is wrong.
-std::optional<Error> check(const TrajectoryHeader& header);
+Result<void> check(const TrajectoryHeader& header);
 
 /// Frames in a file of either kind.
 class RecordedFrames {

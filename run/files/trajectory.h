@@ -19,7 +19,7 @@ namespace shaken::run {
 /// /parameters and /parameters/species_2, species_3. Side walls are the attributes of /parameters/walls. Units are
 /// those of H5MD's module "units", in the attribute `unit` of each data set (docs/files.md). Chunks carry checksums.
 /// The file is written as a whole: a crash leaves the former one, or none.
-[[nodiscard]] std::optional<Error> write_trajectory(const std::filesystem::path& file, const RecordedFrames& frames);
+Result<void> write_trajectory(const std::filesystem::path& file, const RecordedFrames& frames);
 
 /// The log of a run of which `n_frames` frames are recorded, to go on after these; made anew of trajectory.h5 where
 /// there is no log. Fails unless all of them are there and whole, and then changes nothing.

@@ -52,7 +52,7 @@ TrajectoryHeader read_header(hid_t file) {
   header.scene_json = hdf5::read_string(parameters, "scene_json");
   header.provenance = hdf5::read_provenance(file);
   read_species(file, header);
-  if (const auto error = check(header)) throw hdf5::Failure(error->message);
+  if (auto done = check(header); !done) throw hdf5::Failure(done.error().message);
   if (hdf5::exists(file, trajectory_layout::kWalls)) header.walls = read_walls(file);
   return header;
 }

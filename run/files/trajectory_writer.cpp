@@ -137,7 +137,7 @@ void write_file(const std::filesystem::path& path, const RecordedFrames& frames)
 
 }  // namespace
 
-std::optional<Error> write_trajectory(const std::filesystem::path& file, const RecordedFrames& frames) {
+Result<void> write_trajectory(const std::filesystem::path& file, const RecordedFrames& frames) {
   hdf5::initialize();
   const std::filesystem::path written = temporary_for(file);
   try {
@@ -166,9 +166,9 @@ Result<FrameLog> reopen_frames(const RunDirectory& directory, std::size_t n_fram
   for (std::size_t i = 0; i < n_frames; ++i) {
     const Result<RecordedFrame> frame = trajectory->recorded().frame(i);
     if (!frame) return frame.error();
-    if (auto error = log->append(*frame)) return *error;
+    if (auto done = log->append(*frame); !done) return done.error();
   }
-  if (auto error = replace_file(written, directory.frames())) return *error;
+  if (auto done = replace_file(written, directory.frames()); !done) return done.error();
   return FrameLog::reopen(directory.frames(), n_frames);
 }
 

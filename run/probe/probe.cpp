@@ -37,16 +37,16 @@ class Prober {
 
   Result<Probe> run() {
     result_.run_ticks = static_cast<double>(total_ticks(plan_));
-    if (auto error = step()) return *error;
+    if (auto done = step(); !done) return done.error();
     const SamplingCost sampling = time_sampling(plan_, simulation_.world().species.front(), snapshots_);
     result_.samples = sampling.samples;
     result_.disk.observables = sampling.file_bytes;
     // what is sampled or recorded is read first, all rods of it
     snapshot_cpu_ = time_of([&] { snapshots_.back() = simulation_.snapshot(); }, kCpu, 2);
     for (auto& [effect, cost] : result_.samples) cost.each += snapshot_cpu_;
-    if (auto error = time_recording()) return *error;
+    if (auto done = time_recording(); !done) return done.error();
     if (plan_.movie) time_movie();
-    if (auto error = time_checkpoints(sampling.state_bytes)) return *error;
+    if (auto done = time_checkpoints(sampling.state_bytes); !done) return done.error();
     if (plan_.stream) time_stream();
     return result_;
   }
@@ -81,7 +81,7 @@ class Prober {
     return stretch;
   }
 
-  [[nodiscard]] std::optional<Error> step() {
+  Result<void> step() {
     // From a checkpoint too: lists and schedules have to be built.
     const auto warm_up = step_for(simulation_.tick() == 0 ? cpu_ / 2 : cpu_ / 16);
     if (!warm_up) return warm_up.error();
@@ -97,7 +97,7 @@ class Prober {
       if (!between) return between.error();
       snapshots_.push_back(simulation_.snapshot());
     }
-    return std::nullopt;
+    return {};
   }
 
   /// Records `n` frames of the present state, `cadence` apart, as a run does, into DIR/trajectory.h5. Returns the CPU
@@ -112,19 +112,19 @@ class Prober {
     for (int k = 0; k < n; ++k) {
       frame.tick = k * cadence.period();
       frame.time = static_cast<double>(frame.tick) * dt_;
-      if (auto error = log->append(shaken::run::record(frame))) return *error;
+      if (auto done = log->append(shaken::run::record(frame)); !done) return done.error();
     }
     const Result<TrajectoryReader> frames = TrajectoryReader::open(directory.frames());
     if (!frames) return frames.error();
-    if (auto error = write_trajectory(directory.trajectory(), frames->recorded())) return *error;
+    if (auto done = write_trajectory(directory.trajectory(), frames->recorded()); !done) return done.error();
     std::error_code ignored;
     std::filesystem::remove(directory.frames(), ignored);
     return (thread_cpu_seconds() - begin) / n;
   }
 
-  [[nodiscard]] std::optional<Error> time_recording() {
+  Result<void> time_recording() {
     const std::optional<Cadence> recording = recording_of(plan_);
-    if (!recording) return std::nullopt;
+    if (!recording) return {};
     result_.trajectory.count = total_ticks(plan_) / recording->period() + 1;
     double bytes[2] = {0, 0};
     for (const int n : {1, 1 + kFrames}) {
@@ -136,7 +136,7 @@ class Prober {
     }
     const double frame = (bytes[1] - bytes[0]) / kFrames;
     result_.disk.trajectory = bytes[0] + frame * static_cast<double>(result_.trajectory.count - 1);
-    return std::nullopt;
+    return {};
   }
 
   /// Draws two movies; they differ by the cost of the frames that one has more.
@@ -148,9 +148,9 @@ class Prober {
       const auto recorded = record(folder.path(), cadence, n);
       const double before = children_cpu_seconds();
       const std::atomic<bool> stop = false;
-      auto error = recorded ? render_movie(folder.path(), stop) : std::optional(recorded.error());
-      if (error) {
-        result_.movie_trouble = error->message;
+      const Result<void> drawn = recorded ? render_movie(folder.path(), stop) : recorded.error();
+      if (!drawn) {
+        result_.movie_trouble = drawn.error().message;
         return;
       }
       cpu[n > kShortMovie] = children_cpu_seconds() - before;
@@ -160,19 +160,19 @@ class Prober {
     result_.movie.once = std::max(0.0, cpu[0] - kShortMovie * result_.movie.each);
   }
 
-  [[nodiscard]] std::optional<Error> time_checkpoints(double measurement_bytes) {
+  Result<void> time_checkpoints(double measurement_bytes) {
     const ScratchFolder folder;
     const RunDirectory directory{folder.path()};
     const double begin = thread_cpu_seconds();
     const Checkpoint checkpoint{simulation_.checkpoint(),
                                 std::vector<std::byte>(static_cast<std::size_t>(measurement_bytes)), 0, 0};
-    if (auto error = write_checkpoint(directory, scene::run_id(plan_), checkpoint)) return error;
+    if (auto done = write_checkpoint(directory, scene::run_id(plan_), checkpoint); !done) return done.error();
     result_.checkpoints.each = thread_cpu_seconds() - begin;
     // one at the end, and one now and then before
     result_.checkpoints.count = 1 + static_cast<std::int64_t>(result_.total() / kCheckpointEvery);
     result_.disk.checkpoints =
         bytes_in(directory.checkpoint()) * std::min<double>(2, static_cast<double>(result_.checkpoints.count));
-    return std::nullopt;
+    return {};
   }
 
   /// Frames are sent by the clock on the wall, which is CPU time if the run has a core to itself.

@@ -112,7 +112,7 @@ SamplingCost time_sampling(const scene::RunPlan& plan, const Species& species, c
   }
   const ScratchFolder folder;
   const auto file = folder.path() / "observables.h5";
-  if (!write_observables(file, arrays)) {
+  if (write_observables(file, arrays)) {
     cost.file_bytes = static_cast<double>(std::filesystem::file_size(file)) + later_bytes;
   }
   return cost;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -12,12 +13,16 @@ struct Error {
   std::string message;
 };
 
-/// A value, or the reason why there is none. For bad input; a broken promise of our own is SHAKEN_CHECK's business.
-template <class T>
+/// A value, or the reason why there is none. True if there is a value.
+///
+/// For bad input, and for input or output that fails; a broken promise of our own is SHAKEN_CHECK's business. Asking
+/// for the value or the reason that is not there throws std::bad_variant_access. `E` is Error, except where there can
+/// be several reasons at once (scene/problem.h).
+template <class T, class E = Error>
 class [[nodiscard]] Result {
  public:
   Result(T value) : content_(std::move(value)) {}
-  Result(Error error) : content_(std::move(error)) {}
+  Result(E error) : content_(std::move(error)) {}
 
   explicit operator bool() const { return std::holds_alternative<T>(content_); }
   T& value() & { return std::get<T>(content_); }
@@ -27,10 +32,27 @@ class [[nodiscard]] Result {
   const T& operator*() const& { return value(); }
   T* operator->() { return &value(); }
   const T* operator->() const { return &value(); }
-  const Error& error() const { return std::get<Error>(content_); }
+  const E& error() const { return std::get<E>(content_); }
 
  private:
-  std::variant<T, Error> content_;
+  std::variant<T, E> content_;
+};
+
+/// That something was done, or the reason why it was not: for functions that give nothing back. True if it was done,
+/// as with every Result; `return {};` says so. A failure is passed on, also as one of another type, by
+///   if (auto done = write_file(file, text); !done) return done.error();
+/// Asking for the reason of a success throws std::bad_optional_access.
+template <>
+class [[nodiscard]] Result<void> {
+ public:
+  Result() = default;
+  Result(Error error) : error_(std::move(error)) {}
+
+  explicit operator bool() const { return !error_; }
+  const Error& error() const { return error_.value(); }
+
+ private:
+  std::optional<Error> error_;
 };
 
 }  // namespace shaken

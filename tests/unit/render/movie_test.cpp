@@ -93,10 +93,9 @@ std::array<int, 3> bt709(const Rgb& c) {
 void write_movie(const std::filesystem::path& file, int n_frames, double fps = 30) {
   Result<MovieWriter> movie = MovieWriter::create(file, 128, 96, fps);
   ASSERT_TRUE(movie) << movie.error().message;
-  for (int i = 0; i < n_frames; ++i)
-    ASSERT_FALSE(movie->add(plain(128, 96, kColours[static_cast<std::size_t>(i) % 4])));
-  const auto error = movie->finish();
-  ASSERT_FALSE(error) << error->message;
+  for (int i = 0; i < n_frames; ++i) ASSERT_TRUE(movie->add(plain(128, 96, kColours[static_cast<std::size_t>(i) % 4])));
+  const auto done = movie->finish();
+  ASSERT_TRUE(done) << done.error().message;
 }
 
 std::string bytes_of(const std::filesystem::path& file) {
@@ -145,7 +144,7 @@ TEST(Movie, AnUnfinishedMovieLeavesNothingAndTheOldOneStays) {
   {
     Result<MovieWriter> movie = MovieWriter::create(folder / "m.mp4", 128, 96, 30);
     ASSERT_TRUE(movie);
-    ASSERT_FALSE(movie->add(plain(128, 96, kColours[0])));
+    ASSERT_TRUE(movie->add(plain(128, 96, kColours[0])));
   }
   EXPECT_EQ(folder.listing(), "m.mp4");
   EXPECT_EQ(bytes_of(folder / "m.mp4"), old);
@@ -159,7 +158,7 @@ TEST(Movie, RefusesOddSizesOddRatesAndOtherFrames) {
   EXPECT_FALSE(MovieWriter::create(folder / "m.mp4", 128, 96, NAN));
   Result<MovieWriter> movie = MovieWriter::create(folder / "m.mp4", 128, 96, 30);
   ASSERT_TRUE(movie);
-  EXPECT_TRUE(movie->add(plain(96, 128, kColours[0])));
+  EXPECT_FALSE(movie->add(plain(96, 128, kColours[0])));
 }
 
 TEST(Movie, AFolderThatDoesNotExistIsAnError) {
@@ -187,11 +186,11 @@ TEST(MakeMovie, KeepsItsFramesOnRequest) {
   std::vector<std::size_t> told;
   MovieOptions options;
   options.keep_frames = folder / "frames";
-  const auto error = make_movie(painter(), folder / "m.mp4", small(), options, 3, turning, [&](std::size_t i) {
+  const auto made = make_movie(painter(), folder / "m.mp4", small(), options, 3, turning, [&](std::size_t i) {
     told.push_back(i);
     return true;
   });
-  ASSERT_FALSE(error) << error->message;
+  ASSERT_TRUE(made) << made.error().message;
   EXPECT_EQ(told, (std::vector<std::size_t>{0, 1, 2}));
   EXPECT_EQ(decode(folder / "m.mp4").middle.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -204,15 +203,15 @@ TEST(MakeMovie, StoppingAndFailingFramesLeaveNoMovie) {
   const ScratchFolder folder;
   const auto stopped =
       make_movie(painter(), folder / "m.mp4", small(), {}, 5, turning, [](std::size_t i) { return i < 1; });
-  ASSERT_TRUE(stopped);
-  EXPECT_EQ(stopped->message, "stopped after 2 frames");
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().message, "stopped after 2 frames");
   const auto failed = make_movie(painter(), folder / "m.mp4", small(), {}, 5, [](std::size_t i) -> Result<RodPicture> {
     if (i == 2) return Error{"torn"};
     return turning(i);
   });
-  ASSERT_TRUE(failed);
-  EXPECT_EQ(failed->message, "torn");
-  EXPECT_TRUE(make_movie(painter(), folder / "m.mp4", small(), {}, 0, turning));
+  ASSERT_FALSE(failed);
+  EXPECT_EQ(failed.error().message, "torn");
+  EXPECT_FALSE(make_movie(painter(), folder / "m.mp4", small(), {}, 0, turning));
   EXPECT_EQ(folder.listing(), "");
 }
 

@@ -92,8 +92,9 @@ void plant_trajectory(const std::filesystem::path& directory, int n_frames, cons
   header.bead_offset = shape.beads.offset;
   header.bead_radius = shape.beads.radius;
   header.scene_json = scene_json;
-  Result<run::TrajectoryWriter> writer = run::TrajectoryWriter::create(directory / "trajectory.h5", header);
-  ASSERT_TRUE(writer) << writer.error().message;
+  const run::RunDirectory files{directory};
+  Result<run::FrameLog> log = run::FrameLog::create(files.frames(), header);
+  ASSERT_TRUE(log) << log.error().message;
   for (int f = 0; f < n_frames; ++f) {
     RodPicture rods = empty_picture(10);
     for (int i = 0; i < 3; ++i) add_rod(rods, 5, 2 + 3 * i, f * kPi / 18, 0.1);
@@ -106,9 +107,13 @@ void plant_trajectory(const std::filesystem::path& directory, int n_frames, cons
     snapshot.image.resize(3);
     snapshot.velocity.assign(3, Vec3::Zero());
     snapshot.angular_velocity.assign(3, Vec3::Zero());
-    const auto error = writer->append(snapshot);
-    ASSERT_FALSE(error) << error->message;
+    const auto done = log->append(run::record(snapshot));
+    ASSERT_TRUE(done) << done.error().message;
   }
+  const auto frames = run::TrajectoryReader::open(files.frames());
+  ASSERT_TRUE(frames) << frames.error().message;
+  ASSERT_TRUE(run::write_trajectory(files.trajectory(), frames->recorded()));
+  std::filesystem::remove(files.frames());
 }
 
 }  // namespace shaken::render

@@ -30,28 +30,28 @@ void expect_same(const Checkpoint& a, const Checkpoint& b) {
 TEST(CheckpointFile, ComesBackExactlyAndKeepsItsPredecessor) {
   const TemporaryFolder folder;
   const RunDirectory directory{folder.path()};
-  ASSERT_FALSE(write_checkpoint(directory, kRun, example(1)));
+  ASSERT_TRUE(write_checkpoint(directory, kRun, example(1)));
   EXPECT_FALSE(std::filesystem::exists(directory.previous_checkpoint()));
-  ASSERT_FALSE(write_checkpoint(directory, kRun, example(2)));
-  ASSERT_FALSE(write_checkpoint(directory, kRun, example(3)));
+  ASSERT_TRUE(write_checkpoint(directory, kRun, example(2)));
+  ASSERT_TRUE(write_checkpoint(directory, kRun, example(3)));
   expect_same(*read_checkpoint(directory.checkpoint(), kRun), example(3));
   expect_same(*read_checkpoint(directory.previous_checkpoint(), kRun), example(2));
 }
 
 TEST(CheckpointFile, EmptyPartsAreFine) {
   const TemporaryFolder folder;
-  ASSERT_FALSE(write_checkpoint({folder.path()}, kRun, Checkpoint{}));
+  ASSERT_TRUE(write_checkpoint({folder.path()}, kRun, Checkpoint{}));
   expect_same(*read_checkpoint(RunDirectory{folder.path()}.checkpoint(), kRun), Checkpoint{});
 }
 
 class DamagedCheckpoint : public testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_FALSE(write_checkpoint({folder_.path()}, kRun, example()));
+    ASSERT_TRUE(write_checkpoint({folder_.path()}, kRun, example()));
     content_ = *read_file(file_);
   }
   bool refused(const std::string& content) const {
-    EXPECT_FALSE(write_file(file_, content));
+    EXPECT_TRUE(write_file(file_, content));
     const auto read = read_checkpoint(file_, kRun);
     if (!read) {
       EXPECT_NE(read.error().message.find("checkpoint.bin"), std::string::npos);
@@ -83,7 +83,7 @@ TEST_F(DamagedCheckpoint, IsRefusedWithSomethingBehind) {
 TEST(CheckpointFile, OfAnotherRunIsRefusedByName) {
   const TemporaryFolder folder;
   const RunDirectory directory{folder.path()};
-  ASSERT_FALSE(write_checkpoint(directory, "fedcba9876543210", example()));
+  ASSERT_TRUE(write_checkpoint(directory, "fedcba9876543210", example()));
   const auto read = read_checkpoint(directory.checkpoint(), kRun);
   ASSERT_FALSE(read);
   EXPECT_NE(read.error().message.find("fedcba9876543210"), std::string::npos) << read.error().message;
@@ -92,11 +92,11 @@ TEST(CheckpointFile, OfAnotherRunIsRefusedByName) {
 TEST(CheckpointFile, FullDiskLeavesBothPredecessors) {
   const TemporaryFolder folder;
   const RunDirectory directory{folder.path()};
-  ASSERT_FALSE(write_checkpoint(directory, kRun, example(1)));
-  ASSERT_FALSE(write_checkpoint(directory, kRun, example(2)));
+  ASSERT_TRUE(write_checkpoint(directory, kRun, example(1)));
+  ASSERT_TRUE(write_checkpoint(directory, kRun, example(2)));
   EXPECT_EQ(in_child([&] {
               limit_file_size(100);
-              return write_checkpoint(directory, kRun, example(3)).has_value();
+              return !write_checkpoint(directory, kRun, example(3));
             }),
             0);
   expect_same(*read_checkpoint(directory.checkpoint(), kRun), example(2));

@@ -35,7 +35,7 @@ Summary example() {
 
 nlohmann::json written(const Summary& summary) {
   const TemporaryFolder folder;
-  EXPECT_FALSE(write_summary(folder / "summary.json", summary));
+  EXPECT_TRUE(write_summary(folder / "summary.json", summary));
   return nlohmann::json::parse(*read_file(folder / "summary.json"));
 }
 
@@ -117,16 +117,16 @@ TEST(Summary, IsDoneOnlyForTheSameRun) {
   const auto file = directory.summary();
   EXPECT_FALSE(is_done(directory, "0123456789abcdef"));
   Summary summary = example();
-  ASSERT_FALSE(write_summary(file, summary));
+  ASSERT_TRUE(write_summary(file, summary));
   EXPECT_TRUE(is_done(directory, "0123456789abcdef"));
   EXPECT_FALSE(is_done(directory, "fedcba9876543210"));
   EXPECT_TRUE(is_done(directory)) << "whichever run it is";
   summary.state = "stopped";
-  ASSERT_FALSE(write_summary(file, summary));
+  ASSERT_TRUE(write_summary(file, summary));
   EXPECT_FALSE(is_done(directory, "0123456789abcdef"));
   for (const char* damaged : {"", "{", "[]", "{}", R"({"run_id": "0123456789abcdef", "exit": 3})",
                               R"({"run_id": 5, "exit": {"state": "done"}})"}) {
-    ASSERT_FALSE(write_file_atomically(file, damaged));
+    ASSERT_TRUE(write_file_atomically(file, damaged));
     EXPECT_FALSE(is_done(directory, "0123456789abcdef")) << damaged;
   }
 }

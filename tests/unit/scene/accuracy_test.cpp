@@ -47,11 +47,11 @@ TEST(Accuracy, ContradictingTheStepIsRefused) {
 
 TEST(Accuracy, CanBeSwept) {
   const auto sweep = load_sweep(R"({"scene": {}, "sweep": {"grid": {"accuracy": ["draft", "fine"]}}})", "s.json");
-  ASSERT_TRUE(sweep.value.has_value()) << to_string(sweep.problems);
-  ASSERT_EQ(sweep.value->points.size(), 2u);
-  EXPECT_EQ(sweep.value->points[0].label, "accuracy=draft");
-  EXPECT_EQ(sweep.value->points[0].plan.system.dt, accuracy_level("draft")->step);
-  EXPECT_EQ(sweep.value->points[1].plan.system.dt, accuracy_level("fine")->step);
+  ASSERT_TRUE(sweep) << to_string(sweep.error());
+  ASSERT_EQ(sweep->points.size(), 2u);
+  EXPECT_EQ(sweep->points[0].label, "accuracy=draft");
+  EXPECT_EQ(sweep->points[0].plan.system.dt, accuracy_level("draft")->step);
+  EXPECT_EQ(sweep->points[1].plan.system.dt, accuracy_level("fine")->step);
 }
 
 }  // namespace

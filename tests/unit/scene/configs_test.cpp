@@ -21,9 +21,9 @@ TEST(Configs, AreAllValidAndCanStart) {
     std::stringstream text;
     text << in.rdbuf();
     const Loaded<Sweep> sweep = load_sweep(text.str(), entry.path().string());
-    EXPECT_TRUE(sweep.value) << to_string(sweep.problems);
-    if (!sweep.value) continue;
-    for (const SweepPoint& point : sweep.value->points) {
+    EXPECT_TRUE(sweep) << to_string(sweep.error());
+    if (!sweep) continue;
+    for (const SweepPoint& point : sweep->points) {
       const auto flights = make_world(point.plan.system);
       EXPECT_TRUE(flights) << entry.path() << " " << point.label << ": " << flights.error().message;
     }
@@ -41,7 +41,7 @@ TEST(Configs, TheExamplesOfTheReferenceAreValid) {
       example += line + "\n";
     } else if (!example.empty()) {
       const Loaded<Sweep> sweep = load_sweep(example, "docs/scene.md");
-      EXPECT_TRUE(sweep.value) << example << to_string(sweep.problems);
+      EXPECT_TRUE(sweep) << example << to_string(sweep.error());
       ++n_examples;
       example.clear();
     }

@@ -62,20 +62,20 @@ std::string mutated(std::string_view original, std::mt19937_64& random) {
 
 void check(const std::string& text) {
   const Loaded<RunPlan> scene = load_scene(text, "f");
-  ASSERT_NE(scene.value.has_value(), !scene.problems.empty()) << text;
-  if (scene.value) {
-    const Loaded<RunPlan> again = load_scene(to_json(*scene.value).dump(), "f");
-    ASSERT_TRUE(again.value) << text << "\n" << to_string(again.problems);
-    ASSERT_EQ(*again.value, *scene.value) << text;
+  ASSERT_TRUE(scene || !scene.error().empty()) << text;
+  if (scene) {
+    const Loaded<RunPlan> again = load_scene(to_json(*scene).dump(), "f");
+    ASSERT_TRUE(again) << text << "\n" << to_string(again.error());
+    ASSERT_EQ(*again, *scene) << text;
   }
   const Loaded<Sweep> sweep = load_sweep(text, "f");
-  ASSERT_NE(sweep.value.has_value(), !sweep.problems.empty()) << text;
-  ASSERT_TRUE(!sweep.value || !sweep.value->points.empty()) << text;
+  ASSERT_TRUE(sweep || !sweep.error().empty()) << text;
+  ASSERT_TRUE(!sweep || !sweep->points.empty()) << text;
 }
 
 TEST(Mutation, TheOriginalsAreValid) {
-  EXPECT_TRUE(load_scene(kScene, "f").value) << to_string(load_scene(kScene, "f").problems);
-  EXPECT_TRUE(load_sweep(kSweep, "f").value) << to_string(load_sweep(kSweep, "f").problems);
+  EXPECT_TRUE(load_scene(kScene, "f")) << to_string(load_scene(kScene, "f").error());
+  EXPECT_TRUE(load_sweep(kSweep, "f")) << to_string(load_sweep(kSweep, "f").error());
 }
 
 TEST(Mutation, NothingCrashes) {
@@ -96,9 +96,9 @@ TEST(Mutation, SettingsNeitherCrash) {
     const std::vector<std::string> settings{mutated(kSettings[random() % kSettings.size()], random)};
     ASSERT_NO_THROW({
       const auto scene = load_scene("{}", "f", settings);
-      ASSERT_NE(scene.value.has_value(), !scene.problems.empty()) << settings[0];
+      ASSERT_TRUE(scene || !scene.error().empty()) << settings[0];
       const auto sweep = load_sweep(kSweep, "f", settings);
-      ASSERT_NE(sweep.value.has_value(), !sweep.problems.empty()) << settings[0];
+      ASSERT_TRUE(sweep || !sweep.error().empty()) << settings[0];
     }) << settings[0];
   }
 }

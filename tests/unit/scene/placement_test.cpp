@@ -21,12 +21,12 @@ constexpr const char* kMixture = R"({
   "rods_3": {"length": 2.5, "area_fraction": 0.1}, "box": {"side": "40 mm"}})";
 
 TEST(Placement, WhatCannotBePlacedIsRefused) {
-  EXPECT_TRUE(load_sweep(kMixture, "mix.json").value);
+  EXPECT_TRUE(load_sweep(kMixture, "mix.json"));
   const Loaded<Sweep> refused = load_runs(kMixture, "mix.json");
-  ASSERT_FALSE(refused.value);
-  ASSERT_EQ(refused.problems.size(), 1u);
-  EXPECT_THAT(to_string(refused.problems.front()), HasSubstr("mix.json: /rods: "));
-  EXPECT_THAT(refused.problems.front().message, HasSubstr("do not fit into the box: in rows at most "));
+  ASSERT_FALSE(refused);
+  ASSERT_EQ(refused.error().size(), 1u);
+  EXPECT_THAT(to_string(refused.error().front()), HasSubstr("mix.json: /rods: "));
+  EXPECT_THAT(refused.error().front().message, HasSubstr("do not fit into the box: in rows at most "));
 }
 
 TEST(Placement, IsWhatTheSimulationSays) {
@@ -38,13 +38,13 @@ TEST(Placement, IsWhatTheSimulationSays) {
         const std::vector<std::string> settings{"rods.start=" + std::string(start), "walls=" + std::string(walls),
                                                 "rods.area_fraction=" + std::to_string(fraction), "box.side=25"};
         const Loaded<RunPlan> plan = load_scene("{}", "s", settings);
-        if (!plan.value) continue;  // beyond what any box takes
-        const Result<Simulation> started = Simulation::start(plan.value->system);
+        if (!plan) continue;  // beyond what any box takes
+        const Result<Simulation> started = Simulation::start(plan->system);
         const Loaded<Sweep> runs = load_runs("{}", "s", settings);
-        ASSERT_EQ(runs.value.has_value(), static_cast<bool>(started)) << settings[0] << settings[1] << settings[2];
-        EXPECT_EQ(placement_problem(*plan.value, "s").has_value(), !started);
+        ASSERT_EQ(static_cast<bool>(runs), static_cast<bool>(started)) << settings[0] << settings[1] << settings[2];
+        EXPECT_EQ(placement_problem(*plan, "s").has_value(), !started);
         if (!started) {
-          EXPECT_EQ(runs.problems.front().message, started.error().message);
+          EXPECT_EQ(runs.error().front().message, started.error().message);
         }
         ++(started ? n_placed : n_refused);
       }
@@ -58,10 +58,10 @@ TEST(Placement, EveryPointOfASweepIsPlacedAndNamed) {
   const Loaded<Sweep> runs =
       load_runs(R"({"box": {"side": 25}})", "s.json",
                 std::vector<std::string>{"rods.area_fraction=0.5,0.91,0.915", "time.step=4e-6,2e-6"}, 2);
-  ASSERT_FALSE(runs.value);
-  ASSERT_EQ(runs.problems.size(), 2u) << "the step and the seed do not matter: " << to_string(runs.problems);
-  EXPECT_THAT(runs.problems[0].message, HasSubstr("rods.area_fraction=0.91 time.step=4e-06 replica=1: "));
-  EXPECT_THAT(runs.problems[1].message, HasSubstr("rods.area_fraction=0.915 time.step=4e-06 replica=1: "));
+  ASSERT_FALSE(runs);
+  ASSERT_EQ(runs.error().size(), 2u) << "the step and the seed do not matter: " << to_string(runs.error());
+  EXPECT_THAT(runs.error()[0].message, HasSubstr("rods.area_fraction=0.91 time.step=4e-06 replica=1: "));
+  EXPECT_THAT(runs.error()[1].message, HasSubstr("rods.area_fraction=0.915 time.step=4e-06 replica=1: "));
 }
 
 /// The bound on the plates' speed is the depth at which the simulation ends a run.
@@ -76,8 +76,8 @@ TEST(FastPlates, AreRefusedWhereTheSimulationWouldEnd) {
     const World world = empty_world(system);
     const auto& radius = world.species[0].bead_radius;
     const double deepest = kMaxOverlapFraction * *std::min_element(radius.begin(), radius.end());
-    EXPECT_EQ(plan.value.has_value(), world.plates.peak_speed() * system.dt <= deepest) << gamma;
-    if (plan.value) continue;
+    EXPECT_EQ(static_cast<bool>(plan), world.plates.peak_speed() * system.dt <= deepest) << gamma;
+    if (plan) continue;
     ++n_refused;
     Result<Simulation> simulation = Simulation::start(system);
     ASSERT_TRUE(static_cast<bool>(simulation));

@@ -14,16 +14,16 @@ namespace shaken::scene {
 /// The plan of a scene that must be right.
 inline RunPlan plan_of(std::string_view text, const std::vector<std::string>& settings = {}) {
   const Loaded<RunPlan> loaded = load_scene(text, "run.json", settings);
-  EXPECT_TRUE(loaded.value.has_value()) << text << "\n" << to_string(loaded.problems);
-  return loaded.value.value_or(RunPlan{});
+  EXPECT_TRUE(loaded) << text << "\n" << to_string(loaded.error());
+  return loaded ? *loaded : RunPlan{};
 }
 
 /// The problems of a scene that must be wrong, as the user sees them.
 inline std::vector<std::string> problems_of(std::string_view text, const std::vector<std::string>& settings = {}) {
   const Loaded<RunPlan> loaded = load_scene(text, "run.json", settings);
-  EXPECT_FALSE(loaded.value.has_value()) << text;
+  EXPECT_FALSE(loaded) << text;
   std::vector<std::string> lines;
-  for (const Problem& problem : loaded.problems) lines.push_back(to_string(problem));
+  for (const Problem& problem : loaded.error()) lines.push_back(to_string(problem));
   return lines;
 }
 

@@ -16,8 +16,8 @@ using testing::HasSubstr;
 
 Sweep sweep_of(std::string_view text, const std::vector<std::string>& settings = {}, std::optional<int> replicas = {}) {
   Loaded<Sweep> loaded = load_sweep(text, "configs/tilt-scan.json", settings, replicas);
-  EXPECT_TRUE(loaded.value) << text << "\n" << to_string(loaded.problems);
-  return loaded.value.value_or(Sweep{});
+  EXPECT_TRUE(loaded) << text << "\n" << to_string(loaded.error());
+  return loaded ? *loaded : Sweep{};
 }
 
 std::vector<std::string> labels(const Sweep& sweep) {
@@ -29,8 +29,8 @@ std::vector<std::string> labels(const Sweep& sweep) {
 std::string sweep_problems(std::string_view text, const std::vector<std::string>& settings = {},
                            std::optional<int> replicas = {}) {
   const Loaded<Sweep> loaded = load_sweep(text, "s.json", settings, replicas);
-  EXPECT_FALSE(loaded.value) << text;
-  return to_string(loaded.problems);
+  EXPECT_FALSE(loaded) << text;
+  return to_string(loaded.error());
 }
 
 TEST(Sweep, APlainSceneIsASweepOfOnePoint) {

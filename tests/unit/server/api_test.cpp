@@ -15,6 +15,7 @@
 #include <cstring>
 #include <thread>
 
+#include "base/failure.h"
 #include "tests/unit/server/support.h"
 
 namespace shaken::server {
@@ -479,14 +480,14 @@ TEST(HttpServerTest, APathTooLongForASocketIsRefusedInWords) {
   try {
     const HttpServer server(socket, [](const Request&) { return Reply{}; });
     FAIL() << "it listens";
-  } catch (const std::runtime_error& problem) {
+  } catch (const Failure& problem) {
     EXPECT_THAT(problem.what(), HasSubstr("too long"));
     EXPECT_THAT(problem.what(), HasSubstr("--root"));
   }
 }
 
 TEST(HttpServerTest, AFolderThatIsNotThereIsRefusedInWords) {
-  EXPECT_THROW(HttpServer("/nonexistent/sock", [](const Request&) { return Reply{}; }), std::runtime_error);
+  EXPECT_THROW(HttpServer("/nonexistent/sock", [](const Request&) { return Reply{}; }), Failure);
 }
 
 }  // namespace

@@ -36,14 +36,14 @@ class PublisherTest : public testing::Test {
  protected:
   void start() {
     auto opened = proto::Bus::open("file://" + (directory_ / "log").string() + "?mode=w");
-    ASSERT_TRUE(opened) << opened.reason;
+    ASSERT_TRUE(opened) << opened.error().message;
     DaemonInfo info;
     info.version = "1.2.3";
     info.host = "here";
     info.pid = 42;
     info.root = directory_.path();
     info.slots = 3;
-    publisher_.emplace(queue_, std::move(opened.bus), info);
+    publisher_.emplace(queue_, std::move(opened).value(), info);
   }
   Recording stop() {
     publisher_.reset();

@@ -57,10 +57,10 @@ TEST(Submission, RodsThatCannotBePlacedAreRefusedAtOnce) {
   request.text = R"({"rods": {"area_fraction": 0.915}, "box": {"side": 25}})";
   request.file = "dense.json";
   const auto submission = expand(request, "/nonexistent");
-  ASSERT_FALSE(submission.value);
-  ASSERT_EQ(submission.problems.size(), 1u);
-  EXPECT_THAT(scene::to_string(submission.problems.front()), HasSubstr("dense.json: /rods: "));
-  EXPECT_THAT(submission.problems.front().message, HasSubstr("do not fit into the box: in rows at most "));
+  ASSERT_FALSE(submission);
+  ASSERT_EQ(submission.error().size(), 1u);
+  EXPECT_THAT(scene::to_string(submission.error().front()), HasSubstr("dense.json: /rods: "));
+  EXPECT_THAT(submission.error().front().message, HasSubstr("do not fit into the box: in rows at most "));
 }
 
 TEST(SubmitRequestTest, NoBytesCrashIt) {
@@ -79,10 +79,10 @@ TEST(ExpandTest, APlainSceneIsOneJobNamedAfterItsFile) {
   request.text = "{}";
   request.file = "folder/plain.json";
   const auto submission = expand(request, directory.path());
-  ASSERT_TRUE(submission.value.has_value());
-  EXPECT_EQ(submission.value->name, "plain");
-  ASSERT_EQ(submission.value->jobs.size(), 1U);
-  EXPECT_TRUE(submission.value->jobs[0].results_lost);
+  ASSERT_TRUE(submission);
+  EXPECT_EQ(submission->name, "plain");
+  ASSERT_EQ(submission->jobs.size(), 1U);
+  EXPECT_TRUE(submission->jobs[0].results_lost);
 }
 
 TEST(ExpandTest, WhatTheWorkerReadsIsTheSameRun) {
@@ -92,15 +92,15 @@ TEST(ExpandTest, WhatTheWorkerReadsIsTheSameRun) {
   request.replicas = 2;
   request.name = "named";
   const auto submission = expand(request, directory.path());
-  ASSERT_TRUE(submission.value.has_value()) << to_string(submission.problems);
-  EXPECT_EQ(submission.value->name, "named");
-  ASSERT_EQ(submission.value->jobs.size(), 4U);
-  for (const NewJob& job : submission.value->jobs) {
+  ASSERT_TRUE(submission) << to_string(submission.error());
+  EXPECT_EQ(submission->name, "named");
+  ASSERT_EQ(submission->jobs.size(), 4U);
+  for (const NewJob& job : submission->jobs) {
     request.text = job.scene;
     request.replicas.reset();
     const auto again = expand(request, directory.path());
-    ASSERT_TRUE(again.value.has_value()) << to_string(again.problems);
-    EXPECT_EQ(again.value->jobs.at(0).id, job.id);
+    ASSERT_TRUE(again) << to_string(again.error());
+    EXPECT_EQ(again->jobs.at(0).id, job.id);
     EXPECT_TRUE(nlohmann::json::parse(job.parameters).contains("rods.area_fraction"));
   }
 }
@@ -109,8 +109,8 @@ TEST(ExpandTest, AllThatIsWrongIsListed) {
   SubmitRequest request;
   request.text = R"({"rodz": {}, "box": {"gap": "1.2 kg"}})";
   const auto submission = expand(request, "/nonexistent");
-  EXPECT_FALSE(submission.value.has_value());
-  EXPECT_EQ(submission.problems.size(), 2U);
+  ASSERT_FALSE(submission);
+  EXPECT_EQ(submission.error().size(), 2U);
 }
 
 }  // namespace

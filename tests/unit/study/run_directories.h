@@ -28,7 +28,7 @@ class Runs {
                                            {"order", {{"mean", order}, {"sem", sem}, {"std", 3 * sem}}},
                                            {"measured", measured},
                                            {"exit", {{"state", "done"}}}};
-    EXPECT_FALSE(run::write_observables(files.observables(), arrays));
+    EXPECT_TRUE(run::write_observables(files.observables(), arrays));
     return FinishedRun(folder, {{"rods.area_fraction", fraction}});
   }
   const std::filesystem::path& path() const { return folder_.path(); }
