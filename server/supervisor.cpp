@@ -23,10 +23,11 @@ std::string heading(int attempt) {
   return fmt::format("{}attempt {}, {:%Y-%m-%dT%H:%M:%SZ}", kHeading, attempt, fmt::gmtime(now));
 }
 
-bool written_since(const std::filesystem::path& file, std::filesystem::file_time_type time) {
+/// When the newest checkpoint of a run was written; the beginning of time if there is none.
+std::filesystem::file_time_type checkpoint_time(const run::RunDirectory& directory) {
   std::error_code error;
-  const auto written = std::filesystem::last_write_time(file, error);
-  return !error && written >= time;
+  const auto written = std::filesystem::last_write_time(directory.checkpoint(), error);
+  return error ? std::filesystem::file_time_type::min() : written;
 }
 
 std::int64_t bytes_in(const std::filesystem::path& folder) {
@@ -93,7 +94,7 @@ void Supervisor::settle(const std::string& id, const Worker& worker) {
       queue_.stopped(id, reason);
       break;
     case JobEnd::Outcome::kCrashed:
-      queue_.crashed(id, reason, written_since(worker.directory.checkpoint(), worker.started), options_.retry_pauses);
+      queue_.crashed(id, reason, checkpoint_time(worker.directory) != worker.checkpoint_before, options_.retry_pauses);
       break;
     case JobEnd::Outcome::kNoRoom: {
       const std::int64_t needed = std::max(2 * options_.least_room, 2 * bytes_in(worker.directory.root));
@@ -179,7 +180,7 @@ bool Supervisor::start(const Job& job) {
                  sweep_word(job.sweep), "--label", job.label},
                 heading(*attempt)};
   launch.arguments.insert(launch.arguments.end(), options_.worker_options.begin(), options_.worker_options.end());
-  const auto started = std::filesystem::file_time_type::clock::now();
+  const auto checkpoint_before = checkpoint_time(directory);
   const auto handle = executor_.start(launch);
   if (!handle) {
     could_not_start(job.id, handle.error().message);
@@ -188,7 +189,7 @@ bool Supervisor::start(const Job& job) {
   Worker& worker = workers_[job.id];
   worker.handle = *handle;
   worker.directory = directory;
-  worker.started = started;
+  worker.checkpoint_before = checkpoint_before;
   queue_.set_pid(job.id, *handle);
   complaints_.clear();
   pause_ = std::chrono::milliseconds(0);

@@ -30,7 +30,7 @@ constexpr const char* kScene = R"({
 Finished work(const fs::path& scene, const fs::path& directory, const std::string& fault = "none:0") {
   return run_command({"/usr/bin/env", std::string("LD_PRELOAD=") + SHAKEN_FAILING_CALLS, "SHAKEN_FAULT=" + fault,
                       "SHAKEN_FAULT_BELOW=" + directory.string(), std::string(SHAKEN_BIN_DIR) + "/shaken-worker",
-                      scene.string(), "--out", directory.string(), "--no-lcm", "--checkpoint-every", "0.02"});
+                      scene.string(), "--out", directory.string(), "--no-lcm", "--checkpoint-every", "0.004"});
 }
 
 std::string state_hash(const fs::path& directory) {
