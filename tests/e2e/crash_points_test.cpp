@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 constexpr const char* kScene = R"({
   "rods": { "count": 12, "length": "2.5 mm", "beads": 7 },
   "box": { "side": "12 mm" },
-  "time": { "step": "20 us", "measure": "60 ms", "steady": "10 ms" },
+  "time": { "step": "20 us", "measure": "120 ms", "steady": "10 ms" },
   "measure": { "order": { "every": "2 ms" }, "defects": { "every": "20 ms" } },
   "trajectory": { "every": "4 ms" }
 })";
@@ -68,7 +68,7 @@ class CrashPoints : public testing::Test {
     std::ofstream(scene_) << kScene;
     const Finished straight = work(scene_, undisturbed_);
     ASSERT_EQ(straight.code, 0) << straight.output;
-    ASSERT_EQ(run::TrajectoryReader::open(run::RunDirectory{undisturbed_}.trajectory())->n_frames(), 18U);
+    ASSERT_EQ(run::TrajectoryReader::open(run::RunDirectory{undisturbed_}.trajectory())->n_frames(), 33U);
   }
 
   /// The n-th change goes wrong, for every n: the worker starts in a copy of `begin` (or in none), then once more
@@ -97,14 +97,14 @@ class CrashPoints : public testing::Test {
     RecordProperty("changes", n - 1);
   }
 
-  /// A directory whose run was killed after its second checkpoint.
+  /// A directory whose run was killed soon after its first checkpoint.
   fs::path killed_midway() {
     const run::RunDirectory midway{folder_.path() / "midway"};
-    for (int n = 40; n < 200 && !fs::exists(midway.previous_checkpoint()); n += 10) {
+    for (int n = 4; n < 200 && !fs::exists(midway.checkpoint()); n += 2) {
       fs::remove_all(midway.root);
       EXPECT_EQ(work(scene_, midway.root, "kill:" + std::to_string(n)).code, 128 + SIGKILL);
     }
-    EXPECT_TRUE(fs::exists(midway.previous_checkpoint()));
+    EXPECT_TRUE(fs::exists(midway.checkpoint()));
     return midway.root;
   }
 
