@@ -20,6 +20,8 @@ ALLOWED = {
     "scene": ["sim/core", "sim/rod", "sim/system.h"],
     # whether rods can be placed, the simulation itself says
     "scene/placement.cpp": ["scene", "sim/core", "sim/rod", "sim/system.h", "sim/initial.h"],
+    # a sweep's name is printed
+    "scene/sweep.cpp": ["scene", "base/text.h", "sim/core", "sim/rod", "sim/system.h"],
     "run/files": ["base", "sim/core", "sim/system.h", "sim/snapshot.h"],
     "run": ["proto", "base", "scene", "analysis", "run/files", "sim/core", "sim/rod", "sim/system.h", "sim/snapshot.h",
             "sim/world.h", "sim/simulation.h", "sim/balance.h", "sim/close_up.h", "sim/effects/registry.h",

@@ -70,11 +70,9 @@ void LiveJobs::note_api(const Json& answer) {
   }
 }
 
-void LiveJobs::note(const job_t& message) {
-  LiveJob* job = find(message.job_id);
-  if (job == nullptr) return;
-  job->state = message.state;
-  job->reason = message.reason;
+bool LiveJobs::contradicts(const job_t& message) const {
+  const auto place = index_.find(message.job_id);
+  return place != index_.end() && jobs_[place->second].state != message.state;
 }
 
 void LiveJobs::note(const observables_t& message) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/text.h"
 #include "scene/canonical.h"
 #include "scene/document.h"
 #include "scene/draft.h"
@@ -147,6 +148,12 @@ class Product {
 
 }  // namespace
 
+std::optional<std::string> name_problem(std::string_view name) {
+  static constexpr std::size_t kLongestName = 200;
+  if (!name.empty() && name.size() <= kLongestName && name.find('/') == name.npos && printable(name) == name) return {};
+  return fmt::format("a name has 1 to {} bytes of UTF-8, without '/' and control characters", kLongestName);
+}
+
 Loaded<Sweep> load_sweep(std::string_view text, const std::string& file, std::span<const std::string> settings,
                          std::optional<int> replicas) {
   std::vector<Problem> problems;
@@ -154,6 +161,7 @@ Loaded<Sweep> load_sweep(std::string_view text, const std::string& file, std::sp
   if (!root) return {std::nullopt, problems};
 
   Sweep sweep{std::filesystem::path(file).stem().string(), {}};
+  Place name_place{root->place.file, 0, 0};
   Draft base(root->place);
   Variation variation;
   if (!root->find("scene") && !root->find("sweep")) {
@@ -164,8 +172,9 @@ Loaded<Sweep> load_sweep(std::string_view text, const std::string& file, std::sp
         base.read(member.value, problems);
       } else if (member.key == "sweep") {
         variation = read_variation(member.value, problems);
-      } else if (member.key == "name" && member.value.kind == Node::Kind::kString && !member.value.text.empty()) {
+      } else if (member.key == "name" && member.value.kind == Node::Kind::kString) {
         sweep.name = member.value.text;
+        name_place = member.value.place;
       } else if (member.key == "name") {
         problems.push_back(problem_at(member.value.place, "name", "expected a text, not " + describe(member.value)));
       } else {
@@ -177,6 +186,12 @@ Loaded<Sweep> load_sweep(std::string_view text, const std::string& file, std::sp
                                                 : "unknown key" + did_you_mean(nearest(member.key, names))));
       }
     }
+  }
+  if (const auto problem = name_problem(sweep.name)) {
+    // A name that is no text at all has been complained about; that of the file stands in for it.
+    const bool is_of_file = name_place.line == 0;
+    problems.push_back(problem_at(name_place, is_of_file ? "" : "name",
+                                  *problem + (is_of_file ? ": rename the file, or give a \"name\" in a sweep" : "")));
   }
   Product product(std::move(variation), problems);
   if (replicas) product.set_replicas(*replicas);

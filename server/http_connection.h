@@ -16,8 +16,7 @@ namespace shaken::server {
 
 /// A request that cannot be read, or takes more than a request may: the status of its answer, and a sentence.
 struct UnreadableRequest : std::runtime_error {
-  UnreadableRequest(int answer_status, const std::string& reason)
-      : std::runtime_error(reason), status(answer_status) {}
+  UnreadableRequest(int answer_status, const std::string& reason) : std::runtime_error(reason), status(answer_status) {}
   int status;
 };
 

@@ -19,7 +19,6 @@ using nlohmann::json;
 
 constexpr int kMostReplicas = 10'000;
 constexpr int kHighestPriority = 1'000'000;
-constexpr std::size_t kLongestName = 200;
 
 const std::vector<std::string> kKeys{"text", "file", "settings", "replicas", "name", "priority"};
 
@@ -37,13 +36,9 @@ int integer_of(const json& value, const std::string& key, int least, int most) {
   return value.get<int>();
 }
 
-void check_name(const std::string& name) {
-  const bool printable = std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20 || c == '/'; });
-  if (name.empty() || name.size() > kLongestName || !printable) {
-    throw std::invalid_argument("\"name\" must have 1 to " + std::to_string(kLongestName) +
-                                " bytes, without '/' and control characters");
-  }
-  if (sweep_number(name)) throw std::invalid_argument("\"name\": '" + name + "' could be mistaken for a sweep's id");
+std::optional<std::string> name_problem(const std::string& name) {
+  if (sweep_number(name)) return "'" + name + "' could be mistaken for a sweep's id";
+  return scene::name_problem(name);
 }
 
 }  // namespace
@@ -76,7 +71,7 @@ SubmitRequest parse_submit_request(std::string_view body) {
   }
   if (object.contains("name")) {
     request.name = text_of(object["name"], "name");
-    check_name(request.name);
+    if (const auto problem = name_problem(request.name)) throw std::invalid_argument("\"name\": " + *problem);
   }
   return request;
 }
@@ -85,6 +80,9 @@ scene::Loaded<Submission> expand(const SubmitRequest& request, const std::filesy
   const auto sweep = scene::load_runs(request.text, request.file, request.settings, request.replicas);
   if (!sweep.value) return {std::nullopt, sweep.problems};
   Submission submission{request.name.empty() ? sweep.value->name : request.name, request.priority, {}};
+  if (const auto problem = name_problem(submission.name)) {
+    return {std::nullopt, {scene::Problem{request.file, 0, 0, "", *problem + "; submit it with another name"}}};
+  }
   for (const scene::SweepPoint& point : sweep.value->points) {
     NewJob job;
     job.id = scene::run_id(point.plan);

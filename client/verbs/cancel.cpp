@@ -36,7 +36,7 @@ class Cancel : public Verb {
                                                           cancelled == 1 ? "1 job" : fmt::format("{} jobs", cancelled))
                                             : fmt::format("{}: nothing left to cancel\n", target.title()));
     }
-    if (json_) context.console.out << Json{{"targets", answers}}.dump(2) << "\n";
+    if (json_) context.console.out << json_text(Json{{"targets", answers}});
     return ExitCode::kOk;
   }
 

@@ -85,11 +85,22 @@ TEST(LiveJobs, CountsDefectsLossesAndEnds) {
   EXPECT_EQ(jobs.received(), 3);
   EXPECT_EQ(jobs.lost(), 3);
   EXPECT_FALSE(jobs.all_ended());
-  job_t end{};
-  end.job_id = "aa";
-  end.state = "done";
-  jobs.note(end);
+  jobs.note_api(api_job("aa", "done", -1));
   EXPECT_TRUE(jobs.all_ended());
+}
+
+TEST(LiveJobs, AMessageEndsNothing) {
+  LiveJobs jobs;
+  jobs.note_api(api_job("aa", "running", 0));
+  job_t message{};
+  message.job_id = "aa";
+  message.state = "running";
+  EXPECT_FALSE(jobs.contradicts(message));
+  message.state = "done";
+  EXPECT_TRUE(jobs.contradicts(message)) << "a reason to ask the daemon";
+  EXPECT_FALSE(jobs.all_ended());
+  message.job_id = "bb";
+  EXPECT_FALSE(jobs.contradicts(message)) << "nobody watches it";
 }
 
 TEST(WatchScreen, FitsEveryTerminal) {

@@ -92,8 +92,9 @@ void plant_trajectory(const std::filesystem::path& directory, int n_frames, cons
   header.bead_offset = shape.beads.offset;
   header.bead_radius = shape.beads.radius;
   header.scene_json = scene_json;
-  Result<run::TrajectoryWriter> writer = run::TrajectoryWriter::create(directory / "trajectory.h5", header);
-  ASSERT_TRUE(writer) << writer.error().message;
+  const std::filesystem::path log_file = directory / "trajectory.part";
+  Result<run::FrameLog> log = run::FrameLog::create(log_file, header);
+  ASSERT_TRUE(log) << log.error().message;
   for (int f = 0; f < n_frames; ++f) {
     RodPicture rods = empty_picture(10);
     for (int i = 0; i < 3; ++i) add_rod(rods, 5, 2 + 3 * i, f * kPi / 18, 0.1);
@@ -106,9 +107,14 @@ void plant_trajectory(const std::filesystem::path& directory, int n_frames, cons
     snapshot.image.resize(3);
     snapshot.velocity.assign(3, Vec3::Zero());
     snapshot.angular_velocity.assign(3, Vec3::Zero());
-    const auto error = writer->append(snapshot);
+    const auto error = log->append(run::record(snapshot));
     ASSERT_FALSE(error) << error->message;
   }
+  const auto frames = run::TrajectoryReader::open(log_file);
+  ASSERT_TRUE(frames) << frames.error().message;
+  const auto error = run::write_trajectory(directory / "trajectory.h5", frames->recorded());
+  ASSERT_FALSE(error) << error->message;
+  std::filesystem::remove(log_file);
 }
 
 }  // namespace shaken::render
