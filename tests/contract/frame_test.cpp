@@ -164,6 +164,7 @@ TEST(FrameAssembler, RefusesImpossibleChunks) {
   EXPECT_TRUE(refuses([](frame_t& c) { c.chunk = 1; }));
   EXPECT_TRUE(refuses([](frame_t& c) { c.chunk = -1; }));
   EXPECT_TRUE(refuses([](frame_t& c) { c.n_chunks = 0; }));
+  EXPECT_TRUE(refuses([](frame_t& c) { c.n_chunks = kMostChunks + 1; }));
   EXPECT_TRUE(refuses([](frame_t& c) { c.first_rod = 5; }));
   EXPECT_TRUE(refuses([](frame_t& c) { c.n_rods = 11; }));
   EXPECT_TRUE(refuses([](frame_t& c) { c.x.pop_back(); }));
