@@ -43,6 +43,11 @@ TEST(Sweep, APlainSceneIsASweepOfOnePoint) {
   EXPECT_EQ(sweep.points[0].plan, plan_of(R"({"rods": {"length": 2.5}})"));
 }
 
+TEST(Sweep, ValuesOfAllKeysAndSettingsHaveALimitTogether) {
+  const std::vector<std::string> settings(1000, "rods.length=1:100000:1");
+  EXPECT_THAT(sweep_problems("{}", settings), HasSubstr("the sweep has more than 1000000 values"));
+}
+
 TEST(Sweep, ANameCanBePrintedOnAnyTerminal) {
   const auto named = [](const std::string& name) { return R"({"scene": {}, "name": ")" + name + "\"}"; };
   EXPECT_EQ(sweep_of(named("Γ = 7, ⟨S⟩")).name, "Γ = 7, ⟨S⟩");
