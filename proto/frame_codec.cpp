@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "proto/sequence.h"
+
 namespace shaken::proto {
 namespace {
 
@@ -106,7 +108,7 @@ std::optional<Frame> FrameAssembler::add(const frame_t& chunk) {
   }
   chunks_.clear();
   if (!in_sequence || frame.rods.size() != static_cast<std::size_t>(std::max(chunk.n_rods, 0))) return std::nullopt;
-  if (completed_ >= 0) lost_ += std::max<std::int64_t>(0, chunk.sequence - completed_ - 1);
+  lost_ += n_lost_between(completed_, chunk.sequence);
   completed_ = chunk.sequence;
   return frame;
 }

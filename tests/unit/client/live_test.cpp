@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <sstream>
 
 #include "base/text.h"
@@ -39,6 +40,15 @@ TEST(SequenceCounter, GapsAreLossesRestartsAreNot) {
   for (const std::int64_t sequence : {5, 6, 9, 10, 0, 1, 3}) counter.note(sequence);
   EXPECT_EQ(counter.received(), 7);
   EXPECT_EQ(counter.lost(), 3);  // 7, 8 and 2; what was before the first is not ours
+}
+
+TEST(SequenceCounter, NumbersThatNoSenderReachesAreNoLosses) {
+  constexpr auto kLeast = std::numeric_limits<std::int64_t>::min(), kMost = std::numeric_limits<std::int64_t>::max();
+  SequenceCounter counter;
+  for (const std::int64_t sequence : {kLeast, kMost, kLeast, std::int64_t{0}, kMost, std::int64_t{-1}, kMost}) {
+    counter.note(sequence);
+    EXPECT_EQ(counter.lost(), 0) << sequence;
+  }
 }
 
 TEST(History, KeepsTheWholeCurveInBoundedMemory) {
