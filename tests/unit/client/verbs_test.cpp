@@ -443,7 +443,6 @@ TEST_F(Verbs, NothingThatATerminalObeysIsPrinted) {
                                                        {"results"},
                                                        {"cancel", "s1"},
                                                        {"status", "refused"},
-                                                       {"completion", "ids"},
                                                        {"results", "s1", "--columns", evil}};
   for (const std::vector<std::string>& command : commands) {
     const Outcome outcome = run(command);
@@ -451,6 +450,19 @@ TEST_F(Verbs, NothingThatATerminalObeysIsPrinted) {
     EXPECT_EQ(printable(printed, Lines::kMany), printed) << command[0] << " " << command.back();
     EXPECT_THAT(printed, HasSubstr("vil")) << command[0];
   }
+}
+
+TEST_F(Verbs, CompletionOffersNothingThatAShellExpands) {
+  Json sweeps = Json::array();
+  for (const char* name : {"plain-1.5_Γ", "two words", "$(touch /tmp/x)", "$HOME", "`id`", "a;b", "a*", "~root",
+                           "{a,b}", "'q'", "a\\b", "#a", "!a", "a>b"}) {
+    Json one = sweep({}).at("sweep");
+    one["name"] = name;
+    sweeps.push_back(one);
+  }
+  daemon_.on("GET /v1/sweeps", text({{"sweeps", sweeps}}));
+  daemon_.on("GET /v1/jobs", R"({"jobs": []})");
+  EXPECT_EQ(run({"completion", "ids"}).out, "plain-1.5_Γ\ns1\n");
 }
 
 TEST_F(Verbs, CompletionKnowsTheIds) {
