@@ -20,6 +20,8 @@ ALLOWED = {
     "scene": ["sim/core", "sim/rod", "sim/system.h"],
     # whether rods can be placed, the simulation itself says
     "scene/placement.cpp": ["scene", "sim/core", "sim/rod", "sim/system.h", "sim/initial.h"],
+    # a sweep's name is printed
+    "scene/sweep.cpp": ["scene", "base/text.h", "sim/core", "sim/rod", "sim/system.h"],
     "run/files": ["base", "sim/core", "sim/system.h", "sim/snapshot.h"],
     "run": ["proto", "base", "scene", "analysis", "run/files", "sim/core", "sim/rod", "sim/system.h", "sim/snapshot.h",
             "sim/world.h", "sim/simulation.h", "sim/balance.h", "sim/close_up.h", "sim/effects/registry.h",
@@ -27,7 +29,9 @@ ALLOWED = {
     # drawing knows rods and fields; only the program's sources of frames know files and the bus
     "render/main.cpp": ["render", "base", "run/files", "proto", "sim/core", "sim/system.h", "sim/snapshot.h", "analysis"],
     "render/sources.h": ["render", "run/files", "proto", "sim/core", "sim/system.h", "sim/snapshot.h", "analysis"],
-    "render/sources.cpp": ["render", "run/files", "proto", "sim/core", "sim/system.h", "sim/snapshot.h", "analysis"],
+    # what comes from the bus is held against what a scene allows
+    "render/sources.cpp": ["render", "base/text.h", "run/files", "proto", "scene/fields.h", "scene/measure_plan.h",
+                           "sim/core", "sim/system.h", "sim/snapshot.h", "analysis"],
     # the defaults of the director field whose defects are drawn
     "render/measure.cpp": ["render", "scene/measure_plan.h", "sim/core", "sim/system.h", "analysis"],
     "render": ["sim/core", "sim/system.h", "analysis"],

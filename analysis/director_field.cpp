@@ -74,6 +74,7 @@ double order_of(const Vec2& q) { return std::min(1.0, 2.0 * q.norm()); }
 
 int grid_nodes(double box_side, double mesh) {
   SHAKEN_CHECK(box_side > 0.0 && mesh > 0.0, "box and mesh must be positive");
+  SHAKEN_CHECK(box_side / mesh <= kMostGridNodes, "the mesh is too fine for the box");
   // A mesh that divides the box must not gain a node by rounding.
   return std::max(4, static_cast<int>(std::ceil(box_side / mesh - 1e-9)));
 }

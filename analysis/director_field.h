@@ -9,6 +9,8 @@
 
 namespace shaken::analysis {
 
+/// More nodes in one direction no grid has: a field of them would take terabytes.
+inline constexpr int kMostGridNodes = 1'000'000;
 /// Nodes of the coarsest square grid over `box_side` whose mesh is at most `mesh` (both [mm]); at least 4.
 int grid_nodes(double box_side, double mesh);
 

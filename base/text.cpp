@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <ctime>
+#include <optional>
 
 #include "base/clock.h"
 
@@ -27,6 +28,34 @@ void for_each_character(std::string_view text, Visit visit) {
     if (!visit(text.substr(begin, end - begin), is_escape ? std::size_t{0} : std::size_t{1})) return;
     begin = end;
   }
+}
+
+/// The character that UTF-8 `text` begins with, and its bytes; none if these are no UTF-8 (RFC 3629).
+struct Character {
+  char32_t code = 0;
+  std::size_t size = 0;
+};
+std::optional<Character> first_character(std::string_view text) {
+  const auto byte = [text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char lead = byte(0);
+  if (lead < 0x80) return Character{lead, 1};
+  const std::size_t size = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
+  if (lead < 0xC2 || lead > 0xF4 || text.size() < size) return std::nullopt;
+  char32_t code = lead & (0x7FU >> size);
+  for (std::size_t i = 1; i < size; ++i) {
+    if ((byte(i) & 0xC0) != 0x80) return std::nullopt;
+    code = code << 6 | (byte(i) & 0x3FU);
+  }
+  static constexpr char32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};  // no longer form than needed
+  const bool is_surrogate = code >= 0xD800 && code <= 0xDFFF;
+  if (code < kLeast[size] || code > 0x10FFFF || is_surrogate) return std::nullopt;
+  return Character{code, size};
+}
+
+bool is_obeyed(char32_t code) {
+  const bool is_control = code < 0x20 || (code >= 0x7F && code <= 0x9F);
+  const bool turns_the_direction = (code >= 0x202A && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069);
+  return is_control || turns_the_direction;
 }
 
 bool is_unknown(double seconds) { return !(seconds >= 0.0) || seconds > 1e10; }
@@ -55,6 +84,23 @@ std::string fitted(std::string_view text, std::size_t width) {
     return true;
   });
   return cut + "…" + (coloured ? "\x1b[0m" : "");
+}
+
+std::string printable(std::string_view text, Lines lines) {
+  std::string shown;
+  while (!text.empty()) {
+    const std::optional<Character> next = first_character(text);
+    const std::size_t size = next ? next->size : 1;
+    if (!next) {
+      shown += fmt::format("\\x{:02x}", static_cast<unsigned char>(text.front()));
+    } else if (is_obeyed(next->code) && !(lines == Lines::kMany && (next->code == '\n' || next->code == '\t'))) {
+      shown += fmt::format("\\u{:04x}", static_cast<std::uint32_t>(next->code));
+    } else {
+      shown += text.substr(0, size);
+    }
+    text.remove_prefix(size);
+  }
+  return shown;
 }
 
 std::string duration_text(double seconds) {

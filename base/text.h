@@ -13,6 +13,13 @@ std::size_t display_width(std::string_view text);
 /// `text`, cut to `width` columns with an ellipsis if it is longer; 0 stands for any width.
 std::string fitted(std::string_view text, std::size_t width);
 
+/// Whether a text may have line breaks and tabs.
+enum class Lines { kOne, kMany };
+/// `text` without anything that a terminal would obey: control characters (C0, DEL, C1), characters that turn the
+/// direction of writing (U+202A to U+202E, U+2066 to U+2069), and bytes that are no UTF-8 become "\u001b" or "\xff".
+/// Whatever comes from a file, another program or a network is printed like this. Equal to `text` if that is harmless.
+std::string printable(std::string_view text, Lines lines = Lines::kOne);
+
 /// "0.4 s", "12 s", "3 min 20 s", "2 h 05 min", "3 d 04 h"; "?" for a negative, unknown or endless time.
 std::string duration_text(double seconds);
 /// The local time `seconds` from `now_utime` (microseconds since 1970): "14:32", or "Tue 14:32" on another day, or the

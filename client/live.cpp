@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "client/target.h"
+#include "proto/sequence.h"
 
 namespace shaken::client {
 
 void SequenceCounter::note(std::int64_t sequence) {
-  // A smaller number is a job that was started again, not a loss.
-  if (last_ && sequence > *last_ + 1) lost_ += sequence - *last_ - 1;
+  if (last_) lost_ += proto::n_lost_between(*last_, sequence);
   last_ = sequence;
   ++received_;
 }
@@ -63,18 +63,16 @@ void LiveJobs::note_api(const Json& answer) {
   take("eta_s", job.eta);
   take("order_running_mean", job.order_mean);
   take("max_overlap_mm", job.max_overlap);
-  if (const double n = progress_number(answer, "n_rods"); n > 0) job.n_rods = static_cast<int>(n);
+  if (const double n = progress_number(answer, "n_rods"); n > 0 && n < 1e9) job.n_rods = static_cast<int>(n);
   if (const double order = progress_number(answer, "order"); !std::isnan(order) && time > 0) {
     job.order = order;
     job.order_history.add(time, order);
   }
 }
 
-void LiveJobs::note(const job_t& message) {
-  LiveJob* job = find(message.job_id);
-  if (job == nullptr) return;
-  job->state = message.state;
-  job->reason = message.reason;
+bool LiveJobs::contradicts(const job_t& message) const {
+  const auto place = index_.find(message.job_id);
+  return place != index_.end() && jobs_[place->second].state != message.state;
 }
 
 void LiveJobs::note(const observables_t& message) {

@@ -71,12 +71,14 @@ class LiveJobs {
  public:
   /// A JOB object of the API. While messages of a job arrive, its numbers come from them.
   void note_api(const Json& job);
-  /// Messages; those of jobs that the API has not named are ignored.
-  void note(const job_t& message);
+  /// Messages; those of jobs that the API has not named are ignored. Anybody can send them: they change what is shown
+  /// of a job, but not its state, which is the daemon's to tell.
   void note(const observables_t& message);
   void note(const defects_t& message);
 
   const std::vector<LiveJob>& jobs() const { return jobs_; }
+  /// Whether a message speaks of another state than the daemon did when it was last asked.
+  bool contradicts(const job_t& message) const;
   bool all_ended() const;
   std::int64_t received() const;
   std::int64_t lost() const;

@@ -6,6 +6,7 @@
 #include <ios>
 #include <utility>
 
+#include "base/text.h"
 #include "client/command_line.h"
 #include "client/json.h"
 #include "run/files/version.h"
@@ -34,7 +35,7 @@ ExitCode run_program(const std::vector<std::string>& arguments, Console& console
     message = error.what();
   }
   console.out.flush();
-  if (!message.empty()) console.err << "shaken: " << message << "\n";
+  if (!message.empty()) console.err << "shaken: " << printable(message, Lines::kMany) << "\n";
   // The reader of a pipe has gone: say nothing, but do not claim success.
   if (!console.out.good() && code == ExitCode::kOk) code = ExitCode::kFailed;
   return code;

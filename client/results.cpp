@@ -302,7 +302,7 @@ std::vector<std::string> swept_parameters(const std::vector<ResultRow>& rows) {
 std::string field_text(const ResultRow& row, const std::string& field) {
   const auto value = row.fields.find(field);
   if (value == row.fields.end()) return {};
-  return value->is_string() ? value->get<std::string>() : value->dump();
+  return printable(value->is_string() ? value->get<std::string>() : value->dump());
 }
 
 std::string to_csv(const std::vector<ResultRow>& rows, std::vector<std::string> fields) {
@@ -316,7 +316,7 @@ std::string to_csv(const std::vector<ResultRow>& rows, std::vector<std::string> 
     csv += '\n';
   };
   if (names.empty()) return csv;
-  add_line([](const std::string& name) { return name; });
+  add_line([](const std::string& name) { return printable(name); });
   for (const ResultRow& row : rows) {
     add_line([&row](const std::string& name) { return field_text(row, name); });
   }

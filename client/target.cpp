@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/failure.h"
+#include "base/text.h"
 #include "run/files/directory.h"
 
 namespace shaken::client {
@@ -97,7 +98,7 @@ double job_eta(const Json& job) {
 
 std::string text_of(const Json& object, const char* key) {
   const auto value = object.find(key);
-  return value != object.end() && value->is_string() ? value->get<std::string>() : std::string();
+  return value != object.end() && value->is_string() ? printable(value->get<std::string>()) : std::string();
 }
 
 std::string counts_text(const Json& counts) {

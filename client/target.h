@@ -49,7 +49,7 @@ double job_fraction(const Json& job);
 double job_eta(const Json& job);
 /// A number of the job's progress.json; NaN if it is not there.
 double progress_number(const Json& job, const char* key);
-/// job[key] as text; empty if it is missing, null or no text.
+/// job[key] as text that may be shown (base/text.h: printable); empty if it is missing, null or no text.
 std::string text_of(const Json& object, const char* key);
 
 /// {state: n} as words, in the order of a job's life: "3 done, 2 running, 5 queued".

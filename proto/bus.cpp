@@ -3,6 +3,7 @@
 
 #include <arpa/inet.h>
 #include <lcm/lcm.h>
+#include <linux/filter.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -10,8 +11,11 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <optional>
 #include <string_view>
 #include <thread>
 #include <utility>
@@ -25,14 +29,52 @@ constexpr milliseconds kLongestPause{5000};
 
 constexpr std::string_view kUdpm = "udpm://";
 
-/// Whether udpm can start: connects a datagram socket to the group, which sends nothing but needs the same route. LCM
+constexpr std::uint16_t kDefaultPort = 7667;
+
+/// Lets only messages of one datagram ("LC02") pass to a socket. Those of several ("LC03") are never sent here, and LCM
+/// 1.3.1 puts a piece of one wherever its header says: two forged datagrams end the process.
+void drop_fragments(int fd) {
+  constexpr std::uint32_t kUdpHeader = 8, kShortMessage = 0x4c433032;
+  std::array<sock_filter, 4> program{{BPF_STMT(BPF_LD | BPF_W | BPF_ABS, kUdpHeader),
+                                      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, kShortMessage, 0, 1),
+                                      BPF_STMT(BPF_RET | BPF_K, UINT32_MAX), BPF_STMT(BPF_RET | BPF_K, 0)}};
+  const sock_fprog filter{program.size(), program.data()};
+  setsockopt(fd, SOL_SOCKET, SO_ATTACH_FILTER, &filter, sizeof(filter));
+}
+
+/// LCM does not tell the socket on which it receives: it is the one that is bound to the group's port.
+void drop_fragments_of(const std::string& url) {
+  const std::string target = url.substr(kUdpm.size(), url.find('?') - kUdpm.size());
+  const std::size_t colon = target.find(':');
+  const long given = colon == std::string::npos ? 0 : std::strtol(target.c_str() + colon + 1, nullptr, 10);
+  const std::uint16_t port = given > 0 ? static_cast<std::uint16_t>(given) : kDefaultPort;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", ignored)) {
+    const int fd = static_cast<int>(std::strtol(entry.path().filename().c_str(), nullptr, 10));
+    int type = 0;
+    sockaddr_in address{};
+    socklen_t type_size = sizeof(type), address_size = sizeof(address);
+    if (getsockopt(fd, SOL_SOCKET, SO_TYPE, &type, &type_size) != 0 || type != SOCK_DGRAM) continue;
+    if (getsockname(fd, reinterpret_cast<sockaddr*>(&address), &address_size) != 0) continue;
+    if (address.sin_family == AF_INET && ntohs(address.sin_port) == port) drop_fragments(fd);
+  }
+}
+
+lcm_t* create(const std::string& url) {
+  lcm_t* lcm = lcm_create(url.c_str());
+  // The first question for its descriptor opens the socket. As long as nothing is subscribed to, LCM takes no pieces.
+  if (lcm != nullptr && url.starts_with(kUdpm) && lcm_get_fileno(lcm) >= 0) drop_fragments_of(url);
+  return lcm;
+}
+
+/// Why udpm cannot start: connects a datagram socket to the group, which sends nothing but needs the same route. LCM
 /// does this too, but then prints an uninitialised address to stderr.
 Result<void> check_udpm(const std::string& url) {
   const std::string target = url.substr(kUdpm.size(), url.find('?') - kUdpm.size());
   const std::string address = target.substr(0, target.find(':'));
   sockaddr_in group{};
   group.sin_family = AF_INET;
-  group.sin_port = htons(7667);  // any port: only the route counts
+  group.sin_port = htons(kDefaultPort);  // any port: only the route counts
   if (inet_aton(address.empty() ? "239.255.76.67" : address.c_str(), &group.sin_addr) == 0 ||
       !IN_MULTICAST(ntohl(group.sin_addr.s_addr))) {
     return Error{"LCM cannot start: '" + address + "' in '" + url +
@@ -76,7 +118,7 @@ std::string default_url() {
 Result<std::unique_ptr<Bus>> Bus::open(const std::string& url) {
   if (auto done = check_url(url); !done) return done.error();
   std::unique_ptr<Bus> bus(new Bus(url));
-  bus->lcm_ = lcm_create(url.c_str());
+  bus->lcm_ = create(url);
   if (bus->lcm_ == nullptr) return Error{"LCM cannot start with '" + url + "'"};
   return bus;
 }
@@ -139,7 +181,7 @@ void Bus::reconnect() {
   pause_ = std::clamp(2 * pause_, kFirstPause, kLongestPause);
   next_attempt_ = now + pause_;
   if (lcm_ != nullptr) lcm_destroy(lcm_);
-  lcm_ = lcm_create(url_.c_str());
+  lcm_ = create(url_);
   if (!connected()) return;
   for (auto& subscription : subscriptions_) register_with_lcm(*subscription);
   if (!connected()) return;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "proto/sequence.h"
+
 namespace shaken::proto {
 namespace {
 
@@ -20,9 +22,9 @@ std::int16_t wrap(double steps) {
 /// A chunk that says what its arrays and its place in the frame can bear out.
 bool plausible(const frame_t& chunk) {
   const auto n = static_cast<std::size_t>(std::max(chunk.n_chunk_rods, 0));
-  return chunk.n_chunks > 0 && chunk.chunk >= 0 && chunk.chunk < chunk.n_chunks && chunk.first_rod >= 0 &&
-         chunk.n_chunk_rods >= 0 && chunk.x.size() == n && chunk.y.size() == n && chunk.heading.size() == n &&
-         chunk.n_z.size() == n;
+  return chunk.n_chunks > 0 && chunk.n_chunks <= kMostChunks && chunk.chunk >= 0 && chunk.chunk < chunk.n_chunks &&
+         chunk.first_rod >= 0 && chunk.n_chunk_rods >= 0 && chunk.x.size() == n && chunk.y.size() == n &&
+         chunk.heading.size() == n && chunk.n_z.size() == n;
 }
 
 bool siblings(const frame_t& a, const frame_t& b) {
@@ -106,7 +108,7 @@ std::optional<Frame> FrameAssembler::add(const frame_t& chunk) {
   }
   chunks_.clear();
   if (!in_sequence || frame.rods.size() != static_cast<std::size_t>(std::max(chunk.n_rods, 0))) return std::nullopt;
-  if (completed_ >= 0) lost_ += std::max<std::int64_t>(0, chunk.sequence - completed_ - 1);
+  lost_ += n_lost_between(completed_, chunk.sequence);
   completed_ = chunk.sequence;
   return frame;
 }

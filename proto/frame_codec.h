@@ -15,6 +15,9 @@ namespace shaken::proto {
 /// Rods of one chunk at most: 8 bytes each, so that a message stays under 60 kB and within one datagram.
 inline constexpr int kRodsPerChunk = 7000;
 
+/// Chunks of one frame at most: what is kept of an unfinished frame has a limit.
+inline constexpr int kMostChunks = 1000;
+
 /// One rod seen from above.
 struct RodPose {
   double x = 0;      ///< of the centre, in [0, box side) [mm]

@@ -17,6 +17,7 @@
 
 #include "base/failure.h"
 #include "base/progress_line.h"
+#include "base/text.h"
 #include "proto/bus.h"
 #include "render/make_movie.h"
 #include "render/painter.h"
@@ -292,10 +293,10 @@ int run(int argc, char** argv) {
     fmt::print(stderr, "shaken-render: {} (see `shaken-render --help`)\n", error.what());
     return static_cast<int>(ExitCode::kBadInput);
   } catch (const Failure& failure) {
-    fmt::print(stderr, "shaken-render: {}\n", failure.what());
+    fmt::print(stderr, "shaken-render: {}\n", printable(failure.what(), Lines::kMany));
     return static_cast<int>(failure.code);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "shaken-render: {}\n", error.what());
+    fmt::print(stderr, "shaken-render: {}\n", printable(error.what(), Lines::kMany));
     return static_cast<int>(ExitCode::kFailed);
   }
 }

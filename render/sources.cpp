@@ -4,16 +4,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <shaken/frame_static_t.hpp>
 #include <shaken/frame_t.hpp>
 
+#include "analysis/director_field.h"
 #include "analysis/order.h"
+#include "base/text.h"
 #include "proto/bus.h"
 #include "proto/channels.h"
 #include "proto/frame_codec.h"
 #include "run/files/directory.h"
+#include "scene/fields.h"
+#include "scene/measure_plan.h"
 
 namespace shaken::render {
 
@@ -42,6 +47,49 @@ std::optional<SideWalls> walls_of(const frame_static_t& message) {
   walls.size = message.arena_size_mm;
   walls.inner = message.arena_inner_mm;
   return walls;
+}
+
+/// Nothing if `value` is one that a scene may have at `path`, or half of one; else what is wrong.
+Result<void> refusal(const char* what, double value, const char* path, double share = 1) {
+  constexpr double kRounding = 1e-9;
+  const scene::Field& field = scene::field_at(path);
+  const double low = share * field.low, high = share * field.high;
+  if (value >= low * (1 - kRounding) && value <= high * (1 + kRounding)) return {};  // false for NaN
+  return Error{fmt::format("the job's messages have a {} of {} mm; a scene has {} to {} mm", what, value, low, high)};
+}
+
+/// The sizes of a live picture. Anybody may send such messages: what no scene has would take any memory and any time.
+Result<void> check_sizes(const RodPicture& picture, bool with_defects) {
+  // Of the director field, in each direction: 0.7 GB. The largest box with rods of 4 mm needs as many.
+  constexpr double kMostNodes = 4096;
+  if (auto done = refusal("box side", picture.box_side, "box.side"); !done) return done.error();
+  if (auto done = refusal("gap", picture.gap, "box.gap"); !done) return done.error();
+  for (std::size_t species = 0; species < picture.n_species(); ++species) {
+    const BeadRow& beads = picture.beads_of(species);
+    for (const double radius : beads.radius) {
+      if (auto done = refusal("bead radius", radius, "rods.bead_diameters", 0.5); !done) return done.error();
+    }
+    for (const double offset : beads.offset) {
+      // Beads may lie anywhere along a rod, so the shortest rod does not matter.
+      const double half = std::max(std::abs(offset), scene::field_at("rods.length").low / 2);
+      if (auto done = refusal("bead offset", std::isnan(offset) ? offset : half, "rods.length", 0.5); !done)
+        return done.error();
+    }
+  }
+  if (picture.walls) {
+    if (auto done = refusal("arena", picture.walls->size, "walls.size"); !done) return done.error();
+    if (picture.walls->arena == Arena::kAnnulus) {
+      if (auto done = refusal("inner wall", picture.walls->inner, "walls.inner"); !done) return done.error();
+    }
+  }
+  const double mesh = scene::MeasureDefects{}.grid_for(picture.rod_length());
+  if (with_defects && picture.box_side / mesh > kMostNodes) {
+    return Error{
+        fmt::format("a box of {} mm is too large for a live picture of rods of {} mm with defects (at most {} "
+                    "nodes each way); draw it without them",
+                    picture.box_side, picture.rod_length(), kMostNodes)};
+  }
+  return {};
 }
 
 /// Species and side walls out of a message, whose counts need not agree.
@@ -214,7 +262,8 @@ Result<RodPicture> live_picture(const std::string& lcm_url, const std::string& j
   picture.box_side = frame->box_side_mm;
   picture.gap = constants->gap_mm;
   if (auto done = take_constants(*constants, frame->rods.size(), picture); !done) return done.error();
-  picture.label = constants->label;
+  if (auto done = check_sizes(picture, with_defects); !done) return done.error();
+  picture.label = printable(constants->label);
   for (const proto::RodPose& rod : frame->rods) {
     const std::array<double, 3> axis = rod.axis();
     picture.position.emplace_back(rod.x, rod.y, picture.gap / 2);

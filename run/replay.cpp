@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/text.h"
 #include "run/files/directory.h"
 #include "run/saved_run.h"
 #include "scene/canonical.h"
@@ -91,7 +92,7 @@ int replay_command(int argc, char** argv) {
   }
   const Result<Replay> result = replay(directory);
   if (!result) {
-    fmt::print(stderr, "{}\n", result.error().message);
+    fmt::print(stderr, "{}\n", printable(result.error().message, Lines::kMany));
     return kExitBadInput;
   }
   const Result<scene::RunPlan> plan = read_plan(RunDirectory{directory});

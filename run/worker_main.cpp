@@ -15,6 +15,7 @@
 #include "base/files.h"
 #include "base/progress_line.h"
 #include "base/terminal.h"
+#include "base/text.h"
 #include "proto/bus.h"
 #include "run/ending.h"
 #include "run/files/version.h"
@@ -245,7 +246,7 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "shaken-worker: {} (see `shaken-worker --help`)\n", problem.what());
     return static_cast<int>(ExitCode::kBadInput);
   } catch (const Failure& failure) {
-    fmt::print(stderr, "{}\n", failure.what());
+    fmt::print(stderr, "{}\n", printable(failure.what(), Lines::kMany));
     return static_cast<int>(failure.code);
   }
 }

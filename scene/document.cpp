@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <nlohmann/json.hpp>
+#include <unordered_map>
 
 namespace shaken::scene {
 
@@ -96,11 +97,13 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
     cursor_.to_next_token();
     const Place place = cursor_.place();
     cursor_.take_token();
-    if (const Member* first = open_.back().node.find(value)) {
+    const auto [first, is_new] = open_.back().keys.try_emplace(value, place);
+    if (!is_new) {
       problems_.push_back(
           problem_at(place, child_path(value),
-                     fmt::format("duplicate key, first given at {}:{}", first->place.line, first->place.column)));
+                     fmt::format("duplicate key, first given at {}:{}", first->second.line, first->second.column)));
     }
+    open_.back().is_duplicate = !is_new;
     open_.back().key = std::move(value);
     open_.back().key_place = place;
     return true;
@@ -128,6 +131,8 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
     Node node;
     std::string key;  ///< the key whose value is next
     Place key_place;
+    bool is_duplicate = false;                    ///< whether that key has a value already
+    std::unordered_map<std::string, Place> keys;  ///< all so far
   };
 
   static std::string explain(std::string_view rest, std::string_view what) {
@@ -177,14 +182,14 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
     Open& parent = open_.back();
     if (parent.node.kind == Node::Kind::kArray) {
       parent.node.items.push_back(std::move(node));
-    } else if (!parent.node.find(parent.key)) {
+    } else if (!parent.is_duplicate) {
       parent.node.members.push_back({parent.key, parent.key_place, std::move(node)});
     }
     return true;
   }
 
   bool open(Node::Kind kind) {
-    Open container{next_node(kind), {}, {}};
+    Open container{next_node(kind), {}, {}, false, {}};
     cursor_.take_token();
     if (open_.size() == kMaxDepth) {
       problems_.push_back(problem_at(container.node.place, {}, fmt::format("nested more than {} deep", kMaxDepth)));

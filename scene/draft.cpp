@@ -128,9 +128,10 @@ class ValueReader {
     if (is_allowed(field_, value)) return;
 
     std::string_view unit = written->unit.empty() ? default_unit(field_.dimension) : written->unit;
-    report(node, given,
-           fmt::format("{}{}{} is outside {}{}", written->number.text(), unit.empty() ? "" : " ", unit,
-                       range_of(field_), did_you_mean(slip_of_the_pen(field_, *written))));
+    report(
+        node, given,
+        fmt::format("{}{}{} is outside {}{}", written->number.text(), unit.empty() ? "" : " ", unit, range_of(field_),
+                    suggestion(problems_, [&] { return did_you_mean(slip_of_the_pen(field_, *written)); })));
   }
 
   void read_numbers(const Node& node, Given& given) {
@@ -163,8 +164,9 @@ class ValueReader {
     const std::string allowed = field_.form == Form::kQuantity
                                     ? fmt::format("neither {} nor {}", quoted(field_.names), example_for(field_))
                                     : fmt::format("not one of {}", quoted(field_.names));
-    report(node, given,
-           fmt::format("\"{}\" is {}{}", node.text, allowed, did_you_mean(nearest(node.text, field_.names))));
+    report(node, given, fmt::format("\"{}\" is {}{}", node.text, allowed, suggestion(problems_, [&] {
+                                      return did_you_mean(nearest(node.text, field_.names));
+                                    })));
   }
 
   void read_size(const Node& node, Given& given) {
@@ -218,7 +220,7 @@ void Draft::read_members(std::string_view path, const Node& object, std::vector<
 void Draft::assign(std::string_view path, const Place& key, const Node& node, std::vector<Problem>& problems) {
   const int found = field_index(path);
   if (found < 0 && !is_group(path)) {
-    problems.push_back(problem_at(key, path, "unknown key" + suggest_path(path)));
+    problems.push_back(problem_at(key, path, "unknown key" + suggestion(problems, [&] { return suggest_path(path); })));
     return;
   }
   const bool is_leaf = found >= 0 && fields()[static_cast<std::size_t>(found)].form != Form::kBlock;

@@ -15,7 +15,7 @@ namespace {
 
 class VariationReader {
  public:
-  explicit VariationReader(std::vector<Problem>& problems) : problems_(problems) {}
+  VariationReader(Room& room, std::vector<Problem>& problems) : room_(room), problems_(problems) {}
 
   Variation read(const Node& sweep) {
     if (!expect(sweep, Node::Kind::kObject, "sweep", "an object")) return {};
@@ -32,7 +32,8 @@ class VariationReader {
         variation_.replicas = read_count("sweep.replicas", member.value, 1, kMaxReplicas, problems_).value_or(1);
       } else {
         const std::vector<std::string> names{"grid", "zip", "list", "random", "replicas"};
-        report(member.place, "sweep." + member.key, "unknown key" + did_you_mean(nearest(member.key, names)));
+        const std::string meant = suggestion(problems_, [&] { return did_you_mean(nearest(member.key, names)); });
+        report(member.place, "sweep." + member.key, "unknown key" + meant);
       }
     }
     return std::move(variation_);
@@ -55,7 +56,8 @@ class VariationReader {
     if (index < 0 || fields()[static_cast<std::size_t>(index)].form == Form::kBlock) {
       const bool exists = index >= 0 || is_group(member.key);
       report(member.place, member.key,
-             exists ? "this is an object; sweep the keys in it" : "unknown key" + suggest_path(member.key));
+             exists ? "this is an object; sweep the keys in it"
+                    : "unknown key" + suggestion(problems_, [&] { return suggest_path(member.key); }));
       return nullptr;
     }
     for (const Factor& factor : variation_.factors) {
@@ -74,7 +76,7 @@ class VariationReader {
     if (!expect(grid, Node::Kind::kObject, "sweep.grid", "an object of paths and values")) return;
     for (const Member& member : grid.members) {
       if (const Field* field = swept_field(member)) {
-        const std::vector<Node> values = read_values(*field, member.value, problems_);
+        const std::vector<Node> values = read_values(*field, member.value, room_, problems_);
         variation_.factors.push_back({Factor::Kind::kGrid, values.size(), {{member.key, member.place, values}}, {}});
       }
     }
@@ -86,7 +88,7 @@ class VariationReader {
     for (const Member& member : zip.members) {
       const Field* field = swept_field(member);
       if (!field) continue;
-      Axis axis{member.key, member.place, read_values(*field, member.value, problems_)};
+      Axis axis{member.key, member.place, read_values(*field, member.value, room_, problems_)};
       if (axis.values.empty()) continue;
       if (!factor.axes.empty() && axis.values.size() != factor.n_choices) {
         report(member.place, member.key,
@@ -132,13 +134,15 @@ class VariationReader {
     for (const Member& member : random.members) {
       if (member.key == "n" || member.key == "seed") continue;
       if (const Field* field = swept_field(member)) {
-        std::vector<Node> values = draw_values(*field, member.value, n, static_cast<std::uint64_t>(seed), problems_);
+        std::vector<Node> values =
+            draw_values(*field, member.value, n, static_cast<std::uint64_t>(seed), room_, problems_);
         if (!values.empty()) factor.axes.push_back({member.key, member.place, std::move(values)});
       }
     }
     if (!factor.axes.empty()) variation_.factors.push_back(std::move(factor));
   }
 
+  Room& room_;
   std::vector<Problem>& problems_;
   Variation variation_;
 };
@@ -163,8 +167,8 @@ std::string name_of(Factor::Kind kind) {
   return "";
 }
 
-Variation read_variation(const Node& sweep, std::vector<Problem>& problems) {
-  return VariationReader(problems).read(sweep);
+Variation read_variation(const Node& sweep, Room& room, std::vector<Problem>& problems) {
+  return VariationReader(room, problems).read(sweep);
 }
 
 }  // namespace shaken::scene

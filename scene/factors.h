@@ -7,6 +7,7 @@
 
 #include "scene/document.h"
 #include "scene/problem.h"
+#include "scene/values.h"
 
 namespace shaken::scene {
 
@@ -34,11 +35,12 @@ struct Factor {
 /// "grid"
 std::string name_of(Factor::Kind kind);
 
-/// What the "sweep" of a file says: the points are the product of the factors, the first varying slowest.
+/// What the "sweep" of a file says, as far as there is room for its values: the points are the product of the factors,
+/// the first varying slowest.
 struct Variation {
   std::vector<Factor> factors;
   int replicas = 1;
 };
-Variation read_variation(const Node& sweep, std::vector<Problem>& problems);
+Variation read_variation(const Node& sweep, Room& room, std::vector<Problem>& problems);
 
 }  // namespace shaken::scene

@@ -17,12 +17,12 @@ namespace shaken::scene {
 
 namespace {
 
-constexpr std::size_t kMaxProblems = 100;
-
 void apply(const Setting& setting, Draft& draft, std::vector<Problem>& problems) {
   const int index = field_index(setting.path);
   if (index < 0) return draft.assign(setting.path, setting.place, setting.value, problems);
-  const std::vector<Node> values = read_values(fields()[static_cast<std::size_t>(index)], setting.value, problems);
+  Room room;
+  const std::vector<Node> values =
+      read_values(fields()[static_cast<std::size_t>(index)], setting.value, room, problems);
   if (values.size() > 1) {
     problems.push_back(problem_at(setting.place, setting.path,
                                   fmt::format("{} values make a sweep; a single scene takes one", values.size())));

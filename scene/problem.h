@@ -37,6 +37,15 @@ std::string to_string(const std::vector<Problem>& problems);
 /// The problem `message` with what stands at `place`; `path` is dotted ("rods.length").
 Problem problem_at(const Place& place, std::string_view path, std::string message);
 
+/// As many problems are told, and the number of the others.
+inline constexpr std::size_t kMaxProblems = 100;
+
+/// What `suggest()` finds, which takes its time; nothing if so many problems are known that this one is hardly told.
+template <class Suggest>
+std::string suggestion(const std::vector<Problem>& problems, Suggest suggest) {
+  return problems.size() < kMaxProblems ? suggest() : std::string{};
+}
+
 /// A value read from a text, or everything that is wrong with the text: in its order, each once.
 template <class T>
 using Loaded = Result<T, std::vector<Problem>>;

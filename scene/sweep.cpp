@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/text.h"
 #include "scene/canonical.h"
 #include "scene/document.h"
 #include "scene/draft.h"
@@ -23,8 +24,8 @@ namespace {
 /// Multiplies a variation out.
 class Product {
  public:
-  Product(Variation variation, std::vector<Problem>& problems)
-      : factors_(std::move(variation.factors)), replicas_(variation.replicas), problems_(problems) {}
+  Product(Variation variation, Room& room, std::vector<Problem>& problems)
+      : factors_(std::move(variation.factors)), replicas_(variation.replicas), room_(room), problems_(problems) {}
 
   void set_replicas(int replicas) {
     replicas_ = replicas;
@@ -39,7 +40,8 @@ class Product {
     if (index < 0 || fields()[static_cast<std::size_t>(index)].form == Form::kBlock) {
       return base.assign(setting.path, setting.place, setting.value, problems_);
     }
-    const std::vector<Node> values = read_values(fields()[static_cast<std::size_t>(index)], setting.value, problems_);
+    const std::vector<Node> values =
+        read_values(fields()[static_cast<std::size_t>(index)], setting.value, room_, problems_);
     if (values.empty()) return;
     const auto swept =
         std::find_if(factors_.begin(), factors_.end(), [&](const Factor& factor) { return factor.has(setting.path); });
@@ -142,10 +144,17 @@ class Product {
 
   std::vector<Factor> factors_;
   int replicas_;
+  Room& room_;
   std::vector<Problem>& problems_;
 };
 
 }  // namespace
+
+std::optional<std::string> name_problem(std::string_view name) {
+  static constexpr std::size_t kLongestName = 200;
+  if (!name.empty() && name.size() <= kLongestName && name.find('/') == name.npos && printable(name) == name) return {};
+  return fmt::format("a name has 1 to {} bytes of UTF-8, without '/' and control characters", kLongestName);
+}
 
 Loaded<Sweep> load_sweep(std::string_view text, const std::string& file, std::span<const std::string> settings,
                          std::optional<int> replicas) {
@@ -154,31 +163,40 @@ Loaded<Sweep> load_sweep(std::string_view text, const std::string& file, std::sp
   if (!root) return problems;
 
   Sweep sweep{std::filesystem::path(file).stem().string(), {}};
+  Place name_place{root->place.file, 0, 0};
   Draft base(root->place);
   Variation variation;
+  Room room;
   if (!root->find("scene") && !root->find("sweep")) {
     base.read(*root, problems);
   } else {
+    const std::vector<std::string> names{"name", "scene", "sweep"}, inside = names_in({});
     for (const Member& member : root->members) {
       if (member.key == "scene") {
         base.read(member.value, problems);
       } else if (member.key == "sweep") {
-        variation = read_variation(member.value, problems);
-      } else if (member.key == "name" && member.value.kind == Node::Kind::kString && !member.value.text.empty()) {
+        variation = read_variation(member.value, room, problems);
+      } else if (member.key == "name" && member.value.kind == Node::Kind::kString) {
         sweep.name = member.value.text;
+        name_place = member.value.place;
       } else if (member.key == "name") {
         problems.push_back(problem_at(member.value.place, "name", "expected a text, not " + describe(member.value)));
       } else {
-        const std::vector<std::string> names{"name", "scene", "sweep"};
-        const std::vector<std::string> inside = names_in({});
+        const std::string meant = suggestion(problems, [&] { return did_you_mean(nearest(member.key, names)); });
         const bool misplaced = std::find(inside.begin(), inside.end(), member.key) != inside.end();
-        problems.push_back(problem_at(member.place, member.key,
-                                      misplaced ? "in a sweep file this belongs into \"scene\""
-                                                : "unknown key" + did_you_mean(nearest(member.key, names))));
+        problems.push_back(
+            problem_at(member.place, member.key,
+                       misplaced ? "in a sweep file this belongs into \"scene\"" : "unknown key" + meant));
       }
     }
   }
-  Product product(std::move(variation), problems);
+  if (const auto problem = name_problem(sweep.name)) {
+    // A name that is no text at all has been complained about; that of the file stands in for it.
+    const bool is_of_file = name_place.line == 0;
+    problems.push_back(problem_at(name_place, is_of_file ? "" : "name",
+                                  *problem + (is_of_file ? ": rename the file, or give a \"name\" in a sweep" : "")));
+  }
+  Product product(std::move(variation), room, problems);
   if (replicas) product.set_replicas(*replicas);
   for (const std::string& written : settings) {
     if (const auto setting = parse_setting(written, problems)) product.apply_setting(*setting, base);

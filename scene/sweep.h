@@ -26,6 +26,10 @@ struct Sweep {
   std::vector<SweepPoint> points;
 };
 
+/// What a sweep's name lacks, as a sentence; none if it will do: 1 to 200 bytes of UTF-8, without '/' and without
+/// characters that a terminal obeys (base/text.h), for scenes are passed round and names are printed.
+std::optional<std::string> name_problem(std::string_view name);
+
 /// Reads a sweep file, or a scene file as a sweep of one point.
 ///   {"name"?, "scene": {...}, "sweep": {"grid": {path: values}, "zip": {path: values}, "list": [{path: value}, ...],
 ///    "random": {"n", "seed", path: {"from", "to"}}, "replicas": n}}

@@ -24,8 +24,14 @@ Node value_node(const Decimal& number, const std::string& unit, const Place& pla
   return node;
 }
 
-/// from, from + step, ... up to `to`, counted in whole numbers of the smallest decimal place that occurs.
-Result<std::vector<Decimal>> count_up(const Decimal& from, const Decimal& to, const Decimal& step) {
+/// from, from + step, ... up to `to`, in whole numbers of the smallest decimal place that occurs.
+struct Steps {
+  std::int64_t first = 0;
+  std::int64_t step = 0;
+  std::int64_t n = 0;
+  int exponent = 0;
+};
+Result<Steps> count_up(const Decimal& from, const Decimal& to, const Decimal& step) {
   const int exponent = std::min({from.exponent, to.exponent, step.exponent});
   const auto a = digits_at(from, exponent);
   const auto b = digits_at(to, exponent);
@@ -38,9 +44,7 @@ Result<std::vector<Decimal>> count_up(const Decimal& from, const Decimal& to, co
   if (last >= kMaxPoints) {
     return Error{fmt::format("a range of {} values; at most {} are allowed", last + 1, kMaxPoints)};
   }
-  std::vector<Decimal> numbers;
-  for (std::int64_t i = 0; i <= last; ++i) numbers.push_back(make_decimal(*a + i * *s, exponent));
-  return numbers;
+  return Steps{*a, *s, last + 1, exponent};
 }
 
 Decimal rounded(double value, int digits) { return parse_decimal(fmt::format("{:.{}g}", value, digits)).value(); }
@@ -69,11 +73,72 @@ Result<Bounds> read_bounds(const std::vector<std::string_view>& texts) {
   return bounds;
 }
 
-class RangeReader {
+/// Reads all that is written for one field.
+class ValuesReader {
  public:
-  RangeReader(const Field& field, std::vector<Problem>& problems) : field_(field), problems_(problems) {}
+  ValuesReader(const Field& field, Room& room, std::vector<Problem>& problems)
+      : field_(field), room_(room), problems_(problems) {}
 
-  std::vector<Node> text(const Node& node) {
+  /// Adds what `node` stands for; false if there are too many values, which ends it.
+  bool add(const Node& node) {
+    const bool is_size = field_.form == Form::kSize && node.kind == Node::Kind::kArray && !node.items.empty() &&
+                         node.items.front().kind != Node::Kind::kArray;
+    if (node.kind == Node::Kind::kArray && !is_size) {
+      if (node.items.empty()) report(node, "no values to sweep over");
+      return std::all_of(node.items.begin(), node.items.end(), [this](const Node& item) {
+        const bool nested = item.kind == Node::Kind::kArray && field_.form != Form::kSize;
+        return nested ? add_one(item) : add(item);
+      });
+    }
+    const bool is_number = field_.form == Form::kQuantity || field_.form == Form::kWhole;
+    if (is_number && node.kind == Node::Kind::kString && node.text.find(':') != std::string::npos) return text(node);
+    if (is_number && node.kind == Node::Kind::kObject) return object(node);
+    return add_one(node);
+  }
+
+  void draws(const Node& node, int n, std::uint64_t seed) {
+    const auto bounds = keys(node, {"from", "to"});
+    if (!bounds) return;
+    const double from = bounds->numbers[0].value();
+    const double to = bounds->numbers[1].value();
+    if (!(from < to)) return report(node, "\"from\" must be less than \"to\"");
+    if (!has_room(node, n)) return;
+    for (int i = 0; i < n; ++i) {
+      const std::string key = fmt::format("{}/{}/{}", seed, field_.path, i);
+      const double even = static_cast<double>(XXH3_64bits(key.data(), key.size()) >> 11) * 0x1p-53;  // in [0, 1)
+      const double value = field_.form == Form::kWhole
+                               ? std::floor(from + (to - from + 1) * even)
+                               : std::clamp(rounded(from + (to - from) * even, 6).value(), from, to);
+      values_.push_back(value_node(rounded(value, 17), bounds->unit, node.place));
+    }
+  }
+
+  std::vector<Node> take() { return std::move(values_); }
+
+ private:
+  void report(const Node& node, std::string message) {
+    problems_.push_back(problem_at(node.place, field_.path, std::move(message)));
+  }
+
+  bool has_room(const Node& node, std::int64_t n) {
+    const bool too_many_here = static_cast<std::int64_t>(values_.size()) + n > kMaxPoints;
+    if (!too_many_here && n <= room_.left) {
+      room_.left -= static_cast<int>(n);
+      return true;
+    }
+    report(node, too_many_here ? fmt::format("more than {} values", kMaxPoints)
+                               : fmt::format("the sweep has more than {} values", Room{}.left));
+    values_.clear();
+    return false;
+  }
+
+  bool add_one(const Node& node) {
+    if (!has_room(node, 1)) return false;
+    values_.push_back(node);
+    return true;
+  }
+
+  bool text(const Node& node) {
     std::vector<std::string_view> parts;
     std::string_view rest = node.text;
     for (std::size_t colon; (colon = rest.find(':')) != std::string_view::npos; rest.remove_prefix(colon + 1)) {
@@ -81,64 +146,51 @@ class RangeReader {
     }
     parts.push_back(rest);
     if (parts.size() != 3) {
-      return report(node, fmt::format("\"{}\" is not a range; write from:to:step", node.text));
+      report(node, fmt::format("\"{}\" is not a range; write from:to:step", node.text));
+      return true;
     }
     const Result<Bounds> bounds = read_bounds(parts);
-    if (!bounds) return report(node, bounds.error().message);
-    return steps(node, *bounds);
+    if (bounds) return steps(node, *bounds);
+    report(node, bounds.error().message);
+    return true;
   }
 
-  std::vector<Node> object(const Node& node) {
+  bool object(const Node& node) {
     const bool by_count = node.find("n") != nullptr;
-    if (by_count && node.find("step")) return report(node, "a range takes \"step\" or \"n\", not both");
+    if (by_count && node.find("step")) {
+      report(node, "a range takes \"step\" or \"n\", not both");
+      return true;
+    }
     const std::string last_key = by_count ? "n" : "step";
     const auto bounds = keys(node, {"from", "to", last_key});
-    if (!bounds) return {};
+    if (!bounds) return true;
     if (!by_count) return steps(node, *bounds);
 
     const auto n = read_count(field_.path, node.find("n")->value, 1, kMaxPoints, problems_);
-    if (!n) return {};
+    if (!n) return true;
+    if (!has_room(node, *n)) return false;
     const double from = bounds->numbers[0].value();
     const double to = bounds->numbers[1].value();
-    std::vector<Node> values;
     for (int i = 0; i < *n; ++i) {
       // Twelve digits: even steps come out as the decimals that they are.
       const double value = i == 0 ? from : from + (to - from) * i / (*n - 1);
-      values.push_back(value_node(rounded(value, 12), bounds->unit, node.place));
+      values_.push_back(value_node(rounded(value, 12), bounds->unit, node.place));
     }
-    return values;
+    return true;
   }
 
-  std::vector<Node> draws(const Node& node, int n, std::uint64_t seed) {
-    const auto bounds = keys(node, {"from", "to"});
-    if (!bounds) return {};
-    const double from = bounds->numbers[0].value();
-    const double to = bounds->numbers[1].value();
-    if (!(from < to)) return report(node, "\"from\" must be less than \"to\"");
-    std::vector<Node> values;
-    for (int i = 0; i < n; ++i) {
-      const std::string key = fmt::format("{}/{}/{}", seed, field_.path, i);
-      const double even = static_cast<double>(XXH3_64bits(key.data(), key.size()) >> 11) * 0x1p-53;  // in [0, 1)
-      const double value = field_.form == Form::kWhole
-                               ? std::floor(from + (to - from + 1) * even)
-                               : std::clamp(rounded(from + (to - from) * even, 6).value(), from, to);
-      values.push_back(value_node(rounded(value, 17), bounds->unit, node.place));
+  bool steps(const Node& node, const Bounds& bounds) {
+    const Result<Steps> range = count_up(bounds.numbers[0], bounds.numbers[1], bounds.numbers[2]);
+    if (!range) {
+      report(node, range.error().message);
+      return true;
     }
-    return values;
-  }
-
- private:
-  std::vector<Node> report(const Node& node, std::string message) {
-    problems_.push_back(problem_at(node.place, field_.path, std::move(message)));
-    return {};
-  }
-
-  std::vector<Node> steps(const Node& node, const Bounds& bounds) {
-    const auto numbers = count_up(bounds.numbers[0], bounds.numbers[1], bounds.numbers[2]);
-    if (!numbers) return report(node, numbers.error().message);
-    std::vector<Node> values;
-    for (const Decimal& number : *numbers) values.push_back(value_node(number, bounds.unit, node.place));
-    return values;
+    if (!has_room(node, range->n)) return false;
+    for (std::int64_t i = 0; i < range->n; ++i) {
+      const Decimal number = make_decimal(range->first + i * range->step, range->exponent);
+      values_.push_back(value_node(number, bounds.unit, node.place));
+    }
+    return true;
   }
 
   /// The values of exactly these keys; "n" is left to the caller.
@@ -155,8 +207,8 @@ class RangeReader {
     }
     for (const Member& member : node.members) {
       if (std::find(wanted.begin(), wanted.end(), member.key) == wanted.end()) {
-        fail(member.place,
-             fmt::format("unknown key \"{}\" in a range{}", member.key, did_you_mean(nearest(member.key, wanted))));
+        const std::string meant = suggestion(problems_, [&] { return did_you_mean(nearest(member.key, wanted)); });
+        fail(member.place, fmt::format("unknown key \"{}\" in a range{}", member.key, meant));
       }
     }
     for (const std::string& key : wanted) {
@@ -179,40 +231,28 @@ class RangeReader {
   }
 
   const Field& field_;
+  Room& room_;
   std::vector<Problem>& problems_;
+  std::vector<Node> values_;
 };
-
-bool is_number(const Field& field) { return field.form == Form::kQuantity || field.form == Form::kWhole; }
 
 }  // namespace
 
-std::vector<Node> read_values(const Field& field, const Node& node, std::vector<Problem>& problems) {
-  const bool is_size = field.form == Form::kSize && node.kind == Node::Kind::kArray && !node.items.empty() &&
-                       node.items.front().kind != Node::Kind::kArray;
-  if (node.kind == Node::Kind::kArray && !is_size) {
-    if (node.items.empty()) problems.push_back(problem_at(node.place, field.path, "no values to sweep over"));
-    std::vector<Node> all;
-    for (const Node& item : node.items) {
-      const bool nested = item.kind == Node::Kind::kArray && field.form != Form::kSize;
-      const std::vector<Node> values = nested ? std::vector<Node>{item} : read_values(field, item, problems);
-      all.insert(all.end(), values.begin(), values.end());
-    }
-    return all;
-  }
-  if (is_number(field) && node.kind == Node::Kind::kString && node.text.find(':') != std::string::npos) {
-    return RangeReader(field, problems).text(node);
-  }
-  if (is_number(field) && node.kind == Node::Kind::kObject) return RangeReader(field, problems).object(node);
-  return {node};
+std::vector<Node> read_values(const Field& field, const Node& node, Room& room, std::vector<Problem>& problems) {
+  ValuesReader reader(field, room, problems);
+  reader.add(node);
+  return reader.take();
 }
 
-std::vector<Node> draw_values(const Field& field, const Node& node, int n, std::uint64_t seed,
+std::vector<Node> draw_values(const Field& field, const Node& node, int n, std::uint64_t seed, Room& room,
                               std::vector<Problem>& problems) {
-  if (!is_number(field)) {
+  if (field.form != Form::kQuantity && field.form != Form::kWhole) {
     problems.push_back(problem_at(node.place, field.path, "only numbers can be drawn at random"));
     return {};
   }
-  return RangeReader(field, problems).draws(node, n, seed);
+  ValuesReader reader(field, room, problems);
+  reader.draws(node, n, seed);
+  return reader.take();
 }
 
 std::optional<int> read_count(std::string_view path, const Node& node, int low, int high,

@@ -11,17 +11,24 @@
 
 namespace shaken::scene {
 
-/// No sweep, and no range in one, has more points.
+/// No sweep has more points, and no key of one more values.
 inline constexpr int kMaxPoints = 100000;
+
+/// How many values the keys of a sweep may still have together, settings included. Ranges are asked for room before
+/// they are counted up: a short text can name any number of values.
+struct Room {
+  int left = 10 * kMaxPoints;
+};
 
 /// The values that are written for one swept field: an array of values or ranges, a range, or a single value. Ranges
 /// are "0.45:0.85:0.05" (from:to:step, the end included if a step falls on it; "2.5:4.5:0.5 mm" with a unit),
 /// {"from", "to", "step"} and {"from", "to", "n"} (n values, both ends included). Their values are exact decimals.
-std::vector<Node> read_values(const Field& field, const Node& node, std::vector<Problem>& problems);
+/// None, and a problem, if there are too many.
+std::vector<Node> read_values(const Field& field, const Node& node, Room& room, std::vector<Problem>& problems);
 
 /// `n` draws from {"from", "to"}, evenly distributed and rounded to 6 digits; the i-th depends on nothing but seed,
 /// path and i.
-std::vector<Node> draw_values(const Field& field, const Node& node, int n, std::uint64_t seed,
+std::vector<Node> draw_values(const Field& field, const Node& node, int n, std::uint64_t seed, Room& room,
                               std::vector<Problem>& problems);
 
 /// A whole number in [low, high], or none and a problem.

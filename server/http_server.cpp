@@ -14,18 +14,14 @@
 #include <utility>
 
 #include "base/failure.h"
+#include "server/http_connection.h"
 
 namespace shaken::server {
 namespace {
 
-constexpr std::size_t kLargestBody = std::size_t{16} << 20;
-constexpr std::size_t kLongestPath = 1024;
 constexpr std::size_t kMostConnections = 256;
 constexpr int kBacklog = SOMAXCONN;  // cpp-httplib has 5: clients that come in a burst would be turned away
-constexpr time_t kIdleSeconds = 1;
-constexpr time_t kReadSeconds = 2;
-constexpr time_t kWriteSeconds = 5;
-constexpr int kUnusedPort = 80;  // cpp-httplib refuses port 0
+constexpr int kUnusedPort = 80;      // cpp-httplib refuses port 0
 
 /// A thread for each connection: with a fixed pool, as many silent clients as it has threads would lock out the rest.
 /// Beyond kMostConnections new ones wait to be accepted.
@@ -60,25 +56,42 @@ class ThreadPerConnection final : public httplib::TaskQueue {
   std::size_t n_open_ = 0;
 };
 
-std::string error_body(const std::string& message) { return "{\"error\":\"" + message + "\"}\n"; }
-
-/// For what is refused before a handler sees it.
+/// For what cpp-httplib refuses by itself.
 const char* explain(int status) {
   switch (status) {
     case 400:
       return "this is no HTTP request that can be read";
-    case 413:
-      return "the request is larger than 16 MiB";
     case 414:
       return "the path is too long";
-    case 415:
-      return "the body must be JSON, not multipart/form-data";
     case 417:
       return "the expectation cannot be met";
     default:
       return "the request cannot be answered";
   }
 }
+
+/// cpp-httplib's server, on connections that count what a request takes.
+class BoundedServer final : public httplib::Server {
+  bool process_and_close_socket(socket_t socket) override {
+    HttpConnection connection(socket);
+    try {
+      const auto head_ended = [&connection](httplib::Request& request) {
+        connection.head_ended(request);
+        // A range may be asked for again and again in one request: its answer would be of any size.
+        request.ranges.clear();
+      };
+      bool closed = false;
+      for (std::size_t n = 1; svr_sock_ != INVALID_SOCKET && !closed && connection.next_request(); ++n) {
+        const bool answered = process_request(connection, n >= keep_alive_max_count_, closed, head_ended);
+        closed = closed || !answered || n >= keep_alive_max_count_ || !connection.request_ended();
+      }
+    } catch (const UnreadableRequest& problem) {
+      connection.refuse(problem);
+    } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch): no memory for an answer; the others go on
+    }
+    return true;
+  }
+};
 
 }  // namespace
 
@@ -95,12 +108,6 @@ struct HttpServer::Impl {
     };
     const auto with_body = [answer](const httplib::Request& request, httplib::Response& response,
                                     const httplib::ContentReader& content) {
-      if (request.is_multipart_form_data()) {
-        // Read to its end all the same: closing earlier would throw away the answer.
-        content([](const httplib::MultipartFormData&) { return true; }, [](const char*, std::size_t) { return true; });
-        response.status = 415;
-        return;
-      }
       std::string body;
       // Without either header there is no body (RFC 7230, 3.3.3); cpp-httplib would wait for the end of the connection.
       const bool has_body = request.has_header("Content-Length") || request.has_header("Transfer-Encoding");
@@ -116,20 +123,22 @@ struct HttpServer::Impl {
     server.Put(".*", with_body);
     server.Patch(".*", with_body);
     server.Delete(".*", with_body);
-    server.set_pre_routing_handler([](const httplib::Request& request, httplib::Response& response) {
-      if (request.path.size() <= kLongestPath) return httplib::Server::HandlerResponse::Unhandled;
-      response.status = 414;
-      return httplib::Server::HandlerResponse::Handled;
+    server.set_exception_handler([](const httplib::Request&, httplib::Response& response, std::exception_ptr problem) {
+      try {
+        std::rethrow_exception(std::move(problem));
+      } catch (const UnreadableRequest& unreadable) {
+        response.status = unreadable.status;
+        response.set_content(error_body(unreadable.what()), "application/json");
+      } catch (...) {  // out of memory: error handlers explain the rest
+        response.status = 500;
+      }
     });
     server.set_error_handler([](const httplib::Request&, httplib::Response& response) {
       if (response.body.empty()) response.set_content(error_body(explain(response.status)), "application/json");
     });
 
+    server.set_keep_alive_timeout(HttpConnection::kIdle.count());  // what answers say of it
     server.new_task_queue = [] { return new ThreadPerConnection; };
-    server.set_payload_max_length(kLargestBody);
-    server.set_keep_alive_timeout(kIdleSeconds);
-    server.set_read_timeout(kReadSeconds);
-    server.set_write_timeout(kWriteSeconds);
     bind();
     listening = std::async(std::launch::async, [this] { server.listen_after_bind(); });
     while (!server.is_running()) std::this_thread::yield();  // stop() before that would be lost
@@ -154,7 +163,7 @@ struct HttpServer::Impl {
   }
 
   std::filesystem::path socket;
-  httplib::Server server;
+  BoundedServer server;
   bool closed = false;
   std::future<void> listening;
 };

@@ -25,8 +25,8 @@ struct Reply {
   std::string allow;  ///< methods that the path has; with status 405
 };
 
-/// HTTP on a Unix socket (mode 0600) that slow, broken or hostile clients cannot stop: requests have a size limit,
-/// reads and writes a time limit, and each connection a thread of its own.
+/// HTTP on a Unix socket (mode 0600) that slow, broken or hostile clients cannot stop: requests and answers have limits
+/// of size and time (server/http_connection.h), and each connection a thread of its own.
 class HttpServer {
  public:
   /// Called from many threads at once; must not throw.

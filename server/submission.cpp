@@ -20,7 +20,6 @@ using nlohmann::json;
 
 constexpr int kMostReplicas = 10'000;
 constexpr int kHighestPriority = 1'000'000;
-constexpr std::size_t kLongestName = 200;
 
 const std::vector<std::string> kKeys{"text", "file", "settings", "replicas", "name", "priority"};
 
@@ -57,13 +56,9 @@ json parse_object(std::string_view body, const std::vector<std::string>& known) 
 
 int priority_of(const json& value) { return integer_of(value, "priority", -kHighestPriority, kHighestPriority); }
 
-void check_name(const std::string& name) {
-  const bool printable = std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20 || c == '/'; });
-  if (name.empty() || name.size() > kLongestName || !printable) {
-    throw std::invalid_argument("\"name\" must have 1 to " + std::to_string(kLongestName) +
-                                " bytes, without '/' and control characters");
-  }
-  if (sweep_number(name)) throw std::invalid_argument("\"name\": '" + name + "' could be mistaken for a sweep's id");
+std::optional<std::string> name_problem(const std::string& name) {
+  if (sweep_number(name)) return "'" + name + "' could be mistaken for a sweep's id";
+  return scene::name_problem(name);
 }
 
 }  // namespace
@@ -85,7 +80,7 @@ SubmitRequest parse_submit_request(std::string_view body) {
   }
   if (object.contains("name")) {
     request.name = text_of(object["name"], "name");
-    check_name(request.name);
+    if (const auto problem = name_problem(request.name)) throw std::invalid_argument("\"name\": " + *problem);
   }
   return request;
 }
@@ -100,6 +95,9 @@ scene::Loaded<Submission> expand(const SubmitRequest& request, const std::filesy
   const auto sweep = scene::load_runs(request.text, request.file, request.settings, request.replicas);
   if (!sweep) return sweep.error();
   Submission submission{request.name.empty() ? sweep->name : request.name, request.priority, {}};
+  if (const auto problem = name_problem(submission.name)) {
+    return std::vector{scene::Problem{request.file, 0, 0, "", *problem + "; submit it with another name"}};
+  }
   for (const scene::SweepPoint& point : sweep->points) {
     NewJob job;
     job.id = scene::run_id(point.plan);

@@ -57,7 +57,7 @@ class Supervisor {
     int handle = 0;
     run::RunDirectory directory;
     std::filesystem::file_time_type checkpoint_before{};  ///< when the last one was written that it found
-    std::optional<Clock::time_point> kill_at;  ///< set when it was asked to stop
+    std::optional<Clock::time_point> kill_at;             ///< set when it was asked to stop
     bool killed = false;
     std::optional<JobEnd> job_end;  ///< on its end; kept until the queue has taken it
   };

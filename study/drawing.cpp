@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/process.h"
+#include "base/text.h"
 #include "run/files/directory.h"
 
 namespace shaken::study {
@@ -37,7 +38,7 @@ bool FigureMaker::draw(const PaperFigure& figure) {
     tell(figure.id, shaken::draw(sheet, out_));
     return true;
   } catch (const std::exception& problem) {
-    console_.err << fmt::format("figure {}: {}\n", figure.id, problem.what());
+    console_.err << fmt::format("figure {}: {}\n", figure.id, printable(problem.what(), Lines::kMany));
     return false;
   }
 }
@@ -78,7 +79,8 @@ fs::path FigureMaker::snapshot(const FinishedRun& run) const {
   const Captured drawn = run_captured({sibling_program("shaken-render").string(), "picture", run.directory().string(),
                                        "--frame", "last", "--bare", "--size", "640x640", "-o", picture.string()});
   if (drawn.exit_code == 0) return picture;
-  console_.err << fmt::format("no picture of {}: {}\n", run.directory().string(), drawn.output);
+  console_.err << fmt::format("no picture of {}: {}\n", run.directory().string(),
+                              printable(drawn.output, Lines::kMany));
   return {};
 }
 

@@ -57,7 +57,7 @@ void show_cost(const Selection& selection, const std::string& scale, bool json, 
   }
   if (json) {
     const Json all{{"scale", scale}, {"sweeps", list}, {"cpu_seconds", sum.cpu}, {"disk_bytes", sum.disk}};
-    console.out << all.dump(2) << "\n";
+    console.out << client::json_text(all);
     return;
   }
   console.out << table.text(console.width)

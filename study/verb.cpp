@@ -147,7 +147,7 @@ class Figures : public client::Verb {
       for (const PaperFigure* figure : selection_.figures) {
         list.push_back({{"id", figure->id}, {"title", figure->title}, {"sweeps", figure->sets}});
       }
-      console.out << list.dump(2) << "\n";
+      console.out << client::json_text(list);
       return ExitCode::kOk;
     }
     Table table({{"FIGURE"}, {"SHOWS"}, {"SWEEPS"}});
@@ -177,7 +177,7 @@ class Figures : public client::Verb {
       console.err << "runs of several versions together:\n" << origin_text(by_sweep, all_sets());
     }
     if (json_) {
-      console.out << Json{{"scale", scale_}, {"made", made}, {"claims", claims_json(runs, claims)}}.dump(2) << "\n";
+      console.out << client::json_text(Json{{"scale", scale_}, {"made", made}, {"claims", claims_json(runs, claims)}});
     } else {
       console.out << table.string() << "\n";
     }

@@ -68,7 +68,7 @@ class Control : public Verb {
                                                   n == 1 ? "1 job" : fmt::format("{} jobs", n), action_.past)
                                     : fmt::format("{}: nothing to be {}\n", target.title(), action_.past));
     }
-    if (json_) context.console.out << Json{{"targets", answers}}.dump(2) << "\n";
+    if (json_) context.console.out << json_text(Json{{"targets", answers}});
     return ExitCode::kOk;
   }
 

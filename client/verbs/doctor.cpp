@@ -35,7 +35,7 @@ class Doctor : public Verb {
                                  finding.what, finding.message);
       if (!finding.remedy.empty()) console.out << fmt::format("{:<20}-> {}\n", "", finding.remedy);
     }
-    if (json_) console.out << Json{{"checks", list}}.dump(2) << "\n";
+    if (json_) console.out << json_text(Json{{"checks", list}});
     const bool failed = std::any_of(findings.begin(), findings.end(), [](const CheckResult& finding) {
       return finding.level == CheckResult::Level::kFail;
     });

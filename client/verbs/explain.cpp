@@ -58,7 +58,7 @@ class Explain : public Verb {
       json["shown"] = {{"label", point.label}, {"parameters", point.parameters}};
       json["shown"].update(derived_quantities(point));
       json.update(estimate.report);
-      console.out << json.dump(2) << "\n";
+      console.out << json_text(json);
       return ExitCode::kOk;
     }
     show_scene(sweep, point, console);

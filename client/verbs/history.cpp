@@ -33,7 +33,7 @@ class History : public Verb {
     const std::string id = find_job(session, id_).at("id").get<std::string>();
     const Json answer = session.get(fmt::format("/v1/jobs/{}/history", url_encoded(id)));
     if (json_) {
-      context.console.out << answer.dump(2) << "\n";
+      context.console.out << json_text(answer);
       return ExitCode::kOk;
     }
     Table table({{"WHEN"}, {"ATTEMPT", Table::Align::kRight}, {"STATE"}, {"WHY"}});

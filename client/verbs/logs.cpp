@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "base/interrupt.h"
+#include "base/text.h"
 #include "client/target.h"
 #include "client/verbs/verbs.h"
 
@@ -29,7 +30,7 @@ class Logs : public Verb {
     for (std::int64_t offset = 0;;) {
       const Json answer = session.get(fmt::format("/v1/jobs/{}/log?offset={}", url_encoded(id), offset));
       const std::string text = answer.at("text").get<std::string>();
-      context.console.out << text << std::flush;
+      context.console.out << printable(text, Lines::kMany) << std::flush;
       offset = answer.at("offset").get<std::int64_t>();
       state = answer.at("state").get<std::string>();
       if (guard.interrupted()) return ExitCode::kInterrupted;

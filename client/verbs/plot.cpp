@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/files.h"
+#include "base/text.h"
 #include "client/plotting/run_figures.h"
 #include "client/results.h"
 #include "client/target.h"
@@ -70,7 +71,7 @@ class Plot : public Verb {
       }
     }
     for (const auto& [why, n] : left_out) {
-      console.err << fmt::format("left out: {}{}\n", n > 1 ? fmt::format("{} runs, ", n) : "", why);
+      console.err << fmt::format("left out: {}{}\n", n > 1 ? fmt::format("{} runs, ", n) : "", printable(why));
     }
     for (Figure& figure : run_figures(std::move(runs))) figures.push_back(std::move(figure));
     if (figures.empty()) throw Failure(ExitCode::kFailed, "there is nothing to plot yet");

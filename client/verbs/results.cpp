@@ -90,7 +90,7 @@ class Results : public Verb {
     if (json_) {
       Json list = Json::array();
       for (const ResultRow& row : rows) list.push_back(aggregate_ ? row.fields : row.source);
-      console.out << Json{{"rows", list}}.dump(2) << "\n";
+      console.out << json_text(Json{{"rows", list}});
     } else if (csv_) {
       console.out << to_csv(rows, chosen_fields(rows));
     } else {
@@ -137,7 +137,7 @@ class Results : public Verb {
         numbers &= value->is_number();
       }
       if (!filled) return;
-      columns.push_back({title, numbers ? Table::Align::kRight : Table::Align::kLeft, rank});
+      columns.push_back({printable(title), numbers ? Table::Align::kRight : Table::Align::kLeft, rank});
       fields.push_back(field);
     };
     if (const std::vector<std::string> chosen = chosen_fields(rows); !chosen.empty()) {

@@ -67,7 +67,7 @@ class Status : public Verb {
     if (id_.empty()) return show_sweeps(session, context.console);
     const Target target = find_target(session, id_);
     if (json_) {
-      context.console.out << target.answer.dump(2) << "\n";
+      context.console.out << json_text(target.answer);
     } else if (target.is_sweep) {
       show_jobs(target, context.console);
     } else {
@@ -81,7 +81,7 @@ class Status : public Verb {
     const Json status = session.get("/v1/status");
     const Json answer = session.get("/v1/sweeps");
     if (json_) {
-      console.out << Json{{"status", status}, {"sweeps", answer.at("sweeps")}}.dump(2) << "\n";
+      console.out << json_text(Json{{"status", status}, {"sweeps", answer.at("sweeps")}});
       return ExitCode::kOk;
     }
     const Json& lcm = status.at("lcm");
@@ -162,7 +162,7 @@ class Status : public Verb {
       if (text_of(job, "state") == "failed") failed.push_back(job);
     }
     if (json_) {
-      console.out << Json{{"jobs", failed}}.dump(2) << "\n";
+      console.out << json_text(Json{{"jobs", failed}});
       return ExitCode::kOk;
     }
     if (failed.empty()) console.out << "No failed jobs.\n";

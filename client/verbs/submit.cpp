@@ -62,7 +62,7 @@ class Submit : public Verb {
     ApiClient session(context.root());
     const Json answer = session.post("/v1/sweeps", request);
     if (json_) {
-      context.console.out << answer.dump(2) << "\n";
+      context.console.out << json_text(answer);
     } else {
       show(answer, sweep, context.console);
     }
@@ -99,7 +99,7 @@ class Submit : public Verb {
       json["estimate"] = estimate_json(estimate);
       if (!json_) console.out << "\nOn this machine, on one core:\n" << estimate_text(estimate, console.width);
     }
-    if (json_) console.out << json.dump(2) << "\n";
+    if (json_) console.out << json_text(json);
   }
 
   static void show(const Json& answer, const scene::Sweep& local, Console& console) {

@@ -67,17 +67,17 @@ class Validate : public Verb {
                       {"path", problem.path},
                       {"message", problem.message}});
     }
-    console.out << Json{{"ok", false}, {"problems", list}}.dump(2) << "\n";
+    console.out << json_text(Json{{"ok", false}, {"problems", list}});
   }
 
   static void print_resolved(const std::vector<scene::SweepPoint>& points, Console& console) {
     if (points.size() == 1) {
-      console.out << scene::to_json(points.front().plan).dump(2) << "\n";
+      console.out << json_text(scene::to_json(points.front().plan));
       return;
     }
     Json list = Json::array();
     for (const scene::SweepPoint& point : points) list.push_back(scene::to_json(point.plan));
-    console.out << list.dump(2) << "\n";
+    console.out << json_text(list);
   }
 
   static void print_json(const std::vector<scene::SweepPoint>& points, Console& console) {
@@ -87,7 +87,7 @@ class Validate : public Verb {
       entry.update(derived_quantities(point));
       list.push_back(std::move(entry));
     }
-    console.out << Json{{"ok", true}, {"problems", Json::array()}, {"points", list}}.dump(2) << "\n";
+    console.out << json_text(Json{{"ok", true}, {"problems", Json::array()}, {"points", list}});
   }
 
   void print_summary(const std::vector<scene::SweepPoint>& points, Console& console) const {

@@ -74,10 +74,11 @@ class Watch : public Verb {
     LiveJobs jobs;
     note(targets, jobs);
 
+    bool state_has_changed = false;  // as a message has it
     const OpenedBus bus = open_bus(session);
     if (bus) {
       bus.value()->subscribe<job_t>(
-          proto::kJobChannel, [&jobs](const job_t& message) { jobs.note(message); }, 100);
+          proto::kJobChannel, [&](const job_t& message) { state_has_changed |= jobs.contradicts(message); }, 100);
       bus.value()->subscribe<observables_t>(
           proto::kObservablesChannel, [&jobs](const observables_t& message) { jobs.note(message); }, 500);
       bus.value()->subscribe<defects_t>(
@@ -88,7 +89,7 @@ class Watch : public Verb {
     const InterruptGuard guard;
     {
       ScreenPage page(console);
-      follow(session, targets, jobs, bus, guard, page, console);
+      follow(session, targets, jobs, bus, state_has_changed, guard, page, console);
     }
     for (const LiveJob& job : jobs.jobs()) console.out << watch_line(job) << "\n";
     return guard.interrupted() ? ExitCode::kInterrupted : ExitCode::kOk;
@@ -131,21 +132,23 @@ class Watch : public Verb {
 
   /// Until the jobs have ended, the time is over, Ctrl-C, or nobody reads any more.
   void follow(ApiClient& session, std::vector<Target>& targets, LiveJobs& jobs, const OpenedBus& bus,
-              const InterruptGuard& guard, ScreenPage& page, Console& console) const {
+              bool& state_has_changed, const InterruptGuard& guard, ScreenPage& page, Console& console) const {
     static constexpr std::chrono::seconds kAskEvery{1};
+    static constexpr std::chrono::milliseconds kAskAtMostEvery{200};
     static constexpr std::chrono::seconds kDaemonMayBeAway{10};
     const auto redraw_every =
         std::chrono::milliseconds(console.interactive ? 200 : static_cast<std::int64_t>(1000 * every_.value_or(1.0)));
     const Clock::time_point start = Clock::now();
     Clock::time_point last_answer = start;
-    Clock::time_point next_question = start + kAskEvery;
+    Clock::time_point last_question = start;
     Clock::time_point next_drawing = start;
     std::map<std::string, std::string> shown_state;
 
     for (;;) {
       const Clock::time_point now = Clock::now();
-      if (now >= next_question) {
-        next_question = now + kAskEvery;
+      if (now >= last_question + (state_has_changed ? kAskAtMostEvery : kAskEvery)) {
+        last_question = now;
+        state_has_changed = false;
         try {
           for (Target& target : targets) refresh(session, target);
           if (id_.empty()) add_unfinished_sweeps(session, targets);

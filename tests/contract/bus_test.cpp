@@ -2,8 +2,10 @@
 // The bus on LCM's in-process provider, and what it says when LCM cannot start.
 #include "proto/bus.h"
 
+#include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <lcm/lcm.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -117,6 +119,45 @@ TEST(Bus, DefaultUrlComesFromTheEnvironmentFirst) {
   EXPECT_EQ(default_url(), kDefaultUrl);
   unsetenv("LCM_DEFAULT_URL");
   EXPECT_EQ(default_url(), kDefaultUrl);
+}
+
+/// A datagram of a message in two pieces, as LCM splits what is longer than one datagram.
+std::string fragment(std::uint16_t number, std::uint32_t offset, const std::string& content) {
+  std::string datagram = "LC03";
+  for (const std::uint32_t word : {std::uint32_t{7}, std::uint32_t{100}, offset}) {
+    const std::uint32_t ordered = htonl(word);
+    datagram.append(reinterpret_cast<const char*>(&ordered), sizeof(ordered));
+  }
+  for (const std::uint16_t half : {number, std::uint16_t{2}}) {
+    const std::uint16_t ordered = htons(half);
+    datagram.append(reinterpret_cast<const char*>(&ordered), sizeof(ordered));
+  }
+  return datagram + content;
+}
+
+TEST(Bus, FragmentsDoNotReachLcm) {
+  if (std::getenv("SHAKEN_OWN_NETWORK") == nullptr) GTEST_SKIP() << "needs a network of its own";
+  const auto sender = Bus::open(kDefaultUrl), viewer = Bus::open(kDefaultUrl);
+  ASSERT_TRUE(sender && viewer);
+  int n_jobs = 0;
+  viewer.value()->subscribe<job_t>(kJobChannel, [&](const job_t&) { ++n_jobs; });
+
+  const int fd = socket(AF_INET, SOCK_DGRAM, 0);
+  sockaddr_in group{};
+  group.sin_family = AF_INET;
+  group.sin_port = htons(7667);
+  inet_aton("239.255.76.67", &group.sin_addr);
+  // The second piece lies almost 4 GB behind the first: LCM 1.3.1 writes there, and crashes.
+  const std::string channel(kJobChannel);
+  for (const std::string& piece :
+       {fragment(0, 0, channel + std::string(1, '\0') + "x"), fragment(1, 0xfffffff0U, std::string(64, 'y'))}) {
+    EXPECT_EQ(sendto(fd, piece.data(), piece.size(), 0, reinterpret_cast<const sockaddr*>(&group), sizeof(group)),
+              static_cast<ssize_t>(piece.size()));
+  }
+  close(fd);
+  EXPECT_TRUE(sender.value()->publish(kJobChannel, samples::make<job_t>()));
+  EXPECT_TRUE(viewer.value()->handle(5000));
+  EXPECT_EQ(n_jobs, 1);
 }
 
 TEST(Bus, LivesWithoutARelayOnTcpq) {

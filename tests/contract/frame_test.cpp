@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -164,9 +165,23 @@ TEST(FrameAssembler, RefusesImpossibleChunks) {
   EXPECT_TRUE(refuses([](frame_t& c) { c.chunk = 1; }));
   EXPECT_TRUE(refuses([](frame_t& c) { c.chunk = -1; }));
   EXPECT_TRUE(refuses([](frame_t& c) { c.n_chunks = 0; }));
+  EXPECT_TRUE(refuses([](frame_t& c) { c.n_chunks = kMostChunks + 1; }));
   EXPECT_TRUE(refuses([](frame_t& c) { c.first_rod = 5; }));
   EXPECT_TRUE(refuses([](frame_t& c) { c.n_rods = 11; }));
   EXPECT_TRUE(refuses([](frame_t& c) { c.x.pop_back(); }));
+}
+
+TEST(FrameAssembler, NumbersThatNoSenderReachesAreNoLosses) {
+  constexpr auto kLeast = std::numeric_limits<std::int64_t>::min(), kMost = std::numeric_limits<std::int64_t>::max();
+  FrameAssembler assembler("0123456789abcdef");
+  std::int64_t utime = 1700000000000000;
+  for (const std::int64_t sequence : {std::int64_t{0}, kMost, std::int64_t{1}, kLeast, kMost, std::int64_t{2}}) {
+    Frame frame = random_frame(100, 3);
+    frame.sequence = sequence;
+    frame.utime = ++utime;
+    EXPECT_TRUE(assemble(assembler, encode_frame(frame))) << sequence;
+    EXPECT_EQ(assembler.lost(), 0) << sequence;
+  }
 }
 
 TEST(FrameAssembler, FollowsARunThatIsStartedAgain) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/unit/analysis/samples.h"
 
 namespace shaken::analysis {
@@ -153,6 +155,9 @@ TEST(DirectorField, NodesFromMesh) {
   EXPECT_EQ(grid_nodes(10, 0.3), 34);
   EXPECT_EQ(grid_nodes(10, 100), 4);
   EXPECT_THROW(grid_nodes(10, 0), std::logic_error);
+  EXPECT_THROW(grid_nodes(1e300, 1), std::logic_error);
+  EXPECT_THROW(grid_nodes(INFINITY, 1), std::logic_error);
+  EXPECT_THROW(grid_nodes(NAN, 1), std::logic_error);
 }
 
 }  // namespace

@@ -25,6 +25,37 @@ TEST(Fitted, CutsWithEllipsisAndEndsColours) {
   EXPECT_EQ(fitted("\x1b[31mabcdef\x1b[0m", 3), "\x1b[31mab…\x1b[0m");
 }
 
+TEST(Printable, HarmlessTextStaysAsItIs) {
+  for (const char* text : {"", "abc", "Γ = 7, ⟨S⟩ \\ \"x\"", "\xF0\x9F\xA6\x80", "\u00a0\u2065\u206a\u2029\u202f"}) {
+    EXPECT_EQ(printable(text), text);
+    EXPECT_EQ(printable(text, Lines::kMany), text);
+  }
+}
+
+TEST(Printable, NothingATerminalObeysIsLeft) {
+  EXPECT_EQ(printable("a\x1b[2Jb"), "a\\u001b[2Jb");
+  EXPECT_EQ(printable("\x1b]0;title\x07"), "\\u001b]0;title\\u0007");
+  EXPECT_EQ(printable(std::string_view("a\0b", 3)), "a\\u0000b");
+  EXPECT_EQ(printable("\x7f"), "\\u007f");
+  EXPECT_EQ(printable("\u0080\u009b31m\u009f"), "\\u0080\\u009b31m\\u009f");
+  EXPECT_EQ(printable("\u202a\u202e\u2066\u2069"), "\\u202a\\u202e\\u2066\\u2069");
+}
+
+TEST(Printable, LinesAndTabsStayWhereTheyAreMeant) {
+  EXPECT_EQ(printable("a\n\tb\r"), "a\\u000a\\u0009b\\u000d");
+  EXPECT_EQ(printable("a\n\tb\r\x1b", Lines::kMany), "a\n\tb\\u000d\\u001b");
+}
+
+TEST(Printable, BytesThatAreNoUtf8AreShown) {
+  EXPECT_EQ(printable("\x9b"), "\\x9b");             // C1 as one byte
+  EXPECT_EQ(printable("a\xff\xc3"), "a\\xff\\xc3");  // cut short
+  EXPECT_EQ(printable("\xc0\x9b"), "\\xc0\\x9b");    // longer than needed
+  EXPECT_EQ(printable("\xe0\x82\x9b"), "\\xe0\\x82\\x9b");
+  EXPECT_EQ(printable("\xed\xa0\x80"), "\\xed\\xa0\\x80");           // a surrogate
+  EXPECT_EQ(printable("\xf4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80");  // beyond the last character
+  EXPECT_EQ(printable("\xf8"), "\\xf8");
+}
+
 TEST(DurationText, KnownAnswers) {
   EXPECT_EQ(duration_text(0), "0.0 s");
   EXPECT_EQ(duration_text(0.44), "0.4 s");

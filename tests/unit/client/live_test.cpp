@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <sstream>
 
 #include "base/text.h"
@@ -39,6 +40,15 @@ TEST(SequenceCounter, GapsAreLossesRestartsAreNot) {
   for (const std::int64_t sequence : {5, 6, 9, 10, 0, 1, 3}) counter.note(sequence);
   EXPECT_EQ(counter.received(), 7);
   EXPECT_EQ(counter.lost(), 3);  // 7, 8 and 2; what was before the first is not ours
+}
+
+TEST(SequenceCounter, NumbersThatNoSenderReachesAreNoLosses) {
+  constexpr auto kLeast = std::numeric_limits<std::int64_t>::min(), kMost = std::numeric_limits<std::int64_t>::max();
+  SequenceCounter counter;
+  for (const std::int64_t sequence : {kLeast, kMost, kLeast, std::int64_t{0}, kMost, std::int64_t{-1}, kMost}) {
+    counter.note(sequence);
+    EXPECT_EQ(counter.lost(), 0) << sequence;
+  }
 }
 
 TEST(History, KeepsTheWholeCurveInBoundedMemory) {
@@ -85,11 +95,22 @@ TEST(LiveJobs, CountsDefectsLossesAndEnds) {
   EXPECT_EQ(jobs.received(), 3);
   EXPECT_EQ(jobs.lost(), 3);
   EXPECT_FALSE(jobs.all_ended());
-  job_t end{};
-  end.job_id = "aa";
-  end.state = "done";
-  jobs.note(end);
+  jobs.note_api(api_job("aa", "done", -1));
   EXPECT_TRUE(jobs.all_ended());
+}
+
+TEST(LiveJobs, AMessageEndsNothing) {
+  LiveJobs jobs;
+  jobs.note_api(api_job("aa", "running", 0));
+  job_t message{};
+  message.job_id = "aa";
+  message.state = "running";
+  EXPECT_FALSE(jobs.contradicts(message));
+  message.state = "done";
+  EXPECT_TRUE(jobs.contradicts(message)) << "a reason to ask the daemon";
+  EXPECT_FALSE(jobs.all_ended());
+  message.job_id = "bb";
+  EXPECT_FALSE(jobs.contradicts(message)) << "nobody watches it";
 }
 
 TEST(WatchScreen, FitsEveryTerminal) {

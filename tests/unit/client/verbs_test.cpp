@@ -5,9 +5,12 @@
 
 #include <csignal>
 #include <fstream>
+#include <shaken/job_t.hpp>
 #include <thread>
 
+#include "base/text.h"
 #include "client/json.h"
+#include "proto/bus.h"
 #include "tests/unit/client/fake_daemon.h"
 #include "tests/unit/client/run_client.h"
 
@@ -403,6 +406,87 @@ TEST_F(Verbs, WatchWithoutLiveStateAsksTheDaemonUntilTheEnd) {
   EXPECT_THAT(outcome.err, HasSubstr("no multicast route"));
   EXPECT_THAT(outcome.out, HasSubstr("1f0c0000 running  25.0 %  t 1.000/4.000 s  S 0.500 (mean 0.400)"));
   EXPECT_THAT(outcome.out, HasSubstr("1f0c0000 done 100.0 %  t 4.000/4.000 s  S 0.500"));
+}
+
+TEST_F(Verbs, WatchAsksTheDaemonWhatHasEnded) {
+  // A message that anybody may have sent says "done"; the daemon does not.
+  const std::string log = (root_.path() / "forged.log").string();
+  {
+    const auto bus = proto::Bus::open("file://" + log + "?mode=w");
+    ASSERT_TRUE(bus);
+    job_t forged{};
+    forged.job_id = "1f0c000000000000";
+    forged.state = "done";
+    forged.reason = "\x1b]0;forged\x07";
+    ASSERT_TRUE(bus.value()->publish(proto::kJobChannel, forged));
+  }
+  daemon_.on("GET /v1/sweeps/s1", {{200, text(sweep({job("1f0c000000000000", "running")}))},
+                                   {200, text(sweep({job("1f0c000000000000", "running")}))},
+                                   {200, text(sweep({job("1f0c000000000000", "running")}))},
+                                   {200, text(sweep({job("1f0c000000000000", "failed")}))}});
+  const Outcome outcome = run({"watch", "s1", "--lcm-url", "file://" + log + "?mode=r"});
+  EXPECT_EQ(outcome.code, ExitCode::kOk) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("1f0c0000 failed"));
+  EXPECT_THAT(outcome.out, Not(HasSubstr("done")));
+  EXPECT_THAT(outcome.out, Not(HasSubstr("forged")));
+}
+
+TEST_F(Verbs, NothingThatATerminalObeysIsPrinted) {
+  const std::string evil = "e\x1b]0;title\x07\x7f\u009b2J\u202evil";
+  Json failed = job("1f0c000000000000", "failed");
+  failed["label"] = failed["reason"] = failed["directory"] = evil;
+  failed["parameters"] = {{evil, evil}};
+  Json one = sweep({failed});
+  one["sweep"]["name"] = evil;
+  const Json row{{"job", "1f0c000000000000"},    {"sweep", "s1"}, {"state", "failed"},        {"label", evil},
+                 {"parameters", {{evil, evil}}}, {"replica", 1},  {"summary", {{evil, evil}}}};
+  daemon_.on("GET /v1/status", text({{"version", evil}, {"host", evil}, {"lcm", {{"ok", false}, {"message", evil}}}}));
+  daemon_.on("GET /v1/sweeps", text({{"sweeps", {one.at("sweep")}}}));
+  daemon_.on("GET /v1/sweeps/s1", text(one));
+  daemon_.on("GET /v1/jobs", text({{"jobs", {failed}}}));
+  daemon_.on("GET /v1/jobs?state=failed", text({{"jobs", {failed}}}));
+  daemon_.on("GET /v1/jobs/1f0c", text({{"job", failed}}));
+  daemon_.on("GET /v1/jobs/1f0c000000000000", text({{"job", failed}}));
+  daemon_.on("GET /v1/jobs/1f0c000000000000/log?offset=0",
+             text({{"text", evil + "\n"}, {"offset", 9}, {"state", "failed"}}));
+  daemon_.on("GET /v1/jobs/1f0c000000000000/log?offset=9", R"({"text": "", "offset": 9, "state": "failed"})");
+  daemon_.on("GET /v1/results?sweep=s1", text({{"rows", {row}}}));
+  daemon_.on("POST /v1/sweeps/s1/cancel", R"({"cancelled": 0})");
+  daemon_.on("GET /v1/sweeps/refused", {{400, text({{"error", evil}})}});
+  const std::vector<std::vector<std::string>> commands{{"status"},
+                                                       {"status", "s1"},
+                                                       {"status", "1f0c"},
+                                                       {"status", "--failed"},
+                                                       {"status", "--json"},
+                                                       {"status", "s1", "--json"},
+                                                       {"logs", "1f0c"},
+                                                       {"wait", "s1"},
+                                                       {"watch", "s1"},
+                                                       {"results", "s1", "--csv"},
+                                                       {"results", "s1", "--json"},
+                                                       {"results"},
+                                                       {"cancel", "s1"},
+                                                       {"status", "refused"},
+                                                       {"results", "s1", "--columns", evil}};
+  for (const std::vector<std::string>& command : commands) {
+    const Outcome outcome = run(command);
+    const std::string printed = outcome.out + outcome.err;
+    EXPECT_EQ(printable(printed, Lines::kMany), printed) << command[0] << " " << command.back();
+    EXPECT_THAT(printed, HasSubstr("vil")) << command[0];
+  }
+}
+
+TEST_F(Verbs, CompletionOffersNothingThatAShellExpands) {
+  Json sweeps = Json::array();
+  for (const char* name : {"plain-1.5_Γ", "two words", "$(touch /tmp/x)", "$HOME", "`id`", "a;b", "a*", "~root",
+                           "{a,b}", "'q'", "a\\b", "#a", "!a", "a>b"}) {
+    Json one = sweep({}).at("sweep");
+    one["name"] = name;
+    sweeps.push_back(one);
+  }
+  daemon_.on("GET /v1/sweeps", text({{"sweeps", sweeps}}));
+  daemon_.on("GET /v1/jobs", R"({"jobs": []})");
+  EXPECT_EQ(run({"completion", "ids"}).out, "plain-1.5_Γ\ns1\n");
 }
 
 TEST_F(Verbs, CompletionKnowsTheIds) {

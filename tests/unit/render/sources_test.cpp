@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <shaken/frame_static_t.hpp>
 
 #include "proto/bus.h"
@@ -164,20 +165,21 @@ frame_static_t mixed_constants() {
   return constants;
 }
 
-Result<RodPicture> live(const std::filesystem::path& log, const frame_static_t& constants) {
+Result<RodPicture> live(const std::filesystem::path& log, const frame_static_t& constants, double box_side = 20,
+                        bool with_defects = false) {
   {
     const auto bus = proto::Bus::open("file://" + log.string() + "?mode=w");
     EXPECT_TRUE(bus) << bus.error().message;
     bus.value()->publish(proto::kFrameStaticChannel, constants);
     proto::Frame frame;
     frame.job_id = constants.job_id;
-    frame.box_side_mm = 20;
+    frame.box_side_mm = box_side;
     for (const double angle : {0.3, -kPi / 2, 2.0}) {
       frame.rods.push_back(proto::make_pose(10, 10, {std::cos(angle), std::sin(angle), 0}));
     }
     for (const frame_t& chunk : proto::encode_frame(frame)) bus.value()->publish(proto::kFrameChannel, chunk);
   }
-  return live_picture("file://" + log.string() + "?mode=r&speed=0", "cccc", std::chrono::seconds(10), false);
+  return live_picture("file://" + log.string() + "?mode=r&speed=0", "cccc", std::chrono::seconds(10), with_defects);
 }
 
 TEST(LivePicture, KnowsKindsOfRodsTheirHeadsAndTheWalls) {
@@ -211,6 +213,33 @@ TEST(LivePicture, RefusesAStaticPartThatContradictsItself) {
     m.rod_species.pop_back();
     m.n_rod_species = 2;
   }));
+}
+
+TEST(LivePicture, RefusesSizesThatNoSceneHas) {
+  const ScratchFolder folder;
+  constexpr double kTiny = 5e-324, kInfinite = std::numeric_limits<double>::infinity(), kNan = std::nan("");
+  for (const double wrong : {0.0, -1.0, kTiny, 1e4, 1e6, 1e300, kInfinite, -kInfinite, kNan}) {
+    const auto refuses = [&](double box_side, auto&& spoil) {
+      frame_static_t bad = mixed_constants();
+      spoil(bad);
+      const Result<RodPicture> picture = live(folder / "bad.lcmlog", bad, box_side, true);
+      return !picture && picture.error().message.find("a scene has") != std::string::npos;
+    };
+    EXPECT_TRUE(refuses(wrong, [](frame_static_t&) {})) << wrong;
+    EXPECT_TRUE(refuses(20, [&](frame_static_t& m) { m.gap_mm = wrong; })) << wrong;
+    EXPECT_TRUE(refuses(20, [&](frame_static_t& m) { m.bead_radius_mm[4] = wrong; })) << wrong;
+    EXPECT_TRUE(refuses(20, [&](frame_static_t& m) { m.arena_size_mm = wrong; })) << wrong;
+    if (std::abs(wrong) <= 1) continue;  // a place along the rod
+    EXPECT_TRUE(refuses(20, [&](frame_static_t& m) { m.bead_offset_mm[0] = wrong; })) << wrong;
+  }
+  // Each of these is allowed, but not together.
+  frame_static_t small = mixed_constants();
+  small.species_beads = {1, 2, 3};
+  small.bead_radius_mm.assign(6, 0.1);
+  const Result<RodPicture> field = live(folder / "large.lcmlog", small, 2000, true);
+  ASSERT_FALSE(field);
+  EXPECT_NE(field.error().message.find("too large"), std::string::npos) << field.error().message;
+  EXPECT_TRUE(live(folder / "large.lcmlog", small, 2000, false));
 }
 
 TEST(LivePicture, TimesOutWithAReason) {

@@ -43,6 +43,28 @@ TEST(Sweep, APlainSceneIsASweepOfOnePoint) {
   EXPECT_EQ(sweep.points[0].plan, plan_of(R"({"rods": {"length": 2.5}})"));
 }
 
+TEST(Sweep, ValuesOfAllKeysAndSettingsHaveALimitTogether) {
+  const std::vector<std::string> settings(1000, "rods.length=1:100000:1");
+  EXPECT_THAT(sweep_problems("{}", settings), HasSubstr("the sweep has more than 1000000 values"));
+}
+
+TEST(Sweep, ANameCanBePrintedOnAnyTerminal) {
+  const auto named = [](const std::string& name) { return R"({"scene": {}, "name": ")" + name + "\"}"; };
+  EXPECT_EQ(sweep_of(named("Γ = 7, ⟨S⟩")).name, "Γ = 7, ⟨S⟩");
+  EXPECT_EQ(sweep_of(named(std::string(200, 'x'))).name.size(), 200u);
+  for (const std::string& name : {std::string(), std::string(201, 'x'), std::string("a/b"),
+                                  std::string("\\u001b]0;title\\u0007"), std::string("a\\nb"), std::string("\\u0000"),
+                                  std::string("\x7f"), std::string("\u009b2J"), std::string("\u202e")}) {
+    EXPECT_THAT(sweep_problems(named(name)), HasSubstr("s.json:1:23: /name: a name has 1 to 200 bytes")) << name;
+  }
+  for (const std::string& file : {std::string("a\nb.json"), std::string("\x1b]0;x\x07"), std::string()}) {
+    const Loaded<Sweep> loaded = load_sweep("{}", file);
+    ASSERT_FALSE(loaded);
+    EXPECT_THAT(to_string(loaded.error()), HasSubstr("rename the file"));
+  }
+  EXPECT_TRUE(load_sweep(named("good"), "a\nb.json"));
+}
+
 TEST(Sweep, AGridIsAllCombinations) {
   const Sweep sweep = sweep_of(R"({"name": "my sweep", "scene": {"box": {"side": 40}},
     "sweep": {"grid": {"rods.length": ["2.5 mm", 4.5], "rods.area_fraction": "0.5:0.7:0.1"}}})");

@@ -19,15 +19,18 @@ std::optional<Node> node_of(const std::string& json, std::vector<Problem>& probl
 
 std::vector<std::string> values(const std::string& json, std::string_view path = "rods.length") {
   std::vector<Problem> problems;
+  Room room;
   std::vector<std::string> texts;
-  for (const Node& value : read_values(field_at(path), *node_of(json, problems), problems)) texts.push_back(value.text);
+  for (const Node& value : read_values(field_at(path), *node_of(json, problems), room, problems))
+    texts.push_back(value.text);
   EXPECT_EQ(to_string(problems), "") << json;
   return texts;
 }
 
 std::string complaint(const std::string& json, std::string_view path = "rods.length") {
   std::vector<Problem> problems;
-  read_values(field_at(path), *node_of(json, problems), problems);
+  Room room;
+  read_values(field_at(path), *node_of(json, problems), room, problems);
   return problems.size() == 1 ? problems.front().message : to_string(problems);
 }
 
@@ -89,12 +92,34 @@ TEST(Values, BadRangesSayWhy) {
   EXPECT_EQ(complaint(R"({"from": [], "to": 2, "n": 2})"), "expected a number, not an array");
 }
 
+TEST(Values, ThereIsRoomForSoManyAndNoRangeIsCountedUpBeyondIt) {
+  std::string many = "[";
+  for (int i = 0; i < 100'000; ++i) many += "\"1:100000:1\", ";
+  EXPECT_EQ(complaint(many + "1]"), "more than 100000 values");
+  EXPECT_EQ(values("[\"1:50000:1\", \"1:50000:1\"]").size(), 100'000u);
+  EXPECT_EQ(complaint("[\"1:50000:1\", \"1:50001:1\"]"), "more than 100000 values");
+  EXPECT_EQ(complaint(R"([{"from": 1, "to": 2, "n": 100000}, 1])"), "more than 100000 values");
+
+  std::vector<Problem> problems;
+  Room room{150'000};
+  const Node range = *node_of("\"1:100000:1\"", problems);
+  EXPECT_EQ(read_values(field_at("rods.length"), range, room, problems).size(), 100'000u);
+  EXPECT_EQ(read_values(field_at("rods.length"), range, room, problems).size(), 0u);
+  EXPECT_EQ(
+      draw_values(field_at("rods.length"), *node_of(R"({"from": 1, "to": 2})", problems), 60'000, 1, room, problems)
+          .size(),
+      0u);
+  ASSERT_EQ(problems.size(), 2u);
+  EXPECT_EQ(problems[0].message, "the sweep has more than 1000000 values");
+}
+
 TEST(Values, DrawsAreRepeatableAndFillTheirRange) {
   std::vector<Problem> problems;
+  Room room;
   const Node range = *node_of(R"({"from": 2.5, "to": "4.5 mm"})", problems);
   const auto draw = [&](int n, std::uint64_t seed) {
     std::vector<double> numbers;
-    for (const Node& value : draw_values(field_at("rods.length"), range, n, seed, problems)) {
+    for (const Node& value : draw_values(field_at("rods.length"), range, n, seed, room, problems)) {
       numbers.push_back(parse_quantity(value.text, Dimension::kLength).value());
     }
     return numbers;
@@ -116,9 +141,10 @@ TEST(Values, DrawsAreRepeatableAndFillTheirRange) {
 
 TEST(Values, WholeNumbersAreDrawnFromFirstToLast) {
   std::vector<Problem> problems;
+  Room room;
   const Node range = *node_of(R"({"from": 1, "to": 3})", problems);
   int seen[4] = {};
-  for (const Node& value : draw_values(field_at("contacts.sweeps"), range, 300, 1, problems)) {
+  for (const Node& value : draw_values(field_at("contacts.sweeps"), range, 300, 1, room, problems)) {
     const double number = parse_decimal(value.text)->value();
     ASSERT_TRUE(number == 1 || number == 2 || number == 3) << value.text;
     ++seen[static_cast<int>(number)];

@@ -49,6 +49,8 @@ TEST(SubmitRequestTest, WhatIsWrongIsSaidInWords) {
   EXPECT_THAT(refusal(R"({"text": "", "settings": [1]})"), HasSubstr("string"));
   EXPECT_THAT(refusal(R"({"text": "", "name": ""})"), HasSubstr("name"));
   EXPECT_THAT(refusal(R"({"text": "", "name": "a/b"})"), HasSubstr("name"));
+  EXPECT_THAT(refusal(R"({"text": "", "name": "\u009b2J"})"), HasSubstr("name"));
+  EXPECT_THAT(refusal(R"({"text": "", "name": "\u202e"})"), HasSubstr("name"));
   EXPECT_THAT(refusal(R"({"text": "", "name": "s12"})"), HasSubstr("sweep's id"));
 }
 
@@ -83,6 +85,18 @@ TEST(ExpandTest, APlainSceneIsOneJobNamedAfterItsFile) {
   EXPECT_EQ(submission->name, "plain");
   ASSERT_EQ(submission->jobs.size(), 1U);
   EXPECT_TRUE(submission->jobs[0].results_lost);
+}
+
+TEST(ExpandTest, ANameIsCheckedWhereverItComesFrom) {
+  SubmitRequest request;
+  request.text = R"({"name": "s12", "scene": {}})";
+  const auto like_an_id = expand(request, "/nonexistent");
+  ASSERT_FALSE(like_an_id);
+  EXPECT_THAT(to_string(like_an_id.error()), HasSubstr("sweep's id"));
+  request.name = "named";
+  EXPECT_TRUE(expand(request, "/nonexistent"));
+  request.text = R"({"name": "\u001b[2J", "scene": {}})";
+  EXPECT_FALSE(expand(request, "/nonexistent"));
 }
 
 TEST(ExpandTest, WhatTheWorkerReadsIsTheSameRun) {
