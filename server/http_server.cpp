@@ -96,7 +96,7 @@ class BoundedServer final : public httplib::Server {
 }  // namespace
 
 struct HttpServer::Impl {
-  Impl(std::filesystem::path socket_file, Handler handler) : socket(std::move(socket_file)) {
+  Impl(std::filesystem::path socket_file, const Handler& handler) : socket(std::move(socket_file)) {
     const auto answer = [handler](const httplib::Request& request, std::string body, httplib::Response& response) {
       const Reply reply = handler({request.method, request.path, request.params, std::move(body)});
       response.status = reply.status;
