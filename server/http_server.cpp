@@ -96,8 +96,9 @@ class BoundedServer final : public httplib::Server {
 }  // namespace
 
 struct HttpServer::Impl {
-  Impl(std::filesystem::path socket_file, const Handler& handler) : socket(std::move(socket_file)) {
-    const auto answer = [handler](const httplib::Request& request, std::string body, httplib::Response& response) {
+  Impl(std::filesystem::path socket_file, Handler handler) : socket(std::move(socket_file)) {
+    const auto answer = [handler = std::move(handler)](const httplib::Request& request, std::string body,
+                                                       httplib::Response& response) {
       const Reply reply = handler({request.method, request.path, request.params, std::move(body)});
       response.status = reply.status;
       if (!reply.allow.empty()) response.set_header("Allow", reply.allow);
