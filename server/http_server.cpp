@@ -97,7 +97,8 @@ class BoundedServer final : public httplib::Server {
 
 struct HttpServer::Impl {
   Impl(std::filesystem::path socket_file, Handler handler) : socket(std::move(socket_file)) {
-    const auto answer = [handler](const httplib::Request& request, std::string body, httplib::Response& response) {
+    const auto answer = [handler = std::move(handler)](const httplib::Request& request, std::string body,
+                                                       httplib::Response& response) {
       const Reply reply = handler({request.method, request.path, request.params, std::move(body)});
       response.status = reply.status;
       if (!reply.allow.empty()) response.set_header("Allow", reply.allow);
