@@ -8,6 +8,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "base/text.h"
 #include "run/files/directory.h"
 #include "scene/nearest.h"
 #include "server/log_slice.h"
@@ -117,10 +118,10 @@ Reply Api::handle(const Request& request) const {
   } catch (const Refusal& refusal) {
     return refuse(refusal.status, refusal.what());
   } catch (const StorageError& problem) {
-    spdlog::error("{} {}: {}", request.method, request.path, problem.what());
+    spdlog::error("{} {}: {}", request.method, printable(request.path), problem.what());
     return refuse(507, std::string("the queue cannot be read or written: ") + problem.what());
   } catch (const std::exception& problem) {
-    spdlog::error("{} {}: {}", request.method, request.path, problem.what());
+    spdlog::error("{} {}: {}", request.method, printable(request.path), problem.what());
     return refuse(500, std::string("an error inside shakend: ") + problem.what());
   }
 }

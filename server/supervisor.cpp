@@ -105,7 +105,7 @@ void Supervisor::settle(const std::string& id, const Worker& worker) {
       break;
     }
   }
-  spdlog::info("job {}: {}", id, reason.empty() ? "done" : reason);
+  spdlog::info("job {}: {}", id, reason.empty() ? "done" : printable(reason));
 }
 
 void Supervisor::stop_stopping() {
@@ -157,7 +157,7 @@ bool Supervisor::start(const Job& job) {
   }
   const std::string scene = queue_.scene(job.id);
   if (const std::string why = options_.refuse ? options_.refuse(job.id, scene) : ""; !why.empty()) {
-    spdlog::error("job {}: {}", job.id, why);
+    spdlog::error("job {}: {}", job.id, printable(why));
     queue_.finish(job.id, JobState::kFailed, why);
     return false;
   }
@@ -193,7 +193,7 @@ bool Supervisor::start(const Job& job) {
   queue_.set_pid(job.id, *handle);
   complaints_.clear();
   pause_ = std::chrono::milliseconds(0);
-  spdlog::info("job {}: attempt {}, worker {}: {}", job.id, *attempt, *handle, job.label);
+  spdlog::info("job {}: attempt {}, worker {}: {}", job.id, *attempt, *handle, printable(job.label));
   return true;
 }
 
@@ -236,7 +236,7 @@ void Supervisor::kill_all() {
 }
 
 void Supervisor::complain(const std::string& trouble) {
-  if (complaints_.insert(trouble).second) spdlog::warn("{}", trouble);
+  if (complaints_.insert(trouble).second) spdlog::warn("{}", printable(trouble));
 }
 
 }  // namespace shaken::server
