@@ -20,6 +20,7 @@ struct JobEnd {
     kStopped,  ///< at a checkpoint, on request
     kCrashed,  ///< killed or ended without a word: it may go well another time
     kNoRoom,   ///< the disk is full
+    kNotStarted,
   };
   Outcome outcome;
   std::string reason;  ///< empty if done

@@ -96,6 +96,10 @@ void Supervisor::settle(const std::string& id, const Worker& worker) {
     case JobEnd::Outcome::kCrashed:
       queue_.crashed(id, reason, checkpoint_time(worker.directory) != worker.checkpoint_before, options_.retry_pauses);
       break;
+    case JobEnd::Outcome::kNotStarted:
+      queue_.stopped(id, reason);
+      queue_.set_reason(id, reason);
+      break;
     case JobEnd::Outcome::kNoRoom: {
       const std::int64_t needed = std::max(2 * options_.least_room, 2 * bytes_in(worker.directory.root));
       queue_.no_room(
@@ -202,8 +206,7 @@ void Supervisor::could_not_start(const std::string& id, const std::string& why) 
   start_after_ = Clock::now() + pause_;
   const std::string told = "could not be started: " + why;
   complain(fmt::format("job {} {}; next try in {} s", id, told, std::chrono::duration<double>(pause_).count()));
-  queue_.stopped(id, told);
-  queue_.set_reason(id, told);
+  workers_[id].job_end = JobEnd{JobEnd::Outcome::kNotStarted, told};  // until the queue has taken it
 }
 
 void Supervisor::wait(const Job& job, const std::string& why) {

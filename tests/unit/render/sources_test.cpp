@@ -217,7 +217,8 @@ TEST(LivePicture, RefusesAStaticPartThatContradictsItself) {
 
 TEST(LivePicture, RefusesSizesThatNoSceneHas) {
   const ScratchFolder folder;
-  constexpr double kTiny = 5e-324, kInfinite = std::numeric_limits<double>::infinity(), kNan = std::nan("");
+  constexpr double kTiny = 5e-324, kInfinite = std::numeric_limits<double>::infinity(),
+                   kNan = std::numeric_limits<double>::quiet_NaN();
   for (const double wrong : {0.0, -1.0, kTiny, 1e4, 1e6, 1e300, kInfinite, -kInfinite, kNan}) {
     const auto refuses = [&](double box_side, auto&& spoil) {
       frame_static_t bad = mixed_constants();

@@ -2,8 +2,6 @@
 // What users get to see when something is wrong: each kind of mistake, with its place and its remedy.
 #include <gmock/gmock.h>
 
-#include <ctime>
-
 #include "scene/observables.h"
 #include "scene/sweep.h"
 #include "tests/unit/scene/support.h"
@@ -234,9 +232,10 @@ TEST(Problems, OneMistakeIsReportedOnce) {
   EXPECT_EQ(problems_of(R"({"plates": {"frequency": -200}})").size(), 1u);
 }
 
-TEST(Problems, ManyAreFoundInNoTime) {
+/// A search through all keys for each of them would take minutes, and end by the test's time limit.
+TEST(Problems, ManyAreFoundOneByOne) {
   std::string unknown = "{", twice = "{", wrong = "{\"rods\": {\"bead_diameters\": [";
-  for (int i = 0; i < 60'000; ++i) {
+  for (int i = 0; i < 120'000; ++i) {
     const std::string key = "\"rods_lenght_" + std::to_string(i) + "\": 1, ";
     unknown += key;
     twice += key + "\"x\": 1, ";
@@ -245,9 +244,7 @@ TEST(Problems, ManyAreFoundInNoTime) {
   for (const std::string& text :
        {unknown + "\"y\": 1}", twice + "\"y\": 1}", wrong + "1]}}", "{\"sweep\": {\"grid\": " + unknown + "\"y\": 1}}}",
         "{\"scene\": {}, " + unknown.substr(1) + "\"y\": 1}"}) {
-    const std::clock_t start = std::clock();
     const Loaded<Sweep> loaded = load_sweep(text, "many.json");
-    EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 1.0) << text.substr(0, 40);
     ASSERT_FALSE(loaded);
     ASSERT_EQ(loaded.error().size(), 101u);
     EXPECT_THAT(loaded.error().back().message, testing::MatchesRegex("and [0-9]+ more problems"));
