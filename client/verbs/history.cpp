@@ -15,7 +15,7 @@ std::string local_time(std::int64_t utime) {
   return fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(static_cast<std::time_t>(utime / 1'000'000)));
 }
 
-class History : public Verb {
+class JobHistory : public Verb {
  public:
   VerbInfo info() const override {
     return {"history", kControlGroup, "What became of a job: every change of its state, when, and why",
@@ -52,6 +52,6 @@ class History : public Verb {
 
 }  // namespace
 
-std::unique_ptr<Verb> make_history() { return std::make_unique<History>(); }
+std::unique_ptr<Verb> make_history() { return std::make_unique<JobHistory>(); }
 
 }  // namespace shaken::client
