@@ -139,6 +139,7 @@ class Queue {
   int release_all(std::span<const Current> jobs, bool retry);
   int set_priority(std::span<const Current> jobs, int priority);
   std::vector<Current> one(const std::string& id) const;
+  std::vector<Current> found(std::optional<std::int64_t> sweep, const std::string& condition) const;
   std::vector<Current> all(std::optional<std::int64_t> sweep) const;
   std::vector<Current> unfinished(std::optional<std::int64_t> sweep) const;
   std::optional<std::int64_t> same_sweep(const std::string& name, std::span<const NewJob> jobs) const;
