@@ -5,19 +5,18 @@
 #include <unistd.h>
 #include <xxhash.h>
 
-#include <bit>
 #include <cerrno>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string_view>
 #include <utility>
 
 #include "base/files.h"
+#include "sim/core/state_io.h"
 
 namespace shaken::run {
 namespace {
-
-static_assert(std::endian::native == std::endian::little, "frame logs are little-endian");
 
 using Json = nlohmann::json;
 
@@ -29,32 +28,24 @@ constexpr std::size_t kPrefixBytes = kMagic.size() + 2 * sizeof(std::uint32_t);
 /// Of a header: one byte a rod and a scene; more is no header of ours.
 constexpr std::uint32_t kMostHeaderBytes = 1U << 28;
 
-std::uint64_t hash_of(std::string_view bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
+std::uint64_t hash_of(std::span<const std::byte> bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
+
+std::string_view text_of(std::span<const std::byte> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+std::span<const std::byte> bytes_of(std::string_view text) { return std::as_bytes(std::span(text)); }
 
 template <class Value>
-void put(std::string& out, const Value& value) {
-  out.append(reinterpret_cast<const char*>(&value), sizeof(Value));
+void append(StateWriter& writer, const std::vector<Value>& values) {
+  writer.append(std::as_bytes(std::span(values)));
 }
 
 template <class Value>
-void put(std::string& out, const std::vector<Value>& values) {
-  out.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value));
-}
-
-template <class Value>
-Value take(std::string_view& bytes) {
-  Value value;
-  std::memcpy(&value, bytes.data(), sizeof(Value));
-  bytes.remove_prefix(sizeof(Value));
-  return value;
-}
-
-template <class Value>
-std::vector<Value> take(std::string_view& bytes, std::size_t n) {
-  std::vector<Value> values(n);
-  if (n > 0) std::memcpy(values.data(), bytes.data(), n * sizeof(Value));
-  bytes.remove_prefix(n * sizeof(Value));
-  return values;
+void take(StateReader& reader, std::size_t n, std::vector<Value>& values) {
+  values.resize(n);
+  const std::span<const std::byte> bytes = reader.bytes(n * sizeof(Value));
+  if (n > 0) std::memcpy(values.data(), bytes.data(), bytes.size());
 }
 
 /// Bytes of one frame.
@@ -62,30 +53,34 @@ std::size_t record_bytes(std::size_t n_rods) {
   return sizeof(std::int64_t) + sizeof(double) + n_rods * (10 * sizeof(float) + 3 * sizeof(std::int32_t)) + kHashBytes;
 }
 
-std::string record_of(const RecordedFrame& frame) {
-  std::string record;
-  record.reserve(record_bytes(frame.position.size() / 3));
-  put(record, static_cast<std::int64_t>(frame.tick));
-  put(record, frame.time);
-  put(record, frame.position);
-  put(record, frame.velocity);
-  put(record, frame.orientation);
-  put(record, frame.image);
-  put(record, hash_of(record));
+StateWriter record_of(const RecordedFrame& frame) {
+  StateWriter record;
+  record.put(static_cast<std::int64_t>(frame.tick));
+  record.put(frame.time);
+  append(record, frame.position);
+  append(record, frame.velocity);
+  append(record, frame.orientation);
+  append(record, frame.image);
+  record.put(hash_of(record.bytes()));
   return record;
 }
 
+/// None if the hash is not that of the rest. `record` has the length of a frame.
 std::optional<RecordedFrame> frame_of(std::string_view record, std::size_t n_rods) {
-  std::string_view hash = record.substr(record.size() - kHashBytes);
-  if (take<std::uint64_t>(hash) != hash_of(record.substr(0, record.size() - kHashBytes))) return std::nullopt;
+  StateReader reader(bytes_of(record));
+  const std::uint64_t hash = hash_of(bytes_of(record.substr(0, record.size() - kHashBytes)));
   RecordedFrame frame;
-  frame.tick = take<std::int64_t>(record);
-  frame.time = take<double>(record);
-  frame.position = take<float>(record, 3 * n_rods);
-  frame.velocity = take<float>(record, 3 * n_rods);
-  frame.orientation = take<float>(record, 4 * n_rods);
-  frame.image = take<std::int32_t>(record, 3 * n_rods);
-  return frame;
+  std::int64_t tick = 0;
+  std::uint64_t stored = 0;
+  reader.get(tick);
+  frame.tick = tick;
+  reader.get(frame.time);
+  take(reader, 3 * n_rods, frame.position);
+  take(reader, 3 * n_rods, frame.velocity);
+  take(reader, 4 * n_rods, frame.orientation);
+  take(reader, 3 * n_rods, frame.image);
+  reader.get(stored);
+  return stored == hash ? std::optional(std::move(frame)) : std::nullopt;
 }
 
 Json json_of(const BeadRow& beads) { return {{"offset_mm", beads.offset}, {"radius_mm", beads.radius}}; }
@@ -175,17 +170,20 @@ class LoggedFrames final : public RecordedFrames {
     const Result<std::string> prefix = read_at(file.value(), 0, kPrefixBytes);
     if (!prefix) return Error{path.string() + ": " + prefix.error().message};
     if (prefix->size() < kPrefixBytes || !prefix->starts_with(kMagic)) return refuse("holds no recorded frames");
-    std::string_view numbers = std::string_view(*prefix).substr(kMagic.size());
-    if (const auto version = take<std::uint32_t>(numbers); version != kVersion) {
+    StateReader numbers(bytes_of(*prefix).subspan(kMagic.size()));
+    std::uint32_t version = 0, length = 0;
+    numbers.get(version);
+    numbers.get(length);
+    if (version != kVersion) {
       return refuse("is of version " + std::to_string(version) + ", which this program cannot read");
     }
-    const auto length = take<std::uint32_t>(numbers);
     if (length > kMostHeaderBytes) return refuse("is damaged");
     const Result<std::string> text = read_at(file.value(), kPrefixBytes, length + kHashBytes);
     if (!text) return Error{path.string() + ": " + text.error().message};
     if (text->size() < length + kHashBytes) return refuse("is damaged");
-    std::string_view hash = std::string_view(*text).substr(length);
-    if (take<std::uint64_t>(hash) != hash_of(std::string_view(*text).substr(0, length))) return refuse("is damaged");
+    std::uint64_t hash = 0;
+    StateReader(bytes_of(*text).subspan(length)).get(hash);
+    if (hash != hash_of(bytes_of(*text).first(length))) return refuse("is damaged");
     TrajectoryHeader header;
     try {
       header = header_of(Json::parse(text->substr(0, length)));
@@ -247,12 +245,13 @@ FrameLog::FrameLog(std::filesystem::path path, Descriptor file, std::size_t begi
 
 Result<FrameLog> FrameLog::create(const std::filesystem::path& file, const TrajectoryHeader& header) {
   const std::string text = json_of(header).dump(-1, ' ', false, Json::error_handler_t::replace);
-  std::string content(kMagic);
-  put(content, kVersion);
-  put(content, static_cast<std::uint32_t>(text.size()));
-  content += text;
-  put(content, hash_of(text));
-  if (auto done = write_file_atomically(file, content); !done) return done.error();
+  StateWriter content;
+  content.append(bytes_of(kMagic));
+  content.put(kVersion);
+  content.put(static_cast<std::uint32_t>(text.size()));
+  content.append(bytes_of(text));
+  content.put(hash_of(bytes_of(text)));
+  if (auto done = write_file_atomically(file, text_of(content.bytes())); !done) return done.error();
   return reopen(file, 0);
 }
 
@@ -281,7 +280,7 @@ Result<void> FrameLog::append(const RecordedFrame& frame) {
     return Error{path_.string() + " holds " + std::to_string(n_rods_) + " rods, the frame has " +
                  std::to_string(frame.position.size() / 3)};
   }
-  if (!write_at(file_.value(), end(), record_of(frame))) {
+  if (!write_at(file_.value(), end(), text_of(record_of(frame).bytes()))) {
     const Error error = system_error("cannot write a frame to " + path_.string());
     // Room for others; a reader leaves half a frame out anyway.
     static_cast<void>(::ftruncate(file_.value(), static_cast<off_t>(end())) == 0);
