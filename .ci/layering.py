@@ -22,6 +22,9 @@ ALLOWED = {
     "scene/placement.cpp": ["scene", "sim/core", "sim/rod", "sim/system.h", "sim/initial.h"],
     # a sweep's name is printed
     "scene/sweep.cpp": ["scene", "base/text.h", "sim/core", "sim/rod", "sim/system.h"],
+    # how long a run was to go on stands in its scene
+    "run/files/done.h": ["run/files", "scene/run_plan.h"],
+    "run/files/done.cpp": ["run/files", "base", "scene", "sim/core"],
     "run/files": ["base", "sim/core", "sim/system.h", "sim/snapshot.h"],
     "run": ["proto", "base", "scene", "analysis", "run/files", "sim/core", "sim/rod", "sim/system.h", "sim/snapshot.h",
             "sim/world.h", "sim/simulation.h", "sim/balance.h", "sim/close_up.h", "sim/effects/registry.h",

@@ -114,7 +114,7 @@ std::filesystem::path default_cache() {
 }
 
 SteadyState steady_state(const Case& wanted, const std::filesystem::path& cache) {
-  const std::string key = scene::run_id(wanted.plan);
+  const std::string key = scene::scene_hash(wanted.plan);
   const std::filesystem::path file = cache / (key + ".state");
   if (auto cached = read_cached(wanted, key, file)) return {std::move(*cached), true};
 

@@ -142,7 +142,7 @@ class Estimator {
     for (std::size_t p = 0; p < sweep_.points.size(); ++p) {
       scene::RunPlan plan = sweep_.points[p].plan;
       plan.system.seed = 0;
-      const auto [at, is_new] = seen.emplace(scene::run_id(plan), distinct_.size());
+      const auto [at, is_new] = seen.emplace(scene::scene_hash(plan), distinct_.size());
       if (is_new) {
         distinct_.push_back(p);
         n_alike_.push_back(0);

@@ -31,7 +31,7 @@ std::vector<std::byte> copy_of(std::span<const std::byte> bytes) { return {bytes
 
 }  // namespace
 
-Result<void> write_checkpoint(const RunDirectory& directory, const std::string& run_id, const Checkpoint& checkpoint) {
+std::string as_bytes(const std::string& run_id, const Checkpoint& checkpoint) {
   StateWriter payload;
   payload.put(checkpoint.cpu_seconds);
   payload.put(checkpoint.wall_seconds);
@@ -44,9 +44,12 @@ Result<void> write_checkpoint(const RunDirectory& directory, const std::string& 
   content.append(bytes_of(run_id));
   content.put(payload.bytes());
   content.put(hash_of(content.bytes()));
+  return std::string(text_of(content.bytes()));
+}
 
+Result<void> write_checkpoint(const RunDirectory& directory, const std::string& run_id, const Checkpoint& checkpoint) {
   const std::filesystem::path file = directory.checkpoint();
-  if (auto done = write_file(temporary_for(file), text_of(content.bytes())); !done) return done.error();
+  if (auto done = write_file(temporary_for(file), as_bytes(run_id, checkpoint)); !done) return done.error();
   // The new one is written by now: should the machine stop between the renames, the previous one is whole.
   if (std::rename(file.c_str(), directory.previous_checkpoint().c_str()) != 0 && errno != ENOENT) {
     return Error{"cannot keep " + file.string() + ": " + std::strerror(errno)};

@@ -14,12 +14,15 @@
 #include "analysis/order.h"
 #include "base/files.h"
 #include "run/effects.h"
+#include "run/files/done.h"
+#include "run/former_id.h"
 #include "run/frame_publisher.h"
 #include "run/open_run.h"
 #include "run/saved_run.h"
 #include "run/summary.h"
 #include "run/trouble_file.h"
 #include "scene/canonical.h"
+#include "scene/length.h"
 #include "sim/balance.h"
 
 namespace shaken::run {
@@ -53,7 +56,6 @@ class Loop {
         directory_{options.directory},
         run_id_(scene::run_id(plan)),
         run_(std::move(run)),
-        end_(total_ticks(plan)),
         checkpoint_tick_(run_.simulation.tick()),
         begin_(WallClock::now()),
         cpu_begin_(process_cpu_seconds()),
@@ -68,7 +70,7 @@ class Loop {
     const World& world = run_.simulation.world();
     progress_.pid = static_cast<int>(getpid());
     progress_.n_rods = static_cast<int>(world.rods.size());
-    progress_.sim_time_total = static_cast<double>(end_) * plan.system.dt;
+    aim_at(scene::next_end(plan, run_.simulation.tick()));
     if (plan.stream && options.lcm_url) {
       publisher_ =
           std::make_unique<FramePublisher>(*options.lcm_url, options.job_id, make_frame_static(world, options.label));
@@ -79,24 +81,9 @@ class Loop {
     if (fresh) {
       if (auto done = sample(); !done) return finish_without_disk(done.error());
     }
-    Tick slice = 1;
-    while (tick() < end_) {
-      const Tick target = std::min({end_, run_.next_due(tick() + 1), tick() + slice});
-      const Tick stepped = target - tick();
-      const auto before = WallClock::now();
-      if (const auto trouble = run_.simulation.advance_to(target)) return finish_in_trouble(*trouble);
-      const auto now = WallClock::now();
-      if (now - before > kLongSlice) slice = std::max<Tick>(1, stepped / 2);
-      if (now - before < kShortSlice && stepped == slice) slice *= 2;
-
-      if (auto done = sample(); !done) return finish_without_disk(done.error());
-      publish_observables(now);
-      if (progress_pacer_.take(now)) report("running");
-      const bool stop = options_.stop != nullptr && *options_.stop;
-      if (stop || (checkpoint_pacer_.take(now) && tick() < end_)) {
-        if (auto done = checkpoint(); !done) return finish_without_disk(done.error());
-      }
-      if (stop && tick() < end_) return finish_stopped();
+    while (!may_end()) {
+      aim_at(scene::next_end(plan_, tick() + 1));
+      if (const auto outcome = go_on()) return *outcome;
     }
     return finish_done();
   }
@@ -120,6 +107,46 @@ class Loop {
 
  private:
   Tick tick() const { return run_.simulation.tick(); }
+
+  bool may_end() const {
+    return scene::next_end(plan_, tick()) == tick() &&
+           scene::is_long_enough(plan_, tick(), plan_.until ? known_order() : std::nullopt);
+  }
+
+  std::optional<scene::KnownOrder> known_order() const {
+    const auto order = run_.measurements.reduce(run_.simulation.time()).order;
+    return order ? std::optional(scene::KnownOrder{order->sem, order->steady}) : std::nullopt;
+  }
+
+  void aim_at(Tick end) {
+    end_ = end;
+    progress_.sim_time_total = static_cast<double>(end) * plan_.system.dt;
+  }
+
+  /// To end_. What came of the run if it does not get there.
+  std::optional<RunOutcome> go_on() {
+    Tick slice = 1;
+    while (tick() < end_) {
+      const Tick target = std::min({end_, run_.next_due(tick() + 1), tick() + slice});
+      const Tick stepped = target - tick();
+      const auto before = WallClock::now();
+      if (const auto trouble = run_.simulation.advance_to(target)) return finish_in_trouble(*trouble);
+      const auto now = WallClock::now();
+      if (now - before > kLongSlice) slice = std::max<Tick>(1, stepped / 2);
+      if (now - before < kShortSlice && stepped == slice) slice *= 2;
+
+      if (auto done = sample(); !done) return finish_without_disk(done.error());
+      publish_observables(now);
+      if (progress_pacer_.take(now)) report("running");
+      const bool stop = options_.stop != nullptr && *options_.stop;
+      if (stop || (checkpoint_pacer_.take(now) && tick() < end_)) {
+        if (auto done = checkpoint(); !done) return finish_without_disk(done.error());
+      }
+      if (stop && tick() < end_) return finish_stopped();
+    }
+    return std::nullopt;
+  }
+
   WallSeconds live_period() const { return WallSeconds(plan_.stream ? 1.0 / plan_.stream->rate : 1.0); }
   double cpu_seconds() const { return run_.cpu_before + process_cpu_seconds() - cpu_begin_; }
   double wall_seconds() const { return run_.wall_before + WallSeconds(WallClock::now() - begin_).count(); }
@@ -193,7 +220,8 @@ class Loop {
     if (!run_.frames) return {};
     const Result<TrajectoryReader> frames = TrajectoryReader::open(directory_.frames());
     if (!frames) return frames.error();
-    return write_trajectory(directory_.trajectory(), frames->recorded());
+    const TrajectoryHeader header = trajectory_header(run_.simulation.world(), scene_text(plan_), provenance_of(plan_));
+    return write_trajectory(directory_.trajectory(), header, frames->recorded());
   }
 
   /// Observables and summary, in this order: a summary that says "done" is the last word.
@@ -208,6 +236,10 @@ class Loop {
     if (state == "done" && summary.order) {
       const std::string trouble = why_not_steady(*summary.order, summary.sim_seconds);
       if (!trouble.empty()) spdlog::warn("{}", trouble);
+      if (plan_.until && !(summary.order->sem <= plan_.until->order_sem)) {
+        spdlog::warn("S is known to {:.2g}, not to until.order_sem = {:.2g}: until.at_most, {:.4g} s, is over",
+                     summary.order->sem, plan_.until->order_sem, plan_.until->at_most);
+      }
     }
     return write_summary(directory_.summary(), summary);
   }
@@ -217,6 +249,7 @@ class Loop {
     std::filesystem::remove(directory_.trouble(), ignored);  // met by a program before this one
     if (auto done = checkpoint(); !done) return finish_without_disk(done.error());
     if (auto done = write_frames(); !done) return finish_without_disk(done.error());
+    std::filesystem::remove(directory_.movie(), ignored);  // of the run when it was shorter
     if (auto done = write_results("done", "", {}); !done) return finish_without_disk(done.error());
     std::filesystem::remove(directory_.frames(), ignored);
     report("running");  // all of it; what is left is to draw it
@@ -255,7 +288,7 @@ class Loop {
   RunDirectory directory_;
   std::string run_id_;
   OpenRun run_;
-  Tick end_;
+  Tick end_ = 0;          ///< where the run may end next
   Tick checkpoint_tick_;  ///< of the last sound checkpoint; 0: there is none
   WallClock::time_point begin_;
   double cpu_begin_;
@@ -326,15 +359,21 @@ RunOutcome fail(const RunOptions& options, const RunCallbacks& callbacks, const 
   return failure(message);
 }
 
-/// scene.json is written once; a directory of another scene is refused, never overwritten.
+/// A directory of another scene is refused, never overwritten. One whose run is to go on longer, or less long, than it
+/// was gets the scene.json that says so.
 Result<void> claim(const scene::RunPlan& plan, const RunDirectory& directory) {
   if (!std::filesystem::exists(directory.scene())) return write_file_atomically(directory.scene(), scene_text(plan));
   const Result<scene::RunPlan> present = read_plan(directory);
   if (!present) {
     return Error{directory.root.string() + " holds a run whose scene cannot be read:\n" + present.error().message};
   }
-  if (scene::run_id(*present) == scene::run_id(plan)) return {};
-  return Error{directory.root.string() + " holds the run of another scene (see its scene.json); choose another one"};
+  if (scene::run_id(*present) != scene::run_id(plan)) {
+    return Error{directory.root.string() + " holds the run of another scene (see its scene.json); choose another one"};
+  }
+  if (auto done = renew_id(directory, *present); !done) return done.error();
+  if (is_done(directory, plan) || (present->measure_time == plan.measure_time && present->until == plan.until))
+    return {};
+  return write_file_atomically(directory.scene(), scene_text(plan));
 }
 
 /// Draws the movie of a run that is done, with what progress.json then says.
@@ -367,7 +406,7 @@ RunOutcome draw(const scene::RunPlan& plan, const RunOptions& options, const Run
 RunOutcome run_owned(const scene::RunPlan& plan, const RunOptions& options, const RunCallbacks& callbacks) {
   const RunDirectory directory{options.directory};
   if (auto done = claim(plan, directory); !done) return failure(done.error().message);
-  if (is_done(directory, scene::run_id(plan))) {
+  if (is_done(directory, plan)) {
     spdlog::info("{} is done already", directory.root.string());
     std::error_code ignored;
     std::filesystem::remove(directory.frames(), ignored);  // left by a worker that was killed right after its last word

@@ -18,7 +18,7 @@ namespace shaken::run {
 /// How, not what, to run: nothing here changes a result.
 struct RunOptions {
   std::filesystem::path directory;
-  std::string run_id;                  ///< hash of the scene
+  std::string run_id;                  ///< scene/canonical.h
   std::string scene_json;              ///< the resolved scene, for scene.json and trajectory.h5
   std::string job_id;                  ///< in live messages
   std::string label;                   ///< the swept parameters, for viewers

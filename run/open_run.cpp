@@ -2,7 +2,6 @@
 #include "run/open_run.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "scene/canonical.h"
 
@@ -41,8 +40,6 @@ OpenRun make_run(const scene::RunPlan& plan, Simulation simulation) {
 }
 
 }  // namespace
-
-Tick total_ticks(const scene::RunPlan& plan) { return std::llround(plan.total_time() / plan.system.dt); }
 
 Tick OpenRun::next_due(Tick from) const {
   const Tick sample = measurements.next_due(from);

@@ -34,9 +34,6 @@ TrajectoryHeader trajectory_header(const World& world, const std::string& scene_
 /// The run that the files of a plan are of.
 Provenance provenance_of(const scene::RunPlan& plan);
 
-/// Ticks from start to end of the plan.
-Tick total_ticks(const scene::RunPlan& plan);
-
 /// A run at tick 0, with the files that it records into. Nothing is sampled yet.
 Result<OpenRun> start_run(const scene::RunPlan& plan, const RunDirectory& directory, const std::string& scene_json);
 

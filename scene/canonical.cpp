@@ -5,6 +5,7 @@
 #include <xxhash.h>
 
 #include <cstdint>
+#include <utility>
 
 #include "sim/core/physics_version.h"
 
@@ -20,6 +21,12 @@ nlohmann::ordered_json& object_at(nlohmann::ordered_json& scene, std::string_vie
     path = dot == std::string_view::npos ? std::string_view{} : path.substr(dot + 1);
   }
   return *object;
+}
+
+std::string hash_of(nlohmann::ordered_json scene) {
+  scene.erase("stream");
+  const std::string text = fmt::format("shaken physics {}\n{}", kPhysicsVersion, scene.dump());
+  return fmt::format("{:016x}", XXH3_64bits(text.data(), text.size()));
 }
 
 }  // namespace
@@ -60,9 +67,11 @@ nlohmann::ordered_json to_json(const RunPlan& plan) {
 
 std::string run_id(const RunPlan& plan) {
   nlohmann::ordered_json scene = to_json(plan);
-  scene.erase("stream");
-  const std::string text = fmt::format("shaken physics {}\n{}", kPhysicsVersion, scene.dump());
-  return fmt::format("{:016x}", XXH3_64bits(text.data(), text.size()));
+  scene.erase("until");
+  scene["time"].erase("measure");
+  return hash_of(std::move(scene));
 }
+
+std::string scene_hash(const RunPlan& plan) { return hash_of(to_json(plan)); }
 
 }  // namespace shaken::scene

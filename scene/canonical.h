@@ -14,8 +14,13 @@ namespace shaken::scene {
 nlohmann::ordered_json to_json(const RunPlan& plan);
 
 /// 16 hex digits that name a run: XXH3-64 of the physics version (sim/core/physics_version.h) and of the canonical
-/// scene without `stream`.
+/// scene without `stream`, and without what says how long it goes on: `time.measure` and `until`. So a longer run of
+/// the same scene is the same run, extended.
 std::string run_id(const RunPlan& plan);
+
+/// The same with `time.measure` and `until`: names a scene, with the length of its run. It named runs too, before these
+/// could be extended.
+std::string scene_hash(const RunPlan& plan);
 
 /// One value as JSON, in its default unit.
 nlohmann::ordered_json to_json(const Field& field, const Value& value);

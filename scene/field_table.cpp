@@ -264,6 +264,12 @@ std::vector<std::vector<Field>> groups() {
     quantity("time.measure", at<&RunPlan::measure_time>, kTime, 1e-6, 1e7, "Length of the run after `time.steady`; of the whole run if that is \"auto\"."),
     whole("time.seed", sys<&System::seed>, 0, 9007199254740992.0,
           "Seed of all random numbers. Replica k of a sweep has seed + k - 1."),
+    block("until", at<&RunPlan::until>, false,
+          "The run goes on beyond `time.measure`, by a quarter each time, until S is known well enough."),
+    quantity("until.order_sem", at<&RunPlan::until, &Until::order_sem>, kPlain, 1e-9, 1,
+             "Largest standard error of the mean of S. S must also not be drifting."),
+    quantity("until.at_most", at<&RunPlan::until, &Until::at_most>, kTime, 1e-6, 1e7,
+             "Length of the run after `time.steady` at which it ends in any case."),
     },
     measure(), {
     block("trajectory", at<&RunPlan::trajectory>, false, "Positions and directions of the rods, in trajectory.h5."),

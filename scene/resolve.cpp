@@ -47,6 +47,7 @@ std::optional<RunPlan> resolve(const Draft& draft, std::vector<Problem>& problem
     resolve_measurements(scene);
   }
   check_walls(scene);
+  check_until(scene);
 
   if (!all_ok || problems.size() > n_before) return std::nullopt;
   return scene.plan;

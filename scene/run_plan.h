@@ -27,6 +27,13 @@ struct Movie {
   friend bool operator==(const Movie&, const Movie&) = default;
 };
 
+/// A run that goes on beyond `time.measure` until it is accurate enough.
+struct Until {
+  double order_sem = 0.005;  ///< the largest standard error of the mean of S
+  double at_most = 3600.0;   ///< simulated seconds after `steady`, whatever the error
+  friend bool operator==(const Until&, const Until&) = default;
+};
+
 /// A resolved scene: the system, how long it runs, and what is measured, recorded, streamed and drawn.
 /// An absent optional is work that is not done.
 struct RunPlan : MeasurePlan {
@@ -35,12 +42,16 @@ struct RunPlan : MeasurePlan {
   std::optional<double> steady;  ///< simulated seconds before measuring; none: found from S(t) afterwards ("auto")
   double measure_time = 10.0;    ///< simulated seconds of the run after `steady`
 
+  std::optional<Until> until;
+
   std::optional<Trajectory> trajectory;
   std::optional<Stream> stream;
   std::optional<Movie> movie;
 
-  /// Simulated seconds from start to end.
+  /// Simulated seconds from start to end; with `until`, at least.
   double total_time() const { return steady.value_or(0.0) + measure_time; }
+  /// The same, at most.
+  double longest_time() const { return steady.value_or(0.0) + (until ? until->at_most : measure_time); }
   /// Simulated seconds between recorded frames: the finer of what `trajectory` and `movie` ask for; none if neither is
   /// there, and nothing is recorded.
   std::optional<double> recording_every() const {

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "base/failure.h"
+#include "run/files/done.h"
 #include "run/files/progress.h"
 
 namespace shaken::server {

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "run/files/directory.h"
+#include "run/files/done.h"
 #include "scene/canonical.h"
 #include "scene/load.h"
 #include "scene/nearest.h"

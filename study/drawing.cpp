@@ -10,6 +10,7 @@
 #include "base/process.h"
 #include "base/text.h"
 #include "run/files/directory.h"
+#include "run/files/done.h"
 
 namespace shaken::study {
 

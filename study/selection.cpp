@@ -9,6 +9,7 @@
 
 #include "base/paths.h"
 #include "run/files/directory.h"
+#include "run/files/done.h"
 
 namespace shaken::study {
 
@@ -63,7 +64,7 @@ fs::path directory_of(const scene::SweepPoint& point, const fs::path& runs_folde
 scene::Sweep rest_of(const scene::Sweep& sweep, const fs::path& runs_folder) {
   scene::Sweep rest = sweep;
   std::erase_if(rest.points, [&](const scene::SweepPoint& point) {
-    return run::is_done(run::RunDirectory{directory_of(point, runs_folder)});
+    return run::is_done(run::RunDirectory{directory_of(point, runs_folder)}, point.plan);
   });
   return rest;
 }
@@ -74,7 +75,7 @@ Library done_runs(const Selection& selection, const fs::path& runs_folder) {
     RunSet set;
     for (const scene::SweepPoint& point : sweep.sweep.points) {
       const fs::path directory = directory_of(point, runs_folder);
-      if (run::is_done(run::RunDirectory{directory})) set.emplace_back(directory, point.parameters);
+      if (run::is_done(run::RunDirectory{directory}, point.plan)) set.emplace_back(directory, point.parameters);
     }
     library.add(sweep.name, std::move(set));
   }

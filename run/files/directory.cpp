@@ -6,22 +6,11 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "base/files.h"
 
 namespace shaken::run {
-
-bool is_done(const RunDirectory& directory, const std::string& run_id) {
-  const Result<std::string> text = read_file(directory.summary());
-  if (!text) return false;
-  const auto json = nlohmann::json::parse(*text, nullptr, false);
-  if (!json.is_object() || !json.contains("exit")) return false;
-  if (!run_id.empty() && (!json.contains("run_id") || json["run_id"] != run_id)) return false;
-  const auto& exit = json["exit"];
-  return exit.is_object() && exit.contains("state") && exit["state"] == "done";
-}
 
 Result<DirectoryLock> DirectoryLock::acquire(const std::filesystem::path& lock_file) {
   Descriptor file(::open(lock_file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));

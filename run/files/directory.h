@@ -34,9 +34,6 @@ struct RunDirectory {
   std::filesystem::path lock() const { return root / "lock"; }
 };
 
-/// Whether a run came to its end in `directory`, as its summary says: run `run_id`, or any if that is empty.
-bool is_done(const RunDirectory& directory, const std::string& run_id = "");
-
 /// Sole ownership of a directory for as long as the object lives: flock(2) on DIR/lock, so it is never stale.
 class DirectoryLock {
  public:

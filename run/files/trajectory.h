@@ -20,6 +20,9 @@ namespace shaken::run {
 /// those of H5MD's module "units", in the attribute `unit` of each data set (docs/files.md). Chunks carry checksums.
 /// The file is written as a whole: a crash leaves the former one, or none.
 Result<void> write_trajectory(const std::filesystem::path& file, const RecordedFrames& frames);
+/// The same with another header of the same rods, where the run has come to know better than the frames' own.
+Result<void> write_trajectory(const std::filesystem::path& file, const TrajectoryHeader& header,
+                              const RecordedFrames& frames);
 
 /// The log of a run of which `n_frames` frames are recorded, to go on after these; made anew of trajectory.h5 where
 /// there is no log. Fails unless all of them are there and whole, and then changes nothing.

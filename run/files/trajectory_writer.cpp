@@ -115,8 +115,7 @@ void append(const DataSets& sets, const TrajectoryHeader& header, const Recorded
 }
 
 /// Throws an hdf5::Failure.
-void write_file(const std::filesystem::path& path, const RecordedFrames& frames) {
-  const TrajectoryHeader& header = frames.header();
+void write_file(const std::filesystem::path& path, const TrajectoryHeader& header, const RecordedFrames& frames) {
   hdf5::Id file = hdf5::create_file(path);
   hdf5::write_provenance(file, header.provenance);
   write_h5md_group(file);
@@ -138,10 +137,15 @@ void write_file(const std::filesystem::path& path, const RecordedFrames& frames)
 }  // namespace
 
 Result<void> write_trajectory(const std::filesystem::path& file, const RecordedFrames& frames) {
+  return write_trajectory(file, frames.header(), frames);
+}
+
+Result<void> write_trajectory(const std::filesystem::path& file, const TrajectoryHeader& header,
+                              const RecordedFrames& frames) {
   hdf5::initialize();
   const std::filesystem::path written = temporary_for(file);
   try {
-    write_file(written, frames);
+    write_file(written, header, frames);
   } catch (const hdf5::Failure& failure) {
     std::error_code ignored;
     std::filesystem::remove(written, ignored);

@@ -17,6 +17,7 @@
 #include "run/open_run.h"
 #include "run/probe/sampling.h"
 #include "scene/canonical.h"
+#include "scene/length.h"
 
 namespace shaken::run {
 namespace {
@@ -36,7 +37,7 @@ class Prober {
       : plan_(plan), simulation_(std::move(simulation)), cpu_(cpu), dt_(plan.system.dt) {}
 
   Result<Probe> run() {
-    result_.run_ticks = static_cast<double>(total_ticks(plan_));
+    result_.run_ticks = static_cast<double>(scene::total_ticks(plan_));
     if (auto done = step(); !done) return done.error();
     const SamplingCost sampling = time_sampling(plan_, simulation_.world().species.front(), snapshots_);
     result_.samples = sampling.samples;
@@ -125,7 +126,7 @@ class Prober {
   Result<void> time_recording() {
     const std::optional<Cadence> recording = recording_of(plan_);
     if (!recording) return {};
-    result_.trajectory.count = total_ticks(plan_) / recording->period() + 1;
+    result_.trajectory.count = scene::total_ticks(plan_) / recording->period() + 1;
     double bytes[2] = {0, 0};
     for (const int n : {1, 1 + kFrames}) {
       const ScratchFolder folder;
@@ -155,7 +156,7 @@ class Prober {
       }
       cpu[n > kShortMovie] = children_cpu_seconds() - before;
     }
-    result_.movie.count = total_ticks(plan_) / cadence.period() + 1;
+    result_.movie.count = scene::total_ticks(plan_) / cadence.period() + 1;
     result_.movie.each = std::max(0.0, (cpu[1] - cpu[0]) / (2 * kShortMovie));
     result_.movie.once = std::max(0.0, cpu[0] - kShortMovie * result_.movie.each);
   }

@@ -8,6 +8,7 @@
 #include "base/scratch_folder.h"
 #include "run/measurements.h"
 #include "run/open_run.h"
+#include "scene/length.h"
 
 namespace shaken::run {
 namespace {
@@ -62,7 +63,7 @@ SamplingCost time_sampling(const scene::RunPlan& plan, const Species& species, c
     const double first_array_bytes = bytes_of(measurements.reduce(*every).arrays);
 
     Cost& samples = cost.samples["measure_" + std::string(kind.name)];
-    samples.count = total_ticks(plan) / cadence.period() + 1;
+    samples.count = scene::total_ticks(plan) / cadence.period() + 1;
     double begin = thread_cpu_seconds();
     double early_bytes = first_bytes;                                    // with every block in use for the first time
     const std::int64_t most = std::max<std::int64_t>(samples.count, 3);  // not more than the run will take

@@ -43,6 +43,9 @@ void check_plates_in_a_tick(Resolution& scene);
 /// Samples and frames cannot follow each other faster than ticks.
 void check_intervals(Resolution& scene);
 
+/// A run goes on until S is accurate only if S is measured, and not less long than `time.measure` says.
+void check_until(Resolution& scene);
+
 // measurements.cpp
 
 /// Defaults of observables that follow from rods and box, and conditions between the keys of one.

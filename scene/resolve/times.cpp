@@ -58,6 +58,17 @@ void check_plates_in_a_tick(Resolution& scene) {
                            speed, time_text(system.dt), length_text(deepest), time_text(deepest / speed)));
 }
 
+void check_until(Resolution& scene) {
+  const RunPlan& plan = scene.plan;
+  if (!plan.until) return;
+  if (!plan.order)
+    scene.report({"until", "measure.order"}, "until asks for an error of S, which measure.order = null leaves out");
+  if (!scene.ok({"until.at_most", "time.measure"}) || plan.until->at_most >= plan.measure_time) return;
+  scene.report({"until.at_most", "time.measure"},
+               fmt::format("until.at_most {} is shorter than time.measure {}", time_text(plan.until->at_most),
+                           time_text(plan.measure_time)));
+}
+
 void check_intervals(Resolution& scene) {
   const double step = scene.plan.system.dt;
   for (const Field& field : fields()) {

@@ -15,10 +15,12 @@
 #include "proto/bus.h"
 #include "proto/frame_codec.h"
 #include "run/checkpoint_file.h"
+#include "run/files/done.h"
 #include "run/files/observables_file.h"
 #include "run/files/trajectory.h"
 #include "run/saved_run.h"
 #include "scene/canonical.h"
+#include "scene/length.h"
 #include "tests/unit/run/temporary_folder.h"
 
 namespace shaken::run {
@@ -277,6 +279,121 @@ TEST(Run, RefusesTheDirectoryOfAnotherScene) {
   EXPECT_EQ(outcome.state, RunState::kFailed);
   EXPECT_NE(outcome.message.find("another scene"), std::string::npos) << outcome.message;
   EXPECT_EQ(*read_file(RunDirectory{undisturbed()}.summary()), *before);
+}
+
+scene::RunPlan with_length(double seconds) {
+  scene::RunPlan plan = small_plan();
+  plan.measure_time = seconds;
+  return plan;
+}
+
+TEST(Run, ExtendedIsBitwiseTheLongRun) {
+  const TemporaryFolder folder;
+  for (const double length : {0.07, 0.1, 0.205}) {
+    ASSERT_EQ(run_in(folder.path(), with_length(length)).state, RunState::kDone);
+    EXPECT_NEAR(summary_in(folder.path())["sim_seconds"].get<double>(), length, 1e-9);
+  }
+  ASSERT_EQ(run_in(folder.path(), small_plan()).state, RunState::kDone);
+  expect_same_results(folder.path(), undisturbed());
+  const RunDirectory directory{folder.path()};
+  EXPECT_EQ(read_plan(directory)->measure_time, small_plan().measure_time);
+  EXPECT_EQ(TrajectoryReader::open(directory.trajectory())->header().scene_json, *read_file(directory.scene()));
+}
+
+TEST(Run, ExtensionThatIsStoppedIsBitwiseTheLongRun) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_in(folder.path(), with_length(0.1)).state, RunState::kDone);
+  run_with_stops(folder.path(), small_plan(), {0.15, 0.25});
+  ASSERT_EQ(run_in(folder.path(), small_plan()).state, RunState::kDone);
+  expect_same_results(folder.path(), undisturbed());
+}
+
+TEST(Run, AskedForLessIsLeftAsItIs) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_in(folder.path(), with_length(0.1)).state, RunState::kDone);
+  const auto summary = read_file(RunDirectory{folder.path()}.summary());
+  ASSERT_EQ(run_in(folder.path(), with_length(0.05)).state, RunState::kDone);
+  EXPECT_EQ(*read_file(RunDirectory{folder.path()}.summary()), *summary);
+  EXPECT_EQ(read_plan(RunDirectory{folder.path()})->measure_time, 0.1);
+}
+
+TEST(Run, FilmOfAnExtendedRunIsDrawnAnew) {
+  const TemporaryFolder folder;
+  int n_drawn = 0;
+  RunCallbacks callbacks;
+  callbacks.make_movie = [&]() -> Result<void> {
+    return write_file(RunDirectory{folder.path()}.movie(), std::to_string(++n_drawn));
+  };
+  for (const double length : {0.05, 0.1}) {
+    scene::RunPlan plan = with_length(length);
+    plan.movie = scene::Movie{0.01, 320, 240};
+    ASSERT_EQ(run_in(folder.path(), plan, callbacks).state, RunState::kDone);
+  }
+  EXPECT_EQ(*read_file(RunDirectory{folder.path()}.movie()), "2");
+}
+
+/// A run that is over at the first end at which S is known to `order_sem`.
+scene::RunPlan plan_until(double order_sem, double at_most) {
+  scene::RunPlan plan = with_length(0.05);
+  plan.until = scene::Until{order_sem, at_most};
+  return plan;
+}
+
+TEST(Run, GoesOnUntilTheErrorIsSmallEnough) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_in(folder.path(), plan_until(0.01, 20)).state, RunState::kDone);
+  const auto summary = summary_in(folder.path());
+  EXPECT_LE(summary["order"]["sem"].get<double>(), 0.01);
+  EXPECT_NE(summary["order"]["steady"], false);
+  const auto tick = summary["exit"]["tick"].get<Tick>();
+  EXPECT_GT(tick, scene::total_ticks(with_length(0.05))) << "else nothing was tested";
+  EXPECT_LT(tick, scene::total_ticks(with_length(20)));
+
+  // one that stops on the way ends where this one did, for the possible ends follow from the plan
+  const TemporaryFolder stopped;
+  const double end = summary["sim_seconds"].get<double>();
+  run_with_stops(stopped.path(), plan_until(0.01, 20), {0.3 * end, 0.8 * end});
+  ASSERT_EQ(run_in(stopped.path(), plan_until(0.01, 20)).state, RunState::kDone);
+  expect_same_results(stopped.path(), folder.path());
+
+  // at no earlier one of these ends was the error small enough
+  const TemporaryFolder shorter;
+  for (Tick at = scene::total_ticks(plan_until(0.01, 20)); at < tick;
+       at = scene::next_end(plan_until(0.01, 20), at + 1)) {
+    ASSERT_EQ(run_in(shorter.path(), with_length(static_cast<double>(at) * small_plan().system.dt)).state,
+              RunState::kDone);
+    EXPECT_FALSE(is_done(RunDirectory{shorter.path()}, plan_until(0.01, 20))) << at;
+  }
+}
+
+TEST(Run, EndsAtTheLatestWhereUntilSays) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_in(folder.path(), plan_until(1e-9, 0.11)).state, RunState::kDone);
+  EXPECT_NEAR(summary_in(folder.path())["sim_seconds"].get<double>(), 0.11, 1e-9);
+  EXPECT_TRUE(is_done(RunDirectory{folder.path()}, plan_until(1e-9, 0.11)));
+  EXPECT_FALSE(is_done(RunDirectory{folder.path()}, plan_until(1e-9, 0.12)));
+}
+
+TEST(Run, GoesOnWithTheFilesOfItsFormerId) {
+  const TemporaryFolder folder;
+  const RunDirectory directory{folder.path()};
+  const scene::RunPlan plan = with_length(0.1);
+  ASSERT_EQ(run_in(folder.path(), plan).state, RunState::kDone);
+  // as they were left before runs could be extended
+  const auto checkpoint = read_checkpoint(directory.checkpoint(), scene::run_id(plan));
+  ASSERT_TRUE(checkpoint);
+  ASSERT_TRUE(write_checkpoint(directory, scene::scene_hash(plan), *checkpoint));
+  auto summary = summary_in(folder.path());
+  summary["run_id"] = scene::scene_hash(plan);
+  ASSERT_TRUE(write_file(directory.summary(), summary.dump(2)));
+  ASSERT_FALSE(is_done(directory, plan));
+
+  const auto written = std::filesystem::last_write_time(directory.observables());
+  ASSERT_EQ(run_in(folder.path(), plan).state, RunState::kDone);
+  EXPECT_EQ(std::filesystem::last_write_time(directory.observables()), written) << "was done already";
+  EXPECT_EQ(summary_in(folder.path())["run_id"], scene::run_id(plan));
+  ASSERT_EQ(run_in(folder.path(), small_plan()).state, RunState::kDone);
+  expect_same_results(folder.path(), undisturbed());
 }
 
 TEST(Run, RefusesADirectoryInUse) {

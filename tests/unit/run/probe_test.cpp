@@ -11,6 +11,7 @@
 #include "run/loop.h"
 #include "run/open_run.h"
 #include "run/probe/sampling.h"
+#include "scene/length.h"
 #include "sim/effects/registry.h"
 #include "tests/unit/run/temporary_folder.h"
 
@@ -113,7 +114,7 @@ TEST(Sampling, FindsWhatALongRunThenKeeps) {
   plan.steady = 0;
   Measurements measurements(plan, species);
   Snapshot state = states.front();
-  const Tick end = total_ticks(plan);
+  const Tick end = scene::total_ticks(plan);
   for (Tick tick = 0; tick <= end; tick = measurements.next_due(tick + 1)) {
     state.tick = tick;
     state.time = static_cast<double>(tick) * plan.system.dt;

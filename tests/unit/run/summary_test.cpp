@@ -8,6 +8,7 @@
 
 #include "base/files.h"
 #include "run/files/directory.h"
+#include "run/files/done.h"
 #include "tests/unit/run/temporary_folder.h"
 
 namespace shaken::run {

@@ -66,6 +66,7 @@ nlohmann::json random_scene() {
   if (maybe()) scene["plates"]["noise"] = between(0, 1);
   if (maybe()) scene["plates"]["lid"] = false;
   if (maybe()) scene["time"]["impacts"] = "at_instant";
+  if (maybe()) scene["until"] = {{"order_sem", between(0.001, 0.1)}, {"at_most", between(100, 1000)}};
   if (maybe()) scene["stream"] = nullptr;
   if (maybe()) scene["movie"] = {{"every", between(0.001, 1)}, {"size", {2 * *rc::gen::inRange(32, 1000), 480}}};
   return scene;
@@ -111,7 +112,8 @@ TEST(Canonical, HoldsWhatWasDerived) {
 
 TEST(RunId, IsPinned) {
   // Changes when the canonical form or the physics version changes: then every run of every user gets a new name.
-  EXPECT_EQ(run_id(plan_of("{}")), "e96c3e3ad02c38b2");
+  EXPECT_EQ(run_id(plan_of("{}")), "756c941e733ffdea");
+  EXPECT_EQ(scene_hash(plan_of("{}")), "e96c3e3ad02c38b2") << "the name of runs before they could be extended";
 }
 
 TEST(RunId, DoesNotDependOnHowASceneIsWritten) {
@@ -123,12 +125,15 @@ TEST(RunId, DoesNotDependOnHowASceneIsWritten) {
   EXPECT_EQ(run_id(plan_of(R"({"rods": {"area_fraction": 0.6}, "time": {"step": 2e-6}})", {"rods.length=2.5"})), id);
 }
 
-TEST(RunId, DependsOnEverythingButTheStream) {
+TEST(RunId, DependsOnEverythingButTheLengthAndTheStream) {
   const std::string id = run_id(plan_of("{}"));
   EXPECT_EQ(run_id(plan_of(R"({"stream": null})")), id);
   EXPECT_EQ(run_id(plan_of(R"({"stream": {"rate": 5}})")), id);
+  EXPECT_EQ(run_id(plan_of(R"({"time": {"measure": 11}})")), id);
+  EXPECT_EQ(run_id(plan_of(R"({"until": {"order_sem": 0.01, "at_most": "1 h"}})")), id);
+  EXPECT_NE(scene_hash(plan_of(R"({"time": {"measure": 11}})")), scene_hash(plan_of("{}")));
   for (const char* other :
-       {R"({"time": {"seed": 2}})", R"({"time": {"measure": 11}})", R"({"measure": {"order": {}, "msd": {}}})",
+       {R"({"time": {"seed": 2}})", R"({"time": {"steady": 1}})", R"({"measure": {"order": {}, "msd": {}}})",
         R"({"movie": {}})", R"({"trajectory": {}})", R"({"contacts": {"rod_lid": {"friction": 0.02}}})",
         R"({"box": {"gap": 1.2000000000000002}})"}) {
     EXPECT_NE(run_id(plan_of(other)), id) << other;

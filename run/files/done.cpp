@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "run/files/done.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "base/files.h"
+#include "scene/canonical.h"
+#include "scene/length.h"
+
+namespace shaken::run {
+
+namespace {
+
+using Json = nlohmann::json;
+
+/// What the summary says of a run that has come to its end; null otherwise. `run_id`: any if empty.
+Json summary_of_done(const RunDirectory& directory, const std::string& run_id) {
+  const Result<std::string> text = read_file(directory.summary());
+  if (!text) return {};
+  Json json = Json::parse(*text, nullptr, false);
+  if (!json.is_object() || !json.contains("exit")) return {};
+  if (!run_id.empty() && (!json.contains("run_id") || json["run_id"] != run_id)) return {};
+  const auto& exit = json["exit"];
+  return exit.is_object() && exit.contains("state") && exit["state"] == "done" ? std::move(json) : Json();
+}
+
+/// None if the summary says nothing of S.
+std::optional<scene::KnownOrder> order_of(const Json& summary) {
+  const auto order = summary.find("order");
+  if (order == summary.end() || !order->is_object()) return std::nullopt;
+  scene::KnownOrder known{std::nan(""), std::nullopt};
+  if (const auto sem = order->find("sem"); sem != order->end() && sem->is_number()) known.sem = sem->get<double>();
+  if (const auto steady = order->find("steady"); steady != order->end() && steady->is_boolean()) {
+    known.steady = steady->get<bool>();
+  }
+  return known;
+}
+
+}  // namespace
+
+bool is_done(const RunDirectory& directory, const std::string& run_id) {
+  return !summary_of_done(directory, run_id).is_null();
+}
+
+bool is_done(const RunDirectory& directory, const scene::RunPlan& plan) {
+  const Json summary = summary_of_done(directory, scene::run_id(plan));
+  if (summary.is_null()) return false;
+  const auto tick = summary["exit"].find("tick");
+  return tick != summary["exit"].end() && tick->is_number_integer() &&
+         scene::is_long_enough(plan, tick->get<Tick>(), order_of(summary));
+}
+
+}  // namespace shaken::run

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "run/files/directory.h"
+#include "scene/run_plan.h"
+
+namespace shaken::run {
+
+/// Whether a run came to its end in `directory`, as its summary says: run `run_id`, or any if that is empty.
+bool is_done(const RunDirectory& directory, const std::string& run_id = "");
+/// Whether the run of this plan came to its end there, and went on for as long as the plan asks (scene/length.h).
+bool is_done(const RunDirectory& directory, const scene::RunPlan& plan);
+
+}  // namespace shaken::run
