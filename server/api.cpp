@@ -246,12 +246,10 @@ Api::Answer Api::show_history(const Call& call) const {
 Api::Answer Api::control(const Call& call) const {
   const auto parts = split(call.request.path, '/');
   const std::string& action = parts.back();
-  const bool is_sweep = parts[1] == "sweeps";
-  const std::int64_t sweep = is_sweep ? find_sweep(call.id).id : 0;
-  const std::string job = is_sweep ? "" : find_job(call.id).id;
+  const Target target = parts[1] == "sweeps" ? Target(find_sweep(call.id).id) : Target(find_job(call.id).id);
   const auto answer = [](const char* changed, int n) { return Answer{200, {{changed, n}}, ""}; };
-  if (action == "cancel") return answer("cancelled", is_sweep ? queue_.cancel_sweep(sweep) : queue_.cancel_job(job));
-  if (action == "hold") return answer("held", is_sweep ? queue_.hold_sweep(sweep) : queue_.hold_job(job));
+  if (action == "cancel") return answer("cancelled", queue_.cancel(target));
+  if (action == "hold") return answer("held", queue_.hold(target));
   if (action == "priority") {
     int priority = 0;
     try {
@@ -259,12 +257,10 @@ Api::Answer Api::control(const Call& call) const {
     } catch (const std::invalid_argument& problem) {
       throw Refusal(400, problem.what());
     }
-    return answer("changed",
-                  is_sweep ? queue_.set_priority_of_sweep(sweep, priority) : queue_.set_priority_of_job(job, priority));
+    return answer("changed", queue_.set_priority(target, priority));
   }
   const bool retry = action == "retry";
-  return answer(retry ? "retried" : "resumed",
-                is_sweep ? queue_.release_sweep(sweep, retry) : queue_.release_job(job, retry));
+  return answer(retry ? "retried" : "resumed", queue_.release(target, retry));
 }
 
 Api::Answer Api::results(const Call& call) const {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 
 namespace shaken::server {
 
@@ -68,6 +69,9 @@ struct Sweep {
   std::int64_t created = 0;  ///< microseconds since 1970-01-01 UTC
   JobCounts counts;
 };
+
+/// What a request concerns: one job, by its id, or all jobs of a sweep, by its number.
+using Target = std::variant<std::string, std::int64_t>;
 
 /// "s12" for sweep 12; and back.
 std::string sweep_word(std::int64_t id);

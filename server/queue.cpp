@@ -117,8 +117,7 @@ std::vector<std::string> Queue::recover() {
   const std::lock_guard lock(mutex_);
   Transaction transaction(database_);
   std::vector<std::string> recovered;
-  for (const Current& job : unfinished(std::nullopt)) {
-    if (job.state != kRunning && job.state != kStopping) continue;
+  for (const Current& job : active()) {
     end_stopping(job, "the daemon ended without warning");
     recovered.push_back(job.id);
   }
@@ -277,31 +276,17 @@ JobCounts Queue::counts() const {
   return read_counts(database_.query("SELECT state, COUNT(*) FROM jobs GROUP BY state"));
 }
 
-std::vector<Queue::Current> Queue::one(const std::string& id) const {
-  const auto job = current(id);
-  return job ? std::vector{*job} : std::vector<Current>();
-}
-
-int Queue::cancel_job(const std::string& id) {
-  const std::lock_guard lock(mutex_);
-  return cancel_all(one(id));
-}
-
-int Queue::cancel_sweep(std::int64_t sweep) {
-  const std::lock_guard lock(mutex_);
-  return cancel_all(unfinished(sweep));
-}
-
 void Queue::stop_for(const Current& job, JobState after_stop, const std::string& cause) {
   if (job.state == kRunning) change(job, kStopping, "", cause);
   database_.run("UPDATE jobs SET after_stop = ?2 WHERE id = ?1", job.id, to_word(after_stop));
 }
 
-int Queue::cancel_all(std::span<const Current> jobs) {
+int Queue::cancel(const Target& target) {
+  const std::lock_guard lock(mutex_);
   Transaction transaction(database_);
   int changed = 0;
-  for (const Current& job : jobs) {
-    if (has_ended(job.state) || job.after_stop == to_word(kCancelled)) continue;
+  for (const Current& job : unfinished(target)) {
+    if (job.after_stop == to_word(kCancelled)) continue;
     if (job.state == kQueued || job.state == kHeld) {
       change(job, kCancelled, kAsked, kAsked);
     } else {
@@ -314,21 +299,12 @@ int Queue::cancel_all(std::span<const Current> jobs) {
   return changed;
 }
 
-int Queue::hold_job(const std::string& id) {
+int Queue::hold(const Target& target) {
   const std::lock_guard lock(mutex_);
-  return hold_all(one(id));
-}
-
-int Queue::hold_sweep(std::int64_t sweep) {
-  const std::lock_guard lock(mutex_);
-  return hold_all(unfinished(sweep));
-}
-
-int Queue::hold_all(std::span<const Current> jobs) {
   Transaction transaction(database_);
   int changed = 0;
-  for (const Current& job : jobs) {
-    if (has_ended(job.state) || job.hold == kOnRequest || job.after_stop == to_word(kHeld)) continue;
+  for (const Current& job : unfinished(target)) {
+    if (job.hold == kOnRequest || job.after_stop == to_word(kHeld)) continue;
     if (job.after_stop == to_word(kCancelled)) continue;  // that was asked for first
     if (job.state == kQueued) {
       change(job, kHeld, kHeldOnRequest, kHeldOnRequest);
@@ -345,20 +321,11 @@ int Queue::hold_all(std::span<const Current> jobs) {
   return changed;
 }
 
-int Queue::release_job(const std::string& id, bool retry) {
+int Queue::release(const Target& target, bool retry) {
   const std::lock_guard lock(mutex_);
-  return release_all(one(id), retry);
-}
-
-int Queue::release_sweep(std::int64_t sweep, bool retry) {
-  const std::lock_guard lock(mutex_);
-  return release_all(all(sweep), retry);
-}
-
-int Queue::release_all(std::span<const Current> jobs, bool retry) {
   Transaction transaction(database_);
   int changed = 0;
-  for (const Current& job : jobs) {
+  for (const Current& job : found(target)) {
     if (job.state == kHeld || (retry && (job.state == kFailed || job.state == kCancelled))) {
       change(job, kQueued, "", job.state == kHeld ? "released on request" : "retried on request");
     } else if (job.state == kStopping && job.after_stop == to_word(kHeld)) {
@@ -375,21 +342,12 @@ int Queue::release_all(std::span<const Current> jobs, bool retry) {
   return changed;
 }
 
-int Queue::set_priority_of_job(const std::string& id, int priority) {
+int Queue::set_priority(const Target& target, int priority) {
   const std::lock_guard lock(mutex_);
-  return set_priority(one(id), priority);
-}
-
-int Queue::set_priority_of_sweep(std::int64_t sweep, int priority) {
-  const std::lock_guard lock(mutex_);
-  return set_priority(unfinished(sweep), priority);
-}
-
-int Queue::set_priority(std::span<const Current> jobs, int priority) {
   Transaction transaction(database_);
   int changed = 0;
-  for (const Current& job : jobs) {
-    if (has_ended(job.state) || job.priority == priority) continue;
+  for (const Current& job : unfinished(target)) {
+    if (job.priority == priority) continue;
     database_.run("UPDATE jobs SET priority = ?2 WHERE id = ?1", job.id, priority);
     ++changed;
   }
@@ -526,7 +484,7 @@ void Queue::set_reason(const std::string& id, const std::string& reason) {
 void Queue::stop_all() {
   const std::lock_guard lock(mutex_);
   Transaction transaction(database_);
-  for (const Current& job : unfinished(std::nullopt)) {
+  for (const Current& job : active()) {
     if (job.state != kRunning) continue;
     change(job, kStopping, "", "the daemon stops");
     database_.run("UPDATE jobs SET after_stop = 'queued' WHERE id = ?1", job.id);
@@ -573,20 +531,29 @@ std::optional<Queue::Current> Queue::current(const std::string& id) const {
   return Current::read(query);
 }
 
-std::vector<Queue::Current> Queue::found(std::optional<std::int64_t> sweep, const std::string& condition) const {
-  std::vector<Current> jobs;
+std::vector<Queue::Current> Queue::found(const Target& target, const std::string& condition) const {
+  const std::int64_t* sweep = std::get_if<std::int64_t>(&target);
+  const std::string select =
+      std::string(Current::kSelect) + "WHERE " + condition +
+      (sweep != nullptr ? " AND number IN (SELECT job FROM members WHERE sweep = ?1)" : " AND id = ?1") +
+      " ORDER BY number";
   Query query =
-      database_.query(std::string(Current::kSelect) + "WHERE " + condition +
-                          " AND (?1 = 0 OR number IN (SELECT job FROM members WHERE sweep = ?1)) ORDER BY number",
-                      sweep.value_or(0));
+      sweep != nullptr ? database_.query(select, *sweep) : database_.query(select, std::get<std::string>(target));
+  std::vector<Current> jobs;
   while (query.next()) jobs.push_back(Current::read(query));
   return jobs;
 }
 
-std::vector<Queue::Current> Queue::all(std::optional<std::int64_t> sweep) const { return found(sweep, "1"); }
+std::vector<Queue::Current> Queue::unfinished(const Target& target) const {
+  return found(target, "state IN ('queued', 'held', 'running', 'stopping')");  // by the index: most jobs have ended
+}
 
-std::vector<Queue::Current> Queue::unfinished(std::optional<std::int64_t> sweep) const {
-  return found(sweep, "state IN ('queued', 'held', 'running', 'stopping')");  // by the index: most jobs have ended
+std::vector<Queue::Current> Queue::active() const {
+  std::vector<Current> jobs;
+  Query query = database_.query(std::string(Current::kSelect) +
+                                "WHERE state IN ('running', 'stopping') ORDER BY number");  // by the index
+  while (query.next()) jobs.push_back(Current::read(query));
+  return jobs;
 }
 
 void Queue::change(const Current& job, JobState to, const std::string& reason, const std::string& cause) {

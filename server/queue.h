@@ -78,18 +78,14 @@ class Queue {
 
   /// Queued jobs are cancelled, running ones asked to stop (the supervisor sees to that); finished ones stay as they
   /// are. Returns how many were changed.
-  int cancel_job(const std::string& id);
-  int cancel_sweep(std::int64_t sweep);
+  int cancel(const Target& target);
 
   /// Queued jobs are held until they are released; running ones stop at a checkpoint first. Returns how many changed.
-  int hold_job(const std::string& id);
-  int hold_sweep(std::int64_t sweep);
+  int hold(const Target& target);
   /// Held jobs are queued, and so are failed and cancelled ones if `retry`. Returns how many changed.
-  int release_job(const std::string& id, bool retry);
-  int release_sweep(std::int64_t sweep, bool retry);
+  int release(const Target& target, bool retry);
   /// Jobs that have not ended; the larger number goes first. Returns how many changed.
-  int set_priority_of_job(const std::string& id, int priority);
-  int set_priority_of_sweep(std::int64_t sweep, int priority);
+  int set_priority(const Target& target, int priority);
 
   /// The next jobs to start: by priority, then by age; without those that wait after a crash.
   std::vector<Job> next(int limit) const;
@@ -134,14 +130,9 @@ class Queue {
   void record(std::string_view job, std::string_view from, std::string_view to, int attempt, std::string_view cause);
   void end_stopping(const Current& job, const std::string& cause);
   void stop_for(const Current& job, JobState after_stop, const std::string& cause);
-  int cancel_all(std::span<const Current> jobs);
-  int hold_all(std::span<const Current> jobs);
-  int release_all(std::span<const Current> jobs, bool retry);
-  int set_priority(std::span<const Current> jobs, int priority);
-  std::vector<Current> one(const std::string& id) const;
-  std::vector<Current> found(std::optional<std::int64_t> sweep, const std::string& condition) const;
-  std::vector<Current> all(std::optional<std::int64_t> sweep) const;
-  std::vector<Current> unfinished(std::optional<std::int64_t> sweep) const;
+  std::vector<Current> found(const Target& target, const std::string& condition = "1") const;
+  std::vector<Current> unfinished(const Target& target) const;
+  std::vector<Current> active() const;
   std::optional<std::int64_t> same_sweep(const std::string& name, std::span<const NewJob> jobs) const;
   bool insert(const NewJob& job, int priority, std::int64_t sweep);
   bool ask_again(const NewJob& job, int priority, std::int64_t sweep);

@@ -223,7 +223,7 @@ TEST_F(ApiTest, JobsAreHeldResumedRetriedAndPutFirst) {
   EXPECT_EQ(post("/v1/jobs/" + ids[3] + "/priority", R"({"prio": 5})").status, 400);
   queue_.begin(ids[0]);
   queue_.finish(ids[0], JobState::kFailed, "why");
-  queue_.cancel_job(ids[2]);
+  queue_.cancel(ids[2]);
   EXPECT_EQ(post("/v1/sweeps/s1/resume").json.dump(), R"({"resumed":0})");
   EXPECT_EQ(post("/v1/sweeps/s1/retry").json.dump(), R"({"retried":2})");
   EXPECT_EQ(queue_.counts()[JobState::kQueued], 4);
@@ -326,8 +326,8 @@ TEST_F(ApiTest, ARunningJobShowsItsProgress) {
 
   queue_.begin(ids[1]);
   queue_.finish(ids[1], JobState::kDone, "");
-  queue_.cancel_job(ids[2]);
-  queue_.cancel_job(ids[3]);
+  queue_.cancel(ids[2]);
+  queue_.cancel(ids[3]);
   const Json sweep = get("/v1/sweeps/s1").json["sweep"];
   EXPECT_EQ(sweep["progress"], 0.375) << "one done, one half, two that came to nothing";
   EXPECT_EQ(sweep["eta_s"], 10.0);

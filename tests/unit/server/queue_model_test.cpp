@@ -147,16 +147,16 @@ void apply(Operation operation, char digit, int priority, std::unique_ptr<Queue>
       model.stop(model.jobs_[digit]);
       return;
     case Operation::kCancel:
-      queue->cancel_job(id);
+      queue->cancel(id);
       if (known) model.cancel(model.jobs_[digit]);
       return;
     case Operation::kHold:
-      queue->hold_job(id);
+      queue->hold(id);
       if (known) Model::hold(model.jobs_[digit]);
       return;
     case Operation::kResume:
     case Operation::kRetry:
-      queue->release_job(id, operation == Operation::kRetry);
+      queue->release(id, operation == Operation::kRetry);
       if (known) Model::release(model.jobs_[digit], operation == Operation::kRetry);
       return;
     case Operation::kWorkerCrashes:

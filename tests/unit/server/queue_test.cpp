@@ -130,11 +130,11 @@ TEST_F(QueueTest, CancelEndsQueuedJobsAndStopsRunningOnes) {
   queue_.begin(a_);
   queue_.begin(b_);
   queue_.finish(b_, kDone, "");
-  EXPECT_EQ(queue_.cancel_sweep(sweep), 2);
+  EXPECT_EQ(queue_.cancel(sweep), 2);
   EXPECT_EQ(state('a'), kStopping);
   EXPECT_EQ(state('b'), kDone);
   EXPECT_EQ(state('c'), kCancelled);
-  EXPECT_EQ(queue_.cancel_sweep(sweep), 0);
+  EXPECT_EQ(queue_.cancel(sweep), 0);
 
   queue_.stopped(a_, "checkpoint");
   EXPECT_EQ(state('a'), kCancelled);
@@ -145,16 +145,16 @@ TEST_F(QueueTest, CancelEndsQueuedJobsAndStopsRunningOnes) {
 TEST_F(QueueTest, CancelLeavesOtherSweepsAlone) {
   queue_.submit("one", 0, std::vector{new_job('a')});
   const auto two = queue_.submit("two", 0, std::vector{new_job('b')}).sweep;
-  EXPECT_EQ(queue_.cancel_sweep(two), 1);
+  EXPECT_EQ(queue_.cancel(two), 1);
   EXPECT_EQ(state('a'), kQueued);
-  EXPECT_EQ(queue_.cancel_job("nobody"), 0);
+  EXPECT_EQ(queue_.cancel("nobody"), 0);
 }
 
 TEST_F(QueueTest, SubmittingAJobThatIsAboutToBeCancelledKeepsIt) {
   const std::vector<NewJob> jobs{new_job('a')};
   queue_.submit("s", 0, jobs);
   queue_.begin(a_);
-  queue_.cancel_job(a_);
+  queue_.cancel(a_);
   EXPECT_EQ(queue_.submit("s", 0, jobs).n_requeued, 1);
   queue_.stopped(a_, "checkpoint");
   EXPECT_EQ(state('a'), kQueued);
@@ -171,7 +171,7 @@ TEST_F(QueueTest, StoppingTheDaemonQueuesWhatRuns) {
   queue_.submit("s", 0, std::vector{new_job('a'), new_job('b'), new_job('c')});
   queue_.begin(a_);
   queue_.begin(b_);
-  queue_.cancel_job(b_);
+  queue_.cancel(b_);
   queue_.stop_all();
   EXPECT_EQ(state('a'), kStopping);
   EXPECT_EQ(state('c'), kQueued);
@@ -235,7 +235,7 @@ TEST_F(QueueTest, ThreadsMayWorkOnItTogether) {
         NewJob job = new_job('a');
         job.id = std::to_string(thread) + "-" + std::to_string(i);
         queue_.submit("thread " + std::to_string(thread) + "." + std::to_string(i), 0, std::vector{job});
-        queue_.cancel_job(job.id);
+        queue_.cancel(job.id);
         queue_.counts();
       }
     });
@@ -250,8 +250,8 @@ TEST_F(QueueTest, AfterAKillEverythingAcknowledgedIsThere) {
   queue_.submit("s", 0, std::vector{new_job('a'), new_job('b'), new_job('c'), new_job('d')});
   queue_.begin(a_);
   queue_.begin(b_);
-  queue_.cancel_job(b_);
-  queue_.cancel_job(std::string(16, 'c'));
+  queue_.cancel(b_);
+  queue_.cancel(std::string(16, 'c'));
   std::filesystem::create_directory(directory_ / "copy");
   for (const char* name : {"queue.db", "queue.db-wal"}) {
     std::filesystem::copy_file(directory_ / name, directory_ / "copy" / name);
@@ -349,8 +349,8 @@ TEST_F(QueueTest, AFileOfTheFirstVersionIsTakenOver) {
     EXPECT_EQ(queue.jobs(1)[0].state, kQueued);
     EXPECT_EQ(queue.jobs(1)[0].priority, 3);
     EXPECT_EQ(queue.jobs(1)[0].hold, Hold::kNone);
-    EXPECT_EQ(queue.hold_sweep(1), 1);
-    EXPECT_EQ(queue.release_sweep(1, false), 1);
+    EXPECT_EQ(queue.hold(1), 1);
+    EXPECT_EQ(queue.release(1, false), 1);
   }
 }
 

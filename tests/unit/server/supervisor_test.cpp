@@ -144,14 +144,14 @@ TEST_F(SupervisorTest, NothingIsStartedOnADiskThatIsNearlyFull) {
 TEST_F(SupervisorTest, HoldingLetsTheWorkerStopAndReleasingGoesOn) {
   submit('a', "run");
   ASSERT_TRUE(step_until_up('a'));
-  EXPECT_EQ(queue_.hold_job(id('a')), 1);
-  EXPECT_EQ(queue_.hold_job(id('a')), 0);
+  EXPECT_EQ(queue_.hold(id('a')), 1);
+  EXPECT_EQ(queue_.hold(id('a')), 0);
   ASSERT_TRUE(step_until('a', kHeld));
   EXPECT_EQ(job('a').reason, "held on request");
   for (int i = 0; i < 5; ++i) supervisor_.step();
   EXPECT_EQ(job('a').state, kHeld) << "room does not release it";
   std::filesystem::remove(directory('a') / "up");
-  EXPECT_EQ(queue_.release_job(id('a'), false), 1);
+  EXPECT_EQ(queue_.release(id('a'), false), 1);
   EXPECT_TRUE(step_until_up('a'));
 }
 
@@ -174,7 +174,7 @@ TEST_F(SupervisorTest, NoMoreWorkersThanSlots) {
   ASSERT_TRUE(step_until_up('b'));
   EXPECT_EQ(queue_.counts()[kRunning], 2);
   EXPECT_EQ(job('c').state, kQueued);
-  queue_.cancel_job(id('a'));
+  queue_.cancel(id('a'));
   EXPECT_TRUE(step_until_up('c'));
   EXPECT_EQ(job('a').state, kCancelled);
 }
@@ -183,7 +183,7 @@ TEST_F(SupervisorTest, CancelLetsTheWorkerStopByItself) {
   submit('a', "run");
   ASSERT_TRUE(step_until_up('a'));
   EXPECT_EQ(kill(job('a').pid, 0), 0);
-  queue_.cancel_job(id('a'));
+  queue_.cancel(id('a'));
   ASSERT_TRUE(step_until('a', kCancelled));
   EXPECT_EQ(queue_.changes_since(0, 100).back().cause, "the worker has stopped at a checkpoint");
 }
@@ -191,7 +191,7 @@ TEST_F(SupervisorTest, CancelLetsTheWorkerStopByItself) {
 TEST_F(SupervisorTest, AWorkerThatFinishesAfterTheCancelIsDone) {
   submit('a', "late");
   ASSERT_TRUE(step_until_up('a'));
-  queue_.cancel_job(id('a'));
+  queue_.cancel(id('a'));
   EXPECT_TRUE(step_until('a', kDone));
 }
 
@@ -199,7 +199,7 @@ TEST_F(SupervisorTest, ADeafWorkerIsKilledAfterTheGrace) {
   submit('a', "deaf");
   ASSERT_TRUE(step_until_up('a'));
   const auto asked = std::chrono::steady_clock::now();
-  queue_.cancel_job(id('a'));
+  queue_.cancel(id('a'));
   ASSERT_TRUE(step_until('a', kCancelled));
   EXPECT_GE(std::chrono::steady_clock::now() - asked, kGrace);
   EXPECT_THAT(queue_.changes_since(0, 100).back().cause, HasSubstr("SIGKILL"));
