@@ -187,8 +187,8 @@ Api::Answer Api::submit(const Call& call) const {
     if (problems.size() > 1) sentence = std::to_string(problems.size()) + " problems; the first: " + sentence;
     return {422, {{"error", sentence}, {"problems", problems}}, ""};
   }
-  const auto& [name, priority, jobs] = *submission;
-  const Submitted submitted = queue_.submit(name, priority, jobs);
+  const auto& [name, priority, terms, jobs] = *submission;
+  const Submitted submitted = queue_.submit(name, priority, jobs, terms);
   spdlog::info("sweep {} '{}': {} jobs, {} new, {} queued again", sweep_word(submitted.sweep), name,
                submitted.counts.total(), submitted.n_new, submitted.n_requeued);
   Json counts = counts_report(submitted.counts);

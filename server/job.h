@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -11,14 +12,17 @@
 namespace shaken::server {
 
 /// Where a job is in its life:
-///   queued -> running -> done | failed;  running -> stopping -> cancelled, held, or back to queued when the daemon
-///   stops;  queued <-> held.
-/// A worker that crashes puts its job back into the queue, for a while; one that finds no room holds it. A failed or
-/// cancelled job that is submitted once more, or retried, is queued again.
-enum class JobState { kQueued, kHeld, kRunning, kStopping, kDone, kFailed, kCancelled };
+///   queued -> running -> done | failed;  running -> stopping -> cancelled, held, timed out, or back to queued when the
+///   daemon stops or others are to have their turn;  queued <-> held.
+/// A worker that crashes puts its job back into the queue, for a while; one that finds no room holds it. A failed,
+/// cancelled or timed out job that is submitted once more, or retried, is queued again.
+enum class JobState { kQueued, kHeld, kRunning, kStopping, kDone, kFailed, kTimedOut, kCancelled };
 
 inline constexpr std::array kJobStates{JobState::kQueued, JobState::kHeld,   JobState::kRunning,  JobState::kStopping,
-                                       JobState::kDone,   JobState::kFailed, JobState::kCancelled};
+                                       JobState::kDone,   JobState::kFailed, JobState::kTimedOut, JobState::kCancelled};
+
+/// Whether nothing more happens to a job in this state by itself.
+bool has_ended(JobState state);
 
 /// What a held job waits for.
 enum class Hold {
@@ -59,7 +63,11 @@ struct Job {
   std::int64_t finished = 0;
   std::int64_t not_before = 0;  ///< a queued job that has crashed waits until then
   Hold hold = Hold::kNone;
-  std::int64_t needed_bytes = 0;  ///< of room on the disk, where it waits for that
+  std::int64_t needed_bytes = 0;            ///< of room on the disk, where it waits for that
+  std::chrono::milliseconds soft_limit{0};  ///< see Terms
+  std::chrono::milliseconds time_limit{0};
+  /// Wall time of its attempts since it was submitted or retried last; of the present one, all but the last seconds.
+  std::chrono::milliseconds wall{0};
 };
 
 /// An ordered list of jobs asked for together.

@@ -14,18 +14,33 @@ namespace shaken::server {
 namespace {
 
 using enum JobState;
+using std::chrono::milliseconds;
 
-const std::string kSelectJobs =
-    "SELECT id, sweep, state, reason, label, parameters, replica, attempt, pid, created_utime, started_utime, "
-    "finished_utime, priority, hold, needed_bytes, not_before_utime FROM jobs ";
-const std::string kSelectMembers =
-    "SELECT j.id, m.sweep, j.state, j.reason, m.label, m.parameters, m.replica, j.attempt, j.pid, j.created_utime, "
-    "j.started_utime, j.finished_utime, j.priority, j.hold, j.needed_bytes, j.not_before_utime FROM members m JOIN "
-    "jobs j ON j.number = m.job WHERE m.sweep = ?1 ";
+/// Whose pause is over at ?1. One that would last longer than any was begun before the clock was set back.
+const std::string kNotPausing = "NOT (not_before_utime > ?1 AND not_before_utime < ?1 + " +
+                                std::to_string(std::chrono::microseconds(std::chrono::hours(1)).count()) + ") ";
+/// What may start at ?1.
+const std::string kReady = "state = 'queued' AND " + kNotPausing;
+
+/// What a job is by itself; read_job has it after its place in a sweep.
+const std::string kColumns =
+    ", j.id, j.state, j.reason, j.attempt, j.pid, j.created_utime, j.started_utime, j.finished_utime, j.priority, "
+    "j.hold, j.needed_bytes, j.not_before_utime, j.soft_limit_ms, j.time_limit_ms, j.wall_ms ";
+const std::string kSelectJobs = "SELECT j.sweep, j.label, j.parameters, j.replica" + kColumns + "FROM jobs j ";
+const std::string kSelectMembers = "SELECT m.sweep, m.label, m.parameters, m.replica" + kColumns +
+                                   "FROM members m JOIN jobs j ON j.number = m.job WHERE m.sweep = ?1 ";
 
 /// What a held job waits for, as the table has it.
 constexpr std::string_view kOnRequest = "request";
 constexpr std::string_view kForRoom = "room";
+
+/// What becomes of a stopping job that is queued behind all of its priority; the others become a state.
+constexpr std::string_view kLast = "last";
+
+Hold stored_hold(const std::string& word) {
+  if (word == kForRoom) return Hold::kRoom;
+  return word == kOnRequest ? Hold::kRequest : Hold::kNone;
+}
 
 JobState stored_state(const std::string& word) {
   const auto state = job_state(word);
@@ -35,22 +50,25 @@ JobState stored_state(const std::string& word) {
 
 Job read_job(const Query& query) {
   Job job;
-  job.id = query.text(0);
-  job.sweep = query.integer(1);
-  job.state = stored_state(query.text(2));
-  job.reason = query.text(3);
-  job.label = query.text(4);
-  job.parameters = query.text(5);
-  job.replica = static_cast<int>(query.integer(6));
+  job.sweep = query.integer(0);
+  job.label = query.text(1);
+  job.parameters = query.text(2);
+  job.replica = static_cast<int>(query.integer(3));
+  job.id = query.text(4);
+  job.state = stored_state(query.text(5));
+  job.reason = query.text(6);
   job.attempt = static_cast<int>(query.integer(7));
   job.pid = static_cast<int>(query.integer(8));
   job.created = query.integer(9);
   job.started = query.integer(10);
   job.finished = query.integer(11);
   job.priority = static_cast<int>(query.integer(12));
-  job.hold = query.text(13) == kForRoom ? Hold::kRoom : query.text(13) == kOnRequest ? Hold::kRequest : Hold::kNone;
+  job.hold = stored_hold(query.text(13));
   job.needed_bytes = query.integer(14);
   job.not_before = query.integer(15);
+  job.soft_limit = milliseconds(query.integer(16));
+  job.time_limit = milliseconds(query.integer(17));
+  job.wall = milliseconds(query.integer(18));
   return job;
 }
 
@@ -80,8 +98,6 @@ JobCounts read_counts(Query query) {
 const std::string kAsked = "cancelled on request";
 const std::string kHeldOnRequest = "held on request";
 
-bool has_ended(JobState state) { return state == kDone || state == kFailed || state == kCancelled; }
-
 }  // namespace
 
 /// What the rules of a job's life depend on.
@@ -93,8 +109,10 @@ struct Queue::Current {
   std::string hold;
   int crashes;
   int priority;
+  milliseconds time_limit;
 
-  static constexpr const char* kSelect = "SELECT id, state, after_stop, attempt, hold, crashes, priority FROM jobs ";
+  static constexpr const char* kSelect =
+      "SELECT id, state, after_stop, attempt, hold, crashes, priority, time_limit_ms FROM jobs ";
   static Current read(const Query& query) {
     return {query.text(0),
             stored_state(query.text(1)),
@@ -102,7 +120,8 @@ struct Queue::Current {
             static_cast<int>(query.integer(3)),
             query.text(4),
             static_cast<int>(query.integer(5)),
-            static_cast<int>(query.integer(6))};
+            static_cast<int>(query.integer(6)),
+            milliseconds(query.integer(7))};
   }
 };
 
@@ -126,7 +145,7 @@ std::vector<std::string> Queue::recover() {
   return recovered;
 }
 
-Submitted Queue::submit(const std::string& name, int priority, std::span<const NewJob> jobs) {
+Submitted Queue::submit(const std::string& name, int priority, std::span<const NewJob> jobs, const Terms& terms) {
   const std::lock_guard lock(mutex_);
   Transaction transaction(database_);
   Submitted result;
@@ -139,9 +158,9 @@ Submitted Queue::submit(const std::string& name, int priority, std::span<const N
   }
   for (std::size_t position = 0; position < jobs.size(); ++position) {
     const NewJob& job = jobs[position];
-    if (insert(job, priority, result.sweep)) {
+    if (insert(job, priority, result.sweep, terms)) {
       ++result.n_new;
-    } else if (ask_again(job, priority, result.sweep)) {
+    } else if (ask_again(job, priority, result.sweep, terms)) {
       ++result.n_requeued;
     }
     if (result.created) {
@@ -170,26 +189,31 @@ std::optional<std::int64_t> Queue::same_sweep(const std::string& name, std::span
   return id;
 }
 
-bool Queue::insert(const NewJob& job, int priority, std::int64_t sweep) {
+bool Queue::insert(const NewJob& job, int priority, std::int64_t sweep, const Terms& terms) {
   const int inserted = database_.run(
-      "INSERT INTO jobs(id, state, priority, created_utime, sweep, label, parameters, replica) "
-      "VALUES(?1, 'queued', ?2, ?3, ?4, ?5, ?6, ?7) ON CONFLICT(id) DO NOTHING",
-      job.id, priority, utime_now(), sweep, job.label, job.parameters, job.replica);
+      "INSERT INTO jobs(id, state, priority, created_utime, sweep, label, parameters, replica, soft_limit_ms, "
+      "time_limit_ms, turn) VALUES(?1, 'queued', ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, "
+      "(SELECT COALESCE(MAX(sequence), 0) + 1 FROM journal)) ON CONFLICT(id) DO NOTHING",
+      job.id, priority, utime_now(), sweep, job.label, job.parameters, job.replica, terms.soft_limit.count(),
+      terms.time_limit.count());
   if (inserted == 0) return false;
   database_.run("INSERT INTO scenes(job, scene) VALUES(?1, ?2)", database_.last_row_id(), job.scene);
   record(job.id, "", to_word(kQueued), 0, "submitted in " + sweep_word(sweep));
   return true;
 }
 
-bool Queue::ask_again(const NewJob& job, int priority, std::int64_t sweep) {
+bool Queue::ask_again(const NewJob& job, int priority, std::int64_t sweep, const Terms& terms) {
   database_.run(
-      "UPDATE jobs SET priority = MAX(priority, ?2), sweep = ?3, label = ?4, parameters = ?5, replica = ?6 "
-      "WHERE id = ?1",
-      job.id, priority, sweep, job.label, job.parameters, job.replica);
+      "UPDATE jobs SET priority = MAX(priority, ?2), sweep = ?3, label = ?4, parameters = ?5, replica = ?6, "
+      "soft_limit_ms = ?7, time_limit_ms = ?8 WHERE id = ?1",
+      job.id, priority, sweep, job.label, job.parameters, job.replica, terms.soft_limit.count(),
+      terms.time_limit.count());
   const Current known = *current(job.id);
   if (known.state == kStopping) {
-    database_.run("UPDATE jobs SET after_stop = 'queued' WHERE id = ?1", job.id);
-    return known.after_stop != to_word(kQueued);
+    if (known.after_stop == to_word(kQueued) || known.after_stop == kLast) return false;
+    if (known.after_stop == to_word(kTimedOut)) database_.run("UPDATE jobs SET wall_ms = 0 WHERE id = ?1", job.id);
+    stop_for(known, kQueued, "");
+    return true;
   }
   const bool waits_for_room = known.state == kHeld && known.hold == kForRoom;
   if (known.state == kQueued || known.state == kRunning || waits_for_room) return false;
@@ -305,7 +329,8 @@ int Queue::hold(const Target& target) {
   int changed = 0;
   for (const Current& job : unfinished(target)) {
     if (job.hold == kOnRequest || job.after_stop == to_word(kHeld)) continue;
-    if (job.after_stop == to_word(kCancelled)) continue;  // that was asked for first
+    // What was asked for first.
+    if (job.after_stop == to_word(kCancelled) || job.after_stop == to_word(kTimedOut)) continue;
     if (job.state == kQueued) {
       change(job, kHeld, kHeldOnRequest, kHeldOnRequest);
     } else if (job.state == kRunning || job.state == kStopping) {
@@ -326,7 +351,8 @@ int Queue::release(const Target& target, bool retry) {
   Transaction transaction(database_);
   int changed = 0;
   for (const Current& job : found(target)) {
-    if (job.state == kHeld || (retry && (job.state == kFailed || job.state == kCancelled))) {
+    const bool is_retried = retry && has_ended(job.state) && job.state != kDone;
+    if (job.state == kHeld || is_retried) {
       change(job, kQueued, "", job.state == kHeld ? "released on request" : "retried on request");
     } else if (job.state == kStopping && job.after_stop == to_word(kHeld)) {
       stop_for(job, kQueued, "");
@@ -357,9 +383,8 @@ int Queue::set_priority(const Target& target, int priority) {
 
 std::vector<Job> Queue::next(int limit) const {
   const std::lock_guard lock(mutex_);
-  return read_jobs(database_.query(
-      kSelectJobs + "WHERE state = 'queued' AND not_before_utime <= ?2 ORDER BY priority DESC, number LIMIT ?1", limit,
-      utime_now()));
+  return read_jobs(database_.query(kSelectJobs + "WHERE " + kReady + "ORDER BY priority DESC, turn, number LIMIT ?2",
+                                   utime_now(), limit));
 }
 
 std::optional<int> Queue::begin(const std::string& id) {
@@ -381,7 +406,7 @@ void Queue::set_pid(const std::string& id, int pid) {
 }
 
 void Queue::finish(const std::string& id, JobState state, const std::string& reason) {
-  SHAKEN_CHECK(state == kDone || state == kFailed, "a worker ends done or failed");
+  SHAKEN_CHECK(state == kDone || state == kFailed || state == kTimedOut, "a job ends done, failed or timed out");
   const std::lock_guard lock(mutex_);
   const auto job = current(id);
   SHAKEN_CHECK(job.has_value(), "no job " + id);
@@ -397,8 +422,14 @@ void Queue::end_stopping(const Current& job, const std::string& cause) {
   } else if (job.state == kStopping && job.after_stop == to_word(kHeld)) {
     change(job, kHeld, kHeldOnRequest, cause);
     database_.run("UPDATE jobs SET hold = ?2 WHERE id = ?1", job.id, kOnRequest);
+  } else if (job.state == kStopping && job.after_stop == to_word(kTimedOut)) {
+    change(job, kTimedOut, time_limit_over(job.time_limit), cause);
   } else {
+    const bool behind_others = job.state == kStopping && job.after_stop == kLast;
     change(job, kQueued, "", cause);
+    if (behind_others) {
+      database_.run("UPDATE jobs SET turn = (SELECT MAX(sequence) FROM journal) WHERE id = ?1", job.id);
+    }
   }
 }
 
@@ -458,10 +489,9 @@ std::vector<std::string> Queue::there_is_room(std::int64_t free) {
   const std::lock_guard lock(mutex_);
   std::vector<Current> jobs;
   {
-    Query query =
-        database_.query(std::string(Current::kSelect) +
-                            "WHERE state = 'held' AND hold = ?1 AND needed_bytes <= ?2 AND not_before_utime <= ?3",
-                        kForRoom, free, utime_now());
+    Query query = database_.query(
+        std::string(Current::kSelect) + "WHERE state = 'held' AND hold = ?2 AND needed_bytes <= ?3 AND " + kNotPausing,
+        utime_now(), kForRoom, free);
     while (query.next()) jobs.push_back(Current::read(query));
   }
   std::vector<std::string> released;
@@ -479,6 +509,42 @@ std::vector<std::string> Queue::there_is_room(std::int64_t free) {
 void Queue::set_reason(const std::string& id, const std::string& reason) {
   const std::lock_guard lock(mutex_);
   database_.run("UPDATE jobs SET reason = ?2 WHERE id = ?1 AND state = 'queued' AND reason <> ?2", id, reason);
+}
+
+void Queue::add_wall(std::span<const std::pair<std::string, milliseconds>> times) {
+  const std::lock_guard lock(mutex_);
+  Transaction transaction(database_);
+  for (const auto& [id, time] : times) {
+    database_.run("UPDATE jobs SET wall_ms = wall_ms + ?2 WHERE id = ?1", id, time.count());
+  }
+  transaction.commit();
+}
+
+bool Queue::give_way(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  const auto job = current(id);
+  if (!job || job->state != kRunning) return false;
+  {
+    Query other = database_.query("SELECT 1 FROM jobs WHERE " + kReady + "AND priority >= ?2 LIMIT 1", utime_now(),
+                                  job->priority);
+    if (!other.next()) return false;
+  }
+  Transaction transaction(database_);
+  change(*job, kStopping, "", "its soft limit is over: it gives way to others");
+  database_.run("UPDATE jobs SET after_stop = ?2 WHERE id = ?1", id, kLast);
+  transaction.commit();
+  committed();
+  return true;
+}
+
+void Queue::time_out(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  const auto job = current(id);
+  if (!job || job->state != kRunning) return;
+  Transaction transaction(database_);
+  stop_for(*job, kTimedOut, "its time limit is over");
+  transaction.commit();
+  committed();
 }
 
 void Queue::stop_all() {
@@ -501,12 +567,12 @@ std::vector<Change> Queue::history(const std::string& id) const {
 std::optional<double> Queue::mean_duration(std::int64_t sweep) const {
   const std::lock_guard lock(mutex_);
   Query query = database_.query(
-      "SELECT COUNT(*), TOTAL(j.finished_utime - j.started_utime) FROM members m JOIN jobs j ON j.number = m.job "
-      "WHERE m.sweep = ?1 AND j.state = 'done'",
+      "SELECT COUNT(*), SUM(j.wall_ms) FROM members m JOIN jobs j ON j.number = m.job "
+      "WHERE m.sweep = ?1 AND j.state = 'done' AND j.attempt > 0",
       sweep);
   query.next();
   if (query.integer(0) == 0) return std::nullopt;
-  return 1e-6 * static_cast<double>(query.integer(1)) / static_cast<double>(query.integer(0));
+  return 1e-3 * static_cast<double>(query.integer(1)) / static_cast<double>(query.integer(0));
 }
 
 std::vector<Change> Queue::changes_since(std::int64_t sequence, int limit) const {
@@ -562,8 +628,9 @@ void Queue::change(const Current& job, JobState to, const std::string& reason, c
   database_.run(
       "UPDATE jobs SET state = ?2, reason = ?3, after_stop = '', finished_utime = ?4, hold = '', needed_bytes = 0, "
       "not_before_utime = 0, crashes = CASE WHEN ?2 IN ('running', 'stopping') THEN crashes ELSE 0 END, "
-      "pid = CASE WHEN ?2 = 'stopping' THEN pid ELSE 0 END WHERE id = ?1",
-      job.id, to_word(to), reason, has_ended(to) ? utime_now() : 0);
+      "pid = CASE WHEN ?2 = 'stopping' THEN pid ELSE 0 END, wall_ms = CASE WHEN ?5 THEN 0 ELSE wall_ms END "
+      "WHERE id = ?1",
+      job.id, to_word(to), reason, has_ended(to) ? utime_now() : 0, to == kQueued && has_ended(job.state) ? 1 : 0);
   record(job.id, to_word(job.state), to_word(to), job.attempt, cause);
 }
 

@@ -10,10 +10,12 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "server/job.h"
 #include "server/sqlite.h"
+#include "server/terms.h"
 
 namespace shaken::server {
 
@@ -32,7 +34,7 @@ struct Submitted {
   std::int64_t sweep = 0;
   bool created = false;  ///< false: this very sweep was there already
   int n_new = 0;         ///< jobs never seen before
-  int n_requeued = 0;    ///< failed, cancelled, held or about to be cancelled ones, queued again
+  int n_requeued = 0;    ///< failed, cancelled, timed out, held or about to be so, queued again
   JobCounts counts;      ///< of the sweep's jobs, afterwards
 };
 
@@ -59,9 +61,9 @@ class Queue {
   /// Returns the ids of the jobs concerned.
   std::vector<std::string> recover();
 
-  /// One sweep, in one transaction. A job that exists is not done twice; a failed or cancelled one is queued again, and
-  /// one that is about to be cancelled goes on. The same jobs under the same name again give the same sweep.
-  Submitted submit(const std::string& name, int priority, std::span<const NewJob> jobs);
+  /// One sweep, in one transaction. A job that exists is not done twice; a failed, cancelled or timed out one is queued
+  /// again, and one that is about to be cancelled goes on. The same jobs under the same name again give the same sweep.
+  Submitted submit(const std::string& name, int priority, std::span<const NewJob> jobs, const Terms& terms = {});
 
   std::vector<Sweep> sweeps() const;  ///< oldest first
   std::optional<Sweep> sweep(std::int64_t id) const;
@@ -82,7 +84,8 @@ class Queue {
 
   /// Queued jobs are held until they are released; running ones stop at a checkpoint first. Returns how many changed.
   int hold(const Target& target);
-  /// Held jobs are queued, and so are failed and cancelled ones if `retry`. Returns how many changed.
+  /// Held jobs are queued, and so are failed, cancelled and timed out ones if `retry`; these have their time limit
+  /// anew. Returns how many changed.
   int release(const Target& target, bool retry);
   /// Jobs that have not ended; the larger number goes first. Returns how many changed.
   int set_priority(const Target& target, int priority);
@@ -94,9 +97,10 @@ class Queue {
   /// queued -> running. Returns the number of the attempt; none if the job is not queued any more.
   std::optional<int> begin(const std::string& id);
   void set_pid(const std::string& id, int pid);
-  /// running or stopping -> done or failed; queued -> failed, of what cannot even be started.
+  /// running or stopping -> done or failed; queued -> failed or timed out, of what cannot even be started.
   void finish(const std::string& id, JobState state, const std::string& reason);
-  /// The worker has stopped before the end: running -> queued; stopping -> cancelled, held or queued, as was asked.
+  /// The worker has stopped before the end: running -> queued; stopping -> cancelled, held, timed out or queued, as was
+  /// asked.
   void stopped(const std::string& id, const std::string& cause);
   /// The worker has crashed: running -> queued, not to start before the next of `pauses` is over; failed when there is
   /// none left. They begin anew where there was a checkpoint since the last crash (`went_on`).
@@ -108,10 +112,17 @@ class Queue {
   /// Jobs that wait for room, no longer for the pause, and need at most `free` bytes: held -> queued. Returns their
   /// ids.
   std::vector<std::string> there_is_room(std::int64_t free);
+  /// The attempts of these jobs have taken so much more wall time.
+  void add_wall(std::span<const std::pair<std::string, std::chrono::milliseconds>> times);
+  /// The soft limit of a running job is over: if another of at least its priority is ready to start, it stops and is
+  /// queued again behind all of its priority. Returns whether it stops.
+  bool give_way(const std::string& id);
+  /// The time limit of a running job is over: it stops and is timed out.
+  void time_out(const std::string& id);
   /// running -> stopping, and then queued: the daemon ends.
   void stop_all();
 
-  /// Mean wall seconds that the done jobs of a sweep took; none if none is done.
+  /// Mean wall seconds of the done jobs of a sweep, all attempts of each together; none if none is done.
   std::optional<double> mean_duration(std::int64_t sweep) const;
 
   /// The journal of one job, oldest first.
@@ -134,8 +145,8 @@ class Queue {
   std::vector<Current> unfinished(const Target& target) const;
   std::vector<Current> active() const;
   std::optional<std::int64_t> same_sweep(const std::string& name, std::span<const NewJob> jobs) const;
-  bool insert(const NewJob& job, int priority, std::int64_t sweep);
-  bool ask_again(const NewJob& job, int priority, std::int64_t sweep);
+  bool insert(const NewJob& job, int priority, std::int64_t sweep, const Terms& terms);
+  bool ask_again(const NewJob& job, int priority, std::int64_t sweep, const Terms& terms);
   JobCounts sweep_counts(std::int64_t sweep) const;
   void committed();
 

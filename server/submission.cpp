@@ -21,7 +21,8 @@ using nlohmann::json;
 constexpr int kMostReplicas = 10'000;
 constexpr int kHighestPriority = 1'000'000;
 
-const std::vector<std::string> kKeys{"text", "file", "settings", "replicas", "name", "priority"};
+const std::vector<std::string> kKeys{"text", "file",     "settings",     "replicas",
+                                     "name", "priority", "soft_limit_s", "time_limit_s"};
 
 std::string text_of(const json& value, const std::string& key) {
   if (!value.is_string()) throw std::invalid_argument("\"" + key + "\" must be a string");
@@ -54,6 +55,15 @@ json parse_object(std::string_view body, const std::vector<std::string>& known) 
   return object;
 }
 
+/// A time in seconds, as milliseconds; at least one.
+std::chrono::milliseconds time_of(const json& value, const std::string& key) {
+  constexpr double kLeast = 0.001;
+  constexpr double kMost = 1e9;  // more than 30 years
+  const bool fits = value.is_number() && value.get<double>() >= kLeast && value.get<double>() <= kMost;
+  if (!fits) throw std::invalid_argument("\"" + key + "\" must be a number of seconds from 0.001 to 1e9");
+  return std::chrono::milliseconds(static_cast<std::int64_t>(1000 * value.get<double>()));
+}
+
 int priority_of(const json& value) { return integer_of(value, "priority", -kHighestPriority, kHighestPriority); }
 
 std::optional<std::string> name_problem(const std::string& name) {
@@ -78,6 +88,8 @@ SubmitRequest parse_submit_request(std::string_view body) {
   if (object.contains("priority")) {
     request.priority = priority_of(object["priority"]);
   }
+  if (object.contains("soft_limit_s")) request.terms.soft_limit = time_of(object["soft_limit_s"], "soft_limit_s");
+  if (object.contains("time_limit_s")) request.terms.time_limit = time_of(object["time_limit_s"], "time_limit_s");
   if (object.contains("name")) {
     request.name = text_of(object["name"], "name");
     if (const auto problem = name_problem(request.name)) throw std::invalid_argument("\"name\": " + *problem);
@@ -94,7 +106,7 @@ int parse_priority(std::string_view body) {
 scene::Loaded<Submission> expand(const SubmitRequest& request, const std::filesystem::path& runs) {
   const auto sweep = scene::load_runs(request.text, request.file, request.settings, request.replicas);
   if (!sweep) return sweep.error();
-  Submission submission{request.name.empty() ? sweep->name : request.name, request.priority, {}};
+  Submission submission{request.name.empty() ? sweep->name : request.name, request.priority, request.terms, {}};
   if (const auto problem = name_problem(submission.name)) {
     return std::vector{scene::Problem{request.file, 0, 0, "", *problem + "; submit it with another name"}};
   }

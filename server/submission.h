@@ -20,12 +20,14 @@ struct SubmitRequest {
   std::optional<int> replicas;
   std::string name;  ///< of the sweep; if empty, the name in the text or that of the file
   int priority = 0;  ///< higher ones are started first
+  Terms terms;
 };
 
 /// What goes into the queue.
 struct Submission {
   std::string name;
   int priority = 0;
+  Terms terms;
   std::vector<NewJob> jobs;
 };
 

@@ -127,7 +127,7 @@ TEST_F(ApiTest, StatusTellsAboutTheDaemon) {
   EXPECT_EQ(status.json["slots"], 3);
   EXPECT_EQ(status.json["lcm"], Json({{"url", "memq://"}, {"ok", true}, {"message", ""}}));
   EXPECT_EQ(status.json["jobs"].dump(),
-            R"({"queued":4,"held":0,"running":0,"stopping":0,"done":0,"failed":0,"cancelled":0})");
+            R"({"queued":4,"held":0,"running":0,"stopping":0,"done":0,"failed":0,"timed out":0,"cancelled":0})");
 }
 
 TEST_F(ApiTest, TheSocketIsPrivate) {
@@ -175,8 +175,9 @@ TEST_F(ApiTest, TheSameSubmitAgainDoesNothingTwice) {
   const Response again = submit({{"text", kSweep}, {"name", "four"}});
   EXPECT_EQ(again.status, 200);
   EXPECT_EQ(again.json["sweep"]["id"], "s1");
-  EXPECT_EQ(again.json["counts"].dump(),
-            R"({"queued":2,"held":0,"running":1,"stopping":0,"done":1,"failed":0,"cancelled":0,"new":0,"requeued":1})");
+  EXPECT_EQ(
+      again.json["counts"].dump(),
+      R"({"queued":2,"held":0,"running":1,"stopping":0,"done":1,"failed":0,"timed out":0,"cancelled":0,"new":0,"requeued":1})");
 
   // A done job whose results were deleted is done again.
   std::filesystem::remove_all(directory_ / "runs" / ids[1]);
@@ -231,6 +232,26 @@ TEST_F(ApiTest, JobsAreHeldResumedRetriedAndPutFirst) {
   EXPECT_EQ(changes.front()["to"], "queued");
   EXPECT_EQ(changes.back()["cause"], "retried on request");
   EXPECT_EQ(changes[changes.size() - 2]["cause"], "why");
+}
+
+TEST_F(ApiTest, TimeLimitsAreTakenAndShown) {
+  const Json job = submit({{"text", "{}"}, {"soft_limit_s", 600}, {"time_limit_s", 7200.5}}).json["jobs"][0];
+  EXPECT_EQ(job["soft_limit_s"], 600.0);
+  EXPECT_EQ(job["time_limit_s"], 7200.5);
+  EXPECT_EQ(job["wall_s"], 0.0);
+  const std::string id = job["id"];
+  queue_.begin(id);
+  queue_.add_wall(std::vector{std::pair(id, std::chrono::milliseconds(1500))});
+  queue_.time_out(id);
+  queue_.stopped(id, "checkpoint");
+  const Json ended = get("/v1/jobs?state=timed%20out").json["jobs"][0];
+  EXPECT_EQ(ended["state"], "timed out");
+  EXPECT_EQ(ended["wall_s"], 1.5);
+  EXPECT_EQ(ended["reason"], "it ran for 2 h 00 min, its time limit; `shaken retry` gives it as much again");
+
+  const Json again = submit({{"text", "{}"}}).json["jobs"][0];
+  EXPECT_TRUE(again["time_limit_s"].is_null()) << "the last submission decides";
+  EXPECT_EQ(again["state"], "queued");
 }
 
 TEST_F(ApiTest, SettingsAndReplicasAreApplied) {
