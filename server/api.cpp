@@ -173,6 +173,7 @@ Api::Answer Api::submit(const Call& call) const {
   } catch (const std::invalid_argument& problem) {
     throw Refusal(400, problem.what());
   }
+  for (const std::string& word : request.after) request.terms.after.push_back(find_target(word));
   const auto submission = expand(request, info_.runs());
   if (!submission) {
     Json problems = Json::array();
@@ -188,7 +189,13 @@ Api::Answer Api::submit(const Call& call) const {
     return {422, {{"error", sentence}, {"problems", problems}}, ""};
   }
   const auto& [name, priority, terms, jobs] = *submission;
-  const Submitted submitted = queue_.submit(name, priority, jobs, terms);
+  const Submitted submitted = [&] {
+    try {
+      return queue_.submit(name, priority, jobs, terms);
+    } catch (const Circular& problem) {
+      throw Refusal(409, problem.what());
+    }
+  }();
   spdlog::info("sweep {} '{}': {} jobs, {} new, {} queued again", sweep_word(submitted.sweep), name,
                submitted.counts.total(), submitted.n_new, submitted.n_requeued);
   Json counts = counts_report(submitted.counts);
@@ -300,6 +307,15 @@ Job Api::find_job(const std::string& prefix) const {
   const std::string hint = near == shortened.end() ? "" : all[static_cast<std::size_t>(near - shortened.begin())];
   throw Refusal(404, all.empty() ? "no job '" + prefix + "': none has been submitted yet"
                                  : "no job '" + prefix + "'" + scene::did_you_mean(hint));
+}
+
+Target Api::find_target(const std::string& word) const {
+  try {
+    return find_sweep(word).id;
+  } catch (const Refusal& no_sweep) {
+    if (!queue_.ids_beginning_with(word, 1).empty()) return find_job(word).id;
+    throw Refusal(404, "no sweep or job is called '" + word + "'");
+  }
 }
 
 std::vector<Job> Api::find_jobs(const Call& call) const {

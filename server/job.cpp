@@ -58,4 +58,14 @@ std::optional<std::int64_t> sweep_number(std::string_view word) {
   return id;
 }
 
+std::string to_word(const Target& target) {
+  const std::int64_t* sweep = std::get_if<std::int64_t>(&target);
+  return sweep != nullptr ? sweep_word(*sweep) : std::get<std::string>(target);
+}
+
+Target target_named(const std::string& word) {
+  const auto sweep = sweep_number(word);
+  return sweep ? Target(*sweep) : Target(word);
+}
+
 }  // namespace shaken::server

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 namespace shaken::server {
 
@@ -29,6 +30,8 @@ enum class Hold {
   kNone,
   kRequest,  ///< to be released
   kRoom,     ///< room on the disk
+  kOthers,   ///< to be released: what it was to come after was not done
+  kRule,     ///< to be released: the stop rule of its sweep is broken
 };
 
 /// The word for a state in the queue, in the API and on the bus; and back.
@@ -64,6 +67,8 @@ struct Job {
   std::int64_t not_before = 0;  ///< a queued job that has crashed waits until then
   Hold hold = Hold::kNone;
   std::int64_t needed_bytes = 0;            ///< of room on the disk, where it waits for that
+  std::int64_t asked_by = 0;                ///< the sweep that asked for it last, whose terms it obeys
+  bool waits = false;                       ///< until what that sweep comes after is done
   std::chrono::milliseconds soft_limit{0};  ///< see Terms
   std::chrono::milliseconds time_limit{0};
   /// Wall time of its attempts since it was submitted or retried last; of the present one, all but the last seconds.
@@ -76,6 +81,10 @@ struct Sweep {
   std::string name;
   std::int64_t created = 0;  ///< microseconds since 1970-01-01 UTC
   JobCounts counts;
+  int at_most = 0;                   ///< see Terms
+  std::vector<std::string> after{};  ///< "s3", or the id of a job
+  std::string stop_if{};             ///< as StopRule::text(); empty: none
+  bool stopped = false;              ///< by that rule
 };
 
 /// What a request concerns: one job, by its id, or all jobs of a sweep, by its number.
@@ -84,5 +93,9 @@ using Target = std::variant<std::string, std::int64_t>;
 /// "s12" for sweep 12; and back.
 std::string sweep_word(std::int64_t id);
 std::optional<std::int64_t> sweep_number(std::string_view word);
+
+/// "s12", or the id of a job; and back.
+std::string to_word(const Target& target);
+Target target_named(const std::string& word);
 
 }  // namespace shaken::server

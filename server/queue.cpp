@@ -8,6 +8,7 @@
 #include "base/clock.h"
 #include "base/text.h"
 #include "server/queue_schema.h"
+#include "server/queue_words.h"
 #include "sim/core/check.h"
 
 namespace shaken::server {
@@ -19,26 +20,29 @@ using std::chrono::milliseconds;
 /// Whose pause is over at ?1. One that would last longer than any was begun before the clock was set back.
 const std::string kNotPausing = "NOT (not_before_utime > ?1 AND not_before_utime < ?1 + " +
                                 std::to_string(std::chrono::microseconds(std::chrono::hours(1)).count()) + ") ";
-/// What may start at ?1.
-const std::string kReady = "state = 'queued' AND " + kNotPausing;
+/// What waits at ?1 for its turn only.
+const std::string kWaitsForTurn = "state = 'queued' AND waits = 0 AND " + kNotPausing;
+/// Not of a sweep of which as many jobs run as may.
+const std::string kHasPlace =
+    "sweep NOT IN (SELECT s.id FROM sweeps s WHERE s.at_most > 0 AND s.at_most <= "
+    "(SELECT COUNT(*) FROM jobs r WHERE r.state IN ('running', 'stopping') AND r.sweep = s.id)) ";
 
 /// What a job is by itself; read_job has it after its place in a sweep.
 const std::string kColumns =
     ", j.id, j.state, j.reason, j.attempt, j.pid, j.created_utime, j.started_utime, j.finished_utime, j.priority, "
-    "j.hold, j.needed_bytes, j.not_before_utime, j.soft_limit_ms, j.time_limit_ms, j.wall_ms ";
+    "j.hold, j.needed_bytes, j.not_before_utime, j.soft_limit_ms, j.time_limit_ms, j.wall_ms, "
+    "j.sweep, j.waits ";
 const std::string kSelectJobs = "SELECT j.sweep, j.label, j.parameters, j.replica" + kColumns + "FROM jobs j ";
 const std::string kSelectMembers = "SELECT m.sweep, m.label, m.parameters, m.replica" + kColumns +
                                    "FROM members m JOIN jobs j ON j.number = m.job WHERE m.sweep = ?1 ";
-
-/// What a held job waits for, as the table has it.
-constexpr std::string_view kOnRequest = "request";
-constexpr std::string_view kForRoom = "room";
 
 /// What becomes of a stopping job that is queued behind all of its priority; the others become a state.
 constexpr std::string_view kLast = "last";
 
 Hold stored_hold(const std::string& word) {
   if (word == kForRoom) return Hold::kRoom;
+  if (word == kForOthers) return Hold::kOthers;
+  if (word == kByRule) return Hold::kRule;
   return word == kOnRequest ? Hold::kRequest : Hold::kNone;
 }
 
@@ -69,6 +73,8 @@ Job read_job(const Query& query) {
   job.soft_limit = milliseconds(query.integer(16));
   job.time_limit = milliseconds(query.integer(17));
   job.wall = milliseconds(query.integer(18));
+  job.asked_by = query.integer(19);
+  job.waits = query.integer(20) != 0;
   return job;
 }
 
@@ -95,35 +101,27 @@ JobCounts read_counts(Query query) {
   return counts;
 }
 
+const std::string kSelectCurrent =
+    "SELECT id, state, after_stop, attempt, hold, crashes, priority, time_limit_ms, sweep, waits FROM jobs ";
+const std::string kSelectSweeps = "SELECT id, name, created_utime, at_most, stop_if, stopped FROM sweeps ";
+
 const std::string kAsked = "cancelled on request";
 const std::string kHeldOnRequest = "held on request";
 
 }  // namespace
 
-/// What the rules of a job's life depend on.
-struct Queue::Current {
-  std::string id;
-  JobState state;
-  std::string after_stop;
-  int attempt;
-  std::string hold;
-  int crashes;
-  int priority;
-  milliseconds time_limit;
-
-  static constexpr const char* kSelect =
-      "SELECT id, state, after_stop, attempt, hold, crashes, priority, time_limit_ms FROM jobs ";
-  static Current read(const Query& query) {
-    return {query.text(0),
-            stored_state(query.text(1)),
-            query.text(2),
-            static_cast<int>(query.integer(3)),
-            query.text(4),
-            static_cast<int>(query.integer(5)),
-            static_cast<int>(query.integer(6)),
-            milliseconds(query.integer(7))};
-  }
-};
+Queue::Current Queue::read_current(const Query& query) {
+  return {query.text(0),
+          stored_state(query.text(1)),
+          query.text(2),
+          static_cast<int>(query.integer(3)),
+          query.text(4),
+          static_cast<int>(query.integer(5)),
+          static_cast<int>(query.integer(6)),
+          milliseconds(query.integer(7)),
+          query.integer(8),
+          query.integer(9) != 0};
+}
 
 Queue::Queue(const std::filesystem::path& file) : database_(file) {
   prepare_schema(database_);
@@ -156,6 +154,7 @@ Submitted Queue::submit(const std::string& name, int priority, std::span<const N
     result.sweep = database_.last_row_id();
     result.created = true;
   }
+  refuse_circle(jobs, terms);
   for (std::size_t position = 0; position < jobs.size(); ++position) {
     const NewJob& job = jobs[position];
     if (insert(job, priority, result.sweep, terms)) {
@@ -170,6 +169,7 @@ Submitted Queue::submit(const std::string& name, int priority, std::span<const N
           result.sweep, static_cast<std::int64_t>(position), job.id, job.label, job.parameters, job.replica);
     }
   }
+  set_terms(result.sweep, terms);
   result.counts = sweep_counts(result.sweep);
   transaction.commit();
   committed();
@@ -225,8 +225,8 @@ bool Queue::ask_again(const NewJob& job, int priority, std::int64_t sweep, const
 std::vector<Sweep> Queue::sweeps() const {
   const std::lock_guard lock(mutex_);
   std::vector<Sweep> sweeps;
-  Query query = database_.query("SELECT id, name, created_utime FROM sweeps ORDER BY id");
-  while (query.next()) sweeps.push_back({query.integer(0), query.text(1), query.integer(2), {}});
+  Query query = database_.query(kSelectSweeps + "ORDER BY id");
+  while (query.next()) sweeps.push_back(read_sweep(query));
 
   Query count = database_.query(
       "SELECT m.sweep, j.state, COUNT(*) FROM members m JOIN jobs j ON j.number = m.job GROUP BY m.sweep, j.state");
@@ -240,18 +240,32 @@ std::vector<Sweep> Queue::sweeps() const {
 
 std::optional<Sweep> Queue::sweep(std::int64_t id) const {
   const std::lock_guard lock(mutex_);
-  Query query = database_.query("SELECT id, name, created_utime FROM sweeps WHERE id = ?1", id);
+  Query query = database_.query(kSelectSweeps + "WHERE id = ?1", id);
   if (!query.next()) return std::nullopt;
-  return Sweep{query.integer(0), query.text(1), query.integer(2), sweep_counts(id)};
+  Sweep sweep = read_sweep(query);
+  sweep.counts = sweep_counts(sweep.id);
+  return sweep;
 }
 
 std::optional<Sweep> Queue::sweep_named(const std::string& name) const {
   const std::lock_guard lock(mutex_);
-  Query query =
-      database_.query("SELECT id, name, created_utime FROM sweeps WHERE name = ?1 ORDER BY id DESC LIMIT 1", name);
+  Query query = database_.query(kSelectSweeps + "WHERE name = ?1 ORDER BY id DESC LIMIT 1", name);
   if (!query.next()) return std::nullopt;
+  Sweep sweep = read_sweep(query);
+  sweep.counts = sweep_counts(sweep.id);
+  return sweep;
+}
+
+Sweep Queue::read_sweep(const Query& query) const {
   const std::int64_t id = query.integer(0);
-  return Sweep{id, query.text(1), query.integer(2), sweep_counts(id)};
+  return {.id = id,
+          .name = query.text(1),
+          .created = query.integer(2),
+          .counts = {},
+          .at_most = static_cast<int>(query.integer(3)),
+          .after = prerequisites(id),
+          .stop_if = query.text(4),
+          .stopped = query.integer(5) != 0};
 }
 
 JobCounts Queue::sweep_counts(std::int64_t sweep) const {
@@ -264,18 +278,18 @@ std::vector<Job> Queue::jobs(std::optional<std::int64_t> sweep, std::optional<Jo
   const std::lock_guard lock(mutex_);
   const std::string_view word = state ? to_word(*state) : std::string_view();
   if (sweep && state) {
-    return read_jobs(database_.query(kSelectMembers + "AND j.state = ?2 ORDER BY m.position", *sweep, word));
+    return explained(read_jobs(database_.query(kSelectMembers + "AND j.state = ?2 ORDER BY m.position", *sweep, word)));
   }
-  if (sweep) return read_jobs(database_.query(kSelectMembers + "ORDER BY m.position", *sweep));
-  if (state) return read_jobs(database_.query(kSelectJobs + "WHERE state = ?1 ORDER BY number", word));
-  return read_jobs(database_.query(kSelectJobs + "ORDER BY number"));
+  if (sweep) return explained(read_jobs(database_.query(kSelectMembers + "ORDER BY m.position", *sweep)));
+  if (state) return explained(read_jobs(database_.query(kSelectJobs + "WHERE state = ?1 ORDER BY number", word)));
+  return explained(read_jobs(database_.query(kSelectJobs + "ORDER BY number")));
 }
 
 std::optional<Job> Queue::job(const std::string& id) const {
   const std::lock_guard lock(mutex_);
-  Query query = database_.query(kSelectJobs + "WHERE id = ?1", id);
-  if (!query.next()) return std::nullopt;
-  return read_job(query);
+  const std::vector<Job> found = explained(read_jobs(database_.query(kSelectJobs + "WHERE id = ?1", id)));
+  if (found.empty()) return std::nullopt;
+  return found.front();
 }
 
 std::vector<std::string> Queue::ids_beginning_with(const std::string& prefix, int limit) const {
@@ -353,6 +367,7 @@ int Queue::release(const Target& target, bool retry) {
   for (const Current& job : found(target)) {
     const bool is_retried = retry && has_ended(job.state) && job.state != kDone;
     if (job.state == kHeld || is_retried) {
+      if (job.hold == kForOthers) database_.run("UPDATE jobs SET waits = 0 WHERE id = ?1", job.id);
       change(job, kQueued, "", job.state == kHeld ? "released on request" : "retried on request");
     } else if (job.state == kStopping && job.after_stop == to_word(kHeld)) {
       stop_for(job, kQueued, "");
@@ -363,6 +378,10 @@ int Queue::release(const Target& target, bool retry) {
     }
     ++changed;
   }
+  if (const std::int64_t* sweep = std::get_if<std::int64_t>(&target)) {
+    database_.run("UPDATE sweeps SET stop_if = '', stopped = 0 WHERE id = ?1 AND stopped = 1", *sweep);
+  }
+  settle_all_waits();
   transaction.commit();
   committed();
   return changed;
@@ -383,14 +402,15 @@ int Queue::set_priority(const Target& target, int priority) {
 
 std::vector<Job> Queue::next(int limit) const {
   const std::lock_guard lock(mutex_);
-  return read_jobs(database_.query(kSelectJobs + "WHERE " + kReady + "ORDER BY priority DESC, turn, number LIMIT ?2",
-                                   utime_now(), limit));
+  return read_jobs(database_.query(
+      kSelectJobs + "WHERE " + kWaitsForTurn + "AND " + kHasPlace + "ORDER BY priority DESC, turn, number LIMIT ?2",
+      utime_now(), limit));
 }
 
 std::optional<int> Queue::begin(const std::string& id) {
   const std::lock_guard lock(mutex_);
   auto job = current(id);
-  if (!job || job->state != kQueued) return std::nullopt;
+  if (!job || job->state != kQueued || job->waits || is_full(job->sweep)) return std::nullopt;
   ++job->attempt;
   Transaction transaction(database_);
   change(*job, kRunning, "", "attempt " + std::to_string(job->attempt));
@@ -489,10 +509,10 @@ std::vector<std::string> Queue::there_is_room(std::int64_t free) {
   const std::lock_guard lock(mutex_);
   std::vector<Current> jobs;
   {
-    Query query = database_.query(
-        std::string(Current::kSelect) + "WHERE state = 'held' AND hold = ?2 AND needed_bytes <= ?3 AND " + kNotPausing,
-        utime_now(), kForRoom, free);
-    while (query.next()) jobs.push_back(Current::read(query));
+    Query query =
+        database_.query(kSelectCurrent + "WHERE state = 'held' AND hold = ?2 AND needed_bytes <= ?3 AND " + kNotPausing,
+                        utime_now(), kForRoom, free);
+    while (query.next()) jobs.push_back(read_current(query));
   }
   std::vector<std::string> released;
   if (jobs.empty()) return released;
@@ -501,6 +521,7 @@ std::vector<std::string> Queue::there_is_room(std::int64_t free) {
     change(job, kQueued, "", "there is room again");
     released.push_back(job.id);
   }
+  settle_all_waits();
   transaction.commit();
   committed();
   return released;
@@ -525,8 +546,10 @@ bool Queue::give_way(const std::string& id) {
   const auto job = current(id);
   if (!job || job->state != kRunning) return false;
   {
-    Query other = database_.query("SELECT 1 FROM jobs WHERE " + kReady + "AND priority >= ?2 LIMIT 1", utime_now(),
-                                  job->priority);
+    // Another of its own sweep would have its place.
+    Query other = database_.query("SELECT 1 FROM jobs WHERE " + kWaitsForTurn +
+                                      "AND priority >= ?2 AND (sweep = ?3 OR " + kHasPlace + ") LIMIT 1",
+                                  utime_now(), job->priority, job->sweep);
     if (!other.next()) return false;
   }
   Transaction transaction(database_);
@@ -592,21 +615,21 @@ void Queue::wait_for_change(std::int64_t sequence, std::chrono::milliseconds tim
 }
 
 std::optional<Queue::Current> Queue::current(const std::string& id) const {
-  Query query = database_.query(std::string(Current::kSelect) + "WHERE id = ?1", id);
+  Query query = database_.query(kSelectCurrent + "WHERE id = ?1", id);
   if (!query.next()) return std::nullopt;
-  return Current::read(query);
+  return read_current(query);
 }
 
 std::vector<Queue::Current> Queue::found(const Target& target, const std::string& condition) const {
   const std::int64_t* sweep = std::get_if<std::int64_t>(&target);
   const std::string select =
-      std::string(Current::kSelect) + "WHERE " + condition +
+      kSelectCurrent + "WHERE " + condition +
       (sweep != nullptr ? " AND number IN (SELECT job FROM members WHERE sweep = ?1)" : " AND id = ?1") +
       " ORDER BY number";
   Query query =
       sweep != nullptr ? database_.query(select, *sweep) : database_.query(select, std::get<std::string>(target));
   std::vector<Current> jobs;
-  while (query.next()) jobs.push_back(Current::read(query));
+  while (query.next()) jobs.push_back(read_current(query));
   return jobs;
 }
 
@@ -616,9 +639,9 @@ std::vector<Queue::Current> Queue::unfinished(const Target& target) const {
 
 std::vector<Queue::Current> Queue::active() const {
   std::vector<Current> jobs;
-  Query query = database_.query(std::string(Current::kSelect) +
-                                "WHERE state IN ('running', 'stopping') ORDER BY number");  // by the index
-  while (query.next()) jobs.push_back(Current::read(query));
+  Query query =
+      database_.query(kSelectCurrent + "WHERE state IN ('running', 'stopping') ORDER BY number");  // by the index
+  while (query.next()) jobs.push_back(read_current(query));
   return jobs;
 }
 
@@ -632,6 +655,7 @@ void Queue::change(const Current& job, JobState to, const std::string& reason, c
       "WHERE id = ?1",
       job.id, to_word(to), reason, has_ended(to) ? utime_now() : 0, to == kQueued && has_ended(job.state) ? 1 : 0);
   record(job.id, to_word(job.state), to_word(to), job.attempt, cause);
+  if (has_ended(to)) follow_end(job.id, to);
 }
 
 void Queue::record(std::string_view job, std::string_view from, std::string_view to, int attempt,

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -38,6 +39,11 @@ struct Submitted {
   JobCounts counts;      ///< of the sweep's jobs, afterwards
 };
 
+/// The jobs of a submission would wait for each other. Nothing has happened.
+struct Circular : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// A state change, from the journal.
 struct Change {
   std::int64_t sequence = 0;
@@ -63,6 +69,7 @@ class Queue {
 
   /// One sweep, in one transaction. A job that exists is not done twice; a failed, cancelled or timed out one is queued
   /// again, and one that is about to be cancelled goes on. The same jobs under the same name again give the same sweep.
+  /// Throws Circular.
   Submitted submit(const std::string& name, int priority, std::span<const NewJob> jobs, const Terms& terms = {});
 
   std::vector<Sweep> sweeps() const;  ///< oldest first
@@ -90,7 +97,8 @@ class Queue {
   /// Jobs that have not ended; the larger number goes first. Returns how many changed.
   int set_priority(const Target& target, int priority);
 
-  /// The next jobs to start: by priority, then by age; without those that wait after a crash.
+  /// The next jobs to start: by priority, then by age; without those that wait: after a crash, for
+  /// others, or because as many of their sweep run as may.
   std::vector<Job> next(int limit) const;
   /// Says why a queued job does not start; "" if nothing keeps it.
   void set_reason(const std::string& id, const std::string& reason);
@@ -135,7 +143,20 @@ class Queue {
   void wait_for_change(std::int64_t sequence, std::chrono::milliseconds timeout) const;
 
  private:
-  struct Current;
+  /// What the rules of a job's life depend on.
+  struct Current {
+    std::string id;
+    JobState state;
+    std::string after_stop;
+    int attempt;
+    std::string hold;
+    int crashes;
+    int priority;
+    std::chrono::milliseconds time_limit;
+    std::int64_t sweep;  ///< that asked for it last
+    bool waits;
+  };
+  static Current read_current(const Query& query);
   std::optional<Current> current(const std::string& id) const;
   void change(const Current& job, JobState to, const std::string& reason, const std::string& cause);
   void record(std::string_view job, std::string_view from, std::string_view to, int attempt, std::string_view cause);
@@ -148,6 +169,21 @@ class Queue {
   bool insert(const NewJob& job, int priority, std::int64_t sweep, const Terms& terms);
   bool ask_again(const NewJob& job, int priority, std::int64_t sweep, const Terms& terms);
   JobCounts sweep_counts(std::int64_t sweep) const;
+  Sweep read_sweep(const Query& query) const;
+
+  // queue_terms.cpp
+  void set_terms(std::int64_t sweep, const Terms& terms);
+  void refuse_circle(std::span<const NewJob> jobs, const Terms& terms) const;
+  std::vector<std::string> prerequisites(std::int64_t sweep) const;
+  JobCounts counts_of(const Target& target) const;
+  void settle_waits(std::int64_t sweep);
+  void settle_all_waits();
+  void judge(std::int64_t sweep);
+  void follow_end(const std::string& id, JobState state);
+  bool is_full(std::int64_t sweep) const;
+  std::string why_waiting(const Job& job) const;
+  std::vector<Job> explained(std::vector<Job> jobs) const;
+
   void committed();
 
   mutable std::mutex mutex_;

@@ -70,8 +70,23 @@ ALTER TABLE jobs ADD COLUMN wall_ms INTEGER NOT NULL DEFAULT 0;  -- of all attem
 UPDATE jobs SET wall_ms = MAX(0, (finished_utime - started_utime) / 1000) WHERE state = 'done';
 ALTER TABLE jobs ADD COLUMN turn INTEGER NOT NULL DEFAULT 0;  -- line of the journal with which it came to wait
 UPDATE jobs SET turn = number;
+ALTER TABLE jobs ADD COLUMN waits INTEGER NOT NULL DEFAULT 0;  -- 1: for the prerequisites of its sweep
+CREATE INDEX jobs_that_wait ON jobs(sweep) WHERE waits = 1;
 DROP INDEX jobs_by_turn;
-CREATE INDEX jobs_by_turn ON jobs(state, priority DESC, turn, number, not_before_utime);
+CREATE INDEX jobs_by_turn ON jobs(state, waits, priority DESC, turn, number, sweep, not_before_utime);
+
+ALTER TABLE sweeps ADD COLUMN at_most INTEGER NOT NULL DEFAULT 0;  -- jobs at once; 0: any number
+ALTER TABLE sweeps ADD COLUMN stop_if TEXT NOT NULL DEFAULT '';
+ALTER TABLE sweeps ADD COLUMN stopped INTEGER NOT NULL DEFAULT 0;  -- 1: by that rule
+CREATE INDEX sweeps_with_limit ON sweeps(id) WHERE at_most > 0;
+CREATE INDEX members_by_job ON members(job);
+
+CREATE TABLE prerequisites(                  -- what is to be done before the jobs of a sweep start
+  sweep INTEGER NOT NULL REFERENCES sweeps,
+  position INTEGER NOT NULL,
+  target TEXT NOT NULL,                      -- 's3', or the id of a job
+  PRIMARY KEY(sweep, position)) WITHOUT ROWID;
+CREATE INDEX prerequisites_by_target ON prerequisites(target);
 )sql";
 
 /// What makes each version of the one before; the first, of an empty file.

@@ -87,6 +87,10 @@ Json sweep_report(const Sweep& sweep, std::span<const Job> active, std::optional
           {"created_utime", sweep.created},
           {"n_jobs", n_jobs},
           {"counts", counts_report(sweep.counts)},
+          {"at_most", sweep.at_most > 0 ? Json(sweep.at_most) : Json(nullptr)},
+          {"after", sweep.after},
+          {"stop_if", sweep.stop_if.empty() ? Json(nullptr) : Json(sweep.stop_if)},
+          {"stopped", sweep.stopped},
           {"progress", n_jobs > 0 ? finished / static_cast<double>(n_jobs) : 1.0},
           {"eta_s", known ? std::max(longest, all / slots) : -1.0}};
 }

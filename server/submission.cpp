@@ -19,14 +19,22 @@ namespace {
 using nlohmann::json;
 
 constexpr int kMostReplicas = 10'000;
+constexpr int kMostAtOnce = 1'000'000;
 constexpr int kHighestPriority = 1'000'000;
 
-const std::vector<std::string> kKeys{"text", "file",     "settings",     "replicas",
-                                     "name", "priority", "soft_limit_s", "time_limit_s"};
+const std::vector<std::string> kKeys{"text",         "file",         "settings", "replicas", "name",   "priority",
+                                     "soft_limit_s", "time_limit_s", "at_most",  "after",    "stop_if"};
 
 std::string text_of(const json& value, const std::string& key) {
   if (!value.is_string()) throw std::invalid_argument("\"" + key + "\" must be a string");
   return value.get<std::string>();
+}
+
+std::vector<std::string> texts_of(const json& value, const std::string& key) {
+  if (!value.is_array()) throw std::invalid_argument("\"" + key + "\" must be an array");
+  std::vector<std::string> texts;
+  for (const json& text : value) texts.push_back(text_of(text, key));
+  return texts;
 }
 
 int integer_of(const json& value, const std::string& key, int least, int most) {
@@ -80,16 +88,20 @@ SubmitRequest parse_submit_request(std::string_view body) {
   SubmitRequest request;
   request.text = text_of(object["text"], "text");
   if (object.contains("file")) request.file = text_of(object["file"], "file");
-  if (object.contains("settings")) {
-    if (!object["settings"].is_array()) throw std::invalid_argument("\"settings\" must be an array");
-    for (const json& setting : object["settings"]) request.settings.push_back(text_of(setting, "settings"));
-  }
+  if (object.contains("settings")) request.settings = texts_of(object["settings"], "settings");
   if (object.contains("replicas")) request.replicas = integer_of(object["replicas"], "replicas", 1, kMostReplicas);
   if (object.contains("priority")) {
     request.priority = priority_of(object["priority"]);
   }
   if (object.contains("soft_limit_s")) request.terms.soft_limit = time_of(object["soft_limit_s"], "soft_limit_s");
   if (object.contains("time_limit_s")) request.terms.time_limit = time_of(object["time_limit_s"], "time_limit_s");
+  if (object.contains("at_most")) request.terms.at_most = integer_of(object["at_most"], "at_most", 1, kMostAtOnce);
+  if (object.contains("after")) request.after = texts_of(object["after"], "after");
+  if (object.contains("stop_if")) {
+    const auto rule = StopRule::parse(text_of(object["stop_if"], "stop_if"));
+    if (!rule) throw std::invalid_argument("\"stop_if\": " + rule.error().message);
+    request.terms.stop_if = *rule;
+  }
   if (object.contains("name")) {
     request.name = text_of(object["name"], "name");
     if (const auto problem = name_problem(request.name)) throw std::invalid_argument("\"name\": " + *problem);

@@ -254,6 +254,30 @@ TEST_F(ApiTest, TimeLimitsAreTakenAndShown) {
   EXPECT_EQ(again["state"], "queued");
 }
 
+TEST_F(ApiTest, TermsOfASweepAreTakenAndShown) {
+  const auto ids = submit_four("first");
+  const Response second = submit({{"text", "{}"},
+                                  {"name", "second"},
+                                  {"after", {"first", ids[0].substr(0, 8)}},
+                                  {"at_most", 3},
+                                  {"stop_if", "failed > 10%"}});
+  ASSERT_EQ(second.status, 201) << second.error();
+  const Json& sweep = second.json["sweep"];
+  EXPECT_EQ(sweep["at_most"], 3);
+  EXPECT_EQ(sweep["after"], Json({"s1", ids[0]}));
+  EXPECT_EQ(sweep["stop_if"], "failed>10%");
+  EXPECT_EQ(sweep["stopped"], false);
+  EXPECT_EQ(second.json["jobs"][0]["reason"], "waits for s1: 0 of 4 done, " + ids[0]);
+  EXPECT_TRUE(get("/v1/sweeps/s1").json["sweep"]["at_most"].is_null());
+  EXPECT_TRUE(get("/v1/sweeps/s1").json["sweep"]["stop_if"].is_null());
+
+  EXPECT_EQ(submit({{"text", "{}"}, {"after", {"third"}}}).status, 404);
+  const Response circle = submit({{"text", kSweep}, {"name", "circle"}, {"after", {"second"}}});
+  EXPECT_EQ(circle.status, 409);
+  EXPECT_THAT(circle.error(), HasSubstr("wait for themselves"));
+  EXPECT_EQ(get("/v1/sweeps").json["sweeps"].size(), 2U);
+}
+
 TEST_F(ApiTest, SettingsAndReplicasAreApplied) {
   const Response response =
       submit({{"text", "{}"}, {"settings", {"rods.length=2.5,4.5", "box.gap=1.3"}}, {"replicas", 2}});
