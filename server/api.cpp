@@ -173,6 +173,7 @@ Api::Answer Api::submit(const Call& call) const {
   } catch (const std::invalid_argument& problem) {
     throw Refusal(400, problem.what());
   }
+  for (const std::string& word : request.after) request.terms.after.push_back(find_target(word));
   const auto submission = expand(request, info_.runs());
   if (!submission) {
     Json problems = Json::array();
@@ -187,8 +188,14 @@ Api::Answer Api::submit(const Call& call) const {
     if (problems.size() > 1) sentence = std::to_string(problems.size()) + " problems; the first: " + sentence;
     return {422, {{"error", sentence}, {"problems", problems}}, ""};
   }
-  const auto& [name, priority, jobs] = *submission;
-  const Submitted submitted = queue_.submit(name, priority, jobs);
+  const auto& [name, priority, terms, jobs] = *submission;
+  const Submitted submitted = [&] {
+    try {
+      return queue_.submit(name, priority, jobs, terms);
+    } catch (const Circular& problem) {
+      throw Refusal(409, problem.what());
+    }
+  }();
   spdlog::info("sweep {} '{}': {} jobs, {} new, {} queued again", sweep_word(submitted.sweep), name,
                submitted.counts.total(), submitted.n_new, submitted.n_requeued);
   Json counts = counts_report(submitted.counts);
@@ -246,12 +253,10 @@ Api::Answer Api::show_history(const Call& call) const {
 Api::Answer Api::control(const Call& call) const {
   const auto parts = split(call.request.path, '/');
   const std::string& action = parts.back();
-  const bool is_sweep = parts[1] == "sweeps";
-  const std::int64_t sweep = is_sweep ? find_sweep(call.id).id : 0;
-  const std::string job = is_sweep ? "" : find_job(call.id).id;
+  const Target target = parts[1] == "sweeps" ? Target(find_sweep(call.id).id) : Target(find_job(call.id).id);
   const auto answer = [](const char* changed, int n) { return Answer{200, {{changed, n}}, ""}; };
-  if (action == "cancel") return answer("cancelled", is_sweep ? queue_.cancel_sweep(sweep) : queue_.cancel_job(job));
-  if (action == "hold") return answer("held", is_sweep ? queue_.hold_sweep(sweep) : queue_.hold_job(job));
+  if (action == "cancel") return answer("cancelled", queue_.cancel(target));
+  if (action == "hold") return answer("held", queue_.hold(target));
   if (action == "priority") {
     int priority = 0;
     try {
@@ -259,12 +264,10 @@ Api::Answer Api::control(const Call& call) const {
     } catch (const std::invalid_argument& problem) {
       throw Refusal(400, problem.what());
     }
-    return answer("changed",
-                  is_sweep ? queue_.set_priority_of_sweep(sweep, priority) : queue_.set_priority_of_job(job, priority));
+    return answer("changed", queue_.set_priority(target, priority));
   }
   const bool retry = action == "retry";
-  return answer(retry ? "retried" : "resumed",
-                is_sweep ? queue_.release_sweep(sweep, retry) : queue_.release_job(job, retry));
+  return answer(retry ? "retried" : "resumed", queue_.release(target, retry));
 }
 
 Api::Answer Api::results(const Call& call) const {
@@ -304,6 +307,15 @@ Job Api::find_job(const std::string& prefix) const {
   const std::string hint = near == shortened.end() ? "" : all[static_cast<std::size_t>(near - shortened.begin())];
   throw Refusal(404, all.empty() ? "no job '" + prefix + "': none has been submitted yet"
                                  : "no job '" + prefix + "'" + scene::did_you_mean(hint));
+}
+
+Target Api::find_target(const std::string& word) const {
+  try {
+    return find_sweep(word).id;
+  } catch (const Refusal& no_sweep) {
+    if (!queue_.ids_beginning_with(word, 1).empty()) return find_job(word).id;
+    throw Refusal(404, "no sweep or job is called '" + word + "'");
+  }
 }
 
 std::vector<Job> Api::find_jobs(const Call& call) const {

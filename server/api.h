@@ -43,6 +43,8 @@ class Api {
 
   Sweep find_sweep(const std::string& word) const;
   Job find_job(const std::string& prefix) const;
+  /// A sweep by its id or name, or else a job.
+  Target find_target(const std::string& word) const;
   std::vector<Job> find_jobs(const Call& call) const;
   Json report(const Sweep& sweep) const;
   Json report(std::span<const Job> jobs) const;

@@ -7,8 +7,8 @@
 namespace shaken::server {
 namespace {
 
-constexpr std::array<std::string_view, kJobStates.size()> kWords{"queued", "held",   "running",  "stopping",
-                                                                 "done",   "failed", "cancelled"};
+constexpr std::array<std::string_view, kJobStates.size()> kWords{"queued", "held",   "running",   "stopping",
+                                                                 "done",   "failed", "timed out", "cancelled"};
 
 }  // namespace
 
@@ -21,19 +21,25 @@ std::optional<JobState> job_state(std::string_view word) {
   return std::nullopt;
 }
 
+bool has_ended(JobState state) {
+  using enum JobState;
+  return state == kDone || state == kFailed || state == kTimedOut || state == kCancelled;
+}
+
 bool may_become(JobState from, JobState to) {
   using enum JobState;
   switch (from) {
     case kQueued:
-      return to == kRunning || to == kHeld || to == kCancelled || to == kFailed;
+      return to == kRunning || to == kHeld || to == kCancelled || to == kFailed || to == kTimedOut;
     case kHeld:
       return to == kQueued || to == kCancelled;
     case kRunning:
       return to == kStopping || to == kDone || to == kFailed || to == kQueued || to == kHeld;
     case kStopping:
-      return to == kCancelled || to == kQueued || to == kDone || to == kFailed || to == kHeld;
+      return to == kCancelled || to == kQueued || to == kDone || to == kFailed || to == kHeld || to == kTimedOut;
     case kDone:  // again only if somebody has deleted its results
     case kFailed:
+    case kTimedOut:
     case kCancelled:
       return to == kQueued;
   }
@@ -50,6 +56,16 @@ std::optional<std::int64_t> sweep_number(std::string_view word) {
   const auto [end, error] = std::from_chars(word.data() + 1, word.data() + word.size(), id);
   if (error != std::errc() || end != word.data() + word.size() || id < 1) return std::nullopt;
   return id;
+}
+
+std::string to_word(const Target& target) {
+  const std::int64_t* sweep = std::get_if<std::int64_t>(&target);
+  return sweep != nullptr ? sweep_word(*sweep) : std::get<std::string>(target);
+}
+
+Target target_named(const std::string& word) {
+  const auto sweep = sweep_number(word);
+  return sweep ? Target(*sweep) : Target(word);
 }
 
 }  // namespace shaken::server

@@ -2,28 +2,36 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
+#include <vector>
 
 namespace shaken::server {
 
 /// Where a job is in its life:
-///   queued -> running -> done | failed;  running -> stopping -> cancelled, held, or back to queued when the daemon
-///   stops;  queued <-> held.
-/// A worker that crashes puts its job back into the queue, for a while; one that finds no room holds it. A failed or
-/// cancelled job that is submitted once more, or retried, is queued again.
-enum class JobState { kQueued, kHeld, kRunning, kStopping, kDone, kFailed, kCancelled };
+///   queued -> running -> done | failed;  running -> stopping -> cancelled, held, timed out, or back to queued when the
+///   daemon stops or others are to have their turn;  queued <-> held.
+/// A worker that crashes puts its job back into the queue, for a while; one that finds no room holds it. A failed,
+/// cancelled or timed out job that is submitted once more, or retried, is queued again.
+enum class JobState { kQueued, kHeld, kRunning, kStopping, kDone, kFailed, kTimedOut, kCancelled };
 
 inline constexpr std::array kJobStates{JobState::kQueued, JobState::kHeld,   JobState::kRunning,  JobState::kStopping,
-                                       JobState::kDone,   JobState::kFailed, JobState::kCancelled};
+                                       JobState::kDone,   JobState::kFailed, JobState::kTimedOut, JobState::kCancelled};
+
+/// Whether nothing more happens to a job in this state by itself.
+bool has_ended(JobState state);
 
 /// What a held job waits for.
 enum class Hold {
   kNone,
   kRequest,  ///< to be released
   kRoom,     ///< room on the disk
+  kOthers,   ///< to be released: what it was to come after was not done
+  kRule,     ///< to be released: the stop rule of its sweep is broken
 };
 
 /// The word for a state in the queue, in the API and on the bus; and back.
@@ -58,7 +66,13 @@ struct Job {
   std::int64_t finished = 0;
   std::int64_t not_before = 0;  ///< a queued job that has crashed waits until then
   Hold hold = Hold::kNone;
-  std::int64_t needed_bytes = 0;  ///< of room on the disk, where it waits for that
+  std::int64_t needed_bytes = 0;            ///< of room on the disk, where it waits for that
+  std::int64_t asked_by = 0;                ///< the sweep that asked for it last, whose terms it obeys
+  bool waits = false;                       ///< until what that sweep comes after is done
+  std::chrono::milliseconds soft_limit{0};  ///< see Terms
+  std::chrono::milliseconds time_limit{0};
+  /// Wall time of its attempts since it was submitted or retried last; of the present one, all but the last seconds.
+  std::chrono::milliseconds wall{0};
 };
 
 /// An ordered list of jobs asked for together.
@@ -67,10 +81,21 @@ struct Sweep {
   std::string name;
   std::int64_t created = 0;  ///< microseconds since 1970-01-01 UTC
   JobCounts counts;
+  int at_most = 0;                   ///< see Terms
+  std::vector<std::string> after{};  ///< "s3", or the id of a job
+  std::string stop_if{};             ///< as StopRule::text(); empty: none
+  bool stopped = false;              ///< by that rule
 };
+
+/// What a request concerns: one job, by its id, or all jobs of a sweep, by its number.
+using Target = std::variant<std::string, std::int64_t>;
 
 /// "s12" for sweep 12; and back.
 std::string sweep_word(std::int64_t id);
 std::optional<std::int64_t> sweep_number(std::string_view word);
+
+/// "s12", or the id of a job; and back.
+std::string to_word(const Target& target);
+Target target_named(const std::string& word);
 
 }  // namespace shaken::server

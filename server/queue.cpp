@@ -8,24 +8,43 @@
 #include "base/clock.h"
 #include "base/text.h"
 #include "server/queue_schema.h"
+#include "server/queue_words.h"
 #include "sim/core/check.h"
 
 namespace shaken::server {
 namespace {
 
 using enum JobState;
+using std::chrono::milliseconds;
 
-const std::string kSelectJobs =
-    "SELECT id, sweep, state, reason, label, parameters, replica, attempt, pid, created_utime, started_utime, "
-    "finished_utime, priority, hold, needed_bytes, not_before_utime FROM jobs ";
-const std::string kSelectMembers =
-    "SELECT j.id, m.sweep, j.state, j.reason, m.label, m.parameters, m.replica, j.attempt, j.pid, j.created_utime, "
-    "j.started_utime, j.finished_utime, j.priority, j.hold, j.needed_bytes, j.not_before_utime FROM members m JOIN "
-    "jobs j ON j.number = m.job WHERE m.sweep = ?1 ";
+/// Whose pause is over at ?1. One that would last longer than any was begun before the clock was set back.
+const std::string kNotPausing = "NOT (not_before_utime > ?1 AND not_before_utime < ?1 + " +
+                                std::to_string(std::chrono::microseconds(std::chrono::hours(1)).count()) + ") ";
+/// What waits at ?1 for its turn only.
+const std::string kWaitsForTurn = "state = 'queued' AND waits = 0 AND " + kNotPausing;
+/// Not of a sweep of which as many jobs run as may.
+const std::string kHasPlace =
+    "sweep NOT IN (SELECT s.id FROM sweeps s WHERE s.at_most > 0 AND s.at_most <= "
+    "(SELECT COUNT(*) FROM jobs r WHERE r.state IN ('running', 'stopping') AND r.sweep = s.id)) ";
 
-/// What a held job waits for, as the table has it.
-constexpr std::string_view kOnRequest = "request";
-constexpr std::string_view kForRoom = "room";
+/// What a job is by itself; read_job has it after its place in a sweep.
+const std::string kColumns =
+    ", j.id, j.state, j.reason, j.attempt, j.pid, j.created_utime, j.started_utime, j.finished_utime, j.priority, "
+    "j.hold, j.needed_bytes, j.not_before_utime, j.soft_limit_ms, j.time_limit_ms, j.wall_ms, "
+    "j.sweep, j.waits ";
+const std::string kSelectJobs = "SELECT j.sweep, j.label, j.parameters, j.replica" + kColumns + "FROM jobs j ";
+const std::string kSelectMembers = "SELECT m.sweep, m.label, m.parameters, m.replica" + kColumns +
+                                   "FROM members m JOIN jobs j ON j.number = m.job WHERE m.sweep = ?1 ";
+
+/// What becomes of a stopping job that is queued behind all of its priority; the others become a state.
+constexpr std::string_view kLast = "last";
+
+Hold stored_hold(const std::string& word) {
+  if (word == kForRoom) return Hold::kRoom;
+  if (word == kForOthers) return Hold::kOthers;
+  if (word == kByRule) return Hold::kRule;
+  return word == kOnRequest ? Hold::kRequest : Hold::kNone;
+}
 
 JobState stored_state(const std::string& word) {
   const auto state = job_state(word);
@@ -35,22 +54,27 @@ JobState stored_state(const std::string& word) {
 
 Job read_job(const Query& query) {
   Job job;
-  job.id = query.text(0);
-  job.sweep = query.integer(1);
-  job.state = stored_state(query.text(2));
-  job.reason = query.text(3);
-  job.label = query.text(4);
-  job.parameters = query.text(5);
-  job.replica = static_cast<int>(query.integer(6));
+  job.sweep = query.integer(0);
+  job.label = query.text(1);
+  job.parameters = query.text(2);
+  job.replica = static_cast<int>(query.integer(3));
+  job.id = query.text(4);
+  job.state = stored_state(query.text(5));
+  job.reason = query.text(6);
   job.attempt = static_cast<int>(query.integer(7));
   job.pid = static_cast<int>(query.integer(8));
   job.created = query.integer(9);
   job.started = query.integer(10);
   job.finished = query.integer(11);
   job.priority = static_cast<int>(query.integer(12));
-  job.hold = query.text(13) == kForRoom ? Hold::kRoom : query.text(13) == kOnRequest ? Hold::kRequest : Hold::kNone;
+  job.hold = stored_hold(query.text(13));
   job.needed_bytes = query.integer(14);
   job.not_before = query.integer(15);
+  job.soft_limit = milliseconds(query.integer(16));
+  job.time_limit = milliseconds(query.integer(17));
+  job.wall = milliseconds(query.integer(18));
+  job.asked_by = query.integer(19);
+  job.waits = query.integer(20) != 0;
   return job;
 }
 
@@ -77,34 +101,27 @@ JobCounts read_counts(Query query) {
   return counts;
 }
 
+const std::string kSelectCurrent =
+    "SELECT id, state, after_stop, attempt, hold, crashes, priority, time_limit_ms, sweep, waits FROM jobs ";
+const std::string kSelectSweeps = "SELECT id, name, created_utime, at_most, stop_if, stopped FROM sweeps ";
+
 const std::string kAsked = "cancelled on request";
 const std::string kHeldOnRequest = "held on request";
 
-bool has_ended(JobState state) { return state == kDone || state == kFailed || state == kCancelled; }
-
 }  // namespace
 
-/// What the rules of a job's life depend on.
-struct Queue::Current {
-  std::string id;
-  JobState state;
-  std::string after_stop;
-  int attempt;
-  std::string hold;
-  int crashes;
-  int priority;
-
-  static constexpr const char* kSelect = "SELECT id, state, after_stop, attempt, hold, crashes, priority FROM jobs ";
-  static Current read(const Query& query) {
-    return {query.text(0),
-            stored_state(query.text(1)),
-            query.text(2),
-            static_cast<int>(query.integer(3)),
-            query.text(4),
-            static_cast<int>(query.integer(5)),
-            static_cast<int>(query.integer(6))};
-  }
-};
+Queue::Current Queue::read_current(const Query& query) {
+  return {query.text(0),
+          stored_state(query.text(1)),
+          query.text(2),
+          static_cast<int>(query.integer(3)),
+          query.text(4),
+          static_cast<int>(query.integer(5)),
+          static_cast<int>(query.integer(6)),
+          milliseconds(query.integer(7)),
+          query.integer(8),
+          query.integer(9) != 0};
+}
 
 Queue::Queue(const std::filesystem::path& file) : database_(file) {
   prepare_schema(database_);
@@ -117,8 +134,7 @@ std::vector<std::string> Queue::recover() {
   const std::lock_guard lock(mutex_);
   Transaction transaction(database_);
   std::vector<std::string> recovered;
-  for (const Current& job : unfinished(std::nullopt)) {
-    if (job.state != kRunning && job.state != kStopping) continue;
+  for (const Current& job : active()) {
     end_stopping(job, "the daemon ended without warning");
     recovered.push_back(job.id);
   }
@@ -127,7 +143,7 @@ std::vector<std::string> Queue::recover() {
   return recovered;
 }
 
-Submitted Queue::submit(const std::string& name, int priority, std::span<const NewJob> jobs) {
+Submitted Queue::submit(const std::string& name, int priority, std::span<const NewJob> jobs, const Terms& terms) {
   const std::lock_guard lock(mutex_);
   Transaction transaction(database_);
   Submitted result;
@@ -138,11 +154,12 @@ Submitted Queue::submit(const std::string& name, int priority, std::span<const N
     result.sweep = database_.last_row_id();
     result.created = true;
   }
+  refuse_circle(jobs, terms);
   for (std::size_t position = 0; position < jobs.size(); ++position) {
     const NewJob& job = jobs[position];
-    if (insert(job, priority, result.sweep)) {
+    if (insert(job, priority, result.sweep, terms)) {
       ++result.n_new;
-    } else if (ask_again(job, priority, result.sweep)) {
+    } else if (ask_again(job, priority, result.sweep, terms)) {
       ++result.n_requeued;
     }
     if (result.created) {
@@ -152,6 +169,7 @@ Submitted Queue::submit(const std::string& name, int priority, std::span<const N
           result.sweep, static_cast<std::int64_t>(position), job.id, job.label, job.parameters, job.replica);
     }
   }
+  set_terms(result.sweep, terms);
   result.counts = sweep_counts(result.sweep);
   transaction.commit();
   committed();
@@ -171,26 +189,31 @@ std::optional<std::int64_t> Queue::same_sweep(const std::string& name, std::span
   return id;
 }
 
-bool Queue::insert(const NewJob& job, int priority, std::int64_t sweep) {
+bool Queue::insert(const NewJob& job, int priority, std::int64_t sweep, const Terms& terms) {
   const int inserted = database_.run(
-      "INSERT INTO jobs(id, state, priority, created_utime, sweep, label, parameters, replica) "
-      "VALUES(?1, 'queued', ?2, ?3, ?4, ?5, ?6, ?7) ON CONFLICT(id) DO NOTHING",
-      job.id, priority, utime_now(), sweep, job.label, job.parameters, job.replica);
+      "INSERT INTO jobs(id, state, priority, created_utime, sweep, label, parameters, replica, soft_limit_ms, "
+      "time_limit_ms, turn) VALUES(?1, 'queued', ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, "
+      "(SELECT COALESCE(MAX(sequence), 0) + 1 FROM journal)) ON CONFLICT(id) DO NOTHING",
+      job.id, priority, utime_now(), sweep, job.label, job.parameters, job.replica, terms.soft_limit.count(),
+      terms.time_limit.count());
   if (inserted == 0) return false;
   database_.run("INSERT INTO scenes(job, scene) VALUES(?1, ?2)", database_.last_row_id(), job.scene);
   record(job.id, "", to_word(kQueued), 0, "submitted in " + sweep_word(sweep));
   return true;
 }
 
-bool Queue::ask_again(const NewJob& job, int priority, std::int64_t sweep) {
+bool Queue::ask_again(const NewJob& job, int priority, std::int64_t sweep, const Terms& terms) {
   database_.run(
-      "UPDATE jobs SET priority = MAX(priority, ?2), sweep = ?3, label = ?4, parameters = ?5, replica = ?6 "
-      "WHERE id = ?1",
-      job.id, priority, sweep, job.label, job.parameters, job.replica);
+      "UPDATE jobs SET priority = MAX(priority, ?2), sweep = ?3, label = ?4, parameters = ?5, replica = ?6, "
+      "soft_limit_ms = ?7, time_limit_ms = ?8 WHERE id = ?1",
+      job.id, priority, sweep, job.label, job.parameters, job.replica, terms.soft_limit.count(),
+      terms.time_limit.count());
   const Current known = *current(job.id);
   if (known.state == kStopping) {
-    database_.run("UPDATE jobs SET after_stop = 'queued' WHERE id = ?1", job.id);
-    return known.after_stop != to_word(kQueued);
+    if (known.after_stop == to_word(kQueued) || known.after_stop == kLast) return false;
+    if (known.after_stop == to_word(kTimedOut)) database_.run("UPDATE jobs SET wall_ms = 0 WHERE id = ?1", job.id);
+    stop_for(known, kQueued, "");
+    return true;
   }
   const bool waits_for_room = known.state == kHeld && known.hold == kForRoom;
   if (known.state == kQueued || known.state == kRunning || waits_for_room) return false;
@@ -202,8 +225,8 @@ bool Queue::ask_again(const NewJob& job, int priority, std::int64_t sweep) {
 std::vector<Sweep> Queue::sweeps() const {
   const std::lock_guard lock(mutex_);
   std::vector<Sweep> sweeps;
-  Query query = database_.query("SELECT id, name, created_utime FROM sweeps ORDER BY id");
-  while (query.next()) sweeps.push_back({query.integer(0), query.text(1), query.integer(2), {}});
+  Query query = database_.query(kSelectSweeps + "ORDER BY id");
+  while (query.next()) sweeps.push_back(read_sweep(query));
 
   Query count = database_.query(
       "SELECT m.sweep, j.state, COUNT(*) FROM members m JOIN jobs j ON j.number = m.job GROUP BY m.sweep, j.state");
@@ -217,18 +240,32 @@ std::vector<Sweep> Queue::sweeps() const {
 
 std::optional<Sweep> Queue::sweep(std::int64_t id) const {
   const std::lock_guard lock(mutex_);
-  Query query = database_.query("SELECT id, name, created_utime FROM sweeps WHERE id = ?1", id);
+  Query query = database_.query(kSelectSweeps + "WHERE id = ?1", id);
   if (!query.next()) return std::nullopt;
-  return Sweep{query.integer(0), query.text(1), query.integer(2), sweep_counts(id)};
+  Sweep sweep = read_sweep(query);
+  sweep.counts = sweep_counts(sweep.id);
+  return sweep;
 }
 
 std::optional<Sweep> Queue::sweep_named(const std::string& name) const {
   const std::lock_guard lock(mutex_);
-  Query query =
-      database_.query("SELECT id, name, created_utime FROM sweeps WHERE name = ?1 ORDER BY id DESC LIMIT 1", name);
+  Query query = database_.query(kSelectSweeps + "WHERE name = ?1 ORDER BY id DESC LIMIT 1", name);
   if (!query.next()) return std::nullopt;
+  Sweep sweep = read_sweep(query);
+  sweep.counts = sweep_counts(sweep.id);
+  return sweep;
+}
+
+Sweep Queue::read_sweep(const Query& query) const {
   const std::int64_t id = query.integer(0);
-  return Sweep{id, query.text(1), query.integer(2), sweep_counts(id)};
+  return {.id = id,
+          .name = query.text(1),
+          .created = query.integer(2),
+          .counts = {},
+          .at_most = static_cast<int>(query.integer(3)),
+          .after = prerequisites(id),
+          .stop_if = query.text(4),
+          .stopped = query.integer(5) != 0};
 }
 
 JobCounts Queue::sweep_counts(std::int64_t sweep) const {
@@ -241,18 +278,18 @@ std::vector<Job> Queue::jobs(std::optional<std::int64_t> sweep, std::optional<Jo
   const std::lock_guard lock(mutex_);
   const std::string_view word = state ? to_word(*state) : std::string_view();
   if (sweep && state) {
-    return read_jobs(database_.query(kSelectMembers + "AND j.state = ?2 ORDER BY m.position", *sweep, word));
+    return explained(read_jobs(database_.query(kSelectMembers + "AND j.state = ?2 ORDER BY m.position", *sweep, word)));
   }
-  if (sweep) return read_jobs(database_.query(kSelectMembers + "ORDER BY m.position", *sweep));
-  if (state) return read_jobs(database_.query(kSelectJobs + "WHERE state = ?1 ORDER BY number", word));
-  return read_jobs(database_.query(kSelectJobs + "ORDER BY number"));
+  if (sweep) return explained(read_jobs(database_.query(kSelectMembers + "ORDER BY m.position", *sweep)));
+  if (state) return explained(read_jobs(database_.query(kSelectJobs + "WHERE state = ?1 ORDER BY number", word)));
+  return explained(read_jobs(database_.query(kSelectJobs + "ORDER BY number")));
 }
 
 std::optional<Job> Queue::job(const std::string& id) const {
   const std::lock_guard lock(mutex_);
-  Query query = database_.query(kSelectJobs + "WHERE id = ?1", id);
-  if (!query.next()) return std::nullopt;
-  return read_job(query);
+  const std::vector<Job> found = explained(read_jobs(database_.query(kSelectJobs + "WHERE id = ?1", id)));
+  if (found.empty()) return std::nullopt;
+  return found.front();
 }
 
 std::vector<std::string> Queue::ids_beginning_with(const std::string& prefix, int limit) const {
@@ -277,31 +314,17 @@ JobCounts Queue::counts() const {
   return read_counts(database_.query("SELECT state, COUNT(*) FROM jobs GROUP BY state"));
 }
 
-std::vector<Queue::Current> Queue::one(const std::string& id) const {
-  const auto job = current(id);
-  return job ? std::vector{*job} : std::vector<Current>();
-}
-
-int Queue::cancel_job(const std::string& id) {
-  const std::lock_guard lock(mutex_);
-  return cancel_all(one(id));
-}
-
-int Queue::cancel_sweep(std::int64_t sweep) {
-  const std::lock_guard lock(mutex_);
-  return cancel_all(unfinished(sweep));
-}
-
 void Queue::stop_for(const Current& job, JobState after_stop, const std::string& cause) {
   if (job.state == kRunning) change(job, kStopping, "", cause);
   database_.run("UPDATE jobs SET after_stop = ?2 WHERE id = ?1", job.id, to_word(after_stop));
 }
 
-int Queue::cancel_all(std::span<const Current> jobs) {
+int Queue::cancel(const Target& target) {
+  const std::lock_guard lock(mutex_);
   Transaction transaction(database_);
   int changed = 0;
-  for (const Current& job : jobs) {
-    if (has_ended(job.state) || job.after_stop == to_word(kCancelled)) continue;
+  for (const Current& job : unfinished(target)) {
+    if (job.after_stop == to_word(kCancelled)) continue;
     if (job.state == kQueued || job.state == kHeld) {
       change(job, kCancelled, kAsked, kAsked);
     } else {
@@ -314,22 +337,14 @@ int Queue::cancel_all(std::span<const Current> jobs) {
   return changed;
 }
 
-int Queue::hold_job(const std::string& id) {
+int Queue::hold(const Target& target) {
   const std::lock_guard lock(mutex_);
-  return hold_all(one(id));
-}
-
-int Queue::hold_sweep(std::int64_t sweep) {
-  const std::lock_guard lock(mutex_);
-  return hold_all(unfinished(sweep));
-}
-
-int Queue::hold_all(std::span<const Current> jobs) {
   Transaction transaction(database_);
   int changed = 0;
-  for (const Current& job : jobs) {
-    if (has_ended(job.state) || job.hold == kOnRequest || job.after_stop == to_word(kHeld)) continue;
-    if (job.after_stop == to_word(kCancelled)) continue;  // that was asked for first
+  for (const Current& job : unfinished(target)) {
+    if (job.hold == kOnRequest || job.after_stop == to_word(kHeld)) continue;
+    // What was asked for first.
+    if (job.after_stop == to_word(kCancelled) || job.after_stop == to_word(kTimedOut)) continue;
     if (job.state == kQueued) {
       change(job, kHeld, kHeldOnRequest, kHeldOnRequest);
     } else if (job.state == kRunning || job.state == kStopping) {
@@ -345,21 +360,14 @@ int Queue::hold_all(std::span<const Current> jobs) {
   return changed;
 }
 
-int Queue::release_job(const std::string& id, bool retry) {
+int Queue::release(const Target& target, bool retry) {
   const std::lock_guard lock(mutex_);
-  return release_all(one(id), retry);
-}
-
-int Queue::release_sweep(std::int64_t sweep, bool retry) {
-  const std::lock_guard lock(mutex_);
-  return release_all(all(sweep), retry);
-}
-
-int Queue::release_all(std::span<const Current> jobs, bool retry) {
   Transaction transaction(database_);
   int changed = 0;
-  for (const Current& job : jobs) {
-    if (job.state == kHeld || (retry && (job.state == kFailed || job.state == kCancelled))) {
+  for (const Current& job : found(target)) {
+    const bool is_retried = retry && has_ended(job.state) && job.state != kDone;
+    if (job.state == kHeld || is_retried) {
+      if (job.hold == kForOthers) database_.run("UPDATE jobs SET waits = 0 WHERE id = ?1", job.id);
       change(job, kQueued, "", job.state == kHeld ? "released on request" : "retried on request");
     } else if (job.state == kStopping && job.after_stop == to_word(kHeld)) {
       stop_for(job, kQueued, "");
@@ -370,26 +378,21 @@ int Queue::release_all(std::span<const Current> jobs, bool retry) {
     }
     ++changed;
   }
+  if (const std::int64_t* sweep = std::get_if<std::int64_t>(&target)) {
+    database_.run("UPDATE sweeps SET stop_if = '', stopped = 0 WHERE id = ?1 AND stopped = 1", *sweep);
+  }
+  settle_all_waits();
   transaction.commit();
   committed();
   return changed;
 }
 
-int Queue::set_priority_of_job(const std::string& id, int priority) {
+int Queue::set_priority(const Target& target, int priority) {
   const std::lock_guard lock(mutex_);
-  return set_priority(one(id), priority);
-}
-
-int Queue::set_priority_of_sweep(std::int64_t sweep, int priority) {
-  const std::lock_guard lock(mutex_);
-  return set_priority(unfinished(sweep), priority);
-}
-
-int Queue::set_priority(std::span<const Current> jobs, int priority) {
   Transaction transaction(database_);
   int changed = 0;
-  for (const Current& job : jobs) {
-    if (has_ended(job.state) || job.priority == priority) continue;
+  for (const Current& job : unfinished(target)) {
+    if (job.priority == priority) continue;
     database_.run("UPDATE jobs SET priority = ?2 WHERE id = ?1", job.id, priority);
     ++changed;
   }
@@ -400,14 +403,14 @@ int Queue::set_priority(std::span<const Current> jobs, int priority) {
 std::vector<Job> Queue::next(int limit) const {
   const std::lock_guard lock(mutex_);
   return read_jobs(database_.query(
-      kSelectJobs + "WHERE state = 'queued' AND not_before_utime <= ?2 ORDER BY priority DESC, number LIMIT ?1", limit,
-      utime_now()));
+      kSelectJobs + "WHERE " + kWaitsForTurn + "AND " + kHasPlace + "ORDER BY priority DESC, turn, number LIMIT ?2",
+      utime_now(), limit));
 }
 
 std::optional<int> Queue::begin(const std::string& id) {
   const std::lock_guard lock(mutex_);
   auto job = current(id);
-  if (!job || job->state != kQueued) return std::nullopt;
+  if (!job || job->state != kQueued || job->waits || is_full(job->sweep)) return std::nullopt;
   ++job->attempt;
   Transaction transaction(database_);
   change(*job, kRunning, "", "attempt " + std::to_string(job->attempt));
@@ -423,7 +426,7 @@ void Queue::set_pid(const std::string& id, int pid) {
 }
 
 void Queue::finish(const std::string& id, JobState state, const std::string& reason) {
-  SHAKEN_CHECK(state == kDone || state == kFailed, "a worker ends done or failed");
+  SHAKEN_CHECK(state == kDone || state == kFailed || state == kTimedOut, "a job ends done, failed or timed out");
   const std::lock_guard lock(mutex_);
   const auto job = current(id);
   SHAKEN_CHECK(job.has_value(), "no job " + id);
@@ -439,8 +442,14 @@ void Queue::end_stopping(const Current& job, const std::string& cause) {
   } else if (job.state == kStopping && job.after_stop == to_word(kHeld)) {
     change(job, kHeld, kHeldOnRequest, cause);
     database_.run("UPDATE jobs SET hold = ?2 WHERE id = ?1", job.id, kOnRequest);
+  } else if (job.state == kStopping && job.after_stop == to_word(kTimedOut)) {
+    change(job, kTimedOut, time_limit_over(job.time_limit), cause);
   } else {
+    const bool behind_others = job.state == kStopping && job.after_stop == kLast;
     change(job, kQueued, "", cause);
+    if (behind_others) {
+      database_.run("UPDATE jobs SET turn = (SELECT MAX(sequence) FROM journal) WHERE id = ?1", job.id);
+    }
   }
 }
 
@@ -501,10 +510,9 @@ std::vector<std::string> Queue::there_is_room(std::int64_t free) {
   std::vector<Current> jobs;
   {
     Query query =
-        database_.query(std::string(Current::kSelect) +
-                            "WHERE state = 'held' AND hold = ?1 AND needed_bytes <= ?2 AND not_before_utime <= ?3",
-                        kForRoom, free, utime_now());
-    while (query.next()) jobs.push_back(Current::read(query));
+        database_.query(kSelectCurrent + "WHERE state = 'held' AND hold = ?2 AND needed_bytes <= ?3 AND " + kNotPausing,
+                        utime_now(), kForRoom, free);
+    while (query.next()) jobs.push_back(read_current(query));
   }
   std::vector<std::string> released;
   if (jobs.empty()) return released;
@@ -513,6 +521,7 @@ std::vector<std::string> Queue::there_is_room(std::int64_t free) {
     change(job, kQueued, "", "there is room again");
     released.push_back(job.id);
   }
+  settle_all_waits();
   transaction.commit();
   committed();
   return released;
@@ -523,10 +532,48 @@ void Queue::set_reason(const std::string& id, const std::string& reason) {
   database_.run("UPDATE jobs SET reason = ?2 WHERE id = ?1 AND state = 'queued' AND reason <> ?2", id, reason);
 }
 
+void Queue::add_wall(std::span<const std::pair<std::string, milliseconds>> times) {
+  const std::lock_guard lock(mutex_);
+  Transaction transaction(database_);
+  for (const auto& [id, time] : times) {
+    database_.run("UPDATE jobs SET wall_ms = wall_ms + ?2 WHERE id = ?1", id, time.count());
+  }
+  transaction.commit();
+}
+
+bool Queue::give_way(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  const auto job = current(id);
+  if (!job || job->state != kRunning) return false;
+  {
+    // Another of its own sweep would have its place.
+    Query other = database_.query("SELECT 1 FROM jobs WHERE " + kWaitsForTurn +
+                                      "AND priority >= ?2 AND (sweep = ?3 OR " + kHasPlace + ") LIMIT 1",
+                                  utime_now(), job->priority, job->sweep);
+    if (!other.next()) return false;
+  }
+  Transaction transaction(database_);
+  change(*job, kStopping, "", "its soft limit is over: it gives way to others");
+  database_.run("UPDATE jobs SET after_stop = ?2 WHERE id = ?1", id, kLast);
+  transaction.commit();
+  committed();
+  return true;
+}
+
+void Queue::time_out(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  const auto job = current(id);
+  if (!job || job->state != kRunning) return;
+  Transaction transaction(database_);
+  stop_for(*job, kTimedOut, "its time limit is over");
+  transaction.commit();
+  committed();
+}
+
 void Queue::stop_all() {
   const std::lock_guard lock(mutex_);
   Transaction transaction(database_);
-  for (const Current& job : unfinished(std::nullopt)) {
+  for (const Current& job : active()) {
     if (job.state != kRunning) continue;
     change(job, kStopping, "", "the daemon stops");
     database_.run("UPDATE jobs SET after_stop = 'queued' WHERE id = ?1", job.id);
@@ -543,12 +590,12 @@ std::vector<Change> Queue::history(const std::string& id) const {
 std::optional<double> Queue::mean_duration(std::int64_t sweep) const {
   const std::lock_guard lock(mutex_);
   Query query = database_.query(
-      "SELECT COUNT(*), TOTAL(j.finished_utime - j.started_utime) FROM members m JOIN jobs j ON j.number = m.job "
-      "WHERE m.sweep = ?1 AND j.state = 'done'",
+      "SELECT COUNT(*), SUM(j.wall_ms) FROM members m JOIN jobs j ON j.number = m.job "
+      "WHERE m.sweep = ?1 AND j.state = 'done' AND j.attempt > 0",
       sweep);
   query.next();
   if (query.integer(0) == 0) return std::nullopt;
-  return 1e-6 * static_cast<double>(query.integer(1)) / static_cast<double>(query.integer(0));
+  return 1e-3 * static_cast<double>(query.integer(1)) / static_cast<double>(query.integer(0));
 }
 
 std::vector<Change> Queue::changes_since(std::int64_t sequence, int limit) const {
@@ -568,25 +615,34 @@ void Queue::wait_for_change(std::int64_t sequence, std::chrono::milliseconds tim
 }
 
 std::optional<Queue::Current> Queue::current(const std::string& id) const {
-  Query query = database_.query(std::string(Current::kSelect) + "WHERE id = ?1", id);
+  Query query = database_.query(kSelectCurrent + "WHERE id = ?1", id);
   if (!query.next()) return std::nullopt;
-  return Current::read(query);
+  return read_current(query);
 }
 
-std::vector<Queue::Current> Queue::found(std::optional<std::int64_t> sweep, const std::string& condition) const {
-  std::vector<Current> jobs;
+std::vector<Queue::Current> Queue::found(const Target& target, const std::string& condition) const {
+  const std::int64_t* sweep = std::get_if<std::int64_t>(&target);
+  const std::string select =
+      kSelectCurrent + "WHERE " + condition +
+      (sweep != nullptr ? " AND number IN (SELECT job FROM members WHERE sweep = ?1)" : " AND id = ?1") +
+      " ORDER BY number";
   Query query =
-      database_.query(std::string(Current::kSelect) + "WHERE " + condition +
-                          " AND (?1 = 0 OR number IN (SELECT job FROM members WHERE sweep = ?1)) ORDER BY number",
-                      sweep.value_or(0));
-  while (query.next()) jobs.push_back(Current::read(query));
+      sweep != nullptr ? database_.query(select, *sweep) : database_.query(select, std::get<std::string>(target));
+  std::vector<Current> jobs;
+  while (query.next()) jobs.push_back(read_current(query));
   return jobs;
 }
 
-std::vector<Queue::Current> Queue::all(std::optional<std::int64_t> sweep) const { return found(sweep, "1"); }
+std::vector<Queue::Current> Queue::unfinished(const Target& target) const {
+  return found(target, "state IN ('queued', 'held', 'running', 'stopping')");  // by the index: most jobs have ended
+}
 
-std::vector<Queue::Current> Queue::unfinished(std::optional<std::int64_t> sweep) const {
-  return found(sweep, "state IN ('queued', 'held', 'running', 'stopping')");  // by the index: most jobs have ended
+std::vector<Queue::Current> Queue::active() const {
+  std::vector<Current> jobs;
+  Query query =
+      database_.query(kSelectCurrent + "WHERE state IN ('running', 'stopping') ORDER BY number");  // by the index
+  while (query.next()) jobs.push_back(read_current(query));
+  return jobs;
 }
 
 void Queue::change(const Current& job, JobState to, const std::string& reason, const std::string& cause) {
@@ -595,9 +651,11 @@ void Queue::change(const Current& job, JobState to, const std::string& reason, c
   database_.run(
       "UPDATE jobs SET state = ?2, reason = ?3, after_stop = '', finished_utime = ?4, hold = '', needed_bytes = 0, "
       "not_before_utime = 0, crashes = CASE WHEN ?2 IN ('running', 'stopping') THEN crashes ELSE 0 END, "
-      "pid = CASE WHEN ?2 = 'stopping' THEN pid ELSE 0 END WHERE id = ?1",
-      job.id, to_word(to), reason, has_ended(to) ? utime_now() : 0);
+      "pid = CASE WHEN ?2 = 'stopping' THEN pid ELSE 0 END, wall_ms = CASE WHEN ?5 THEN 0 ELSE wall_ms END "
+      "WHERE id = ?1",
+      job.id, to_word(to), reason, has_ended(to) ? utime_now() : 0, to == kQueued && has_ended(job.state) ? 1 : 0);
   record(job.id, to_word(job.state), to_word(to), job.attempt, cause);
+  if (has_ended(to)) follow_end(job.id, to);
 }
 
 void Queue::record(std::string_view job, std::string_view from, std::string_view to, int attempt,

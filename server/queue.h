@@ -8,12 +8,15 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "server/job.h"
 #include "server/sqlite.h"
+#include "server/terms.h"
 
 namespace shaken::server {
 
@@ -32,8 +35,13 @@ struct Submitted {
   std::int64_t sweep = 0;
   bool created = false;  ///< false: this very sweep was there already
   int n_new = 0;         ///< jobs never seen before
-  int n_requeued = 0;    ///< failed, cancelled, held or about to be cancelled ones, queued again
+  int n_requeued = 0;    ///< failed, cancelled, timed out, held or about to be so, queued again
   JobCounts counts;      ///< of the sweep's jobs, afterwards
+};
+
+/// The jobs of a submission would wait for each other. Nothing has happened.
+struct Circular : std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
 
 /// A state change, from the journal.
@@ -59,9 +67,10 @@ class Queue {
   /// Returns the ids of the jobs concerned.
   std::vector<std::string> recover();
 
-  /// One sweep, in one transaction. A job that exists is not done twice; a failed or cancelled one is queued again, and
-  /// one that is about to be cancelled goes on. The same jobs under the same name again give the same sweep.
-  Submitted submit(const std::string& name, int priority, std::span<const NewJob> jobs);
+  /// One sweep, in one transaction. A job that exists is not done twice; a failed, cancelled or timed out one is queued
+  /// again, and one that is about to be cancelled goes on. The same jobs under the same name again give the same sweep.
+  /// Throws Circular.
+  Submitted submit(const std::string& name, int priority, std::span<const NewJob> jobs, const Terms& terms = {});
 
   std::vector<Sweep> sweeps() const;  ///< oldest first
   std::optional<Sweep> sweep(std::int64_t id) const;
@@ -78,29 +87,28 @@ class Queue {
 
   /// Queued jobs are cancelled, running ones asked to stop (the supervisor sees to that); finished ones stay as they
   /// are. Returns how many were changed.
-  int cancel_job(const std::string& id);
-  int cancel_sweep(std::int64_t sweep);
+  int cancel(const Target& target);
 
   /// Queued jobs are held until they are released; running ones stop at a checkpoint first. Returns how many changed.
-  int hold_job(const std::string& id);
-  int hold_sweep(std::int64_t sweep);
-  /// Held jobs are queued, and so are failed and cancelled ones if `retry`. Returns how many changed.
-  int release_job(const std::string& id, bool retry);
-  int release_sweep(std::int64_t sweep, bool retry);
+  int hold(const Target& target);
+  /// Held jobs are queued, and so are failed, cancelled and timed out ones if `retry`; these have their time limit
+  /// anew. Returns how many changed.
+  int release(const Target& target, bool retry);
   /// Jobs that have not ended; the larger number goes first. Returns how many changed.
-  int set_priority_of_job(const std::string& id, int priority);
-  int set_priority_of_sweep(std::int64_t sweep, int priority);
+  int set_priority(const Target& target, int priority);
 
-  /// The next jobs to start: by priority, then by age; without those that wait after a crash.
+  /// The next jobs to start: by priority, then by age; without those that wait: after a crash, for
+  /// others, or because as many of their sweep run as may.
   std::vector<Job> next(int limit) const;
   /// Says why a queued job does not start; "" if nothing keeps it.
   void set_reason(const std::string& id, const std::string& reason);
   /// queued -> running. Returns the number of the attempt; none if the job is not queued any more.
   std::optional<int> begin(const std::string& id);
   void set_pid(const std::string& id, int pid);
-  /// running or stopping -> done or failed; queued -> failed, of what cannot even be started.
+  /// running or stopping -> done or failed; queued -> failed or timed out, of what cannot even be started.
   void finish(const std::string& id, JobState state, const std::string& reason);
-  /// The worker has stopped before the end: running -> queued; stopping -> cancelled, held or queued, as was asked.
+  /// The worker has stopped before the end: running -> queued; stopping -> cancelled, held, timed out or queued, as was
+  /// asked.
   void stopped(const std::string& id, const std::string& cause);
   /// The worker has crashed: running -> queued, not to start before the next of `pauses` is over; failed when there is
   /// none left. They begin anew where there was a checkpoint since the last crash (`went_on`).
@@ -112,10 +120,17 @@ class Queue {
   /// Jobs that wait for room, no longer for the pause, and need at most `free` bytes: held -> queued. Returns their
   /// ids.
   std::vector<std::string> there_is_room(std::int64_t free);
+  /// The attempts of these jobs have taken so much more wall time.
+  void add_wall(std::span<const std::pair<std::string, std::chrono::milliseconds>> times);
+  /// The soft limit of a running job is over: if another of at least its priority is ready to start, it stops and is
+  /// queued again behind all of its priority. Returns whether it stops.
+  bool give_way(const std::string& id);
+  /// The time limit of a running job is over: it stops and is timed out.
+  void time_out(const std::string& id);
   /// running -> stopping, and then queued: the daemon ends.
   void stop_all();
 
-  /// Mean wall seconds that the done jobs of a sweep took; none if none is done.
+  /// Mean wall seconds of the done jobs of a sweep, all attempts of each together; none if none is done.
   std::optional<double> mean_duration(std::int64_t sweep) const;
 
   /// The journal of one job, oldest first.
@@ -128,24 +143,47 @@ class Queue {
   void wait_for_change(std::int64_t sequence, std::chrono::milliseconds timeout) const;
 
  private:
-  struct Current;
+  /// What the rules of a job's life depend on.
+  struct Current {
+    std::string id;
+    JobState state;
+    std::string after_stop;
+    int attempt;
+    std::string hold;
+    int crashes;
+    int priority;
+    std::chrono::milliseconds time_limit;
+    std::int64_t sweep;  ///< that asked for it last
+    bool waits;
+  };
+  static Current read_current(const Query& query);
   std::optional<Current> current(const std::string& id) const;
   void change(const Current& job, JobState to, const std::string& reason, const std::string& cause);
   void record(std::string_view job, std::string_view from, std::string_view to, int attempt, std::string_view cause);
   void end_stopping(const Current& job, const std::string& cause);
   void stop_for(const Current& job, JobState after_stop, const std::string& cause);
-  int cancel_all(std::span<const Current> jobs);
-  int hold_all(std::span<const Current> jobs);
-  int release_all(std::span<const Current> jobs, bool retry);
-  int set_priority(std::span<const Current> jobs, int priority);
-  std::vector<Current> one(const std::string& id) const;
-  std::vector<Current> found(std::optional<std::int64_t> sweep, const std::string& condition) const;
-  std::vector<Current> all(std::optional<std::int64_t> sweep) const;
-  std::vector<Current> unfinished(std::optional<std::int64_t> sweep) const;
+  std::vector<Current> found(const Target& target, const std::string& condition = "1") const;
+  std::vector<Current> unfinished(const Target& target) const;
+  std::vector<Current> active() const;
   std::optional<std::int64_t> same_sweep(const std::string& name, std::span<const NewJob> jobs) const;
-  bool insert(const NewJob& job, int priority, std::int64_t sweep);
-  bool ask_again(const NewJob& job, int priority, std::int64_t sweep);
+  bool insert(const NewJob& job, int priority, std::int64_t sweep, const Terms& terms);
+  bool ask_again(const NewJob& job, int priority, std::int64_t sweep, const Terms& terms);
   JobCounts sweep_counts(std::int64_t sweep) const;
+  Sweep read_sweep(const Query& query) const;
+
+  // queue_terms.cpp
+  void set_terms(std::int64_t sweep, const Terms& terms);
+  void refuse_circle(std::span<const NewJob> jobs, const Terms& terms) const;
+  std::vector<std::string> prerequisites(std::int64_t sweep) const;
+  JobCounts counts_of(const Target& target) const;
+  void settle_waits(std::int64_t sweep);
+  void settle_all_waits();
+  void judge(std::int64_t sweep);
+  void follow_end(const std::string& id, JobState state);
+  bool is_full(std::int64_t sweep) const;
+  std::string why_waiting(const Job& job) const;
+  std::vector<Job> explained(std::vector<Job> jobs) const;
+
   void committed();
 
   mutable std::mutex mutex_;

@@ -5,8 +5,8 @@
 
 namespace shaken::server {
 
-/// Creates the queue's tables in an empty file. Throws StorageError if the file is damaged, or has tables of another
-/// version than this program's.
+/// Creates the queue's tables in an empty file, and brings those of an older version up to this program's. Throws
+/// StorageError if the file is damaged, or was written by a newer version.
 void prepare_schema(Database& database);
 
 }  // namespace shaken::server

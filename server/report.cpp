@@ -28,6 +28,12 @@ Json summary_of(const std::string& id, const run::RunDirectory& directory) {
   return run_id != summary.end() && *run_id == id ? summary : Json(nullptr);
 }
 
+double seconds(std::chrono::milliseconds time) { return std::chrono::duration<double>(time).count(); }
+
+Json seconds_or_null(std::chrono::milliseconds limit) {
+  return limit.count() > 0 ? Json(seconds(limit)) : Json(nullptr);
+}
+
 Json parameters(const Job& job) {
   Json json = Json::parse(job.parameters, nullptr, false);
   return json.is_object() ? json : Json::object();
@@ -53,6 +59,9 @@ Json job_report(const Job& job, const std::filesystem::path& runs) {
           {"started_utime", job.started},
           {"finished_utime", job.finished},
           {"not_before_utime", job.not_before},
+          {"soft_limit_s", seconds_or_null(job.soft_limit)},
+          {"time_limit_s", seconds_or_null(job.time_limit)},
+          {"wall_s", seconds(job.wall)},
           {"progress", has_progress ? read_object(directory.progress()) : Json(nullptr)}};
 }
 
@@ -78,6 +87,10 @@ Json sweep_report(const Sweep& sweep, std::span<const Job> active, std::optional
           {"created_utime", sweep.created},
           {"n_jobs", n_jobs},
           {"counts", counts_report(sweep.counts)},
+          {"at_most", sweep.at_most > 0 ? Json(sweep.at_most) : Json(nullptr)},
+          {"after", sweep.after},
+          {"stop_if", sweep.stop_if.empty() ? Json(nullptr) : Json(sweep.stop_if)},
+          {"stopped", sweep.stopped},
           {"progress", n_jobs > 0 ? finished / static_cast<double>(n_jobs) : 1.0},
           {"eta_s", known ? std::max(longest, all / slots) : -1.0}};
 }

@@ -74,7 +74,7 @@ void StatusPublisher::publish_status() {
   status.n_queued = n(JobState::kQueued);
   status.n_running = n(JobState::kRunning) + n(JobState::kStopping);
   status.n_done = n(JobState::kDone);
-  status.n_failed = n(JobState::kFailed);
+  status.n_failed = n(JobState::kFailed) + n(JobState::kTimedOut);
   status.n_cancelled = n(JobState::kCancelled);
   bus_->publish(proto::kStatusChannel, status);
 }

@@ -20,13 +20,22 @@ namespace {
 using nlohmann::json;
 
 constexpr int kMostReplicas = 10'000;
+constexpr int kMostAtOnce = 1'000'000;
 constexpr int kHighestPriority = 1'000'000;
 
-const std::vector<std::string> kKeys{"text", "file", "settings", "replicas", "name", "priority"};
+const std::vector<std::string> kKeys{"text",         "file",         "settings", "replicas", "name",   "priority",
+                                     "soft_limit_s", "time_limit_s", "at_most",  "after",    "stop_if"};
 
 std::string text_of(const json& value, const std::string& key) {
   if (!value.is_string()) throw std::invalid_argument("\"" + key + "\" must be a string");
   return value.get<std::string>();
+}
+
+std::vector<std::string> texts_of(const json& value, const std::string& key) {
+  if (!value.is_array()) throw std::invalid_argument("\"" + key + "\" must be an array");
+  std::vector<std::string> texts;
+  for (const json& text : value) texts.push_back(text_of(text, key));
+  return texts;
 }
 
 int integer_of(const json& value, const std::string& key, int least, int most) {
@@ -55,6 +64,15 @@ json parse_object(std::string_view body, const std::vector<std::string>& known) 
   return object;
 }
 
+/// A time in seconds, as milliseconds; at least one.
+std::chrono::milliseconds time_of(const json& value, const std::string& key) {
+  constexpr double kLeast = 0.001;
+  constexpr double kMost = 1e9;  // more than 30 years
+  const bool fits = value.is_number() && value.get<double>() >= kLeast && value.get<double>() <= kMost;
+  if (!fits) throw std::invalid_argument("\"" + key + "\" must be a number of seconds from 0.001 to 1e9");
+  return std::chrono::milliseconds(static_cast<std::int64_t>(1000 * value.get<double>()));
+}
+
 int priority_of(const json& value) { return integer_of(value, "priority", -kHighestPriority, kHighestPriority); }
 
 std::optional<std::string> name_problem(const std::string& name) {
@@ -71,13 +89,19 @@ SubmitRequest parse_submit_request(std::string_view body) {
   SubmitRequest request;
   request.text = text_of(object["text"], "text");
   if (object.contains("file")) request.file = text_of(object["file"], "file");
-  if (object.contains("settings")) {
-    if (!object["settings"].is_array()) throw std::invalid_argument("\"settings\" must be an array");
-    for (const json& setting : object["settings"]) request.settings.push_back(text_of(setting, "settings"));
-  }
+  if (object.contains("settings")) request.settings = texts_of(object["settings"], "settings");
   if (object.contains("replicas")) request.replicas = integer_of(object["replicas"], "replicas", 1, kMostReplicas);
   if (object.contains("priority")) {
     request.priority = priority_of(object["priority"]);
+  }
+  if (object.contains("soft_limit_s")) request.terms.soft_limit = time_of(object["soft_limit_s"], "soft_limit_s");
+  if (object.contains("time_limit_s")) request.terms.time_limit = time_of(object["time_limit_s"], "time_limit_s");
+  if (object.contains("at_most")) request.terms.at_most = integer_of(object["at_most"], "at_most", 1, kMostAtOnce);
+  if (object.contains("after")) request.after = texts_of(object["after"], "after");
+  if (object.contains("stop_if")) {
+    const auto rule = StopRule::parse(text_of(object["stop_if"], "stop_if"));
+    if (!rule) throw std::invalid_argument("\"stop_if\": " + rule.error().message);
+    request.terms.stop_if = *rule;
   }
   if (object.contains("name")) {
     request.name = text_of(object["name"], "name");
@@ -95,7 +119,7 @@ int parse_priority(std::string_view body) {
 scene::Loaded<Submission> expand(const SubmitRequest& request, const std::filesystem::path& runs) {
   const auto sweep = scene::load_runs(request.text, request.file, request.settings, request.replicas);
   if (!sweep) return sweep.error();
-  Submission submission{request.name.empty() ? sweep->name : request.name, request.priority, {}};
+  Submission submission{request.name.empty() ? sweep->name : request.name, request.priority, request.terms, {}};
   if (const auto problem = name_problem(submission.name)) {
     return std::vector{scene::Problem{request.file, 0, 0, "", *problem + "; submit it with another name"}};
   }

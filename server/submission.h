@@ -18,14 +18,17 @@ struct SubmitRequest {
   std::string file = "request";       ///< its name, for messages
   std::vector<std::string> settings;  ///< "path=value"
   std::optional<int> replicas;
-  std::string name;  ///< of the sweep; if empty, the name in the text or that of the file
-  int priority = 0;  ///< higher ones are started first
+  std::string name;                ///< of the sweep; if empty, the name in the text or that of the file
+  int priority = 0;                ///< higher ones are started first
+  Terms terms;                     ///< but for `after`
+  std::vector<std::string> after;  ///< sweeps and jobs, as the user names them
 };
 
 /// What goes into the queue.
 struct Submission {
   std::string name;
   int priority = 0;
+  Terms terms;
   std::vector<NewJob> jobs;
 };
 

@@ -17,6 +17,8 @@ namespace {
 /// predecessor still holds their directory.
 constexpr int kLookAhead = 16;
 constexpr std::chrono::milliseconds kLongestPause{60'000};
+/// How much of a run's wall time is forgotten at most if the daemon is killed.
+constexpr std::chrono::seconds kCounting{10};
 
 std::string heading(int attempt) {
   const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
@@ -57,6 +59,8 @@ Supervisor::Supervisor(Queue& queue, Executor& executor, SupervisorOptions optio
 void Supervisor::step() {
   try {
     settle_ended();
+    count_wall_of_all();
+    mind_limits();
     stop_stopping();
     if (!shutting_down_) start_queued();
   } catch (const StorageError& problem) {
@@ -70,6 +74,7 @@ void Supervisor::settle_ended() {
     if (!worker.job_end) {
       if (const auto end = executor_.poll(worker.handle)) {
         worker.job_end = judge(*end, worker.handle, worker.kill_at.has_value(), id, worker.directory);
+        worker.ended = Clock::now();
       }
     }
     if (!worker.job_end) {
@@ -82,6 +87,7 @@ void Supervisor::settle_ended() {
 }
 
 void Supervisor::settle(const std::string& id, const Worker& worker) {
+  count_wall({id});
   const auto& [outcome, reason] = *worker.job_end;
   switch (outcome) {
     case JobEnd::Outcome::kDone:
@@ -110,6 +116,46 @@ void Supervisor::settle(const std::string& id, const Worker& worker) {
     }
   }
   spdlog::info("job {}: {}", id, reason.empty() ? "done" : printable(reason));
+}
+
+void Supervisor::count_wall(const std::vector<std::string>& ids) {
+  using std::chrono::milliseconds;
+  std::vector<std::pair<std::string, milliseconds>> times;
+  const auto now = Clock::now();
+  for (const std::string& id : ids) {
+    const Worker& worker = workers_.at(id);
+    if (worker.handle == 0) continue;  // it was never started
+    const auto time = std::chrono::floor<milliseconds>(worker.ended.value_or(now) - worker.counted);
+    if (time > milliseconds(0)) times.emplace_back(id, time);
+  }
+  if (times.empty()) return;
+  queue_.add_wall(times);
+  for (const auto& [id, time] : times) workers_.at(id).counted += time;
+}
+
+void Supervisor::count_wall_of_all() {
+  const auto now = Clock::now();
+  if (now < count_after_) return;
+  std::vector<std::string> ids;
+  for (const auto& [id, worker] : workers_) ids.push_back(id);
+  count_wall(ids);
+  count_after_ = now + kCounting;
+}
+
+void Supervisor::mind_limits() {
+  const auto now = Clock::now();
+  for (const Job& job : queue_.jobs(std::nullopt, JobState::kRunning)) {
+    const auto entry = workers_.find(job.id);
+    if (entry == workers_.end() || entry->second.job_end) continue;
+    const Worker& worker = entry->second;
+    constexpr std::chrono::milliseconds kNone{0};
+    if (job.time_limit != kNone && job.wall + (now - worker.counted) >= job.time_limit) {
+      spdlog::info("job {}: its time limit is over", job.id);
+      queue_.time_out(job.id);
+    } else if (job.soft_limit != kNone && now - worker.started >= job.soft_limit && queue_.give_way(job.id)) {
+      spdlog::info("job {}: its soft limit is over, it gives way to others", job.id);
+    }
+  }
 }
 
 void Supervisor::stop_stopping() {
@@ -152,6 +198,10 @@ void Supervisor::start_queued() {
 }
 
 bool Supervisor::start(const Job& job) {
+  if (job.time_limit.count() > 0 && job.wall >= job.time_limit) {
+    queue_.finish(job.id, JobState::kTimedOut, time_limit_over(job.time_limit));
+    return false;
+  }
   const run::RunDirectory directory{options_.runs / job.id};
   std::error_code error;
   std::filesystem::create_directories(directory.root, error);
@@ -193,6 +243,7 @@ bool Supervisor::start(const Job& job) {
   Worker& worker = workers_[job.id];
   worker.handle = *handle;
   worker.directory = directory;
+  worker.started = worker.counted = Clock::now();
   worker.checkpoint_before = checkpoint_before;
   queue_.set_pid(job.id, *handle);
   complaints_.clear();

@@ -57,12 +57,18 @@ class Supervisor {
     int handle = 0;
     run::RunDirectory directory;
     std::filesystem::file_time_type checkpoint_before{};  ///< when the last one was written that it found
-    std::optional<Clock::time_point> kill_at;             ///< set when it was asked to stop
+    Clock::time_point started{};
+    Clock::time_point counted{};  ///< up to when the queue knows its wall time
+    std::optional<Clock::time_point> ended;
+    std::optional<Clock::time_point> kill_at;  ///< set when it was asked to stop
     bool killed = false;
     std::optional<JobEnd> job_end;  ///< on its end; kept until the queue has taken it
   };
 
   void settle_ended();
+  void count_wall(const std::vector<std::string>& ids);
+  void count_wall_of_all();
+  void mind_limits();
   void stop_stopping();
   void settle(const std::string& id, const Worker& worker);
   void start_queued();
@@ -79,6 +85,7 @@ class Supervisor {
   std::set<std::string> complaints_;       ///< each logged once, not ten times a second
   std::chrono::milliseconds pause_{0};     ///< after the last start, if that failed
   Clock::time_point start_after_{};
+  Clock::time_point count_after_{};
 };
 
 }  // namespace shaken::server

@@ -127,7 +127,7 @@ TEST_F(ApiTest, StatusTellsAboutTheDaemon) {
   EXPECT_EQ(status.json["slots"], 3);
   EXPECT_EQ(status.json["lcm"], Json({{"url", "memq://"}, {"ok", true}, {"message", ""}}));
   EXPECT_EQ(status.json["jobs"].dump(),
-            R"({"queued":4,"held":0,"running":0,"stopping":0,"done":0,"failed":0,"cancelled":0})");
+            R"({"queued":4,"held":0,"running":0,"stopping":0,"done":0,"failed":0,"timed out":0,"cancelled":0})");
 }
 
 TEST_F(ApiTest, TheSocketIsPrivate) {
@@ -175,8 +175,9 @@ TEST_F(ApiTest, TheSameSubmitAgainDoesNothingTwice) {
   const Response again = submit({{"text", kSweep}, {"name", "four"}});
   EXPECT_EQ(again.status, 200);
   EXPECT_EQ(again.json["sweep"]["id"], "s1");
-  EXPECT_EQ(again.json["counts"].dump(),
-            R"({"queued":2,"held":0,"running":1,"stopping":0,"done":1,"failed":0,"cancelled":0,"new":0,"requeued":1})");
+  EXPECT_EQ(
+      again.json["counts"].dump(),
+      R"({"queued":2,"held":0,"running":1,"stopping":0,"done":1,"failed":0,"timed out":0,"cancelled":0,"new":0,"requeued":1})");
 
   // A done job whose results were deleted is done again.
   std::filesystem::remove_all(directory_ / "runs" / ids[1]);
@@ -223,7 +224,7 @@ TEST_F(ApiTest, JobsAreHeldResumedRetriedAndPutFirst) {
   EXPECT_EQ(post("/v1/jobs/" + ids[3] + "/priority", R"({"prio": 5})").status, 400);
   queue_.begin(ids[0]);
   queue_.finish(ids[0], JobState::kFailed, "why");
-  queue_.cancel_job(ids[2]);
+  queue_.cancel(ids[2]);
   EXPECT_EQ(post("/v1/sweeps/s1/resume").json.dump(), R"({"resumed":0})");
   EXPECT_EQ(post("/v1/sweeps/s1/retry").json.dump(), R"({"retried":2})");
   EXPECT_EQ(queue_.counts()[JobState::kQueued], 4);
@@ -231,6 +232,50 @@ TEST_F(ApiTest, JobsAreHeldResumedRetriedAndPutFirst) {
   EXPECT_EQ(changes.front()["to"], "queued");
   EXPECT_EQ(changes.back()["cause"], "retried on request");
   EXPECT_EQ(changes[changes.size() - 2]["cause"], "why");
+}
+
+TEST_F(ApiTest, TimeLimitsAreTakenAndShown) {
+  const Json job = submit({{"text", "{}"}, {"soft_limit_s", 600}, {"time_limit_s", 7200.5}}).json["jobs"][0];
+  EXPECT_EQ(job["soft_limit_s"], 600.0);
+  EXPECT_EQ(job["time_limit_s"], 7200.5);
+  EXPECT_EQ(job["wall_s"], 0.0);
+  const std::string id = job["id"];
+  queue_.begin(id);
+  queue_.add_wall(std::vector{std::pair(id, std::chrono::milliseconds(1500))});
+  queue_.time_out(id);
+  queue_.stopped(id, "checkpoint");
+  const Json ended = get("/v1/jobs?state=timed%20out").json["jobs"][0];
+  EXPECT_EQ(ended["state"], "timed out");
+  EXPECT_EQ(ended["wall_s"], 1.5);
+  EXPECT_EQ(ended["reason"], "it ran for 2 h 00 min, its time limit; `shaken retry` gives it as much again");
+
+  const Json again = submit({{"text", "{}"}}).json["jobs"][0];
+  EXPECT_TRUE(again["time_limit_s"].is_null()) << "the last submission decides";
+  EXPECT_EQ(again["state"], "queued");
+}
+
+TEST_F(ApiTest, TermsOfASweepAreTakenAndShown) {
+  const auto ids = submit_four("first");
+  const Response second = submit({{"text", "{}"},
+                                  {"name", "second"},
+                                  {"after", {"first", ids[0].substr(0, 8)}},
+                                  {"at_most", 3},
+                                  {"stop_if", "failed > 10%"}});
+  ASSERT_EQ(second.status, 201) << second.error();
+  const Json& sweep = second.json["sweep"];
+  EXPECT_EQ(sweep["at_most"], 3);
+  EXPECT_EQ(sweep["after"], Json({"s1", ids[0]}));
+  EXPECT_EQ(sweep["stop_if"], "failed>10%");
+  EXPECT_EQ(sweep["stopped"], false);
+  EXPECT_EQ(second.json["jobs"][0]["reason"], "waits for s1: 0 of 4 done, " + ids[0]);
+  EXPECT_TRUE(get("/v1/sweeps/s1").json["sweep"]["at_most"].is_null());
+  EXPECT_TRUE(get("/v1/sweeps/s1").json["sweep"]["stop_if"].is_null());
+
+  EXPECT_EQ(submit({{"text", "{}"}, {"after", {"third"}}}).status, 404);
+  const Response circle = submit({{"text", kSweep}, {"name", "circle"}, {"after", {"second"}}});
+  EXPECT_EQ(circle.status, 409);
+  EXPECT_THAT(circle.error(), HasSubstr("wait for themselves"));
+  EXPECT_EQ(get("/v1/sweeps").json["sweeps"].size(), 2U);
 }
 
 TEST_F(ApiTest, SettingsAndReplicasAreApplied) {
@@ -326,8 +371,8 @@ TEST_F(ApiTest, ARunningJobShowsItsProgress) {
 
   queue_.begin(ids[1]);
   queue_.finish(ids[1], JobState::kDone, "");
-  queue_.cancel_job(ids[2]);
-  queue_.cancel_job(ids[3]);
+  queue_.cancel(ids[2]);
+  queue_.cancel(ids[3]);
   const Json sweep = get("/v1/sweeps/s1").json["sweep"];
   EXPECT_EQ(sweep["progress"], 0.375) << "one done, one half, two that came to nothing";
   EXPECT_EQ(sweep["eta_s"], 10.0);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Random operations on the queue against a model that is a few lines long.
+// Random operations on the queue against a model of it without files, indices and transactions.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <map>
@@ -18,16 +19,33 @@ using enum JobState;
 
 struct ModelJob {
   JobState state = kQueued;
-  JobState after_stop = kQueued;
-  bool waits_for_room = false;
+  JobState after_stop = kQueued;  ///< kRunning: queued behind the others, to run again
+  Hold hold = Hold::kNone;
+  bool waits = false;  ///< for what its sweep comes after
+  int sweep = 0;       ///< that asked for it last
   int crashes = 0;
   int attempt = 0;
   int priority = 0;
-  int arrival = 0;
+  int turn = 0;
+};
+
+/// A sweep of two jobs at most, one of which may be another's, too.
+struct ModelSweep {
+  std::string digits;
+  int at_most = 0;
+  char after = 0;  ///< a job
+  bool has_rule = false;
+  bool stopped = false;
 };
 
 enum class Operation {
   kSubmit,
+  kSubmitTwo,
+  kSubmitTwoOneAtOnce,
+  kSubmitTwoWithRule,
+  kSubmitAfter,
+  kGiveWay,
+  kTimeOut,
   kBegin,
   kDone,
   kFail,
@@ -35,6 +53,7 @@ enum class Operation {
   kCancel,
   kHold,
   kResume,
+  kResumeSweep,
   kRetry,
   kWorkerCrashes,
   kNoRoom,
@@ -43,58 +62,148 @@ enum class Operation {
   kReopen,
   kCrash
 };
-constexpr int kOperations = 15;
+constexpr int kOperations = 22;
 /// As many crashes in a row are forgiven.
 constexpr std::array<std::chrono::milliseconds, 2> kPauses{};
 constexpr std::string_view kDigits = "abcde";
 
+bool has_no_result(JobState state) { return state == kFailed || state == kTimedOut || state == kCancelled; }
+
 class Model {
  public:
-  void submit(char digit, int priority) {
-    const auto [entry, is_new] = jobs_.try_emplace(digit);
-    ModelJob& job = entry->second;
-    if (is_new) job.arrival = static_cast<int>(jobs_.size());
-    job.priority = is_new ? priority : std::max(job.priority, priority);
-    const bool held = job.state == kHeld && !job.waits_for_room;
-    if (job.state == kFailed || job.state == kCancelled || held) become(job, kQueued);
-    job.after_stop = kQueued;
+  /// Whether the jobs of a submission would wait for themselves.
+  bool is_circular(const std::string& digits, char after) const {
+    std::string pending(1, after);
+    for (std::size_t i = 0; i < pending.size(); ++i) {
+      const auto job = jobs_.find(pending[i]);
+      if (job == jobs_.end()) continue;
+      if (digits.find(pending[i]) != std::string::npos && job->second.state != kDone) return true;
+      const char next = job->second.waits ? sweeps_.at(job->second.sweep).after : 0;
+      if (next != 0 && pending.find(next) == std::string::npos) pending += next;
+    }
+    return false;
   }
-  static void become(ModelJob& job, JobState state) {
+  void submit(const ModelSweep& asked, int priority) {
+    const bool same = !sweeps_.empty() && sweeps_.rbegin()->second.digits == asked.digits;
+    const int sweep = static_cast<int>(sweeps_.size()) + (same ? 0 : 1);
+    for (const char digit : asked.digits) {
+      const auto [entry, is_new] = jobs_.try_emplace(digit);
+      ModelJob& job = entry->second;
+      if (is_new) job.turn = ++time_;
+      job.priority = is_new ? priority : std::max(job.priority, priority);
+      job.sweep = sweep;
+      const bool held = job.state == kHeld && job.hold != Hold::kRoom;
+      if (has_no_result(job.state) || held) become(digit, kQueued);
+      // One that is to stop behind the others, stops.
+      if (job.after_stop != kRunning) job.after_stop = kQueued;
+    }
+    sweeps_[sweep] = asked;
+    for (const char digit : asked.digits) {
+      ModelJob& job = jobs_[digit];
+      job.waits = asked.after != 0 && (job.state == kQueued || job.state == kHeld);
+    }
+    settle_waits();
+  }
+  /// What follows from the end of a job, for those that wait for it and for its sweeps.
+  void settle_waits() {
+    for (auto& [digit, job] : jobs_) {
+      if (!job.waits) continue;
+      const JobState awaited = jobs_.at(sweeps_.at(job.sweep).after).state;
+      if (awaited == kDone) job.waits = false;
+      if (has_no_result(awaited) && job.state == kQueued) become(digit, kHeld, Hold::kOthers);
+    }
+  }
+  void judge(char ended) {
+    for (auto& [number, sweep] : sweeps_) {
+      if (!sweep.has_rule || sweep.stopped || sweep.digits.find(ended) == std::string::npos) continue;
+      for (const char digit : sweep.digits) sweep.stopped = sweep.stopped || jobs_.at(digit).state == kFailed;
+      if (!sweep.stopped) continue;
+      for (const char digit : sweep.digits) {
+        const ModelJob& job = jobs_.at(digit);
+        if (job.state == kQueued && job.sweep == number) become(digit, kHeld, Hold::kRule);
+      }
+    }
+  }
+  void become(char digit, JobState state, Hold hold = Hold::kNone) {
+    ModelJob& job = jobs_.at(digit);
     job.state = state;
     job.after_stop = kQueued;
-    job.waits_for_room = false;
+    job.hold = hold;
     job.crashes = 0;
+    ++time_;  // a line of the journal
+    if (state == kDone || state == kFailed || state == kTimedOut) judge(digit);
+    if (state == kDone || has_no_result(state)) settle_waits();
   }
-  static void stop(ModelJob& job) { become(job, job.state == kStopping ? job.after_stop : kQueued); }
-  static void ask_to_stop(ModelJob& job, JobState after_stop) {
+  void stop(char digit) {
+    const ModelJob& job = jobs_.at(digit);
+    const bool is_last = job.state == kStopping && job.after_stop == kRunning;
+    become(digit, job.state != kStopping || is_last ? kQueued : job.after_stop,
+           job.after_stop == kHeld ? Hold::kRequest : Hold::kNone);
+    if (is_last) jobs_.at(digit).turn = time_;
+  }
+  void ask_to_stop(char digit, JobState after_stop) {
+    ModelJob& job = jobs_.at(digit);
+    if (job.state == kRunning) ++time_;
     job.state = kStopping;
     job.after_stop = after_stop;
   }
-  static void cancel(ModelJob& job) {
-    if (job.state == kQueued || job.state == kHeld) become(job, kCancelled);
-    if (job.state == kRunning || job.state == kStopping) ask_to_stop(job, kCancelled);
+  void cancel(char digit) {
+    const JobState state = jobs_.at(digit).state;
+    if (state == kQueued || state == kHeld) become(digit, kCancelled);
+    if (state == kRunning || state == kStopping) ask_to_stop(digit, kCancelled);
   }
-  static void hold(ModelJob& job) {
-    if (job.state == kQueued || job.state == kHeld) become(job, kHeld);
-    const bool is_cancelled = job.state == kStopping && job.after_stop == kCancelled;
-    if (job.state == kRunning || (job.state == kStopping && !is_cancelled)) ask_to_stop(job, kHeld);
+  void hold(char digit) {
+    ModelJob& job = jobs_.at(digit);
+    if (job.state == kQueued) become(digit, kHeld, Hold::kRequest);
+    if (job.state == kHeld) job.hold = Hold::kRequest;
+    const bool is_ending = job.after_stop == kCancelled || job.after_stop == kTimedOut;
+    if (job.state == kRunning || (job.state == kStopping && !is_ending)) ask_to_stop(digit, kHeld);
   }
-  static void release(ModelJob& job, bool retry) {
-    if (job.state == kHeld || (retry && (job.state == kFailed || job.state == kCancelled))) become(job, kQueued);
+  void release(char digit, bool retry) {
+    ModelJob& job = jobs_.at(digit);
+    if (job.state == kHeld || (retry && has_no_result(job.state))) {
+      if (job.hold == Hold::kOthers) job.waits = false;
+      become(digit, kQueued);
+    }
     if (job.state == kStopping && job.after_stop == kHeld) job.after_stop = kQueued;
     if (retry && job.state == kQueued) job.crashes = 0;
+    settle_waits();
   }
-  static void crash(ModelJob& job) {
-    if (job.state == kStopping) return stop(job);
+  void release_sweep(int number) {
+    for (const char digit : sweeps_.at(number).digits) release(digit, false);
+    ModelSweep& sweep = sweeps_.at(number);
+    if (sweep.stopped) sweep.has_rule = sweep.stopped = false;
+  }
+  void crash(char digit) {
+    const ModelJob& job = jobs_.at(digit);
+    if (job.state == kStopping) return stop(digit);
     const int crashes = job.crashes + 1;
     const bool is_too_often = crashes > static_cast<int>(kPauses.size());
-    become(job, is_too_often ? kFailed : kQueued);
-    if (!is_too_often) job.crashes = crashes;
+    become(digit, is_too_often ? kFailed : kQueued);
+    if (!is_too_often) jobs_.at(digit).crashes = crashes;
   }
-  static void find_no_room(ModelJob& job) {
-    if (job.state == kStopping) return stop(job);
-    become(job, kHeld);
-    job.waits_for_room = true;
+  void find_no_room(char digit) {
+    if (jobs_.at(digit).state == kStopping) return stop(digit);
+    become(digit, kHeld, Hold::kRoom);
+  }
+  bool is_full(int number) const {
+    const ModelSweep& sweep = sweeps_.at(number);
+    const auto runs = std::count_if(jobs_.begin(), jobs_.end(), [&](const auto& entry) {
+      return entry.second.sweep == number && (entry.second.state == kRunning || entry.second.state == kStopping);
+    });
+    return sweep.at_most > 0 && runs >= sweep.at_most;
+  }
+  bool waits_for_its_turn(char digit) const {
+    const ModelJob& job = jobs_.at(digit);
+    return job.state == kQueued && !job.waits;
+  }
+  bool begins(char digit) const { return waits_for_its_turn(digit) && !is_full(jobs_.at(digit).sweep); }
+  bool gives_way(char digit) const {
+    const ModelJob& job = jobs_.at(digit);
+    return job.state == kRunning && std::any_of(jobs_.begin(), jobs_.end(), [&](const auto& other) {
+             return waits_for_its_turn(other.first) && other.second.priority >= job.priority &&
+                    (other.second.sweep == job.sweep || !is_full(other.second.sweep));
+           });
   }
   bool active(char digit) const {
     const auto job = jobs_.find(digit);
@@ -104,7 +213,7 @@ class Model {
   std::string order() const {
     std::vector<std::pair<std::pair<int, int>, char>> waiting;
     for (const auto& [digit, job] : jobs_) {
-      if (job.state == kQueued) waiting.push_back({{-job.priority, job.arrival}, digit});
+      if (begins(digit)) waiting.push_back({{-job.priority, job.turn}, digit});
     }
     std::sort(waiting.begin(), waiting.end());
     std::string digits;
@@ -113,6 +222,8 @@ class Model {
   }
 
   std::map<char, ModelJob> jobs_;
+  std::map<int, ModelSweep> sweeps_;
+  int time_ = 0;
 };
 
 void apply(Operation operation, char digit, int priority, std::unique_ptr<Queue>& queue, Model& model,
@@ -121,15 +232,49 @@ void apply(Operation operation, char digit, int priority, std::unique_ptr<Queue>
   const bool known = model.jobs_.contains(digit);
   switch (operation) {
     case Operation::kSubmit:
-      queue->submit("sweep", priority, std::vector{new_job(digit)});
-      model.submit(digit, priority);
+    case Operation::kSubmitTwo:
+    case Operation::kSubmitTwoOneAtOnce:
+    case Operation::kSubmitTwoWithRule:
+    case Operation::kSubmitAfter: {
+      ModelSweep sweep;
+      sweep.digits = std::string(1, digit);
+      const char other = kDigits[(kDigits.find(digit) + 1) % kDigits.size()];
+      if (operation != Operation::kSubmit && operation != Operation::kSubmitAfter) sweep.digits += other;
+      if (operation == Operation::kSubmitTwoOneAtOnce) sweep.at_most = 1;
+      sweep.has_rule = operation == Operation::kSubmitTwoWithRule;
+      if (operation == Operation::kSubmitAfter && model.jobs_.contains(other)) sweep.after = other;
+      Terms terms{.at_most = sweep.at_most};
+      if (sweep.after != 0) terms.after = {std::string(16, sweep.after)};
+      if (sweep.has_rule) terms.stop_if = *StopRule::parse("failed>0");
+      std::vector<NewJob> jobs;
+      for (const char each : sweep.digits) jobs.push_back(new_job(each));
+      bool refused = false;
+      try {
+        queue->submit("sweep", priority, jobs, terms);
+      } catch (const Circular&) {
+        refused = true;
+      }
+      RC_ASSERT(refused == (sweep.after != 0 && model.is_circular(sweep.digits, sweep.after)));
+      if (!refused) model.submit(sweep, priority);
+      return;
+    }
+    case Operation::kGiveWay:
+      if (!known) return;
+      RC_ASSERT(queue->give_way(id) == model.gives_way(digit));
+      if (model.gives_way(digit)) model.ask_to_stop(digit, kRunning);
+      return;
+    case Operation::kTimeOut:
+      if (!known || model.jobs_[digit].state != kRunning) return;
+      queue->time_out(id);
+      model.ask_to_stop(digit, kTimedOut);
       return;
     case Operation::kBegin: {
       const auto attempt = queue->begin(id);
-      const bool begins = known && model.jobs_[digit].state == kQueued;
+      const bool begins = known && model.begins(digit);
       RC_ASSERT(attempt.has_value() == begins);
       if (!begins) return;
       model.jobs_[digit].state = kRunning;
+      ++model.time_;
       RC_ASSERT(*attempt == ++model.jobs_[digit].attempt);
       return;
     }
@@ -138,47 +283,53 @@ void apply(Operation operation, char digit, int priority, std::unique_ptr<Queue>
       if (!model.active(digit)) return;
       const JobState end = operation == Operation::kDone ? kDone : kFailed;
       queue->finish(id, end, "");
-      Model::become(model.jobs_[digit], end);
+      model.become(digit, end);
       return;
     }
     case Operation::kStopped:
       if (!model.active(digit)) return;
       queue->stopped(id, "stopped");
-      model.stop(model.jobs_[digit]);
+      model.stop(digit);
       return;
     case Operation::kCancel:
-      queue->cancel_job(id);
-      if (known) model.cancel(model.jobs_[digit]);
+      queue->cancel(id);
+      if (known) model.cancel(digit);
       return;
     case Operation::kHold:
-      queue->hold_job(id);
-      if (known) Model::hold(model.jobs_[digit]);
+      queue->hold(id);
+      if (known) model.hold(digit);
       return;
     case Operation::kResume:
     case Operation::kRetry:
-      queue->release_job(id, operation == Operation::kRetry);
-      if (known) Model::release(model.jobs_[digit], operation == Operation::kRetry);
+      queue->release(id, operation == Operation::kRetry);
+      if (known) model.release(digit, operation == Operation::kRetry);
+      return;
+    case Operation::kResumeSweep:
+      if (!known) return;
+      queue->release(std::int64_t{model.jobs_[digit].sweep}, false);
+      model.release_sweep(model.jobs_[digit].sweep);
       return;
     case Operation::kWorkerCrashes:
       if (!model.active(digit)) return;
       queue->crashed(id, "crash", false, kPauses);
-      Model::crash(model.jobs_[digit]);
+      model.crash(digit);
       return;
     case Operation::kNoRoom:
       if (!model.active(digit)) return;
       queue->no_room(id, "no room", 1000 * priority, std::chrono::milliseconds(0));
-      Model::find_no_room(model.jobs_[digit]);
+      model.find_no_room(digit);
       return;
     case Operation::kRoom:
       queue->there_is_room(1'000'000);
       for (auto& [each, job] : model.jobs_) {
-        if (job.state == kHeld && job.waits_for_room) Model::become(job, kQueued);
+        if (job.state == kHeld && job.hold == Hold::kRoom) model.become(each, kQueued);
       }
+      model.settle_waits();
       return;
     case Operation::kStopAll:
       queue->stop_all();
       for (auto& [each, job] : model.jobs_) {
-        if (job.state == kRunning) Model::ask_to_stop(job, kQueued);
+        if (job.state == kRunning) model.ask_to_stop(each, kQueued);
       }
       return;
     case Operation::kReopen:
@@ -190,7 +341,7 @@ void apply(Operation operation, char digit, int priority, std::unique_ptr<Queue>
       queue = std::make_unique<Queue>(file);
       queue->recover();
       for (auto& [each, job] : model.jobs_) {
-        if (job.state == kRunning || job.state == kStopping) model.stop(job);
+        if (job.state == kRunning || job.state == kStopping) model.stop(each);
       }
       return;
   }

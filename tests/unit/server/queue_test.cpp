@@ -130,11 +130,11 @@ TEST_F(QueueTest, CancelEndsQueuedJobsAndStopsRunningOnes) {
   queue_.begin(a_);
   queue_.begin(b_);
   queue_.finish(b_, kDone, "");
-  EXPECT_EQ(queue_.cancel_sweep(sweep), 2);
+  EXPECT_EQ(queue_.cancel(sweep), 2);
   EXPECT_EQ(state('a'), kStopping);
   EXPECT_EQ(state('b'), kDone);
   EXPECT_EQ(state('c'), kCancelled);
-  EXPECT_EQ(queue_.cancel_sweep(sweep), 0);
+  EXPECT_EQ(queue_.cancel(sweep), 0);
 
   queue_.stopped(a_, "checkpoint");
   EXPECT_EQ(state('a'), kCancelled);
@@ -145,16 +145,16 @@ TEST_F(QueueTest, CancelEndsQueuedJobsAndStopsRunningOnes) {
 TEST_F(QueueTest, CancelLeavesOtherSweepsAlone) {
   queue_.submit("one", 0, std::vector{new_job('a')});
   const auto two = queue_.submit("two", 0, std::vector{new_job('b')}).sweep;
-  EXPECT_EQ(queue_.cancel_sweep(two), 1);
+  EXPECT_EQ(queue_.cancel(two), 1);
   EXPECT_EQ(state('a'), kQueued);
-  EXPECT_EQ(queue_.cancel_job("nobody"), 0);
+  EXPECT_EQ(queue_.cancel("nobody"), 0);
 }
 
 TEST_F(QueueTest, SubmittingAJobThatIsAboutToBeCancelledKeepsIt) {
   const std::vector<NewJob> jobs{new_job('a')};
   queue_.submit("s", 0, jobs);
   queue_.begin(a_);
-  queue_.cancel_job(a_);
+  queue_.cancel(a_);
   EXPECT_EQ(queue_.submit("s", 0, jobs).n_requeued, 1);
   queue_.stopped(a_, "checkpoint");
   EXPECT_EQ(state('a'), kQueued);
@@ -171,7 +171,7 @@ TEST_F(QueueTest, StoppingTheDaemonQueuesWhatRuns) {
   queue_.submit("s", 0, std::vector{new_job('a'), new_job('b'), new_job('c')});
   queue_.begin(a_);
   queue_.begin(b_);
-  queue_.cancel_job(b_);
+  queue_.cancel(b_);
   queue_.stop_all();
   EXPECT_EQ(state('a'), kStopping);
   EXPECT_EQ(state('c'), kQueued);
@@ -191,6 +191,78 @@ TEST_F(QueueTest, TheNextJobIsTheOldestOfTheHighestPriority) {
 
   queue_.submit("urgent", 9, std::vector{new_job('a')});
   EXPECT_EQ(queue_.next(1).front().id, a_);
+}
+
+TEST_F(QueueTest, ARunWhoseSoftLimitIsOverGivesWayToThoseThatWait) {
+  queue_.submit("s", 0, std::vector{new_job('a')}, {.soft_limit = std::chrono::minutes(1)});
+  EXPECT_EQ(queue_.job(a_)->soft_limit, std::chrono::minutes(1));
+  queue_.begin(a_);
+  EXPECT_FALSE(queue_.give_way(a_)) << "nobody waits";
+  queue_.submit("low", -1, std::vector{new_job('b')});
+  EXPECT_FALSE(queue_.give_way(a_)) << "it would start again before that one";
+  queue_.submit("same", 0, std::vector{new_job('c'), new_job('d')});
+  EXPECT_TRUE(queue_.give_way(a_));
+  EXPECT_EQ(state('a'), kStopping);
+  EXPECT_FALSE(queue_.give_way(a_));
+  queue_.stopped(a_, "checkpoint");
+  EXPECT_EQ(state('a'), kQueued);
+  queue_.submit("later", 0, std::vector{new_job('e')});
+  std::string order;
+  for (const Job& job : queue_.next(10)) order += job.id.front();
+  EXPECT_EQ(order, "cdaeb") << "behind all of its priority that wait by then";
+  EXPECT_EQ(queue_.history(a_)[2].cause, "its soft limit is over: it gives way to others");
+}
+
+TEST_F(QueueTest, WhatIsAskedOfARunThatGivesWayGoesFirst) {
+  queue_.submit("s", 0, std::vector{new_job('a'), new_job('b')});
+  queue_.begin(a_);
+  ASSERT_TRUE(queue_.give_way(a_));
+  EXPECT_EQ(queue_.hold(a_), 1);
+  queue_.stopped(a_, "checkpoint");
+  EXPECT_EQ(state('a'), kHeld);
+}
+
+TEST_F(QueueTest, ARunIsTimedOutAndARetryGivesItAsMuchTimeAgain) {
+  const std::vector<NewJob> jobs{new_job('a')};
+  const auto sweep = queue_.submit("s", 0, jobs, {.time_limit = std::chrono::hours(2)}).sweep;
+  queue_.begin(a_);
+  queue_.add_wall(std::vector{std::pair(a_, std::chrono::milliseconds(7'200'000))});
+  queue_.time_out(a_);
+  EXPECT_EQ(state('a'), kStopping);
+  EXPECT_EQ(queue_.hold(a_), 0) << "the limit was first";
+  queue_.crashed(a_, "worker was killed by signal 9 (SIGKILL)", false, {});
+  EXPECT_EQ(state('a'), kTimedOut);
+  EXPECT_EQ(queue_.job(a_)->reason, "it ran for 2 h 00 min, its time limit; `shaken retry` gives it as much again");
+  EXPECT_GT(queue_.job(a_)->finished, 0);
+  EXPECT_EQ(queue_.job(a_)->wall, std::chrono::hours(2));
+  EXPECT_EQ(queue_.release(sweep, false), 0) << "resume is for what is held";
+  EXPECT_EQ(queue_.release(sweep, true), 1);
+  EXPECT_EQ(queue_.job(a_)->wall.count(), 0);
+  EXPECT_EQ(queue_.job(a_)->time_limit, std::chrono::hours(2));
+
+  // Asked for again while it stops: the time begins anew as well.
+  queue_.begin(a_);
+  queue_.add_wall(std::vector{std::pair(a_, std::chrono::milliseconds(7'200'000))});
+  queue_.time_out(a_);
+  EXPECT_EQ(queue_.submit("s", 0, jobs, {.time_limit = std::chrono::hours(3)}).n_requeued, 1);
+  queue_.stopped(a_, "checkpoint");
+  EXPECT_EQ(state('a'), kQueued);
+  EXPECT_EQ(queue_.job(a_)->wall.count(), 0);
+  EXPECT_EQ(queue_.job(a_)->time_limit, std::chrono::hours(3));
+}
+
+TEST_F(QueueTest, APauseBegunBeforeTheClockWasSetBackIsOver) {
+  const std::array pauses{std::chrono::milliseconds(60'000)};
+  queue_.submit("s", 0, std::vector{new_job('a')});
+  queue_.begin(a_);
+  queue_.crashed(a_, "crash", false, pauses);
+  EXPECT_THAT(queue_.next(1), IsEmpty());
+  const auto move_clock_back = [&](std::int64_t hours) {
+    Database(directory_ / "queue.db")
+        .run("UPDATE jobs SET not_before_utime = not_before_utime + ?1", hours * 3'600'000'000);
+  };
+  move_clock_back(24);
+  EXPECT_EQ(queue_.next(1).size(), 1U);
 }
 
 TEST_F(QueueTest, IdsAreFoundByTheirBeginning) {
@@ -235,7 +307,7 @@ TEST_F(QueueTest, ThreadsMayWorkOnItTogether) {
         NewJob job = new_job('a');
         job.id = std::to_string(thread) + "-" + std::to_string(i);
         queue_.submit("thread " + std::to_string(thread) + "." + std::to_string(i), 0, std::vector{job});
-        queue_.cancel_job(job.id);
+        queue_.cancel(job.id);
         queue_.counts();
       }
     });
@@ -250,8 +322,8 @@ TEST_F(QueueTest, AfterAKillEverythingAcknowledgedIsThere) {
   queue_.submit("s", 0, std::vector{new_job('a'), new_job('b'), new_job('c'), new_job('d')});
   queue_.begin(a_);
   queue_.begin(b_);
-  queue_.cancel_job(b_);
-  queue_.cancel_job(std::string(16, 'c'));
+  queue_.cancel(b_);
+  queue_.cancel(std::string(16, 'c'));
   std::filesystem::create_directory(directory_ / "copy");
   for (const char* name : {"queue.db", "queue.db-wal"}) {
     std::filesystem::copy_file(directory_ / name, directory_ / "copy" / name);
@@ -316,8 +388,12 @@ TEST(QueueFileTest, AFileOfANewerVersionIsRefusedWithAWayOut) {
 
 TEST(QueueFileTest, AnUnwritableFolderIsAnError) { EXPECT_THROW(Queue("/nonexistent/queue.db"), StorageError); }
 
-TEST_F(QueueTest, AFileOfTheFirstVersionIsTakenOver) {
-  const auto file = directory_ / "old.db";
+/// The tables of the first version, and of the second, with a job in each.
+class OldQueueTest : public testing::TestWithParam<int> {};
+
+TEST_P(OldQueueTest, IsTakenOver) {
+  const TempDirectory directory;
+  const auto file = directory / "old.db";
   {
     Database old(file);
     old.execute(R"sql(
@@ -337,22 +413,40 @@ TEST_F(QueueTest, AFileOfTheFirstVersionIsTakenOver) {
         sequence INTEGER PRIMARY KEY AUTOINCREMENT, utime INTEGER NOT NULL, job TEXT NOT NULL, from_state TEXT NOT NULL,
         to_state TEXT NOT NULL, attempt INTEGER NOT NULL, cause TEXT NOT NULL);
       INSERT INTO sweeps(name, created_utime) VALUES('old', 1);
-      INSERT INTO jobs(id, state, priority, created_utime, sweep, label, parameters, replica)
-        VALUES('aaaaaaaaaaaaaaaa', 'queued', 3, 1, 1, 'label', '{}', 1);
-      INSERT INTO scenes(job, scene) VALUES(1, '{}');
-      INSERT INTO members VALUES(1, 0, 1, 'label', '{}', 1);
+      CREATE INDEX sweeps_by_name ON sweeps(name);
+      CREATE INDEX jobs_by_turn ON jobs(state, priority DESC, number);
+      INSERT INTO jobs(id, state, priority, attempt, created_utime, started_utime, finished_utime, sweep, label,
+                       parameters, replica)
+        VALUES('aaaaaaaaaaaaaaaa', 'queued', 3, 0, 1, 0, 0, 1, 'label', '{}', 1),
+              ('bbbbbbbbbbbbbbbb', 'done', 0, 1, 1, 1000000, 3000000, 1, 'label', '{}', 1);
+      INSERT INTO scenes(job, scene) VALUES(1, '{}'), (2, '{}');
+      INSERT INTO members VALUES(1, 0, 1, 'label', '{}', 1), (1, 1, 2, 'label', '{}', 1);
       PRAGMA user_version = 1;)sql");
+    if (GetParam() == 2) {
+      old.execute(R"sql(
+        ALTER TABLE jobs ADD COLUMN hold TEXT NOT NULL DEFAULT '';
+        ALTER TABLE jobs ADD COLUMN needed_bytes INTEGER NOT NULL DEFAULT 0;
+        ALTER TABLE jobs ADD COLUMN crashes INTEGER NOT NULL DEFAULT 0;
+        ALTER TABLE jobs ADD COLUMN not_before_utime INTEGER NOT NULL DEFAULT 0;
+        PRAGMA user_version = 2;)sql");
+    }
   }
   for (int opened = 0; opened < 2; ++opened) {
     Queue queue(file);
-    ASSERT_EQ(queue.jobs(1).size(), 1U);
+    ASSERT_EQ(queue.jobs(1).size(), 2U);
     EXPECT_EQ(queue.jobs(1)[0].state, kQueued);
     EXPECT_EQ(queue.jobs(1)[0].priority, 3);
     EXPECT_EQ(queue.jobs(1)[0].hold, Hold::kNone);
-    EXPECT_EQ(queue.hold_sweep(1), 1);
-    EXPECT_EQ(queue.release_sweep(1, false), 1);
+    EXPECT_EQ(queue.jobs(1)[0].time_limit.count(), 0);
+    EXPECT_EQ(queue.hold(1), 1);
+    EXPECT_EQ(queue.release(1, false), 1);
+    EXPECT_EQ(queue.mean_duration(1), 2.0) << "from the times of its last attempt";
+    queue.submit("new", 3, std::vector{new_job('c')});
+    EXPECT_EQ(queue.next(2).at(0).id, std::string(16, 'a')) << "what was there first goes first";
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Versions, OldQueueTest, testing::Values(1, 2));
 
 }  // namespace
 }  // namespace shaken::server

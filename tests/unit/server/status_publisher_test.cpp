@@ -103,8 +103,8 @@ TEST_F(PublisherTest, TheHeartbeatCountsTheJobs) {
   queue_.submit("s", 0, std::vector{new_job('a'), new_job('b'), new_job('c'), new_job('d')});
   queue_.begin(a_);
   queue_.begin(std::string(16, 'b'));
-  queue_.cancel_job(std::string(16, 'b'));  // stopping: its worker runs still
-  queue_.cancel_job(std::string(16, 'c'));
+  queue_.cancel(std::string(16, 'b'));  // stopping: its worker runs still
+  queue_.cancel(std::string(16, 'c'));
   start();
   const Recording recording = stop();
   ASSERT_FALSE(recording.statuses.empty());

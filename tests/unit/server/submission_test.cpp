@@ -26,13 +26,19 @@ std::string refusal(const std::string& body) {
 
 TEST(SubmitRequestTest, EveryKeyIsRead) {
   const SubmitRequest request = parse_submit_request(
-      R"({"text": "{}", "file": "a/b.json", "settings": ["x=1", "y=2"], "replicas": 3, "name": "my sweep", "priority": -2})");
+      R"({"text": "{}", "file": "a/b.json", "settings": ["x=1", "y=2"], "replicas": 3, "name": "my sweep", "priority": -2,
+          "soft_limit_s": 600, "time_limit_s": 0.5, "at_most": 4, "after": ["s1", "1f0c"], "stop_if": "failed > 10 %"})");
   EXPECT_EQ(request.text, "{}");
   EXPECT_EQ(request.file, "a/b.json");
   EXPECT_THAT(request.settings, testing::ElementsAre("x=1", "y=2"));
   EXPECT_EQ(request.replicas, 3);
   EXPECT_EQ(request.name, "my sweep");
   EXPECT_EQ(request.priority, -2);
+  EXPECT_EQ(request.terms.soft_limit, std::chrono::minutes(10));
+  EXPECT_EQ(request.terms.time_limit, std::chrono::milliseconds(500));
+  EXPECT_EQ(request.terms.at_most, 4);
+  EXPECT_THAT(request.after, testing::ElementsAre("s1", "1f0c"));
+  EXPECT_EQ(request.terms.stop_if->text(), "failed>10%");
 }
 
 TEST(SubmitRequestTest, WhatIsWrongIsSaidInWords) {
@@ -47,6 +53,12 @@ TEST(SubmitRequestTest, WhatIsWrongIsSaidInWords) {
   EXPECT_THAT(refusal(R"({"text": "", "replicas": 99999999999999999999})"), HasSubstr("integer"));
   EXPECT_THAT(refusal(R"({"text": "", "settings": "x=1"})"), HasSubstr("array"));
   EXPECT_THAT(refusal(R"({"text": "", "settings": [1]})"), HasSubstr("string"));
+  for (const char* time : {"0", "-1", "1e10", "\"1h\"", "null", "1e-9"}) {
+    EXPECT_THAT(refusal(R"({"text": "", "time_limit_s": )" + std::string(time) + "}"), HasSubstr("seconds")) << time;
+  }
+  EXPECT_THAT(refusal(R"({"text": "", "at_most": 0})"), HasSubstr("from 1 to"));
+  EXPECT_THAT(refusal(R"({"text": "", "after": "s1"})"), HasSubstr("array"));
+  EXPECT_THAT(refusal(R"({"text": "", "stop_if": "failed>lots"})"), HasSubstr("write \"failed>10%\""));
   EXPECT_THAT(refusal(R"({"text": "", "name": ""})"), HasSubstr("name"));
   EXPECT_THAT(refusal(R"({"text": "", "name": "a/b"})"), HasSubstr("name"));
   EXPECT_THAT(refusal(R"({"text": "", "name": "\u009b2J"})"), HasSubstr("name"));

@@ -144,14 +144,14 @@ TEST_F(SupervisorTest, NothingIsStartedOnADiskThatIsNearlyFull) {
 TEST_F(SupervisorTest, HoldingLetsTheWorkerStopAndReleasingGoesOn) {
   submit('a', "run");
   ASSERT_TRUE(step_until_up('a'));
-  EXPECT_EQ(queue_.hold_job(id('a')), 1);
-  EXPECT_EQ(queue_.hold_job(id('a')), 0);
+  EXPECT_EQ(queue_.hold(id('a')), 1);
+  EXPECT_EQ(queue_.hold(id('a')), 0);
   ASSERT_TRUE(step_until('a', kHeld));
   EXPECT_EQ(job('a').reason, "held on request");
   for (int i = 0; i < 5; ++i) supervisor_.step();
   EXPECT_EQ(job('a').state, kHeld) << "room does not release it";
   std::filesystem::remove(directory('a') / "up");
-  EXPECT_EQ(queue_.release_job(id('a'), false), 1);
+  EXPECT_EQ(queue_.release(id('a'), false), 1);
   EXPECT_TRUE(step_until_up('a'));
 }
 
@@ -174,7 +174,7 @@ TEST_F(SupervisorTest, NoMoreWorkersThanSlots) {
   ASSERT_TRUE(step_until_up('b'));
   EXPECT_EQ(queue_.counts()[kRunning], 2);
   EXPECT_EQ(job('c').state, kQueued);
-  queue_.cancel_job(id('a'));
+  queue_.cancel(id('a'));
   EXPECT_TRUE(step_until_up('c'));
   EXPECT_EQ(job('a').state, kCancelled);
 }
@@ -183,7 +183,7 @@ TEST_F(SupervisorTest, CancelLetsTheWorkerStopByItself) {
   submit('a', "run");
   ASSERT_TRUE(step_until_up('a'));
   EXPECT_EQ(kill(job('a').pid, 0), 0);
-  queue_.cancel_job(id('a'));
+  queue_.cancel(id('a'));
   ASSERT_TRUE(step_until('a', kCancelled));
   EXPECT_EQ(queue_.changes_since(0, 100).back().cause, "the worker has stopped at a checkpoint");
 }
@@ -191,7 +191,7 @@ TEST_F(SupervisorTest, CancelLetsTheWorkerStopByItself) {
 TEST_F(SupervisorTest, AWorkerThatFinishesAfterTheCancelIsDone) {
   submit('a', "late");
   ASSERT_TRUE(step_until_up('a'));
-  queue_.cancel_job(id('a'));
+  queue_.cancel(id('a'));
   EXPECT_TRUE(step_until('a', kDone));
 }
 
@@ -199,10 +199,64 @@ TEST_F(SupervisorTest, ADeafWorkerIsKilledAfterTheGrace) {
   submit('a', "deaf");
   ASSERT_TRUE(step_until_up('a'));
   const auto asked = std::chrono::steady_clock::now();
-  queue_.cancel_job(id('a'));
+  queue_.cancel(id('a'));
   ASSERT_TRUE(step_until('a', kCancelled));
   EXPECT_GE(std::chrono::steady_clock::now() - asked, kGrace);
   EXPECT_THAT(queue_.changes_since(0, 100).back().cause, HasSubstr("SIGKILL"));
+}
+
+TEST_F(SupervisorTest, ARunGivesWayOnceItsSoftLimitIsOver) {
+  SupervisorOptions one = options();
+  one.slots = 1;
+  Supervisor supervisor(queue_, executor_, one);
+  queue_.submit("long", 0, std::vector{new_job('a', "run")}, {.soft_limit = std::chrono::milliseconds(1)});
+  const auto until = [&](const std::function<bool()>& condition) {
+    return eventually([&] {
+      supervisor.step();
+      return condition();
+    });
+  };
+  ASSERT_TRUE(until([&] { return std::filesystem::exists(directory('a') / "up"); }));
+  for (int i = 0; i < 5; ++i) supervisor.step();
+  EXPECT_EQ(job('a').state, kRunning) << "nobody waits";
+  submit('b', "done");
+  ASSERT_TRUE(until([&] { return job('b').state == kDone && job('a').state == kRunning; }));
+  EXPECT_EQ(job('a').attempt, 2);
+  EXPECT_GT(job('a').wall.count(), 0) << "the first attempt has been counted";
+  supervisor.shut_down();
+  ASSERT_TRUE(until([&] { return supervisor.idle(); }));
+}
+
+TEST_F(SupervisorTest, ARunIsTimedOutAfterAllItsAttemptsTogether) {
+  queue_.submit("long", 0, std::vector{new_job('a', "run")}, {.time_limit = std::chrono::milliseconds(1500)});
+  ASSERT_TRUE(step_until_up('a'));
+  std::filesystem::remove(directory('a') / "up");
+  kill(job('a').pid, SIGTERM);
+  ASSERT_TRUE(step_until([&] { return job('a').attempt == 2; }));
+  const auto first = job('a').wall;
+  EXPECT_GT(first.count(), 0);
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_TRUE(step_until('a', kTimedOut));
+  EXPECT_GE(first + (std::chrono::steady_clock::now() - begin) + kGrace, std::chrono::milliseconds(1500));
+  EXPECT_GE(job('a').wall, std::chrono::milliseconds(1500));
+  EXPECT_EQ(job('a').attempt, 2);
+  EXPECT_THAT(job('a').reason, HasSubstr("its time limit"));
+}
+
+TEST_F(SupervisorTest, ADeafWorkerBeyondItsTimeLimitIsKilled) {
+  submit('a', "deaf");
+  ASSERT_TRUE(step_until_up('a'));
+  queue_.submit("deaf", 0, std::vector{new_job('a', "deaf")}, {.time_limit = std::chrono::milliseconds(1)});
+  ASSERT_TRUE(step_until('a', kTimedOut));
+  EXPECT_THAT(queue_.history(id('a')).back().cause, HasSubstr("SIGKILL"));
+}
+
+TEST_F(SupervisorTest, WhatHasHadItsTimeIsNotStarted) {
+  queue_.submit("late", 0, std::vector{new_job('a', "run")}, {.time_limit = std::chrono::milliseconds(1500)});
+  queue_.add_wall(std::vector{std::pair(id('a'), std::chrono::milliseconds(1500))});  // before a kill of the daemon
+  supervisor_.step();
+  EXPECT_EQ(job('a').state, kTimedOut);
+  EXPECT_EQ(job('a').attempt, 0);
 }
 
 TEST_F(SupervisorTest, AWorkerStoppedBySomebodyElseIsStartedAgain) {

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string_view>
+
+namespace shaken::server {
+
+/// What a held job waits for, as the queue's tables have it.
+inline constexpr std::string_view kOnRequest = "request";
+inline constexpr std::string_view kForRoom = "room";
+inline constexpr std::string_view kForOthers = "others";
+inline constexpr std::string_view kByRule = "rule";
+
+}  // namespace shaken::server

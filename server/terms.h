@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/job.h"
+#include "server/stop_rule.h"
+
+namespace shaken::server {
+
+/// The terms on which the jobs of a submission run; what is left out does not bind. A job that was asked for several
+/// times obeys the terms of the last sweep that asked for it.
+struct Terms {
+  /// Wall time of one attempt, after which a run gives way to those that wait; 0: never.
+  std::chrono::milliseconds soft_limit{0};
+  /// Wall time of all attempts of a run together, after which it is timed out; 0: never.
+  std::chrono::milliseconds time_limit{0};
+  /// Jobs of the sweep that may run at once; 0: any number.
+  int at_most = 0;
+  /// What must be done before the first job of the sweep starts.
+  std::vector<Target> after{};
+  /// When the jobs of the sweep that are still queued are held.
+  std::optional<StopRule> stop_if{};
+};
+
+/// Why a job is timed out.
+std::string time_limit_over(std::chrono::milliseconds limit);
+
+}  // namespace shaken::server
