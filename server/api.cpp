@@ -94,6 +94,7 @@ std::span<const Api::Route> Api::routes() {
       {"POST", "/v1/sweeps/ID/resume", "", &Api::control},
       {"POST", "/v1/sweeps/ID/retry", "", &Api::control},
       {"POST", "/v1/sweeps/ID/priority", "", &Api::control},
+      {"POST", "/v1/sweeps/ID/extend", "", &Api::extend},
       {"GET", "/v1/jobs", "sweep state", &Api::list_jobs},
       {"GET", "/v1/jobs/ID", "", &Api::show_job},
       {"GET", "/v1/jobs/ID/log", "offset", &Api::show_log},
@@ -103,10 +104,27 @@ std::span<const Api::Route> Api::routes() {
       {"POST", "/v1/jobs/ID/resume", "", &Api::control},
       {"POST", "/v1/jobs/ID/retry", "", &Api::control},
       {"POST", "/v1/jobs/ID/priority", "", &Api::control},
+      {"POST", "/v1/jobs/ID/extend", "", &Api::extend},
       {"GET", "/v1/results", "sweep state", &Api::results},
   };
   return kRoutes;
 }
+
+Api::Answer Api::problems_answer(std::span<const scene::Problem> found) {
+  Json problems = Json::array();
+  for (const scene::Problem& problem : found) {
+    problems.push_back({{"file", problem.file},
+                        {"line", problem.line},
+                        {"column", problem.column},
+                        {"path", problem.path},
+                        {"message", problem.message}});
+  }
+  std::string sentence = scene::to_string(found.front());
+  if (problems.size() > 1) sentence = std::to_string(problems.size()) + " problems; the first: " + sentence;
+  return {422, {{"error", sentence}, {"problems", problems}}, ""};
+}
+
+bool Api::in_sweep(const Call& call) { return call.request.path.starts_with("/v1/sweeps/"); }
 
 Reply Api::handle(const Request& request) const {
   const auto refuse = [](int status, const std::string& message) {
@@ -175,19 +193,7 @@ Api::Answer Api::submit(const Call& call) const {
   }
   for (const std::string& word : request.after) request.terms.after.push_back(find_target(word));
   const auto submission = expand(request, info_.runs());
-  if (!submission) {
-    Json problems = Json::array();
-    for (const scene::Problem& problem : submission.error()) {
-      problems.push_back({{"file", problem.file},
-                          {"line", problem.line},
-                          {"column", problem.column},
-                          {"path", problem.path},
-                          {"message", problem.message}});
-    }
-    std::string sentence = scene::to_string(submission.error().front());
-    if (problems.size() > 1) sentence = std::to_string(problems.size()) + " problems; the first: " + sentence;
-    return {422, {{"error", sentence}, {"problems", problems}}, ""};
-  }
+  if (!submission) return problems_answer(submission.error());
   const auto& [name, priority, terms, jobs] = *submission;
   const Submitted submitted = [&] {
     try {
@@ -201,6 +207,7 @@ Api::Answer Api::submit(const Call& call) const {
   Json counts = counts_report(submitted.counts);
   counts["new"] = submitted.n_new;
   counts["requeued"] = submitted.n_requeued;
+  counts["extended"] = submitted.n_extended;
   return {submitted.created ? 201 : 200,
           {{"sweep", report(*queue_.sweep(submitted.sweep))},
            {"jobs", report(queue_.jobs(submitted.sweep))},
@@ -250,10 +257,27 @@ Api::Answer Api::show_history(const Call& call) const {
   return {200, {{"changes", changes}}, ""};
 }
 
+Api::Answer Api::extend(const Call& call) const {
+  std::vector<std::string> settings;
+  try {
+    settings = parse_extension(call.request.body);
+  } catch (const std::invalid_argument& problem) {
+    throw Refusal(400, problem.what());
+  }
+  const auto jobs = in_sweep(call) ? queue_.jobs(find_sweep(call.id).id) : std::vector{find_job(call.id)};
+  std::vector<std::pair<std::string, std::string>> scenes;
+  for (const Job& job : jobs) {
+    const auto longer = extended_scene(queue_.scene(job.id), settings);
+    if (!longer) return problems_answer(longer.error());
+    scenes.emplace_back(job.id, *longer);
+  }
+  return {200, {{"extended", queue_.extend(scenes)}}, ""};
+}
+
 Api::Answer Api::control(const Call& call) const {
   const auto parts = split(call.request.path, '/');
   const std::string& action = parts.back();
-  const Target target = parts[1] == "sweeps" ? Target(find_sweep(call.id).id) : Target(find_job(call.id).id);
+  const Target target = in_sweep(call) ? Target(find_sweep(call.id).id) : Target(find_job(call.id).id);
   const auto answer = [](const char* changed, int n) { return Answer{200, {{changed, n}}, ""}; };
   if (action == "cancel") return answer("cancelled", queue_.cancel(target));
   if (action == "hold") return answer("held", queue_.hold(target));

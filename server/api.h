@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/problem.h"
 #include "server/daemon_info.h"
 #include "server/http_server.h"
 #include "server/queue.h"
@@ -39,7 +40,12 @@ class Api {
   Answer show_history(const Call& call) const;
   /// Of "/v1/jobs/ID/ACTION" and "/v1/sweeps/ID/ACTION".
   Answer control(const Call& call) const;
+  Answer extend(const Call& call) const;
   Answer results(const Call& call) const;
+
+  static Answer problems_answer(std::span<const scene::Problem> found);
+  /// Whether the path is that of a sweep, and not of a job.
+  static bool in_sweep(const Call& call);
 
   Sweep find_sweep(const std::string& word) const;
   Job find_job(const std::string& prefix) const;

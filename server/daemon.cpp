@@ -17,6 +17,7 @@
 #include "run/files/version.h"
 #include "server/api.h"
 #include "server/daemon_info.h"
+#include "server/former_ids.h"
 #include "server/http_server.h"
 #include "server/local_executor.h"
 #include "server/queue.h"
@@ -139,6 +140,7 @@ void run_daemon(const DaemonConfig& config) {
   const Signals signals;
 
   Queue queue(info.root / "queue.db");
+  renew_ids(queue, info.runs());
   for (const std::string& id : queue.recover()) spdlog::info("job {}: was running when the daemon ended", id);
 
   info.version = run::version();

@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "server/queue_schema.h"
 #include "server/queue_words.h"
+#include "server/scene_length.h"
 #include "sim/core/check.h"
 
 namespace shaken::server {
@@ -102,7 +103,7 @@ JobCounts read_counts(Query query) {
 }
 
 const std::string kSelectCurrent =
-    "SELECT id, state, after_stop, attempt, hold, crashes, priority, time_limit_ms, sweep, waits FROM jobs ";
+    "SELECT id, state, after_stop, attempt, hold, crashes, priority, time_limit_ms, sweep, waits, longer FROM jobs ";
 const std::string kSelectSweeps = "SELECT id, name, created_utime, at_most, stop_if, stopped FROM sweeps ";
 
 const std::string kAsked = "cancelled on request";
@@ -120,7 +121,8 @@ Queue::Current Queue::read_current(const Query& query) {
           static_cast<int>(query.integer(6)),
           milliseconds(query.integer(7)),
           query.integer(8),
-          query.integer(9) != 0};
+          query.integer(9) != 0,
+          query.integer(10) != 0};
 }
 
 Queue::Queue(const std::filesystem::path& file) : database_(file) {
@@ -159,8 +161,14 @@ Submitted Queue::submit(const std::string& name, int priority, std::span<const N
     const NewJob& job = jobs[position];
     if (insert(job, priority, result.sweep, terms)) {
       ++result.n_new;
-    } else if (ask_again(job, priority, result.sweep, terms)) {
-      ++result.n_requeued;
+    } else {
+      const bool is_longer = make_longer(*current(job.id), job.scene, "in " + sweep_word(result.sweep));
+      const bool is_queued = ask_again(job, priority, result.sweep, terms);
+      if (is_longer) {
+        ++result.n_extended;
+      } else if (is_queued) {
+        ++result.n_requeued;
+      }
     }
     if (result.created) {
       database_.run(
@@ -200,6 +208,65 @@ bool Queue::insert(const NewJob& job, int priority, std::int64_t sweep, const Te
   database_.run("INSERT INTO scenes(job, scene) VALUES(?1, ?2)", database_.last_row_id(), job.scene);
   record(job.id, "", to_word(kQueued), 0, "submitted in " + sweep_word(sweep));
   return true;
+}
+
+/// Whether the job's scene has become longer.
+bool Queue::make_longer(const Current& job, const std::string& scene, const std::string& asked) {
+  const std::string present = scene_of(job.id);
+  const std::string longer = as_long_as_both(present, scene);
+  if (longer == present) return false;
+  database_.run("UPDATE scenes SET scene = ?2 WHERE job = (SELECT number FROM jobs WHERE id = ?1)", job.id, longer);
+  if (job.state == kRunning || job.state == kStopping) {
+    database_.run("UPDATE jobs SET longer = 1 WHERE id = ?1", job.id);
+  }
+  record(job.id, to_word(job.state), to_word(job.state), job.attempt, "asked to go on longer, " + asked);
+  return true;
+}
+
+int Queue::extend(std::span<const std::pair<std::string, std::string>> scenes) {
+  const std::lock_guard lock(mutex_);
+  Transaction transaction(database_);
+  int changed = 0;
+  for (const auto& [id, scene] : scenes) {
+    const auto job = current(id);
+    if (!job || !make_longer(*job, scene, "on request")) continue;
+    if (job->state == kDone) change(*job, kQueued, "", "goes on from its end");
+    ++changed;
+  }
+  transaction.commit();
+  committed();
+  return changed;
+}
+
+bool Queue::has_former_ids() const {
+  const std::lock_guard lock(mutex_);
+  return database_.query("SELECT 1 FROM upgrades WHERE name = 'ids'").next();
+}
+
+void Queue::renew_ids(std::span<const std::pair<std::string, std::string>> ids) {
+  const std::lock_guard lock(mutex_);
+  Transaction transaction(database_);
+  for (const auto& [former, id] : ids) {
+    database_.run("UPDATE journal SET job = ?2 WHERE job = ?1", former, id);
+    database_.run("UPDATE prerequisites SET target = ?2 WHERE target = ?1", former, id);
+    const auto same = current(id);
+    if (!same) {
+      database_.run("UPDATE jobs SET id = ?2 WHERE id = ?1", former, id);
+      continue;
+    }
+    if (make_longer(*same, scene_of(former), "as job " + former) && same->state == kDone) {
+      change(*same, kQueued, "", "goes on from its end");
+    }
+    database_.run(
+        "UPDATE members SET job = (SELECT number FROM jobs WHERE id = ?2) "
+        "WHERE job = (SELECT number FROM jobs WHERE id = ?1)",
+        former, id);
+    database_.run("DELETE FROM scenes WHERE job = (SELECT number FROM jobs WHERE id = ?1)", former);
+    database_.run("DELETE FROM jobs WHERE id = ?1", former);
+  }
+  database_.run("DELETE FROM upgrades WHERE name = 'ids'");
+  transaction.commit();
+  committed();
 }
 
 bool Queue::ask_again(const NewJob& job, int priority, std::int64_t sweep, const Terms& terms) {
@@ -304,6 +371,10 @@ std::vector<std::string> Queue::ids_beginning_with(const std::string& prefix, in
 
 std::string Queue::scene(const std::string& id) const {
   const std::lock_guard lock(mutex_);
+  return scene_of(id);
+}
+
+std::string Queue::scene_of(const std::string& id) const {
   Query query = database_.query("SELECT s.scene FROM scenes s JOIN jobs j ON j.number = s.job WHERE j.id = ?1", id);
   SHAKEN_CHECK(query.next(), "no scene of job " + id);
   return query.text(0);
@@ -407,14 +478,16 @@ std::vector<Job> Queue::next(int limit) const {
       utime_now(), limit));
 }
 
-std::optional<int> Queue::begin(const std::string& id) {
+std::optional<int> Queue::begin(const std::string& id, const std::string* scene) {
   const std::lock_guard lock(mutex_);
   auto job = current(id);
   if (!job || job->state != kQueued || job->waits || is_full(job->sweep)) return std::nullopt;
+  if (scene != nullptr && scene_of(id) != *scene) return std::nullopt;
   ++job->attempt;
   Transaction transaction(database_);
   change(*job, kRunning, "", "attempt " + std::to_string(job->attempt));
-  database_.run("UPDATE jobs SET attempt = ?2, started_utime = ?3 WHERE id = ?1", id, job->attempt, utime_now());
+  database_.run("UPDATE jobs SET attempt = ?2, started_utime = ?3, longer = 0 WHERE id = ?1", id, job->attempt,
+                utime_now());
   transaction.commit();
   committed();
   return job->attempt;
@@ -431,7 +504,11 @@ void Queue::finish(const std::string& id, JobState state, const std::string& rea
   const auto job = current(id);
   SHAKEN_CHECK(job.has_value(), "no job " + id);
   Transaction transaction(database_);
-  change(*job, state, reason, reason.empty() ? "the worker is done" : reason);
+  if (state == kDone && job->longer) {
+    end_stopping(*job, "the worker is done; it has been asked to go on longer meanwhile");
+  } else {
+    change(*job, state, reason, reason.empty() ? "the worker is done" : reason);
+  }
   transaction.commit();
   committed();
 }

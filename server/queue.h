@@ -36,6 +36,7 @@ struct Submitted {
   bool created = false;  ///< false: this very sweep was there already
   int n_new = 0;         ///< jobs never seen before
   int n_requeued = 0;    ///< failed, cancelled, timed out, held or about to be so, queued again
+  int n_extended = 0;    ///< asked to go on longer than before; none of the above
   JobCounts counts;      ///< of the sweep's jobs, afterwards
 };
 
@@ -67,9 +68,15 @@ class Queue {
   /// Returns the ids of the jobs concerned.
   std::vector<std::string> recover();
 
+  /// Whether jobs may still have the ids of a version in which these depended on the length of a run.
+  bool has_former_ids() const;
+  /// Gives jobs new ids, pairs of the former and the new one. Of several that get the same, the first stays; it goes on
+  /// for as long as any of them asks for.
+  void renew_ids(std::span<const std::pair<std::string, std::string>> ids);
+
   /// One sweep, in one transaction. A job that exists is not done twice; a failed, cancelled or timed out one is queued
   /// again, and one that is about to be cancelled goes on. The same jobs under the same name again give the same sweep.
-  /// Throws Circular.
+  /// One whose scene asks for a longer run than it did goes on longer. Throws Circular.
   Submitted submit(const std::string& name, int priority, std::span<const NewJob> jobs, const Terms& terms = {});
 
   std::vector<Sweep> sweeps() const;  ///< oldest first
@@ -84,6 +91,10 @@ class Queue {
   /// The canonical scene of a job.
   std::string scene(const std::string& id) const;
   JobCounts counts() const;
+
+  /// Asks jobs to go on for as long as a scene says, pairs of id and canonical scene. Done ones are queued again.
+  /// Returns how many were asked for more than before.
+  int extend(std::span<const std::pair<std::string, std::string>> scenes);
 
   /// Queued jobs are cancelled, running ones asked to stop (the supervisor sees to that); finished ones stay as they
   /// are. Returns how many were changed.
@@ -102,10 +113,12 @@ class Queue {
   std::vector<Job> next(int limit) const;
   /// Says why a queued job does not start; "" if nothing keeps it.
   void set_reason(const std::string& id, const std::string& reason);
-  /// queued -> running. Returns the number of the attempt; none if the job is not queued any more.
-  std::optional<int> begin(const std::string& id);
+  /// queued -> running. Returns the number of the attempt; none if the job is not queued any more, or not with `scene`,
+  /// as which the worker would run it (not looked at if null).
+  std::optional<int> begin(const std::string& id, const std::string* scene = nullptr);
   void set_pid(const std::string& id, int pid);
-  /// running or stopping -> done or failed; queued -> failed or timed out, of what cannot even be started.
+  /// running or stopping -> done or failed; queued -> failed or timed out, of what cannot even be started. One that is
+  /// done, but has been asked to go on longer meanwhile, is queued again.
   void finish(const std::string& id, JobState state, const std::string& reason);
   /// The worker has stopped before the end: running -> queued; stopping -> cancelled, held, timed out or queued, as was
   /// asked.
@@ -155,6 +168,7 @@ class Queue {
     std::chrono::milliseconds time_limit;
     std::int64_t sweep;  ///< that asked for it last
     bool waits;
+    bool longer;  ///< than its worker knows
   };
   static Current read_current(const Query& query);
   std::optional<Current> current(const std::string& id) const;
@@ -167,6 +181,8 @@ class Queue {
   std::vector<Current> active() const;
   std::optional<std::int64_t> same_sweep(const std::string& name, std::span<const NewJob> jobs) const;
   bool insert(const NewJob& job, int priority, std::int64_t sweep, const Terms& terms);
+  bool make_longer(const Current& job, const std::string& scene, const std::string& asked);
+  std::string scene_of(const std::string& id) const;
   bool ask_again(const NewJob& job, int priority, std::int64_t sweep, const Terms& terms);
   JobCounts sweep_counts(std::int64_t sweep) const;
   Sweep read_sweep(const Query& query) const;

@@ -89,8 +89,14 @@ CREATE TABLE prerequisites(                  -- what is to be done before the jo
 CREATE INDEX prerequisites_by_target ON prerequisites(target);
 )sql";
 
+constexpr const char* kVersion4 = R"sql(
+ALTER TABLE jobs ADD COLUMN longer INTEGER NOT NULL DEFAULT 0;  -- 1: asked to go on longer while it runs
+CREATE TABLE upgrades(name TEXT PRIMARY KEY);                   -- what is still to be done that takes more than SQL
+INSERT INTO upgrades SELECT 'ids' WHERE EXISTS (SELECT 1 FROM jobs);
+)sql";
+
 /// What makes each version of the one before; the first, of an empty file.
-constexpr std::array kSteps{kVersion1, kVersion2, kVersion3};
+constexpr std::array kSteps{kVersion1, kVersion2, kVersion3, kVersion4};
 constexpr auto kVersion = static_cast<std::int64_t>(kSteps.size());
 
 std::int64_t version(Database& database) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -116,6 +117,29 @@ int parse_priority(std::string_view body) {
   return priority_of(object["priority"]);
 }
 
+std::vector<std::string> parse_extension(std::string_view body) {
+  static const std::map<std::string, std::string> kPaths{
+      {"measure", "time.measure"}, {"order_sem", "until.order_sem"}, {"at_most", "until.at_most"}};
+  std::vector<std::string> known;
+  for (const auto& [key, path] : kPaths) known.push_back(key);
+  std::vector<std::string> settings;
+  const json object = parse_object(body, known);
+  for (const auto& [key, value] : object.items()) {
+    if (!value.is_string() && !value.is_number()) {
+      throw std::invalid_argument("\"" + key + "\" must be a number or a text with a unit");
+    }
+    settings.push_back(kPaths.at(key) + "=" + (value.is_string() ? value.get<std::string>() : value.dump()));
+  }
+  if (settings.empty()) throw std::invalid_argument("one of \"measure\", \"order_sem\" and \"at_most\" is needed");
+  return settings;
+}
+
+scene::Loaded<std::string> extended_scene(const std::string& scene, const std::vector<std::string>& settings) {
+  const auto plan = scene::load_scene(scene, "the scene", settings);
+  if (!plan) return plan.error();
+  return scene::to_json(*plan).dump(2) + "\n";
+}
+
 scene::Loaded<Submission> expand(const SubmitRequest& request, const std::filesystem::path& runs) {
   const auto sweep = scene::load_runs(request.text, request.file, request.settings, request.replicas);
   if (!sweep) return sweep.error();
@@ -130,7 +154,7 @@ scene::Loaded<Submission> expand(const SubmitRequest& request, const std::filesy
     job.label = point.label;
     job.parameters = point.parameters.dump();
     job.replica = point.replica;
-    job.results_lost = !run::is_done(run::RunDirectory{runs / job.id}, job.id);
+    job.results_lost = !run::is_done(run::RunDirectory{runs / job.id}, point.plan);
     submission.jobs.push_back(std::move(job));
   }
   return submission;

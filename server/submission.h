@@ -38,6 +38,13 @@ SubmitRequest parse_submit_request(std::string_view body);
 /// The number of {"priority": n}. Throws std::invalid_argument as above.
 int parse_priority(std::string_view body);
 
+/// The settings ("time.measure=600 s") that {"measure": time, "order_sem": number, "at_most": time} stands for; each
+/// may be left out, but not all. Throws std::invalid_argument as above.
+std::vector<std::string> parse_extension(std::string_view body);
+
+/// A canonical scene with such settings, as canonical text, or all that is wrong with it.
+scene::Loaded<std::string> extended_scene(const std::string& scene, const std::vector<std::string>& settings);
+
 /// The sweep that a request asks for, or all that is wrong with its text.
 /// `runs`: folder of the run directories, where it is looked whether results are still there.
 scene::Loaded<Submission> expand(const SubmitRequest& request, const std::filesystem::path& runs);

@@ -9,6 +9,7 @@
 
 #include "base/files.h"
 #include "base/text.h"
+#include "server/scene_length.h"
 
 namespace shaken::server {
 namespace {
@@ -221,13 +222,16 @@ bool Supervisor::start(const Job& job) {
       wait(job, lock.error().message);
       return false;
     }
-    if (const auto done = write_file_atomically(directory.scene(), scene); !done) {
+    // A run that the queue does not know of, since queue.db was lost, say, may be further than this job asks for.
+    const auto present = read_file(directory.scene());
+    const std::string text = present ? as_long_as_both(*present, scene) : scene;
+    if (const auto done = write_file_atomically(directory.scene(), text); !done) {
       wait(job, done.error().message);
       return false;
     }
   }
-  const auto attempt = queue_.begin(job.id);
-  if (!attempt) return false;  // cancelled a moment ago
+  const auto attempt = queue_.begin(job.id, &scene);
+  if (!attempt) return false;  // cancelled, or asked to go on longer, a moment ago
 
   Launch launch{directory.root,
                 {directory.scene().string(), "--out", directory.root.string(), "--job-id", job.id, "--sweep-id",

@@ -123,10 +123,11 @@ class Submit : public Verb {
     }
     std::string words = fmt::format("{} new", n_new);
     if (const int n = counts.value("requeued", 0); n > 0) words += fmt::format(", {} queued again", n);
+    if (const int n = counts.value("extended", 0); n > 0) words += fmt::format(", {} extended", n);
     for (const char* state : {"done", "running", "queued"}) {
-      // "queued" counts the new ones too.
-      const int n =
-          counts.value(state, 0) - (std::string_view(state) == "queued" ? n_new + counts.value("requeued", 0) : 0);
+      // "queued" counts those just named too
+      const int named = n_new + counts.value("requeued", 0) + counts.value("extended", 0);
+      const int n = counts.value(state, 0) - (std::string_view(state) == "queued" ? named : 0);
       if (n > 0) words += fmt::format(", {} {}{}", n, std::string_view(state) == "done" ? "" : "already ", state);
     }
     console.out << fmt::format("sweep {} ({}): {} point{}: {}\n", console.painted(Colour::kBold, text_of(sweep, "id")),

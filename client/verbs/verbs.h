@@ -22,6 +22,7 @@ std::unique_ptr<Verb> make_watch();
 std::unique_ptr<Verb> make_logs();
 std::unique_ptr<Verb> make_wait();
 std::unique_ptr<Verb> make_history();
+std::unique_ptr<Verb> make_extend();
 std::unique_ptr<Verb> make_hold();
 std::unique_ptr<Verb> make_resume();
 std::unique_ptr<Verb> make_retry();

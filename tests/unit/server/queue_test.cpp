@@ -6,6 +6,8 @@
 
 #include <thread>
 
+#include "scene/canonical.h"
+#include "scene/load.h"
 #include "tests/unit/server/support.h"
 
 namespace shaken::server {
@@ -265,6 +267,76 @@ TEST_F(QueueTest, APauseBegunBeforeTheClockWasSetBackIsOver) {
   EXPECT_EQ(queue_.next(1).size(), 1U);
 }
 
+/// A job with a real scene, which asks for so many simulated seconds.
+NewJob job_of(const std::string& seconds, bool results_lost = false) {
+  const auto plan = scene::load_scene(R"({"box": {"side": 30}, "time": {"measure": )" + seconds + "}}", "f");
+  return {scene::run_id(*plan), scene::to_json(*plan).dump(2) + "\n", "measure " + seconds, "{}", 1, results_lost};
+}
+
+double seconds_asked(const Queue& queue, const std::string& id) {
+  return scene::load_scene(queue.scene(id), "f")->measure_time;
+}
+
+TEST_F(QueueTest, ALongerSceneExtendsTheJobThatIsThere) {
+  const NewJob short_one = job_of("2");
+  ASSERT_EQ(short_one.id, job_of("5").id);
+  EXPECT_EQ(queue_.submit("s", 0, std::vector{short_one}).n_new, 1);
+  EXPECT_EQ(queue_.submit("s", 0, std::vector{job_of("3")}).n_extended, 1);
+  EXPECT_EQ(queue_.submit("s", 0, std::vector{job_of("2.5")}).n_extended, 0) << "it is longer already";
+  EXPECT_EQ(seconds_asked(queue_, short_one.id), 3);
+
+  queue_.begin(short_one.id);
+  queue_.finish(short_one.id, kDone, "");
+  EXPECT_EQ(queue_.submit("s", 0, std::vector{job_of("1")}).n_extended, 0);
+  EXPECT_EQ(queue_.job(short_one.id)->state, kDone);
+  const Submitted longer = queue_.submit("s", 0, std::vector{job_of("4", true)});
+  EXPECT_EQ(longer.n_extended, 1);
+  EXPECT_EQ(longer.n_requeued, 0) << "counted once";
+  EXPECT_EQ(queue_.job(short_one.id)->state, kQueued);
+  EXPECT_EQ(seconds_asked(queue_, short_one.id), 4);
+}
+
+TEST_F(QueueTest, AJobThatRunsIsExtendedWhenItsWorkerIsDone) {
+  const NewJob job = job_of("2");
+  queue_.submit("s", 0, std::vector{job});
+  queue_.begin(job.id);
+  EXPECT_EQ(queue_.extend(std::vector{std::pair{job.id, job_of("4").scene}}), 1);
+  EXPECT_EQ(queue_.job(job.id)->state, kRunning);
+  queue_.finish(job.id, kDone, "");
+  EXPECT_EQ(queue_.job(job.id)->state, kQueued);
+  queue_.begin(job.id);
+  queue_.finish(job.id, kDone, "");
+  EXPECT_EQ(queue_.job(job.id)->state, kDone) << "the second worker knew";
+  // asked for while it is to stop
+  queue_.extend(std::vector{std::pair{job.id, job_of("5").scene}});
+  queue_.begin(job.id);
+  queue_.hold(job.id);
+  queue_.extend(std::vector{std::pair{job.id, job_of("6").scene}});
+  queue_.finish(job.id, kDone, "");
+  EXPECT_EQ(queue_.job(job.id)->state, kHeld);
+}
+
+TEST_F(QueueTest, ASceneThatHasBecomeLongerMeanwhileIsNotBegun) {
+  const NewJob job = job_of("2");
+  queue_.submit("s", 0, std::vector{job});
+  const std::string scene = queue_.scene(job.id);
+  queue_.extend(std::vector{std::pair{job.id, job_of("4").scene}});
+  EXPECT_FALSE(queue_.begin(job.id, &scene));
+  const std::string longer = queue_.scene(job.id);
+  EXPECT_TRUE(queue_.begin(job.id, &longer));
+}
+
+TEST_F(QueueTest, ExtendingAFailedJobLeavesItFailed) {
+  const NewJob job = job_of("2");
+  queue_.submit("s", 0, std::vector{job});
+  queue_.begin(job.id);
+  queue_.finish(job.id, kFailed, "trouble");
+  EXPECT_EQ(queue_.extend(std::vector{std::pair{job.id, job_of("4").scene}}), 1);
+  EXPECT_EQ(queue_.job(job.id)->state, kFailed);
+  EXPECT_EQ(queue_.release(job.id, true), 1);
+  EXPECT_EQ(seconds_asked(queue_, job.id), 4);
+}
+
 TEST_F(QueueTest, IdsAreFoundByTheirBeginning) {
   NewJob near = new_job('a');
   near.id = "aaab000000000000";
@@ -443,6 +515,7 @@ TEST_P(OldQueueTest, IsTakenOver) {
     EXPECT_EQ(queue.mean_duration(1), 2.0) << "from the times of its last attempt";
     queue.submit("new", 3, std::vector{new_job('c')});
     EXPECT_EQ(queue.next(2).at(0).id, std::string(16, 'a')) << "what was there first goes first";
+    EXPECT_TRUE(queue.has_former_ids());
   }
 }
 

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "client/target.h"
+#include "client/verbs/verbs.h"
+
+namespace shaken::client {
+namespace {
+
+class Extend : public Verb {
+ public:
+  VerbInfo info() const override {
+    return {"extend", kControlGroup, "Let runs go on for longer, from where they are; done ones too",
+            "  shaken extend 1f0c --measure 600s                 one job, by the beginning of its id\n"
+            "  shaken extend s3 --measure '10 min'               all jobs of a sweep\n"
+            "  shaken extend s3 --order-sem 0.005 --at-most 1h   until S is known well enough\n"
+            "  shaken submit FILE -s time.measure=600s           does the same, and adds what is new"};
+  }
+
+  void declare(Arguments& arguments) override {
+    arguments.list("ID", ids_, "Sweeps (id or name) and jobs", Names::kId, 1);
+    arguments.option("--measure", measure_, "TIME", "Simulated time of the run after time.steady, in all");
+    arguments.option("--order-sem", order_sem_, "ERROR", "Go on until the standard error of S is this at most");
+    arguments.option("--at-most", at_most_, "TIME", "Simulated time at which the run ends in any case");
+    arguments.flag("--json", json_, "Print the daemon's answers as JSON");
+  }
+
+  ExitCode run(const Context& context) override {
+    Json body = Json::object();
+    if (!measure_.empty()) body["measure"] = measure_;
+    if (!order_sem_.empty()) body["order_sem"] = order_sem_;
+    if (!at_most_.empty()) body["at_most"] = at_most_;
+    if (body.empty()) {
+      throw Failure(ExitCode::kBadInput, "extend: say for how long, with --measure, --order-sem or --at-most");
+    }
+    ApiClient session(context.root());
+    std::vector<Target> targets;
+    for (const std::string& id : ids_) targets.push_back(find_target(session, id));
+    Json answers = Json::array();
+    for (const Target& target : targets) {
+      const int n = session.post(target.path + "/extend", body).at("extended").get<int>();
+      answers.push_back({{"target", target.title()}, {"extended", n}});
+      if (json_) continue;
+      context.console.out << (n > 0 ? fmt::format("{}: {} extended\n", target.title(),
+                                                  n == 1 ? "1 job" : fmt::format("{} jobs", n))
+                                    : fmt::format("{}: as long as that already\n", target.title()));
+    }
+    if (json_) context.console.out << json_text(Json{{"targets", answers}});
+    return ExitCode::kOk;
+  }
+
+ private:
+  std::vector<std::string> ids_;
+  std::string measure_, order_sem_, at_most_;
+  bool json_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_extend() { return std::make_unique<Extend>(); }
+
+}  // namespace shaken::client

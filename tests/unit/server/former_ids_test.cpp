@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "server/former_ids.h"
+
+#include <gtest/gtest.h>
+
+#include "scene/canonical.h"
+#include "scene/load.h"
+#include "server/sqlite.h"
+#include "tests/unit/server/support.h"
+
+namespace shaken::server {
+namespace {
+
+using enum JobState;
+
+scene::RunPlan plan_of(double side, double seconds) {
+  const std::vector<std::string> settings{"box.side=" + std::to_string(side),
+                                          "time.measure=" + std::to_string(seconds)};
+  return *scene::load_scene("{}", "f", settings);
+}
+
+/// A job as it was before runs could be extended.
+NewJob former_job(const scene::RunPlan& plan) {
+  return {scene::scene_hash(plan), scene::to_json(plan).dump(2) + "\n", "label", "{}", 1, false};
+}
+
+class FormerIdsTest : public testing::Test {
+ protected:
+  /// A queue of these, of which those `done` are, and a folder with a file "seconds" for each.
+  void fill(const std::vector<std::pair<scene::RunPlan, bool>>& plans) {
+    const TempDirectory& root = directory_;
+    {
+      Queue queue(root / "queue.db");
+      std::vector<NewJob> jobs;
+      for (const auto& [plan, done] : plans) jobs.push_back(former_job(plan));
+      queue.submit("old", 0, jobs);
+      for (const auto& [plan, done] : plans) {
+        const std::string id = scene::scene_hash(plan);
+        std::filesystem::create_directories(runs() / id);
+        write_text(runs() / id / "seconds", std::to_string(static_cast<int>(plan.measure_time)));
+        if (!done) continue;
+        queue.begin(id);
+        queue.finish(id, kDone, "");
+      }
+    }
+    Database(root / "queue.db").execute("INSERT INTO upgrades VALUES('ids')");
+  }
+  std::filesystem::path runs() const { return directory_ / "runs"; }
+
+  TempDirectory directory_;
+};
+
+TEST_F(FormerIdsTest, JobsAndFoldersGetTheIdsOfToday) {
+  fill({{plan_of(40, 2), true}, {plan_of(50, 3), false}});
+  Queue queue(directory_ / "queue.db");
+  ASSERT_TRUE(queue.has_former_ids());
+  for (int again = 0; again < 2; ++again) {
+    renew_ids(queue, runs());
+    EXPECT_FALSE(queue.has_former_ids());
+    const auto jobs = queue.jobs(1);
+    ASSERT_EQ(jobs.size(), 2U);
+    EXPECT_EQ(jobs[0].id, scene::run_id(plan_of(40, 2)));
+    EXPECT_EQ(jobs[0].state, kDone);
+    EXPECT_EQ(jobs[1].id, scene::run_id(plan_of(50, 3)));
+    EXPECT_EQ(queue.history(jobs[0].id).size(), 3U) << "the journal goes with it";
+    EXPECT_EQ(read_text(runs() / jobs[0].id / "seconds"), "2");
+    EXPECT_FALSE(std::filesystem::exists(runs() / scene::scene_hash(plan_of(40, 2))));
+  }
+}
+
+TEST_F(FormerIdsTest, RunsThatDifferInTheirLengthBecomeTheLongestThatIsDone) {
+  fill({{plan_of(40, 2), true}, {plan_of(40, 8), false}, {plan_of(40, 4), true}});
+  Queue queue(directory_ / "queue.db");
+  renew_ids(queue, runs());
+  const std::string id = scene::run_id(plan_of(40, 2));
+  const auto jobs = queue.jobs(1);
+  ASSERT_EQ(jobs.size(), 3U) << "the sweep has its points";
+  for (const Job& job : jobs) {
+    EXPECT_EQ(job.id, id);
+    EXPECT_EQ(job.state, kQueued) << "8 s were asked for, 4 s are done";
+  }
+  EXPECT_EQ(queue.counts().total(), 1);
+  EXPECT_EQ(scene::load_scene(queue.scene(id), "f")->measure_time, 8);
+  EXPECT_EQ(read_text(runs() / id / "seconds"), "4");
+  EXPECT_EQ(read_text(runs() / scene::scene_hash(plan_of(40, 2)) / "seconds"), "2") << "nothing is lost";
+}
+
+TEST_F(FormerIdsTest, AfterACrashBetweenFoldersAndQueueItGoesOn) {
+  fill({{plan_of(40, 2), true}});
+  std::filesystem::rename(runs() / scene::scene_hash(plan_of(40, 2)), runs() / scene::run_id(plan_of(40, 2)));
+  Queue queue(directory_ / "queue.db");
+  renew_ids(queue, runs());
+  EXPECT_EQ(read_text(runs() / queue.jobs(1).at(0).id / "seconds"), "2");
+}
+
+TEST_F(FormerIdsTest, JobsOfAnotherPhysicsKeepTheirs) {
+  {
+    Queue queue(directory_ / "queue.db");
+    queue.submit("s", 0, std::vector{NewJob{std::string(16, 'f'), former_job(plan_of(40, 2)).scene, "", "{}", 1}});
+  }
+  Database(directory_ / "queue.db").execute("INSERT INTO upgrades VALUES('ids')");
+  Queue queue(directory_ / "queue.db");
+  renew_ids(queue, runs());
+  EXPECT_EQ(queue.jobs(1).at(0).id, std::string(16, 'f'));
+}
+
+}  // namespace
+}  // namespace shaken::server
