@@ -40,6 +40,7 @@ class Api {
   /// Of "/v1/jobs/ID/ACTION" and "/v1/sweeps/ID/ACTION".
   Answer control(const Call& call) const;
   Answer results(const Call& call) const;
+  Answer clean(const Call& call) const;
 
   Sweep find_sweep(const std::string& word) const;
   Job find_job(const std::string& prefix) const;

@@ -120,7 +120,7 @@ TEST_F(QueueTest, ADoneJobWhoseResultsAreLostIsDoneAgain) {
   queue_.submit("s", 0, jobs);
   queue_.begin(a_);
   queue_.finish(a_, kDone, "");
-  jobs[0].results_lost = true;
+  jobs[0].has_results = false;
   EXPECT_EQ(queue_.submit("s", 0, jobs).n_requeued, 1);
   EXPECT_EQ(state('a'), kQueued);
 }
