@@ -73,7 +73,9 @@ std::vector<Json> jobs_of(const Target& target) {
   return {jobs.begin(), jobs.end()};
 }
 
-bool is_final(std::string_view state) { return state == "done" || state == "failed" || state == "cancelled"; }
+bool is_final(std::string_view state) {
+  return state == "done" || state == "failed" || state == "timed out" || state == "cancelled";
+}
 
 std::string short_id(const std::string& id) { return id.substr(0, 8); }
 
@@ -101,9 +103,28 @@ std::string text_of(const Json& object, const char* key) {
   return value != object.end() && value->is_string() ? printable(value->get<std::string>()) : std::string();
 }
 
+int number_of(const Json& object, const char* key) {
+  const auto value = object.find(key);
+  return value != object.end() && value->is_number() ? value->get<int>() : 0;
+}
+
+std::string limits_text(const Json& job) {
+  const auto seconds = [&job](const char* key) {
+    const auto value = job.find(key);
+    return value != job.end() && value->is_number() ? value->get<double>() : 0.0;
+  };
+  std::string text;
+  if (const double soft = seconds("soft_limit_s"); soft > 0) text = "gives way after " + duration_text(soft);
+  if (const double hard = seconds("time_limit_s"); hard > 0) {
+    text +=
+        fmt::format("{}{} of {} used", text.empty() ? "" : "; ", duration_text(seconds("wall_s")), duration_text(hard));
+  }
+  return text;
+}
+
 std::string counts_text(const Json& counts) {
   std::string text;
-  for (const char* state : {"done", "running", "stopping", "queued", "held", "failed", "cancelled"}) {
+  for (const char* state : {"done", "running", "stopping", "queued", "held", "failed", "timed out", "cancelled"}) {
     const int n = counts.value(state, 0);
     if (n > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", n, state);
   }

@@ -52,6 +52,12 @@ double progress_number(const Json& job, const char* key);
 /// job[key] as text that may be shown (base/text.h: printable); empty if it is missing, null or no text.
 std::string text_of(const Json& object, const char* key);
 
+/// job[key] as a whole number; 0 if it is missing, null or no number.
+int number_of(const Json& object, const char* key);
+/// The time limits of a job, and how much of them is used: "gives way after 10 min; 12 min of 2 h 00 min used"; empty
+/// if it has none.
+std::string limits_text(const Json& job);
+
 /// {state: n} as words, in the order of a job's life: "3 done, 2 running, 5 queued".
 std::string counts_text(const Json& counts);
 /// Jobs in any state.

@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "run/files/directory.h"
 #include "scene/nearest.h"
+#include "server/cleaning.h"
 #include "server/log_slice.h"
 #include "server/submission.h"
 
@@ -33,6 +34,16 @@ struct Refusal : std::runtime_error {
 constexpr std::int64_t kLogSliceBytes = 1 << 20;
 constexpr int kMostCandidates = 10;    // named when a shortened id fits several jobs
 constexpr int kMostCompared = 10'000;  // ids searched for the nearest
+
+/// What `parse` makes of a body.
+template <class Parse>
+auto parsed(const Parse& parse, const std::string& body) {
+  try {
+    return parse(body);
+  } catch (const std::invalid_argument& problem) {
+    throw Refusal(400, problem.what());
+  }
+}
 
 /// The parts of `text` between separators, without empty ones.
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -106,6 +117,7 @@ std::span<const Api::Route> Api::routes() {
       {"POST", "/v1/jobs/ID/priority", "", &Api::control},
       {"POST", "/v1/jobs/ID/extend", "", &Api::extend},
       {"GET", "/v1/results", "sweep state", &Api::results},
+      {"POST", "/v1/clean", "", &Api::clean},
   };
   return kRoutes;
 }
@@ -185,12 +197,7 @@ Api::Answer Api::status(const Call&) const {
 }
 
 Api::Answer Api::submit(const Call& call) const {
-  SubmitRequest request;
-  try {
-    request = parse_submit_request(call.request.body);
-  } catch (const std::invalid_argument& problem) {
-    throw Refusal(400, problem.what());
-  }
+  SubmitRequest request = parsed(parse_submit_request, call.request.body);
   for (const std::string& word : request.after) request.terms.after.push_back(find_target(word));
   const auto submission = expand(request, info_.runs());
   if (!submission) return problems_answer(submission.error());
@@ -202,12 +209,13 @@ Api::Answer Api::submit(const Call& call) const {
       throw Refusal(409, problem.what());
     }
   }();
-  spdlog::info("sweep {} '{}': {} jobs, {} new, {} queued again", sweep_word(submitted.sweep), name,
-               submitted.counts.total(), submitted.n_new, submitted.n_requeued);
+  spdlog::info("sweep {} '{}': {} jobs, {} new, {} found done, {} queued again", sweep_word(submitted.sweep), name,
+               submitted.counts.total(), submitted.n_new, submitted.n_found, submitted.n_requeued);
   Json counts = counts_report(submitted.counts);
   counts["new"] = submitted.n_new;
   counts["requeued"] = submitted.n_requeued;
   counts["extended"] = submitted.n_extended;
+  counts["found"] = submitted.n_found;
   return {submitted.created ? 201 : 200,
           {{"sweep", report(*queue_.sweep(submitted.sweep))},
            {"jobs", report(queue_.jobs(submitted.sweep))},
@@ -247,23 +255,19 @@ Api::Answer Api::show_log(const Call& call) const {
 
 Api::Answer Api::show_history(const Call& call) const {
   Json changes = Json::array();
-  for (const Change& change : queue_.history(find_job(call.id).id)) {
+  const Job job = find_job(call.id);
+  for (const Change& change : queue_.history(job.id)) {
     changes.push_back({{"utime", change.utime},
                        {"from", change.from},
                        {"to", change.to},
                        {"attempt", change.attempt},
                        {"cause", change.cause}});
   }
-  return {200, {{"changes", changes}}, ""};
+  return {200, {{"job", job_report(job, info_.runs())}, {"changes", changes}}, ""};
 }
 
 Api::Answer Api::extend(const Call& call) const {
-  std::vector<std::string> settings;
-  try {
-    settings = parse_extension(call.request.body);
-  } catch (const std::invalid_argument& problem) {
-    throw Refusal(400, problem.what());
-  }
+  const std::vector<std::string> settings = parsed(parse_extension, call.request.body);
   const auto jobs = in_sweep(call) ? queue_.jobs(find_sweep(call.id).id) : std::vector{find_job(call.id)};
   std::vector<std::pair<std::string, std::string>> scenes;
   for (const Job& job : jobs) {
@@ -282,12 +286,7 @@ Api::Answer Api::control(const Call& call) const {
   if (action == "cancel") return answer("cancelled", queue_.cancel(target));
   if (action == "hold") return answer("held", queue_.hold(target));
   if (action == "priority") {
-    int priority = 0;
-    try {
-      priority = parse_priority(call.request.body);
-    } catch (const std::invalid_argument& problem) {
-      throw Refusal(400, problem.what());
-    }
+    const int priority = parsed(parse_priority, call.request.body);
     return answer("changed", queue_.set_priority(target, priority));
   }
   const bool retry = action == "retry";
@@ -298,6 +297,27 @@ Api::Answer Api::results(const Call& call) const {
   Json rows = Json::array();
   for (const Job& job : find_jobs(call)) rows.push_back(result_row(job, info_.runs()));
   return {200, {{"rows", rows}}, ""};
+}
+
+Api::Answer Api::clean(const Call& call) const {
+  auto [request, sweep] = parsed(parse_clean_request, call.request.body.empty() ? "{}" : call.request.body);
+  if (!sweep.empty()) request.sweep = find_sweep(sweep).id;
+  Json runs = Json::array();
+  std::int64_t bytes = 0;
+  for (const Cleaned& run : server::clean(queue_, info_.runs(), request)) {
+    const bool is_known = run.job.has_value();
+    runs.push_back({{"id", run.id},
+                    {"known", is_known},
+                    {"state", is_known ? Json(to_word(run.job->state)) : Json(nullptr)},
+                    {"label", is_known ? run.job->label : ""},
+                    {"sweep", is_known ? Json(sweep_word(run.job->sweep)) : Json(nullptr)},
+                    {"finished_utime", is_known ? run.job->finished : 0},
+                    {"bytes", run.bytes},
+                    {"removed", run.removed},
+                    {"kept", run.kept}});
+    if (run.removed || (request.dry_run && (is_known || request.unknown))) bytes += run.bytes;
+  }
+  return {200, {{"runs", runs}, {"bytes", bytes}}, ""};
 }
 
 Sweep Api::find_sweep(const std::string& word) const {

@@ -42,6 +42,7 @@ class Api {
   Answer control(const Call& call) const;
   Answer extend(const Call& call) const;
   Answer results(const Call& call) const;
+  Answer clean(const Call& call) const;
 
   static Answer problems_answer(std::span<const scene::Problem> found);
   /// Whether the path is that of a sweep, and not of a job.

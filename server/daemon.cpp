@@ -7,15 +7,19 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <cstdio>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "base/failure.h"
 #include "run/files/directory.h"
 #include "run/files/version.h"
 #include "server/api.h"
+#include "server/cleaning.h"
 #include "server/daemon_info.h"
 #include "server/former_ids.h"
 #include "server/http_server.h"
@@ -99,6 +103,52 @@ std::vector<std::string> worker_options(const DaemonConfig& config) {
   return options;
 }
 
+/// Listens for requests, anew if somebody removes or replaces the socket file.
+class ControlSocket {
+ public:
+  ControlSocket(std::filesystem::path file, HttpServer::Handler handler)
+      : file_(std::move(file)), handler_(std::move(handler)), server_(std::make_unique<HttpServer>(file_, handler_)) {}
+
+  /// Throws Failure if it does not listen though its file is there.
+  void check() {
+    std::erase_if(former_, [](const auto& server) { return server->ended_within(milliseconds(0)); });
+    if (server_ && server_->is_reachable()) {
+      if (server_->ended_within(milliseconds(0))) throw Failure(ExitCode::kFailed, "the control socket has failed");
+      return;
+    }
+    if (server_) {
+      spdlog::warn("{} was removed or replaced: listening anew", file_.string());
+      server_->close();
+      former_.push_back(std::move(server_));  // which may have to answer still
+    }
+    try {
+      server_ = std::make_unique<HttpServer>(file_, handler_);
+      complaint_.clear();
+    } catch (const Failure& failure) {  // the folder is gone, too; it may come back
+      if (std::exchange(complaint_, failure.what()) != failure.what()) spdlog::error("{}", failure.what());
+    }
+  }
+  void close() {
+    if (server_) server_->close();
+  }
+  /// After close(): whether every connection has ended within the time.
+  bool ended_within(milliseconds timeout) {
+    const auto end = std::chrono::steady_clock::now() + timeout;
+    const auto ended = [end](const auto& server) {
+      const auto left = std::chrono::duration_cast<milliseconds>(end - std::chrono::steady_clock::now());
+      return server->ended_within(std::max(left, milliseconds(0)));
+    };
+    return (!server_ || ended(server_)) && std::all_of(former_.begin(), former_.end(), ended);
+  }
+
+ private:
+  std::filesystem::path file_;
+  HttpServer::Handler handler_;
+  std::unique_ptr<HttpServer> server_;
+  std::vector<std::unique_ptr<HttpServer>> former_;
+  std::string complaint_;
+};
+
 /// Waits until every worker has ended, or until a second signal has killed them. A queue that cannot take their ends
 /// does not keep the daemon up: the next one finds out anew.
 void stop_workers(Supervisor& supervisor, const Signals& signals) {
@@ -143,6 +193,15 @@ void run_daemon(const DaemonConfig& config) {
   renew_ids(queue, info.runs());
   for (const std::string& id : queue.recover()) spdlog::info("job {}: was running when the daemon ended", id);
 
+  if (queue.counts().total() == 0) {
+    if (const std::size_t n = run_ids(info.runs()).size(); n > 0) {
+      spdlog::warn(
+          "{} is empty, but there are {} runs in {}: they are not lost. Submit their scenes again: what is done is "
+          "found, and the rest goes on; or put a copy of the queue back. `shaken clean --dry-run` lists them",
+          (info.root / "queue.db").string(), n, info.runs().string());
+    }
+  }
+
   info.version = run::version();
   info.host = host_name();
   info.pid = getpid();
@@ -166,7 +225,7 @@ void run_daemon(const DaemonConfig& config) {
   std::optional<StatusPublisher> publisher;
   if (bus) publisher.emplace(queue, std::move(bus), info);
   const Api api(queue, info);
-  HttpServer http(info.socket(), [&api](const Request& request) { return api.handle(request); });
+  ControlSocket control(info.socket(), [&api](const Request& request) { return api.handle(request); });
 
   spdlog::info("shakend {} ready: {} (pid {}), {} slots", info.version, info.root.string(), info.pid, info.slots);
   std::printf("shakend ready: %s (pid %d)%s\n", info.root.c_str(), info.pid,
@@ -175,15 +234,15 @@ void run_daemon(const DaemonConfig& config) {
 
   do {
     supervisor.step();
-    if (http.ended_within(milliseconds(0))) throw Failure(ExitCode::kFailed, "the control socket has failed");
+    control.check();
   } while (!signals.wait(kRound));
 
   spdlog::info("stopping: workers write a checkpoint");
-  http.close();
+  control.close();
   stop_workers(supervisor, signals);
   publisher.reset();
   spdlog::info("stopped");
-  if (!http.ended_within(kLastAnswers)) {
+  if (!control.ended_within(kLastAnswers)) {
     // A client that keeps its connection busy must not keep the daemon up.
     spdlog::shutdown();
     std::_Exit(EXIT_SUCCESS);

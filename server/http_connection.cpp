@@ -4,6 +4,7 @@
 #include <poll.h>
 #include <strings.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -61,6 +62,13 @@ bool HttpConnection::wait(short events, Clock::time_point end) const {
     const int ready = ::poll(&watched, 1, static_cast<int>(left.count()));
     if (ready >= 0 || errno != EINTR) return ready > 0;
   }
+}
+
+bool HttpConnection::is_of_own_user() const {
+  ucred client{};
+  socklen_t size = sizeof(client);
+  const bool known = getsockopt(socket(), SOL_SOCKET, SO_PEERCRED, &client, &size) == 0;
+  return known && (client.uid == geteuid() || client.uid == 0);
 }
 
 bool HttpConnection::next_request() {

@@ -34,6 +34,8 @@ class HttpConnection final : public httplib::Stream {
   /// Closes. What the client is still sending is read first, for a while: it would not see its answer otherwise.
   ~HttpConnection() override;
 
+  /// Whether its client was this process's user, or root, when it connected: the second guard behind the socket's mode.
+  bool is_of_own_user() const;
   /// Waits until a request begins, and starts to count what it takes; false if none comes.
   bool next_request();
   /// To be called between head and body: says how large the body may be. Throws UnreadableRequest if the head asks for

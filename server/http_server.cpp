@@ -75,6 +75,9 @@ class BoundedServer final : public httplib::Server {
   bool process_and_close_socket(socket_t socket) override {
     HttpConnection connection(socket);
     try {
+      if (!connection.is_of_own_user()) {
+        throw UnreadableRequest(403, "this daemon belongs to another user: start one of your own with shakend");
+      }
       const auto head_ended = [&connection](httplib::Request& request) {
         connection.head_ended(request);
         // A range may be asked for again and again in one request: its answer would be of any size.
@@ -161,10 +164,12 @@ struct HttpServer::Impl {
     }
     ::chmod(socket.c_str(), 0600);
     ::listen(fd, kBacklog);
+    ::stat(socket.c_str(), &file);
   }
 
   std::filesystem::path socket;
   BoundedServer server;
+  struct stat file {};  ///< of the socket
   bool closed = false;
   std::future<void> listening;
 };
@@ -173,6 +178,12 @@ HttpServer::HttpServer(std::filesystem::path socket, Handler handler)
     : impl_(std::make_unique<Impl>(std::move(socket), std::move(handler))) {}
 
 HttpServer::~HttpServer() { close(); }
+
+bool HttpServer::is_reachable() const {
+  struct stat now {};
+  return ::stat(impl_->socket.c_str(), &now) == 0 && now.st_dev == impl_->file.st_dev &&
+         now.st_ino == impl_->file.st_ino;
+}
 
 void HttpServer::close() {
   if (std::exchange(impl_->closed, true)) return;

@@ -25,8 +25,9 @@ struct Reply {
   std::string allow;  ///< methods that the path has; with status 405
 };
 
-/// HTTP on a Unix socket (mode 0600) that slow, broken or hostile clients cannot stop: requests and answers have limits
-/// of size and time (server/http_connection.h), and each connection a thread of its own.
+/// HTTP on a Unix socket (mode 0600; whoever connects must be this process's user or root) that slow, broken or hostile
+/// clients cannot stop: requests and answers have limits of size and time (server/http_connection.h), and each
+/// connection a thread of its own.
 class HttpServer {
  public:
   /// Called from many threads at once; must not throw.
@@ -37,6 +38,8 @@ class HttpServer {
   HttpServer(std::filesystem::path socket, Handler handler);
   /// Waits for every connection to end.
   ~HttpServer();
+  /// Whether clients find it: its socket file is still there, and still its own.
+  bool is_reachable() const;
   /// Accepts nothing any more and removes the socket file; returns at once.
   void close();
   /// After close(): whether every connection has ended within the time.

@@ -41,7 +41,7 @@ bool may_become(JobState from, JobState to) {
     case kFailed:
     case kTimedOut:
     case kCancelled:
-      return to == kQueued;
+      return to == kQueued || to == kCancelled;  // the one on request, the other when it is cleaned
   }
   return false;
 }

@@ -107,6 +107,7 @@ const std::string kSelectCurrent =
 const std::string kSelectSweeps = "SELECT id, name, created_utime, at_most, stop_if, stopped FROM sweeps ";
 
 const std::string kAsked = "cancelled on request";
+const std::string kCleaned = "cleaned on request";
 const std::string kHeldOnRequest = "held on request";
 
 }  // namespace
@@ -160,7 +161,7 @@ Submitted Queue::submit(const std::string& name, int priority, std::span<const N
   for (std::size_t position = 0; position < jobs.size(); ++position) {
     const NewJob& job = jobs[position];
     if (insert(job, priority, result.sweep, terms)) {
-      ++result.n_new;
+      ++(job.has_results.value_or(false) ? result.n_found : result.n_new);
     } else {
       const bool is_longer = make_longer(*current(job.id), job.scene, "in " + sweep_word(result.sweep));
       const bool is_queued = ask_again(job, priority, result.sweep, terms);
@@ -198,15 +199,18 @@ std::optional<std::int64_t> Queue::same_sweep(const std::string& name, std::span
 }
 
 bool Queue::insert(const NewJob& job, int priority, std::int64_t sweep, const Terms& terms) {
+  const bool found = job.has_results.value_or(false);
+  const JobState state = found ? kDone : kQueued;
   const int inserted = database_.run(
       "INSERT INTO jobs(id, state, priority, created_utime, sweep, label, parameters, replica, soft_limit_ms, "
-      "time_limit_ms, turn) VALUES(?1, 'queued', ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, "
-      "(SELECT COALESCE(MAX(sequence), 0) + 1 FROM journal)) ON CONFLICT(id) DO NOTHING",
+      "time_limit_ms, turn, finished_utime) VALUES(?1, ?10, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, "
+      "(SELECT COALESCE(MAX(sequence), 0) + 1 FROM journal), ?11) ON CONFLICT(id) DO NOTHING",
       job.id, priority, utime_now(), sweep, job.label, job.parameters, job.replica, terms.soft_limit.count(),
-      terms.time_limit.count());
+      terms.time_limit.count(), to_word(state), found ? utime_now() : 0);
   if (inserted == 0) return false;
   database_.run("INSERT INTO scenes(job, scene) VALUES(?1, ?2)", database_.last_row_id(), job.scene);
-  record(job.id, "", to_word(kQueued), 0, "submitted in " + sweep_word(sweep));
+  record(job.id, "", to_word(state), 0,
+         "submitted in " + sweep_word(sweep) + (found ? "; its results were there already" : ""));
   return true;
 }
 
@@ -284,7 +288,7 @@ bool Queue::ask_again(const NewJob& job, int priority, std::int64_t sweep, const
   }
   const bool waits_for_room = known.state == kHeld && known.hold == kForRoom;
   if (known.state == kQueued || known.state == kRunning || waits_for_room) return false;
-  if (known.state == kDone && !job.results_lost) return false;
+  if (known.state == kDone && job.has_results.value_or(true)) return false;
   change(known, kQueued, "", "submitted again in " + sweep_word(sweep));
   return true;
 }
@@ -657,6 +661,17 @@ void Queue::stop_all() {
   }
   transaction.commit();
   committed();
+}
+
+bool Queue::clean(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  const auto job = current(id);
+  if (!job || !has_ended(job->state)) return false;
+  Transaction transaction(database_);
+  change(*job, kCancelled, kCleaned, kCleaned);
+  transaction.commit();
+  committed();
+  return true;
 }
 
 std::vector<Change> Queue::history(const std::string& id) const {

@@ -27,14 +27,17 @@ struct NewJob {
   std::string label;       ///< swept parameters, as words
   std::string parameters;  ///< swept parameters, as a JSON object
   int replica = 0;
-  bool results_lost = false;  ///< no results of this run are on the disk: do it again even if it is done
+  /// Whether its results are on the disk: a new job is done then, and one that was done is not done any more without
+  /// them. Where nobody has looked, the queue is believed.
+  std::optional<bool> has_results{};
 };
 
 /// What a submit did.
 struct Submitted {
   std::int64_t sweep = 0;
   bool created = false;  ///< false: this very sweep was there already
-  int n_new = 0;         ///< jobs never seen before
+  int n_new = 0;         ///< jobs never seen before, which are queued now
+  int n_found = 0;       ///< jobs never seen before that are done, for their results were there
   int n_requeued = 0;    ///< failed, cancelled, timed out, held or about to be so, queued again
   int n_extended = 0;    ///< asked to go on longer than before; none of the above
   JobCounts counts;      ///< of the sweep's jobs, afterwards
@@ -142,6 +145,9 @@ class Queue {
   void time_out(const std::string& id);
   /// running -> stopping, and then queued: the daemon ends.
   void stop_all();
+
+  /// The results of an ended job are about to be removed: it becomes cancelled. False if it has not ended.
+  bool clean(const std::string& id);
 
   /// Mean wall seconds of the done jobs of a sweep, all attempts of each together; none if none is done.
   std::optional<double> mean_duration(std::int64_t sweep) const;

@@ -44,7 +44,7 @@ void Queue::refuse_circle(std::span<const NewJob> jobs, const Terms& terms) cons
   std::set<std::string> ours;
   for (const NewJob& job : jobs) {
     const auto known = current(job.id);
-    if (!known || known->state != kDone || job.results_lost) ours.insert(job.id);
+    if (!known || known->state != kDone || !job.has_results.value_or(true)) ours.insert(job.id);
   }
   // Each of the targets, and what the jobs in it wait for themselves.
   std::vector<Target> pending = terms.after;

@@ -32,6 +32,11 @@ std::string text_of(const json& value, const std::string& key) {
   return value.get<std::string>();
 }
 
+bool flag_of(const json& value, const std::string& key) {
+  if (!value.is_boolean()) throw std::invalid_argument("\"" + key + "\" must be true or false");
+  return value.get<bool>();
+}
+
 std::vector<std::string> texts_of(const json& value, const std::string& key) {
   if (!value.is_array()) throw std::invalid_argument("\"" + key + "\" must be an array");
   std::vector<std::string> texts;
@@ -111,6 +116,32 @@ SubmitRequest parse_submit_request(std::string_view body) {
   return request;
 }
 
+CleanBody parse_clean_request(std::string_view body) {
+  const json object = parse_object(body, {"states", "sweep", "older_s", "unknown", "dry_run", "only"});
+  CleanBody asked;
+  if (object.contains("states")) {
+    asked.request.states.clear();
+    for (const std::string& word : texts_of(object["states"], "states")) {
+      const auto state = job_state(word);
+      if (!state || !has_ended(*state)) {
+        throw std::invalid_argument("\"states\": '" + word + "' is none of done, failed, timed out, cancelled");
+      }
+      asked.request.states.push_back(*state);
+    }
+  }
+  if (object.contains("sweep")) asked.sweep = text_of(object["sweep"], "sweep");
+  if (object.contains("older_s")) {
+    asked.request.older = std::chrono::duration_cast<std::chrono::seconds>(time_of(object["older_s"], "older_s"));
+  }
+  if (object.contains("unknown")) asked.request.unknown = flag_of(object["unknown"], "unknown");
+  if (object.contains("dry_run")) asked.request.dry_run = flag_of(object["dry_run"], "dry_run");
+  if (object.contains("only")) {
+    const auto ids = texts_of(object["only"], "only");
+    asked.request.only.emplace(ids.begin(), ids.end());
+  }
+  return asked;
+}
+
 int parse_priority(std::string_view body) {
   const json object = parse_object(body, {"priority"});
   if (!object.contains("priority")) throw std::invalid_argument("\"priority\" is missing: a whole number");
@@ -154,7 +185,7 @@ scene::Loaded<Submission> expand(const SubmitRequest& request, const std::filesy
     job.label = point.label;
     job.parameters = point.parameters.dump();
     job.replica = point.replica;
-    job.results_lost = !run::is_done(run::RunDirectory{runs / job.id}, point.plan);
+    job.has_results = run::is_done(run::RunDirectory{runs / job.id}, point.plan);
     submission.jobs.push_back(std::move(job));
   }
   return submission;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scene/problem.h"
+#include "server/cleaning.h"
 #include "server/queue.h"
 
 namespace shaken::server {
@@ -34,6 +35,13 @@ struct Submission {
 
 /// Throws std::invalid_argument with a sentence for the user.
 SubmitRequest parse_submit_request(std::string_view body);
+
+/// The body of POST /v1/clean; a sweep is still as the user names it. Throws std::invalid_argument as above.
+struct CleanBody {
+  CleanRequest request;
+  std::string sweep;
+};
+CleanBody parse_clean_request(std::string_view body);
 
 /// The number of {"priority": n}. Throws std::invalid_argument as above.
 int parse_priority(std::string_view body);

@@ -29,9 +29,10 @@ constexpr Action kHold{"hold", "Keep jobs from running until they are resumed; r
                        "held"};
 constexpr Action kResume{"resume", "Let held jobs run again, from their checkpoints",
                          "  shaken resume 1f0c            one job, by the beginning of its id\n"
-                         "  shaken resume s3              all held jobs of a sweep",
+                         "  shaken resume s3              all held jobs of a sweep; lifts the stop rule that held them",
                          "resumed"};
-constexpr Action kRetry{"retry", "Queue failed, cancelled and held jobs again; they go on from their checkpoints",
+constexpr Action kRetry{"retry",
+                        "Queue failed, cancelled, timed out and held jobs again; they go on from their checkpoints",
                         "  shaken status s3 --failed     what failed, and why\n"
                         "  shaken retry s3               tries all that failed or was cancelled again",
                         "retried"};

@@ -30,8 +30,8 @@ class JobHistory : public Verb {
 
   ExitCode run(const Context& context) override {
     ApiClient session(context.root());
-    const std::string id = find_job(session, id_).at("id").get<std::string>();
-    const Json answer = session.get(fmt::format("/v1/jobs/{}/history", url_encoded(id)));
+    const Json job = find_job(session, id_);
+    const Json answer = session.get(fmt::format("/v1/jobs/{}/history", url_encoded(job.at("id").get<std::string>())));
     if (json_) {
       context.console.out << json_text(answer);
       return ExitCode::kOk;
@@ -42,6 +42,9 @@ class JobHistory : public Verb {
                      text_of(change, "to"), text_of(change, "cause")});
     }
     context.console.out << table.text(context.console.width);
+    if (const std::string limits = limits_text(job); !limits.empty()) context.console.out << limits << '\n';
+    const std::string reason = text_of(job, "reason");
+    if (text_of(job, "state") == "queued" && !reason.empty()) context.console.out << "now: " << reason << '\n';
     return ExitCode::kOk;
   }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/clock.h"
 #include "base/table.h"
@@ -14,7 +15,7 @@ using Align = Table::Align;
 
 Colour colour_of(std::string_view state) {
   if (state == "done") return Colour::kGreen;
-  if (state == "failed") return Colour::kRed;
+  if (state == "failed" || state == "timed out") return Colour::kRed;
   if (state == "running") return Colour::kBlue;
   if (state == "cancelled" || state == "stopping" || state == "held") return Colour::kYellow;
   return Colour::kDim;
@@ -32,13 +33,29 @@ std::string sweep_eta_text(const Json& sweep) {
   return unfinished > 0 ? eta_text(sweep.value("eta_s", -1.0)) : "";
 }
 
-/// How long the job will take still, or how long its last attempt took.
+/// The terms of a sweep: how many of it run at once, what it comes after, its stop rule; empty where there are none.
+std::string terms_text(const Json& sweep) {
+  std::vector<std::string> parts;
+  if (const int n = number_of(sweep, "at_most"); n > 0) parts.push_back(fmt::format("at most {} at once", n));
+  if (const auto after = sweep.find("after"); after != sweep.end() && !after->empty()) {
+    std::string names;
+    for (const Json& name : *after) {
+      names += (names.empty() ? "after " : ", ") + printable(name.is_string() ? name.get<std::string>() : "?");
+    }
+    parts.push_back(names);
+  }
+  if (const std::string rule = text_of(sweep, "stop_if"); !rule.empty()) {
+    parts.push_back(fmt::format("{} if {}", sweep.value("stopped", false) ? "stopped" : "stops", rule));
+  }
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+/// How long the job will take still, or how long its attempts took together.
 std::string time_text(const Json& job) {
-  const auto started = job.value("started_utime", std::int64_t{0});
-  const auto finished = job.value("finished_utime", std::int64_t{0});
   if (is_final(text_of(job, "state"))) {
-    return started > 0 && finished >= started ? "took " + duration_text(1e-6 * static_cast<double>(finished - started))
-                                              : "";
+    // Counted by a clock that nobody sets; more than the time from the first start to the end would tell.
+    const double wall = job.value("wall_s", 0.0);
+    return wall > 0 ? "took " + duration_text(wall) : "";
   }
   const std::string eta = eta_text(job_eta(job));
   return eta.empty() ? "" : "ETA " + eta;
@@ -57,7 +74,7 @@ class Status : public Verb {
 
   void declare(Arguments& arguments) override {
     arguments.optional("ID", id_, "A sweep (id or name) or a job; all sweeps if left out", Names::kId);
-    arguments.flag("--failed", failed_, "Only failed jobs, with the reason and the log's path");
+    arguments.flag("--failed", failed_, "Only jobs that failed or were timed out, with the reason and the log's path");
     arguments.flag("--json", json_, "Print the daemon's answer as JSON");
   }
 
@@ -98,7 +115,7 @@ class Status : public Verb {
     Table table({{"SWEEP"}, {"NAME"}, {"JOBS", Align::kRight}, {"PROGRESS"}, {"STATES"}, {"ETA"}});
     for (const Json& sweep : answer.at("sweeps")) {
       const double progress = sweep.value("progress", 0.0);
-      const int failed = sweep.at("counts").value("failed", 0);
+      const int failed = sweep.at("counts").value("failed", 0) + sweep.at("counts").value("timed out", 0);
       table.add_row(
           {sweep.at("id").get<std::string>(), text_of(sweep, "name"), std::to_string(sweep.value("n_jobs", 0)),
            fmt::format("{} {:3.0f} %", console.painted(Colour::kBlue, bar_text(progress, 12)), 100 * progress),
@@ -116,6 +133,7 @@ class Status : public Verb {
     console.out << fmt::format("{}: {}\n{} {:3.0f} %{}{}\n", console.painted(Colour::kBold, target.title()),
                                counts_text(sweep.at("counts")), console.painted(Colour::kBlue, bar_text(progress, 24)),
                                100 * progress, eta.empty() ? "" : "  ETA ", eta);
+    if (const std::string terms = terms_text(sweep); !terms.empty()) console.out << terms << '\n';
     Table table({{"JOB"}, {"STATE"}, {"DONE", Align::kRight}, {"S", Align::kRight}, {"TIME"}, {"POINT"}});
     for (const Json& job : jobs_of(target)) {
       const std::string state = text_of(job, "state");
@@ -139,6 +157,7 @@ class Status : public Verb {
     line("state", console.painted(colour_of(state), state));
     line("reason", text_of(job, "reason"));
     line("attempt", std::to_string(job.value("attempt", 0)));
+    line("limits", limits_text(job));
     line("directory", text_of(job, "directory"));
     if (const double total = progress_number(job, "sim_time_total_s"); total > 0) {
       line("progress",
@@ -155,11 +174,13 @@ class Status : public Verb {
 
   ExitCode show_failed(ApiClient& session, Console& console) const {
     std::vector<Json> failed;
-    const Json answer = id_.empty() ? session.get("/v1/jobs?state=failed") : Json();
-    const std::vector<Json> jobs = id_.empty() ? std::vector<Json>(answer.at("jobs").begin(), answer.at("jobs").end())
-                                               : jobs_of(find_target(session, id_));
-    for (const Json& job : jobs) {
-      if (text_of(job, "state") == "failed") failed.push_back(job);
+    for (const char* state : {"failed", "timed out"}) {
+      const Json answer = id_.empty() ? session.get("/v1/jobs?state=" + url_encoded(state)) : Json();
+      const std::vector<Json> jobs = id_.empty() ? std::vector<Json>(answer.at("jobs").begin(), answer.at("jobs").end())
+                                                 : jobs_of(find_target(session, id_));
+      for (const Json& job : jobs) {
+        if (text_of(job, "state") == state) failed.push_back(job);
+      }
     }
     if (json_) {
       console.out << json_text(Json{{"jobs", failed}});

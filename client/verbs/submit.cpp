@@ -6,6 +6,7 @@
 #include "base/table.h"
 #include "base/text.h"
 #include "client/cost_estimate.h"
+#include "client/duration.h"
 #include "client/scene_input.h"
 #include "client/target.h"
 #include "client/verbs/verbs.h"
@@ -27,6 +28,8 @@ class Submit : public Verb {
             "  shaken submit scene.json -s rods.length=2.5,3.5,4.5 -s rods.area_fraction=0.55:0.75:0.05\n"
             "  shaken submit sweep.json --replicas 4 --name phases\n"
             "  shaken submit urgent.json --priority 10      starts before all that waits\n"
+            "  shaken submit sweep.json --soft-limit 10min --time-limit 2h --at-most 4\n"
+            "  shaken submit second.json --after first --stop-if 'failed>10%'\n"
             "  shaken submit sweep.json --dry-run           only checks, shows the points and what they would cost\n"
             "  shaken submit scene.json --wait && shaken results"};
   }
@@ -38,6 +41,14 @@ class Submit : public Verb {
     arguments.option("--replicas", replicas_, "N", "Runs of each point, each with a seed of its own");
     arguments.option("--name", name_, "NAME", "Of the sweep; the file's name if left out");
     arguments.option("--priority", priority_, "N", "Jobs of a higher priority start first; 0 if left out");
+    arguments.option("--soft-limit", soft_limit_, "TIME",
+                     "Wall time of one attempt (10min): then a run gives way to others, and waits behind them");
+    arguments.option("--time-limit", time_limit_, "TIME",
+                     "Wall time of all attempts together (2h): then a run is stopped as `timed out`");
+    arguments.option("--at-most", at_most_, "N", "Jobs of this sweep that may run at once");
+    arguments.repeatable("--after", after_, "ID", "Start when this sweep or job is done; repeatable");
+    arguments.option("--stop-if", stop_if_, "RULE",
+                     "failed>10% of the jobs that ended (five at least), or failed>3: hold those that still wait");
     arguments.flag("--dry-run", dry_run_,
                    "Check everything, show the points and what they would cost, but queue nothing");
     arguments.flag("--no-probe", no_probe_, "With --dry-run: leave out the costs, which have to be measured");
@@ -59,6 +70,11 @@ class Submit : public Verb {
     if (replicas_) request["replicas"] = *replicas_;
     if (!name_.empty()) request["name"] = name_;
     if (priority_) request["priority"] = *priority_;
+    if (!soft_limit_.empty()) request["soft_limit_s"] = duration_option("--soft-limit", soft_limit_);
+    if (!time_limit_.empty()) request["time_limit_s"] = duration_option("--time-limit", time_limit_);
+    if (at_most_) request["at_most"] = *at_most_;
+    if (!after_.empty()) request["after"] = after_;
+    if (!stop_if_.empty()) request["stop_if"] = stop_if_;
     ApiClient session(context.root());
     const Json answer = session.post("/v1/sweeps", request);
     if (json_) {
@@ -122,6 +138,7 @@ class Submit : public Verb {
                      n == n_rods.end() ? "" : std::to_string(n->second), text_of(job, "label")});
     }
     std::string words = fmt::format("{} new", n_new);
+    if (const int n = counts.value("found", 0); n > 0) words += fmt::format(", {} found done", n);
     if (const int n = counts.value("requeued", 0); n > 0) words += fmt::format(", {} queued again", n);
     if (const int n = counts.value("extended", 0); n > 0) words += fmt::format(", {} extended", n);
     for (const char* state : {"done", "running", "queued"}) {
@@ -144,6 +161,11 @@ class Submit : public Verb {
   std::optional<int> replicas_;
   std::string name_;
   std::optional<int> priority_;
+  std::string soft_limit_;
+  std::string time_limit_;
+  std::optional<int> at_most_;
+  std::vector<std::string> after_;
+  std::string stop_if_;
   bool dry_run_ = false;
   bool no_probe_ = false;
   bool wait_ = false;

@@ -28,6 +28,7 @@ std::unique_ptr<Verb> make_resume();
 std::unique_ptr<Verb> make_retry();
 std::unique_ptr<Verb> make_priority();
 std::unique_ptr<Verb> make_cancel();
+std::unique_ptr<Verb> make_clean();
 std::unique_ptr<Verb> make_results();
 std::unique_ptr<Verb> make_plot();
 std::unique_ptr<Verb> make_movie();

@@ -75,6 +75,7 @@ TEST(BadArguments, AreAllExitCodeTwo) {
   for (const auto& arguments : std::vector<std::vector<std::string>>{{},
                                                                      {"validate"},
                                                                      {"cancel"},
+                                                                     {"clean", "--older", "soon"},
                                                                      {"wait", "--timeout", "soon"},
                                                                      {"validate", "no/such/file.json"},
                                                                      {"run", "scene.json"},

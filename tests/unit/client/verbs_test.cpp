@@ -55,7 +55,8 @@ class Verbs : public ::testing::Test {
             {"progress", nullptr}};
   }
   static Json sweep(const std::vector<Json>& jobs) {
-    Json counts{{"queued", 0}, {"running", 0}, {"stopping", 0}, {"done", 0}, {"failed", 0}, {"cancelled", 0}};
+    Json counts{{"queued", 0}, {"running", 0},   {"stopping", 0}, {"done", 0},
+                {"failed", 0}, {"timed out", 0}, {"cancelled", 0}};
     for (const Json& each : jobs) {
       Json& n = counts[each.at("state").get<std::string>()];
       n = n.get<int>() + 1;
@@ -144,6 +145,86 @@ TEST_F(Verbs, SubmitHandsThePriorityOn) {
   EXPECT_EQ(Json::parse(daemon_.requests().back().body).at("priority"), 10);
   EXPECT_EQ(run({"submit", file}).code, ExitCode::kOk);
   EXPECT_FALSE(Json::parse(daemon_.requests().back().body).contains("priority"));
+}
+
+TEST_F(Verbs, SubmitHandsTheTermsOn) {
+  const std::string file = (root_.path() / "scene.json").string();
+  std::ofstream(file) << R"({"box": {"side": 30}})";
+  Json answer = sweep({job("1f0c000000000000", "queued")});
+  answer["counts"] = {{"new", 1}, {"queued", 1}};
+  daemon_.on("POST /v1/sweeps", {{201, text(answer)}});
+  const Outcome outcome = run({"submit", file, "--soft-limit", "10min", "--time-limit", "1.5 d", "--at-most", "4",
+                               "--after", "s3", "--after", "1f0c", "--stop-if", "failed>10%"});
+  ASSERT_EQ(outcome.code, ExitCode::kOk) << outcome.err;
+  const Json sent = Json::parse(daemon_.requests().back().body);
+  EXPECT_EQ(sent.at("soft_limit_s"), 600.0);
+  EXPECT_EQ(sent.at("time_limit_s"), 129600.0);
+  EXPECT_EQ(sent.at("at_most"), 4);
+  EXPECT_EQ(sent.at("after"), Json({"s3", "1f0c"}));
+  EXPECT_EQ(sent.at("stop_if"), "failed>10%");
+  for (const char* time : {"soon", "0", "-3min", "5 mm", "1e999", "nan"}) {
+    const Outcome refused = run({"submit", file, "--time-limit", time});
+    EXPECT_EQ(refused.code, ExitCode::kBadInput) << time;
+    EXPECT_THAT(refused.err, HasSubstr("--time-limit")) << time;
+  }
+}
+
+TEST_F(Verbs, StatusAndHistoryShowTerms) {
+  Json limited = job("1f0c000000000000", "timed out");
+  limited["soft_limit_s"] = 600.0;
+  limited["time_limit_s"] = 7200.0;
+  limited["wall_s"] = 7201.0;
+  Json answer = sweep({limited});
+  answer["sweep"].update(
+      {{"at_most", 4}, {"after", {"s3", "1f0c\u001b"}}, {"stop_if", "failed>10%"}, {"stopped", true}});
+  daemon_.on("GET /v1/sweeps/s1", text(answer));
+  daemon_.on("GET /v1/jobs/1f0c", text({{"job", limited}}));
+  daemon_.on("GET /v1/jobs/1f0c000000000000/history", R"({"changes": []})");
+  const std::string of_sweep = run({"status", "s1"}).out;
+  EXPECT_THAT(of_sweep, HasSubstr("\nat most 4 at once; after s3, 1f0c\\u001b; stopped if failed>10%\n"));
+  EXPECT_THAT(of_sweep, HasSubstr("1 timed out"));
+  EXPECT_THAT(of_sweep, HasSubstr("took 2 h 00 min"));
+  EXPECT_THAT(run({"status", "1f0c"}).out, HasSubstr("gives way after 10 min 00 s; 2 h 00 min of 2 h 00 min used"));
+  EXPECT_THAT(run({"history", "1f0c"}).out, HasSubstr("gives way after 10 min 00 s"));
+  EXPECT_THAT(run({"status", "s1", "--failed"}).out, HasSubstr("1f0c000000000000"));
+  EXPECT_EQ(run({"wait", "s1"}).err, "1f0c0000 timed out (rods.length=2.5)\n") << "it has ended";
+}
+
+constexpr const char* kToClean = R"({"runs": [
+    {"id": "1f0c000000000000", "known": true, "state": "failed", "label": "rods.length=2.5", "sweep": "s1", "bytes": 3000},
+    {"id": "2a0c000000000000", "known": false, "state": null, "label": "", "sweep": null, "bytes": 500}], "bytes": 3000})";
+
+TEST_F(Verbs, CleanShowsWhatWouldGo) {
+  daemon_.on("POST /v1/clean", kToClean);
+  const Outcome outcome =
+      run({"clean", "--dry-run", "--state", "failed, timed out", "--older", "30d", "--sweep", "s1"});
+  EXPECT_EQ(outcome.code, ExitCode::kOk) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("1f0c0000  failed"));
+  EXPECT_THAT(outcome.out, HasSubstr("2a0c0000  unknown"));
+  EXPECT_THAT(outcome.out, HasSubstr("3.0 kB in all\n1 unknown to the queue"));
+  ASSERT_EQ(daemon_.requests().size(), 1u);
+  EXPECT_EQ(Json::parse(daemon_.requests().back().body),
+            Json({{"states", {"failed", "timed out"}}, {"sweep", "s1"}, {"older_s", 2592000.0}, {"dry_run", true}}));
+}
+
+TEST_F(Verbs, CleanRemovesOnlyWhatWasShown) {
+  daemon_.on(
+      "POST /v1/clean",
+      {{200, kToClean},
+       {200, R"({"runs": [{"id": "1f0c000000000000", "known": true, "removed": true, "kept": ""}], "bytes": 3000})"},
+       {200, kToClean},
+       {200, R"({"runs": [{"id": "1f0c000000000000", "known": true, "removed": false, "kept": "in use"}],
+                        "bytes": 0})"}});
+  const Outcome unasked = run({"clean"});
+  EXPECT_EQ(unasked.code, ExitCode::kBadInput) << "nobody is there who could agree";
+  EXPECT_TRUE(daemon_.requests().empty());
+  const Outcome outcome = run({"clean", "--yes"});
+  EXPECT_EQ(outcome.code, ExitCode::kOk) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("1 removed, 3.0 kB\n"));
+  EXPECT_EQ(Json::parse(daemon_.requests().back().body), Json({{"only", {"1f0c000000000000"}}}));
+  const Outcome kept = run({"clean", "--yes"});
+  EXPECT_EQ(kept.code, ExitCode::kFailed);
+  EXPECT_EQ(kept.err, "1f0c0000 stays: in use\n");
 }
 
 TEST_F(Verbs, SubmitOfABadSceneNeverReachesTheDaemon) {
@@ -445,6 +526,7 @@ TEST_F(Verbs, NothingThatATerminalObeysIsPrinted) {
   daemon_.on("GET /v1/sweeps/s1", text(one));
   daemon_.on("GET /v1/jobs", text({{"jobs", {failed}}}));
   daemon_.on("GET /v1/jobs?state=failed", text({{"jobs", {failed}}}));
+  daemon_.on("GET /v1/jobs?state=timed%20out", R"({"jobs": []})");
   daemon_.on("GET /v1/jobs/1f0c", text({{"job", failed}}));
   daemon_.on("GET /v1/jobs/1f0c000000000000", text({{"job", failed}}));
   daemon_.on("GET /v1/jobs/1f0c000000000000/log?offset=0",

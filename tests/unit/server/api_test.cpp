@@ -9,6 +9,7 @@
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -17,6 +18,7 @@
 #include <thread>
 
 #include "base/failure.h"
+#include "run/files/directory.h"
 #include "scene/load.h"
 #include "tests/unit/server/support.h"
 
@@ -137,6 +139,31 @@ TEST_F(ApiTest, TheSocketIsPrivate) {
   EXPECT_EQ(info_of_socket.st_mode & 0777U, 0600U);
 }
 
+TEST_F(ApiTest, AnotherUserIsRefusedEvenWhereTheSocketIsOpen) {
+  if (geteuid() != 0) GTEST_SKIP() << "only root can be another user";
+  std::filesystem::permissions(directory_.path(), std::filesystem::perms::all);
+  std::filesystem::permissions(info().socket(), std::filesystem::perms::all);
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    constexpr uid_t kNobody = 65534;
+    if (setuid(kNobody) != 0) _exit(1);
+    const std::string answer = exchange("GET /v1/status HTTP/1.1\r\n\r\n");
+    _exit(write(ends[1], answer.data(), answer.size()) < 0 ? 1 : 0);
+  }
+  int status = -1;
+  waitpid(child, &status, 0);
+  close(ends[1]);
+  EXPECT_EQ(status, 0);
+  std::string answer(4096, '\0');
+  answer.resize(static_cast<std::size_t>(std::max<ssize_t>(0, ::read(ends[0], answer.data(), answer.size()))));
+  close(ends[0]);
+  EXPECT_THAT(answer, StartsWith("HTTP/1.1 403"));
+  EXPECT_THAT(answer, HasSubstr("another user"));
+  EXPECT_EQ(get("/v1/status").status, 200) << "its own user";
+}
+
 TEST_F(ApiTest, ASubmitAnswersWithSweepJobsAndCounts) {
   const Response response = submit({{"text", kSweep}, {"file", "folder/grid.json"}});
   EXPECT_EQ(response.status, 201);
@@ -178,7 +205,7 @@ TEST_F(ApiTest, TheSameSubmitAgainDoesNothingTwice) {
   EXPECT_EQ(again.json["sweep"]["id"], "s1");
   EXPECT_EQ(
       again.json["counts"].dump(),
-      R"({"queued":2,"held":0,"running":1,"stopping":0,"done":1,"failed":0,"timed out":0,"cancelled":0,"new":0,"requeued":1,"extended":0})");
+      R"({"queued":2,"held":0,"running":1,"stopping":0,"done":1,"failed":0,"timed out":0,"cancelled":0,"new":0,"requeued":1,"extended":0,"found":0})");
 
   // A done job whose results were deleted is done again.
   std::filesystem::remove_all(directory_ / "runs" / ids[1]);
@@ -294,6 +321,95 @@ TEST_F(ApiTest, TermsOfASweepAreTakenAndShown) {
   EXPECT_EQ(circle.status, 409);
   EXPECT_THAT(circle.error(), HasSubstr("wait for themselves"));
   EXPECT_EQ(get("/v1/sweeps").json["sweeps"].size(), 2U);
+}
+
+TEST_F(ApiTest, ResultsThatAreThereAreFoundByANewQueue) {
+  const std::string id = submit_four()[0];
+  std::filesystem::create_directories(directory_ / "runs" / id);
+  write_text(directory_ / "runs" / id / "summary.json", done_summary(id));
+  Queue empty(directory_ / "empty.db");
+  const Api api(empty, info());
+  const Reply reply = api.handle({"POST", "/v1/sweeps", {}, Json({{"text", kSweep}}).dump()});
+  const Json answer = Json::parse(reply.body);
+  EXPECT_EQ(answer["counts"]["found"], 1);
+  EXPECT_EQ(answer["counts"]["new"], 3);
+  EXPECT_EQ(answer["jobs"][0]["state"], "done");
+  EXPECT_EQ(answer["jobs"][0]["attempt"], 0) << "it was not run";
+  EXPECT_EQ(empty.history(id).at(0).cause, "submitted in s1; its results were there already");
+}
+
+TEST_F(ApiTest, CleaningRemovesWhatFitsAndWhatItIsAllowedTo) {
+  const auto ids = submit_four();
+  const auto runs = directory_ / "runs";
+  for (const std::string& id : ids) {
+    std::filesystem::create_directories(runs / id / "inner");
+    write_text(runs / id / "inner" / "file", std::string(1000, 'x'));
+  }
+  write_text(directory_ / "precious", "precious");
+  std::filesystem::create_symlink(directory_ / "precious", runs / ids[0] / "link");
+  const std::string unknown(16, '7');
+  std::filesystem::create_directories(runs / unknown);
+  std::filesystem::create_directories(runs / "notes");
+  std::filesystem::create_directory_symlink(directory_.path(), runs / std::string(16, '8'));
+  queue_.begin(ids[0]);
+  queue_.finish(ids[0], JobState::kFailed, "why");
+  queue_.cancel(ids[1]);
+  queue_.begin(ids[2]);
+  queue_.finish(ids[2], JobState::kDone, "");
+
+  const Json dry = post("/v1/clean", R"({"dry_run": true})").json;
+  ASSERT_EQ(dry["runs"].size(), 3U) << dry;
+  EXPECT_EQ(dry["bytes"], 2000) << "of failed and cancelled jobs; done ones are asked for by name";
+  EXPECT_EQ(dry["runs"][0]["id"] == unknown, !dry["runs"][0]["known"].get<bool>());
+  EXPECT_TRUE(std::filesystem::exists(runs / ids[0]));
+  EXPECT_EQ(post("/v1/clean", R"({"older_s": 3600})").json["runs"].size(), 0U) << "all of it is young";
+
+  Json body{{"states", {"failed"}}, {"sweep", "s1"}};
+  const Json cleaned = post("/v1/clean", body.dump()).json;
+  ASSERT_EQ(cleaned["runs"].size(), 1U);
+  EXPECT_EQ(cleaned["runs"][0]["removed"], true);
+  EXPECT_EQ(cleaned["bytes"], 1000);
+  EXPECT_FALSE(std::filesystem::exists(runs / ids[0]));
+  EXPECT_EQ(read_text(directory_ / "precious"), "precious");
+  const Json job = get("/v1/jobs/" + ids[0]).json["job"];
+  EXPECT_EQ(job["state"], "cancelled");
+  EXPECT_EQ(job["reason"], "cleaned on request");
+  EXPECT_EQ(get("/v1/jobs/" + ids[0] + "/history").json["changes"].back()["cause"], "cleaned on request");
+
+  // One that somebody uses stays, and so does its job's state.
+  {
+    const auto lock = run::DirectoryLock::acquire(runs / ids[2] / "lock");
+    const Json kept = post("/v1/clean", R"({"states": ["done"]})").json;
+    ASSERT_EQ(kept["runs"].size(), 2U);
+    for (const Json& run : kept["runs"]) EXPECT_EQ(run["removed"], false);
+    EXPECT_TRUE(std::filesystem::exists(runs / ids[2]));
+    EXPECT_EQ(queue_.job(ids[2])->state, JobState::kDone);
+  }
+  // A lock that is a link would be written through.
+  std::filesystem::remove(runs / ids[2] / "lock");
+  std::filesystem::create_symlink(directory_ / "precious", runs / ids[2] / "lock");
+  EXPECT_EQ(post("/v1/clean", R"({"states": ["done"]})").json["bytes"], 0);
+  EXPECT_EQ(read_text(directory_ / "precious"), "precious");
+  std::filesystem::remove(runs / ids[2] / "lock");
+
+  body = {{"states", {"done", "cancelled"}}, {"unknown", true}, {"only", {ids[2], unknown, "../precious", ids[3]}}};
+  EXPECT_EQ(post("/v1/clean", body.dump()).json["bytes"], 1000);
+  EXPECT_FALSE(std::filesystem::exists(runs / ids[2]));
+  EXPECT_FALSE(std::filesystem::exists(runs / unknown));
+  EXPECT_TRUE(std::filesystem::exists(runs / ids[1])) << "it was not named";
+  EXPECT_TRUE(std::filesystem::exists(runs / ids[3])) << "it has not ended";
+  EXPECT_TRUE(std::filesystem::exists(runs / "notes"));
+  EXPECT_TRUE(std::filesystem::is_symlink(runs / std::string(16, '8')));
+  EXPECT_TRUE(std::filesystem::exists(directory_ / "precious"));
+  EXPECT_EQ(submit({{"text", kSweep}, {"name", "four"}}).json["counts"]["requeued"], 3) << "to be done anew";
+}
+
+TEST_F(ApiTest, ARequestToCleanThatIsWrongRemovesNothing) {
+  for (const char* body : {"[]", R"({"states": ["running"]})", R"({"states": "failed"})", R"({"older_s": "30d"})",
+                           R"({"dryrun": true})", R"({"dry_run": 1})", R"({"only": "x"})"}) {
+    EXPECT_EQ(post("/v1/clean", body).status, 400) << body;
+  }
+  EXPECT_EQ(post("/v1/clean", R"({"sweep": "nobody"})").status, 404);
 }
 
 TEST_F(ApiTest, SettingsAndReplicasAreApplied) {

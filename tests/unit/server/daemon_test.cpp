@@ -271,6 +271,51 @@ TEST_F(DaemonTest, WithoutLcmItSaysSoAndWorksOn) {
   EXPECT_TRUE(becomes(shakend, "done"));
 }
 
+TEST_F(DaemonTest, ASocketThatWasRemovedIsMadeAnew) {
+  Daemon shakend = daemon();
+  shakend.first_line();
+  const auto socket = directory_ / "root" / "shakend.sock";
+  for (const bool replaced : {false, true}) {
+    std::filesystem::remove(socket);
+    if (replaced) write_text(socket, "no socket");
+    EXPECT_TRUE(eventually([&] { return shakend.call("/v1/status").is_object(); })) << shakend.errors();
+    EXPECT_EQ(shakend.call("/v1/status")["pid"], shakend.pid());
+    EXPECT_EQ(std::filesystem::status(socket).permissions(),
+              std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+  }
+  EXPECT_THAT(shakend.errors(), HasSubstr("listening anew"));
+  shakend.send(SIGTERM);
+  EXPECT_EQ(shakend.wait(), 0);
+  EXPECT_FALSE(std::filesystem::exists(socket));
+}
+
+TEST_F(DaemonTest, AnEmptyQueueBesideRunsIsToldAndTheirResultsAreFound) {
+  setenv("FAKE_WORKER", "done", 1);
+  {
+    Daemon shakend = daemon();
+    shakend.first_line();
+    EXPECT_THAT(shakend.errors(), testing::Not(HasSubstr("is empty")));
+    shakend.call("/v1/sweeps", json{{"text", "{}"}});
+    EXPECT_TRUE(becomes(shakend, "done"));
+    shakend.send(SIGTERM);
+    EXPECT_EQ(shakend.wait(), 0);
+  }
+  setenv("FAKE_WORKER", "fail", 1);
+  for (const bool missing : {true, false}) {
+    for (const char* name : {"queue.db", "queue.db-wal", "queue.db-shm"}) {
+      std::filesystem::remove(directory_ / "root" / name);
+    }
+    if (!missing) write_text(directory_ / "root" / "queue.db", "");
+    Daemon next = daemon();
+    EXPECT_THAT(next.first_line(), StartsWith("shakend ready"));
+    EXPECT_THAT(next.errors(), HasSubstr("queue.db is empty, but there are 1 runs in "));
+    const json answer = next.call("/v1/sweeps", json{{"text", "{}"}});
+    EXPECT_EQ(answer["counts"]["found"], 1);
+    EXPECT_EQ(next.job()["state"], "done");
+    EXPECT_EQ(next.job()["attempt"], 0) << "nothing was run";
+  }
+}
+
 TEST_F(DaemonTest, WhatCannotStartSaysWhy) {
   Daemon no_worker(directory_ / "root", {"--no-lcm", "--worker", "/nonexistent/worker"});
   EXPECT_EQ(no_worker.wait(), 1);

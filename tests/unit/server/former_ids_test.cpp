@@ -21,7 +21,7 @@ scene::RunPlan plan_of(double side, double seconds) {
 
 /// A job as it was before runs could be extended.
 NewJob former_job(const scene::RunPlan& plan) {
-  return {scene::scene_hash(plan), scene::to_json(plan).dump(2) + "\n", "label", "{}", 1, false};
+  return {scene::scene_hash(plan), scene::to_json(plan).dump(2) + "\n", "label", "{}", 1};
 }
 
 class FormerIdsTest : public testing::Test {

@@ -51,6 +51,7 @@ enum class Operation {
   kFail,
   kStopped,
   kCancel,
+  kClean,
   kHold,
   kResume,
   kResumeSweep,
@@ -62,10 +63,10 @@ enum class Operation {
   kReopen,
   kCrash
 };
-constexpr int kOperations = 22;
+constexpr int kOperations = 23;
 /// As many crashes in a row are forgiven.
 constexpr std::array<std::chrono::milliseconds, 2> kPauses{};
-constexpr std::string_view kDigits = "abcde";
+constexpr std::string_view kDigits = "abcd";
 
 bool has_no_result(JobState state) { return state == kFailed || state == kTimedOut || state == kCancelled; }
 
@@ -295,6 +296,12 @@ void apply(Operation operation, char digit, int priority, std::unique_ptr<Queue>
       queue->cancel(id);
       if (known) model.cancel(digit);
       return;
+    case Operation::kClean: {
+      const bool has_ended = known && (model.jobs_[digit].state == kDone || has_no_result(model.jobs_[digit].state));
+      RC_ASSERT(queue->clean(id) == has_ended);
+      if (has_ended) model.become(digit, kCancelled);
+      return;
+    }
     case Operation::kHold:
       queue->hold(id);
       if (known) model.hold(digit);

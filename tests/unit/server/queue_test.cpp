@@ -122,7 +122,7 @@ TEST_F(QueueTest, ADoneJobWhoseResultsAreLostIsDoneAgain) {
   queue_.submit("s", 0, jobs);
   queue_.begin(a_);
   queue_.finish(a_, kDone, "");
-  jobs[0].results_lost = true;
+  jobs[0].has_results = false;
   EXPECT_EQ(queue_.submit("s", 0, jobs).n_requeued, 1);
   EXPECT_EQ(state('a'), kQueued);
 }
@@ -268,9 +268,9 @@ TEST_F(QueueTest, APauseBegunBeforeTheClockWasSetBackIsOver) {
 }
 
 /// A job with a real scene, which asks for so many simulated seconds.
-NewJob job_of(const std::string& seconds, bool results_lost = false) {
+NewJob job_of(const std::string& seconds, std::optional<bool> has_results = std::nullopt) {
   const auto plan = scene::load_scene(R"({"box": {"side": 30}, "time": {"measure": )" + seconds + "}}", "f");
-  return {scene::run_id(*plan), scene::to_json(*plan).dump(2) + "\n", "measure " + seconds, "{}", 1, results_lost};
+  return {scene::run_id(*plan), scene::to_json(*plan).dump(2) + "\n", "measure " + seconds, "{}", 1, has_results};
 }
 
 double seconds_asked(const Queue& queue, const std::string& id) {
@@ -289,7 +289,7 @@ TEST_F(QueueTest, ALongerSceneExtendsTheJobThatIsThere) {
   queue_.finish(short_one.id, kDone, "");
   EXPECT_EQ(queue_.submit("s", 0, std::vector{job_of("1")}).n_extended, 0);
   EXPECT_EQ(queue_.job(short_one.id)->state, kDone);
-  const Submitted longer = queue_.submit("s", 0, std::vector{job_of("4", true)});
+  const Submitted longer = queue_.submit("s", 0, std::vector{job_of("4", false)});
   EXPECT_EQ(longer.n_extended, 1);
   EXPECT_EQ(longer.n_requeued, 0) << "counted once";
   EXPECT_EQ(queue_.job(short_one.id)->state, kQueued);

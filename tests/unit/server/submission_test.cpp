@@ -96,7 +96,7 @@ TEST(ExpandTest, APlainSceneIsOneJobNamedAfterItsFile) {
   ASSERT_TRUE(submission);
   EXPECT_EQ(submission->name, "plain");
   ASSERT_EQ(submission->jobs.size(), 1U);
-  EXPECT_TRUE(submission->jobs[0].results_lost);
+  EXPECT_EQ(submission->jobs[0].has_results, false);
 }
 
 TEST(ExpandTest, ANameIsCheckedWhereverItComesFrom) {

@@ -74,7 +74,7 @@ esac
 }
 
 NewJob new_job(char digit, const std::string& label) {
-  return {std::string(16, digit), "{\"job\": \"" + std::string(1, digit) + "\"}\n", label, "{}", 1, false};
+  return {std::string(16, digit), "{\"job\": \"" + std::string(1, digit) + "\"}\n", label, "{}", 1, std::nullopt};
 }
 
 }  // namespace shaken::server

@@ -163,7 +163,7 @@ TEST_F(TermsTest, NothingCanWaitForItself) {
   submit("ca", {.after = {one}});
   EXPECT_EQ(next(), "bc") << "what is done does not wait";
   std::vector<NewJob> lost{new_job('a')};
-  lost[0].results_lost = true;
+  lost[0].has_results = false;
   EXPECT_THROW(queue_.submit("again", 0, lost, {.after = {one}}), Circular);
 }
 

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "server/cleaning.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <set>
+
+#include "base/clock.h"
+#include "run/files/directory.h"
+
+namespace shaken::server {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A directory on its way out has this before its id: whatever starts the run anew makes a directory of its own.
+constexpr std::string_view kLeaving = ".leaving-";
+
+bool is_id(const std::string& name) {
+  constexpr std::size_t kLength = 16;
+  return name.size() == kLength && name.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
+/// A folder itself, not a link to one.
+bool is_folder(const fs::path& path) {
+  std::error_code error;
+  return fs::symlink_status(path, error).type() == fs::file_type::directory;
+}
+
+/// Of all files in a folder; links count nothing.
+std::int64_t bytes_below(const fs::path& folder) {
+  std::error_code error;
+  std::int64_t bytes = 0;
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    std::error_code gone;
+    if (entry->symlink_status(gone).type() != fs::file_type::regular) continue;
+    const auto size = entry->file_size(gone);
+    if (!gone) bytes += static_cast<std::int64_t>(size);
+  }
+  return bytes;
+}
+
+/// Seconds since a file in the folder was written last.
+std::chrono::seconds age_of(const fs::path& folder) {
+  std::error_code error;
+  auto newest = fs::last_write_time(folder, error);
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    std::error_code gone;
+    const auto written = fs::last_write_time(entry->path(), gone);
+    if (!gone) newest = std::max(newest, written);
+  }
+  return std::chrono::duration_cast<std::chrono::seconds>(fs::file_time_type::clock::now() - newest);
+}
+
+/// Removes the directory of run `id`, once `agreed` says so under its lock. Returns why it stays, or nothing.
+template <class Agreed>
+std::string remove_run(const fs::path& runs, const std::string& id, const Agreed& agreed) {
+  const run::RunDirectory directory{runs / id};
+  std::error_code error;
+  // To take the lock writes into its file, wherever that is.
+  if (fs::is_symlink(directory.lock(), error)) return directory.lock().string() + " is a link";
+  const auto lock = run::DirectoryLock::acquire(directory.lock());
+  if (!lock) return lock.error().message;
+  if (std::string why = agreed(); !why.empty()) return why;
+  const fs::path leaving = runs / (std::string(kLeaving) + id);
+  fs::remove_all(leaving, error);
+  fs::rename(directory.root, leaving, error);
+  if (error) return directory.root.string() + ": " + error.message();
+  fs::remove_all(leaving, error);
+  return error ? leaving.string() + ": " + error.message() : "";
+}
+
+bool fits(const Job& job, const CleanRequest& request, std::int64_t now) {
+  const bool is_old =
+      request.older.count() == 0 || now - job.finished >= std::chrono::microseconds(request.older).count();
+  return has_ended(job.state) && is_old && std::count(request.states.begin(), request.states.end(), job.state) > 0;
+}
+
+}  // namespace
+
+std::vector<std::string> run_ids(const fs::path& runs) {
+  std::vector<std::string> ids;
+  std::error_code error;
+  for (fs::directory_iterator entry(runs, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (is_id(name) && is_folder(entry->path())) ids.push_back(name);
+  }
+  std::sort(ids.begin(), ids.end());
+  return ids;
+}
+
+std::vector<Cleaned> clean(Queue& queue, const fs::path& runs, const CleanRequest& request) {
+  const std::int64_t now = utime_now();
+  std::set<std::string> of_sweep;
+  if (request.sweep) {
+    for (const Job& job : queue.jobs(request.sweep)) of_sweep.insert(job.id);
+  }
+  std::vector<Cleaned> found;
+  for (const std::string& id : run_ids(runs)) {
+    if (request.only && !request.only->contains(id)) continue;
+    if (request.sweep && !of_sweep.contains(id)) continue;
+    Cleaned run{.id = id, .job = queue.job(id), .bytes = 0, .removed = false, .kept = {}};
+    if (run.job ? !fits(*run.job, request, now) : request.older.count() > 0 && age_of(runs / id) < request.older)
+      continue;
+    run.bytes = bytes_below(runs / id);
+    if (!request.dry_run && (run.job || request.unknown)) {
+      run.kept = remove_run(runs, id, [&]() -> std::string {
+        if (run.job) return queue.clean(id) ? "" : "it was asked for again a moment ago";
+        return queue.job(id) ? "it was submitted a moment ago" : "";
+      });
+      run.removed = run.kept.empty();
+      spdlog::info("run {}: {}", id, run.removed ? "cleaned on request" : "not cleaned: " + run.kept);
+    }
+    found.push_back(std::move(run));
+  }
+  if (request.dry_run) return found;
+  // What a daemon that was killed has left half removed.
+  std::error_code error;
+  for (fs::directory_iterator entry(runs, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    std::error_code stays;
+    if (name.starts_with(kLeaving) && is_folder(entry->path())) fs::remove_all(entry->path(), stays);
+  }
+  return found;
+}
+
+}  // namespace shaken::server
