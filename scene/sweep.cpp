@@ -210,6 +210,7 @@ Loaded<Sweep> load_sweep(std::string_view text, const std::string& file, std::sp
   } else {
     const std::vector<std::string> names{"name", "scene", "sweep"}, inside = names_in({});
     for (const Member& member : root->members) {
+      if (is_link_to_schema(member, problems)) continue;
       if (member.key == "scene") {
         base.read(member.value, problems);
       } else if (member.key == "sweep") {
