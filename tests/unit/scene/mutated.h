@@ -23,6 +23,11 @@ inline constexpr std::string_view kSweep = R"({ "name": "x", "scene": { "box": {
   "list": [ {"time.step": "2 us"} ], "random": { "n": 1, "seed": 1, "contacts.rod_rod.friction": {"from": 0, "to": 1} },
   "replicas": 2 } })";
 
+inline constexpr std::string_view kSweeps = R"({ "$schema": "sweep.schema.json", "scene": { "box": {"side": 40} },
+  "sweep": [ { "latin": { "n": 3, "seed": 7, "rods.length": {"from": 2.5, "to": "3.5 mm", "scale": "linear"} } },
+             { "sobol": { "n": 2, "contacts.sweeps": {"from": 1, "to": 4}, "box.gap": {"from": 1.2, "to": 1.4} } },
+             { "grid": { "time.step": {"from": "1 us", "to": "4 us", "n": 3, "scale": "log"} } } ] })";
+
 inline constexpr auto kPieces = std::to_array<std::string_view>(
     {"{",  "}",     "[",    "]",      ",",       ":",          "\"",        "\\",       "/*",
      "*/", "//",    "\n",   " ",      "0",       "9",          "-",         ".",        "e",

@@ -27,13 +27,15 @@ void check(const std::string& text) {
 
 TEST(Mutation, TheOriginalsAreValid) {
   EXPECT_TRUE(load_scene(kScene, "f")) << to_string(load_scene(kScene, "f").error());
-  EXPECT_TRUE(load_sweep(kSweep, "f")) << to_string(load_sweep(kSweep, "f").error());
+  for (const std::string_view sweep : {kSweep, kSweeps}) {
+    EXPECT_TRUE(load_sweep(sweep, "f")) << to_string(load_sweep(sweep, "f").error());
+  }
 }
 
 TEST(Mutation, NothingCrashes) {
   std::mt19937_64 random(20240801);
-  for (int i = 0; i < test::draws(20000); ++i) {
-    const std::string text = mutated(i % 2 == 0 ? kScene : kSweep, random);
+  for (int i = 0; i < test::draws(30000); ++i) {
+    const std::string text = mutated(std::array{kScene, kSweep, kSweeps}[static_cast<std::size_t>(i % 3)], random);
     ASSERT_NO_THROW(check(text)) << text;
     if (testing::Test::HasFatalFailure()) return;
   }
