@@ -238,6 +238,14 @@ std::optional<Node> parse_document(std::string_view text, const std::string& fil
   return builder.take_root();
 }
 
+bool is_link_to_schema(const Member& member, std::vector<Problem>& problems) {
+  if (member.key != "$schema") return false;
+  if (member.value.kind != Node::Kind::kString) {
+    problems.push_back(problem_at(member.value.place, member.key, "expected a text, not " + describe(member.value)));
+  }
+  return true;
+}
+
 std::string describe(const Node& node) {
   switch (node.kind) {
     case Node::Kind::kNull:

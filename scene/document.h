@@ -37,6 +37,9 @@ struct Member {
 /// value) give one problem and no value; duplicate keys give a problem each, and the first one counts.
 std::optional<Node> parse_document(std::string_view text, const std::string& file, std::vector<Problem>& problems);
 
+/// True of "$schema", in which a file may name its schema to an editor; it means nothing here, but must be a text.
+bool is_link_to_schema(const Member& member, std::vector<Problem>& problems);
+
 /// "an object", "the number 3", for messages.
 std::string describe(const Node& node);
 

@@ -205,6 +205,7 @@ void Draft::read(const Node& scene, std::vector<Problem>& problems) {
 
 void Draft::read_members(std::string_view path, const Node& object, std::vector<Problem>& problems) {
   for (const Member& member : object.members) {
+    if (path.empty() && is_link_to_schema(member, problems)) continue;
     const std::string inner = path.empty() ? member.key : fmt::format("{}.{}", path, member.key);
     // A dot in a key would be taken for a step into an object.
     if (member.key.empty() || member.key.find('.') != std::string::npos) {

@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
 
 #include "scene/fields.h"
 #include "scene/nearest.h"
@@ -13,33 +16,65 @@ namespace shaken::scene {
 
 namespace {
 
+struct NamedKind {
+  std::string_view name;
+  Factor::Kind kind;
+};
+constexpr auto kKinds = std::to_array<NamedKind>({{"grid", Factor::Kind::kGrid},
+                                                  {"zip", Factor::Kind::kZip},
+                                                  {"list", Factor::Kind::kList},
+                                                  {"random", Factor::Kind::kRandom},
+                                                  {"latin", Factor::Kind::kLatin},
+                                                  {"sobol", Factor::Kind::kSobol}});
+
+Spread spread_of(Factor::Kind kind) {
+  if (kind == Factor::Kind::kLatin) return Spread::kLatin;
+  return kind == Factor::Kind::kSobol ? Spread::kSobol : Spread::kRandom;
+}
+
+/// Reads one product, which stands at `path` ("sweep", "sweep.1").
 class VariationReader {
  public:
-  VariationReader(Room& room, std::vector<Problem>& problems) : room_(room), problems_(problems) {}
+  VariationReader(std::string path, Room& room, std::vector<Problem>& problems)
+      : path_(std::move(path)), room_(room), problems_(problems) {}
 
   Variation read(const Node& sweep) {
-    if (!expect(sweep, Node::Kind::kObject, "sweep", "an object")) return {};
+    if (!expect(sweep, Node::Kind::kObject, path_, "an object")) return {};
     for (const Member& member : sweep.members) {
-      if (member.key == "grid") {
-        read_grid(member.value);
-      } else if (member.key == "zip") {
-        read_zip(member.value);
-      } else if (member.key == "list") {
-        read_list(member.value);
-      } else if (member.key == "random") {
-        read_random(member.value);
+      const auto known =
+          std::find_if(kKinds.begin(), kKinds.end(), [&](const NamedKind& one) { return one.name == member.key; });
+      if (known != kKinds.end()) {
+        read_factor(known->kind, member.value);
       } else if (member.key == "replicas") {
-        variation_.replicas = read_count("sweep.replicas", member.value, 1, kMaxReplicas, problems_).value_or(1);
+        variation_.replicas = read_count(within("replicas"), member.value, 1, kMaxReplicas, problems_).value_or(1);
       } else {
-        const std::vector<std::string> names{"grid", "zip", "list", "random", "replicas"};
+        std::vector<std::string> names{"replicas"};
+        for (const NamedKind& one : kKinds) names.emplace_back(one.name);
         const std::string meant = suggestion(problems_, [&] { return did_you_mean(nearest(member.key, names)); });
-        report(member.place, "sweep." + member.key, "unknown key" + meant);
+        report(member.place, within(member.key), "unknown key" + meant);
       }
     }
     return std::move(variation_);
   }
 
  private:
+  std::string within(std::string_view key) const { return fmt::format("{}.{}", path_, key); }
+
+  void read_factor(Factor::Kind kind, const Node& node) {
+    switch (kind) {
+      case Factor::Kind::kGrid:
+        return read_grid(node);
+      case Factor::Kind::kZip:
+        return read_zip(node);
+      case Factor::Kind::kList:
+        return read_list(node);
+      case Factor::Kind::kRandom:
+      case Factor::Kind::kLatin:
+      case Factor::Kind::kSobol:
+        return read_draws(kind, node);
+    }
+  }
+
   void report(const Place& place, std::string_view path, std::string message) {
     problems_.push_back(problem_at(place, path, std::move(message)));
   }
@@ -73,7 +108,7 @@ class VariationReader {
   }
 
   void read_grid(const Node& grid) {
-    if (!expect(grid, Node::Kind::kObject, "sweep.grid", "an object of paths and values")) return;
+    if (!expect(grid, Node::Kind::kObject, within("grid"), "an object of paths and values")) return;
     for (const Member& member : grid.members) {
       if (const Field* field = swept_field(member)) {
         const std::vector<Node> values = read_values(*field, member.value, room_, problems_);
@@ -83,7 +118,7 @@ class VariationReader {
   }
 
   void read_zip(const Node& zip) {
-    if (!expect(zip, Node::Kind::kObject, "sweep.zip", "an object of paths and values")) return;
+    if (!expect(zip, Node::Kind::kObject, within("zip"), "an object of paths and values")) return;
     Factor factor{Factor::Kind::kZip, 0, {}, {}};
     for (const Member& member : zip.members) {
       const Field* field = swept_field(member);
@@ -103,10 +138,10 @@ class VariationReader {
   }
 
   void read_list(const Node& list) {
-    if (!expect(list, Node::Kind::kArray, "sweep.list", "an array of objects")) return;
+    if (!expect(list, Node::Kind::kArray, within("list"), "an array of objects")) return;
     Factor factor{Factor::Kind::kList, 0, {}, {}};
     for (const Node& entry : list.items) {
-      if (!expect(entry, Node::Kind::kObject, "sweep.list", "an object of paths and values")) continue;
+      if (!expect(entry, Node::Kind::kObject, within("list"), "an object of paths and values")) continue;
       factor.members.emplace_back();
       for (const Member& member : entry.members) {
         if (!swept_field(member)) continue;
@@ -118,30 +153,38 @@ class VariationReader {
     if (factor.n_choices > 0) variation_.factors.push_back(std::move(factor));
   }
 
-  void read_random(const Node& random) {
-    if (!expect(random, Node::Kind::kObject, "sweep.random", "an object")) return;
-    int n = 0;
-    int seed = 1;
-    if (const Member* member = random.find("n")) {
-      n = read_count("sweep.random.n", member->value, 1, kMaxPoints, problems_).value_or(0);
+  void read_draws(Factor::Kind kind, const Node& draws) {
+    const std::string path = within(name_of(kind));
+    if (!expect(draws, Node::Kind::kObject, path, "an object")) return;
+    CubePoints points{.spread = spread_of(kind)};
+    if (const Member* member = draws.find("n")) {
+      points.n = read_count(path + ".n", member->value, 1, kMaxPoints, problems_).value_or(0);
     } else {
-      report(random.place, "sweep.random", "lacks \"n\", the number of draws");
+      report(draws.place, path, "lacks \"n\", the number of draws");
     }
-    if (const Member* member = random.find("seed")) {
-      seed = read_count("sweep.random.seed", member->value, 0, 1 << 30, problems_).value_or(1);
+    if (const Member* member = draws.find("seed")) {
+      points.seed =
+          static_cast<std::uint64_t>(read_count(path + ".seed", member->value, 0, 1 << 30, problems_).value_or(1));
     }
-    Factor factor{Factor::Kind::kRandom, static_cast<std::size_t>(n), {}, {}};
-    for (const Member& member : random.members) {
+    Factor factor{kind, static_cast<std::size_t>(points.n), {}, {}};
+    int dimension = 0;
+    for (const Member& member : draws.members) {
       if (member.key == "n" || member.key == "seed") continue;
+      if (dimension == kMaxSobolDimensions && kind == Factor::Kind::kSobol) {
+        report(member.place, member.key, fmt::format("\"sobol\" has at most {} keys", kMaxSobolDimensions));
+        break;
+      }
       if (const Field* field = swept_field(member)) {
-        std::vector<Node> values =
-            draw_values(*field, member.value, n, static_cast<std::uint64_t>(seed), room_, problems_);
+        std::vector<Node> values = draw_values(*field, member.value, points, dimension, room_, problems_);
         if (!values.empty()) factor.axes.push_back({member.key, member.place, std::move(values)});
       }
+      ++dimension;
     }
+    if (dimension == 0) report(draws.place, path, "names no key to draw values for");
     if (!factor.axes.empty()) variation_.factors.push_back(std::move(factor));
   }
 
+  std::string path_;
   Room& room_;
   std::vector<Problem>& problems_;
   Variation variation_;
@@ -154,21 +197,21 @@ bool Factor::has(std::string_view path) const {
 }
 
 std::string name_of(Factor::Kind kind) {
-  switch (kind) {
-    case Factor::Kind::kGrid:
-      return "grid";
-    case Factor::Kind::kZip:
-      return "zip";
-    case Factor::Kind::kList:
-      return "list";
-    case Factor::Kind::kRandom:
-      return "random";
+  for (const NamedKind& one : kKinds) {
+    if (one.kind == kind) return std::string(one.name);
   }
   return "";
 }
 
-Variation read_variation(const Node& sweep, Room& room, std::vector<Problem>& problems) {
-  return VariationReader(room, problems).read(sweep);
+std::vector<Variation> read_variations(const Node& sweep, Room& room, std::vector<Problem>& problems) {
+  if (sweep.kind != Node::Kind::kArray) return {VariationReader("sweep", room, problems).read(sweep)};
+  std::vector<Variation> products;
+  for (const Node& item : sweep.items) {
+    products.push_back(VariationReader(fmt::format("sweep.{}", products.size()), room, problems).read(item));
+  }
+  if (!products.empty()) return products;
+  problems.push_back(problem_at(sweep.place, "sweep", "an array of sweeps needs at least one"));
+  return {Variation{}};
 }
 
 }  // namespace shaken::scene

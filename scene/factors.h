@@ -22,7 +22,7 @@ struct Axis {
 
 /// Paths that vary together.
 struct Factor {
-  enum class Kind { kGrid, kZip, kList, kRandom };
+  enum class Kind { kGrid, kZip, kList, kRandom, kLatin, kSobol };
   Kind kind = Kind::kGrid;
   std::size_t n_choices = 0;
   std::vector<Axis> axes;
@@ -35,12 +35,15 @@ struct Factor {
 /// "grid"
 std::string name_of(Factor::Kind kind);
 
-/// What the "sweep" of a file says, as far as there is room for its values: the points are the product of the factors,
-/// the first varying slowest.
+/// A product: its points are all combinations of its factors' choices, the first factor varying slowest, with
+/// `replicas` runs of each.
 struct Variation {
   std::vector<Factor> factors;
   int replicas = 1;
 };
-Variation read_variation(const Node& sweep, Room& room, std::vector<Problem>& problems);
+
+/// What the "sweep" of a file says, as far as there is room for its values: one product, or several in an array. At
+/// least one; where what is written is none at all, one without factors stands in.
+std::vector<Variation> read_variations(const Node& sweep, Room& room, std::vector<Problem>& problems);
 
 }  // namespace shaken::scene

@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <unordered_map>
 
 #include "base/text.h"
 #include "scene/canonical.h"
 #include "scene/document.h"
 #include "scene/draft.h"
 #include "scene/factors.h"
+#include "scene/length.h"
 #include "scene/load.h"
 #include "scene/nearest.h"
 #include "scene/resolve.h"
@@ -21,18 +23,19 @@ namespace shaken::scene {
 
 namespace {
 
-/// Multiplies a variation out.
-class Product {
+/// Multiplies the products of a sweep out, one after the other.
+class Products {
  public:
-  Product(Variation variation, Room& room, std::vector<Problem>& problems)
-      : factors_(std::move(variation.factors)), replicas_(variation.replicas), room_(room), problems_(problems) {}
+  Products(std::vector<Variation> products, Room& room, std::vector<Problem>& problems)
+      : products_(std::move(products)), room_(room), problems_(problems) {}
 
   void set_replicas(int replicas) {
-    replicas_ = replicas;
-    if (replicas >= 1 && replicas <= kMaxReplicas) return;
-    const Place flag{std::make_shared<const std::string>(fmt::format("--replicas {}", replicas)), 0, 0};
-    report(flag, {}, fmt::format("{} is outside [1, {}]", replicas, kMaxReplicas));
-    replicas_ = 1;
+    const bool allowed = replicas >= 1 && replicas <= kMaxReplicas;
+    if (!allowed) {
+      const Place flag{std::make_shared<const std::string>(fmt::format("--replicas {}", replicas)), 0, 0};
+      report(flag, {}, fmt::format("{} is outside [1, {}]", replicas, kMaxReplicas));
+    }
+    for (Variation& product : products_) product.replicas = allowed ? replicas : 1;
   }
 
   void apply_setting(const Setting& setting, Draft& base) {
@@ -43,56 +46,35 @@ class Product {
     const std::vector<Node> values =
         read_values(fields()[static_cast<std::size_t>(index)], setting.value, room_, problems_);
     if (values.empty()) return;
-    const auto swept =
-        std::find_if(factors_.begin(), factors_.end(), [&](const Factor& factor) { return factor.has(setting.path); });
-    if (swept != factors_.end() && swept->kind != Factor::Kind::kGrid) {
-      return report(setting.place, setting.path,
-                    fmt::format("the file's \"{}\" sweeps it; a setting cannot take its place", name_of(swept->kind)));
-    }
-    if (values.size() == 1) {
-      if (swept != factors_.end()) factors_.erase(swept);
-      return base.assign(setting.path, setting.place, values.front(), problems_);
-    }
-    Factor factor{Factor::Kind::kGrid, values.size(), {{setting.path, setting.place, values}}, {}};
-    if (swept == factors_.end()) {
-      factors_.push_back(std::move(factor));
-    } else {
-      *swept = std::move(factor);
-    }
+    for (Variation& product : products_) put_in_place(setting, values, product);
+    if (values.size() == 1) base.assign(setting.path, setting.place, values.front(), problems_);
   }
 
   std::vector<SweepPoint> points(const Draft& base) {
-    // The number of points, with the overflow of a product of large numbers in mind.
-    std::size_t n_points = static_cast<std::size_t>(replicas_);
-    for (const Factor& factor : factors_) {
-      if (factor.n_choices == 0) return {};  // complained about
-      n_points = std::min<std::size_t>(n_points * factor.n_choices, std::size_t{1} << 40);
-    }
-    if (n_points > kMaxPoints) {
-      std::string product;
-      for (const Factor& factor : factors_) {
-        product += fmt::format("{}{} ({})", product.empty() ? "" : " x ", factor.n_choices, name_of(factor.kind));
+    std::size_t n_points = 0;
+    std::string written;
+    for (const Variation& product : products_) {
+      const std::size_t n_here = size_of(product);
+      if (n_here == 0) return {};  // complained about
+      n_points += n_here;
+      written += fmt::format("{}{}", written.empty() ? "" : " + ", describe_size(product));
+      if (n_points > kMaxPoints) {
+        report(base.place(), {}, fmt::format("the sweep has more than {} points: {}", kMaxPoints, written));
+        return {};
       }
-      report(base.place(), {},
-             fmt::format("the sweep has more than {} points: {} x {} replicas", kMaxPoints, product, replicas_));
-      return {};
     }
-    const bool seed_is_swept =
-        std::any_of(factors_.begin(), factors_.end(), [](const Factor& factor) { return factor.has("time.seed"); });
-    if (seed_is_swept && replicas_ > 1) {
+    for (const Variation& product : products_) {
+      const bool seed_is_swept = std::any_of(product.factors.begin(), product.factors.end(),
+                                             [](const Factor& factor) { return factor.has("time.seed"); });
+      if (!seed_is_swept || product.replicas == 1) continue;
       report(base.place(), "time.seed", "time.seed is swept and there are replicas, which vary it too; remove one");
       return {};
     }
 
     std::vector<SweepPoint> made;
-    std::vector<std::size_t> choice(factors_.size(), 0);
-    while (true) {
-      add_point(base, choice, made);
-      // The next combination; the last factor varies fastest.
-      std::size_t f = factors_.size();
-      while (f > 0 && ++choice[f - 1] == factors_[f - 1].n_choices) choice[--f] = 0;
-      if (f == 0) return made;
-    }
+    for (const Variation& product : products_) multiply_out(product, base, made);
+    if (products_.size() > 1) keep_one_of_each_run(made);
+    return made;
   }
 
  private:
@@ -100,7 +82,74 @@ class Product {
     problems_.push_back(problem_at(place, path, std::move(message)));
   }
 
-  void add_point(const Draft& base, const std::vector<std::size_t>& choice, std::vector<SweepPoint>& made) {
+  /// In one product: the values of a setting take the place of the grid's axis of that path, or are a further axis; a
+  /// single value is none.
+  void put_in_place(const Setting& setting, const std::vector<Node>& values, Variation& product) {
+    std::vector<Factor>& factors = product.factors;
+    const auto swept =
+        std::find_if(factors.begin(), factors.end(), [&](const Factor& factor) { return factor.has(setting.path); });
+    if (swept != factors.end() && swept->kind != Factor::Kind::kGrid) {
+      return report(setting.place, setting.path,
+                    fmt::format("the file's \"{}\" sweeps it; a setting cannot take its place", name_of(swept->kind)));
+    }
+    Factor factor{Factor::Kind::kGrid, values.size(), {{setting.path, setting.place, values}}, {}};
+    if (values.size() == 1) {
+      if (swept != factors.end()) factors.erase(swept);
+    } else if (swept == factors.end()) {
+      factors.push_back(std::move(factor));
+    } else {
+      *swept = std::move(factor);
+    }
+  }
+
+  /// The number of points; of a product of large numbers, which could overflow, some number above kMaxPoints.
+  static std::size_t size_of(const Variation& product) {
+    std::size_t n_points = static_cast<std::size_t>(product.replicas);
+    for (const Factor& factor : product.factors) {
+      n_points = std::min<std::size_t>(n_points * factor.n_choices, std::size_t{1} << 40);
+    }
+    return n_points;
+  }
+
+  /// "3 (grid) x 2 (zip) x 1 replicas"
+  static std::string describe_size(const Variation& product) {
+    std::string text;
+    for (const Factor& factor : product.factors) {
+      text += fmt::format("{} ({}) x ", factor.n_choices, name_of(factor.kind));
+    }
+    return text + fmt::format("{} replicas", product.replicas);
+  }
+
+  void multiply_out(const Variation& product, const Draft& base, std::vector<SweepPoint>& made) {
+    const std::vector<Factor>& factors = product.factors;
+    std::vector<std::size_t> choice(factors.size(), 0);
+    while (true) {
+      add_point(product, base, choice, made);
+      // The next combination; the last factor varies fastest.
+      std::size_t f = factors.size();
+      while (f > 0 && ++choice[f - 1] == factors[f - 1].n_choices) choice[--f] = 0;
+      if (f == 0) return;
+    }
+  }
+
+  /// Of points that name the same run, the first, going on for as long as any of them.
+  static void keep_one_of_each_run(std::vector<SweepPoint>& points) {
+    std::unordered_map<std::string, RunPlan*> firsts;
+    std::vector<SweepPoint> kept;
+    kept.reserve(points.size());  // firsts point into it
+    for (SweepPoint& point : points) {
+      const auto [first, is_new] = firsts.try_emplace(run_id(point.plan), nullptr);
+      if (is_new) {
+        first->second = &kept.emplace_back(std::move(point)).plan;
+      } else {
+        *first->second = as_long_as_both(*first->second, point.plan);
+      }
+    }
+    points = std::move(kept);
+  }
+
+  void add_point(const Variation& product, const Draft& base, const std::vector<std::size_t>& choice,
+                 std::vector<SweepPoint>& made) {
     Draft draft = base;
     SweepPoint point;
     point.parameters = nlohmann::ordered_json::object();
@@ -117,8 +166,8 @@ class Product {
       point.parameters[axis.path] = value;
       point.label += fmt::format("{}{}={}", point.label.empty() ? "" : " ", axis.path, text);
     };
-    for (std::size_t f = 0; f < factors_.size(); ++f) {
-      const Factor& factor = factors_[f];
+    for (std::size_t f = 0; f < product.factors.size(); ++f) {
+      const Factor& factor = product.factors[f];
       if (factor.members.empty()) {
         for (const Axis& axis : factor.axes) apply(axis, choice[f]);
       } else {
@@ -129,21 +178,21 @@ class Product {
     if (!plan) return;
     point.plan = *plan;
     const Field& seed = field_at("time.seed");
-    if (static_cast<double>(plan->system.seed) > seed.high - (replicas_ - 1)) {
+    if (static_cast<double>(plan->system.seed) > seed.high - (product.replicas - 1)) {
       const Given* given = draft.find("time.seed");
       return report(given ? given->place : base.place(), "time.seed",
-                    fmt::format("{} replicas lead past the largest seed, {:.16g}", replicas_, seed.high));
+                    fmt::format("{} replicas lead past the largest seed, {:.16g}", product.replicas, seed.high));
     }
     const std::string label = point.label;
-    for (point.replica = 1; point.replica <= replicas_; ++point.replica) {
+    for (point.replica = 1; point.replica <= product.replicas; ++point.replica) {
       point.plan.system.seed = plan->system.seed + static_cast<std::uint64_t>(point.replica - 1);
-      if (replicas_ > 1) point.label = fmt::format("{}{}replica={}", label, label.empty() ? "" : " ", point.replica);
+      if (product.replicas > 1)
+        point.label = fmt::format("{}{}replica={}", label, label.empty() ? "" : " ", point.replica);
       made.push_back(point);
     }
   }
 
-  std::vector<Factor> factors_;
-  int replicas_;
+  std::vector<Variation> products_;
   Room& room_;
   std::vector<Problem>& problems_;
 };
@@ -165,17 +214,18 @@ Loaded<Sweep> load_sweep(std::string_view text, const std::string& file, std::sp
   Sweep sweep{std::filesystem::path(file).stem().string(), {}};
   Place name_place{root->place.file, 0, 0};
   Draft base(root->place);
-  Variation variation;
+  std::vector<Variation> products{Variation{}};
   Room room;
   if (!root->find("scene") && !root->find("sweep")) {
     base.read(*root, problems);
   } else {
     const std::vector<std::string> names{"name", "scene", "sweep"}, inside = names_in({});
     for (const Member& member : root->members) {
+      if (is_link_to_schema(member, problems)) continue;
       if (member.key == "scene") {
         base.read(member.value, problems);
       } else if (member.key == "sweep") {
-        variation = read_variation(member.value, room, problems);
+        products = read_variations(member.value, room, problems);
       } else if (member.key == "name" && member.value.kind == Node::Kind::kString) {
         sweep.name = member.value.text;
         name_place = member.value.place;
@@ -196,12 +246,12 @@ Loaded<Sweep> load_sweep(std::string_view text, const std::string& file, std::sp
     problems.push_back(problem_at(name_place, is_of_file ? "" : "name",
                                   *problem + (is_of_file ? ": rename the file, or give a \"name\" in a sweep" : "")));
   }
-  Product product(std::move(variation), room, problems);
-  if (replicas) product.set_replicas(*replicas);
+  Products sweeps(std::move(products), room, problems);
+  if (replicas) sweeps.set_replicas(*replicas);
   for (const std::string& written : settings) {
-    if (const auto setting = parse_setting(written, problems)) product.apply_setting(*setting, base);
+    if (const auto setting = parse_setting(written, problems)) sweeps.apply_setting(*setting, base);
   }
-  sweep.points = product.points(base);
+  sweep.points = sweeps.points(base);
   if (!problems.empty()) return tidied(std::move(problems));
   return sweep;
 }

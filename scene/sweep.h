@@ -32,13 +32,15 @@ std::optional<std::string> name_problem(std::string_view name);
 
 /// Reads a sweep file, or a scene file as a sweep of one point.
 ///   {"name"?, "scene": {...}, "sweep": {"grid": {path: values}, "zip": {path: values}, "list": [{path: value}, ...],
-///    "random": {"n", "seed", path: {"from", "to"}}, "replicas": n}}
+///    "random": {"n", "seed", path: {"from", "to", "scale"?}}, "latin": {...}, "sobol": {...}, "replicas": n}}
 /// The points are the product of all paths of the grid, the tuples of zip, the entries of list and the draws of random,
-/// the first varying slowest, and `replicas` runs of each: replica k has time.seed + k - 1.
+/// latin and sobol, the first varying slowest, and `replicas` runs of each: replica k has time.seed + k - 1. A "sweep"
+/// may also be an array of such products: then the points are those of the first, of the second and so on; of points
+/// that name the same run, the first is kept.
 ///
-/// Settings are applied to every point. One with several values, "rods.length=2.5,3.5" or "box.gap=0.9:1.5:0.1", is an
-/// axis of the grid; one for a path that the file's grid has takes the place of that axis. `replicas` replaces the
-/// file's. Everything wrong with any point is listed at once.
+/// Settings are applied to every point, of every product. One with several values, "rods.length=2.5,3.5" or
+/// "box.gap=0.9:1.5:0.1", is an axis of the grid; one for a path that the file's grid has takes the place of that axis.
+/// `replicas` replaces the file's. Everything wrong with any point is listed at once.
 Loaded<Sweep> load_sweep(std::string_view text, const std::string& file, std::span<const std::string> settings = {},
                          std::optional<int> replicas = std::nullopt);
 

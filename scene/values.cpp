@@ -2,7 +2,6 @@
 #include "scene/values.h"
 
 #include <fmt/format.h>
-#include <xxhash.h>
 
 #include <algorithm>
 #include <array>
@@ -53,6 +52,7 @@ Decimal rounded(double value, int digits) { return parse_decimal(fmt::format("{:
 struct Bounds {
   std::vector<Decimal> numbers;
   std::string unit;
+  bool logarithmic = false;
 };
 
 Result<Bounds> read_bounds(const std::vector<std::string_view>& texts) {
@@ -96,20 +96,24 @@ class ValuesReader {
     return add_one(node);
   }
 
-  void draws(const Node& node, int n, std::uint64_t seed) {
-    const auto bounds = keys(node, {"from", "to"});
+  void draws(const Node& node, const CubePoints& points, int dimension) {
+    const auto bounds = keys(node, {"from", "to"}, true);
     if (!bounds) return;
     const double from = bounds->numbers[0].value();
     const double to = bounds->numbers[1].value();
+    const bool whole = field_.form == Form::kWhole;
     if (!(from < to)) return report(node, "\"from\" must be less than \"to\"");
-    if (!has_room(node, n)) return;
-    for (int i = 0; i < n; ++i) {
-      const std::string key = fmt::format("{}/{}/{}", seed, field_.path, i);
-      const double even = static_cast<double>(XXH3_64bits(key.data(), key.size()) >> 11) * 0x1p-53;  // in [0, 1)
-      const double value = field_.form == Form::kWhole
-                               ? std::floor(from + (to - from + 1) * even)
-                               : std::clamp(rounded(from + (to - from) * even, 6).value(), from, to);
-      values_.push_back(value_node(rounded(value, 17), bounds->unit, node.place));
+    if (whole && !(bounds->numbers[0].is_whole() && bounds->numbers[1].is_whole())) {
+      return report(node, "\"from\" and \"to\" must be whole numbers here");
+    }
+    if (!has_room(node, points.n)) return;
+    // A whole number stands for the interval up to the next one, so that the last has the share of the others.
+    const double end = whole ? to + 1 : to;
+    const int digits = points.spread == Spread::kRandom ? 6 : 9;
+    for (const double share : points.coordinates(field_.path, dimension)) {
+      const double value = bounds->logarithmic ? between_on_log_scale(from, end, share) : from + (end - from) * share;
+      const double kept = std::clamp(whole ? std::floor(value) : rounded(value, digits).value(), from, to);
+      values_.push_back(value_node(rounded(kept, 17), bounds->unit, node.place));
     }
   }
 
@@ -162,7 +166,7 @@ class ValuesReader {
       return true;
     }
     const std::string last_key = by_count ? "n" : "step";
-    const auto bounds = keys(node, {"from", "to", last_key});
+    const auto bounds = keys(node, {"from", "to", last_key}, by_count);
     if (!bounds) return true;
     if (!by_count) return steps(node, *bounds);
 
@@ -173,7 +177,10 @@ class ValuesReader {
     const double to = bounds->numbers[1].value();
     for (int i = 0; i < *n; ++i) {
       // Twelve digits: even steps come out as the decimals that they are.
-      const double value = i == 0 ? from : from + (to - from) * i / (*n - 1);
+      const double value = i == 0                 ? from
+                           : !bounds->logarithmic ? from + (to - from) * i / (*n - 1)
+                           : i == *n - 1          ? to
+                                                  : between_on_log_scale(from, to, static_cast<double>(i) / (*n - 1));
       values_.push_back(value_node(rounded(value, 12), bounds->unit, node.place));
     }
     return true;
@@ -193,8 +200,8 @@ class ValuesReader {
     return true;
   }
 
-  /// The values of exactly these keys; "n" is left to the caller.
-  std::optional<Bounds> keys(const Node& node, const std::vector<std::string>& wanted) {
+  /// The values of exactly these keys; "n" is left to the caller. There may be a "scale" too where it `can_scale`.
+  std::optional<Bounds> keys(const Node& node, const std::vector<std::string>& wanted, bool can_scale) {
     std::vector<std::string_view> texts;
     bool ok = true;
     const auto fail = [&](const Place& place, std::string message) {
@@ -205,9 +212,11 @@ class ValuesReader {
       fail(node.place, fmt::format("expected an object with \"from\" and \"to\", not {}", describe(node)));
       return std::nullopt;
     }
+    std::vector<std::string> known = wanted;
+    if (can_scale) known.emplace_back("scale");
     for (const Member& member : node.members) {
-      if (std::find(wanted.begin(), wanted.end(), member.key) == wanted.end()) {
-        const std::string meant = suggestion(problems_, [&] { return did_you_mean(nearest(member.key, wanted)); });
+      if (std::find(known.begin(), known.end(), member.key) == known.end()) {
+        const std::string meant = suggestion(problems_, [&] { return did_you_mean(nearest(member.key, known)); });
         fail(member.place, fmt::format("unknown key \"{}\" in a range{}", member.key, meant));
       }
     }
@@ -221,10 +230,25 @@ class ValuesReader {
         texts.push_back(member->value.text);
       }
     }
+    bool logarithmic = false;
+    if (const Member* scale = can_scale ? node.find("scale") : nullptr) {
+      const std::vector<std::string> scales{"linear", "log"};
+      const bool is_text = scale->value.kind == Node::Kind::kString;
+      logarithmic = is_text && scale->value.text == "log";
+      if (!is_text || (!logarithmic && scale->value.text != "linear")) {
+        fail(scale->value.place, fmt::format("\"scale\" is \"linear\" or \"log\", not {}{}", describe(scale->value),
+                                             did_you_mean(nearest(scale->value.text, scales))));
+      }
+    }
     if (!ok) return std::nullopt;
-    const Result<Bounds> bounds = read_bounds(texts);
+    Result<Bounds> bounds = read_bounds(texts);
     if (!bounds) {
       fail(node.place, bounds.error().message);
+      return std::nullopt;
+    }
+    bounds->logarithmic = logarithmic;
+    if (logarithmic && !(bounds->numbers[0].digits > 0 && bounds->numbers[1].digits > 0)) {
+      fail(node.place, "a range with \"scale\": \"log\" must lie above 0");
       return std::nullopt;
     }
     return *bounds;
@@ -244,14 +268,14 @@ std::vector<Node> read_values(const Field& field, const Node& node, Room& room, 
   return reader.take();
 }
 
-std::vector<Node> draw_values(const Field& field, const Node& node, int n, std::uint64_t seed, Room& room,
+std::vector<Node> draw_values(const Field& field, const Node& node, const CubePoints& points, int dimension, Room& room,
                               std::vector<Problem>& problems) {
   if (field.form != Form::kQuantity && field.form != Form::kWhole) {
-    problems.push_back(problem_at(node.place, field.path, "only numbers can be drawn at random"));
+    problems.push_back(problem_at(node.place, field.path, "only numbers can be drawn"));
     return {};
   }
   ValuesReader reader(field, room, problems);
-  reader.draws(node, n, seed);
+  reader.draws(node, points, dimension);
   return reader.take();
 }
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
 #include "scene/document.h"
 #include "scene/fields.h"
+#include "scene/points.h"
 #include "scene/problem.h"
 
 namespace shaken::scene {
@@ -22,13 +23,14 @@ struct Room {
 
 /// The values that are written for one swept field: an array of values or ranges, a range, or a single value. Ranges
 /// are "0.45:0.85:0.05" (from:to:step, the end included if a step falls on it; "2.5:4.5:0.5 mm" with a unit),
-/// {"from", "to", "step"} and {"from", "to", "n"} (n values, both ends included). Their values are exact decimals.
-/// None, and a problem, if there are too many.
+/// {"from", "to", "step"} and {"from", "to", "n", "scale"?} (n values, both ends included; evenly spaced, or with even
+/// ratios where "scale" is "log"). Their values are exact decimals. None, and a problem, if there are too many.
 std::vector<Node> read_values(const Field& field, const Node& node, Room& room, std::vector<Problem>& problems);
 
-/// `n` draws from {"from", "to"}, evenly distributed and rounded to 6 digits; the i-th depends on nothing but seed,
-/// path and i.
-std::vector<Node> draw_values(const Field& field, const Node& node, int n, std::uint64_t seed, Room& room,
+/// One value in {"from", "to", "scale"?} for each of `points`, by their coordinates in dimension number `dimension`:
+/// evenly distributed, or their logarithms where "scale" is "log". Whole numbers where the field takes no others, each
+/// from first to last with the same share; else rounded, to 6 digits if random and to 9 if not.
+std::vector<Node> draw_values(const Field& field, const Node& node, const CubePoints& points, int dimension, Room& room,
                               std::vector<Problem>& problems);
 
 /// A whole number in [low, high], or none and a problem.

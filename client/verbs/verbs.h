@@ -13,6 +13,7 @@ inline constexpr const char* kResultsGroup = "Results";
 inline constexpr const char* kHelpGroup = "Set-up and help";
 
 std::unique_ptr<Verb> make_init();
+std::unique_ptr<Verb> make_schema();
 std::unique_ptr<Verb> make_validate();
 std::unique_ptr<Verb> make_explain();
 std::unique_ptr<Verb> make_run();

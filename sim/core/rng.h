@@ -18,7 +18,8 @@ enum class RngStream : std::uint64_t {
   kKinds = 4,
   kNoise = 5,
   kContacts = 6,
-  kReferences = 7
+  kReferences = 7,
+  kPoints = 8
 };
 
 /// Random numbers keyed by (seed, stream, tick, index): what a rod draws depends on nothing but its own index and the

@@ -84,6 +84,7 @@ TEST(BadArguments, AreAllExitCodeTwo) {
                                                                      {"results", "--csv", "--json"},
                                                                      {"results", "--where", "order"},
                                                                      {"completion", "fish"},
+                                                                     {"schema", "film"},
                                                                      {"status", "a", "b"}}) {
     const Outcome outcome = run_client(arguments);
     EXPECT_EQ(outcome.code, ExitCode::kBadInput) << ::testing::PrintToString(arguments);
@@ -217,6 +218,23 @@ TEST(Init, DoesNotReplaceAFile) {
   EXPECT_EQ(outcome.code, ExitCode::kBadInput);
   EXPECT_THAT(outcome.err, HasSubstr("--force"));
   EXPECT_EQ(run_client({"init", file, "--force"}).code, ExitCode::kOk);
+}
+
+TEST(Init, NamesTheSchemaThatIsInstalled) {
+  const Json scene = Json::parse(run_client({"init", "-"}).out, nullptr, true, true);
+  const std::string url = scene.at("$schema").get<std::string>();
+  ASSERT_THAT(url, ::testing::StartsWith("file:///"));
+  std::ifstream file(url.substr(7));
+  EXPECT_EQ(Json::parse(file).at("title"), "Scene of Shaken");
+}
+
+TEST(Schema, IsPrintedOfScenesAndOfSweeps) {
+  const Json scene = Json::parse(run_client({"schema"}).out);
+  EXPECT_EQ(Json::parse(run_client({"schema", "scene"}).out), scene);
+  EXPECT_TRUE(scene.at("properties").contains("rods"));
+  const Json sweep = Json::parse(run_client({"schema", "sweep"}).out);
+  EXPECT_TRUE(sweep.at("then").at("properties").contains("sweep"));
+  EXPECT_THAT(run_client({"schema", "film"}).err, HasSubstr("\"film\" is neither scene nor sweep"));
 }
 
 TEST(Completion, BashScriptCompletesVerbsAndOptions) {

@@ -46,7 +46,7 @@ TEST(Configs, TheExamplesOfTheReferenceAreValid) {
       example.clear();
     }
   }
-  EXPECT_EQ(n_examples, 2);
+  EXPECT_EQ(n_examples, 4);
 }
 
 }  // namespace

@@ -3,9 +3,13 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "scene/canonical.h"
+#include "scene/fields.h"
+#include "scene/points.h"
 #include "tests/unit/scene/support.h"
 
 namespace shaken::scene {
@@ -121,6 +125,142 @@ TEST(Sweep, EverythingTogetherIsAProductWithTheLastVaryingFastest) {
   EXPECT_EQ(ids.size(), sweep.points.size());
 }
 
+TEST(Sweep, LatinAndSobolAreWrittenLikeRandom) {
+  for (const std::string kind : {"random", "latin", "sobol"}) {
+    const std::string text = R"({"sweep": {")" + kind + R"(": {"n": 16, "seed": 5,
+      "rods.length": {"from": "2 mm", "to": 5}, "contacts.rod_rod.friction": {"from": 0.001, "to": 1, "scale": "log"},
+      "contacts.sweeps": {"from": 1, "to": 4}}}})";
+    const Sweep sweep = sweep_of(text);
+    ASSERT_EQ(sweep.points.size(), 16u) << kind;
+    EXPECT_EQ(labels(sweep), labels(sweep_of(text)));
+    std::vector<int> lengths(16), frictions(16), sweeps(5);
+    for (const SweepPoint& point : sweep.points) {
+      const auto share = [](double x, double from, double to) { return (x - from) / (to - from); };
+      const double length = share(point.parameters.at("rods.length"), 2, 5);
+      const double friction =
+          share(std::log(point.parameters.at("contacts.rod_rod.friction").get<double>()), std::log(0.001), 0);
+      ++lengths.at(static_cast<std::size_t>(16 * length));
+      ++frictions.at(static_cast<std::size_t>(16 * friction));
+      ++sweeps.at(point.parameters.at("contacts.sweeps").get<std::size_t>());
+    }
+    if (kind == "random") continue;
+    EXPECT_THAT(lengths, testing::Each(1)) << kind;
+    EXPECT_THAT(frictions, testing::Each(1)) << kind;
+    EXPECT_THAT(sweeps, ElementsAre(0, 4, 4, 4, 4)) << kind;
+  }
+}
+
+TEST(Sweep, MoreSobolOrRandomPointsAreAddedAtTheEnd) {
+  for (const std::string kind : {"random", "sobol"}) {
+    const auto drawn = [&](int n) {
+      return labels(sweep_of(R"({"sweep": {")" + kind + R"(": {"n": )" + std::to_string(n) +
+                             R"(, "box.gap": {"from": 1, "to": 2}, "rods.length": {"from": 2, "to": 5}}}})"));
+    };
+    const std::vector<std::string> few = drawn(10), many = drawn(37);
+    EXPECT_TRUE(std::equal(few.begin(), few.end(), many.begin())) << kind;
+  }
+}
+
+TEST(Sweep, MistakesInDrawsAreListedTogether) {
+  EXPECT_EQ(sweep_problems(R"({"sweep": {"latin": {"n": 0, "seed": -1, "box.gpa": {"from": 1, "to": 2}},
+ "sobol": {"n": 4}, "random": {"n": 2, "box.gap": {"from": 1, "to": "2 s"}, "rods.length": {"form": 1, "to": 2}}}})"),
+            "s.json:1:27: /sweep/latin/n: expected a whole number in [1, 100000], not the number 0\n"
+            "s.json:1:38: /sweep/latin/seed: expected a whole number in [0, 1073741824], not the number -1\n"
+            "s.json:1:42: /box/gpa: unknown key; did you mean box.gap?\n"
+            "s.json:2:11: /sweep/sobol: names no key to draw values for\n"
+            "s.json:2:51: /box/gap: \"s\" is a unit of time, not of length; use mm, m, cm, um\n"
+            "s.json:2:92: /rods/length: the range lacks \"from\"\n"
+            "s.json:2:93: /rods/length: unknown key \"form\" in a range; did you mean from?\n");
+  std::string keys;
+  int n = 0;
+  for (const Field& field : fields()) {
+    if (field.form == Form::kQuantity && n++ <= kMaxSobolDimensions) {
+      keys += ", \"" + field.path + R"(": {"from": 1, "to": 2})";
+    }
+  }
+  EXPECT_THAT(sweep_problems(R"({"sweep": {"sobol": {"n": 2)" + keys + "}}}"),
+              HasSubstr("\"sobol\" has at most 32 keys"));
+}
+
+TEST(Sweep, AnArrayIsOneSweepAfterTheOther) {
+  const Sweep sweep = sweep_of(R"({"scene": {"box": {"side": 30}}, "sweep": [
+    {"grid": {"rods.length": [2, 3]}},
+    {"zip": {"rods.length": [3, 4], "box.gap": [1.2, 1.4]}, "replicas": 2},
+    {"list": [{}, {"rods.length": 2}]}]})");
+  // rods.length = 3 at a gap of 1.2 mm and the seed 1 is there already, as is 2 mm.
+  EXPECT_THAT(labels(sweep),
+              ElementsAre("rods.length=2", "rods.length=3", "rods.length=3 box.gap=1.2 replica=2",
+                          "rods.length=4 box.gap=1.4 replica=1", "rods.length=4 box.gap=1.4 replica=2", ""));
+  EXPECT_EQ(sweep_of(R"({"sweep": [{"replicas": 2}, {"replicas": 3}]})").points.size(), 3u);
+  EXPECT_EQ(sweep_of(R"({"sweep": [{"replicas": 2}, {"grid": {"box.gap": [1.2, 1.3]}}]})", {}, 4).points.size(), 8u);
+  // The grids may be written apart; the runs are those of the one.
+  EXPECT_THAT(labels(sweep_of(R"({"sweep": [{"grid": {"box.gap": [1.2]}}, {"grid": {"box.gap": [1.2, 1.3]}}]})")),
+              ElementsAre("box.gap=1.2", "box.gap=1.3"));
+}
+
+TEST(Sweep, SettingsHoldForEachSweepOfAnArray) {
+  const std::string text =
+      R"({"sweep": [{"grid": {"rods.length": [2, 3]}}, {"grid": {"rods.length": [4], "box.gap": [1.2, 1.4]}}]})";
+  EXPECT_THAT(labels(sweep_of(text, {"rods.length=5"})), ElementsAre("", "box.gap=1.4"));
+  EXPECT_THAT(labels(sweep_of(text, {"box.gap=1.2,1.3"})),
+              ElementsAre("rods.length=2 box.gap=1.2", "rods.length=2 box.gap=1.3", "rods.length=3 box.gap=1.2",
+                          "rods.length=3 box.gap=1.3", "rods.length=4 box.gap=1.2", "rods.length=4 box.gap=1.3"));
+}
+
+TEST(Sweep, MistakesInAnArrayHaveTheirNumber) {
+  EXPECT_EQ(sweep_problems(R"({"sweep": [{"gird": {}}, 3, {"latin": [], "replicas": 0, "grid": {"box.gap": [0.7]}}]})"),
+            "s.json:1:13: /sweep/0/gird: unknown key; did you mean grid?\n"
+            "s.json:1:26: /sweep/1: expected an object, not the number 3\n"
+            "s.json:1:39: /sweep/2/latin: expected an object, not an array\n"
+            "s.json:1:55: /sweep/2/replicas: expected a whole number in [1, 10000], not the number 0\n"
+            "s.json:1:79: /box/gap: a gap of 0.7 mm is too small for rods 0.8 mm thick\n");
+  EXPECT_EQ(
+      sweep_problems(R"({"sweep": [{"grid": {"rods.length": "1:60000:1"}}, {"grid": {"rods.length": "1:50000:1"}}]})"),
+      "s.json:1:1: the sweep has more than 100000 points: 60000 (grid) x 1 replicas + 50000 (grid) x 1 replicas\n");
+}
+
+// Every kind of part beside every other: as many points as the product has, each of a part's choices equally often, and
+// keys of a zip never apart.
+TEST(Sweep, PartsGoTogetherInEveryCombination) {
+  struct Part {
+    const char* text;
+    std::size_t n;
+  };
+  const Part parts[] = {
+      {R"("grid": {"box.gap": [1.2, 1.4, 1.6]})", 3},
+      {R"("zip": {"rods.length": "3:4:1", "rods.area_fraction": {"from": 0.3, "to": 0.4, "n": 2}})", 2},
+      {R"("list": [{"plates.gamma": 6}, {"plates.gamma": 7, "contacts.sweeps": 2}])", 2},
+      {R"("random": {"n": 3, "contacts.rod_rod.friction": {"from": 0, "to": 1}})", 3},
+      {R"("latin": {"n": 2, "contacts.rod_base.friction": {"from": 0, "to": 1}})", 2},
+      {R"("sobol": {"n": 4, "contacts.rod_lid.friction": {"from": 0, "to": 1}})", 4},
+      {R"("replicas": 2)", 2}};
+  for (unsigned chosen = 0; chosen < 128; ++chosen) {
+    std::string text;
+    std::size_t n = 1;
+    for (unsigned k = 0; k < 7; ++k) {
+      if (((chosen >> k) & 1) == 0) continue;
+      text += (text.empty() ? "" : ", ") + std::string(parts[k].text);
+      n *= parts[k].n;
+    }
+    for (const bool in_array : {false, true}) {
+      const Sweep sweep = sweep_of(R"({"scene": {"box": {"side": 30}}, "sweep": )" +
+                                   (in_array ? "[{" + text + "}]" : "{" + text + "}") + "}");
+      ASSERT_EQ(sweep.points.size(), n) << text;
+      std::set<std::string> ids;
+      std::size_t n_long = 0;
+      for (const SweepPoint& point : sweep.points) {
+        ids.insert(run_id(point.plan));
+        if (!point.parameters.contains("rods.length")) continue;
+        const bool is_long = point.parameters.at("rods.length") == 4;
+        n_long += is_long ? 1 : 0;
+        EXPECT_EQ(point.parameters.at("rods.area_fraction").get<double>(), is_long ? 0.4 : 0.3);
+      }
+      EXPECT_EQ(ids.size(), n) << text;
+      EXPECT_EQ(2 * n_long, (chosen & 2) != 0 ? n : 0) << text;
+    }
+  }
+}
+
 TEST(Sweep, ReplicasDifferInTheSeedOnly) {
   const Sweep sweep = sweep_of(R"({"scene": {"time": {"seed": 40}}, "sweep": {"replicas": 3}})");
   EXPECT_THAT(labels(sweep), ElementsAre("replica=1", "replica=2", "replica=3"));
@@ -184,10 +324,10 @@ TEST(Sweep, StructuralMistakes) {
   EXPECT_EQ(sweep_problems(R"({"sweep": {"random": {"n": 2, "box.gap": {"from": 3, "to": 2}}}})"),
             "s.json:1:42: /box/gap: \"from\" must be less than \"to\"\n");
   EXPECT_EQ(sweep_problems(R"({"sweep": {"random": {"n": 2, "rods.start": {"from": 3, "to": 2}}}})"),
-            "s.json:1:45: /rods/start: only numbers can be drawn at random\n");
-  EXPECT_EQ(
-      sweep_problems(R"({"sweep": [], "name": 3})"),
-      "s.json:1:11: /sweep: expected an object, not an array\ns.json:1:23: /name: expected a text, not the number 3\n");
+            "s.json:1:45: /rods/start: only numbers can be drawn\n");
+  EXPECT_EQ(sweep_problems(R"({"sweep": [], "name": 3})"),
+            "s.json:1:11: /sweep: an array of sweeps needs at least one\ns.json:1:23: /name: expected a text, not the "
+            "number 3\n");
   EXPECT_EQ(sweep_problems(R"({"sweep": {"grid": 3, "zip": 4, "list": {}, "random": []}})"),
             "s.json:1:20: /sweep/grid: expected an object of paths and values, not the number 3\n"
             "s.json:1:30: /sweep/zip: expected an object of paths and values, not the number 4\n"
