@@ -181,7 +181,7 @@ class Export : public Verb {
   }
 
   ExitCode write_frames(const run::WantedFrames& wanted, Console& console) {
-    require(files_.recorded(), "the run records no frames; its scene needs a \"trajectory\" block");
+    require(files_.recorded(), "the run records no frames: its scene needs a \"trajectory\" or \"movie\" block");
     const auto trajectory = value_or_fail(run::TrajectoryReader::open(files_.recorded()));
     const run::FrameRange range = value_or_fail(run::find_frames(trajectory, wanted), ExitCode::kBadInput);
     const std::unique_ptr<run::FrameFormat> format = make_format(trajectory.header(), range.size());

@@ -144,7 +144,8 @@ TEST_F(ExportVerb, SaysWhatARunDoesNotHave) {
   std::filesystem::remove(run_ / "observables.h5");
   std::filesystem::remove(run_ / "summary.json");
   for (const auto& [arguments, why] : std::vector<std::pair<std::vector<std::string>, std::string>>{
-           {{"--format", "gsd"}, "trajectory.h5: the run records no frames; its scene needs a \"trajectory\" block"},
+           {{"--format", "gsd"},
+            "trajectory.h5: the run records no frames: its scene needs a \"trajectory\" or \"movie\" block"},
            {{"--format", "csv", "--observable", "msd"}, "observables.h5: the run has measured nothing yet"},
            {{"--list"}, "observables.h5: the run has measured nothing yet"},
            {{"--format", "csv", "--observable", "summary"}, "summary.json: the run has not ended"}}) {

@@ -207,13 +207,14 @@ std::vector<RecordedFrame> random_frames(std::size_t n_frames, int n_rods, doubl
   std::mt19937_64 rng(5);
   std::uniform_real_distribution<float> unit(0, 1);
   std::normal_distribution<float> normal;
+  auto last = static_cast<float>(side);
+  if (static_cast<double>(last) >= side) last = std::nextafter(last, 0.0F);
   std::vector<RecordedFrame> frames;
   for (std::size_t f = 0; f < n_frames; ++f) {
     RecordedFrame frame;
     frame.tick = static_cast<Tick>(100 * f);
     frame.time = 4e-6 * static_cast<double>(frame.tick);
     for (int i = 0; i < n_rods; ++i) {
-      const auto last = std::nextafter(static_cast<float>(side), 0.0F);
       const float x = i % 7 == 0 ? last : std::min(last, unit(rng) * static_cast<float>(side));
       const float y = i % 5 == 0 ? 0 : std::min(last, unit(rng) * static_cast<float>(side));
       frame.position.insert(frame.position.end(), {x, y, unit(rng)});
@@ -234,7 +235,7 @@ TrajectoryHeader many_rods(double side) {
 }
 
 TEST(Gsd, ReadsBackAsItWas) {
-  for (const double side : {10.0, 83.73, 100.1}) {
+  for (const double side : {10.0, 83.73, 100.1, 30.9}) {
     const TrajectoryHeader header = many_rods(side);
     const std::vector<RecordedFrame> frames = random_frames(9, header.n_rods, side);
     const GsdFile file(text_of(*make_gsd(header, frames.size()), frames));
