@@ -98,7 +98,7 @@ std::string summary_row(const std::string& name, const OrderedJson& value, const
 /// A row for each number below `value`.
 void append_numbers(const std::string& path, const OrderedJson& value, std::string& rows) {
   if (value.is_object()) {
-    for (const auto& [key, below] : value.items()) append_numbers(path + "." + key, below, rows);
+    for (const auto& [key, below] : value.items()) append_numbers(fmt::format("{}.{}", path, key), below, rows);
   } else if (value.is_number()) {
     rows += summary_row(path, value, {});
   }
@@ -118,6 +118,7 @@ Result<std::string> observables_csv(const Observables& arrays, const std::vector
   }
   if (names.empty()) problems += "no observable is named\n";
   std::vector<Column> columns;
+  columns.reserve(paths.size());
   for (const std::string& path : paths) columns.push_back({path, arrays.at(path)});
   spread_axes(columns);
   const bool have_one_length = std::all_of(columns.begin(), columns.end(), [&](const Column& column) {
@@ -134,15 +135,15 @@ Result<std::string> observables_csv(const Observables& arrays, const std::vector
     return Error{problems};
   }
 
-  std::string text;
-  std::vector<std::string> fields;
+  std::vector<std::string> fields(columns.size());
+  const auto line_of = [&](auto field_of) {
+    std::transform(columns.begin(), columns.end(), fields.begin(), field_of);
+    return fmt::format("{}\n", fmt::join(fields, ","));
+  };
   const std::size_t begin = shared_folder(paths);
-  for (const std::string& path : paths) fields.push_back(csv_field(path.substr(begin)));
-  text += fmt::format("{}\n", fmt::join(fields, ","));
+  std::string text = line_of([&](const Column& column) { return csv_field(column.path.substr(begin)); });
   for (std::size_t row = 0; row < columns.front().values.size(); ++row) {
-    std::transform(columns.begin(), columns.end(), fields.begin(),
-                   [&](const Column& column) { return number(column.values[row]); });
-    text += fmt::format("{}\n", fmt::join(fields, ","));
+    text += line_of([&](const Column& column) { return number(column.values[row]); });
   }
   return text;
 }
