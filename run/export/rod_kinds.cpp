@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <nlohmann/json.hpp>
 
 #include "run/files/recorded_frame.h"
@@ -32,9 +33,12 @@ XyzComment::XyzComment(const TrajectoryHeader& header, const std::string& proper
     : before_time_(fmt::format(R"(Lattice="{} 0 0 0 {} 0 0 0 {}" Properties={} pbc="{}")", header.box_side,
                                header.box_side, swept_height(header), properties, header.walls ? "F F F" : "T T F")),
       after_time_(R"(units="mm s")") {
-  if (!header.provenance.run_id.empty()) {
+  std::string run_id = header.provenance.run_id;
+  // a damaged one must not end the line or the quotes
+  std::erase_if(run_id, [](unsigned char character) { return std::isalnum(character) == 0; });
+  if (!run_id.empty()) {
     // in words: readers would take some ids for numbers
-    after_time_ += fmt::format(R"( source="Shaken run {} seed {}")", header.provenance.run_id, header.provenance.seed);
+    after_time_ += fmt::format(R"( source="Shaken run {} seed {}")", run_id, header.provenance.seed);
   }
   if (!header.walls) return;
   after_time_ += fmt::format(" arena={} arena_size={}", name_of(header.walls->arena), header.walls->size);

@@ -97,6 +97,13 @@ TEST(Xyz, WallsAreNamedAndNothingIsPeriodicWithinThem) {
   EXPECT_THAT(text_of(*make_beads_xyz(header), {frame_of_two()}), HasSubstr(" arena=disc arena_size=8\n"));
 }
 
+TEST(Xyz, ADamagedRunIdEndsNeitherTheLineNorItsQuotes) {
+  TrajectoryHeader header = two_kinds();
+  header.provenance.run_id = "01\n23\" x=\"\x1b";
+  EXPECT_THAT(text_of(*make_beads_xyz(header), {frame_of_two()}),
+              HasSubstr(" source=\"Shaken run 0123x seed 7\"\nA1 "));
+}
+
 TEST(Xyz, WithoutAnAmplitudeTheBoxIsAsHighAsTheGap) {
   TrajectoryHeader header = two_kinds();
   for (const char* scene : {"", "no JSON", "{}", R"({"plates": {"amplitude": "much"}})"}) {
