@@ -9,8 +9,6 @@
 #include <cstring>
 #include <system_error>
 
-#include "base/descriptor.h"
-
 namespace shaken {
 namespace {
 
@@ -74,6 +72,34 @@ Result<void> write_file_atomically(const std::filesystem::path& file, std::strin
   const std::filesystem::path temporary = temporary_for(file);
   if (auto done = write_file(temporary, content); !done) return done.error();
   return replace_file(temporary, file);
+}
+
+Result<ReplacementFile> ReplacementFile::create(const std::filesystem::path& file) {
+  Descriptor out = open_file(temporary_for(file), O_WRONLY | O_CREAT | O_TRUNC);
+  if (!out) return system_error("cannot write " + file.string());
+  return ReplacementFile(file, std::move(out));
+}
+
+ReplacementFile::~ReplacementFile() {
+  if (!out_) return;
+  std::error_code ignored;
+  std::filesystem::remove(temporary_for(file_), ignored);
+}
+
+Result<void> ReplacementFile::append(std::string_view piece) {
+  if (!write_all(out_.value(), piece)) return system_error("cannot write " + file_.string());
+  return {};
+}
+
+Result<void> ReplacementFile::finish() {
+  const std::filesystem::path written = temporary_for(file_);
+  if (!out_.close_now()) {
+    const Error error = system_error("cannot write " + file_.string());
+    std::error_code ignored;
+    std::filesystem::remove(written, ignored);
+    return error;
+  }
+  return replace_file(written, file_);
 }
 
 Result<std::string> read_file(const std::filesystem::path& file) {

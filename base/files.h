@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 
+#include "base/descriptor.h"
 #include "sim/core/result.h"
 
 namespace shaken {
@@ -21,6 +23,25 @@ Result<void> replace_file(const std::filesystem::path& written, const std::files
 
 /// The first half alone: writes `content` without making it last, or removes what there is of it.
 Result<void> write_file(const std::filesystem::path& file, std::string_view content);
+
+/// As write_file_atomically, for content that comes piece by piece: FILE.tmp grows until `finish` puts it in the place
+/// of FILE. If that never happens, FILE stays as it was, and FILE.tmp goes with this object.
+class ReplacementFile {
+ public:
+  static Result<ReplacementFile> create(const std::filesystem::path& file);
+  ReplacementFile(ReplacementFile&& other) noexcept = default;
+  ~ReplacementFile();
+
+  Result<void> append(std::string_view piece);
+  /// Nothing may be appended afterwards.
+  Result<void> finish();
+
+ private:
+  ReplacementFile(std::filesystem::path file, Descriptor out) : file_(std::move(file)), out_(std::move(out)) {}
+
+  std::filesystem::path file_;
+  Descriptor out_;  ///< of FILE.tmp; none once it is finished
+};
 
 /// FILE.tmp, where the next content of `file` is prepared.
 std::filesystem::path temporary_for(const std::filesystem::path& file);

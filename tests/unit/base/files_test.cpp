@@ -48,6 +48,50 @@ TEST(AtomicFile, FullDiskKeepsTheOldContent) {
   EXPECT_FALSE(std::filesystem::exists(temporary_for(file)));
 }
 
+TEST(ReplacementFile, TakesThePlaceOfTheOldContentOnlyAtItsEnd) {
+  const TemporaryFolder folder;
+  const auto file = folder / "frames.xyz";
+  ASSERT_TRUE(write_file_atomically(file, "old"));
+  auto next = ReplacementFile::create(file);
+  ASSERT_TRUE(next) << next.error().message;
+  EXPECT_TRUE(next->append("first, "));
+  EXPECT_TRUE(next->append("second"));
+  EXPECT_EQ(*read_file(file), "old");
+  EXPECT_TRUE(next->finish());
+  EXPECT_EQ(*read_file(file), "first, second");
+  EXPECT_FALSE(std::filesystem::exists(temporary_for(file)));
+}
+
+TEST(ReplacementFile, GoesWithoutATraceWhenItIsNotFinished) {
+  const TemporaryFolder folder;
+  const auto file = folder / "frames.xyz";
+  ASSERT_TRUE(write_file_atomically(file, "old"));
+  {
+    auto next = ReplacementFile::create(file);
+    ASSERT_TRUE(next) << next.error().message;
+    EXPECT_TRUE(next->append("half"));
+    EXPECT_TRUE(std::filesystem::exists(temporary_for(file)));
+  }
+  EXPECT_FALSE(std::filesystem::exists(temporary_for(file)));
+  EXPECT_EQ(*read_file(file), "old");
+}
+
+TEST(ReplacementFile, SaysWhichFileCannotBeWritten) {
+  const TemporaryFolder folder;
+  const auto nowhere = ReplacementFile::create(folder / "missing" / "frames.xyz");
+  ASSERT_FALSE(nowhere);
+  EXPECT_NE(nowhere.error().message.find("missing/frames.xyz"), std::string::npos) << nowhere.error().message;
+  const int failures = in_child([&] {
+    limit_file_size(1000);
+    auto next = ReplacementFile::create(folder / "frames.xyz");
+    const auto done = next->append(std::string(100000, 'x'));
+    return !done && done.error().message.find("frames.xyz") != std::string::npos;
+  });
+  EXPECT_EQ(failures, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder / "frames.xyz"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "frames.xyz.tmp"));
+}
+
 TEST(AtomicFile, MissingFileCannotBeRead) {
   const TemporaryFolder folder;
   const auto content = read_file(folder / "nothing");

@@ -81,6 +81,8 @@ TEST(BadArguments, AreAllExitCodeTwo) {
                                                                      {"run", "scene.json"},
                                                                      {"movie", "x", "--frame", "-3"},
                                                                      {"movie", "x", "--frame", "1", "--live"},
+                                                                     {"export", "x"},
+                                                                     {"export", "--format", "gsd"},
                                                                      {"results", "--csv", "--json"},
                                                                      {"results", "--where", "order"},
                                                                      {"completion", "fish"},

@@ -198,6 +198,14 @@ TEST(Sweep, AnArrayIsOneSweepAfterTheOther) {
               ElementsAre("box.gap=1.2", "box.gap=1.3"));
 }
 
+TEST(Sweep, OfARunInSeveralSweepsOfAnArrayTheLongestIsAsked) {
+  const Sweep sweep = sweep_of(R"({"scene": {}, "sweep": [
+      {"list": [{"time.measure": 5}, {"rods.length": 2.5}]}, {"list": [{"time.measure": 8}]}, {"list": [{"time.measure": 6}]}]})");
+  ASSERT_EQ(sweep.points.size(), 2U);
+  EXPECT_EQ(sweep.points[0].plan.measure_time, 8);
+  EXPECT_EQ(sweep.points[1].plan.measure_time, 10) << "the default";
+}
+
 TEST(Sweep, SettingsHoldForEachSweepOfAnArray) {
   const std::string text =
       R"({"sweep": [{"grid": {"rods.length": [2, 3]}}, {"grid": {"rods.length": [4], "box.gap": [1.2, 1.4]}}]})";

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "run/export/rod_kinds.h"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <nlohmann/json.hpp>
+
+#include "run/files/recorded_frame.h"
+
+namespace shaken::run {
+
+std::vector<BeadRow> kinds_of(const TrajectoryHeader& header) {
+  std::vector<BeadRow> kinds{{header.bead_offset, header.bead_radius}};
+  kinds.insert(kinds.end(), header.added_beads.begin(), header.added_beads.end());
+  return kinds;
+}
+
+std::size_t kind_of(const TrajectoryHeader& header, std::size_t rod) {
+  return header.species_of_rod.empty() ? 0 : header.species_of_rod[rod];
+}
+
+std::string letter_of(std::size_t kind) { return {static_cast<char>('A' + kind)}; }
+
+double swept_height(const TrajectoryHeader& header) {
+  const auto scene = nlohmann::json::parse(header.scene_json, nullptr, false);
+  const auto amplitude = nlohmann::json::json_pointer("/plates/amplitude");
+  if (scene.is_discarded() || !scene.contains(amplitude) || !scene[amplitude].is_number()) return header.gap;
+  return header.gap + 2 * scene[amplitude].get<double>();
+}
+
+XyzComment::XyzComment(const TrajectoryHeader& header, const std::string& properties)
+    : before_time_(fmt::format(R"(Lattice="{} 0 0 0 {} 0 0 0 {}" Properties={} pbc="{}")", header.box_side,
+                               header.box_side, swept_height(header), properties, header.walls ? "F F F" : "T T F")),
+      after_time_(R"(units="mm s")") {
+  std::string run_id = header.provenance.run_id;
+  // a damaged one must not end the line or the quotes
+  std::erase_if(run_id, [](unsigned char character) { return std::isalnum(character) == 0; });
+  if (!run_id.empty()) {
+    // in words: readers would take some ids for numbers
+    after_time_ += fmt::format(R"( source="Shaken run {} seed {}")", run_id, header.provenance.seed);
+  }
+  if (!header.walls) return;
+  after_time_ += fmt::format(" arena={} arena_size={}", name_of(header.walls->arena), header.walls->size);
+  if (header.walls->arena == Arena::kAnnulus) after_time_ += fmt::format(" arena_inner={}", header.walls->inner);
+}
+
+std::string XyzComment::of(const RecordedFrame& frame) const {
+  return fmt::format("{} Time={} Step={} {}", before_time_, frame.time, frame.tick, after_time_);
+}
+
+}  // namespace shaken::run
