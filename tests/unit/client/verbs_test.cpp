@@ -201,7 +201,7 @@ TEST_F(Verbs, CleanShowsWhatWouldGo) {
   EXPECT_EQ(outcome.code, ExitCode::kOk) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("1f0c0000  failed"));
   EXPECT_THAT(outcome.out, HasSubstr("2a0c0000  unknown"));
-  EXPECT_THAT(outcome.out, HasSubstr("3.0 kB in all\n1 unknown to the queue"));
+  EXPECT_THAT(outcome.out, HasSubstr("3 kB in all\n1 unknown to the queue"));
   ASSERT_EQ(daemon_.requests().size(), 1u);
   EXPECT_EQ(Json::parse(daemon_.requests().back().body),
             Json({{"states", {"failed", "timed out"}}, {"sweep", "s1"}, {"older_s", 2592000.0}, {"dry_run", true}}));
@@ -220,7 +220,7 @@ TEST_F(Verbs, CleanRemovesOnlyWhatWasShown) {
   EXPECT_TRUE(daemon_.requests().empty());
   const Outcome outcome = run({"clean", "--yes"});
   EXPECT_EQ(outcome.code, ExitCode::kOk) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("1 removed, 3.0 kB\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("1 removed, 3 kB\n"));
   EXPECT_EQ(Json::parse(daemon_.requests().back().body), Json({{"only", {"1f0c000000000000"}}}));
   const Outcome kept = run({"clean", "--yes"});
   EXPECT_EQ(kept.code, ExitCode::kFailed);
