@@ -195,16 +195,15 @@ Api::Answer Api::submit(const Call& call) const {
     if (problems.size() > 1) sentence = std::to_string(problems.size()) + " problems; the first: " + sentence;
     return {422, {{"error", sentence}, {"problems", problems}}, ""};
   }
-  const auto& [name, priority, terms, jobs] = *submission;
   const Submitted submitted = [&] {
     try {
-      return queue_.submit(name, priority, jobs, terms);
+      return queue_.submit(submission->name, submission->priority, submission->jobs, submission->terms);
     } catch (const Circular& problem) {
       throw Refusal(409, problem.what());
     }
   }();
-  spdlog::info("sweep {} '{}': {} jobs, {} new, {} found done, {} queued again", sweep_word(submitted.sweep), name,
-               submitted.counts.total(), submitted.n_new, submitted.n_found, submitted.n_requeued);
+  spdlog::info("sweep {} '{}': {} jobs, {} new, {} found done, {} queued again", sweep_word(submitted.sweep),
+               submission->name, submitted.counts.total(), submitted.n_new, submitted.n_found, submitted.n_requeued);
   Json counts = counts_report(submitted.counts);
   counts["new"] = submitted.n_new;
   counts["requeued"] = submitted.n_requeued;
