@@ -6,6 +6,7 @@
 #include <csignal>
 #include <fstream>
 #include <shaken/job_t.hpp>
+#include <sstream>
 #include <thread>
 
 #include "base/text.h"
@@ -205,6 +206,20 @@ TEST_F(Verbs, CleanShowsWhatWouldGo) {
   ASSERT_EQ(daemon_.requests().size(), 1u);
   EXPECT_EQ(Json::parse(daemon_.requests().back().body),
             Json({{"states", {"failed", "timed out"}}, {"sweep", "s1"}, {"older_s", 2592000.0}, {"dry_run", true}}));
+}
+
+TEST_F(Verbs, CleanAsksWhoeverIsThere) {
+  daemon_.on("POST /v1/clean", kToClean);
+  for (const bool agrees : {false, true}) {
+    std::ostringstream out;
+    std::ostringstream err;
+    std::istringstream in(agrees ? "y\n" : "\n");
+    Console console{.out = out, .err = err, .in = &in};
+    const ExitCode code = run_program({"clean", "--root", root_.path().string()}, console, make_verbs());
+    EXPECT_THAT(err.str(), HasSubstr("Remove 1 run, 3 kB? [y/N] "));
+    EXPECT_EQ(code, ExitCode::kFailed) << "not agreed, or kept by the daemon without a word";
+    EXPECT_EQ(Json::parse(daemon_.requests().back().body).contains("only"), agrees);
+  }
 }
 
 TEST_F(Verbs, CleanRemovesOnlyWhatWasShown) {
