@@ -201,16 +201,15 @@ Api::Answer Api::submit(const Call& call) const {
   for (const std::string& word : request.after) request.terms.after.push_back(find_target(word));
   const auto submission = expand(request, info_.runs());
   if (!submission) return problems_answer(submission.error());
-  const auto& [name, priority, terms, jobs] = *submission;
   const Submitted submitted = [&] {
     try {
-      return queue_.submit(name, priority, jobs, terms);
+      return queue_.submit(submission->name, submission->priority, submission->jobs, submission->terms);
     } catch (const Circular& problem) {
       throw Refusal(409, problem.what());
     }
   }();
-  spdlog::info("sweep {} '{}': {} jobs, {} new, {} found done, {} queued again", sweep_word(submitted.sweep), name,
-               submitted.counts.total(), submitted.n_new, submitted.n_found, submitted.n_requeued);
+  spdlog::info("sweep {} '{}': {} jobs, {} new, {} found done, {} queued again", sweep_word(submitted.sweep),
+               submission->name, submitted.counts.total(), submitted.n_new, submitted.n_found, submitted.n_requeued);
   Json counts = counts_report(submitted.counts);
   counts["new"] = submitted.n_new;
   counts["requeued"] = submitted.n_requeued;

@@ -209,8 +209,11 @@ bool Queue::insert(const NewJob& job, int priority, std::int64_t sweep, const Te
       terms.time_limit.count(), to_word(state), found ? utime_now() : 0);
   if (inserted == 0) return false;
   database_.run("INSERT INTO scenes(job, scene) VALUES(?1, ?2)", database_.last_row_id(), job.scene);
-  record(job.id, "", to_word(state), 0,
-         "submitted in " + sweep_word(sweep) + (found ? "; its results were there already" : ""));
+  std::string cause = "submitted in " + sweep_word(sweep);
+  for (const Target& target : terms.after) {
+    cause += (&target == &terms.after.front() ? ", to come after " : ", ") + to_word(target);
+  }
+  record(job.id, "", to_word(state), 0, cause + (found ? "; its results were there already" : ""));
   return true;
 }
 
@@ -627,11 +630,15 @@ bool Queue::give_way(const std::string& id) {
   const auto job = current(id);
   if (!job || job->state != kRunning) return false;
   {
-    // Another of its own sweep would have its place.
-    Query other = database_.query("SELECT 1 FROM jobs WHERE " + kWaitsForTurn +
-                                      "AND priority >= ?2 AND (sweep = ?3 OR " + kHasPlace + ") LIMIT 1",
-                                  utime_now(), job->priority, job->sweep);
-    if (!other.next()) return false;
+    Query stopping = database_.query("SELECT COUNT(*) FROM jobs WHERE state = 'stopping'");
+    stopping.next();
+    // Those that stop already make room for as many. Another of its own sweep would have its place.
+    const std::int64_t needed = stopping.integer(0) + 1;
+    Query others = database_.query("SELECT COUNT(*) FROM (SELECT 1 FROM jobs WHERE " + kWaitsForTurn +
+                                       "AND priority >= ?2 AND (sweep = ?3 OR " + kHasPlace + ") LIMIT ?4)",
+                                   utime_now(), job->priority, job->sweep, needed);
+    others.next();
+    if (others.integer(0) < needed) return false;
   }
   Transaction transaction(database_);
   change(*job, kStopping, "", "its soft limit is over: it gives way to others");

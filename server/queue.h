@@ -138,8 +138,8 @@ class Queue {
   std::vector<std::string> there_is_room(std::int64_t free);
   /// The attempts of these jobs have taken so much more wall time.
   void add_wall(std::span<const std::pair<std::string, std::chrono::milliseconds>> times);
-  /// The soft limit of a running job is over: if another of at least its priority is ready to start, it stops and is
-  /// queued again behind all of its priority. Returns whether it stops.
+  /// The soft limit of a running job is over: if more of at least its priority are ready to start than others stop, it
+  /// stops and is queued again behind all of its priority. Returns whether it stops.
   bool give_way(const std::string& id);
   /// The time limit of a running job is over: it stops and is timed out.
   void time_out(const std::string& id);

@@ -61,9 +61,10 @@ void Supervisor::step() {
   try {
     settle_ended();
     count_wall_of_all();
-    mind_limits();
     stop_stopping();
-    if (!shutting_down_) start_queued();
+    if (shutting_down_) return;
+    start_queued();
+    mind_limits();  // afterwards: what has found a free slot needs nobody to give way
   } catch (const StorageError& problem) {
     complain(problem.what());
   }

@@ -6,6 +6,7 @@
 #include <csignal>
 #include <fstream>
 #include <shaken/job_t.hpp>
+#include <sstream>
 #include <thread>
 
 #include "base/text.h"
@@ -201,10 +202,24 @@ TEST_F(Verbs, CleanShowsWhatWouldGo) {
   EXPECT_EQ(outcome.code, ExitCode::kOk) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("1f0c0000  failed"));
   EXPECT_THAT(outcome.out, HasSubstr("2a0c0000  unknown"));
-  EXPECT_THAT(outcome.out, HasSubstr("3.0 kB in all\n1 unknown to the queue"));
+  EXPECT_THAT(outcome.out, HasSubstr("3 kB in all\n1 unknown to the queue"));
   ASSERT_EQ(daemon_.requests().size(), 1u);
   EXPECT_EQ(Json::parse(daemon_.requests().back().body),
             Json({{"states", {"failed", "timed out"}}, {"sweep", "s1"}, {"older_s", 2592000.0}, {"dry_run", true}}));
+}
+
+TEST_F(Verbs, CleanAsksWhoeverIsThere) {
+  daemon_.on("POST /v1/clean", kToClean);
+  for (const bool agrees : {false, true}) {
+    std::ostringstream out;
+    std::ostringstream err;
+    std::istringstream in(agrees ? "y\n" : "\n");
+    Console console{.out = out, .err = err, .in = &in};
+    const ExitCode code = run_program({"clean", "--root", root_.path().string()}, console, make_verbs());
+    EXPECT_THAT(err.str(), HasSubstr("Remove 1 run, 3 kB? [y/N] "));
+    EXPECT_EQ(code, ExitCode::kFailed) << "not agreed, or kept by the daemon without a word";
+    EXPECT_EQ(Json::parse(daemon_.requests().back().body).contains("only"), agrees);
+  }
 }
 
 TEST_F(Verbs, CleanRemovesOnlyWhatWasShown) {
@@ -220,7 +235,7 @@ TEST_F(Verbs, CleanRemovesOnlyWhatWasShown) {
   EXPECT_TRUE(daemon_.requests().empty());
   const Outcome outcome = run({"clean", "--yes"});
   EXPECT_EQ(outcome.code, ExitCode::kOk) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("1 removed, 3.0 kB\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("1 removed, 3 kB\n"));
   EXPECT_EQ(Json::parse(daemon_.requests().back().body), Json({{"only", {"1f0c000000000000"}}}));
   const Outcome kept = run({"clean", "--yes"});
   EXPECT_EQ(kept.code, ExitCode::kFailed);

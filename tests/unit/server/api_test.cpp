@@ -392,10 +392,12 @@ TEST_F(ApiTest, CleaningRemovesWhatFitsAndWhatItIsAllowedTo) {
   EXPECT_EQ(read_text(directory_ / "precious"), "precious");
   std::filesystem::remove(runs / ids[2] / "lock");
 
+  std::filesystem::create_directories(runs / (".leaving-" + unknown));  // by a daemon that was killed meanwhile
   body = {{"states", {"done", "cancelled"}}, {"unknown", true}, {"only", {ids[2], unknown, "../precious", ids[3]}}};
   EXPECT_EQ(post("/v1/clean", body.dump()).json["bytes"], 1000);
   EXPECT_FALSE(std::filesystem::exists(runs / ids[2]));
   EXPECT_FALSE(std::filesystem::exists(runs / unknown));
+  EXPECT_FALSE(std::filesystem::exists(runs / (".leaving-" + unknown)));
   EXPECT_TRUE(std::filesystem::exists(runs / ids[1])) << "it was not named";
   EXPECT_TRUE(std::filesystem::exists(runs / ids[3])) << "it has not ended";
   EXPECT_TRUE(std::filesystem::exists(runs / "notes"));

@@ -34,6 +34,7 @@ struct ModelSweep {
   std::string digits;
   int at_most = 0;
   char after = 0;  ///< a job
+  bool has_results = false;
   bool has_rule = false;
   bool stopped = false;
 };
@@ -44,6 +45,7 @@ enum class Operation {
   kSubmitTwoOneAtOnce,
   kSubmitTwoWithRule,
   kSubmitAfter,
+  kSubmitWithResults,
   kGiveWay,
   kTimeOut,
   kBegin,
@@ -63,7 +65,7 @@ enum class Operation {
   kReopen,
   kCrash
 };
-constexpr int kOperations = 23;
+constexpr int kOperations = 24;
 /// As many crashes in a row are forgiven.
 constexpr std::array<std::chrono::milliseconds, 2> kPauses{};
 constexpr std::string_view kDigits = "abcd";
@@ -91,6 +93,7 @@ class Model {
       const auto [entry, is_new] = jobs_.try_emplace(digit);
       ModelJob& job = entry->second;
       if (is_new) job.turn = ++time_;
+      if (is_new && asked.has_results) job.state = kDone;
       job.priority = is_new ? priority : std::max(job.priority, priority);
       job.sweep = sweep;
       const bool held = job.state == kHeld && job.hold != Hold::kRoom;
@@ -201,10 +204,15 @@ class Model {
   bool begins(char digit) const { return waits_for_its_turn(digit) && !is_full(jobs_.at(digit).sweep); }
   bool gives_way(char digit) const {
     const ModelJob& job = jobs_.at(digit);
-    return job.state == kRunning && std::any_of(jobs_.begin(), jobs_.end(), [&](const auto& other) {
-             return waits_for_its_turn(other.first) && other.second.priority >= job.priority &&
-                    (other.second.sweep == job.sweep || !is_full(other.second.sweep));
-           });
+    const auto n_stopping =
+        std::count_if(jobs_.begin(), jobs_.end(), [](const auto& other) { return other.second.state == kStopping; });
+    return job.state == kRunning &&
+           n_stopping < std::count_if(
+                            jobs_.begin(), jobs_.end(),
+                            [&](const auto& other) {
+                              return waits_for_its_turn(other.first) && other.second.priority >= job.priority &&
+                                     (other.second.sweep == job.sweep || !is_full(other.second.sweep));
+                            });
   }
   bool active(char digit) const {
     const auto job = jobs_.find(digit);
@@ -236,11 +244,14 @@ void apply(Operation operation, char digit, int priority, std::unique_ptr<Queue>
     case Operation::kSubmitTwo:
     case Operation::kSubmitTwoOneAtOnce:
     case Operation::kSubmitTwoWithRule:
-    case Operation::kSubmitAfter: {
+    case Operation::kSubmitAfter:
+    case Operation::kSubmitWithResults: {
       ModelSweep sweep;
       sweep.digits = std::string(1, digit);
+      sweep.has_results = operation == Operation::kSubmitWithResults;
       const char other = kDigits[(kDigits.find(digit) + 1) % kDigits.size()];
-      if (operation != Operation::kSubmit && operation != Operation::kSubmitAfter) sweep.digits += other;
+      if (operation != Operation::kSubmit && operation != Operation::kSubmitAfter && !sweep.has_results)
+        sweep.digits += other;
       if (operation == Operation::kSubmitTwoOneAtOnce) sweep.at_most = 1;
       sweep.has_rule = operation == Operation::kSubmitTwoWithRule;
       if (operation == Operation::kSubmitAfter && model.jobs_.contains(other)) sweep.after = other;
@@ -248,7 +259,10 @@ void apply(Operation operation, char digit, int priority, std::unique_ptr<Queue>
       if (sweep.after != 0) terms.after = {std::string(16, sweep.after)};
       if (sweep.has_rule) terms.stop_if = *StopRule::parse("failed>0");
       std::vector<NewJob> jobs;
-      for (const char each : sweep.digits) jobs.push_back(new_job(each));
+      for (const char each : sweep.digits) {
+        jobs.push_back(new_job(each));
+        if (sweep.has_results) jobs.back().has_results = true;
+      }
       bool refused = false;
       try {
         queue->submit("sweep", priority, jobs, terms);

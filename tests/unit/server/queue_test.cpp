@@ -215,6 +215,16 @@ TEST_F(QueueTest, ARunWhoseSoftLimitIsOverGivesWayToThoseThatWait) {
   EXPECT_EQ(queue_.history(a_)[2].cause, "its soft limit is over: it gives way to others");
 }
 
+TEST_F(QueueTest, NoMoreRunsGiveWayThanOthersWait) {
+  queue_.submit("s", 0, std::vector{new_job('a'), new_job('b'), new_job('c')});
+  queue_.begin(a_);
+  queue_.begin(b_);
+  EXPECT_TRUE(queue_.give_way(a_));
+  EXPECT_FALSE(queue_.give_way(b_)) << "a makes room for the one that waits";
+  queue_.submit("s2", 0, std::vector{new_job('d')});
+  EXPECT_TRUE(queue_.give_way(b_));
+}
+
 TEST_F(QueueTest, WhatIsAskedOfARunThatGivesWayGoesFirst) {
   queue_.submit("s", 0, std::vector{new_job('a'), new_job('b')});
   queue_.begin(a_);

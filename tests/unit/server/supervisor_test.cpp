@@ -227,6 +227,16 @@ TEST_F(SupervisorTest, ARunGivesWayOnceItsSoftLimitIsOver) {
   ASSERT_TRUE(until([&] { return supervisor.idle(); }));
 }
 
+TEST_F(SupervisorTest, NobodyGivesWayToWhatFindsAFreeSlot) {
+  queue_.submit("long", 0, std::vector{new_job('a', "run")}, {.soft_limit = std::chrono::milliseconds(1)});
+  ASSERT_TRUE(step_until_up('a'));
+  submit('b', "run");  // the second of two slots
+  ASSERT_TRUE(step_until_up('b'));
+  for (int i = 0; i < 5; ++i) supervisor_.step();
+  EXPECT_EQ(job('a').state, kRunning);
+  EXPECT_EQ(job('a').attempt, 1);
+}
+
 TEST_F(SupervisorTest, ARunIsTimedOutAfterAllItsAttemptsTogether) {
   queue_.submit("long", 0, std::vector{new_job('a', "run")}, {.time_limit = std::chrono::milliseconds(1500)});
   ASSERT_TRUE(step_until_up('a'));

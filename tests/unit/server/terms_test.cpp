@@ -85,6 +85,7 @@ TEST_F(TermsTest, WhatComesAfterASweepWaitsUntilItIsDone) {
   EXPECT_EQ(queue_.begin(id('d')), std::nullopt);
   EXPECT_EQ(job('d').state, kQueued);
   EXPECT_EQ(job('d').reason, "waits for s1: 0 of 3 done, cccccccccccccccc");
+  EXPECT_EQ(queue_.history(id('d')).front().cause, "submitted in s2, to come after s1, cccccccccccccccc");
   end('a', kDone);
   end('c', kDone);
   reopen();
