@@ -43,7 +43,8 @@ LagCurve LagSums::after(double t_steady, double start, double interval) const {
     const auto [length, spacing] = lags_[lag];
     met.push_back(lag);
     lags.push_back(static_cast<double>(length) * interval);
-    independent.push_back(static_cast<double>(pairs * spacing) / static_cast<double>(std::max(length, spacing)));
+    independent.push_back(static_cast<double>(pairs) * static_cast<double>(spacing) /
+                          static_cast<double>(std::max(length, spacing)));
   }
   std::vector<LagCurve::Stretch> stretches;
   for (std::size_t s = first; s < stretches_.size(); ++s) {

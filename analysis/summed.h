@@ -34,6 +34,9 @@ Setting(const char*, Member) -> Setting<Member>;
 template <class Member>
 Largest(Member) -> Largest<Member>;
 
+/// No run counts farther; what is made of counts (sums over stretches, means) then neither overflows nor loses digits.
+inline constexpr std::int64_t kMostCounted = std::int64_t{1} << 53;
+
 /// An accumulator that consists of sums: merging adds them, and its saved state is the sums one behind the other. A
 /// class says which fields it has once, in the order of the state,
 ///
@@ -41,7 +44,8 @@ Largest(Member) -> Largest<Member>;
 ///   static constexpr auto fields() { return std::tuple(Setting{"range", &Angles::range_}, &Angles::counts_); }
 ///
 /// and gets merge, save and restore by deriving from Summed<Angles>. A field is a number, a vector or array of numbers
-/// whose length does not change, or a struct with fields() of its own. Whole numbers are never negative.
+/// whose length does not change, or a struct with fields() of its own. Whole numbers are counts: never negative, and at
+/// most kMostCounted.
 template <class Self>
 class Summed {
  public:
@@ -140,7 +144,7 @@ class Summed {
     if constexpr (std::is_same_v<T, double>) {
       value = reader.real();
     } else if constexpr (is_number<T>) {
-      value = reader.integer(0, std::numeric_limits<T>::max() / 2);
+      value = static_cast<T>(reader.integer(0, std::min<std::int64_t>(kMostCounted, std::numeric_limits<T>::max())));
     } else if constexpr (requires { T::fields(); }) {
       for_fields(T::fields(), [&](const auto& field) { take_field(reader, value, field); });
     } else if constexpr (std::is_same_v<typename T::value_type, double>) {
@@ -148,6 +152,9 @@ class Summed {
       std::copy(values.begin(), values.end(), value.begin());
     } else {
       value = reader.integers(value.size());
+      for (const std::int64_t count : value) {
+        if (count < 0 || count > kMostCounted) throw StateError("counts " + std::to_string(count) + " of something");
+      }
     }
   }
 };

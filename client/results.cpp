@@ -12,7 +12,12 @@
 #include <set>
 
 #include "base/failure.h"
+#include "base/files.h"
 #include "base/text.h"
+#include "run/files/directory.h"
+#include "scene/canonical.h"
+#include "scene/fields.h"
+#include "scene/load.h"
 #include "scene/nearest.h"
 
 namespace shaken::client {
@@ -50,14 +55,21 @@ double leading_number(const Json& value) {
   return end == text.c_str() ? kNoNumber : number;
 }
 
-std::string trimmed(std::string_view text) {
-  const auto begin = text.find_first_not_of(" \t");
-  if (begin == std::string_view::npos) return {};
-  return std::string(text.substr(begin, text.find_last_not_of(" \t") - begin + 1));
-}
-
 bool ends_with(std::string_view text, std::string_view end) {
   return text == end || (text.size() > end.size() && text.ends_with(end) && text[text.size() - end.size() - 1] == '.');
+}
+
+/// The keys of their scenes that all of `done` have alike.
+void take_common_keys(const std::vector<ResultRow>& done, ResultRow& point) {
+  if (done.empty()) return;
+  for (const auto& [path, value] : done.front().scene.items()) {
+    // Those that differ (time.seed) are nothing to average either.
+    point.scene[path] = value;
+    const bool all_alike = std::all_of(done.begin(), done.end(), [&path = path, &value = value](const ResultRow& row) {
+      return row.scene.contains(path) && row.scene[path] == value;
+    });
+    if (all_alike) point.fields[path] = value;
+  }
 }
 
 /// What every one of `done` (replicas of one point) tells, put together into `point`.
@@ -66,7 +78,9 @@ void average(const std::vector<ResultRow>& done, ResultRow& point) {
   std::set<std::string> own_errors;
   for (const std::string& name : names) own_errors.insert(own_error_field(name));
   for (const std::string& name : names) {
-    if (kNames.contains(name) || point.parameters.contains(name) || own_errors.contains(name)) continue;
+    if (kNames.contains(name) || point.parameters.contains(name) || point.scene.contains(name) ||
+        own_errors.contains(name))
+      continue;
     std::vector<double> values, sems;
     bool all_steady = true;
     std::size_t n_told = 0;
@@ -122,11 +136,22 @@ bool still_relaxes(const ResultRow& row, const std::string& field) {
   return false;
 }
 
+std::optional<std::string> field_named(std::span<const std::string> names, const std::string& word) {
+  const auto is_there = [&](const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  for (const std::string& name : {word, "measured." + word + ".value"}) {
+    if (is_there(name)) return name;
+  }
+  for (const std::string& name : names) {
+    if (own_error_field(name) == word && is_there(name + ":sem")) return name + ":sem";
+  }
+  return std::nullopt;
+}
+
 std::string resolved_field(const std::vector<ResultRow>& rows, const std::string& word) {
   const std::vector<std::string> names = field_names(rows);
-  for (const std::string& name : {word, "measured." + word + ".value"}) {
-    if (std::find(names.begin(), names.end(), name) != names.end()) return name;
-  }
+  if (const auto field = field_named(names, word)) return *field;
   throw Failure(ExitCode::kBadInput,
                 fmt::format("no row has a field '{}'{}", word, scene::did_you_mean(scene::nearest(word, names))));
 }
@@ -159,53 +184,27 @@ std::vector<ResultRow> result_rows(ApiClient& session, const Target& target) {
   return rows;
 }
 
-Condition::Condition(const std::string& text) {
-  const auto begin = text.find_first_of("<>=!");
-  const auto end = begin == std::string::npos ? begin : text.find_first_not_of("<>=!", begin);
-  if (end != std::string::npos) {
-    field_ = trimmed(text.substr(0, begin));
-    comparison_ = text.substr(begin, end - begin);
-    value_ = trimmed(text.substr(end));
-  }
-  static const std::set<std::string> kComparisons{"<", "<=", ">", ">=", "=", "==", "!="};
-  if (field_.empty() || value_.empty() || !kComparisons.contains(comparison_)) {
-    throw Failure(ExitCode::kBadInput,
-                  fmt::format("'{}' is no comparison: write FIELD OP VALUE with OP one of < <= > >= "
-                              "= !=, for example 'rods.area_fraction>0.6'",
-                              text));
-  }
-}
-
-bool Condition::matches(const ResultRow& row) const {
-  const auto found = row.fields.find(field_);
-  if (found == row.fields.end()) return false;
-  const double left = leading_number(*found);
-  const double right = leading_number(value_);
-  const bool numbers = !std::isnan(left) && !std::isnan(right);
-  const bool equal = numbers ? left == right : field_text(row, field_) == value_;
-  if (comparison_ == "=" || comparison_ == "==") return equal;
-  if (comparison_ == "!=") return !equal;
-  if (!numbers) {
-    throw Failure(ExitCode::kBadInput, fmt::format("{} {} {}: '{}' is no number", field_, comparison_, value_,
-                                                   std::isnan(right) ? value_ : field_text(row, field_)));
-  }
-  if (comparison_ == "<") return left < right;
-  if (comparison_ == "<=") return left <= right;
-  if (comparison_ == ">") return left > right;
-  return left >= right;
-}
-
-std::vector<ResultRow> filtered(const std::vector<ResultRow>& rows, std::vector<Condition> conditions) {
-  if (!rows.empty()) {
-    for (Condition& condition : conditions) condition.set_field(resolved_field(rows, condition.field()));
-  }
-  std::vector<ResultRow> kept;
-  for (const ResultRow& row : rows) {
-    if (std::all_of(conditions.begin(), conditions.end(), [&](const auto& c) { return c.matches(row); })) {
-      kept.push_back(row);
+void add_from_scenes(std::vector<ResultRow>& rows, std::span<const std::string> names,
+                     const std::map<std::string, std::filesystem::path>& directories) {
+  for (ResultRow& row : rows) {
+    std::vector<const scene::Field*> wanted;
+    for (const std::string& name : names) {
+      if (!row.fields.contains(name) && scene::field_index(name) >= 0) wanted.push_back(&scene::field_at(name));
+    }
+    const auto directory = directories.find(row.fields.value("job", ""));
+    if (wanted.empty() || directory == directories.end()) continue;
+    const auto text = read_file(run::RunDirectory{directory->second}.scene());
+    if (!text) continue;
+    const auto plan = scene::load_scene(*text, "scene.json");
+    if (!plan) continue;
+    for (const scene::Field* field : wanted) {
+      const std::string_view block = scene::block_around(field->path);
+      const bool is_off = !block.empty() && !std::get<bool>(scene::field_at(block).fetch(*plan));
+      if (!field->fetch || is_off) continue;
+      const Json value = scene::to_json(*field, field->fetch(*plan));
+      if (value.is_primitive() && !value.is_null()) row.scene[field->path] = row.fields[field->path] = value;
     }
   }
-  return kept;
 }
 
 std::string RowVersion::text() const {
@@ -236,7 +235,8 @@ std::vector<ResultRow> aggregated(const std::vector<ResultRow>& rows) {
   // Groups in the order in which they are first met.
   std::vector<std::vector<const ResultRow*>> groups;
   std::map<std::pair<std::string, RowVersion>, std::size_t> group_of;
-  // What different versions computed is never averaged; a run that has no version yet belongs to the newest.
+  // What different versions computed is never averaged, nor what a version computed that is not known; a run that is
+  // not done yet belongs to the newest.
   std::map<std::string, RowVersion> newest_version;
   for (const ResultRow& row : rows) {
     RowVersion& newest = newest_version[row.parameters.dump()];
@@ -245,7 +245,8 @@ std::vector<ResultRow> aggregated(const std::vector<ResultRow>& rows) {
   for (const ResultRow& row : rows) {
     const std::string parameters = row.parameters.dump();
     const RowVersion version = version_of(row);
-    const auto key = std::pair(parameters, version.is_known() ? version : newest_version[parameters]);
+    const bool is_settled = version.is_known() || row.state == "done";
+    const auto key = std::pair(parameters, is_settled ? version : newest_version[parameters]);
     const auto [place, is_new] = group_of.try_emplace(key, groups.size());
     if (is_new) groups.emplace_back();
     groups[place->second].push_back(&row);
@@ -266,6 +267,8 @@ std::vector<ResultRow> aggregated(const std::vector<ResultRow>& rows) {
       if (!done.empty() && done.front().fields.contains(version)) point.fields[version] = done.front().fields[version];
     }
     point.state = done.size() == group.size() ? "done" : "partial";
+    point.fields["state"] = point.state;
+    take_common_keys(done, point);
     average(done, point);
     points.push_back(std::move(point));
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -21,6 +23,7 @@ namespace shaken::client {
 struct ResultRow {
   Json source;                       ///< as the daemon sent it; null for an aggregated row
   Json parameters = Json::object();  ///< {path: value}
+  Json scene = Json::object();       ///< other keys of its scene, as far as they were asked for: {path: value}
   std::string state;
   Json fields = Json::object();  ///< everything by name, parameters included; numbers, texts and booleans only
 
@@ -33,26 +36,11 @@ ResultRow result_row(const Json& row);
 /// The daemon's results of a sweep, or of one job.
 std::vector<ResultRow> result_rows(ApiClient& session, const Target& target);
 
-/// One comparison of --where: FIELD OP VALUE, with OP one of < <= > >= = == !=.
-class Condition {
- public:
-  /// Throws Failure (kBadInput) if `text` is no comparison.
-  explicit Condition(const std::string& text);
-  /// A row without the field does not match. Two numbers are compared as such; otherwise only = and != make sense.
-  /// Throws Failure (kBadInput) where < or > meets a text.
-  bool matches(const ResultRow& row) const;
-  const std::string& field() const { return field_; }
-  void set_field(std::string field) { field_ = std::move(field); }
-
- private:
-  std::string field_;
-  std::string comparison_;
-  std::string value_;
-};
-
-/// The rows that match all conditions, whose fields are named as in resolved_field. Throws Failure (kBadInput), with
-/// the nearest name, if no row at all has one of the fields.
-std::vector<ResultRow> filtered(const std::vector<ResultRow>& rows, std::vector<Condition> conditions);
+/// Puts what the rows' own scenes say of `names` into their fields, where a row lacks it and `name` is a key of a
+/// scene: a row has the swept ones only. `directories` are those of the runs, by job; a run that has not begun has no
+/// scene.
+void add_from_scenes(std::vector<ResultRow>& rows, std::span<const std::string> names,
+                     const std::map<std::string, std::filesystem::path>& directories);
 
 /// What computed a row: program and physics, which both can change its numbers. Empty texts: it is not done yet.
 struct RowVersion {
@@ -71,10 +59,10 @@ RowVersion version_of(const Json& versions);
 /// Whether different versions computed these rows.
 bool has_several_versions(const std::vector<ResultRow>& rows);
 
-/// One row per point and version: replicas of equal parameters together. Fields: the parameters, "versions.shaken",
-/// "versions.physics", "n_replicas", "n_done", and of what every done replica tells: for each number F its mean as F
-/// and the standard error of that (replica_mean) as "F:sem", in place of the runs' own; for "n_effective" the sum; for
-/// "steady" true if all are, false if one is not.
+/// One row per point and version: replicas of equal parameters together. Fields: the parameters, "state" ("done" if
+/// all are, otherwise "partial"), "versions.shaken", "versions.physics", "n_replicas", "n_done", and of what every done
+/// replica tells: for each number F its mean as F and the standard error of that (replica_mean) as "F:sem", in place of
+/// the runs' own; for "n_effective" the sum; for "steady" true if all are, false if one is not.
 std::vector<ResultRow> aggregated(const std::vector<ResultRow>& rows);
 
 /// The field that holds a run's own standard error of `field`: "order.sem" of "order.mean", "measured.X.sem" of
@@ -88,9 +76,13 @@ double standard_error(const ResultRow& row, const std::string& field);
 /// and the run's is false. False for what is no average, and where nothing is known.
 bool still_relaxes(const ResultRow& row, const std::string& field);
 
-/// The field that `word` means: itself, or "measured.WORD.value". Throws Failure (kBadInput), with the nearest name, if
+/// The field that `word` means: itself, or "measured.WORD.value", or "F:sem" where `word` is the field of a run's own
+/// standard error of F (aggregated rows have the former only). Throws Failure (kBadInput), with the nearest name, if
 /// no row has it.
 std::string resolved_field(const std::vector<ResultRow>& rows, const std::string& word);
+
+/// The same among `names`; none if it is not there.
+std::optional<std::string> field_named(std::span<const std::string> names, const std::string& word);
 
 /// The fields of all rows, in the order met.
 std::vector<std::string> field_names(const std::vector<ResultRow>& rows);

@@ -11,6 +11,7 @@
 #include "base/files.h"
 #include "scene/canonical.h"
 #include "scene/derived.h"
+#include "scene/memory.h"
 #include "scene/placement.h"
 #include "scene/remarks.h"
 
@@ -58,6 +59,7 @@ Json derived_quantities(const scene::SweepPoint& point) {
             {"sim_seconds", plan.total_time()},
             {"ticks", std::llround(plan.total_time() / system.dt)},
             {"trajectory_frames", 0},
+            {"measurement_memory_bytes", scene::peak_of(scene::measure_memory(plan))},
             {"remarks", scene::remarks(plan)}};
   if (const auto gamma = scene::gamma_of(system)) json["gamma"] = *gamma;
   if (const auto every = plan.recording_every())

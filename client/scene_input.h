@@ -29,7 +29,8 @@ std::string refusal_text(const std::vector<scene::Problem>& problems);
 
 /// What follows from a point's scene, besides its parameters: id, n_rods, area_fraction (both of all rods together),
 /// species (name, count and area_fraction of each), gamma (null without gravity), amplitude_mm, sim_seconds, ticks,
-/// trajectory_frames, remarks (scene/remarks.h).
+/// trajectory_frames, measurement_memory_bytes (all measurements together when they hold most), remarks
+/// (scene/remarks.h).
 Json derived_quantities(const scene::SweepPoint& point);
 
 }  // namespace shaken::client

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "proto/layout.h"
 
+#include <algorithm>
+
 namespace shaken::proto {
 namespace {
 
@@ -25,10 +27,12 @@ class Walker {
     if (value > static_cast<std::uint32_t>(INT32_MAX)) return std::nullopt;
     return value;
   }
-  /// A length that counts the closing NUL, and as many bytes.
+  /// A length that counts the closing NUL, and as many bytes, of which only the last is NUL.
   bool skip_string() {
     const auto bytes = length();
-    return bytes && *bytes > 0 && skip(*bytes) && payload_[at_ - 1] == 0;
+    if (!bytes || *bytes == 0 || !skip(*bytes)) return false;
+    const auto string = payload_.subspan(at_ - *bytes, *bytes);
+    return std::find(string.begin(), string.end(), 0) == string.end() - 1;
   }
   std::size_t position() const { return at_; }
 

@@ -35,7 +35,7 @@ template <>
 inline constexpr std::string_view kLayout<defects_t> = "88s8 8 nDDDD";
 
 /// The length that a payload beginning like this one must have [bytes], fingerprint included; none if a length inside
-/// it is negative, a string does not end in NUL, or the payload ends before its arrays do.
+/// it is negative, a string does not end in its first NUL, or the payload ends before its arrays do.
 std::optional<std::size_t> message_size(std::string_view layout, std::span<const std::uint8_t> payload);
 
 }  // namespace shaken::proto

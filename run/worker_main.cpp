@@ -27,6 +27,7 @@
 #include "run/terminal.h"
 #include "scene/canonical.h"
 #include "scene/load.h"
+#include "scene/memory.h"
 #include "scene/placement.h"
 
 namespace {
@@ -215,6 +216,9 @@ ExitCode work(const Arguments& arguments) {
   const std::string text = value_or_fail(read_file(arguments.scene), ExitCode::kBadInput);
   const scene::Loaded<scene::RunPlan> plan = scene::load_scene(text, arguments.scene, arguments.settings);
   if (!plan) throw Failure(ExitCode::kBadInput, to_string(plan.error()));
+  if (const auto problem = scene::memory_problem(*plan, scene::memory_allowed(), arguments.scene)) {
+    throw Failure(ExitCode::kBadInput, to_string(*problem));
+  }
   if (const auto problem = scene::placement_problem(*plan, arguments.scene)) {
     throw Failure(ExitCode::kBadInput, to_string(*problem));
   }

@@ -38,6 +38,9 @@ std::string nearest(std::string_view word, std::span<const std::string> candidat
   std::string best;
   std::size_t shortest = 0;
   for (const std::string& candidate : candidates) {
+    // each letter that the one has more is an insertion: such a candidate is no nearer, and need not be compared
+    const std::size_t at_least = std::max(word.size(), candidate.size()) - std::min(word.size(), candidate.size());
+    if (!best.empty() && at_least >= shortest) continue;
     const std::size_t distance = edit_distance(word, candidate);
     if (best.empty() || distance < shortest) {
       best = candidate;

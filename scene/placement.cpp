@@ -5,6 +5,7 @@
 
 #include "scene/canonical.h"
 #include "scene/load.h"
+#include "scene/memory.h"
 #include "sim/initial.h"
 
 namespace shaken::scene {
@@ -41,7 +42,12 @@ Loaded<Sweep> load_runs(std::string_view text, const std::string& file, std::spa
   if (!sweep) return sweep;
   std::unordered_set<std::string> placed;
   std::vector<Problem> problems;
+  const double allowed = memory_allowed();
   for (const SweepPoint& point : sweep->points) {
+    if (auto problem = memory_problem(point.plan, allowed, file, point.label)) {
+      problems.push_back(*std::move(problem));
+      continue;
+    }
     if (!placed.insert(placement_key(point.plan)).second) continue;
     if (auto problem = placement_problem(point.plan, file, point.label)) problems.push_back(*std::move(problem));
   }

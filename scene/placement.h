@@ -15,7 +15,8 @@ namespace shaken::scene {
 /// `file` and, of a sweep's point, `label` are for the message.
 std::optional<Problem> placement_problem(const RunPlan& plan, const std::string& file, const std::string& label = {});
 
-/// load_sweep for runs that are to be started: also every point whose rods cannot be placed is a problem.
+/// load_sweep for runs that are to be started: also every point whose rods cannot be placed is a problem, and
+/// every one whose measurements take more memory than this machine has (scene/memory.h).
 Loaded<Sweep> load_runs(std::string_view text, const std::string& file, std::span<const std::string> settings = {},
                         std::optional<int> replicas = std::nullopt);
 

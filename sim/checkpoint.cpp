@@ -112,6 +112,7 @@ Result<World> restore_world(const System& system, StateReader& reader) {
         reader.get(low);
         reader.get(high);
         reader.get(overflow);
+        if (overflow > 1) throw StateError("a sum that neither overflowed nor did not");
         sum.restore(low, high, overflow != 0);
       },
       world.counters.ledger);

@@ -11,6 +11,7 @@
 #include "client/verbs/verbs.h"
 #include "scene/accuracy.h"
 #include "scene/derived.h"
+#include "scene/memory.h"
 #include "scene/units.h"
 
 namespace shaken::client {
@@ -62,10 +63,13 @@ class Explain : public Verb {
       return ExitCode::kOk;
     }
     show_scene(sweep, point, console);
+    console.out << fmt::format("The measurements take about {} of memory when they hold most.\n\n",
+                               bytes_text(scene::peak_of(scene::measure_memory(point.plan))));
     show_effects(estimate.report, console);
     if (no_probe_) return ExitCode::kOk;
     show_probe(estimate.report, console);
     console.out << "\nOn this machine, on one core:\n" << estimate_text(estimate, console.width);
+    show_room(estimate.report, sweep.points.size() > 1, console);
     return ExitCode::kOk;
   }
 
@@ -147,6 +151,18 @@ class Explain : public Verb {
       table.add_row(std::move(row));
     }
     console.out << table.text(console.width);
+  }
+
+  /// What the disk must have room for beyond what stays on it.
+  static void show_room(const Json& report, bool several, Console& console) {
+    const Json& disk = report.at("disk_bytes");
+    const double most = disk.at("most").get<double>(), total = disk.at("total").get<double>();
+    if (most <= total) return;
+    console.out << fmt::format(
+        "\nAt its end {} run needs room for trajectory.part and trajectory.h5 together: {} on the disk, of which {}\n"
+        "stay.{}\n",
+        several ? "the shown" : "the", bytes_text(most), bytes_text(total),
+        several ? " So does every other that is running." : "");
   }
 
   void show_probe(const Json& report, Console& console) const {

@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <map>
 
 #include "base/table.h"
 #include "base/text.h"
 #include "client/verbs/verbs.h"
+#include "client/where.h"
 
 namespace shaken::client {
 namespace {
@@ -59,15 +62,22 @@ class Results : public Verb {
     return {"results", kResultsGroup, "One line of numbers per job, or per point with --aggregate",
             "  shaken results                               the newest sweep\n"
             "  shaken results s3 --aggregate                replicas as mean and standard error\n"
-            "  shaken results s3 --where 'rods.area_fraction>0.6' --where 'order.mean>=0.5'\n"
+            "  shaken results s3 --where 'rods.length=4.5mm and order.mean>0.5'\n"
+            "  shaken results s3 --where 'not state=done or order.sem>0.01' --csv\n"
             "  shaken results s3 --columns job,order.mean,theta_m_deg\n"
             "  shaken results s3 --csv > order.csv          every field of every summary: the names for --columns\n"
+            "In '...' the shell leaves < > ( ) and spaces to shaken. --where takes and, or, not, ( ), and = != < <= > "
+            ">= with\n"
+            "any key of the scene or number of the summary to their left: `--csv` shows their names. A comparison is "
+            "false\n"
+            "for runs that lack the name.\n"
             "A value marked ~ is an average over a time in which the run still relaxed: run it longer."};
   }
 
   void declare(Arguments& arguments) override {
     arguments.optional("ID", id_, "A sweep (id or name) or a job; the newest sweep if left out", Names::kId);
-    arguments.repeatable("-w,--where", where_, "COMPARISON", "Only rows that match, e.g. 'order.mean>0.5'; repeatable");
+    arguments.repeatable("-w,--where", where_, "CONDITION",
+                         "Only rows that match, e.g. 'order.mean>0.5 and box.gap<2mm'; repeatable, all must hold");
     arguments.flag("-a,--aggregate", aggregate_, "Replicas of a point as mean and standard error");
     arguments.option("--columns", columns_, "FIELD,FIELD", "These fields only, as a table or with --csv",
                      Names::kAnything);
@@ -77,16 +87,24 @@ class Results : public Verb {
 
   ExitCode run(const Context& context) override {
     if (csv_ && json_) throw Failure(ExitCode::kBadInput, "--csv and --json exclude each other");
-    std::vector<Condition> conditions;
-    for (const std::string& text : where_) conditions.emplace_back(text);
+    std::vector<Where> conditions = parsed_conditions();
     ApiClient session(context.root());
     const Target target = find_target_or_newest(session, id_);
     std::vector<ResultRow> rows = result_rows(session, target);
-    // Conditions are on the rows shown: with --aggregate on means.
-    if (aggregate_) rows = aggregated(rows);
-    rows = filtered(rows, std::move(conditions));
-
+    add_from_scenes(rows, names_of(conditions), directories_of(target));
+    // Without any summary nobody knows which numbers there will be.
+    const bool all_known = any_summary(rows);
     Console& console = context.console;
+    // Conditions are on the rows shown: with --aggregate on means.
+    if (aggregate_) {
+      if (has_several_versions(rows)) {
+        console.err << "several versions computed these runs; each has means of its own (versions.shaken, "
+                       "versions.physics)\n";
+      }
+      rows = aggregated(rows);
+    }
+    keep_matching(conditions, all_known, rows, console);
+
     if (json_) {
       Json list = Json::array();
       for (const ResultRow& row : rows) list.push_back(aggregate_ ? row.fields : row.source);
@@ -101,6 +119,65 @@ class Results : public Verb {
   }
 
  private:
+  /// Throws Failure with all problems of all of --where.
+  std::vector<Where> parsed_conditions() const {
+    std::vector<Where> conditions;
+    std::string problems;
+    for (const std::string& text : where_) {
+      auto condition = Where::parse(text);
+      if (condition) {
+        conditions.push_back(std::move(condition).value());
+      } else {
+        problems += "\n" + marked(text, condition.error());
+      }
+    }
+    if (!problems.empty()) throw Failure(ExitCode::kBadInput, "--where:" + problems);
+    return conditions;
+  }
+
+  static std::vector<std::string> names_of(const std::vector<Where>& conditions) {
+    std::vector<std::string> names;
+    for (const Where& condition : conditions) {
+      for (std::string& name : condition.names()) names.push_back(std::move(name));
+    }
+    return names;
+  }
+
+  static std::map<std::string, std::filesystem::path> directories_of(const Target& target) {
+    std::map<std::string, std::filesystem::path> directories;
+    for (const Json& job : jobs_of(target)) directories[job.at("id")] = job.value("directory", "");
+    return directories;
+  }
+
+  static bool any_summary(const std::vector<ResultRow>& rows) {
+    return std::any_of(rows.begin(), rows.end(), [](const ResultRow& row) {
+      const auto summary = row.source.find("summary");
+      return summary != row.source.end() && summary->is_object();
+    });
+  }
+
+  void keep_matching(std::vector<Where>& conditions, bool all_known, std::vector<ResultRow>& rows,
+                     Console& console) const {
+    std::string problems;
+    for (std::size_t k = 0; k < conditions.size(); ++k) {
+      const auto wrong = conditions[k].bind(rows, all_known);
+      if (!wrong.empty()) problems += "\n" + marked(where_[k], wrong);
+    }
+    if (!problems.empty()) throw Failure(ExitCode::kBadInput, "--where:" + problems + "\n--csv shows all names");
+
+    std::map<std::string, std::size_t> lacks;
+    for (const Where& condition : conditions) {
+      for (const auto& [field, n] : condition.lacking(rows)) lacks[field] = n;
+    }
+    for (const auto& [field, n] : lacks) {
+      console.err << fmt::format("{} of {} {} lack {}: comparisons with it are false for them\n", n, rows.size(),
+                                 aggregate_ ? "points" : "runs", printable(field));
+    }
+    std::erase_if(rows, [&](const ResultRow& row) {
+      return !std::all_of(conditions.begin(), conditions.end(), [&](const Where& each) { return each.matches(row); });
+    });
+  }
+
   /// As --columns names them; none if it is not given. All that no row has are refused together.
   std::vector<std::string> chosen_fields(const std::vector<ResultRow>& rows) const {
     std::vector<std::string> fields;

@@ -24,7 +24,8 @@ class Validate : public Verb {
             "  shaken validate sweep.json -s rods.length=2.5,3.5,4.5 --replicas 3\n"
             "  shaken validate scene.json --resolved     every value, defaults filled in\n"
             "  shaken validate scene.json --json         problems, or what follows, for programs\n"
-            "\nThe rods are placed, to see whether they fit. A remark is of what is allowed but hardly meant; the exit "
+            "\nMEMORY is what the measurements take when they hold most; more than the machine has is refused.\n"
+            "The rods are placed, to see whether they fit. A remark is of what is allowed but hardly meant; the exit "
             "code is "
             "0 all the same."};
   }
@@ -102,6 +103,7 @@ class Validate : public Verb {
                  {"SIM s", Align::kRight},
                  {"TICKS", Align::kRight},
                  {"FRAMES", Align::kRight},
+                 {"MEMORY", Align::kRight},
                  {"POINT"}});
     std::map<std::string, std::size_t> remarks;
     for (const scene::SweepPoint& point : points) {
@@ -111,7 +113,8 @@ class Validate : public Verb {
       };
       table.add_row({short_id(derived.at("id").get<std::string>()), of_species(derived, "n_rods", "count"),
                      of_species(derived, "area_fraction", "area_fraction"), number("gamma"), number("amplitude_mm"),
-                     number("sim_seconds"), number("ticks"), number("trajectory_frames"), point.label});
+                     number("sim_seconds"), number("ticks"), number("trajectory_frames"),
+                     bytes_text(derived.at("measurement_memory_bytes").get<double>()), point.label});
       for (const Json& remark : derived.at("remarks")) ++remarks[remark.get<std::string>()];
     }
     console.out << table.text(console.width);

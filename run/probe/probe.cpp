@@ -119,6 +119,7 @@ class Prober {
     if (!frames) return frames.error();
     if (auto done = write_trajectory(directory.trajectory(), frames->recorded()); !done) return done.error();
     std::error_code ignored;
+    part_bytes_[n > 1] = std::filesystem::file_size(directory.frames(), ignored);
     std::filesystem::remove(directory.frames(), ignored);
     return (thread_cpu_seconds() - begin) / n;
   }
@@ -136,6 +137,9 @@ class Prober {
       bytes[n > 1] = bytes_in(folder.path() / "trajectory.h5");
     }
     const double frame = (bytes[1] - bytes[0]) / kFrames;
+    result_.disk.trajectory_part =
+        static_cast<double>(part_bytes_[0]) + static_cast<double>(part_bytes_[1] - part_bytes_[0]) / kFrames *
+                                                  static_cast<double>(result_.trajectory.count - 1);
     result_.disk.trajectory = bytes[0] + frame * static_cast<double>(result_.trajectory.count - 1);
     return {};
   }
@@ -192,7 +196,8 @@ class Prober {
   double dt_;
   Probe result_;
   std::vector<Snapshot> snapshots_;
-  double snapshot_cpu_ = 0;  ///< of reading all rods [s]
+  double snapshot_cpu_ = 0;                ///< of reading all rods [s]
+  std::uintmax_t part_bytes_[2] = {0, 0};  ///< of trajectory.part with one frame, and with more
 };
 
 }  // namespace
@@ -244,7 +249,8 @@ nlohmann::ordered_json probe_report(const scene::RunPlan& plan, const std::optio
   report["disk_bytes"] = {{"trajectory", probe->disk.trajectory},
                           {"observables", probe->disk.observables},
                           {"checkpoints", probe->disk.checkpoints},
-                          {"total", probe->disk.total()}};
+                          {"total", probe->disk.total()},
+                          {"most", probe->disk.most()}};
   return report;
 }
 

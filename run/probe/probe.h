@@ -26,7 +26,11 @@ struct DiskUse {
   double trajectory = 0;
   double observables = 0;
   double checkpoints = 0;  ///< the last two
+  /// Of trajectory.part, which goes when trajectory.h5 is made of it; until then both need room.
+  double trajectory_part = 0;
   double total() const { return trajectory + observables + checkpoints; }
+  /// Bytes at the end of the run, before trajectory.part goes.
+  double most() const { return total() + trajectory_part; }
 };
 
 /// What a short piece of a run tells of the whole run on this machine, on one thread: ticks times the time of a tick,
@@ -60,9 +64,11 @@ Result<Probe> probe(const scene::RunPlan& plan, Simulation simulation, double cp
 ///   {"effects": [{"name", "what", "on", "why", "cpu_share"?}],
 ///    "probe":  {"warm_up_s", "simulated_s", "cpu_s", "rod_seconds_per_cpu_second"},
 ///    "stepping_cpu_share", "checkpoints_cpu_share",
-///    "cpu_seconds", "stepping_cpu_seconds", "disk_bytes": {"trajectory", "observables", "checkpoints", "total"}}
-/// All shares are of "cpu_seconds", the CPU time of the whole run with its movie, and add up to 1. What is measured,
-/// recorded or drawn has one of its own; the physics is stepping as a whole.
+///    "cpu_seconds", "stepping_cpu_seconds", "disk_bytes": {"trajectory", "observables", "checkpoints", "total",
+///    "most"}}
+/// "most" is what the disk must have room for at the end of the run, "total" what stays. All shares are of
+/// "cpu_seconds", the CPU time of the whole run with its movie, and add up to 1. What is measured, recorded or drawn
+/// has one of its own; the physics is stepping as a whole.
 nlohmann::ordered_json probe_report(const scene::RunPlan& plan, const std::optional<Probe>& probe);
 
 }  // namespace shaken::run

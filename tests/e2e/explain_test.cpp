@@ -48,6 +48,29 @@ const Json& level_named(const Json& report, const std::string& name) {
   throw std::out_of_range(name);
 }
 
+TEST_F(Explain, SaysWhatMeasurementsTakeInMemoryAndTheDiskAtTheEnd) {
+  const std::string scene = write("scene.json", kScene);
+  const Finished finished = shaken({"explain", scene, "--cpu", "0.1"});
+  EXPECT_THAT(finished.output, AllOf(HasSubstr("The measurements take about "),
+                                     HasSubstr("room for trajectory.part and trajectory.h5 together")));
+  EXPECT_THAT(shaken({"explain", scene, "--cpu", "0.1", "-s", "trajectory=null", "-s", "movie=null"}).output,
+              Not(HasSubstr("trajectory.part")));
+}
+
+TEST_F(Explain, WhatNoMachineHasMemoryForIsRefusedByEveryVerb) {
+  const std::string scene = write("fine.json", R"({"rods": {"count": 100}, "box": {"side": 2000},
+                                                   "measure": {"defects": {"grid": "0.01 mm"}}, "stream": null})");
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"validate", scene}, {"explain", scene}, {"run", scene, "--out", path("never")}}) {
+    const Finished refused = shaken(words);
+    EXPECT_EQ(refused.code, 2) << words.front();
+    EXPECT_THAT(refused.output, AllOf(HasSubstr("fine.json: /measure/defects: the measurements of this run would take"),
+                                      HasSubstr("smaller with a coarser `grid`")))
+        << words.front();
+  }
+  EXPECT_FALSE(std::filesystem::exists(path("never")));
+}
+
 TEST_F(Explain, PromisesWhatTheRunThenTakes) {
   const std::string scene = write("scene.json", kScene);
   const Json report = json({"explain", scene});
@@ -69,6 +92,11 @@ TEST_F(Explain, PromisesWhatTheRunThenTakes) {
     bytes += static_cast<double>(std::filesystem::file_size(path("run/") + name));
   }
   EXPECT_NEAR(written.at("disk_bytes").get<double>() / bytes, 1, 0.15);
+  // trajectory.part: 24 bytes a frame and 52 a rod, until trajectory.h5 is there
+  const Json& disk = report.at("disk_bytes");
+  const double part = report.at("shown").at("trajectory_frames").get<double>() *
+                      (24 + 52 * report.at("shown").at("n_rods").get<double>());
+  EXPECT_NEAR((disk.at("most").get<double>() - disk.at("total").get<double>()) / part, 1, 0.1);
   // other programs may slow down either
   const double cpu = written.at("cpu_seconds").get<double>() / summary.at("cpu_seconds").get<double>();
   EXPECT_GT(cpu, 0.33);

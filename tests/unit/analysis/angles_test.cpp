@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <numeric>
 
 #include "tests/unit/analysis/samples.h"
@@ -67,6 +68,26 @@ TEST(AngleDistribution, GaussianSpread) {
   }
   EXPECT_GT(dof, 30);
   EXPECT_LT(std::abs(chi2 - dof) / std::sqrt(2 * dof), 4.0);
+}
+
+TEST(AngleDistribution, CountsThatNoRunReachesAreRefused) {
+  const std::vector<std::byte> bytes = state(AngleDistribution(10));
+  const auto restores = [&](std::int64_t count) {
+    std::vector<std::byte> other = bytes;
+    std::memcpy(other.data() + other.size() - sizeof(count), &count, sizeof(count));  // that of the last bin
+    AngleDistribution restored(10);
+    StateReader reader(other);
+    try {
+      restored.restore(reader);
+    } catch (const StateError&) {
+      return false;
+    }
+    return state(restored) == other;
+  };
+  EXPECT_TRUE(restores(7));
+  EXPECT_TRUE(restores(kMostCounted));
+  EXPECT_FALSE(restores(kMostCounted + 1));
+  EXPECT_FALSE(restores(-1));
 }
 
 TEST(AngleDistribution, MergeSaveAndReset) {

@@ -45,46 +45,6 @@ TEST(ResultRow, NumberWithUnit) {
   EXPECT_EQ(r.number("box.gap"), 1.2);
 }
 
-TEST(Condition, AllComparisons) {
-  const ResultRow r = row(2.5, 1, 0.75);
-  const std::pair<const char*, bool> cases[] = {
-      {"rods.length>2", true},       {"rods.length>2.5", false},  {"rods.length>=2.5", true},
-      {"rods.length<3", true},       {"rods.length<2.5", false},  {"rods.length<=2.5", true},
-      {"rods.length=2.50", true},    {"rods.length==2.4", false}, {"rods.length!=2.4", true},
-      {" order.mean  >= 0.5", true}, {"state=done", true},        {"state!=done", false},
-      {"rods.length=2.5 mm", true}};
-  for (const auto& [text, expected] : cases) EXPECT_EQ(Condition(text).matches(r), expected) << text;
-}
-
-TEST(Condition, RowWithoutTheFieldDoesNotMatch) { EXPECT_FALSE(Condition("order.mean!=0.3").matches(row(2.5, 1, -1))); }
-
-TEST(Condition, RefusesWhatIsNoComparison) {
-  for (const char* text : {"", "rods.length", ">3", "rods.length>", "a=>3", "a<>3", "a ! 3"}) {
-    EXPECT_THROW(Condition{text}, Failure) << text;
-  }
-  EXPECT_THROW((void)Condition("state>done").matches(row(2.5, 1, 0.5)), Failure);
-}
-
-TEST(Filtered, NamesTheNearestField) {
-  const std::vector<ResultRow> rows{row(2.5, 1, 0.5)};
-  const std::vector<Condition> conditions{Condition("rods.lenght>2")};
-  try {
-    (void)filtered(rows, conditions);
-    FAIL() << "an unknown field must be refused";
-  } catch (const Failure& failure) {
-    EXPECT_EQ(failure.code, ExitCode::kBadInput);
-    EXPECT_NE(std::string(failure.what()).find("rods.length"), std::string::npos) << failure.what();
-  }
-}
-
-TEST(Filtered, AllConditionsMustHold) {
-  const std::vector<ResultRow> rows{row(2.5, 1, 0.25), row(3.5, 1, 0.5), row(4.5, 1, 0.75)};
-  const std::vector<Condition> conditions{Condition("rods.length>3"), Condition("order.mean<0.6")};
-  const auto kept = filtered(rows, conditions);
-  ASSERT_EQ(kept.size(), 1u);
-  EXPECT_EQ(kept[0].number("rods.length"), 3.5);
-}
-
 TEST(Aggregated, ReplicasOfAPointTogether) {
   const auto points = aggregated({row(2.5, 1, 0.25), row(4.5, 1, 0.75), row(2.5, 2, 0.5), row(4.5, 2, 0.75)});
   ASSERT_EQ(points.size(), 2u);
@@ -126,6 +86,46 @@ TEST(Aggregated, NeverMixesVersionsOfThePhysics) {
   EXPECT_FALSE(points[1].fields.contains("versions.physics:sem")) << "a name, not a number";
   EXPECT_TRUE(has_several_versions(rows));
   EXPECT_FALSE(has_several_versions({rows[1], rows[2]}));
+}
+
+TEST(Aggregated, WhatNoVersionIsKnownOfIsAPointOfItsOwn) {
+  ResultRow old = row(2.5, 1, 0.25);
+  old.fields.erase("versions.shaken");
+  const auto points = aggregated({old, row(2.5, 2, 0.75), row(2.5, 3, -1)});
+  ASSERT_EQ(points.size(), 2u);
+  EXPECT_DOUBLE_EQ(points[0].number("order.mean"), 0.25);
+  EXPECT_EQ(points[0].number("n_replicas"), 1);
+  EXPECT_DOUBLE_EQ(points[1].number("order.mean"), 0.75);
+  EXPECT_EQ(points[1].number("n_replicas"), 2) << "the one that has yet to run";
+}
+
+TEST(Aggregated, EveryMeanHasItsStandardErrorAndThePointItsState) {
+  std::vector<ResultRow> rows{row(2.5, 1, 0.25), row(2.5, 2, 0.5)};
+  rows[0].fields["cpu_seconds"] = 3.0, rows[1].fields["cpu_seconds"] = 5.0;
+  const auto points = aggregated(rows);
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_EQ(field_text(points[0], "state"), "done");
+  for (const auto& [name, value] : points[0].fields.items()) {
+    const bool is_count = name == "n_replicas" || name == "n_done" || name.ends_with(":sem");
+    if (!value.is_number() || is_count || points[0].parameters.contains(name)) continue;
+    EXPECT_GE(points[0].number(name + ":sem"), 0) << name;
+  }
+  // no errors of their own: |5 - 3| / 2, widened to what 68 % of two runs are within
+  EXPECT_DOUBLE_EQ(points[0].number("cpu_seconds:sem"), student_factor(2));
+  EXPECT_EQ(field_text(aggregated({rows[0], row(2.5, 2, -1)})[0], "state"), "partial");
+}
+
+TEST(Aggregated, KeysOfTheScenesAreNotAveraged) {
+  std::vector<ResultRow> rows{row(2.5, 1, 0.25), row(2.5, 2, 0.5)};
+  for (int k : {0, 1}) {
+    rows[k].scene = {{"box.gap", 1.2}, {"time.seed", 7 + k}};
+    for (const auto& [path, value] : rows[k].scene.items()) rows[k].fields[path] = value;
+  }
+  const auto points = aggregated(rows);
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_EQ(points[0].fields.at("box.gap"), 1.2);
+  EXPECT_FALSE(points[0].fields.contains("box.gap:sem"));
+  EXPECT_FALSE(points[0].fields.contains("time.seed")) << "each has its own";
 }
 
 TEST(Aggregated, UnfinishedReplicasCountButDoNotEnterTheMean) {
@@ -183,6 +183,8 @@ TEST(ResolvedField, MeasuredScalarsByTheirName) {
   EXPECT_EQ(resolved_field(rows, "order.mean"), "order.mean");
   EXPECT_EQ(resolved_field(rows, "theta_m_deg"), "measured.theta_m_deg.value");
   EXPECT_THROW((void)resolved_field(rows, "theta"), Failure);
+  EXPECT_EQ(resolved_field(rows, "order.sem"), "order.sem");
+  EXPECT_EQ(resolved_field(aggregated(rows), "order.sem"), "order.mean:sem") << "the error that a mean has";
 }
 
 TEST(SweptParameters, OnlyThoseThatDiffer) {

@@ -397,6 +397,101 @@ TEST_F(Verbs, ResultsAsTableCsvAndJson) {
   EXPECT_EQ(Json::parse(run({"results", "s1", "--json"}).out).at("rows"), rows);
 }
 
+/// A sweep of three runs: two done, by different versions if `versions` differ, one queued.
+class ChosenResults : public Verbs {
+ protected:
+  void answer(const std::vector<std::string>& versions = {"0.1.0", "0.1.0"}) {
+    Json rows = Json::array();
+    std::vector<Json> jobs;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::string id = "1f0c00000000000" + std::to_string(k);
+      Json summary = nullptr;
+      if (k < 2) {
+        summary = {{"order", {{"mean", k == 0 ? 0.25 : 0.75}, {"sem", 0.01}}}, {"versions", {{"shaken", versions[k]}}}};
+      }
+      const std::string state = k < 2 ? "done" : "queued";
+      rows.push_back({{"job", id},
+                      {"sweep", "s1"},
+                      {"state", state},
+                      {"label", "x"},
+                      {"parameters", {{"rods.length", 4.5}}},
+                      {"replica", k + 1},
+                      {"summary", summary}});
+      jobs.push_back(job(id, state));
+      jobs.back()["directory"] = (root_.path() / "runs" / id).string();
+      if (k == 2) continue;
+      std::filesystem::create_directories(root_.path() / "runs" / id);
+      std::ofstream(root_.path() / "runs" / id / "scene.json")
+          << R"({"rods": {"length": 4.5, "count": 10}, "box": {"gap": )" << (k == 0 ? 1.2 : 1.4) << "}}";
+    }
+    daemon_.on("GET /v1/sweeps/s1", text(sweep(jobs)));
+    daemon_.on("GET /v1/results?sweep=s1", text({{"rows", rows}}));
+  }
+  std::string jobs_where(const std::string& condition) {
+    const Outcome outcome = run({"results", "s1", "--columns", "job", "--csv", "--where", condition});
+    EXPECT_EQ(outcome.code, ExitCode::kOk) << outcome.err;
+    return outcome.out;
+  }
+};
+
+TEST_F(ChosenResults, WhereTakesExpressions) {
+  answer();
+  EXPECT_EQ(jobs_where("rods.length=4.5mm and order.mean>0.5"), "job\n1f0c000000000001\n");
+  EXPECT_EQ(jobs_where("order.mean<0.5 or not state=done"), "job\n1f0c000000000000\n1f0c000000000002\n");
+  EXPECT_EQ(Json::parse(run({"results", "s1", "--json", "-w", "order.mean>0.5"}).out).at("rows").size(), 1u);
+  // several: all must hold
+  EXPECT_THAT(run({"results", "s1", "-w", "order.mean>0.1", "-w", "order.mean<0.5"}).out, HasSubstr("0.25"));
+}
+
+TEST_F(ChosenResults, WhereSaysWhichRunsLackAName) {
+  answer();
+  const Outcome outcome = run({"results", "s1", "--csv", "--where", "order.mean>=0.1"});
+  EXPECT_EQ(outcome.err, "1 of 3 runs lack order.mean: comparisons with it are false for them\n");
+  EXPECT_EQ(run({"results", "s1", "--csv", "--where", "rods.length>1"}).err, "");
+}
+
+TEST_F(ChosenResults, WhereReadsKeysThatAreNotSweptFromTheRunsOwnScenes) {
+  answer();
+  EXPECT_EQ(jobs_where("box.gap<1300um"), "job\n1f0c000000000000\n");
+  EXPECT_EQ(jobs_where("plates.frequency>0.01kHz and box.gap>1.3"), "job\n1f0c000000000001\n") << "a default, too";
+  EXPECT_THAT(run({"results", "s1", "-w", "box.gap<1.3"}).err, HasSubstr("1 of 3 runs lack box.gap"));
+}
+
+TEST_F(ChosenResults, WhereIsOnMeansWhereThereAreMeans) {
+  answer();
+  const Outcome outcome = run(
+      {"results", "s1", "-a", "--csv", "--columns", "order.mean,order.sem", "-w", "order.mean>0.4 and order.sem>0.2"});
+  EXPECT_EQ(outcome.out, "order.mean,order.mean:sem\n0.5,0.25\n") << outcome.err;
+  EXPECT_THAT(run({"results", "s1", "-a", "-w", "state=done"}).out, HasSubstr("No rows")) << "one is queued";
+}
+
+TEST_F(ChosenResults, RunsOfDifferentVersionsAreNeverAveragedWithoutAWord) {
+  answer({"0.1.0", "0.2.0"});
+  const Outcome outcome = run({"results", "s1", "--aggregate"});
+  EXPECT_THAT(outcome.err, HasSubstr("several versions computed these runs; each has means of its own"));
+  EXPECT_THAT(outcome.out, HasSubstr("0.2.0"));
+  EXPECT_THAT(outcome.out, HasSubstr("0.25"));
+  EXPECT_THAT(outcome.out, HasSubstr("0.75"));
+  answer();
+  EXPECT_EQ(run({"results", "s1", "--aggregate"}).err, "");
+}
+
+TEST_F(ChosenResults, EveryProblemOfWhereIsTold) {
+  answer();
+  const Outcome form = run({"results", "s1", "--where", "order.mean>", "--where", "(state=done"});
+  EXPECT_EQ(form.code, ExitCode::kBadInput);
+  EXPECT_EQ(form.err,
+            "shaken: --where:\n"
+            "  order.mean>\n"
+            "             ^ a value is missing before the end\n"
+            "  (state=done\n"
+            "  ^ this ( is never closed\n");
+  const Outcome names = run({"results", "s1", "--where", "order.maen>1 or rods.length>1kg"});
+  EXPECT_EQ(names.code, ExitCode::kBadInput);
+  EXPECT_THAT(names.err, HasSubstr("did you mean order.mean?"));
+  EXPECT_THAT(names.err, HasSubstr("\"kg\" is not a unit of length"));
+}
+
 Json results_with(const Json& rows) { return {{"rows", rows}}; }
 
 TEST_F(Verbs, ResultsMarkWhatStillRelaxesAndFitTheTerminal) {

@@ -31,6 +31,20 @@ TEST(Nearest, DistanceAgreesWithItsDefinition) {
   }));
 }
 
+TEST(Nearest, IsTheFirstOfThoseAtTheLeastDistance) {
+  const auto word = rc::gen::resize(6, rc::gen::container<std::string>(rc::gen::elementOf(std::string("abc"))));
+  EXPECT_TRUE(rc::check("nearest", [&] {
+    const std::string wanted = *word;
+    const auto names = *rc::gen::container<std::vector<std::string>>(rc::gen::nonEmpty(word));
+    RC_PRE(!names.empty());
+    const auto first = std::min_element(names.begin(), names.end(), [&](const std::string& a, const std::string& b) {
+      return edit_distance(wanted, a) < edit_distance(wanted, b);
+    });
+    const std::string found = nearest(wanted, names);
+    RC_ASSERT(found.empty() || found == *first);
+  }));
+}
+
 TEST(Nearest, FindsSlipsOfThePenOnly) {
   const std::vector<std::string> names{"length", "mid_diameter", "end_diameter", "area_fraction"};
   EXPECT_EQ(nearest("lenght", names), "length");

@@ -51,6 +51,24 @@ TEST(Checkpoint, RefusesAnotherSceneAndDamage) {
   EXPECT_FALSE(static_cast<bool>(Simulation::resume(system, {})));
 }
 
+TEST(Checkpoint, EachByteThatIsTakenIsSavedAsItWas) {
+  System system = small_scene();
+  system.n_rods = 4;
+  auto simulation = Simulation::start(system);
+  ASSERT_TRUE(static_cast<bool>(simulation));
+  const auto whole = save_checkpoint(simulation->world());
+  int taken = 0;
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    auto bytes = whole;
+    bytes[i] = std::byte{0x63};  // also where a yes or no is expected
+    const auto world = restore_checkpoint(system, bytes);
+    if (!world) continue;
+    ++taken;
+    EXPECT_TRUE(save_checkpoint(*world) == bytes) << "byte " << i;
+  }
+  EXPECT_GT(taken, 100);
+}
+
 TEST(Checkpoint, RefusesAnotherPhysicsVersionByName) {
   const System system = small_scene();
   auto simulation = Simulation::start(system);

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Saved states, behind the hash that guards a checkpoint's file: of a world (first byte '0'), or of the measurement
+// that the first byte names ('1', '2', ... in the order of the registry). What is taken is saved again as the same
+// bytes.
+#include "sim/checkpoint.h"
+
+#include <algorithm>
+
+#include "run/measurements.h"
+#include "scene/load.h"
+#include "sim/initial.h"
+#include "sim/simulation.h"
+#include "tests/fuzz/target.h"
+
+using namespace shaken;
+
+namespace {
+
+constexpr const char* kScene = R"({
+  "rods": {"length": "2.5 mm", "count": 8}, "box": {"side": "8 mm"}, "time": {"steady": 0, "measure": 1},
+  "measure": {"order": {}, "angles": {"bins": 4}, "tilt": {"bins": 4}, "defects": {"list": true}, "g2": {"bins": 4},
+              "msd": {}, "rotation": {}, "velocity": {}, "rods": {}, "fluctuations": {}, "frank": {},
+              "pairs": {"bins": 3}, "layers": {}, "lattice": {}, "structure": {"waves": 4}}})";
+
+const scene::RunPlan& plan() {
+  static const scene::RunPlan loaded = [] {
+    const auto scene = scene::load_scene(kScene, "fuzz.json");
+    fuzz::promise(static_cast<bool>(scene), "the target's own scene is one");
+    return *scene;
+  }();
+  return loaded;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  const auto bytes = std::as_bytes(std::span(data, size)).subspan(1);
+  if (data[0] == '0') {
+    if (const auto world = restore_checkpoint(plan().system, bytes)) {
+      fuzz::promise(std::ranges::equal(save_checkpoint(*world), bytes), "a world is saved as it was read");
+    }
+    return 0;
+  }
+  static const Species species = make_world(plan().system)->species.front();
+  const auto kinds = run::measurement_kinds();
+  const auto kind = static_cast<std::size_t>(static_cast<std::uint8_t>(data[0] - '1')) % kinds.size();
+  run::Measurements measurements(run::only(plan(), kinds[kind]), species);
+  if (measurements.restore(bytes)) {
+    fuzz::promise(std::ranges::equal(measurements.save(), bytes), "measurements are saved as they were read");
+    (void)measurements.reduce(1.0);
+  }
+  return 0;
+}

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// Payloads of LCM messages, each byte string as every type; the messages then go where a viewer puts them.
+#include "client/live.h"
+#include "proto/codec.h"
+#include "proto/frame_codec.h"
+#include "tests/fuzz/target.h"
+
+using namespace shaken;
+
+namespace {
+
+template <class T>
+std::optional<T> decoded(std::span<const std::uint8_t> payload) {
+  auto message = proto::decode<T>(payload);
+  if (message) {
+    const auto again = proto::encode(*message);
+    fuzz::promise(std::equal(again.begin(), again.end(), payload.begin(), payload.end()),
+                  "a message that is taken is what was sent");
+  }
+  return message;
+}
+
+/// Every jobs' messages are of this job.
+constexpr const char* kJob = "0123456789abcdef";
+
+client::Json job() {
+  return {{"id", kJob},
+          {"sweep", "s1"},
+          {"state", "running"},
+          {"reason", ""},
+          {"label", "x"},
+          {"replica", 1},
+          {"attempt", 1},
+          {"pid", 1},
+          {"progress", nullptr},
+          {"created_utime", 0},
+          {"started_utime", 0},
+          {"finished_utime", 0},
+          {"parameters", client::Json::object()}};
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::span payload(data, size);
+  static client::LiveJobs jobs;
+  static proto::FrameAssembler frames(kJob);
+  static int n_used = 0;
+  if (n_used++ % 1000 == 0) {
+    jobs = {};
+    jobs.note_api(job());
+    frames = proto::FrameAssembler(kJob);
+  }
+  (void)decoded<status_t>(payload);
+  (void)decoded<frame_static_t>(payload);
+  if (const auto message = decoded<job_t>(payload)) (void)jobs.contradicts(*message);
+  if (auto message = decoded<observables_t>(payload)) {
+    message->job_id = kJob;
+    jobs.note(*message);
+  }
+  if (auto message = decoded<defects_t>(payload)) {
+    message->job_id = kJob;
+    jobs.note(*message);
+  }
+  if (auto message = decoded<frame_t>(payload)) {
+    (void)proto::decode_chunk(*message);
+    message->job_id = kJob;
+    if (const auto frame = frames.add(*message)) (void)proto::encode_frame(*frame);
+  }
+  (void)jobs.jobs().front().fraction();
+  return 0;
+}
