@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/failure.h"
+#include "run/files/done.h"
 #include "tests/unit/study/made_up_run.h"
 #include "tests/unit/study/run_directories.h"
 
