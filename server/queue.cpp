@@ -126,6 +126,12 @@ Queue::Current Queue::read_current(const Query& query) {
           query.integer(10) != 0};
 }
 
+/// Nobody waits any more for what was asked of the job: it goes by what it is asked for next, be that less.
+bool Queue::is_withdrawn(const Current& job) {
+  return job.state == kFailed || job.state == kCancelled || job.state == kTimedOut ||
+         (job.state == kStopping && job.after_stop == to_word(kCancelled));
+}
+
 Queue::Queue(const std::filesystem::path& file) : database_(file) {
   prepare_schema(database_);
   Query query = database_.query("SELECT COALESCE(MAX(sequence), 0) FROM journal");
@@ -163,7 +169,9 @@ Submitted Queue::submit(const std::string& name, int priority, std::span<const N
     if (insert(job, priority, result.sweep, terms)) {
       ++(job.has_results.value_or(false) ? result.n_found : result.n_new);
     } else {
-      const bool is_longer = make_longer(*current(job.id), job.scene, "in " + sweep_word(result.sweep));
+      const Current known = *current(job.id);
+      const bool is_longer = !is_withdrawn(known) && make_longer(known, job.scene, "in " + sweep_word(result.sweep));
+      if (is_withdrawn(known)) set_scene(job.id, job.scene);
       const bool is_queued = ask_again(job, priority, result.sweep, terms);
       if (is_longer) {
         ++result.n_extended;
@@ -217,12 +225,16 @@ bool Queue::insert(const NewJob& job, int priority, std::int64_t sweep, const Te
   return true;
 }
 
+void Queue::set_scene(const std::string& id, const std::string& scene) {
+  database_.run("UPDATE scenes SET scene = ?2 WHERE job = (SELECT number FROM jobs WHERE id = ?1)", id, scene);
+}
+
 /// Whether the job's scene has become longer.
 bool Queue::make_longer(const Current& job, const std::string& scene, const std::string& asked) {
   const std::string present = scene_of(job.id);
   const std::string longer = as_long_as_both(present, scene);
   if (longer == present) return false;
-  database_.run("UPDATE scenes SET scene = ?2 WHERE job = (SELECT number FROM jobs WHERE id = ?1)", job.id, longer);
+  set_scene(job.id, longer);
   if (job.state == kRunning || job.state == kStopping) {
     database_.run("UPDATE jobs SET longer = 1 WHERE id = ?1", job.id);
   }

@@ -187,6 +187,8 @@ class Queue {
   std::vector<Current> active() const;
   std::optional<std::int64_t> same_sweep(const std::string& name, std::span<const NewJob> jobs) const;
   bool insert(const NewJob& job, int priority, std::int64_t sweep, const Terms& terms);
+  static bool is_withdrawn(const Current& job);
+  void set_scene(const std::string& id, const std::string& scene);
   bool make_longer(const Current& job, const std::string& scene, const std::string& asked);
   std::string scene_of(const std::string& id) const;
   bool ask_again(const NewJob& job, int priority, std::int64_t sweep, const Terms& terms);

@@ -9,7 +9,6 @@
 
 #include "base/files.h"
 #include "base/text.h"
-#include "server/scene_length.h"
 
 namespace shaken::server {
 namespace {
@@ -223,10 +222,7 @@ bool Supervisor::start(const Job& job) {
       wait(job, lock.error().message);
       return false;
     }
-    // A run that the queue does not know of, since queue.db was lost, say, may be further than this job asks for.
-    const auto present = read_file(directory.scene());
-    const std::string text = present ? as_long_as_both(*present, scene) : scene;
-    if (const auto done = write_file_atomically(directory.scene(), text); !done) {
+    if (const auto done = write_file_atomically(directory.scene(), scene); !done) {
       wait(job, done.error().message);
       return false;
     }

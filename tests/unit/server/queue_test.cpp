@@ -336,6 +336,18 @@ TEST_F(QueueTest, ASceneThatHasBecomeLongerMeanwhileIsNotBegun) {
   EXPECT_TRUE(queue_.begin(job.id, &longer));
 }
 
+TEST_F(QueueTest, ACancelledJobIsDoneAgainForAsLongAsItIsAskedForThen) {
+  const NewJob job = job_of("1000");
+  queue_.submit("s", 0, std::vector{job});
+  queue_.cancel(job.id);
+  EXPECT_EQ(queue_.submit("s", 0, std::vector{job_of("10")}).n_requeued, 1);
+  EXPECT_EQ(seconds_asked(queue_, job.id), 10) << "1000 was a slip";
+  queue_.begin(job.id);
+  queue_.cancel(job.id);
+  EXPECT_EQ(queue_.submit("s", 0, std::vector{job_of("5")}).n_requeued, 1) << "it is about to be cancelled";
+  EXPECT_EQ(seconds_asked(queue_, job.id), 5);
+}
+
 TEST_F(QueueTest, ExtendingAFailedJobLeavesItFailed) {
   const NewJob job = job_of("2");
   queue_.submit("s", 0, std::vector{job});
