@@ -3,9 +3,12 @@
 // the next start goes on to the same end.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <random>
+#include <thread>
 
 #include "base/files.h"
 #include "run/files/directory.h"
@@ -119,6 +122,33 @@ TEST_F(CrashPoints, KilledAnywhereTheNextStartGoesOnToTheSameEnd) { everywhere("
 TEST_F(CrashPoints, KilledAgainAfterARestartNothingStartsFromTheBeginning) { everywhere("kill", killed_midway()); }
 
 TEST_F(CrashPoints, KilledInTheMiddleOfAWriteToo) { everywhere("half", killed_midway()); }
+
+/// SIGKILL from outside, at random moments of the clock: 200 times, or as often as SHAKEN_KILL_CYCLES says.
+TEST_F(CrashPoints, KilledAtRandomItGoesOnToTheSameEnd) {
+  const char* given = std::getenv("SHAKEN_KILL_CYCLES");
+  const int n_kills = given != nullptr ? std::atoi(given) : 200;
+  std::mt19937 random(3);
+  int killed = 0, ended = 0;
+  for (int k = 0; k < 20 * n_kills && killed < n_kills; ++k) {
+    Process worker({std::string(SHAKEN_BIN_DIR) + "/shaken-worker", scene_.string(), "--out", directory_.string(),
+                    "--no-lcm", "--checkpoint-every", "0.004"},
+                   folder_.path() / "output");
+    std::this_thread::sleep_for(std::chrono::microseconds(std::uniform_int_distribution(1000, 100'000)(random)));
+    worker.signal(SIGKILL);
+    const int code = worker.wait(std::chrono::seconds(60));
+    killed += code == 128 + SIGKILL;
+    if (code == 128 + SIGKILL) continue;
+    ASSERT_EQ(code, 0) << worker.output();
+    ++ended;
+    EXPECT_EQ(difference(undisturbed_, directory_), "") << "after " << killed << " kills";
+    fs::remove_all(directory_);
+  }
+  EXPECT_EQ(killed, n_kills);
+  const Finished last = work(scene_, directory_);
+  ASSERT_EQ(last.code, 0) << last.output;
+  EXPECT_EQ(difference(undisturbed_, directory_), "");
+  std::printf("%d kills, %d runs came to their end\n", killed, ended + 1);
+}
 
 TEST_F(CrashPoints, AFullDiskLosesNothing) { everywhere("full", killed_midway()); }
 
