@@ -17,6 +17,9 @@ if(NOT SHAKEN_ONLY_SIM)
   install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/shaken COMPONENT programs PATTERN tests EXCLUDE)
   install(DIRECTORY schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/shaken COMPONENT programs)
   install(DIRECTORY proto/ DESTINATION ${CMAKE_INSTALL_DATADIR}/shaken/lcm COMPONENT programs FILES_MATCHING PATTERN *.lcm)
+  # not below CMAKE_INSTALL_LIBDIR, which names the machine
+  install(FILES packaging/systemd/shakend.service DESTINATION lib/systemd/user COMPONENT programs)
+  install(FILES packaging/systemd/shakend@.service DESTINATION lib/systemd/system COMPONENT programs)
   install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs RENAME copyright)
   install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
 

@@ -221,6 +221,7 @@ void run_daemon(const DaemonConfig& config) {
   LocalExecutor executor(config.worker);
   SupervisorOptions options{info.runs(), config.slots, worker_options(config), config.grace};
   options.refuse = refuse_scene;
+  options.least_room = static_cast<std::int64_t>(config.keep_free);
   Supervisor supervisor(queue, executor, std::move(options));
   std::optional<StatusPublisher> publisher;
   if (bus) publisher.emplace(queue, std::move(bus), info);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -9,10 +10,11 @@ namespace shaken::server {
 
 struct DaemonConfig {
   std::filesystem::path root;
-  std::filesystem::path worker;  ///< the program that does one run
-  int slots = 1;                 ///< workers that may run at once
-  int threads = 1;               ///< of each worker
-  std::string lcm_url;           ///< empty: no live state
+  std::filesystem::path worker;          ///< the program that does one run
+  int slots = 1;                         ///< workers that may run at once
+  int threads = 1;                       ///< of each worker
+  std::uint64_t keep_free = 64'000'000;  ///< bytes on the disk, below which no run is started
+  std::string lcm_url;                   ///< empty: no live state
   std::string log_level = "info";
   bool quiet = false;                       ///< log to ROOT/shakend.log only, not to stderr
   std::chrono::milliseconds grace{20'000};  ///< between the request that a worker stops and its kill

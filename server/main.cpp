@@ -24,7 +24,7 @@ constexpr const char* kAbout =
 constexpr const char* kExamples =
     "Examples:\n"
     "  shakend                              # ~/.local/share/shaken, one worker per core\n"
-    "  shakend --root /data/rods --slots 8\n"
+    "  shakend --root /data/rods --slots 8 --keep-free 20GB\n"
     "  shakend --root /tmp/try --no-lcm &   # no live state, nothing on the network; behind a prompt it is quiet\n"
     "  curl --unix-socket /tmp/try/shakend.sock http://shaken/v1/status\n"
     "\n"
@@ -57,6 +57,11 @@ int main(int argc, char** argv) {
   app.add_option("--threads", config.threads,
                  "Threads that share each tick of a worker: worth it from about 5,000 rods on, with fewer slots")
       ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  app.add_option("--keep-free", config.keep_free, "Room on the disk below which no run is started: 20GB, say")
+      ->transform(CLI::AsSizeValue(true))
+      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 60))
+      ->type_name("SIZE")
       ->capture_default_str();
   auto* url = app.add_option("--lcm-url", config.lcm_url,
                              "Where live state goes [default: $LCM_DEFAULT_URL, else "

@@ -131,7 +131,8 @@ class Submit : public Verb {
     for (const Json& job : jobs) {
       if (&job - &jobs.front() >= static_cast<std::ptrdiff_t>(kMostLines)) break;
       const std::string id = job.at("id").get<std::string>();
-      const bool is_new = n_new > 0 && text_of(job, "sweep") == text_of(sweep, "id") &&
+      const bool is_new = n_new > 0 && text_of(job, "state") != "done" &&
+                          text_of(job, "sweep") == text_of(sweep, "id") &&
                           job.value("created_utime", std::int64_t{0}) >= sweep.value("created_utime", std::int64_t{0});
       const auto n = n_rods.find(id);
       table.add_row({short_id(id), is_new ? console.painted(Colour::kGreen, "new") : text_of(job, "state"),
@@ -142,9 +143,12 @@ class Submit : public Verb {
     if (const int n = counts.value("requeued", 0); n > 0) words += fmt::format(", {} queued again", n);
     if (const int n = counts.value("extended", 0); n > 0) words += fmt::format(", {} extended", n);
     for (const char* state : {"done", "running", "queued"}) {
-      // "queued" counts those just named too
-      const int named = n_new + counts.value("requeued", 0) + counts.value("extended", 0);
-      const int n = counts.value(state, 0) - (std::string_view(state) == "queued" ? named : 0);
+      // these count those just named too
+      const int named = std::string_view(state) == "queued"
+                            ? n_new + counts.value("requeued", 0) + counts.value("extended", 0)
+                        : std::string_view(state) == "done" ? counts.value("found", 0)
+                                                            : 0;
+      const int n = counts.value(state, 0) - named;
       if (n > 0) words += fmt::format(", {} {}{}", n, std::string_view(state) == "done" ? "" : "already ", state);
     }
     console.out << fmt::format("sweep {} ({}): {} point{}: {}\n", console.painted(Colour::kBold, text_of(sweep, "id")),

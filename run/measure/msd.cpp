@@ -51,10 +51,10 @@ class MeasuredDisplacement : public Measurement {
     result.scalars["alpha_along_long"] = read_off(along.at_long.exponent, along.at_long);
     result.scalars["alpha_across_short"] = read_off(across.at_short.exponent, across.at_short);
     result.scalars["alpha_across_long"] = read_off(across.at_long.exponent, across.at_long);
-    result.scalars["diffusion_lag_from_s"] = {total.at_long.lag_from};
-    result.scalars["diffusion_lag_to_s"] = {total.at_long.lag_to};
-    result.scalars["diffusion_short_lag_from_s"] = {total.at_short.lag_from};
-    result.scalars["diffusion_short_lag_to_s"] = {total.at_short.lag_to};
+    result.scalars["diffusion_lag_from_s"] = {{total.at_long.lag_from}};
+    result.scalars["diffusion_lag_to_s"] = {{total.at_long.lag_to}};
+    result.scalars["diffusion_short_lag_from_s"] = {{total.at_short.lag_from}};
+    result.scalars["diffusion_short_lag_to_s"] = {{total.at_short.lag_to}};
   }
   void save(StateWriter& writer) const override { msd_.save(writer); }
   void restore(StateReader& reader) override { msd_.restore(reader); }

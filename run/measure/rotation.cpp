@@ -30,11 +30,11 @@ class MeasuredRotation : public Measurement {
     result.scalars["alpha_rotation_long"] = scalar(summary.growth.at_long.exponent);
     result.scalars["c2_plateau"] = scalar(summary.c2_plateau);
     result.scalars["c2_decay_s"] = scalar(summary.c2_decay_time);
-    result.scalars["large_turns"] = {summary.large_turns};
-    result.scalars["rotation_lag_from_s"] = {summary.growth.at_long.lag_from};
-    result.scalars["rotation_lag_to_s"] = {summary.growth.at_long.lag_to};
-    result.scalars["rotation_short_lag_from_s"] = {summary.growth.at_short.lag_from};
-    result.scalars["rotation_short_lag_to_s"] = {summary.growth.at_short.lag_to};
+    result.scalars["large_turns"] = {{summary.large_turns}};
+    result.scalars["rotation_lag_from_s"] = {{summary.growth.at_long.lag_from}};
+    result.scalars["rotation_lag_to_s"] = {{summary.growth.at_long.lag_to}};
+    result.scalars["rotation_short_lag_from_s"] = {{summary.growth.at_short.lag_from}};
+    result.scalars["rotation_short_lag_to_s"] = {{summary.growth.at_short.lag_to}};
   }
   void save(StateWriter& writer) const override { rotation_.save(writer); }
   void restore(StateReader& reader) override { rotation_.restore(reader); }

@@ -40,7 +40,7 @@ class MeasuredTilt : public Measurement {
     result.scalars["tilt_fastest_mm_s"] = scalar(summary.v_largest);
     result.scalars["tilt_fastest_n_z"] = scalar(summary.n_z_largest);
     result.scalars["tilt_reversal_n_z"] = scalar(summary.n_z_zero);
-    result.scalars["tilt_reversal_sigmas"] = {summary.zero_sigma};
+    result.scalars["tilt_reversal_sigmas"] = {{summary.zero_sigma}};
   }
   void save(StateWriter& writer) const override {
     tilt_.save(writer);
