@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "scene/derived.h"
 
+#include <algorithm>
 #include <cmath>
-
-#include "sim/rod/species.h"
+#include <vector>
 
 namespace shaken::scene {
 
@@ -28,6 +28,19 @@ double frequency_for(double gamma, double amplitude, double gravity) {
 
 double peak_speed_of(const System& scene) { return 2 * kPi * scene.frequency * scene.amplitude; }
 
+Species species_of(const RodShape& rod) {
+  struct Kept {
+    RodShape rod;
+    Species species;
+  };
+  constexpr std::size_t kMost = 4;
+  thread_local std::vector<Kept> kept;  // the last one made stands last
+  const auto found = std::find_if(kept.begin(), kept.end(), [&](const Kept& one) { return one.rod == rod; });
+  if (found != kept.end()) return found->species;
+  if (kept.size() == kMost) kept.erase(kept.begin());
+  return kept.emplace_back(Kept{rod, make_species(rod)}).species;
+}
+
 double arena_size_for(const SideWalls& walls, double area) {
   if (walls.arena == Arena::kSquare) return std::sqrt(area);
   return std::sqrt(4.0 * area / kPi + (walls.arena == Arena::kAnnulus ? squared(walls.inner) : 0.0));
@@ -38,7 +51,7 @@ double area_for_rods(const System& scene) { return scene.walls ? scene.walls->ar
 double area_fraction_of(const System& scene) { return area_fraction_of(scene, scene.rod, scene.n_rods); }
 
 double area_fraction_of(const System& scene, const RodShape& rod, int count) {
-  return count * make_species(rod).area / area_for_rods(scene);
+  return count * species_of(rod).area / area_for_rods(scene);
 }
 
 }  // namespace shaken::scene

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "scene/run_plan.h"
+#include "sim/rod/species.h"
 
 /// Quantities that a scene may be written in and that a plan does not store.
 namespace shaken::scene {
@@ -24,6 +25,10 @@ double frequency_for(double gamma, double amplitude, double gravity);
 
 /// 2 pi f a, of the plates [mm/s].
 double peak_speed_of(const System& scene);
+
+/// make_species(rod), kept from the last few calls: the points of a sweep ask for the same shapes over and over, and
+/// integrating one takes as long as much else that a point needs.
+Species species_of(const RodShape& rod);
 
 /// The `size` [mm] at which walls of this shape and `inner` leave the rods `area` [mm^2].
 double arena_size_for(const SideWalls& walls, double area);

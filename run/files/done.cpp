@@ -45,8 +45,8 @@ bool is_done(const RunDirectory& directory, const std::string& run_id) {
 }
 
 bool is_done(const RunDirectory& directory, const scene::RunPlan& plan) {
-  const Json summary = summary_of_done(directory, scene::run_id(plan));
-  if (summary.is_null()) return false;
+  const Json summary = summary_of_done(directory, "");
+  if (summary.is_null() || !summary.contains("run_id") || summary["run_id"] != scene::run_id(plan)) return false;
   const auto tick = summary["exit"].find("tick");
   return tick != summary["exit"].end() && tick->is_number_integer() &&
          scene::is_long_enough(plan, tick->get<Tick>(), order_of(summary));

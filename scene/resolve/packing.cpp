@@ -31,7 +31,7 @@ bool resolve_number_of(Resolution& scene, const RodGroup& group) {
   System& system = scene.plan.system;
   const std::string fraction_path = group.path("area_fraction"), count_path = group.path("count");
   const bool is_first = group.name == "rods";
-  const double area = make_species(group.rod).area;
+  const double area = species_of(group.rod).area;
   if (!is_first && !scene.given(count_path) && !scene.given(fraction_path)) {
     return scene.refuse({group.name, fraction_path},
                         fmt::format("how many rods? Give {} or {}", count_path, fraction_path));
@@ -68,7 +68,7 @@ bool resolve_arena(Resolution& scene) {
   double thickest = 0;
   double longest = 0;
   for (const RodGroup& group : rod_groups(system)) {
-    thickest = std::max(thickest, 2.0 * make_species(group.rod).max_radius);
+    thickest = std::max(thickest, 2.0 * species_of(group.rod).max_radius);
     longest = std::max(longest, group.rod.length);
   }
   const double room = thickest + kRoomRoundArena;  // so that rods do not meet through the periodic border
@@ -84,7 +84,7 @@ bool resolve_arena(Resolution& scene) {
       scene.given("rods.area_fraction")) {
     if (!scene.ok({"rods.count", "rods.area_fraction"})) return false;
     walls.size =
-        arena_size_for(walls, system.n_rods * make_species(system.rod).area / scene.number("rods.area_fraction"));
+        arena_size_for(walls, system.n_rods * species_of(system.rod).area / scene.number("rods.area_fraction"));
     scene.check_derived("walls.size", {"rods.count", "rods.area_fraction"});
   } else if (!scene.given("walls.size")) {
     walls.size = system.box_side - room;
@@ -146,7 +146,7 @@ void resolve_numbers(Resolution& scene) {
 void check_box(Resolution& scene) {
   System& system = scene.plan.system;
   for (const RodGroup& group : rod_groups(system)) {
-    const Species species = make_species(group.rod);
+    const Species species = species_of(group.rod);
     const double least = least_box_side(std::span(&species, 1));
     if (scene.ok({"box.side", group.path("count"), group.path("area_fraction")}) &&
         system.box_side < least * (1.0 - 1e-9)) {

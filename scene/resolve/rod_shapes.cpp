@@ -15,7 +15,7 @@ namespace {
 
 /// Neighbouring beads leave no hole between them.
 bool touching(const RodShape& candidate) {
-  const Species species = make_species(candidate);
+  const Species species = species_of(candidate);
   for (int b = 0; b + 1 < species.n_beads(); ++b) {
     if (species.bead_radius[b] + species.bead_radius[b + 1] < species.pitch()) return false;
   }
