@@ -15,7 +15,7 @@
 #include "base/files.h"
 #include "run/effects.h"
 #include "run/files/done.h"
-#include "run/former_id.h"
+#include "run/files/former_id.h"
 #include "run/frame_publisher.h"
 #include "run/open_run.h"
 #include "run/saved_run.h"

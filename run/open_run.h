@@ -5,7 +5,7 @@
 #include <string>
 
 #include "run/cadence.h"
-#include "run/checkpoint_file.h"
+#include "run/files/checkpoint_file.h"
 #include "run/files/directory.h"
 #include "run/files/trajectory.h"
 #include "run/measurements.h"

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/files.h"
-#include "run/checkpoint_file.h"
+#include "run/files/checkpoint_file.h"
 #include "scene/load.h"
 
 namespace shaken::run {

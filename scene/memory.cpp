@@ -17,9 +17,9 @@ namespace shaken::scene {
 
 namespace {
 
-constexpr double kNumber = 8;      ///< bytes of a double or a count
-constexpr double kBlocks = 64;     ///< stretches of time that sums are kept for, at most (analysis/blocked.h)
-constexpr double kSeries = 65536;  ///< points of a series against time, at most (analysis/bounded_series.h)
+constexpr double kNumberBytes = 8;  ///< bytes of a double or a count
+constexpr double kBlocks = 64;      ///< stretches of time that sums are kept for, at most (analysis/blocked.h)
+constexpr double kSeries = 65536;   ///< points of a series against time, at most (analysis/bounded_series.h)
 /// Copies of all states while a checkpoint is made: the bytes of the measurements, gathered in an array that doubles
 /// when it is full (1 to 3 while it does), the bytes behind those of the simulation, and both as the file has them.
 constexpr double kCheckpointCopies = 4;
@@ -33,13 +33,13 @@ struct Sizes {
   double rods = 0;     ///< that are measured
 
   double in_blocks(double bytes) const { return std::min(kBlocks, samples) * bytes; }
-  double series(double columns) const { return std::min(kSeries, samples) * columns * kNumber; }
+  double series(double columns) const { return std::min(kSeries, samples) * columns * kNumberBytes; }
   /// Kept for lags to come: of each of 16 levels the last 8 of every 2^k-th sample (analysis/lag_average.h), and sums
   /// over so many quantities at 69 lags.
   double for_lags(double columns, double quantities) const {
     double kept = 0;
     for (int k = 0; k < 16; ++k) kept += std::min(8.0, std::ceil(samples / std::exp2(k)));
-    return kept * rods * columns * kNumber + in_blocks(69 * (2 + quantities) * kNumber);
+    return kept * rods * columns * kNumberBytes + in_blocks(69 * (2 + quantities) * kNumberBytes);
   }
 };
 
@@ -56,21 +56,21 @@ MeasureMemory of_defects(const Sizes& sizes) {
   const double found =
       std::min(system.box_side * system.box_side / (4 * std::numbers::pi * smoothing * smoothing), side * side);
   constexpr double kTrack = 1200;  // with its last 17 places
-  const double list = defects.list ? kGrowing * 6 * kNumber * found * sizes.samples : 0;
+  const double list = defects.list ? kGrowing * 6 * kNumberBytes * found * sizes.samples : 0;
   // Q, the density of rods and that of the nodes, each node's sum by rows and in all
-  return {"", sizes.series(3) + found * kTrack + list, 5 * kNumber * side * side};
+  return {"", sizes.series(3) + found * kTrack + list, 5 * kNumberBytes * side * side};
 }
 
 MeasureMemory of_velocity(const Sizes& sizes) {
   const MeasureVelocity& velocity = *sizes.plan.velocity;
   const double window = std::max(1.0, std::round(velocity.window / velocity.every));
-  return {"", sizes.for_lags(2, 4) + std::min(window, sizes.samples) * (sizes.rods * 2 * kNumber + 100), 0};
+  return {"", sizes.for_lags(2, 4) + std::min(window, sizes.samples) * (sizes.rods * 2 * kNumberBytes + 100), 0};
 }
 
 MeasureMemory of_rods(const Sizes& sizes) {
   const MeasureRods& rods = *sizes.plan.rods;
   const double kept = std::min(sizes.samples, std::floor(rods.duration / rods.every * (1 + 1e-12)) + 1);
-  return {"", kGrowing * kept * kNumber * (4 * std::min<double>(rods.count, sizes.rods) + 1), 0};
+  return {"", kGrowing * kept * kNumberBytes * (4 * std::min<double>(rods.count, sizes.rods) + 1), 0};
 }
 
 MeasureMemory of_pairs(const Sizes& sizes) {
@@ -78,12 +78,12 @@ MeasureMemory of_pairs(const Sizes& sizes) {
   const double side = sizes.plan.system.box_side;
   const double range = std::min(sizes.plan.pairs->range_for(sizes.plan.system.rod.length, side), side / 2);
   const double cut = side / 2 / (2 * range / bins);
-  return {"", sizes.in_blocks(2 * kNumber * (bins * bins + 2 * cut)), 0};
+  return {"", sizes.in_blocks(2 * kNumberBytes * (bins * bins + 2 * cut)), 0};
 }
 
 MeasureMemory of_layers(const Sizes& sizes) {
   const double waves = std::min(40.0, std::floor(2 * sizes.plan.system.box_side / sizes.plan.system.rod.length));
-  return {"", sizes.in_blocks(2 * kNumber * (half_plane(waves) + 2 * waves)), half_plane(waves) * kNumber};
+  return {"", sizes.in_blocks(2 * kNumberBytes * (half_plane(waves) + 2 * waves)), half_plane(waves) * kNumberBytes};
 }
 
 /// How an observable's memory follows from the plan, and what makes it smaller.
@@ -99,14 +99,14 @@ constexpr std::array kRows{
     Row{"order", [](const Sizes& s) -> MeasureMemory { return {"", s.series(3) + s.in_blocks(1000), s.series(24)}; },
         "a longer `every`"},
     Row{"angles", [](const Sizes& s) -> MeasureMemory {
-          return {"", s.in_blocks(kNumber * s.plan.angles->bins + 100), 0}; }, "fewer `bins`"},
+          return {"", s.in_blocks(kNumberBytes * s.plan.angles->bins + 100), 0}; }, "fewer `bins`"},
     Row{"tilt", [](const Sizes& s) -> MeasureMemory {
-          return {"", s.in_blocks(3 * kNumber * s.plan.tilt->bins + 200) + kNumber * s.rods, 0}; }, "fewer `bins`"},
+          return {"", s.in_blocks(3 * kNumberBytes * s.plan.tilt->bins + 200) + kNumberBytes * s.rods, 0}; }, "fewer `bins`"},
     Row{"defects", of_defects, "a coarser `grid`, or no `list`"},
     Row{"g2", [](const Sizes& s) -> MeasureMemory {
-          return {"", s.in_blocks(3 * kNumber * s.plan.g2->bins + 100), 0}; }, "fewer `bins`"},
+          return {"", s.in_blocks(3 * kNumberBytes * s.plan.g2->bins + 100), 0}; }, "fewer `bins`"},
     Row{"msd", [](const Sizes& s) -> MeasureMemory { return {"", s.for_lags(2, 6), 0}; }, "fewer rods"},
-    Row{"rotation", [](const Sizes& s) -> MeasureMemory { return {"", s.for_lags(1, 4) + 2 * kNumber * s.rods, 0}; },
+    Row{"rotation", [](const Sizes& s) -> MeasureMemory { return {"", s.for_lags(1, 4) + 2 * kNumberBytes * s.rods, 0}; },
         "fewer rods"},
     Row{"velocity", of_velocity, "a shorter `window`, or a longer `every`"},
     Row{"rods", of_rods, "a smaller `count`, a shorter `duration`, or a longer `every`"},
@@ -114,15 +114,15 @@ constexpr std::array kRows{
     Row{"fluctuations", [](const Sizes& s) -> MeasureMemory { return {"", s.in_blocks(1054 * 20), 0}; },
         "nothing but to leave it out"},
     // 84 waves in each sector that the director visits; a few of 36
-    Row{"frank", [](const Sizes& s) -> MeasureMemory { return {"", s.in_blocks(3 * 90 * kNumber), 0}; },
+    Row{"frank", [](const Sizes& s) -> MeasureMemory { return {"", s.in_blocks(3 * 90 * kNumberBytes), 0}; },
         "nothing but to leave it out"},
     Row{"pairs", of_pairs, "fewer `bins`"},
     Row{"layers", of_layers, "nothing but to leave it out"},
-    Row{"lattice", [](const Sizes& s) -> MeasureMemory { return {"", s.in_blocks(200), half_plane(128) * kNumber}; },
+    Row{"lattice", [](const Sizes& s) -> MeasureMemory { return {"", s.in_blocks(200), half_plane(128) * kNumberBytes}; },
         "nothing but to leave it out"},
     Row{"structure", [](const Sizes& s) -> MeasureMemory {
-          return {"", s.in_blocks(6 * kNumber * s.plan.structure->waves + 100),
-                  half_plane(s.plan.structure->waves) * kNumber}; }, "fewer `waves`"},
+          return {"", s.in_blocks(6 * kNumberBytes * s.plan.structure->waves + 100),
+                  half_plane(s.plan.structure->waves) * kNumberBytes}; }, "fewer `waves`"},
 };
 // clang-format on
 
@@ -141,7 +141,7 @@ std::vector<MeasureMemory> measure_memory(const RunPlan& plan) {
     const auto every = observable(row.name).period(plan);
     if (!every) continue;
     const double ticks = std::max(1.0, std::round(*every / plan.system.dt));
-    const double samples = std::floor(plan.total_time() / (ticks * plan.system.dt) * (1 + 1e-12)) + 1;
+    const double samples = std::floor(plan.longest_time() / (ticks * plan.system.dt) * (1 + 1e-12)) + 1;
     memory.push_back(row.bytes({plan, samples, static_cast<double>(plan.system.n_rods)}));
     memory.back().name = row.name;
   }

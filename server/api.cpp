@@ -270,7 +270,11 @@ Api::Answer Api::extend(const Call& call) const {
   const auto jobs = in_sweep(call) ? queue_.jobs(find_sweep(call.id).id) : std::vector{find_job(call.id)};
   std::vector<std::pair<std::string, std::string>> scenes;
   for (const Job& job : jobs) {
-    const auto longer = extended_scene(queue_.scene(job.id), settings);
+    const std::string present = queue_.scene(job.id);
+    if (const std::string why = refuse_scene(job.id, present); !why.empty()) {
+      throw Refusal(409, "job " + job.id + " cannot be extended: " + why);
+    }
+    const auto longer = extended_scene("job " + job.id, present, settings);
     if (!longer) return problems_answer(longer.error());
     scenes.emplace_back(job.id, *longer);
   }

@@ -8,6 +8,7 @@
 
 #include "base/clock.h"
 #include "run/files/directory.h"
+#include "server/queue_words.h"
 
 namespace shaken::server {
 namespace {
@@ -77,6 +78,16 @@ bool fits(const Job& job, const CleanRequest& request, std::int64_t now) {
   return has_ended(job.state) && is_old && std::count(request.states.begin(), request.states.end(), job.state) > 0;
 }
 
+/// Whether the run came to an end once, with results that were not cleaned since.
+bool was_done(const std::vector<Change>& history) {
+  bool done = false;
+  for (const Change& change : history) {
+    if (change.to == to_word(JobState::kDone)) done = true;
+    if (change.cause == kCleaned) done = false;
+  }
+  return done;
+}
+
 }  // namespace
 
 std::vector<std::string> run_ids(const fs::path& runs) {
@@ -103,10 +114,13 @@ std::vector<Cleaned> clean(Queue& queue, const fs::path& runs, const CleanReques
     Cleaned run{.id = id, .job = queue.job(id), .bytes = 0, .removed = false, .kept = {}};
     if (run.job ? !fits(*run.job, request, now) : request.older.count() > 0 && age_of(runs / id) < request.older)
       continue;
+    const bool takes_done = std::count(request.states.begin(), request.states.end(), JobState::kDone) > 0;
+    // it holds the results of when it was shorter, which an extension that came to nothing does not take along
+    if (run.job && !takes_done && was_done(queue.history(id))) continue;
     run.bytes = bytes_below(runs / id);
     if (!request.dry_run && (run.job || request.unknown)) {
       run.kept = remove_run(runs, id, [&]() -> std::string {
-        if (run.job) return queue.clean(id) ? "" : "it was asked for again a moment ago";
+        if (run.job) return queue.clean(id, run.job->state) ? "" : "it was asked for again a moment ago";
         return queue.job(id) ? "it was submitted a moment ago" : "";
       });
       run.removed = run.kept.empty();

@@ -107,7 +107,6 @@ const std::string kSelectCurrent =
 const std::string kSelectSweeps = "SELECT id, name, created_utime, at_most, stop_if, stopped FROM sweeps ";
 
 const std::string kAsked = "cancelled on request";
-const std::string kCleaned = "cleaned on request";
 const std::string kHeldOnRequest = "held on request";
 
 }  // namespace
@@ -171,9 +170,14 @@ Submitted Queue::submit(const std::string& name, int priority, std::span<const N
     } else {
       const Current known = *current(job.id);
       const bool is_longer = !is_withdrawn(known) && make_longer(known, job.scene, "in " + sweep_word(result.sweep));
-      if (is_withdrawn(known)) set_scene(job.id, job.scene);
+      if (is_withdrawn(known)) {
+        set_scene(job.id, job.scene);
+        // its worker may be about to end without having heard that it is to stop
+        database_.run("UPDATE jobs SET longer = 1 WHERE id = ?1 AND state = 'stopping'", job.id);
+      }
       const bool is_queued = ask_again(job, priority, result.sweep, terms);
-      if (is_longer) {
+      const bool stays_done = known.state == kDone && job.has_results.value_or(true);
+      if (is_longer && !stays_done) {
         ++result.n_extended;
       } else if (is_queued) {
         ++result.n_requeued;
@@ -273,7 +277,9 @@ void Queue::renew_ids(std::span<const std::pair<std::string, std::string>> ids) 
       database_.run("UPDATE jobs SET id = ?2 WHERE id = ?1", former, id);
       continue;
     }
-    if (make_longer(*same, scene_of(former), "as job " + former) && same->state == kDone) {
+    const auto former_job = current(former);
+    if (former_job && !is_withdrawn(*former_job) && make_longer(*same, scene_of(former), "as job " + former) &&
+        same->state == kDone) {
       change(*same, kQueued, "", "goes on from its end");
     }
     database_.run(
@@ -413,7 +419,8 @@ int Queue::cancel(const Target& target) {
   const std::lock_guard lock(mutex_);
   Transaction transaction(database_);
   int changed = 0;
-  for (const Current& job : unfinished(target)) {
+  for (const Current& listed : unfinished(target)) {
+    const Current job = *current(listed.id);  // the end of one may have held the next
     if (job.after_stop == to_word(kCancelled)) continue;
     if (job.state == kQueued || job.state == kHeld) {
       change(job, kCancelled, kAsked, kAsked);
@@ -528,6 +535,16 @@ void Queue::finish(const std::string& id, JobState state, const std::string& rea
   } else {
     change(*job, state, reason, reason.empty() ? "the worker is done" : reason);
   }
+  transaction.commit();
+  committed();
+}
+
+void Queue::end_queued(const std::string& id, JobState state, const std::string& reason) {
+  const std::lock_guard lock(mutex_);
+  const auto job = current(id);
+  if (!job || job->state != kQueued) return;
+  Transaction transaction(database_);
+  change(*job, state, reason, reason);
   transaction.commit();
   committed();
 }
@@ -682,12 +699,12 @@ void Queue::stop_all() {
   committed();
 }
 
-bool Queue::clean(const std::string& id) {
+bool Queue::clean(const std::string& id, JobState state) {
   const std::lock_guard lock(mutex_);
   const auto job = current(id);
-  if (!job || !has_ended(job->state)) return false;
+  if (!job || job->state != state || !has_ended(state)) return false;
   Transaction transaction(database_);
-  change(*job, kCancelled, kCleaned, kCleaned);
+  change(*job, kCancelled, std::string(kCleaned), std::string(kCleaned));
   transaction.commit();
   committed();
   return true;

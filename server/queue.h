@@ -120,9 +120,11 @@ class Queue {
   /// as which the worker would run it (not looked at if null).
   std::optional<int> begin(const std::string& id, const std::string* scene = nullptr);
   void set_pid(const std::string& id, int pid);
-  /// running or stopping -> done or failed; queued -> failed or timed out, of what cannot even be started. One that is
-  /// done, but has been asked to go on longer meanwhile, is queued again.
+  /// running or stopping -> done or failed. One that is done, but has been asked to go on longer meanwhile, is queued
+  /// again.
   void finish(const std::string& id, JobState state, const std::string& reason);
+  /// queued -> failed or timed out, of what is not to be started; nothing if the job is not queued any more.
+  void end_queued(const std::string& id, JobState state, const std::string& reason);
   /// The worker has stopped before the end: running -> queued; stopping -> cancelled, held, timed out or queued, as was
   /// asked.
   void stopped(const std::string& id, const std::string& cause);
@@ -146,8 +148,9 @@ class Queue {
   /// running -> stopping, and then queued: the daemon ends.
   void stop_all();
 
-  /// The results of an ended job are about to be removed: it becomes cancelled. False if it has not ended.
-  bool clean(const std::string& id);
+  /// The results of an ended job are about to be removed: it becomes cancelled. False if it is no longer in
+  /// `state`, or that is not an end.
+  bool clean(const std::string& id, JobState state);
 
   /// Mean wall seconds of the done jobs of a sweep, all attempts of each together; none if none is done.
   std::optional<double> mean_duration(std::int64_t sweep) const;

@@ -11,4 +11,7 @@ inline constexpr std::string_view kForRoom = "room";
 inline constexpr std::string_view kForOthers = "others";
 inline constexpr std::string_view kByRule = "rule";
 
+/// Why a job whose results were removed is cancelled.
+inline constexpr std::string_view kCleaned = "cleaned on request";
+
 }  // namespace shaken::server

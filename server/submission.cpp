@@ -155,6 +155,7 @@ std::vector<std::string> parse_extension(std::string_view body) {
   for (const auto& [key, path] : kPaths) known.push_back(key);
   std::vector<std::string> settings;
   const json object = parse_object(body, known);
+  settings.reserve(object.size());
   for (const auto& [key, value] : object.items()) {
     if (!value.is_string() && !value.is_number()) {
       throw std::invalid_argument("\"" + key + "\" must be a number or a text with a unit");
@@ -165,8 +166,9 @@ std::vector<std::string> parse_extension(std::string_view body) {
   return settings;
 }
 
-scene::Loaded<std::string> extended_scene(const std::string& scene, const std::vector<std::string>& settings) {
-  const auto plan = scene::load_scene(scene, "the scene", settings);
+scene::Loaded<std::string> extended_scene(const std::string& name, const std::string& scene,
+                                          const std::vector<std::string>& settings) {
+  const auto plan = scene::load_scene(scene, name, settings);
   if (!plan) return plan.error();
   return scene::to_json(*plan).dump(2) + "\n";
 }

@@ -50,8 +50,9 @@ int parse_priority(std::string_view body);
 /// may be left out, but not all. Throws std::invalid_argument as above.
 std::vector<std::string> parse_extension(std::string_view body);
 
-/// A canonical scene with such settings, as canonical text, or all that is wrong with it.
-scene::Loaded<std::string> extended_scene(const std::string& scene, const std::vector<std::string>& settings);
+/// A canonical scene with such settings; `name`, for messages; as canonical text, or all that is wrong with it.
+scene::Loaded<std::string> extended_scene(const std::string& name, const std::string& scene,
+                                          const std::vector<std::string>& settings);
 
 /// The sweep that a request asks for, or all that is wrong with its text.
 /// `runs`: folder of the run directories, where it is looked whether results are still there.

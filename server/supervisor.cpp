@@ -145,6 +145,9 @@ void Supervisor::count_wall_of_all() {
 
 void Supervisor::mind_limits() {
   const auto now = Clock::now();
+  // else nothing would be started in the place of one that gives way
+  const bool place_is_short = static_cast<int>(workers_.size()) >= options_.slots && now >= start_after_ &&
+                              free_bytes(options_.runs) >= options_.least_room;
   for (const Job& job : queue_.jobs(std::nullopt, JobState::kRunning)) {
     const auto entry = workers_.find(job.id);
     if (entry == workers_.end() || entry->second.job_end) continue;
@@ -153,7 +156,8 @@ void Supervisor::mind_limits() {
     if (job.time_limit != kNone && job.wall + (now - worker.counted) >= job.time_limit) {
       spdlog::info("job {}: its time limit is over", job.id);
       queue_.time_out(job.id);
-    } else if (job.soft_limit != kNone && now - worker.started >= job.soft_limit && queue_.give_way(job.id)) {
+    } else if (job.soft_limit != kNone && place_is_short && now - worker.started >= job.soft_limit &&
+               queue_.give_way(job.id)) {
       spdlog::info("job {}: its soft limit is over, it gives way to others", job.id);
     }
   }
@@ -200,7 +204,7 @@ void Supervisor::start_queued() {
 
 bool Supervisor::start(const Job& job) {
   if (job.time_limit.count() > 0 && job.wall >= job.time_limit) {
-    queue_.finish(job.id, JobState::kTimedOut, time_limit_over(job.time_limit));
+    queue_.end_queued(job.id, JobState::kTimedOut, time_limit_over(job.time_limit));
     return false;
   }
   const run::RunDirectory directory{options_.runs / job.id};
@@ -213,7 +217,7 @@ bool Supervisor::start(const Job& job) {
   const std::string scene = queue_.scene(job.id);
   if (const std::string why = options_.refuse ? options_.refuse(job.id, scene) : ""; !why.empty()) {
     spdlog::error("job {}: {}", job.id, printable(why));
-    queue_.finish(job.id, JobState::kFailed, why);
+    queue_.end_queued(job.id, JobState::kFailed, why);
     return false;
   }
   {

@@ -123,6 +123,17 @@ TEST_F(CrashPoints, KilledAgainAfterARestartNothingStartsFromTheBeginning) { eve
 
 TEST_F(CrashPoints, KilledInTheMiddleOfAWriteToo) { everywhere("half", killed_midway()); }
 
+TEST_F(CrashPoints, AnExtensionKilledAnywhereGoesOnToTheEndOfTheLongRun) {
+  std::string scene = kScene;
+  scene.replace(scene.find("120 ms"), 6, "60 ms");
+  const fs::path short_scene = folder_.path() / "short.json", begin = folder_.path() / "short";
+  std::ofstream(short_scene) << scene;
+  const Finished done = work(short_scene, begin);
+  ASSERT_EQ(done.code, 0) << done.output;
+  ASSERT_NE(difference(undisturbed_, begin), "");
+  everywhere("kill", begin);
+}
+
 /// SIGKILL from outside, at random moments of the clock: 200 times, or as often as SHAKEN_KILL_CYCLES says.
 TEST_F(CrashPoints, KilledAtRandomItGoesOnToTheSameEnd) {
   const char* given = std::getenv("SHAKEN_KILL_CYCLES");

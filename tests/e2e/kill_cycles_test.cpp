@@ -93,7 +93,7 @@ std::vector<std::string> processes_of(const fs::path& root) {
 
 void wait_until(const std::function<bool()>& condition, seconds limit) {
   const auto end = std::chrono::steady_clock::now() + limit;
-  while (!condition() && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(milliseconds(20));
+  while (!condition() && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(milliseconds(300));
 }
 
 TEST(KillCycles, WhatTheDaemonHasAcknowledgedIsDoneOnce) {
@@ -141,7 +141,7 @@ TEST(KillCycles, WhatTheDaemonHasAcknowledgedIsDoneOnce) {
         jobs = daemon.get("/v1/jobs").at("jobs");
         return std::all_of(jobs.begin(), jobs.end(), [](const Json& job) { return job.at("state") == "done"; });
       },
-      seconds(240));
+      seconds(240 + n_cycles));
   std::set<std::string> known;
   for (const Json& job : jobs) {
     const std::string id = job.at("id").get<std::string>();

@@ -14,7 +14,7 @@
 #include "base/files.h"
 #include "proto/bus.h"
 #include "proto/frame_codec.h"
-#include "run/checkpoint_file.h"
+#include "run/files/checkpoint_file.h"
 #include "run/files/done.h"
 #include "run/files/observables_file.h"
 #include "run/files/trajectory.h"

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "run/files/checkpoint_file.h"
+#include "run/files/done.h"
 #include "scene/canonical.h"
 #include "scene/load.h"
 #include "server/sqlite.h"
@@ -83,6 +85,32 @@ TEST_F(FormerIdsTest, RunsThatDifferInTheirLengthBecomeTheLongestThatIsDone) {
   EXPECT_EQ(scene::load_scene(queue.scene(id), "f")->measure_time, 8);
   EXPECT_EQ(read_text(runs() / id / "seconds"), "4");
   EXPECT_EQ(read_text(runs() / scene::scene_hash(plan_of(40, 2)) / "seconds"), "2") << "nothing is lost";
+}
+
+TEST_F(FormerIdsTest, WhatIsWithdrawnHasNoSay) {
+  fill({{plan_of(40, 100), false}, {plan_of(40, 10), false}, {plan_of(50, 100), false}, {plan_of(50, 10), true}});
+  Queue queue(directory_ / "queue.db");
+  queue.cancel(scene::scene_hash(plan_of(40, 100)));
+  queue.cancel(scene::scene_hash(plan_of(50, 100)));
+  renew_ids(queue, runs());
+  const std::string waiting = scene::run_id(plan_of(40, 10)), done = scene::run_id(plan_of(50, 10));
+  EXPECT_EQ(queue.job(waiting)->state, kQueued);
+  EXPECT_EQ(scene::load_scene(queue.scene(waiting), "f")->measure_time, 10);
+  EXPECT_EQ(queue.job(done)->state, kDone) << "nobody waits for 100 s";
+}
+
+TEST_F(FormerIdsTest, FilesOfTheFolderGetTheIdToo) {
+  const auto plan = plan_of(40, 2);
+  fill({{plan, true}});
+  const std::string former = scene::scene_hash(plan), id = scene::run_id(plan);
+  const run::RunDirectory folder{runs() / former};
+  write_text(folder.scene(), scene::to_json(plan).dump());
+  write_text(folder.summary(), R"({"run_id": ")" + former + R"(", "exit": {"state": "done", "tick": 1000000000}})");
+  ASSERT_TRUE(run::write_checkpoint(folder, former, {{std::byte{1}}, {std::byte{2}}, 3, 4}));
+  Queue queue(directory_ / "queue.db");
+  renew_ids(queue, runs());
+  EXPECT_TRUE(run::is_done(run::RunDirectory{runs() / id}, plan));
+  EXPECT_TRUE(run::read_checkpoint(run::RunDirectory{runs() / id}.checkpoint(), id));
 }
 
 TEST_F(FormerIdsTest, AfterACrashBetweenFoldersAndQueueItGoesOn) {

@@ -312,7 +312,7 @@ void apply(Operation operation, char digit, int priority, std::unique_ptr<Queue>
       return;
     case Operation::kClean: {
       const bool has_ended = known && (model.jobs_[digit].state == kDone || has_no_result(model.jobs_[digit].state));
-      RC_ASSERT(queue->clean(id) == has_ended);
+      RC_ASSERT(queue->clean(id, known ? model.jobs_[digit].state : kDone) == has_ended);
       if (has_ended) model.become(digit, kCancelled);
       return;
     }

@@ -348,6 +348,25 @@ TEST_F(QueueTest, ACancelledJobIsDoneAgainForAsLongAsItIsAskedForThen) {
   EXPECT_EQ(seconds_asked(queue_, job.id), 5);
 }
 
+TEST_F(QueueTest, ALongerSubmissionReachesAWorkerThatIsBeingCancelledAndEndsAllTheSame) {
+  const NewJob job = job_of("10");
+  queue_.submit("s", 0, std::vector{job});
+  queue_.begin(job.id);
+  queue_.cancel(job.id);
+  queue_.submit("s", 0, std::vector{job_of("20")});
+  queue_.finish(job.id, kDone, "");
+  EXPECT_EQ(queue_.job(job.id)->state, kQueued) << "10 s are done, 20 s are asked for";
+}
+
+TEST_F(QueueTest, OnlyAQueuedJobIsEndedWithoutAnAttempt) {
+  queue_.submit("s", 0, std::vector{new_job('a'), new_job('b')});
+  queue_.hold(b_);
+  queue_.end_queued(a_, kFailed, "refused");
+  queue_.end_queued(b_, kFailed, "refused");
+  EXPECT_EQ(state('a'), kFailed);
+  EXPECT_EQ(state('b'), kHeld) << "since it was listed, it was held";
+}
+
 TEST_F(QueueTest, ExtendingAFailedJobLeavesItFailed) {
   const NewJob job = job_of("2");
   queue_.submit("s", 0, std::vector{job});

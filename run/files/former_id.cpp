@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "run/former_id.h"
+#include "run/files/former_id.h"
 
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
-#include "run/checkpoint_file.h"
+#include "run/files/checkpoint_file.h"
 #include "scene/canonical.h"
 
 namespace shaken::run {

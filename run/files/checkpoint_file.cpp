@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "run/checkpoint_file.h"
+#include "run/files/checkpoint_file.h"
 
 #include <xxhash.h>
 
