@@ -152,6 +152,7 @@ std::vector<std::string> parse_extension(std::string_view body) {
   static const std::map<std::string, std::string> kPaths{
       {"measure", "time.measure"}, {"order_sem", "until.order_sem"}, {"at_most", "until.at_most"}};
   std::vector<std::string> known;
+  known.reserve(kPaths.size());
   for (const auto& [key, path] : kPaths) known.push_back(key);
   std::vector<std::string> settings;
   const json object = parse_object(body, known);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "run/files/checkpoint_file.h"
 
-#include <xxhash.h>
-
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
@@ -11,21 +9,14 @@
 #include <string_view>
 
 #include "base/files.h"
+#include "run/files/hashed_bytes.h"
 #include "sim/core/state_io.h"
 
 namespace shaken::run {
 namespace {
 
-constexpr std::string_view kMagic = "SHKNCKPT";
-constexpr std::uint32_t kVersion = 1;
-
-std::span<const std::byte> bytes_of(std::string_view text) { return std::as_bytes(std::span(text)); }
-
-std::string_view text_of(std::span<const std::byte> bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-std::uint64_t hash_of(std::span<const std::byte> bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
+constexpr std::string_view kCheckpointMagic = "SHKNCKPT";
+constexpr std::uint32_t kCheckpointVersion = 1;
 
 std::vector<std::byte> copy_of(std::span<const std::byte> bytes) { return {bytes.begin(), bytes.end()}; }
 
@@ -38,8 +29,8 @@ std::string as_bytes(const std::string& run_id, const Checkpoint& checkpoint) {
   payload.put(checkpoint.simulation);
   payload.put(checkpoint.measurements);
   StateWriter content;
-  content.append(bytes_of(kMagic));
-  content.put(kVersion);
+  content.append(bytes_of(kCheckpointMagic));
+  content.put(kCheckpointVersion);
   content.put(static_cast<std::uint32_t>(run_id.size()));
   content.append(bytes_of(run_id));
   content.put(payload.bytes());
@@ -63,7 +54,7 @@ Result<Checkpoint> read_checkpoint(const std::filesystem::path& file, const std:
   const auto refuse = [&](const std::string& why) { return Error{file.string() + " " + why}; };
 
   constexpr std::size_t kHashBytes = sizeof(std::uint64_t);
-  if (!content->starts_with(kMagic) || content->size() < kMagic.size() + kHashBytes) {
+  if (!content->starts_with(kCheckpointMagic) || content->size() < kCheckpointMagic.size() + kHashBytes) {
     return refuse("is not a checkpoint");
   }
   try {
@@ -73,10 +64,10 @@ Result<Checkpoint> read_checkpoint(const std::filesystem::path& file, const std:
     whole.get(stored_hash);
     if (stored_hash != hash_of(hashed)) return refuse("is damaged");
 
-    StateReader parts(hashed.subspan(kMagic.size()));
+    StateReader parts(hashed.subspan(kCheckpointMagic.size()));
     std::uint32_t version = 0;
     parts.get(version);
-    if (version != kVersion)
+    if (version != kCheckpointVersion)
       return refuse("is of version " + std::to_string(version) + ", which this program cannot read");
     std::uint32_t owner_size = 0;
     parts.get(owner_size);

@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <unistd.h>
-#include <xxhash.h>
 
 #include <cerrno>
 #include <cstring>
@@ -13,6 +12,7 @@
 #include <utility>
 
 #include "base/files.h"
+#include "run/files/hashed_bytes.h"
 #include "sim/core/state_io.h"
 
 namespace shaken::run {
@@ -20,21 +20,13 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::string_view kMagic = "SHKNFRAM";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::string_view kFramesMagic = "SHKNFRAM";
+constexpr std::uint32_t kFramesVersion = 1;
 constexpr std::size_t kHashBytes = sizeof(std::uint64_t);
 /// Of magic, version and length.
-constexpr std::size_t kPrefixBytes = kMagic.size() + 2 * sizeof(std::uint32_t);
+constexpr std::size_t kPrefixBytes = kFramesMagic.size() + 2 * sizeof(std::uint32_t);
 /// Of a header: one byte a rod and a scene; more is no header of ours.
 constexpr std::uint32_t kMostHeaderBytes = 1U << 28;
-
-std::uint64_t hash_of(std::span<const std::byte> bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
-
-std::string_view text_of(std::span<const std::byte> bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-std::span<const std::byte> bytes_of(std::string_view text) { return std::as_bytes(std::span(text)); }
 
 template <class Value>
 void append(StateWriter& writer, const std::vector<Value>& values) {
@@ -169,12 +161,12 @@ class LoggedFrames final : public RecordedFrames {
     if (!file) return system_error("cannot open " + path.string());
     const Result<std::string> prefix = read_at(file.value(), 0, kPrefixBytes);
     if (!prefix) return Error{path.string() + ": " + prefix.error().message};
-    if (prefix->size() < kPrefixBytes || !prefix->starts_with(kMagic)) return refuse("holds no recorded frames");
-    StateReader numbers(bytes_of(*prefix).subspan(kMagic.size()));
+    if (prefix->size() < kPrefixBytes || !prefix->starts_with(kFramesMagic)) return refuse("holds no recorded frames");
+    StateReader numbers(bytes_of(*prefix).subspan(kFramesMagic.size()));
     std::uint32_t version = 0, length = 0;
     numbers.get(version);
     numbers.get(length);
-    if (version != kVersion) {
+    if (version != kFramesVersion) {
       return refuse("is of version " + std::to_string(version) + ", which this program cannot read");
     }
     if (length > kMostHeaderBytes) return refuse("is damaged");
@@ -246,8 +238,8 @@ FrameLog::FrameLog(std::filesystem::path path, Descriptor file, std::size_t begi
 Result<FrameLog> FrameLog::create(const std::filesystem::path& file, const TrajectoryHeader& header) {
   const std::string text = json_of(header).dump(-1, ' ', false, Json::error_handler_t::replace);
   StateWriter content;
-  content.append(bytes_of(kMagic));
-  content.put(kVersion);
+  content.append(bytes_of(kFramesMagic));
+  content.put(kFramesVersion);
   content.put(static_cast<std::uint32_t>(text.size()));
   content.append(bytes_of(text));
   content.put(hash_of(bytes_of(text)));
@@ -304,8 +296,8 @@ Result<std::unique_ptr<RecordedFrames>> open_frame_log(const std::filesystem::pa
 bool is_frame_log(const std::filesystem::path& file) {
   const Descriptor opened(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
   if (!opened) return false;
-  const Result<std::string> begin = read_at(opened.value(), 0, kMagic.size());
-  return begin && *begin == kMagic;
+  const Result<std::string> begin = read_at(opened.value(), 0, kFramesMagic.size());
+  return begin && *begin == kFramesMagic;
 }
 
 }  // namespace shaken::run
