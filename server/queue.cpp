@@ -169,15 +169,16 @@ Submitted Queue::submit(const std::string& name, int priority, std::span<const N
       ++(job.has_results.value_or(false) ? result.n_found : result.n_new);
     } else {
       const Current known = *current(job.id);
-      const bool is_longer = !is_withdrawn(known) && make_longer(known, job.scene, "in " + sweep_word(result.sweep));
+      const bool is_done = known.state == kDone && job.has_results.value_or(true);
+      const bool is_longer =
+          !is_done && !is_withdrawn(known) && make_longer(known, job.scene, "in " + sweep_word(result.sweep));
       if (is_withdrawn(known)) {
         set_scene(job.id, job.scene);
         // its worker may be about to end without having heard that it is to stop
         database_.run("UPDATE jobs SET longer = 1 WHERE id = ?1 AND state = 'stopping'", job.id);
       }
       const bool is_queued = ask_again(job, priority, result.sweep, terms);
-      const bool stays_done = known.state == kDone && job.has_results.value_or(true);
-      if (is_longer && !stays_done) {
+      if (is_longer) {
         ++result.n_extended;
       } else if (is_queued) {
         ++result.n_requeued;
