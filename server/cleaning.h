@@ -33,7 +33,8 @@ struct Cleaned {
 };
 
 /// Lists run directories below `runs`, and removes them unless that is only a dry run. Removed are folders whose name
-/// is an id and that nobody has locked; links are neither followed nor removed. A job whose directory goes becomes
+/// is an id and that nobody has locked; links are neither followed nor removed. A run that was done before it was
+/// extended stays, however that ended, unless `states` has done as well. A job whose directory goes becomes
 /// cancelled first, "cleaned on request": submitted again, it is done anew.
 std::vector<Cleaned> clean(Queue& queue, const std::filesystem::path& runs, const CleanRequest& request);
 

@@ -2,7 +2,8 @@
 #include <fmt/format.h>
 
 #include "run/export/frame_format.h"
-#include "run/export/rod_kinds.h"
+#include "run/export/species_beads.h"
+#include "run/export/xyz_comment.h"
 #include "run/files/quaternion.h"
 
 namespace shaken::run {
@@ -13,9 +14,9 @@ constexpr const char* kBeadColumns = "species:S:1:pos:R:3:radius:R:1:molecule:I:
 class BeadsXyz final : public FrameFormat {
  public:
   explicit BeadsXyz(const TrajectoryHeader& header)
-      : header_(header), comment_(header, kBeadColumns), kinds_(kinds_of(header)) {
+      : header_(header), comment_(header, kBeadColumns), species_(beads_of_species(header)) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(header_.n_rods); ++i) {
-      n_beads_ += kinds_[kind_of(header_, i)].radius.size();
+      n_beads_ += species_[species_of_rod(header_, i)].radius.size();
     }
   }
 
@@ -26,14 +27,14 @@ class BeadsXyz final : public FrameFormat {
     const auto out = fmt::appender(text_);
     fmt::format_to(out, "{}\n{}\n", n_beads_, comment_.of(frame));
     for (std::size_t i = 0; i < static_cast<std::size_t>(header_.n_rods); ++i) {
-      const std::size_t kind = kind_of(header_, i);
-      const BeadRow& beads = kinds_[kind];
+      const std::size_t species = species_of_rod(header_, i);
+      const BeadRow& beads = species_[species];
       const float* q = &frame.orientation[4 * i];
       const Vec3 n = director_of_quaternion({q[0], q[1], q[2], q[3]});
       const Vec3 centre(frame.position[3 * i], frame.position[3 * i + 1], frame.position[3 * i + 2]);
       for (std::size_t b = 0; b < beads.radius.size(); ++b) {
         const Eigen::Vector3f x = (centre + beads.offset[b] * n).cast<float>();
-        fmt::format_to(out, "{}{} {} {} {} {} {}\n", letter_of(kind), b + 1, x.x(), x.y(), x.z(),
+        fmt::format_to(out, "{}{} {} {} {} {} {}\n", letter_of(species), b + 1, x.x(), x.y(), x.z(),
                        static_cast<float>(beads.radius[b]), i);
       }
     }
@@ -43,7 +44,7 @@ class BeadsXyz final : public FrameFormat {
  private:
   TrajectoryHeader header_;
   XyzComment comment_;
-  std::vector<BeadRow> kinds_;
+  std::vector<BeadRow> species_;
   std::size_t n_beads_ = 0;  ///< of all rods
   fmt::memory_buffer text_;  ///< of one frame
 };

@@ -5,13 +5,14 @@
 #include <cmath>
 
 #include "run/export/frame_format.h"
-#include "run/export/rod_kinds.h"
+#include "run/export/species_beads.h"
+#include "run/export/xyz_comment.h"
 #include "run/files/quaternion.h"
 
 namespace shaken::run {
 namespace {
 
-/// The kind of a rod stands first, where readers of plain XYZ look for an element, and as a number: ASE takes a word
+/// The species of a rod stands first, where readers of plain XYZ look for an element, and as a number: ASE takes a word
 /// for the symbol of one, and refuses those it does not know.
 constexpr const char* kRodColumns =
     "type:I:1:pos:R:3:id:I:1:orientation:R:4:aspherical_shape:R:3:map_shift:I:3:velo:R:3:director:R:3";
@@ -34,7 +35,7 @@ SemiAxes semi_axes(const BeadRow& beads) {
 class ExtendedXyz final : public FrameFormat {
  public:
   explicit ExtendedXyz(const TrajectoryHeader& header) : header_(header), comment_(header, kRodColumns) {
-    for (const BeadRow& beads : kinds_of(header_)) axes_.push_back(semi_axes(beads));
+    for (const BeadRow& beads : beads_of_species(header_)) axes_.push_back(semi_axes(beads));
   }
 
   Result<void> begin(const Sink&) override { return {}; }
@@ -49,11 +50,11 @@ class ExtendedXyz final : public FrameFormat {
       const float* q = &frame.orientation[4 * i];
       const float* v = &frame.velocity[3 * i];
       const std::int32_t* crossed = &frame.image[3 * i];
-      const std::size_t kind = kind_of(header_, i);
+      const std::size_t species = species_of_rod(header_, i);
       const Eigen::Vector3f n = director_of_quaternion({q[0], q[1], q[2], q[3]}).cast<float>();
-      fmt::format_to(out, "{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}\n", kind + 1, x[0], x[1],
-                     x[2], i, q[1], q[2], q[3], q[0], axes_[kind].across, axes_[kind].across, axes_[kind].along,
-                     crossed[0], crossed[1], crossed[2], v[0], v[1], v[2], n.x(), n.y(), n.z());
+      fmt::format_to(out, "{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}\n", species + 1, x[0], x[1],
+                     x[2], i, q[1], q[2], q[3], q[0], axes_[species].across, axes_[species].across,
+                     axes_[species].along, crossed[0], crossed[1], crossed[2], v[0], v[1], v[2], n.x(), n.y(), n.z());
     }
     return sink({text_.data(), text_.size()});
   }
@@ -61,7 +62,7 @@ class ExtendedXyz final : public FrameFormat {
  private:
   TrajectoryHeader header_;
   XyzComment comment_;
-  std::vector<SemiAxes> axes_;  ///< of each kind
+  std::vector<SemiAxes> axes_;  ///< of each species
   fmt::memory_buffer text_;     ///< of one frame
 };
 

@@ -27,17 +27,17 @@ class FrameFormat {
 };
 
 /// Extended XYZ with one line a rod, which OVITO and ASE open: Lattice, Properties, Time and Step in the comment line;
-/// of each rod its kind (from 1), centre, index, orientation (x, y, z, w), the semi-axes of an ellipsoid as long and as
-/// wide as the rod, how often it left the box, velocity and director. docs/files.md lists the columns.
+/// of each rod its species (from 1), centre, index, orientation (x, y, z, w), the semi-axes of an ellipsoid as long and
+/// as wide as the rod, how often it left the box, velocity and director. docs/files.md lists the columns.
 std::unique_ptr<FrameFormat> make_extended_xyz(const TrajectoryHeader& header);
 
 /// XYZ with one line a bead, which VMD, MDAnalysis and OVITO open: name, centre, radius and index of the rod. The name
-/// is the letter of the rod's kind and the number of the bead from the tail (A1, A2 ...), so a name has one radius. The
-/// beads of a rod stay together where it lies across the border of the box.
+/// is the letter of the rod's species and the number of the bead from the tail (A1, A2 ...), so a name has one radius.
+/// The beads of a rod stay together where it lies across the border of the box.
 std::unique_ptr<FrameFormat> make_beads_xyz(const TrajectoryHeader& header);
 
 /// GSD 2 with the schema "hoomd" 1.4, `n_frames` of them: centres, from the middle of the box, orientations
-/// (w, x, y, z), velocities, images, and each kind of rod as the union of its beads.
+/// (w, x, y, z), velocities, images, and each species as the union of its beads.
 /// Source: the file layer and the schema of https://gsd.readthedocs.io.
 std::unique_ptr<FrameFormat> make_gsd(const TrajectoryHeader& header, std::size_t n_frames);
 

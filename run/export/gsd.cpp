@@ -13,7 +13,8 @@
 #include <span>
 
 #include "run/export/frame_format.h"
-#include "run/export/rod_kinds.h"
+#include "run/export/species_beads.h"
+#include "run/export/xyz_comment.h"
 #include "run/files/version.h"
 #include "sim/core/check.h"
 #include "sim/core/state_io.h"
@@ -68,7 +69,7 @@ std::string text_rows(const std::vector<std::string>& lines) {
   return rows;
 }
 
-/// What OVITO draws for a kind of rod: its beads along z, which the orientation turns into the rod's axis.
+/// What OVITO draws for a species: its beads along z, which the orientation turns into the rod's axis.
 std::string shape_of(const BeadRow& beads) {
   auto shape = nlohmann::json{{"type", "SphereUnion"}, {"diameters", nlohmann::json::array()}};
   shape["centers"] = nlohmann::json::array();
@@ -107,23 +108,25 @@ class Gsd final : public FrameFormat {
  public:
   Gsd(const TrajectoryHeader& header, std::size_t n_frames)
       : header_(header), height_(swept_height(header)), n_frames_(n_frames) {
-    const std::vector<BeadRow> kinds = kinds_of(header);
+    const std::vector<BeadRow> species = beads_of_species(header);
     std::vector<std::string> names;
     std::vector<std::string> shapes;
-    for (std::size_t k = 0; k < kinds.size(); ++k) {
+    for (std::size_t k = 0; k < species.size(); ++k) {
       names.push_back(letter_of(k));
-      shapes.push_back(shape_of(kinds[k]));
+      shapes.push_back(shape_of(species[k]));
     }
     types_ = text_rows(names);
     shapes_ = text_rows(shapes);
     const auto n_rods = static_cast<std::uint64_t>(header.n_rods);
-    const auto width = [&](const std::string& rows) { return static_cast<std::uint32_t>(rows.size() / kinds.size()); };
+    const auto width = [&](const std::string& rows) {
+      return static_cast<std::uint32_t>(rows.size() / species.size());
+    };
     chunks_ = {{"configuration/step", Number::kUint64, 1, 1, false},
                {"configuration/box", Number::kFloat, 6, 1, true},
                {"particles/N", Number::kUint32, 1, 1, true},
-               {"particles/types", Number::kInt8, kinds.size(), width(types_), true},
+               {"particles/types", Number::kInt8, species.size(), width(types_), true},
                {"particles/typeid", Number::kUint32, n_rods, 1, true},
-               {"particles/type_shapes", Number::kInt8, kinds.size(), width(shapes_), true},
+               {"particles/type_shapes", Number::kInt8, species.size(), width(shapes_), true},
                {"particles/position", Number::kFloat, n_rods, 3, false},
                {"particles/orientation", Number::kFloat, n_rods, 4, false},
                {"particles/velocity", Number::kFloat, n_rods, 3, false},
@@ -203,7 +206,7 @@ class Gsd final : public FrameFormat {
     bytes.put(static_cast<std::uint32_t>(header_.n_rods));
     append_text(bytes, types_);
     for (std::size_t i = 0; i < static_cast<std::size_t>(header_.n_rods); ++i) {
-      bytes.put(static_cast<std::uint32_t>(kind_of(header_, i)));
+      bytes.put(static_cast<std::uint32_t>(species_of_rod(header_, i)));
     }
     append_text(bytes, shapes_);
   }

@@ -21,7 +21,7 @@ namespace {
 using ::testing::HasSubstr;
 
 /// A rod of three beads and one of two, which has no middle.
-TrajectoryHeader two_kinds() {
+TrajectoryHeader two_species() {
   TrajectoryHeader header{2, 10, 1.5, 0.25, {-1, 0, 1}, {0.25, 0.5, 0.25}, R"({"plates": {"amplitude": 0.25}})"};
   header.added_beads = {{{-0.5, 0.75}, {0.5, 0.25}}};
   header.species_of_rod = {0, 1};
@@ -50,7 +50,7 @@ std::string text_of(FrameFormat& format, const std::vector<RecordedFrame>& frame
 constexpr const char* kBox = R"(Lattice="10 0 0 0 10 0 0 0 2" Properties=)";
 
 TEST(ExtendedXyz, HasOneLineForEachRod) {
-  EXPECT_EQ(text_of(*make_extended_xyz(two_kinds()), {frame_of_two()}),
+  EXPECT_EQ(text_of(*make_extended_xyz(two_species()), {frame_of_two()}),
             std::string("2\n") + kBox +
                 "type:I:1:pos:R:3:id:I:1:orientation:R:4:aspherical_shape:R:3:map_shift:I:3:velo:R:3:director:R:3 "
                 "pbc=\"T T F\" Time=2 Step=8 units=\"mm s\" source=\"Shaken run 0123456789abcdef seed 7\"\n"
@@ -59,7 +59,7 @@ TEST(ExtendedXyz, HasOneLineForEachRod) {
 }
 
 TEST(BeadsXyz, HasOneLineForEachBead) {
-  EXPECT_EQ(text_of(*make_beads_xyz(two_kinds()), {frame_of_two()}),
+  EXPECT_EQ(text_of(*make_beads_xyz(two_species()), {frame_of_two()}),
             std::string("5\n") + kBox +
                 "species:S:1:pos:R:3:radius:R:1:molecule:I:1 "
                 "pbc=\"T T F\" Time=2 Step=8 units=\"mm s\" source=\"Shaken run 0123456789abcdef seed 7\"\n"
@@ -77,15 +77,15 @@ TEST(Xyz, FramesFollowEachOther) {
     return frame;
   };
   for (const auto make : {make_extended_xyz, make_beads_xyz}) {
-    const std::string both = text_of(*make(two_kinds()), {frame_of_two(), later(frame_of_two())});
+    const std::string both = text_of(*make(two_species()), {frame_of_two(), later(frame_of_two())});
     EXPECT_EQ(both,
-              text_of(*make(two_kinds()), {frame_of_two()}) + text_of(*make(two_kinds()), {later(frame_of_two())}));
+              text_of(*make(two_species()), {frame_of_two()}) + text_of(*make(two_species()), {later(frame_of_two())}));
     EXPECT_THAT(both, HasSubstr(" Time=3 Step=12 "));
   }
 }
 
 TEST(Xyz, WallsAreNamedAndNothingIsPeriodicWithinThem) {
-  TrajectoryHeader header = two_kinds();
+  TrajectoryHeader header = two_species();
   header.provenance = {};
   header.walls = SideWalls{.arena = Arena::kAnnulus, .size = 8, .inner = 2.5};
   for (const auto make : {make_extended_xyz, make_beads_xyz}) {
@@ -98,14 +98,14 @@ TEST(Xyz, WallsAreNamedAndNothingIsPeriodicWithinThem) {
 }
 
 TEST(Xyz, ADamagedRunIdEndsNeitherTheLineNorItsQuotes) {
-  TrajectoryHeader header = two_kinds();
+  TrajectoryHeader header = two_species();
   header.provenance.run_id = "01\n23\" x=\"\x1b";
   EXPECT_THAT(text_of(*make_beads_xyz(header), {frame_of_two()}),
               HasSubstr(" source=\"Shaken run 0123x seed 7\"\nA1 "));
 }
 
 TEST(Xyz, WithoutAnAmplitudeTheBoxIsAsHighAsTheGap) {
-  TrajectoryHeader header = two_kinds();
+  TrajectoryHeader header = two_species();
   for (const char* scene : {"", "no JSON", "{}", R"({"plates": {"amplitude": "much"}})"}) {
     header.scene_json = scene;
     EXPECT_THAT(text_of(*make_beads_xyz(header), {frame_of_two()}), HasSubstr("0 0 0 1.5\" ")) << scene;
@@ -177,7 +177,7 @@ class GsdFile {
 constexpr std::uint8_t kUint32 = 3, kUint64 = 4, kInt8 = 5, kInt32 = 7, kFloat = 9, kDouble = 10;
 
 TEST(Gsd, BeginsAsItsSpecificationSays) {
-  const GsdFile file(text_of(*make_gsd(two_kinds(), 1), {frame_of_two()}));
+  const GsdFile file(text_of(*make_gsd(two_species(), 1), {frame_of_two()}));
   EXPECT_EQ(file.at<std::uint64_t>(0), 0x65DF65DF65DF65DFU);
   EXPECT_EQ(file.at<std::uint32_t>(40), 0x00010004U);  // of the schema
   EXPECT_EQ(file.at<std::uint32_t>(44), 0x00020000U);  // of the file layer
@@ -186,7 +186,7 @@ TEST(Gsd, BeginsAsItsSpecificationSays) {
 }
 
 TEST(Gsd, HoldsTheRodsFromTheMiddleOfTheBox) {
-  const GsdFile file(text_of(*make_gsd(two_kinds(), 1), {frame_of_two()}));
+  const GsdFile file(text_of(*make_gsd(two_species(), 1), {frame_of_two()}));
   const auto is = [](auto... values) { return ::testing::ElementsAre(values...); };
   EXPECT_THAT(file.array<std::uint64_t>(0, "configuration/step", kUint64), is(8U));
   EXPECT_THAT(file.array<float>(0, "configuration/box", kFloat), is(10.F, 10.F, 2.F, 0.F, 0.F, 0.F));
@@ -310,9 +310,9 @@ TEST(FrameFormats, HandOverPiecesOfBoundedLength) {
 
 TEST(FrameFormats, PassOnThatTheSinkRefuses) {
   const Sink refuses = [](std::string_view) -> Result<void> { return Error{"no room"}; };
-  EXPECT_EQ(make_extended_xyz(two_kinds())->write(frame_of_two(), refuses).error().message, "no room");
-  EXPECT_EQ(make_beads_xyz(two_kinds())->write(frame_of_two(), refuses).error().message, "no room");
-  EXPECT_EQ(make_gsd(two_kinds(), 1)->begin(refuses).error().message, "no room");
+  EXPECT_EQ(make_extended_xyz(two_species())->write(frame_of_two(), refuses).error().message, "no room");
+  EXPECT_EQ(make_beads_xyz(two_species())->write(frame_of_two(), refuses).error().message, "no room");
+  EXPECT_EQ(make_gsd(two_species(), 1)->begin(refuses).error().message, "no room");
 }
 
 /// A log of 21 frames, every 0.01 s from 0 to 0.2 s.

@@ -1,26 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "run/export/rod_kinds.h"
+#include "run/export/xyz_comment.h"
 
 #include <fmt/format.h>
 
 #include <cctype>
 #include <nlohmann/json.hpp>
 
-#include "run/files/recorded_frame.h"
-
 namespace shaken::run {
-
-std::vector<BeadRow> kinds_of(const TrajectoryHeader& header) {
-  std::vector<BeadRow> kinds{{header.bead_offset, header.bead_radius}};
-  kinds.insert(kinds.end(), header.added_beads.begin(), header.added_beads.end());
-  return kinds;
-}
-
-std::size_t kind_of(const TrajectoryHeader& header, std::size_t rod) {
-  return header.species_of_rod.empty() ? 0 : header.species_of_rod[rod];
-}
-
-std::string letter_of(std::size_t kind) { return {static_cast<char>('A' + kind)}; }
 
 double swept_height(const TrajectoryHeader& header) {
   const auto scene = nlohmann::json::parse(header.scene_json, nullptr, false);

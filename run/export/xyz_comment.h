@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
 #include <string>
-#include <vector>
 
 #include "run/files/recorded_frame.h"
 #include "run/files/recorded_frames.h"
 
 namespace shaken::run {
-
-/// The beads of each kind of rod, the first species first.
-std::vector<BeadRow> kinds_of(const TrajectoryHeader& header);
-/// The kind of a rod, from 0.
-std::size_t kind_of(const TrajectoryHeader& header, std::size_t rod);
-/// "A" for the first kind.
-std::string letter_of(std::size_t kind);
 
 /// Height that the plates sweep: the gap and twice the amplitude, so that no rod is ever above it. The gap alone if the
 /// header knows no amplitude. [mm]
