@@ -785,6 +785,9 @@ void Queue::change(const Current& job, JobState to, const std::string& reason, c
       job.id, to_word(to), reason, has_ended(to) ? utime_now() : 0, to == kQueued && has_ended(job.state) ? 1 : 0);
   record(job.id, to_word(job.state), to_word(to), job.attempt, cause);
   if (has_ended(to)) follow_end(job.id, to);
+  if (to == kQueued && has_ended(job.state)) {
+    for (const std::int64_t sweep : sweeps_waiting_for(job.id)) settle_waits(sweep);
+  }
 }
 
 void Queue::record(std::string_view job, std::string_view from, std::string_view to, int attempt,
