@@ -21,6 +21,7 @@ namespace {
 
 constexpr double kTurnSpeed = 5.0;     ///< of each angular velocity component across the rod [rad/s]
 constexpr double kClearance = 0.002;   ///< least distance between rods of the lattice [mm]
+constexpr double kKick = 1e-6;         ///< of a velocity, that sets replicas from one state apart
 constexpr int kMaxInsertions = 20000;  ///< tries for one rod of a random start
 
 /// Rows of rods along x: `columns` to a row, every other row shifted by half a column.
@@ -397,8 +398,12 @@ Result<World> make_world(const System& system, const World& left) {
     const double ratio = world.species[kind].inertia_par / world.species[kind].inertia_perp;
     const double tau = static_cast<double>(left.tick - flight.since) * left.system.dt;
     Pose pose = pose_after(flight, tau, left.system.gravity);
-    const Motion motion = motion_after(flight, tau, left.system.gravity, pose.director, ratio);
+    Motion motion = motion_after(flight, tau, left.system.gravity, pose.director, ratio);
     pose.position.z() += rise;
+    if (system.seed != left.system.seed) {
+      Rng rng(system.seed, RngStream::kKicks, 0, static_cast<std::uint64_t>(i));
+      for (double& component : motion.velocity) component *= 1.0 + kKick * rng.normal();
+    }
     begin_flight(world.rods[i], 0, pose, motion, system.box_side, ratio);
     world.rods[i].image = {0, 0};
   }

@@ -212,6 +212,29 @@ TEST(MakeWorld, FromAnotherKeepsTheSpeciesOfEachRodWhateverTheSeed) {
   }
 }
 
+TEST(MakeWorld, ReplicasFromOneStateGoTheirOwnWays) {
+  System system = scene_at(2.5, 0.4, 16);
+  Simulation alike = std::move(Simulation::start(system)).value();
+  ASSERT_FALSE(alike.advance_to(12500));
+  std::vector<Simulation> replicas;
+  for (const std::uint64_t seed : {system.seed, system.seed + 1, system.seed + 2}) {
+    system.seed = seed;
+    replicas.push_back(std::move(Simulation::start(system, alike.world())).value());
+    EXPECT_NEAR(replicas.back().world().start.energy / replicas.front().world().start.energy, 1, 1e-5);
+    EXPECT_FALSE(replicas.back().advance_to(125000));  // half a second
+  }
+  const auto mean_angle = [&](std::size_t one, std::size_t other) {
+    const Snapshot a = replicas[one].snapshot(), b = replicas[other].snapshot();
+    double sum = 0;
+    for (std::size_t i = 0; i < a.n_rods(); ++i)
+      sum += std::asin(std::min(1.0, a.director[i].cross(b.director[i]).norm()));
+    return sum / static_cast<double>(a.n_rods());
+  };
+  for (const auto& [one, other] : {std::pair<std::size_t, std::size_t>{0, 1}, {0, 2}, {1, 2}}) {
+    EXPECT_GT(mean_angle(one, other), 0.1) << one << " and " << other;
+  }
+}
+
 TEST(MakeWorld, FromAnotherThatDoesNotFitIsRefused) {
   const auto refusal = [](const World& left, const System& system) {
     const auto world = make_world(system, left);
