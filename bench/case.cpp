@@ -67,7 +67,9 @@ Tick Case::period_ticks() const { return std::llround(1 / (system().frequency * 
 
 double Case::rod_seconds(Tick ticks) const { return system().n_rods * static_cast<double>(ticks) * dt; }
 
-std::string Case::label() const {
+std::string Case::label() const { return label_of(length, area_fraction, side); }
+
+std::string label_of(double length, double area_fraction, double side) {
   return fmt::format("l = {:.10g} mm, phi = {:.10g}, L = {:.10g} mm", length, area_fraction, side);
 }
 

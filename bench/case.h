@@ -33,9 +33,11 @@ struct Case {
   Tick period_ticks() const;
   /// Rod-seconds that `ticks` simulate.
   double rod_seconds(Tick ticks) const;
-  /// "l = 4.5 mm, phi = 0.75, L = 41.865 mm"
-  std::string label() const;
+  std::string label() const;  ///< label_of
 };
+
+/// "l = 4.5 mm, phi = 0.75, L = 41.865 mm"
+std::string label_of(double length, double area_fraction, double side);
 
 inline constexpr double kPaperStep = 4e-6;                       ///< [s]
 inline constexpr std::pair<double, double> kWarmUps{1e-3, 1e4};  ///< that may be asked for [s]

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "bench/lower_bounds.h"
 
 #include <algorithm>
 #include <array>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "base/clock.h"
+#include "bench/speed.h"
 #include "sim/contact/impulse.h"
 #include "sim/motion/flight.h"
 
@@ -224,15 +224,6 @@ LowerBounds measure_lower_bounds(const World& world) {
   bounds.state_access = time_each(
       places, [&](int place) { touch(rods[place]); }, [] {});
   return bounds;
-}
-
-double impulses_alone(const LowerBounds& bounds, std::int64_t plate_impulses, std::int64_t rod_impulses) {
-  return static_cast<double>(plate_impulses) * bounds.plate_impulse +
-         static_cast<double>(rod_impulses) * bounds.rod_impulse;
-}
-
-double memory_alone(const LowerBounds& bounds, std::int64_t plate_impulses, std::int64_t rod_impulses) {
-  return static_cast<double>(plate_impulses + 2 * rod_impulses) * bounds.state_access;
 }
 
 }  // namespace shaken::bench

@@ -40,6 +40,7 @@ std::string cell(const Json& row, const Column& column) {
   if (value.is_null()) return "-";
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "NO";
   if (value.is_string()) return value.get<std::string>();
+  if (!std::isfinite(value.get<double>())) return "-";
   return fmt::format(fmt::runtime(column.format), column.scale * value.get<double>(),
                      column.scale * number_of(row, column.error));
 }

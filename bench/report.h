@@ -28,7 +28,7 @@ struct Column {
 /// What is at `path` in a row; null if nothing is.
 const Json& member_of(const Json& row, std::string_view path);
 
-/// An array of rows as a table for people. Nothing is "-", true "yes" and false "NO".
+/// An array of rows as a table for people. Nothing and NaN are "-", true "yes" and false "NO".
 std::string table(const Json& rows, const std::vector<Column>& columns);
 /// All of an array of rows, of which the first names the columns; what is nested is named with dots.
 std::string csv(const Json& rows);

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <string>
 #include <vector>
 
+#include "base/estimate.h"
 #include "bench/case.h"
 #include "bench/report.h"
 
@@ -13,9 +16,12 @@ namespace shaken::bench {
 struct Effort {
   double cpu = 1.5;  ///< CPU time of one timed stretch, about [s]
   int repeat = 5;
+
+  /// Adds --cpu and --repeat.
+  void declare(CLI::App& app);
 };
 
-/// What one engine did in the timed stretch of a case, and how long it took in each repetition.
+/// What was done in a timed stretch of a case, and how long it took in each repetition.
 struct EngineSpeed {
   Tick ticks = 0;            ///< length of the stretch
   std::vector<double> cpu;   ///< CPU time of each repetition, all threads together [s]
@@ -26,8 +32,8 @@ struct EngineSpeed {
   double bytes_per_rod = 0;       ///< memory of state and stepper
   double max_overlap = 0;         ///< deepest since the start of the run [mm]
 
-  double best_cpu() const;  ///< least disturbed by whatever else ran on the machine
-  double best_wall() const;
+  double best_cpu() const { return *std::min_element(cpu.begin(), cpu.end()); }  ///< least disturbed by other programs
+  double best_wall() const { return *std::min_element(wall.begin(), wall.end()); }
   double spread() const;  ///< median CPU time over the best
   double wall_spread() const;
   double rate() const { return rod_seconds / best_cpu(); }  ///< rod-seconds per CPU-second
@@ -40,6 +46,28 @@ Tick ticks_for(double cpu, const Case& of, const SteadyState& state, Engine engi
 
 /// Steps on by `ticks` and adds one repetition to `speed`; everything else in it is set anew.
 void time_stretch(Simulation& simulation, const Case& of, Tick ticks, EngineSpeed& speed);
+
+/// One of several ways to simulate whose speeds are compared.
+struct Contender {
+  Case scene;
+  SteadyState state;  ///< where each repetition begins
+  Engine engine = Engine::kScheduled;
+  int threads = 1;
+  Tick settle = 1;         ///< not timed: lists and schedules are built
+  Tick ticks = 0;          ///< timed
+  EngineSpeed speed{};     ///< found
+  std::uint64_t hash = 0;  ///< of the state after them
+};
+
+/// The scheduled engine, settled for a vibration and timed for at least another, about `cpu` seconds.
+Contender contender(const Case& scene, const SteadyState& state, double cpu);
+
+/// Times all contenders, one after the other, so many times; `what` is shown meanwhile.
+void time_in_turn(const std::string& what, std::vector<Contender>& contenders, int repeat);
+
+/// CPU time per rod-second of one contender over that of another, timed in turn with it: of the best repetitions, with
+/// an error from the scatter of the ratios of single ones, which is NaN for one.
+Estimate cpu_ratio(const EngineSpeed& of, const EngineSpeed& other);
 
 /// As members of a report's row.
 Json json_of(const Case& scene);
