@@ -66,6 +66,8 @@ const Json& member_of(const Json& row, std::string_view path) {
   return row.contains(pointer) ? row.at(pointer) : nothing;
 }
 
+std::string text_of(const Json& row, const char* member) { return row.at(member).get<std::string>(); }
+
 std::string table(const Json& rows, const std::vector<Column>& columns) {
   std::vector<Row> cells(1);
   for (const Column& column : columns) cells[0].push_back(column.title);
@@ -132,6 +134,10 @@ Report::Report(std::string file_name, const std::string& bench)
             {{"cpu", cpu_name()}, {"cores", n_cores()}, {"compiler", run::compiler()}, {"flags", SHAKEN_BENCH_FLAGS}}},
            {"rows", Json::array()}},
       text(fmt::format("shaken {} on {}\n", run::version(), this_machine())) {}
+
+void Report::add(const Json& more, const char* member) {
+  json.at(member).insert(json.at(member).end(), more.begin(), more.end());
+}
 
 void Output::declare(CLI::App& app, const char* files) {
   app.add_option("-o,--out", folder, fmt::format("Also write {} there", files))->type_name("DIR");

@@ -28,6 +28,9 @@ struct Column {
 /// What is at `path` in a row; null if nothing is.
 const Json& member_of(const Json& row, std::string_view path);
 
+/// Such a text: "variant".
+std::string text_of(const Json& row, const char* member);
+
 /// An array of rows as a table for people. Nothing and NaN are "-", true "yes" and false "NO".
 std::string table(const Json& rows, const std::vector<Column>& columns);
 /// All of an array of rows, of which the first names the columns; what is nested is named with dots.
@@ -45,6 +48,8 @@ struct Report {
 
   Report(std::string file_name, const std::string& bench);
   const Json& rows() const { return json.at("rows"); }
+  /// Adds rows to those of `member`.
+  void add(const Json& more, const char* member = "rows");
 };
 
 /// "AMD EPYC, 2 cores; GNU 12.2.0, Release; -O3 -DNDEBUG": what speed depends on besides the code.

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
+#include "bench/accuracy/accuracy.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "bench/accuracy/convergence.h"
-#include "bench/accuracy/figures.h"
-#include "bench/accuracy/order_error.h"
-#include "bench/accuracy/statistics.h"
 #include "bench/bench.h"
 
 namespace shaken::bench {
@@ -116,7 +114,7 @@ struct AccuracyBench {
     how.steps = steps.empty() ? halved_steps(quick ? 1e-6 : 0.25e-6) : asked_steps();
     if (full) how.converged_by = 128;
     how.members = quick && !members ? 16 : members;
-    std::vector<Convergence> measured;
+    std::vector<Json> measured;
     for (const StartCase* start : chosen(start_cases(), cases)) {
       for (const Variant* variant : chosen(variants(), treatments)) {
         measured.push_back(measure_convergence(*start, *variant, how));
@@ -125,12 +123,11 @@ struct AccuracyBench {
     const Report report = convergence_report(measured);
     output.give(report);
     if (!output.folder.empty()) draw_convergence(output.folder, report);
-    for (const Convergence& of : measured) {
-      for (const StepErrors& step : of.steps) {
-        if (step.states_equal) continue;
-        throw Failure(ExitCode::kFailed, fmt::format("{}, {}, {:.10g} us: the steppers' states differ", of.start->name,
-                                                     of.variant->name, 1e6 * step.dt));
-      }
+    for (const Json& row : report.rows()) {
+      if (row.at("states_equal").get<bool>()) continue;
+      throw Failure(ExitCode::kFailed,
+                    fmt::format("{}, {}, {:.10g} us: the steppers' states differ", text_of(row, "case"),
+                                text_of(row, "variant"), 1e6 * row.at("dt_s").get<double>()));
     }
   }
 
@@ -142,31 +139,32 @@ struct AccuracyBench {
       for (const double dt : asked_steps()) step_values.push_back(1e6 * dt);
     }
     std::vector<StatisticsTask> tasks;
-    const auto add = [&](Knob knob, const std::vector<double>& values, double length, double fraction, double box,
-                         double seconds) {
+    const auto add = [&](const Knob& knob, const std::vector<double>& values, double length, double fraction,
+                         double box, double seconds) {
       const Case scene = make_case(length, fraction, side.value_or(box), kPaperStep, warm_up);
       for (const Variant* variant : chosen(variants(), treatments)) {
         if (treatments.empty() && variant != &variants().front()) continue;
-        tasks.push_back(
-            {scene, variant, knob, values, measure.value_or(seconds * effort()), std::min(1.0, warm_up), n_replicas()});
+        tasks.push_back({scene, variant, &knob, values, measure.value_or(seconds * effort()), std::min(1.0, warm_up),
+                         n_replicas()});
       }
     };
     const auto asked = [&](const char* knob) {
       return knobs.empty() || std::find(knobs.begin(), knobs.end(), knob) != knobs.end();
     };
     if (asked("step")) {
-      add(Knob::kStep, step_values, 4.5, 0.75, 25, 30);
-      add(Knob::kStep, step_values, 2.5, 0.60, 20, 50);
+      add(kStepKnob, step_values, 4.5, 0.75, 25, 30);
+      add(kStepKnob, step_values, 2.5, 0.60, 20, 50);
     }
-    if (asked("pitch")) add(Knob::kPitch, {0.15, 0.2, 0.3, 0.45, 0.6}, 4.5, 0.75, 25, 15);
-    if (asked("sweeps")) add(Knob::kSweeps, {8, 4, 2, 1}, 4.5, 0.75, 25, 15);
+    if (asked("pitch")) add(kPitchKnob, {0.15, 0.2, 0.3, 0.45, 0.6}, 4.5, 0.75, 25, 15);
+    if (asked("sweeps")) add(kSweepsKnob, {8, 4, 2, 1}, 4.5, 0.75, 25, 15);
     return tasks;
   }
 
   void run_statistical() const {
-    std::vector<Statistics> measured;
-    for (const StatisticsTask& task : statistics_tasks()) measured.push_back(measure_statistics(task, cache));
-    const Report report = statistics_report(measured);
+    const std::vector<StatisticsTask> tasks = statistics_tasks();
+    std::vector<Json> measured;
+    for (const StatisticsTask& task : tasks) measured.push_back(measure_statistics(task, cache));
+    const Report report = statistics_report(tasks, measured);
     output.give(report);
     if (!output.folder.empty()) draw_statistics(output.folder, report);
   }
@@ -179,13 +177,13 @@ struct AccuracyBench {
       for (const double box : sides) boxes.emplace_back(box, 50);
       std::sort(boxes.begin(), boxes.end());
     }
-    std::vector<OrderError> measured;
+    std::vector<Json> measured;
     for (const auto& [box, seconds] : boxes) {
       const Case scene = make_case(4.5, 0.75, box, kPaperStep, warm_up);
       measured.push_back(measure_order_error(scene, measure.value_or(seconds * effort()), n_replicas(), cache));
     }
-    const auto large = extrapolate(measured, make_case(4.5, 0.75, kPaperSide, kPaperStep, warm_up));
-    const Report report = order_error_report(measured, large);
+    const Report report =
+        order_error_report(measured, extrapolate(measured, make_case(4.5, 0.75, kPaperSide, kPaperStep, warm_up)));
     output.give(report);
     if (!output.folder.empty()) draw_order_error(output.folder, report);
   }

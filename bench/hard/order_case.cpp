@@ -108,7 +108,7 @@ Sameness Apart::within(double bound) const {
 }
 
 Apart compare_means(std::span<const double> first, std::span<const double> second) {
-  const Mean a = mean_of_samples(first), b = mean_of_samples(second);
+  const Estimate a = mean_of_samples(first), b = mean_of_samples(second);
   const double size = std::abs(a.value + b.value) / 2;
   const double of_a = a.sem * a.sem, of_b = b.sem * b.sem, variance = of_a + of_b;
   const double freedom =
