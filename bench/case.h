@@ -57,8 +57,9 @@ struct SteadyState {
 /// $XDG_CACHE_HOME/shaken/bench, or ~/.cache/shaken/bench.
 std::filesystem::path default_cache();
 
-/// The state of `wanted` after its warm-up: from `cache`, or simulated now and kept there. A file's name and content
-/// bear the hash of all that the state depends on, so that a damaged one, or one of another scene, is made anew.
+/// The state of `wanted` after its warm-up: from `cache`, or simulated now and kept there as checkpoint.bin in a folder
+/// named by the hash of all that it depends on. The file bears that hash and its own, so that a damaged one, or one of
+/// another scene, is made anew.
 SteadyState steady_state(const Case& wanted, const std::filesystem::path& cache);
 
 /// A simulation that goes on from a steady state by either engine.

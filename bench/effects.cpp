@@ -161,8 +161,7 @@ struct EffectsBench {
     report.json.update(json_of(everything));
     measure_savings(everything, cache, effort, report);
     report.text += effects_text(everything, effort, report.json);
-    output.give(report);
-    if (!output.folder.empty()) draw_effects(output.folder, report);
+    output.give(report, [&](const auto& folder) { draw_effects(folder, report); });
     return ExitCode::kOk;
   }
 };

@@ -69,13 +69,18 @@ const Json& member_of(const Json& row, std::string_view path) {
 std::string text_of(const Json& row, const char* member) { return row.at(member).get<std::string>(); }
 
 std::string table(const Json& rows, const std::vector<Column>& columns) {
-  std::vector<Row> cells(1);
-  for (const Column& column : columns) cells[0].push_back(column.title);
-  for (const Json& row : rows) {
-    Row& line = cells.emplace_back();
-    for (const Column& column : columns) line.push_back(cell(row, column));
+  std::vector<Table::Column> titles;
+  for (const Column& column : columns) {
+    const bool is_text = !rows.empty() && member_of(rows.front(), column.member).is_string();
+    titles.push_back({column.title, is_text ? Table::Align::kLeft : Table::Align::kRight});
   }
-  return aligned(cells);
+  Table table(std::move(titles));
+  for (const Json& row : rows) {
+    Row cells;
+    for (const Column& column : columns) cells.push_back(cell(row, column));
+    table.add_row(std::move(cells));
+  }
+  return table.text(0);
 }
 
 std::string csv(const Json& rows) {
@@ -144,7 +149,7 @@ void Output::declare(CLI::App& app, const char* files) {
   app.add_flag("--json", json, "Print JSON");
 }
 
-void Output::give(const Report& report) const {
+void Output::give(const Report& report, const std::function<void(const std::filesystem::path&)>& draw) const {
   const std::string text = report.json.dump(2) + "\n";
   fmt::print("{}", json ? text : report.text);
   std::fflush(stdout);
@@ -152,6 +157,7 @@ void Output::give(const Report& report) const {
   done_or_fail(make_folder(folder));
   done_or_fail(write_file_atomically(std::filesystem::path(folder) / (report.name + ".json"), text));
   done_or_fail(write_file_atomically(std::filesystem::path(folder) / (report.name + ".csv"), csv(report.rows())));
+  if (draw) draw(folder);
 }
 
 }  // namespace shaken::bench

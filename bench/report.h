@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -31,7 +33,8 @@ const Json& member_of(const Json& row, std::string_view path);
 /// Such a text: "variant".
 std::string text_of(const Json& row, const char* member);
 
-/// An array of rows as a table for people. Nothing and NaN are "-", true "yes" and false "NO".
+/// An array of rows as a table for people, texts flush left and numbers flush right. Nothing and NaN are "-", true
+/// "yes" and false "NO".
 std::string table(const Json& rows, const std::vector<Column>& columns);
 /// All of an array of rows, of which the first names the columns; what is nested is named with dots.
 std::string csv(const Json& rows);
@@ -58,11 +61,12 @@ std::string this_machine();
 /// Where a report goes.
 struct Output {
   bool json = false;     ///< to stdout as JSON, not as text
-  std::string folder{};  ///< NAME.json and NAME.csv too; empty: nowhere
+  std::string folder{};  ///< NAME.json, NAME.csv and pictures too; empty: nowhere
 
   /// Adds --json and --out, which writes `files`.
   void declare(CLI::App& app, const char* files = "CSV, JSON and PNG");
-  void give(const Report& report) const;
+  /// Writes the report, and has `draw` add pictures to the folder.
+  void give(const Report& report, const std::function<void(const std::filesystem::path&)>& draw = {}) const;
 };
 
 }  // namespace shaken::bench

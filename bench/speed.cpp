@@ -268,8 +268,7 @@ struct SpeedBench {
     for (const Case& scene : series) contenders.push_back(contender(scene, cache(scene), conditions().effort.cpu));
     time_in_turn("measuring", contenders, conditions().effort.repeat);
     const Report report = scaling_report(conditions(), of, contenders);
-    output.give(report);
-    if (!output.folder.empty()) draw_scaling(output.folder, of, report);
+    output.give(report, [&](const auto& folder) { draw_scaling(folder, of, report); });
     return ExitCode::kOk;
   }
 
@@ -293,8 +292,7 @@ struct SpeedBench {
     std::vector<SceneSpeed> measured;
     for (const Case& scene : scenes()) measured.push_back(measure_scene(scene, cache(scene), conditions().effort));
     const Report report = speed_report(conditions(), measured);
-    output.give(report);
-    if (!output.folder.empty()) draw_speed(output.folder, report);
+    output.give(report, [&](const auto& folder) { draw_speed(folder, report); });
     check_states(report, "the engines' states differ");
     return ExitCode::kOk;
   }

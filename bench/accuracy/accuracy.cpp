@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "bench/bench.h"
 
@@ -30,10 +31,10 @@ Exit codes: 0 done, 1 the steppers' states differ or something failed, 2 bad inp
 
 constexpr double kPaperSide = 83.73;  ///< [mm]
 
-/// kLongestStep / 2^k, finest first, down to `finest` [s].
+/// `finest` doubled up to kLongestStep [us].
 std::vector<double> halved_steps(double finest) {
   std::vector<double> steps;
-  for (double dt = kLongestStep; dt > 0.9 * finest; dt /= 2) steps.insert(steps.begin(), dt);
+  for (double us = finest; us < 1.1e6 * kLongestStep; us *= 2) steps.push_back(us);
   return steps;
 }
 
@@ -63,7 +64,7 @@ std::vector<const Named*> chosen(const std::vector<Named>& all, const std::vecto
 
 struct AccuracyBench {
   std::string part;
-  bool quick = false, full = false;
+  bool quick = false;
   std::vector<std::string> cases, treatments, knobs;
   std::vector<double> steps;  ///< [us]
   std::optional<int> members, replicas;
@@ -77,8 +78,7 @@ struct AccuracyBench {
     app.add_option("part", part, "What to measure; everything if left out")
         ->type_name("PART")
         ->check(CLI::IsMember({"deterministic", "statistical", "error"}).description(""));
-    CLI::Option* less = app.add_flag("--quick", quick, "Fewer and shorter measurements");
-    app.add_flag("--full", full, "More and longer ones")->excludes(less);
+    app.add_flag("--quick", quick, "Fewer and shorter measurements");
     add_names(app, "--cases", cases, "LIST", names_of(start_cases()), "deterministic: only these");
     add_names(app, "--variants", treatments, "LIST", names_of(variants()),
               "How impacts are treated; deterministic: all, statistical: newton");
@@ -98,21 +98,19 @@ struct AccuracyBench {
   }
 
   /// How much longer than usual things are measured.
-  double effort() const { return quick ? 0.2 : full ? 4 : 1; }
+  double effort() const { return quick ? 0.2 : 1; }
   int n_replicas() const { return replicas.value_or(quick ? 1 : 2); }
-  /// The steps that were asked for, rising [s].
+  /// The steps that were asked for, each once and rising [us].
   std::vector<double> asked_steps() const {
-    std::vector<double> asked;
-    for (const double us : steps) asked.push_back(1e-6 * us);
-    std::sort(asked.begin(), asked.end());
-    asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
-    return asked;
+    const std::set<double> asked(steps.begin(), steps.end());
+    return {asked.begin(), asked.end()};
   }
 
   void run_deterministic() const {
     ConvergenceEffort how;
-    how.steps = steps.empty() ? halved_steps(quick ? 1e-6 : 0.25e-6) : asked_steps();
-    if (full) how.converged_by = 128;
+    for (const double us : steps.empty() ? halved_steps(quick ? 1 : 0.25) : asked_steps()) {
+      how.steps.push_back(1e-6 * us);
+    }
     how.members = quick && !members ? 16 : members;
     std::vector<Json> measured;
     for (const StartCase* start : chosen(start_cases(), cases)) {
@@ -121,8 +119,7 @@ struct AccuracyBench {
       }
     }
     const Report report = convergence_report(measured);
-    output.give(report);
-    if (!output.folder.empty()) draw_convergence(output.folder, report);
+    output.give(report, [&](const auto& folder) { draw_convergence(folder, report); });
     for (const Json& row : report.rows()) {
       if (row.at("states_equal").get<bool>()) continue;
       throw Failure(ExitCode::kFailed,
@@ -133,11 +130,7 @@ struct AccuracyBench {
 
   /// What the knobs are turned in: the paper's dense rods, and shorter ones that drift.
   std::vector<StatisticsTask> statistics_tasks() const {
-    std::vector<double> step_values{1, 2, 4, 8, 16, 32, 64};
-    if (!steps.empty()) {
-      step_values.clear();
-      for (const double dt : asked_steps()) step_values.push_back(1e6 * dt);
-    }
+    const std::vector<double> step_values = steps.empty() ? std::vector{1., 2., 4., 8., 16., 32., 64.} : asked_steps();
     std::vector<StatisticsTask> tasks;
     const auto add = [&](const Knob& knob, const std::vector<double>& values, double length, double fraction,
                          double box, double seconds) {
@@ -165,8 +158,7 @@ struct AccuracyBench {
     std::vector<Json> measured;
     for (const StatisticsTask& task : tasks) measured.push_back(measure_statistics(task, cache));
     const Report report = statistics_report(tasks, measured);
-    output.give(report);
-    if (!output.folder.empty()) draw_statistics(output.folder, report);
+    output.give(report, [&](const auto& folder) { draw_statistics(folder, report); });
   }
 
   void run_error() const {
@@ -184,8 +176,7 @@ struct AccuracyBench {
     }
     const Report report =
         order_error_report(measured, extrapolate(measured, make_case(4.5, 0.75, kPaperSide, kPaperStep, warm_up)));
-    output.give(report);
-    if (!output.folder.empty()) draw_order_error(output.folder, report);
+    output.give(report, [&](const auto& folder) { draw_order_error(folder, report); });
   }
 
   ExitCode run() const {

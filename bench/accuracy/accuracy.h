@@ -54,10 +54,8 @@ Errors errors_between(const World& state, const World& truth);
 
 /// How to measure convergence.
 struct ConvergenceEffort {
-  std::vector<double> steps;   ///< rising; kLongestStep over powers of 2 [s]
-  int converged_by = 64;       ///< the converged solution's step is the finest of `steps` over this
-  std::optional<int> members;  ///< of every ensemble; none: as many as the case says
-  int timed_members = 4;       ///< by the reference stepper, to be timed and compared
+  std::vector<double> steps{};   ///< rising; kLongestStep over powers of 2 [s]
+  std::optional<int> members{};  ///< of every ensemble; none: as many as the case says
 };
 
 /// Errors of one case and variant against the step. "rows": at each step the quartiles over the members of "error"

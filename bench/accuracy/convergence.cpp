@@ -14,6 +14,8 @@ namespace shaken::bench {
 namespace {
 
 constexpr std::array<const char*, kNormNames.size()> kNormUnits{"mm", "rad", "1"};
+constexpr int kConvergedBy = 64;  ///< the converged solution's step is the finest step over this
+constexpr int kTimedMembers = 4;  ///< by the reference stepper too, to be timed and compared
 
 /// Errors of the members of an ensemble, by norm.
 class Samples {
@@ -71,7 +73,7 @@ Errors errors_between(const World& state, const World& truth) {
 
 Json measure_convergence(const StartCase& start, const Variant& variant, const ConvergenceEffort& effort) {
   const int members = effort.members.value_or(start.members);
-  const double converged_dt = effort.steps.front() / effort.converged_by;
+  const double converged_dt = effort.steps.front() / kConvergedBy;
   std::vector<StepErrors> steps(effort.steps.size());
   Samples floor, from_first;
   double impulses = 0;
@@ -99,7 +101,7 @@ Json measure_convergence(const StartCase& start, const Variant& variant, const C
       } else {
         ++step.in_trouble;
       }
-      if (member < effort.timed_members) {
+      if (member < kTimedMembers) {
         Simulation reference = begin(start, rods, variant, Engine::kReference, effort.steps[k]);
         finish(reference, start, step.reference_cpu);
         step.states_equal &= reference.state_hash() == simulation.state_hash();
@@ -115,7 +117,7 @@ Json measure_convergence(const StartCase& start, const Variant& variant, const C
              {"converged_dt_s", converged_dt}};
   for (std::size_t k = 0; k < steps.size(); ++k) {
     const double scheduled_cpu = steps[k].scheduled_cpu / members;
-    const double reference_cpu = steps[k].reference_cpu / std::min(effort.timed_members, members);
+    const double reference_cpu = steps[k].reference_cpu / std::min(kTimedMembers, members);
     Json row{{"case", start.name},
              {"variant", variant.name},
              {"duration_s", start.duration},

@@ -38,7 +38,10 @@ TEST(Case, WhatASceneRefusesIsBadInput) {
 class SteadyStates : public ::testing::Test {
  protected:
   /// The only file in the cache.
-  std::filesystem::path file() const { return std::filesystem::directory_iterator(cache_.path())->path(); }
+  std::filesystem::path file() const { return file_in(cache_.path()); }
+  static std::filesystem::path file_in(const std::filesystem::path& cache) {
+    return std::filesystem::directory_iterator(cache)->path() / "checkpoint.bin";
+  }
   static std::string content(const std::filesystem::path& file) {
     std::stringstream text;
     text << std::ifstream(file, std::ios::binary).rdbuf();
@@ -82,7 +85,7 @@ TEST_F(SteadyStates, OfAnotherSceneUnderOurNameAreMadeAnew) {
   const std::filesystem::path ours = file();
   run::TemporaryFolder elsewhere;
   steady_state(small_case(0.003), elsewhere.path());
-  write(ours, content(std::filesystem::directory_iterator(elsewhere.path())->path()));
+  write(ours, content(file_in(elsewhere.path())));
   const SteadyState again = steady_state(small_case(), cache_.path());
   EXPECT_FALSE(again.was_cached);
   EXPECT_EQ(again.checkpoint, made.checkpoint);

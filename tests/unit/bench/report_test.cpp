@@ -44,8 +44,8 @@ TEST(Table, ShowsMembersOfRowsInTheirFormats) {
                          {"same", "same"},
                          {"why", "why"}}),
             " N       %           mean  same  why\n"
-            "12    12.3  0.12 +- 0.002   yes   so\n"
-            " 3  -100.0   -1.00 +- 0.5    NO    -\n");
+            "12    12.3  0.12 +- 0.002   yes  so\n"
+            " 3  -100.0   -1.00 +- 0.5    NO  -\n");
 }
 
 TEST(Csv, NamesNestedValuesWithDots) {
