@@ -114,30 +114,13 @@ makes of the rods. Impulses of rods with plates and with each other, per tick, a
 }
 
 void draw_effects(const std::filesystem::path& folder, const Report& report) {
-  const int n = static_cast<int>(report.rows().size());
-  std::string script = plot_head("effects", {std::max(1100, 220 + 80 * n), 800}) + plot_axes("y");
-  script += fmt::format(
-      R"(set style fill solid 1
-set boxwidth 0.38
-set xtics rotate by 35 right scale 0 noenhanced
-set bmargin 9
-set logscale y
-set yrange [20:*]
-set xrange [-0.6:{}]
-set key above
-set ylabel 'CPU time without the effect (% of everything on)'
-set arrow from graph 0,first 100 to graph 1,first 100 nohead linecolor '#999999' dashtype 2
-plot 'effects.dat' using ($0-0.2):2:xtic(1) with boxes linecolor '#5ec962' title 'from the same state', \
-     '' using ($0+0.2):4 with boxes linecolor '#3b528b' title 'from its own state', \
-     '' using ($0-0.2):2:3 with yerrorbars pointtype 0 linecolor '#333333' notitle, \
-     '' using ($0+0.2):4:5 with yerrorbars pointtype 0 linecolor '#333333' notitle
-)",
-      n - 0.4);
-  const std::string data =
-      plot_data(report.rows(), {{"effect left out; CPU time [% of everything on]:", "without"},
-                                {"same state", "same_state/cpu_ratio", "", 100, "same_state/cpu_ratio_error"},
-                                {"own state", "own_state/cpu_ratio", "", 100, "own_state/cpu_ratio_error"}});
-  draw_plot(folder, "effects", data, script);
+  draw_bars(folder, "effects", report.rows(), {"effect left out", "without"},
+            {{"CPU time without the effect (% of everything on)",
+              {{"from the same state", "same_state/cpu_ratio", "", 100, "same_state/cpu_ratio_error"},
+               {"from its own state", "own_state/cpu_ratio", "", 100, "own_state/cpu_ratio_error"}},
+              false,
+              {"set logscale y", "set yrange [20:*]",
+               "set arrow from graph 0,first 100 to graph 1,first 100 nohead linecolor '#999999' dashtype 2"}}});
 }
 
 struct EffectsBench {

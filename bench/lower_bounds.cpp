@@ -99,6 +99,7 @@ class HitRods {
   /// Of approaching neighbours, the nearest first and no rod twice, so that each can be hit from its own state.
   std::vector<RodHit> rod_hits() const {
     std::vector<RodNow> now;
+    now.reserve(rods_.size());
     for (int i = 0; i < n_rods(); ++i) now.push_back(evaluate(i));
     std::vector<RodHit> near;
     const double reach = kPairReach * 2 * (species_.half_length + species_.end_radius);

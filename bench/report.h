@@ -43,6 +43,17 @@ std::string plot_data(const Json& rows, const std::vector<Column>& columns);
 /// One column of the rows against another; the label is the title of `y`.
 Curve curve(const Json& rows, const Column& x, const Column& y);
 
+/// A panel of bars: a group for each row, a bar for each of `heights`, which the title of its column names in the key.
+struct Bars {
+  std::string title;
+  std::vector<Column> heights;
+  bool stacked = false;                 ///< on each other, or side by side with their numbers or errors
+  std::vector<std::string> commands{};  ///< gnuplot commands before the plot
+};
+/// Panels side by side as NAME.png, with NAME.dat and NAME.gp; groups are named by `label`.
+void draw_bars(const std::filesystem::path& folder, const std::string& name, const Json& rows, const Column& label,
+               const std::vector<Bars>& panels);
+
 /// What a bench found out: the rows, and the same for people.
 struct Report {
   std::string name;  ///< of its files

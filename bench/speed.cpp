@@ -153,44 +153,17 @@ Exit codes: 0 done, 1 the engines' states differ or something failed, 2 bad inpu
 constexpr double kSmallSide = 41.865;  // [mm]; half the paper's box
 
 void draw_speed(const std::filesystem::path& folder, const Report& report) {
-  std::vector<Column> columns{{"area fraction", "area_fraction"},
-                              {"length [mm]", "length_mm"},
-                              {"side [mm]", "side_mm"},
-                              {"scheduled", "scheduled/rod_s_per_cpu_s"},
-                              {"reference [rod-s/CPU-s]", "reference/rod_s_per_cpu_s"}};
-  for (const Column& phase : phase_columns()) columns.push_back(phase);
-  const std::size_t n = report.rows().size();
-  std::string script = plot_head("speed", {std::max(1400, 200 + 2 * 70 * static_cast<int>(n)), 700}) + plot_axes("y");
-  script += fmt::format(
-      R"(set style data histograms
-set style fill solid 1 border rgb '#ffffff'
-set xtics scale 0 font ',13' offset 0,-0.5
-set bmargin 6
-set key above horizontal samplen 1 spacing 1.1 font ',14'
-set multiplot layout 1,2
-set title 'simulated rod-seconds per CPU-second'
-set style histogram clustered gap 1
-set logscale y
-set yrange [1:*]
-set boxwidth 0.9
-set xrange [-0.6:{}]
-scene(phi, l, L) = sprintf("φ %g\nℓ %g\nL %.3g", phi, l, L)
-plot 'speed.dat' using 4:xtic(scene($1,$2,$3)) title 'scheduled' linecolor '#3b528b', \
-     '' using 5 title 'reference' linecolor '#5ec962', \
-     '' using ($0-0.17):4:(sprintf('%.0f', $4)) with labels font ',12' offset 0,0.6 notitle, \
-     '' using ($0+0.17):5:(sprintf('%.0f', $5)) with labels font ',12' offset 0,0.6 notitle
-unset logscale y
-set yrange [0:100]
-set title 'CPU time of the scheduled engine (%)'
-set style histogram rowstacked
-set boxwidth 0.7
-)",
-      static_cast<double>(n) - 0.4);
-  for (std::size_t p = 0; p < kPhases; ++p) {
-    script += fmt::format("{}'speed.dat' using {}{} title '{}' linecolor '{}'", p == 0 ? "plot " : ", ", 6 + p,
-                          p == 0 ? ":xtic(scene($1,$2,$3))" : "", kPhaseNames[p], curve_colour(p, kPhases));
+  Json rows = report.rows();
+  for (Json& row : rows) {
+    row["scene"] = fmt::format("φ {:g}, ℓ {:g}, L {:.3g}", row.at("area_fraction").get<double>(),
+                               row.at("length_mm").get<double>(), row.at("side_mm").get<double>());
   }
-  draw_plot(folder, "speed", plot_data(report.rows(), columns), script + "\nunset multiplot\n");
+  draw_bars(folder, "speed", rows, {"scene", "scene"},
+            {{"simulated rod-seconds per CPU-second",
+              {{"scheduled", "scheduled/rod_s_per_cpu_s"}, {"reference", "reference/rod_s_per_cpu_s"}},
+              false,
+              {"set logscale y", "set yrange [1:*]"}},
+             {"CPU time of the scheduled engine (%)", phase_columns(), true, {"set yrange [0:100]"}}});
 }
 
 struct SpeedBench {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/clock.h"
@@ -135,8 +136,9 @@ Json measure_convergence(const StartCase& start, const Variant& variant, const C
     Json& norm = order[kNormNames[n]] = {{"unit", kNormUnits[n]}, {"floor", floor.json(n)}};
     if (!from_first.empty()) norm["from_first"] = from_first.json(n);
     norm["order"] = nullptr;
-    std::vector<double> medians;
-    for (const StepErrors& step : steps) medians.push_back(step.errors.quartiles(n).median);
+    std::vector<double> medians(steps.size());
+    std::transform(steps.begin(), steps.end(), medians.begin(),
+                   [&](const StepErrors& step) { return step.errors.quartiles(n).median; });
     if (const auto fit = fit_order(effort.steps, medians, floor.quartiles(n).upper)) {
       norm.update({{"order", fit->order},
                    {"order_error", fit->order_error},

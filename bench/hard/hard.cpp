@@ -68,19 +68,12 @@ void draw_margins(const std::filesystem::path& folder, const Report& report) {
     if (least.empty() || least.back().at("case") != row.at("case")) least.push_back(row);
     if (row.at("margin") < least.back().at("margin")) least.back() = row;
   }
-  const int n = static_cast<int>(least.size());
-  const std::string script = fmt::format(
-      R"(set logscale x
-set xrange [0.5:*]
-set yrange [{}:-1]
-set xlabel 'smallest margin: limit over worst value seen'
-set style fill solid
-set arrow from 1,graph 0 to 1,graph 1 nohead linecolor '#d62728' dashtype 2
-plot 'hard.dat' using (0.5):0:(0.5):2:($0-0.35):($0+0.35):ytic(1) with boxxyerror linecolor '#3b528b' notitle
-)",
-      n);
-  draw_plot(folder, "hard", plot_data(least, {{"case", "case"}, {"smallest margin", "margin"}}),
-            plot_head("hard", {1000, 200 + 28 * n}) + plot_axes("y") + script);
+  draw_bars(folder, "hard", least, {"case", "case"},
+            {{"smallest margin: limit over worst value seen",
+              {{"", "margin"}},
+              false,
+              {"set logscale y", "set yrange [0.5:*]",
+               "set arrow from graph 0,first 1 to graph 1,first 1 nohead linecolor '#d62728' dashtype 2"}}});
 }
 
 std::vector<std::string> case_names() {
