@@ -35,8 +35,10 @@ std::vector<Column> scene_columns(const std::vector<Column>& more) {
 void check_states(const Report& report, const std::string& what) {
   for (const Json& row : report.rows()) {
     if (row.at("hashes_equal").get<bool>()) continue;
-    throw Failure(ExitCode::kFailed,
-                  label_of(row.at("length_mm"), row.at("area_fraction"), row.at("side_mm")) + ": " + what);
+    const std::string scene = label_of(row.at("length_mm"), row.at("area_fraction"), row.at("side_mm"));
+    const Json& ticks = member_of(row, "compared_ticks");
+    const std::string when = ticks.is_null() ? "" : fmt::format(" after {} ticks", ticks.get<Tick>());
+    throw Failure(ExitCode::kFailed, scene + ": " + what + when);
   }
 }
 

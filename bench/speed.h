@@ -24,7 +24,7 @@ struct Conditions {
 Report report_under(const Conditions& conditions, const std::string& file_name, const std::string& bench);
 /// What a scene is, at the beginning of each line of a table, and these columns.
 std::vector<Column> scene_columns(const std::vector<Column>& more);
-/// Throws Failure, "SCENE: WHAT", for the first row in which two states that must be equal are not.
+/// Throws Failure, "SCENE: WHAT after 1250 ticks", for the first row in which states that must be equal are not.
 void check_states(const Report& report, const std::string& what);
 
 /// Times that no stepper of this model can go below, measured on the rods of one state [s].

@@ -5,9 +5,9 @@
 
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "base/failure.h"
+#include "base/files.h"
 #include "tests/unit/run/temporary_folder.h"
 
 namespace shaken::bench {
@@ -42,11 +42,7 @@ class SteadyStates : public ::testing::Test {
   static std::filesystem::path file_in(const std::filesystem::path& cache) {
     return std::filesystem::directory_iterator(cache)->path() / "checkpoint.bin";
   }
-  static std::string content(const std::filesystem::path& file) {
-    std::stringstream text;
-    text << std::ifstream(file, std::ios::binary).rdbuf();
-    return text.str();
-  }
+  static std::string content(const std::filesystem::path& file) { return *read_file(file); }
   static void write(const std::filesystem::path& file, const std::string& text) {
     std::ofstream(file, std::ios::binary) << text;
   }

@@ -122,10 +122,11 @@ TEST(Report, SaysIfTheEnginesDiffer) {
   EXPECT_THAT(speed_report({}, {differs}).text, Not(HasSubstr("NO\n")));
   check_states(speed_report({}, {differs}), "they differ");
   differs.scheduled_hash = 1;
+  differs.compared_ticks = 9;
   const Report report = speed_report({}, {differs});
   EXPECT_THAT(report.text, HasSubstr("NO\n"));
   EXPECT_THAT([&] { check_states(report, "they differ"); },
-              testing::ThrowsMessage<Failure>("l = 4.5 mm, phi = 0.6, L = 12 mm: they differ"));
+              testing::ThrowsMessage<Failure>("l = 4.5 mm, phi = 0.6, L = 12 mm: they differ after 9 ticks"));
 }
 
 TEST(Report, OfScalingIsRelativeToTheFirst) {
