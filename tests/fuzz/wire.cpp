@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Payloads of LCM messages, each byte string as every type; the messages then go where a viewer puts them.
-#include "client/live.h"
+#include "client/watch/live.h"
 #include "proto/codec.h"
 #include "proto/frame_codec.h"
 #include "tests/fuzz/target.h"

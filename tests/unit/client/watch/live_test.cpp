@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "client/live.h"
+#include "client/watch/live.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "base/text.h"
-#include "client/watch_view.h"
+#include "client/watch/overview.h"
 
 namespace shaken::client {
 namespace {
