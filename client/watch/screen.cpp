@@ -230,7 +230,9 @@ CellGrid run_cells(const WatchContent& content, const WatchLayout& layout, const
     title += fmt::format("  run {} of {}", place - jobs.begin() + 1, jobs.size());
   if (content.rods != nullptr) title += fmt::format("  t = {:.3f} s", content.rods->time);
   if (content.steering.view.zoom > 1) title += fmt::format("  zoom {:.1f}", content.steering.view.zoom);
-  title += fmt::format("  colours: {}", name_of(shown_colouring(content.steering)));
+  if (content.rods != nullptr && content.depth != ColourDepth::kNone) {
+    title += fmt::format("  colours: {}", name_of(shown_colouring(content.steering)));
+  }
   if (content.steering.paused) title += "  " + console.painted(Colour::kYellow, "HELD (space)");
   const auto width = static_cast<std::size_t>(grid.columns());
   grid.put(0, 0, fitted(title, width));
@@ -279,8 +281,13 @@ std::string job_to_show(const std::string& job, const LiveJobs& jobs) {
   if (present != nullptr && present->is_running()) return job;
   const std::vector<std::string> others = choices(jobs);
   if (others.empty()) return job;
-  const bool other_runs = job_in(jobs, others.front())->is_running();
-  return present == nullptr || other_runs ? others.front() : job;
+  // There is more to be seen of one that moves than of one that draws its film.
+  const auto moving = std::find_if(others.begin(), others.end(), [&](const std::string& id) {
+    const LiveJob& other = *job_in(jobs, id);
+    return other.is_running() && !other.draws_film;
+  });
+  const std::string& next = moving == others.end() ? others.front() : *moving;
+  return present == nullptr || job_in(jobs, next)->is_running() ? next : job;
 }
 
 CellGrid watch_cells(const WatchContent& content, int columns, int lines) {

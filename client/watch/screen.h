@@ -29,7 +29,8 @@ CellGrid watch_cells(const WatchContent& content, int columns, int lines);
 
 /// The runs that keys switch between: those that run, or all if none does.
 std::vector<std::string> choices(const LiveJobs& jobs);
-/// The run to show: `job` as long as it runs or no other does; otherwise the first that runs.
+/// The run to show: `job` as long as it runs or no other does; otherwise the first that runs, rather than draws its
+/// film.
 std::string job_to_show(const std::string& job, const LiveJobs& jobs);
 
 }  // namespace shaken::client

@@ -47,6 +47,8 @@ class SmallTerminal {
     return all;
   }
   bool is_on_second_page() const { return second_page_; }
+  /// How often the second page was gone to.
+  int n_visits() const { return n_visits_; }
   bool shows_cursor() const { return cursor_; }
   bool is_updating() const { return updating_; }
   const std::string& misunderstood() const { return misunderstood_; }
@@ -113,6 +115,10 @@ class SmallTerminal {
       restyle(numbers);
     } else if (body == "?1049") {
       second_page_ = command == 'h';
+      n_visits_ += second_page_ ? 1 : 0;
+      // What stood on the first page is not kept; its cursor is at the beginning.
+      cells_.assign(cells_.size(), {});
+      line_ = column_ = 0;
     } else if (body == "?25") {
       cursor_ = command == 'h';
     } else if (body == "?2026") {
@@ -152,6 +158,7 @@ class SmallTerminal {
   Cell style_;
   std::vector<Cell> cells_;
   bool second_page_ = false;
+  int n_visits_ = 0;
   bool cursor_ = true;
   bool updating_ = false;
   std::string rest_;

@@ -203,6 +203,11 @@ TEST(JobToShow, FollowsWhatRuns) {
   EXPECT_EQ(job_to_show(kSecond, jobs), kSecond) << "it still runs";
   jobs.note_api(job_json(kSecond, "done"));
   EXPECT_EQ(job_to_show(kSecond, jobs), kFirst);
+  jobs.note_api(job_json(kSecond, "running"));
+  jobs.note_api(job_json(kFirst, "running", "rendering"));
+  EXPECT_EQ(job_to_show("", jobs), kSecond) << "it moves";
+  EXPECT_EQ(job_to_show(kFirst, jobs), kFirst) << "one may look at a film being drawn";
+  jobs.note_api(job_json(kSecond, "done"));
   jobs.note_api(job_json(kFirst, "done"));
   EXPECT_EQ(job_to_show(kFirst, jobs), kFirst) << "nothing runs: what was last seen stays";
 }
