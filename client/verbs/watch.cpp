@@ -74,7 +74,8 @@ class Watch : public Verb {
       std::optional<LiveScreen> screen;
       if (console.interactive) {
         console.out.flush();
-        screen.emplace(console.colour ? colour_depth(std::getenv) : ColourDepth::kNone);
+        screen.emplace(console.colour ? colour_depth(std::getenv) : ColourDepth::kNone,
+                       std::getenv("SSH_CONNECTION") != nullptr);
       }
       if (bus) listen(*bus.value(), jobs, screen ? &screen->rods() : nullptr, state_has_changed);
       follow(session, targets, jobs, bus, state_has_changed, guard, screen ? &*screen : nullptr, console);

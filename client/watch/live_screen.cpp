@@ -13,7 +13,8 @@ namespace shaken::client {
 namespace {
 
 constexpr std::chrono::milliseconds kShortestPause{100};
-constexpr std::size_t kMostBytesPerSecond = 150'000;
+constexpr std::size_t kMostBytesPerSecond = 1'500'000;
+constexpr std::size_t kMostRemoteBytesPerSecond = 150'000;
 /// The bytes of one key follow each other faster than this.
 constexpr std::chrono::milliseconds kWithinAKey{50};
 
@@ -32,8 +33,9 @@ std::vector<DefectMark> marks_of(const LiveJobs& jobs, const std::string& id) {
 
 }  // namespace
 
-std::chrono::milliseconds pause_after(std::size_t bytes) {
-  return std::max(kShortestPause, std::chrono::milliseconds(1000 * bytes / kMostBytesPerSecond));
+std::chrono::milliseconds pause_after(std::size_t bytes, bool is_remote) {
+  const std::size_t rate = is_remote ? kMostRemoteBytesPerSecond : kMostBytesPerSecond;
+  return std::max(kShortestPause, std::chrono::milliseconds(1000 * bytes / rate));
 }
 
 std::chrono::milliseconds LiveScreen::draw(const LiveJobs& jobs, const std::string& title, const std::string& note,
@@ -55,7 +57,7 @@ std::chrono::milliseconds LiveScreen::draw(const LiveJobs& jobs, const std::stri
                              .depth = depth_};
   const std::string bytes = writer_.update(watch_cells(content, size.columns, size.lines));
   if (!session_.write(bytes)) is_gone_ = true;
-  return pause_after(bytes.size());
+  return pause_after(bytes.size(), is_remote_);
 }
 
 bool LiveScreen::wait(int bus_descriptor, std::chrono::milliseconds time, const LiveJobs& jobs) {

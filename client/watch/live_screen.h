@@ -18,13 +18,13 @@
 namespace shaken::client {
 
 /// How long to wait after a screen that took so many bytes: a tenth of a second, or longer, so that there are no more
-/// than 150 kB per second.
-std::chrono::milliseconds pause_after(std::size_t bytes);
+/// than 1.5 MB per second, or 150 kB where the terminal is on another machine.
+std::chrono::milliseconds pause_after(std::size_t bytes, bool is_remote);
 
 /// The terminal of `shaken watch`: rods, numbers and keys, from its making to its end.
 class LiveScreen {
  public:
-  explicit LiveScreen(ColourDepth depth) : depth_(depth), writer_(depth) {}
+  LiveScreen(ColourDepth depth, bool is_remote) : depth_(depth), is_remote_(is_remote), writer_(depth) {}
 
   /// Frames from the bus go here.
   LiveRods& rods() { return rods_; }
@@ -41,6 +41,7 @@ class LiveScreen {
   void obey(const std::vector<Key>& keys, const LiveJobs& jobs);
 
   ColourDepth depth_;
+  bool is_remote_;
   ScreenWriter writer_;
   LiveRods rods_;
   KeyReader keys_;

@@ -38,6 +38,19 @@ std::string colour_code(Ink ink, int base, ColourDepth depth) {
   return fmt::format("{};2;{};{};{}", base + 8, part(ink, 16), part(ink, 8), part(ink, 0));
 }
 
+/// Of the cells that look like `cell`, the one that needs the fewest changes of colour after `style`: nothing of a
+/// blank is seen but what is behind it, and a half block may be turned over.
+Cell cheapest(const Cell& cell, const Cell& style) {
+  if (cell.glyph == U' ') return {.fore = style.fore, .back = cell.back, .bold = style.bold, .dim = style.dim};
+  // The terminal's own two colours differ, and bold letters may be brighter.
+  const bool can_turn =
+      (cell.glyph == U'▀' || cell.glyph == U'▄') && cell.fore >= 0 && cell.back >= 0 && !cell.bold && !cell.dim;
+  if (!can_turn) return cell;
+  const auto n_changes = [&style](const Cell& c) { return (c.fore != style.fore) + (c.back != style.back); };
+  const Cell turned{.glyph = cell.glyph == U'▀' ? U'▄' : U'▀', .fore = cell.back, .back = cell.fore};
+  return n_changes(turned) < n_changes(cell) ? turned : cell;
+}
+
 bool same_style(const Cell& a, const Cell& b) {
   return a.fore == b.fore && a.back == b.back && a.bold == b.bold && a.dim == b.dim;
 }
@@ -101,8 +114,9 @@ std::string ScreenWriter::update(const CellGrid& grid) {
   for (int line = 0; line < grid.lines(); ++line) {
     int cursor = -1;  // column, if the cursor is known to be in this line
     for (int column = 0; column < grid.columns(); ++column) {
-      const Cell& cell = grid.at(column, line);
-      if (is_whole ? cell == Cell{} : cell == last_->at(column, line)) continue;
+      const Cell& wanted = grid.at(column, line);
+      if (is_whole ? wanted == Cell{} : wanted == last_->at(column, line)) continue;
+      const Cell cell = cheapest(wanted, style);
       if (cursor < 0) {
         text += fmt::format("\x1b[{};{}H", line + 1, column + 1);
       } else if (cursor < column) {

@@ -213,9 +213,10 @@ TEST(JobToShow, FollowsWhatRuns) {
 }
 
 TEST(PauseAfter, KeepsASlowLineFree) {
-  EXPECT_EQ(pause_after(0).count(), 100);
-  EXPECT_EQ(pause_after(15'000).count(), 100);
-  EXPECT_EQ(pause_after(300'000).count(), 2000);
+  EXPECT_EQ(pause_after(0, true).count(), 100);
+  EXPECT_EQ(pause_after(15'000, true).count(), 100);
+  EXPECT_EQ(pause_after(150'000, true).count(), 1000);
+  EXPECT_EQ(pause_after(150'000, false).count(), 100);
 }
 
 }  // namespace
