@@ -27,7 +27,7 @@ class SampleGrid {
         per_mm_(dots_per_mm(frame, view, area)),
         width_(2 * area.columns),
         height_(4 * area.lines),
-        tones_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), kNothing) {
+        tones_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), kFloorTone) {
     // A periodic box is seen from half a side left of the middle of the view to half a side right of it.
     const double half = frame.box_side / 2;
     const double left = frame.walls ? -x_ : -half, bottom = frame.walls ? -y_ : -half;
@@ -74,7 +74,7 @@ class SampleGrid {
         const double distance = walls.arena == Arena::kSquare ? std::max(std::abs(x), std::abs(y)) : std::hypot(x, y);
         const bool is_outer = std::abs(distance - walls.size / 2) < reach;
         const bool is_inner = walls.arena == Arena::kAnnulus && std::abs(distance - walls.inner / 2) < reach;
-        if (is_outer || is_inner) set(column, row, kWall);
+        if (is_outer || is_inner) set(column, row, kWallTone);
       }
     }
   }
@@ -138,7 +138,7 @@ Tone tone_of(const RodFrame& frame, std::size_t rod, Colouring colouring) {
 
 /// What several samples have in common.
 struct Blend {
-  Tone tone = kNothing;  ///< that of most of those that are something
+  Tone tone = kFloorTone;  ///< that of most of those that are something
   int n_filled = 0;
   int n_in_box = 0;
 };
@@ -151,7 +151,7 @@ Blend blended(const SampleGrid& samples, int column, int row, int columns, int r
     for (int i = 0; i < columns; ++i) {
       if (!samples.is_in_box(column + i, row + j)) continue;
       ++blend.n_in_box;
-      if (const Tone tone = samples.tone(column + i, row + j); tone != kNothing) seen[n_seen++] = tone;
+      if (const Tone tone = samples.tone(column + i, row + j); tone != kFloorTone) seen[n_seen++] = tone;
     }
   }
   const std::span filled(seen.data(), n_seen);
@@ -169,7 +169,7 @@ Blend blended(const SampleGrid& samples, int column, int row, int columns, int r
 /// The colour of half a cell; the terminal's own outside the box.
 Ink half_ink(const Blend& blend, bool mixes) {
   if (blend.n_in_box == 0) return kOwnInk;
-  if (!mixes) return 2 * blend.n_filled >= blend.n_in_box ? ink_of(blend.tone) : ink_of(kNothing);
+  if (!mixes) return 2 * blend.n_filled >= blend.n_in_box ? ink_of(blend.tone) : ink_of(kFloorTone);
   return ink_of(blend.tone, static_cast<double>(blend.n_filled) / blend.n_in_box);
 }
 
@@ -186,11 +186,11 @@ Cell braille_cell(const SampleGrid& samples, int column, int row, bool in_colour
   static constexpr std::uint8_t kBits[4][2] = {{0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}};
   const Blend blend = blended(samples, column, row, 2, 4);
   Cell cell;
-  if (in_colour && blend.n_in_box > 0) cell.back = ink_of(kNothing);
+  if (in_colour && blend.n_in_box > 0) cell.back = ink_of(kFloorTone);
   std::uint8_t bits = 0;
   for (int j = 0; j < 4; ++j) {
     for (int i = 0; i < 2; ++i) {
-      const bool is_set = samples.is_in_box(column + i, row + j) && samples.tone(column + i, row + j) != kNothing;
+      const bool is_set = samples.is_in_box(column + i, row + j) && samples.tone(column + i, row + j) != kFloorTone;
       if (is_set) bits |= kBits[j][i];
     }
   }

@@ -61,7 +61,7 @@ Ink ink_of(Tone tone) { return kInks[tone]; }
 Ink ink_of(Tone tone, double share) {
   Ink mixed = 0;
   for (const int shift : {16, 8, 0}) {
-    const double floor = kInks[kNothing] >> shift & 0xFF, top = kInks[tone] >> shift & 0xFF;
+    const double floor = kInks[kFloorTone] >> shift & 0xFF, top = kInks[tone] >> shift & 0xFF;
     mixed |= static_cast<Ink>(std::lround(floor + share * (top - floor))) << shift;
   }
   return mixed;

@@ -21,8 +21,8 @@ const char* name_of(Colouring colouring);
 /// One of the few dozen colours that are used in a picture. Few, so that a cell often keeps its colour from one picture
 /// to the next and need not be sent again.
 using Tone = std::uint8_t;
-inline constexpr Tone kNothing = 0;  ///< the floor
-inline constexpr Tone kWall = 1;
+inline constexpr Tone kFloorTone = 0;  ///< the floor
+inline constexpr Tone kWallTone = 1;
 
 /// The colours change from pale over the first 15 degrees (`theta` in [-pi/2, pi/2], in radians). Orange and blue are
 /// told apart by people who confuse red and green.
