@@ -214,7 +214,8 @@ void put_help(const Console& console, CellGrid& grid) {
 CellGrid overview_cells(const WatchContent& content, const Console& console) {
   CellGrid grid(console.width, console.height);
   int line = 0;
-  for (const std::string& text : watch_screen(content.jobs, content.title, content.note, console)) {
+  const std::string note = "o rods  q leave  ? keys  " + content.note;
+  for (const std::string& text : watch_screen(content.jobs, content.title, note, console)) {
     grid.put(0, line++, text);
   }
   return grid;

@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <random>
+
 #include "client/watch/layout.h"
 #include "client/watch/live_screen.h"
 
@@ -144,6 +147,9 @@ TEST_F(WatchCells, DrawingTheFilmIsAStateOfItsOwn) {
   const std::string text = shown();
   EXPECT_THAT(text, HasSubstr("drawing the film"));
   EXPECT_THAT(text, Not(HasSubstr("ETA")));
+  steering_.numbers = true;
+  EXPECT_THAT(shown(), HasSubstr("1f0c0000  drawing the film"));
+  steering_.numbers = false;
   jobs_.note_api(job_json(kFirst, "running"));
   EXPECT_THAT(shown(), Not(HasSubstr("drawing")));
 }
@@ -164,6 +170,7 @@ TEST_F(WatchCells, NumbersOfAllRuns) {
   steering_.numbers = true;
   EXPECT_THAT(shown(), HasSubstr("1f0c0000"));
   EXPECT_THAT(shown(), HasSubstr("2a0c0000"));
+  EXPECT_THAT(shown(), HasSubstr("o rods  q leave  ? keys  live over LCM"));
 }
 
 TEST_F(WatchCells, HelpNamesEveryKey) {
@@ -210,6 +217,46 @@ TEST(JobToShow, FollowsWhatRuns) {
   jobs.note_api(job_json(kSecond, "done"));
   jobs.note_api(job_json(kFirst, "done"));
   EXPECT_EQ(job_to_show(kFirst, jobs), kFirst) << "nothing runs: what was last seen stays";
+}
+
+/// 2,300 rods of the paper's box, somewhere.
+RodFrame many_rods() {
+  RodFrame frame = one_rod();
+  frame.box_side = 83.73;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> place(0, frame.box_side), angle(-0.5, 0.5);
+  frame.rods.clear();
+  for (int i = 0; i < 2300; ++i) frame.rods.push_back({place(random), place(random), angle(random), 0});
+  return frame;
+}
+
+TEST_F(WatchCells, APictureTakesBytesByWhatHasMoved) {
+  jobs_.note_api(job_json(kFirst, "running"));
+  frame_ = many_rods();
+  const auto cells = [&] {
+    return watch_cells({.jobs = jobs_,
+                        .steering = steering_,
+                        .rods = rods_,
+                        .defects = defects_,
+                        .title = "sweep s1",
+                        .note = "",
+                        .depth = depth_},
+                       200, 60);
+  };
+  for (const auto& [depth, most] :
+       {std::pair{ColourDepth::kTrue, 150'000}, {ColourDepth::k256, 100'000}, {ColourDepth::kNone, 30'000}}) {
+    depth_ = depth;
+    ScreenWriter writer(depth);
+    const std::size_t whole = writer.update(cells()).size();
+    EXPECT_LT(whole, static_cast<std::size_t>(most));
+    EXPECT_EQ(writer.update(cells()).size(), 0u) << "nothing has moved";
+    frame_.rods[0].x += frame_.rods[0].x > 40 ? -5 : 5;
+    const std::size_t one = writer.update(cells()).size();
+    EXPECT_GT(one, 0u);
+    EXPECT_LT(one, 1000u) << "one rod has";
+    for (proto::RodPose& rod : frame_.rods) rod.y += rod.y > 80 ? -80 : 3;
+    EXPECT_GT(writer.update(cells()).size(), whole / 3) << "all have";
+  }
 }
 
 TEST(PauseAfter, KeepsASlowLineFree) {
