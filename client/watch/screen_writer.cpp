@@ -51,6 +51,16 @@ Cell cheapest(const Cell& cell, const Cell& style) {
   return n_changes(turned) < n_changes(cell) ? turned : cell;
 }
 
+/// The purest colour of the same hue, where there is a hue to speak of: sixteen colours have no dull ones but greys.
+Ink saturated(Ink rgb) {
+  constexpr int kGreyish = 64;
+  const auto [low, high] = std::minmax({part(rgb, 16), part(rgb, 8), part(rgb, 0)});
+  if (high - low < kGreyish) return rgb;
+  Ink pure = 0;
+  for (const int shift : {16, 8, 0}) pure |= (part(rgb, shift) - low) * high / (high - low) << shift;
+  return pure;
+}
+
 bool same_style(const Cell& a, const Cell& b) {
   return a.fore == b.fore && a.back == b.back && a.bold == b.bold && a.dim == b.dim;
 }
@@ -92,9 +102,10 @@ int nearest_of_16(Ink rgb) {
   static constexpr std::array<Ink, 16> kXterm{0x000000, 0xCD0000, 0x00CD00, 0xCDCD00, 0x0000EE, 0xCD00CD,
                                               0x00CDCD, 0xE5E5E5, 0x7F7F7F, 0xFF0000, 0x00FF00, 0xFFFF00,
                                               0x5C5CFF, 0xFF00FF, 0x00FFFF, 0xFFFFFF};
+  const Ink full = saturated(rgb);
   return static_cast<int>(
       std::min_element(kXterm.begin(), kXterm.end(),
-                       [rgb](Ink a, Ink b) { return squared_distance(a, rgb) < squared_distance(b, rgb); }) -
+                       [full](Ink a, Ink b) { return squared_distance(a, full) < squared_distance(b, full); }) -
       kXterm.begin());
 }
 

@@ -17,8 +17,9 @@ enum class ColourDepth { kNone, k16, k256, kTrue };
 /// "dumb", "vt100", "vt220" and no TERM at all; otherwise 16.
 ColourDepth colour_depth(const std::function<const char*(const char*)>& variable);
 
-/// The nearest of xterm's 256 colours (16 to 255: a cube and greys), and of its first 16.
+/// The nearest of xterm's 256 colours (16 to 255: a cube and greys).
 int nearest_of_256(Ink rgb);
+/// The nearest of its first 16 to the purest colour of the same hue; to the colour itself if that is greyish.
 int nearest_of_16(Ink rgb);
 
 /// Brings screens to a terminal, each as the cells that differ from the one before, so that a slow line is not flooded.

@@ -132,6 +132,15 @@ TEST(ColourDepth, NearestColours) {
   EXPECT_EQ(nearest_of_256(0x121212), 233);
   EXPECT_EQ(nearest_of_16(0x000000), 0);
   EXPECT_EQ(nearest_of_16(0xFE0101), 9);
+  EXPECT_EQ(nearest_of_16(0x7A7F8A), 8) << "grey";
+  EXPECT_EQ(nearest_of_16(0xECE8E4), 7);
+  // The ends of the two sides, and six hues of the wheel: none becomes grey.
+  EXPECT_EQ(nearest_of_16(0xFF9000), 3);
+  EXPECT_EQ(nearest_of_16(0x2F8FFF), 12);
+  for (const Ink ink : {0xF08B7C, 0xCBA640, 0x6EC17E, 0x0FC0D5, 0x8AA7FB, 0xD68DD2}) {
+    const int hue = nearest_of_16(ink) % 8;
+    EXPECT_TRUE(hue >= 1 && hue <= 6) << ink;
+  }
 }
 
 }  // namespace
