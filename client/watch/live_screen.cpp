@@ -56,7 +56,7 @@ std::chrono::milliseconds LiveScreen::draw(const LiveJobs& jobs, const std::stri
                              .note = note,
                              .depth = depth_};
   const std::string bytes = writer_.update(watch_cells(content, size.columns, size.lines));
-  if (!session_.write(bytes)) is_gone_ = true;
+  if (!session_.write(bytes)) writer_.forget();
   return pause_after(bytes.size(), is_remote_);
 }
 

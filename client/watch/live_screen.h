@@ -35,7 +35,7 @@ class LiveScreen {
   /// to draw at once.
   bool wait(int bus_descriptor, std::chrono::milliseconds time, const LiveJobs& jobs);
   /// By a key, or because the terminal is gone.
-  bool has_ended() const { return steering_.quit || is_gone_; }
+  bool has_ended() const { return steering_.quit || session_.is_gone(); }
 
  private:
   void obey(const std::vector<Key>& keys, const LiveJobs& jobs);
@@ -48,7 +48,6 @@ class LiveScreen {
   Steering steering_;
   std::shared_ptr<const RodFrame> shown_;
   std::vector<DefectMark> defects_;
-  bool is_gone_ = false;
   TerminalSession session_;  ///< last, so that it goes first
 };
 

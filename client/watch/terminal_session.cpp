@@ -5,6 +5,8 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
+#include <iterator>
 
 namespace shaken::client {
 namespace {
@@ -55,13 +57,12 @@ void TerminalSession::leave() {
 }
 
 bool TerminalSession::write(const std::string& bytes) {
-  std::size_t done = 0;
-  while (done < bytes.size()) {
-    const ssize_t n = ::write(STDOUT_FILENO, bytes.data() + done, bytes.size() - done);
-    if (n > 0) done += static_cast<std::size_t>(n);
-    if (n < 0) return false;
-  }
-  return true;
+  const ssize_t n = ::write(STDOUT_FILENO, bytes.data(), bytes.size());
+  if (n == std::ssize(bytes)) return true;
+  // A terminal takes all, unless a signal comes. What nobody reads shall not keep it from being given back.
+  is_gone_ = n < 0 && errno != EINTR;
+  tcflush(STDOUT_FILENO, TCOFLUSH);
+  return false;
 }
 
 std::string TerminalSession::read() {

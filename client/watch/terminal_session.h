@@ -19,8 +19,11 @@ class TerminalSession {
   TerminalSession& operator=(const TerminalSession&) = delete;
   ~TerminalSession();
 
-  /// Writes all of it, however long the terminal takes; false if it is gone, or a signal came meanwhile.
+  /// Writes all of it, however long the terminal takes. If a signal comes meanwhile, or the terminal is gone, false,
+  /// and what it has not taken yet is forgotten.
   bool write(const std::string& bytes);
+  /// Whether nothing can be written any more.
+  bool is_gone() const { return is_gone_; }
   /// Whether there are keys. Not after the terminal has hung up.
   bool has_keys() const { return has_keys_; }
   /// What has been typed, of which poll() knows.
@@ -36,6 +39,7 @@ class TerminalSession {
   void leave();
 
   bool has_keys_ = false;
+  bool is_gone_ = false;
   termios before_{};
   sigset_t signals_before_{};
   Descriptor resizes_;

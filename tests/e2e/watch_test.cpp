@@ -17,6 +17,7 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <thread>
 
 #include "tests/e2e/process.h"
 #include "tests/support/small_terminal.h"
@@ -100,6 +101,31 @@ class OnTerminal {
     while (take()) {
     }
     return status_ && WIFEXITED(*status_) ? WEXITSTATUS(*status_) : -1;
+  }
+  /// Asks for whole screens, none of which is read, until the program waits in a write. False if the kernel does not
+  /// tell that it does.
+  bool fill() const {
+    const std::string state = "/proc/" + std::to_string(pid_) + "/wchan";
+    const auto until = steady_clock::now() + seconds(20);
+    while (steady_clock::now() < until) {
+      type("\f");
+      std::string where;
+      std::getline(std::ifstream(state), where);
+      if (where == "wait_woken") return true;  // tty_write's; poll has another
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return false;
+  }
+  /// As wait(), without reading anything.
+  int wait_unread() {
+    const auto until = steady_clock::now() + seconds(60);
+    int status = 0;
+    while (waitpid(pid_, &status, WNOHANG) != pid_) {
+      if (steady_clock::now() > until) return -1;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    status_ = status;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
   const SmallTerminal& screen() const { return screen_; }
   /// Whether everything is as it was before the program.
@@ -219,6 +245,15 @@ TEST_F(WatchOnATerminal, SignalsGiveTheTerminalBack) {
   watch.type("\x03");
   EXPECT_EQ(watch.wait(), 130) << "Ctrl-C";
   watch.expect_given_back();
+}
+
+TEST_F(WatchOnATerminal, ATerminalThatTakesNothingDoesNotKeepItFromEnding) {
+  OnTerminal watch(watch_command(), 200, 60);
+  ASSERT_TRUE(watch.shows("? keys")) << watch.screen().text();
+  // From here on nothing is read, while whole screens are asked for until nothing more can be written.
+  if (!watch.fill()) GTEST_SKIP() << "whether a process waits in a write cannot be seen here";
+  watch.send(SIGTERM);
+  EXPECT_EQ(watch.wait_unread(), 130);
 }
 
 TEST_F(WatchOnATerminal, CtrlZGivesTheTerminalBackUntilItGoesOn) {
