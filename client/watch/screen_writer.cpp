@@ -146,8 +146,7 @@ std::string ScreenWriter::update(const CellGrid& grid) {
         style = cell;
       }
       append_utf8(text, cell.glyph);
-      // In the last column a terminal leaves the cursor on the character, or not: that is not relied on.
-      cursor = column + 1 < grid.columns() ? column + 1 : -1;
+      cursor = column + 1;
     }
   }
   last_ = grid;

@@ -158,9 +158,9 @@ TEST(RodColours, LeftAndRightOfTheDirectorDiffer) {
   RodFrame frame = frame_of({{2.5, 5.25, 0.4 + 0.3, 0}, {7.5, 5.25, 0.4 - 0.3, 0}});
   frame.director = 0.4;
   const CellGrid grid = drawn(frame, {.colouring = Colouring::kLayers, .grain = Grain::kBraille}, {}, 20, 10);
-  EXPECT_EQ(grid.at(5, 4).fore, ink_of(layer_tone(1)));
-  EXPECT_EQ(grid.at(15, 4).fore, ink_of(layer_tone(-1)));
-  EXPECT_NE(layer_tone(1), layer_tone(-1));
+  EXPECT_EQ(grid.at(5, 4).fore, 0xFF9000) << "orange to the left";
+  EXPECT_EQ(grid.at(15, 4).fore, 0x2F8FFF) << "blue to the right";
+  EXPECT_EQ(ink_of(layer_tone(0)), 0xECE8E4) << "pale along it";
   // A rod has no head here, and directors are the same half a turn on.
   frame.rods[0].theta += kPi;
   frame.rods[1].theta -= kPi;
