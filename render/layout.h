@@ -3,6 +3,7 @@
 
 #include "render/canvas.h"
 #include "render/picture.h"
+#include "render/style.h"
 
 namespace shaken::render {
 
@@ -14,7 +15,13 @@ struct Layout {
   Rect label, numbers, history, legend, species, key, scale_bar;
 };
 
-/// `with_species`: whether there are several species to be told apart.
-Layout layout_of(const PictureStyle& style, bool with_history, bool with_label, bool with_species = false);
+/// What there is to be shown, besides what the style asks for.
+struct Contents {
+  bool history = false;  ///< S(t)
+  bool label = false;
+  bool species = false;  ///< several, to be told apart
+  bool scale = true;     ///< a colour scale: colours that are names have none
+};
+Layout layout_of(const PictureStyle& style, const Contents& contents);
 
 }  // namespace shaken::render

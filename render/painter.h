@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <filesystem>
 #include <utility>
 
 #include "render/image.h"
 #include "render/picture.h"
 #include "render/rods_pass.h"
+#include "render/style.h"
 #include "sim/core/result.h"
 
 namespace shaken::render {
@@ -21,5 +23,9 @@ class Painter {
   explicit Painter(RodsPass rods) : rods_(std::move(rods)) {}
   RodsPass rods_;
 };
+
+/// The same picture of lines and areas, as ".svg" or ".pdf": rods are their outlines without light and shadow. The file
+/// appears, or replaces an older one, only when it is complete.
+Result<void> write_vector(const std::filesystem::path& file, const RodPicture& picture, const PictureStyle& style);
 
 }  // namespace shaken::render

@@ -8,9 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "render/colourings.h"
 #include "render/colours.h"
 #include "render/gl.h"
 #include "render/rods_shaders.h"
+#include "render/view.h"
 
 namespace shaken::render {
 namespace {
@@ -51,24 +53,20 @@ std::array<float, 3> to_floats(const Vec3& v) {
 /// All rods of one species, and their periodic images, of which a part may lie in the view. `reach` is how far from its
 /// centre anything of a rod is drawn.
 std::vector<Instance> instances_in(const RodPicture& picture, std::size_t species, const View& view,
-                                   Colouring colouring, double reach) {
+                                   const PictureStyle& style, double reach) {
   std::vector<Instance> instances;
   const std::size_t n = picture.count(species);
   instances.reserve(n + n / 4);
+  const Colouring& colouring = colouring_of(picture, style);
+  const Vec2 range = range_of(colouring, style);
   for (std::size_t i = 0; i < picture.n_rods(); ++i) {
     if (picture.species_of(i) != species) continue;
     const Vec3& x = picture.position[i];
-    const Colour colour = rod_colour(picture, i, colouring);
-    // Image numbers k for which x + k L lies within `reach` of the view.
-    const auto first = [&](double low) { return std::ceil((low - reach) / picture.box_side); };
-    const auto last = [&](double low) { return std::floor((low + view.side + reach) / picture.box_side); };
-    const Vec2 low = view.corner - x.head<2>();
-    for (double ky = first(low.y()); ky <= last(low.y()); ++ky) {
-      for (double kx = first(low.x()); kx <= last(low.x()); ++kx) {
-        instances.push_back({to_floats({kx * picture.box_side - low.x(), ky * picture.box_side - low.y(), x.z()}),
-                             to_floats(picture.director[i]), to_floats({colour[0], colour[1], colour[2]})});
-      }
-    }
+    const Colour colour = rod_colour(picture, i, colouring, range);
+    for_images(view, x.head<2>(), reach, [&](const Vec2& at) {
+      instances.push_back({to_floats({at.x(), at.y(), x.z()}), to_floats(picture.director[i]),
+                           to_floats({colour[0], colour[1], colour[2]})});
+    });
   }
   return instances;
 }
@@ -81,7 +79,7 @@ struct Batch {
   double margin = 0;         // of the shadow
   std::vector<Instance> instances;
 
-  Batch(const RodPicture& picture, std::size_t species, const View& view, Colouring colouring) {
+  Batch(const RodPicture& picture, std::size_t species, const View& view, const PictureStyle& style) {
     const BeadRow& row = picture.beads_of(species);
     double half = 0;
     for (std::size_t i = 0; i < row.offset.size(); ++i) {
@@ -92,7 +90,7 @@ struct Batch {
     ends = Vec2(row.offset.front(), row.offset.back());
     thick = *std::max_element(row.radius.begin(), row.radius.end());
     margin = 1.1 * thick;
-    instances = instances_in(picture, species, view, colouring, half + 2 * margin);
+    instances = instances_in(picture, species, view, style, half + 2 * margin);
   }
 };
 
@@ -145,12 +143,6 @@ Result<void> check(const RodPicture& picture, int side) {
 
 }  // namespace
 
-View view_of(const RodPicture& picture, const PictureStyle& style) {
-  const double side = picture.box_side / std::max(style.zoom, 1.0);
-  if (style.zoom <= 1) return {Vec2(0, 0), side};
-  return {style.focus * picture.box_side - Vec2(side, side) / 2, side};
-}
-
 struct RodsPass::Programs {
   GLuint body = 0;
   GLuint shadow = 0;
@@ -200,7 +192,7 @@ Result<Image> RodsPass::draw(const RodPicture& picture, const PictureStyle& styl
   std::vector<Batch> batches;
   double thick = 0;
   for (std::size_t species = 0; species < picture.n_species(); ++species) {
-    batches.emplace_back(picture, species, view, style.colouring);
+    batches.emplace_back(picture, species, view, style);
     thick = std::max(thick, batches.back().thick);
   }
   const Palette colours = palette(style.theme);

@@ -141,8 +141,7 @@ in vec2 place;
 out vec4 pixel;
 
 void main() {
-  // From the middle of the nearest periodic image of the box.
-  vec2 from_middle = mod(view_corner + place, box_side) - 0.5 * box_side;
+  vec2 from_middle = view_corner + place - 0.5 * box_side;
   float r = length(from_middle);
   float outside = r - 0.5 * size;
   if (arena == 1) outside = max(abs(from_middle.x), abs(from_middle.y)) - 0.5 * size;
