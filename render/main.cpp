@@ -283,7 +283,8 @@ void make_movie_file(const Options& options) {
     const Result<void> made = make_movie(out, style, movie, cut.frames.size(), picture, [&](std::size_t i) {
       progress.show(static_cast<double>(i + 1) / static_cast<double>(cut.frames.size()));
       constexpr double kPeriod = 0.3;
-      if (!options.progress.empty() && watch.seconds() > told + kPeriod) {
+      const bool is_last = i + 1 == cut.frames.size();
+      if (!options.progress.empty() && (is_last || watch.seconds() > told + kPeriod)) {
         told = watch.seconds();
         const nlohmann::ordered_json so_far = {
             {"frames_drawn", i + 1}, {"frames", cut.frames.size()}, {"seconds", told}};
