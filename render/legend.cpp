@@ -128,7 +128,7 @@ void draw_line_legend(const Canvas& canvas, const Rect& place, double unit, cons
     const std::string beyond = is_first && histogram.is_below  ? "\u2264"
                                : is_last && histogram.is_above ? "\u2265"
                                                                : "";
-    canvas.text(x, base + 16 * unit, beyond + tick_text(value, colouring.unit), 12 * unit,
+    canvas.text(x, base + 16 * unit, beyond + tick_text(value, is_angle ? colouring.unit : ""), 12 * unit,
                 is_last    ? Canvas::Align::kRight
                 : is_first ? Canvas::Align::kLeft
                            : Canvas::Align::kCentre);

@@ -53,6 +53,15 @@ bool is_defined(const analysis::DirectorField& field, const Vec2& place) {
   return field.is_defined(node(place.x()), node(place.y()));
 }
 
+/// How much of a director there is at `place`: 1 where all nodes around it have one, 0 where none has.
+double defined_share(const analysis::DirectorField& field, const Vec2& place) {
+  const double x = place.x() / field.mesh(), y = place.y() / field.mesh();
+  const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y));
+  const auto at = [&](int di, int dj) { return field.is_defined(i + di, j + dj) ? 1.0 : 0.0; };
+  const double u = x - i, v = y - j;
+  return (1 - v) * ((1 - u) * at(0, 0) + u * at(1, 0)) + v * ((1 - u) * at(0, 1) + u * at(1, 1));
+}
+
 void draw_order(const Canvas& canvas, const Plane& plane, const RodPicture& picture, Theme theme) {
   // Nodes half a mesh apart in the view, or as many as pixels show.
   const View& view = plane.view();
@@ -61,7 +70,7 @@ void draw_order(const Canvas& canvas, const Plane& plane, const RodPicture& pict
   for (int j = 0; j <= n; ++j) {
     for (int i = 0; i <= n; ++i) {
       const Vec2 place = view.corner + view.side / n * Vec2(i, n - j);
-      const double order = is_defined(*picture.field, place) ? 2 * picture.field->q_at(place).norm() : 0;
+      const double order = defined_share(*picture.field, place) * 2 * picture.field->q_at(place).norm();
       const Colour colour = order_background(order, theme);
       for (std::size_t c = 0; c < 3; ++c) image.pixel(i, j)[c] = static_cast<std::uint8_t>(255 * colour[c] + 0.5);
     }

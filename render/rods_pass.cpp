@@ -71,10 +71,21 @@ std::vector<Instance> instances_in(const RodPicture& picture, std::size_t specie
   return instances;
 }
 
+/// The distance of neighbouring beads, or 0 if it is not the same all along the rod.
+double pitch_of(const BeadRow& row) {
+  if (row.offset.size() < 2) return 0;
+  const double pitch = row.offset[1] - row.offset[0];
+  for (std::size_t i = 1; i < row.offset.size(); ++i) {
+    if (std::abs(row.offset[i] - row.offset[i - 1] - pitch) > 1e-3 * pitch) return 0;
+  }
+  return std::max(pitch, 0.0);
+}
+
 /// The rods of one species in the view.
 struct Batch {
   std::vector<float> beads;  // offset, radius of each
   Vec2 ends;                 // offsets of the first and the last bead
+  double pitch = 0;          // distance of neighbouring beads; 0 if it is not the same everywhere
   double thick = 0;          // greatest radius
   double margin = 0;         // of the shadow
   std::vector<Instance> instances;
@@ -88,6 +99,7 @@ struct Batch {
       half = std::max(half, std::abs(row.offset[i]) + row.radius[i]);
     }
     ends = Vec2(row.offset.front(), row.offset.back());
+    pitch = pitch_of(row);
     thick = *std::max_element(row.radius.begin(), row.radius.end());
     margin = 1.1 * thick;
     instances = instances_in(picture, species, view, style, half + 2 * margin);
@@ -210,6 +222,8 @@ Result<Image> RodsPass::draw(const RodPicture& picture, const PictureStyle& styl
     glUniform2fv(at("beads"), n_beads, batch.beads.data());
     glUniform1i(at("n_beads"), n_beads);
     glUniform2f(at("ends"), static_cast<float>(batch.ends.x()), static_cast<float>(batch.ends.y()));
+    glUniform1f(at("pitch"), static_cast<float>(batch.pitch));
+    glUniform1f(at("thick"), static_cast<float>(batch.thick));
     glUniform1f(at("view_side"), static_cast<float>(view.side));
     glUniform1f(at("margin"), static_cast<float>(margin));
     glUniform2f(at("shift"), static_cast<float>(shift.x()), static_cast<float>(shift.y()));
