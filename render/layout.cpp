@@ -114,4 +114,25 @@ Layout layout_of(const PictureStyle& style, const Contents& contents) {
   return layout;
 }
 
+Layout gap_layout_of(const PictureStyle& style, const Contents& contents) {
+  Layout layout;
+  layout.unit = std::max(std::min(style.width, style.height) / 720.0, 0.7);
+  const double u = layout.unit, margin = std::round(24 * u);
+  const bool has_strip = style.caption || style.legend || style.scale_bar;
+  const double strip = has_strip ? std::min(206 * u, 0.6 * style.height) : 0;
+  layout.stage_width = style.width;
+  layout.stage_height = style.height - static_cast<int>(std::lround(strip));
+  if (!has_strip) return layout;
+  const double gap = 40 * u, width = style.width - 2 * margin - 2 * gap;
+  Rect left{margin, layout.stage_height + 14 * u, 0.36 * width, strip - 38 * u};
+  const Rect middle{left.right() + gap, left.y, 0.40 * width, left.height};
+  Rect right{middle.right() + gap, left.y, 0.24 * width, left.height};
+  if (style.caption && contents.label) layout.label = cut(left, 42 * u);
+  if (style.caption) layout.numbers = left;
+  if (style.legend && contents.scale) layout.legend = middle;
+  if (style.scale_bar) layout.scale_bar = cut(right, -34 * u);
+  if (style.legend && contents.species) layout.species = cut(right, 22 * u);
+  return layout;
+}
+
 }  // namespace shaken::render

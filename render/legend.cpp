@@ -67,8 +67,45 @@ void draw_title(const Canvas& canvas, const Rect& place, double unit, const std:
   canvas.text(place.x, place.y + 12 * unit, title, size * std::min(1.0, width / canvas.text_width(title, size)));
 }
 
+/// The colours, continuous, with ticks below them. `histogram`: whose outer bins may hold values beyond the scale.
+void draw_colour_bar(const Canvas& canvas, const Rect& bar, double unit, const Colouring& colouring, const Vec2& range,
+                     const Palette& colours, const Histogram* histogram) {
+  const bool is_angle = std::string_view(colouring.unit) == "\u00b0";
+  const int shades = 240;
+  for (int i = 0; i < shades; ++i) {
+    canvas.colour(colouring.colour(range.x() + (i + 0.5) / shades * (range.y() - range.x()), range));
+    const double from = std::round(bar.x + i * bar.width / shades);
+    canvas.fill({from, bar.y, std::round(bar.x + (i + 1) * bar.width / shades) - from, bar.height});
+  }
+  const int most_ticks = std::max(2, static_cast<int>(bar.width / (48 * unit)));
+  for (const double value : ticks(range.x(), range.y(), tick_step(range.y() - range.x(), most_ticks, is_angle))) {
+    const double x = bar.x + (value - range.x()) / (range.y() - range.x()) * bar.width;
+    canvas.colour(colours.ink);
+    canvas.line(x, bar.bottom(), x, bar.bottom() + 4 * unit, unit);
+    const bool is_first = value <= range.x(), is_last = value >= range.y();
+    const bool is_low = histogram != nullptr && is_first && histogram->is_below,
+               is_high = histogram != nullptr && is_last && histogram->is_above;
+    const std::string beyond = is_low ? "\u2264" : is_high ? "\u2265" : "";
+    canvas.text(x, bar.bottom() + 16 * unit, beyond + tick_text(value, is_angle ? colouring.unit : ""), 12 * unit,
+                is_last    ? Canvas::Align::kRight
+                : is_first ? Canvas::Align::kLeft
+                           : Canvas::Align::kCentre);
+  }
+}
+
+/// Where there is no room for how many rods have which colour: the colours alone.
+void draw_narrow_legend(const Canvas& canvas, const Rect& place, double unit, const Colouring& colouring,
+                        const Vec2& range, const Palette& colours) {
+  canvas.colour(colours.ink);
+  draw_title(canvas, place, unit, colouring.title, place.width);
+  draw_colour_bar(canvas, {place.x, place.y + 20 * unit, place.width, 10 * unit}, unit, colouring, range, colours,
+                  nullptr);
+}
+
 void draw_line_legend(const Canvas& canvas, const Rect& place, double unit, const RodPicture& picture,
                       const Colouring& colouring, const Vec2& range, const Palette& colours) {
+  constexpr double kLeast = 28;  // units; lower bars say nothing
+  if (place.height < (kLeast + 62) * unit) return draw_narrow_legend(canvas, place, unit, colouring, range, colours);
   const Histogram histogram(picture, colouring, range);
   const bool is_angle = std::string_view(colouring.unit) == "\u00b0";
   const bool is_relative = std::string_view(colouring.name) == "layers";
@@ -111,33 +148,14 @@ void draw_line_legend(const Canvas& canvas, const Rect& place, double unit, cons
   cairo_set_line_width(cr, 0.6 * unit);
   cairo_stroke(cr);
 
-  // The colours, continuous, apart from the bars so that an empty bin is empty.
-  const int shades = 240;
-  for (int i = 0; i < shades; ++i) {
-    canvas.colour(colouring.colour(range.x() + (i + 0.5) / shades * (range.y() - range.x()), range));
-    const double from = std::round(plot.x + i * plot.width / shades);
-    canvas.fill({from, plot.bottom() + gap, std::round(plot.x + (i + 1) * plot.width / shades) - from, bar});
-  }
-  const double base = plot.bottom() + gap + bar;
-  const int most_ticks = std::max(2, static_cast<int>(plot.width / (48 * unit)));
-  for (const double value : ticks(range.x(), range.y(), tick_step(range.y() - range.x(), most_ticks, is_angle))) {
-    const double x = plot.x + (value - range.x()) / (range.y() - range.x()) * plot.width;
-    canvas.colour(colours.ink);
-    canvas.line(x, base, x, base + 4 * unit, unit);
-    const bool is_first = value <= range.x(), is_last = value >= range.y();
-    const std::string beyond = is_first && histogram.is_below  ? "\u2264"
-                               : is_last && histogram.is_above ? "\u2265"
-                                                               : "";
-    canvas.text(x, base + 16 * unit, beyond + tick_text(value, is_angle ? colouring.unit : ""), 12 * unit,
-                is_last    ? Canvas::Align::kRight
-                : is_first ? Canvas::Align::kLeft
-                           : Canvas::Align::kCentre);
-  }
+  draw_colour_bar(canvas, {plot.x, plot.bottom() + gap, plot.width, bar}, unit, colouring, range, colours, &histogram);
 }
 
 /// Half a circle of 180 degrees, or a whole one of 360.
 void draw_circle_legend(const Canvas& canvas, const Rect& place, double unit, const RodPicture& picture,
                         const Colouring& colouring, const Vec2& range, const Palette& colours) {
+  constexpr double kLeast = 40;  // units; a smaller rose cannot be read
+  if (place.height < (kLeast + 46) * unit) return draw_narrow_legend(canvas, place, unit, colouring, range, colours);
   const Histogram histogram(picture, colouring, range);
   const double most = std::max(histogram.most(), 1e-9);
   const bool is_half = colouring.scale == Scale::kHalfTurn;

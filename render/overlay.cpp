@@ -8,6 +8,7 @@
 #include <string>
 
 #include "render/colourings.h"
+#include "render/gap_pass.h"
 #include "render/legend.h"
 #include "render/marks.h"
 #include "render/plane_layers.h"
@@ -51,7 +52,9 @@ void draw_numbers(const Canvas& canvas, const Layout& layout, const RodPicture& 
     const char* name;
     std::string value;
   };
-  const Number numbers[] = {{"time", fmt::format("{:.2f} s", picture.time)},
+  // In slow motion the last digit should be seen to move.
+  const int digits = picture.playback > 0 && picture.playback < 0.05 ? 4 : 2;
+  const Number numbers[] = {{"time", fmt::format("{:.{}f} s", picture.time, digits)},
                             {"order S", fmt::format("{:.3f}", picture.order)},
                             {"rods", fmt::format("{}", picture.n_rods())},
                             {"rod length", fmt::format("{:.4g} mm", picture.rod_length())},
@@ -165,12 +168,16 @@ void draw_species(const Canvas& canvas, const Layout& layout, const RodPicture& 
 void draw_scale_bar(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style,
                     const Palette& colours) {
   const double u = layout.unit;
-  const double scale = layout.box_side / view_of(picture, style).side;
-  const double length = round_length(layout.scale_bar.width * 0.6 / scale);
+  const bool is_gap = style.view == ViewPoint::kGap;
+  const GapCamera camera = gap_camera(picture, style, 1);
+  const double scale = is_gap ? layout.stage_height / (2 * camera.tangent.y() * camera.front)
+                              : layout.box_side / view_of(picture, style).side;  // pixels per mm
+  const double length = round_length(layout.scale_bar.width * (is_gap ? 0.5 : 0.6) / scale);
   const double bottom = layout.scale_bar.bottom();
   canvas.colour(colours.ink);
   canvas.fill({layout.scale_bar.x, bottom - 5 * u, length * scale, 5 * u});
-  canvas.text(layout.scale_bar.x, bottom - 11 * u, fmt::format("{:g} mm", length), 14 * u);
+  canvas.text(layout.scale_bar.x, bottom - 11 * u, fmt::format("{:g} mm{}", length, is_gap ? " at the opening" : ""),
+              14 * u);
   const std::string speed = playback_text(picture.playback);
   if (speed.empty()) return;
   // The sign of playing before the words.
@@ -212,8 +219,8 @@ void draw_overlay(const Canvas& canvas, const Layout& layout, const RodPicture& 
     draw_lines(canvas, layout, picture, style);
     draw_tracks(canvas, layout, picture, style);
     if (style.mark_defects) draw_defects(canvas, layout, picture, style);
+    draw_frame(canvas, layout, colours);
   }
-  draw_frame(canvas, layout, colours);
   if (layout.label.width > 0) draw_label(canvas, layout, picture, colours);
   if (layout.numbers.width > 0) draw_numbers(canvas, layout, picture, colours);
   if (layout.history.width > 0) draw_history(canvas, layout, picture, colours);

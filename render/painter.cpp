@@ -15,10 +15,11 @@ namespace shaken::render {
 namespace {
 
 Layout layout_for(const RodPicture& picture, const PictureStyle& style) {
-  return layout_of(style, {.history = !picture.history.time.empty(),
-                           .label = !picture.label.empty(),
-                           .species = picture.n_species() > 1,
-                           .scale = has_scale(picture, style)});
+  const Contents contents{.history = !picture.history.time.empty(),
+                          .label = !picture.label.empty(),
+                          .species = picture.n_species() > 1,
+                          .scale = has_scale(picture, style)};
+  return style.view == ViewPoint::kGap ? gap_layout_of(style, contents) : layout_of(style, contents);
 }
 
 }  // namespace
@@ -33,6 +34,18 @@ Result<Image> Painter::paint(const RodPicture& picture, const PictureStyle& styl
   if (auto done = check(style); !done) return done.error();
   const Layout layout = layout_for(picture, style);
   Canvas canvas(style.width, style.height, palette(style.theme).page);
+  if (style.view == ViewPoint::kGap) {
+    if (!gap_) {
+      Result<GapPass> made = GapPass::create();
+      if (!made) return made.error();
+      gap_.emplace(std::move(*made));
+    }
+    const Result<Image> stage = gap_->draw(picture, style, layout.stage_width, layout.stage_height);
+    if (!stage) return stage.error();
+    canvas.paste(*stage, 0, 0);
+    draw_overlay(canvas, layout, picture, style);
+    return canvas.image();
+  }
   if (style.rods < 1) draw_ground(canvas, layout, picture, style);
   if (style.rods > 0) {
     const Result<Image> rods = rods_.draw(picture, style, layout.box_side);

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <utility>
 
+#include "render/gap_pass.h"
 #include "render/image.h"
 #include "render/picture.h"
 #include "render/rods_pass.h"
@@ -22,6 +24,7 @@ class Painter {
  private:
   explicit Painter(RodsPass rods) : rods_(std::move(rods)) {}
   RodsPass rods_;
+  std::optional<GapPass> gap_;  ///< made when it is first needed
 };
 
 /// The same picture of lines and areas, as ".svg" or ".pdf": rods are their outlines without light and shadow. The file

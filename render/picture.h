@@ -41,6 +41,8 @@ struct RodPicture {
   double time = 0;      ///< [s]
   double box_side = 0;  ///< of the square box, periodic in x and y [mm]
   double gap = 0;       ///< between the plates [mm]
+  double base = 0;      ///< height of the base [mm]; rods' heights are counted as it is, from its lowest point
+  bool has_lid = true;
 
   BeadRow beads;                             ///< of a rod of the first species
   std::vector<BeadRow> added;                ///< of rods of the other species

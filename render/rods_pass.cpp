@@ -11,40 +11,17 @@
 #include "render/colourings.h"
 #include "render/colours.h"
 #include "render/gl.h"
+#include "render/gl_program.h"
 #include "render/rods_shaders.h"
 #include "render/view.h"
 
 namespace shaken::render {
 namespace {
 
-constexpr int kSamples = 3;  // along each side of a pixel
-
 /// One rod as the shaders see it.
 struct Instance {
   std::array<float, 3> centre, axis, colour;
 };
-
-/// Compiles and links; empty on failure, with the compiler's words in `message`.
-GLuint link_program(const char* vertex_source, const char* fragment_source, std::string& message) {
-  const GLuint program = glCreateProgram();
-  for (const auto& [species, source] :
-       {std::pair{GL_VERTEX_SHADER, vertex_source}, std::pair{GL_FRAGMENT_SHADER, fragment_source}}) {
-    const GLuint shader = glCreateShader(static_cast<GLenum>(species));
-    glShaderSource(shader, 1, &source, nullptr);
-    glCompileShader(shader);
-    glAttachShader(program, shader);
-    glDeleteShader(shader);
-  }
-  glLinkProgram(program);
-  GLint linked = GL_FALSE;
-  glGetProgramiv(program, GL_LINK_STATUS, &linked);
-  if (linked) return program;
-  std::array<char, 2048> text{};
-  glGetProgramInfoLog(program, static_cast<GLsizei>(text.size()), nullptr, text.data());
-  message = text.data();
-  glDeleteProgram(program);
-  return 0;
-}
 
 std::array<float, 3> to_floats(const Vec3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
@@ -106,30 +83,9 @@ struct Batch {
   }
 };
 
-/// Averages the samples of each pixel and turns the rows round. Goes through the samples as they lie in memory.
-Image averaged(const std::vector<std::uint8_t>& rgba, int side) {
-  Image image(side, side);
-  const auto width = static_cast<std::size_t>(side);
-  std::vector<std::uint16_t> sums(width * 3);
-  const std::uint8_t* in = rgba.data();
-  for (int y = side - 1; y >= 0; --y) {
-    std::fill(sums.begin(), sums.end(), std::uint16_t{0});
-    for (int row = 0; row < kSamples; ++row) {
-      std::uint16_t* sum = sums.data();
-      for (std::size_t x = 0; x < width; ++x, sum += 3) {
-        for (int sample = 0; sample < kSamples; ++sample, in += 4) {
-          for (int c = 0; c < 3; ++c) sum[c] = static_cast<std::uint16_t>(sum[c] + in[c]);
-        }
-      }
-    }
-    constexpr int kAll = kSamples * kSamples;
-    std::transform(sums.begin(), sums.end(), image.pixel(0, y),
-                   [](std::uint16_t sum) { return static_cast<std::uint8_t>((sum + kAll / 2) / kAll); });
-  }
-  return image;
-}
+}  // namespace
 
-Result<void> check(const RodPicture& picture, int side) {
+Result<void> check_drawable(const RodPicture& picture, int side) {
   if (side < 1 || side > RodsPass::kMaxSide) {
     return Error{"the box would be " + std::to_string(side) + " pixels wide; possible are 1 to " +
                  std::to_string(RodsPass::kMaxSide)};
@@ -153,8 +109,6 @@ Result<void> check(const RodPicture& picture, int side) {
   return {};
 }
 
-}  // namespace
-
 struct RodsPass::Programs {
   GLuint body = 0;
   GLuint shadow = 0;
@@ -172,7 +126,7 @@ RodsPass::~RodsPass() = default;  // the GL objects go with their context
 Result<RodsPass> RodsPass::create() {
   Result<GlContext> context = GlContext::create();
   if (!context) return context.error();
-  if (auto done = context->bind(kSamples); !done) return done.error();
+  if (auto done = context->bind(kSamples, kSamples); !done) return done.error();
   auto programs = std::make_unique<Programs>();
   std::string message;
   programs->body = link_program(shaders::kQuad, shaders::kBody, message);
@@ -197,8 +151,8 @@ Result<RodsPass> RodsPass::create() {
 }
 
 Result<Image> RodsPass::draw(const RodPicture& picture, const PictureStyle& style, int side) {
-  if (auto done = check(picture, side); !done) return done.error();
-  if (auto done = context_.bind(side * kSamples); !done) return done.error();
+  if (auto done = check_drawable(picture, side); !done) return done.error();
+  if (auto done = context_.bind(side * kSamples, side * kSamples); !done) return done.error();
 
   const View view = view_of(picture, style);
   std::vector<Batch> batches;
@@ -271,7 +225,7 @@ Result<Image> RodsPass::draw(const RodPicture& picture, const PictureStyle& styl
     return Error{"OpenGL error " + std::to_string(code) + " while drawing " + std::to_string(picture.n_rods()) +
                  " rods"};
   }
-  return averaged(pixels, side);
+  return averaged(pixels, side, side);
 }
 
 }  // namespace shaken::render

@@ -235,6 +235,12 @@ Result<RodPicture> TrajectorySource::bare_picture(std::size_t index, const Asked
   picture.gap = header.gap;
   const Json scene = Json::parse(header.scene_json, nullptr, false);
   picture.label = shaking(scene);
+  // z_base = a cos(2 pi f t) + a (sim/motion/plates.h)
+  const double amplitude = number_at(scene, "/plates/amplitude").value_or(0),
+               frequency = number_at(scene, "/plates/frequency").value_or(0);
+  picture.base = amplitude * (1 + std::cos(2 * kPi * frequency * picture.time));
+  const Json::json_pointer lid("/plates/lid");
+  picture.has_lid = !scene.is_object() || !scene.contains(lid) || scene.at(lid) != false;
   picture.beads = {header.bead_offset, header.bead_radius};
   picture.added = header.added_beads;
   picture.species_of_rod = header.species_of_rod;
