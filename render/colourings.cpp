@@ -127,7 +127,7 @@ const Colouring kColourings[] = {
      "Velocity along the axis",
      "mm/s",
      Scale::kLine,
-     {-20, 20},
+     {-30, 30},
      true,
      kNothing,
      speed,

@@ -74,7 +74,7 @@ std::vector<Seen> seen_rods(const RodPicture& picture, std::size_t species, cons
 GapCamera gap_camera(const RodPicture& picture, const PictureStyle& style, double aspect) {
   constexpr double kShare = 0.28;      // of the stage's height that the gap takes at the front
   constexpr double kDistance = 6.5;    // from the eye to the front, in gaps
-  constexpr double kDepth = 45;        // from the front to where all has faded, in gaps
+  constexpr double kDepth = 22;        // from the front to where all has faded, in gaps
   constexpr double kEyeHeight = 0.66;  // above the base, in gaps
   GapCamera camera;
   camera.front = kDistance * picture.gap;
@@ -168,7 +168,7 @@ Result<Image> GapPass::draw(const RodPicture& picture, const PictureStyle& style
   struct Batch {
     std::vector<float> beads;
     Vec2 ends;
-    double thick;
+    double thick, pitch;
     std::vector<Seen> rods;
   };
   std::vector<Batch> batches;
@@ -177,6 +177,7 @@ Result<Image> GapPass::draw(const RodPicture& picture, const PictureStyle& style
     Batch batch{{},
                 Vec2(row.offset.front(), row.offset.back()),
                 *std::max_element(row.radius.begin(), row.radius.end()),
+                pitch_of(row),
                 seen_rods(picture, species, style, camera)};
     for (std::size_t i = 0; i < row.offset.size(); ++i) {
       batch.beads.push_back(f(row.offset[i]));
@@ -193,6 +194,8 @@ Result<Image> GapPass::draw(const RodPicture& picture, const PictureStyle& style
     glUniform2fv(at("beads"), n_beads, batch.beads.data());
     glUniform1i(at("n_beads"), n_beads);
     glUniform2f(at("ends"), f(batch.ends.x()), f(batch.ends.y()));
+    glUniform1f(at("pitch"), f(batch.pitch));
+    glUniform1f(at("thick"), f(batch.thick));
     glUniform1f(at("margin"), f(0.7 * batch.thick));
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(batch.rods.size()));
   };

@@ -40,6 +40,8 @@ inline constexpr const char* kGapBody = R"(#version 330 core
 uniform vec2 beads[255];
 uniform int n_beads;
 uniform vec2 ends;
+uniform float pitch;   // distance of neighbouring beads; 0 if it is not the same everywhere
+uniform float thick;   // greatest radius
 uniform vec2 depths;   // where the depth buffer begins and ends
 uniform vec2 plates;   // heights of base and lid
 uniform float front;
@@ -57,7 +59,21 @@ void main() {
   float square = dot(ray, ray);
   float nearest = 1e9;
   vec3 normal = vec3(0.0);
-  for (int i = 0; i < n_beads; ++i) {
+  // Only beads near the point of the axis that the ray comes closest to can be hit.
+  int first = 0, last = n_beads - 1;
+  vec3 direction = ray / sqrt(square);
+  float cosine = dot(direction, rod_axis);
+  float sine = 1.0 - cosine * cosine;  // squared
+  if (pitch > 0.0 && sine > 1e-3) {
+    float middle = (cosine * dot(direction, rod_centre) - dot(rod_axis, rod_centre)) / sine;
+    float reach = thick / sqrt(sine);
+    first = max(first, int(floor((middle - reach - ends.x) / pitch)));
+    last = min(last, int(ceil((middle + reach - ends.x) / pitch)));
+    vec3 from_axis = cross(direction, rod_axis);
+    float apart = dot(rod_centre, from_axis);
+    if (apart * apart > thick * thick * sine * 1.001) last = -1;
+  }
+  for (int i = first; i <= last; ++i) {
     vec3 c = rod_centre + beads[i].x * rod_axis;
     float r = beads[i].y;
     float half_b = dot(ray, c);

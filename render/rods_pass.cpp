@@ -48,16 +48,6 @@ std::vector<Instance> instances_in(const RodPicture& picture, std::size_t specie
   return instances;
 }
 
-/// The distance of neighbouring beads, or 0 if it is not the same all along the rod.
-double pitch_of(const BeadRow& row) {
-  if (row.offset.size() < 2) return 0;
-  const double pitch = row.offset[1] - row.offset[0];
-  for (std::size_t i = 1; i < row.offset.size(); ++i) {
-    if (std::abs(row.offset[i] - row.offset[i - 1] - pitch) > 1e-3 * pitch) return 0;
-  }
-  return std::max(pitch, 0.0);
-}
-
 /// The rods of one species in the view.
 struct Batch {
   std::vector<float> beads;  // offset, radius of each
@@ -107,6 +97,15 @@ Result<void> check_drawable(const RodPicture& picture, int side) {
     return Error{"a rod is of a species whose beads are not given"};
   }
   return {};
+}
+
+double pitch_of(const BeadRow& row) {
+  if (row.offset.size() < 2) return 0;
+  const double pitch = row.offset[1] - row.offset[0];
+  for (std::size_t i = 1; i < row.offset.size(); ++i) {
+    if (std::abs(row.offset[i] - row.offset[i - 1] - pitch) > 1e-3 * pitch) return 0;
+  }
+  return std::max(pitch, 0.0);
 }
 
 struct RodsPass::Programs {
