@@ -77,7 +77,7 @@ void draw_colour_bar(const Canvas& canvas, const Rect& bar, double unit, const C
     const double from = std::round(bar.x + i * bar.width / shades);
     canvas.fill({from, bar.y, std::round(bar.x + (i + 1) * bar.width / shades) - from, bar.height});
   }
-  const int most_ticks = std::max(2, static_cast<int>(bar.width / (48 * unit)));
+  const int most_ticks = std::max(2, static_cast<int>(bar.width / (56 * unit)));
   for (const double value : ticks(range.x(), range.y(), tick_step(range.y() - range.x(), most_ticks, is_angle))) {
     const double x = bar.x + (value - range.x()) / (range.y() - range.x()) * bar.width;
     canvas.colour(colours.ink);
@@ -191,7 +191,8 @@ void draw_circle_legend(const Canvas& canvas, const Rect& place, double unit, co
     cairo_close_path(cr);
     cairo_fill(cr);
   }
-  if (is_half && !histogram.is_empty) {
+  constexpr double kLeastOrder = 0.2;  // below that a few hundred rods have a mean axis by chance
+  if (is_half && !histogram.is_empty && picture.order >= kLeastOrder) {
     // The director, drawn over the upper half.
     const double angle = picture.director_angle < 0 ? picture.director_angle + kPi : picture.director_angle;
     canvas.colour(colours.ink);
