@@ -216,8 +216,9 @@ Cut cut_of(const Options& options, const PictureStyle& style, const TrajectorySo
                                                      "million: use --from and --to",
                                                      *style.speed, frames));
     }
-    for (double k = 0; k < std::floor(frames + 1e-6); ++k) {
-      const double time = begin + k * *style.speed / style.fps;
+    const auto n_frames = static_cast<std::size_t>(frames + 1e-6);
+    for (std::size_t k = 0; k < n_frames; ++k) {
+      const double time = begin + static_cast<double>(k) * *style.speed / style.fps;
       cut.frames.push_back(value_or_fail(source.nearest_frame(time), ExitCode::kFailed));
     }
     cut.playback = *style.speed;
