@@ -24,6 +24,7 @@ constexpr PictureOption kOptions[] = {
     {"legend", nullptr, "The colour scale"},
     {"scale-bar", nullptr, "A scale bar"},
     {"view", "top|gap|follow:N", "From above, into the gap, or with rod N in the middle"},
+    {"whole", nullptr, "Rods across the border are drawn once and whole"},
     {"zoom", "FACTOR", "Shows a part of the box, this many times enlarged"},
     {"focus", "X,Y", "Middle of the enlarged part, in box sides"},
     {"fps", "N", "Frames per second of playing"},

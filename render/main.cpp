@@ -262,7 +262,8 @@ void make_movie_file(const Options& options) {
     style.colour = chosen_colour(last, orders, style.mark_defects);
   }
 
-  MovieOptions movie{headline(options.label), source.notes(), std::nullopt, options.n_threads};
+  MovieOptions movie{options.label.empty() ? source.label() : headline(options.label), source.notes(), std::nullopt,
+                     options.n_threads};
   if (movie.n_threads < 1) movie.n_threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   // Threads that draw leave nothing to do for those of the rasteriser.
   if (movie.n_threads > 1) setenv("LP_NUM_THREADS", "0", 1);

@@ -17,10 +17,15 @@
 namespace shaken::render {
 namespace {
 
-void draw_frame(const Canvas& canvas, const Layout& layout, const Palette& colours) {
+void draw_frame(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style,
+                const Palette& colours) {
   cairo_t* cr = canvas.cairo();
   const double line = std::max(1.0, std::round(1.2 * layout.unit));
-  cairo_rectangle(cr, layout.box_x - line / 2, layout.box_y - line / 2, layout.box_side + line, layout.box_side + line);
+  const View box = box_in(picture, style);
+  const double scale = layout.box_side / view_of(picture, style).side, side = box.side * scale;
+  const double x = layout.box_x + box.corner.x() * scale,
+               y = layout.box_y + layout.box_side - box.corner.y() * scale - side;
+  cairo_rectangle(cr, x - line / 2, y - line / 2, side + line, side + line);
   canvas.colour(colours.ink);
   cairo_set_line_width(cr, line);
   cairo_stroke(cr);
@@ -219,7 +224,7 @@ void draw_overlay(const Canvas& canvas, const Layout& layout, const RodPicture& 
     draw_lines(canvas, layout, picture, style);
     draw_tracks(canvas, layout, picture, style);
     if (style.mark_defects) draw_defects(canvas, layout, picture, style);
-    draw_frame(canvas, layout, colours);
+    draw_frame(canvas, layout, picture, style, colours);
   }
   if (layout.label.width > 0) draw_label(canvas, layout, picture, colours);
   if (layout.numbers.width > 0) draw_numbers(canvas, layout, picture, colours);

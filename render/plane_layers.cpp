@@ -197,7 +197,9 @@ void draw_streamlines(const Canvas& canvas, const Plane& plane, const RodPicture
       high = high.cwiseMax(point);
     }
     const Vec2 middle = (low + high) / 2;
-    for_images(plane.view(), middle, (high - low).maxCoeff() / 2, [&](const Vec2& at) {
+    View view = plane.view();
+    view.period = picture.walls ? 0 : picture.box_side;  // the field goes on beyond the box, also where rods do not
+    for_images(view, middle, (high - low).maxCoeff() / 2, [&](const Vec2& at) {
       for (const Vec2& point : line) {
         const Vec2 p = plane.pixel(at + point - middle);
         cairo_line_to(cr, p.x(), p.y());

@@ -147,6 +147,10 @@ Result<double> TrajectorySource::time_of(std::size_t index) const {
   return frame->time;
 }
 
+std::string TrajectorySource::label() const {
+  return shaking(Json::parse(reader_.header().scene_json, nullptr, false));
+}
+
 Notes TrajectorySource::notes() const {
   const run::Provenance& run = reader_.header().provenance;
   Notes notes{{"Software", fmt::format("Shaken {}", run::version())}};

@@ -34,6 +34,8 @@ class TrajectorySource {
   std::size_t n_frames() const { return reader_.n_frames(); }
   /// Simulated time of a frame [s].
   Result<double> time_of(std::size_t index) const;
+  /// How the plates shake, "Γ = 7, f = 200 Hz"; empty if the scene does not say it.
+  std::string label() const;
   /// What the run says of itself: its id, seed, and the versions of Shaken and of its physics, as far as it is known.
   Notes notes() const;
   /// The frame nearest to `time` [s].

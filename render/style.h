@@ -44,6 +44,7 @@ struct PictureStyle {
   bool caption = true;
   ViewPoint view = ViewPoint::kTop;
   std::optional<int> followed;  ///< a rod that stays in the middle; `focus` is then not asked
+  bool whole = false;           ///< rods across the border of a periodic box are drawn once and whole, beyond its frame
   double zoom = 1.0;            ///< >= 1: shows a square of box_side / zoom
   Vec2 focus{0.5, 0.5};         ///< middle of the view, in box sides; a periodic box wraps round
   double fps = 30;              ///< frames per second of playing

@@ -152,6 +152,10 @@ std::vector<StyleKey> make_keys() {
                   {},
                   view_word,
                   set_view});
+  keys.push_back(switch_key("whole",
+                            "Rods across the border of a periodic box are drawn once and whole, beyond its frame, and "
+                            "not as two pieces; in the view from above that shows all of the box",
+                            &PictureStyle::whole));
   keys.push_back(
       number_key("zoom", "FACTOR", "Shows a part of the box, this many times enlarged", 1, 1000, &PictureStyle::zoom));
   keys.push_back({"focus",

@@ -12,9 +12,11 @@ namespace shaken::render {
 struct View {
   Vec2 corner{0, 0};  ///< lower left
   double side = 0;
-  double period = 0;  ///< of the plane, in x and in y; 0 within side walls: nothing is repeated
+  double period = 0;  ///< of the plane, in x and in y; 0: nothing is repeated
 };
 View view_of(const RodPicture& picture, const PictureStyle& style);
+/// Where the box lies in the view, from its corner; the view itself unless rods are drawn whole.
+View box_in(const RodPicture& picture, const PictureStyle& style);
 
 /// Calls `visit(from_corner)` for each periodic image of `point` that lies in the view or within `reach` of it.
 template <class Visit>

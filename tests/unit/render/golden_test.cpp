@@ -97,6 +97,7 @@ const Case kCases[] = {
     {"follow", paired, R"({"view": "follow:40", "defects": false})"},
     {"zoom_at_a_wall", mixed, R"({"zoom": 3, "focus": [0.1, 0.5], "defects": false})"},
     {"density", layered, R"({"colour": "density", "defects": false})"},
+    {"whole", layered, R"({"whole": true, "colour": "id", "defects": false})"},
     {"order", paired, R"({"colour": "order"})"},
     {"empty", [] { return empty_picture(20); }, R"({})"},
     {"one_rod_in_a_tiny_box",

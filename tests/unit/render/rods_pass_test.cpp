@@ -176,6 +176,30 @@ TEST(RodsPass, RodsAcrossTheBorderShowOnBothSides) {
   EXPECT_NEAR(count(corners, is_rod), whole, 20);
 }
 
+TEST(RodsPass, ARodAcrossTheBorderMayBeDrawnOnceAndWhole) {
+  RodPicture inside = red_picture();
+  add_rod(inside, 5, 5, 0);
+  PictureStyle style = layers();
+  style.whole = true;
+  const int whole = count(draw(inside, style), is_rod);
+  RodPicture edge = red_picture();
+  add_rod(edge, 0.1, 5, 0);
+  const Image image = draw(edge, style);
+  // The view is half a rod wider on each side: 14.5 mm.
+  const auto column = [](double mm) { return static_cast<int>((mm + 2.25) / 14.5 * kSide); };
+  EXPECT_TRUE(is_rod(image.pixel(column(-2.0), 500)));
+  EXPECT_TRUE(is_rod(image.pixel(column(2.0), 500)));
+  EXPECT_FALSE(is_rod(image.pixel(column(9.9), 500))) << "no second piece";
+  EXPECT_NEAR(count(image, is_rod), whole, 20);
+  // An arena has no such border, and a part of the box is cut out as before.
+  edge.walls = SideWalls{Arena::kSquare, 10};
+  PictureStyle plain = layers();
+  EXPECT_EQ(draw(edge, style), draw(edge, plain));
+  edge.walls.reset();
+  style.zoom = plain.zoom = 2;
+  EXPECT_EQ(draw(edge, style), draw(edge, plain));
+}
+
 TEST(RodsPass, ARodMuchLongerThanTheBoxWrapsAsOftenAsNeeded) {
   RodPicture picture = red_picture();
   picture.box_side = 1.5;  // a third of the rod

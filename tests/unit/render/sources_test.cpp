@@ -75,6 +75,7 @@ TEST(TrajectorySource, TakesShakingAndMovieFromTheScene) {
                    R"({"plates": {"gamma": 7.0, "frequency": 200.0}, "movie": {"every": 0.1, "size": [640, 360]}})");
   TrajectorySource source = TrajectorySource::open(folder.path()).value();
   EXPECT_EQ(source.picture(0, plain())->label, "\u0393 = 7, f = 200 Hz");
+  EXPECT_EQ(source.label(), "\u0393 = 7, f = 200 Hz");
   const std::optional<MovieRequest> request = source.movie_request();
   ASSERT_TRUE(request);
   EXPECT_DOUBLE_EQ(request->every, 0.1);
