@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "client/picture_options.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 
 #include "client/api_client.h"
@@ -58,7 +60,7 @@ std::vector<std::string> PictureOptions::words(const std::string& label) const {
   std::vector<std::string> words;
   if (!style_.empty()) words.push_back("--style=" + style_);
   for (const auto& [name, value] : values_) {
-    if (!value.empty()) words.push_back("--" + name + "=" + value);
+    if (!value.empty()) words.push_back(fmt::format("--{}={}", name, value));
   }
   for (const auto& [name, is_given] : switches_) {
     if (is_given) words.push_back("--" + name);

@@ -22,7 +22,8 @@ Result<Canvas> Canvas::vector(const std::filesystem::path& file, int width, int 
   } else {
     surface = cairo_pdf_surface_create(file.c_str(), width, height);
     std::string words;
-    for (const auto& [key, value] : notes) words += (words.empty() ? "" : ", ") + key + " " + value;
+    for (const auto& [key, value] : notes)
+      words.append(words.empty() ? "" : ", ").append(key).append(" ").append(value);
     cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, title.c_str());
     cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_KEYWORDS, words.c_str());
     // Equal pictures give equal files, whenever they are drawn.

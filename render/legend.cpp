@@ -16,7 +16,7 @@
 namespace shaken::render {
 namespace {
 
-constexpr double kDegree = kPi / 180;
+constexpr double kRadians = kPi / 180;  // in a degree
 
 /// Where the values of a picture's rods lie.
 struct Histogram {
@@ -159,7 +159,7 @@ void draw_circle_legend(const Canvas& canvas, const Rect& place, double unit, co
   const Histogram histogram(picture, colouring, range);
   const double most = std::max(histogram.most(), 1e-9);
   const bool is_half = colouring.scale == Scale::kHalfTurn;
-  const double turn = range.y() * kDegree;
+  const double turn = range.y() * kRadians;
 
   const double title = 28 * unit, words = 18 * unit;
   canvas.colour(colours.ink);

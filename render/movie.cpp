@@ -175,7 +175,8 @@ Result<void> MovieWriter::Impl::open(const Format& kind, int width, int height, 
   avcodec_parameters_from_context(stream->codecpar, codec.get());
   if (!title.empty()) av_dict_set(&format->metadata, "title", title.c_str(), 0);
   std::string comment;
-  for (const auto& [key, value] : notes) comment += (comment.empty() ? "" : "; ") + key + ": " + value;
+  for (const auto& [key, value] : notes)
+    comment.append(comment.empty() ? "" : "; ").append(key).append(": ").append(value);
   if (!comment.empty()) av_dict_set(&format->metadata, "comment", comment.c_str(), 0);
   if (const int code = avio_open(&format->pb, unfinished.c_str(), AVIO_FLAG_WRITE); code < 0) {
     return failed(av_words(code));

@@ -72,7 +72,8 @@ void draw_order(const Canvas& canvas, const Plane& plane, const RodPicture& pict
       const Vec2 place = view.corner + view.side / n * Vec2(i, n - j);
       const double order = defined_share(*picture.field, place) * 2 * picture.field->q_at(place).norm();
       const Colour colour = order_background(order, theme);
-      for (std::size_t c = 0; c < 3; ++c) image.pixel(i, j)[c] = static_cast<std::uint8_t>(255 * colour[c] + 0.5);
+      for (std::size_t c = 0; c < 3; ++c)
+        image.pixel(i, j)[c] = static_cast<std::uint8_t>(std::lround(255 * colour[c]));
     }
   }
   canvas.spread(image, plane.box());

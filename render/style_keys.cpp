@@ -292,7 +292,7 @@ std::string style_keys_as_markdown() {
     const bool open = std::string_view(key.name) == "range" || std::string_view(key.name) == "speed";
     std::string values = allowed(key);
     if (key.form == StyleForm::kPair) values = fmt::format("[{}]", key.value_name);
-    if (key.form == StyleForm::kSize) values = "[width, height], " + values;
+    if (key.form == StyleForm::kSize) values.insert(0, "[width, height], ");
     table +=
         fmt::format("| `{}` | {} | {} | {} |\n", key.name, values, open ? "" : say(key, key.fetch(usual)), key.doc);
   }
