@@ -55,9 +55,6 @@ ALLOWED = {
     # a paper's figures and claims: a user of the client's libraries, and none of the client knows of it
     "study": ["base", "client", "scene", "run/files", "sim/core"],
     # benches time whole simulations, and the kernels of an impulse by themselves
-    # what observables cost is timed with the run's own measurements
-    "bench/analysis.cpp": ["bench", "base", "scene", "run", "analysis", "sim/core", "sim/rod", "sim/system.h", "sim/snapshot.h",
-                       "sim/world.h", "sim/simulation.h"],
     "bench": ["base", "scene", "run/files", "analysis", "sim/core", "sim/rod", "sim/motion", "sim/contact", "sim/system.h",
               "sim/snapshot.h", "sim/world.h", "sim/balance.h", "sim/simulation.h", "sim/neighbors", "sim/effects/registry.h"],
 }

@@ -94,12 +94,4 @@ std::string Table::text(int width) const {
   return text;
 }
 
-std::string aligned(const std::vector<Row>& rows) {
-  std::vector<Table::Column> columns;
-  for (const std::string& title : rows.at(0)) columns.push_back({title, Table::Align::kRight});
-  Table table(std::move(columns));
-  for (std::size_t r = 1; r < rows.size(); ++r) table.add_row(rows[r]);
-  return table.text(0);
-}
-
 }  // namespace shaken

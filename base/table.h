@@ -38,7 +38,4 @@ class Table {
   std::vector<Row> rows_;
 };
 
-/// The rows, the first of them the titles, in columns flush right.
-std::string aligned(const std::vector<Row>& rows);
-
 }  // namespace shaken

@@ -19,7 +19,6 @@ using Work = std::function<ExitCode()>;
 
 /// Each adds one subcommand to `app`, which sets `work` if it is the one that the user asked for.
 void add_speed(CLI::App& app, Work& work);
-void add_analysis(CLI::App& app, Work& work);
 void add_accuracy(CLI::App& app, Work& work);
 void add_export(CLI::App& app, Work& work);
 void add_looks(CLI::App& app, Work& work);

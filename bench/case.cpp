@@ -13,6 +13,7 @@
 #include "base/files.h"
 #include "base/progress_line.h"
 #include "bench/bench.h"
+#include "run/files/checkpoint_file.h"
 #include "scene/canonical.h"
 #include "scene/fields.h"
 #include "scene/load.h"
@@ -20,27 +21,14 @@
 namespace shaken::bench {
 namespace {
 
-/// Of one cached state: a line of text that names its owner and the checkpoint's state hash, then the checkpoint.
-std::string header_of(const std::string& key, std::uint64_t state_hash) {
-  return fmt::format("shaken steady state {} {:016x}\n", key, state_hash);
-}
-
-std::span<const std::byte> as_bytes_of(std::string_view text) {
-  return std::as_bytes(std::span(text.data(), text.size()));
-}
-
-/// The checkpoint in `file`, if it is whole and of this case.
+/// The state kept in `directory`, if it is whole and of this case.
 std::optional<std::vector<std::byte>> read_cached(const Case& wanted, const std::string& key,
-                                                  const std::filesystem::path& file) {
-  const Result<std::string> content = read_file(file);
-  if (!content) return std::nullopt;
-  const std::size_t line = content->find('\n');
-  if (line == std::string::npos) return std::nullopt;
-  const auto bytes = as_bytes_of(std::string_view(*content).substr(line + 1));
-  const Result<Simulation> simulation = Simulation::resume(wanted.system(), bytes);
+                                                  const run::RunDirectory& directory) {
+  Result<run::Checkpoint> kept = run::read_checkpoint(directory.checkpoint(), key);
+  if (!kept) return std::nullopt;
+  const Result<Simulation> simulation = Simulation::resume(wanted.system(), kept->simulation);
   if (!simulation || simulation->tick() != wanted.warm_up_ticks()) return std::nullopt;
-  if (content->substr(0, line + 1) != header_of(key, simulation->state_hash())) return std::nullopt;
-  return std::vector<std::byte>(bytes.begin(), bytes.end());
+  return std::move(kept->simulation);
 }
 
 Simulation simulate(const Case& wanted) {
@@ -67,7 +55,9 @@ Tick Case::period_ticks() const { return std::llround(1 / (system().frequency * 
 
 double Case::rod_seconds(Tick ticks) const { return system().n_rods * static_cast<double>(ticks) * dt; }
 
-std::string Case::label() const {
+std::string Case::label() const { return label_of(length, area_fraction, side); }
+
+std::string label_of(double length, double area_fraction, double side) {
   return fmt::format("l = {:.10g} mm, phi = {:.10g}, L = {:.10g} mm", length, area_fraction, side);
 }
 
@@ -115,24 +105,19 @@ std::filesystem::path default_cache() {
 
 SteadyState steady_state(const Case& wanted, const std::filesystem::path& cache) {
   const std::string key = scene::scene_hash(wanted.plan);
-  const std::filesystem::path file = cache / (key + ".state");
-  if (auto cached = read_cached(wanted, key, file)) return {std::move(*cached), true};
+  const run::RunDirectory directory{cache / key};
+  if (auto cached = read_cached(wanted, key, directory)) return {std::move(*cached), true};
 
-  done_or_fail(make_folder(cache));
-  const Simulation simulation = simulate(wanted);
-  SteadyState made{simulation.checkpoint(), false};
-  std::string content = header_of(key, simulation.state_hash());
-  content.append(reinterpret_cast<const char*>(made.checkpoint.data()), made.checkpoint.size());
-  done_or_fail(write_file_atomically(file, content));
+  done_or_fail(make_folder(directory.root));
+  SteadyState made{simulate(wanted).checkpoint(), false};
+  done_or_fail(run::write_checkpoint(directory, key, {made.checkpoint, {}, 0, 0}));
   return made;
 }
 
 Simulation resumed(const Case& of, const SteadyState& state, Engine engine) {
   System scene = of.system();
   scene.engine = engine;
-  Result<Simulation> simulation = Simulation::resume(scene, state.checkpoint);
-  if (!simulation) throw Failure(ExitCode::kFailed, of.label() + ": " + simulation.error().message);
-  return std::move(simulation).value();
+  return value_or_fail(Simulation::resume(scene, state.checkpoint));
 }
 
 void advance(Simulation& simulation, Tick ticks) {

@@ -33,9 +33,11 @@ struct Case {
   Tick period_ticks() const;
   /// Rod-seconds that `ticks` simulate.
   double rod_seconds(Tick ticks) const;
-  /// "l = 4.5 mm, phi = 0.75, L = 41.865 mm"
-  std::string label() const;
+  std::string label() const;  ///< label_of
 };
+
+/// "l = 4.5 mm, phi = 0.75, L = 41.865 mm"
+std::string label_of(double length, double area_fraction, double side);
 
 inline constexpr double kPaperStep = 4e-6;                       ///< [s]
 inline constexpr std::pair<double, double> kWarmUps{1e-3, 1e4};  ///< that may be asked for [s]
@@ -55,8 +57,9 @@ struct SteadyState {
 /// $XDG_CACHE_HOME/shaken/bench, or ~/.cache/shaken/bench.
 std::filesystem::path default_cache();
 
-/// The state of `wanted` after its warm-up: from `cache`, or simulated now and kept there. A file's name and content
-/// bear the hash of all that the state depends on, so that a damaged one, or one of another scene, is made anew.
+/// The state of `wanted` after its warm-up: from `cache`, or simulated now and kept there as checkpoint.bin in a folder
+/// named by the hash of all that it depends on. The file bears that hash and its own, so that a damaged one, or one of
+/// another scene, is made anew.
 SteadyState steady_state(const Case& wanted, const std::filesystem::path& cache);
 
 /// A simulation that goes on from a steady state by either engine.

@@ -7,10 +7,8 @@
 #include <functional>
 #include <optional>
 
-#include "base/progress_line.h"
-#include "bench/accuracy/fits.h"
 #include "bench/bench.h"
-#include "bench/engine_speed.h"
+#include "bench/timing.h"
 #include "sim/effects/registry.h"
 
 namespace shaken::bench {
@@ -28,77 +26,22 @@ Examples:
 
 Exit codes: 0 done, 1 something failed, 2 bad input.)";
 
-/// One way to simulate, whose speed is compared with another's.
-struct Contender {
-  Case scene;
-  /// A simulation that is past its warm-up. Made anew for each repetition.
-  std::function<Simulation()> make;
-};
-
-/// The case from `state` on. One tick goes by before it is handed out, so that lists and schedules are there.
-Contender contender(const Case& scene, const SteadyState& state) {
-  return {scene, [scene, state] {
-            Simulation simulation = resumed(scene, state, Engine::kScheduled);
-            advance(simulation, 1);
-            return simulation;
-          }};
-}
-
-/// CPU times of a contender and of the one that it is compared with, taken in turn.
-struct Comparison {
-  EngineSpeed speed;      ///< of the contender
-  EngineSpeed yardstick;  ///< of the other, in the same repetitions
-
-  /// CPU time per rod-second of the contender over that of the yardstick, by the best repetition of each.
-  double ratio() const { return yardstick.rate() / speed.rate(); }
-  /// Its standard error, from the scatter of the ratios of single repetitions; 0 for one.
-  double error() const {
-    const std::size_t n = speed.cpu.size();
-    if (n < 2) return 0;
-    std::vector<double> ratios;
-    for (std::size_t k = 0; k < n; ++k) {
-      ratios.push_back(speed.cpu[k] / speed.rod_seconds / (yardstick.cpu[k] / yardstick.rod_seconds));
-    }
-    return mean_of_samples(ratios).sem;
-  }
-};
-
-/// Steps both, one after the other, `repeat` times. `periods`: so many vibrations each time; 0: as many as take about
-/// `cpu` seconds.
-Comparison compare(const Contender& contender, const Contender& yardstick, int repeat, int periods, double cpu) {
-  const auto ticks_of = [&](const Contender& one) {
-    const Tick period = one.scene.period_ticks();
-    if (periods > 0) return periods * period;
-    Simulation trial = one.make();
-    EngineSpeed one_period;
-    time_stretch(trial, one.scene, period, one_period);
-    return period * static_cast<Tick>(std::max(1.0, std::round(cpu / one_period.best_cpu())));
-  };
-  const Tick ticks = ticks_of(contender);
-  const Tick yardstick_ticks = ticks_of(yardstick);
-  Comparison comparison;
-  for (int repetition = 0; repetition < repeat; ++repetition) {
-    Simulation before = yardstick.make();
-    time_stretch(before, yardstick.scene, yardstick_ticks, comparison.yardstick);
-    Simulation after = contender.make();
-    time_stretch(after, contender.scene, ticks, comparison.speed);
-  }
-  return comparison;
-}
-
-Json json_of(const Comparison& of) {
-  const auto per_tick = [&](std::int64_t n) { return static_cast<double>(n) / static_cast<double>(of.speed.ticks); };
-  return {{"cpu_ratio", of.ratio()},
-          {"cpu_ratio_error", of.error()},
-          {"rod_s_per_cpu_s", of.speed.rate()},
-          {"everything_rod_s_per_cpu_s", of.yardstick.rate()},
-          {"cpu_s", of.speed.cpu},
-          {"everything_cpu_s", of.yardstick.cpu},
-          {"ticks", of.speed.ticks},
-          {"plate_impulses", of.speed.plate_impulses},
-          {"rod_impulses", of.speed.rod_impulses},
-          {"plate_impulses_per_tick", per_tick(of.speed.plate_impulses)},
-          {"rod_impulses_per_tick", per_tick(of.speed.rod_impulses)}};
+/// The effect's case against the one with everything on, as they were timed in turn.
+Json comparison(const Contender& without, const Contender& everything) {
+  const EngineSpeed& speed = without.speed;
+  const Estimate ratio = cpu_ratio(speed, everything.speed);
+  const auto per_tick = [&](std::int64_t n) { return static_cast<double>(n) / static_cast<double>(speed.ticks); };
+  return {{"cpu_ratio", ratio.value},
+          {"cpu_ratio_error", ratio.sem},
+          {"rod_s_per_cpu_s", speed.rate()},
+          {"everything_rod_s_per_cpu_s", everything.speed.rate()},
+          {"cpu_s", speed.cpu},
+          {"everything_cpu_s", everything.speed.cpu},
+          {"ticks", speed.ticks},
+          {"plate_impulses", speed.plate_impulses},
+          {"rod_impulses", speed.rod_impulses},
+          {"plate_impulses_per_tick", per_tick(speed.plate_impulses)},
+          {"rod_impulses_per_tick", per_tick(speed.rod_impulses)}};
 }
 
 /// Switches off every effect of the case that can be off, one at a time.
@@ -106,20 +49,25 @@ void measure_savings(const Case& everything, const Cache& cache, const Effort& e
   // few enough vibrations for the rods to be still where they would have been, often enough to make up for it
   constexpr int kFewPeriods = 4;
   constexpr int kOften = 3;
-  const SteadyState state = cache(everything);
-  const Contender all_on = contender(everything, state);
+  const Contender all_on = contender(everything, cache(everything), effort.cpu);
   report.json["impossible"] = Json::object();
   const auto measure = [&](const std::string& name, const Case& scene, const std::string& neutral) {
     try {
-      if (const auto started = Simulation::start(scene.system()); !started) {
-        throw Failure(ExitCode::kFailed, started.error().message);
-      }
-      const SteadyState own = cache(scene);
-      ProgressLine progress("measuring without " + name);
+      const auto timed = [&](const Contender& of, const Contender& other, int repeat) {
+        std::vector<Contender> both{other, of};
+        time_in_turn("measuring without " + name, both, repeat);
+        return comparison(both[1], both[0]);
+      };
+      value_or_fail(Simulation::start(scene.system()));
       Json row{{"without", name}, {"neutral", neutral}, {"same_state", nullptr}};
-      row["own_state"] = json_of(compare(contender(scene, own), all_on, effort.repeat, 0, effort.cpu));
-      if (Simulation::resume(scene.system(), state.checkpoint)) {
-        row["same_state"] = json_of(compare(contender(scene, state), all_on, kOften * effort.repeat, kFewPeriods, 0));
+      row["own_state"] = timed(contender(scene, cache(scene), effort.cpu), all_on, effort.repeat);
+      if (Simulation::resume(scene.system(), all_on.state.checkpoint)) {
+        Contender briefly = all_on;
+        briefly.settle = 1;
+        briefly.ticks = kFewPeriods * everything.period_ticks();
+        Contender without = briefly;
+        without.scene = scene;
+        row["same_state"] = timed(without, briefly, kOften * effort.repeat);
       } else {  // without the effect that state could not be
         row["same_state"] = row["own_state"];
         for (auto& [key, value] : row["same_state"].items()) value = nullptr;
@@ -166,30 +114,13 @@ makes of the rods. Impulses of rods with plates and with each other, per tick, a
 }
 
 void draw_effects(const std::filesystem::path& folder, const Report& report) {
-  const int n = static_cast<int>(report.rows().size());
-  std::string script = plot_head("effects", {std::max(1100, 220 + 80 * n), 800}) + plot_axes("y");
-  script += fmt::format(
-      R"(set style fill solid 1
-set boxwidth 0.38
-set xtics rotate by 35 right scale 0 noenhanced
-set bmargin 9
-set logscale y
-set yrange [20:*]
-set xrange [-0.6:{}]
-set key above
-set ylabel 'CPU time without the effect (% of everything on)'
-set arrow from graph 0,first 100 to graph 1,first 100 nohead linecolor '#999999' dashtype 2
-plot 'effects.dat' using ($0-0.2):2:xtic(1) with boxes linecolor '#5ec962' title 'from the same state', \
-     '' using ($0+0.2):4 with boxes linecolor '#3b528b' title 'from its own state', \
-     '' using ($0-0.2):2:3 with yerrorbars pointtype 0 linecolor '#333333' notitle, \
-     '' using ($0+0.2):4:5 with yerrorbars pointtype 0 linecolor '#333333' notitle
-)",
-      n - 0.4);
-  const std::string data =
-      plot_data(report.rows(), {{"effect left out; CPU time [% of everything on]:", "without"},
-                                {"same state", "same_state/cpu_ratio", "", 100, "same_state/cpu_ratio_error"},
-                                {"own state", "own_state/cpu_ratio", "", 100, "own_state/cpu_ratio_error"}});
-  draw_plot(folder, "effects", data, script);
+  draw_bars(folder, "effects", report.rows(), {"effect left out", "without"},
+            {{"CPU time without the effect (% of everything on)",
+              {{"from the same state", "same_state/cpu_ratio", "", 100, "same_state/cpu_ratio_error"},
+               {"from its own state", "own_state/cpu_ratio", "", 100, "own_state/cpu_ratio_error"}},
+              false,
+              {"set logscale y", "set yrange [20:*]",
+               "set arrow from graph 0,first 100 to graph 1,first 100 nohead linecolor '#999999' dashtype 2"}}});
 }
 
 struct EffectsBench {
@@ -200,8 +131,7 @@ struct EffectsBench {
 
   void declare(CLI::App& app) {
     scene.declare(app);
-    add_number(app, "--cpu", effort.cpu, "S", {1e-3, 1e3}, "CPU time of one timed stretch, about");
-    add_number(app, "--repeat", effort.repeat, "N", {1, 1000}, "Repetitions, of which the best counts");
+    effort.declare(app);
     cache.declare(app);
     output.declare(app);
   }
@@ -214,8 +144,7 @@ struct EffectsBench {
     report.json.update(json_of(everything));
     measure_savings(everything, cache, effort, report);
     report.text += effects_text(everything, effort, report.json);
-    output.give(report);
-    if (!output.folder.empty()) draw_effects(output.folder, report);
+    output.give(report, [&](const auto& folder) { draw_effects(folder, report); });
     return ExitCode::kOk;
   }
 };

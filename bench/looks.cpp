@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/plot.h"
 #include "bench/bench.h"
 #include "bench/case.h"
+#include "bench/nearest_beads.h"
 #include "sim/contact/bead_safe_time.h"
 #include "sim/contact/hull_safe_time.h"
 #include "sim/neighbors/neighbor_list.h"
@@ -29,17 +29,6 @@ struct Course {
   std::vector<SafeTime> bounds;       ///< made at that tick
   std::vector<std::uint8_t> was_hit;  ///< one of the rods, at that tick
 };
-
-double nearest_beads(const Species& s, const Vec3& n_i, const Vec3& n_j, const Vec3& D) {
-  double least = std::numeric_limits<double>::infinity();
-  for (int a = 0; a < s.n_beads(); ++a) {
-    for (int b = 0; b < s.n_beads(); ++b) {
-      const Vec3 r = D + s.bead_offset[b] * n_j - s.bead_offset[a] * n_i;
-      least = std::min(least, r.norm() - s.bead_radius[a] - s.bead_radius[b]);
-    }
-  }
-  return least;
-}
 
 /// The rod's flight as a bound sees it; nothing has drifted yet.
 MotionBound bound(const World& world, int i, const Vec3& director) {
@@ -68,7 +57,7 @@ void follow(const Simulation& simulation, const Snapshot& now, float horizon, st
     pair_lanes.set(0, D, o_i, o_j);
     hull_safe_times(hull, hull, pair_lanes, MotionTolerance{}, horizon, hull_safe);
     const SafeTime beads = bead_safe_time(lanes, o_i, lanes, o_j, D, MotionTolerance{}, horizon);
-    course.gap.push_back(nearest_beads(world.species[0], now.director[i], now.director[j], D));
+    course.gap.push_back(nearest_beads(world.species[0], now.director[i], now.director[j], D).gap);
     course.bounds.push_back({std::max(hull_safe.unperturbed[0], beads.unperturbed), 0});
     course.was_hit.push_back(world.rods[i].since == world.tick || world.rods[j].since == world.tick);
   }
@@ -102,7 +91,7 @@ std::vector<Course> near_pairs(const Simulation& simulation, const Snapshot& now
   for (int i = 0; i < static_cast<int>(now.n_rods()); ++i) {
     for (int j = i + 1; j < static_cast<int>(now.n_rods()); ++j) {
       const Vec3 D = nearest_image(now.position[i], now.position[j], world.system.box_side);
-      if (nearest_beads(world.species[0], now.director[i], now.director[j], D) < 0.3)
+      if (nearest_beads(world.species[0], now.director[i], now.director[j], D).gap < 0.3)
         courses.push_back({{i, j}, {}, {}, {}});
     }
   }

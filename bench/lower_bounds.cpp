@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "bench/lower_bounds.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,8 +8,11 @@
 #include <vector>
 
 #include "base/clock.h"
+#include "bench/nearest_beads.h"
+#include "bench/speed.h"
 #include "sim/contact/impulse.h"
 #include "sim/motion/flight.h"
+#include "sim/neighbors/neighbor_list.h"
 
 namespace shaken::bench {
 namespace {
@@ -19,44 +20,12 @@ namespace {
 constexpr int kBatches = 7;          ///< of which the fastest counts
 constexpr double kBatchTime = 0.02;  ///< CPU time of one batch, at least [s]
 constexpr std::size_t kMostPairs = 2000;
-/// Rods whose centres are further apart than this, in lengths, have no part in the sample of pairs.
-constexpr double kPairReach = 1.1;
-
-/// What does not change from impulse to impulse.
-struct Rules {
-  explicit Rules(const World& world)
-      : species(world.species[0]),
-        inverse(inverse_inertia(world.species[0])),
-        ratio(world.species[0].inertia_par / world.species[0].inertia_perp),
-        gravity(world.system.gravity),
-        dt(world.system.dt),
-        side(world.system.box_side),
-        now(world.tick),
-        rod_rod(world.system.rod_rod),
-        rod_base(world.system.rod_base),
-        plate_velocity(world.plates.at(world.tick).velocity) {}
-  const Species& species;
-  InverseInertia inverse;
-  double ratio, gravity, dt, side;
-  Tick now;
-  ContactParameters rod_rod, rod_base;
-  double plate_velocity;
-};
+constexpr double kPairReach = 1.1;  ///< rods whose centres are further apart than this have no part [rod lengths]
 
 struct RodNow {
   Pose pose;
   Motion motion;
 };
-
-RodNow evaluate(const Flight& flight, const Rules& rules) {
-  const double tau = static_cast<double>(rules.now - flight.since) * rules.dt;
-  const Pose pose = pose_after(flight, tau, rules.gravity);
-  return {pose, motion_after(flight, tau, rules.gravity, pose.director, rules.ratio)};
-}
-
-void store(Flight& flight, const RodNow& rod, const Rules& rules) {
-  begin_flight(flight, rules.now, rod.pose, rod.motion, rules.side, rules.ratio);
-}
 
 /// An impulse from the plate on whose side (+1: base, -1: lid) `offset` along the rod comes first.
 struct PlateHit {
@@ -65,114 +34,120 @@ struct PlateHit {
   double offset;
 };
 
-void hit_plate(const PlateHit& hit, Flight& flight, const Rules& rules) {
-  RodNow rod = evaluate(flight, rules);
-  const Vec3 normal(0, 0, hit.side);
-  const Vec3 arm = hit.offset * rod.pose.director - rules.species.end_radius * normal;
-  Vec3 u = point_velocity(rod.motion, arm);
-  u.z() -= rules.plate_velocity;
-  const Mat3 K = point_compliance(rules.inverse, rod.pose.director, arm);
-  const Vec3 P = newton_coulomb_impulse(K, normal, u, rules.rod_base);
-  apply_impulse(rod.motion, rules.inverse, rod.pose.director, arm, P);
-  store(flight, rod, rules);
-}
-
-/// One hit for every rod, in random order, as they come in a run: its lower end by the base or its upper end by the
-/// lid, whichever approaches.
-std::vector<PlateHit> plate_hits(const std::vector<Flight>& rods, const Rules& rules) {
-  std::vector<PlateHit> hits;
-  for (int i = 0; i < static_cast<int>(rods.size()); ++i) {
-    const RodNow rod = evaluate(rods[i], rules);
-    for (const double side : {1.0, -1.0}) {
-      const double offset = std::copysign(rules.species.half_length, -side * rod.pose.director.z());
-      const Vec3 arm = offset * rod.pose.director - rules.species.end_radius * Vec3(0, 0, side);
-      if (side * (point_velocity(rod.motion, arm).z() - rules.plate_velocity) < 0) {
-        hits.push_back({i, side, offset});
-        break;
-      }
-    }
-  }
-  std::shuffle(hits.begin(), hits.end(), std::mt19937_64(1));
-  return hits;
-}
-
 /// An impulse between two rods, with the beads and the normal that detection would hand over.
 struct RodHit {
   int i, j;
-  int bead_i, bead_j;
-  Vec3 normal;
+  NearestBeads beads;
 };
 
-Vec3 arm_of(const Pose& pose, int bead, const Vec3& normal, const Rules& rules) {
-  return rules.species.bead_offset[bead] * pose.director + rules.species.bead_radius[bead] * normal;
-}
+/// The rods of a state, and what an impulse does to them.
+class HitRods {
+ public:
+  explicit HitRods(const World& world)
+      : world_(world),
+        inverse_(inverse_inertia(species_)),
+        ratio_(species_.inertia_par / species_.inertia_perp),
+        plate_velocity_(world.plates.at(world.tick).velocity),
+        rods_(world.rods) {}
 
-void hit_rods(const RodHit& hit, Flight& flight_i, Flight& flight_j, const Rules& rules) {
-  RodNow i = evaluate(flight_i, rules);
-  RodNow j = evaluate(flight_j, rules);
-  const Vec3 arm_i = arm_of(i.pose, hit.bead_i, hit.normal, rules);
-  const Vec3 arm_j = arm_of(j.pose, hit.bead_j, -hit.normal, rules);
-  const Vec3 u = point_velocity(j.motion, arm_j) - point_velocity(i.motion, arm_i);
-  const Mat3 K =
-      point_compliance(rules.inverse, i.pose.director, arm_i) + point_compliance(rules.inverse, j.pose.director, arm_j);
-  const Vec3 P = newton_coulomb_impulse(K, hit.normal, u, rules.rod_rod);
-  apply_impulse(j.motion, rules.inverse, j.pose.director, arm_j, P);
-  apply_impulse(i.motion, rules.inverse, i.pose.director, arm_i, -P);
-  store(flight_i, i, rules);
-  store(flight_j, j, rules);
-}
+  /// As they are in the world.
+  void restore() { std::copy(world_.rods.begin(), world_.rods.end(), rods_.begin()); }
+  std::vector<Flight>& rods() { return rods_; }
 
-/// The closest beads of two rods as a hit; the distance of their surfaces goes to `gap`.
-RodHit closest_beads(int i, int j, const Pose& pose_i, const Pose& pose_j, const Vec3& D, const Species& species,
-                     double& gap) {
-  RodHit hit{i, j, 0, 0, Vec3::UnitZ()};
-  gap = std::numeric_limits<double>::infinity();
-  for (int a = 0; a < species.n_beads(); ++a) {
-    for (int b = 0; b < species.n_beads(); ++b) {
-      const Vec3 apart = D + species.bead_offset[b] * pose_j.director - species.bead_offset[a] * pose_i.director;
-      const double distance = apart.norm();
-      const double surfaces = distance - species.bead_radius[a] - species.bead_radius[b];
-      if (surfaces >= gap || !(distance > 0)) continue;
-      gap = surfaces;
-      hit.bead_i = a;
-      hit.bead_j = b;
-      hit.normal = apart / distance;
-    }
+  void hit(const PlateHit& hit) {
+    RodNow rod = evaluate(hit.rod);
+    const Vec3 normal(0, 0, hit.side);
+    const Vec3 arm = arm_of(hit, rod);
+    const Vec3 u = point_velocity(rod.motion, arm) - Vec3(0, 0, plate_velocity_);
+    const Mat3 K = point_compliance(inverse_, rod.pose.director, arm);
+    const Vec3 P = newton_coulomb_impulse(K, normal, u, world_.system.rod_base);
+    apply_impulse(rod.motion, inverse_, rod.pose.director, arm, P);
+    store(hit.rod, rod);
   }
-  return hit;
-}
 
-/// Pairs of approaching neighbours, no rod twice so that each can be hit from its own state; the nearest partner first.
-std::vector<RodHit> rod_hits(const std::vector<Flight>& rods, const Rules& rules) {
-  std::vector<RodNow> now;
-  now.reserve(rods.size());
-  for (const Flight& flight : rods) now.push_back(evaluate(flight, rules));
-  std::vector<bool> taken(rods.size(), false);
-  std::vector<RodHit> hits;
-  const double reach = kPairReach * 2 * (rules.species.half_length + rules.species.end_radius);
-  for (int i = 0; i < static_cast<int>(rods.size()) && hits.size() < kMostPairs; ++i) {
-    if (taken[i]) continue;
-    RodHit best{};
-    double least = std::numeric_limits<double>::infinity();
-    for (int j = i + 1; j < static_cast<int>(rods.size()); ++j) {
-      if (taken[j]) continue;
-      Vec3 D = now[j].pose.position - now[i].pose.position;
-      for (int c = 0; c < 2; ++c) D[c] -= rules.side * std::nearbyint(D[c] / rules.side);
-      if (D.squaredNorm() > reach * reach) continue;
-      double gap = 0;
-      const RodHit hit = closest_beads(i, j, now[i].pose, now[j].pose, D, rules.species, gap);
-      const Vec3 u = point_velocity(now[j].motion, arm_of(now[j].pose, hit.bead_j, -hit.normal, rules)) -
-                     point_velocity(now[i].motion, arm_of(now[i].pose, hit.bead_i, hit.normal, rules));
-      if (gap >= least || !(u.dot(hit.normal) < 0)) continue;
-      least = gap;
-      best = hit;
-    }
-    if (!std::isfinite(least)) continue;
-    taken[best.i] = taken[best.j] = true;
-    hits.push_back(best);
+  void hit(const RodHit& hit) {
+    RodNow i = evaluate(hit.i), j = evaluate(hit.j);
+    const Vec3 arm_i = arm_of(hit.beads.i, i, hit.beads.normal);
+    const Vec3 arm_j = arm_of(hit.beads.j, j, -hit.beads.normal);
+    const Vec3 u = point_velocity(j.motion, arm_j) - point_velocity(i.motion, arm_i);
+    const Mat3 K =
+        point_compliance(inverse_, i.pose.director, arm_i) + point_compliance(inverse_, j.pose.director, arm_j);
+    const Vec3 P = newton_coulomb_impulse(K, hit.beads.normal, u, world_.system.rod_rod);
+    apply_impulse(j.motion, inverse_, j.pose.director, arm_j, P);
+    apply_impulse(i.motion, inverse_, i.pose.director, arm_i, -P);
+    store(hit.i, i);
+    store(hit.j, j);
   }
-  return hits;
-}
+
+  /// One for every rod, in random order, as they come in a run: its lower end by the base or its upper end by the lid,
+  /// whichever approaches.
+  std::vector<PlateHit> plate_hits() const {
+    std::vector<PlateHit> hits;
+    for (int i = 0; i < n_rods(); ++i) {
+      const RodNow rod = evaluate(i);
+      for (const double side : {1.0, -1.0}) {
+        const PlateHit hit{i, side, std::copysign(species_.half_length, -side * rod.pose.director.z())};
+        if (side * (point_velocity(rod.motion, arm_of(hit, rod)).z() - plate_velocity_) >= 0) continue;
+        hits.push_back(hit);
+        break;
+      }
+    }
+    std::shuffle(hits.begin(), hits.end(), std::mt19937_64(1));
+    return hits;
+  }
+
+  /// Of approaching neighbours, the nearest first and no rod twice, so that each can be hit from its own state.
+  std::vector<RodHit> rod_hits() const {
+    std::vector<RodNow> now;
+    now.reserve(rods_.size());
+    for (int i = 0; i < n_rods(); ++i) now.push_back(evaluate(i));
+    std::vector<RodHit> near;
+    const double reach = kPairReach * 2 * (species_.half_length + species_.end_radius);
+    for (int i = 0; i < n_rods(); ++i) {
+      for (int j = i + 1; j < n_rods(); ++j) {
+        const Vec3 D = nearest_image(now[i].pose.position, now[j].pose.position, world_.system.box_side);
+        if (D.squaredNorm() > reach * reach) continue;
+        const NearestBeads beads = nearest_beads(species_, now[i].pose.director, now[j].pose.director, D);
+        const Vec3 u = point_velocity(now[j].motion, arm_of(beads.j, now[j], -beads.normal)) -
+                       point_velocity(now[i].motion, arm_of(beads.i, now[i], beads.normal));
+        if (u.dot(beads.normal) < 0) near.push_back({i, j, beads});
+      }
+    }
+    std::sort(near.begin(), near.end(), [](const RodHit& a, const RodHit& b) { return a.beads.gap < b.beads.gap; });
+    std::vector<bool> is_taken(rods_.size(), false);
+    std::vector<RodHit> hits;
+    for (const RodHit& hit : near) {
+      if (is_taken[hit.i] || is_taken[hit.j] || hits.size() == kMostPairs) continue;
+      is_taken[hit.i] = is_taken[hit.j] = true;
+      hits.push_back(hit);
+    }
+    return hits;
+  }
+
+ private:
+  int n_rods() const { return static_cast<int>(rods_.size()); }
+  RodNow evaluate(int i) const {
+    const Flight& flight = rods_[i];
+    const double tau = static_cast<double>(world_.tick - flight.since) * world_.system.dt;
+    const Pose pose = pose_after(flight, tau, world_.system.gravity);
+    return {pose, motion_after(flight, tau, world_.system.gravity, pose.director, ratio_)};
+  }
+  void store(int i, const RodNow& rod) {
+    begin_flight(rods_[i], world_.tick, rod.pose, rod.motion, world_.system.box_side, ratio_);
+  }
+  Vec3 arm_of(const PlateHit& hit, const RodNow& rod) const {
+    return hit.offset * rod.pose.director - species_.end_radius * Vec3(0, 0, hit.side);
+  }
+  Vec3 arm_of(int bead, const RodNow& rod, const Vec3& normal) const {
+    return species_.bead_offset[bead] * rod.pose.director + species_.bead_radius[bead] * normal;
+  }
+
+  const World& world_;
+  const Species& species_ = world_.species[0];
+  InverseInertia inverse_;
+  double ratio_, plate_velocity_;
+  std::vector<Flight> rods_;
+};
 
 /// CPU time of one of `work(items[k])`, the least of several batches. `reset` is called, untimed, before every pass
 /// over all items.
@@ -208,31 +183,19 @@ void touch(Flight& flight) {
 }  // namespace
 
 LowerBounds measure_lower_bounds(const World& world) {
-  const Rules rules(world);
-  std::vector<Flight> rods = world.rods;
-  const auto restore = [&] { std::copy(world.rods.begin(), world.rods.end(), rods.begin()); };
-
+  HitRods rods(world);
+  const auto hit = [&](const auto& one) { rods.hit(one); };
+  const auto restore = [&] { rods.restore(); };
   LowerBounds bounds;
-  bounds.plate_impulse = time_each(
-      plate_hits(world.rods, rules), [&](const PlateHit& hit) { hit_plate(hit, rods[hit.rod], rules); }, restore);
-  bounds.rod_impulse = time_each(
-      rod_hits(world.rods, rules), [&](const RodHit& hit) { hit_rods(hit, rods[hit.i], rods[hit.j], rules); }, restore);
+  bounds.plate_impulse = time_each(rods.plate_hits(), hit, restore);
+  bounds.rod_impulse = time_each(rods.rod_hits(), hit, restore);
 
   std::mt19937_64 random(2);
-  std::vector<int> places(std::max<std::size_t>(rods.size(), 100'000));
-  for (int& place : places) place = static_cast<int>(random() % rods.size());
+  std::vector<int> places(std::max<std::size_t>(world.rods.size(), 100'000));
+  for (int& place : places) place = static_cast<int>(random() % world.rods.size());
   bounds.state_access = time_each(
-      places, [&](int place) { touch(rods[place]); }, [] {});
+      places, [&](int place) { touch(rods.rods()[place]); }, [] {});
   return bounds;
-}
-
-double impulses_alone(const LowerBounds& bounds, std::int64_t plate_impulses, std::int64_t rod_impulses) {
-  return static_cast<double>(plate_impulses) * bounds.plate_impulse +
-         static_cast<double>(rod_impulses) * bounds.rod_impulse;
-}
-
-double memory_alone(const LowerBounds& bounds, std::int64_t plate_impulses, std::int64_t rod_impulses) {
-  return static_cast<double>(plate_impulses + 2 * rod_impulses) * bounds.state_access;
 }
 
 }  // namespace shaken::bench

@@ -38,7 +38,6 @@ int main(int argc, char** argv) {
   Work work;
   add_speed(app, work);
   add_accuracy(app, work);
-  add_analysis(app, work);
   add_export(app, work);
   add_looks(app, work);
   add_effects(app, work);

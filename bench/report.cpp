@@ -40,6 +40,7 @@ std::string cell(const Json& row, const Column& column) {
   if (value.is_null()) return "-";
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "NO";
   if (value.is_string()) return value.get<std::string>();
+  if (!std::isfinite(value.get<double>())) return "-";
   return fmt::format(fmt::runtime(column.format), column.scale * value.get<double>(),
                      column.scale * number_of(row, column.error));
 }
@@ -65,14 +66,21 @@ const Json& member_of(const Json& row, std::string_view path) {
   return row.contains(pointer) ? row.at(pointer) : nothing;
 }
 
+std::string text_of(const Json& row, const char* member) { return row.at(member).get<std::string>(); }
+
 std::string table(const Json& rows, const std::vector<Column>& columns) {
-  std::vector<Row> cells(1);
-  for (const Column& column : columns) cells[0].push_back(column.title);
-  for (const Json& row : rows) {
-    Row& line = cells.emplace_back();
-    for (const Column& column : columns) line.push_back(cell(row, column));
+  std::vector<Table::Column> titles;
+  for (const Column& column : columns) {
+    const bool is_text = !rows.empty() && member_of(rows.front(), column.member).is_string();
+    titles.push_back({column.title, is_text ? Table::Align::kLeft : Table::Align::kRight});
   }
-  return aligned(cells);
+  Table table(std::move(titles));
+  for (const Json& row : rows) {
+    Row cells;
+    for (const Column& column : columns) cells.push_back(cell(row, column));
+    table.add_row(std::move(cells));
+  }
+  return table.text(0);
 }
 
 std::string csv(const Json& rows) {
@@ -119,6 +127,49 @@ Curve curve(const Json& rows, const Column& x, const Column& y) {
   return curve;
 }
 
+void draw_bars(const std::filesystem::path& folder, const std::string& name, const Json& rows, const Column& label,
+               const std::vector<Bars>& panels) {
+  const auto n_panels = static_cast<int>(panels.size());
+  const int width = std::max(700, 200 + 45 * static_cast<int>(rows.size()));
+  std::string script = plot_head(name, {n_panels * width, 750}) + plot_axes("y") +
+                       fmt::format(R"(set style data histograms
+set style fill solid 1 border rgb '#ffffff'
+set xtics scale 0 rotate by 35 right noenhanced font ',13'
+set errorbars 0.5 front linecolor '#333333'
+set bmargin 8
+set rmargin 2
+set key above horizontal samplen 1 spacing 1.1 font ',14'
+set xrange [-0.6:{}]
+set multiplot layout 1,{}
+)",
+                                   static_cast<double>(rows.size()) - 0.4, n_panels);
+  std::vector<Column> columns{label};
+  std::size_t place = 2;  // column of the data
+  for (const Bars& of : panels) {
+    const std::size_t n = of.heights.size();
+    const bool has_errors = !of.heights.front().error.empty();
+    script += "set title " + gnuplot_literal(of.title) + "\nset style histogram ";
+    script += of.stacked   ? "rowstacked\nset boxwidth 0.7\n"
+              : has_errors ? "errorbars gap 1 linewidth 1\nset boxwidth 0.9\n"
+                           : "clustered gap 1\nset boxwidth 0.9\n";
+    for (const std::string& command : of.commands) script += command + "\n";
+    for (std::size_t k = 0; k < n; ++k) {
+      script += fmt::format("{} '{}.dat' using {}{}:xtic(1) title {} linecolor '{}'", k == 0 ? "plot" : ",", name,
+                            place, has_errors ? fmt::format(":{}", place + 1) : "",
+                            gnuplot_literal(of.heights[k].title), curve_colour(k, n));
+      if (!of.stacked && !has_errors) {
+        script += fmt::format(
+            ", '' using ($0+{:.3f}):{}:(sprintf('%.3g', ${})) with labels font ',12' offset 0,0.6 notitle",
+            (static_cast<double>(k) - (static_cast<double>(n) - 1) / 2) / (static_cast<double>(n) + 1), place, place);
+      }
+      place += has_errors ? 2 : 1;
+    }
+    script += "\nunset logscale y\n";
+    columns.insert(columns.end(), of.heights.begin(), of.heights.end());
+  }
+  draw_plot(folder, name, plot_data(rows, columns), script + "unset multiplot\n");
+}
+
 std::string this_machine() {
   return fmt::format("{}, {} cores; {}; {}", cpu_name(), n_cores(), run::compiler(), SHAKEN_BENCH_FLAGS);
 }
@@ -132,12 +183,16 @@ Report::Report(std::string file_name, const std::string& bench)
            {"rows", Json::array()}},
       text(fmt::format("shaken {} on {}\n", run::version(), this_machine())) {}
 
+void Report::add(const Json& more, const char* member) {
+  json.at(member).insert(json.at(member).end(), more.begin(), more.end());
+}
+
 void Output::declare(CLI::App& app, const char* files) {
   app.add_option("-o,--out", folder, fmt::format("Also write {} there", files))->type_name("DIR");
   app.add_flag("--json", json, "Print JSON");
 }
 
-void Output::give(const Report& report) const {
+void Output::give(const Report& report, const std::function<void(const std::filesystem::path&)>& draw) const {
   const std::string text = report.json.dump(2) + "\n";
   fmt::print("{}", json ? text : report.text);
   std::fflush(stdout);
@@ -145,6 +200,7 @@ void Output::give(const Report& report) const {
   done_or_fail(make_folder(folder));
   done_or_fail(write_file_atomically(std::filesystem::path(folder) / (report.name + ".json"), text));
   done_or_fail(write_file_atomically(std::filesystem::path(folder) / (report.name + ".csv"), csv(report.rows())));
+  if (draw) draw(folder);
 }
 
 }  // namespace shaken::bench

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -28,7 +30,11 @@ struct Column {
 /// What is at `path` in a row; null if nothing is.
 const Json& member_of(const Json& row, std::string_view path);
 
-/// An array of rows as a table for people. Nothing is "-", true "yes" and false "NO".
+/// Such a text: "variant".
+std::string text_of(const Json& row, const char* member);
+
+/// An array of rows as a table for people, texts flush left and numbers flush right. Nothing and NaN are "-", true
+/// "yes" and false "NO".
 std::string table(const Json& rows, const std::vector<Column>& columns);
 /// All of an array of rows, of which the first names the columns; what is nested is named with dots.
 std::string csv(const Json& rows);
@@ -36,6 +42,17 @@ std::string csv(const Json& rows);
 std::string plot_data(const Json& rows, const std::vector<Column>& columns);
 /// One column of the rows against another; the label is the title of `y`.
 Curve curve(const Json& rows, const Column& x, const Column& y);
+
+/// A panel of bars: a group for each row, a bar for each of `heights`, which the title of its column names in the key.
+struct Bars {
+  std::string title;
+  std::vector<Column> heights;
+  bool stacked = false;                 ///< on each other, or side by side with their numbers or errors
+  std::vector<std::string> commands{};  ///< gnuplot commands before the plot
+};
+/// Panels side by side as NAME.png, with NAME.dat and NAME.gp; groups are named by `label`.
+void draw_bars(const std::filesystem::path& folder, const std::string& name, const Json& rows, const Column& label,
+               const std::vector<Bars>& panels);
 
 /// What a bench found out: the rows, and the same for people.
 struct Report {
@@ -45,6 +62,8 @@ struct Report {
 
   Report(std::string file_name, const std::string& bench);
   const Json& rows() const { return json.at("rows"); }
+  /// Adds rows to those of `member`.
+  void add(const Json& more, const char* member = "rows");
 };
 
 /// "AMD EPYC, 2 cores; GNU 12.2.0, Release; -O3 -DNDEBUG": what speed depends on besides the code.
@@ -53,11 +72,12 @@ std::string this_machine();
 /// Where a report goes.
 struct Output {
   bool json = false;     ///< to stdout as JSON, not as text
-  std::string folder{};  ///< NAME.json and NAME.csv too; empty: nowhere
+  std::string folder{};  ///< NAME.json, NAME.csv and pictures too; empty: nowhere
 
   /// Adds --json and --out, which writes `files`.
   void declare(CLI::App& app, const char* files = "CSV, JSON and PNG");
-  void give(const Report& report) const;
+  /// Writes the report, and has `draw` add pictures to the folder.
+  void give(const Report& report, const std::function<void(const std::filesystem::path&)>& draw = {}) const;
 };
 
 }  // namespace shaken::bench

@@ -2,50 +2,24 @@
 // The scheduled engine's cost against the number of rods, the step, and the number of threads.
 #include <fmt/format.h>
 
-#include <algorithm>
-
-#include "base/progress_line.h"
 #include "bench/speed.h"
 
 namespace shaken::bench {
 
-std::vector<ScalingPoint> measure_scaling(const std::vector<Case>& scenes, const Cache& cache, const Effort& effort) {
-  std::vector<SteadyState> states;
-  states.reserve(scenes.size());
-  for (const Case& scene : scenes) states.push_back(cache(scene));
-  std::vector<ScalingPoint> points;
-  std::vector<Tick> ticks;
-  for (std::size_t k = 0; k < scenes.size(); ++k) {
-    points.push_back({scenes[k], {}});
-    ticks.push_back(
-        std::max(ticks_for(effort.cpu, scenes[k], states[k], Engine::kScheduled), scenes[k].period_ticks()));
-  }
-  ProgressLine progress("measuring");
-  double done = 0;
-  for (int repetition = 0; repetition < effort.repeat; ++repetition) {
-    for (std::size_t k = 0; k < scenes.size(); ++k) {
-      Simulation simulation = resumed(scenes[k], states[k], Engine::kScheduled);
-      advance(simulation, scenes[k].period_ticks());
-      time_stretch(simulation, scenes[k], ticks[k], points[k].speed);
-      progress.show(++done / static_cast<double>(effort.repeat * static_cast<int>(scenes.size())));
-    }
-  }
-  return points;
-}
-
-Report scaling_report(const Conditions& conditions, Scaling of, const std::vector<ScalingPoint>& points) {
+Report scaling_report(const Conditions& conditions, Scaling of, const std::vector<Contender>& series) {
   const bool of_rods = of == Scaling::kRods;
   Report report = report_under(conditions, of_rods ? "scaling_n" : "scaling_dt", of_rods ? "scaling n" : "scaling dt");
-  const auto cost = [](const ScalingPoint& point) { return 1 / point.speed.rate(); };
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const auto& [scene, speed] = points[k];
-    Json row = json_of(scene);
-    row["scheduled"] = json_of(speed);
-    row["relative_cost"] = cost(points[k]) / cost(points.front());
-    row["step_cost"] = k > 0 ? Json(cost(points[k]) / cost(points[k - 1])) : Json();
-    row["max_overlap_mm"] = speed.max_overlap;
-    row["max_overlap_of_thickness"] = speed.max_overlap / scene.system().rod.mid_diameter;
+  double before = 0;
+  for (const Contender& point : series) {
+    const double cost = series.front().speed.rate() / point.speed.rate();
+    Json row = json_of(point.scene);
+    row["scheduled"] = json_of(point.speed);
+    row["relative_cost"] = cost;
+    row["step_cost"] = before > 0 ? Json(cost / before) : Json();
+    row["max_overlap_mm"] = point.speed.max_overlap;
+    row["max_overlap_of_thickness"] = point.speed.max_overlap / point.scene.system().rod.mid_diameter;
     report.json["rows"].push_back(std::move(row));
+    before = cost;
   }
   report.text += fmt::format(
       "\nCPU time per rod-second of the scheduled engine against {}: relative to the first row (cost) and to\n"
@@ -83,46 +57,21 @@ void draw_scaling(const std::filesystem::path& folder, Scaling of, const Report&
   draw(figure, folder);
 }
 
-bool ThreadsSpeed::hashes_equal() const {
-  return std::all_of(points.begin(), points.end(),
-                     [&](const ThreadsPoint& point) { return point.hash == points.front().hash; });
-}
-
-ThreadsSpeed measure_threads(const Case& scene, const SteadyState& state, const std::vector<int>& threads,
-                             const Effort& effort) {
-  ThreadsSpeed result{scene, {}};
-  for (const int n : threads) result.points.push_back({n, {}, 0});
-  const Tick ticks = std::max(ticks_for(effort.cpu, scene, state, Engine::kScheduled), scene.period_ticks());
-  ProgressLine progress("measuring threads on " + scene.label());
-  double done = 0;
-  for (int repetition = 0; repetition < effort.repeat; ++repetition) {
-    for (ThreadsPoint& point : result.points) {
-      Simulation simulation = resumed(scene, state, Engine::kScheduled);
-      simulation.use_threads(point.threads);
-      advance(simulation, scene.period_ticks());
-      time_stretch(simulation, scene, ticks, point.speed);
-      point.hash = simulation.state_hash();
-      progress.show(++done / static_cast<double>(effort.repeat * static_cast<int>(threads.size())));
-    }
-  }
-  return result;
-}
-
-Report threads_report(const Conditions& conditions, const std::vector<ThreadsSpeed>& scenes) {
+Report threads_report(const Conditions& conditions, const std::vector<std::vector<Contender>>& scenes) {
   Report report = report_under(conditions, "threads", "threads");
-  for (const ThreadsSpeed& scene : scenes) {
-    const ThreadsPoint& first = scene.points.front();
-    for (const auto& [threads, speed, hash] : scene.points) {
-      Json row = json_of(scene.scene);
-      row["threads"] = threads;
-      row["wall_s"] = speed.wall;
-      row["cpu_s"] = speed.cpu;
-      row["rod_s_per_wall_s"] = speed.rod_seconds / speed.best_wall();
-      row["speed_up"] = first.speed.best_wall() / speed.best_wall();
-      row["relative_cpu"] = speed.best_cpu() / first.speed.best_cpu();
-      row["spread"] = speed.wall_spread();
-      row["state_hash"] = fmt::format("{:016x}", hash);
-      row["hashes_equal"] = hash == first.hash;
+  for (const std::vector<Contender>& scene : scenes) {
+    const Contender& first = scene.front();
+    for (const Contender& of : scene) {
+      Json row = json_of(of.scene);
+      row["threads"] = of.threads;
+      row["wall_s"] = of.speed.wall;
+      row["cpu_s"] = of.speed.cpu;
+      row["rod_s_per_wall_s"] = of.speed.rod_seconds / of.speed.best_wall();
+      row["speed_up"] = first.speed.best_wall() / of.speed.best_wall();
+      row["relative_cpu"] = of.speed.best_cpu() / first.speed.best_cpu();
+      row["spread"] = of.speed.wall_spread();
+      row["state_hash"] = fmt::format("{:016x}", of.hash);
+      row["hashes_equal"] = of.hash == first.hash;
       report.json["rows"].push_back(std::move(row));
     }
   }

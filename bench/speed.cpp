@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "base/clock.h"
-#include "base/progress_line.h"
 #include "bench/bench.h"
 
 namespace shaken::bench {
@@ -33,41 +32,37 @@ std::vector<Column> scene_columns(const std::vector<Column>& more) {
   return columns;
 }
 
-SceneSpeed measure_scene(const Case& scene, const SteadyState& state, const Effort& effort) {
-  SceneSpeed speed;
-  speed.scene = scene;
-  const Tick reference_ticks = ticks_for(effort.cpu, scene, state, Engine::kReference);
-  const Tick scheduled_ticks = std::max(ticks_for(effort.cpu, scene, state, Engine::kScheduled), scene.period_ticks());
-  // One tick builds the lists; from there on the reference is timed, and the scheduled engine settles.
-  speed.compared_ticks = 1 + reference_ticks;
-  const Tick settle = std::max<Tick>(0, scene.period_ticks() - speed.compared_ticks);
-
-  ProgressLine progress("measuring " + scene.label());
-  const double steps = 2.0 * effort.repeat + 2;
-  double step = 0;
-  const auto count = [&] { progress.show(++step / steps); };
-  for (int repetition = 0; repetition < effort.repeat; ++repetition) {
-    Simulation reference = resumed(scene, state, Engine::kReference);
-    advance(reference, 1);
-    time_stretch(reference, scene, reference_ticks, speed.reference);
-    speed.reference_hash = reference.state_hash();
-    count();
-    Simulation scheduled = resumed(scene, state, Engine::kScheduled);
-    advance(scheduled, speed.compared_ticks);
-    speed.scheduled_hash = scheduled.state_hash();
-    advance(scheduled, settle);
-    time_stretch(scheduled, scene, scheduled_ticks, speed.scheduled);
-    count();
-    if (!speed.hashes_equal()) break;  // nothing is worth more measuring
+void check_states(const Report& report, const std::string& what) {
+  for (const Json& row : report.rows()) {
+    if (row.at("hashes_equal").get<bool>()) continue;
+    const std::string scene = label_of(row.at("length_mm"), row.at("area_fraction"), row.at("side_mm"));
+    const Json& ticks = member_of(row, "compared_ticks");
+    const std::string when = ticks.is_null() ? "" : fmt::format(" after {} ticks", ticks.get<Tick>());
+    throw Failure(ExitCode::kFailed, scene + ": " + what + when);
   }
+}
+
+SceneSpeed measure_scene(const Case& scene, const SteadyState& state, const Effort& effort) {
+  // One tick builds the lists; from there on the reference is timed, and the scheduled engine settles.
+  const Contender reference{.scene = scene,
+                            .state = state,
+                            .engine = Engine::kReference,
+                            .ticks = ticks_for(effort.cpu, scene, state, Engine::kReference)};
+  Contender scheduled = contender(scene, state, effort.cpu);
+  const Tick compared_ticks = reference.settle + reference.ticks;
+  scheduled.settle = std::max(scheduled.settle, compared_ticks);
+  std::vector<Contender> both{reference, scheduled};
+  time_in_turn("measuring " + scene.label(), both, effort.repeat);
+  SceneSpeed speed{both[1], both[0], compared_ticks, 0, {}, 0, {}};
 
   Simulation timed = resumed(scene, state, Engine::kScheduled);
-  advance(timed, speed.compared_ticks + settle);
+  advance(timed, compared_ticks);
+  speed.scheduled_hash = timed.state_hash();
+  advance(timed, scheduled.settle - compared_ticks);
   speed.bounds = measure_lower_bounds(timed.world());
-  count();
   timed.time_phases(thread_cpu_seconds_without_readings);
   const double start = thread_cpu_seconds_without_readings();
-  advance(timed, scheduled_ticks);
+  advance(timed, scheduled.ticks);
   speed.phases_cpu = thread_cpu_seconds_without_readings() - start;
   for (std::size_t p = 0; p < kPhases; ++p) speed.phases[p] = timed.phase_times().seconds(static_cast<Phase>(p));
   return speed;
@@ -76,16 +71,15 @@ SceneSpeed measure_scene(const Case& scene, const SteadyState& state, const Effo
 namespace {
 
 Json speed_row(const SceneSpeed& scene) {
-  const EngineSpeed& scheduled = scene.scheduled;
-  const double cpu = scheduled.best_cpu();
-  Json row = json_of(scene.scene);
+  const EngineSpeed& scheduled = scene.scheduled.speed;
+  Json row = json_of(scene.scheduled.scene);
   row["scheduled"] = json_of(scheduled);
-  row["reference"] = json_of(scene.reference);
+  row["reference"] = json_of(scene.reference.speed);
   row["scheduled"]["state_hash"] = fmt::format("{:016x}", scene.scheduled_hash);
-  row["reference"]["state_hash"] = fmt::format("{:016x}", scene.reference_hash);
-  row["ratio"] = scheduled.rate() / scene.reference.rate();
+  row["reference"]["state_hash"] = fmt::format("{:016x}", scene.reference.hash);
+  row["ratio"] = scheduled.rate() / scene.reference.speed.rate();
   row["compared_ticks"] = scene.compared_ticks;
-  row["hashes_equal"] = scene.hashes_equal();
+  row["hashes_equal"] = scene.scheduled_hash == scene.reference.hash;
   double other = 1;
   for (std::size_t p = 0; p < kPhases; ++p) {
     const double share = scene.phases[p] / scene.phases_cpu;
@@ -93,12 +87,11 @@ Json speed_row(const SceneSpeed& scene) {
     other -= share;
   }
   row["phase_shares"]["other"] = std::max(0.0, other);  // < 0: the clock's error
-  const auto alone = [&](auto bound) { return bound(scene.bounds, scheduled.plate_impulses, scheduled.rod_impulses); };
   row["lower_bounds"] = {{"plate_impulse_ns", 1e9 * scene.bounds.plate_impulse},
                          {"rod_impulse_ns", 1e9 * scene.bounds.rod_impulse},
                          {"state_access_ns", 1e9 * scene.bounds.state_access},
-                         {"impulses_alone_share", alone(impulses_alone) / cpu},
-                         {"memory_alone_share", alone(memory_alone) / cpu}};
+                         {"impulses_alone_share", scene.bounds.impulses_alone(scheduled) / scheduled.best_cpu()},
+                         {"memory_alone_share", scene.bounds.memory_alone(scheduled) / scheduled.best_cpu()}};
   return row;
 }
 
@@ -162,44 +155,17 @@ Exit codes: 0 done, 1 the engines' states differ or something failed, 2 bad inpu
 constexpr double kSmallSide = 41.865;  // [mm]; half the paper's box
 
 void draw_speed(const std::filesystem::path& folder, const Report& report) {
-  std::vector<Column> columns{{"area fraction", "area_fraction"},
-                              {"length [mm]", "length_mm"},
-                              {"side [mm]", "side_mm"},
-                              {"scheduled", "scheduled/rod_s_per_cpu_s"},
-                              {"reference [rod-s/CPU-s]", "reference/rod_s_per_cpu_s"}};
-  for (const Column& phase : phase_columns()) columns.push_back(phase);
-  const std::size_t n = report.rows().size();
-  std::string script = plot_head("speed", {std::max(1400, 200 + 2 * 70 * static_cast<int>(n)), 700}) + plot_axes("y");
-  script += fmt::format(
-      R"(set style data histograms
-set style fill solid 1 border rgb '#ffffff'
-set xtics scale 0 font ',13' offset 0,-0.5
-set bmargin 6
-set key above horizontal samplen 1 spacing 1.1 font ',14'
-set multiplot layout 1,2
-set title 'simulated rod-seconds per CPU-second'
-set style histogram clustered gap 1
-set logscale y
-set yrange [1:*]
-set boxwidth 0.9
-set xrange [-0.6:{}]
-scene(phi, l, L) = sprintf("φ %g\nℓ %g\nL %.3g", phi, l, L)
-plot 'speed.dat' using 4:xtic(scene($1,$2,$3)) title 'scheduled' linecolor '#3b528b', \
-     '' using 5 title 'reference' linecolor '#5ec962', \
-     '' using ($0-0.17):4:(sprintf('%.0f', $4)) with labels font ',12' offset 0,0.6 notitle, \
-     '' using ($0+0.17):5:(sprintf('%.0f', $5)) with labels font ',12' offset 0,0.6 notitle
-unset logscale y
-set yrange [0:100]
-set title 'CPU time of the scheduled engine (%)'
-set style histogram rowstacked
-set boxwidth 0.7
-)",
-      static_cast<double>(n) - 0.4);
-  for (std::size_t p = 0; p < kPhases; ++p) {
-    script += fmt::format("{}'speed.dat' using {}{} title '{}' linecolor '{}'", p == 0 ? "plot " : ", ", 6 + p,
-                          p == 0 ? ":xtic(scene($1,$2,$3))" : "", kPhaseNames[p], curve_colour(p, kPhases));
+  Json rows = report.rows();
+  for (Json& row : rows) {
+    row["scene"] = fmt::format("φ {:g}, ℓ {:g}, L {:.3g}", row.at("area_fraction").get<double>(),
+                               row.at("length_mm").get<double>(), row.at("side_mm").get<double>());
   }
-  draw_plot(folder, "speed", plot_data(report.rows(), columns), script + "\nunset multiplot\n");
+  draw_bars(folder, "speed", rows, {"scene", "scene"},
+            {{"simulated rod-seconds per CPU-second",
+              {{"scheduled", "scheduled/rod_s_per_cpu_s"}, {"reference", "reference/rod_s_per_cpu_s"}},
+              false,
+              {"set logscale y", "set yrange [1:*]"}},
+             {"CPU time of the scheduled engine (%)", phase_columns(), true, {"set yrange [0:100]"}}});
 }
 
 struct SpeedBench {
@@ -273,23 +239,25 @@ struct SpeedBench {
     } else {
       for (const double dt : {8e-6, 4e-6, 2e-6, 1e-6}) add(given(sides, {kSmallSide})[0], dt);
     }
-    const Report report = scaling_report(conditions(), of, measure_scaling(series, cache, conditions().effort));
-    output.give(report);
-    if (!output.folder.empty()) draw_scaling(output.folder, of, report);
+    std::vector<Contender> contenders;
+    for (const Case& scene : series) contenders.push_back(contender(scene, cache(scene), conditions().effort.cpu));
+    time_in_turn("measuring", contenders, conditions().effort.repeat);
+    const Report report = scaling_report(conditions(), of, contenders);
+    output.give(report, [&](const auto& folder) { draw_scaling(folder, of, report); });
     return ExitCode::kOk;
   }
 
   ExitCode run_threads() const {
-    std::vector<ThreadsSpeed> measured;
+    std::vector<std::vector<Contender>> measured;
     for (const Case& scene : scenes()) {
-      measured.push_back(measure_threads(scene, cache(scene), threads, conditions().effort));
+      const Contender by_one = contender(scene, cache(scene), conditions().effort.cpu);
+      std::vector<Contender>& series = measured.emplace_back(threads.size(), by_one);
+      for (std::size_t k = 0; k < threads.size(); ++k) series[k].threads = threads[k];
+      time_in_turn("measuring threads on " + scene.label(), series, conditions().effort.repeat);
     }
-    output.give(threads_report(conditions(), measured));
-    for (const ThreadsSpeed& scene : measured) {
-      if (!scene.hashes_equal()) {
-        throw Failure(ExitCode::kFailed, scene.scene.label() + ": the number of threads changed the trajectory");
-      }
-    }
+    const Report report = threads_report(conditions(), measured);
+    output.give(report);
+    check_states(report, "the number of threads changed the trajectory");
     return ExitCode::kOk;
   }
 
@@ -297,18 +265,10 @@ struct SpeedBench {
     if (!scaling.empty()) return run_scaling();
     if (!threads.empty()) return run_threads();
     std::vector<SceneSpeed> measured;
-    for (const Case& scene : scenes()) {
-      measured.push_back(measure_scene(scene, cache(scene), conditions().effort));
-    }
+    for (const Case& scene : scenes()) measured.push_back(measure_scene(scene, cache(scene), conditions().effort));
     const Report report = speed_report(conditions(), measured);
-    output.give(report);
-    if (!output.folder.empty()) draw_speed(output.folder, report);
-    for (const SceneSpeed& scene : measured) {
-      if (!scene.hashes_equal()) {
-        throw Failure(ExitCode::kFailed, fmt::format("{}: the engines' states differ after {} ticks",
-                                                     scene.scene.label(), scene.compared_ticks));
-      }
-    }
+    output.give(report, [&](const auto& folder) { draw_speed(folder, report); });
+    check_states(report, "the engines' states differ");
     return ExitCode::kOk;
   }
 };

@@ -3,13 +3,11 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
-#include "bench/engine_speed.h"
-#include "bench/lower_bounds.h"
 #include "bench/report.h"
+#include "bench/timing.h"
 
 namespace shaken::bench {
 
@@ -26,56 +24,50 @@ struct Conditions {
 Report report_under(const Conditions& conditions, const std::string& file_name, const std::string& bench);
 /// What a scene is, at the beginning of each line of a table, and these columns.
 std::vector<Column> scene_columns(const std::vector<Column>& more);
+/// Throws Failure, "SCENE: WHAT after 1250 ticks", for the first row in which states that must be equal are not.
+void check_states(const Report& report, const std::string& what);
+
+/// Times that no stepper of this model can go below, measured on the rods of one state [s].
+struct LowerBounds {
+  double plate_impulse = 0;  ///< of one impulse from a plate: pose, motion, impulse and the new flight
+  double rod_impulse = 0;    ///< of one impulse between two rods: the same for both
+  double state_access = 0;   ///< of reading and writing one rod's state at a random place, computing nothing
+
+  /// What is left if finding contacts costs nothing [s].
+  double impulses_alone(const EngineSpeed& of) const {
+    return static_cast<double>(of.plate_impulses) * plate_impulse + static_cast<double>(of.rod_impulses) * rod_impulse;
+  }
+  /// Every impulse reads and writes the state of the rods that it changes, one or two [s].
+  double memory_alone(const EngineSpeed& of) const {
+    return static_cast<double>(of.plate_impulses + 2 * of.rod_impulses) * state_access;
+  }
+};
+
+/// Runs the real kernels (sim/motion, sim/contact) on the rods of `world`. A plate impulse hits the end that comes
+/// first; an impulse between rods hits the closest beads of two rods that approach each other, wherever they are.
+LowerBounds measure_lower_bounds(const World& world);
 
 /// Both engines on one scene.
 struct SceneSpeed {
-  Case scene;
-  EngineSpeed scheduled;
-  EngineSpeed reference;
-  /// Hash of the state after the reference's stretch, by either engine. They must be equal.
-  std::uint64_t scheduled_hash = 0;
-  std::uint64_t reference_hash = 0;
-  Tick compared_ticks = 0;  ///< from the steady state to that hash
+  Contender scheduled, reference;
+  Tick compared_ticks = 0;           ///< from the steady state to the end of the reference's stretch
+  std::uint64_t scheduled_hash = 0;  ///< of the scheduled engine's state then; must be that of the reference
   /// CPU time of the scheduled engine's phases, from a run of their own, and the whole of that run [s].
   std::array<double, kPhases> phases{};
   double phases_cpu = 0;
-  LowerBounds bounds;
-
-  bool hashes_equal() const { return scheduled_hash == reference_hash; }
+  LowerBounds bounds{};
 };
 
-/// Both engines in turn, `repeat` times, each time from the same steady state; then the phases and the bounds.
+/// Both engines in turn, each time from the same steady state; then the phases and the bounds.
 SceneSpeed measure_scene(const Case& scene, const SteadyState& state, const Effort& effort);
 Report speed_report(const Conditions& conditions, const std::vector<SceneSpeed>& scenes);
 
 /// The scheduled engine's cost along a series of scenes that differ in their number of rods or in their step.
 enum class Scaling { kRods, kStep };
-struct ScalingPoint {
-  Case scene;
-  EngineSpeed speed;
-};
-
-/// Times the scenes in turn, `repeat` times, each from its own steady state.
-std::vector<ScalingPoint> measure_scaling(const std::vector<Case>& scenes, const Cache& cache, const Effort& effort);
-Report scaling_report(const Conditions& conditions, Scaling of, const std::vector<ScalingPoint>& points);
+Report scaling_report(const Conditions& conditions, Scaling of, const std::vector<Contender>& series);
 void draw_scaling(const std::filesystem::path& folder, Scaling of, const Report& report);
 
-/// The scheduled engine on one scene by several numbers of threads.
-struct ThreadsPoint {
-  int threads = 1;
-  EngineSpeed speed;
-  std::uint64_t hash = 0;  ///< of the state at the end; the same for all
-};
-struct ThreadsSpeed {
-  Case scene;
-  std::vector<ThreadsPoint> points;
-
-  bool hashes_equal() const;
-};
-
-/// Times the numbers of threads in turn, `repeat` times, always from the same state.
-ThreadsSpeed measure_threads(const Case& scene, const SteadyState& state, const std::vector<int>& threads,
-                             const Effort& effort);
-Report threads_report(const Conditions& conditions, const std::vector<ThreadsSpeed>& scenes);
+/// The scheduled engine by several numbers of threads; one series for each scene.
+Report threads_report(const Conditions& conditions, const std::vector<std::vector<Contender>>& scenes);
 
 }  // namespace shaken::bench

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <ios>
 #include <utility>
 
@@ -19,6 +20,8 @@ ExitCode run_program(const std::vector<std::string>& arguments, Console& console
   try {
     CommandLine command_line(std::move(verbs));
     if (Verb* verb = command_line.parse(arguments, console)) {
+      // the programs that it starts look there, too
+      if (!command_line.root().empty()) setenv("SHAKEN_ROOT", command_line.root().c_str(), 1);
       const Context context{console, command_line.root(), command_line.app()};
       code = verb->run(context);
     }

@@ -173,7 +173,9 @@ bool Bus::handle(int timeout_ms) {
   return handled;
 }
 
-bool Bus::connected() const { return lcm_ != nullptr && lcm_get_fileno(lcm_) >= 0; }
+int Bus::descriptor() const { return lcm_ != nullptr ? lcm_get_fileno(lcm_) : -1; }
+
+bool Bus::connected() const { return descriptor() >= 0; }
 
 void Bus::reconnect() {
   const auto now = std::chrono::steady_clock::now();

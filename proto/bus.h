@@ -68,6 +68,8 @@ class Bus {
 
   /// Waits for at most `timeout_ms` for a message and hands it on. Returns false if none came.
   bool handle(int timeout_ms);
+  /// Readable when handle() has something to do, for those who wait for other things too; -1 while not connected.
+  int descriptor() const;
 
   const BusCounters& counters() const { return counters_; }
   const std::string& url() const { return url_; }

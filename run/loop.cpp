@@ -80,6 +80,10 @@ class Loop {
   RunOutcome run(bool fresh) {
     if (fresh) {
       if (auto done = sample(); !done) return finish_without_disk(done.error());
+      // the run that it starts from may be extended or removed
+      if (plan_.start) {
+        if (auto done = checkpoint(); !done) return finish_without_disk(done.error());
+      }
     }
     while (!may_end()) {
       aim_at(scene::next_end(plan_, tick() + 1));
@@ -195,6 +199,7 @@ class Loop {
     const World& world = run_.simulation.world();
     Summary summary;
     summary.run_id = run_id_;
+    summary.start = plan_.start;
     summary.n_rods = static_cast<int>(world.rods.size());
     summary.sim_seconds = run_.simulation.time();
     summary.cpu_seconds = cpu_seconds();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "run/start_state.h"
 #include "scene/canonical.h"
 
 namespace shaken::run {
@@ -47,7 +48,7 @@ Tick OpenRun::next_due(Tick from) const {
 }
 
 Result<OpenRun> start_run(const scene::RunPlan& plan, const RunDirectory& directory, const std::string& scene_json) {
-  Result<Simulation> simulation = Simulation::start(plan.system);
+  Result<Simulation> simulation = start_simulation(plan, directory.root);
   if (!simulation) return simulation.error();
   OpenRun run = make_run(plan, std::move(simulation).value());
   if (run.recording) {

@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "run/files/directory.h"
 #include "run/saved_run.h"
+#include "run/start_state.h"
 #include "scene/canonical.h"
 #include "sim/simulation.h"
 
@@ -35,7 +36,7 @@ Result<Replay> replay(const std::filesystem::path& root) {
   if (!plan) return plan.error();
   const NumericalTrouble& trouble = recorded->trouble;
   Result<Simulation> simulation = resume_last(directory, scene::run_id(*plan), plan->system, trouble.tick);
-  if (!simulation) simulation = Simulation::start(plan->system);
+  if (!simulation) simulation = start_simulation(*plan, root);
   if (!simulation) return simulation.error();
 
   Replay replay{*recorded, simulation->tick(), {}, {}};

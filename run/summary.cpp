@@ -50,6 +50,11 @@ OrderedJson drift_json(double value, double sem) {
   return {{"value", number_or_null(value)}, {"sem", number_or_null(sem)}};
 }
 
+/// Null where rods were placed.
+OrderedJson json_of(const std::optional<scene::StartState>& start) {
+  return start ? OrderedJson{{"run", start->run}, {"time_s", start->time}} : OrderedJson(nullptr);
+}
+
 /// Null where it is not known.
 OrderedJson json_of(std::optional<bool> known) { return known ? OrderedJson(*known) : OrderedJson(nullptr); }
 
@@ -75,6 +80,7 @@ std::string why_not_steady(const analysis::SteadySummary& order, double sim_seco
 Result<void> write_summary(const std::filesystem::path& file, const Summary& summary) {
   OrderedJson json{
       {"run_id", summary.run_id},
+      {"start", json_of(summary.start)},
       {"n_rods", summary.n_rods},
       {"sim_seconds", summary.sim_seconds},
       {"cpu_seconds", summary.cpu_seconds},

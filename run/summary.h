@@ -10,6 +10,7 @@
 
 #include "analysis/time_series.h"
 #include "run/measure/reduction.h"
+#include "scene/run_plan.h"
 #include "sim/balance.h"
 #include "sim/core/result.h"
 #include "sim/core/types.h"
@@ -25,6 +26,7 @@ struct EffectReport {
 /// What summary.json says of a run.
 struct Summary {
   std::string run_id;
+  std::optional<scene::StartState> start;  ///< the run that left the rods as they were at the start, if one did
   int n_rods = 0;
   double sim_seconds = 0;
   double cpu_seconds = 0;   ///< of this process and its predecessors

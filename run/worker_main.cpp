@@ -24,6 +24,7 @@
 #include "run/probe/probe.h"
 #include "run/replay.h"
 #include "run/saved_run.h"
+#include "run/start_state.h"
 #include "run/terminal.h"
 #include "scene/canonical.h"
 #include "scene/load.h"
@@ -203,7 +204,7 @@ void probe_scene(const scene::RunPlan& plan, const Arguments& arguments) {
   std::optional<run::Probe> probe;
   if (arguments.probe_cpu > 0) {
     Simulation simulation = value_or_fail(
-        arguments.probe_from.empty() ? Simulation::start(plan.system) : resume_from(arguments.probe_from, plan.system),
+        arguments.probe_from.empty() ? run::start_simulation(plan, "") : resume_from(arguments.probe_from, plan.system),
         ExitCode::kBadInput);
     probe = value_or_fail(run::probe(plan, std::move(simulation), arguments.probe_cpu));
     if (!probe->movie_trouble.empty()) spdlog::warn("the movie could not be timed: {}", probe->movie_trouble);

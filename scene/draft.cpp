@@ -19,6 +19,10 @@ std::string quoted(const std::vector<std::string>& names) {
   return text;
 }
 
+bool is_run_id(std::string_view text) {
+  return text.size() == 16 && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
 /// A value like the one written that would be allowed: the same digits with another unit or with the point moved.
 /// Of several the one nearest to the default.
 std::string slip_of_the_pen(const Field& field, const Written& written) {
@@ -54,6 +58,8 @@ std::string example_for(const Field& field) {
       return "a whole number";
     case Form::kName:
       return "one of " + quoted(field.names);
+    case Form::kRunId:
+      return "the id of a run, 16 hex digits";
     case Form::kSize:
       return "[width, height]";
     case Form::kSwitch:
@@ -82,6 +88,14 @@ class ValueReader {
         break;
       case Form::kName:
         read_name(node, given);
+        break;
+      case Form::kRunId:
+        // an id may look like a number
+        if ((node.kind != Node::Kind::kString && node.kind != Node::Kind::kNumber) || !is_run_id(node.text)) {
+          expected(node, given);
+        } else {
+          given.value = node.text;
+        }
         break;
       case Form::kSize:
         read_size(node, given);

@@ -83,6 +83,28 @@ Field steady() {
               }};
 }
 
+/// Means nothing where another run has left the rods.
+Field rods_start() {
+  Field field =
+      choice<Start>("rods.start", sys<&System::start>, {{"aligned", Start::kAligned}, {"random", Start::kRandom}},
+                    "Whether rods start in rows along x, every other row shifted by half a rod, or at random "
+                    "(for dilute systems).");
+  field.fallback = "aligned";
+  field.fetch = [always = field.fetch](const RunPlan& plan) { return plan.start ? Value() : always(plan); };
+  return field;
+}
+
+Field start_run() {
+  return {.path = "start.run",
+          .form = Form::kRunId,
+          .fallback_note = "must be given",
+          .doc =
+              "Id of the run whose rods are taken over. It must have the same rods, box, gap, plates and walls; "
+              "shaking, gravity, contacts, step and seed may differ.",
+          .fetch = [](const RunPlan& plan) { return Value(plan.start->run); },
+          .store = [](RunPlan& plan, const Value& id) { plan.start->run = std::get<std::string>(id); }};
+}
+
 Field movie_size() {
   return {.path = "movie.size",
           .form = Form::kSize,
@@ -199,10 +221,15 @@ std::vector<std::vector<Field>> groups() {
             kPlain, 1e-6, kMaxAreaFractionAligned, kDefaultAreaFraction,
             "Area of all rods, lying flat, divided by the area of the box (or arena)."),
     derived(whole("rods.count", sys<&System::n_rods>, 1, 1e6, "Number of rods."), "from area_fraction and side"),
-    choice<Start>("rods.start", sys<&System::start>, {{"aligned", Start::kAligned}, {"random", Start::kRandom}},
-                  "Whether rods start in rows along x, every other row shifted by half a rod, or at random (for dilute "
-                  "systems)."),
+    rods_start(),
     }, added_rods<0>("rods_2"), added_rods<1>("rods_3"), {
+    block("start", at<&RunPlan::start>, false,
+          "The rods begin where another run has left them, in place of rows or random places; times count from there."),
+    start_run(),
+    derived(quantity("start.time", at<&RunPlan::start, &StartState::time>, kTime, 1e-7, 1e8,
+                     "Simulated time at which that run ended, or was last saved: a whole number of vibrations."),
+            "must be given"),
+
     quantity("box.side", sys<&System::box_side>, kLength, 1, 2000,
              "Side L of the square box, which is periodic in x and y."),
     quantity("box.gap", sys<&System::gap>, kLength, 0.05, 100, "Distance w between base and lid."),

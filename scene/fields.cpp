@@ -122,6 +122,8 @@ std::string fields_as_markdown() {
       allowed = "object or `null`";
     } else if (field.form == Form::kSwitch) {
       allowed = "`true` or `false`";
+    } else if (field.form == Form::kRunId) {
+      allowed = "16 hex digits";
     } else if (field.form == Form::kNumbers) {
       allowed = "list of " + range_of(field);
     } else if (field.form != Form::kName) {

@@ -23,6 +23,7 @@ enum class Form {
   kQuantity,  ///< a number or a string with a unit; or one of `names`, where there are any
   kWhole,     ///< a whole number
   kName,      ///< one of `names`
+  kRunId,     ///< the id of a run: 16 hex digits
   kSize,      ///< [width, height], even numbers
   kSwitch,    ///< true or false
   kNumbers,   ///< a list of numbers or strings with a unit

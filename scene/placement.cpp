@@ -23,6 +23,7 @@ std::string placement_key(const RunPlan& plan) {
   alike.system.gap = system.gap;
   alike.system.walls = system.walls;
   alike.system.start = system.start;
+  alike.start = plan.start;
   // rows have room for any two rods side by side, whichever kinds the seed puts there
   if (system.start == Start::kRandom) alike.system.seed = system.seed;
   return run_id(alike);
@@ -31,6 +32,7 @@ std::string placement_key(const RunPlan& plan) {
 }  // namespace
 
 std::optional<Problem> placement_problem(const RunPlan& plan, const std::string& file, const std::string& label) {
+  if (plan.start) return std::nullopt;  // nothing is placed
   const Result<World> world = make_world(plan.system);
   if (world) return std::nullopt;
   return Problem{file, 0, 0, "/rods", label.empty() ? world.error().message : label + ": " + world.error().message};

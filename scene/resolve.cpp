@@ -48,6 +48,7 @@ std::optional<RunPlan> resolve(const Draft& draft, std::vector<Problem>& problem
   }
   check_walls(scene);
   check_until(scene);
+  check_start(scene);
 
   if (!all_ok || problems.size() > n_before) return std::nullopt;
   return scene.plan;

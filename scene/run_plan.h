@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 
 #include "scene/measure_plan.h"
 #include "sim/system.h"
@@ -27,6 +28,13 @@ struct Movie {
   friend bool operator==(const Movie&, const Movie&) = default;
 };
 
+/// Where another run has left the rods, in place of rods placed anew.
+struct StartState {
+  std::string run;  ///< its id
+  double time = 0;  ///< of its simulated time, at which it ended [s]
+  friend bool operator==(const StartState&, const StartState&) = default;
+};
+
 /// A run that goes on beyond `time.measure` until it is accurate enough.
 struct Until {
   double order_sem = 0.005;  ///< the largest standard error of the mean of S
@@ -38,6 +46,8 @@ struct Until {
 /// An absent optional is work that is not done.
 struct RunPlan : MeasurePlan {
   System system;
+
+  std::optional<StartState> start;  ///< none: the rods are placed (System::start)
 
   std::optional<double> steady;  ///< simulated seconds before measuring; none: found from S(t) afterwards ("auto")
   double measure_time = 10.0;    ///< simulated seconds of the run after `steady`

@@ -128,6 +128,9 @@ Schema field_schema(const Field& field) {
       schema["enum"] = field.names;
       schema["enum"].push_back(nullptr);
       break;
+    case Form::kRunId:
+      schema.update({{"type", {"string", "null"}}, {"pattern", "^[0-9a-f]{16}$"}});
+      break;
     case Form::kSwitch:
       schema["type"] = {"boolean", "null"};
       break;

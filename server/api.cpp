@@ -13,6 +13,7 @@
 #include "scene/nearest.h"
 #include "server/cleaning.h"
 #include "server/log_slice.h"
+#include "server/replicas.h"
 #include "server/submission.h"
 
 namespace shaken::server {
@@ -106,6 +107,7 @@ std::span<const Api::Route> Api::routes() {
       {"POST", "/v1/sweeps/ID/retry", "", &Api::control},
       {"POST", "/v1/sweeps/ID/priority", "", &Api::control},
       {"POST", "/v1/sweeps/ID/extend", "", &Api::extend},
+      {"POST", "/v1/sweeps/ID/replicas", "", &Api::add_replicas},
       {"GET", "/v1/jobs", "sweep state", &Api::list_jobs},
       {"GET", "/v1/jobs/ID", "", &Api::show_job},
       {"GET", "/v1/jobs/ID/log", "offset", &Api::show_log},
@@ -199,17 +201,40 @@ Api::Answer Api::status(const Call&) const {
 Api::Answer Api::submit(const Call& call) const {
   SubmitRequest request = parsed(parse_submit_request, call.request.body);
   for (const std::string& word : request.after) request.terms.after.push_back(find_target(word));
-  const auto submission = expand(request, info_.runs());
+  auto submission = expand(request, info_.runs());
   if (!submission) return problems_answer(submission.error());
+  std::vector<scene::Problem> problems;
+  for (const scene::StartState& start : submission->starts) {
+    std::string reason = refuse_start(start, queue_, info_.runs());
+    if (!reason.empty()) problems.push_back({request.file, 0, 0, "/start", std::move(reason)});
+    if (queue_.job(start.run)) submission->terms.after.emplace_back(start.run);
+  }
+  if (!problems.empty()) return problems_answer(problems);
+  return submitted(submission->name, submission->priority, submission->jobs, submission->terms);
+}
+
+Api::Answer Api::add_replicas(const Call& call) const {
+  const int n = parsed(parse_replicas, call.request.body);
+  const Sweep sweep = find_sweep(call.id);
+  const auto jobs = with_replicas(queue_, sweep.id, n, info_.runs());
+  if (!jobs) throw Refusal(409, jobs.error().message);
+  Terms terms{.at_most = sweep.at_most};
+  for (const std::string& word : sweep.after) terms.after.push_back(target_named(word));
+  if (const auto rule = StopRule::parse(sweep.stop_if)) terms.stop_if = *rule;
+  return submitted(sweep.name, 0, *jobs, terms);
+}
+
+Api::Answer Api::submitted(const std::string& name, int priority, std::span<const NewJob> jobs,
+                           const Terms& terms) const {
   const Submitted submitted = [&] {
     try {
-      return queue_.submit(submission->name, submission->priority, submission->jobs, submission->terms);
+      return queue_.submit(name, priority, jobs, terms);
     } catch (const Circular& problem) {
       throw Refusal(409, problem.what());
     }
   }();
-  spdlog::info("sweep {} '{}': {} jobs, {} new, {} found done, {} queued again", sweep_word(submitted.sweep),
-               submission->name, submitted.counts.total(), submitted.n_new, submitted.n_found, submitted.n_requeued);
+  spdlog::info("sweep {} '{}': {} jobs, {} new, {} found done, {} queued again", sweep_word(submitted.sweep), name,
+               submitted.counts.total(), submitted.n_new, submitted.n_found, submitted.n_requeued);
   Json counts = counts_report(submitted.counts);
   counts["new"] = submitted.n_new;
   counts["requeued"] = submitted.n_requeued;

@@ -32,6 +32,7 @@ class Api {
 
   Answer status(const Call& call) const;
   Answer submit(const Call& call) const;
+  Answer add_replicas(const Call& call) const;
   Answer list_sweeps(const Call& call) const;
   Answer show_sweep(const Call& call) const;
   Answer list_jobs(const Call& call) const;
@@ -44,6 +45,8 @@ class Api {
   Answer results(const Call& call) const;
   Answer clean(const Call& call) const;
 
+  /// Puts jobs into the queue and tells what became of them.
+  Answer submitted(const std::string& name, int priority, std::span<const NewJob> jobs, const Terms& terms) const;
   static Answer problems_answer(std::span<const scene::Problem> found);
   /// Whether the path is that of a sweep, and not of a job.
   static bool in_sweep(const Call& call);

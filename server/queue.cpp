@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The life of jobs: how they are started, stopped, held, released, and how they end. How they get in: queue_submit.cpp.
 #include "server/queue.h"
 
 #include <fmt/format.h>
@@ -7,9 +8,9 @@
 
 #include "base/clock.h"
 #include "base/text.h"
+#include "server/queue_rows.h"
 #include "server/queue_schema.h"
 #include "server/queue_words.h"
-#include "server/scene_length.h"
 #include "sim/core/check.h"
 
 namespace shaken::server {
@@ -28,83 +29,8 @@ const std::string kHasPlace =
     "sweep NOT IN (SELECT s.id FROM sweeps s WHERE s.at_most > 0 AND s.at_most <= "
     "(SELECT COUNT(*) FROM jobs r WHERE r.state IN ('running', 'stopping') AND r.sweep = s.id)) ";
 
-/// What a job is by itself; read_job has it after its place in a sweep.
-const std::string kColumns =
-    ", j.id, j.state, j.reason, j.attempt, j.pid, j.created_utime, j.started_utime, j.finished_utime, j.priority, "
-    "j.hold, j.needed_bytes, j.not_before_utime, j.soft_limit_ms, j.time_limit_ms, j.wall_ms, "
-    "j.sweep, j.waits ";
-const std::string kSelectJobs = "SELECT j.sweep, j.label, j.parameters, j.replica" + kColumns + "FROM jobs j ";
-const std::string kSelectMembers = "SELECT m.sweep, m.label, m.parameters, m.replica" + kColumns +
-                                   "FROM members m JOIN jobs j ON j.number = m.job WHERE m.sweep = ?1 ";
-
-/// What becomes of a stopping job that is queued behind all of its priority; the others become a state.
-constexpr std::string_view kLast = "last";
-
-Hold stored_hold(const std::string& word) {
-  if (word == kForRoom) return Hold::kRoom;
-  if (word == kForOthers) return Hold::kOthers;
-  if (word == kByRule) return Hold::kRule;
-  return word == kOnRequest ? Hold::kRequest : Hold::kNone;
-}
-
-JobState stored_state(const std::string& word) {
-  const auto state = job_state(word);
-  if (!state) throw StorageError("queue.db is damaged: '" + word + "' is no state of a job");
-  return *state;
-}
-
-Job read_job(const Query& query) {
-  Job job;
-  job.sweep = query.integer(0);
-  job.label = query.text(1);
-  job.parameters = query.text(2);
-  job.replica = static_cast<int>(query.integer(3));
-  job.id = query.text(4);
-  job.state = stored_state(query.text(5));
-  job.reason = query.text(6);
-  job.attempt = static_cast<int>(query.integer(7));
-  job.pid = static_cast<int>(query.integer(8));
-  job.created = query.integer(9);
-  job.started = query.integer(10);
-  job.finished = query.integer(11);
-  job.priority = static_cast<int>(query.integer(12));
-  job.hold = stored_hold(query.text(13));
-  job.needed_bytes = query.integer(14);
-  job.not_before = query.integer(15);
-  job.soft_limit = milliseconds(query.integer(16));
-  job.time_limit = milliseconds(query.integer(17));
-  job.wall = milliseconds(query.integer(18));
-  job.asked_by = query.integer(19);
-  job.waits = query.integer(20) != 0;
-  return job;
-}
-
-std::vector<Job> read_jobs(Query query) {
-  std::vector<Job> jobs;
-  while (query.next()) jobs.push_back(read_job(query));
-  return jobs;
-}
-
-const std::string kSelectJournal = "SELECT sequence, utime, job, from_state, to_state, attempt, cause FROM journal ";
-
-std::vector<Change> read_changes(Query query) {
-  std::vector<Change> changes;
-  while (query.next()) {
-    changes.push_back({query.integer(0), query.integer(1), query.text(2), query.text(3), query.text(4),
-                       static_cast<int>(query.integer(5)), query.text(6)});
-  }
-  return changes;
-}
-
-JobCounts read_counts(Query query) {
-  JobCounts counts;
-  while (query.next()) counts[stored_state(query.text(0))] = query.integer(1);
-  return counts;
-}
-
 const std::string kSelectCurrent =
     "SELECT id, state, after_stop, attempt, hold, crashes, priority, time_limit_ms, sweep, waits, longer FROM jobs ";
-const std::string kSelectSweeps = "SELECT id, name, created_utime, at_most, stop_if, stopped FROM sweeps ";
 
 const std::string kAsked = "cancelled on request";
 const std::string kHeldOnRequest = "held on request";
@@ -125,12 +51,6 @@ Queue::Current Queue::read_current(const Query& query) {
           query.integer(10) != 0};
 }
 
-/// Nobody waits any more for what was asked of the job: it goes by what it is asked for next, be that less.
-bool Queue::is_withdrawn(const Current& job) {
-  return job.state == kFailed || job.state == kCancelled || job.state == kTimedOut ||
-         (job.state == kStopping && job.after_stop == to_word(kCancelled));
-}
-
 Queue::Queue(const std::filesystem::path& file) : database_(file) {
   prepare_schema(database_);
   Query query = database_.query("SELECT COALESCE(MAX(sequence), 0) FROM journal");
@@ -149,266 +69,6 @@ std::vector<std::string> Queue::recover() {
   transaction.commit();
   committed();
   return recovered;
-}
-
-Submitted Queue::submit(const std::string& name, int priority, std::span<const NewJob> jobs, const Terms& terms) {
-  const std::lock_guard lock(mutex_);
-  Transaction transaction(database_);
-  Submitted result;
-  if (const auto same = same_sweep(name, jobs)) {
-    result.sweep = *same;
-  } else {
-    database_.run("INSERT INTO sweeps(name, created_utime) VALUES(?1, ?2)", name, utime_now());
-    result.sweep = database_.last_row_id();
-    result.created = true;
-  }
-  refuse_circle(jobs, terms);
-  for (std::size_t position = 0; position < jobs.size(); ++position) {
-    const NewJob& job = jobs[position];
-    if (insert(job, priority, result.sweep, terms)) {
-      ++(job.has_results.value_or(false) ? result.n_found : result.n_new);
-    } else {
-      const Current known = *current(job.id);
-      const bool is_done = known.state == kDone && job.has_results.value_or(true);
-      const bool is_longer =
-          !is_done && !is_withdrawn(known) && make_longer(known, job.scene, "in " + sweep_word(result.sweep));
-      if (is_withdrawn(known)) {
-        set_scene(job.id, job.scene);
-        // its worker may be about to end without having heard that it is to stop
-        database_.run("UPDATE jobs SET longer = 1 WHERE id = ?1 AND state = 'stopping'", job.id);
-      }
-      const bool is_queued = ask_again(job, priority, result.sweep, terms);
-      if (is_longer) {
-        ++result.n_extended;
-      } else if (is_queued) {
-        ++result.n_requeued;
-      }
-    }
-    if (result.created) {
-      database_.run(
-          "INSERT INTO members(sweep, position, job, label, parameters, replica) "
-          "SELECT ?1, ?2, number, ?4, ?5, ?6 FROM jobs WHERE id = ?3",
-          result.sweep, static_cast<std::int64_t>(position), job.id, job.label, job.parameters, job.replica);
-    }
-  }
-  set_terms(result.sweep, terms);
-  result.counts = sweep_counts(result.sweep);
-  transaction.commit();
-  committed();
-  return result;
-}
-
-std::optional<std::int64_t> Queue::same_sweep(const std::string& name, std::span<const NewJob> jobs) const {
-  Query newest = database_.query("SELECT id FROM sweeps WHERE name = ?1 ORDER BY id DESC LIMIT 1", name);
-  if (!newest.next()) return std::nullopt;
-  const std::int64_t id = newest.integer(0);
-  Query member = database_.query(
-      "SELECT j.id, m.label FROM members m JOIN jobs j ON j.number = m.job WHERE m.sweep = ?1 ORDER BY m.position", id);
-  for (const NewJob& job : jobs) {
-    if (!member.next() || member.text(0) != job.id || member.text(1) != job.label) return std::nullopt;
-  }
-  if (member.next()) return std::nullopt;
-  return id;
-}
-
-bool Queue::insert(const NewJob& job, int priority, std::int64_t sweep, const Terms& terms) {
-  const bool found = job.has_results.value_or(false);
-  const JobState state = found ? kDone : kQueued;
-  const int inserted = database_.run(
-      "INSERT INTO jobs(id, state, priority, created_utime, sweep, label, parameters, replica, soft_limit_ms, "
-      "time_limit_ms, turn, finished_utime) VALUES(?1, ?10, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, "
-      "(SELECT COALESCE(MAX(sequence), 0) + 1 FROM journal), ?11) ON CONFLICT(id) DO NOTHING",
-      job.id, priority, utime_now(), sweep, job.label, job.parameters, job.replica, terms.soft_limit.count(),
-      terms.time_limit.count(), to_word(state), found ? utime_now() : 0);
-  if (inserted == 0) return false;
-  database_.run("INSERT INTO scenes(job, scene) VALUES(?1, ?2)", database_.last_row_id(), job.scene);
-  std::string cause = "submitted in " + sweep_word(sweep);
-  for (const Target& target : terms.after) {
-    cause += (&target == &terms.after.front() ? ", to come after " : ", ") + to_word(target);
-  }
-  record(job.id, "", to_word(state), 0, cause + (found ? "; its results were there already" : ""));
-  return true;
-}
-
-void Queue::set_scene(const std::string& id, const std::string& scene) {
-  database_.run("UPDATE scenes SET scene = ?2 WHERE job = (SELECT number FROM jobs WHERE id = ?1)", id, scene);
-}
-
-/// Whether the job's scene has become longer.
-bool Queue::make_longer(const Current& job, const std::string& scene, const std::string& asked) {
-  const std::string present = scene_of(job.id);
-  const std::string longer = as_long_as_both(present, scene);
-  if (longer == present) return false;
-  set_scene(job.id, longer);
-  if (job.state == kRunning || job.state == kStopping) {
-    database_.run("UPDATE jobs SET longer = 1 WHERE id = ?1", job.id);
-  }
-  record(job.id, to_word(job.state), to_word(job.state), job.attempt, "asked to go on longer, " + asked);
-  return true;
-}
-
-int Queue::extend(std::span<const std::pair<std::string, std::string>> scenes) {
-  const std::lock_guard lock(mutex_);
-  Transaction transaction(database_);
-  int changed = 0;
-  for (const auto& [id, scene] : scenes) {
-    const auto job = current(id);
-    if (!job || !make_longer(*job, scene, "on request")) continue;
-    if (job->state == kDone) change(*job, kQueued, "", "goes on from its end");
-    ++changed;
-  }
-  transaction.commit();
-  committed();
-  return changed;
-}
-
-bool Queue::has_former_ids() const {
-  const std::lock_guard lock(mutex_);
-  return database_.query("SELECT 1 FROM upgrades WHERE name = 'ids'").next();
-}
-
-void Queue::renew_ids(std::span<const std::pair<std::string, std::string>> ids) {
-  const std::lock_guard lock(mutex_);
-  Transaction transaction(database_);
-  for (const auto& [former, id] : ids) {
-    database_.run("UPDATE journal SET job = ?2 WHERE job = ?1", former, id);
-    database_.run("UPDATE prerequisites SET target = ?2 WHERE target = ?1", former, id);
-    const auto same = current(id);
-    if (!same) {
-      database_.run("UPDATE jobs SET id = ?2 WHERE id = ?1", former, id);
-      continue;
-    }
-    const auto former_job = current(former);
-    if (former_job && !is_withdrawn(*former_job) && make_longer(*same, scene_of(former), "as job " + former) &&
-        same->state == kDone) {
-      change(*same, kQueued, "", "goes on from its end");
-    }
-    database_.run(
-        "UPDATE members SET job = (SELECT number FROM jobs WHERE id = ?2) "
-        "WHERE job = (SELECT number FROM jobs WHERE id = ?1)",
-        former, id);
-    database_.run("DELETE FROM scenes WHERE job = (SELECT number FROM jobs WHERE id = ?1)", former);
-    database_.run("DELETE FROM jobs WHERE id = ?1", former);
-  }
-  database_.run("DELETE FROM upgrades WHERE name = 'ids'");
-  transaction.commit();
-  committed();
-}
-
-bool Queue::ask_again(const NewJob& job, int priority, std::int64_t sweep, const Terms& terms) {
-  database_.run(
-      "UPDATE jobs SET priority = MAX(priority, ?2), sweep = ?3, label = ?4, parameters = ?5, replica = ?6, "
-      "soft_limit_ms = ?7, time_limit_ms = ?8 WHERE id = ?1",
-      job.id, priority, sweep, job.label, job.parameters, job.replica, terms.soft_limit.count(),
-      terms.time_limit.count());
-  const Current known = *current(job.id);
-  if (known.state == kStopping) {
-    if (known.after_stop == to_word(kQueued) || known.after_stop == kLast) return false;
-    if (known.after_stop == to_word(kTimedOut)) database_.run("UPDATE jobs SET wall_ms = 0 WHERE id = ?1", job.id);
-    stop_for(known, kQueued, "");
-    return true;
-  }
-  const bool waits_for_room = known.state == kHeld && known.hold == kForRoom;
-  if (known.state == kQueued || known.state == kRunning || waits_for_room) return false;
-  if (known.state == kDone && job.has_results.value_or(true)) return false;
-  change(known, kQueued, "", "submitted again in " + sweep_word(sweep));
-  return true;
-}
-
-std::vector<Sweep> Queue::sweeps() const {
-  const std::lock_guard lock(mutex_);
-  std::vector<Sweep> sweeps;
-  Query query = database_.query(kSelectSweeps + "ORDER BY id");
-  while (query.next()) sweeps.push_back(read_sweep(query));
-
-  Query count = database_.query(
-      "SELECT m.sweep, j.state, COUNT(*) FROM members m JOIN jobs j ON j.number = m.job GROUP BY m.sweep, j.state");
-  while (count.next()) {
-    const auto sweep = std::lower_bound(sweeps.begin(), sweeps.end(), count.integer(0),
-                                        [](const Sweep& a, std::int64_t id) { return a.id < id; });
-    sweep->counts[stored_state(count.text(1))] = count.integer(2);
-  }
-  return sweeps;
-}
-
-std::optional<Sweep> Queue::sweep(std::int64_t id) const {
-  const std::lock_guard lock(mutex_);
-  Query query = database_.query(kSelectSweeps + "WHERE id = ?1", id);
-  if (!query.next()) return std::nullopt;
-  Sweep sweep = read_sweep(query);
-  sweep.counts = sweep_counts(sweep.id);
-  return sweep;
-}
-
-std::optional<Sweep> Queue::sweep_named(const std::string& name) const {
-  const std::lock_guard lock(mutex_);
-  Query query = database_.query(kSelectSweeps + "WHERE name = ?1 ORDER BY id DESC LIMIT 1", name);
-  if (!query.next()) return std::nullopt;
-  Sweep sweep = read_sweep(query);
-  sweep.counts = sweep_counts(sweep.id);
-  return sweep;
-}
-
-Sweep Queue::read_sweep(const Query& query) const {
-  const std::int64_t id = query.integer(0);
-  return {.id = id,
-          .name = query.text(1),
-          .created = query.integer(2),
-          .counts = {},
-          .at_most = static_cast<int>(query.integer(3)),
-          .after = prerequisites(id),
-          .stop_if = query.text(4),
-          .stopped = query.integer(5) != 0};
-}
-
-JobCounts Queue::sweep_counts(std::int64_t sweep) const {
-  return read_counts(database_.query(
-      "SELECT j.state, COUNT(*) FROM members m JOIN jobs j ON j.number = m.job WHERE m.sweep = ?1 GROUP BY j.state",
-      sweep));
-}
-
-std::vector<Job> Queue::jobs(std::optional<std::int64_t> sweep, std::optional<JobState> state) const {
-  const std::lock_guard lock(mutex_);
-  const std::string_view word = state ? to_word(*state) : std::string_view();
-  if (sweep && state) {
-    return explained(read_jobs(database_.query(kSelectMembers + "AND j.state = ?2 ORDER BY m.position", *sweep, word)));
-  }
-  if (sweep) return explained(read_jobs(database_.query(kSelectMembers + "ORDER BY m.position", *sweep)));
-  if (state) return explained(read_jobs(database_.query(kSelectJobs + "WHERE state = ?1 ORDER BY number", word)));
-  return explained(read_jobs(database_.query(kSelectJobs + "ORDER BY number")));
-}
-
-std::optional<Job> Queue::job(const std::string& id) const {
-  const std::lock_guard lock(mutex_);
-  const std::vector<Job> found = explained(read_jobs(database_.query(kSelectJobs + "WHERE id = ?1", id)));
-  if (found.empty()) return std::nullopt;
-  return found.front();
-}
-
-std::vector<std::string> Queue::ids_beginning_with(const std::string& prefix, int limit) const {
-  const std::lock_guard lock(mutex_);
-  std::vector<std::string> ids;
-  // '~' sorts after every character of an id.
-  Query query =
-      database_.query("SELECT id FROM jobs WHERE id >= ?1 AND id < ?1 || '~' ORDER BY id LIMIT ?2", prefix, limit);
-  while (query.next()) ids.push_back(query.text(0));
-  return ids;
-}
-
-std::string Queue::scene(const std::string& id) const {
-  const std::lock_guard lock(mutex_);
-  return scene_of(id);
-}
-
-std::string Queue::scene_of(const std::string& id) const {
-  Query query = database_.query("SELECT s.scene FROM scenes s JOIN jobs j ON j.number = s.job WHERE j.id = ?1", id);
-  SHAKEN_CHECK(query.next(), "no scene of job " + id);
-  return query.text(0);
-}
-
-JobCounts Queue::counts() const {
-  const std::lock_guard lock(mutex_);
-  return read_counts(database_.query("SELECT state, COUNT(*) FROM jobs GROUP BY state"));
 }
 
 void Queue::stop_for(const Current& job, JobState after_stop, const std::string& cause) {
@@ -711,28 +371,6 @@ bool Queue::clean(const std::string& id, JobState state) {
   return true;
 }
 
-std::vector<Change> Queue::history(const std::string& id) const {
-  const std::lock_guard lock(mutex_);
-  return read_changes(database_.query(kSelectJournal + "WHERE job = ?1 ORDER BY sequence", id));
-}
-
-std::optional<double> Queue::mean_duration(std::int64_t sweep) const {
-  const std::lock_guard lock(mutex_);
-  Query query = database_.query(
-      "SELECT COUNT(*), SUM(j.wall_ms) FROM members m JOIN jobs j ON j.number = m.job "
-      "WHERE m.sweep = ?1 AND j.state = 'done' AND j.attempt > 0",
-      sweep);
-  query.next();
-  if (query.integer(0) == 0) return std::nullopt;
-  return 1e-3 * static_cast<double>(query.integer(1)) / static_cast<double>(query.integer(0));
-}
-
-std::vector<Change> Queue::changes_since(std::int64_t sequence, int limit) const {
-  const std::lock_guard lock(mutex_);
-  return read_changes(
-      database_.query(kSelectJournal + "WHERE sequence > ?1 ORDER BY sequence LIMIT ?2", sequence, limit));
-}
-
 std::int64_t Queue::last_change() const {
   const std::lock_guard lock(mutex_);
   return last_change_;
@@ -785,6 +423,9 @@ void Queue::change(const Current& job, JobState to, const std::string& reason, c
       job.id, to_word(to), reason, has_ended(to) ? utime_now() : 0, to == kQueued && has_ended(job.state) ? 1 : 0);
   record(job.id, to_word(job.state), to_word(to), job.attempt, cause);
   if (has_ended(to)) follow_end(job.id, to);
+  if (to == kQueued && has_ended(job.state)) {
+    for (const std::int64_t sweep : sweeps_waiting_for(job.id)) settle_waits(sweep);
+  }
 }
 
 void Queue::record(std::string_view job, std::string_view from, std::string_view to, int attempt,

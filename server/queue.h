@@ -205,6 +205,8 @@ class Queue {
   JobCounts counts_of(const Target& target) const;
   void settle_waits(std::int64_t sweep);
   void settle_all_waits();
+  /// Sweeps with jobs that wait for job `id`, or for a sweep that it is in.
+  std::vector<std::int64_t> sweeps_waiting_for(const std::string& id) const;
   void judge(std::int64_t sweep);
   void follow_end(const std::string& id, JobState state);
   bool is_full(std::int64_t sweep) const;

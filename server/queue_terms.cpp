@@ -104,7 +104,25 @@ void Queue::settle_waits(std::int64_t sweep) {
     }
     return;
   }
+  std::vector<Current> held;
+  {
+    Query query = database_.query("SELECT id FROM jobs WHERE sweep = ?1 AND waits = 1 AND state = 'held' AND hold = ?2",
+                                  sweep, kForOthers);
+    while (query.next()) held.push_back(*current(query.text(0)));
+  }
+  for (const Current& job : held) change(job, kQueued, "", "what it is to come after is tried again");
   if (all_done) database_.run("UPDATE jobs SET waits = 0 WHERE sweep = ?1 AND waits = 1", sweep);
+}
+
+std::vector<std::int64_t> Queue::sweeps_waiting_for(const std::string& id) const {
+  std::vector<std::int64_t> waiting;
+  Query query = database_.query(
+      "SELECT DISTINCT sweep FROM prerequisites WHERE target IN "
+      "(SELECT ?1 UNION ALL SELECT 's' || m.sweep FROM jobs j JOIN members m ON m.job = j.number WHERE j.id = ?1) "
+      "AND EXISTS (SELECT 1 FROM jobs w WHERE w.sweep = prerequisites.sweep AND w.waits = 1)",
+      id);
+  while (query.next()) waiting.push_back(query.integer(0));
+  return waiting;
 }
 
 void Queue::settle_all_waits() {
@@ -139,7 +157,6 @@ void Queue::judge(std::int64_t sweep) {
 
 void Queue::follow_end(const std::string& id, JobState state) {
   std::vector<std::int64_t> ruled;
-  std::vector<std::int64_t> waiting;
   {
     Query query = database_.query(
         "SELECT s.id FROM jobs j JOIN members m ON m.job = j.number JOIN sweeps s ON s.id = m.sweep "
@@ -147,18 +164,10 @@ void Queue::follow_end(const std::string& id, JobState state) {
         id);
     while (query.next()) ruled.push_back(query.integer(0));
   }
-  {
-    Query query = database_.query(
-        "SELECT DISTINCT sweep FROM prerequisites WHERE target IN "
-        "(SELECT ?1 UNION ALL SELECT 's' || m.sweep FROM jobs j JOIN members m ON m.job = j.number WHERE j.id = ?1) "
-        "AND EXISTS (SELECT 1 FROM jobs w WHERE w.sweep = prerequisites.sweep AND w.waits = 1)",
-        id);
-    while (query.next()) waiting.push_back(query.integer(0));
-  }
   if (state != kCancelled) {
     for (const std::int64_t sweep : ruled) judge(sweep);
   }
-  for (const std::int64_t sweep : waiting) settle_waits(sweep);
+  for (const std::int64_t sweep : sweeps_waiting_for(id)) settle_waits(sweep);
 }
 
 bool Queue::is_full(std::int64_t sweep) const {

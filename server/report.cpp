@@ -21,11 +21,27 @@ Json read_object(const std::filesystem::path& file) {
   return json.is_object() ? json : Json(nullptr);
 }
 
+/// What the worker of a job that is not done has written of its progress; null where there is nothing, or where it is
+/// that of the run before it was extended.
+Json progress_of(const run::RunDirectory& directory) {
+  Json progress = read_object(directory.progress());
+  return progress.is_object() && progress.value("state", Json()) == "done" ? Json(nullptr) : progress;
+}
+
 /// The summary of run `id`; null if there is none that can be read, or if it is another run's.
 Json summary_of(const std::string& id, const run::RunDirectory& directory) {
   Json summary = read_object(directory.summary());
   const auto run_id = summary.is_object() ? summary.find("run_id") : summary.end();
   return run_id != summary.end() && *run_id == id ? summary : Json(nullptr);
+}
+
+/// Whether a summary is of the end of a run. That of one that was stopped is, once the job has ended: then it tells of
+/// all that there will be.
+bool is_final(const Json& summary, JobState state) {
+  const auto exit = summary.find("exit");
+  if (exit == summary.end() || !exit->is_object()) return false;
+  const Json word = exit->value("state", Json());
+  return word == "done" || (word == "stopped" && has_ended(state));
 }
 
 double seconds(std::chrono::milliseconds time) { return std::chrono::duration<double>(time).count(); }
@@ -62,7 +78,7 @@ Json job_report(const Job& job, const std::filesystem::path& runs) {
           {"soft_limit_s", seconds_or_null(job.soft_limit)},
           {"time_limit_s", seconds_or_null(job.time_limit)},
           {"wall_s", seconds(job.wall)},
-          {"progress", has_progress ? read_object(directory.progress()) : Json(nullptr)}};
+          {"progress", has_progress ? progress_of(directory) : Json(nullptr)}};
 }
 
 Json sweep_report(const Sweep& sweep, std::span<const Job> active, std::optional<double> mean_duration, int slots,
@@ -75,8 +91,9 @@ Json sweep_report(const Sweep& sweep, std::span<const Job> active, std::optional
   bool known = n_queued == 0 || mean_duration.has_value();
   for (const Job& job : active) {
     const auto progress = run::read_progress(run::RunDirectory{runs / job.id}.progress());
-    if (progress) finished += std::clamp(progress->fraction(), 0.0, 1.0);
-    known = known && progress && progress->eta >= 0;
+    const bool tells = progress && progress->state != "done";  // not of the run before it was extended
+    if (tells) finished += std::clamp(progress->fraction(), 0.0, 1.0);
+    known = known && tells && progress->eta >= 0;
     if (!known) continue;
     longest = std::max(longest, progress->eta);
     sum += progress->eta;
@@ -96,14 +113,15 @@ Json sweep_report(const Sweep& sweep, std::span<const Job> active, std::optional
 }
 
 Json result_row(const Job& job, const std::filesystem::path& runs) {
-  const bool done = job.state == JobState::kDone;
+  Json summary = summary_of(job.id, run::RunDirectory{runs / job.id});
+  if (summary.is_object() && job.state != JobState::kDone && !is_final(summary, job.state)) summary = nullptr;
   return {{"job", job.id},
           {"sweep", sweep_word(job.sweep)},
           {"state", to_word(job.state)},
           {"label", job.label},
           {"parameters", parameters(job)},
           {"replica", job.replica},
-          {"summary", done ? summary_of(job.id, run::RunDirectory{runs / job.id}) : Json(nullptr)}};
+          {"summary", std::move(summary)}};
 }
 
 Json counts_report(const JobCounts& counts) {

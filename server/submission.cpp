@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "server/submission.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -148,6 +151,12 @@ int parse_priority(std::string_view body) {
   return priority_of(object["priority"]);
 }
 
+int parse_replicas(std::string_view body) {
+  const json object = parse_object(body, {"replicas"});
+  if (!object.contains("replicas")) throw std::invalid_argument("\"replicas\" is missing: a whole number");
+  return integer_of(object["replicas"], "replicas", 1, kMostReplicas);
+}
+
 std::vector<std::string> parse_extension(std::string_view body) {
   static const std::map<std::string, std::string> kPaths{
       {"measure", "time.measure"}, {"order_sem", "until.order_sem"}, {"at_most", "until.at_most"}};
@@ -177,7 +186,7 @@ scene::Loaded<std::string> extended_scene(const std::string& name, const std::st
 scene::Loaded<Submission> expand(const SubmitRequest& request, const std::filesystem::path& runs) {
   const auto sweep = scene::load_runs(request.text, request.file, request.settings, request.replicas);
   if (!sweep) return sweep.error();
-  Submission submission{request.name.empty() ? sweep->name : request.name, request.priority, request.terms, {}};
+  Submission submission{request.name.empty() ? sweep->name : request.name, request.priority, request.terms, {}, {}};
   if (const auto problem = name_problem(submission.name)) {
     return std::vector{scene::Problem{request.file, 0, 0, "", *problem + "; submit it with another name"}};
   }
@@ -190,8 +199,26 @@ scene::Loaded<Submission> expand(const SubmitRequest& request, const std::filesy
     job.replica = point.replica;
     job.has_results = run::is_done(run::RunDirectory{runs / job.id}, point.plan);
     submission.jobs.push_back(std::move(job));
+    const auto& start = point.plan.start;
+    if (start && std::find(submission.starts.begin(), submission.starts.end(), *start) == submission.starts.end()) {
+      submission.starts.push_back(*start);
+    }
   }
   return submission;
+}
+
+std::string refuse_start(const scene::StartState& start, const Queue& queue, const std::filesystem::path& runs) {
+  if (!queue.job(start.run)) {
+    if (std::filesystem::exists(run::RunDirectory{runs / start.run}.scene())) return "";
+    return fmt::format("no run {} is known here; submit it first, or take the id of one that is (`shaken status`)",
+                       start.run);
+  }
+  const auto plan = scene::load_scene(queue.scene(start.run), "its scene in the queue");
+  if (!plan || plan->until) return "";
+  const double end = plan->total_time();
+  if (std::abs(end - start.time) <= 0.5 * plan->system.dt) return "";
+  return fmt::format("run {} ends at {:.10g} s, where its last state is kept, not at start.time {:.10g} s", start.run,
+                     end, start.time);
 }
 
 std::string refuse_scene(const std::string& id, const std::string& scene) {

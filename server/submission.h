@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scene/problem.h"
+#include "scene/run_plan.h"
 #include "server/cleaning.h"
 #include "server/queue.h"
 
@@ -31,6 +32,7 @@ struct Submission {
   int priority = 0;
   Terms terms;
   std::vector<NewJob> jobs;
+  std::vector<scene::StartState> starts;  ///< other runs that they start from, each once
 };
 
 /// Throws std::invalid_argument with a sentence for the user.
@@ -46,6 +48,9 @@ CleanBody parse_clean_request(std::string_view body);
 /// The number of {"priority": n}. Throws std::invalid_argument as above.
 int parse_priority(std::string_view body);
 
+/// The number of {"replicas": n}. Throws std::invalid_argument as above.
+int parse_replicas(std::string_view body);
+
 /// The settings ("time.measure=600 s") that {"measure": time, "order_sem": number, "at_most": time} stands for; each
 /// may be left out, but not all. Throws std::invalid_argument as above.
 std::vector<std::string> parse_extension(std::string_view body);
@@ -57,6 +62,10 @@ scene::Loaded<std::string> extended_scene(const std::string& name, const std::st
 /// The sweep that a request asks for, or all that is wrong with its text.
 /// `runs`: folder of the run directories, where it is looked whether results are still there.
 scene::Loaded<Submission> expand(const SubmitRequest& request, const std::filesystem::path& runs);
+
+/// Why no run can start from `start`; empty if nothing is known against it. The run is to be among those of `queue`,
+/// and end then, or to have a folder in `runs`.
+std::string refuse_start(const scene::StartState& start, const Queue& queue, const std::filesystem::path& runs);
 
 /// Why the scene that the queue has for job `id` is not to be run; empty if it is that job's.
 std::string refuse_scene(const std::string& id, const std::string& scene);

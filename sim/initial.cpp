@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 #include <string>
+#include <tuple>
 
 #include "sim/balance.h"
 #include "sim/contact/bead_contacts.h"
@@ -20,6 +21,7 @@ namespace {
 
 constexpr double kTurnSpeed = 5.0;     ///< of each angular velocity component across the rod [rad/s]
 constexpr double kClearance = 0.002;   ///< least distance between rods of the lattice [mm]
+constexpr double kKick = 1e-6;         ///< of a velocity, that sets replicas from one state apart
 constexpr int kMaxInsertions = 20000;  ///< tries for one rod of a random start
 
 /// Rows of rods along x: `columns` to a row, every other row shifted by half a column.
@@ -312,6 +314,33 @@ Result<std::vector<Flight>> place_random(const Placement& rods) {
   return flights;
 }
 
+/// What must be the same in a run and the one that it goes on from, and is not; empty if all is.
+std::string what_differs(const System& one, const System& other) {
+  std::string all;
+  const auto compare = [&](bool is_same, const char* what) {
+    if (!is_same) all += std::string(all.empty() ? "" : ", ") + what;
+  };
+  const auto arena_of = [](const System& system) {
+    return system.walls ? std::tuple(true, system.walls->arena, system.walls->size, system.walls->inner)
+                        : std::tuple(false, Arena::kDisc, 0.0, 0.0);
+  };
+  compare(one.rod == other.rod && one.added == other.added, "the rods");
+  compare(one.n_rods == other.n_rods, "their number");
+  compare(one.box_side == other.box_side, "the side of the box");
+  compare(one.gap == other.gap, "the gap");
+  compare(one.base == other.base && one.lid == other.lid, "the plates that are there");
+  compare(arena_of(one) == arena_of(other), "the walls");
+  return all;
+}
+
+/// Time by which the plates of `world` are past, or ahead of, the beginning of a vibration; 0 where nothing moves [s].
+double off_the_beat(const World& world) {
+  const System& system = world.system;
+  if (system.amplitude == 0 || (!system.base && !system.lid)) return 0;
+  const double cycles = static_cast<double>(world.tick) * system.dt * system.frequency;
+  return (cycles - std::round(cycles)) / system.frequency;
+}
+
 }  // namespace
 
 Result<std::vector<Flight>> initial_flights(const System& system, std::span<const Species> species,
@@ -343,6 +372,41 @@ Result<World> make_world(const System& system) {
   auto flights = initial_flights(system, world.species, world.species_of_rod);
   if (!flights) return flights.error();
   world.rods = std::move(flights).value();
+  world.start = content(world);
+  return world;
+}
+
+Result<World> make_world(const System& system, const World& left) {
+  if (const std::string differs = what_differs(system, left.system); !differs.empty()) {
+    return Error{"not the same as where the rods come from: " + differs};
+  }
+  if (const double off = off_the_beat(left); std::abs(off) > 0.5 * left.system.dt * (1 + 1e-6)) {
+    const double now = static_cast<double>(left.tick) * left.system.dt;
+    return Error{"its plates are in the middle of a vibration at " + std::to_string(now) +
+                 " s and would jump; the nearest whole one is at " + std::to_string(now - off) + " s"};
+  }
+  World world = empty_world(system);
+  const bool has_plates = system.base || system.lid;
+  const double rise = has_plates ? world.plates.at(0).base - left.plates.at(left.tick).base : 0.0;
+  world.rods.resize(left.rods.size());
+  std::vector<std::size_t> next(world.species.size(), 0);  // of each species, where to look for its next rod
+  for (std::size_t i = 0; i < world.rods.size(); ++i) {
+    const std::uint8_t kind = world.species_of_rod[i];
+    std::size_t& from = next[kind];
+    while (left.species_of_rod[from] != kind) ++from;
+    const Flight& flight = left.rods[from++];
+    const double ratio = world.species[kind].inertia_par / world.species[kind].inertia_perp;
+    const double tau = static_cast<double>(left.tick - flight.since) * left.system.dt;
+    Pose pose = pose_after(flight, tau, left.system.gravity);
+    Motion motion = motion_after(flight, tau, left.system.gravity, pose.director, ratio);
+    pose.position.z() += rise;
+    if (system.seed != left.system.seed) {
+      Rng rng(system.seed, RngStream::kKicks, 0, static_cast<std::uint64_t>(i));
+      for (double& component : motion.velocity) component *= 1.0 + kKick * rng.normal();
+    }
+    begin_flight(world.rods[i], 0, pose, motion, system.box_side, ratio);
+    world.rods[i].image = {0, 0};
+  }
   world.start = content(world);
   return world;
 }

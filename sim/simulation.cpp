@@ -21,6 +21,12 @@ Result<Simulation> Simulation::start(const System& system) {
   return Simulation(std::move(world).value());
 }
 
+Result<Simulation> Simulation::start(const System& system, const World& left) {
+  auto world = make_world(system, left);
+  if (!world) return world.error();
+  return Simulation(std::move(world).value());
+}
+
 Result<Simulation> Simulation::resume(const System& system, std::span<const std::byte> checkpoint) {
   auto world = restore_checkpoint(system, checkpoint);
   if (!world) return world.error();

@@ -24,6 +24,8 @@ class Simulation {
  public:
   /// Places the rods as the scene says. Fails, with the largest area fraction that fits, if they cannot be packed.
   static Result<Simulation> start(const System& system);
+  /// Begins with the rods as they are in `left` (sim/initial.h); fails as make_world() does.
+  static Result<Simulation> start(const System& system, const World& left);
   /// Continues from bytes made by checkpoint(), bitwise as if there had been no stop.
   /// Fails if the bytes are damaged or belong to another scene.
   static Result<Simulation> resume(const System& system, std::span<const std::byte> checkpoint);

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
+#include "bench/accuracy/accuracy.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 
-#include "bench/accuracy/convergence.h"
-#include "bench/accuracy/figures.h"
-#include "bench/accuracy/order_error.h"
-#include "bench/accuracy/statistics.h"
 #include "bench/bench.h"
 
 namespace shaken::bench {
@@ -32,10 +31,10 @@ Exit codes: 0 done, 1 the steppers' states differ or something failed, 2 bad inp
 
 constexpr double kPaperSide = 83.73;  ///< [mm]
 
-/// kLongestStep / 2^k, finest first, down to `finest` [s].
+/// `finest` doubled up to kLongestStep [us].
 std::vector<double> halved_steps(double finest) {
   std::vector<double> steps;
-  for (double dt = kLongestStep; dt > 0.9 * finest; dt /= 2) steps.insert(steps.begin(), dt);
+  for (double us = finest; us < 1.1e6 * kLongestStep; us *= 2) steps.push_back(us);
   return steps;
 }
 
@@ -65,7 +64,7 @@ std::vector<const Named*> chosen(const std::vector<Named>& all, const std::vecto
 
 struct AccuracyBench {
   std::string part;
-  bool quick = false, full = false;
+  bool quick = false;
   std::vector<std::string> cases, treatments, knobs;
   std::vector<double> steps;  ///< [us]
   std::optional<int> members, replicas;
@@ -79,8 +78,7 @@ struct AccuracyBench {
     app.add_option("part", part, "What to measure; everything if left out")
         ->type_name("PART")
         ->check(CLI::IsMember({"deterministic", "statistical", "error"}).description(""));
-    CLI::Option* less = app.add_flag("--quick", quick, "Fewer and shorter measurements");
-    app.add_flag("--full", full, "More and longer ones")->excludes(less);
+    app.add_flag("--quick", quick, "Fewer and shorter measurements");
     add_names(app, "--cases", cases, "LIST", names_of(start_cases()), "deterministic: only these");
     add_names(app, "--variants", treatments, "LIST", names_of(variants()),
               "How impacts are treated; deterministic: all, statistical: newton");
@@ -100,75 +98,67 @@ struct AccuracyBench {
   }
 
   /// How much longer than usual things are measured.
-  double effort() const { return quick ? 0.2 : full ? 4 : 1; }
+  double effort() const { return quick ? 0.2 : 1; }
   int n_replicas() const { return replicas.value_or(quick ? 1 : 2); }
-  /// The steps that were asked for, rising [s].
+  /// The steps that were asked for, each once and rising [us].
   std::vector<double> asked_steps() const {
-    std::vector<double> asked;
-    for (const double us : steps) asked.push_back(1e-6 * us);
-    std::sort(asked.begin(), asked.end());
-    asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
-    return asked;
+    const std::set<double> asked(steps.begin(), steps.end());
+    return {asked.begin(), asked.end()};
   }
 
   void run_deterministic() const {
     ConvergenceEffort how;
-    how.steps = steps.empty() ? halved_steps(quick ? 1e-6 : 0.25e-6) : asked_steps();
-    if (full) how.converged_by = 128;
+    for (const double us : steps.empty() ? halved_steps(quick ? 1 : 0.25) : asked_steps()) {
+      how.steps.push_back(1e-6 * us);
+    }
     how.members = quick && !members ? 16 : members;
-    std::vector<Convergence> measured;
+    std::vector<Json> measured;
     for (const StartCase* start : chosen(start_cases(), cases)) {
       for (const Variant* variant : chosen(variants(), treatments)) {
         measured.push_back(measure_convergence(*start, *variant, how));
       }
     }
     const Report report = convergence_report(measured);
-    output.give(report);
-    if (!output.folder.empty()) draw_convergence(output.folder, report);
-    for (const Convergence& of : measured) {
-      for (const StepErrors& step : of.steps) {
-        if (step.states_equal) continue;
-        throw Failure(ExitCode::kFailed, fmt::format("{}, {}, {:.10g} us: the steppers' states differ", of.start->name,
-                                                     of.variant->name, 1e6 * step.dt));
-      }
+    output.give(report, [&](const auto& folder) { draw_convergence(folder, report); });
+    for (const Json& row : report.rows()) {
+      if (row.at("states_equal").get<bool>()) continue;
+      throw Failure(ExitCode::kFailed,
+                    fmt::format("{}, {}, {:.10g} us: the steppers' states differ", text_of(row, "case"),
+                                text_of(row, "variant"), 1e6 * row.at("dt_s").get<double>()));
     }
   }
 
   /// What the knobs are turned in: the paper's dense rods, and shorter ones that drift.
   std::vector<StatisticsTask> statistics_tasks() const {
-    std::vector<double> step_values{1, 2, 4, 8, 16, 32, 64};
-    if (!steps.empty()) {
-      step_values.clear();
-      for (const double dt : asked_steps()) step_values.push_back(1e6 * dt);
-    }
+    const std::vector<double> step_values = steps.empty() ? std::vector{1., 2., 4., 8., 16., 32., 64.} : asked_steps();
     std::vector<StatisticsTask> tasks;
-    const auto add = [&](Knob knob, const std::vector<double>& values, double length, double fraction, double box,
-                         double seconds) {
+    const auto add = [&](const Knob& knob, const std::vector<double>& values, double length, double fraction,
+                         double box, double seconds) {
       const Case scene = make_case(length, fraction, side.value_or(box), kPaperStep, warm_up);
       for (const Variant* variant : chosen(variants(), treatments)) {
         if (treatments.empty() && variant != &variants().front()) continue;
-        tasks.push_back(
-            {scene, variant, knob, values, measure.value_or(seconds * effort()), std::min(1.0, warm_up), n_replicas()});
+        tasks.push_back({scene, variant, &knob, values, measure.value_or(seconds * effort()), std::min(1.0, warm_up),
+                         n_replicas()});
       }
     };
     const auto asked = [&](const char* knob) {
       return knobs.empty() || std::find(knobs.begin(), knobs.end(), knob) != knobs.end();
     };
     if (asked("step")) {
-      add(Knob::kStep, step_values, 4.5, 0.75, 25, 30);
-      add(Knob::kStep, step_values, 2.5, 0.60, 20, 50);
+      add(kStepKnob, step_values, 4.5, 0.75, 25, 30);
+      add(kStepKnob, step_values, 2.5, 0.60, 20, 50);
     }
-    if (asked("pitch")) add(Knob::kPitch, {0.15, 0.2, 0.3, 0.45, 0.6}, 4.5, 0.75, 25, 15);
-    if (asked("sweeps")) add(Knob::kSweeps, {8, 4, 2, 1}, 4.5, 0.75, 25, 15);
+    if (asked("pitch")) add(kPitchKnob, {0.15, 0.2, 0.3, 0.45, 0.6}, 4.5, 0.75, 25, 15);
+    if (asked("sweeps")) add(kSweepsKnob, {8, 4, 2, 1}, 4.5, 0.75, 25, 15);
     return tasks;
   }
 
   void run_statistical() const {
-    std::vector<Statistics> measured;
-    for (const StatisticsTask& task : statistics_tasks()) measured.push_back(measure_statistics(task, cache));
-    const Report report = statistics_report(measured);
-    output.give(report);
-    if (!output.folder.empty()) draw_statistics(output.folder, report);
+    const std::vector<StatisticsTask> tasks = statistics_tasks();
+    std::vector<Json> measured;
+    for (const StatisticsTask& task : tasks) measured.push_back(measure_statistics(task, cache));
+    const Report report = statistics_report(tasks, measured);
+    output.give(report, [&](const auto& folder) { draw_statistics(folder, report); });
   }
 
   void run_error() const {
@@ -179,15 +169,14 @@ struct AccuracyBench {
       for (const double box : sides) boxes.emplace_back(box, 50);
       std::sort(boxes.begin(), boxes.end());
     }
-    std::vector<OrderError> measured;
+    std::vector<Json> measured;
     for (const auto& [box, seconds] : boxes) {
       const Case scene = make_case(4.5, 0.75, box, kPaperStep, warm_up);
       measured.push_back(measure_order_error(scene, measure.value_or(seconds * effort()), n_replicas(), cache));
     }
-    const auto large = extrapolate(measured, make_case(4.5, 0.75, kPaperSide, kPaperStep, warm_up));
-    const Report report = order_error_report(measured, large);
-    output.give(report);
-    if (!output.folder.empty()) draw_order_error(output.folder, report);
+    const Report report =
+        order_error_report(measured, extrapolate(measured, make_case(4.5, 0.75, kPaperSide, kPaperStep, warm_up)));
+    output.give(report, [&](const auto& folder) { draw_order_error(folder, report); });
   }
 
   ExitCode run() const {

@@ -1,31 +1,47 @@
 // SPDX-License-Identifier: MIT
-#include "bench/accuracy/convergence.h"
-
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/clock.h"
 #include "base/failure.h"
 #include "base/progress_line.h"
+#include "bench/accuracy/accuracy.h"
+#include "bench/accuracy/fits.h"
 #include "sim/balance.h"
 
 namespace shaken::bench {
 namespace {
 
-using Samples = std::array<std::vector<double>, kNorms>;
+constexpr std::array<const char*, kNormNames.size()> kNormUnits{"mm", "rad", "1"};
+constexpr int kConvergedBy = 64;  ///< the converged solution's step is the finest step over this
+constexpr int kTimedMembers = 4;  ///< by the reference stepper too, to be timed and compared
 
-void add(Samples& samples, const Errors& errors) {
-  for (int n = 0; n < kNorms; ++n) samples[n].push_back(errors[n]);
-}
-
-std::array<Quartiles, kNorms> reduced(const Samples& samples) {
-  std::array<Quartiles, kNorms> out;
-  for (int n = 0; n < kNorms; ++n) {
-    if (!samples[n].empty()) out[n] = quartiles_of(samples[n]);
+/// Errors of the members of an ensemble, by norm.
+class Samples {
+ public:
+  void add(const Errors& errors) {
+    for (std::size_t n = 0; n < errors.size(); ++n) samples_[n].push_back(errors[n]);
   }
-  return out;
-}
+  bool empty() const { return samples_[0].empty(); }
+  Quartiles quartiles(std::size_t norm) const { return empty() ? Quartiles{} : quartiles_of(samples_[norm]); }
+  Json json(std::size_t norm) const {
+    const Quartiles of = quartiles(norm);
+    return {{"lower", of.lower}, {"median", of.median}, {"upper", of.upper}};
+  }
+
+ private:
+  std::array<std::vector<double>, kNormNames.size()> samples_;
+};
+
+/// What was measured at one step over the ensemble.
+struct StepErrors {
+  Samples errors;
+  double scheduled_cpu = 0, reference_cpu = 0;  ///< of all members [s]
+  bool states_equal = true;
+  int in_trouble = 0;  ///< members that ended in numerical trouble: not in `errors`
+};
 
 /// To the end of the case; the CPU time is added to `cpu`. False on numerical trouble.
 bool finish(Simulation& simulation, const StartCase& start, double& cpu) {
@@ -56,148 +72,131 @@ Errors errors_between(const World& state, const World& truth) {
   return {std::sqrt(position / n), std::sqrt(angle / n), std::abs(kinetic_energy(state).total() - energy) / energy};
 }
 
-Convergence measure_convergence(const StartCase& start, const Variant& variant, const ConvergenceEffort& effort) {
-  Convergence result;
-  result.start = &start;
-  result.variant = &variant;
-  result.members = effort.members.value_or(start.members);
-  result.converged_dt = effort.steps.front() / effort.converged_by;
-  for (const double dt : effort.steps) result.steps.push_back({dt, {}, 0, 0, true, 0});
-
-  std::vector<Samples> errors(effort.steps.size());
+Json measure_convergence(const StartCase& start, const Variant& variant, const ConvergenceEffort& effort) {
+  const int members = effort.members.value_or(start.members);
+  const double converged_dt = effort.steps.front() / kConvergedBy;
+  std::vector<StepErrors> steps(effort.steps.size());
   Samples floor, from_first;
+  double impulses = 0;
   ProgressLine progress(fmt::format("{}, {}", start.name, variant.name));
-  for (int member = 0; member < result.members; ++member) {
+  for (int member = 0; member < members; ++member) {
     const std::vector<Flight> rods = start.rods(member);
     double unused = 0;
-    Simulation truth = begin(start, rods, variant, Engine::kScheduled, result.converged_dt);
-    Simulation nearly = begin(start, rods, variant, Engine::kScheduled, 2 * result.converged_dt);
+    Simulation truth = begin(start, rods, variant, Engine::kScheduled, converged_dt);
+    Simulation nearly = begin(start, rods, variant, Engine::kScheduled, 2 * converged_dt);
     if (!finish(truth, start, unused) || !finish(nearly, start, unused)) {
       throw Failure(ExitCode::kFailed, fmt::format("{}: numerical trouble in the converged solution", start.name));
     }
-    add(floor, errors_between(nearly.world(), truth.world()));
+    floor.add(errors_between(nearly.world(), truth.world()));
     if (&variant != &variants().front()) {
-      Simulation first = begin(start, rods, variants().front(), Engine::kScheduled, result.converged_dt);
-      if (finish(first, start, unused)) add(from_first, errors_between(truth.world(), first.world()));
+      Simulation first = begin(start, rods, variants().front(), Engine::kScheduled, converged_dt);
+      if (finish(first, start, unused)) from_first.add(errors_between(truth.world(), first.world()));
     }
     const Counters& done = truth.world().counters;
-    result.impulses += static_cast<double>(done.impulses_rod_rod + done.impulses_rod_base + done.impulses_rod_lid);
-    for (std::size_t k = 0; k < effort.steps.size(); ++k) {
-      StepErrors& step = result.steps[k];
-      Simulation simulation = begin(start, rods, variant, Engine::kScheduled, step.dt);
-      const bool well = finish(simulation, start, step.scheduled_cpu);
-      if (well) {
-        add(errors[k], errors_between(simulation.world(), truth.world()));
+    impulses += static_cast<double>(done.impulses_rod_rod + done.impulses_rod_base + done.impulses_rod_lid);
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+      StepErrors& step = steps[k];
+      Simulation simulation = begin(start, rods, variant, Engine::kScheduled, effort.steps[k]);
+      if (finish(simulation, start, step.scheduled_cpu)) {
+        step.errors.add(errors_between(simulation.world(), truth.world()));
       } else {
         ++step.in_trouble;
       }
-      if (member < effort.timed_members) {
-        Simulation reference = begin(start, rods, variant, Engine::kReference, step.dt);
+      if (member < kTimedMembers) {
+        Simulation reference = begin(start, rods, variant, Engine::kReference, effort.steps[k]);
         finish(reference, start, step.reference_cpu);
         step.states_equal &= reference.state_hash() == simulation.state_hash();
       }
     }
-    progress.show((member + 1.0) / result.members);
+    progress.show((member + 1.0) / members);
   }
 
-  result.impulses /= result.members;
-  result.floor = reduced(floor);
-  if (!from_first[0].empty()) result.from_first = reduced(from_first);
-  for (std::size_t k = 0; k < effort.steps.size(); ++k) {
-    result.steps[k].errors = reduced(errors[k]);
-    result.steps[k].scheduled_cpu /= result.members;
-    result.steps[k].reference_cpu /= std::min(effort.timed_members, result.members);
+  Json rows = Json::array();
+  Json order{{"case", start.name},
+             {"variant", variant.name},
+             {"impulses", impulses / members},
+             {"converged_dt_s", converged_dt}};
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    const double scheduled_cpu = steps[k].scheduled_cpu / members;
+    const double reference_cpu = steps[k].reference_cpu / std::min(kTimedMembers, members);
+    Json row{{"case", start.name},
+             {"variant", variant.name},
+             {"duration_s", start.duration},
+             {"members", members},
+             {"dt_s", effort.steps[k]}};
+    for (std::size_t n = 0; n < kNormNames.size(); ++n) row["error"][kNormNames[n]] = steps[k].errors.json(n);
+    row.update({{"scheduled_cpu_s", scheduled_cpu},
+                {"reference_cpu_s", reference_cpu},
+                {"reference_over_scheduled", reference_cpu / scheduled_cpu},
+                {"states_equal", steps[k].states_equal},
+                {"in_trouble", steps[k].in_trouble}});
+    rows.push_back(std::move(row));
   }
-  for (int n = 0; n < kNorms; ++n) {
-    std::vector<double> medians;
-    for (const StepErrors& step : result.steps) medians.push_back(step.errors[n].median);
-    result.orders[n] = fit_order(effort.steps, medians, result.floor[n].upper);
+  for (std::size_t n = 0; n < kNormNames.size(); ++n) {
+    Json& norm = order[kNormNames[n]] = {{"unit", kNormUnits[n]}, {"floor", floor.json(n)}};
+    if (!from_first.empty()) norm["from_first"] = from_first.json(n);
+    norm["order"] = nullptr;
+    std::vector<double> medians(steps.size());
+    std::transform(steps.begin(), steps.end(), medians.begin(),
+                   [&](const StepErrors& step) { return step.errors.quartiles(n).median; });
+    if (const auto fit = fit_order(effort.steps, medians, floor.quartiles(n).upper)) {
+      norm.update({{"order", fit->order},
+                   {"order_error", fit->order_error},
+                   {"coefficient", fit->coefficient},
+                   {"finest_dt_s", effort.steps[fit->first]},
+                   {"points", fit->points}});
+    }
   }
-  return result;
+  return {{"what", start.what}, {"rows", rows}, {"order", order}};
 }
 
 namespace {
 
-Json quartiles_json(const Quartiles& of) { return {{"lower", of.lower}, {"median", of.median}, {"upper", of.upper}}; }
-
-Json step_row(const Convergence& of, const StepErrors& step) {
-  Json row{{"case", of.start->name},
-           {"variant", of.variant->name},
-           {"duration_s", of.start->duration},
-           {"members", of.members},
-           {"dt_s", step.dt}};
-  for (int n = 0; n < kNorms; ++n) row["error"][kNormNames[n]] = quartiles_json(step.errors[n]);
-  row["scheduled_cpu_s"] = step.scheduled_cpu;
-  row["reference_cpu_s"] = step.reference_cpu;
-  row["reference_over_scheduled"] = step.reference_cpu / step.scheduled_cpu;
-  row["states_equal"] = step.states_equal;
-  row["in_trouble"] = step.in_trouble;
-  return row;
+/// "2.05e-06 mm, 1.2e-06 rad, 3.1e-07" of every norm.
+std::string norms_text(const Json& order, const std::string& member) {
+  const auto of = [&](std::size_t n) { return member_of(order.at(kNormNames[n]), member).get<double>(); };
+  return fmt::format("{:.2e} mm, {:.2e} rad, {:.2e}", of(0), of(1), of(2));
 }
 
-Json order_row(const Convergence& of) {
-  Json row{{"case", of.start->name},
-           {"variant", of.variant->name},
-           {"impulses", of.impulses},
-           {"converged_dt_s", of.converged_dt}};
-  for (int n = 0; n < kNorms; ++n) {
-    Json& norm = row[kNormNames[n]];
-    norm["unit"] = kNormUnits[n];
-    norm["floor"] = quartiles_json(of.floor[n]);
-    if (of.from_first) norm["from_first"] = quartiles_json((*of.from_first)[n]);
-    norm["order"] = nullptr;
-    if (const auto& fit = of.orders[n]) {
-      norm["order"] = fit->order;
-      norm["order_error"] = fit->order_error;
-      norm["coefficient"] = fit->coefficient;
-      norm["finest_dt_s"] = of.steps[static_cast<std::size_t>(fit->first)].dt;
-      norm["points"] = fit->points;
-    }
-  }
-  return row;
-}
-
-std::string convergence_text(const Convergence& of, const Json& rows) {
+std::string convergence_text(const Json& of) {
+  const Json& order = of.at("order");
+  const Json& first = of.at("rows").at(0);
   const std::string error = "{:.2e}";
-  std::string text = fmt::format("\n{} ({}), {}: {} starts, {:.3f} ms, {:.4g} impulses each\n", of.start->name,
-                                 of.start->what, of.variant->name, of.members, 1e3 * of.start->duration, of.impulses);
-  text += table(rows, {{"dt us", "dt_s", "{:.10g}", 1e6},
-                       {"position mm", "error/position/median", error},
-                       {"lower", "error/position/lower", error},
-                       {"upper", "error/position/upper", error},
-                       {"director rad", "error/director/median", error},
-                       {"energy", "error/energy/median", error},
-                       {"scheduled us", "scheduled_cpu_s", "{:.4g}", 1e6},
-                       {"reference us", "reference_cpu_s", "{:.4g}", 1e6},
-                       {"ratio", "reference_over_scheduled", "{:.1f}"},
-                       {"same state", "states_equal"},
-                       {"trouble", "in_trouble"}});
-  text += fmt::format(
-      "converged solution at {:.4g} ns; one of twice that step is off by {:.2e} mm, {:.2e} rad, {:.2e} (upper "
-      "quartile)\n",
-      1e9 * of.converged_dt, of.floor[0].upper, of.floor[1].upper, of.floor[2].upper);
-  if (of.from_first) {
-    const auto& apart = *of.from_first;
-    text += fmt::format("distance from the converged solution of {}: {:.2e} mm, {:.2e} rad, {:.2e} (median)\n",
-                        variants().front().name, apart[0].median, apart[1].median, apart[2].median);
+  std::string text = fmt::format("\n{} ({}), {}: {} starts, {:.3f} ms, {:.4g} impulses each\n", text_of(order, "case"),
+                                 text_of(of, "what"), text_of(order, "variant"), first.at("members").get<int>(),
+                                 1e3 * first.at("duration_s").get<double>(), order.at("impulses").get<double>());
+  text += table(of.at("rows"), {{"dt us", "dt_s", "{:.10g}", 1e6},
+                                {"position mm", "error/position/median", error},
+                                {"lower", "error/position/lower", error},
+                                {"upper", "error/position/upper", error},
+                                {"director rad", "error/director/median", error},
+                                {"energy", "error/energy/median", error},
+                                {"scheduled us", "scheduled_cpu_s", "{:.4g}", 1e6},
+                                {"reference us", "reference_cpu_s", "{:.4g}", 1e6},
+                                {"ratio", "reference_over_scheduled", "{:.1f}"},
+                                {"same state", "states_equal"},
+                                {"trouble", "in_trouble"}});
+  text += fmt::format("converged solution at {:.4g} ns; one of twice that step is off by {} (upper quartile)\n",
+                      1e9 * order.at("converged_dt_s").get<double>(), norms_text(order, "floor/upper"));
+  if (order.at(kNormNames[0]).contains("from_first")) {
+    text += fmt::format("distance from the converged solution of {}: {} (median)\n", variants().front().name,
+                        norms_text(order, "from_first/median"));
   }
   return text;
 }
 
 }  // namespace
 
-Report convergence_report(const std::vector<Convergence>& measured) {
+Report convergence_report(const std::vector<Json>& measured) {
   Report report("deterministic", "accuracy deterministic");
   report.json["orders"] = Json::array();
   report.text +=
       "\nErrors against a converged solution at the end of each case: median over an ensemble of starts, and its\n"
       "quartiles for the position. CPU time of one start. Energy: kinetic, relative.\n";
-  for (const Convergence& of : measured) {
-    Json rows = Json::array();
-    for (const StepErrors& step : of.steps) rows.push_back(step_row(of, step));
-    report.text += convergence_text(of, rows);
-    report.json["rows"].insert(report.json["rows"].end(), rows.begin(), rows.end());
-    report.json["orders"].push_back(order_row(of));
+  for (const Json& of : measured) {
+    report.text += convergence_text(of);
+    report.add(of.at("rows"));
+    report.json["orders"].push_back(of.at("order"));
   }
   report.text += fmt::format(
       "\nOrder of convergence: slope of the median error in log-log, its standard error, and from how many steps. The\n"
@@ -205,8 +204,7 @@ Report convergence_report(const std::vector<Convergence>& measured) {
       "times\nwhat the converged solution is off by do not.\n",
       kLeast, kOnLine, kAboveFloor);
   std::vector<Column> columns{{"case", "case"}, {"variant", "variant"}};
-  for (const char* norm : kNormNames) {
-    const std::string name = norm;
+  for (const std::string name : kNormNames) {
     columns.push_back({name, name + "/order", "{:.2f} +- {:.2f}", 1, name + "/order_error"});
     columns.push_back({"of", name + "/points"});
   }

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "bench/accuracy/figures.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,24 +6,12 @@
 #include <cmath>
 #include <map>
 
-#include "bench/accuracy/convergence.h"
+#include "bench/accuracy/accuracy.h"
 #include "bench/accuracy/observables.h"
-#include "bench/accuracy/statistics.h"
 
 namespace shaken::bench {
 namespace {
 
-/// Titles as people write them, by Observable.
-constexpr std::array<const char*, kObservables> kTitles{"temperature in the plane",
-                                                        "temperature upright",
-                                                        "temperature of rotation",
-                                                        "order S",
-                                                        "rms tilt n_z",
-                                                        "drift against the tilt",
-                                                        "square displacement in 20.7 ms",
-                                                        "share of rods hit within 64 μs",
-                                                        "impulses between rods",
-                                                        "impulses from plates"};
 constexpr double kShown = 0.5;  ///< largest error of a velocity that is drawn [mm/s]
 
 const std::vector<std::string> kLogLog{"set logscale xy", "set format y '10^{%L}'"};
@@ -65,8 +51,6 @@ Json like(const Json& rows, const Json& row, const std::vector<std::string>& mem
   }
   return {};
 }
-
-std::string text_of(const Json& series, const char* member) { return series.at(0).at(member).get<std::string>(); }
 
 Curve coloured(Curve curve, std::size_t colour, Curve::Look look = Curve::Look::kAsFigure) {
   curve.colour = colour;
@@ -133,10 +117,10 @@ Column bias_of(const std::string& observable, const std::string& label) {
 /// Bias of every observable with a limit against the step; a panel each, a series per scene.
 void draw_bias(const std::filesystem::path& folder, const std::vector<Json>& steps, const Json& limits) {
   Sheet sheet{.name = "bias", .columns = 4};
-  for (int o = 0; o < kObservables; ++o) {
-    if (!kObservableInfo[o].has_limit) continue;
-    const std::string name = kObservableInfo[o].name;
-    Figure panel{.x_title = "step (μs)", .y_title = "bias (%)", .style = Figure::Style::kPoints, .title = kTitles[o]};
+  for (const ObservableInfo& info : kObservableInfo) {
+    if (!info.has_limit) continue;
+    const std::string name = info.name;
+    Figure panel{.x_title = "step (μs)", .y_title = "bias (%)", .style = Figure::Style::kPoints, .title = info.title};
     panel.commands =
         joined({"set logscale x 2", "set xrange [0.7:90]", "set yrange [*<-1.5:1.5<*]", kZeroLine, kBand}, kStepTics);
     for (std::size_t s = 0; s < steps.size(); ++s) {
@@ -183,17 +167,17 @@ void draw_tilt(const std::filesystem::path& folder, const std::vector<Json>& ste
 void draw_model(const std::filesystem::path& folder, const std::vector<Json>& model) {
   Sheet sheet{.name = "model", .columns = 2};
   for (const Json& series : model) {
-    const bool pitch = text_of(series, "knob") == kKnobNames[static_cast<std::size_t>(Knob::kPitch)];
+    const bool pitch = text_of(series.at(0), "knob") == kPitchKnob.name;
     Figure panel{.x_title = pitch ? "bead pitch (mm)" : "passes over the contacts of a tick",
                  .y_title = "difference (%)",
                  .style = Figure::Style::kLinesPoints};
     panel.title = fmt::format("{}, against {:g}{}", scene_text(series), series.at(0).at("value").get<double>(),
                               pitch ? " mm" : " passes");
     panel.commands = {"set logscale x", pitch ? "set xtics (0.15,0.2,0.3,0.45,0.6)" : "set xtics (1,2,4,8)", kZeroLine};
-    for (int o = 0; o < kObservables; ++o) {
-      if (!kObservableInfo[o].has_limit || o == static_cast<int>(Observable::kDrift)) continue;
+    for (const ObservableInfo& info : kObservableInfo) {
+      if (!info.has_limit || info.name == std::string("drift")) continue;  // too noisy to be shown with the others
       panel.curves.push_back(
-          coloured(curve(series, {"", "value"}, bias_of(kObservableInfo[o].name, kTitles[o])), panel.curves.size()));
+          coloured(curve(series, {"", "value"}, bias_of(info.name, info.title)), panel.curves.size()));
     }
     sheet.panels.push_back(std::move(panel));
   }
@@ -208,7 +192,7 @@ void draw_convergence(const std::filesystem::path& folder, const Report& report)
   for (const Json& of_case : series_of(report.rows(), {"case"})) {
     const std::vector<Json> of_variants = series_of(of_case, {"variant"});
     const bool one = of_variants.size() == 1;
-    const std::string name = text_of(of_case, "case");
+    const std::string name = text_of(of_case.at(0), "case");
     Figure error{.x_title = "step (μs)", .y_title = one ? "error" : "error of position (mm)", .title = name};
     error.commands = joined(kLogLog, kStepTics);
     Figure against_time{.x_title = "CPU time (μs)",
@@ -217,7 +201,7 @@ void draw_convergence(const std::filesystem::path& folder, const Report& report)
                         .title = fmt::format("{}, {:.3g} ms", name, 1e3 * of_case[0].at("duration_s").get<double>())};
     against_time.commands = joined(kLogLog, {"set format x '10^{%L}'"});
     for (const Json& series : of_variants) {
-      const std::string variant = text_of(series, "variant");
+      const std::string variant = text_of(series.at(0), "variant");
       const Json order = like(report.json.at("orders"), series.at(0), {"case", "variant"});
       if (one) {
         add_errors(error, series, order, "position", "position (mm)");
@@ -244,7 +228,7 @@ void draw_convergence(const std::filesystem::path& folder, const Report& report)
 void draw_statistics(const std::filesystem::path& folder, const Report& report) {
   std::vector<Json> steps, model;
   for (Json& series : series_of(report.rows(), {"length_mm", "variant", "knob"})) {
-    (text_of(series, "knob") == kKnobNames[0] ? steps : model).push_back(std::move(series));
+    (text_of(series.at(0), "knob") == kStepKnob.name ? steps : model).push_back(std::move(series));
   }
   if (!steps.empty()) {
     draw_bias(folder, steps, report.json.at("limits"));

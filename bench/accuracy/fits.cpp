@@ -1,96 +1,107 @@
 // SPDX-License-Identifier: MIT
 #include "bench/accuracy/fits.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/parts.h"
+
 namespace shaken::bench {
-
-Mean mean_of_samples(std::span<const double> samples) {
-  const auto n = static_cast<double>(samples.size());
-  double sum = 0, squares = 0;
-  for (const double sample : samples) sum += sample;
-  for (const double sample : samples) squares += (sample - sum / n) * (sample - sum / n);
-  return {sum / n, std::sqrt(squares / (n - 1) / n)};
-}
-
-Limit limit_of(std::span<const double> x, std::span<const Mean> means) {
-  double s = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    const double weight = 1 / (means[k].sem * means[k].sem);
-    s += weight;
-    sx += weight * x[k];
-    sy += weight * means[k].value;
-    sxx += weight * x[k] * x[k];
-    sxy += weight * x[k] * means[k].value;
-  }
-  const double determinant = s * sxx - sx * sx;
-  Limit limit;
-  limit.at_zero = {(sxx * sy - sx * sxy) / determinant, std::sqrt(sxx / determinant)};
-  limit.slope = {(s * sxy - sx * sy) / determinant, std::sqrt(s / determinant)};
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    const double off = (means[k].value - limit.at_zero.value - limit.slope.value * x[k]) / means[k].sem;
-    limit.chi_squared += off * off;
-  }
-  limit.freedom = static_cast<int>(x.size()) - 2;
-  return limit;
-}
-
-Mean relative_bias(const Mean& of, const Mean& truth) {
-  const double ratio = of.value / truth.value;
-  return {ratio - 1, std::hypot(of.sem / truth.value, ratio * truth.sem / truth.value)};
-}
-
-Verdict judge(const Mean& bias, double bound) {
-  if (std::abs(bias.value) + 2 * bias.sem < bound) return Verdict::kBelow;
-  if (std::abs(bias.value) - 2 * bias.sem > bound) return Verdict::kAbove;
-  return Verdict::kOpen;
-}
-
-std::optional<std::size_t> last_below(std::span<const Mean> biases, double bound) {
-  std::optional<std::size_t> last;
-  for (std::size_t k = 0; k < biases.size() && judge(biases[k], bound) == Verdict::kBelow; ++k) last = k;
-  return last;
-}
-
 namespace {
 
-/// y = order x + log(coefficient) through points [first, first + points) in log-log.
-OrderFit line_through(std::span<const double> steps, std::span<const double> errors, int first, int points) {
-  const double n = points;
-  double x_mean = 0, y_mean = 0;
-  for (int k = first; k < first + points; ++k) {
-    x_mean += std::log(steps[k]) / n;
-    y_mean += std::log(errors[k]) / n;
-  }
-  double xx = 0, xy = 0, yy = 0;
-  for (int k = first; k < first + points; ++k) {
-    const double x = std::log(steps[k]) - x_mean;
-    const double y = std::log(errors[k]) - y_mean;
-    xx += x * x;
-    xy += x * y;
-    yy += y * y;
-  }
-  const double order = xy / xx;
-  const double scatter = std::max(0.0, yy - order * xy) / (n - 2);
-  return {order, std::sqrt(scatter / xx), std::exp(y_mean - order * x_mean), first, points};
+/// A least-squares line, and the covariance of its two numbers for errors of 1.
+struct Line {
+  Eigen::Vector2d at_zero_and_slope;
+  Eigen::Matrix2d covariance;
+  double squares = 0;  ///< of the residuals
+};
+
+/// Through `y` at `x`, each divided by its error.
+Line line_through(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y, const Eigen::ArrayXd& errors) {
+  Eigen::MatrixX2d design(x.size(), 2);
+  design << errors.inverse(), x / errors;
+  const Eigen::VectorXd wanted = y / errors;
+  Line line;
+  line.covariance = (design.transpose() * design).inverse();
+  line.at_zero_and_slope = line.covariance * (design.transpose() * wanted);
+  line.squares = (wanted - design * line.at_zero_and_slope).squaredNorm();
+  return line;
+}
+
+Eigen::ArrayXd logarithms(std::span<const double> values) {
+  return Eigen::Map<const Eigen::ArrayXd>(values.data(), static_cast<Eigen::Index>(values.size())).log();
+}
+
+/// In log-log, through `points` of them from `first` on.
+OrderFit power_through(std::span<const double> steps, std::span<const double> errors, std::size_t first,
+                       std::size_t points) {
+  const Eigen::ArrayXd x = logarithms(steps.subspan(first, points));
+  const double middle = x.mean();
+  const Line line = line_through(x - middle, logarithms(errors.subspan(first, points)), Eigen::ArrayXd::Ones(x.size()));
+  const double order = line.at_zero_and_slope[1];
+  const double scatter = line.squares / (static_cast<double>(points) - 2);
+  return {order, std::sqrt(scatter * line.covariance(1, 1)), std::exp(line.at_zero_and_slope[0] - order * middle),
+          first, points};
 }
 
 }  // namespace
 
+Estimate mean_of_samples(std::span<const double> samples) {
+  const auto n = static_cast<double>(samples.size());
+  const double mean = analysis::mean_of(samples);
+  double squares = 0;
+  for (const double sample : samples) squares += (sample - mean) * (sample - mean);
+  return {mean, std::sqrt(squares / (n - 1) / n)};
+}
+
+Estimate mean_of_runs(std::span<const Estimate> runs) {
+  double sum = 0, squares = 0;
+  for (const Estimate& run : runs) {
+    sum += run.value;
+    squares += run.sem * run.sem;
+  }
+  const auto n = static_cast<double>(runs.size());
+  return {sum / n, std::sqrt(squares) / n};
+}
+
+Limit limit_of(std::span<const double> x, std::span<const Estimate> means) {
+  const auto n = static_cast<Eigen::Index>(x.size());
+  Eigen::ArrayXd values(n), errors(n);
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    values[static_cast<Eigen::Index>(k)] = means[k].value;
+    errors[static_cast<Eigen::Index>(k)] = means[k].sem;
+  }
+  const Line line = line_through(Eigen::Map<const Eigen::ArrayXd>(x.data(), n), values, errors);
+  return {{line.at_zero_and_slope[0], std::sqrt(line.covariance(0, 0))},
+          {line.at_zero_and_slope[1], std::sqrt(line.covariance(1, 1))},
+          line.squares,
+          static_cast<int>(n) - 2};
+}
+
+Estimate relative_bias(const Estimate& of, const Estimate& truth) {
+  const double ratio = of.value / truth.value;
+  return {ratio - 1, std::hypot(of.sem / truth.value, ratio * truth.sem / truth.value)};
+}
+
+const char* verdict(const Estimate& bias, double bound) {
+  if (std::abs(bias.value) + 2 * bias.sem < bound) return "below";
+  return std::abs(bias.value) - 2 * bias.sem > bound ? "above" : "open";
+}
+
 std::optional<OrderFit> fit_order(std::span<const double> steps, std::span<const double> errors, double floor) {
-  const int n = static_cast<int>(steps.size());
-  int first = 0;
+  const std::size_t n = steps.size();
+  std::size_t first = 0;
   while (first < n && !(errors[first] > 0 && errors[first] >= kAboveFloor * floor)) ++first;
   if (n - first < kLeast) return std::nullopt;
-  for (int k = first; k < n; ++k) {
-    if (!(errors[k] > 0)) return std::nullopt;
+  if (!std::all_of(errors.begin() + static_cast<std::ptrdiff_t>(first), errors.end(), [](double e) { return e > 0; })) {
+    return std::nullopt;
   }
-  OrderFit fit = line_through(steps, errors, first, kLeast);
-  for (int next = first + kLeast; next < n; ++next) {
+  OrderFit fit = power_through(steps, errors, first, kLeast);
+  for (std::size_t next = first + kLeast; next < n; ++next) {
     const double expected = fit.coefficient * std::pow(steps[next], fit.order);
     if (std::abs(std::log(errors[next] / expected)) > std::log(kOnLine)) break;
-    fit = line_through(steps, errors, first, fit.points + 1);
+    fit = power_through(steps, errors, first, fit.points + 1);
   }
   return fit;
 }
@@ -101,7 +112,7 @@ Quartiles quartiles_of(std::vector<double> values) {
     const double place = share * static_cast<double>(values.size() - 1);
     const auto below = static_cast<std::size_t>(place);
     const std::size_t above = std::min(below + 1, values.size() - 1);
-    return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
+    return std::lerp(values[below], values[above], place - static_cast<double>(below));
   };
   return {at(0.25), at(0.5), at(0.75)};
 }

@@ -7,45 +7,40 @@
 #include <span>
 #include <vector>
 
+#include "base/estimate.h"
+
 namespace shaken::bench {
 
-/// A mean over time and its statistical error.
-struct Mean {
-  double value = 0;
-  double sem = 0;
-};
-
-/// Of independent samples; the error from their scatter, NaN for fewer than two.
-Mean mean_of_samples(std::span<const double> samples);
+/// The mean of independent samples; the error from their scatter, NaN for fewer than two.
+Estimate mean_of_samples(std::span<const double> samples);
+/// Over independent runs of one length.
+Estimate mean_of_runs(std::span<const Estimate> runs);
 
 /// The straight line value + slope * x through measured means, by weighted least squares.
 struct Limit {
-  Mean at_zero;            ///< the limit x -> 0
-  Mean slope;              ///< per unit of x
+  Estimate at_zero;        ///< the limit x -> 0
+  Estimate slope;          ///< per unit of x
   double chi_squared = 0;  ///< sum of squared residuals over their errors; about `freedom` if the line holds
   int freedom = 0;
 };
 
 /// `x` and `means` of one length, at least two different x; every sem > 0.
-Limit limit_of(std::span<const double> x, std::span<const Mean> means);
+Limit limit_of(std::span<const double> x, std::span<const Estimate> means);
 
 /// (of - truth) / truth; the error is of both, taken as independent.
-Mean relative_bias(const Mean& of, const Mean& truth);
+Estimate relative_bias(const Estimate& of, const Estimate& truth);
 
-enum class Verdict { kBelow, kAbove, kOpen };
-/// Whether the bias is below `bound` in size, with two standard errors to spare; kOpen where they do not tell.
-Verdict judge(const Mean& bias, double bound);
-
-/// Index of the last of `biases` (at rising steps) that, with all before it, is kBelow; none if the first is not.
-std::optional<std::size_t> last_below(std::span<const Mean> biases, double bound);
+/// "below", "above" or "open": whether the bias is below `bound` in size, with two standard errors to spare; open where
+/// they do not tell.
+const char* verdict(const Estimate& bias, double bound);
 
 /// error = coefficient * dt^order, fitted to the asymptotic part of a series.
 struct OrderFit {
   double order = 0;
   double order_error = 0;  ///< standard error, from the scatter about the line
   double coefficient = 0;
-  int first = 0;   ///< index of the finest step that counts
-  int points = 0;  ///< how many count, from there on
+  std::size_t first = 0;   ///< index of the finest step that counts
+  std::size_t points = 0;  ///< how many count, from there on
 };
 
 /// Least squares in log-log over the asymptotic part of `errors` at rising `steps`. The asymptotic part: steps whose
@@ -55,7 +50,7 @@ struct OrderFit {
 std::optional<OrderFit> fit_order(std::span<const double> steps, std::span<const double> errors, double floor);
 inline constexpr double kAboveFloor = 8;
 inline constexpr double kOnLine = 1.5;
-inline constexpr int kLeast = 4;
+inline constexpr std::size_t kLeast = 4;
 
 /// The middle of a sample and the range of its middle half.
 struct Quartiles {

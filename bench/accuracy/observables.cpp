@@ -2,11 +2,9 @@
 #include "bench/accuracy/observables.h"
 
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include "analysis/order.h"
-#include "analysis/time_series.h"
 #include "sim/balance.h"
 
 namespace shaken::bench {
@@ -77,26 +75,6 @@ void ObservableSeries::sample(const Simulation& simulation) {
     add(Observable::kPlateImpulses, static_cast<double>(plates(now) - plates(last_)) / (n * kEvery));
   }
   last_ = now;
-}
-
-Mean mean_of(const std::vector<double>& values) {
-  const auto n = static_cast<double>(values.size());
-  if (values.empty()) return {};
-  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
-  double variance = 0;
-  for (const double value : values) variance += (value - mean) * (value - mean) / n;
-  return {mean, std::sqrt(variance * analysis::statistical_inefficiency(values) / n)};
-}
-
-Mean mean_of(const std::vector<Mean>& replicas) {
-  Mean mean;
-  const auto n = static_cast<double>(replicas.size());
-  for (const Mean& replica : replicas) {
-    mean.value += replica.value / n;
-    mean.sem += replica.sem * replica.sem / (n * n);
-  }
-  mean.sem = std::sqrt(mean.sem);
-  return mean;
 }
 
 }  // namespace shaken::bench

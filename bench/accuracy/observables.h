@@ -7,7 +7,6 @@
 
 #include "analysis/blocked.h"
 #include "analysis/tilt.h"
-#include "bench/accuracy/fits.h"
 #include "sim/simulation.h"
 
 namespace shaken::bench {
@@ -25,23 +24,26 @@ enum class Observable {
   kRodImpulses,    ///< impulses between rods per rod and second
   kPlateImpulses,  ///< impulses from plates per rod and second
 };
-inline constexpr int kObservables = 10;
+inline constexpr std::size_t kObservables = 10;
 
 struct ObservableInfo {
   const char* name;
   const char* unit;
-  bool has_limit;  ///< as dt -> 0; a rod at rest on a plate gets an impulse at every tick, so impulses have none
+  const char* title;  ///< as people write it
+  bool has_limit;     ///< as dt -> 0; a rod at rest on a plate gets an impulse at every tick, so impulses have none
 };
-inline constexpr std::array<ObservableInfo, kObservables> kObservableInfo{{{"T_xy", "mm^2/s^2", true},
-                                                                           {"T_z", "mm^2/s^2", true},
-                                                                           {"T_rot", "rad^2/s^2", true},
-                                                                           {"S", "1", true},
-                                                                           {"rms_n_z", "1", true},
-                                                                           {"drift", "mm/s", true},
-                                                                           {"msd", "mm^2", true},
-                                                                           {"hit", "1", true},
-                                                                           {"rod_impulses", "1/s", false},
-                                                                           {"plate_impulses", "1/s", false}}};
+/// By Observable.
+inline constexpr std::array<ObservableInfo, kObservables> kObservableInfo{
+    {{"T_xy", "mm^2/s^2", "temperature in the plane", true},
+     {"T_z", "mm^2/s^2", "temperature upright", true},
+     {"T_rot", "rad^2/s^2", "temperature of rotation", true},
+     {"S", "1", "order S", true},
+     {"rms_n_z", "1", "rms tilt n_z", true},
+     {"drift", "mm/s", "drift against the tilt", true},
+     {"msd", "mm^2", "square displacement in 20.7 ms", true},
+     {"hit", "1", "share of rods hit within 64 μs", true},
+     {"rod_impulses", "1/s", "impulses between rods", false},
+     {"plate_impulses", "1/s", "impulses from plates", false}}};
 
 /// Samples of one run, taken every kEvery.
 class ObservableSeries {
@@ -67,10 +69,5 @@ class ObservableSeries {
   std::deque<std::vector<Vec2>> places_;  ///< unwrapped, of the last kLagSamples samples
   Counters last_;
 };
-
-/// Over all of one run's samples, with the error from their autocorrelation.
-Mean mean_of(const std::vector<double>& values);
-/// Over independent runs of one length.
-Mean mean_of(const std::vector<Mean>& replicas);
 
 }  // namespace shaken::bench

@@ -1,162 +1,158 @@
 // SPDX-License-Identifier: MIT
-#include "bench/accuracy/order_error.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
 
 #include "analysis/order.h"
 #include "analysis/time_series.h"
-#include "base/clock.h"
-#include "base/progress_line.h"
 #include "base/text.h"
-#include "bench/accuracy/observables.h"
+#include "bench/accuracy/accuracy.h"
+#include "bench/accuracy/fits.h"
+#include "bench/timing.h"
 
 namespace shaken::bench {
 namespace {
 
-constexpr double kEvery = 0.005;  ///< between samples of S [s]; one vibration
-constexpr int kFewest = 6;        ///< stretches that scatter is taken from
+constexpr double kEvery = 0.005;                               ///< between samples of S [s]; one vibration
+constexpr std::size_t kFewest = 6;                             ///< stretches that scatter is taken from
+constexpr double kLong = 5;                                    ///< length of stretches that c is taken from, in tau
+constexpr std::array<double, 3> kWanted{0.01, 0.001, 0.0001};  ///< errors of S whose cost is told
 
 /// Standard deviation of one of the samples.
 double deviation(const std::vector<double>& samples) {
   return mean_of_samples(samples).sem * std::sqrt(static_cast<double>(samples.size()));
 }
 
-}  // namespace
+/// Simulated time until the error of S is `sem` [s].
+double time_for(double sem, double c, double tau) { return 2 * tau * std::pow(c / sem, 2); }
 
-double OrderError::time_for(double sem) const { return 2 * tau * std::pow(c ? c->value / sem : std / sem, 2); }
-
-double OrderError::replica_scatter() const {
+/// Means of S over all stretches of `length` samples.
+std::vector<double> stretch_means(const std::vector<std::vector<double>>& series, std::size_t length) {
   std::vector<double> means;
-  for (const Mean& replica : replicas) means.push_back(replica.value);
-  return means.size() < 2 ? 0 : deviation(means);
+  for (const std::vector<double>& values : series) {
+    for (std::size_t from = 0; from + length <= values.size(); from += length) {
+      means.push_back(mean_of_samples(std::span(values).subspan(from, length)).value);
+    }
+  }
+  return means;
 }
 
-double OrderError::expected_scatter() const { return (c ? c->value : std) / std::sqrt(measured / (2 * tau)); }
+}  // namespace
 
-OrderError reduce_order(const Case& scene, const std::vector<std::vector<double>>& series, double every) {
-  OrderError of;
-  of.scene = scene;
-  of.measured = every * static_cast<double>(series.front().size());
-  std::vector<double> all;
+Json reduce_order(const Case& scene, const std::vector<std::vector<double>>& series, double every,
+                  double cpu_per_rod_second) {
+  const double measured = every * static_cast<double>(series.front().size());
+  double tau = 0;
+  std::vector<double> all, replicas;
   for (const std::vector<double>& values : series) {
-    of.replicas.push_back(mean_of(values));
-    of.tau += every * (0.5 + analysis::autocorrelation_time(values)) / static_cast<double>(series.size());
+    replicas.push_back(mean_of_samples(values).value);
+    tau += every * (0.5 + analysis::autocorrelation_time(values)) / static_cast<double>(series.size());
     all.insert(all.end(), values.begin(), values.end());
   }
-  of.mean = mean_of_samples(all).value;
-  of.std = deviation(all);
+  const double std = deviation(all);
 
+  Json stretches = Json::array(), sems = Json::array(), sem_errors = Json::array();
   double weights = 0, weighted = 0, best = std::numeric_limits<double>::infinity();
   for (std::size_t length = 1;; length *= 2) {
-    std::vector<double> means;
-    for (const std::vector<double>& values : series) {
-      for (std::size_t from = 0; from + length <= values.size(); from += length) {
-        means.push_back(mean_of_samples(std::span(values).subspan(from, length)).value);
-      }
-    }
+    const std::vector<double> means = stretch_means(series, length);
     if (means.size() < kFewest) break;
     const double time = every * static_cast<double>(length);
     const double sem = deviation(means);
     const double sem_error = sem / std::sqrt(2 * (static_cast<double>(means.size()) - 1));
-    of.errors.push_back({time, static_cast<int>(means.size()), sem, sem_error});
-    if (time < OrderError::kLong * of.tau || sem == 0) continue;
-    const double scale = std::sqrt(time / (2 * of.tau));
+    stretches.push_back(time);
+    sems.push_back(sem);
+    sem_errors.push_back(sem_error);
+    if (time < kLong * tau || sem == 0) continue;
+    const double scale = std::sqrt(time / (2 * tau));
     const double weight = 1 / std::pow(sem_error * scale, 2);
     weights += weight;
     weighted += weight * sem * scale;
     best = std::min(best, sem_error * scale);
   }
+  const double c = weights > 0 ? weighted / weights : std;
+  Json row{{"side_mm", scene.side},
+           {"n_rods", scene.system().n_rods},
+           {"replicas", replicas.size()},
+           {"measured_s", measured},
+           {"mean", mean_of_samples(all).value},
+           {"std", std},
+           {"tau_s", tau},
+           {"measured_over_tau", measured / tau},
+           {"c", nullptr},
+           {"c_error", nullptr},
+           {"c_over_std", nullptr}};
   // the stretches of different lengths are of the same series: the best of them says how well c is known
-  if (weights > 0) of.c = Mean{weighted / weights, best};
-  return of;
+  if (weights > 0) row.update({{"c", c}, {"c_error", best}, {"c_over_std", c / std}});
+  row["replica_scatter"] = replicas.size() > 1 ? Json(deviation(replicas)) : Json(nullptr);
+  row["expected_scatter"] = c / std::sqrt(measured / (2 * tau));
+  row["cpu_s_per_rod_s"] = cpu_per_rod_second;
+  for (const double sem : kWanted) {
+    row["cpu_s_for_sem"][fmt::format("{:g}", sem)] = time_for(sem, c, tau) * scene.system().n_rods * cpu_per_rod_second;
+  }
+  row.update({{"sem_error", sem_errors}, {"sem", sems}, {"stretch_s", stretches}});
+  return row;
 }
 
-OrderError measure_order_error(const Case& scene, double measure, int replicas, const Cache& cache) {
+Json measure_order_error(const Case& scene, double measure, int replicas, const Cache& cache) {
   std::vector<std::vector<double>> series;
   double cpu = 0;
+  std::size_t n_samples = 0;
   for (int replica = 0; replica < replicas; ++replica) {
     Case start = scene;
     start.plan.system.seed = static_cast<std::uint64_t>(replica + 1);
     Simulation simulation = resumed(start, cache(start), Engine::kScheduled);
-    ProgressLine progress(fmt::format("S(t) of {}, seed {}", scene.label(), replica + 1));
-    const Tick stride = std::llround(kEvery / scene.dt);
-    const int samples = std::max(1, static_cast<int>(measure / kEvery));
-    series.emplace_back();
-    for (int k = 0; k < samples; ++k) {
-      const double begun = cpu_seconds();
-      advance(simulation, stride);
-      cpu += cpu_seconds() - begun;
-      series.back().push_back(analysis::nematic_order(simulation.snapshot().director).order);
-      progress.show((k + 1.0) / samples);
-    }
+    std::vector<double>& values = series.emplace_back();
+    cpu += sample_every(kEvery, measure, fmt::format("S(t) of {}, seed {}", scene.label(), replica + 1), simulation,
+                        [&] { values.push_back(analysis::nematic_order(simulation.snapshot().director).order); });
+    n_samples += values.size();
   }
-  OrderError of = reduce_order(scene, series, kEvery);
-  of.cpu_per_rod_second = cpu / (scene.system().n_rods * of.measured * replicas);
-  return of;
+  const double rod_seconds = scene.system().n_rods * kEvery * static_cast<double>(n_samples);
+  return reduce_order(scene, series, kEvery, cpu / rod_seconds);
 }
 
-double Extrapolation::time_for(double sem) const {
-  const double std_there = std.coefficient * std::pow(side, std.order);
-  return 2 * tau.coefficient * std::pow(side, tau.order) * std::pow(std_there / sem, 2);
-}
-
-std::optional<Extrapolation> extrapolate(const std::vector<OrderError>& measured, const Case& large) {
+Json extrapolate(const std::vector<Json>& rows, const Case& large) {
   std::vector<double> sides, stds, taus;
-  for (const OrderError& of : measured) {
-    sides.push_back(of.scene.side);
-    stds.push_back(of.std);
-    taus.push_back(of.tau);
+  for (const Json& row : rows) {
+    sides.push_back(row.at("side_mm"));
+    stds.push_back(row.at("std"));
+    taus.push_back(row.at("tau_s"));
   }
   const auto std_fit = fit_order(sides, stds, 0);
   const auto tau_fit = fit_order(sides, taus, 0);
-  if (!std_fit || !tau_fit) return std::nullopt;
-  return Extrapolation{*std_fit, *tau_fit, large.side, large.system().n_rods, measured.back().cpu_per_rod_second};
+  if (!std_fit || !tau_fit) return nullptr;
+  const auto continued_to = [&](const OrderFit& fit) { return fit.coefficient * std::pow(large.side, fit.order); };
+  const double cpu_per_rod_second = rows.back().at("cpu_s_per_rod_s");
+  Json there{{"side_mm", large.side},
+             {"n_rods", large.system().n_rods},
+             {"std_power", std_fit->order},
+             {"std_power_error", std_fit->order_error},
+             {"tau_power", tau_fit->order},
+             {"tau_power_error", tau_fit->order_error},
+             {"cpu_s_per_rod_s", cpu_per_rod_second}};
+  for (const double sem : kWanted) {
+    const double time = time_for(sem, continued_to(*std_fit), continued_to(*tau_fit));
+    there[fmt::format("time_s_for_sem_{:g}", sem)] = time;
+    there[fmt::format("cpu_s_for_sem_{:g}", sem)] = time * large.system().n_rods * cpu_per_rod_second;
+  }
+  return there;
 }
 
 namespace {
 
-constexpr std::array<double, 3> kWanted{0.01, 0.001, 0.0001};  ///< errors of S whose cost is told
-
-Json order_error_row(const OrderError& of) {
-  Json row{{"side_mm", of.scene.side},
-           {"n_rods", of.scene.system().n_rods},
-           {"replicas", of.replicas.size()},
-           {"measured_s", of.measured},
-           {"mean", of.mean},
-           {"std", of.std},
-           {"tau_s", of.tau},
-           {"measured_over_tau", of.measured / of.tau}};
-  row["c"] = of.c ? Json(of.c->value) : Json(nullptr);
-  row["c_error"] = of.c ? Json(of.c->sem) : Json(nullptr);
-  row["c_over_std"] = of.c ? Json(of.c->value / of.std) : Json(nullptr);
-  row["replica_scatter"] = of.replicas.size() > 1 ? Json(of.replica_scatter()) : Json(nullptr);
-  row["expected_scatter"] = of.expected_scatter();
-  row["cpu_s_per_rod_s"] = of.cpu_per_rod_second;
-  for (const double sem : kWanted) row["cpu_s_for_sem"][fmt::format("{:g}", sem)] = of.cpu_for(sem);
-  row["stretch_s"] = row["sem"] = row["sem_error"] = Json::array();
-  for (const StretchError& error : of.errors) {
-    row["stretch_s"].push_back(error.time);
-    row["sem"].push_back(error.sem);
-    row["sem_error"].push_back(error.sem_error);
-  }
-  return row;
-}
-
-std::string extrapolated_text(const Extrapolation& large) {
+std::string extrapolated_text(const Json& large) {
+  const auto number = [&](const std::string& member) { return large.at(member).get<double>(); };
   std::string text = fmt::format(
       "\nExtrapolated to L = {:.10g} mm, N = {}: std ~ L^{:.2f} (+- {:.2f}), tau ~ L^{:.2f} (+- {:.2f}), {:.3g} CPU-s "
       "per rod-s\nas in the largest box measured. Power laws carried this far are no measurement.\n",
-      large.side, large.n_rods, large.std.order, large.std.order_error, large.tau.order, large.tau.order_error,
-      large.cpu_per_rod_second);
+      number("side_mm"), large.at("n_rods").get<int>(), number("std_power"), number("std_power_error"),
+      number("tau_power"), number("tau_power_error"), number("cpu_s_per_rod_s"));
   for (const double sem : kWanted) {
-    text += fmt::format("  sem(S) = {:g}: {} simulated, {:.3g} CPU-hours\n", sem, duration_text(large.time_for(sem)),
-                        large.cpu_for(sem) / 3600);
+    text += fmt::format("  sem(S) = {:g}: {} simulated, {:.3g} CPU-hours\n", sem,
+                        duration_text(number(fmt::format("time_s_for_sem_{:g}", sem))),
+                        number(fmt::format("cpu_s_for_sem_{:g}", sem)) / 3600);
   }
   return text +
          "Replicas share that time between cores; each adds its way to the steady state. One more digit costs 100 "
@@ -165,19 +161,10 @@ std::string extrapolated_text(const Extrapolation& large) {
 
 }  // namespace
 
-Report order_error_report(const std::vector<OrderError>& measured, const std::optional<Extrapolation>& large) {
+Report order_error_report(const std::vector<Json>& rows, const Json& extrapolated) {
   Report report("error", "accuracy error");
-  for (const OrderError& of : measured) report.json["rows"].push_back(order_error_row(of));
-  report.json["extrapolated"] = nullptr;
-  if (large) {
-    report.json["extrapolated"] = {{"side_mm", large->side},
-                                   {"n_rods", large->n_rods},
-                                   {"std_power", large->std.order},
-                                   {"std_power_error", large->std.order_error},
-                                   {"tau_power", large->tau.order},
-                                   {"tau_power_error", large->tau.order_error},
-                                   {"cpu_s_for_sem_0.001", large->cpu_for(0.001)}};
-  }
+  report.add(rows);
+  report.json["extrapolated"] = extrapolated;
   std::vector<Column> columns{{"L mm", "side_mm", "{:.10g}"},
                               {"N", "n_rods"},
                               {"replicas", "replicas"},
@@ -200,7 +187,8 @@ Report order_error_report(const std::vector<OrderError>& measured, const std::op
       "time of S(t); c: from the scatter of means over stretches of at least 5 tau, to be compared with std, the "
       "spread\nof S(t). Scatter: of the replicas' means, measured and by that formula.\n" +
       table(report.rows(), columns) + "T/tau below 100: tau, and all that follows from it, is rough.\n" +
-      (large ? extrapolated_text(*large) : "Too few boxes, or no power law: nothing is said of larger ones.\n");
+      (extrapolated.is_null() ? "Too few boxes, or no power law: nothing is said of larger ones.\n"
+                              : extrapolated_text(extrapolated));
   return report;
 }
 

@@ -9,7 +9,6 @@
 
 #include "base/paths.h"
 #include "base/progress_line.h"
-#include "base/table.h"
 #include "bench/bench.h"
 #include "bench/report.h"
 
@@ -43,53 +42,38 @@ Json hard_row(const HardCase& of, const Outcome& outcome) {
 
 Report hard_report(const std::vector<HardCase>& cases) {
   Report report("hard", "hard");
-  Table shown({{"case"},
-               {"what must hold"},
-               {"worst", Table::Align::kRight},
-               {"limit", Table::Align::kRight},
-               {"margin", Table::Align::kRight},
-               {"verdict"}});
   std::string notes;
   for (const HardCase& of : cases) {
     for (const Outcome& outcome : of.outcomes) {
       report.json["rows"].push_back(hard_row(of, outcome));
-      const double margin = outcome.margin();
-      const bool has_margin = std::isfinite(margin) && margin > 0 && outcome.limit > 0;
-      shown.add_row({&outcome == &of.outcomes.front() ? of.name : "", outcome.holds,
-                     fmt::format("{:.3g}", outcome.worst),
-                     fmt::format("{} {:.3g}", outcome.at_least ? ">=" : "<=", outcome.limit),
-                     has_margin ? fmt::format("{:.2g}", margin) : "-", outcome.ok() ? "holds" : "DOES NOT HOLD"});
       if (!outcome.ok()) notes += fmt::format("{}: {}: {}\n", of.name, outcome.holds, outcome.note);
     }
   }
-  report.text += shown.text(0) + notes;
+  report.text += table(report.rows(), {{"case", "case"},
+                                       {"what must hold", "holds"},
+                                       {"worst", "worst", "{:.3g}"},
+                                       {"at", "limit_is"},
+                                       {"limit", "limit", "{:.3g}"},
+                                       {"margin", "margin", "{:.2g}"},
+                                       {"holds", "ok"}});
+  report.text += notes;
   return report;
 }
 
 /// hard.png: the smallest margin of each case that has more than yes and no.
-void draw_margins(const std::filesystem::path& folder, const std::vector<HardCase>& cases) {
+void draw_margins(const std::filesystem::path& folder, const Report& report) {
   Json least = Json::array();
-  for (const HardCase& of : cases) {
-    std::optional<double> margin;
-    for (const Outcome& outcome : of.outcomes) {
-      if (outcome.limit <= 0 || outcome.at_least || !std::isfinite(outcome.margin())) continue;
-      margin = std::min(margin.value_or(outcome.margin()), outcome.margin());
-    }
-    if (margin) least.push_back({{"case", of.name}, {"margin", *margin}});
+  for (const Json& row : report.rows()) {
+    if (row.at("limit") <= 0 || row.at("limit_is") == "least" || row.at("margin").is_null()) continue;
+    if (least.empty() || least.back().at("case") != row.at("case")) least.push_back(row);
+    if (row.at("margin") < least.back().at("margin")) least.back() = row;
   }
-  const int n = static_cast<int>(least.size());
-  const std::string script = fmt::format(
-      R"(set logscale x
-set xrange [0.5:*]
-set yrange [{}:-1]
-set xlabel 'smallest margin: limit over worst value seen'
-set style fill solid
-set arrow from 1,graph 0 to 1,graph 1 nohead linecolor '#d62728' dashtype 2
-plot 'hard.dat' using (0.5):0:(0.5):2:($0-0.35):($0+0.35):ytic(1) with boxxyerror linecolor '#3b528b' notitle
-)",
-      n);
-  draw_plot(folder, "hard", plot_data(least, {{"case", "case"}, {"smallest margin", "margin"}}),
-            plot_head("hard", {1000, 200 + 28 * n}) + plot_axes("y") + script);
+  draw_bars(folder, "hard", least, {"case", "case"},
+            {{"smallest margin: limit over worst value seen",
+              {{"", "margin"}},
+              false,
+              {"set logscale y", "set yrange [0.5:*]",
+               "set arrow from graph 0,first 1 to graph 1,first 1 nohead linecolor '#d62728' dashtype 2"}}});
 }
 
 std::vector<std::string> case_names() {
@@ -138,8 +122,8 @@ struct HardBench {
       if (names.empty() && seconds && name == kOrderCase) continue;
       cases.push_back(run_case(name));
     }
-    output.give(hard_report(cases));
-    if (!output.folder.empty()) draw_margins(output.folder, cases);
+    const Report report = hard_report(cases);
+    output.give(report, [&](const auto& out) { draw_margins(out, report); });
     const bool ok = std::all_of(cases.begin(), cases.end(), [](const HardCase& of) { return of.ok(); });
     return ok ? ExitCode::kOk : ExitCode::kFailed;
   }

@@ -4,11 +4,11 @@
 
 #include <array>
 #include <cmath>
-#include <complex>
 #include <limits>
 #include <variant>
 #include <vector>
 
+#include "analysis/order.h"
 #include "base/failure.h"
 #include "bench/accuracy/fits.h"
 #include "bench/hard/hard.h"
@@ -62,15 +62,13 @@ std::variant<Means, NumericalTrouble> means_of(const System& scene, double secon
     sum[2] += energy.translation_z;
     const Snapshot snapshot = simulation->snapshot();
     const auto n = static_cast<double>(snapshot.n_rods());
-    std::complex<double> order = 0;
     for (std::size_t i = 0; i < snapshot.n_rods(); ++i) {
       const Vec3& director = snapshot.director[i];
       const Vec3& velocity = snapshot.velocity[i];
-      order += std::polar(1.0, 2 * std::atan2(director.y(), director.x())) / n;
       sum[4] += std::abs(director.z()) / n;
       sum[5] += std::copysign(1.0, director.z()) * (velocity.x() * director.x() + velocity.y() * director.y()) / n;
     }
-    sum[0] += std::abs(order);
+    sum[0] += analysis::nematic_order(snapshot.director).order;
     ++n_looks;
   }
   for (double& s : sum) s /= n_looks;
@@ -108,7 +106,7 @@ Sameness Apart::within(double bound) const {
 }
 
 Apart compare_means(std::span<const double> first, std::span<const double> second) {
-  const Mean a = mean_of_samples(first), b = mean_of_samples(second);
+  const Estimate a = mean_of_samples(first), b = mean_of_samples(second);
   const double size = std::abs(a.value + b.value) / 2;
   const double of_a = a.sem * a.sem, of_b = b.sem * b.sem, variance = of_a + of_b;
   const double freedom =

@@ -3,12 +3,11 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <optional>
 
 #include "base/failure.h"
+#include "base/files.h"
 #include "bench/hard/hard.h"
 #include "scene/load.h"
 #include "sim/balance.h"
@@ -124,14 +123,12 @@ const std::vector<SceneCase>& scene_cases() {
 
 scene::RunPlan read_hard_scene(const std::filesystem::path& folder, const std::string& name) {
   const std::filesystem::path file = folder / (name + ".json");
-  std::ifstream in(file);
-  if (!in) {
+  const Result<std::string> text = read_file(file);
+  if (!text) {
     throw Failure(ExitCode::kBadInput,
-                  fmt::format("cannot read {}; --cases DIR names the folder of the scenes, configs/hard of the sources",
-                              file.string()));
+                  text.error().message + "; --cases DIR names the folder of the scenes, configs/hard of the sources");
   }
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  const scene::Loaded<scene::RunPlan> plan = scene::load_scene(text, file.string());
+  const scene::Loaded<scene::RunPlan> plan = scene::load_scene(*text, file.string());
   if (!plan) throw Failure(ExitCode::kBadInput, to_string(plan.error()));
   return *plan;
 }

@@ -14,6 +14,7 @@ class Extend : public Verb {
             "  shaken extend 1f0c --measure 600s                 one job, by the beginning of its id\n"
             "  shaken extend s3 --measure '10 min'               all jobs of a sweep\n"
             "  shaken extend s3 --order-sem 0.005 --at-most 1h   until S is known well enough\n"
+            "  shaken extend s3 --replicas 5                     five runs of each point, with those there are\n"
             "  shaken submit FILE -s time.measure=600s           does the same, and adds what is new"};
   }
 
@@ -22,6 +23,10 @@ class Extend : public Verb {
     arguments.option("--measure", measure_, "TIME", "Simulated time of the run after time.steady, in all");
     arguments.option("--order-sem", order_sem_, "ERROR", "Go on until the standard error of S is this at most");
     arguments.option("--at-most", at_most_, "TIME", "Simulated time at which the run ends in any case");
+    arguments.option(
+        "--replicas", replicas_, "N",
+        "Runs of each point of a sweep, each with a seed of its own: as a sweep of the same name with those "
+        "that are there and new ones");
     arguments.flag("--json", json_, "Print the daemon's answers as JSON");
   }
 
@@ -30,14 +35,24 @@ class Extend : public Verb {
     if (!measure_.empty()) body["measure"] = measure_;
     if (!order_sem_.empty()) body["order_sem"] = order_sem_;
     if (!at_most_.empty()) body["at_most"] = at_most_;
-    if (body.empty()) {
-      throw Failure(ExitCode::kBadInput, "extend: say for how long, with --measure, --order-sem or --at-most");
+    if (body.empty() && !replicas_) {
+      throw Failure(
+          ExitCode::kBadInput,
+          "extend: say for how long, with --measure, --order-sem or --at-most, or how often, with --replicas");
+    }
+    if (!body.empty() && replicas_) {
+      throw Failure(ExitCode::kBadInput,
+                    "extend: --replicas makes a sweep of its own; let runs go on longer after that");
     }
     ApiClient session(context.root());
     std::vector<Target> targets;
     for (const std::string& id : ids_) targets.push_back(find_target(session, id));
     Json answers = Json::array();
     for (const Target& target : targets) {
+      if (replicas_) {
+        answers.push_back(add_replicas(session, target, context.console));
+        continue;
+      }
       const int n = session.post(target.path + "/extend", body).at("extended").get<int>();
       answers.push_back({{"target", target.title()}, {"extended", n}});
       if (json_) continue;
@@ -50,7 +65,22 @@ class Extend : public Verb {
   }
 
  private:
+  Json add_replicas(ApiClient& session, const Target& target, Console& console) const {
+    if (!target.is_sweep) {
+      throw Failure(ExitCode::kBadInput, fmt::format("extend: {} is no sweep, so it has no replicas", target.title()));
+    }
+    const Json answer = session.post(target.path + "/replicas", {{"replicas", *replicas_}});
+    const Json& sweep = answer.at("sweep");
+    const Json& counts = answer.at("counts");
+    if (!json_) {
+      console.out << fmt::format("{}: with {} new of {} jobs it is sweep {}\n", target.title(), counts.value("new", 0),
+                                 answer.at("jobs").size(), sweep.at("id").get<std::string>());
+    }
+    return {{"target", target.title()}, {"sweep", sweep}, {"counts", counts}};
+  }
+
   std::vector<std::string> ids_;
+  std::optional<int> replicas_;
   std::string measure_, order_sem_, at_most_;
   bool json_ = false;
 };

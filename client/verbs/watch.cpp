@@ -3,14 +3,16 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <map>
 #include <memory>
 
 #include "base/interrupt.h"
-#include "client/live.h"
 #include "client/target.h"
 #include "client/verbs/verbs.h"
-#include "client/watch_view.h"
+#include "client/watch/live.h"
+#include "client/watch/live_screen.h"
+#include "client/watch/overview.h"
 #include "proto/bus.h"
 
 namespace shaken::client {
@@ -19,36 +21,26 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using OpenedBus = Result<std::unique_ptr<proto::Bus>>;
 
-/// Shows screens on a terminal's second page and gives the first one back when it goes.
-class ScreenPage {
- public:
-  explicit ScreenPage(Console& console) : console_(console) {
-    if (console_.interactive) console_.out << "\x1b[?1049h\x1b[?25l" << std::flush;
-  }
-  ScreenPage(const ScreenPage&) = delete;
-  ScreenPage& operator=(const ScreenPage&) = delete;
-  ~ScreenPage() {
-    if (console_.interactive) console_.out << "\x1b[?25h\x1b[?1049l" << std::flush;
-  }
-  void show(const std::vector<std::string>& lines) {
-    console_.out << "\x1b[H";
-    for (std::size_t i = 0; i < lines.size(); ++i) console_.out << (i > 0 ? "\r\n" : "") << lines[i] << "\x1b[K";
-    console_.out << "\x1b[J" << std::flush;
-  }
-
- private:
-  Console& console_;
-};
+/// Of the help.
+std::string examples_text() {
+  std::string text =
+      "  shaken watch                  all that is queued or runs, of any sweep; else the newest sweep\n"
+      "  shaken watch 1f0c             one job\n"
+      "  shaken watch s3 --for 60      leaves after a minute; the jobs go on\n"
+      "  shaken watch s3 | tee log     a line per second and job, where stdout is no terminal\n"
+      "  shaken watch --every 60 > log a line per minute\n"
+      "  NO_COLOR=1 shaken watch       in dots, without colours\n"
+      "\nKeys, on a terminal:";
+  for (const char* line : kWatchKeys) text += std::string("\n  ") + line;
+  return text;
+}
 
 class Watch : public Verb {
  public:
   VerbInfo info() const override {
-    return {"watch", kControlGroup, "Live: S(t), progress, collisions, defects, time to the end",
-            "  shaken watch                  all that is queued or runs, of any sweep; else the newest sweep\n"
-            "  shaken watch 1f0c             one job\n"
-            "  shaken watch s3 --for 60      leaves after a minute; the jobs go on\n"
-            "  shaken watch s3 | tee log     a line per second and job, where stdout is no terminal\n"
-            "  shaken watch --every 60 > log a line per minute"};
+    static const std::string examples = examples_text();
+    return {"watch", kControlGroup, "Live: the rods themselves, S(t), progress, defects, time to the end",
+            examples.c_str()};
   }
 
   void declare(Arguments& arguments) override {
@@ -74,22 +66,19 @@ class Watch : public Verb {
     LiveJobs jobs;
     note(targets, jobs);
 
+    const InterruptGuard guard;
     bool state_has_changed = false;  // as a message has it
     const OpenedBus bus = open_bus(session);
-    if (bus) {
-      bus.value()->subscribe<job_t>(
-          proto::kJobChannel, [&](const job_t& message) { state_has_changed |= jobs.contradicts(message); }, 100);
-      bus.value()->subscribe<observables_t>(
-          proto::kObservablesChannel, [&jobs](const observables_t& message) { jobs.note(message); }, 500);
-      bus.value()->subscribe<defects_t>(
-          proto::kDefectsChannel, [&jobs](const defects_t& message) { jobs.note(message); }, 100);
-    }
-
     if (!bus && !console.interactive) console.err << source_note(jobs, bus, {}) << "\n";
-    const InterruptGuard guard;
     {
-      ScreenPage page(console);
-      follow(session, targets, jobs, bus, state_has_changed, guard, page, console);
+      std::optional<LiveScreen> screen;
+      if (console.interactive) {
+        console.out.flush();
+        screen.emplace(console.colour ? colour_depth(std::getenv) : ColourDepth::kNone,
+                       std::getenv("SSH_CONNECTION") != nullptr);
+      }
+      if (bus) listen(*bus.value(), jobs, screen ? &screen->rods() : nullptr, state_has_changed);
+      follow(session, targets, jobs, bus, state_has_changed, guard, screen ? &*screen : nullptr, console);
     }
     for (const LiveJob& job : jobs.jobs()) console.out << watch_line(job) << "\n";
     return guard.interrupted() ? ExitCode::kInterrupted : ExitCode::kOk;
@@ -130,14 +119,31 @@ class Watch : public Verb {
     return proto::Bus::open(url);
   }
 
-  /// Until the jobs have ended, the time is over, Ctrl-C, or nobody reads any more.
+  /// What messages change. They are handed on as long as the bus is asked for them.
+  static void listen(proto::Bus& bus, LiveJobs& jobs, LiveRods* rods, bool& state_has_changed) {
+    bus.subscribe<job_t>(
+        proto::kJobChannel, [&](const job_t& message) { state_has_changed |= jobs.contradicts(message); }, 100);
+    bus.subscribe<observables_t>(
+        proto::kObservablesChannel, [&jobs](const observables_t& message) { jobs.note(message); }, 500);
+    bus.subscribe<defects_t>(
+        proto::kDefectsChannel, [&jobs](const defects_t& message) { jobs.note(message); }, 100);
+    if (rods == nullptr) return;
+    bus.subscribe<frame_static_t>(
+        proto::kFrameStaticChannel, [rods](const frame_static_t& message) { rods->note(message); }, 100);
+    bus.subscribe<frame_t>(
+        proto::kFrameChannel, [rods](const frame_t& message) { rods->note(message); }, 500);
+  }
+
+  /// Until the jobs have ended, the time is over, a key or Ctrl-C, or nobody reads any more. `screen` is null where
+  /// stdout is no terminal.
   void follow(ApiClient& session, std::vector<Target>& targets, LiveJobs& jobs, const OpenedBus& bus,
-              bool& state_has_changed, const InterruptGuard& guard, ScreenPage& page, Console& console) const {
+              bool& state_has_changed, const InterruptGuard& guard, LiveScreen* screen, Console& console) const {
     static constexpr std::chrono::seconds kAskEvery{1};
     static constexpr std::chrono::milliseconds kAskAtMostEvery{200};
     static constexpr std::chrono::seconds kDaemonMayBeAway{10};
-    const auto redraw_every =
-        std::chrono::milliseconds(console.interactive ? 200 : static_cast<std::int64_t>(1000 * every_.value_or(1.0)));
+    static constexpr std::chrono::milliseconds kLongestWait{50};
+    static constexpr int kMostMessages = 1000;  // before the screen has its turn again
+    const auto line_every = std::chrono::milliseconds(static_cast<std::int64_t>(1000 * every_.value_or(1.0)));
     const Clock::time_point start = Clock::now();
     Clock::time_point last_answer = start;
     Clock::time_point last_question = start;
@@ -158,41 +164,51 @@ class Watch : public Verb {
           if (failure.code != ExitCode::kNoDaemon || now - last_answer > kDaemonMayBeAway) throw;
         }
       }
-      const bool over = jobs.all_ended() || guard.interrupted() || !console.out.good() ||
-                        (seconds_ && std::chrono::duration<double>(now - start).count() >= *seconds_);
-      if (now >= next_drawing || over) {
-        next_drawing = now + redraw_every;
-        if (console.interactive) {
+      if (jobs.all_ended() || guard.interrupted() || !console.out.good() ||
+          (screen != nullptr && screen->has_ended()) ||
+          (seconds_ && std::chrono::duration<double>(now - start).count() >= *seconds_)) {
+        return;
+      }
+      if (now >= next_drawing) {
+        next_drawing = now + line_every;
+        if (screen != nullptr) {
           console.refresh_size();
-          page.show(watch_screen(jobs, title_of(targets), source_note(jobs, bus, now - start), console));
-        } else if (!over) {
-          for (const LiveJob& job : jobs.jobs()) {
-            // Jobs that wait or have ended are worth a line when that changes.
-            std::string& shown = shown_state[job.id];
-            if (job.is_running() || shown != job.state) console.out << watch_line(job) << "\n";
-            shown = job.state;
-          }
-          console.out << std::flush;
+          next_drawing = now + screen->draw(jobs, title_of(targets), source_note(jobs, bus, now - start),
+                                            {console.width, console.height});
+        } else {
+          put_lines(jobs, shown_state, console);
         }
       }
-      if (over) return;
-      if (bus) {
-        bus.value()->handle(50);
+      if (screen != nullptr) {
+        if (screen->wait(bus ? bus.value()->descriptor() : -1, kLongestWait, jobs)) next_drawing = now;
+        for (int i = 0; bus && i < kMostMessages && bus.value()->handle(0); ++i) {
+        }
+      } else if (bus) {
+        bus.value()->handle(static_cast<int>(kLongestWait.count()));
       } else {
-        guard.sleep_for(std::chrono::milliseconds(50));
+        guard.sleep_for(kLongestWait);
       }
     }
   }
 
+  /// A line for each job that runs; those that wait or have ended are worth one when that changes.
+  static void put_lines(const LiveJobs& jobs, std::map<std::string, std::string>& shown_state, Console& console) {
+    for (const LiveJob& job : jobs.jobs()) {
+      std::string& shown = shown_state[job.id];
+      if (job.is_running() || shown != job.state) console.out << watch_line(job) << "\n";
+      shown = job.state;
+    }
+    console.out << std::flush;
+  }
+
   static std::string source_note(const LiveJobs& jobs, const OpenedBus& bus, Clock::duration watched) {
-    if (!bus)
-      return fmt::format("no live state ({}): asking the daemon once a second. Ctrl-C leaves", bus.error().message);
+    if (!bus) return fmt::format("no live state ({}): asking the daemon once a second", bus.error().message);
     const std::int64_t n = jobs.received();
     if (n == 0 && watched > std::chrono::seconds(3)) {
-      return fmt::format("nothing heard on {} (has the scene a \"stream\" block?): asking the daemon. Ctrl-C leaves",
+      return fmt::format("nothing heard on {} (has the scene a \"stream\" block?): asking the daemon",
                          bus.value()->url());
     }
-    return fmt::format("live over LCM: {} messages, {} lost. Ctrl-C leaves", n, jobs.lost());
+    return fmt::format("live over LCM: {} messages, {} lost", n, jobs.lost());
   }
 
   std::string id_;

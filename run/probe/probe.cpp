@@ -15,7 +15,6 @@
 #include "run/messages.h"
 #include "run/movie_process.h"
 #include "run/open_run.h"
-#include "run/probe/sampling.h"
 #include "scene/canonical.h"
 #include "scene/length.h"
 
@@ -40,11 +39,11 @@ class Prober {
     result_.run_ticks = static_cast<double>(scene::total_ticks(plan_));
     if (auto done = step(); !done) return done.error();
     const SamplingCost sampling = time_sampling(plan_, simulation_.world().species.front(), snapshots_);
-    result_.samples = sampling.samples;
+    result_.parts = sampling.samples;
     result_.disk.observables = sampling.file_bytes;
     // what is sampled or recorded is read first, all rods of it
     snapshot_cpu_ = time_of([&] { snapshots_.back() = simulation_.snapshot(); }, kCpu, 2);
-    for (auto& [effect, cost] : result_.samples) cost.each += snapshot_cpu_;
+    for (auto& [effect, cost] : result_.parts) cost.each += snapshot_cpu_;
     if (auto done = time_recording(); !done) return done.error();
     if (plan_.movie) time_movie();
     if (auto done = time_checkpoints(sampling.state_bytes); !done) return done.error();
@@ -127,20 +126,20 @@ class Prober {
   Result<void> time_recording() {
     const std::optional<Cadence> recording = recording_of(plan_);
     if (!recording) return {};
-    result_.trajectory.count = scene::total_ticks(plan_) / recording->period() + 1;
+    Cost& frames = result_.parts["trajectory"];
+    frames.count = scene::total_ticks(plan_) / recording->period() + 1;
+    const auto later = static_cast<double>(frames.count - 1);
     double bytes[2] = {0, 0};
     for (const int n : {1, 1 + kFrames}) {
       const ScratchFolder folder;
       const auto cpu = record(folder.path(), *recording, n);
       if (!cpu) return cpu.error();
-      result_.trajectory.each = *cpu + snapshot_cpu_;
+      frames.each = *cpu + snapshot_cpu_;
       bytes[n > 1] = bytes_in(folder.path() / "trajectory.h5");
     }
-    const double frame = (bytes[1] - bytes[0]) / kFrames;
-    result_.disk.trajectory_part =
-        static_cast<double>(part_bytes_[0]) + static_cast<double>(part_bytes_[1] - part_bytes_[0]) / kFrames *
-                                                  static_cast<double>(result_.trajectory.count - 1);
-    result_.disk.trajectory = bytes[0] + frame * static_cast<double>(result_.trajectory.count - 1);
+    const auto with = [&](double one, double more) { return one + (more - one) / kFrames * later; };
+    result_.disk.trajectory_part = with(static_cast<double>(part_bytes_[0]), static_cast<double>(part_bytes_[1]));
+    result_.disk.trajectory = with(bytes[0], bytes[1]);
     return {};
   }
 
@@ -160,9 +159,9 @@ class Prober {
       }
       cpu[n > kShortMovie] = children_cpu_seconds() - before;
     }
-    result_.movie.count = scene::total_ticks(plan_) / cadence.period() + 1;
-    result_.movie.each = std::max(0.0, (cpu[1] - cpu[0]) / (2 * kShortMovie));
-    result_.movie.once = std::max(0.0, cpu[0] - kShortMovie * result_.movie.each);
+    const double each = std::max(0.0, (cpu[1] - cpu[0]) / (2 * kShortMovie));
+    result_.parts["movie"] = {scene::total_ticks(plan_) / cadence.period() + 1, each,
+                              std::max(0.0, cpu[0] - kShortMovie * each)};
   }
 
   Result<void> time_checkpoints(double measurement_bytes) {
@@ -184,10 +183,12 @@ class Prober {
   void time_stream() {
     const double each = time_of([&] { proto::encode_frame(make_frame(simulation_.snapshot())); }, kCpu, 2);
     const double rate = plan_.stream->rate;
-    const double run = result_.total() - result_.movie.cpu();
-    const double frames = run * rate / std::max(0.01, 1 - rate * each);  // the frames take time too
-    const double most = result_.trajectory.count > 0 ? static_cast<double>(result_.trajectory.count) : frames;
-    result_.stream = {std::llround(std::min(frames, most)), each, 0};
+    const double run = result_.total() - result_.cpu_of("movie").value_or(0);
+    double frames = run * rate / std::max(0.01, 1 - rate * each);  // the frames take time too
+    if (plan_.trajectory || plan_.movie) {
+      frames = std::min(frames, static_cast<double>(result_.parts.at("trajectory").count));
+    }
+    result_.parts["stream"] = {std::llround(frames), each, 0};
   }
 
   const scene::RunPlan& plan_;
@@ -203,28 +204,19 @@ class Prober {
 }  // namespace
 
 double Probe::total() const {
-  double sum = stepping() + trajectory.cpu() + stream.cpu() + checkpoints.cpu() + movie.cpu();
-  for (const auto& [effect, cost] : samples) sum += cost.cpu();
+  double sum = stepping() + checkpoints.cpu();
+  for (const auto& [effect, cost] : parts) sum += cost.cpu();
   return sum;
+}
+
+std::optional<double> Probe::cpu_of(const std::string& effect) const {
+  const auto found = parts.find(effect);
+  return found == parts.end() ? std::nullopt : std::optional(found->second.cpu());
 }
 
 Result<Probe> probe(const scene::RunPlan& plan, Simulation simulation, double cpu) {
   return Prober(plan, std::move(simulation), cpu).run();
 }
-
-namespace {
-
-/// CPU time of what is measured, recorded, sent or drawn [s]; none for the physics, and for a movie that could not be
-/// timed.
-std::optional<double> own_cpu(const std::string& effect, const Probe& probe) {
-  if (const auto found = probe.samples.find(effect); found != probe.samples.end()) return found->second.cpu();
-  if (effect == "trajectory") return probe.trajectory.cpu();
-  if (effect == "stream") return probe.stream.cpu();
-  if (effect == "movie" && probe.movie_trouble.empty()) return probe.movie.cpu();
-  return std::nullopt;
-}
-
-}  // namespace
 
 nlohmann::ordered_json probe_report(const scene::RunPlan& plan, const std::optional<Probe>& probe) {
   using OrderedJson = nlohmann::ordered_json;
@@ -233,7 +225,7 @@ nlohmann::ordered_json probe_report(const scene::RunPlan& plan, const std::optio
   report["effects"] = OrderedJson::array();
   for (const EffectLine& line : list_effects(plan)) {
     OrderedJson entry{{"name", line.name}, {"what", line.what}, {"on", line.on}, {"why", line.why}};
-    const auto cpu = probe && line.on ? own_cpu(line.name, *probe) : std::nullopt;
+    const auto cpu = probe && line.on ? probe->cpu_of(line.name) : std::nullopt;
     if (cpu) entry["cpu_share"] = *cpu / total;
     report["effects"].push_back(std::move(entry));
   }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "scene/run_plan.h"
 #include "sim/core/result.h"
@@ -43,17 +44,30 @@ struct Probe {
 
   // the whole
   double run_ticks = 0;
-  double tick_cpu = 0;                   ///< CPU time of a tick [s]
-  std::map<std::string, Cost> samples;   ///< by effect, "measure_order"
-  Cost trajectory, stream, checkpoints;  ///< zero where they are off
-  Cost movie;                            ///< drawn by a process of its own
-  std::string movie_trouble;             ///< why the movie could not be timed, if so
+  double tick_cpu = 0;  ///< CPU time of a tick [s]
+  /// What is done now and then, by effect: "measure_order", "trajectory", "stream", "movie" (by a process of its own).
+  std::map<std::string, Cost> parts;
+  Cost checkpoints;
+  std::string movie_trouble;  ///< why the movie could not be timed, if so
   DiskUse disk;
 
   double stepping() const { return run_ticks * tick_cpu; }
   /// CPU time of the run with all that belongs to it [s].
   double total() const;
+  /// CPU time of what is measured, recorded, sent or drawn [s]; none for the physics, which is stepping as a whole, and
+  /// for a movie that could not be timed.
+  std::optional<double> cpu_of(const std::string& effect) const;
 };
+
+/// What the measurements of a plan cost, each by itself.
+struct SamplingCost {
+  std::map<std::string, Cost> samples;  ///< by effect, "measure_order"
+  double file_bytes = 0;                ///< of observables.h5 at the end of the run
+  double state_bytes = 0;               ///< of the measurements in the checkpoint at the end of the run
+};
+
+/// Takes a few samples of each measurement at some states of the plan's rods, at least one.
+SamplingCost time_sampling(const scene::RunPlan& plan, const Species& species, const std::vector<Snapshot>& snapshots);
 
 /// Goes on with `simulation`, of this plan's system, for about `cpu` seconds, and times once what the run does now and
 /// then beside stepping. At tick 0 half of `cpu` goes by before anything is timed. Fails if the steps meet

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "run/probe/sampling.h"
-
 #include <algorithm>
 #include <vector>
 
@@ -8,6 +6,7 @@
 #include "base/scratch_folder.h"
 #include "run/measurements.h"
 #include "run/open_run.h"
+#include "run/probe/probe.h"
 #include "scene/length.h"
 
 namespace shaken::run {

@@ -45,6 +45,8 @@ void check_intervals(Resolution& scene);
 
 /// A run goes on until S is accurate only if S is measured, and not less long than `time.measure` says.
 void check_until(Resolution& scene);
+/// A run that starts from another's state needs to know which, and does not place its rods.
+void check_start(Resolution& scene);
 
 // measurements.cpp
 

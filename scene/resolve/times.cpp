@@ -69,11 +69,23 @@ void check_until(Resolution& scene) {
                            time_text(plan.measure_time)));
 }
 
+void check_start(Resolution& scene) {
+  if (!scene.plan.start) return;
+  for (const char* path : {"start.run", "start.time"}) {
+    if (!scene.draft.find(path)) scene.report({"start"}, fmt::format("{} is missing", path));
+  }
+  if (scene.given("rods.start")) {
+    scene.report({"rods.start", "start"},
+                 "rods start in rows, at random, or from another run: remove rods.start or start");
+  }
+}
+
 void check_intervals(Resolution& scene) {
   const double step = scene.plan.system.dt;
   for (const Field& field : fields()) {
     const std::string_view block = block_around(field.path);
-    const bool is_interval = field.form == Form::kQuantity && field.dimension == Dimension::kTime && !block.empty();
+    const bool is_interval = field.form == Form::kQuantity && field.dimension == Dimension::kTime && !block.empty() &&
+                             field.path != "start.time";
     if (!is_interval || !scene.draft.is_on(block) || !scene.draft.is_ok(field.path)) continue;
     const double every = std::get<double>(field.fetch(scene.plan));
     if (every < step) {

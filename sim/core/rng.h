@@ -19,7 +19,8 @@ enum class RngStream : std::uint64_t {
   kNoise = 5,
   kContacts = 6,
   kReferences = 7,
-  kPoints = 8
+  kPoints = 8,
+  kKicks = 9
 };
 
 /// Random numbers keyed by (seed, stream, tick, index): what a rod draws depends on nothing but its own index and the

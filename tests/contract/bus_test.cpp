@@ -5,6 +5,7 @@
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <lcm/lcm.h>
+#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -56,6 +57,23 @@ TEST(Bus, CountsAndRefusesAnotherType) {
   drain(*bus);
   EXPECT_EQ(n_frames, 1);
   EXPECT_EQ(bus->counters().refused, 1);
+}
+
+TEST(Bus, ItsDescriptorTellsWhenSomethingWaits) {
+  const auto bus = memory_bus();
+  int n_jobs = 0;
+  bus->subscribe<job_t>(kJobChannel, [&](const job_t&) { ++n_jobs; });
+  const auto waits = [&] {
+    pollfd readable{bus->descriptor(), POLLIN, 0};
+    return poll(&readable, 1, 0) == 1;
+  };
+  EXPECT_GE(bus->descriptor(), 0);
+  EXPECT_FALSE(waits());
+  bus->publish(kJobChannel, samples::make<job_t>());
+  EXPECT_TRUE(waits());
+  EXPECT_TRUE(bus->handle(0));
+  EXPECT_EQ(n_jobs, 1);
+  EXPECT_FALSE(waits());
 }
 
 TEST(Bus, HandlerExceptionsComeOutOfHandle) {

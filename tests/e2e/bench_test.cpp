@@ -130,7 +130,6 @@ TEST_F(Bench, AccuracyRefusesWhatItDoesNotKnow) {
   EXPECT_THAT(refused({"guess"}), HasSubstr("guess not in {deterministic,statistical,error}"));
   EXPECT_THAT(refused({"--cases", "head-on,sideways"}), HasSubstr("--cases: sideways not in {rattling,"));
   EXPECT_THAT(refused({"--steps", "64,3"}), HasSubstr("--steps: 3 is not 64 us halved"));
-  EXPECT_THAT(refused({"--quick", "--full"}), HasSubstr("excludes"));
 }
 
 TEST_F(Bench, ExportGivesAState) {

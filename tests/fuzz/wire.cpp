@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Payloads of LCM messages, each byte string as every type; the messages then go where a viewer puts them.
-#include "client/live.h"
+#include "client/watch/live.h"
+#include "client/watch/live_rods.h"
 #include "proto/codec.h"
 #include "proto/frame_codec.h"
 #include "tests/fuzz/target.h"
@@ -45,14 +46,20 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::span payload(data, size);
   static client::LiveJobs jobs;
   static proto::FrameAssembler frames(kJob);
+  static client::LiveRods rods;
   static int n_used = 0;
   if (n_used++ % 1000 == 0) {
     jobs = {};
     jobs.note_api(job());
     frames = proto::FrameAssembler(kJob);
+    rods = {};
+    rods.select(kJob);
   }
   (void)decoded<status_t>(payload);
-  (void)decoded<frame_static_t>(payload);
+  if (auto message = decoded<frame_static_t>(payload)) {
+    message->job_id = kJob;
+    rods.note(*message);
+  }
   if (const auto message = decoded<job_t>(payload)) (void)jobs.contradicts(*message);
   if (auto message = decoded<observables_t>(payload)) {
     message->job_id = kJob;
@@ -66,6 +73,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     (void)proto::decode_chunk(*message);
     message->job_id = kJob;
     if (const auto frame = frames.add(*message)) (void)proto::encode_frame(*frame);
+    rods.note(*message);
+    if (const auto shown = rods.newest()) {
+      client::CellGrid grid(20, 10);
+      client::draw_rods(*shown, {}, {}, {}, {0, 0, 20, 10}, grid);
+    }
   }
   (void)jobs.jobs().front().fraction();
   return 0;

@@ -36,9 +36,5 @@ TEST(TableText, NumbersAndNamesAreLeftOutWholeButNeverCut) {
   EXPECT_TRUE(table.left_out(0).empty());
 }
 
-TEST(Aligned, PutsColumnsFlushRight) {
-  EXPECT_EQ(aligned({{"a", "bc"}, {"100", "2"}, {"1", "20"}}), "  a  bc\n100   2\n  1  20\n");
-}
-
 }  // namespace
 }  // namespace shaken

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "bench/accuracy/convergence.h"
+#include "bench/accuracy/accuracy.h"
 
 namespace shaken::bench {
 namespace {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "bench/accuracy/accuracy.h"
 #include "bench/accuracy/fits.h"
 
 namespace shaken::bench {
@@ -11,7 +12,7 @@ namespace {
 
 TEST(Limit, IsExactOnALine) {
   const std::vector<double> x{1, 2, 4, 8};
-  const std::vector<Mean> means{{3.5, 0.1}, {4, 0.2}, {5, 0.1}, {7, 0.3}};
+  const std::vector<Estimate> means{{3.5, 0.1}, {4, 0.2}, {5, 0.1}, {7, 0.3}};
   const Limit limit = limit_of(x, means);
   EXPECT_NEAR(limit.at_zero.value, 3, 1e-12);
   EXPECT_NEAR(limit.slope.value, 0.5, 1e-12);
@@ -21,45 +22,58 @@ TEST(Limit, IsExactOnALine) {
 
 TEST(Limit, ErrorsAreThoseOfTwoPoints) {
   // from y(1) +- 0.3 and y(3) +- 0.1: slope (y3 - y1) / 2, at zero (3 y1 - y3) / 2
-  const Limit limit = limit_of(std::vector<double>{1, 3}, std::vector<Mean>{{10, 0.3}, {20, 0.1}});
+  const Limit limit = limit_of(std::vector<double>{1, 3}, std::vector<Estimate>{{10, 0.3}, {20, 0.1}});
   EXPECT_NEAR(limit.slope.sem, std::hypot(0.3, 0.1) / 2, 1e-12);
   EXPECT_NEAR(limit.at_zero.value, 5, 1e-12);
   EXPECT_NEAR(limit.at_zero.sem, std::hypot(0.9, 0.1) / 2, 1e-12);
 }
 
 TEST(Limit, WeighsByErrors) {
-  const Limit limit = limit_of(std::vector<double>{1, 2, 3}, std::vector<Mean>{{1, 1e-3}, {2, 1e-3}, {9, 1e3}});
+  const Limit limit = limit_of(std::vector<double>{1, 2, 3}, std::vector<Estimate>{{1, 1e-3}, {2, 1e-3}, {9, 1e3}});
   EXPECT_NEAR(limit.slope.value, 1, 1e-6);
   // the middle one is off by 1 error of an even line
-  EXPECT_NEAR(limit_of(std::vector<double>{0, 1, 2}, std::vector<Mean>{{0, 1}, {3, 1}, {0, 1}}).chi_squared, 6, 1e-12);
+  EXPECT_NEAR(limit_of(std::vector<double>{0, 1, 2}, std::vector<Estimate>{{0, 1}, {3, 1}, {0, 1}}).chi_squared, 6,
+              1e-12);
 }
 
 TEST(Samples, HaveAMeanWithAnErrorFromTheirScatter) {
-  const Mean mean = mean_of_samples(std::vector<double>{1, 2, 6});
+  const Estimate mean = mean_of_samples(std::vector<double>{1, 2, 6});
   EXPECT_DOUBLE_EQ(mean.value, 3);
   EXPECT_DOUBLE_EQ(mean.sem, std::sqrt((4 + 1 + 9) / 2.0 / 3.0));
   EXPECT_TRUE(std::isnan(mean_of_samples(std::vector<double>{1}).sem));
 }
 
 TEST(Bias, IsRelativeToTheTruth) {
-  const Mean bias = relative_bias({1.1, 0.03}, {1.0, 0.04});
+  const Estimate bias = relative_bias({1.1, 0.03}, {1.0, 0.04});
   EXPECT_NEAR(bias.value, 0.1, 1e-12);
   EXPECT_NEAR(bias.sem, std::hypot(0.03, 1.1 * 0.04), 1e-12);
 }
 
 TEST(Bias, IsJudgedWithTwoErrorsToSpare) {
-  EXPECT_EQ(judge({0.004, 0.002}, 0.01), Verdict::kBelow);
-  EXPECT_EQ(judge({-0.004, 0.002}, 0.01), Verdict::kBelow);
-  EXPECT_EQ(judge({-0.03, 0.002}, 0.01), Verdict::kAbove);
-  EXPECT_EQ(judge({0.0, 0.006}, 0.01), Verdict::kOpen);
-  EXPECT_EQ(judge({0.02, 0.006}, 0.01), Verdict::kOpen);
+  EXPECT_STREQ(verdict({0.004, 0.002}, 0.01), "below");
+  EXPECT_STREQ(verdict({-0.004, 0.002}, 0.01), "below");
+  EXPECT_STREQ(verdict({-0.03, 0.002}, 0.01), "above");
+  EXPECT_STREQ(verdict({0.0, 0.006}, 0.01), "open");
+  EXPECT_STREQ(verdict({0.02, 0.006}, 0.01), "open");
+}
+
+/// What the report tells of the steps 1, 2, 4, ... us whose biases of S have these verdicts.
+std::string steps_below(const std::vector<const char*>& verdicts) {
+  StatisticsTask task{.scene = make_case(4.5, 0.75, 12, kPaperStep, 1), .values = {1}};
+  Json rows = Json::array();
+  for (const char* verdict : verdicts) {
+    rows.push_back({{"value", std::exp2(rows.size())}, {"S", {{"bias", 0}, {"verdict", verdict}}}});
+  }
+  const Json limits = Json::parse(R"([{"observable": "S", "chi_squared": 1, "freedom": 0}])");
+  const std::string text =
+      statistics_report({task}, {{{"rows", rows}, {"limits", limits}, {"tilt", Json::array()}}}).text;
+  return text.substr(text.find("  S: ") + 5);
 }
 
 TEST(Bias, TheLastStepBelowHasAllFinerOnesBelow) {
-  const Mean good{0, 0.001}, open{0, 0.02};
-  EXPECT_EQ(last_below(std::vector{good, good, open, good}, 0.01), 1u);
-  EXPECT_EQ(last_below(std::vector{good, good}, 0.01), 1u);
-  EXPECT_FALSE(last_below(std::vector{open, good}, 0.01));
+  EXPECT_EQ(steps_below({"below", "below", "open", "below"}), "2 us (4 us: open)\n");
+  EXPECT_EQ(steps_below({"below", "below"}), "2 us\n");
+  EXPECT_EQ(steps_below({"above", "below"}), "none (1 us: above)\n");
 }
 
 const std::vector<double> kSteps{1, 2, 4, 8, 16, 32};

@@ -3,8 +3,9 @@
 
 #include <cmath>
 
+#include "bench/accuracy/accuracy.h"
+#include "bench/accuracy/fits.h"
 #include "bench/accuracy/observables.h"
-#include "bench/accuracy/statistics.h"
 
 namespace shaken::bench {
 namespace {
@@ -93,7 +94,7 @@ TEST(Observables, DisplacementsAreOverTheLag) {
 }
 
 TEST(Observables, TheErrorOfReplicasIsThatOfTheirMean) {
-  const Mean mean = mean_of(std::vector<Mean>{{1, 0.3}, {3, 0.4}});
+  const Estimate mean = mean_of_runs(std::vector<Estimate>{{1, 0.3}, {3, 0.4}});
   EXPECT_DOUBLE_EQ(mean.value, 2);
   EXPECT_DOUBLE_EQ(mean.sem, 0.25);
 }

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "bench/accuracy/start_case.h"
+#include "bench/accuracy/accuracy.h"
 
 namespace shaken::bench {
 namespace {

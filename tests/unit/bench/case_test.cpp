@@ -5,9 +5,9 @@
 
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "base/failure.h"
+#include "base/files.h"
 #include "tests/unit/run/temporary_folder.h"
 
 namespace shaken::bench {
@@ -38,12 +38,11 @@ TEST(Case, WhatASceneRefusesIsBadInput) {
 class SteadyStates : public ::testing::Test {
  protected:
   /// The only file in the cache.
-  std::filesystem::path file() const { return std::filesystem::directory_iterator(cache_.path())->path(); }
-  static std::string content(const std::filesystem::path& file) {
-    std::stringstream text;
-    text << std::ifstream(file, std::ios::binary).rdbuf();
-    return text.str();
+  std::filesystem::path file() const { return file_in(cache_.path()); }
+  static std::filesystem::path file_in(const std::filesystem::path& cache) {
+    return std::filesystem::directory_iterator(cache)->path() / "checkpoint.bin";
   }
+  static std::string content(const std::filesystem::path& file) { return *read_file(file); }
   static void write(const std::filesystem::path& file, const std::string& text) {
     std::ofstream(file, std::ios::binary) << text;
   }
@@ -82,7 +81,7 @@ TEST_F(SteadyStates, OfAnotherSceneUnderOurNameAreMadeAnew) {
   const std::filesystem::path ours = file();
   run::TemporaryFolder elsewhere;
   steady_state(small_case(0.003), elsewhere.path());
-  write(ours, content(std::filesystem::directory_iterator(elsewhere.path())->path()));
+  write(ours, content(file_in(elsewhere.path())));
   const SteadyState again = steady_state(small_case(), cache_.path());
   EXPECT_FALSE(again.was_cached);
   EXPECT_EQ(again.checkpoint, made.checkpoint);

@@ -16,22 +16,19 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-EngineSpeed engine(double cpu) {
-  EngineSpeed speed;
-  speed.ticks = 1250;
-  speed.cpu = {cpu * 1.5, cpu, cpu * 1.1};
-  speed.wall = speed.cpu;
-  speed.rod_seconds = 10;
-  speed.plate_impulses = 900;
-  speed.rod_impulses = 100;
-  return speed;
+Contender contender(double cpu) {
+  Contender of{.scene = make_case(4.5, 0.6, 12, kPaperStep, 5), .state = {}};
+  of.speed.ticks = 1250;
+  of.speed.cpu = {cpu * 1.5, cpu, cpu * 1.1};
+  of.speed.wall = of.speed.cpu;
+  of.speed.rod_seconds = 10;
+  of.speed.plate_impulses = 900;
+  of.speed.rod_impulses = 100;
+  return of;
 }
 
 SceneSpeed scene() {
-  SceneSpeed speed;
-  speed.scene = make_case(4.5, 0.6, 12, kPaperStep, 5);
-  speed.scheduled = engine(0.1);
-  speed.reference = engine(2);
+  SceneSpeed speed{contender(0.1), contender(2)};
   speed.phases.fill(0.01);
   speed.phases_cpu = 0.1;
   speed.bounds = {1e-5, 2e-5, 1e-6};
@@ -47,8 +44,8 @@ TEST(Table, ShowsMembersOfRowsInTheirFormats) {
                          {"same", "same"},
                          {"why", "why"}}),
             " N       %           mean  same  why\n"
-            "12    12.3  0.12 +- 0.002   yes   so\n"
-            " 3  -100.0   -1.00 +- 0.5    NO    -\n");
+            "12    12.3  0.12 +- 0.002   yes  so\n"
+            " 3  -100.0   -1.00 +- 0.5    NO  -\n");
 }
 
 TEST(Csv, NamesNestedValuesWithDots) {
@@ -123,23 +120,28 @@ TEST(Report, SaysWhatIsNotTheSteadyState) {
 TEST(Report, SaysIfTheEnginesDiffer) {
   SceneSpeed differs = scene();
   EXPECT_THAT(speed_report({}, {differs}).text, Not(HasSubstr("NO\n")));
+  check_states(speed_report({}, {differs}), "they differ");
   differs.scheduled_hash = 1;
-  EXPECT_THAT(speed_report({}, {differs}).text, HasSubstr("NO\n"));
+  differs.compared_ticks = 9;
+  const Report report = speed_report({}, {differs});
+  EXPECT_THAT(report.text, HasSubstr("NO\n"));
+  EXPECT_THAT([&] { check_states(report, "they differ"); },
+              testing::ThrowsMessage<Failure>("l = 4.5 mm, phi = 0.6, L = 12 mm: they differ after 9 ticks"));
 }
 
 TEST(Report, OfScalingIsRelativeToTheFirst) {
-  const Report report =
-      scaling_report({}, Scaling::kStep, {{scene().scene, engine(0.1)}, {scene().scene, engine(0.15)}});
+  const Report report = scaling_report({}, Scaling::kStep, {contender(0.1), contender(0.15)});
   EXPECT_DOUBLE_EQ(report.rows().at(0).at("relative_cost"), 1);
   EXPECT_DOUBLE_EQ(report.rows().at(1).at("relative_cost"), 1.5);
 }
 
 TEST(Report, OfThreadsNamesTheSpeedUp) {
-  ThreadsSpeed threads{scene().scene, {{1, engine(0.2), 7}, {2, engine(0.1), 7}}};
-  EXPECT_TRUE(threads.hashes_equal());
-  EXPECT_DOUBLE_EQ(threads_report({}, {threads}).rows().at(1).at("speed_up"), 2);
-  threads.points[1].hash = 8;
-  EXPECT_FALSE(threads.hashes_equal());
+  std::vector<Contender> by{contender(0.2), contender(0.1)};
+  const Report report = threads_report({}, {by});
+  EXPECT_DOUBLE_EQ(report.rows().at(1).at("speed_up"), 2);
+  check_states(report, "");
+  by[1].hash = 8;
+  EXPECT_FALSE(threads_report({}, {by}).rows().at(1).at("hashes_equal"));
 }
 
 }  // namespace

@@ -3,22 +3,9 @@
 
 #include <httplib.h>
 
-#include <cstdlib>
-#include <stdexcept>
 #include <thread>
 
 namespace shaken::client {
-
-TemporaryFolder::TemporaryFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "shaken-client-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code error;
-  std::filesystem::remove_all(path_, error);
-}
 
 struct FakeDaemon::Server {
   httplib::Server http;

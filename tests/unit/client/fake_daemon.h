@@ -8,20 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "base/scratch_folder.h"
+
 namespace shaken::client {
 
-/// A folder that goes away with the object.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder();
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
+using TemporaryFolder = ScratchFolder;
 
 /// Answers requests on ROOT/shakend.sock with what was laid down for them. Everything else gets 404.
 class FakeDaemon {

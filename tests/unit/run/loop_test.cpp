@@ -3,6 +3,7 @@
 // a wrong one.
 #include "run/loop.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,6 +26,8 @@
 
 namespace shaken::run {
 namespace {
+
+using testing::HasSubstr;
 
 scene::RunPlan small_plan() {
   scene::RunPlan plan;
@@ -341,9 +344,9 @@ scene::RunPlan plan_until(double order_sem, double at_most) {
 
 TEST(Run, GoesOnUntilTheErrorIsSmallEnough) {
   const TemporaryFolder folder;
-  ASSERT_EQ(run_in(folder.path(), plan_until(0.01, 20)).state, RunState::kDone);
+  ASSERT_EQ(run_in(folder.path(), plan_until(0.05, 20)).state, RunState::kDone);
   const auto summary = summary_in(folder.path());
-  EXPECT_LE(summary["order"]["sem"].get<double>(), 0.01);
+  EXPECT_LE(summary["order"]["sem"].get<double>(), 0.05);
   EXPECT_NE(summary["order"]["steady"], false);
   const auto tick = summary["exit"]["tick"].get<Tick>();
   EXPECT_GT(tick, scene::total_ticks(with_length(0.05))) << "else nothing was tested";
@@ -352,17 +355,17 @@ TEST(Run, GoesOnUntilTheErrorIsSmallEnough) {
   // one that stops on the way ends where this one did, for the possible ends follow from the plan
   const TemporaryFolder stopped;
   const double end = summary["sim_seconds"].get<double>();
-  run_with_stops(stopped.path(), plan_until(0.01, 20), {0.3 * end, 0.8 * end});
-  ASSERT_EQ(run_in(stopped.path(), plan_until(0.01, 20)).state, RunState::kDone);
+  run_with_stops(stopped.path(), plan_until(0.05, 20), {0.3 * end, 0.8 * end});
+  ASSERT_EQ(run_in(stopped.path(), plan_until(0.05, 20)).state, RunState::kDone);
   expect_same_results(stopped.path(), folder.path());
 
   // at no earlier one of these ends was the error small enough
   const TemporaryFolder shorter;
-  for (Tick at = scene::total_ticks(plan_until(0.01, 20)); at < tick;
-       at = scene::next_end(plan_until(0.01, 20), at + 1)) {
+  for (Tick at = scene::total_ticks(plan_until(0.05, 20)); at < tick;
+       at = scene::next_end(plan_until(0.05, 20), at + 1)) {
     ASSERT_EQ(run_in(shorter.path(), with_length(static_cast<double>(at) * small_plan().system.dt)).state,
               RunState::kDone);
-    EXPECT_FALSE(is_done(RunDirectory{shorter.path()}, plan_until(0.01, 20))) << at;
+    EXPECT_FALSE(is_done(RunDirectory{shorter.path()}, plan_until(0.05, 20))) << at;
   }
 }
 
@@ -630,6 +633,62 @@ TEST(Run, LcmThatCannotStartIsOnlyAWarning) {
   options.lcm_url = "nonsense://";
   ASSERT_EQ(run(plan, options).state, RunState::kDone);
   EXPECT_EQ(summary_in(folder.path())["state_hash"], summary_in(undisturbed())["state_hash"]);
+}
+
+/// small_plan(), from where that of `seconds` has left the rods, shaken harder.
+scene::RunPlan plan_from(double seconds) {
+  scene::RunPlan plan = with_length(0.1);
+  plan.start = scene::StartState{scene::run_id(small_plan()), seconds};
+  plan.system.amplitude *= 1.25;
+  return plan;
+}
+
+TEST(Run, StartsWhereAnotherHasEnded) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_in(folder.path() / "one", small_plan()).state, RunState::kDone);
+  const RunOutcome outcome = run_in(folder.path() / "two", plan_from(0.3));
+  ASSERT_EQ(outcome.state, RunState::kDone) << outcome.message;
+  const auto summary = summary_in(folder.path() / "two");
+  EXPECT_EQ(summary["start"]["run"], scene::run_id(small_plan()));
+  EXPECT_EQ(summary["start"]["time_s"], 0.3);
+  EXPECT_TRUE(summary_in(folder.path() / "one")["start"].is_null());
+  EXPECT_NE(summary["run_id"], scene::run_id(with_length(0.1)));
+
+  const auto left = TrajectoryReader::open(RunDirectory{folder.path() / "one"}.trajectory());
+  const auto begun = TrajectoryReader::open(RunDirectory{folder.path() / "two"}.trajectory());
+  const auto last = left->frame(left->n_frames() - 1);
+  const auto first = begun->frame(0);
+  EXPECT_EQ(first->tick, 0);
+  ASSERT_EQ(first->director.size(), last->director.size());
+  for (std::size_t i = 0; i < first->director.size(); ++i) {
+    EXPECT_NEAR((first->director[i] - last->director[i]).norm(), 0, 1e-6) << i;
+  }
+}
+
+TEST(Run, StartingFromAnotherNeedsThatOneOnlyOnce) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_in(folder.path() / "one", small_plan()).state, RunState::kDone);
+  ASSERT_EQ(run_in(folder.path() / "whole", plan_from(0.3)).state, RunState::kDone);
+  run_with_stops(folder.path() / "two", plan_from(0.3), {0.0});
+  std::filesystem::remove_all(folder.path() / "one");
+  ASSERT_EQ(run_in(folder.path() / "two", plan_from(0.3)).state, RunState::kDone);
+  expect_same_results(folder.path() / "two", folder.path() / "whole");
+}
+
+TEST(Run, StartingFromAStateThatIsNotThereFailsWithTheReason) {
+  const TemporaryFolder folder;
+  const RunOutcome nowhere = run_in(folder.path() / "two", plan_from(0.3));
+  EXPECT_EQ(nowhere.state, RunState::kFailed);
+  EXPECT_THAT(nowhere.message, HasSubstr("from which this one starts, is not in " + folder.path().string()));
+
+  ASSERT_EQ(run_in(folder.path() / "one", small_plan()).state, RunState::kDone);
+  const RunOutcome then = run_in(folder.path() / "earlier", plan_from(0.2));
+  EXPECT_EQ(then.state, RunState::kFailed);
+  EXPECT_THAT(then.message, HasSubstr("no state of it at 0.2 s: its last saved state is that at 0.3 s"));
+
+  scene::RunPlan wider = plan_from(0.3);
+  wider.system.box_side += 1;
+  EXPECT_THAT(run_in(folder.path() / "three", wider).message, HasSubstr("the side of the box"));
 }
 
 }  // namespace

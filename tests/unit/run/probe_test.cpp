@@ -10,7 +10,6 @@
 #include "run/effects.h"
 #include "run/loop.h"
 #include "run/open_run.h"
-#include "run/probe/sampling.h"
 #include "scene/length.h"
 #include "sim/effects/registry.h"
 #include "tests/unit/run/temporary_folder.h"
@@ -60,11 +59,11 @@ TEST(Probe, FindsWhatARunThenTakes) {
 
   // counts are exact
   EXPECT_EQ(probed->run_ticks, summary["exit"]["tick"].get<double>());
-  for (const auto& [effect, cost] : probed->samples) {
-    EXPECT_EQ(cost.count, summary["effects"][effect]["samples"].get<std::int64_t>()) << effect;
+  for (const auto& [effect, cost] : probed->parts) {
+    const char* counted = effect == "trajectory" ? "frames" : "samples";
+    EXPECT_EQ(cost.count, summary["effects"][effect][counted].get<std::int64_t>()) << effect;
   }
-  EXPECT_EQ(probed->samples.size(), 9u);
-  EXPECT_EQ(probed->trajectory.count, summary["effects"]["trajectory"]["frames"].get<std::int64_t>());
+  EXPECT_EQ(probed->parts.size(), 9u + 1u);
   // files; the probe sees the start only, whose rods still stand in rows and compress better
   EXPECT_NEAR(probed->disk.trajectory / bytes_of(directory.trajectory()), 1, 0.15);
   // how many defects there will be is not known

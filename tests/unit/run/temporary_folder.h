@@ -7,30 +7,12 @@
 #include <unistd.h>
 
 #include <csignal>
-#include <filesystem>
-#include <string>
+
+#include "base/scratch_folder.h"
 
 namespace shaken::run {
 
-/// A folder of a test's own, gone with the test.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "shaken_test_XXXXXX").string();
-    path_ = mkdtemp(pattern.data());
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
+using TemporaryFolder = ScratchFolder;
 
 /// Calls `action` in a child process; returns its exit code: 0 where `action` returned true.
 template <class Action>

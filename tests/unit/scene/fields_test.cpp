@@ -36,9 +36,9 @@ TEST(Fields, EveryDefaultIsAllowedAndReadsBack) {
 }
 
 TEST(Fields, KnowTheTreeOfNames) {
-  EXPECT_EQ(names_in(""),
-            (std::vector<std::string>{"rods", "rods_2", "rods_3", "box", "plates", "gravity", "walls", "contacts",
-                                      "accuracy", "time", "until", "measure", "trajectory", "stream", "movie"}));
+  EXPECT_EQ(names_in(""), (std::vector<std::string>{"rods", "rods_2", "rods_3", "start", "box", "plates", "gravity",
+                                                    "walls", "contacts", "accuracy", "time", "until", "measure",
+                                                    "trajectory", "stream", "movie"}));
   EXPECT_EQ(names_in("contacts.rod_lid"), (std::vector<std::string>{"friction", "restitution"}));
   EXPECT_TRUE(is_group("contacts.rod_lid"));
   EXPECT_FALSE(is_group("movie"));

@@ -41,5 +41,28 @@ TEST(Length, MustMakeSense) {
             std::string::npos);
 }
 
+TEST(Start, FromAnotherRunIsPartOfWhatARunIs) {
+  const std::string text = R"({"start": {"run": "0123456789abcdef", "time": "20 s"}})";
+  const RunPlan plan = plan_of(text);
+  ASSERT_EQ(plan.start, (StartState{"0123456789abcdef", 20}));
+  EXPECT_EQ(plan_of(to_json(plan).dump()), plan);
+  EXPECT_NE(run_id(plan), run_id(plan_of("{}")));
+  EXPECT_NE(run_id(plan), run_id(plan_of(text, {"start.time=21"})));
+  EXPECT_EQ(plan_of("{}", {"start.run=1234567890123456", "start.time=20"}).start->run, "1234567890123456")
+      << "an id of digits only";
+  EXPECT_FALSE(to_json(plan_of("{}")).contains("start")) << "older scenes keep their names";
+}
+
+TEST(Start, MustBeWholeAndUnderstood) {
+  EXPECT_EQ(problems_of(R"({"start": {}})").size(), 2U);
+  EXPECT_NE(problem_of(R"({"start": {"run": "0123456789abcdef"}})").find("start.time is missing"), std::string::npos);
+  for (const char* id : {"\"0123456789abcde\"", "\"0123456789ABCDEF\"", "\"s1\"", "true", "[1]"}) {
+    const std::string text = std::string(R"({"start": {"time": 1, "run": )") + id + "}}";
+    EXPECT_NE(problem_of(text).find("expected the id of a run, 16 hex digits"), std::string::npos) << id;
+  }
+  const char* both = R"({"rods": {"start": "random"}, "start": {"run": "0123456789abcdef", "time": 1}})";
+  EXPECT_NE(problem_of(both).find("remove rods.start or start"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace shaken::scene

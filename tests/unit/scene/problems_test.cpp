@@ -235,7 +235,7 @@ TEST(Problems, OneMistakeIsReportedOnce) {
 /// A search through all keys for each of them would take minutes, and end by the test's time limit.
 TEST(Problems, ManyAreFoundOneByOne) {
   std::string unknown = "{", twice = "{", wrong = "{\"rods\": {\"bead_diameters\": [";
-  for (int i = 0; i < 120'000; ++i) {
+  for (int i = 0; i < 30'000; ++i) {
     const std::string key = "\"rods_lenght_" + std::to_string(i) + "\": 1, ";
     unknown += key;
     twice += key + "\"x\": 1, ";

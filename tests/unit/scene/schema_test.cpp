@@ -84,6 +84,8 @@ class Writer {
       }
       case Form::kName:
         return field.names[static_cast<std::size_t>(below(field.names.size()))];
+      case Form::kRunId:
+        return "0123456789abcdef";
       case Form::kSize:
         return {64 + 2 * below(1000), 64 + 2 * below(1000)};
       case Form::kSwitch:

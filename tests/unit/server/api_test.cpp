@@ -752,5 +752,79 @@ TEST(HttpServerTest, AFolderThatIsNotThereIsRefusedInWords) {
   EXPECT_THROW(HttpServer("/nonexistent/sock", [](const Request&) { return Reply{}; }), Failure);
 }
 
+TEST_F(ApiTest, ARunThatStartsFromAnotherWaitsForIt) {
+  const std::string parent = submit({{"text", "{}"}, {"name", "first"}}).json["jobs"][0]["id"];
+  const auto scene = [&](const char* time) {
+    return R"({"start": {"run": ")" + parent + R"(", "time": )" + time + "}}";
+  };
+  const Response wrong = submit({{"text", scene("9")}, {"name", "wrong"}});
+  EXPECT_EQ(wrong.status, 422);
+  EXPECT_THAT(wrong.error(), HasSubstr("ends at 10 s, where its last state is kept, not at start.time 9 s"));
+  const Json job = submit({{"text", scene("10")}, {"name", "second"}}).json["jobs"][0];
+  EXPECT_EQ(job["state"], "queued");
+  EXPECT_EQ(job["reason"], "waits for " + parent);
+  EXPECT_FALSE(queue_.begin(job["id"]));
+  queue_.begin(parent);
+  queue_.finish(parent, JobState::kDone, "");
+  EXPECT_TRUE(queue_.begin(job["id"]));
+
+  const std::string unknown = R"({"start": {"run": "0123456789abcdef", "time": 10}})";
+  EXPECT_THAT(submit({{"text", unknown}}).error(), HasSubstr("no run 0123456789abcdef is known here"));
+  // one that no queue knows, but whose directory is there
+  std::filesystem::create_directories(directory_ / "runs/0123456789abcdef");
+  write_text(directory_ / "runs/0123456789abcdef/scene.json", "{}");
+  EXPECT_EQ(submit({{"text", unknown}}).status, 201);
+}
+
+TEST_F(ApiTest, ASweepGetsMoreReplicasAsIfSubmittedSo) {
+  const auto ids = submit_four();
+  const Response more = post("/v1/sweeps/four/replicas", R"({"replicas": 3})");
+  EXPECT_EQ(more.status, 201);
+  EXPECT_EQ(more.json["counts"]["new"], 8);
+  ASSERT_EQ(more.json["jobs"].size(), 12U);
+  EXPECT_EQ(more.json["jobs"][3]["id"], ids[1]);
+  EXPECT_EQ(more.json["jobs"][4]["label"], "rods.length=2.5 box.gap=1.2 replica=2");
+  // submitted with so many, it is the same sweep
+  const Response same = submit({{"text", kSweep}, {"name", "four"}, {"replicas", 3}});
+  EXPECT_EQ(same.status, 200);
+  EXPECT_EQ(same.json["counts"]["new"], 0);
+  EXPECT_EQ(same.json["sweep"]["id"], more.json["sweep"]["id"]);
+  // never fewer, and further ones go on from those
+  EXPECT_EQ(post("/v1/sweeps/four/replicas", R"({"replicas": 2})").json["sweep"]["id"], same.json["sweep"]["id"]);
+  EXPECT_EQ(post("/v1/sweeps/four/replicas", R"({"replicas": 4})").json["counts"]["new"], 4);
+  EXPECT_EQ(submit({{"text", kSweep}, {"name", "four"}, {"replicas", 4}}).json["counts"]["new"], 0);
+
+  EXPECT_EQ(post("/v1/sweeps/four/replicas", R"({"replicas": 0})").status, 400);
+  EXPECT_EQ(post("/v1/sweeps/four/replicas", "{}").status, 400);
+  submit({{"text", R"({"scene": {}, "sweep": {"grid": {"time.seed": [1, 2]}}})"}, {"name", "seeds"}});
+  EXPECT_THAT(post("/v1/sweeps/seeds/replicas", R"({"replicas": 2})").error(), HasSubstr("its seeds are swept"));
+}
+
+TEST_F(ApiTest, AnExtendedRunKeepsItsResultsAndShowsNoFormerProgress) {
+  const auto ids = submit_four();
+  queue_.begin(ids[0]);
+  queue_.finish(ids[0], JobState::kDone, "");
+  const auto folder = directory_ / "runs" / ids[0];
+  std::filesystem::create_directories(folder);
+  write_text(folder / "summary.json", done_summary(ids[0]));
+  write_text(folder / "progress.json", R"({"state": "done", "fraction": 1})");
+  post("/v1/jobs/" + ids[0] + "/extend", R"({"measure": "20 s"})");
+  const auto row = [&] { return get("/v1/results?sweep=s1").json["rows"][0]; };
+  EXPECT_EQ(row()["state"], "queued");
+  EXPECT_EQ(row()["summary"]["n_rods"], 7);
+  queue_.begin(ids[0]);
+  EXPECT_TRUE(get("/v1/jobs/" + ids[0]).json["job"]["progress"].is_null());
+  EXPECT_EQ(get("/v1/sweeps/s1").json["sweep"]["progress"], 0.0);
+  // stopped on the way: partial while it may go on, all that there is once it was cancelled
+  std::string stopped = done_summary(ids[0]);
+  stopped.replace(stopped.find("\"done\""), 6, "\"stopped\"");
+  write_text(folder / "summary.json", stopped);
+  EXPECT_TRUE(row()["summary"].is_null());
+  queue_.cancel(ids[0]);
+  queue_.stopped(ids[0], "checkpoint");
+  EXPECT_EQ(row()["state"], "cancelled");
+  EXPECT_EQ(row()["summary"]["exit"]["state"], "stopped");
+}
+
 }  // namespace
 }  // namespace shaken::server

@@ -27,6 +27,8 @@ struct ModelJob {
   int attempt = 0;
   int priority = 0;
   int turn = 0;
+  int scene = 0;        ///< as submitted, or which it was extended to
+  bool longer = false;  ///< its worker does not know of that
 };
 
 /// A sweep of two jobs at most, one of which may be another's, too.
@@ -53,6 +55,7 @@ enum class Operation {
   kFail,
   kStopped,
   kCancel,
+  kExtend,
   kClean,
   kHold,
   kResume,
@@ -65,7 +68,7 @@ enum class Operation {
   kReopen,
   kCrash
 };
-constexpr int kOperations = 24;
+constexpr int kOperations = 25;
 /// As many crashes in a row are forgiven.
 constexpr std::array<std::chrono::milliseconds, 2> kPauses{};
 constexpr std::string_view kDigits = "abcd";
@@ -96,6 +99,13 @@ class Model {
       if (is_new && asked.has_results) job.state = kDone;
       job.priority = is_new ? priority : std::max(job.priority, priority);
       job.sweep = sweep;
+      const bool is_stopping = job.state == kStopping;
+      if (has_no_result(job.state) || (is_stopping && job.after_stop == kCancelled)) {
+        job.scene = 0;
+        job.longer = job.longer || is_stopping;
+      } else if (job.state != kDone) {
+        extend(digit, 0);
+      }
       const bool held = job.state == kHeld && job.hold != Hold::kRoom;
       if (has_no_result(job.state) || held) become(digit, kQueued);
       // One that is to stop behind the others, stops.
@@ -108,13 +118,31 @@ class Model {
     }
     settle_waits();
   }
-  /// What follows from the end of a job, for those that wait for it and for its sweeps.
-  void settle_waits() {
+  /// Whether that is another scene than the job had.
+  bool extend(char digit, int scene) {
+    ModelJob& job = jobs_.at(digit);
+    if (job.scene == scene) return false;
+    job.scene = scene;
+    job.longer = job.longer || job.state == kRunning || job.state == kStopping;
+    ++time_;
+    return true;
+  }
+  void finish(char digit, JobState end) {
+    if (end == kDone && jobs_.at(digit).longer) return stop(digit);
+    become(digit, end);
+  }
+  /// What follows from the end of a job, or from its being tried again, for those that wait for it (of `only`, if
+  /// given).
+  void settle_waits(char only = 0) {
     for (auto& [digit, job] : jobs_) {
       if (!job.waits) continue;
-      const JobState awaited = jobs_.at(sweeps_.at(job.sweep).after).state;
+      const auto sweep = sweeps_.find(job.sweep);
+      if (sweep == sweeps_.end() || sweep->second.after == 0) continue;  // it is just being submitted
+      if (only != 0 && sweep->second.after != only) continue;
+      const JobState awaited = jobs_.at(sweep->second.after).state;
       if (awaited == kDone) job.waits = false;
       if (has_no_result(awaited) && job.state == kQueued) become(digit, kHeld, Hold::kOthers);
+      if (!has_no_result(awaited) && job.hold == Hold::kOthers) become(digit, kQueued);
     }
   }
   void judge(char ended) {
@@ -130,13 +158,14 @@ class Model {
   }
   void become(char digit, JobState state, Hold hold = Hold::kNone) {
     ModelJob& job = jobs_.at(digit);
+    const bool is_again = state == kQueued && (job.state == kDone || has_no_result(job.state));
     job.state = state;
     job.after_stop = kQueued;
     job.hold = hold;
     job.crashes = 0;
     ++time_;  // a line of the journal
     if (state == kDone || state == kFailed || state == kTimedOut) judge(digit);
-    if (state == kDone || has_no_result(state)) settle_waits();
+    if (state == kDone || has_no_result(state) || is_again) settle_waits(digit);
   }
   void stop(char digit) {
     const ModelJob& job = jobs_.at(digit);
@@ -289,6 +318,7 @@ void apply(Operation operation, char digit, int priority, std::unique_ptr<Queue>
       RC_ASSERT(attempt.has_value() == begins);
       if (!begins) return;
       model.jobs_[digit].state = kRunning;
+      model.jobs_[digit].longer = false;
       ++model.time_;
       RC_ASSERT(*attempt == ++model.jobs_[digit].attempt);
       return;
@@ -298,7 +328,7 @@ void apply(Operation operation, char digit, int priority, std::unique_ptr<Queue>
       if (!model.active(digit)) return;
       const JobState end = operation == Operation::kDone ? kDone : kFailed;
       queue->finish(id, end, "");
-      model.become(digit, end);
+      model.finish(digit, end);
       return;
     }
     case Operation::kStopped:
@@ -310,6 +340,13 @@ void apply(Operation operation, char digit, int priority, std::unique_ptr<Queue>
       queue->cancel(id);
       if (known) model.cancel(digit);
       return;
+    case Operation::kExtend: {
+      const std::pair scene{id, "scene " + std::to_string(1 + priority) + " of " + id};
+      const bool changes = known && model.extend(digit, 1 + priority);
+      RC_ASSERT(queue->extend(std::span(&scene, 1)) == (changes ? 1 : 0));
+      if (changes && model.jobs_[digit].state == kDone) model.become(digit, kQueued);
+      return;
+    }
     case Operation::kClean: {
       const bool has_ended = known && (model.jobs_[digit].state == kDone || has_no_result(model.jobs_[digit].state));
       RC_ASSERT(queue->clean(id, known ? model.jobs_[digit].state : kDone) == has_ended);
@@ -394,7 +431,8 @@ TEST(QueueModelTest, EveryHistoryEndsAsTheModelSays) {
     for (const Change& change : queue->changes_since(0, 1'000'000)) {
       if (!change.from.empty()) {
         RC_ASSERT(replayed.at(change.job) == *job_state(change.from));
-        RC_ASSERT(may_become(*job_state(change.from), *job_state(change.to)));
+        // one that is extended stays what it is
+        RC_ASSERT(change.from == change.to || may_become(*job_state(change.from), *job_state(change.to)));
       }
       replayed[change.job] = *job_state(change.to);
     }

@@ -206,5 +206,17 @@ TEST_F(TermsTest, AStopRuleHoldsOnlyWhatObeysIt) {
   EXPECT_EQ(job('b').state, kQueued);
 }
 
+TEST_F(TermsTest, WhatWasHeldForAnotherGoesOnWhenThatIsTriedAgain) {
+  const auto first = submit("a");
+  submit("b", {.after = {first}});
+  end('a', kFailed);
+  EXPECT_EQ(queue_.job(id('b'))->state, kHeld);
+  EXPECT_EQ(queue_.release(id('a'), true), 1);
+  EXPECT_EQ(queue_.job(id('b'))->state, kQueued);
+  EXPECT_EQ(next(), "a") << "it waits as before";
+  end('a', kDone);
+  EXPECT_EQ(next(), "b");
+}
+
 }  // namespace
 }  // namespace shaken::server

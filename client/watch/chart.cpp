@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "client/chart.h"
+#include "client/watch/chart.h"
 
 #include <fmt/format.h>
 

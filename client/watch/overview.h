@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "client/console.h"
-#include "client/live.h"
+#include "client/watch/live.h"
 
 namespace shaken::client {
 

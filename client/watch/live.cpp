@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "client/live.h"
+#include "client/watch/live.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,6 +49,8 @@ void LiveJobs::note_api(const Json& answer) {
   job.label = text_of(answer, "label");
   job.state = answer.at("state").get<std::string>();
   job.reason = text_of(answer, "reason");
+  const auto progress = answer.find("progress");
+  job.draws_film = job.is_running() && progress != answer.end() && text_of(*progress, "state") == "rendering";
   if (job.state == "done") job.sim_time = job.sim_time_total;
   const double time = progress_number(answer, "sim_time_s");
   if (std::isnan(time)) return;
@@ -99,6 +101,7 @@ void LiveJobs::note(const defects_t& message) {
   const auto n_plus = std::count_if(message.charge.begin(), message.charge.end(), positive);
   job->n_plus = static_cast<int>(n_plus);
   job->n_minus = static_cast<int>(message.charge.size()) - *job->n_plus;
+  job->defects = message;
 }
 
 bool LiveJobs::all_ended() const {

@@ -58,8 +58,11 @@ struct LiveJob {
   std::optional<observables_t> observables;  ///< the newest
   std::optional<int> n_plus;                 ///< defects +1/2
   std::optional<int> n_minus;                ///< defects -1/2
+  std::optional<defects_t> defects;          ///< the newest
   SequenceCounter observables_counter;
   SequenceCounter defects_counter;
+
+  bool draws_film = false;  ///< all is simulated and written; the worker draws its film
 
   double fraction() const;
   bool is_running() const { return state == "running" || state == "stopping"; }

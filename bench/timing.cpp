@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT
-#include "bench/engine_speed.h"
+#include "bench/timing.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/clock.h"
+#include "base/progress_line.h"
 #include "bench/accuracy/fits.h"
+#include "bench/bench.h"
 
 namespace shaken::bench {
 
-double EngineSpeed::best_cpu() const { return *std::min_element(cpu.begin(), cpu.end()); }
-
-double EngineSpeed::best_wall() const { return *std::min_element(wall.begin(), wall.end()); }
+void Effort::declare(CLI::App& app) {
+  add_number(app, "--cpu", cpu, "S", {1e-3, 1e3}, "CPU time of one timed stretch, about");
+  add_number(app, "--repeat", repeat, "N", {1, 1000}, "Repetitions, of which the best counts");
+}
 
 double EngineSpeed::spread() const { return quartiles_of(cpu).median / best_cpu(); }
 
@@ -49,6 +51,53 @@ void time_stretch(Simulation& simulation, const Case& of, Tick ticks, EngineSpee
   speed.rod_impulses = after.impulses_rod_rod - before.impulses_rod_rod;
   speed.bytes_per_rod = static_cast<double>(simulation.bytes()) / of.system().n_rods;
   speed.max_overlap = after.max_overlap();
+}
+
+Contender contender(const Case& scene, const SteadyState& state, double cpu) {
+  const Tick period = scene.period_ticks();
+  return {.scene = scene,
+          .state = state,
+          .settle = period,
+          .ticks = std::max(ticks_for(cpu, scene, state, Engine::kScheduled), period)};
+}
+
+void time_in_turn(const std::string& what, std::vector<Contender>& contenders, int repeat) {
+  ProgressLine progress(what);
+  double done = 0;
+  for (int repetition = 0; repetition < repeat; ++repetition) {
+    for (Contender& of : contenders) {
+      Simulation simulation = resumed(of.scene, of.state, of.engine);
+      simulation.use_threads(of.threads);
+      advance(simulation, of.settle);
+      time_stretch(simulation, of.scene, of.ticks, of.speed);
+      of.hash = simulation.state_hash();
+      progress.show(++done / (repeat * static_cast<double>(contenders.size())));
+    }
+  }
+}
+
+Estimate cpu_ratio(const EngineSpeed& of, const EngineSpeed& other) {
+  std::vector<double> ratios;
+  for (std::size_t k = 0; k < of.cpu.size(); ++k) {
+    ratios.push_back(of.cpu[k] / of.rod_seconds / (other.cpu[k] / other.rod_seconds));
+  }
+  return {other.rate() / of.rate(), mean_of_samples(ratios).sem};
+}
+
+double sample_every(double every, double duration, const std::string& what, Simulation& simulation,
+                    const std::function<void()>& sample) {
+  const Tick stride = std::llround(every / simulation.world().system.dt);
+  const int samples = std::max(1, static_cast<int>(duration / every));
+  ProgressLine progress(what);
+  double cpu = 0;
+  for (int k = 0; k < samples; ++k) {
+    const double begun = cpu_seconds();
+    advance(simulation, stride);
+    cpu += cpu_seconds() - begun;
+    sample();
+    progress.show((k + 1.0) / samples);
+  }
+  return cpu;
 }
 
 Json json_of(const Case& scene) {

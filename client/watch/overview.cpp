@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "client/watch_view.h"
+#include "client/watch/overview.h"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 
 #include "base/clock.h"
 #include "base/text.h"
-#include "client/chart.h"
 #include "client/target.h"
+#include "client/watch/chart.h"
 
 namespace shaken::client {
 namespace {
@@ -18,6 +18,10 @@ constexpr int kMostChartLines = 14;
 constexpr int kFewestChartLines = 5;
 
 std::string bar_line(const LiveJob& job, const Console& console) {
+  if (job.draws_film) {
+    return fmt::format("{}  {}  {} simulated  {}", console.painted(Colour::kBold, short_id(job.id)),
+                       console.painted(Colour::kYellow, "drawing the film"), duration_text(job.sim_time), job.label);
+  }
   return fmt::format("{}  {} {:5.1f} %  {} of {}  {:.3g} sim-s/s  ETA {} ({})  {}",
                      console.painted(Colour::kBold, short_id(job.id)),
                      console.painted(Colour::kBlue, bar_text(job.fraction(), 16)), 100 * job.fraction(),
@@ -90,13 +94,14 @@ std::vector<std::string> watch_screen(const LiveJobs& jobs, const std::string& t
 }
 
 std::string watch_line(const LiveJob& job) {
-  std::string line = fmt::format("{} {}", short_id(job.id), job.state);
+  std::string line = fmt::format("{} {}", short_id(job.id), job.draws_film ? "drawing the film" : job.state);
   if (job.sim_time_total > 0) {
     line += fmt::format(" {:5.1f} %  t {:.3f}/{:.3f} s", 100 * job.fraction(), job.sim_time, job.sim_time_total);
   }
   if (job.order) line += fmt::format("  S {:.3f}", *job.order);
   if (job.order && job.is_running()) line += fmt::format(" (mean {:.3f})", job.order_mean);
-  if (job.is_running()) line += fmt::format("  {:.3g} sim-s/s  ETA {}", job.sim_rate, duration_text(job.eta));
+  if (job.is_running() && !job.draws_film)
+    line += fmt::format("  {:.3g} sim-s/s  ETA {}", job.sim_rate, duration_text(job.eta));
   if (job.order) line += fmt::format("  overlap {:.2g} mm", job.max_overlap);
   if (job.observables) {
     line += fmt::format("  hits {}/{}/{}", job.observables->collisions_rod_rod, job.observables->collisions_rod_base,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "bench/engine_speed.h"
+#include "bench/timing.h"
 
 #include <gtest/gtest.h>
 
 #include "base/clock.h"
-#include "bench/lower_bounds.h"
+#include "bench/speed.h"
 #include "tests/unit/run/temporary_folder.h"
 
 namespace shaken::bench {
@@ -49,6 +49,31 @@ TEST_F(SmallBox, LongStretchesAreWholeVibrations) {
   EXPECT_TRUE(ticks < case_.period_ticks() || ticks % case_.period_ticks() == 0) << ticks;
 }
 
+TEST_F(SmallBox, ContendersTakeTurnsFromTheirStates) {
+  Contender one{.scene = case_, .state = state_, .ticks = 500};
+  Contender other = one;
+  other.engine = Engine::kReference;
+  std::vector<Contender> both{one, other};
+  time_in_turn("", both, 3);
+  for (const Contender& of : both) {
+    EXPECT_EQ(of.speed.cpu.size(), 3u);
+    EXPECT_EQ(of.speed.ticks, 500);
+  }
+  EXPECT_EQ(both[0].hash, both[1].hash);
+  EXPECT_NE(both[0].hash, 0u);
+}
+
+TEST(CpuRatio, IsOfTheBestWithAnErrorFromTheScatter) {
+  EngineSpeed of, other;
+  of.rod_seconds = 2;
+  other.rod_seconds = 4;
+  of.cpu = {3, 1};
+  other.cpu = {2, 2};
+  const Estimate ratio = cpu_ratio(of, other);
+  EXPECT_DOUBLE_EQ(ratio.value, 1);  // 1 / 2 a rod-second over 2 / 4
+  EXPECT_DOUBLE_EQ(ratio.sem, 1);    // of 3 and 1
+}
+
 TEST_F(SmallBox, LowerBoundsAreLowAndPositive) {
   const Simulation simulation = resumed(case_, state_, Engine::kScheduled);
   const std::uint64_t hash = simulation.state_hash();
@@ -58,8 +83,11 @@ TEST_F(SmallBox, LowerBoundsAreLowAndPositive) {
   EXPECT_GT(bounds.state_access, 0);
   EXPECT_LT(bounds.state_access, bounds.plate_impulse);
   EXPECT_LT(bounds.plate_impulse, 1e-4);
-  EXPECT_EQ(impulses_alone({1, 2, 0}, 3, 4), 11);
-  EXPECT_EQ(memory_alone({0, 0, 1}, 3, 4), 11);
+  EngineSpeed speed;
+  speed.plate_impulses = 3;
+  speed.rod_impulses = 4;
+  EXPECT_EQ((LowerBounds{1, 2, 0}.impulses_alone(speed)), 11);
+  EXPECT_EQ((LowerBounds{0, 0, 1}.memory_alone(speed)), 11);
   EXPECT_EQ(simulation.state_hash(), hash);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "client/live.h"
+#include "client/watch/live.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "base/text.h"
-#include "client/watch_view.h"
+#include "client/watch/overview.h"
 
 namespace shaken::client {
 namespace {
@@ -141,6 +141,21 @@ TEST(WatchScreen, ShowsChartsWhereThereIsRoom) {
   EXPECT_EQ(screen.back(), "note");
   EXPECT_THAT(screen, ::testing::Contains(HasSubstr("S(t)")));
   EXPECT_THAT(screen, ::testing::Contains(HasSubstr("aaaaaaaa ")));
+}
+
+TEST(WatchLine, DrawingTheFilmIsAStateOfItsOwn) {
+  LiveJobs jobs;
+  Json job = api_job("aaaaaaaaaaaaaaaa", "running", 10);
+  job["progress"]["state"] = "rendering";
+  jobs.note_api(job);
+  EXPECT_THAT(watch_line(jobs.jobs()[0]), HasSubstr("aaaaaaaa drawing the film 100.0 %"));
+  EXPECT_THAT(watch_line(jobs.jobs()[0]), ::testing::Not(HasSubstr("ETA")));
+  // A message that is late does not hide it.
+  jobs.note(message("aaaaaaaaaaaaaaaa", 0, 10, 0.5));
+  jobs.note_api(job);
+  EXPECT_TRUE(jobs.jobs()[0].draws_film);
+  jobs.note_api(api_job("aaaaaaaaaaaaaaaa", "done", -1));
+  EXPECT_FALSE(jobs.jobs()[0].draws_film);
 }
 
 TEST(WatchLine, HasTheNumbers) {

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// The three parts of `shaken-bench accuracy`: errors of trajectories, bias of averages, statistical errors.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/case.h"
+#include "bench/report.h"
+#include "sim/simulation.h"
+
+namespace shaken::bench {
+
+/// One way to treat impacts whose accuracy is measured.
+struct Variant {
+  const char* name;
+  void (*apply)(System& scene);  ///< sets what the variant is about, and nothing else
+};
+
+/// All of them; the first is the default of a scene.
+const std::vector<Variant>& variants();
+
+/// A start whose future is followed for a time short enough not to be chaos. Its members differ a little, so that their
+/// impacts fall anywhere within a tick.
+struct StartCase {
+  std::string name;
+  std::string what;     ///< for people
+  double duration = 0;  ///< a whole number of the longest step [s]
+  int members = 0;      ///< of the ensemble, by default
+  System scene;         ///< at any dt
+  std::function<std::vector<Flight>(int member)> rods;
+};
+
+/// The longest step that divides every case's duration; the others are its halves [s].
+inline constexpr double kLongestStep = 64e-6;
+
+/// One rod, two rods, a dozen, a hundred.
+const std::vector<StartCase>& start_cases();
+
+/// The member at tick 0.
+Simulation begin(const StartCase& start, const std::vector<Flight>& rods, const Variant& variant, Engine engine,
+                 double dt);
+
+/// How far two states of the same rods at the same time are apart: root mean square over the rods of the distance of
+/// their unwrapped centres [mm] and of the angle between their directors [rad]; difference of the kinetic energies over
+/// that of `truth`.
+inline constexpr std::array<const char*, 3> kNormNames{"position", "director", "energy"};
+using Errors = std::array<double, kNormNames.size()>;
+Errors errors_between(const World& state, const World& truth);
+
+/// How to measure convergence.
+struct ConvergenceEffort {
+  std::vector<double> steps{};   ///< rising; kLongestStep over powers of 2 [s]
+  std::optional<int> members{};  ///< of every ensemble; none: as many as the case says
+};
+
+/// Errors of one case and variant against the step. "rows": at each step the quartiles over the members of "error"
+/// against the converged solution, CPU times of a member by either stepper, whether their states are equal, and how
+/// many members ended in numerical trouble. "order": of each norm the order of the medians, null where there is none;
+/// "floor", the distance of the converged solution from one of twice its step; and, of another variant than the first,
+/// "from_first", its distance from that one's.
+Json measure_convergence(const StartCase& start, const Variant& variant, const ConvergenceEffort& effort);
+Report convergence_report(const std::vector<Json>& measured);
+
+/// What is turned to trade accuracy for time, and its unit.
+struct Knob {
+  const char* name;
+  const char* unit;
+};
+inline constexpr Knob kStepKnob{"step", "us"}, kPitchKnob{"bead pitch", "mm"}, kSweepsKnob{"sweeps", "1"};
+/// A straight line is believed up to so many times the finest step.
+inline constexpr double kLinear = 8;
+
+/// One knob turned in one scene.
+struct StatisticsTask {
+  Case scene;  ///< its plan: everything but the knob
+  const Variant* variant = &variants().front();
+  const Knob* knob = &kStepKnob;
+  std::vector<double> values;  ///< from most to least accurate [unit of the knob]
+  double measure = 0;          ///< simulated per value and replica [s]
+  double settle = 0;           ///< simulated before, from the steady state of the scene [s]
+  int replicas = 1;            ///< with seeds 1, 2, ...
+};
+
+/// Every value and replica in turn, each from the steady state of the scene with its seed, which comes from `cache`;
+/// with another bead pitch from a steady state of its own. "rows": at each value the means of the observables, with
+/// their bias relative to the limit; of impulses, and of other knobs than the step, relative to the first value.
+/// "limits": the limit dt -> 0, a line through the steps up to kLinear times the finest. "tilt": v_along(n_z).
+Json measure_statistics(const StatisticsTask& task, const Cache& cache);
+/// The texts tell where a bias is settled to be below 1 %.
+Report statistics_report(const std::vector<StatisticsTask>& tasks, const std::vector<Json>& measured);
+
+/// A simulation at step `dt` that goes on from where `from` is, to the nearest tick.
+Simulation continued(const Simulation& from, const System& scene);
+
+/// How the statistical error of the mean of S falls with time in one box, as a row: "std" of S(t), integrated
+/// autocorrelation time "tau_s", and "sem", the scatter of means over stretches of time, of lengths "stretch_s". "c" of
+/// sem = c / sqrt(T / 2 tau) is from the stretches of at least 5 tau, null without any; it is std if S(t) is one
+/// stationary process. CPU times are those of an error of S, without the way to the steady state.
+/// @param series  S(t) of each replica at equal intervals of `every` [s]
+Json reduce_order(const Case& scene, const std::vector<std::vector<double>>& series, double every,
+                  double cpu_per_rod_second);
+Json measure_order_error(const Case& scene, double measure, int replicas, const Cache& cache);
+
+/// What was measured in small boxes, continued to a large one by power laws of the side. Null from fewer than kLeast
+/// boxes, or where a power law does not hold.
+Json extrapolate(const std::vector<Json>& rows, const Case& large);
+Report order_error_report(const std::vector<Json>& rows, const Json& extrapolated);
+
+/// convergence.png: errors against the step; work_precision.png: against CPU time. A panel for each case.
+void draw_convergence(const std::filesystem::path& folder, const Report& report);
+/// bias.png and tilt.png of steps, model.png of the other knobs.
+void draw_statistics(const std::filesystem::path& folder, const Report& report);
+/// error.png: the error of S against simulated time and against CPU time.
+void draw_order_error(const std::filesystem::path& folder, const Report& report);
+
+}  // namespace shaken::bench

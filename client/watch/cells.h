@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace shaken::client {
+
+/// A colour of a cell: 0xRRGGBB, the terminal's own, or one of the eight that the terminal's theme defines.
+using Ink = std::int32_t;
+inline constexpr Ink kOwnInk = -1;
+/// Of the theme, 0 to 7: black, red, green, yellow, blue, magenta, cyan, white.
+constexpr Ink theme_ink(int number) { return -2 - number; }
+
+/// What stands in one place of a terminal.
+struct Cell {
+  char32_t glyph = U' ';
+  Ink fore = kOwnInk;
+  Ink back = kOwnInk;
+  bool bold = false;
+  bool dim = false;
+  friend bool operator==(const Cell&, const Cell&) = default;
+};
+
+/// A rectangle of cells.
+struct Area {
+  int column = 0;
+  int line = 0;
+  int columns = 0;
+  int lines = 0;
+  friend bool operator==(const Area&, const Area&) = default;
+};
+
+/// A whole screen.
+class CellGrid {
+ public:
+  CellGrid(int columns, int lines);
+  int columns() const { return columns_; }
+  int lines() const { return lines_; }
+  Cell& at(int column, int line) { return cells_[index(column, line)]; }
+  const Cell& at(int column, int line) const { return cells_[index(column, line)]; }
+
+  /// Writes UTF-8 `text` from (column, line) on, with the colours that Console::painted gives it, over at most
+  /// `columns` columns; what does not fit in there or in the grid is left out. Characters that do not fill exactly one
+  /// column become '?': they would shift all that follows. Returns the column behind the text.
+  int put(int column, int line, std::string_view text, int columns);
+  int put(int column, int line, std::string_view text) { return put(column, line, text, columns_ - column); }
+
+  /// The characters of one line, in UTF-8, without the blanks at its end.
+  std::string text(int line) const;
+
+ private:
+  std::size_t index(int column, int line) const { return static_cast<std::size_t>(line * columns_ + column); }
+
+  int columns_;
+  int lines_;
+  std::vector<Cell> cells_;
+};
+
+/// A character in UTF-8.
+void append_utf8(std::string& text, char32_t glyph);
+
+}  // namespace shaken::client

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "client/watch/cells.h"
+#include "client/watch/live.h"
+#include "client/watch/rod_cells.h"
+#include "client/watch/screen_writer.h"
+#include "client/watch/steering.h"
+
+namespace shaken::client {
+
+/// All that a screen is made of.
+struct WatchContent {
+  const LiveJobs& jobs;
+  const Steering& steering;
+  const RodFrame* rods = nullptr;  ///< of the job that is steered to; null if none have come
+  const std::vector<DefectMark>& defects;
+  std::string title;
+  std::string note;  ///< where the numbers come from
+  ColourDepth depth = ColourDepth::kTrue;
+};
+
+/// The screen of one run, with its rods, numbers and S(t); that of all runs, if asked for; or what it would need, with
+/// as many numbers as fit, if the terminal is too small.
+CellGrid watch_cells(const WatchContent& content, int columns, int lines);
+
+/// The runs that keys switch between: those that run, or all if none does.
+std::vector<std::string> choices(const LiveJobs& jobs);
+/// The run to show: `job` as long as it runs or no other does; otherwise the first that runs, rather than draws its
+/// film.
+std::string job_to_show(const std::string& job, const LiveJobs& jobs);
+
+}  // namespace shaken::client

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "run/start_state.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/files.h"
+#include "base/paths.h"
+#include "run/files/checkpoint_file.h"
+#include "run/files/directory.h"
+#include "run/saved_run.h"
+#include "scene/canonical.h"
+
+namespace shaken::run {
+namespace {
+
+using std::filesystem::path;
+
+/// Whether `folder` holds run `id`, as far as its summary says.
+bool is_of_run(const path& folder, const std::string& id) {
+  const Result<std::string> text = read_file(RunDirectory{folder}.summary());
+  if (!text) return false;
+  const auto summary = nlohmann::json::parse(*text, nullptr, false);
+  return summary.is_object() && summary.value("run_id", nlohmann::json()) == id;
+}
+
+/// The directory of run `id` in one of `folders`: under its id, as the daemon has it, or under any other name.
+std::optional<RunDirectory> find_run(const std::vector<path>& folders, const std::string& id) {
+  std::error_code ignored;
+  for (const path& folder : folders) {
+    if (std::filesystem::exists(RunDirectory{folder / id}.scene(), ignored)) return RunDirectory{folder / id};
+  }
+  for (const path& folder : folders) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+      if (entry.is_directory(ignored) && is_of_run(entry.path(), id)) return RunDirectory{entry.path()};
+    }
+  }
+  return std::nullopt;
+}
+
+/// Folders of runs in which one may be found that `directory` starts from.
+std::vector<path> folders_near(const path& directory) {
+  std::vector<path> folders;
+  if (!directory.empty()) folders.push_back(std::filesystem::absolute(directory / "..").lexically_normal());
+  if (const auto root = data_root()) folders.push_back(*root / "runs");
+  return folders;
+}
+
+/// The state that run `id` had at `time`, if one of its checkpoints is of then.
+Result<Simulation> saved_state(const RunDirectory& directory, const std::string& id, double time) {
+  const Result<scene::RunPlan> plan = read_plan(directory);
+  if (!plan) return plan.error();
+  if (scene::run_id(*plan) != id) return Error{directory.root.string() + " holds another run"};
+  const double dt = plan->system.dt;
+  std::string trouble = "it has not been saved yet";
+  for (const path& file : directory.checkpoints()) {
+    if (!std::filesystem::exists(file)) continue;
+    const Result<Checkpoint> checkpoint = read_checkpoint(file, id);
+    if (!checkpoint) return checkpoint.error();
+    Result<Simulation> simulation = Simulation::resume(plan->system, checkpoint->simulation);
+    if (!simulation) return simulation.error();
+    if (simulation->tick() == std::llround(time / dt)) return simulation;
+    if (file == directory.checkpoint())
+      trouble = fmt::format("its last saved state is that at {:.10g} s", simulation->time());
+  }
+  return Error{fmt::format("there is no state of it at {:.10g} s: {}", time, trouble)};
+}
+
+}  // namespace
+
+Result<Simulation> start_simulation(const scene::RunPlan& plan, const path& directory) {
+  if (!plan.start) return Simulation::start(plan.system);
+  const auto& [id, time] = *plan.start;
+  const std::vector<path> folders = folders_near(directory);
+  const auto found = find_run(folders, id);
+  if (!found) {
+    std::string places;
+    for (const path& folder : folders) places += (places.empty() ? "" : " and ") + folder.string();
+    return Error{fmt::format("run {}, from which this one starts, is not in {}", id, places)};
+  }
+  const Result<Simulation> left = saved_state(*found, id, time);
+  if (!left) return Error{fmt::format("cannot start from run {}: {}", id, left.error().message)};
+  Result<Simulation> simulation = Simulation::start(plan.system, left->world());
+  if (!simulation) return Error{fmt::format("cannot start from run {}: {}", id, simulation.error().message)};
+  return simulation;
+}
+
+}  // namespace shaken::run

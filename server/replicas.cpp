@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "server/replicas.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "run/files/directory.h"
+#include "run/files/done.h"
+#include "scene/canonical.h"
+#include "scene/load.h"
+#include "server/submission.h"
+
+namespace shaken::server {
+namespace {
+
+/// One point of a sweep: what its replicas have in common.
+struct Point {
+  std::string label;
+  std::map<int, Job> replicas;  ///< that are there, by their number
+};
+
+/// The label of a job without what says which replica it is.
+std::string label_of_point(const Job& job) {
+  const std::string ending = fmt::format("replica={}", job.replica);
+  std::string label = job.label;
+  if (!label.ends_with(ending)) return label;
+  label.resize(label.size() - ending.size());
+  if (label.ends_with(' ')) label.pop_back();
+  return label;
+}
+
+std::string label_of_replica(const Point& point, int replica, int n) {
+  if (n == 1) return point.label;
+  return fmt::format("{}{}replica={}", point.label, point.label.empty() ? "" : " ", replica);
+}
+
+std::vector<Point> points_of(const std::vector<Job>& jobs) {
+  std::vector<Point> points;
+  for (const Job& job : jobs) {
+    std::string label = label_of_point(job);
+    const bool is_next = points.empty() || points.back().label != label || points.back().replicas.contains(job.replica);
+    if (is_next) points.push_back({std::move(label), {}});
+    points.back().replicas.emplace(job.replica, job);
+  }
+  return points;
+}
+
+}  // namespace
+
+Result<std::vector<NewJob>> with_replicas(const Queue& queue, std::int64_t sweep, int n,
+                                          const std::filesystem::path& runs) {
+  std::vector<NewJob> jobs;
+  for (const Point& point : points_of(queue.jobs(sweep))) {
+    const auto& [first, known] = *point.replicas.begin();
+    const auto parameters = nlohmann::json::parse(known.parameters, nullptr, false);
+    if (parameters.is_object() && parameters.contains("time.seed")) {
+      return Error{"its seeds are swept: submit its file with more of them"};
+    }
+    const std::string scene = queue.scene(known.id);
+    if (const std::string why = refuse_scene(known.id, scene); !why.empty()) {
+      return Error{"job " + known.id + " cannot have replicas: " + why};
+    }
+    auto plan = scene::load_scene(scene, "job " + known.id);
+    if (!plan) return Error{scene::to_string(plan.error())};
+    const std::uint64_t seed = plan->system.seed - static_cast<std::uint64_t>(first - 1);
+    const int n_all = std::max(n, point.replicas.rbegin()->first);
+    for (int replica = 1; replica <= n_all; ++replica) {
+      NewJob job;
+      job.label = label_of_replica(point, replica, n_all);
+      job.parameters = known.parameters;
+      job.replica = replica;
+      if (const auto there = point.replicas.find(replica); there != point.replicas.end()) {
+        job.id = there->second.id;
+        job.scene = queue.scene(job.id);
+      } else {
+        plan->system.seed = seed + static_cast<std::uint64_t>(replica - 1);
+        job.id = scene::run_id(*plan);
+        job.scene = scene::to_json(*plan).dump(2) + "\n";
+        job.has_results = run::is_done(run::RunDirectory{runs / job.id}, *plan);
+      }
+      jobs.push_back(std::move(job));
+    }
+  }
+  return jobs;
+}
+
+}  // namespace shaken::server

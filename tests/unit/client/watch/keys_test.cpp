@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "client/watch/keys.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "client/watch/steering.h"
+
+namespace shaken::client {
+namespace {
+
+using Kind = Key::Kind;
+
+Key letter(char character) { return {Kind::kCharacter, character}; }
+
+const std::vector<std::string> kJobs{"aa", "bb", "cc"};
+
+Steering pressed(Steering state, const std::string& letters, bool is_periodic = true) {
+  for (const char c : letters) state = steered(state, letter(c), kJobs, is_periodic);
+  return state;
+}
+
+TEST(KeyReader, LettersAndArrows) {
+  KeyReader reader;
+  EXPECT_EQ(reader.add("q\x1b[A\x1bOB+\t\x1b[Z"),
+            (std::vector<Key>{letter('q'), {Kind::kUp}, {Kind::kDown}, letter('+'), letter('\t'), {Kind::kBackTab}}));
+}
+
+TEST(KeyReader, AKeyMayComeInPieces) {
+  KeyReader reader;
+  EXPECT_TRUE(reader.add("\x1b").empty());
+  EXPECT_TRUE(reader.is_waiting());
+  EXPECT_TRUE(reader.add("[").empty());
+  EXPECT_EQ(reader.add("Cn"), (std::vector<Key>{{Kind::kRight}, letter('n')}));
+  EXPECT_FALSE(reader.is_waiting());
+}
+
+TEST(KeyReader, EscapeAloneIsAKeyOnceNothingFollows) {
+  KeyReader reader;
+  EXPECT_TRUE(reader.add("\x1b").empty());
+  EXPECT_EQ(reader.flush(), std::vector<Key>{{Kind::kEscape}});
+  EXPECT_TRUE(reader.flush().empty());
+}
+
+TEST(KeyReader, UnknownKeysVanishWhole) {
+  KeyReader reader;
+  // F5, Ctrl-Right, a mouse report, a paste's brackets, an umlaut: none of them is q or a digit.
+  EXPECT_EQ(reader.add("\x1b[15~\x1b[1;5C\x1b[<0;3;4M\x1b[200~\xc3\xbc"), std::vector<Key>{{Kind::kRight}});
+  // Nor does a sequence without an end fill the memory.
+  for (int i = 0; i < 1000; ++i) reader.add("\x1b[1;");
+  EXPECT_TRUE(reader.add("1").size() < 2);
+}
+
+TEST(Steering, TabAndNumbersSwitchRuns) {
+  Steering state{.job = "aa"};
+  EXPECT_EQ(pressed(state, "\t").job, "bb");
+  EXPECT_EQ(pressed(state, "nnn").job, "aa");
+  EXPECT_EQ(pressed(state, "p").job, "cc");
+  EXPECT_EQ(steered(state, {Kind::kBackTab}, kJobs, true).job, "cc");
+  EXPECT_EQ(pressed(state, "3").job, "cc");
+  EXPECT_EQ(pressed(state, "4").job, "aa") << "there is no fourth";
+  state.job = "gone";
+  EXPECT_EQ(pressed(state, "p").job, "aa");
+  EXPECT_EQ(steered(state, letter('n'), {}, true).job, "gone");
+}
+
+TEST(Steering, ZoomHasBoundsAndGoesBackToTheWholeBox) {
+  Steering state = pressed({}, "++");
+  EXPECT_DOUBLE_EQ(state.view.zoom, 1.5625);
+  state = steered(state, {Kind::kRight}, kJobs, true);
+  EXPECT_DOUBLE_EQ(state.view.x, 0.5 + 0.1 / 1.5625);
+  state = pressed(state, "--");
+  EXPECT_DOUBLE_EQ(state.view.zoom, 1);
+  EXPECT_DOUBLE_EQ(state.view.x, 0.5);
+  EXPECT_LE(pressed({}, std::string(100, '+')).view.zoom, 32);
+  EXPECT_DOUBLE_EQ(pressed(pressed({}, "+++"), "0").view.zoom, 1);
+}
+
+TEST(Steering, ArrowsGoRoundAPeriodicBoxAndStopAtWalls) {
+  Steering periodic, walled;
+  for (int i = 0; i < 7; ++i) {
+    periodic = steered(periodic, {Kind::kUp}, kJobs, true);
+    walled = steered(walled, {Kind::kUp}, kJobs, false);
+  }
+  EXPECT_NEAR(periodic.view.y, 0.2, 1e-12);
+  EXPECT_DOUBLE_EQ(walled.view.y, 1);
+}
+
+TEST(Steering, LettersToggle) {
+  EXPECT_TRUE(pressed({}, " ").paused);
+  EXPECT_FALSE(pressed({}, "  ").paused);
+  EXPECT_EQ(pressed({}, "c").colouring, Colouring::kLayers);
+  EXPECT_EQ(pressed({}, "ccccc").colouring, Colouring::kAuto);
+  EXPECT_EQ(pressed({}, "b").grain, Grain::kBraille);
+  EXPECT_EQ(pressed({}, "bb").grain, Grain::kBlocks);
+  EXPECT_FALSE(pressed({}, "d").shows_defects);
+  EXPECT_TRUE(pressed({}, "o").numbers);
+  EXPECT_TRUE(pressed({}, "q").quit);
+  EXPECT_TRUE(pressed({}, "\f").redraw);
+}
+
+TEST(Steering, AnyKeyPutsTheHelpAway) {
+  const Steering help = pressed({.job = "aa"}, "?");
+  EXPECT_TRUE(help.help);
+  const Steering after = pressed(help, "n");
+  EXPECT_FALSE(after.help);
+  EXPECT_EQ(after.job, "aa") << "and does nothing else";
+  EXPECT_TRUE(pressed(help, "q").quit);
+}
+
+}  // namespace
+}  // namespace shaken::client

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "client/watch/live_rods.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace shaken::client {
+namespace {
+
+constexpr const char* kJob = "1f0c000000000000";
+
+frame_static_t constants(int n_rods = 3) {
+  frame_static_t message{};
+  message.job_id = kJob;
+  message.n_rods = n_rods;
+  message.box_side_mm = 20;
+  message.gap_mm = 1.2;
+  message.n_species = 1;
+  message.species_beads = {3};
+  message.n_beads = 3;
+  message.bead_offset_mm = {-2, 0, 2};
+  message.bead_radius_mm = {0.2, 0.4, 0.2};
+  return message;
+}
+
+proto::Frame frame(std::int64_t sequence, int n_rods = 3) {
+  proto::Frame frame;
+  frame.job_id = kJob;
+  frame.sequence = sequence;
+  frame.utime = 1000 + sequence;
+  frame.sim_time_s = 0.1 * static_cast<double>(sequence);
+  frame.box_side_mm = 20;
+  frame.order = 0.9;
+  frame.director_rad = 0.2;
+  for (int i = 0; i < n_rods; ++i) frame.rods.push_back({1.0 + i, 2, 0.1, 0});
+  return frame;
+}
+
+void send(LiveRods& rods, const proto::Frame& whole) {
+  for (const frame_t& chunk : proto::encode_frame(whole)) rods.note(chunk);
+}
+
+TEST(LiveRods, PutsConstantsAndFramesTogether) {
+  LiveRods rods;
+  rods.select(kJob);
+  send(rods, frame(0));
+  EXPECT_EQ(rods.newest(), nullptr) << "the shape of the rods is not known yet";
+  rods.note(constants());
+  send(rods, frame(1));
+  ASSERT_NE(rods.newest(), nullptr);
+  const RodFrame& shown = *rods.newest();
+  EXPECT_EQ(shown.rods.size(), 3u);
+  EXPECT_DOUBLE_EQ(shown.time, 0.1);
+  EXPECT_DOUBLE_EQ(shown.director, 0.2);
+  ASSERT_EQ(shown.outlines.size(), 1u);
+  EXPECT_DOUBLE_EQ(shown.outlines[0].half_length, 2);
+  EXPECT_DOUBLE_EQ(shown.outlines[0].middle, 0.4);
+  EXPECT_DOUBLE_EQ(shown.outlines[0].end, 0.2);
+}
+
+TEST(LiveRods, TakesFramesOfManyChunks) {
+  LiveRods rods;
+  rods.select(kJob);
+  frame_static_t large = constants(15000);
+  large.box_side_mm = 500;
+  rods.note(large);
+  proto::Frame whole = frame(0, 15000);
+  whole.box_side_mm = 500;
+  send(rods, whole);
+  ASSERT_NE(rods.newest(), nullptr);
+  EXPECT_EQ(rods.newest()->rods.size(), 15000u);
+}
+
+TEST(LiveRods, OneRunAtATime) {
+  LiveRods rods;
+  rods.select("another");
+  rods.note(constants());
+  send(rods, frame(0));
+  EXPECT_EQ(rods.newest(), nullptr);
+  rods.select(kJob);
+  rods.note(constants());
+  send(rods, frame(1));
+  EXPECT_NE(rods.newest(), nullptr);
+  rods.select(kJob);
+  EXPECT_NE(rods.newest(), nullptr) << "the same again";
+  rods.select("another");
+  EXPECT_EQ(rods.newest(), nullptr);
+}
+
+TEST(LiveRods, WhatNoSceneHasIsRefused) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  ASSERT_TRUE(constants_of(constants()));
+  const auto refused = [](auto change) {
+    frame_static_t message = constants();
+    change(message);
+    return !constants_of(message);
+  };
+  EXPECT_TRUE(refused([](frame_static_t& m) { m.box_side_mm = 0; }));
+  EXPECT_TRUE(refused([](frame_static_t& m) { m.box_side_mm = kNaN; }));
+  EXPECT_TRUE(refused([](frame_static_t& m) { m.box_side_mm = 1e9; }));
+  EXPECT_TRUE(refused([](frame_static_t& m) { m.n_rods = -1; }));
+  EXPECT_TRUE(refused([](frame_static_t& m) { m.n_rods = 500000; })) << "twenty layers of rods";
+  EXPECT_TRUE(refused([](frame_static_t& m) { m.species_beads = {}; }));
+  EXPECT_TRUE(refused([](frame_static_t& m) { m.species_beads = {4}; }));
+  EXPECT_TRUE(refused([](frame_static_t& m) { m.species_beads = {2, -1}; }));
+  EXPECT_TRUE(refused([](frame_static_t& m) { m.bead_offset_mm[2] = kNaN; }));
+  EXPECT_TRUE(refused([](frame_static_t& m) { m.bead_offset_mm[2] = 1e6; }));
+  EXPECT_TRUE(refused([](frame_static_t& m) { m.bead_radius_mm[0] = kNaN; }));
+  EXPECT_TRUE(refused([](frame_static_t& m) { m.bead_radius_mm[0] = 0; }));
+  EXPECT_TRUE(refused([](frame_static_t& m) { m.rod_species = {0, 1, 2}; }));
+  EXPECT_TRUE(refused([](frame_static_t& m) {
+    m.arena = "disc";
+    m.arena_size_mm = kNaN;
+  }));
+  // Two species, of which a rod names a third.
+  EXPECT_TRUE(refused([](frame_static_t& m) {
+    m.species_beads = {1, 2};
+    m.rod_species = {0, 1, 2};
+  }));
+  frame_static_t mixture = constants();
+  mixture.species_beads = {1, 2};
+  mixture.rod_species = {0, 1, 1};
+  EXPECT_TRUE(constants_of(mixture));
+}
+
+TEST(LiveRods, FramesThatDoNotFitAreIgnored) {
+  LiveRods rods;
+  rods.select(kJob);
+  rods.note(constants());
+  send(rods, frame(0, 4));
+  proto::Frame other = frame(1);
+  other.box_side_mm = 30;
+  send(rods, other);
+  other = frame(2);
+  other.director_rad = std::numeric_limits<double>::infinity();
+  send(rods, other);
+  other = frame(3);
+  other.order = std::numeric_limits<double>::quiet_NaN();
+  send(rods, other);
+  EXPECT_EQ(rods.newest(), nullptr);
+  send(rods, frame(4));
+  EXPECT_NE(rods.newest(), nullptr);
+}
+
+}  // namespace
+}  // namespace shaken::client
