@@ -33,11 +33,18 @@ ALLOWED = {
             "sim/world.h", "sim/simulation.h", "sim/balance.h", "sim/close_up.h", "sim/effects/registry.h",
             "sim/motion/side_walls.h"],
     # drawing knows rods and fields; only the program's sources of frames know files and the bus
-    "render/main.cpp": ["render", "base", "run/files", "proto", "sim/core", "sim/system.h", "sim/snapshot.h", "analysis"],
+    # times with units, as scenes have them
+    "render/main.cpp": ["render", "base", "scene/units.h", "run/files", "proto", "sim/core", "sim/system.h", "sim/snapshot.h", "analysis"],
     "render/sources.h": ["render", "run/files", "proto", "sim/core", "sim/system.h", "sim/snapshot.h", "analysis"],
     # what comes from the bus is held against what a scene allows
-    "render/sources.cpp": ["render", "base/text.h", "run/files", "proto", "scene/fields.h", "scene/measure_plan.h",
+    "render/sources.cpp": ["render", "base/files.h", "base/text.h", "run/files", "proto", "scene/fields.h", "scene/measure_plan.h",
                            "sim/core", "sim/system.h", "sim/snapshot.h", "analysis"],
+    # style files are read and checked as scenes are
+    "render/style_file.h": ["render", "scene/problem.h", "sim/core"],
+    "render/style_file.cpp": ["render", "base/files.h", "scene/document.h", "scene/load.h", "scene/nearest.h", "scene/problem.h",
+                              "scene/units.h", "sim/core"],
+    # the settings of a sweep, with their units
+    "render/headline.cpp": ["render", "scene/fields.h", "scene/units.h", "sim/core"],
     # the defaults of the director field whose defects are drawn
     "render/measure.cpp": ["render", "scene/measure_plan.h", "sim/core", "sim/system.h", "analysis"],
     "render": ["sim/core", "sim/system.h", "analysis"],

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "render/canvas.h"
 
+#include <cairo-pdf.h>
+#include <cairo-svg.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -8,7 +11,32 @@
 namespace shaken::render {
 
 Canvas::Canvas(int width, int height, const Colour& page)
-    : surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height)), context_(cairo_create(surface_.get())) {
+    : Canvas(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height), page) {}
+
+Result<Canvas> Canvas::vector(const std::filesystem::path& file, int width, int height, const Colour& page,
+                              const std::string& title, const Notes& notes) {
+  cairo_surface_t* surface = nullptr;
+  if (file.extension() == ".svg") {
+    surface = cairo_svg_surface_create(file.c_str(), width, height);
+    cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);
+  } else {
+    surface = cairo_pdf_surface_create(file.c_str(), width, height);
+    std::string words;
+    for (const auto& [key, value] : notes)
+      words.append(words.empty() ? "" : ", ").append(key).append(" ").append(value);
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, title.c_str());
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_KEYWORDS, words.c_str());
+    // Equal pictures give equal files, whenever they are drawn.
+    cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
+  }
+  Canvas canvas(surface, page);
+  if (const cairo_status_t status = cairo_surface_status(surface); status != CAIRO_STATUS_SUCCESS) {
+    return Error{"cannot write " + file.string() + ": " + cairo_status_to_string(status)};
+  }
+  return canvas;
+}
+
+Canvas::Canvas(cairo_surface_t* surface, const Colour& page) : surface_(surface), context_(cairo_create(surface)) {
   // The same letters everywhere: no hinting, no sub-pixel colours.
   cairo_font_options_t* options = cairo_font_options_create();
   cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
@@ -56,22 +84,56 @@ double Canvas::text(double x, double y, const std::string& text, double size, Al
   return width;
 }
 
-void Canvas::paste(const Image& image, int x, int y) {
-  cairo_surface_flush(surface_.get());
-  unsigned char* data = cairo_image_surface_get_data(surface_.get());
-  const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(surface_.get()));
-  const int width = std::min(image.width, cairo_image_surface_get_width(surface_.get()) - x);
-  const int height = std::min(image.height, cairo_image_surface_get_height(surface_.get()) - y);
-  for (int j = 0; j < height; ++j) {
-    unsigned char* out = data + static_cast<std::size_t>(y + j) * stride + static_cast<std::size_t>(x) * 4;
+namespace {
+
+/// A surface with a copy of the picture.
+cairo_surface_t* surface_of(const Image& image) {
+  cairo_surface_t* surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, image.width, image.height);
+  cairo_surface_flush(surface);
+  unsigned char* data = cairo_image_surface_get_data(surface);
+  const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(surface));
+  for (int j = 0; j < image.height; ++j) {
+    unsigned char* out = data + static_cast<std::size_t>(j) * stride;
     const std::uint8_t* in = image.pixel(0, j);
-    for (int i = 0; i < width; ++i, in += 3, out += 4) {
+    for (int i = 0; i < image.width; ++i, in += 3, out += 4) {
       const std::uint32_t pixel =
           static_cast<std::uint32_t>(in[0]) << 16 | static_cast<std::uint32_t>(in[1]) << 8 | in[2];
       std::memcpy(out, &pixel, sizeof(pixel));
     }
   }
-  cairo_surface_mark_dirty(surface_.get());
+  cairo_surface_mark_dirty(surface);
+  return surface;
+}
+
+}  // namespace
+
+void Canvas::paste(const Image& image, int x, int y, double opacity) {
+  const std::unique_ptr<cairo_surface_t, Free> source(surface_of(image));
+  cairo_set_source_surface(cairo(), source.get(), x, y);
+  cairo_paint_with_alpha(cairo(), opacity);
+}
+
+void Canvas::spread(const Image& image, const Rect& rect) const {
+  const std::unique_ptr<cairo_surface_t, Free> source(surface_of(image));
+  const double sx = rect.width / (image.width - 1), sy = rect.height / (image.height - 1);
+  cairo_save(cairo());
+  cairo_rectangle(cairo(), rect.x, rect.y, rect.width, rect.height);
+  cairo_clip(cairo());
+  cairo_translate(cairo(), rect.x - sx / 2, rect.y - sy / 2);
+  cairo_scale(cairo(), sx, sy);
+  cairo_set_source_surface(cairo(), source.get(), 0, 0);
+  cairo_pattern_set_filter(cairo_get_source(cairo()), CAIRO_FILTER_BILINEAR);
+  cairo_pattern_set_extend(cairo_get_source(cairo()), CAIRO_EXTEND_PAD);
+  cairo_paint(cairo());
+  cairo_restore(cairo());
+}
+
+Result<void> Canvas::finish() {
+  context_.reset();
+  cairo_surface_finish(surface_.get());
+  const cairo_status_t status = cairo_surface_status(surface_.get());
+  if (status != CAIRO_STATUS_SUCCESS) return Error{cairo_status_to_string(status)};
+  return {};
 }
 
 Image Canvas::image() const {

@@ -3,11 +3,13 @@
 
 #include <cairo.h>
 
+#include <filesystem>
 #include <memory>
 #include <string>
 
 #include "render/colours.h"
 #include "render/image.h"
+#include "render/picture.h"
 
 namespace shaken::render {
 
@@ -21,7 +23,11 @@ struct Rect {
 /// Where drawing with Cairo happens. Coordinates are pixels from the upper left corner.
 class Canvas {
  public:
+  /// Of pixels.
   Canvas(int width, int height, const Colour& page);
+  /// Of lines and areas, as a file: ".svg" or ".pdf". A PDF has a title and, as keywords, the notes.
+  static Result<Canvas> vector(const std::filesystem::path& file, int width, int height, const Colour& page,
+                               const std::string& title, const Notes& notes);
 
   /// For paths: Cairo's own functions.
   cairo_t* cairo() const { return context_.get(); }
@@ -38,10 +44,16 @@ class Canvas {
   double text_width(const std::string& text, double size, bool bold = false) const;
 
   /// Copies a picture in, its upper left corner at (x, y).
-  void paste(const Image& image, int x, int y);
+  void paste(const Image& image, int x, int y, double opacity = 1);
+  /// Draws a picture smoothly over `rect`, of which its outer pixels' middles are the edges.
+  void spread(const Image& image, const Rect& rect) const;
+  /// Of pixels only.
   Image image() const;
+  /// Ends a file.
+  Result<void> finish();
 
  private:
+  Canvas(cairo_surface_t* surface, const Colour& page);
   struct Free {
     void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
     void operator()(cairo_t* context) const { cairo_destroy(context); }

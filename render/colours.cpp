@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/periodic.h"
-
 namespace shaken::render {
 namespace {
 
@@ -38,37 +36,85 @@ Oklab mix(const Oklab& x, const Oklab& y, double t) {
   return {x.lightness + t * (y.lightness - x.lightness), x.a + t * (y.a - x.a), x.b + t * (y.b - x.b)};
 }
 
+Colour blend(const Colour& x, const Colour& y, double t) {
+  return {x[0] + t * (y[0] - x[0]), x[1] + t * (y[1] - x[1]), x[2] + t * (y[2] - x[2])};
+}
+
 constexpr double kFullAngle = 15 * kPi / 180;  // the angle of the fully grown colour
+constexpr double kFadeAngle = 45 * kPi / 180;  // where it begins to go again
 const Oklab kNeutral = polar(0.93, 0.012, 60);
+const Oklab kAcross = polar(0.62, 0.012, 260);
 const Oklab kRed = polar(0.60, 0.235, 29);
 const Oklab kMagenta = polar(0.57, 0.25, 334);
 const Oklab kTeal = polar(0.68, 0.055, 205);
 const Oklab kSlate = polar(0.47, 0.025, 255);
+const Oklab kBlue = polar(0.52, 0.15, 256);
+const Oklab kPale = polar(0.94, 0.008, 90);
+const Oklab kOrange = polar(0.60, 0.15, 52);
+
+/// A circle in OKLab in a plane that is tilted about the blue-yellow axis. The radius and the tilt are as large as sRGB
+/// allows; red lies where it did in the flat circle.
+Colour on_circle(double turn) {
+  constexpr double kMiddle = 0.71, kRadius = 0.13, kTilt = 40 * kPi / 180;
+  const double hue = 29 * kPi / 180 + turn;
+  const double redness = kRadius * std::cos(hue);
+  return to_srgb({kMiddle - redness * std::sin(kTilt), redness * std::cos(kTilt), kRadius * std::sin(hue)});
+}
 
 }  // namespace
 
 Colour layer_colour(double theta) {
-  const double t = std::min(std::abs(theta) / kFullAngle, 1.0);
-  return to_srgb(mix(kNeutral, theta > 0 ? kRed : kMagenta, t));
+  const double size = std::abs(theta);
+  const Oklab full = mix(kNeutral, theta > 0 ? kRed : kMagenta, std::min(size / kFullAngle, 1.0));
+  if (size <= kFadeAngle) return to_srgb(full);
+  return to_srgb(mix(full, kAcross, std::min((size - kFadeAngle) / (kPi / 2 - kFadeAngle), 1.0)));
 }
 
-Colour wheel_colour(double angle) { return to_srgb(polar(0.74, 0.126, 29 + angle * 360 / kPi)); }
+Colour wheel_colour(double angle) { return on_circle(2 * angle); }
+
+Colour heading_colour(double direction) { return on_circle(direction); }
+
+Colour sequential_colour(double x) {
+  constexpr Colour kViridis[] = {
+      {0.267004, 0.004874, 0.329415}, {0.282623, 0.140926, 0.457517}, {0.253935, 0.265254, 0.529983},
+      {0.206756, 0.371758, 0.553117}, {0.163625, 0.471133, 0.558148}, {0.127568, 0.566949, 0.550556},
+      {0.134692, 0.658636, 0.517649}, {0.266941, 0.748751, 0.440573}, {0.477504, 0.821444, 0.318195},
+      {0.741388, 0.873449, 0.149561}, {0.993248, 0.906157, 0.143936}};
+  constexpr int kPieces = static_cast<int>(std::size(kViridis)) - 1;
+  const double at = std::clamp(x, 0.0, 1.0) * kPieces;
+  const int piece = std::min(static_cast<int>(at), kPieces - 1);
+  return blend(kViridis[piece], kViridis[piece + 1], at - piece);
+}
+
+Colour diverging_colour(double x) { return to_srgb(mix(kPale, x > 0 ? kOrange : kBlue, std::min(std::abs(x), 1.0))); }
 
 Colour species_colour(std::size_t species) { return to_srgb(species == 1 ? kTeal : kSlate); }
 
-Colour rod_colour(const RodPicture& picture, std::size_t i, Colouring colouring) {
-  if (const std::size_t species = picture.species_of(i); species != 0) return species_colour(species);
-  const Vec3& director = picture.director[i];
-  const double angle = std::atan2(director.y(), director.x());
-  return colouring == Colouring::kLayers ? layer_colour(analysis::fold_half_turn(angle - picture.director_angle))
-                                         : wheel_colour(angle);
+Colour name_colour(std::size_t index) {
+  constexpr Colour kOkabeIto[] = {{0.902, 0.624, 0.0}, {0.0, 0.447, 0.698}, {0.6, 0.62, 0.64}};
+  return kOkabeIto[index % std::size(kOkabeIto)];
+}
+
+Colour number_colour(std::size_t number) {
+  // Successive numbers lie a golden angle apart in hue, so neighbours in the list never look alike.
+  constexpr double kGolden = 137.50776405003785;
+  const auto n = static_cast<double>(number);
+  return to_srgb(polar(0.64 + 0.05 * static_cast<double>(number % 4), 0.11, std::fmod(n * kGolden, 360.0)));
+}
+
+Colour no_value_colour() { return to_srgb(polar(0.72, 0.006, 250)); }
+
+Colour order_background(double order, Theme theme) {
+  const Oklab none = theme == Theme::kDark ? polar(0.50, 0.09, 265) : polar(0.55, 0.07, 255);
+  return blend(to_srgb(none), palette(theme).floor, std::clamp(order, 0.0, 1.0));
 }
 
 Palette palette(Theme theme) {
   if (theme == Theme::kDark) {
     return {{0.071, 0.078, 0.094}, {0.11, 0.118, 0.137}, {0.92, 0.925, 0.935}, {0.56, 0.58, 0.62}, {0.21, 0.22, 0.245}};
   }
-  return {{1, 1, 1}, {0.965, 0.96, 0.95}, {0.11, 0.12, 0.14}, {0.45, 0.46, 0.49}, {0.84, 0.845, 0.855}};
+  const Colour floor = theme == Theme::kPrint ? Colour{1, 1, 1} : Colour{0.965, 0.96, 0.95};
+  return {{1, 1, 1}, floor, {0.11, 0.12, 0.14}, {0.45, 0.46, 0.49}, {0.84, 0.845, 0.855}};
 }
 
 }  // namespace shaken::render

@@ -33,13 +33,13 @@ Result<GlContext> GlContext::create() {
   return GlContext(context);
 }
 
-Result<void> GlContext::bind(int side) {
-  const auto n = static_cast<std::size_t>(side);
-  pixels_.resize(n * n * 4);
-  if (!OSMesaMakeCurrent(static_cast<OSMesaContext>(context_.get()), pixels_.data(), GL_UNSIGNED_BYTE, side, side)) {
-    return Error{"OSMesa refuses a frame buffer of " + std::to_string(side) + " x " + std::to_string(side) + " pixels"};
+Result<void> GlContext::bind(int width, int height) {
+  pixels_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
+  if (!OSMesaMakeCurrent(static_cast<OSMesaContext>(context_.get()), pixels_.data(), GL_UNSIGNED_BYTE, width, height)) {
+    return Error{"OSMesa refuses a frame buffer of " + std::to_string(width) + " x " + std::to_string(height) +
+                 " pixels"};
   }
-  glViewport(0, 0, side, side);
+  glViewport(0, 0, width, height);
   return {};
 }
 

@@ -18,9 +18,9 @@ class GlContext {
   GlContext& operator=(GlContext&&) noexcept;
   ~GlContext();
 
-  /// Makes the context current in this thread, with a frame buffer of `side` x `side` pixels.
-  Result<void> bind(int side);
-  /// The frame buffer after all drawing is done: RGBA, rows from bottom to top, (side * side * 4).
+  /// Makes the context current in this thread, with a frame buffer of `width` x `height` pixels.
+  Result<void> bind(int width, int height);
+  /// The frame buffer after all drawing is done: RGBA, rows from bottom to top, (height * width * 4).
   const std::vector<std::uint8_t>& finished_pixels();
 
  private:

@@ -28,37 +28,37 @@ Rect cut(Rect& rest, double height) {
   return piece;
 }
 
-void fill_column(Layout& layout, Rect panel, const PictureStyle& style, bool with_history, bool with_label,
-                 bool with_species) {
+void fill_column(Layout& layout, Rect panel, const PictureStyle& style, const Contents& contents) {
   const double u = layout.unit;
   if (style.scale_bar) layout.scale_bar = cut(panel, -34 * u);
   if (style.mark_defects) {
     if (style.scale_bar) cut(panel, -16 * u);
     layout.key = cut(panel, panel.width < kNarrow * u ? -56 * u : -22 * u);
   }
-  if (style.legend && with_species) {
+  if (style.legend && contents.species) {
     if (style.scale_bar || style.mark_defects) cut(panel, -12 * u);
     layout.species = cut(panel, -22 * u);
   }
   if (style.caption) {
-    if (with_label) layout.label = cut(panel, 42 * u);
+    if (contents.label) layout.label = cut(panel, 42 * u);
     layout.numbers = cut(panel, 112 * u);
     cut(panel, 10 * u);
   }
   // What is left is shared by the two plots.
   const double room = panel.height - 14 * u;
-  const bool both = style.legend && with_history && room / 2 >= 80 * u;
+  const bool scale = style.legend && contents.scale, history = style.caption && contents.history;
+  const bool both = scale && history && room / 2 >= 80 * u;
   const double plot = std::min(230 * u, both ? (room - 12 * u) / 2 : room);
-  if (with_history && (both || !style.legend)) {
+  if (history && (both || !scale)) {
     layout.history = cut(panel, plot);
     cut(panel, 12 * u);
   }
-  if (style.legend) layout.legend = cut(panel, plot);
+  if (scale) layout.legend = cut(panel, plot);
 }
 
-void fill_strip(Layout& layout, Rect panel, const PictureStyle& style, bool with_label, bool with_species) {
+void fill_strip(Layout& layout, Rect panel, const PictureStyle& style, const Contents& contents) {
   const double u = layout.unit;
-  if (style.caption && with_label) layout.label = cut(panel, 34 * u);
+  if (style.caption && contents.label) layout.label = cut(panel, 34 * u);
   const double gap = 30 * u;
   const double column = (panel.width - 2 * gap) / 3;
   Rect left = panel;
@@ -68,9 +68,9 @@ void fill_strip(Layout& layout, Rect panel, const PictureStyle& style, bool with
   Rect right = middle;
   right.x += column + gap;
   if (style.caption) layout.numbers = left;
-  if (style.legend) layout.legend = middle;
+  if (style.legend && contents.scale) layout.legend = middle;
   if (style.scale_bar) layout.scale_bar = cut(right, -34 * u);
-  if (style.legend && with_species) layout.species = cut(right, 22 * u);
+  if (style.legend && contents.species) layout.species = cut(right, 22 * u);
   if (style.mark_defects) {
     cut(right, 10 * u);
     layout.key = cut(right, 50 * u);
@@ -79,7 +79,7 @@ void fill_strip(Layout& layout, Rect panel, const PictureStyle& style, bool with
 
 }  // namespace
 
-Layout layout_of(const PictureStyle& style, bool with_history, bool with_label, bool with_species) {
+Layout layout_of(const PictureStyle& style, const Contents& contents) {
   Layout layout;
   const double width = style.width, height = style.height;
   layout.unit = std::max(std::min(width, height) / 720, 0.7);  // below that, letters could not be read
@@ -95,13 +95,12 @@ Layout layout_of(const PictureStyle& style, bool with_history, bool with_label, 
     const double panel = std::min(room, 480 * layout.unit);
     place_box(layout, margin, (height - side) / 2, side);
     const double x = margin + side + margin + (room - panel) / 2;
-    fill_column(layout, {x, margin, panel, height - 2 * margin}, style, with_history, with_label && style.caption,
-                with_species);
+    fill_column(layout, {x, margin, panel, height - 2 * margin}, style, contents);
   } else {
-    const double strip = (with_label && style.caption ? 170 : 136) * layout.unit;
+    const double strip = (contents.label && style.caption ? 170 : 136) * layout.unit;
     const double side = std::min(width - 2 * margin, height - 3 * margin - strip);
     const double curve = 130 * layout.unit;
-    const bool room_for_curve = with_history && height - 4 * margin - side - strip >= curve;
+    const bool room_for_curve = style.caption && contents.history && height - 4 * margin - side - strip >= curve;
     const double all = side + margin + strip + (room_for_curve ? margin + curve : 0);
     const double y = std::max(margin, (height - all) / 2);
     place_box(layout, (width - side) / 2, y, side);
@@ -110,8 +109,29 @@ Layout layout_of(const PictureStyle& style, bool with_history, bool with_label, 
       layout.history = cut(below, -curve);
       cut(below, -margin);
     }
-    fill_strip(layout, below, style, with_label, with_species);
+    fill_strip(layout, below, style, contents);
   }
+  return layout;
+}
+
+Layout gap_layout_of(const PictureStyle& style, const Contents& contents) {
+  Layout layout;
+  layout.unit = std::max(std::min(style.width, style.height) / 720.0, 0.7);
+  const double u = layout.unit, margin = std::round(24 * u);
+  const bool has_strip = style.caption || style.legend || style.scale_bar;
+  const double strip = has_strip ? std::min(206 * u, 0.6 * style.height) : 0;
+  layout.stage_width = style.width;
+  layout.stage_height = style.height - static_cast<int>(std::lround(strip));
+  if (!has_strip) return layout;
+  const double gap = 40 * u, width = style.width - 2 * margin - 2 * gap;
+  Rect left{margin, layout.stage_height + 14 * u, 0.36 * width, strip - 38 * u};
+  const Rect middle{left.right() + gap, left.y, 0.40 * width, left.height};
+  Rect right{middle.right() + gap, left.y, 0.24 * width, left.height};
+  if (style.caption && contents.label) layout.label = cut(left, 42 * u);
+  if (style.caption) layout.numbers = left;
+  if (style.legend && contents.scale) layout.legend = middle;
+  if (style.scale_bar) layout.scale_bar = cut(right, -34 * u);
+  if (style.legend && contents.species) layout.species = cut(right, 22 * u);
   return layout;
 }
 

@@ -3,6 +3,7 @@
 
 #include "render/canvas.h"
 #include "render/picture.h"
+#include "render/style.h"
 
 namespace shaken::render {
 
@@ -11,10 +12,20 @@ namespace shaken::render {
 struct Layout {
   double unit = 1;  ///< the size of everything that is not to scale: 1 in a picture 720 pixels high
   int box_x = 0, box_y = 0, box_side = 0;  ///< the square of the rods [pixels]
+  int stage_width = 0, stage_height = 0;   ///< of a look into the gap, from the upper left corner; there is then no box
   Rect label, numbers, history, legend, species, key, scale_bar;
 };
 
-/// `with_species`: whether there are several species to be told apart.
-Layout layout_of(const PictureStyle& style, bool with_history, bool with_label, bool with_species = false);
+/// What there is to be shown, besides what the style asks for.
+struct Contents {
+  bool history = false;  ///< S(t)
+  bool label = false;
+  bool species = false;  ///< several, to be told apart
+  bool scale = true;     ///< a colour scale: colours that are names have none
+};
+Layout layout_of(const PictureStyle& style, const Contents& contents);
+
+/// Of a look into the gap: the stage over the whole width, and a strip below it with all that is written.
+Layout gap_layout_of(const PictureStyle& style, const Contents& contents);
 
 }  // namespace shaken::render

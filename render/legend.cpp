@@ -1,32 +1,47 @@
 // SPDX-License-Identifier: MIT
 #include "render/legend.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "analysis/periodic.h"
+#include "render/colourings.h"
 #include "render/colours.h"
+#include "render/ticks.h"
 
 namespace shaken::render {
 namespace {
 
-constexpr double kDegree = kPi / 180;
+constexpr double kRadians = kPi / 180;  // in a degree
 
-/// Counts of `angles` in equal bins over [low, high), scaled to a largest of 1; angles outside are left out.
-std::vector<double> scaled_histogram(const std::vector<double>& angles, double low, double high, int bins) {
-  std::vector<double> counts(static_cast<std::size_t>(bins));
-  for (const double angle : angles) {
-    const double bin = std::floor((angle - low) / (high - low) * bins);
-    if (bin >= 0 && bin < bins) counts[static_cast<std::size_t>(bin)] += 1;
+/// Where the values of a picture's rods lie.
+struct Histogram {
+  std::vector<double> share;                ///< of the rods, in each of equal bins
+  bool is_below = false, is_above = false;  ///< whether the outer bins hold values beyond them
+  bool is_empty = true;
+
+  Histogram(const RodPicture& picture, const Colouring& colouring, const Vec2& range) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < picture.n_rods(); ++i) {
+      if (const double value = colouring.value(picture, i); !std::isnan(value)) values.push_back(value);
+    }
+    // As fine as the number of rods allows: so that a bar's own scatter stays small.
+    share.assign(values.size() < 200 ? 18 : values.size() < 1000 ? 36 : 60, 0.0);
+    is_empty = values.empty();
+    const auto bins = static_cast<double>(share.size());
+    for (const double value : values) {
+      const double bin = std::floor((value - range.x()) / (range.y() - range.x()) * bins);
+      is_below = is_below || bin < 0;
+      is_above = is_above || value > range.y();
+      share[static_cast<std::size_t>(std::clamp(bin, 0.0, bins - 1))] += 1 / static_cast<double>(values.size());
+    }
   }
-  const double most = *std::max_element(counts.begin(), counts.end());
-  if (most > 0) {
-    for (double& count : counts) count /= most;
-  }
-  return counts;
-}
+  double most() const { return *std::max_element(share.begin(), share.end()); }
+};
 
 /// A line without head or tail: an arrow at both ends.
 void draw_axis(const Canvas& canvas, double x, double y, double angle, double unit) {
@@ -47,104 +62,137 @@ void draw_axis(const Canvas& canvas, double x, double y, double angle, double un
   cairo_restore(cr);
 }
 
-void draw_layer_legend(const Canvas& canvas, const Rect& place, double unit, const RodPicture& picture,
-                       const Palette& colours) {
-  constexpr double kReach = 45;  // degrees on either side
-  constexpr int kBins = 60;
-  std::vector<double> angles;
-  for (const Vec3& n : picture.first_directors())
-    angles.push_back(analysis::fold_half_turn(std::atan2(n.y(), n.x()) - picture.director_angle));
-  const std::vector<double> counts = scaled_histogram(angles, -kReach * kDegree, kReach * kDegree, kBins);
+void draw_title(const Canvas& canvas, const Rect& place, double unit, const std::string& title, double width) {
+  const double size = 13 * unit;
+  canvas.text(place.x, place.y + 12 * unit, title, size * std::min(1.0, width / canvas.text_width(title, size)));
+}
 
-  const double title = 20 * unit, bar = 11 * unit, ticks = 22 * unit;
-  canvas.colour(colours.ink);
-  canvas.text(place.x, place.y + 12 * unit, "Angle to the director", 13 * unit);
-  if (!angles.empty()) {
-    draw_axis(canvas, place.right() - 18 * unit, place.y + 10 * unit, picture.director_angle, unit);
+/// The colours, continuous, with ticks below them. `histogram`: whose outer bins may hold values beyond the scale.
+void draw_colour_bar(const Canvas& canvas, const Rect& bar, double unit, const Colouring& colouring, const Vec2& range,
+                     const Palette& colours, const Histogram* histogram) {
+  const bool is_angle = std::string_view(colouring.unit) == "\u00b0";
+  const int shades = 240;
+  for (int i = 0; i < shades; ++i) {
+    canvas.colour(colouring.colour(range.x() + (i + 0.5) / shades * (range.y() - range.x()), range));
+    const double from = std::round(bar.x + i * bar.width / shades);
+    canvas.fill({from, bar.y, std::round(bar.x + (i + 1) * bar.width / shades) - from, bar.height});
   }
-  const Rect plot{place.x, place.y + title + 8 * unit, place.width, place.height - title - 8 * unit - bar - ticks};
-  const double step = plot.width / kBins;
-  for (int i = 0; i < kBins; ++i) {
-    const double theta = (-kReach + (i + 0.5) * 2 * kReach / kBins) * kDegree;
-    const Colour colour = layer_colour(theta);
-    const double x = plot.x + i * step;
-    const double height = counts[static_cast<std::size_t>(i)] * plot.height;
-    canvas.colour(colour);
-    canvas.fill({x, plot.bottom() - height, step, height});
-  }
-  // The bars' outline keeps the pale ones in the middle visible on a white page.
-  cairo_t* cr = canvas.cairo();
-  cairo_move_to(cr, plot.x, plot.bottom());
-  for (int i = 0; i < kBins; ++i) {
-    const double y = plot.bottom() - counts[static_cast<std::size_t>(i)] * plot.height;
-    cairo_line_to(cr, plot.x + i * step, y);
-    cairo_line_to(cr, plot.x + (i + 1) * step, y);
-  }
-  cairo_line_to(cr, plot.right(), plot.bottom());
-  canvas.colour(colours.faint);
-  cairo_set_line_width(cr, 0.9 * unit);
-  cairo_stroke(cr);
-
-  // The colour bar, continuous.
-  constexpr int kShades = 180;
-  for (int i = 0; i < kShades; ++i) {
-    canvas.colour(layer_colour((-kReach + (i + 0.5) * 2 * kReach / kShades) * kDegree));
-    const double left = std::round(plot.x + i * plot.width / kShades);
-    const double right = std::round(plot.x + (i + 1) * plot.width / kShades);
-    canvas.fill({left, plot.bottom(), right - left, bar});
-  }
-  const int spacing = place.width >= 300 * unit ? 15 : 45;
-  for (int degrees = -45; degrees <= 45; degrees += spacing) {
-    const double x = plot.x + (degrees + kReach) / (2 * kReach) * plot.width;
+  const int most_ticks = std::max(2, static_cast<int>(bar.width / (56 * unit)));
+  for (const double value : ticks(range.x(), range.y(), tick_step(range.y() - range.x(), most_ticks, is_angle))) {
+    const double x = bar.x + (value - range.x()) / (range.y() - range.x()) * bar.width;
     canvas.colour(colours.ink);
-    canvas.line(x, plot.bottom() + bar, x, plot.bottom() + bar + 4 * unit, unit);
-    const auto align = degrees == -45  ? Canvas::Align::kLeft
-                       : degrees == 45 ? Canvas::Align::kRight
-                                       : Canvas::Align::kCentre;
-    const std::string text = (degrees < 0 ? "\u2212" : "") + std::to_string(std::abs(degrees)) + "\u00b0";
-    canvas.text(x, plot.bottom() + bar + 17 * unit, text, 12 * unit, align);
+    canvas.line(x, bar.bottom(), x, bar.bottom() + 4 * unit, unit);
+    const bool is_first = value <= range.x(), is_last = value >= range.y();
+    const bool is_low = histogram != nullptr && is_first && histogram->is_below,
+               is_high = histogram != nullptr && is_last && histogram->is_above;
+    const std::string beyond = is_low ? "\u2264" : is_high ? "\u2265" : "";
+    canvas.text(x, bar.bottom() + 16 * unit, beyond + tick_text(value, is_angle ? colouring.unit : ""), 12 * unit,
+                is_last    ? Canvas::Align::kRight
+                : is_first ? Canvas::Align::kLeft
+                           : Canvas::Align::kCentre);
   }
 }
 
-void draw_wheel_legend(const Canvas& canvas, const Rect& place, double unit, const RodPicture& picture,
-                       const Palette& colours) {
-  constexpr int kBins = 60;
-  std::vector<double> angles;
-  for (const Vec3& n : picture.first_directors()) {
-    const double angle = analysis::fold_half_turn(std::atan2(n.y(), n.x()));
-    angles.push_back(angle < 0 ? angle + kPi : angle);
+/// Where there is no room for how many rods have which colour: the colours alone.
+void draw_narrow_legend(const Canvas& canvas, const Rect& place, double unit, const Colouring& colouring,
+                        const Vec2& range, const Palette& colours) {
+  canvas.colour(colours.ink);
+  draw_title(canvas, place, unit, colouring.title, place.width);
+  draw_colour_bar(canvas, {place.x, place.y + 20 * unit, place.width, 10 * unit}, unit, colouring, range, colours,
+                  nullptr);
+}
+
+void draw_line_legend(const Canvas& canvas, const Rect& place, double unit, const RodPicture& picture,
+                      const Colouring& colouring, const Vec2& range, const Palette& colours) {
+  constexpr double kLeast = 28;  // units; lower bars say nothing
+  if (place.height < (kLeast + 62) * unit) return draw_narrow_legend(canvas, place, unit, colouring, range, colours);
+  const Histogram histogram(picture, colouring, range);
+  const bool is_angle = std::string_view(colouring.unit) == "\u00b0";
+  const bool is_relative = std::string_view(colouring.name) == "layers";
+  canvas.colour(colours.ink);
+  std::string title = colouring.title;
+  if (!is_angle && !std::string_view(colouring.unit).empty()) title += fmt::format(" [{}]", colouring.unit);
+  draw_title(canvas, place, unit, title + ", % of rods", place.width - (is_relative ? 44 * unit : 0));
+  if (is_relative && !histogram.is_empty) {
+    draw_axis(canvas, place.right() - 18 * unit, place.y + 10 * unit, picture.director_angle, unit);
   }
-  const std::vector<double> counts = scaled_histogram(angles, 0, kPi, kBins);
+
+  const double above = 28 * unit, gap = 4 * unit, bar = 10 * unit, words = 20 * unit, left = 26 * unit;
+  const Rect plot{place.x + left, place.y + above, place.width - left, place.height - above - gap - bar - words};
+  const double most = std::max(histogram.most(), 1e-3);
+  // Upwards to the tick at or above the highest bar.
+  const double step = tick_step(100 * most, plot.height < 60 * unit ? 1 : 3);
+  const double top = std::ceil(100 * most / step - 1e-9) * step;
+  for (const double percent : ticks(0, top, step)) {
+    const double y = plot.bottom() - percent / top * plot.height;
+    canvas.colour(colours.faint, percent == 0 ? 0.9 : 0.3);
+    canvas.line(plot.x, y, plot.right(), y, unit);
+    canvas.colour(colours.ink);
+    canvas.text(plot.x - 6 * unit, y + 4 * unit, tick_text(percent), 12 * unit, Canvas::Align::kRight);
+  }
+  const auto bins = static_cast<int>(histogram.share.size());
+  const double width = plot.width / bins;
+  const auto height_of = [&](int i) { return histogram.share[static_cast<std::size_t>(i)] * 100 / top * plot.height; };
+  for (int i = 0; i < bins; ++i) {
+    if (height_of(i) <= 0) continue;
+    canvas.colour(colouring.colour(range.x() + (i + 0.5) / bins * (range.y() - range.x()), range));
+    canvas.fill({plot.x + i * width, plot.bottom() - height_of(i), width, height_of(i)});
+  }
+  // The bars' outline keeps pale ones visible on a white page.
+  cairo_t* cr = canvas.cairo();
+  for (int i = 0; i < bins; ++i) {
+    if (height_of(i) <= 0) continue;
+    cairo_rectangle(cr, plot.x + i * width, plot.bottom() - height_of(i), width, height_of(i));
+  }
+  canvas.colour(colours.faint, 0.8);
+  cairo_set_line_width(cr, 0.6 * unit);
+  cairo_stroke(cr);
+
+  draw_colour_bar(canvas, {plot.x, plot.bottom() + gap, plot.width, bar}, unit, colouring, range, colours, &histogram);
+}
+
+/// Half a circle of 180 degrees, or a whole one of 360.
+void draw_circle_legend(const Canvas& canvas, const Rect& place, double unit, const RodPicture& picture,
+                        const Colouring& colouring, const Vec2& range, const Palette& colours) {
+  constexpr double kLeast = 40;  // units; a smaller rose cannot be read
+  if (place.height < (kLeast + 46) * unit) return draw_narrow_legend(canvas, place, unit, colouring, range, colours);
+  const Histogram histogram(picture, colouring, range);
+  const double most = std::max(histogram.most(), 1e-9);
+  const bool is_half = colouring.scale == Scale::kHalfTurn;
+  const double turn = range.y() * kRadians;
 
   const double title = 28 * unit, words = 18 * unit;
   canvas.colour(colours.ink);
-  canvas.text(place.x, place.y + 12 * unit, "Angle in the box", 13 * unit);
-  const double outer = std::min(place.height - title - words, place.width / 2 - 30 * unit);
+  draw_title(canvas, place, unit, std::string(colouring.title) + ", and how many rods have it", place.width);
+  const double room = place.height - title - words - (is_half ? 0 : words);
+  const double outer = std::max(std::min(is_half ? room : room / 2, place.width / 2 - 30 * unit), 10 * unit);
   const double inner = 0.84 * outer, rose = 0.78 * outer;
-  const double x = place.x + place.width / 2, y = place.y + title + 8 * unit + outer;
+  const double x = place.x + place.width / 2, y = place.y + title + (is_half ? 8 * unit : words) + outer;
   cairo_t* cr = canvas.cairo();
 
-  constexpr int kShades = 180;
-  for (int i = 0; i < kShades; ++i) {
-    const double from = i * kPi / kShades;
+  const int shades = is_half ? 180 : 360;
+  for (int i = 0; i < shades; ++i) {
+    const double from = i * turn / shades;
     // Each piece reaches a little under the next, so no seam shows.
-    const double to = std::min((i + 1.5) * kPi / kShades, kPi);
-    canvas.colour(wheel_colour((i + 0.5) * kPi / kShades));
+    const double to = std::min((i + 1.5) * turn / shades, turn);
+    canvas.colour(colouring.colour((i + 0.5) / shades * range.y(), range));
     cairo_arc_negative(cr, x, y, outer, -from, -to);
     cairo_arc(cr, x, y, inner, -to, -from);
     cairo_close_path(cr);
     cairo_fill(cr);
   }
-  for (int i = 0; i < kBins; ++i) {
-    // The area of a sector, not its radius, shows the count.
-    const double radius = rose * std::sqrt(counts[static_cast<std::size_t>(i)]);
-    canvas.colour(wheel_colour((i + 0.5) * kPi / kBins));
+  const auto bins = static_cast<int>(histogram.share.size());
+  for (int i = 0; i < bins; ++i) {
+    // The area of a sector, not its radius, shows the share.
+    const double radius = rose * std::sqrt(histogram.share[static_cast<std::size_t>(i)] / most);
+    canvas.colour(colouring.colour((i + 0.5) / bins * range.y(), range));
     cairo_move_to(cr, x, y);
-    cairo_arc_negative(cr, x, y, radius, -i * kPi / kBins, -(i + 1) * kPi / kBins);
+    cairo_arc_negative(cr, x, y, radius, -i * turn / bins, -(i + 1) * turn / bins);
     cairo_close_path(cr);
     cairo_fill(cr);
   }
-  if (!angles.empty()) {
+  constexpr double kLeastOrder = 0.2;  // below that a few hundred rods have a mean axis by chance
+  if (is_half && !histogram.is_empty && picture.order >= kLeastOrder) {
     // The director, drawn over the upper half.
     const double angle = picture.director_angle < 0 ? picture.director_angle + kPi : picture.director_angle;
     canvas.colour(colours.ink);
@@ -153,21 +201,60 @@ void draw_wheel_legend(const Canvas& canvas, const Rect& place, double unit, con
                 13 * unit, Canvas::Align::kCentre, true);
   }
   canvas.colour(colours.faint);
-  canvas.line(x - outer, y, x + outer, y, unit);
+  if (is_half) canvas.line(x - outer, y, x + outer, y, unit);
   canvas.colour(colours.ink);
-  canvas.text(x + outer - 0.08 * outer, y + 15 * unit, "0\u00b0", 12 * unit, Canvas::Align::kCentre);
-  canvas.text(x - outer + 0.08 * outer, y + 15 * unit, "180\u00b0", 12 * unit, Canvas::Align::kCentre);
+  if (is_half) {
+    canvas.text(x + outer - 0.08 * outer, y + 15 * unit, "0\u00b0", 12 * unit, Canvas::Align::kCentre);
+    canvas.text(x - outer + 0.08 * outer, y + 15 * unit, "180\u00b0", 12 * unit, Canvas::Align::kCentre);
+    return;
+  }
+  canvas.text(x + outer + 5 * unit, y + 4 * unit, "0\u00b0", 12 * unit);
+  canvas.text(x, y - outer - 5 * unit, "90\u00b0", 12 * unit, Canvas::Align::kCentre);
+  canvas.text(x - outer - 5 * unit, y + 4 * unit, "180\u00b0", 12 * unit, Canvas::Align::kRight);
+  canvas.text(x, y + outer + 14 * unit, "270\u00b0", 12 * unit, Canvas::Align::kCentre);
+}
+
+/// The background as if it were a colouring: S where the rods are.
+const Colouring& background_scale(Theme theme) {
+  static const auto make = [](auto colour) {
+    Colouring scale = *find_colouring("order");
+    scale.title = "Local order S at the rods";
+    scale.colour = colour;
+    return scale;
+  };
+  static const Colouring light = make([](double s, const Vec2&) { return order_background(s, Theme::kLight); });
+  static const Colouring print = make([](double s, const Vec2&) { return order_background(s, Theme::kPrint); });
+  static const Colouring dark = make([](double s, const Vec2&) { return order_background(s, Theme::kDark); });
+  return theme == Theme::kDark ? dark : theme == Theme::kPrint ? print : light;
+}
+
+bool shows_background_alone(const PictureStyle& style) {
+  return style.rods <= 0 && style.background == Background::kOrder;
 }
 
 }  // namespace
 
+bool has_scale(const RodPicture& picture, const PictureStyle& style) {
+  return shows_background_alone(style) || colouring_of(picture, style).scale != Scale::kNames;
+}
+
 void draw_legend(const Canvas& canvas, const Rect& place, double unit, const RodPicture& picture,
                  const PictureStyle& style) {
   const Palette colours = palette(style.theme);
-  if (style.colouring == Colouring::kLayers) {
-    draw_layer_legend(canvas, place, unit, picture, colours);
-  } else {
-    draw_wheel_legend(canvas, place, unit, picture, colours);
+  if (shows_background_alone(style)) {
+    const Colouring& scale = background_scale(style.theme);
+    return draw_line_legend(canvas, place, unit, picture, scale, scale.range, colours);
+  }
+  const Colouring& colouring = colouring_of(picture, style);
+  const Vec2 range = range_of(colouring, style);
+  switch (colouring.scale) {
+    case Scale::kLine:
+      return draw_line_legend(canvas, place, unit, picture, colouring, range, colours);
+    case Scale::kHalfTurn:
+    case Scale::kFullTurn:
+      return draw_circle_legend(canvas, place, unit, picture, colouring, range, colours);
+    case Scale::kNames:
+      return;
   }
 }
 

@@ -3,12 +3,18 @@
 
 #include "render/canvas.h"
 #include "render/picture.h"
+#include "render/style.h"
 
 namespace shaken::render {
 
-/// What the colours mean, and how many rods have each: a histogram of the angle to the director above a colour bar
-/// (kLayers), or a rose of angles in the box inside a half wheel (kWheel; an undirected line turns back into itself
-/// after half a turn).
+/// Whether the colours of a picture are a scale, rather than names.
+bool has_scale(const RodPicture& picture, const PictureStyle& style);
+
+/// What the colours mean, and how many rods have each. A scale from low to high gets a histogram over an axis in the
+/// colouring's unit, the share of rods in percent upwards, and the colours below the axis; a circle gets a rose of
+/// angles within the colours, half a circle for axes, which have no head. Rods that the colouring has no value for are
+/// not counted. Of a picture without rods it is the
+/// background that is explained.
 void draw_legend(const Canvas& canvas, const Rect& place, double unit, const RodPicture& picture,
                  const PictureStyle& style);
 

@@ -4,26 +4,34 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 #include "base/failure.h"
+#include "base/files.h"
 #include "base/progress_line.h"
 #include "base/text.h"
 #include "proto/bus.h"
+#include "render/colourings.h"
+#include "render/headline.h"
 #include "render/make_movie.h"
 #include "render/painter.h"
 #include "render/png.h"
 #include "render/sources.h"
+#include "render/style_file.h"
+#include "render/style_keys.h"
 #include "run/files/version.h"
+#include "scene/units.h"
 
 namespace shaken::render {
 namespace {
@@ -34,56 +42,55 @@ struct Options {
   std::string out;
   bool json = false;
 
-  std::string colour = "layers";
-  std::string theme = "light";
-  std::string size;
-  double zoom = 1;
-  std::string focus = "0.5,0.5";
+  std::string style;                        ///< preset or file; empty: none
+  std::map<std::string, std::string> keys;  ///< of the style, as given
+  std::map<std::string, bool> switches;     ///< of the style, as given
   std::string label;
-  bool no_defects = false, no_caption = false, no_legend = false, no_scale_bar = false, bare = false;
+  bool bare = false;
 
   std::string frame = "last";
-  std::optional<double> time_s;
+  std::string time;
 
-  double fps = 30;
   std::optional<std::size_t> every;
-  std::optional<double> from_s, to_s;
+  std::string from, to;
   bool keep_frames = false;
+  int n_threads = 0;
+  std::string progress;
 
   std::string lcm_url = proto::default_url();
   double timeout_s = 15;
+  std::string preset;
 };
 
-/// Two numbers with `separator` between them.
-template <class T>
-std::pair<T, T> parse_pair(const std::string& text, char separator, const std::string& what) {
-  std::istringstream in(text);
-  T first, second;
-  char between = 0;
-  if (!(in >> first >> between >> second) || between != separator || in.peek() != EOF) {
-    throw Failure(ExitCode::kBadInput, fmt::format("{}, not '{}'", what, text));
+/// The style that the command line asks for, over that of the scene. Lists everything that is wrong with it.
+PictureStyle style_of(const Options& options, PictureStyle style = {}) {
+  if (!options.style.empty()) style = value_or_fail(named_style(options.style, style), ExitCode::kBadInput);
+  std::string wrong;
+  const auto note = [&](const StyleKey& key, const Result<void>& done) {
+    if (done) return;
+    std::string name = key.name;
+    std::replace(name.begin(), name.end(), '_', '-');
+    wrong += fmt::format("{}--{} {}", wrong.empty() ? "" : "\n", name, done.error().message);
+  };
+  for (const StyleKey& key : style_keys()) {
+    if (const auto given = options.keys.find(key.name); given != options.keys.end() && !given->second.empty()) {
+      note(key, set_from_text(style, key, given->second));
+    }
+    if (const auto given = options.switches.find(key.name); given != options.switches.end()) {
+      note(key, set(style, key, given->second));
+    }
   }
-  return {first, second};
-}
-
-PictureStyle style_of(const Options& options) {
-  PictureStyle style;
-  if (!options.size.empty()) {
-    const auto [width, height] = parse_pair<int>(options.size, 'x', "--size takes WIDTHxHEIGHT, like 1280x720");
-    style.width = width;
-    style.height = height;
-  }
-  const auto [x, y] = parse_pair<double>(options.focus, ',', "--focus takes X,Y in box sides, like 0.5,0.5");
-  style.focus = Vec2(x, y);
-  style.zoom = options.zoom;
-  style.colouring = options.colour == "wheel" ? Colouring::kWheel : Colouring::kLayers;
-  style.theme = options.theme == "dark" ? Theme::kDark : Theme::kLight;
-  style.mark_defects = !options.no_defects;
-  style.caption = !options.no_caption && !options.bare;
-  style.legend = !options.no_legend && !options.bare;
-  style.scale_bar = !options.no_scale_bar && !options.bare;
+  if (!wrong.empty()) throw Failure(ExitCode::kBadInput, wrong);
+  if (options.bare) style.caption = style.legend = style.scale_bar = false;
   done_or_fail(check(style), ExitCode::kBadInput);
   return style;
+}
+
+/// "10 s", "500ms", "12.5".
+double seconds_in(const std::string& text, const char* option) {
+  const Result<double> time = scene::parse_quantity(text, scene::Dimension::kTime);
+  if (!time) throw Failure(ExitCode::kBadInput, fmt::format("{}: {}", option, time.error().message));
+  return *time;
 }
 
 class Stopwatch {
@@ -97,6 +104,7 @@ class Stopwatch {
 
 void report(const Options& options, const std::string& path, std::size_t frames, const PictureStyle& style,
             const Stopwatch& watch) {
+  if (path == "-") return;  // stdout has the frames
   if (!options.json) {
     fmt::print("{}\n", path);
     return;
@@ -109,12 +117,29 @@ void report(const Options& options, const std::string& path, std::size_t frames,
   fmt::print("{}\n", said.dump());
 }
 
+/// The headline that the command line gives, above what the picture said of itself.
+void set_label(const Options& options, RodPicture& picture) {
+  if (options.label.empty()) return;
+  picture.subtitle = picture.label;
+  picture.label = headline(options.label);
+}
+
+void check_picture_name(const std::string& out) {
+  const std::string ending = std::filesystem::path(out).extension().string();
+  if (ending == ".png" || ending == ".svg" || ending == ".pdf") return;
+  throw Failure(ExitCode::kBadInput, fmt::format("a picture is written as .png, .svg or .pdf, not as '{}'", out));
+}
+
 void paint_to_file(const Options& options, const PictureStyle& style, RodPicture picture, const std::string& out,
                    const Stopwatch& watch) {
-  if (!options.label.empty()) picture.label = options.label;
-  Painter painter = value_or_fail(Painter::create(), ExitCode::kFailed);
-  const Image image = value_or_fail(painter.paint(picture, style), ExitCode::kFailed);
-  done_or_fail(write_png(out, image, picture_texts(picture)));
+  set_label(options, picture);
+  if (std::filesystem::path(out).extension() != ".png") {
+    done_or_fail(write_vector(out, picture, style));
+  } else {
+    Painter painter = value_or_fail(Painter::create(), ExitCode::kFailed);
+    const Image image = value_or_fail(painter.paint(picture, style), ExitCode::kFailed);
+    done_or_fail(write_png(out, image, picture_texts(picture)));
+  }
   report(options, out, 1, style, watch);
 }
 
@@ -123,13 +148,21 @@ std::string out_of(const Options& options, const TrajectorySource& source, const
   return options.out.empty() ? (source.file().parent_path() / name).string() : options.out;
 }
 
+void check_followed(const PictureStyle& style, const RodPicture& picture) {
+  if (style.followed && static_cast<std::size_t>(*style.followed) >= picture.n_rods()) {
+    throw Failure(ExitCode::kBadInput, fmt::format("there is no rod {}: they are numbered from 0 to {}",
+                                                   *style.followed, static_cast<std::ptrdiff_t>(picture.n_rods()) - 1));
+  }
+}
+
 void make_picture(const Options& options) {
   const Stopwatch watch;
   const PictureStyle style = style_of(options);
+  if (!options.out.empty()) check_picture_name(options.out);
   TrajectorySource source = value_or_fail(TrajectorySource::open(options.source), ExitCode::kBadInput);
   std::size_t index = source.n_frames() - 1;
-  if (options.time_s) {
-    index = value_or_fail(source.nearest_frame(*options.time_s), ExitCode::kFailed);
+  if (!options.time.empty()) {
+    index = value_or_fail(source.nearest_frame(seconds_in(options.time, "--time")), ExitCode::kFailed);
   } else if (options.frame != "last") {
     const bool digits = !options.frame.empty() && options.frame.size() < 10 &&
                         options.frame.find_first_not_of("0123456789") == std::string::npos;
@@ -140,93 +173,168 @@ void make_picture(const Options& options) {
     index = std::stoul(options.frame);
   }
   if (style.caption) done_or_fail(source.read_history());
-  paint_to_file(options, style, value_or_fail(source.picture(index, style.mark_defects), ExitCode::kFailed),
-                out_of(options, source, "picture.png"), watch);
+  RodPicture picture = value_or_fail(source.picture(index, style), ExitCode::kFailed);
+  check_followed(style, picture);
+  paint_to_file(options, style, std::move(picture), out_of(options, source, "picture.png"), watch);
 }
 
 void make_live_picture(const Options& options) {
   const Stopwatch watch;
   const PictureStyle style = style_of(options);
+  check_picture_name(options.out);
   const auto timeout = std::chrono::milliseconds(std::llround(options.timeout_s * 1000));
-  RodPicture picture =
-      value_or_fail(live_picture(options.lcm_url, options.source, timeout, style.mark_defects), ExitCode::kFailed);
+  RodPicture picture = value_or_fail(live_picture(options.lcm_url, options.source, timeout, style), ExitCode::kFailed);
+  check_followed(style, picture);
   paint_to_file(options, style, std::move(picture), options.out, watch);
 }
 
 volatile std::sig_atomic_t stop_requested = 0;
 
-/// How many recorded frames make up `every` seconds; at least 1.
-std::size_t stride_for(const TrajectorySource& source, double every) {
-  if (source.n_frames() < 2) return 1;
-  const double first = value_or_fail(source.time_of(0), ExitCode::kFailed),
-               second = value_or_fail(source.time_of(1), ExitCode::kFailed);
-  return second > first ? static_cast<std::size_t>(std::max(1.0, std::round(every / (second - first)))) : 1;
+/// Which recorded frames a film shows, and how fast it then plays.
+struct Cut {
+  std::vector<std::size_t> frames;
+  double playback = 0;  ///< simulated seconds per second of playing
+};
+
+Cut cut_of(const Options& options, const PictureStyle& style, const TrajectorySource& source) {
+  const auto frame_at = [&](const std::string& text, const char* option, std::size_t otherwise) {
+    if (text.empty()) return otherwise;
+    return value_or_fail(source.nearest_frame(seconds_in(text, option)), ExitCode::kFailed);
+  };
+  const auto time_of = [&](std::size_t index) { return value_or_fail(source.time_of(index), ExitCode::kFailed); };
+  const std::size_t first = frame_at(options.from, "--from", 0),
+                    last = frame_at(options.to, "--to", source.n_frames() - 1);
+  if (last < first) throw Failure(ExitCode::kBadInput, "--from is later than --to");
+  const double begin = time_of(first), end = time_of(last);
+  Cut cut;
+  if (style.speed) {
+    if (options.every) throw Failure(ExitCode::kBadInput, "--every and --speed exclude each other");
+    constexpr double kMostFrames = 1e6;
+    const double frames = (end - begin) / *style.speed * style.fps + 1;
+    if (frames > kMostFrames) {
+      throw Failure(ExitCode::kBadInput, fmt::format("at speed {:g} the film would have {:.3g} frames; at most a "
+                                                     "million: use --from and --to",
+                                                     *style.speed, frames));
+    }
+    const auto n_frames = static_cast<std::size_t>(frames + 1e-6);
+    for (std::size_t k = 0; k < n_frames; ++k) {
+      const double time = begin + static_cast<double>(k) * *style.speed / style.fps;
+      cut.frames.push_back(value_or_fail(source.nearest_frame(time), ExitCode::kFailed));
+    }
+    cut.playback = *style.speed;
+    return cut;
+  }
+  // What the command line leaves open, the scene may say.
+  const std::optional<MovieRequest> request = source.movie_request();
+  std::size_t stride = options.every.value_or(1);
+  if (!options.every && request && source.n_frames() > 1) {
+    const double step = time_of(1) - time_of(0);
+    if (step > 0) stride = static_cast<std::size_t>(std::max(1.0, std::round(request->every / step)));
+  }
+  for (std::size_t index = first; index <= last; index += stride) cut.frames.push_back(index);
+  if (cut.frames.size() > 1) cut.playback = (time_of(cut.frames[1]) - begin) * style.fps;
+  return cut;
 }
 
 void make_movie_file(const Options& options) {
   const Stopwatch watch;
   TrajectorySource source = value_or_fail(TrajectorySource::open(options.source), ExitCode::kBadInput);
-  PictureStyle style = style_of(options);
-  // What the command line leaves open, the scene may say.
-  const std::optional<MovieRequest> request = source.movie_request();
-  if (request && options.size.empty()) {
+  PictureStyle style;
+  if (const std::optional<MovieRequest> request = source.movie_request()) {
     style.width = request->width;
     style.height = request->height;
   }
-  if (style.width % 2 != 0 || style.height % 2 != 0) {
-    throw Failure(ExitCode::kBadInput, "a movie needs an even width and height, not " + options.size);
-  }
-  const std::size_t first =
-      options.from_s ? value_or_fail(source.nearest_frame(*options.from_s), ExitCode::kFailed) : 0;
-  const std::size_t last =
-      options.to_s ? value_or_fail(source.nearest_frame(*options.to_s), ExitCode::kFailed) : source.n_frames() - 1;
-  if (last < first) throw Failure(ExitCode::kBadInput, "--from is later than --to");
-  const std::size_t stride = options.every ? *options.every : request ? stride_for(source, request->every) : 1;
-  const std::size_t n_frames = (last - first) / stride + 1;
-
+  style = style_of(options, style);
   const std::string out = out_of(options, source, "movie.mp4");
-  MovieOptions movie{options.fps, options.label, std::nullopt};
+  done_or_fail(check_movie_name(out), ExitCode::kBadInput);
+  if (std::filesystem::path(out).extension() == ".mp4" && (style.width % 2 != 0 || style.height % 2 != 0)) {
+    throw Failure(ExitCode::kBadInput,
+                  fmt::format("a movie needs an even width and height, not {}x{}", style.width, style.height));
+  }
+  const Cut cut = cut_of(options, style, source);
+  done_or_fail(source.read_history());
+  // One colouring for the whole film.
+  if (style.colour == "auto") {
+    const RodPicture last = value_or_fail(source.picture(cut.frames.back(), style), ExitCode::kFailed);
+    const auto time_of = [&](std::size_t index) { return value_or_fail(source.time_of(index), ExitCode::kFailed); };
+    std::vector<double> orders = source.orders(time_of(cut.frames.front()), time_of(cut.frames.back()));
+    if (orders.empty()) orders = {last.order};
+    style.colour = chosen_colour(last, orders, style.mark_defects);
+  }
+
+  MovieOptions movie{options.label.empty() ? source.label() : headline(options.label), source.notes(), std::nullopt,
+                     options.n_threads};
+  if (movie.n_threads < 1) movie.n_threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  // Threads that draw leave nothing to do for those of the rasteriser.
+  if (movie.n_threads > 1) setenv("LP_NUM_THREADS", "0", 1);
   if (options.keep_frames) movie.keep_frames = std::filesystem::path(out).parent_path() / "frames";
-  if (style.caption) done_or_fail(source.read_history());
   const auto picture = [&](std::size_t i) -> Result<RodPicture> {
-    Result<RodPicture> rods = source.picture(first + i * stride, style.mark_defects);
-    if (rods && !options.label.empty()) rods->label = options.label;
+    Result<RodPicture> rods = source.picture(cut.frames[i], style);
+    if (!rods) return rods;
+    check_followed(style, *rods);
+    if (!style.caption) rods->history = {};
+    rods->playback = cut.playback;
+    set_label(options, *rods);
     return rods;
   };
-  Painter painter = value_or_fail(Painter::create(), ExitCode::kFailed);
   std::signal(SIGINT, [](int) { stop_requested = 1; });
   std::signal(SIGTERM, [](int) { stop_requested = 1; });
   {
     ProgressLine progress("drawing");
-    const Result<void> made = make_movie(painter, out, style, movie, n_frames, picture, [&](std::size_t i) {
-      progress.show(static_cast<double>(i + 1) / static_cast<double>(n_frames));
+    double told = -1;  // when progress was last written to a file [s]
+    const Result<void> made = make_movie(out, style, movie, cut.frames.size(), picture, [&](std::size_t i) {
+      progress.show(static_cast<double>(i + 1) / static_cast<double>(cut.frames.size()));
+      constexpr double kPeriod = 0.3;
+      const bool is_last = i + 1 == cut.frames.size();
+      if (!options.progress.empty() && (is_last || watch.seconds() > told + kPeriod)) {
+        told = watch.seconds();
+        const nlohmann::ordered_json so_far = {
+            {"frames_drawn", i + 1}, {"frames", cut.frames.size()}, {"seconds", told}};
+        done_or_fail(write_file_atomically(options.progress, so_far.dump() + "\n"));
+      }
       return stop_requested == 0;
     });
     done_or_fail(made, stop_requested != 0 ? ExitCode::kInterrupted : ExitCode::kFailed);
   }
-  report(options, out, n_frames, style, watch);
+  report(options, out, cut.frames.size(), style, watch);
+}
+
+/// Prints a preset as a style file, or a list of them.
+void print_styles(const Options& options) {
+  for (const Preset& preset : presets()) {
+    if (options.preset.empty()) fmt::print("{:<10} {}\n", preset.name, preset.doc);
+    if (options.preset == preset.name) {
+      fmt::print("// {}: {}\n{}", preset.name, preset.doc, preset.text);
+      return;
+    }
+  }
+  if (!options.preset.empty()) {
+    throw Failure(ExitCode::kBadInput,
+                  fmt::format("there is no style '{}' (see `shaken-render style`)", options.preset));
+  }
 }
 
 void declare_style(CLI::App& app, Options& options) {
-  app.add_option("-c,--colour", options.colour,
-                 "layers: red and magenta by the angle to the director; wheel: by the angle in the box")
-      ->check(CLI::IsMember({"layers", "wheel"}))
-      ->capture_default_str();
-  app.add_option("--theme", options.theme, "Colours of page and text")
-      ->check(CLI::IsMember({"light", "dark"}))
-      ->capture_default_str();
-  app.add_option("--size", options.size,
-                 "Pixels [a movie: the scene's; 1280x720]; wide, square and tall pictures are laid out differently")
-      ->type_name("WxH");
-  app.add_option("--zoom", options.zoom, "Shows a part of the box, this many times enlarged")
-      ->check(CLI::Range(1.0, 1000.0))
-      ->type_name("FACTOR");
-  app.add_option("--focus", options.focus, "Middle of the zoomed part, in box sides")->type_name("X,Y");
-  app.add_option("--label", options.label, "Headline")->type_name("TEXT");
-  app.add_flag("--no-defects", options.no_defects, "Neither looks for defects nor marks them");
-  app.add_flag("--no-caption", options.no_caption, "No numbers");
-  app.add_flag("--no-legend", options.no_legend, "No colour scale");
-  app.add_flag("--no-scale-bar", options.no_scale_bar, "No scale bar");
+  app.add_option("--style", options.style,
+                 "A preset (`shaken-render style` lists them) or a style file; the options "
+                 "below change it")
+      ->type_name("NAME|FILE");
+  for (const StyleKey& key : style_keys()) {
+    std::string name = key.name;
+    std::replace(name.begin(), name.end(), '_', '-');
+    const PictureStyle usual;
+    if (key.form == StyleForm::kSwitch) {
+      app.add_flag(
+          fmt::format("--{0},!--no-{0}", name),
+          [&options, &key](std::int64_t on) { options.switches[key.name] = on > 0; }, key.doc);
+      continue;
+    }
+    std::string doc = key.doc;
+    if (!key.words.empty()) doc += ": " + allowed(key);
+    app.add_option((name == "colour" ? "-c,--" : "--") + name, options.keys[key.name], doc)->type_name(key.value_name);
+  }
+  app.add_option("--label", options.label, "Headline; settings like rods.length=2.5 are written as physicists do")
+      ->type_name("TEXT");
   app.add_flag("--bare", options.bare, "Only the box, filling the picture");
   app.add_flag("--json", options.json, "Prints path, frames, size and seconds as JSON");
 }
@@ -239,42 +347,55 @@ int run(int argc, char** argv) {
   CLI::App app{"Pictures and movies of shaken rods, without a display.", "shaken-render"};
   app.set_version_flag("--version", std::string("shaken-render ") + run::version());
   app.require_subcommand(1);
+  std::string colours;
+  for (const Colouring& colouring : colourings()) colours += fmt::format("  {:<9} {}\n", colouring.name, colouring.doc);
   app.footer(
+      "Colours (-c):\n"
+      "  auto      layers where there is order and no defect is marked, else angle\n" +
+      colours +
       "Examples:\n"
       "  shaken-render picture runs/first                           last frame -> runs/first/picture.png\n"
-      "  shaken-render picture runs/first -o fig3.png --time 12.5 --colour wheel --size 1600x900\n"
-      "  shaken-render picture runs/first -o box.png --bare --size 2000x2000\n"
+      "  shaken-render picture runs/first -o fig3.png --time 12.5s --colour tilt --size 1600x900\n"
+      "  shaken-render picture runs/first -o fig4.pdf --style director --theme print\n"
       "  shaken-render movie runs/first                             -> runs/first/movie.mp4\n"
-      "  shaken-render movie runs/first -o m.mp4 --from 10 --to 20 --every 2 --frames\n"
+      "  shaken-render movie runs/first -o m.gif --from 10s --to 20s --speed 0.5 --size 640x360\n"
+      "  shaken-render movie runs/first -o - --bare --size 720x720 | ffmpeg -f rawvideo -pix_fmt rgb24 -s 720x720 ...\n"
+      "  shaken-render style defects > mine.json                    a style file to begin with\n"
       "  shaken-render live 1f0c -o now.png                         a running job, from LCM\n"
       "Exit codes: 0 done, 1 failed, 2 bad input, 130 interrupted by Ctrl-C.");
 
-  CLI::App* picture = app.add_subcommand("picture", "One frame of a recorded run as a PNG");
+  CLI::App* picture = app.add_subcommand("picture", "One frame of a recorded run as a PNG, SVG or PDF");
   picture->add_option("run", options.source, "Run directory or trajectory.h5")->required();
-  picture->add_option("-o,--out", options.out, "File [picture.png beside the trajectory]")->type_name("FILE");
+  picture->add_option("-o,--out", options.out, "File: .png, .svg or .pdf [picture.png beside the trajectory]")
+      ->type_name("FILE");
   CLI::Option* frame = picture->add_option("--frame", options.frame, "Frame, counted from 0")->type_name("N|last");
-  picture->add_option("--time", options.time_s, "The frame nearest to this simulated time")
-      ->type_name("S")
+  picture->add_option("--time", options.time, "The frame nearest to this simulated time: 12.5, 500ms")
+      ->type_name("TIME")
       ->excludes(frame);
   declare_style(*picture, options);
 
-  CLI::App* movie = app.add_subcommand("movie", "A recorded run as an mp4 (H.264)");
+  CLI::App* movie = app.add_subcommand("movie", "A recorded run as a film");
   movie->add_option("run", options.source, "Run directory or trajectory.h5")->required();
-  movie->add_option("-o,--out", options.out, "File [movie.mp4 beside the trajectory]")->type_name("FILE");
-  movie->add_option("--fps", options.fps, "Frames per second of playing")
-      ->check(CLI::Range(0.1, 1000.0))
-      ->capture_default_str();
+  movie
+      ->add_option("-o,--out", options.out,
+                   "File: .mp4, .webm or .gif [movie.mp4 beside the trajectory]; FOLDER/ for numbered frames; - for "
+                   "raw frames (rgb24) on stdout")
+      ->type_name("FILE");
   movie->add_option("--every", options.every, "Takes every N-th frame [as the scene's movie.every says]")
       ->check(CLI::Range(1, 1000000000))
       ->type_name("N");
-  movie->add_option("--from", options.from_s, "Begins at this simulated time")->type_name("S");
-  movie->add_option("--to", options.to_s, "Ends at this simulated time")->type_name("S");
+  movie->add_option("--from", options.from, "Begins at this simulated time: 10, 10s, 500ms")->type_name("TIME");
+  movie->add_option("--to", options.to, "Ends at this simulated time")->type_name("TIME");
   movie->add_flag("--frames", options.keep_frames, "Keeps the frames too, in frames/frame_000000.png beside the movie");
+  movie->add_option("--threads", options.n_threads, "Threads that draw [one per core]")
+      ->check(CLI::Range(1, 256))
+      ->type_name("N");
+  movie->add_option("--progress", options.progress, "Keeps in this file, as JSON, how far it is")->type_name("FILE");
   declare_style(*movie, options);
 
-  CLI::App* live = app.add_subcommand("live", "The present state of a running job as a PNG, from LCM");
+  CLI::App* live = app.add_subcommand("live", "The present state of a running job as a picture, from LCM");
   live->add_option("job", options.source, "The job's id, or the beginning of it")->required();
-  live->add_option("-o,--out", options.out, "File")->required()->type_name("FILE");
+  live->add_option("-o,--out", options.out, "File: .png, .svg or .pdf")->required()->type_name("FILE");
   live->add_option("--lcm-url", options.lcm_url, "The bus")->capture_default_str()->type_name("URL");
   live->add_option("--timeout", options.timeout_s, "How long to wait for a frame")
       ->check(CLI::Range(0.1, 86400.0))
@@ -282,11 +403,15 @@ int run(int argc, char** argv) {
       ->type_name("S");
   declare_style(*live, options);
 
+  CLI::App* style = app.add_subcommand("style", "Lists the presets, or prints one as a style file");
+  style->add_option("name", options.preset, "Preset");
+
   try {
     app.parse(argc, argv);
     if (picture->parsed()) make_picture(options);
     if (movie->parsed()) make_movie_file(options);
     if (live->parsed()) make_live_picture(options);
+    if (style->parsed()) print_styles(options);
     return static_cast<int>(ExitCode::kOk);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);

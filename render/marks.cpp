@@ -35,16 +35,17 @@ void fill_with_rim(const Canvas& canvas, const Colour& inner, const Colour& oute
 
 void draw_plus_half(const Canvas& canvas, double x, double y, double direction, double unit) {
   in_mark_frame(canvas, x, y, direction, unit, [&](cairo_t* cr) {
-    constexpr double kDisc = 7.5, kShaft = 1.7, kNeck = 19, kHead = 6, kTip = 30;
-    const double join = std::asin(kShaft / kDisc);  // where the shaft leaves the disc
-    cairo_arc(cr, 0, 0, kDisc, join, 2 * kPi - join);
-    cairo_line_to(cr, kNeck, -kShaft);
-    cairo_line_to(cr, kNeck, -kHead);
+    // The tail's sides are tangents of the head.
+    constexpr double kHead = 7.5, kTip = 34;
+    const double touch = std::acos(kHead / kTip);
+    cairo_arc(cr, 0, 0, kHead, touch, 2 * kPi - touch);
     cairo_line_to(cr, kTip, 0);
-    cairo_line_to(cr, kNeck, kHead);
-    cairo_line_to(cr, kNeck, kShaft);
     cairo_close_path(cr);
     fill_with_rim(canvas, kBlack, kWhite, 1.8);
+    canvas.colour(kWhite);
+    canvas.line(12, 0, 20, 0, 1.4);
+    cairo_arc(cr, 0, 0, 2.2, 0, 2 * kPi);
+    cairo_fill(cr);
   });
 }
 

@@ -6,18 +6,28 @@
 #include <string>
 
 #include "render/image.h"
+#include "render/picture.h"
 #include "sim/core/result.h"
 
 namespace shaken::render {
 
-/// Encodes pictures as an mp4 that plays everywhere: H.264 (x264 veryfast, crf 20), yuv420p in BT.709, a key frame
-/// every 60 frames, index at the front. One encoder thread, so equal pictures give an equal file.
-/// The movie is written beside its final name and appears there only when it is complete.
+/// The endings of files that films can be written to: ".mp4, .webm or .gif".
+std::string movie_endings();
+/// Whether `file` has one of them.
+bool is_movie_name(const std::filesystem::path& file);
+
+/// Encodes pictures as a film, in the format that the file's ending names:
+///   .mp4   plays everywhere: H.264 (x264 veryfast, crf 20), yuv420p in BT.709, index at the front
+///   .webm  for browsers: VP9 (crf 30)
+///   .gif   for slides and web pages: 256 colours chosen anew for each frame; at most 50 frames per second
+/// A key frame every 60 frames. One encoder thread, so equal pictures give an equal file. The film is written beside
+/// its final name and appears there only when it is complete.
 class MovieWriter {
  public:
-  /// Even width and height [pixels], fps in frames per second of playing.
+  /// Width and height [pixels], even but for a GIF; fps in frames per second of playing. Title and notes go into the
+  /// metadata, the notes as its comment; a GIF has none.
   static Result<MovieWriter> create(const std::filesystem::path& file, int width, int height, double fps,
-                                    const std::string& title = "");
+                                    const std::string& title = "", const Notes& notes = {});
   MovieWriter(MovieWriter&&) noexcept;
   MovieWriter& operator=(MovieWriter&&) noexcept;
   /// Removes the unfinished file if finish() was not called or failed.

@@ -7,42 +7,25 @@
 #include <cmath>
 #include <string>
 
+#include "render/colourings.h"
+#include "render/gap_pass.h"
 #include "render/legend.h"
 #include "render/marks.h"
-#include "render/rods_pass.h"
+#include "render/plane_layers.h"
+#include "render/view.h"
 
 namespace shaken::render {
 namespace {
 
-void draw_defects(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style) {
-  cairo_t* cr = canvas.cairo();
-  cairo_save(cr);
-  cairo_rectangle(cr, layout.box_x, layout.box_y, layout.box_side, layout.box_side);
-  cairo_clip(cr);
-  const View view = view_of(picture, style);
-  const double scale = layout.box_side / view.side;
-  const double unit = layout.unit * std::min(std::sqrt(std::max(style.zoom, 1.0)), 2.0);
-  const double reach = 34 * unit;
-  for (const analysis::Defect& defect : picture.defects) {
-    // With every periodic image of which a part may show.
-    const Vec2 low = view.corner - defect.position;
-    const auto first = [&](double at) { return std::ceil((at - reach / scale) / picture.box_side); };
-    const auto last = [&](double at) { return std::floor((at + view.side + reach / scale) / picture.box_side); };
-    for (double ky = first(low.y()); ky <= last(low.y()); ++ky) {
-      for (double kx = first(low.x()); kx <= last(low.x()); ++kx) {
-        const double x = layout.box_x + (kx * picture.box_side - low.x()) * scale;
-        const double y = layout.box_y + layout.box_side - (ky * picture.box_side - low.y()) * scale;
-        (defect.charge > 0 ? draw_plus_half : draw_minus_half)(canvas, x, y, defect.direction, unit);
-      }
-    }
-  }
-  cairo_restore(cr);
-}
-
-void draw_frame(const Canvas& canvas, const Layout& layout, const Palette& colours) {
+void draw_frame(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style,
+                const Palette& colours) {
   cairo_t* cr = canvas.cairo();
   const double line = std::max(1.0, std::round(1.2 * layout.unit));
-  cairo_rectangle(cr, layout.box_x - line / 2, layout.box_y - line / 2, layout.box_side + line, layout.box_side + line);
+  const View box = box_in(picture, style);
+  const double scale = layout.box_side / view_of(picture, style).side, side = box.side * scale;
+  const double x = layout.box_x + box.corner.x() * scale,
+               y = layout.box_y + layout.box_side - box.corner.y() * scale - side;
+  cairo_rectangle(cr, x - line / 2, y - line / 2, side + line, side + line);
   canvas.colour(colours.ink);
   cairo_set_line_width(cr, line);
   cairo_stroke(cr);
@@ -61,6 +44,9 @@ void draw_label(const Canvas& canvas, const Layout& layout, const RodPicture& pi
   }
   canvas.colour(colours.ink);
   canvas.text(layout.label.x, layout.label.y + 15 * u, label, size, Canvas::Align::kLeft, true);
+  if (picture.subtitle.empty() || layout.label.height < 38 * u) return;
+  canvas.colour(colours.faint);
+  canvas.text(layout.label.x, layout.label.y + 34 * u, picture.subtitle, 13 * u);
 }
 
 /// Six numbers in two rows, each under its name.
@@ -71,7 +57,9 @@ void draw_numbers(const Canvas& canvas, const Layout& layout, const RodPicture& 
     const char* name;
     std::string value;
   };
-  const Number numbers[] = {{"time", fmt::format("{:.2f} s", picture.time)},
+  // In slow motion the last digit should be seen to move.
+  const int digits = picture.playback > 0 && picture.playback < 0.05 ? 4 : 2;
+  const Number numbers[] = {{"time", fmt::format("{:.{}f} s", picture.time, digits)},
                             {"order S", fmt::format("{:.3f}", picture.order)},
                             {"rods", fmt::format("{}", picture.n_rods())},
                             {"rod length", fmt::format("{:.4g} mm", picture.rod_length())},
@@ -142,8 +130,10 @@ void draw_key(const Canvas& canvas, const Layout& layout, const RodPicture& pict
 
 /// A rod of each species, seen from above in one scale, and how many there are. The first species has no colour of its
 /// own.
-void draw_species(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const Palette& colours) {
+void draw_species(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style,
+                  const Palette& colours) {
   const double u = layout.unit;
+  const bool by_name = std::string_view(colouring_of(picture, style).name) == "species";
   const double column = layout.species.width / static_cast<double>(picture.n_species());
   double words = 0;                // room for a number [pixels]
   double longest = 0, widest = 0;  // [mm]
@@ -164,7 +154,10 @@ void draw_species(const Canvas& canvas, const Layout& layout, const RodPicture& 
     const double x = layout.species.x + static_cast<double>(species) * column;
     const double centre = x + scale * (beads.radius.front() - beads.offset.front());
     for (const bool rim : {true, false}) {  // the rim keeps pale rods visible on a white page
-      canvas.colour(rim ? colours.faint : species == 0 ? layer_colour(0) : species_colour(species));
+      canvas.colour(rim            ? colours.faint
+                    : by_name      ? name_colour(species)
+                    : species == 0 ? layer_colour(0)
+                                   : species_colour(species));
       for (std::size_t i = 0; i < beads.offset.size(); ++i) {
         cairo_new_sub_path(cr);
         cairo_arc(cr, centre + scale * beads.offset[i], y, scale * beads.radius[i] + (rim ? 0.5 : -0.5) * u, 0,
@@ -180,12 +173,28 @@ void draw_species(const Canvas& canvas, const Layout& layout, const RodPicture& 
 void draw_scale_bar(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style,
                     const Palette& colours) {
   const double u = layout.unit;
-  const double scale = layout.box_side / view_of(picture, style).side;
-  const double length = round_length(layout.scale_bar.width * 0.6 / scale);
+  const bool is_gap = style.view == ViewPoint::kGap;
+  const GapCamera camera = gap_camera(picture, style, 1);
+  const double scale = is_gap ? layout.stage_height / (2 * camera.tangent.y() * camera.front)
+                              : layout.box_side / view_of(picture, style).side;  // pixels per mm
+  const double length = round_length(layout.scale_bar.width * (is_gap ? 0.5 : 0.6) / scale);
   const double bottom = layout.scale_bar.bottom();
   canvas.colour(colours.ink);
   canvas.fill({layout.scale_bar.x, bottom - 5 * u, length * scale, 5 * u});
-  canvas.text(layout.scale_bar.x, bottom - 11 * u, fmt::format("{:g} mm", length), 14 * u);
+  canvas.text(layout.scale_bar.x, bottom - 11 * u, fmt::format("{:g} mm{}", length, is_gap ? " at the opening" : ""),
+              14 * u);
+  const std::string speed = playback_text(picture.playback);
+  if (speed.empty()) return;
+  // The sign of playing before the words.
+  const double right = layout.scale_bar.right(), size = 14 * u;
+  const double left = right - canvas.text_width(speed, size) - 16 * u;
+  cairo_t* cr = canvas.cairo();
+  cairo_move_to(cr, left, bottom - 10 * u);
+  cairo_line_to(cr, left + 9 * u, bottom - 5 * u);
+  cairo_line_to(cr, left, bottom);
+  cairo_close_path(cr);
+  cairo_fill(cr);
+  canvas.text(right, bottom, speed, size, Canvas::Align::kRight);
 }
 
 }  // namespace
@@ -198,15 +207,30 @@ double round_length(double length) {
   return power;
 }
 
+std::string playback_text(double playback) {
+  if (!(playback > 0)) return "";
+  const double slow = 1 / playback;
+  if (std::abs(playback - 1) < 0.005) return "real time";
+  // 1/10 where that is what it is, else 0.15.
+  if (playback < 1 && std::abs(slow - std::round(slow)) < 0.02 * slow && slow < 1000.5) {
+    return fmt::format("1/{:.0f} speed", slow);
+  }
+  return fmt::format("{:.2g}\u00d7 speed", playback);
+}
+
 void draw_overlay(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style) {
   const Palette colours = palette(style.theme);
-  if (style.mark_defects) draw_defects(canvas, layout, picture, style);
-  draw_frame(canvas, layout, colours);
+  if (style.view == ViewPoint::kTop) {
+    draw_lines(canvas, layout, picture, style);
+    draw_tracks(canvas, layout, picture, style);
+    if (style.mark_defects) draw_defects(canvas, layout, picture, style);
+    draw_frame(canvas, layout, picture, style, colours);
+  }
   if (layout.label.width > 0) draw_label(canvas, layout, picture, colours);
   if (layout.numbers.width > 0) draw_numbers(canvas, layout, picture, colours);
   if (layout.history.width > 0) draw_history(canvas, layout, picture, colours);
   if (layout.legend.width > 0) draw_legend(canvas, layout.legend, layout.unit, picture, style);
-  if (layout.species.width > 0) draw_species(canvas, layout, picture, colours);
+  if (layout.species.width > 0) draw_species(canvas, layout, picture, style, colours);
   if (layout.key.width > 0) draw_key(canvas, layout, picture, colours);
   if (layout.scale_bar.width > 0) draw_scale_bar(canvas, layout, picture, style, colours);
 }

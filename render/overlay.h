@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
+
 #include "render/canvas.h"
 #include "render/layout.h"
 #include "render/picture.h"
+#include "render/style.h"
 
 namespace shaken::render {
 
-/// Draws everything except the rods: frame, defects, caption, S(t), legend and scale bar.
+/// Draws everything except ground and rods: director field, frame, defects, caption, S(t), legend and scale bar.
 void draw_overlay(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style);
+
+/// How fast a film plays, "1/10 speed", "6× speed", from simulated seconds per second; nothing if it is not known.
+std::string playback_text(double playback);
 
 /// The longest of 1, 2, 5 times a power of ten that is at most `length`.
 double round_length(double length);

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <utility>
 
+#include "render/gap_pass.h"
 #include "render/image.h"
 #include "render/picture.h"
 #include "render/rods_pass.h"
+#include "render/style.h"
 #include "sim/core/result.h"
 
 namespace shaken::render {
@@ -20,6 +24,11 @@ class Painter {
  private:
   explicit Painter(RodsPass rods) : rods_(std::move(rods)) {}
   RodsPass rods_;
+  std::optional<GapPass> gap_;  ///< made when it is first needed
 };
+
+/// The same picture of lines and areas, as ".svg" or ".pdf": rods are their outlines without light and shadow. The file
+/// appears, or replaces an older one, only when it is complete.
+Result<void> write_vector(const std::filesystem::path& file, const RodPicture& picture, const PictureStyle& style);
 
 }  // namespace shaken::render

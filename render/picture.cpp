@@ -66,22 +66,14 @@ double RodPicture::rod_length() const {
   return ends.head - ends.tail;
 }
 
+double RodPicture::rod_area(std::size_t species) const { return outline_area(beads_of(species)); }
+
 double RodPicture::area_fraction() const {
   double covered = 0;
   for (std::size_t species = 0; species < n_species(); ++species) {
-    covered += static_cast<double>(count(species)) * outline_area(beads_of(species));
+    covered += static_cast<double>(count(species)) * rod_area(species);
   }
   return covered / floor_area(*this);
-}
-
-Result<void> check(const PictureStyle& style) {
-  constexpr int kLeast = 64, kMost = 5000;
-  if (std::min(style.width, style.height) < kLeast || std::max(style.width, style.height) > kMost) {
-    return Error{"a picture of " + std::to_string(style.width) + "x" + std::to_string(style.height) +
-                 " pixels is not possible; each side may be 64 to 5000"};
-  }
-  if (!(style.zoom >= 1) || !style.focus.allFinite()) return Error{"zoom must be at least 1, and focus finite"};
-  return {};
 }
 
 }  // namespace shaken::render

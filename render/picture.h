@@ -3,11 +3,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "analysis/defects.h"
+#include "analysis/director_field.h"
 #include "sim/core/bead_row.h"
 #include "sim/core/result.h"
 #include "sim/core/types.h"
@@ -23,27 +26,47 @@ struct OrderHistory {
   double end = 0;             ///< right end of the time axis [s]
 };
 
+/// A defect that was there `age` seconds before.
+struct PastDefect {
+  Vec2 position = Vec2::Zero();  ///< [mm]
+  double charge = 0;
+  double age = 0;  ///< in [0, 1], 1 being the whole length of the track
+};
+
+/// Key and value of what a file says of itself: "Run id", "Seed".
+using Notes = std::vector<std::pair<std::string, std::string>>;
+
 /// One instant of a run, as plain values: all that is needed to draw it.
 struct RodPicture {
   double time = 0;      ///< [s]
   double box_side = 0;  ///< of the square box, periodic in x and y [mm]
   double gap = 0;       ///< between the plates [mm]
+  double base = 0;      ///< height of the base [mm]; rods' heights are counted as it is, from its lowest point
+  bool has_lid = true;
 
   BeadRow beads;                             ///< of a rod of the first species
   std::vector<BeadRow> added;                ///< of rods of the other species
   std::vector<std::uint8_t> species_of_rod;  ///< (n_rods) species of each rod, from 0; empty if there is one
   std::vector<Vec3> position;                ///< (n_rods) centres [mm]
   std::vector<Vec3> director;                ///< (n_rods) unit vectors, to the head
+  std::vector<Vec3> velocity;                ///< (n_rods) [mm/s]; empty where it is not known
   std::optional<SideWalls> walls;            ///< of the arena in the middle of the box, if there are any
 
   // Of the rods of the first species.
   double order = 0;           ///< S, nematic order in the plane
   double director_angle = 0;  ///< of the mean director N, against the x axis [rad]
   std::vector<analysis::Defect> defects;
+  std::vector<PastDefect> tracks;                        ///< where defects were shortly before, the oldest first
+  std::shared_ptr<const analysis::DirectorField> field;  ///< null unless it was asked for
   /// Of the director field in which defects are looked for [mm]; 0: the defaults of a run.
   double smoothing = 0, grid = 0;
+  std::vector<double> density;  ///< (n_rods) area fraction around each rod, of all species; empty unless asked for
+
   OrderHistory history;
-  std::string label;  ///< what makes this run different, "rods.length=2.5 rods.area_fraction=0.6"
+  std::string label;     ///< headline: what makes this run different
+  std::string subtitle;  ///< below it: what it has in common with others
+  double playback = 0;   ///< of a film: simulated seconds per second of playing; 0: not known, or not a film
+  Notes notes;           ///< where it comes from, for the metadata of files
 
   std::size_t n_rods() const { return position.size(); }
   std::size_t n_species() const { return 1 + added.size(); }
@@ -55,35 +78,22 @@ struct RodPicture {
   std::vector<Vec3> first_directors() const;
   /// Tip to tip, of the first species [mm].
   double rod_length() const;
+  /// Covered by the projection of a rod of `species`, lying flat [mm^2].
+  double rod_area(std::size_t species) const;
   /// Share of the arena, or of the box, covered by the projections of all rods, lying flat and side by side.
   double area_fraction() const;
 };
 
-/// Fills order, director_angle and, if asked, defects from the rods of the first species; defects are looked for within
-/// the side walls, and where there are rods (analysis/director_field.h), as a run does that measures them.
-void measure(RodPicture& picture, bool with_defects);
-
-enum class Colouring {
-  kLayers,  ///< by the angle to the director: red to its left, magenta to its right, neutral along it
-  kWheel,   ///< by the angle in the box, on a colour circle of period pi
-};
-enum class Theme { kLight, kDark };
-
-/// How to draw it.
-struct PictureStyle {
-  int width = 1280;  ///< [pixels]
-  int height = 720;  ///< [pixels]
-  Colouring colouring = Colouring::kLayers;
-  Theme theme = Theme::kLight;
-  bool mark_defects = true;
-  bool scale_bar = true;
-  bool legend = true;
-  bool caption = true;
-  double zoom = 1.0;     ///< >= 1: shows a square of box_side / zoom
-  Vec2 focus{0.5, 0.5};  ///< middle of the view, in box sides; the view wraps round the box
+/// What is worked out of the rods for a picture; what is not asked for costs nothing.
+struct Asked {
+  bool defects = false;
+  bool field = false;    ///< the director field
+  bool density = false;  ///< the area fraction around each rod
 };
 
-/// What is wrong with a style, if anything.
-Result<void> check(const PictureStyle& style);
+/// Fills order, director_angle and what is asked for, from the rods of the first species; defects are looked for within
+/// the side walls, and where there are rods (analysis/director_field.h), as a run does that measures them. The density
+/// is that of all rods.
+void measure(RodPicture& picture, const Asked& asked);
 
 }  // namespace shaken::render

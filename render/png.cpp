@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <png.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csetjmp>
 #include <cstdio>
@@ -54,13 +55,14 @@ bool encode(std::FILE* file, const Image& image, png_text* texts, int n_texts, s
 
 }  // namespace
 
-PngTexts picture_texts(const RodPicture& picture) {
-  PngTexts texts = {{"Software", "Shaken"}, {"Simulated time", fmt::format("{:.6f} s", picture.time)}};
+Notes picture_texts(const RodPicture& picture) {
+  Notes texts = {{"Simulated time", fmt::format("{:.6f} s", picture.time)}};
   if (!picture.label.empty()) texts.emplace_back("Title", picture.label);
+  texts.insert(texts.end(), picture.notes.begin(), picture.notes.end());
   return texts;
 }
 
-Result<void> write_png(const std::filesystem::path& file, const Image& image, const PngTexts& texts) {
+Result<void> write_png(const std::filesystem::path& file, const Image& image, const Notes& texts) {
   const auto failed = [&](const std::string& why) { return Error{"cannot write " + file.string() + ": " + why}; };
   const std::filesystem::path unfinished = file.string() + ".tmp";
   std::unique_ptr<std::FILE, CloseFile> stream(std::fopen(unfinished.c_str(), "wb"));
@@ -69,10 +71,11 @@ Result<void> write_png(const std::filesystem::path& file, const Image& image, co
   std::vector<png_text> chunks;
   for (const auto& [key, value] : texts) {
     png_text chunk{};
-    chunk.compression = PNG_ITXT_COMPRESSION_NONE;  // UTF-8
+    const bool is_ascii = std::all_of(value.begin(), value.end(), [](char c) { return c > 0; });
+    chunk.compression = is_ascii ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;  // the latter is UTF-8
     chunk.key = const_cast<char*>(key.c_str());
     chunk.text = const_cast<char*>(value.c_str());
-    chunk.itxt_length = value.size();
+    (is_ascii ? chunk.text_length : chunk.itxt_length) = value.size();
     chunks.push_back(chunk);
   }
   std::string message = "no memory";

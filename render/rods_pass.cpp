@@ -8,41 +8,20 @@
 #include <utility>
 #include <vector>
 
+#include "render/colourings.h"
 #include "render/colours.h"
 #include "render/gl.h"
+#include "render/gl_program.h"
 #include "render/rods_shaders.h"
+#include "render/view.h"
 
 namespace shaken::render {
 namespace {
-
-constexpr int kSamples = 3;  // along each side of a pixel
 
 /// One rod as the shaders see it.
 struct Instance {
   std::array<float, 3> centre, axis, colour;
 };
-
-/// Compiles and links; empty on failure, with the compiler's words in `message`.
-GLuint link_program(const char* vertex_source, const char* fragment_source, std::string& message) {
-  const GLuint program = glCreateProgram();
-  for (const auto& [species, source] :
-       {std::pair{GL_VERTEX_SHADER, vertex_source}, std::pair{GL_FRAGMENT_SHADER, fragment_source}}) {
-    const GLuint shader = glCreateShader(static_cast<GLenum>(species));
-    glShaderSource(shader, 1, &source, nullptr);
-    glCompileShader(shader);
-    glAttachShader(program, shader);
-    glDeleteShader(shader);
-  }
-  glLinkProgram(program);
-  GLint linked = GL_FALSE;
-  glGetProgramiv(program, GL_LINK_STATUS, &linked);
-  if (linked) return program;
-  std::array<char, 2048> text{};
-  glGetProgramInfoLog(program, static_cast<GLsizei>(text.size()), nullptr, text.data());
-  message = text.data();
-  glDeleteProgram(program);
-  return 0;
-}
 
 std::array<float, 3> to_floats(const Vec3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
@@ -51,24 +30,20 @@ std::array<float, 3> to_floats(const Vec3& v) {
 /// All rods of one species, and their periodic images, of which a part may lie in the view. `reach` is how far from its
 /// centre anything of a rod is drawn.
 std::vector<Instance> instances_in(const RodPicture& picture, std::size_t species, const View& view,
-                                   Colouring colouring, double reach) {
+                                   const PictureStyle& style, double reach) {
   std::vector<Instance> instances;
   const std::size_t n = picture.count(species);
   instances.reserve(n + n / 4);
+  const Colouring& colouring = colouring_of(picture, style);
+  const Vec2 range = range_of(colouring, style);
   for (std::size_t i = 0; i < picture.n_rods(); ++i) {
     if (picture.species_of(i) != species) continue;
     const Vec3& x = picture.position[i];
-    const Colour colour = rod_colour(picture, i, colouring);
-    // Image numbers k for which x + k L lies within `reach` of the view.
-    const auto first = [&](double low) { return std::ceil((low - reach) / picture.box_side); };
-    const auto last = [&](double low) { return std::floor((low + view.side + reach) / picture.box_side); };
-    const Vec2 low = view.corner - x.head<2>();
-    for (double ky = first(low.y()); ky <= last(low.y()); ++ky) {
-      for (double kx = first(low.x()); kx <= last(low.x()); ++kx) {
-        instances.push_back({to_floats({kx * picture.box_side - low.x(), ky * picture.box_side - low.y(), x.z()}),
-                             to_floats(picture.director[i]), to_floats({colour[0], colour[1], colour[2]})});
-      }
-    }
+    const Colour colour = rod_colour(picture, i, colouring, range);
+    for_images(view, x.head<2>(), reach, [&](const Vec2& at) {
+      instances.push_back({to_floats({at.x(), at.y(), x.z()}), to_floats(picture.director[i]),
+                           to_floats({colour[0], colour[1], colour[2]})});
+    });
   }
   return instances;
 }
@@ -77,11 +52,12 @@ std::vector<Instance> instances_in(const RodPicture& picture, std::size_t specie
 struct Batch {
   std::vector<float> beads;  // offset, radius of each
   Vec2 ends;                 // offsets of the first and the last bead
+  double pitch = 0;          // distance of neighbouring beads; 0 if it is not the same everywhere
   double thick = 0;          // greatest radius
   double margin = 0;         // of the shadow
   std::vector<Instance> instances;
 
-  Batch(const RodPicture& picture, std::size_t species, const View& view, Colouring colouring) {
+  Batch(const RodPicture& picture, std::size_t species, const View& view, const PictureStyle& style) {
     const BeadRow& row = picture.beads_of(species);
     double half = 0;
     for (std::size_t i = 0; i < row.offset.size(); ++i) {
@@ -90,36 +66,16 @@ struct Batch {
       half = std::max(half, std::abs(row.offset[i]) + row.radius[i]);
     }
     ends = Vec2(row.offset.front(), row.offset.back());
+    pitch = pitch_of(row);
     thick = *std::max_element(row.radius.begin(), row.radius.end());
     margin = 1.1 * thick;
-    instances = instances_in(picture, species, view, colouring, half + 2 * margin);
+    instances = instances_in(picture, species, view, style, half + 2 * margin);
   }
 };
 
-/// Averages the samples of each pixel and turns the rows round. Goes through the samples as they lie in memory.
-Image averaged(const std::vector<std::uint8_t>& rgba, int side) {
-  Image image(side, side);
-  const auto width = static_cast<std::size_t>(side);
-  std::vector<std::uint16_t> sums(width * 3);
-  const std::uint8_t* in = rgba.data();
-  for (int y = side - 1; y >= 0; --y) {
-    std::fill(sums.begin(), sums.end(), std::uint16_t{0});
-    for (int row = 0; row < kSamples; ++row) {
-      std::uint16_t* sum = sums.data();
-      for (std::size_t x = 0; x < width; ++x, sum += 3) {
-        for (int sample = 0; sample < kSamples; ++sample, in += 4) {
-          for (int c = 0; c < 3; ++c) sum[c] = static_cast<std::uint16_t>(sum[c] + in[c]);
-        }
-      }
-    }
-    constexpr int kAll = kSamples * kSamples;
-    std::transform(sums.begin(), sums.end(), image.pixel(0, y),
-                   [](std::uint16_t sum) { return static_cast<std::uint8_t>((sum + kAll / 2) / kAll); });
-  }
-  return image;
-}
+}  // namespace
 
-Result<void> check(const RodPicture& picture, int side) {
+Result<void> check_drawable(const RodPicture& picture, int side) {
   if (side < 1 || side > RodsPass::kMaxSide) {
     return Error{"the box would be " + std::to_string(side) + " pixels wide; possible are 1 to " +
                  std::to_string(RodsPass::kMaxSide)};
@@ -143,12 +99,13 @@ Result<void> check(const RodPicture& picture, int side) {
   return {};
 }
 
-}  // namespace
-
-View view_of(const RodPicture& picture, const PictureStyle& style) {
-  const double side = picture.box_side / std::max(style.zoom, 1.0);
-  if (style.zoom <= 1) return {Vec2(0, 0), side};
-  return {style.focus * picture.box_side - Vec2(side, side) / 2, side};
+double pitch_of(const BeadRow& row) {
+  if (row.offset.size() < 2) return 0;
+  const double pitch = row.offset[1] - row.offset[0];
+  for (std::size_t i = 1; i < row.offset.size(); ++i) {
+    if (std::abs(row.offset[i] - row.offset[i - 1] - pitch) > 1e-3 * pitch) return 0;
+  }
+  return std::max(pitch, 0.0);
 }
 
 struct RodsPass::Programs {
@@ -168,7 +125,7 @@ RodsPass::~RodsPass() = default;  // the GL objects go with their context
 Result<RodsPass> RodsPass::create() {
   Result<GlContext> context = GlContext::create();
   if (!context) return context.error();
-  if (auto done = context->bind(kSamples); !done) return done.error();
+  if (auto done = context->bind(kSamples, kSamples); !done) return done.error();
   auto programs = std::make_unique<Programs>();
   std::string message;
   programs->body = link_program(shaders::kQuad, shaders::kBody, message);
@@ -193,14 +150,14 @@ Result<RodsPass> RodsPass::create() {
 }
 
 Result<Image> RodsPass::draw(const RodPicture& picture, const PictureStyle& style, int side) {
-  if (auto done = check(picture, side); !done) return done.error();
-  if (auto done = context_.bind(side * kSamples); !done) return done.error();
+  if (auto done = check_drawable(picture, side); !done) return done.error();
+  if (auto done = context_.bind(side * kSamples, side * kSamples); !done) return done.error();
 
   const View view = view_of(picture, style);
   std::vector<Batch> batches;
   double thick = 0;
   for (std::size_t species = 0; species < picture.n_species(); ++species) {
-    batches.emplace_back(picture, species, view, style.colouring);
+    batches.emplace_back(picture, species, view, style);
     thick = std::max(thick, batches.back().thick);
   }
   const Palette colours = palette(style.theme);
@@ -218,6 +175,8 @@ Result<Image> RodsPass::draw(const RodPicture& picture, const PictureStyle& styl
     glUniform2fv(at("beads"), n_beads, batch.beads.data());
     glUniform1i(at("n_beads"), n_beads);
     glUniform2f(at("ends"), static_cast<float>(batch.ends.x()), static_cast<float>(batch.ends.y()));
+    glUniform1f(at("pitch"), static_cast<float>(batch.pitch));
+    glUniform1f(at("thick"), static_cast<float>(batch.thick));
     glUniform1f(at("view_side"), static_cast<float>(view.side));
     glUniform1f(at("margin"), static_cast<float>(margin));
     glUniform2f(at("shift"), static_cast<float>(shift.x()), static_cast<float>(shift.y()));
@@ -265,7 +224,7 @@ Result<Image> RodsPass::draw(const RodPicture& picture, const PictureStyle& styl
     return Error{"OpenGL error " + std::to_string(code) + " while drawing " + std::to_string(picture.n_rods()) +
                  " rods"};
   }
-  return averaged(pixels, side);
+  return averaged(pixels, side, side);
 }
 
 }  // namespace shaken::render

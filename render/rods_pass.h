@@ -2,21 +2,20 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 
 #include "render/gl_context.h"
 #include "render/image.h"
 #include "render/picture.h"
+#include "render/style.h"
 #include "sim/core/result.h"
 
 namespace shaken::render {
 
-/// The part of the periodic plane that is drawn: a square [mm].
-struct View {
-  Vec2 corner{0, 0};  ///< lower left
-  double side = 0;
-};
-View view_of(const RodPicture& picture, const PictureStyle& style);
+/// What keeps a picture from being drawn `side` pixels wide, if anything.
+Result<void> check_drawable(const RodPicture& picture, int side);
+
+/// The distance of neighbouring beads [mm], or 0 if it is not the same all along the rod.
+double pitch_of(const BeadRow& row);
 
 /// Draws the rods in their box, seen from above along -z, without perspective.
 /// Model:    one quad for each rod, on which each pixel's ray is cut with the beads themselves, so the outline is that

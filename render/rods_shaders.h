@@ -41,6 +41,8 @@ inline constexpr const char* kBody = R"(#version 330 core
 uniform vec2 beads[255];
 uniform int n_beads;
 uniform vec2 ends;       // offsets of the first and the last bead
+uniform float pitch;     // distance of neighbouring beads; 0 if it is not the same everywhere
+uniform float thick;     // greatest radius
 uniform float low;       // heights that the depth buffer spans
 uniform float high;
 flat in vec3 rod_axis;
@@ -59,7 +61,15 @@ void main() {
   float flat_part = dot(rod_axis.xy, rod_axis.xy);
   float top = -1e9;
   vec3 normal = vec3(0.0);
-  for (int i = 0; i < n_beads; ++i) {
+  // Only beads whose centre is no farther along the rod than the thickest one reaches can be hit.
+  int first = 0, last = n_beads - 1;
+  if (pitch > 0.0 && flat_part > 1e-4) {
+    float middle = 0.5 * along / flat_part - ends.x;
+    float reach = thick / sqrt(flat_part);
+    first = max(first, int(floor((middle - reach) / pitch)));
+    last = min(last, int(ceil((middle + reach) / pitch)));
+  }
+  for (int i = first; i <= last; ++i) {
     float o = beads[i].x;
     float r = beads[i].y;
     float inside = r * r - (square + o * (o * flat_part - along));
@@ -141,8 +151,7 @@ in vec2 place;
 out vec4 pixel;
 
 void main() {
-  // From the middle of the nearest periodic image of the box.
-  vec2 from_middle = mod(view_corner + place, box_side) - 0.5 * box_side;
+  vec2 from_middle = view_corner + place - 0.5 * box_side;
   float r = length(from_middle);
   float outside = r - 0.5 * size;
   if (arena == 1) outside = max(abs(from_middle.x), abs(from_middle.y)) - 0.5 * size;

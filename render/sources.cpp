@@ -12,11 +12,15 @@
 
 #include "analysis/director_field.h"
 #include "analysis/order.h"
+#include "base/files.h"
 #include "base/text.h"
 #include "proto/bus.h"
 #include "proto/channels.h"
 #include "proto/frame_codec.h"
+#include "render/colourings.h"
+#include "render/headline.h"
 #include "run/files/directory.h"
+#include "run/files/version.h"
 #include "scene/fields.h"
 #include "scene/measure_plan.h"
 
@@ -59,7 +63,7 @@ Result<void> refusal(const char* what, double value, const char* path, double sh
 }
 
 /// The sizes of a live picture. Anybody may send such messages: what no scene has would take any memory and any time.
-Result<void> check_sizes(const RodPicture& picture, bool with_defects) {
+Result<void> check_sizes(const RodPicture& picture, const Asked& asked) {
   // Of the director field, in each direction: 0.7 GB. The largest box with rods of 4 mm needs as many.
   constexpr double kMostNodes = 4096;
   if (auto done = refusal("box side", picture.box_side, "box.side"); !done) return done.error();
@@ -83,7 +87,7 @@ Result<void> check_sizes(const RodPicture& picture, bool with_defects) {
     }
   }
   const double mesh = scene::MeasureDefects{}.grid_for(picture.rod_length());
-  if (with_defects && picture.box_side / mesh > kMostNodes) {
+  if ((asked.defects || asked.field) && picture.box_side / mesh > kMostNodes) {
     return Error{
         fmt::format("a box of {} mm is too large for a live picture of rods of {} mm with defects (at most {} "
                     "nodes each way); draw it without them",
@@ -136,9 +140,35 @@ Result<TrajectorySource> TrajectorySource::open(const std::filesystem::path& run
 }
 
 Result<double> TrajectorySource::time_of(std::size_t index) const {
+  if (const auto known = times_.find(index); known != times_.end()) return known->second;
   const Result<run::TrajectoryFrame> frame = reader_.frame(index);
   if (!frame) return frame.error();
+  times_[index] = frame->time;
   return frame->time;
+}
+
+std::string TrajectorySource::label() const {
+  return shaking(Json::parse(reader_.header().scene_json, nullptr, false));
+}
+
+Notes TrajectorySource::notes() const {
+  const run::Provenance& run = reader_.header().provenance;
+  Notes notes{{"Software", fmt::format("Shaken {}", run::version())}};
+  if (!run.run_id.empty()) {
+    notes.emplace_back("Run id", run.run_id);
+    notes.emplace_back("Seed", fmt::format("{}", run.seed));
+  }
+  // The versions that the run was made with, which need not be those of this program.
+  const Result<std::string> text = read_file(file_.parent_path() / "summary.json");
+  const Json summary = text ? Json::parse(*text, nullptr, false) : Json();
+  const Json versions = summary.is_object() ? summary.value("versions", Json::object()) : Json::object();
+  if (versions.is_object() && versions.contains("shaken") && versions["shaken"].is_string()) {
+    notes.emplace_back("Run by", "Shaken " + printable(versions["shaken"].get<std::string>()));
+  }
+  if (versions.is_object() && versions.contains("physics") && versions["physics"].is_number_integer()) {
+    notes.emplace_back("Physics version", fmt::format("{}", versions["physics"].get<int>()));
+  }
+  return notes;
 }
 
 Result<std::size_t> TrajectorySource::nearest_frame(double time) const {
@@ -191,7 +221,15 @@ Result<void> TrajectorySource::read_history() {
   return {};
 }
 
-Result<RodPicture> TrajectorySource::picture(std::size_t index, bool with_defects) const {
+std::vector<double> TrajectorySource::orders(double first, double last) const {
+  std::vector<double> orders;
+  for (std::size_t k = 0; k < history_.time.size(); ++k) {
+    if (history_.time[k] >= first && history_.time[k] <= last) orders.push_back(history_.order[k]);
+  }
+  return orders;
+}
+
+Result<RodPicture> TrajectorySource::bare_picture(std::size_t index, const Asked& asked) const {
   Result<run::TrajectoryFrame> frame = reader_.frame(index);
   if (!frame) return frame.error();
   const run::TrajectoryHeader& header = reader_.header();
@@ -201,6 +239,12 @@ Result<RodPicture> TrajectorySource::picture(std::size_t index, bool with_defect
   picture.gap = header.gap;
   const Json scene = Json::parse(header.scene_json, nullptr, false);
   picture.label = shaking(scene);
+  // z_base = a cos(2 pi f t) + a (sim/motion/plates.h)
+  const double amplitude = number_at(scene, "/plates/amplitude").value_or(0),
+               frequency = number_at(scene, "/plates/frequency").value_or(0);
+  picture.base = amplitude * (1 + std::cos(2 * kPi * frequency * picture.time));
+  const Json::json_pointer lid("/plates/lid");
+  picture.has_lid = !scene.is_object() || !scene.contains(lid) || scene.at(lid) != false;
   picture.beads = {header.bead_offset, header.bead_radius};
   picture.added = header.added_beads;
   picture.species_of_rod = header.species_of_rod;
@@ -209,7 +253,39 @@ Result<RodPicture> TrajectorySource::picture(std::size_t index, bool with_defect
   picture.grid = number_at(scene, "/measure/defects/grid").value_or(0);
   picture.position = std::move(frame->position);
   picture.director = std::move(frame->director);
-  measure(picture, with_defects);
+  picture.velocity = std::move(frame->velocity);
+  measure(picture, asked);
+  return picture;
+}
+
+Result<const std::vector<analysis::Defect>*> TrajectorySource::defects_of(std::size_t index) {
+  if (const auto known = defects_.find(index); known != defects_.end()) return &known->second;
+  Result<RodPicture> picture = bare_picture(index, {.defects = true});
+  if (!picture) return picture.error();
+  return &(defects_[index] = std::move(picture->defects));
+}
+
+Result<RodPicture> TrajectorySource::picture(std::size_t index, const PictureStyle& style) {
+  Result<RodPicture> made = bare_picture(index, asked_by(style));
+  if (!made) return made.error();
+  RodPicture& picture = *made;
+  picture.notes = notes();
+  if (style.mark_defects && style.tracks > 0) {
+    defects_[index] = picture.defects;
+    std::size_t first = index;
+    for (; first > 0; --first) {
+      const Result<double> before = time_of(first - 1);
+      if (!before) return before.error();
+      if (picture.time - *before > style.tracks) break;
+    }
+    defects_.erase(defects_.begin(), defects_.lower_bound(first));  // a film does not go back
+    for (std::size_t past = first; past < index; ++past) {
+      const auto defects = defects_of(past);
+      if (!defects) return defects.error();
+      const double age = (picture.time - time_of(past).value()) / style.tracks;
+      for (const analysis::Defect& defect : **defects) picture.tracks.push_back({defect.position, defect.charge, age});
+    }
+  }
   if (history_.time.size() > 1) {
     picture.history.start = history_.start;
     picture.history.end = history_.end;
@@ -220,11 +296,11 @@ Result<RodPicture> TrajectorySource::picture(std::size_t index, bool with_defect
     picture.history.time.push_back(picture.time);
     picture.history.order.push_back(picture.order);
   }
-  return picture;
+  return made;
 }
 
 Result<RodPicture> live_picture(const std::string& lcm_url, const std::string& job, std::chrono::milliseconds timeout,
-                                bool with_defects) {
+                                const PictureStyle& style) {
   const Result<std::unique_ptr<proto::Bus>> opened = proto::Bus::open(lcm_url);
   if (!opened) return opened.error();
   proto::Bus& bus = **opened;
@@ -257,19 +333,21 @@ Result<RodPicture> live_picture(const std::string& lcm_url, const std::string& j
     bus.handle(static_cast<int>(std::min<std::int64_t>(left.count(), 200)));
   }
 
+  const Asked asked = asked_by(style);
   RodPicture picture;
   picture.time = frame->sim_time_s;
   picture.box_side = frame->box_side_mm;
   picture.gap = constants->gap_mm;
   if (auto done = take_constants(*constants, frame->rods.size(), picture); !done) return done.error();
-  if (auto done = check_sizes(picture, with_defects); !done) return done.error();
-  picture.label = printable(constants->label);
+  if (auto done = check_sizes(picture, asked); !done) return done.error();
+  picture.label = headline(printable(constants->label));
+  picture.notes = {{"Software", fmt::format("Shaken {}", run::version())}, {"Run id", printable(constants->job_id)}};
   for (const proto::RodPose& rod : frame->rods) {
     const std::array<double, 3> axis = rod.axis();
     picture.position.emplace_back(rod.x, rod.y, picture.gap / 2);
     picture.director.emplace_back(axis[0], axis[1], axis[2]);
   }
-  measure(picture, with_defects);
+  measure(picture, asked);
   return picture;
 }
 

@@ -4,11 +4,14 @@
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "render/picture.h"
+#include "render/style.h"
 #include "run/files/trajectory.h"
 #include "sim/core/result.h"
 
@@ -20,7 +23,7 @@ struct MovieRequest {
   int width = 0, height = 0;  ///< [pixels]
 };
 
-/// The frames of a recorded run.
+/// The frames of a recorded run. For one thread at a time.
 class TrajectorySource {
  public:
   /// Opens a run directory or a trajectory.h5. Fails if it holds no frame.
@@ -31,6 +34,10 @@ class TrajectorySource {
   std::size_t n_frames() const { return reader_.n_frames(); }
   /// Simulated time of a frame [s].
   Result<double> time_of(std::size_t index) const;
+  /// How the plates shake, "Γ = 7, f = 200 Hz"; empty if the scene does not say it.
+  std::string label() const;
+  /// What the run says of itself: its id, seed, and the versions of Shaken and of its physics, as far as it is known.
+  Notes notes() const;
   /// The frame nearest to `time` [s].
   Result<std::size_t> nearest_frame(double time) const;
 
@@ -39,21 +46,29 @@ class TrajectorySource {
 
   /// Reads S(t) of the whole run, from at most 400 of its frames, for the curve beside the pictures.
   Result<void> read_history();
-  /// A frame with order, director and, if asked, defects; with S up to its time if the history has been read. The label
-  /// says how the plates shake.
-  Result<RodPicture> picture(std::size_t index, bool with_defects) const;
+  /// S of the frames from `first` to `last` that read_history() has read; empty if it has not.
+  std::vector<double> orders(double first, double last) const;
+  /// A frame with order, director and what the style asks for; with S up to its time if the history has been read. The
+  /// label says how the plates shake.
+  Result<RodPicture> picture(std::size_t index, const PictureStyle& style);
 
  private:
   TrajectorySource(std::filesystem::path file, run::TrajectoryReader reader)
       : file_(std::move(file)), reader_(std::move(reader)) {}
   std::filesystem::path file_;
   run::TrajectoryReader reader_;
+  /// The defects of a frame, kept for the tracks of later ones.
+  Result<const std::vector<analysis::Defect>*> defects_of(std::size_t index);
+  Result<RodPicture> bare_picture(std::size_t index, const Asked& asked) const;
+
   OrderHistory history_;
+  mutable std::map<std::size_t, double> times_;
+  std::map<std::size_t, std::vector<analysis::Defect>> defects_;
 };
 
 /// The next whole frame that a running job sends over LCM. `job` is its id or the beginning of it. The bus carries no
 /// heights: rods lie half way between the plates.
 Result<RodPicture> live_picture(const std::string& lcm_url, const std::string& job, std::chrono::milliseconds timeout,
-                                bool with_defects);
+                                const PictureStyle& style);
 
 }  // namespace shaken::render

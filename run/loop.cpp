@@ -28,8 +28,8 @@
 namespace shaken::run {
 namespace {
 
-/// Length of the pieces that the run is stepped in: short enough to answer a signal, long enough not to matter.
-constexpr WallSeconds kShortSlice{0.02};
+/// Length of the pieces that the run is stepped in, at most: short enough to answer a signal, long enough not to
+/// matter.
 constexpr WallSeconds kLongSlice{0.1};
 
 double process_cpu_seconds() {
@@ -136,8 +136,8 @@ class Loop {
       const auto before = WallClock::now();
       if (const auto trouble = run_.simulation.advance_to(target)) return finish_in_trouble(*trouble);
       const auto now = WallClock::now();
-      if (now - before > kLongSlice) slice = std::max<Tick>(1, stepped / 2);
-      if (now - before < kShortSlice && stepped == slice) slice *= 2;
+      if (now - before > long_slice()) slice = std::max<Tick>(1, stepped / 2);
+      if (now - before < long_slice() / 5 && stepped == slice) slice *= 2;
 
       if (auto done = sample(); !done) return finish_without_disk(done.error());
       publish_observables(now);
@@ -152,6 +152,8 @@ class Loop {
   }
 
   WallSeconds live_period() const { return WallSeconds(plan_.stream ? 1.0 / plan_.stream->rate : 1.0); }
+  /// Short enough for live frames to keep to their rate too.
+  WallSeconds long_slice() const { return publisher_ ? std::min(kLongSlice, live_period() / 2) : kLongSlice; }
   double cpu_seconds() const { return run_.cpu_before + process_cpu_seconds() - cpu_begin_; }
   double wall_seconds() const { return run_.wall_before + WallSeconds(WallClock::now() - begin_).count(); }
 
@@ -159,20 +161,23 @@ class Loop {
   Result<void> sample() {
     const bool record = run_.recording && run_.recording->due(tick());
     const bool measure = run_.measurements.next_due(tick()) == tick();
-    // Live frames are a subset of the recorded ones, where frames are recorded, so that the two can be compared.
-    const bool show = publisher_ && (record || !run_.recording) && frame_pacer_.take(WallClock::now());
+    const bool show = publisher_ && frame_pacer_.take(WallClock::now());
     if (!record && !measure && !show) return {};
     const Snapshot snapshot = run_.simulation.snapshot();
     if (measure) run_.measurements.sample(snapshot);
     if (record) {
       if (auto done = run_.frames->append(shaken::run::record(snapshot)); !done) return done.error();
     }
-    if (show) publisher_->offer(make_frame(snapshot, species_if_several(run_.simulation.world())));
+    if (show) publish_frame(snapshot);
     const DefectSample* defects = run_.measurements.last_defects();
     if (publisher_ && defects != nullptr && defects->tick == tick() && defects_pacer_.take(WallClock::now())) {
       publisher_->offer(make_defects(*defects));
     }
     return {};
+  }
+
+  void publish_frame(const Snapshot& snapshot) {
+    publisher_->offer(make_frame(snapshot, species_if_several(run_.simulation.world())));
   }
 
   void publish_observables(WallClock::time_point now) {
@@ -250,6 +255,7 @@ class Loop {
   }
 
   RunOutcome finish_done() {
+    if (publisher_) publish_frame(run_.simulation.snapshot());  // what viewers keep showing
     std::error_code ignored;
     std::filesystem::remove(directory_.trouble(), ignored);  // met by a program before this one
     if (auto done = checkpoint(); !done) return finish_without_disk(done.error());
@@ -388,14 +394,19 @@ RunOutcome draw(const scene::RunPlan& plan, const RunOptions& options, const Run
   const auto report = [&](const std::string& state, const std::string& message) {
     progress.state = state;
     progress.message = message;
-    progress.eta = state == "rendering" ? -1 : 0;
+    if (state != "rendering") progress.eta = 0;
     if (auto done = write_progress(directory.progress(), progress); !done) spdlog::warn("{}", done.error().message);
     if (callbacks.on_progress) callbacks.on_progress(progress);
   };
   std::string message;
   if (plan.movie && callbacks.make_movie && !std::filesystem::exists(directory.movie())) {
-    report("rendering", "");
-    if (auto done = callbacks.make_movie(); !done) {
+    const auto on_drawn = [&](double drawn, double eta) {
+      progress.drawn = drawn;
+      progress.eta = eta;
+      report("rendering", "");
+    };
+    on_drawn(0, -1);
+    if (auto done = callbacks.make_movie(on_drawn); !done) {
       if (options.stop != nullptr && *options.stop) {
         report("stopped", "asked to stop");
         return {RunState::kStopped, ""};

@@ -9,6 +9,7 @@
 
 #include "run/files/directory.h"
 #include "run/files/progress.h"
+#include "run/movie_process.h"
 #include "run/pace.h"
 #include "scene/run_plan.h"
 #include "sim/core/result.h"
@@ -33,7 +34,8 @@ struct RunCallbacks {
   std::function<void()> on_owned;                    ///< the directory is ours, nothing is written yet
   std::function<void(const Progress&)> on_progress;  ///< about twice a second, and at the end
   /// Draws the finished run, if the plan wants a movie. Null: none is drawn. A failure does not lose the run.
-  std::function<Result<void>()> make_movie;
+  /// What it is given takes the share that is drawn and the wall seconds to the end.
+  std::function<Result<void>(const OnDrawn&)> make_movie;
 };
 
 enum class RunState {

@@ -20,6 +20,8 @@ std::string describe_progress(const Progress& progress) {
                                  progress.sim_time, progress.sim_time_total);
   if (progress.state == "running") {
     text += fmt::format("  {:.3g} s/s  ETA {}", progress.sim_rate, duration_text(progress.eta));
+  } else if (progress.state == "rendering") {
+    text += fmt::format("  drawing {:.0f} %  ETA {}", 100 * progress.drawn, duration_text(progress.eta));
   } else {
     text += "  " + progress.state;
   }

@@ -169,7 +169,9 @@ ExitCode run_scene(const scene::RunPlan& plan, const Arguments& arguments) {
     const std::string text = run::describe_progress(progress);
     run::is_under_way(progress) ? line->show(text) : line->end_with(text);
   };
-  callbacks.make_movie = [&] { return run::render_movie(arguments.out, stop_requested); };
+  callbacks.make_movie = [&](const run::OnDrawn& on_drawn) {
+    return run::render_movie(arguments.out, stop_requested, arguments.label, on_drawn);
+  };
 
   const run::RunOutcome outcome = run::run(plan, options, callbacks);
   switch (outcome.state) {

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include "base/process.h"
+#include "client/api_client.h"
+#include "client/picture_options.h"
 #include "client/target.h"
 #include "client/verbs/verbs.h"
 
@@ -11,19 +13,24 @@ namespace {
 class Movie : public Verb {
  public:
   VerbInfo info() const override {
-    return {"movie", kResultsGroup, "Film or picture of a job: rods coloured by angle, defects marked",
+    return {"movie", kResultsGroup, "Film of a job; or its present state, while it runs",
             "  shaken movie 1f0c                            -> 1f0c5e2a.mp4, from the recorded trajectory\n"
             "  shaken movie runs/first -o first.mp4         of a run directory\n"
-            "  shaken movie 1f0c --frame last               -> 1f0c5e2a.png, one frame\n"
-            "  shaken movie 1f0c --frame 120 -o fig3.png\n"
-            "  shaken movie 1f0c --live -o now.png          the running job's present state, from LCM"};
+            "  shaken movie 1f0c --style defects --from 10s --to 20s --speed 0.1 --fps 30 --size 1920x1080\n"
+            "  shaken movie 1f0c -o slide.gif --size 480x480 --bare     also .webm; FOLDER/: numbered frames\n"
+            "  shaken movie 1f0c -o - --bare --size 720x720 | ffmpeg -f rawvideo -pix_fmt rgb24 -s 720x720 -i - x.mkv\n"
+            "  shaken movie 1f0c --live -o now.png          the running job's present state, from LCM\n"
+            "Styles, colours and style files: docs/pictures.md. Single frames: shaken picture"};
   }
 
   void declare(Arguments& arguments) override {
-    arguments.required("JOB", id_, "A job, by the beginning of its id, or a run directory", Names::kRun);
-    arguments.option("-o,--out", out_, "FILE", "Where to write; named after the job if left out", Names::kFile);
-    arguments.option("--frame", frame_, "N|last", "One frame as a PNG instead of a film");
-    arguments.flag("--live", live_, "The present state of a running job as a PNG");
+    options_.declare(arguments);
+    arguments.option("--from", from_, "TIME", "Begins at this simulated time: 10, 10s, 500ms");
+    arguments.option("--to", to_, "TIME", "Ends at this simulated time");
+    arguments.option("--every", every_, "N", "Takes every N-th recorded frame; as the scene says if left out");
+    arguments.option("--threads", threads_, "N", "Threads that draw; one per core if left out");
+    arguments.option("--frame", frame_, "N|last", "One frame as a picture instead of a film");
+    arguments.flag("--live", live_, "The present state of a running job as a picture");
     arguments.option("--lcm-url", lcm_url_, "URL", "With --live: the bus; the daemon's if left out");
   }
 
@@ -32,41 +39,50 @@ class Movie : public Verb {
     if (!frame_.empty() && frame_ != "last" && frame_.find_first_not_of("0123456789") != std::string::npos) {
       throw Failure(ExitCode::kBadInput, fmt::format("--frame takes a number from 0 or 'last', not '{}'", frame_));
     }
-    std::string directory = id_;
-    std::string name = std::filesystem::weakly_canonical(id_).filename().string();
-    std::string job_id;
-    if (!is_run_directory(id_)) {
-      ApiClient session(context.root());
-      const Json job = find_job(session, id_);
-      job_id = job.at("id").get<std::string>();
-      directory = job.at("directory").get<std::string>();
-      name = short_id(job_id);
-      const std::string state = text_of(job, "state");
-      if (live_ && state != "running" && state != "stopping") {
-        throw Failure(ExitCode::kFailed,
-                      fmt::format("job {} is {}: nothing of it is live. `shaken movie {} --frame last` draws its last "
-                                  "recorded frame",
-                                  short_id(job_id), state, id_));
-      }
-      if (live_ && lcm_url_.empty()) lcm_url_ = text_of(session.get("/v1/status").at("lcm"), "url");
-    } else if (live_) {
-      throw Failure(ExitCode::kBadInput, "--live takes the ID of a running job, not a directory");
-    }
+    const Drawn drawn = find_drawn(context, options_.job);
+    if (live_) check_live(context, drawn);
 
-    const std::string render = sibling_program("shaken-render").string();
-    if (live_) become({render, "live", job_id, "--lcm-url", lcm_url_, "-o", out_or(name + ".png")});
-    if (!frame_.empty()) become({render, "picture", directory, "--frame", frame_, "-o", out_or(name + ".png")});
-    become({render, "movie", directory, "-o", out_or(name + ".mp4")});
+    std::vector<std::string> command{sibling_program("shaken-render").string()};
+    const auto add = [&](const std::vector<std::string>& words) {
+      command.insert(command.end(), words.begin(), words.end());
+    };
+    if (live_) {
+      add({"live", drawn.id, "--lcm-url", lcm_url_, "-o", out_or(drawn.name + ".png")});
+      add(options_.words(""));  // the messages say what was swept
+      become(command);
+    }
+    if (!frame_.empty()) {
+      add({"picture", drawn.directory, "--frame", frame_, "-o", out_or(drawn.name + ".png")});
+    } else {
+      add({"movie", drawn.directory, "-o", out_or(drawn.name + ".mp4")});
+      for (const auto& [option, value] :
+           {std::pair{"--from=", from_}, {"--to=", to_}, {"--every=", every_}, {"--threads=", threads_}}) {
+        if (!value.empty()) add({option + value});
+      }
+    }
+    add(options_.words(drawn.label));
+    become(command);
   }
 
  private:
-  std::string out_or(const std::string& file) const { return out_.empty() ? file : out_; }
+  std::string out_or(const std::string& file) const { return options_.out.empty() ? file : options_.out; }
 
-  std::string id_;
-  std::string out_;
-  std::string frame_;
+  void check_live(const Context& context, const Drawn& drawn) {
+    if (drawn.id.empty()) throw Failure(ExitCode::kBadInput, "--live takes the ID of a running job, not a directory");
+    if (drawn.state != "running" && drawn.state != "stopping") {
+      throw Failure(ExitCode::kFailed,
+                    fmt::format("job {} is {}: nothing of it is live. `shaken movie {} --frame last` draws its last "
+                                "recorded frame",
+                                drawn.name, drawn.state, options_.job));
+    }
+    if (!lcm_url_.empty()) return;
+    ApiClient session(context.root());
+    lcm_url_ = text_of(session.get("/v1/status").at("lcm"), "url");
+  }
+
+  PictureOptions options_;
+  std::string from_, to_, every_, threads_, frame_, lcm_url_;
   bool live_ = false;
-  std::string lcm_url_;
 };
 
 }  // namespace

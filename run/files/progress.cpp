@@ -18,6 +18,7 @@ Result<void> write_progress(const std::filesystem::path& file, const Progress& p
       {"sim_time_total_s", progress.sim_time_total},
       {"sim_rate", progress.sim_rate},
       {"eta_s", progress.eta},
+      {"drawn", progress.drawn},
       {"order", progress.order},
       {"order_running_mean", progress.order_running_mean},
       {"max_overlap_mm", progress.max_overlap},
@@ -40,6 +41,7 @@ Result<Progress> read_progress(const std::filesystem::path& file) {
     json.at("sim_time_total_s").get_to(progress.sim_time_total);
     json.at("sim_rate").get_to(progress.sim_rate);
     json.at("eta_s").get_to(progress.eta);
+    progress.drawn = json.value("drawn", 0.0);  // older versions did not tell it
     json.at("order").get_to(progress.order);
     json.at("order_running_mean").get_to(progress.order_running_mean);
     json.at("max_overlap_mm").get_to(progress.max_overlap);

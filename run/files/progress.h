@@ -18,7 +18,8 @@ struct Progress {
   double sim_time = 0;            ///< [s]
   double sim_time_total = 0;      ///< [s]
   double sim_rate = 0;            ///< simulated seconds per wall second
-  double eta = -1;                ///< wall seconds to the end; negative where unknown
+  double eta = -1;                ///< wall seconds to the end of what it does now; negative where unknown
+  double drawn = 0;               ///< share of the movie's frames that are drawn
   double order = 0;               ///< S now
   double order_running_mean = 0;  ///< over the second half of the run so far
   double max_overlap = 0;         ///< [mm]

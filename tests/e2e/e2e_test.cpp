@@ -259,7 +259,7 @@ TEST(EndToEnd, SweepIsRunStreamedTabledPlottedAndDrawn) {
        {"SHAKEN_STATUS", "SHAKEN_JOB", "SHAKEN_OBSERVABLES", "SHAKEN_FRAME_STATIC", "SHAKEN_FRAME"}) {
     EXPECT_GT(n_messages[channel], 0) << channel;
   }
-  // every live frame is one of the trajectory's, value by value
+  // live frames of recorded ticks are those of the trajectory, value by value; the last one always is
   ASSERT_EQ(frames.size(), 2u);
   for (const auto& [id, messages] : frames) {
     EXPECT_EQ(messages.front().at("sequence"), 0);
@@ -269,7 +269,8 @@ TEST(EndToEnd, SweepIsRunStreamedTabledPlottedAndDrawn) {
     for (std::size_t k = 0; k < reader->n_frames(); ++k) index_of[(*reader->frame(k)).tick] = k;
     for (const Json& message : messages) {
       const Tick tick = message.at("tick");
-      ASSERT_TRUE(index_of.contains(tick)) << "a live frame that was not recorded";
+      ASSERT_TRUE(&message != &messages.back() || index_of.contains(tick)) << "the last state is recorded, and sent";
+      if (!index_of.contains(tick)) continue;
       const run::TrajectoryFrame frame = *reader->frame(index_of[tick]);
       const double side = message.at("box_side_mm");
       EXPECT_EQ(side, 12.0);

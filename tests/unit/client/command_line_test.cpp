@@ -81,6 +81,7 @@ TEST(BadArguments, AreAllExitCodeTwo) {
                                                                      {"run", "scene.json"},
                                                                      {"movie", "x", "--frame", "-3"},
                                                                      {"movie", "x", "--frame", "1", "--live"},
+                                                                     {"picture", "x", "--frame", "1", "--time", "2"},
                                                                      {"export", "x"},
                                                                      {"export", "--format", "gsd"},
                                                                      {"results", "--csv", "--json"},

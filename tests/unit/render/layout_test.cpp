@@ -25,7 +25,7 @@ TEST(Layout, NothingOverlapsOrLeavesThePicture) {
         PictureStyle style;
         style.width = width;
         style.height = height;
-        const Layout layout = layout_of(style, history, label, species_of_rod);
+        const Layout layout = layout_of(style, {.history = history, .label = label, .species = species_of_rod});
         const Rect box{double(layout.box_x), double(layout.box_y), double(layout.box_side), double(layout.box_side)};
         const std::vector<Rect> all = {box,           layout.label, layout.numbers,   layout.history,
                                        layout.legend, layout.key,   layout.scale_bar, layout.species};
@@ -50,14 +50,14 @@ TEST(Layout, NothingOverlapsOrLeavesThePicture) {
 
 TEST(Layout, TheBoxIsMostOfAWidePicture) {
   PictureStyle style;
-  EXPECT_GE(layout_of(style, true, true).box_side, 670);
+  EXPECT_GE(layout_of(style, {.history = true, .label = true}).box_side, 670);
 }
 
 TEST(Layout, ABarePictureIsAllBox) {
   PictureStyle style;
   style.width = style.height = 500;
   style.caption = style.legend = style.scale_bar = false;
-  const Layout layout = layout_of(style, true, true);
+  const Layout layout = layout_of(style, {.history = true, .label = true});
   EXPECT_EQ(layout.box_side, 500);
   EXPECT_EQ(layout.box_x, 0);
   EXPECT_EQ(layout.key.width, 0);

@@ -5,6 +5,8 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -61,7 +63,7 @@ TEST(RenderProgram, FrameAndTimeChooseTheFrame) {
   const auto picture = [&](const std::string& choice) {
     const std::string out = (folder / "p.png").string();
     EXPECT_EQ(
-        run_program("picture " + folder.path().string() + " --bare --size 200x200 -c wheel -o " + out + choice).code,
+        run_program("picture " + folder.path().string() + " --bare --size 200x200 -c angle -o " + out + choice).code,
         0);
     return read_png(out);
   };
@@ -95,15 +97,122 @@ TEST(RenderProgram, MovieFollowsTheScene) {
   EXPECT_EQ(said.at("height_px"), 180);
 }
 
+TEST(RenderProgram, SpeedAndSpanMakeTheFilm) {
+  const ScratchFolder folder;
+  plant_trajectory(folder.path(), 11);  // 0 to 0.5 s, a frame each 50 ms
+  const auto frames = [&](const std::string& arguments) {
+    const Ended ended = run_program("movie " + folder.path().string() + " --size 128x128 --json " + arguments);
+    EXPECT_EQ(ended.code, 0) << ended.said;
+    return nlohmann::json::parse(ended.said).at("frames").get<int>();
+  };
+  EXPECT_EQ(frames("--from 0.1s --to 400ms"), 7);
+  // 0.3 s at a tenth of the speed are 3 s: at 10 frames a second 31 with both ends, recorded ones repeated.
+  EXPECT_EQ(frames("--from 0.1s --to 400ms --speed 0.1 --fps 10"), 31);
+  EXPECT_EQ(frames("--speed 1 --fps 10"), 6);
+}
+
+TEST(RenderProgram, TheEndingNamesTheFormat) {
+  const ScratchFolder folder;
+  plant_trajectory(folder.path(), 3);
+  const std::string run = folder.path().string();
+  EXPECT_EQ(run_program("movie " + run + " --size 128x128 --fps 10 -o " + (folder / "m.gif").string()).code, 0);
+  EXPECT_EQ(run_program("picture " + run + " --size 128x128 -o " + (folder / "p.svg").string()).code, 0);
+  EXPECT_EQ(folder.listing(), "m.gif p.svg trajectory.h5");
+  const Ended film = run_program("movie " + run + " -o " + (folder / "m.avi").string());
+  EXPECT_EQ(film.code, 2);
+  EXPECT_NE(film.said.find(".mp4, .webm or .gif"), std::string::npos) << film.said;
+  const Ended picture = run_program("picture " + run + " -o " + (folder / "p.jpg").string());
+  EXPECT_EQ(picture.code, 2);
+  EXPECT_NE(picture.said.find(".png, .svg or .pdf"), std::string::npos) << picture.said;
+  EXPECT_EQ(folder.listing(), "m.gif p.svg trajectory.h5");
+}
+
+TEST(RenderProgram, EqualCallsGiveEqualFiles) {
+  const ScratchFolder folder;
+  plant_trajectory(folder.path(), 3);
+  const auto bytes = [&](const std::string& arguments, const char* name) {
+    EXPECT_EQ(
+        run_program(arguments + " " + folder.path().string() + " --size 160x120 -o " + (folder / name).string()).code,
+        0);
+    std::ifstream in(folder / name, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  for (const char* ending : {".png", ".svg", ".pdf"}) {
+    EXPECT_TRUE(bytes("picture", (std::string("a") + ending).c_str()) ==
+                bytes("picture", (std::string("b") + ending).c_str()))
+        << ending;
+  }
+  for (const char* ending : {".mp4", ".gif", ".webm"}) {
+    EXPECT_TRUE(bytes("movie --threads 1", (std::string("a") + ending).c_str()) ==
+                bytes("movie --threads 3", (std::string("b") + ending).c_str()))
+        << ending;
+  }
+}
+
+TEST(RenderProgram, RawFramesGoToStdout) {
+  const ScratchFolder folder;
+  plant_trajectory(folder.path(), 3);
+  const std::string command =
+      "movie " + folder.path().string() + " --size 128x100 --bare -o - 2>/dev/null > " + (folder / "raw").string();
+  EXPECT_EQ(run_program(command).code, 0);
+  EXPECT_EQ(std::filesystem::file_size(folder / "raw"), 3u * 128 * 100 * 3);
+}
+
+TEST(RenderProgram, ProgressIsKeptInAFile) {
+  const ScratchFolder folder;
+  plant_trajectory(folder.path(), 3);
+  const std::string file = (folder / "progress").string();
+  ASSERT_EQ(run_program("movie " + folder.path().string() + " --size 128x100 --progress " + file).code, 0);
+  std::ifstream in(file);
+  const auto said = nlohmann::json::parse(in);
+  EXPECT_EQ(said.at("frames"), 3);
+  EXPECT_GE(said.at("frames_drawn"), 1);
+  EXPECT_GT(said.at("seconds"), 0);
+}
+
+TEST(RenderProgram, AllThatIsWrongWithAStyleIsToldAtOnce) {
+  const ScratchFolder folder;
+  plant_trajectory(folder.path(), 1);
+  const Ended ended =
+      run_program("picture " + folder.path().string() + " --zoom 0.5 --colour grey --theme blue --tracks x");
+  EXPECT_EQ(ended.code, 2);
+  for (const char* key : {"--zoom may be", "--colour may be", "--theme may be", "--tracks is a number"}) {
+    EXPECT_NE(ended.said.find(key), std::string::npos) << ended.said;
+  }
+}
+
+TEST(RenderProgram, PresetsAreListedAndPrinted) {
+  EXPECT_NE(run_program("style").said.find("mechanism"), std::string::npos);
+  EXPECT_NE(run_program("style defects").said.find("\"background\": \"order\""), std::string::npos);
+  EXPECT_EQ(run_program("style grey").code, 2);
+}
+
 TEST(RenderProgram, BadInputIsTwoFailureIsOne) {
   const ScratchFolder folder;
   plant_trajectory(folder.path(), 2);
   const std::string run = folder.path().string();
-  for (const std::string bad :
-       {"", "draw", "picture", "picture /nowhere", "picture RUN --frame 2", "picture RUN --frame -1",
-        "picture RUN --frame 1 --time 2", "picture RUN --size 1280", "picture RUN --size 10x10",
-        "picture RUN --size 1280x720x3", "picture RUN --colour grey", "picture RUN --zoom 0.1", "picture RUN --focus 1",
-        "movie RUN --size 321x180", "movie RUN --every 0", "movie RUN --from 2 --to -1", "live abc"}) {
+  for (const std::string bad : {"",
+                                "draw",
+                                "picture",
+                                "picture /nowhere",
+                                "picture RUN --frame 2",
+                                "picture RUN --frame -1",
+                                "picture RUN --frame 1 --time 2",
+                                "picture RUN --size 1280",
+                                "picture RUN --size 10x10",
+                                "picture RUN --size 1280x720x3",
+                                "picture RUN --colour grey",
+                                "picture RUN --zoom 0.1",
+                                "picture RUN --focus 1",
+                                "movie RUN --size 321x180",
+                                "picture RUN --style grey",
+                                "picture RUN --view follow:3",
+                                "movie RUN --from soon",
+                                "movie RUN --speed 1e-9",
+                                "movie RUN -o m.avi",
+                                "movie RUN --every 0",
+                                "movie RUN --from 2 --to -1",
+                                "live abc"}) {
     std::string arguments = bad;
     if (const auto at = arguments.find("RUN"); at != std::string::npos) arguments.replace(at, 3, run);
     const Ended ended = run_program(arguments);

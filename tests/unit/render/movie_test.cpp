@@ -168,6 +168,98 @@ TEST(Movie, AFolderThatDoesNotExistIsAnError) {
       << movie.error().message;
 }
 
+/// The colour of the middle of each frame, and when it is shown.
+struct Shown {
+  std::vector<Rgb> middle;
+  std::vector<double> time;
+};
+Shown decode_gif(const std::filesystem::path& file) {
+  Shown shown;
+  AVFormatContext* format = nullptr;
+  EXPECT_GE(avformat_open_input(&format, file.c_str(), av_find_input_format("gif"), nullptr), 0);
+  if (!format) return shown;
+  avformat_find_stream_info(format, nullptr);
+  const AVStream* stream = format->streams[0];
+  AVCodecContext* codec = avcodec_alloc_context3(avcodec_find_decoder(AV_CODEC_ID_GIF));
+  avcodec_parameters_to_context(codec, stream->codecpar);
+  avcodec_open2(codec, codec->codec, nullptr);
+  AVPacket* packet = av_packet_alloc();
+  AVFrame* frame = av_frame_alloc();
+  while (av_read_frame(format, packet) == 0) {
+    avcodec_send_packet(codec, packet);
+    av_packet_unref(packet);
+    while (avcodec_receive_frame(codec, frame) == 0) {
+      EXPECT_EQ(frame->format, AV_PIX_FMT_BGRA);
+      const std::uint8_t* p = frame->data[0] + frame->height / 2 * frame->linesize[0] + frame->width / 2 * 4;
+      shown.middle.push_back({p[2], p[1], p[0]});
+      shown.time.push_back(static_cast<double>(frame->pts) * av_q2d(stream->time_base));
+    }
+  }
+  av_frame_free(&frame);
+  av_packet_free(&packet);
+  avcodec_free_context(&codec);
+  avformat_close_input(&format);
+  return shown;
+}
+
+TEST(Movie, AGifIsAGif) {
+  const ScratchFolder folder;
+  Result<MovieWriter> movie = MovieWriter::create(folder / "m.gif", 129, 96, 20);
+  ASSERT_TRUE(movie) << movie.error().message;
+  for (std::size_t i = 0; i < 6; ++i) ASSERT_TRUE(movie->add(plain(129, 96, kColours[i % 4])));
+  const auto done = movie->finish();
+  ASSERT_TRUE(done) << done.error().message;
+  EXPECT_EQ(folder.listing(), "m.gif");
+  EXPECT_EQ(bytes_of(folder / "m.gif").substr(0, 6), "GIF89a");
+  const Shown shown = decode_gif(folder / "m.gif");
+  ASSERT_EQ(shown.middle.size(), 6u);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_NEAR(shown.time[i], 0.05 * static_cast<double>(i), 1e-6);
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(shown.middle[i][c], kColours[i % 4][c], 4) << i << ' ' << c;
+  }
+  EXPECT_FALSE(MovieWriter::create(folder / "m.gif", 128, 96, 60)) << "GIF counts in hundredths of a second";
+}
+
+TEST(Movie, WebmDecodes) {
+  const ScratchFolder folder;
+  Result<MovieWriter> movie = MovieWriter::create(folder / "m.webm", 128, 96, 25);
+  ASSERT_TRUE(movie) << movie.error().message;
+  for (std::size_t i = 0; i < 4; ++i) ASSERT_TRUE(movie->add(plain(128, 96, kColours[i % 4])));
+  ASSERT_TRUE(movie->finish());
+  const Decoded decoded = decode(folder / "m.webm");
+  ASSERT_EQ(decoded.middle.size(), 4u);
+  EXPECT_EQ(decoded.matrix, AVCOL_SPC_BT709);
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(decoded.middle[0][c], bt709(kColours[0])[c], 4) << c;
+}
+
+TEST(Movie, OtherEndingsAreRefused) {
+  const ScratchFolder folder;
+  for (const char* name : {"m.avi", "m", "m.mp4.txt", "m.GIF"}) {
+    const Result<MovieWriter> movie = MovieWriter::create(folder / name, 128, 96, 30);
+    ASSERT_FALSE(movie) << name;
+    EXPECT_NE(movie.error().message.find(".mp4, .webm or .gif"), std::string::npos) << movie.error().message;
+  }
+  EXPECT_EQ(folder.listing(), "");
+}
+
+TEST(Movie, SaysWhereItComesFrom) {
+  const ScratchFolder folder;
+  Result<MovieWriter> movie =
+      MovieWriter::create(folder / "m.mp4", 128, 96, 30, "\u03c6 = 0.8", {{"Run id", "1f0c"}, {"Seed", "3"}});
+  ASSERT_TRUE(movie);
+  ASSERT_TRUE(movie->add(plain(128, 96, kColours[0])));
+  ASSERT_TRUE(movie->finish());
+  AVFormatContext* format = nullptr;
+  ASSERT_GE(avformat_open_input(&format, (folder / "m.mp4").c_str(), nullptr, nullptr), 0);
+  const auto tag = [&](const char* key) {
+    const AVDictionaryEntry* entry = av_dict_get(format->metadata, key, nullptr, 0);
+    return entry ? std::string(entry->value) : std::string();
+  };
+  EXPECT_EQ(tag("title"), "\u03c6 = 0.8");
+  EXPECT_EQ(tag("comment"), "Run id: 1f0c; Seed: 3");
+  avformat_close_input(&format);
+}
+
 PictureStyle small() {
   PictureStyle style;
   style.width = 320;
@@ -186,7 +278,7 @@ TEST(MakeMovie, KeepsItsFramesOnRequest) {
   std::vector<std::size_t> told;
   MovieOptions options;
   options.keep_frames = folder / "frames";
-  const auto made = make_movie(painter(), folder / "m.mp4", small(), options, 3, turning, [&](std::size_t i) {
+  const auto made = make_movie((folder / "m.mp4").string(), small(), options, 3, turning, [&](std::size_t i) {
     told.push_back(i);
     return true;
   });
@@ -199,19 +291,39 @@ TEST(MakeMovie, KeepsItsFramesOnRequest) {
   }
 }
 
+TEST(MakeMovie, IsTheSameFileOnAnyNumberOfThreads) {
+  const ScratchFolder folder;
+  std::string first;
+  for (const int threads : {1, 2, 5}) {
+    MovieOptions options;
+    options.n_threads = threads;
+    const auto made = make_movie((folder / "m.mp4").string(), small(), options, 12, turning);
+    ASSERT_TRUE(made) << made.error().message;
+    if (first.empty()) first = bytes_of(folder / "m.mp4");
+    EXPECT_EQ(bytes_of(folder / "m.mp4"), first) << threads;
+  }
+}
+
+TEST(MakeMovie, AFolderGetsNumberedFramesAndNoFilm) {
+  const ScratchFolder folder;
+  ASSERT_TRUE(make_movie((folder / "frames/").string(), small(), {}, 2, turning));
+  EXPECT_EQ(folder.listing(), "frames");
+  EXPECT_EQ(read_png(folder / "frames/frame_000001.png"), painter().paint(turning(1).value(), small()).value());
+}
+
 TEST(MakeMovie, StoppingAndFailingFramesLeaveNoMovie) {
   const ScratchFolder folder;
   const auto stopped =
-      make_movie(painter(), folder / "m.mp4", small(), {}, 5, turning, [](std::size_t i) { return i < 1; });
+      make_movie((folder / "m.mp4").string(), small(), {}, 5, turning, [](std::size_t i) { return i < 1; });
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error().message, "stopped after 2 frames");
-  const auto failed = make_movie(painter(), folder / "m.mp4", small(), {}, 5, [](std::size_t i) -> Result<RodPicture> {
+  const auto failed = make_movie((folder / "m.mp4").string(), small(), {}, 5, [](std::size_t i) -> Result<RodPicture> {
     if (i == 2) return Error{"torn"};
     return turning(i);
   });
   ASSERT_FALSE(failed);
   EXPECT_EQ(failed.error().message, "torn");
-  EXPECT_FALSE(make_movie(painter(), folder / "m.mp4", small(), {}, 0, turning));
+  EXPECT_FALSE(make_movie((folder / "m.mp4").string(), small(), {}, 0, turning));
   EXPECT_EQ(folder.listing(), "");
 }
 

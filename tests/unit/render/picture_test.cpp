@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "render/style.h"
 #include "tests/unit/render/support.h"
 
 namespace shaken::render {
@@ -58,7 +59,7 @@ TEST(Measure, AsksOnlyRodsOfTheFirstKind) {
     add_rod(picture, 0.5 * i, 0.5 * i, i % 2 ? 0.7 : 0.13 * i);
     picture.species_of_rod.push_back(i % 2 ? 0 : 1);
   }
-  measure(picture, true);
+  measure(picture, {.defects = true});
   EXPECT_NEAR(picture.director_angle, 0.7, 1e-12);
   EXPECT_NEAR(picture.order, 1, 1e-12);
   EXPECT_TRUE(picture.defects.empty());
@@ -67,7 +68,7 @@ TEST(Measure, AsksOnlyRodsOfTheFirstKind) {
 TEST(Measure, FindsOrderAndDirector) {
   RodPicture picture = empty_picture(20);
   for (int i = 0; i < 40; ++i) add_rod(picture, 0.5 * i, 0.5 * i, 0.7 + (i % 2 ? 0.2 : -0.2));
-  measure(picture, false);
+  measure(picture, {});
   EXPECT_NEAR(picture.director_angle, 0.7, 1e-12);
   EXPECT_NEAR(picture.order, std::cos(0.4), 1e-12);
   EXPECT_TRUE(picture.defects.empty());
@@ -83,18 +84,18 @@ TEST(Measure, FindsAPlantedPairOfDefects) {
       add_rod(picture, x, y, 0.5 * (std::atan2(to_a.y(), to_a.x()) - std::atan2(to_b.y(), to_b.x())));
     }
   }
-  measure(picture, true);
+  measure(picture, {.defects = true});
   ASSERT_EQ(picture.defects.size(), 2u);
   for (const analysis::Defect& defect : picture.defects) {
     EXPECT_LT((defect.position - (defect.charge > 0 ? a : b)).norm(), 1.0);
   }
   EXPECT_EQ(picture.defects[0].charge + picture.defects[1].charge, 0);
-  measure(picture, false);
+  measure(picture, {});
   EXPECT_TRUE(picture.defects.empty());
 
   picture.smoothing = 20;  // as the run had it: more than the pair is apart
   picture.grid = 1;
-  measure(picture, true);
+  measure(picture, {.defects = true});
   EXPECT_TRUE(picture.defects.empty());
 }
 
@@ -110,7 +111,7 @@ TEST(Measure, FindsNoDefectsBeyondTheWalls) {
       const Vec2 place(2 * (i % 30) + 1, 2 * (i / 30) + 1);
       if (!walls || is_inside(walls->arena, place - Vec2(30, 30))) add_rod(picture, place.x(), place.y(), 0.9 * i * i);
     }
-    measure(picture, true);
+    measure(picture, {.defects = true});
     return picture;
   };
   const std::vector<analysis::Defect> everywhere = rods_within({}).defects;
@@ -126,7 +127,7 @@ TEST(Measure, FindsNoDefectsBeyondTheWalls) {
 
 TEST(Measure, NoRods) {
   RodPicture picture = empty_picture(10);
-  measure(picture, true);
+  measure(picture, {.defects = true});
   EXPECT_EQ(picture.order, 0);
   EXPECT_TRUE(picture.defects.empty());
 }

@@ -49,9 +49,10 @@ TEST(Png, TextsAreKept) {
   RodPicture picture;
   picture.time = 12.5;
   picture.label = "\u03c6 = 0.80";
+  picture.notes = {{"Run id", "1f0c"}};
   ASSERT_TRUE(write_png(folder / "a.png", pattern(8, 8), picture_texts(picture)));
   const std::map<std::string, std::string> expected = {
-      {"Software", "Shaken"}, {"Simulated time", "12.500000 s"}, {"Title", "\u03c6 = 0.80"}};
+      {"Run id", "1f0c"}, {"Simulated time", "12.500000 s"}, {"Title", "\u03c6 = 0.80"}};
   EXPECT_EQ(texts_of(folder / "a.png"), expected);
 }
 

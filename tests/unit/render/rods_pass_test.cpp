@@ -23,7 +23,13 @@ RodsPass& rods_pass() {
   return shared;
 }
 
-Image draw(const RodPicture& picture, const PictureStyle& style = {}, int side = kSide) {
+PictureStyle layers() {
+  PictureStyle style;
+  style.colour = "layers";
+  return style;
+}
+
+Image draw(const RodPicture& picture, const PictureStyle& style = layers(), int side = kSide) {
   return rods_pass().draw(picture, style, side).value();
 }
 
@@ -114,8 +120,9 @@ TEST(RodsPass, AnUprightRodIsADisc) {
   RodPicture picture = red_picture();
   picture.gap = 6;
   add_rod(picture, 5, 5, 0, 1);
-  picture.director_angle = -kPi / 6;
-  EXPECT_NEAR(count(draw(picture), is_rod), kPi * 0.16 * kScale * kScale, 0.02 * kPi * 0.16 * kScale * kScale);
+  PictureStyle style;
+  style.colour = "tilt";  // it has no angle in the plane
+  EXPECT_NEAR(count(draw(picture, style), is_rod), kPi * 0.16 * kScale * kScale, 0.02 * kPi * 0.16 * kScale * kScale);
 }
 
 TEST(RodsPass, RedLeansToTheLeftOfTheDirectorMagentaToTheRight) {
@@ -140,7 +147,7 @@ TEST(RodsPass, BackgroundIsTheFloorAwayFromRods) {
 }
 
 TEST(RodsPass, NoRodsGiveTheBareFloor) {
-  const Image image = draw(empty_picture(kBox), {}, 64);
+  const Image image = draw(empty_picture(kBox), layers(), 64);
   for (int y = 0; y < 64; ++y) {
     for (int x = 0; x < 64; ++x) {
       for (int c = 0; c < 3; ++c) ASSERT_EQ(image.pixel(x, y)[c], image.pixel(0, 0)[c]);
@@ -169,11 +176,35 @@ TEST(RodsPass, RodsAcrossTheBorderShowOnBothSides) {
   EXPECT_NEAR(count(corners, is_rod), whole, 20);
 }
 
+TEST(RodsPass, ARodAcrossTheBorderMayBeDrawnOnceAndWhole) {
+  RodPicture inside = red_picture();
+  add_rod(inside, 5, 5, 0);
+  PictureStyle style = layers();
+  style.whole = true;
+  const int whole = count(draw(inside, style), is_rod);
+  RodPicture edge = red_picture();
+  add_rod(edge, 0.1, 5, 0);
+  const Image image = draw(edge, style);
+  // The view is half a rod wider on each side: 14.5 mm.
+  const auto column = [](double mm) { return static_cast<int>((mm + 2.25) / 14.5 * kSide); };
+  EXPECT_TRUE(is_rod(image.pixel(column(-2.0), 500)));
+  EXPECT_TRUE(is_rod(image.pixel(column(2.0), 500)));
+  EXPECT_FALSE(is_rod(image.pixel(column(9.9), 500))) << "no second piece";
+  EXPECT_NEAR(count(image, is_rod), whole, 20);
+  // An arena has no such border, and a part of the box is cut out as before.
+  edge.walls = SideWalls{Arena::kSquare, 10};
+  PictureStyle plain = layers();
+  EXPECT_EQ(draw(edge, style), draw(edge, plain));
+  edge.walls.reset();
+  style.zoom = plain.zoom = 2;
+  EXPECT_EQ(draw(edge, style), draw(edge, plain));
+}
+
 TEST(RodsPass, ARodMuchLongerThanTheBoxWrapsAsOftenAsNeeded) {
   RodPicture picture = red_picture();
   picture.box_side = 1.5;  // a third of the rod
   add_rod(picture, 0.7, 0.75, 0);
-  const Image image = draw(picture, {}, 300);
+  const Image image = draw(picture, layers(), 300);
   for (int x = 0; x < 300; ++x) ASSERT_TRUE(is_rod(image.pixel(x, 150))) << x;
 }
 
@@ -191,7 +222,7 @@ TEST(RodsPass, TheHigherRodHidesTheLower) {
 TEST(RodsPass, ZoomShowsThePartInFocusAcrossTheBorderToo) {
   RodPicture picture = red_picture();
   add_rod(picture, 0.05, 9.95, 0);
-  PictureStyle style;
+  PictureStyle style = layers();
   style.zoom = 2;
   style.focus = Vec2(0, 1);
   const Image image = draw(picture, style);
@@ -205,11 +236,11 @@ TEST(RodsPass, ZoomShowsThePartInFocusAcrossTheBorderToo) {
 TEST(RodsPass, SamePictureSameBits) {
   RodPicture picture = empty_picture(kBox);
   for (int i = 0; i < 30; ++i) add_rod(picture, 0.37 * i, 0.61 * i, 0.2 * i, 0.01 * i);
-  const Image first = draw(picture, {}, 333);
-  draw(red_picture(), {}, 100);  // another size in between
-  EXPECT_EQ(first, draw(picture, {}, 333));
+  const Image first = draw(picture, layers(), 333);
+  draw(red_picture(), layers(), 100);  // another size in between
+  EXPECT_EQ(first, draw(picture, layers(), 333));
   RodsPass other = RodsPass::create().value();
-  EXPECT_EQ(first, other.draw(picture, {}, 333).value());
+  EXPECT_EQ(first, other.draw(picture, layers(), 333).value());
   // Heights are all the same: the order of the rods decides nothing but ties.
 }
 
@@ -312,15 +343,27 @@ TEST(RodsPass, BeyondTheWallsTheFloorIsTinted) {
     EXPECT_TRUE(is(colour_at(disc, 5, 5), colours.floor));
     EXPECT_TRUE(is(colour_at(annulus, 5, 5), colours.walls));
     EXPECT_TRUE(is(colour_at(annulus, 5, 6.05), colours.floor));
-    // In a view across the border the arena's images show.
+    // A view across the border shows no images: there is only one arena.
     style.zoom = 2;
     style.focus = Vec2(0, 0.5);
     picture.walls->arena = Arena::kDisc;
     const Image border = draw(picture, style);
     EXPECT_TRUE(is(colour_at(border, 5, 5), colours.walls));
     EXPECT_TRUE(is(colour_at(border, 9, 5), colours.floor));
-    EXPECT_TRUE(is(colour_at(border, 1, 5), colours.floor));
+    EXPECT_TRUE(is(colour_at(border, 1, 5), colours.walls));
   }
+}
+
+TEST(RodsPass, NothingWrapsRoundAnArena) {
+  RodPicture picture = second_kind({{0}, {0.5}}, 0);
+  picture.walls = SideWalls{Arena::kDisc, 8};
+  picture.position[0] = Vec3(5, 8.4, 0.6);  // at the upper wall
+  PictureStyle style = layers();
+  style.zoom = 2;
+  style.focus = Vec2(0.5, 0.1);  // from -1.5 to 3.5 mm upwards
+  EXPECT_TRUE(coloured(draw(picture, style)).empty());
+  picture.walls.reset();
+  EXPECT_FALSE(coloured(draw(picture, style)).empty()) << "where there are no walls it does";
 }
 
 TEST(RodsPass, NoShadowFallsBeyondAWallButRodsAtItAreWhole) {
@@ -334,7 +377,7 @@ TEST(RodsPass, NoShadowFallsBeyondAWallButRodsAtItAreWhole) {
 
 TEST(RodsPass, RefusesWhatCannotBeDrawn) {
   const auto message = [](const RodPicture& picture, int side = 64) {
-    const Result<Image> image = rods_pass().draw(picture, {}, side);
+    const Result<Image> image = rods_pass().draw(picture, layers(), side);
     return image ? std::string("drawn") : image.error().message;
   };
   RodPicture no_beads = red_picture();

@@ -16,14 +16,21 @@ namespace {
 
 constexpr double kDegree = kPi / 180;
 
+/// Nothing is to be measured.
+PictureStyle plain() {
+  PictureStyle style;
+  style.mark_defects = false;
+  return style;
+}
+
 TEST(TrajectorySource, ReadsARunDirectoryOrItsFile) {
   const ScratchFolder folder;
   plant_trajectory(folder.path(), 6);
   for (const auto& path : {folder.path(), folder / "trajectory.h5"}) {
-    const Result<TrajectorySource> source = TrajectorySource::open(path);
+    Result<TrajectorySource> source = TrajectorySource::open(path);
     ASSERT_TRUE(source) << source.error().message;
     EXPECT_EQ(source->n_frames(), 6u);
-    const Result<RodPicture> picture = source->picture(4, false);
+    const Result<RodPicture> picture = source->picture(4, plain());
     ASSERT_TRUE(picture) << picture.error().message;
     EXPECT_DOUBLE_EQ(picture->time, 0.2);
     EXPECT_DOUBLE_EQ(picture->box_side, 10);
@@ -54,7 +61,7 @@ TEST(TrajectorySource, HistoryEndsAtThePresentFrame) {
   plant_trajectory(folder.path(), 6);
   TrajectorySource source = TrajectorySource::open(folder.path()).value();
   ASSERT_TRUE(source.read_history());
-  const RodPicture picture = source.picture(3, false).value();
+  const RodPicture picture = source.picture(3, plain()).value();
   ASSERT_EQ(picture.history.time.size(), 4u);
   EXPECT_EQ(picture.history.order.size(), 4u);
   EXPECT_DOUBLE_EQ(picture.history.time.back(), 0.15);
@@ -66,8 +73,9 @@ TEST(TrajectorySource, TakesShakingAndMovieFromTheScene) {
   const ScratchFolder folder;
   plant_trajectory(folder.path(), 1,
                    R"({"plates": {"gamma": 7.0, "frequency": 200.0}, "movie": {"every": 0.1, "size": [640, 360]}})");
-  const TrajectorySource source = TrajectorySource::open(folder.path()).value();
-  EXPECT_EQ(source.picture(0, false)->label, "\u0393 = 7, f = 200 Hz");
+  TrajectorySource source = TrajectorySource::open(folder.path()).value();
+  EXPECT_EQ(source.picture(0, plain())->label, "\u0393 = 7, f = 200 Hz");
+  EXPECT_EQ(source.label(), "\u0393 = 7, f = 200 Hz");
   const std::optional<MovieRequest> request = source.movie_request();
   ASSERT_TRUE(request);
   EXPECT_DOUBLE_EQ(request->every, 0.1);
@@ -76,9 +84,9 @@ TEST(TrajectorySource, TakesShakingAndMovieFromTheScene) {
   for (const char* scene : {"{}", "no json", R"({"movie": null})", R"({"movie": {"size": "big"}, "plates": 3})"}) {
     std::filesystem::remove(folder / "trajectory.h5");
     plant_trajectory(folder.path(), 1, scene);
-    const TrajectorySource other = TrajectorySource::open(folder.path()).value();
+    TrajectorySource other = TrajectorySource::open(folder.path()).value();
     EXPECT_FALSE(other.movie_request()) << scene;
-    EXPECT_EQ(other.picture(0, false)->label, "") << scene;
+    EXPECT_EQ(other.picture(0, plain())->label, "") << scene;
   }
 }
 
@@ -86,7 +94,7 @@ TEST(TrajectorySource, TakesShakingAndMovieFromTheScene) {
 TEST(TrajectorySource, TakesTheDirectorFieldFromTheScene) {
   const ScratchFolder folder;
   plant_trajectory(folder.path(), 1, R"({"measure": {"defects": {"smoothing": 1.5, "grid": 0.25}}})");
-  const RodPicture picture = TrajectorySource::open(folder.path())->picture(0, true).value();
+  const RodPicture picture = TrajectorySource::open(folder.path())->picture(0, {}).value();
   EXPECT_DOUBLE_EQ(picture.smoothing, 1.5);
   EXPECT_DOUBLE_EQ(picture.grid, 0.25);
 }
@@ -136,7 +144,7 @@ std::string record_two_jobs(const std::filesystem::path& log) {
 TEST(LivePicture, PutsTheFrameOfTheJobTogetherFromItsChunks) {
   const ScratchFolder folder;
   const std::string url = record_two_jobs(folder / "live.lcmlog");
-  const Result<RodPicture> picture = live_picture(url, "bbbb", std::chrono::seconds(10), false);
+  const Result<RodPicture> picture = live_picture(url, "bbbb", std::chrono::seconds(10), plain());
   ASSERT_TRUE(picture) << picture.error().message;
   EXPECT_EQ(picture->label, "job bbbb0002");
   EXPECT_DOUBLE_EQ(picture->time, 2.5);
@@ -179,7 +187,8 @@ Result<RodPicture> live(const std::filesystem::path& log, const frame_static_t& 
     }
     for (const frame_t& chunk : proto::encode_frame(frame)) bus.value()->publish(proto::kFrameChannel, chunk);
   }
-  return live_picture("file://" + log.string() + "?mode=r&speed=0", "cccc", std::chrono::seconds(10), with_defects);
+  return live_picture("file://" + log.string() + "?mode=r&speed=0", "cccc", std::chrono::seconds(10),
+                      with_defects ? PictureStyle() : plain());
 }
 
 TEST(LivePicture, KnowsKindsOfRodsTheirHeadsAndTheWalls) {
@@ -244,7 +253,7 @@ TEST(LivePicture, RefusesSizesThatNoSceneHas) {
 }
 
 TEST(LivePicture, TimesOutWithAReason) {
-  const Result<RodPicture> picture = live_picture("memq://", "cccc", std::chrono::milliseconds(300), false);
+  const Result<RodPicture> picture = live_picture("memq://", "cccc", std::chrono::milliseconds(300), plain());
   ASSERT_FALSE(picture);
   EXPECT_NE(picture.error().message.find("no frame of job cccc"), std::string::npos);
 }

@@ -324,7 +324,7 @@ TEST(Run, FilmOfAnExtendedRunIsDrawnAnew) {
   const TemporaryFolder folder;
   int n_drawn = 0;
   RunCallbacks callbacks;
-  callbacks.make_movie = [&]() -> Result<void> {
+  callbacks.make_movie = [&](const OnDrawn&) -> Result<void> {
     return write_file(RunDirectory{folder.path()}.movie(), std::to_string(++n_drawn));
   };
   for (const double length : {0.05, 0.1}) {
@@ -504,21 +504,28 @@ TEST(Run, MovieIsDrawnOnceAndRecordsAtTheFinerCadence) {
   plan.movie = scene::Movie{0.005, 320, 240};
   int n_drawn = 0;
   std::vector<std::string> states;
+  std::vector<std::pair<double, double>> drawing;  // share drawn, wall seconds to the end
   RunCallbacks callbacks;
-  callbacks.on_progress = [&](const Progress& progress) { states.push_back(progress.state); };
-  callbacks.make_movie = [&]() -> Result<void> {
+  callbacks.on_progress = [&](const Progress& progress) {
+    states.push_back(progress.state);
+    if (progress.state != "rendering") return;
+    drawing.emplace_back(progress.drawn, progress.eta);
+    EXPECT_EQ(read_progress(RunDirectory{folder.path()}.progress())->drawn, progress.drawn);
+  };
+  callbacks.make_movie = [&](const OnDrawn& on_drawn) -> Result<void> {
     ++n_drawn;
+    on_drawn(0.25, 12);
     return Error{"no renderer here"};
   };
   const RunOutcome failed_movie = run_in(folder.path(), plan, callbacks);
   EXPECT_EQ(failed_movie.state, RunState::kDone) << "a failed movie does not lose the run";
   EXPECT_NE(failed_movie.message.find("no renderer here"), std::string::npos);
   EXPECT_EQ(n_drawn, 1);
-  EXPECT_NE(std::find(states.begin(), states.end(), "rendering"), states.end());
+  EXPECT_EQ(drawing, (std::vector<std::pair<double, double>>{{0, -1}, {0.25, 12}}));
   EXPECT_EQ(states.back(), "done");
   EXPECT_EQ(TrajectoryReader::open(RunDirectory{folder.path()}.trajectory())->n_frames(), 11U);
 
-  callbacks.make_movie = [&]() -> Result<void> {
+  callbacks.make_movie = [&](const OnDrawn&) -> Result<void> {
     ++n_drawn;
     return write_file(RunDirectory{folder.path()}.movie(), "a movie");
   };
@@ -529,10 +536,11 @@ TEST(Run, MovieIsDrawnOnceAndRecordsAtTheFinerCadence) {
 }
 
 /// LCM's file provider stands in for the network: everything that is published ends in a log.
-TEST(Run, LiveFramesAreFramesOfTheTrajectory) {
+TEST(Run, LiveFramesComeAtTheirOwnRateAndAreThoseOfTheTrajectory) {
   const TemporaryFolder folder;
   scene::RunPlan plan = small_plan();
   plan.stream = scene::Stream{1000};
+  plan.trajectory = scene::Trajectory{plan.measure_time};  // the first and the last state alone
   RunOptions options;
   options.directory = folder / "run";
   options.job_id = "0123456789abcdef";
@@ -568,10 +576,16 @@ TEST(Run, LiveFramesAreFramesOfTheTrajectory) {
     const auto frame = trajectory->frame(i);
     recorded[frame->tick] = *frame;
   }
+  ASSERT_EQ(recorded.size(), 2U);
+  EXPECT_TRUE(recorded.contains(frames.back().tick)) << "the last state is always sent";
+  int n_between = 0;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     EXPECT_EQ(frames[i].sequence, static_cast<std::int64_t>(i)) << "numbers without gaps";
     EXPECT_EQ(frames[i].job_id, "0123456789abcdef");
-    ASSERT_TRUE(recorded.count(frames[i].tick)) << "tick " << frames[i].tick;
+    if (!recorded.contains(frames[i].tick)) {
+      ++n_between;
+      continue;
+    }
     const TrajectoryFrame& frame = recorded[frames[i].tick];
     const auto rods = proto::decode_chunk(frames[i]);
     ASSERT_EQ(rods.size(), frame.position.size());
@@ -583,6 +597,31 @@ TEST(Run, LiveFramesAreFramesOfTheTrajectory) {
       EXPECT_NEAR(Vec3(axis[0], axis[1], axis[2]).dot(frame.director[r]), 1, 1e-6);
     }
   }
+  EXPECT_GT(n_between, 0) << "nothing is measured or recorded there";
+}
+
+/// With the real program, beside this one.
+TEST(Run, TheFilmIsDrawnAndTellsHowFarItIs) {
+  const TemporaryFolder folder;
+  scene::RunPlan plan = small_plan();
+  plan.measure_time = 0.05;
+  plan.movie = scene::Movie{0.005, 320, 240};
+  std::vector<double> drawn;
+  const std::atomic<bool> stop = false;
+  RunCallbacks callbacks;
+  callbacks.on_progress = [&](const Progress& progress) {
+    if (progress.state == "rendering") drawn.push_back(progress.drawn);
+  };
+  callbacks.make_movie = [&](const OnDrawn& on_drawn) {
+    return render_movie(folder.path(), stop, "rods.length=2.5", on_drawn);
+  };
+  const RunOutcome outcome = run_in(folder.path(), plan, callbacks);
+  EXPECT_EQ(outcome.message, "");
+  EXPECT_TRUE(std::filesystem::exists(RunDirectory{folder.path()}.movie()));
+  EXPECT_FALSE(std::filesystem::exists(folder / "drawing.json"));
+  ASSERT_GE(drawn.size(), 2U);
+  EXPECT_TRUE(std::is_sorted(drawn.begin(), drawn.end()));
+  EXPECT_EQ(drawn.back(), 1);
 }
 
 TEST(Run, LcmThatCannotStartIsOnlyAWarning) {

@@ -11,7 +11,8 @@ namespace {
 
 TEST(Progress, ComesBackFromItsFile) {
   const TemporaryFolder folder;
-  const Progress written{"failed", "numerical \"trouble\"\n\xff", 4711, 2109, 1.25, 10, 0.0123, -1, 0.875, 0.75, 1e-5};
+  const Progress written{"failed", "numerical \"trouble\"\n\xff", 4711, 2109, 1.25, 10, 0.0123, -1, 0.5, 0.875, 0.75,
+                         1e-5};
   ASSERT_TRUE(write_progress(folder / "progress.json", written));
   const auto read = read_progress(folder / "progress.json");
   ASSERT_TRUE(read) << read.error().message;
@@ -23,6 +24,7 @@ TEST(Progress, ComesBackFromItsFile) {
   EXPECT_EQ(read->sim_time_total, 10);
   EXPECT_EQ(read->sim_rate, 0.0123);
   EXPECT_EQ(read->eta, -1);
+  EXPECT_EQ(read->drawn, 0.5);
   EXPECT_EQ(read->order, 0.875);
   EXPECT_EQ(read->order_running_mean, 0.75);
   EXPECT_EQ(read->max_overlap, 1e-5);

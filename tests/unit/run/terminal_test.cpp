@@ -15,6 +15,10 @@ TEST(DescribeProgress, ShowsHowFarAndHowLong) {
   progress.order = 0.913;
   EXPECT_EQ(describe_progress(progress),
             "████████████············  50.0 %  5 of 10 s  0.02 s/s  ETA 4 min 10 s  S 0.913");
+  progress.state = "rendering";
+  progress.drawn = 0.4;
+  EXPECT_EQ(describe_progress(progress),
+            "████████████············  50.0 %  5 of 10 s  drawing 40 %  ETA 4 min 10 s  S 0.913");
   progress.state = "stopped";
   EXPECT_EQ(describe_progress(progress), "████████████············  50.0 %  5 of 10 s  stopped  S 0.913");
 }

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "client/picture_options.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "client/api_client.h"
+#include "client/target.h"
+#include "client/verb.h"
+
+namespace shaken::client {
+namespace {
+
+constexpr PictureOption kOptions[] = {
+    {"colour", "NAME", "auto, angle, layers, heading, tilt, speed, order, density, species or id"},
+    {"range", "LOW,HIGH", "Ends of the colour scale, in its unit (--range=-5,5)"},
+    {"size", "WxH", "Pixels"},
+    {"theme", "light|dark|print", "Colours of page, floor and text"},
+    {"rods", "OPACITY", "Opacity of the rods over the background, 0 to 1"},
+    {"background", "none|order", "What lies under the rods: the floor, or the local order S"},
+    {"lines", "none|bars|streamlines", "The director field over the rods"},
+    {"defects", nullptr, "Looks for defects and marks them"},
+    {"tracks", "S", "For how long defects leave a track that fades"},
+    {"caption", nullptr, "Headline, numbers and S(t)"},
+    {"legend", nullptr, "The colour scale"},
+    {"scale-bar", nullptr, "A scale bar"},
+    {"view", "top|gap|follow:N", "From above, into the gap, or with rod N in the middle"},
+    {"whole", nullptr, "Rods across the border are drawn once and whole"},
+    {"zoom", "FACTOR", "Shows a part of the box, this many times enlarged"},
+    {"focus", "X,Y", "Middle of the enlarged part, in box sides"},
+    {"fps", "N", "Frames per second of playing"},
+    {"speed", "FACTOR", "Simulated seconds per second of playing; 0.1 is slow motion"},
+};
+
+}  // namespace
+
+std::span<const PictureOption> picture_options() { return kOptions; }
+
+void PictureOptions::declare(Arguments& arguments) {
+  arguments.required("JOB", job, "A job, by the beginning of its id, or a run directory", Names::kRun);
+  arguments.option("-o,--out", out, "FILE", "Where to write; named after the job if left out", Names::kFile);
+  arguments.option("--style", style_, "NAME|FILE",
+                   "layers, defects, director, tilt, mechanism, mixture, or a style file; the options below change it",
+                   Names::kFile);
+  for (const PictureOption& option : kOptions) {
+    const std::string name = option.name;
+    if (option.value != nullptr) {
+      arguments.option((name == "colour" ? "-c,--" : "--") + name, values_[name], option.value, option.help);
+      continue;
+    }
+    arguments.flag("--" + name, switches_[name], option.help);
+    arguments.flag("--no-" + name, switches_["no-" + name], "Without it");
+  }
+  arguments.option("--label", label_, "TEXT", "Headline; what was swept if left out");
+  arguments.flag("--bare", bare_, "Only the box, filling the picture");
+}
+
+std::vector<std::string> PictureOptions::words(const std::string& label) const {
+  std::vector<std::string> words;
+  if (!style_.empty()) words.push_back("--style=" + style_);
+  for (const auto& [name, value] : values_) {
+    if (!value.empty()) words.push_back(fmt::format("--{}={}", name, value));
+  }
+  for (const auto& [name, is_given] : switches_) {
+    if (is_given) words.push_back("--" + name);
+  }
+  if (const std::string& headline = label_.empty() ? label : label_; !headline.empty()) {
+    words.push_back("--label=" + headline);
+  }
+  if (bare_) words.emplace_back("--bare");
+  return words;
+}
+
+Drawn find_drawn(const Context& context, const std::string& job) {
+  if (is_run_directory(job)) {
+    return {.directory = job, .name = std::filesystem::weakly_canonical(job).filename().string()};
+  }
+  ApiClient session(context.root());
+  const Json found = find_job(session, job);
+  Drawn drawn;
+  drawn.id = found.at("id").get<std::string>();
+  drawn.directory = found.at("directory").get<std::string>();
+  drawn.name = short_id(drawn.id);
+  drawn.state = text_of(found, "state");
+  drawn.label = text_of(found, "label");
+  return drawn;
+}
+
+}  // namespace shaken::client

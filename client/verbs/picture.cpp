@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "base/process.h"
+#include "client/picture_options.h"
+#include "client/verbs/verbs.h"
+
+namespace shaken::client {
+namespace {
+
+class Picture : public Verb {
+ public:
+  VerbInfo info() const override {
+    return {"picture", kResultsGroup, "One frame of a job as a PNG, SVG or PDF",
+            "  shaken picture 1f0c                                   -> 1f0c5e2a.png, the last frame\n"
+            "  shaken picture 1f0c --time 12.5s --style defects -o d.png\n"
+            "  shaken picture runs/first --style director --theme print -o fig4.pdf\n"
+            "  shaken picture runs/first --colour tilt --zoom 3 --focus 0.2,0.7\n"
+            "  shaken picture runs/first --view follow:17            rod 17 in the middle\n"
+            "Styles, colours and style files: docs/pictures.md"};
+  }
+
+  void declare(Arguments& arguments) override {
+    options_.declare(arguments);
+    arguments.option("--frame", frame_, "N|last", "The frame, counted from 0; the last if left out");
+    arguments.option("--time", time_, "TIME", "The frame nearest to this simulated time: 12.5, 500ms");
+  }
+
+  ExitCode run(const Context& context) override {
+    if (!frame_.empty() && !time_.empty()) {
+      throw Failure(ExitCode::kBadInput, "--frame and --time exclude each other");
+    }
+    const Drawn drawn = find_drawn(context, options_.job);
+    std::vector<std::string> command{sibling_program("shaken-render").string(), "picture", drawn.directory, "-o",
+                                     options_.out.empty() ? drawn.name + ".png" : options_.out};
+    if (!frame_.empty()) command.push_back("--frame=" + frame_);
+    if (!time_.empty()) command.push_back("--time=" + time_);
+    const std::vector<std::string> style = options_.words(drawn.label);
+    command.insert(command.end(), style.begin(), style.end());
+    become(command);
+  }
+
+ private:
+  PictureOptions options_;
+  std::string frame_, time_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_picture() { return std::make_unique<Picture>(); }
+
+}  // namespace shaken::client

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+#include "render/gap_pass.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "render/colourings.h"
+#include "render/colours.h"
+#include "render/gap_shaders.h"
+#include "render/gl.h"
+#include "render/gl_program.h"
+#include "render/rods_pass.h"
+
+namespace shaken::render {
+namespace {
+
+/// One rod as the shaders see it.
+struct Seen {
+  std::array<float, 3> centre, axis, colour;
+};
+
+std::array<float, 3> floats_of(const Vec3& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+Vec3 vector_of(const Colour& colour) { return {colour[0], colour[1], colour[2]}; }
+
+/// Rods of one species that are seen, with their periodic images, relative to the eye.
+std::vector<Seen> seen_rods(const RodPicture& picture, std::size_t species, const PictureStyle& style,
+                            const GapCamera& camera) {
+  const Colouring& colouring = colouring_of(picture, style);
+  const Vec2 range = range_of(colouring, style);
+  const BeadRow& beads = picture.beads_of(species);
+  double half = 0;
+  for (std::size_t i = 0; i < beads.offset.size(); ++i)
+    half = std::max(half, std::abs(beads.offset[i]) + beads.radius[i]);
+  const double side = camera.tangent.x() * camera.far + half, period = picture.box_side;
+  std::vector<Seen> seen;
+  for (std::size_t i = 0; i < picture.n_rods(); ++i) {
+    if (picture.species_of(i) != species) continue;
+    const Vec3 from_eye = picture.position[i] - camera.eye;
+    const Vec3& n = picture.director[i];
+    // How far the rod reaches towards the eye.
+    double towards = 0;
+    for (std::size_t k = 0; k < beads.offset.size(); ++k) {
+      towards = std::max(towards, beads.radius[k] - beads.offset[k] * n.y());
+    }
+    const auto add = [&](double x, double y) {
+      if (y - towards < camera.front || y - half > camera.far) return;
+      if (std::abs(x) > camera.tangent.x() * (y + half) + half) return;
+      const Colour colour = rod_colour(picture, i, colouring, range);
+      seen.push_back({floats_of({x, y, from_eye.z()}), floats_of(n), floats_of(vector_of(colour))});
+    };
+    if (picture.walls) {
+      add(from_eye.x(), from_eye.y());
+      continue;
+    }
+    for (double ky = std::ceil((camera.front - from_eye.y()) / period); from_eye.y() + ky * period < camera.far + half;
+         ++ky) {
+      for (double kx = std::ceil((-side - from_eye.x()) / period); from_eye.x() + kx * period <= side; ++kx) {
+        add(from_eye.x() + kx * period, from_eye.y() + ky * period);
+      }
+    }
+  }
+  return seen;
+}
+
+}  // namespace
+
+GapCamera gap_camera(const RodPicture& picture, const PictureStyle& style, double aspect) {
+  constexpr double kShare = 0.28;      // of the stage's height that the gap takes at the front
+  constexpr double kDistance = 6.5;    // from the eye to the front, in gaps
+  constexpr double kDepth = 22;        // from the front to where all has faded, in gaps
+  constexpr double kEyeHeight = 0.66;  // above the base, in gaps
+  GapCamera camera;
+  camera.front = kDistance * picture.gap;
+  camera.far = camera.front + kDepth * picture.gap;
+  Vec2 at = style.focus * picture.box_side;
+  if (style.followed && static_cast<std::size_t>(*style.followed) < picture.n_rods()) {
+    at = picture.position[static_cast<std::size_t>(*style.followed)].head<2>() - Vec2(0, 1.5 * picture.gap);
+  }
+  // The eye rests, so that the plates are seen to move; a vibration is small against the gap.
+  camera.eye = Vec3(at.x(), at.y() - camera.front, kEyeHeight * picture.gap);
+  const double up = picture.gap / kShare / 2 / camera.front / std::max(style.zoom, 1.0);
+  camera.tangent = Vec2(aspect * up, up);
+  return camera;
+}
+
+struct GapPass::Programs {
+  GLuint plates = 0, shadow = 0, body = 0;
+  GLuint vertex_array = 0, buffer = 0;
+};
+
+GapPass::GapPass(GlContext context, std::unique_ptr<Programs> programs)
+    : context_(std::move(context)), programs_(std::move(programs)) {}
+GapPass::GapPass(GapPass&&) noexcept = default;
+GapPass& GapPass::operator=(GapPass&&) noexcept = default;
+GapPass::~GapPass() = default;  // the GL objects go with their context
+
+Result<GapPass> GapPass::create() {
+  Result<GlContext> context = GlContext::create();
+  if (!context) return context.error();
+  if (auto done = context->bind(kSamples, kSamples); !done) return done.error();
+  auto programs = std::make_unique<Programs>();
+  std::string message;
+  programs->plates = link_program(shaders::kStage, shaders::kPlates, message);
+  programs->shadow = link_program(shaders::kGapShadowQuad, shaders::kGapShadow, message);
+  programs->body = link_program(shaders::kGapRod, shaders::kGapBody, message);
+  if (!programs->plates || !programs->shadow || !programs->body)
+    return Error{"the rasteriser refuses a shader: " + message};
+  glGenVertexArrays(1, &programs->vertex_array);
+  glBindVertexArray(programs->vertex_array);
+  glGenBuffers(1, &programs->buffer);
+  glBindBuffer(GL_ARRAY_BUFFER, programs->buffer);
+  for (GLuint i = 0; i < 3; ++i) {
+    glEnableVertexAttribArray(i);
+    // OpenGL takes an offset into the buffer as a pointer.
+    glVertexAttribPointer(i, 3, GL_FLOAT, GL_FALSE, sizeof(Seen),
+                          // NOLINTNEXTLINE(performance-no-int-to-ptr)
+                          reinterpret_cast<const void*>(i * sizeof(Seen::centre)));
+    glVertexAttribDivisor(i, 1);
+  }
+  return GapPass(std::move(*context), std::move(programs));
+}
+
+Result<Image> GapPass::draw(const RodPicture& picture, const PictureStyle& style, int width, int height) {
+  if (auto done = check_drawable(picture, std::max(width, height)); !done) return done.error();
+  if (!(picture.gap > 0)) return Error{"there is no gap to look into"};
+  if (auto done = context_.bind(width * kSamples, height * kSamples); !done) return done.error();
+  const GapCamera camera = gap_camera(picture, style, static_cast<double>(width) / height);
+  const Palette colours = palette(style.theme);
+  const double base = picture.base - camera.eye.z();
+  const auto f = [](double x) { return static_cast<float>(x); };
+  const auto use = [&](GLuint program) {
+    glUseProgram(program);
+    const auto at = [program](const char* name) { return glGetUniformLocation(program, name); };
+    glUniform2f(at("tangent"), f(camera.tangent.x()), f(camera.tangent.y()));
+    glUniform2f(at("plates"), f(base), f(base + picture.gap));
+    glUniform2f(at("depths"), f(0.5 * camera.front), f(camera.far));
+    glUniform1f(at("front"), f(camera.front));
+    for (const auto& [name, colour] : {std::pair{"page", colours.page},
+                                       {"face", colours.floor},
+                                       {"cut", colours.walls},
+                                       {"ink", colours.ink},
+                                       {"haze", colours.page}}) {
+      glUniform3f(at(name), f(colour[0]), f(colour[1]), f(colour[2]));
+    }
+    return at;
+  };
+  glBindVertexArray(programs_->vertex_array);
+  glBindBuffer(GL_ARRAY_BUFFER, programs_->buffer);
+  glClearColor(f(colours.page[0]), f(colours.page[1]), f(colours.page[2]), 1);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LEQUAL);
+  glDisable(GL_BLEND);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  {
+    const auto at = use(programs_->plates);
+    glUniform1i(at("has_lid"), picture.has_lid ? 1 : 0);
+    glUniform2f(at("origin"), f(-camera.eye.x()), f(-camera.eye.y()));
+    glUniform1f(at("thickness"), f(0.8 * picture.gap));
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  }
+  struct Batch {
+    std::vector<float> beads;
+    Vec2 ends;
+    double thick, pitch;
+    std::vector<Seen> rods;
+  };
+  std::vector<Batch> batches;
+  for (std::size_t species = 0; species < picture.n_species(); ++species) {
+    const BeadRow& row = picture.beads_of(species);
+    Batch batch{{},
+                Vec2(row.offset.front(), row.offset.back()),
+                *std::max_element(row.radius.begin(), row.radius.end()),
+                pitch_of(row),
+                seen_rods(picture, species, style, camera)};
+    for (std::size_t i = 0; i < row.offset.size(); ++i) {
+      batch.beads.push_back(f(row.offset[i]));
+      batch.beads.push_back(f(row.radius[i]));
+    }
+    batches.push_back(std::move(batch));
+  }
+  const auto draw_with = [&](GLuint program, const Batch& batch) {
+    if (batch.rods.empty()) return;
+    const auto at = use(program);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(batch.rods.size() * sizeof(Seen)), batch.rods.data(),
+                 GL_STREAM_DRAW);
+    const auto n_beads = static_cast<GLsizei>(batch.beads.size() / 2);
+    glUniform2fv(at("beads"), n_beads, batch.beads.data());
+    glUniform1i(at("n_beads"), n_beads);
+    glUniform2f(at("ends"), f(batch.ends.x()), f(batch.ends.y()));
+    glUniform1f(at("pitch"), f(batch.pitch));
+    glUniform1f(at("thick"), f(batch.thick));
+    glUniform1f(at("margin"), f(0.7 * batch.thick));
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(batch.rods.size()));
+  };
+  // On the base, but not on its cut edge, which is at depth 0. The darkest counts nowhere: shadows add up.
+  glDepthMask(GL_FALSE);
+  glEnable(GL_BLEND);
+  glBlendEquation(GL_FUNC_ADD);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  for (const Batch& batch : batches) draw_with(programs_->shadow, batch);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_BLEND);
+  for (const Batch& batch : batches) draw_with(programs_->body, batch);
+
+  const std::vector<std::uint8_t>& pixels = context_.finished_pixels();
+  if (const GLenum code = glGetError(); code != GL_NO_ERROR) {
+    return Error{"OpenGL error " + std::to_string(code) + " while looking into the gap"};
+  }
+  return averaged(pixels, width, height);
+}
+
+}  // namespace shaken::render

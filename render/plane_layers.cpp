@@ -1,0 +1,380 @@
+// SPDX-License-Identifier: MIT
+#include "render/plane_layers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <optional>
+
+#include "analysis/periodic.h"
+#include "render/colourings.h"
+#include "render/colours.h"
+#include "render/marks.h"
+#include "render/view.h"
+
+namespace shaken::render {
+namespace {
+
+/// From the plane to the picture, and a clip to the box while it lives.
+class Plane {
+ public:
+  Plane(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style)
+      : cr_(canvas.cairo()),
+        view_(view_of(picture, style)),
+        scale_(layout.box_side / view_.side),
+        box_{static_cast<double>(layout.box_x), static_cast<double>(layout.box_y), static_cast<double>(layout.box_side),
+             static_cast<double>(layout.box_side)} {
+    cairo_save(cr_);
+    cairo_rectangle(cr_, box_.x, box_.y, box_.width, box_.height);
+    cairo_clip(cr_);
+  }
+  Plane(const Plane&) = delete;
+  Plane& operator=(const Plane&) = delete;
+  ~Plane() { cairo_restore(cr_); }
+
+  const View& view() const { return view_; }
+  const Rect& box() const { return box_; }
+  double scale() const { return scale_; }  ///< pixels per mm
+  /// The pixel of a point that is given from the view's corner.
+  Vec2 pixel(const Vec2& from_corner) const {
+    return {box_.x + from_corner.x() * scale_, box_.bottom() - from_corner.y() * scale_};
+  }
+
+ private:
+  cairo_t* cr_;
+  View view_;
+  double scale_;
+  Rect box_;
+};
+
+/// Whether there is a director at the node nearest to `place`.
+bool is_defined(const analysis::DirectorField& field, const Vec2& place) {
+  const auto node = [&](double x) { return static_cast<int>(std::lround(x / field.mesh())); };
+  return field.is_defined(node(place.x()), node(place.y()));
+}
+
+/// How much of a director there is at `place`: 1 where all nodes around it have one, 0 where none has.
+double defined_share(const analysis::DirectorField& field, const Vec2& place) {
+  const double x = place.x() / field.mesh(), y = place.y() / field.mesh();
+  const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y));
+  const auto at = [&](int di, int dj) { return field.is_defined(i + di, j + dj) ? 1.0 : 0.0; };
+  const double u = x - i, v = y - j;
+  return (1 - v) * ((1 - u) * at(0, 0) + u * at(1, 0)) + v * ((1 - u) * at(0, 1) + u * at(1, 1));
+}
+
+void draw_order(const Canvas& canvas, const Plane& plane, const RodPicture& picture, Theme theme) {
+  // Nodes half a mesh apart in the view, or as many as pixels show.
+  const View& view = plane.view();
+  const int n = std::clamp(static_cast<int>(std::ceil(2 * view.side / picture.field->mesh())), 8, 400);
+  Image image(n + 1, n + 1);
+  for (int j = 0; j <= n; ++j) {
+    for (int i = 0; i <= n; ++i) {
+      const Vec2 place = view.corner + view.side / n * Vec2(i, n - j);
+      const double order = defined_share(*picture.field, place) * 2 * picture.field->q_at(place).norm();
+      const Colour colour = order_background(order, theme);
+      for (std::size_t c = 0; c < 3; ++c)
+        image.pixel(i, j)[c] = static_cast<std::uint8_t>(std::lround(255 * colour[c]));
+    }
+  }
+  canvas.spread(image, plane.box());
+}
+
+/// The arena as a path, with its inner wall if there is one; the region is what an even-odd fill would fill.
+void arena_path(cairo_t* cr, const Plane& plane, const SideWalls& walls, double box_side) {
+  const Vec2 middle = plane.pixel(Vec2(box_side, box_side) / 2 - plane.view().corner);
+  const double reach = walls.size / 2 * plane.scale();
+  if (walls.arena == Arena::kSquare) {
+    cairo_rectangle(cr, middle.x() - reach, middle.y() - reach, 2 * reach, 2 * reach);
+    return;
+  }
+  cairo_new_sub_path(cr);
+  cairo_arc(cr, middle.x(), middle.y(), reach, 0, 2 * kPi);
+  if (walls.arena != Arena::kAnnulus) return;
+  cairo_new_sub_path(cr);
+  cairo_arc(cr, middle.x(), middle.y(), walls.inner / 2 * plane.scale(), 0, 2 * kPi);
+}
+
+void draw_walls(const Canvas& canvas, const Plane& plane, const RodPicture& picture, const Palette& colours,
+                double unit) {
+  cairo_t* cr = canvas.cairo();
+  cairo_rectangle(cr, plane.box().x, plane.box().y, plane.box().width, plane.box().height);
+  arena_path(cr, plane, *picture.walls, picture.box_side);
+  cairo_set_fill_rule(cr, CAIRO_FILL_RULE_EVEN_ODD);
+  canvas.colour(colours.walls);
+  cairo_fill(cr);
+  cairo_set_fill_rule(cr, CAIRO_FILL_RULE_WINDING);
+  arena_path(cr, plane, *picture.walls, picture.box_side);
+  canvas.colour(colours.ink);
+  cairo_set_line_width(cr, 1.5 * unit);
+  cairo_stroke(cr);
+}
+
+/// The points of all lines so far, found by place. Periodic.
+class Occupied {
+ public:
+  Occupied(double box_side, double distance)
+      : side_(box_side), cells_(std::max(1, static_cast<int>(box_side / distance))) {
+    in_cell_.resize(static_cast<std::size_t>(cells_) * static_cast<std::size_t>(cells_));
+  }
+
+  void add(const Vec2& place) { cell(column(place.x()), column(place.y())).push_back(wrapped(place)); }
+  /// Whether a point lies nearer to `place` than `distance`, which is at most that given at the beginning.
+  bool is_near(const Vec2& place, double distance) const {
+    const Vec2 here = wrapped(place);
+    const int reach = std::min(1, (cells_ - 1) / 2);
+    for (int dj = -reach; dj <= reach; ++dj) {
+      for (int di = -reach; di <= reach; ++di) {
+        for (const Vec2& point : cell(column(here.x()) + di, column(here.y()) + dj)) {
+          const Vec2 d = point - here;
+          const Vec2 nearest(analysis::nearest_image(d.x(), side_), analysis::nearest_image(d.y(), side_));
+          if (nearest.squaredNorm() < distance * distance) return true;
+        }
+      }
+    }
+    return false;
+  }
+
+ private:
+  Vec2 wrapped(const Vec2& place) const {
+    return {analysis::wrapped(place.x(), side_), analysis::wrapped(place.y(), side_)};
+  }
+  int column(double x) const {
+    return std::min(static_cast<int>(analysis::wrapped(x, side_) / side_ * cells_), cells_ - 1);
+  }
+  std::size_t index(int i, int j) const {
+    return static_cast<std::size_t>((j + cells_) % cells_) * static_cast<std::size_t>(cells_) +
+           static_cast<std::size_t>((i + cells_) % cells_);
+  }
+  std::vector<Vec2>& cell(int i, int j) { return in_cell_[index(i, j)]; }
+  const std::vector<Vec2>& cell(int i, int j) const { return in_cell_[index(i, j)]; }
+
+  double side_;
+  int cells_;
+  std::vector<std::vector<Vec2>> in_cell_;
+};
+
+/// The director at `place`, to the side of `before`; nothing where there is none.
+std::optional<Vec2> director_at(const analysis::DirectorField& field, const Vec2& place, const Vec2& before) {
+  constexpr double kLeast = 0.05;  // of S: below that the direction is noise
+  const Vec2 q = field.q_at(place);
+  if (2 * q.norm() < kLeast || !is_defined(field, place)) return std::nullopt;
+  const double theta = std::atan2(q.y(), q.x()) / 2;
+  const Vec2 n(std::cos(theta), std::sin(theta));
+  return n.dot(before) < 0 ? Vec2(-n) : n;
+}
+
+void draw_bars(const Canvas& canvas, const Plane& plane, const RodPicture& picture, const Palette& colours,
+               double unit) {
+  constexpr double kAcross = 34;  // bars along each side of the view
+  const View& view = plane.view();
+  const double mesh = view.side / kAcross;
+  cairo_t* cr = canvas.cairo();
+  cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
+  const auto first = [&](double corner) { return std::floor(corner / mesh - 1); };
+  for (double j = first(view.corner.y()); j * mesh < view.corner.y() + view.side; ++j) {
+    for (double i = first(view.corner.x()); i * mesh < view.corner.x() + view.side; ++i) {
+      const Vec2 place((i + 0.5) * mesh, (j + 0.5) * mesh);
+      const std::optional<Vec2> n = director_at(*picture.field, place, Vec2(1, 0));
+      if (!n) continue;
+      const Vec2 from = plane.pixel(place - view.corner - 0.36 * mesh * *n);
+      const Vec2 to = plane.pixel(place - view.corner + 0.36 * mesh * *n);
+      canvas.colour(colours.ink, 0.25 + 0.75 * std::min(1.0, 2 * picture.field->q_at(place).norm()));
+      canvas.line(from.x(), from.y(), to.x(), to.y(), 2 * unit);
+    }
+  }
+  cairo_set_line_cap(cr, CAIRO_LINE_CAP_BUTT);
+}
+
+void draw_streamlines(const Canvas& canvas, const Plane& plane, const RodPicture& picture, const Palette& colours,
+                      double unit) {
+  cairo_t* cr = canvas.cairo();
+  canvas.colour(colours.ink, 0.8);
+  cairo_set_line_width(cr, 1.3 * unit);
+  cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
+  for (const Streamline& line : streamlines(*picture.field, plane.view().side / 44)) {
+    Vec2 low = line.front(), high = line.front();
+    for (const Vec2& point : line) {
+      low = low.cwiseMin(point);
+      high = high.cwiseMax(point);
+    }
+    const Vec2 middle = (low + high) / 2;
+    View view = plane.view();
+    view.period = picture.walls ? 0 : picture.box_side;  // the field goes on beyond the box, also where rods do not
+    for_images(view, middle, (high - low).maxCoeff() / 2, [&](const Vec2& at) {
+      for (const Vec2& point : line) {
+        const Vec2 p = plane.pixel(at + point - middle);
+        cairo_line_to(cr, p.x(), p.y());
+      }
+      cairo_stroke(cr);
+    });
+  }
+  cairo_set_line_cap(cr, CAIRO_LINE_CAP_BUTT);
+}
+
+/// The points of an outline at one side of the rod, from tail to head: offset and half width.
+std::vector<Vec2> half_outline(const BeadRow& beads) {
+  constexpr int kSlices = 60;
+  double tail = 0, head = 0;
+  for (std::size_t i = 0; i < beads.offset.size(); ++i) {
+    tail = std::min(tail, beads.offset[i] - beads.radius[i]);
+    head = std::max(head, beads.offset[i] + beads.radius[i]);
+  }
+  std::vector<Vec2> outline;
+  for (int k = 0; k <= kSlices; ++k) {
+    // Closer together towards the round ends.
+    const double x = (tail + head) / 2 - (head - tail) / 2 * std::cos(k * kPi / kSlices);
+    double half = 0;
+    for (std::size_t i = 0; i < beads.offset.size(); ++i) {
+      const double d = x - beads.offset[i], square = beads.radius[i] * beads.radius[i] - d * d;
+      if (square > 0) half = std::max(half, std::sqrt(square));
+    }
+    outline.emplace_back(x, half);
+  }
+  return outline;
+}
+
+}  // namespace
+
+void draw_ground(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style) {
+  const Plane plane(canvas, layout, picture, style);
+  const Palette colours = palette(style.theme);
+  canvas.colour(colours.floor);
+  canvas.fill(plane.box());
+  if (style.background == Background::kOrder && picture.field) draw_order(canvas, plane, picture, style.theme);
+  if (picture.walls) draw_walls(canvas, plane, picture, colours, layout.unit);
+}
+
+void draw_flat_rods(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style) {
+  const Plane plane(canvas, layout, picture, style);
+  const Palette colours = palette(style.theme);
+  const Colouring& colouring = colouring_of(picture, style);
+  const Vec2 range = range_of(colouring, style);
+  std::vector<std::vector<Vec2>> outlines;
+  for (std::size_t s = 0; s < picture.n_species(); ++s) outlines.push_back(half_outline(picture.beads_of(s)));
+  cairo_t* cr = canvas.cairo();
+  cairo_set_line_width(cr, 0.5 * layout.unit);
+  for (std::size_t i = 0; i < picture.n_rods(); ++i) {
+    const std::vector<Vec2>& outline = outlines[picture.species_of(i)];
+    const Vec3& n = picture.director[i];
+    const double flat = n.head<2>().norm();
+    const Vec2 along = flat > 1e-6 ? Vec2(n.head<2>() / flat) : Vec2(1, 0), across(-along.y(), along.x());
+    const Colour colour = rod_colour(picture, i, colouring, range);
+    for_images(plane.view(), picture.position[i].head<2>(), std::abs(outline.front().x()) + outline.back().x(),
+               [&](const Vec2& at) {
+                 const auto add = [&](const Vec2& point, double side) {
+                   const Vec2 p = plane.pixel(at + flat * point.x() * along + side * point.y() * across);
+                   cairo_line_to(cr, p.x(), p.y());
+                 };
+                 for (const Vec2& point : outline) add(point, 1);
+                 for (auto point = outline.rbegin(); point != outline.rend(); ++point) add(*point, -1);
+                 cairo_close_path(cr);
+                 canvas.colour(colour, style.rods);
+                 cairo_fill_preserve(cr);
+                 canvas.colour(colours.ink, 0.6 * style.rods);
+                 cairo_stroke(cr);
+               });
+  }
+}
+
+void draw_lines(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style) {
+  if (style.lines == FieldLines::kNone || !picture.field) return;
+  const Plane plane(canvas, layout, picture, style);
+  (style.lines == FieldLines::kBars ? draw_bars : draw_streamlines)(canvas, plane, picture, palette(style.theme),
+                                                                    layout.unit);
+}
+
+void draw_tracks(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style) {
+  const Plane plane(canvas, layout, picture, style);
+  for (const PastDefect& past : picture.tracks) {
+    const double radius = (1.5 + 2 * (1 - past.age)) * layout.unit;
+    for_images(plane.view(), past.position, radius / plane.scale(), [&](const Vec2& at) {
+      const Vec2 p = plane.pixel(at);
+      canvas.colour(diverging_colour(past.charge > 0 ? 1 : -1), 0.85 * (1 - past.age));
+      cairo_arc(canvas.cairo(), p.x(), p.y(), radius, 0, 2 * kPi);
+      cairo_fill(canvas.cairo());
+    });
+  }
+}
+
+void draw_defects(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style) {
+  const Plane plane(canvas, layout, picture, style);
+  const double unit = layout.unit * std::min(std::sqrt(std::max(style.zoom, 1.0)), 2.0);
+  for (const analysis::Defect& defect : picture.defects) {
+    for_images(plane.view(), defect.position, kMarkReach * unit / plane.scale(), [&](const Vec2& at) {
+      const Vec2 p = plane.pixel(at);
+      (defect.charge > 0 ? draw_plus_half : draw_minus_half)(canvas, p.x(), p.y(), defect.direction, unit);
+    });
+  }
+}
+
+std::vector<Streamline> streamlines(const analysis::DirectorField& field, double distance) {
+  const double side = field.region().box_side();
+  const double step = distance / 4, near = distance / 2;
+  const auto most = static_cast<std::size_t>(2 * side / step);  // steps of one line to either side
+  constexpr std::size_t kOwn = 6;                               // steps along a line that may be near to each other
+  Occupied occupied(side, distance);
+  std::vector<Streamline> lines;
+
+  // From `seed` along `direction`, without the seed itself.
+  const auto follow = [&](const Vec2& seed, const Vec2& direction, const Streamline& other_half) {
+    Streamline line;
+    Vec2 at = seed, before = direction;
+    while (line.size() < most) {
+      const std::optional<Vec2> here = director_at(field, at, before);
+      if (!here) break;
+      const std::optional<Vec2> half_way = director_at(field, at + step / 2 * *here, *here);
+      if (!half_way) break;
+      const Vec2 next = at + step * *half_way;
+      if (occupied.is_near(next, near)) break;
+      // A line that comes back to itself is closed enough.
+      const auto meets = [&](const Streamline& part, std::size_t spared) {
+        if (part.size() <= spared) return false;
+        return std::any_of(part.begin(), part.end() - static_cast<std::ptrdiff_t>(spared), [&](const Vec2& point) {
+          const Vec2 d(std::remainder(point.x() - next.x(), side), std::remainder(point.y() - next.y(), side));
+          return d.squaredNorm() < near * near;
+        });
+      };
+      if (meets(line, kOwn)) break;
+      if (!other_half.empty() && line.size() > kOwn && meets(other_half, 0)) break;
+      line.push_back(next);
+      at = next;
+      before = *half_way;
+    }
+    return line;
+  };
+  std::deque<std::size_t> to_surround;
+  const auto begin_at = [&](const Vec2& seed) {
+    if (occupied.is_near(seed, 0.99 * distance)) return;
+    const std::optional<Vec2> n = director_at(field, seed, Vec2(1, 0));
+    if (!n) return;
+    const Streamline ahead = follow(seed, *n, {});
+    Streamline line = follow(seed, -*n, ahead);
+    std::reverse(line.begin(), line.end());
+    line.push_back(seed);
+    line.insert(line.end(), ahead.begin(), ahead.end());
+    if (line.size() < 8) return;
+    for (const Vec2& point : line) occupied.add(point);
+    to_surround.push_back(lines.size());
+    lines.push_back(std::move(line));
+  };
+  const auto surround = [&] {
+    while (!to_surround.empty()) {
+      const Streamline line = lines[to_surround.front()];
+      to_surround.pop_front();
+      for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+        const Vec2 along = (line[k + 1] - line[k]).normalized();
+        for (const double to : {-1.0, 1.0}) begin_at(line[k] + to * distance * Vec2(-along.y(), along.x()));
+      }
+    }
+  };
+  const int n_seeds = std::max(1, static_cast<int>(side / distance));
+  for (int j = 0; j < n_seeds; ++j) {
+    for (int i = 0; i < n_seeds; ++i) {
+      begin_at(side / n_seeds * Vec2(i + 0.5, j + 0.5));
+      surround();
+    }
+  }
+  return lines;
+}
+
+}  // namespace shaken::render

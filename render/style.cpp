@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include "render/style.h"
+
+#include <algorithm>
+
+#include "render/colourings.h"
+
+namespace shaken::render {
+
+Result<void> check(const PictureStyle& style) {
+  constexpr int kLeast = 64, kMost = 5000;
+  if (std::min(style.width, style.height) < kLeast || std::max(style.width, style.height) > kMost) {
+    return Error{"a picture of " + std::to_string(style.width) + "x" + std::to_string(style.height) +
+                 " pixels is not possible; each side may be 64 to 5000"};
+  }
+  if (!(style.zoom >= 1) || !style.focus.allFinite()) return Error{"zoom must be at least 1, and focus finite"};
+  const Colouring* colouring = find_colouring(style.colour);
+  if (style.colour != "auto" && colouring == nullptr) return Error{"there is no colouring " + style.colour};
+  if (style.range && colouring == nullptr) return Error{"range needs a colour that it is the range of, not auto"};
+  if (style.range && (colouring->scale != Scale::kLine || std::string_view(colouring->unit) == "\u00b0")) {
+    return Error{"range is for tilt, speed, order and density; the scale of " + style.colour + " is fixed"};
+  }
+  if (style.range && colouring->has_middle && style.range->x() != -style.range->y()) {
+    return Error{"the range of " + style.colour + " must have 0 in its middle, like -" +
+                 std::to_string(static_cast<int>(style.range->y())) + "," +
+                 std::to_string(static_cast<int>(style.range->y()))};
+  }
+  if (style.background != Background::kNone && style.rods >= 1) {
+    return Error{"the background is hidden: rods must be less than 1, 0.6 for example"};
+  }
+  return {};
+}
+
+}  // namespace shaken::render

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#include "render/plane_layers.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "render/colours.h"
+#include "tests/unit/render/support.h"
+
+namespace shaken::render {
+namespace {
+
+constexpr double kBox = 60;
+constexpr int kSide = 720;
+const Vec2 kPlus(20, 30), kMinus(40, 30);
+
+/// Director theta = (angle about kPlus - angle about kMinus) / 2 + `turn`: +1/2 at kPlus, -1/2 at kMinus.
+RodPicture planted_pair(double turn) {
+  RodPicture picture = empty_picture(kBox);
+  for (double x = 0.5; x < kBox; x += 1) {
+    for (double y = 0.5; y < kBox; y += 1) {
+      const Vec2 p = Vec2(x, y) - kPlus, m = Vec2(x, y) - kMinus;
+      add_rod(picture, x, y, 0.5 * (std::atan2(p.y(), p.x()) - std::atan2(m.y(), m.x())) + turn);
+    }
+  }
+  return picture;
+}
+
+PictureStyle bare(const char* name = "") {
+  PictureStyle style;
+  style.width = style.height = kSide;
+  style.caption = style.legend = style.scale_bar = false;
+  if (std::string(name) == "director") {
+    style.rods = 0;
+    style.background = Background::kOrder;
+    style.lines = FieldLines::kStreamlines;
+  }
+  if (std::string(name) == "defects") {
+    style.rods = 0.6;
+    style.background = Background::kOrder;
+  }
+  return style;
+}
+
+int grey_at(const Image& image, const Vec2& place) {
+  const int x = static_cast<int>(place.x() / kBox * kSide), y = static_cast<int>(kSide - place.y() / kBox * kSide);
+  const std::uint8_t* p = image.pixel(x, y);
+  return (p[0] + p[1] + p[2]) / 3;
+}
+
+Vec2 along(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
+TEST(PlantedPair, IsDrawnWhereAndAsItIsInEveryStyle) {
+  for (const double turn : {0.0, 0.7, -1.1}) {
+    RodPicture picture = planted_pair(turn);
+    measure(picture, {.defects = true, .field = true});
+    ASSERT_EQ(picture.defects.size(), 2u);
+    // Near the +1/2 theta = phi / 2 + (turn - pi / 2): radial where phi = 2 turn - pi. Near the -1/2
+    // theta = -phi / 2 + turn: radial where phi = 2 turn / 3, and 120 degrees on.
+    const double tail = 2 * turn - kPi, arm = 2 * turn / 3;
+    const double mm = kBox / kSide;  // of a pixel, which is a unit here
+    for (const char* name : {"", "defects", "director"}) {
+      const Image image = painter().paint(picture, bare(name)).value();
+      const auto shade = [&](const Vec2& core, double pixels, double angle) {
+        return grey_at(image, core + pixels * mm * along(angle));
+      };
+      // What it is drawn at is where it is found, to within a millimetre of where it was planted.
+      const auto found = [&](double charge) {
+        return std::find_if(picture.defects.begin(), picture.defects.end(),
+                            [&](const analysis::Defect& d) { return d.charge == charge; })
+            ->position;
+      };
+      ASSERT_LT((found(0.5) - kPlus).norm(), 1);
+      ASSERT_LT((found(-0.5) - kMinus).norm(), 1);
+      EXPECT_GT(shade(found(0.5), 0, 0), 240) << name << ": the comet's core";
+      EXPECT_LT(shade(found(0.5), 23, tail), 60) << name << ": its tail";
+      EXPECT_GT(shade(found(0.5), 23, tail + kPi), 60) << name << ": none to the other side";
+      EXPECT_LT(shade(found(0.5), 5.5, tail + kPi), 60) << name << ": its head";
+      for (int k = 0; k < 3; ++k) {
+        EXPECT_GT(shade(found(-0.5), 13, arm + k * 2 * kPi / 3), 240) << name << ": arm " << k;
+        EXPECT_LT(shade(found(-0.5), 5.9, arm + (k + 0.5) * 2 * kPi / 3), 130) << name << ": rim between arms " << k;
+      }
+    }
+  }
+}
+
+TEST(PlantedPair, TheBackgroundIsDarkInItsCores) {
+  RodPicture picture = planted_pair(0.3);
+  measure(picture, {.field = true});
+  PictureStyle style = bare();
+  style.mark_defects = false;
+  style.rods = 0;
+  style.background = Background::kOrder;
+  const Image image = painter().paint(picture, style).value();
+  for (const Vec2& core : {kPlus, kMinus}) EXPECT_LT(grey_at(image, core), grey_at(image, Vec2(30, 55)) - 60);
+}
+
+TEST(Streamlines, FollowTheDirectorAndCoverTheField) {
+  RodPicture picture = planted_pair(0.4);
+  measure(picture, {.field = true});
+  const double distance = 1.5;
+  const std::vector<Streamline> lines = streamlines(*picture.field, distance);
+  ASSERT_GT(lines.size(), 20u);
+  double length = 0;
+  for (const Streamline& line : lines) {
+    for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+      const Vec2 step = line[k + 1] - line[k], middle = (line[k] + line[k + 1]) / 2;
+      length += step.norm();
+      if ((middle - kPlus).norm() < 3 || (middle - kMinus).norm() < 3) continue;  // there the field bends sharply
+      const Vec2 q = picture.field->q_at(middle);
+      const double theta = std::atan2(q.y(), q.x()) / 2;
+      EXPECT_GT(std::abs(step.normalized().dot(along(theta))), 0.99);
+    }
+  }
+  // Lines a distance apart have a length of area / distance; they may come as near as half of it.
+  EXPECT_GT(length, 0.8 * kBox * kBox / distance);
+  EXPECT_LT(length, 2.0 * kBox * kBox / distance);
+}
+
+TEST(Streamlines, KeepTheirDistance) {
+  RodPicture picture = planted_pair(0);
+  measure(picture, {.field = true});
+  const double distance = 2;
+  const std::vector<Streamline> lines = streamlines(*picture.field, distance);
+  for (std::size_t a = 0; a < lines.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      for (const Vec2& p : lines[a]) {
+        for (const Vec2& q : lines[b]) {
+          const Vec2 d(std::remainder(p.x() - q.x(), kBox), std::remainder(p.y() - q.y(), kBox));
+          ASSERT_GT(d.norm(), distance / 2 - 1e-9);
+        }
+      }
+    }
+  }
+}
+
+TEST(Streamlines, AUniformFieldGivesStraightLines) {
+  RodPicture picture = empty_picture(20);
+  for (int i = 0; i < 400; ++i) add_rod(picture, i % 20 + 0.5, i / 20 + 0.5, 0);
+  measure(picture, {.field = true});
+  for (const Streamline& line : streamlines(*picture.field, 1)) {
+    for (const Vec2& point : line) ASSERT_NEAR(point.y(), line.front().y(), 1e-6);
+  }
+}
+
+TEST(Tracks, FadeWithAge) {
+  RodPicture picture = empty_picture(kBox);
+  picture.tracks = {{Vec2(10, 10), 0.5, 0.9}, {Vec2(20, 10), 0.5, 0.1}, {Vec2(30, 10), -0.5, 0.1}};
+  const Image image = painter().paint(picture, bare()).value();
+  const auto at = [&](double x) { return image.pixel(static_cast<int>(x / kBox * kSide), kSide - kSide / 6); };
+  const auto vividness = [](const std::uint8_t* p) {
+    return std::max({p[0], p[1], p[2]}) - std::min({p[0], p[1], p[2]});
+  };
+  EXPECT_GT(vividness(at(20)), 2 * vividness(at(10)));
+  EXPECT_GT(at(20)[0], at(20)[2]) << "orange";
+  EXPECT_LT(at(30)[0], at(30)[2]) << "blue";
+}
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(VectorFigure, IsASvgOrAPdf) {
+  const ScratchFolder folder;
+  RodPicture picture = planted_pair(0.2);
+  picture.label = "a pair";
+  picture.notes = {{"Run id", "1f0c"}};
+  measure(picture, {.defects = true, .field = true});
+  PictureStyle style = bare("director");
+  for (const char* name : {"a.svg", "a.pdf", "b.pdf"}) ASSERT_TRUE(write_vector(folder / name, picture, style));
+  EXPECT_EQ(folder.listing(), "a.pdf a.svg b.pdf");
+  EXPECT_EQ(bytes_of(folder / "a.pdf").substr(0, 5), "%PDF-");
+  EXPECT_TRUE(bytes_of(folder / "a.pdf") == bytes_of(folder / "b.pdf")) << "not a word of when it was written";
+  const std::string svg = bytes_of(folder / "a.svg");
+  EXPECT_NE(svg.find("<svg"), std::string::npos);
+  // Without rods there are the lines alone; with them an outline for each, and for each image across the border.
+  const auto paths = [&](const std::string& text) {
+    std::size_t n = 0;
+    for (auto at = text.find("<path"); at != std::string::npos; at = text.find("<path", at + 1)) ++n;
+    return n;
+  };
+  style.rods = 0.5;
+  ASSERT_TRUE(write_vector(folder / "a.svg", picture, style));
+  EXPECT_GT(paths(bytes_of(folder / "a.svg")), paths(svg) + picture.n_rods());
+}
+
+TEST(VectorFigure, AFolderThatDoesNotExistIsAnError) {
+  const auto done = write_vector("/nowhere/at/all/a.svg", empty_picture(10), bare());
+  ASSERT_FALSE(done);
+  EXPECT_NE(done.error().message.find("/nowhere/at/all/a.svg"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace shaken::render
