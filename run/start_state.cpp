@@ -22,6 +22,12 @@ namespace {
 
 using std::filesystem::path;
 
+/// As the daemon's folders are, of which there may be a hundred thousand: what is in them need not be looked at.
+bool is_named_after_a_run(const path& folder) {
+  const std::string name = folder.filename().string();
+  return name.size() == 16 && name.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
 /// Whether `folder` holds run `id`, as far as its summary says.
 bool is_of_run(const path& folder, const std::string& id) {
   const Result<std::string> text = read_file(RunDirectory{folder}.summary());
@@ -37,8 +43,11 @@ std::optional<RunDirectory> find_run(const std::vector<path>& folders, const std
     if (std::filesystem::exists(RunDirectory{folder / id}.scene(), ignored)) return RunDirectory{folder / id};
   }
   for (const path& folder : folders) {
-    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-      if (entry.is_directory(ignored) && is_of_run(entry.path(), id)) return RunDirectory{entry.path()};
+    std::error_code trouble;
+    for (std::filesystem::directory_iterator entry(folder, trouble), end; !trouble && entry != end;
+         entry.increment(trouble)) {
+      if (is_named_after_a_run(entry->path())) continue;
+      if (entry->is_directory(ignored) && is_of_run(entry->path(), id)) return RunDirectory{entry->path()};
     }
   }
   return std::nullopt;
