@@ -43,7 +43,10 @@ RodPicture lattice(int columns, int rows, const std::function<double(double, dou
   for (int i = 0; i < columns; ++i) {
     for (int j = 0; j < rows; ++j) {
       const double x = (i + 0.5 * (j % 2) + 0.1 * scatter.next()) * 4.7, y = (j + 0.5) * picture.box_side / rows;
-      add_rod(picture, x, y, angle(x, y) + 0.1 * (scatter.next() - 0.5), 0.3 * (scatter.next() - 0.5));
+      // one draw a line: compilers evaluate arguments in different orders
+      const double tilt = 0.3 * (scatter.next() - 0.5);
+      const double turn = 0.1 * (scatter.next() - 0.5);
+      add_rod(picture, x, y, angle(x, y) + turn, tilt);
       picture.velocity.emplace_back(30 * (scatter.next() - 0.5), 0, 0);
     }
   }

@@ -24,7 +24,7 @@ Outcome run_shaken(const std::vector<std::string>& arguments) {
 TEST(AllVerbs, FiguresStandBehindPlot) {
   std::string names;
   for (const auto& verb : make_all_verbs()) names += std::string(verb->info().name) + " ";
-  EXPECT_THAT(names, HasSubstr(" results plot figures movie "));
+  EXPECT_THAT(names, HasSubstr(" results plot figures picture movie "));
   const Outcome help = run_shaken({"figures", "--help"});
   EXPECT_EQ(help.code, ExitCode::kOk);
   EXPECT_THAT(help.out, HasSubstr("shaken figures --draw-only"));
