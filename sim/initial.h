@@ -35,8 +35,8 @@ Result<World> make_world(const System& system);
 /// The world at tick 0 with its rods where, and as fast as, they are in `left` at its tick: what a run begins with that
 /// goes on from another under other conditions. Heights are kept as those over the base. Rods of several species keep
 /// theirs, in their order; which numbers they have follows from the seed, as at any start. With another seed than that
-/// of `left` each component of a velocity is changed by a part in 10^6 or so, at random: after some tens of collisions
-/// the two have nothing in common, so that replicas are independent runs.
+/// of `left` each component of a velocity is changed by a part in 10^6 or so, at random: the paths of the
+/// rods then part after some tens of collisions, while order and defects are shared until they are forgotten.
 /// Errors: rods, box, gap, plates or walls are not those of `left`; or the plates of `left` are not where a vibration
 /// begins, so that they would jump.
 Result<World> make_world(const System& system, const World& left);
