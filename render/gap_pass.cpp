@@ -2,7 +2,6 @@
 #include "render/gap_pass.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -13,33 +12,20 @@
 #include "render/gap_shaders.h"
 #include "render/gl.h"
 #include "render/gl_program.h"
+#include "render/rod_batch.h"
 #include "render/rods_pass.h"
 
 namespace shaken::render {
 namespace {
 
-/// One rod as the shaders see it.
-struct Seen {
-  std::array<float, 3> centre, axis, colour;
-};
-
-std::array<float, 3> floats_of(const Vec3& v) {
-  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
-}
-
-Vec3 vector_of(const Colour& colour) { return {colour[0], colour[1], colour[2]}; }
-
 /// Rods of one species that are seen, with their periodic images, relative to the eye.
-std::vector<Seen> seen_rods(const RodPicture& picture, std::size_t species, const PictureStyle& style,
-                            const GapCamera& camera) {
+RodBatch seen_rods(const RodPicture& picture, std::size_t species, const PictureStyle& style, const GapCamera& camera) {
   const Colouring& colouring = colouring_of(picture, style);
   const Vec2 range = range_of(colouring, style);
   const BeadRow& beads = picture.beads_of(species);
-  double half = 0;
-  for (std::size_t i = 0; i < beads.offset.size(); ++i)
-    half = std::max(half, std::abs(beads.offset[i]) + beads.radius[i]);
+  RodBatch seen(beads);
+  const double half = seen.half;
   const double side = camera.tangent.x() * camera.far + half, period = picture.box_side;
-  std::vector<Seen> seen;
   for (std::size_t i = 0; i < picture.n_rods(); ++i) {
     if (picture.species_of(i) != species) continue;
     const Vec3 from_eye = picture.position[i] - camera.eye;
@@ -52,8 +38,7 @@ std::vector<Seen> seen_rods(const RodPicture& picture, std::size_t species, cons
     const auto add = [&](double x, double y) {
       if (y - towards < camera.front || y - half > camera.far) return;
       if (std::abs(x) > camera.tangent.x() * (y + half) + half) return;
-      const Colour colour = rod_colour(picture, i, colouring, range);
-      seen.push_back({floats_of({x, y, from_eye.z()}), floats_of(n), floats_of(vector_of(colour))});
+      seen.rods.emplace_back(Vec3(x, y, from_eye.z()), n, rod_colour(picture, i, colouring, range));
     };
     if (picture.walls) {
       add(from_eye.x(), from_eye.y());
@@ -92,7 +77,7 @@ GapCamera gap_camera(const RodPicture& picture, const PictureStyle& style, doubl
 
 struct GapPass::Programs {
   GLuint plates = 0, shadow = 0, body = 0;
-  GLuint vertex_array = 0, buffer = 0;
+  RodBuffer rods;
 };
 
 GapPass::GapPass(GlContext context, std::unique_ptr<Programs> programs)
@@ -112,18 +97,6 @@ Result<GapPass> GapPass::create() {
   programs->body = link_program(shaders::kGapRod, shaders::kGapBody, message);
   if (!programs->plates || !programs->shadow || !programs->body)
     return Error{"the rasteriser refuses a shader: " + message};
-  glGenVertexArrays(1, &programs->vertex_array);
-  glBindVertexArray(programs->vertex_array);
-  glGenBuffers(1, &programs->buffer);
-  glBindBuffer(GL_ARRAY_BUFFER, programs->buffer);
-  for (GLuint i = 0; i < 3; ++i) {
-    glEnableVertexAttribArray(i);
-    // OpenGL takes an offset into the buffer as a pointer.
-    glVertexAttribPointer(i, 3, GL_FLOAT, GL_FALSE, sizeof(Seen),
-                          // NOLINTNEXTLINE(performance-no-int-to-ptr)
-                          reinterpret_cast<const void*>(i * sizeof(Seen::centre)));
-    glVertexAttribDivisor(i, 1);
-  }
   return GapPass(std::move(*context), std::move(programs));
 }
 
@@ -151,8 +124,7 @@ Result<Image> GapPass::draw(const RodPicture& picture, const PictureStyle& style
     }
     return at;
   };
-  glBindVertexArray(programs_->vertex_array);
-  glBindBuffer(GL_ARRAY_BUFFER, programs_->buffer);
+  programs_->rods.bind();
   glClearColor(f(colours.page[0]), f(colours.page[1]), f(colours.page[2]), 1);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
@@ -165,49 +137,24 @@ Result<Image> GapPass::draw(const RodPicture& picture, const PictureStyle& style
     glUniform1f(at("thickness"), f(0.8 * picture.gap));
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   }
-  struct Batch {
-    std::vector<float> beads;
-    Vec2 ends;
-    double thick, pitch;
-    std::vector<Seen> rods;
-  };
-  std::vector<Batch> batches;
+  std::vector<RodBatch> batches;
   for (std::size_t species = 0; species < picture.n_species(); ++species) {
-    const BeadRow& row = picture.beads_of(species);
-    Batch batch{{},
-                Vec2(row.offset.front(), row.offset.back()),
-                *std::max_element(row.radius.begin(), row.radius.end()),
-                pitch_of(row),
-                seen_rods(picture, species, style, camera)};
-    for (std::size_t i = 0; i < row.offset.size(); ++i) {
-      batch.beads.push_back(f(row.offset[i]));
-      batch.beads.push_back(f(row.radius[i]));
-    }
-    batches.push_back(std::move(batch));
+    batches.push_back(seen_rods(picture, species, style, camera));
   }
-  const auto draw_with = [&](GLuint program, const Batch& batch) {
+  const auto draw_with = [&](GLuint program, const RodBatch& batch) {
     if (batch.rods.empty()) return;
-    const auto at = use(program);
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(batch.rods.size() * sizeof(Seen)), batch.rods.data(),
-                 GL_STREAM_DRAW);
-    const auto n_beads = static_cast<GLsizei>(batch.beads.size() / 2);
-    glUniform2fv(at("beads"), n_beads, batch.beads.data());
-    glUniform1i(at("n_beads"), n_beads);
-    glUniform2f(at("ends"), f(batch.ends.x()), f(batch.ends.y()));
-    glUniform1f(at("pitch"), f(batch.pitch));
-    glUniform1f(at("thick"), f(batch.thick));
-    glUniform1f(at("margin"), f(0.7 * batch.thick));
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(batch.rods.size()));
+    glUniform1f(use(program)("margin"), f(0.7 * batch.thick));
+    batch.draw(program);
   };
   // On the base, but not on its cut edge, which is at depth 0. The darkest counts nowhere: shadows add up.
   glDepthMask(GL_FALSE);
   glEnable(GL_BLEND);
   glBlendEquation(GL_FUNC_ADD);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  for (const Batch& batch : batches) draw_with(programs_->shadow, batch);
+  for (const RodBatch& batch : batches) draw_with(programs_->shadow, batch);
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
-  for (const Batch& batch : batches) draw_with(programs_->body, batch);
+  for (const RodBatch& batch : batches) draw_with(programs_->body, batch);
 
   const std::vector<std::uint8_t>& pixels = context_.finished_pixels();
   if (const GLenum code = glGetError(); code != GL_NO_ERROR) {

@@ -14,9 +14,6 @@ namespace shaken::render {
 /// What keeps a picture from being drawn `side` pixels wide, if anything.
 Result<void> check_drawable(const RodPicture& picture, int side);
 
-/// The distance of neighbouring beads [mm], or 0 if it is not the same all along the rod.
-double pitch_of(const BeadRow& row);
-
 /// Draws the rods in their box, seen from above along -z, without perspective.
 /// Model:    one quad for each rod, on which each pixel's ray is cut with the beads themselves, so the outline is that
 ///           of the simulated body; the depth is the surface's own. Rods are repeated across the periodic border and
