@@ -5,9 +5,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "base/files.h"
@@ -21,6 +19,8 @@ namespace shaken::run {
 namespace {
 
 using std::filesystem::path;
+
+constexpr const char* kNotSaved = "it has not been saved yet";
 
 /// As the daemon's folders are, of which there may be a hundred thousand: what is in them need not be looked at.
 bool is_named_after_a_run(const path& folder) {
@@ -36,21 +36,22 @@ bool is_of_run(const path& folder, const std::string& id) {
   return summary.is_object() && summary.value("run_id", nlohmann::json()) == id;
 }
 
-/// The directory of run `id` in one of `folders`: under its id, as the daemon has it, or under any other name.
-std::optional<RunDirectory> find_run(const std::vector<path>& folders, const std::string& id) {
+/// Directories that hold run `id`: those named after it, as the daemon's are, first; then those of any other name.
+std::vector<RunDirectory> find_run(const std::vector<path>& folders, const std::string& id) {
+  std::vector<RunDirectory> found;
   std::error_code ignored;
   for (const path& folder : folders) {
-    if (std::filesystem::exists(RunDirectory{folder / id}.scene(), ignored)) return RunDirectory{folder / id};
+    if (std::filesystem::exists(RunDirectory{folder / id}.scene(), ignored)) found.push_back({folder / id});
   }
   for (const path& folder : folders) {
     std::error_code trouble;
     for (std::filesystem::directory_iterator entry(folder, trouble), end; !trouble && entry != end;
          entry.increment(trouble)) {
       if (is_named_after_a_run(entry->path())) continue;
-      if (entry->is_directory(ignored) && is_of_run(entry->path(), id)) return RunDirectory{entry->path()};
+      if (entry->is_directory(ignored) && is_of_run(entry->path(), id)) found.push_back({entry->path()});
     }
   }
-  return std::nullopt;
+  return found;
 }
 
 /// Folders of runs in which one may be found that `directory` starts from.
@@ -66,17 +67,16 @@ Result<Simulation> saved_state(const RunDirectory& directory, const std::string&
   const Result<scene::RunPlan> plan = read_plan(directory);
   if (!plan) return plan.error();
   if (scene::run_id(*plan) != id) return Error{directory.root.string() + " holds another run"};
-  const double dt = plan->system.dt;
-  std::string trouble = "it has not been saved yet";
+  std::string trouble = kNotSaved;
   for (const path& file : directory.checkpoints()) {
     if (!std::filesystem::exists(file)) continue;
     const Result<Checkpoint> checkpoint = read_checkpoint(file, id);
-    if (!checkpoint) return checkpoint.error();
-    Result<Simulation> simulation = Simulation::resume(plan->system, checkpoint->simulation);
-    if (!simulation) return simulation.error();
-    if (simulation->tick() == std::llround(time / dt)) return simulation;
-    if (file == directory.checkpoint())
-      trouble = fmt::format("its last saved state is that at {:.10g} s", simulation->time());
+    Result<Simulation> simulation =
+        checkpoint ? Simulation::resume(plan->system, checkpoint->simulation) : Result<Simulation>(checkpoint.error());
+    if (simulation && simulation->tick() == std::llround(time / plan->system.dt)) return simulation;
+    if (trouble != kNotSaved) continue;  // the newest has told
+    trouble = simulation ? fmt::format("its last saved state is that at {:.10g} s", simulation->time())
+                         : simulation.error().message;
   }
   return Error{fmt::format("there is no state of it at {:.10g} s: {}", time, trouble)};
 }
@@ -87,17 +87,18 @@ Result<Simulation> start_simulation(const scene::RunPlan& plan, const path& dire
   if (!plan.start) return Simulation::start(plan.system);
   const auto& [id, time] = *plan.start;
   const std::vector<path> folders = folders_near(directory);
-  const auto found = find_run(folders, id);
-  if (!found) {
-    std::string places;
-    for (const path& folder : folders) places += (places.empty() ? "" : " and ") + folder.string();
-    return Error{fmt::format("run {}, from which this one starts, is not in {}", id, places)};
+  std::string trouble;
+  for (const RunDirectory& parent : find_run(folders, id)) {
+    const Result<Simulation> left = saved_state(parent, id, time);
+    Result<Simulation> simulation =
+        left ? Simulation::start(plan.system, left->world()) : Result<Simulation>(left.error());
+    if (simulation) return simulation;
+    if (trouble.empty()) trouble = simulation.error().message;
   }
-  const Result<Simulation> left = saved_state(*found, id, time);
-  if (!left) return Error{fmt::format("cannot start from run {}: {}", id, left.error().message)};
-  Result<Simulation> simulation = Simulation::start(plan.system, left->world());
-  if (!simulation) return Error{fmt::format("cannot start from run {}: {}", id, simulation.error().message)};
-  return simulation;
+  if (!trouble.empty()) return Error{fmt::format("cannot start from run {}: {}", id, trouble)};
+  std::string places;
+  for (const path& folder : folders) places += (places.empty() ? "" : " and ") + folder.string();
+  return Error{fmt::format("run {}, from which this one starts, is not in {}", id, places)};
 }
 
 }  // namespace shaken::run

@@ -13,6 +13,7 @@
 #include "run/files/directory.h"
 #include "run/files/done.h"
 #include "scene/canonical.h"
+#include "scene/length.h"
 #include "scene/load.h"
 #include "scene/nearest.h"
 #include "scene/placement.h"
@@ -215,10 +216,10 @@ std::string refuse_start(const scene::StartState& start, const Queue& queue, con
   }
   const auto plan = scene::load_scene(queue.scene(start.run), "its scene in the queue");
   if (!plan || plan->until) return "";
-  const double end = plan->total_time();
-  if (std::abs(end - start.time) <= 0.5 * plan->system.dt) return "";
+  const Tick end = scene::total_ticks(*plan);
+  if (end == std::llround(start.time / plan->system.dt)) return "";
   return fmt::format("run {} ends at {:.10g} s, where its last state is kept, not at start.time {:.10g} s", start.run,
-                     end, start.time);
+                     static_cast<double>(end) * plan->system.dt, start.time);
 }
 
 std::string refuse_scene(const std::string& id, const std::string& scene) {

@@ -686,6 +686,18 @@ TEST(Run, StartingFromAStateThatIsNotThereFailsWithTheReason) {
   EXPECT_EQ(then.state, RunState::kFailed);
   EXPECT_THAT(then.message, HasSubstr("no state of it at 0.2 s: its last saved state is that at 0.3 s"));
 
+  // a damaged checkpoint is no hindrance where the one before has the state, nor is a copy without it
+  const RunDirectory parent{folder.path() / "one"};
+  std::filesystem::create_directories(folder.path() / scene::run_id(small_plan()));
+  std::filesystem::copy(parent.scene(), folder.path() / scene::run_id(small_plan()) / "scene.json");
+  std::filesystem::copy(parent.checkpoint(), parent.previous_checkpoint(),
+                        std::filesystem::copy_options::overwrite_existing);
+  ASSERT_TRUE(write_file(parent.checkpoint(), "damaged"));
+  EXPECT_EQ(run_in(folder.path() / "four", plan_from(0.3)).state, RunState::kDone);
+  std::filesystem::copy(parent.previous_checkpoint(), parent.checkpoint(),
+                        std::filesystem::copy_options::overwrite_existing);
+  std::filesystem::remove_all(folder.path() / scene::run_id(small_plan()));
+
   scene::RunPlan wider = plan_from(0.3);
   wider.system.box_side += 1;
   EXPECT_THAT(run_in(folder.path() / "three", wider).message, HasSubstr("the side of the box"));
