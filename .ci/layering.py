@@ -50,6 +50,8 @@ ALLOWED = {
     "render": ["sim/core", "sim/system.h", "analysis"],
     "server": ["proto", "base", "scene", "run/files", "sim/core"],
     "client": ["proto", "base", "scene", "run/files", "run/export", "sim/core", "sim/rod", "sim/system.h"],
+    # the page in a browser: what the terminal's live view makes of messages, the daemon's way of HTTP, a run's files
+    "web": ["proto", "base", "client/watch", "server/http", "run/files", "analysis/order.h", "sim/core", "sim/system.h"],
     # the program's verbs are the client's and the study's
     "client/main.cpp": ["client", "study/verb.h"],
     # a paper's figures and claims: a user of the client's libraries, and none of the client knows of it
@@ -62,7 +64,7 @@ for floor, name in enumerate(SIM):
     for part in [name] if "." in name else [name, name + ".h", name + ".cpp"]:
         ALLOWED[part] = [below + end for below in SIM[:floor + 1] for end in ("", ".h", ".cpp")]
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"')
-FOLDERS = ("sim", "proto", "base", "scene", "analysis", "run", "render", "server", "client", "study", "tests", "bench")
+FOLDERS = ("sim", "proto", "base", "scene", "analysis", "run", "render", "server", "client", "web", "study", "tests", "bench")
 
 
 def rule(path):

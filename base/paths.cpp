@@ -4,6 +4,18 @@
 #include <cstdlib>
 
 namespace shaken {
+namespace {
+
+std::filesystem::path shipped(const char* installed_name, const char* name_in_source_tree) {
+  std::error_code failed;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", failed);
+  const std::filesystem::path installed = program.parent_path().parent_path() / "share/shaken" / installed_name;
+  return !failed && std::filesystem::is_directory(installed, failed)
+             ? installed
+             : std::filesystem::path(SHAKEN_SOURCE_DIR) / name_in_source_tree;
+}
+
+}  // namespace
 
 Result<std::filesystem::path> data_root(const std::string& given) {
   const auto variable = [](const char* name) {
@@ -17,11 +29,8 @@ Result<std::filesystem::path> data_root(const std::string& given) {
   return Error{"no root directory: set --root, SHAKEN_ROOT or HOME"};
 }
 
-std::filesystem::path shipped_configs() {
-  std::error_code failed;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", failed);
-  const std::filesystem::path installed = program.parent_path().parent_path() / "share/shaken/configs";
-  return !failed && std::filesystem::is_directory(installed, failed) ? installed : SHAKEN_CONFIGS_DIR;
-}
+std::filesystem::path shipped_configs() { return shipped("configs", "configs"); }
+
+std::filesystem::path shipped_page() { return shipped("page", "web/page"); }
 
 }  // namespace shaken

@@ -15,5 +15,7 @@ Result<std::filesystem::path> data_root(const std::string& given = "");
 /// The folder of the scenes and sweeps that come with the programs: share/shaken/configs beside the folder of the
 /// running program, where it is installed; that of the source tree otherwise.
 std::filesystem::path shipped_configs();
+/// The same for the files of the page in a browser: share/shaken/page, or web/page of the source tree.
+std::filesystem::path shipped_page();
 
 }  // namespace shaken

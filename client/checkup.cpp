@@ -103,6 +103,7 @@ std::vector<CheckResult> checkup(const fs::path& root) {
   return {{Level::kOk, "shaken", fmt::format("{}, {}", run::version(), run::compiler()), ""},
           check_sibling("shakend", Level::kWarn, "for sweeps"),
           check_sibling("shaken-worker", Level::kFail, "for every run"),
+          check_sibling("shaken-web", Level::kWarn, "for the page in a browser"),
           check_sibling("shaken-render", Level::kWarn, "for pictures and movies (OSMesa)"),
           check_daemon(root),
           check_lcm(),

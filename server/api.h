@@ -8,7 +8,7 @@
 
 #include "scene/problem.h"
 #include "server/daemon_info.h"
-#include "server/http_server.h"
+#include "server/http/http_server.h"
 #include "server/queue.h"
 #include "server/report.h"
 

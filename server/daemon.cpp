@@ -16,18 +16,20 @@
 #include <vector>
 
 #include "base/failure.h"
+#include "base/process.h"
 #include "run/files/directory.h"
 #include "run/files/version.h"
 #include "server/api.h"
 #include "server/cleaning.h"
 #include "server/daemon_info.h"
 #include "server/former_ids.h"
-#include "server/http_server.h"
+#include "server/http/http_server.h"
 #include "server/local_executor.h"
 #include "server/queue.h"
 #include "server/status_publisher.h"
 #include "server/submission.h"
 #include "server/supervisor.h"
+#include "server/web_program.h"
 
 namespace shaken::server {
 namespace {
@@ -101,6 +103,18 @@ std::vector<std::string> worker_options(const DaemonConfig& config) {
     options.insert(options.end(), {"--lcm-url", config.lcm_url});
   }
   return options;
+}
+
+/// How the page of this daemon is started.
+std::vector<std::string> web_command(const DaemonConfig& config, const std::filesystem::path& root) {
+  std::vector<std::string> command{sibling_program("shaken-web").string(), "--root", root.string(), "--port",
+                                   std::to_string(*config.web_port)};
+  if (config.lcm_url.empty()) {
+    command.emplace_back("--no-lcm");
+  } else {
+    command.insert(command.end(), {"--lcm-url", config.lcm_url});
+  }
+  return command;
 }
 
 /// Listens for requests, anew if somebody removes or replaces the socket file.
@@ -233,12 +247,17 @@ void run_daemon(const DaemonConfig& config) {
               config.quiet ? (", log in " + log_file(config).string()).c_str() : "");
   std::fflush(stdout);
 
+  std::optional<WebProgram> web;
+  if (config.web_port) web.emplace(web_command(config, info.root));
+
   do {
     supervisor.step();
     control.check();
+    if (web) web->check();
   } while (!signals.wait(kRound));
 
   spdlog::info("stopping: workers write a checkpoint");
+  web.reset();
   control.close();
   stop_workers(supervisor, signals);
   publisher.reset();

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace shaken::server {
@@ -15,6 +16,7 @@ struct DaemonConfig {
   int threads = 1;                       ///< of each worker
   std::uint64_t keep_free = 64'000'000;  ///< bytes on the disk, below which no run is started
   std::string lcm_url;                   ///< empty: no live state
+  std::optional<int> web_port;           ///< of the page in a browser; none: no page
   std::string log_level = "info";
   bool quiet = false;                       ///< log to ROOT/shakend.log only, not to stderr
   std::chrono::milliseconds grace{20'000};  ///< between the request that a worker stops and its kill

@@ -26,6 +26,7 @@ constexpr const char* kExamples =
     "  shakend                              # ~/.local/share/shaken, one worker per core\n"
     "  shakend --root /data/rods --slots 8 --keep-free 20GB\n"
     "  shakend --root /tmp/try --no-lcm &   # no live state, nothing on the network; behind a prompt it is quiet\n"
+    "  shakend --web                        # and a page for the browser of this machine\n"
     "  curl --unix-socket /tmp/try/shakend.sock http://shaken/v1/status\n"
     "\n"
     "Exit codes: 0 stopped in order, 1 could not start or lost its disk, 2 bad arguments.";
@@ -43,6 +44,8 @@ int main(int argc, char** argv) {
   config.lcm_url = shaken::proto::default_url();
   bool foreground = true;
   bool no_lcm = false;
+  bool web = false;
+  int web_port = 8642;
 
   CLI::App app(kAbout);
   app.footer(kExamples);
@@ -68,6 +71,12 @@ int main(int argc, char** argv) {
                              "multicast on this machine]")
                   ->type_name("URL");
   app.add_flag("--no-lcm", no_lcm, "Send no live state")->excludes(url);
+  auto* page =
+      app.add_flag("--web", web, "Show the queue, results and live rods in a browser: prints the address to open");
+  app.add_option("--web-port", web_port, "Port of 127.0.0.1 for the page; 0: any that is free")
+      ->needs(page)
+      ->check(CLI::Range(0, 65535))
+      ->capture_default_str();
   app.add_option("--worker", config.worker, "Program that does one run [default: shaken-worker beside shakend]")
       ->type_name("FILE");
   app.add_option("--log-level", config.log_level, "What goes to stderr and ROOT/shakend.log")
@@ -81,6 +90,7 @@ int main(int argc, char** argv) {
     config.root = shaken::value_or_fail(shaken::data_root(root), ExitCode::kBadInput);
     config.quiet = config.quiet || behind_a_prompt();
     if (no_lcm) config.lcm_url.clear();
+    if (web) config.web_port = web_port;
     shaken::server::run_daemon(config);
     return static_cast<int>(ExitCode::kOk);
   } catch (const CLI::ParseError& outcome) {

@@ -8,7 +8,7 @@
 
 #include "base/descriptor.h"
 #include "base/scratch_folder.h"
-#include "server/http_server.h"
+#include "server/http/http_server.h"
 #include "tests/fuzz/target.h"
 
 using namespace shaken;

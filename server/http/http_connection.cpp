@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "server/http_connection.h"
+#include "server/http/http_connection.h"
 
 #include <poll.h>
 #include <strings.h>
@@ -22,7 +22,6 @@ constexpr std::size_t kLongestPath = 1024;
 constexpr auto kOneRead = 2s;     // until the next bytes of a request
 constexpr auto kRequest = 5s;     // from the first to the last byte of a request
 constexpr auto kOneWrite = 5s;    // until the client takes the next bytes of an answer
-constexpr auto kAnswer = 60s;     // from the first to the last byte of an answer
 constexpr auto kAfterwards = 2s;  // for what a client still sends when it has its answer
 
 bool is(const std::string& value, const char* word) { return strcasecmp(value.c_str(), word) == 0; }

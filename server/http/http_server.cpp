@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "server/http_server.h"
+#include "server/http/http_server.h"
 
 #include <httplib.h>
+#include <netinet/in.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
 
+#include <algorithm>
+#include <cctype>
 #include <condition_variable>
 #include <cstring>
 #include <future>
@@ -14,7 +17,7 @@
 #include <utility>
 
 #include "base/failure.h"
-#include "server/http_connection.h"
+#include "server/http/http_connection.h"
 
 namespace shaken::server {
 namespace {
@@ -22,6 +25,7 @@ namespace {
 constexpr std::size_t kMostConnections = 256;
 constexpr int kBacklog = SOMAXCONN;  // cpp-httplib has 5: clients that come in a burst would be turned away
 constexpr int kUnusedPort = 80;      // cpp-httplib refuses port 0
+constexpr const char* kLoopback = "127.0.0.1";
 
 /// A thread for each connection: with a fixed pool, as many silent clients as it has threads would lock out the rest.
 /// Beyond kMostConnections new ones wait to be accepted.
@@ -70,12 +74,50 @@ const char* explain(int status) {
   }
 }
 
+std::multimap<std::string, std::string> in_lower_case(const httplib::Headers& headers) {
+  std::multimap<std::string, std::string> lower;
+  for (const auto& [name, value] : headers) {
+    std::string key = name;
+    std::transform(key.begin(), key.end(), key.begin(), [](unsigned char c) { return std::tolower(c); });
+    lower.emplace(std::move(key), value);
+  }
+  return lower;
+}
+
+std::string first_of(const std::multimap<std::string, std::string>& values, const std::string& name) {
+  const auto found = values.find(name);
+  return found == values.end() ? "" : found->second;
+}
+
+void put(const Reply& reply, httplib::Response& response) {
+  response.status = reply.status;
+  if (!reply.allow.empty()) response.set_header("Allow", reply.allow);
+  for (const auto& [name, value] : reply.headers) response.set_header(name, value);
+  if (!reply.stream) {
+    response.set_content(reply.body, reply.type);
+    return;
+  }
+  response.set_chunked_content_provider(reply.type, [stream = reply.stream](std::size_t, httplib::DataSink& sink) {
+    const std::optional<std::string> piece = stream();
+    if (!piece) {
+      sink.done();
+      return true;
+    }
+    return piece->empty() || sink.write(piece->data(), piece->size());
+  });
+}
+
 /// cpp-httplib's server, on connections that count what a request takes.
 class BoundedServer final : public httplib::Server {
+ public:
+  /// Whether only this process's user and root are answered: a Unix socket knows who connects.
+  bool is_private = true;
+
+ private:
   bool process_and_close_socket(socket_t socket) override {
     HttpConnection connection(socket);
     try {
-      if (!connection.is_of_own_user()) {
+      if (is_private && !connection.is_of_own_user()) {
         throw UnreadableRequest(403, "this daemon belongs to another user: start one of your own with shakend");
       }
       const auto head_ended = [&connection](httplib::Request& request) {
@@ -98,14 +140,27 @@ class BoundedServer final : public httplib::Server {
 
 }  // namespace
 
+std::string Request::header(const std::string& name) const { return first_of(headers, name); }
+
+std::string Request::parameter(const std::string& name) const { return first_of(query, name); }
+
 struct HttpServer::Impl {
   Impl(std::filesystem::path socket_file, Handler handler) : socket(std::move(socket_file)) {
+    set_up(std::move(handler));
+    bind();
+    start();
+  }
+  Impl(int wanted_port, Handler handler) {
+    set_up(std::move(handler));
+    bind(wanted_port);
+    start();
+  }
+
+  void set_up(Handler handler) {
     const auto answer = [handler = std::move(handler)](const httplib::Request& request, std::string body,
                                                        httplib::Response& response) {
-      const Reply reply = handler({request.method, request.path, request.params, std::move(body)});
-      response.status = reply.status;
-      if (!reply.allow.empty()) response.set_header("Allow", reply.allow);
-      response.set_content(reply.body, "application/json");
+      put(handler({request.method, request.path, request.params, std::move(body), in_lower_case(request.headers)}),
+          response);
     };
     const auto without_body = [answer](const httplib::Request& request, httplib::Response& response) {
       answer(request, "", response);
@@ -143,7 +198,9 @@ struct HttpServer::Impl {
 
     server.set_keep_alive_timeout(HttpConnection::kIdle.count());  // what answers say of it
     server.new_task_queue = [] { return new ThreadPerConnection; };
-    bind();
+  }
+
+  void start() {
     listening = std::async(std::launch::async, [this] { server.listen_after_bind(); });
     while (!server.is_running()) std::this_thread::yield();  // stop() before that would be lost
   }
@@ -167,7 +224,28 @@ struct HttpServer::Impl {
     ::stat(socket.c_str(), &file);
   }
 
-  std::filesystem::path socket;
+  void bind(int wanted_port) {
+    int fd = -1;
+    server.is_private = false;
+    server.set_tcp_nodelay(true);
+    server.set_socket_options([&fd](int listener) {
+      fd = listener;
+      // Not SO_REUSEPORT, which cpp-httplib sets: another program could listen beside this one.
+      const int yes = 1;
+      setsockopt(listener, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
+    });
+    port = wanted_port;
+    const bool bound = wanted_port == 0 ? (port = server.bind_to_any_port(kLoopback)) > 0
+                                        : server.bind_to_port(kLoopback, wanted_port);
+    if (!bound) {
+      throw Failure(ExitCode::kFailed, "cannot listen on port " + std::to_string(wanted_port) + " of " + kLoopback +
+                                           ": " + std::strerror(errno) + "; choose another port");
+    }
+    ::listen(fd, kBacklog);
+  }
+
+  std::filesystem::path socket;  ///< empty with a port
+  int port = 0;
   BoundedServer server;
   struct stat file {};  ///< of the socket
   bool closed = false;
@@ -177,9 +255,14 @@ struct HttpServer::Impl {
 HttpServer::HttpServer(std::filesystem::path socket, Handler handler)
     : impl_(std::make_unique<Impl>(std::move(socket), std::move(handler))) {}
 
+HttpServer::HttpServer(int port, Handler handler) : impl_(std::make_unique<Impl>(port, std::move(handler))) {}
+
 HttpServer::~HttpServer() { close(); }
 
+int HttpServer::port() const { return impl_->port; }
+
 bool HttpServer::is_reachable() const {
+  if (impl_->socket.empty()) return true;
   struct stat now {};
   return ::stat(impl_->socket.c_str(), &now) == 0 && now.st_dev == impl_->file.st_dev &&
          now.st_ino == impl_->file.st_ino;
@@ -188,6 +271,7 @@ bool HttpServer::is_reachable() const {
 void HttpServer::close() {
   if (std::exchange(impl_->closed, true)) return;
   impl_->server.stop();
+  if (impl_->socket.empty()) return;
   std::error_code ignored;
   std::filesystem::remove(impl_->socket, ignored);
 }

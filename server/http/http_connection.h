@@ -29,6 +29,8 @@ class HttpConnection final : public httplib::Stream {
  public:
   /// How long a connection may be silent between two requests, and before the first.
   static constexpr std::chrono::seconds kIdle{1};
+  /// From the first to the last byte of an answer.
+  static constexpr std::chrono::seconds kAnswer{60};
 
   explicit HttpConnection(int socket) : socket_(socket) {}
   /// Closes. What the client is still sending is read first, for a while: it would not see its answer otherwise.

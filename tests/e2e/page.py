@@ -1,0 +1,163 @@
+# SPDX-License-Identifier: MIT
+"""Uses the page as a person does, in a headless Chromium, and says what is not as it should be.
+
+usage: page.py ADDRESS SCREENSHOT [--live]
+ADDRESS is what shaken-web prints. A sweep "waits" of one held job that takes long must be there; the rest is submitted here. With --live
+the bus must work. Exits 1 at the first thing that is wrong; the screenshot shows the end."""
+import json
+import shutil
+import signal
+import sys
+import tempfile
+import time
+
+from selenium import webdriver
+from selenium.webdriver.chrome.options import Options
+from selenium.webdriver.chrome.service import Service
+from selenium.webdriver.common.by import By
+from selenium.webdriver.support.ui import Select
+
+SWEEP = json.dumps({
+    "scene": {"rods": {"length": 3, "area_fraction": 0.7}, "box": {"side": "20 mm"},
+              "time": {"steady": "0 s", "measure": "3 s"}, "measure": {"order": {"every": "5 ms"}, "angles": {}},
+              "trajectory": {"every": "50 ms"}, "stream": {"rate": 20}},
+    "sweep": {"grid": {"rods.area_fraction": [0.3, 0.5], "rods.length": [3.0, 3.5]}}})
+PATIENCE = 90  # s
+
+
+def browser(profile):
+    options = Options()
+    options.binary_location = "/usr/bin/chromium"
+    for word in ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--use-angle=swiftshader",
+                 "--enable-unsafe-swiftshader", "--window-size=1600,1300", "--user-data-dir=" + profile]:
+        options.add_argument(word)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    return webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
+
+
+def check(condition, what):
+    print("ok" if condition else "WRONG", "-", what, flush=True)
+    if not condition:
+        raise SystemExit(1)
+
+
+def eventually(condition, what):
+    end, last = time.monotonic() + PATIENCE, ""
+    while time.monotonic() < end:
+        try:
+            if condition():
+                return check(True, what)
+        except Exception as problem:  # an element that is being replaced, most often
+            last = f"; {problem}"
+        time.sleep(0.1)
+    check(False, what + f" (not after {PATIENCE} s{last})")
+
+
+def main(address, screenshot, live):
+    signal.signal(signal.SIGALRM, lambda *_: sys.exit("the page takes too long"))
+    signal.alarm(220)
+    profile = tempfile.mkdtemp(prefix="shaken-page.")
+    page = browser(profile)
+    try:
+        use(page, address, live)
+    finally:
+        page.save_screenshot(screenshot)
+        page.quit()
+        shutil.rmtree(profile, ignore_errors=True)
+
+
+def use(page, address, live):
+    def find(css):
+        return page.find_element(By.CSS_SELECTOR, css)
+
+    def text(css):
+        return find(css).text
+
+    def rows(state):
+        return [row for row in page.find_elements(By.CSS_SELECTOR, "#jobs tr") if state in row.text]
+
+    def colours():
+        """How many different colours the canvas of the rods has, of every 16th pixel."""
+        return page.execute_script("""
+            const gl = document.getElementById("rods").getContext("webgl2");
+            const {width, height} = gl.canvas, pixels = new Uint8Array(4 * width * height), seen = new Set();
+            gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+            for (let i = 0; i < pixels.length; i += 64) seen.add(pixels[i] << 16 | pixels[i + 1] << 8 | pixels[i + 2]);
+            return seen.size;""")
+
+    root = address.split("?")[0]
+    page.get(root)
+    check("token" in page.page_source and "Sweeps" not in page.page_source, "without the token there is no page")
+    page.get(root + "?token=" + 32 * "0")
+    check("not, or no longer, the right one" in page.page_source, "a wrong token is refused")
+    page.get_log("browser")  # these two are errors on purpose
+
+    page.get(address)
+    eventually(lambda: "shakend" in text("#daemon"), "the daemon is there")
+    check("token" not in page.current_url, "the token leaves the address")
+    eventually(lambda: "waits" in text("#sweeps"), "the sweep that was there is listed")
+
+    find("#open-submit").click()
+    find("#submit-text").send_keys('{"scene": {"rods": {"lenght": 3}}}')
+    find("#submit-send").click()
+    eventually(lambda: "lenght" in text("#submit-problems"), "a scene that is refused says why")
+    box = find("#submit-text")
+    box.clear()
+    page.execute_script("arguments[0].value = arguments[1]", box, SWEEP)
+    page.execute_script("arguments[0].value = arguments[1]", find("#submit-name"), "<img src=x onerror=alert(1)>")
+    find("#submit-send").click()
+    eventually(lambda: "<img src=x onerror=alert(1)>" in text("#sweeps"), "a hostile name is text")
+    check(not page.execute_script("return document.images.length"), "and no picture")
+    eventually(lambda: len(page.find_elements(By.CSS_SELECTOR, "#jobs tr")) == 4, "the new sweep is chosen: four jobs")
+
+    eventually(lambda: len(rows("done")) == 4, "all jobs are done")
+    eventually(lambda: page.execute_script(
+        "const c = Chart.getChart('map'); return c.data.datasets[0].backgroundColor.filter((x) => x.startsWith('rgb')).length"
+    ) == 4, "the phase diagram has four points with a value")
+    Select(find("#map-y")).select_by_value("")
+    check(page.execute_script("return Chart.getChart('map').options.scales.y.title.text") == "order.mean",
+          "against one parameter, the value goes up")
+
+    rows("done")[1].click()
+    eventually(lambda: "t = 3.000 s" in text("#run-facts"), "a finished run shows its last frame")
+    check(page.execute_script("return Chart.getChart('order-chart').data.datasets[0].data.length") > 100, "S(t) is drawn")
+    check(page.execute_script("return Chart.getChart('angle-chart').data.datasets[0].data.length") > 10, "P(theta) is drawn")
+    check(colours() > 50, "rods are drawn")
+    page.execute_script("""const time = document.getElementById("time"); time.value = 0; time.dispatchEvent(new Event("input"));""")
+    eventually(lambda: "t = 0.000 s" in text("#run-facts"), "scrubbed back to the beginning")
+    find("#play").click()
+    eventually(lambda: "t = 0.000 s" not in text("#run-facts"), "it plays")
+    find("#play").click()
+    before = page.execute_script("return document.getElementById('rods').toDataURL()")
+    Select(find("#colouring")).select_by_value("tilt")
+    eventually(lambda: page.execute_script("return document.getElementById('rods').toDataURL()") != before,
+               "another colouring is another picture")
+    check("summary.json" in text("#files") and "trajectory.h5" in text("#files"), "its files can be saved")
+    picture = page.execute_async_script("""
+        const done = arguments[arguments.length - 1];
+        fetch(document.getElementById("draw").href).then(async (answer) =>
+            done([answer.status, answer.headers.get("Content-Type"), (await answer.arrayBuffer()).byteLength]));""")
+    check(picture[0] == 200 and picture[1] == "image/png" and picture[2] > 10000, f"a frame is drawn as a PNG: {picture}")
+
+    [button for button in page.find_elements(By.CSS_SELECTOR, "button.sweep") if "waits" in button.text][0].click()
+    eventually(lambda: rows("held"), "the other sweep's job is held")
+    find("#sweep-actions [data-action=resume]").click()
+    eventually(lambda: rows("running"), "it runs after a click")
+    rows("running")[0].click()
+    if live:
+        before = page.execute_script("return window.shakenRods.framesDrawn")
+        eventually(lambda: page.execute_script("return window.shakenRods.framesDrawn") > before + 10, "live frames are drawn")
+        eventually(lambda: colours() > 50, "with rods on them")
+        eventually(lambda: page.execute_script("return Chart.getChart('order-chart').data.datasets[0].data.length") > 10,
+                   "S(t) grows")
+    find("#sweep-actions [data-action=cancel]").click()
+    page.switch_to.alert.accept()
+    eventually(lambda: rows("cancelled"), "it is cancelled by a click")
+
+    errors = [line["message"] for line in page.get_log("browser") if line["level"] == "SEVERE"
+              and "/curves" not in line["message"] and "/frames" not in line["message"] and "/v1/sweeps" not in line["message"]]
+    check(not errors, f"the browser complains of nothing: {errors}")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], sys.argv[2], "--live" in sys.argv)

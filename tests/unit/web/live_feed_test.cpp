@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "web/live_feed.h"
+
+#include <gtest/gtest.h>
+
+#include <shaken/frame_static_t.hpp>
+
+namespace shaken::web {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr const char* kRun = "1f0c000000000000";
+
+observables_t observables(double time, double order) {
+  observables_t message{};
+  message.job_id = kRun;
+  message.sim_time_s = time;
+  message.order = order;
+  return message;
+}
+
+frame_static_t constants() {
+  frame_static_t message{};
+  message.job_id = kRun;
+  message.n_rods = 2;
+  message.box_side_mm = 20;
+  message.n_species = 1;
+  message.species_beads = {1};
+  message.n_beads = 1;
+  message.bead_offset_mm = {0};
+  message.bead_radius_mm = {0.4};
+  return message;
+}
+
+frame_t frame(std::int64_t sequence) {
+  proto::Frame whole;
+  whole.job_id = kRun;
+  whole.sequence = sequence;
+  whole.utime = 1000 + sequence;
+  whole.box_side_mm = 20;
+  whole.rods.resize(2);
+  return proto::encode_frame(whole).front();
+}
+
+TEST(LiveFeed, OnlyRunsOfTheDaemonTakeMemory) {
+  LiveFeed feed(nullptr);
+  feed.note(observables(1, 0.5));
+  feed.keep({kRun});
+  EXPECT_TRUE(feed.order(kRun).times().empty()) << "what came before is nobody's";
+  feed.note(observables(2, 0.6));
+  feed.note(observables(3, 0.7));
+  EXPECT_EQ(feed.order(kRun).values(), (std::vector<double>{0.6, 0.7}));
+  feed.keep({});
+  EXPECT_TRUE(feed.order(kRun).times().empty());
+}
+
+TEST(LiveFeed, TellsEachListenerWhatIsNewToIt) {
+  LiveFeed feed(nullptr);
+  feed.keep({kRun});
+  LiveSeen first, second;
+  EXPECT_FALSE(feed.wait(kRun, first, 1ms).observables);
+  feed.note(observables(1, 0.5));
+  EXPECT_DOUBLE_EQ(feed.wait(kRun, first, 1ms).observables->order, 0.5);
+  EXPECT_FALSE(feed.wait(kRun, first, 1ms).observables) << "it has had that";
+  EXPECT_TRUE(feed.wait(kRun, second, 1ms).observables) << "the other has not";
+  EXPECT_FALSE(feed.wait("ffffffffffffffff", first, 1ms).observables) << "no such run";
+}
+
+TEST(LiveFeed, RodsArePutTogetherWhileSomebodyLooks) {
+  LiveFeed feed(nullptr);
+  feed.keep({kRun});
+  feed.note(constants());
+  feed.note(frame(1));
+  LiveSeen seen;
+  EXPECT_EQ(feed.wait(kRun, seen, 1ms).frame, nullptr) << "nobody had asked before";
+  feed.note(frame(2));
+  const LiveNews news = feed.wait(kRun, seen, 1ms);
+  ASSERT_NE(news.frame, nullptr);
+  EXPECT_EQ(news.frame->rods.size(), 2u);
+}
+
+TEST(LiveFeed, AListenerIsWokenByWhatComes) {
+  LiveFeed feed(nullptr);
+  feed.keep({kRun});
+  std::jthread sender([&] { feed.note(observables(1, 0.25)); });
+  LiveSeen seen;
+  EXPECT_TRUE(feed.wait(kRun, seen, 60s).observables);
+}
+
+}  // namespace
+}  // namespace shaken::web

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "web/packed_frame.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+namespace shaken::web {
+namespace {
+
+/// A little-endian number at byte `at`.
+std::uint16_t u16(const std::string& bytes, std::size_t at) {
+  return static_cast<std::uint16_t>(static_cast<unsigned char>(bytes.at(at)) |
+                                    static_cast<unsigned char>(bytes.at(at + 1)) << 8);
+}
+std::int16_t i16(const std::string& bytes, std::size_t at) { return static_cast<std::int16_t>(u16(bytes, at)); }
+
+client::RodFrame some_frame(std::size_t n_rods) {
+  client::RodFrame frame;
+  frame.time = 1.5;
+  frame.box_side = 20;
+  frame.order = 0.75;
+  frame.director = 0.25;
+  frame.outlines = {{2, 0.4, 0.2}};
+  for (std::size_t i = 0; i < n_rods; ++i) {
+    frame.rods.push_back({5 + 0.001 * static_cast<double>(i), 15, std::numbers::pi / 4, -0.5});
+  }
+  return frame;
+}
+
+TEST(PackedFrame, HoldsRodsInTheUnitsOfTheBus) {
+  const std::string bytes = packed(some_frame(3));
+  const std::size_t size = u16(bytes, 0) | static_cast<std::size_t>(u16(bytes, 2)) << 16;
+  EXPECT_EQ(size % 4, 0u) << "numbers of two bytes follow at an even place";
+  const auto head = nlohmann::json::parse(bytes.substr(4, size));
+  EXPECT_EQ(head["n_rods"], 3);
+  EXPECT_EQ(head["time_s"], 1.5);
+  EXPECT_EQ(head["outlines"], nlohmann::json({{2, 0.4, 0.2}}));
+  EXPECT_TRUE(head["walls"].is_null());
+  const std::size_t begin = 4 + size;
+  ASSERT_EQ(bytes.size(), begin + 4 * 2 * 3);
+  EXPECT_EQ(i16(bytes, begin), -16384) << "x = 5 mm of 20 mm";
+  EXPECT_EQ(i16(bytes, begin + 2 * 3), 16384) << "y = 15 mm";
+  EXPECT_EQ(i16(bytes, begin + 2 * 6), 8192) << "an eighth of a turn";
+  EXPECT_NEAR(i16(bytes, begin + 2 * 9), -16384, 1) << "n_z = -1/2";
+}
+
+TEST(PackedFrame, RodsOfManyMessagesFollowEachOther) {
+  const std::size_t n = proto::kRodsPerChunk + 10;
+  const std::string bytes = packed(some_frame(n));
+  const std::size_t begin = 4 + (u16(bytes, 0) | static_cast<std::size_t>(u16(bytes, 2)) << 16);
+  ASSERT_EQ(bytes.size(), begin + 8 * n);
+  for (std::size_t i = 1; i < n; ++i) {
+    ASSERT_GE(i16(bytes, begin + 2 * i), i16(bytes, begin + 2 * (i - 1))) << "x grows with the rod's number, " << i;
+    ASSERT_EQ(i16(bytes, begin + 2 * (n + i)), 16384) << i;
+  }
+}
+
+TEST(PackedFrame, SpeciesAndWallsAreThereWhereTheyAreInTheRun) {
+  client::RodFrame frame = some_frame(2);
+  frame.outlines.push_back({0, 0.5, 0.5});
+  frame.species_of_rod = {1, 0};
+  frame.walls.emplace();
+  frame.walls->arena = Arena::kAnnulus;
+  frame.walls->size = 18;
+  frame.walls->inner = 6;
+  const std::string bytes = packed(frame);
+  const std::size_t size = u16(bytes, 0);
+  const auto head = nlohmann::json::parse(bytes.substr(4, size));
+  EXPECT_EQ(head["walls"], nlohmann::json({{"arena", "annulus"}, {"size_mm", 18}, {"inner_mm", 6}}));
+  EXPECT_EQ(bytes.substr(4 + size + 16), std::string("\x01\x00", 2));
+}
+
+TEST(Base64, IsThatOfRfc4648) {
+  const std::pair<const char*, const char*> kVectors[] = {{"", ""},
+                                                          {"f", "Zg=="},
+                                                          {"fo", "Zm8="},
+                                                          {"foo", "Zm9v"},
+                                                          {"foob", "Zm9vYg=="},
+                                                          {"fooba", "Zm9vYmE="},
+                                                          {"foobar", "Zm9vYmFy"}};
+  for (const auto& [bytes, text] : kVectors) EXPECT_EQ(base64(bytes), text);
+  EXPECT_EQ(base64("\xFF\xFE\xFD"), "//79");
+}
+
+}  // namespace
+}  // namespace shaken::web

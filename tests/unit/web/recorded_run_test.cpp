@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "web/recorded_run.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "base/scratch_folder.h"
+#include "run/files/directory.h"
+
+namespace shaken::web {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kRun = "1f0c000000000000";
+
+class RecordedRunsTest : public testing::Test {
+ protected:
+  RecordedRunsTest() { fs::create_directories(folder_ / kRun); }
+  run::RunDirectory directory() const { return {folder_ / kRun}; }
+  /// Two rods in a box of 10 mm, `n_frames` frames 0.1 s apart; the second rod turns by 90 degrees in the last one.
+  void record(int n_frames) const {
+    run::TrajectoryHeader header;
+    header.n_rods = 2;
+    header.box_side = 10;
+    header.gap = 1.2;
+    header.dt = 1e-5;
+    header.bead_offset = {-2, 0, 2};
+    header.bead_radius = {0.2, 0.4, 0.2};
+    header.scene_json = "{}";
+    auto log = run::FrameLog::create(directory().frames(), header).value();
+    for (int k = 0; k < n_frames; ++k) {
+      Snapshot now;
+      now.tick = k;
+      now.time = 0.1 * k;
+      now.box_side = 10;
+      now.position = {{1, 2, 0.6}, {7, 8, 0.6}};
+      now.director = {{1, 0, 0}, k + 1 < n_frames ? Vec3(1, 0, 0) : Vec3(0, 1, 0)};
+      now.velocity = now.position;
+      now.image = {{0, 0}, {0, 0}};
+      ASSERT_TRUE(log.append(run::record(now)));
+    }
+    ASSERT_TRUE(log.sync());
+  }
+
+  ScratchFolder folder_;
+  RecordedRuns runs_{folder_.path()};
+};
+
+TEST_F(RecordedRunsTest, FramesAreThoseOfTheTrajectory) {
+  record(3);
+  const auto frames = runs_.frames(kRun);
+  ASSERT_TRUE(frames) << frames.error().message;
+  EXPECT_EQ(frames->n, 3u);
+  EXPECT_DOUBLE_EQ(frames->first, 0);
+  EXPECT_NEAR(frames->last, 0.2, 1e-12);
+  const auto first = runs_.frame(kRun, 0), last = runs_.frame(kRun, 2);
+  ASSERT_TRUE(first && last);
+  EXPECT_NEAR(first->order, 1, 1e-6);
+  EXPECT_NEAR(last->order, 0, 1e-6) << "rods across each other";
+  ASSERT_EQ(last->rods.size(), 2u);
+  EXPECT_NEAR(last->rods[1].x, 7, 1e-6);
+  EXPECT_NEAR(std::abs(last->rods[1].theta), 1.5708, 1e-3);
+  ASSERT_EQ(last->outlines.size(), 1u);
+  EXPECT_DOUBLE_EQ(last->outlines[0].half_length, 2);
+  EXPECT_FALSE(runs_.frame(kRun, 3)) << "there are three";
+}
+
+TEST_F(RecordedRunsTest, SeeFramesThatComeLater) {
+  record(2);
+  EXPECT_EQ(runs_.frames(kRun)->n, 2u);
+  record(5);
+  EXPECT_EQ(runs_.frames(kRun)->n, 5u);
+}
+
+TEST_F(RecordedRunsTest, SayWhatIsNotThere) {
+  EXPECT_THAT(runs_.frames(kRun).error().message, testing::HasSubstr("records no rods"));
+  EXPECT_THAT(runs_.curves(kRun).error().message, testing::HasSubstr("before the end"));
+  EXPECT_TRUE(runs_.files("ffffffffffffffff").empty());
+  std::ofstream(directory().trajectory()) << "no HDF5";
+  EXPECT_FALSE(runs_.frames(kRun));
+  std::ofstream(directory().observables()) << "no HDF5";
+  EXPECT_FALSE(runs_.curves(kRun));
+}
+
+TEST_F(RecordedRunsTest, LinksAndFoldersAreNoFiles) {
+  std::ofstream(directory().scene()) << "{}";
+  fs::create_symlink("/etc/passwd", folder_ / kRun / "secret");
+  fs::create_directory(folder_ / kRun / "folder");
+  const auto files = runs_.files(kRun);
+  ASSERT_EQ(files.size(), 1u);
+  EXPECT_EQ(files[0].name, "scene.json");
+  EXPECT_EQ(files[0].size, 2u);
+}
+
+TEST(RunId, IsSixteenHexDigits) {
+  EXPECT_TRUE(RecordedRuns::is_id(kRun));
+  for (const char* text :
+       {"", "..", "1f0c", "1F0C000000000000", "1f0c00000000000g", "1f0c0000000000000", "../../etc/passw"}) {
+    EXPECT_FALSE(RecordedRuns::is_id(text)) << text;
+  }
+}
+
+}  // namespace
+}  // namespace shaken::web

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include "web/daemon_link.h"
+
+#include <httplib.h>
+
+#include <nlohmann/json.hpp>
+
+namespace shaken::web {
+
+server::Reply DaemonLink::ask(const server::Request& request) const {
+  const std::filesystem::path socket = root_ / "shakend.sock";
+  httplib::Client daemon(socket.string());
+  daemon.set_address_family(AF_UNIX);
+  daemon.set_connection_timeout(2);
+  daemon.set_read_timeout(50);  // what is asked waits for the disk at times
+  httplib::Params query;
+  for (const auto& [name, value] : request.query) query.emplace(name, value);
+  const httplib::Result answer = request.method == "POST" ? daemon.Post(request.path, request.body, "application/json")
+                                                          : daemon.Get(request.path, query, httplib::Headers{});
+  if (!answer) {
+    const nlohmann::json body{{"error", "no daemon answers at " + socket.string() + " (" +
+                                            httplib::to_string(answer.error()) + "): start shakend"}};
+    return {.status = 503, .body = body.dump() + "\n"};
+  }
+  return {.status = answer->status, .body = answer->body, .allow = answer->get_header_value("Allow")};
+}
+
+Result<std::string> DaemonLink::get(const std::string& path) const {
+  server::Reply reply = ask({.method = "GET", .path = path, .query = {}, .body = ""});
+  if (reply.status == 200) return std::move(reply.body);
+  const nlohmann::json body = nlohmann::json::parse(reply.body, nullptr, false);
+  return Error{body.is_object() ? body.value("error", reply.body) : reply.body};
+}
+
+}  // namespace shaken::web

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+
+#include "server/http/http_server.h"
+#include "sim/core/result.h"
+
+namespace shaken::web {
+
+/// Hands requests on to the daemon of a root directory, by its socket, and its answers back as they are.
+class DaemonLink {
+ public:
+  explicit DaemonLink(const std::filesystem::path& root) : root_(root) {}
+  /// The daemon's answer; 503 with the reason if there is none. May be called from many threads at once.
+  server::Reply ask(const server::Request& request) const;
+  /// The body of GET `path`, or why there is none.
+  Result<std::string> get(const std::string& path) const;
+
+ private:
+  std::filesystem::path root_;
+};
+
+}  // namespace shaken::web

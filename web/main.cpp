@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "base/failure.h"
+#include "base/interrupt.h"
+#include "base/paths.h"
+#include "run/files/version.h"
+#include "web/guard.h"
+#include "web/served.h"
+#include "web/site.h"
+#include "web/token.h"
+
+namespace {
+
+using namespace shaken;
+
+constexpr const char* kAbout =
+    "shaken-web: a daemon's queue, its results and its live rods in a browser of this machine.\n"
+    "Prints the address to open, with the token that lets one in, and serves it until Ctrl-C or SIGTERM.";
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  shakend --web                        # the daemon starts this program beside itself\n"
+    "  shaken web                           # the same by hand, for a daemon that runs already\n"
+    "  shaken-web --root /data/rods --port 9000\n"
+    "  ssh -L 8642:127.0.0.1:8642 desk      # from elsewhere: then open the same address there\n"
+    "\n"
+    "Exit codes: 0 stopped in order, 1 could not start, 2 bad arguments, 3 no daemon.";
+
+/// The bus that the daemon's workers send to; null with the reason on stderr.
+std::unique_ptr<proto::Bus> open_bus(const web::DaemonLink& daemon, std::string url) {
+  if (url.empty()) {
+    const Result<std::string> answer = daemon.get("/v1/status");
+    if (!answer) throw Failure(ExitCode::kNoDaemon, answer.error().message);
+    const nlohmann::json lcm = nlohmann::json::parse(*answer, nullptr, false).value("lcm", nlohmann::json::object());
+    if (!lcm.value("ok", false)) {
+      std::fprintf(stderr, "shaken-web: nothing is live: %s\n", lcm.value("message", "the daemon has no LCM").c_str());
+      return nullptr;
+    }
+    url = lcm.value("url", "");
+  }
+  Result<std::unique_ptr<proto::Bus>> bus = proto::Bus::open(url);
+  if (bus) return std::move(bus).value();
+  std::fprintf(stderr, "shaken-web: nothing is live: %s\n", bus.error().message.c_str());
+  return nullptr;
+}
+
+void serve(const std::filesystem::path& root, int port, const std::string& lcm_url, bool no_lcm) {
+  const std::string token = value_or_fail(web::read_or_make_token(root));
+  web::SiteSetup setup{.root = root, .page = shipped_page()};
+  if (!no_lcm) setup.bus = open_bus(web::DaemonLink(root), lcm_url);
+  if (!std::filesystem::exists(setup.chart_library)) {
+    throw Failure(ExitCode::kFailed, "there is no " + setup.chart_library.string() +
+                                         ", which draws the curves: apt-get install libjs-chart.js");
+  }
+  if (port != 0 && web::is_served(root, port, token)) {
+    std::printf("open %s\nit is served already\n", web::Guard(token, port).address().c_str());
+    return;
+  }
+  web::Site site(std::move(setup));
+  const InterruptGuard interrupt;
+  const web::Guard* guard = nullptr;
+  std::mutex guard_is_made;
+  std::unique_lock making(guard_is_made);  // requests wait until the port is known
+  server::HttpServer server(port, [&](const server::Request& request) {
+    { const std::lock_guard made(guard_is_made); }
+    if (std::optional<server::Reply> stopped = guard->stop(request)) return std::move(*stopped);
+    return site.answer(request);
+  });
+  const web::Guard made(token, server.port());
+  guard = &made;
+  making.unlock();
+  std::printf("open %s\n", made.address().c_str());
+  std::fflush(stdout);
+  while (!interrupt.interrupted()) interrupt.sleep_for(std::chrono::seconds(1));
+  site.close();
+  server.close();
+  server.ended_within(std::chrono::milliseconds(3000));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGPIPE, SIG_IGN);
+  std::string root, lcm_url;
+  int port = 8642;
+  bool no_lcm = false;
+  CLI::App app(kAbout);
+  app.footer(kExamples);
+  app.set_version_flag("--version", std::string("shaken-web ") + run::version());
+  app.add_option("--root", root, "The daemon's root directory [default: as shakend]")->type_name("DIR");
+  app.add_option("--port", port, "Of 127.0.0.1; 0: any that is free")
+      ->check(CLI::Range(0, 65535))
+      ->capture_default_str();
+  auto* url =
+      app.add_option("--lcm-url", lcm_url, "Where live state comes from [default: asks the daemon]")->type_name("URL");
+  app.add_flag("--no-lcm", no_lcm, "Listen to no live state")->excludes(url);
+  try {
+    app.parse(argc, argv);
+    serve(value_or_fail(data_root(root), ExitCode::kBadInput), port, lcm_url, no_lcm);
+    return static_cast<int>(ExitCode::kOk);
+  } catch (const CLI::ParseError& outcome) {
+    if (outcome.get_exit_code() == 0) return app.exit(outcome);
+    std::fprintf(stderr, "shaken-web: %s (see `shaken-web --help`)\n", outcome.what());
+    return static_cast<int>(ExitCode::kBadInput);
+  } catch (const Failure& failure) {
+    std::fprintf(stderr, "shaken-web: %s\n", failure.what());
+    return static_cast<int>(failure.code);
+  } catch (const std::exception& problem) {
+    std::fprintf(stderr, "shaken-web: %s\n", problem.what());
+    return static_cast<int>(ExitCode::kFailed);
+  }
+}

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "web/packed_frame.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+namespace shaken::web {
+namespace {
+
+void append(std::string& bytes, std::uint16_t value) {
+  bytes += static_cast<char>(value & 0xFF);
+  bytes += static_cast<char>(value >> 8);
+}
+
+void append(std::string& bytes, const std::vector<std::int16_t>& values) {
+  for (const std::int16_t value : values) append(bytes, static_cast<std::uint16_t>(value));
+}
+
+nlohmann::ordered_json head_of(const client::RodFrame& frame) {
+  nlohmann::ordered_json outlines = nlohmann::ordered_json::array();
+  for (const client::RodOutline& outline : frame.outlines) {
+    outlines.push_back({outline.half_length, outline.middle, outline.end});
+  }
+  nlohmann::ordered_json walls;
+  if (frame.walls) {
+    walls = {{"arena", name_of(frame.walls->arena)}, {"size_mm", frame.walls->size}, {"inner_mm", frame.walls->inner}};
+  }
+  return {{"time_s", frame.time},
+          {"box_side_mm", frame.box_side},
+          {"order", frame.order},
+          {"director_rad", frame.director},
+          {"n_rods", frame.rods.size()},
+          {"outlines", outlines},
+          {"walls", walls}};
+}
+
+}  // namespace
+
+std::string packed(const client::RodFrame& frame) {
+  std::string head = head_of(frame).dump();
+  head.resize((head.size() + 3) / 4 * 4, ' ');
+  std::string bytes;
+  bytes.reserve(4 + head.size() + 9 * frame.rods.size());
+  append(bytes, static_cast<std::uint16_t>(head.size() & 0xFFFF));
+  append(bytes, static_cast<std::uint16_t>(head.size() >> 16));
+  bytes += head;
+  // One way of rounding for all that is sent.
+  proto::Frame plain;
+  plain.box_side_mm = frame.box_side;
+  plain.rods = frame.rods;
+  const std::vector<frame_t> chunks = proto::encode_frame(plain);
+  for (const auto array : {&frame_t::x, &frame_t::y, &frame_t::heading, &frame_t::n_z}) {
+    for (const frame_t& chunk : chunks) append(bytes, chunk.*array);
+  }
+  if (frame.outlines.size() > 1) bytes.append(frame.species_of_rod.begin(), frame.species_of_rod.end());
+  return bytes;
+}
+
+std::string base64(const std::string& bytes) {
+  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < n ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+    for (std::size_t k = 0; k < 4; ++k) text += k <= n ? kDigits[group >> (18 - 6 * k) & 63] : '=';
+  }
+  return text;
+}
+
+}  // namespace shaken::web

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "client/watch/rod_cells.h"
+
+namespace shaken::web {
+
+/// A frame as the page reads it, the same for live and for recorded ones. Little-endian:
+///   u32 size of the head; the head, JSON padded with blanks to a multiple of 4 bytes:
+///       {"time_s", "box_side_mm", "order", "director_rad", "n_rods", "outlines": [[half length, radius in the middle,
+///       radius at the ends], ...] of each species [mm], "walls": {"arena", "size_mm", "inner_mm"} or null};
+///   i16 x[n_rods], y[n_rods], heading[n_rods], n_z[n_rods], in the units of frame_t (proto/frame_t.lcm);
+///   u8 species[n_rods], if there are several.
+std::string packed(const client::RodFrame& frame);
+
+/// Bytes in base64 (RFC 4648), for server-sent events, which are text.
+std::string base64(const std::string& bytes);
+
+}  // namespace shaken::web

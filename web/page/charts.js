@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// Curves and maps, drawn by Chart.js (the global Chart of /chart.js).
+
+const kInk = "#e4e6ea", kFaint = "#949aa5", kGrid = "#2b2f36";
+
+/** Viridis (van der Walt & Smith 2015) at nine places, for values from low (0) to high (1). */
+const kViridis = ["#440154", "#472d7b", "#3b528b", "#2c728e", "#21918c", "#28ae80", "#5ec962", "#addc30", "#fde725"];
+export function sequential(part) {
+  const at = Math.min(Math.max(part, 0), 1) * (kViridis.length - 1), i = Math.min(Math.floor(at), kViridis.length - 2);
+  const mix = (from, to) => Math.round(from + (at - i) * (to - from));
+  const channels = [1, 3, 5].map((k) => mix(parseInt(kViridis[i].slice(k, k + 2), 16), parseInt(kViridis[i + 1].slice(k, k + 2), 16)));
+  return `rgb(${channels.join(" ")})`;
+}
+
+const axis = (text, more = {}) => ({type: "linear", title: {display: true, text, color: kFaint}, ticks: {color: kFaint, maxTicksLimit: 7, includeBounds: false},
+                                    grid: {color: kGrid}, ...more});
+
+const common = {animation: false, responsive: true, maintainAspectRatio: false, normalized: true,
+                plugins: {legend: {display: false}, tooltip: {enabled: false}}};
+
+/** One curve, that is given anew as a whole. */
+export class Curve {
+  constructor(canvas, xTitle, yTitle, yRange = {}) {
+    this.chart = new Chart(canvas, {
+      type: "line",
+      data: {datasets: [{data: [], borderColor: "#67a8fb", borderWidth: 1.5, pointRadius: 0, tension: 0}]},
+      options: {...common, parsing: false, scales: {x: axis(xTitle), y: axis(yTitle, yRange)}},
+    });
+    this.marker = null;
+  }
+
+  /** Points of more than `most` are thinned: a screen shows no more. */
+  set(xs, ys, most = 1500) {
+    const step = Math.max(1, Math.ceil(xs.length / most));
+    const points = [];
+    for (let i = 0; i < xs.length; i += step) {
+      if (Number.isFinite(xs[i]) && Number.isFinite(ys[i])) points.push({x: xs[i], y: ys[i]});
+    }
+    this.chart.data.datasets[0].data = points;
+    const {x} = this.chart.options.scales;
+    x.min = points.length ? points[0].x : undefined;
+    x.max = points.length > 1 ? points.at(-1).x : undefined;
+    this.chart.update("none");
+  }
+
+  clear() { this.set([], []); }
+}
+
+/** Points with a value each, shown by colour; or against the value where there is only one parameter. */
+export class PointMap {
+  constructor(canvas, choose) {
+    this.points = [];
+    this.chart = new Chart(canvas, {
+      type: "scatter",
+      data: {datasets: [{data: [], pointRadius: 9, pointHoverRadius: 11, pointStyle: "rect", borderWidth: 2}]},
+      options: {...common, parsing: false,
+                onClick: (event, hits) => { if (hits.length) choose(this.points[hits[0].index]); },
+                onHover: (event, hits) => { event.native.target.style.cursor = hits.length ? "pointer" : "default"; },
+                plugins: {legend: {display: false},
+                          tooltip: {callbacks: {label: (item) => this.points[item.dataIndex].text}}},
+                scales: {x: axis(""), y: axis("")}},
+    });
+  }
+
+  /** points: [{x, y, fill, border, text}] */
+  set(points, xTitle, yTitle) {
+    this.points = points;
+    const [set] = this.chart.data.datasets;
+    set.data = points.map(({x, y}) => ({x, y}));
+    set.backgroundColor = points.map(({fill}) => fill);
+    set.borderColor = points.map(({border}) => border);
+    for (const [name, title] of [["x", xTitle], ["y", yTitle]]) {
+      const scale = this.chart.options.scales[name];
+      scale.title.text = title;
+      scale.offset = true;
+      const values = points.map((point) => point[name]).filter(Number.isFinite);
+      const low = Math.min(...values), high = Math.max(...values), margin = (high - low || Math.abs(low) || 1) * 0.08;
+      scale.min = values.length ? low - margin : undefined;
+      scale.max = values.length ? high + margin : undefined;
+    }
+    this.chart.update("none");
+  }
+}
+
+/** Draws a strip of colours; colour(part) for part from 0 to 1. */
+export function strip(canvas, colour) {
+  canvas.width = 128;
+  canvas.height = 1;
+  const context = canvas.getContext("2d");
+  for (let i = 0; i < canvas.width; ++i) {
+    context.fillStyle = colour(i / (canvas.width - 1));
+    context.fillRect(i, 0, 1, 1);
+  }
+}
+
+export const ink = kInk;

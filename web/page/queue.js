@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// The list of sweeps, and the form in which new ones are submitted.
+import {ask, byId, complain, duration, make} from "/page/dom.js";
+
+/** "3 done, 2 running" of {state: n}. */
+export const countsText = (counts) =>
+  Object.entries(counts).filter(([, n]) => n > 0).map(([state, n]) => `${n} ${state}`).join(", ");
+
+export class QueuePanel {
+  /** `choose(id)` is called when a sweep is clicked. */
+  constructor(choose) {
+    this.chooseSweep = choose;
+    this.chosen = "";
+    this.items = new Map();
+    byId("open-submit").onclick = () => byId("submit").showModal();
+    byId("submit-close").onclick = () => byId("submit").close();
+    byId("submit-send").onclick = () => this.submit();
+  }
+
+  choose(id) {
+    this.chosen = id;
+    for (const [sweep, item] of this.items) item.button.setAttribute("aria-current", sweep === id);
+  }
+
+  note(sweeps) {
+    for (const sweep of sweeps) {
+      let item = this.items.get(sweep.id);
+      if (!item) {
+        item = {name: make("span", {className: "name"}), bar: make("progress", {max: 1}),
+                counts: make("span", {className: "counts"})};
+        item.button = make("button", {type: "button", className: "sweep", "data-sweep": sweep.id,
+                                      onclick: () => this.chooseSweep(sweep.id)}, item.name, item.bar, item.counts);
+        this.items.set(sweep.id, item);
+        byId("sweeps").prepend(make("li", {}, item.button));
+      }
+      item.name.textContent = `${sweep.id} ${sweep.name}`;
+      item.bar.value = sweep.progress;
+      const waits = sweep.counts.running + sweep.counts.queued > 0;
+      item.counts.textContent = countsText(sweep.counts) + (waits && sweep.eta_s >= 0 ? `; ${duration(sweep.eta_s)} to go` : "");
+    }
+    this.choose(this.chosen);
+  }
+
+  async submit() {
+    const list = byId("submit-problems");
+    list.replaceChildren();
+    const request = {text: byId("submit-text").value, file: "the text"};
+    if (byId("submit-name").value) request.name = byId("submit-name").value;
+    byId("submit-send").disabled = true;
+    try {
+      const answer = await ask("/v1/sweeps", request);
+      byId("submit").close();
+      this.chooseSweep(answer.sweep.id);
+    } catch (problem) {
+      const places = (problem.problems ?? []).map((one) =>
+        `${one.line ? `line ${one.line}: ` : ""}${one.path ? `${one.path}: ` : ""}${one.message}`);
+      list.append(...(places.length ? places : [problem.message]).map((text) => make("li", {}, text)));
+    } finally {
+      byId("submit-send").disabled = false;
+    }
+  }
+}
+
+/** Buttons of what can be asked of a sweep or a job; `path` is /v1/sweeps/ID or /v1/jobs/ID. */
+export function actionButtons(path, states) {
+  const has = (...words) => words.some((word) => states.has(word));
+  const offered = [["hold", "Hold", has("queued", "running")], ["resume", "Resume", has("held")],
+                   ["retry", "Try again", has("failed", "cancelled", "timed out")],
+                   ["cancel", "Cancel", has("queued", "running", "held")]];
+  return offered.filter(([, , fits]) => fits).map(([action, word]) => make("button", {
+    type: "button", "data-action": action, onclick: async (event) => {
+      event.stopPropagation();
+      if (action === "cancel" && !confirm(`Cancel ${path.split("/").at(-1)}? What it has measured stays.`)) return;
+      try { await ask(`${path}/${action}`, {}); } catch (problem) { complain(problem.message); }
+    }}, word));
+}

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: MIT
+// Rods on a canvas by WebGL2: one small rectangle for each, in which its outline is drawn.
+
+/** A frame out of the bytes of docs/web.md. Throws where they contradict themselves. */
+export function unpack(buffer) {
+  const sizes = new DataView(buffer), size = sizes.getUint32(0, true);
+  const head = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, size)));
+  const n = head.n_rods, begin = 4 + size;
+  const array = (k) => new Int16Array(buffer, begin + 2 * n * k, n);
+  const many = head.outlines.length > 1;
+  return {...head, x: array(0), y: array(1), heading: array(2), n_z: array(3),
+          species: many ? new Uint8Array(buffer, begin + 8 * n, n) : new Uint8Array(n)};
+}
+
+export function unpackText(text) {
+  return unpack(Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer);
+}
+
+/** The angle of rod i to the director, in (-90, 90] degrees. */
+export function angleToDirector(frame, i) {
+  const angle = frame.heading[i] / 32768 * 180 - frame.director_rad * 180 / Math.PI;
+  return angle - 180 * Math.round(angle / 180);
+}
+
+const kVertex = `#version 300 es
+layout(location = 0) in vec2 corner;
+layout(location = 1) in float px;
+layout(location = 2) in float py;
+layout(location = 3) in float heading;
+layout(location = 4) in float nz;
+layout(location = 5) in float species;
+uniform float side;
+uniform vec2 middle;       // of the view [mm]
+uniform vec2 shift;        // of this image of the box [mm]
+uniform float scale;       // half the view's width is 1 / scale [mm]
+uniform bool periodic;
+uniform vec3 outline[8];   // half length, radius in the middle, radius at the ends [mm]
+uniform float director;
+uniform int colouring;
+uniform sampler2D layers, wheel, tilt;
+uniform vec3 speciesColour[3];
+out vec2 at;               // along and across the rod [mm]
+flat out vec3 shape;
+flat out vec3 colour;
+const float pi = 3.14159265358979;
+void main() {
+  vec3 whole = outline[int(species)];
+  float flatPart = sqrt(max(0.0, 1.0 - nz * nz));
+  shape = vec3(whole.x * flatPart, whole.yz);
+  float width = max(shape.y, shape.z);
+  at = corner * vec2(shape.x + shape.z, width) * 1.02;
+  float theta = heading * pi;
+  vec2 axis = vec2(cos(theta), sin(theta));
+  vec2 centre = (vec2(px, py) * 0.5 + 0.5) * side - middle;
+  if (periodic) centre -= side * floor(centre / side + 0.5);
+  centre += shift;
+  if (any(greaterThan(abs(centre) * scale, vec2(1.0 + (whole.x + whole.z) * scale)))) {
+    gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // out of sight
+    return;
+  }
+  vec2 place = centre + at.x * axis + at.y * vec2(-axis.y, axis.x);
+  gl_Position = vec4(place * scale, 0.0, 1.0);
+  float turned = (theta - director) / pi;
+  turned -= floor(turned + 0.5);
+  if (colouring == 0) colour = texture(layers, vec2(clamp(turned * 6.0 + 0.5, 0.0, 1.0), 0.5)).rgb;
+  else if (colouring == 1) colour = texture(wheel, vec2(theta / pi, 0.5)).rgb;
+  else if (colouring == 2) colour = texture(tilt, vec2(min(abs(nz) * 2.0, 1.0), 0.5)).rgb;
+  if (colouring == 3 || (colouring == 0 && species > 0.5)) colour = speciesColour[min(int(species), 2)];
+}`;
+
+const kFragment = `#version 300 es
+precision highp float;
+in vec2 at;
+flat in vec3 shape;
+flat in vec3 colour;
+out vec4 ink;
+void main() {
+  float along = abs(at.x), across = abs(at.y);
+  // the radius changes linearly from the middle to the centres of the end beads
+  float radius = shape.x > 0.0 ? mix(shape.y, shape.z, min(along / shape.x, 1.0)) : shape.z;
+  float inside = along <= shape.x ? radius - across : shape.z - length(vec2(along - shape.x, across));
+  float pixel = fwidth(at.x) + fwidth(at.y);
+  float cover = clamp(inside / pixel + 0.5, 0.0, 1.0);
+  if (cover <= 0.0) discard;
+  float round = clamp(1.0 - inside / max(radius, 1e-6), 0.0, 1.0);
+  ink = vec4(colour * (0.5 + 0.5 * sqrt(1.0 - round * round)), 1.0) * cover;
+}`;
+
+const kColourings = ["layers", "wheel", "tilt", "species"];
+const rgb = (ink) => [ink >> 16 & 255, ink >> 8 & 255, ink & 255];
+
+export class RodCanvas {
+  constructor(canvas, marks, palettes) {
+    this.canvas = canvas;
+    this.marks = marks;
+    this.palettes = palettes;
+    this.frame = null;
+    this.defects = [];
+    this.showsDefects = true;
+    this.colouring = "auto";
+    this.automatic = "";
+    this.view = {x: 0.5, y: 0.5, zoom: 1};
+    this.framesDrawn = 0;
+    const gl = canvas.getContext("webgl2", {antialias: false, preserveDrawingBuffer: true});
+    if (!gl) throw new Error("this browser has no WebGL2, by which rods are drawn");
+    this.gl = gl;
+    this.program = this.makeProgram();
+    this.makeBuffers();
+    this.makeTextures();
+    this.handlePointer();
+    new ResizeObserver(() => this.draw()).observe(canvas);
+  }
+
+  makeProgram() {
+    const {gl} = this, program = gl.createProgram();
+    for (const [kind, source] of [[gl.VERTEX_SHADER, kVertex], [gl.FRAGMENT_SHADER, kFragment]]) {
+      const shader = gl.createShader(kind);
+      gl.shaderSource(shader, source);
+      gl.compileShader(shader);
+      if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) throw new Error(gl.getShaderInfoLog(shader));
+      gl.attachShader(program, shader);
+    }
+    gl.linkProgram(program);
+    if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(program));
+    return program;
+  }
+
+  makeBuffers() {
+    const {gl} = this;
+    this.vertices = gl.createVertexArray();
+    gl.bindVertexArray(this.vertices);
+    gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]), gl.STATIC_DRAW);
+    gl.enableVertexAttribArray(0);
+    gl.vertexAttribPointer(0, 2, gl.FLOAT, false, 0, 0);
+    this.buffers = ["x", "y", "heading", "n_z", "species"].map((name, i) => {
+      const buffer = gl.createBuffer();
+      gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+      gl.enableVertexAttribArray(i + 1);
+      const isSpecies = name === "species";
+      // -1 to 1; 32767 / 32768 of it is nothing that can be seen
+      gl.vertexAttribPointer(i + 1, 1, isSpecies ? gl.UNSIGNED_BYTE : gl.SHORT, !isSpecies, 0, 0);
+      gl.vertexAttribDivisor(i + 1, 1);
+      return [name, buffer];
+    });
+  }
+
+  makeTextures() {
+    const {gl} = this;
+    ["layers", "wheel", "tilt"].forEach((name, unit) => {
+      const colours = this.palettes[name];
+      gl.activeTexture(gl.TEXTURE0 + unit);
+      gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
+      gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
+      gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGB8, colours.length, 1, 0, gl.RGB, gl.UNSIGNED_BYTE, new Uint8Array(colours.flatMap(rgb)));
+      const filter = name === "wheel" ? gl.NEAREST : gl.LINEAR;
+      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, filter);
+      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, filter);
+      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, name === "wheel" ? gl.REPEAT : gl.CLAMP_TO_EDGE);
+    });
+  }
+
+  clear() {
+    this.frame = null;
+    this.automatic = "";
+    this.defects = [];
+    this.draw();
+  }
+
+  set(frame) {
+    this.frame = frame;
+    const {gl} = this;
+    for (const [name, buffer] of this.buffers) {
+      gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+      gl.bufferData(gl.ARRAY_BUFFER, frame[name], gl.DYNAMIC_DRAW);
+    }
+    // layers where there is order, the wheel where there is none, and no flicker between
+    if (frame.order > (this.automatic ? 0.6 : 0.5)) this.automatic = "layers";
+    else if (frame.order < 0.4 || !this.automatic) this.automatic = "wheel";
+    this.draw();
+  }
+
+  /** By what the rods are coloured now. */
+  chosenColouring() { return this.colouring === "auto" ? this.automatic || "layers" : this.colouring; }
+
+  fitSize() {
+    const size = Math.max(1, Math.round(this.canvas.clientWidth * (window.devicePixelRatio || 1)));
+    for (const canvas of [this.canvas, this.marks]) {
+      if (canvas.width !== size) { canvas.width = size; canvas.height = size; }
+    }
+    return size;
+  }
+
+  draw() {
+    const {gl, frame} = this, size = this.fitSize();
+    gl.viewport(0, 0, size, size);
+    const [r, g, b] = rgb(this.palettes.floor);
+    gl.disable(gl.SCISSOR_TEST);
+    gl.clearColor(r / 255, g / 255, b / 255, 1);
+    gl.clear(gl.COLOR_BUFFER_BIT);
+    if (frame) {
+      gl.enable(gl.BLEND);
+      gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+      gl.useProgram(this.program);
+      const place = (name) => gl.getUniformLocation(this.program, name);
+      const side = frame.box_side_mm, {view} = this, scale = 2 * view.zoom / side;
+      gl.uniform1f(place("side"), side);
+      gl.uniform2f(place("middle"), view.x * side, view.y * side);
+      gl.uniform1f(place("scale"), scale);
+      gl.uniform1i(place("periodic"), frame.walls ? 0 : 1);
+      gl.uniform3fv(place("outline"), frame.outlines.slice(0, 8).flat());
+      gl.uniform1f(place("director"), frame.director_rad);
+      gl.uniform1i(place("colouring"), kColourings.indexOf(this.chosenColouring()));
+      gl.uniform3fv(place("speciesColour"), this.palettes.species.flatMap(rgb).map((c) => c / 255));
+      ["layers", "wheel", "tilt"].forEach((name, unit) => gl.uniform1i(place(name), unit));
+      gl.bindVertexArray(this.vertices);
+      const images = frame.walls || view.zoom > 3 ? [0] : [0, -side, side];
+      for (const dx of images) {
+        for (const dy of images) {
+          gl.uniform2f(place("shift"), dx, dy);
+          gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, frame.n_rods);
+        }
+      }
+    }
+    this.drawMarks(size);
+    ++this.framesDrawn;
+  }
+
+  /** Walls, defects and a scale bar, over the rods. */
+  drawMarks(size) {
+    const {frame, view} = this, context = this.marks.getContext("2d");
+    context.clearRect(0, 0, size, size);
+    if (!frame) return;
+    const side = frame.box_side_mm, perMm = size * view.zoom / side;
+    const toPixel = (x, y) => {
+      let dx = x - view.x * side, dy = y - view.y * side;
+      if (!frame.walls) { dx -= side * Math.round(dx / side); dy -= side * Math.round(dy / side); }
+      return [size / 2 + dx * perMm, size / 2 - dy * perMm];
+    };
+    if (frame.walls) {
+      const {arena, size_mm, inner_mm} = frame.walls, [x, y] = toPixel(side / 2, side / 2);
+      context.strokeStyle = "#7a7f8a";
+      context.lineWidth = 2;
+      if (arena === "square") context.strokeRect(x - size_mm * perMm / 2, y - size_mm * perMm / 2, size_mm * perMm, size_mm * perMm);
+      for (const diameter of arena === "square" ? [] : [size_mm, ...(inner_mm > 0 ? [inner_mm] : [])]) {
+        context.beginPath();
+        context.arc(x, y, diameter * perMm / 2, 0, 2 * Math.PI);
+        context.stroke();
+      }
+    }
+    if (this.showsDefects) for (const one of this.defects) this.drawDefect(context, one, toPixel, size);
+    const bar = [1, 2, 5, 10, 20, 50, 100, 200].filter((mm) => mm * perMm < size / 3).at(-1) ?? 1;
+    context.fillStyle = "#e4e6ea";
+    context.strokeStyle = "#000";
+    context.lineWidth = 3;
+    context.font = `${Math.max(11, size / 45)}px sans-serif`;
+    context.fillRect(size * 0.03, size * 0.965, bar * perMm, Math.max(2, size / 250));
+    context.strokeText(`${bar} mm`, size * 0.03, size * 0.955);
+    context.fillText(`${bar} mm`, size * 0.03, size * 0.955);
+  }
+
+  /** +1/2: a comet with its tail; -1/2: three arms. */
+  drawDefect(context, [x, y, charge, direction], toPixel, size) {
+    const [px, py] = toPixel(x, y), reach = Math.max(8, size / 45);
+    const arms = charge > 0 ? [direction + Math.PI] : [0, 1, 2].map((k) => direction + 2 * Math.PI * k / 3);
+    for (const [colour, width] of [["#000", 5], [charge > 0 ? "#ffd166" : "#8be9fd", 2.5]]) {
+      context.strokeStyle = context.fillStyle = colour;
+      context.lineWidth = width;
+      context.beginPath();
+      for (const angle of arms) {
+        context.moveTo(px, py);
+        context.lineTo(px + reach * Math.cos(angle), py - reach * Math.sin(angle));
+      }
+      context.stroke();
+      context.beginPath();
+      context.arc(px, py, reach / 3.2 + (width > 3 ? 1.5 : 0), 0, 2 * Math.PI);
+      context.fill();
+    }
+  }
+
+  reset() {
+    this.view = {x: 0.5, y: 0.5, zoom: 1};
+    this.draw();
+  }
+
+  handlePointer() {
+    let last = null;
+    this.marks.addEventListener("wheel", (event) => {
+      event.preventDefault();
+      const zoom = Math.min(40, Math.max(1, this.view.zoom * Math.exp(-event.deltaY / 500)));
+      // the point under the pointer stays where it is
+      const across = event.offsetX / this.marks.clientWidth - 0.5, up = 0.5 - event.offsetY / this.marks.clientHeight;
+      this.view.x += across / this.view.zoom - across / zoom;
+      this.view.y += up / this.view.zoom - up / zoom;
+      this.view.zoom = zoom;
+      this.draw();
+    }, {passive: false});
+    this.marks.addEventListener("pointerdown", (event) => {
+      last = [event.clientX, event.clientY];
+      this.marks.setPointerCapture(event.pointerId);
+    });
+    this.marks.addEventListener("pointermove", (event) => {
+      if (!last) return;
+      this.view.x -= (event.clientX - last[0]) / this.marks.clientWidth / this.view.zoom;
+      this.view.y += (event.clientY - last[1]) / this.marks.clientHeight / this.view.zoom;
+      last = [event.clientX, event.clientY];
+      this.draw();
+    });
+    for (const end of ["pointerup", "pointercancel"]) this.marks.addEventListener(end, () => { last = null; });
+  }
+}

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <stop_token>
+#include <string>
+#include <thread>
+
+#include "web/daemon_link.h"
+
+namespace shaken::web {
+
+/// The queue as it is now, asked for once a second in a thread of its own, however many pages look at it.
+class QueueFeed {
+ public:
+  /// `running` is told the ids of the jobs that run, after every look.
+  QueueFeed(const DaemonLink& daemon, std::function<void(const std::set<std::string>&)> running);
+  ~QueueFeed();
+
+  /// {"status", "sweeps", "jobs": those that run} as the daemon has them (docs/protocol.md), or {"error"}. Waits for at
+  /// most `timeout` for something else than version `seen`, and notes in `seen` which it is.
+  std::optional<std::string> wait(std::int64_t& seen, std::chrono::milliseconds timeout);
+
+ private:
+  void look(const std::stop_token& stop);
+  std::string asked();
+
+  const DaemonLink& daemon_;
+  std::function<void(const std::set<std::string>&)> running_;
+  std::mutex mutex_;
+  std::condition_variable_any news_;
+  std::string newest_;
+  std::int64_t version_ = 0;
+  std::jthread thread_;  ///< the last: it uses the others
+};
+
+}  // namespace shaken::web

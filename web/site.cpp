@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: MIT
+#include "web/site.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <utility>
+
+#include "base/descriptor.h"
+#include "base/files.h"
+#include "base/process.h"
+#include "base/scratch_folder.h"
+#include "web/packed_frame.h"
+
+namespace shaken::web {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using Clock = std::chrono::steady_clock;
+using server::Reply;
+using server::Request;
+
+/// A stream ends before an answer may take no longer; a browser then asks again by itself.
+constexpr std::chrono::seconds kStream{45};
+/// Between two signs of life, by which a stream notices that its browser is gone.
+constexpr std::chrono::seconds kHeartbeat{1};
+/// Between two frames.
+constexpr std::chrono::milliseconds kFrame{50};
+constexpr std::size_t kPiece = std::size_t{1} << 20;  // of a file
+/// What the page consists of.
+constexpr std::array kPageFiles{"icon.svg", "page.css", "main.js",   "queue.js", "map.js",
+                                "run.js",   "rods.js",  "charts.js", "dom.js"};
+
+std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+Reply refusal(int status, const std::string& reason) {
+  return {.status = status, .body = text_of({{"error", reason}}) + "\n"};
+}
+
+Reply json_reply(const Json& json) { return {.status = 200, .body = text_of(json) + "\n"}; }
+
+std::vector<std::string> parts_of(const std::string& path) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin < path.size();) {
+    const std::size_t end = std::min(path.find('/', begin), path.size());
+    if (end > begin) parts.push_back(path.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
+}
+
+std::string type_of(const fs::path& file) {
+  const std::string suffix = file.extension().string();
+  if (suffix == ".html") return "text/html; charset=utf-8";
+  if (suffix == ".css") return "text/css; charset=utf-8";
+  if (suffix == ".js") return "text/javascript; charset=utf-8";
+  if (suffix == ".svg") return "image/svg+xml";
+  if (suffix == ".json") return "application/json";
+  if (suffix == ".png") return "image/png";
+  if (suffix == ".mp4") return "video/mp4";
+  if (suffix == ".log") return "text/plain; charset=utf-8";
+  return "application/octet-stream";
+}
+
+Reply file_reply(const fs::path& file) {
+  Result<std::string> text = read_file(file);
+  if (!text) return refusal(500, text.error().message);
+  return {.status = 200, .body = std::move(*text), .type = type_of(file)};
+}
+
+std::string event(const char* name, const std::string& data) {
+  return std::string("event: ") + name + "\ndata: " + data + "\n\n";
+}
+
+/// A number, or null: JSON has neither infinities nor NaN.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json observables_json(const observables_t& m) {
+  return {{"time_s", number(m.sim_time_s)},
+          {"total_s", number(m.sim_time_total_s)},
+          {"n_rods", m.n_rods},
+          {"order", number(m.order)},
+          {"order_running_mean", number(m.order_running_mean)},
+          {"rms_speed_xy_mm_s", number(m.rms_speed_xy_mm_s)},
+          {"rms_n_z", number(m.rms_n_z)},
+          {"max_overlap_mm", number(m.max_overlap_mm)},
+          {"sim_rate", number(m.sim_rate)},
+          {"eta_s", number(m.eta_s)}};
+}
+
+Json defects_json(const defects_t& m) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < m.charge.size(); ++i) {
+    list.push_back({number(m.x_mm[i]), number(m.y_mm[i]), number(m.charge[i]), number(m.direction_rad[i])});
+  }
+  return {{"time_s", number(m.sim_time_s)}, {"defects", list}};
+}
+
+/// The colours of the terminal's live view, evenly spaced along each scale.
+Json palettes() {
+  constexpr double kPi = std::numbers::pi;
+  constexpr int kSteps = 24;
+  const auto scale = [](auto tone_at) {
+    Json colours = Json::array();
+    for (int i = 0; i < kSteps; ++i) colours.push_back(client::ink_of(tone_at(static_cast<double>(i))));
+    return colours;
+  };
+  Json species = Json::array();
+  for (std::size_t i = 0; i < 3; ++i) species.push_back(client::ink_of(client::species_tone(i)));
+  return {{"layers", scale([&](double i) { return client::layer_tone((i / (kSteps - 1) - 0.5) * kPi / 6); })},
+          {"wheel", scale([&](double i) { return client::wheel_tone(i / kSteps * kPi); })},
+          {"tilt", scale([&](double i) { return client::tilt_tone(i / (kSteps - 1) / 2); })},
+          {"species", species},
+          {"floor", client::ink_of(client::kFloorTone)},
+          {"wall", client::ink_of(client::kWallTone)}};
+}
+
+/// The pieces of an open file.
+struct FilePieces {
+  Descriptor file;
+  std::optional<std::string> operator()() const {
+    std::string piece(kPiece, '\0');
+    const ssize_t n = read(file.value(), piece.data(), piece.size());
+    if (n <= 0) return std::nullopt;
+    piece.resize(static_cast<std::size_t>(n));
+    return piece;
+  }
+};
+
+std::optional<std::size_t> index_of(const std::string& text) {
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
+  return error == std::errc() && end == text.data() + text.size() ? std::optional(index) : std::nullopt;
+}
+
+}  // namespace
+
+Site::Site(SiteSetup setup) : setup_(std::move(setup)), daemon_(setup_.root), runs_(setup_.root / "runs") {
+  if (setup_.bus) live_.emplace(std::move(setup_.bus));
+  queue_.emplace(daemon_, [this](const std::set<std::string>& running) {
+    if (live_) live_->keep(running);
+  });
+}
+
+Reply Site::answer(const Request& request) {
+  Reply reply;
+  try {
+    reply = routed(request);
+  } catch (const std::exception& problem) {
+    reply = refusal(500, problem.what());
+  }
+  // Nothing but what is served here is loaded, run or asked; text that came from outside stays text.
+  static const std::vector<std::pair<std::string, std::string>> kHeaders{
+      {"Content-Security-Policy",
+       "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; media-src 'self'; connect-src 'self'; "
+       "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"},
+      {"X-Content-Type-Options", "nosniff"},
+      {"Referrer-Policy", "no-referrer"},
+      {"Cross-Origin-Resource-Policy", "same-origin"},
+      {"Cache-Control", "no-store"}};
+  reply.headers.insert(reply.headers.end(), kHeaders.begin(), kHeaders.end());
+  return reply;
+}
+
+Reply Site::routed(const Request& request) {
+  const std::vector<std::string> parts = parts_of(request.path);
+  const std::string first = parts.empty() ? "" : parts.front();
+  const bool reads = request.method == "GET" || request.method == "HEAD";
+  if (first == "v1" && (reads || request.method == "POST")) return daemon_.ask(request);
+  if (!reads) return refusal(405, request.path + " can only be read");
+  if (parts.empty()) return page_file("index.html");
+  if (first == "page" && parts.size() == 2) {
+    const bool is_known = std::find(kPageFiles.begin(), kPageFiles.end(), parts[1]) != kPageFiles.end();
+    return is_known ? page_file(parts[1]) : refusal(404, "the page has no file " + parts[1]);
+  }
+  if (parts == std::vector<std::string>{"chart.js"}) return file_reply(setup_.chart_library);
+  if (parts == std::vector<std::string>{"palettes.json"}) return json_reply(palettes());
+  if (parts == std::vector<std::string>{"live"}) return queue_events();
+  if (parts.size() >= 2 && (first == "live" || first == "runs")) {
+    if (!RecordedRuns::is_id(parts[1])) return refusal(404, "no run has the id " + parts[1]);
+    if (first == "runs") return of_run(parts[1], {parts.begin() + 2, parts.end()}, request);
+    if (parts.size() == 2) return run_events(parts[1]);
+  }
+  return refusal(404, "no such path: " + request.path + "; see docs/web.md");
+}
+
+Reply Site::page_file(const std::string& name) const { return file_reply(setup_.page / name); }
+
+Reply Site::queue_events() {
+  Reply reply{.status = 200, .body = "", .type = "text/event-stream"};
+  reply.stream = [this, seen = std::int64_t{0}, end = Clock::now() + kStream]() mutable -> std::optional<std::string> {
+    if (is_closing_ || Clock::now() > end) return std::nullopt;
+    const std::optional<std::string> queue = queue_->wait(seen, kHeartbeat);
+    return queue ? event("queue", *queue) : ":\n\n";
+  };
+  return reply;
+}
+
+Reply Site::run_events(const std::string& run) {
+  if (!live_) return refusal(503, "nothing is live: LCM is off or cannot be reached");
+  Reply reply{.status = 200, .body = "", .type = "text/event-stream"};
+  struct Progress {
+    LiveSeen seen;
+    bool has_begun = false;
+    Clock::time_point next_frame, end;
+  };
+  const Progress begin{{}, false, Clock::now(), Clock::now() + kStream};
+  reply.stream = [this, run, progress = begin]() mutable -> std::optional<std::string> {
+    if (is_closing_ || Clock::now() > progress.end) return std::nullopt;
+    if (!std::exchange(progress.has_begun, true)) {
+      const client::History order = live_->order(run);
+      return "retry: 200\n\n" + event("order", text_of({{"time_s", order.times()}, {"order", order.values()}}));
+    }
+    std::this_thread::sleep_until(progress.next_frame);
+    progress.next_frame = Clock::now() + kFrame;
+    const LiveNews news = live_->wait(run, progress.seen, kHeartbeat);
+    std::string events;
+    if (news.observables) events += event("observables", text_of(observables_json(*news.observables)));
+    if (news.defects) events += event("defects", text_of(defects_json(*news.defects)));
+    if (news.frame) events += event("frame", base64(packed(*news.frame)));
+    return events.empty() ? ":\n\n" : events;
+  };
+  return reply;
+}
+
+Reply Site::of_run(const std::string& run, const std::vector<std::string>& rest, const Request& request) {
+  const std::string what = rest.empty() ? "" : rest.front();
+  if (what == "frames" && rest.size() == 1) {
+    const auto frames = runs_.frames(run);
+    if (!frames) return refusal(404, frames.error().message);
+    return json_reply({{"n", frames->n}, {"first_s", frames->first}, {"last_s", frames->last}});
+  }
+  if (what == "frames" && rest.size() == 2) {
+    const std::optional<std::size_t> index = index_of(rest[1]);
+    if (!index) return refusal(404, rest[1] + " is no number of a frame");
+    const auto frame = runs_.frame(run, *index);
+    if (!frame) return refusal(404, frame.error().message);
+    return {.status = 200, .body = packed(*frame), .type = "application/octet-stream"};
+  }
+  if (what == "curves" && rest.size() == 1) return curves(run, request);
+  if (what == "picture" && rest.size() == 1) {
+    return picture(run, request.parameter("frame"), request.parameter("style"));
+  }
+  if (what == "files" && rest.size() == 1) {
+    Json files = Json::array();
+    for (const FileEntry& entry : runs_.files(run)) files.push_back({{"name", entry.name}, {"bytes", entry.size}});
+    return json_reply({{"directory", runs_.directory(run).string()}, {"files", files}});
+  }
+  if (what == "files" && rest.size() == 2) return file(run, rest[1]);
+  return refusal(404, "no such path: " + request.path + "; see docs/web.md");
+}
+
+Reply Site::curves(const std::string& run, const Request& request) {
+  const auto curves = runs_.curves(run);
+  if (!curves) return refusal(404, curves.error().message);
+  Json names = Json::array(), chosen = Json::object();
+  const auto [begin, end] = request.query.equal_range("of");
+  for (const auto& [name, values] : *curves) {
+    names.push_back({{"name", name}, {"points", values.size()}});
+    const bool is_asked = std::any_of(begin, end, [&](const auto& asked) { return asked.second == name; });
+    if (is_asked) chosen[name] = values;  // NaN becomes null
+  }
+  return json_reply({{"names", names}, {"curves", chosen}});
+}
+
+Reply Site::file(const std::string& run, const std::string& name) const {
+  const auto files = runs_.files(run);
+  const bool is_there =
+      std::any_of(files.begin(), files.end(), [&](const FileEntry& entry) { return entry.name == name; });
+  if (!is_there) return refusal(404, "run " + run + " has no file " + name);
+  const fs::path path = runs_.directory(run) / name;
+  auto opened =
+      std::make_shared<FilePieces>(FilePieces{Descriptor(open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC))});
+  if (!opened->file) return refusal(404, "cannot read " + path.string());
+  Reply reply{.status = 200, .body = "", .type = type_of(name)};
+  // What a run directory holds is saved, never shown as a page of this origin. Its names are of letters, digits, . and
+  // -.
+  reply.headers.emplace_back("Content-Disposition", "attachment; filename=\"" + run + "-" + name + "\"");
+  reply.stream = [opened] { return (*opened)(); };
+  return reply;
+}
+
+Reply Site::picture(const std::string& run, const std::string& frame, const std::string& style) {
+  const auto frames = runs_.frames(run);
+  if (!frames) return refusal(404, frames.error().message);
+  const std::optional<std::size_t> index = index_of(frame);
+  if (!index || *index >= frames->n) return refusal(404, "no frame '" + frame + "'");
+  const std::unique_lock lock(drawing_, std::try_to_lock);
+  if (!lock) return refusal(429, "another picture is being drawn: try again");
+  const ScratchFolder folder;
+  const fs::path png = folder.path() / "picture.png";
+  std::vector<std::string> command{sibling_program("shaken-render").string(),
+                                   "picture",
+                                   runs_.directory(run).string(),
+                                   "--frame",
+                                   std::to_string(*index),
+                                   "-o",
+                                   png.string()};
+  if (!style.empty()) command.push_back("--style=" + style);
+  const Captured drawn = run_captured(command);
+  if (drawn.exit_code != 0) return refusal(500, "shaken-render: " + drawn.output);
+  Reply reply = file_reply(png);
+  reply.headers.emplace_back("Content-Disposition",
+                             "inline; filename=\"" + run + "-" + std::to_string(*index) + ".png\"");
+  return reply;
+}
+
+}  // namespace shaken::web

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/http/http_server.h"
+#include "web/daemon_link.h"
+#include "web/live_feed.h"
+#include "web/queue_feed.h"
+#include "web/recorded_run.h"
+
+namespace shaken::web {
+
+struct SiteSetup {
+  std::filesystem::path root;            ///< of the daemon
+  std::filesystem::path page;            ///< folder of the page's files
+  std::unique_ptr<proto::Bus> bus = {};  ///< null: nothing is live
+  std::filesystem::path chart_library = "/usr/share/javascript/chart.js/chart.min.js";
+};
+
+/// What is served to a browser that may see it (docs/web.md has the paths): the page, the daemon's interface, what runs
+/// have recorded, and, as server-sent events, the queue and live rods.
+class Site {
+ public:
+  explicit Site(SiteSetup setup);
+
+  /// Called from many threads at once; never throws.
+  server::Reply answer(const server::Request& request);
+  /// Streams end soon after this.
+  void close() { is_closing_ = true; }
+
+ private:
+  server::Reply routed(const server::Request& request);
+  server::Reply page_file(const std::string& name) const;
+  server::Reply queue_events();
+  server::Reply run_events(const std::string& run);
+  server::Reply of_run(const std::string& run, const std::vector<std::string>& rest, const server::Request& request);
+  server::Reply curves(const std::string& run, const server::Request& request);
+  server::Reply file(const std::string& run, const std::string& name) const;
+  server::Reply picture(const std::string& run, const std::string& frame, const std::string& style);
+
+  SiteSetup setup_;
+  DaemonLink daemon_;
+  RecordedRuns runs_;
+  std::optional<LiveFeed> live_;
+  std::atomic<bool> is_closing_ = false;
+  std::mutex drawing_;              ///< one picture at a time: the cores are the runs'
+  std::optional<QueueFeed> queue_;  ///< the last: its thread uses the others
+};
+
+}  // namespace shaken::web
