@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "client/api_client.h"
@@ -38,7 +39,8 @@ constexpr PictureOption kOptions[] = {
 std::span<const PictureOption> picture_options() { return kOptions; }
 
 void PictureOptions::declare(Arguments& arguments) {
-  arguments.required("JOB", job, "A job, by the beginning of its id, or a run directory", Names::kRun);
+  arguments.list("JOB", jobs, "A job, by the beginning of its id, or a run directory; several go side by side",
+                 Names::kRun, 1);
   arguments.option("-o,--out", out, "FILE", "Where to write; named after the job if left out", Names::kFile);
   arguments.option("--style", style_, "NAME|FILE",
                    "layers, defects, director, tilt, mechanism, mixture, or a style file; the options below change it",
@@ -52,11 +54,11 @@ void PictureOptions::declare(Arguments& arguments) {
     arguments.flag("--" + name, switches_[name], option.help);
     arguments.flag("--no-" + name, switches_["no-" + name], "Without it");
   }
-  arguments.option("--label", label_, "TEXT", "Headline; what was swept if left out");
+  arguments.repeatable("--label", labels_, "TEXT", "Headline, one for each run; what was swept if left out");
   arguments.flag("--bare", bare_, "Only the box, filling the picture");
 }
 
-std::vector<std::string> PictureOptions::words(const std::string& label) const {
+std::vector<std::string> PictureOptions::words(const std::vector<std::string>& labels) const {
   std::vector<std::string> words;
   if (!style_.empty()) words.push_back("--style=" + style_);
   for (const auto& [name, value] : values_) {
@@ -65,14 +67,16 @@ std::vector<std::string> PictureOptions::words(const std::string& label) const {
   for (const auto& [name, is_given] : switches_) {
     if (is_given) words.push_back("--" + name);
   }
-  if (const std::string& headline = label_.empty() ? label : label_; !headline.empty()) {
-    words.push_back("--label=" + headline);
-  }
+  const std::vector<std::string>& headlines = labels_.empty() ? labels : labels_;
+  const bool is_any = std::any_of(headlines.begin(), headlines.end(), [](const auto& text) { return !text.empty(); });
+  for (std::size_t i = 0; is_any && i < headlines.size(); ++i) words.push_back("--label=" + headlines[i]);
   if (bare_) words.emplace_back("--bare");
   return words;
 }
 
-Drawn find_drawn(const Context& context, const std::string& job) {
+namespace {
+
+Drawn find_one(const Context& context, const std::string& job) {
   if (is_run_directory(job)) {
     return {.directory = job, .name = std::filesystem::weakly_canonical(job).filename().string()};
   }
@@ -85,6 +89,20 @@ Drawn find_drawn(const Context& context, const std::string& job) {
   drawn.state = text_of(found, "state");
   drawn.label = text_of(found, "label");
   return drawn;
+}
+
+}  // namespace
+
+std::vector<Drawn> find_drawn(const Context& context, const std::vector<std::string>& jobs) {
+  std::vector<Drawn> drawn;
+  for (const std::string& job : jobs) drawn.push_back(find_one(context, job));
+  return drawn;
+}
+
+std::vector<std::string> labels_of(const std::vector<Drawn>& drawn) {
+  std::vector<std::string> labels;
+  for (const Drawn& one : drawn) labels.push_back(one.label.empty() && drawn.size() > 1 ? one.name : one.label);
+  return labels;
 }
 
 }  // namespace shaken::client

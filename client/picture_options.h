@@ -25,16 +25,17 @@ std::span<const PictureOption> picture_options();
 class PictureOptions {
  public:
   void declare(Arguments& arguments);
-  /// What was given, as shaken-render takes it; `label` is the headline where none was given.
-  std::vector<std::string> words(const std::string& label) const;
+  /// What was given, as shaken-render takes it; `labels` are the headlines, one for each run, where none was given.
+  std::vector<std::string> words(const std::vector<std::string>& labels) const;
 
-  std::string job;  ///< a job's id, or the beginning of one, or a run directory
+  std::vector<std::string> jobs;  ///< ids, or the beginnings of some, or run directories; several go side by side
   std::string out;
 
  private:
   std::map<std::string, std::string> values_;
   std::map<std::string, bool> switches_;
-  std::string style_, label_;
+  std::string style_;
+  std::vector<std::string> labels_;
   bool bare_ = false;
 };
 
@@ -47,7 +48,8 @@ struct Drawn {
   std::string label{};  ///< what was swept; empty if nothing was
 };
 
-/// Finds it. Throws Failure.
-Drawn find_drawn(const Context& context, const std::string& job);
+/// Finds them. Throws Failure.
+std::vector<Drawn> find_drawn(const Context& context, const std::vector<std::string>& jobs);
+std::vector<std::string> labels_of(const std::vector<Drawn>& drawn);
 
 }  // namespace shaken::client

@@ -10,12 +10,16 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "base/failure.h"
 #include "base/files.h"
@@ -38,14 +42,14 @@ namespace {
 
 /// What the command line asks for.
 struct Options {
-  std::string source;  ///< run directory, trajectory.h5 or job
+  std::vector<std::string> sources;  ///< run directories or trajectory.h5; of a live picture, one job
   std::string out;
   bool json = false;
 
   std::string style;                        ///< preset or file; empty: none
   std::map<std::string, std::string> keys;  ///< of the style, as given
   std::map<std::string, bool> switches;     ///< of the style, as given
-  std::string label;
+  std::vector<std::string> labels;          ///< of the sources, in their order
   bool bare = false;
 
   std::string frame = "last";
@@ -117,11 +121,11 @@ void report(const Options& options, const std::string& path, std::size_t frames,
   fmt::print("{}\n", said.dump());
 }
 
-/// The headline that the command line gives, above what the picture said of itself.
-void set_label(const Options& options, RodPicture& picture) {
-  if (options.label.empty()) return;
+/// The headline that the command line gives source `i`, above what the picture said of itself.
+void set_label(const Options& options, std::size_t i, RodPicture& picture) {
+  if (i >= options.labels.size() || options.labels[i].empty()) return;
   picture.subtitle = picture.label;
-  picture.label = headline(options.label);
+  picture.label = headline(options.labels[i]);
 }
 
 void check_picture_name(const std::string& out) {
@@ -130,9 +134,8 @@ void check_picture_name(const std::string& out) {
   throw Failure(ExitCode::kBadInput, fmt::format("a picture is written as .png, .svg or .pdf, not as '{}'", out));
 }
 
-void paint_to_file(const Options& options, const PictureStyle& style, RodPicture picture, const std::string& out,
+void paint_to_file(const Options& options, const PictureStyle& style, const RodPicture& picture, const std::string& out,
                    const Stopwatch& watch) {
-  set_label(options, picture);
   if (std::filesystem::path(out).extension() != ".png") {
     done_or_fail(write_vector(out, picture, style));
   } else {
@@ -155,27 +158,76 @@ void check_followed(const PictureStyle& style, const RodPicture& picture) {
   }
 }
 
+std::vector<TrajectorySource> open_sources(const Options& options) {
+  std::vector<TrajectorySource> sources;
+  std::string wrong;
+  for (const std::string& name : options.sources) {
+    Result<TrajectorySource> source = TrajectorySource::open(name);
+    if (source) {
+      sources.push_back(std::move(*source));
+    } else {
+      wrong += (wrong.empty() ? "" : "\n") + source.error().message;
+    }
+  }
+  if (!wrong.empty()) throw Failure(ExitCode::kBadInput, wrong);
+  if (options.labels.size() > sources.size()) {
+    throw Failure(ExitCode::kBadInput,
+                  fmt::format("{} headlines (--label) for {} runs", options.labels.size(), sources.size()));
+  }
+  return sources;
+}
+
+/// Frame `frame_of(i)` of source i: one picture, with those of further sources beside it.
+Result<RodPicture> joint_picture(const Options& options, const PictureStyle& style,
+                                 std::vector<TrajectorySource>& sources,
+                                 const std::function<Result<std::size_t>(std::size_t)>& frame_of) {
+  std::vector<RodPicture> pictures;
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    const Result<std::size_t> frame = frame_of(i);
+    if (!frame) return frame.error();
+    Result<RodPicture> picture = sources[i].picture(*frame, style);
+    if (!picture) return picture;
+    check_followed(style, *picture);
+    if (!style.caption) picture->history = {};
+    set_label(options, i, *picture);
+    pictures.push_back(std::move(*picture));
+  }
+  RodPicture first = std::move(pictures.front());
+  first.beside.assign(std::make_move_iterator(pictures.begin() + 1), std::make_move_iterator(pictures.end()));
+  return first;
+}
+
+/// The frame that `--frame` names.
+std::size_t frame_in(const Options& options, const std::vector<TrajectorySource>& sources) {
+  const std::size_t n_frames = sources.front().n_frames();
+  const bool digits = !options.frame.empty() && options.frame.size() < 10 &&
+                      options.frame.find_first_not_of("0123456789") == std::string::npos;
+  if (sources.size() > 1) {
+    throw Failure(ExitCode::kBadInput,
+                  "--frame takes a number for one run only: runs have frames at different times; "
+                  "use --time");
+  }
+  if (!digits || std::stoul(options.frame) >= n_frames) {
+    throw Failure(ExitCode::kBadInput,
+                  fmt::format("--frame takes 'last' or a number from 0 to {}, not '{}'", n_frames - 1, options.frame));
+  }
+  return std::stoul(options.frame);
+}
+
 void make_picture(const Options& options) {
   const Stopwatch watch;
   const PictureStyle style = style_of(options);
   if (!options.out.empty()) check_picture_name(options.out);
-  TrajectorySource source = value_or_fail(TrajectorySource::open(options.source), ExitCode::kBadInput);
-  std::size_t index = source.n_frames() - 1;
-  if (!options.time.empty()) {
-    index = value_or_fail(source.nearest_frame(seconds_in(options.time, "--time")), ExitCode::kFailed);
-  } else if (options.frame != "last") {
-    const bool digits = !options.frame.empty() && options.frame.size() < 10 &&
-                        options.frame.find_first_not_of("0123456789") == std::string::npos;
-    if (!digits || std::stoul(options.frame) >= source.n_frames()) {
-      throw Failure(ExitCode::kBadInput, fmt::format("--frame takes 'last' or a number from 0 to {}, not '{}'",
-                                                     source.n_frames() - 1, options.frame));
-    }
-    index = std::stoul(options.frame);
-  }
-  if (style.caption) done_or_fail(source.read_history());
-  RodPicture picture = value_or_fail(source.picture(index, style), ExitCode::kFailed);
-  check_followed(style, picture);
-  paint_to_file(options, style, std::move(picture), out_of(options, source, "picture.png"), watch);
+  std::vector<TrajectorySource> sources = open_sources(options);
+  const double time = options.time.empty() ? 0 : seconds_in(options.time, "--time");
+  const std::size_t frame = options.frame == "last" ? 0 : frame_in(options, sources);
+  if (style.caption && sources.size() == 1) done_or_fail(sources.front().read_history());
+  const RodPicture picture =
+      value_or_fail(joint_picture(options, style, sources, [&](std::size_t i) -> Result<std::size_t> {
+        if (!options.time.empty()) return sources[i].nearest_frame(time);
+        return options.frame == "last" ? sources[i].n_frames() - 1 : frame;
+      }));
+  paint_to_file(options, style, picture, out_of(options, sources.front(), "picture.png"), watch);
 }
 
 void make_live_picture(const Options& options) {
@@ -183,9 +235,10 @@ void make_live_picture(const Options& options) {
   const PictureStyle style = style_of(options);
   check_picture_name(options.out);
   const auto timeout = std::chrono::milliseconds(std::llround(options.timeout_s * 1000));
-  RodPicture picture = value_or_fail(live_picture(options.lcm_url, options.source, timeout, style), ExitCode::kFailed);
+  RodPicture picture = value_or_fail(live_picture(options.lcm_url, options.sources.front(), timeout, style));
   check_followed(style, picture);
-  paint_to_file(options, style, std::move(picture), options.out, watch);
+  set_label(options, 0, picture);
+  paint_to_file(options, style, picture, options.out, watch);
 }
 
 volatile std::sig_atomic_t stop_requested = 0;
@@ -238,7 +291,8 @@ Cut cut_of(const Options& options, const PictureStyle& style, const TrajectorySo
 
 void make_movie_file(const Options& options) {
   const Stopwatch watch;
-  TrajectorySource source = value_or_fail(TrajectorySource::open(options.source), ExitCode::kBadInput);
+  std::vector<TrajectorySource> sources = open_sources(options);
+  TrajectorySource& source = sources.front();
   PictureStyle style;
   if (const std::optional<MovieRequest> request = source.movie_request()) {
     style.width = request->width;
@@ -252,7 +306,7 @@ void make_movie_file(const Options& options) {
                   fmt::format("a movie needs an even width and height, not {}x{}", style.width, style.height));
   }
   const Cut cut = cut_of(options, style, source);
-  done_or_fail(source.read_history());
+  for (TrajectorySource& each : sources) done_or_fail(each.read_history());
   // One colouring for the whole film.
   if (style.colour == "auto") {
     const RodPicture last = value_or_fail(source.picture(cut.frames.back(), style), ExitCode::kFailed);
@@ -262,19 +316,19 @@ void make_movie_file(const Options& options) {
     style.colour = chosen_colour(last, orders, style.mark_defects);
   }
 
-  MovieOptions movie{options.label.empty() ? source.label() : headline(options.label), source.notes(), std::nullopt,
-                     options.n_threads};
+  MovieOptions movie{options.labels.empty() ? source.label() : headline(options.labels.front()), source.notes(),
+                     std::nullopt, options.n_threads};
   if (movie.n_threads < 1) movie.n_threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   // Threads that draw leave nothing to do for those of the rasteriser.
   if (movie.n_threads > 1) setenv("LP_NUM_THREADS", "0", 1);
   if (options.keep_frames) movie.keep_frames = std::filesystem::path(out).parent_path() / "frames";
-  const auto picture = [&](std::size_t i) -> Result<RodPicture> {
-    Result<RodPicture> rods = source.picture(cut.frames[i], style);
-    if (!rods) return rods;
-    check_followed(style, *rods);
-    if (!style.caption) rods->history = {};
-    rods->playback = cut.playback;
-    set_label(options, *rods);
+  const auto picture = [&](std::size_t k) -> Result<RodPicture> {
+    // The clock is the first run's; one that has ended before shows its last frame.
+    const double time = value_or_fail(source.time_of(cut.frames[k]));
+    Result<RodPicture> rods = joint_picture(options, style, sources, [&](std::size_t i) -> Result<std::size_t> {
+      return i == 0 ? cut.frames[k] : sources[i].nearest_frame(time);
+    });
+    if (rods) rods->playback = cut.playback;
     return rods;
   };
   std::signal(SIGINT, [](int) { stop_requested = 1; });
@@ -333,8 +387,11 @@ void declare_style(CLI::App& app, Options& options) {
     if (!key.words.empty()) doc += ": " + allowed(key);
     app.add_option((name == "colour" ? "-c,--" : "--") + name, options.keys[key.name], doc)->type_name(key.value_name);
   }
-  app.add_option("--label", options.label, "Headline; settings like rods.length=2.5 are written as physicists do")
-      ->type_name("TEXT");
+  app.add_option("--label", options.labels,
+                 "Headline, one for each run; settings like rods.length=2.5 are written as physicists do")
+      ->type_name("TEXT")
+      ->expected(1)
+      ->take_all();
   app.add_flag("--bare", options.bare, "Only the box, filling the picture");
   app.add_flag("--json", options.json, "Prints path, frames, size and seconds as JSON");
 }
@@ -359,13 +416,15 @@ int run(int argc, char** argv) {
       "  shaken-render picture runs/first -o fig4.pdf --style director --theme print\n"
       "  shaken-render movie runs/first                             -> runs/first/movie.mp4\n"
       "  shaken-render movie runs/first -o m.gif --from 10s --to 20s --speed 0.5 --size 640x360\n"
+      "  shaken-render movie runs/a runs/b -o two.mp4 --label 0.45 --label 0.80     side by side, with one clock\n"
       "  shaken-render movie runs/first -o - --bare --size 720x720 | ffmpeg -f rawvideo -pix_fmt rgb24 -s 720x720 ...\n"
       "  shaken-render style defects > mine.json                    a style file to begin with\n"
       "  shaken-render live 1f0c -o now.png                         a running job, from LCM\n"
       "Exit codes: 0 done, 1 failed, 2 bad input, 130 interrupted by Ctrl-C.");
 
   CLI::App* picture = app.add_subcommand("picture", "One frame of a recorded run as a PNG, SVG or PDF");
-  picture->add_option("run", options.source, "Run directory or trajectory.h5")->required();
+  constexpr const char* kRuns = "Run directory or trajectory.h5; several are drawn side by side";
+  picture->add_option("run", options.sources, kRuns)->required();
   picture->add_option("-o,--out", options.out, "File: .png, .svg or .pdf [picture.png beside the trajectory]")
       ->type_name("FILE");
   CLI::Option* frame = picture->add_option("--frame", options.frame, "Frame, counted from 0")->type_name("N|last");
@@ -375,7 +434,7 @@ int run(int argc, char** argv) {
   declare_style(*picture, options);
 
   CLI::App* movie = app.add_subcommand("movie", "A recorded run as a film");
-  movie->add_option("run", options.source, "Run directory or trajectory.h5")->required();
+  movie->add_option("run", options.sources, kRuns)->required();
   movie
       ->add_option("-o,--out", options.out,
                    "File: .mp4, .webm or .gif [movie.mp4 beside the trajectory]; FOLDER/ for numbered frames; - for "
@@ -394,7 +453,7 @@ int run(int argc, char** argv) {
   declare_style(*movie, options);
 
   CLI::App* live = app.add_subcommand("live", "The present state of a running job as a picture, from LCM");
-  live->add_option("job", options.source, "The job's id, or the beginning of it")->required();
+  live->add_option("job", options.sources, "The job's id, or the beginning of it")->required()->expected(1);
   live->add_option("-o,--out", options.out, "File: .png, .svg or .pdf")->required()->type_name("FILE");
   live->add_option("--lcm-url", options.lcm_url, "The bus")->capture_default_str()->type_name("URL");
   live->add_option("--timeout", options.timeout_s, "How long to wait for a frame")

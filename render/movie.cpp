@@ -19,6 +19,8 @@ extern "C" {
 #include <cstring>
 #include <utility>
 
+#include "render/notes.h"
+
 namespace shaken::render {
 namespace {
 
@@ -113,6 +115,7 @@ struct MovieWriter::Impl {
   Av<AVPacket> packet;
   Av<SwsContext> scaler;
   std::unique_ptr<Palettes> palettes;  // of a GIF
+  Notes comment;                       // of a GIF: the other formats have taken them when they were opened
   AVStream* stream = nullptr;          // owned by format
   bool finished = false;
 
@@ -174,10 +177,8 @@ Result<void> MovieWriter::Impl::open(const Format& kind, int width, int height, 
   stream->avg_frame_rate = rate;
   avcodec_parameters_from_context(stream->codecpar, codec.get());
   if (!title.empty()) av_dict_set(&format->metadata, "title", title.c_str(), 0);
-  std::string comment;
-  for (const auto& [key, value] : notes)
-    comment.append(comment.empty() ? "" : "; ").append(key).append(": ").append(value);
-  if (!comment.empty()) av_dict_set(&format->metadata, "comment", comment.c_str(), 0);
+  if (const std::string comment = notes_text(notes); !comment.empty())
+    av_dict_set(&format->metadata, "comment", comment.c_str(), 0);
   if (const int code = avio_open(&format->pb, unfinished.c_str(), AVIO_FLAG_WRITE); code < 0) {
     return failed(av_words(code));
   }
@@ -265,6 +266,7 @@ Result<MovieWriter> MovieWriter::create(const std::filesystem::path& file, int w
   auto impl = std::make_unique<Impl>();
   impl->file = file;
   impl->unfinished = file.string() + ".tmp";
+  impl->comment = notes;
   if (auto done = impl->open(*kind, width, height, fps, title, notes); !done) return done.error();
   return MovieWriter(std::move(impl));
 }
@@ -301,6 +303,10 @@ Result<void> MovieWriter::finish() {
   if (auto done = impl_->encode(nullptr); !done) return done.error();
   if (const int code = av_write_trailer(impl_->format.get()); code < 0) return impl_->failed(av_words(code));
   if (const int code = avio_closep(&impl_->format->pb); code < 0) return impl_->failed(av_words(code));
+  if (impl_->palettes) {
+    if (auto done = add_notes_to_gif(impl_->unfinished, impl_->comment); !done)
+      return impl_->failed(done.error().message);
+  }
   if (std::rename(impl_->unfinished.c_str(), impl_->file.c_str()) != 0) return impl_->failed(std::strerror(errno));
   impl_->finished = true;
   return {};

@@ -25,7 +25,7 @@ bool is_movie_name(const std::filesystem::path& file);
 class MovieWriter {
  public:
   /// Width and height [pixels], even but for a GIF; fps in frames per second of playing. Title and notes go into the
-  /// metadata, the notes as its comment; a GIF has none.
+  /// metadata, the notes as its comment; a GIF has no title.
   static Result<MovieWriter> create(const std::filesystem::path& file, int width, int height, double fps,
                                     const std::string& title = "", const Notes& notes = {});
   MovieWriter(MovieWriter&&) noexcept;

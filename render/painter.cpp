@@ -8,7 +8,9 @@
 #include "render/canvas.h"
 #include "render/layout.h"
 #include "render/legend.h"
+#include "render/notes.h"
 #include "render/overlay.h"
+#include "render/panels.h"
 #include "render/plane_layers.h"
 
 namespace shaken::render {
@@ -22,6 +24,19 @@ Layout layout_for(const RodPicture& picture, const PictureStyle& style) {
   return style.view == ViewPoint::kGap ? gap_layout_of(style, contents) : layout_of(style, contents);
 }
 
+/// Of a picture and those beside it, the one of panel `i`.
+const RodPicture& panel_of(const RodPicture& picture, std::size_t i) {
+  return i == 0 ? picture : picture.beside[i - 1];
+}
+
+Result<void> check(const PictureStyle& style, const RodPicture& picture) {
+  if (auto done = render::check(style); !done) return done.error();
+  if (!picture.beside.empty() && style.view == ViewPoint::kGap) {
+    return Error{"several runs are drawn beside each other from above only, not with a look into the gap"};
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<Painter> Painter::create() {
@@ -31,7 +46,8 @@ Result<Painter> Painter::create() {
 }
 
 Result<Image> Painter::paint(const RodPicture& picture, const PictureStyle& style) {
-  if (auto done = check(style); !done) return done.error();
+  if (auto done = check(style, picture); !done) return done.error();
+  if (!picture.beside.empty()) return paint_panels(picture, style);
   const Layout layout = layout_for(picture, style);
   Canvas canvas(style.width, style.height, palette(style.theme).page);
   if (style.view == ViewPoint::kGap) {
@@ -46,18 +62,35 @@ Result<Image> Painter::paint(const RodPicture& picture, const PictureStyle& styl
     draw_overlay(canvas, layout, picture, style);
     return canvas.image();
   }
-  if (style.rods < 1) draw_ground(canvas, layout, picture, style);
-  if (style.rods > 0) {
-    const Result<Image> rods = rods_.draw(picture, style, layout.box_side);
-    if (!rods) return rods.error();
-    canvas.paste(*rods, layout.box_x, layout.box_y, style.rods);
-  }
+  if (auto done = paint_box(canvas, layout, picture, style); !done) return done.error();
   draw_overlay(canvas, layout, picture, style);
   return canvas.image();
 }
 
+Result<void> Painter::paint_box(Canvas& canvas, const Layout& layout, const RodPicture& picture,
+                                const PictureStyle& style) {
+  if (style.rods < 1) draw_ground(canvas, layout, picture, style);
+  if (style.rods <= 0) return {};
+  const Result<Image> rods = rods_.draw(picture, style, layout.box_side);
+  if (!rods) return rods.error();
+  canvas.paste(*rods, layout.box_x, layout.box_y, style.rods);
+  return {};
+}
+
+Result<Image> Painter::paint_panels(const RodPicture& picture, const PictureStyle& style) {
+  Canvas canvas(style.width, style.height, palette(style.theme).page);
+  const PanelGrid grid = panel_grid(style, 1 + picture.beside.size());
+  for (std::size_t i = 0; i < grid.panels.size(); ++i) {
+    const RodPicture& one = panel_of(picture, i);
+    if (auto done = paint_box(canvas, grid.panels[i], one, style); !done) return done.error();
+    draw_panel_words(canvas, grid.panels[i], one, style);
+  }
+  draw_footer(canvas, grid, picture, style);
+  return canvas.image();
+}
+
 Result<void> write_vector(const std::filesystem::path& file, const RodPicture& picture, const PictureStyle& style) {
-  if (auto done = check(style); !done) return done.error();
+  if (auto done = check(style, picture); !done) return done.error();
   if (style.view != ViewPoint::kTop) return Error{"only views from above can be drawn as " + file.extension().string()};
   // The ending tells the format, so it stays at the end.
   const std::filesystem::path unfinished =
@@ -69,11 +102,28 @@ Result<void> write_vector(const std::filesystem::path& file, const RodPicture& p
   Result<Canvas> canvas =
       Canvas::vector(unfinished, style.width, style.height, palette(style.theme).page, picture.label, picture.notes);
   if (!canvas) return failed(canvas.error().message);
-  const Layout layout = layout_for(picture, style);
-  draw_ground(*canvas, layout, picture, style);
-  if (style.rods > 0) draw_flat_rods(*canvas, layout, picture, style);
-  draw_overlay(*canvas, layout, picture, style);
+  const auto draw_box = [&](const Layout& layout, const RodPicture& one) {
+    draw_ground(*canvas, layout, one, style);
+    if (style.rods > 0) draw_flat_rods(*canvas, layout, one, style);
+  };
+  if (picture.beside.empty()) {
+    const Layout layout = layout_for(picture, style);
+    draw_box(layout, picture);
+    draw_overlay(*canvas, layout, picture, style);
+  } else {
+    const PanelGrid grid = panel_grid(style, 1 + picture.beside.size());
+    for (std::size_t i = 0; i < grid.panels.size(); ++i) {
+      draw_box(grid.panels[i], panel_of(picture, i));
+      draw_panel_words(*canvas, grid.panels[i], panel_of(picture, i), style);
+    }
+    draw_footer(*canvas, grid, picture, style);
+  }
   if (auto done = canvas->finish(); !done) return failed(done.error().message);
+  if (file.extension() == ".svg") {
+    if (auto done = add_notes_to_svg(unfinished, picture.label, picture.notes); !done) {
+      return failed(done.error().message);
+    }
+  }
   if (std::rename(unfinished.c_str(), file.c_str()) != 0) return failed(std::strerror(errno));
   return {};
 }

@@ -5,8 +5,10 @@
 #include <optional>
 #include <utility>
 
+#include "render/canvas.h"
 #include "render/gap_pass.h"
 #include "render/image.h"
+#include "render/layout.h"
 #include "render/picture.h"
 #include "render/rods_pass.h"
 #include "render/style.h"
@@ -23,6 +25,9 @@ class Painter {
 
  private:
   explicit Painter(RodsPass rods) : rods_(std::move(rods)) {}
+  Result<Image> paint_panels(const RodPicture& picture, const PictureStyle& style);
+  /// Ground and rods.
+  Result<void> paint_box(Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style);
   RodsPass rods_;
   std::optional<GapPass> gap_;  ///< made when it is first needed
 };

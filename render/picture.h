@@ -68,6 +68,9 @@ struct RodPicture {
   double playback = 0;   ///< of a film: simulated seconds per second of playing; 0: not known, or not a film
   Notes notes;           ///< where it comes from, for the metadata of files
 
+  /// Other runs at the same time, drawn beside this one, each with its own headline (render/panels.h).
+  std::vector<RodPicture> beside;
+
   std::size_t n_rods() const { return position.size(); }
   std::size_t n_species() const { return 1 + added.size(); }
   std::size_t species_of(std::size_t rod) const { return species_of_rod.empty() ? 0 : species_of_rod[rod]; }

@@ -13,12 +13,13 @@ namespace {
 class Movie : public Verb {
  public:
   VerbInfo info() const override {
-    return {"movie", kResultsGroup, "Film of a job; or its present state, while it runs",
+    return {"movie", kResultsGroup, "Film of a job, or of several side by side; or a job's present state",
             "  shaken movie 1f0c                            -> 1f0c5e2a.mp4, from the recorded trajectory\n"
             "  shaken movie runs/first -o first.mp4         of a run directory\n"
             "  shaken movie 1f0c --style defects --from 10s --to 20s --speed 0.1 --fps 30 --size 1920x1080\n"
             "  shaken movie 1f0c -o slide.gif --size 480x480 --bare     also .webm; FOLDER/: numbered frames\n"
             "  shaken movie 1f0c -o - --bare --size 720x720 | ffmpeg -f rawvideo -pix_fmt rgb24 -s 720x720 -i - x.mkv\n"
+            "  shaken movie 1f0c 22ab -o both.mp4           two runs side by side, with one clock\n"
             "  shaken movie 1f0c --live -o now.png          the running job's present state, from LCM\n"
             "Styles, colours and style files: docs/pictures.md. Single frames: shaken picture"};
   }
@@ -39,7 +40,9 @@ class Movie : public Verb {
     if (!frame_.empty() && frame_ != "last" && frame_.find_first_not_of("0123456789") != std::string::npos) {
       throw Failure(ExitCode::kBadInput, fmt::format("--frame takes a number from 0 or 'last', not '{}'", frame_));
     }
-    const Drawn drawn = find_drawn(context, options_.job);
+    const std::vector<Drawn> all = find_drawn(context, options_.jobs);
+    const Drawn& drawn = all.front();
+    if (live_ && all.size() > 1) throw Failure(ExitCode::kBadInput, "--live takes one job");
     if (live_) check_live(context, drawn);
 
     std::vector<std::string> command{sibling_program("shaken-render").string()};
@@ -48,19 +51,23 @@ class Movie : public Verb {
     };
     if (live_) {
       add({"live", drawn.id, "--lcm-url", lcm_url_, "-o", out_or(drawn.name + ".png")});
-      add(options_.words(""));  // the messages say what was swept
+      add(options_.words({}));  // the messages say what was swept
       become(command);
     }
     if (!frame_.empty()) {
-      add({"picture", drawn.directory, "--frame", frame_, "-o", out_or(drawn.name + ".png")});
+      add({"picture"});
+      for (const Drawn& one : all) add({one.directory});
+      add({"--frame", frame_, "-o", out_or(drawn.name + ".png")});
     } else {
-      add({"movie", drawn.directory, "-o", out_or(drawn.name + ".mp4")});
+      add({"movie"});
+      for (const Drawn& one : all) add({one.directory});
+      add({"-o", out_or(drawn.name + ".mp4")});
       for (const auto& [option, value] :
            {std::pair{"--from=", from_}, {"--to=", to_}, {"--every=", every_}, {"--threads=", threads_}}) {
         if (!value.empty()) add({option + value});
       }
     }
-    add(options_.words(drawn.label));
+    add(options_.words(labels_of(all)));
     become(command);
   }
 
@@ -73,7 +80,7 @@ class Movie : public Verb {
       throw Failure(ExitCode::kFailed,
                     fmt::format("job {} is {}: nothing of it is live. `shaken movie {} --frame last` draws its last "
                                 "recorded frame",
-                                drawn.name, drawn.state, options_.job));
+                                drawn.name, drawn.state, drawn.name));
     }
     if (!lcm_url_.empty()) return;
     ApiClient session(context.root());

@@ -9,11 +9,12 @@ namespace {
 class Picture : public Verb {
  public:
   VerbInfo info() const override {
-    return {"picture", kResultsGroup, "One frame of a job as a PNG, SVG or PDF",
+    return {"picture", kResultsGroup, "One frame of a job, or of several side by side, as a PNG, SVG or PDF",
             "  shaken picture 1f0c                                   -> 1f0c5e2a.png, the last frame\n"
             "  shaken picture 1f0c --time 12.5s --style defects -o d.png\n"
             "  shaken picture runs/first --style director --theme print -o fig4.pdf\n"
             "  shaken picture runs/first --colour tilt --zoom 3 --focus 0.2,0.7\n"
+            "  shaken picture 1f0c 22ab 77c0 --time 20s -o three.png  three runs side by side\n"
             "  shaken picture runs/first --view follow:17            rod 17 in the middle\n"
             "Styles, colours and style files: docs/pictures.md"};
   }
@@ -28,12 +29,13 @@ class Picture : public Verb {
     if (!frame_.empty() && !time_.empty()) {
       throw Failure(ExitCode::kBadInput, "--frame and --time exclude each other");
     }
-    const Drawn drawn = find_drawn(context, options_.job);
-    std::vector<std::string> command{sibling_program("shaken-render").string(), "picture", drawn.directory, "-o",
-                                     options_.out.empty() ? drawn.name + ".png" : options_.out};
+    const std::vector<Drawn> drawn = find_drawn(context, options_.jobs);
+    std::vector<std::string> command{sibling_program("shaken-render").string(), "picture"};
+    for (const Drawn& one : drawn) command.push_back(one.directory);
+    command.insert(command.end(), {"-o", options_.out.empty() ? drawn.front().name + ".png" : options_.out});
     if (!frame_.empty()) command.push_back("--frame=" + frame_);
     if (!time_.empty()) command.push_back("--time=" + time_);
-    const std::vector<std::string> style = options_.words(drawn.label);
+    const std::vector<std::string> style = options_.words(labels_of(drawn));
     command.insert(command.end(), style.begin(), style.end());
     become(command);
   }

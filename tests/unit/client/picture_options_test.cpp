@@ -36,9 +36,9 @@ TEST(PictureOptions, GoOnAsTheyWereGiven) {
   PictureOptions options;
   options.declare(arguments);
   app.parse("1f0c --style mine.json --colour tilt --range=-0.2,0.2 --no-legend --defects --bare -o x.png");
-  EXPECT_EQ(options.job, "1f0c");
+  EXPECT_EQ(options.jobs, std::vector<std::string>{"1f0c"});
   EXPECT_EQ(options.out, "x.png");
-  EXPECT_EQ(options.words("rods.length=2.5"),
+  EXPECT_EQ(options.words({"rods.length=2.5"}),
             (std::vector<std::string>{"--style=mine.json", "--colour=tilt", "--range=-0.2,0.2", "--defects",
                                       "--no-legend", "--label=rods.length=2.5", "--bare"}));
 }
@@ -49,7 +49,22 @@ TEST(PictureOptions, TheLabelOfTheCommandLineComesFirst) {
   PictureOptions options;
   options.declare(arguments);
   app.parse("1f0c --label mine");
-  EXPECT_EQ(options.words("rods.length=2.5"), (std::vector<std::string>{"--label=mine"}));
+  EXPECT_EQ(options.words({"rods.length=2.5"}), (std::vector<std::string>{"--label=mine"}));
+}
+
+TEST(PictureOptions, EachOfSeveralRunsHasItsHeadline) {
+  CLI::App app;
+  Arguments arguments(app);
+  PictureOptions options;
+  options.declare(arguments);
+  app.parse("1f0c 22ab");
+  EXPECT_EQ(options.jobs, (std::vector<std::string>{"1f0c", "22ab"}));
+  EXPECT_EQ(options.words({"rods.length=2.5", ""}), (std::vector<std::string>{"--label=rods.length=2.5", "--label="}));
+  EXPECT_EQ(options.words({"", ""}), std::vector<std::string>{});
+  EXPECT_EQ(labels_of({{.directory = "a", .name = "a"}, {.directory = "b", .name = "b", .label = "x"}}),
+            (std::vector<std::string>{"a", "x"}))
+      << "panels without a headline cannot be told apart";
+  EXPECT_EQ(labels_of({{.directory = "a", .name = "a"}}), std::vector<std::string>{""});
 }
 
 }  // namespace

@@ -102,6 +102,15 @@ const Case kCases[] = {
     {"density", layered, R"({"colour": "density", "defects": false})"},
     {"whole", layered, R"({"whole": true, "colour": "id", "defects": false})"},
     {"order", paired, R"({"colour": "order"})"},
+    {"panels",
+     [] {
+       RodPicture first = layered();
+       first.playback = 0.1;
+       first.beside = {paired(), mixed()};
+       first.beside[1].label = "a mixture in a disc";
+       return first;
+     },
+     R"({"colour": "angle", "defects": true})"},
     {"empty", [] { return empty_picture(20); }, R"({})"},
     {"one_rod_in_a_tiny_box",
      [] {
@@ -141,6 +150,7 @@ TEST_P(Golden, LooksAsItDid) {
   if (std::string(what.name) == "mechanism") style->width = 480, style->height = 270;
   RodPicture picture = what.picture();
   measure(picture, asked_by(*style));
+  for (RodPicture& other : picture.beside) measure(other, asked_by(*style));
   const Image image = painter().paint(picture, *style).value();
   const std::string file = kFolder + what.name + ".png";
   if (std::getenv("SHAKEN_UPDATE_DOCS") != nullptr) {

@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
 #include <vector>
+
+#include "render/panels.h"
 
 namespace shaken::render {
 namespace {
@@ -46,6 +50,57 @@ TEST(Layout, NothingOverlapsOrLeavesThePicture) {
       }
     }
   }
+}
+
+TEST(PanelGrid, NothingOverlapsOrLeavesThePicture) {
+  for (const auto& [width, height] :
+       std::vector<std::pair<int, int>>{{640, 360}, {1280, 720}, {720, 720}, {800, 1200}, {1920, 400}, {400, 1600}}) {
+    for (const bool bare : {false, true}) {
+      PictureStyle style;
+      style.width = width;
+      style.height = height;
+      if (bare) style.caption = style.legend = style.scale_bar = false;
+      for (std::size_t n = 2; n <= 9; ++n) {
+        const PanelGrid grid = panel_grid(style, n);
+        ASSERT_EQ(grid.panels.size(), n);
+        std::vector<Rect> all{grid.footer};
+        for (const Layout& panel : grid.panels) {
+          EXPECT_EQ(panel.box_side, grid.panels[0].box_side) << "runs are compared in boxes of one size";
+          all.push_back({double(panel.box_x), double(panel.box_y), double(panel.box_side), double(panel.box_side)});
+          all.push_back(panel.label);
+          all.push_back(panel.scale_bar);
+        }
+        for (std::size_t i = 0; i < all.size(); ++i) {
+          if (all[i].width == 0) continue;
+          const std::string where = std::to_string(i) + " of " + std::to_string(n) + " in " + std::to_string(width);
+          EXPECT_GE(all[i].x, 0) << where;
+          EXPECT_GE(all[i].y, 0) << where;
+          EXPECT_LE(all[i].right(), width + 1) << where;
+          EXPECT_LE(all[i].bottom(), height + 1) << where;
+          // boxes stand on whole pixels, words do not
+          Rect inner = all[i];
+          inner.x += 1, inner.y += 1, inner.width -= 2, inner.height -= 2;
+          for (std::size_t j = 0; j < i; ++j) EXPECT_FALSE(overlap(inner, all[j])) << where << " and " << j;
+        }
+        EXPECT_EQ(grid.footer.width > 0, !bare);
+      }
+    }
+  }
+}
+
+TEST(PanelGrid, FitsTheShapeOfThePicture) {
+  PictureStyle style;
+  style.width = 1600;
+  style.height = 500;
+  const PanelGrid wide = panel_grid(style, 3);
+  EXPECT_EQ(wide.panels[0].box_y, wide.panels[2].box_y) << "in a row";
+  std::swap(style.width, style.height);
+  const PanelGrid tall = panel_grid(style, 3);
+  EXPECT_EQ(tall.panels[0].box_x, tall.panels[2].box_x) << "in a column";
+  style.width = style.height = 1000;
+  const PanelGrid square = panel_grid(style, 4);
+  EXPECT_EQ(square.panels[0].box_y, square.panels[1].box_y);
+  EXPECT_EQ(square.panels[0].box_x, square.panels[2].box_x);
 }
 
 TEST(Layout, TheBoxIsMostOfAWidePicture) {

@@ -187,6 +187,37 @@ TEST(RenderProgram, PresetsAreListedAndPrinted) {
   EXPECT_EQ(run_program("style grey").code, 2);
 }
 
+TEST(RenderProgram, SeveralRunsGoSideBySideWithOneClock) {
+  const ScratchFolder first, second;
+  plant_trajectory(first.path(), 4);
+  plant_trajectory(second.path(), 2);  // ends at 0.05 s
+  const std::string runs = first.path().string() + " " + second.path().string();
+  const auto drawn = [&](const std::string& arguments) {
+    const std::string out = (first / "both.png").string();
+    const Ended ended = run_program("picture " + arguments + " --size 480x270 -o " + out);
+    EXPECT_EQ(ended.code, 0) << ended.said;
+    return read_png(out);
+  };
+  const Image last = drawn(runs + " --label one --label two");
+  EXPECT_NE(last, drawn(runs + " --label one --label other")) << "each has its headline";
+  EXPECT_NE(last, drawn(runs + " --label one --label two --time 0.05"));
+  EXPECT_EQ(last, drawn(runs + " --label one --label two --time 9")) << "one that has ended shows its last frame";
+  for (const char* file : {"both.svg", "both.pdf"}) {
+    EXPECT_EQ(run_program("picture " + runs + " -o " + (first / file).string()).code, 0) << file;
+  }
+  const Ended film = run_program("movie " + runs + " --size 320x180 --json -o " + (first / "both.mp4").string());
+  EXPECT_EQ(film.code, 0) << film.said;
+  EXPECT_EQ(nlohmann::json::parse(film.said)["frames"], 4) << "as long as the first";
+
+  const Ended missing = run_program("picture " + runs + " /nowhere /neither");
+  EXPECT_EQ(missing.code, 2);
+  EXPECT_NE(missing.said.find("/nowhere"), std::string::npos) << missing.said;
+  EXPECT_NE(missing.said.find("/neither"), std::string::npos) << "all that is wrong is told at once";
+  EXPECT_EQ(run_program("picture " + runs + " --frame 0").code, 2);
+  EXPECT_EQ(run_program("picture " + runs + " --label a --label b --label c").code, 2);
+  EXPECT_EQ(run_program("picture " + runs + " --view gap -o " + (first / "g.png").string()).code, 1);
+}
+
 TEST(RenderProgram, BadInputIsTwoFailureIsOne) {
   const ScratchFolder folder;
   plant_trajectory(folder.path(), 2);

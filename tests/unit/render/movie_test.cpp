@@ -204,13 +204,19 @@ Shown decode_gif(const std::filesystem::path& file) {
 
 TEST(Movie, AGifIsAGif) {
   const ScratchFolder folder;
-  Result<MovieWriter> movie = MovieWriter::create(folder / "m.gif", 129, 96, 20);
+  Result<MovieWriter> movie =
+      MovieWriter::create(folder / "m.gif", 129, 96, 20, "", {{"Run id", std::string(300, 'a')}, {"Seed", "7"}});
   ASSERT_TRUE(movie) << movie.error().message;
   for (std::size_t i = 0; i < 6; ++i) ASSERT_TRUE(movie->add(plain(129, 96, kColours[i % 4])));
   const auto done = movie->finish();
   ASSERT_TRUE(done) << done.error().message;
   EXPECT_EQ(folder.listing(), "m.gif");
-  EXPECT_EQ(bytes_of(folder / "m.gif").substr(0, 6), "GIF89a");
+  const std::string bytes = bytes_of(folder / "m.gif");
+  EXPECT_EQ(bytes.substr(0, 6), "GIF89a");
+  EXPECT_EQ(bytes.back(), '\x3B');
+  const std::string comment = std::string("\x21\xFE\xFF", 3) + "Run id: " + std::string(247, 'a') +
+                              static_cast<char>(300 - 247 + 9) + std::string(300 - 247, 'a') + "; Seed: 7";
+  EXPECT_NE(bytes.find(comment), std::string::npos) << "the notes, in blocks of 255 bytes";
   const Shown shown = decode_gif(folder / "m.gif");
   ASSERT_EQ(shown.middle.size(), 6u);
   for (std::size_t i = 0; i < 6; ++i) {

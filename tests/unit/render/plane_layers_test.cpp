@@ -168,8 +168,8 @@ std::string bytes_of(const std::filesystem::path& file) {
 TEST(VectorFigure, IsASvgOrAPdf) {
   const ScratchFolder folder;
   RodPicture picture = planted_pair(0.2);
-  picture.label = "a pair";
-  picture.notes = {{"Run id", "1f0c"}};
+  picture.label = "a <pair> & more";
+  picture.notes = {{"Run id", "1f0c"}, {"Seed", "7"}};
   measure(picture, {.defects = true, .field = true});
   PictureStyle style = bare("director");
   for (const char* name : {"a.svg", "a.pdf", "b.pdf"}) ASSERT_TRUE(write_vector(folder / name, picture, style));
@@ -178,6 +178,8 @@ TEST(VectorFigure, IsASvgOrAPdf) {
   EXPECT_TRUE(bytes_of(folder / "a.pdf") == bytes_of(folder / "b.pdf")) << "not a word of when it was written";
   const std::string svg = bytes_of(folder / "a.svg");
   EXPECT_NE(svg.find("<svg"), std::string::npos);
+  EXPECT_NE(svg.find("<title>a &lt;pair&gt; &amp; more</title>\n<desc>Run id: 1f0c; Seed: 7</desc>"),
+            std::string::npos);
   // Without rods there are the lines alone; with them an outline for each, and for each image across the border.
   const auto paths = [&](const std::string& text) {
     std::size_t n = 0;

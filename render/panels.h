@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "render/canvas.h"
+#include "render/layout.h"
+#include "render/picture.h"
+#include "render/style.h"
+
+namespace shaken::render {
+
+/// Several runs side by side with one clock: where each stands, and the strip below that they have in common. A panel's
+/// box is as large as it can be with its headline above and its scale bar below.
+struct PanelGrid {
+  std::vector<Layout> panels;  ///< in the order of reading
+  Rect footer;                 ///< clock, colours, speed of playing; without width if nothing is to be written
+  double unit = 1;             ///< as in Layout
+};
+PanelGrid panel_grid(const PictureStyle& style, std::size_t n_panels);
+
+/// What a panel's picture has beside its rods: headline, S, scale bar, frame, defects, lines. The clock and the speed
+/// of playing are the footer's.
+void draw_panel_words(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style);
+
+/// The time of the first picture, what the colours mean, and how fast a film plays.
+void draw_footer(const Canvas& canvas, const PanelGrid& grid, const RodPicture& first, const PictureStyle& style);
+
+}  // namespace shaken::render
