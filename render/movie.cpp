@@ -177,8 +177,8 @@ Result<void> MovieWriter::Impl::open(const Format& kind, int width, int height, 
   stream->avg_frame_rate = rate;
   avcodec_parameters_from_context(stream->codecpar, codec.get());
   if (!title.empty()) av_dict_set(&format->metadata, "title", title.c_str(), 0);
-  if (const std::string comment = notes_text(notes); !comment.empty())
-    av_dict_set(&format->metadata, "comment", comment.c_str(), 0);
+  if (const std::string words = notes_text(notes); !words.empty())
+    av_dict_set(&format->metadata, "comment", words.c_str(), 0);
   if (const int code = avio_open(&format->pb, unfinished.c_str(), AVIO_FLAG_WRITE); code < 0) {
     return failed(av_words(code));
   }
