@@ -10,6 +10,25 @@
 
 namespace shaken::study {
 
+namespace {
+
+/// A record in time has many more points than a panel has pixels; those left out would only make the files large.
+Curve thinned(Curve curve) {
+  constexpr std::size_t kMostPoints = 600;
+  const std::size_t step = (curve.x.size() + kMostPoints - 1) / kMostPoints;
+  if (step <= 1 || !curve.y_error.empty()) return curve;
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < curve.x.size(); i += step, ++n) {
+    curve.x[n] = curve.x[i];
+    curve.y[n] = curve.y[i];
+  }
+  curve.x.resize(n);
+  curve.y.resize(n);
+  return curve;
+}
+
+}  // namespace
+
 Curve array_curve(const RunSet& replicas, const std::string& x, const std::string& y, std::string label,
                   std::size_t colour, const std::string& sem) {
   std::vector<Curve> curves;
@@ -19,7 +38,7 @@ Curve array_curve(const RunSet& replicas, const std::string& x, const std::strin
     if (curve.y_error.size() != curve.x.size()) curve.y_error.clear();
     if (curves.empty() || curve.x == curves.front().x) curves.push_back(std::move(curve));
   }
-  return curves.empty() ? Curve{.label = std::move(label), .colour = colour} : client::mean_curve(curves);
+  return curves.empty() ? Curve{.label = std::move(label), .colour = colour} : thinned(client::mean_curve(curves));
 }
 
 Curve scalar_curve(const RunSet& runs, const std::string& key, const std::string& scalar, std::string label,

@@ -26,7 +26,8 @@ struct Material {
 };
 
 /// Arrays "x" and "y" of replicas, averaged where they have the same x; empty if no run has them. `sem` names the array
-/// of each run's own errors, where it has one; the error of several runs is that of client::replica_mean().
+/// of each run's own errors, where it has one; the error of several runs is that of client::replica_mean(). Of long
+/// curves without errors, S(t) for one, every k-th point is kept: some 600.
 Curve array_curve(const RunSet& replicas, const std::string& x, const std::string& y, std::string label,
                   std::size_t colour, const std::string& sem = "");
 
