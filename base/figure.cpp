@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/failure.h"
 #include "base/files.h"
@@ -88,6 +89,60 @@ std::string map_data(const Map& map) {
 /// Blocks of data that a figure takes: one per curve, and one for a map.
 std::size_t n_blocks(const Figure& figure) { return figure.curves.size() + (has_map(figure) ? 1 : 0); }
 
+struct KeyShape {
+  std::size_t columns = 0;        ///< at most; 0: no key
+  std::size_t rows_in_panel = 0;  ///< where as many columns stand beside each other as a panel of a sheet has room for
+};
+
+KeyShape key_shape(const Figure& figure) {
+  std::size_t n_labels = 0, longest = 0;
+  for (const Curve& curve : figure.curves) {
+    if (curve.label.empty()) continue;
+    ++n_labels;
+    longest = std::max(longest, display_width(curve.label));
+  }
+  if (n_labels == 0 || n_labels > kMostKeyEntries) return {};
+  const std::size_t columns = longest < 16 ? 5 : (longest < 32 ? 3 : 2);
+  constexpr std::size_t kLetters = 80, kSample = 6;  // across a panel; before a label
+  const std::size_t fitting = std::clamp<std::size_t>(kLetters / (longest + kSample), 1, columns);
+  return {columns, (n_labels + fitting - 1) / fitting};
+}
+
+/// What a key explains: two panels with the same need it once.
+std::vector<std::pair<std::string, std::size_t>> legend_of(const Figure& figure) {
+  std::vector<std::pair<std::string, std::size_t>> legend;
+  for (const Curve& curve : figure.curves) {
+    if (!curve.label.empty()) legend.emplace_back(curve.label, curve.colour);
+  }
+  return legend;
+}
+
+/// Leaves the key of a panel out where one to its left in the same row explains the same, and gives all panels of such
+/// a row the same room above their axes, so that these stand at one height.
+void share_keys(Sheet& sheet) {
+  const auto columns = static_cast<std::size_t>(sheet.columns);
+  for (std::size_t begin = 0; begin < sheet.panels.size(); begin += columns) {
+    const std::size_t end = std::min(begin + columns, sheet.panels.size());
+    std::size_t rows = 0;
+    bool is_shared = false;
+    std::vector<std::string> hide(end - begin);
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto legend = legend_of(sheet.panels[i]);
+      rows = std::max(rows, key_shape(sheet.panels[i]).rows_in_panel);
+      for (std::size_t j = begin; j < i && !legend.empty(); ++j) {
+        if (legend_of(sheet.panels[j]) == legend) hide[i - begin] = "unset key";
+      }
+      is_shared = is_shared || !hide[i - begin].empty();
+    }
+    if (!is_shared) continue;
+    for (std::size_t i = begin; i < end; ++i) {
+      std::vector<std::string>& commands = sheet.panels[i].commands;
+      commands.push_back(fmt::format("set tmargin {:.1f}", 2.5 + 0.95 * static_cast<double>(rows)));
+      if (!hide[i - begin].empty()) commands.push_back(hide[i - begin]);
+    }
+  }
+}
+
 /// The part of a script that draws `figure` from blocks `first_block`, ... of `data_file`, once terminal and output
 /// are set.
 std::string plot_commands(const Figure& figure, const std::string& data_file, std::size_t first_block) {
@@ -99,16 +154,12 @@ std::string plot_commands(const Figure& figure, const std::string& data_file, st
                         gnuplot_literal(figure.picture.string()));
   }
   script += plot_axes() + "set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'\n";
-  const std::size_t n_labels = static_cast<std::size_t>(
-      std::count_if(figure.curves.begin(), figure.curves.end(), [](const Curve& c) { return !c.label.empty(); }));
-  if (n_labels == 0 || n_labels > kMostKeyEntries) {
+  const KeyShape key = key_shape(figure);
+  if (key.columns == 0) {
     script += "unset key\n";
   } else {
     // Above the axes, where no curve can run through it.
-    std::size_t longest = 0;
-    for (const Curve& curve : figure.curves) longest = std::max(longest, display_width(curve.label));
-    script +=
-        fmt::format("set key outside top center horizontal maxcols {}\n", longest < 16 ? 5 : (longest < 32 ? 3 : 2));
+    script += fmt::format("set key outside top center horizontal maxcols {}\n", key.columns);
   }
   script +=
       fmt::format("set xlabel {}\nset ylabel {}\n", gnuplot_literal(figure.x_title), gnuplot_literal(figure.y_title));
@@ -195,8 +246,10 @@ std::filesystem::path draw(const Figure& figure, const std::filesystem::path& fo
   return draw_plot(folder, figure.name, figure_data(figure), figure_script(figure, format), format);
 }
 
-std::filesystem::path draw(const Sheet& sheet, const std::filesystem::path& folder) {
+std::filesystem::path draw(const Sheet& original, const std::filesystem::path& folder) {
   done_or_fail(make_folder(folder));
+  Sheet sheet = original;
+  share_keys(sheet);
   const int n = static_cast<int>(sheet.panels.size());
   const int rows = (n + sheet.columns - 1) / sheet.columns;
   std::string script =

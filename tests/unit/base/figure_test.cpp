@@ -14,6 +14,7 @@ namespace shaken {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 TEST(CurveColour, RunsFromDarkToLight) {
   EXPECT_EQ(curve_colour(0, 5), "#440154");
@@ -70,6 +71,35 @@ TEST(Sheet, DrawsPlotsMapsAndPicturesOnOnePage) {
   EXPECT_THAT(data, HasSubstr("# panel 3: map"));
   EXPECT_THAT(data, HasSubstr("1 1 3 0.5 1.5 0.5 1.5\n"));
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "sheets/page-2.png")) << "pictures lie beside the page";
+}
+
+// One key in a row explains all panels of the row that have the same curves; their axes stand at one height.
+TEST(Sheet, AKeyIsNotRepeatedWithinARow) {
+  if (run_captured({"gnuplot", "--version"}).exit_code != 0) GTEST_SKIP() << "no gnuplot";
+  const run::TemporaryFolder folder;
+  const auto panel = [](const std::string& label) {
+    return Figure{.x_title = "x", .y_title = "y", .curves = {{.label = label, .x = {1, 2}, .y = {3, 4}}}};
+  };
+  const auto scripts_of = [&](std::vector<Figure> panels) {
+    draw(Sheet{.name = "page", .columns = 2, .panels = std::move(panels)}, folder.path());
+    std::ifstream in(folder.path() / "page.gp");
+    std::vector<std::string> scripts{""};
+    for (std::string line; std::getline(in, line);) {
+      if (line == "reset") scripts.emplace_back();
+      scripts.back() += line + "\n";
+    }
+    scripts.erase(scripts.begin());
+    return scripts;
+  };
+  const auto same = scripts_of({panel("a"), panel("a"), panel("a"), panel("b")});
+  ASSERT_EQ(same.size(), 4u);
+  EXPECT_THAT(same[0], Not(HasSubstr("unset key")));
+  EXPECT_THAT(same[1], HasSubstr("unset key"));
+  const std::string margin = same[0].substr(same[0].find("set tmargin"), 15);
+  EXPECT_THAT(same[1], HasSubstr(margin));
+  EXPECT_THAT(same[2], Not(HasSubstr("unset key"))) << "another row";
+  EXPECT_THAT(same[3], Not(HasSubstr("unset key"))) << "another curve";
+  EXPECT_THAT(same[3], Not(HasSubstr("tmargin"))) << "nothing is shared";
 }
 
 }  // namespace
