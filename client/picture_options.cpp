@@ -23,6 +23,7 @@ constexpr PictureOption kOptions[] = {
     {"lines", "none|bars|streamlines", "The director field over the rods"},
     {"defects", nullptr, "Looks for defects and marks them"},
     {"tracks", "S", "For how long defects leave a track that fades"},
+    {"displacements", "S", "Arrows from where each rod's centre was so long before"},
     {"caption", nullptr, "Headline, numbers and S(t)"},
     {"legend", nullptr, "The colour scale"},
     {"scale-bar", nullptr, "A scale bar"},

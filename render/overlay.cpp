@@ -223,6 +223,7 @@ void draw_overlay(const Canvas& canvas, const Layout& layout, const RodPicture& 
   if (style.view == ViewPoint::kTop) {
     draw_lines(canvas, layout, picture, style);
     draw_tracks(canvas, layout, picture, style);
+    draw_displacements(canvas, layout, picture, style);
     if (style.mark_defects) draw_defects(canvas, layout, picture, style);
     draw_frame(canvas, layout, picture, style, colours);
   }

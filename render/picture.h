@@ -52,6 +52,9 @@ struct RodPicture {
   std::vector<Vec3> velocity;                ///< (n_rods) [mm/s]; empty where it is not known
   std::optional<SideWalls> walls;            ///< of the arena in the middle of the box, if there are any
 
+  /// (n_rods) how far each rod's centre has come within some time, across borders too [mm]; empty unless asked for.
+  std::vector<Vec2> displacement;
+
   // Of the rods of the first species.
   double order = 0;           ///< S, nematic order in the plane
   double director_angle = 0;  ///< of the mean director N, against the x axis [rad]

@@ -307,6 +307,39 @@ void draw_defects(const Canvas& canvas, const Layout& layout, const RodPicture& 
   }
 }
 
+void draw_displacements(const Canvas& canvas, const Layout& layout, const RodPicture& picture,
+                        const PictureStyle& style) {
+  const Plane plane(canvas, layout, picture, style);
+  cairo_t* cr = canvas.cairo();
+  const double unit = layout.unit * std::min(std::sqrt(std::max(style.zoom, 1.0)), 2.0);
+  const double longest_head = 6 * unit, thickness = 1.3 * unit;
+  const Colour ink = palette(style.theme).ink, page = palette(style.theme).page;
+  for (std::size_t i = 0; i < picture.displacement.size(); ++i) {
+    const Vec2 way = picture.displacement[i], middle = picture.position[i].head<2>() - way / 2;
+    const double length = way.norm() * plane.scale();  // [pixels]
+    if (length < 1) continue;
+    const double head = std::min(longest_head, length / 2);
+    for_images(plane.view(), middle, way.norm() / 2 + longest_head / plane.scale(), [&](const Vec2& at) {
+      const Vec2 tail = plane.pixel(at - way / 2), tip = plane.pixel(at + way / 2);
+      const Vec2 along = (tip - tail) / length, across(-along.y(), along.x());
+      // a rim of the page's colour keeps them apart from rods of any colour
+      for (const bool rim : {true, false}) {
+        canvas.colour(rim ? page : ink, rim ? 0.7 : 1);
+        canvas.line(tail.x(), tail.y(), (tip - head * along).x(), (tip - head * along).y(),
+                    thickness + (rim ? 2 : 0) * unit);
+        const double rest = rim ? unit : 0;
+        const Vec2 left = tip - (head + rest) * along + (0.45 * head + rest) * across,
+                   right = tip - (head + rest) * along - (0.45 * head + rest) * across;
+        cairo_move_to(cr, tip.x() + rest * along.x(), tip.y() + rest * along.y());
+        cairo_line_to(cr, left.x(), left.y());
+        cairo_line_to(cr, right.x(), right.y());
+        cairo_close_path(cr);
+        cairo_fill(cr);
+      }
+    });
+  }
+}
+
 std::vector<Streamline> streamlines(const analysis::DirectorField& field, double distance) {
   const double side = field.region().box_side();
   const double step = distance / 4, near = distance / 2;

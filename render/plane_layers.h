@@ -24,6 +24,10 @@ void draw_lines(const Canvas& canvas, const Layout& layout, const RodPicture& pi
 void draw_tracks(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style);
 void draw_defects(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style);
 
+/// Arrows of true length that end at the rods' centres.
+void draw_displacements(const Canvas& canvas, const Layout& layout, const RodPicture& picture,
+                        const PictureStyle& style);
+
 /// A curve along the director, its points one step apart, in a plane that goes on across the border of the box [mm].
 using Streamline = std::vector<Vec2>;
 

@@ -265,11 +265,37 @@ Result<const std::vector<analysis::Defect>*> TrajectorySource::defects_of(std::s
   return &(defects_[index] = std::move(picture->defects));
 }
 
+Result<std::vector<Vec2>> TrajectorySource::displacements(std::size_t index, double span) const {
+  const Result<run::TrajectoryFrame> now = reader_.frame(index);
+  if (!now) return now.error();
+  const Result<std::size_t> past = nearest_frame(now->time - span);
+  if (!past) return past.error();
+  if (*past == index && index > 0) {
+    const Result<double> previous = time_of(index - 1);
+    if (!previous) return previous.error();
+    return Error{
+        fmt::format("no displacements over {:g} s: frames are recorded every {:g} s", span, now->time - *previous)};
+  }
+  const Result<run::TrajectoryFrame> before = reader_.frame(*past);
+  if (!before) return before.error();
+  const auto unwrapped = [&](const run::TrajectoryFrame& frame, std::size_t i) -> Vec2 {
+    return frame.position[i].head<2>() + reader_.header().box_side * Vec2(frame.image[i][0], frame.image[i][1]);
+  };
+  std::vector<Vec2> ways;
+  for (std::size_t i = 0; i < now->position.size(); ++i) ways.emplace_back(unwrapped(*now, i) - unwrapped(*before, i));
+  return ways;
+}
+
 Result<RodPicture> TrajectorySource::picture(std::size_t index, const PictureStyle& style) {
   Result<RodPicture> made = bare_picture(index, asked_by(style));
   if (!made) return made.error();
   RodPicture& picture = *made;
   picture.notes = notes();
+  if (style.displacements > 0) {
+    Result<std::vector<Vec2>> ways = displacements(index, style.displacements);
+    if (!ways) return ways.error();
+    picture.displacement = std::move(*ways);
+  }
   if (style.mark_defects && style.tracks > 0) {
     defects_[index] = picture.defects;
     std::size_t first = index;

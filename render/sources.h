@@ -59,6 +59,8 @@ class TrajectorySource {
   run::TrajectoryReader reader_;
   /// The defects of a frame, kept for the tracks of later ones.
   Result<const std::vector<analysis::Defect>*> defects_of(std::size_t index);
+  /// How far each rod has come from the frame nearest to `span` seconds before.
+  Result<std::vector<Vec2>> displacements(std::size_t index, double span) const;
   Result<RodPicture> bare_picture(std::size_t index, const Asked& asked) const;
 
   OrderHistory history_;

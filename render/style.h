@@ -38,7 +38,8 @@ struct PictureStyle {
   Background background = Background::kNone;
   FieldLines lines = FieldLines::kNone;
   bool mark_defects = true;
-  double tracks = 0;  ///< for how long defects leave a track of where they were [s]; 0: none
+  double tracks = 0;         ///< for how long defects leave a track of where they were [s]; 0: none
+  double displacements = 0;  ///< arrows from where each rod was so long before [s]; 0: none
   bool scale_bar = true;
   bool legend = true;
   bool caption = true;

@@ -139,6 +139,8 @@ std::vector<StyleKey> make_keys() {
                             &PictureStyle::mark_defects));
   keys.push_back(
       number_key("tracks", "S", "For how long defects leave a track that fades", 0, 1000, &PictureStyle::tracks));
+  keys.push_back(number_key("displacements", "S", "Arrows from where each rod's centre was so long before", 0, 1e6,
+                            &PictureStyle::displacements));
   keys.push_back(switch_key("caption", "Headline, numbers and S(t)", &PictureStyle::caption));
   keys.push_back(switch_key("legend", "The colour scale, with how many rods have which colour", &PictureStyle::legend));
   keys.push_back(switch_key("scale_bar", "A scale bar; in films also the playback speed", &PictureStyle::scale_bar));

@@ -147,6 +147,30 @@ TEST(Streamlines, AUniformFieldGivesStraightLines) {
   }
 }
 
+// Rod 0 has come 8 mm to the right, over the border at x = 0 = side; rod 1 has not moved.
+TEST(Displacements, AreArrowsOfTrueLengthToTheRods) {
+  RodPicture picture = empty_picture(kBox);
+  add_rod(picture, 4, kBox / 2, kPi / 2);
+  add_rod(picture, 20, 10, kPi / 2);
+  picture.displacement = {Vec2(8, 0), Vec2(0, 0)};
+  PictureStyle style = bare();
+  style.rods = 0;
+  const Image image = painter().paint(picture, style).value();
+  // a line is one or two pixels wide
+  const auto is_dark = [&](double x, double y) {
+    const int i = static_cast<int>(x / kBox * kSide), j = static_cast<int>((1 - y / kBox) * kSide);
+    const auto brightness = [&](int row) {
+      return image.pixel(i, row)[0] + image.pixel(i, row)[1] + image.pixel(i, row)[2];
+    };
+    return std::min({brightness(j - 1), brightness(j), brightness(j + 1)}) < 450;
+  };
+  EXPECT_TRUE(is_dark(1, kBox / 2)) << "within the box";
+  EXPECT_TRUE(is_dark(kBox - 3, kBox / 2)) << "beyond the border";
+  EXPECT_FALSE(is_dark(kBox - 5, kBox / 2)) << "it began at " << kBox - 4;
+  EXPECT_FALSE(is_dark(5, kBox / 2)) << "it ends at 4";
+  EXPECT_FALSE(is_dark(20, 10)) << "what has not moved has no arrow";
+}
+
 TEST(Tracks, FadeWithAge) {
   RodPicture picture = empty_picture(kBox);
   picture.tracks = {{Vec2(10, 10), 0.5, 0.9}, {Vec2(20, 10), 0.5, 0.1}, {Vec2(30, 10), -0.5, 0.1}};

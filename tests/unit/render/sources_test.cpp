@@ -9,6 +9,8 @@
 
 #include "proto/bus.h"
 #include "proto/frame_codec.h"
+#include "run/files/directory.h"
+#include "run/files/frame_log.h"
 #include "tests/unit/render/support.h"
 
 namespace shaken::render {
@@ -97,6 +99,50 @@ TEST(TrajectorySource, TakesTheDirectorFieldFromTheScene) {
   const RodPicture picture = TrajectorySource::open(folder.path())->picture(0, {}).value();
   EXPECT_DOUBLE_EQ(picture.smoothing, 1.5);
   EXPECT_DOUBLE_EQ(picture.grid, 0.25);
+}
+
+// One rod goes 3 mm to the right and 1 mm down in 0.1 s, over two borders of a box of 10 mm.
+TEST(TrajectorySource, DisplacementsGoOnAcrossBorders) {
+  const ScratchFolder folder;
+  run::TrajectoryHeader header;
+  header.n_rods = 1;
+  header.box_side = 10;
+  header.gap = 1.2;
+  header.dt = 1e-5;
+  header.bead_offset = {-2, 0, 2};
+  header.bead_radius = {0.2, 0.4, 0.2};
+  header.scene_json = "{}";
+  auto log = run::FrameLog::create(run::RunDirectory{folder.path()}.frames(), header).value();
+  for (int k = 0; k < 3; ++k) {
+    Snapshot now;
+    now.tick = k;
+    now.time = 0.1 * k;
+    now.box_side = 10;
+    const double x = 5 + 3 * k, y = 1.5 - k;
+    now.image = {{static_cast<std::int32_t>(std::floor(x / 10)), static_cast<std::int32_t>(std::floor(y / 10))}};
+    now.position = {{x - 10 * now.image[0][0], y - 10 * now.image[0][1], 0.6}};
+    now.director = {{1, 0, 0}};
+    now.velocity = {{0, 0, 0}};
+    ASSERT_TRUE(log.append(run::record(now)));
+  }
+  ASSERT_TRUE(log.sync());
+  Result<TrajectorySource> source = TrajectorySource::open(folder.path());
+  ASSERT_TRUE(source) << source.error().message;
+  PictureStyle style = plain();
+  EXPECT_TRUE(source->picture(2, style)->displacement.empty()) << "not asked for";
+  for (const auto& [span, steps] : {std::pair{0.1, 1}, {0.2, 2}, {5.0, 2}}) {
+    style.displacements = span;
+    const Result<RodPicture> picture = source->picture(2, style);
+    ASSERT_TRUE(picture) << picture.error().message;
+    ASSERT_EQ(picture->displacement.size(), 1u);
+    EXPECT_NEAR(picture->displacement[0].x(), 3 * steps, 1e-5) << span;
+    EXPECT_NEAR(picture->displacement[0].y(), -1 * steps, 1e-5) << span;
+  }
+  style.displacements = 0.01;
+  const Result<RodPicture> refused = source->picture(2, style);
+  ASSERT_FALSE(refused) << "all arrows would have no length, and none would be drawn";
+  EXPECT_NE(refused.error().message.find("recorded every 0.1 s"), std::string::npos) << refused.error().message;
+  EXPECT_TRUE(source->picture(0, style)) << "a film begins without";
 }
 
 TEST(TrajectorySource, SaysWhatIsMissing) {
