@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "web/live_feed.h"
 
+#include <cstdio>
+#include <exception>
 #include <utility>
 
 #include "proto/channels.h"
@@ -28,7 +30,13 @@ LiveFeed::LiveFeed(std::unique_ptr<proto::Bus> bus) : bus_(std::move(bus)) {
 LiveFeed::~LiveFeed() = default;
 
 void LiveFeed::listen(const std::stop_token& stop) {
-  while (!stop.stop_requested()) bus_->handle(kWaitMs);
+  while (!stop.stop_requested()) {
+    try {
+      bus_->handle(kWaitMs);
+    } catch (const std::exception& problem) {  // of one message: the next may do
+      std::fprintf(stderr, "shaken-web: a live message was lost: %s\n", problem.what());
+    }
+  }
 }
 
 void LiveFeed::take(Run& run, const observables_t& message) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "web/queue_feed.h"
 
+#include <exception>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -48,7 +49,13 @@ std::string QueueFeed::asked() {
 
 void QueueFeed::look(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
-    std::string now = asked();
+    std::string now;
+    try {
+      now = asked();
+    } catch (const std::exception& problem) {
+      now = Json{{"error", std::string("what the daemon answers is not understood: ") + problem.what()}}.dump(
+          -1, ' ', false, Json::error_handler_t::replace);
+    }
     std::unique_lock lock(mutex_);
     if (now != newest_) {
       newest_ = std::move(now);

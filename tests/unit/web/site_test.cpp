@@ -16,6 +16,7 @@
 #include "base/scratch_folder.h"
 #include "tests/unit/client/fake_daemon.h"
 #include "web/guard.h"
+#include "web/queue_feed.h"
 
 namespace shaken::web {
 namespace {
@@ -44,6 +45,7 @@ class SiteTest : public testing::Test {
 
   ScratchFolder root_;
   client::FakeDaemon daemon_{root_.path()};
+  DaemonLink link_{root_.path()};
   Site site_{SiteSetup{.root = root_.path(), .page = shipped_page()}};
   std::atomic<const Guard*> guard_ = nullptr;
   server::HttpServer server_{0, [this](const server::Request& request) {
@@ -112,6 +114,15 @@ TEST_F(SiteTest, TheQueueComesAsEvents) {
   const auto queue = nlohmann::json::parse(seen.substr(seen.find('{'), seen.find("\n\n") - seen.find('{')));
   EXPECT_EQ(queue["sweeps"][0]["id"], "s1");
   EXPECT_EQ(queue["jobs"][0]["id"], kRun);
+}
+
+TEST_F(SiteTest, AnswersThatAreNotTheDaemonsEndNothing) {
+  for (const char* answer : {"[]", "no JSON", "{\"jobs\": [1, 2]}", "{\"jobs\": 7}", "{}"}) {
+    daemon_.on("GET /v1/jobs?state=running", answer);
+    QueueFeed feed(link_, [](const std::set<std::string>&) {});
+    std::int64_t seen = 0;
+    EXPECT_TRUE(feed.wait(seen, std::chrono::seconds(20))) << answer;
+  }
 }
 
 TEST_F(SiteTest, FilesOfARunAreSavedAndNothingElseIs) {
