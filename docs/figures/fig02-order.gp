@@ -35,7 +35,7 @@ set grid linetype 1 linecolor '#e2e2e2' linewidth 0.5
 set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'
 set key outside top center horizontal maxcols 5
 set xlabel 'area fraction φ'
-set ylabel '⟨S⟩ ± standard error'
+set ylabel '⟨S⟩; bars: standard deviation of S(t)'
 set key font ',11' spacing 1.0
 set yrange [0:1]
 set arrow from graph 0, first 0.5 to graph 1, first 0.5 nohead linecolor '#999999' dashtype 2 back
@@ -45,10 +45,12 @@ plot 'fig02-order.dat' index 9 using 1:2:3 with yerrorbars pointtype 7 pointsize
      'fig02-order.dat' index 10 using 1:2 with linespoints linecolor '#3f4686' pointtype 7 pointsize 1.2 title 'ℓ = 3 mm', \
      'fig02-order.dat' index 11 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#287d8e' notitle, \
      'fig02-order.dat' index 11 using 1:2 with linespoints linecolor '#287d8e' pointtype 7 pointsize 1.2 title 'ℓ = 3.5 mm', \
+     'fig02-order.dat' index 11 using 1:($4==1?$2:NaN) with points pointsize 0.9 pointtype 7 linecolor '#ffffff' notitle, \
      'fig02-order.dat' index 12 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#2cb07e' notitle, \
      'fig02-order.dat' index 12 using 1:2 with linespoints linecolor '#2cb07e' pointtype 7 pointsize 1.2 title 'ℓ = 4 mm', \
      'fig02-order.dat' index 13 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#9ad83c' notitle, \
-     'fig02-order.dat' index 13 using 1:2 with linespoints linecolor '#9ad83c' pointtype 7 pointsize 1.2 title 'ℓ = 4.5 mm'
+     'fig02-order.dat' index 13 using 1:2 with linespoints linecolor '#9ad83c' pointtype 7 pointsize 1.2 title 'ℓ = 4.5 mm', \
+     'fig02-order.dat' index 13 using 1:($4==1?$2:NaN) with points pointsize 0.9 pointtype 7 linecolor '#ffffff' notitle
 
 reset
 unset title
@@ -70,7 +72,8 @@ set cbrange [0:1]
 set size noratio
 set cblabel '⟨S⟩'
 plot 'fig02-order.dat' index 14 using 1:2:4:5:6:7:3 with boxxyerror fillstyle solid noborder palette notitle, \
-     'fig02-order.dat' index 15 using 1:2 with points linecolor '#355e8c' pointtype 7 pointsize 1.2 title '⟨S⟩ = 0.5'
+     'fig02-order.dat' index 15 using 1:2 with points linecolor '#355e8c' pointtype 7 pointsize 1.2 title '⟨S⟩ = 0.5', \
+     'fig02-order.dat' index 15 using 1:($3==1?$2:NaN) with points pointsize 0.9 pointtype 7 linecolor '#ffffff' notitle
 
 reset
 unset title
@@ -87,6 +90,8 @@ set yrange [0:*]
 plot 'fig02-order.dat' index 16 using 1:2 with linespoints linecolor '#440154' pointtype 7 pointsize 1.2 title 'ℓ = 2.5 mm', \
      'fig02-order.dat' index 17 using 1:2 with linespoints linecolor '#3f4686' pointtype 7 pointsize 1.2 title 'ℓ = 3 mm', \
      'fig02-order.dat' index 18 using 1:2 with linespoints linecolor '#287d8e' pointtype 7 pointsize 1.2 title 'ℓ = 3.5 mm', \
+     'fig02-order.dat' index 18 using 1:($3==1?$2:NaN) with points pointsize 0.9 pointtype 7 linecolor '#ffffff' notitle, \
      'fig02-order.dat' index 19 using 1:2 with linespoints linecolor '#2cb07e' pointtype 7 pointsize 1.2 title 'ℓ = 4 mm', \
-     'fig02-order.dat' index 20 using 1:2 with linespoints linecolor '#9ad83c' pointtype 7 pointsize 1.2 title 'ℓ = 4.5 mm'
+     'fig02-order.dat' index 20 using 1:2 with linespoints linecolor '#9ad83c' pointtype 7 pointsize 1.2 title 'ℓ = 4.5 mm', \
+     'fig02-order.dat' index 20 using 1:($3==1?$2:NaN) with points pointsize 0.9 pointtype 7 linecolor '#ffffff' notitle
 unset multiplot

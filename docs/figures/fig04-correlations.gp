@@ -16,6 +16,7 @@ set ylabel 'G_2(r) = ⟨cos 2({/Symbol q}_i − {/Symbol q}_j)⟩'
 set key font ',11' spacing 1.0
 set xrange [0:*]
 set arrow from graph 0, first 0 to graph 1, first 0 nohead linecolor '#999999' dashtype 2 back
+set tmargin 4.4
 plot 'fig04-correlations.dat' index 0 using 1:2 with lines linecolor '#440154' linewidth 1 title 'φ = 0.45', \
      'fig04-correlations.dat' index 1 using 1:2 with lines linecolor '#472674' linewidth 1 title 'φ = 0.5', \
      'fig04-correlations.dat' index 2 using 1:2 with lines linecolor '#3f4686' linewidth 1 title 'φ = 0.55', \
@@ -39,6 +40,8 @@ set ylabel 'G_2(r) = ⟨cos 2({/Symbol q}_i − {/Symbol q}_j)⟩'
 set key font ',11' spacing 1.0
 set xrange [0:*]
 set arrow from graph 0, first 0 to graph 1, first 0 nohead linecolor '#999999' dashtype 2 back
+set tmargin 4.4
+unset key
 plot 'fig04-correlations.dat' index 9 using 1:2 with lines linecolor '#440154' linewidth 1 title 'φ = 0.45', \
      'fig04-correlations.dat' index 10 using 1:2 with lines linecolor '#472674' linewidth 1 title 'φ = 0.5', \
      'fig04-correlations.dat' index 11 using 1:2 with lines linecolor '#3f4686' linewidth 1 title 'φ = 0.55', \
@@ -62,6 +65,7 @@ set ylabel 'g(r)'
 set key font ',11' spacing 1.0
 set xrange [0:*]
 set arrow from graph 0, first 1 to graph 1, first 1 nohead linecolor '#999999' dashtype 2 back
+set tmargin 4.4
 plot 'fig04-correlations.dat' index 18 using 1:2 with lines linecolor '#440154' linewidth 1 title 'φ = 0.45', \
      'fig04-correlations.dat' index 19 using 1:2 with lines linecolor '#472674' linewidth 1 title 'φ = 0.5', \
      'fig04-correlations.dat' index 20 using 1:2 with lines linecolor '#3f4686' linewidth 1 title 'φ = 0.55', \
@@ -85,6 +89,8 @@ set ylabel 'g(r)'
 set key font ',11' spacing 1.0
 set xrange [0:*]
 set arrow from graph 0, first 1 to graph 1, first 1 nohead linecolor '#999999' dashtype 2 back
+set tmargin 4.4
+unset key
 plot 'fig04-correlations.dat' index 27 using 1:2 with lines linecolor '#440154' linewidth 1 title 'φ = 0.45', \
      'fig04-correlations.dat' index 28 using 1:2 with lines linecolor '#472674' linewidth 1 title 'φ = 0.5', \
      'fig04-correlations.dat' index 29 using 1:2 with lines linecolor '#3f4686' linewidth 1 title 'φ = 0.55', \

@@ -49,6 +49,7 @@ set ylabel 'P({/Symbol q}) (1/rad)'
 set key font ',11' spacing 1.0
 set xrange [-0.8:0.8]
 set yrange [0:*]
+set tmargin 3.5
 plot 'fig06-layers.dat' index 0 using 1:2 with lines linecolor '#440154' linewidth 1 title 'φ = 0.75', \
      'fig06-layers.dat' index 1 using 1:2 with lines linecolor '#287d8e' linewidth 1 title 'φ = 0.8', \
      'fig06-layers.dat' index 2 using 1:2 with lines linecolor '#9ad83c' linewidth 1 title 'φ = 0.85'
@@ -65,6 +66,8 @@ set xlabel 'distance across the director (mm)'
 set ylabel 'G_2'
 set key font ',11' spacing 1.0
 set xrange [0:*]
+set tmargin 3.5
+unset key
 plot 'fig06-layers.dat' index 3 using 1:2 with lines linecolor '#440154' linewidth 1 title 'φ = 0.75', \
      'fig06-layers.dat' index 4 using 1:2 with lines linecolor '#287d8e' linewidth 1 title 'φ = 0.8', \
      'fig06-layers.dat' index 5 using 1:2 with lines linecolor '#9ad83c' linewidth 1 title 'φ = 0.85'
@@ -82,6 +85,8 @@ set ylabel 'spectrum of sin 2({/Symbol q} − {/Symbol q}_N)'
 set key font ',11' spacing 1.0
 set xrange [0:2]
 set logscale y
+set tmargin 3.5
+unset key
 plot 'fig06-layers.dat' index 6 using 1:2 with lines linecolor '#440154' linewidth 1 title 'φ = 0.75', \
      'fig06-layers.dat' index 7 using 1:2 with lines linecolor '#287d8e' linewidth 1 title 'φ = 0.8', \
      'fig06-layers.dat' index 8 using 1:2 with lines linecolor '#9ad83c' linewidth 1 title 'φ = 0.85'

@@ -10,15 +10,18 @@ set border 3 linecolor '#333333'
 set tics nomirror out textcolor '#333333'
 set grid linetype 1 linecolor '#e2e2e2' linewidth 0.5
 set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'
-unset key
+set key outside top center horizontal maxcols 5
 set xlabel 'area fraction φ'
 set ylabel '{/Symbol q}_m (degrees)'
 set key font ',11' spacing 1.0
 set yrange [0:*]
 set offsets graph 0.08, graph 0.08, graph 0.1, 0
 set xrange [0.74:0.86]
-plot 'fig07-layer-trends.dat' index 0 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#355e8c' notitle, \
-     'fig07-layer-trends.dat' index 0 using 1:2 with linespoints linecolor '#355e8c' pointtype 7 pointsize 1.2 notitle
+set tmargin 3.5
+plot 'fig07-layer-trends.dat' index 0 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#440154' notitle, \
+     'fig07-layer-trends.dat' index 0 using 1:2 with linespoints linecolor '#440154' pointtype 7 pointsize 1.2 title 'fitted', \
+     'fig07-layer-trends.dat' index 1 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#9ad83c' notitle, \
+     'fig07-layer-trends.dat' index 1 using 1:2 with linespoints linecolor '#9ad83c' pointtype 7 pointsize 1.2 title 'maximum'
 
 reset
 unset title
@@ -27,15 +30,19 @@ set border 3 linecolor '#333333'
 set tics nomirror out textcolor '#333333'
 set grid linetype 1 linecolor '#e2e2e2' linewidth 0.5
 set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'
-unset key
+set key outside top center horizontal maxcols 5
 set xlabel 'rod length ℓ (mm)'
 set ylabel '{/Symbol q}_m (degrees)'
 set key font ',11' spacing 1.0
 set yrange [0:*]
 set offsets graph 0.08, graph 0.08, graph 0.1, 0
 set xrange [3.4:4.6]
-plot 'fig07-layer-trends.dat' index 1 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#355e8c' notitle, \
-     'fig07-layer-trends.dat' index 1 using 1:2 with linespoints linecolor '#355e8c' pointtype 7 pointsize 1.2 notitle
+set tmargin 3.5
+unset key
+plot 'fig07-layer-trends.dat' index 2 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#440154' notitle, \
+     'fig07-layer-trends.dat' index 2 using 1:2 with linespoints linecolor '#440154' pointtype 7 pointsize 1.2 title 'fitted', \
+     'fig07-layer-trends.dat' index 3 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#9ad83c' notitle, \
+     'fig07-layer-trends.dat' index 3 using 1:2 with linespoints linecolor '#9ad83c' pointtype 7 pointsize 1.2 title 'maximum'
 
 reset
 unset title
@@ -44,15 +51,18 @@ set border 3 linecolor '#333333'
 set tics nomirror out textcolor '#333333'
 set grid linetype 1 linecolor '#e2e2e2' linewidth 0.5
 set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'
-unset key
+set key outside top center horizontal maxcols 5
 set xlabel 'end diameter d′ (mm)'
 set ylabel '{/Symbol q}_m (degrees)'
 set key font ',11' spacing 1.0
 set yrange [0:*]
 set offsets graph 0.08, graph 0.08, graph 0.1, 0
 set xrange [0.38:0.62]
-plot 'fig07-layer-trends.dat' index 2 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#355e8c' notitle, \
-     'fig07-layer-trends.dat' index 2 using 1:2 with linespoints linecolor '#355e8c' pointtype 7 pointsize 1.2 notitle
+set tmargin 3.5
+unset key
+plot 'fig07-layer-trends.dat' index 4 using 1:2 with linespoints linecolor '#440154' pointtype 7 pointsize 1.2 title 'fitted', \
+     'fig07-layer-trends.dat' index 5 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#9ad83c' notitle, \
+     'fig07-layer-trends.dat' index 5 using 1:2 with linespoints linecolor '#9ad83c' pointtype 7 pointsize 1.2 title 'maximum'
 
 reset
 unset title
@@ -68,8 +78,8 @@ set key font ',11' spacing 1.0
 set yrange [0:*]
 set offsets graph 0.08, graph 0.08, graph 0.1, 0
 set xrange [0.74:0.86]
-plot 'fig07-layer-trends.dat' index 3 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#355e8c' notitle, \
-     'fig07-layer-trends.dat' index 3 using 1:2 with linespoints linecolor '#355e8c' pointtype 7 pointsize 1.2 notitle
+plot 'fig07-layer-trends.dat' index 6 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#355e8c' notitle, \
+     'fig07-layer-trends.dat' index 6 using 1:2 with linespoints linecolor '#355e8c' pointtype 7 pointsize 1.2 notitle
 
 reset
 unset title
@@ -85,8 +95,8 @@ set key font ',11' spacing 1.0
 set yrange [0:*]
 set offsets graph 0.08, graph 0.08, graph 0.1, 0
 set xrange [3.4:4.6]
-plot 'fig07-layer-trends.dat' index 4 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#355e8c' notitle, \
-     'fig07-layer-trends.dat' index 4 using 1:2 with linespoints linecolor '#355e8c' pointtype 7 pointsize 1.2 notitle
+plot 'fig07-layer-trends.dat' index 7 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#355e8c' notitle, \
+     'fig07-layer-trends.dat' index 7 using 1:2 with linespoints linecolor '#355e8c' pointtype 7 pointsize 1.2 notitle
 
 reset
 unset title
@@ -102,8 +112,7 @@ set key font ',11' spacing 1.0
 set yrange [0:*]
 set offsets graph 0.08, graph 0.08, graph 0.1, 0
 set xrange [0.38:0.62]
-plot 'fig07-layer-trends.dat' index 5 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#355e8c' notitle, \
-     'fig07-layer-trends.dat' index 5 using 1:2 with linespoints linecolor '#355e8c' pointtype 7 pointsize 1.2 notitle
+plot 'fig07-layer-trends.dat' index 8 using 1:2 with linespoints linecolor '#355e8c' pointtype 7 pointsize 1.2 notitle
 
 reset
 unset title
@@ -119,8 +128,8 @@ set key font ',11' spacing 1.0
 set yrange [0:*]
 set offsets graph 0.08, graph 0.08, graph 0.1, 0
 set xrange [0.74:0.86]
-plot 'fig07-layer-trends.dat' index 6 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#355e8c' notitle, \
-     'fig07-layer-trends.dat' index 6 using 1:2 with linespoints linecolor '#355e8c' pointtype 7 pointsize 1.2 notitle
+plot 'fig07-layer-trends.dat' index 9 using 1:2 with linespoints linecolor '#355e8c' pointtype 7 pointsize 1.2 notitle, \
+     'fig07-layer-trends.dat' index 9 using 1:($4==1?$2:NaN) with points pointsize 0.9 pointtype 7 linecolor '#ffffff' notitle
 
 reset
 unset title
@@ -136,8 +145,8 @@ set key font ',11' spacing 1.0
 set yrange [0:*]
 set offsets graph 0.08, graph 0.08, graph 0.1, 0
 set xrange [3.4:4.6]
-plot 'fig07-layer-trends.dat' index 7 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#355e8c' notitle, \
-     'fig07-layer-trends.dat' index 7 using 1:2 with linespoints linecolor '#355e8c' pointtype 7 pointsize 1.2 notitle
+plot 'fig07-layer-trends.dat' index 10 using 1:2 with linespoints linecolor '#355e8c' pointtype 7 pointsize 1.2 notitle, \
+     'fig07-layer-trends.dat' index 10 using 1:($4==1?$2:NaN) with points pointsize 0.9 pointtype 7 linecolor '#ffffff' notitle
 
 reset
 unset title
@@ -153,6 +162,5 @@ set key font ',11' spacing 1.0
 set yrange [0:*]
 set offsets graph 0.08, graph 0.08, graph 0.1, 0
 set xrange [0.38:0.62]
-plot 'fig07-layer-trends.dat' index 8 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#355e8c' notitle, \
-     'fig07-layer-trends.dat' index 8 using 1:2 with linespoints linecolor '#355e8c' pointtype 7 pointsize 1.2 notitle
+plot 'fig07-layer-trends.dat' index 11 using 1:2 with linespoints linecolor '#355e8c' pointtype 7 pointsize 1.2 notitle
 unset multiplot

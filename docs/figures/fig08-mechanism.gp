@@ -1,7 +1,7 @@
 # gnuplot fig08-mechanism.gp  draws fig08-mechanism.png from fig08-mechanism.dat
-set terminal pngcairo size 2160,1170 enhanced font 'DejaVu Sans,14' linewidth 1.6 background '#ffffff'
+set terminal pngcairo size 2160,1730 enhanced font 'DejaVu Sans,14' linewidth 1.6 background '#ffffff'
 set output 'fig08-mechanism.png'
-set multiplot layout 2,3 title "How a rod swims" font ',17'
+set multiplot layout 3,3 title "How a rod swims" font ',17'
 
 reset
 unset title
@@ -78,8 +78,8 @@ set xlabel 'x (mm)'
 set ylabel 'y (mm)'
 set key font ',11' spacing 1.0
 set size ratio 1
-set xrange [-20.050736895061025:20.727828600370326]
-set yrange [-24.67632078954097:16.10224470589038]
+set xrange [-12.953445239870463:11.050789792651171]
+set yrange [-11.147216754684713:12.857018277836922]
 plot 'fig08-mechanism.dat' index 6 using 1:2 with lines linecolor '#440154' linewidth 1 notitle, \
      'fig08-mechanism.dat' index 7 using 1:2 with lines linecolor '#375a8c' linewidth 1 notitle, \
      'fig08-mechanism.dat' index 8 using 1:2 with lines linecolor '#249f87' linewidth 1 notitle, \
@@ -97,10 +97,27 @@ set xlabel 'x (mm)'
 set ylabel 'y (mm)'
 set key font ',11' spacing 1.0
 set size ratio 1
-set xrange [-34.80145627128839:27.8477778699298]
-set yrange [-15.136659713461142:47.512574427757045]
+set xrange [-35.98994744272535:50.48177551800744]
+set yrange [-46.71746342367278:39.75425953706001]
 plot 'fig08-mechanism.dat' index 10 using 1:2 with lines linecolor '#440154' linewidth 1 notitle, \
      'fig08-mechanism.dat' index 11 using 1:2 with lines linecolor '#375a8c' linewidth 1 notitle, \
      'fig08-mechanism.dat' index 12 using 1:2 with lines linecolor '#249f87' linewidth 1 notitle, \
      'fig08-mechanism.dat' index 13 using 1:2 with lines linecolor '#9ad83c' linewidth 1 notitle
+
+reset
+unset title
+set title '(g) how long rods keep their way'
+set border 3 linecolor '#333333'
+set tics nomirror out textcolor '#333333'
+set grid linetype 1 linecolor '#e2e2e2' linewidth 0.5
+set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'
+set key outside top center horizontal maxcols 3
+set xlabel 'area fraction φ'
+set ylabel 'time (s)'
+set key font ',11' spacing 1.0
+set yrange [0:*]
+plot 'fig08-mechanism.dat' index 14 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#440154' notitle, \
+     'fig08-mechanism.dat' index 14 using 1:2 with linespoints linecolor '#440154' pointtype 7 pointsize 1.2 title 'a way persists', \
+     'fig08-mechanism.dat' index 15 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#9ad83c' notitle, \
+     'fig08-mechanism.dat' index 15 using 1:2 with linespoints linecolor '#9ad83c' pointtype 7 pointsize 1.2 title 'a tilt keeps its sign'
 unset multiplot

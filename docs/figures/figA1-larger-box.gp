@@ -38,6 +38,7 @@ set ylabel 'P({/Symbol q}) (1/rad)'
 set key font ',11' spacing 1.0
 set xrange [-0.8:0.8]
 set yrange [0:*]
+set tmargin 3.5
 plot 'figA1-larger-box.dat' index 0 using 1:2 with lines linecolor '#440154' linewidth 1 title 'L = 41.87 mm', \
      'figA1-larger-box.dat' index 1 using 1:2 with lines linecolor '#9ad83c' linewidth 1 title 'L = 66.98 mm'
 
@@ -53,6 +54,8 @@ set xlabel 'distance across the director (mm)'
 set ylabel 'G_2'
 set key font ',11' spacing 1.0
 set xrange [0:*]
+set tmargin 3.5
+unset key
 plot 'figA1-larger-box.dat' index 2 using 1:2 with lines linecolor '#440154' linewidth 1 title 'L = 41.87 mm', \
      'figA1-larger-box.dat' index 3 using 1:2 with lines linecolor '#9ad83c' linewidth 1 title 'L = 66.98 mm'
 unset multiplot

@@ -1,7 +1,7 @@
 # gnuplot figA2-gap.gp  draws figA2-gap.png from figA2-gap.dat
-set terminal pngcairo size 2160,1170 enhanced font 'DejaVu Sans,14' linewidth 1.6 background '#ffffff'
+set terminal pngcairo size 2160,1730 enhanced font 'DejaVu Sans,14' linewidth 1.6 background '#ffffff'
 set output 'figA2-gap.png'
-set multiplot layout 2,3 title "The gap between the plates" font ',17'
+set multiplot layout 3,3 title "The gap between the plates" font ',17'
 
 reset
 unset title
@@ -38,7 +38,48 @@ plot 'figA2-gap-3.png' binary filetype=png with rgbimage notitle
 
 reset
 unset title
-set title '(d) distribution of angles'
+set title '(d) w = 1.6 mm'
+unset border
+unset tics
+unset key
+set size ratio -1
+set lmargin 1
+set rmargin 1
+plot 'figA2-gap-4.png' binary filetype=png with rgbimage notitle
+
+reset
+unset title
+set border 3 linecolor '#333333'
+set tics nomirror out textcolor '#333333'
+set grid linetype 1 linecolor '#e2e2e2' linewidth 0.5
+set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'
+unset key
+set xlabel ''
+set ylabel ''
+set key font ',11' spacing 1.0
+unset border
+unset tics
+unset label
+plot [1:2][1:2] NaN notitle
+
+reset
+unset title
+set border 3 linecolor '#333333'
+set tics nomirror out textcolor '#333333'
+set grid linetype 1 linecolor '#e2e2e2' linewidth 0.5
+set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'
+unset key
+set xlabel ''
+set ylabel ''
+set key font ',11' spacing 1.0
+unset border
+unset tics
+unset label
+plot [1:2][1:2] NaN notitle
+
+reset
+unset title
+set title '(e) distribution of angles'
 set border 3 linecolor '#333333'
 set tics nomirror out textcolor '#333333'
 set grid linetype 1 linecolor '#e2e2e2' linewidth 0.5
@@ -49,13 +90,15 @@ set ylabel 'P({/Symbol q}) (1/rad)'
 set key font ',11' spacing 1.0
 set xrange [-0.8:0.8]
 set yrange [0:*]
+set tmargin 3.5
 plot 'figA2-gap.dat' index 0 using 1:2 with lines linecolor '#440154' linewidth 1 title 'w = 0.9 mm', \
-     'figA2-gap.dat' index 1 using 1:2 with lines linecolor '#287d8e' linewidth 1 title 'w = 1.2 mm', \
-     'figA2-gap.dat' index 2 using 1:2 with lines linecolor '#9ad83c' linewidth 1 title 'w = 1.4 mm'
+     'figA2-gap.dat' index 1 using 1:2 with lines linecolor '#375a8c' linewidth 1 title 'w = 1.2 mm', \
+     'figA2-gap.dat' index 2 using 1:2 with lines linecolor '#249f87' linewidth 1 title 'w = 1.4 mm', \
+     'figA2-gap.dat' index 3 using 1:2 with lines linecolor '#9ad83c' linewidth 1 title 'w = 1.6 mm'
 
 reset
 unset title
-set title '(e) distances'
+set title '(f) distances'
 set border 3 linecolor '#333333'
 set tics nomirror out textcolor '#333333'
 set grid linetype 1 linecolor '#e2e2e2' linewidth 0.5
@@ -66,13 +109,16 @@ set ylabel 'g(r)'
 set key font ',11' spacing 1.0
 set xrange [0:*]
 set arrow from graph 0, first 1 to graph 1, first 1 nohead linecolor '#999999' dashtype 2 back
-plot 'figA2-gap.dat' index 3 using 1:2 with lines linecolor '#440154' linewidth 1 title 'w = 0.9 mm', \
-     'figA2-gap.dat' index 4 using 1:2 with lines linecolor '#287d8e' linewidth 1 title 'w = 1.2 mm', \
-     'figA2-gap.dat' index 5 using 1:2 with lines linecolor '#9ad83c' linewidth 1 title 'w = 1.4 mm'
+set tmargin 3.5
+unset key
+plot 'figA2-gap.dat' index 4 using 1:2 with lines linecolor '#440154' linewidth 1 title 'w = 0.9 mm', \
+     'figA2-gap.dat' index 5 using 1:2 with lines linecolor '#375a8c' linewidth 1 title 'w = 1.2 mm', \
+     'figA2-gap.dat' index 6 using 1:2 with lines linecolor '#249f87' linewidth 1 title 'w = 1.4 mm', \
+     'figA2-gap.dat' index 7 using 1:2 with lines linecolor '#9ad83c' linewidth 1 title 'w = 1.6 mm'
 
 reset
 unset title
-set title '(f) crystal'
+set title '(g) crystal'
 set border 3 linecolor '#333333'
 set tics nomirror out textcolor '#333333'
 set grid linetype 1 linecolor '#e2e2e2' linewidth 0.5
@@ -82,8 +128,11 @@ set xlabel 'gap between the plates w (mm)'
 set ylabel 'crystal measure, {/Symbol y}_6'
 set key font ',11' spacing 1.0
 set yrange [0:*]
-plot 'figA2-gap.dat' index 6 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#440154' notitle, \
-     'figA2-gap.dat' index 6 using 1:2 with linespoints linecolor '#440154' pointtype 7 pointsize 1.2 title 'Bragg peak', \
-     'figA2-gap.dat' index 7 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#9ad83c' notitle, \
-     'figA2-gap.dat' index 7 using 1:2 with linespoints linecolor '#9ad83c' pointtype 7 pointsize 1.2 title 'ψ6'
+set tmargin 3.5
+plot 'figA2-gap.dat' index 8 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#440154' notitle, \
+     'figA2-gap.dat' index 8 using 1:2 with linespoints linecolor '#440154' pointtype 7 pointsize 1.2 title 'Bragg peak', \
+     'figA2-gap.dat' index 8 using 1:($4==1?$2:NaN) with points pointsize 0.9 pointtype 7 linecolor '#ffffff' notitle, \
+     'figA2-gap.dat' index 9 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#9ad83c' notitle, \
+     'figA2-gap.dat' index 9 using 1:2 with linespoints linecolor '#9ad83c' pointtype 7 pointsize 1.2 title 'ψ6', \
+     'figA2-gap.dat' index 9 using 1:($4==1?$2:NaN) with points pointsize 0.9 pointtype 7 linecolor '#ffffff' notitle
 unset multiplot

@@ -15,10 +15,13 @@ set xlabel 'shaking strength Γ'
 set ylabel '⟨S⟩'
 set key font ',11' spacing 1.0
 set yrange [0:*]
+set tmargin 3.5
 plot 'figB1-shaking.dat' index 0 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#440154' notitle, \
      'figB1-shaking.dat' index 0 using 1:2 with linespoints linecolor '#440154' pointtype 7 pointsize 1.2 title 'ℓ = 2.5 mm', \
+     'figB1-shaking.dat' index 0 using 1:($4==1?$2:NaN) with points pointsize 0.9 pointtype 7 linecolor '#ffffff' notitle, \
      'figB1-shaking.dat' index 1 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#9ad83c' notitle, \
-     'figB1-shaking.dat' index 1 using 1:2 with linespoints linecolor '#9ad83c' pointtype 7 pointsize 1.2 title 'ℓ = 4.5 mm'
+     'figB1-shaking.dat' index 1 using 1:2 with linespoints linecolor '#9ad83c' pointtype 7 pointsize 1.2 title 'ℓ = 4.5 mm', \
+     'figB1-shaking.dat' index 1 using 1:($4==1?$2:NaN) with points pointsize 0.9 pointtype 7 linecolor '#ffffff' notitle
 
 reset
 unset title
@@ -32,10 +35,14 @@ set xlabel 'shaking strength Γ'
 set ylabel 'D = MSD / 4t (mm^2/s)'
 set key font ',11' spacing 1.0
 set yrange [0:*]
+set tmargin 3.5
+unset key
 plot 'figB1-shaking.dat' index 2 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#440154' notitle, \
      'figB1-shaking.dat' index 2 using 1:2 with linespoints linecolor '#440154' pointtype 7 pointsize 1.2 title 'ℓ = 2.5 mm', \
+     'figB1-shaking.dat' index 2 using 1:($4==1?$2:NaN) with points pointsize 0.9 pointtype 7 linecolor '#ffffff' notitle, \
      'figB1-shaking.dat' index 3 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#9ad83c' notitle, \
-     'figB1-shaking.dat' index 3 using 1:2 with linespoints linecolor '#9ad83c' pointtype 7 pointsize 1.2 title 'ℓ = 4.5 mm'
+     'figB1-shaking.dat' index 3 using 1:2 with linespoints linecolor '#9ad83c' pointtype 7 pointsize 1.2 title 'ℓ = 4.5 mm', \
+     'figB1-shaking.dat' index 3 using 1:($4==1?$2:NaN) with points pointsize 0.9 pointtype 7 linecolor '#ffffff' notitle
 
 reset
 unset title
@@ -49,8 +56,12 @@ set xlabel 'shaking strength Γ'
 set ylabel 'D_r (rad^2/s)'
 set key font ',11' spacing 1.0
 set yrange [0:*]
+set tmargin 3.5
+unset key
 plot 'figB1-shaking.dat' index 4 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#440154' notitle, \
      'figB1-shaking.dat' index 4 using 1:2 with linespoints linecolor '#440154' pointtype 7 pointsize 1.2 title 'ℓ = 2.5 mm', \
+     'figB1-shaking.dat' index 4 using 1:($4==1?$2:NaN) with points pointsize 0.9 pointtype 7 linecolor '#ffffff' notitle, \
      'figB1-shaking.dat' index 5 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#9ad83c' notitle, \
-     'figB1-shaking.dat' index 5 using 1:2 with linespoints linecolor '#9ad83c' pointtype 7 pointsize 1.2 title 'ℓ = 4.5 mm'
+     'figB1-shaking.dat' index 5 using 1:2 with linespoints linecolor '#9ad83c' pointtype 7 pointsize 1.2 title 'ℓ = 4.5 mm', \
+     'figB1-shaking.dat' index 5 using 1:($4==1?$2:NaN) with points pointsize 0.9 pointtype 7 linecolor '#ffffff' notitle
 unset multiplot

@@ -15,16 +15,20 @@ set xlabel 'area fraction φ'
 set ylabel 'defects per area (1/mm^2)'
 set key font ',11' spacing 1.0
 set yrange [0:*]
+set tmargin 3.5
 plot 'figB2-melting.dat' index 0 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#440154' notitle, \
      'figB2-melting.dat' index 0 using 1:2 with linespoints linecolor '#440154' pointtype 7 pointsize 1.2 title 'ℓ = 2.5 mm', \
+     'figB2-melting.dat' index 0 using 1:($4==1?$2:NaN) with points pointsize 0.9 pointtype 7 linecolor '#ffffff' notitle, \
      'figB2-melting.dat' index 1 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#3f4686' notitle, \
      'figB2-melting.dat' index 1 using 1:2 with linespoints linecolor '#3f4686' pointtype 7 pointsize 1.2 title 'ℓ = 3 mm', \
      'figB2-melting.dat' index 2 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#287d8e' notitle, \
      'figB2-melting.dat' index 2 using 1:2 with linespoints linecolor '#287d8e' pointtype 7 pointsize 1.2 title 'ℓ = 3.5 mm', \
+     'figB2-melting.dat' index 2 using 1:($4==1?$2:NaN) with points pointsize 0.9 pointtype 7 linecolor '#ffffff' notitle, \
      'figB2-melting.dat' index 3 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#2cb07e' notitle, \
      'figB2-melting.dat' index 3 using 1:2 with linespoints linecolor '#2cb07e' pointtype 7 pointsize 1.2 title 'ℓ = 4 mm', \
      'figB2-melting.dat' index 4 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#9ad83c' notitle, \
-     'figB2-melting.dat' index 4 using 1:2 with linespoints linecolor '#9ad83c' pointtype 7 pointsize 1.2 title 'ℓ = 4.5 mm'
+     'figB2-melting.dat' index 4 using 1:2 with linespoints linecolor '#9ad83c' pointtype 7 pointsize 1.2 title 'ℓ = 4.5 mm', \
+     'figB2-melting.dat' index 4 using 1:($4==1?$2:NaN) with points pointsize 0.9 pointtype 7 linecolor '#ffffff' notitle
 
 reset
 unset title
@@ -39,6 +43,8 @@ set ylabel 'defects per area (1/mm^2)'
 set key font ',11' spacing 1.0
 set xrange [0:1]
 set yrange [0:*]
+set tmargin 3.5
+unset key
 plot 'figB2-melting.dat' index 5 using 1:2 with points linecolor '#440154' pointtype 7 pointsize 1.2 title 'ℓ = 2.5 mm', \
      'figB2-melting.dat' index 6 using 1:2 with points linecolor '#3f4686' pointtype 7 pointsize 1.2 title 'ℓ = 3 mm', \
      'figB2-melting.dat' index 7 using 1:2 with points linecolor '#287d8e' pointtype 7 pointsize 1.2 title 'ℓ = 3.5 mm', \
@@ -84,8 +90,10 @@ plot 'figB2-melting.dat' index 13 using 1:2:3 with yerrorbars pointtype 7 points
      'figB2-melting.dat' index 14 using 1:2 with linespoints linecolor '#3f4686' pointtype 7 pointsize 1.2 title 'ℓ = 3 mm', \
      'figB2-melting.dat' index 15 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#287d8e' notitle, \
      'figB2-melting.dat' index 15 using 1:2 with linespoints linecolor '#287d8e' pointtype 7 pointsize 1.2 title 'ℓ = 3.5 mm', \
+     'figB2-melting.dat' index 15 using 1:($4==1?$2:NaN) with points pointsize 0.9 pointtype 7 linecolor '#ffffff' notitle, \
      'figB2-melting.dat' index 16 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#2cb07e' notitle, \
      'figB2-melting.dat' index 16 using 1:2 with linespoints linecolor '#2cb07e' pointtype 7 pointsize 1.2 title 'ℓ = 4 mm', \
      'figB2-melting.dat' index 17 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#9ad83c' notitle, \
-     'figB2-melting.dat' index 17 using 1:2 with linespoints linecolor '#9ad83c' pointtype 7 pointsize 1.2 title 'ℓ = 4.5 mm'
+     'figB2-melting.dat' index 17 using 1:2 with linespoints linecolor '#9ad83c' pointtype 7 pointsize 1.2 title 'ℓ = 4.5 mm', \
+     'figB2-melting.dat' index 17 using 1:($4==1?$2:NaN) with points pointsize 0.9 pointtype 7 linecolor '#ffffff' notitle
 unset multiplot

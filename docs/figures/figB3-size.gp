@@ -16,10 +16,12 @@ set ylabel '⟨S⟩'
 set key font ',11' spacing 1.0
 set yrange [0:1]
 set arrow from graph 0, first 0.5 to graph 1, first 0.5 nohead linecolor '#999999' dashtype 2 back
+set tmargin 3.5
 plot 'figB3-size.dat' index 0 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#440154' notitle, \
      'figB3-size.dat' index 0 using 1:2 with linespoints linecolor '#440154' pointtype 7 pointsize 1.2 title 'L = 16.75 mm', \
      'figB3-size.dat' index 1 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#287d8e' notitle, \
      'figB3-size.dat' index 1 using 1:2 with linespoints linecolor '#287d8e' pointtype 7 pointsize 1.2 title 'L = 33.49 mm', \
+     'figB3-size.dat' index 1 using 1:($4==1?$2:NaN) with points pointsize 0.9 pointtype 7 linecolor '#ffffff' notitle, \
      'figB3-size.dat' index 2 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#9ad83c' notitle, \
      'figB3-size.dat' index 2 using 1:2 with linespoints linecolor '#9ad83c' pointtype 7 pointsize 1.2 title 'L = 66.98 mm'
 
@@ -37,10 +39,14 @@ set key font ',11' spacing 1.0
 set yrange [-0.2:1.1]
 set arrow from graph 0, first 0 to graph 1, first 0 nohead linecolor '#999999' dashtype 2 back
 set arrow from graph 0, first 1 to graph 1, first 1 nohead linecolor '#999999' dashtype 2 back
+set tmargin 3.5
+unset key
 plot 'figB3-size.dat' index 3 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#440154' notitle, \
      'figB3-size.dat' index 3 using 1:2 with linespoints linecolor '#440154' pointtype 7 pointsize 1.2 title 'L = 16.75 mm', \
+     'figB3-size.dat' index 3 using 1:($4==1?$2:NaN) with points pointsize 0.9 pointtype 7 linecolor '#ffffff' notitle, \
      'figB3-size.dat' index 4 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#287d8e' notitle, \
      'figB3-size.dat' index 4 using 1:2 with linespoints linecolor '#287d8e' pointtype 7 pointsize 1.2 title 'L = 33.49 mm', \
+     'figB3-size.dat' index 4 using 1:($4==1?$2:NaN) with points pointsize 0.9 pointtype 7 linecolor '#ffffff' notitle, \
      'figB3-size.dat' index 5 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#9ad83c' notitle, \
      'figB3-size.dat' index 5 using 1:2 with linespoints linecolor '#9ad83c' pointtype 7 pointsize 1.2 title 'L = 66.98 mm'
 
@@ -58,11 +64,33 @@ set key font ',11' spacing 1.0
 set logscale xy
 set xtics (10, 20, 40, 80, 160)
 plot 'figB3-size.dat' index 6 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#440154' notitle, \
-     'figB3-size.dat' index 6 using 1:2 with linespoints linecolor '#440154' pointtype 7 pointsize 1.2 title 'φ = 0.55', \
-     'figB3-size.dat' index 7 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#375a8c' notitle, \
-     'figB3-size.dat' index 7 using 1:2 with linespoints linecolor '#375a8c' pointtype 7 pointsize 1.2 title 'φ = 0.6', \
-     'figB3-size.dat' index 8 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#249f87' notitle, \
-     'figB3-size.dat' index 8 using 1:2 with linespoints linecolor '#249f87' pointtype 7 pointsize 1.2 title 'φ = 0.65', \
-     'figB3-size.dat' index 9 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#9ad83c' notitle, \
-     'figB3-size.dat' index 9 using 1:2 with linespoints linecolor '#9ad83c' pointtype 7 pointsize 1.2 title 'φ = 0.7'
+     'figB3-size.dat' index 6 using 1:2 with linespoints linecolor '#440154' pointtype 7 pointsize 1.2 title 'φ = 0.45', \
+     'figB3-size.dat' index 7 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#433980' notitle, \
+     'figB3-size.dat' index 7 using 1:2 with linespoints linecolor '#433980' pointtype 7 pointsize 1.2 title 'φ = 0.5', \
+     'figB3-size.dat' index 8 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#30688d' notitle, \
+     'figB3-size.dat' index 8 using 1:2 with linespoints linecolor '#30688d' pointtype 7 pointsize 1.2 title 'φ = 0.55', \
+     'figB3-size.dat' index 8 using 1:($4==1?$2:NaN) with points pointsize 0.9 pointtype 7 linecolor '#ffffff' notitle, \
+     'figB3-size.dat' index 9 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#21928c' notitle, \
+     'figB3-size.dat' index 9 using 1:2 with linespoints linecolor '#21928c' pointtype 7 pointsize 1.2 title 'φ = 0.6', \
+     'figB3-size.dat' index 10 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#3eb974' notitle, \
+     'figB3-size.dat' index 10 using 1:2 with linespoints linecolor '#3eb974' pointtype 7 pointsize 1.2 title 'φ = 0.65', \
+     'figB3-size.dat' index 11 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#9ad83c' notitle, \
+     'figB3-size.dat' index 11 using 1:2 with linespoints linecolor '#9ad83c' pointtype 7 pointsize 1.2 title 'φ = 0.7'
+
+reset
+unset title
+set title '(d) where ⟨S⟩ passes 0.5'
+set border 3 linecolor '#333333'
+set tics nomirror out textcolor '#333333'
+set grid linetype 1 linecolor '#e2e2e2' linewidth 0.5
+set key noenhanced reverse Left samplen 1.5 spacing 1.15 font ',15'
+unset key
+set xlabel 'side of the box L (mm)'
+set ylabel 'area fraction φ'
+set key font ',11' spacing 1.0
+set logscale x
+set xtics (10, 20, 40, 80, 160)
+plot 'figB3-size.dat' index 12 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#355e8c' notitle, \
+     'figB3-size.dat' index 12 using 1:2 with linespoints linecolor '#355e8c' pointtype 7 pointsize 1.2 notitle, \
+     'figB3-size.dat' index 12 using 1:($4==1?$2:NaN) with points pointsize 0.9 pointtype 7 linecolor '#ffffff' notitle
 unset multiplot

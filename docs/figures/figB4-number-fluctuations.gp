@@ -15,6 +15,7 @@ set xlabel 'mean number in a box ⟨N⟩'
 set ylabel 'standard deviation {/Symbol D}N'
 set key font ',11' spacing 1.0
 set logscale xy
+set tmargin 6.3
 plot 'figB4-number-fluctuations.dat' index 0 using 1:2 with linespoints linecolor '#440154' pointtype 7 pointsize 1.2 title 'φ = 0.45', \
      'figB4-number-fluctuations.dat' index 1 using 1:2 with linespoints linecolor '#462171' pointtype 7 pointsize 1.2 title 'φ = 0.5', \
      'figB4-number-fluctuations.dat' index 2 using 1:2 with linespoints linecolor '#413f83' pointtype 7 pointsize 1.2 title 'φ = 0.55', \
@@ -38,6 +39,8 @@ set xlabel 'mean number in a box ⟨N⟩'
 set ylabel 'standard deviation {/Symbol D}N'
 set key font ',11' spacing 1.0
 set logscale xy
+set tmargin 6.3
+unset key
 plot 'figB4-number-fluctuations.dat' index 10 using 1:2 with linespoints linecolor '#440154' pointtype 7 pointsize 1.2 title 'φ = 0.45', \
      'figB4-number-fluctuations.dat' index 11 using 1:2 with linespoints linecolor '#462171' pointtype 7 pointsize 1.2 title 'φ = 0.5', \
      'figB4-number-fluctuations.dat' index 12 using 1:2 with linespoints linecolor '#413f83' pointtype 7 pointsize 1.2 title 'φ = 0.55', \

@@ -16,8 +16,10 @@ set ylabel '⟨S⟩'
 set key font ',11' spacing 1.0
 set yrange [0:1]
 set arrow from graph 0, first 0.5 to graph 1, first 0.5 nohead linecolor '#999999' dashtype 2 back
+set tmargin 3.5
 plot 'figB6-equilibrium.dat' index 0 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#440154' notitle, \
      'figB6-equilibrium.dat' index 0 using 1:2 with linespoints linecolor '#440154' pointtype 7 pointsize 1.2 title 'shaken', \
+     'figB6-equilibrium.dat' index 0 using 1:($4==1?$2:NaN) with points pointsize 0.9 pointtype 7 linecolor '#ffffff' notitle, \
      'figB6-equilibrium.dat' index 1 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#9ad83c' notitle, \
      'figB6-equilibrium.dat' index 1 using 1:2 with linespoints linecolor '#9ad83c' pointtype 7 pointsize 1.2 title 'equilibrium'
 
@@ -33,8 +35,11 @@ set xlabel 'area fraction φ'
 set ylabel 'D / D at the lowest packing'
 set key font ',11' spacing 1.0
 set yrange [0:*]
+set tmargin 3.5
+unset key
 plot 'figB6-equilibrium.dat' index 2 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#440154' notitle, \
      'figB6-equilibrium.dat' index 2 using 1:2 with linespoints linecolor '#440154' pointtype 7 pointsize 1.2 title 'shaken', \
+     'figB6-equilibrium.dat' index 2 using 1:($4==1?$2:NaN) with points pointsize 0.9 pointtype 7 linecolor '#ffffff' notitle, \
      'figB6-equilibrium.dat' index 3 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#9ad83c' notitle, \
      'figB6-equilibrium.dat' index 3 using 1:2 with linespoints linecolor '#9ad83c' pointtype 7 pointsize 1.2 title 'equilibrium'
 
@@ -51,6 +56,7 @@ set ylabel '⟨S⟩'
 set key font ',11' spacing 1.0
 set yrange [0:1]
 set arrow from graph 0, first 0.5 to graph 1, first 0.5 nohead linecolor '#999999' dashtype 2 back
+set tmargin 3.5
 plot 'figB6-equilibrium.dat' index 4 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#440154' notitle, \
      'figB6-equilibrium.dat' index 4 using 1:2 with linespoints linecolor '#440154' pointtype 7 pointsize 1.2 title 'shaken', \
      'figB6-equilibrium.dat' index 5 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#9ad83c' notitle, \
@@ -68,6 +74,8 @@ set xlabel 'area fraction φ'
 set ylabel 'D / D at the lowest packing'
 set key font ',11' spacing 1.0
 set yrange [0:*]
+set tmargin 3.5
+unset key
 plot 'figB6-equilibrium.dat' index 6 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#440154' notitle, \
      'figB6-equilibrium.dat' index 6 using 1:2 with linespoints linecolor '#440154' pointtype 7 pointsize 1.2 title 'shaken', \
      'figB6-equilibrium.dat' index 7 using 1:2:3 with yerrorbars pointtype 7 pointsize 0 linecolor '#9ad83c' notitle, \
