@@ -34,6 +34,10 @@ target_compile_options(shaken_options INTERFACE
 if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   target_compile_options(shaken_options INTERFACE "$<BUILD_INTERFACE:SHELL:-Xclang -fno-pch-timestamp>")  # else ccache keeps none of it
 endif()
+if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # files that are read through another one may have unnamed namespaces all the same
+  target_compile_options(shaken_options INTERFACE $<BUILD_INTERFACE:-Wno-subobject-linkage>)
+endif()
 # Builds with sanitizers: what waits for files and sockets is not optimised, which halves the time to compile it; what
 # computes (a library says target_compile_options(NAME PRIVATE ${SHAKEN_COMPUTES})) is, or its tests would take too long.
 set(CMAKE_CXX_FLAGS_SANITIZE "-O0 -g1")

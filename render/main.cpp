@@ -193,6 +193,11 @@ Result<RodPicture> joint_picture(const Options& options, const PictureStyle& sty
     pictures.push_back(std::move(*picture));
   }
   RodPicture first = std::move(pictures.front());
+  for (std::size_t i = 1; i < pictures.size(); ++i) {
+    for (const auto& [key, value] : pictures[i].notes) {
+      if (key != "Software") first.notes.emplace_back(fmt::format("{} ({})", key, i + 1), value);
+    }
+  }
   first.beside.assign(std::make_move_iterator(pictures.begin() + 1), std::make_move_iterator(pictures.end()));
   return first;
 }
@@ -216,17 +221,21 @@ std::size_t frame_in(const Options& options, const std::vector<TrajectorySource>
 
 void make_picture(const Options& options) {
   const Stopwatch watch;
-  const PictureStyle style = style_of(options);
+  PictureStyle style = style_of(options);
   if (!options.out.empty()) check_picture_name(options.out);
   std::vector<TrajectorySource> sources = open_sources(options);
+  if (sources.size() > 1 && options.out.empty()) throw Failure(ExitCode::kBadInput, "several runs need -o FILE");
   const double time = options.time.empty() ? 0 : seconds_in(options.time, "--time");
   const std::size_t frame = options.frame == "last" ? 0 : frame_in(options, sources);
   if (style.caption && sources.size() == 1) done_or_fail(sources.front().read_history());
-  const RodPicture picture =
-      value_or_fail(joint_picture(options, style, sources, [&](std::size_t i) -> Result<std::size_t> {
-        if (!options.time.empty()) return sources[i].nearest_frame(time);
-        return options.frame == "last" ? sources[i].n_frames() - 1 : frame;
-      }));
+  RodPicture picture = value_or_fail(joint_picture(options, style, sources, [&](std::size_t i) -> Result<std::size_t> {
+    if (!options.time.empty()) return sources[i].nearest_frame(time);
+    return options.frame == "last" ? sources[i].n_frames() - 1 : frame;
+  }));
+  // One colouring for all panels, as there is one legend.
+  if (sources.size() > 1 && style.colour == "auto") {
+    style.colour = chosen_colour(picture, std::vector{picture.order}, style.mark_defects);
+  }
   paint_to_file(options, style, picture, out_of(options, sources.front(), "picture.png"), watch);
 }
 
@@ -299,6 +308,7 @@ void make_movie_file(const Options& options) {
     style.height = request->height;
   }
   style = style_of(options, style);
+  if (sources.size() > 1 && options.out.empty()) throw Failure(ExitCode::kBadInput, "several runs need -o FILE");
   const std::string out = out_of(options, source, "movie.mp4");
   done_or_fail(check_movie_name(out), ExitCode::kBadInput);
   if (std::filesystem::path(out).extension() == ".mp4" && (style.width % 2 != 0 || style.height % 2 != 0)) {

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <string>
 
 #include "render/canvas.h"
 #include "render/layout.h"
@@ -33,6 +34,11 @@ Result<void> check(const PictureStyle& style, const RodPicture& picture) {
   if (auto done = render::check(style); !done) return done.error();
   if (!picture.beside.empty() && style.view == ViewPoint::kGap) {
     return Error{"several runs are drawn beside each other from above only, not with a look into the gap"};
+  }
+  constexpr int kLeastSide = 40;  // [pixels]
+  if (!picture.beside.empty() && panel_grid(style, 1 + picture.beside.size()).panels.front().box_side < kLeastSide) {
+    return Error{"there is no room for " + std::to_string(1 + picture.beside.size()) +
+                 " runs: make the picture larger"};
   }
   return {};
 }

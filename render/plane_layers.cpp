@@ -317,7 +317,8 @@ void draw_displacements(const Canvas& canvas, const Layout& layout, const RodPic
   for (std::size_t i = 0; i < picture.displacement.size(); ++i) {
     const Vec2 way = picture.displacement[i], middle = picture.position[i].head<2>() - way / 2;
     const double length = way.norm() * plane.scale();  // [pixels]
-    if (length < 1) continue;
+    // A way through many boxes would be drawn in many pieces, and shows nothing.
+    if (length < 1 || way.norm() > 3 * picture.box_side) continue;
     const double head = std::min(longest_head, length / 2);
     for_images(plane.view(), middle, way.norm() / 2 + longest_head / plane.scale(), [&](const Vec2& at) {
       const Vec2 tail = plane.pixel(at - way / 2), tip = plane.pixel(at + way / 2);

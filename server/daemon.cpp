@@ -257,10 +257,11 @@ void run_daemon(const DaemonConfig& config) {
   } while (!signals.wait(kRound));
 
   spdlog::info("stopping: workers write a checkpoint");
-  web.reset();
+  if (web) web->request_stop();
   control.close();
   stop_workers(supervisor, signals);
   publisher.reset();
+  web.reset();
   spdlog::info("stopped");
   if (!control.ended_within(kLastAnswers)) {
     // A client that keeps its connection busy must not keep the daemon up.

@@ -14,24 +14,29 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kLongestPause = 60s;
+constexpr auto kLongestWait = 60s;
 constexpr auto kRunsWell = 60s;  // after so long its next end is the first again
-constexpr auto kGrace = 3s;
+constexpr auto kEndsWithin = 3s;
 
 }  // namespace
 
 void WebProgram::wait_longer() {
-  pause_ = std::clamp<std::chrono::seconds>(2 * pause_, 1s, kLongestPause);
+  pause_ = std::clamp<std::chrono::seconds>(2 * pause_, 1s, kLongestWait);
   next_start_ = Clock::now() + pause_;
 }
 
 void WebProgram::check() {
+  if (is_ending_) return;
   if (pid_ != 0) {
     const std::optional<ProcessEnd> end = poll_child(pid_);
     if (!end) return;
     if (Clock::now() - started_ > kRunsWell) pause_ = 0s;
     wait_longer();
-    spdlog::error("shaken-web {}; the next start is in {} s", end->text(), pause_.count());
+    if (end->is_success()) {
+      spdlog::info("the page is served by another shaken-web; looking again in {} s", pause_.count());
+    } else {
+      spdlog::error("shaken-web {}; the next start is in {} s", end->text(), pause_.count());
+    }
     pid_ = 0;
   }
   if (Clock::now() < next_start_) return;
@@ -49,15 +54,19 @@ void WebProgram::check() {
   started_ = Clock::now();
 }
 
-void WebProgram::stop() {
+void WebProgram::request_stop() {
+  is_ending_ = true;
+  if (pid_ != 0) kill(pid_, SIGTERM);
+}
+
+WebProgram::~WebProgram() {
+  request_stop();
   if (pid_ == 0) return;
-  kill(pid_, SIGTERM);
-  const auto end = Clock::now() + kGrace;
+  const auto end = Clock::now() + kEndsWithin;
   while (!poll_child(pid_)) {
     if (Clock::now() > end) kill(pid_, SIGKILL);
     std::this_thread::sleep_for(10ms);
   }
-  pid_ = 0;
 }
 
 }  // namespace shaken::server

@@ -16,12 +16,13 @@ class WebProgram {
   explicit WebProgram(std::vector<std::string> command) : command_(std::move(command)) {}
   WebProgram(const WebProgram&) = delete;
   WebProgram& operator=(const WebProgram&) = delete;
-  ~WebProgram() { stop(); }
+  /// Ends it, by force after 3 s.
+  ~WebProgram();
 
   /// Starts it where it does not run and is to; to be called now and then.
   void check();
-  /// Ends it, by force after 3 s.
-  void stop();
+  /// Asks it to end, and starts it no more.
+  void request_stop();
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -29,6 +30,7 @@ class WebProgram {
 
   std::vector<std::string> command_;
   pid_t pid_ = 0;  ///< 0: it does not run
+  bool is_ending_ = false;
   Clock::time_point started_{}, next_start_{};
   std::chrono::seconds pause_{0};
 };

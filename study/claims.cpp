@@ -38,7 +38,7 @@ std::span<const Claim> paper_claims() {
       {"g-flattens", "5", "g(r) flattens sooner along the director than across it", g_flattens, Reach::kEitherWay,
        "the paper's sentence is not consistent in itself; this is its main clause"},
       {"splay-bend", "elasticity", "Splay costs more than bend, K₁ > K₃", splay_stiffer_than_bend, Reach::kEitherWay,
-       "the paper concludes it from G₂ falling faster across the director; in linear theory, ⟨|δθ|²⟩ ~ 1/(K₁q_across² "
+       "the paper concludes it from G₂ falling faster across the director; in linear theory, ⟨δθ²⟩ ~ 1/(K₁q_across² "
        "+ K₃q_along²), that means the reverse, K₁ < K₃"},
 
       {"layers", "6", "Layers at ±θ_m, about 10°, for ℓ = 4.5 mm from 0.80 on, and none at 0.75", layers_when_dense},

@@ -12,7 +12,7 @@ server::Reply DaemonLink::ask(const server::Request& request) const {
   httplib::Client daemon(socket.string());
   daemon.set_address_family(AF_UNIX);
   daemon.set_connection_timeout(2);
-  daemon.set_read_timeout(50);  // what is asked waits for the disk at times
+  daemon.set_read_timeout(patience_);
   httplib::Params query;
   for (const auto& [name, value] : request.query) query.emplace(name, value);
   const httplib::Result answer = request.method == "POST" ? daemon.Post(request.path, request.body, "application/json")

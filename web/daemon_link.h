@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <filesystem>
+#include <string>
+#include <utility>
 
 #include "server/http/http_server.h"
 #include "sim/core/result.h"
@@ -11,7 +14,9 @@ namespace shaken::web {
 /// Hands requests on to the daemon of a root directory, by its socket, and its answers back as they are.
 class DaemonLink {
  public:
-  explicit DaemonLink(const std::filesystem::path& root) : root_(root) {}
+  /// `patience`: how long an answer may take; what is asked waits for the disk at times.
+  explicit DaemonLink(std::filesystem::path root, std::chrono::seconds patience = std::chrono::seconds(50))
+      : root_(std::move(root)), patience_(patience) {}
   /// The daemon's answer; 503 with the reason if there is none. May be called from many threads at once.
   server::Reply ask(const server::Request& request) const;
   /// The body of GET `path`, or why there is none.
@@ -19,6 +24,7 @@ class DaemonLink {
 
  private:
   std::filesystem::path root_;
+  std::chrono::seconds patience_;
 };
 
 }  // namespace shaken::web

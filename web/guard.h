@@ -1,33 +1,32 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "server/http/http_server.h"
 
 namespace shaken::web {
 
-/// Decides who sees the page. Every user of the machine, and every web site that its browser has open, can send
-/// requests to a port of 127.0.0.1; the token is what they do not know.
+/// Decides who is answered. Every user of the machine, and every web site that its browser has open, can send requests
+/// to a port of 127.0.0.1; the token is what they do not know. The page carries it in a header of each request, not in
+/// a cookie: browsers send cookies to every port of a machine.
 class Guard {
  public:
-  Guard(std::string token, int port);
+  Guard(std::string token, int port) : token_(std::move(token)), port_(port) {}
 
-  /// What to answer in place of what was asked for; nothing if the request may pass. It must
+  /// Why a request is not answered, as of its head; nothing if it may pass. It must
   /// - be addressed to 127.0.0.1 or localhost and this port: a name that a web site makes point here is refused (403);
   /// - come from this page, or from no page, if it changes something (403);
-  /// - carry the token: in the cookie that the page's address has left, or as "Authorization: Bearer TOKEN" (401).
-  /// "/?token=TOKEN" is answered with that cookie, and with the address without the token (303).
-  std::optional<server::Reply> stop(const server::Request& request) const;
+  /// - carry "Authorization: Bearer TOKEN" (401), but for the page's own files, which anybody may read, and for what a
+  ///   ticket (web/tickets.h) has been given for.
+  std::optional<server::TurnedAway> stop(const server::Request& head) const;
 
-  /// What to open in a browser.
+  /// What to open in a browser. The token is in a part of it that is not sent.
   std::string address() const;
 
  private:
   bool is_host(const std::string& host) const;
-  bool knows_token(const server::Request& request) const;
-  /// Cookies are shared by all ports of a machine, so its name has the port.
-  std::string cookie_name() const { return "shaken_" + std::to_string(port_); }
 
   std::string token_;
   int port_;

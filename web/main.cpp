@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <future>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -15,7 +16,7 @@
 #include "base/paths.h"
 #include "run/files/version.h"
 #include "web/guard.h"
-#include "web/served.h"
+#include "web/served_page.h"
 #include "web/site.h"
 #include "web/token.h"
 
@@ -55,37 +56,41 @@ std::unique_ptr<proto::Bus> open_bus(const web::DaemonLink& daemon, std::string 
 }
 
 void serve(const std::filesystem::path& root, int port, const std::string& lcm_url, bool no_lcm) {
-  const std::string token = value_or_fail(web::read_or_make_token(root));
+  Result<web::ServedPage> page = web::ServedPage::claim(root);
+  if (!page) {
+    const auto address = web::served_address(root);
+    if (!address)
+      throw Failure(ExitCode::kFailed, "cannot serve the page of " + root.string() + ": " + page.error().message);
+    std::printf("open %s\nit is served already\n", address->c_str());
+    return;
+  }
   web::SiteSetup setup{.root = root, .page = shipped_page()};
   if (!no_lcm) setup.bus = open_bus(web::DaemonLink(root), lcm_url);
   if (!std::filesystem::exists(setup.chart_library)) {
     throw Failure(ExitCode::kFailed, "there is no " + setup.chart_library.string() +
                                          ", which draws the curves: apt-get install libjs-chart.js");
   }
-  if (port != 0 && web::is_served(root, port, token)) {
-    std::printf("open %s\nit is served already\n", web::Guard(token, port).address().c_str());
-    return;
-  }
+  const std::string token = value_or_fail(web::make_token());
   web::Site site(std::move(setup));
   const InterruptGuard interrupt;
-  const web::Guard* guard = nullptr;
-  std::mutex guard_is_made;
-  std::unique_lock making(guard_is_made);  // requests wait until the port is known
-  server::HttpServer server(port, [&](const server::Request& request) {
-    { const std::lock_guard made(guard_is_made); }
-    if (std::optional<server::Reply> stopped = guard->stop(request)) return std::move(*stopped);
-    return site.answer(request);
-  });
-  const web::Guard made(token, server.port());
-  guard = &made;
-  making.unlock();
-  std::printf("open %s\n", made.address().c_str());
+  std::promise<web::Guard> promised;  // requests wait until the port is known
+  const std::shared_future<web::Guard> guard = promised.get_future();
+  server::HttpServer server(
+      port, [&](const server::Request& head) { return guard.get().stop(head); },
+      [&](const server::Request& request) { return site.answer(request); });
+  promised.set_value(web::Guard(token, server.port()));
+  const std::string address = guard.get().address();
+  done_or_fail(page->announce(address));
+  std::printf("open %s\n", address.c_str());
   std::fflush(stdout);
   while (!interrupt.interrupted()) interrupt.sleep_for(std::chrono::seconds(1));
   site.close();
   server.close();
   // A browser that does not take its answer must not keep this program up.
-  if (!server.ended_within(std::chrono::milliseconds(2000))) std::_Exit(EXIT_SUCCESS);
+  if (!server.ended_within(std::chrono::milliseconds(2000))) {
+    { const web::ServedPage last = std::move(*page); }
+    std::_Exit(EXIT_SUCCESS);
+  }
 }
 
 }  // namespace

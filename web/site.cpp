@@ -144,9 +144,13 @@ std::optional<std::size_t> index_of(const std::string& text) {
 
 }  // namespace
 
-Site::Site(SiteSetup setup) : setup_(std::move(setup)), daemon_(setup_.root), runs_(setup_.root / "runs") {
+Site::Site(SiteSetup setup)
+    : setup_(std::move(setup)),
+      daemon_(setup_.root),
+      looks_(setup_.root, std::chrono::seconds(2)),
+      runs_(setup_.root / "runs") {
   if (setup_.bus) live_.emplace(std::move(setup_.bus));
-  queue_.emplace(daemon_, [this](const std::set<std::string>& running) {
+  queue_.emplace(looks_, [this](const std::set<std::string>& running) {
     if (live_) live_->keep(running);
   });
 }
@@ -176,6 +180,7 @@ Reply Site::routed(const Request& request) {
   const std::string first = parts.empty() ? "" : parts.front();
   const bool reads = request.method == "GET" || request.method == "HEAD";
   if (first == "v1" && (reads || request.method == "POST")) return daemon_.ask(request);
+  if (parts == std::vector<std::string>{"tickets"} && request.method == "POST") return ticket(request);
   if (!reads) return refusal(405, request.path + " can only be read");
   if (parts.empty()) return page_file("index.html");
   if (first == "page" && parts.size() == 2) {
@@ -184,52 +189,62 @@ Reply Site::routed(const Request& request) {
   }
   if (parts == std::vector<std::string>{"chart.js"}) return file_reply(setup_.chart_library);
   if (parts == std::vector<std::string>{"palettes.json"}) return json_reply(palettes());
-  if (parts == std::vector<std::string>{"live"}) return queue_events();
-  if (parts.size() >= 2 && (first == "live" || first == "runs")) {
-    if (!RecordedRuns::is_id(parts[1])) return refusal(404, "no run has the id " + parts[1]);
-    if (first == "runs") return of_run(parts[1], {parts.begin() + 2, parts.end()}, request);
-    if (parts.size() == 2) return run_events(parts[1]);
+  if (first == "tickets" && parts.size() == 2) {
+    const std::optional<Request> meant = tickets_.take(parts[1]);
+    return meant ? routed(*meant) : refusal(404, "this ticket has been used, or is over a minute old");
+  }
+  const std::string run = first == "live" ? request.parameter("run") : parts.size() > 1 ? parts[1] : "";
+  if (first == "live" || first == "runs") {
+    const bool is_queue_only = first == "live" && run.empty();
+    if (!is_queue_only && !RecordedRuns::is_id(run)) return refusal(404, "no run has the id " + run);
+    if (parts == std::vector<std::string>{"live"}) return events(run);
+    if (first == "runs") return of_run(run, {parts.begin() + 2, parts.end()}, request);
   }
   return refusal(404, "no such path: " + request.path + "; see docs/web.md");
 }
 
 Reply Site::page_file(const std::string& name) const { return file_reply(setup_.page / name); }
 
-Reply Site::queue_events() {
+Reply Site::events(const std::string& run) {
+  struct Progress {
+    std::int64_t queue = 0;
+    LiveSeen run;
+    bool has_begun = false;
+    Clock::time_point next_frame, end;
+  };
+  const bool is_live = !run.empty() && live_;
+  Progress begin;
+  begin.next_frame = Clock::now();
+  begin.end = begin.next_frame + kStream;
   Reply reply{.status = 200, .body = "", .type = "text/event-stream"};
-  reply.stream = [this, seen = std::int64_t{0}, end = Clock::now() + kStream]() mutable -> std::optional<std::string> {
-    if (is_closing_ || Clock::now() > end) return std::nullopt;
-    const std::optional<std::string> queue = queue_->wait(seen, kHeartbeat);
-    return queue ? event("queue", *queue) : ":\n\n";
+  reply.stream = [this, run, is_live, progress = begin]() mutable -> std::optional<std::string> {
+    if (is_closing_ || Clock::now() > progress.end) return std::nullopt;
+    std::string events;
+    if (is_live && !std::exchange(progress.has_begun, true)) {
+      const client::History order = live_->order(run);
+      events += event("order", text_of({{"time_s", order.times()}, {"order", order.values()}}));
+    }
+    if (is_live) {
+      std::this_thread::sleep_until(progress.next_frame);
+      progress.next_frame = Clock::now() + kFrame;
+      const LiveNews news = live_->wait(run, progress.run, kHeartbeat);
+      if (news.observables) events += event("observables", text_of(observables_json(*news.observables)));
+      if (news.defects) events += event("defects", text_of(defects_json(*news.defects)));
+      if (news.frame) events += event("frame", base64(packed(*news.frame)));
+    }
+    const auto queue = queue_->wait(progress.queue, is_live ? std::chrono::milliseconds(0) : kHeartbeat);
+    if (queue) events += event("queue", *queue);
+    return events.empty() ? ":\n\n" : events;
   };
   return reply;
 }
 
-Reply Site::run_events(const std::string& run) {
-  if (!live_) return refusal(503, "nothing is live: LCM is off or cannot be reached");
-  Reply reply{.status = 200, .body = "", .type = "text/event-stream"};
-  struct Progress {
-    LiveSeen seen;
-    bool has_begun = false;
-    Clock::time_point next_frame, end;
-  };
-  const Progress begin{{}, false, Clock::now(), Clock::now() + kStream};
-  reply.stream = [this, run, progress = begin]() mutable -> std::optional<std::string> {
-    if (is_closing_ || Clock::now() > progress.end) return std::nullopt;
-    if (!std::exchange(progress.has_begun, true)) {
-      const client::History order = live_->order(run);
-      return "retry: 200\n\n" + event("order", text_of({{"time_s", order.times()}, {"order", order.values()}}));
-    }
-    std::this_thread::sleep_until(progress.next_frame);
-    progress.next_frame = Clock::now() + kFrame;
-    const LiveNews news = live_->wait(run, progress.seen, kHeartbeat);
-    std::string events;
-    if (news.observables) events += event("observables", text_of(observables_json(*news.observables)));
-    if (news.defects) events += event("defects", text_of(defects_json(*news.defects)));
-    if (news.frame) events += event("frame", base64(packed(*news.frame)));
-    return events.empty() ? ":\n\n" : events;
-  };
-  return reply;
+Reply Site::ticket(const Request& request) {
+  const std::vector<std::string> parts = parts_of(request.parameter("path"));
+  if (parts.size() < 3 || parts[0] != "runs") return refusal(400, "tickets are for files and pictures of runs");
+  std::multimap<std::string, std::string> query = request.query;
+  query.erase("path");
+  return json_reply({{"ticket", tickets_.give(request.parameter("path"), query)}});
 }
 
 Reply Site::of_run(const std::string& run, const std::vector<std::string>& rest, const Request& request) {
@@ -310,7 +325,7 @@ Reply Site::picture(const std::string& run, const std::string& frame, const std:
   if (drawn.exit_code != 0) return refusal(500, "shaken-render: " + drawn.output);
   Reply reply = file_reply(png);
   reply.headers.emplace_back("Content-Disposition",
-                             "inline; filename=\"" + run + "-" + std::to_string(*index) + ".png\"");
+                             "attachment; filename=\"" + run + "-" + std::to_string(*index) + ".png\"");
   return reply;
 }
 

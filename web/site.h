@@ -14,6 +14,7 @@
 #include "web/live_feed.h"
 #include "web/queue_feed.h"
 #include "web/recorded_run.h"
+#include "web/tickets.h"
 
 namespace shaken::web {
 
@@ -38,8 +39,9 @@ class Site {
  private:
   server::Reply routed(const server::Request& request);
   server::Reply page_file(const std::string& name) const;
-  server::Reply queue_events();
-  server::Reply run_events(const std::string& run);
+  /// Of the queue, and of a run if one is named.
+  server::Reply events(const std::string& run);
+  server::Reply ticket(const server::Request& request);
   server::Reply of_run(const std::string& run, const std::vector<std::string>& rest, const server::Request& request);
   server::Reply curves(const std::string& run, const server::Request& request);
   server::Reply file(const std::string& run, const std::string& name) const;
@@ -47,9 +49,11 @@ class Site {
 
   SiteSetup setup_;
   DaemonLink daemon_;
+  DaemonLink looks_;  ///< for the queue's feed, whose end must not wait long
   RecordedRuns runs_;
   std::optional<LiveFeed> live_;
   std::atomic<bool> is_closing_ = false;
+  Tickets tickets_;
   std::mutex drawing_;              ///< one picture at a time: the cores are the runs'
   std::optional<QueueFeed> queue_;  ///< the last: its thread uses the others
 };

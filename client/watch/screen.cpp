@@ -148,14 +148,14 @@ std::vector<std::string> number_lines(const LiveJob& job, const Console& console
 }
 
 void put_numbers(const LiveJob& job, const Console& console, const Area& area, CellGrid& grid) {
-  static constexpr int kFewestChartLines = 5;
+  static constexpr int kLeastChartLines = 5;
   static constexpr int kMostChartLines = 16;
   const auto put = [&](int line, const std::string& text) {
     grid.put(area.column, area.line + line, fitted(text, static_cast<std::size_t>(area.columns)), area.columns);
   };
   const std::vector<std::string> lines = number_lines(job, console);
   // Where there is room for a second column, as under a picture, the chart stands there.
-  const bool has_side_chart = area.columns >= 72 && area.lines < static_cast<int>(lines.size()) + 1 + kFewestChartLines;
+  const bool has_side_chart = area.columns >= 72 && area.lines < static_cast<int>(lines.size()) + 1 + kLeastChartLines;
   int n = 0;
   for (const std::string& line : lines) {
     if (n < area.lines) put(n++, line);
@@ -164,7 +164,7 @@ void put_numbers(const LiveJob& job, const Console& console, const Area& area, C
                          .height = std::min(kMostChartLines, has_side_chart ? area.lines : area.lines - n - 1),
                          .x_max = std::max(job.sim_time, 1e-3),
                          .x_unit = "s   S(t)"};
-  if (frame.height < kFewestChartLines) return;
+  if (frame.height < kLeastChartLines) return;
   const int first = has_side_chart ? 0 : n + 1;
   const int indent = has_side_chart ? 36 : 0;
   int i = 0;

@@ -146,7 +146,9 @@ ssize_t HttpConnection::read(char* bytes, std::size_t size) {
 ssize_t HttpConnection::write(const char* bytes, std::size_t size) {
   if (!answer_end_) answer_end_ = Clock::now() + kAnswer;
   if (!is_writable()) return -1;
-  return send(socket(), bytes, size, MSG_NOSIGNAL | MSG_DONTWAIT);
+  const ssize_t n = send(socket(), bytes, size, MSG_NOSIGNAL | MSG_DONTWAIT);
+  if (n > 0) *answer_end_ += std::chrono::microseconds(1'000'000 * n / static_cast<ssize_t>(kBytesPerSecond));
+  return n;
 }
 
 }  // namespace shaken::server

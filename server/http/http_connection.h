@@ -29,8 +29,9 @@ class HttpConnection final : public httplib::Stream {
  public:
   /// How long a connection may be silent between two requests, and before the first.
   static constexpr std::chrono::seconds kIdle{1};
-  /// From the first to the last byte of an answer.
+  /// From the first to the last byte of an answer; and a second more for so many bytes that the client has taken.
   static constexpr std::chrono::seconds kAnswer{60};
+  static constexpr std::size_t kBytesPerSecond = 100'000;
 
   explicit HttpConnection(int socket) : socket_(socket) {}
   /// Closes. What the client is still sending is read first, for a while: it would not see its answer otherwise.

@@ -112,6 +112,7 @@ class BoundedServer final : public httplib::Server {
  public:
   /// Whether only this process's user and root are answered: a Unix socket knows who connects.
   bool is_private = true;
+  HttpServer::Gate gate;  ///< none: all may pass
 
  private:
   bool process_and_close_socket(socket_t socket) override {
@@ -120,7 +121,11 @@ class BoundedServer final : public httplib::Server {
       if (is_private && !connection.is_of_own_user()) {
         throw UnreadableRequest(403, "this daemon belongs to another user: start one of your own with shakend");
       }
-      const auto head_ended = [&connection](httplib::Request& request) {
+      const auto head_ended = [this, &connection](httplib::Request& request) {
+        if (gate) {
+          const auto refusal = gate({request.method, request.path, request.params, "", in_lower_case(request.headers)});
+          if (refusal) throw UnreadableRequest(refusal->status, refusal->reason);
+        }
         connection.head_ended(request);
         // A range may be asked for again and again in one request: its answer would be of any size.
         request.ranges.clear();
@@ -150,7 +155,8 @@ struct HttpServer::Impl {
     bind();
     start();
   }
-  Impl(int wanted_port, Handler handler) {
+  Impl(int wanted_port, Gate gate, Handler handler) {
+    server.gate = std::move(gate);
     set_up(std::move(handler));
     bind(wanted_port);
     start();
@@ -255,7 +261,8 @@ struct HttpServer::Impl {
 HttpServer::HttpServer(std::filesystem::path socket, Handler handler)
     : impl_(std::make_unique<Impl>(std::move(socket), std::move(handler))) {}
 
-HttpServer::HttpServer(int port, Handler handler) : impl_(std::make_unique<Impl>(port, std::move(handler))) {}
+HttpServer::HttpServer(int port, Gate gate, Handler handler)
+    : impl_(std::make_unique<Impl>(port, std::move(gate), std::move(handler))) {}
 
 HttpServer::~HttpServer() { close(); }
 

@@ -26,6 +26,12 @@ struct Request {
   std::string parameter(const std::string& name) const;
 };
 
+/// Why a request is not answered: the status, and a sentence without characters that JSON escapes.
+struct TurnedAway {
+  int status = 403;
+  std::string reason;
+};
+
 /// What is answered.
 struct Reply {
   int status = 200;
@@ -49,9 +55,11 @@ class HttpServer {
   /// file that is there already is replaced: the caller holds the directory's lock. Throws Failure with the reason if
   /// the socket cannot be made.
   HttpServer(std::filesystem::path socket, Handler handler);
+  /// Looks at a request when only its head is there; a request that it refuses has no body read.
+  using Gate = std::function<std::optional<TurnedAway>(const Request& head)>;
   /// The same on a port of 127.0.0.1 (0: any that is free), where every user of this machine may ask. Throws Failure if
   /// the port is taken.
-  HttpServer(int port, Handler handler);
+  HttpServer(int port, Gate gate, Handler handler);
   /// Waits for every connection to end.
   ~HttpServer();
   /// Of 127.0.0.1.

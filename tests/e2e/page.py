@@ -5,6 +5,7 @@ usage: page.py ADDRESS SCREENSHOT [--live]
 ADDRESS is what shaken-web prints. A sweep "waits" of one held job that takes long must be there; the rest is submitted here. With --live
 the bus must work. Exits 1 at the first thing that is wrong; the screenshot shows the end."""
 import json
+import os
 import shutil
 import signal
 import sys
@@ -25,8 +26,9 @@ SWEEP = json.dumps({
 PATIENCE = 90  # s
 
 
-def browser(profile):
+def browser(profile, downloads):
     options = Options()
+    options.add_experimental_option("prefs", {"download.default_directory": downloads})
     options.binary_location = "/usr/bin/chromium"
     for word in ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--use-angle=swiftshader",
                  "--enable-unsafe-swiftshader", "--window-size=1600,1300", "--user-data-dir=" + profile]:
@@ -57,16 +59,18 @@ def main(address, screenshot, live):
     signal.signal(signal.SIGALRM, lambda *_: sys.exit("the page takes too long"))
     signal.alarm(220)
     profile = tempfile.mkdtemp(prefix="shaken-page.")
-    page = browser(profile)
+    downloads = os.path.join(profile, "downloads")
+    os.mkdir(downloads)
+    page = browser(profile, downloads)
     try:
-        use(page, address, live)
+        use(page, address, live, downloads)
     finally:
         page.save_screenshot(screenshot)
         page.quit()
         shutil.rmtree(profile, ignore_errors=True)
 
 
-def use(page, address, live):
+def use(page, address, live, downloads):
     def find(css):
         return page.find_element(By.CSS_SELECTOR, css)
 
@@ -85,12 +89,18 @@ def use(page, address, live):
             for (let i = 0; i < pixels.length; i += 64) seen.add(pixels[i] << 16 | pixels[i + 1] << 8 | pixels[i + 2]);
             return seen.size;""")
 
-    root = address.split("?")[0]
+    def click(css_rows, state, which=0):
+        """Clicks a row of the table of jobs, which may be replaced meanwhile."""
+        eventually(lambda: (css_rows(state)[which].click(), True)[1], f"a job that is {state} is clicked")
+
+    root = address.split("#")[0]
     page.get(root)
-    check("token" in page.page_source and "Sweeps" not in page.page_source, "without the token there is no page")
-    page.get(root + "?token=" + 32 * "0")
-    check("not, or no longer, the right one" in page.page_source, "a wrong token is refused")
+    eventually(lambda: "shaken web" in text("#daemon"), "without the token nothing is seen but what to do")
+    page.get("about:blank")
+    page.get(root + "#token=" + 32 * "0")
+    eventually(lambda: "shaken web" in text("#daemon"), "a wrong token is refused")
     page.get_log("browser")  # these two are errors on purpose
+    page.get("about:blank")
 
     page.get(address)
     eventually(lambda: "shakend" in text("#daemon"), "the daemon is there")
@@ -118,7 +128,7 @@ def use(page, address, live):
     check(page.execute_script("return Chart.getChart('map').options.scales.y.title.text") == "order.mean",
           "against one parameter, the value goes up")
 
-    rows("done")[1].click()
+    click(rows, "done", 1)
     eventually(lambda: "t = 3.000 s" in text("#run-facts"), "a finished run shows its last frame")
     check(page.execute_script("return Chart.getChart('order-chart').data.datasets[0].data.length") > 100, "S(t) is drawn")
     check(page.execute_script("return Chart.getChart('angle-chart').data.datasets[0].data.length") > 10, "P(theta) is drawn")
@@ -135,15 +145,20 @@ def use(page, address, live):
     check("summary.json" in text("#files") and "trajectory.h5" in text("#files"), "its files can be saved")
     picture = page.execute_async_script("""
         const done = arguments[arguments.length - 1];
-        fetch(document.getElementById("draw").href).then(async (answer) =>
-            done([answer.status, answer.headers.get("Content-Type"), (await answer.arrayBuffer()).byteLength]));""")
+        import("/page/dom.js").then(async ({fetched}) => {
+          const run = new URLSearchParams(location.hash.slice(1)).get("run");
+          const answer = await fetched(`/runs/${run}/picture?frame=0`);
+          done([answer.status, answer.headers.get("Content-Type"), (await answer.arrayBuffer()).byteLength]);
+        });""")
     check(picture[0] == 200 and picture[1] == "image/png" and picture[2] > 10000, f"a frame is drawn as a PNG: {picture}")
+    [button for button in page.find_elements(By.CSS_SELECTOR, "#files button") if button.text == "summary.json"][0].click()
+    eventually(lambda: any(name.endswith("-summary.json") for name in os.listdir(downloads)), "a file is saved")
 
     [button for button in page.find_elements(By.CSS_SELECTOR, "button.sweep") if "waits" in button.text][0].click()
     eventually(lambda: rows("held"), "the other sweep's job is held")
     find("#sweep-actions [data-action=resume]").click()
     eventually(lambda: rows("running"), "it runs after a click")
-    rows("running")[0].click()
+    click(rows, "running")
     if live:
         before = page.execute_script("return window.shakenRods.framesDrawn")
         eventually(lambda: page.execute_script("return window.shakenRods.framesDrawn") > before + 10, "live frames are drawn")

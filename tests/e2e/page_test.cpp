@@ -29,7 +29,7 @@ TEST(Page, IsUsedInABrowser) {
   std::vector<std::string> command{program("shakend"), "--root", root, "--slots", "2", "--web", "--web-port", "0"};
   if (!live) command.emplace_back("--no-lcm");
   Process daemon(command, folder.path() / "daemon.log");
-  ASSERT_TRUE(daemon.wait_for("?token=", 20s)) << daemon.output();
+  ASSERT_TRUE(daemon.wait_for("#token=", 20s)) << daemon.output();
   const std::string address = address_in(daemon.output());
 
   std::ofstream(folder.path() / "waits.json")
@@ -46,7 +46,7 @@ TEST(Page, IsUsedInABrowser) {
   EXPECT_EQ(used.code, 0) << used.output << "\nsee " << screenshot << "\n" << daemon.output();
 
   // `shaken web` finds the one that runs: same token, same daemon.
-  const std::string port = address.substr(address.rfind(':') + 1, address.find("/?") - address.rfind(':') - 1);
+  const std::string port = address.substr(address.rfind(':') + 1, address.find("/#") - address.rfind(':') - 1);
   const Finished again = run_command({program("shaken"), "--root", root, "web", "--port", port});
   EXPECT_EQ(again.code, 0) << again.output;
   EXPECT_THAT(again.output, HasSubstr("open " + address));
@@ -59,7 +59,7 @@ TEST(Page, IsStartedAgainWhereItEnds) {
   const TemporaryDirectory folder;
   const std::string root = (folder.path() / "root").string();
   Process daemon({program("shakend"), "--root", root, "--no-lcm", "--web", "--web-port", "0"}, folder.path() / "log");
-  ASSERT_TRUE(daemon.wait_for("?token=", 20s)) << daemon.output();
+  ASSERT_TRUE(daemon.wait_for("#token=", 20s)) << daemon.output();
   const std::string first = address_in(daemon.output());
   ASSERT_EQ(run_command({"/usr/bin/pkill", "-KILL", "-P", std::to_string(daemon.pid()), "shaken-web"}).code, 0);
   ASSERT_TRUE(daemon.wait_for("shaken-web was ended by signal 9", 20s)) << daemon.output();

@@ -23,16 +23,93 @@ export function complain(message) {
   hideComplaint = setTimeout(() => { place.hidden = true; }, 8000);
 }
 
+// The token comes in the part of the address that is not sent, and is kept for this page only. Each request carries it.
+const inAddress = new URLSearchParams(location.hash.slice(1));
+if (inAddress.has("token")) {
+  localStorage.setItem("token", inAddress.get("token"));
+  inAddress.delete("token");
+  history.replaceState(null, "", `#${inAddress}`);
+}
+
+/** fetch() as one who may. */
+export function fetched(path, options = {}) {
+  const token = localStorage.getItem("token") ?? "";
+  return fetch(path, {...options, headers: {...options.headers, Authorization: `Bearer ${token}`}});
+}
+
 /** What the server answers, as JSON. Throws an Error with the server's own words, and with `problems` if it lists any. */
 export async function ask(path, body) {
   const request = body === undefined ? {} :
     {method: "POST", headers: {"Content-Type": "application/json"}, body: JSON.stringify(body)};
-  const response = await fetch(path, request);
+  const response = await fetched(path, request);
   const text = await response.text();
   let answer;
   try { answer = JSON.parse(text); } catch { answer = {error: text.trim() || `status ${response.status}`}; }
   if (!response.ok) throw Object.assign(new Error(answer.error), {problems: answer.problems ?? [], status: response.status});
   return answer;
+}
+
+/** Has the browser save what GET `path` answers. */
+export async function save(path) {
+  try {
+    const [plain, query] = path.split("?");
+    const {ticket} = await ask(`/tickets?path=${encodeURIComponent(plain)}${query ? `&${query}` : ""}`, {});
+    location.assign(`/tickets/${ticket}`);
+  } catch (problem) {
+    complain(problem.message);
+  }
+}
+
+/**
+ * Server-sent events of `path`, for as long as the page is seen: heard(name, data) for each, failed(message) where there
+ * are none for a while. (The browser's own EventSource cannot carry a token.) Returns what ends it.
+ */
+export function listen(path, heard, failed) {
+  let ended = false, request = null;
+  const once = async () => {
+    request = new AbortController();
+    const response = await fetched(path, {signal: request.signal});
+    if (!response.ok) throw new Error((await response.json()).error);
+    const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
+    for (let rest = ""; ;) {
+      const {value, done} = await reader.read();
+      if (done || ended) return;
+      const events = (rest + value).split("\n\n");
+      rest = events.pop();
+      for (const event of events) {
+        const [, name, data] = event.match(/^event: (\w+)\ndata: (.*)$/s) ?? [];
+        if (name) heard(name, data);
+      }
+    }
+  };
+  const wait = (ms) => new Promise((done) => setTimeout(done, ms));
+  const shown = () => (document.hidden ? new Promise((done) => document.addEventListener("visibilitychange", done, {once: true})) : null);
+  const hide = () => { if (document.hidden) request?.abort(); };
+  document.addEventListener("visibilitychange", hide);
+  (async () => {
+    while (!ended) {
+      await shown();
+      try { await once(); } catch (problem) {
+        if (ended) return;
+        if (!document.hidden) {
+          failed(problem instanceof TypeError ? "shaken-web answers no more: start it again" : problem.message);
+          await wait(2000);
+        }
+      }
+    }
+  })();
+  return () => {
+    ended = true;
+    request?.abort();
+    document.removeEventListener("visibilitychange", hide);
+  };
+}
+
+/** Puts new children in only where they say something else: what is pressed or open stays so. */
+export function replaceIfOther(place, stamp, children) {
+  if (place.shownStamp === stamp) return;
+  place.shownStamp = stamp;
+  place.replaceChildren(...children());
 }
 
 /** Seconds as people say them. */

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The chosen sweep: its jobs, and its phase diagram, which fills in as runs finish.
-import {ask, byId, complain, make, number} from "/page/dom.js";
+import {ask, byId, complain, make, number, replaceIfOther} from "/page/dom.js";
 import {actionButtons, countsText} from "/page/queue.js";
 import {PointMap, sequential, strip} from "/page/charts.js";
 
@@ -41,6 +41,9 @@ export class SweepPanel {
       this.jobs = [];
       this.seen = "";
       this.axes = {x: "", y: "", value: ""};
+      byId("sweep-title").textContent = id ? `Sweep ${id}` : "Choose a sweep";
+      for (const place of ["sweep-actions", "map-choices", "map-scale"]) replaceIfOther(byId(place), "", () => []);
+      this.map.set([], "", "");
       if (this.sweeps) this.note(this.sweeps, [...this.running.values()]);
     }
     this.drawTable();
@@ -57,7 +60,7 @@ export class SweepPanel {
     const stamp = JSON.stringify([sweep.id, sweep.counts]);
     if (stamp !== this.seen) {
       this.seen = stamp;
-      byId("sweep-actions").replaceChildren(...actionButtons(`/v1/sweeps/${sweep.id}`, states));
+      replaceIfOther(byId("sweep-actions"), `${sweep.id} ${[...states]}`, () => actionButtons(`/v1/sweeps/${sweep.id}`, states));
       this.load(sweep);
     } else {
       this.drawTable();
@@ -65,10 +68,11 @@ export class SweepPanel {
   }
 
   async load(sweep) {
+    const number = this.loads = (this.loads ?? 0) + 1;  // a later one is not written over
     try {
       const {jobs} = await ask(`/v1/sweeps/${sweep.id}`);
       const rows = sweep.n_jobs <= kMostResults ? (await ask(`/v1/results?sweep=${sweep.id}`)).rows : [];
-      if (sweep.id !== this.id) return;
+      if (sweep.id !== this.id || number !== this.loads) return;
       this.jobs = jobs;
       this.rows = rows.map((row) => ({...row, values: leaves(row.summary)}));
       byId("map-note").textContent = sweep.n_jobs > kMostResults ?
@@ -102,9 +106,9 @@ export class SweepPanel {
     const select = (name, title, words) => make("label", {}, `${title} `, make("select", {
       id: `map-${name}`, onchange: (event) => { axes[name] = event.target.value; this.drawMap(); },
     }, ...words.map((word) => make("option", {value: word, selected: word === axes[name]}, word || "the value"))));
-    byId("map-choices").replaceChildren(
+    replaceIfOther(byId("map-choices"), JSON.stringify([swept, sorted(measured)]), () => [
       ...(swept.length ? [select("x", "Across", swept), select("y", "Up", ["", ...swept]),
-                          select("value", "Colour", sorted(measured))] : []));
+                          select("value", "Colour", sorted(measured))] : [])]);
   }
 
   /** Jobs at the same place are replicas: their mean is shown. */
@@ -137,19 +141,30 @@ export class SweepPanel {
     this.map.set(points, x, y || value);
     const bar = make("canvas");
     strip(bar, sequential);
+    byId("map-scale").shownStamp = undefined;
     byId("map-scale").replaceChildren(...(means.length && y ? [`${value}: ${number(low)}`, bar, number(high)] : []));
   }
 
   drawTable() {
-    const rows = this.jobs.slice(0, kMostRows).map((old) => {
-      const job = this.running.get(old.id) ?? old;
+    const jobs = this.jobs.slice(0, kMostRows).map((old) => this.running.get(old.id) ?? old);
+    // Rows stay: one that is being clicked must not be replaced.
+    const body = byId("jobs");
+    if (body.children.length !== jobs.length) body.replaceChildren(...jobs.map(() => make("tr")));
+    jobs.forEach((job, i) => {
       const done = job.progress && job.state !== "done" && job.progress.sim_time_total_s > 0 ?
         ` ${Math.floor(100 * job.progress.sim_time_s / job.progress.sim_time_total_s)} %` : "";
-      return make("tr", {"data-job": job.id, "aria-selected": String(job.id === this.run), title: job.reason || job.label,
-                         onclick: () => this.chooseRun(job.id)},
-        make("td", {}, job.id.slice(0, 8)), make("td", {}, job.state + done), make("td", {}, job.label),
-        make("td", {}, ...actionButtons(`/v1/jobs/${job.id}`, new Set([job.state]))));
+      const row = body.children[i], state = job.state + done;
+      row.setAttribute("aria-selected", String(job.id === this.run));
+      row.title = job.reason || job.label;
+      row.onclick = () => this.chooseRun(job.id);
+      if (row.dataset.job === job.id && row.dataset.state === job.state) {
+        row.children[1].textContent = state;
+        return;
+      }
+      row.dataset.job = job.id;
+      row.dataset.state = job.state;
+      row.replaceChildren(make("td", {}, job.id.slice(0, 8)), make("td", {}, state), make("td", {}, job.label),
+                          make("td", {}, ...actionButtons(`/v1/jobs/${job.id}`, new Set([job.state]))));
     });
-    byId("jobs").replaceChildren(...rows);
   }
 }

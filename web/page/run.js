@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The chosen run: its rods, live or recorded, S(t), P(theta) and its files.
-import {ask, byId, bytes, complain, duration, make, number} from "/page/dom.js";
+import {ask, byId, bytes, complain, duration, fetched, make, number, replaceIfOther, save} from "/page/dom.js";
 import {actionButtons} from "/page/queue.js";
 import {Curve, strip} from "/page/charts.js";
 import {RodCanvas, angleToDirector, unpack, unpackText} from "/page/rods.js";
@@ -17,7 +17,8 @@ export class RunPanel {
     this.job = null;
     this.order = {times: [], values: []};
     this.recorded = null;  // {n, first_s, last_s}
-    this.events = null;
+    this.isLive = false;   // shows what comes, as it comes
+    this.stamp = "";       // of the queue, when the run was asked about
     this.index = -1;
     this.orderChart = new Curve(byId("order-chart"), "t (s)", "S", {min: 0, max: 1});
     this.angleChart = new Curve(byId("angle-chart"), "θ (degrees)", "P(θ) per degree", {min: 0});
@@ -28,6 +29,7 @@ export class RunPanel {
     byId("time").oninput = () => { this.stopPlaying(); this.listen(false); this.showRecorded(Number(byId("time").value)); };
     byId("play").onclick = () => (this.playing ? this.stopPlaying() : this.play());
     byId("live").onclick = () => this.listen(true);
+    byId("draw").onclick = () => save(`/runs/${this.id}/picture?frame=${this.index}`);
   }
 
   async makeCanvas() {
@@ -46,55 +48,73 @@ export class RunPanel {
     this.id = id;
     this.index = -1;
     this.stopPlaying();
-    this.events?.close();
-    this.events = null;
+    this.isLive = this.hasMeanAngles = false;
     this.job = this.recorded = null;
     this.order = {times: [], values: []};
     this.orderChart.clear();
     this.angleChart.clear();
     for (const place of ["run-note", "run-facts"]) byId(place).textContent = "";
     byId("files").replaceChildren();
+    replaceIfOther(byId("run-actions"), "", () => []);
     byId("scrub").hidden = true;
     byId("run-title").textContent = id ? `Run ${id}` : "Choose a run";
     (await this.canvas)?.clear();
-    if (id) await this.load();
+    if (id && id === this.id) await this.load();
   }
 
-  /** Asks for everything about the run; again when its state changes. */
+  isRunning() { return this.job?.state === "running" || this.job?.state === "stopping"; }
+
+  /** Asks for everything about the run; again when its state may have changed. */
   async load() {
     const {id} = this;
     try {
       const {job} = await ask(`/v1/jobs/${id}`);
       if (id !== this.id) return;
-      this.job = job;
-      const [frames, curves, files] = await Promise.all([`frames`, `curves?of=/order/time_s&of=/order/order&of=/angles/theta_rad&of=/angles/density_per_rad`, `files`]
-        .map((what) => ask(`/runs/${id}/${what}`).catch((problem) => ({problem}))));
+      const wasRunning = this.isRunning();
+      const curveNames = ["/order/time_s", "/order/order", "/angles/theta_rad", "/angles/density_per_rad"];
+      const wanted = ["frames", `curves?${curveNames.map((name) => `of=${name}`).join("&")}`, "files"];
+      const [frames, curves, files] = await Promise.all(
+        wanted.map((what) => ask(`/runs/${id}/${what}`).catch((problem) => ({problem}))));
       if (id !== this.id) return;
+      this.job = job;
       this.showJob();
       this.showFiles(files);
-      this.recorded = frames.problem ? null : frames;
-      this.prepareScrubbing();
-      if (job.state === "running" || job.state === "stopping") {
-        this.listen(true);
-      } else {
-        this.listen(false);
-        if (!curves.problem) this.showCurves(curves.curves);
-        if (this.recorded) await this.showRecorded(this.index >= 0 ? Math.min(this.index, this.recorded.n - 1) : this.recorded.n - 1);
-        else byId("run-note").textContent += ` — ${frames.problem.message}`;
+      this.noteFrames(frames.problem ? null : frames);
+      if (this.isRunning()) {
+        if (!wasRunning) this.listen(true);
+        return;
       }
+      this.listen(false);
+      if (!curves.problem) this.showCurves(curves.curves);
+      if (this.recorded) await this.showRecorded(this.index >= 0 ? Math.min(this.index, this.recorded.n - 1) : this.recorded.n - 1);
+      else byId("run-note").textContent += `: ${frames.problem.message}`;
     } catch (problem) {
+      this.stamp = "";  // asked again soon
       complain(problem.message);
     }
   }
 
-  /** Jobs that run, as the daemon tells them. */
-  note(running) {
-    if (!this.job) return;
+  /** The jobs that run, as the daemon tells them; `stamp` changes when the state of any job does. */
+  noteQueue(running, stamp) {
+    if (!this.id) return;
     const now = running.find((job) => job.id === this.id);
-    const wasRunning = this.job.state === "running" || this.job.state === "stopping";
-    if (now) this.job = now;
-    if (Boolean(now) !== wasRunning) this.load();
-    else if (now) this.showJob();
+    if (stamp !== this.stamp || !this.job || Boolean(now) !== this.isRunning()) {
+      this.stamp = stamp;
+      this.load();
+    } else if (now) {
+      this.job = now;
+      this.showJob();
+      this.askForFrames();
+    }
+  }
+
+  /** A run at work records ever more frames. */
+  async askForFrames() {
+    const {id} = this, now = Date.now();
+    if (now < (this.nextAsk ?? 0)) return;
+    this.nextAsk = now + 5000;
+    const frames = await ask(`/runs/${id}/frames`).catch(() => null);
+    if (id === this.id) this.noteFrames(frames);
   }
 
   showJob() {
@@ -106,11 +126,13 @@ export class RunPanel {
       if (progress.eta_s >= 0) note += `, ${duration(progress.eta_s)} to go`;
     }
     byId("run-note").textContent = note;
-    byId("run-actions").replaceChildren(...actionButtons(`/v1/jobs/${job.id}`, new Set([job.state])));
+    replaceIfOther(byId("run-actions"), `${job.id} ${job.state}`, () => actionButtons(`/v1/jobs/${job.id}`, new Set([job.state])));
   }
 
   showFiles(answer) {
-    const link = ({name, bytes: size}) => make("li", {}, make("a", {href: `/runs/${this.id}/files/${encodeURIComponent(name)}`}, name), ` ${bytes(size)}`);
+    const {id} = this;
+    const link = ({name, bytes: size}) => make("li", {}, make("button", {
+      type: "button", onclick: () => save(`/runs/${id}/files/${name}`)}, name), ` ${bytes(size)}`);
     byId("files").replaceChildren(...(answer.problem ? [answer.problem.message] : answer.files.map(link)));
   }
 
@@ -126,30 +148,30 @@ export class RunPanel {
   }
 
   listen(on) {
-    byId("live").hidden = on || !this.job || !["running", "stopping"].includes(this.job.state);
-    if (!on) {
-      this.events?.close();
-      this.events = null;
-      return;
-    }
-    if (this.events) return;
+    byId("live").hidden = on || !this.isRunning();
+    this.isLive = on;
+    if (!on) return;
     this.stopPlaying();
     this.index = -1;
-    const events = new EventSource(`/live/${this.id}`);
-    this.events = events;
     this.hasMeanAngles = false;
-    const on_event = (name, take) => events.addEventListener(name, (event) => { if (this.events === events) take(event.data); });
-    on_event("order", (data) => {
+  }
+
+  /** What the bus tells of run `id`. */
+  async note(id, name, data) {
+    if (id !== this.id) return;
+    if (name === "order") {
       const {time_s: times, order: values} = JSON.parse(data);
+      if (!this.isRunning() && !times.length) return;
       this.order = {times, values};
       this.orderChart.set(times, values);
-    });
-    on_event("observables", (data) => this.noteObservables(JSON.parse(data)));
-    on_event("defects", async (data) => {
+    } else if (name === "observables") {
+      this.noteObservables(JSON.parse(data));
+    } else if (this.isLive && name === "defects") {
       const canvas = await this.canvas;
-      if (canvas) canvas.defects = JSON.parse(data).defects;
-    });
-    on_event("frame", (data) => this.showFrame(unpackText(data)));
+      if (canvas && this.isLive && id === this.id) canvas.defects = JSON.parse(data).defects;
+    } else if (this.isLive && name === "frame") {
+      await this.showFrame(unpackText(data), id);
+    }
   }
 
   noteObservables(now) {
@@ -162,8 +184,9 @@ export class RunPanel {
     }
   }
 
-  async showFrame(frame) {
+  async showFrame(frame, id) {
     const canvas = await this.canvas;
+    if (id !== this.id) return;
     byId("run-facts").textContent = `t = ${frame.time_s.toFixed(3)} s, ${frame.n_rods} rods in ${number(frame.box_side_mm)} mm, S = ${frame.order.toFixed(3)}`;
     if (!canvas) return;
     canvas.set(frame);
@@ -195,11 +218,12 @@ export class RunPanel {
     this.showLegend(canvas);
   }
 
-  prepareScrubbing() {
-    byId("scrub").hidden = !this.recorded;
-    if (!this.recorded) return;
-    byId("time").max = this.recorded.n - 1;
-    byId("play").disabled = this.recorded.n < 2;
+  noteFrames(frames) {
+    this.recorded = frames;
+    byId("scrub").hidden = !frames;
+    if (!frames) return;
+    byId("time").max = frames.n - 1;
+    byId("play").disabled = frames.n < 2;
   }
 
   /** Shows recorded frame `index`; while one is fetched only the newest wish is kept. */
@@ -208,19 +232,19 @@ export class RunPanel {
     if (this.isFetching) return;
     this.isFetching = true;
     try {
-      while (this.wanted !== null && !this.events) {
+      while (this.wanted !== null && !this.isLive) {
         const {id, wanted} = this;
         this.wanted = null;
-        const response = await fetch(`/runs/${id}/frames/${wanted}`);
-        if (id !== this.id) break;
-        if (!response.ok) throw new Error((await response.json()).error);
-        const frame = unpack(await response.arrayBuffer());
+        const response = await fetched(`/runs/${id}/frames/${wanted}`);
+        const bytesOf = response.ok ? await response.arrayBuffer() : (await response.json()).error;
+        if (id !== this.id || this.isLive) continue;
+        if (!response.ok) throw new Error(bytesOf);
         const canvas = await this.canvas;
         if (canvas) canvas.defects = [];  // they are measured live only
-        await this.showFrame(frame);
+        await this.showFrame(unpack(bytesOf), id);
+        if (id !== this.id) continue;
         this.index = wanted;
         byId("time").value = wanted;
-        byId("draw").href = `/runs/${id}/picture?frame=${wanted}`;
       }
     } catch (problem) {
       complain(problem.message);

@@ -209,12 +209,17 @@ TEST(RenderProgram, SeveralRunsGoSideBySideWithOneClock) {
   EXPECT_EQ(film.code, 0) << film.said;
   EXPECT_EQ(nlohmann::json::parse(film.said)["frames"], 4) << "as long as the first";
 
-  const Ended missing = run_program("picture " + runs + " /nowhere /neither");
+  const Ended missing = run_program("picture " + runs + " /nowhere /neither -o x.png");
   EXPECT_EQ(missing.code, 2);
   EXPECT_NE(missing.said.find("/nowhere"), std::string::npos) << missing.said;
   EXPECT_NE(missing.said.find("/neither"), std::string::npos) << "all that is wrong is told at once";
-  EXPECT_EQ(run_program("picture " + runs + " --frame 0").code, 2);
-  EXPECT_EQ(run_program("picture " + runs + " --label a --label b --label c").code, 2);
+  EXPECT_EQ(run_program("picture " + runs + " --frame 0 -o x.png").code, 2);
+  EXPECT_EQ(run_program("picture " + runs).code, 2) << "it belongs to none of the runs";
+  EXPECT_EQ(run_program("picture " + runs + " --size 320x180 -o " + (first / "g.png").string()).code, 0);
+  std::string many = "picture";
+  for (int i = 0; i < 30; ++i) many += " " + second.path().string();
+  EXPECT_EQ(run_program(many + " --size 128x128 -o " + (first / "g.png").string()).code, 1) << "no room";
+  EXPECT_EQ(run_program("picture " + runs + " --label a --label b --label c -o x.png").code, 2);
   EXPECT_EQ(run_program("picture " + runs + " --view gap -o " + (first / "g.png").string()).code, 1);
 }
 

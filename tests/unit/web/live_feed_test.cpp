@@ -83,9 +83,14 @@ TEST(LiveFeed, RodsArePutTogetherWhileSomebodyLooks) {
 TEST(LiveFeed, AListenerIsWokenByWhatComes) {
   LiveFeed feed(nullptr);
   feed.keep({kRun});
-  std::jthread sender([&] { feed.note(observables(1, 0.25)); });
+  std::jthread sender([&] {
+    std::this_thread::sleep_for(50ms);
+    feed.note(observables(1, 0.25));
+  });
   LiveSeen seen;
-  EXPECT_TRUE(feed.wait(kRun, seen, 60s).observables);
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_TRUE(feed.wait(kRun, seen, 600s).observables);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, 300s) << "woken, not timed out";
 }
 
 }  // namespace

@@ -5,7 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <httplib.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -31,40 +35,58 @@ const httplib::Headers kIn{{"Authorization", std::string("Bearer ") + kToken}};
 
 class SiteTest : public testing::Test {
  protected:
-  SiteTest() {
-    guard_ = &made_;
-    daemon_.on("GET /v1/status", R"({"version": "1", "host": "here", "slots": 2})");
-    daemon_.on("GET /v1/sweeps", R"({"sweeps": [{"id": "s1", "name": "<img src=x onerror=alert(1)>"}]})");
-    daemon_.on("GET /v1/jobs?state=running", std::string(R"({"jobs": [{"id": ")") + kRun + "\"}]}");
-    daemon_.on("GET /v1/jobs?state=stopping", R"({"jobs": []})");
-    fs::create_directories(root_ / "runs" / kRun);
-  }
+  SiteTest() { guard_ = &made_; }
   ~SiteTest() override { site_.close(); }
 
   httplib::Result get(const std::string& path) { return client_.Get(path, kIn); }
 
+  /// A daemon that knows what to answer before anybody asks.
+  struct Daemon : client::FakeDaemon {
+    explicit Daemon(const fs::path& root) : FakeDaemon(root) {
+      on("GET /v1/status", R"({"version": "1", "host": "here", "slots": 2})");
+      on("GET /v1/sweeps", R"({"sweeps": [{"id": "s1", "name": "<img src=x onerror=alert(1)>"}]})");
+      on("GET /v1/jobs?state=running", std::string(R"({"jobs": [{"id": ")") + kRun + "\"}]}");
+      on("GET /v1/jobs?state=stopping", R"({"jobs": []})");
+      fs::create_directories(root / "runs" / kRun);
+    }
+  };
+
   ScratchFolder root_;
-  client::FakeDaemon daemon_{root_.path()};
+  Daemon daemon_{root_.path()};
   DaemonLink link_{root_.path()};
   Site site_{SiteSetup{.root = root_.path(), .page = shipped_page()}};
   std::atomic<const Guard*> guard_ = nullptr;
-  server::HttpServer server_{0, [this](const server::Request& request) {
-                               auto stopped = guard_.load()->stop(request);
-                               return stopped ? std::move(*stopped) : site_.answer(request);
-                             }};
+  server::HttpServer server_{0, [this](const server::Request& head) { return guard_.load()->stop(head); },
+                             [this](const server::Request& request) { return site_.answer(request); }};
   const Guard made_{kToken, server_.port()};
   httplib::Client client_{"127.0.0.1", server_.port()};
 };
 
 TEST_F(SiteTest, NothingIsSeenWithoutTheToken) {
-  for (const char* path : {"/", "/page/main.js", "/chart.js", "/live", "/v1/status", "/runs/1f0c000000000000/files"}) {
+  for (const char* path : {"/live", "/v1/status", "/runs/1f0c000000000000/files", "/palettes.json", "/nothing"}) {
     const auto answer = client_.Get(path);
     ASSERT_TRUE(answer) << path;
     EXPECT_EQ(answer->status, 401) << path;
-    EXPECT_THAT(answer->body, Not(HasSubstr(kToken)));
+    EXPECT_THAT(nlohmann::json::parse(answer->body)["error"], HasSubstr("shaken web"));
   }
-  EXPECT_EQ(client_.Post("/v1/sweeps", "{}", "application/json")->status, 401);
   EXPECT_EQ(client_.Get("/v1/status", httplib::Headers{{"Host", "evil.example"}, *kIn.begin()})->status, 403);
+}
+
+// Anybody on the machine can connect: what he sends must not be held in memory.
+TEST_F(SiteTest, TheBodyOfARefusedRequestIsNotRead) {
+  const int connection = socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(server_.port()));
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  ASSERT_EQ(connect(connection, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
+  const std::string head = "POST /v1/sweeps HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(server_.port()) +
+                           "\r\nContent-Length: 1000000\r\n\r\n";
+  ASSERT_EQ(send(connection, head.data(), head.size(), 0), static_cast<ssize_t>(head.size()));
+  char answer[64] = {};
+  EXPECT_GT(recv(connection, answer, sizeof(answer) - 1, 0), 0) << "without a byte of the body";
+  EXPECT_THAT(std::string(answer), HasSubstr(" 401 "));
+  close(connection);
 }
 
 TEST_F(SiteTest, ThePageAndAllItsFilesAreServed) {
@@ -101,22 +123,38 @@ TEST_F(SiteTest, TheDaemonsInterfaceIsHandedOn) {
   EXPECT_EQ(get("/v1/nothing")->status, 404);
   const auto cancelled = client_.Post("/v1/jobs/1f0c/cancel", kIn, R"({"a": 1})", "application/json");
   EXPECT_EQ(cancelled->status, 200);
-  EXPECT_EQ(daemon_.requests().back().body, R"({"a": 1})");
+  const auto requests = daemon_.requests();  // the feed's are among them
+  const auto posted = std::find_if(requests.begin(), requests.end(),
+                                   [](const auto& request) { return request.line == "POST /v1/jobs/1f0c/cancel"; });
+  ASSERT_NE(posted, requests.end());
+  EXPECT_EQ(posted->body, R"({"a": 1})");
 }
 
 TEST_F(SiteTest, TheQueueComesAsEvents) {
-  std::string seen;
-  client_.Get("/live", kIn, [&](const char* bytes, std::size_t size) {
-    seen.append(bytes, size);
-    return seen.find("\n\n") == std::string::npos;
-  });
-  ASSERT_THAT(seen, testing::StartsWith("event: queue\ndata: "));
-  const auto queue = nlohmann::json::parse(seen.substr(seen.find('{'), seen.find("\n\n") - seen.find('{')));
-  EXPECT_EQ(queue["sweeps"][0]["id"], "s1");
-  EXPECT_EQ(queue["jobs"][0]["id"], kRun);
+  for (const std::string path : {"/live", "/live?run=1f0c000000000000"}) {
+    std::string seen;
+    client_.Get(path, kIn, [&](const char* bytes, std::size_t size) {
+      seen.append(bytes, size);
+      const std::size_t begin = seen.find("event: queue\n");
+      return begin == std::string::npos || seen.find("\n\n", begin) == std::string::npos;
+    });
+    const std::size_t begin = seen.find("event: queue\ndata: ");
+    ASSERT_NE(begin, std::string::npos) << seen;
+    const std::size_t data = seen.find('{', begin);
+    const auto queue = nlohmann::json::parse(seen.substr(data, seen.find("\n\n", data) - data));
+    EXPECT_EQ(queue["sweeps"][0]["id"], "s1");
+    EXPECT_EQ(queue["jobs"][0]["id"], kRun);
+  }
 }
 
 TEST_F(SiteTest, AnswersThatAreNotTheDaemonsEndNothing) {
+  for (const char* answer : {"[]", "no JSON", "7"}) {
+    daemon_.on("GET /v1/status", answer);
+    QueueFeed feed(link_, [](const std::set<std::string>&) {});
+    std::int64_t seen = 0;
+    EXPECT_THAT(feed.wait(seen, std::chrono::seconds(20)).value_or(""), HasSubstr("error")) << answer;
+  }
+  daemon_.on("GET /v1/status", R"({"version": "1"})");
   for (const char* answer : {"[]", "no JSON", "{\"jobs\": [1, 2]}", "{\"jobs\": 7}", "{}"}) {
     daemon_.on("GET /v1/jobs?state=running", answer);
     QueueFeed feed(link_, [](const std::set<std::string>&) {});
@@ -137,6 +175,14 @@ TEST_F(SiteTest, FilesOfARunAreSavedAndNothingElseIs) {
   for (const char* name : {"/link", "/..%2f..%2fsecret", "/%2e%2e", "/nothing"}) {
     EXPECT_EQ(get(files + name)->status, 404) << name;
   }
+  // By a ticket, as browsers save things: once, without the token.
+  const auto given = client_.Post("/tickets?path=" + files + "/scene.json", kIn, "{}", "application/json");
+  ASSERT_EQ(given->status, 200) << given->body;
+  const std::string ticket = "/tickets/" + nlohmann::json::parse(given->body)["ticket"].get<std::string>();
+  EXPECT_EQ(client_.Get(ticket)->body, "{\"a\": 1}");
+  EXPECT_EQ(client_.Get(ticket)->status, 404) << "a second time";
+  EXPECT_EQ(client_.Post("/tickets?path=/v1/status", kIn, "{}", "application/json")->status, 400);
+  EXPECT_EQ(client_.Post("/tickets?path=" + files, "{}", "application/json")->status, 401);
   for (const char* id : {"../secret", "..", "1f0c", "%2e%2e%2fsecret"}) {
     EXPECT_EQ(get(std::string("/runs/") + id + "/files")->status, 404) << id;
   }
@@ -147,7 +193,7 @@ TEST_F(SiteTest, WhatIsNotThereIsSaid) {
   EXPECT_EQ(get(std::string("/runs/") + kRun + "/frames/last")->status, 404);
   EXPECT_EQ(get(std::string("/runs/") + kRun + "/curves")->status, 404);
   EXPECT_EQ(get(std::string("/runs/") + kRun + "/picture?frame=0")->status, 404);
-  EXPECT_EQ(get(std::string("/live/") + kRun)->status, 503) << "no bus";
+  EXPECT_EQ(get("/live?run=1f0c")->status, 404);
   EXPECT_EQ(client_.Post("/live", kIn, "", "text/plain")->status, 405);
 }
 
@@ -161,8 +207,9 @@ TEST(SiteWithoutADaemon, SaysSo) {
 }
 
 TEST(Port, OfAnotherProgramIsRefused) {
-  const server::HttpServer first(0, [](const server::Request&) { return server::Reply{}; });
-  EXPECT_THROW(server::HttpServer(first.port(), [](const server::Request&) { return server::Reply{}; }), Failure);
+  const auto answer = [](const server::Request&) { return server::Reply{}; };
+  const server::HttpServer first(0, {}, answer);
+  EXPECT_THROW(server::HttpServer(first.port(), {}, answer), Failure);
 }
 
 }  // namespace

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "server/http/http_server.h"
+
+namespace shaken::web {
+
+/// Leave to fetch one thing once, within a minute, without the token: a browser that saves a file sends no header of
+/// the page's. May be asked from many threads at once.
+class Tickets {
+ public:
+  /// The ticket for GET of `path` with `query`. Throws std::runtime_error if the system has no random numbers.
+  std::string give(const std::string& path, const std::multimap<std::string, std::string>& query);
+  /// What a ticket is for, the first time within its minute.
+  std::optional<server::Request> take(const std::string& ticket);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Given {
+    server::Request request;
+    Clock::time_point end;
+  };
+  std::mutex mutex_;
+  std::map<std::string, Given> given_;
+};
+
+}  // namespace shaken::web
