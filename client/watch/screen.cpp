@@ -149,7 +149,7 @@ std::vector<std::string> number_lines(const LiveJob& job, const Console& console
 
 void put_numbers(const LiveJob& job, const Console& console, const Area& area, CellGrid& grid) {
   static constexpr int kLeastChartLines = 5;
-  static constexpr int kMostChartLines = 16;
+  static constexpr int kTallestChart = 16;
   const auto put = [&](int line, const std::string& text) {
     grid.put(area.column, area.line + line, fitted(text, static_cast<std::size_t>(area.columns)), area.columns);
   };
@@ -161,7 +161,7 @@ void put_numbers(const LiveJob& job, const Console& console, const Area& area, C
     if (n < area.lines) put(n++, line);
   }
   const ChartFrame frame{.width = has_side_chart ? area.columns - 36 : area.columns,
-                         .height = std::min(kMostChartLines, has_side_chart ? area.lines : area.lines - n - 1),
+                         .height = std::min(kTallestChart, has_side_chart ? area.lines : area.lines - n - 1),
                          .x_max = std::max(job.sim_time, 1e-3),
                          .x_unit = "s   S(t)"};
   if (frame.height < kLeastChartLines) return;
