@@ -89,7 +89,7 @@ Result<Image> Painter::paint_panels(const RodPicture& picture, const PictureStyl
   for (std::size_t i = 0; i < grid.panels.size(); ++i) {
     const RodPicture& one = panel_of(picture, i);
     if (auto done = paint_box(canvas, grid.panels[i], one, style); !done) return done.error();
-    draw_panel_words(canvas, grid.panels[i], one, style);
+    draw_panel_words(canvas, grid.panels[i], one, style, !have_one_time(picture));
   }
   draw_footer(canvas, grid, picture, style);
   return canvas.image();
@@ -120,7 +120,7 @@ Result<void> write_vector(const std::filesystem::path& file, const RodPicture& p
     const PanelGrid grid = panel_grid(style, 1 + picture.beside.size());
     for (std::size_t i = 0; i < grid.panels.size(); ++i) {
       draw_box(grid.panels[i], panel_of(picture, i));
-      draw_panel_words(*canvas, grid.panels[i], panel_of(picture, i), style);
+      draw_panel_words(*canvas, grid.panels[i], panel_of(picture, i), style, !have_one_time(picture));
     }
     draw_footer(*canvas, grid, picture, style);
   }

@@ -65,8 +65,14 @@ PanelGrid panel_grid(const PictureStyle& style, std::size_t n_panels) {
   return grid;
 }
 
-void draw_panel_words(const Canvas& canvas, const Layout& layout, const RodPicture& picture,
-                      const PictureStyle& style) {
+bool have_one_time(const RodPicture& picture) {
+  constexpr double kShown = 0.005;  // half of the last digit [s]
+  return std::all_of(picture.beside.begin(), picture.beside.end(),
+                     [&](const RodPicture& other) { return std::abs(other.time - picture.time) < kShown; });
+}
+
+void draw_panel_words(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style,
+                      bool with_time) {
   RodPicture quiet = picture;
   quiet.beside.clear();
   quiet.playback = 0;
@@ -76,7 +82,8 @@ void draw_panel_words(const Canvas& canvas, const Layout& layout, const RodPictu
   draw_overlay(canvas, words, quiet, style);
   if (!style.caption) return;
   canvas.colour(palette(style.theme).ink);
-  canvas.text(layout.scale_bar.right(), layout.scale_bar.bottom(), fmt::format("S = {:.3f}", picture.order),
+  canvas.text(layout.scale_bar.right(), layout.scale_bar.bottom(),
+              (with_time ? fmt::format("t = {:.2f} s, ", picture.time) : "") + fmt::format("S = {:.3f}", picture.order),
               14 * layout.unit, Canvas::Align::kRight);
 }
 
@@ -85,7 +92,9 @@ void draw_footer(const Canvas& canvas, const PanelGrid& grid, const RodPicture& 
   const Palette colours = palette(style.theme);
   if (style.caption) {
     canvas.colour(colours.ink);
-    canvas.text(grid.footer.x, bottom - 6 * u, fmt::format("t = {:.2f} s", first.time), 20 * u);
+    if (have_one_time(first)) {
+      canvas.text(grid.footer.x, bottom - 6 * u, fmt::format("t = {:.2f} s", first.time), 20 * u);
+    }
     canvas.colour(colours.faint);
     canvas.text(grid.footer.right(), bottom - 6 * u, playback_text(first.playback), 14 * u, Canvas::Align::kRight);
   }

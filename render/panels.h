@@ -21,11 +21,15 @@ struct PanelGrid {
 };
 PanelGrid panel_grid(const PictureStyle& style, std::size_t n_panels);
 
-/// What a panel's picture has beside its rods: headline, S, scale bar, frame, defects, lines. The clock and the speed
-/// of playing are the footer's.
-void draw_panel_words(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style);
+/// Whether a picture and those beside it are of one time, which the footer then says.
+bool have_one_time(const RodPicture& picture);
 
-/// The time of the first picture, what the colours mean, and how fast a film plays.
+/// What a panel's picture has beside its rods: headline, S, scale bar, frame, defects, lines, and its time where others
+/// have another one. The clock and the speed of playing are the footer's.
+void draw_panel_words(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style,
+                      bool with_time);
+
+/// The time, if all have the same, what the colours mean, and how fast a film plays.
 void draw_footer(const Canvas& canvas, const PanelGrid& grid, const RodPicture& first, const PictureStyle& style);
 
 }  // namespace shaken::render

@@ -108,6 +108,7 @@ const Case kCases[] = {
        first.playback = 0.1;
        first.beside = {paired(), mixed()};
        first.beside[1].label = "a mixture in a disc";
+       first.beside[1].time = first.time;
        return first;
      },
      R"({"colour": "angle", "defects": true})"},

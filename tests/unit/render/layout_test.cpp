@@ -88,6 +88,16 @@ TEST(PanelGrid, NothingOverlapsOrLeavesThePicture) {
   }
 }
 
+TEST(Panels, HaveOneClockOnlyIfTheyAreOfOneTime) {
+  RodPicture picture;
+  picture.time = 120;
+  picture.beside.resize(2);
+  for (RodPicture& other : picture.beside) other.time = 120.001;
+  EXPECT_TRUE(have_one_time(picture));
+  picture.beside[1].time = 300;
+  EXPECT_FALSE(have_one_time(picture)) << "then each panel says its own";
+}
+
 TEST(PanelGrid, FitsTheShapeOfThePicture) {
   PictureStyle style;
   style.width = 1600;
