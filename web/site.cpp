@@ -281,7 +281,8 @@ Reply Site::curves(const std::string& run, const Request& request) {
   const auto [begin, end] = request.query.equal_range("of");
   for (const auto& [name, values] : *curves) {
     names.push_back({{"name", name}, {"points", values.size()}});
-    const bool is_asked = std::any_of(begin, end, [&](const auto& asked) { return asked.second == name; });
+    bool is_asked = false;
+    for (auto asked = begin; asked != end; ++asked) is_asked = is_asked || asked->second == name;
     if (is_asked) chosen[name] = values;  // NaN becomes null
   }
   return json_reply({{"names", names}, {"curves", chosen}});
