@@ -168,6 +168,8 @@ def use(page, address, live, downloads):
     find("#sweep-actions [data-action=cancel]").click()
     page.switch_to.alert.accept()
     eventually(lambda: rows("cancelled"), "it is cancelled by a click")
+    eventually(lambda: "records no rods" in text("#run-note"), "what it has not is said")
+    check(not find("#scrub").is_displayed() and not find("#map-frame").is_displayed(), "and not offered")
 
     errors = [line["message"] for line in page.get_log("browser") if line["level"] == "SEVERE"
               and "/curves" not in line["message"] and "/frames" not in line["message"] and "/v1/sweeps" not in line["message"]]

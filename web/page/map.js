@@ -138,6 +138,7 @@ export class SweepPanel {
       return {x: place.across, y: y ? place.up : average, jobs: place.jobs, border, text: words.join("; "),
               fill: Number.isFinite(average) ? sequential(high > low ? (average - low) / (high - low) : 0.5) : "transparent"};
     });
+    byId("map-frame").hidden = !points.length;
     this.map.set(points, x, y || value);
     const bar = make("canvas");
     strip(bar, sequential);
