@@ -80,7 +80,7 @@ class Movie : public Verb {
       throw Failure(ExitCode::kFailed,
                     fmt::format("job {} is {}: nothing of it is live. `shaken movie {} --frame last` draws its last "
                                 "recorded frame",
-                                drawn.name, drawn.state, drawn.name));
+                                drawn.name, drawn.state, options_.jobs.front()));
     }
     if (!lcm_url_.empty()) return;
     ApiClient session(context.root());
