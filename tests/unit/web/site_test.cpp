@@ -10,8 +10,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <fstream>
+#include <future>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -35,7 +35,7 @@ const httplib::Headers kIn{{"Authorization", std::string("Bearer ") + kToken}};
 
 class SiteTest : public testing::Test {
  protected:
-  SiteTest() { guard_ = &made_; }
+  SiteTest() { promised_.set_value(Guard(kToken, server_.port())); }
   ~SiteTest() override { site_.close(); }
 
   httplib::Result get(const std::string& path) { return client_.Get(path, kIn); }
@@ -55,10 +55,10 @@ class SiteTest : public testing::Test {
   Daemon daemon_{root_.path()};
   DaemonLink link_{root_.path()};
   Site site_{SiteSetup{.root = root_.path(), .page = shipped_page()}};
-  std::atomic<const Guard*> guard_ = nullptr;
-  server::HttpServer server_{0, [this](const server::Request& head) { return guard_.load()->stop(head); },
+  std::promise<Guard> promised_;  // requests wait until the port is known
+  std::shared_future<Guard> guard_{promised_.get_future()};
+  server::HttpServer server_{0, [this](const server::Request& head) { return guard_.get().stop(head); },
                              [this](const server::Request& request) { return site_.answer(request); }};
-  const Guard made_{kToken, server_.port()};
   httplib::Client client_{"127.0.0.1", server_.port()};
 };
 
