@@ -96,12 +96,14 @@ Drawn find_one(const Context& context, const std::string& job) {
 
 std::vector<Drawn> find_drawn(const Context& context, const std::vector<std::string>& jobs) {
   std::vector<Drawn> drawn;
+  drawn.reserve(jobs.size());
   for (const std::string& job : jobs) drawn.push_back(find_one(context, job));
   return drawn;
 }
 
 std::vector<std::string> labels_of(const std::vector<Drawn>& drawn) {
   std::vector<std::string> labels;
+  labels.reserve(drawn.size());
   for (const Drawn& one : drawn) labels.push_back(one.label.empty() && drawn.size() > 1 ? one.name : one.label);
   return labels;
 }
