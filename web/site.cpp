@@ -64,10 +64,7 @@ std::string type_of(const fs::path& file) {
   if (suffix == ".css") return "text/css; charset=utf-8";
   if (suffix == ".js") return "text/javascript; charset=utf-8";
   if (suffix == ".svg") return "image/svg+xml";
-  if (suffix == ".json") return "application/json";
   if (suffix == ".png") return "image/png";
-  if (suffix == ".mp4") return "video/mp4";
-  if (suffix == ".log") return "text/plain; charset=utf-8";
   return "application/octet-stream";
 }
 
