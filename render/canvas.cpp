@@ -11,7 +11,14 @@
 namespace shaken::render {
 
 Canvas::Canvas(int width, int height, const Colour& page)
-    : Canvas(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height), page) {}
+    : Canvas(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height)) {
+  colour(page);
+  cairo_paint(cairo());
+}
+
+Canvas Canvas::transparent(int width, int height) {
+  return Canvas(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height));
+}
 
 Result<Canvas> Canvas::vector(const std::filesystem::path& file, int width, int height, const Colour& page,
                               const std::string& title, const Notes& notes) {
@@ -29,14 +36,16 @@ Result<Canvas> Canvas::vector(const std::filesystem::path& file, int width, int 
     // Equal pictures give equal files, whenever they are drawn.
     cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
   }
-  Canvas canvas(surface, page);
+  Canvas canvas(surface);
+  canvas.colour(page);
+  cairo_paint(canvas.cairo());
   if (const cairo_status_t status = cairo_surface_status(surface); status != CAIRO_STATUS_SUCCESS) {
     return Error{"cannot write " + file.string() + ": " + cairo_status_to_string(status)};
   }
   return canvas;
 }
 
-Canvas::Canvas(cairo_surface_t* surface, const Colour& page) : surface_(surface), context_(cairo_create(surface)) {
+Canvas::Canvas(cairo_surface_t* surface) : surface_(surface), context_(cairo_create(surface)) {
   // The same letters everywhere: no hinting, no sub-pixel colours.
   cairo_font_options_t* options = cairo_font_options_create();
   cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
@@ -46,8 +55,6 @@ Canvas::Canvas(cairo_surface_t* surface, const Colour& page) : surface_(surface)
   cairo_font_options_destroy(options);
   cairo_set_line_cap(context_.get(), CAIRO_LINE_CAP_BUTT);
   cairo_set_line_join(context_.get(), CAIRO_LINE_JOIN_ROUND);
-  colour(page);
-  cairo_paint(context_.get());
 }
 
 void Canvas::colour(const Colour& colour, double opacity) const {
@@ -153,6 +160,25 @@ Image Canvas::image() const {
     }
   }
   return image;
+}
+
+void Canvas::lay_over(DeepImage& image) const {
+  cairo_surface_flush(surface_.get());
+  const unsigned char* data = cairo_image_surface_get_data(surface_.get());
+  const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(surface_.get()));
+  for (int j = 0; j < image.height; ++j) {
+    const unsigned char* in = data + static_cast<std::size_t>(j) * stride;
+    std::uint16_t* out = image.pixel(0, j);
+    for (int i = 0; i < image.width; ++i, in += 4, out += 3) {
+      std::uint32_t pixel;  // its colours are times its opacity
+      std::memcpy(&pixel, in, sizeof(pixel));
+      const std::uint32_t through = 255 - (pixel >> 24);
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::uint32_t colour = pixel >> (16 - 8 * c) & 255;
+        out[c] = static_cast<std::uint16_t>(std::min(colour * 257 + (out[c] * through + 127) / 255, 65535U));
+      }
+    }
+  }
 }
 
 }  // namespace shaken::render

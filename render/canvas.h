@@ -25,6 +25,8 @@ class Canvas {
  public:
   /// Of pixels.
   Canvas(int width, int height, const Colour& page);
+  /// Of pixels, with nothing on it: what is drawn is laid over a picture afterwards.
+  static Canvas transparent(int width, int height);
   /// Of lines and areas, as a file: ".svg" or ".pdf". A PDF has a title and, as keywords, the notes.
   static Result<Canvas> vector(const std::filesystem::path& file, int width, int height, const Colour& page,
                                const std::string& title, const Notes& notes);
@@ -49,11 +51,13 @@ class Canvas {
   void spread(const Image& image, const Rect& rect) const;
   /// Of pixels only.
   Image image() const;
+  /// Lays a transparent canvas over a picture of its size.
+  void lay_over(DeepImage& image) const;
   /// Ends a file.
   Result<void> finish();
 
  private:
-  Canvas(cairo_surface_t* surface, const Colour& page);
+  explicit Canvas(cairo_surface_t* surface);
   struct Free {
     void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
     void operator()(cairo_t* context) const { cairo_destroy(context); }

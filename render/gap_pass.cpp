@@ -77,6 +77,7 @@ GapCamera gap_camera(const RodPicture& picture, const PictureStyle& style, doubl
 
 struct GapPass::Programs {
   GLuint plates = 0, shadow = 0, body = 0;
+  std::string body_is_for;  ///< what light
   RodBuffer rods;
 };
 
@@ -89,21 +90,25 @@ GapPass::~GapPass() = default;  // the GL objects go with their context
 Result<GapPass> GapPass::create() {
   Result<GlContext> context = GlContext::create();
   if (!context) return context.error();
-  if (auto done = context->bind(kSamples, kSamples); !done) return done.error();
+  if (auto done = context->bind(1, 1); !done) return done.error();
   auto programs = std::make_unique<Programs>();
   std::string message;
   programs->plates = link_program(shaders::kStage, shaders::kPlates, message);
   programs->shadow = link_program(shaders::kGapShadowQuad, shaders::kGapShadow, message);
-  programs->body = link_program(shaders::kGapRod, shaders::kGapBody, message);
-  if (!programs->plates || !programs->shadow || !programs->body)
-    return Error{"the rasteriser refuses a shader: " + message};
+  if (!programs->plates || !programs->shadow) return Error{"the rasteriser refuses a shader: " + message};
   return GapPass(std::move(*context), std::move(programs));
 }
 
-Result<Image> GapPass::draw(const RodPicture& picture, const PictureStyle& style, int width, int height) {
+template <class Channel>
+Result<ImageOf<Channel>> GapPass::draw(const RodPicture& picture, const PictureStyle& style, int width, int height) {
   if (auto done = check_drawable(picture, std::max(width, height)); !done) return done.error();
   if (!(picture.gap > 0)) return Error{"there is no gap to look into"};
-  if (auto done = context_.bind(width * kSamples, height * kSamples); !done) return done.error();
+  if (auto done = context_.bind<Channel>(width * style.light.samples, height * style.light.samples); !done)
+    return done.error();
+  if (auto done = relight(programs_->body, programs_->body_is_for, shaders::kGapRod, shaders::kGapBody, style.light);
+      !done) {
+    return done.error();
+  }
   const GapCamera camera = gap_camera(picture, style, static_cast<double>(width) / height);
   const Palette colours = palette(style.theme);
   const double base = picture.base - camera.eye.z();
@@ -151,16 +156,20 @@ Result<Image> GapPass::draw(const RodPicture& picture, const PictureStyle& style
   glEnable(GL_BLEND);
   glBlendEquation(GL_FUNC_ADD);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  for (const RodBatch& batch : batches) draw_with(programs_->shadow, batch);
+  if (style.light.shadows) {
+    for (const RodBatch& batch : batches) draw_with(programs_->shadow, batch);
+  }
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
   for (const RodBatch& batch : batches) draw_with(programs_->body, batch);
 
-  const std::vector<std::uint8_t>& pixels = context_.finished_pixels();
+  const std::vector<Channel>& pixels = context_.finished_pixels<Channel>();
   if (const GLenum code = glGetError(); code != GL_NO_ERROR) {
     return Error{"OpenGL error " + std::to_string(code) + " while looking into the gap"};
   }
-  return averaged(pixels, width, height);
+  return averaged(pixels, width, height, style.light.samples);
 }
+template Result<Image> GapPass::draw(const RodPicture& picture, const PictureStyle& style, int width, int height);
+template Result<DeepImage> GapPass::draw(const RodPicture& picture, const PictureStyle& style, int width, int height);
 
 }  // namespace shaken::render

@@ -26,7 +26,7 @@ GapCamera gap_camera(const RodPicture& picture, const PictureStyle& style, doubl
 /// drawn where they are at the picture's time. Rods that the opening would cut are left out, so that each is whole; a
 /// periodic box is repeated as far as one sees.
 /// Model:    as the rods pass, with rays from the eye: each ray is cut with the beads themselves.
-/// Numerics: 3 x 3 samples a pixel, averaged; the same bits for any number of rasteriser threads.
+/// Numerics: the samples of a pixel are averaged; the same bits for any number of rasteriser threads.
 class GapPass {
  public:
   static Result<GapPass> create();
@@ -34,7 +34,8 @@ class GapPass {
   GapPass& operator=(GapPass&&) noexcept;
   ~GapPass();
   /// A picture of `width` x `height` pixels.
-  Result<Image> draw(const RodPicture& picture, const PictureStyle& style, int width, int height);
+  template <class Channel = std::uint8_t>
+  Result<ImageOf<Channel>> draw(const RodPicture& picture, const PictureStyle& style, int width, int height);
 
  private:
   struct Programs;

@@ -86,18 +86,27 @@ void main() {
   }
   if (nearest > 1e8) discard;
   vec3 hit = nearest * ray;
+#ifdef SMOOTH
   // The beads' own normals, eased towards those of a smooth spindle.
   vec3 from_centre = hit - rod_centre;
   vec3 spindle = from_centre - clamp(dot(from_centre, rod_axis), ends.x, ends.y) * rod_axis;
   normal = normalize(mix(normal, normalize(spindle), 0.8));
+#endif
 
   vec3 eye = -normalize(ray);
   float diffuse = 0.5 + 0.5 * dot(normal, kLight);
+  float shade = 0.35 + 0.72 * diffuse;
+#ifdef OCCLUSION
   float rim = smoothstep(-0.05, 0.75, dot(normal, eye));
   // Close to a plate less light comes in.
   float room = clamp((hit.z - plates.x) / (0.4 * (plates.y - plates.x)), 0.0, 1.0);
-  float shade = (0.35 + 0.72 * diffuse) * mix(0.45, 1.0, rim) * mix(0.70, 1.04, room);
+  shade = shade * mix(0.45, 1.0, rim) * mix(0.70, 1.04, room);
+#endif
+#ifdef GLOSS
   float gloss = pow(max(dot(normal, normalize(kLight + eye)), 0.0), 40.0) * 0.16;
+#else
+  float gloss = 0.0;
+#endif
   vec3 light = rod_colour * rod_colour * shade + gloss;
   float clear = clamp((depths.y - hit.y) / (depths.y - front), 0.0, 1.0);
   pixel = vec4(mix(haze, sqrt(min(light, 1.0)), smoothstep(0.0, 0.9, clear)), 1.0);

@@ -33,19 +33,27 @@ Result<GlContext> GlContext::create() {
   return GlContext(context);
 }
 
+template <class Channel>
 Result<void> GlContext::bind(int width, int height) {
-  pixels_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
-  if (!OSMesaMakeCurrent(static_cast<OSMesaContext>(context_.get()), pixels_.data(), GL_UNSIGNED_BYTE, width, height)) {
+  auto& pixels = std::get<std::vector<Channel>>(pixels_);
+  pixels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
+  constexpr GLenum kType = sizeof(Channel) == 1 ? GL_UNSIGNED_BYTE : GL_UNSIGNED_SHORT;
+  if (!OSMesaMakeCurrent(static_cast<OSMesaContext>(context_.get()), pixels.data(), kType, width, height)) {
     return Error{"OSMesa refuses a frame buffer of " + std::to_string(width) + " x " + std::to_string(height) +
                  " pixels"};
   }
   glViewport(0, 0, width, height);
   return {};
 }
+template Result<void> GlContext::bind<std::uint8_t>(int width, int height);
+template Result<void> GlContext::bind<std::uint16_t>(int width, int height);
 
-const std::vector<std::uint8_t>& GlContext::finished_pixels() {
+template <class Channel>
+const std::vector<Channel>& GlContext::finished_pixels() {
   glFinish();
-  return pixels_;
+  return std::get<std::vector<Channel>>(pixels_);
 }
+template const std::vector<std::uint8_t>& GlContext::finished_pixels();
+template const std::vector<std::uint16_t>& GlContext::finished_pixels();
 
 }  // namespace shaken::render

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <tuple>
 #include <vector>
 
 #include "sim/core/result.h"
@@ -18,10 +19,13 @@ class GlContext {
   GlContext& operator=(GlContext&&) noexcept;
   ~GlContext();
 
-  /// Makes the context current in this thread, with a frame buffer of `width` x `height` pixels.
+  /// Makes the context current in this thread, with a frame buffer of `width` x `height` pixels of 8 or 16 bits a
+  /// colour.
+  template <class Channel = std::uint8_t>
   Result<void> bind(int width, int height);
-  /// The frame buffer after all drawing is done: RGBA, rows from bottom to top, (height * width * 4).
-  const std::vector<std::uint8_t>& finished_pixels();
+  /// The frame buffer bound last, after all drawing is done: RGBA, rows from bottom to top, (height * width * 4).
+  template <class Channel = std::uint8_t>
+  const std::vector<Channel>& finished_pixels();
 
  private:
   struct Deleter {
@@ -29,7 +33,7 @@ class GlContext {
   };
   explicit GlContext(void* context) : context_(context) {}
   std::unique_ptr<void, Deleter> context_;
-  std::vector<std::uint8_t> pixels_;
+  std::tuple<std::vector<std::uint8_t>, std::vector<std::uint16_t>> pixels_;
 };
 
 }  // namespace shaken::render

@@ -29,6 +29,16 @@ constexpr std::pair<std::string_view, const char*> kSymbols[] = {
     {"time.step", "dt"},
 };
 
+}  // namespace
+
+std::string symbol_of(const std::string& path) {
+  const auto* symbol =
+      std::find_if(std::begin(kSymbols), std::end(kSymbols), [&](const auto& known) { return known.first == path; });
+  return symbol != std::end(kSymbols) ? symbol->second : path.substr(path.rfind('.') + 1);
+}
+
+namespace {
+
 /// One setting, or nothing if `word` is none.
 std::string spoken(const std::string& word) {
   const std::size_t equals = word.find('=');
@@ -36,14 +46,11 @@ std::string spoken(const std::string& word) {
   const std::string path = word.substr(0, equals), value = word.substr(equals + 1);
   if (path == "replica") return "replica " + value;
   if (scene::field_index(path) < 0) return "";
-  const auto* symbol =
-      std::find_if(std::begin(kSymbols), std::end(kSymbols), [&](const auto& known) { return known.first == path; });
-  const std::size_t dot = path.rfind('.');
-  const std::string name = symbol != std::end(kSymbols) ? symbol->second : path.substr(dot + 1);
   const scene::Field& field = scene::field_at(path);
   const auto number = scene::parse_quantity(value, field.dimension);
   const bool is_plain = field.form != scene::Form::kQuantity || field.dimension == scene::Dimension::kPlain;
-  return fmt::format("{} = {}", name, number && !is_plain ? scene::format_quantity(*number, field.dimension) : value);
+  return fmt::format("{} = {}", symbol_of(path),
+                     number && !is_plain ? scene::format_quantity(*number, field.dimension) : value);
 }
 
 }  // namespace

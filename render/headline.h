@@ -9,4 +9,7 @@ namespace shaken::render {
 /// "φ = 0.8, ℓ = 2.5 mm". Words that are not settings of a scene stay as they are.
 std::string headline(const std::string& label);
 
+/// What a key of a scene is called where it is swept: "ℓ" of "rods.length"; its last word if it has no symbol.
+std::string symbol_of(const std::string& path);
+
 }  // namespace shaken::render

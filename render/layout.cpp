@@ -79,6 +79,18 @@ void fill_strip(Layout& layout, Rect panel, const PictureStyle& style, const Con
 
 }  // namespace
 
+void place_inset(Layout& layout, const PictureStyle& style) {
+  const double u = layout.unit, edge = std::round(10 * u);
+  const bool is_gap = layout.box_side == 0;
+  const double width = is_gap ? layout.stage_width : layout.box_side,
+               height = is_gap ? layout.stage_height : layout.box_side;
+  const double right = is_gap ? width : layout.box_x + width, top = is_gap ? 0 : layout.box_y;
+  // Large enough to be read, and not so large that it hides the rods.
+  const double w = std::max(150 * u, std::min(0.38 * height, 300 * u)), h = std::max(112 * u, 0.66 * w);
+  if (style.inset == Inset::kNone || w > 0.75 * width || h > 0.75 * height) return;
+  layout.inset = {right - edge - w, top + edge, w, h};
+}
+
 Layout layout_of(const PictureStyle& style, const Contents& contents) {
   Layout layout;
   const double width = style.width, height = style.height;
@@ -111,6 +123,7 @@ Layout layout_of(const PictureStyle& style, const Contents& contents) {
     }
     fill_strip(layout, below, style, contents);
   }
+  place_inset(layout, style);
   return layout;
 }
 
@@ -122,6 +135,7 @@ Layout gap_layout_of(const PictureStyle& style, const Contents& contents) {
   const double strip = has_strip ? std::min(206 * u, 0.6 * style.height) : 0;
   layout.stage_width = style.width;
   layout.stage_height = style.height - static_cast<int>(std::lround(strip));
+  place_inset(layout, style);
   if (!has_strip) return layout;
   const double gap = 40 * u, width = style.width - 2 * margin - 2 * gap;
   Rect left{margin, layout.stage_height + 14 * u, 0.36 * width, strip - 38 * u};

@@ -14,6 +14,7 @@ struct Layout {
   int box_x = 0, box_y = 0, box_side = 0;  ///< the square of the rods [pixels]
   int stage_width = 0, stage_height = 0;   ///< of a look into the gap, from the upper left corner; there is then no box
   Rect label, numbers, history, legend, species, key, scale_bar;
+  Rect inset;  ///< on the rods, in their upper right corner; without width also where there is no room for it
 };
 
 /// What there is to be shown, besides what the style asks for.
@@ -24,6 +25,9 @@ struct Contents {
   bool scale = true;     ///< a colour scale: colours that are names have none
 };
 Layout layout_of(const PictureStyle& style, const Contents& contents);
+
+/// Gives the inset its place, if the style asks for one: on the box, or on the stage of a look into the gap.
+void place_inset(Layout& layout, const PictureStyle& style);
 
 /// Of a look into the gap: the stage over the whole width, and a strip below it with all that is written.
 Layout gap_layout_of(const PictureStyle& style, const Contents& contents);

@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -34,6 +35,7 @@
 #include "render/sources.h"
 #include "render/style_file.h"
 #include "render/style_keys.h"
+#include "render/sweep_map.h"
 #include "run/files/version.h"
 #include "scene/units.h"
 
@@ -52,9 +54,11 @@ struct Options {
   std::vector<std::string> labels;          ///< of the sources, in their order
   bool bare = false;
 
+  int depth = 8;  ///< bits a colour
   std::string frame = "last";
   std::string time;
 
+  std::string sweep;  ///< JSON of sweep_places
   std::optional<std::size_t> every;
   std::string from, to;
   bool keep_frames = false;
@@ -128,10 +132,14 @@ void set_label(const Options& options, std::size_t i, RodPicture& picture) {
   picture.label = headline(options.labels[i]);
 }
 
-void check_picture_name(const std::string& out) {
-  const std::string ending = std::filesystem::path(out).extension().string();
-  if (ending == ".png" || ending == ".svg" || ending == ".pdf") return;
-  throw Failure(ExitCode::kBadInput, fmt::format("a picture is written as .png, .svg or .pdf, not as '{}'", out));
+void check_picture_name(const Options& options) {
+  const std::string ending = std::filesystem::path(options.out).extension().string();
+  if (options.depth != 8 && ending != ".png" && !options.out.empty()) {
+    throw Failure(ExitCode::kBadInput, fmt::format("--depth {} is for .png, not for '{}'", options.depth, options.out));
+  }
+  if (options.out.empty() || ending == ".png" || ending == ".svg" || ending == ".pdf") return;
+  throw Failure(ExitCode::kBadInput,
+                fmt::format("a picture is written as .png, .svg or .pdf, not as '{}'", options.out));
 }
 
 void paint_to_file(const Options& options, const PictureStyle& style, const RodPicture& picture, const std::string& out,
@@ -140,8 +148,11 @@ void paint_to_file(const Options& options, const PictureStyle& style, const RodP
     done_or_fail(write_vector(out, picture, style));
   } else {
     Painter painter = value_or_fail(Painter::create(), ExitCode::kFailed);
-    const Image image = value_or_fail(painter.paint(picture, style), ExitCode::kFailed);
-    done_or_fail(write_png(out, image, picture_texts(picture)));
+    const auto paint = [&]<class Channel>(Channel) {
+      const ImageOf<Channel> image = value_or_fail(painter.paint<Channel>(picture, style), ExitCode::kFailed);
+      done_or_fail(write_png(out, image, picture_texts(picture)));
+    };
+    options.depth == 16 ? paint(std::uint16_t{}) : paint(std::uint8_t{});
   }
   report(options, out, 1, style, watch);
 }
@@ -155,6 +166,15 @@ void check_followed(const PictureStyle& style, const RodPicture& picture) {
   if (style.followed && static_cast<std::size_t>(*style.followed) >= picture.n_rods()) {
     throw Failure(ExitCode::kBadInput, fmt::format("there is no rod {}: they are numbered from 0 to {}",
                                                    *style.followed, static_cast<std::ptrdiff_t>(picture.n_rods()) - 1));
+  }
+}
+
+/// Has the defect followed that the style names, in the recorded frames from `first` to `last` [s].
+void follow_defect(const PictureStyle& style, std::vector<TrajectorySource>& sources, double first, double last) {
+  if (!style.followed_defect) return;
+  for (TrajectorySource& source : sources) {
+    const std::size_t from = value_or_fail(source.nearest_frame(first)), to = value_or_fail(source.nearest_frame(last));
+    done_or_fail(source.follow(*style.followed_defect, from, to), ExitCode::kBadInput);
   }
 }
 
@@ -177,8 +197,19 @@ std::vector<TrajectorySource> open_sources(const Options& options) {
   return sources;
 }
 
+/// Where the runs are in their sweep; nothing where the style does not ask.
+SweepPlaces places_of(const Options& options, const PictureStyle& style) {
+  if (style.inset != Inset::kSweep) return {};
+  if (options.sweep.empty()) {
+    throw Failure(ExitCode::kBadInput,
+                  "an inset of the sweep takes its points from --sweep: `shaken picture` and `shaken movie` give it "
+                  "where --inset sweep is on their command line");
+  }
+  return value_or_fail(sweep_places(options.sweep, options.sources.size()), ExitCode::kBadInput);
+}
+
 /// Frame `frame_of(i)` of source i: one picture, with those of further sources beside it.
-Result<RodPicture> joint_picture(const Options& options, const PictureStyle& style,
+Result<RodPicture> joint_picture(const Options& options, const PictureStyle& style, const SweepPlaces& places,
                                  std::vector<TrajectorySource>& sources,
                                  const std::function<Result<std::size_t>(std::size_t)>& frame_of) {
   std::vector<RodPicture> pictures;
@@ -188,8 +219,9 @@ Result<RodPicture> joint_picture(const Options& options, const PictureStyle& sty
     Result<RodPicture> picture = sources[i].picture(*frame, style);
     if (!picture) return picture;
     check_followed(style, *picture);
-    if (!style.caption) picture->history = {};
     set_label(options, i, *picture);
+    picture->sweep = places.map;
+    if (places.map) picture->sweep_point = places.here[i];
     pictures.push_back(std::move(*picture));
   }
   RodPicture first = std::move(pictures.front());
@@ -222,16 +254,22 @@ std::size_t frame_in(const Options& options, const std::vector<TrajectorySource>
 void make_picture(const Options& options) {
   const Stopwatch watch;
   PictureStyle style = style_of(options);
-  if (!options.out.empty()) check_picture_name(options.out);
+  check_picture_name(options);
   std::vector<TrajectorySource> sources = open_sources(options);
   if (sources.size() > 1 && options.out.empty()) throw Failure(ExitCode::kBadInput, "several runs need -o FILE");
   const double time = options.time.empty() ? 0 : seconds_in(options.time, "--time");
   const std::size_t frame = options.frame == "last" ? 0 : frame_in(options, sources);
-  if (style.caption && sources.size() == 1) done_or_fail(sources.front().read_history());
-  RodPicture picture = value_or_fail(joint_picture(options, style, sources, [&](std::size_t i) -> Result<std::size_t> {
-    if (!options.time.empty()) return sources[i].nearest_frame(time);
-    return options.frame == "last" ? sources[i].n_frames() - 1 : frame;
-  }));
+  if (style.inset == Inset::kOrder || (style.caption && sources.size() == 1)) {
+    for (TrajectorySource& source : sources) done_or_fail(source.read_history());
+  }
+  constexpr double kAlways = std::numeric_limits<double>::infinity();
+  follow_defect(style, sources, -kAlways, kAlways);
+  const SweepPlaces places = places_of(options, style);
+  RodPicture picture =
+      value_or_fail(joint_picture(options, style, places, sources, [&](std::size_t i) -> Result<std::size_t> {
+        if (!options.time.empty()) return sources[i].nearest_frame(time);
+        return options.frame == "last" ? sources[i].n_frames() - 1 : frame;
+      }));
   // One colouring for all panels, as there is one legend.
   if (sources.size() > 1 && style.colour == "auto") {
     style.colour = chosen_colour(picture, std::vector{picture.order}, style.mark_defects);
@@ -242,7 +280,16 @@ void make_picture(const Options& options) {
 void make_live_picture(const Options& options) {
   const Stopwatch watch;
   const PictureStyle style = style_of(options);
-  check_picture_name(options.out);
+  if (style.followed_defect) {
+    throw Failure(ExitCode::kBadInput, "a defect is followed in recorded frames, not in a running job");
+  }
+  if (style.inset == Inset::kSweep) {
+    throw Failure(ExitCode::kBadInput, "the inset of a sweep is drawn with recorded frames, not with a running job's");
+  }
+  if (style.inset == Inset::kOrder) {
+    throw Failure(ExitCode::kBadInput, "messages do not tell S(t): of a running job the inset is angles or g2");
+  }
+  check_picture_name(options);
   const auto timeout = std::chrono::milliseconds(std::llround(options.timeout_s * 1000));
   RodPicture picture = value_or_fail(live_picture(options.lcm_url, options.sources.front(), timeout, style));
   check_followed(style, picture);
@@ -326,6 +373,9 @@ void make_movie_file(const Options& options) {
     style.colour = chosen_colour(last, orders, style.mark_defects);
   }
 
+  follow_defect(style, sources, value_or_fail(source.time_of(cut.frames.front())),
+                value_or_fail(source.time_of(cut.frames.back())));
+  const SweepPlaces places = places_of(options, style);
   MovieOptions movie{options.labels.empty() ? source.label() : headline(options.labels.front()), source.notes(),
                      std::nullopt, options.n_threads};
   if (movie.n_threads < 1) movie.n_threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
@@ -335,7 +385,7 @@ void make_movie_file(const Options& options) {
   const auto picture = [&](std::size_t k) -> Result<RodPicture> {
     // The clock is the first run's; one that has ended before shows its last frame.
     const double time = value_or_fail(source.time_of(cut.frames[k]));
-    Result<RodPicture> rods = joint_picture(options, style, sources, [&](std::size_t i) -> Result<std::size_t> {
+    Result<RodPicture> rods = joint_picture(options, style, places, sources, [&](std::size_t i) -> Result<std::size_t> {
       return i == 0 ? cut.frames[k] : sources[i].nearest_frame(time);
     });
     if (rods) rods->playback = cut.playback;
@@ -376,6 +426,19 @@ void print_styles(const Options& options) {
     throw Failure(ExitCode::kBadInput,
                   fmt::format("there is no style '{}' (see `shaken-render style`)", options.preset));
   }
+}
+
+void declare_sweep(CLI::App& app, Options& options) {
+  app.add_option("--sweep", options.sweep,
+                 R"(For --inset sweep: {"x", "y": names, "points": [[X, Y, S]], "here": [[X, Y]] of each run})")
+      ->type_name("JSON");
+}
+
+void declare_depth(CLI::App& app, Options& options) {
+  app.add_option("--depth", options.depth, "Bits a colour of a .png: 8, or 16 for what is worked on afterwards")
+      ->check(CLI::IsMember({8, 16}))
+      ->capture_default_str()
+      ->type_name("BITS");
 }
 
 void declare_style(CLI::App& app, Options& options) {
@@ -441,6 +504,8 @@ int run(int argc, char** argv) {
   picture->add_option("--time", options.time, "The frame nearest to this simulated time: 12.5, 500ms")
       ->type_name("TIME")
       ->excludes(frame);
+  declare_depth(*picture, options);
+  declare_sweep(*picture, options);
   declare_style(*picture, options);
 
   CLI::App* movie = app.add_subcommand("movie", "A recorded run as a film");
@@ -460,6 +525,7 @@ int run(int argc, char** argv) {
       ->check(CLI::Range(1, 256))
       ->type_name("N");
   movie->add_option("--progress", options.progress, "Keeps in this file, as JSON, how far it is")->type_name("FILE");
+  declare_sweep(*movie, options);
   declare_style(*movie, options);
 
   CLI::App* live = app.add_subcommand("live", "The present state of a running job as a picture, from LCM");
@@ -470,6 +536,7 @@ int run(int argc, char** argv) {
       ->check(CLI::Range(0.1, 86400.0))
       ->capture_default_str()
       ->type_name("S");
+  declare_depth(*live, options);
   declare_style(*live, options);
 
   CLI::App* style = app.add_subcommand("style", "Lists the presets, or prints one as a style file");

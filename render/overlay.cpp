@@ -8,7 +8,9 @@
 #include <string>
 
 #include "render/colourings.h"
+#include "render/curve.h"
 #include "render/gap_pass.h"
+#include "render/inset.h"
 #include "render/legend.h"
 #include "render/marks.h"
 #include "render/plane_layers.h"
@@ -78,39 +80,6 @@ void draw_numbers(const Canvas& canvas, const Layout& layout, const RodPicture& 
     canvas.colour(colours.ink);
     canvas.text(x, y + (11 + 22 * shrink) * u, numbers[i].value, 20 * u * shrink);
   }
-}
-
-/// S(t) with a dot at the present.
-void draw_history(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const Palette& colours) {
-  const double u = layout.unit;
-  const OrderHistory& history = picture.history;
-  canvas.colour(colours.ink);
-  canvas.text(layout.history.x, layout.history.y + 12 * u, "Nematic order S", 13 * u);
-  const double left = 26 * u;
-  const Rect plot{layout.history.x + left, layout.history.y + 28 * u, layout.history.width - left,
-                  layout.history.height - 50 * u};
-  const double span = history.end > history.start ? history.end - history.start : 1;
-  const auto x_of = [&](double t) { return plot.x + (t - history.start) / span * plot.width; };
-  const auto y_of = [&](double s) { return plot.bottom() - s * plot.height; };
-
-  for (const double s : {0.0, 0.5, 1.0}) {
-    canvas.colour(colours.faint, s == 0 ? 0.9 : 0.3);
-    canvas.line(plot.x, y_of(s), plot.right(), y_of(s), u);
-    canvas.colour(colours.ink);
-    canvas.text(plot.x - 6 * u, y_of(s) + 4 * u, s == 0.5 ? "0.5" : s == 0 ? "0" : "1", 12 * u, Canvas::Align::kRight);
-  }
-  canvas.text(plot.x, plot.bottom() + 16 * u, fmt::format("{:.4g} s", history.start), 12 * u);
-  canvas.text(plot.right(), plot.bottom() + 16 * u, fmt::format("{:.4g} s", history.end), 12 * u,
-              Canvas::Align::kRight);
-
-  cairo_t* cr = canvas.cairo();
-  for (std::size_t i = 0; i < history.time.size(); ++i)
-    cairo_line_to(cr, x_of(history.time[i]), y_of(history.order[i]));
-  canvas.colour(layer_colour(kPi / 4));
-  cairo_set_line_width(cr, 1.8 * u);
-  cairo_stroke(cr);
-  cairo_arc(cr, x_of(picture.time), y_of(picture.order), 4 * u, 0, 2 * kPi);
-  cairo_fill(cr);
 }
 
 void draw_key(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const Palette& colours) {
@@ -229,11 +198,12 @@ void draw_overlay(const Canvas& canvas, const Layout& layout, const RodPicture& 
   }
   if (layout.label.width > 0) draw_label(canvas, layout, picture, colours);
   if (layout.numbers.width > 0) draw_numbers(canvas, layout, picture, colours);
-  if (layout.history.width > 0) draw_history(canvas, layout, picture, colours);
+  if (layout.history.width > 0) draw_curve(canvas, layout.history, layout.unit, order_curve(picture), colours);
   if (layout.legend.width > 0) draw_legend(canvas, layout.legend, layout.unit, picture, style);
   if (layout.species.width > 0) draw_species(canvas, layout, picture, style, colours);
   if (layout.key.width > 0) draw_key(canvas, layout, picture, colours);
   if (layout.scale_bar.width > 0) draw_scale_bar(canvas, layout, picture, style, colours);
+  if (layout.inset.width > 0) draw_inset(canvas, layout.inset, layout.unit, picture, style);
 }
 
 }  // namespace shaken::render

@@ -18,7 +18,7 @@ namespace shaken::render {
 namespace {
 
 Layout layout_for(const RodPicture& picture, const PictureStyle& style) {
-  const Contents contents{.history = !picture.history.time.empty(),
+  const Contents contents{.history = !picture.history.time.empty() && style.inset != Inset::kOrder,
                           .label = !picture.label.empty(),
                           .species = picture.n_species() > 1,
                           .scale = has_scale(picture, style)};
@@ -51,48 +51,58 @@ Result<Painter> Painter::create() {
   return Painter(std::move(*rods));
 }
 
-Result<Image> Painter::paint(const RodPicture& picture, const PictureStyle& style) {
+template <class Channel>
+Result<ImageOf<Channel>> Painter::paint(const RodPicture& picture, const PictureStyle& style) {
   if (auto done = check(style, picture); !done) return done.error();
-  if (!picture.beside.empty()) return paint_panels(picture, style);
+  Sheet<Channel> sheet(style.width, style.height, palette(style.theme).page);
+  const Result<void> done =
+      picture.beside.empty() ? paint_one(sheet, picture, style) : paint_panels(sheet, picture, style);
+  if (!done) return done.error();
+  return sheet.image();
+}
+template Result<Image> Painter::paint(const RodPicture& picture, const PictureStyle& style);
+template Result<DeepImage> Painter::paint(const RodPicture& picture, const PictureStyle& style);
+
+template <class Channel>
+Result<void> Painter::paint_one(Sheet<Channel>& sheet, const RodPicture& picture, const PictureStyle& style) {
   const Layout layout = layout_for(picture, style);
-  Canvas canvas(style.width, style.height, palette(style.theme).page);
   if (style.view == ViewPoint::kGap) {
     if (!gap_) {
       Result<GapPass> made = GapPass::create();
       if (!made) return made.error();
       gap_.emplace(std::move(*made));
     }
-    const Result<Image> stage = gap_->draw(picture, style, layout.stage_width, layout.stage_height);
+    Result<ImageOf<Channel>> stage = gap_->draw<Channel>(picture, style, layout.stage_width, layout.stage_height);
     if (!stage) return stage.error();
-    canvas.paste(*stage, 0, 0);
-    draw_overlay(canvas, layout, picture, style);
-    return canvas.image();
+    sheet.paste(std::move(*stage), 0, 0, 1);
+  } else if (auto done = paint_box(sheet, layout, picture, style); !done) {
+    return done.error();
   }
-  if (auto done = paint_box(canvas, layout, picture, style); !done) return done.error();
-  draw_overlay(canvas, layout, picture, style);
-  return canvas.image();
-}
-
-Result<void> Painter::paint_box(Canvas& canvas, const Layout& layout, const RodPicture& picture,
-                                const PictureStyle& style) {
-  if (style.rods < 1) draw_ground(canvas, layout, picture, style);
-  if (style.rods <= 0) return {};
-  const Result<Image> rods = rods_.draw(picture, style, layout.box_side);
-  if (!rods) return rods.error();
-  canvas.paste(*rods, layout.box_x, layout.box_y, style.rods);
+  draw_overlay(sheet.over(), layout, picture, style);
   return {};
 }
 
-Result<Image> Painter::paint_panels(const RodPicture& picture, const PictureStyle& style) {
-  Canvas canvas(style.width, style.height, palette(style.theme).page);
+template <class Channel>
+Result<void> Painter::paint_box(Sheet<Channel>& sheet, const Layout& layout, const RodPicture& picture,
+                                const PictureStyle& style) {
+  if (style.rods < 1) draw_ground(sheet.under(), layout, picture, style);
+  if (style.rods <= 0) return {};
+  Result<ImageOf<Channel>> rods = rods_.draw<Channel>(picture, style, layout.box_side);
+  if (!rods) return rods.error();
+  sheet.paste(std::move(*rods), layout.box_x, layout.box_y, style.rods);
+  return {};
+}
+
+template <class Channel>
+Result<void> Painter::paint_panels(Sheet<Channel>& sheet, const RodPicture& picture, const PictureStyle& style) {
   const PanelGrid grid = panel_grid(style, 1 + picture.beside.size());
   for (std::size_t i = 0; i < grid.panels.size(); ++i) {
     const RodPicture& one = panel_of(picture, i);
-    if (auto done = paint_box(canvas, grid.panels[i], one, style); !done) return done.error();
-    draw_panel_words(canvas, grid.panels[i], one, style, !have_one_time(picture));
+    if (auto done = paint_box(sheet, grid.panels[i], one, style); !done) return done.error();
+    draw_panel_words(sheet.over(), grid.panels[i], one, style, !have_one_time(picture));
   }
-  draw_footer(canvas, grid, picture, style);
-  return canvas.image();
+  draw_footer(sheet.over(), grid, picture, style);
+  return {};
 }
 
 Result<void> write_vector(const std::filesystem::path& file, const RodPicture& picture, const PictureStyle& style) {

@@ -11,6 +11,7 @@
 #include "render/layout.h"
 #include "render/picture.h"
 #include "render/rods_pass.h"
+#include "render/sheet.h"
 #include "render/style.h"
 #include "sim/core/result.h"
 
@@ -21,13 +22,20 @@ namespace shaken::render {
 class Painter {
  public:
   static Result<Painter> create();
-  Result<Image> paint(const RodPicture& picture, const PictureStyle& style);
+  /// With 8 bits a colour, or with 16: the rods are then drawn as finely, and the words laid over them.
+  template <class Channel = std::uint8_t>
+  Result<ImageOf<Channel>> paint(const RodPicture& picture, const PictureStyle& style);
 
  private:
   explicit Painter(RodsPass rods) : rods_(std::move(rods)) {}
-  Result<Image> paint_panels(const RodPicture& picture, const PictureStyle& style);
+  template <class Channel>
+  Result<void> paint_one(Sheet<Channel>& sheet, const RodPicture& picture, const PictureStyle& style);
+  template <class Channel>
+  Result<void> paint_panels(Sheet<Channel>& sheet, const RodPicture& picture, const PictureStyle& style);
   /// Ground and rods.
-  Result<void> paint_box(Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style);
+  template <class Channel>
+  Result<void> paint_box(Sheet<Channel>& sheet, const Layout& layout, const RodPicture& picture,
+                         const PictureStyle& style);
   RodsPass rods_;
   std::optional<GapPass> gap_;  ///< made when it is first needed
 };

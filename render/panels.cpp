@@ -56,6 +56,7 @@ PanelGrid panel_grid(const PictureStyle& style, std::size_t n_panels) {
     layout.box_side = static_cast<int>(side);
     if (style.caption) layout.label = {x, y, side, above};
     if (below > 0) layout.scale_bar = {x, y + above + side, side, 30 * u};
+    place_inset(layout, style);
     grid.panels.push_back(layout);
   }
   if (footer > 0) {

@@ -26,11 +26,24 @@ struct OrderHistory {
   double end = 0;             ///< right end of the time axis [s]
 };
 
-/// A defect that was there `age` seconds before.
-struct PastDefect {
-  Vec2 position = Vec2::Zero();  ///< [mm]
+/// Where one defect was in the time before, the oldest place first.
+struct DefectTrail {
+  struct Place {
+    Vec2 position = Vec2::Zero();  ///< goes on across the border of a periodic box [mm]
+    double age = 0;                ///< in [0, 1], 1 being the whole length of the track
+  };
   double charge = 0;
-  double age = 0;  ///< in [0, 1], 1 being the whole length of the track
+  std::vector<Place> places;
+};
+
+/// The points of a sweep, by one or two of its parameters.
+struct SweepMap {
+  struct Point {
+    Vec2 at = Vec2::Zero();  ///< in the units of the sweep; of one parameter alone, the second is S
+    double order = 0;        ///< S; NaN where it is not known yet
+  };
+  std::string x, y;  ///< the parameters' names; y is empty if there is one
+  std::vector<Point> points;
 };
 
 /// Key and value of what a file says of itself: "Run id", "Seed".
@@ -59,17 +72,20 @@ struct RodPicture {
   double order = 0;           ///< S, nematic order in the plane
   double director_angle = 0;  ///< of the mean director N, against the x axis [rad]
   std::vector<analysis::Defect> defects;
-  std::vector<PastDefect> tracks;                        ///< where defects were shortly before, the oldest first
+  std::vector<DefectTrail> tracks;                       ///< of the defects of now and of shortly before
+  std::optional<Vec2> followed;                          ///< where the defect is that the view follows [mm]
   std::shared_ptr<const analysis::DirectorField> field;  ///< null unless it was asked for
   /// Of the director field in which defects are looked for [mm]; 0: the defaults of a run.
   double smoothing = 0, grid = 0;
   std::vector<double> density;  ///< (n_rods) area fraction around each rod, of all species; empty unless asked for
 
   OrderHistory history;
-  std::string label;     ///< headline: what makes this run different
-  std::string subtitle;  ///< below it: what it has in common with others
-  double playback = 0;   ///< of a film: simulated seconds per second of playing; 0: not known, or not a film
-  Notes notes;           ///< where it comes from, for the metadata of files
+  std::shared_ptr<const SweepMap> sweep;  ///< null where it is not known
+  Vec2 sweep_point = Vec2::Zero();        ///< where this run is in it; of one parameter, the second is not asked
+  std::string label;                      ///< headline: what makes this run different
+  std::string subtitle;                   ///< below it: what it has in common with others
+  double playback = 0;  ///< of a film: simulated seconds per second of playing; 0: not known, or not a film
+  Notes notes;          ///< where it comes from, for the metadata of files
 
   /// Other runs at the same time, drawn beside this one, each with its own headline (render/panels.h).
   std::vector<RodPicture> beside;

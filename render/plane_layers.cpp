@@ -285,14 +285,32 @@ void draw_lines(const Canvas& canvas, const Layout& layout, const RodPicture& pi
 
 void draw_tracks(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style) {
   const Plane plane(canvas, layout, picture, style);
-  for (const PastDefect& past : picture.tracks) {
-    const double radius = (1.5 + 2 * (1 - past.age)) * layout.unit;
-    for_images(plane.view(), past.position, radius / plane.scale(), [&](const Vec2& at) {
-      const Vec2 p = plane.pixel(at);
-      canvas.colour(diverging_colour(past.charge > 0 ? 1 : -1), 0.85 * (1 - past.age));
-      cairo_arc(canvas.cairo(), p.x(), p.y(), radius, 0, 2 * kPi);
-      cairo_fill(canvas.cairo());
-    });
+  cairo_t* cr = canvas.cairo();
+  for (const DefectTrail& trail : picture.tracks) {
+    const Colour colour = diverging_colour(trail.charge > 0 ? 1 : -1);
+    const auto width_at = [&](double age) { return (2 + 3 * (1 - age)) * layout.unit; };
+    // One that was seen once has no way.
+    if (trail.places.size() == 1) {
+      const DefectTrail::Place& place = trail.places.front();
+      const double radius = width_at(place.age) / 2;
+      for_images(plane.view(), place.position, radius / plane.scale(), [&](const Vec2& at) {
+        const Vec2 p = plane.pixel(at);
+        canvas.colour(colour, 0.85 * (1 - place.age));
+        cairo_arc(cr, p.x(), p.y(), radius, 0, 2 * kPi);
+        cairo_fill(cr);
+      });
+    }
+    for (std::size_t k = 1; k < trail.places.size(); ++k) {
+      const DefectTrail::Place& from = trail.places[k - 1];
+      const DefectTrail::Place& to = trail.places[k];
+      const double age = (from.age + to.age) / 2;
+      const Vec2 middle = (from.position + to.position) / 2, half = (to.position - from.position) / 2;
+      for_images(plane.view(), middle, half.norm() + width_at(age) / plane.scale(), [&](const Vec2& at) {
+        const Vec2 a = plane.pixel(at - half), b = plane.pixel(at + half);
+        canvas.colour(colour, 0.85 * (1 - age));
+        canvas.line(a.x(), a.y(), b.x(), b.y(), width_at(age));
+      });
+    }
   }
 }
 

@@ -14,6 +14,7 @@ Notes picture_texts(const RodPicture& picture);
 
 /// Writes a PNG with `texts` inside, as tEXt where they are ASCII and iTXt (UTF-8) otherwise; the file appears, or
 /// replaces an older one, only when it is complete.
-Result<void> write_png(const std::filesystem::path& file, const Image& image, const Notes& texts = {});
+template <class Channel>
+Result<void> write_png(const std::filesystem::path& file, const ImageOf<Channel>& image, const Notes& texts = {});
 
 }  // namespace shaken::render

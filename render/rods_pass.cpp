@@ -71,6 +71,7 @@ struct RodsPass::Programs {
   GLuint body = 0;
   GLuint shadow = 0;
   GLuint walls = 0;
+  std::string body_is_for;  ///< what light
   RodBuffer rods;
 };
 
@@ -83,21 +84,25 @@ RodsPass::~RodsPass() = default;  // the GL objects go with their context
 Result<RodsPass> RodsPass::create() {
   Result<GlContext> context = GlContext::create();
   if (!context) return context.error();
-  if (auto done = context->bind(kSamples, kSamples); !done) return done.error();
+  if (auto done = context->bind(1, 1); !done) return done.error();
   auto programs = std::make_unique<Programs>();
   std::string message;
-  programs->body = link_program(shaders::kQuad, shaders::kBody, message);
   programs->shadow = link_program(shaders::kQuad, shaders::kShadow, message);
   programs->walls = link_program(shaders::kView, shaders::kWalls, message);
-  if (!programs->body || !programs->shadow || !programs->walls)
-    return Error{"the rasteriser refuses a shader: " + message};
+  if (!programs->shadow || !programs->walls) return Error{"the rasteriser refuses a shader: " + message};
   return RodsPass(std::move(*context), std::move(programs));
 }
 
-Result<Image> RodsPass::draw(const RodPicture& picture, const PictureStyle& style, int side) {
+template <class Channel>
+Result<ImageOf<Channel>> RodsPass::draw(const RodPicture& picture, const PictureStyle& style, int side) {
   if (auto done = check_drawable(picture, side); !done) return done.error();
-  if (auto done = context_.bind(side * kSamples, side * kSamples); !done) return done.error();
+  if (auto done = context_.bind<Channel>(side * style.light.samples, side * style.light.samples); !done)
+    return done.error();
 
+  if (auto done = relight(programs_->body, programs_->body_is_for, shaders::kQuad, shaders::kBody, style.light);
+      !done) {
+    return done.error();
+  }
   const View view = view_of(picture, style);
   std::vector<SeenFromAbove> batches;
   double thick = 0;
@@ -147,6 +152,7 @@ Result<Image> RodsPass::draw(const RodPicture& picture, const PictureStyle& styl
   glEnable(GL_BLEND);
   glBlendEquation(GL_MIN);
   for (const SeenFromAbove& batch : batches) {
+    if (!style.light.shadows) break;
     draw_with(programs_->shadow, batch, batch.margin, Vec2(0.20, -0.24) * batch.thick);
   }
 
@@ -155,12 +161,14 @@ Result<Image> RodsPass::draw(const RodPicture& picture, const PictureStyle& styl
   glEnable(GL_DEPTH_TEST);
   for (const SeenFromAbove& batch : batches) draw_with(programs_->body, batch, 0, Vec2(0, 0));
 
-  const std::vector<std::uint8_t>& pixels = context_.finished_pixels();
+  const std::vector<Channel>& pixels = context_.finished_pixels<Channel>();
   if (const GLenum code = glGetError(); code != GL_NO_ERROR) {
     return Error{"OpenGL error " + std::to_string(code) + " while drawing " + std::to_string(picture.n_rods()) +
                  " rods"};
   }
-  return averaged(pixels, side, side);
+  return averaged(pixels, side, side, style.light.samples);
 }
+template Result<Image> RodsPass::draw(const RodPicture& picture, const PictureStyle& style, int side);
+template Result<DeepImage> RodsPass::draw(const RodPicture& picture, const PictureStyle& style, int side);
 
 }  // namespace shaken::render

@@ -18,7 +18,7 @@ Result<void> check_drawable(const RodPicture& picture, int side);
 /// Model:    one quad for each rod, on which each pixel's ray is cut with the beads themselves, so the outline is that
 ///           of the simulated body; the depth is the surface's own. Rods are repeated across the periodic border and
 ///           clipped to the view. Each species is drawn with its own beads. Beyond side walls the floor is tinted.
-/// Numerics: 3 x 3 samples a pixel, averaged; the same bits for any number of rasteriser threads.
+/// Numerics: the samples of a pixel are averaged; the same bits for any number of rasteriser threads.
 class RodsPass {
  public:
   /// Rods of more beads than this are refused.
@@ -32,7 +32,8 @@ class RodsPass {
   ~RodsPass();
 
   /// The view as a square of `side` pixels.
-  Result<Image> draw(const RodPicture& picture, const PictureStyle& style, int side);
+  template <class Channel = std::uint8_t>
+  Result<ImageOf<Channel>> draw(const RodPicture& picture, const PictureStyle& style, int side);
 
  private:
   struct Programs;

@@ -81,17 +81,27 @@ void main() {
   }
   if (top < -1e8) discard;
 
+#ifdef SMOOTH
   // The beads' own normals, eased towards those of a smooth spindle: round bodies rather than strings of pearls.
   vec3 hit = vec3(place, top);
   vec3 spindle = hit - clamp(dot(hit, rod_axis), ends.x, ends.y) * rod_axis;
   normal = normalize(mix(normal, normalize(spindle), 0.8));
+#endif
 
   // Never quite at the floor of the depth buffer, where nothing is drawn.
   float height = clamp((rod_height + top - low) / (high - low), 0.001, 1.0);
   float diffuse = 0.5 + 0.5 * dot(normal, kLight);               // wrapped: soft
+#ifdef OCCLUSION
   float rim = smoothstep(-0.05, 0.75, normal.z);                 // the sides see their neighbours, not the sky
   float shade = (0.35 + 0.72 * diffuse) * mix(0.34, 1.0, rim) * mix(0.80, 1.04, height);
+#else
+  float shade = (0.35 + 0.72 * diffuse) * mix(0.80, 1.04, height);
+#endif
+#ifdef GLOSS
   float gloss = pow(max(dot(normal, kHalfway), 0.0), 40.0) * 0.16;
+#else
+  float gloss = 0.0;
+#endif
   // Light adds up in linear units; a square root is near enough to sRGB's curve, and exact on the way back.
   vec3 light = rod_colour * rod_colour * shade + gloss;
   pixel = vec4(sqrt(min(light, 1.0)), 1.0);

@@ -265,6 +265,33 @@ Result<const std::vector<analysis::Defect>*> TrajectorySource::defects_of(std::s
   return &(defects_[index] = std::move(picture->defects));
 }
 
+Result<void> TrajectorySource::link(std::size_t first, std::size_t last) {
+  if (!links_ || first < links_begin_ || first > links_end_) {
+    const run::TrajectoryHeader& header = reader_.header();
+    RodPicture rods;
+    rods.beads = {header.bead_offset, header.bead_radius};
+    links_.emplace(analysis::Region(header.box_side, header.walls), rods.rod_length());
+    links_begin_ = links_end_ = first;
+  }
+  for (; links_end_ <= last; ++links_end_) {
+    const Result<double> time = time_of(links_end_);
+    if (!time) return time.error();
+    const auto defects = defects_of(links_end_);
+    if (!defects) return defects.error();
+    links_->add(*time, **defects);
+  }
+  return {};
+}
+
+Result<void> TrajectorySource::follow(const FollowedDefect& defect, std::size_t first, std::size_t last) {
+  links_.reset();  // of these frames alone
+  if (auto done = link(first, last); !done) return done.error();
+  followed_ = links_->longest(defect.charge, defect.rank);
+  if (followed_) return {};
+  return Error{fmt::format("view follow:{0}:{1} is of the {0} defect after {1} others: in these frames there are {2}",
+                           defect.charge > 0 ? "plus" : "minus", defect.rank, links_->count(defect.charge))};
+}
+
 Result<std::vector<Vec2>> TrajectorySource::displacements(std::size_t index, double span) const {
   const Result<run::TrajectoryFrame> now = reader_.frame(index);
   if (!now) return now.error();
@@ -287,10 +314,15 @@ Result<std::vector<Vec2>> TrajectorySource::displacements(std::size_t index, dou
 }
 
 Result<RodPicture> TrajectorySource::picture(std::size_t index, const PictureStyle& style) {
-  Result<RodPicture> made = bare_picture(index, asked_by(style));
+  Asked asked = asked_by(style);
+  const auto known = defects_.find(index);
+  if (known != defects_.end() && !asked.field) asked.defects = false;
+  Result<RodPicture> made = bare_picture(index, asked);
   if (!made) return made.error();
   RodPicture& picture = *made;
+  if (known != defects_.end() && style.mark_defects) picture.defects = known->second;
   picture.notes = notes();
+  if (followed_) picture.followed = followed_->at(picture.time);
   if (style.displacements > 0) {
     Result<std::vector<Vec2>> ways = displacements(index, style.displacements);
     if (!ways) return ways.error();
@@ -304,13 +336,9 @@ Result<RodPicture> TrajectorySource::picture(std::size_t index, const PictureSty
       if (!before) return before.error();
       if (picture.time - *before > style.tracks) break;
     }
+    if (auto done = link(first, index); !done) return done.error();
     defects_.erase(defects_.begin(), defects_.lower_bound(first));  // a film does not go back
-    for (std::size_t past = first; past < index; ++past) {
-      const auto defects = defects_of(past);
-      if (!defects) return defects.error();
-      const double age = (picture.time - time_of(past).value()) / style.tracks;
-      for (const analysis::Defect& defect : **defects) picture.tracks.push_back({defect.position, defect.charge, age});
-    }
+    picture.tracks = links_->trails(picture.time, style.tracks);
   }
   if (history_.time.size() > 1) {
     picture.history.start = history_.start;

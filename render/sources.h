@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "render/defect_links.h"
 #include "render/picture.h"
 #include "render/style.h"
 #include "run/files/trajectory.h"
@@ -48,6 +49,9 @@ class TrajectorySource {
   Result<void> read_history();
   /// S of the frames from `first` to `last` that read_history() has read; empty if it has not.
   std::vector<double> orders(double first, double last) const;
+  /// Pictures from now on say where the defect is that lives longest in the recorded frames from `first` to `last`
+  /// (DefectLinks::longest). Fails if there are not so many.
+  Result<void> follow(const FollowedDefect& defect, std::size_t first, std::size_t last);
   /// A frame with order, director and what the style asks for; with S up to its time if the history has been read. The
   /// label says how the plates shake.
   Result<RodPicture> picture(std::size_t index, const PictureStyle& style);
@@ -57,6 +61,8 @@ class TrajectorySource {
       : file_(std::move(file)), reader_(std::move(reader)) {}
   std::filesystem::path file_;
   run::TrajectoryReader reader_;
+  /// Has the defects of the frames from `first` to `last` linked, and of those before that are linked already.
+  Result<void> link(std::size_t first, std::size_t last);
   /// The defects of a frame, kept for the tracks of later ones.
   Result<const std::vector<analysis::Defect>*> defects_of(std::size_t index);
   /// How far each rod has come from the frame nearest to `span` seconds before.
@@ -66,6 +72,9 @@ class TrajectorySource {
   OrderHistory history_;
   mutable std::map<std::size_t, double> times_;
   std::map<std::size_t, std::vector<analysis::Defect>> defects_;
+  std::optional<DefectLinks> links_;
+  std::size_t links_begin_ = 0, links_end_ = 0;  // the frames that are linked
+  std::optional<DefectLife> followed_;
 };
 
 /// The next whole frame that a running job sends over LCM. `job` is its id or the beginning of it. The bus carries no

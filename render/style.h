@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -26,6 +27,31 @@ enum class ViewPoint {
   kGap,  ///< into the gap between the plates, in perspective
 };
 
+/// A defect that a view follows: of those with this charge in the frames that are looked at, the one that lives
+/// longest, or after `rank` others.
+struct FollowedDefect {
+  double charge;
+  std::size_t rank;
+};
+
+/// A small plot in a corner of the rods.
+enum class Inset {
+  kNone,
+  kAngles,  ///< P(theta) of the instant
+  kOrder,   ///< S(t)
+  kG2,      ///< G2(r) of the instant
+  kSweep,   ///< the points of the sweep by their S, with a ring round the run's own
+};
+
+/// What light does to rods. What is off costs nothing.
+struct Light {
+  int samples = 3;        ///< along each side of a pixel, 1 to 3
+  bool shadows = true;    ///< on the floor
+  bool gloss = true;      ///< light that is thrown back as by a mirror
+  bool occlusion = true;  ///< less light from the side, where neighbours are
+  bool smooth = true;     ///< normals eased towards those of a smooth body: no strings of pearls
+};
+
 /// How rods are drawn, and what beside them. Its keys are those of style files and of the command line
 /// (render/style_keys.h).
 struct PictureStyle {
@@ -37,14 +63,17 @@ struct PictureStyle {
   double rods = 1;  ///< opacity of floor and rods over the background, in [0, 1]; at 0 no rod is drawn
   Background background = Background::kNone;
   FieldLines lines = FieldLines::kNone;
+  Light light;
   bool mark_defects = true;
   double tracks = 0;         ///< for how long defects leave a track of where they were [s]; 0: none
   double displacements = 0;  ///< arrows from where each rod was so long before [s]; 0: none
+  Inset inset = Inset::kNone;
   bool scale_bar = true;
   bool legend = true;
   bool caption = true;
   ViewPoint view = ViewPoint::kTop;
-  std::optional<int> followed;  ///< a rod that stays in the middle; `focus` is then not asked
+  std::optional<int> followed;                    ///< a rod that stays in the middle; `focus` is then not asked
+  std::optional<FollowedDefect> followed_defect;  ///< as `followed`; one of them at most
   bool whole = false;           ///< rods across the border of a periodic box are drawn once and whole, beyond its frame
   double zoom = 1.0;            ///< >= 1: shows a square of box_side / zoom
   Vec2 focus{0.5, 0.5};         ///< middle of the view, in box sides; a periodic box wraps round

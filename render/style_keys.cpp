@@ -30,6 +30,21 @@ StyleKey switch_key(const char* name, std::string doc, bool PictureStyle::*at) {
           }};
 }
 
+StyleKey light_key(const char* name, std::string doc, bool Light::*at) {
+  return {name,
+          StyleForm::kSwitch,
+          "",
+          std::move(doc),
+          0,
+          0,
+          {},
+          [at](const PictureStyle& style) { return style.light.*at; },
+          [at](PictureStyle& style, const StyleValue& value) -> Result<void> {
+            style.light.*at = std::get<bool>(value);
+            return {};
+          }};
+}
+
 StyleKey number_key(const char* name, const char* value_name, std::string doc, double low, double high,
                     double PictureStyle::*at) {
   return {name,
@@ -65,28 +80,52 @@ StyleKey word_key(const char* name, std::string doc, std::vector<std::string> wo
           }};
 }
 
+constexpr const char* kViews = "top, gap, follow:N, follow:plus or follow:minus";
+
 StyleValue view_word(const PictureStyle& style) {
   if (style.followed) return fmt::format("follow:{}", *style.followed);
+  if (style.followed_defect) {
+    const auto& [charge, rank] = *style.followed_defect;
+    return fmt::format("follow:{}{}", charge > 0 ? "plus" : "minus", rank > 0 ? fmt::format(":{}", rank) : "");
+  }
   return std::string(style.view == ViewPoint::kGap ? "gap" : "top");
+}
+
+/// A number counted from 0; nothing if it is none, or beyond all rods.
+std::optional<int> count_in(const std::string& digits) {
+  if (digits.empty() || digits.size() > 7 || digits.find_first_not_of("0123456789") != std::string::npos ||
+      std::stod(digits) > kMostRods) {
+    return std::nullopt;
+  }
+  return std::stoi(digits);
 }
 
 Result<void> set_view(PictureStyle& style, const StyleValue& value) {
   const auto& word = std::get<std::string>(value);
-  const std::string_view follow = "follow:";
-  if (word == "top" || word == "gap") {
-    style.view = word == "gap" ? ViewPoint::kGap : ViewPoint::kTop;
-    style.followed.reset();
-    return {};
+  std::optional<int> rod;
+  std::optional<FollowedDefect> defect;
+  if (word != "top" && word != "gap") {
+    const std::string_view follow = "follow:";
+    const std::string what = word.starts_with(follow) ? word.substr(follow.size()) : "";
+    rod = count_in(what);
+    for (const auto& [name, charge] : {std::pair{std::string("plus"), 0.5}, {"minus", -0.5}}) {
+      if (what == name) defect = {charge, 0};
+      if (!what.starts_with(name + ":")) continue;
+      const std::optional<int> rank = count_in(what.substr(name.size() + 1));
+      if (rank) defect = {charge, static_cast<std::size_t>(*rank)};
+    }
+    if (!rod && !defect) {
+      return Error{fmt::format(
+          "may be {}, N being the number of a rod, counted from 0; follow:plus:1 is the +1/2 defect that lives longest "
+          "but one",
+          kViews)};
+    }
+    // A close-up, unless the style says how close.
+    if (style.zoom <= 1) style.zoom = 4;
   }
-  const std::string digits = word.starts_with(follow) ? word.substr(follow.size()) : "";
-  if (digits.empty() || digits.size() > 7 || digits.find_first_not_of("0123456789") != std::string::npos ||
-      std::stod(digits) > kMostRods) {
-    return Error{"may be top, gap or follow:N, N being the number of a rod, counted from 0"};
-  }
-  style.view = ViewPoint::kTop;
-  style.followed = std::stoi(digits);
-  // A close-up, unless the style says how close.
-  if (style.zoom <= 1) style.zoom = 4;
+  style.view = word == "gap" ? ViewPoint::kGap : ViewPoint::kTop;
+  style.followed = rod;
+  style.followed_defect = defect;
   return {};
 }
 
@@ -131,6 +170,25 @@ std::vector<StyleKey> make_keys() {
       word_key("theme", "Colours of page, floor and text", {"light", "dark", "print"}, &PictureStyle::theme));
   keys.push_back(
       number_key("rods", "OPACITY", "Opacity of the rods over the background; 0: none", 0, 1, &PictureStyle::rods));
+  keys.push_back({"samples",
+                  StyleForm::kNumber,
+                  "N",
+                  "Rays along each side of a pixel; 1 is for a first look",
+                  1,
+                  3,
+                  {},
+                  [](const PictureStyle& style) { return static_cast<double>(style.light.samples); },
+                  [](PictureStyle& style, const StyleValue& value) -> Result<void> {
+                    const double samples = std::get<double>(value);
+                    if (samples != std::floor(samples)) return Error{"is a whole number"};
+                    style.light.samples = static_cast<int>(samples);
+                    return {};
+                  }});
+  keys.push_back(light_key("shadows", "Soft shadows on the floor", &Light::shadows));
+  keys.push_back(light_key("gloss", "Rods shine where they throw the light back", &Light::gloss));
+  keys.push_back(light_key("occlusion", "Rods are darker at their sides, which see neighbours rather than the sky",
+                           &Light::occlusion));
+  keys.push_back(light_key("smooth", "Rods look like smooth bodies; else each of their beads is seen", &Light::smooth));
   keys.push_back(word_key("background", "What lies under the rods: the floor, or the local order S (dark: none)",
                           {"none", "order"}, &PictureStyle::background));
   keys.push_back(
@@ -141,6 +199,10 @@ std::vector<StyleKey> make_keys() {
       number_key("tracks", "S", "For how long defects leave a track that fades", 0, 1000, &PictureStyle::tracks));
   keys.push_back(number_key("displacements", "S", "Arrows from where each rod's centre was so long before", 0, 1e6,
                             &PictureStyle::displacements));
+  keys.push_back(word_key("inset",
+                          "A plot in a corner of the rods: P(theta) and G2(r) of this instant; S(t), which then "
+                          "stands there only; the points of the sweep with a ring round this one (--sweep)",
+                          {"none", "angles", "order", "g2", "sweep"}, &PictureStyle::inset));
   keys.push_back(switch_key("caption", "Headline, numbers and S(t)", &PictureStyle::caption));
   keys.push_back(switch_key("legend", "The colour scale, with how many rods have which colour", &PictureStyle::legend));
   keys.push_back(switch_key("scale_bar", "A scale bar; in films also the playback speed", &PictureStyle::scale_bar));
@@ -148,7 +210,8 @@ std::vector<StyleKey> make_keys() {
                   StyleForm::kWord,
                   "VIEW",
                   "top: from above; gap: into the gap, in perspective; follow:N: rod N stays in the middle, 4 times "
-                  "enlarged unless zoom says otherwise",
+                  "enlarged unless zoom says otherwise; follow:plus, follow:minus: the defect of that sign that lives "
+                  "longest, follow:plus:1 the next one",
                   0,
                   0,
                   {},
@@ -238,7 +301,7 @@ std::string allowed(const StyleKey& key) {
     for (std::size_t i = 0; i < key.words.size(); ++i) {
       all += (i == 0 ? "" : i + 1 == key.words.size() ? " or " : ", ") + key.words[i];
     }
-    return all.empty() ? "top, gap or follow:N" : all;
+    return all.empty() ? kViews : all;
   }
   const std::string range = fmt::format("{:g} to {:g}", key.low, key.high);
   return key.form == StyleForm::kNumber ? range : range + " each";

@@ -10,7 +10,8 @@ namespace {
 
 /// Whether the view reaches beyond the box.
 bool is_whole(const RodPicture& picture, const PictureStyle& style) {
-  return style.whole && style.view == ViewPoint::kTop && style.zoom <= 1 && !style.followed && !picture.walls;
+  return style.whole && style.view == ViewPoint::kTop && style.zoom <= 1 && !style.followed && !style.followed_defect &&
+         !picture.walls;
 }
 
 }  // namespace
@@ -33,6 +34,8 @@ View view_of(const RodPicture& picture, const PictureStyle& style) {
   if (style.followed && static_cast<std::size_t>(*style.followed) < picture.n_rods()) {
     const auto rod = static_cast<std::size_t>(*style.followed);
     view.corner = picture.position[rod].head<2>() - Vec2(view.side, view.side) / 2;
+  } else if (style.followed_defect && picture.followed) {
+    view.corner = *picture.followed - Vec2(view.side, view.side) / 2;
   } else if (style.zoom > 1) {
     view.corner = style.focus * picture.box_side - Vec2(view.side, view.side) / 2;
   }

@@ -151,6 +151,18 @@ TEST(GapPass, TheNearerRodHidesTheFarther) {
   }
 }
 
+TEST(GapPass, EachLightGoesOutAlone) {
+  RodPicture picture = empty_picture(kBox);
+  add_rod(picture, kBox / 2, kBox / 2 + 2, 0.5);
+  const Image all = look(picture);
+  for (const auto light : {&Light::shadows, &Light::gloss, &Light::occlusion, &Light::smooth}) {
+    PictureStyle style = gap_style();
+    style.light.*light = false;
+    EXPECT_NE(gap_pass().draw(picture, style, kWidth, kHeight).value(), all);
+  }
+  EXPECT_EQ(look(picture), all);
+}
+
 TEST(GapPass, AnEmptyGapAndADegenerateOne) {
   EXPECT_TRUE(extent_of(look(empty_picture(kBox))).is_empty());
   RodPicture flat = empty_picture(kBox);

@@ -91,6 +91,19 @@ const Case kCases[] = {
     {"layers", layered, R"({"style": "layers"})"},
     {"layers_tall_dark", layered, R"({"style": "layers", "theme": "dark", "size": [270, 480]})"},
     {"defects", paired, R"({"style": "defects"})"},
+    {"tracks",
+     [] {
+       RodPicture picture = paired();
+       DefectTrail plus{0.5, {}}, minus{-0.5, {}};
+       for (int k = 0; k <= 20; ++k) {
+         const double age = 1 - k / 20.0;
+         plus.places.push_back({Vec2(12 - 14 * age, 19 + 3 * std::sin(6 * age)), age});  // from beyond the border
+         minus.places.push_back({Vec2(26 + 4 * std::sin(9 * age), 19 - 8 * age), age});
+       }
+       picture.tracks = {plus, minus, {0.5, {{Vec2(30, 30), 0.5}}}};
+       return picture;
+     },
+     R"({"style": "defects", "caption": false, "legend": false, "scale_bar": false})"},
     {"director", paired, R"({"style": "director", "theme": "print"})"},
     {"bars", paired, R"({"rods": 0.3, "lines": "bars", "legend": false})"},
     {"tilt", layered, R"({"style": "tilt"})"},
@@ -112,6 +125,32 @@ const Case kCases[] = {
        return first;
      },
      R"({"colour": "angle", "defects": true})"},
+    {"inset_angles", layered, R"({"colour": "angle", "defects": false, "inset": "angles"})"},
+    {"inset_g2", paired, R"({"theme": "dark", "caption": false, "legend": false, "scale_bar": false, "inset": "g2"})"},
+    {"inset_order",
+     [] {
+       RodPicture first = layered(), second = paired();
+       first.history = {{0, 5, 12.34}, {0.2, 0.7, 0.9}, 0, 20};
+       second.history = {{0, 5, 12.34}, {0.2, 0.4, 0.3}, 0, 20};
+       first.beside = {second};
+       return first;
+     },
+     R"({"colour": "angle", "defects": false, "inset": "order", "size": [640, 360]})"},
+    {"inset_sweep",
+     [] {
+       RodPicture picture = layered();
+       SweepMap map{"\u03c6", "\u2113", {}};
+       for (const double phi : {0.45, 0.6, 0.75}) {
+         for (const double length : {2.5, 3.5, 4.5}) {
+           const bool is_done = phi < 0.7 || length < 4;
+           map.points.push_back({Vec2(phi, length), is_done ? phi * length / 4 : std::nan("")});
+         }
+       }
+       picture.sweep = std::make_shared<const SweepMap>(map);
+       picture.sweep_point = Vec2(0.75, 3.5);
+       return picture;
+     },
+     R"({"colour": "layers", "defects": false, "inset": "sweep"})"},
     {"empty", [] { return empty_picture(20); }, R"({})"},
     {"one_rod_in_a_tiny_box",
      [] {

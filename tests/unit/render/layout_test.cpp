@@ -52,6 +52,33 @@ TEST(Layout, NothingOverlapsOrLeavesThePicture) {
   }
 }
 
+TEST(Layout, TheInsetLiesOnTheRods) {
+  const auto within = [](const Rect& inner, const Rect& outer) {
+    return inner.x >= outer.x && inner.y >= outer.y && inner.right() <= outer.right() &&
+           inner.bottom() <= outer.bottom();
+  };
+  PictureStyle style;
+  EXPECT_EQ(layout_of(style, {}).inset.width, 0);
+  style.inset = Inset::kG2;
+  for (const auto& [width, height] : std::vector<std::pair<int, int>>{{480, 270}, {1280, 720}, {270, 480}}) {
+    style.width = width;
+    style.height = height;
+    const Layout top = layout_of(style, {}), gap = gap_layout_of(style, {});
+    EXPECT_GT(top.inset.width, 0);
+    EXPECT_TRUE(within(top.inset, {double(top.box_x), double(top.box_y), double(top.box_side), double(top.box_side)}));
+    if (gap.inset.width > 0) {
+      EXPECT_TRUE(within(gap.inset, {0, 0, double(gap.stage_width), double(gap.stage_height)}));
+    }
+    for (const Layout& panel : panel_grid(style, 2).panels) {
+      if (panel.inset.width == 0) continue;
+      const auto side = double(panel.box_side);
+      EXPECT_TRUE(within(panel.inset, {double(panel.box_x), double(panel.box_y), side, side}));
+    }
+  }
+  style.width = style.height = 100;
+  EXPECT_EQ(layout_of(style, {}).inset.width, 0) << "there is no room";
+}
+
 TEST(PanelGrid, NothingOverlapsOrLeavesThePicture) {
   for (const auto& [width, height] :
        std::vector<std::pair<int, int>>{{640, 360}, {1280, 720}, {720, 720}, {800, 1200}, {1920, 400}, {400, 1600}}) {

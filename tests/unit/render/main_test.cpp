@@ -142,6 +142,9 @@ TEST(RenderProgram, EqualCallsGiveEqualFiles) {
                 bytes("picture", (std::string("b") + ending).c_str()))
         << ending;
   }
+  EXPECT_TRUE(bytes("picture --depth 16", "a16.png") == bytes("picture --depth 16", "b16.png"));
+  EXPECT_EQ(bytes("picture --depth 16", "a16.png")[24], 16) << "bits a colour, as the file's head has it";
+  EXPECT_EQ(run_program("picture " + folder.path().string() + " --depth 16 -o " + (folder / "c.pdf").string()).code, 2);
   for (const char* ending : {".mp4", ".gif", ".webm"}) {
     EXPECT_TRUE(bytes("movie --threads 1", (std::string("a") + ending).c_str()) ==
                 bytes("movie --threads 3", (std::string("b") + ending).c_str()))
@@ -248,7 +251,13 @@ TEST(RenderProgram, BadInputIsTwoFailureIsOne) {
                                 "movie RUN -o m.avi",
                                 "movie RUN --every 0",
                                 "movie RUN --from 2 --to -1",
-                                "live abc"}) {
+                                "live abc",
+                                "picture RUN --view follow:plus",
+                                "picture RUN --view follow:plus:x",
+                                "picture RUN --inset sweep",
+                                "picture RUN --inset sweep --sweep {}",
+                                "live abc -o x.png --view follow:plus",
+                                "live abc -o x.png --inset order"}) {
     std::string arguments = bad;
     if (const auto at = arguments.find("RUN"); at != std::string::npos) arguments.replace(at, 3, run);
     const Ended ended = run_program(arguments);

@@ -173,14 +173,19 @@ TEST(Displacements, AreArrowsOfTrueLengthToTheRods) {
 
 TEST(Tracks, FadeWithAge) {
   RodPicture picture = empty_picture(kBox);
-  picture.tracks = {{Vec2(10, 10), 0.5, 0.9}, {Vec2(20, 10), 0.5, 0.1}, {Vec2(30, 10), -0.5, 0.1}};
+  const double y = kBox / 6;
+  picture.tracks = {{0.5, {{Vec2(5, y), 0.95}, {Vec2(15, y), 0.85}, {Vec2(20, y), 0.15}, {Vec2(22, y), 0.05}}},
+                    {-0.5, {{Vec2(28, y), 0.15}, {Vec2(32, y), 0.05}}}};
   const Image image = painter().paint(picture, bare()).value();
   const auto at = [&](double x) { return image.pixel(static_cast<int>(x / kBox * kSide), kSide - kSide / 6); };
   const auto vividness = [](const std::uint8_t* p) {
     return std::max({p[0], p[1], p[2]}) - std::min({p[0], p[1], p[2]});
   };
-  EXPECT_GT(vividness(at(20)), 2 * vividness(at(10)));
-  EXPECT_GT(at(20)[0], at(20)[2]) << "orange";
+  EXPECT_GT(vividness(at(21)), 2 * vividness(at(10)));
+  EXPECT_GT(vividness(at(10)), vividness(at(36)) + 5) << "a line, and not only its points";
+  EXPECT_GT(vividness(at(18)), 2 * vividness(at(10)));
+  EXPECT_LT(vividness(at(25)), 5) << "nothing links one defect's track to another's";
+  EXPECT_GT(at(21)[0], at(21)[2]) << "orange";
   EXPECT_LT(at(30)[0], at(30)[2]) << "blue";
 }
 

@@ -44,6 +44,71 @@ TEST(Png, RoundTrip) {
   EXPECT_EQ(folder.listing(), "a.png");
 }
 
+/// Its colours as numbers; empty if it has not 16 bits a colour.
+DeepImage read_deep(const std::filesystem::path& path) {
+  std::FILE* file = std::fopen(path.c_str(), "rb");
+  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop info = png_create_info_struct(png);
+  png_init_io(png, file);
+  png_read_png(png, info, PNG_TRANSFORM_IDENTITY, nullptr);
+  DeepImage image;
+  if (png_get_bit_depth(png, info) == 16) {
+    image =
+        DeepImage(static_cast<int>(png_get_image_width(png, info)), static_cast<int>(png_get_image_height(png, info)));
+    for (int y = 0; y < image.height; ++y) {
+      const png_bytep row = png_get_rows(png, info)[y];
+      for (int i = 0; i < 3 * image.width; ++i) {
+        image.pixel(0, y)[i] = static_cast<std::uint16_t>(row[2 * i] << 8 | row[2 * i + 1]);
+      }
+    }
+  }
+  png_destroy_read_struct(&png, &info, nullptr);
+  std::fclose(file);
+  return image;
+}
+
+TEST(Png, SixteenBitsComeBackAsTheyWere) {
+  const ScratchFolder folder;
+  DeepImage image(31, 17);
+  for (std::size_t i = 0; i < image.rgb.size(); ++i) image.rgb[i] = static_cast<std::uint16_t>(i * i * 41 + 7 * i);
+  ASSERT_TRUE(write_png(folder / "a.png", image, {{"Run id", "1f0c"}}));
+  EXPECT_EQ(read_deep(folder / "a.png"), image);
+  EXPECT_EQ(texts_of(folder / "a.png").at("Run id"), "1f0c");
+  ASSERT_TRUE(write_png(folder / "b.png", pattern(8, 8)));
+  EXPECT_EQ(read_deep(folder / "b.png").width, 0) << "the other ones have 8";
+}
+
+TEST(Png, APictureOf16BitsIsThatOf8WithMoreShades) {
+  RodPicture picture = empty_picture(30);
+  for (int i = 0; i < 60; ++i) add_rod(picture, 5 * (i % 6) + 2, 3 * (i / 6) + 1, 0.1 * i, 0.1);
+  picture.velocity.assign(picture.n_rods(), Vec3(1, 2, 0));
+  picture.label = "words";
+  picture.defects = {{Vec2(10, 10), 0.5, 1}};
+  RodPicture both = picture;
+  both.beside = {picture};
+  for (const char* look : {"top", "pale", "gap", "panels"}) {
+    const std::string what = look;
+    PictureStyle style;
+    style.width = 640;
+    style.height = 360;
+    if (what == "gap") style.view = ViewPoint::kGap;
+    if (what == "pale") style.rods = 0.4;
+    const RodPicture& drawn = what == "panels" ? both : picture;
+    const Image flat = painter().paint(drawn, style).value();
+    const DeepImage deep = painter().paint<std::uint16_t>(drawn, style).value();
+    ASSERT_EQ(deep.rgb.size(), flat.rgb.size());
+    double worst = 0;
+    std::size_t between = 0;
+    for (std::size_t i = 0; i < flat.rgb.size(); ++i) {
+      worst = std::max(worst, std::abs(deep.rgb[i] / 257.0 - flat.rgb[i]));
+      between += deep.rgb[i] % 257 != 0 ? 1 : 0;
+    }
+    EXPECT_LE(worst, 2) << what << ": of 255";
+    EXPECT_GT(between, flat.rgb.size() / 20) << what << ": shades that 8 bits do not have";
+    EXPECT_EQ(painter().paint<std::uint16_t>(drawn, style).value(), deep) << what;
+  }
+}
+
 TEST(Png, TextsAreKept) {
   const ScratchFolder folder;
   RodPicture picture;

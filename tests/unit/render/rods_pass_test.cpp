@@ -146,6 +146,69 @@ TEST(RodsPass, BackgroundIsTheFloorAwayFromRods) {
   }
 }
 
+TEST(RodsPass, EachLightGoesOutAlone) {
+  RodPicture picture = red_picture();
+  add_rod(picture, 5, 5, 0);
+  const auto level = [](const Image& image, int x, int y) {
+    const std::uint8_t* p = image.pixel(x, y);
+    return p[0] + p[1] + p[2];
+  };
+  const Image all = draw(picture);
+  PictureStyle style = layers();
+  style.light.shadows = false;
+  const Image no_shadows = draw(picture, style);
+  const int floor = level(all, 100, 500);
+  EXPECT_LT(level(all, 500, 545), floor - 20) << "under the rod's edge";
+  EXPECT_EQ(level(no_shadows, 500, 545), floor);
+  EXPECT_EQ(level(no_shadows, 500, 500), level(all, 500, 500)) << "the rod is as it was";
+
+  style = layers();
+  style.light.gloss = false;
+  const Image no_gloss = draw(picture, style);
+  style = layers();
+  style.light.occlusion = false;
+  const Image no_occlusion = draw(picture, style);
+  EXPECT_GT(level(no_occlusion, 500, 537), level(all, 500, 537) + 20) << "its side is brighter";
+  EXPECT_EQ(level(no_occlusion, 500, 500), level(all, 500, 500)) << "its back is as it was";
+  int brightest = 0, brightest_without = 0;
+  for (int y = 460; y < 540; ++y) {
+    brightest = std::max(brightest, level(all, 500, y));
+    brightest_without = std::max(brightest_without, level(no_gloss, 500, y));
+  }
+  EXPECT_GT(brightest, brightest_without + 20);
+
+  style = layers();
+  style.light.smooth = false;
+  const Image beads = draw(picture, style);
+  // From bead to bead along the rod.
+  const auto ripple = [&](const Image& image) {
+    int sum = 0;
+    for (int x = 400; x < 600; ++x) sum += std::abs(level(image, x + 1, 500) - level(image, x, 500));
+    return sum;
+  };
+  EXPECT_GT(ripple(beads), 2 * ripple(all));
+  EXPECT_EQ(draw(picture), all) << "and all are lit again";
+}
+
+TEST(RodsPass, FewerSamplesShowTheSameWithHarderEdges) {
+  RodPicture picture = red_picture();
+  add_rod(picture, 5, 5, 0.3);
+  std::vector<int> rods;
+  for (const int samples : {1, 2, 3}) {
+    PictureStyle style = layers();
+    style.light.samples = samples;
+    rods.push_back(count(draw(picture, style), is_rod));
+  }
+  EXPECT_NEAR(rods[0], rods[2], 0.01 * rods[2]);
+  EXPECT_NEAR(rods[1], rods[2], 0.01 * rods[2]);
+  // A pixel on the edge between rod and floor is one or the other with one sample, and between them with nine.
+  picture.director[0] = Vec3(1, 0, 0);
+  PictureStyle hard = layers();
+  hard.light.samples = 1;
+  hard.light.shadows = false;
+  EXPECT_NE(draw(picture, hard), draw(picture));
+}
+
 TEST(RodsPass, NoRodsGiveTheBareFloor) {
   const Image image = draw(empty_picture(kBox), layers(), 64);
   for (int y = 0; y < 64; ++y) {

@@ -82,38 +82,50 @@ std::string ScratchFolder::listing() const {
   return all;
 }
 
-void plant_trajectory(const std::filesystem::path& directory, int n_frames, const std::string& scene_json) {
-  const RodPicture shape = empty_picture(10);
+void plant_frames(const std::filesystem::path& directory, const std::vector<RodPicture>& frames,
+                  const std::string& scene_json) {
+  RodPicture first = empty_picture(10);  // of a recording without frames
+  add_rod(first, 5, 5, 0);
+  if (!frames.empty()) first = frames.front();
   run::TrajectoryHeader header;
-  header.n_rods = 3;
-  header.box_side = 10;
-  header.gap = 1.2;
+  header.n_rods = static_cast<int>(first.n_rods());
+  header.box_side = first.box_side;
+  header.gap = first.gap;
   header.dt = 4e-6;
-  header.bead_offset = shape.beads.offset;
-  header.bead_radius = shape.beads.radius;
+  header.bead_offset = first.beads.offset;
+  header.bead_radius = first.beads.radius;
   header.scene_json = scene_json;
   const run::RunDirectory files{directory};
   Result<run::FrameLog> log = run::FrameLog::create(files.frames(), header);
   ASSERT_TRUE(log) << log.error().message;
-  for (int f = 0; f < n_frames; ++f) {
-    RodPicture rods = empty_picture(10);
-    for (int i = 0; i < 3; ++i) add_rod(rods, 5, 2 + 3 * i, f * kPi / 18, 0.1);
+  for (const RodPicture& rods : frames) {
     Snapshot snapshot;
-    snapshot.tick = f * 12500;
-    snapshot.time = f * 0.05;
-    snapshot.box_side = 10;
+    snapshot.tick = std::llround(rods.time / header.dt);
+    snapshot.time = rods.time;
+    snapshot.box_side = rods.box_side;
     snapshot.position = rods.position;
     snapshot.director = rods.director;
-    snapshot.image.resize(3);
-    snapshot.velocity.assign(3, Vec3::Zero());
-    snapshot.angular_velocity.assign(3, Vec3::Zero());
+    snapshot.image.resize(rods.n_rods());
+    snapshot.velocity.assign(rods.n_rods(), Vec3::Zero());
+    snapshot.angular_velocity.assign(rods.n_rods(), Vec3::Zero());
     const auto done = log->append(run::record(snapshot));
     ASSERT_TRUE(done) << done.error().message;
   }
-  const auto frames = run::TrajectoryReader::open(files.frames());
-  ASSERT_TRUE(frames) << frames.error().message;
-  ASSERT_TRUE(run::write_trajectory(files.trajectory(), frames->recorded()));
+  const auto recorded = run::TrajectoryReader::open(files.frames());
+  ASSERT_TRUE(recorded) << recorded.error().message;
+  ASSERT_TRUE(run::write_trajectory(files.trajectory(), recorded->recorded()));
   std::filesystem::remove(files.frames());
+}
+
+void plant_trajectory(const std::filesystem::path& directory, int n_frames, const std::string& scene_json) {
+  std::vector<RodPicture> frames;
+  for (int f = 0; f < n_frames; ++f) {
+    RodPicture rods = empty_picture(10);
+    rods.time = f * 0.05;
+    for (int i = 0; i < 3; ++i) add_rod(rods, 5, 2 + 3 * i, f * kPi / 18, 0.1);
+    frames.push_back(std::move(rods));
+  }
+  plant_frames(directory, frames, scene_json);
 }
 
 }  // namespace shaken::render

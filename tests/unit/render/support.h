@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "render/image.h"
 #include "render/painter.h"
@@ -41,7 +42,10 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-/// Writes DIR/trajectory.h5: frame f at f * 0.05 s has three rods, all turned by f * 10 degrees.
+/// Writes DIR/trajectory.h5 with these frames, of the same rods.
+void plant_frames(const std::filesystem::path& directory, const std::vector<RodPicture>& frames,
+                  const std::string& scene_json = "{}");
+/// The same: frame f at f * 0.05 s has three rods, all turned by f * 10 degrees.
 void plant_trajectory(const std::filesystem::path& directory, int n_frames, const std::string& scene_json = "{}");
 
 }  // namespace shaken::render

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/canvas.h"
+#include "render/colours.h"
+
+namespace shaken::render {
+
+/// A mark of an axis.
+struct Tick {
+  double at;
+  std::string text;
+};
+
+/// A line over two axes, as small plots beside the rods have it.
+struct Curve {
+  std::string title{};
+  std::vector<double> x{}, y{};            ///< points; the line has a gap where y is NaN
+  std::vector<Tick> x_ticks{}, y_ticks{};  ///< increasing; the first and the last are the ends of the axis
+  struct Dot {
+    Vec2 at;
+    Colour colour;
+  };
+  std::vector<Dot> dots{};     ///< without a line
+  std::optional<Vec2> ring{};  ///< round one of them
+  std::optional<Vec2> dot{};   ///< the present
+  bool is_area = false;        ///< filled down to 0
+};
+
+/// Draws it so that title and marks lie within `place`; `unit` as in Layout.
+void draw_curve(const Canvas& canvas, const Rect& place, double unit, const Curve& curve, const Palette& colours);
+
+}  // namespace shaken::render

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "analysis/defect_tracks.h"
+#include "analysis/region.h"
+#include "render/picture.h"
+
+namespace shaken::render {
+
+/// One defect from its first frame to its last.
+struct DefectLife {
+  double charge = 0;
+  std::vector<double> time;    ///< increasing [s]
+  std::vector<Vec2> position;  ///< (time.size()) goes on across the border of a periodic box [mm]
+
+  /// Where it is at `time`, or where it was born or died if that is nearer [mm].
+  Vec2 at(double time) const;
+};
+
+/// The defects of successive frames, linked as a run links them (analysis/defect_tracks.h).
+class DefectLinks {
+ public:
+  /// `rod_length`: no defect goes farther from one frame to the next [mm].
+  DefectLinks(const analysis::Region& region, double rod_length);
+
+  /// Takes the next frame.
+  void add(double time, const std::vector<analysis::Defect>& defects);
+  /// Where defects were from `time - span` to `time`, each with its whole way in that time.
+  std::vector<DefectTrail> trails(double time, double span) const;
+  /// Of the defects with that charge the one that has lived longest, or after `rank` others; of equal ones the older.
+  std::optional<DefectLife> longest(double charge, std::size_t rank) const;
+  /// Defects with that charge.
+  std::size_t count(double charge) const;
+
+ private:
+  analysis::Region region_;
+  analysis::DefectTracks tracks_;
+  std::vector<DefectLife> lives_;  // in the order of their tracks' numbers
+};
+
+}  // namespace shaken::render

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "render/canvas.h"
+#include "render/curve.h"
+#include "render/picture.h"
+#include "render/style.h"
+
+namespace shaken::render {
+
+/// S(t) so far, with a dot at the present, on an axis as long as the run.
+Curve order_curve(const RodPicture& picture);
+/// P(theta) of this instant, as a run measures it (analysis/angles.h) [1/rad], against degrees.
+Curve angle_curve(const RodPicture& picture);
+/// G2(r) of this instant, as a run measures it (analysis/g2.h), up to half a box [mm].
+Curve g2_curve(const RodPicture& picture);
+
+/// The points of the sweep, coloured by S, with a ring round this run's.
+Curve sweep_curve(const RodPicture& picture);
+
+/// Whether there is anything to draw for the inset that the style asks for.
+bool has_inset(const RodPicture& picture, const PictureStyle& style);
+/// The plot that the style asks for, on a page of its own that the rods shine through a little.
+void draw_inset(const Canvas& canvas, const Rect& place, double unit, const RodPicture& picture,
+                const PictureStyle& style);
+
+}  // namespace shaken::render

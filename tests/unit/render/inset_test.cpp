@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "render/inset.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "render/sweep_map.h"
+#include "tests/unit/render/support.h"
+
+namespace shaken::render {
+namespace {
+
+/// Rods on a lattice, in turn at `first` and at `second` [rad].
+RodPicture two_angles(double first, double second) {
+  RodPicture picture = empty_picture(40);
+  for (int i = 0; i < 400; ++i) {
+    add_rod(picture, 2.0 * (i % 20) + 1, 2.0 * (i / 20) + 1, i % 2 == 0 ? first : second);
+  }
+  measure(picture, {});
+  return picture;
+}
+
+TEST(Inset, AnglesAreThoseToTheDirectorWhateverItIs) {
+  for (const double director : {0.0, 1.2}) {
+    const Curve curve = angle_curve(two_angles(director + 0.3, director - 0.3));  // 17.2 degrees
+    const auto middle = curve.y.size() / 2;
+    const auto left = std::max_element(curve.y.begin(), curve.y.begin() + static_cast<std::ptrdiff_t>(middle));
+    const auto right = std::max_element(curve.y.begin() + static_cast<std::ptrdiff_t>(middle), curve.y.end());
+    EXPECT_NEAR(curve.x[static_cast<std::size_t>(left - curve.y.begin())], -17.2, 2.6);
+    EXPECT_NEAR(curve.x[static_cast<std::size_t>(right - curve.y.begin())], 17.2, 2.6);
+    // All rods lie in two bins of 5 degrees: 1 / (2 * 5 degrees) = 5.73 per rad.
+    EXPECT_NEAR(*left, 5.73, 0.01);
+    EXPECT_NEAR(*right, 5.73, 0.01);
+    EXPECT_GE(curve.y_ticks.back().at, *left) << "the axis reaches above the curve";
+    EXPECT_NEAR(curve.x.front(), -90, 1e-9);
+    EXPECT_NEAR(curve.x.back(), 90, 1e-9);
+  }
+}
+
+TEST(Inset, G2OfParallelRodsIsOneAndOfCrossedOnesFallsBelowZero) {
+  const Curve parallel = g2_curve(two_angles(0.4, 0.4));
+  EXPECT_TRUE(std::all_of(parallel.y.begin(), parallel.y.end(),
+                          [](double g2) { return std::isnan(g2) || std::abs(g2 - 1) < 1e-9; }));
+  EXPECT_EQ(parallel.y_ticks.front().at, 0);
+  EXPECT_LE(parallel.x.back(), 20) << "half a box";
+  // Columns 2 mm apart are crossed, so all pairs at (2 mm, 2 mm) are; of the twelve at 4 mm and at
+  // (2 mm, 4 mm), four are.
+  const Curve crossed = g2_curve(two_angles(0, kPi / 2));
+  const auto at = [&](double r) { return crossed.y[static_cast<std::size_t>(r / 0.5)]; };  // 40 bins up to 20 mm
+  EXPECT_NEAR(at(2 * std::sqrt(2.0)), -1, 1e-9);
+  EXPECT_NEAR(at(4.2), (8.0 - 4.0) / 12, 1e-9);
+  EXPECT_EQ(crossed.y_ticks.front().at, -1);
+}
+
+TEST(Inset, TheOrderOfTheRunEndsAtThePresent) {
+  RodPicture picture = two_angles(0, 0);
+  PictureStyle style;
+  style.inset = Inset::kOrder;
+  EXPECT_FALSE(has_inset(picture, style)) << "nothing is known of the time before";
+  picture.time = 3;
+  picture.history = {{0, 1, 3}, {0.1, 0.6, 1}, 0, 10};
+  EXPECT_TRUE(has_inset(picture, style));
+  const Curve curve = order_curve(picture);
+  EXPECT_EQ(*curve.dot, Vec2(3, picture.order));
+  EXPECT_EQ(curve.x_ticks.back().text, "10 s");
+}
+
+TEST(Inset, ASweepHasItsPointsAndARingRoundThisOne) {
+  const SweepPlaces places = sweep_places(R"({"x": "rods.area_fraction", "y": "rods.length",
+    "points": [[0.45, 2.5, 0.1], [0.8, 2.5, null], [0.8, 4.5, 0.9]], "here": [[0.8, 4.5]]})",
+                                          1)
+                                 .value();
+  RodPicture picture = two_angles(0, 0);
+  picture.sweep = places.map;
+  picture.sweep_point = places.here[0];
+  Curve curve = sweep_curve(picture);
+  EXPECT_EQ(curve.title, "\u2113 over \u03c6, by S");
+  ASSERT_EQ(curve.dots.size(), 3U);
+  EXPECT_EQ(*curve.ring, Vec2(0.8, 4.5));
+  EXPECT_LT(curve.x_ticks.front().at, 0.45);
+  EXPECT_GT(curve.x_ticks.back().at, 0.8);
+  EXPECT_NE(curve.dots[0].colour, curve.dots[2].colour);
+
+  // Of one parameter S is the height; a point without S has none.
+  const SweepPlaces line =
+      sweep_places(
+          R"({"x": "plates.gamma", "y": "", "points": [[5, null, 0.2], [7, null, null]], "here": [[5, null]]})", 1)
+          .value();
+  picture.sweep = line.map;
+  picture.sweep_point = line.here[0];
+  curve = sweep_curve(picture);
+  ASSERT_EQ(curve.dots.size(), 1U);
+  EXPECT_EQ(curve.dots[0].at, Vec2(5, 0.2));
+  EXPECT_EQ(*curve.ring, Vec2(5, 0.2));
+
+  for (const char* bad : {"", "[]", R"({"x": "a", "y": "b", "points": [[1]], "here": [[1, 2]]})",
+                          R"({"x": "a", "y": "b", "points": [], "here": []})"}) {
+    EXPECT_FALSE(sweep_places(bad, 1)) << bad;
+  }
+}
+
+TEST(Inset, IsDrawnOnTheRodsAndChangesNothingElse) {
+  const RodPicture picture = two_angles(0.2, -0.2);
+  PictureStyle style;
+  const Image without = painter().paint(picture, style).value();
+  style.inset = Inset::kAngles;
+  const Image with = painter().paint(picture, style).value();
+  const Rect place = layout_of(style, {}).inset;
+  int inside = 0;
+  for (int y = 0; y < with.height; ++y) {
+    for (int x = 0; x < with.width; ++x) {
+      if (std::equal(with.pixel(x, y), with.pixel(x, y) + 3, without.pixel(x, y))) continue;
+      const bool is_there = x >= place.x - 2 && x <= place.right() + 2 && y >= place.y - 2 && y <= place.bottom() + 2;
+      ASSERT_TRUE(is_there) << x << ", " << y;
+      ++inside;
+    }
+  }
+  EXPECT_GT(inside, 0.9 * place.width * place.height);
+}
+
+}  // namespace
+}  // namespace shaken::render
