@@ -28,6 +28,7 @@ constexpr milliseconds kFirstPause{100};
 constexpr milliseconds kLongestPause{5000};
 
 constexpr std::string_view kUdpm = "udpm://";
+constexpr std::string_view kTcpq = "tcpq://";
 
 constexpr std::uint16_t kDefaultPort = 7667;
 
@@ -90,9 +91,20 @@ Result<void> check_udpm(const std::string& url) {
                " (" + std::strerror(reason) + "). As root: ip route add 224.0.0.0/4 dev lo"};
 }
 
+/// LCM 1.3.1 takes a name for 0.0.0.0, which is this machine, without a word.
+Result<void> check_tcpq(const std::string& url) {
+  const std::string target = url.substr(kTcpq.size());
+  const std::string address = target.substr(0, target.find(':'));
+  in_addr ignored{};
+  if (target.empty() || inet_pton(AF_INET, address.c_str(), &ignored) == 1) return {};
+  return Error{"LCM cannot start: '" + address + "' in '" + url +
+               "' is not an address in four numbers, such as 127.0.0.1"};
+}
+
 Result<void> check_url(const std::string& url) {
   if (url.starts_with(kUdpm)) return check_udpm(url);
-  constexpr std::array<std::string_view, 3> kOthers{"tcpq://", "memq://", "file://"};
+  if (url.starts_with(kTcpq)) return check_tcpq(url);
+  constexpr std::array<std::string_view, 2> kOthers{"memq://", "file://"};
   if (std::any_of(kOthers.begin(), kOthers.end(), [&](auto prefix) { return url.starts_with(prefix); })) {
     return {};
   }
@@ -104,9 +116,10 @@ Result<void> check_url(const std::string& url) {
 
 /// LCM calls C functions; this one finds its subscription again.
 struct BusCallback {
-  static void receive(const lcm_recv_buf_t* buffer, const char* /*channel*/, void* context) {
+  static void receive(const lcm_recv_buf_t* buffer, const char* channel, void* context) {
     auto& subscription = *static_cast<Bus::Subscription*>(context);
-    subscription.bus->dispatch(subscription, {static_cast<const std::uint8_t*>(buffer->data), buffer->data_size});
+    subscription.bus->dispatch(subscription, channel,
+                               {static_cast<const std::uint8_t*>(buffer->data), buffer->data_size});
   }
 };
 
@@ -127,7 +140,7 @@ Bus::~Bus() {
   if (lcm_ != nullptr) lcm_destroy(lcm_);
 }
 
-bool Bus::publish_bytes(const char* channel, const std::vector<std::uint8_t>& payload) {
+bool Bus::publish_bytes(const char* channel, std::span<const std::uint8_t> payload) {
   if (!connected()) reconnect();
   const bool sent = connected() && !payload.empty() &&
                     lcm_publish(lcm_, channel, payload.data(), static_cast<unsigned>(payload.size())) == 0;
@@ -148,9 +161,9 @@ bool Bus::register_with_lcm(Subscription& subscription) {
   return handle != nullptr && lcm_subscription_set_queue_capacity(handle, subscription.queue_capacity) == 0;
 }
 
-void Bus::dispatch(Subscription& subscription, std::span<const std::uint8_t> payload) noexcept {
+void Bus::dispatch(Subscription& subscription, const char* channel, std::span<const std::uint8_t> payload) noexcept {
   try {
-    ++(subscription.decoder(payload) ? counters_.received : counters_.refused);
+    ++(subscription.decoder(channel, payload) ? counters_.received : counters_.refused);
   } catch (...) {
     handler_failure_ = std::current_exception();
   }

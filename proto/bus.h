@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "proto/channels.h"
@@ -41,7 +42,8 @@ struct BusCounters {
 /// One thread per object: neither publish() nor handle() may run beside another call.
 class Bus {
  public:
-  /// url: udpm://ADDRESS:PORT?..., tcpq://HOST:PORT, memq:// or file://PATH?mode=w|r. An error says what to do.
+  /// url: udpm://ADDRESS:PORT?..., tcpq://ADDRESS:PORT (in numbers), memq:// or file://PATH?mode=w|r. An error says
+  /// what to do.
   static Result<std::unique_ptr<Bus>> open(const std::string& url = default_url());
   ~Bus();
   Bus(const Bus&) = delete;
@@ -52,6 +54,8 @@ class Bus {
   bool publish(const char* channel, const T& message) {
     return publish_bytes(channel, encode(message));
   }
+  /// The same for a payload that is there already, as in a recording.
+  bool publish_bytes(const char* channel, std::span<const std::uint8_t> payload);
 
   /// Calls `handler(const T&)` from handle(). Of messages that wait, the first `queue_capacity` are kept: 1 for a
   /// viewer that wants the newest state soon, more for a recorder or for frames in several chunks.
@@ -59,11 +63,24 @@ class Bus {
   template <class T, class Handler>
   bool subscribe(const char* channel, Handler handler, int queue_capacity = 30) {
     return subscribe_bytes(channel, queue_capacity,
-                           [handler = std::move(handler)](std::span<const std::uint8_t> payload) mutable {
+                           [handler = std::move(handler)](const char*, std::span<const std::uint8_t> payload) mutable {
                              const auto message = decode<T>(payload);
                              if (message) handler(*message);
                              return message.has_value();
                            });
+  }
+
+  /// Calls `handler(std::string_view channel, std::span<const std::uint8_t> payload)` with every message as it came, of
+  /// the channels that fit `pattern`, a regular expression: for those who hand messages on or keep them. Nothing has
+  /// looked at them.
+  template <class Handler>
+  bool subscribe_raw(const char* pattern, Handler handler, int queue_capacity) {
+    return subscribe_bytes(
+        pattern, queue_capacity,
+        [handler = std::move(handler)](const char* channel, std::span<const std::uint8_t> payload) mutable {
+          handler(std::string_view(channel), payload);
+          return true;
+        });
   }
 
   /// Waits for at most `timeout_ms` for a message and hands it on. Returns false if none came.
@@ -76,7 +93,7 @@ class Bus {
 
  private:
   /// Returns whether the payload could be decoded.
-  using Decoder = std::function<bool(std::span<const std::uint8_t>)>;
+  using Decoder = std::function<bool(const char* channel, std::span<const std::uint8_t>)>;
   struct Subscription {
     Bus* bus;
     std::string channel;
@@ -86,10 +103,9 @@ class Bus {
   friend struct BusCallback;
 
   explicit Bus(std::string url) : url_(std::move(url)) {}
-  bool publish_bytes(const char* channel, const std::vector<std::uint8_t>& payload);
   bool subscribe_bytes(const char* channel, int queue_capacity, Decoder decoder);
   bool register_with_lcm(Subscription& subscription);
-  void dispatch(Subscription& subscription, std::span<const std::uint8_t> payload) noexcept;
+  void dispatch(Subscription& subscription, const char* channel, std::span<const std::uint8_t> payload) noexcept;
   bool connected() const;
   void reconnect();
 

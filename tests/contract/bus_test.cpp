@@ -130,6 +130,31 @@ TEST(Bus, SaysWhatIsWrongWithAnAddress) {
   EXPECT_NE(unicast.error().message.find("not a multicast address"), std::string::npos) << unicast.error().message;
 }
 
+TEST(Bus, RefusesNamesThatTcpqWouldTakeForThisMachine) {
+  const auto name = Bus::open("tcpq://desk:7700");
+  ASSERT_FALSE(name);
+  EXPECT_NE(name.error().message.find("four numbers"), std::string::npos) << name.error().message;
+}
+
+TEST(Bus, RawMessagesComeAsTheyAreSent) {
+  const auto bus = memory_bus();
+  std::vector<std::string> channels;
+  std::vector<std::uint8_t> last;
+  bus->subscribe_raw(
+      "SHAKEN_.*",
+      [&](std::string_view channel, std::span<const std::uint8_t> payload) {
+        channels.emplace_back(channel);
+        last.assign(payload.begin(), payload.end());
+      },
+      30);
+  const std::vector<std::uint8_t> rubbish{1, 2, 3};
+  bus->publish_bytes("OTHER", rubbish);
+  bus->publish_bytes("SHAKEN_NEW", rubbish);
+  drain(*bus);
+  EXPECT_EQ(channels, std::vector<std::string>{"SHAKEN_NEW"});
+  EXPECT_EQ(last, rubbish);
+}
+
 TEST(Bus, DefaultUrlComesFromTheEnvironmentFirst) {
   setenv("LCM_DEFAULT_URL", "memq://", 1);
   EXPECT_EQ(default_url(), "memq://");
