@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+// Live state by way of the daemon's relay, with real runs and real LCM programs; recordings of it, by us and by LCM.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "base/descriptor.h"
+#include "tests/e2e/free_port.h"
+#include "tests/e2e/process.h"
+
+namespace shaken::test {
+namespace {
+
+using Json = nlohmann::json;
+using std::chrono::seconds;
+using std::chrono::steady_clock;
+
+std::string program(const std::string& name) { return std::string(SHAKEN_BIN_DIR) + "/" + name; }
+
+constexpr const char* kScene = R"({
+  "rods": { "length": "4.5 mm", "area_fraction": 0.5 }, "box": { "side": "20 mm" }, "time": { "measure": "4 s" },
+  "stream": { "rate": 20 }, "movie": null, "trajectory": null })";
+
+/// A raw connection to "127.0.0.1:PORT".
+Descriptor connected(const std::string& address) {
+  Descriptor fd(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  sockaddr_in where{};
+  where.sin_family = AF_INET;
+  where.sin_port = htons(static_cast<std::uint16_t>(std::stoi(address.substr(address.find(':') + 1))));
+  where.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  EXPECT_EQ(connect(fd.value(), reinterpret_cast<const sockaddr*>(&where), sizeof(where)), 0);
+  return fd;
+}
+
+class RelayedRun : public ::testing::Test {
+ protected:
+  RelayedRun() {
+    std::ofstream(folder_.path() / "scene.json") << kScene;
+    daemon_ = std::make_unique<Process>(std::vector<std::string>{program("shakend"), "--root", root(), "--slots", "1",
+                                                                 "--relay", address_, "--lcm-url", url_},
+                                        folder_.path() / "stdout");
+    EXPECT_TRUE(daemon_->wait_for("shakend ready", seconds(20))) << daemon_->output();
+  }
+  ~RelayedRun() override {
+    daemon_->signal(SIGTERM);
+    EXPECT_EQ(daemon_->wait(seconds(60)), 0) << daemon_->output();
+  }
+
+  std::string root() const { return folder_.path().string(); }
+  std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
+  Finished shaken(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), program("shaken"));
+    arguments.insert(arguments.end(), {"--root", root()});
+    return run_command(arguments, seconds(120));
+  }
+  std::unique_ptr<Process> recorder(const std::string& name) const {
+    auto process = std::make_unique<Process>(std::vector<std::string>{program("lcm_recorder"), url_}, file(name));
+    EXPECT_TRUE(process->wait_for("SHAKEN_STATUS", seconds(30))) << "it hears the daemon: " << process->output();
+    return process;
+  }
+  /// What a recorder has heard, by channel.
+  static std::map<std::string, std::vector<Json>> heard(const Process& recorder) {
+    std::map<std::string, std::vector<Json>> messages;
+    std::istringstream lines(recorder.output());
+    for (std::string line; std::getline(lines, line);) {
+      const Json message = Json::parse(line, nullptr, false);
+      if (message.is_object()) messages[message.at("channel")].push_back(message);
+    }
+    return messages;
+  }
+  /// Ends a recorder, and returns what it has heard.
+  static std::map<std::string, std::vector<Json>> stop(Process& recorder) {
+    recorder.signal(SIGTERM);
+    EXPECT_EQ(recorder.wait(seconds(20)), 0);
+    return heard(recorder);
+  }
+  TemporaryDirectory folder_;
+  std::string address_ = free_address();
+  std::string url_ = "tcpq://" + address_;
+  std::unique_ptr<Process> daemon_;
+};
+
+TEST_F(RelayedRun, BadClientsCostNeitherTheRunNorTheGoodOnesAnything) {
+  const auto good = recorder("good"), stopped = recorder("stopped"), killed = recorder("killed");
+  const Descriptor silent = connected(address_);
+  const Descriptor rubbish = connected(address_);
+  const std::string noise = "GET / HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n";
+  EXPECT_EQ(send(rubbish.value(), noise.data(), noise.size(), MSG_NOSIGNAL), std::ssize(noise));
+  stopped->signal(SIGSTOP);
+  const Finished submitted = shaken({"submit", file("scene.json")});
+  ASSERT_EQ(submitted.code, 0) << submitted.output;
+  ASSERT_TRUE(good->wait_for("SHAKEN_FRAME\"", seconds(60)));
+  killed->signal(SIGKILL);
+  ASSERT_EQ(shaken({"wait"}).code, 0);
+  stopped->signal(SIGCONT);
+
+  auto messages = stop(*good);
+  const std::vector<Json>& frames = messages["SHAKEN_FRAME"];
+  ASSERT_GT(frames.size(), 3U);
+  for (std::size_t i = 0; i < frames.size(); ++i) EXPECT_EQ(frames[i].at("sequence"), i) << "every frame has come";
+  EXPECT_FALSE(messages["SHAKEN_FRAME_STATIC"].empty());
+  EXPECT_FALSE(messages["SHAKEN_OBSERVABLES"].empty());
+  EXPECT_EQ(messages["SHAKEN_JOB"].back().at("state"), "done");
+  EXPECT_EQ(stop(*stopped)["SHAKEN_FRAME"].size(), frames.size()) << "so few wait for it";
+
+  const Finished alone =
+      run_command({program("shaken-worker"), file("scene.json"), "--out", file("alone"), "--no-lcm"}, seconds(120));
+  ASSERT_EQ(alone.code, 0) << alone.output;
+  const std::string id = frames[0].at("job");
+  const auto hash = [](const std::filesystem::path& directory) {
+    return Json::parse(std::ifstream(directory / "summary.json")).at("state_hash").get<std::string>();
+  };
+  EXPECT_EQ(hash(folder_.path() / "runs" / id), hash(file("alone")));
+}
+
+TEST_F(RelayedRun, MoreClientsThanItTakesAreRefused) {
+  const auto good = recorder("good");
+  // The daemon itself and the recorder are connected, too, of 64.
+  const std::string greeting("\x28\x76\x17\xfb\0\0\1\0", 8);
+  std::vector<Descriptor> crowd;
+  crowd.reserve(70);
+  int n_taken = 0;
+  for (int i = 0; i < 70; ++i) {
+    crowd.push_back(connected(address_));
+    (void)send(crowd.back().value(), greeting.data(), greeting.size(), MSG_NOSIGNAL);
+    std::string answer(greeting.size(), '\0');
+    n_taken += recv(crowd.back().value(), answer.data(), answer.size(), MSG_WAITALL) > 0 ? 1 : 0;
+  }
+  EXPECT_EQ(n_taken, 62);
+  const std::size_t n_before = heard(*good)["SHAKEN_STATUS"].size();
+  const auto until = steady_clock::now() + seconds(20);
+  while (heard(*good)["SHAKEN_STATUS"].size() == n_before && steady_clock::now() < until) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  EXPECT_GT(heard(*good)["SHAKEN_STATUS"].size(), n_before) << "those who are connected hear on";
+  crowd.clear();
+  EXPECT_NE(recorder("late"), nullptr);
+}
+
+TEST_F(RelayedRun, IsRecordedAndReplayedByUsAndByLcm) {
+  Process logger({"/usr/bin/lcm-logger", "--quiet", "--lcm-url=" + url_, file("theirs.lcmlog")}, file("logger.out"));
+  Process ours({program("shaken"), "record", "--root", root(), "--force", "-o", file("all.lcmlog")}, file("all.out"));
+  const Finished early = shaken({"submit", file("scene.json")});
+  ASSERT_EQ(early.code, 0) << early.output;
+  const std::string id =
+      Json::parse(shaken({"results", "--json"}).output).at("rows").at(0).at("job").get<std::string>();
+  const Finished recorded = shaken({"record", id, "-o", file("job.lcmlog")});
+  EXPECT_EQ(recorded.code, 0) << recorded.output;
+  EXPECT_NE(recorded.output.find("the jobs have ended: "), std::string::npos) << recorded.output;
+  ours.signal(SIGINT);
+  EXPECT_EQ(ours.wait(seconds(20)), 130) << ours.output();
+  EXPECT_NE(ours.output().find("interrupted: "), std::string::npos) << ours.output();
+  logger.signal(SIGINT);
+  logger.wait(seconds(20));
+
+  const Finished again = shaken({"record", "-o", file("job.lcmlog")});
+  EXPECT_EQ(again.code, 2);
+  EXPECT_NE(again.output.find("--force"), std::string::npos) << again.output;
+
+  const auto listener = recorder("heard");
+  const auto heard_of = [&](const std::vector<std::string>& player) {
+    const std::size_t before = heard(*listener)["SHAKEN_FRAME"].size();
+    const Finished played = run_command(player, seconds(60));
+    EXPECT_EQ(played.code, 0) << played.output;
+    std::size_t n = 0;
+    for (std::size_t last = 1; n != last;) {
+      last = n;
+      std::this_thread::sleep_for(std::chrono::milliseconds(300));
+      n = heard(*listener)["SHAKEN_FRAME"].size() - before;
+    }
+    return n;
+  };
+  const std::string replay = program("shaken");
+  const std::size_t n_ours = heard_of({replay, "replay-log", file("job.lcmlog"), "--lcm-url", url_, "--speed", "5"});
+  EXPECT_GT(n_ours, 3U);
+  EXPECT_EQ(heard_of({"/usr/bin/lcm-logplayer", "--speed=5", "--lcm-url=" + url_, file("job.lcmlog")}), n_ours);
+  EXPECT_GE(heard_of({replay, "replay-log", file("all.lcmlog"), "--lcm-url", url_, "--speed", "5"}), n_ours);
+  EXPECT_GE(heard_of({replay, "replay-log", file("theirs.lcmlog"), "--lcm-url", url_, "--speed", "5"}), n_ours);
+  const std::size_t n_late =
+      heard_of({replay, "replay-log", file("job.lcmlog"), "--lcm-url", url_, "--speed", "5", "--from", "1s"});
+  const std::size_t n_first =
+      heard_of({replay, "replay-log", file("job.lcmlog"), "--lcm-url", url_, "--speed", "5", "--to", "1s"});
+  EXPECT_LT(n_late, n_ours);
+  EXPECT_EQ(n_late + n_first, n_ours);
+}
+
+TEST_F(RelayedRun, ARecordingHasItsLimits) {
+  const Finished sized = shaken({"record", "--size", "300", "-o", file("small.lcmlog")});
+  EXPECT_EQ(sized.code, 0) << sized.output;
+  EXPECT_NE(sized.output.find("the log has its size: "), std::string::npos) << sized.output;
+  EXPECT_LE(std::filesystem::file_size(file("small.lcmlog")), 300U);
+  const Finished timed = shaken({"record", "--for", "1s", "-o", file("short.lcmlog")});
+  EXPECT_EQ(timed.code, 0) << timed.output;
+  EXPECT_NE(timed.output.find("the time is over: "), std::string::npos) << timed.output;
+  const Finished full = shaken({"record", "--force", "-o", "/dev/full"});
+  EXPECT_EQ(full.code, 1) << full.output;
+  EXPECT_NE(full.output.find("No space left on device; what came before is kept"), std::string::npos) << full.output;
+  EXPECT_EQ(shaken({"replay-log", file("scene.json"), "--lcm-url", url_}).code, 1) << "no log";
+}
+
+}  // namespace
+}  // namespace shaken::test
