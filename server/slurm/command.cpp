@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "server/slurm/command.h"
+
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <csignal>
+
+namespace shaken::server::slurm {
+namespace {
+
+constexpr int kTimeIsOver = 124;  // as timeout(1) has it
+
+std::string content(const Descriptor& file) {
+  struct stat status {};
+  if (fstat(file.value(), &status) != 0) return {};
+  std::string text(static_cast<std::size_t>(status.st_size), '\0');
+  const ssize_t n = pread(file.value(), text.data(), text.size(), 0);
+  text.resize(n < 0 ? 0 : static_cast<std::size_t>(n));
+  return text;
+}
+
+}  // namespace
+
+Result<Command> Command::start(const std::vector<std::string>& words, const std::filesystem::path& folder,
+                               std::chrono::milliseconds limit) {
+  Descriptor output(memfd_create("output", MFD_CLOEXEC));  // never full, unlike a pipe
+  if (!output) return system_error("memfd_create");
+  const Result<pid_t> child =
+      start_child({.command = words, .folder = folder, .output = output.value(), .own_group = true});
+  if (!child) return child.error();
+  return Command(*child, std::move(output), Clock::now() + limit);
+}
+
+std::optional<Captured> Command::poll() {
+  if (const auto ended = poll_child(child_)) return Captured{ended->shell_code(), content(output_)};
+  if (Clock::now() < end_) return std::nullopt;
+  kill(-child_, SIGKILL);
+  wait_for_child(child_);
+  return Captured{kTimeIsOver, content(output_) + "has not answered in time"};
+}
+
+}  // namespace shaken::server::slurm

@@ -1,0 +1,280 @@
+# SPDX-License-Identifier: MIT
+"""A sweep in a real Slurm, through all that can happen to it there, gives what it gives locally.
+
+usage: slurm_test.py FOLDER-OF-PROGRAMS [TEST ...]
+Exits 77 where no Slurm can be started here, and says why."""
+import http.client
+import json
+import pathlib
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+from little_cluster import LittleCluster, Unavailable
+
+PROGRAMS = None  # folder
+CLUSTER = None
+PATIENCE = 240  # s
+SCENE = {"rods": {"length": "2.5 mm", "start": "random"}, "box": {"side": "20 mm"},
+         "time": {"steady": "0.2 s", "measure": "18 s", "seed": 1}, "trajectory": {"every": "100 ms"},
+         "measure": {"order": {}}}
+POINTS = {"grid": {"rods.area_fraction": [0.25, 0.3, 0.35], "plates.gamma": [6, 7]}, "replicas": 2}
+N_POINTS = 12
+
+
+class Connection(http.client.HTTPConnection):
+    def __init__(self, path):
+        super().__init__("shaken", timeout=20)
+        self.path = path
+
+    def connect(self):
+        self.sock = socket.socket(socket.AF_UNIX)
+        self.sock.settimeout(self.timeout)
+        self.sock.connect(str(self.path))
+
+
+class Daemon:
+    """A shakend on a root of its own. For use with `with`: ends in order, and with it its jobs in Slurm."""
+
+    def __init__(self, root, *options):
+        self.root = pathlib.Path(root)
+        self.options = options
+        self.process = None
+
+    def __enter__(self):
+        self.start()
+        return self
+
+    def __exit__(self, *_):
+        if self.process.poll() is None:
+            for sweep in self.get("/v1/sweeps")["sweeps"]:
+                self.post(f"/v1/sweeps/{sweep['id']}/cancel")
+            self.end(signal.SIGTERM)
+
+    def start(self):
+        with open(self.root.with_suffix(".out"), "ab") as out:
+            self.process = subprocess.Popen(
+                [PROGRAMS / "shakend", "--root", self.root, "--no-lcm", "--slots", "2", "--slurm-poll", "0.5", *self.options],
+                env=CLUSTER.environment, stdin=subprocess.DEVNULL, stdout=out, stderr=out)
+        eventually(lambda: self.get("/v1/status"), "the daemon answers")
+
+    def end(self, how):
+        self.process.send_signal(how)
+        return self.process.wait(60)
+
+    def request(self, method, path, body=None):
+        connection = Connection(self.root / "shakend.sock")
+        try:
+            connection.request(method, path, json.dumps(body) if body is not None else "",
+                               {"Content-Type": "application/json"})
+            answer = connection.getresponse()
+            text = answer.read().decode()
+            if answer.status >= 300:
+                raise AssertionError(f"{method} {path}: {answer.status} {text}")
+            return json.loads(text)
+        finally:
+            connection.close()
+
+    def get(self, path):
+        return self.request("GET", path)
+
+    def post(self, path, body=None):
+        return self.request("POST", path, body)
+
+    def submit(self, sweep, name="test.json"):
+        return self.post("/v1/sweeps", {"text": json.dumps(sweep), "file": name})
+
+    def jobs(self, sweep="s1"):
+        return self.get(f"/v1/sweeps/{sweep}")["jobs"]
+
+    def job(self, id_):
+        return self.get(f"/v1/jobs/{id_}")["job"]
+
+    def counts(self):
+        return self.get("/v1/status")["jobs"]
+
+    def at_work(self):
+        """Jobs whose workers are computing."""
+        return [job for job in self.jobs() if job["state"] == "running" and not job["reason"]
+                and self.simulated(job["id"]) > 0]
+
+    def simulated(self, id_):
+        try:
+            return json.loads((self.root / "runs" / id_ / "progress.json").read_text())["sim_time_s"]
+        except FileNotFoundError:
+            return 0
+
+    def hashes(self):
+        return {file.parent.name: json.loads(file.read_text())["state_hash"]
+                for file in (self.root / "runs").glob("*/summary.json")}
+
+    def reports(self):
+        """What the tasks tell of themselves, by Slurm's "JOB_TASK"."""
+        reports = {}
+        for file in (self.root / "slurm").glob("*/[0-9]*.json"):
+            job = file.parent / "job"
+            if job.exists():
+                reports[f"{job.read_text()}_{file.stem}"] = json.loads(file.read_text())
+        return reports
+
+
+def eventually(condition, what, patience=PATIENCE):
+    end, last = time.monotonic() + patience, None
+    while time.monotonic() < end:
+        try:
+            if found := condition():
+                print("ok -", what, flush=True)
+                return found
+        except (OSError, AssertionError, json.JSONDecodeError, http.client.HTTPException) as problem:
+            last = problem
+        time.sleep(0.1)
+    raise AssertionError(f"not within {patience} s: {what} ({last})")
+
+
+def running_tasks():
+    """"JOB_TASK" of what runs in Slurm."""
+    return CLUSTER.run("squeue", "-h", "-r", "-t", "RUNNING", "-o", "%F_%K").stdout.split()
+
+
+def sweep_of(scene=SCENE, points=POINTS, **keys):
+    return {"scene": scene, "sweep": points, **keys}
+
+
+class InSlurm(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory(prefix="shaken slurm '")  # words to quote
+        cls.base = pathlib.Path(cls.folder.name)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def locally(self):
+        """The hashes of the sweep as it runs without Slurm; worked out once."""
+        if not hasattr(InSlurm, "reference"):
+            with Daemon(self.base / "local") as daemon:
+                daemon.submit(sweep_of())
+                eventually(lambda: daemon.counts()["done"] == N_POINTS, "the sweep is done locally")
+                InSlurm.reference = daemon.hashes()
+            self.assertEqual(len(InSlurm.reference), N_POINTS)
+        return InSlurm.reference
+
+    def assert_done_once(self, daemon):
+        for job in daemon.jobs():
+            ends = [line for line in daemon.get(f"/v1/jobs/{job['id']}/history")["changes"] if line["to"] == "done"]
+            self.assertEqual(len(ends), 1, job)
+
+    def test_a_sweep_survives_what_happens_in_a_cluster(self):
+        with Daemon(self.base / "everything") as daemon:
+            daemon.submit(sweep_of(executor="slurm", slurm={"runs_per_task": 3}))
+            eventually(lambda: len(daemon.at_work()) == 2, "two runs are at work in Slurm")
+
+            before = {job["id"]: daemon.simulated(job["id"]) for job in daemon.at_work()}
+            task = running_tasks()[0]
+            CLUSTER.run("scontrol", "requeue", task)
+            eventually(lambda: CLUSTER.run("squeue", "-h", "-r", "-j", task, "-o", "%r").stdout.strip() == "BeginTime",
+                       "a task that is put back waits")
+            CLUSTER.run("scontrol", "update", f"JobId={task}", "StartTime=now")  # not in two minutes
+            eventually(lambda: daemon.reports().get(task, {}).get("restarts") == 1, "a task that is put back starts again")
+            eventually(lambda: all(daemon.simulated(i) >= t for i, t in before.items()), "its run goes on", 60)
+
+            eventually(lambda: running_tasks(), "something runs")
+            CLUSTER.end("slurmd", signal.SIGKILL)
+            time.sleep(2)
+            CLUSTER.start("slurmd")
+            print("ok - slurmd was killed", flush=True)
+
+            CLUSTER.end("slurmctld")  # in order: killed, it would not know any more what it has just started
+            time.sleep(4)  # the daemon asks in vain
+            CLUSTER.start("slurmctld")
+            eventually(lambda: CLUSTER.run("squeue", "-h", check=False).returncode == 0, "slurmctld is back")
+            eventually(lambda: daemon.at_work(), "runs are at work")
+
+            before = sum(daemon.simulated(job["id"]) for job in daemon.jobs())
+            daemon.end(signal.SIGKILL)
+            time.sleep(2)
+            daemon.start()
+            self.assertGreaterEqual(sum(daemon.simulated(job["id"]) for job in daemon.jobs()), before)
+            self.assertGreater(daemon.counts()["running"], 0, "they have outlived the daemon")
+            self.assertEqual(daemon.end(signal.SIGTERM), 0)
+            self.assertTrue(running_tasks(), "they outlive it in order, too")
+            daemon.start()
+            eventually(lambda: daemon.at_work(), "a new daemon finds the runs that are at work")
+
+            CLUSTER.run("scancel", running_tasks()[0])
+            eventually(lambda: any("has ended: CANCELLED" in job["reason"] for job in daemon.jobs()),
+                       "what is cancelled by others goes back into the queue")
+
+            cancelled = eventually(lambda: daemon.at_work(), "runs are at work")[0]["id"]
+            daemon.post(f"/v1/jobs/{cancelled}/cancel")
+            eventually(lambda: daemon.job(cancelled)["state"] in ("cancelled", "done"), "one is cancelled")
+            if daemon.job(cancelled)["state"] == "cancelled":
+                daemon.post(f"/v1/jobs/{cancelled}/retry")
+
+            eventually(lambda: daemon.counts()["done"] == N_POINTS, "all are done")
+            self.assertEqual(daemon.hashes(), self.locally())
+            self.assert_done_once(daemon)
+            eventually(lambda: not list((daemon.root / "slurm").iterdir()), "nothing of the batches is left")
+
+    def test_both_executors_share_a_queue_and_what_slurm_refuses_keeps_nobody_else(self):
+        short = dict(SCENE, rods=dict(SCENE["rods"], area_fraction=0.3), time=dict(SCENE["time"], measure="1 s"))
+        with Daemon(self.base / "both") as daemon:
+            seeds = ({"grid": {"time.seed": [first, first + 1]}} for first in (1, 3, 5))
+            daemon.submit(sweep_of(short, next(seeds), executor="slurm", slurm={"partition": "nowhere"}), "refused.json")
+            eventually(lambda: all("nvalid partition" in job["reason"] for job in daemon.jobs("s1")),
+                       "what Slurm refuses says why")
+            daemon.submit(sweep_of(short, next(seeds), executor="slurm",
+                                   slurm={"partition": "main", "options": ["--nice=10"]}), "slurm.json")
+            daemon.submit(sweep_of(short, next(seeds), executor="local"), "local.json")
+            eventually(lambda: all(job["state"] == "done" for sweep in ("s2", "s3") for job in daemon.jobs(sweep)),
+                       "others are done, there and here")
+            self.assertTrue(all(job["state"] == "queued" for job in daemon.jobs("s1")))
+            log = {sweep: (daemon.root / "runs" / daemon.jobs(sweep)[0]["id"] / "worker.log").read_text()
+                   for sweep in ("s2", "s3")}
+            self.assertTrue(all("attempt 1" in text for text in log.values()), log)
+
+    def test_the_doctor_finds_nothing_missing(self):
+        root = self.base / "doctor"
+        root.mkdir()
+        ask = [PROGRAMS / "shaken", "--root", root, "doctor", "--executor", "slurm", "--json"]
+        said = {check["check"]: check for check in json.loads(
+            subprocess.run(ask, env=CLUSTER.environment, capture_output=True, text=True).stdout)["checks"]}
+        for name in ("slurm", "controller", "arrays", "shared root"):
+            self.assertEqual(said[name]["level"], "ok", said[name])
+        without = dict(CLUSTER.environment, SLURM_CONF="/nowhere/slurm.conf")
+        finished = subprocess.run(ask, env=without, capture_output=True, text=True)
+        self.assertEqual(finished.returncode, 1)
+        self.assertIn("fail", [check["level"] for check in json.loads(finished.stdout)["checks"]])
+
+    def test_a_time_limit_costs_nothing_but_another_task(self):
+        with Daemon(self.base / "limit", "--executor", "slurm") as daemon:
+            daemon.submit(sweep_of(slurm={"runs_per_task": 8, "time": "1 min"}))
+            eventually(lambda: daemon.counts()["done"] == N_POINTS, "all are done")
+            self.assertEqual(daemon.hashes(), self.locally())
+            causes = [line["cause"] for job in daemon.jobs()
+                      for line in daemon.get(f"/v1/jobs/{job['id']}/history")["changes"]]
+            self.assertIn("the worker has stopped at a checkpoint", causes)
+            self.assertTrue(any("has ended: COMPLETED" in cause for cause in causes), causes)
+            self.assertFalse(any("TIMEOUT" in cause for cause in causes), causes)
+
+
+def main():
+    global PROGRAMS, CLUSTER
+    PROGRAMS = pathlib.Path(sys.argv[1]).resolve()
+    with tempfile.TemporaryDirectory(prefix="little-cluster-") as folder:
+        try:
+            with LittleCluster(folder, cores=2) as CLUSTER:
+                program = unittest.main(argv=[sys.argv[0], *sys.argv[2:]], exit=False, verbosity=2)
+                return 0 if program.result.wasSuccessful() else 1
+        except Unavailable as problem:
+            print(f"skipped: {problem}")
+            return 77
+
+
+if __name__ == "__main__":
+    sys.exit(main())

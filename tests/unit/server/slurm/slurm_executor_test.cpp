@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: MIT
+// The executor with stand-ins for Slurm's programs, which do as files beside them say. The real Slurm: tests/cluster.
+#include "server/slurm/slurm_executor.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <thread>
+
+#include "tests/unit/server/support.h"
+
+namespace shaken::server::slurm {
+namespace {
+
+using std::chrono::milliseconds;
+using testing::HasSubstr;
+using Phase = WorkerReport::Phase;
+
+class SlurmExecutorTest : public testing::Test {
+ protected:
+  SlurmExecutorTest() {
+    const char* path = std::getenv("PATH");
+    path_ = path != nullptr ? path : "";
+    const std::string here = directory_.path().string();
+    // each writes down how it was called; the answer of sbatch and the list of squeue are files
+    for (const char* name : {"sbatch", "squeue", "scancel"}) {
+      const auto file = directory_ / name;
+      write_text(file, "#!/bin/sh\nfor word in \"$@\"; do printf '<%s>' \"$word\"; done >> '" + here + "/" + name +
+                           ".calls'\necho >> '" + here + "/" + name + ".calls'\n[ ! -e '" + here +
+                           "/down' ] || { echo 'Unable to contact slurm controller' >&2; exit 1; }\ncat '" + here +
+                           "/" + name + ".says' 2>/dev/null || true\n[ ! -e '" + here + "/" + name + ".fails' ]\n");
+      std::filesystem::permissions(file, std::filesystem::perms::owner_all);
+    }
+    setenv("PATH", (here + ":" + path_).c_str(), 1);
+    says("sbatch", "sbatch: a warning\n7\n");
+  }
+  ~SlurmExecutorTest() override { setenv("PATH", path_.c_str(), 1); }
+
+  SlurmOptions options() const {
+    SlurmOptions options;
+    options.folder = directory_ / "slurm";
+    options.worker = "/bin/worker";
+    options.task = "/bin/it's a task";
+    options.max_pending = 2;
+    options.runs_per_task = 2;
+    options.options = {"--qos=low"};
+    options.poll = milliseconds(20);
+    options.longest_pause = milliseconds(160);
+    options.report_delay = milliseconds(0);
+    return options;
+  }
+  void says(const std::string& program, const std::string& text) { write_text(directory_ / (program + ".says"), text); }
+  std::vector<std::string> calls(const std::string& program) const {
+    std::vector<std::string> lines;
+    std::istringstream text(read_text(directory_ / (program + ".calls")));
+    for (std::string line; std::getline(text, line);) lines.push_back(line);
+    return lines;
+  }
+  bool step_until(SlurmExecutor& executor, const std::function<bool()>& condition) {
+    return eventually([&] {
+      executor.step();
+      return condition();
+    });
+  }
+  /// What squeue is to say of tasks of the batch that worker `one` is in, "STATE|reason" each.
+  void list(const SlurmExecutor& executor, int one, const std::vector<std::string>& tasks) {
+    const std::string token = executor.name(one).substr(0, 16);
+    std::string text;
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+      const auto bar = tasks[i].find('|');
+      text +=
+          "7|" + std::to_string(i) + "|" + tasks[i].substr(0, bar) + "|shaken-" + token + tasks[i].substr(bar) + "\n";
+    }
+    says("squeue", text);
+  }
+  BatchFolder folder(const SlurmExecutor& executor, int one) const {
+    return {directory_ / "slurm" / executor.name(one).substr(0, 16)};
+  }
+  Launch launch(const std::string& settings = "") const { return {directory_ / "runs", {}, "heading", settings}; }
+  std::vector<int> start(SlurmExecutor& executor, int n, const std::string& settings = "") {
+    executor.step();
+    std::vector<int> workers;
+    for (int i = 0; i < n; ++i) workers.push_back(executor.start(launch(settings)).value());
+    return workers;
+  }
+
+  TempDirectory directory_;
+  std::string path_;
+};
+
+TEST_F(SlurmExecutorTest, WorkersGoOutPackedAsOneArray) {
+  SlurmExecutor executor(options());
+  const auto workers = start(executor, 3, R"({"partition": "short", "time_s": 90, "options": ["--nice=3"]})");
+  ASSERT_TRUE(step_until(executor, [&] { return calls("sbatch").size() == 1; }));
+  const std::string call = calls("sbatch").front();
+  EXPECT_THAT(call, HasSubstr("<--array=0-1>"));
+  EXPECT_THAT(call, HasSubstr("<--partition=short>"));
+  EXPECT_THAT(call, HasSubstr("<--time=2>")) << "whole minutes";
+  EXPECT_THAT(call, HasSubstr("<--signal=B:USR1@22>"));
+  EXPECT_THAT(call, HasSubstr("<--qos=low><--nice=3>"));
+  EXPECT_EQ(read_batch(folder(executor, workers[0]))->tasks.size(), 2);
+  EXPECT_THAT(read_text(folder(executor, workers[0]).script()), HasSubstr("exec '/bin/it'\\''s a task' '"));
+  list(executor, workers[0], {"PENDING|Priority", "PENDING|Priority"});
+  ASSERT_TRUE(
+      step_until(executor, [&] { return executor.poll(workers[0]).words == "waits as Slurm job 7_0 (Priority)"; }));
+  EXPECT_EQ(executor.poll(workers[2]).words, "waits as Slurm job 7_1 (Priority)");
+}
+
+TEST_F(SlurmExecutorTest, WhatWaitsInSlurmIsBounded) {
+  SlurmExecutor executor(options());
+  executor.step();
+  std::vector<int> workers;
+  while (executor.room() > 0) workers.push_back(executor.start(launch()).value());
+  EXPECT_EQ(workers.size(), 4) << "two tasks of two";
+  list(executor, workers[0], {"PENDING|Priority", "PENDING|Priority"});
+  ASSERT_TRUE(step_until(executor, [&] { return calls("squeue").size() > 2; }));
+  EXPECT_EQ(executor.room(), 0);
+  list(executor, workers[0], {"RUNNING|None", "PENDING|Priority"});
+  EXPECT_TRUE(step_until(executor, [&] { return executor.room() > 0; }));
+}
+
+TEST_F(SlurmExecutorTest, TheEndOfAWorkerIsWhatItsTaskSays) {
+  SlurmExecutor executor(options());
+  const auto workers = start(executor, 2);
+  ASSERT_TRUE(step_until(executor, [&] { return calls("sbatch").size() == 1; }));
+  list(executor, workers[0], {"RUNNING|None"});
+  TaskReport report{.slurm_job = "7", .host = "n0", .restarts = 0, .begun = {0, 1}, .ends = {}};
+  report.ends[0] = {0, 0, 55};
+  const BatchFolder files = folder(executor, workers[0]);
+  ASSERT_TRUE(write_report(files.report(0), report));
+  WorkerReport end;
+  ASSERT_TRUE(step_until(executor, [&] { return (end = executor.poll(workers[0])).phase == Phase::kEnded; }));
+  EXPECT_EQ(end.end.pid, 55);
+  EXPECT_EQ(executor.poll(workers[1]).phase, Phase::kWorking);
+
+  list(executor, workers[1], {"OUT_OF_MEMORY|None"});
+  ASSERT_TRUE(step_until(executor, [&] { return (end = executor.poll(workers[1])).phase != Phase::kWorking; }));
+  EXPECT_EQ(end.phase, Phase::kLost);
+  EXPECT_EQ(end.words, "Slurm job 7_0 has ended: OUT_OF_MEMORY");
+  EXPECT_TRUE(step_until(executor, [&] { return !std::filesystem::exists(files.root); }));
+}
+
+TEST_F(SlurmExecutorTest, ANodeThatFailsIsNoFaultOfItsWorkers) {
+  SlurmExecutor executor(options());
+  const auto workers = start(executor, 1);
+  list(executor, workers[0], {"NODE_FAIL|None"});
+  WorkerReport end;
+  ASSERT_TRUE(step_until(executor, [&] { return (end = executor.poll(workers[0])).phase != Phase::kWaiting; }));
+  EXPECT_EQ(end.phase, Phase::kTaken);
+}
+
+TEST_F(SlurmExecutorTest, WhatSlurmRefusesIsToldOnceItIsKnownNotToBeThere) {
+  write_text(directory_ / "sbatch.fails", "");
+  says("sbatch", "sbatch: error: invalid partition specified: shrot\n");
+  SlurmExecutor executor(options());
+  const auto workers = start(executor, 1);
+  WorkerReport end;
+  ASSERT_TRUE(step_until(executor, [&] { return (end = executor.poll(workers[0])).phase != Phase::kWaiting; }));
+  EXPECT_EQ(end.phase, Phase::kRefused);
+  EXPECT_THAT(end.words, HasSubstr("invalid partition"));
+  EXPECT_GE(calls("squeue").size(), 1);
+  EXPECT_TRUE(step_until(executor, [&] { return executor.room() > 0; })) << "others may be handed over";
+}
+
+TEST_F(SlurmExecutorTest, WhatWasHandedOverThoughSbatchDidNotSaySoIsFoundByItsName) {
+  write_text(directory_ / "sbatch.fails", "");
+  says("sbatch", "sbatch: error: Socket timed out\n");
+  SlurmExecutor executor(options());
+  const auto workers = start(executor, 1);
+  list(executor, workers[0], {"PENDING|Priority"});
+  ASSERT_TRUE(
+      step_until(executor, [&] { return executor.poll(workers[0]).words == "waits as Slurm job 7_0 (Priority)"; }));
+  EXPECT_EQ(calls("sbatch").size(), 1);
+}
+
+TEST_F(SlurmExecutorTest, ASlurmThatDoesNotAnswerIsAskedMoreAndMoreRarelyAndLosesNothing) {
+  SlurmExecutor executor(options());
+  const auto workers = start(executor, 1);
+  list(executor, workers[0], {"RUNNING|None"});
+  ASSERT_TRUE(step_until(executor, [&] { return calls("squeue").size() > 1; }));
+  write_text(directory_ / "down", "");
+  const std::size_t before = calls("squeue").size();
+  const auto end = std::chrono::steady_clock::now() + milliseconds(900);
+  while (std::chrono::steady_clock::now() < end) {
+    executor.step();
+    std::this_thread::sleep_for(milliseconds(2));
+  }
+  // 20, 40, 80, 160, 160, ... ms, not one every 20 ms
+  EXPECT_LE(calls("squeue").size() - before, 10);
+  EXPECT_EQ(executor.room(), 0);
+  EXPECT_EQ(executor.poll(workers[0]).phase, Phase::kWaiting) << "for its turn: nothing has ended";
+  std::filesystem::remove(directory_ / "down");
+  EXPECT_TRUE(step_until(executor, [&] { return executor.room() > 0; }));
+}
+
+TEST_F(SlurmExecutorTest, AnotherExecutorFindsTheWorkersByTheirNames) {
+  std::string name;
+  {
+    SlurmExecutor executor(options());
+    const auto workers = start(executor, 2);
+    name = executor.name(workers[1]);
+    list(executor, workers[0], {"RUNNING|None"});
+    ASSERT_TRUE(
+        step_until(executor, [&] { return executor.poll(workers[0]).words == "waits for its turn in Slurm job 7_0"; }));
+  }
+  SlurmExecutor executor(options());
+  EXPECT_FALSE(executor.adopt("0123456789abcdef/0")) << "never written";
+  EXPECT_FALSE(executor.adopt("../../etc/0"));
+  EXPECT_FALSE(executor.adopt(name.substr(0, 17) + "9"));
+  const auto worker = executor.adopt(name);
+  ASSERT_TRUE(worker);
+  EXPECT_EQ(executor.name(*worker), name);
+  ASSERT_TRUE(
+      step_until(executor, [&] { return executor.poll(*worker).words == "waits for its turn in Slurm job 7_0"; }));
+}
+
+TEST_F(SlurmExecutorTest, StoppingOneOfATaskThatRunsLeavesTheOthersAlone) {
+  SlurmExecutor executor(options());
+  const auto workers = start(executor, 2);
+  list(executor, workers[0], {"RUNNING|None"});
+  ASSERT_TRUE(
+      step_until(executor, [&] { return executor.poll(workers[0]).words == "waits for its turn in Slurm job 7_0"; }));
+  executor.stop(workers[1]);
+  EXPECT_EQ(read_stop(folder(executor, workers[0]).stop(0)), std::set{1});
+  ASSERT_TRUE(step_until(executor, [&] { return !calls("scancel").empty(); }));
+  EXPECT_EQ(calls("scancel").front(), "<--state=PENDING><7_0>");
+  executor.stop(workers[0]);
+  ASSERT_TRUE(step_until(executor, [&] { return calls("scancel").back() == "<7_0>"; }));
+}
+
+TEST_F(SlurmExecutorTest, ATaskThatGoesOnIsNotAskedToEndAgainAndAgain) {
+  SlurmExecutor executor(options());
+  const auto workers = start(executor, 2);
+  list(executor, workers[0], {"RUNNING|None"});
+  ASSERT_TRUE(step_until(executor, [&] { return calls("squeue").size() > 1; }));
+  executor.stop(workers[1]);
+  ASSERT_TRUE(step_until(executor, [&] { return !calls("scancel").empty(); }));
+  const std::size_t lists = calls("squeue").size();
+  ASSERT_TRUE(step_until(executor, [&] { return calls("squeue").size() > lists + 5; }));
+  EXPECT_EQ(calls("scancel").size(), 1);
+}
+
+TEST_F(SlurmExecutorTest, WithoutItsProgramsNothingIsHandedOver) {
+  for (const char* name : {"sbatch", "squeue", "scancel"}) std::filesystem::remove(directory_ / name);
+  setenv("PATH", directory_.path().c_str(), 1);
+  SlurmExecutor executor(options());
+  const auto workers = start(executor, 1);
+  WorkerReport end;
+  ASSERT_TRUE(step_until(executor, [&] { return (end = executor.poll(workers[0])).phase != Phase::kWaiting; }));
+  EXPECT_EQ(end.phase, Phase::kRefused);
+  EXPECT_THAT(end.words, HasSubstr("sbatch"));
+  EXPECT_EQ(executor.room(), 0);
+}
+
+TEST_F(SlurmExecutorTest, AReportThatIsSeenLateStillCounts) {
+  SlurmOptions patient = options();
+  patient.report_delay = std::chrono::hours(1);
+  SlurmExecutor executor(patient);
+  const auto workers = start(executor, 1);
+  list(executor, workers[0], {"COMPLETED|None"});
+  ASSERT_TRUE(step_until(executor, [&] {
+    return executor.poll(workers[0]).words ==
+           "Slurm job 7_0 has ended: COMPLETED; how the run ended is not to be read yet";
+  }));
+  TaskReport report{.slurm_job = "7", .host = "n0", .restarts = 0, .begun = {0}, .ends = {}};
+  report.ends[0] = {0, 0, 55};
+  ASSERT_TRUE(write_report(folder(executor, workers[0]).report(0), report));
+  EXPECT_TRUE(step_until(executor, [&] { return executor.poll(workers[0]).phase == Phase::kEnded; }));
+}
+
+TEST_F(SlurmExecutorTest, WhatAFormerDaemonHasStoppedStaysSo) {
+  std::string name;
+  BatchFolder files;
+  {
+    SlurmExecutor executor(options());
+    const auto workers = start(executor, 2);
+    name = executor.name(workers[1]);
+    files = folder(executor, workers[0]);
+    ASSERT_TRUE(step_until(executor, [&] { return calls("sbatch").size() == 1; }));
+    executor.stop(workers[0]);
+  }
+  SlurmExecutor executor(options());
+  const auto worker = executor.adopt(name);
+  ASSERT_TRUE(worker);
+  executor.stop(*worker);
+  EXPECT_EQ(read_stop(files.stop(0)), (std::set{0, 1}));
+}
+
+TEST_F(SlurmExecutorTest, WhatIsStoppedBeforeItIsHandedOverHasEnded) {
+  SlurmExecutor executor(options());
+  const auto workers = start(executor, 1);
+  executor.stop(workers[0]);
+  const WorkerReport end = executor.poll(workers[0]);
+  EXPECT_EQ(end.phase, Phase::kEnded);
+  EXPECT_EQ(end.end.exit_code, 99);
+}
+
+}  // namespace
+}  // namespace shaken::server::slurm
