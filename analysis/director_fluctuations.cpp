@@ -274,7 +274,8 @@ std::vector<double> DirectorFluctuations::numbers() const {
   const double unit = 2 * kPi / box_side_;
   for (const Point& p : all) {
     const double q_along = std::sqrt(p.along2), q_across = std::sqrt(p.across2);
-    const auto index = [unit](double q) { return std::min<long>(std::lround(q / unit), kSquares - 1); };
+    // The last square also takes what is no number, as the sums of a forged checkpoint may be.
+    const auto index = [unit](double q) { return std::lround(std::min(kSquares - 1.0, q / unit)); };
     Square& square = squares[static_cast<std::size_t>(index(q_across) * kSquares + index(q_along))];
     square.weight += p.samples;
     square.q_along += p.samples * q_along;

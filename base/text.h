@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace shaken {
 
@@ -35,5 +36,7 @@ std::string bar_text(double fraction, int width);
 std::string progress_text(double fraction, const std::string& count, double eta);
 /// A field of a CSV file: quoted if need be (RFC 4180).
 std::string csv_field(std::string_view text);
+/// What lies between separators, without what is empty: "/v1//jobs/" by '/' is "v1" and "jobs".
+std::vector<std::string> split(std::string_view text, char separator);
 
 }  // namespace shaken

@@ -79,13 +79,15 @@ std::map<std::string, std::int64_t> Measurements::counts() const {
 }
 
 std::vector<std::byte> Measurements::save() const {
-  StateWriter writer;
-  for (const Timed& timed : timed_) {
-    writer.tag(timed.name);
-    writer.put(timed.samples);
-    timed.measurement->save(writer);
-  }
-  return writer.take();
+  const auto save_to = [this](StateWriter writer) {
+    for (const Timed& timed : timed_) {
+      writer.tag(timed.name);
+      writer.put(timed.samples);
+      timed.measurement->save(writer);
+    }
+    return writer;
+  };
+  return save_to(StateWriter(save_to(StateWriter::counting()).size())).take();
 }
 
 Result<void> Measurements::restore(std::span<const std::byte> bytes) {

@@ -20,32 +20,64 @@ constexpr std::uint32_t kCheckpointVersion = 1;
 
 std::vector<std::byte> copy_of(std::span<const std::byte> bytes) { return {bytes.begin(), bytes.end()}; }
 
+/// Calls take(bytes) for the pieces of a checkpoint file, one after the other. The arrays of the checkpoint are handed
+/// over as they are: next to a gigabyte of measurements there is no second one.
+template <class Take>
+void each_piece(const std::string& run_id, const Checkpoint& checkpoint, const Take& take) {
+  StateWriter times;
+  times.put(checkpoint.cpu_seconds);
+  times.put(checkpoint.wall_seconds);
+  const auto length = [](const std::vector<std::byte>& bytes) {
+    StateWriter writer;
+    writer.put(static_cast<std::int64_t>(bytes.size()));
+    return writer.take();
+  };
+  const std::vector<std::byte> simulation = length(checkpoint.simulation);
+  const std::vector<std::byte> measurements = length(checkpoint.measurements);
+
+  StateWriter head;
+  head.append(bytes_of(kCheckpointMagic));
+  head.put(kCheckpointVersion);
+  head.put(static_cast<std::uint32_t>(run_id.size()));
+  head.append(bytes_of(run_id));
+  head.put(static_cast<std::int64_t>(times.bytes().size() + simulation.size() + checkpoint.simulation.size() +
+                                     measurements.size() + checkpoint.measurements.size()));
+  head.append(times.bytes());
+  head.append(simulation);
+
+  StreamedHash hash;
+  for (const std::span<const std::byte> piece : {std::span(head.bytes()), std::span(checkpoint.simulation),
+                                                 std::span(measurements), std::span(checkpoint.measurements)}) {
+    hash.add(piece);
+    take(piece);
+  }
+  StateWriter tail;
+  tail.put(hash.value());
+  take(std::span(tail.bytes()));
+}
+
 }  // namespace
 
 std::string as_bytes(const std::string& run_id, const Checkpoint& checkpoint) {
-  StateWriter payload;
-  payload.put(checkpoint.cpu_seconds);
-  payload.put(checkpoint.wall_seconds);
-  payload.put(checkpoint.simulation);
-  payload.put(checkpoint.measurements);
-  StateWriter content;
-  content.append(bytes_of(kCheckpointMagic));
-  content.put(kCheckpointVersion);
-  content.put(static_cast<std::uint32_t>(run_id.size()));
-  content.append(bytes_of(run_id));
-  content.put(payload.bytes());
-  content.put(hash_of(content.bytes()));
-  return std::string(text_of(content.bytes()));
+  std::string content;
+  each_piece(run_id, checkpoint, [&](std::span<const std::byte> piece) { content.append(text_of(piece)); });
+  return content;
 }
 
 Result<void> write_checkpoint(const RunDirectory& directory, const std::string& run_id, const Checkpoint& checkpoint) {
   const std::filesystem::path file = directory.checkpoint();
-  if (auto done = write_file(temporary_for(file), as_bytes(run_id, checkpoint)); !done) return done.error();
+  Result<ReplacementFile> next = ReplacementFile::create(file);
+  if (!next) return next.error();
+  Result<void> done;
+  each_piece(run_id, checkpoint, [&](std::span<const std::byte> piece) {
+    if (done) done = next->append(text_of(piece));
+  });
+  if (!done) return done;
   // The new one is written by now: should the machine stop between the renames, the previous one is whole.
   if (std::rename(file.c_str(), directory.previous_checkpoint().c_str()) != 0 && errno != ENOENT) {
     return Error{"cannot keep " + file.string() + ": " + std::strerror(errno)};
   }
-  return replace_file(temporary_for(file), file);
+  return next->finish();
 }
 
 Result<Checkpoint> read_checkpoint(const std::filesystem::path& file, const std::string& run_id) {

@@ -38,7 +38,18 @@ std::optional<scene::KnownOrder> order_of(const Json& summary) {
   return known;
 }
 
+std::optional<Tick> tick_of(const Json& summary) {
+  if (summary.is_null()) return std::nullopt;
+  const auto tick = summary["exit"].find("tick");
+  if (tick == summary["exit"].end() || !tick->is_number_integer()) return std::nullopt;
+  return tick->get<Tick>();
+}
+
 }  // namespace
+
+std::optional<Tick> done_tick(const RunDirectory& directory, const std::string& run_id) {
+  return tick_of(summary_of_done(directory, run_id));
+}
 
 bool is_done(const RunDirectory& directory, const std::string& run_id) {
   return !summary_of_done(directory, run_id).is_null();
@@ -47,9 +58,8 @@ bool is_done(const RunDirectory& directory, const std::string& run_id) {
 bool is_done(const RunDirectory& directory, const scene::RunPlan& plan) {
   const Json summary = summary_of_done(directory, "");
   if (summary.is_null() || !summary.contains("run_id") || summary["run_id"] != scene::run_id(plan)) return false;
-  const auto tick = summary["exit"].find("tick");
-  return tick != summary["exit"].end() && tick->is_number_integer() &&
-         scene::is_long_enough(plan, tick->get<Tick>(), order_of(summary));
+  const std::optional<Tick> tick = tick_of(summary);
+  return tick && scene::is_long_enough(plan, *tick, order_of(summary));
 }
 
 }  // namespace shaken::run

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "run/files/directory.h"
@@ -10,6 +11,8 @@ namespace shaken::run {
 
 /// Whether a run came to its end in `directory`, as its summary says: run `run_id`, or any if that is empty.
 bool is_done(const RunDirectory& directory, const std::string& run_id = "");
+/// The tick of that end; none if it has not come there.
+std::optional<Tick> done_tick(const RunDirectory& directory, const std::string& run_id);
 /// Whether the run of this plan came to its end there, and went on for as long as the plan asks (scene/length.h).
 bool is_done(const RunDirectory& directory, const scene::RunPlan& plan);
 

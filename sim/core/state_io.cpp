@@ -30,7 +30,10 @@ void StateWriter::put(std::span<const double> values) { put_array(*this, values)
 void StateWriter::put(std::span<const std::int64_t> values) { put_array(*this, values); }
 void StateWriter::put(std::span<const std::byte> bytes) { put_array(*this, bytes); }
 
-void StateWriter::append(std::span<const std::byte> bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
+void StateWriter::append(std::span<const std::byte> bytes) {
+  size_ += bytes.size();
+  if (keeps_) bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+}
 
 void StateReader::tag(std::string_view name) {
   if (!std::ranges::equal(bytes(), std::as_bytes(std::span(name)))) {

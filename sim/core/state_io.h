@@ -28,6 +28,16 @@ concept SavedNumber = (std::integral<T> || std::floating_point<T>)&&!std::same_a
 /// against rot is the business of who writes them into a file.
 class StateWriter {
  public:
+  StateWriter() = default;
+  /// With room for that many bytes, so that a large state is never moved while it is gathered.
+  explicit StateWriter(std::size_t size) { bytes_.reserve(size); }
+  /// One that keeps nothing and only counts, to learn that size.
+  static StateWriter counting() {
+    StateWriter writer;
+    writer.keeps_ = false;
+    return writer;
+  }
+
   /// Opens the part of one object, so that a reader out of step finds out at once.
   void tag(std::string_view name) { put(std::as_bytes(std::span(name))); }
   /// A number of as many bytes as its type has.
@@ -45,9 +55,13 @@ class StateWriter {
 
   const std::vector<std::byte>& bytes() const { return bytes_; }
   std::vector<std::byte> take() { return std::move(bytes_); }
+  /// Bytes written so far.
+  std::size_t size() const { return size_; }
 
  private:
   std::vector<std::byte> bytes_;
+  std::size_t size_ = 0;
+  bool keeps_ = true;
 };
 
 /// Reads what StateWriter wrote, in the same order. Every call throws StateError if the bytes do not hold what is

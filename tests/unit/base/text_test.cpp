@@ -96,6 +96,14 @@ TEST(BarText, FillsInEighths) {
   EXPECT_EQ(bar_text(NAN, 2), "··");
 }
 
+TEST(Split, LeavesOutWhatIsEmpty) {
+  using Parts = std::vector<std::string>;
+  EXPECT_EQ(split("/v1//jobs/", '/'), (Parts{"v1", "jobs"}));
+  EXPECT_EQ(split("one", '/'), Parts{"one"});
+  EXPECT_EQ(split("//", '/'), Parts{});
+  EXPECT_EQ(split("", '/'), Parts{});
+}
+
 TEST(CsvField, QuotesOnlyWhereNeeded) {
   EXPECT_EQ(csv_field("plain text"), "plain text");
   EXPECT_EQ(csv_field("a,b"), "\"a,b\"");
