@@ -48,6 +48,7 @@ ALLOWED = {
     # the defaults of the director field whose defects are drawn
     "render/measure.cpp": ["render", "scene/measure_plan.h", "sim/core", "sim/system.h", "analysis"],
     "render": ["sim/core", "sim/system.h", "analysis"],
+    "server/relay": ["proto", "base", "sim/core"],
     "server": ["proto", "base", "scene", "run/files", "sim/core"],
     "client": ["proto", "base", "scene", "run/files", "run/export", "sim/core", "sim/rod", "sim/system.h"],
     # the page in a browser: what the terminal's live view makes of messages, the daemon's way of HTTP, a run's files

@@ -113,16 +113,16 @@ void draw_looks(const std::filesystem::path& folder, const Course& course, const
   }
   const auto n_hits = std::count(course.was_hit.begin(), course.was_hit.end(), 1);
   const std::string script = fmt::format(
-      R"gp(set title "One pair of rods for {:g} ms: {} ticks, {} looks ({} hits on its rods, by plates mostly)"
+      R"gp(set title "One pair of rods for {:g} ms: {} ticks, {} visits ({} hits on its rods, by plates mostly)"
 set xlabel "time [ms]"
 set ylabel "gap between the nearest beads [um]"
-set key bottom left
+set key outside below horizontal
 set xrange [0:{:g}]
 set xzeroaxis lt -1
 plot "looks.dat" index 0 using 1:2 with lines lw 2 lc rgb "#4477aa" title "gap", \
-     "looks.dat" index 1 using 1:2:3:(0) with vectors nohead lw 1.5 lc rgb "#ccbb44" title "safe until: nothing to look at", \
-     "looks.dat" index 1 using 1:($4==1?$2:1/0) with points pt 7 ps 0.7 lc rgb "#bbbbbb" title "a rod was hit: new bound", \
-     "looks.dat" index 1 using 1:($4==0?$2:1/0) with points pt 7 ps 0.9 lc rgb "#ee6677" title "bound ran out: look"
+     "looks.dat" index 1 using 1:2:3:(0) with vectors nohead lw 1.5 lc rgb "#ccbb44" title "no contact before", \
+     "looks.dat" index 1 using 1:($4==1?$2:1/0) with points pt 7 ps 0.7 lc rgb "#bbbbbb" title "a rod was hit", \
+     "looks.dat" index 1 using 1:($4==0?$2:1/0) with points pt 7 ps 0.9 lc rgb "#ee6677" title "bound ran out"
 )gp",
       1e3 * window, course.gap.size(), at.size(), n_hits, 1e3 * window);
   const auto picture = draw_plot(folder, "looks", data, plot_head("looks", {1000, 520}) + plot_axes("y") + script);

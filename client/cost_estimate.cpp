@@ -247,6 +247,13 @@ std::string cpu_text(double seconds) {
   return fmt::format("{:.4g} CPU-hours", seconds / 3600);
 }
 
+std::optional<double> cpu_as_written(const CostEstimate& estimate, double step) {
+  for (const LevelCost& level : estimate.levels) {
+    if (level.name == kAsWritten || level.step == step) return level.cpu;
+  }
+  return std::nullopt;
+}
+
 ProbeProgress probe_progress(const Console& console) {
   if (!console.err_is_terminal) return {};
   return [&err = console.err](std::size_t done, std::size_t all) {

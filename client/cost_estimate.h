@@ -58,6 +58,10 @@ CostEstimate estimate_cost(const scene::Sweep& sweep, const EstimateOptions& opt
 std::string estimate_text(const CostEstimate& estimate, int width);
 Json estimate_json(const CostEstimate& estimate);
 
+/// CPU time of all runs with the steps that their scenes have; `step`: that of the point shown. None if it is not
+/// known.
+std::optional<double> cpu_as_written(const CostEstimate& estimate, double step);
+
 /// "12.3 CPU-hours", "4.1 CPU-minutes"
 std::string cpu_text(double seconds);
 

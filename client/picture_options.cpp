@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "client/api_client.h"
+#include "client/results.h"
 #include "client/target.h"
 #include "client/verb.h"
 
@@ -19,15 +21,22 @@ constexpr PictureOption kOptions[] = {
     {"size", "WxH", "Pixels"},
     {"theme", "light|dark|print", "Colours of page, floor and text"},
     {"rods", "OPACITY", "Opacity of the rods over the background, 0 to 1"},
+    {"samples", "N", "Rays along each side of a pixel, 1 to 3; 1 for a first look"},
+    {"shadows", nullptr, "Soft shadows on the floor"},
+    {"gloss", nullptr, "Rods shine where they throw the light back"},
+    {"occlusion", nullptr, "Rods are darker at their sides"},
+    {"smooth", nullptr, "Rods look like smooth bodies, not like beads"},
     {"background", "none|order", "What lies under the rods: the floor, or the local order S"},
     {"lines", "none|bars|streamlines", "The director field over the rods"},
     {"defects", nullptr, "Looks for defects and marks them"},
     {"tracks", "S", "For how long defects leave a track that fades"},
     {"displacements", "S", "Arrows from where each rod's centre was so long before"},
+    {"inset", "none|angles|order|g2|sweep",
+     "A plot in a corner of the rods: P(theta), S(t), G2(r), or the sweep's points with this one marked"},
     {"caption", nullptr, "Headline, numbers and S(t)"},
     {"legend", nullptr, "The colour scale"},
     {"scale-bar", nullptr, "A scale bar"},
-    {"view", "top|gap|follow:N", "From above, into the gap, or with rod N in the middle"},
+    {"view", "top|gap|follow:N|follow:plus", "From above, into the gap, with rod N, or a +1/2 defect, in the middle"},
     {"whole", nullptr, "Rods across the border are drawn once and whole"},
     {"zoom", "FACTOR", "Shows a part of the box, this many times enlarged"},
     {"focus", "X,Y", "Middle of the enlarged part, in box sides"},
@@ -75,6 +84,11 @@ std::vector<std::string> PictureOptions::words(const std::vector<std::string>& l
   return words;
 }
 
+bool PictureOptions::shows_sweep() const {
+  const auto inset = values_.find("inset");
+  return inset != values_.end() && inset->second == "sweep";
+}
+
 namespace {
 
 Drawn find_one(const Context& context, const std::string& job) {
@@ -89,6 +103,7 @@ Drawn find_one(const Context& context, const std::string& job) {
   drawn.name = short_id(drawn.id);
   drawn.state = text_of(found, "state");
   drawn.label = text_of(found, "label");
+  drawn.sweep = text_of(found, "sweep");
   return drawn;
 }
 
@@ -99,6 +114,40 @@ std::vector<Drawn> find_drawn(const Context& context, const std::vector<std::str
   drawn.reserve(jobs.size());
   for (const std::string& job : jobs) drawn.push_back(find_one(context, job));
   return drawn;
+}
+
+std::string sweep_of(const Context& context, const std::vector<Drawn>& drawn) {
+  const std::string& sweep = drawn.front().sweep;
+  if (sweep.empty()) throw Failure(ExitCode::kBadInput, "--inset sweep takes jobs of a sweep, not run directories");
+  ApiClient session(context.root());
+  const std::vector<ResultRow> rows = result_rows(session, find_target(session, sweep));
+  std::vector<std::string> axes;
+  for (const std::string& path : swept_parameters(rows)) {
+    if (axes.size() < 2 && !std::isnan(rows.front().number(path))) axes.push_back(path);
+  }
+  if (axes.empty()) {
+    throw Failure(ExitCode::kBadInput, fmt::format("no number is swept in sweep {}, so it has no diagram", sweep));
+  }
+  const auto place = [&](const ResultRow& row) {
+    return Json::array({row.number(axes.front()), axes.size() > 1 ? Json(row.number(axes[1])) : Json(nullptr)});
+  };
+  Json said = {
+      {"x", axes.front()}, {"y", axes.size() > 1 ? axes[1] : ""}, {"points", Json::array()}, {"here", Json::array()}};
+  for (const ResultRow& row : aggregated(rows)) {
+    Json point = place(row);
+    const double order = row.number("order.mean");
+    point.push_back(std::isnan(order) ? Json(nullptr) : Json(order));
+    said["points"].push_back(std::move(point));
+  }
+  for (const Drawn& one : drawn) {
+    const auto row = std::find_if(rows.begin(), rows.end(),
+                                  [&](const ResultRow& each) { return text_of(each.source, "job") == one.id; });
+    if (row == rows.end()) {
+      throw Failure(ExitCode::kBadInput, fmt::format("job {} does not belong to sweep {}", one.name, sweep));
+    }
+    said["here"].push_back(place(*row));
+  }
+  return said.dump();
 }
 
 std::vector<std::string> labels_of(const std::vector<Drawn>& drawn) {

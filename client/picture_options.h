@@ -27,6 +27,7 @@ class PictureOptions {
   void declare(Arguments& arguments);
   /// What was given, as shaken-render takes it; `labels` are the headlines, one for each run, where none was given.
   std::vector<std::string> words(const std::vector<std::string>& labels) const;
+  bool shows_sweep() const;
 
   std::vector<std::string> jobs;  ///< ids, or the beginnings of some, or run directories; several go side by side
   std::string out;
@@ -46,10 +47,14 @@ struct Drawn {
   std::string id{};     ///< of the job; empty for a directory that the daemon is not asked about
   std::string state{};  ///< of the job
   std::string label{};  ///< what was swept; empty if nothing was
+  std::string sweep{};  ///< of the job
 };
 
 /// Finds them. Throws Failure.
 std::vector<Drawn> find_drawn(const Context& context, const std::vector<std::string>& jobs);
+/// The sweep of the first of them, with the place of each, as shaken-render takes it: S by the first two parameters
+/// that differ. Throws Failure.
+std::string sweep_of(const Context& context, const std::vector<Drawn>& drawn);
 std::vector<std::string> labels_of(const std::vector<Drawn>& drawn);
 
 }  // namespace shaken::client

@@ -6,7 +6,7 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 if(NOT SHAKEN_ONLY_SIM)
-  set(SHAKEN_PROGRAMS shaken shakend shaken-worker shaken-web)
+  set(SHAKEN_PROGRAMS shaken shakend shaken-worker shaken-task shaken-web)
   foreach(part render bench)
     string(TOUPPER ${part} PART)
     if(SHAKEN_${PART})

@@ -21,9 +21,6 @@ namespace {
 constexpr double kNumberBytes = 8;  ///< bytes of a double or a count
 constexpr double kBlocks = 64;      ///< stretches of time that sums are kept for, at most (analysis/blocked.h)
 constexpr double kSeries = 65536;   ///< points of a series against time, at most (analysis/bounded_series.h)
-/// Copies of all states while a checkpoint is made: the bytes of the measurements, gathered in an array that doubles
-/// when it is full (1 to 3 while it does), the bytes behind those of the simulation, and both as the file has them.
-constexpr double kCheckpointCopies = 4;
 /// Arrays that grow with the run double when they are full too: between 1 and 2 times what is in them.
 constexpr double kGrowing = 1.5;
 
@@ -97,7 +94,7 @@ struct Row {
 // clang-format off
 constexpr std::array kRows{
     // its reduction looks for correlations, in copies of the series
-    Row{"order", [](const Sizes& s) -> MeasureMemory { return {"", s.series(3) + s.in_blocks(1000), s.series(24)}; },
+    Row{"order", [](const Sizes& s) -> MeasureMemory { return {"", s.series(3) + s.in_blocks(1000), s.series(6)}; },
         "a longer `every`"},
     Row{"angles", [](const Sizes& s) -> MeasureMemory {
           return {"", s.in_blocks(kNumberBytes * s.plan.angles->bins + 100), 0}; }, "fewer `bins`"},
@@ -155,7 +152,7 @@ double peak_of(const std::vector<MeasureMemory>& memory) {
     states += one.state;
     scratch = std::max(scratch, one.scratch);
   }
-  return states + std::max(kCheckpointCopies * states, scratch);
+  return states + std::max(states, scratch);
 }
 
 std::vector<std::filesystem::path> cgroup_limits(const std::string& line) {

@@ -23,8 +23,8 @@ struct MeasureMemory {
 /// where it depends on what the rods do (`defects.list`), that of disordered rods, which have the most defects.
 std::vector<MeasureMemory> measure_memory(const RunPlan& plan);
 
-/// Bytes that all measurements hold together when they hold most: their states, and on top either the copies of them
-/// that a checkpoint is made through, or the scratch of one.
+/// Bytes that all measurements hold together when they hold most: their states, and on top either the copy of them
+/// that a checkpoint is written from, or the scratch of one.
 double peak_of(const std::vector<MeasureMemory>& memory);
 
 /// Bytes that this process may have: of the machine's memory, of what limits its group (cgroup) and those around it,

@@ -11,6 +11,7 @@
 #include "scene/factors.h"
 #include "scene/fields.h"
 #include "scene/points.h"
+#include "scene/slurm_settings.h"
 #include "scene/units.h"
 #include "scene/values.h"
 
@@ -254,6 +255,18 @@ Schema product_schema() {
        {"replicas", described("Runs of each point, each with a seed of its own.", std::move(replicas))}});
 }
 
+/// What the runs of a sweep ask of Slurm.
+Schema slurm_schema() {
+  Schema keys = Schema::object();
+  for (const SlurmKey& key : slurm_keys()) {
+    keys[key.name] = {{"description", key.doc + " Default: " + key.fallback + "."}};
+    keys[key.name]["anyOf"] = Schema::array({{{"type", "null"}}, key.schema});
+  }
+  Schema schema = object_with(std::move(keys));
+  schema["description"] = "What the runs ask of Slurm, where they run there.";
+  return schema;
+}
+
 Schema titled(std::string_view title) {
   return {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", title}};
 }
@@ -289,6 +302,9 @@ Schema sweep_schema() {
         {"minLength", 1},
         {"maxLength", 200},
         {"pattern", "^[^/\\u0000-\\u001f]*$"}}},
+      {"executor",
+       {{"description", "Where the runs run; where the daemon's do if left out."}, {"enum", executor_names()}}},
+      {"slurm", slurm_schema()},
       {"scene", refer_to("scene")},
       {"sweep",
        {{"description", "Which values vary. An array: the points of each of its sweeps, one after the other."},

@@ -2,6 +2,7 @@
 #include "scene/sweep.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -197,6 +198,18 @@ class Products {
   std::vector<Problem>& problems_;
 };
 
+std::string read_executor(const Node& node, std::vector<Problem>& problems) {
+  const std::vector<std::string>& names = executor_names();
+  if (node.kind == Node::Kind::kString && std::find(names.begin(), names.end(), node.text) != names.end()) {
+    return node.text;
+  }
+  problems.push_back(problem_at(
+      node.place, "executor",
+      fmt::format("expected \"{}\", not {}{}", fmt::join(names, "\" or \""), describe(node),
+                  node.kind == Node::Kind::kString ? did_you_mean(nearest(node.text, names)) : std::string())));
+  return {};
+}
+
 }  // namespace
 
 std::optional<std::string> name_problem(std::string_view name) {
@@ -211,7 +224,7 @@ Loaded<Sweep> load_sweep(std::string_view text, const std::string& file, std::sp
   const std::optional<Node> root = parse_document(text, file, problems);
   if (!root) return problems;
 
-  Sweep sweep{std::filesystem::path(file).stem().string(), {}};
+  Sweep sweep{.name = std::filesystem::path(file).stem().string(), .points = {}};
   Place name_place{root->place.file, 0, 0};
   Draft base(root->place);
   std::vector<Variation> products{Variation{}};
@@ -219,13 +232,17 @@ Loaded<Sweep> load_sweep(std::string_view text, const std::string& file, std::sp
   if (!root->find("scene") && !root->find("sweep")) {
     base.read(*root, problems);
   } else {
-    const std::vector<std::string> names{"name", "scene", "sweep"}, inside = names_in({});
+    const std::vector<std::string> names{"name", "executor", "slurm", "scene", "sweep"}, inside = names_in({});
     for (const Member& member : root->members) {
       if (is_link_to_schema(member, problems)) continue;
       if (member.key == "scene") {
         base.read(member.value, problems);
       } else if (member.key == "sweep") {
         products = read_variations(member.value, room, problems);
+      } else if (member.key == "executor") {
+        sweep.executor = read_executor(member.value, problems);
+      } else if (member.key == "slurm") {
+        sweep.slurm = read_slurm_settings(member.value, problems);
       } else if (member.key == "name" && member.value.kind == Node::Kind::kString) {
         sweep.name = member.value.text;
         name_place = member.value.place;

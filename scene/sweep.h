@@ -10,6 +10,7 @@
 
 #include "scene/problem.h"
 #include "scene/run_plan.h"
+#include "scene/slurm_settings.h"
 
 namespace shaken::scene {
 
@@ -24,6 +25,8 @@ struct SweepPoint {
 struct Sweep {
   std::string name;  ///< from the file, or the file's own name without folder and ending
   std::vector<SweepPoint> points;
+  std::string executor{};  ///< where its runs are to run, by name; empty: where those of the daemon do
+  SlurmSettings slurm{};   ///< what they ask of Slurm, if they run there
 };
 
 /// What a sweep's name lacks, as a sentence; none if it will do: 1 to 200 bytes of UTF-8, without '/' and without
@@ -31,7 +34,8 @@ struct Sweep {
 std::optional<std::string> name_problem(std::string_view name);
 
 /// Reads a sweep file, or a scene file as a sweep of one point.
-///   {"name"?, "scene": {...}, "sweep": {"grid": {path: values}, "zip": {path: values}, "list": [{path: value}, ...],
+///   {"name"?, "executor"?, "slurm"?: {...}, "scene": {...}, "sweep": {"grid": {path: values}, "zip": {path: values},
+///   "list": [{path: value}, ...],
 ///    "random": {"n", "seed", path: {"from", "to", "scale"?}}, "latin": {...}, "sobol": {...}, "replicas": n}}
 /// The points are the product of all paths of the grid, the tuples of zip, the entries of list and the draws of random,
 /// latin and sobol, the first varying slowest, and `replicas` runs of each: replica k has time.seed + k - 1. A "sweep"

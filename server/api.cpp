@@ -46,18 +46,6 @@ auto parsed(const Parse& parse, const std::string& body) {
   }
 }
 
-/// The parts of `text` between separators, without empty ones.
-std::vector<std::string> split(const std::string& text, char separator) {
-  std::vector<std::string> parts;
-  std::size_t begin = 0;
-  while (begin < text.size()) {
-    const std::size_t end = std::min(text.find(separator, begin), text.size());
-    if (end > begin) parts.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return parts;
-}
-
 }  // namespace
 
 /// A request whose path has been matched.
@@ -194,6 +182,7 @@ Api::Answer Api::status(const Call&) const {
            {"uptime_s", info_.uptime()},
            {"slots", info_.slots},
            {"lcm", {{"url", info_.lcm_url}, {"ok", info_.lcm_ok}, {"message", info_.lcm_message}}},
+           {"relay", info_.relay_url.empty() ? Json(nullptr) : Json(info_.relay_url)},
            {"jobs", counts_report(queue_.counts())}},
           ""};
 }
@@ -218,7 +207,7 @@ Api::Answer Api::add_replicas(const Call& call) const {
   const Sweep sweep = find_sweep(call.id);
   const auto jobs = with_replicas(queue_, sweep.id, n, info_.runs());
   if (!jobs) throw Refusal(409, jobs.error().message);
-  Terms terms{.at_most = sweep.at_most};
+  Terms terms{.at_most = sweep.at_most, .executor = sweep.executor, .settings = sweep.settings};
   for (const std::string& word : sweep.after) terms.after.push_back(target_named(word));
   if (const auto rule = StopRule::parse(sweep.stop_if)) terms.stop_if = *rule;
   return submitted(sweep.name, 0, *jobs, terms);

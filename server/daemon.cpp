@@ -26,6 +26,8 @@
 #include "server/http/http_server.h"
 #include "server/local_executor.h"
 #include "server/queue.h"
+#include "server/relay/relay.h"
+#include "server/slurm/slurm_executor.h"
 #include "server/status_publisher.h"
 #include "server/submission.h"
 #include "server/supervisor.h"
@@ -42,6 +44,10 @@ constexpr milliseconds kRound{100};
 constexpr milliseconds kLastAnswers{2000};
 /// For a queue that cannot be written to let itself be written after all.
 constexpr milliseconds kLastWrites{2000};
+/// Slurm bounds what runs there, and its queue what is handed over.
+constexpr int kManyTasks = 1'000'000;
+/// As long as Slurm may take to hand on a request to stop.
+constexpr milliseconds kGraceInSlurm{300'000};
 constexpr std::size_t kLogBytes = std::size_t{10} << 20;
 constexpr std::size_t kOldLogs = 2;
 
@@ -105,6 +111,24 @@ std::vector<std::string> worker_options(const DaemonConfig& config) {
   return options;
 }
 
+/// Live state stays on the machine where it arises: from a node it would reach nobody.
+std::vector<std::string> worker_options_in_slurm(const DaemonConfig& config) {
+  return {"--threads", std::to_string(config.threads), "--no-lcm"};
+}
+
+slurm::SlurmOptions slurm_options(const DaemonConfig& config, const std::filesystem::path& root) {
+  slurm::SlurmOptions options;
+  options.folder = root / "slurm";
+  options.worker = config.worker;
+  options.task = sibling_program("shaken-task");
+  options.threads = config.threads;
+  options.max_pending = config.max_pending;
+  options.runs_per_task = config.runs_per_task;
+  options.options = config.slurm_options;
+  options.poll = config.slurm_poll;
+  return options;
+}
+
 /// How the page of this daemon is started.
 std::vector<std::string> web_command(const DaemonConfig& config, const std::filesystem::path& root) {
   std::vector<std::string> command{sibling_program("shaken-web").string(), "--root", root.string(), "--port",
@@ -163,6 +187,25 @@ class ControlSocket {
   std::string complaint_;
 };
 
+/// The relay that the user asked for. What the daemon's own multicast carries goes through it too; where multicast
+/// cannot start, and is only what is used if nothing is said, everybody's live state goes by way of the relay:
+/// `config.lcm_url` is then its address. Throws Failure if it cannot listen.
+std::unique_ptr<relay::Relay> start_relay(DaemonConfig& config) {
+  std::unique_ptr<proto::Bus> bridged;
+  // Only multicast: a tcpq address may be this relay's own, or another's that hands on what it gets from here.
+  const bool is_multicast = config.lcm_url.starts_with("udpm://");
+  if (is_multicast) {
+    if (auto opened = proto::Bus::open(config.lcm_url)) bridged = std::move(opened).value();
+  }
+  const bool goes_by_relay = is_multicast && !bridged && !config.lcm_url_is_asked_for;
+  auto relay = value_or_fail(relay::Relay::start(*config.relay, std::move(bridged)));
+  if (goes_by_relay) {
+    config.lcm_url = relay->address().url();
+    spdlog::info("there is no multicast here: live state goes to {}", config.lcm_url);
+  }
+  return relay;
+}
+
 /// Waits until every worker has ended, or until a second signal has killed them. A queue that cannot take their ends
 /// does not keep the daemon up: the next one finds out anew.
 void stop_workers(Supervisor& supervisor, const Signals& signals) {
@@ -188,7 +231,9 @@ void stop_workers(Supervisor& supervisor, const Signals& signals) {
 
 }  // namespace
 
-void run_daemon(const DaemonConfig& config) {
+void run_daemon(const DaemonConfig& asked_for) {
+  slurm::forget_filters();
+  DaemonConfig config = asked_for;
   if (access(config.worker.c_str(), X_OK) != 0) {
     throw Failure(ExitCode::kFailed, "there is no worker program at " + config.worker.string() +
                                          "; build or install it, or name it with --worker");
@@ -220,6 +265,12 @@ void run_daemon(const DaemonConfig& config) {
   info.host = host_name();
   info.pid = getpid();
   info.slots = config.slots;
+  std::unique_ptr<relay::Relay> relay;
+  if (config.relay) {
+    relay = start_relay(config);
+    info.relay_url = relay->address().url();
+    spdlog::info("LCM messages are handed on at {}", relay->address().text());
+  }
   info.lcm_url = config.lcm_url;
   std::unique_ptr<proto::Bus> bus;
   if (config.lcm_url.empty()) {
@@ -232,11 +283,21 @@ void run_daemon(const DaemonConfig& config) {
     spdlog::warn("no live state: {}", info.lcm_message);
   }
 
+  make_private_directory(info.root / "slurm");
   LocalExecutor executor(config.worker);
   SupervisorOptions options{info.runs(), config.slots, worker_options(config), config.grace};
   options.refuse = refuse_scene;
   options.least_room = static_cast<std::int64_t>(config.keep_free);
+  SupervisorOptions in_slurm = options;
+  in_slurm.slots = kManyTasks;
+  in_slurm.worker_options = worker_options_in_slurm(config);
+  in_slurm.grace = kGraceInSlurm;
+  in_slurm.place = {std::string(kSlurm), config.slurm_is_default};
+  options.place.is_default = !config.slurm_is_default;
   Supervisor supervisor(queue, executor, std::move(options));
+  slurm::SlurmExecutor slurm_executor(slurm_options(config, info.root));
+  Supervisor slurm_supervisor(queue, slurm_executor, std::move(in_slurm));
+  slurm_supervisor.adopt();
   std::optional<StatusPublisher> publisher;
   if (bus) publisher.emplace(queue, std::move(bus), info);
   const Api api(queue, info);
@@ -252,6 +313,7 @@ void run_daemon(const DaemonConfig& config) {
 
   do {
     supervisor.step();
+    slurm_supervisor.step();
     control.check();
     if (web) web->check();
   } while (!signals.wait(kRound));

@@ -20,6 +20,8 @@ struct DaemonInfo {
   bool lcm_ok = false;
   std::string lcm_message;  ///< why there is no live state; otherwise empty
 
+  std::string relay_url;  ///< where LCM messages are handed on over TCP; empty: nowhere
+
   std::filesystem::path runs() const { return root / "runs"; }
   std::filesystem::path socket() const { return root / "shakend.sock"; }
   double uptime() const {  ///< [s]

@@ -60,7 +60,7 @@ struct Job {
   int replica = 0;
   int priority = 0;
   int attempt = 0;  ///< how often it was started
-  int pid = 0;      ///< of its worker while running or stopping, otherwise 0
+  int pid = 0;      ///< of its worker on this machine while running or stopping, otherwise 0
   std::int64_t created = 0;
   std::int64_t started = 0;  ///< the last attempt
   std::int64_t finished = 0;
@@ -85,6 +85,8 @@ struct Sweep {
   std::vector<std::string> after{};  ///< "s3", or the id of a job
   std::string stop_if{};             ///< as StopRule::text(); empty: none
   bool stopped = false;              ///< by that rule
+  std::string executor{};            ///< see Terms
+  std::string settings{};
 };
 
 /// What a request concerns: one job, by its id, or all jobs of a sweep, by its number.

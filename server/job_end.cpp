@@ -34,6 +34,7 @@ std::string last_line(const std::filesystem::path& file) {
   return last;
 }
 
+/// What worker `pid` said of its failure.
 std::string explanation(int pid, const run::RunDirectory& directory) {
   const auto progress = run::read_progress(directory.progress());
   if (progress && progress->pid == pid && !progress->message.empty()) return progress->message;
@@ -47,8 +48,7 @@ std::string signal_name(int signal) {
 
 }  // namespace
 
-JobEnd judge(const WorkerEnd& end, int pid, bool stop_asked, const std::string& id,
-             const run::RunDirectory& directory) {
+JobEnd judge(const WorkerEnd& end, bool stop_asked, const std::string& id, const run::RunDirectory& directory) {
   using enum JobEnd::Outcome;
   if (end.signal == SIGTERM || (end.signal == SIGKILL && stop_asked)) {
     return {kStopped, "the worker was stopped by " + signal_name(end.signal)};
@@ -59,7 +59,7 @@ JobEnd judge(const WorkerEnd& end, int pid, bool stop_asked, const std::string& 
     return {kFailed, "exit 0, but " + directory.summary().string() + " does not say that it is done"};
   }
   if (end.exit_code == kStoppedOnRequest) return {kStopped, "the worker has stopped at a checkpoint"};
-  const std::string why = explanation(pid, directory);
+  const std::string why = explanation(end.pid, directory);
   if (end.exit_code == kNoRoomCode) return {kNoRoom, why.empty() ? "no room" : why};
   std::string reason = "exit " + std::to_string(end.exit_code) + (end.exit_code == kBadInputCode ? " (bad input)" : "");
   if (!why.empty()) reason += ": " + why;

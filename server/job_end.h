@@ -21,6 +21,7 @@ struct JobEnd {
     kCrashed,  ///< killed or ended without a word: it may go well another time
     kNoRoom,   ///< the disk is full
     kNotStarted,
+    kRefused,  ///< by the executor, and it alone
   };
   Outcome outcome;
   std::string reason;  ///< empty if done
@@ -29,6 +30,6 @@ struct JobEnd {
 /// Exit 0 with the summary of run `id` is done; exit 99 and SIGTERM are a stop on request, and so is SIGKILL if
 /// `stop_asked`; exit 97 is a full disk; any other signal is a crash, and so is any other exit code than 1 and 2. These
 /// are failures, explained by what the worker wrote into progress.json or said last in worker.log.
-JobEnd judge(const WorkerEnd& end, int pid, bool stop_asked, const std::string& id, const run::RunDirectory& directory);
+JobEnd judge(const WorkerEnd& end, bool stop_asked, const std::string& id, const run::RunDirectory& directory);
 
 }  // namespace shaken::server

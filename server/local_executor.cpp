@@ -31,17 +31,17 @@ Result<int> LocalExecutor::start(const Launch& launch) {
   return start_child(setup);
 }
 
-std::optional<WorkerEnd> LocalExecutor::poll(int pid) {
+WorkerReport LocalExecutor::poll(int pid) {
   siginfo_t info{};
   const int status = waitid(P_PID, static_cast<id_t>(pid), &info, WEXITED | WNOHANG | WNOWAIT);
   SHAKEN_CHECK(status == 0, "waitid(" + std::to_string(pid) + "): " + std::strerror(errno));
-  if (info.si_pid == 0) return std::nullopt;
+  if (info.si_pid == 0) return {};
 
   // Children that it has left behind; before it is reaped, for then the number of its group may be given anew.
   kill(pid);
   waitpid(pid, nullptr, 0);
   const bool exited = info.si_code == CLD_EXITED;
-  return WorkerEnd{exited ? info.si_status : 0, exited ? 0 : info.si_status};
+  return {.phase = WorkerReport::Phase::kEnded, .end = {exited ? info.si_status : 0, exited ? 0 : info.si_status, pid}};
 }
 
 void LocalExecutor::stop(int pid) { ::kill(pid, SIGTERM); }

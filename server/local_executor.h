@@ -14,7 +14,7 @@ class LocalExecutor final : public Executor {
   explicit LocalExecutor(std::filesystem::path program) : program_(std::move(program)) {}
 
   Result<int> start(const Launch& launch) override;
-  std::optional<WorkerEnd> poll(int pid) override;
+  WorkerReport poll(int pid) override;
   void stop(int pid) override;
   void kill(int pid) override;
 

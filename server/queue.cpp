@@ -24,13 +24,19 @@ const std::string kNotPausing = "NOT (not_before_utime > ?1 AND not_before_utime
                                 std::to_string(std::chrono::microseconds(std::chrono::hours(1)).count()) + ") ";
 /// What waits at ?1 for its turn only.
 const std::string kWaitsForTurn = "state = 'queued' AND waits = 0 AND " + kNotPausing;
+/// Whose sweep names the executor in parameter `first`, or none, where the parameter after that is not 0.
+std::string is_of_place(int first) {
+  return fmt::format("sweep IN (SELECT id FROM sweeps WHERE executor = ?{} OR (executor = '' AND ?{})) ", first,
+                     first + 1);
+}
 /// Not of a sweep of which as many jobs run as may.
 const std::string kHasPlace =
     "sweep NOT IN (SELECT s.id FROM sweeps s WHERE s.at_most > 0 AND s.at_most <= "
     "(SELECT COUNT(*) FROM jobs r WHERE r.state IN ('running', 'stopping') AND r.sweep = s.id)) ";
 
 const std::string kSelectCurrent =
-    "SELECT id, state, after_stop, attempt, hold, crashes, priority, time_limit_ms, sweep, waits, longer FROM jobs ";
+    "SELECT id, state, after_stop, attempt, hold, crashes, priority, time_limit_ms, sweep, waits, longer, worker FROM "
+    "jobs ";
 
 const std::string kAsked = "cancelled on request";
 const std::string kHeldOnRequest = "held on request";
@@ -48,7 +54,8 @@ Queue::Current Queue::read_current(const Query& query) {
           milliseconds(query.integer(7)),
           query.integer(8),
           query.integer(9) != 0,
-          query.integer(10) != 0};
+          query.integer(10) != 0,
+          query.text(11)};
 }
 
 Queue::Queue(const std::filesystem::path& file) : database_(file) {
@@ -63,12 +70,22 @@ std::vector<std::string> Queue::recover() {
   Transaction transaction(database_);
   std::vector<std::string> recovered;
   for (const Current& job : active()) {
+    if (!job.worker.empty()) continue;
     end_stopping(job, "the daemon ended without warning");
     recovered.push_back(job.id);
   }
   transaction.commit();
   committed();
   return recovered;
+}
+
+std::vector<std::pair<std::string, std::string>> Queue::outlives_daemon() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::pair<std::string, std::string>> found;
+  for (const Current& job : active()) {
+    if (!job.worker.empty()) found.emplace_back(job.id, job.worker);
+  }
+  return found;
 }
 
 void Queue::stop_for(const Current& job, JobState after_stop, const std::string& cause) {
@@ -158,11 +175,18 @@ int Queue::set_priority(const Target& target, int priority) {
   return changed;
 }
 
-std::vector<Job> Queue::next(int limit) const {
+std::vector<Job> Queue::next(int limit, const Place& place) const {
   const std::lock_guard lock(mutex_);
-  return read_jobs(database_.query(
-      kSelectJobs + "WHERE " + kWaitsForTurn + "AND " + kHasPlace + "ORDER BY priority DESC, turn, number LIMIT ?2",
-      utime_now(), limit));
+  return read_jobs(database_.query(kSelectJobs + "WHERE " + kWaitsForTurn + "AND " + kHasPlace + "AND " +
+                                       is_of_place(3) + "ORDER BY priority DESC, turn, number LIMIT ?2",
+                                   utime_now(), limit, place.executor, place.is_default ? 1 : 0));
+}
+
+std::string Queue::settings(const std::string& id) const {
+  const std::lock_guard lock(mutex_);
+  Query query = database_.query("SELECT s.settings FROM jobs j JOIN sweeps s ON s.id = j.sweep WHERE j.id = ?1", id);
+  SHAKEN_CHECK(query.next(), "no job " + id);
+  return query.text(0);
 }
 
 std::optional<int> Queue::begin(const std::string& id, const std::string* scene) {
@@ -183,6 +207,20 @@ std::optional<int> Queue::begin(const std::string& id, const std::string* scene)
 void Queue::set_pid(const std::string& id, int pid) {
   const std::lock_guard lock(mutex_);
   database_.run("UPDATE jobs SET pid = ?2 WHERE id = ?1", id, pid);
+}
+
+void Queue::set_worker(const std::string& id, const std::string& worker) {
+  const std::lock_guard lock(mutex_);
+  database_.run("UPDATE jobs SET worker = ?2 WHERE id = ?1", id, worker);
+}
+
+void Queue::set_notes(std::span<const std::pair<std::string, std::string>> notes) {
+  const std::lock_guard lock(mutex_);
+  Transaction transaction(database_);
+  for (const auto& [id, note] : notes) {
+    database_.run("UPDATE jobs SET reason = ?2 WHERE id = ?1 AND state = 'running' AND reason <> ?2", id, note);
+  }
+  transaction.commit();
 }
 
 void Queue::finish(const std::string& id, JobState state, const std::string& reason) {
@@ -262,6 +300,21 @@ void Queue::crashed(const std::string& id, const std::string& reason, bool went_
   committed();
 }
 
+void Queue::postponed(const std::string& id, const std::string& reason, milliseconds pause) {
+  const std::lock_guard lock(mutex_);
+  const auto job = current(id);
+  SHAKEN_CHECK(job.has_value(), "no job " + id);
+  Transaction transaction(database_);
+  if (job->state == kStopping) {
+    end_stopping(*job, reason);
+  } else {
+    change(*job, kQueued, reason, reason);
+    database_.run("UPDATE jobs SET not_before_utime = ?2 WHERE id = ?1", id, utime_now() + 1000 * pause.count());
+  }
+  transaction.commit();
+  committed();
+}
+
 void Queue::no_room(const std::string& id, const std::string& reason, std::int64_t needed,
                     std::chrono::milliseconds pause) {
   const std::lock_guard lock(mutex_);
@@ -315,18 +368,20 @@ void Queue::add_wall(std::span<const std::pair<std::string, milliseconds>> times
   transaction.commit();
 }
 
-bool Queue::give_way(const std::string& id) {
+bool Queue::give_way(const std::string& id, const Place& place) {
   const std::lock_guard lock(mutex_);
   const auto job = current(id);
   if (!job || job->state != kRunning) return false;
   {
-    Query stopping = database_.query("SELECT COUNT(*) FROM jobs WHERE state = 'stopping'");
+    Query stopping = database_.query("SELECT COUNT(*) FROM jobs WHERE state = 'stopping' AND " + is_of_place(1),
+                                     place.executor, place.is_default ? 1 : 0);
     stopping.next();
     // Those that stop already make room for as many. Another of its own sweep would have its place.
     const std::int64_t needed = stopping.integer(0) + 1;
-    Query others = database_.query("SELECT COUNT(*) FROM (SELECT 1 FROM jobs WHERE " + kWaitsForTurn +
-                                       "AND priority >= ?2 AND (sweep = ?3 OR " + kHasPlace + ") LIMIT ?4)",
-                                   utime_now(), job->priority, job->sweep, needed);
+    Query others = database_.query(
+        "SELECT COUNT(*) FROM (SELECT 1 FROM jobs WHERE " + kWaitsForTurn + "AND priority >= ?2 AND (sweep = ?5 OR " +
+            kHasPlace + ") AND " + is_of_place(3) + "LIMIT ?6)",
+        utime_now(), job->priority, place.executor, place.is_default ? 1 : 0, job->sweep, needed);
     others.next();
     if (others.integer(0) < needed) return false;
   }
@@ -352,7 +407,7 @@ void Queue::stop_all() {
   const std::lock_guard lock(mutex_);
   Transaction transaction(database_);
   for (const Current& job : active()) {
-    if (job.state != kRunning) continue;
+    if (job.state != kRunning || !job.worker.empty()) continue;
     change(job, kStopping, "", "the daemon stops");
     database_.run("UPDATE jobs SET after_stop = 'queued' WHERE id = ?1", job.id);
   }
@@ -418,7 +473,8 @@ void Queue::change(const Current& job, JobState to, const std::string& reason, c
   database_.run(
       "UPDATE jobs SET state = ?2, reason = ?3, after_stop = '', finished_utime = ?4, hold = '', needed_bytes = 0, "
       "not_before_utime = 0, crashes = CASE WHEN ?2 IN ('running', 'stopping') THEN crashes ELSE 0 END, "
-      "pid = CASE WHEN ?2 = 'stopping' THEN pid ELSE 0 END, wall_ms = CASE WHEN ?5 THEN 0 ELSE wall_ms END "
+      "pid = CASE WHEN ?2 = 'stopping' THEN pid ELSE 0 END, "
+      "worker = CASE WHEN ?2 = 'stopping' THEN worker ELSE '' END, wall_ms = CASE WHEN ?5 THEN 0 ELSE wall_ms END "
       "WHERE id = ?1",
       job.id, to_word(to), reason, has_ended(to) ? utime_now() : 0, to == kQueued && has_ended(job.state) ? 1 : 0);
   record(job.id, to_word(job.state), to_word(to), job.attempt, cause);

@@ -67,9 +67,11 @@ class Queue {
   /// Opens or creates the file. Throws StorageError if it is damaged or was written by a newer Shaken.
   explicit Queue(const std::filesystem::path& file);
 
-  /// Puts what a dead predecessor left running back into the queue (or cancels it, where that had been asked for).
-  /// Returns the ids of the jobs concerned.
+  /// Puts what a dead predecessor left running back into the queue (or cancels it, where that had been asked for), but
+  /// for what outlives_daemon() lists. Returns the ids of the jobs concerned.
   std::vector<std::string> recover();
+  /// Running and stopping jobs whose workers do not end with the daemon: ids, and what set_worker was told.
+  std::vector<std::pair<std::string, std::string>> outlives_daemon() const;
 
   /// Whether jobs may still have the ids of a version in which these depended on the length of a run.
   bool has_former_ids() const;
@@ -111,15 +113,21 @@ class Queue {
   /// Jobs that have not ended; the larger number goes first. Returns how many changed.
   int set_priority(const Target& target, int priority);
 
-  /// The next jobs to start: by priority, then by age; without those that wait: after a crash, for
+  /// The next jobs to start in a place: by priority, then by age; without those that wait: after a crash, for
   /// others, or because as many of their sweep run as may.
-  std::vector<Job> next(int limit) const;
+  std::vector<Job> next(int limit, const Place& place = {}) const;
+  /// What the sweep of a job asks of the executor.
+  std::string settings(const std::string& id) const;
   /// Says why a queued job does not start; "" if nothing keeps it.
   void set_reason(const std::string& id, const std::string& reason);
   /// queued -> running. Returns the number of the attempt; none if the job is not queued any more, or not with `scene`,
   /// as which the worker would run it (not looked at if null).
   std::optional<int> begin(const std::string& id, const std::string* scene = nullptr);
   void set_pid(const std::string& id, int pid);
+  /// By what a worker that outlives the daemon is found again.
+  void set_worker(const std::string& id, const std::string& worker);
+  /// Says, by id, what running jobs wait for whose workers have been handed over but not started; "" if for nothing.
+  void set_notes(std::span<const std::pair<std::string, std::string>> notes);
   /// running or stopping -> done or failed. One that is done, but has been asked to go on longer meanwhile, is queued
   /// again.
   void finish(const std::string& id, JobState state, const std::string& reason);
@@ -132,6 +140,8 @@ class Queue {
   /// none left. They begin anew where there was a checkpoint since the last crash (`went_on`).
   void crashed(const std::string& id, const std::string& reason, bool went_on,
                std::span<const std::chrono::milliseconds> pauses);
+  /// The worker could not be handed over: running -> queued, not to start before the pause is over.
+  void postponed(const std::string& id, const std::string& reason, std::chrono::milliseconds pause);
   /// The worker found no room on the disk: running -> held, until there are `needed` bytes, and for a `pause` at least:
   /// a quota may allow less than the disk has.
   void no_room(const std::string& id, const std::string& reason, std::int64_t needed, std::chrono::milliseconds pause);
@@ -140,12 +150,12 @@ class Queue {
   std::vector<std::string> there_is_room(std::int64_t free);
   /// The attempts of these jobs have taken so much more wall time.
   void add_wall(std::span<const std::pair<std::string, std::chrono::milliseconds>> times);
-  /// The soft limit of a running job is over: if more of at least its priority are ready to start than others stop, it
-  /// stops and is queued again behind all of its priority. Returns whether it stops.
-  bool give_way(const std::string& id);
+  /// The soft limit of a running job is over: if more of at least its priority are ready to start in its place than
+  /// others stop, it stops and is queued again behind all of its priority. Returns whether it stops.
+  bool give_way(const std::string& id, const Place& place = {});
   /// The time limit of a running job is over: it stops and is timed out.
   void time_out(const std::string& id);
-  /// running -> stopping, and then queued: the daemon ends.
+  /// running -> stopping, and then queued: the daemon ends, and with it all workers but those that outlive it.
   void stop_all();
 
   /// The results of an ended job are about to be removed: it becomes cancelled. False if it is no longer in
@@ -178,6 +188,7 @@ class Queue {
     std::int64_t sweep;  ///< that asked for it last
     bool waits;
     bool longer;  ///< than its worker knows
+    std::string worker;
   };
   static Current read_current(const Query& query);
   std::optional<Current> current(const std::string& id) const;

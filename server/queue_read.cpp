@@ -26,7 +26,8 @@ JobCounts read_counts(Query query) {
   return counts;
 }
 
-const std::string kSelectSweeps = "SELECT id, name, created_utime, at_most, stop_if, stopped FROM sweeps ";
+const std::string kSelectSweeps =
+    "SELECT id, name, created_utime, at_most, stop_if, stopped, executor, settings FROM sweeps ";
 
 }  // namespace
 
@@ -73,7 +74,9 @@ Sweep Queue::read_sweep(const Query& query) const {
           .at_most = static_cast<int>(query.integer(3)),
           .after = prerequisites(id),
           .stop_if = query.text(4),
-          .stopped = query.integer(5) != 0};
+          .stopped = query.integer(5) != 0,
+          .executor = query.text(6),
+          .settings = query.text(7)};
 }
 
 JobCounts Queue::sweep_counts(std::int64_t sweep) const {

@@ -95,8 +95,14 @@ CREATE TABLE upgrades(name TEXT PRIMARY KEY);                   -- what is still
 INSERT INTO upgrades SELECT 'ids' WHERE EXISTS (SELECT 1 FROM jobs);
 )sql";
 
+constexpr const char* kVersion5 = R"sql(
+ALTER TABLE sweeps ADD COLUMN executor TEXT NOT NULL DEFAULT '';  -- where its jobs run; '': where the daemon's do
+ALTER TABLE sweeps ADD COLUMN settings TEXT NOT NULL DEFAULT '';  -- what it asks of that executor, as JSON
+ALTER TABLE jobs ADD COLUMN worker TEXT NOT NULL DEFAULT '';      -- by which a worker that outlives the daemon is found
+)sql";
+
 /// What makes each version of the one before; the first, of an empty file.
-constexpr std::array kSteps{kVersion1, kVersion2, kVersion3, kVersion4};
+constexpr std::array kSteps{kVersion1, kVersion2, kVersion3, kVersion4, kVersion5};
 constexpr auto kVersion = static_cast<std::int64_t>(kSteps.size());
 
 std::int64_t version(Database& database) {

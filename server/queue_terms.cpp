@@ -69,8 +69,9 @@ void Queue::refuse_circle(std::span<const NewJob> jobs, const Terms& terms) cons
 }
 
 void Queue::set_terms(std::int64_t sweep, const Terms& terms) {
-  database_.run("UPDATE sweeps SET at_most = ?2, stop_if = ?3, stopped = 0 WHERE id = ?1", sweep, terms.at_most,
-                terms.stop_if ? terms.stop_if->text() : std::string());
+  database_.run("UPDATE sweeps SET at_most = ?2, stop_if = ?3, stopped = 0, executor = ?4, settings = ?5 WHERE id = ?1",
+                sweep, terms.at_most, terms.stop_if ? terms.stop_if->text() : std::string(), terms.executor,
+                terms.settings);
   database_.run("DELETE FROM prerequisites WHERE sweep = ?1", sweep);
   for (std::size_t i = 0; i < terms.after.size(); ++i) {
     database_.run("INSERT INTO prerequisites(sweep, position, target) VALUES(?1, ?2, ?3)", sweep,

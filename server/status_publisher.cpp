@@ -37,14 +37,16 @@ StatusPublisher::~StatusPublisher() = default;
 
 void StatusPublisher::run(const std::stop_token& stop) {
   auto next_tick = steady_clock::now();
+  bool running_is_due = false;
   do {
     try {
       publish_changes();
       if (steady_clock::now() >= next_tick) {
         publish_status();
-        publish_running();
+        running_is_due = true;
         next_tick += kPeriod;
       }
+      if (running_is_due && publish_running()) running_is_due = false;
     } catch (const StorageError& problem) {
       spdlog::error("publisher: {}", problem.what());
       next_tick = steady_clock::now() + kPeriod;
@@ -79,10 +81,13 @@ void StatusPublisher::publish_status() {
   bus_->publish(proto::kStatusChannel, status);
 }
 
-void StatusPublisher::publish_running() {
-  for (const JobState state : {JobState::kRunning, JobState::kStopping}) {
-    for (const Job& job : queue_.jobs(std::nullopt, state)) publish_job(job, std::string(to_word(state)));
-  }
+bool StatusPublisher::publish_running() {
+  std::vector<Job> jobs = queue_.jobs(std::nullopt, JobState::kRunning);
+  for (Job& job : queue_.jobs(std::nullopt, JobState::kStopping)) jobs.push_back(std::move(job));
+  // Something has changed since the changes were sent, and may have changed these: first that, then what runs.
+  if (queue_.last_change() != last_change_) return false;
+  for (const Job& job : jobs) publish_job(job, std::string(to_word(job.state)));
+  return true;
 }
 
 bool StatusPublisher::publish_changes() {

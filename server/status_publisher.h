@@ -20,7 +20,8 @@ class StatusPublisher {
  private:
   void run(const std::stop_token& stop);
   void publish_status();
-  void publish_running();
+  /// False if there are changes to be sent first.
+  bool publish_running();
   /// False once all are sent that there are.
   bool publish_changes();
   void publish_job(const Job& job, const std::string& state);

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "base/files.h"
 #include "run/files/directory.h"
 #include "run/files/done.h"
 #include "scene/canonical.h"
@@ -191,6 +192,8 @@ scene::Loaded<Submission> expand(const SubmitRequest& request, const std::filesy
   if (const auto problem = name_problem(submission.name)) {
     return std::vector{scene::Problem{request.file, 0, 0, "", *problem + "; submit it with another name"}};
   }
+  submission.terms.executor = sweep->executor;
+  submission.terms.settings = scene::to_text(sweep->slurm);
   for (const scene::SweepPoint& point : sweep->points) {
     NewJob job;
     job.id = scene::run_id(point.plan);
@@ -209,17 +212,28 @@ scene::Loaded<Submission> expand(const SubmitRequest& request, const std::filesy
 }
 
 std::string refuse_start(const scene::StartState& start, const Queue& queue, const std::filesystem::path& runs) {
-  if (!queue.job(start.run)) {
-    if (std::filesystem::exists(run::RunDirectory{runs / start.run}.scene())) return "";
+  const run::RunDirectory directory{runs / start.run};
+  const bool queued = queue.job(start.run).has_value();
+  const Result<std::string> kept = queued ? queue.scene(start.run) : read_file(directory.scene());
+  if (!kept) {
     return fmt::format("no run {} is known here; submit it first, or take the id of one that is (`shaken status`)",
                        start.run);
   }
-  const auto plan = scene::load_scene(queue.scene(start.run), "its scene in the queue");
-  if (!plan || plan->until) return "";
+  const auto plan = scene::load_scene(*kept, "its scene");
+  if (!plan) return "";
+  const double dt = plan->system.dt;
+  const Tick asked = std::llround(start.time / dt);
+  if (plan->until) {  // how long it takes is known only once it is done
+    const std::optional<Tick> end = run::done_tick(directory, start.run);
+    if (end ? asked == *end : start.time <= plan->longest_time()) return "";
+    return fmt::format("run {} {} {:.10g} s, so it has no state at start.time {:.10g} s", start.run,
+                       end ? "ended at" : "ends at the latest at",
+                       end ? static_cast<double>(*end) * dt : plan->longest_time(), start.time);
+  }
   const Tick end = scene::total_ticks(*plan);
-  if (end == std::llround(start.time / plan->system.dt)) return "";
+  if (end == asked) return "";
   return fmt::format("run {} ends at {:.10g} s, where its last state is kept, not at start.time {:.10g} s", start.run,
-                     static_cast<double>(end) * plan->system.dt, start.time);
+                     static_cast<double>(end) * dt, start.time);
 }
 
 std::string refuse_scene(const std::string& id, const std::string& scene) {

@@ -56,8 +56,30 @@ std::int64_t free_bytes(const std::filesystem::path& folder) {
 Supervisor::Supervisor(Queue& queue, Executor& executor, SupervisorOptions options)
     : queue_(queue), executor_(executor), options_(std::move(options)) {}
 
+void Supervisor::adopt() {
+  for (const auto& [id, name] : queue_.outlives_daemon()) {
+    const auto handle = executor_.adopt(name);
+    if (!handle) {
+      queue_.stopped(id, "the daemon ended before its worker was handed over");
+      continue;
+    }
+    Worker& worker = workers_[id];
+    worker.handle = *handle;
+    worker.directory.root = options_.runs / id;
+    worker.waits = true;  // until the executor says otherwise
+    worker.noted.reset();
+    worker.checkpoint_before = checkpoint_time(worker.directory);
+    spdlog::info("job {}: its worker {} has outlived the former daemon", id, printable(name));
+  }
+}
+
+int Supervisor::free_slots() const {
+  return std::min(options_.slots - static_cast<int>(workers_.size()), executor_.room());
+}
+
 void Supervisor::step() {
   try {
+    executor_.step();
     settle_ended();
     count_wall_of_all();
     stop_stopping();
@@ -72,12 +94,7 @@ void Supervisor::step() {
 void Supervisor::settle_ended() {
   for (auto entry = workers_.begin(); entry != workers_.end();) {
     auto& [id, worker] = *entry;
-    if (!worker.job_end) {
-      if (const auto end = executor_.poll(worker.handle)) {
-        worker.job_end = judge(*end, worker.handle, worker.kill_at.has_value(), id, worker.directory);
-        worker.ended = Clock::now();
-      }
-    }
+    if (!worker.job_end) look_at(id, worker);
     if (!worker.job_end) {
       ++entry;
       continue;
@@ -85,6 +102,47 @@ void Supervisor::settle_ended() {
     settle(id, worker);
     entry = workers_.erase(entry);
   }
+  write_notes();
+}
+
+/// In one transaction: thousands of runs may change their state at once.
+void Supervisor::write_notes() {
+  std::vector<std::pair<std::string, std::string>> notes;
+  for (const auto& [id, worker] : workers_) {
+    if (worker.noted != worker.note) notes.emplace_back(id, worker.note);
+  }
+  if (notes.empty()) return;
+  queue_.set_notes(notes);
+  for (const auto& [id, note] : notes) workers_.at(id).noted = note;
+}
+
+void Supervisor::look_at(const std::string& id, Worker& worker) {
+  using enum WorkerReport::Phase;
+  if (!worker.unsaved_name.empty()) save_name(id, worker);
+  const WorkerReport report = executor_.poll(worker.handle);
+  const bool stop_asked = worker.kill_at.has_value();
+  switch (report.phase) {
+    case kWaiting:
+    case kWorking:
+      if (worker.waits && report.phase == kWorking) worker.started = worker.counted = Clock::now();
+      if (!worker.waits && report.phase == kWaiting) count_wall({id});  // it has been put back
+      worker.waits = report.phase == kWaiting;
+      worker.note = report.words;
+      return;
+    case kEnded:
+      worker.job_end = judge(report.end, stop_asked, id, worker.directory);
+      break;
+    case kTaken:
+      worker.job_end = JobEnd{JobEnd::Outcome::kStopped, report.words};
+      break;
+    case kLost:
+      worker.job_end = JobEnd{stop_asked ? JobEnd::Outcome::kStopped : JobEnd::Outcome::kCrashed, report.words};
+      break;
+    case kRefused:
+      worker.job_end = JobEnd{JobEnd::Outcome::kRefused, report.words};
+      break;
+  }
+  worker.ended = Clock::now();
 }
 
 void Supervisor::settle(const std::string& id, const Worker& worker) {
@@ -107,6 +165,9 @@ void Supervisor::settle(const std::string& id, const Worker& worker) {
       queue_.stopped(id, reason);
       queue_.set_reason(id, reason);
       break;
+    case JobEnd::Outcome::kRefused:
+      queue_.postponed(id, "could not be started: " + reason, refused_pause(id));
+      break;
     case JobEnd::Outcome::kNoRoom: {
       const std::int64_t needed = std::max(2 * options_.least_room, 2 * bytes_in(worker.directory.root));
       queue_.no_room(
@@ -119,13 +180,21 @@ void Supervisor::settle(const std::string& id, const Worker& worker) {
   spdlog::info("job {}: {}", id, reason.empty() ? "done" : printable(reason));
 }
 
+/// Longer from attempt to attempt: what is refused is mostly refused again, until somebody mends it.
+std::chrono::milliseconds Supervisor::refused_pause(const std::string& id) const {
+  constexpr int kMostDoublings = 4;
+  const auto job = queue_.job(id);
+  const int attempt = job ? job->attempt : 1;
+  return options_.refused_pause * (1 << std::clamp(attempt - 1, 0, kMostDoublings));
+}
+
 void Supervisor::count_wall(const std::vector<std::string>& ids) {
   using std::chrono::milliseconds;
   std::vector<std::pair<std::string, milliseconds>> times;
   const auto now = Clock::now();
   for (const std::string& id : ids) {
     const Worker& worker = workers_.at(id);
-    if (worker.handle == 0) continue;  // it was never started
+    if (worker.handle == 0 || worker.waits) continue;  // it was never started
     const auto time = std::chrono::floor<milliseconds>(worker.ended.value_or(now) - worker.counted);
     if (time > milliseconds(0)) times.emplace_back(id, time);
   }
@@ -150,14 +219,14 @@ void Supervisor::mind_limits() {
                               free_bytes(options_.runs) >= options_.least_room;
   for (const Job& job : queue_.jobs(std::nullopt, JobState::kRunning)) {
     const auto entry = workers_.find(job.id);
-    if (entry == workers_.end() || entry->second.job_end) continue;
+    if (entry == workers_.end() || entry->second.job_end || entry->second.waits) continue;
     const Worker& worker = entry->second;
     constexpr std::chrono::milliseconds kNone{0};
     if (job.time_limit != kNone && job.wall + (now - worker.counted) >= job.time_limit) {
       spdlog::info("job {}: its time limit is over", job.id);
       queue_.time_out(job.id);
     } else if (job.soft_limit != kNone && place_is_short && now - worker.started >= job.soft_limit &&
-               queue_.give_way(job.id)) {
+               queue_.give_way(job.id, options_.place)) {
       spdlog::info("job {}: its soft limit is over, it gives way to others", job.id);
     }
   }
@@ -188,73 +257,83 @@ void Supervisor::start_queued() {
   if (room >= options_.least_room) {
     for (const std::string& id : queue_.there_is_room(room)) spdlog::info("job {}: there is room again", id);
   }
-  const int free = options_.slots - static_cast<int>(workers_.size());
-  if (free <= 0) return;
-  int started = 0;
-  for (const Job& job : queue_.next(free + kLookAhead)) {
-    if (started == free || Clock::now() < start_after_) return;
+  if (free_slots() <= 0) return;
+  for (const Job& job : queue_.next(free_slots() + kLookAhead, options_.place)) {
+    if (free_slots() <= 0 || Clock::now() < start_after_) return;
     if (room < options_.least_room) {
       wait(job, fmt::format("less than {} are free in {}", bytes_text(static_cast<double>(options_.least_room)),
                             options_.runs.string()));
-    } else if (start(job)) {
-      ++started;
+    } else {
+      start(job);
     }
   }
 }
 
-bool Supervisor::start(const Job& job) {
+void Supervisor::start(const Job& job) {
   if (job.time_limit.count() > 0 && job.wall >= job.time_limit) {
     queue_.end_queued(job.id, JobState::kTimedOut, time_limit_over(job.time_limit));
-    return false;
+    return;
   }
   const run::RunDirectory directory{options_.runs / job.id};
   std::error_code error;
   std::filesystem::create_directories(directory.root, error);
   if (error) {
     wait(job, directory.root.string() + ": " + error.message());
-    return false;
+    return;
   }
   const std::string scene = queue_.scene(job.id);
   if (const std::string why = options_.refuse ? options_.refuse(job.id, scene) : ""; !why.empty()) {
     spdlog::error("job {}: {}", job.id, printable(why));
     queue_.end_queued(job.id, JobState::kFailed, why);
-    return false;
+    return;
   }
   {
     const auto lock = run::DirectoryLock::acquire(directory.lock());
     if (!lock) {
       wait(job, lock.error().message);
-      return false;
+      return;
     }
     if (const auto done = write_file_atomically(directory.scene(), scene); !done) {
       wait(job, done.error().message);
-      return false;
+      return;
     }
   }
+  const std::string settings = queue_.settings(job.id);
   const auto attempt = queue_.begin(job.id, &scene);
-  if (!attempt) return false;  // cancelled, or asked to go on longer, a moment ago
+  if (!attempt) return;  // cancelled, or asked to go on longer, a moment ago
 
   Launch launch{directory.root,
                 {directory.scene().string(), "--out", directory.root.string(), "--job-id", job.id, "--sweep-id",
                  sweep_word(job.sweep), "--label", job.label},
-                heading(*attempt)};
+                heading(*attempt),
+                settings};
   launch.arguments.insert(launch.arguments.end(), options_.worker_options.begin(), options_.worker_options.end());
   const auto checkpoint_before = checkpoint_time(directory);
   const auto handle = executor_.start(launch);
   if (!handle) {
     could_not_start(job.id, handle.error().message);
-    return false;
+    return;
   }
   Worker& worker = workers_[job.id];
   worker.handle = *handle;
   worker.directory = directory;
   worker.started = worker.counted = Clock::now();
   worker.checkpoint_before = checkpoint_before;
-  queue_.set_pid(job.id, *handle);
+  if (const std::string name = executor_.name(*handle); name.empty()) {
+    queue_.set_pid(job.id, *handle);
+  } else {
+    worker.waits = true;
+    worker.unsaved_name = name;
+    save_name(job.id, worker);
+  }
   complaints_.clear();
   pause_ = std::chrono::milliseconds(0);
   spdlog::info("job {}: attempt {}, worker {}: {}", job.id, *attempt, *handle, printable(job.label));
-  return true;
+}
+
+void Supervisor::save_name(const std::string& id, Worker& worker) {
+  queue_.set_worker(id, worker.unsaved_name);
+  worker.unsaved_name.clear();
 }
 
 void Supervisor::could_not_start(const std::string& id, const std::string& why) {

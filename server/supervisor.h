@@ -30,6 +30,9 @@ struct SupervisorOptions {
   std::vector<std::chrono::milliseconds> retry_pauses{std::chrono::seconds(5), std::chrono::seconds(30),
                                                       std::chrono::minutes(3)};
   std::chrono::milliseconds first_pause{1000};  ///< after a start that failed; doubled each time, up to a minute
+  Place place{};                                ///< whose jobs it starts
+  /// Before a job that the executor has refused is handed over again; doubled with each attempt, up to 16 times.
+  std::chrono::milliseconds refused_pause{60'000};
 };
 
 /// Brings the workers in line with the queue: starts the next jobs while there are slots, stops those that are to
@@ -39,10 +42,14 @@ class Supervisor {
  public:
   Supervisor(Queue& queue, Executor& executor, SupervisorOptions options);
 
+  /// Takes over the workers that a former daemon has left at work. To be called once, before the first round.
+  void adopt();
+
   /// One round; waits for nothing. A queue that cannot be written is logged and tried again in the next round.
   void step();
 
-  /// Starts nothing any more, and stops what runs; its jobs go back into the queue.
+  /// Starts nothing any more, and stops what runs; its jobs go back into the queue. Not for workers that outlive the
+  /// daemon: nothing is to be done for those to go on, and the next one adopts them.
   void shut_down();
   /// No more patience: ends every worker at once.
   void kill_all();
@@ -58,21 +65,30 @@ class Supervisor {
     run::RunDirectory directory;
     std::filesystem::file_time_type checkpoint_before{};  ///< when the last one was written that it found
     Clock::time_point started{};
-    Clock::time_point counted{};  ///< up to when the queue knows its wall time
+    Clock::time_point counted{};           ///< up to when the queue knows its wall time
+    bool waits = false;                    ///< for its turn, where the executor has it
+    std::string note;                      ///< what it waits for
+    std::optional<std::string> noted{""};  ///< what the queue has of that; none: not known
+    std::string unsaved_name;              ///< by which the next daemon finds it, until the queue has that
     std::optional<Clock::time_point> ended;
     std::optional<Clock::time_point> kill_at;  ///< set when it was asked to stop
     bool killed = false;
     std::optional<JobEnd> job_end;  ///< on its end; kept until the queue has taken it
   };
 
+  int free_slots() const;
   void settle_ended();
+  void write_notes();
+  void look_at(const std::string& id, Worker& worker);
   void count_wall(const std::vector<std::string>& ids);
   void count_wall_of_all();
   void mind_limits();
   void stop_stopping();
   void settle(const std::string& id, const Worker& worker);
   void start_queued();
-  bool start(const Job& job);
+  void start(const Job& job);
+  void save_name(const std::string& id, Worker& worker);
+  std::chrono::milliseconds refused_pause(const std::string& id) const;
   void could_not_start(const std::string& id, const std::string& why);
   void wait(const Job& job, const std::string& why);
   void complain(const std::string& trouble);

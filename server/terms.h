@@ -4,12 +4,17 @@
 #include <chrono>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "server/job.h"
 #include "server/stop_rule.h"
 
 namespace shaken::server {
+
+/// The names of executors, in sweeps and in the queue.
+inline constexpr std::string_view kLocal = "local";
+inline constexpr std::string_view kSlurm = "slurm";
 
 /// The terms on which the jobs of a submission run; what is left out does not bind. A job that was asked for several
 /// times obeys the terms of the last sweep that asked for it.
@@ -24,6 +29,17 @@ struct Terms {
   std::vector<Target> after{};
   /// When the jobs of the sweep that are still queued are held.
   std::optional<StopRule> stop_if{};
+  /// Where the jobs run; empty: where those of the daemon do.
+  std::string executor{};
+  /// What is asked of that executor, as JSON; empty: nothing.
+  std::string settings{};
+};
+
+/// Which jobs an executor takes: those whose sweep names it, and where it is the daemon's own those whose sweep names
+/// none.
+struct Place {
+  std::string executor = std::string(kLocal);
+  bool is_default = true;
 };
 
 /// Why a job is timed out.

@@ -18,6 +18,7 @@
 #include "base/files.h"
 #include "base/process.h"
 #include "base/scratch_folder.h"
+#include "base/text.h"
 #include "web/packed_frame.h"
 
 namespace shaken::web {
@@ -47,16 +48,6 @@ Reply refusal(int status, const std::string& reason) {
 }
 
 Reply json_reply(const Json& json) { return {.status = 200, .body = text_of(json) + "\n"}; }
-
-std::vector<std::string> parts_of(const std::string& path) {
-  std::vector<std::string> parts;
-  for (std::size_t begin = 0; begin < path.size();) {
-    const std::size_t end = std::min(path.find('/', begin), path.size());
-    if (end > begin) parts.push_back(path.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return parts;
-}
 
 std::string type_of(const fs::path& file) {
   const std::string suffix = file.extension().string();
@@ -173,7 +164,7 @@ Reply Site::answer(const Request& request) {
 }
 
 Reply Site::routed(const Request& request) {
-  const std::vector<std::string> parts = parts_of(request.path);
+  const std::vector<std::string> parts = split(request.path, '/');
   const std::string first = parts.empty() ? "" : parts.front();
   const bool reads = request.method == "GET" || request.method == "HEAD";
   if (first == "v1" && (reads || request.method == "POST")) return daemon_.ask(request);
@@ -237,7 +228,7 @@ Reply Site::events(const std::string& run) {
 }
 
 Reply Site::ticket(const Request& request) {
-  const std::vector<std::string> parts = parts_of(request.parameter("path"));
+  const std::vector<std::string> parts = split(request.parameter("path"), '/');
   if (parts.size() < 3 || parts[0] != "runs") return refusal(400, "tickets are for files and pictures of runs");
   std::multimap<std::string, std::string> query = request.query;
   query.erase("path");

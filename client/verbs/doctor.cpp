@@ -5,6 +5,8 @@
 
 #include "client/checkup.h"
 #include "client/json.h"
+#include "client/slurm_checkup.h"
+#include "client/slurm_estimate.h"
 #include "client/verbs/verbs.h"
 
 namespace shaken::client {
@@ -15,13 +17,21 @@ class Doctor : public Verb {
   VerbInfo info() const override {
     return {"doctor", kHelpGroup, "Check this machine: programs, daemon, live state, drawing, disk",
             "  shaken doctor                 exit code 1 if something makes simulating impossible\n"
+            "  shaken doctor --executor slurm    also what runs in Slurm need; starts a moment's job there\n"
             "  shaken doctor --json"};
   }
 
-  void declare(Arguments& arguments) override { arguments.flag("--json", json_, "Print the findings as JSON"); }
+  void declare(Arguments& arguments) override {
+    arguments.option("--executor", executor_, "local|slurm", "Also check what runs need there");
+    arguments.flag("--json", json_, "Print the findings as JSON");
+  }
 
   ExitCode run(const Context& context) override {
-    const std::vector<CheckResult> findings = checkup(context.root());
+    const bool in_slurm = is_slurm(executor_);
+    std::vector<CheckResult> findings = checkup(context.root());
+    if (in_slurm) {
+      for (CheckResult& finding : slurm_checkup(context.root())) findings.push_back(std::move(finding));
+    }
     Console& console = context.console;
     Json list = Json::array();
     for (const CheckResult& finding : findings) {
@@ -51,6 +61,7 @@ class Doctor : public Verb {
                                             : (level == CheckResult::Level::kWarn ? Colour::kYellow : Colour::kRed);
   }
 
+  std::string executor_;
   bool json_ = false;
 };
 

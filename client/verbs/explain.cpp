@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "client/cost_estimate.h"
 #include "client/scene_input.h"
+#include "client/slurm_estimate.h"
 #include "client/verbs/verbs.h"
 #include "scene/accuracy.h"
 #include "scene/derived.h"
@@ -31,6 +32,7 @@ class Explain : public Verb {
             "  shaken explain sweep.json                   the sum over a sweep, from a handful of its points\n"
             "  shaken explain scene.json --cpu 10          longer probes, closer to the steady state\n"
             "  shaken explain scene.json --from runs/first   the state of a run of the same system\n"
+            "  shaken explain sweep.json --executor slurm --cores 200    core-hours and wall time there\n"
             "  shaken explain scene.json --no-probe        only what is on and off, and why"};
   }
 
@@ -42,6 +44,11 @@ class Explain : public Verb {
     arguments.option("--cpu", cpu_, "S", "CPU time for the steps of each probe, about; 1.5 if not given");
     arguments.option("--from", from_, "DIR", "Probe from the saved state of this run, of the same system and step",
                      Names::kFolder);
+    arguments.option("--executor", executor_, "local|slurm", "Where it is to run; as the sweep says if not given");
+    arguments.option("--cores", cores_, "N", "Cores that Slurm gives at once; one for each task if not given");
+    arguments.option("--max-pending", max_pending_, "N", "The daemon's limit on tasks that wait; 100 if not given");
+    arguments.option("--runs-per-task", runs_per_task_, "N",
+                     "The daemon's, where the sweep does not say; 1 if not given");
     arguments.flag("--json", json_, "Print JSON");
   }
 
@@ -53,12 +60,14 @@ class Explain : public Verb {
     options.on_probe = probe_progress(console);
     const CostEstimate estimate = estimate_cost(sweep, options);
     const scene::SweepPoint& point = sweep.points[estimate.shown];
+    const auto in_slurm = slurm_load(sweep, estimate);
     if (json_) {
       Json json = estimate_json(estimate);
       json["name"] = sweep.name;
       json["shown"] = {{"label", point.label}, {"parameters", point.parameters}};
       json["shown"].update(derived_quantities(point));
       json.update(estimate.report);
+      if (in_slurm) json["slurm"] = slurm_estimate_json(*in_slurm, estimate_in_slurm(*in_slurm));
       console.out << json_text(json);
       return ExitCode::kOk;
     }
@@ -70,17 +79,35 @@ class Explain : public Verb {
     show_probe(estimate.report, console);
     console.out << "\nOn this machine, on one core:\n" << estimate_text(estimate, console.width);
     show_room(estimate.report, sweep.points.size() > 1, console);
+    if (in_slurm) console.out << "\n" << slurm_estimate_text(*in_slurm, estimate_in_slurm(*in_slurm));
     return ExitCode::kOk;
   }
 
  private:
   void check_options() const {
+    is_slurm(executor_);  // throws where it is no executor's name
     std::string problems;
     const auto complain = [&](const char* problem) { problems.append(problems.empty() ? "" : "\n").append(problem); };
     if (cpu_ && !(*cpu_ > 0 && *cpu_ <= 3600)) complain("--cpu must be more than 0 and at most 3600 seconds");
     if (no_probe_ && cpu_) complain("--cpu has no meaning with --no-probe");
+    for (const auto& [name, value] :
+         {std::pair{"--cores", cores_}, {"--max-pending", max_pending_}, {"--runs-per-task", runs_per_task_}}) {
+      if (value && *value < 1) complain(fmt::format("{} must be at least 1", name).c_str());
+    }
     if (no_probe_ && !from_.empty()) complain("--from has no meaning with --no-probe");
     if (!problems.empty()) throw Failure(ExitCode::kBadInput, problems);
+  }
+
+  /// What goes to Slurm, if it does and its cost is known.
+  std::optional<SlurmLoad> slurm_load(const scene::Sweep& sweep, const CostEstimate& estimate) const {
+    if (!is_slurm(executor_.empty() ? sweep.executor : executor_)) return std::nullopt;
+    const auto cpu = cpu_as_written(estimate, sweep.points[estimate.shown].plan.system.dt);
+    if (!cpu) return std::nullopt;
+    SlurmLoad load{.n_runs = sweep.points.size(), .cpu = *cpu, .cores = cores_.value_or(0)};
+    load.runs_per_task = sweep.slurm.runs_per_task > 0 ? sweep.slurm.runs_per_task : runs_per_task_.value_or(1);
+    load.max_pending = max_pending_.value_or(load.max_pending);
+    load.time_limit = sweep.slurm.time;
+    return load;
   }
 
   static void show_scene(const scene::Sweep& sweep, const scene::SweepPoint& point, Console& console) {
@@ -188,6 +215,8 @@ class Explain : public Verb {
   std::optional<int> replicas_;
   std::optional<double> cpu_;
   std::string from_;
+  std::string executor_;
+  std::optional<int> cores_, max_pending_, runs_per_task_;
   bool no_probe_ = false;
   bool json_ = false;
 };

@@ -67,6 +67,7 @@ class Movie : public Verb {
         if (!value.empty()) add({option + value});
       }
     }
+    if (options_.shows_sweep()) add({"--sweep=" + sweep_of(context, all)});
     add(options_.words(labels_of(all)));
     become(command);
   }

@@ -15,6 +15,7 @@ class Picture : public Verb {
             "  shaken picture runs/first --style director --theme print -o fig4.pdf\n"
             "  shaken picture runs/first --colour tilt --zoom 3 --focus 0.2,0.7\n"
             "  shaken picture 1f0c 22ab 77c0 --time 20s -o three.png  three runs side by side\n"
+            "  shaken picture runs/first --bare --inset angles       P(theta) in a corner of the rods\n"
             "  shaken picture runs/first --view follow:17            rod 17 in the middle\n"
             "Styles, colours and style files: docs/pictures.md"};
   }
@@ -23,6 +24,7 @@ class Picture : public Verb {
     options_.declare(arguments);
     arguments.option("--frame", frame_, "N|last", "The frame, counted from 0; the last if left out");
     arguments.option("--time", time_, "TIME", "The frame nearest to this simulated time: 12.5, 500ms");
+    arguments.option("--depth", depth_, "8|16", "Bits a colour of a PNG; 8 if left out");
   }
 
   ExitCode run(const Context& context) override {
@@ -35,6 +37,8 @@ class Picture : public Verb {
     command.insert(command.end(), {"-o", options_.out.empty() ? drawn.front().name + ".png" : options_.out});
     if (!frame_.empty()) command.push_back("--frame=" + frame_);
     if (!time_.empty()) command.push_back("--time=" + time_);
+    if (!depth_.empty()) command.push_back("--depth=" + depth_);
+    if (options_.shows_sweep()) command.push_back("--sweep=" + sweep_of(context, drawn));
     const std::vector<std::string> style = options_.words(labels_of(drawn));
     command.insert(command.end(), style.begin(), style.end());
     become(command);
@@ -42,7 +46,7 @@ class Picture : public Verb {
 
  private:
   PictureOptions options_;
-  std::string frame_, time_;
+  std::string frame_, time_, depth_;
 };
 
 }  // namespace

@@ -94,6 +94,12 @@ class Status : public Verb {
   }
 
  private:
+  /// Where live state is handed on, if that is another place.
+  static std::string also_at(const Json& status, const Json& lcm) {
+    const std::string relay = text_of(status, "relay");
+    return relay.empty() || relay == text_of(lcm, "url") ? "" : " and " + relay;
+  }
+
   ExitCode show_sweeps(ApiClient& session, Console& console) const {
     const Json status = session.get("/v1/status");
     const Json answer = session.get("/v1/sweeps");
@@ -103,11 +109,11 @@ class Status : public Verb {
     }
     const Json& lcm = status.at("lcm");
     const bool lcm_ok = lcm.value("ok", false);
-    console.out << fmt::format(
-        "shakend {} on {}, pid {}, up {}; {} slots; live state {}\n", text_of(status, "version"),
-        text_of(status, "host"), status.value("pid", 0), duration_text(status.value("uptime_s", 0.0)),
-        status.value("slots", 0),
-        lcm_ok ? "on " + text_of(lcm, "url") : console.painted(Colour::kYellow, "off: " + text_of(lcm, "message")));
+    console.out << fmt::format("shakend {} on {}, pid {}, up {}; {} slots; live state {}\n", text_of(status, "version"),
+                               text_of(status, "host"), status.value("pid", 0),
+                               duration_text(status.value("uptime_s", 0.0)), status.value("slots", 0),
+                               lcm_ok ? "on " + text_of(lcm, "url") + also_at(status, lcm)
+                                      : console.painted(Colour::kYellow, "off: " + text_of(lcm, "message")));
     if (answer.at("sweeps").empty()) {
       console.out << "No sweeps yet: `shaken submit FILE` makes one.\n";
       return ExitCode::kOk;

@@ -21,6 +21,8 @@ std::unique_ptr<Verb> make_submit();
 std::unique_ptr<Verb> make_status();
 std::unique_ptr<Verb> make_watch();
 std::unique_ptr<Verb> make_web();
+std::unique_ptr<Verb> make_record();
+std::unique_ptr<Verb> make_replay_log();
 std::unique_ptr<Verb> make_logs();
 std::unique_ptr<Verb> make_wait();
 std::unique_ptr<Verb> make_history();

@@ -51,6 +51,10 @@ void LiveJobs::note_api(const Json& answer) {
   job.reason = text_of(answer, "reason");
   const auto progress = answer.find("progress");
   job.draws_film = job.is_running() && progress != answer.end() && text_of(*progress, "state") == "rendering";
+  // Numbers that are no numbers, and those of older workers, leave them as they were.
+  const double drawn = progress_number(answer, "drawn"), film_eta = progress_number(answer, "eta_s");
+  if (job.draws_film && drawn >= 0) job.drawn = std::min(drawn, 1.0);
+  if (job.draws_film && !std::isnan(film_eta)) job.film_eta = film_eta;
   if (job.state == "done") job.sim_time = job.sim_time_total;
   const double time = progress_number(answer, "sim_time_s");
   if (std::isnan(time)) return;

@@ -63,6 +63,8 @@ struct LiveJob {
   SequenceCounter defects_counter;
 
   bool draws_film = false;  ///< all is simulated and written; the worker draws its film
+  double drawn = 0;         ///< share of the film's frames that are drawn
+  double film_eta = -1;     ///< until the film is drawn [s]; negative while unknown
 
   double fraction() const;
   bool is_running() const { return state == "running" || state == "stopping"; }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "base/clock.h"
@@ -19,8 +20,9 @@ constexpr int kFewestChartLines = 5;
 
 std::string bar_line(const LiveJob& job, const Console& console) {
   if (job.draws_film) {
-    return fmt::format("{}  {}  {} simulated  {}", console.painted(Colour::kBold, short_id(job.id)),
-                       console.painted(Colour::kYellow, "drawing the film"), duration_text(job.sim_time), job.label);
+    return fmt::format("{}  {} {}  {} simulated  {}", console.painted(Colour::kBold, short_id(job.id)),
+                       console.painted(Colour::kYellow, bar_text(job.drawn, 16)),
+                       console.painted(Colour::kYellow, film_text(job)), duration_text(job.sim_time), job.label);
   }
   return fmt::format("{}  {} {:5.1f} %  {} of {}  {:.3g} sim-s/s  ETA {} ({})  {}",
                      console.painted(Colour::kBold, short_id(job.id)),
@@ -93,8 +95,13 @@ std::vector<std::string> watch_screen(const LiveJobs& jobs, const std::string& t
   return lines;
 }
 
+std::string film_text(const LiveJob& job) {
+  return fmt::format("drawing the film {:.0f} %", std::floor(100 * job.drawn)) +
+         (job.film_eta >= 0 ? ", ETA " + duration_text(job.film_eta) : "");
+}
+
 std::string watch_line(const LiveJob& job) {
-  std::string line = fmt::format("{} {}", short_id(job.id), job.draws_film ? "drawing the film" : job.state);
+  std::string line = fmt::format("{} {}", short_id(job.id), job.draws_film ? film_text(job) : job.state);
   if (job.sim_time_total > 0) {
     line += fmt::format(" {:5.1f} %  t {:.3f}/{:.3f} s", 100 * job.fraction(), job.sim_time, job.sim_time_total);
   }

@@ -14,6 +14,9 @@ namespace shaken::client {
 std::vector<std::string> watch_screen(const LiveJobs& jobs, const std::string& title, const std::string& note,
                                       const Console& console);
 
+/// How far a job that draws its film is with it: "drawing the film 42 %, ETA 12 s".
+std::string film_text(const LiveJob& job);
+
 /// A job on one line, for logs and pipes.
 std::string watch_line(const LiveJob& job);
 

@@ -122,7 +122,8 @@ std::vector<std::string> number_lines(const LiveJob& job, const Console& console
       fmt::format("{} {:.1f} %", console.painted(Colour::kBlue, bar_text(job.fraction(), 16)), 100 * job.fraction()));
   lines.push_back(fmt::format("{} of {}", duration_text(job.sim_time), duration_text(job.sim_time_total)));
   if (job.draws_film) {
-    lines.push_back(console.painted(Colour::kYellow, "drawing the film; the run is done"));
+    lines.push_back(console.painted(Colour::kYellow, film_text(job)));
+    lines.push_back(console.painted(Colour::kYellow, bar_text(job.drawn, 16)) + " the run is done");
   } else if (job.is_running()) {
     lines.push_back(fmt::format("ETA {} ({})", duration_text(job.eta), clock_text(job.eta, utime_now())));
     lines.push_back(fmt::format("{:.3g} sim-s/s", job.sim_rate));
@@ -176,7 +177,7 @@ void put_numbers(const LiveJob& job, const Console& console, const Area& area, C
 /// What stands in place of the rods as long as there are none.
 std::string absence_text(const LiveJob* job) {
   if (job == nullptr) return "no run";
-  if (job->draws_film) return "the run is done and its film is being drawn";
+  if (job->draws_film) return "the run is done; " + film_text(*job);
   if (job->state == "queued") return "waits in the queue" + (job->reason.empty() ? "" : ": " + job->reason);
   if (!job->is_running()) return "the run is " + job->state;
   return "no frame has come yet (live frames need LCM, and a \"stream\" block in the scene)";

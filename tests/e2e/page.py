@@ -89,6 +89,12 @@ def use(page, address, live, downloads):
             for (let i = 0; i < pixels.length; i += 64) seen.add(pixels[i] << 16 | pixels[i + 1] << 8 | pixels[i + 2]);
             return seen.size;""")
 
+    def click_text(selector, words):
+        """Clicks what is found by `selector` and has `words` in it, and may be replaced meanwhile."""
+        def found():
+            return [each for each in page.find_elements(By.CSS_SELECTOR, selector) if words in each.text]
+        eventually(lambda: (found()[0].click(), True)[1], f"{words} is clicked")
+
     def click(css_rows, state, which=0):
         """Clicks a row of the table of jobs, which may be replaced meanwhile."""
         eventually(lambda: (css_rows(state)[which].click(), True)[1], f"a job that is {state} is clicked")
@@ -151,10 +157,10 @@ def use(page, address, live, downloads):
           done([answer.status, answer.headers.get("Content-Type"), (await answer.arrayBuffer()).byteLength]);
         });""")
     check(picture[0] == 200 and picture[1] == "image/png" and picture[2] > 10000, f"a frame is drawn as a PNG: {picture}")
-    [button for button in page.find_elements(By.CSS_SELECTOR, "#files button") if button.text == "summary.json"][0].click()
+    click_text("#files button", "summary.json")
     eventually(lambda: any(name.endswith("-summary.json") for name in os.listdir(downloads)), "a file is saved")
 
-    [button for button in page.find_elements(By.CSS_SELECTOR, "button.sweep") if "waits" in button.text][0].click()
+    click_text("button.sweep", "waits")
     eventually(lambda: rows("held"), "the other sweep's job is held")
     find("#sweep-actions [data-action=resume]").click()
     eventually(lambda: rows("running"), "it runs after a click")

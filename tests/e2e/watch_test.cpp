@@ -19,6 +19,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "tests/e2e/free_port.h"
 #include "tests/e2e/process.h"
 #include "tests/support/small_terminal.h"
 
@@ -170,9 +171,11 @@ constexpr const char* kLongRun = R"({
 /// A daemon with a run that does not end.
 class WatchOnATerminal : public ::testing::Test {
  protected:
-  WatchOnATerminal() {
+  explicit WatchOnATerminal(const std::vector<std::string>& live = {}) {
     std::vector<std::string> command{program_in("shakend"), "--root", root(), "--slots", "1"};
-    if (has_own_network()) {
+    if (!live.empty()) {
+      command.insert(command.end(), live.begin(), live.end());
+    } else if (has_own_network()) {
       command.insert(command.end(), {"--lcm-url", "udpm://239.255.76.67:" + std::to_string(30000 + getpid() % 20000) +
                                                       "?ttl=0&recv_buf_size=2097152"});
     } else {
@@ -230,6 +233,22 @@ TEST_F(WatchOnATerminal, ShowsRodsAndObeysKeysAndSizes) {
   EXPECT_EQ(watch.wait(), 0);
   watch.expect_given_back();
   EXPECT_NE(watch.screen().text().find(" running "), std::string::npos) << "the last state stays on the screen";
+}
+
+/// The same with live state by way of a relay.
+class WatchThroughARelay : public WatchOnATerminal {
+ protected:
+  explicit WatchThroughARelay(const std::string& address = free_address())
+      : WatchOnATerminal({"--relay", address, "--lcm-url", "tcpq://" + address}) {}
+};
+
+TEST_F(WatchThroughARelay, ShowsRods) {
+  OnTerminal watch(watch_command(), 120, 40);
+  ASSERT_TRUE(watch.shows("▀")) << watch.screen().text();
+  EXPECT_TRUE(watch.shows("0 lost")) << watch.screen().text();
+  watch.type("q");
+  EXPECT_EQ(watch.wait(), 0);
+  watch.expect_given_back();
 }
 
 TEST_F(WatchOnATerminal, SignalsGiveTheTerminalBack) {

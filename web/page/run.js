@@ -54,7 +54,7 @@ export class RunPanel {
     this.orderChart.clear();
     this.angleChart.clear();
     for (const place of ["run-note", "run-facts"]) byId(place).textContent = "";
-    byId("files").replaceChildren();
+    replaceIfOther(byId("files"), "", () => []);
     replaceIfOther(byId("run-actions"), "", () => []);
     byId("scrub").hidden = true;
     byId("run-title").textContent = id ? `Run ${id}` : "Choose a run";
@@ -133,7 +133,9 @@ export class RunPanel {
     const {id} = this;
     const link = ({name, bytes: size}) => make("li", {}, make("button", {
       type: "button", onclick: () => save(`/runs/${id}/files/${name}`)}, name), ` ${bytes(size)}`);
-    byId("files").replaceChildren(...(answer.problem ? [answer.problem.message] : answer.files.map(link)));
+    // Buttons that are made anew while one is pressed would lose the press.
+    replaceIfOther(byId("files"), id + (answer.problem?.message ?? JSON.stringify(answer.files)),
+      () => answer.problem ? [answer.problem.message] : answer.files.map(link));
   }
 
   showCurves(curves) {

@@ -7,7 +7,12 @@
 #include <algorithm>
 #include <fstream>
 #include <set>
+#include <sstream>
 #include <string>
+
+#include "client/json.h"
+#include "client/verb.h"
+#include "tests/unit/client/fake_daemon.h"
 
 namespace shaken::client {
 namespace {
@@ -65,6 +70,41 @@ TEST(PictureOptions, EachOfSeveralRunsHasItsHeadline) {
             (std::vector<std::string>{"a", "x"}))
       << "panels without a headline cannot be told apart";
   EXPECT_EQ(labels_of({{.directory = "a", .name = "a"}}), std::vector<std::string>{""});
+}
+
+TEST(SweepInset, HasThePointsOfTheSweepAndWhereTheRunsAre) {
+  TemporaryFolder root;
+  FakeDaemon daemon(root.path());
+  Json rows = Json::array();
+  const auto add = [&](const char* id, Json parameters, const Json& summary) {
+    rows.push_back({{"job", id},
+                    {"sweep", "s1"},
+                    {"state", summary.is_null() ? "queued" : "done"},
+                    {"label", ""},
+                    {"replica", 1},
+                    {"parameters", std::move(parameters)},
+                    {"summary", summary}});
+  };
+  add("a", {{"rods.area_fraction", 0.45}, {"rods.length", "2.5 mm"}}, {{"order", {{"mean", 0.25}}}});
+  add("b", {{"rods.area_fraction", 0.75}, {"rods.length", "4.5 mm"}}, nullptr);
+  daemon.on("GET /v1/sweeps/s1", Json{{"sweep", {{"id", "s1"}, {"name", "x"}}}, {"jobs", Json::array()}}.dump());
+  daemon.on("GET /v1/results?sweep=s1", Json{{"rows", rows}}.dump());
+  std::ostringstream out;
+  Console console{.out = out, .err = out};
+  const CLI::App app;
+  const Context context{console, root.path().string(), app};
+  const auto drawn = [](const char* id, const char* sweep) {
+    return Drawn{.directory = "", .name = id, .id = id, .sweep = sweep};
+  };
+  const Json said = Json::parse(sweep_of(context, {drawn("b", "s1"), drawn("a", "s1")}));
+  EXPECT_EQ(said.at("x"), "rods.area_fraction");
+  EXPECT_EQ(said.at("y"), "rods.length");
+  EXPECT_EQ(said.at("points"), (Json{{0.45, 2.5, 0.25}, {0.75, 4.5, nullptr}}));
+  EXPECT_EQ(said.at("here"), (Json{{0.75, 4.5}, {0.45, 2.5}}));
+  EXPECT_THROW(sweep_of(context, {drawn("c", "s1")}), Failure) << "of another sweep";
+  EXPECT_THROW(sweep_of(context, {drawn("a", "")}), Failure) << "a run directory";
+  daemon.on("GET /v1/results?sweep=s1", Json{{"rows", {rows[0]}}}.dump());
+  EXPECT_THROW(sweep_of(context, {drawn("a", "s1")}), Failure) << "nothing differs";
 }
 
 }  // namespace

@@ -310,6 +310,38 @@ void expect_agreement(bool as_sweep, bool broken, int n, int n_at_least) {
 
 TEST(Schema, AcceptsEveryAllowedValueOfAScene) { expect_agreement(false, false, test::draws(3000), test::draws(1000)); }
 TEST(Schema, AcceptsEveryAllowedValueOfASweep) { expect_agreement(true, false, test::draws(1000), test::draws(200)); }
+// What does not vary with the scenes that are drawn.
+TEST(Schema, AgreesOnWhatASweepAsksOfItsExecutor) {
+  const auto with = [](const char* key, Json value) {
+    return Json{{"scene", Json::object()}, {key, std::move(value)}};
+  };
+  std::vector<Json> documents{with("executor", "slurm"), with("executor", "local"), with("slurm", Json::object()),
+                              with("executor", "cloud"), with("executor", 1),       with("slurm", 3)};
+  for (const Json& keys : std::vector<Json>{{{"partition", "a_b,c-1"}},
+                                            {{"partition", nullptr}},
+                                            {{"partition", "-a"}},
+                                            {{"partition", "a b"}},
+                                            {{"account", ""}},
+                                            {{"time", "2 h"}},
+                                            {{"time", true}},
+                                            {{"memory", "4G"}},
+                                            {{"memory", "4 GB"}},
+                                            {{"memory", "0G"}},
+                                            {{"runs_per_task", 7}},
+                                            {{"runs_per_task", 0}},
+                                            {{"runs_per_task", 1.5}},
+                                            {{"options", {"--qos=low"}}},
+                                            {{"options", {"-q"}}},
+                                            {{"options", "--qos"}},
+                                            {{"cores", 3}}}) {
+    documents.push_back(with("slurm", keys));
+  }
+  const std::vector<std::string> said = verdicts(sweep_schema(), documents);
+  for (std::size_t i = 0; i < documents.size(); ++i) {
+    EXPECT_EQ(said[i] == "ok", accepted(true, documents[i])) << documents[i].dump() << "\n" << said[i];
+  }
+}
+
 TEST(Schema, RefusesBrokenScenesAsTheLoaderDoes) { expect_agreement(false, true, test::draws(3000), 0); }
 TEST(Schema, RefusesBrokenSweepsAsTheLoaderDoes) { expect_agreement(true, true, test::draws(600), 0); }
 

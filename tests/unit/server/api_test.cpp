@@ -777,6 +777,25 @@ TEST_F(ApiTest, ARunThatStartsFromAnotherWaitsForIt) {
   std::filesystem::create_directories(directory_ / "runs/0123456789abcdef");
   write_text(directory_ / "runs/0123456789abcdef/scene.json", "{}");
   EXPECT_EQ(submit({{"text", unknown}}).status, 201);
+  const std::string elsewhen = R"({"start": {"run": "0123456789abcdef", "time": 9}})";
+  EXPECT_THAT(submit({{"text", elsewhen}}).error(), HasSubstr("ends at 10 s"));
+}
+
+// How long such a parent takes is known only once it has ended.
+TEST_F(ApiTest, ARunStartsOnlyWhereItsParentWithAConditionCanHaveEnded) {
+  const std::string until =
+      R"({"time": {"steady": 0, "measure": "2 s"}, "until": {"order_sem": 0.01, "at_most": "8 s"}})";
+  const std::string parent = submit({{"text", until}, {"name", "first"}}).json["jobs"][0]["id"];
+  const auto start = [&](const char* time) {
+    return submit({{"text", R"({"start": {"run": ")" + parent + R"(", "time": )" + time + "}}"}});
+  };
+  EXPECT_EQ(start("3").status, 201);
+  EXPECT_THAT(start("9").error(), HasSubstr("ends at the latest at 8 s, so it has no state at start.time 9 s"));
+  std::filesystem::create_directories(directory_ / "runs" / parent);
+  write_text(directory_ / "runs" / parent / "summary.json",
+             R"({"run_id": ")" + parent + R"(", "exit": {"state": "done", "tick": 1000000}})");
+  EXPECT_EQ(start("4").status, 201);
+  EXPECT_THAT(start("3").error(), HasSubstr("ended at 4 s"));
 }
 
 TEST_F(ApiTest, ASweepGetsMoreReplicasAsIfSubmittedSo) {

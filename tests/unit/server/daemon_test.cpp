@@ -316,6 +316,24 @@ TEST_F(DaemonTest, AnEmptyQueueBesideRunsIsToldAndTheirResultsAreFound) {
   }
 }
 
+TEST_F(DaemonTest, ARelayTellsItsAddressAndATakenOneIsSaid) {
+  // The address of LCM is one where nothing listens: no multicast leaves this machine.
+  const std::vector<std::string> options{"--worker", worker_.string(), "--lcm-url", "tcpq://127.0.0.1:1", "--relay"};
+  const auto with = [&](const std::string& address) {
+    std::vector<std::string> all = options;
+    all.push_back(address);
+    return all;
+  };
+  Daemon shakend(directory_ / "root", with("127.0.0.1:0"));
+  EXPECT_THAT(shakend.first_line(), StartsWith("shakend ready"));
+  const std::string url = shakend.call("/v1/status")["relay"];
+  EXPECT_THAT(url, StartsWith("tcpq://127.0.0.1:"));
+  Daemon second(directory_ / "other", with(url.substr(std::string("tcpq://").size())));
+  EXPECT_EQ(second.wait(), 1);
+  EXPECT_THAT(second.errors(), HasSubstr("the relay cannot listen at 127.0.0.1:"));
+  EXPECT_THAT(second.errors(), HasSubstr("Address already in use"));
+}
+
 TEST_F(DaemonTest, WhatCannotStartSaysWhy) {
   Daemon no_worker(directory_ / "root", {"--no-lcm", "--worker", "/nonexistent/worker"});
   EXPECT_EQ(no_worker.wait(), 1);
@@ -327,6 +345,13 @@ TEST_F(DaemonTest, WhatCannotStartSaysWhy) {
   Daemon no_slots(directory_ / "root", {"--slots", "0"});
   EXPECT_EQ(no_slots.wait(), 2);
   EXPECT_THAT(no_slots.errors(), HasSubstr("--slots"));
+
+  Daemon open_relay(directory_ / "root", {"--relay", "0.0.0.0:7700"});
+  EXPECT_EQ(open_relay.wait(), 2);
+  EXPECT_THAT(open_relay.errors(), HasSubstr("--relay-for-anyone"));
+  Daemon named_relay(directory_ / "root", {"--relay", "desk:7700"});
+  EXPECT_EQ(named_relay.wait(), 2);
+  EXPECT_THAT(named_relay.errors(), HasSubstr("'desk:7700'"));
 
   std::filesystem::create_directories(directory_ / "root");
   write_text(directory_ / "root" / "queue.db", std::string(8192, 'x'));

@@ -16,8 +16,8 @@ using enum JobEnd::Outcome;
 
 class VerdictTest : public testing::Test {
  protected:
-  JobEnd exit(int code) const { return judge({code, 0}, 77, false, "0123", run_); }
-  JobEnd killed(int signal, bool stop_asked) const { return judge({0, signal}, 77, stop_asked, "0123", run_); }
+  JobEnd exit(int code) const { return judge({code, 0, 77}, false, "0123", run_); }
+  JobEnd killed(int signal, bool stop_asked) const { return judge({0, signal, 77}, stop_asked, "0123", run_); }
 
   TempDirectory directory_;
   run::RunDirectory run_{directory_.path()};

@@ -2,9 +2,12 @@
 // What the publisher sends, read back from an LCM log file.
 #include "server/status_publisher.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <lcm/eventlog.h>
 
+#include <algorithm>
+#include <map>
 #include <shaken/job_t.hpp>
 #include <shaken/status_t.hpp>
 
@@ -74,6 +77,28 @@ TEST_F(PublisherTest, EveryChangeOfStateIsSent) {
   EXPECT_EQ(states, (std::vector<std::string>{"queued", "running", "failed"}));
   EXPECT_EQ(recording.jobs.back().reason, "exit 1: why");
   EXPECT_EQ(recording.jobs.back().attempt, 1);
+}
+
+// What runs is sent again each second, but never ahead of the changes that brought it there, nor after its end.
+TEST_F(PublisherTest, NoJobIsSentAheadOfItsChanges) {
+  start();
+  const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(3200);
+  for (int n = 0; std::chrono::steady_clock::now() < until; ++n) {
+    NewJob job = new_job('a');
+    job.id = fmt::format("{:016x}", n);
+    queue_.submit("s", 0, std::vector{job});
+    queue_.begin(job.id);
+    queue_.finish(job.id, JobState::kDone, "");
+  }
+  const std::vector<std::string> order{"queued", "running", "done"};
+  std::map<std::string, std::ptrdiff_t> reached;
+  for (const auto& message : stop().jobs) {
+    const auto place = std::find(order.begin(), order.end(), message.state) - order.begin();
+    std::ptrdiff_t& last = reached.try_emplace(message.job_id, -1).first->second;
+    EXPECT_TRUE(place == last || place == last + 1) << message.job_id << " is " << message.state;
+    last = place;
+  }
+  EXPECT_GT(reached.size(), 10);
 }
 
 TEST_F(PublisherTest, ARunningJobIsSentAgainAndAgainWithItsProgress) {

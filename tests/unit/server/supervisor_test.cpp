@@ -62,6 +62,40 @@ class SupervisorTest : public testing::Test {
   Supervisor supervisor_{queue_, executor_, options()};
 };
 
+/// Takes every worker and says of each what `report` is.
+class ToldExecutor final : public Executor {
+ public:
+  Result<int> start(const Launch&) override { return ++last_; }
+  WorkerReport poll(int) override { return report; }
+  void stop(int) override {}
+  void kill(int) override {}
+  std::string name(int worker) const override { return "worker " + std::to_string(worker); }
+
+  WorkerReport report;
+
+ private:
+  int last_ = 0;
+};
+
+TEST_F(SupervisorTest, WhatIsRefusedIsTriedAgainMoreAndMoreRarely) {
+  ToldExecutor executor;
+  executor.report = {.phase = WorkerReport::Phase::kRefused, .words = "no such partition"};
+  SupervisorOptions patient = options();
+  patient.refused_pause = std::chrono::milliseconds(20);
+  Supervisor supervisor(queue_, executor, patient);
+  submit('a', "done");
+  for (const int doublings : {0, 1, 2, 3, 4, 4}) {
+    const int before = job('a').attempt;
+    ASSERT_TRUE(eventually([&] {
+      supervisor.step();
+      return job('a').attempt > before && job('a').state == kQueued;
+    }));
+    const auto pause = job('a').not_before - queue_.history(id('a')).back().utime;
+    EXPECT_GE(pause, 20'000 << doublings);
+    EXPECT_LT(pause, 40'000 << doublings);
+  }
+}
+
 TEST_F(SupervisorTest, AJobIsDoneByAWorkerInItsDirectory) {
   submit('a', "done");
   ASSERT_TRUE(step_until('a', kDone));
@@ -352,9 +386,9 @@ TEST_F(LocalExecutorTest, AWorkerInheritsNoDescriptorsAndNoBlockedSignals) {
   pthread_sigmask(SIG_SETMASK, &before, nullptr);
   close(leak);
   ASSERT_TRUE(pid);
-  std::optional<WorkerEnd> end;
-  ASSERT_TRUE(eventually([&] { return (end = executor.poll(*pid)).has_value(); }));
-  EXPECT_EQ(end->exit_code, 0);
+  WorkerReport report;
+  ASSERT_TRUE(eventually([&] { return (report = executor.poll(*pid)).phase == WorkerReport::Phase::kEnded; }));
+  EXPECT_EQ(report.end.exit_code, 0);
   // 10 is the script itself, as dash opens it.
   EXPECT_EQ(read_text(directory_ / "worker.log"), "heading\n0\n1\n10\n2\nSigBlk:\t0000000000000000\n");
 }
@@ -365,7 +399,7 @@ TEST_F(LocalExecutorTest, WhatAWorkerHasStartedEndsWithIt) {
   LocalExecutor executor(directory_ / "parent");
   const auto pid = executor.start({directory_.path(), {directory_ / "child"}, "heading"});
   ASSERT_TRUE(pid);
-  ASSERT_TRUE(eventually([&] { return executor.poll(*pid).has_value(); }));
+  ASSERT_TRUE(eventually([&] { return executor.poll(*pid).phase == WorkerReport::Phase::kEnded; }));
   const int child = std::stoi(read_text(directory_ / "child"));
   EXPECT_TRUE(eventually([&] {
     // Gone, or a zombie that waits for a parent to look at it.

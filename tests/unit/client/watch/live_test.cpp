@@ -147,13 +147,20 @@ TEST(WatchLine, DrawingTheFilmIsAStateOfItsOwn) {
   LiveJobs jobs;
   Json job = api_job("aaaaaaaaaaaaaaaa", "running", 10);
   job["progress"]["state"] = "rendering";
+  job["progress"]["drawn"] = 0.257;
+  job["progress"]["eta_s"] = 70;
   jobs.note_api(job);
-  EXPECT_THAT(watch_line(jobs.jobs()[0]), HasSubstr("aaaaaaaa drawing the film 100.0 %"));
-  EXPECT_THAT(watch_line(jobs.jobs()[0]), ::testing::Not(HasSubstr("ETA")));
+  EXPECT_THAT(watch_line(jobs.jobs()[0]), HasSubstr("aaaaaaaa drawing the film 25 %, ETA 1 min 10 s"));
   // A message that is late does not hide it.
   jobs.note(message("aaaaaaaaaaaaaaaa", 0, 10, 0.5));
   jobs.note_api(job);
   EXPECT_TRUE(jobs.jobs()[0].draws_film);
+  job["progress"]["drawn"] = 0.5;
+  jobs.note_api(job);
+  EXPECT_EQ(jobs.jobs()[0].drawn, 0.5) << "nor what the file says of it";
+  job["progress"]["drawn"] = "much";
+  jobs.note_api(job);
+  EXPECT_EQ(jobs.jobs()[0].drawn, 0.5);
   jobs.note_api(api_job("aaaaaaaaaaaaaaaa", "done", -1));
   EXPECT_FALSE(jobs.jobs()[0].draws_film);
 }

@@ -143,12 +143,21 @@ TEST_F(WatchCells, FillsEverySizeWithoutHarm) {
 }
 
 TEST_F(WatchCells, DrawingTheFilmIsAStateOfItsOwn) {
-  jobs_.note_api(job_json(kFirst, "running", "rendering"));
-  const std::string text = shown();
-  EXPECT_THAT(text, HasSubstr("drawing the film"));
-  EXPECT_THAT(text, Not(HasSubstr("ETA")));
+  Json job = job_json(kFirst, "running", "rendering");
+  job["progress"]["drawn"] = 0.0;
+  job["progress"]["eta_s"] = -1;
+  jobs_.note_api(job);
+  EXPECT_THAT(shown(), HasSubstr("drawing the film 0 %"));
+  EXPECT_THAT(shown(), Not(HasSubstr("ETA"))) << "before the first frame nobody knows";
+  job["progress"]["drawn"] = 0.5;
+  job["progress"]["eta_s"] = 12;
+  jobs_.note_api(job);
+  EXPECT_THAT(shown(), HasSubstr("drawing the film 50 %, ETA 12 s"));
+  EXPECT_THAT(shown(), HasSubstr("████████········ the run is done"));
+  rods_ = nullptr;
+  EXPECT_THAT(shown(), HasSubstr("the run is done; drawing the film 50 %, ETA 12 s"));
   steering_.numbers = true;
-  EXPECT_THAT(shown(), HasSubstr("1f0c0000  drawing the film"));
+  EXPECT_THAT(shown(), HasSubstr("1f0c0000  ████████········ drawing the film 50 %, ETA 12 s"));
   steering_.numbers = false;
   jobs_.note_api(job_json(kFirst, "running"));
   EXPECT_THAT(shown(), Not(HasSubstr("drawing")));
