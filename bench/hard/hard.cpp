@@ -20,8 +20,9 @@ constexpr const char* kHardFooter =
 holding. Scenes are those of configs/hard; what is made by hand is bench/hard/made_cases.cpp.
 
 Examples:
-  shaken bench hard                              all cases: nine CPU-minutes for 'order', half of one for the others
+  shaken bench hard                              all cases: 36 CPU-minutes for 'order', half of one for the others
   shaken bench hard needle row --json
+  shaken bench hard order --replicas 240         a difference half as large can be told from none
   shaken bench hard --seconds 0.02               the scenes for 20 ms of their time, without 'order': a smoke test
   shaken bench hard --out hard                   hard/hard.csv, .json and .png
 
@@ -88,12 +89,16 @@ struct HardBench {
   std::vector<std::string> names;
   std::string folder;
   std::optional<double> seconds;
+  int replicas = OrderEffort{}.replicas;
   Output output;
 
   void declare(CLI::App& app) {
     app.add_option("CASE", names, "Cases; all if none is named")->check(CLI::IsMember(case_names()).description(""));
     add_path(app, "--cases", folder, "DIR", "Folder of the scenes; configs/hard, or that of the installed files");
     add_number(app, "--seconds", seconds, "S", {1e-4, 1e5}, "Simulated seconds of a scene, at most");
+    app.add_option("--replicas", replicas, "Runs with each order of contacts in the case order")
+        ->check(CLI::Range(2, 10000))
+        ->capture_default_str();
     output.declare(app);
   }
 
@@ -112,7 +117,7 @@ struct HardBench {
     for (const SceneCase& scene : scene_cases()) {
       if (scene.name == name) return run_scene_case(scene, read_hard_scene(scenes(), name), at_most, watch);
     }
-    return run_order_case(scenes(), {.seconds = at_most}, watch);
+    return run_order_case(scenes(), {.replicas = replicas, .seconds = at_most}, watch);
   }
 
   ExitCode run() const {
