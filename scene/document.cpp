@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <unordered_map>
 
+#include "sim/core/check.h"
+
 namespace shaken::scene {
 
 namespace {
@@ -40,7 +42,7 @@ class Cursor {
   void to_next_token() {
     while (offset_ < text_.size()) {
       if (starts("//")) {
-        advance_to(std::min(text_.find('\n', offset_), text_.size()));
+        advance_to(std::min(text_.find_first_of(kLineEnds, offset_), text_.size() - 1) + 1);
       } else if (starts("/*")) {
         advance_to(std::min(text_.find("*/", offset_ + 2), text_.size()) + 2);
       } else if (std::string_view(" \t\r\n,:]}").find(text_[offset_]) != std::string_view::npos) {
@@ -56,7 +58,8 @@ class Cursor {
     const std::size_t start = offset_;
     std::size_t end = start + 1;
     if (text_[start] == '"') {
-      while (text_[end] != '"') end += text_[end] == '\\' ? 2 : 1;
+      while (end < text_.size() && text_[end] != '"') end += text_[end] == '\\' ? 2 : 1;
+      SHAKEN_CHECK(end < text_.size(), "a string that the parser has read ends");
       ++end;
     } else if (text_[start] != '{' && text_[start] != '[') {
       end = std::min(text_.find_first_of(" \t\r\n,:]}/", start), text_.size());
@@ -66,6 +69,9 @@ class Cursor {
   }
 
  private:
+  /// What ends a comment, as the parser sees it: a carriage return alone does, too.
+  static constexpr std::string_view kLineEnds = "\n\r";
+
   bool starts(std::string_view what) const { return text_.substr(offset_).starts_with(what); }
 
   std::string_view text_;

@@ -47,6 +47,19 @@ TEST(Document, KnowsWhereEverythingStands) {
   EXPECT_EQ(place(accents.value.members[0].value.place), "5:13");
 }
 
+// The parser ends a comment at a carriage return alone, too.
+TEST(Document, CommentsEndWhereTheParserEndsThem) {
+  for (const char end : {'\n', '\r'}) {
+    std::vector<Problem> problems;
+    const auto root = parse(std::string("{ // a \"quote") + end + "\"key\": \"text\"} // more", problems);
+    ASSERT_TRUE(root) << to_string(problems);
+    EXPECT_EQ(root->members[0].value.text, "text");
+    EXPECT_EQ(place(root->members[0].value.place), end == '\n' ? "2:8" : "1:22");
+  }
+  EXPECT_EQ(error_of("// \"quote\r1 \"x\": \"12"),
+            "f:1:15: syntax error while parsing value - unexpected string literal; expected end of input\n");
+}
+
 TEST(Document, SyntaxErrorsSayWhere) {
   EXPECT_EQ(error_of("{\"a\": 1,}"),
             "f:1:9: syntax error while parsing object key - unexpected '}'; expected string literal\n");
