@@ -114,9 +114,9 @@ SteadyState steady_state(const Case& wanted, const std::filesystem::path& cache)
   return made;
 }
 
-Simulation resumed(const Case& of, const SteadyState& state, Engine engine) {
+Simulation resumed(const Case& of, const SteadyState& state, StepperKind stepper) {
   System scene = of.system();
-  scene.engine = engine;
+  scene.stepper = stepper;
   return value_or_fail(Simulation::resume(scene, state.checkpoint));
 }
 

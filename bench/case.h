@@ -62,8 +62,8 @@ std::filesystem::path default_cache();
 /// another scene, is made anew.
 SteadyState steady_state(const Case& wanted, const std::filesystem::path& cache);
 
-/// A simulation that goes on from a steady state by either engine.
-Simulation resumed(const Case& of, const SteadyState& state, Engine engine);
+/// A simulation that goes on from a steady state by either stepper.
+Simulation resumed(const Case& of, const SteadyState& state, StepperKind stepper);
 
 /// Steps on by `ticks`. Throws Failure on numerical trouble.
 void advance(Simulation& simulation, Tick ticks);

@@ -145,7 +145,7 @@ struct LooksBench {
 
   ExitCode run() const {
     const Case wanted = scene.read();
-    Simulation simulation = resumed(wanted, cache(wanted), Engine::kScheduled);
+    Simulation simulation = resumed(wanted, cache(wanted), StepperKind::kScheduled);
     Snapshot now = simulation.snapshot();
     std::vector<Course> courses = near_pairs(simulation, now);
     const auto ticks = static_cast<Tick>(window / wanted.dt);

@@ -142,11 +142,11 @@ const std::vector<StartCase>& start_cases() {
   return all;
 }
 
-Simulation begin(const StartCase& start, const std::vector<Flight>& rods, const Variant& variant, Engine engine,
+Simulation begin(const StartCase& start, const std::vector<Flight>& rods, const Variant& variant, StepperKind stepper,
                  double dt) {
   System scene = start.scene;
   variant.apply(scene);
-  scene.engine = engine;
+  scene.stepper = stepper;
   scene.dt = dt;
   World world = empty_world(scene);
   world.rods = rods;

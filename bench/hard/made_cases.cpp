@@ -37,7 +37,7 @@ Simulation simulation_of(System scene, const std::vector<Flight>& rods) {
   return Simulation::start_from(std::move(world));
 }
 
-/// Lets rods meet by every law, with little and with much friction, on both engines.
+/// Lets rods meet by every law, with little and with much friction, on both steppers.
 std::vector<Outcome> meeting(const System& scene, const std::vector<Flight>& rods, Tick ticks, bool in_the_air = true) {
   double overlap = 0, growth = 0, ledger = 0, momentum = 0, fewest = std::numeric_limits<double>::infinity();
   int n_trouble = 0, n_different = 0;
@@ -49,9 +49,9 @@ std::vector<Outcome> meeting(const System& scene, const std::vector<Flight>& rod
         System varied = scene;
         varied.law = law;
         varied.rod_rod = varied.rod_base = varied.rod_lid = {mu, e};
-        varied.engine = Engine::kReference;
+        varied.stepper = StepperKind::kReference;
         Simulation reference = simulation_of(varied, rods);
-        varied.engine = Engine::kScheduled;
+        varied.stepper = StepperKind::kScheduled;
         Simulation scheduled = simulation_of(varied, rods);
         double before = content(scheduled.world()).energy;
         const double start = before;
@@ -78,7 +78,7 @@ std::vector<Outcome> meeting(const System& scene, const std::vector<Flight>& rod
     }
   }
   std::vector<Outcome> outcomes{{"runs that meet trouble", static_cast<double>(n_trouble), 0},
-                                {"runs in which the engines differ", static_cast<double>(n_different), 0},
+                                {"runs in which the steppers differ", static_cast<double>(n_different), 0},
                                 {"impulses in a run", fewest, 1, true},
                                 {"overlap / end bead's radius", overlap, 0.1},
                                 {"energy made / energy", growth, in_the_air ? kRounding : kRest},
@@ -183,9 +183,9 @@ std::vector<Outcome> two_sizes() {
   scene.start = Start::kRandom;
   scene.law = ImpulseLaw::kEnergetic;
   scene.rod_rod.friction = 0.5;
-  scene.engine = Engine::kReference;
+  scene.stepper = StepperKind::kReference;
   auto reference = Simulation::start(scene);
-  scene.engine = Engine::kScheduled;
+  scene.stepper = StepperKind::kScheduled;
   auto scheduled = Simulation::start(scene);
   if (!reference || !scheduled) {
     return {{"the rods can be placed", 1, 0, false, scheduled.error().message}};
@@ -195,7 +195,7 @@ std::vector<Outcome> two_sizes() {
   const bool later = trouble || scheduled->advance_to(50000).has_value();
   const World& world = scheduled->world();
   return {{"runs that meet trouble", later ? 1.0 : 0.0, 0},
-          {"runs in which the engines differ", differ ? 1.0 : 0.0, 0},
+          {"runs in which the steppers differ", differ ? 1.0 : 0.0, 0},
           {"overlap / thinnest bead's radius", world.counters.max_overlap() / 0.125, 0.25},
           {"energy unaccounted for / turnover", balance(world).energy_error(), kRounding}};
 }

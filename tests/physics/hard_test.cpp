@@ -76,9 +76,9 @@ TEST_P(SceneOfFile, HoldsForAWhile) {
 }
 TEST_P(SceneOfFile, BothEnginesGiveTheSame) {
   System scene = read_hard_scene(kFolder, GetParam().name).system;
-  scene.engine = Engine::kReference;
+  scene.stepper = StepperKind::kReference;
   auto reference = Simulation::start(scene);
-  scene.engine = Engine::kScheduled;
+  scene.stepper = StepperKind::kScheduled;
   auto scheduled = Simulation::start(scene);
   ASSERT_TRUE(reference && scheduled);
   ASSERT_FALSE(reference->advance_to(1500).has_value());

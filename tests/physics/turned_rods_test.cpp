@@ -52,13 +52,13 @@ TEST_P(TurnedRods, FlyTheSameDownToTheLastBit) {
     turn_end_for_end(turned.rods[i]);
     sign[i] = -1.0;
   }
-  for (const Engine engine : {Engine::kScheduled, Engine::kReference}) {
+  for (const StepperKind stepper : {StepperKind::kScheduled, StepperKind::kReference}) {
     World one = world;
     World other = turned;
-    one.system.engine = other.system.engine = engine;
+    one.system.stepper = other.system.stepper = stepper;
     Simulation plain = Simulation::start_from(one);
     Simulation twin = Simulation::start_from(other);
-    const Tick ticks = engine == Engine::kScheduled ? 20000 : 4000;
+    const Tick ticks = stepper == StepperKind::kScheduled ? 20000 : 4000;
     for (const Tick k : {ticks / 20, ticks / 4, ticks}) {
       ASSERT_FALSE(plain.advance_to(k).has_value());
       ASSERT_FALSE(twin.advance_to(k).has_value());

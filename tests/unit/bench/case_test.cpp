@@ -55,7 +55,7 @@ TEST_F(SteadyStates, AreMadeOnceAndThenReadBack) {
   const SteadyState read = steady_state(small_case(), cache_.path());
   EXPECT_TRUE(read.was_cached);
   EXPECT_EQ(read.checkpoint, made.checkpoint);
-  EXPECT_EQ(resumed(small_case(), read, Engine::kReference).tick(), small_case().warm_up_ticks());
+  EXPECT_EQ(resumed(small_case(), read, StepperKind::kReference).tick(), small_case().warm_up_ticks());
 }
 
 TEST_F(SteadyStates, OfAnotherWarmUpAreOthers) {

@@ -100,8 +100,8 @@ TEST(CloseUp, AfterTroubleWhileStoringNoRodIsUnknown) {
   system.box_side = 60;  // room enough for the runaway to meet the plates alone
   system.n_rods = 200;
   int n_troubles = 0, n_others = 0;
-  for (const Engine engine : {Engine::kReference, Engine::kScheduled}) {
-    system.engine = engine;
+  for (const StepperKind stepper : {StepperKind::kReference, StepperKind::kScheduled}) {
+    system.stepper = stepper;
     auto simulation = Simulation::start(system);
     ASSERT_TRUE(static_cast<bool>(simulation));
     ASSERT_FALSE(simulation->advance_to(2000).has_value());

@@ -117,7 +117,7 @@ TEST_P(EffectOff, IsTheNeutralParameterBitForBitAndDoesNoWork) {
   EXPECT_NE(without.state_hash(), stepped(everything_on(), 6000).state_hash());
 
   // the oracle agrees
-  off.engine = Engine::kReference;
+  off.stepper = StepperKind::kReference;
   EXPECT_EQ(without.state_hash(), stepped(off, 6000).state_hash());
 }
 
