@@ -5,8 +5,8 @@
 
 #include "base/clock.h"
 #include "base/progress_line.h"
-#include "bench/accuracy/fits.h"
 #include "bench/bench.h"
+#include "bench/fits.h"
 
 namespace shaken::bench {
 

@@ -8,7 +8,7 @@
 #include "base/failure.h"
 #include "base/progress_line.h"
 #include "bench/accuracy/accuracy.h"
-#include "bench/accuracy/fits.h"
+#include "bench/fits.h"
 #include "sim/balance.h"
 
 namespace shaken::bench {

@@ -10,7 +10,7 @@
 #include "analysis/time_series.h"
 #include "base/text.h"
 #include "bench/accuracy/accuracy.h"
-#include "bench/accuracy/fits.h"
+#include "bench/fits.h"
 #include "bench/timing.h"
 
 namespace shaken::bench {

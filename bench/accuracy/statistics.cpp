@@ -8,8 +8,8 @@
 #include "analysis/time_series.h"
 #include "base/estimate.h"
 #include "bench/accuracy/accuracy.h"
-#include "bench/accuracy/fits.h"
 #include "bench/accuracy/observables.h"
+#include "bench/fits.h"
 #include "bench/timing.h"
 #include "sim/rod/species.h"
 
