@@ -212,9 +212,6 @@ class Export : public Verb {
     }
     if (!file) return ExitCode::kOk;
     done_or_fail(file->finish());
-    const auto counted = [](std::size_t n, const char* what) {
-      return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
-    };
     console.out << fmt::format("{}: {} of {}, {}\n", printable(out_), counted(n_done, "frame"),
                                counted(static_cast<std::size_t>(trajectory.header().n_rods), "rod"),
                                bytes_text(n_bytes));
