@@ -33,7 +33,7 @@ class Bench : public ::testing::Test {
   Json json_of(const std::string& name) const { return Json::parse(text_of(name)); }
 
  private:
-  TemporaryDirectory folder_;
+  ScratchFolder folder_;
 };
 
 const std::vector<std::string> kTiny{"--length", "4.5",   "--side", "12",       "--warm-up",

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "base/clock.h"
+#include "base/scratch_folder.h"
 #include "bench/speed.h"
-#include "tests/unit/run/temporary_folder.h"
 
 namespace shaken::bench {
 namespace {
@@ -16,7 +16,7 @@ class SmallBox : public ::testing::Test {
     case_ = make_case(4.5, 0.6, 12, kPaperStep, 0.01);
     state_ = steady_state(case_, cache_.path());
   }
-  run::TemporaryFolder cache_;
+  ScratchFolder cache_;
   Case case_;
   SteadyState state_;
 };

@@ -85,7 +85,7 @@ class SlurmExecutorTest : public testing::Test {
     return workers;
   }
 
-  TempDirectory directory_;
+  ScratchFolder directory_;
   std::string path_;
 };
 
