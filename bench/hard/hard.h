@@ -12,7 +12,7 @@
 
 namespace shaken::bench {
 
-inline constexpr double kLookEvery = 2e-3;  ///< between two looks at the state of a scene [s]
+inline constexpr double kSampleEvery = 2e-3;  ///< between two samples of the state of a scene [s]
 
 /// What energy differs by from rounding alone, as a fraction.
 inline constexpr double kRounding = 1e-11;
@@ -28,7 +28,7 @@ struct Outcome {
   std::string note = {};  ///< what happened instead, or why the limit is what it is
 
   bool ok() const { return at_least ? worst >= limit : worst <= limit; }
-  /// How often the worst value fits into the limit; below 1 it does not hold. Infinite where nothing was seen.
+  /// How often the worst value fits into the limit; below 1 it does not hold. Infinite where nothing was found.
   double margin() const { return at_least ? worst / limit : limit / worst; }
 };
 
@@ -68,10 +68,10 @@ scene::RunPlan read_hard_scene(const std::filesystem::path& folder, const std::s
 std::string to_text(const NumericalTrouble& trouble);
 
 /// Called now and then with the part of the work that is done.
-using Watch = std::function<void(double)>;
+using TellProgress = std::function<void(double)>;
 
-/// Runs the scene to its end, or for `seconds` if that is sooner, and looks at it every 2 ms of its time.
-HardCase run_scene_case(const SceneCase& wanted, const scene::RunPlan& plan, double seconds, const Watch& watch);
+/// Runs the scene to its end, or for `seconds` if that is sooner, and samples its state every 2 ms of its time.
+HardCase run_scene_case(const SceneCase& wanted, const scene::RunPlan& plan, double seconds, const TellProgress& tell);
 
 /// The three scenes order-sorted, order-reversed and order-shuffled, of which the statistics are compared.
 inline constexpr const char* kOrderCase = "order";
@@ -86,6 +86,6 @@ struct OrderEffort {
 
 /// Means of one scene under three orders of the contacts of a tick. Each must be shown to be the same within its bound:
 /// what is left open for want of replicas does not hold.
-HardCase run_order_case(const std::filesystem::path& folder, const OrderEffort& effort, const Watch& watch);
+HardCase run_order_case(const std::filesystem::path& folder, const OrderEffort& effort, const TellProgress& tell);
 
 }  // namespace shaken::bench

@@ -40,11 +40,11 @@ std::variant<Means, NumericalTrouble> means_of(const System& scene, double secon
   if (!simulation) throw Failure(ExitCode::kBadInput, simulation.error().message);
   const World& world = simulation->world();
   const auto end = static_cast<Tick>(std::llround(seconds / scene.dt));
-  const Tick stride = std::max<Tick>(1, std::llround(kLookEvery / scene.dt));
+  const Tick stride = std::max<Tick>(1, std::llround(kSampleEvery / scene.dt));
   if (auto trouble = simulation->advance_to(end / kSettling)) return *trouble;
   const std::int64_t impulses_before = world.counters.impulses_rod_rod;
   Means sum{};
-  int n_looks = 0;
+  int n_samples = 0;
   while (simulation->tick() < end) {
     if (auto trouble = simulation->advance_to(std::min(end, simulation->tick() + stride))) return *trouble;
     const KineticEnergy energy = kinetic_energy(world);
@@ -59,9 +59,9 @@ std::variant<Means, NumericalTrouble> means_of(const System& scene, double secon
       sum[5] += std::copysign(1.0, director.z()) * (velocity.x() * director.x() + velocity.y() * director.y()) / n;
     }
     sum[0] += analysis::nematic_order(snapshot.director).order;
-    ++n_looks;
+    ++n_samples;
   }
-  for (double& s : sum) s /= n_looks;
+  for (double& s : sum) s /= n_samples;
   sum[3] = static_cast<double>(world.counters.impulses_rod_rod - impulses_before);
   return sum;
 }
@@ -87,7 +87,7 @@ Outcome outcome_of(const Quantity& quantity, const std::array<std::vector<double
 
 }  // namespace
 
-HardCase run_order_case(const std::filesystem::path& folder, const OrderEffort& effort, const Watch& watch) {
+HardCase run_order_case(const std::filesystem::path& folder, const OrderEffort& effort, const TellProgress& tell) {
   HardCase result{kOrderCase, "contacts of a tick sorted, reversed, shuffled: the same statistics", {}};
   std::array<std::array<std::vector<double>, 3>, kQuantities> samples;
   std::size_t k = 0;
@@ -102,7 +102,7 @@ HardCase run_order_case(const std::filesystem::path& folder, const OrderEffort& 
         return result;
       }
       for (std::size_t q = 0; q < kQuantities; ++q) samples[q][k].push_back(std::get<Means>(means)[q]);
-      watch((static_cast<double>(k) + (replica + 1.0) / effort.replicas) / 3);
+      tell((static_cast<double>(k) + (replica + 1.0) / effort.replicas) / 3);
     }
     ++k;
   }
