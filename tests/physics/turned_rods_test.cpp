@@ -11,6 +11,7 @@
 #include "sim/simulation.h"
 #include "sim/stepping/surface_impacts.h"
 #include "tests/support/random_rods.h"
+#include "tests/support/short_rods.h"
 
 namespace shaken {
 namespace {
@@ -163,11 +164,7 @@ struct TwofoldHit {
 };
 
 TEST(TurnedRods, PlatesPushApolarRodsNeitherWayAndTiltedOnesOppositely) {
-  System system;
-  system.rod = {.length = 2.5, .n_beads = 9};
-  system.n_rods = 1;
-  system.box_side = 20;
-  const World world = empty_world(system);
+  const World world = empty_world(test::short_rods(1, 20));
   const TickRules rules(world);
   test::Draw draw(41);
   Mean push, size, up, down;  // v . n that a tick gives: mean, mean size, where n points up and where it points down

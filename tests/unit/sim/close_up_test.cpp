@@ -10,15 +10,13 @@
 #include "sim/contact/bead_contacts.h"
 #include "sim/neighbors/neighbor_list.h"
 #include "sim/simulation.h"
+#include "tests/support/short_rods.h"
 
 namespace shaken {
 namespace {
 
 System dense_scene() {
-  System system;
-  system.rod = {.length = 2.5, .n_beads = 9};
-  system.box_side = 12;
-  system.n_rods = 80;
+  System system = test::short_rods(80);
   system.dt = 2e-5;
   return system;
 }
