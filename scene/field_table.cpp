@@ -280,7 +280,7 @@ std::vector<std::vector<Field>> groups() {
     accuracy(),
     quantity("time.step", sys<&System::dt>, kTime, 1e-7, 1e-4,
              "Length of a tick (the time step). It determines the accuracy."),
-    choice<StepperKind>("time.stepper", sys<&System::stepper>,
+    choice<StepperKind>("time.engine", sys<&System::stepper>,
                    {{"scheduled", StepperKind::kScheduled}, {"reference", StepperKind::kReference}},
                    "Which stepper moves the rods. Both give bitwise the same trajectory."),
     later(choice<ImpactTime>("time.impacts", sys<&System::impacts>,
