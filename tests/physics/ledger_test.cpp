@@ -24,7 +24,7 @@ TEST_P(LedgerOf, Closes) {
   GetParam().set(system);
   auto simulation = Simulation::start(system);
   ASSERT_TRUE(static_cast<bool>(simulation)) << simulation.error().message;
-  const double momentum_scale = simulation->world().species[0].mass * 50 * system.n_all_test::short_rods(60);
+  const double momentum_scale = simulation->world().species[0].mass * 50 * system.n_all_rods();
   for (const Tick k : {1, 5000, 25000}) {
     ASSERT_FALSE(simulation->advance_to(k).has_value());
     const Balance budget = balance(simulation->world());
@@ -73,7 +73,7 @@ struct InThePlane {
 InThePlane in_the_plane(const World& world) {
   const Snapshot now = snapshot(world);
   InThePlane sum;
-  for (std::size_t i = 0; i < now.n_test::short_rods(60); ++i) {
+  for (std::size_t i = 0; i < now.n_rods(); ++i) {
     const Species& species = world.species_of(i);
     const Vec3& n = now.director[i];
     const Vec3& spin = now.angular_velocity[i];
