@@ -42,6 +42,7 @@ Target find_target(ApiClient& session, const std::string& id) {
 
 std::vector<Target> find_targets(ApiClient& session, const std::vector<std::string>& ids) {
   std::vector<Target> targets;
+  targets.reserve(ids.size());
   for (const std::string& id : ids) targets.push_back(find_target(session, id));
   return targets;
 }
