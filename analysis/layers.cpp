@@ -55,17 +55,17 @@ void LayerOrder::accumulate(std::span<const Vec3> positions, std::span<const Vec
   const double cosine = std::cos(director), sine = std::sin(director);
   const double c2 = std::cos(2 * director), s2 = std::sin(2 * director);
   std::vector<Vec2> places;
-  std::vector<double> tilts;
+  std::vector<double> turns;  // sin 2 (theta - theta_N)
   double squares = 0;
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const Vec2 angle = double_angle(directors[i]);
     if (angle == Vec2::Zero()) continue;
     places.push_back(positions[i].head<2>());
-    tilts.push_back(angle.y() * c2 - angle.x() * s2);
-    squares += tilts.back() * tilts.back();
+    turns.push_back(angle.y() * c2 - angle.x() * s2);
+    squares += turns.back() * turns.back();
   }
   if (places.empty()) return;
-  const WavePowers powers = wave_powers(places, tilts, box_side_, waves_);
+  const WavePowers powers = wave_powers(places, turns, box_side_, waves_);
   const auto n_rods = static_cast<double>(places.size());
   const double nearest = std::cos(kCone);
   for_half_plane(waves_, [&](int m, int n, double length) {

@@ -22,7 +22,7 @@ struct LayerSpectrum {
   std::vector<double> along;   ///< along the director
 };
 
-/// A wave of tilt across the director.
+/// A wave of the rods' angle to the nematic director, across that director.
 struct LayerPeak {
   int m = 0, n = 0;       ///< the wave vector 2 pi (m, n) / L with the most power
   double wavelength = 0;  ///< [mm]; of the mean wave vector, see below
@@ -33,8 +33,8 @@ struct LayerPeak {
   bool stands_out() const { return order > 2 * floor; }
 };
 
-/// Order of the layered phase: stripes along the director in which rods are tilted to either side by turns. theta_N is
-/// the director of the same instant.
+/// Order of the layered phase: stripes along the nematic director, in which rods are turned by
+/// +-theta_m in the plane, to either side by turns. theta_N is the angle of the nematic director of the same instant.
 /// The peak is looked for among wave vectors within 30 degrees of the normal to the director. Its order is the
 /// amplitude of the wave in s: a for s = a sin(q . r), (4 / pi) sin 2 theta_m for stripes of equal width at +-theta_m
 /// (0.435 at 10 degrees), 2 sqrt(<s^2> / N) without layers, somewhat more as the peak is the largest of many. Layers

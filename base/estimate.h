@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 
 namespace shaken {
 
@@ -29,5 +30,13 @@ inline Estimate operator/(Estimate a, double divisor) {
   a.drift_sem /= divisor;
   return a;
 }
+
+/// Mean of independent samples (n >= 1), and its standard error from their scatter: standard deviation (n - 1) /
+/// sqrt(n); unknown for n < 2.
+Estimate mean_of_samples(std::span<const double> samples);
+
+/// The quantile of Student's t with `freedom` degrees of freedom that corresponds to the quantile `z` of the normal
+/// distribution, by its series in 1 / freedom (Abramowitz & Stegun (1964), eq. 26.7.5).
+double student_quantile(double z, double freedom);
 
 }  // namespace shaken

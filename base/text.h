@@ -28,6 +28,8 @@ std::string duration_text(double seconds);
 std::string clock_text(double seconds, std::int64_t now_utime);
 /// Up to four significant digits: "0.9134", "2109", "1.2e+06".
 std::string number_text(double value);
+/// "1 run", "3 runs"
+std::string counted(std::size_t n, std::string_view noun);
 /// "3.2 MB"
 std::string bytes_text(double bytes);
 /// A bar of `width` columns, filled in steps of an eighth of a column.

@@ -114,10 +114,27 @@ SteadyState steady_state(const Case& wanted, const std::filesystem::path& cache)
   return made;
 }
 
-Simulation resumed(const Case& of, const SteadyState& state, Engine engine) {
+Simulation resumed(const Case& of, const SteadyState& state, StepperKind stepper) {
   System scene = of.system();
-  scene.engine = engine;
+  scene.stepper = stepper;
   return value_or_fail(Simulation::resume(scene, state.checkpoint));
+}
+
+Flight thrown(const Vec3& position, const Vec3& director, const Vec3& velocity, const Vec3& turn) {
+  Flight flight;
+  flight.position = position;
+  flight.director = director.normalized();
+  flight.velocity = velocity;
+  flight.precession = turn - turn.dot(flight.director) * flight.director;
+  flight.prepare();
+  return flight;
+}
+
+Simulation begin_with(System system, std::vector<Flight> rods) {
+  system.n_rods = static_cast<int>(rods.size());
+  World world = empty_world(system);
+  world.rods = std::move(rods);
+  return Simulation::start_from(std::move(world));
 }
 
 void advance(Simulation& simulation, Tick ticks) {

@@ -62,8 +62,14 @@ std::filesystem::path default_cache();
 /// another scene, is made anew.
 SteadyState steady_state(const Case& wanted, const std::filesystem::path& cache);
 
-/// A simulation that goes on from a steady state by either engine.
-Simulation resumed(const Case& of, const SteadyState& state, Engine engine);
+/// A simulation that goes on from a steady state by either stepper.
+Simulation resumed(const Case& of, const SteadyState& state, StepperKind stepper);
+
+/// A rod in flight from tick 0 on, without spin about its axis; the director need not be of length 1, and of the
+/// angular velocity `turn` only the part across the rod counts.
+Flight thrown(const Vec3& position, const Vec3& director, const Vec3& velocity, const Vec3& turn = Vec3::Zero());
+/// A simulation that begins with these rods, at tick 0.
+Simulation begin_with(System system, std::vector<Flight> rods);
 
 /// Steps on by `ticks`. Throws Failure on numerical trouble.
 void advance(Simulation& simulation, Tick ticks);

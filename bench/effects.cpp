@@ -28,7 +28,7 @@ Exit codes: 0 done, 1 something failed, 2 bad input.)";
 
 /// The effect's case against the one with everything on, as they were timed in turn.
 Json comparison(const Contender& without, const Contender& everything) {
-  const EngineSpeed& speed = without.speed;
+  const StepperSpeed& speed = without.speed;
   const Estimate ratio = cpu_ratio(speed, everything.speed);
   const auto per_tick = [&](std::int64_t n) { return static_cast<double>(n) / static_cast<double>(speed.ticks); };
   return {{"cpu_ratio", ratio.value},

@@ -79,7 +79,7 @@ struct ExportBench {
 
   ExitCode run() const {
     const Case wanted = scene.read();
-    Simulation simulation = resumed(wanted, cache(wanted), Engine::kScheduled);
+    Simulation simulation = resumed(wanted, cache(wanted), StepperKind::kScheduled);
     Json json = system_json(wanted, simulation.world().species[0]);
     json["start"] = frame_json(simulation);
     const Tick stride = std::max<Tick>(1, std::llround(every / wanted.dt));

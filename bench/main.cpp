@@ -16,7 +16,7 @@ Exit codes: 0 done, 1 a check did not hold or something failed, 2 bad input.)";
 
 /// What is wrong with the command line. An unknown bench comes before that none was chosen, which is all that CLI11
 /// says.
-std::string complaint(const CLI::App& app, const CLI::ParseError& problem) {
+std::string problem_text(const CLI::App& app, const CLI::ParseError& problem) {
   const std::vector<std::string> left_over = app.remaining();
   if (left_over.empty() || !app.get_subcommands().empty()) return problem.what();
   std::vector<std::string> names;
@@ -39,7 +39,7 @@ int main(int argc, char** argv) {
   add_speed(app, work);
   add_accuracy(app, work);
   add_export(app, work);
-  add_looks(app, work);
+  add_visits(app, work);
   add_effects(app, work);
   add_hard(app, work);
   try {
@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
     return static_cast<int>(work());
   } catch (const CLI::ParseError& problem) {
     if (problem.get_exit_code() == 0) return app.exit(problem);
-    fmt::print(stderr, "shaken-bench: {} (see `shaken-bench --help`)\n", complaint(app, problem));
+    fmt::print(stderr, "shaken-bench: {} (see `shaken-bench --help`)\n", problem_text(app, problem));
     return static_cast<int>(ExitCode::kBadInput);
   } catch (const Failure& failure) {
     fmt::print(stderr, "shaken-bench: {}\n", failure.what());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The scheduled engine's cost against the number of rods, the step, and the number of threads.
+// The scheduled stepper's cost against the number of rods, the step, and the number of threads.
 #include <fmt/format.h>
 
 #include "bench/speed.h"
@@ -22,7 +22,7 @@ Report scaling_report(const Conditions& conditions, Scaling of, const std::vecto
     before = cost;
   }
   report.text += fmt::format(
-      "\nCPU time per rod-second of the scheduled engine against {}: relative to the first row (cost) and to\n"
+      "\nCPU time per rod-second of the scheduled stepper against {}: relative to the first row (cost) and to\n"
       "the row before (step cost). Overlap: deepest since the start, in % of the rods' thickness.\n",
       of_rods ? "the number of rods" : "the step");
   report.text += table(report.rows(), scene_columns({{"dt us", "dt_s", "{:.10g}", 1e6},
@@ -47,7 +47,7 @@ void draw_scaling(const std::filesystem::path& folder, Scaling of, const Report&
                      "set offsets graph 0.05, graph 0.05, graph 0.1, 0"};
   const Column x = of_rods ? Column{"", "n_rods"} : Column{"", "dt_s", "", 1e6};
   figure.curves.push_back(curve(report.rows(), x, {"scheduled", "relative_cost"}));
-  // what an engine whose ticks all cost the same would take
+  // what a stepper whose ticks all cost the same would take
   Curve guide{.label = of_rods ? "cost of a rod independent of N" : "cost of a step independent of its length",
               .colour = 1,
               .x = figure.curves.front().x,
@@ -76,7 +76,7 @@ Report threads_report(const Conditions& conditions, const std::vector<std::vecto
     }
   }
   report.text +=
-      "\nThe scheduled engine by several threads: wall time (so other programs on the machine count) and CPU time of\n"
+      "\nThe scheduled stepper by several threads: wall time (so other programs on the machine count) and CPU time of\n"
       "all threads, both relative to the first row of the scene; spread: median over best wall time.\n" +
       table(report.rows(), scene_columns({{"threads", "threads"},
                                           {"rod-s/wall-s", "rod_s_per_wall_s", "{:.1f}"},

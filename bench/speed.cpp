@@ -43,11 +43,11 @@ void check_states(const Report& report, const std::string& what) {
 }
 
 SceneSpeed measure_scene(const Case& scene, const SteadyState& state, const Effort& effort) {
-  // One tick builds the lists; from there on the reference is timed, and the scheduled engine settles.
+  // One tick builds the lists; from there on the reference is timed, and the scheduled stepper settles.
   const Contender reference{.scene = scene,
                             .state = state,
-                            .engine = Engine::kReference,
-                            .ticks = ticks_for(effort.cpu, scene, state, Engine::kReference)};
+                            .stepper = StepperKind::kReference,
+                            .ticks = ticks_for(effort.cpu, scene, state, StepperKind::kReference)};
   Contender scheduled = contender(scene, state, effort.cpu);
   const Tick compared_ticks = reference.settle + reference.ticks;
   scheduled.settle = std::max(scheduled.settle, compared_ticks);
@@ -55,7 +55,7 @@ SceneSpeed measure_scene(const Case& scene, const SteadyState& state, const Effo
   time_in_turn("measuring " + scene.label(), both, effort.repeat);
   SceneSpeed speed{both[1], both[0], compared_ticks, 0, {}, 0, {}};
 
-  Simulation timed = resumed(scene, state, Engine::kScheduled);
+  Simulation timed = resumed(scene, state, StepperKind::kScheduled);
   advance(timed, compared_ticks);
   speed.scheduled_hash = timed.state_hash();
   advance(timed, scheduled.settle - compared_ticks);
@@ -71,7 +71,7 @@ SceneSpeed measure_scene(const Case& scene, const SteadyState& state, const Effo
 namespace {
 
 Json speed_row(const SceneSpeed& scene) {
-  const EngineSpeed& scheduled = scene.scheduled.speed;
+  const StepperSpeed& scheduled = scene.scheduled.speed;
   Json row = json_of(scene.scheduled.scene);
   row["scheduled"] = json_of(scheduled);
   row["reference"] = json_of(scene.reference.speed);
@@ -110,8 +110,8 @@ Report speed_report(const Conditions& conditions, const std::vector<SceneSpeed>&
   Report report = report_under(conditions, "speed", "speed");
   for (const SceneSpeed& scene : scenes) report.json["rows"].push_back(speed_row(scene));
   report.text +=
-      "\nSimulated rod-seconds per CPU-second by either engine, in turn; spread is median over best CPU time of\n"
-      "the scheduled and of the reference engine; same state: bitwise, after as many ticks by either.\n" +
+      "\nSimulated rod-seconds per CPU-second by either stepper, in turn; spread is median over best CPU time of\n"
+      "the scheduled and of the reference stepper; same state: bitwise, after as many ticks by either.\n" +
       table(report.rows(), scene_columns({{"scheduled", "scheduled/rod_s_per_cpu_s", "{:.1f}"},
                                           {"reference", "reference/rod_s_per_cpu_s", "{:.2f}"},
                                           {"ratio", "ratio", "{:.1f}"},
@@ -124,10 +124,10 @@ Report speed_report(const Conditions& conditions, const std::vector<SceneSpeed>&
   std::vector<Column> phases = phase_columns();
   phases.push_back({"other", "phase_shares/other", "{:.1f}", 100});
   report.text +=
-      "\nWhere the scheduled engine's CPU time goes, in % (from a run of its own, without the clock's time).\n" +
+      "\nWhere the scheduled stepper's CPU time goes, in % (from a run of its own, without the clock's time).\n" +
       table(report.rows(), scene_columns(phases));
   report.text +=
-      "\nLower bounds: the share of the scheduled engine's time that its impulses alone take, if finding contacts\n"
+      "\nLower bounds: the share of the scheduled stepper's time that its impulses alone take, if finding contacts\n"
       "were free, and the share that reading and writing the states of the rods hit takes, if computing were.\n" +
       table(report.rows(), scene_columns({{"ns/plate impulse", "lower_bounds/plate_impulse_ns", "{:.0f}"},
                                           {"ns/rod-rod impulse", "lower_bounds/rod_impulse_ns", "{:.0f}"},
@@ -150,7 +150,7 @@ Examples:
   shaken bench speed --scaling dt                       cost of a finer step
   shaken bench speed --threads 1,2,4 --area-fraction 0.75 --side 83.73
 
-Exit codes: 0 done, 1 the engines' states differ or something failed, 2 bad input.)";
+Exit codes: 0 done, 1 the steppers' states differ or something failed, 2 bad input.)";
 
 constexpr double kSmallSide = 41.865;  // [mm]; half the paper's box
 
@@ -165,7 +165,7 @@ void draw_speed(const std::filesystem::path& folder, const Report& report) {
               {{"scheduled", "scheduled/rod_s_per_cpu_s"}, {"reference", "reference/rod_s_per_cpu_s"}},
               false,
               {"set logscale y", "set yrange [1:*]"}},
-             {"CPU time of the scheduled engine (%)", phase_columns(), true, {"set yrange [0:100]"}}});
+             {"CPU time of the scheduled stepper (%)", phase_columns(), true, {"set yrange [0:100]"}}});
 }
 
 struct SpeedBench {
@@ -268,7 +268,7 @@ struct SpeedBench {
     for (const Case& scene : scenes()) measured.push_back(measure_scene(scene, cache(scene), conditions().effort));
     const Report report = speed_report(conditions(), measured);
     output.give(report, [&](const auto& folder) { draw_speed(folder, report); });
-    check_states(report, "the engines' states differ");
+    check_states(report, "the steppers' states differ");
     return ExitCode::kOk;
   }
 };

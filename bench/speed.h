@@ -34,11 +34,11 @@ struct LowerBounds {
   double state_access = 0;   ///< of reading and writing one rod's state at a random place, computing nothing
 
   /// What is left if finding contacts costs nothing [s].
-  double impulses_alone(const EngineSpeed& of) const {
+  double impulses_alone(const StepperSpeed& of) const {
     return static_cast<double>(of.plate_impulses) * plate_impulse + static_cast<double>(of.rod_impulses) * rod_impulse;
   }
   /// Every impulse reads and writes the state of the rods that it changes, one or two [s].
-  double memory_alone(const EngineSpeed& of) const {
+  double memory_alone(const StepperSpeed& of) const {
     return static_cast<double>(of.plate_impulses + 2 * of.rod_impulses) * state_access;
   }
 };
@@ -47,27 +47,27 @@ struct LowerBounds {
 /// first; an impulse between rods hits the closest beads of two rods that approach each other, wherever they are.
 LowerBounds measure_lower_bounds(const World& world);
 
-/// Both engines on one scene.
+/// Both steppers on one scene.
 struct SceneSpeed {
   Contender scheduled, reference;
   Tick compared_ticks = 0;           ///< from the steady state to the end of the reference's stretch
-  std::uint64_t scheduled_hash = 0;  ///< of the scheduled engine's state then; must be that of the reference
-  /// CPU time of the scheduled engine's phases, from a run of their own, and the whole of that run [s].
+  std::uint64_t scheduled_hash = 0;  ///< of the scheduled stepper's state then; must be that of the reference
+  /// CPU time of the scheduled stepper's phases, from a run of their own, and the whole of that run [s].
   std::array<double, kPhases> phases{};
   double phases_cpu = 0;
   LowerBounds bounds{};
 };
 
-/// Both engines in turn, each time from the same steady state; then the phases and the bounds.
+/// Both steppers in turn, each time from the same steady state; then the phases and the bounds.
 SceneSpeed measure_scene(const Case& scene, const SteadyState& state, const Effort& effort);
 Report speed_report(const Conditions& conditions, const std::vector<SceneSpeed>& scenes);
 
-/// The scheduled engine's cost along a series of scenes that differ in their number of rods or in their step.
+/// The scheduled stepper's cost along a series of scenes that differ in their number of rods or in their step.
 enum class Scaling { kRods, kStep };
 Report scaling_report(const Conditions& conditions, Scaling of, const std::vector<Contender>& series);
 void draw_scaling(const std::filesystem::path& folder, Scaling of, const Report& report);
 
-/// The scheduled engine by several numbers of threads; one series for each scene.
+/// The scheduled stepper by several numbers of threads; one series for each scene.
 Report threads_report(const Conditions& conditions, const std::vector<std::vector<Contender>>& scenes);
 
 }  // namespace shaken::bench

@@ -5,8 +5,8 @@
 
 #include "base/clock.h"
 #include "base/progress_line.h"
-#include "bench/accuracy/fits.h"
 #include "bench/bench.h"
+#include "bench/fits.h"
 
 namespace shaken::bench {
 
@@ -15,12 +15,12 @@ void Effort::declare(CLI::App& app) {
   add_number(app, "--repeat", repeat, "N", {1, 1000}, "Repetitions, of which the best counts");
 }
 
-double EngineSpeed::spread() const { return quartiles_of(cpu).median / best_cpu(); }
+double StepperSpeed::spread() const { return quartiles_of(cpu).median / best_cpu(); }
 
-double EngineSpeed::wall_spread() const { return quartiles_of(wall).median / best_wall(); }
+double StepperSpeed::wall_spread() const { return quartiles_of(wall).median / best_wall(); }
 
-Tick ticks_for(double cpu, const Case& of, const SteadyState& state, Engine engine) {
-  Simulation simulation = resumed(of, state, engine);
+Tick ticks_for(double cpu, const Case& of, const SteadyState& state, StepperKind stepper) {
+  Simulation simulation = resumed(of, state, stepper);
   advance(simulation, 1);  // builds lists and schedules
   const Tick period = of.period_ticks();
   const double start = cpu_seconds();
@@ -36,7 +36,7 @@ Tick ticks_for(double cpu, const Case& of, const SteadyState& state, Engine engi
   return periods >= 1 ? static_cast<Tick>(periods) * period : std::max<Tick>(1, std::llround(ticks));
 }
 
-void time_stretch(Simulation& simulation, const Case& of, Tick ticks, EngineSpeed& speed) {
+void time_stretch(Simulation& simulation, const Case& of, Tick ticks, StepperSpeed& speed) {
   const Counters before = simulation.world().counters;
   const double wall = wall_seconds();
   const double cpu = cpu_seconds();
@@ -58,7 +58,7 @@ Contender contender(const Case& scene, const SteadyState& state, double cpu) {
   return {.scene = scene,
           .state = state,
           .settle = period,
-          .ticks = std::max(ticks_for(cpu, scene, state, Engine::kScheduled), period)};
+          .ticks = std::max(ticks_for(cpu, scene, state, StepperKind::kScheduled), period)};
 }
 
 void time_in_turn(const std::string& what, std::vector<Contender>& contenders, int repeat) {
@@ -66,7 +66,7 @@ void time_in_turn(const std::string& what, std::vector<Contender>& contenders, i
   double done = 0;
   for (int repetition = 0; repetition < repeat; ++repetition) {
     for (Contender& of : contenders) {
-      Simulation simulation = resumed(of.scene, of.state, of.engine);
+      Simulation simulation = resumed(of.scene, of.state, of.stepper);
       simulation.use_threads(of.threads);
       advance(simulation, of.settle);
       time_stretch(simulation, of.scene, of.ticks, of.speed);
@@ -76,7 +76,7 @@ void time_in_turn(const std::string& what, std::vector<Contender>& contenders, i
   }
 }
 
-Estimate cpu_ratio(const EngineSpeed& of, const EngineSpeed& other) {
+Estimate cpu_ratio(const StepperSpeed& of, const StepperSpeed& other) {
   std::vector<double> ratios;
   for (std::size_t k = 0; k < of.cpu.size(); ++k) {
     ratios.push_back(of.cpu[k] / of.rod_seconds / (other.cpu[k] / other.rod_seconds));
@@ -105,7 +105,7 @@ Json json_of(const Case& scene) {
           {"side_mm", scene.side},     {"n_rods", scene.system().n_rods},       {"dt_s", scene.dt}};
 }
 
-Json json_of(const EngineSpeed& speed) {
+Json json_of(const StepperSpeed& speed) {
   return {{"rod_s_per_cpu_s", speed.rate()},
           {"spread", speed.spread()},
           {"cpu_s", speed.cpu},

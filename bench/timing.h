@@ -23,7 +23,7 @@ struct Effort {
 };
 
 /// What was done in a timed stretch of a case, and how long it took in each repetition.
-struct EngineSpeed {
+struct StepperSpeed {
   Tick ticks = 0;            ///< length of the stretch
   std::vector<double> cpu;   ///< CPU time of each repetition, all threads together [s]
   std::vector<double> wall;  ///< and on the wall [s]
@@ -41,26 +41,26 @@ struct EngineSpeed {
   std::int64_t impulses() const { return plate_impulses + rod_impulses; }
 };
 
-/// How many ticks take about `cpu` seconds by `engine`: whole vibrations if it is at least one, as speed changes with
+/// How many ticks take about `cpu` seconds by `stepper`: whole vibrations if it is at least one, as speed changes with
 /// the plates' phase.
-Tick ticks_for(double cpu, const Case& of, const SteadyState& state, Engine engine);
+Tick ticks_for(double cpu, const Case& of, const SteadyState& state, StepperKind stepper);
 
 /// Steps on by `ticks` and adds one repetition to `speed`; everything else in it is set anew.
-void time_stretch(Simulation& simulation, const Case& of, Tick ticks, EngineSpeed& speed);
+void time_stretch(Simulation& simulation, const Case& of, Tick ticks, StepperSpeed& speed);
 
 /// One of several ways to simulate whose speeds are compared.
 struct Contender {
   Case scene;
   SteadyState state;  ///< where each repetition begins
-  Engine engine = Engine::kScheduled;
+  StepperKind stepper = StepperKind::kScheduled;
   int threads = 1;
   Tick settle = 1;         ///< not timed: lists and schedules are built
   Tick ticks = 0;          ///< timed
-  EngineSpeed speed{};     ///< found
+  StepperSpeed speed{};    ///< found
   std::uint64_t hash = 0;  ///< of the state after them
 };
 
-/// The scheduled engine, settled for a vibration and timed for at least another, about `cpu` seconds.
+/// The scheduled stepper, settled for a vibration and timed for at least another, about `cpu` seconds.
 Contender contender(const Case& scene, const SteadyState& state, double cpu);
 
 /// Times all contenders, one after the other, so many times; `what` is shown meanwhile.
@@ -68,7 +68,7 @@ void time_in_turn(const std::string& what, std::vector<Contender>& contenders, i
 
 /// CPU time per rod-second of one contender over that of another, timed in turn with it: of the best repetitions, with
 /// an error from the scatter of the ratios of single ones, which is NaN for one.
-Estimate cpu_ratio(const EngineSpeed& of, const EngineSpeed& other);
+Estimate cpu_ratio(const StepperSpeed& of, const StepperSpeed& other);
 
 /// Goes on for `duration` [s] of the simulation's time and calls `sample` after each `every` [s], at least once; `what`
 /// is shown meanwhile. Returns the CPU time of the steps alone [s].
@@ -77,6 +77,6 @@ double sample_every(double every, double duration, const std::string& what, Simu
 
 /// As members of a report's row.
 Json json_of(const Case& scene);
-Json json_of(const EngineSpeed& speed);
+Json json_of(const StepperSpeed& speed);
 
 }  // namespace shaken::bench

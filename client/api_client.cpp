@@ -6,6 +6,7 @@
 #include <sys/un.h>
 
 #include "base/failure.h"
+#include "base/text.h"
 #include "scene/problem.h"
 
 namespace shaken::client {
@@ -78,7 +79,7 @@ Json ApiClient::Connection::checked(const httplib::Result& result, const std::st
     message = error->get<std::string>();
   }
   if (const auto problems = body.find("problems"); problems != body.end() && problems->is_array()) {
-    message = fmt::format("refused, with {} problem{}", problems->size(), problems->size() == 1 ? "" : "s");
+    message = "refused, with " + counted(problems->size(), "problem");
     for (const Json& problem : *problems) message.append("\n").append(problem_text(problem));
   }
   throw Failure(status < 500 ? ExitCode::kBadInput : ExitCode::kFailed, message);

@@ -8,10 +8,6 @@
 
 namespace shaken::client {
 
-/// Mean of `values` (n >= 1), and the standard error of that mean from their scatter alone: standard deviation (n-1) /
-/// sqrt(n); unknown for n < 2.
-Estimate mean_and_error(std::span<const double> values);
-
 /// Mean over replicas of one point: `values` (n >= 1) of single runs, `sems` (n) their own standard errors, NaN where
 /// unknown. Every run counts the same. Its standard error:
 /// - where all own errors are known, the larger one of what they give, sqrt(sum sem^2) / n, and of the scatter between
@@ -23,8 +19,7 @@ Estimate mean_and_error(std::span<const double> values);
 Estimate replica_mean(std::span<const double> values, std::span<const double> sems);
 
 /// The factor on the standard error of a mean of n >= 2 values by which +-1 of it holds 68.3 %, as for very many:
-/// Student's t with n - 1 degrees of freedom (Abramowitz & Stegun (1964), eq. 26.7.5; 1.3 % low for n = 2, else within
-/// 0.1 %).
+/// student_quantile with n - 1 degrees of freedom (1.3 % low for n = 2, else within 0.1 %).
 double student_factor(std::size_t n);
 
 }  // namespace shaken::client

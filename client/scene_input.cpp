@@ -9,6 +9,7 @@
 
 #include "base/failure.h"
 #include "base/files.h"
+#include "base/text.h"
 #include "scene/canonical.h"
 #include "scene/derived.h"
 #include "scene/memory.h"
@@ -25,8 +26,7 @@ SceneInput read_scene_input(const std::string& file) {
 }
 
 std::string refusal_text(const std::vector<scene::Problem>& problems) {
-  return fmt::format("refused, with {} problem{}\n{}", problems.size(), problems.size() == 1 ? "" : "s",
-                     scene::to_string(problems));
+  return fmt::format("refused, with {}\n{}", counted(problems.size(), "problem"), scene::to_string(problems));
 }
 
 scene::Sweep load_points(const SceneInput& input, const std::vector<std::string>& settings,

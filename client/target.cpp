@@ -40,6 +40,13 @@ Target find_target(ApiClient& session, const std::string& id) {
   throw Failure(ExitCode::kBadInput, fmt::format("no sweep or job is called '{}': `shaken status` lists them", id));
 }
 
+std::vector<Target> find_targets(ApiClient& session, const std::vector<std::string>& ids) {
+  std::vector<Target> targets;
+  targets.reserve(ids.size());
+  for (const std::string& id : ids) targets.push_back(find_target(session, id));
+  return targets;
+}
+
 Target find_target_or_newest(ApiClient& session, const std::string& id) {
   if (!id.empty()) return find_target(session, id);
   const Json answer = session.get("/v1/sweeps");
@@ -129,12 +136,6 @@ std::string counts_text(const Json& counts) {
     if (n > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", n, state);
   }
   return text.empty() ? "no jobs" : text;
-}
-
-int total_count(const Json& counts) {
-  int total = 0;
-  for (const auto& n : counts) total += n.get<int>();
-  return total;
 }
 
 }  // namespace shaken::client

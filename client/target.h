@@ -23,6 +23,8 @@ struct Target {
 
 /// Finds a sweep by id or name, or else a job by a prefix of its id. Throws Failure (kBadInput) if there is none.
 Target find_target(ApiClient& session, const std::string& id);
+/// All of these. They are found before the first job is changed: a slip in the last one must not cost the others.
+std::vector<Target> find_targets(ApiClient& session, const std::vector<std::string>& ids);
 /// As find_target; without an id, the newest sweep.
 Target find_target_or_newest(ApiClient& session, const std::string& id);
 
@@ -60,7 +62,5 @@ std::string limits_text(const Json& job);
 
 /// {state: n} as words, in the order of a job's life: "3 done, 2 running, 5 queued".
 std::string counts_text(const Json& counts);
-/// Jobs in any state.
-int total_count(const Json& counts);
 
 }  // namespace shaken::client

@@ -42,10 +42,10 @@ endif()
 # computes (a library says target_compile_options(NAME PRIVATE ${SHAKEN_COMPUTES})) is, or its tests would take too long.
 set(CMAKE_CXX_FLAGS_SANITIZE "-O0 -g1")
 set(SHAKEN_COMPUTES $<$<CONFIG:Sanitize>:-O1>)
-# Link-time optimisation makes the worker 3 % faster. The engine's objects hold both kinds of code, so that only the
-# programs that step for long (shaken_links_the_engine(NAME)) wait for it when they are linked, not every test.
+# Link-time optimisation makes the worker 3 % faster. The simulator's objects hold both kinds of code, so that only the
+# programs that step for long (shaken_links_the_simulator(NAME)) wait for it when they are linked, not every test.
 set(SHAKEN_ENGINE "$<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:-flto=auto;-ffat-lto-objects>")
-function(shaken_links_the_engine name)
+function(shaken_links_the_simulator name)
   target_link_options(${name} PRIVATE $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU>>:-flto=auto>)
 endfunction()
 # Eigen adds up in another order where vectors are wider, and its small fixed sizes gain nothing from them.

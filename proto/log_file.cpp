@@ -73,13 +73,13 @@ Result<LogReader> LogReader::open(const std::filesystem::path& file) {
   LogHandle log(lcm_eventlog_create(file.c_str(), "r"));
   if (!log) return log_error("cannot read", file);
   LogReader reader(std::move(log), static_cast<std::int64_t>(size));
-  const auto first = reader.look();
+  const auto first = reader.peek();
   if (!first) return Error{file.string() + " is no LCM log: " + first.error().message};
   if (first->has_value()) reader.first_ = first->value().utime;
   return reader;
 }
 
-Result<std::optional<LogReader::Header>> LogReader::look() {
+Result<std::optional<LogReader::Header>> LogReader::peek() {
   const std::int64_t left = size_ - at_;
   std::array<std::uint8_t, kHeaderBytes> bytes{};
   if (left < kHeaderBytes) {
@@ -105,7 +105,7 @@ Result<std::optional<LogReader::Header>> LogReader::look() {
 }
 
 Result<std::optional<LoggedMessage>> LogReader::next() {
-  const auto header = look();
+  const auto header = peek();
   if (!header) return header.error();
   if (!header->has_value()) return std::optional<LoggedMessage>();
   lcm_eventlog_event_t* event = lcm_eventlog_read_next_event(log_.get());
@@ -120,7 +120,7 @@ Result<std::optional<LoggedMessage>> LogReader::next() {
 
 Result<void> LogReader::skip_to(std::int64_t utime) {
   for (;;) {
-    const auto header = look();
+    const auto header = peek();
     if (!header) return header.error();
     if (!header->has_value() || header->value().utime >= utime) return {};
     at_ += header->value().size;

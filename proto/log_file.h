@@ -83,7 +83,7 @@ class LogReader {
   };
   LogReader(LogHandle log, std::int64_t size) : log_(std::move(log)), size_(size) {}
   /// The header at the present place, which stays; none at the end.
-  Result<std::optional<Header>> look();
+  Result<std::optional<Header>> peek();
 
   LogHandle log_;
   std::int64_t size_ = 0;  ///< of the file [bytes]

@@ -93,7 +93,7 @@ const Colouring kColourings[] = {
      angle_in_box,
      by_axis},
     {"layers",
-     "the angle \u03b8 to the mean director: red to its left, magenta to its right, pale along it",
+     "the angle \u03b8 to the nematic director: red to its left, magenta to its right, pale along it",
      "Angle to the director \u03b8",
      "\u00b0",
      Scale::kLine,

@@ -70,7 +70,7 @@ struct RodPicture {
 
   // Of the rods of the first species.
   double order = 0;           ///< S, nematic order in the plane
-  double director_angle = 0;  ///< of the mean director N, against the x axis [rad]
+  double director_angle = 0;  ///< of the nematic director N, against the x axis [rad]
   std::vector<analysis::Defect> defects;
   std::vector<DefectTrail> tracks;                       ///< of the defects of now and of shortly before
   std::optional<Vec2> followed;                          ///< where the defect is that the view follows [mm]

@@ -15,7 +15,7 @@ namespace shaken::scene {
 struct Given {
   Value value;
   Place place;
-  bool ok = true;  ///< false if it has been complained about already
+  bool ok = true;  ///< false if a problem with it has been reported already
 };
 
 /// What has been said about a scene so far, field by field: from its file, then from settings or a point of a sweep.
@@ -35,7 +35,7 @@ class Draft {
   /// What was given; null if nothing was.
   const Given* find(std::string_view path) const;
   const Given* find(std::size_t field) const;
-  /// Nobody has complained about the field so far.
+  /// No problem with the field has been reported so far.
   bool is_ok(std::string_view path) const;
   /// The block is on; true for "", where there is no block.
   bool is_on(std::string_view block) const;

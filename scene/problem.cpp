@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 namespace shaken::scene {
 
@@ -19,6 +20,18 @@ std::string to_string(const std::vector<Problem>& problems) {
   std::string text;
   for (const Problem& problem : problems) text += to_string(problem) + "\n";
   return text;
+}
+
+nlohmann::ordered_json to_json(std::span<const Problem> problems) {
+  auto list = nlohmann::ordered_json::array();
+  for (const Problem& problem : problems) {
+    list.push_back({{"file", problem.file},
+                    {"line", problem.line},
+                    {"column", problem.column},
+                    {"path", problem.path},
+                    {"message", problem.message}});
+  }
+  return list;
 }
 
 Problem problem_at(const Place& place, std::string_view path, std::string message) {

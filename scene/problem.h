@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,6 +35,9 @@ std::string to_string(const Problem& problem);
 
 /// All of them, one a line.
 std::string to_string(const std::vector<Problem>& problems);
+
+/// A list of objects with "file", "line", "column", "path" and "message", as the daemon's answers have it.
+nlohmann::ordered_json to_json(std::span<const Problem> problems);
 
 /// The problem `message` with what stands at `place`; `path` is dotted ("rods.length").
 Problem problem_at(const Place& place, std::string_view path, std::string message);

@@ -9,8 +9,8 @@ namespace shaken::scene {
 
 namespace {
 
-/// Puts every value that was given, or its default, where it belongs in the plan. False if one had been complained
-/// about; then its default stands in.
+/// Puts every value that was given, or its default, where it belongs in the plan. False if a problem had been
+/// reported with one; then its default stands in.
 bool store_what_was_given(Resolution& scene) {
   bool all_ok = true;
   for (std::size_t i = 0; i < fields().size(); ++i) {

@@ -10,8 +10,8 @@
 namespace shaken::scene {
 
 /// Turns what was said into a plan: fills in defaults, derives what follows from the rest, and refuses what contradicts
-/// itself or cannot exist. Values that have been complained about take no part, so one mistake is not reported twice.
-/// None if there was any problem, here or before.
+/// itself or cannot exist. Values with which a problem has been reported take no part, so one mistake is not reported
+/// twice. None if there was any problem, here or before.
 ///
 /// Derived, unless given (more than needed must agree to 1e-6, or exactly for whole numbers):
 ///   Gamma g = a (2 pi f)^2                  a missing one of gamma, amplitude, frequency; defaults gamma, frequency

@@ -56,7 +56,7 @@ class Products {
     std::string written;
     for (const Variation& product : products_) {
       const std::size_t n_here = size_of(product);
-      if (n_here == 0) return {};  // complained about
+      if (n_here == 0) return {};  // a problem is reported
       n_points += n_here;
       written += fmt::format("{}{}", written.empty() ? "" : " + ", describe_size(product));
       if (n_points > kMaxPoints) {
@@ -258,7 +258,7 @@ Loaded<Sweep> load_sweep(std::string_view text, const std::string& file, std::sp
     }
   }
   if (const auto problem = name_problem(sweep.name)) {
-    // A name that is no text at all has been complained about; that of the file stands in for it.
+    // A name that is no text at all has been reported; that of the file stands in for it.
     const bool is_of_file = name_place.line == 0;
     problems.push_back(problem_at(name_place, is_of_file ? "" : "name",
                                   *problem + (is_of_file ? ": rename the file, or give a \"name\" in a sweep" : "")));

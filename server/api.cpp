@@ -113,17 +113,9 @@ std::span<const Api::Route> Api::routes() {
 }
 
 Api::Answer Api::problems_answer(std::span<const scene::Problem> found) {
-  Json problems = Json::array();
-  for (const scene::Problem& problem : found) {
-    problems.push_back({{"file", problem.file},
-                        {"line", problem.line},
-                        {"column", problem.column},
-                        {"path", problem.path},
-                        {"message", problem.message}});
-  }
   std::string sentence = scene::to_string(found.front());
-  if (problems.size() > 1) sentence = std::to_string(problems.size()) + " problems; the first: " + sentence;
-  return {422, {{"error", sentence}, {"problems", problems}}, ""};
+  if (found.size() > 1) sentence = std::to_string(found.size()) + " problems; the first: " + sentence;
+  return {422, {{"error", sentence}, {"problems", scene::to_json(found)}}, ""};
 }
 
 bool Api::in_sweep(const Call& call) { return call.request.path.starts_with("/v1/sweeps/"); }

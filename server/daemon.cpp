@@ -161,9 +161,9 @@ class ControlSocket {
     }
     try {
       server_ = std::make_unique<HttpServer>(file_, handler_);
-      complaint_.clear();
+      last_failure_.clear();
     } catch (const Failure& failure) {  // the folder is gone, too; it may come back
-      if (std::exchange(complaint_, failure.what()) != failure.what()) spdlog::error("{}", failure.what());
+      if (std::exchange(last_failure_, failure.what()) != failure.what()) spdlog::error("{}", failure.what());
     }
   }
   void close() {
@@ -184,7 +184,7 @@ class ControlSocket {
   HttpServer::Handler handler_;
   std::unique_ptr<HttpServer> server_;
   std::vector<std::unique_ptr<HttpServer>> former_;
-  std::string complaint_;
+  std::string last_failure_;
 };
 
 /// The relay that the user asked for. What the daemon's own multicast carries goes through it too; where multicast

@@ -74,8 +74,7 @@ std::vector<std::string> Queue::recover() {
     end_stopping(job, "the daemon ended without warning");
     recovered.push_back(job.id);
   }
-  transaction.commit();
-  committed();
+  commit(transaction);
   return recovered;
 }
 
@@ -107,8 +106,7 @@ int Queue::cancel(const Target& target) {
     }
     ++changed;
   }
-  transaction.commit();
-  committed();
+  commit(transaction);
   return changed;
 }
 
@@ -130,8 +128,7 @@ int Queue::hold(const Target& target) {
     }
     ++changed;
   }
-  transaction.commit();
-  committed();
+  commit(transaction);
   return changed;
 }
 
@@ -157,8 +154,7 @@ int Queue::release(const Target& target, bool retry) {
     database_.run("UPDATE sweeps SET stop_if = '', stopped = 0 WHERE id = ?1 AND stopped = 1", *sweep);
   }
   settle_all_waits();
-  transaction.commit();
-  committed();
+  commit(transaction);
   return changed;
 }
 
@@ -199,8 +195,7 @@ std::optional<int> Queue::begin(const std::string& id, const std::string* scene)
   change(*job, kRunning, "", "attempt " + std::to_string(job->attempt));
   database_.run("UPDATE jobs SET attempt = ?2, started_utime = ?3, longer = 0 WHERE id = ?1", id, job->attempt,
                 utime_now());
-  transaction.commit();
-  committed();
+  commit(transaction);
   return job->attempt;
 }
 
@@ -234,8 +229,7 @@ void Queue::finish(const std::string& id, JobState state, const std::string& rea
   } else {
     change(*job, state, reason, reason.empty() ? "the worker is done" : reason);
   }
-  transaction.commit();
-  committed();
+  commit(transaction);
 }
 
 void Queue::end_queued(const std::string& id, JobState state, const std::string& reason) {
@@ -244,8 +238,7 @@ void Queue::end_queued(const std::string& id, JobState state, const std::string&
   if (!job || job->state != kQueued) return;
   Transaction transaction(database_);
   change(*job, state, reason, reason);
-  transaction.commit();
-  committed();
+  commit(transaction);
 }
 
 void Queue::end_stopping(const Current& job, const std::string& cause) {
@@ -271,8 +264,7 @@ void Queue::stopped(const std::string& id, const std::string& cause) {
   SHAKEN_CHECK(job.has_value(), "no job " + id);
   Transaction transaction(database_);
   end_stopping(*job, cause);
-  transaction.commit();
-  committed();
+  commit(transaction);
 }
 
 void Queue::crashed(const std::string& id, const std::string& reason, bool went_on,
@@ -296,8 +288,7 @@ void Queue::crashed(const std::string& id, const std::string& reason, bool went_
     database_.run("UPDATE jobs SET crashes = ?2, not_before_utime = ?3 WHERE id = ?1", id,
                   static_cast<std::int64_t>(before) + 1, utime_now() + 1000 * pause.count());
   }
-  transaction.commit();
-  committed();
+  commit(transaction);
 }
 
 void Queue::postponed(const std::string& id, const std::string& reason, milliseconds pause) {
@@ -311,8 +302,7 @@ void Queue::postponed(const std::string& id, const std::string& reason, millisec
     change(*job, kQueued, reason, reason);
     database_.run("UPDATE jobs SET not_before_utime = ?2 WHERE id = ?1", id, utime_now() + 1000 * pause.count());
   }
-  transaction.commit();
-  committed();
+  commit(transaction);
 }
 
 void Queue::no_room(const std::string& id, const std::string& reason, std::int64_t needed,
@@ -328,8 +318,7 @@ void Queue::no_room(const std::string& id, const std::string& reason, std::int64
     database_.run("UPDATE jobs SET hold = ?2, needed_bytes = ?3, not_before_utime = ?4 WHERE id = ?1", id, kForRoom,
                   needed, utime_now() + 1000 * pause.count());
   }
-  transaction.commit();
-  committed();
+  commit(transaction);
 }
 
 std::vector<std::string> Queue::there_is_room(std::int64_t free) {
@@ -349,8 +338,7 @@ std::vector<std::string> Queue::there_is_room(std::int64_t free) {
     released.push_back(job.id);
   }
   settle_all_waits();
-  transaction.commit();
-  committed();
+  commit(transaction);
   return released;
 }
 
@@ -388,8 +376,7 @@ bool Queue::give_way(const std::string& id, const Place& place) {
   Transaction transaction(database_);
   change(*job, kStopping, "", "its soft limit is over: it gives way to others");
   database_.run("UPDATE jobs SET after_stop = ?2 WHERE id = ?1", id, kLast);
-  transaction.commit();
-  committed();
+  commit(transaction);
   return true;
 }
 
@@ -399,8 +386,7 @@ void Queue::time_out(const std::string& id) {
   if (!job || job->state != kRunning) return;
   Transaction transaction(database_);
   stop_for(*job, kTimedOut, "its time limit is over");
-  transaction.commit();
-  committed();
+  commit(transaction);
 }
 
 void Queue::stop_all() {
@@ -411,8 +397,7 @@ void Queue::stop_all() {
     change(job, kStopping, "", "the daemon stops");
     database_.run("UPDATE jobs SET after_stop = 'queued' WHERE id = ?1", job.id);
   }
-  transaction.commit();
-  committed();
+  commit(transaction);
 }
 
 bool Queue::clean(const std::string& id, JobState state) {
@@ -421,8 +406,7 @@ bool Queue::clean(const std::string& id, JobState state) {
   if (!job || job->state != state || !has_ended(state)) return false;
   Transaction transaction(database_);
   change(*job, kCancelled, std::string(kCleaned), std::string(kCleaned));
-  transaction.commit();
-  committed();
+  commit(transaction);
   return true;
 }
 
@@ -490,7 +474,8 @@ void Queue::record(std::string_view job, std::string_view from, std::string_view
                 utime_now(), job, from, to, attempt, cause);
 }
 
-void Queue::committed() {
+void Queue::commit(Transaction& transaction) {
+  transaction.commit();
   Query query = database_.query("SELECT COALESCE(MAX(sequence), 0) FROM journal");
   query.next();
   last_change_ = query.integer(0);

@@ -224,7 +224,8 @@ class Queue {
   std::string why_waiting(const Job& job) const;
   std::vector<Job> explained(std::vector<Job> jobs) const;
 
-  void committed();
+  /// Ends a transaction, and wakes those who wait for a change.
+  void commit(Transaction& transaction);
 
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;

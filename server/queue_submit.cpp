@@ -59,8 +59,7 @@ Submitted Queue::submit(const std::string& name, int priority, std::span<const N
   }
   set_terms(result.sweep, terms);
   result.counts = sweep_counts(result.sweep);
-  transaction.commit();
-  committed();
+  commit(transaction);
   return result;
 }
 
@@ -123,8 +122,7 @@ int Queue::extend(std::span<const std::pair<std::string, std::string>> scenes) {
     if (job->state == kDone) change(*job, kQueued, "", "goes on from its end");
     ++changed;
   }
-  transaction.commit();
-  committed();
+  commit(transaction);
   return changed;
 }
 
@@ -157,8 +155,7 @@ void Queue::renew_ids(std::span<const std::pair<std::string, std::string>> ids) 
     database_.run("DELETE FROM jobs WHERE id = ?1", former);
   }
   database_.run("DELETE FROM upgrades WHERE name = 'ids'");
-  transaction.commit();
-  committed();
+  commit(transaction);
 }
 
 bool Queue::ask_again(const NewJob& job, int priority, std::int64_t sweep, const Terms& terms) {

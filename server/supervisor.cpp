@@ -85,9 +85,9 @@ void Supervisor::step() {
     stop_stopping();
     if (shutting_down_) return;
     start_queued();
-    mind_limits();  // afterwards: what has found a free slot needs nobody to give way
+    enforce_limits();  // afterwards: what has found a free slot needs nobody to give way
   } catch (const StorageError& problem) {
-    complain(problem.what());
+    warn_once(problem.what());
   }
 }
 
@@ -212,7 +212,7 @@ void Supervisor::count_wall_of_all() {
   count_after_ = now + kCounting;
 }
 
-void Supervisor::mind_limits() {
+void Supervisor::enforce_limits() {
   const auto now = Clock::now();
   // else nothing would be started in the place of one that gives way
   const bool place_is_short = static_cast<int>(workers_.size()) >= options_.slots && now >= start_after_ &&
@@ -326,7 +326,7 @@ void Supervisor::start(const Job& job) {
     worker.unsaved_name = name;
     save_name(job.id, worker);
   }
-  complaints_.clear();
+  warnings_.clear();
   pause_ = std::chrono::milliseconds(0);
   spdlog::info("job {}: attempt {}, worker {}: {}", job.id, *attempt, *handle, printable(job.label));
 }
@@ -340,12 +340,12 @@ void Supervisor::could_not_start(const std::string& id, const std::string& why) 
   pause_ = std::clamp(2 * pause_, options_.first_pause, kLongestPause);
   start_after_ = Clock::now() + pause_;
   const std::string told = "could not be started: " + why;
-  complain(fmt::format("job {} {}; next try in {} s", id, told, std::chrono::duration<double>(pause_).count()));
+  warn_once(fmt::format("job {} {}; next try in {} s", id, told, std::chrono::duration<double>(pause_).count()));
   workers_[id].job_end = JobEnd{JobEnd::Outcome::kNotStarted, told};  // until the queue has taken it
 }
 
 void Supervisor::wait(const Job& job, const std::string& why) {
-  complain("job " + job.id + " waits: " + why);
+  warn_once("job " + job.id + " waits: " + why);
   if (job.reason != why) queue_.set_reason(job.id, why);
 }
 
@@ -358,7 +358,7 @@ void Supervisor::shut_down() {
   try {
     queue_.stop_all();
   } catch (const StorageError& problem) {
-    complain(problem.what());  // recover() of the next daemon does the same
+    warn_once(problem.what());  // recover() of the next daemon does the same
   }
   for (auto& [id, worker] : workers_) {
     if (worker.kill_at || worker.job_end) continue;
@@ -373,8 +373,8 @@ void Supervisor::kill_all() {
   }
 }
 
-void Supervisor::complain(const std::string& trouble) {
-  if (complaints_.insert(trouble).second) spdlog::warn("{}", printable(trouble));
+void Supervisor::warn_once(const std::string& warning) {
+  if (warnings_.insert(warning).second) spdlog::warn("{}", printable(warning));
 }
 
 }  // namespace shaken::server

@@ -82,7 +82,7 @@ class Supervisor {
   void look_at(const std::string& id, Worker& worker);
   void count_wall(const std::vector<std::string>& ids);
   void count_wall_of_all();
-  void mind_limits();
+  void enforce_limits();
   void stop_stopping();
   void settle(const std::string& id, const Worker& worker);
   void start_queued();
@@ -91,14 +91,14 @@ class Supervisor {
   std::chrono::milliseconds refused_pause(const std::string& id) const;
   void could_not_start(const std::string& id, const std::string& why);
   void wait(const Job& job, const std::string& why);
-  void complain(const std::string& trouble);
+  void warn_once(const std::string& warning);
 
   Queue& queue_;
   Executor& executor_;
   SupervisorOptions options_;
   bool shutting_down_ = false;
   std::map<std::string, Worker> workers_;  ///< by job id
-  std::set<std::string> complaints_;       ///< each logged once, not ten times a second
+  std::set<std::string> warnings_;         ///< each logged once, not ten times a second
   std::chrono::milliseconds pause_{0};     ///< after the last start, if that failed
   Clock::time_point start_after_{};
   Clock::time_point count_after_{};

@@ -63,8 +63,8 @@ enum class ContactOrder {
   kReversed,  ///< the other way round
   kShuffled,  ///< at random, anew in each tick
 };
-/// How the run is stepped; the trajectory is bitwise the same.
-enum class Engine {
+/// What moves the rods (the key `time.engine`); the trajectory is bitwise the same.
+enum class StepperKind {
   kReference,  ///< visits every rod and pair at every tick
   kScheduled,  ///< visits them only when contact is possible
 };
@@ -126,7 +126,7 @@ struct System {
   double rotational_noise = 0.0;
 
   double dt = 4e-6;  ///< the tick [s]: the accuracy knob
-  Engine engine = Engine::kScheduled;
+  StepperKind stepper = StepperKind::kScheduled;
   Start start = Start::kAligned;
   std::uint64_t seed = 1;
 

@@ -21,7 +21,7 @@ std::span<const PaperFigure> paper_figures() {
        {"phases", "transition"},
        correlation_figure},
       {"5", "fig05-maps", "Correlations along and across the director", {"layers", "size"}, pair_map_figure},
-      {"6", "fig06-layers", "Layers tilted by ±θ", {"layers"}, layers_figure},
+      {"6", "fig06-layers", "Layers turned by ±θ", {"layers"}, layers_figure},
       {"7",
        "fig07-layer-trends",
        "Layer angle, wavelength and order against packing, length and end radius",

@@ -97,12 +97,12 @@ Finding no_motion_sideways(const Library& runs) {
   if (v.empty()) return {};
   // chi2 of n independent bins at zero is n ± sqrt(2 n)
   const Estimate excess = run.estimate(n > 0 ? chi2 / n : 0, n > 0 ? std::sqrt(2 / n) : NAN);
-  const double blur = std::sqrt(noise / n), speed = std::abs(run.scalar("tilt_fastest_mm_s").value);
+  const double error = std::sqrt(noise / n), speed = std::abs(run.scalar("tilt_fastest_mm_s").value);
   const std::string found = fmt::format(
-      "χ² per bin {} about 0, errors of {:.2f} mm/s; fastest along the rod {:.2f} mm/s", text(excess), blur, speed);
+      "χ² per bin {} about 0, errors of {:.2f} mm/s; fastest along the rod {:.2f} mm/s", text(excess), error, speed);
   if (!doubt(excess).empty()) return conclude({unknown(doubt(excess))}, found);
   if (above(excess, 1) == yes()) return conclude({no()}, found);
-  return conclude({blur < 0.2 * speed ? yes() : unknown("the errors are too large")}, found);
+  return conclude({error < 0.2 * speed ? yes() : unknown("the errors are too large")}, found);
 }
 
 Finding tilt_switches(const Library& runs) {

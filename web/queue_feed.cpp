@@ -16,7 +16,7 @@ constexpr std::chrono::seconds kEvery{1};
 
 QueueFeed::QueueFeed(const DaemonLink& daemon, std::function<void(const std::set<std::string>&)> running)
     : daemon_(daemon), running_(std::move(running)) {
-  thread_ = std::jthread([this](const std::stop_token& stop) { look(stop); });
+  thread_ = std::jthread([this](const std::stop_token& stop) { poll(stop); });
 }
 
 QueueFeed::~QueueFeed() = default;
@@ -47,7 +47,7 @@ std::string QueueFeed::asked() {
   return all.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-void QueueFeed::look(const std::stop_token& stop) {
+void QueueFeed::poll(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     std::string now;
     try {

@@ -19,7 +19,7 @@ namespace shaken::web {
 /// The queue as it is now, asked for once a second in a thread of its own, however many pages look at it.
 class QueueFeed {
  public:
-  /// `running` is told the ids of the jobs that run, after every look.
+  /// `running` is told the ids of the jobs that run, after every answer.
   QueueFeed(const DaemonLink& daemon, std::function<void(const std::set<std::string>&)> running);
   ~QueueFeed();
 
@@ -28,7 +28,7 @@ class QueueFeed {
   std::optional<std::string> wait(std::int64_t& seen, std::chrono::milliseconds timeout);
 
  private:
-  void look(const std::stop_token& stop);
+  void poll(const std::stop_token& stop);
   std::string asked();
 
   const DaemonLink& daemon_;

@@ -42,7 +42,7 @@ inline constexpr double kLongestStep = 64e-6;
 const std::vector<StartCase>& start_cases();
 
 /// The member at tick 0.
-Simulation begin(const StartCase& start, const std::vector<Flight>& rods, const Variant& variant, Engine engine,
+Simulation begin(const StartCase& start, const std::vector<Flight>& rods, const Variant& variant, StepperKind stepper,
                  double dt);
 
 /// How far two states of the same rods at the same time are apart: root mean square over the rods of the distance of

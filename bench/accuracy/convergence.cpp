@@ -8,7 +8,7 @@
 #include "base/failure.h"
 #include "base/progress_line.h"
 #include "bench/accuracy/accuracy.h"
-#include "bench/accuracy/fits.h"
+#include "bench/fits.h"
 #include "sim/balance.h"
 
 namespace shaken::bench {
@@ -82,28 +82,28 @@ Json measure_convergence(const StartCase& start, const Variant& variant, const C
   for (int member = 0; member < members; ++member) {
     const std::vector<Flight> rods = start.rods(member);
     double unused = 0;
-    Simulation truth = begin(start, rods, variant, Engine::kScheduled, converged_dt);
-    Simulation nearly = begin(start, rods, variant, Engine::kScheduled, 2 * converged_dt);
+    Simulation truth = begin(start, rods, variant, StepperKind::kScheduled, converged_dt);
+    Simulation nearly = begin(start, rods, variant, StepperKind::kScheduled, 2 * converged_dt);
     if (!finish(truth, start, unused) || !finish(nearly, start, unused)) {
       throw Failure(ExitCode::kFailed, fmt::format("{}: numerical trouble in the converged solution", start.name));
     }
     floor.add(errors_between(nearly.world(), truth.world()));
     if (&variant != &variants().front()) {
-      Simulation first = begin(start, rods, variants().front(), Engine::kScheduled, converged_dt);
+      Simulation first = begin(start, rods, variants().front(), StepperKind::kScheduled, converged_dt);
       if (finish(first, start, unused)) from_first.add(errors_between(truth.world(), first.world()));
     }
     const Counters& done = truth.world().counters;
     impulses += static_cast<double>(done.impulses_rod_rod + done.impulses_rod_base + done.impulses_rod_lid);
     for (std::size_t k = 0; k < steps.size(); ++k) {
       StepErrors& step = steps[k];
-      Simulation simulation = begin(start, rods, variant, Engine::kScheduled, effort.steps[k]);
+      Simulation simulation = begin(start, rods, variant, StepperKind::kScheduled, effort.steps[k]);
       if (finish(simulation, start, step.scheduled_cpu)) {
         step.errors.add(errors_between(simulation.world(), truth.world()));
       } else {
         ++step.in_trouble;
       }
       if (member < kTimedMembers) {
-        Simulation reference = begin(start, rods, variant, Engine::kReference, effort.steps[k]);
+        Simulation reference = begin(start, rods, variant, StepperKind::kReference, effort.steps[k]);
         finish(reference, start, step.reference_cpu);
         step.states_equal &= reference.state_hash() == simulation.state_hash();
       }

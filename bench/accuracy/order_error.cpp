@@ -10,7 +10,7 @@
 #include "analysis/time_series.h"
 #include "base/text.h"
 #include "bench/accuracy/accuracy.h"
-#include "bench/accuracy/fits.h"
+#include "bench/fits.h"
 #include "bench/timing.h"
 
 namespace shaken::bench {
@@ -103,7 +103,7 @@ Json measure_order_error(const Case& scene, double measure, int replicas, const 
   for (int replica = 0; replica < replicas; ++replica) {
     Case start = scene;
     start.plan.system.seed = static_cast<std::uint64_t>(replica + 1);
-    Simulation simulation = resumed(start, cache(start), Engine::kScheduled);
+    Simulation simulation = resumed(start, cache(start), StepperKind::kScheduled);
     std::vector<double>& values = series.emplace_back();
     cpu += sample_every(kEvery, measure, fmt::format("S(t) of {}, seed {}", scene.label(), replica + 1), simulation,
                         [&] { values.push_back(analysis::nematic_order(simulation.snapshot().director).order); });

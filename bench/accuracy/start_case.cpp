@@ -10,18 +10,6 @@ namespace {
 
 constexpr std::uint64_t kSeed = 20240908;
 
-/// A rod in flight from tick 0 on, without spin about its axis; the director need not be of length 1, and of the
-/// angular velocity `turn` only the part across the rod counts.
-Flight thrown(const Vec3& position, const Vec3& director, const Vec3& velocity, const Vec3& turn) {
-  Flight flight;
-  flight.position = position;
-  flight.director = director.normalized();
-  flight.velocity = velocity;
-  flight.precession = turn - turn.dot(flight.director) * flight.director;
-  flight.prepare();
-  return flight;
-}
-
 Vec3 jitter(Rng& rng, double size) {
   const double x = rng.uniform(-size, size);
   const double y = rng.uniform(-size, size);
@@ -142,15 +130,13 @@ const std::vector<StartCase>& start_cases() {
   return all;
 }
 
-Simulation begin(const StartCase& start, const std::vector<Flight>& rods, const Variant& variant, Engine engine,
+Simulation begin(const StartCase& start, const std::vector<Flight>& rods, const Variant& variant, StepperKind stepper,
                  double dt) {
   System scene = start.scene;
   variant.apply(scene);
-  scene.engine = engine;
+  scene.stepper = stepper;
   scene.dt = dt;
-  World world = empty_world(scene);
-  world.rods = rods;
-  return Simulation::start_from(std::move(world));
+  return begin_with(scene, rods);
 }
 
 }  // namespace shaken::bench

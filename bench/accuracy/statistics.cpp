@@ -8,8 +8,8 @@
 #include "analysis/time_series.h"
 #include "base/estimate.h"
 #include "bench/accuracy/accuracy.h"
-#include "bench/accuracy/fits.h"
 #include "bench/accuracy/observables.h"
+#include "bench/fits.h"
 #include "bench/timing.h"
 #include "sim/rod/species.h"
 
@@ -61,7 +61,8 @@ Point measure_point(const StatisticsTask& task, double value, const Cache& cache
   ObservableSeries series;
   for (int replica = 0; replica < task.replicas; ++replica) {
     const Case start = start_of(task, value, replica);
-    Simulation simulation = continued(resumed(start, cache(start), Engine::kScheduled), scene_of(task, start, value));
+    Simulation simulation =
+        continued(resumed(start, cache(start), StepperKind::kScheduled), scene_of(task, start, value));
     advance(simulation, std::llround(task.settle / simulation.world().system.dt));
     series = ObservableSeries();
     const std::string what = fmt::format("{}, {} {:.10g}, seed {}", start.label(), task.knob->name, value, replica + 1);

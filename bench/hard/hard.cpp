@@ -109,15 +109,15 @@ struct HardBench {
 
   HardCase run_case(const std::string& name) const {
     ProgressLine progress(name);
-    const Watch watch = [&](double fraction) { progress.show(fraction); };
+    const TellProgress tell = [&](double fraction) { progress.show(fraction); };
     const double at_most = seconds.value_or(std::numeric_limits<double>::infinity());
     for (const MadeCase& made : made_cases()) {
       if (made.name == name) return made.run();
     }
     for (const SceneCase& scene : scene_cases()) {
-      if (scene.name == name) return run_scene_case(scene, read_hard_scene(scenes(), name), at_most, watch);
+      if (scene.name == name) return run_scene_case(scene, read_hard_scene(scenes(), name), at_most, tell);
     }
-    return run_order_case(scenes(), {.replicas = replicas, .seconds = at_most}, watch);
+    return run_order_case(scenes(), {.replicas = replicas, .seconds = at_most}, tell);
   }
 
   ExitCode run() const {

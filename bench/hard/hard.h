@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -13,7 +12,7 @@
 
 namespace shaken::bench {
 
-inline constexpr double kLookEvery = 2e-3;  ///< between two looks at the state of a scene [s]
+inline constexpr double kSampleEvery = 2e-3;  ///< between two samples of the state of a scene [s]
 
 /// What energy differs by from rounding alone, as a fraction.
 inline constexpr double kRounding = 1e-11;
@@ -29,7 +28,7 @@ struct Outcome {
   std::string note = {};  ///< what happened instead, or why the limit is what it is
 
   bool ok() const { return at_least ? worst >= limit : worst <= limit; }
-  /// How often the worst value fits into the limit; below 1 it does not hold. Infinite where nothing was seen.
+  /// How often the worst value fits into the limit; below 1 it does not hold. Infinite where nothing was found.
   double margin() const { return at_least ? worst / limit : limit / worst; }
 };
 
@@ -69,10 +68,10 @@ scene::RunPlan read_hard_scene(const std::filesystem::path& folder, const std::s
 std::string to_text(const NumericalTrouble& trouble);
 
 /// Called now and then with the part of the work that is done.
-using Watch = std::function<void(double)>;
+using TellProgress = std::function<void(double)>;
 
-/// Runs the scene to its end, or for `seconds` if that is sooner, and looks at it every 2 ms of its time.
-HardCase run_scene_case(const SceneCase& wanted, const scene::RunPlan& plan, double seconds, const Watch& watch);
+/// Runs the scene to its end, or for `seconds` if that is sooner, and samples its state every 2 ms of its time.
+HardCase run_scene_case(const SceneCase& wanted, const scene::RunPlan& plan, double seconds, const TellProgress& tell);
 
 /// The three scenes order-sorted, order-reversed and order-shuffled, of which the statistics are compared.
 inline constexpr const char* kOrderCase = "order";
@@ -87,31 +86,6 @@ struct OrderEffort {
 
 /// Means of one scene under three orders of the contacts of a tick. Each must be shown to be the same within its bound:
 /// what is left open for want of replicas does not hold.
-HardCase run_order_case(const std::filesystem::path& folder, const OrderEffort& effort, const Watch& watch);
-
-/// What is known of whether a mean is the same in two places.
-enum class Sameness {
-  kSame,       ///< all of the interval of confidence lies within the bound
-  kDifferent,  ///< all of it lies beyond
-  kOpen,       ///< neither: too few samples to tell
-};
-
-/// How far apart two means are, as fractions of the size of the mean of both.
-struct Apart {
-  double difference = 0;  ///< of the second less the first
-  double half_width = 0;  ///< of its interval of 95 % confidence; NaN where there are too few samples for one
-
-  /// The end of the interval that is farther from nought.
-  double farthest() const;
-  double nearest() const;
-  /// Whether they are the same but for `bound`. That no difference was seen does not make two means the same: the
-  /// interval must exclude one as large as the bound, so that too few samples leave the question open.
-  Sameness within(double bound) const;
-};
-
-/// Of independent samples, each of which is as good as any other. The interval is Welch's (Biometrika 34, 28 (1947)),
-/// with Student's t by its series in the degrees of freedom (Abramowitz & Stegun (1964), eq. 26.7.5), which needs three
-/// of them at least.
-Apart compare_means(std::span<const double> first, std::span<const double> second);
+HardCase run_order_case(const std::filesystem::path& folder, const OrderEffort& effort, const TellProgress& tell);
 
 }  // namespace shaken::bench

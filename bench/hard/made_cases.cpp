@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bench/case.h"
 #include "bench/hard/hard.h"
 #include "sim/balance.h"
 #include "sim/simulation.h"
@@ -21,23 +22,7 @@ System quiet_scene(double end_diameter) {
   return scene;
 }
 
-Flight flight_of(const Vec3& position, const Vec3& director, const Vec3& velocity) {
-  Flight flight;
-  flight.position = position;
-  flight.director = director.normalized();
-  flight.velocity = velocity;
-  flight.prepare();
-  return flight;
-}
-
-Simulation simulation_of(System scene, const std::vector<Flight>& rods) {
-  scene.n_rods = static_cast<int>(rods.size());
-  World world = empty_world(scene);
-  world.rods = rods;
-  return Simulation::start_from(std::move(world));
-}
-
-/// Lets rods meet by every law, with little and with much friction, on both engines.
+/// Lets rods meet by every law, with little and with much friction, on both steppers.
 std::vector<Outcome> meeting(const System& scene, const std::vector<Flight>& rods, Tick ticks, bool in_the_air = true) {
   double overlap = 0, growth = 0, ledger = 0, momentum = 0, fewest = std::numeric_limits<double>::infinity();
   int n_trouble = 0, n_different = 0;
@@ -49,10 +34,10 @@ std::vector<Outcome> meeting(const System& scene, const std::vector<Flight>& rod
         System varied = scene;
         varied.law = law;
         varied.rod_rod = varied.rod_base = varied.rod_lid = {mu, e};
-        varied.engine = Engine::kReference;
-        Simulation reference = simulation_of(varied, rods);
-        varied.engine = Engine::kScheduled;
-        Simulation scheduled = simulation_of(varied, rods);
+        varied.stepper = StepperKind::kReference;
+        Simulation reference = begin_with(varied, rods);
+        varied.stepper = StepperKind::kScheduled;
+        Simulation scheduled = begin_with(varied, rods);
         double before = content(scheduled.world()).energy;
         const double start = before;
         const Vec3 push = content(scheduled.world()).momentum;
@@ -78,7 +63,7 @@ std::vector<Outcome> meeting(const System& scene, const std::vector<Flight>& rod
     }
   }
   std::vector<Outcome> outcomes{{"runs that meet trouble", static_cast<double>(n_trouble), 0},
-                                {"runs in which the engines differ", static_cast<double>(n_different), 0},
+                                {"runs in which the steppers differ", static_cast<double>(n_different), 0},
                                 {"impulses in a run", fewest, 1, true},
                                 {"overlap / end bead's radius", overlap, 0.1},
                                 {"energy made / energy", growth, in_the_air ? kRounding : kRest},
@@ -96,7 +81,7 @@ const Vec3 kMiddle(15, 15, 5), kNone = Vec3::Zero();
 std::vector<Flight> row() {
   std::vector<Flight> rods;
   rods.reserve(10);
-  for (int i = 0; i < 10; ++i) rods.push_back(flight_of(Vec3(15, 8 + 0.8 * i + 1e-3 * (i > 0), 5), kX, Vec3::Zero()));
+  for (int i = 0; i < 10; ++i) rods.push_back(thrown(Vec3(15, 8 + 0.8 * i + 1e-3 * (i > 0), 5), kX, Vec3::Zero()));
   rods.front().velocity = 50 * kY;
   return rods;
 }
@@ -106,7 +91,7 @@ std::vector<Outcome> half_rod_flat() {
   const System scene = quiet_scene(0.4);
   const double taper = make_species(scene.rod).taper();
   const Vec3 director(std::sqrt(1 - taper * taper), 0, taper);
-  return meeting(scene, {flight_of(Vec3(15, 15, 0.5), director, -50 * kZ)}, 3000, false);
+  return meeting(scene, {thrown(Vec3(15, 15, 0.5), director, -50 * kZ)}, 3000, false);
 }
 
 /// A run that must end at once, with words.
@@ -183,9 +168,9 @@ std::vector<Outcome> two_sizes() {
   scene.start = Start::kRandom;
   scene.law = ImpulseLaw::kEnergetic;
   scene.rod_rod.friction = 0.5;
-  scene.engine = Engine::kReference;
+  scene.stepper = StepperKind::kReference;
   auto reference = Simulation::start(scene);
-  scene.engine = Engine::kScheduled;
+  scene.stepper = StepperKind::kScheduled;
   auto scheduled = Simulation::start(scene);
   if (!reference || !scheduled) {
     return {{"the rods can be placed", 1, 0, false, scheduled.error().message}};
@@ -195,7 +180,7 @@ std::vector<Outcome> two_sizes() {
   const bool later = trouble || scheduled->advance_to(50000).has_value();
   const World& world = scheduled->world();
   return {{"runs that meet trouble", later ? 1.0 : 0.0, 0},
-          {"runs in which the engines differ", differ ? 1.0 : 0.0, 0},
+          {"runs in which the steppers differ", differ ? 1.0 : 0.0, 0},
           {"overlap / thinnest bead's radius", world.counters.max_overlap() / 0.125, 0.25},
           {"energy unaccounted for / turnover", balance(world).energy_error(), kRounding}};
 }
@@ -204,7 +189,7 @@ std::vector<Outcome> two_sizes() {
 
 const std::vector<MadeCase>& made_cases() {
   const auto at = [](const Vec3& place, const Vec3& director, const Vec3& velocity) {
-    return flight_of(kMiddle + place, director, velocity);
+    return thrown(kMiddle + place, director, velocity);
   };
   static const std::vector<MadeCase> cases{
       {"parallel", "two equal cylinders side by side, exactly parallel: all beads meet at once",
@@ -228,21 +213,20 @@ const std::vector<MadeCase>& made_cases() {
       {"half-rod-flat", "tilted by the taper: one half of the rod falls flat on the base", half_rod_flat},
       {"upright", "rods exactly upright, falling on the base, side by side",
        [] {
-         return meeting(
-             quiet_scene(0.4),
-             {flight_of(Vec3(15, 15, 1.3), kZ, -50 * kZ), flight_of(Vec3(15.81, 15, 1.3), kZ, Vec3(-20, 0, -50))}, 4000,
-             false);
+         return meeting(quiet_scene(0.4),
+                        {thrown(Vec3(15, 15, 1.3), kZ, -50 * kZ), thrown(Vec3(15.81, 15, 1.3), kZ, Vec3(-20, 0, -50))},
+                        4000, false);
        }},
       {"coincident", "two rods in the same place",
        [=] {
-         return ends(simulation_of(quiet_scene(0.4), {at(kNone, kX, 10 * kY), at(kNone, kX, -10 * kY)}), 1);
+         return ends(begin_with(quiet_scene(0.4), {at(kNone, kX, 10 * kY), at(kNone, kX, -10 * kY)}), 1);
        }},
       {"overlapping", "a start with rods half inside each other",
        [=] {
-         return ends(simulation_of(quiet_scene(0.4), {at(kNone, kX, kNone), at(0.4 * kY, kX, kNone)}), 1);
+         return ends(begin_with(quiet_scene(0.4), {at(kNone, kX, kNone), at(0.4 * kY, kX, kNone)}), 1);
        }},
       {"through-base", "a start with a rod in the base",
-       [] { return ends(simulation_of(quiet_scene(0.4), {flight_of(Vec3(15, 15, 0.1), kX, kNone)}), 1); }},
+       [] { return ends(begin_with(quiet_scene(0.4), {thrown(Vec3(15, 15, 0.1), kX, kNone)}), 1); }},
       {"blow-up", "Gamma = 100 with a tick 25 times too long", blow_up},
       {"does-not-fit", "more rods than can be placed", does_not_fit},
       {"late-and-far", "a thousand million ticks into a run, rods 10^6 mm from where they began", late_and_far},

@@ -4,28 +4,18 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <variant>
 #include <vector>
 
 #include "analysis/order.h"
 #include "base/failure.h"
-#include "bench/accuracy/fits.h"
+#include "bench/fits.h"
 #include "bench/hard/hard.h"
 #include "sim/balance.h"
 #include "sim/simulation.h"
 
 namespace shaken::bench {
 namespace {
-
-/// Beyond which Student's t lies once in forty times, to either side.
-double student_at_95(double freedom) {
-  if (!(freedom >= 3)) return std::numeric_limits<double>::quiet_NaN();
-  constexpr double z = 1.9599639845;
-  const double z2 = z * z, f = freedom;
-  return z * (1 + (z2 + 1) / (4 * f) + ((5 * z2 + 16) * z2 + 3) / (96 * f * f) +
-              (((3 * z2 + 19) * z2 + 17) * z2 - 15) / (384 * f * f * f));
-}
 
 constexpr int kSettling = 11;  ///< one part in so many of a replica is not counted
 
@@ -50,11 +40,11 @@ std::variant<Means, NumericalTrouble> means_of(const System& scene, double secon
   if (!simulation) throw Failure(ExitCode::kBadInput, simulation.error().message);
   const World& world = simulation->world();
   const auto end = static_cast<Tick>(std::llround(seconds / scene.dt));
-  const Tick stride = std::max<Tick>(1, std::llround(kLookEvery / scene.dt));
+  const Tick stride = std::max<Tick>(1, std::llround(kSampleEvery / scene.dt));
   if (auto trouble = simulation->advance_to(end / kSettling)) return *trouble;
   const std::int64_t impulses_before = world.counters.impulses_rod_rod;
   Means sum{};
-  int n_looks = 0;
+  int n_samples = 0;
   while (simulation->tick() < end) {
     if (auto trouble = simulation->advance_to(std::min(end, simulation->tick() + stride))) return *trouble;
     const KineticEnergy energy = kinetic_energy(world);
@@ -69,9 +59,9 @@ std::variant<Means, NumericalTrouble> means_of(const System& scene, double secon
       sum[5] += std::copysign(1.0, director.z()) * (velocity.x() * director.x() + velocity.y() * director.y()) / n;
     }
     sum[0] += analysis::nematic_order(snapshot.director).order;
-    ++n_looks;
+    ++n_samples;
   }
-  for (double& s : sum) s /= n_looks;
+  for (double& s : sum) s /= n_samples;
   sum[3] = static_cast<double>(world.counters.impulses_rod_rod - impulses_before);
   return sum;
 }
@@ -97,25 +87,7 @@ Outcome outcome_of(const Quantity& quantity, const std::array<std::vector<double
 
 }  // namespace
 
-double Apart::farthest() const { return std::abs(difference) + half_width; }
-double Apart::nearest() const { return std::abs(difference) - half_width; }
-
-Sameness Apart::within(double bound) const {
-  if (farthest() <= bound) return Sameness::kSame;
-  return nearest() > bound ? Sameness::kDifferent : Sameness::kOpen;
-}
-
-Apart compare_means(std::span<const double> first, std::span<const double> second) {
-  const Estimate a = mean_of_samples(first), b = mean_of_samples(second);
-  const double size = std::abs(a.value + b.value) / 2;
-  const double of_a = a.sem * a.sem, of_b = b.sem * b.sem, variance = of_a + of_b;
-  const double freedom =
-      variance * variance /
-      (of_a * of_a / (static_cast<double>(first.size()) - 1) + of_b * of_b / (static_cast<double>(second.size()) - 1));
-  return {(b.value - a.value) / size, student_at_95(freedom) * std::sqrt(variance) / size};
-}
-
-HardCase run_order_case(const std::filesystem::path& folder, const OrderEffort& effort, const Watch& watch) {
+HardCase run_order_case(const std::filesystem::path& folder, const OrderEffort& effort, const TellProgress& tell) {
   HardCase result{kOrderCase, "contacts of a tick sorted, reversed, shuffled: the same statistics", {}};
   std::array<std::array<std::vector<double>, 3>, kQuantities> samples;
   std::size_t k = 0;
@@ -130,7 +102,7 @@ HardCase run_order_case(const std::filesystem::path& folder, const OrderEffort& 
         return result;
       }
       for (std::size_t q = 0; q < kQuantities; ++q) samples[q][k].push_back(std::get<Means>(means)[q]);
-      watch((static_cast<double>(k) + (replica + 1.0) / effort.replicas) / 3);
+      tell((static_cast<double>(k) + (replica + 1.0) / effort.replicas) / 3);
     }
     ++k;
   }

@@ -74,8 +74,7 @@ class Clean : public Verb {
       if (unknown_ || run.value("known", true)) only.push_back(run.at("id"));
     }
     if (dry_run_ || only.empty()) return ExitCode::kOk;
-    const std::string question =
-        fmt::format("Remove {} run{}, {}?", only.size(), only.size() == 1 ? "" : "s", size_of(found));
+    const std::string question = fmt::format("Remove {}, {}?", counted(only.size(), "run"), size_of(found));
     if (!yes_ && !console.agrees(question, false)) {
       console.err << "nothing removed\n";
       return ExitCode::kFailed;

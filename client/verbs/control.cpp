@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 
+#include "base/text.h"
 #include "client/target.h"
 #include "client/verbs/verbs.h"
 
@@ -57,16 +58,13 @@ class Control : public Verb {
     Json body = Json::object();
     if (needs_number()) body["priority"] = priority();
     ApiClient session(context.root());
-    // All names are looked up before the first job is changed: a slip in the last one must not cost the others.
-    std::vector<Target> targets;
-    for (const std::string& id : ids_) targets.push_back(find_target(session, id));
     Json answers = Json::array();
-    for (const Target& target : targets) {
+    for (const Target& target : find_targets(session, ids_)) {
       const int n = session.post(target.path + "/" + action_.name, body).at(action_.past).get<int>();
       answers.push_back({{"target", target.title()}, {action_.past, n}});
       if (json_) continue;
       context.console.out << (n > 0 ? fmt::format("{}: {} {}\n", target.title(),
-                                                  n == 1 ? "1 job" : fmt::format("{} jobs", n), action_.past)
+                                                  counted(static_cast<std::size_t>(n), "job"), action_.past)
                                     : fmt::format("{}: nothing to be {}\n", target.title(), action_.past));
     }
     if (json_) context.console.out << json_text(Json{{"targets", answers}});

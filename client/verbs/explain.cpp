@@ -87,14 +87,16 @@ class Explain : public Verb {
   void check_options() const {
     is_slurm(executor_);  // throws where it is no executor's name
     std::string problems;
-    const auto complain = [&](const char* problem) { problems.append(problems.empty() ? "" : "\n").append(problem); };
-    if (cpu_ && !(*cpu_ > 0 && *cpu_ <= 3600)) complain("--cpu must be more than 0 and at most 3600 seconds");
-    if (no_probe_ && cpu_) complain("--cpu has no meaning with --no-probe");
+    const auto add_problem = [&](const char* problem) {
+      problems.append(problems.empty() ? "" : "\n").append(problem);
+    };
+    if (cpu_ && !(*cpu_ > 0 && *cpu_ <= 3600)) add_problem("--cpu must be more than 0 and at most 3600 seconds");
+    if (no_probe_ && cpu_) add_problem("--cpu has no meaning with --no-probe");
     for (const auto& [name, value] :
          {std::pair{"--cores", cores_}, {"--max-pending", max_pending_}, {"--runs-per-task", runs_per_task_}}) {
-      if (value && *value < 1) complain(fmt::format("{} must be at least 1", name).c_str());
+      if (value && *value < 1) add_problem(fmt::format("{} must be at least 1", name).c_str());
     }
-    if (no_probe_ && !from_.empty()) complain("--from has no meaning with --no-probe");
+    if (no_probe_ && !from_.empty()) add_problem("--from has no meaning with --no-probe");
     if (!problems.empty()) throw Failure(ExitCode::kBadInput, problems);
   }
 

@@ -69,19 +69,19 @@ class Export : public Verb {
   /// Settles the format, and collects what is wrong with the options.
   run::WantedFrames read_options() {
     std::string problems;
-    const auto complain = [&](const std::string& problem) { problems += problem + "\n"; };
+    const auto add_problem = [&](const std::string& problem) { problems += problem + "\n"; };
     run::WantedFrames wanted;
     const auto time = [&](const char* option, const std::string& text) -> std::optional<double> {
       if (text.empty()) return std::nullopt;
       const auto value = scene::parse_quantity(text, scene::Dimension::kTime);
       if (value) return *value;
-      complain(fmt::format("{}: {}", option, value.error().message));
+      add_problem(fmt::format("{}: {}", option, value.error().message));
       return std::nullopt;
     };
     wanted.from = time("--from", from_);
     wanted.to = time("--to", to_);
-    if (wanted.from && wanted.to && *wanted.from > *wanted.to) complain("--from is later than --to");
-    if (every_ && *every_ < 1) complain(fmt::format("--every takes a number from 1, not {}", *every_));
+    if (wanted.from && wanted.to && *wanted.from > *wanted.to) add_problem("--from is later than --to");
+    if (every_ && *every_ < 1) add_problem(fmt::format("--every takes a number from 1, not {}", *every_));
     wanted.every = static_cast<std::size_t>(std::max(every_.value_or(1), 1));
     wanted.only_last = last_;
 
@@ -89,29 +89,30 @@ class Export : public Verb {
     const std::string suffix = out.has_extension() ? out.extension().string().substr(1) : "";
     if (list_) {
       if (!format_.empty() || !out_.empty() || !observables_.empty() || chooses_frames()) {
-        complain("--list prints names and takes no other option");
+        add_problem("--list prints names and takes no other option");
       }
     } else if (!format_.empty() && !is_format(format_)) {
-      complain(fmt::format("--format takes extxyz, gsd, xyz or csv, not '{}'", printable(format_)));
+      add_problem(fmt::format("--format takes extxyz, gsd, xyz or csv, not '{}'", printable(format_)));
     } else if (format_.empty() && !is_format(suffix)) {
-      complain("--format is missing: extxyz, gsd, xyz or csv");
+      add_problem("--format is missing: extxyz, gsd, xyz or csv");
     } else {
       if (format_.empty()) format_ = suffix;
       if (is_format(suffix) && suffix != format_) {
-        complain(fmt::format("--format {} does not go with {}", format_, printable(out_)));
+        add_problem(fmt::format("--format {} does not go with {}", format_, printable(out_)));
       }
-      if (format_ == "gsd" && to_stdout()) complain("gsd is no text: --out takes a file for it");
-      if (format_ == "csv" && chooses_frames()) complain("--from, --to, --every and --last choose frames, not csv");
+      if (format_ == "gsd" && to_stdout()) add_problem("gsd is no text: --out takes a file for it");
+      if (format_ == "csv" && chooses_frames()) add_problem("--from, --to, --every and --last choose frames, not csv");
       if (format_ == "csv" && observables_.empty()) {
-        complain(fmt::format("csv takes --observable NAME; `shaken export {} --list` lists the names", printable(id_)));
+        add_problem(
+            fmt::format("csv takes --observable NAME; `shaken export {} --list` lists the names", printable(id_)));
       }
-      if (format_ != "csv" && !observables_.empty()) complain("--observable goes with --format csv");
-      if (wants_summary() && observables_.size() > 1) complain("--observable summary stands by itself");
+      if (format_ != "csv" && !observables_.empty()) add_problem("--observable goes with --format csv");
+      if (wants_summary() && observables_.size() > 1) add_problem("--observable summary stands by itself");
     }
     std::error_code ignored;
     if (!out_.empty() && !to_stdout() && fs::exists(out, ignored) && !fs::is_regular_file(out, ignored)) {
-      complain(fmt::format("{} is no file that could be replaced{}", printable(out_),
-                           fs::is_directory(out, ignored) ? ": give a name in it" : ": --out - writes to stdout"));
+      add_problem(fmt::format("{} is no file that could be replaced{}", printable(out_),
+                              fs::is_directory(out, ignored) ? ": give a name in it" : ": --out - writes to stdout"));
     }
     if (!problems.empty()) {
       problems.pop_back();
@@ -212,9 +213,6 @@ class Export : public Verb {
     }
     if (!file) return ExitCode::kOk;
     done_or_fail(file->finish());
-    const auto counted = [](std::size_t n, const char* what) {
-      return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
-    };
     console.out << fmt::format("{}: {} of {}, {}\n", printable(out_), counted(n_done, "frame"),
                                counted(static_cast<std::size_t>(trajectory.header().n_rods), "rod"),
                                bytes_text(n_bytes));

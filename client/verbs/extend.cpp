@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include "base/text.h"
 #include "client/target.h"
 #include "client/verbs/verbs.h"
 
@@ -45,10 +46,8 @@ class Extend : public Verb {
                     "extend: --replicas makes a sweep of its own; let runs go on longer after that");
     }
     ApiClient session(context.root());
-    std::vector<Target> targets;
-    for (const std::string& id : ids_) targets.push_back(find_target(session, id));
     Json answers = Json::array();
-    for (const Target& target : targets) {
+    for (const Target& target : find_targets(session, ids_)) {
       if (replicas_) {
         answers.push_back(add_replicas(session, target, context.console));
         continue;
@@ -57,7 +56,7 @@ class Extend : public Verb {
       answers.push_back({{"target", target.title()}, {"extended", n}});
       if (json_) continue;
       context.console.out << (n > 0 ? fmt::format("{}: {} extended\n", target.title(),
-                                                  n == 1 ? "1 job" : fmt::format("{} jobs", n))
+                                                  counted(static_cast<std::size_t>(n), "job"))
                                     : fmt::format("{}: as long as that already\n", target.title()));
     }
     if (json_) context.console.out << json_text(Json{{"targets", answers}});

@@ -151,8 +151,8 @@ class Submit : public Verb {
       const int n = counts.value(state, 0) - named;
       if (n > 0) words += fmt::format(", {} {}{}", n, std::string_view(state) == "done" ? "" : "already ", state);
     }
-    console.out << fmt::format("sweep {} ({}): {} point{}: {}\n", console.painted(Colour::kBold, text_of(sweep, "id")),
-                               text_of(sweep, "name"), jobs.size(), jobs.size() == 1 ? "" : "s", words)
+    console.out << fmt::format("sweep {} ({}): {}: {}\n", console.painted(Colour::kBold, text_of(sweep, "id")),
+                               text_of(sweep, "name"), counted(jobs.size(), "point"), words)
                 << table.text(console.width);
     if (jobs.size() > kMostLines) {
       console.out << fmt::format("... and {} more: `shaken status {}`\n", jobs.size() - kMostLines,

@@ -60,15 +60,7 @@ class Validate : public Verb {
 
  private:
   static void print_problems(const std::vector<scene::Problem>& problems, Console& console) {
-    Json list = Json::array();
-    for (const scene::Problem& problem : problems) {
-      list.push_back({{"file", problem.file},
-                      {"line", problem.line},
-                      {"column", problem.column},
-                      {"path", problem.path},
-                      {"message", problem.message}});
-    }
-    console.out << json_text(Json{{"ok", false}, {"problems", list}});
+    console.out << json_text(Json{{"ok", false}, {"problems", scene::to_json(problems)}});
   }
 
   static void print_resolved(const std::vector<scene::SweepPoint>& points, Console& console) {

@@ -22,8 +22,7 @@ class Wait : public Verb {
 
   ExitCode run(const Context& context) override {
     ApiClient session(context.root());
-    std::vector<Target> targets;
-    for (const std::string& id : ids_) targets.push_back(find_target(session, id));
+    std::vector<Target> targets = find_targets(session, ids_);
     if (ids_.empty()) {
       for (const char* state : {"queued", "running", "stopping"}) {
         const Json answer = session.get(std::string("/v1/jobs?state=") + state);

@@ -57,7 +57,8 @@ MeasurementKind angles_kind() {
       .numbers =
           {
               {"theta_m_deg",
-               "tilt angle of layers: ± the means of two Gaussians fitted to P(θ); null if there is one peak"},
+               "angle by which layers are turned: ± the means of two Gaussians fitted to P(θ); null if there is one "
+               "peak"},
               {"theta_m_maximum_deg",
                "angle at which P(θ) itself is highest, both signs taken together; null if there is one peak"},
               {"dip", "P(0) over the maximum of P: below 1 where there are two peaks"},

@@ -26,7 +26,7 @@ std::string room_for_rods(const Resolution& scene) {
   return fmt::format("{} (an arena of {})", box, length_text(system.walls->size));
 }
 
-/// Number and area fraction of one species; false after a complaint.
+/// Number and area fraction of one species; false if a problem is reported.
 bool resolve_number_of(Resolution& scene, const RodGroup& group) {
   System& system = scene.plan.system;
   const std::string fraction_path = group.path("area_fraction"), count_path = group.path("count");

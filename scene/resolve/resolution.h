@@ -24,7 +24,7 @@ struct Resolution {
   bool given(std::string_view path) const { return draft.find(path) != nullptr; }
   /// The number given at `path`, or its default.
   double number(std::string_view path) const;
-  /// Nobody complained about any of these when they were read.
+  /// No problem was reported with any of these when they were read.
   bool ok(const Paths& paths) const;
 
   /// Reports a problem of several fields where the first of them that was given stands.
@@ -34,7 +34,7 @@ struct Resolution {
     report(paths, std::move(message));
     return false;
   }
-  /// Complains if what followed from `causes` lies outside of the field's range.
+  /// Reports a problem if what followed from `causes` lies outside of the field's range.
   void check_derived(std::string_view path, const Paths& causes);
 };
 

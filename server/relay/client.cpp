@@ -133,9 +133,9 @@ void Client::check_times(Clock::time_point now) {
   }
 }
 
-void Client::send_away(std::string complaint) {
+void Client::send_away(std::string refusal) {
   has_ended_ = true;
-  complaint_ = std::move(complaint);
+  refusal_ = std::move(refusal);
 }
 
 }  // namespace shaken::relay

@@ -43,7 +43,7 @@ class Client {
   /// Whether it is to be forgotten: it has gone, or was sent away.
   bool has_ended() const { return has_ended_; }
   /// Why it was sent away; empty if it went by itself.
-  const std::string& complaint() const { return complaint_; }
+  const std::string& refusal() const { return refusal_; }
   /// Messages that it did not get because it took others too slowly.
   std::int64_t dropped() const { return queue_.dropped(); }
 
@@ -51,13 +51,13 @@ class Client {
   void obey(const Instruction& instruction, const Publish& publish);
   void subscribe(std::string_view pattern);
   void unsubscribe(std::string_view pattern);
-  void send_away(std::string complaint);
+  void send_away(std::string refusal);
 
   Descriptor socket_;
   const Limits& limits_;
   bool is_greeted_ = false;
   bool has_ended_ = false;
-  std::string complaint_;
+  std::string refusal_;
   std::string input_;     ///< not yet a whole instruction
   std::string greeting_;  ///< ours, as far as it has not been sent
   SendQueue queue_;

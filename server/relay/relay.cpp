@@ -154,14 +154,14 @@ void Relay::accept_clients() {
       if (errno == ECONNABORTED || errno == EINTR) continue;
       if (errno != EAGAIN && errno != EWOULDBLOCK) {
         accepts_from_ = now + kPauseOfAccepting;
-        complaints_.note(system_error("no client can be taken").message, now);
+        warnings_.note(system_error("no client can be taken").message, now);
       }
       return;
     }
     if (clients_.size() >= limits_.clients) {
       // Closed rather than left to wait: LCM's client waits for an answer for ever, but goes on if there is none.
       ++counters_.sent_away;
-      complaints_.note("a client was sent away: " + std::to_string(limits_.clients) + " are connected", now);
+      warnings_.note("a client was sent away: " + std::to_string(limits_.clients) + " are connected", now);
       continue;
     }
     prepare(socket.value());
@@ -183,7 +183,7 @@ void Relay::hand_on(std::string_view channel, std::string_view payload) {
       client->send(Clock::now());
     }
     if (const std::int64_t dropped = client->dropped() - dropped_before; dropped > 0) {
-      if (dropped_before == 0) complaints_.note("a client does not keep up, and misses messages", Clock::now());
+      if (dropped_before == 0) warnings_.note("a client does not keep up, and misses messages", Clock::now());
       counters_.dropped += dropped;
     }
   }
@@ -192,9 +192,9 @@ void Relay::hand_on(std::string_view channel, std::string_view payload) {
 void Relay::forget_ended() {
   const auto has_ended = [this](const std::unique_ptr<Client>& client) {
     if (!client->has_ended()) return false;
-    if (!client->complaint().empty()) {
+    if (!client->refusal().empty()) {
       ++counters_.sent_away;
-      complaints_.note("a client was sent away: " + client->complaint(), Clock::now());
+      warnings_.note("a client was sent away: " + client->refusal(), Clock::now());
     }
     return true;
   };

@@ -13,7 +13,7 @@
 #include "proto/bus.h"
 #include "server/relay/address.h"
 #include "server/relay/client.h"
-#include "server/relay/complaints.h"
+#include "server/relay/client_warnings.h"
 #include "server/relay/limits.h"
 #include "sim/core/result.h"
 
@@ -65,7 +65,7 @@ class Relay {
   std::vector<bool> is_readable_;  ///< which of them
   bool is_asked_to_accept_ = false;
   Clock::time_point accepts_from_{};  ///< there was no descriptor for a client before
-  Complaints complaints_;
+  ClientWarnings warnings_;
   Counters counters_;
   std::jthread thread_;  ///< last: it uses all of the above
 };

@@ -47,8 +47,6 @@ class ImpactProcess {
   /// Normal impulse so far, and the work that it has done (negative in compression).
   double normal_impulse() const { return p_; }
   double normal_work() const { return work_; }
-  double normal_velocity() const { return u_n_; }
-  Vec2 tangential_velocity() const { return u_t_; }
   int n_legs() const { return n_legs_; }
 
  private:

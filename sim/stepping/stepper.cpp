@@ -8,13 +8,13 @@
 namespace shaken {
 
 std::unique_ptr<Stepper> make_stepper(const World& world, int n_threads, int grain) {
-  switch (world.system.engine) {
-    case Engine::kReference:
+  switch (world.system.stepper) {
+    case StepperKind::kReference:
       return std::make_unique<ReferenceStepper>(world);
-    case Engine::kScheduled:
+    case StepperKind::kScheduled:
       return std::make_unique<ScheduledStepper>(world, n_threads, grain);
   }
-  SHAKEN_CHECK(false, "unknown engine");
+  SHAKEN_CHECK(false, "unknown stepper");
 }
 
 }  // namespace shaken

@@ -33,7 +33,7 @@ class Bench : public ::testing::Test {
   Json json_of(const std::string& name) const { return Json::parse(text_of(name)); }
 
  private:
-  TemporaryDirectory folder_;
+  ScratchFolder folder_;
 };
 
 const std::vector<std::string> kTiny{"--length", "4.5",   "--side", "12",       "--warm-up",
@@ -144,17 +144,17 @@ TEST_F(Bench, ExportGivesAState) {
   EXPECT_NEAR(state.at("frames").at(1).at("time").get<double>(), 0.007, 1e-9);
 }
 
-TEST_F(Bench, LooksFollowsAPair) {
-  const Finished finished = bench({"looks", "--side", "12", "--warm-up", "0.02", "--window", "0.002", "--out", out()});
+TEST_F(Bench, VisitsFollowsAPair) {
+  const Finished finished = bench({"visits", "--side", "12", "--warm-up", "0.02", "--window", "0.002", "--out", out()});
   ASSERT_EQ(finished.code, 0) << finished.output;
   EXPECT_THAT(finished.output, HasSubstr("500 ticks"));
-  int ticks = 0, looks = 0;
+  int ticks = 0, visits = 0;
   ASSERT_EQ(
-      std::sscanf(finished.output.c_str() + finished.output.find("500 ticks"), "%d ticks, %d looks", &ticks, &looks),
+      std::sscanf(finished.output.c_str() + finished.output.find("500 ticks"), "%d ticks, %d visits", &ticks, &visits),
       2);
-  EXPECT_GT(looks, 0);
-  EXPECT_LT(looks, 250);
-  EXPECT_EQ(text_of("looks.png").substr(1, 3), "PNG");
+  EXPECT_GT(visits, 0);
+  EXPECT_LT(visits, 250);
+  EXPECT_EQ(text_of("visits.png").substr(1, 3), "PNG");
 }
 
 TEST_F(Bench, EffectsAreSwitchedOffOneByOne) {

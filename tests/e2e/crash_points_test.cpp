@@ -111,7 +111,7 @@ class CrashPoints : public testing::Test {
     return midway.root;
   }
 
-  TemporaryDirectory folder_;
+  ScratchFolder folder_;
   fs::path scene_ = folder_.path() / "scene.json";
   fs::path undisturbed_ = folder_.path() / "undisturbed";
   fs::path directory_ = folder_.path() / "run";

@@ -63,7 +63,7 @@ class Daemon {
   Process& process() { return *process_; }
 
  private:
-  TemporaryDirectory directory_;
+  ScratchFolder directory_;
   std::string url_;
   std::unique_ptr<Process> process_;
 };
@@ -105,7 +105,7 @@ Pixels read_png(const std::filesystem::path& file) {
 }
 
 TEST(EndToEnd, EveryProgramNamesItselfWhereItsArgumentsAreWrong) {
-  const TemporaryDirectory out;
+  const ScratchFolder out;
   const std::string nowhere = (out.path() / "nowhere").string();
   struct Case {
     std::vector<std::string> command;
@@ -126,7 +126,7 @@ TEST(EndToEnd, EveryProgramNamesItselfWhereItsArgumentsAreWrong) {
 }
 
 TEST(EndToEnd, ARunEndsWithWhatCameOut) {
-  const TemporaryDirectory out;
+  const ScratchFolder out;
   const auto scene = write_file(out.path() / "scene.json", R"({
     "rods": { "length": "2.5 mm", "area_fraction": 0.5 }, "box": { "side": "10 mm" },
     "time": { "measure": "100 ms" }, "measure": { "order": { "every": "1 ms" } } })");
@@ -140,7 +140,7 @@ TEST(EndToEnd, ARunEndsWithWhatCameOut) {
 }
 
 TEST(EndToEnd, AQuietDaemonKeepsItsLogToItsFile) {
-  const TemporaryDirectory root;
+  const ScratchFolder root;
   Process daemon({program("shakend"), "--root", root.path().string(), "--no-lcm", "--quiet"}, root.path() / "stdout");
   ASSERT_TRUE(daemon.wait_for("shakend ready", seconds(20))) << daemon.output();
   daemon.signal(SIGTERM);
@@ -155,7 +155,7 @@ TEST(EndToEnd, AQuietDaemonKeepsItsLogToItsFile) {
 
 TEST(EndToEnd, SweepIsRunStreamedTabledPlottedAndDrawn) {
   Daemon daemon;
-  const TemporaryDirectory out;
+  const ScratchFolder out;
   std::unique_ptr<Process> recorder;
   if (own_network()) {
     recorder = std::make_unique<Process>(std::vector<std::string>{program("lcm_recorder"), daemon.url()},
@@ -293,7 +293,7 @@ TEST(EndToEnd, SweepIsRunStreamedTabledPlottedAndDrawn) {
 
 TEST(EndToEnd, KilledWorkerIsStartedAgainAndTheDaemonGoesOn) {
   Daemon daemon;
-  const TemporaryDirectory out;
+  const ScratchFolder out;
   const std::string scene =
       R"({"rods": {"length": "2.5 mm", "area_fraction": 0.5}, "box": {"side": "12 mm"}, "time": {"measure": "%"}})";
   const auto with_time = [&](const std::string& time) { return std::string(scene).replace(scene.find('%'), 1, time); };
@@ -340,7 +340,7 @@ TEST(EndToEnd, SecondDaemonRefusesAndNamesTheFirst) {
 
 TEST(EndToEnd, StoppedDaemonGoesOnWhereItWas) {
   Daemon daemon;
-  const TemporaryDirectory out;
+  const ScratchFolder out;
   // long enough to be stopped half way, short enough to be finished
   const auto file = write_file(out.path() / "scene.json", R"({"rods": {"length": "2.5 mm", "area_fraction": 0.5},
     "box": {"side": "12 mm"}, "time": {"measure": "3 s"}, "trajectory": {"every": "20 ms"}})");
@@ -367,7 +367,7 @@ TEST(EndToEnd, StoppedDaemonGoesOnWhereItWas) {
 
 TEST(EndToEnd, ASweepOfSobolPointsGrowsByTheNewOnes) {
   Daemon daemon;
-  const TemporaryDirectory out;
+  const ScratchFolder out;
   const auto with_points = [&](int n) {
     return write_file(out.path() / "sweep.json", R"({ "$schema": "sweep.schema.json", "name": "space",
       "scene": { "rods": { "length": "2.5 mm", "area_fraction": 0.3 }, "box": { "side": "8 mm" },
@@ -387,7 +387,7 @@ TEST(EndToEnd, ASweepOfSobolPointsGrowsByTheNewOnes) {
 }
 
 TEST(EndToEnd, MalformedSceneTellsEveryMistakeAtOnce) {
-  const TemporaryDirectory out;
+  const ScratchFolder out;
   const auto file = write_file(out.path() / "bad.json", R"({
   "rods": { "lenght": "4.5 mm", "area_fraction": 1.7 },
   "box": { "side": "83.73 kg" },
@@ -402,7 +402,7 @@ TEST(EndToEnd, MalformedSceneTellsEveryMistakeAtOnce) {
 }
 
 TEST(EndToEnd, WhatCannotBePlacedIsRefusedByEveryVerbInTheSameWords) {
-  const TemporaryDirectory out;
+  const ScratchFolder out;
   const auto file = write_file(out.path() / "dense.json", R"({"rods": {"area_fraction": 0.915}, "box": {"side": 25}})");
   const auto directory = out.path() / "run";
   const std::vector<std::vector<std::string>> verbs{

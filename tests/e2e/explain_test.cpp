@@ -34,7 +34,7 @@ class Explain : public ::testing::Test {
   }
   std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
 
-  TemporaryDirectory folder_;
+  ScratchFolder folder_;
 };
 
 constexpr const char* kScene = R"({

@@ -56,7 +56,7 @@ class ExportedFiles : public testing::Test {
     return run_command(arguments);
   }
 
-  TemporaryDirectory folder_;
+  ScratchFolder folder_;
 };
 
 TEST_F(ExportedFiles, AreReadByOthersAsTheRun) {

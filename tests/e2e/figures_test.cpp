@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 const std::string kShaken = SHAKEN_BIN_DIR "/shaken";
 
-std::vector<std::string> command(const TemporaryDirectory& root, std::vector<std::string> words) {
+std::vector<std::string> command(const ScratchFolder& root, std::vector<std::string> words) {
   words.insert(words.begin(), {kShaken, "--root", root.path().string(), "figures", "--scale", "tiny", "--configs",
                                SHAKEN_SOURCE_DIR "/configs"});
   return words;
@@ -49,7 +49,7 @@ std::set<fs::path> runs_under(const fs::path& root) {
 }
 
 TEST(Figures, TinyScaleMakesEveryFigureAndGoesOnAfterAnInterruption) {
-  const TemporaryDirectory root, out;
+  const ScratchFolder root, out;
   const fs::path folder = out.path() / "figures";
   {
     Process first(command(root, {"-o", folder.string()}), out.path() / "first.txt");
@@ -108,7 +108,7 @@ TEST(Figures, TinyScaleMakesEveryFigureAndGoesOnAfterAnInterruption) {
 }
 
 TEST(Figures, WhatWouldFailAfterHoursFailsAtOnce) {
-  const TemporaryDirectory root, out;
+  const ScratchFolder root, out;
   std::ofstream(out.path() / "plain.md") << "no marks\n";
   const std::string blocked = (out.path() / "plain.md" / "below-a-file").string();
   const Finished refused = run_command(command(root, {"-o", blocked, "--report", (out.path() / "plain.md").string()}));
@@ -124,7 +124,7 @@ TEST(Figures, WhatWouldFailAfterHoursFailsAtOnce) {
 }
 
 TEST(Figures, ADaemonThatDiesIsStartedAgain) {
-  const TemporaryDirectory root, out;
+  const ScratchFolder root, out;
   Process figures(command(root, {"8", "-o", (out.path() / "figures").string()}), out.path() / "out.txt");
   ASSERT_TRUE(figures.wait_for("0/2 runs", std::chrono::seconds(60))) << figures.output();
   const Finished status = run_command(
@@ -136,7 +136,7 @@ TEST(Figures, ADaemonThatDiesIsStartedAgain) {
 }
 
 TEST(Figures, SaysWhatIsQueuedBeforeIt) {
-  const TemporaryDirectory root, out;
+  const ScratchFolder root, out;
   Process figures(command(root, {"8", "-o", (out.path() / "figures").string()}), out.path() / "out.txt");
   ASSERT_TRUE(figures.wait_for("0/2 runs", std::chrono::seconds(60))) << figures.output();
   EXPECT_THAT(figures.output(), Not(HasSubstr("were queued here before")));
@@ -148,7 +148,7 @@ TEST(Figures, SaysWhatIsQueuedBeforeIt) {
 }
 
 TEST(Figures, WrongWordsAreAllTold) {
-  const TemporaryDirectory root;
+  const ScratchFolder root;
   const Finished refused = run_command({kShaken, "figures", "17", "layers?", "--scale", "huge"});
   EXPECT_EQ(refused.code, 2);
   for (const char* word : {"17", "layers?", "huge", "larger-box"}) EXPECT_THAT(refused.output, HasSubstr(word));

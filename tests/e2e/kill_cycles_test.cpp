@@ -98,7 +98,7 @@ void wait_until(const std::function<bool()>& condition, seconds limit) {
 
 TEST(KillCycles, WhatTheDaemonHasAcknowledgedIsDoneOnce) {
   const int n_cycles = cycles(100);
-  const TemporaryDirectory folder;
+  const ScratchFolder folder;
   const fs::path& root = folder.path();
   std::mt19937 random(7);
   std::set<std::string> acknowledged;

@@ -24,7 +24,7 @@ std::string address_in(const std::string& output) {
 
 TEST(Page, IsUsedInABrowser) {
   const bool live = std::getenv("SHAKEN_OWN_NETWORK") != nullptr;
-  const TemporaryDirectory folder;
+  const ScratchFolder folder;
   const std::string root = (folder.path() / "root").string();
   std::vector<std::string> command{program("shakend"), "--root", root, "--slots", "2", "--web", "--web-port", "0"};
   if (!live) command.emplace_back("--no-lcm");
@@ -56,7 +56,7 @@ TEST(Page, IsUsedInABrowser) {
 }
 
 TEST(Page, IsStartedAgainWhereItEnds) {
-  const TemporaryDirectory folder;
+  const ScratchFolder folder;
   const std::string root = (folder.path() / "root").string();
   Process daemon({program("shakend"), "--root", root, "--no-lcm", "--web", "--web-port", "0"}, folder.path() / "log");
   ASSERT_TRUE(daemon.wait_for("#token=", 20s)) << daemon.output();
@@ -75,7 +75,7 @@ TEST(Page, IsStartedAgainWhereItEnds) {
 }
 
 TEST(Page, NeedsADaemon) {
-  const TemporaryDirectory folder;
+  const ScratchFolder folder;
   const Finished alone = run_command({program("shaken"), "--root", folder.path().string(), "web"});
   EXPECT_EQ(alone.code, 3) << alone.output;
   EXPECT_THAT(alone.output, HasSubstr("start shakend"));

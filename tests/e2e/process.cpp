@@ -74,21 +74,10 @@ bool Process::wait_for(const std::string& text, std::chrono::seconds limit) {
 }
 
 Finished run_command(const std::vector<std::string>& command, std::chrono::seconds limit) {
-  const TemporaryDirectory directory;
+  const ScratchFolder directory;
   Process process(command, directory.path() / "output");
   const int code = process.wait(limit);
   return {code, process.output()};
-}
-
-TemporaryDirectory::TemporaryDirectory() {
-  char name[] = "/tmp/shaken-test.XXXXXX";
-  if (mkdtemp(name) == nullptr) throw std::runtime_error("no temporary directory");
-  path_ = name;
-}
-
-TemporaryDirectory::~TemporaryDirectory() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
 }
 
 }  // namespace shaken::test

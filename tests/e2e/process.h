@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "base/scratch_folder.h"
+
 namespace shaken::test {
 
 /// A child process whose stdout and stderr go to files. Killed if still alive at the end.
@@ -42,18 +44,5 @@ struct Finished {
   std::string output;  ///< stdout and stderr
 };
 Finished run_command(const std::vector<std::string>& command, std::chrono::seconds limit = std::chrono::seconds(60));
-
-/// A directory that goes when the object goes; its path is short enough for a Unix socket.
-class TemporaryDirectory {
- public:
-  TemporaryDirectory();
-  TemporaryDirectory(const TemporaryDirectory&) = delete;
-  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
-  ~TemporaryDirectory();
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace shaken::test

@@ -80,7 +80,7 @@ class RelayedRun : public ::testing::Test {
     EXPECT_EQ(recorder.wait(seconds(20)), 0);
     return heard(recorder);
   }
-  TemporaryDirectory folder_;
+  ScratchFolder folder_;
   std::string address_ = free_address();
   std::string url_ = "tcpq://" + address_;
   std::unique_ptr<Process> daemon_;

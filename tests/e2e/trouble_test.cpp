@@ -41,7 +41,7 @@ class Trouble : public testing::Test {
   }
   std::filesystem::path file(const char* name) const { return std::filesystem::path(run_) / name; }
 
-  TemporaryDirectory directory_;
+  ScratchFolder directory_;
   std::string run_;
 };
 

@@ -195,7 +195,7 @@ class WatchOnATerminal : public ::testing::Test {
   std::string root() const { return directory_.path().string(); }
   std::vector<std::string> watch_command() const { return {program_in("shaken"), "watch", "--root", root()}; }
 
-  TemporaryDirectory directory_;
+  ScratchFolder directory_;
   std::unique_ptr<Process> daemon_;
 };
 

@@ -4,17 +4,10 @@
 
 #include "sim/balance.h"
 #include "sim/simulation.h"
+#include "tests/support/short_rods.h"
 
 namespace shaken {
 namespace {
-
-System base_scene() {
-  System system;
-  system.rod = {.length = 2.5, .n_beads = 9};
-  system.box_side = 12;
-  system.n_rods = 74;
-  return system;
-}
 
 double potential_energy(const World& world) {
   double sum = 0;
@@ -29,7 +22,7 @@ Vec3 momentum(const World& world) {
 }
 
 TEST(Conservation, MomentumInThePlaneWithoutPlateFriction) {
-  System system = base_scene();
+  System system = test::short_rods(74);
   system.rod_base.friction = 0;
   system.rod_lid.friction = 0;
   auto simulation = Simulation::start(system);
@@ -47,7 +40,7 @@ TEST(Conservation, MomentumInThePlaneWithoutPlateFriction) {
 
 TEST(Conservation, PlateFrictionDoesTakeMomentum) {
   // the twin that shows that the test above can fail
-  System system = base_scene();
+  System system = test::short_rods(74);
   auto simulation = Simulation::start(system);
   ASSERT_TRUE(static_cast<bool>(simulation));
   const Vec3 start = momentum(simulation->world());
@@ -57,7 +50,7 @@ TEST(Conservation, PlateFrictionDoesTakeMomentum) {
 }
 
 TEST(Conservation, EnergyNeverGrowsBetweenPlatesAtRest) {
-  System system = base_scene();
+  System system = test::short_rods(74);
   system.amplitude = 0;
   system.gravity = 0;
   auto simulation = Simulation::start(system);
@@ -74,7 +67,7 @@ TEST(Conservation, EnergyNeverGrowsBetweenPlatesAtRest) {
 }
 
 TEST(Conservation, UnderGravityRodsAtRestAreHeldUpByNoMoreThanAFallOfOneTick) {
-  System system = base_scene();
+  System system = test::short_rods(74);
   system.amplitude = 0;
   auto simulation = Simulation::start(system);
   ASSERT_TRUE(static_cast<bool>(simulation));
@@ -92,7 +85,7 @@ TEST(Conservation, UnderGravityRodsAtRestAreHeldUpByNoMoreThanAFallOfOneTick) {
 }
 
 TEST(Conservation, ElasticFrictionlessRodsBetweenPlatesAtRestKeepTheirEnergy) {
-  System system = base_scene();
+  System system = test::short_rods(74);
   system.amplitude = 0;
   system.rod_rod = system.rod_base = system.rod_lid = {0.0, 1.0};
   auto simulation = Simulation::start(system);
@@ -105,7 +98,7 @@ TEST(Conservation, ElasticFrictionlessRodsBetweenPlatesAtRestKeepTheirEnergy) {
 }
 
 TEST(Conservation, FrictionlessContactsNeverTurnARodAboutItsAxis) {
-  System system = base_scene();
+  System system = test::short_rods(74);
   system.rod_rod.friction = system.rod_base.friction = system.rod_lid.friction = 0;
   auto simulation = Simulation::start(system);
   ASSERT_TRUE(static_cast<bool>(simulation));
@@ -116,7 +109,7 @@ TEST(Conservation, FrictionlessContactsNeverTurnARodAboutItsAxis) {
 TEST(Overlap, ShrinksWithTheTick) {
   double last = 1e9;
   for (const double dt : {16e-6, 4e-6, 1e-6}) {
-    System system = base_scene();
+    System system = test::short_rods(74);
     system.dt = dt;
     auto simulation = Simulation::start(system);
     ASSERT_TRUE(static_cast<bool>(simulation));
@@ -130,7 +123,7 @@ TEST(Overlap, ShrinksWithTheTick) {
 
 TEST(Trouble, DeepOverlapStopsWithTickAndRods) {
   // a tick in which a rod crosses half the gap: nobody should believe what follows, and nobody is asked to
-  System system = base_scene();
+  System system = test::short_rods(74);
   system.dt = 4e-3;
   auto simulation = Simulation::start(system);
   ASSERT_TRUE(static_cast<bool>(simulation));

@@ -5,19 +5,12 @@
 #include "sim/balance.h"
 #include "sim/motion/side_walls.h"
 #include "sim/simulation.h"
+#include "tests/support/short_rods.h"
 
 namespace shaken {
 namespace {
 
 constexpr double kRounding = 1e-11;  ///< of all energy that changed hands; 1e5 impacts, each right to 1e-16
-
-System rods() {
-  System system;
-  system.rod = {.length = 2.5, .n_beads = 9};
-  system.box_side = 12;
-  system.n_rods = 60;
-  return system;
-}
 
 struct Case {
   const char* name;
@@ -27,7 +20,7 @@ struct Case {
 class LedgerOf : public testing::TestWithParam<Case> {};
 
 TEST_P(LedgerOf, Closes) {
-  System system = rods();
+  System system = test::short_rods(60);
   GetParam().set(system);
   auto simulation = Simulation::start(system);
   ASSERT_TRUE(static_cast<bool>(simulation)) << simulation.error().message;
@@ -94,7 +87,7 @@ InThePlane in_the_plane(const World& world) {
 
 /// 30 rods in a disc without friction, that lose little to each other.
 System rods_in_a_disc() {
-  System system = rods();
+  System system = test::short_rods(60);
   system.walls = SideWalls{Arena::kDisc, 11.0, 1.0, {0.0, 0.9}};
   system.n_rods = 30;
   system.rod_rod = {0.0, 0.9};

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "sim/simulation.h"
+#include "tests/support/short_rods.h"
 
 namespace shaken {
 namespace {
@@ -20,10 +21,7 @@ namespace {
 constexpr double kGravity = 9810.0;
 
 System scene_of_one(double noise, std::uint64_t seed) {
-  System system;
-  system.rod = {.length = 2.5, .n_beads = 9};
-  system.n_rods = 1;
-  system.box_side = 12;
+  System system = test::short_rods(1);
   system.rod_base.friction = system.rod_lid.friction = 0;
   system.rotational_noise = noise;
   system.seed = seed;
@@ -190,10 +188,7 @@ struct Turned {
 
 /// Of 60 rods in a dilute gas between plates of the usual friction, in 40 stretches of half a second.
 Turned turned(double noise) {
-  System system;
-  system.rod = {.length = 2.5, .n_beads = 9};
-  system.n_rods = 60;
-  system.box_side = 30;
+  System system = test::short_rods(60, 30);
   system.start = Start::kRandom;
   system.rotational_noise = noise;
   auto simulation = Simulation::start(system);

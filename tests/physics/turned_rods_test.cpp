@@ -11,6 +11,7 @@
 #include "sim/simulation.h"
 #include "sim/stepping/surface_impacts.h"
 #include "tests/support/random_rods.h"
+#include "tests/support/short_rods.h"
 
 namespace shaken {
 namespace {
@@ -52,13 +53,13 @@ TEST_P(TurnedRods, FlyTheSameDownToTheLastBit) {
     turn_end_for_end(turned.rods[i]);
     sign[i] = -1.0;
   }
-  for (const Engine engine : {Engine::kScheduled, Engine::kReference}) {
+  for (const StepperKind stepper : {StepperKind::kScheduled, StepperKind::kReference}) {
     World one = world;
     World other = turned;
-    one.system.engine = other.system.engine = engine;
+    one.system.stepper = other.system.stepper = stepper;
     Simulation plain = Simulation::start_from(one);
     Simulation twin = Simulation::start_from(other);
-    const Tick ticks = engine == Engine::kScheduled ? 20000 : 4000;
+    const Tick ticks = stepper == StepperKind::kScheduled ? 20000 : 4000;
     for (const Tick k : {ticks / 20, ticks / 4, ticks}) {
       ASSERT_FALSE(plain.advance_to(k).has_value());
       ASSERT_FALSE(twin.advance_to(k).has_value());
@@ -163,11 +164,7 @@ struct TwofoldHit {
 };
 
 TEST(TurnedRods, PlatesPushApolarRodsNeitherWayAndTiltedOnesOppositely) {
-  System system;
-  system.rod = {.length = 2.5, .n_beads = 9};
-  system.n_rods = 1;
-  system.box_side = 20;
-  const World world = empty_world(system);
+  const World world = empty_world(test::short_rods(1, 20));
   const TickRules rules(world);
   test::Draw draw(41);
   Mean push, size, up, down;  // v . n that a tick gives: mean, mean size, where n points up and where it points down

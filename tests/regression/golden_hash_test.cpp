@@ -25,7 +25,7 @@ System scene_of(double length, double side, int n_rods) {
   return system;
 }
 
-/// A scene with so much of everything that little of the engine is left out.
+/// A scene with so much of everything that little of the simulator is left out.
 System mixed(Arena arena) {
   System system = scene_of(2.5, 14, 0);
   system.added = {AddedRods{{.length = 3.0, .mid_diameter = 0.9, .n_beads = 11, .profile = Profile::kPolar}, 8},

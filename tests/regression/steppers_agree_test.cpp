@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The main test of the engine: the scheduled stepper gives bitwise the reference stepper's trajectory.
+// The main test of the steppers: the scheduled stepper gives bitwise the reference stepper's trajectory.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 

@@ -83,9 +83,9 @@ inline Compared compare_threads(const System& system, Tick ticks) {
 /// at tick `stop`; ticks are counted from where the world is.
 inline Compared compare(World world, Tick ticks, Tick stop) {
   const Tick begin = world.tick;
-  world.system.engine = Engine::kReference;
+  world.system.stepper = StepperKind::kReference;
   Simulation reference = Simulation::start_from(world);
-  world.system.engine = Engine::kScheduled;
+  world.system.stepper = StepperKind::kScheduled;
   const System system = world.system;
   Simulation scheduled = Simulation::start_from(std::move(world));
   std::vector<Tick> looks{1, 2, stop, ticks / 2, ticks};

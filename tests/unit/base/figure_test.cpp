@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "base/process.h"
-#include "tests/unit/run/temporary_folder.h"
+#include "base/scratch_folder.h"
 
 namespace shaken {
 namespace {
@@ -53,7 +53,7 @@ TEST(PlotHead, SizesInPixelsOrCentimetres) {
 
 TEST(Sheet, DrawsPlotsMapsAndPicturesOnOnePage) {
   if (run_captured({"gnuplot", "--version"}).exit_code != 0) GTEST_SKIP() << "no gnuplot";
-  const run::TemporaryFolder folder;
+  const ScratchFolder folder;
   const Figure plot{
       .name = "inner", .x_title = "x", .y_title = "y", .curves = {{.label = "a", .x = {1, 2}, .y = {3, 4}}}};
   const auto picture = draw(plot, folder.path());
@@ -76,7 +76,7 @@ TEST(Sheet, DrawsPlotsMapsAndPicturesOnOnePage) {
 // One key in a row explains all panels of the row that have the same curves; their axes stand at one height.
 TEST(Sheet, AKeyIsNotRepeatedWithinARow) {
   if (run_captured({"gnuplot", "--version"}).exit_code != 0) GTEST_SKIP() << "no gnuplot";
-  const run::TemporaryFolder folder;
+  const ScratchFolder folder;
   const auto panel = [](const std::string& label) {
     return Figure{.x_title = "x", .y_title = "y", .curves = {{.label = label, .x = {1, 2}, .y = {3, 4}}}};
   };

@@ -3,15 +3,14 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/unit/run/temporary_folder.h"
+#include "base/scratch_folder.h"
+#include "tests/support/in_child.h"
 
 namespace shaken {
 namespace {
 
-using run::in_child, run::limit_file_size, run::TemporaryFolder;
-
 TEST(AtomicFile, ReplacesTheWholeContent) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const auto file = folder / "state.json";
   EXPECT_TRUE(write_file_atomically(file, "a long first version"));
   EXPECT_TRUE(write_file_atomically(file, std::string("short\0with NUL", 14)));
@@ -20,7 +19,7 @@ TEST(AtomicFile, ReplacesTheWholeContent) {
 }
 
 TEST(AtomicFile, SaysWhichFileCannotBeWritten) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const auto done = write_file_atomically(folder / "missing" / "state.json", "x");
   ASSERT_FALSE(done);
   EXPECT_NE(done.error().message.find("missing/state.json"), std::string::npos) << done.error().message;
@@ -28,14 +27,14 @@ TEST(AtomicFile, SaysWhichFileCannotBeWritten) {
 }
 
 TEST(AtomicFile, RefusesToReplaceAFolderAndLeavesNothingBehind) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   std::filesystem::create_directories(folder / "state.json" / "inside");
   EXPECT_FALSE(write_file_atomically(folder / "state.json", "x"));
   EXPECT_FALSE(std::filesystem::exists(folder / "state.json.tmp"));
 }
 
 TEST(AtomicFile, FullDiskKeepsTheOldContent) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const auto file = folder / "state.json";
   ASSERT_TRUE(write_file_atomically(file, "old"));
   const int failures = in_child([&] {
@@ -49,7 +48,7 @@ TEST(AtomicFile, FullDiskKeepsTheOldContent) {
 }
 
 TEST(ReplacementFile, TakesThePlaceOfTheOldContentOnlyAtItsEnd) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const auto file = folder / "frames.xyz";
   ASSERT_TRUE(write_file_atomically(file, "old"));
   auto next = ReplacementFile::create(file);
@@ -63,7 +62,7 @@ TEST(ReplacementFile, TakesThePlaceOfTheOldContentOnlyAtItsEnd) {
 }
 
 TEST(ReplacementFile, GoesWithoutATraceWhenItIsNotFinished) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const auto file = folder / "frames.xyz";
   ASSERT_TRUE(write_file_atomically(file, "old"));
   {
@@ -77,7 +76,7 @@ TEST(ReplacementFile, GoesWithoutATraceWhenItIsNotFinished) {
 }
 
 TEST(ReplacementFile, SaysWhichFileCannotBeWritten) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const auto nowhere = ReplacementFile::create(folder / "missing" / "frames.xyz");
   ASSERT_FALSE(nowhere);
   EXPECT_NE(nowhere.error().message.find("missing/frames.xyz"), std::string::npos) << nowhere.error().message;
@@ -93,7 +92,7 @@ TEST(ReplacementFile, SaysWhichFileCannotBeWritten) {
 }
 
 TEST(AtomicFile, MissingFileCannotBeRead) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const auto content = read_file(folder / "nothing");
   ASSERT_FALSE(content);
   EXPECT_NE(content.error().message.find("nothing"), std::string::npos);

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "bench/accuracy/accuracy.h"
-#include "bench/accuracy/fits.h"
 #include "bench/accuracy/observables.h"
+#include "bench/fits.h"
 
 namespace shaken::bench {
 namespace {

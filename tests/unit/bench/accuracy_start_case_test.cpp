@@ -20,7 +20,7 @@ TEST(StartCases, BeginApartAndThenHit) {
     for (int member = 0; member < 3; ++member) {
       const std::vector<Flight> rods = start.rods(member);
       ASSERT_EQ(rods.size(), static_cast<std::size_t>(start.scene.n_rods)) << start.name;
-      Simulation simulation = begin(start, rods, variants().front(), Engine::kScheduled, 1e-6);
+      Simulation simulation = begin(start, rods, variants().front(), StepperKind::kScheduled, 1e-6);
       if (start.name != "hundred") {  // which is caught in the middle of its motion
         ASSERT_FALSE(simulation.advance_to(1));
         EXPECT_EQ(simulation.world().counters.max_overlap(), 0) << start.name << " begins with an overlap";
@@ -42,8 +42,8 @@ TEST(StartCases, AreTheSameAtAnyStep) {
   // up to the first impact flight is exact, whatever the step
   const StartCase& start = start_cases().front();
   const std::vector<Flight> rods = start.rods(0);
-  Simulation coarse = begin(start, rods, variants().front(), Engine::kReference, kLongestStep);
-  Simulation fine = begin(start, rods, variants().front(), Engine::kScheduled, kLongestStep / 16);
+  Simulation coarse = begin(start, rods, variants().front(), StepperKind::kReference, kLongestStep);
+  Simulation fine = begin(start, rods, variants().front(), StepperKind::kScheduled, kLongestStep / 16);
   ASSERT_FALSE(coarse.advance_to(4));
   ASSERT_FALSE(fine.advance_to(64));
   EXPECT_LT((coarse.snapshot().position[0] - fine.snapshot().position[0]).norm(), 1e-13);

@@ -8,7 +8,7 @@
 
 #include "base/failure.h"
 #include "base/files.h"
-#include "tests/unit/run/temporary_folder.h"
+#include "base/scratch_folder.h"
 
 namespace shaken::bench {
 namespace {
@@ -46,7 +46,7 @@ class SteadyStates : public ::testing::Test {
   static void write(const std::filesystem::path& file, const std::string& text) {
     std::ofstream(file, std::ios::binary) << text;
   }
-  run::TemporaryFolder cache_;
+  ScratchFolder cache_;
 };
 
 TEST_F(SteadyStates, AreMadeOnceAndThenReadBack) {
@@ -55,7 +55,7 @@ TEST_F(SteadyStates, AreMadeOnceAndThenReadBack) {
   const SteadyState read = steady_state(small_case(), cache_.path());
   EXPECT_TRUE(read.was_cached);
   EXPECT_EQ(read.checkpoint, made.checkpoint);
-  EXPECT_EQ(resumed(small_case(), read, Engine::kReference).tick(), small_case().warm_up_ticks());
+  EXPECT_EQ(resumed(small_case(), read, StepperKind::kReference).tick(), small_case().warm_up_ticks());
 }
 
 TEST_F(SteadyStates, OfAnotherWarmUpAreOthers) {
@@ -79,7 +79,7 @@ TEST_F(SteadyStates, DamagedAreMadeAnew) {
 TEST_F(SteadyStates, OfAnotherSceneUnderOurNameAreMadeAnew) {
   const SteadyState made = steady_state(small_case(), cache_.path());
   const std::filesystem::path ours = file();
-  run::TemporaryFolder elsewhere;
+  ScratchFolder elsewhere;
   steady_state(small_case(0.003), elsewhere.path());
   write(ours, content(file_in(elsewhere.path())));
   const SteadyState again = steady_state(small_case(), cache_.path());

@@ -117,7 +117,7 @@ TEST(Report, SaysWhatIsNotTheSteadyState) {
   EXPECT_THAT(speed_report(conditions, {scene()}).text, Not(HasSubstr("NOT the steady state")));
 }
 
-TEST(Report, SaysIfTheEnginesDiffer) {
+TEST(Report, SaysIfTheSteppersDiffer) {
   SceneSpeed differs = scene();
   EXPECT_THAT(speed_report({}, {differs}).text, Not(HasSubstr("NO\n")));
   check_states(speed_report({}, {differs}), "they differ");

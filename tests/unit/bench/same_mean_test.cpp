@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "bench/hard/hard.h"
+#include "bench/fits.h"
 #include "sim/core/rng.h"
 
 namespace shaken::bench {

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "base/clock.h"
+#include "base/scratch_folder.h"
 #include "bench/speed.h"
-#include "tests/unit/run/temporary_folder.h"
 
 namespace shaken::bench {
 namespace {
@@ -16,7 +16,7 @@ class SmallBox : public ::testing::Test {
     case_ = make_case(4.5, 0.6, 12, kPaperStep, 0.01);
     state_ = steady_state(case_, cache_.path());
   }
-  run::TemporaryFolder cache_;
+  ScratchFolder cache_;
   Case case_;
   SteadyState state_;
 };
@@ -28,9 +28,9 @@ TEST(CpuClock, ReadingsCostNextToNothing) {
 }
 
 TEST_F(SmallBox, AStretchCountsWhatHappensInIt) {
-  Simulation simulation = resumed(case_, state_, Engine::kScheduled);
+  Simulation simulation = resumed(case_, state_, StepperKind::kScheduled);
   const Counters before = simulation.world().counters;
-  EngineSpeed speed;
+  StepperSpeed speed;
   time_stretch(simulation, case_, 1250, speed);
   const Counters after = simulation.world().counters;
   EXPECT_EQ(simulation.tick(), case_.warm_up_ticks() + 1250);
@@ -44,7 +44,7 @@ TEST_F(SmallBox, AStretchCountsWhatHappensInIt) {
 }
 
 TEST_F(SmallBox, LongStretchesAreWholeVibrations) {
-  const Tick ticks = ticks_for(0.02, case_, state_, Engine::kScheduled);
+  const Tick ticks = ticks_for(0.02, case_, state_, StepperKind::kScheduled);
   EXPECT_GE(ticks, 1);
   EXPECT_TRUE(ticks < case_.period_ticks() || ticks % case_.period_ticks() == 0) << ticks;
 }
@@ -52,7 +52,7 @@ TEST_F(SmallBox, LongStretchesAreWholeVibrations) {
 TEST_F(SmallBox, ContendersTakeTurnsFromTheirStates) {
   Contender one{.scene = case_, .state = state_, .ticks = 500};
   Contender other = one;
-  other.engine = Engine::kReference;
+  other.stepper = StepperKind::kReference;
   std::vector<Contender> both{one, other};
   time_in_turn("", both, 3);
   for (const Contender& of : both) {
@@ -64,7 +64,7 @@ TEST_F(SmallBox, ContendersTakeTurnsFromTheirStates) {
 }
 
 TEST(CpuRatio, IsOfTheBestWithAnErrorFromTheScatter) {
-  EngineSpeed of, other;
+  StepperSpeed of, other;
   of.rod_seconds = 2;
   other.rod_seconds = 4;
   of.cpu = {3, 1};
@@ -75,7 +75,7 @@ TEST(CpuRatio, IsOfTheBestWithAnErrorFromTheScatter) {
 }
 
 TEST_F(SmallBox, LowerBoundsAreLowAndPositive) {
-  const Simulation simulation = resumed(case_, state_, Engine::kScheduled);
+  const Simulation simulation = resumed(case_, state_, StepperKind::kScheduled);
   const std::uint64_t hash = simulation.state_hash();
   const LowerBounds bounds = measure_lower_bounds(simulation.world());
   EXPECT_GT(bounds.plate_impulse, 0);
@@ -83,7 +83,7 @@ TEST_F(SmallBox, LowerBoundsAreLowAndPositive) {
   EXPECT_GT(bounds.state_access, 0);
   EXPECT_LT(bounds.state_access, bounds.plate_impulse);
   EXPECT_LT(bounds.plate_impulse, 1e-4);
-  EngineSpeed speed;
+  StepperSpeed speed;
   speed.plate_impulses = 3;
   speed.rod_impulses = 4;
   EXPECT_EQ((LowerBounds{1, 2, 0}.impulses_alone(speed)), 11);

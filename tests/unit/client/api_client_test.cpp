@@ -41,7 +41,7 @@ TEST(ProblemText, NamesPlaceAndPath) {
 }
 
 TEST(ApiClient, GetsAndPosts) {
-  const TemporaryFolder root;
+  const ScratchFolder root;
   FakeDaemon daemon(root.path());
   daemon.on("GET /v1/status", R"({"version": "0.1.0"})");
   daemon.on("POST /v1/jobs/1f0c/cancel", R"({"cancelled": 1})");
@@ -53,7 +53,7 @@ TEST(ApiClient, GetsAndPosts) {
 }
 
 TEST(ApiClient, DaemonsWordsBecomeTheMessage) {
-  const TemporaryFolder root;
+  const ScratchFolder root;
   FakeDaemon daemon(root.path());
   daemon.on("GET /bad", {{400, R"({"error": "state: 'x' is none of queued"})"}});
   daemon.on("GET /broken", {{507, R"({"error": "the disk is full"})"}});
@@ -72,7 +72,7 @@ TEST(ApiClient, DaemonsWordsBecomeTheMessage) {
 }
 
 TEST(ApiClient, GarbageIsAFailureNotACrash) {
-  const TemporaryFolder root;
+  const ScratchFolder root;
   FakeDaemon daemon(root.path());
   ApiClient session(root.path());
   for (const char* body : {"", "hello", "[]", "{", "null", "{\"a\": \xff}"}) {
@@ -84,7 +84,7 @@ TEST(ApiClient, GarbageIsAFailureNotACrash) {
 }
 
 TEST(ApiClient, SocketWithoutListenerIsNoDaemon) {
-  const TemporaryFolder root;
+  const ScratchFolder root;
   // What a daemon that was killed leaves behind.
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
@@ -98,7 +98,7 @@ TEST(ApiClient, SocketWithoutListenerIsNoDaemon) {
 }
 
 TEST(FindTarget, SweepFirstThenJobThenNothing) {
-  const TemporaryFolder root;
+  const ScratchFolder root;
   FakeDaemon daemon(root.path());
   daemon.on("GET /v1/sweeps/phases",
             R"({"sweep": {"id": "s7", "name": "phases"}, "jobs": [{"id": "aa"}, {"id": "bb"}]})");

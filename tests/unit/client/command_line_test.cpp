@@ -104,7 +104,7 @@ TEST(BadArguments, AreAllExitCodeTwo) {
 }
 
 TEST(NoDaemon, IsExitCodeThreeAndSaysHowToStartOne) {
-  const TemporaryFolder root;
+  const ScratchFolder root;
   for (const char* verb : {"status", "watch", "wait", "results", "plot"}) {
     const Outcome outcome = run_client({"--root", root.path().string(), verb});
     EXPECT_EQ(outcome.code, ExitCode::kNoDaemon) << verb;
@@ -114,7 +114,7 @@ TEST(NoDaemon, IsExitCodeThreeAndSaysHowToStartOne) {
 }
 
 TEST(NoDaemon, RootMayStandBehindTheVerbAndInTheEnvironment) {
-  const TemporaryFolder root;
+  const ScratchFolder root;
   EXPECT_THAT(run_client({"status", "--root", root.path().string()}).err, HasSubstr(root.path().string()));
   setenv("SHAKEN_ROOT", root.path().c_str(), 1);
   EXPECT_THAT(run_client({"status"}).err, HasSubstr(root.path().string()));
@@ -139,7 +139,7 @@ TEST(NoDaemon, TooLongARootIsRefusedRatherThanCut) {
 }
 
 TEST(Validate, ListsEveryProblemAtOnce) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const std::string file = (folder.path() / "bad.json").string();
   std::ofstream(file) << R"({"rods": {"lenght": 4.5}, "box": {"gap": -1}})";
   const Outcome outcome = run_client({"validate", file});
@@ -155,7 +155,7 @@ TEST(Validate, ListsEveryProblemAtOnce) {
 }
 
 TEST(Validate, StarterSceneIsFineAndItsNumbersFollow) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const std::string file = (folder.path() / "scene.json").string();
   ASSERT_EQ(run_client({"init", file}).code, ExitCode::kOk);
   const Outcome summary = run_client({"validate", file});
@@ -169,7 +169,7 @@ TEST(Validate, StarterSceneIsFineAndItsNumbersFollow) {
 }
 
 TEST(Validate, ShowsThePackingOfEachSpeciesAndOfAll) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const std::string file = (folder.path() / "scene.json").string();
   std::ofstream(file)
       << R"({"rods": {"area_fraction": 0.3}, "rods_2": {"beads": 1, "count": 40}, "box": {"side": 40}})";
@@ -186,7 +186,7 @@ TEST(Validate, ShowsThePackingOfEachSpeciesAndOfAll) {
 }
 
 TEST(Validate, CountsTheFramesThatAMovieRecords) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const std::string file = (folder.path() / "scene.json").string();
   const auto frames = [&](const std::string& recorded) {
     std::ofstream(file) << R"({"time": {"steady": 0, "measure": 2})" << recorded << "}";
@@ -199,7 +199,7 @@ TEST(Validate, CountsTheFramesThatAMovieRecords) {
 }
 
 TEST(Validate, PlacesTheRods) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const std::string file = (folder.path() / "scene.json").string();
   std::ofstream(file) << R"({"rods": {"area_fraction": 0.915}, "box": {"side": 25}})";
   const Outcome outcome = run_client({"validate", file});
@@ -209,7 +209,7 @@ TEST(Validate, PlacesTheRods) {
 }
 
 TEST(Validate, RemarksOnWhatIsHardlyMeant) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const std::string file = (folder.path() / "scene.json").string();
   std::ofstream(file) << R"({"box": {"side": 25}, "trajectory": {"every": "20 s"}, "time": {"measure": "10 s"}})";
   const Outcome summary = run_client({"validate", file, "-s", "plates.gamma=0.5,7"});
@@ -222,7 +222,7 @@ TEST(Validate, RemarksOnWhatIsHardlyMeant) {
 }
 
 TEST(Init, DoesNotReplaceAFile) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const std::string file = (folder.path() / "scene.json").string();
   std::ofstream(file) << "mine";
   const Outcome outcome = run_client({"init", file});
@@ -249,7 +249,7 @@ TEST(Schema, IsPrintedOfScenesAndOfSweeps) {
 }
 
 TEST(Completion, BashScriptCompletesVerbsAndOptions) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const std::string script = (folder.path() / "shaken.bash").string();
   std::ofstream(script) << run_client({"completion", "bash"}).out;
   const auto completed = [&](const std::string& words, int index) {

@@ -8,17 +8,16 @@
 #include <streambuf>
 
 #include "base/files.h"
+#include "base/scratch_folder.h"
 #include "client/json.h"
 #include "run/files/frame_log.h"
 #include "run/files/observables_file.h"
 #include "tests/unit/client/fake_daemon.h"
 #include "tests/unit/client/run_client.h"
-#include "tests/unit/run/temporary_folder.h"
 
 namespace shaken::client {
 namespace {
 
-using run::TemporaryFolder;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
@@ -55,7 +54,7 @@ class ExportVerb : public ::testing::Test {
     return names;
   }
 
-  TemporaryFolder folder_;
+  ScratchFolder folder_;
   std::filesystem::path run_ = folder_ / "first";
 };
 
@@ -83,7 +82,7 @@ TEST_F(ExportVerb, WritesAFileOrPrints) {
 }
 
 TEST_F(ExportVerb, FindsAJobOfTheDaemon) {
-  const TemporaryFolder root;
+  const ScratchFolder root;
   FakeDaemon daemon(root.path());
   daemon.on("GET /v1/jobs/1f0c", Json{{"job", {{"id", "1f0c5e2a00000000"}, {"directory", run_.string()}}}}.dump());
   const Outcome outcome =

@@ -12,8 +12,6 @@
 
 namespace shaken::client {
 
-using TemporaryFolder = ScratchFolder;
-
 /// Answers requests on ROOT/shakend.sock with what was laid down for them. Everything else gets 404.
 class FakeDaemon {
  public:

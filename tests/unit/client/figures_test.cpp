@@ -185,7 +185,7 @@ TEST(SweepFigures, NothingSweptNothingDrawn) {
 
 TEST(Plot, DrawsARunDirectory) {
   if (!have_gnuplot()) GTEST_SKIP() << "no gnuplot";
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   std::ofstream(folder.path() / "scene.json") << "{}";
   ASSERT_TRUE(run::write_observables(folder.path() / "observables.h5", observables(0.4)));
   const Outcome outcome = run_client({"plot", folder.path().string(), "-o", (folder.path() / "out").string()});
@@ -204,7 +204,7 @@ TEST(Plot, DrawsARunDirectory) {
 
 TEST(Plot, DrawsASweepFromTheDaemon) {
   if (!have_gnuplot()) GTEST_SKIP() << "no gnuplot";
-  const TemporaryFolder root;
+  const ScratchFolder root;
   FakeDaemon daemon(root.path());
   Json jobs = Json::array();
   Json rows = Json::array();
@@ -260,7 +260,7 @@ TEST(Plot, DrawsASweepFromTheDaemon) {
 }
 
 TEST(Plot, NothingMeasuredIsAFailure) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   std::ofstream(folder.path() / "scene.json") << "{}";
   const Outcome outcome = run_client({"plot", folder.path().string()});
   EXPECT_EQ(outcome.code, ExitCode::kFailed);

@@ -73,7 +73,7 @@ TEST(PictureOptions, EachOfSeveralRunsHasItsHeadline) {
 }
 
 TEST(SweepInset, HasThePointsOfTheSweepAndWhereTheRunsAre) {
-  TemporaryFolder root;
+  ScratchFolder root;
   FakeDaemon daemon(root.path());
   Json rows = Json::array();
   const auto add = [&](const char* id, Json parameters, const Json& summary) {

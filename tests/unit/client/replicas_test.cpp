@@ -12,16 +12,6 @@ namespace {
 
 constexpr double kUnknown = NAN;
 
-TEST(MeanAndError, KnownAnswers) {
-  const std::vector<double> values{1, 2, 3, 4};
-  const Estimate result = mean_and_error(values);
-  EXPECT_DOUBLE_EQ(result.value, 2.5);
-  EXPECT_DOUBLE_EQ(result.sem, std::sqrt(5.0 / 3.0) / 2.0);
-  const std::vector<double> one{0.5};
-  EXPECT_DOUBLE_EQ(mean_and_error(one).value, 0.5);
-  EXPECT_TRUE(std::isnan(mean_and_error(one).sem));
-}
-
 TEST(StudentFactor, TabulatedValues) {
   EXPECT_NEAR(student_factor(2), 1.837, 0.025);
   EXPECT_NEAR(student_factor(3), 1.321, 0.002);

@@ -74,7 +74,7 @@ class Verbs : public ::testing::Test {
   }
   static std::string text(const Json& json) { return json.dump(); }
 
-  TemporaryFolder root_;
+  ScratchFolder root_;
   FakeDaemon daemon_{root_.path()};
 };
 

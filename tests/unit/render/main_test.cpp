@@ -83,7 +83,7 @@ TEST(RenderProgram, MovieReportsInJson) {
   EXPECT_EQ(said.at("frames"), 3);  // 1, 3 and 5
   EXPECT_EQ(said.at("width_px"), 320);
   EXPECT_GT(said.at("seconds"), 0);
-  EXPECT_EQ(folder.listing(), "frames movie.mp4 trajectory.h5");
+  EXPECT_EQ(listing(folder), "frames movie.mp4 trajectory.h5");
   EXPECT_TRUE(std::filesystem::exists(folder / "frames/frame_000002.png"));
 }
 
@@ -117,14 +117,14 @@ TEST(RenderProgram, TheEndingNamesTheFormat) {
   const std::string run = folder.path().string();
   EXPECT_EQ(run_program("movie " + run + " --size 128x128 --fps 10 -o " + (folder / "m.gif").string()).code, 0);
   EXPECT_EQ(run_program("picture " + run + " --size 128x128 -o " + (folder / "p.svg").string()).code, 0);
-  EXPECT_EQ(folder.listing(), "m.gif p.svg trajectory.h5");
+  EXPECT_EQ(listing(folder), "m.gif p.svg trajectory.h5");
   const Ended film = run_program("movie " + run + " -o " + (folder / "m.avi").string());
   EXPECT_EQ(film.code, 2);
   EXPECT_NE(film.said.find(".mp4, .webm or .gif"), std::string::npos) << film.said;
   const Ended picture = run_program("picture " + run + " -o " + (folder / "p.jpg").string());
   EXPECT_EQ(picture.code, 2);
   EXPECT_NE(picture.said.find(".png, .svg or .pdf"), std::string::npos) << picture.said;
-  EXPECT_EQ(folder.listing(), "m.gif p.svg trajectory.h5");
+  EXPECT_EQ(listing(folder), "m.gif p.svg trajectory.h5");
 }
 
 TEST(RenderProgram, EqualCallsGiveEqualFiles) {
@@ -268,7 +268,7 @@ TEST(RenderProgram, BadInputIsTwoFailureIsOne) {
   EXPECT_EQ(failed.code, 1);
   EXPECT_EQ(failed.said, "shaken-render: cannot write /nowhere/p.png: No such file or directory\n");
   EXPECT_EQ(run_program("movie " + run + " -o /nowhere/m.mp4").code, 1);
-  EXPECT_EQ(folder.listing(), "trajectory.h5");
+  EXPECT_EQ(listing(folder), "trajectory.h5");
 }
 
 TEST(RenderProgram, HelpAndVersion) {

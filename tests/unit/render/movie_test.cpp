@@ -106,7 +106,7 @@ std::string bytes_of(const std::filesystem::path& file) {
 TEST(Movie, DecodesToWhatWasPutIn) {
   const ScratchFolder folder;
   write_movie(folder / "m.mp4", 70, 25);
-  EXPECT_EQ(folder.listing(), "m.mp4");
+  EXPECT_EQ(listing(folder), "m.mp4");
   const Decoded movie = decode(folder / "m.mp4");
   EXPECT_EQ(movie.width, 128);
   EXPECT_EQ(movie.height, 96);
@@ -146,7 +146,7 @@ TEST(Movie, AnUnfinishedMovieLeavesNothingAndTheOldOneStays) {
     ASSERT_TRUE(movie);
     ASSERT_TRUE(movie->add(plain(128, 96, kColours[0])));
   }
-  EXPECT_EQ(folder.listing(), "m.mp4");
+  EXPECT_EQ(listing(folder), "m.mp4");
   EXPECT_EQ(bytes_of(folder / "m.mp4"), old);
 }
 
@@ -210,7 +210,7 @@ TEST(Movie, AGifIsAGif) {
   for (std::size_t i = 0; i < 6; ++i) ASSERT_TRUE(movie->add(plain(129, 96, kColours[i % 4])));
   const auto done = movie->finish();
   ASSERT_TRUE(done) << done.error().message;
-  EXPECT_EQ(folder.listing(), "m.gif");
+  EXPECT_EQ(listing(folder), "m.gif");
   const std::string bytes = bytes_of(folder / "m.gif");
   EXPECT_EQ(bytes.substr(0, 6), "GIF89a");
   EXPECT_EQ(bytes.back(), '\x3B');
@@ -245,7 +245,7 @@ TEST(Movie, OtherEndingsAreRefused) {
     ASSERT_FALSE(movie) << name;
     EXPECT_NE(movie.error().message.find(".mp4, .webm or .gif"), std::string::npos) << movie.error().message;
   }
-  EXPECT_EQ(folder.listing(), "");
+  EXPECT_EQ(listing(folder), "");
 }
 
 TEST(Movie, SaysWhereItComesFrom) {
@@ -313,7 +313,7 @@ TEST(MakeMovie, IsTheSameFileOnAnyNumberOfThreads) {
 TEST(MakeMovie, AFolderGetsNumberedFramesAndNoFilm) {
   const ScratchFolder folder;
   ASSERT_TRUE(make_movie((folder / "frames/").string(), small(), {}, 2, turning));
-  EXPECT_EQ(folder.listing(), "frames");
+  EXPECT_EQ(listing(folder), "frames");
   EXPECT_EQ(read_png(folder / "frames/frame_000001.png"), painter().paint(turning(1).value(), small()).value());
 }
 
@@ -330,7 +330,7 @@ TEST(MakeMovie, StoppingAndFailingFramesLeaveNoMovie) {
   ASSERT_FALSE(failed);
   EXPECT_EQ(failed.error().message, "torn");
   EXPECT_FALSE(make_movie((folder / "m.mp4").string(), small(), {}, 0, turning));
-  EXPECT_EQ(folder.listing(), "");
+  EXPECT_EQ(listing(folder), "");
 }
 
 }  // namespace

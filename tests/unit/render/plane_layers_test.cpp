@@ -202,7 +202,7 @@ TEST(VectorFigure, IsASvgOrAPdf) {
   measure(picture, {.defects = true, .field = true});
   PictureStyle style = bare("director");
   for (const char* name : {"a.svg", "a.pdf", "b.pdf"}) ASSERT_TRUE(write_vector(folder / name, picture, style));
-  EXPECT_EQ(folder.listing(), "a.pdf a.svg b.pdf");
+  EXPECT_EQ(listing(folder), "a.pdf a.svg b.pdf");
   EXPECT_EQ(bytes_of(folder / "a.pdf").substr(0, 5), "%PDF-");
   EXPECT_TRUE(bytes_of(folder / "a.pdf") == bytes_of(folder / "b.pdf")) << "not a word of when it was written";
   const std::string svg = bytes_of(folder / "a.svg");

@@ -41,7 +41,7 @@ TEST(Png, RoundTrip) {
     ASSERT_TRUE(write_png(folder / "a.png", image));
     EXPECT_EQ(read_png(folder / "a.png"), image);
   }
-  EXPECT_EQ(folder.listing(), "a.png");
+  EXPECT_EQ(listing(folder), "a.png");
 }
 
 /// Its colours as numbers; empty if it has not 16 bits a colour.
@@ -134,7 +134,7 @@ TEST(Png, ANameThatCannotBeTakenLeavesNothingBehind) {
   const auto done = write_png(folder / "a.png", pattern(8, 8));
   ASSERT_FALSE(done);
   EXPECT_NE(done.error().message.find("a.png"), std::string::npos);
-  EXPECT_EQ(folder.listing(), "a.png");
+  EXPECT_EQ(listing(folder), "a.png");
 }
 
 TEST(Png, AFullDiskIsAnError) {
@@ -142,7 +142,7 @@ TEST(Png, AFullDiskIsAnError) {
   const ScratchFolder folder;
   std::filesystem::create_symlink("/dev/full", folder / "a.png.tmp");
   ASSERT_FALSE(write_png(folder / "a.png", pattern(300, 300)));
-  EXPECT_EQ(folder.listing(), "");
+  EXPECT_EQ(listing(folder), "");
 }
 
 }  // namespace

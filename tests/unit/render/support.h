@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/scratch_folder.h"
 #include "render/image.h"
 #include "render/painter.h"
 #include "render/picture.h"
@@ -26,21 +27,8 @@ Painter& painter();
 /// Reads a PNG through libpng's simplified interface.
 Image read_png(const std::filesystem::path& file);
 
-/// A folder that goes away with the object.
-class ScratchFolder {
- public:
-  ScratchFolder();
-  ~ScratchFolder();
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  const std::filesystem::path& path() const { return path_; }
-  /// Names of all that is in it, sorted, with spaces between.
-  std::string listing() const;
-
- private:
-  std::filesystem::path path_;
-};
+/// Names of all that is in a folder, sorted, with spaces between.
+std::string listing(const ScratchFolder& folder);
 
 /// Writes DIR/trajectory.h5 with these frames, of the same rods.
 void plant_frames(const std::filesystem::path& directory, const std::vector<RodPicture>& frames,

@@ -4,7 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "base/files.h"
-#include "tests/unit/run/temporary_folder.h"
+#include "base/scratch_folder.h"
+#include "tests/support/in_child.h"
 
 namespace shaken::run {
 namespace {
@@ -28,7 +29,7 @@ void expect_same(const Checkpoint& a, const Checkpoint& b) {
 }
 
 TEST(CheckpointFile, ComesBackExactlyAndKeepsItsPredecessor) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const RunDirectory directory{folder.path()};
   ASSERT_TRUE(write_checkpoint(directory, kRun, example(1)));
   EXPECT_FALSE(std::filesystem::exists(directory.previous_checkpoint()));
@@ -39,7 +40,7 @@ TEST(CheckpointFile, ComesBackExactlyAndKeepsItsPredecessor) {
 }
 
 TEST(CheckpointFile, EmptyPartsAreFine) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   ASSERT_TRUE(write_checkpoint({folder.path()}, kRun, Checkpoint{}));
   expect_same(*read_checkpoint(RunDirectory{folder.path()}.checkpoint(), kRun), Checkpoint{});
 }
@@ -58,7 +59,7 @@ class DamagedCheckpoint : public testing::Test {
     }
     return !read;
   }
-  TemporaryFolder folder_;
+  ScratchFolder folder_;
   std::filesystem::path file_ = RunDirectory{folder_.path()}.checkpoint();
   std::string content_;
 };
@@ -81,7 +82,7 @@ TEST_F(DamagedCheckpoint, IsRefusedWithSomethingBehind) {
 }
 
 TEST(CheckpointFile, OfAnotherRunIsRefusedByName) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const RunDirectory directory{folder.path()};
   ASSERT_TRUE(write_checkpoint(directory, "fedcba9876543210", example()));
   const auto read = read_checkpoint(directory.checkpoint(), kRun);
@@ -90,7 +91,7 @@ TEST(CheckpointFile, OfAnotherRunIsRefusedByName) {
 }
 
 TEST(CheckpointFile, FullDiskLeavesBothPredecessors) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const RunDirectory directory{folder.path()};
   ASSERT_TRUE(write_checkpoint(directory, kRun, example(1)));
   ASSERT_TRUE(write_checkpoint(directory, kRun, example(2)));

@@ -3,13 +3,14 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/unit/run/temporary_folder.h"
+#include "base/scratch_folder.h"
+#include "tests/support/in_child.h"
 
 namespace shaken::run {
 namespace {
 
 TEST(DirectoryLock, KeepsOtherProcessesOutAndNamesTheOwner) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const auto lock = DirectoryLock::acquire(folder / "lock");
   ASSERT_TRUE(lock);
   const std::string owner = "process " + std::to_string(getpid());
@@ -21,7 +22,7 @@ TEST(DirectoryLock, KeepsOtherProcessesOutAndNamesTheOwner) {
 }
 
 TEST(DirectoryLock, IsNeverStale) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   // The child dies holding the lock.
   EXPECT_EQ(in_child([&] {
               auto lock = DirectoryLock::acquire(folder / "lock");
@@ -33,7 +34,7 @@ TEST(DirectoryLock, IsNeverStale) {
 }
 
 TEST(DirectoryLock, EndsWithItsObject) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   {
     auto lock = DirectoryLock::acquire(folder / "lock");
     ASSERT_TRUE(lock);
@@ -44,7 +45,7 @@ TEST(DirectoryLock, EndsWithItsObject) {
 }
 
 TEST(DirectoryLock, IsNotInheritedByPrograms) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   pid_t child = -1;
   {
     const auto lock = DirectoryLock::acquire(folder / "lock");

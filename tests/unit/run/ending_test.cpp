@@ -6,7 +6,7 @@
 
 #include <fstream>
 
-#include "tests/unit/run/temporary_folder.h"
+#include "base/scratch_folder.h"
 
 namespace shaken::run {
 namespace {
@@ -29,7 +29,7 @@ Json summary(const Json& steady) {
 }
 
 TEST(Ending, SaysWhatCameOutAndWhereItIs) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   std::ofstream(folder.path() / "summary.json") << "{}";
   const std::string text = describe_ending(summary(true), folder.path());
   EXPECT_THAT(text, HasSubstr("120 rods, 2 s, in 12 s of CPU time\n"));

@@ -8,12 +8,12 @@
 #include <random>
 
 #include "base/files.h"
+#include "base/scratch_folder.h"
 #include "run/export/columns.h"
 #include "run/export/frame_format.h"
 #include "run/export/frames.h"
 #include "run/files/frame_log.h"
 #include "run/files/quaternion.h"
-#include "tests/unit/run/temporary_folder.h"
 
 namespace shaken::run {
 namespace {
@@ -343,7 +343,7 @@ class ExportedFrames : public ::testing::Test {
     return found;
   }
 
-  TemporaryFolder folder_;
+  ScratchFolder folder_;
   std::filesystem::path file_ = folder_ / "trajectory.part";
 };
 

@@ -12,13 +12,13 @@
 #include <sstream>
 
 #include "base/files.h"
+#include "base/scratch_folder.h"
 #include "run/files/directory.h"
 #include "run/loop.h"
 #include "run/measure/registry.h"
 #include "run/trouble_file.h"
 #include "scene/observables.h"
 #include "tests/unit/run/hdf5_attributes.h"
-#include "tests/unit/run/temporary_folder.h"
 
 namespace shaken::run {
 namespace {
@@ -117,7 +117,7 @@ scene::RunPlan everything() {
 
 /// The files of such a run, made once.
 const RunDirectory& files() {
-  static const TemporaryFolder folder;
+  static const ScratchFolder folder;
   static const RunDirectory directory = [] {
     RunOptions options;
     options.directory = folder / "run";

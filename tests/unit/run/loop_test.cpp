@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
+#include "base/scratch_folder.h"
 #include "proto/bus.h"
 #include "proto/frame_codec.h"
 #include "run/files/checkpoint_file.h"
@@ -22,7 +23,7 @@
 #include "run/saved_run.h"
 #include "scene/canonical.h"
 #include "scene/length.h"
-#include "tests/unit/run/temporary_folder.h"
+#include "tests/support/in_child.h"
 
 namespace shaken::run {
 namespace {
@@ -124,14 +125,14 @@ std::pair<int, double> work_of_effects_off(const nlohmann::json& summary) {
 
 /// One undisturbed run, made once, to compare the others with.
 const std::filesystem::path& undisturbed() {
-  static const TemporaryFolder folder;
+  static const ScratchFolder folder;
   static const bool made = run_in(folder.path(), small_plan()).state == RunState::kDone;
   EXPECT_TRUE(made);
   return folder.path();
 }
 
 TEST(Run, EffectsThatAreOffDoNoWork) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   scene::RunPlan plan = small_plan();
   plan.measure_time = 0.05;
   for (ContactParameters* contact : {&plan.system.rod_rod, &plan.system.rod_base, &plan.system.rod_lid}) {
@@ -177,14 +178,14 @@ TEST(Run, FillsItsDirectory) {
 }
 
 TEST(Run, StoppedAndResumedIsBitwiseTheStraightRun) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   run_with_stops(folder.path(), small_plan(), {0, 0.05, 0.0501, 0.123, 0.29});
   ASSERT_EQ(run_in(folder.path(), small_plan()).state, RunState::kDone);
   expect_same_results(undisturbed(), folder.path());
 }
 
 TEST(Run, FinishedRunsAreNotDoneAgain) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   ASSERT_EQ(run_in(folder.path(), small_plan()).state, RunState::kDone);
   const RunDirectory directory{folder.path()};
   const auto written = std::filesystem::last_write_time(directory.summary());
@@ -195,7 +196,7 @@ TEST(Run, FinishedRunsAreNotDoneAgain) {
 }
 
 /// Leaves a run stopped with two checkpoints; returns their folder.
-void stop_twice(const TemporaryFolder& folder) {
+void stop_twice(const ScratchFolder& folder) {
   run_with_stops(folder.path(), small_plan(), {0.1, 0.2});
   ASSERT_TRUE(std::filesystem::exists(RunDirectory{folder.path()}.checkpoint()));
   ASSERT_TRUE(std::filesystem::exists(RunDirectory{folder.path()}.previous_checkpoint()));
@@ -208,7 +209,7 @@ void flip_a_byte(const std::filesystem::path& file) {
 }
 
 TEST(Run, FallsBackToThePreviousCheckpoint) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   stop_twice(folder);
   flip_a_byte(RunDirectory{folder.path()}.checkpoint());
   ASSERT_EQ(run_in(folder.path(), small_plan()).state, RunState::kDone);
@@ -216,7 +217,7 @@ TEST(Run, FallsBackToThePreviousCheckpoint) {
 }
 
 TEST(Run, StartsAnewIfNoCheckpointIsWhole) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   stop_twice(folder);
   flip_a_byte(RunDirectory{folder.path()}.checkpoint());
   flip_a_byte(RunDirectory{folder.path()}.previous_checkpoint());
@@ -225,7 +226,7 @@ TEST(Run, StartsAnewIfNoCheckpointIsWhole) {
 }
 
 TEST(Run, StartsAnewIfTheTrajectoryIsLost) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   stop_twice(folder);
   std::filesystem::remove(RunDirectory{folder.path()}.frames());
   ASSERT_EQ(run_in(folder.path(), small_plan()).state, RunState::kDone);
@@ -233,7 +234,7 @@ TEST(Run, StartsAnewIfTheTrajectoryIsLost) {
 }
 
 TEST(SavedRun, GoesOnFromTheNewestCheckpointThatCanBeUsed) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   stop_twice(folder);
   const RunDirectory directory{folder.path()};
   const Result<scene::RunPlan> plan = read_plan(directory);
@@ -255,7 +256,7 @@ TEST(SavedRun, GoesOnFromTheNewestCheckpointThatCanBeUsed) {
 }
 
 TEST(Run, SurvivesASuddenEnd) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   EXPECT_EQ(in_child([&] {
               RunOptions options;
               options.directory = folder.path();
@@ -291,7 +292,7 @@ scene::RunPlan with_length(double seconds) {
 }
 
 TEST(Run, ExtendedIsBitwiseTheLongRun) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   for (const double length : {0.07, 0.1, 0.205}) {
     ASSERT_EQ(run_in(folder.path(), with_length(length)).state, RunState::kDone);
     EXPECT_NEAR(summary_in(folder.path())["sim_seconds"].get<double>(), length, 1e-9);
@@ -304,7 +305,7 @@ TEST(Run, ExtendedIsBitwiseTheLongRun) {
 }
 
 TEST(Run, ExtensionThatIsStoppedIsBitwiseTheLongRun) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   ASSERT_EQ(run_in(folder.path(), with_length(0.1)).state, RunState::kDone);
   run_with_stops(folder.path(), small_plan(), {0.15, 0.25});
   ASSERT_EQ(run_in(folder.path(), small_plan()).state, RunState::kDone);
@@ -312,7 +313,7 @@ TEST(Run, ExtensionThatIsStoppedIsBitwiseTheLongRun) {
 }
 
 TEST(Run, AskedForLessIsLeftAsItIs) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   ASSERT_EQ(run_in(folder.path(), with_length(0.1)).state, RunState::kDone);
   const auto summary = read_file(RunDirectory{folder.path()}.summary());
   ASSERT_EQ(run_in(folder.path(), with_length(0.05)).state, RunState::kDone);
@@ -321,7 +322,7 @@ TEST(Run, AskedForLessIsLeftAsItIs) {
 }
 
 TEST(Run, FilmOfAnExtendedRunIsDrawnAnew) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   int n_drawn = 0;
   RunCallbacks callbacks;
   callbacks.make_movie = [&](const OnDrawn&) -> Result<void> {
@@ -343,7 +344,7 @@ scene::RunPlan plan_until(double order_sem, double at_most) {
 }
 
 TEST(Run, GoesOnUntilTheErrorIsSmallEnough) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   ASSERT_EQ(run_in(folder.path(), plan_until(0.05, 20)).state, RunState::kDone);
   const auto summary = summary_in(folder.path());
   EXPECT_LE(summary["order"]["sem"].get<double>(), 0.05);
@@ -353,14 +354,14 @@ TEST(Run, GoesOnUntilTheErrorIsSmallEnough) {
   EXPECT_LT(tick, scene::total_ticks(with_length(20)));
 
   // one that stops on the way ends where this one did, for the possible ends follow from the plan
-  const TemporaryFolder stopped;
+  const ScratchFolder stopped;
   const double end = summary["sim_seconds"].get<double>();
   run_with_stops(stopped.path(), plan_until(0.05, 20), {0.3 * end, 0.8 * end});
   ASSERT_EQ(run_in(stopped.path(), plan_until(0.05, 20)).state, RunState::kDone);
   expect_same_results(stopped.path(), folder.path());
 
   // at no earlier one of these ends was the error small enough
-  const TemporaryFolder shorter;
+  const ScratchFolder shorter;
   for (Tick at = scene::total_ticks(plan_until(0.05, 20)); at < tick;
        at = scene::next_end(plan_until(0.05, 20), at + 1)) {
     ASSERT_EQ(run_in(shorter.path(), with_length(static_cast<double>(at) * small_plan().system.dt)).state,
@@ -370,7 +371,7 @@ TEST(Run, GoesOnUntilTheErrorIsSmallEnough) {
 }
 
 TEST(Run, EndsAtTheLatestWhereUntilSays) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   ASSERT_EQ(run_in(folder.path(), plan_until(1e-9, 0.11)).state, RunState::kDone);
   EXPECT_NEAR(summary_in(folder.path())["sim_seconds"].get<double>(), 0.11, 1e-9);
   EXPECT_TRUE(is_done(RunDirectory{folder.path()}, plan_until(1e-9, 0.11)));
@@ -378,7 +379,7 @@ TEST(Run, EndsAtTheLatestWhereUntilSays) {
 }
 
 TEST(Run, GoesOnWithTheFilesOfItsFormerId) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const RunDirectory directory{folder.path()};
   const scene::RunPlan plan = with_length(0.1);
   ASSERT_EQ(run_in(folder.path(), plan).state, RunState::kDone);
@@ -400,7 +401,7 @@ TEST(Run, GoesOnWithTheFilesOfItsFormerId) {
 }
 
 TEST(Run, RefusesADirectoryInUse) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const auto lock = DirectoryLock::acquire(RunDirectory{folder.path()}.lock());
   ASSERT_TRUE(lock);
   const RunOutcome outcome = run_in(folder.path(), small_plan());
@@ -410,7 +411,7 @@ TEST(Run, RefusesADirectoryInUse) {
 }
 
 TEST(Run, NamesTheFileThatCannotBeWritten) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   std::filesystem::create_directories(RunDirectory{folder.path()}.frames());
   const RunOutcome outcome = run_in(folder.path(), small_plan());
   EXPECT_EQ(outcome.state, RunState::kFailed);
@@ -422,7 +423,7 @@ TEST(Run, NamesTheFileThatCannotBeWritten) {
 }
 
 TEST(Run, GoesOnAfterAFullDisk) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   EXPECT_EQ(in_child([&] {
               limit_file_size(110000);
               RunOptions options;
@@ -439,7 +440,7 @@ TEST(Run, GoesOnAfterAFullDisk) {
 }
 
 TEST(Run, SaysWhyItCannotStart) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   scene::RunPlan crowded = small_plan();
   crowded.system.n_rods = 5000;
   const RunOutcome outcome = run_in(folder.path(), crowded);
@@ -451,7 +452,7 @@ TEST(Run, SaysWhyItCannotStart) {
 /// Plates that move by just less than half the radius of the thinnest bead in a tick: rods that they throw move by
 /// more.
 TEST(Run, NumericalTroubleIsReportedAndNeverRepaired) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   scene::RunPlan violent = small_plan();
   violent.system.frequency = 200;
   violent.system.amplitude = 0.7;
@@ -471,7 +472,7 @@ TEST(Run, NumericalTroubleIsReportedAndNeverRepaired) {
 }
 
 TEST(Run, EmptyPlanLeavesNoTrajectoryAndNoObservables) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   scene::RunPlan bare = small_plan();
   bare.measure_time = 0.01;
   bare.order.reset();
@@ -486,7 +487,7 @@ TEST(Run, EmptyPlanLeavesNoTrajectoryAndNoObservables) {
 }
 
 TEST(Run, MeasuringAndRecordingDoNotDisturbTheMotion) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   scene::RunPlan bare = small_plan();
   bare.order.reset();
   bare.angles.reset();
@@ -498,7 +499,7 @@ TEST(Run, MeasuringAndRecordingDoNotDisturbTheMotion) {
 }
 
 TEST(Run, MovieIsDrawnOnceAndRecordsAtTheFinerCadence) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   scene::RunPlan plan = small_plan();
   plan.measure_time = 0.05;
   plan.movie = scene::Movie{0.005, 320, 240};
@@ -537,7 +538,7 @@ TEST(Run, MovieIsDrawnOnceAndRecordsAtTheFinerCadence) {
 
 /// LCM's file provider stands in for the network: everything that is published ends in a log.
 TEST(Run, LiveFramesComeAtTheirOwnRateAndAreThoseOfTheTrajectory) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   scene::RunPlan plan = small_plan();
   plan.stream = scene::Stream{1000};
   plan.trajectory = scene::Trajectory{plan.measure_time};  // the first and the last state alone
@@ -602,7 +603,7 @@ TEST(Run, LiveFramesComeAtTheirOwnRateAndAreThoseOfTheTrajectory) {
 
 /// With the real program, beside this one.
 TEST(Run, TheFilmIsDrawnAndTellsHowFarItIs) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   scene::RunPlan plan = small_plan();
   plan.measure_time = 0.05;
   plan.movie = scene::Movie{0.005, 320, 240};
@@ -625,7 +626,7 @@ TEST(Run, TheFilmIsDrawnAndTellsHowFarItIs) {
 }
 
 TEST(Run, LcmThatCannotStartIsOnlyAWarning) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   scene::RunPlan plan = small_plan();
   plan.stream = scene::Stream{20};
   RunOptions options;
@@ -644,7 +645,7 @@ scene::RunPlan plan_from(double seconds) {
 }
 
 TEST(Run, StartsWhereAnotherHasEnded) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   ASSERT_EQ(run_in(folder.path() / "one", small_plan()).state, RunState::kDone);
   const RunOutcome outcome = run_in(folder.path() / "two", plan_from(0.3));
   ASSERT_EQ(outcome.state, RunState::kDone) << outcome.message;
@@ -666,7 +667,7 @@ TEST(Run, StartsWhereAnotherHasEnded) {
 }
 
 TEST(Run, StartingFromAnotherNeedsThatOneOnlyOnce) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   ASSERT_EQ(run_in(folder.path() / "one", small_plan()).state, RunState::kDone);
   ASSERT_EQ(run_in(folder.path() / "whole", plan_from(0.3)).state, RunState::kDone);
   run_with_stops(folder.path() / "two", plan_from(0.3), {0.0});
@@ -676,7 +677,7 @@ TEST(Run, StartingFromAnotherNeedsThatOneOnlyOnce) {
 }
 
 TEST(Run, StartingFromAStateThatIsNotThereFailsWithTheReason) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const RunOutcome nowhere = run_in(folder.path() / "two", plan_from(0.3));
   EXPECT_EQ(nowhere.state, RunState::kFailed);
   EXPECT_THAT(nowhere.message, HasSubstr("from which this one starts, is not in " + folder.path().string()));

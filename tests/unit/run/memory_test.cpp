@@ -9,9 +9,9 @@
 #include <cstdlib>
 #include <new>
 
+#include "base/scratch_folder.h"
 #include "run/loop.h"
 #include "scene/load.h"
-#include "tests/unit/run/temporary_folder.h"
 
 namespace {
 
@@ -57,7 +57,7 @@ scene::RunPlan plan_of(const std::vector<std::string>& settings) {
 
 /// Bytes that the run adds to those in use, at its peak.
 double peak_of_run(const scene::RunPlan& plan) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   RunOptions options;
   options.directory = folder.path();
   const std::int64_t before = g_bytes;

@@ -7,16 +7,17 @@
 #include <cmath>
 
 #include "base/files.h"
+#include "base/scratch_folder.h"
 #include "run/files/units.h"
 #include "run/files/version.h"
+#include "tests/support/in_child.h"
 #include "tests/unit/run/hdf5_attributes.h"
-#include "tests/unit/run/temporary_folder.h"
 
 namespace shaken::run {
 namespace {
 
 TEST(ObservablesFile, KeepsEveryNumberExactly) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const Observables written{{"/order/time_s", {0, 0.01, 1.0 / 3.0}},
                             {"/order/order", {1e-300, -0.0, 0.1}},
                             {"/defects/n_plus", {}},
@@ -28,7 +29,7 @@ TEST(ObservablesFile, KeepsEveryNumberExactly) {
 }
 
 TEST(ObservablesFile, EveryArrayHasItsUnitAndTheFileItsRun) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const Observables written{{"/order/time_s", {0}}, {"/order/order", {1}}, {"/velocity/c_v_along_sem_mm2_s2", {1}}};
   ASSERT_TRUE(write_observables(folder / "observables.h5", written, {"0123456789abcdef", 77}));
   const hid_t file = H5Fopen((folder / "observables.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
@@ -58,7 +59,7 @@ TEST(UnitOfName, IsWhatTheNameEndsIn) {
 }
 
 TEST(ObservablesFile, NotANumberComesBack) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   ASSERT_TRUE(write_observables(folder / "observables.h5", {{"/tilt/v_along_mm_s", {std::nan("")}}}));
   const auto read = read_observables(folder / "observables.h5");
   ASSERT_TRUE(read);
@@ -66,14 +67,14 @@ TEST(ObservablesFile, NotANumberComesBack) {
 }
 
 TEST(ObservablesFile, ReplacesAnEarlierOne) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   ASSERT_TRUE(write_observables(folder / "observables.h5", {{"/a/x", {1, 2, 3}}}));
   ASSERT_TRUE(write_observables(folder / "observables.h5", {{"/b/y", {4}}}));
   EXPECT_EQ(*read_observables(folder / "observables.h5"), (Observables{{"/b/y", {4}}}));
 }
 
 TEST(ObservablesFile, ErrorsNameTheFile) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const auto missing = read_observables(folder / "observables.h5");
   ASSERT_FALSE(missing);
   EXPECT_NE(missing.error().message.find("observables.h5"), std::string::npos) << missing.error().message;
@@ -85,7 +86,7 @@ TEST(ObservablesFile, ErrorsNameTheFile) {
 }
 
 TEST(ObservablesFile, FullDiskIsReported) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   EXPECT_EQ(in_child([&] {
               limit_file_size(2000);
               return !write_observables(folder / "observables.h5", {{"/x", std::vector<double>(10000, 1.5)}});

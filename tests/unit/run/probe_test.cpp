@@ -7,12 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
+#include "base/scratch_folder.h"
 #include "run/effects.h"
 #include "run/loop.h"
 #include "run/open_run.h"
 #include "scene/length.h"
 #include "sim/effects/registry.h"
-#include "tests/unit/run/temporary_folder.h"
 
 namespace shaken::run {
 namespace {
@@ -49,7 +49,7 @@ TEST(Probe, FindsWhatARunThenTakes) {
   const auto probed = probed_from_start(plan, 0.2);
   ASSERT_TRUE(probed) << probed.error().message;
 
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   RunOptions options;
   options.directory = folder.path();
   options.job_id = "job";
@@ -120,7 +120,7 @@ TEST(Sampling, FindsWhatALongRunThenKeeps) {
     measurements.sample(state);
   }
   EXPECT_NEAR(cost.state_bytes / static_cast<double>(measurements.save().size()), 1, 0.02);
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   ASSERT_TRUE(write_observables(folder.path() / "observables.h5", measurements.reduce(100).arrays));
   EXPECT_NEAR(cost.file_bytes / bytes_of(folder.path() / "observables.h5"), 1, 0.02);
 }

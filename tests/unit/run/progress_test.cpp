@@ -4,13 +4,13 @@
 #include <gtest/gtest.h>
 
 #include "base/files.h"
-#include "tests/unit/run/temporary_folder.h"
+#include "base/scratch_folder.h"
 
 namespace shaken::run {
 namespace {
 
 TEST(Progress, ComesBackFromItsFile) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const Progress written{"failed", "numerical \"trouble\"\n\xff", 4711, 2109, 1.25, 10, 0.0123, -1, 0.5, 0.875, 0.75,
                          1e-5};
   ASSERT_TRUE(write_progress(folder / "progress.json", written));
@@ -32,7 +32,7 @@ TEST(Progress, ComesBackFromItsFile) {
 }
 
 TEST(Progress, OtherFilesAreRefusedWithTheirName) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   for (const char* text : {"", "{", "[]", "{}", R"({"state": 1})"}) {
     ASSERT_TRUE(write_file_atomically(folder / "progress.json", text));
     const auto read = read_progress(folder / "progress.json");

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
+#include "base/scratch_folder.h"
 #include "run/files/directory.h"
 #include "run/files/done.h"
-#include "tests/unit/run/temporary_folder.h"
 
 namespace shaken::run {
 namespace {
@@ -35,7 +35,7 @@ Summary example() {
 }
 
 nlohmann::json written(const Summary& summary) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   EXPECT_TRUE(write_summary(folder / "summary.json", summary));
   return nlohmann::json::parse(*read_file(folder / "summary.json"));
 }
@@ -113,7 +113,7 @@ TEST(Summary, TellsTheTrouble) {
 }
 
 TEST(Summary, IsDoneOnlyForTheSameRun) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const RunDirectory directory{folder.path()};
   const auto file = directory.summary();
   EXPECT_FALSE(is_done(directory, "0123456789abcdef"));

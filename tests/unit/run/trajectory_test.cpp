@@ -9,9 +9,10 @@
 #include <random>
 
 #include "base/files.h"
+#include "base/scratch_folder.h"
 #include "run/files/version.h"
+#include "tests/support/in_child.h"
 #include "tests/unit/run/hdf5_attributes.h"
-#include "tests/unit/run/temporary_folder.h"
 
 namespace shaken::run {
 namespace {
@@ -59,7 +60,7 @@ void expect_same(const TrajectoryFrame& frame, const Snapshot& s) {
 }
 
 /// A log of frames at ticks 0, 1000, 2000 ...
-std::filesystem::path write_log(const TemporaryFolder& folder, Tick n_frames, const TrajectoryHeader& of = header()) {
+std::filesystem::path write_log(const ScratchFolder& folder, Tick n_frames, const TrajectoryHeader& of = header()) {
   const auto file = folder / "trajectory.part";
   auto log = FrameLog::create(file, of);
   EXPECT_TRUE(log) << log.error().message;
@@ -68,8 +69,7 @@ std::filesystem::path write_log(const TemporaryFolder& folder, Tick n_frames, co
 }
 
 /// trajectory.h5 of such a log.
-std::filesystem::path write_frames(const TemporaryFolder& folder, Tick n_frames,
-                                   const TrajectoryHeader& of = header()) {
+std::filesystem::path write_frames(const ScratchFolder& folder, Tick n_frames, const TrajectoryHeader& of = header()) {
   const auto file = folder / "trajectory.h5";
   const auto frames = TrajectoryReader::open(write_log(folder, n_frames, of));
   EXPECT_TRUE(frames) << frames.error().message;
@@ -95,7 +95,7 @@ void expect_same(const TrajectoryHeader& a, const TrajectoryHeader& b) {
 }
 
 /// Both kinds of file.
-void expect_frames(const TemporaryFolder& folder, Tick n_frames, const TrajectoryHeader& of) {
+void expect_frames(const ScratchFolder& folder, Tick n_frames, const TrajectoryHeader& of) {
   for (const auto& file : {write_log(folder, n_frames, of), write_frames(folder, n_frames, of)}) {
     const auto reader = TrajectoryReader::open(file);
     ASSERT_TRUE(reader) << reader.error().message;
@@ -111,13 +111,13 @@ void expect_frames(const TemporaryFolder& folder, Tick n_frames, const Trajector
 }
 
 TEST(Trajectory, ComesBackAsWritten) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   expect_frames(folder, 3, header());
   expect_frames(folder, 0, header());
 }
 
 TEST(Trajectory, SpeciesAndSideWallsComeBack) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   TrajectoryHeader several = header();
   several.gap = 0.1 + 0.2;  // no short decimal
   several.added_beads = {{{0}, {0.45}}, {{-1.2, 0.1, 1.4}, {0.45, 1.0 / 3, 0.2}}};
@@ -134,7 +134,7 @@ TEST(Trajectory, SpeciesAndSideWallsComeBack) {
 }
 
 TEST(Trajectory, ASpeciesWithoutBeadsIsRefused) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   TrajectoryHeader several = header();
   several.added_beads = {{{0}, {0.45}}};
   several.species_of_rod.assign(kRods, 2);
@@ -171,7 +171,7 @@ TEST(RecordedFrame, AnOrientationThatIsNoneIsRefused) {
 }
 
 TEST(FrameLog, CanBeReadWhileItGrows) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   auto log = FrameLog::create(folder / "t.part", header());
   for (Tick i = 0; i < 4; ++i) {
     const auto reader = TrajectoryReader::open(folder / "t.part");
@@ -182,7 +182,7 @@ TEST(FrameLog, CanBeReadWhileItGrows) {
 }
 
 TEST(FrameLog, SurvivesTheWritersSuddenEnd) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   EXPECT_EQ(in_child([&] {
               auto log = FrameLog::create(folder / "t.part", header());
               for (Tick i = 0; i < 5; ++i) {
@@ -199,7 +199,7 @@ TEST(FrameLog, SurvivesTheWritersSuddenEnd) {
 }
 
 TEST(FrameLog, ReopeningCutsWhatCameAfterTheCheckpoint) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const auto file = write_log(folder, 5);
   {
     auto log = FrameLog::reopen(file, 3);
@@ -216,7 +216,7 @@ TEST(FrameLog, ReopeningCutsWhatCameAfterTheCheckpoint) {
 
 /// What a killed writer, or a machine without power, leaves of the last frame: any part of it.
 TEST(FrameLog, HalfAFrameIsLeftOutAndCut) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const std::string two = *read_file(write_log(folder, 2)), three = *read_file(write_log(folder, 3));
   const auto file = folder / "torn.part";
   for (std::size_t size = two.size(); size < three.size(); size += 211) {
@@ -237,7 +237,7 @@ TEST(FrameLog, HalfAFrameIsLeftOutAndCut) {
 
 /// Bits that rot must give an error, never another number.
 TEST(FrameLog, RottenFramesAreNoticed) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const std::string whole = *read_file(write_log(folder, 2));
   const std::size_t frames_begin = whole.size() - 2 * ((whole.size() - read_file(write_log(folder, 0))->size()) / 2);
   const auto file = folder / "rotten.part";
@@ -259,7 +259,7 @@ TEST(FrameLog, RottenFramesAreNoticed) {
 }
 
 TEST(FrameLog, ContinuesATrajectoryThatIsDone) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const std::string log = *read_file(write_log(folder, 3));
   write_frames(folder, 5);
   const RunDirectory directory{folder.path()};
@@ -274,7 +274,7 @@ TEST(FrameLog, ContinuesATrajectoryThatIsDone) {
 /// Bits that rot inside a frame must give an error, never another number. (Headers of HDF5 itself carry no checksum in
 /// files that old readers understand; they are not part of this promise.)
 TEST(Trajectory, RottenFramesAreNoticed) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const auto file = write_frames(folder, 2);
   const hid_t h5 = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   const hid_t dataset = H5Dopen2(h5, "/particles/trajectory/position/value", H5P_DEFAULT);
@@ -303,7 +303,7 @@ TEST(Trajectory, RottenFramesAreNoticed) {
 }
 
 TEST(Trajectory, ErrorsNameTheFile) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const auto nowhere = FrameLog::create(folder / "no" / "t.part", header());
   ASSERT_FALSE(nowhere);
   EXPECT_NE(nowhere.error().message.find("no/t.part"), std::string::npos) << nowhere.error().message;
@@ -320,7 +320,7 @@ TEST(Trajectory, ErrorsNameTheFile) {
 
 /// The disk fills up at every possible place of a frame; the writer then closes its file, or is killed.
 TEST(FrameLog, FullDiskIsReportedAndTheFileGoesOnLater) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const auto whole = write_log(folder, 2);
   const auto file = folder / "filling.part";
   constexpr unsigned kFrameBytes = kRods * 13 * sizeof(float);
@@ -348,7 +348,7 @@ TEST(FrameLog, FullDiskIsReportedAndTheFileGoesOnLater) {
 }
 
 TEST(Trajectory, AFullDiskLeavesTheFormerFile) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const auto file = write_frames(folder, 2);
   const std::string before = *read_file(file);
   const auto log = write_log(folder, 40);
@@ -398,7 +398,7 @@ class H5mdStructure : public testing::Test {
   }
   std::string unit(const std::string& path) const { return text_attribute(path, "unit"); }
 
-  TemporaryFolder folder_;
+  ScratchFolder folder_;
   hid_t file_ = -1;
 };
 

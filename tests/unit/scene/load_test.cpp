@@ -77,7 +77,7 @@ TEST(LoadScene, ReadsEveryKey) {
   want.system.rod_lid = {0.01, 1};
   want.system.solver_sweeps = 3;
   want.system.dt = 2e-6;
-  want.system.engine = Engine::kReference;
+  want.system.stepper = StepperKind::kReference;
   want.system.seed = 77;
   want.steady = 180;
   want.measure_time = 3600;

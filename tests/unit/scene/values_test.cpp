@@ -28,7 +28,7 @@ std::vector<std::string> values(const std::string& json, std::string_view path =
   return texts;
 }
 
-std::string complaint(const std::string& json, std::string_view path = "rods.length") {
+std::string problem_with(const std::string& json, std::string_view path = "rods.length") {
   std::vector<Problem> problems;
   Room room;
   read_values(field_at(path), *node_of(json, problems), room, problems);
@@ -74,32 +74,33 @@ TEST(Values, ArraysMixValuesAndRanges) {
 }
 
 TEST(Values, BadRangesSayWhy) {
-  EXPECT_EQ(complaint("\"1:2\""), "\"1:2\" is not a range; write from:to:step");
-  EXPECT_EQ(complaint("\"1:2:3:4\""), "\"1:2:3:4\" is not a range; write from:to:step");
-  EXPECT_EQ(complaint("\"1:x:3\""), "\"x\" is not a number");
-  EXPECT_EQ(complaint("\"1:2:0\""), "the step of a range must not be 0");
-  EXPECT_EQ(complaint("\"1:2:-0.1\""), "the step leads away from the end of the range");
-  EXPECT_EQ(complaint("\"1 um:2 mm:0.1 mm\""), "a range in um and mm; write it in one unit");
-  EXPECT_EQ(complaint("\"0:1:1e-6\""), "a range of 1000001 values; at most 100000 are allowed");
-  EXPECT_EQ(complaint("\"0:1e17:1e-17\""), "the range has too many digits");
-  EXPECT_EQ(complaint("[]"), "no values to sweep over");
-  EXPECT_EQ(complaint(R"({"from": 1, "to": 2})"), "the range lacks \"step\"");
+  EXPECT_EQ(problem_with("\"1:2\""), "\"1:2\" is not a range; write from:to:step");
+  EXPECT_EQ(problem_with("\"1:2:3:4\""), "\"1:2:3:4\" is not a range; write from:to:step");
+  EXPECT_EQ(problem_with("\"1:x:3\""), "\"x\" is not a number");
+  EXPECT_EQ(problem_with("\"1:2:0\""), "the step of a range must not be 0");
+  EXPECT_EQ(problem_with("\"1:2:-0.1\""), "the step leads away from the end of the range");
+  EXPECT_EQ(problem_with("\"1 um:2 mm:0.1 mm\""), "a range in um and mm; write it in one unit");
+  EXPECT_EQ(problem_with("\"0:1:1e-6\""), "a range of 1000001 values; at most 100000 are allowed");
+  EXPECT_EQ(problem_with("\"0:1e17:1e-17\""), "the range has too many digits");
+  EXPECT_EQ(problem_with("[]"), "no values to sweep over");
+  EXPECT_EQ(problem_with(R"({"from": 1, "to": 2})"), "the range lacks \"step\"");
   EXPECT_EQ(
-      complaint(R"({"from": 1, "too": 2, "n": 3})"),
+      problem_with(R"({"from": 1, "too": 2, "n": 3})"),
       "f:1:13: /rods/length: unknown key \"too\" in a range; did you mean to?\nf:1:1: /rods/length: the range lacks "
       "\"to\"\n");
-  EXPECT_EQ(complaint(R"({"from": 1, "to": 2, "n": 3, "step": 1})"), "a range takes \"step\" or \"n\", not both");
-  EXPECT_EQ(complaint(R"({"from": 1, "to": 2, "n": 0})"), "expected a whole number in [1, 100000], not the number 0");
-  EXPECT_EQ(complaint(R"({"from": [], "to": 2, "n": 2})"), "expected a number, not an array");
+  EXPECT_EQ(problem_with(R"({"from": 1, "to": 2, "n": 3, "step": 1})"), "a range takes \"step\" or \"n\", not both");
+  EXPECT_EQ(problem_with(R"({"from": 1, "to": 2, "n": 0})"),
+            "expected a whole number in [1, 100000], not the number 0");
+  EXPECT_EQ(problem_with(R"({"from": [], "to": 2, "n": 2})"), "expected a number, not an array");
 }
 
 TEST(Values, ThereIsRoomForSoManyAndNoRangeIsCountedUpBeyondIt) {
   std::string many = "[";
   for (int i = 0; i < 100'000; ++i) many += "\"1:100000:1\", ";
-  EXPECT_EQ(complaint(many + "1]"), "more than 100000 values");
+  EXPECT_EQ(problem_with(many + "1]"), "more than 100000 values");
   EXPECT_EQ(values("[\"1:50000:1\", \"1:50000:1\"]").size(), 100'000u);
-  EXPECT_EQ(complaint("[\"1:50000:1\", \"1:50001:1\"]"), "more than 100000 values");
-  EXPECT_EQ(complaint(R"([{"from": 1, "to": 2, "n": 100000}, 1])"), "more than 100000 values");
+  EXPECT_EQ(problem_with("[\"1:50000:1\", \"1:50001:1\"]"), "more than 100000 values");
+  EXPECT_EQ(problem_with(R"([{"from": 1, "to": 2, "n": 100000}, 1])"), "more than 100000 values");
 
   std::vector<Problem> problems;
   Room room{150'000};
@@ -191,29 +192,29 @@ TEST(Values, ALogarithmicScaleHasEvenRatios) {
               ElementsAre("0.001 mm", "0.01 mm", "0.1 mm", "1 mm", "10 mm"));
   EXPECT_THAT(values(R"({"from": 8, "to": 1, "n": 4, "scale": "log"})"), ElementsAre("8", "4", "2", "1"));
   EXPECT_THAT(values(R"({"from": 1, "to": 2, "n": 3, "scale": "linear"})"), ElementsAre("1", "1.5", "2"));
-  EXPECT_EQ(complaint(R"({"from": 0, "to": 2, "n": 3, "scale": "log"})"),
+  EXPECT_EQ(problem_with(R"({"from": 0, "to": 2, "n": 3, "scale": "log"})"),
             "a range with \"scale\": \"log\" must lie above 0");
-  EXPECT_EQ(complaint(R"({"from": 1, "to": 2, "n": 3, "scale": "lgo"})"),
+  EXPECT_EQ(problem_with(R"({"from": 1, "to": 2, "n": 3, "scale": "lgo"})"),
             "\"scale\" is \"linear\" or \"log\", not the text \"lgo\"; did you mean log?");
-  EXPECT_EQ(complaint(R"({"from": 1, "to": 2, "n": 3, "scale": true})"),
+  EXPECT_EQ(problem_with(R"({"from": 1, "to": 2, "n": 3, "scale": true})"),
             "\"scale\" is \"linear\" or \"log\", not true");
-  EXPECT_EQ(complaint(R"({"from": 1, "to": 2, "step": 1, "scale": "log"})"), "unknown key \"scale\" in a range");
+  EXPECT_EQ(problem_with(R"({"from": 1, "to": 2, "step": 1, "scale": "log"})"), "unknown key \"scale\" in a range");
 }
 
 TEST(Values, BadIntervalsOfDrawsSayWhy) {
-  const auto complaint_of = [](const std::string& range, std::string_view path) {
+  const auto problem_of = [](const std::string& range, std::string_view path) {
     std::vector<Problem> problems;
     Room room;
     draw_values(field_at(path), *node_of(range, problems), {Spread::kLatin, 5, 1}, 0, room, problems);
     return problems.size() == 1 ? problems.front().message : to_string(problems);
   };
-  EXPECT_EQ(complaint_of(R"({"from": 1.5, "to": 3})", "contacts.sweeps"),
+  EXPECT_EQ(problem_of(R"({"from": 1.5, "to": 3})", "contacts.sweeps"),
             "\"from\" and \"to\" must be whole numbers here");
-  EXPECT_EQ(complaint_of(R"({"from": -1, "to": 3, "scale": "log"})", "rods.length"),
+  EXPECT_EQ(problem_of(R"({"from": -1, "to": 3, "scale": "log"})", "rods.length"),
             "a range with \"scale\": \"log\" must lie above 0");
-  EXPECT_EQ(complaint_of(R"({"from": 1, "to": 3, "scael": "log"})", "rods.length"),
+  EXPECT_EQ(problem_of(R"({"from": 1, "to": 3, "scael": "log"})", "rods.length"),
             "unknown key \"scael\" in a range; did you mean scale?");
-  EXPECT_EQ(complaint_of(R"({"from": 1, "to": 3})", "rods.start"), "only numbers can be drawn");
+  EXPECT_EQ(problem_of(R"({"from": 1, "to": 3})", "rods.start"), "only numbers can be drawn");
 }
 
 }  // namespace

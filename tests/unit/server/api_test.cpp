@@ -111,7 +111,7 @@ class ApiTest : public testing::Test {
     return answer;
   }
 
-  TempDirectory directory_;
+  ScratchFolder directory_;
   Queue queue_{directory_ / "queue.db"};
   Api api_{queue_, info()};
   HttpServer server_{info().socket(), [this](const Request& request) { return api_.handle(request); }};

@@ -107,7 +107,7 @@ class DaemonTest : public testing::Test {
     return daemon.job()["pid"];
   }
 
-  TempDirectory directory_;
+  ScratchFolder directory_;
   std::filesystem::path worker_ = write_fake_worker(directory_.path());
 };
 

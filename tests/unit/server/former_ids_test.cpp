@@ -30,7 +30,7 @@ class FormerIdsTest : public testing::Test {
  protected:
   /// A queue of these, of which those `done` are, and a folder with a file "seconds" for each.
   void fill(const std::vector<std::pair<scene::RunPlan, bool>>& plans) {
-    const TempDirectory& root = directory_;
+    const ScratchFolder& root = directory_;
     {
       Queue queue(root / "queue.db");
       std::vector<NewJob> jobs;
@@ -49,7 +49,7 @@ class FormerIdsTest : public testing::Test {
   }
   std::filesystem::path runs() const { return directory_ / "runs"; }
 
-  TempDirectory directory_;
+  ScratchFolder directory_;
 };
 
 TEST_F(FormerIdsTest, JobsAndFoldersGetTheIdsOfToday) {

@@ -19,7 +19,7 @@ class VerdictTest : public testing::Test {
   JobEnd exit(int code) const { return judge({code, 0, 77}, false, "0123", run_); }
   JobEnd killed(int signal, bool stop_asked) const { return judge({0, signal, 77}, stop_asked, "0123", run_); }
 
-  TempDirectory directory_;
+  ScratchFolder directory_;
   run::RunDirectory run_{directory_.path()};
 };
 

@@ -22,7 +22,7 @@ class LogSliceTest : public testing::Test {
       offset = slice.next;
     }
   }
-  TempDirectory directory_;
+  ScratchFolder directory_;
   std::filesystem::path file_ = directory_ / "log";
 };
 

@@ -410,7 +410,7 @@ TEST(QueueModelTest, EveryHistoryEndsAsTheModelSays) {
     const auto history = *rc::gen::container<std::vector<std::tuple<int, int, int>>>(
         rc::gen::tuple(rc::gen::inRange(0, kOperations), rc::gen::inRange(0, static_cast<int>(kDigits.size())),
                        rc::gen::inRange(0, 3)));
-    const TempDirectory directory;
+    const ScratchFolder directory;
     const auto file = directory / "queue.db";
     auto queue = std::make_unique<Queue>(file);
     Model model;

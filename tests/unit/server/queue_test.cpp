@@ -29,7 +29,7 @@ class QueueTest : public testing::Test {
     return result;
   }
 
-  TempDirectory directory_;
+  ScratchFolder directory_;
   Queue queue_{directory_ / "queue.db"};
   const std::string a_ = std::string(16, 'a');
   const std::string b_ = std::string(16, 'b');
@@ -455,7 +455,7 @@ TEST_F(QueueTest, AfterAKillEverythingAcknowledgedIsThere) {
 }
 
 TEST(QueueFileTest, AWriteAheadLogCutAnywhereGivesWholeSweepsOnly) {
-  const TempDirectory directory;
+  const ScratchFolder directory;
   {
     Queue queue(directory / "queue.db");
     queue.submit("one", 0, std::vector{new_job('a'), new_job('b'), new_job('c')});
@@ -480,14 +480,14 @@ TEST(QueueFileTest, AWriteAheadLogCutAnywhereGivesWholeSweepsOnly) {
 }
 
 TEST(QueueFileTest, ADamagedFileIsRefusedInWords) {
-  const TempDirectory directory;
+  const ScratchFolder directory;
   write_text(directory / "queue.db", std::string(8192, 'x'));
   EXPECT_THROW(Queue(directory / "queue.db"), StorageError);
   EXPECT_EQ(read_text(directory / "queue.db"), std::string(8192, 'x')) << "and it is left as it is";
 }
 
 TEST(QueueFileTest, AFileOfANewerVersionIsRefusedWithAWayOut) {
-  const TempDirectory directory;
+  const ScratchFolder directory;
   { const Queue queue(directory / "queue.db"); }
   Database(directory / "queue.db").execute("PRAGMA user_version = 99");
   try {
@@ -505,7 +505,7 @@ TEST(QueueFileTest, AnUnwritableFolderIsAnError) { EXPECT_THROW(Queue("/nonexist
 class OldQueueTest : public testing::TestWithParam<int> {};
 
 TEST_P(OldQueueTest, IsTakenOver) {
-  const TempDirectory directory;
+  const ScratchFolder directory;
   const auto file = directory / "old.db";
   {
     Database old(file);

@@ -53,7 +53,7 @@ class PublisherTest : public testing::Test {
     return read_log(directory_ / "log");
   }
 
-  TempDirectory directory_;
+  ScratchFolder directory_;
   Queue queue_{directory_ / "queue.db"};
   std::optional<StatusPublisher> publisher_;
   const std::string a_ = std::string(16, 'a');

@@ -88,7 +88,7 @@ TEST(SubmitRequestTest, NoBytesCrashIt) {
 }
 
 TEST(ExpandTest, APlainSceneIsOneJobNamedAfterItsFile) {
-  const TempDirectory directory;
+  const ScratchFolder directory;
   SubmitRequest request;
   request.text = "{}";
   request.file = "folder/plain.json";
@@ -112,7 +112,7 @@ TEST(ExpandTest, ANameIsCheckedWhereverItComesFrom) {
 }
 
 TEST(ExpandTest, WhatTheWorkerReadsIsTheSameRun) {
-  const TempDirectory directory;
+  const ScratchFolder directory;
   SubmitRequest request;
   request.text = R"({"scene": {"box": {"gap": "1.3 mm"}}, "sweep": {"grid": {"rods.area_fraction": [0.5, 0.6]}}})";
   request.replicas = 2;

@@ -56,7 +56,7 @@ class SupervisorTest : public testing::Test {
     return step_until([&] { return std::filesystem::exists(directory(digit) / "up"); });
   }
 
-  TempDirectory directory_;
+  ScratchFolder directory_;
   Queue queue_{directory_ / "queue.db"};
   LocalExecutor executor_{write_fake_worker(directory_.path())};
   Supervisor supervisor_{queue_, executor_, options()};
@@ -369,7 +369,7 @@ TEST_F(SupervisorTest, AProgramThatIsAwayCostsNoJob) {
 
 class LocalExecutorTest : public testing::Test {
  protected:
-  TempDirectory directory_;
+  ScratchFolder directory_;
 };
 
 TEST_F(LocalExecutorTest, AWorkerInheritsNoDescriptorsAndNoBlockedSignals) {

@@ -6,23 +6,10 @@
 #include <functional>
 #include <string>
 
+#include "base/scratch_folder.h"
 #include "server/queue.h"
 
 namespace shaken::server {
-
-/// A directory that goes away with its owner. Short: paths of Unix sockets hold 107 bytes.
-class TempDirectory {
- public:
-  TempDirectory();
-  TempDirectory(const TempDirectory&) = delete;
-  TempDirectory& operator=(const TempDirectory&) = delete;
-  ~TempDirectory();
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// Asks until the answer is yes; false if it still is no after the time.
 bool eventually(const std::function<bool()>& condition, std::chrono::milliseconds limit = std::chrono::seconds(20));

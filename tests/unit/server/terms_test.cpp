@@ -39,7 +39,7 @@ class TermsTest : public testing::Test {
     queue_.recover();
   }
 
-  TempDirectory directory_;
+  ScratchFolder directory_;
   Queue queue_{directory_ / "queue.db"};
 };
 
@@ -106,7 +106,7 @@ TEST_F(TermsTest, WhatIsDoneAlreadyIsNotWaitedFor) {
 
 TEST_F(TermsTest, WhatComesAfterSomethingThatCameToNothingIsHeld) {
   for (const JobState end_state : {kFailed, kCancelled, kTimedOut}) {
-    const TempDirectory directory;
+    const ScratchFolder directory;
     Queue queue(directory / "queue.db");
     const auto first = queue.submit("one", 0, std::vector{new_job('a'), new_job('b')}).sweep;
     queue.submit("two", 0, std::vector{new_job('c')}, {.after = {first}});

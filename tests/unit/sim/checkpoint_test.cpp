@@ -7,20 +7,13 @@
 
 #include "sim/core/physics_version.h"
 #include "sim/simulation.h"
+#include "tests/support/short_rods.h"
 
 namespace shaken {
 namespace {
 
-System small_scene() {
-  System system;
-  system.rod = {.length = 2.5, .n_beads = 9};
-  system.box_side = 12;
-  system.n_rods = 63;
-  return system;
-}
-
 TEST(Checkpoint, RestoredRunIsBitwiseTheStraightRun) {
-  const System system = small_scene();
+  const System system = test::short_rods(63);
   auto straight = Simulation::start(system);
   ASSERT_TRUE(static_cast<bool>(straight));
   for (const Tick stop : {Tick{1}, Tick{4777}, Tick{10003}}) {
@@ -38,7 +31,7 @@ TEST(Checkpoint, RestoredRunIsBitwiseTheStraightRun) {
 }
 
 TEST(Checkpoint, RefusesAnotherSceneAndDamage) {
-  const System system = small_scene();
+  const System system = test::short_rods(63);
   auto simulation = Simulation::start(system);
   ASSERT_TRUE(static_cast<bool>(simulation));
   auto bytes = simulation->checkpoint();
@@ -52,7 +45,7 @@ TEST(Checkpoint, RefusesAnotherSceneAndDamage) {
 }
 
 TEST(Checkpoint, EachByteThatIsTakenIsSavedAsItWas) {
-  System system = small_scene();
+  System system = test::short_rods(63);
   system.n_rods = 4;
   auto simulation = Simulation::start(system);
   ASSERT_TRUE(static_cast<bool>(simulation));
@@ -70,7 +63,7 @@ TEST(Checkpoint, EachByteThatIsTakenIsSavedAsItWas) {
 }
 
 TEST(Checkpoint, RefusesAnotherPhysicsVersionByName) {
-  const System system = small_scene();
+  const System system = test::short_rods(63);
   auto simulation = Simulation::start(system);
   ASSERT_TRUE(static_cast<bool>(simulation));
   auto bytes = simulation->checkpoint();
@@ -84,7 +77,7 @@ TEST(Checkpoint, RefusesAnotherPhysicsVersionByName) {
 }
 
 TEST(StateHash, SeesEveryRod) {
-  auto simulation = Simulation::start(small_scene());
+  auto simulation = Simulation::start(test::short_rods(63));
   ASSERT_TRUE(static_cast<bool>(simulation));
   World world = simulation->world();
   const auto hash = state_hash(world);

@@ -10,15 +10,13 @@
 #include "sim/contact/bead_contacts.h"
 #include "sim/neighbors/neighbor_list.h"
 #include "sim/simulation.h"
+#include "tests/support/short_rods.h"
 
 namespace shaken {
 namespace {
 
 System dense_scene() {
-  System system;
-  system.rod = {.length = 2.5, .n_beads = 9};
-  system.box_side = 12;
-  system.n_rods = 80;
+  System system = test::short_rods(80);
   system.dt = 2e-5;
   return system;
 }
@@ -100,8 +98,8 @@ TEST(CloseUp, AfterTroubleWhileStoringNoRodIsUnknown) {
   system.box_side = 60;  // room enough for the runaway to meet the plates alone
   system.n_rods = 200;
   int n_troubles = 0, n_others = 0;
-  for (const Engine engine : {Engine::kReference, Engine::kScheduled}) {
-    system.engine = engine;
+  for (const StepperKind stepper : {StepperKind::kReference, StepperKind::kScheduled}) {
+    system.stepper = stepper;
     auto simulation = Simulation::start(system);
     ASSERT_TRUE(static_cast<bool>(simulation));
     ASSERT_FALSE(simulation->advance_to(2000).has_value());

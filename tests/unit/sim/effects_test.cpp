@@ -10,16 +10,14 @@
 #include "sim/initial.h"
 #include "sim/simulation.h"
 #include "sim/stepping/reference_stepper.h"
+#include "tests/support/short_rods.h"
 
 namespace shaken {
 namespace {
 
 /// A scene in which every effect is on and all kinds of contact occur within 2,000 ticks.
 System everything_on() {
-  System system;
-  system.rod = {.length = 2.5, .n_beads = 9};
-  system.box_side = 19;
-  system.n_rods = 60;
+  System system = test::short_rods(60, 19);
   system.added[0] = AddedRods{{.length = 2.5, .n_beads = 9, .profile = Profile::kPolar}, 25};
   system.added[1] = AddedRods{{.length = 0.8, .n_beads = 1}, 10};
   system.walls = SideWalls{Arena::kSquare, 18.0, 1.0, {0.1, 0.3}};
@@ -117,7 +115,7 @@ TEST_P(EffectOff, IsTheNeutralParameterBitForBitAndDoesNoWork) {
   EXPECT_NE(without.state_hash(), stepped(everything_on(), 6000).state_hash());
 
   // the oracle agrees
-  off.engine = Engine::kReference;
+  off.stepper = StepperKind::kReference;
   EXPECT_EQ(without.state_hash(), stepped(off, 6000).state_hash());
 }
 

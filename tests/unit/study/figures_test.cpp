@@ -83,7 +83,7 @@ TEST(PaperFigures, NeedSweepsThatExistAtEveryScale) {
 
 TEST(PaperFigures, OfNothingAreDrawnByGnuplotToo) {
   if (run_captured({"gnuplot", "--version"}).exit_code != 0) GTEST_SKIP() << "no gnuplot";
-  const client::TemporaryFolder folder;
+  const ScratchFolder folder;
   Runs runs;
   Library one;  // a map of one cell
   one.add("phases", {runs.make(4.5, 0.75, 0.9, 0.01)});

@@ -34,7 +34,7 @@ class Runs {
   const std::filesystem::path& path() const { return folder_.path(); }
 
  private:
-  client::TemporaryFolder folder_;
+  ScratchFolder folder_;
   int n_ = 0;
 };
 

@@ -14,7 +14,7 @@ const std::string kSubscribe = "\0\0\0\2"s + "\0\0\0\3"s + "A.*";
 
 Instruction instruction_of(std::string_view bytes) { return std::get<Instruction>(parse_instruction(bytes, {})); }
 
-std::string complaint_about(std::string_view bytes) {
+std::string refusal_of(std::string_view bytes) {
   const Parsed parsed = parse_instruction(bytes, {});
   const auto* unreadable = std::get_if<Unreadable>(&parsed);
   return unreadable == nullptr ? "" : unreadable->reason;
@@ -66,18 +66,18 @@ TEST(Tcpq, EveryBeginningIsIncomplete) {
 }
 
 TEST(Tcpq, LimitsHoldBeforeTheBytesAreThere) {
-  EXPECT_NE(complaint_about(word(0)), "");
-  EXPECT_NE(complaint_about(word(4)), "");
-  EXPECT_NE(complaint_about(word(1) + word(0)), "") << "no channel";
-  EXPECT_EQ(complaint_about(word(1) + word(63)), "");
-  EXPECT_NE(complaint_about(word(1) + word(64)), "");
-  EXPECT_EQ(complaint_about(word(2) + word(256)), "");
-  EXPECT_NE(complaint_about(word(2) + word(257)), "");
-  EXPECT_NE(complaint_about(word(3) + word(0xffffffff)), "");
-  EXPECT_EQ(complaint_about(word(1) + word(1) + "A" + word(1 << 20)), "");
-  EXPECT_NE(complaint_about(word(1) + word(1) + "A" + word((1 << 20) + 1)), "");
-  EXPECT_NE(complaint_about(word(1) + word(1) + "A" + word(0xffffffff)), "");
-  EXPECT_NE(complaint_about(publication("A\0B"s, "")), "") << "LCM's channels end with the first NUL";
+  EXPECT_NE(refusal_of(word(0)), "");
+  EXPECT_NE(refusal_of(word(4)), "");
+  EXPECT_NE(refusal_of(word(1) + word(0)), "") << "no channel";
+  EXPECT_EQ(refusal_of(word(1) + word(63)), "");
+  EXPECT_NE(refusal_of(word(1) + word(64)), "");
+  EXPECT_EQ(refusal_of(word(2) + word(256)), "");
+  EXPECT_NE(refusal_of(word(2) + word(257)), "");
+  EXPECT_NE(refusal_of(word(3) + word(0xffffffff)), "");
+  EXPECT_EQ(refusal_of(word(1) + word(1) + "A" + word(1 << 20)), "");
+  EXPECT_NE(refusal_of(word(1) + word(1) + "A" + word((1 << 20) + 1)), "");
+  EXPECT_NE(refusal_of(word(1) + word(1) + "A" + word(0xffffffff)), "");
+  EXPECT_NE(refusal_of(publication("A\0B"s, "")), "") << "LCM's channels end with the first NUL";
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ TEST(Sbatch, TheIdIsFoundAmongWarnings) {
 }
 
 TEST(BatchFiles, WhatIsWrittenIsRead) {
-  const TempDirectory directory;
+  const ScratchFolder directory;
   const BatchFolder folder{directory.path()};
   const Batch batch{"/a program/worker", {{{"/runs/a", {"one", "two words\n'"}, "heading"}}, {{"/runs/b", {}, ""}}}};
   ASSERT_TRUE(write_batch(folder, batch));
@@ -85,7 +85,7 @@ TEST(ForgetFilters, NothingHidesTasksAndTheRestStays) {
 }
 
 TEST(BatchFiles, WhatIsNoneIsRefusedWithItsName) {
-  const TempDirectory directory;
+  const ScratchFolder directory;
   const BatchFolder folder{directory.path()};
   EXPECT_FALSE(read_batch(folder));
   for (const char* text : {"", "{", "[]", R"({"worker": 3, "tasks": []})", R"({"worker": "w", "tasks": [[3]]})"}) {

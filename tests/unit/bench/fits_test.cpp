@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
+#include "bench/fits.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
 #include "bench/accuracy/accuracy.h"
-#include "bench/accuracy/fits.h"
 
 namespace shaken::bench {
 namespace {
@@ -34,13 +35,6 @@ TEST(Limit, WeighsByErrors) {
   // the middle one is off by 1 error of an even line
   EXPECT_NEAR(limit_of(std::vector<double>{0, 1, 2}, std::vector<Estimate>{{0, 1}, {3, 1}, {0, 1}}).chi_squared, 6,
               1e-12);
-}
-
-TEST(Samples, HaveAMeanWithAnErrorFromTheirScatter) {
-  const Estimate mean = mean_of_samples(std::vector<double>{1, 2, 6});
-  EXPECT_DOUBLE_EQ(mean.value, 3);
-  EXPECT_DOUBLE_EQ(mean.sem, std::sqrt((4 + 1 + 9) / 2.0 / 3.0));
-  EXPECT_TRUE(std::isnan(mean_of_samples(std::vector<double>{1}).sem));
 }
 
 TEST(Bias, IsRelativeToTheTruth) {

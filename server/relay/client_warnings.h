@@ -9,7 +9,7 @@ namespace shaken::relay {
 
 /// Warnings about clients for the log, one in ten seconds at most: a client that comes again and again must not fill
 /// it.
-class Complaints {
+class ClientWarnings {
  public:
   void note(const std::string& what, std::chrono::steady_clock::time_point now);
 

@@ -15,12 +15,12 @@
 namespace shaken::bench {
 namespace {
 
-constexpr const char* kLooksFooter =
+constexpr const char* kVisitsFooter =
     R"(Follows pairs of neighbouring rods through a real state, takes the one that collides after the longest approach,
-and draws its gap, the ticks at which its bounds make it be looked at, and the hits that renew them.
+and draws its gap, the ticks at which it is visited because its bound has run out, and the hits that renew the bound.
 
 Example:
-  shaken bench looks --out looks        looks/looks.png, .dat and .gp)";
+  shaken bench visits --out visits      visits/visits.png, .dat and .gp)";
 
 /// A pair of rods as it is at some ticks, one after the other.
 struct Course {
@@ -63,9 +63,9 @@ void follow(const Simulation& simulation, const Snapshot& now, float horizon, st
   }
 }
 
-/// Ticks, counted from the start of the course, at which the pair is looked at: when a bound has run out or a rod was
+/// Ticks, counted from the start of the course, at which the pair is visited: when a bound has run out or a rod was
 /// hit.
-std::vector<std::size_t> looks(const Course& course, double dt) {
+std::vector<std::size_t> visits(const Course& course, double dt) {
   std::vector<std::size_t> at;
   double due = 0;
   for (std::size_t k = 0; k < course.gap.size(); ++k) {
@@ -100,8 +100,8 @@ std::vector<Course> near_pairs(const Simulation& simulation, const Snapshot& now
   return courses;
 }
 
-void draw_looks(const std::filesystem::path& folder, const Course& course, const std::vector<std::size_t>& at,
-                double dt, double window) {
+void draw_visits(const std::filesystem::path& folder, const Course& course, const std::vector<std::size_t>& at,
+                 double dt, double window) {
   const auto ms = [&](std::size_t k) { return 1e3 * static_cast<double>(k) * dt; };
   std::string data;
   for (std::size_t k = 0; k < course.gap.size(); ++k)
@@ -119,18 +119,18 @@ set ylabel "gap between the nearest beads [um]"
 set key outside below horizontal
 set xrange [0:{:g}]
 set xzeroaxis lt -1
-plot "looks.dat" index 0 using 1:2 with lines lw 2 lc rgb "#4477aa" title "gap", \
-     "looks.dat" index 1 using 1:2:3:(0) with vectors nohead lw 1.5 lc rgb "#ccbb44" title "no contact before", \
-     "looks.dat" index 1 using 1:($4==1?$2:1/0) with points pt 7 ps 0.7 lc rgb "#bbbbbb" title "a rod was hit", \
-     "looks.dat" index 1 using 1:($4==0?$2:1/0) with points pt 7 ps 0.9 lc rgb "#ee6677" title "bound ran out"
+plot "visits.dat" index 0 using 1:2 with lines lw 2 lc rgb "#4477aa" title "gap", \
+     "visits.dat" index 1 using 1:2:3:(0) with vectors nohead lw 1.5 lc rgb "#ccbb44" title "no contact before", \
+     "visits.dat" index 1 using 1:($4==1?$2:1/0) with points pt 7 ps 0.7 lc rgb "#bbbbbb" title "a rod was hit", \
+     "visits.dat" index 1 using 1:($4==0?$2:1/0) with points pt 7 ps 0.9 lc rgb "#ee6677" title "bound ran out"
 )gp",
       1e3 * window, course.gap.size(), at.size(), n_hits, 1e3 * window);
-  const auto picture = draw_plot(folder, "looks", data, plot_head("looks", {1000, 520}) + plot_axes("y") + script);
-  fmt::print("{} ticks, {} looks, {} of them because a rod was hit: {}\n", course.gap.size(), at.size(), n_hits,
+  const auto picture = draw_plot(folder, "visits", data, plot_head("visits", {1000, 520}) + plot_axes("y") + script);
+  fmt::print("{} ticks, {} visits, {} of them because a rod was hit: {}\n", course.gap.size(), at.size(), n_hits,
              picture.string());
 }
 
-struct LooksBench {
+struct VisitsBench {
   CaseOptions scene{.side = 20};
   double window = 0.008;
   Cache cache;
@@ -145,7 +145,7 @@ struct LooksBench {
 
   ExitCode run() const {
     const Case wanted = scene.read();
-    Simulation simulation = resumed(wanted, cache(wanted), Engine::kScheduled);
+    Simulation simulation = resumed(wanted, cache(wanted), StepperKind::kScheduled);
     Snapshot now = simulation.snapshot();
     std::vector<Course> courses = near_pairs(simulation, now);
     const auto ticks = static_cast<Tick>(window / wanted.dt);
@@ -156,16 +156,16 @@ struct LooksBench {
     }
     const Course& best = *std::max_element(courses.begin(), courses.end(),
                                            [](const Course& a, const Course& b) { return approach(a) < approach(b); });
-    draw_looks(out, best, looks(best, wanted.dt), wanted.dt, window);
+    draw_visits(out, best, visits(best, wanted.dt), wanted.dt, window);
     return ExitCode::kOk;
   }
 };
 
 }  // namespace
 
-void add_looks(CLI::App& app, Work& work) {
-  add_bench<LooksBench>(app, work, "looks", "A picture of how seldom the scheduled stepper looks at a pair",
-                        kLooksFooter);
+void add_visits(CLI::App& app, Work& work) {
+  add_bench<VisitsBench>(app, work, "visits", "A picture of how seldom the scheduled stepper visits a pair",
+                         kVisitsFooter);
 }
 
 }  // namespace shaken::bench

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "bench/accuracy/fits.h"
+#include "bench/fits.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-
-#include "analysis/parts.h"
+#include <limits>
 
 namespace shaken::bench {
 namespace {
@@ -45,15 +44,14 @@ OrderFit power_through(std::span<const double> steps, std::span<const double> er
           first, points};
 }
 
-}  // namespace
-
-Estimate mean_of_samples(std::span<const double> samples) {
-  const auto n = static_cast<double>(samples.size());
-  const double mean = analysis::mean_of(samples);
-  double squares = 0;
-  for (const double sample : samples) squares += (sample - mean) * (sample - mean);
-  return {mean, std::sqrt(squares / (n - 1) / n)};
+/// Half the width of an interval of 95 % confidence in units of the standard error; NaN with too few degrees of
+/// freedom.
+double student_at_95(double freedom) {
+  constexpr double kNormal = 1.9599639845;
+  return freedom >= 3 ? student_quantile(kNormal, freedom) : std::numeric_limits<double>::quiet_NaN();
 }
+
+}  // namespace
 
 Estimate mean_of_runs(std::span<const Estimate> runs) {
   double sum = 0, squares = 0;
@@ -115,6 +113,24 @@ Quartiles quartiles_of(std::vector<double> values) {
     return std::lerp(values[below], values[above], place - static_cast<double>(below));
   };
   return {at(0.25), at(0.5), at(0.75)};
+}
+
+double Apart::farthest() const { return std::abs(difference) + half_width; }
+double Apart::nearest() const { return std::abs(difference) - half_width; }
+
+Sameness Apart::within(double bound) const {
+  if (farthest() <= bound) return Sameness::kSame;
+  return nearest() > bound ? Sameness::kDifferent : Sameness::kOpen;
+}
+
+Apart compare_means(std::span<const double> first, std::span<const double> second) {
+  const Estimate a = mean_of_samples(first), b = mean_of_samples(second);
+  const double size = std::abs(a.value + b.value) / 2;
+  const double of_a = a.sem * a.sem, of_b = b.sem * b.sem, variance = of_a + of_b;
+  const double freedom =
+      variance * variance /
+      (of_a * of_a / (static_cast<double>(first.size()) - 1) + of_b * of_b / (static_cast<double>(second.size()) - 1));
+  return {(b.value - a.value) / size, student_at_95(freedom) * std::sqrt(variance) / size};
 }
 
 }  // namespace shaken::bench

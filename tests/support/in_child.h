@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
 
-#include "base/scratch_folder.h"
-
-namespace shaken::run {
-
-using TemporaryFolder = ScratchFolder;
+namespace shaken {
 
 /// Calls `action` in a child process; returns its exit code: 0 where `action` returned true.
 template <class Action>
@@ -37,4 +32,4 @@ inline void limit_file_size(rlim_t bytes) {
   setrlimit(RLIMIT_FSIZE, &limit);
 }
 
-}  // namespace shaken::run
+}  // namespace shaken

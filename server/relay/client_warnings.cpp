@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "server/relay/complaints.h"
+#include "server/relay/client_warnings.h"
 
 #include <spdlog/spdlog.h>
 
@@ -7,7 +7,7 @@
 
 namespace shaken::relay {
 
-void Complaints::note(const std::string& what, std::chrono::steady_clock::time_point now) {
+void ClientWarnings::note(const std::string& what, std::chrono::steady_clock::time_point now) {
   constexpr std::chrono::seconds kPause{10};
   if (now < next_) {
     ++kept_back_;
