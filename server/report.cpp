@@ -86,19 +86,26 @@ Json sweep_report(const Sweep& sweep, std::span<const Job> active, std::optional
   const std::int64_t n_jobs = sweep.counts.total();
   const std::int64_t n_queued = sweep.counts[JobState::kQueued];
   auto finished = static_cast<double>(sweep.counts[JobState::kDone]);
-  double longest = 0;  // wall seconds to the end of the last active job
+  double longest = 0;  // wall seconds to the end of the last active job that tells
   double sum = 0;
-  bool known = n_queued == 0 || mean_duration.has_value();
+  int n_tell = 0;
+  std::int64_t n_wait = n_queued;
   for (const Job& job : active) {
     const auto progress = run::read_progress(run::RunDirectory{runs / job.id}.progress());
     const bool tells = progress && progress->state != "done";  // not of the run before it was extended
     if (tells) finished += std::clamp(progress->fraction(), 0.0, 1.0);
-    known = known && tells && progress->eta >= 0;
-    if (!known) continue;
-    longest = std::max(longest, progress->eta);
-    sum += progress->eta;
+    if (tells && progress->eta >= 0) {
+      ++n_tell;
+      longest = std::max(longest, progress->eta);
+      sum += progress->eta;
+    } else {
+      ++n_wait;  // handed over to a cluster, and waits there, or has just begun
+    }
   }
-  const double all = sum + static_cast<double>(n_queued) * mean_duration.value_or(0);
+  const bool known = n_wait == 0 || (mean_duration && (n_tell > 0 || active.empty()));
+  // where some wait that have been handed over, as many are at work as can be
+  const int at_once = n_wait > n_queued ? n_tell : std::max(n_tell, slots);
+  const double all = sum + static_cast<double>(n_wait) * mean_duration.value_or(0);
   return {{"id", sweep_word(sweep.id)},
           {"name", sweep.name},
           {"created_utime", sweep.created},
@@ -109,7 +116,7 @@ Json sweep_report(const Sweep& sweep, std::span<const Job> active, std::optional
           {"stop_if", sweep.stop_if.empty() ? Json(nullptr) : Json(sweep.stop_if)},
           {"stopped", sweep.stopped},
           {"progress", n_jobs > 0 ? finished / static_cast<double>(n_jobs) : 1.0},
-          {"eta_s", known ? std::max(longest, all / slots) : -1.0}};
+          {"eta_s", known ? std::max(longest, all / std::max(1, at_once)) : -1.0}};
 }
 
 Json result_row(const Job& job, const std::filesystem::path& runs) {

@@ -9,6 +9,7 @@
 
 #include "base/files.h"
 #include "base/text.h"
+#include "run/files/progress.h"
 
 namespace shaken::server {
 namespace {
@@ -30,6 +31,12 @@ std::filesystem::file_time_type checkpoint_time(const run::RunDirectory& directo
   std::error_code error;
   const auto written = std::filesystem::last_write_time(directory.checkpoint(), error);
   return error ? std::filesystem::file_time_type::min() : written;
+}
+
+/// The simulated time that a run has told of [s]; 0 if it has not.
+double told_time(const run::RunDirectory& directory) {
+  const auto progress = run::read_progress(directory.progress());
+  return progress ? progress->sim_time : 0;
 }
 
 std::int64_t bytes_in(const std::filesystem::path& folder) {
@@ -69,6 +76,7 @@ void Supervisor::adopt() {
     worker.waits = true;  // until the executor says otherwise
     worker.noted.reset();
     worker.checkpoint_before = checkpoint_time(worker.directory);
+    worker.told_before = told_time(worker.directory);
     spdlog::info("job {}: its worker {} has outlived the former daemon", id, printable(name));
   }
 }
@@ -130,6 +138,7 @@ void Supervisor::look_at(const std::string& id, Worker& worker) {
       worker.note = report.words;
       return;
     case kEnded:
+      worker.was_at_work = true;
       worker.job_end = judge(report.end, stop_asked, id, worker.directory);
       break;
     case kTaken:
@@ -156,7 +165,13 @@ void Supervisor::settle(const std::string& id, const Worker& worker) {
       queue_.finish(id, JobState::kFailed, reason);
       break;
     case JobEnd::Outcome::kStopped:
-      queue_.stopped(id, reason);
+      // else what is stopped as soon as it begins would be started again for ever
+      if (worker.was_at_work && !worker.kill_at && told_time(worker.directory) <= worker.told_before) {
+        queue_.crashed(id, "stopped, not by Shaken, before it got any further (a time limit that is too short?)", false,
+                       options_.retry_pauses);
+      } else {
+        queue_.stopped(id, reason);
+      }
       break;
     case JobEnd::Outcome::kCrashed:
       queue_.crashed(id, reason, checkpoint_time(worker.directory) != worker.checkpoint_before, options_.retry_pauses);
@@ -309,6 +324,7 @@ void Supervisor::start(const Job& job) {
                 settings};
   launch.arguments.insert(launch.arguments.end(), options_.worker_options.begin(), options_.worker_options.end());
   const auto checkpoint_before = checkpoint_time(directory);
+  const double told_before = told_time(directory);
   const auto handle = executor_.start(launch);
   if (!handle) {
     could_not_start(job.id, handle.error().message);
@@ -319,6 +335,7 @@ void Supervisor::start(const Job& job) {
   worker.directory = directory;
   worker.started = worker.counted = Clock::now();
   worker.checkpoint_before = checkpoint_before;
+  worker.told_before = told_before;
   if (const std::string name = executor_.name(*handle); name.empty()) {
     queue_.set_pid(job.id, *handle);
   } else {

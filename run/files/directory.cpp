@@ -30,4 +30,9 @@ Result<DirectoryLock> DirectoryLock::acquire(const std::filesystem::path& lock_f
   return DirectoryLock(std::move(file));
 }
 
+bool DirectoryLock::is_held(const std::filesystem::path& lock_file) {
+  const Descriptor file(::open(lock_file.c_str(), O_RDWR | O_CLOEXEC));
+  return file && ::flock(file.value(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+}
+
 }  // namespace shaken::run

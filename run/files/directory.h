@@ -39,6 +39,8 @@ class DirectoryLock {
  public:
   /// Creates the lock file if need be. Fails with the owner's pid in the message if another process holds it.
   static Result<DirectoryLock> acquire(const std::filesystem::path& lock_file);
+  /// Whether another process holds it just now; false where that cannot be told, as on a file system without locks.
+  static bool is_held(const std::filesystem::path& lock_file);
 
  private:
   explicit DirectoryLock(Descriptor file) : file_(std::move(file)) {}

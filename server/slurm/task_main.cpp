@@ -82,9 +82,10 @@ class Task {
  private:
   /// How the worker ended; none if the task is taken from it.
   std::optional<WorkerEnd> run(LocalExecutor& executor, const Launch& launch, int place) {
-    // A worker from before the task was put back may still be at it, on a node that Slurm has lost sight of.
+    // A worker from before the task was put back may still be at it, on a node that Slurm has lost sight of. Whether
+    // the directory can be locked at all is found by the worker, which says so.
     const run::RunDirectory directory{launch.directory};
-    while (!run::DirectoryLock::acquire(directory.lock())) {
+    while (run::DirectoryLock::is_held(directory.lock())) {
       wait();
       if (is_taken_ || time_is_over_ || must_stop(place)) break;
     }

@@ -64,5 +64,16 @@ TEST(DirectoryLock, IsNotInheritedByPrograms) {
   waitpid(child, nullptr, 0);
 }
 
+TEST(DirectoryLock, IsHeldWhileItLives) {
+  const ScratchFolder folder;
+  EXPECT_FALSE(DirectoryLock::is_held(folder / "lock")) << "there is none";
+  {
+    const auto lock = DirectoryLock::acquire(folder / "lock");
+    ASSERT_TRUE(static_cast<bool>(lock));
+    EXPECT_TRUE(DirectoryLock::is_held(folder / "lock"));
+  }
+  EXPECT_FALSE(DirectoryLock::is_held(folder / "lock"));
+}
+
 }  // namespace
 }  // namespace shaken::run

@@ -518,6 +518,23 @@ TEST_F(ApiTest, ARunningJobShowsItsProgress) {
   EXPECT_TRUE(get("/v1/jobs/" + ids[0]).json["job"]["progress"].is_null());
 }
 
+// As in a cluster, where runs that are handed over wait for nodes.
+TEST_F(ApiTest, RunsThatWaitElsewhereCountAsWaitingForThoseAtWork) {
+  const auto ids = submit_four();
+  queue_.begin(ids[0]);
+  queue_.add_wall(std::vector{std::pair{ids[0], std::chrono::milliseconds(30'000)}});
+  queue_.finish(ids[0], JobState::kDone, "");
+  for (const auto& id : {ids[1], ids[2], ids[3]}) queue_.begin(id);
+  EXPECT_EQ(get("/v1/sweeps/s1").json["sweep"]["eta_s"], -1.0) << "none is at work";
+  const auto file = directory_ / "runs" / ids[1] / "progress.json";
+  std::filesystem::create_directories(file.parent_path());
+  write_text(file,
+             R"({"state": "running", "message": "", "pid": 1, "n_rods": 9, "fraction": 0.5, "sim_time_s": 1,
+                 "sim_time_total_s": 2, "sim_rate": 0.1, "eta_s": 10, "order": 0.25, "order_running_mean": 0.2,
+                 "max_overlap_mm": 0})");
+  EXPECT_EQ(get("/v1/sweeps/s1").json["sweep"]["eta_s"], 10.0 + 2 * 30.0) << "one after the other";
+}
+
 TEST_F(ApiTest, ALogIsReadPieceByPiece) {
   const auto ids = submit_four();
   EXPECT_EQ(get("/v1/jobs/" + ids[0] + "/log").json.dump(), R"({"text":"","offset":0,"state":"queued"})");

@@ -131,6 +131,20 @@ TEST_F(SupervisorTest, SuccessWithoutResultsIsAFailure) {
   EXPECT_THAT(job('a').reason, HasSubstr("summary.json"));
 }
 
+// A cluster's time limit may be so short that each task is told to end as soon as it begins.
+TEST_F(SupervisorTest, WhatIsStoppedBeforeItGetsAnyFurtherIsNotStartedForEver) {
+  submit('a', "stops at once");
+  ASSERT_TRUE(step_until('a', kFailed));
+  EXPECT_EQ(job('a').attempt, 3) << "as many pauses and one";
+  EXPECT_THAT(job('a').reason, HasSubstr("before it got any further"));
+}
+
+TEST_F(SupervisorTest, WhatIsStoppedFurtherOnEachTimeGoesOn) {
+  submit('a', "stops further on");
+  EXPECT_TRUE(step_until([&] { return job('a').attempt > 5; }));
+  EXPECT_NE(job('a').state, kFailed);
+}
+
 TEST_F(SupervisorTest, AWorkerThatCrashesIsTriedAgainAfterPausesAndTheOthersGoOn) {
   submit('a', "crash");
   submit('b', "done");

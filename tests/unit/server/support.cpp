@@ -51,6 +51,13 @@ end
   bad) exit 2 ;;
   crash) kill -KILL $$ ;;
   "crash after checkpoint") : >"$dir/checkpoint.bin"; kill -KILL $$ ;;
+  "stops at once") exit 99 ;;
+  "stops further on")
+    cat >"$dir/progress.json" <<end
+{"state": "stopped", "message": "asked to stop", "pid": $$, "n_rods": 7, "fraction": 0.5, "sim_time_s": $(date +%s%N),
+ "sim_time_total_s": 2, "sim_rate": 0.1, "eta_s": -1, "order": 0, "order_running_mean": 0, "max_overlap_mm": 0}
+end
+    exit 99 ;;
   run) trap 'exit 99' TERM; hold ;;
   late) trap 'summary; exit 0' TERM; hold ;;
   deaf) trap '' TERM; hold ;;
