@@ -6,27 +6,18 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <limits>
 #include <thread>
 
 #include "base/failure.h"
 #include "base/files.h"
+#include "base/processor.h"
 #include "base/table.h"
 #include "base/text.h"
 #include "run/files/version.h"
 
 namespace shaken::bench {
 namespace {
-
-std::string cpu_name() {
-  std::ifstream info("/proc/cpuinfo");
-  for (std::string line; std::getline(info, line);) {
-    const std::size_t colon = line.find(": ");
-    if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
-  }
-  return "unknown CPU";
-}
 
 int n_cores() { return static_cast<int>(std::thread::hardware_concurrency()); }
 

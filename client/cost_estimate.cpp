@@ -18,6 +18,7 @@
 #include "scene/canonical.h"
 #include "scene/derived.h"
 #include "scene/load.h"
+#include "scene/memory.h"
 #include "scene/units.h"
 
 namespace shaken::client {
@@ -48,6 +49,8 @@ struct Rates {
   double stepping = 0;  ///< CPU time per rod and simulated second
   double besides = 0;   ///< the same of measuring, recording, drawing
   double disk = 0;      ///< bytes per rod and simulated second
+  double most = 0;      ///< the same of what the disk must have room for
+  double memory = 0;    ///< bytes per rod
 };
 
 double rod_seconds(const scene::RunPlan& plan) { return plan.system.n_all_rods() * plan.total_time(); }
@@ -56,7 +59,9 @@ Rates rates_of(const Json& report, const scene::RunPlan& plan) {
   const double stepping = report.at("stepping_cpu_seconds").get<double>();
   const double all = rod_seconds(plan);
   return {stepping / all, (report.at("cpu_seconds").get<double>() - stepping) / all,
-          report.at("disk_bytes").at("total").get<double>() / all};
+          report.at("disk_bytes").at("total").get<double>() / all,
+          report.at("disk_bytes").at("most").get<double>() / all,
+          report.at("memory_bytes").get<double>() / plan.system.n_all_rods()};
 }
 
 /// The plan at another step, or what speaks against it.
@@ -108,7 +113,9 @@ class Estimator {
     for (const std::size_t k : probed) {
       rates.push_back(rates_of(k == shown ? result_.report : probe_plan(plan_of(k), label_of(k), ""), plan_of(k)));
     }
-    const Costs costs = add_up(probed, rates);
+    rates = interpolated(probed, rates);
+    result_.runs = runs_at(rates);
+    const Costs costs = add_up(rates);
     result_.levels.push_back({kAsWritten, has_one_step() ? plan_of(shown).system.dt : 0, "", costs.cpu(1), costs.disk});
     if (levels) probe_levels(shown, costs);
     if (options_.on_probe) options_.on_probe(n_probes_, n_probes_);
@@ -148,27 +155,51 @@ class Estimator {
         n_alike_.push_back(0);
       }
       ++n_alike_[at->second];
+      kind_.push_back(at->second);
     }
   }
 
-  /// Between two probed points the rates go straight from those of the one to those of the other.
-  Costs add_up(const std::vector<std::size_t>& probed, const std::vector<Rates>& rates) const {
-    Costs sum;
+  /// Of each kind of run. Between two probed points the rates go straight from those of the one to those of the other.
+  std::vector<Rates> interpolated(const std::vector<std::size_t>& probed, const std::vector<Rates>& rates) const {
+    std::vector<Rates> all;
+    all.reserve(distinct_.size());
     std::size_t next = 0;  // the first probed point that is not before k
     for (std::size_t k = 0; k < distinct_.size(); ++k) {
       while (next + 1 < probed.size() && probed[next] < k) ++next;
       const std::size_t before = next > 0 ? next - 1 : 0;
       const double width = static_cast<double>(probed[next] - probed[before]);
       const double part = width > 0 ? static_cast<double>(k - probed[before]) / width : 1;
+      const auto between = [&](double Rates::*rate) { return std::lerp(rates[before].*rate, rates[next].*rate, part); };
+      all.push_back({between(&Rates::stepping), between(&Rates::besides), between(&Rates::disk), between(&Rates::most),
+                     between(&Rates::memory)});
+    }
+    return all;
+  }
+
+  Costs add_up(const std::vector<Rates>& rates) const {
+    Costs sum;
+    for (std::size_t k = 0; k < distinct_.size(); ++k) {
       const double size = static_cast<double>(n_alike_[k]) * rod_seconds(plan_of(k));
-      const auto between = [&](double Rates::*rate) {
-        return size * std::lerp(rates[before].*rate, rates[next].*rate, part);
-      };
-      sum.stepping += between(&Rates::stepping);
-      sum.besides += between(&Rates::besides);
-      sum.disk += between(&Rates::disk);
+      sum.stepping += size * rates[k].stepping;
+      sum.besides += size * rates[k].besides;
+      sum.disk += size * rates[k].disk;
     }
     return sum;
+  }
+
+  std::vector<RunCost> runs_at(const std::vector<Rates>& rates) const {
+    std::vector<RunCost> runs;
+    runs.reserve(kind_.size());
+    for (const std::size_t k : kind_) {
+      const scene::RunPlan& plan = plan_of(k);
+      const double size = rod_seconds(plan);
+      runs.push_back(
+          {.cpu = size * (rates[k].stepping + rates[k].besides),
+           .disk = size * rates[k].disk,
+           .most = size * rates[k].most,
+           .memory = plan.system.n_all_rods() * rates[k].memory + scene::peak_of(scene::measure_memory(plan))});
+    }
+    return runs;
   }
 
   /// A saved state fits one step only. So that steps can be compared, all of them begin where the run begins.
@@ -203,6 +234,7 @@ class Estimator {
   CostEstimate result_;
   std::vector<std::size_t> distinct_;      ///< the first point of each kind
   std::vector<std::size_t> n_alike_;       ///< (distinct_) how many points are of the kind
+  std::vector<std::size_t> kind_;          ///< (points) the place of its kind in distinct_
   std::size_t n_probes_ = 0, n_done_ = 0;  ///< to be made, and made
 };
 
@@ -245,13 +277,6 @@ std::string cpu_text(double seconds) {
   if (seconds < 60) return fmt::format("{:.2g} CPU-seconds", seconds);
   if (seconds < 3600) return fmt::format("{:.3g} CPU-minutes", seconds / 60);
   return fmt::format("{:.4g} CPU-hours", seconds / 3600);
-}
-
-std::optional<double> cpu_as_written(const CostEstimate& estimate, double step) {
-  for (const LevelCost& level : estimate.levels) {
-    if (level.name == kAsWritten || level.step == step) return level.cpu;
-  }
-  return std::nullopt;
 }
 
 ProbeProgress probe_progress(const Console& console) {

@@ -39,6 +39,14 @@ struct LevelCost {
   std::optional<double> disk;  ///< [bytes]
 };
 
+/// What one run costs with the step that its scene has.
+struct RunCost {
+  double cpu = 0;     ///< [s]
+  double disk = 0;    ///< that stays [bytes]
+  double most = 0;    ///< that the disk must have room for at its end [bytes]
+  double memory = 0;  ///< held at most: what a short piece of it takes, and what its measurements may grow to [bytes]
+};
+
 /// What a sweep would cost on this machine, on one core.
 struct CostEstimate {
   std::size_t n_runs = 0;
@@ -47,6 +55,7 @@ struct CostEstimate {
   std::size_t shown = 0;       ///< the point that `report` is of
   Json report;                 ///< of `shaken-worker --probe` (run/probe/probe.h)
   std::vector<LevelCost> levels;
+  std::vector<RunCost> runs;  ///< (n_runs) in the order of the sweep's points; empty if nothing was probed
 };
 
 /// Probes a handful of points by `shaken-worker --probe`, evenly along the sweep; costs of those between them, per rod
@@ -57,10 +66,6 @@ CostEstimate estimate_cost(const scene::Sweep& sweep, const EstimateOptions& opt
 /// The costs as a table, and a line on where they come from; empty if nothing was probed.
 std::string estimate_text(const CostEstimate& estimate, int width);
 Json estimate_json(const CostEstimate& estimate);
-
-/// CPU time of all runs with the steps that their scenes have; `step`: that of the point shown. None if it is not
-/// known.
-std::optional<double> cpu_as_written(const CostEstimate& estimate, double step);
 
 /// "12.3 CPU-hours", "4.1 CPU-minutes"
 std::string cpu_text(double seconds);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "client/json.h"
 
@@ -10,8 +12,7 @@ namespace shaken::client {
 
 /// What is known of a sweep that is to run in Slurm.
 struct SlurmLoad {
-  std::size_t n_runs = 0;
-  double cpu = 0;  ///< of all runs together, on a core like that of this machine [s]
+  std::vector<double> runs{};  ///< CPU time of each, in their order, on a core like that of this machine [s]
   int runs_per_task = 1;
   int threads = 1;        ///< cores of a task
   int cores = 0;          ///< that run at once; 0: as many as there are tasks for
@@ -24,11 +25,20 @@ struct SlurmLoad {
 struct SlurmEstimate {
   std::size_t n_tasks = 0;
   double core_hours = 0;
-  double task = 0;        ///< wall time of a task [s]
-  double wall = 0;        ///< of the sweep, in rounds of as many tasks as there are cores [s]
+  double run = 0;         ///< wall time of the longest run [s]
+  double task = 0;        ///< wall time of the longest task [s]
+  double wall = 0;        ///< of the sweep, each core taking the next task when it has done one [s]
   double refill = 0;      ///< least time in which the daemon hands all tasks over [s]
   bool too_long = false;  ///< a task takes longer than it may
+
+  /// Of the sweep, with the daemon's handing over [s].
+  double all() const { return std::max(wall, refill); }
 };
+
+/// Wall time of each task: so many runs one after the other, in their order.
+std::vector<double> tasks_of(const SlurmLoad& load);
+/// When the last of these tasks ends if they are started in their order, `at_once` of them at most at the same time.
+double end_of_last(const std::vector<double>& tasks, std::size_t at_once);
 
 /// Whether a value of --executor means Slurm; none means that of the scene's sweep or the daemon. Throws Failure where
 /// it is the name of no executor.

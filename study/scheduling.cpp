@@ -4,19 +4,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <thread>
 #include <utility>
 
 #include "base/failure.h"
-#include "base/table.h"
 #include "base/text.h"
-#include "client/cost_estimate.h"
+#include "study/cost.h"
 
 namespace shaken::study {
 namespace {
 
 namespace fs = std::filesystem;
-using Align = Table::Align;
 using Clock = std::chrono::steady_clock;
 
 /// Between two lines of progress in a log, where there is no terminal to redraw [s].
@@ -25,65 +22,27 @@ constexpr double kQuiet = 60;
 /// A daemon that goes away more often than that has a reason.
 constexpr int kMostRestarts = 3;
 
-/// CPU time [s] and disk [bytes] of several sweeps together.
-struct Sum {
-  double cpu = 0, disk = 0;
-  void add(const client::LevelCost& cost) {
-    cpu += cost.cpu.value_or(0);
-    disk += cost.disk.value_or(0);
-  }
-};
-
-Json number_or_null(const std::optional<double>& number) { return number ? Json(*number) : Json(); }
-
 }  // namespace
 
-void show_cost(const Selection& selection, const std::string& scale, bool json, client::Console& console) {
-  Table table({{"SWEEP"}, {"RUNS", Align::kRight}, {"ROD-SECONDS", Align::kRight}, {"CPU"}, {"DISK"}});
-  Json list = Json::array();
-  Sum sum;
-  for (const NamedSweep& sweep : selection.sweeps) {
-    if (!sweep.needed) continue;
-    const client::CostEstimate estimate = client::estimate_cost(sweep.sweep, {});
-    const client::LevelCost& cost = estimate.levels.front();  // as written
-    sum.add(cost);
-    table.add_row({sweep.name, std::to_string(sweep.sweep.points.size()), number_text(sweep.rod_seconds()),
-                   cost.cpu ? client::cpu_text(*cost.cpu) : "?", cost.disk ? bytes_text(*cost.disk) : "?"});
-    list.push_back({{"sweep", sweep.name},
-                    {"runs", sweep.sweep.points.size()},
-                    {"rod_seconds", sweep.rod_seconds()},
-                    {"cpu_seconds", number_or_null(cost.cpu)},
-                    {"disk_bytes", number_or_null(cost.disk)}});
-  }
-  if (json) {
-    const Json all{{"scale", scale}, {"sweeps", list}, {"cpu_seconds", sum.cpu}, {"disk_bytes", sum.disk}};
-    console.out << client::json_text(all);
-    return;
-  }
-  console.out << table.text(console.width)
-              << fmt::format("together {} and {}: divide by the cores of this machine\n", client::cpu_text(sum.cpu),
-                             bytes_text(sum.disk));
-}
-
-bool is_agreed_to(const Selection& selection, const fs::path& runs_folder, bool yes, client::Console& console) {
+bool is_agreed_to(const Selection& selection, const fs::path& runs_folder, int cores, bool yes,
+                  client::Console& console) {
   // A glance at each sweep: hours or minutes is the question.
   const client::EstimateOptions glance{.cpu = 0.2, .most_probes = 2, .levels = false};
-  std::size_t n_runs = 0;
-  Sum sum;
+  std::vector<NamedSweep> rest;
   for (const NamedSweep& sweep : selection.sweeps) {
     if (!sweep.needed) continue;
-    const scene::Sweep rest = rest_of(sweep.sweep, runs_folder);
-    if (rest.points.empty()) continue;
-    if (console.err_is_terminal) console.err << fmt::format("\r\x1b[Kwhat will it cost? {}", sweep.name) << std::flush;
-    sum.add(client::estimate_cost(rest, glance).levels.front());
-    n_runs += rest.points.size();
+    NamedSweep left{.name = sweep.name, .needed = true, .sweep = rest_of(sweep.sweep, runs_folder)};
+    if (!left.sweep.points.empty()) rest.push_back(std::move(left));
   }
-  if (console.err_is_terminal) console.err << "\r\x1b[K" << std::flush;
-  if (n_runs == 0) return true;
-  const unsigned n_cores = std::max(1U, std::thread::hardware_concurrency());
-  console.err << fmt::format("{} runs to be done: about {}, {} on {} cores, and {} in {}\n", n_runs,
-                             client::cpu_text(sum.cpu), duration_text(sum.cpu / n_cores), n_cores, bytes_text(sum.disk),
-                             runs_folder.string());
+  if (rest.empty()) return true;
+  const StudyCost study = probed_cost(rest, glance, cores, console);
+  const std::string where = study.cores > 0 ? fmt::format("{} cores", study.cores) : "a core for each task";
+  const Cost& all = study.all;
+  console.err << fmt::format("{} runs to be done{}: about {}, {} on {}, and {} in {}\n", all.n_runs,
+                             study.slurm ? fmt::format(" in {} tasks", all.estimate.n_tasks) : "",
+                             client::cpu_text(3600 * all.estimate.core_hours), duration_text(all.estimate.all()), where,
+                             bytes_text(all.disk), runs_folder.string());
+  for (const std::string& remark : remarks_on(study)) console.err << remark << "\n";
   return yes || console.in == nullptr || console.agrees("Go on?", true);
 }
 

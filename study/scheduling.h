@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The runs of a selection: what they would cost, and how they are brought to their end by a daemon.
+// The runs of a selection, and how they are brought to their end by a daemon.
 #pragma once
 
 #include <chrono>
@@ -19,12 +19,9 @@
 
 namespace shaken::study {
 
-/// What all runs of the sweeps that are needed would cost from nothing, on `console`: a table, or JSON.
-void show_cost(const Selection& selection, const std::string& scale, bool json, client::Console& console);
-
-/// Tells what the runs that are not done yet will cost, and asks where there is somebody to ask, unless `yes`. Whether
-/// to start.
-bool is_agreed_to(const Selection& selection, const std::filesystem::path& runs_folder, bool yes,
+/// Tells what the runs that are not done yet will cost on so many cores (see study_cost()), and asks where there is
+/// somebody to ask, unless `yes`. Whether to start.
+bool is_agreed_to(const Selection& selection, const std::filesystem::path& runs_folder, int cores, bool yes,
                   client::Console& console);
 
 /// The sweeps that are needed in the queue of a daemon, which is started where none is at work and goes with this

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -14,6 +15,9 @@
 #include "base/table.h"
 #include "client/verbs/verbs.h"
 #include "study/claims.h"
+#include "study/computing_plan.h"
+#include "study/cost.h"
+#include "study/destination.h"
 #include "study/drawing.h"
 #include "study/report.h"
 #include "study/scheduling.h"
@@ -39,7 +43,11 @@ class Figures : public client::Verb {
             "  shaken figures --list                 what there is, and the runs that each needs\n"
             "  shaken figures 2 6 7                  the phase diagram and the layers\n"
             "  shaken figures --scale tiny           seconds: to see that all is there\n"
-            "  shaken figures --scale paper --dry-run   what the paper's sizes would cost here\n"
+            "  shaken figures --scale paper --dry-run --cores 8   what the paper's sizes would cost on eight cores\n"
+            "  shaken --root /shared/me figures --scale paper --executor slurm --partition long --time 24h\n"
+            "                                        everything at the paper's size, in Slurm (docs/cluster.md)\n"
+            "  shaken figures --scale paper --executor slurm --cores 64 --plan plan.md\n"
+            "                                        only a plan for a computing centre, and the sweeps beside it\n"
             "  shaken figures --draw-only            from the runs that are done, while others go on\n"
             "Stop it at any time: the same command goes on where it stopped. `shaken watch` and `shaken status` work\n"
             "meanwhile. What it will cost is told before it starts, and asked on a terminal. Beside each PNG lie its "
@@ -52,7 +60,13 @@ class Figures : public client::Verb {
     arguments.option("-o,--out", out_, "DIR", "Where to draw; figures-SCALE if left out", client::Names::kFolder);
     arguments.option("--configs", configs_, "DIR", "Folder that holds figures/SCALE/*.json", client::Names::kFolder);
     arguments.flag("--list", list_, "List the figures and the sweeps they need, and do nothing");
-    arguments.flag("--dry-run", dry_run_, "Check the sweeps and say what they would cost on this machine");
+    arguments.flag("--dry-run", dry_run_, "Check the sweeps, say what they would cost, and start nothing");
+    arguments.option("--cores", cores_, "N",
+                     "Cores that costs are told for; those of this machine, in Slurm one for each task if left out");
+    arguments.option("--plan", plan_, "FILE",
+                     "Start nothing: write what a computing centre wants to know (Markdown), and the sweeps beside it",
+                     client::Names::kFile);
+    destination_.declare(arguments);
     arguments.flag("-y,--yes", yes_, "Start without asking, also on a terminal");
     arguments.flag("--draw-only", draw_only_, "Queue nothing: draw from the runs that are done");
     arguments.option("--report", report_, "FILE",
@@ -66,8 +80,9 @@ class Figures : public client::Verb {
     choose();
     if (list_) return show_list(console);
     load(selection_, sweeps_folder(configs_, scale_));
-    if (dry_run_) {
-      show_cost(selection_, scale_, json_, console);
+    destination_.redirect(selection_);
+    if (dry_run_ || !plan_.empty()) {
+      tell_cost(console);
       return ExitCode::kOk;
     }
     if (out_.empty()) out_ = "figures-" + scale_;
@@ -83,7 +98,7 @@ class Figures : public client::Verb {
       }
       if (!guard.interrupted()) conclude(runs_folder, maker.made(), console);
     } else {
-      if (!is_agreed_to(selection_, runs_folder, yes_, console)) {
+      if (!is_agreed_to(selection_, runs_folder, cores_.value_or(0), yes_, console)) {
         console.err << "nothing was started\n";
         return ExitCode::kFailed;
       }
@@ -94,7 +109,8 @@ class Figures : public client::Verb {
       schedule.let_others_finish(guard);
     }
     if (guard.interrupted()) {
-      console.err << "interrupted: the same command goes on from here\n";
+      console.err << (in_slurm() ? "interrupted: what Slurm has goes on, the same command follows it from here\n"
+                                 : "interrupted: the same command goes on from here\n");
       return ExitCode::kInterrupted;
     }
     return complete ? ExitCode::kOk : ExitCode::kFailed;
@@ -108,6 +124,10 @@ class Figures : public client::Verb {
     if (std::find(std::begin(kScales), std::end(kScales), scale_) == std::end(kScales)) {
       problems += fmt::format("--scale takes tiny, laptop or paper, not '{}'\n", scale_);
     }
+    problems += destination_.problems();
+    if (cores_ && *cores_ < 1) problems += "--cores must be at least 1\n";
+    if (!plan_.empty() && !destination_.is_slurm()) problems += "--plan is for Slurm: add --executor slurm\n";
+    if (!plan_.empty() && draw_only_) problems += "--draw-only and --plan exclude each other\n";
     if (draw_only_ && dry_run_) problems += "--draw-only and --dry-run exclude each other\n";
     selection_ = selected(ids_, problems);
     if (problems.empty()) return;
@@ -116,11 +136,42 @@ class Figures : public client::Verb {
     throw Failure(ExitCode::kBadInput, problems + "figures:" + names);
   }
 
+  bool in_slurm() const {
+    return std::any_of(selection_.sweeps.begin(), selection_.sweeps.end(),
+                       [](const NamedSweep& sweep) { return sweep.needed && sweep.sweep.executor == "slurm"; });
+  }
+
+  /// What it would cost, and the plan if one is asked for.
+  void tell_cost(client::Console& console) const {
+    const StudyCost cost = probed_cost(selection_.sweeps, {.levels = false}, cores_.value_or(0), console);
+    if (!plan_.empty()) write_computing_plan(selection_, cost, drawing_command(), plan_);
+    Json json = json_ ? cost_json(cost, scale_) : Json();
+    if (!plan_.empty()) json["plan"] = {{"file", plan_}, {"sweeps", sweeps_beside(plan_).string()}};
+    if (json_) {
+      console.out << client::json_text(json);
+      return;
+    }
+    console.out << cost_text(cost, console.width);
+    if (!plan_.empty()) console.out << plan_ << "\n" << sweeps_beside(plan_).string() << "\n";
+  }
+
+  /// What draws these figures once the runs are done.
+  std::string drawing_command() const {
+    std::string command = "shaken --root ROOT figures";
+    for (const std::string& id : ids_) command += " " + id;
+    command += " --scale " + scale_;
+    if (!configs_.empty()) command += fmt::format(" --configs {}", configs_);
+    return command + " --draw-only";
+  }
+
   /// What would otherwise fail only after hours.
   void prepare() const {
     std::string problems;
     if (run_captured({"gnuplot", "--version"}).exit_code != 0) {
       problems += "gnuplot is not here: `apt install gnuplot-nox`\n";
+    }
+    if (in_slurm() && !draw_only_ && run_captured({"sbatch", "--version"}).exit_code != 0) {
+      problems += "sbatch is not here: `shaken doctor --executor slurm` says what Slurm needs\n";
     }
     std::error_code error;
     fs::create_directories(out_, error);
@@ -188,6 +239,9 @@ class Figures : public client::Verb {
   std::string out_;
   std::string configs_;
   std::string report_;
+  std::string plan_;
+  std::optional<int> cores_;
+  Destination destination_;
   bool list_ = false, dry_run_ = false, draw_only_ = false, yes_ = false, json_ = false;
   Selection selection_;
 };

@@ -103,9 +103,9 @@ class Explain : public Verb {
   /// What goes to Slurm, if it does and its cost is known.
   std::optional<SlurmLoad> slurm_load(const scene::Sweep& sweep, const CostEstimate& estimate) const {
     if (!is_slurm(executor_.empty() ? sweep.executor : executor_)) return std::nullopt;
-    const auto cpu = cpu_as_written(estimate, sweep.points[estimate.shown].plan.system.dt);
-    if (!cpu) return std::nullopt;
-    SlurmLoad load{.n_runs = sweep.points.size(), .cpu = *cpu, .cores = cores_.value_or(0)};
+    if (estimate.runs.empty()) return std::nullopt;
+    SlurmLoad load{.cores = cores_.value_or(0)};
+    for (const RunCost& run : estimate.runs) load.runs.push_back(run.cpu);
     load.runs_per_task = sweep.slurm.runs_per_task > 0 ? sweep.slurm.runs_per_task : runs_per_task_.value_or(1);
     load.max_pending = max_pending_.value_or(load.max_pending);
     load.time_limit = sweep.slurm.time;

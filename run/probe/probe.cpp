@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "base/clock.h"
+#include "base/memory.h"
 #include "base/scratch_folder.h"
 #include "proto/frame_codec.h"
 #include "run/effects.h"
@@ -48,6 +49,7 @@ class Prober {
     if (plan_.movie) time_movie();
     if (auto done = time_checkpoints(sampling.state_bytes); !done) return done.error();
     if (plan_.stream) time_stream();
+    result_.memory = peak_memory() + (plan_.movie ? children_peak_memory() : 0);
     return result_;
   }
 
@@ -243,6 +245,7 @@ nlohmann::ordered_json probe_report(const scene::RunPlan& plan, const std::optio
                           {"checkpoints", probe->disk.checkpoints},
                           {"total", probe->disk.total()},
                           {"most", probe->disk.most()}};
+  report["memory_bytes"] = probe->memory;
   return report;
 }
 

@@ -50,6 +50,9 @@ struct Probe {
   Cost checkpoints;
   std::string movie_trouble;  ///< why the movie could not be timed, if so
   DiskUse disk;
+  /// Held at most while it was probed, with the renderer of its movie; of measurements only what a few samples take
+  /// [bytes]
+  double memory = 0;
 
   double stepping() const { return run_ticks * tick_cpu; }
   /// CPU time of the run with all that belongs to it [s].
@@ -79,7 +82,7 @@ Result<Probe> probe(const scene::RunPlan& plan, Simulation simulation, double cp
 ///    "probe":  {"warm_up_s", "simulated_s", "cpu_s", "rod_seconds_per_cpu_second"},
 ///    "stepping_cpu_share", "checkpoints_cpu_share",
 ///    "cpu_seconds", "stepping_cpu_seconds", "disk_bytes": {"trajectory", "observables", "checkpoints", "total",
-///    "most"}}
+///    "most"}, "memory_bytes"}
 /// "most" is what the disk must have room for at the end of the run, "total" what stays. All shares are of
 /// "cpu_seconds", the CPU time of the whole run with its movie, and add up to 1. What is measured, recorded or drawn
 /// has one of its own; the physics is stepping as a whole.

@@ -13,7 +13,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 // 100 runs of 6 CPU-minutes, ten in a task
-SlurmLoad load() { return {.n_runs = 100, .cpu = 36'000, .runs_per_task = 10, .cores = 4}; }
+SlurmLoad load() { return {.runs = std::vector<double>(100, 360), .runs_per_task = 10, .cores = 4}; }
 
 TEST(SlurmEstimate, TasksGoInRoundsOfAsManyAsThereAreCores) {
   const SlurmEstimate estimate = estimate_in_slurm(load());
@@ -24,6 +24,19 @@ TEST(SlurmEstimate, TasksGoInRoundsOfAsManyAsThereAreCores) {
   EXPECT_DOUBLE_EQ(estimate.refill, 0);
 }
 
+TEST(SlurmEstimate, ACoreThatIsDoneTakesTheNextTask) {
+  const SlurmLoad uneven{.runs = {5, 1, 1, 1, 3, 2}, .cores = 2};
+  const SlurmEstimate estimate = estimate_in_slurm(uneven);
+  EXPECT_DOUBLE_EQ(estimate.wall, 7) << "5 and 2 beside 1, 1, 1 and 3; not three rounds of the longest";
+  EXPECT_DOUBLE_EQ(estimate.run, 5);
+  SlurmLoad packed = uneven;
+  packed.runs_per_task = 4;
+  EXPECT_DOUBLE_EQ(estimate_in_slurm(packed).task, 8);
+  EXPECT_DOUBLE_EQ(estimate_in_slurm(packed).run, 5);
+  packed.threads = 2;
+  EXPECT_DOUBLE_EQ(estimate_in_slurm(packed).wall, 4 + 2.5) << "one task at a time, twice as fast";
+}
+
 TEST(SlurmEstimate, WithoutALimitAllTasksRunAtOnce) {
   SlurmLoad all = load();
   all.cores = 0;
@@ -31,7 +44,7 @@ TEST(SlurmEstimate, WithoutALimitAllTasksRunAtOnce) {
 }
 
 TEST(SlurmEstimate, ManyShortTasksWaitForTheDaemonToHandThemOver) {
-  SlurmLoad many{.n_runs = 10'000, .cpu = 10'000, .max_pending = 100, .poll = 10};
+  SlurmLoad many{.runs = std::vector<double>(10'000, 1), .max_pending = 100, .poll = 10};
   const SlurmEstimate estimate = estimate_in_slurm(many);
   EXPECT_DOUBLE_EQ(estimate.refill, 1000);
   const std::string text = slurm_estimate_text(many, estimate);

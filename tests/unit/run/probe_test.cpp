@@ -129,6 +129,7 @@ TEST(Probe, SharesAddUpToTheWhole) {
   const auto probed = probed_from_start(busy_plan(), 0.1);
   ASSERT_TRUE(probed) << probed.error().message;
   const auto report = probe_report(busy_plan(), *probed);
+  EXPECT_GT(report["memory_bytes"].get<double>(), 1e6);
   double sum = 0;
   for (const char* part : {"stepping", "checkpoints"}) {
     sum += report[part + std::string("_cpu_share")].get<double>();

@@ -45,6 +45,21 @@ TEST(Figures, RefusesAllThatIsWrongAtOnce) {
   }
 }
 
+TEST(Figures, RefusesWhatSlurmCouldNotMean) {
+  const Outcome outcome =
+      run_shaken({"figures", "--executor", "slurm", "--partition", "a b", "--time", "4 mm", "--memory", "2GB",
+                  "--runs-per-task", "0", "--slurm-option=--array=1", "--cores", "0"});
+  EXPECT_EQ(outcome.code, ExitCode::kBadInput);
+  for (const char* words :
+       {"--partition: expected the name of a partition", "--time: ", "--memory: expected a whole",
+        "--runs-per-task: ", "--slurm-option: --array is set by the daemon", "--cores must be at least 1"}) {
+    EXPECT_THAT(outcome.err, HasSubstr(words));
+  }
+  EXPECT_THAT(run_shaken({"figures", "--executor", "slrum"}).err, HasSubstr("--executor takes local or slurm"));
+  EXPECT_THAT(run_shaken({"figures", "--partition", "long"}).err, HasSubstr("with --executor slurm only"));
+  EXPECT_THAT(run_shaken({"figures", "--plan", "plan.md"}).err, HasSubstr("add --executor slurm"));
+}
+
 TEST(Figures, ShellsAreOfferedNamesAndScales) {
   const std::string script = run_shaken({"completion", "bash"}).out;
   EXPECT_THAT(script, HasSubstr("figures)"));
