@@ -49,7 +49,7 @@ Curve angle_curve(const RodPicture& picture) {
   const double at_end = (pdf.density.front() + pdf.density.back()) / 2;
   curve.y.insert(curve.y.begin(), at_end);
   curve.y.push_back(at_end);
-  const double most = std::max(*std::max_element(curve.y.begin(), curve.y.end()), 1 / kPi);
+  const double most = std::max({*std::max_element(curve.y.begin(), curve.y.end()), picture.axes.density, 1 / kPi});
   const double step = tick_step(most, 3), top = std::ceil(most / step - 1e-9) * step;
   for (const double value : ticks(0, top, step)) curve.y_ticks.push_back({value, tick_text(value)});
   return curve;

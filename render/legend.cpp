@@ -119,7 +119,7 @@ void draw_line_legend(const Canvas& canvas, const Rect& place, double unit, cons
 
   const double above = 28 * unit, gap = 4 * unit, bar = 10 * unit, words = 20 * unit, left = 26 * unit;
   const Rect plot{place.x + left, place.y + above, place.width - left, place.height - above - gap - bar - words};
-  const double most = std::max(histogram.most(), 1e-3);
+  const double most = std::max({histogram.most(), picture.axes.share, 1e-3});
   // Upwards to the tick at or above the highest bar.
   const double step = tick_step(100 * most, plot.height < 60 * unit ? 1 : 3);
   const double top = std::ceil(100 * most / step - 1e-9) * step;
@@ -157,7 +157,7 @@ void draw_circle_legend(const Canvas& canvas, const Rect& place, double unit, co
   constexpr double kLeast = 40;  // units; a smaller rose cannot be read
   if (place.height < (kLeast + 46) * unit) return draw_narrow_legend(canvas, place, unit, colouring, range, colours);
   const Histogram histogram(picture, colouring, range);
-  const double most = std::max(histogram.most(), 1e-9);
+  const double most = std::max({histogram.most(), picture.axes.share, 1e-9});
   const bool is_half = colouring.scale == Scale::kHalfTurn;
   const double turn = range.y() * kRadians;
 
@@ -236,6 +236,15 @@ bool shows_background_alone(const PictureStyle& style) {
 
 bool has_scale(const RodPicture& picture, const PictureStyle& style) {
   return shows_background_alone(style) || colouring_of(picture, style).scale != Scale::kNames;
+}
+
+double highest_bar(const RodPicture& picture, const PictureStyle& style) {
+  if (shows_background_alone(style)) {
+    const Colouring& scale = background_scale(style.theme);
+    return Histogram(picture, scale, scale.range).most();
+  }
+  const Colouring& colouring = colouring_of(picture, style);
+  return colouring.scale == Scale::kNames ? 0 : Histogram(picture, colouring, range_of(colouring, style)).most();
 }
 
 void draw_legend(const Canvas& canvas, const Rect& place, double unit, const RodPicture& picture,

@@ -10,6 +10,9 @@ namespace shaken::render {
 /// Whether the colours of a picture are a scale, rather than names.
 bool has_scale(const RodPicture& picture, const PictureStyle& style);
 
+/// The largest share of the rods that one bar of the legend has; 0 if it has none.
+double highest_bar(const RodPicture& picture, const PictureStyle& style);
+
 /// What the colours mean, and how many rods have each. A scale from low to high gets a histogram over an axis in the
 /// colouring's unit, the share of rods in percent upwards, and the colours below the axis; a circle gets a rose of
 /// angles within the colours, half a circle for axes, which have no head. Rods that the colouring has no value for are

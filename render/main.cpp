@@ -28,6 +28,7 @@
 #include "base/text.h"
 #include "proto/bus.h"
 #include "render/colourings.h"
+#include "render/film_axes.h"
 #include "render/headline.h"
 #include "render/make_movie.h"
 #include "render/painter.h"
@@ -382,15 +383,21 @@ void make_movie_file(const Options& options) {
   // Threads that draw leave nothing to do for those of the rasteriser.
   if (movie.n_threads > 1) setenv("LP_NUM_THREADS", "0", 1);
   if (options.keep_frames) movie.keep_frames = std::filesystem::path(out).parent_path() / "frames";
+  FilmAxes axes;
   const auto picture = [&](std::size_t k) -> Result<RodPicture> {
     // The clock is the first run's; one that has ended before shows its last frame.
     const double time = value_or_fail(source.time_of(cut.frames[k]));
     Result<RodPicture> rods = joint_picture(options, style, places, sources, [&](std::size_t i) -> Result<std::size_t> {
       return i == 0 ? cut.frames[k] : sources[i].nearest_frame(time);
     });
-    if (rods) rods->playback = cut.playback;
+    if (rods) {
+      rods->playback = cut.playback;
+      rods->axes = axes;
+      for (RodPicture& beside : rods->beside) beside.axes = axes;
+    }
     return rods;
   };
+  axes = value_or_fail(film_axes(cut.frames.size(), picture, style), ExitCode::kFailed);
   std::signal(SIGINT, [](int) { stop_requested = 1; });
   std::signal(SIGTERM, [](int) { stop_requested = 1; });
   {

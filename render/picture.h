@@ -50,6 +50,12 @@ struct SweepMap {
 using Notes = std::vector<std::pair<std::string, std::string>>;
 
 /// One instant of a run, as plain values: all that is needed to draw it.
+/// How high plots reach in a film, so that their axes stand still (render/film_axes.h); 0: as this picture needs.
+struct FilmAxes {
+  double share = 0;    ///< of rods, the highest bar of the legend
+  double density = 0;  ///< P(theta) [1/rad]
+};
+
 struct RodPicture {
   double time = 0;      ///< [s]
   double box_side = 0;  ///< of the square box, periodic in x and y [mm]
@@ -85,7 +91,8 @@ struct RodPicture {
   std::string label;                      ///< headline: what makes this run different
   std::string subtitle;                   ///< below it: what it has in common with others
   double playback = 0;  ///< of a film: simulated seconds per second of playing; 0: not known, or not a film
-  Notes notes;          ///< where it comes from, for the metadata of files
+  FilmAxes axes;
+  Notes notes;  ///< where it comes from, for the metadata of files
 
   /// Other runs at the same time, drawn beside this one, each with its own headline (render/panels.h).
   std::vector<RodPicture> beside;

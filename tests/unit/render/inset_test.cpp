@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "render/film_axes.h"
+#include "render/legend.h"
 #include "render/sweep_map.h"
 #include "tests/unit/render/support.h"
 
@@ -38,6 +40,23 @@ TEST(Inset, AnglesAreThoseToTheDirectorWhateverItIs) {
     EXPECT_NEAR(curve.x.front(), -90, 1e-9);
     EXPECT_NEAR(curve.x.back(), 90, 1e-9);
   }
+}
+
+// Rods at +-0.3 rad in every fourth frame, at one angle in the others, which has twice as high a peak.
+TEST(FilmAxes, StandStillWhereEachFrameAloneWouldHaveItsOwn) {
+  PictureStyle style;
+  style.inset = Inset::kAngles;
+  const auto frame = [](std::size_t k) -> Result<RodPicture> {
+    return k % 4 == 0 ? two_angles(0.3, -0.3) : two_angles(0, 0);
+  };
+  const auto axes = film_axes(40, frame, style);
+  ASSERT_TRUE(static_cast<bool>(axes));
+  RodPicture low = *frame(0), high = *frame(1);
+  EXPECT_LT(highest_bar(low, style), highest_bar(high, style));
+  EXPECT_LT(angle_curve(low).y_ticks.back().at, angle_curve(high).y_ticks.back().at);
+  EXPECT_EQ(axes->share, highest_bar(high, style));
+  low.axes = high.axes = *axes;
+  EXPECT_EQ(angle_curve(low).y_ticks.back().at, angle_curve(high).y_ticks.back().at);
 }
 
 TEST(Inset, G2OfParallelRodsIsOneAndOfCrossedOnesFallsBelowZero) {
