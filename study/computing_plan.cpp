@@ -37,7 +37,8 @@ std::string request_table(const StudyCost& study) {
   row("runs", fmt::format("{}, each a program of its own; none talks to another", all.n_runs));
   row("jobs",
       fmt::format(
-          "{} tasks in job arrays, one node each, at most {} runs one after the other in a task", all.estimate.n_tasks,
+          "about {} tasks in job arrays, one node each, at most {} runs one after the other in a task",
+          all.estimate.n_tasks,
           std::max_element(study.sweeps.begin(), study.sweeps.end(), [](const SweepCost& a, const SweepCost& b) {
             return a.cost.load.runs_per_task < b.cost.load.runs_per_task;
           })->cost.load.runs_per_task));

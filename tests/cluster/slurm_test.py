@@ -269,6 +269,21 @@ class InSlurm(unittest.TestCase):
         self.assertEqual(finished.returncode, 1)
         self.assertIn("fail", [check["level"] for check in json.loads(finished.stdout)["checks"]])
 
+    def test_figures_are_drawn_from_runs_in_slurm(self):
+        def ended():
+            return CLUSTER.run("squeue", "-h", "-r", "-t", "COMPLETED", "-p", "main").stdout.count("\n")
+        with Daemon(self.base / "figures") as daemon:
+            before = ended()
+            configs = pathlib.Path(__file__).resolve().parents[2] / "configs"
+            finished = subprocess.run(
+                [PROGRAMS / "shaken", "--root", daemon.root, "figures", "8", "--scale", "tiny", "--configs", configs,
+                 "-o", self.base / "drawn", "--executor", "slurm", "--partition", "main", "--time", "5min"],
+                env=CLUSTER.environment, stdin=subprocess.DEVNULL, capture_output=True, text=True)
+            self.assertEqual(finished.returncode, 0, finished.stderr)
+            self.assertTrue((self.base / "drawn" / "fig08-mechanism.png").exists())
+            self.assertEqual(daemon.counts()["done"], 2)
+            eventually(lambda: ended() - before == 2, "each run had a task of its own")
+
     def test_a_time_limit_costs_nothing_but_another_task(self):
         with Daemon(self.base / "limit", "--executor", "slurm") as daemon:
             daemon.submit(sweep_of(slurm={"runs_per_task": N_POINTS, "time": "1 min"}))

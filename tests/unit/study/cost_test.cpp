@@ -113,7 +113,7 @@ TEST_F(InSlurm, APlanSaysWhatACentreAsksAndHasItsSweepsBesideIt) {
   write_computing_plan(selection, of(64), "shaken figures --draw-only", file);
   const std::string plan = *read_file(file);
   for (const char* words :
-       {"| jobs | 5 tasks", "at most 2 runs one after the other", "| core-hours | 11 |",
+       {"| jobs | about 5 tasks", "at most 2 runs one after the other", "| core-hours | 11 |",
         "| wall time of the longest run | 5 h 00 min |", "with 64 cores at once", "| memory of a task | 5 GB at most |",
         "| storage | 7 GB when all is done; 9.5 GB", "| files | 56 at most, in 7 folders",
         "checkpoint about every 30 s", "`sbatch`, `squeue` and `scancel`", "submit for us-sweeps/long.json",
