@@ -271,7 +271,7 @@ class InSlurm(unittest.TestCase):
 
     def test_figures_are_drawn_from_runs_in_slurm(self):
         def ended():
-            return CLUSTER.run("squeue", "-h", "-r", "-t", "COMPLETED", "-p", "main").stdout.count("\n")
+            return set(CLUSTER.run("squeue", "-h", "-r", "-t", "COMPLETED", "-o", "%F_%K").stdout.split())
         with Daemon(self.base / "figures") as daemon:
             before = ended()
             configs = pathlib.Path(__file__).resolve().parents[2] / "configs"
@@ -282,7 +282,7 @@ class InSlurm(unittest.TestCase):
             self.assertEqual(finished.returncode, 0, finished.stderr)
             self.assertTrue((self.base / "drawn" / "fig08-mechanism.png").exists())
             self.assertEqual(daemon.counts()["done"], 2)
-            eventually(lambda: ended() - before == 2, "each run had a task of its own")
+            eventually(lambda: len(ended() - before) == 2, "each run had a task of its own")
 
     def test_a_time_limit_costs_nothing_but_another_task(self):
         with Daemon(self.base / "limit", "--executor", "slurm") as daemon:
