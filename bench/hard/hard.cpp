@@ -20,9 +20,9 @@ constexpr const char* kHardFooter =
 holding. Scenes are those of configs/hard; what is made by hand is bench/hard/made_cases.cpp.
 
 Examples:
-  shaken bench hard                              all cases: 36 CPU-minutes for 'order', half of one for the others
+  shaken bench hard                              all cases: nine CPU-minutes for 'order', half of one for the others
   shaken bench hard needle row --json
-  shaken bench hard order --replicas 240         a difference half as large can be told from none
+  shaken bench hard order --replicas 60          a difference half as large can be told from none, in 36 minutes
   shaken bench hard --seconds 0.02               the scenes for 20 ms of their time, without 'order': a smoke test
   shaken bench hard --out hard                   hard/hard.csv, .json and .png
 

@@ -78,7 +78,7 @@ inline constexpr const char* kOrderCase = "order";
 
 /// How much is spent on that, and what counts as an answer.
 struct OrderEffort {
-  int replicas = 60;  ///< runs of each scene, which differ in their seed; each gives one sample of every mean
+  int replicas = 15;  ///< runs of each scene, which differ in their seed; each gives one sample of every mean
   double seconds =
       1e9;           ///< simulated, of a replica; that of the scene if it is less. The first eleventh is not counted
   double slack = 1;  ///< the bounds are so many times wider, and say so
