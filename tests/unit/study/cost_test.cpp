@@ -8,9 +8,9 @@
 #include <fstream>
 
 #include "base/files.h"
+#include "base/scratch_folder.h"
 #include "study/computing_plan.h"
 #include "study/destination.h"
-#include "tests/unit/client/fake_daemon.h"
 
 namespace shaken::study {
 namespace {
@@ -105,7 +105,7 @@ TEST(Files, AreThoseThatDocumentsName) {
 }
 
 TEST_F(InSlurm, APlanSaysWhatACentreAsksAndHasItsSweepsBesideIt) {
-  const client::TemporaryFolder folder;
+  const ScratchFolder folder;
   Selection selection{.figures = {}, .sweeps = {long_, short_}};
   selection.sweeps.push_back(sweep_of("other", 1, "slurm", Json::object()));
   selection.sweeps.back().needed = false;
