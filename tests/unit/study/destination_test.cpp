@@ -35,7 +35,7 @@ TEST(Destination, APlainSceneBecomesASweepOfOneRun) {
 TEST(Destination, NoRunOfTheStudyGetsAnotherName) {
   std::string problems;
   Selection here = selected({}, problems);
-  load(here, SHAKEN_SOURCE_DIR "/configs/figures/paper");
+  load(here, SHAKEN_SOURCE_DIR "/configs/figures/tiny");
   for (const NamedSweep& sweep : here.sweeps) {
     const scene::Sweep sent = read(sent_to(sweep.input.text, "slurm", {{"memory", "2G"}}));
     ASSERT_EQ(sent.points.size(), sweep.sweep.points.size()) << sweep.name;
