@@ -38,6 +38,8 @@ std::string bar_text(double fraction, int width);
 std::string progress_text(double fraction, const std::string& count, double eta);
 /// A field of a CSV file: quoted if need be (RFC 4180).
 std::string csv_field(std::string_view text);
+/// Bytes in base64 (RFC 4648).
+std::string base64(std::string_view bytes);
 /// What lies between separators, without what is empty: "/v1//jobs/" by '/' is "v1" and "jobs".
 std::vector<std::string> split(std::string_view text, char separator);
 

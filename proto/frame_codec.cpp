@@ -27,6 +27,9 @@ bool plausible(const frame_t& chunk) {
          chunk.heading.size() == n && chunk.n_z.size() == n;
 }
 
+/// Frames that may come late, one behind the other, after a newer one.
+constexpr int kMostOlder = 5;
+
 bool siblings(const frame_t& a, const frame_t& b) {
   return a.n_rods == b.n_rods && a.n_chunks == b.n_chunks && a.tick == b.tick && a.box_side_mm == b.box_side_mm;
 }
@@ -85,8 +88,14 @@ std::vector<RodPose> decode_chunk(const frame_t& chunk) {
 
 std::optional<Frame> FrameAssembler::add(const frame_t& chunk) {
   if (chunk.job_id != job_id_ || !plausible(chunk)) return std::nullopt;
-  const bool newer = chunk.sequence > newest_ || chunk.utime > newest_utime_;
+  bool newer = chunk.sequence > newest_ || chunk.utime > newest_utime_;
+  if (!newer && chunk.sequence < newest_) {
+    if (n_older_ == 0 || chunk.sequence != older_) ++n_older_;
+    older_ = chunk.sequence;
+    newer = n_older_ > kMostOlder;
+  }
   if (newer) {
+    n_older_ = 0;
     chunks_.clear();
     newest_ = chunk.sequence;
     newest_utime_ = chunk.utime;

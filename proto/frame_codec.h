@@ -58,7 +58,8 @@ class FrameAssembler {
   explicit FrameAssembler(std::string job_id) : job_id_(std::move(job_id)) {}
 
   /// The frame that this chunk completes. Chunks of other jobs, of frames older than the newest seen, and chunks that
-  /// contradict themselves or their siblings are ignored.
+  /// contradict themselves or their siblings are ignored. Where several older frames have come and none that is newer,
+  /// the newest was not the sender's: anybody can send one. From then on the older ones are followed.
   std::optional<Frame> add(const frame_t& chunk);
 
   /// Frames that were sent between the first and the newest complete one, but did not become complete here.
@@ -69,6 +70,8 @@ class FrameAssembler {
   std::map<std::int32_t, frame_t> chunks_;  ///< of the newest frame, by number
   std::int64_t newest_ = -1;                ///< sequence of the newest frame seen
   std::int64_t newest_utime_ = 0;           ///< its time: a run that is started again counts from 0
+  std::int64_t older_ = -1;                 ///< sequence of the last frame that was ignored as older
+  int n_older_ = 0;                         ///< such frames since the newest
   std::int64_t completed_ = -1;             ///< sequence of the newest complete frame
   std::int64_t lost_ = 0;
 };

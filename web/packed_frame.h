@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "client/watch/rod_cells.h"
+#include "client/watch/rod_frame.h"
 
 namespace shaken::web {
 
@@ -14,8 +14,5 @@ namespace shaken::web {
 ///   i16 x[n_rods], y[n_rods], heading[n_rods], n_z[n_rods], in the units of frame_t (proto/frame_t.lcm);
 ///   u8 species[n_rods], if there are several.
 std::string packed(const client::RodFrame& frame);
-
-/// Bytes in base64 (RFC 4648), for server-sent events, which are text.
-std::string base64(const std::string& bytes);
 
 }  // namespace shaken::web

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "client/watch/rod_cells.h"
+#include "client/watch/rod_frame.h"
 #include "run/files/observables_file.h"
 #include "run/files/trajectory.h"
 #include "sim/core/result.h"

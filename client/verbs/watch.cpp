@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "base/interrupt.h"
+#include "base/text.h"
 #include "client/target.h"
 #include "client/verbs/verbs.h"
 #include "client/watch/live.h"
@@ -29,6 +30,7 @@ std::string examples_text() {
       "  shaken watch s3 --for 60      leaves after a minute; the jobs go on\n"
       "  shaken watch s3 | tee log     a line per second and job, where stdout is no terminal\n"
       "  shaken watch --every 60 > log a line per minute\n"
+      "  shaken watch --graphics sixel   images by sixels, on a terminal that is not asked\n"
       "  NO_COLOR=1 shaken watch       in dots, without colours\n"
       "\nKeys, on a terminal:";
   for (const char* line : kWatchKeys) text += std::string("\n  ") + line;
@@ -47,6 +49,8 @@ class Watch : public Verb {
     arguments.optional("ID", id_, "A sweep (id or name) or a job; all that runs if left out", Names::kId);
     arguments.option("--for", seconds_, "SECONDS", "Leave after this time");
     arguments.option("--every", every_, "SECONDS", "Between lines, where stdout is no terminal; 1 if left out");
+    arguments.option("--graphics", graphics_, kGraphicsNames,
+                     "Rods as characters, or as images where the terminal shows them; auto asks it");
     arguments.option("--lcm-url", lcm_url_, "URL", "The bus; the daemon's if left out");
   }
 
@@ -54,6 +58,11 @@ class Watch : public Verb {
     Console& console = context.console;
     if (every_ && !(*every_ > 0 && *every_ < 86400)) {
       throw Failure(ExitCode::kBadInput, "--every takes seconds between 0 and 86400");
+    }
+    std::optional<Graphics> graphics = graphics_named(graphics_);
+    if (!graphics) {
+      throw Failure(ExitCode::kBadInput,
+                    fmt::format("--graphics takes one of {}, not \"{}\"", kGraphicsNames, printable(graphics_)));
     }
     ApiClient session(context.root());
     std::vector<Target> targets;
@@ -74,8 +83,12 @@ class Watch : public Verb {
       std::optional<LiveScreen> screen;
       if (console.interactive) {
         console.out.flush();
-        screen.emplace(console.colour ? colour_depth(std::getenv) : ColourDepth::kNone,
-                       std::getenv("SSH_CONNECTION") != nullptr);
+        const ColourDepth depth = console.colour ? colour_depth(std::getenv) : ColourDepth::kNone;
+        if (graphics == Graphics::kAuto && (depth == ColourDepth::kNone || is_in_multiplexer(std::getenv))) {
+          graphics = Graphics::kBlocks;
+        }
+        screen.emplace(ScreenSettings{
+            .depth = depth, .is_remote = std::getenv("SSH_CONNECTION") != nullptr, .graphics = *graphics});
       }
       if (bus) listen(*bus.value(), jobs, screen ? &screen->rods() : nullptr, state_has_changed);
       follow(session, targets, jobs, bus, state_has_changed, guard, screen ? &*screen : nullptr, console);
@@ -214,6 +227,7 @@ class Watch : public Verb {
   std::string id_;
   std::optional<double> seconds_;
   std::optional<double> every_;
+  std::string graphics_ = "auto";
   std::string lcm_url_;
 };
 

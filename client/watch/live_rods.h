@@ -7,7 +7,7 @@
 #include <shaken/frame_t.hpp>
 #include <string>
 
-#include "client/watch/rod_cells.h"
+#include "client/watch/rod_frame.h"
 #include "proto/frame_codec.h"
 
 namespace shaken::client {

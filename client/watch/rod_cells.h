@@ -1,53 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "client/watch/cells.h"
-#include "client/watch/rod_colours.h"
-#include "proto/frame_codec.h"
-#include "sim/system.h"
+#include "client/watch/rod_frame.h"
 
 namespace shaken::client {
 
-/// The outline of a rod seen from above: its radius changes linearly from the middle to the centres of its end beads.
-struct RodOutline {
-  double half_length = 0;  ///< to the centre of the last bead [mm]
-  double middle = 0;       ///< radius in the middle [mm]
-  double end = 0;          ///< radius of the last bead [mm]
-};
-
-/// Where a defect of the director field is.
-struct DefectMark {
-  double x = 0;  ///< [mm]
-  double y = 0;  ///< [mm]
-  bool is_positive = false;
-};
-
-/// All that is drawn of a run at one instant.
-struct RodFrame {
-  double time = 0;      ///< [s]
-  double box_side = 0;  ///< [mm]; periodic unless there are walls
-  double order = 0;     ///< S
-  double director = 0;  ///< its angle [rad]
-  std::vector<proto::RodPose> rods;
-  std::vector<RodOutline> outlines;          ///< one per species, at least one
-  std::vector<std::uint8_t> species_of_rod;  ///< empty if there is one species
-  std::optional<SideWalls> walls;            ///< in the middle of the box
-};
-
-/// The part of the box that is looked at.
-struct RodView {
-  double x = 0.5;   ///< the middle, as a part of the box side
-  double y = 0.5;   ///< the same, upwards
-  double zoom = 1;  ///< at 1 the whole box is seen
-};
-
 /// What a cell is filled with.
 enum class Grain {
-  kAuto,     ///< half blocks where there are colours, dots where there are none
+  kAuto,     ///< an image where the terminal shows them, half blocks where it has colours, dots where it has none
   kBlocks,   ///< two coloured halves, each mixed from 2 x 2 samples
   kBraille,  ///< 2 x 4 dots of one colour: finer
 };
@@ -61,13 +24,7 @@ struct RodStyle {
   bool shows_defects = true;
 };
 
-/// Samples of the box per millimetre, of which a cell has 2 x 4.
-double dots_per_mm(const RodFrame& frame, const RodView& view, const Area& area);
-
-/// Draws `frame` into `area` of `grid`, y upwards. A point is a rod's if it lies within its outline, seen from above;
-/// rods that are thinner than a sample are drawn as wide as one. In a periodic box the view may be anywhere: one box
-/// around its middle is shown, with rods across the border on both sides. With walls nothing is repeated.
-/// Numbers must be finite and box_side positive.
+/// Draws `frame` into `area` of `grid` from 2 x 4 samples in each cell, as RodSamples says.
 void draw_rods(const RodFrame& frame, const std::vector<DefectMark>& defects, const RodView& view,
                const RodStyle& style, const Area& area, CellGrid& grid);
 

@@ -27,6 +27,7 @@ constexpr std::array<Ink, 2 + 2 * kLayerSteps + 1 + kWheelSteps + kTiltSteps + 3
     0x2A5F9E, 0x5F839F, 0x93A49C, 0xC8C592, 0xFFE680,                                // flat to steep
     0xECE8E4, 0x6FA3A8, 0x9A7FB8,                                                    // first, second, third species
 };
+static_assert(std::ssize(kInks) == kToneCount);
 constexpr int kLayerMiddle = 2 + kLayerSteps;
 constexpr int kWheelBegin = kLayerMiddle + kLayerSteps + 1;
 constexpr int kTiltBegin = kWheelBegin + kWheelSteps;

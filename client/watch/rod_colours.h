@@ -23,6 +23,7 @@ const char* name_of(Colouring colouring);
 using Tone = std::uint8_t;
 inline constexpr Tone kFloorTone = 0;  ///< the floor
 inline constexpr Tone kWallTone = 1;
+inline constexpr int kToneCount = 43;
 
 /// The colours change from pale over the first 15 degrees (`theta` in [-pi/2, pi/2], in radians). Orange and blue are
 /// told apart by people who confuse red and green.

@@ -15,6 +15,7 @@
 #include "client/watch/chart.h"
 #include "client/watch/layout.h"
 #include "client/watch/overview.h"
+#include "client/watch/rod_samples.h"
 
 namespace shaken::client {
 namespace {
@@ -35,15 +36,11 @@ const LiveJob* job_in(const LiveJobs& jobs, const std::string& id) {
   return place == jobs.jobs().end() ? nullptr : &*place;
 }
 
-Colouring shown_colouring(const Steering& steering) {
-  return steering.colouring == Colouring::kAuto ? steering.automatic : steering.colouring;
-}
-
 RodStyle rod_style(const WatchContent& content) {
   const bool in_colour = content.depth != ColourDepth::kNone;
   Grain grain = content.steering.grain;
   if (grain == Grain::kAuto) grain = in_colour ? Grain::kBlocks : Grain::kBraille;
-  return {.colouring = shown_colouring(content.steering),
+  return {.colouring = content.steering.shown_colouring(),
           .grain = grain,
           .in_colour = in_colour,
           .mixes = content.depth == ColourDepth::k256 || content.depth == ColourDepth::kTrue,
@@ -60,8 +57,7 @@ double round_length(double most) {
 }
 
 /// "├────┤ 5 mm", at most half as wide as the picture.
-std::string scale_bar(double dots_per_mm, int columns) {
-  const double columns_per_mm = dots_per_mm / 2;
+std::string scale_bar(double columns_per_mm, int columns) {
   const double length = round_length(columns / 3.0 / columns_per_mm);
   const int width = std::max(2, static_cast<int>(std::lround(length * columns_per_mm)));
   std::string bar = "├";
@@ -77,6 +73,18 @@ int put_tones(CellGrid& grid, int column, int line, std::initializer_list<Tone> 
   return column;
 }
 
+/// Whether the rods of a run are drawn as an image. The help stands in front of them, which images do not allow.
+bool has_image(const WatchContent& content) {
+  return content.cell && content.rods != nullptr && content.steering.grain == Grain::kAuto && !content.steering.help;
+}
+
+double columns_per_mm(const WatchContent& content, const Area& picture) {
+  const RodView& view = content.steering.view;
+  if (!has_image(content)) return samples_per_mm(*content.rods, view, 2 * picture.columns, 4 * picture.lines) / 2;
+  const PixelSize size = image_size(*content.cell, picture);
+  return samples_per_mm(*content.rods, view, size.width, size.height) / content.cell->width;
+}
+
 void put_legend(const WatchContent& content, const Area& area, const Area& picture, CellGrid& grid) {
   const int end = area.column + area.columns;
   int column = area.column;
@@ -84,10 +92,10 @@ void put_legend(const WatchContent& content, const Area& area, const Area& pictu
   const auto put_colours = [&](std::initializer_list<Tone> tones) {
     if (column + static_cast<int>(tones.size()) <= end) column = put_tones(grid, column, area.line, tones);
   };
-  put(scale_bar(dots_per_mm(*content.rods, content.steering.view, picture), picture.columns) + " ");
+  put(scale_bar(columns_per_mm(content, picture), picture.columns) + " ");
   if (content.depth == ColourDepth::kNone) return;
   constexpr double kStep = std::numbers::pi / 6;
-  switch (shown_colouring(content.steering)) {
+  switch (content.steering.shown_colouring()) {
     case Colouring::kAuto:
     case Colouring::kLayers:
       put("−15° ");
@@ -191,7 +199,9 @@ void put_picture(const WatchContent& content, const LiveJob* job, const WatchLay
     grid.put(area.column + (area.columns - width) / 2, area.line + area.lines / 2, text, width);
     return;
   }
-  draw_rods(*content.rods, content.defects, content.steering.view, rod_style(content), area, grid);
+  if (!has_image(content)) {
+    draw_rods(*content.rods, content.defects, content.steering.view, rod_style(content), area, grid);
+  }
   put_legend(content, layout.legend, area, grid);
 }
 
@@ -233,7 +243,7 @@ CellGrid run_cells(const WatchContent& content, const WatchLayout& layout, const
   if (content.rods != nullptr) title += fmt::format("  t = {:.3f} s", content.rods->time);
   if (content.steering.view.zoom > 1) title += fmt::format("  zoom {:.1f}", content.steering.view.zoom);
   if (content.rods != nullptr && content.depth != ColourDepth::kNone) {
-    title += fmt::format("  colours: {}", name_of(shown_colouring(content.steering)));
+    title += fmt::format("  colours: {}", name_of(content.steering.shown_colouring()));
   }
   if (content.steering.paused) title += "  " + console.painted(Colour::kYellow, "HELD (space)");
   const auto width = static_cast<std::size_t>(grid.columns());
@@ -290,6 +300,12 @@ std::string job_to_show(const std::string& job, const LiveJobs& jobs) {
   });
   const std::string& next = moving == others.end() ? others.front() : *moving;
   return present == nullptr || job_in(jobs, next)->is_running() ? next : job;
+}
+
+std::optional<Area> image_area(const WatchContent& content, int columns, int lines) {
+  const std::optional<WatchLayout> layout = watch_layout(columns, lines);
+  if (!layout || content.steering.numbers || !has_image(content)) return std::nullopt;
+  return layout->picture;
 }
 
 CellGrid watch_cells(const WatchContent& content, int columns, int lines) {

@@ -118,8 +118,12 @@ std::string ScreenWriter::style_text(const Cell& cell) const {
   return text + "m";
 }
 
-std::string ScreenWriter::update(const CellGrid& grid) {
-  const bool is_whole = !last_ || last_->columns() != grid.columns() || last_->lines() != grid.lines();
+bool ScreenWriter::draws_whole(const CellGrid& grid) const {
+  return !last_ || last_->columns() != grid.columns() || last_->lines() != grid.lines();
+}
+
+std::string ScreenWriter::update(const CellGrid& grid, const std::string& image) {
+  const bool is_whole = draws_whole(grid);
   std::string text;
   Cell style;  // what the terminal writes with
   for (int line = 0; line < grid.lines(); ++line) {
@@ -151,8 +155,9 @@ std::string ScreenWriter::update(const CellGrid& grid) {
   }
   last_ = grid;
   if (is_whole) text = "\x1b[0m\x1b[2J" + text;
-  if (text.empty()) return text;
-  return kBeginUpdate + text + "\x1b[0m" + kEndUpdate;
+  if (!text.empty()) text += "\x1b[0m";
+  text += image;
+  return text.empty() ? text : kBeginUpdate + text + kEndUpdate;
 }
 
 }  // namespace shaken::client

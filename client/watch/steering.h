@@ -16,6 +16,7 @@ struct Steering {
   Colouring colouring = Colouring::kAuto;
   Colouring automatic = Colouring::kLayers;  ///< what kAuto stands for now
   Grain grain = Grain::kAuto;
+  bool has_images = false;  ///< kAuto is an image now
   bool shows_defects = true;
   bool paused = false;   ///< the picture stands still; the run goes on
   bool numbers = false;  ///< numbers and curves of all runs in place of the rods of one
@@ -23,6 +24,8 @@ struct Steering {
   bool redraw = false;   ///< everything is to be drawn anew
   bool suspend = false;  ///< Ctrl-Z
   bool quit = false;
+
+  Colouring shown_colouring() const { return colouring == Colouring::kAuto ? automatic : colouring; }
 };
 
 /// What a key changes. `jobs` are those that can be chosen, in order; `is_periodic` says whether the view may leave the
@@ -37,7 +40,7 @@ inline constexpr const char* kWatchKeys[] = {
     "+ / -        zoom in / out; 0: the whole box",
     "arrows       move the view",
     "c            colours: auto, angle to the director, angle, tilt, species",
-    "b            fine dots or coloured blocks",
+    "b            fine dots, coloured blocks, or an image (--graphics)",
     "d            defects, or none",
     "o            numbers and S(t) of all runs, or the rods of one",
     "?            these keys",

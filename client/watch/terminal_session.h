@@ -38,6 +38,7 @@ class TerminalSession {
   void enter();
   void leave();
 
+  bool is_cut_ = false;  ///< the last write has not come to its end
   bool has_keys_ = false;
   bool is_gone_ = false;
   termios before_{};

@@ -244,8 +244,12 @@ struct HttpServer::Impl {
     const bool bound = wanted_port == 0 ? (port = server.bind_to_any_port(kLoopback)) > 0
                                         : server.bind_to_port(kLoopback, wanted_port);
     if (!bound) {
-      throw Failure(ExitCode::kFailed, "cannot listen on port " + std::to_string(wanted_port) + " of " + kLoopback +
-                                           ": " + std::strerror(errno) + "; choose another port");
+      const int reason = errno;
+      const std::string failure = "cannot listen on port " + std::to_string(wanted_port) + " of " + kLoopback + ": ";
+      if (reason == EACCES) {
+        throw Failure(ExitCode::kBadInput, failure + "ports below 1024 are root's; choose another, such as 8642");
+      }
+      throw Failure(ExitCode::kFailed, failure + std::strerror(reason) + "; choose another port");
     }
     ::listen(fd, kBacklog);
   }

@@ -193,5 +193,34 @@ TEST(FrameAssembler, FollowsARunThatIsStartedAgain) {
   EXPECT_EQ(assembler.lost(), 0);
 }
 
+TEST(FrameAssembler, AForgedFrameDoesNotEndThePicture) {
+  FrameAssembler assembler("0123456789abcdef");
+  EXPECT_TRUE(assemble(assembler, encode_frame(random_frame(8000, 1))));
+  Frame forged = random_frame(8000, 2);
+  forged.sequence = forged.utime = std::numeric_limits<std::int64_t>::max();
+  EXPECT_TRUE(assemble(assembler, encode_frame(forged)));
+  int n_lacking = 0;
+  for (std::int64_t sequence = 2; sequence < 20; ++sequence) {
+    n_lacking += assemble(assembler, encode_frame(random_frame(8000, sequence))) ? 0 : 1;
+  }
+  EXPECT_EQ(n_lacking, 5) << "half a second of most runs";
+  EXPECT_EQ(assembler.lost(), 0);
+}
+
+TEST(FrameAssembler, FramesThatComeLateAreNotTakenForTheSenders) {
+  FrameAssembler assembler("0123456789abcdef");
+  EXPECT_TRUE(assemble(assembler, encode_frame(random_frame(100, 50))));
+  // One frame may come late many times over, and several once.
+  for (int i = 0; i < 100; ++i) EXPECT_FALSE(assemble(assembler, encode_frame(random_frame(100, 49))));
+  for (std::int64_t sequence = 46; sequence < 49; ++sequence) {
+    EXPECT_FALSE(assemble(assembler, encode_frame(random_frame(100, sequence))));
+  }
+  EXPECT_TRUE(assemble(assembler, encode_frame(random_frame(100, 51))));
+  for (std::int64_t sequence = 46; sequence < 51; ++sequence) {
+    EXPECT_FALSE(assemble(assembler, encode_frame(random_frame(100, sequence)))) << "counted anew";
+  }
+  EXPECT_TRUE(assemble(assembler, encode_frame(random_frame(100, 52))));
+}
+
 }  // namespace
 }  // namespace shaken::proto

@@ -111,5 +111,17 @@ TEST(CsvField, QuotesOnlyWhereNeeded) {
   EXPECT_EQ(csv_field("two\nlines"), "\"two\nlines\"");
 }
 
+TEST(Base64, IsThatOfRfc4648) {
+  const std::pair<const char*, const char*> kVectors[] = {{"", ""},
+                                                          {"f", "Zg=="},
+                                                          {"fo", "Zm8="},
+                                                          {"foo", "Zm9v"},
+                                                          {"foob", "Zm9vYg=="},
+                                                          {"fooba", "Zm9vYmE="},
+                                                          {"foobar", "Zm9vYmFy"}};
+  for (const auto& [bytes, text] : kVectors) EXPECT_EQ(base64(bytes), text);
+  EXPECT_EQ(base64("\xFF\xFE\xFD"), "//79");
+}
+
 }  // namespace
 }  // namespace shaken

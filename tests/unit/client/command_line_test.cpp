@@ -77,6 +77,7 @@ TEST(BadArguments, AreAllExitCodeTwo) {
                                                                      {"cancel"},
                                                                      {"clean", "--older", "soon"},
                                                                      {"wait", "--timeout", "soon"},
+                                                                     {"watch", "--graphics", "iterm"},
                                                                      {"validate", "no/such/file.json"},
                                                                      {"run", "scene.json"},
                                                                      {"movie", "x", "--frame", "-3"},

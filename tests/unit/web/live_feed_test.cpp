@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <shaken/frame_static_t.hpp>
 
 namespace shaken::web {
@@ -78,6 +79,20 @@ TEST(LiveFeed, RodsArePutTogetherWhileSomebodyLooks) {
   const LiveNews news = feed.wait(kRun, seen, 1ms);
   ASSERT_NE(news.frame, nullptr);
   EXPECT_EQ(news.frame->rods.size(), 2u);
+}
+
+TEST(LiveFeed, AForgedFrameDoesNotStopTheRods) {
+  LiveFeed feed(nullptr);
+  feed.keep({kRun});
+  feed.note(constants());
+  LiveSeen seen;
+  feed.wait(kRun, seen, 1ms);
+  frame_t forged = frame(1);
+  forged.sequence = forged.utime = std::numeric_limits<std::int64_t>::max();
+  feed.note(forged);
+  EXPECT_NE(feed.wait(kRun, seen, 1ms).frame, nullptr);
+  for (std::int64_t sequence = 2; sequence < 10; ++sequence) feed.note(frame(sequence));
+  EXPECT_NE(feed.wait(kRun, seen, 1ms).frame, nullptr);
 }
 
 TEST(LiveFeed, AListenerIsWokenByWhatComes) {

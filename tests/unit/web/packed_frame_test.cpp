@@ -73,17 +73,5 @@ TEST(PackedFrame, SpeciesAndWallsAreThereWhereTheyAreInTheRun) {
   EXPECT_EQ(bytes.substr(4 + size + 16), std::string("\x01\x00", 2));
 }
 
-TEST(Base64, IsThatOfRfc4648) {
-  const std::pair<const char*, const char*> kVectors[] = {{"", ""},
-                                                          {"f", "Zg=="},
-                                                          {"fo", "Zm8="},
-                                                          {"foo", "Zm9v"},
-                                                          {"foob", "Zm9vYg=="},
-                                                          {"fooba", "Zm9vYmE="},
-                                                          {"foobar", "Zm9vYmFy"}};
-  for (const auto& [bytes, text] : kVectors) EXPECT_EQ(base64(bytes), text);
-  EXPECT_EQ(base64("\xFF\xFE\xFD"), "//79");
-}
-
 }  // namespace
 }  // namespace shaken::web

@@ -212,5 +212,23 @@ TEST(Port, OfAnotherProgramIsRefused) {
   EXPECT_THROW(server::HttpServer(first.port(), {}, answer), Failure);
 }
 
+TEST(Port, OfRootIsRefusedWithWhatToDo) {
+  constexpr int kPort = 80, kNobody = 65534;
+  int first_of_everybody = 1024;
+  std::ifstream("/proc/sys/net/ipv4/ip_unprivileged_port_start") >> first_of_everybody;
+  if (first_of_everybody <= kPort) GTEST_SKIP() << "everybody may listen on port 80 here";
+  const auto listen = [] {
+    if (getuid() == 0 && setuid(kNobody) != 0) _exit(1);
+    try {
+      const server::HttpServer server(kPort, {}, [](const server::Request&) { return server::Reply{}; });
+    } catch (const Failure& failure) {
+      std::fputs(failure.what(), stderr);
+      _exit(static_cast<int>(failure.code));
+    }
+    _exit(0);
+  };
+  EXPECT_EXIT(listen(), testing::ExitedWithCode(2), "port 80 .*ports below 1024 are root's; choose another");
+}
+
 }  // namespace
 }  // namespace shaken::web

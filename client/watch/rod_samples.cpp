@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "client/watch/rod_samples.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace shaken::client {
+namespace {
+
+constexpr double kHalfTurn = std::numbers::pi;
+
+/// `x` less whole periods, in [-period/2, period/2).
+double folded(double x, double period) { return x - period * std::floor(x / period + 0.5); }
+
+Tone tone_of(const RodFrame& frame, std::size_t rod, Colouring colouring) {
+  const std::size_t species = frame.species_of_rod.empty() ? 0 : frame.species_of_rod[rod];
+  const proto::RodPose& pose = frame.rods[rod];
+  if (colouring == Colouring::kTilt) return tilt_tone(pose.n_z);
+  if (species > 0 || colouring == Colouring::kSpecies) return species_tone(species);
+  if (colouring == Colouring::kWheel) return wheel_tone(pose.theta);
+  return layer_tone(folded(pose.theta - frame.director, kHalfTurn));
+}
+
+int bounded(double place, int most) { return static_cast<int>(std::clamp(place, 0.0, 1.0 * most)); }
+
+}  // namespace
+
+double samples_per_mm(const RodFrame& frame, const RodView& view, int width, int height) {
+  return view.zoom * std::min(width, height) / frame.box_side;
+}
+
+RodSamples::RodSamples(const RodFrame& frame, const RodView& view, Colouring colouring, int width, int height)
+    : frame_(frame),
+      x_(view.x * frame.box_side),
+      y_(view.y * frame.box_side),
+      per_mm_(samples_per_mm(frame, view, width, height)),
+      width_(width),
+      height_(height),
+      tones_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), kFloorTone) {
+  // A periodic box is seen from half a side left of the middle of the view to half a side right of it.
+  const double half = frame.box_side / 2;
+  const double left = frame.walls ? -x_ : -half, bottom = frame.walls ? -y_ : -half;
+  column_begin_ = std::max(0, first_column(left));
+  column_end_ = std::min(width_, first_column(left + frame.box_side));
+  row_begin_ = std::max(0, first_row(bottom + frame.box_side));
+  row_end_ = std::min(height_, first_row(bottom));
+  if (frame.walls) draw_walls(*frame.walls);
+  for (std::size_t i = 0; i < frame.rods.size(); ++i) {
+    const std::size_t species = frame.species_of_rod.empty() ? 0 : frame.species_of_rod[i];
+    draw(frame.rods[i], frame.outlines[species], tone_of(frame, i, colouring));
+  }
+}
+
+std::pair<double, double> RodSamples::from_middle(double x, double y) const {
+  if (frame_.walls) return {x - x_, y - y_};
+  return {folded(x - x_, frame_.box_side), folded(y - y_, frame_.box_side)};
+}
+
+/// The first column or row of samples whose middle is not left of, or above, a distance from the middle of the view.
+int RodSamples::first_column(double x) const { return bounded(std::ceil(width_ / 2.0 + x * per_mm_ - 0.5), width_); }
+int RodSamples::first_row(double y) const { return bounded(std::ceil(height_ / 2.0 - y * per_mm_ - 0.5), height_); }
+
+std::pair<int, int> RodSamples::place(double x, double y) const {
+  const auto [dx, dy] = from_middle(x, y);
+  return {static_cast<int>(std::floor(width_ / 2.0 + dx * per_mm_)),
+          static_cast<int>(std::floor(height_ / 2.0 - dy * per_mm_))};
+}
+
+void RodSamples::draw(const proto::RodPose& rod, const RodOutline& outline, Tone tone) {
+  const auto [dx, dy] = from_middle(rod.x, rod.y);
+  const std::array axis = rod.axis();
+  const double flat = std::hypot(axis[0], axis[1]);
+  const double half = outline.half_length * flat;
+  const double ux = flat > 0 ? axis[0] / flat : 1, uy = flat > 0 ? axis[1] / flat : 0;
+  const double period = frame_.walls ? 0 : frame_.box_side;
+  const int n_images = frame_.walls ? 0 : 1;
+  for (int i = -n_images; i <= n_images; ++i) {
+    for (int j = -n_images; j <= n_images; ++j) {
+      draw_image(dx + i * period, dy + j * period, ux, uy, half, outline, tone);
+    }
+  }
+}
+
+void RodSamples::draw_walls(const SideWalls& walls) {
+  const double reach = 0.75 / per_mm_;
+  for (int row = row_begin_; row < row_end_; ++row) {
+    for (int column = column_begin_; column < column_end_; ++column) {
+      const double x = x_ + x_of(column) - frame_.box_side / 2, y = y_ + y_of(row) - frame_.box_side / 2;
+      const double distance = walls.arena == Arena::kSquare ? std::max(std::abs(x), std::abs(y)) : std::hypot(x, y);
+      const bool is_outer = std::abs(distance - walls.size / 2) < reach;
+      const bool is_inner = walls.arena == Arena::kAnnulus && std::abs(distance - walls.inner / 2) < reach;
+      if (is_outer || is_inner) tones_[index(column, row)] = kWallTone;
+    }
+  }
+}
+
+void RodSamples::draw_image(double dx, double dy, double ux, double uy, double half, const RodOutline& outline,
+                            Tone tone) {
+  const double thinnest = 0.5001 / per_mm_;  // never between two samples
+  const double widest = std::max({outline.middle, outline.end, thinnest});
+  const double reach_x = half * std::abs(ux) + widest, reach_y = half * std::abs(uy) + widest;
+  const int begin_column = std::max(column_begin_, first_column(dx - reach_x));
+  const int end_column = std::min(column_end_, first_column(dx + reach_x));
+  const int begin_row = std::max(row_begin_, first_row(dy + reach_y));
+  const int end_row = std::min(row_end_, first_row(dy - reach_y));
+  for (int row = begin_row; row < end_row; ++row) {
+    for (int column = begin_column; column < end_column; ++column) {
+      const double x = x_of(column) - dx, y = y_of(row) - dy;
+      const double along = std::abs(x * ux + y * uy), across = std::abs(y * ux - x * uy);
+      const double part = half > 0 ? std::min(along / half, 1.0) : 1.0;
+      const double radius = std::max(outline.middle + part * (outline.end - outline.middle), thinnest);
+      if (std::hypot(std::max(along - half, 0.0), across) <= radius) tones_[index(column, row)] = tone;
+    }
+  }
+}
+
+}  // namespace shaken::client
