@@ -19,6 +19,7 @@ import tempfile
 import time
 
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "squeue", "scancel", "scontrol", "sinfo")
+ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)  # Ctrl-C, kill, and a terminal that is closed
 CONFIGURATION = """\
 ClusterName=little
 SlurmctldHost=localhost(127.0.0.1)
@@ -136,8 +137,10 @@ class LittleCluster:
     def start(self, name):
         """Starts one of the three daemons; its words go to NAME.out."""
         with open(self.folder / f"{name}.out", "ab") as out:
-            self.processes[name] = subprocess.Popen(self._command(name), env=self.environment, stdin=subprocess.DEVNULL,
-                                                    stdout=out, stderr=out, start_new_session=True)
+            # it ends with this program, in whatever way that ends
+            self.processes[name] = subprocess.Popen(["setpriv", "--pdeathsig", "TERM", *self._command(name)],
+                                                    env=self.environment, stdin=subprocess.DEVNULL, stdout=out,
+                                                    stderr=out, start_new_session=True)
 
     def end(self, name, how=signal.SIGTERM):
         """Ends one of them, and waits for that."""
@@ -171,12 +174,20 @@ class LittleCluster:
             time.sleep(0.05)
 
 
+def end_once(*_):
+    """For signals that end this program: by the first, in order; those that follow are in no more of a hurry."""
+    for number in ENDING:
+        signal.signal(number, signal.SIG_IGN)
+    sys.exit(0)
+
+
 def main():
     parser = argparse.ArgumentParser(description="A little Slurm on this machine, until Ctrl-C.")
     parser.add_argument("--cores", type=int, default=os.cpu_count(), help="that its node claims to have")
     parser.add_argument("--folder", help="for its files; if not given, one that is removed at the end")
     arguments = parser.parse_args()
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))
+    for number in ENDING:
+        signal.signal(number, end_once)
     folder = arguments.folder or tempfile.mkdtemp(prefix="little-cluster-")
     try:
         with LittleCluster(folder, arguments.cores) as cluster:
@@ -185,8 +196,6 @@ def main():
                   "  sinfo; shakend --executor slurm\n"
                   "Ctrl-C ends it, and what runs in it.", flush=True)
             signal.pause()
-    except KeyboardInterrupt:
-        pass
     except Unavailable as problem:
         print(f"no cluster: {problem}", file=sys.stderr)
         return 1
