@@ -53,8 +53,11 @@ MaxArraySize=10001
 MaxJobCount=20000
 AccountingStorageType=accounting_storage/none
 JobCompType=jobcomp/none
+PreemptType=preempt/partition_prio
+PreemptMode=REQUEUE
 NodeName=n0 NodeHostname=localhost NodeAddr=127.0.0.1 CPUs={cores} RealMemory=2000 State=UNKNOWN
-PartitionName=main Nodes=n0 Default=YES MaxTime=INFINITE State=UP
+PartitionName=main Nodes=n0 Default=YES MaxTime=INFINITE PriorityTier=1 State=UP
+PartitionName=urgent Nodes=n0 MaxTime=INFINITE PriorityTier=10 State=UP
 """
 
 

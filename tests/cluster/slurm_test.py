@@ -239,6 +239,29 @@ class InSlurm(unittest.TestCase):
             self.assert_done_once(daemon)
             eventually(lambda: not list((daemon.root / "slurm").iterdir()), "nothing of the batches is left")
 
+    def test_what_is_preempted_goes_on_when_it_has_its_turn_again(self):
+        points = {"grid": {"rods.area_fraction": [0.3], "plates.gamma": [6]}, "replicas": 2}
+        with Daemon(self.base / "preempted", "--executor", "slurm", "--runs-per-task", "1") as daemon:
+            daemon.submit(sweep_of(points=points))
+            eventually(lambda: len(daemon.at_work()) == 2, "two runs are at work in Slurm")
+            before = {job["id"]: daemon.simulated(job["id"]) for job in daemon.at_work()}
+            tasks = running_tasks()
+            CLUSTER.run("sbatch", "--partition=urgent", "--cpus-per-task=2", "--output=/dev/null", "--wrap=sleep 1")
+            eventually(lambda: [job["reason"] for job in daemon.jobs()
+                                if job["reason"].endswith("(BeginTime)")] and not daemon.at_work(),
+                       "they give way to what is urgent")
+            for task in tasks:
+                eventually(lambda: CLUSTER.run("squeue", "-h", "-r", "-j", task, "-o", "%r").stdout.strip() == "BeginTime",
+                           f"{task} waits")
+                CLUSTER.run("scontrol", "update", f"JobId={task}", "StartTime=now")  # not in two minutes
+            eventually(lambda: all(daemon.reports().get(task, {}).get("restarts") == 1 for task in tasks),
+                       "their tasks start again")
+            eventually(lambda: daemon.counts()["done"] == 2, "both are done")
+            self.assertTrue(all(daemon.simulated(i) >= t for i, t in before.items()))
+            self.assertEqual([job["attempt"] for job in daemon.jobs()], [1, 1], "they never came back to the queue")
+            local = self.locally()
+            self.assertEqual(daemon.hashes(), {id_: local[id_] for id_ in before})
+
     def test_both_executors_share_a_queue_and_what_slurm_refuses_keeps_nobody_else(self):
         short = dict(SCENE, rods=dict(SCENE["rods"], area_fraction=0.3), time=dict(SCENE["time"], measure="1 s"))
         with Daemon(self.base / "both") as daemon:
