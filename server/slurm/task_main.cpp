@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <array>
 #include <charconv>
 #include <csignal>
@@ -32,6 +33,14 @@ constexpr milliseconds kWordOfSlurm{
 constexpr int kWritingTries = 60;
 constexpr int kTerminated = 128 + SIGTERM;
 constexpr auto kStoppedCode = static_cast<int>(ExitCode::kStopped);
+
+constexpr const char* kFooter =
+    R"(Slurm starts it for shakend, as what a job array is made of; there is no need to start it by hand. It reads the
+number of its task from SLURM_ARRAY_TASK_ID, does the runs that FOLDER/batch.json lists for it, and writes into
+FOLDER/NUMBER.json how each of them ended. On SIGUSR1, which Slurm sends ahead of the end of its time, on SIGTERM, and
+for a run that FOLDER/NUMBER.stop names, it lets the run that is at work write a checkpoint and end.
+
+Exit codes: 0 every run has ended, or the time is over, 1 failed, 2 bad input, 143 the task was taken away.)";
 
 /// A number of the environment; `fallback` where there is none.
 int number_in(const char* variable, int fallback) {
@@ -151,16 +160,18 @@ class Task {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc == 2 && std::string_view(argv[1]) == "--version") {
-    fmt::print("{}\n", run::version());
-    return 0;
-  }
-  if (argc != 2) {
-    fmt::print(stderr, "shaken-task: started by Slurm for shakend, with the folder of a batch as its argument\n");
-    return static_cast<int>(ExitCode::kBadInput);
-  }
+  CLI::App app("Does one task of a batch of runs, one after the other, on a node of a cluster.", "shaken-task");
+  std::string folder;
+  app.set_version_flag("--version", run::version());
+  app.footer(kFooter);
+  app.add_option("FOLDER", folder, "Of the batch, below slurm/ of the daemon's root")->type_name("DIR")->required();
   try {
-    return Task(BatchFolder{argv[1]}, number_in("SLURM_ARRAY_TASK_ID", -1)).work();
+    app.parse(argc, argv);
+    return Task(BatchFolder{folder}, number_in("SLURM_ARRAY_TASK_ID", -1)).work();
+  } catch (const CLI::ParseError& problem) {
+    if (problem.get_exit_code() == 0) return app.exit(problem);
+    fmt::print(stderr, "shaken-task: {} (see `shaken-task --help`)\n", problem.what());
+    return static_cast<int>(ExitCode::kBadInput);
   } catch (const Failure& failure) {
     fmt::print(stderr, "shaken-task: {}\n", failure.what());
     return static_cast<int>(failure.code);
