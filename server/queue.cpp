@@ -213,7 +213,8 @@ void Queue::set_notes(std::span<const std::pair<std::string, std::string>> notes
   const std::lock_guard lock(mutex_);
   Transaction transaction(database_);
   for (const auto& [id, note] : notes) {
-    database_.run("UPDATE jobs SET reason = ?2 WHERE id = ?1 AND state = 'running' AND reason <> ?2", id, note);
+    database_.run("UPDATE jobs SET reason = ?2 WHERE id = ?1 AND state IN ('running', 'stopping') AND reason <> ?2", id,
+                  note);
   }
   transaction.commit();
 }

@@ -126,7 +126,8 @@ class Queue {
   void set_pid(const std::string& id, int pid);
   /// By what a worker that outlives the daemon is found again.
   void set_worker(const std::string& id, const std::string& worker);
-  /// Says, by id, what running jobs wait for whose workers have been handed over but not started; "" if for nothing.
+  /// Says, by id, what running and stopping jobs wait for where their workers have been handed over: for these to
+  /// start, or to be told to stop; "" if for nothing.
   void set_notes(std::span<const std::pair<std::string, std::string>> notes);
   /// running or stopping -> done or failed. One that is done, but has been asked to go on longer meanwhile, is queued
   /// again.

@@ -257,6 +257,7 @@ void Supervisor::stop_stopping() {
       spdlog::info("job {}: asked to stop", job.id);
       executor_.stop(worker.handle);
       worker.kill_at = now + options_.grace;
+      worker.noted = "";  // the change of its state has taken that away
     } else if (now >= *worker.kill_at && !worker.killed) {
       spdlog::warn("job {}: has not stopped within {} s, is killed", job.id,
                    std::chrono::duration<double>(options_.grace).count());

@@ -46,7 +46,10 @@ Result<void> write_batch(const BatchFolder& folder, const Batch& batch);
 Result<Batch> read_batch(const BatchFolder& folder);
 Result<void> write_report(const std::filesystem::path& file, const TaskReport& report);
 Result<TaskReport> read_report(const std::filesystem::path& file);
-Result<void> write_stop(const std::filesystem::path& file, const std::set<int>& places);
+/// Whether what is written must outlast a loss of power from then on, which costs the writer a wait for the disk.
+enum class Lasting { kNo, kYes };
+/// A reader sees the old file or the new.
+Result<void> write_stop(const std::filesystem::path& file, const std::set<int>& places, Lasting lasting);
 /// Nobody where there is no such file.
 std::set<int> read_stop(const std::filesystem::path& file);
 

@@ -185,6 +185,10 @@ WorkerReport SlurmExecutor::poll(int worker) {
   Sent& batch = batches_.at(handle.batch);
   Run& run = batch.runs[static_cast<std::size_t>(handle.run)];
   WorkerReport report = state_of(batch, run, task_of(batch, handle.run));
+  if (report.phase == Phase::kWaiting && batch.stage == Stage::kOut && run.stop_asked && !trouble_.empty()) {
+    report.words = fmt::format("stops once Slurm answers, which has it as job {}_{}: {}", batch.job,
+                               task_of(batch, handle.run), trouble_);
+  }
   if (report.phase == Phase::kWaiting || report.phase == Phase::kWorking) return report;
   run.told = true;
   handles_.erase(worker);
@@ -197,7 +201,7 @@ void SlurmExecutor::stop(int worker) {
   Run& run = batch.runs[static_cast<std::size_t>(handle.run)];
   run.stop_asked = true;
   const int number = task_of(batch, handle.run);
-  write_stop_of(batch, number);
+  unsaid_stops_.emplace(handle.batch, number);
   if (batch.stage == Stage::kOpen || batch.stage == Stage::kClosed) {
     run.end = WorkerEnd{.exit_code = static_cast<int>(ExitCode::kStopped)};  // its task reads that file first
     return;
@@ -222,20 +226,41 @@ void SlurmExecutor::kill(int worker) {
   task.if_waits = false;
 }
 
-void SlurmExecutor::write_stop_of(const Sent& batch, int task) const {
-  std::set<int> places = read_stop(batch.folder.stop(task));  // also of those that a former daemon has stopped
-  for (int place = 0; place < batch.runs_per_task; ++place) {
-    const auto run = static_cast<std::size_t>(task * batch.runs_per_task + place);
-    if (run < batch.runs.size() && batch.runs[run].stop_asked) places.insert(place);
-  }
-  if (const auto made = make_folder(batch.folder.root); !made) spdlog::error("{}", printable(made.error().message));
-  if (const auto written = write_stop(batch.folder.stop(task), places); !written) {
-    spdlog::error("{}", printable(written.error().message));
-  }
+bool SlurmExecutor::has_unsaid_stops(const std::string& token) const {
+  const auto first = unsaid_stops_.lower_bound({token, 0});
+  return first != unsaid_stops_.end() && first->first == token;
+}
+
+void SlurmExecutor::write_stops() {
+  const auto now = Clock::now();
+  if (unsaid_stops_.empty() || now < write_stops_after_) return;
+  std::erase_if(unsaid_stops_, [&](const auto& unsaid) {
+    const auto entry = batches_.find(unsaid.first);
+    if (entry == batches_.end()) return true;
+    const Sent& batch = entry->second;
+    const int task = unsaid.second;
+    const std::filesystem::path file = batch.folder.stop(task);
+    std::set<int> places = read_stop(file);  // also of those that a former daemon has stopped
+    for (int place = 0; place < batch.runs_per_task; ++place) {
+      const auto run = static_cast<std::size_t>(task * batch.runs_per_task + place);
+      if (run < batch.runs.size() && batch.runs[run].stop_asked) places.insert(place);
+    }
+    // A run that Slurm has is asked again by the next daemon, should this file get lost with the power: that need not
+    // wait for the disk. One that is not handed over yet has ended with the asking, and nobody asks again.
+    const bool is_out = batch.stage == Stage::kOut || batch.stage == Stage::kUnsure;
+    Result<void> written = make_folder(batch.folder.root);
+    if (written) written = write_stop(file, places, is_out ? Lasting::kNo : Lasting::kYes);
+    if (!written && write_stops_after_ <= now) {  // the first of the round; it is the same for the others
+      spdlog::error("{}", printable(written.error().message));
+      write_stops_after_ = now + options_.poll;
+    }
+    return static_cast<bool>(written);
+  });
 }
 
 void SlurmExecutor::step() {
   if (!looked_for_unknown_) remove_unknown();
+  write_stops();  // once for all that the last round has stopped
   budget_ = kPerRound;
   const int waiting = n_waiting();
   if (waiting >= options_.max_pending) refilling_ = false;
@@ -350,8 +375,9 @@ bool SlurmExecutor::cancel_tasks() {
 }
 
 bool SlurmExecutor::submit_next() {
-  const auto next = std::find_if(batches_.begin(), batches_.end(),
-                                 [](const auto& entry) { return entry.second.stage == Stage::kClosed; });
+  const auto next = std::find_if(batches_.begin(), batches_.end(), [&](const auto& entry) {
+    return entry.second.stage == Stage::kClosed && !has_unsaid_stops(entry.first);
+  });
   if (next == batches_.end()) return false;
   submitted_ = next->first;
   next->second.stage = Stage::kUnsure;

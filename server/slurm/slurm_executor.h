@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scene/slurm_settings.h"
@@ -111,7 +112,8 @@ class SlurmExecutor final : public Executor {
   void take_list(const std::vector<QueuedTask>& listed);
   void read_reports();
   void read_report_of(Sent& batch, int task);
-  void write_stop_of(const Sent& batch, int task) const;
+  void write_stops();
+  bool has_unsaid_stops(const std::string& token) const;
   void remove_finished();
   void remove_unknown();
   std::vector<std::string> sbatch_command(const std::string& token, const Sent& batch) const;
@@ -122,6 +124,8 @@ class SlurmExecutor final : public Executor {
   std::map<int, Handle> handles_;
   int last_handle_ = 0;
   int budget_ = 0;  ///< workers that this round still takes
+  /// Tasks whose file of stops is to be written, by their batch and number.
+  std::set<std::pair<std::string, int>> unsaid_stops_;
   bool refilling_ = true;
   bool looked_for_unknown_ = false;
 
@@ -134,6 +138,7 @@ class SlurmExecutor final : public Executor {
   Clock::time_point ask_after_{};
   Clock::time_point list_after_{};
   Clock::time_point read_after_{};
+  Clock::time_point write_stops_after_{};
 };
 
 }  // namespace shaken::server::slurm

@@ -227,6 +227,28 @@ TEST_F(SupervisorTest, NoMoreWorkersThanSlots) {
   EXPECT_EQ(job('a').state, kCancelled);
 }
 
+TEST_F(SupervisorTest, WhatKeepsAStoppingJobIsItsReason) {
+  ToldExecutor executor;
+  executor.report = {.phase = WorkerReport::Phase::kWaiting, .words = "waits"};
+  Supervisor supervisor(queue_, executor, options());
+  submit('a', "run");
+  supervisor.step();
+  supervisor.step();
+  EXPECT_EQ(job('a').reason, "waits");
+  queue_.cancel(id('a'));
+  supervisor.step();
+  supervisor.step();
+  EXPECT_EQ(job('a').state, kStopping);
+  EXPECT_EQ(job('a').reason, "waits") << "still";
+  executor.report.words = "Slurm does not answer";
+  supervisor.step();
+  EXPECT_EQ(job('a').reason, "Slurm does not answer");
+  executor.report = {.phase = WorkerReport::Phase::kTaken, .words = "CANCELLED"};
+  supervisor.step();
+  EXPECT_EQ(job('a').state, kCancelled);
+  EXPECT_EQ(job('a').reason, "cancelled on request");
+}
+
 TEST_F(SupervisorTest, CancelLetsTheWorkerStopByItself) {
   submit('a', "run");
   ASSERT_TRUE(step_until_up('a'));

@@ -222,6 +222,7 @@ TEST_F(SlurmExecutorTest, StoppingOneOfATaskThatRunsLeavesTheOthersAlone) {
   ASSERT_TRUE(
       step_until(executor, [&] { return executor.poll(workers[0]).words == "waits for its turn in Slurm job 7_0"; }));
   executor.stop(workers[1]);
+  executor.step();
   EXPECT_EQ(read_stop(folder(executor, workers[0]).stop(0)), std::set{1});
   ASSERT_TRUE(step_until(executor, [&] { return !calls("scancel").empty(); }));
   EXPECT_EQ(calls("scancel").front(), "<--state=PENDING><7_0>");
@@ -278,12 +279,66 @@ TEST_F(SlurmExecutorTest, WhatAFormerDaemonHasStoppedStaysSo) {
     files = folder(executor, workers[0]);
     ASSERT_TRUE(step_until(executor, [&] { return calls("sbatch").size() == 1; }));
     executor.stop(workers[0]);
+    executor.step();
   }
   SlurmExecutor executor(options());
   const auto worker = executor.adopt(name);
   ASSERT_TRUE(worker);
   executor.stop(*worker);
+  executor.step();
   EXPECT_EQ(read_stop(files.stop(0)), (std::set{0, 1}));
+}
+
+TEST_F(SlurmExecutorTest, WhatARoundHasStoppedIsWrittenOnce) {
+  SlurmExecutor executor(options());
+  const auto workers = start(executor, 4);
+  ASSERT_TRUE(step_until(executor, [&] { return calls("sbatch").size() == 1; }));
+  const BatchFolder files = folder(executor, workers[0]);
+  for (const int worker : workers) executor.stop(worker);
+  EXPECT_FALSE(std::filesystem::exists(files.stop(0))) << "not yet: the next may be of the same task";
+  executor.step();
+  EXPECT_EQ(read_stop(files.stop(0)), (std::set{0, 1}));
+  EXPECT_EQ(read_stop(files.stop(1)), (std::set{0, 1}));
+  std::filesystem::remove(files.stop(0));
+  executor.step();
+  EXPECT_FALSE(std::filesystem::exists(files.stop(0))) << "nothing new is to be said";
+}
+
+TEST_F(SlurmExecutorTest, NothingIsHandedOverBeforeItsStopsAreWritten) {
+  SlurmExecutor executor(options());
+  const auto workers = start(executor, 2);
+  const BatchFolder files = folder(executor, workers[0]);
+  executor.stop(workers[0]);
+  std::filesystem::create_directories(files.stop(0) / "in the way");
+  const auto end = std::chrono::steady_clock::now() + milliseconds(200);
+  while (std::chrono::steady_clock::now() < end) executor.step();
+  EXPECT_TRUE(calls("sbatch").empty());
+  std::filesystem::remove_all(files.stop(0));
+  ASSERT_TRUE(step_until(executor, [&] { return calls("sbatch").size() == 1; }));
+  EXPECT_EQ(read_stop(files.stop(0)), std::set{0});
+}
+
+TEST_F(SlurmExecutorTest, WhatIsToStopSaysThatSlurmDoesNotAnswer) {
+  SlurmExecutor executor(options());
+  const auto workers = start(executor, 2);
+  list(executor, workers[0], {"PENDING|Priority"});
+  ASSERT_TRUE(
+      step_until(executor, [&] { return executor.poll(workers[0]).words == "waits as Slurm job 7_0 (Priority)"; }));
+  for (const char* name : {"sbatch", "squeue", "scancel"}) {
+    std::filesystem::rename(directory_ / name, directory_ / (std::string(name) + ".away"));
+  }
+  setenv("PATH", directory_.path().c_str(), 1);
+  executor.stop(workers[0]);
+  ASSERT_TRUE(step_until(executor, [&] {
+    return executor.poll(workers[0]).words.starts_with("stops once Slurm answers, which has it as job 7_0: squeue");
+  }));
+  EXPECT_EQ(executor.poll(workers[1]).words, "waits as Slurm job 7_0 (Priority)") << "nobody has stopped that one";
+  for (const char* name : {"sbatch", "squeue", "scancel"}) {
+    std::filesystem::rename(directory_ / (std::string(name) + ".away"), directory_ / name);
+  }
+  setenv("PATH", (directory_.path().string() + ":" + path_).c_str(), 1);
+  EXPECT_TRUE(
+      step_until(executor, [&] { return executor.poll(workers[0]).words == "waits as Slurm job 7_0 (Priority)"; }));
 }
 
 TEST_F(SlurmExecutorTest, WhatIsStoppedBeforeItIsHandedOverHasEnded) {

@@ -68,8 +68,10 @@ TEST(BatchFiles, WhatIsWrittenIsRead) {
   EXPECT_EQ(told->ends.at(3).signal, 9);
   EXPECT_EQ(told->ends.at(3).pid, 77);
 
-  ASSERT_TRUE(write_stop(folder.stop(1), {2, 5}));
+  ASSERT_TRUE(write_stop(folder.stop(1), {2, 5}, Lasting::kYes));
   EXPECT_EQ(read_stop(folder.stop(1)), (std::set{2, 5}));
+  ASSERT_TRUE(write_stop(folder.stop(1), {2, 5, 7}, Lasting::kNo));
+  EXPECT_EQ(read_stop(folder.stop(1)), (std::set{2, 5, 7}));
   EXPECT_TRUE(read_stop(folder.stop(2)).empty());
 }
 
