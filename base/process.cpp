@@ -123,7 +123,7 @@ Captured run_captured(const std::vector<std::string>& command, const std::filesy
   const Descriptor reader(ends[0]);
   Result<pid_t> child = [&] {
     const Descriptor writer(ends[1]);
-    return start_child({.command = command, .folder = folder, .output = writer.value()});
+    return start_child({.command = command, .folder = folder, .output = writer.value(), .ends_with_us = true});
   }();
   if (!child) return {kCannotRun, child.error().message};
 

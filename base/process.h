@@ -50,7 +50,8 @@ struct Captured {
   std::string output;  ///< stdout and stderr, in the order written
 };
 
-/// Runs `command` in `folder` until it ends.
+/// Runs `command` in `folder` until it ends; or until this process does, however that comes: nobody else wants what it
+/// writes.
 Captured run_captured(const std::vector<std::string>& command, const std::filesystem::path& folder = ".");
 
 /// Becomes `command`: the caller's terminal, signals and exit code are then its own. Throws Failure if that fails.

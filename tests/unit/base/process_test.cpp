@@ -9,6 +9,8 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
+#include <string>
 #include <thread>
 
 #include "base/descriptor.h"
@@ -31,6 +33,37 @@ TEST(RunCaptured, TellsWhyAProgramCannotBeRun) {
 }
 
 TEST(RunCaptured, RunsInTheFolder) { EXPECT_EQ(run_captured({"pwd", "-P"}, "/").output, "/\n"); }
+
+TEST(RunCaptured, EndsWithUsEvenIfWeAreKilled) {
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  const pid_t us = fork();
+  if (us == 0) {
+    run_captured(
+        {"sh", "-c",
+         "echo $$ > /proc/" + std::to_string(getppid()) + "/fd/" + std::to_string(ends[1]) + "; exec sleep 60"});
+    _exit(0);
+  }
+  char text[32] = {};
+  ASSERT_GT(read(ends[0], text, sizeof text - 1), 0);
+  const pid_t child = std::stoi(text);
+  kill(us, SIGKILL);
+  wait_for_child(us);
+  const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  // Gone, or a zombie that nobody has reaped yet.
+  const auto is_alive = [&] {
+    std::string line;
+    std::getline(std::ifstream("/proc/" + std::to_string(child) + "/stat"), line);
+    return !line.empty() && line.find(") Z ") == std::string::npos;
+  };
+  while (is_alive() && std::chrono::steady_clock::now() < until) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  EXPECT_FALSE(is_alive());
+  if (is_alive()) kill(child, SIGKILL);
+  close(ends[0]);
+  close(ends[1]);
+}
 
 // A child that waited for our terminal would never end, and one that kept our descriptors would hold their locks.
 TEST(StartChild, HasAnEmptyStdinAndNoDescriptorOfOurs) {
