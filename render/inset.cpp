@@ -8,6 +8,7 @@
 
 #include "analysis/angles.h"
 #include "analysis/g2.h"
+#include "analysis/pair_map.h"
 #include "analysis/region.h"
 #include "render/colourings.h"
 #include "render/ticks.h"
@@ -75,6 +76,35 @@ Curve g2_curve(const RodPicture& picture) {
   return curve;
 }
 
+Curve g2_map(const RodPicture& picture) {
+  std::vector<Vec3> positions;
+  for (std::size_t i = 0; i < picture.n_rods(); ++i) {
+    if (picture.species_of(i) == 0) positions.push_back(picture.position[i]);
+  }
+  const double range = std::min(2 * picture.rod_length(), picture.box_side / 2);
+  // As fine as leaves some twenty pairs to a bin; odd, so that one is about 0.
+  const double per_area = static_cast<double>(positions.size()) / (picture.box_side * picture.box_side);
+  const double pairs = per_area * static_cast<double>(positions.size()) * (2 * range) * (2 * range);
+  const int bins = 2 * std::clamp(static_cast<int>(std::sqrt(pairs / 20) / 2), 4, 20) + 1;
+  analysis::PairMap map({.bins = bins, .range = range, .strip = range, .box_side = picture.box_side});
+  map.accumulate(positions, picture.first_directors());
+  const std::vector<double> g2 = map.reduce().g2;
+  // The part of the scale that most cells need: among aligned rods all are near 1.
+  std::vector<double> known;
+  std::copy_if(g2.begin(), g2.end(), std::back_inserter(known), [](double value) { return !std::isnan(value); });
+  std::sort(known.begin(), known.end());
+  const double low = known.empty() ? 0 : known[known.size() / 50];
+  const double bottom = low >= 0.8 ? 0.8 : low >= 0.5 ? 0.5 : low >= -0.1 ? 0 : -1;
+  const std::string end = fmt::format("{:.3g}", range);
+  return {.title = "G\u2082 along (\u2194) and across N [mm]",
+          .x_ticks = {{-range, "\u2212" + end}, {0, "0"}, {range, end}},
+          .y_ticks = {{-range, "\u2212" + end}, {0, "0"}, {range, end}},
+          .cells = Curve::Cells{.columns = static_cast<std::size_t>(bins),
+                                .values = g2,
+                                .range = Vec2(bottom, 1),
+                                .colour = find_colouring("order")->colour}};
+}
+
 namespace {
 
 /// An axis that holds all of `values`, from one round number to another.
@@ -120,6 +150,8 @@ bool has_inset(const RodPicture& picture, const PictureStyle& style) {
       return !picture.history.time.empty();
     case Inset::kSweep:
       return picture.sweep != nullptr;
+    case Inset::kG2Map:
+      return picture.count(0) > 1 && !picture.walls;
     case Inset::kAngles:
     case Inset::kG2:
       break;
@@ -143,6 +175,7 @@ void draw_inset(const Canvas& canvas, const Rect& place, double unit, const RodP
              style.inset == Inset::kOrder    ? order_curve(picture)
              : style.inset == Inset::kSweep  ? sweep_curve(picture)
              : style.inset == Inset::kAngles ? angle_curve(picture)
+             : style.inset == Inset::kG2Map  ? g2_map(picture)
                                              : g2_curve(picture),
              colours);
 }

@@ -163,7 +163,12 @@ std::string out_of(const Options& options, const TrajectorySource& source, const
   return options.out.empty() ? (source.file().parent_path() / name).string() : options.out;
 }
 
-void check_followed(const PictureStyle& style, const RodPicture& picture) {
+/// That the rods have what the style asks of them.
+void check_picture(const PictureStyle& style, const RodPicture& picture) {
+  if (style.inset == Inset::kG2Map && picture.walls) {
+    throw Failure(ExitCode::kBadInput,
+                  "the map of G2 is of pairs in a periodic box, and these rods are between side walls: use g2, G2(r)");
+  }
   if (style.followed && static_cast<std::size_t>(*style.followed) >= picture.n_rods()) {
     throw Failure(ExitCode::kBadInput, fmt::format("there is no rod {}: they are numbered from 0 to {}",
                                                    *style.followed, static_cast<std::ptrdiff_t>(picture.n_rods()) - 1));
@@ -219,7 +224,7 @@ Result<RodPicture> joint_picture(const Options& options, const PictureStyle& sty
     if (!frame) return frame.error();
     Result<RodPicture> picture = sources[i].picture(*frame, style);
     if (!picture) return picture;
-    check_followed(style, *picture);
+    check_picture(style, *picture);
     set_label(options, i, *picture);
     picture->sweep = places.map;
     if (places.map) picture->sweep_point = places.here[i];
@@ -288,12 +293,12 @@ void make_live_picture(const Options& options) {
     throw Failure(ExitCode::kBadInput, "the inset of a sweep is drawn with recorded frames, not with a running job's");
   }
   if (style.inset == Inset::kOrder) {
-    throw Failure(ExitCode::kBadInput, "messages do not tell S(t): of a running job the inset is angles or g2");
+    throw Failure(ExitCode::kBadInput, "messages do not tell S(t): of a running job the inset is angles, g2 or g2-map");
   }
   check_picture_name(options);
   const auto timeout = std::chrono::milliseconds(std::llround(options.timeout_s * 1000));
   RodPicture picture = value_or_fail(live_picture(options.lcm_url, options.sources.front(), timeout, style));
-  check_followed(style, picture);
+  check_picture(style, picture);
   set_label(options, 0, picture);
   paint_to_file(options, style, picture, options.out, watch);
 }

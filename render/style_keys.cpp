@@ -200,9 +200,9 @@ std::vector<StyleKey> make_keys() {
   keys.push_back(number_key("displacements", "S", "Arrows from where each rod's centre was so long before", 0, 1e6,
                             &PictureStyle::displacements));
   keys.push_back(word_key("inset",
-                          "A plot in a corner of the rods: P(theta) and G2(r) of this instant; S(t), which then "
-                          "stands there only; the points of the sweep with a ring round this one (--sweep)",
-                          {"none", "angles", "order", "g2", "sweep"}, &PictureStyle::inset));
+                          "A plot in a corner of the rods: P(theta), G2(r) and the map G2(x, y) of this instant; S(t), "
+                          "which then stands there only; the points of the sweep with a ring round this one (--sweep)",
+                          {"none", "angles", "order", "g2", "g2-map", "sweep"}, &PictureStyle::inset));
   keys.push_back(switch_key("caption", "Headline, numbers and S(t)", &PictureStyle::caption));
   keys.push_back(switch_key("legend", "The colour scale, with how many rods have which colour", &PictureStyle::legend));
   keys.push_back(switch_key("scale_bar", "A scale bar; in films also the playback speed", &PictureStyle::scale_bar));
