@@ -111,9 +111,16 @@ std::vector<std::string> worker_options(const DaemonConfig& config) {
   return options;
 }
 
-/// Live state stays on the machine where it arises: from a node it would reach nobody.
+/// Multicast from a node would reach nobody, and a tcpq address that nobody has asked for may be one of this machine
+/// only: live state stays where it arises, unless the user says where over TCP it is to go.
 std::vector<std::string> worker_options_in_slurm(const DaemonConfig& config) {
-  return {"--threads", std::to_string(config.threads), "--no-lcm"};
+  std::vector<std::string> options{"--threads", std::to_string(config.threads)};
+  if (config.lcm_url_is_asked_for && config.lcm_url.starts_with("tcpq://")) {
+    options.insert(options.end(), {"--lcm-url", config.lcm_url});
+  } else {
+    options.emplace_back("--no-lcm");
+  }
+  return options;
 }
 
 slurm::SlurmOptions slurm_options(const DaemonConfig& config, const std::filesystem::path& root) {

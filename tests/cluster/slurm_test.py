@@ -43,7 +43,7 @@ class Daemon:
 
     def __init__(self, root, *options):
         self.root = pathlib.Path(root)
-        self.options = options
+        self.options = options if "--lcm-url" in options else ("--no-lcm", *options)
         self.process = None
 
     def __enter__(self):
@@ -59,7 +59,7 @@ class Daemon:
     def start(self):
         with open(self.root.with_suffix(".out"), "ab") as out:
             self.process = subprocess.Popen(
-                [PROGRAMS / "shakend", "--root", self.root, "--no-lcm", "--slots", "2", "--slurm-poll", "0.5", *self.options],
+                [PROGRAMS / "shakend", "--root", self.root, "--slots", "2", "--slurm-poll", "0.5", *self.options],
                 env=CLUSTER.environment, stdin=subprocess.DEVNULL, stdout=out, stderr=out)
         eventually(lambda: self.get("/v1/status"), "the daemon answers")
 
@@ -282,6 +282,20 @@ class InSlurm(unittest.TestCase):
             log = {sweep: (daemon.root / "runs" / daemon.jobs(sweep)[0]["id"] / "worker.log").read_text()
                    for sweep in ("s2", "s3")}
             self.assertTrue(all("attempt 1" in text for text in log.values()), log)
+
+    def test_rods_of_a_node_are_live_where_the_daemon_says(self):
+        with socket.create_server(("127.0.0.1", 0)) as free:
+            address = f"127.0.0.1:{free.getsockname()[1]}"
+        scene = dict(SCENE, rods=dict(SCENE["rods"], area_fraction=0.3), stream={"rate": "10 Hz"})
+        with Daemon(self.base / "live", "--executor", "slurm", "--relay", address, "--lcm-url", f"tcpq://{address}") as daemon:
+            daemon.submit(sweep_of(scene, {"grid": {"time.seed": [1]}}))
+            log = self.base / "live.lcmlog"
+            finished = subprocess.run([PROGRAMS / "shaken", "--root", daemon.root, "record", "s1", "-o", log],
+                                      stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=PATIENCE)
+            self.assertEqual(finished.returncode, 0, finished.stderr)
+            job = daemon.jobs()[0]
+            self.assertEqual(job["state"], "done", job)
+            self.assertGreater(log.read_bytes().count(b"SHAKEN_FRAME"), 10)
 
     def test_the_doctor_finds_nothing_missing(self):
         root = self.base / "doctor"
