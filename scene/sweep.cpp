@@ -24,6 +24,9 @@ namespace shaken::scene {
 
 namespace {
 
+/// Points are not looked at after so many problems: each takes its time, and kMaxProblems are told.
+constexpr std::size_t kEnoughProblems = 1000;
+
 /// Multiplies the products of a sweep out, one after the other.
 class Products {
  public:
@@ -124,7 +127,7 @@ class Products {
   void multiply_out(const Variation& product, const Draft& base, std::vector<SweepPoint>& made) {
     const std::vector<Factor>& factors = product.factors;
     std::vector<std::size_t> choice(factors.size(), 0);
-    while (true) {
+    while (problems_.size() < kEnoughProblems) {
       add_point(product, base, choice, made);
       // The next combination; the last factor varies fastest.
       std::size_t f = factors.size();

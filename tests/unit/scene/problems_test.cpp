@@ -251,6 +251,14 @@ TEST(Problems, ManyAreFoundOneByOne) {
   }
 }
 
+// Each takes its time, and of a hundred thousand a hundred are told.
+TEST(Problems, PointsAreNotLookedAtAfterAThousandProblems) {
+  const Loaded<Sweep> loaded = load_sweep(R"({"sweep": {"grid": {"box.gap": "101:5000:0.1"}}})", "many.json");
+  ASSERT_FALSE(loaded);
+  ASSERT_EQ(loaded.error().size(), 101u);
+  EXPECT_EQ(loaded.error().back().message, "and 900 more problems");
+}
+
 TEST(Problems, ListsAreCut) {
   std::string text = "{";
   for (int i = 0; i < 150; ++i) text += "\"x" + std::to_string(i) + "\": 1,\n";
