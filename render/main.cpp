@@ -385,8 +385,9 @@ void make_movie_file(const Options& options) {
   MovieOptions movie{options.labels.empty() ? source.label() : headline(options.labels.front()), source.notes(),
                      std::nullopt, options.n_threads};
   if (movie.n_threads < 1) movie.n_threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  // Threads that draw leave nothing to do for those of the rasteriser.
-  if (movie.n_threads > 1) setenv("LP_NUM_THREADS", "0", 1);
+  // All painters of a process share Mesa's rasteriser, which takes one picture at a time: it is its threads that use
+  // the cores, and the painters' own only have the next picture ready.
+  setenv("LP_NUM_THREADS", std::to_string(movie.n_threads).c_str(), 1);
   if (options.keep_frames) movie.keep_frames = std::filesystem::path(out).parent_path() / "frames";
   FilmAxes axes;
   const auto picture = [&](std::size_t k) -> Result<RodPicture> {
