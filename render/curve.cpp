@@ -20,9 +20,10 @@ void draw_cells(const Canvas& canvas, const Rect& plot, double unit, const Curve
                height = plot.height / static_cast<double>(rows);
   for (std::size_t k = 0; k < cells.values.size(); ++k) {
     if (std::isnan(cells.values[k])) continue;
-    const auto column = static_cast<double>(k % cells.columns), row = static_cast<double>(k / cells.columns);
+    const std::size_t column = k % cells.columns, row = k / cells.columns;
     canvas.colour(cells.colour(cells.values[k], cells.range));
-    canvas.fill({plot.x + column * width, plot.bottom() - (row + 1) * height, width, height});
+    canvas.fill({plot.x + static_cast<double>(column) * width, plot.bottom() - static_cast<double>(row + 1) * height,
+                 width, height});
   }
   const Rect bar{plot.right() + 10 * unit, plot.y, 10 * unit, plot.height};
   constexpr int kSteps = 32;
