@@ -314,6 +314,8 @@ std::vector<std::string> SlurmExecutor::sbatch_command(const std::string& token,
                                  fmt::format("--array=0-{}", batch.tasks.size() - 1),
                                  "--chdir=" + batch.folder.root.string(),
                                  "--output=%a.log"};
+  // The later one wins: first what is for all, then what this sweep says.
+  words.insert(words.end(), options_.options.begin(), options_.options.end());
   if (!settings.partition.empty()) words.push_back("--partition=" + settings.partition);
   if (!settings.account.empty()) words.push_back("--account=" + settings.account);
   if (!settings.memory.empty()) words.push_back("--mem=" + settings.memory);
@@ -323,7 +325,6 @@ std::vector<std::string> SlurmExecutor::sbatch_command(const std::string& token,
     ahead = std::min(ahead, settings.time / 4);
   }
   words.push_back(fmt::format("--signal=B:USR1@{:.0f}", ahead));
-  words.insert(words.end(), options_.options.begin(), options_.options.end());
   words.insert(words.end(), settings.options.begin(), settings.options.end());
   words.push_back(batch.folder.script().string());
   return words;

@@ -96,9 +96,11 @@ TEST_F(SlurmExecutorTest, WorkersGoOutPackedAsOneArray) {
   const std::string call = calls("sbatch").front();
   EXPECT_THAT(call, HasSubstr("<--array=0-1>"));
   EXPECT_THAT(call, HasSubstr("<--partition=short>"));
+  EXPECT_LT(call.find("<--qos=low>"), call.find("<--partition=short>")) << "sbatch takes the later of two";
   EXPECT_THAT(call, HasSubstr("<--time=2>")) << "whole minutes";
   EXPECT_THAT(call, HasSubstr("<--signal=B:USR1@22>"));
-  EXPECT_THAT(call, HasSubstr("<--qos=low><--nice=3>"));
+  EXPECT_THAT(call, HasSubstr("<--nice=3>"));
+  EXPECT_LT(call.find("<--qos=low>"), call.find("<--nice=3>"));
   EXPECT_EQ(read_batch(folder(executor, workers[0]))->tasks.size(), 2);
   EXPECT_THAT(read_text(folder(executor, workers[0]).script()), HasSubstr("exec '/bin/it'\\''s a task' '"));
   list(executor, workers[0], {"PENDING|Priority", "PENDING|Priority"});
