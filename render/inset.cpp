@@ -16,6 +16,15 @@
 namespace shaken::render {
 namespace {
 
+/// Centres of the rods of the first species.
+std::vector<Vec3> first_positions(const RodPicture& picture) {
+  std::vector<Vec3> positions;
+  for (std::size_t i = 0; i < picture.n_rods(); ++i) {
+    if (picture.species_of(i) == 0) positions.push_back(picture.position[i]);
+  }
+  return positions;
+}
+
 const std::vector<Tick> kHalves{{0, "0"}, {0.5, "0.5"}, {1, "1"}};
 
 }  // namespace
@@ -58,10 +67,7 @@ Curve angle_curve(const RodPicture& picture) {
 
 Curve g2_curve(const RodPicture& picture) {
   constexpr int kBins = 40;
-  std::vector<Vec3> positions;
-  for (std::size_t i = 0; i < picture.n_rods(); ++i) {
-    if (picture.species_of(i) == 0) positions.push_back(picture.position[i]);
-  }
+  const std::vector<Vec3> positions = first_positions(picture);
   analysis::OrientationCorrelation correlation(kBins, picture.box_side / 2);
   correlation.accumulate(positions, picture.first_directors(), analysis::Region(picture.box_side, picture.walls));
   analysis::OrientationCurve pairs = correlation.reduce();
@@ -77,10 +83,7 @@ Curve g2_curve(const RodPicture& picture) {
 }
 
 Curve g2_map(const RodPicture& picture) {
-  std::vector<Vec3> positions;
-  for (std::size_t i = 0; i < picture.n_rods(); ++i) {
-    if (picture.species_of(i) == 0) positions.push_back(picture.position[i]);
-  }
+  const std::vector<Vec3> positions = first_positions(picture);
   const double range = std::min(2 * picture.rod_length(), picture.box_side / 2);
   // As fine as leaves some twenty pairs to a bin; odd, so that one is about 0.
   const double per_area = static_cast<double>(positions.size()) / (picture.box_side * picture.box_side);

@@ -49,13 +49,13 @@ struct SweepMap {
 /// Key and value of what a file says of itself: "Run id", "Seed".
 using Notes = std::vector<std::pair<std::string, std::string>>;
 
-/// One instant of a run, as plain values: all that is needed to draw it.
 /// How high plots reach in a film, so that their axes stand still (render/film_axes.h); 0: as this picture needs.
 struct FilmAxes {
   double share = 0;    ///< of rods, the highest bar of the legend
   double density = 0;  ///< P(theta) [1/rad]
 };
 
+/// One instant of a run, as plain values: all that is needed to draw it.
 struct RodPicture {
   double time = 0;      ///< [s]
   double box_side = 0;  ///< of the square box, periodic in x and y [mm]

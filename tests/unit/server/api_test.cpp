@@ -492,16 +492,21 @@ TEST_F(ApiTest, AJobIsFoundByAnyPrefixThatFitsOnlyOne) {
   EXPECT_THAT(get("/v1/jobs/abdc00000000000").error(), HasSubstr("did you mean abcd000000000000?"));
 }
 
-TEST_F(ApiTest, ARunningJobShowsItsProgress) {
-  const auto ids = submit_four();
-  queue_.begin(ids[0]);
-  EXPECT_TRUE(get("/v1/jobs/" + ids[0]).json["job"]["progress"].is_null());
-  const auto file = directory_ / "runs" / ids[0] / "progress.json";
+/// Of a run that is half done, with 10 s to go.
+void write_progress(const std::filesystem::path& file) {
   std::filesystem::create_directories(file.parent_path());
   write_text(file,
              R"({"state": "running", "message": "", "pid": 1, "n_rods": 9, "fraction": 0.5, "sim_time_s": 1,
                  "sim_time_total_s": 2, "sim_rate": 0.1, "eta_s": 10, "order": 0.25, "order_running_mean": 0.2,
                  "max_overlap_mm": 0})");
+}
+
+TEST_F(ApiTest, ARunningJobShowsItsProgress) {
+  const auto ids = submit_four();
+  queue_.begin(ids[0]);
+  EXPECT_TRUE(get("/v1/jobs/" + ids[0]).json["job"]["progress"].is_null());
+  const auto file = directory_ / "runs" / ids[0] / "progress.json";
+  write_progress(file);
   EXPECT_EQ(get("/v1/jobs/" + ids[0]).json["job"]["progress"]["order"], 0.25);
   EXPECT_EQ(get("/v1/sweeps/s1").json["sweep"]["progress"], 0.125);
   EXPECT_EQ(get("/v1/sweeps/s1").json["sweep"]["eta_s"], -1.0) << "nothing is known of the queued ones yet";
@@ -527,11 +532,7 @@ TEST_F(ApiTest, RunsThatWaitElsewhereCountAsWaitingForThoseAtWork) {
   for (const auto& id : {ids[1], ids[2], ids[3]}) queue_.begin(id);
   EXPECT_EQ(get("/v1/sweeps/s1").json["sweep"]["eta_s"], -1.0) << "none is at work";
   const auto file = directory_ / "runs" / ids[1] / "progress.json";
-  std::filesystem::create_directories(file.parent_path());
-  write_text(file,
-             R"({"state": "running", "message": "", "pid": 1, "n_rods": 9, "fraction": 0.5, "sim_time_s": 1,
-                 "sim_time_total_s": 2, "sim_rate": 0.1, "eta_s": 10, "order": 0.25, "order_running_mean": 0.2,
-                 "max_overlap_mm": 0})");
+  write_progress(file);
   EXPECT_EQ(get("/v1/sweeps/s1").json["sweep"]["eta_s"], 10.0 + 2 * 30.0) << "one after the other";
 }
 
