@@ -26,7 +26,7 @@ Example:
 struct Course {
   int rod[2];
   std::vector<double> gap;            ///< between the nearest beads [mm]
-  std::vector<SafeTime> bounds;       ///< made at that tick
+  std::vector<float> bounds;          ///< made at that tick
   std::vector<std::uint8_t> was_hit;  ///< one of the rods, at that tick
 };
 
@@ -55,10 +55,10 @@ void follow(const Simulation& simulation, const Snapshot& now, float horizon, st
     const MotionBound o_i = bound(world, i, now.director[i]);
     const MotionBound o_j = bound(world, j, now.director[j]);
     pair_lanes.set(0, D, o_i, o_j);
-    hull_safe_times(hull, hull, pair_lanes, MotionTolerance{}, horizon, hull_safe);
-    const SafeTime beads = bead_safe_time(lanes, o_i, lanes, o_j, D, MotionTolerance{}, horizon);
+    hull_safe_times(hull, hull, pair_lanes, 1, horizon, hull_safe);
+    const BeadSafeTime beads = bead_safe_time(lanes, o_i, lanes, o_j, D, horizon);
     course.gap.push_back(nearest_beads(world.species[0], now.director[i], now.director[j], D).gap);
-    course.bounds.push_back({std::max(hull_safe.unperturbed[0], beads.unperturbed), 0});
+    course.bounds.push_back(std::max(hull_safe.time[0], beads.time));
     course.was_hit.push_back(world.rods[i].since == world.tick || world.rods[j].since == world.tick);
   }
 }
@@ -71,7 +71,7 @@ std::vector<std::size_t> visits(const Course& course, double dt) {
   for (std::size_t k = 0; k < course.gap.size(); ++k) {
     if (static_cast<double>(k) < due && !course.was_hit[k]) continue;
     at.push_back(k);
-    due = static_cast<double>(k) + 1 + std::floor(static_cast<double>(course.bounds[k].unperturbed) / dt * (1 - 1e-5));
+    due = static_cast<double>(k) + 1 + std::floor(static_cast<double>(course.bounds[k]) / dt * (1 - 1e-5));
   }
   return at;
 }
@@ -108,7 +108,7 @@ void draw_visits(const std::filesystem::path& folder, const Course& course, cons
     data += fmt::format("{:.6f} {:.5f}\n", ms(k), 1e3 * course.gap[k]);
   data += "\n\n";
   for (const std::size_t k : at) {
-    const double safe = std::min(1e3 * static_cast<double>(course.bounds[k].unperturbed), 1e3 * window - ms(k));
+    const double safe = std::min(1e3 * static_cast<double>(course.bounds[k]), 1e3 * window - ms(k));
     data += fmt::format("{:.6f} {:.5f} {:.6f} {}\n", ms(k), 1e3 * course.gap[k], safe, course.was_hit[k]);
   }
   const auto n_hits = std::count(course.was_hit.begin(), course.was_hit.end(), 1);

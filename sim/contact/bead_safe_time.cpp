@@ -12,13 +12,12 @@ struct Shared {
   float gap_margin;
 };
 
-/// How two rods move relative to each other: unperturbed, or perturbed by hits within their tolerance.
+/// How two rods move relative to each other.
 struct Relative {
   float v[3], turn_i[3], turn_j[3];
-  float bend_i, bend_j;                  ///< halves of the bounds on the directors' second derivatives
-  float drift, drift_z;                  ///< what the centres' relative velocity may drift by, across and along z
-  float drift_turning, drift_turning_z;  ///< the same for each director's rate
-  float fastest;                         ///< no two beads approach faster than this
+  float bend_i, bend_j;  ///< halves of the bounds on the directors' second derivatives
+  float rounding;        ///< what speeds may be wrong by
+  float fastest;         ///< no two beads approach faster than this
 };
 
 /// Vectors from beads of i to the centre of j.
@@ -27,11 +26,20 @@ SHAKEN_INLINE lanes::Vectors<F> to_center(const Shared& in, const F& offset_i) {
   return {in.D[0] - offset_i * in.n_i[0], in.D[1] - offset_i * in.n_i[1], in.D[2] - offset_i * in.n_i[2]};
 }
 
-/// Index of the bead of j nearest to a coordinate on its axis.
+/// Index of the last bead of j before a coordinate on its axis.
 template <class F>
-SHAKEN_INLINE F nearest_bead(const BeadLanes& j, const F& foot) {
+SHAKEN_INLINE F bead_before(const BeadLanes& j, const F& foot) {
   const F place = (foot - j.first) * (1.0F / j.pitch);
-  return lanes::truncated(lanes::smaller(lanes::larger(place, F{}), F{} + j.last) + 0.5F);
+  return lanes::truncated(lanes::smaller(lanes::larger(place, F{}), F{} + j.last));
+}
+
+/// How far apart beads of i and the hull of j are at least: the hull is the spheres of radius mid_radius - taper |s|,
+/// and sqrt(across^2 + (foot - s)^2) + taper |s| is never less than cos across + taper |foot|, with taper the sine.
+template <class F>
+SHAKEN_INLINE F gap_to_hull(const BeadLanes& j, const F& radius, const F& foot, const F& across2) {
+  const F along = lanes::smaller(lanes::abs(foot), F{} + j.half_length);
+  const F outside = lanes::abs(foot) - along;
+  return j.cosine * lanes::sqrt(across2 + outside * outside) + j.thinning * along - j.max_radius - radius;
 }
 
 /// The beads of j that are not tried next to a foot on its axis, seen from there: how far along the axis the nearest
@@ -50,10 +58,10 @@ struct Untried {
   }
 };
 
-/// Coordinate of the k-th bead of j after `nearest`, or of the last one that there is.
+/// Coordinate of the k-th bead of j after `before`, or of the last one that there is.
 template <class F>
-SHAKEN_INLINE F bead_offset(const BeadLanes& j, const F& nearest, int k) {
-  const F index = lanes::smaller(lanes::larger(nearest + static_cast<float>(k), F{}), F{} + j.last);
+SHAKEN_INLINE F bead_offset(const BeadLanes& j, const F& before, int k) {
+  const F index = lanes::smaller(lanes::larger(before + static_cast<float>(k), F{}), F{} + j.last);
   return index * j.pitch + j.first;
 }
 
@@ -75,37 +83,17 @@ struct Fraction {
   SHAKEN_INLINE float least() const { return lanes::least(above / (below + 1e-30F)); }
 };
 
-/// Takes the safe time of beads of i and of j at s_i and s_j, whose centres are r apart, into account: with a gap,
-/// gap >= g + g' t - curvature t^2, where t^2 <= horizon t; overlapping, g' >= g'(0) - 2 curvature t.
-template <class F>
-SHAKEN_INLINE void take_safe_time(Fraction<F>& safe, const Relative& m, const F& s_i, const F& s_j,
-                                  const lanes::Vectors<F>& r, const F& inverse_distance, const F& gap, float horizon) {
-  const F vx = m.v[0] + s_j * m.turn_j[0] - s_i * m.turn_i[0];
-  const F vy = m.v[1] + s_j * m.turn_j[1] - s_i * m.turn_i[1];
-  const F vz = m.v[2] + s_j * m.turn_j[2] - s_i * m.turn_i[2];
-  const F up = lanes::abs(r.z) * inverse_distance;
-  const F size_i = lanes::abs(s_i);
-  const F size_j = lanes::abs(s_j);
-  const F drift = m.drift + m.drift_z * up + (size_i + size_j) * (m.drift_turning + m.drift_turning_z * up);
-  const F rate = (vx * r.x + vy * r.y + vz * r.z) * inverse_distance - drift;
-  const F curvature = size_i * m.bend_i + size_j * m.bend_j;
-  const auto apart = gap > 0.0F;
-  safe.take_smaller(apart ? gap : lanes::not_below_zero(rate),
-                    apart ? lanes::not_below_zero(curvature * horizon - rate) : 2.0F * curvature + 1e-3F);
-}
-
-/// Which of the beads of i in the lanes from `first` on may overlap a bead of j.
+/// Which of the beads of i may overlap a bead of j.
 struct OverlapKernel {
   const Shared& in;
   const BeadLanes& i;
   const BeadLanes& j;
-  std::size_t first;
 
   template <int W>
   SHAKEN_INLINE BeadRange run() const {
     BeadRange beads;
-    for (int l = 0; l < kLanes; l += W) {
-      const BeadRange some = find<W>(static_cast<int>(first) + l);
+    for (int l = 0; l < i.n_lanes(); l += W) {
+      const BeadRange some = find<W>(l);
       if (some.empty()) continue;
       if (beads.empty()) beads.from = some.from;
       beads.to = some.to;
@@ -118,13 +106,15 @@ struct OverlapKernel {
     using F = lanes::Floats<W>;
     const lanes::Vectors<F> x = to_center(in, lanes::load<W>(i.offset.data() + bead));
     const F foot = -(x.x * in.n_j[0] + x.y * in.n_j[1] + x.z * in.n_j[2]);
-    const F nearest = nearest_bead(j, foot);
     const F radius = lanes::load<W>(i.radius.data() + bead) + in.gap_margin;
+    const F across2 = lanes::not_below_zero(lanes::dot(x, x) - foot * foot);
+    if (lanes::least(gap_to_hull(j, radius, foot, across2)) > 0.0F) return {};
+    const F before = bead_before(j, foot);
     const Untried<F> untried(j, foot);
     const F cut = lanes::not_below_zero(radius + untried.radius);
-    F clear = untried.distance2(j, lanes::not_below_zero(lanes::dot(x, x) - foot * foot)) - cut * cut;
-    for (int k = -j.reach; k <= j.reach; ++k) {
-      const F s_j = bead_offset(j, nearest, k);
+    F clear = untried.distance2(j, across2) - cut * cut;
+    for (int k = j.from; k <= j.reach; ++k) {
+      const F s_j = bead_offset(j, before, k);
       const lanes::Vectors<F> r{x.x + s_j * in.n_j[0], x.y + s_j * in.n_j[1], x.z + s_j * in.n_j[2]};
       const F touch = lanes::not_below_zero(radius + hull_radius(j, s_j));
       clear = lanes::smaller(clear, lanes::dot(r, r) - touch * touch);
@@ -137,50 +127,94 @@ struct OverlapKernel {
   }
 };
 
-/// Safe times of the beads of i in the lanes from `first` on against the beads of j around each one's foot on j's axis.
+/// Safe time of the beads of i against the beads of j around each one's foot on j's axis. Beads that are too far away
+/// to be first are left out, a vector of them at a time.
+///
+/// Beads whose centres are r = r_0 + m n_j apart, with r_0 that of the bead before the foot, come together with
+/// rate |r| = (V + m w_j) . (r_0 + m n_j): a polynomial in m. Everything is multiplied by the distance |r|, which saves
+/// a division. With a gap, gap >= g + g' t - curvature t^2, where t^2 <= horizon t; overlapping, g' >= g'(0) - 2
+/// curvature t.
 struct SafeTimeKernel {
   const Shared& in;
-  const Relative& unperturbed;
-  const Relative& perturbed;
+  const Relative& motion;
   const BeadLanes& i;
   const BeadLanes& j;
-  std::size_t first;
   float horizon;
 
   template <int W>
-  SHAKEN_INLINE SafeTime run() const {
-    SafeTime safe{horizon, horizon};
-    for (int l = 0; l < kLanes; l += W) {
-      const SafeTime some = bound<W>(static_cast<int>(first) + l);
-      safe.unperturbed = std::min(safe.unperturbed, some.unperturbed);
-      safe.perturbed = std::min(safe.perturbed, some.perturbed);
+  SHAKEN_INLINE BeadSafeTime run() const {
+    BeadSafeTime safe{horizon, 1e3F};
+    float away[kMostBeads / W + 1];
+    int n_vectors = 0;
+    for (int l = 0; l < i.n_lanes(); l += W) away[n_vectors++] = least_gap_to_hull<W>(l);
+    for (int done = 0; done < n_vectors; ++done) {
+      const int next = static_cast<int>(std::min_element(away, away + n_vectors) - away);
+      if (away[next] > motion.fastest * safe.time) {
+        safe.gap = std::min(safe.gap, away[next]);
+        break;
+      }
+      const BeadSafeTime some = bound<W>(next * W);
+      safe.time = std::min(safe.time, some.time);
+      safe.gap = std::min(safe.gap, some.gap);
+      away[next] = 1e9F;
     }
     return safe;
   }
 
   template <int W>
-  SHAKEN_INLINE SafeTime bound(int bead) const {
+  SHAKEN_INLINE float least_gap_to_hull(int bead) const {
+    using F = lanes::Floats<W>;
+    const F radius = lanes::load<W>(i.radius.data() + bead) + in.gap_margin;
+    const lanes::Vectors<F> x = to_center(in, lanes::load<W>(i.offset.data() + bead));
+    const F foot = -(x.x * in.n_j[0] + x.y * in.n_j[1] + x.z * in.n_j[2]);
+    return lanes::least(gap_to_hull(j, radius, foot, lanes::not_below_zero(lanes::dot(x, x) - foot * foot)));
+  }
+
+  template <int W>
+  SHAKEN_INLINE BeadSafeTime bound(int bead) const {
     using F = lanes::Floats<W>;
     const F s_i = lanes::load<W>(i.offset.data() + bead);
     const F radius = lanes::load<W>(i.radius.data() + bead) + in.gap_margin;
     const lanes::Vectors<F> x = to_center(in, s_i);
     const F foot = -(x.x * in.n_j[0] + x.y * in.n_j[1] + x.z * in.n_j[2]);
-    const F nearest = nearest_bead(j, foot);
+    const F before = bead_before(j, foot);
     const Untried<F> untried(j, foot);
     const F across2 = lanes::not_below_zero(lanes::dot(x, x) - foot * foot);
     const F far = lanes::not_below_zero(lanes::sqrt(untried.distance2(j, across2)) - radius - untried.radius);
-    Fraction<F> safe_unperturbed{far, lanes::all<W>(unperturbed.fastest)};
-    Fraction<F> safe_perturbed{far, lanes::all<W>(perturbed.fastest)};
-    for (int k = -j.reach; k <= j.reach; ++k) {
-      const F s_j = bead_offset(j, nearest, k);
-      const lanes::Vectors<F> r{x.x + s_j * in.n_j[0], x.y + s_j * in.n_j[1], x.z + s_j * in.n_j[2]};
-      const F distance = lanes::sqrt(lanes::dot(r, r));
-      const F inverse = 1.0F / (distance + 1e-20F);
+    F least_gap = far;
+    Fraction<F> safe{far, lanes::all<W>(motion.fastest)};
+
+    const F s_0 = bead_offset(j, before, 0);
+    const lanes::Vectors<F> r{x.x + s_0 * in.n_j[0], x.y + s_0 * in.n_j[1], x.z + s_0 * in.n_j[2]};
+    const F r2 = lanes::dot(r, r);
+    const F along = r.x * in.n_j[0] + r.y * in.n_j[1] + r.z * in.n_j[2];
+    const lanes::Vectors<F> v{motion.v[0] + s_0 * motion.turn_j[0] - s_i * motion.turn_i[0],
+                              motion.v[1] + s_0 * motion.turn_j[1] - s_i * motion.turn_i[1],
+                              motion.v[2] + s_0 * motion.turn_j[2] - s_i * motion.turn_i[2]};
+    const F rate_0 = lanes::dot(v, r);
+    const F rate_1 = v.x * in.n_j[0] + v.y * in.n_j[1] + v.z * in.n_j[2] + r.x * motion.turn_j[0] +
+                     r.y * motion.turn_j[1] + r.z * motion.turn_j[2];
+    const float rate_2 = motion.turn_j[0] * in.n_j[0] + motion.turn_j[1] * in.n_j[1] + motion.turn_j[2] * in.n_j[2];
+    const F bend_i = lanes::abs(s_i) * motion.bend_i;
+    for (int k = j.from; k <= j.reach; ++k) {
+      const F s_j = bead_offset(j, before, k);
+      const F m = s_j - s_0;
+      const F distance = lanes::sqrt(lanes::larger(r2 + m * (2.0F * along + m), F{} + 1e-30F));
       const F gap = distance - (radius + hull_radius(j, s_j));
-      take_safe_time(safe_unperturbed, unperturbed, s_i, s_j, r, inverse, gap, horizon);
-      take_safe_time(safe_perturbed, perturbed, s_i, s_j, r, inverse, gap, horizon);
+      const F rate = rate_0 + m * (rate_1 + m * rate_2) - motion.rounding * distance;
+      const F curvature = bend_i + lanes::abs(s_j) * motion.bend_j;
+      const F gap_times_distance = gap * distance;
+      const F closing = lanes::not_below_zero(curvature * horizon * distance - rate);
+      least_gap = lanes::smaller(least_gap, gap);
+      if (lanes::least(gap) > 0.0F) {
+        safe.take_smaller(gap_times_distance, closing);
+      } else {
+        const auto apart = gap > 0.0F;
+        safe.take_smaller(apart ? gap_times_distance : lanes::not_below_zero(rate),
+                          apart ? closing : (2.0F * curvature + 1e-3F) * distance);
+      }
     }
-    return {safe_unperturbed.least(), safe_perturbed.least()};
+    return {safe.least(), lanes::least(least_gap)};
   }
 };
 
@@ -195,27 +229,21 @@ Shared shared(const BeadLanes& i, const float* n_i, const BeadLanes& j, const fl
   return in;
 }
 
-Relative relative(const BeadLanes& i, const BeadLanes& j, const float* v_i, const float* v_j, const float* turn_i,
-                  const float* turn_j, float half_rate2_i, float half_rate2_j, const MotionTolerance& allow) {
-  Relative m;
+Relative relative(const BeadLanes& i, const MotionBound& a, const BeadLanes& j, const MotionBound& b) {
+  Relative motion;
   for (int c = 0; c < 3; ++c) {
-    m.v[c] = v_j[c] - v_i[c];
-    m.turn_i[c] = turn_i[c];
-    m.turn_j[c] = turn_j[c];
+    motion.v[c] = b.velocity[c] - a.velocity[c];
+    motion.turn_i[c] = a.turning[c];
+    motion.turn_j[c] = b.turning[c];
   }
-  m.bend_i = half_rate2_i;
-  m.bend_j = half_rate2_j;
-  m.drift_z = 2.0F * allow.velocity_z;
-  m.drift_turning = allow.turning_xy;
-  m.drift_turning_z = allow.turning_z;
+  motion.bend_i = a.half_rate2;
+  motion.bend_j = b.half_rate2;
   // |turning| never exceeds the precession's rate
-  const float fastest = norm(m.v) + i.half_length * (std::sqrt(2.0F * half_rate2_i)) +
-                        j.half_length * (std::sqrt(2.0F * half_rate2_j)) +
-                        2.0F * (allow.velocity_xy + allow.velocity_z) + 1e-3F;
-  // floats carry 6e-8; a dozen roundings of speeds
-  m.drift = 2.0F * allow.velocity_xy + 1e-6F + 3e-6F * fastest;
-  m.fastest = fastest * 1.00001F;
-  return m;
+  const float fastest = norm(motion.v) + i.half_length * (std::sqrt(2.0F * a.half_rate2)) +
+                        j.half_length * (std::sqrt(2.0F * b.half_rate2)) + 1e-3F;
+  motion.rounding = 1e-6F + 3e-6F * fastest;  // floats carry 6e-8; a dozen roundings of speeds
+  motion.fastest = fastest * 1.00001F;
+  return motion;
 }
 
 }  // namespace
@@ -229,10 +257,12 @@ BeadLanes::BeadLanes(const Species& species)
       first(static_cast<float>(species.bead_offset.front())),
       last(static_cast<float>(species.n_beads() - 1)),
       pitch(static_cast<float>(species.pitch())),
-      reach(species.n_beads() > 1 ? static_cast<int>(std::ceil(1.1F * max_radius / pitch - 0.5F)) : 0),
-      beyond((static_cast<float>(reach) + 0.5F) * pitch) {
+      reach(species.n_beads() > 1 ? static_cast<int>(std::ceil(1.1F * max_radius / pitch)) : 0),
+      from(std::min(0, 1 - reach)),
+      beyond(reach > 0 ? static_cast<float>(reach) * pitch : 1e3F) {
   // a thinning of more than this would let `widest` fall to where rods touch; and Untried looks at both ends alike
   if (taper > 0.0F && taper < 0.3F && species.tail.length == species.head.length && skew == 0.0F) thinning = taper;
+  cosine = std::sqrt(1.0F - thinning * thinning);
   widest = thinning > 0.0F ? beyond * std::sqrt(1.0F / (thinning * thinning) - 1.0F) : 1e6F;
   const int n_lanes = (species.n_beads() + kLanes - 1) / kLanes * kLanes;
   for (int lane = 0; lane < n_lanes; ++lane) {
@@ -247,31 +277,17 @@ BeadRange beads_may_overlap(const BeadLanes& i, const Vec3& n_i, const BeadLanes
   set_vector(director_i, n_i);
   set_vector(director_j, n_j);
   const Shared in = shared(i, director_i, j, director_j, D);
-  BeadRange beads;
-  for (std::size_t first = 0; first < i.offset.size(); first += kLanes) {
-    const BeadRange some = lanes::with_widest_vectors(OverlapKernel{in, i, j, first});
-    if (some.empty()) continue;
-    if (beads.empty()) beads.from = some.from;
-    beads.to = some.to;
-  }
+  BeadRange beads = lanes::with_widest_vectors(OverlapKernel{in, i, j});
   beads.to = std::min(beads.to, static_cast<int>(i.last) + 1);  // lanes past the last bead hold none
   return beads;
 }
 
-SafeTime bead_safe_time(const BeadLanes& i, const MotionBound& a, const BeadLanes& j, const MotionBound& b,
-                        const Vec3& D, const MotionTolerance& tolerance, float horizon) {
+BeadSafeTime bead_safe_time(const BeadLanes& i, const MotionBound& a, const BeadLanes& j, const MotionBound& b,
+                            const Vec3& D, float horizon) {
   const Shared in = shared(i, a.director, j, b.director, D);
-  const Relative unperturbed =
-      relative(i, j, a.velocity, b.velocity, a.turning, b.turning, a.half_rate2, b.half_rate2, MotionTolerance{});
-  const Relative perturbed = relative(i, j, a.velocity_centre, b.velocity_centre, a.turning_centre, b.turning_centre,
-                                      a.limit_half_rate2, b.limit_half_rate2, tolerance);
-  SafeTime safe{horizon, horizon};
-  for (std::size_t first = 0; first < i.offset.size(); first += kLanes) {
-    const SafeTime some = lanes::with_widest_vectors(SafeTimeKernel{in, unperturbed, perturbed, i, j, first, horizon});
-    safe.unperturbed = std::min(safe.unperturbed, some.unperturbed);
-    safe.perturbed = std::min(safe.perturbed, some.perturbed);
-  }
-  return {safe.unperturbed * (1.0F - 1e-5F), safe.perturbed * (1.0F - 1e-5F)};
+  const Relative motion = relative(i, a, j, b);
+  const BeadSafeTime safe = lanes::with_widest_vectors(SafeTimeKernel{in, motion, i, j, horizon});
+  return {safe.time * (1.0F - 1e-5F), safe.gap};
 }
 
 }  // namespace shaken

@@ -12,6 +12,7 @@ namespace shaken {
 /// A species' beads as floats in whole vectors.
 struct BeadLanes {
   explicit BeadLanes(const Species& species);
+  int n_lanes() const { return static_cast<int>(offset.size()); }
   std::vector<float> offset;  ///< (n_beads rounded up to a multiple of kLanes) [mm]
   std::vector<float> radius;  ///< the same; lanes past the last bead hold a bead that is never near [mm]
   float half_length, mid_radius, max_radius;
@@ -20,15 +21,23 @@ struct BeadLanes {
   float last;          ///< index of the last bead
   float pitch;         ///< distance of neighbouring beads [mm]
   int reach;           ///< beads to each side of a foot that are tried one by one
+  int from;            ///< the first of them, counted from the last bead before the foot
   float beyond;        ///< distance along the axis at which the others begin [mm]
   float thinning = 0;  ///< loss of radius per length that the others are sure to have
+  float cosine = 1;    ///< of the angle by which a hull with that loss narrows
   float widest = 0;    ///< distance beside the axis up to which the others' gap grows along it [mm]
+};
+
+/// A bound on two rods' beads.
+struct BeadSafeTime {
+  float time;  ///< [s]
+  float gap;   ///< the least between any two beads now [mm]
 };
 
 /// Beads of i outside of which none overlaps a bead of j: a quick test before find_bead_contacts, which decides.
 BeadRange beads_may_overlap(const BeadLanes& i, const Vec3& n_i, const BeadLanes& j, const Vec3& n_j, const Vec3& D);
 
-/// Times for which no bead of i and bead of j begins to touch or, if they overlap, begins to approach; at most
+/// Time for which no bead of i and bead of j begins to touch or, if they overlap, begins to approach; at most
 /// `horizon` [s]. For rods whose hulls overlap while the beads interlock without touching.
 /// Model:  along the line of centres e of two beads, e . r(t) >= r + r' t - (|s_a| q_i + |s_b| q_j) t^2, with q half
 /// the
@@ -36,7 +45,7 @@ BeadRange beads_may_overlap(const BeadLanes& i, const Vec3& n_i, const BeadLanes
 ///         bead of i is tried against the beads of j next to its foot on j's axis; those beyond are covered by their
 ///         distance and the fastest approach.
 /// Arguments: D is the vector from centre i to centre j [mm].
-SafeTime bead_safe_time(const BeadLanes& i, const MotionBound& bound_i, const BeadLanes& j, const MotionBound& bound_j,
-                        const Vec3& D, const MotionTolerance& tolerance, float horizon);
+BeadSafeTime bead_safe_time(const BeadLanes& i, const MotionBound& bound_i, const BeadLanes& j,
+                            const MotionBound& bound_j, const Vec3& D, float horizon);
 
 }  // namespace shaken

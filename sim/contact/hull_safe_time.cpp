@@ -32,8 +32,12 @@ struct Gap {
     return gap + rate * t - i.half_length * lanes::not_below_zero(cosine_i.at(t) - i.taper) -
            j.half_length * lanes::not_below_zero(cosine_j.at(t) - j.taper);
   }
-  /// Time for which it certainly stays positive.
-  SHAKEN_INLINE F safe_time(float horizon) const {
+  struct Safe {
+    F start;  ///< the gap now
+    F time;   ///< for which it certainly stays positive
+    F end;    ///< the gap by then
+  };
+  SHAKEN_INLINE Safe safe_time(float horizon) const {
     F safe{};
     F beyond = safe + horizon;
     F gap_safe = at(safe);
@@ -50,7 +54,7 @@ struct Gap {
       gap_beyond = inside ? gap_beyond : gap_t;
     }
     safe = at_end >= 0.0F ? F{} + horizon : safe;
-    return at_start > 0.0F ? safe : F{};
+    return {at_start, at_start > 0.0F ? safe : F{}, at_end >= 0.0F ? at_end : gap_safe};
   }
 };
 
@@ -58,13 +62,13 @@ struct HullKernel {
   const Hull& i;
   const Hull& j;
   const PairLanes& pairs;
-  const MotionTolerance& tolerance;
+  int n;
   float horizon;
   HullSafeTimes& safe;
 
   template <int W>
   SHAKEN_INLINE void run() const {
-    for (int l = 0; l < kLanes; l += W) bound<W>(l);
+    for (int l = 0; l < n; l += W) bound<W>(l);
   }
 
   template <int W>
@@ -113,27 +117,20 @@ struct HullKernel {
                   kLengthRounding * (lanes::sqrt(D2) + (i.half_length + j.half_length));
     const F c_i = lanes::dot(n_i, d);
     const F c_j = lanes::dot(n_j, d);
-    const F up = lanes::abs(d.z);
-    const auto within = [&](const V& v, const V& turn_i, const V& turn_j, const F& q_i, const F& q_j,
-                            const MotionTolerance& allow) __attribute__((always_inline)) {
-      const F drift = 2.0F * (allow.velocity_xy + up * allow.velocity_z);
-      const F drift_turning = allow.turning_xy + up * allow.turning_z;
-      const Gap<F> bound{i,
-                         j,
-                         gap,
-                         lanes::dot(v, d) - drift - (1e-4F + kRateRounding * lanes::size1(v)),
-                         {c_i, lanes::dot(turn_i, d), q_i, drift_turning + kRateRounding * lanes::size1(turn_i)},
-                         {c_j, lanes::dot(turn_j, d), q_j, drift_turning + kRateRounding * lanes::size1(turn_j)}};
-      return bound.safe_time(horizon);
-    };
-    lanes::store(safe.unperturbed + l,
-                 within(lanes::load<W>(pairs.velocity, l), lanes::load<W>(pairs.turning_i, l),
-                        lanes::load<W>(pairs.turning_j, l), lanes::load<W>(pairs.half_rate2_i + l),
-                        lanes::load<W>(pairs.half_rate2_j + l), MotionTolerance{}));
-    lanes::store(safe.perturbed + l,
-                 within(lanes::load<W>(pairs.velocity_centre, l), lanes::load<W>(pairs.turning_center_i, l),
-                        lanes::load<W>(pairs.turning_center_j, l), lanes::load<W>(pairs.limit_half_rate2_i + l),
-                        lanes::load<W>(pairs.limit_half_rate2_j + l), tolerance));
+    const V v = lanes::load<W>(pairs.velocity, l);
+    const V turn_i = lanes::load<W>(pairs.turning_i, l);
+    const V turn_j = lanes::load<W>(pairs.turning_j, l);
+    const Gap<F> along{
+        i,
+        j,
+        gap,
+        lanes::dot(v, d) - (1e-4F + kRateRounding * lanes::size1(v)),
+        {c_i, lanes::dot(turn_i, d), lanes::load<W>(pairs.half_rate2_i + l), kRateRounding * lanes::size1(turn_i)},
+        {c_j, lanes::dot(turn_j, d), lanes::load<W>(pairs.half_rate2_j + l), kRateRounding * lanes::size1(turn_j)}};
+    const typename Gap<F>::Safe bound = along.safe_time(horizon);
+    lanes::store(safe.time + l, bound.time);
+    lanes::store(safe.gap + l, bound.start);
+    lanes::store(safe.left + l, bound.end);
   }
 };
 
@@ -147,19 +144,13 @@ void PairLanes::set(int lane, const Vec3& D_ij, const MotionBound& i, const Moti
     turning_i[c][lane] = i.turning[c];
     turning_j[c][lane] = j.turning[c];
     velocity[c][lane] = j.velocity[c] - i.velocity[c];
-    turning_center_i[c][lane] = i.turning_centre[c];
-    turning_center_j[c][lane] = j.turning_centre[c];
-    velocity_centre[c][lane] = j.velocity_centre[c] - i.velocity_centre[c];
   }
   half_rate2_i[lane] = i.half_rate2;
   half_rate2_j[lane] = j.half_rate2;
-  limit_half_rate2_i[lane] = i.limit_half_rate2;
-  limit_half_rate2_j[lane] = j.limit_half_rate2;
 }
 
-void hull_safe_times(const Hull& i, const Hull& j, const PairLanes& pairs, const MotionTolerance& tolerance,
-                     float horizon, HullSafeTimes& safe) {
-  lanes::with_widest_vectors(HullKernel{i, j, pairs, tolerance, horizon, safe});
+void hull_safe_times(const Hull& i, const Hull& j, const PairLanes& pairs, int n, float horizon, HullSafeTimes& safe) {
+  lanes::with_widest_vectors(HullKernel{i, j, pairs, n, horizon, safe});
 }
 
 }  // namespace shaken

@@ -38,11 +38,6 @@ struct PairLanes {
   alignas(64) float velocity[3][kLanes];  ///< of j relative to i
   alignas(64) float half_rate2_i[kLanes];
   alignas(64) float half_rate2_j[kLanes];
-  alignas(64) float turning_center_i[3][kLanes];
-  alignas(64) float turning_center_j[3][kLanes];
-  alignas(64) float velocity_centre[3][kLanes];  ///< of j relative to i
-  alignas(64) float limit_half_rate2_i[kLanes];
-  alignas(64) float limit_half_rate2_j[kLanes];
 
   void set(int lane, const Vec3& D_ij, const MotionBound& i, const MotionBound& j);
 };
@@ -50,17 +45,17 @@ struct PairLanes {
 /// Bounds for kLanes pairs, and the directions that they were taken along.
 struct HullSafeTimes {
   alignas(64) float direction[3][kLanes];  ///< unit vectors from hull i towards hull j
-  alignas(64) float unperturbed[kLanes];   ///< as in SafeTime
-  alignas(64) float perturbed[kLanes];
+  alignas(64) float time[kLanes];          ///< [s]
+  alignas(64) float gap[kLanes];           ///< along that direction, now [mm]
+  alignas(64) float left[kLanes];          ///< the same when the time is over, at least [mm]
 };
 
-/// Times for which the hulls of rods stay apart, at most `horizon` [s]; 0 if they overlap.
+/// Times for which the hulls of the first `n` pairs stay apart, at most `horizon` [s]; 0 if they overlap.
 /// Model:  along a fixed direction d, gap(t) >= (D + v t) . d - width_i(t) - width_j(t); the centres' difference is
 ///         linear in time because gravity acts on both alike, and the widths grow at most as MotionBound says. The
 ///         right side is concave in t, so a chord from a time at which it is positive to one at which it is not meets
 ///         zero before it does. Any d gives a valid bound; this one is near the direction of the largest gap: closest
 ///         points of the axes, moved twice towards the thick middles.
-void hull_safe_times(const Hull& i, const Hull& j, const PairLanes& pairs, const MotionTolerance& tolerance,
-                     float horizon, HullSafeTimes& safe);
+void hull_safe_times(const Hull& i, const Hull& j, const PairLanes& pairs, int n, float horizon, HullSafeTimes& safe);
 
 }  // namespace shaken

@@ -16,44 +16,27 @@ namespace shaken {
 
 using lanes::kLanes;
 
-/// What a bound knows of a rod at the instant from which time is counted: how it flies now, and within which limits
-/// hits may change that before the bound must be made anew.
-///
-/// Whatever hits a rod within its tolerance, its velocity stays within a cylinder (MotionTolerance) round a centre, and
-/// its director obeys n(t) = n + integral of w + R with w within a cylinder round another and |R| <= limit_half_rate2
-/// t^2: a hit at time t_k changes w by (change of precession) x n(t_k), and the rest is the curvature of the
-/// precession.
+/// What a bound knows of a rod in free flight, at the instant from which time is counted: its director obeys n(t) = n +
+/// turning t + R with |R| <= half_rate2 t^2.
 struct MotionBound {
   float director[3];
-  float velocity[3];         ///< of the centre [mm/s]
-  float turning[3];          ///< d director / dt [1/s]
-  float half_rate2;          ///< |precession|^2 / 2, half of the director's largest second derivative [1/s^2]
-  float velocity_centre[3];  ///< of the cylinder that the velocity drifts in [mm/s]
-  float turning_centre[3];   ///< the same for d director / dt [1/s]
-  float limit_half_rate2;    ///< what half_rate2 may grow to [1/s^2]
+  float velocity[3];  ///< of the centre [mm/s]
+  float turning[3];   ///< d director / dt [1/s]
+  float half_rate2;   ///< |precession|^2 / 2, half of the director's largest second derivative [1/s^2]
+  bool slow = false;  ///< along x and y, so that only the nearest image can be met (image_safe_time.h)
 };
 
-/// Radii and half-heights of the cylinders. Plates hit a rod along z and thousands of times per second, neighbours
-/// mostly lie beside it: wide limits along z and narrow ones across cost little and last long.
-struct MotionTolerance {
-  float velocity_xy;  ///< [mm/s]
-  float velocity_z;   ///< [mm/s]
-  float turning_xy;   ///< [1/s]
-  float turning_z;    ///< [1/s]
-};
-
-/// Two bounds on the same pair [s].
-struct SafeTime {
-  float unperturbed;  ///< as long as neither rod is hit
-  float perturbed;    ///< whatever hits them, as long as both keep within their tolerance
+/// What a bound says of the gap for as long as it lasts: at its end it is at least `left`, and before that more by
+/// `closing` for each second that is still to come. Where a hit makes the gap close faster, the time that remains
+/// follows from that (PairTable::tighten).
+struct GapLine {
+  static constexpr float kRounding = 1e-6F;  ///< of `left`, whenever it is worked out [mm]
+  float closing = 0;                         ///< [mm/s]
+  float left = -1;                           ///< [mm]; < 0: not known
 };
 
 inline void set_vector(float* to, const Vec3& from) {
   for (int c = 0; c < 3; ++c) to[c] = static_cast<float>(from[c]);
-}
-
-inline void add_vector(float* to, const Vec3& more) {
-  for (int c = 0; c < 3; ++c) to[c] += static_cast<float>(more[c]);
 }
 
 }  // namespace shaken

@@ -53,10 +53,11 @@ struct PlateKernel {
   const PlateLanes& rods;
   const PlatesAt& plates;
   float* safe;
+  int n;
 
   template <int W>
   SHAKEN_INLINE void run() const {
-    for (int l = 0; l < kLanes; l += W) extend<W>(l);
+    for (int l = 0; l < n; l += W) extend<W>(l);
   }
 
   template <int W>
@@ -136,10 +137,10 @@ void plate_safe_ticks(const Species& species, const PlateMotion& plates, const P
   };
   const PlateState first = plates.at(now);
   for (int l = 0; l < kLanes; ++l) see(l, first);
-  lanes::with_widest_vectors(PlateKernel{k, rods, at, ticks});
+  lanes::with_widest_vectors(PlateKernel{k, rods, at, ticks, n});
   for (int step = 1; step < kSteps; ++step) {
     for (int l = 0; l < n; ++l) see(l, plates.at(now + static_cast<Tick>(ticks[l])));
-    lanes::with_widest_vectors(PlateKernel{k, rods, at, ticks});
+    lanes::with_widest_vectors(PlateKernel{k, rods, at, ticks, n});
   }
   for (int l = 0; l < n; ++l) safe[l] = static_cast<Tick>(ticks[l]);
 }

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "sim/contact/image_safe_time.h"
-#include "sim/stepping/motion_drift.h"
 
 namespace shaken {
 namespace {
@@ -14,10 +13,6 @@ namespace {
 constexpr float kShortBound = 30;
 /// Interlocked rods are visited again within this time: further ahead their bounds are not worth the work [ticks].
 constexpr float kBeadHorizon = 200;
-/// A bound for perturbed flight is good enough if it is this long [ticks]; a shorter one gives way to the bound for
-/// unperturbed flight, unless that is not much longer either. The plates hit a rod about every 50 ticks.
-constexpr float kLongBound = 40;
-constexpr float kMuchLonger = 1.5;
 
 }  // namespace
 
@@ -27,6 +22,9 @@ PairSearch::PairSearch(const TickRules& rules) : rules_(rules) {
     lanes_.emplace_back(species);
     reach_.push_back(species.reach());
   }
+  const double longest = *std::max_element(reach_.begin(), reach_.end());
+  slow_ = static_cast<float>(std::max(0.0, rules.box_side - 4.4 * longest) /
+                             (2.0 * static_cast<double>(TimingWheel::horizon()) * rules.dt));
 }
 
 bool PairSearch::find(const PairRods& pair, const Pose& pose_i, const Pose& pose_j, const Direction& direction,
@@ -62,28 +60,38 @@ void PairSearch::bound(std::span<const PairRods> pairs, const std::vector<RodAtT
     lanes.set(static_cast<int>(lane), D[lane], motion[i], motion[j]);
   }
   const auto horizon = static_cast<float>(static_cast<double>(TimingWheel::horizon() - 1) * rules_.dt);
-  hull_safe_times(hulls_[species_i], hulls_[species_j], lanes, kMotionTolerance, horizon, hull);
+  hull_safe_times(hulls_[species_i], hulls_[species_j], lanes, static_cast<int>(pairs.size()), horizon, hull);
 
   const auto per_dt = static_cast<float>((1.0 - 1e-5) / rules_.dt);
+  const auto dt = static_cast<float>(rules_.dt);
+  const double reach = reach_[species_i] + reach_[species_j];
   for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
-    const auto& [i, j] = pairs[lane];
-    float unperturbed = hull.unperturbed[lane] * per_dt;
-    float perturbed = hull.perturbed[lane] * per_dt;
-    if (unperturbed < kShortBound && perturbed < kShortBound) {
-      const SafeTime beads = bead_safe_time(lanes_[species_i], motion[i], lanes_[species_j], motion[j], D[lane],
-                                            kMotionTolerance, kBeadHorizon * static_cast<float>(rules_.dt));
-      unperturbed = std::max(unperturbed, beads.unperturbed * per_dt);
-      perturbed = std::max(perturbed, beads.perturbed * per_dt);
-    }
-    const SafeTime images = image_safe_time(D[lane], motion[i], motion[j], kMotionTolerance, rules_.box_side,
-                                            reach_[species_i] + reach_[species_j], horizon);
-    unperturbed = std::min(unperturbed, images.unperturbed * per_dt);
-    perturbed = std::min(perturbed, images.perturbed * per_dt);
-    const bool take_unperturbed = perturbed < kLongBound && perturbed * kMuchLonger < unperturbed;
-    bounds.ticks[lane] = static_cast<Tick>(take_unperturbed ? unperturbed : perturbed);
-    bounds.unperturbed[lane] = take_unperturbed;
-    bounds.hulls_overlap[lane] = hull.unperturbed[lane] <= 0.0F;
+    const MotionBound& i = motion[pairs[lane][0]];
+    const MotionBound& j = motion[pairs[lane][1]];
+    float time = hull.time[lane];
+    float gap = hull.gap[lane];
+    float left = hull.left[lane];
+    bounds.all_round[lane] = false;
+    bounds.hulls_overlap[lane] = time <= 0.0F;
     bounds.direction[lane] = {hull.direction[0][lane], hull.direction[1][lane], hull.direction[2][lane]};
+    if (time < kShortBound * dt) {
+      const BeadSafeTime beads = bead_safe_time(lanes_[species_i], i, lanes_[species_j], j, D[lane], kBeadHorizon * dt);
+      if (beads.time > time) {
+        time = beads.time;
+        gap = beads.gap;
+        left = gap > 0.0F ? 0.0F : -1.0F;
+        bounds.all_round[lane] = true;
+      }
+    }
+    if (!(i.slow && j.slow && images_stay_away(D[lane], rules_.box_side, reach, slow_, horizon))) {
+      time = std::min(time, image_safe_time(D[lane], i, j, rules_.box_side, reach, horizon));
+      left = -1;
+    }
+    const auto ticks = static_cast<int>(time * per_dt);
+    const float closing = (gap - left) / (time + 1e-20F);
+    if (left >= 0.0F) left = std::max(0.0F, gap - closing * static_cast<float>(ticks) * dt - GapLine::kRounding);
+    bounds.ticks[lane] = ticks;
+    bounds.line[lane] = {closing, left};
   }
 }
 

@@ -13,8 +13,9 @@ namespace shaken {
 
 /// For up to kLanes pairs: ticks for which nothing can happen, and what the bound rests on.
 struct PairBounds {
-  Tick ticks[kLanes];
-  bool unperturbed[kLanes];    ///< the bound holds only as long as neither rod is hit
+  int ticks[kLanes];
+  GapLine line[kLanes];        ///< of the gap, for as long as the bound lasts
+  bool all_round[kLanes];      ///< the line is along no known direction
   bool hulls_overlap[kLanes];  ///< beads may overlap already
   Direction direction[kLanes];
 };
@@ -30,9 +31,11 @@ class PairSearch {
   bool find(const PairRods& pair, const Pose& pose_i, const Pose& pose_j, const Direction& direction,
             std::vector<BeadContact>& beads, std::vector<PairContact>& contacts) const;
 
-  /// Bounds for pairs of one pair of species, from the rods as they are at this tick and how they may move from then
-  /// on. There are two bounds on each pair (contact/safe_time.h): the one for flight perturbed by hits is taken where
-  /// it is long enough, since it need not be renewed at each hit.
+  /// Rods that are slower than this along x and y meet no image but the nearest, if that is near [mm/s].
+  float slow() const { return slow_; }
+
+  /// Bounds for pairs of one pair of species, from the rods as they are at this tick. They hold for free flight, or as
+  /// far as they are tightened when a rod is hit.
   void bound(std::span<const PairRods> pairs, const std::vector<RodAtTick>& rods,
              const std::vector<MotionBound>& motion, PairLanes& lanes, PairBounds& bounds) const;
 
@@ -41,6 +44,7 @@ class PairSearch {
   std::vector<Hull> hulls_;       ///< (n_species)
   std::vector<BeadLanes> lanes_;  ///< (n_species)
   std::vector<double> reach_;     ///< (n_species) [mm]
+  float slow_;
 };
 
 }  // namespace shaken

@@ -13,42 +13,30 @@ void count(std::vector<std::int16_t>& counts, const PairRods& rods, bool up) {
 }  // namespace
 
 void PairTable::make_room(std::size_t n_pairs) {
-  rods_.resize(n_pairs, kUnused);
-  directions_.resize(n_pairs);
+  pairs_.resize(n_pairs);
   detected_at_.resize(n_pairs, -1);
-  marks_.resize(n_pairs);
   owners_.resize(n_pairs);
   wheel_.make_room(n_pairs);
 }
 
 void PairTable::add(int p, const PairRods& rods, std::uint8_t owner) {
-  rods_[p] = rods;
+  pairs_[p].rods = rods;
+  pairs_[p].direction = {};
+  pairs_[p].line = {};
   owners_[p] = owner;
-  directions_[p] = {};
 }
 
 void PairTable::remove(int p) {
-  if (is_used(p)) {
-    set_unperturbed(p, false);
-    if (is_touching(p)) turn_touching(p);  // it was at its last visit; by now it certainly is not
-  }
-  rods_[p] = kUnused;
+  if (is_used(p) && is_touching(p)) turn_touching(p);  // it was at its last visit; by now it certainly is not
+  pairs_[p].rods = kUnused;
   wheel_.remove(p);
 }
 
 void PairTable::turn_touching(int p) {
-  marks_[p] ^= kTouching;
-  count(n_touching_, rods_[p], is_touching(p));
+  pairs_[p].marks ^= kTouching;
+  count(n_touching_, pairs_[p].rods, is_touching(p));
 }
 
-void PairTable::set_unperturbed(int p, bool unperturbed) {
-  if (is_unperturbed(p) == unperturbed) return;
-  marks_[p] ^= kUnperturbed;
-  count(n_unperturbed_, rods_[p], unperturbed);
-}
-
-std::size_t PairTable::bytes() const {
-  return wheel_.bytes() + heap_bytes(rods_, directions_, detected_at_, marks_, owners_, n_touching_, n_unperturbed_);
-}
+std::size_t PairTable::bytes() const { return wheel_.bytes() + heap_bytes(pairs_, detected_at_, owners_, n_touching_); }
 
 }  // namespace shaken

@@ -23,7 +23,7 @@ ScheduledStepper::ScheduledStepper(const World& world, int n_threads, int grain)
       neighbors_(world.species, world.species_of_rod, world.system.box_side, kSkin),
       loops_(n_threads, grain),
       rods_(world.rods.size()),
-      drifts_(world.rods.size()),
+      changes_(world.rods.size()),
       reserves_(world.rods.size()),
       marks_(world.rods.size()),
       motion_bounds_(world.rods.size()),
@@ -39,12 +39,11 @@ ScheduledStepper::ScheduledStepper(const World& world, int n_threads, int grain)
 
 std::size_t ScheduledStepper::bytes() const {
   std::size_t bytes = neighbors_.bytes() + wheel_.bytes() + pairs_.bytes();
-  bytes += heap_bytes(rods_, found_, drifts_, reserves_, marks_, motion_bounds_, owners_);
+  bytes += heap_bytes(rods_, found_, changes_, reserves_, marks_, motion_bounds_, owners_);
   bytes += heap_bytes(due_rods_, due_pairs_, contacts_, changed_, to_pose_, to_bound_motion_, to_schedule_, to_bound_,
                       may_change_, gained_, lost_, loops_.workers());
   for (const Worker& w : loops_.workers())
-    bytes += heap_bytes(w.own, w.next, w.next_unperturbed, w.bead_contacts, w.contacts, w.turned, w.hit, w.drifted,
-                        w.to_place);
+    bytes += heap_bytes(w.own, w.next, w.bead_contacts, w.contacts, w.turned, w.hit, w.to_place);
   return bytes;
 }
 
@@ -76,7 +75,7 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
 
   // what was visited, and what flies differently now, gets new bounds
   schedule_rods(world, now);
-  list_pairs_to_bound();
+  list_pairs_to_bound(now);
   if (to_bound_.empty()) return {};
   bound_motions(world, now);
   schedule_pairs(now);
@@ -87,7 +86,6 @@ void ScheduledStepper::list_due_rods(const World& world, Tick now) {
   if (is_new_) {
     due_rods_.resize(world.rods.size());
     std::iota(due_rods_.begin(), due_rods_.end(), 0);
-    for (const int i : due_rods_) drifts_[i].restart(world.rods[i]);
   } else {
     wheel_.pop(now, due_rods_);
   }
@@ -142,7 +140,10 @@ std::optional<NumericalTrouble> ScheduledStepper::meet_surfaces_due(World& world
   for (Worker& worker : loops_.workers()) {
     world.counters.add(worker.counters);
     worker.counters = {};
-    for (const int i : worker.hit) list_changed(i, now);
+    for (const int i : worker.hit) {
+      if (marks_[i].changed_at == now - 1) marks_[i].rests_at = now;
+      list_changed(i, now);
+    }
     worker.hit.clear();
   }
   return first_trouble();
@@ -265,7 +266,16 @@ void ScheduledStepper::list_changed(int i, Tick now) {
 }
 
 void ScheduledStepper::list_hit(Tick now) {
-  to_schedule_ = due_rods_;
+  // A rod that a surface hit in two ticks, one after the other, rests on it: it is as good as sure to be hit in the
+  // next one, too (four of five visits, 99 % of the time), and needs no bound to know it.
+  to_schedule_.clear();
+  for (const int i : due_rods_) {
+    if (marks_[i].rests_at == now) {
+      wheel_.set(i, now + 1);
+    } else {
+      to_schedule_.push_back(i);
+    }
+  }
   for (const PairContact& contact : contacts_) {
     for (const int i : {contact.i, contact.j}) {
       if (!rods_[i].changed) continue;
@@ -284,25 +294,23 @@ std::optional<NumericalTrouble> ScheduledStepper::store_changed(World& world, Ti
     }
   });
   if (auto trouble = first_trouble()) return trouble;
+  const auto slow = static_cast<double>(search_.slow());
   loops_.run(changed_, owners_, [&](Worker& worker) {
     for (const int i : worker.mine) {
       Flight& flight = world.rods[i];
-      MotionDrift& drift = drifts_[i];
       const Vec3 velocity = velocity_at(flight, now, rules_);
       const Vec3 precession = flight.precession;
+      const double rate = flight.rate;
       store(i, flight, rods_[i], now, rules_);
-      const Vec3 turned = flight.precession - precession;
-      drift.add(flight.velocity - velocity, turned.cross(flight.director));
-      if (rods_[i].displaced) {
-        // against the path that the neighbour list knows of, too
-        drift.add_earlier(turned.norm(), rules_.dt);
-        reserves_[i].measure(neighbors_, i, rods_[i].pose, now);
-      }
-      // hit once, at its instant, it has followed one path within its tolerance; hit more often, it is where none may
-      // have led it
-      if (!(rods_[i].displaced && rods_[i].hit_again) && drift.is_tolerated(flight)) continue;
-      drift.restart(flight);
-      worker.drifted.push_back(i);
+      const bool displaced = rods_[i].displaced;
+      if (displaced) reserves_[i].measure(neighbors_, i, rods_[i].pose, now);
+      // A rod that was displaced twice is where no flight with one hit led it. One that is fast may come near another
+      // image, of which no line tells.
+      const bool fast = std::max(std::abs(flight.velocity.x()), std::abs(flight.velocity.y())) >= slow;
+      changes_[i] = (displaced && rods_[i].hit_again) || fast
+                        ? MotionChange::unknown()
+                        : MotionChange(flight.velocity - velocity, flight.precession - precession, flight.director,
+                                       rate, flight.rate, rules_.species_of(i).half_length, displaced ? rules_.dt : 0);
     }
   });
   return {};
@@ -334,19 +342,13 @@ void ScheduledStepper::schedule_rods(const World& world, Tick now) {
   phase_times.lap(Phase::kSchedule);
 }
 
-void ScheduledStepper::list_pairs_to_bound() {
+void ScheduledStepper::list_pairs_to_bound(Tick now) {
+  const auto dt = static_cast<float>(rules_.dt);
   to_bound_.clear();
   for (const int p : due_pairs_) pairs_.list(p, to_bound_);
-  for (Worker& worker : loops_.workers()) {
-    for (const int i : worker.drifted) {
-      for (const int p : neighbors_.pairs_of(i)) pairs_.list(p, to_bound_);
-    }
-    worker.drifted.clear();
-  }
   for (const int i : changed_) {
-    if (pairs_.n_unperturbed(i) == 0) continue;
     for (const int p : neighbors_.pairs_of(i)) {
-      if (pairs_.is_unperturbed(p)) pairs_.list(p, to_bound_);
+      if (!pairs_.is_listed(p) && !pairs_.tighten(p, i, changes_[i], now, dt)) pairs_.list(p, to_bound_);
     }
   }
 }
@@ -365,14 +367,12 @@ void ScheduledStepper::list_pairs_to_bound() {
   }
   phase_times.lap(Phase::kSchedule);
   pose_listed(world, now);
-  const auto ask = [&](int i) {
-    prefetch(drifts_[i]);
-    prefetch(motion_bounds_[i]);
-  };
+  const auto ask = [&](int i) { prefetch(motion_bounds_[i]); };
   loops_.run(to_bound_motion_, owners_, [&](Worker& worker) {
     visit_ahead(worker.mine, ask, [&](int i) {
       const Flight& flight = world.rods[i];
-      motion_bounds_[i] = drifts_[i].bound(flight, velocity_at(flight, now, rules_), rods_[i].pose.director);
+      motion_bounds_[i] =
+          motion_bound(flight, velocity_at(flight, now, rules_), rods_[i].pose.director, search_.slow());
     });
   });
 }
@@ -386,7 +386,6 @@ void ScheduledStepper::schedule_pairs(Tick now) {
   groups.sort(to_bound_);
   loops_.run(to_bound_, pairs_.owners(), [&](Worker& worker) {
     worker.next.clear();
-    worker.next_unperturbed.clear();
     groups.in_lanes(worker.mine, [&](std::span<const int> pairs) { bound_pairs(pairs, now, worker); });
   });
   phase_times.lap(Phase::kBounds);
@@ -394,14 +393,13 @@ void ScheduledStepper::schedule_pairs(Tick now) {
     for (std::size_t k = 0; k < worker.mine.size(); ++k) {
       const int p = worker.mine[k];
       pairs_.unlist(p);
-      pairs_.set_unperturbed(p, worker.next_unperturbed[k] != 0);
       pairs_.wheel().set(p, worker.next[k]);
     }
   }
   phase_times.lap(Phase::kSchedule);
 }
 
-/// Appends to the worker's `next` and `next_unperturbed`, for up to kLanes pairs.
+/// Appends to the worker's `next`, for up to kLanes pairs.
 void ScheduledStepper::bound_pairs(std::span<const int> pairs, Tick now, Worker& worker) {
   PairRods rods[kLanes];
   for (std::size_t lane = 0; lane < pairs.size(); ++lane) rods[lane] = pairs_.rods(pairs[lane]);
@@ -409,7 +407,7 @@ void ScheduledStepper::bound_pairs(std::span<const int> pairs, Tick now, Worker&
   search_.bound({rods, pairs.size()}, rods_, motion_bounds_, worker.pair_lanes, bounds);
   for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
     pairs_.direction(pairs[lane]) = bounds.direction[lane];
-    worker.next_unperturbed.push_back(bounds.unperturbed[lane]);
+    pairs_.set_line(pairs[lane], bounds.line[lane], bounds.all_round[lane]);
     // Whether a pair is touching was found where free flight had brought its rods. Displaced since, they may overlap
     // and recede without being marked, if their hulls do: to be visited again at once.
     const auto& [i, j] = rods[lane];

@@ -5,7 +5,7 @@
 
 #include "sim/stepping/list_reserve.h"
 #include "sim/stepping/loops.h"
-#include "sim/stepping/motion_drift.h"
+#include "sim/stepping/motion_change.h"
 #include "sim/stepping/pair_search.h"
 #include "sim/stepping/pair_table.h"
 #include "sim/stepping/stepper.h"
@@ -29,15 +29,12 @@ namespace shaken {
 ///          |                        ^             |   |
 ///          v                        |             |   +---> the rods have parted: forgotten (NeighborList)
 ///      contacts?                    +-------------+
-///      response, storing             a rod has drifted beyond its tolerance (MotionDrift), or was hit while the
-///                                    bound holds for unperturbed flight only
+///      response, storing             a rod was hit, and the bound that remains is too short (PairTable::tighten)
 ///
 /// Three things keep visits rare:
-///  1. Bounds provide for rods that drift within a tolerance. Plates change a rod's velocity thousands of times per
-///     second, and most pairs need not care.
-///  2. Where that bound is short, because the pair is about to touch, a bound for unperturbed flight takes its place.
-///  It
-///     is longer, but is renewed whenever one of the rods is hit.
+///  1. A hit does not end a bound. Plates hit a rod thousands of times per second, and what a hit makes the gap to a
+///     neighbour close faster takes a little of the time that remains.
+///  2. A rod that a plate hits tick after tick rests on it and is visited at the next tick without a bound.
 ///  3. Beads that overlap but recede are left alone, unless a rod of theirs may be hit in this very tick.
 ///
 /// Each phase of a tick is a loop over a list without order, which several threads may share (SharedLoops). Lists,
@@ -54,18 +51,17 @@ class ScheduledStepper final : public Stepper {
     Tick posed_at = -1;    ///< tick for which rods_ holds the rod
     Tick listed_at = -1;   ///< tick at which it was last to be scheduled
     Tick changed_at = -1;  ///< tick at which it was last hit
+    Tick rests_at = -1;    ///< tick at which a surface hit it last, as it did in the tick before
     Tick bounded_at = -1;  ///< tick for which motion_bounds_ holds the rod
   };
   /// What one thread has and gathers in a loop.
   struct Worker : LoopPart {
     void note(NumericalTrouble met);
 
-    std::vector<Tick> next;                      ///< ticks at which `mine` are due
-    std::vector<std::uint8_t> next_unperturbed;  ///< whether the pairs' new bounds hold for unperturbed flight only
+    std::vector<Tick> next;  ///< ticks at which `mine` are due
     Counters counters;
     std::optional<NumericalTrouble> trouble;  ///< that of the first rods
     std::vector<int> hit;                     ///< rods, by a surface
-    std::vector<int> drifted;                 ///< rods, beyond their tolerance: their pairs need new bounds
     std::vector<int> to_place;                ///< rods that have used up their reserve in the neighbour list
     std::vector<BeadContact> bead_contacts;
     std::vector<PairContact> contacts;
@@ -85,7 +81,7 @@ class ScheduledStepper final : public Stepper {
   void list_hit(Tick now);
   std::optional<NumericalTrouble> store_changed(World& world, Tick now);
   void schedule_rods(const World& world, Tick now);
-  void list_pairs_to_bound();
+  void list_pairs_to_bound(Tick now);
   void bound_motions(const World& world, Tick now);
   void schedule_pairs(Tick now);
 
@@ -108,8 +104,8 @@ class ScheduledStepper final : public Stepper {
 
   // of each rod
   std::vector<RodAtTick> rods_;
-  std::vector<Pose> found_;  ///< or empty, if nothing displaces rods
-  std::vector<MotionDrift> drifts_;
+  std::vector<Pose> found_;            ///< or empty, if nothing displaces rods
+  std::vector<MotionChange> changes_;  ///< of a rod that was hit in this tick
   std::vector<ListReserve> reserves_;
   std::vector<RodMarks> marks_;
   std::vector<MotionBound> motion_bounds_;

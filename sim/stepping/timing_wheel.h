@@ -32,6 +32,13 @@ class TimingWheel {
     first_[slot] = item;
   }
 
+  /// When `item` comes up, seen from tick `now` (not before it); `now` if it is not in.
+  Tick due(std::int32_t item, Tick now) const {
+    const std::int32_t slot = links_[item].slot;
+    if (slot == kNone) return now;
+    return now + (slot - now % kSlots + kSlots) % kSlots;
+  }
+
   /// Takes `item` out, if it is in.
   void remove(std::int32_t item) {
     Link& link = links_[item];

@@ -10,9 +10,12 @@
 #include "sim/contact/bead_safe_time.h"
 #include "sim/contact/hull_safe_time.h"
 #include "sim/contact/image_safe_time.h"
+#include "sim/contact/impulse.h"
 #include "sim/motion/flight.h"
 #include "sim/motion/plate_safe_time.h"
 #include "sim/motion/plates.h"
+#include "sim/stepping/motion_change.h"
+#include "sim/stepping/pair_table.h"
 #include "tests/support/effort.h"
 #include "tests/support/random_rods.h"
 #include "tests/support/safe_time_twins.h"
@@ -62,37 +65,38 @@ struct FlyingPair {
       // 1,000 mm stands for a place far from the border: flights are not wrapped here
       begin_flight(f, 0, {Vec3(1000, 1000, 0) + (r == 1 ? D : Vec3(Vec3::Zero())), directors[r]},
                    {draw.vector(25), draw.vector(12)}, 1e9, ratio);
-      set_limits(r, Vec3::Zero(), Vec3::Zero(), f.rate);
+      see(r);
     }
   }
 
-  /// The centres of the rod's limits are off by what it has strayed.
-  void set_limits(int r, const Vec3& strayed_velocity, const Vec3& strayed_turning, double rate_limit) {
+  /// What bounds know of the rod as it flies now.
+  void see(int r) {
     const Flight& f = flight[r];
-    const Vec3 turning = f.precession.cross(f.director);
-    MotionBound& o = bound[r];
-    set_vector(o.director, f.director);
-    set_vector(o.velocity, f.velocity);
-    set_vector(o.turning, turning);
-    o.half_rate2 = static_cast<float>(0.5 * f.rate * f.rate * (1 + 1e-6));
-    set_vector(o.velocity_centre, f.velocity - strayed_velocity);
-    set_vector(o.turning_centre, turning - strayed_turning);
-    o.limit_half_rate2 = static_cast<float>(0.5 * rate_limit * rate_limit * (1 + 1e-6));
+    bound[r] = motion_bound(f, f.velocity, f.director, 1e9F);
+    bound[r].half_rate2 *= 1 + 1e-6F;
   }
 
-  SafeTime hull_bound(const MotionTolerance& tolerance, double horizon, Vec3* direction = nullptr) const {
+  struct HullBound {
+    double time;
+    Vec3 direction;
+    GapLine line;
+  };
+  HullBound hull_bound(double horizon) const {
     const Hull hull(species);
     PairLanes lanes{};
     constexpr int kLane = 5;  // any will do
     lanes.set(kLane, D, bound[0], bound[1]);
     HullSafeTimes safe;
-    hull_safe_times(hull, hull, lanes, tolerance, static_cast<float>(horizon), safe);
-    if (direction) *direction = Vec3(safe.direction[0][kLane], safe.direction[1][kLane], safe.direction[2][kLane]);
-    return {safe.unperturbed[kLane], safe.perturbed[kLane]};
+    hull_safe_times(hull, hull, lanes, kLane + 1, static_cast<float>(horizon), safe);
+    const float time = safe.time[kLane];
+    const float left = safe.left[kLane];
+    return {time,
+            {safe.direction[0][kLane], safe.direction[1][kLane], safe.direction[2][kLane]},
+            {(safe.gap[kLane] - left) / (time + 1e-20F), left}};
   }
-  SafeTime bead_bound(const MotionTolerance& tolerance, double horizon) const {
+  BeadSafeTime bead_bound(double horizon) const {
     const BeadLanes lanes(species);
-    return bead_safe_time(lanes, bound[0], lanes, bound[1], D, tolerance, static_cast<float>(horizon));
+    return bead_safe_time(lanes, bound[0], lanes, bound[1], D, static_cast<float>(horizon));
   }
 
   /// Beads that overlap and approach at time t of the flights.
@@ -118,7 +122,6 @@ struct FlyingPair {
 };
 
 constexpr double kHorizon = 4e-3;
-constexpr MotionTolerance kNone{};
 
 /// From 16 ms, the stepper's horizon at 4 us, to the 400 ms of ticks of 100 us: slower rods, further apart, and skewed
 /// ones among them.
@@ -145,7 +148,7 @@ struct FarPair : FlyingPair {
       const Vec3 director = f.director;
       begin_flight(f, 0, {Vec3(1000, 1000, 0) + (r == 1 ? D : Vec3(Vec3::Zero())), director},
                    {draw.vector(fast), draw.vector(draw.integer(0, 1) ? 0.1 * fast : fast)}, 1e9, ratio);
-      set_limits(r, Vec3::Zero(), Vec3::Zero(), f.rate);
+      see(r);
     }
   }
 };
@@ -157,8 +160,8 @@ TEST(SafeTime, NoPairCollidesBeforeItsBoundOverLongHorizons) {
   for (int trial = 0; trial < test::draws(100000); ++trial) {
     width.draw(draw);
     const FarPair pair(draw);
-    const double hull = pair.hull_bound(kNone, pair.horizon).unperturbed;
-    const double bead = pair.bead_bound(kNone, std::min(pair.horizon, 20e-3)).unperturbed;  // asked no further ahead
+    const double hull = pair.hull_bound(pair.horizon).time;
+    const double bead = pair.bead_bound(std::min(pair.horizon, 20e-3)).time;  // asked no further ahead
     n_long += hull > 16e-3;
     n_limited += hull > 0 && hull < 0.999 * pair.horizon;
     n_skewed += hull > 0 && pair.species.tail.length != pair.species.head.length;
@@ -176,44 +179,42 @@ TEST(SafeTime, NoPairCollidesBeforeItsBoundOverLongHorizons) {
 
 TEST(ImageSafeTime, NoOtherImageTouchesBeforeIt) {
   test::Draw draw(28);
-  int n_short = 0, n_full = 0;
+  int n_short = 0, n_full = 0, n_away = 0;
   for (int trial = 0; trial < test::draws(100000); ++trial) {
     const double reach = draw.uniform(0.5, 5);
     const double side = 2.2 * reach * (draw.integer(0, 1) ? 1 : draw.uniform(1, 3));
     const double horizon = 16e-3 * std::pow(25.0, draw.uniform(0, 1));
-    const MotionTolerance tolerance{static_cast<float>(draw.uniform(0, 2)), 0, 0, 0};
     const Vec3 D{draw.uniform(-0.5, 0.5) * side, draw.uniform(-0.5, 0.5) * side, draw.uniform(-0.3, 0.3)};
     MotionBound i{}, j{};
     const double fast = std::pow(10.0, draw.uniform(0, 3));
     set_vector(i.velocity, draw.vector(fast));
     set_vector(j.velocity, draw.vector(fast));
-    set_vector(i.velocity_centre, Vec3(i.velocity[0], i.velocity[1], 0) + draw.vector(0.5));
-    set_vector(j.velocity_centre, Vec3(j.velocity[0], j.velocity[1], 0) + draw.vector(0.5));
-    const SafeTime safe = image_safe_time(D, i, j, tolerance, side, reach, static_cast<float>(horizon));
-    ASSERT_GT(safe.unperturbed, 0.0F);
-    ASSERT_LE(safe.unperturbed, static_cast<float>(horizon));
-    ++(safe.unperturbed < static_cast<float>(horizon) ? n_short : n_full);
-    // the slow twin: every other image, at the last safe instant, whatever a perturbed pair did on the way
-    for (const bool perturbed : {false, true}) {
-      const double t = perturbed ? safe.perturbed : safe.unperturbed;
-      for (int x = -2; x <= 2; ++x) {
-        for (int y = -2; y <= 2; ++y) {
-          if (x == 0 && y == 0) continue;
-          Vec3 at = D + side * Vec3(x, y, 0);
-          for (int c = 0; c < 2; ++c) {
-            const double v = perturbed ? static_cast<double>(j.velocity_centre[c]) - i.velocity_centre[c]
-                                       : static_cast<double>(j.velocity[c]) - i.velocity[c];
-            const double drift = perturbed ? 2.0 * tolerance.velocity_xy : 0.0;
-            const double nearest = std::abs(at[c] + v * t) - drift * t;  // the nearest that it can be by then
-            at[c] = std::max(0.0, nearest);
-          }
-          ASSERT_GE(std::max(at.x(), at.y()), reach) << "trial " << trial << ", image " << x << ' ' << y;
-        }
+    const double safe = image_safe_time(D, i, j, side, reach, static_cast<float>(horizon));
+    ASSERT_GT(safe, 0.0);
+    ASSERT_LE(safe, static_cast<double>(static_cast<float>(horizon)));
+    ++(safe < static_cast<double>(static_cast<float>(horizon)) ? n_short : n_full);
+    // and for whatever motion below a speed that keeps the others away
+    const double slow = draw.uniform(0, 1) * side / horizon;
+    const bool stay_away = images_stay_away(D, side, reach, slow, horizon);
+    n_away += stay_away;
+    // the slow twin: every other image, at the last safe instant
+    for (int x = -2; x <= 2; ++x) {
+      for (int y = -2; y <= 2; ++y) {
+        if (x == 0 && y == 0) continue;
+        const Vec3 image = D + side * Vec3(x, y, 0);
+        Vec3 at = image;
+        for (int c = 0; c < 2; ++c)
+          at[c] = std::abs(at[c] + (static_cast<double>(j.velocity[c]) - static_cast<double>(i.velocity[c])) * safe);
+        ASSERT_GE(std::max(at.x(), at.y()), reach) << "trial " << trial << ", image " << x << ' ' << y;
+        if (!stay_away) continue;
+        const double farther = std::max(std::abs(image.x()), std::abs(image.y()));
+        ASSERT_GE(farther - 2 * slow * horizon, reach) << "trial " << trial << ", image " << x << ' ' << y;
       }
     }
   }
   EXPECT_GT(n_short, test::draws(10000));
   EXPECT_GT(n_full, test::draws(10000));
+  EXPECT_GT(n_away, test::draws(5000));
 }
 
 TEST(SafeTime, NoPairCollidesBeforeItsBound) {
@@ -223,8 +224,8 @@ TEST(SafeTime, NoPairCollidesBeforeItsBound) {
   for (int trial = 0; trial < test::draws(1000000); ++trial) {
     width.draw(draw);
     const FlyingPair pair(draw);
-    const double hull = pair.hull_bound(kNone, kHorizon).unperturbed;
-    const double bead = pair.bead_bound(kNone, kHorizon).unperturbed;
+    const double hull = pair.hull_bound(kHorizon).time;
+    const double bead = pair.bead_bound(kHorizon).time;
     n_hull += hull > 0;
     n_bead += bead > 0;
     // the last instant that is said to be safe, and one on the way
@@ -239,64 +240,93 @@ TEST(SafeTime, NoPairCollidesBeforeItsBound) {
   EXPECT_GT(n_bead, test::draws(500000));
 }
 
-/// A random vector in a cylinder round z.
-Vec3 in_cylinder(test::Draw& draw, double across, double along_z) {
-  const double angle = draw.uniform(0, 2 * kPi);
-  const double radius = draw.integer(0, 1) ? across : draw.uniform(0, across);
-  return {radius * std::cos(angle), radius * std::sin(angle), draw.uniform(-along_z, along_z)};
-}
+/// A pair that waits for its bound in a table of its own, while both rods are hit now and then.
+struct WaitingPair {
+  static constexpr double kDt = 4e-6;
+  FlyingPair pair;
+  PairTable table{2};
 
-TEST(SafeTime, LimitsCoverEveryChangeOfMotionWithinThem) {
+  explicit WaitingPair(test::Draw& draw, bool of_beads) : pair(draw) {
+    const FlyingPair::HullBound hull = pair.hull_bound(kHorizon);
+    const BeadSafeTime beads = pair.bead_bound(kHorizon);
+    const double time = of_beads ? beads.time : hull.time;
+    table.make_room(1);
+    table.add(0, {0, 1}, 0);
+    table.direction(0) = {static_cast<float>(hull.direction.x()), static_cast<float>(hull.direction.y()),
+                          static_cast<float>(hull.direction.z())};
+    if (of_beads) {
+      table.set_line(0, {beads.gap / (beads.time + 1e-20F), beads.gap > 0 ? 0.0F : -1.0F}, true);
+    } else {
+      table.set_line(0, hull.line, false);
+    }
+    table.wheel().set(0, 1 + static_cast<Tick>(time / kDt * (1 - 1e-5)));
+  }
+  /// Hits a rod after `wait` ticks at tick `now`; by a plate at one of its ends, or by whatever. False if the bound
+  /// must be made anew.
+  bool hit(int r, Tick wait, Tick now, test::Draw& draw) {
+    Flight& f = pair.flight[r];
+    const double seconds = static_cast<double>(wait) * kDt;
+    const Pose pose = pose_after(f, seconds, kG);
+    Motion motion = motion_after(f, seconds, kG, pose.director, pair.ratio);
+    const Vec3 velocity = motion.velocity;
+    const Vec3 precession = f.precession;
+    const double rate = f.rate;
+    const double strength = std::pow(10.0, draw.uniform(-2, 1));
+    if (draw.integer(0, 1)) {
+      motion.velocity += draw.vector(strength);
+      motion.angular_velocity += draw.vector(strength);
+    } else {
+      const Vec3 arm = (draw.integer(0, 1) ? 1 : -1) * pair.species.half_length * pose.director;
+      apply_impulse(motion, inverse_inertia(pair.species), pose.director, arm,
+                    strength * pair.species.mass * Vec3::UnitZ());
+    }
+    begin_flight(f, 0, pose, motion, 1e9, pair.ratio);
+    if (table.wheel().due(0, now) == now) return false;
+    return table.tighten(
+        0, r, {f.velocity - velocity, f.precession - precession, f.director, rate, f.rate, pair.species.half_length, 0},
+        now, static_cast<float>(kDt));
+  }
+};
+
+TEST(SafeTime, TightenedBoundsHoldForRodsThatAreHit) {
   test::Draw draw(21);
   AnyWidth width;
-  const MotionTolerance allow{1.0F, 25.0F, 1.0F, 12.0F};
-  int n_kicks = 0;
+  std::int64_t n_tightened = 0, n_shortened = 0, n_collided = 0;
   for (int trial = 0; trial < test::draws(200000); ++trial) {
     width.draw(draw);
-    FlyingPair pair(draw);
-    Vec3 strayed_velocity[2], strayed_turning[2];
-    double rate_limit[2];
-    for (int r = 0; r < 2; ++r) {
-      strayed_velocity[r] = in_cylinder(draw, allow.velocity_xy, allow.velocity_z);
-      strayed_turning[r] = in_cylinder(draw, allow.turning_xy, allow.turning_z);
-      rate_limit[r] = pair.flight[r].rate + draw.uniform(0, 10);
-      pair.set_limits(r, strayed_velocity[r], strayed_turning[r], rate_limit[r]);
-    }
-    const SafeTime hull = pair.hull_bound(allow, kHorizon);
-    const SafeTime bead = pair.bead_bound(allow, kHorizon);
-    const double safe = std::max(hull.perturbed, bead.perturbed);
-    if (safe <= 0) continue;
-    // both rods are pushed and turned at some times on the way, to anywhere within their limits
-    double t = 0;
-    for (int kick = 0; kick < 3; ++kick) {
-      const double wait = draw.uniform(0, 0.5) * (safe - t);
-      t += wait;
-      for (int r = 0; r < 2; ++r) {
-        Flight& f = pair.flight[r];
-        const Pose pose = pose_after(f, wait, kG);
-        Motion motion = motion_after(f, wait, kG, pose.director, pair.ratio);
-        const Vec3 target = in_cylinder(draw, allow.velocity_xy, allow.velocity_z);
-        // turning jumps are across the director: try some until one stays within the limits
-        for (int attempt = 0; attempt < 20; ++attempt) {
-          Vec3 spin = draw.vector(5);
-          spin -= spin.dot(pose.director) * pose.director;
-          const Vec3 turned = strayed_turning[r] + spin.cross(pose.director);
-          if (turned.head<2>().norm() > allow.turning_xy || std::abs(turned.z()) > allow.turning_z) continue;
-          if ((f.precession + spin).norm() > rate_limit[r]) continue;
-          strayed_turning[r] = turned;
-          motion.angular_velocity += spin;
-          ++n_kicks;
-          break;
-        }
-        motion.velocity += target - strayed_velocity[r];
-        strayed_velocity[r] = target;
-        begin_flight(f, 0, pose, motion, 1e9, pair.ratio);
+    WaitingPair waiting(draw, draw.integer(0, 1));
+    Tick now = 0;
+    bool known = true;
+    for (int k = 0; k < 4 && known; ++k) {
+      const Tick due = waiting.table.wheel().due(0, now);
+      if (due - now < 3) break;
+      // both rods fly on to the next hit: one by itself, the other as if by a hit of no strength
+      const Tick wait = draw.integer(1, static_cast<int>((due - now - 1) / 2));
+      const int r = draw.integer(0, 1);
+      Flight& other = waiting.pair.flight[1 - r];
+      const double seconds = static_cast<double>(wait) * WaitingPair::kDt;
+      const Pose pose = pose_after(other, seconds, kG);
+      begin_flight(other, 0, pose, motion_after(other, seconds, kG, pose.director, waiting.pair.ratio), 1e9,
+                   waiting.pair.ratio);
+      now += wait;
+      known = waiting.hit(r, wait, now, draw);
+      if (!known) break;
+      ++n_tightened;
+      const Tick tightened = waiting.table.wheel().due(0, now);
+      ASSERT_LE(tightened, due);
+      n_shortened += tightened < due;
+      // the last tick that is said to be safe, and one on the way
+      const Tick safe = tightened - 1 - now;
+      for (const Tick ticks : {safe, static_cast<Tick>(draw.integer(0, static_cast<int>(safe)))}) {
+        ASSERT_FALSE(waiting.pair.collides_at(static_cast<double>(ticks) * WaitingPair::kDt))
+            << "trial " << trial << ", hit " << k << ", " << ticks << " of " << safe << " ticks";
       }
+      n_collided += waiting.pair.collides_at(static_cast<double>(due - now) * WaitingPair::kDt);
     }
-    ASSERT_FALSE(pair.collides_at(safe - t)) << "trial " << trial;
-    ASSERT_FALSE(pair.collides_at((safe - t) * draw.uniform(0, 1))) << "trial " << trial;
   }
-  EXPECT_GT(n_kicks, test::draws(300000));
+  EXPECT_GT(n_tightened, test::draws(200000));
+  EXPECT_GT(n_shortened, test::draws(50000));
+  EXPECT_GT(n_collided, test::draws(1000));  // where the bound, had it not been tightened, would have missed it
 }
 
 TEST(SafeTime, BoundsAreTight) {
@@ -306,8 +336,7 @@ TEST(SafeTime, BoundsAreTight) {
   for (int trial = 0; trial < test::draws(6000) && share.size() < 600; ++trial) {
     const FlyingPair pair(draw);
     if (pair.collides_at(0)) continue;
-    const double bound =
-        std::max(pair.hull_bound(kNone, kHorizon).unperturbed, pair.bead_bound(kNone, kHorizon).unperturbed);
+    const double bound = std::max<double>(pair.hull_bound(kHorizon).time, pair.bead_bound(kHorizon).time);
     double contact = 0;
     while (contact < kHorizon && !pair.collides_at(contact)) contact += 1e-6;
     if (contact >= kHorizon) continue;
@@ -330,27 +359,17 @@ TEST(SafeTime, LanesMatchTheirTwins) {
   std::vector<double> hull_share, bead_share;
   for (int trial = 0; trial < test::draws(100000); ++trial) {
     width.draw(draw);
-    FlyingPair pair(draw);
-    const auto some = [&](double most) { return static_cast<float>(draw.uniform(0, most)); };
-    const MotionTolerance tolerance{some(2), some(20), some(2), some(20)};
-    for (int r = 0; r < 2; ++r) pair.set_limits(r, draw.vector(1), draw.vector(1), pair.flight[r].rate + 5);
-    Vec3 d;
-    const SafeTime hull = pair.hull_bound(tolerance, kHorizon, &d);
-    const SafeTime bead = pair.bead_bound(tolerance, kNear);
-    ASSERT_NEAR(d.norm(), 1, 1e-6);
-    for (const bool perturbed : {false, true}) {
-      const MotionTolerance allow = perturbed ? tolerance : kNone;
-      const double hull_twin =
-          test::hull_safe_time_twin(pair.species, pair.bound[0], pair.bound[1], pair.D, d, allow, perturbed, kHorizon);
-      const double bead_twin =
-          test::bead_safe_time_twin(pair.species, pair.bound[0], pair.bound[1], pair.D, allow, perturbed, kNear);
-      const double hull_lane = perturbed ? hull.perturbed : hull.unperturbed;
-      const double bead_lane = perturbed ? bead.perturbed : bead.unperturbed;
-      ASSERT_LE(hull_lane, hull_twin * (1 + 1e-6)) << "trial " << trial;
-      ASSERT_LE(bead_lane, bead_twin * (1 + 1e-6)) << "trial " << trial;
-      if (hull_twin > 1e-5) hull_share.push_back(hull_lane / hull_twin);
-      if (bead_twin > 1e-5) bead_share.push_back(bead_lane / bead_twin);
-    }
+    const FlyingPair pair(draw);
+    const FlyingPair::HullBound hull = pair.hull_bound(kHorizon);
+    const BeadSafeTime bead = pair.bead_bound(kNear);
+    ASSERT_NEAR(hull.direction.norm(), 1, 1e-6);
+    const double hull_twin =
+        test::hull_safe_time_twin(pair.species, pair.bound[0], pair.bound[1], pair.D, hull.direction, kHorizon);
+    const double bead_twin = test::bead_safe_time_twin(pair.species, pair.bound[0], pair.bound[1], pair.D, kNear);
+    ASSERT_LE(hull.time, hull_twin * (1 + 1e-6)) << "trial " << trial;
+    ASSERT_LE(bead.time, bead_twin * (1 + 1e-6)) << "trial " << trial;
+    if (hull_twin > 1e-5) hull_share.push_back(hull.time / hull_twin);
+    if (bead_twin > 1e-5) bead_share.push_back(bead.time / bead_twin);
   }
   for (auto* share : {&hull_share, &bead_share}) {
     std::sort(share->begin(), share->end());
