@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""A Slurm of one's own on this machine: munged, slurmctld and slurmd on 127.0.0.1, with ports, keys and files of their
+"""A Slurm of one's own on this machine: munged, slurmctld and slurmd on loopback, with ports, keys and files of their
 own, ended with the program that started them. By itself it keeps such a cluster up until Ctrl-C:
 
-    tests/cluster/little_cluster.py [--cores N] [--folder DIR]
+    tests/cluster/little_cluster.py [--cores N] [--folder DIR] [--programs DIR]
 """
 import argparse
 import getpass
@@ -22,7 +22,7 @@ PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "squeue", "scancel", "sco
 ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)  # Ctrl-C, kill, and a terminal that is closed
 CONFIGURATION = """\
 ClusterName=little
-SlurmctldHost=localhost(127.0.0.1)
+SlurmctldHost=localhost({address})
 SlurmctldPort={controller_port}
 SlurmdPort={node_port}
 SlurmUser={user}
@@ -55,22 +55,52 @@ AccountingStorageType=accounting_storage/none
 JobCompType=jobcomp/none
 PreemptType=preempt/partition_prio
 PreemptMode=REQUEUE
-NodeName=n0 NodeHostname=localhost NodeAddr=127.0.0.1 CPUs={cores} RealMemory=2000 State=UNKNOWN
+NodeName=n0 NodeHostname=localhost NodeAddr={address} CPUs={cores} RealMemory=2000 State=UNKNOWN
 PartitionName=main Nodes=n0 Default=YES MaxTime=INFINITE PriorityTier=1 State=UP
 PartitionName=urgent Nodes=n0 MaxTime=INFINITE PriorityTier=10 State=UP
 """
+# nothing is bounded by control groups, but slurmd ends where it finds none, unless it need not look for their version
+CONTROL_GROUPS = "CgroupPlugin=cgroup/v1\n"
 
 
 class Unavailable(Exception):
     """There is no Slurm here, or it does not start: why, as a sentence."""
 
 
-def free_ports(n):
-    """Ports of 127.0.0.1 on which nobody listens."""
+def resolved(name):
+    """The address that Slurm finds for a name; None if it finds none."""
+    try:
+        return socket.getaddrinfo(name, None, socket.AF_INET, socket.SOCK_STREAM, flags=socket.AI_ADDRCONFIG)[0][4][0]
+    except socket.gaierror:
+        return None
+
+
+def listening():
+    """Where Slurm's daemons listen, an address of loopback, and what their commands begin with for that.
+
+    They listen on what the name of this machine is resolved to. Where that is no address of loopback, they get another
+    name, which only they see."""
+    name = socket.gethostname()
+    address = resolved(name)
+    if address and address.startswith("127."):
+        return address, []
+    own = [] if os.geteuid() == 0 else ["--map-current-user", "--keep-caps"]
+    renamed = ["unshare", "--uts", *own, "sh", "-c", 'hostname localhost && exec "$@"', "sh"]
+    if resolved("localhost") == "127.0.0.1":
+        if subprocess.run([*renamed, "true"], stderr=subprocess.DEVNULL, check=False).returncode == 0:
+            return "127.0.0.1", renamed
+    raise Unavailable(f"Slurm listens on what the name of this machine, {name}, is resolved to, and that is "
+                      f"{address or 'nothing'}: write the lines `127.0.0.1 localhost` and `127.0.1.1 {name}` into "
+                      "/etc/hosts, before all others"
+                      + ("" if address else "; without any address but loopback's, no name is looked up"))
+
+
+def free_ports(n, address):
+    """Ports of an address on which nobody listens."""
     sockets = [socket.socket() for _ in range(n)]
     try:
         for one in sockets:
-            one.bind(("127.0.0.1", 0))
+            one.bind((address, 0))
         return [one.getsockname()[1] for one in sockets]
     finally:
         for one in sockets:
@@ -84,6 +114,7 @@ class LittleCluster:
         self.folder = pathlib.Path(folder).resolve()
         self.cores = cores
         self.processes = {}
+        self.address, self.begins_with = None, []
         self.environment = dict(os.environ, SLURM_CONF=str(self.folder / "slurm.conf"),
                                 PATH=os.environ.get("PATH", "") + ":/usr/sbin:/sbin")
 
@@ -91,6 +122,7 @@ class LittleCluster:
         missing = [name for name in PROGRAMS if not shutil.which(name, path=self.environment["PATH"])]
         if missing:
             raise Unavailable(f"there is no {', '.join(missing)} here: apt install slurm-wlm munge")
+        self.address, self.begins_with = listening()
         try:
             self._prepare()
             self.start("munged")
@@ -104,7 +136,8 @@ class LittleCluster:
         return self
 
     def __exit__(self, *_):
-        if "slurmctld" in self.processes:
+        controller = self.processes.get("slurmctld")
+        if controller and controller.poll() is None:
             try:
                 self.run("scancel", f"--user={getpass.getuser()}", check=False, timeout=5)
                 deadline = time.monotonic() + 15
@@ -122,28 +155,28 @@ class LittleCluster:
         key = self.folder / "munge.key"
         key.write_bytes(os.urandom(1024))
         key.chmod(0o600)
-        controller_port, node_port = free_ports(2)
+        (self.folder / "cgroup.conf").write_text(CONTROL_GROUPS)
+        controller_port, node_port = free_ports(2, self.address)
         (self.folder / "slurm.conf").write_text(CONFIGURATION.format(
-            folder=self.folder, user=getpass.getuser(), cores=self.cores, controller_port=controller_port,
+            folder=self.folder, user=getpass.getuser(), cores=self.cores, controller_port=controller_port, address=self.address,
             node_port=node_port))
 
     def _command(self, name):
         folder = self.folder
+        ends_with_us = ["setpriv", "--pdeathsig", "TERM"]  # in whatever way this program ends
         return {
-            "munged": ["munged", "--foreground", "--force", f"--key-file={folder}/munge.key",
+            "munged": [*ends_with_us, "munged", "--foreground", "--force", f"--key-file={folder}/munge.key",
                        f"--socket={folder}/munge.sock", f"--pid-file={folder}/munged.pid",
                        f"--log-file={folder}/munged.log", f"--seed-file={folder}/munge.seed"],
-            "slurmctld": ["slurmctld", "-D", "-f", f"{folder}/slurm.conf"],
-            "slurmd": ["slurmd", "-D", "-N", "n0", "-f", f"{folder}/slurm.conf"],
+            "slurmctld": [*self.begins_with, *ends_with_us, "slurmctld", "-D", "-f", f"{folder}/slurm.conf"],
+            "slurmd": [*self.begins_with, *ends_with_us, "slurmd", "-D", "-N", "n0", "-f", f"{folder}/slurm.conf"],
         }[name]
 
     def start(self, name):
         """Starts one of the three daemons; its words go to NAME.out."""
         with open(self.folder / f"{name}.out", "ab") as out:
-            # it ends with this program, in whatever way that ends
-            self.processes[name] = subprocess.Popen(["setpriv", "--pdeathsig", "TERM", *self._command(name)],
-                                                    env=self.environment, stdin=subprocess.DEVNULL, stdout=out,
-                                                    stderr=out, start_new_session=True)
+            self.processes[name] = subprocess.Popen(self._command(name), env=self.environment, stdout=out, stderr=out,
+                                                    stdin=subprocess.DEVNULL, start_new_session=True)
 
     def end(self, name, how=signal.SIGTERM):
         """Ends one of them, and waits for that."""
@@ -167,14 +200,21 @@ class LittleCluster:
 
     def _wait(self, condition, what, seconds=30):
         deadline = time.monotonic() + seconds
-        while not condition():
+        while True:
             for name, process in self.processes.items():
                 if process.poll() is not None:
-                    words = (self.folder / f"{name}.out").read_text(errors="replace")[-500:]
-                    raise Unavailable(f"{name} has ended: {words}")
+                    raise Unavailable(f"{name} has ended\n{self.last_words()}")
+            if condition():
+                return
             if time.monotonic() > deadline:
-                raise Unavailable(f"{what} does not come up within {seconds} s (logs in {self.folder})")
+                raise Unavailable(f"{what} does not come up within {seconds} s\n{self.last_words()}")
             time.sleep(0.05)
+
+    def last_words(self):
+        """The ends of what the daemons printed."""
+        lines = [f"{file.stem}: {line}" for file in sorted(self.folder.glob("*.out"))
+                 for line in file.read_text(errors="replace").splitlines()[-5:]]
+        return "\n".join(lines)
 
 
 def end_once(*_):
@@ -184,26 +224,44 @@ def end_once(*_):
     sys.exit(0)
 
 
+def for_another_terminal(cluster, programs):
+    """Lines that can be pasted into any shell, in any folder."""
+    exports = [f"SLURM_CONF={shlex.quote(cluster.environment['SLURM_CONF'])}"]
+    if programs:
+        exports.append(f"PATH={shlex.quote(programs)}:$PATH")
+    scene = pathlib.Path(__file__).resolve().parents[2] / "configs/quickstart.json"
+    return ["export " + " ".join([*exports, "SHAKEN_ROOT=$HOME/shaken-cluster"]),
+            'mkdir -p "$SHAKEN_ROOT" && shaken doctor --executor slurm',
+            "shakend --executor slurm --slurm-poll 1 & sleep 1",
+            f"shaken submit {shlex.quote(str(scene))}",
+            "shaken status; shaken wait; shaken results"]
+
+
 def main():
-    parser = argparse.ArgumentParser(description="A little Slurm on this machine, until Ctrl-C.")
+    parser = argparse.ArgumentParser(description="A little Slurm on this machine, until Ctrl-C: one node, with the "
+                                                 "partitions main and urgent. It says what to type to use it.")
     parser.add_argument("--cores", type=int, default=os.cpu_count(), help="that its node claims to have")
-    parser.add_argument("--folder", help="for its files; if not given, one that is removed at the end")
+    parser.add_argument("--folder", help="for its files, a new one; if not given, one that is removed at the end")
+    parser.add_argument("--programs", help="where Shaken's programs are, for the lines that it prints")
     arguments = parser.parse_args()
     for number in ENDING:
         signal.signal(number, end_once)
-    folder = arguments.folder or tempfile.mkdtemp(prefix="little-cluster-")
+    if arguments.folder and os.path.exists(arguments.folder):
+        parser.error(f"--folder: {arguments.folder} is there already; give one that is not")
+    folder = pathlib.Path(arguments.folder or tempfile.mkdtemp(prefix="little-cluster-"))
+    keep = bool(arguments.folder)
     try:
         with LittleCluster(folder, arguments.cores) as cluster:
-            print("a little Slurm is up; in another terminal:\n"
-                  f"  export SLURM_CONF={shlex.quote(cluster.environment['SLURM_CONF'])}\n"
-                  "  sinfo; shakend --executor slurm\n"
-                  "Ctrl-C ends it, and what runs in it.", flush=True)
+            print("a little Slurm is up, with the partitions main and urgent; in another terminal:",
+                  *for_another_terminal(cluster, arguments.programs), sep="\n  ")
+            print("Ctrl-C ends it, with what runs in it; results stay in ~/shaken-cluster.", flush=True)
             signal.pause()
     except Unavailable as problem:
-        print(f"no cluster: {problem}", file=sys.stderr)
+        keep = folder.is_dir() and any(folder.iterdir())
+        print(f"no cluster: {problem}" + (f"\nlogs are kept in {folder}" if keep else ""), file=sys.stderr)
         return 1
     finally:
-        if not arguments.folder:
+        if not keep:
             shutil.rmtree(folder, ignore_errors=True)
     return 0
 
