@@ -165,6 +165,16 @@ TEST_F(SlurmExecutorTest, WhatSlurmRefusesIsToldOnceItIsKnownNotToBeThere) {
   EXPECT_TRUE(step_until(executor, [&] { return executor.room() > 0; })) << "others may be handed over";
 }
 
+// Until it is told, its jobs count as handed over.
+TEST_F(SlurmExecutorTest, ARefusalThatComesAtOnceIsToldSoon) {
+  write_text(directory_ / "sbatch.fails", "");
+  SlurmOptions rarely = options();
+  rarely.poll = std::chrono::hours(1);
+  SlurmExecutor executor(rarely);
+  const auto workers = start(executor, 1);
+  EXPECT_TRUE(step_until(executor, [&] { return executor.poll(workers[0]).phase == Phase::kRefused; }));
+}
+
 TEST_F(SlurmExecutorTest, WhatWasHandedOverThoughSbatchDidNotSaySoIsFoundByItsName) {
   write_text(directory_ / "sbatch.fails", "");
   says("sbatch", "sbatch: error: Socket timed out\n");
