@@ -20,6 +20,7 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::StartsWith;
 
 /// Verbs against a daemon whose answers are laid down (docs/protocol.md).
 class Verbs : public ::testing::Test {
@@ -274,6 +275,14 @@ TEST_F(Verbs, WaitFailsWithTheReasonIfAJobFailed) {
   const Outcome outcome = run({"wait", "s1"});
   EXPECT_EQ(outcome.code, ExitCode::kFailed);
   EXPECT_THAT(outcome.err, HasSubstr("2a0c0000 failed: 2 rods overlap"));
+}
+
+TEST_F(Verbs, WaitSaysWhatKeepsJobsWaiting) {
+  Json queued = job("1f0c000000000000", "queued");
+  queued["reason"] = "could not be started: sbatch: error: invalid partition";
+  daemon_.on("GET /v1/sweeps/s1", text(sweep({queued})));
+  const Outcome outcome = run({"wait", "s1", "--timeout", "5"});
+  EXPECT_THAT(outcome.err, StartsWith("1 job queued: could not be started: sbatch: error: invalid partition\n"));
 }
 
 TEST_F(Verbs, WaitGivesUpAfterTheTimeout) {
