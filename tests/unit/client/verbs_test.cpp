@@ -109,6 +109,20 @@ TEST_F(Verbs, StatusOfASweepAndItsFailures) {
   EXPECT_THAT(failed.out, Not(HasSubstr("1f0c")));
 }
 
+TEST_F(Verbs, StatusShowsTheMeanOrderOfWhatIsDone) {
+  Json done = job("1f0c000000000000", "done"), damaged = job("2a0c000000000000", "done");
+  for (Json* each : {&done, &damaged}) {
+    const std::filesystem::path folder = root_ / each->at("id").get<std::string>();
+    std::filesystem::create_directory(folder);
+    (*each)["directory"] = folder.string();
+    std::ofstream(folder / "summary.json") << (each == &done ? R"({"order": {"mean": 0.625}})" : R"({"order": 3})");
+  }
+  daemon_.on("GET /v1/sweeps/s1", text(sweep({done, damaged, job("3b0c000000000000", "done")})));
+  const Outcome outcome = run({"status", "s1"});
+  EXPECT_THAT(outcome.out, HasSubstr("1f0c0000  done   100 %  0.625 "));
+  EXPECT_THAT(outcome.out, HasSubstr("2a0c0000  done   100 %      - "));
+}
+
 TEST_F(Verbs, AnswersOfAnotherShapeAreNamedAsSuch) {
   daemon_.on("GET /v1/status", "{}");
   daemon_.on("GET /v1/sweeps", R"({"sweeps": 7})");
