@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -162,6 +163,8 @@ class Queue {
   bool give_way(const std::string& id, const Place& place = {});
   /// The time limit of a running job is over: it stops and is timed out.
   void time_out(const std::string& id);
+  /// Why the executor of a place takes nothing at the moment; "" where it does.
+  void set_trouble(const Place& place, const std::string& why);
   /// running -> stopping, and then queued: the daemon ends, and with it all workers but those that outlive it.
   void stop_all();
 
@@ -229,6 +232,8 @@ class Queue {
   /// What keeps the jobs of a sweep back, if that is a refusal.
   std::optional<Refusal> refusal_of(std::int64_t sweep) const;
   static std::string refusal_text(std::int64_t sweep, const Refusal& refusal);
+  /// The trouble of the executor that a sweep goes to, or "".
+  std::string trouble_of(std::int64_t sweep) const;
 
   // queue_terms.cpp
   void set_terms(std::int64_t sweep, const Terms& terms);
@@ -253,6 +258,7 @@ class Queue {
   mutable std::condition_variable changed_;
   mutable Database database_;
   std::int64_t last_change_ = 0;
+  std::map<std::string, std::pair<Place, std::string>> troubles_;  ///< by executor
 };
 
 }  // namespace shaken::server

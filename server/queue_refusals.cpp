@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What executors have refused: until a pause is over, nothing that asks for the same is handed over.
+// What executors do not take. Until a pause after a refusal is over, nothing that asks for the same is handed over.
 #include <fmt/format.h>
 
 #include "base/clock.h"
@@ -73,6 +73,21 @@ std::optional<Queue::Refusal> Queue::refusal_of(std::int64_t sweep) const {
       utime_now(), sweep);
   if (!query.next()) return std::nullopt;
   return Refusal{query.text(0), query.text(1), query.integer(2), query.text(3)};
+}
+
+void Queue::set_trouble(const Place& place, const std::string& why) {
+  const std::lock_guard lock(mutex_);
+  troubles_[place.executor] = {place, why};
+}
+
+std::string Queue::trouble_of(std::int64_t sweep) const {
+  Query query = database_.query("SELECT executor FROM sweeps WHERE id = ?1", sweep);
+  if (!query.next()) return {};
+  for (const auto& [executor, trouble] : troubles_) {
+    const bool goes_there = query.text(0) == executor || (query.text(0).empty() && trouble.first.is_default);
+    if (goes_there) return trouble.second;
+  }
+  return {};
 }
 
 std::string Queue::refusal_text(std::int64_t sweep, const Refusal& refusal) {

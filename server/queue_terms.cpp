@@ -182,6 +182,7 @@ bool Queue::is_full(std::int64_t sweep) const {
 std::pair<std::string, std::int64_t> Queue::why_waiting(const Job& job) const {
   if (!job.waits) {
     if (const auto refusal = refusal_of(job.asked_by)) return {refusal_text(job.asked_by, *refusal), refusal->until};
+    if (std::string trouble = trouble_of(job.asked_by); !trouble.empty()) return {std::move(trouble), 0};
     if (!is_full(job.asked_by)) return {};
     return {fmt::format("as many jobs of {} run as may at once", sweep_word(job.asked_by)), 0};
   }

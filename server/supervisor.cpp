@@ -88,6 +88,10 @@ int Supervisor::free_slots() const {
 void Supervisor::step() {
   try {
     executor_.step();
+    if (std::string trouble = executor_.trouble(); trouble != told_trouble_) {
+      queue_.set_trouble(options_.place, trouble);
+      told_trouble_ = std::move(trouble);
+    }
     settle_ended();
     count_wall_of_all();
     stop_stopping();

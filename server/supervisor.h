@@ -99,6 +99,7 @@ class Supervisor {
   Executor& executor_;
   SupervisorOptions options_;
   bool shutting_down_ = false;
+  std::string told_trouble_;               ///< the executor's, as the queue knows it
   std::map<std::string, Worker> workers_;  ///< by job id
   std::set<std::string> warnings_;         ///< each logged once, not ten times a second
   std::chrono::milliseconds pause_{0};     ///< after the last start, if that failed

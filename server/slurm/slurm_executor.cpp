@@ -12,6 +12,7 @@
 
 #include "base/failure.h"
 #include "base/files.h"
+#include "base/slurm_conf.h"
 #include "base/text.h"
 
 namespace shaken::server::slurm {
@@ -438,11 +439,13 @@ void SlurmExecutor::take_answer(const Captured& answer) {
     }
     case Asked::kList:
       if (!fine) {
-        failed("squeue: " + in_one_line(answer), options_.poll);
+        failed("squeue: " + in_one_line(answer) + printable(" (" + slurm_conf_text() + ")"), options_.poll);
+        silence_ = "Slurm does not answer: " + trouble_;
         break;
       }
       if (!trouble_.empty()) spdlog::info("Slurm answers");
       trouble_.clear();
+      silence_.clear();
       pause_ = milliseconds(0);
       read_reports();  // of what the list calls over
       take_list(parse_squeue(answer.output));

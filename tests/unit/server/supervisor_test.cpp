@@ -69,9 +69,12 @@ class ToldExecutor final : public Executor {
   WorkerReport poll(int) override { return report; }
   void stop(int) override {}
   void kill(int) override {}
+  int room() const override { return own_trouble.empty() ? 100 : 0; }
+  std::string trouble() const override { return own_trouble; }
   std::string name(int worker) const override { return "worker " + std::to_string(worker); }
 
   WorkerReport report;
+  std::string own_trouble;
 
  private:
   int last_ = 0;
@@ -146,6 +149,21 @@ TEST_F(SupervisorTest, ARefusalHoldsForAllThatAsksForTheSameAndForNothingElse) {
   EXPECT_EQ(job('a').state, kRunning) << "the same jobs, asked for anew with other options";
   EXPECT_EQ(job('d').state, kQueued);
   EXPECT_EQ(queue_.release(id('e'), true), 0) << "nothing keeps it";
+}
+
+TEST_F(SupervisorTest, WhatWaitsForAnExecutorInTroubleSaysSo) {
+  ToldExecutor executor;
+  executor.own_trouble = "Slurm does not answer";
+  Supervisor supervisor(queue_, executor, options());
+  submit('a', "done");
+  queue_.submit("elsewhere", 0, std::vector{new_job('b')}, {.executor = std::string(kSlurm)});
+  supervisor.step();
+  EXPECT_EQ(job('a').reason, "Slurm does not answer");
+  EXPECT_EQ(job('b').reason, "") << "that goes to another";
+  executor.own_trouble.clear();
+  supervisor.step();
+  EXPECT_EQ(job('a').reason, "");
+  EXPECT_EQ(job('a').state, kRunning);
 }
 
 TEST_F(SupervisorTest, ARetryEndsThePauseAfterARefusal) {

@@ -201,9 +201,11 @@ TEST_F(SlurmExecutorTest, ASlurmThatDoesNotAnswerIsAskedMoreAndMoreRarelyAndLose
   // 20, 40, 80, 160, 160, ... ms, not one every 20 ms
   EXPECT_LE(calls("squeue").size() - before, 10);
   EXPECT_EQ(executor.room(), 0);
+  EXPECT_THAT(executor.trouble(), HasSubstr("does not answer: squeue: Unable to contact slurm controller (SLURM_CONF"));
   EXPECT_EQ(executor.poll(workers[0]).phase, Phase::kWaiting) << "for its turn: nothing has ended";
   std::filesystem::remove(directory_ / "down");
   EXPECT_TRUE(step_until(executor, [&] { return executor.room() > 0; }));
+  EXPECT_EQ(executor.trouble(), "");
 }
 
 TEST_F(SlurmExecutorTest, AnotherExecutorFindsTheWorkersByTheirNames) {
