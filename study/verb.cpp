@@ -162,7 +162,7 @@ class Figures : public client::Verb {
     std::string command = "shaken --root ROOT figures";
     for (const std::string& id : ids_) command += " " + id;
     command += " --scale " + scale_;
-    if (!configs_.empty()) command += fmt::format(" --configs {}", configs_);
+    if (!configs_.empty()) command += fmt::format(" --configs {}", fs::absolute(configs_).lexically_normal().string());
     return command + " --draw-only";
   }
 
