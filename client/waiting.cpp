@@ -77,6 +77,7 @@ ExitCode wait_for(ApiClient& session, std::vector<Target> targets, std::optional
       return n_done == n_jobs ? ExitCode::kOk : ExitCode::kFailed;
     }
     std::vector<Json> all;
+    all.reserve(jobs.size());
     for (const auto& [id, job] : jobs) all.push_back(job);
     for (const std::string& line : reasons.news(all)) progress.end_with(line);
     const double elapsed = std::chrono::duration<double>(Clock::now() - start).count();

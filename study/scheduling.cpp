@@ -156,6 +156,7 @@ void Schedule::tell_reasons(ProgressLine& progress) {
     for (Json& job : client::jobs_of(queued.target)) jobs.try_emplace(client::text_of(job, "id"), std::move(job));
   }
   std::vector<Json> all;
+  all.reserve(jobs.size());
   for (auto& [id, job] : jobs) all.push_back(std::move(job));
   for (const std::string& line : reasons_.news(all)) progress.end_with(line);
 }

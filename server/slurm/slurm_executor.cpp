@@ -191,11 +191,15 @@ WorkerReport SlurmExecutor::poll(int worker) {
   Sent& batch = batches_.at(handle.batch);
   Run& run = batch.runs[static_cast<std::size_t>(handle.run)];
   WorkerReport report = state_of(batch, run, task_of(batch, handle.run));
-  if (report.phase == Phase::kWaiting && batch.stage == Stage::kOut && run.stop_asked && !trouble_.empty()) {
-    report.words = fmt::format("stops once Slurm answers, which has it as job {}_{}: {}", batch.job,
-                               task_of(batch, handle.run), trouble_);
+  if (report.phase == Phase::kWaiting || report.phase == Phase::kWorking) {
+    if (report.phase == Phase::kWaiting && batch.stage == Stage::kOut && run.stop_asked && !trouble_.empty()) {
+      report.words = fmt::format("stops once Slurm answers, which has it as job {}_{}: {}", batch.job,
+                                 task_of(batch, handle.run), trouble_);
+    } else if ((batch.stage == Stage::kOut || batch.stage == Stage::kUnsure) && !silence_.empty()) {
+      report.words += (report.words.empty() ? "" : "; ") + silence_;
+    }
+    return report;
   }
-  if (report.phase == Phase::kWaiting || report.phase == Phase::kWorking) return report;
   run.told = true;
   handles_.erase(worker);
   return report;
