@@ -140,7 +140,8 @@ std::optional<std::string> field_named(std::span<const std::string> names, const
   const auto is_there = [&](const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
-  for (const std::string& name : {word, "measured." + word + ".value"}) {
+  const std::string known_as_s = word == "S" ? "order.mean" : word;  // as in tables and figures
+  for (const std::string& name : {word, "measured." + word + ".value", known_as_s}) {
     if (is_there(name)) return name;
   }
   for (const std::string& name : names) {

@@ -76,9 +76,9 @@ double standard_error(const ResultRow& row, const std::string& field);
 /// and the run's is false. False for what is no average, and where nothing is known.
 bool still_relaxes(const ResultRow& row, const std::string& field);
 
-/// The field that `word` means: itself, or "measured.WORD.value", or "F:sem" where `word` is the field of a run's own
-/// standard error of F (aggregated rows have the former only). Throws Failure (kBadInput), with the nearest name, if
-/// no row has it.
+/// The field that `word` means: itself, "measured.WORD.value", "order.mean" where it is "S", or "F:sem" where `word` is
+/// the field of a run's own standard error of F (aggregated rows have the former only). Throws Failure (kBadInput),
+/// with the nearest name, if no row has it.
 std::string resolved_field(const std::vector<ResultRow>& rows, const std::string& word);
 
 /// The same among `names`; none if it is not there.

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "base/process.h"
+#include "base/slurm_conf.h"
 #include "base/text.h"
 #include "run/files/version.h"
 
@@ -19,6 +20,9 @@ using Level = CheckResult::Level;
 
 /// A Slurm that does not answer keeps its programs waiting for long.
 const std::string kSlurmPatience = "20";
+// as timeout(1) has them
+constexpr int kTimeIsOver = 124;
+constexpr int kNotFound = 127;
 
 Captured within_patience(std::vector<std::string> command) {
   command.insert(command.begin(), {std::string("timeout"), kSlurmPatience});
@@ -30,19 +34,38 @@ std::string first_words(const Captured& result) {
   return printable(fitted(result.output.substr(0, result.output.find('\n')), kMost));
 }
 
+/// Why a program gave up.
+std::string last_words(const Captured& result) {
+  std::string text = result.output;
+  text.erase(text.find_last_not_of('\n') + 1);
+  if (text.empty()) return fmt::format("exit code {}", result.exit_code);
+  const std::size_t line = text.rfind('\n');
+  return first_words({result.exit_code, line == std::string::npos ? text : text.substr(line + 1)});
+}
+
 CheckResult check_programs() {
+  const std::string set_conf =
+      "export SLURM_CONF=FILE, the slurm.conf of the cluster, here and where the daemon is started";
+  if (const auto file = missing_slurm_conf()) {  // the programs would look for it for a minute
+    return {Level::kFail, "slurm", fmt::format("SLURM_CONF names {}, and there is no such file", printable(*file)),
+            set_conf};
+  }
   std::string missing;
   std::string version;
   for (const char* name : {"sbatch", "squeue", "scancel"}) {
     const Captured result = within_patience({name, "--version"});
-    if (result.exit_code == 0) {
-      version = first_words(result);
-    } else {
+    if (result.exit_code == kNotFound) {
       missing += (missing.empty() ? "" : ", ") + std::string(name);
+    } else if (result.exit_code != 0) {
+      return {Level::kFail, "slurm",
+              fmt::format("{} finds no cluster: {} ({})", name, last_words(result), printable(slurm_conf_text())),
+              set_conf};
+    } else {
+      version = first_words(result);
     }
   }
   if (missing.empty()) return {Level::kOk, "slurm", version, ""};
-  return {Level::kFail, "slurm", "not found or not working: " + missing,
+  return {Level::kFail, "slurm", "not found: " + missing,
           "run the daemon where Slurm's programs are, on a login node; Debian: sudo apt install slurm-client"};
 }
 
@@ -50,8 +73,11 @@ CheckResult check_controller() {
   const Captured result = within_patience({"sinfo", "--noheader", "--format=%P %a, %D nodes %t"});
   if (result.exit_code == 0) return {Level::kOk, "controller", first_words(result), ""};
   return {Level::kFail, "controller",
-          result.exit_code == 124 ? fmt::format("slurmctld has not answered within {} s", kSlurmPatience)
-                                  : first_words(result),
+          fmt::format("{} ({})",
+                      result.exit_code == kTimeIsOver
+                          ? fmt::format("slurmctld has not answered within {} s", kSlurmPatience)
+                          : first_words(result),
+                      printable(slurm_conf_text())),
           "scontrol ping; the daemon waits for it, and loses nothing"};
 }
 
@@ -74,6 +100,11 @@ CheckResult check_arrays() {
 
 /// Whether a node sees the files that its tasks need; asks one that is free.
 CheckResult check_shared(const std::filesystem::path& root) {
+  if (std::error_code error; !std::filesystem::exists(root, error)) {
+    return {Level::kFail, "shared root",
+            fmt::format("{} does not exist yet, so no node can write there", root.string()),
+            fmt::format("mkdir -p {}, in a folder that all nodes share, and ask again", root.string())};
+  }
   const auto task = sibling_program("shaken-task"), worker = sibling_program("shaken-worker");
   const Captured result =
       run_captured({"timeout", "60", "srun", "--immediate=15", "--ntasks=1", "--quiet", "--chdir=/", "test", "-w",

@@ -11,6 +11,7 @@
 #include "base/interrupt.h"
 #include "base/progress_line.h"
 #include "base/text.h"
+#include "client/waiting_reasons.h"
 
 namespace shaken::client {
 namespace {
@@ -48,6 +49,7 @@ ExitCode wait_for(ApiClient& session, std::vector<Target> targets, std::optional
   const Clock::time_point start = Clock::now();
   Clock::time_point last_answer = start;
   ProgressLine progress(console.err, console.err_is_terminal, console.width, 0);
+  WaitingReasons reasons;
 
   for (;;) {
     const auto jobs = jobs_of_all(targets);
@@ -74,6 +76,10 @@ ExitCode wait_for(ApiClient& session, std::vector<Target> targets, std::optional
       }
       return n_done == n_jobs ? ExitCode::kOk : ExitCode::kFailed;
     }
+    std::vector<Json> all;
+    all.reserve(jobs.size());
+    for (const auto& [id, job] : jobs) all.push_back(job);
+    for (const std::string& line : reasons.news(all)) progress.end_with(line);
     const double elapsed = std::chrono::duration<double>(Clock::now() - start).count();
     if (guard.interrupted() || (timeout_s && elapsed >= *timeout_s)) {
       progress.clear();

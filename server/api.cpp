@@ -387,13 +387,9 @@ std::vector<Job> Api::find_jobs(const Call& call) const {
 }
 
 Json Api::report(const Sweep& sweep) const {
-  std::vector<Job> active;
-  for (const JobState state : {JobState::kRunning, JobState::kStopping}) {
-    if (sweep.counts[state] == 0) continue;
-    const auto jobs = queue_.jobs(sweep.id, state);
-    active.insert(active.end(), jobs.begin(), jobs.end());
-  }
-  return sweep_report(sweep, active, queue_.mean_duration(sweep.id), info_.slots, info_.runs());
+  Sweep now = sweep;
+  const std::vector<Job> begun = queue_.begun(now);
+  return sweep_report(now, begun, queue_.mean_duration(sweep.id), info_.slots, info_.runs());
 }
 
 Json Api::report(std::span<const Job> jobs) const {

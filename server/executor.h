@@ -48,6 +48,8 @@ class Executor {
 
   /// How many more workers it takes at the moment.
   virtual int room() const { return std::numeric_limits<int>::max(); }
+  /// Why it takes nothing at the moment, where that is its own trouble; else empty.
+  virtual std::string trouble() const { return {}; }
   /// Takes a worker, and returns what names it from now on (for a local process its pid).
   virtual Result<int> start(const Launch& launch) = 0;
   /// What is known of it; its end is told once.

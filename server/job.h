@@ -64,7 +64,7 @@ struct Job {
   std::int64_t created = 0;
   std::int64_t started = 0;  ///< the last attempt
   std::int64_t finished = 0;
-  std::int64_t not_before = 0;  ///< a queued job that has crashed waits until then
+  std::int64_t not_before = 0;  ///< a queued job that has crashed, or is refused where it is to run, waits until then
   Hold hold = Hold::kNone;
   std::int64_t needed_bytes = 0;            ///< of room on the disk, where it waits for that
   std::int64_t asked_by = 0;                ///< the sweep that asked for it last, whose terms it obeys

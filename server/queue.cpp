@@ -60,6 +60,8 @@ Queue::Current Queue::read_current(const Query& query) {
 
 Queue::Queue(const std::filesystem::path& file) : database_(file) {
   prepare_schema(database_);
+  database_.execute("PRAGMA temp_store=MEMORY");
+  database_.execute(refusals_schema());
   Query query = database_.query("SELECT COALESCE(MAX(sequence), 0) FROM journal");
   query.next();
   last_change_ = query.integer(0);
@@ -136,19 +138,29 @@ int Queue::release(const Target& target, bool retry) {
   const std::lock_guard lock(mutex_);
   Transaction transaction(database_);
   int changed = 0;
+  std::map<std::int64_t, std::optional<Refusal>> refusals;  // by sweep
   for (const Current& job : found(target)) {
+    const auto refusal = [&] {
+      const auto [entry, is_new] = refusals.try_emplace(job.sweep);
+      if (is_new) entry->second = refusal_of(job.sweep);
+      return entry->second.has_value();
+    };
     const bool is_retried = retry && has_ended(job.state) && job.state != kDone;
     if (job.state == kHeld || is_retried) {
       if (job.hold == kForOthers) database_.run("UPDATE jobs SET waits = 0 WHERE id = ?1", job.id);
       change(job, kQueued, "", job.state == kHeld ? "released on request" : "retried on request");
     } else if (job.state == kStopping && job.after_stop == to_word(kHeld)) {
       stop_for(job, kQueued, "");
-    } else if (retry && job.state == kQueued && job.crashes > 0) {
+    } else if (retry && job.state == kQueued && (job.crashes > 0 || refusal())) {
       database_.run("UPDATE jobs SET crashes = 0, not_before_utime = 0, reason = '' WHERE id = ?1", job.id);
     } else {
       continue;
     }
     ++changed;
+  }
+  for (const auto& [sweep, refusal] : refusals) {
+    if (!refusal) continue;
+    database_.run("DELETE FROM refusals WHERE executor = ?1 AND settings = ?2", refusal->executor, refusal->settings);
   }
   if (const std::int64_t* sweep = std::get_if<std::int64_t>(&target)) {
     database_.run("UPDATE sweeps SET stop_if = '', stopped = 0 WHERE id = ?1 AND stopped = 1", *sweep);
@@ -174,7 +186,8 @@ int Queue::set_priority(const Target& target, int priority) {
 std::vector<Job> Queue::next(int limit, const Place& place) const {
   const std::lock_guard lock(mutex_);
   return read_jobs(database_.query(kSelectJobs + "WHERE " + kWaitsForTurn + "AND " + kHasPlace + "AND " +
-                                       is_of_place(3) + "ORDER BY priority DESC, turn, number LIMIT ?2",
+                                       is_of_place(3) + "AND " + is_not_refused(3) +
+                                       "ORDER BY priority DESC, turn, number LIMIT ?2",
                                    utime_now(), limit, place.executor, place.is_default ? 1 : 0));
 }
 
@@ -292,20 +305,6 @@ void Queue::crashed(const std::string& id, const std::string& reason, bool went_
   commit(transaction);
 }
 
-void Queue::postponed(const std::string& id, const std::string& reason, milliseconds pause) {
-  const std::lock_guard lock(mutex_);
-  const auto job = current(id);
-  SHAKEN_CHECK(job.has_value(), "no job " + id);
-  Transaction transaction(database_);
-  if (job->state == kStopping) {
-    end_stopping(*job, reason);
-  } else {
-    change(*job, kQueued, reason, reason);
-    database_.run("UPDATE jobs SET not_before_utime = ?2 WHERE id = ?1", id, utime_now() + 1000 * pause.count());
-  }
-  commit(transaction);
-}
-
 void Queue::no_room(const std::string& id, const std::string& reason, std::int64_t needed,
                     std::chrono::milliseconds pause) {
   const std::lock_guard lock(mutex_);
@@ -369,7 +368,7 @@ bool Queue::give_way(const std::string& id, const Place& place) {
     const std::int64_t needed = stopping.integer(0) + 1;
     Query others = database_.query(
         "SELECT COUNT(*) FROM (SELECT 1 FROM jobs WHERE " + kWaitsForTurn + "AND priority >= ?2 AND (sweep = ?5 OR " +
-            kHasPlace + ") AND " + is_of_place(3) + "LIMIT ?6)",
+            kHasPlace + ") AND " + is_of_place(3) + "AND " + is_not_refused(3) + "LIMIT ?6)",
         utime_now(), job->priority, place.executor, place.is_default ? 1 : 0, job->sweep, needed);
     others.next();
     if (others.integer(0) < needed) return false;

@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -90,6 +91,8 @@ class Queue {
   std::optional<Sweep> sweep_named(const std::string& name) const;
   /// In the order of the sweep, or in the order of arrival where none is given.
   std::vector<Job> jobs(std::optional<std::int64_t> sweep, std::optional<JobState> state = std::nullopt) const;
+  /// Jobs of a sweep that have not ended, and were started; brings its counts to the same moment.
+  std::vector<Job> begun(Sweep& sweep) const;
   std::optional<Job> job(const std::string& id) const;
   /// Ids that begin with `prefix`, in alphabetical order, at most `limit`.
   std::vector<std::string> ids_beginning_with(const std::string& prefix, int limit) const;
@@ -141,8 +144,12 @@ class Queue {
   /// none left. They begin anew where there was a checkpoint since the last crash (`went_on`).
   void crashed(const std::string& id, const std::string& reason, bool went_on,
                std::span<const std::chrono::milliseconds> pauses);
-  /// The worker could not be handed over: running -> queued, not to start before the pause is over.
-  void postponed(const std::string& id, const std::string& reason, std::chrono::milliseconds pause);
+  /// The executor has refused what was asked of it for this job: running -> queued. Nothing that asks the same of it is
+  /// started before a pause is over, which doubles from one refusal to the next, up to 16 times; a retry ends it.
+  void refused(const std::string& id, const Asked& asked, const std::string& reason,
+               std::chrono::milliseconds first_pause);
+  /// The executor takes what asks this of it: the next refusal is the first.
+  void accepted(const Asked& asked);
   /// The worker found no room on the disk: running -> held, until there are `needed` bytes, and for a `pause` at least:
   /// a quota may allow less than the disk has.
   void no_room(const std::string& id, const std::string& reason, std::int64_t needed, std::chrono::milliseconds pause);
@@ -156,6 +163,8 @@ class Queue {
   bool give_way(const std::string& id, const Place& place = {});
   /// The time limit of a running job is over: it stops and is timed out.
   void time_out(const std::string& id);
+  /// Why the executor of a place takes nothing at the moment; "" where it does.
+  void set_trouble(const Place& place, const std::string& why);
   /// running -> stopping, and then queued: the daemon ends, and with it all workers but those that outlive it.
   void stop_all();
 
@@ -210,6 +219,22 @@ class Queue {
   JobCounts sweep_counts(std::int64_t sweep) const;
   Sweep read_sweep(const Query& query) const;
 
+  // queue_refusals.cpp
+  struct Refusal {
+    std::string executor;
+    std::string settings;
+    std::int64_t until;  ///< microseconds since 1970-01-01 UTC
+    std::string reason;
+  };
+  static const char* refusals_schema();
+  /// Condition: not of a sweep that asks for what the executor in parameter `executor` has refused; ?1 is the time.
+  static std::string is_not_refused(int executor);
+  /// What keeps the jobs of a sweep back, if that is a refusal.
+  std::optional<Refusal> refusal_of(std::int64_t sweep) const;
+  static std::string refusal_text(std::int64_t sweep, const Refusal& refusal);
+  /// The trouble of the executor that a sweep goes to, or "".
+  std::string trouble_of(std::int64_t sweep) const;
+
   // queue_terms.cpp
   void set_terms(std::int64_t sweep, const Terms& terms);
   void refuse_circle(std::span<const NewJob> jobs, const Terms& terms) const;
@@ -222,7 +247,8 @@ class Queue {
   void judge(std::int64_t sweep);
   void follow_end(const std::string& id, JobState state);
   bool is_full(std::int64_t sweep) const;
-  std::string why_waiting(const Job& job) const;
+  /// Why a queued job waits, and until when at least; "" and 0 if nothing keeps it.
+  std::pair<std::string, std::int64_t> why_waiting(const Job& job) const;
   std::vector<Job> explained(std::vector<Job> jobs) const;
 
   /// Ends a transaction, and wakes those who wait for a change.
@@ -232,6 +258,7 @@ class Queue {
   mutable std::condition_variable changed_;
   mutable Database database_;
   std::int64_t last_change_ = 0;
+  std::map<std::string, std::pair<Place, std::string>> troubles_;  ///< by executor
 };
 
 }  // namespace shaken::server

@@ -96,6 +96,16 @@ std::vector<Job> Queue::jobs(std::optional<std::int64_t> sweep, std::optional<Jo
   return explained(read_jobs(database_.query(kSelectJobs + "ORDER BY number")));
 }
 
+std::vector<Job> Queue::begun(Sweep& sweep) const {
+  const std::lock_guard lock(mutex_);
+  sweep.counts = sweep_counts(sweep.id);
+  std::int64_t n_ended = 0;
+  for (const JobState state : kJobStates) n_ended += has_ended(state) ? sweep.counts[state] : 0;
+  if (n_ended == sweep.counts.total()) return {};
+  return explained(read_jobs(database_.query(
+      kSelectMembers + "AND j.state IN ('queued', 'held', 'running', 'stopping') AND j.attempt > 0", sweep.id)));
+}
+
 std::optional<Job> Queue::job(const std::string& id) const {
   const std::lock_guard lock(mutex_);
   const std::vector<Job> found = explained(read_jobs(database_.query(kSelectJobs + "WHERE id = ?1", id)));

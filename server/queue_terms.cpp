@@ -179,9 +179,12 @@ bool Queue::is_full(std::int64_t sweep) const {
   return query.next();
 }
 
-std::string Queue::why_waiting(const Job& job) const {
+std::pair<std::string, std::int64_t> Queue::why_waiting(const Job& job) const {
   if (!job.waits) {
-    return is_full(job.asked_by) ? fmt::format("as many jobs of {} run as may at once", sweep_word(job.asked_by)) : "";
+    if (const auto refusal = refusal_of(job.asked_by)) return {refusal_text(job.asked_by, *refusal), refusal->until};
+    if (std::string trouble = trouble_of(job.asked_by); !trouble.empty()) return {std::move(trouble), 0};
+    if (!is_full(job.asked_by)) return {};
+    return {fmt::format("as many jobs of {} run as may at once", sweep_word(job.asked_by)), 0};
   }
   std::string text;
   for (const std::string& word : prerequisites(job.asked_by)) {
@@ -190,16 +193,18 @@ std::string Queue::why_waiting(const Job& job) const {
     text += text.empty() ? "waits for " : ", ";
     text += sweep_number(word) ? fmt::format("{}: {} of {} done", word, counts[kDone], counts.total()) : word;
   }
-  return text;
+  return {text, 0};
 }
 
 std::vector<Job> Queue::explained(std::vector<Job> jobs) const {
-  std::map<std::pair<std::int64_t, bool>, std::string> reasons;  // by sweep, of jobs that wait for others or do not
+  std::map<std::pair<std::int64_t, bool>, std::pair<std::string, std::int64_t>>
+      reasons;  // by sweep, of jobs that wait for others or do not
   for (Job& job : jobs) {
     if (job.state != kQueued || !job.reason.empty()) continue;
     const auto [entry, is_new] = reasons.try_emplace({job.asked_by, job.waits});
     if (is_new) entry->second = why_waiting(job);
-    job.reason = entry->second;
+    job.reason = entry->second.first;
+    job.not_before = std::max(job.not_before, entry->second.second);
   }
   return jobs;
 }

@@ -21,11 +21,26 @@ Json read_object(const std::filesystem::path& file) {
   return json.is_object() ? json : Json(nullptr);
 }
 
-/// What the worker of a job that is not done has written of its progress; null where there is nothing, or where it is
-/// that of the run before it was extended.
-Json progress_of(const run::RunDirectory& directory) {
+bool is_active(const Job& job) { return job.state == JobState::kRunning || job.state == JobState::kStopping; }
+
+/// Whether the worker of the present attempt has written its progress: the daemon writes scene.json before it.
+bool is_of_this_attempt(const Job& job, const run::RunDirectory& directory) {
+  std::error_code no_scene, no_progress;
+  const auto scene = std::filesystem::last_write_time(directory.scene(), no_scene);
+  const auto progress = std::filesystem::last_write_time(directory.progress(), no_progress);
+  return is_active(job) && !no_scene && !no_progress && progress >= scene;
+}
+
+/// Whether progress.json with the word `state` tells of a job that is not done. If the run is, its end is about to be
+/// seen, unless that is of the run before it was extended.
+bool tells(const Job& job, const Json& state, const run::RunDirectory& directory) {
+  return state != "done" || is_of_this_attempt(job, directory);
+}
+
+/// What the worker of a job that is not done has written of its progress; null where there is nothing.
+Json progress_of(const Job& job, const run::RunDirectory& directory) {
   Json progress = read_object(directory.progress());
-  return progress.is_object() && progress.value("state", Json()) == "done" ? Json(nullptr) : progress;
+  return progress.is_object() && tells(job, progress.value("state", Json()), directory) ? progress : Json(nullptr);
 }
 
 /// The summary of run `id`; null if there is none that can be read, or if it is another run's.
@@ -57,13 +72,28 @@ Json parameters(const Job& job) {
 
 }  // namespace
 
+std::string reason_of(const Job& job, const std::filesystem::path& runs) {
+  if (job.state != JobState::kRunning || job.reason.empty()) return job.reason;
+  const run::RunDirectory directory{runs / job.id};
+  if (!is_of_this_attempt(job, directory)) return job.reason;
+  const auto progress = run::read_progress(directory.progress());
+  if (!progress) return job.reason;
+  if (progress->state == "done") return "";
+  // A worker that was killed, and is to be started again, has written nothing for a while.
+  constexpr std::chrono::seconds kWhile{15};
+  std::error_code error;
+  const auto written = std::filesystem::last_write_time(directory.progress(), error);
+  const bool is_fresh = !error && written + kWhile > std::filesystem::file_time_type::clock::now();
+  return is_fresh && (progress->state == "running" || progress->state == "rendering") ? "" : job.reason;
+}
+
 Json job_report(const Job& job, const std::filesystem::path& runs) {
   const run::RunDirectory directory{runs / job.id};
   const bool has_progress = job.attempt > 0 && job.state != JobState::kDone;
   return {{"id", job.id},
           {"sweep", sweep_word(job.sweep)},
           {"state", to_word(job.state)},
-          {"reason", job.reason},
+          {"reason", reason_of(job, runs)},
           {"label", job.label},
           {"parameters", parameters(job)},
           {"replica", job.replica},
@@ -78,10 +108,10 @@ Json job_report(const Job& job, const std::filesystem::path& runs) {
           {"soft_limit_s", seconds_or_null(job.soft_limit)},
           {"time_limit_s", seconds_or_null(job.time_limit)},
           {"wall_s", seconds(job.wall)},
-          {"progress", has_progress ? progress_of(directory) : Json(nullptr)}};
+          {"progress", has_progress ? progress_of(job, directory) : Json(nullptr)}};
 }
 
-Json sweep_report(const Sweep& sweep, std::span<const Job> active, std::optional<double> mean_duration, int slots,
+Json sweep_report(const Sweep& sweep, std::span<const Job> begun, std::optional<double> mean_duration, int slots,
                   const std::filesystem::path& runs) {
   const std::int64_t n_jobs = sweep.counts.total();
   const std::int64_t n_queued = sweep.counts[JobState::kQueued];
@@ -90,11 +120,15 @@ Json sweep_report(const Sweep& sweep, std::span<const Job> active, std::optional
   double sum = 0;
   int n_tell = 0;
   std::int64_t n_wait = n_queued;
-  for (const Job& job : active) {
-    const auto progress = run::read_progress(run::RunDirectory{runs / job.id}.progress());
-    const bool tells = progress && progress->state != "done";  // not of the run before it was extended
-    if (tells) finished += std::clamp(progress->fraction(), 0.0, 1.0);
-    if (tells && progress->eta >= 0) {
+  bool any_active = false;
+  for (const Job& job : begun) {
+    const run::RunDirectory directory{runs / job.id};
+    const auto progress = run::read_progress(directory.progress());
+    const bool it_tells = progress && tells(job, progress->state, directory);
+    if (it_tells) finished += std::clamp(progress->fraction(), 0.0, 1.0);
+    if (!is_active(job)) continue;
+    any_active = true;
+    if (it_tells && progress->eta >= 0) {
       ++n_tell;
       longest = std::max(longest, progress->eta);
       sum += progress->eta;
@@ -102,7 +136,7 @@ Json sweep_report(const Sweep& sweep, std::span<const Job> active, std::optional
       ++n_wait;  // handed over to a cluster, and waits there, or has just begun
     }
   }
-  const bool known = n_wait == 0 || (mean_duration && (n_tell > 0 || active.empty()));
+  const bool known = n_wait == 0 || (mean_duration && (n_tell > 0 || !any_active));
   // where some wait that have been handed over, as many are at work as can be
   const int at_once = n_wait > n_queued ? n_tell : std::max(n_tell, slots);
   const double all = sum + static_cast<double>(n_wait) * mean_duration.value_or(0);

@@ -16,8 +16,12 @@ using Json = nlohmann::ordered_json;
 /// JOB of docs/protocol.md, with the progress that its worker has written. `runs`: folder of the run directories.
 Json job_report(const Job& job, const std::filesystem::path& runs);
 
-/// SWEEP of docs/protocol.md. `active`: its running and stopping jobs.
-Json sweep_report(const Sweep& sweep, std::span<const Job> active, std::optional<double> mean_duration, int slots,
+/// Why a job is in its state, or what it waits for; not for its turn once its worker tells that it is at work, which
+/// the executor may hear of later.
+std::string reason_of(const Job& job, const std::filesystem::path& runs);
+
+/// SWEEP of docs/protocol.md. `begun`: its jobs that have not ended, and were started.
+Json sweep_report(const Sweep& sweep, std::span<const Job> begun, std::optional<double> mean_duration, int slots,
                   const std::filesystem::path& runs);
 
 /// A row of the results table of docs/protocol.md.

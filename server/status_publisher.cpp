@@ -10,6 +10,7 @@
 #include "base/clock.h"
 #include "run/files/directory.h"
 #include "run/files/progress.h"
+#include "server/report.h"
 
 namespace shaken::server {
 namespace {
@@ -108,7 +109,7 @@ void StatusPublisher::publish_job(const Job& job, const std::string& state) {
   message.job_id = job.id;
   message.sweep_id = sweep_word(job.sweep);
   message.state = state;
-  message.reason = job.reason;
+  message.reason = reason_of(job, info_.runs());
   message.label = job.label;
   message.attempt = job.attempt;
   message.eta_s = -1;

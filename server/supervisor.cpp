@@ -88,6 +88,10 @@ int Supervisor::free_slots() const {
 void Supervisor::step() {
   try {
     executor_.step();
+    if (std::string trouble = executor_.trouble(); trouble != told_trouble_) {
+      queue_.set_trouble(options_.place, trouble);
+      told_trouble_ = std::move(trouble);
+    }
     settle_ended();
     count_wall_of_all();
     stop_stopping();
@@ -132,12 +136,16 @@ void Supervisor::look_at(const std::string& id, Worker& worker) {
   switch (report.phase) {
     case kWaiting:
     case kWorking:
-      if (worker.waits && report.phase == kWorking) worker.started = worker.counted = Clock::now();
+      if (worker.waits && report.phase == kWorking) {
+        worker.started = worker.counted = Clock::now();
+        if (worker.settings) queue_.accepted({options_.place, *worker.settings});
+      }
       if (!worker.waits && report.phase == kWaiting) count_wall({id});  // it has been put back
       worker.waits = report.phase == kWaiting;
       worker.note = report.words;
       return;
     case kEnded:
+      if (worker.waits && worker.settings) queue_.accepted({options_.place, *worker.settings});
       worker.was_at_work = true;
       worker.job_end = judge(report.end, stop_asked, id, worker.directory);
       break;
@@ -181,7 +189,8 @@ void Supervisor::settle(const std::string& id, const Worker& worker) {
       queue_.set_reason(id, reason);
       break;
     case JobEnd::Outcome::kRefused:
-      queue_.postponed(id, "could not be started: " + reason, refused_pause(id));
+      queue_.refused(id, {options_.place, worker.settings.value_or("")}, "could not be started: " + reason,
+                     options_.refused_pause);
       break;
     case JobEnd::Outcome::kNoRoom: {
       const std::int64_t needed = std::max(2 * options_.least_room, 2 * bytes_in(worker.directory.root));
@@ -193,14 +202,6 @@ void Supervisor::settle(const std::string& id, const Worker& worker) {
     }
   }
   spdlog::info("job {}: {}", id, reason.empty() ? "done" : printable(reason));
-}
-
-/// Longer from attempt to attempt: what is refused is mostly refused again, until somebody mends it.
-std::chrono::milliseconds Supervisor::refused_pause(const std::string& id) const {
-  constexpr int kMostDoublings = 4;
-  const auto job = queue_.job(id);
-  const int attempt = job ? job->attempt : 1;
-  return options_.refused_pause * (1 << std::clamp(attempt - 1, 0, kMostDoublings));
 }
 
 void Supervisor::count_wall(const std::vector<std::string>& ids) {
@@ -337,6 +338,7 @@ void Supervisor::start(const Job& job) {
   worker.started = worker.counted = Clock::now();
   worker.checkpoint_before = checkpoint_before;
   worker.told_before = told_before;
+  worker.settings = settings;
   if (const std::string name = executor_.name(*handle); name.empty()) {
     queue_.set_pid(job.id, *handle);
   } else {

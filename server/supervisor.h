@@ -31,7 +31,7 @@ struct SupervisorOptions {
                                                       std::chrono::minutes(3)};
   std::chrono::milliseconds first_pause{1000};  ///< after a start that failed; doubled each time, up to a minute
   Place place{};                                ///< whose jobs it starts
-  /// Before a job that the executor has refused is handed over again; doubled with each attempt, up to 16 times.
+  /// Before what the executor has refused is handed over again; doubled with each refusal, up to 16 times.
   std::chrono::milliseconds refused_pause{60'000};
 };
 
@@ -68,6 +68,7 @@ class Supervisor {
     bool was_at_work = false;                             ///< rather than waiting for its turn when it ended
     Clock::time_point started{};
     Clock::time_point counted{};           ///< up to when the queue knows its wall time
+    std::optional<std::string> settings;   ///< that were asked for; none: not known, a former daemon has started it
     bool waits = false;                    ///< for its turn, where the executor has it
     std::string note;                      ///< what it waits for
     std::optional<std::string> noted{""};  ///< what the queue has of that; none: not known
@@ -90,7 +91,6 @@ class Supervisor {
   void start_queued();
   void start(const Job& job);
   void save_name(const std::string& id, Worker& worker);
-  std::chrono::milliseconds refused_pause(const std::string& id) const;
   void could_not_start(const std::string& id, const std::string& why);
   void wait(const Job& job, const std::string& why);
   void warn_once(const std::string& warning);
@@ -99,6 +99,7 @@ class Supervisor {
   Executor& executor_;
   SupervisorOptions options_;
   bool shutting_down_ = false;
+  std::string told_trouble_;               ///< the executor's, as the queue knows it
   std::map<std::string, Worker> workers_;  ///< by job id
   std::set<std::string> warnings_;         ///< each logged once, not ten times a second
   std::chrono::milliseconds pause_{0};     ///< after the last start, if that failed

@@ -42,6 +42,12 @@ struct Place {
   bool is_default = true;
 };
 
+/// What a job asks of the executor where it runs.
+struct Asked {
+  Place place{};
+  std::string settings{};  ///< see Terms
+};
+
 /// Why a job is timed out.
 std::string time_limit_over(std::chrono::milliseconds limit);
 

@@ -38,6 +38,12 @@ std::string cores_text(const StudyCost& cost) {
 
 }  // namespace
 
+double two_digits(double value) {
+  if (value == 0 || !std::isfinite(value)) return value;
+  const double step = std::pow(10, std::floor(std::log10(std::abs(value))) - 1);
+  return std::round(value / step) * step;
+}
+
 std::size_t n_files_of(const scene::RunPlan& plan) {
   return kFilesOfEveryRun + (plan.trajectory || plan.movie ? 1 : 0) + (plan.movie ? 1 : 0);
 }
@@ -124,7 +130,7 @@ std::string cost_text(const StudyCost& study, int width) {
     Row row{name,
             std::to_string(cost.n_runs),
             number_text(cost.rod_seconds),
-            number_text(cost.estimate.core_hours),
+            number_text(two_digits(cost.estimate.core_hours)),
             duration_text(cost.longest_run),
             duration_text(cost.estimate.all()),
             bytes_text(cost.memory),

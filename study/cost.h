@@ -40,6 +40,9 @@ struct StudyCost {
   Cost all;  ///< of them together, begun in their order
 };
 
+/// An estimate without the digits that it cannot know: rounded to two.
+double two_digits(double value);
+
 /// Files that a run leaves in its directory, at most.
 std::size_t n_files_of(const scene::RunPlan& plan);
 

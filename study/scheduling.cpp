@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "base/failure.h"
@@ -86,6 +87,7 @@ bool Schedule::wait(const InterruptGuard& guard, const std::function<bool(const 
       }
     }
     if (left.empty()) return all_done() && complete;
+    tell_reasons(progress);
     show_progress(progress);
     guard.sleep_for(std::chrono::milliseconds(500));
     if (guard.interrupted()) return false;
@@ -146,6 +148,17 @@ bool Schedule::all_done() const {
     }
   }
   return done;
+}
+
+void Schedule::tell_reasons(ProgressLine& progress) {
+  std::map<std::string, Json> jobs;  // sweeps may share runs
+  for (const Queued& queued : queued_) {
+    for (Json& job : client::jobs_of(queued.target)) jobs.try_emplace(client::text_of(job, "id"), std::move(job));
+  }
+  std::vector<Json> all;
+  all.reserve(jobs.size());
+  for (auto& [id, job] : jobs) all.push_back(std::move(job));
+  for (const std::string& line : reasons_.news(all)) progress.end_with(line);
 }
 
 void Schedule::show_progress(ProgressLine& progress) {

@@ -15,6 +15,7 @@
 #include "client/console.h"
 #include "client/own_daemon.h"
 #include "client/target.h"
+#include "client/waiting_reasons.h"
 #include "study/selection.h"
 
 namespace shaken::study {
@@ -32,7 +33,8 @@ class Schedule {
 
   /// Queues every sweep.
   void submit();
-  /// Calls `draw` for each figure as soon as its runs have ended, with a line of progress meanwhile. A daemon that goes
+  /// Calls `draw` for each figure as soon as its runs have ended, with a line of progress meanwhile, and one for each
+  /// reason that keeps runs waiting. A daemon that goes
   /// away is started again. False if it was interrupted, a run has not come to its end, or `draw` said so.
   bool wait(const InterruptGuard& guard, const std::function<bool(const PaperFigure&)>& draw);
   /// Jobs that others have queued with a daemon that was started here come to their end before it goes.
@@ -49,6 +51,7 @@ class Schedule {
   /// Names the jobs that have ended otherwise than done; false if there are any.
   bool all_done() const;
   void show_progress(ProgressLine& progress);
+  void tell_reasons(ProgressLine& progress);
 
   const Selection& selection_;
   std::filesystem::path root_;
@@ -56,6 +59,7 @@ class Schedule {
   std::optional<client::OwnDaemon> daemon_;
   std::optional<client::ApiClient> session_;
   std::vector<Queued> queued_;
+  client::WaitingReasons reasons_;
   int n_restarts_ = 0;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   std::optional<double> first_done_;  ///< work that was done when it was first looked at

@@ -12,7 +12,9 @@
 #include "base/files.h"
 #include "base/interrupt.h"
 #include "base/process.h"
+#include "base/slurm_conf.h"
 #include "base/table.h"
+#include "base/text.h"
 #include "client/verbs/verbs.h"
 #include "study/claims.h"
 #include "study/computing_plan.h"
@@ -160,7 +162,7 @@ class Figures : public client::Verb {
     std::string command = "shaken --root ROOT figures";
     for (const std::string& id : ids_) command += " " + id;
     command += " --scale " + scale_;
-    if (!configs_.empty()) command += fmt::format(" --configs {}", configs_);
+    if (!configs_.empty()) command += fmt::format(" --configs {}", fs::absolute(configs_).lexically_normal().string());
     return command + " --draw-only";
   }
 
@@ -170,8 +172,10 @@ class Figures : public client::Verb {
     if (run_captured({"gnuplot", "--version"}).exit_code != 0) {
       problems += "gnuplot is not here: `apt install gnuplot-nox`\n";
     }
-    if (in_slurm() && !draw_only_ && run_captured({"sbatch", "--version"}).exit_code != 0) {
-      problems += "sbatch is not here: `shaken doctor --executor slurm` says what Slurm needs\n";
+    if (in_slurm() && !draw_only_ && run_captured({"timeout", "5", "sbatch", "--version"}).exit_code != 0) {
+      problems +=
+          fmt::format("sbatch is not here, or finds no cluster ({}): `shaken doctor --executor slurm` says more\n",
+                      printable(slurm_conf_text()));
     }
     std::error_code error;
     fs::create_directories(out_, error);

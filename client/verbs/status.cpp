@@ -2,11 +2,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <limits>
+
 #include "base/clock.h"
+#include "base/files.h"
 #include "base/table.h"
 #include "base/text.h"
 #include "client/target.h"
 #include "client/verbs/verbs.h"
+#include "run/files/directory.h"
 
 namespace shaken::client {
 namespace {
@@ -59,6 +63,15 @@ std::string time_text(const Json& job) {
   }
   const std::string eta = eta_text(job_eta(job));
   return eta.empty() ? "" : "ETA " + eta;
+}
+
+/// Mean S of a run that is done, from its summary; NaN where it has none.
+double mean_order(const Json& job) {
+  const auto text = read_file(run::RunDirectory{text_of(job, "directory")}.summary());
+  const Json summary = text ? Json::parse(*text, nullptr, false) : Json();
+  const Json::json_pointer mean("/order/mean");
+  const bool is_there = summary.is_object() && summary.contains(mean) && summary.at(mean).is_number();
+  return is_there ? summary.at(mean).get<double>() : std::numeric_limits<double>::quiet_NaN();
 }
 
 class Status : public Verb {
@@ -146,7 +159,8 @@ class Status : public Verb {
       const std::string reason = text_of(job, "reason");
       table.add_row({short_id(job.at("id").get<std::string>()), console.painted(colour_of(state), state),
                      fmt::format("{:.0f} %", 100 * job_fraction(job)),
-                     number_text(progress_number(job, "order_running_mean")), time_text(job),
+                     number_text(state == "done" ? mean_order(job) : progress_number(job, "order_running_mean")),
+                     time_text(job),
                      text_of(job, "label") + (reason.empty() ? "" : "  " + console.painted(Colour::kDim, reason))});
     }
     console.out << table.text(console.width);

@@ -12,6 +12,7 @@
 
 #include "base/failure.h"
 #include "base/files.h"
+#include "base/slurm_conf.h"
 #include "base/text.h"
 
 namespace shaken::server::slurm {
@@ -30,6 +31,10 @@ constexpr std::size_t kMostTasks = 500;
 constexpr std::size_t kMostCancelled = 500;
 constexpr seconds kSubmitLimit{300};
 constexpr seconds kLimit{60};
+/// How long Slurm takes at most to refuse something.
+constexpr seconds kAtOnce{2};
+/// After something has changed that the next list is to show.
+constexpr milliseconds kSoon{500};
 constexpr std::string_view kNamePrefix = "shaken-";
 /// Ahead of the end of a task's time its runs are told to write a checkpoint.
 constexpr double kAhead = 60;
@@ -156,7 +161,8 @@ WorkerReport SlurmExecutor::state_of(const Sent& batch, const Run& run, int task
     case Stage::kClosed:
       return {.phase = Phase::kWaiting, .words = "is about to be handed over to Slurm"};
     case Stage::kUnsure:
-      return {.phase = Phase::kWaiting, .words = "is being handed over to Slurm: " + batch.error};
+      return {.phase = Phase::kWaiting,
+              .words = "is being handed over to Slurm" + (batch.error.empty() ? "" : ": " + batch.error)};
     case Stage::kRefused:
       return {.phase = batch.adopted || run.stop_asked ? Phase::kTaken : Phase::kRefused, .words = batch.error};
     case Stage::kOut:
@@ -185,11 +191,15 @@ WorkerReport SlurmExecutor::poll(int worker) {
   Sent& batch = batches_.at(handle.batch);
   Run& run = batch.runs[static_cast<std::size_t>(handle.run)];
   WorkerReport report = state_of(batch, run, task_of(batch, handle.run));
-  if (report.phase == Phase::kWaiting && batch.stage == Stage::kOut && run.stop_asked && !trouble_.empty()) {
-    report.words = fmt::format("stops once Slurm answers, which has it as job {}_{}: {}", batch.job,
-                               task_of(batch, handle.run), trouble_);
+  if (report.phase == Phase::kWaiting || report.phase == Phase::kWorking) {
+    if (report.phase == Phase::kWaiting && batch.stage == Stage::kOut && run.stop_asked && !trouble_.empty()) {
+      report.words = fmt::format("stops once Slurm answers, which has it as job {}_{}: {}", batch.job,
+                                 task_of(batch, handle.run), trouble_);
+    } else if ((batch.stage == Stage::kOut || batch.stage == Stage::kUnsure) && !silence_.empty()) {
+      report.words += (report.words.empty() ? "" : "; ") + silence_;
+    }
+    return report;
   }
-  if (report.phase == Phase::kWaiting || report.phase == Phase::kWorking) return report;
   run.told = true;
   handles_.erase(worker);
   return report;
@@ -333,6 +343,7 @@ std::vector<std::string> SlurmExecutor::sbatch_command(const std::string& token,
 void SlurmExecutor::ask(Asked what, const std::vector<std::string>& words, const std::filesystem::path& folder,
                         milliseconds limit) {
   asked_ = what;
+  asked_at_ = Clock::now();
   auto command = Command::start(words, folder, limit);
   if (command) {
     command_.emplace(std::move(*command));
@@ -395,8 +406,8 @@ void SlurmExecutor::list_tasks() {
   ask(Asked::kList, squeue_command(), options_.folder, kLimit);
 }
 
-void SlurmExecutor::failed(const std::string& why) {
-  pause_ = std::clamp(2 * pause_, options_.poll, std::max(options_.poll, options_.longest_pause));
+void SlurmExecutor::failed(const std::string& why, milliseconds first_pause) {
+  pause_ = std::clamp(2 * pause_, first_pause, std::max(first_pause, options_.longest_pause));
   ask_after_ = Clock::now() + pause_;
   list_after_ = ask_after_;
   if (trouble_ != why) spdlog::warn("Slurm: {}", why);
@@ -409,14 +420,16 @@ void SlurmExecutor::take_answer(const Captured& answer) {
     case Asked::kCancel:
       // that a task has ended meanwhile is an error to scancel; the next list tells what came of it
       if (!fine) spdlog::debug("scancel: {}", in_one_line(answer));
-      if (first_cancel_) list_after_ = std::min(list_after_, Clock::now() + milliseconds(500));
+      if (first_cancel_) list_after_ = std::min(list_after_, Clock::now() + kSoon);
       break;
     case Asked::kSubmit: {
       Sent& batch = batches_.at(submitted_);
       const std::string job = fine ? parse_sbatch(answer.output) : std::string();
       if (job.empty()) {
         batch.error = in_one_line(answer);
-        failed("sbatch: " + batch.error);
+        // A refusal comes at once, and the next list makes sure of it. What takes longer may be in Slurm's hands still.
+        const bool at_once = Clock::now() < asked_at_ + kAtOnce;
+        failed("sbatch: " + batch.error, at_once ? std::min(kSoon, options_.poll) : options_.poll);
         break;
       }
       batch.job = job;
@@ -430,11 +443,13 @@ void SlurmExecutor::take_answer(const Captured& answer) {
     }
     case Asked::kList:
       if (!fine) {
-        failed("squeue: " + in_one_line(answer));
+        failed("squeue: " + in_one_line(answer) + printable(" (" + slurm_conf_text() + ")"), options_.poll);
+        silence_ = "Slurm does not answer: " + trouble_;
         break;
       }
       if (!trouble_.empty()) spdlog::info("Slurm answers");
       trouble_.clear();
+      silence_.clear();
       pause_ = milliseconds(0);
       read_reports();  // of what the list calls over
       take_list(parse_squeue(answer.output));

@@ -40,6 +40,7 @@ class SlurmExecutor final : public Executor {
   explicit SlurmExecutor(SlurmOptions options);
 
   int room() const override;
+  std::string trouble() const override { return silence_; }
   Result<int> start(const Launch& launch) override;
   WorkerReport poll(int worker) override;
   void stop(int worker) override;
@@ -105,7 +106,7 @@ class SlurmExecutor final : public Executor {
   void ask(Asked what, const std::vector<std::string>& words, const std::filesystem::path& folder,
            std::chrono::milliseconds limit);
   void take_answer(const Captured& answer);
-  void failed(const std::string& why);
+  void failed(const std::string& why, std::chrono::milliseconds first_pause);
   bool cancel_tasks();
   bool submit_next();
   void list_tasks();
@@ -131,9 +132,11 @@ class SlurmExecutor final : public Executor {
 
   std::optional<Command> command_;
   Asked asked_ = Asked::kList;
+  Clock::time_point asked_at_{};
   std::string submitted_;      ///< token of the batch that is being handed over
   bool first_cancel_ = false;  ///< the last scancel named a task for the first time
   std::string trouble_;        ///< with Slurm; empty while it answers
+  std::string silence_;        ///< the same in a sentence, where it does not answer at all
   std::chrono::milliseconds pause_{0};
   Clock::time_point ask_after_{};
   Clock::time_point list_after_{};

@@ -279,6 +279,11 @@ class InSlurm(unittest.TestCase):
             eventually(lambda: all(job["state"] == "done" for sweep in ("s2", "s3") for job in daemon.jobs(sweep)),
                        "others are done, there and here")
             self.assertTrue(all(job["state"] == "queued" for job in daemon.jobs("s1")))
+            pause_ends = min(job["not_before_utime"] for job in daemon.jobs("s1"))
+            daemon.submit(sweep_of(short, {"grid": {"time.seed": [1, 2]}}, executor="slurm", slurm={"partition": "main"}),
+                          "refused.json")
+            eventually(lambda: all(job["state"] == "done" for job in daemon.jobs("s1")), "a mended partition is taken")
+            self.assertTrue(all(job["started_utime"] < pause_ends for job in daemon.jobs("s1")), "without a pause")
             log = {sweep: (daemon.root / "runs" / daemon.jobs(sweep)[0]["id"] / "worker.log").read_text()
                    for sweep in ("s2", "s3")}
             self.assertTrue(all("attempt 1" in text for text in log.values()), log)
@@ -308,7 +313,12 @@ class InSlurm(unittest.TestCase):
         without = dict(CLUSTER.environment, SLURM_CONF="/nowhere/slurm.conf")
         finished = subprocess.run(ask, env=without, capture_output=True, text=True)
         self.assertEqual(finished.returncode, 1)
-        self.assertIn("fail", [check["level"] for check in json.loads(finished.stdout)["checks"]])
+        said = {check["check"]: check for check in json.loads(finished.stdout)["checks"]}
+        self.assertEqual(said["slurm"]["message"], "SLURM_CONF names /nowhere/slurm.conf, and there is no such file")
+        ask[2] = self.base / "not there yet"
+        finished = subprocess.run(ask, env=CLUSTER.environment, capture_output=True, text=True)
+        said = {check["check"]: check for check in json.loads(finished.stdout)["checks"]}
+        self.assertIn("does not exist yet", said["shared root"]["message"])
 
     def test_figures_are_drawn_from_runs_in_slurm(self):
         def ended():

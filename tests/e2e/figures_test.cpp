@@ -147,6 +147,27 @@ TEST(Figures, SaysWhatIsQueuedBeforeIt) {
   EXPECT_THAT(again.output, HasSubstr("jobs were queued here before"));
 }
 
+// Without it, it would wait for hours and not say for what.
+TEST(Figures, SaysWhatKeepsItsRunsWaiting) {
+  const ScratchFolder root, out;
+  for (const char* name : {"sbatch", "squeue", "scancel"}) {
+    std::ofstream(out / name) << "#!/bin/sh\n[ \"$1\" != --version ] || exit 0\n[ ${0##*/} != sbatch ] || "
+                                 "{ echo 'sbatch: error: invalid partition specified: shrot' >&2; exit 1; }\n";
+    fs::permissions(out / name, fs::perms::owner_all);
+  }
+  std::vector<std::string> words =
+      command(root, {"8", "-o", (out / "figures").string(), "--executor", "slurm", "--partition", "shrot"});
+  words.insert(words.begin(), {"/usr/bin/env", "PATH=" + out.path().string() + ":/usr/bin:/bin"});
+  Process figures(words, out / "out.txt");
+  EXPECT_TRUE(
+      figures.wait_for("2 jobs queued: could not be started: sbatch: error: invalid partition specified: shrot. "
+                       "Next attempt at ",
+                       std::chrono::seconds(60)))
+      << figures.output();
+  figures.signal(SIGINT);
+  EXPECT_EQ(figures.wait(std::chrono::seconds(60)), 130) << figures.output();
+}
+
 TEST(Figures, WrongWordsAreAllTold) {
   const ScratchFolder root;
   const Finished refused = run_command({kShaken, "figures", "17", "layers?", "--scale", "huge"});

@@ -182,6 +182,7 @@ TEST(ResolvedField, MeasuredScalarsByTheirName) {
   const std::vector<ResultRow> rows{row_with_verdict(1, true)};
   EXPECT_EQ(resolved_field(rows, "order.mean"), "order.mean");
   EXPECT_EQ(resolved_field(rows, "theta_m_deg"), "measured.theta_m_deg.value");
+  EXPECT_EQ(resolved_field(rows, "S"), "order.mean") << "as tables and figures have it";
   EXPECT_THROW((void)resolved_field(rows, "theta"), Failure);
   EXPECT_EQ(resolved_field(rows, "order.sem"), "order.sem");
   EXPECT_EQ(resolved_field(aggregated(rows), "order.sem"), "order.mean:sem") << "the error that a mean has";

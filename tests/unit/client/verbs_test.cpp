@@ -20,6 +20,7 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::StartsWith;
 
 /// Verbs against a daemon whose answers are laid down (docs/protocol.md).
 class Verbs : public ::testing::Test {
@@ -106,6 +107,20 @@ TEST_F(Verbs, StatusOfASweepAndItsFailures) {
   EXPECT_THAT(failed.out, HasSubstr("2 rods overlap by 0.3 mm"));
   EXPECT_THAT(failed.out, HasSubstr("/data/runs/2a0c000000000000/worker.log"));
   EXPECT_THAT(failed.out, Not(HasSubstr("1f0c")));
+}
+
+TEST_F(Verbs, StatusShowsTheMeanOrderOfWhatIsDone) {
+  Json done = job("1f0c000000000000", "done"), damaged = job("2a0c000000000000", "done");
+  for (Json* each : {&done, &damaged}) {
+    const std::filesystem::path folder = root_ / each->at("id").get<std::string>();
+    std::filesystem::create_directory(folder);
+    (*each)["directory"] = folder.string();
+    std::ofstream(folder / "summary.json") << (each == &done ? R"({"order": {"mean": 0.625}})" : R"({"order": 3})");
+  }
+  daemon_.on("GET /v1/sweeps/s1", text(sweep({done, damaged, job("3b0c000000000000", "done")})));
+  const Outcome outcome = run({"status", "s1"});
+  EXPECT_THAT(outcome.out, HasSubstr("1f0c0000  done   100 %  0.625 "));
+  EXPECT_THAT(outcome.out, HasSubstr("2a0c0000  done   100 %      - "));
 }
 
 TEST_F(Verbs, AnswersOfAnotherShapeAreNamedAsSuch) {
@@ -274,6 +289,14 @@ TEST_F(Verbs, WaitFailsWithTheReasonIfAJobFailed) {
   const Outcome outcome = run({"wait", "s1"});
   EXPECT_EQ(outcome.code, ExitCode::kFailed);
   EXPECT_THAT(outcome.err, HasSubstr("2a0c0000 failed: 2 rods overlap"));
+}
+
+TEST_F(Verbs, WaitSaysWhatKeepsJobsWaiting) {
+  Json queued = job("1f0c000000000000", "queued");
+  queued["reason"] = "could not be started: sbatch: error: invalid partition";
+  daemon_.on("GET /v1/sweeps/s1", text(sweep({queued})));
+  const Outcome outcome = run({"wait", "s1", "--timeout", "5"});
+  EXPECT_THAT(outcome.err, StartsWith("1 job queued: could not be started: sbatch: error: invalid partition\n"));
 }
 
 TEST_F(Verbs, WaitGivesUpAfterTheTimeout) {

@@ -523,6 +523,58 @@ TEST_F(ApiTest, ARunningJobShowsItsProgress) {
   EXPECT_TRUE(get("/v1/jobs/" + ids[0]).json["job"]["progress"].is_null());
 }
 
+/// `file` is as old as if it was written before or after now.
+void set_age(const std::filesystem::path& file, std::chrono::seconds age) {
+  std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now() - age);
+}
+
+// Until the daemon looks at its worker, or Slurm's task has told, a run that is done is `running` still.
+TEST_F(ApiTest, ProgressNeverFallsWhileTheEndOfARunIsNotSeenYet) {
+  const auto ids = submit_four();
+  queue_.begin(ids[0]);
+  const auto folder = directory_ / "runs" / ids[0];
+  std::filesystem::create_directories(folder);
+  write_text(folder / "scene.json", "{}");
+  write_text(folder / "progress.json",
+             R"({"state": "done", "message": "", "pid": 7, "n_rods": 4, "sim_time_s": 2,
+                 "sim_time_total_s": 2, "sim_rate": 0.1, "eta_s": 0, "order": 0.25, "order_running_mean": 0.2,
+                 "max_overlap_mm": 0})");
+  set_age(folder / "scene.json", std::chrono::seconds(100));
+  set_age(folder / "progress.json", std::chrono::seconds(50));
+  EXPECT_EQ(get("/v1/jobs/" + ids[0]).json["job"]["progress"]["sim_time_s"], 2);
+  EXPECT_EQ(get("/v1/sweeps/s1").json["sweep"]["progress"], 0.25);
+  // the daemon has started it anew since, for it was extended
+  set_age(folder / "scene.json", std::chrono::seconds(20));
+  EXPECT_TRUE(get("/v1/jobs/" + ids[0]).json["job"]["progress"].is_null());
+  EXPECT_EQ(get("/v1/sweeps/s1").json["sweep"]["progress"], 0.0);
+}
+
+TEST_F(ApiTest, WhatARunHasDoneCountsWhileItIsHandedOn) {
+  const auto ids = submit_four();
+  queue_.begin(ids[0]);
+  write_progress(directory_ / "runs" / ids[0] / "progress.json");
+  EXPECT_EQ(get("/v1/sweeps/s1").json["sweep"]["progress"], 0.125);
+  queue_.stopped(ids[0], "its task is over");
+  EXPECT_EQ(get("/v1/sweeps/s1").json["sweep"]["progress"], 0.125);
+  EXPECT_EQ(get("/v1/sweeps").json["sweeps"][0]["progress"], 0.125);
+}
+
+TEST_F(ApiTest, ARunThatTellsOfItsWorkDoesNotWaitForItsTurn) {
+  const auto ids = submit_four();
+  queue_.begin(ids[0]);
+  queue_.set_notes(std::vector{std::pair{ids[0], std::string("waits as Slurm job 7_0 (Priority)")}});
+  const auto reason = [&] { return get("/v1/jobs/" + ids[0]).json["job"]["reason"]; };
+  const auto folder = directory_ / "runs" / ids[0];
+  write_progress(folder / "progress.json");
+  write_text(folder / "scene.json", "{}");
+  set_age(folder / "progress.json", std::chrono::seconds(100));
+  EXPECT_EQ(reason(), "waits as Slurm job 7_0 (Priority)") << "that was the attempt before";
+  set_age(folder / "scene.json", std::chrono::seconds(200));
+  EXPECT_EQ(reason(), "waits as Slurm job 7_0 (Priority)") << "its node has failed, it waits for another";
+  set_age(folder / "progress.json", std::chrono::seconds(1));
+  EXPECT_EQ(reason(), "");
+}
+
 // As in a cluster, where runs that are handed over wait for nodes.
 TEST_F(ApiTest, RunsThatWaitElsewhereCountAsWaitingForThoseAtWork) {
   const auto ids = submit_four();

@@ -69,9 +69,12 @@ class ToldExecutor final : public Executor {
   WorkerReport poll(int) override { return report; }
   void stop(int) override {}
   void kill(int) override {}
+  int room() const override { return own_trouble.empty() ? 100 : 0; }
+  std::string trouble() const override { return own_trouble; }
   std::string name(int worker) const override { return "worker " + std::to_string(worker); }
 
   WorkerReport report;
+  std::string own_trouble;
 
  private:
   int last_ = 0;
@@ -84,16 +87,98 @@ TEST_F(SupervisorTest, WhatIsRefusedIsTriedAgainMoreAndMoreRarely) {
   patient.refused_pause = std::chrono::milliseconds(20);
   Supervisor supervisor(queue_, executor, patient);
   submit('a', "done");
-  for (const int doublings : {0, 1, 2, 3, 4, 4}) {
-    const int before = job('a').attempt;
-    ASSERT_TRUE(eventually([&] {
+  Job now;
+  const auto refused_again = [&] {
+    const int before = now.attempt;
+    return eventually([&] {
       supervisor.step();
-      return job('a').attempt > before && job('a').state == kQueued;
-    }));
-    const auto pause = job('a').not_before - queue_.history(id('a')).back().utime;
+      now = job('a');
+      return now.attempt > before && now.not_before > 0;
+    });
+  };
+  for (const int doublings : {0, 1, 2, 3, 4, 4}) {
+    ASSERT_TRUE(refused_again());
+    EXPECT_EQ(now.state, kQueued);
+    EXPECT_THAT(now.reason, StartsWith("could not be started: no such partition. Next attempt at "));
+    const auto pause = now.not_before - queue_.history(id('a')).back().utime;
     EXPECT_GE(pause, 20'000 << doublings);
     EXPECT_LT(pause, 40'000 << doublings);
   }
+  // once it is taken, the next refusal is the first
+  executor.report = {};
+  ASSERT_TRUE(eventually([&] {
+    supervisor.step();
+    return job('a').state == kRunning && job('a').reason.empty();
+  }));
+  supervisor.step();
+  executor.report = {.phase = WorkerReport::Phase::kRefused, .words = "no such partition"};
+  now.attempt = 0;
+  ASSERT_TRUE(refused_again());
+  EXPECT_LT(now.not_before - queue_.history(id('a')).back().utime, 40'000);
+}
+
+// Whoever has mended the options need not wait for what those before have cost.
+TEST_F(SupervisorTest, ARefusalHoldsForAllThatAsksForTheSameAndForNothingElse) {
+  ToldExecutor executor;
+  executor.report = {.phase = WorkerReport::Phase::kRefused, .words = "no such partition"};
+  Supervisor supervisor(queue_, executor, options());
+  const auto submit = [&](const std::string& name, std::vector<NewJob> jobs, const std::string& settings) {
+    queue_.submit(name, 0, jobs, {.settings = settings});
+  };
+  const auto step = [&] {
+    for (int i = 0; i < 5; ++i) supervisor.step();
+  };
+  submit("first", {new_job('a'), new_job('b'), new_job('c')}, "wrong");
+  step();
+  for (const char digit : {'a', 'b'}) EXPECT_EQ(job(digit).attempt, 1) << digit;
+  EXPECT_EQ(job('c').attempt, 0) << "it would be refused like those before";
+  EXPECT_EQ(job('c').state, kQueued);
+  EXPECT_THAT(job('c').reason, StartsWith("could not be started: no such partition. Next attempt at "));
+  EXPECT_THAT(job('c').reason, EndsWith(", or at once after `shaken retry s1`"));
+  EXPECT_GT(job('c').not_before, 0);
+
+  submit("second", {new_job('d')}, "wrong");
+  step();
+  EXPECT_EQ(job('d').attempt, 0);
+  executor.report = {};
+  submit("third", {new_job('e')}, "right");
+  step();
+  EXPECT_EQ(job('e').state, kRunning);
+  submit("first", {new_job('a'), new_job('b'), new_job('c')}, "right");
+  step();
+  EXPECT_EQ(job('a').state, kRunning) << "the same jobs, asked for anew with other options";
+  EXPECT_EQ(job('d').state, kQueued);
+  EXPECT_EQ(queue_.release(id('e'), true), 0) << "nothing keeps it";
+}
+
+TEST_F(SupervisorTest, WhatWaitsForAnExecutorInTroubleSaysSo) {
+  ToldExecutor executor;
+  executor.own_trouble = "Slurm does not answer";
+  Supervisor supervisor(queue_, executor, options());
+  submit('a', "done");
+  queue_.submit("elsewhere", 0, std::vector{new_job('b')}, {.executor = std::string(kSlurm)});
+  supervisor.step();
+  EXPECT_EQ(job('a').reason, "Slurm does not answer");
+  EXPECT_EQ(job('b').reason, "") << "that goes to another";
+  executor.own_trouble.clear();
+  supervisor.step();
+  EXPECT_EQ(job('a').reason, "");
+  EXPECT_EQ(job('a').state, kRunning);
+}
+
+TEST_F(SupervisorTest, ARetryEndsThePauseAfterARefusal) {
+  ToldExecutor executor;
+  executor.report = {.phase = WorkerReport::Phase::kRefused, .words = "no such partition"};
+  Supervisor supervisor(queue_, executor, options());
+  submit('a', "done");
+  for (int i = 0; i < 5; ++i) supervisor.step();
+  EXPECT_EQ(job('a').attempt, 1);
+  executor.report = {};
+  EXPECT_EQ(queue_.release(id('a'), false), 0) << "only a retry does";
+  EXPECT_EQ(queue_.release(id('a'), true), 1);
+  EXPECT_EQ(job('a').reason, "");
+  supervisor.step();
+  EXPECT_EQ(job('a').state, kRunning);
 }
 
 TEST_F(SupervisorTest, AJobIsDoneByAWorkerInItsDirectory) {

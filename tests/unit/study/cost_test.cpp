@@ -104,20 +104,54 @@ TEST(Files, AreThoseThatDocumentsName) {
   EXPECT_EQ(n_files_of(plan), least + 2) << "a movie is drawn from frames";
 }
 
+TEST(TwoDigits, LeaveWhatAnEstimateKnows) {
+  EXPECT_DOUBLE_EQ(two_digits(15.94), 16);
+  EXPECT_DOUBLE_EQ(two_digits(-0.01234), -0.012);
+  EXPECT_DOUBLE_EQ(two_digits(7.105e6), 7.1e6);
+  EXPECT_EQ(two_digits(0), 0);
+}
+
+TEST_F(InSlurm, APlanOfOneFigureAndOneRunSpeaksOfOne) {
+  const NamedSweep one = sweep_of("one", 1, "slurm", {{"time", "4 h"}, {"memory", "4G"}});
+  const Selection selection{.figures = {&paper_figures()[6]}, .sweeps = {one}};
+  const std::string plan = computing_plan(selection, study_cost({&one}, {runs_of({0.123456})}, 64), "draw", "sweeps");
+  for (const char* words : {"give figure 8 of", "about 1 task in job arrays", "with one run in each", "in 1 folder;",
+                            "| core-hours | 0.12 |", "longest run | 7.4 min |", "with 1 core at once", "task | 15min: ",
+                            "of a task | 256M: ", "ask Slurm for the time and the memory of the table by themselves"}) {
+    EXPECT_THAT(plan, HasSubstr(words));
+  }
+}
+
 TEST_F(InSlurm, APlanSaysWhatACentreAsksAndHasItsSweepsBesideIt) {
   const ScratchFolder folder;
-  Selection selection{.figures = {}, .sweeps = {long_, short_}};
+  Selection selection{.figures = {&paper_figures()[0], &paper_figures()[6]}, .sweeps = {long_, short_}};
   selection.sweeps.push_back(sweep_of("other", 1, "slurm", Json::object()));
   selection.sweeps.back().needed = false;
   const std::filesystem::path file = folder.path() / "for us.md";
   write_computing_plan(selection, of(64), "shaken figures --draw-only", file);
   const std::string plan = *read_file(file);
-  for (const char* words :
-       {"| jobs | about 5 tasks", "at most 2 runs one after the other", "| core-hours | 11 |",
-        "| wall time of the longest run | 5 h 00 min |", "with 64 cores at once", "| memory of a task | 5 GB at most |",
-        "| storage | 7 GB when all is done; 9.5 GB", "| files | 56 at most, in 7 folders",
-        "checkpoint about every 30 s", "`sbatch`, `squeue` and `scancel`", "submit for us-sweeps/long.json",
-        "| time limit asked for | differs", "shaken figures --draw-only", "longer than they may (long)"}) {
+  for (const char* words : {"| jobs | about 5 tasks",
+                            "up to 2 runs one after the other",
+                            "| core-hours | 11 |",
+                            "| cores | 1 for each task; 5 at once, as many as there are tasks for |",
+                            "| wall time of the longest run | 5 h |",
+                            "with 5 cores at once",
+                            "| memory of a task | 5 GB at most |",
+                            "| time to ask for, of a task | 8h: ",
+                            "| memory to ask for, of a task | 7168M: ",
+                            "10 small files and 0.17 checkpoints a second",
+                            "give figures 2 and 8 of",
+                            "nohup shakend --root ROOT",
+                            "systemd-run --user",
+                            "Made again with `--time 8h --memory 7168M`",
+                            "| storage | 7 GB when all is done; 9.5 GB",
+                            "| files | 56 at most, in 7 folders",
+                            "checkpoint about every 30 s",
+                            "`sbatch`, `squeue` and `scancel`",
+                            "submit 'for us-sweeps/long.json'",
+                            "| time limit asked for | differs",
+                            "shaken figures --draw-only",
+                            "longer than they may (long)"}) {
     EXPECT_THAT(plan, HasSubstr(words));
   }
   const scene::Sweep sweep = client::load_points(

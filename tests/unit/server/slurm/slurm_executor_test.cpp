@@ -15,6 +15,7 @@ namespace {
 
 using std::chrono::milliseconds;
 using testing::HasSubstr;
+using testing::StartsWith;
 using Phase = WorkerReport::Phase;
 
 class SlurmExecutorTest : public testing::Test {
@@ -165,6 +166,16 @@ TEST_F(SlurmExecutorTest, WhatSlurmRefusesIsToldOnceItIsKnownNotToBeThere) {
   EXPECT_TRUE(step_until(executor, [&] { return executor.room() > 0; })) << "others may be handed over";
 }
 
+// Until it is told, its jobs count as handed over.
+TEST_F(SlurmExecutorTest, ARefusalThatComesAtOnceIsToldSoon) {
+  write_text(directory_ / "sbatch.fails", "");
+  SlurmOptions rarely = options();
+  rarely.poll = std::chrono::hours(1);
+  SlurmExecutor executor(rarely);
+  const auto workers = start(executor, 1);
+  EXPECT_TRUE(step_until(executor, [&] { return executor.poll(workers[0]).phase == Phase::kRefused; }));
+}
+
 TEST_F(SlurmExecutorTest, WhatWasHandedOverThoughSbatchDidNotSaySoIsFoundByItsName) {
   write_text(directory_ / "sbatch.fails", "");
   says("sbatch", "sbatch: error: Socket timed out\n");
@@ -191,9 +202,11 @@ TEST_F(SlurmExecutorTest, ASlurmThatDoesNotAnswerIsAskedMoreAndMoreRarelyAndLose
   // 20, 40, 80, 160, 160, ... ms, not one every 20 ms
   EXPECT_LE(calls("squeue").size() - before, 10);
   EXPECT_EQ(executor.room(), 0);
+  EXPECT_THAT(executor.trouble(), HasSubstr("does not answer: squeue: Unable to contact slurm controller (SLURM_CONF"));
   EXPECT_EQ(executor.poll(workers[0]).phase, Phase::kWaiting) << "for its turn: nothing has ended";
   std::filesystem::remove(directory_ / "down");
   EXPECT_TRUE(step_until(executor, [&] { return executor.room() > 0; }));
+  EXPECT_EQ(executor.trouble(), "");
 }
 
 TEST_F(SlurmExecutorTest, AnotherExecutorFindsTheWorkersByTheirNames) {
@@ -336,7 +349,9 @@ TEST_F(SlurmExecutorTest, WhatIsToStopSaysThatSlurmDoesNotAnswer) {
   ASSERT_TRUE(step_until(executor, [&] {
     return executor.poll(workers[0]).words.starts_with("stops once Slurm answers, which has it as job 7_0: squeue");
   }));
-  EXPECT_EQ(executor.poll(workers[1]).words, "waits as Slurm job 7_0 (Priority)") << "nobody has stopped that one";
+  EXPECT_THAT(executor.poll(workers[1]).words,
+              StartsWith("waits as Slurm job 7_0 (Priority); Slurm does not answer: squeue"))
+      << "nobody has stopped that one";
   for (const char* name : {"sbatch", "squeue", "scancel"}) {
     std::filesystem::rename(directory_ / (std::string(name) + ".away"), directory_ / name);
   }
