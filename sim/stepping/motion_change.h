@@ -12,9 +12,10 @@ namespace shaken {
 /// In which direction the hulls of two rods were apart; 0: not known.
 using Direction = std::array<float, 3>;
 
-/// What the hits of one tick have changed of how a rod moves: by how much faster the gap to another rod may close than
-/// a bound allows for that was made before. Model:  a hit changes the velocity by dv and the director's rate of change
-/// by dw, so that no point of the rod comes
+/// By how much faster the gap to another rod may close, for the hits of one tick, than a bound allows that was made
+/// before.
+///
+/// Model:  hits change the velocity by dv and the director's rate of change by dw, so that no point of the rod comes
 ///         nearer along a direction d by more than (dv . d + h |dw . d|) t. What else the director does is the
 ///         curvature of its precession, at most half_rate2 t^2; where that has grown, the difference is added.
 class MotionChange {

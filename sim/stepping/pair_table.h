@@ -49,6 +49,7 @@ class PairTable {
         change.bending() * rest;
     const float closing = pair.line.closing + faster;
     const float gap = pair.line.left + pair.line.closing * rest - std::max(0.0F, faster) * change.earlier();
+    if (gap <= 0.0F) return false;
     if (closing * rest <= gap) {  // due as before
       pair.line.left = std::max(0.0F, gap - closing * rest - GapLine::kRounding);
       pair.line.closing = closing;
