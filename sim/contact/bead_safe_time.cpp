@@ -33,6 +33,13 @@ SHAKEN_INLINE F bead_before(const BeadLanes& j, const F& foot) {
   return lanes::truncated(lanes::smaller(lanes::larger(place, F{}), F{} + j.last));
 }
 
+/// Square of how far points at x are beside an axis on which their feet are, or less: the difference of two squares
+/// loses what they are rounded by.
+template <class F>
+SHAKEN_INLINE F across_squared(const lanes::Vectors<F>& x, const F& foot) {
+  return lanes::not_below_zero(lanes::dot(x, x) * (1.0F - 1e-6F) - foot * foot);
+}
+
 /// How far apart beads of i and the hull of j are at least: the hull is the spheres of radius mid_radius - taper |s|,
 /// and sqrt(across^2 + (foot - s)^2) + taper |s| is never less than cos across + taper |foot|, with taper the sine.
 template <class F>
@@ -107,7 +114,7 @@ struct OverlapKernel {
     const lanes::Vectors<F> x = to_center(in, lanes::load<W>(i.offset.data() + bead));
     const F foot = -(x.x * in.n_j[0] + x.y * in.n_j[1] + x.z * in.n_j[2]);
     const F radius = lanes::load<W>(i.radius.data() + bead) + in.gap_margin;
-    const F across2 = lanes::not_below_zero(lanes::dot(x, x) - foot * foot);
+    const F across2 = across_squared(x, foot);
     if (lanes::least(gap_to_hull(j, radius, foot, across2)) > 0.0F) return {};
     const F before = bead_before(j, foot);
     const Untried<F> untried(j, foot);
@@ -167,7 +174,7 @@ struct SafeTimeKernel {
     const F radius = lanes::load<W>(i.radius.data() + bead) + in.gap_margin;
     const lanes::Vectors<F> x = to_center(in, lanes::load<W>(i.offset.data() + bead));
     const F foot = -(x.x * in.n_j[0] + x.y * in.n_j[1] + x.z * in.n_j[2]);
-    return lanes::least(gap_to_hull(j, radius, foot, lanes::not_below_zero(lanes::dot(x, x) - foot * foot)));
+    return lanes::least(gap_to_hull(j, radius, foot, across_squared(x, foot)));
   }
 
   template <int W>
@@ -179,7 +186,7 @@ struct SafeTimeKernel {
     const F foot = -(x.x * in.n_j[0] + x.y * in.n_j[1] + x.z * in.n_j[2]);
     const F before = bead_before(j, foot);
     const Untried<F> untried(j, foot);
-    const F across2 = lanes::not_below_zero(lanes::dot(x, x) - foot * foot);
+    const F across2 = across_squared(x, foot);
     const F far = lanes::not_below_zero(lanes::sqrt(untried.distance2(j, across2)) - radius - untried.radius);
     F least_gap = far;
     Fraction<F> safe{far, lanes::all<W>(motion.fastest)};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/core/lanes.h"
@@ -33,6 +34,13 @@ struct GapLine {
   static constexpr float kRounding = 1e-6F;  ///< of `left`, whenever it is worked out [mm]
   float closing = 0;                         ///< [mm/s]
   float left = -1;                           ///< [mm]; < 0: not known
+
+  /// Of a gap that is `now` wide, at least `then` after `time`, and concave in between [mm, s]; for a bound that ends
+  /// `until`, no later than that.
+  static GapLine between(float now, float then, float time, float until) {
+    const float closing = (now - then) / (time + 1e-20F);
+    return {closing, std::max(0.0F, now - closing * until - kRounding)};
+  }
 };
 
 inline void set_vector(float* to, const Vec3& from) {

@@ -88,10 +88,8 @@ void PairSearch::bound(std::span<const PairRods> pairs, const std::vector<RodAtT
       left = -1;
     }
     const auto ticks = static_cast<int>(time * per_dt);
-    const float closing = (gap - left) / (time + 1e-20F);
-    if (left >= 0.0F) left = std::max(0.0F, gap - closing * static_cast<float>(ticks) * dt - GapLine::kRounding);
     bounds.ticks[lane] = ticks;
-    bounds.line[lane] = {closing, left};
+    bounds.line[lane] = left < 0.0F ? GapLine{} : GapLine::between(gap, left, time, static_cast<float>(ticks) * dt);
   }
 }
 

@@ -51,7 +51,7 @@ class ScheduledStepper final : public Stepper {
     Tick posed_at = -1;    ///< tick for which rods_ holds the rod
     Tick listed_at = -1;   ///< tick at which it was last to be scheduled
     Tick changed_at = -1;  ///< tick at which it was last hit
-    Tick rests_at = -1;    ///< tick at which a surface hit it last, as it did in the tick before
+    Tick rests_at = -1;    ///< last tick at which a surface hit it when it had been hit in the tick before
     Tick bounded_at = -1;  ///< tick for which motion_bounds_ holds the rod
   };
   /// What one thread has and gathers in a loop.

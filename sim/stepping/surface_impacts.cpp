@@ -124,16 +124,14 @@ NumericalTrouble too_deep(Tick now, int index, int bead, double overlap, const c
 std::optional<NumericalTrouble> meet_plates(int index, RodAtTick& rod, const Flight& flight, const PlateState& plates,
                                             Tick now, const TickRules& rules, Counters& counters) {
   const SpeciesMechanics& species = rules.species_of(index);
-  // one plate or both are out of reach of most rods
-  const double z = rod.pose.position.z();
-  const double extent =
-      std::max(species.mid_radius, species.end_radius + species.half_length * std::abs(rod.pose.director.z()));
-  const bool meets_base = rules.has_base && z - extent < plates.base;
-  const bool meets_lid = rules.has_lid && z + extent > plates.lid;
   int n_hits = 0;
   for (const double side : {1.0, -1.0}) {  // +1: base, pushes up; -1: lid, pushes down
-    if (!(side > 0 ? meets_base : meets_lid)) continue;
+    if (!(side > 0 ? rules.has_base : rules.has_lid)) continue;
     const double plate = side > 0 ? plates.base : plates.lid;
+    // one plate or both are out of reach of most rods
+    const double extent =
+        std::max(species.mid_radius, species.end_radius + species.half_length * std::abs(rod.pose.director.z()));
+    if (side > 0 ? rod.pose.position.z() - extent >= plate : rod.pose.position.z() + extent <= plate) continue;
     const ContactParameters& contact = side > 0 ? rules.rod_base : rules.rod_lid;
     std::bitset<kMostBeads> met;
     while (true) {  // one bead after the other, the deepest first, as the rod is by then

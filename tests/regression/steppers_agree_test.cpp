@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <tuple>
+
 #include "sim/simulation.h"
 #include "tests/support/compare_steppers.h"
 
@@ -124,6 +126,37 @@ INSTANTIATE_TEST_SUITE_P(
         Case{2.5, 0.40, 1.2, 7, 0.3, 0.05, 4, 80, 10000, kRandomStart}, Case{4.5, 0.20, 1.2, 7, 0.3, 0.05, 4, 1, 50000},
         Case{4.5, 0.30, 1.2, 7, 0.3, 0.05, 4, 2, 50000},
         Case{2.5, 0.30, 1.6, 12, 0.5, 0.1, 4, 5, 50000, kRandomStart}));
+
+// A rod that rests on the base is visited at each tick without a bound, and may slide far meanwhile: one strikes
+// another that rests, and that slides into a third, of which the neighbour list knew nothing.
+TEST(SteppersAgree, WhereRodsSlideThatRest) {
+  for (const auto& [length, end_diameter, n_beads] :
+       {std::tuple{0.8, 0.8, 1}, std::tuple{4.5, 0.8, 15}, std::tuple{4.5, 0.4, 15}}) {
+    for (const double speed : {20.0, 50.0}) {
+      System system;
+      system.rod = {.length = length, .mid_diameter = 0.8, .end_diameter = end_diameter, .n_beads = n_beads};
+      system.n_rods = 3;
+      system.box_side = 30;
+      system.amplitude = 0;
+      system.gap = 1.2;
+      system.rod_rod = {.friction = 0, .restitution = 1};
+      system.rod_base = system.rod_lid = {.friction = 0, .restitution = 0.3};
+      World world = empty_world(system);
+      world.rods.resize(3);
+      constexpr double kY[3] = {10, 11.5, 13.3};
+      for (int i = 0; i < 3; ++i) {
+        Flight& rod = world.rods[i];
+        rod.position = {15, kY[i], world.plates.at(0).base + 0.4};
+        rod.velocity = {0, i == 0 ? speed : 0.0, 0};
+        rod.prepare();
+      }
+      EXPECT_EQ(problem(compare(world, 40000, 4000)), "") << length << " mm, " << speed << " mm/s";
+      Simulation simulation = Simulation::start_from(world);
+      ASSERT_FALSE(simulation.advance_to(40000).has_value());
+      EXPECT_GE(simulation.world().counters.impulses_rod_rod, 2) << length << " mm, " << speed << " mm/s";
+    }
+  }
+}
 
 // Four thousand million ticks into a run, ticks no longer fit into 32 bits; on either side of that, and begun anew just
 // before it, where a stepper has seen next to nothing yet.

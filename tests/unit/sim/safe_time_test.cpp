@@ -73,13 +73,12 @@ struct FlyingPair {
   void see(int r) {
     const Flight& f = flight[r];
     bound[r] = motion_bound(f, f.velocity, f.director, 1e9F);
-    bound[r].half_rate2 *= 1 + 1e-6F;
   }
 
   struct HullBound {
     double time;
     Vec3 direction;
-    GapLine line;
+    float gap, left;
   };
   HullBound hull_bound(double horizon) const {
     const Hull hull(species);
@@ -88,11 +87,10 @@ struct FlyingPair {
     lanes.set(kLane, D, bound[0], bound[1]);
     HullSafeTimes safe;
     hull_safe_times(hull, hull, lanes, kLane + 1, static_cast<float>(horizon), safe);
-    const float time = safe.time[kLane];
-    const float left = safe.left[kLane];
-    return {time,
+    return {safe.time[kLane],
             {safe.direction[0][kLane], safe.direction[1][kLane], safe.direction[2][kLane]},
-            {(safe.gap[kLane] - left) / (time + 1e-20F), left}};
+            safe.gap[kLane],
+            safe.left[kLane]};
   }
   BeadSafeTime bead_bound(double horizon) const {
     const BeadLanes lanes(species);
@@ -129,12 +127,15 @@ struct FarPair : FlyingPair {
   double horizon;
 
   explicit FarPair(test::Draw& draw) : FlyingPair(draw), horizon(16e-3 * std::pow(25.0, draw.uniform(0, 1))) {
-    switch (draw.integer(0, 2)) {
+    switch (draw.integer(0, 3)) {
       case 0:
         species = make_species({.length = 2.5, .bead_diameters{0.9, 0.8, 0.6, 0.4, 0.5, 0.7, 0.5, 0.3}});
         break;
       case 1:
         species = make_species({.length = 3.0, .mid_diameter = 0.9, .n_beads = 11, .profile = Profile::kPolar});
+        break;
+      case 2:
+        species = make_species({.length = 4.5, .mid_diameter = 0.2, .end_diameter = 0.1, .n_beads = 101});
         break;
       default:
         break;
@@ -240,52 +241,61 @@ TEST(SafeTime, NoPairCollidesBeforeItsBound) {
   EXPECT_GT(n_bead, test::draws(500000));
 }
 
-/// A pair that waits for its bound in a table of its own, while both rods are hit now and then.
+/// A pair that waits for its bound in a table of its own, while its rods are hit now and then.
 struct WaitingPair {
   static constexpr double kDt = 4e-6;
   FlyingPair pair;
   PairTable table{2};
+  Tick now = 0;
 
   explicit WaitingPair(test::Draw& draw, bool of_beads) : pair(draw) {
     const FlyingPair::HullBound hull = pair.hull_bound(kHorizon);
     const BeadSafeTime beads = pair.bead_bound(kHorizon);
-    const double time = of_beads ? beads.time : hull.time;
+    const float time = of_beads ? beads.time : static_cast<float>(hull.time);
+    const float gap = of_beads ? beads.gap : hull.gap;
+    const float left = of_beads ? 0.0F : hull.left;
+    const auto ticks = static_cast<int>(static_cast<double>(time) / kDt * (1 - 1e-5));
     table.make_room(1);
     table.add(0, {0, 1}, 0);
-    table.direction(0) = {static_cast<float>(hull.direction.x()), static_cast<float>(hull.direction.y()),
-                          static_cast<float>(hull.direction.z())};
-    if (of_beads) {
-      table.set_line(0, {beads.gap / (beads.time + 1e-20F), beads.gap > 0 ? 0.0F : -1.0F}, true);
-    } else {
-      table.set_line(0, hull.line, false);
-    }
-    table.wheel().set(0, 1 + static_cast<Tick>(time / kDt * (1 - 1e-5)));
+    for (int c = 0; c < 3; ++c) table.direction(0)[c] = static_cast<float>(hull.direction[c]);
+    const auto until = static_cast<float>(ticks) * static_cast<float>(kDt);
+    table.set_line(0, gap > 0 ? GapLine::between(gap, left, time, until) : GapLine{}, of_beads);
+    table.wheel().set(0, 1 + ticks);
   }
-  /// Hits a rod after `wait` ticks at tick `now`; by a plate at one of its ends, or by whatever. False if the bound
-  /// must be made anew.
-  bool hit(int r, Tick wait, Tick now, test::Draw& draw) {
-    Flight& f = pair.flight[r];
-    const double seconds = static_cast<double>(wait) * kDt;
+  Tick due() const { return const_cast<PairTable&>(table).wheel().due(0, now); }
+
+  /// Both rods fly on.
+  void fly(Tick ticks) {
+    now += ticks;
+    for (Flight& f : pair.flight) fly(f, static_cast<double>(ticks) * kDt);
+  }
+  void fly(Flight& f, double seconds) const {
     const Pose pose = pose_after(f, seconds, kG);
-    Motion motion = motion_after(f, seconds, kG, pose.director, pair.ratio);
-    const Vec3 velocity = motion.velocity;
-    const Vec3 precession = f.precession;
-    const double rate = f.rate;
-    const double strength = std::pow(10.0, draw.uniform(-2, 1));
+    begin_flight(f, 0, pose, motion_after(f, seconds, kG, pose.director, pair.ratio), 1e9, pair.ratio);
+  }
+  /// Hits a rod: by a plate at one of its ends, or by whatever, now or a little before. False if the bound must be made
+  /// anew.
+  bool hit(int r, double strength, test::Draw& draw) {
+    Flight& f = pair.flight[r];
+    const Flight before = f;
+    const double ago = draw.integer(0, 2) == 0 ? draw.uniform(0, kDt) : 0.0;
+    fly(f, -ago);
+    Motion motion = motion_after(f, 0, kG, f.director, pair.ratio);
     if (draw.integer(0, 1)) {
       motion.velocity += draw.vector(strength);
       motion.angular_velocity += draw.vector(strength);
     } else {
-      const Vec3 arm = (draw.integer(0, 1) ? 1 : -1) * pair.species.half_length * pose.director;
-      apply_impulse(motion, inverse_inertia(pair.species), pose.director, arm,
+      const Vec3 arm = (draw.integer(0, 1) ? 1 : -1) * pair.species.half_length * f.director;
+      apply_impulse(motion, inverse_inertia(pair.species), f.director, arm,
                     strength * pair.species.mass * Vec3::UnitZ());
     }
-    begin_flight(f, 0, pose, motion, 1e9, pair.ratio);
-    if (table.wheel().due(0, now) == now) return false;
-    return table.tighten(
-        0, r, {f.velocity - velocity, f.precession - precession, f.director, rate, f.rate, pair.species.half_length, 0},
-        now, static_cast<float>(kDt));
+    begin_flight(f, 0, {f.position, f.director}, motion, 1e9, pair.ratio);
+    fly(f, ago);
+    const MotionChange change(f.velocity - before.velocity, f.precession - before.precession, f.director, before.rate,
+                              f.rate, pair.species.half_length, ago > 0 ? kDt : 0.0);
+    return table.tighten(0, r, change, now, static_cast<float>(kDt));
   }
+  bool collides_in(Tick ticks) const { return pair.collides_at(static_cast<double>(ticks) * kDt); }
 };
 
 TEST(SafeTime, TightenedBoundsHoldForRodsThatAreHit) {
@@ -295,33 +305,27 @@ TEST(SafeTime, TightenedBoundsHoldForRodsThatAreHit) {
   for (int trial = 0; trial < test::draws(200000); ++trial) {
     width.draw(draw);
     WaitingPair waiting(draw, draw.integer(0, 1));
-    Tick now = 0;
-    bool known = true;
-    for (int k = 0; k < 4 && known; ++k) {
-      const Tick due = waiting.table.wheel().due(0, now);
-      if (due - now < 3) break;
-      // both rods fly on to the next hit: one by itself, the other as if by a hit of no strength
-      const Tick wait = draw.integer(1, static_cast<int>((due - now - 1) / 2));
+    // now and then, or in every tick by very little
+    const bool rests = draw.integer(0, 3) == 0;
+    const int n_hits = rests ? 40 : 4;
+    for (int k = 0; k < n_hits; ++k) {
+      const Tick due = waiting.due();
+      if (due - waiting.now < 3) break;
+      waiting.fly(rests ? 1 : draw.integer(1, static_cast<int>((due - waiting.now - 1) / 2)));
+      const double strength = rests ? std::pow(10.0, draw.uniform(-4, 0)) : std::pow(10.0, draw.uniform(-2, 1));
       const int r = draw.integer(0, 1);
-      Flight& other = waiting.pair.flight[1 - r];
-      const double seconds = static_cast<double>(wait) * WaitingPair::kDt;
-      const Pose pose = pose_after(other, seconds, kG);
-      begin_flight(other, 0, pose, motion_after(other, seconds, kG, pose.director, waiting.pair.ratio), 1e9,
-                   waiting.pair.ratio);
-      now += wait;
-      known = waiting.hit(r, wait, now, draw);
-      if (!known) break;
+      bool holds = waiting.hit(r, strength, draw);
+      if (holds && draw.integer(0, 3) == 0) holds = waiting.hit(1 - r, strength, draw);
+      if (!holds) break;
       ++n_tightened;
-      const Tick tightened = waiting.table.wheel().due(0, now);
+      const Tick tightened = waiting.due();
       ASSERT_LE(tightened, due);
       n_shortened += tightened < due;
       // the last tick that is said to be safe, and one on the way
-      const Tick safe = tightened - 1 - now;
-      for (const Tick ticks : {safe, static_cast<Tick>(draw.integer(0, static_cast<int>(safe)))}) {
-        ASSERT_FALSE(waiting.pair.collides_at(static_cast<double>(ticks) * WaitingPair::kDt))
-            << "trial " << trial << ", hit " << k << ", " << ticks << " of " << safe << " ticks";
-      }
-      n_collided += waiting.pair.collides_at(static_cast<double>(due - now) * WaitingPair::kDt);
+      const Tick safe = tightened - 1 - waiting.now;
+      for (const Tick ticks : {safe, static_cast<Tick>(draw.integer(0, static_cast<int>(safe)))})
+        ASSERT_FALSE(waiting.collides_in(ticks)) << "trial " << trial << ", hit " << k << ", " << ticks << '/' << safe;
+      n_collided += waiting.collides_in(due - waiting.now);
     }
   }
   EXPECT_GT(n_tightened, test::draws(200000));
@@ -387,8 +391,26 @@ TEST(BeadsMayOverlap, NamesEveryBeadThatDoes) {
   for (int trial = 0; trial < test::draws(60000); ++trial) {
     width.draw(draw);
     FlyingPair pair(draw);
-    if (draw.integer(0, 1)) {  // longer rods than a vector has lanes, up to a whole number of them
-      pair.species = make_species({.length = 6.0, .n_beads = draw.integer(0, 1) ? 33 : 31});
+    switch (draw.integer(0, 2)) {
+      case 0:  // longer rods than a vector has lanes, up to a whole number of them
+        pair.species = make_species({.length = 6.0, .n_beads = draw.integer(0, 1) ? 33 : 31});
+        break;
+      case 1: {  // thin for their length, and touching near their ends by very little
+        const double thickness = 40 * std::pow(10.0, draw.uniform(-2.5, -1.7));
+        pair.species =
+            make_species({.length = 40, .mid_diameter = thickness, .end_diameter = 0.5 * thickness, .n_beads = 101});
+        const auto& s = pair.species;
+        const int m = draw.integer(0, 1) ? draw.integer(0, 10) : draw.integer(90, 100);
+        const int n = draw.integer(0, 1) ? draw.integer(0, 10) : draw.integer(90, 100);
+        const double overlap = std::pow(10.0, draw.uniform(-6, -4));
+        const Vec3 along = draw.vector(1).normalized();
+        const Vec3 &n_i = pair.flight[0].director, &n_j = pair.flight[1].director;
+        const Vec3 e = (along - along.dot(n_i) * n_i).normalized();
+        pair.D = s.bead_offset[m] * n_i - s.bead_offset[n] * n_j + (s.bead_radius[m] + s.bead_radius[n] - overlap) * e;
+        break;
+      }
+      default:
+        break;
     }
     const Species& s = pair.species;
     const BeadLanes lanes(s);
