@@ -39,11 +39,11 @@ BeadRange beads_may_overlap(const BeadLanes& i, const Vec3& n_i, const BeadLanes
 
 /// Time for which no bead of i and bead of j begins to touch or, if they overlap, begins to approach; at most
 /// `horizon` [s]. For rods whose hulls overlap while the beads interlock without touching.
+///
 /// Model:  along the line of centres e of two beads, e . r(t) >= r + r' t - (|s_a| q_i + |s_b| q_j) t^2, with q half
-/// the
-///         directors' second derivative, and the distance is at least that (t^2 <= horizon t makes it linear). Each
+///         the directors' second derivative, and the distance is at least that (t^2 <= horizon t makes it linear). Each
 ///         bead of i is tried against the beads of j next to its foot on j's axis; those beyond are covered by their
-///         distance and the fastest approach.
+///         distance and the fastest approach, and so are beads of i that are further from the hull of j than that.
 /// Arguments: D is the vector from centre i to centre j [mm].
 BeadSafeTime bead_safe_time(const BeadLanes& i, const MotionBound& bound_i, const BeadLanes& j,
                             const MotionBound& bound_j, const Vec3& D, float horizon);
