@@ -9,11 +9,10 @@ import pty
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
-from little_cluster import LittleCluster, Unavailable
+from little_cluster import run_tests
 
 PROGRAM = pathlib.Path(__file__).with_name("little_cluster.py")
 CTRL_C = b"\x03"
@@ -68,10 +67,4 @@ class OnATerminal(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    try:
-        with tempfile.TemporaryDirectory(prefix="little-cluster-") as trial, LittleCluster(trial, cores=1):
-            pass
-    except Unavailable as problem:
-        print(f"skipped: {problem}")
-        sys.exit(77)
-    unittest.main(verbosity=2)
+    run_tests()

@@ -17,6 +17,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import unittest
 
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "squeue", "scancel", "scontrol", "sinfo")
 ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)  # Ctrl-C, kill, and a terminal that is closed
@@ -215,6 +216,17 @@ class LittleCluster:
         lines = [f"{file.stem}: {line}" for file in sorted(self.folder.glob("*.out"))
                  for line in file.read_text(errors="replace").splitlines()[-5:]]
         return "\n".join(lines)
+
+
+def run_tests():
+    """Runs the unit tests of the program; ends with 77, skipped, where no cluster comes up."""
+    try:
+        with tempfile.TemporaryDirectory(prefix="little-cluster-") as trial, LittleCluster(trial, cores=1):
+            pass
+    except Unavailable as problem:
+        print(f"skipped: {problem}")
+        sys.exit(77)
+    unittest.main(verbosity=2)
 
 
 def end_once(*_):

@@ -124,10 +124,4 @@ class WhatItSays(unittest.TestCase):
 
 if __name__ == "__main__":
     PROGRAMS = pathlib.Path(sys.argv.pop(1)).resolve()
-    try:
-        with tempfile.TemporaryDirectory(prefix="little-cluster-") as trial, LittleCluster(trial, cores=1):
-            pass
-    except Unavailable as problem:
-        print(f"skipped: {problem}")
-        sys.exit(77)
-    unittest.main(verbosity=2)
+    little_cluster.run_tests()
