@@ -8,6 +8,16 @@
 #include "sim/core/heap_bytes.h"
 
 namespace shaken {
+namespace {
+
+/// In which direction the shadow of a rod lies; that of an upright rod fits whatever it is given.
+Vec2 flat_direction(const Pose& pose) {
+  const Vec2 n(pose.director.x(), pose.director.y());
+  const double length = n.norm();
+  return length > 0 ? Vec2(n * (1 / length)) : Vec2(1, 0);
+}
+
+}  // namespace
 
 NeighborList::NeighborList(std::span<const Species> species, std::span<const std::uint8_t> species_of_rod,
                            double box_side, double skin)
@@ -24,24 +34,22 @@ NeighborList::NeighborList(std::span<const Species> species, std::span<const std
 }
 
 std::size_t NeighborList::bytes() const {
-  std::size_t bytes = heap_bytes(species_of_rod_, placed_center_, placed_half_, cell_, members_, pairs_, unused_,
+  std::size_t bytes = heap_bytes(species_of_rod_, placed_center_, placed_direction_, cell_, members_, pairs_, unused_,
                                  pairs_of_, n_pairs_of_, near_, mark_);
   for (const auto& members : members_) bytes += heap_bytes(members);
   return bytes;
 }
 
-Vec2 NeighborList::flat_half(int i, const Pose& pose) const {
-  const double half_length = shadow(i).half_length;
-  const Vec2 n(pose.director.x(), pose.director.y());
-  const double length = n.norm();
-  // an upright rod's shadow fits whatever angle it is given
-  return length > 0 ? Vec2(n * (half_length / length)) : Vec2(half_length, 0.0);
+void NeighborList::note_place(int i, const Pose& pose) {
+  placed_center_[i] = {pose.position.x(), pose.position.y()};
+  for (double& x : placed_center_[i]) x -= box_side_ * std::floor(x / box_side_);
+  placed_direction_[i] = flat_direction(pose);
 }
 
 double NeighborList::slack(int i, const Pose& pose) const {
   const Vec3 from(placed_center_[i].x(), placed_center_[i].y(), 0);
   const Vec2 shift = nearest_image(from, pose.position, box_side_).head<2>();
-  const Vec2 turn = flat_half(i, pose) - placed_half_[i];
+  const Vec2 turn = shadow(i).half_length * (flat_direction(pose) - placed_direction_[i]);
   return 0.5 * skin_ - std::sqrt(std::max((shift + turn).squaredNorm(), (shift - turn).squaredNorm()));
 }
 
@@ -85,6 +93,10 @@ void NeighborList::for_candidates(int i, const Each& each) const {
 }
 
 bool NeighborList::are_near(int i, int j) const {
+  const Vec2 apart = (placed_center_[i] - placed_center_[j]).cwiseAbs();
+  const Vec2 in_nearest_image = apart.cwiseMin(Vec2::Constant(box_side_) - apart);
+  const double centers = shadow(i).half_length + shadow(j).half_length + reach(i, j);
+  if (in_nearest_image.squaredNorm() > centers * centers) return false;
   const auto level = [](const Vec2& v) { return Vec3(v.x(), v.y(), 0); };
   const Vec3 nearest = nearest_image(level(placed_center_[i]), level(placed_center_[j]), box_side_);
   // of two rods in a small box, it may be the ends of an image further away that come near
@@ -98,14 +110,9 @@ bool NeighborList::are_near(int i, int j) const {
 
 bool NeighborList::are_near(int i, int j, const Vec3& D) const {
   const auto level = [](const Vec2& v) { return Vec3(v.x(), v.y(), 0); };
-  const auto& [h_i, radius_i] = shadow(i);
-  const auto& [h_j, radius_j] = shadow(j);
-  const double reach = radius_i + radius_j + skin_;
-  const double centers = h_i + h_j + reach;
-  if (D.squaredNorm() > centers * centers) return false;
-  const auto direction = [&](const Vec2& half, double h) { return h > 0 ? Vec3(level(half) / h) : Vec3(1, 0, 0); };
-  return segment_distance_squared(D, direction(placed_half_[i], h_i), h_i, direction(placed_half_[j], h_j), h_j) <=
-         reach * reach;
+  const double near = reach(i, j);
+  return segment_distance_squared(D, level(placed_direction_[i]), shadow(i).half_length, level(placed_direction_[j]),
+                                  shadow(j).half_length) <= near * near;
 }
 
 // ---- pairs
@@ -147,12 +154,11 @@ int NeighborList::add_pair(int i, int j) {
 void NeighborList::build(std::span<const Pose> poses) {
   const int n = static_cast<int>(poses.size());
   placed_center_.resize(n);
-  placed_half_.resize(n);
+  placed_direction_.resize(n);
   cell_.resize(n);
   members_.assign(static_cast<std::size_t>(n_cells_) * n_cells_, {});
   for (int i = 0; i < n; ++i) {
-    placed_center_[i] = {poses[i].position.x(), poses[i].position.y()};
-    placed_half_[i] = flat_half(i, poses[i]);
+    note_place(i, poses[i]);
     put_into_cell(i, cell_of(placed_center_[i]));
   }
   pairs_.clear();
@@ -171,8 +177,7 @@ void NeighborList::build(std::span<const Pose> poses) {
 }
 
 void NeighborList::place(int i, const Pose& pose, std::vector<int>& gained, std::vector<int>& lost) {
-  placed_center_[i] = {pose.position.x(), pose.position.y()};
-  placed_half_[i] = flat_half(i, pose);
+  note_place(i, pose);
   const int cell = cell_of(placed_center_[i]);
   if (cell != cell_[i]) {
     auto& old = members_[cell_[i]];

@@ -72,7 +72,9 @@ class NeighborList {
     double radius;
   };
   const Shadow& shadow(int i) const { return shadows_[species_of_rod_[i]]; }
-  Vec2 flat_half(int i, const Pose& pose) const;  ///< from the centre to the end of the flattened segment
+  /// How near the segments of two rods must be to make a pair.
+  double reach(int i, int j) const { return shadow(i).radius + shadow(j).radius + skin_; }
+  void note_place(int i, const Pose& pose);
   int cell_of(const Vec2& center) const;
   void put_into_cell(int i, int cell);
   bool are_near(int i, int j) const;                 ///< in any image
@@ -91,8 +93,8 @@ class NeighborList {
   int n_cells_;   ///< per side; 1: no grid
   int n_images_;  ///< to each side of the nearest that may be near; 0 in a box twice as wide as pairs are long
 
-  std::vector<Vec2> placed_center_;
-  std::vector<Vec2> placed_half_;
+  std::vector<Vec2> placed_center_;        ///< in the box
+  std::vector<Vec2> placed_direction_;     ///< of the segment
   std::vector<int> cell_;                  ///< (n_rods) cell of each rod
   std::vector<std::vector<int>> members_;  ///< (n_cells^2) rods of each cell
 

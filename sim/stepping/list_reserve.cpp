@@ -47,4 +47,15 @@ Tick ListReserve::covered_ticks(const NeighborList& list, int rod, const Flight&
   return std::min(horizon, static_cast<Tick>(time / dt * (1.0 - 1e-12)));
 }
 
+void ListReserve::cover_tick(const Flight& flight, double half_length, Tick now, double dt) {
+  constexpr float kRounding = 1 - 0x1p-22F;  // so that many small steps do not round to none
+  left_ = left(now, dt) * kRounding;
+  at_ = now;
+  // The segment turns at rate / |n_xy| at most, and |n_xy| changes by the rate: here it stays above a half.
+  const Vec3& n = flight.director;
+  const bool lies = n.x() * n.x() + n.y() * n.y() > 0.5 && flight.rate * dt < 0.2;
+  const double speed = std::abs(flight.velocity.x()) + std::abs(flight.velocity.y()) + 2.0 * half_length * flight.rate;
+  speed_ = lies ? static_cast<float>(speed) : 1e30F;  // or else it is measured at the next tick
+}
+
 }  // namespace shaken

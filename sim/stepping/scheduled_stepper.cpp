@@ -128,8 +128,7 @@ std::optional<NumericalTrouble> ScheduledStepper::meet_surfaces_due(World& world
   loops_.run(due_rods_, owners_, [&](Worker& worker) {
     visit_ahead(worker.mine, ask, [&](int i) {
       pose_rod(i, world, now);
-      // what a rod that rests has left is not counted down at any known speed
-      if (marks_[i].rests_at == now - 1 || reserves_[i].left(now, rules_.dt) < ListReserve::kLeast) {
+      if (reserves_[i].left(now, rules_.dt) < ListReserve::kLeast) {
         reserves_[i].measure(neighbors_, i, rods_[i].pose, now);
         if (reserves_[i].left(now, rules_.dt) < ListReserve::kLeast) worker.to_place.push_back(i);
       }
@@ -305,6 +304,7 @@ std::optional<NumericalTrouble> ScheduledStepper::store_changed(World& world, Ti
       store(i, flight, rods_[i], now, rules_);
       const bool displaced = rods_[i].displaced;
       if (displaced) reserves_[i].measure(neighbors_, i, rods_[i].pose, now);
+      if (marks_[i].rests_at == now) reserves_[i].cover_tick(flight, rules_.species_of(i).half_length, now, rules_.dt);
       // A rod that was displaced twice is where no flight with one hit led it. One that is fast may come near another
       // image, of which no line tells.
       const bool fast = std::max(std::abs(flight.velocity.x()), std::abs(flight.velocity.y())) >= slow;

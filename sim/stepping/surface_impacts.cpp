@@ -95,12 +95,15 @@ class Deepest {
   explicit Deepest(const Vec3& director) : director_(director) {}
 
   void see(int item, double offset, double overlap) {
-    if (!(overlap > 0) || overlap < overlap_ || (overlap == overlap_ && !lies_before(offset))) return;
+    if (!(overlap > 0)) return;
+    ++n_overlapping_;
+    if (overlap < overlap_ || (overlap == overlap_ && !lies_before(offset))) return;
     item_ = item;
     offset_ = offset;
     overlap_ = overlap;
   }
   bool found() const { return item_ >= 0; }
+  bool is_only_one() const { return n_overlapping_ == 1; }
   int item() const { return item_; }
   double overlap() const { return overlap_; }
 
@@ -113,6 +116,7 @@ class Deepest {
 
   const Vec3& director_;
   int item_ = -1;
+  int n_overlapping_ = 0;
   double offset_ = 0;
   double overlap_ = 0;
 };
@@ -133,8 +137,9 @@ std::optional<NumericalTrouble> meet_plates(int index, RodAtTick& rod, const Fli
         std::max(species.mid_radius, species.end_radius + species.half_length * std::abs(rod.pose.director.z()));
     if (side > 0 ? rod.pose.position.z() - extent >= plate : rod.pose.position.z() + extent <= plate) continue;
     const ContactParameters& contact = side > 0 ? rules.rod_base : rules.rod_lid;
+    const bool stays = !rules.impacts_at_instant && !rules.has_rotational_noise;  // whatever impulses it gets
     std::bitset<kMostBeads> met;
-    while (true) {  // one bead after the other, the deepest first, as the rod is by then
+    for (bool done = false; !done;) {  // one bead after the other, the deepest first, as the rod is by then
       Deepest deepest(rod.pose.director);
       for (const int bead : species.outer_beads) {
         const double offset = species.bead_offset[bead];
@@ -142,6 +147,7 @@ std::optional<NumericalTrouble> meet_plates(int index, RodAtTick& rod, const Fli
         if (!met[bead]) deepest.see(bead, offset, species.bead_radius[bead] - above);
       }
       if (!deepest.found()) break;
+      done = stays && deepest.is_only_one();
       const int bead = deepest.item();
       const double radius = species.bead_radius[bead];
       const double overlap = deepest.overlap();
