@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "sim/core/prefetch.h"
 #include "sim/core/types.h"
 #include "sim/motion/flight.h"
 #include "sim/rod/species.h"
@@ -61,6 +62,11 @@ class NeighborList {
   /// Numbers of the pairs of rod i.
   std::span<const int> pairs_of(int i) const {
     return {pairs_of_.data() + static_cast<std::size_t>(i) * stride_, static_cast<std::size_t>(n_pairs_of_[i])};
+  }
+  /// Asks for the numbers of the pairs of rod i, which will be needed soon.
+  void prefetch(int i) const {
+    shaken::prefetch(n_pairs_of_[i]);
+    shaken::prefetch(pairs_of_[static_cast<std::size_t>(i) * stride_]);
   }
   /// Heap memory held.
   std::size_t bytes() const;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/contact/safe_time.h"
+#include "sim/core/prefetch.h"
 #include "sim/stepping/motion_change.h"
 #include "sim/stepping/timing_wheel.h"
 
@@ -25,6 +26,11 @@ class PairTable {
   void remove(int p);
   bool is_used(int p) const { return pairs_[p].rods != kUnused; }
 
+  /// Asks for what `tighten` needs.
+  void prefetch(int p) const {
+    shaken::prefetch(pairs_[p]);
+    wheel_.prefetch(p);
+  }
   const PairRods& rods(int p) const { return pairs_[p].rods; }
   Direction& direction(int p) { return pairs_[p].direction; }
   const Direction& direction(int p) const { return pairs_[p].direction; }

@@ -347,7 +347,14 @@ void ScheduledStepper::list_pairs_to_bound(Tick now) {
   const auto dt = static_cast<float>(rules_.dt);
   to_bound_.clear();
   for (const int p : due_pairs_) pairs_.list(p, to_bound_);
-  for (const int i : changed_) {
+  const std::size_t n = changed_.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    // what pairs a rod has is known only when their numbers are here, so these are asked for first
+    if (k + 4 < n) neighbors_.prefetch(changed_[k + 4]);
+    if (k + 2 < n) {
+      for (const int p : neighbors_.pairs_of(changed_[k + 2])) pairs_.prefetch(p);
+    }
+    const int i = changed_[k];
     for (const int p : neighbors_.pairs_of(i)) {
       if (!pairs_.is_listed(p) && !pairs_.tighten(p, i, changes_[i], now, dt)) pairs_.list(p, to_bound_);
     }

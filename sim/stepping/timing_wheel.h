@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/core/heap_bytes.h"
+#include "sim/core/prefetch.h"
 #include "sim/core/types.h"
 
 namespace shaken {
@@ -62,6 +63,8 @@ class TimingWheel {
     first = kNone;
   }
 
+  /// Asks for what `set` and `due` need of an item that will soon be put off.
+  void prefetch(std::int32_t item) const { shaken::prefetch(links_[item]); }
   std::size_t bytes() const { return heap_bytes(first_, links_); }
 
  private:
