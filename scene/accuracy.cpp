@@ -30,7 +30,7 @@ constexpr std::array<Bias, 5> kFineBias{{{"order", 0.23, 0.38, "%"},
                                          {"square displacement in 20.7 ms", -0.18, 0.28, "%"},
                                          {"rods just hit", -0.01, 0.27, "%"}}};
 
-// "draft", "desk" and "fine" are the cheapest settings measured that keep to their bounds.
+// The cheapest settings measured that keep averages ("fine": rods just hit too) within their bounds; "paper" is given.
 constexpr std::array<AccuracyLevel, 4> kLevels{{
     {"draft", "For a first look: is there order, do the parameters make sense.", 32e-6, ImpactTime::kTickEnd, 1.2, 8.3,
      0.486, kDraftBias},

@@ -61,10 +61,6 @@ struct Setting {
   int n_rods = 0;
   double cost = 0;  ///< mean over the rods
   double averages = 0, just_hit = 0;
-
-  bool keeps_to(const AccuracyLevel& level) const {
-    return averages < level.averages_within && just_hit < level.just_hit_within;
-  }
 };
 
 std::vector<Setting> settings() {
@@ -129,7 +125,10 @@ TEST(Accuracy, LevelsKeepToTheirBoundsAtTheLeastCost) {
     EXPECT_LT(own->just_hit, level.just_hit_within);
     if (level.name == "paper") continue;  // the paper's own, whatever it costs
     for (const Setting& other : all) {
-      EXPECT_FALSE(other.cost < own->cost && other.keeps_to(level)) << other.step_us << " us, " << other.impacts;
+      // what contacts do is not what the coarse levels are chosen for
+      const bool would_do =
+          other.averages < level.averages_within && (level.name != "fine" || other.just_hit < level.just_hit_within);
+      EXPECT_FALSE(other.cost < own->cost && would_do) << other.step_us << " us, " << other.impacts;
     }
   }
   EXPECT_EQ(accuracy_level("desk")->averages_within, 1);
