@@ -64,10 +64,11 @@ Rates rates_of(const Json& report, const scene::RunPlan& plan) {
           report.at("memory_bytes").get<double>() / plan.system.n_all_rods()};
 }
 
-/// The plan at another step, or what speaks against it.
-Result<scene::RunPlan> at_step(const scene::RunPlan& plan, double step) {
+/// The plan at a level of accuracy, or what speaks against it.
+Result<scene::RunPlan> at_level(const scene::RunPlan& plan, const scene::AccuracyLevel& level) {
   nlohmann::ordered_json scene = scene::to_json(plan);
-  scene["time"]["step"] = step;
+  scene["time"]["step"] = level.step;
+  scene["time"]["impacts"] = scene::name_of(level.impacts);
   auto loaded = scene::load_scene(scene.dump(), "scene");
   if (!loaded) return Error{loaded.error().front().message};
   return std::move(loaded).value();
@@ -100,11 +101,11 @@ class Estimator {
       return std::move(result_);
     }
     result_.n_probed = probed.size();
-    const bool levels = options_.levels && has_one_step();
+    const bool levels = options_.levels && are_alike_in_time();
     n_probes_ = probed.size();
     if (levels && !options_.from.empty()) ++n_probes_;
     for (const scene::AccuracyLevel& level : scene::accuracy_levels()) {
-      n_probes_ += levels && level.step != plan_of(shown).system.dt;
+      n_probes_ += levels && &level != scene::accuracy_level(plan_of(shown).system);
     }
     if (options_.on_probe) options_.on_probe(0, n_probes_);
     result_.report = probe_plan(plan_of(shown), label_of(shown), options_.from);
@@ -116,7 +117,9 @@ class Estimator {
     rates = interpolated(probed, rates);
     result_.runs = runs_at(rates);
     const Costs costs = add_up(rates);
-    result_.levels.push_back({kAsWritten, has_one_step() ? plan_of(shown).system.dt : 0, "", costs.cpu(1), costs.disk});
+    const System& own = plan_of(shown).system;
+    const std::optional<Ticks> ticks = are_alike_in_time() ? std::optional(Ticks{own.dt, own.impacts}) : std::nullopt;
+    result_.levels.push_back({kAsWritten, ticks, "", costs.cpu(1), costs.disk});
     if (levels) probe_levels(shown, costs);
     if (options_.on_probe) options_.on_probe(n_probes_, n_probes_);
     return std::move(result_);
@@ -132,9 +135,11 @@ class Estimator {
 
   const scene::RunPlan& plan_of(std::size_t k) const { return sweep_.points[distinct_[k]].plan; }
   const std::string& label_of(std::size_t k) const { return sweep_.points[distinct_[k]].label; }
-  bool has_one_step() const {
+  /// All points have one step, and treat impacts in one way.
+  bool are_alike_in_time() const {
+    const System& first = sweep_.points.front().plan.system;
     return std::all_of(sweep_.points.begin(), sweep_.points.end(), [&](const scene::SweepPoint& point) {
-      return point.plan.system.dt == sweep_.points.front().plan.system.dt;
+      return point.plan.system.dt == first.dt && point.plan.system.impacts == first.impacts;
     });
   }
   Json probe_plan(const scene::RunPlan& plan, const std::string& label, const std::string& from) {
@@ -211,11 +216,11 @@ class Estimator {
     const double yardstick =
         options_.from.empty() ? rates_of(result_.report, own).stepping : stepping_from_start(own, label_of(shown));
     for (const scene::AccuracyLevel& level : scene::accuracy_levels()) {
-      LevelCost cost{std::string(level.name), level.step, "", {}, {}};
+      LevelCost cost{std::string(level.name), Ticks{level.step, level.impacts}, "", {}, {}};
       double factor = 1;
-      if (level.step != own.system.dt) {
+      if (&level != scene::accuracy_level(own.system)) {
         try {
-          const scene::RunPlan plan = value_or_fail(at_step(own, level.step));
+          const scene::RunPlan plan = value_or_fail(at_level(own, level));
           factor = stepping_from_start(plan, fmt::format("accuracy={}", level.name)) / yardstick;
         } catch (const Failure& failure) {
           cost.error = failure.what();
@@ -238,19 +243,23 @@ class Estimator {
   std::size_t n_probes_ = 0, n_done_ = 0;  ///< to be made, and made
 };
 
-std::string step_text(double step) {
-  return step > 0 ? scene::format_quantity(step, scene::Dimension::kTime) : "several";
+std::string ticks_text(const std::optional<Ticks>& ticks) {
+  if (!ticks) return "several";
+  const std::string step = scene::format_quantity(ticks->step, scene::Dimension::kTime);
+  return ticks->impacts == System{}.impacts ? step : fmt::format("{}, {}", step, scene::name_of(ticks->impacts));
 }
 
-/// What the step of a level does to the system that the levels were measured with; lines of at most `width` columns.
+/// What a level is for, and what it does to the system that the levels were measured with; lines of at most `width`
+/// columns.
 std::string level_errors(const CostEstimate& estimate, std::size_t width) {
   std::string text;
   for (const LevelCost& level : estimate.levels) {
     const scene::AccuracyLevel* known = scene::accuracy_level(level.name);
     if (known == nullptr || known->bias.empty()) continue;
     const std::string indent(8, ' ');
-    std::string line = fmt::format("  {:<6}", level.name);
-    std::string separator;
+    text += fmt::format("  {:<6}{}\n", level.name, known->what);
+    std::string line = indent + fmt::format("averages within {:g} %", known->averages_within);
+    std::string separator = ", ";
     for (const scene::Bias& bias : known->bias) {
       const std::string item =
           fmt::format("{} {:+.2g} +- {:.1g} {}", bias.observable, bias.value, bias.error, bias.unit);
@@ -300,7 +309,7 @@ std::string estimate_text(const CostEstimate& estimate, int width) {
                {"DISK", Table::Align::kRight},
                {""}});
   for (const LevelCost& level : estimate.levels) {
-    table.add_row({level.name, step_text(level.step), level.cpu ? cpu_text(*level.cpu) : "-",
+    table.add_row({level.name, ticks_text(level.ticks), level.cpu ? cpu_text(*level.cpu) : "-",
                    level.disk ? bytes_text(*level.disk) : "-",
                    level.error.empty() ? "" : "not possible: " + level.error});
   }
@@ -325,11 +334,15 @@ Json estimate_json(const CostEstimate& estimate) {
   json["levels"] = Json::array();
   for (const LevelCost& level : estimate.levels) {
     Json entry{{"name", level.name},
-               {"step_s", level.step > 0 ? Json(level.step) : Json()},
+               {"step_s", level.ticks ? Json(level.ticks->step) : Json()},
+               {"impacts", level.ticks ? Json(scene::name_of(level.ticks->impacts)) : Json()},
                {"cpu_seconds", level.cpu ? Json(*level.cpu) : Json()},
                {"disk_bytes", level.disk ? Json(*level.disk) : Json()}};
     if (!level.error.empty()) entry["error"] = level.error;
     if (const scene::AccuracyLevel* known = scene::accuracy_level(level.name)) {
+      entry["what"] = known->what;
+      entry["averages_within_percent"] = known->averages_within;
+      entry["just_hit_within_percent"] = known->just_hit_within;
       entry["bias"] = Json::array();
       for (const scene::Bias& bias : known->bias) {
         entry["bias"].push_back(

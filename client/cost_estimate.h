@@ -30,10 +30,16 @@ struct EstimateOptions {
   ProbeProgress on_probe{};               ///< called before the first probe and after each
 };
 
+/// What a level of accuracy sets.
+struct Ticks {
+  double step = 0;  ///< [s]
+  ImpactTime impacts = ImpactTime::kTickEnd;
+};
+
 /// What all runs of a sweep cost together at one step.
 struct LevelCost {
   std::string name;            ///< of the level of accuracy; "as written" for the steps of the scenes themselves
-  double step = 0;             ///< [s]; 0 where the scenes have several
+  std::optional<Ticks> ticks;  ///< none where the scenes have several
   std::string error;           ///< why there is no figure, if so
   std::optional<double> cpu;   ///< [s], all runs together
   std::optional<double> disk;  ///< [bytes]

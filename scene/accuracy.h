@@ -5,6 +5,8 @@
 #include <span>
 #include <string_view>
 
+#include "sim/system.h"
+
 namespace shaken::scene {
 
 /// How far an observable is off at a level, against the limit of a fine step.
@@ -18,8 +20,12 @@ struct Bias {
 /// What a word for accuracy stands for.
 struct AccuracyLevel {
   std::string_view name;  ///< as in the scene: "paper"
-  std::string_view what;  ///< one line
+  std::string_view what;  ///< what it is for, one line
   double step = 0;        ///< time.step [s]
+  ImpactTime impacts = ImpactTime::kTickEnd;
+  /// Bounds on |bias| with two standard errors to spare, for rods of 4.5 and of 2.5 mm [%].
+  double averages_within = 0;  ///< of temperatures, tilt and square displacement
+  double just_hit_within = 0;  ///< of the share of rods that were just hit
   /// CPU time per simulated second against "paper" and the biases, measured by `shaken bench accuracy`; what has not
   /// been measured is not there.
   std::optional<double> cost;
@@ -30,5 +36,12 @@ struct AccuracyLevel {
 std::span<const AccuracyLevel> accuracy_levels();
 /// The level of that name; null if there is none.
 const AccuracyLevel* accuracy_level(std::string_view name);
+/// The level that a system is at; null if it is at none.
+const AccuracyLevel* accuracy_level(const System& system);
+
+/// As in the scene: "tick_end", "at_instant".
+constexpr const char* name_of(ImpactTime impacts) {
+  return impacts == ImpactTime::kAtInstant ? "at_instant" : "tick_end";
+}
 
 }  // namespace shaken::scene

@@ -44,9 +44,10 @@ Field accuracy() {
   for (const AccuracyLevel& level : accuracy_levels()) {
     field.names.emplace_back(level.name);
     steps +=
-        fmt::format("{}{} {}", steps.empty() ? "" : ", ", level.name, format_quantity(level.step, Dimension::kTime));
+        fmt::format("{}{} {}{}", steps.empty() ? "" : ", ", level.name, format_quantity(level.step, Dimension::kTime),
+                    level.impacts == System{}.impacts ? "" : fmt::format(" with impacts {}", name_of(level.impacts)));
   }
-  field.doc = fmt::format("Named level of accuracy, in place of `time.step`: {}.", steps);
+  field.doc = fmt::format("Named level of accuracy, in place of `time.step` and `time.impacts`: {}.", steps);
   return field;
 }
 
@@ -284,7 +285,8 @@ std::vector<std::vector<Field>> groups() {
                    {{"scheduled", StepperKind::kScheduled}, {"reference", StepperKind::kReference}},
                    "Which stepper moves the rods. Both give bitwise the same trajectory."),
     later(choice<ImpactTime>("time.impacts", sys<&System::impacts>,
-                             {{"tick_end", ImpactTime::kTickEnd}, {"at_instant", ImpactTime::kAtInstant}},
+                             {{name_of(ImpactTime::kTickEnd), ImpactTime::kTickEnd},
+                              {name_of(ImpactTime::kAtInstant), ImpactTime::kAtInstant}},
                              "Whether impacts take effect at the end of their tick, as in the paper, or at their own "
                              "instant within it.")),
     steady(),

@@ -24,7 +24,7 @@ Examples:
   shaken bench accuracy deterministic --out accuracy     convergence.png, work_precision.png, CSV, JSON
   shaken bench accuracy deterministic --cases head-on,wedged --steps 64,32,16,8,4,2,1
   shaken bench accuracy statistical --out accuracy       bias.png, tilt.png, model.png, CSV, JSON
-  shaken bench accuracy statistical --knobs step --variants newton,instant --measure 200 --replicas 4
+  shaken bench accuracy statistical --knobs step --variants newton,instant --measure 60 --out accuracy   cost.png too
   shaken bench accuracy error --sides 15,20,30,40 --measure 100 --out accuracy
 
 Exit codes: 0 done, 1 the steppers' states differ or something failed, 2 bad input.)";

@@ -23,6 +23,11 @@ constexpr const char* kBand =
     "set object 1 rectangle from graph 0, first -1 to graph 1, first 1 fillcolor '#eeeeee' fillstyle solid noborder "
     "behind";
 
+/// The same, of absolute values on a logarithmic scale.
+constexpr const char* kBelow =
+    "set object 1 rectangle from graph 0, graph 0 to graph 1, first 1 fillcolor '#eeeeee' fillstyle solid noborder "
+    "behind";
+
 std::vector<std::string> joined(std::vector<std::string> commands, const std::vector<std::string>& more) {
   commands.insert(commands.end(), more.begin(), more.end());
   return commands;
@@ -140,6 +145,70 @@ void draw_bias(const std::filesystem::path& folder, const std::vector<Json>& ste
   draw(sheet, folder);
 }
 
+/// What `draw_cost` sums up in one number: the averages whose biases are known to much better than 1 %.
+constexpr std::array<Observable, 5> kAverages{Observable::kTemperatureXy, Observable::kTemperatureZ,
+                                              Observable::kRotation, Observable::kTilt, Observable::kDisplacement};
+
+/// The bound that all `observables` are below: their largest |bias| with two standard errors to spare [%].
+template <class Observables>
+double bound_of(const Json& row, const Observables& observables) {
+  double bound = 0;
+  for (const Observable observable : observables) {
+    const Json& of = row.at(kObservableInfo[static_cast<std::size_t>(observable)].name);
+    bound = std::max(bound, 100 * (std::abs(of.at("bias").get<double>()) + 2 * of.at("bias_error").get<double>()));
+  }
+  return bound;
+}
+
+/// "[2:30]" of a logarithmic axis, with room for labels beyond the values of all curves.
+std::string range_of(const std::vector<Curve>& curves, std::vector<double> Curve::*values) {
+  double least = 1e300, most = 0;
+  for (const Curve& curve : curves) {
+    for (const double value : curve.*values) {
+      least = std::min(least, value);
+      most = std::max(most, value);
+    }
+  }
+  return fmt::format("[{:.4g}:{:.4g}]", least / 1.5, most * 1.5);
+}
+
+/// Bias against CPU time: a column of panels per rod, a series per variant, each point with its step. Above, the
+/// averages; below, the rods just hit.
+void draw_cost(const std::filesystem::path& folder, const Json& rows) {
+  const std::vector<Json> rods = series_of(rows, {"length_mm"});
+  Sheet sheet{.name = "cost", .columns = static_cast<int>(rods.size())};
+  for (const bool hit : {false, true}) {
+    for (const Json& rod : rods) {
+      Figure panel{.x_title = "CPU time (ms per rod and simulated second)",
+                   .y_title = "|bias| + 2 standard errors (%); steps in μs",
+                   .style = Figure::Style::kLinesPoints,
+                   .title = fmt::format("ℓ {:g} mm, φ {:g}: {}", rod.at(0).at("length_mm").get<double>(),
+                                        rod.at(0).at("area_fraction").get<double>(),
+                                        hit ? "rods just hit" : "temperatures, tilt, displacement")};
+      panel.commands = {kBelow, "set logscale xy", "set ytics (0.5, 1, 2, 5, 10, 20)",
+                        "set xtics (1, 2, 3, 5, 10, 20, 50)"};
+      const std::vector<Json> of_variants = series_of(rod, {"variant"});
+      for (const Json& series : of_variants) {
+        Curve points{.label = text_of(series.at(0), "variant"), .colour = panel.curves.size()};
+        const std::string label =
+            fmt::format("center offset 0,{} textcolor '{}' font ',14'", points.colour == 0 ? 0.8 : -0.8,
+                        curve_colour(points.colour, of_variants.size()));
+        for (const Json& row : series) {
+          points.x.push_back(1e3 * row.at("cpu_s_per_rod_s").get<double>());
+          points.y.push_back(hit ? bound_of(row, std::array{Observable::kHit}) : bound_of(row, kAverages));
+          panel.commands.push_back(fmt::format("set label '{:g}' at {:.6g},{:.6g} {}", row.at("value").get<double>(),
+                                               points.x.back(), points.y.back(), label));
+        }
+        panel.curves.push_back(std::move(points));
+      }
+      panel.commands.push_back("set xrange " + range_of(panel.curves, &Curve::x));
+      panel.commands.push_back("set yrange " + range_of(panel.curves, &Curve::y));
+      sheet.panels.push_back(std::move(panel));
+    }
+  }
+  draw(sheet, folder);
+}
+
 /// v_along(n_z) at every other step, a panel per scene.
 void draw_tilt(const std::filesystem::path& folder, const std::vector<Json>& steps, const Json& tilt) {
   Sheet sheet{.name = "tilt", .columns = 2};
@@ -233,6 +302,10 @@ void draw_statistics(const std::filesystem::path& folder, const Report& report) 
   if (!steps.empty()) {
     draw_bias(folder, steps, report.json.at("limits"));
     draw_tilt(folder, steps, report.json.at("tilt"));
+    Json rows = Json::array();
+    for (const Json& series : steps) rows.insert(rows.end(), series.begin(), series.end());
+    const bool has_limits = !report.json.at("limits").empty();  // one step alone has no bias
+    if (has_limits && series_of(rows, {"variant"}).size() > 1) draw_cost(folder, rows);
   }
   if (!model.empty()) draw_model(folder, model);
 }

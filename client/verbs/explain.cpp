@@ -154,10 +154,8 @@ class Explain : public Verb {
                         gamma ? fmt::format("Gamma = {}, ", number_text(*gamma)) : "", number_text(s.amplitude),
                         scene::format_quantity(s.frequency, Dimension::kFrequency),
                         scene::format_quantity(s.gravity, Dimension::kAcceleration));
-    std::string level;
-    for (const scene::AccuracyLevel& known : scene::accuracy_levels()) {
-      if (known.step == s.dt) level = fmt::format(" (\"{}\")", known.name);
-    }
+    const scene::AccuracyLevel* known = scene::accuracy_level(s);
+    const std::string level = known ? fmt::format(" (\"{}\")", known->name) : "";
     text += fmt::format("  time    {} in {} steps of {}{}; steady state {}\n",
                         scene::format_quantity(total, Dimension::kTime), number_text(std::round(total / s.dt)),
                         scene::format_quantity(s.dt, Dimension::kTime), level,

@@ -22,12 +22,20 @@ constexpr double kDeepestOverlap = 0.5;
 void resolve_accuracy(Resolution& scene) {
   System& system = scene.plan.system;
   const Given* word = scene.draft.find("accuracy");
-  if (!word || !scene.ok({"accuracy", "time.step"})) return;
+  if (!word || !scene.ok({"accuracy", "time.step", "time.impacts"})) return;
   const AccuracyLevel* level = accuracy_level(std::get<std::string>(word->value));
   if (!scene.given("time.step")) system.dt = level->step;
-  if (system.dt == level->step) return;
-  scene.report({"accuracy"}, fmt::format("accuracy \"{}\" is a time.step of {}, but time.step {} is given; remove one",
-                                         level->name, time_text(level->step), time_text(system.dt)));
+  if (!scene.given("time.impacts")) system.impacts = level->impacts;
+  if (system.dt != level->step) {
+    scene.report({"accuracy"},
+                 fmt::format("accuracy \"{}\" is a time.step of {}, but time.step {} is given; remove one", level->name,
+                             time_text(level->step), time_text(system.dt)));
+  }
+  if (system.impacts != level->impacts) {
+    scene.report({"accuracy"},
+                 fmt::format("accuracy \"{}\" is time.impacts \"{}\", but time.impacts \"{}\" is given; remove one",
+                             level->name, name_of(level->impacts), name_of(system.impacts)));
+  }
 }
 
 bool check_step(Resolution& scene) {

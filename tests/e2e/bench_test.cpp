@@ -106,6 +106,32 @@ TEST_F(Bench, AccuracyWritesBiases) {
     EXPECT_GT(row.at("cpu_s_per_rod_s").get<double>(), 0);
   }
   for (const char* name : {"bias.png", "tilt.png", "model.png"}) EXPECT_EQ(text_of(name).substr(1, 3), "PNG");
+  EXPECT_FALSE(std::filesystem::exists(out() + "/cost.png")) << "there is one variant";
+}
+
+TEST_F(Bench, AccuracyShowsBiasAgainstCostOfSeveralVariants) {
+  const Finished finished =
+      bench({"accuracy", "statistical", "--knobs", "step", "--variants", "newton,instant", "--side", "12", "--steps",
+             "64,32", "--measure", "0.03", "--warm-up", "0.01", "--replicas", "2", "--out", out()});
+  ASSERT_EQ(finished.code, 0) << finished.output;
+  EXPECT_EQ(text_of("cost.png").substr(1, 3), "PNG");
+  const Json row = json_of("statistical.json").at("rows")[0];
+  // the data of the first point are those of the first row
+  double bound = 0;
+  for (const char* name : {"T_xy", "T_z", "T_rot", "rms_n_z", "msd"}) {
+    const Json& of = row.at(name);
+    bound = std::max(bound, 100 * (std::abs(of.at("bias").get<double>()) + 2 * of.at("bias_error").get<double>()));
+  }
+  std::istringstream data(text_of("cost.dat"));
+  std::string panel, comment, columns;
+  std::getline(data, panel);
+  std::getline(data, comment);
+  std::getline(data, columns);
+  double cpu_ms = 0, y = 0;
+  data >> cpu_ms >> y;
+  EXPECT_EQ(comment, "# newton");
+  EXPECT_NEAR(cpu_ms, 1e3 * row.at("cpu_s_per_rod_s").get<double>(), 1e-4 * cpu_ms);
+  EXPECT_NEAR(y, bound, 1e-4 * bound);
 }
 
 TEST_F(Bench, AccuracyWritesTheErrorOfOrder) {

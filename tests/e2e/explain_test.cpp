@@ -138,12 +138,26 @@ TEST_F(Explain, ComparesLevelsWhereAllPointsHaveOneStep) {
   EXPECT_GT(report.at("levels")[0].at("cpu_seconds").get<double>(), 0);
 }
 
+TEST_F(Explain, LevelsSetWhenImpactsTakePlace) {
+  const std::string scene = write("scene.json", kScene);
+  const Json report = json({"explain", scene, "-s", "accuracy=fine"});
+  EXPECT_EQ(level_named(report, "as written").at("impacts"), "at_instant");
+  EXPECT_EQ(level_named(report, "fine").at("impacts"), "at_instant");
+  EXPECT_EQ(level_named(report, "fine").at("cpu_seconds"), level_named(report, "as written").at("cpu_seconds"));
+  EXPECT_EQ(level_named(report, "desk").at("impacts"), "tick_end");
+  EXPECT_EQ(level_named(report, "desk").at("averages_within_percent"), 1);
+  // the step of a level with impacts treated in the other way is at no level
+  const Finished text = shaken({"explain", scene, "--cpu", "0.05", "-s", "time.impacts=at_instant"});
+  EXPECT_THAT(text.output, AllOf(HasSubstr("4 us, at_instant"), HasSubstr("2 us, at_instant"),
+                                 HasSubstr("averages within 1 %"), Not(HasSubstr("(\"paper\")"))));
+}
+
 TEST_F(Explain, WithoutProbeTellsWhatIsOn) {
   const Finished finished = shaken({"explain", write("scene.json", kScene), "--no-probe", "-s", "gravity=0", "-s",
                                     "plates.amplitude=0", "-s", "accuracy=draft"});
   ASSERT_EQ(finished.code, 0) << finished.output;
   EXPECT_THAT(finished.output, AllOf(HasSubstr("gravity = 0 mm/s^2"), HasSubstr("measure.msd is absent"),
-                                     HasSubstr("16 us (\"draft\")"), Not(HasSubstr("CPU"))));
+                                     HasSubstr("32 us (\"draft\")"), Not(HasSubstr("CPU"))));
 }
 
 TEST_F(Explain, DryRunTellsTheSameAndQueuesNothing) {
@@ -173,7 +187,7 @@ TEST_F(Explain, RefusesWhatCannotBe) {
   const Finished full = shaken({"explain", scene, "-s", "rods.area_fraction=0.92"});
   EXPECT_EQ(full.code, 2);
   EXPECT_THAT(full.output, HasSubstr("do not fit"));
-  const Finished both = shaken({"explain", scene, "-s", "accuracy=fine", "-s", "time.step=\"2 us\""});
+  const Finished both = shaken({"explain", scene, "-s", "accuracy=fine", "-s", "time.step=\"1 us\""});
   EXPECT_EQ(both.code, 2);
   EXPECT_THAT(both.output, HasSubstr("remove one"));
 }
