@@ -62,6 +62,7 @@ class Following {
       motions_[i] = motion_bound(world_.rods[i], velocity_at(world_.rods[i], world_.tick, rules_),
                                  rods_[i].pose.director, search_.slow());
     }
+    due_.clear();
     pairs_.wheel().pop(world_.tick, due_);
     for (std::size_t p = 0; p < courses_.size(); ++p) {
       Course& course = courses_[p];
@@ -91,7 +92,7 @@ class Following {
       search_.bound(std::span(&pairs_.rods(p), 1), rods_, motions_, lanes_, bounds);
       pairs_.direction(p) = bounds.direction[0];
       pairs_.set_line(p, bounds.line[0], bounds.all_round[0]);
-      pairs_.wheel().set(p, world_.tick + 1 + bounds.ticks[0]);
+      pairs_.set_due(p, world_.tick + 1 + bounds.ticks[0]);
     }
     if (!course.bounds.empty() && course.bounds.back().at == k)
       course.bounds.back().safe = static_cast<double>(pairs_.wheel().due(p, world_.tick) - world_.tick) * rules_.dt;

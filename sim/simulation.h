@@ -43,7 +43,8 @@ class Simulation {
   [[nodiscard]] std::optional<NumericalTrouble> advance_to(Tick target);
 
   /// Shares the work of each tick among so many threads; the trajectory stays bitwise the same. Worth it from about
-  /// 5,000 rods on. Times of phases start anew. Loops over fewer than `grain` rods or pairs per thread are not shared.
+  /// 2,000 rods on. Times of phases start anew. A tick is shared if the one before it had at least `grain` visits and
+  /// bounds for each thread.
   void use_threads(int n_threads, int grain = kGrain);
   static constexpr int kGrain = 12;
   /// From now on, the time spent in each phase of a tick is taken by `clock`; nullptr ends it.

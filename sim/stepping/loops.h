@@ -2,60 +2,55 @@
 #pragma once
 
 #include <algorithm>
-#include <cstdint>
+#include <atomic>
 #include <span>
 #include <vector>
 
 #include "sim/contact/safe_time.h"
 #include "sim/core/thread_team.h"
+#include "sim/core/types.h"
 
 namespace shaken {
 
-/// One thread's part of a loop.
-struct LoopPart {
-  std::vector<int> own;       ///< items of the list that the thread owns
-  std::span<const int> mine;  ///< those that it visits: its own, or all if it is alone
-};
-
-/// Loops over lists without order, which several threads may share: each item has an owner, so that what belongs to it
-/// stays in one thread's caches. A `Worker` is a LoopPart with whatever else a thread has and gathers in a loop.
+/// Threads that share the loops of a tick. Each has a `Worker`: its own rods and pairs, so that what belongs to them
+/// stays in one thread's caches, and whatever it gathers.
 template <class Worker>
 class SharedLoops {
  public:
-  /// Loops are shared if there are at least `grain` items for each thread.
-  SharedLoops(int n_threads, int grain)
-      : team_(n_threads), grain_(grain), workers_(static_cast<std::size_t>(n_threads)) {}
+  explicit SharedLoops(int n_threads) : team_(n_threads), workers_(static_cast<std::size_t>(n_threads)) {}
 
   std::vector<Worker>& workers() { return workers_; }
   const std::vector<Worker>& workers() const { return workers_; }
 
-  /// Calls visit(worker) on each thread, worker.mine being its part of the list; on one if that is not worth it.
+  /// Whether loops are shared from now on; if not, the caller's thread does everyone's work.
+  void share(bool shared) { shared_ = shared && team_.size() > 1; }
+
+  /// Calls visit(worker) for each worker, each on its own thread if loops are shared. Returns when all are done.
   template <class Visit>
-  void run(const std::vector<int>& list, const std::vector<std::uint8_t>& owners, const Visit& visit) {
-    if (team_.size() == 1 || static_cast<int>(list.size()) < grain_ * team_.size()) {
-      for (Worker& worker : workers_) worker.mine = {};
-      workers_[0].mine = list;
-      visit(workers_[0]);
-      return;
+  void run(const Visit& visit) {
+    if (shared_) {
+      team_.run([&](int w) { visit(workers_[static_cast<std::size_t>(w)]); });
+    } else {
+      for (Worker& worker : workers_) visit(worker);
     }
-    team_.run([&](int w) {
-      Worker& worker = workers_[w];
-      // without a branch, which would be mispredicted every other time
-      worker.own.resize(list.size());
-      std::size_t n = 0;
-      for (const int item : list) {
-        worker.own[n] = item;
-        n += owners[item] == w;
-      }
-      worker.mine = std::span(worker.own).first(n);
-      visit(worker);
-    });
+  }
+
+  /// Sets the mark to `now`. True for one of the threads that do so at the same time, and for that one only if the mark
+  /// was not `now` before.
+  bool claim(Tick& mark, Tick now) const {
+    if (!shared_) {
+      if (mark == now) return false;
+      mark = now;
+      return true;
+    }
+    const std::atomic_ref<Tick> shared(mark);
+    return shared.load(std::memory_order_relaxed) != now && shared.exchange(now, std::memory_order_relaxed) != now;
   }
 
  private:
   ThreadTeam team_;
-  int grain_;
   std::vector<Worker> workers_;
+  bool shared_ = false;
 };
 
 /// Bounds are made for kLanes items of one group at a time. With one group in all there is nothing to sort.

@@ -15,7 +15,6 @@ void count(std::vector<std::int16_t>& counts, const PairRods& rods, bool up) {
 void PairTable::make_room(std::size_t n_pairs) {
   pairs_.resize(n_pairs);
   detected_at_.resize(n_pairs, -1);
-  owners_.resize(n_pairs);
   wheel_.make_room(n_pairs);
 }
 
@@ -23,7 +22,7 @@ void PairTable::add(int p, const PairRods& rods, std::uint8_t owner) {
   pairs_[p].rods = rods;
   pairs_[p].direction = {};
   pairs_[p].line = {};
-  owners_[p] = owner;
+  pairs_[p].owner = owner;
 }
 
 void PairTable::remove(int p) {
@@ -37,6 +36,6 @@ void PairTable::turn_touching(int p) {
   count(n_touching_, pairs_[p].rods, is_touching(p));
 }
 
-std::size_t PairTable::bytes() const { return wheel_.bytes() + heap_bytes(pairs_, detected_at_, owners_, n_touching_); }
+std::size_t PairTable::bytes() const { return wheel_.bytes() + heap_bytes(pairs_, detected_at_, n_touching_); }
 
 }  // namespace shaken

@@ -18,7 +18,7 @@ using PairRods = std::array<int, 2>;
 /// What the scheduled stepper knows of the pairs in the neighbour list, under the numbers that the list gives them.
 class PairTable {
  public:
-  explicit PairTable(std::size_t n_rods) : n_touching_(n_rods) {}
+  explicit PairTable(std::size_t n_rods, int n_owners = 1) : wheel_(0, n_owners), n_touching_(n_rods) {}
 
   /// Numbers are below `n_pairs` from now on.
   void make_room(std::size_t n_pairs);
@@ -34,8 +34,7 @@ class PairTable {
   const PairRods& rods(int p) const { return pairs_[p].rods; }
   Direction& direction(int p) { return pairs_[p].direction; }
   const Direction& direction(int p) const { return pairs_[p].direction; }
-  /// The thread of each pair.
-  const std::vector<std::uint8_t>& owners() const { return owners_; }
+  int owner(int p) const { return pairs_[p].owner; }  ///< the pair's thread
 
   /// The gap's line of the pair's present bound; `all_round`: along no known direction.
   void set_line(int p, const GapLine& line, bool all_round) {
@@ -66,7 +65,7 @@ class PairTable {
     if (static_cast<float>(kept) < std::min(kFewTicks, 0.5F * ticks + 1.0F)) return false;
     pair.line.left = std::max(0.0F, gap - closing * static_cast<float>(kept) * dt - GapLine::kRounding);
     pair.line.closing = closing;
-    wheel_.set(p, now + 1 + kept);
+    set_due(p, now + 1 + kept);
     return true;
   }
 
@@ -87,6 +86,8 @@ class PairTable {
   bool is_listed(int p) const { return (pairs_[p].marks & kListed) != 0; }
   void unlist(int p) { mark(p, kListed, false); }
 
+  /// Has the pair come up at tick `due`, and at no other.
+  void set_due(int p, Tick due) { wheel_.set(p, due, pairs_[p].owner); }
   TimingWheel& wheel() { return wheel_; }
   std::size_t bytes() const;
 
@@ -99,6 +100,7 @@ class PairTable {
     Direction direction{};
     GapLine line;
     std::uint8_t marks = 0;
+    std::uint8_t owner = 0;
   };
 
   void mark(int p, Mark what, bool set) {
@@ -107,7 +109,6 @@ class PairTable {
 
   std::vector<Pair> pairs_;
   std::vector<Tick> detected_at_;
-  std::vector<std::uint8_t> owners_;
   TimingWheel wheel_;
   std::vector<std::int16_t> n_touching_;  ///< (n_rods)
 };

@@ -37,16 +37,16 @@ namespace shaken {
 ///  2. A rod that a plate hits tick after tick rests on it and is visited at the next tick without a bound.
 ///  3. Beads that overlap but recede are left alone, unless a rod of theirs may be hit in this very tick.
 ///
-/// Each phase of a tick is a loop over a list without order, which several threads may share (SharedLoops). Lists,
-/// marks, wheels and the impulses between rods are the first thread's.
+/// Every rod and every pair belongs to a worker, and each worker may be a thread of its own (SharedLoops). A tick is a
+/// few loops in which a worker handles what belongs to it; what takes two workers is done by the first one in between:
+/// places in the neighbour list and the impulses between rods.
 class ScheduledStepper final : public Stepper {
  public:
-  /// Loops are shared if there are at least `grain` items for each thread.
+  /// A tick is shared among the threads if the one before it had at least `grain` visits and bounds for each.
   ScheduledStepper(const World& world, int n_threads, int grain);
   std::size_t bytes() const override;
 
  private:
-  /// What the first thread notes of a rod.
   struct RodMarks {
     Tick posed_at = -1;    ///< tick for which rods_ holds the rod
     Tick listed_at = -1;   ///< tick at which it was last to be scheduled
@@ -54,45 +54,58 @@ class ScheduledStepper final : public Stepper {
     Tick rests_at = -1;    ///< last tick at which a surface hit it when it had been hit in the tick before
     Tick bounded_at = -1;  ///< tick for which motion_bounds_ holds the rod
   };
-  /// What one thread has and gathers in a loop.
-  struct Worker : LoopPart {
-    void note(NumericalTrouble met);
-
-    std::vector<Tick> next;  ///< ticks at which `mine` are due
+  /// A pair whose rod was hit, while another worker has the pair.
+  struct HitPair {
+    int pair;
+    int rod;
+  };
+  /// What one worker has, and gathers in a tick: rods and pairs of its own.
+  struct alignas(64) Worker {
+    std::size_t number = 0;
+    std::vector<int> due_rods;
+    std::vector<int> to_place;     ///< rods that have used up their reserve in the neighbour list
+    std::vector<int> out_of_hand;  ///< rods whose motion is trouble after the surfaces
+    std::vector<int> due_pairs;
+    std::vector<int> to_pose;  ///< rods
+    std::vector<PairContact> contacts;
+    std::vector<int> turned;                      ///< pairs that began or ceased to touch
+    std::vector<int> changed;                     ///< rods hit in this tick
+    std::vector<int> to_schedule;                 ///< rods
+    std::vector<std::vector<HitPair>> hit_pairs;  ///< (n_workers) of each other worker
+    std::vector<int> to_bound;                    ///< pairs
+    std::vector<int> to_bound_motion;             ///< rods of pairs that need a bound, of whatever worker
     Counters counters;
     std::optional<NumericalTrouble> trouble;  ///< that of the first rods
-    std::vector<int> hit;                     ///< rods, by a surface
-    std::vector<int> to_place;                ///< rods that have used up their reserve in the neighbour list
     std::vector<BeadContact> bead_contacts;
-    std::vector<PairContact> contacts;
-    std::vector<int> turned;  ///< pairs that began or ceased to touch
     PlateLanes plate_lanes{};
     PairLanes pair_lanes{};
   };
 
   std::optional<NumericalTrouble> step(World& world, Tick now) override;
 
-  // parts of a tick, in this order
-  void list_due_rods(const World& world, Tick now);
-  std::optional<NumericalTrouble> meet_surfaces_due(World& world, Tick now);
-  void list_due_pairs(const World& world, Tick now);
-  void detect_due(const World& world, Tick now);
+  // parts of a tick, in this order; of those without a worker the first thread does all
+  void meet_surfaces_due(World& world, const PlateState& plates, Tick now, Worker& worker);
+  std::optional<NumericalTrouble> gather_surfaces(World& world);
+  void place_listed(const World& world, Tick now);
+  void detect_due(const World& world, Tick now, Worker& worker);
+  void gather_contacts(const World& world, Tick now);
   void detect_touching(const World& world, Tick now);
-  void list_hit(Tick now);
-  std::optional<NumericalTrouble> store_changed(World& world, Tick now);
-  void schedule_rods(const World& world, Tick now);
-  void list_pairs_to_bound(Tick now);
-  void bound_motions(const World& world, Tick now);
-  void schedule_pairs(Tick now);
+  std::optional<NumericalTrouble> check_changed(Tick now);
+  void store_changed(World& world, Tick now, Worker& worker);
+  void schedule_rods(const World& world, Tick now, Worker& worker);
+  void list_pairs_to_bound(Tick now, Worker& worker);
+  void bound_motions(const World& world, Tick now, Worker& worker);
+  void schedule_pairs(Tick now, Worker& worker);
 
+  Worker& worker_of(int i) { return loops_.workers()[owners_[i]]; }
+  void lap(const Worker& worker, Phase phase) {
+    if (worker.number == 0) phase_times.lap(phase);
+  }
   void pose_rod(int i, const World& world, Tick now);
-  void list_to_pose(int i, Tick now);
-  void pose_listed(const World& world, Tick now);
-  void list_changed(int i, Tick now);
-  bool find_contacts(int p, Worker& worker);
-  void gather_contacts(Worker& worker);
+  void pose_if_needed(int i, const World& world, Tick now);
+  void pose_listed(const World& world, Tick now, Worker& worker);
+  void tighten_or_list(int p, int i, Tick now, Worker& worker);
   void bound_pairs(std::span<const int> pairs, Tick now, Worker& worker);
-  std::optional<NumericalTrouble> first_trouble() const;
   /// Where free flight brought the rod; impacts at their instant may have displaced it since.
   const Pose& found(int i) const { return found_.empty() ? rods_[i].pose : found_[i]; }
   int species_index(int i) const { return rules_.species_of_rod[i]; }
@@ -101,6 +114,7 @@ class ScheduledStepper final : public Stepper {
   PairSearch search_;
   NeighborList neighbors_;
   SharedLoops<Worker> loops_;
+  std::size_t grain_;
 
   // of each rod
   std::vector<RodAtTick> rods_;
@@ -109,23 +123,16 @@ class ScheduledStepper final : public Stepper {
   std::vector<ListReserve> reserves_;
   std::vector<RodMarks> marks_;
   std::vector<MotionBound> motion_bounds_;
-  std::vector<std::uint8_t> owners_;  ///< the thread of each rod
+  std::vector<std::uint8_t> owners_;  ///< the worker of each rod
   TimingWheel wheel_;
 
   PairTable pairs_;
   bool is_new_ = true;
 
   // lists of one tick
-  std::vector<std::int32_t> due_rods_;
-  std::vector<std::int32_t> due_pairs_;
   std::vector<PairContact> contacts_;
-  std::vector<int> changed_;          ///< rods hit in this tick
-  std::vector<int> to_pose_;          ///< rods
-  std::vector<int> to_bound_motion_;  ///< rods of pairs that need a bound
-  std::vector<int> to_schedule_;      ///< rods
-  std::vector<int> to_bound_;         ///< pairs
-  std::vector<int> may_change_;       ///< rods that touch another and may yet be hit in this tick
-  std::vector<int> gained_, lost_;    ///< pairs, by the neighbour list
+  std::vector<int> may_change_;     ///< rods that touch another and may yet be hit in this tick
+  std::vector<int> gained_, lost_;  ///< pairs, by the neighbour list
 };
 
 }  // namespace shaken

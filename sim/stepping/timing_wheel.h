@@ -12,18 +12,20 @@ namespace shaken {
 
 /// Things to look at, by the tick at which they are due: a ring of slots, one per tick, each a doubly linked list
 /// through the items themselves, so that an item is put in, put off and taken out in O(1) (Varghese & Lauck 1987).
+/// Each owner has a ring of its own. Owners may put in, put off and take out items of theirs at the same time.
 class TimingWheel {
  public:
   /// Due ticks may lie up to `horizon()` ahead.
   static constexpr Tick kSlots = 4096;
   static constexpr Tick horizon() { return kSlots - 1; }
 
-  explicit TimingWheel(std::size_t n_items = 0) : first_(kSlots, kNone), links_(n_items) {}
+  explicit TimingWheel(std::size_t n_items = 0, int n_owners = 1)
+      : first_(static_cast<std::size_t>(kSlots) * static_cast<std::size_t>(n_owners), kNone), links_(n_items) {}
 
-  /// Has `item` come up at tick `due`, and at no other.
-  void set(std::int32_t item, Tick due) {
+  /// Has `item` come up at tick `due`, and at no other. As long as it is in, it belongs to `owner`.
+  void set(std::int32_t item, Tick due, int owner = 0) {
     Link& link = links_[item];
-    const auto slot = static_cast<std::int32_t>(due % kSlots);
+    const std::int32_t slot = slot_of(due, owner);
     if (link.slot == slot) return;
     if (link.slot != kNone) take_out(link);
     link.slot = slot;
@@ -52,10 +54,9 @@ class TimingWheel {
     if (n_items > links_.size()) links_.resize(n_items);
   }
 
-  /// Moves the items of tick `now` into `items` (whose old content is dropped).
-  void pop(Tick now, std::vector<std::int32_t>& items) {
-    std::int32_t& first = first_[static_cast<std::size_t>(now % kSlots)];
-    items.clear();
+  /// Takes the owner's items of tick `now` out and appends them to `items`.
+  void pop(Tick now, std::vector<std::int32_t>& items, int owner = 0) {
+    std::int32_t& first = first_[slot_of(now, owner)];
     for (std::int32_t item = first; item != kNone; item = links_[item].next) {
       links_[item].slot = kNone;
       items.push_back(item);
@@ -75,12 +76,15 @@ class TimingWheel {
     std::int32_t next = kNone;
   };
 
+  static std::int32_t slot_of(Tick tick, int owner) {
+    return static_cast<std::int32_t>(tick % kSlots) + owner * static_cast<std::int32_t>(kSlots);
+  }
   void take_out(const Link& link) {
     (link.previous != kNone ? links_[link.previous].next : first_[link.slot]) = link.next;
     if (link.next != kNone) links_[link.next].previous = link.previous;
   }
 
-  std::vector<std::int32_t> first_;  ///< (kSlots) an item of each slot
+  std::vector<std::int32_t> first_;  ///< (n_owners x kSlots) an item of each slot
   std::vector<Link> links_;          ///< (n_items)
 };
 

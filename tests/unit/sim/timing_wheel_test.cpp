@@ -11,9 +11,12 @@
 namespace shaken {
 namespace {
 
-TEST(TimingWheel, BringsEachItemUpAtItsLastTickAndOnlyThen) {
+/// Who owns an item may change while it is not in.
+TEST(TimingWheel, BringsEachItemUpAtItsLastTickAndOnlyThenToItsOwner) {
+  constexpr int kOwners = 3;
   test::Draw draw(31);
-  TimingWheel wheel(50);
+  TimingWheel wheel(50, kOwners);
+  std::map<std::int32_t, int> owners;
   std::map<std::int32_t, Tick> due;  // the twin
   std::vector<std::int32_t> popped;
   Tick furthest = 0;
@@ -27,12 +30,18 @@ TEST(TimingWheel, BringsEachItemUpAtItsLastTickAndOnlyThen) {
         due.erase(item);
       } else {
         const Tick at = now + draw.integer(1, draw.integer(0, 3) ? 30 : static_cast<int>(TimingWheel::horizon()));
-        wheel.set(item, at);
+        if (!due.contains(item)) owners[item] = draw.integer(0, kOwners - 1);
+        wheel.set(item, at, owners[item]);
         due[item] = at;
         furthest = std::max(furthest, at - now);
       }
     }
-    wheel.pop(now + 1, popped);
+    popped.clear();
+    for (int owner = 0; owner < kOwners; ++owner) {
+      const std::size_t first = popped.size();
+      wheel.pop(now + 1, popped, owner);
+      for (std::size_t k = first; k < popped.size(); ++k) EXPECT_EQ(owners[popped[k]], owner);
+    }
     std::sort(popped.begin(), popped.end());
     std::vector<std::int32_t> expected;
     for (const auto& [item, at] : due) {
