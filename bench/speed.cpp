@@ -192,7 +192,7 @@ struct SpeedBench {
     CLI::Option* series =
         app.add_option("--scaling", scaling, "Instead: cost per rod against the number of rods, or the step");
     series->type_name("n|dt")->check(CLI::IsMember({"n", "dt"}).description(""))->excludes(all);
-    add_number(app, "--threads", threads, "LIST", {1, 1024}, "Instead: wall time by so many threads")->excludes(series);
+    add_number(app, "--threads", threads, "LIST", {1, 64}, "Instead: wall time by so many threads")->excludes(series);
     cache.declare(app);
     output.declare(app);
   }

@@ -35,7 +35,7 @@ NeighborList::NeighborList(std::span<const Species> species, std::span<const std
 
 std::size_t NeighborList::bytes() const {
   std::size_t bytes = heap_bytes(species_of_rod_, placed_center_, placed_direction_, cell_, members_, pairs_, unused_,
-                                 pairs_of_, n_pairs_of_, near_, mark_);
+                                 pairs_of_, n_pairs_of_, mark_);
   for (const auto& members : members_) bytes += heap_bytes(members);
   return bytes;
 }
@@ -166,31 +166,35 @@ void NeighborList::build(std::span<const Pose> poses) {
   n_pairs_of_.assign(n, 0);
   pairs_of_.resize(n * stride_);
   mark_.assign(n, -1);
+  std::vector<int> near;
   for (int i = 0; i < n; ++i) {
-    near_.clear();
+    near.clear();
     for_candidates(i, [&](int j) {
-      if (j > i && are_near(i, j)) near_.push_back(j);
+      if (j > i && are_near(i, j)) near.push_back(j);
     });
-    std::sort(near_.begin(), near_.end());
-    for (const int j : near_) add_pair(i, j);
+    std::sort(near.begin(), near.end());
+    for (const int j : near) add_pair(i, j);
   }
 }
 
-void NeighborList::place(int i, const Pose& pose, std::vector<int>& gained, std::vector<int>& lost) {
+void NeighborList::place(int i, const Pose& pose) {
   note_place(i, pose);
   const int cell = cell_of(placed_center_[i]);
-  if (cell != cell_[i]) {
-    auto& old = members_[cell_[i]];
-    *std::find(old.begin(), old.end(), i) = old.back();
-    old.pop_back();
-    put_into_cell(i, cell);
-  }
-  near_.clear();
+  if (cell == cell_[i]) return;
+  auto& old = members_[cell_[i]];
+  *std::find(old.begin(), old.end(), i) = old.back();
+  old.pop_back();
+  put_into_cell(i, cell);
+}
+
+void NeighborList::find_near(int i, std::vector<int>& rods) const {
   for_candidates(i, [&](int j) {
-    if (!are_near(i, j)) return;
-    near_.push_back(j);
-    mark_[j] = i;
+    if (are_near(i, j)) rods.push_back(j);
   });
+}
+
+void NeighborList::replace_pairs(int i, std::span<const int> near, std::vector<int>& gained, std::vector<int>& lost) {
+  for (const int j : near) mark_[j] = i;
   const std::size_t first_lost = lost.size();
   for (const int p : pairs_of(i)) {
     const int j = pairs_[p].i == i ? pairs_[p].j : pairs_[p].i;
@@ -206,7 +210,7 @@ void NeighborList::place(int i, const Pose& pose, std::vector<int>& gained, std:
     remove_from(pair.j, lost[k]);
     pair = {};
   }
-  for (const int j : near_) {
+  for (const int j : near) {
     if (mark_[j] == i) gained.push_back(add_pair(i, j));
     mark_[j] = -1;
   }

@@ -50,9 +50,13 @@ class NeighborList {
   bool is_due(std::span<const Pose> poses) const;
   /// Places every rod. Pairs are then numbered in ascending order of (i, j), without gaps.
   void build(std::span<const Pose> poses);
-  /// Places rod i anew and appends the numbers of the pairs that it gained and lost; others keep theirs. A number lost
-  /// may come back as one gained.
-  void place(int i, const Pose& pose, std::vector<int>& gained, std::vector<int>& lost);
+  /// Places rod i anew. Its pairs are to be replaced, once all rods to be placed in this tick are.
+  void place(int i, const Pose& pose);
+  /// Appends the rods that are near enough to i, as they are placed now, to make pairs.
+  void find_near(int i, std::vector<int>& rods) const;
+  /// Gives rod i pairs with the rods of `near`, and no others. Appends the numbers of the pairs that it gained and
+  /// lost; others keep theirs. A number lost may come back as one gained.
+  void replace_pairs(int i, std::span<const int> near, std::vector<int>& gained, std::vector<int>& lost);
 
   /// How much further the ends of rod i's segment may move before the list may be incomplete; negative: it may be [mm].
   double slack(int i, const Pose& pose) const;
@@ -109,7 +113,7 @@ class NeighborList {
   std::vector<int> pairs_of_;  ///< (n_rods x stride)
   std::vector<int> n_pairs_of_;
   std::size_t stride_ = 16;
-  std::vector<int> near_, mark_;  ///< scratch
+  std::vector<int> mark_;  ///< (n_rods) scratch
 };
 
 }  // namespace shaken

@@ -23,6 +23,7 @@ void PairTable::add(int p, const PairRods& rods, std::uint8_t owner) {
   pairs_[p].direction = {};
   pairs_[p].line = {};
   pairs_[p].owner = owner;
+  detected_at_[p] = -1;
 }
 
 void PairTable::remove(int p) {

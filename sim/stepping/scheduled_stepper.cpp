@@ -47,8 +47,9 @@ std::size_t ScheduledStepper::bytes() const {
   bytes += heap_bytes(rods_, found_, changes_, reserves_, marks_, motion_bounds_, owners_);
   bytes += heap_bytes(contacts_, may_change_, gained_, lost_, loops_.workers());
   for (const Worker& w : loops_.workers()) {
-    bytes += heap_bytes(w.due_rods, w.to_place, w.out_of_hand, w.due_pairs, w.to_pose, w.contacts, w.turned, w.changed,
-                        w.to_schedule, w.hit_pairs, w.to_bound, w.to_bound_motion, w.bead_contacts);
+    bytes +=
+        heap_bytes(w.due_rods, w.to_place, w.near, w.near_end, w.out_of_hand, w.due_pairs, w.to_pose, w.contacts,
+                   w.turned, w.changed, w.to_schedule, w.hit_pairs, w.to_bound, w.to_bound_motion, w.bead_contacts);
     for (const auto& of_another : w.hit_pairs) bytes += heap_bytes(of_another);
   }
   return bytes;
@@ -69,10 +70,13 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
   phase_times.lap(Phase::kSurfaces);
 
   // 2. detection
-  place_listed(world, now);
+  place_rods(now);
   phase_times.lap(Phase::kNeighbors);
   loops_.run([&](Worker& worker) { detect_due(world, now, worker); });
   gather_contacts(world, now);
+  phase_times.lap(Phase::kDetection);
+  replace_pairs(world, now);
+  phase_times.lap(Phase::kNeighbors);
   detect_touching(world, now);
   sort_contacts(contacts_, rods_, rules_);
   phase_times.lap(Phase::kDetection);
@@ -165,30 +169,21 @@ std::optional<NumericalTrouble> ScheduledStepper::gather_surfaces(World& world) 
 
 // ---- 2. detection
 
-/// Lists the pairs that the neighbour list gains as due.
-void ScheduledStepper::place_listed(const World& world, Tick now) {
-  for (Worker& worker : loops_.workers()) worker.due_pairs.clear();
-  gained_.clear();
-  lost_.clear();
-  if (is_new_) {
-    std::vector<Pose> poses(world.rods.size());
-    for (std::size_t i = 0; i < poses.size(); ++i) poses[i] = found(static_cast<int>(i));
-    neighbors_.build(poses);
-    for (int i = 0; i < static_cast<int>(world.rods.size()); ++i)
-      reserves_[i].measure(neighbors_, i, rods_[i].pose, now);
-    gained_.resize(neighbors_.pairs().size());
-    std::iota(gained_.begin(), gained_.end(), 0);
-    is_new_ = false;
-  }
-  for (Worker& worker : loops_.workers()) {
-    for (const int i : worker.to_place) {
-      neighbors_.place(i, found(i), gained_, lost_);
-      reserves_[i].measure(neighbors_, i, rods_[i].pose, now);
-    }
-    worker.to_place.clear();
-  }
+void ScheduledStepper::build_neighbors(Tick now) {
+  const std::size_t n = rods_.size();
+  std::vector<Pose> poses(n);
+  for (std::size_t i = 0; i < n; ++i) poses[i] = found(static_cast<int>(i));
+  neighbors_.build(poses);
+  for (int i = 0; i < static_cast<int>(n); ++i) reserves_[i].measure(neighbors_, i, rods_[i].pose, now);
+  gained_.resize(neighbors_.pairs().size());
+  std::iota(gained_.begin(), gained_.end(), 0);
+  add_gained();
+  is_new_ = false;
+}
+
+/// They are due.
+void ScheduledStepper::add_gained() {
   pairs_.make_room(neighbors_.pairs().size());
-  for (const int p : lost_) pairs_.remove(p);
   for (const int p : gained_) {
     const NeighborList::Pair& pair = neighbors_.pairs()[p];
     if (pair.i < 0 || pairs_.is_used(p)) continue;  // lost again, or met twice
@@ -197,7 +192,25 @@ void ScheduledStepper::place_listed(const World& world, Tick now) {
   }
 }
 
+void ScheduledStepper::place_rods(Tick now) {
+  was_complete_ = true;
+  for (Worker& worker : loops_.workers()) worker.due_pairs.clear();
+  if (is_new_) build_neighbors(now);
+  for (Worker& worker : loops_.workers()) {
+    for (const int i : worker.to_place) {
+      if (!(reserves_[i].left(now, rules_.dt) >= 0)) was_complete_ = false;
+      neighbors_.place(i, found(i));
+    }
+  }
+}
+
 void ScheduledStepper::detect_due(const World& world, Tick now, Worker& worker) {
+  for (const int i : worker.to_place) {
+    reserves_[i].measure(neighbors_, i, rods_[i].pose, now);
+    neighbors_.find_near(i, worker.near);
+    worker.near_end.push_back(worker.near.size());
+  }
+  lap(worker, Phase::kNeighbors);
   pairs_.wheel().pop(now, worker.due_pairs, static_cast<int>(worker.number));
   worker.to_pose.clear();
   for (const int p : worker.due_pairs) {
@@ -231,6 +244,41 @@ void ScheduledStepper::gather_contacts(const World& world, Tick now) {
   for (const PairContact& contact : contacts_) pose_if_needed(contact.j, world, now);
 }
 
+/// Of the rods that have been placed.
+void ScheduledStepper::replace_pairs(const World& world, Tick now) {
+  gained_.clear();
+  lost_.clear();
+  for (Worker& worker : loops_.workers()) {
+    std::size_t begin = 0;
+    for (std::size_t k = 0; k < worker.to_place.size(); ++k) {
+      const auto near = std::span(worker.near).subspan(begin, worker.near_end[k] - begin);
+      neighbors_.replace_pairs(worker.to_place[k], near, gained_, lost_);
+      begin = worker.near_end[k];
+    }
+    worker.to_place.clear();
+    worker.near.clear();
+    worker.near_end.clear();
+  }
+  for (const int p : lost_) pairs_.remove(p);
+  add_gained();
+  if (was_complete_) return;
+  for (const int p : gained_) {
+    if (pairs_.is_used(p) && pairs_.detected_at(p) != now) detect(p, world, now);
+  }
+}
+
+/// Finds the contacts of a pair, by the first thread.
+void ScheduledStepper::detect(int p, const World& world, Tick now) {
+  pairs_.set_detected(p, now);
+  const auto& [i, j] = pairs_.rods(p);
+  pose_if_needed(i, world, now);
+  pose_if_needed(j, world, now);
+  std::vector<BeadContact>& bead_contacts = loops_.workers().front().bead_contacts;
+  if (search_.find(pairs_.rods(p), found(i), found(j), pairs_.direction(p), bead_contacts, contacts_) !=
+      pairs_.is_touching(p))
+    pairs_.turn_touching(p);
+}
+
 // Beads that overlap but recede are left alone for a while. An impulse on one of the rods can make them approach within
 // the very tick, though, so wherever a rod may be hit, its touching pairs take part in that tick's response.
 void ScheduledStepper::detect_touching(const World& world, Tick now) {
@@ -249,17 +297,11 @@ void ScheduledStepper::detect_touching(const World& world, Tick now) {
     }
   };
   note_contacts();
-  std::vector<BeadContact>& bead_contacts = loops_.workers().front().bead_contacts;
   for (std::size_t m = 0; m < may_change_.size(); ++m) {
     for (const int p : neighbors_.pairs_of(may_change_[m])) {
       if (!pairs_.is_touching(p) || pairs_.detected_at(p) == now) continue;
       loops_.workers()[pairs_.owner(p)].due_pairs.push_back(p);
-      pairs_.set_detected(p, now);
-      const auto& [i, j] = pairs_.rods(p);
-      pose_if_needed(i, world, now);
-      pose_if_needed(j, world, now);
-      if (!search_.find(pairs_.rods(p), found(i), found(j), pairs_.direction(p), bead_contacts, contacts_))
-        pairs_.turn_touching(p);
+      detect(p, world, now);
     }
     note_contacts();
   }
@@ -350,7 +392,11 @@ void ScheduledStepper::tighten_or_list(int p, int i, Tick now, Worker& worker) {
 /// Flattened: or else each of its many appends to a list is a call: 2 % of all instructions (callgrind).
 [[gnu::flatten]] void ScheduledStepper::list_pairs_to_bound(Tick now, Worker& worker) {
   worker.to_bound.clear();
-  for (const int p : worker.due_pairs) pairs_.list(p, worker.to_bound);
+  for (const int p : worker.due_pairs) {
+    // one that has been lost, or is another's by now, is not listed
+    if (pairs_.is_used(p) && static_cast<std::size_t>(pairs_.owner(p)) == worker.number)
+      pairs_.list(p, worker.to_bound);
+  }
   const bool alone = loops_.workers().size() == 1;
   const std::vector<int>& changed = worker.changed;
   const std::size_t n = changed.size();

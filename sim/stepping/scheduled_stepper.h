@@ -63,7 +63,9 @@ class ScheduledStepper final : public Stepper {
   struct alignas(64) Worker {
     std::size_t number = 0;
     std::vector<int> due_rods;
-    std::vector<int> to_place;     ///< rods that have used up their reserve in the neighbour list
+    std::vector<int> to_place;  ///< rods that have used up their reserve in the neighbour list
+    std::vector<int> near;      ///< rods, near each of those, one after the other
+    std::vector<std::size_t> near_end;
     std::vector<int> out_of_hand;  ///< rods whose motion is trouble after the surfaces
     std::vector<int> due_pairs;
     std::vector<int> to_pose;  ///< rods
@@ -86,9 +88,10 @@ class ScheduledStepper final : public Stepper {
   // parts of a tick, in this order; of those without a worker the first thread does all
   void meet_surfaces_due(World& world, const PlateState& plates, Tick now, Worker& worker);
   std::optional<NumericalTrouble> gather_surfaces(World& world);
-  void place_listed(const World& world, Tick now);
+  void place_rods(Tick now);
   void detect_due(const World& world, Tick now, Worker& worker);
   void gather_contacts(const World& world, Tick now);
+  void replace_pairs(const World& world, Tick now);
   void detect_touching(const World& world, Tick now);
   std::optional<NumericalTrouble> check_changed(Tick now);
   void store_changed(World& world, Tick now, Worker& worker);
@@ -103,6 +106,9 @@ class ScheduledStepper final : public Stepper {
   }
   void pose_rod(int i, const World& world, Tick now);
   void pose_if_needed(int i, const World& world, Tick now);
+  void build_neighbors(Tick now);
+  void add_gained();
+  void detect(int p, const World& world, Tick now);
   void pose_listed(const World& world, Tick now, Worker& worker);
   void tighten_or_list(int p, int i, Tick now, Worker& worker);
   void bound_pairs(std::span<const int> pairs, Tick now, Worker& worker);
@@ -133,6 +139,7 @@ class ScheduledStepper final : public Stepper {
   std::vector<PairContact> contacts_;
   std::vector<int> may_change_;     ///< rods that touch another and may yet be hit in this tick
   std::vector<int> gained_, lost_;  ///< pairs, by the neighbour list
+  bool was_complete_ = true;        ///< pairs gained in this tick cannot touch yet
 };
 
 }  // namespace shaken

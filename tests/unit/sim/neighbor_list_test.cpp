@@ -94,10 +94,15 @@ TEST(NeighborList, KeptUpRodByRodItStaysCompleteAndSaysWhatChanged) {
     for (int move = 0; move < 100; ++move) {
       stir(draw, poses);
       if (draw.integer(0, 9) == 0) poses[0].position += draw.vector(3);  // far enough to lose all its neighbours
+      std::vector<int> due;
       for (int i = 0; i < static_cast<int>(poses.size()); ++i) {
-        if (list.slack(i, poses[i]) >= 0) continue;
-        std::vector<int> gained, lost;
-        list.place(i, poses[i], gained, lost);
+        if (list.slack(i, poses[i]) < 0) due.push_back(i);
+      }
+      for (const int i : due) list.place(i, poses[i]);
+      for (const int i : due) {
+        std::vector<int> near, gained, lost;
+        list.find_near(i, near);
+        list.replace_pairs(i, near, gained, lost);
         EXPECT_GT(list.slack(i, poses[i]), 0.14);
         for (const int p : lost) EXPECT_EQ(listed.erase(p), 1u);
         for (const int p : gained) {
@@ -184,11 +189,14 @@ TEST(NeighborList, StaysCompleteInSmallBoxes) {
         steps[i].z() = 0;
       }
       list.build(poses);
-      std::vector<int> gained, lost;
       for (int move = 0; move < 400; ++move) {
         for (int i = 0; i < 3; ++i) {
           poses[i].position += steps[i];
-          if (list.slack(i, poses[i]) < 0) list.place(i, poses[i], gained, lost);
+          if (list.slack(i, poses[i]) >= 0) continue;
+          list.place(i, poses[i]);
+          std::vector<int> near, gained, lost;
+          list.find_near(i, near);
+          list.replace_pairs(i, near, gained, lost);
         }
         n_touching += expect_complete(list, rod, poses, side);
       }
