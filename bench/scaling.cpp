@@ -2,6 +2,7 @@
 // The scheduled stepper's cost against the number of rods, the step, and the number of threads.
 #include <fmt/format.h>
 
+#include "base/clock.h"
 #include "bench/speed.h"
 
 namespace shaken::bench {
@@ -57,17 +58,29 @@ void draw_scaling(const std::filesystem::path& folder, Scaling of, const Report&
   draw(figure, folder);
 }
 
-Report threads_report(const Conditions& conditions, const std::vector<std::vector<Contender>>& scenes) {
+double measure_serial_share(const Contender& of) {
+  Simulation timed = resumed(of.scene, of.state, StepperKind::kScheduled);
+  advance(timed, of.settle);
+  timed.time_phases(thread_cpu_seconds_without_readings);
+  const double start = thread_cpu_seconds_without_readings();
+  advance(timed, of.ticks);
+  const double all = thread_cpu_seconds_without_readings() - start;
+  return 1 - timed.phase_times().in_loops() / all;
+}
+
+Report threads_report(const Conditions& conditions, const std::vector<ThreadsSpeed>& scenes) {
   Report report = report_under(conditions, "threads", "threads");
-  for (const std::vector<Contender>& scene : scenes) {
-    const Contender& first = scene.front();
-    for (const Contender& of : scene) {
+  for (const ThreadsSpeed& scene : scenes) {
+    const Contender& first = scene.by.front();
+    for (const Contender& of : scene.by) {
       Json row = json_of(of.scene);
       row["threads"] = of.threads;
       row["wall_s"] = of.speed.wall;
       row["cpu_s"] = of.speed.cpu;
       row["rod_s_per_wall_s"] = of.speed.rod_seconds / of.speed.best_wall();
       row["speed_up"] = first.speed.best_wall() / of.speed.best_wall();
+      row["serial_share"] = scene.serial;
+      row["limit"] = scene.limit(of.threads);
       row["relative_cpu"] = of.speed.best_cpu() / first.speed.best_cpu();
       row["spread"] = of.speed.wall_spread();
       row["state_hash"] = fmt::format("{:016x}", of.hash);
@@ -77,10 +90,13 @@ Report threads_report(const Conditions& conditions, const std::vector<std::vecto
   }
   report.text +=
       "\nThe scheduled stepper by several threads: wall time (so other programs on the machine count) and CPU time of\n"
-      "all threads, both relative to the first row of the scene; spread: median over best wall time.\n" +
+      "all threads, both relative to the first row of the scene; spread: median over best wall time; serial: share of\n"
+      "one thread's CPU time that others cannot share; limit: the speed-up over one thread that this leaves.\n" +
       table(report.rows(), scene_columns({{"threads", "threads"},
                                           {"rod-s/wall-s", "rod_s_per_wall_s", "{:.1f}"},
                                           {"speed-up", "speed_up", "{:.2f}"},
+                                          {"limit", "limit", "{:.2f}"},
+                                          {"serial %", "serial_share", "{:.1f}", 100},
                                           {"CPU time", "relative_cpu", "{:.2f}"},
                                           {"spread", "spread", "{:.3f}"},
                                           {"same state", "hashes_equal"}}));

@@ -248,12 +248,14 @@ struct SpeedBench {
   }
 
   ExitCode run_threads() const {
-    std::vector<std::vector<Contender>> measured;
+    std::vector<ThreadsSpeed> measured;
     for (const Case& scene : scenes()) {
       const Contender by_one = contender(scene, cache(scene), conditions().effort.cpu);
-      std::vector<Contender>& series = measured.emplace_back(threads.size(), by_one);
-      for (std::size_t k = 0; k < threads.size(); ++k) series[k].threads = threads[k];
-      time_in_turn("measuring threads on " + scene.label(), series, conditions().effort.repeat);
+      ThreadsSpeed& speed = measured.emplace_back();
+      speed.by.assign(threads.size(), by_one);
+      for (std::size_t k = 0; k < threads.size(); ++k) speed.by[k].threads = threads[k];
+      time_in_turn("measuring threads on " + scene.label(), speed.by, conditions().effort.repeat);
+      speed.serial = measure_serial_share(by_one);
     }
     const Report report = threads_report(conditions(), measured);
     output.give(report);

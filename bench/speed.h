@@ -67,7 +67,18 @@ enum class Scaling { kRods, kStep };
 Report scaling_report(const Conditions& conditions, Scaling of, const std::vector<Contender>& series);
 void draw_scaling(const std::filesystem::path& folder, Scaling of, const Report& report);
 
-/// The scheduled stepper by several numbers of threads; one series for each scene.
-Report threads_report(const Conditions& conditions, const std::vector<std::vector<Contender>>& scenes);
+/// The scheduled stepper by several numbers of threads, on one scene.
+struct ThreadsSpeed {
+  std::vector<Contender> by;
+  double serial = 0;  ///< share of the CPU time of one thread that several cannot share
+
+  /// The speed-up that so many threads cannot exceed if they share the rest evenly (Amdahl 1967).
+  double limit(int n_threads) const { return 1 / (serial + (1 - serial) / n_threads); }
+};
+
+/// Of one thread's CPU time, the share that it spends where it alone has work. Of a run for as many ticks as the
+/// contender's.
+double measure_serial_share(const Contender& of);
+Report threads_report(const Conditions& conditions, const std::vector<ThreadsSpeed>& scenes);
 
 }  // namespace shaken::bench

@@ -33,9 +33,21 @@ class PhaseTimes {
   }
   double seconds(Phase phase) const { return seconds_[static_cast<std::size_t>(phase)]; }
 
+  /// What lies between these two could be shared among threads.
+  void begin_loop() {
+    if (clock_ != nullptr) loop_began_ = clock_();
+  }
+  void end_loop() {
+    if (clock_ != nullptr) in_loops_ += clock_() - loop_began_;
+  }
+  /// Seconds of all phases that could be shared among threads.
+  double in_loops() const { return in_loops_; }
+
  private:
   Clock clock_ = nullptr;
   double last_ = 0;
+  double loop_began_ = 0;
+  double in_loops_ = 0;
   std::array<double, kPhases> seconds_{};
 };
 

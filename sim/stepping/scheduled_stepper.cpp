@@ -65,14 +65,14 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
 
   // 1. surfaces
   const PlateState plates = world.plates.at(now);
-  loops_.run([&](Worker& worker) { meet_surfaces_due(world, plates, now, worker); });
+  in_loop([&](Worker& worker) { meet_surfaces_due(world, plates, now, worker); });
   if (auto trouble = gather_surfaces(world)) return trouble;
   phase_times.lap(Phase::kSurfaces);
 
   // 2. detection
   place_rods(now);
   phase_times.lap(Phase::kNeighbors);
-  loops_.run([&](Worker& worker) { detect_due(world, now, worker); });
+  in_loop([&](Worker& worker) { detect_due(world, now, worker); });
   gather_contacts(world, now);
   phase_times.lap(Phase::kDetection);
   replace_pairs(world, now);
@@ -88,14 +88,14 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
   // 4. storing
   if (auto trouble = check_changed(now)) return trouble;
   // ... and what was visited, and what flies differently now, gets new bounds
-  loops_.run([&](Worker& worker) {
+  in_loop([&](Worker& worker) {
     store_changed(world, now, worker);
     lap(worker, Phase::kStoring);
     schedule_rods(world, now, worker);
     list_pairs_to_bound(now, worker);
   });
-  loops_.run([&](Worker& worker) { bound_motions(world, now, worker); });
-  loops_.run([&](Worker& worker) { schedule_pairs(now, worker); });
+  in_loop([&](Worker& worker) { bound_motions(world, now, worker); });
+  in_loop([&](Worker& worker) { schedule_pairs(now, worker); });
   return {};
 }
 
@@ -212,9 +212,18 @@ void ScheduledStepper::detect_due(const World& world, Tick now, Worker& worker) 
   }
   lap(worker, Phase::kNeighbors);
   pairs_.wheel().pop(now, worker.due_pairs, static_cast<int>(worker.number));
+  for (const int p : worker.due_pairs) pairs_.set_detected(p, now);
+  for (const int i : worker.changed) {  // as in detect_touching, which finds the rest
+    if (pairs_.n_touching(i) == 0) continue;
+    for (const int p : neighbors_.pairs_of(i)) {
+      if (static_cast<std::size_t>(pairs_.owner(p)) != worker.number) continue;
+      if (!pairs_.is_touching(p) || pairs_.detected_at(p) == now) continue;
+      pairs_.set_detected(p, now);
+      worker.due_pairs.push_back(p);
+    }
+  }
   worker.to_pose.clear();
   for (const int p : worker.due_pairs) {
-    pairs_.set_detected(p, now);
     for (const int i : pairs_.rods(p)) {
       if (owners_[i] != worker.number || marks_[i].posed_at == now) continue;
       marks_[i].posed_at = now;

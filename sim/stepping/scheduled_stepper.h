@@ -100,6 +100,12 @@ class ScheduledStepper final : public Stepper {
   void bound_motions(const World& world, Tick now, Worker& worker);
   void schedule_pairs(Tick now, Worker& worker);
 
+  template <class Visit>
+  void in_loop(const Visit& visit) {
+    phase_times.begin_loop();
+    loops_.run(visit);
+    phase_times.end_loop();
+  }
   Worker& worker_of(int i) { return loops_.workers()[owners_[i]]; }
   void lap(const Worker& worker, Phase phase) {
     if (worker.number == 0) phase_times.lap(phase);

@@ -135,13 +135,16 @@ TEST(Report, OfScalingIsRelativeToTheFirst) {
   EXPECT_DOUBLE_EQ(report.rows().at(1).at("relative_cost"), 1.5);
 }
 
-TEST(Report, OfThreadsNamesTheSpeedUp) {
-  std::vector<Contender> by{contender(0.2), contender(0.1)};
-  const Report report = threads_report({}, {by});
+TEST(Report, OfThreadsNamesTheSpeedUpAndItsLimit) {
+  ThreadsSpeed speed{.by = {contender(0.2), contender(0.1)}, .serial = 0.25};
+  speed.by[1].threads = 4;
+  const Report report = threads_report({}, {speed});
   EXPECT_DOUBLE_EQ(report.rows().at(1).at("speed_up"), 2);
+  EXPECT_DOUBLE_EQ(report.rows().at(0).at("limit"), 1);
+  EXPECT_DOUBLE_EQ(report.rows().at(1).at("limit"), 1 / (0.25 + 0.75 / 4));
   check_states(report, "");
-  by[1].hash = 8;
-  EXPECT_FALSE(threads_report({}, {by}).rows().at(1).at("hashes_equal"));
+  speed.by[1].hash = 8;
+  EXPECT_FALSE(threads_report({}, {speed}).rows().at(1).at("hashes_equal"));
 }
 
 }  // namespace
