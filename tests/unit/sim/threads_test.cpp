@@ -9,8 +9,7 @@
 namespace shaken {
 namespace {
 
-TEST(Threads, ShareATickWithoutChangingABit) {
-  System system;
+void expect_same_by_several(System system) {
   system.n_rods = 120;
   system.box_side = std::sqrt(system.n_rods * make_species(system.rod).area / 0.75);
   auto one = Simulation::start(system);
@@ -32,6 +31,14 @@ TEST(Threads, ShareATickWithoutChangingABit) {
     EXPECT_EQ(several->state_hash(), one->state_hash()) << n_threads << " threads";
     EXPECT_EQ(several->world().counters.impulses_rod_rod, one->world().counters.impulses_rod_rod);
   }
+}
+
+TEST(Threads, ShareATickWithoutChangingABit) { expect_same_by_several({}); }
+
+TEST(Threads, ShareATickOfImpactsAtTheirInstant) {
+  System system;
+  system.impacts = ImpactTime::kAtInstant;
+  expect_same_by_several(system);
 }
 
 }  // namespace
