@@ -109,7 +109,7 @@ void describe(CLI::App& app, Arguments& arguments) {
   app.add_option("--lcm-url", arguments.lcm_url, "Where live state goes")->type_name("URL")->capture_default_str();
   app.add_flag("--no-lcm", arguments.no_lcm, "Send no live state");
   app.add_option("--threads", arguments.n_threads,
-                 "Threads that share each tick: worth it from about 5,000 rods on. The results do not depend on it")
+                 "Threads that share each tick: worth it from about 2,000 rods on. The results do not depend on it")
       ->type_name("N")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();

@@ -85,7 +85,7 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
   app.add_option("--threads", config.threads,
-                 "Threads that share each tick of a worker: worth it from about 5,000 rods on, with fewer slots")
+                 "Threads that share each tick of a worker: worth it from about 2,000 rods on, with fewer slots")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
   app.add_option("--keep-free", config.keep_free, "Room on the disk below which no run is started: 20GB, say")

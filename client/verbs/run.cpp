@@ -23,7 +23,7 @@ class Run : public Verb {
     arguments.required("SCENE", scene_, "A scene file", Names::kFile);
     arguments.option("-o,--out", out_, "DIR", "The run's directory (required); made if need be", Names::kFolder);
     arguments.option("-t,--threads", threads_, "N",
-                     "Threads that share each tick, 1 if not given: worth it from about 5,000 rods on");
+                     "Threads that share each tick, 1 if not given: worth it from about 2,000 rods on");
     arguments.repeatable("-s,--set", settings_, "PATH=VALUE", "Change one value of the scene");
   }
 
