@@ -60,8 +60,8 @@ ALLOWED = {
     # benches time whole simulations, and the kernels of an impulse by themselves
     "bench": ["base", "scene", "run/files", "analysis", "sim/core", "sim/rod", "sim/motion", "sim/contact", "sim/system.h",
               "sim/snapshot.h", "sim/world.h", "sim/balance.h", "sim/simulation.h", "sim/neighbors", "sim/effects/registry.h"],
-    # this one looks at what the scheduled stepper does with a pair
-    "bench/visits.cpp": ["bench", "base", "sim"],
+    # these look at what the scheduled stepper does with a pair
+    "bench/pairs": ["bench", "base", "sim"],
 }
 for floor, name in enumerate(SIM):
     for part in [name] if "." in name else [name, name + ".h", name + ".cpp"]:

@@ -17,9 +17,9 @@ Report report_under(const Conditions& conditions, const std::string& file_name, 
   report.json["steady"] = conditions.steady();
   report.json["repeat"] = conditions.effort.repeat;
   report.text += fmt::format(
-      "state after {:.10g} simulated seconds{}; best of {} repetitions\n", conditions.warm_up,
+      "state after {:.10g} simulated seconds{}; {}\n", conditions.warm_up,
       conditions.steady() ? "" : fmt::format(" (NOT the steady state: that takes {:.10g})", Conditions::kSteady),
-      conditions.effort.repeat);
+      conditions.effort.repeat == 1 ? "one run" : fmt::format("best of {} repetitions", conditions.effort.repeat));
   return report;
 }
 
@@ -148,6 +148,7 @@ Examples:
   shaken bench speed --length 4.5,2.5 --area-fraction 0.75 --side 83.73
   shaken bench speed --scaling n --out speed            cost per rod from 500 to 18,000 rods
   shaken bench speed --scaling dt                       cost of a finer step
+  shaken bench speed --count                            what a rod-second consists of: visits, searches, bounds
   shaken bench speed --threads 1,2,4 --area-fraction 0.75 --side 83.73
 
 Exit codes: 0 done, 1 the steppers' states differ or something failed, 2 bad input.)";
@@ -174,7 +175,7 @@ struct SpeedBench {
   std::optional<double> warm_up, cpu;
   std::optional<int> repeat;
   std::string scaling;
-  bool full = false, quick = false;
+  bool full = false, quick = false, count = false;
   Cache cache;
   Output output;
 
@@ -192,7 +193,12 @@ struct SpeedBench {
     CLI::Option* series =
         app.add_option("--scaling", scaling, "Instead: cost per rod against the number of rods, or the step");
     series->type_name("n|dt")->check(CLI::IsMember({"n", "dt"}).description(""))->excludes(all);
-    add_number(app, "--threads", threads, "LIST", {1, 64}, "Instead: wall time by so many threads")->excludes(series);
+    CLI::Option* by_threads =
+        add_number(app, "--threads", threads, "LIST", {1, 64}, "Instead: wall time by so many threads");
+    by_threads->excludes(series);
+    app.add_flag("--count", count, "Instead: what a rod-second consists of, and how good the bounds on pairs are")
+        ->excludes(series)
+        ->excludes(by_threads);
     cache.declare(app);
     output.declare(app);
   }
@@ -263,7 +269,18 @@ struct SpeedBench {
     return ExitCode::kOk;
   }
 
+  ExitCode run_count() const {
+    std::vector<CountedWork> counted;
+    for (const Case& scene : scenes())
+      counted.push_back(measure_work(contender(scene, cache(scene), conditions().effort.cpu)));
+    Conditions once = conditions();
+    once.effort.repeat = 1;
+    output.give(count_report(once, counted));
+    return ExitCode::kOk;
+  }
+
   ExitCode run() const {
+    if (count) return run_count();
     if (!scaling.empty()) return run_scaling();
     if (!threads.empty()) return run_threads();
     std::vector<SceneSpeed> measured;

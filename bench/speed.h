@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/pairs/bounds_in_use.h"
 #include "bench/report.h"
 #include "bench/timing.h"
 
@@ -61,6 +62,18 @@ struct SceneSpeed {
 /// Both steppers in turn, each time from the same steady state; then the phases and the bounds.
 SceneSpeed measure_scene(const Case& scene, const SteadyState& state, const Effort& effort);
 Report speed_report(const Conditions& conditions, const std::vector<SceneSpeed>& scenes);
+
+/// What the scheduled stepper does on one scene to know where to look.
+struct CountedWork {
+  Contender of;
+  std::array<std::int64_t, kWorkKinds> counts{};
+  std::array<double, kPhases> phases{};  ///< CPU time [s]
+  BoundsByKind bounds;
+};
+
+/// A run of the contender for its ticks.
+CountedWork measure_work(const Contender& of);
+Report count_report(const Conditions& conditions, const std::vector<CountedWork>& scenes);
 
 /// The scheduled stepper's cost along a series of scenes that differ in their number of rods or in their step.
 enum class Scaling { kRods, kStep };

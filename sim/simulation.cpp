@@ -51,6 +51,7 @@ void Simulation::use_threads(int n_threads, int grain) {
 
 void Simulation::time_phases(PhaseTimes::Clock clock) { stepper_->phase_times.use(clock); }
 const PhaseTimes& Simulation::phase_times() const { return stepper_->phase_times; }
+WorkCounts Simulation::work_counts() const { return stepper_->work_counts(); }
 std::size_t Simulation::bytes() const { return world_->rods.capacity() * sizeof(Flight) + stepper_->bytes(); }
 
 Tick Simulation::tick() const { return world_->tick; }

@@ -11,6 +11,7 @@
 #include "sim/core/result.h"
 #include "sim/snapshot.h"
 #include "sim/stepping/phase_times.h"
+#include "sim/stepping/work_counts.h"
 #include "sim/system.h"
 #include "sim/world.h"
 
@@ -50,6 +51,9 @@ class Simulation {
   /// From now on, the time spent in each phase of a tick is taken by `clock`; nullptr ends it.
   void time_phases(PhaseTimes::Clock clock);
   const PhaseTimes& phase_times() const;
+  /// What the scheduled stepper has looked at since the start, or since use_threads(). The reference stepper looks at
+  /// everything, and counts nothing.
+  WorkCounts work_counts() const;
   /// Memory of the rods' states and of all that the stepper derives from them [bytes].
   std::size_t bytes() const;
 

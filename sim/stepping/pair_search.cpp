@@ -11,8 +11,6 @@ namespace {
 
 /// Where the hull's bound is shorter than this, the beads' own may be longer: rods interlock [ticks].
 constexpr float kShortBound = 30;
-/// Interlocked rods are visited again within this time: further ahead their bounds are not worth the work [ticks].
-constexpr float kBeadHorizon = 200;
 
 }  // namespace
 
@@ -74,7 +72,8 @@ void PairSearch::bound(std::span<const PairRods> pairs, const std::vector<RodAtT
     bounds.all_round[lane] = false;
     bounds.hulls_overlap[lane] = time <= 0.0F;
     bounds.direction[lane] = {hull.direction[0][lane], hull.direction[1][lane], hull.direction[2][lane]};
-    if (time < kShortBound * dt) {
+    bounds.by_beads[lane] = time < kShortBound * dt;
+    if (bounds.by_beads[lane]) {
       const BeadSafeTime beads = bead_safe_time(lanes_[species_i], i, lanes_[species_j], j, D[lane], kBeadHorizon * dt);
       if (beads.time > time) {
         time = beads.time;

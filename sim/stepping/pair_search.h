@@ -11,12 +11,16 @@
 
 namespace shaken {
 
+/// Bounds for which beads were looked at hold for so long at most: further ahead they are not worth the work [ticks].
+inline constexpr float kBeadHorizon = 200;
+
 /// For up to kLanes pairs: ticks for which nothing can happen, and what the bound rests on.
 struct PairBounds {
   int ticks[kLanes];
   GapLine line[kLanes];        ///< of the gap, for as long as the bound lasts
   bool all_round[kLanes];      ///< the line is along no known direction
   bool hulls_overlap[kLanes];  ///< beads may overlap already
+  bool by_beads[kLanes];       ///< beads were looked at
   Direction direction[kLanes];
 };
 

@@ -6,12 +6,12 @@
 
 namespace shaken {
 
-/// What a stepper spends its time on. The first five are the tick itself (stepping/tick.h); the others are what it
+/// What a stepper spends its time on. The first four are the tick itself (stepping/tick.h); the others are what it
 /// takes to know where to look.
-enum class Phase { kSurfaces, kDetection, kResponse, kStoring, kBounds, kSchedule, kNeighbors };
-inline constexpr std::size_t kPhases = 7;
-inline constexpr std::array<const char*, kPhases> kPhaseNames{"surfaces", "detection", "response", "storing",
-                                                              "bounds",   "schedule",  "neighbors"};
+enum class Phase { kSurfaces, kDetection, kResponse, kStoring, kRodBounds, kTightening, kPairBounds, kNeighbors };
+inline constexpr std::size_t kPhases = 8;
+inline constexpr std::array<const char*, kPhases> kPhaseNames{"surfaces",   "detection",  "response",    "storing",
+                                                              "rod_bounds", "tightening", "pair_bounds", "neighbors"};
 
 /// Seconds per phase, by a clock that the caller lends: the physics library has none. Without one, a tick reads no
 /// clock and a lap costs one branch.

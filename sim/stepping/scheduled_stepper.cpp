@@ -55,6 +55,12 @@ std::size_t ScheduledStepper::bytes() const {
   return bytes;
 }
 
+WorkCounts ScheduledStepper::work_counts() const {
+  WorkCounts counts;
+  for (const Worker& worker : loops_.workers()) counts.add(worker.counts);
+  return counts;
+}
+
 std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
   phase_times.start();
   std::size_t n_visits = 0;  // and bounds, in the tick before
@@ -132,7 +138,6 @@ void ScheduledStepper::meet_surfaces_due(World& world, const PlateState& plates,
   } else {
     wheel_.pop(now, worker.due_rods, static_cast<int>(worker.number));
   }
-  lap(worker, Phase::kSchedule);
   const auto ask = [&](int i) {
     prefetch(world.rods[i]);
     prefetch(rods_[i]);
@@ -155,6 +160,9 @@ void ScheduledStepper::meet_surfaces_due(World& world, const PlateState& plates,
     worker.changed.push_back(i);
     if (check_motion(i, rods_[i], now, rules_)) worker.out_of_hand.push_back(i);
   });
+  worker.counts.count(WorkKind::kRodsVisited, std::ssize(worker.due_rods));
+  worker.counts.count(WorkKind::kRodsHit, std::ssize(worker.changed));
+  worker.counts.count(WorkKind::kRodsPlaced, std::ssize(worker.to_place));
 }
 
 std::optional<NumericalTrouble> ScheduledStepper::gather_surfaces(World& world) {
@@ -239,7 +247,9 @@ void ScheduledStepper::detect_due(const World& world, Tick now, Worker& worker) 
     const bool touching =
         search_.find(pairs_.rods(p), found(i), pose_j, pairs_.direction(p), worker.bead_contacts, worker.contacts);
     if (touching != pairs_.is_touching(p)) worker.turned.push_back(p);
+    worker.counts.count(WorkKind::kPairsTouching, touching ? 1 : 0);
   }
+  worker.counts.count(WorkKind::kPairsSearched, std::ssize(worker.due_pairs));
 }
 
 void ScheduledStepper::gather_contacts(const World& world, Tick now) {
@@ -286,6 +296,9 @@ void ScheduledStepper::detect(int p, const World& world, Tick now) {
   if (search_.find(pairs_.rods(p), found(i), found(j), pairs_.direction(p), bead_contacts, contacts_) !=
       pairs_.is_touching(p))
     pairs_.turn_touching(p);
+  Worker& first = loops_.workers().front();
+  first.counts.count(WorkKind::kPairsSearched);
+  first.counts.count(WorkKind::kPairsTouching, pairs_.is_touching(p) ? 1 : 0);
 }
 
 // Beads that overlap but recede are left alone for a while. An impulse on one of the rods can make them approach within
@@ -371,6 +384,7 @@ void ScheduledStepper::schedule_rods(const World& world, Tick now, Worker& worke
   // hit in the next tick, too (four of five visits, 99 % of the time), and needs no bound to know it.
   for (const int i : worker.due_rods) {
     if (marks_[i].rests_at == now) {
+      worker.counts.count(WorkKind::kRodsResting);
       wheel_.set(i, now + 1, static_cast<int>(worker.number));
     } else {
       worker.to_schedule.push_back(i);
@@ -379,7 +393,7 @@ void ScheduledStepper::schedule_rods(const World& world, Tick now, Worker& worke
   constexpr Tick kHorizon = TimingWheel::horizon() - 1;
   const Groups groups(rules_.species.size() > 1, [this](int i) { return species_index(i); });
   groups.sort(worker.to_schedule);
-  lap(worker, Phase::kSchedule);
+  worker.counts.count(WorkKind::kRodsBounded, std::ssize(worker.to_schedule));
   groups.in_lanes(worker.to_schedule, [&](std::span<const int> rods) {
     Tick ticks[kLanes];
     off_surface_ticks(rods, world, rods_, now, kHorizon, rules_, worker.plate_lanes, ticks);
@@ -390,12 +404,16 @@ void ScheduledStepper::schedule_rods(const World& world, Tick now, Worker& worke
       wheel_.set(i, now + 1 + std::min(ticks[lane], covered), static_cast<int>(worker.number));
     }
   });
-  lap(worker, Phase::kBounds);
+  lap(worker, Phase::kRodBounds);
 }
 
 void ScheduledStepper::tighten_or_list(int p, int i, Tick now, Worker& worker) {
-  if (!pairs_.is_listed(p) && !pairs_.tighten(p, i, changes_[i], now, static_cast<float>(rules_.dt)))
+  if (pairs_.is_listed(p)) return;
+  if (pairs_.tighten(p, i, changes_[i], now, static_cast<float>(rules_.dt))) {
+    worker.counts.count(WorkKind::kPairsTightened);
+  } else {
     pairs_.list(p, worker.to_bound);
+  }
 }
 
 /// Flattened: or else each of its many appends to a list is a call: 2 % of all instructions (callgrind).
@@ -406,6 +424,7 @@ void ScheduledStepper::tighten_or_list(int p, int i, Tick now, Worker& worker) {
     if (pairs_.is_used(p) && static_cast<std::size_t>(pairs_.owner(p)) == worker.number)
       pairs_.list(p, worker.to_bound);
   }
+  worker.counts.count(WorkKind::kBoundsWhenDue, std::ssize(worker.to_bound));
   const bool alone = loops_.workers().size() == 1;
   const std::vector<int>& changed = worker.changed;
   const std::size_t n = changed.size();
@@ -424,7 +443,7 @@ void ScheduledStepper::tighten_or_list(int p, int i, Tick now, Worker& worker) {
       }
     }
   }
-  lap(worker, Phase::kSchedule);
+  lap(worker, Phase::kTightening);
 }
 
 [[gnu::flatten]] void ScheduledStepper::bound_motions(const World& world, Tick now, Worker& worker) {
@@ -444,14 +463,14 @@ void ScheduledStepper::tighten_or_list(int p, int i, Tick now, Worker& worker) {
       worker.to_pose.push_back(i);
     }
   }
-  lap(worker, Phase::kSchedule);
+  worker.counts.count(WorkKind::kPairsBounded, std::ssize(worker.to_bound));
   pose_listed(world, now, worker);
   const auto ask = [&](int i) { prefetch(motion_bounds_[i]); };
   visit_ahead(worker.to_bound_motion, ask, [&](int i) {
     const Flight& flight = world.rods[i];
     motion_bounds_[i] = motion_bound(flight, velocity_at(flight, now, rules_), rods_[i].pose.director, search_.slow());
   });
-  lap(worker, Phase::kBounds);
+  lap(worker, Phase::kPairBounds);
 }
 
 void ScheduledStepper::schedule_pairs(Tick now, Worker& worker) {
@@ -462,7 +481,7 @@ void ScheduledStepper::schedule_pairs(Tick now, Worker& worker) {
   });
   groups.sort(worker.to_bound);
   groups.in_lanes(worker.to_bound, [&](std::span<const int> pairs) { bound_pairs(pairs, now, worker); });
-  lap(worker, Phase::kBounds);
+  lap(worker, Phase::kPairBounds);
 }
 
 /// For up to kLanes pairs.
@@ -478,6 +497,8 @@ void ScheduledStepper::bound_pairs(std::span<const int> pairs, Tick now, Worker&
     // and recede without being marked, if their hulls do: to be visited again at once.
     const auto& [i, j] = rods[lane];
     const bool unmarked = bounds.hulls_overlap[lane] && (rods_[i].displaced || rods_[j].displaced);
+    worker.counts.count(WorkKind::kBoundsByBeads, bounds.by_beads[lane] ? 1 : 0);
+    worker.counts.count(WorkKind::kBoundsOfNoTick, bounds.ticks[lane] == 0 ? 1 : 0);
     pairs_.unlist(pairs[lane]);
     pairs_.set_due(pairs[lane], now + 1 + (unmarked ? 0 : bounds.ticks[lane]));
   }

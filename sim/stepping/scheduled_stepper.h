@@ -45,6 +45,7 @@ class ScheduledStepper final : public Stepper {
   /// A tick is shared among the threads if the one before it had at least `grain` visits and bounds for each.
   ScheduledStepper(const World& world, int n_threads, int grain);
   std::size_t bytes() const override;
+  WorkCounts work_counts() const override;
 
  private:
   struct RodMarks {
@@ -77,6 +78,7 @@ class ScheduledStepper final : public Stepper {
     std::vector<int> to_bound;                    ///< pairs
     std::vector<int> to_bound_motion;             ///< rods of pairs that need a bound, of whatever worker
     Counters counters;
+    WorkCounts counts;
     std::optional<NumericalTrouble> trouble;  ///< that of the first rods
     std::vector<BeadContact> bead_contacts;
     PlateLanes plate_lanes{};

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "sim/stepping/phase_times.h"
+#include "sim/stepping/work_counts.h"
 #include "sim/world.h"
 
 namespace shaken {
@@ -29,6 +30,9 @@ class Stepper {
 
   /// Heap memory of what is derived from the world: lists, records, schedules [bytes].
   virtual std::size_t bytes() const = 0;
+
+  /// The reference stepper, which looks at everything, counts nothing.
+  virtual WorkCounts work_counts() const { return {}; }
 
   PhaseTimes phase_times;
 

@@ -67,6 +67,16 @@ TEST_F(Bench, SpeedWritesWhatItMeasured) {
   EXPECT_EQ(text_of("speed.png").substr(1, 3), "PNG");
 }
 
+TEST_F(Bench, SpeedCountsWork) {
+  const Finished finished = bench(tiny({"speed", "--area-fraction", "0.6", "--count", "--out", out()}));
+  ASSERT_EQ(finished.code, 0) << finished.output;
+  const Json row = json_of("count.json").at("rows").at(0);
+  const Json& counts = row.at("per_rod_second");
+  EXPECT_GT(counts.at("rods_visited").get<double>(), 0);
+  EXPECT_GE(counts.at("rods_visited").get<double>(), counts.at("rods_hit").get<double>());
+  EXPECT_GT(row.at("ns").at("rods_visited").get<double>(), 0);
+}
+
 TEST_F(Bench, SpeedOfThreadsAndStepsToo) {
   Finished finished = bench(tiny({"speed", "--area-fraction", "0.6", "--threads", "1,2", "--out", out()}));
   ASSERT_EQ(finished.code, 0) << finished.output;

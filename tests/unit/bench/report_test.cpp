@@ -104,7 +104,7 @@ TEST(Report, OfScenesHasRatesRatioAndBounds) {
   EXPECT_DOUBLE_EQ(row.at("scheduled").at("spread"), 1.1);
   EXPECT_DOUBLE_EQ(row.at("scheduled").at("ns_per_impulse"), 1e5);
   EXPECT_DOUBLE_EQ(row.at("ratio"), 20);
-  EXPECT_DOUBLE_EQ(row.at("phase_shares").at("bounds"), 0.1);
+  EXPECT_DOUBLE_EQ(row.at("phase_shares").at("pair_bounds"), 0.1);
   EXPECT_DOUBLE_EQ(row.at("lower_bounds").at("impulses_alone_share"), (900 * 1e-5 + 100 * 2e-5) / 0.1);
   EXPECT_DOUBLE_EQ(row.at("lower_bounds").at("memory_alone_share"), (900 + 2 * 100) * 1e-6 / 0.1);
 }
@@ -127,6 +127,22 @@ TEST(Report, SaysIfTheSteppersDiffer) {
   EXPECT_THAT(report.text, HasSubstr("NO\n"));
   EXPECT_THAT([&] { check_states(report, "they differ"); },
               testing::ThrowsMessage<Failure>("l = 4.5 mm, phi = 0.6, L = 12 mm: they differ after 9 ticks"));
+}
+
+TEST(Report, OfWorkIsPerRodSecondAndPerPiece) {
+  CountedWork counted;
+  counted.of = contender(0.1);
+  counted.of.ticks = 1000;
+  counted.counts.fill(500);
+  counted.phases.fill(1e-3);
+  counted.bounds.hulls = {.of_true_time = {0.5, 0.25, 1, 0.5, 0.75, 0.5, 0.25, 0.5}, .of_no_tick = 1};
+  const Report report = count_report({}, {counted});
+  const Json& row = report.rows().at(0);
+  EXPECT_DOUBLE_EQ(row.at("per_rod_second").at("pairs_bounded"), 500 / counted.of.scene.rod_seconds(1000));
+  EXPECT_DOUBLE_EQ(row.at("ns").at("rods_visited"), 2000);
+  EXPECT_DOUBLE_EQ(row.at("hulls").at("median"), 0.5);
+  EXPECT_TRUE(row.at("beads").is_null());
+  EXPECT_THAT(report.text, HasSubstr("12.5"));
 }
 
 TEST(Report, OfScalingIsRelativeToTheFirst) {

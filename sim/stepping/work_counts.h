@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace shaken {
+
+/// What a stepper does to know where to look, and finds there.
+enum class WorkKind {
+  kRodsVisited,     ///< for surfaces
+  kRodsHit,         ///< of these, hit by a surface
+  kRodsResting,     ///< of these, to be visited at the next tick without a bound
+  kRodsBounded,     ///< bounds on the time to the next surface
+  kRodsPlaced,      ///< entered into the neighbour list anew
+  kPairsSearched,   ///< for contacts
+  kPairsTouching,   ///< of these, with overlapping beads
+  kPairsTightened,  ///< bounds that were kept, shorter, although a rod was hit
+  kPairsBounded,    ///< new bounds on the time to contact
+  kBoundsWhenDue,   ///< of these, after a search; the others because a rod was hit
+  kBoundsByBeads,   ///< of these, for which beads were looked at
+  kBoundsOfNoTick,  ///< of these, too short to save a visit at the next tick
+};
+inline constexpr std::size_t kWorkKinds = 12;
+inline constexpr std::array<const char*, kWorkKinds> kWorkNames{
+    "rods_visited",   "rods_hit",        "rods_resting",  "rods_bounded",    "rods_placed",     "pairs_searched",
+    "pairs_touching", "pairs_tightened", "pairs_bounded", "bounds_when_due", "bounds_by_beads", "bounds_of_no_tick"};
+
+/// How often a stepper has done each since it was made.
+class WorkCounts {
+ public:
+  void count(WorkKind work, std::int64_t n = 1) { counts_[static_cast<std::size_t>(work)] += n; }
+  std::int64_t of(WorkKind work) const { return counts_[static_cast<std::size_t>(work)]; }
+  void add(const WorkCounts& other) {
+    for (std::size_t k = 0; k < kWorkKinds; ++k) counts_[k] += other.counts_[k];
+  }
+
+ private:
+  std::array<std::int64_t, kWorkKinds> counts_{};
+};
+
+}  // namespace shaken
