@@ -99,7 +99,9 @@ std::vector<Column> phase_columns() {
   std::vector<Column> columns;
   columns.reserve(kPhases + 1);
   for (const char* name : kPhaseNames) {
-    columns.push_back({name, std::string("phase_shares/") + name, "{:.1f}", 100});
+    std::string title = name;
+    std::replace(title.begin(), title.end(), '_', ' ');
+    columns.push_back({std::move(title), std::string("phase_shares/") + name, "{:.1f}", 100});
   }
   return columns;
 }
