@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sim/stepping/scheduled_stepper.h"
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 
@@ -81,7 +82,7 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
   in_loop([&](Worker& worker) { detect_due(world, now, worker); });
   gather_contacts(world, now);
   phase_times.lap(Phase::kDetection);
-  replace_pairs(world, now);
+  if (have_placed_) replace_pairs(world, now);
   phase_times.lap(Phase::kNeighbors);
   detect_touching(world, now);
   sort_contacts(contacts_, rods_, rules_);
@@ -100,6 +101,8 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
     schedule_rods(world, now, worker);
     list_pairs_to_bound(now, worker);
   });
+  const auto has_pairs = [](const Worker& worker) { return !worker.to_bound.empty() || worker.has_handed_over; };
+  if (std::none_of(loops_.workers().begin(), loops_.workers().end(), has_pairs)) return {};
   in_loop([&](Worker& worker) { bound_motions(world, now, worker); });
   in_loop([&](Worker& worker) { schedule_pairs(now, worker); });
   return {};
@@ -168,6 +171,7 @@ void ScheduledStepper::meet_surfaces_due(World& world, const PlateState& plates,
 std::optional<NumericalTrouble> ScheduledStepper::gather_surfaces(World& world) {
   std::optional<NumericalTrouble> first;
   for (Worker& worker : loops_.workers()) {
+    if (worker.due_rods.empty()) continue;
     world.counters.add(worker.counters);
     worker.counters = {};
     if (worker.trouble && (!first || worker.trouble->rods < first->rods)) first = worker.trouble;
@@ -202,9 +206,11 @@ void ScheduledStepper::add_gained() {
 
 void ScheduledStepper::place_rods(Tick now) {
   was_complete_ = true;
+  have_placed_ = false;
   for (Worker& worker : loops_.workers()) worker.due_pairs.clear();
   if (is_new_) build_neighbors(now);
   for (Worker& worker : loops_.workers()) {
+    if (!worker.to_place.empty()) have_placed_ = true;
     for (const int i : worker.to_place) {
       if (!(reserves_[i].left(now, rules_.dt) >= 0)) was_complete_ = false;
       neighbors_.place(i, found(i));
@@ -243,9 +249,9 @@ void ScheduledStepper::detect_due(const World& world, Tick now, Worker& worker) 
     const auto& [i, j] = pairs_.rods(p);
     // its owner may be posing it right now
     const bool is_other = owners_[j] != worker.number;
-    const Pose pose_j = is_other ? rod_at_tick(world.rods[j], now, rules_).pose : found(j);
-    const bool touching =
-        search_.find(pairs_.rods(p), found(i), pose_j, pairs_.direction(p), worker.bead_contacts, worker.contacts);
+    if (is_other) worker.other_pose = rod_at_tick(world.rods[j], now, rules_).pose;
+    const bool touching = search_.find(pairs_.rods(p), found(i), is_other ? worker.other_pose : found(j),
+                                       pairs_.direction(p), worker.bead_contacts, worker.contacts);
     if (touching != pairs_.is_touching(p)) worker.turned.push_back(p);
     worker.counts.count(WorkKind::kPairsTouching, touching ? 1 : 0);
   }
@@ -407,18 +413,18 @@ void ScheduledStepper::schedule_rods(const World& world, Tick now, Worker& worke
   lap(worker, Phase::kRodBounds);
 }
 
-void ScheduledStepper::tighten_or_list(int p, int i, Tick now, Worker& worker) {
-  if (pairs_.is_listed(p)) return;
-  if (pairs_.tighten(p, i, changes_[i], now, static_cast<float>(rules_.dt))) {
-    worker.counts.count(WorkKind::kPairsTightened);
-  } else {
-    pairs_.list(p, worker.to_bound);
-  }
+/// Has the pair's bound hold on although rod i was hit, or lists the pair for a new one; true if it holds.
+bool ScheduledStepper::tighten_or_list(int p, int i, Tick now, float dt, std::vector<int>& to_bound) {
+  if (pairs_.is_listed(p)) return false;
+  if (pairs_.tighten(p, i, changes_[i], now, dt)) return true;
+  pairs_.list(p, to_bound);
+  return false;
 }
 
 /// Flattened: or else each of its many appends to a list is a call: 2 % of all instructions (callgrind).
 [[gnu::flatten]] void ScheduledStepper::list_pairs_to_bound(Tick now, Worker& worker) {
   worker.to_bound.clear();
+  worker.has_handed_over = false;
   for (const int p : worker.due_pairs) {
     // one that has been lost, or is another's by now, is not listed
     if (pairs_.is_used(p) && static_cast<std::size_t>(pairs_.owner(p)) == worker.number)
@@ -428,6 +434,8 @@ void ScheduledStepper::tighten_or_list(int p, int i, Tick now, Worker& worker) {
   const bool alone = loops_.workers().size() == 1;
   const std::vector<int>& changed = worker.changed;
   const std::size_t n = changed.size();
+  const auto dt = static_cast<float>(rules_.dt);
+  std::int64_t n_tightened = 0;
   for (std::size_t k = 0; k < n; ++k) {
     // what pairs a rod has is known only when their numbers are here, so these are asked for first
     if (k + 4 < n) neighbors_.prefetch(changed[k + 4]);
@@ -435,23 +443,32 @@ void ScheduledStepper::tighten_or_list(int p, int i, Tick now, Worker& worker) {
       for (const int p : neighbors_.pairs_of(changed[k + 2])) pairs_.prefetch(p);
     }
     const int i = changed[k];
+    if (alone) {
+      for (const int p : neighbors_.pairs_of(i)) n_tightened += tighten_or_list(p, i, now, dt, worker.to_bound) ? 1 : 0;
+      continue;
+    }
     for (const int p : neighbors_.pairs_of(i)) {
-      if (alone || static_cast<std::size_t>(pairs_.owner(p)) == worker.number) {
-        tighten_or_list(p, i, now, worker);
-      } else {
+      if (static_cast<std::size_t>(pairs_.owner(p)) != worker.number) {
         worker.hit_pairs[static_cast<std::size_t>(pairs_.owner(p))].push_back({p, i});
+        worker.has_handed_over = true;
+      } else {
+        n_tightened += tighten_or_list(p, i, now, dt, worker.to_bound) ? 1 : 0;
       }
     }
   }
+  worker.counts.count(WorkKind::kPairsTightened, n_tightened);
   lap(worker, Phase::kTightening);
 }
 
 [[gnu::flatten]] void ScheduledStepper::bound_motions(const World& world, Tick now, Worker& worker) {
+  const auto dt = static_cast<float>(rules_.dt);
+  std::int64_t n_tightened = 0;
   for (Worker& other : loops_.workers()) {
     std::vector<HitPair>& hit = other.hit_pairs[worker.number];
-    for (const auto& [p, i] : hit) tighten_or_list(p, i, now, worker);
+    for (const auto& [p, i] : hit) n_tightened += tighten_or_list(p, i, now, dt, worker.to_bound) ? 1 : 0;
     hit.clear();
   }
+  worker.counts.count(WorkKind::kPairsTightened, n_tightened);
   worker.to_pose.clear();
   worker.to_bound_motion.clear();
   for (const int p : worker.to_bound) {

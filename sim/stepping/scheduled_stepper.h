@@ -75,12 +75,14 @@ class ScheduledStepper final : public Stepper {
     std::vector<int> changed;                     ///< rods hit in this tick
     std::vector<int> to_schedule;                 ///< rods
     std::vector<std::vector<HitPair>> hit_pairs;  ///< (n_workers) of each other worker
+    bool has_handed_over = false;                 ///< there are any
     std::vector<int> to_bound;                    ///< pairs
     std::vector<int> to_bound_motion;             ///< rods of pairs that need a bound, of whatever worker
     Counters counters;
     WorkCounts counts;
     std::optional<NumericalTrouble> trouble;  ///< that of the first rods
     std::vector<BeadContact> bead_contacts;
+    Pose other_pose{};
     PlateLanes plate_lanes{};
     PairLanes pair_lanes{};
   };
@@ -118,7 +120,7 @@ class ScheduledStepper final : public Stepper {
   void add_gained();
   void detect(int p, const World& world, Tick now);
   void pose_listed(const World& world, Tick now, Worker& worker);
-  void tighten_or_list(int p, int i, Tick now, Worker& worker);
+  bool tighten_or_list(int p, int i, Tick now, float dt, std::vector<int>& to_bound);
   void bound_pairs(std::span<const int> pairs, Tick now, Worker& worker);
   /// Where free flight brought the rod; impacts at their instant may have displaced it since.
   const Pose& found(int i) const { return found_.empty() ? rods_[i].pose : found_[i]; }
@@ -147,6 +149,7 @@ class ScheduledStepper final : public Stepper {
   std::vector<PairContact> contacts_;
   std::vector<int> may_change_;     ///< rods that touch another and may yet be hit in this tick
   std::vector<int> gained_, lost_;  ///< pairs, by the neighbour list
+  bool have_placed_ = false;        ///< there are rods with a new place
   bool was_complete_ = true;        ///< pairs gained in this tick cannot touch yet
 };
 
