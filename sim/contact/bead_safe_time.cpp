@@ -40,25 +40,39 @@ SHAKEN_INLINE F across_squared(const lanes::Vectors<F>& x, const F& foot) {
   return lanes::not_below_zero(lanes::dot(x, x) * (1.0F - 1e-6F) - foot * foot);
 }
 
+/// How far a coordinate on the axis of j is beyond its end; 0 within it.
+template <class F>
+SHAKEN_INLINE F beyond_end(const BeadLanes& j, const F& foot) {
+  return lanes::not_below_zero(lanes::larger(foot - j.end, j.first - foot));
+}
+
 /// How far apart beads of i and the hull of j are at least: the hull is the spheres of radius mid_radius - taper |s|,
 /// and sqrt(across^2 + (foot - s)^2) + taper |s| is never less than cos across + taper |foot|, with taper the sine.
 template <class F>
 SHAKEN_INLINE F gap_to_hull(const BeadLanes& j, const F& radius, const F& foot, const F& across2) {
-  const F along = lanes::smaller(lanes::abs(foot), F{} + j.half_length);
-  const F outside = lanes::abs(foot) - along;
+  const F outside = beyond_end(j, foot);
+  const F along = lanes::abs(foot) - outside;
   return j.cosine * lanes::sqrt(across2 + outside * outside) + j.thinning * along - j.max_radius - radius;
 }
 
+/// Radius of the hull of j at a coordinate on its axis: that of a bead there, or more.
+template <class F>
+SHAKEN_INLINE F hull_radius(const BeadLanes& j, const F& s) {
+  return j.mid_radius - j.taper * lanes::abs(s) - j.skew * s;
+}
+
 /// The beads of j that are not tried next to a foot on its axis, seen from there: how far along the axis the nearest
-/// can be, at least, and how thick, at most. Further ones are thicker at most by the taper, which is less than what
-/// they are further away, unless the foot is very far beside the axis: `widest` is as far as counts.
+/// can be, at least, and how thick, at most. Further ones are thicker at most by the steepest taper, which is less than
+/// what they are further away, unless the foot is very far beside the axis: `widest` is as far as counts.
 template <class F>
 struct Untried {
   F along, radius;
   SHAKEN_INLINE Untried(const BeadLanes& j, const F& foot) {
-    const F outside = lanes::not_below_zero(lanes::abs(foot) - j.half_length);
-    along = outside + j.beyond;
-    radius = j.max_radius - j.thinning * lanes::not_below_zero(lanes::abs(foot) - outside - j.beyond);
+    const F inside = lanes::smaller(lanes::larger(foot, F{} + j.first), F{} + j.end);
+    along = lanes::abs(foot - inside) + j.beyond;
+    radius = lanes::larger(hull_radius(j, lanes::larger(inside - j.beyond, F{} + j.first)),
+                           hull_radius(j, lanes::smaller(inside + j.beyond, F{} + j.end)));
+    radius = lanes::larger(radius, F{} + j.least_untried);
   }
   SHAKEN_INLINE F distance2(const BeadLanes& j, const F& across2) const {
     return lanes::smaller(across2, F{} + j.widest * j.widest) + along * along;
@@ -70,12 +84,6 @@ template <class F>
 SHAKEN_INLINE F bead_offset(const BeadLanes& j, const F& before, int k) {
   const F index = lanes::smaller(lanes::larger(before + static_cast<float>(k), F{}), F{} + j.last);
   return index * j.pitch + j.first;
-}
-
-/// Radius of the hull of j at a coordinate on its axis: that of a bead there, or more.
-template <class F>
-SHAKEN_INLINE F hull_radius(const BeadLanes& j, const F& s) {
-  return j.mid_radius - j.taper * lanes::abs(s) - j.skew * s;
 }
 
 /// A time as a fraction, so that the smallest of many is found without dividing.
@@ -262,15 +270,22 @@ BeadLanes::BeadLanes(const Species& species)
       taper(static_cast<float>(0.5 * (species.taper(species.head) + species.taper(species.tail)))),
       skew(static_cast<float>(0.5 * (species.taper(species.head) - species.taper(species.tail)))),
       first(static_cast<float>(species.bead_offset.front())),
+      end(static_cast<float>(species.bead_offset.back())),
       last(static_cast<float>(species.n_beads() - 1)),
       pitch(static_cast<float>(species.pitch())),
       reach(species.n_beads() > 1 ? static_cast<int>(std::ceil(1.1F * max_radius / pitch)) : 0),
       from(std::min(0, 1 - reach)),
       beyond(reach > 0 ? static_cast<float>(reach) * pitch : 1e3F) {
-  // a thinning of more than this would let `widest` fall to where rods touch; and Untried looks at both ends alike
-  if (taper > 0.0F && taper < 0.3F && species.tail.length == species.head.length && skew == 0.0F) thinning = taper;
+  // gap_to_hull looks at both ends alike
+  if (taper > 0.0F && taper < 1.0F && species.tail.length == species.head.length && skew == 0.0F) thinning = taper;
   cosine = std::sqrt(1.0F - thinning * thinning);
-  widest = thinning > 0.0F ? beyond * std::sqrt(1.0F / (thinning * thinning) - 1.0F) : 1e6F;
+  // a steeper taper than this would let `widest` fall to where rods touch
+  const float steepest = std::abs(taper) + std::abs(skew);
+  if (steepest < 0.3F) {
+    if (steepest > 0.0F) widest = beyond * std::sqrt(1.0F / (steepest * steepest) - 1.0F);
+  } else {
+    least_untried = max_radius;
+  }
   const int n_lanes = (species.n_beads() + kLanes - 1) / kLanes * kLanes;
   for (int lane = 0; lane < n_lanes; ++lane) {
     const bool is_bead = lane < species.n_beads();

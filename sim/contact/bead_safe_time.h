@@ -16,16 +16,18 @@ struct BeadLanes {
   std::vector<float> offset;  ///< (n_beads rounded up to a multiple of kLanes) [mm]
   std::vector<float> radius;  ///< the same; lanes past the last bead hold a bead that is never near [mm]
   float half_length, mid_radius, max_radius;
-  float taper, skew;   ///< loss of the hull's radius per length: taper + skew towards the head, taper - skew the tail
-  float first;         ///< offset of the first bead, < 0 [mm]
-  float last;          ///< index of the last bead
-  float pitch;         ///< distance of neighbouring beads [mm]
-  int reach;           ///< beads to each side of a foot that are tried one by one
-  int from;            ///< the first of them, counted from the last bead before the foot
-  float beyond;        ///< distance along the axis at which the others begin [mm]
-  float thinning = 0;  ///< loss of radius per length that the others are sure to have
-  float cosine = 1;    ///< of the angle by which a hull with that loss narrows
-  float widest = 0;    ///< distance beside the axis up to which the others' gap grows along it [mm]
+  float taper, skew;    ///< loss of the hull's radius per length: taper + skew towards the head, taper - skew the tail
+  float first;          ///< offset of the first bead, <= 0 [mm]
+  float end;            ///< of the last one, >= 0 [mm]
+  float last;           ///< index of the last bead
+  float pitch;          ///< distance of neighbouring beads [mm]
+  int reach;            ///< beads to each side of a foot that are tried one by one
+  int from;             ///< the first of them, counted from the last bead before the foot
+  float beyond;         ///< distance along the axis at which the others begin [mm]
+  float thinning = 0;   ///< loss of radius per length that the hull is sure to have to both sides
+  float cosine = 1;     ///< of the angle by which a hull with that loss narrows
+  float widest = 1e6F;  ///< distance beside the axis up to which the others' gap grows along it [mm]
+  float least_untried = 0;  ///< radius that the others are taken to have at least [mm]
 };
 
 /// A bound on two rods' beads.

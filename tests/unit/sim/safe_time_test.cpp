@@ -241,6 +241,90 @@ TEST(SafeTime, NoPairCollidesBeforeItsBound) {
   EXPECT_GT(n_bead, test::draws(500000));
 }
 
+/// Rods whose two ends differ, as near to each other as FlyingPair, often with an end next to an end.
+struct SkewedPair : FlyingPair {
+  explicit SkewedPair(test::Draw& draw) : FlyingPair(draw) {
+    const double length = draw.uniform(2.0, 4.5);
+    const double thick = draw.uniform(0.5, 0.9);
+    if (draw.integer(0, 2) == 0) {
+      std::vector<double> diameters(draw.integer(3, 15));
+      for (double& diameter : diameters) diameter = thick * draw.uniform(0.3, 1.0);
+      species = make_species({.length = length, .bead_diameters = diameters});
+    } else {
+      species = make_species({.length = length,
+                              .mid_diameter = thick,
+                              .end_diameter = thick * draw.uniform(0.1, 1.0),
+                              .n_beads = draw.integer(5, 25),
+                              .profile = Profile::kPolar});
+    }
+    ratio = species.inertia_par / species.inertia_perp;
+    if (draw.integer(0, 1)) {
+      const Vec3 a = draw.integer(0, 1) ? species.bead_offset.front() * flight[0].director
+                                        : Vec3(species.bead_offset.back() * flight[0].director);
+      const Vec3 b = draw.integer(0, 1) ? species.bead_offset.front() * flight[1].director
+                                        : Vec3(species.bead_offset.back() * flight[1].director);
+      D = a - b + draw.vector(1.0);
+    }
+    for (int r = 0; r < 2; ++r) {
+      Flight& f = flight[r];
+      const Vec3 director = f.director;
+      begin_flight(f, 0, {Vec3(1000, 1000, 0) + (r == 1 ? D : Vec3(Vec3::Zero())), director},
+                   {draw.vector(25), draw.vector(12)}, 1e9, ratio);
+      see(r);
+    }
+  }
+};
+
+TEST(SafeTime, NoSkewedPairCollidesBeforeItsBound) {
+  test::Draw draw(29);
+  AnyWidth width;
+  std::int64_t n_bead = 0, n_short = 0;
+  for (int trial = 0; trial < test::draws(200000); ++trial) {
+    width.draw(draw);
+    const SkewedPair pair(draw);
+    const double bead = pair.bead_bound(kHorizon).time;
+    n_bead += bead > 0;
+    n_short += bead > 0 && bead < 0.99 * kHorizon;
+    if (bead <= 0) continue;
+    ASSERT_FALSE(pair.collides_at(bead)) << "trial " << trial << " collides at its bound of " << bead << " s";
+    ASSERT_FALSE(pair.collides_at(bead * draw.uniform(0, 1))) << "trial " << trial;
+  }
+  EXPECT_GT(n_bead, test::draws(100000));
+  EXPECT_GT(n_short, test::draws(20000));
+}
+
+/// Two polar rods along x, end to end with a gap, fly towards each other at 10 mm/s.
+BeadSafeTime bound_in_line(bool thick_ends, double gap) {
+  const Species species = make_species({.profile = Profile::kPolar});
+  const double to_tail = -species.bead_offset.front() + species.bead_radius.front();
+  const double to_head = species.bead_offset.back() + species.bead_radius.back();
+  const double end = thick_ends ? to_tail : to_head;
+  const Vec3 D(2 * end + gap, 0, 0);
+  const double ratio = species.inertia_par / species.inertia_perp;
+  MotionBound bound[2];
+  for (int r = 0; r < 2; ++r) {
+    // the director points to the head, the thin end
+    const Vec3 director((r == 0) == thick_ends ? -1 : 1, 0, 0);
+    Flight flight;
+    begin_flight(flight, 0, {Vec3(1000, 1000, 0) + r * D, director}, {Vec3(r == 0 ? 5 : -5, 0, 0), Vec3::Zero()}, 1e9,
+                 ratio);
+    bound[r] = motion_bound(flight, flight.velocity, flight.director, 1e9F);
+  }
+  const BeadLanes lanes(species);
+  return bead_safe_time(lanes, bound[0], lanes, bound[1], D, 0.1F);
+}
+
+TEST(SafeTime, EndsOfPolarRodsInLineAreApartUntilTheyMeet) {
+  for (const bool thick_ends : {true, false}) {
+    for (const double gap : {0.05, 0.2, 0.8}) {
+      const BeadSafeTime safe = bound_in_line(thick_ends, gap);
+      EXPECT_NEAR(static_cast<double>(safe.gap), gap, 1e-4) << "thick " << thick_ends;
+      EXPECT_NEAR(static_cast<double>(safe.time), gap / 10, 0.01 * gap / 10)
+          << "thick " << thick_ends << " gap " << gap;
+    }
+  }
+}
+
 /// A pair that waits for its bound in a table of its own, while its rods are hit now and then.
 struct WaitingPair {
   static constexpr double kDt = 4e-6;
