@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "client/watch/terminal_session.h"
 
+#include <poll.h>
 #include <sys/signalfd.h>
 #include <unistd.h>
 
@@ -22,6 +23,11 @@ sigset_t resize_signals() {
   return set;
 }
 
+bool has_hung_up(int terminal) {
+  pollfd asked{terminal, POLLIN, 0};
+  return poll(&asked, 1, 0) == 1 && (asked.revents & (POLLHUP | POLLERR)) != 0;
+}
+
 }  // namespace
 
 TerminalSession::TerminalSession() {
@@ -29,8 +35,9 @@ TerminalSession::TerminalSession() {
   const sigset_t set = resize_signals();
   sigprocmask(SIG_BLOCK, &set, &signals_before_);
   resizes_ = Descriptor(signalfd(-1, &set, SFD_NONBLOCK | SFD_CLOEXEC));
-  has_keys_ =
+  has_settings_ =
       isatty(STDIN_FILENO) == 1 && tcgetpgrp(STDIN_FILENO) == getpgrp() && tcgetattr(STDIN_FILENO, &before_) == 0;
+  has_keys_ = has_settings_;
   enter();
 }
 
@@ -40,7 +47,7 @@ TerminalSession::~TerminalSession() {
 }
 
 void TerminalSession::enter() {
-  if (has_keys_) {
+  if (has_settings_) {
     termios raw = before_;
     raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
     raw.c_iflag &= ~static_cast<tcflag_t>(IXON | ICRNL);
@@ -54,7 +61,8 @@ void TerminalSession::enter() {
 
 void TerminalSession::leave() {
   write(kLeave);
-  if (has_keys_) tcsetattr(STDIN_FILENO, TCSAFLUSH, &before_);
+  if (!has_settings_ || tcsetattr(STDIN_FILENO, TCSAFLUSH, &before_) == 0) return;
+  tcsetattr(STDIN_FILENO, TCSANOW, &before_);  // a signal came while it waited for the terminal to take its output
 }
 
 bool TerminalSession::write(const std::string& bytes) {
@@ -72,7 +80,7 @@ bool TerminalSession::write(const std::string& bytes) {
 std::string TerminalSession::read() {
   std::array<char, 256> bytes{};
   const ssize_t n = ::read(STDIN_FILENO, bytes.data(), bytes.size());
-  if (n == 0) has_keys_ = false;  // it was readable: the end has come
+  if (n == 0 && has_hung_up(STDIN_FILENO)) has_keys_ = false;
   return n > 0 ? std::string(bytes.data(), static_cast<std::size_t>(n)) : std::string();
 }
 

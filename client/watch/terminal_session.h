@@ -26,7 +26,7 @@ class TerminalSession {
   bool is_gone() const { return is_gone_; }
   /// Whether there are keys. Not after the terminal has hung up.
   bool has_keys() const { return has_keys_; }
-  /// What has been typed, of which poll() knows.
+  /// What has been typed; nothing where poll() knew of some that a signal has thrown away since (Ctrl-C does).
   std::string read();
   /// Readable when the terminal has another size; read by take_resizes().
   int resize_descriptor() const { return resizes_.value(); }
@@ -41,6 +41,7 @@ class TerminalSession {
   bool is_cut_ = false;  ///< the last write has not come to its end
   bool has_keys_ = false;
   bool is_gone_ = false;
+  bool has_settings_ = false;  ///< `before_` holds those that the terminal is to be given back with
   termios before_{};
   sigset_t signals_before_{};
   Descriptor resizes_;
