@@ -52,7 +52,7 @@ SceneSpeed measure_scene(const Case& scene, const SteadyState& state, const Effo
   const Tick compared_ticks = reference.settle + reference.ticks;
   scheduled.settle = std::max(scheduled.settle, compared_ticks);
   std::vector<Contender> both{reference, scheduled};
-  time_in_turn("measuring " + scene.label(), both, effort.repeat);
+  time_in_turn("measuring " + scene.label, both, effort.repeat);
   SceneSpeed speed{both[1], both[0], compared_ticks, 0, {}, 0, {}};
 
   Simulation timed = resumed(scene, state, StepperKind::kScheduled);
@@ -262,7 +262,7 @@ struct SpeedBench {
       ThreadsSpeed& speed = measured.emplace_back();
       speed.by.assign(threads.size(), by_one);
       for (std::size_t k = 0; k < threads.size(); ++k) speed.by[k].threads = threads[k];
-      time_in_turn("measuring threads on " + scene.label(), speed.by, conditions().effort.repeat);
+      time_in_turn("measuring threads on " + scene.label, speed.by, conditions().effort.repeat);
       speed.serial = measure_serial_share(by_one);
     }
     const Report report = threads_report(conditions(), measured);
