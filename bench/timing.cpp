@@ -48,6 +48,7 @@ void time_stretch(Simulation& simulation, const Case& of, Tick ticks, StepperSpe
   speed.rod_seconds = of.rod_seconds(ticks);
   speed.plate_impulses =
       after.impulses_rod_base + after.impulses_rod_lid - before.impulses_rod_base - before.impulses_rod_lid;
+  speed.wall_impulses = after.impulses_rod_wall - before.impulses_rod_wall;
   speed.rod_impulses = after.impulses_rod_rod - before.impulses_rod_rod;
   speed.bytes_per_rod = static_cast<double>(simulation.bytes()) / of.n_rods();
   speed.max_overlap = after.max_overlap();
@@ -116,6 +117,7 @@ Json json_of(const StepperSpeed& speed) {
           {"ticks", speed.ticks},
           {"rod_seconds", speed.rod_seconds},
           {"plate_impulses", speed.plate_impulses},
+          {"wall_impulses", speed.wall_impulses},
           {"rod_impulses", speed.rod_impulses},
           {"impulses_per_cpu_s", static_cast<double>(speed.impulses()) / speed.best_cpu()},
           {"ns_per_impulse", 1e9 * speed.best_cpu() / static_cast<double>(speed.impulses())},
