@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "base/failure.h"
@@ -15,6 +14,7 @@
 #include "bench/bench.h"
 #include "run/files/checkpoint_file.h"
 #include "scene/canonical.h"
+#include "scene/derived.h"
 #include "scene/fields.h"
 #include "scene/load.h"
 
@@ -33,13 +33,13 @@ std::optional<std::vector<std::byte>> read_cached(const Case& wanted, const std:
 
 Simulation simulate(const Case& wanted) {
   Result<Simulation> started = Simulation::start(wanted.system());
-  if (!started) throw Failure(ExitCode::kBadInput, wanted.label() + ": " + started.error().message);
+  if (!started) throw Failure(ExitCode::kBadInput, wanted.label + ": " + started.error().message);
   Simulation simulation = std::move(started).value();
-  ProgressLine progress(fmt::format("steady state of {} (N = {}), {:.10g} s of it", wanted.label(),
-                                    wanted.system().n_rods, wanted.warm_up));
+  ProgressLine progress(
+      fmt::format("steady state of {} (N = {}), {:.10g} s of it", wanted.label, wanted.n_rods(), wanted.warm_up));
   const Tick end = wanted.warm_up_ticks();
   // short enough for progress to be shown, long enough to cost nothing
-  const Tick stride = std::max<Tick>(1, 200'000 / wanted.system().n_rods);
+  const Tick stride = std::max<Tick>(1, 200'000 / wanted.n_rods());
   while (simulation.tick() < end) {
     advance(simulation, std::min(stride, end - simulation.tick()));
     progress.show(static_cast<double>(simulation.tick()) / static_cast<double>(end));
@@ -53,9 +53,7 @@ Tick Case::warm_up_ticks() const { return std::llround(warm_up / dt); }
 
 Tick Case::period_ticks() const { return std::llround(1 / (system().frequency * dt)); }
 
-double Case::rod_seconds(Tick ticks) const { return system().n_rods * static_cast<double>(ticks) * dt; }
-
-std::string Case::label() const { return label_of(length, area_fraction, side); }
+double Case::rod_seconds(Tick ticks) const { return n_rods() * static_cast<double>(ticks) * dt; }
 
 std::string label_of(double length, double area_fraction, double side) {
   return fmt::format("l = {:.10g} mm, phi = {:.10g}, L = {:.10g} mm", length, area_fraction, side);
@@ -65,22 +63,27 @@ std::pair<double, double> limits_of(std::string_view field) {
   return {scene::field_at(field).low, scene::field_at(field).high};
 }
 
-Case make_case(double length, double area_fraction, double side, double dt, double warm_up) {
-  Case made{length, area_fraction, side, dt, warm_up, {}};
-  const nlohmann::json scene{{"rods", {{"length", length}, {"area_fraction", area_fraction}}},
-                             {"box", {{"side", side}}},
-                             {"time", {{"step", dt}, {"steady", 0}, {"measure", warm_up}}},
-                             {"measure", {{"order", nullptr}}}};
+Case case_of(nlohmann::json scene, double warm_up, const std::string& label) {
+  scene.merge_patch({{"time", {{"steady", 0}, {"measure", warm_up}}}});
+  scene["measure"] = {{"order", nullptr}};
   const auto loaded = scene::load_scene(scene.dump(), "scene");
   if (!loaded) {
     std::string problems;
     for (const scene::Problem& problem : loaded.error()) {
-      problems +=
-          fmt::format("{}{}: {}: {}", problems.empty() ? "" : "\n  ", made.label(), problem.path, problem.message);
+      problems += fmt::format("{}{}: {}: {}", problems.empty() ? "" : "\n  ", label, problem.path, problem.message);
     }
     throw Failure(ExitCode::kBadInput, problems);
   }
-  made.plan = *loaded;
+  const System& system = loaded->system;
+  return {label, system.rod.length, scene::area_fraction_of(system), system.box_side, system.dt, warm_up, *loaded};
+}
+
+Case make_case(double length, double area_fraction, double side, double dt, double warm_up) {
+  Case made = case_of({{"rods", {{"length", length}, {"area_fraction", area_fraction}}},
+                       {"box", {{"side", side}}},
+                       {"time", {{"step", dt}}}},
+                      warm_up, label_of(length, area_fraction, side));
+  made.area_fraction = area_fraction;
   return made;
 }
 

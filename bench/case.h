@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -17,23 +18,23 @@ class App;
 
 namespace shaken::bench {
 
-/// A scene whose speed is measured, in its user's terms and resolved. Everything not named here is the scene file's
-/// default.
+/// A scene whose speed is measured, in its user's terms and resolved.
 struct Case {
-  double length = 0;         ///< of the rods, tip to tip [mm]
-  double area_fraction = 0;  ///< asked for; that of a whole number of rods differs a little
+  std::string label;         ///< names it for people
+  double length = 0;         ///< of the rods of the first species, tip to tip [mm]
+  double area_fraction = 0;  ///< of these; if it was asked for, that of a whole number of rods differs a little
   double side = 0;           ///< of the box [mm]
   double dt = 0;             ///< [s]
   double warm_up = 0;        ///< simulated before anything is measured [s]
   scene::RunPlan plan;       ///< `plan.system` is the scene; the run lasts for `warm_up`
 
   const System& system() const { return plan.system; }
+  int n_rods() const { return system().n_all_rods(); }  ///< of all species
   Tick warm_up_ticks() const;
   /// Ticks of one vibration, rounded.
   Tick period_ticks() const;
   /// Rod-seconds that `ticks` simulate.
   double rod_seconds(Tick ticks) const;
-  std::string label() const;  ///< label_of
 };
 
 /// "l = 4.5 mm, phi = 0.75, L = 41.865 mm"
@@ -45,7 +46,10 @@ inline constexpr std::pair<double, double> kWarmUps{1e-3, 1e4};  ///< that may b
 /// The values that a scene's field may have, in its default unit.
 std::pair<double, double> limits_of(std::string_view field);
 
-/// Fills in the plan. Throws Failure with all that is wrong with the scene.
+/// Of a scene as a user would write it, but for what says how long it runs and what it measures: `warm_up` says the
+/// one, and it measures nothing. Throws Failure with all that is wrong with the scene.
+Case case_of(nlohmann::json scene, double warm_up, const std::string& label);
+/// Of rods in a periodic box; everything that is not named here is the scene file's default. Its label is label_of.
 Case make_case(double length, double area_fraction, double side, double dt, double warm_up);
 
 /// A case after its warm-up.

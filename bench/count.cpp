@@ -23,65 +23,83 @@ Json json_of(const BoundsInUse& bounds) {
 
 }  // namespace
 
-CountedWork measure_work(const Contender& of) {
+CountedWork count_work(const Contender& of, Simulation& settled) {
   CountedWork counted;
   counted.of = of;
-  Simulation counting = resumed(of.scene, of.state, StepperKind::kScheduled);
-  advance(counting, of.settle);
-  counting.time_phases(thread_cpu_seconds_without_readings);
-  const WorkCounts before = counting.work_counts();
-  advance(counting, of.ticks);
-  const WorkCounts after = counting.work_counts();
+  settled.time_phases(thread_cpu_seconds_without_readings);
+  const WorkCounts before = settled.work_counts();
+  const double start = thread_cpu_seconds_without_readings();
+  advance(settled, of.ticks);
+  counted.cpu = thread_cpu_seconds_without_readings() - start;
+  const WorkCounts after = settled.work_counts();
   for (std::size_t k = 0; k < kWorkKinds; ++k)
     counted.counts[k] = after.of(static_cast<WorkKind>(k)) - before.of(static_cast<WorkKind>(k));
-  for (std::size_t p = 0; p < kPhases; ++p) counted.phases[p] = counting.phase_times().seconds(static_cast<Phase>(p));
-  counting.time_phases(nullptr);
+  for (std::size_t p = 0; p < kPhases; ++p) counted.phases[p] = settled.phase_times().seconds(static_cast<Phase>(p));
+  settled.time_phases(nullptr);
+  return counted;
+}
+
+CountedWork measure_work(const Contender& of) {
+  Simulation counting = resumed(of.scene, of.state, StepperKind::kScheduled);
+  advance(counting, of.settle);
+  CountedWork counted = count_work(of, counting);
   counted.bounds = measure_bounds(counting, of.scene.period_ticks());
   return counted;
+}
+
+void add_work(Json& row, const CountedWork& counted) {
+  const double rod_seconds = counted.of.scene.rod_seconds(counted.of.ticks);
+  for (std::size_t k = 0; k < kWorkKinds; ++k)
+    row["per_rod_second"][kWorkNames[k]] = static_cast<double>(counted.counts[k]) / rod_seconds;
+  const auto cost = [&](Phase phase, WorkKind work) {
+    return 1e9 * counted.phases[static_cast<std::size_t>(phase)] /
+           static_cast<double>(std::max<std::int64_t>(1, counted.counts[static_cast<std::size_t>(work)]));
+  };
+  row["ns"] = {{"rods_visited", cost(Phase::kSurfaces, WorkKind::kRodsVisited)},
+               {"rods_bounded", cost(Phase::kRodBounds, WorkKind::kRodsBounded)},
+               {"rods_placed", cost(Phase::kNeighbors, WorkKind::kRodsPlaced)},
+               {"pairs_searched", cost(Phase::kDetection, WorkKind::kPairsSearched)},
+               {"pairs_tightened", cost(Phase::kTightening, WorkKind::kPairsTightened)},
+               {"pairs_bounded", cost(Phase::kPairBounds, WorkKind::kPairsBounded)}};
+}
+
+std::string work_text(const Json& rows, const std::vector<Column>& scene) {
+  const auto with = [&](const std::vector<Column>& more) {
+    std::vector<Column> columns = scene;
+    columns.insert(columns.end(), more.begin(), more.end());
+    return table(rows, columns);
+  };
+  const auto counts = [](const char* title, const char* name) {
+    return Column{title, std::string("per_rod_second/") + name, "{:.0f}"};
+  };
+  const auto ns = [](const char* name) { return Column{"ns", std::string("ns/") + name, "{:.0f}"}; };
+  std::string text =
+      "\nRods, per rod and simulated second, and the CPU time that each costs: visits for surfaces (of these: hit,\n"
+      "and resting: to be visited at the next tick without a bound), bounds on the time to the next, and places in\n"
+      "the neighbour list.\n" +
+      with({counts("visits", "rods_visited"), counts("hit", "rods_hit"), counts("resting", "rods_resting"),
+            ns("rods_visited"), counts("bounds", "rods_bounded"), ns("rods_bounded"), counts("places", "rods_placed"),
+            ns("rods_placed")});
+  return text +
+         "\nPairs, per rod and simulated second: searches for contacts (of these: touching), bounds tightened by a "
+         "hit,\n"
+         "and new bounds (of these: after a search, by beads, and too short to save the visit at the next tick).\n" +
+         with({counts("searches", "pairs_searched"), counts("touching", "pairs_touching"), ns("pairs_searched"),
+               counts("tightened", "pairs_tightened"), ns("pairs_tightened"), counts("bounds", "pairs_bounded"),
+               ns("pairs_bounded"), counts("when due", "bounds_when_due"), counts("by beads", "bounds_by_beads"),
+               counts("no tick", "bounds_of_no_tick")});
 }
 
 Report count_report(const Conditions& conditions, const std::vector<CountedWork>& scenes) {
   Report report = report_under(conditions, "count", "count");
   for (const CountedWork& counted : scenes) {
     Json row = json_of(counted.of.scene);
-    const double rod_seconds = counted.of.scene.rod_seconds(counted.of.ticks);
-    for (std::size_t k = 0; k < kWorkKinds; ++k)
-      row["per_rod_second"][kWorkNames[k]] = static_cast<double>(counted.counts[k]) / rod_seconds;
-    const auto cost = [&](Phase phase, WorkKind work) {
-      return 1e9 * counted.phases[static_cast<std::size_t>(phase)] /
-             static_cast<double>(std::max<std::int64_t>(1, counted.counts[static_cast<std::size_t>(work)]));
-    };
-    row["ns"] = {{"rods_visited", cost(Phase::kSurfaces, WorkKind::kRodsVisited)},
-                 {"rods_bounded", cost(Phase::kRodBounds, WorkKind::kRodsBounded)},
-                 {"rods_placed", cost(Phase::kNeighbors, WorkKind::kRodsPlaced)},
-                 {"pairs_searched", cost(Phase::kDetection, WorkKind::kPairsSearched)},
-                 {"pairs_tightened", cost(Phase::kTightening, WorkKind::kPairsTightened)},
-                 {"pairs_bounded", cost(Phase::kPairBounds, WorkKind::kPairsBounded)}};
+    add_work(row, counted);
     row["hulls"] = json_of(counted.bounds.hulls);
     row["beads"] = json_of(counted.bounds.beads);
     report.json["rows"].push_back(std::move(row));
   }
-  const auto counts = [](const char* title, const char* name) {
-    return Column{title, std::string("per_rod_second/") + name, "{:.0f}"};
-  };
-  const auto ns = [](const char* name) { return Column{"ns", std::string("ns/") + name, "{:.0f}"}; };
-  report.text +=
-      "\nRods, per rod and simulated second, and the CPU time that each costs: visits for surfaces (of these: hit, "
-      "and\n"
-      "resting: to be visited at the next tick without a bound), bounds on the time to the next, and places in the\n"
-      "neighbour list.\n" +
-      table(report.rows(),
-            scene_columns({counts("visits", "rods_visited"), counts("hit", "rods_hit"),
-                           counts("resting", "rods_resting"), ns("rods_visited"), counts("bounds", "rods_bounded"),
-                           ns("rods_bounded"), counts("places", "rods_placed"), ns("rods_placed")}));
-  report.text +=
-      "\nPairs, per rod and simulated second: searches for contacts (of these: touching), bounds tightened by a hit,\n"
-      "and new bounds (of these: after a search, by beads, and too short to save the visit at the next tick).\n" +
-      table(report.rows(), scene_columns({counts("searches", "pairs_searched"), counts("touching", "pairs_touching"),
-                                          ns("pairs_searched"), counts("tightened", "pairs_tightened"),
-                                          ns("pairs_tightened"), counts("bounds", "pairs_bounded"), ns("pairs_bounded"),
-                                          counts("when due", "bounds_when_due"), counts("by beads", "bounds_by_beads"),
-                                          counts("no tick", "bounds_of_no_tick")}));
+  report.text += work_text(report.rows(), scene_columns({}));
   report.text +=
       "\nNew bounds of pairs that do not touch, over the time to contact in free flight (at most the schedule's\n"
       "horizon): median, lower quartile, and the share in % of those too short to save the visit at the next tick.\n" +

@@ -96,7 +96,7 @@ scatter of single repetitions. Same state: the next 4 vibrations of the rods wit
 it takes to compute the effect. Own state: after a warm-up without the effect, which also counts what its absence
 makes of the rods. Impulses of rods with plates and with each other, per tick, and rates are of the own state.
 )",
-      scene.label(), scene.system().n_rods, 1e6 * scene.dt, scene.warm_up, effort.repeat);
+      scene.label, scene.n_rods(), 1e6 * scene.dt, scene.warm_up, effort.repeat);
   text += table(report.at("rows"), {{"without", "without"},
                                     {"same state %", "same_state/cpu_ratio", "{:.1f}", 100},
                                     {"+-", "same_state/cpu_ratio_error", "{:.1f}", 100},

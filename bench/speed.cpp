@@ -42,6 +42,37 @@ void check_states(const Report& report, const std::string& what) {
   }
 }
 
+Json phase_shares(const std::array<double, kPhases>& phases, double cpu) {
+  Json shares;
+  double other = 1;
+  for (std::size_t p = 0; p < kPhases; ++p) {
+    const double share = phases[p] / cpu;
+    shares[kPhaseNames[p]] = share;
+    other -= share;
+  }
+  shares["other"] = std::max(0.0, other);  // < 0: the clock's error
+  return shares;
+}
+
+std::vector<Column> phase_columns() {
+  std::vector<Column> columns;
+  columns.reserve(kPhases + 1);
+  for (const char* name : kPhaseNames) {
+    std::string title = name;
+    std::replace(title.begin(), title.end(), '_', ' ');
+    columns.push_back({std::move(title), std::string("phase_shares/") + name, "{:.1f}", 100});
+  }
+  return columns;
+}
+
+std::string phases_text(const Json& rows, const std::vector<Column>& scene) {
+  std::vector<Column> columns = scene;
+  for (Column& phase : phase_columns()) columns.push_back(std::move(phase));
+  columns.push_back({"other", "phase_shares/other", "{:.1f}", 100});
+  return "\nWhere the scheduled stepper's CPU time goes, in % (from a run of its own, without the clock's time).\n" +
+         table(rows, columns);
+}
+
 SceneSpeed measure_scene(const Case& scene, const SteadyState& state, const Effort& effort) {
   // One tick builds the lists; from there on the reference is timed, and the scheduled stepper settles.
   const Contender reference{.scene = scene,
@@ -52,7 +83,7 @@ SceneSpeed measure_scene(const Case& scene, const SteadyState& state, const Effo
   const Tick compared_ticks = reference.settle + reference.ticks;
   scheduled.settle = std::max(scheduled.settle, compared_ticks);
   std::vector<Contender> both{reference, scheduled};
-  time_in_turn("measuring " + scene.label(), both, effort.repeat);
+  time_in_turn("measuring " + scene.label, both, effort.repeat);
   SceneSpeed speed{both[1], both[0], compared_ticks, 0, {}, 0, {}};
 
   Simulation timed = resumed(scene, state, StepperKind::kScheduled);
@@ -80,30 +111,13 @@ Json speed_row(const SceneSpeed& scene) {
   row["ratio"] = scheduled.rate() / scene.reference.speed.rate();
   row["compared_ticks"] = scene.compared_ticks;
   row["hashes_equal"] = scene.scheduled_hash == scene.reference.hash;
-  double other = 1;
-  for (std::size_t p = 0; p < kPhases; ++p) {
-    const double share = scene.phases[p] / scene.phases_cpu;
-    row["phase_shares"][kPhaseNames[p]] = share;
-    other -= share;
-  }
-  row["phase_shares"]["other"] = std::max(0.0, other);  // < 0: the clock's error
+  row["phase_shares"] = phase_shares(scene.phases, scene.phases_cpu);
   row["lower_bounds"] = {{"plate_impulse_ns", 1e9 * scene.bounds.plate_impulse},
                          {"rod_impulse_ns", 1e9 * scene.bounds.rod_impulse},
                          {"state_access_ns", 1e9 * scene.bounds.state_access},
                          {"impulses_alone_share", scene.bounds.impulses_alone(scheduled) / scheduled.best_cpu()},
                          {"memory_alone_share", scene.bounds.memory_alone(scheduled) / scheduled.best_cpu()}};
   return row;
-}
-
-std::vector<Column> phase_columns() {
-  std::vector<Column> columns;
-  columns.reserve(kPhases + 1);
-  for (const char* name : kPhaseNames) {
-    std::string title = name;
-    std::replace(title.begin(), title.end(), '_', ' ');
-    columns.push_back({std::move(title), std::string("phase_shares/") + name, "{:.1f}", 100});
-  }
-  return columns;
 }
 
 }  // namespace
@@ -123,11 +137,7 @@ Report speed_report(const Conditions& conditions, const std::vector<SceneSpeed>&
                                           {"ns/impulse", "scheduled/ns_per_impulse", "{:.0f}"},
                                           {"bytes/rod", "scheduled/bytes_per_rod", "{:.0f}"},
                                           {"same state", "hashes_equal"}}));
-  std::vector<Column> phases = phase_columns();
-  phases.push_back({"other", "phase_shares/other", "{:.1f}", 100});
-  report.text +=
-      "\nWhere the scheduled stepper's CPU time goes, in % (from a run of its own, without the clock's time).\n" +
-      table(report.rows(), scene_columns(phases));
+  report.text += phases_text(report.rows(), scene_columns({}));
   report.text +=
       "\nLower bounds: the share of the scheduled stepper's time that its impulses alone take, if finding contacts\n"
       "were free, and the share that reading and writing the states of the rods hit takes, if computing were.\n" +
@@ -151,6 +161,7 @@ Examples:
   shaken bench speed --scaling n --out speed            cost per rod from 500 to 18,000 rods
   shaken bench speed --scaling dt                       cost of a finer step
   shaken bench speed --count                            what a rod-second consists of: visits, searches, bounds
+  shaken bench speed --kinds --out speed                spheres, polar rods, side walls and others, beside each other
   shaken bench speed --threads 1,2,4 --area-fraction 0.75 --side 83.73
 
 Exit codes: 0 done, 1 the steppers' states differ or something failed, 2 bad input.)";
@@ -177,20 +188,23 @@ struct SpeedBench {
   std::optional<double> warm_up, cpu;
   std::optional<int> repeat;
   std::string scaling;
-  bool full = false, quick = false, count = false;
+  bool full = false, quick = false, count = false, kinds = false;
   Cache cache;
   Output output;
 
   void declare(CLI::App& app) {
-    add_number(app, "--length", lengths, "LIST", limits_of("rods.length"), "Rod lengths [mm]");
-    add_number(app, "--area-fraction", fractions, "LIST", limits_of("rods.area_fraction"), "Area fractions");
-    add_number(app, "--side", sides, "LIST", limits_of("box.side"), "Sides of the box [mm]");
+    const std::array lists{
+        add_number(app, "--length", lengths, "LIST", limits_of("rods.length"), "Rod lengths [mm]"),
+        add_number(app, "--area-fraction", fractions, "LIST", limits_of("rods.area_fraction"), "Area fractions"),
+        add_number(app, "--side", sides, "LIST", limits_of("box.side"), "Sides of the box [mm]")};
     CLI::Option* all =
         app.add_flag("--full", full, "All 24 scenes: 2 lengths, 4 area fractions, 3 boxes (an hour the first time)");
     app.add_flag("--quick", quick, "Shorter warm-up and stretches: about a minute")->excludes(all);
-    add_number(app, "--warm-up", warm_up, "S", kWarmUps,
-               "Simulated seconds before measuring; 5, or 0.5 with --quick and --scaling");
-    add_number(app, "--cpu", cpu, "S", {1e-3, 1e3}, "CPU time of one timed stretch, about; 1.5, or 0.5 with --quick");
+    add_number(
+        app, "--warm-up", warm_up, "S", kWarmUps,
+        "Simulated seconds before measuring; 5; 0.5 with --quick, --scaling or --kinds; 0.1 with --quick --kinds");
+    add_number(app, "--cpu", cpu, "S", {1e-3, 1e3},
+               "CPU time of one timed stretch, about; 1.5, or 0.5 with --quick; of --kinds 0.7, or 0.1");
     add_number(app, "--repeat", repeat, "N", {1, 1000}, "Repetitions, of which the best counts; 5, or 3 with --quick");
     CLI::Option* series =
         app.add_option("--scaling", scaling, "Instead: cost per rod against the number of rods, or the step");
@@ -198,17 +212,21 @@ struct SpeedBench {
     CLI::Option* by_threads =
         add_number(app, "--threads", threads, "LIST", {1, 64}, "Instead: wall time by so many threads");
     by_threads->excludes(series);
-    app.add_flag("--count", count, "Instead: what a rod-second consists of, and how good the bounds on pairs are")
-        ->excludes(series)
-        ->excludes(by_threads);
+    CLI::Option* counts =
+        app.add_flag("--count", count, "Instead: what a rod-second consists of, and how good the bounds on pairs are");
+    counts->excludes(series)->excludes(by_threads);
+    CLI::Option* by_kind = app.add_flag("--kinds", kinds, "Instead: speed by kind of scene");
+    by_kind->excludes(all)->excludes(series)->excludes(by_threads)->excludes(counts);
+    for (CLI::Option* list : lists) by_kind->excludes(list);
     cache.declare(app);
     output.declare(app);
   }
 
   Conditions conditions() const {
-    const bool brief = quick || !scaling.empty();
-    return {{cpu.value_or(quick ? 0.5 : 1.5), repeat.value_or(quick ? 3 : 5)},
-            warm_up.value_or(brief ? 0.5 : Conditions::kSteady)};
+    const bool brief = quick || kinds || !scaling.empty();
+    const double stretch = kinds ? (quick ? 0.1 : 0.7) : quick ? 0.5 : 1.5;
+    const double before = kinds && quick ? 0.1 : brief ? 0.5 : Conditions::kSteady;
+    return {{cpu.value_or(stretch), repeat.value_or(quick ? 3 : 5)}, warm_up.value_or(before)};
   }
 
   /// What was asked for, or else these.
@@ -262,7 +280,7 @@ struct SpeedBench {
       ThreadsSpeed& speed = measured.emplace_back();
       speed.by.assign(threads.size(), by_one);
       for (std::size_t k = 0; k < threads.size(); ++k) speed.by[k].threads = threads[k];
-      time_in_turn("measuring threads on " + scene.label(), speed.by, conditions().effort.repeat);
+      time_in_turn("measuring threads on " + scene.label, speed.by, conditions().effort.repeat);
       speed.serial = measure_serial_share(by_one);
     }
     const Report report = threads_report(conditions(), measured);
@@ -281,7 +299,19 @@ struct SpeedBench {
     return ExitCode::kOk;
   }
 
+  ExitCode run_kinds() const {
+    std::vector<Contender> contenders;
+    for (const SceneKind& kind : scene_kinds()) {
+      const Case scene = case_of(kind, conditions().warm_up);
+      contenders.push_back(contender(scene, cache(scene), conditions().effort.cpu));
+    }
+    const Report report = kinds_report(conditions(), measure_kinds(std::move(contenders), conditions().effort.repeat));
+    output.give(report, [&](const auto& folder) { draw_kinds(folder, report); });
+    return ExitCode::kOk;
+  }
+
   ExitCode run() const {
+    if (kinds) return run_kinds();
     if (count) return run_count();
     if (!scaling.empty()) return run_scaling();
     if (!threads.empty()) return run_threads();

@@ -28,6 +28,13 @@ std::vector<Column> scene_columns(const std::vector<Column>& more);
 /// Throws Failure, "SCENE: WHAT after 1250 ticks", for the first row in which states that must be equal are not.
 void check_states(const Report& report, const std::string& what);
 
+/// The share of `cpu` [s] that each phase [s] took, and the rest as "other".
+Json phase_shares(const std::array<double, kPhases>& phases, double cpu);
+/// The phases' as columns in %, if these are the row's member "phase_shares".
+std::vector<Column> phase_columns();
+/// A table of these, and of the rest, whose lines begin with the columns `scene`.
+std::string phases_text(const Json& rows, const std::vector<Column>& scene);
+
 /// Times that no stepper of this model can go below, measured on the rods of one state [s].
 struct LowerBounds {
   double plate_impulse = 0;  ///< of one impulse from a plate: pose, motion, impulse and the new flight
@@ -68,12 +75,34 @@ struct CountedWork {
   Contender of;
   std::array<std::int64_t, kWorkKinds> counts{};
   std::array<double, kPhases> phases{};  ///< CPU time [s]
+  double cpu = 0;                        ///< of the whole stretch [s]
   BoundsByKind bounds;
 };
 
-/// A run of the contender for its ticks.
+/// A stretch of the contender's ticks from where `settled` is; not the bounds.
+CountedWork count_work(const Contender& of, Simulation& settled);
+/// A run of the contender for its ticks, and the bounds at its end.
 CountedWork measure_work(const Contender& of);
+/// Adds the counts per rod-second, and the CPU time that each costs, to a row.
+void add_work(Json& row, const CountedWork& counted);
+/// Tables of these, whose lines begin with the columns `scene`.
+std::string work_text(const Json& rows, const std::vector<Column>& scene);
 Report count_report(const Conditions& conditions, const std::vector<CountedWork>& scenes);
+
+/// A kind of scene whose speed is compared with that of others.
+struct SceneKind {
+  const char* name;
+  const char* patch;  ///< JSON: what a user would write in place of some keys of the base (a merge patch, RFC 7396)
+};
+
+/// Every kind; the first is the base itself.
+const std::vector<SceneKind>& scene_kinds();
+Case case_of(const SceneKind& kind, double warm_up);
+/// Times the kinds in turn, then counts what the scheduled stepper does on each.
+std::vector<CountedWork> measure_kinds(std::vector<Contender> kinds, int repeat);
+/// A row for each; their costs are relative to the first.
+Report kinds_report(const Conditions& conditions, const std::vector<CountedWork>& measured);
+void draw_kinds(const std::filesystem::path& folder, const Report& report);
 
 /// The scheduled stepper's cost along a series of scenes that differ in their number of rods or in their step.
 enum class Scaling { kRods, kStep };

@@ -48,8 +48,9 @@ void time_stretch(Simulation& simulation, const Case& of, Tick ticks, StepperSpe
   speed.rod_seconds = of.rod_seconds(ticks);
   speed.plate_impulses =
       after.impulses_rod_base + after.impulses_rod_lid - before.impulses_rod_base - before.impulses_rod_lid;
+  speed.wall_impulses = after.impulses_rod_wall - before.impulses_rod_wall;
   speed.rod_impulses = after.impulses_rod_rod - before.impulses_rod_rod;
-  speed.bytes_per_rod = static_cast<double>(simulation.bytes()) / of.system().n_rods;
+  speed.bytes_per_rod = static_cast<double>(simulation.bytes()) / of.n_rods();
   speed.max_overlap = after.max_overlap();
 }
 
@@ -101,8 +102,12 @@ double sample_every(double every, double duration, const std::string& what, Simu
 }
 
 Json json_of(const Case& scene) {
-  return {{"length_mm", scene.length}, {"n_beads", scene.system().rod.n_beads}, {"area_fraction", scene.area_fraction},
-          {"side_mm", scene.side},     {"n_rods", scene.system().n_rods},       {"dt_s", scene.dt}};
+  return {{"length_mm", scene.length},
+          {"n_beads", scene.system().rod.n_beads},
+          {"area_fraction", scene.area_fraction},
+          {"side_mm", scene.side},
+          {"n_rods", scene.n_rods()},
+          {"dt_s", scene.dt}};
 }
 
 Json json_of(const StepperSpeed& speed) {
@@ -112,6 +117,7 @@ Json json_of(const StepperSpeed& speed) {
           {"ticks", speed.ticks},
           {"rod_seconds", speed.rod_seconds},
           {"plate_impulses", speed.plate_impulses},
+          {"wall_impulses", speed.wall_impulses},
           {"rod_impulses", speed.rod_impulses},
           {"impulses_per_cpu_s", static_cast<double>(speed.impulses()) / speed.best_cpu()},
           {"ns_per_impulse", 1e9 * speed.best_cpu() / static_cast<double>(speed.impulses())},

@@ -29,6 +29,7 @@ struct StepperSpeed {
   std::vector<double> wall;  ///< and on the wall [s]
   double rod_seconds = 0;    ///< simulated in the stretch
   std::int64_t plate_impulses = 0;
+  std::int64_t wall_impulses = 0;
   std::int64_t rod_impulses = 0;  ///< between rods
   double bytes_per_rod = 0;       ///< memory of state and stepper
   double max_overlap = 0;         ///< deepest since the start of the run [mm]
@@ -38,7 +39,7 @@ struct StepperSpeed {
   double spread() const;  ///< median CPU time over the best
   double wall_spread() const;
   double rate() const { return rod_seconds / best_cpu(); }  ///< rod-seconds per CPU-second
-  std::int64_t impulses() const { return plate_impulses + rod_impulses; }
+  std::int64_t impulses() const { return plate_impulses + wall_impulses + rod_impulses; }
 };
 
 /// How many ticks take about `cpu` seconds by `stepper`: whole vibrations if it is at least one, as speed changes with

@@ -105,7 +105,7 @@ Json measure_order_error(const Case& scene, double measure, int replicas, const 
     start.plan.system.seed = static_cast<std::uint64_t>(replica + 1);
     Simulation simulation = resumed(start, cache(start), StepperKind::kScheduled);
     std::vector<double>& values = series.emplace_back();
-    cpu += sample_every(kEvery, measure, fmt::format("S(t) of {}, seed {}", scene.label(), replica + 1), simulation,
+    cpu += sample_every(kEvery, measure, fmt::format("S(t) of {}, seed {}", scene.label, replica + 1), simulation,
                         [&] { values.push_back(analysis::nematic_order(simulation.snapshot().director).order); });
     n_samples += values.size();
   }

@@ -65,7 +65,7 @@ Point measure_point(const StatisticsTask& task, double value, const Cache& cache
         continued(resumed(start, cache(start), StepperKind::kScheduled), scene_of(task, start, value));
     advance(simulation, std::llround(task.settle / simulation.world().system.dt));
     series = ObservableSeries();
-    const std::string what = fmt::format("{}, {} {:.10g}, seed {}", start.label(), task.knob->name, value, replica + 1);
+    const std::string what = fmt::format("{}, {} {:.10g}, seed {}", start.label, task.knob->name, value, replica + 1);
     point.cpu_per_rod_second +=
         sample_every(ObservableSeries::kEvery, task.measure, what, simulation, [&] { series.sample(simulation); });
     for (std::size_t o = 0; o < kObservables; ++o) {
@@ -187,7 +187,7 @@ std::string statistics_text(const StatisticsTask& task, Json rows, const Json& l
     means.push_back({fmt::format("{} {}", name, info.unit), name + "/value", "{:.4g} +- {:.1g}", 1, name + "/sem"});
     biases.push_back({name, name + "/bias", "{:.2f} +- {:.2f}", 100, name + "/bias_error"});
   }
-  std::string text = fmt::format("\n{}, N = {}, {}: {}; {} x {:.10g} s of each, after {:.10g} s\n", task.scene.label(),
+  std::string text = fmt::format("\n{}, N = {}, {}: {}; {} x {:.10g} s of each, after {:.10g} s\n", task.scene.label,
                                  task.scene.system().n_rods, task.variant->name, task.knob->name, task.replicas,
                                  task.measure, task.settle) +
                      table(rows, means);

@@ -77,6 +77,34 @@ TEST_F(Bench, SpeedCountsWork) {
   EXPECT_GT(row.at("ns").at("rods_visited").get<double>(), 0);
 }
 
+TEST_F(Bench, SpeedByKindOfScene) {
+  const Finished finished =
+      bench({"speed", "--kinds", "--warm-up", "0.002", "--cpu", "0.001", "--repeat", "1", "--out", out()});
+  ASSERT_EQ(finished.code, 0) << finished.output;
+  const Json report = json_of("kinds.json");
+  ASSERT_GT(report.at("rows").size(), 10u);
+  for (const Json& row : report.at("rows")) {
+    EXPECT_GT(row.at("scheduled").at("rod_s_per_cpu_s").get<double>(), 0) << row.at("kind");
+    EXPECT_GT(row.at("per_rod_second").at("rods_visited").get<double>(), 0) << row.at("kind");
+  }
+  EXPECT_EQ(report.at("rows").at(0).at("relative_cost").get<double>(), 1);
+  EXPECT_EQ(text_of("kinds.png").substr(1, 3), "PNG");
+}
+
+TEST_F(Bench, SpeedByKindOfSceneHasItsOwnScenes) {
+  for (const std::vector<std::string>& more : {std::vector<std::string>{"--length", "2.5"},
+                                               {"--area-fraction", "0.5"},
+                                               {"--side", "20"},
+                                               {"--full"},
+                                               {"--scaling", "n"},
+                                               {"--threads", "1"},
+                                               {"--count"}}) {
+    std::vector<std::string> words{"speed", "--kinds"};
+    words.insert(words.end(), more.begin(), more.end());
+    EXPECT_EQ(bench(words).code, 2) << more.front();
+  }
+}
+
 TEST_F(Bench, SpeedOfThreadsAndStepsToo) {
   Finished finished = bench(tiny({"speed", "--area-fraction", "0.6", "--threads", "1,2", "--out", out()}));
   ASSERT_EQ(finished.code, 0) << finished.output;

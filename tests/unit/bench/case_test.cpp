@@ -35,6 +35,38 @@ TEST(Case, WhatASceneRefusesIsBadInput) {
   }
 }
 
+TEST(Case, IsWhatASceneSays) {
+  const Case made = case_of({{"rods", {{"count", 40}}},
+                             {"rods_2", {{"length", "2.5 mm"}, {"count", 30}}},
+                             {"box", {{"side", "25 mm"}}},
+                             {"time", {{"step", "8 us"}, {"impacts", "at_instant"}}}},
+                            0.5, "mixture");
+  EXPECT_EQ(made.label, "mixture");
+  EXPECT_EQ(made.length, 4.5);
+  EXPECT_EQ(made.side, 25);
+  EXPECT_EQ(made.dt, 8e-6);
+  EXPECT_NEAR(made.area_fraction, 0.75 * 40 / 527 * (41.865 * 41.865) / (25 * 25), 1e-3);
+  EXPECT_TRUE(made.system().has_impacts_at_instant());
+  EXPECT_EQ(made.plan.total_time(), 0.5);
+  EXPECT_EQ(made.warm_up_ticks(), 62'500);
+}
+
+TEST(Case, CountsRodsOfAllSpecies) {
+  const Case made = case_of({{"rods", {{"count", 40}}}, {"rods_2", {{"count", 30}}}}, 0.5, "mixture");
+  EXPECT_EQ(made.n_rods(), 70);
+  EXPECT_DOUBLE_EQ(made.rod_seconds(1250), 70 * 0.005);
+}
+
+TEST(Case, NamesTheSceneThatIsRefused) {
+  try {
+    case_of({{"rods", {{"lenght", 4.5}}}}, 0.5, "mistyped");
+    FAIL() << "not refused";
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.code, ExitCode::kBadInput);
+    EXPECT_EQ(std::string(failure.what()).rfind("mistyped: /rods/lenght: ", 0), 0u) << failure.what();
+  }
+}
+
 class SteadyStates : public ::testing::Test {
  protected:
   /// The only file in the cache.

@@ -43,6 +43,17 @@ TEST_F(SmallBox, AStretchCountsWhatHappensInIt) {
   EXPECT_EQ(speed.spread(), 1);
 }
 
+TEST_F(SmallBox, ImpulsesFromSideWallsCount) {
+  const Case disc = case_of({{"rods", {{"area_fraction", 0.4}}}, {"walls", {{"size", "12 mm"}}}}, 0.01, "disc");
+  Simulation simulation = resumed(disc, steady_state(disc, cache_.path()), StepperKind::kScheduled);
+  const Counters before = simulation.world().counters;
+  StepperSpeed speed;
+  time_stretch(simulation, disc, 5000, speed);
+  EXPECT_GT(speed.wall_impulses, 0);
+  EXPECT_EQ(speed.wall_impulses, simulation.world().counters.impulses_rod_wall - before.impulses_rod_wall);
+  EXPECT_EQ(speed.impulses(), speed.plate_impulses + speed.wall_impulses + speed.rod_impulses);
+}
+
 TEST_F(SmallBox, LongStretchesAreWholeVibrations) {
   const Tick ticks = ticks_for(0.02, case_, state_, StepperKind::kScheduled);
   EXPECT_GE(ticks, 1);
