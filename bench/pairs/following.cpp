@@ -11,11 +11,12 @@ Following::Following(const Simulation& simulation, const std::vector<PairRods>& 
       followed_(pairs),
       rules_(world_),
       search_(rules_),
-      pairs_(world_.rods.size()),
+      pairs_(world_.rods.size(), rules_.dt),
       before_(world_.rods),
       rods_(world_.rods.size()),
       motions_(world_.rods.size()),
-      is_due_(pairs.size(), true) {
+      is_due_(pairs.size(), true),
+      is_used_up_(pairs.size(), false) {
   pairs_.make_room(pairs.size());
   for (std::size_t p = 0; p < pairs.size(); ++p) pairs_.add(static_cast<int>(p), pairs[p], 0);
 }
@@ -28,39 +29,40 @@ const std::vector<Following::Bounded>& Following::look() {
   }
   due_.clear();
   pairs_.wheel().pop(world_.tick, due_);
-  for (const int p : due_) is_due_[p] = true;
+  for (const int p : due_) is_due_[p] = !pairs_.waits_on(p, world_.tick);
+  for (int i = 0; i < static_cast<int>(rods_.size()); ++i) {
+    if (world_.rods[i].since == world_.tick)
+      pairs_.take(i, change(i), world_.tick, [&](int p) { is_used_up_[p] = true; });
+  }
   happened_.clear();
   for (int p = 0; p < static_cast<int>(followed_.size()); ++p) look_at(p);
   is_due_.assign(is_due_.size(), false);
+  is_used_up_.assign(is_used_up_.size(), false);
   before_ = world_.rods;
   return happened_;
 }
 
 void Following::look_at(int p) {
-  const std::size_t before = happened_.size();
+  const auto is_hit = [&](int i) { return world_.rods[i].since == world_.tick; };
+  const auto& [i, j] = followed_[p];
   if (is_due_[p]) {
     happened_.push_back({p, Event::kRanOut, false, 0});
-    renew(p, happened_.back());
+  } else if (!is_hit(i) && !is_hit(j)) {
+    return;
+  } else if (!is_used_up_[p] || pairs_.settle(p, world_.tick)) {
+    happened_.push_back({p, Event::kTightened, false, 0});
   } else {
-    for (const int i : followed_[p]) {
-      if (world_.rods[i].since != world_.tick) continue;
-      const bool kept = pairs_.tighten(p, i, change(i), world_.tick, static_cast<float>(rules_.dt));
-      happened_.push_back({p, kept ? Event::kTightened : Event::kRenewed, false, 0});
-      if (kept) continue;
-      renew(p, happened_.back());
-      break;
-    }
+    happened_.push_back({p, Event::kRenewed, false, 0});
   }
-  if (happened_.size() > before)
-    happened_.back().safe = static_cast<double>(pairs_.wheel().due(p, world_.tick) - world_.tick) * rules_.dt;
+  Bounded& bounded = happened_.back();
+  if (bounded.event != Event::kTightened) renew(p, bounded);
+  bounded.safe = static_cast<double>(pairs_.wheel().due(p, world_.tick) - world_.tick) * rules_.dt;
 }
 
 void Following::renew(int p, Bounded& bounded) {
   PairBounds bounds;
   search_.bound(std::span(&followed_[p], 1), rods_, motions_, lanes_, bounds);
-  pairs_.direction(p) = bounds.direction[0];
-  pairs_.set_line(p, bounds.line[0], bounds.all_round[0]);
-  pairs_.set_due(p, world_.tick + 1 + bounds.ticks[0]);
+  pairs_.hold(p, world_.tick, bounds.ticks[0], bounds.direction[0], bounds.line[0]);
   bounded.by_beads = bounds.by_beads[0];
 }
 

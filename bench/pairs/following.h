@@ -20,7 +20,7 @@ class Following {
     int pair;
     Event event;
     bool by_beads;  ///< of a new bound: beads were looked at
-    double safe;    ///< for how long nothing can happen from then on; 0 if the next event of this tick tells [s]
+    double safe;    ///< for how long nothing can happen from then on [s]
   };
 
   /// Keeps references to both.
@@ -46,6 +46,7 @@ class Following {
   PairLanes lanes_{};
   std::vector<std::int32_t> due_;
   std::vector<bool> is_due_;
+  std::vector<bool> is_used_up_;  ///< hits have taken more of the gap than they may
   std::vector<Bounded> happened_;
 };
 

@@ -29,17 +29,18 @@ struct MotionBound {
 
 /// What a bound says of the gap for as long as it lasts: at its end it is at least `left`, and before that more by
 /// `closing` for each second that is still to come. Where a hit makes the gap close faster, the time that remains
-/// follows from that (PairTable::tighten).
+/// follows from that (stepping/gap_allowances.h).
 struct GapLine {
   static constexpr float kRounding = 1e-6F;  ///< of `left`, whenever it is worked out [mm]
   float closing = 0;                         ///< [mm/s]
   float left = -1;                           ///< [mm]; < 0: not known
+  bool all_round = false;                    ///< the gap is that along no one direction
 
   /// Of a gap that is `now` wide, at least `then` after `time`, and concave in between [mm, s]; for a bound that ends
   /// `until`, no later than that.
-  static GapLine between(float now, float then, float time, float until) {
+  static GapLine between(float now, float then, float time, float until, bool all_round) {
     const float closing = (now - then) / (time + 1e-20F);
-    return {closing, std::max(0.0F, now - closing * until - kRounding)};
+    return {closing, std::max(0.0F, now - closing * until - kRounding), all_round};
   }
 };
 

@@ -81,6 +81,12 @@ SHAKEN_INLINE F with_sign_of(const F& size, const F& sign) {
   return reinterpret_cast<F>((reinterpret_cast<I>(size) & 0x7fffffff) |
                              (reinterpret_cast<I>(sign) & static_cast<std::int32_t>(0x80000000)));
 }
+/// a - b in every lane, modulo 2^32.
+template <int W>
+SHAKEN_INLINE Ints<W> difference(const Ints<W>& a, std::int32_t b) {
+  typedef std::uint32_t Unsigned __attribute__((vector_size(W * sizeof(std::uint32_t))));
+  return reinterpret_cast<Ints<W>>(reinterpret_cast<Unsigned>(a) - static_cast<std::uint32_t>(b));
+}
 /// Towards zero; |x| < 2^31.
 template <class F>
 SHAKEN_INLINE F truncated(const F& x) {
@@ -103,6 +109,28 @@ SHAKEN_INLINE float least(const F& x) {
     __builtin_memcpy(half, &x, sizeof x);
     return least(smaller(half[0], half[1]));
   }
+}
+namespace detail {
+/// Of whole numbers below 2^24, in any order.
+template <class F>
+SHAKEN_INLINE float sum(const F& x) {
+  constexpr int W = width<F>;
+  if constexpr (W == 1) {
+    return x[0];
+  } else {
+    Floats<W / 2> half[2];
+    __builtin_memcpy(half, &x, sizeof x);
+    return sum(half[0] + half[1]);
+  }
+}
+alignas(64) inline constexpr float kBits[kLanes] = {0x1p0, 0x1p1, 0x1p2,  0x1p3,  0x1p4,  0x1p5,  0x1p6,  0x1p7,
+                                                    0x1p8, 0x1p9, 0x1p10, 0x1p11, 0x1p12, 0x1p13, 0x1p14, 0x1p15};
+}  // namespace detail
+/// A bit for each lane, the first one lowest: whether it is below zero.
+template <class F>
+SHAKEN_INLINE std::uint32_t below_zero(const F& x) {
+  const F bits = load<width<F>>(detail::kBits);
+  return static_cast<std::uint32_t>(static_cast<std::int32_t>(detail::sum(x < 0.0F ? bits : F{})));
 }
 
 /// Three components.

@@ -37,6 +37,8 @@ inline Vec3 nearest_image(const Vec3& from, const Vec3& to, double box_side) {
 /// rod that has can be placed anew by itself, so the fastest of many rods costs no more than itself.
 class NeighborList {
  public:
+  static constexpr double kSkin = 0.4;  ///< that the scheduled stepper's list has [mm]
+
   struct Pair {
     int i = -1;  ///< -1: this number is not in use
     int j = -1;  ///< > i

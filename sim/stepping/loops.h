@@ -64,9 +64,9 @@ class Groups {
   }
   /// Calls visit(part) for parts of the sorted list that are of one group and fit into the lanes.
   template <class Visit>
-  void in_lanes(std::span<const int> list, const Visit& visit) const {
+  void in_lanes(std::span<const int> list, const Visit& visit, std::size_t n_lanes = kLanes) const {
     while (!list.empty()) {
-      const std::size_t most = std::min<std::size_t>(kLanes, list.size());
+      const std::size_t most = std::min(n_lanes, list.size());
       std::size_t n = several_ ? 1 : most;
       while (n < most && group_of_(list[n]) == group_of_(list.front())) ++n;
       visit(list.first(n));

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 
 #include "sim/contact/safe_time.h"
+#include "sim/core/lanes.h"
 #include "sim/motion/flight.h"
 
 namespace shaken {
-
-/// In which direction the hulls of two rods were apart; 0: not known.
-using Direction = std::array<float, 3>;
 
 /// By how much faster the gap to another rod may close, for the hits of one tick, than a bound allows that was made
 /// before.
@@ -28,11 +26,12 @@ class MotionChange {
   /// Such that every bound must be made anew.
   static MotionChange unknown();
 
-  /// Speed along a unit vector from this rod to the other, or from the other to it [mm/s].
-  float along(const Direction& d, bool from_this) const {
-    const float v = velocity_[0] * d[0] + velocity_[1] * d[1] + velocity_[2] * d[2];
-    const float tip = tip_[0] * d[0] + tip_[1] * d[1] + tip_[2] * d[2];
-    return rounding_ + (from_this ? v : -v) + std::abs(tip);
+  /// Speed along unit vectors from this rod to others, in every lane [mm/s].
+  template <class F>
+  SHAKEN_INLINE F along(const lanes::Vectors<F>& d) const {
+    const F v = velocity_[0] * d.x + velocity_[1] * d.y + velocity_[2] * d.z;
+    const F tip = tip_[0] * d.x + tip_[1] * d.y + tip_[2] * d.z;
+    return rounding_ + v + lanes::abs(tip);
   }
   /// The same along whatever direction [mm/s].
   float all_round() const { return all_round_; }
@@ -49,6 +48,23 @@ class MotionChange {
   float bending_;
   float earlier_;
 };
+
+SHAKEN_INLINE MotionChange::MotionChange(const Vec3& velocity, const Vec3& precession, const Vec3& director,
+                                         double rate_before, double rate, double half_length, double earlier)
+    : bending_(static_cast<float>(0.5 * half_length * std::max(0.0, rate * rate - rate_before * rate_before))),
+      earlier_(static_cast<float>(earlier)) {
+  set_vector(velocity_, velocity);
+  set_vector(tip_, half_length * precession.cross(director));
+  const auto size = [](const float* v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); };
+  const float speed = size(velocity_);
+  const float tip_speed = size(tip_);
+  // floats carry 6e-8, and what is added to a bound is rounded again and again
+  rounding_ = 1e-4F + 1e-6F * (speed + tip_speed);
+  // earlier, the director was another
+  if (earlier > 0)
+    rounding_ += static_cast<float>(half_length * precession.norm() * std::max(rate, rate_before) * earlier);
+  all_round_ = rounding_ + speed + std::max(tip_speed, static_cast<float>(half_length * (rate - rate_before)));
+}
 
 /// How a rod flies at a tick; it is `slow` if it moves along x and y by less than that [mm/s].
 MotionBound motion_bound(const Flight& flight, const Vec3& velocity, const Vec3& director, float slow);

@@ -21,7 +21,9 @@ PairSearch::PairSearch(const TickRules& rules) : rules_(rules) {
     reach_.push_back(species.reach());
   }
   const double longest = *std::max_element(reach_.begin(), reach_.end());
-  slow_ = static_cast<float>(std::max(0.0, rules.box_side - 4.4 * longest) /
+  // such that pairs in the neighbour list, and rods of 1.2 times the reach, are near
+  const double near = 4.0 * longest + std::max(0.4 * longest, 2.0 * NeighborList::kSkin);
+  slow_ = static_cast<float>(std::max(0.0, rules.box_side - near) /
                              (2.0 * static_cast<double>(TimingWheel::horizon()) * rules.dt));
 }
 
@@ -69,7 +71,7 @@ void PairSearch::bound(std::span<const PairRods> pairs, const std::vector<RodAtT
     float time = hull.time[lane];
     float gap = hull.gap[lane];
     float left = hull.left[lane];
-    bounds.all_round[lane] = false;
+    bool all_round = false;
     bounds.hulls_overlap[lane] = time <= 0.0F;
     bounds.direction[lane] = {hull.direction[0][lane], hull.direction[1][lane], hull.direction[2][lane]};
     bounds.by_beads[lane] = time < kShortBound * dt;
@@ -79,7 +81,7 @@ void PairSearch::bound(std::span<const PairRods> pairs, const std::vector<RodAtT
         time = beads.time;
         gap = beads.gap;
         left = gap > 0.0F ? 0.0F : -1.0F;
-        bounds.all_round[lane] = true;
+        all_round = true;
       }
     }
     if (!(i.slow && j.slow && images_stay_away(D[lane], rules_.box_side, reach, slow_, horizon))) {
@@ -88,7 +90,8 @@ void PairSearch::bound(std::span<const PairRods> pairs, const std::vector<RodAtT
     }
     const auto ticks = static_cast<int>(time * per_dt);
     bounds.ticks[lane] = ticks;
-    bounds.line[lane] = left < 0.0F ? GapLine{} : GapLine::between(gap, left, time, static_cast<float>(ticks) * dt);
+    bounds.line[lane] =
+        left < 0.0F ? GapLine{} : GapLine::between(gap, left, time, static_cast<float>(ticks) * dt, all_round);
   }
 }
 

@@ -18,7 +18,6 @@ inline constexpr float kBeadHorizon = 200;
 struct PairBounds {
   int ticks[kLanes];
   GapLine line[kLanes];        ///< of the gap, for as long as the bound lasts
-  bool all_round[kLanes];      ///< the line is along no known direction
   bool hulls_overlap[kLanes];  ///< beads may overlap already
   bool by_beads[kLanes];       ///< beads were looked at
   Direction direction[kLanes];
@@ -39,7 +38,7 @@ class PairSearch {
   float slow() const { return slow_; }
 
   /// Bounds for pairs of one pair of species, from the rods as they are at this tick. They hold for free flight, or as
-  /// far as they are tightened when a rod is hit.
+  /// far as hits are told of (PairTable::take).
   void bound(std::span<const PairRods> pairs, const std::vector<RodAtTick>& rods,
              const std::vector<MotionBound>& motion, PairLanes& lanes, PairBounds& bounds) const;
 

@@ -7,21 +7,17 @@
 
 #include "sim/core/heap_bytes.h"
 #include "sim/core/prefetch.h"
+#include "sim/stepping/plate_impacts.h"
 #include "sim/stepping/rod_impacts.h"
 #include "sim/stepping/surface_bounds.h"
 #include "sim/stepping/surface_impacts.h"
 
 namespace shaken {
-namespace {
-
-constexpr double kSkin = 0.4;  ///< of the neighbour list [mm]
-
-}  // namespace
-
 ScheduledStepper::ScheduledStepper(const World& world, int n_threads, int grain)
     : rules_(world),
       search_(rules_),
-      neighbors_(world.species, world.species_of_rod, world.system.box_side, kSkin),
+      meets_in_lanes_(hits_in_lanes(rules_)),
+      neighbors_(world.species, world.species_of_rod, world.system.box_side, NeighborList::kSkin),
       loops_(n_threads),
       grain_(static_cast<std::size_t>(grain)),
       rods_(world.rods.size()),
@@ -31,7 +27,7 @@ ScheduledStepper::ScheduledStepper(const World& world, int n_threads, int grain)
       motion_bounds_(world.rods.size()),
       owners_(world.rods.size()),
       wheel_(world.rods.size(), n_threads),
-      pairs_(world.rods.size(), n_threads) {
+      pairs_(world.rods.size(), world.system.dt, n_threads) {
   if (rules_.impacts_at_instant) found_.resize(world.rods.size());
   // rods are numbered along the rows that they start in, so these are bands of the plane
   const std::size_t n = world.rods.size();
@@ -39,7 +35,7 @@ ScheduledStepper::ScheduledStepper(const World& world, int n_threads, int grain)
   for (std::size_t i = 0; i < n; ++i) owners_[i] = static_cast<std::uint8_t>(i * n_workers / n);
   for (std::size_t w = 0; w < n_workers; ++w) {
     loops_.workers()[w].number = w;
-    loops_.workers()[w].hit_pairs.resize(n_workers);
+    loops_.workers()[w].to_settle.resize(n_workers);
   }
 }
 
@@ -50,8 +46,8 @@ std::size_t ScheduledStepper::bytes() const {
   for (const Worker& w : loops_.workers()) {
     bytes +=
         heap_bytes(w.due_rods, w.to_place, w.near, w.near_end, w.out_of_hand, w.due_pairs, w.to_pose, w.contacts,
-                   w.turned, w.changed, w.to_schedule, w.hit_pairs, w.to_bound, w.to_bound_motion, w.bead_contacts);
-    for (const auto& of_another : w.hit_pairs) bytes += heap_bytes(of_another);
+                   w.turned, w.changed, w.to_schedule, w.to_settle, w.to_bound, w.to_bound_motion, w.bead_contacts);
+    for (const auto& of_another : w.to_settle) bytes += heap_bytes(of_another);
   }
   return bytes;
 }
@@ -98,12 +94,16 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
   in_loop([&](Worker& worker) {
     store_changed(world, now, worker);
     lap(worker, Phase::kStoring);
+    tell_pairs(now, worker);
+    lap(worker, Phase::kTightening);
     schedule_rods(world, now, worker);
-    list_pairs_to_bound(now, worker);
   });
-  const auto has_pairs = [](const Worker& worker) { return !worker.to_bound.empty() || worker.has_handed_over; };
+  const auto has_pairs = [](const Worker& worker) { return !worker.to_bound.empty() || worker.has_to_settle; };
   if (std::none_of(loops_.workers().begin(), loops_.workers().end(), has_pairs)) return {};
-  in_loop([&](Worker& worker) { bound_motions(world, now, worker); });
+  in_loop([&](Worker& worker) {
+    settle_pairs(now, worker);
+    bound_motions(world, now, worker);
+  });
   in_loop([&](Worker& worker) { schedule_pairs(now, worker); });
   return {};
 }
@@ -129,6 +129,10 @@ void ScheduledStepper::pose_listed(const World& world, Tick now, Worker& worker)
   visit_ahead(worker.to_pose, ask, [&](int i) { pose_rod(i, world, now); });
 }
 
+auto ScheduledStepper::groups_of_rods() const {
+  return Groups(rules_.species.size() > 1, [this](int i) { return species_index(i); });
+}
+
 // ---- 1. surfaces
 
 void ScheduledStepper::meet_surfaces_due(World& world, const PlateState& plates, Tick now, Worker& worker) {
@@ -147,22 +151,54 @@ void ScheduledStepper::meet_surfaces_due(World& world, const PlateState& plates,
     prefetch(marks_[i]);
     prefetch(reserves_[i]);
   };
-  visit_ahead(worker.due_rods, ask, [&](int i) {
-    RodMarks& marks = marks_[i];
-    marks.posed_at = marks.listed_at = now;
-    pose_rod(i, world, now);
-    if (reserves_[i].left(now, rules_.dt) < ListReserve::kLeast) {
-      reserves_[i].measure(neighbors_, i, rods_[i].pose, now);
-      if (reserves_[i].left(now, rules_.dt) < ListReserve::kLeast) worker.to_place.push_back(i);
-    }
-    auto trouble = meet_surfaces(i, rods_[i], world.rods[i], plates, now, rules_, worker.counters);
+  const auto note_trouble = [&](std::optional<NumericalTrouble> trouble) {
     if (trouble && (!worker.trouble || trouble->rods < worker.trouble->rods)) worker.trouble = std::move(trouble);
+  };
+  const auto begin_visit = [&](int i) {  // before a plate displaces the rod
+    marks_[i].posed_at = marks_[i].listed_at = now;
+    if (reserves_[i].left(now, rules_.dt) >= ListReserve::kLeast) return;
+    reserves_[i].measure(neighbors_, i, rods_[i].pose, now);
+    if (reserves_[i].left(now, rules_.dt) < ListReserve::kLeast) worker.to_place.push_back(i);
+  };
+  const auto meet_all = [&](int i) {
+    note_trouble(meet_surfaces(i, rods_[i], world.rods[i], plates, now, rules_, worker.counters));
+  };
+  const auto end_visit = [&](int i) {
     if (!rods_[i].changed) return;
+    RodMarks& marks = marks_[i];
     if (marks.changed_at == now - 1) marks.rests_at = now;
     marks.changed_at = now;
     worker.changed.push_back(i);
     if (check_motion(i, rods_[i], now, rules_)) worker.out_of_hand.push_back(i);
-  });
+  };
+  const auto meet_in_lanes = [&](std::span<const int> rods) {
+    std::uint32_t left_over = meet_plates_in_lanes(rods, world.rods, rods_, plates, now, rules_, worker.counters);
+    for (const int i : rods) {
+      const bool is_left_over = (left_over & 1U) != 0;
+      left_over >>= 1;
+      if (is_left_over) pose_rod(i, world, now);
+      begin_visit(i);
+      if (is_left_over) {
+        meet_all(i);
+      } else if (rules_.walls) {
+        note_trouble(meet_side_walls(i, rods_[i], world.rods[i], plates, now, rules_, worker.counters));
+      }
+      end_visit(i);
+    }
+  };
+  if (meets_in_lanes_ && worker.due_rods.size() > 1) {
+    const auto groups = groups_of_rods();
+    groups.sort(worker.due_rods);
+    for (const int i : worker.due_rods) ask(i);
+    groups.in_lanes(worker.due_rods, meet_in_lanes, lanes::kDoubleLanes);
+  } else {
+    visit_ahead(worker.due_rods, ask, [&](int i) {
+      pose_rod(i, world, now);
+      begin_visit(i);
+      meet_all(i);
+      end_visit(i);
+    });
+  }
   worker.counts.count(WorkKind::kRodsVisited, std::ssize(worker.due_rods));
   worker.counts.count(WorkKind::kRodsHit, std::ssize(worker.changed));
   worker.counts.count(WorkKind::kRodsPlaced, std::ssize(worker.to_place));
@@ -225,7 +261,12 @@ void ScheduledStepper::detect_due(const World& world, Tick now, Worker& worker) 
     worker.near_end.push_back(worker.near.size());
   }
   lap(worker, Phase::kNeighbors);
+  const std::size_t n_gained = worker.due_pairs.size();
   pairs_.wheel().pop(now, worker.due_pairs, static_cast<int>(worker.number));
+  const auto up = worker.due_pairs.begin() + static_cast<std::ptrdiff_t>(n_gained);
+  const auto due = std::remove_if(up, worker.due_pairs.end(), [&](int p) { return pairs_.waits_on(p, now); });
+  worker.counts.count(WorkKind::kPairsWaitingOn, worker.due_pairs.end() - due);
+  worker.due_pairs.erase(due, worker.due_pairs.end());
   for (const int p : worker.due_pairs) pairs_.set_detected(p, now);
   for (const int i : worker.changed) {  // as in detect_touching, which finds the rest
     if (pairs_.n_touching(i) == 0) continue;
@@ -397,7 +438,7 @@ void ScheduledStepper::schedule_rods(const World& world, Tick now, Worker& worke
     }
   }
   constexpr Tick kHorizon = TimingWheel::horizon() - 1;
-  const Groups groups(rules_.species.size() > 1, [this](int i) { return species_index(i); });
+  const auto groups = groups_of_rods();
   groups.sort(worker.to_schedule);
   worker.counts.count(WorkKind::kRodsBounded, std::ssize(worker.to_schedule));
   groups.in_lanes(worker.to_schedule, [&](std::span<const int> rods) {
@@ -413,62 +454,48 @@ void ScheduledStepper::schedule_rods(const World& world, Tick now, Worker& worke
   lap(worker, Phase::kRodBounds);
 }
 
-/// Has the pair's bound hold on although rod i was hit, or lists the pair for a new one; true if it holds.
-bool ScheduledStepper::tighten_or_list(int p, int i, Tick now, float dt, std::vector<int>& to_bound) {
-  if (pairs_.is_listed(p)) return false;
-  if (pairs_.tighten(p, i, changes_[i], now, dt)) return true;
-  pairs_.list(p, to_bound);
-  return false;
-}
-
-/// Flattened: or else each of its many appends to a list is a call: 2 % of all instructions (callgrind).
-[[gnu::flatten]] void ScheduledStepper::list_pairs_to_bound(Tick now, Worker& worker) {
+/// Lists the pairs that were due, and has hits take what they take of the others' gaps.
+[[gnu::flatten]] void ScheduledStepper::tell_pairs(Tick now, Worker& worker) {
   worker.to_bound.clear();
-  worker.has_handed_over = false;
   for (const int p : worker.due_pairs) {
     // one that has been lost, or is another's by now, is not listed
-    if (pairs_.is_used(p) && static_cast<std::size_t>(pairs_.owner(p)) == worker.number)
+    if (!pairs_.is_used(p) || static_cast<std::size_t>(pairs_.owner(p)) != worker.number) continue;
+    if (rules_.rest.matters() && pairs_.keeps_touching(p)) {
+      pairs_.search_again(p, now);  // rods at rest touch in every tick: a bound would tell nothing
+    } else {
       pairs_.list(p, worker.to_bound);
+    }
   }
   worker.counts.count(WorkKind::kBoundsWhenDue, std::ssize(worker.to_bound));
-  const bool alone = loops_.workers().size() == 1;
-  const std::vector<int>& changed = worker.changed;
-  const std::size_t n = changed.size();
-  const auto dt = static_cast<float>(rules_.dt);
-  std::int64_t n_tightened = 0;
-  for (std::size_t k = 0; k < n; ++k) {
-    // what pairs a rod has is known only when their numbers are here, so these are asked for first
-    if (k + 4 < n) neighbors_.prefetch(changed[k + 4]);
-    if (k + 2 < n) {
-      for (const int p : neighbors_.pairs_of(changed[k + 2])) pairs_.prefetch(p);
-    }
-    const int i = changed[k];
-    if (alone) {
-      for (const int p : neighbors_.pairs_of(i)) n_tightened += tighten_or_list(p, i, now, dt, worker.to_bound) ? 1 : 0;
-      continue;
-    }
-    for (const int p : neighbors_.pairs_of(i)) {
-      if (static_cast<std::size_t>(pairs_.owner(p)) != worker.number) {
-        worker.hit_pairs[static_cast<std::size_t>(pairs_.owner(p))].push_back({p, i});
-        worker.has_handed_over = true;
+  worker.has_to_settle = false;
+  const auto ask = [&](int i) { pairs_.prefetch_allowances(i); };
+  visit_ahead(worker.changed, ask, [&](int i) {
+    pairs_.take(i, changes_[i], now, [&](int p) {
+      worker.to_settle[static_cast<std::size_t>(pairs_.owner(p))].push_back(p);
+      worker.has_to_settle = true;
+    });
+  });
+}
+
+void ScheduledStepper::settle_pairs(Tick now, Worker& worker) {
+  std::int64_t n_settled = 0;
+  for (Worker& from : loops_.workers()) {
+    std::vector<int>& to_settle = from.to_settle[worker.number];
+    for (const int p : to_settle) {
+      if (pairs_.is_listed(p)) continue;
+      if (pairs_.settle(p, now)) {
+        ++n_settled;
       } else {
-        n_tightened += tighten_or_list(p, i, now, dt, worker.to_bound) ? 1 : 0;
+        pairs_.list(p, worker.to_bound);
       }
     }
+    to_settle.clear();
   }
-  worker.counts.count(WorkKind::kPairsTightened, n_tightened);
+  worker.counts.count(WorkKind::kPairsTightened, n_settled);
   lap(worker, Phase::kTightening);
 }
 
-[[gnu::flatten]] void ScheduledStepper::bound_motions(const World& world, Tick now, Worker& worker) {
-  const auto dt = static_cast<float>(rules_.dt);
-  std::int64_t n_tightened = 0;
-  for (Worker& other : loops_.workers()) {
-    std::vector<HitPair>& hit = other.hit_pairs[worker.number];
-    for (const auto& [p, i] : hit) n_tightened += tighten_or_list(p, i, now, dt, worker.to_bound) ? 1 : 0;
-    hit.clear();
-  }
-  worker.counts.count(WorkKind::kPairsTightened, n_tightened);
+void ScheduledStepper::bound_motions(const World& world, Tick now, Worker& worker) {
   worker.to_pose.clear();
   worker.to_bound_motion.clear();
   for (const int p : worker.to_bound) {
@@ -508,8 +535,6 @@ void ScheduledStepper::bound_pairs(std::span<const int> pairs, Tick now, Worker&
   PairBounds bounds;
   search_.bound({rods, pairs.size()}, rods_, motion_bounds_, worker.pair_lanes, bounds);
   for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
-    pairs_.direction(pairs[lane]) = bounds.direction[lane];
-    pairs_.set_line(pairs[lane], bounds.line[lane], bounds.all_round[lane]);
     // Whether a pair is touching was found where free flight had brought its rods. Displaced since, they may overlap
     // and recede without being marked, if their hulls do: to be visited again at once.
     const auto& [i, j] = rods[lane];
@@ -517,7 +542,8 @@ void ScheduledStepper::bound_pairs(std::span<const int> pairs, Tick now, Worker&
     worker.counts.count(WorkKind::kBoundsByBeads, bounds.by_beads[lane] ? 1 : 0);
     worker.counts.count(WorkKind::kBoundsOfNoTick, bounds.ticks[lane] == 0 ? 1 : 0);
     pairs_.unlist(pairs[lane]);
-    pairs_.set_due(pairs[lane], now + 1 + (unmarked ? 0 : bounds.ticks[lane]));
+    pairs_.hold(pairs[lane], now, unmarked ? 0 : bounds.ticks[lane], bounds.direction[lane],
+                unmarked ? GapLine{} : bounds.line[lane]);
   }
 }
 

@@ -21,21 +21,25 @@ namespace shaken {
 ///
 /// The life of a pair:
 ///
-///     two rods come near      bound: nothing can happen         the bound ends
+///     two rods come near      bound: nothing can happen         it comes up, a little before the bound ends
 ///     (NeighborList)          for so many ticks                 (TimingWheel)
 ///          |                        |                                |
 ///          v                        v                                v
-///        visit ---------------->  bound ------- waits ----------->  visit --> ...
-///          |                        ^             |   |
-///          v                        |             |   +---> the rods have parted: forgotten (NeighborList)
-///      contacts?                    +-------------+
-///      response, storing             a rod was hit, and the bound that remains is too short (PairTable::tighten)
+///        visit ---------------->  bound ------- waits ----------->  enough time left? -- no --> visit --> ...
+///          |                        ^           ^ |   |              |
+///          v                        |           | |   |              | yes (PairTable::waits_on)
+///      contacts?                    |           +-+---|--------------+
+///      response, storing            |             |   +---> the rods have parted: forgotten (NeighborList)
+///                                   +-------------+
+///                hits have taken more of the gap than they may: it comes up sooner (PairTable::settle),
+///                or, if that were too soon, gets a new bound
 ///
-/// Three things keep visits rare:
+/// Four things keep the work small:
 ///  1. A hit does not end a bound. Plates hit a rod thousands of times per second, and what a hit makes the gap to a
-///     neighbour close faster takes a little of the time that remains.
+///     neighbour close faster takes a little of what it may take (GapAllowances), of all neighbours' at once.
 ///  2. A rod that a plate hits tick after tick rests on it and is visited at the next tick without a bound.
 ///  3. Beads that overlap but recede are left alone, unless a rod of theirs may be hit in this very tick.
+///  4. Rods meet plates several at a time (stepping/plate_impacts.h).
 ///
 /// Every rod and every pair belongs to a worker, and each worker may be a thread of its own (SharedLoops). A tick is a
 /// few loops in which a worker handles what belongs to it; what takes two workers is done by the first one in between:
@@ -55,11 +59,6 @@ class ScheduledStepper final : public Stepper {
     Tick rests_at = -1;    ///< last tick at which a surface hit it when it had been hit in the tick before
     Tick bounded_at = -1;  ///< tick for which motion_bounds_ holds the rod
   };
-  /// A pair whose rod was hit, while another worker has the pair.
-  struct HitPair {
-    int pair;
-    int rod;
-  };
   /// What one worker has, and gathers in a tick: rods and pairs of its own.
   struct alignas(64) Worker {
     std::size_t number = 0;
@@ -71,13 +70,13 @@ class ScheduledStepper final : public Stepper {
     std::vector<int> due_pairs;
     std::vector<int> to_pose;  ///< rods
     std::vector<PairContact> contacts;
-    std::vector<int> turned;                      ///< pairs that began or ceased to touch
-    std::vector<int> changed;                     ///< rods hit in this tick
-    std::vector<int> to_schedule;                 ///< rods
-    std::vector<std::vector<HitPair>> hit_pairs;  ///< (n_workers) of each other worker
-    bool has_handed_over = false;                 ///< there are any
-    std::vector<int> to_bound;                    ///< pairs
-    std::vector<int> to_bound_motion;             ///< rods of pairs that need a bound, of whatever worker
+    std::vector<int> turned;                  ///< pairs that began or ceased to touch
+    std::vector<int> changed;                 ///< rods hit in this tick
+    std::vector<int> to_schedule;             ///< rods
+    std::vector<std::vector<int>> to_settle;  ///< (n_workers) pairs of each worker that hits have used up
+    bool has_to_settle = false;               ///< there are any
+    std::vector<int> to_bound;                ///< pairs
+    std::vector<int> to_bound_motion;         ///< rods of pairs that need a bound, of whatever worker
     Counters counters;
     WorkCounts counts;
     std::optional<NumericalTrouble> trouble;  ///< that of the first rods
@@ -100,7 +99,8 @@ class ScheduledStepper final : public Stepper {
   std::optional<NumericalTrouble> check_changed(Tick now);
   void store_changed(World& world, Tick now, Worker& worker);
   void schedule_rods(const World& world, Tick now, Worker& worker);
-  void list_pairs_to_bound(Tick now, Worker& worker);
+  void tell_pairs(Tick now, Worker& worker);
+  void settle_pairs(Tick now, Worker& worker);
   void bound_motions(const World& world, Tick now, Worker& worker);
   void schedule_pairs(Tick now, Worker& worker);
 
@@ -120,14 +120,15 @@ class ScheduledStepper final : public Stepper {
   void add_gained();
   void detect(int p, const World& world, Tick now);
   void pose_listed(const World& world, Tick now, Worker& worker);
-  bool tighten_or_list(int p, int i, Tick now, float dt, std::vector<int>& to_bound);
   void bound_pairs(std::span<const int> pairs, Tick now, Worker& worker);
   /// Where free flight brought the rod; impacts at their instant may have displaced it since.
   const Pose& found(int i) const { return found_.empty() ? rods_[i].pose : found_[i]; }
+  auto groups_of_rods() const;
   int species_index(int i) const { return rules_.species_of_rod[i]; }
 
   TickRules rules_;
   PairSearch search_;
+  bool meets_in_lanes_;  ///< plates are met by several rods at a time
   NeighborList neighbors_;
   SharedLoops<Worker> loops_;
   std::size_t grain_;

@@ -169,6 +169,8 @@ std::optional<NumericalTrouble> meet_plates(int index, RodAtTick& rod, const Fli
   return {};
 }
 
+}  // namespace
+
 std::optional<NumericalTrouble> meet_side_walls(int index, RodAtTick& rod, const Flight& flight,
                                                 const PlateState& plates, Tick now, const TickRules& rules,
                                                 Counters& counters) {
@@ -203,8 +205,6 @@ std::optional<NumericalTrouble> meet_side_walls(int index, RodAtTick& rod, const
       ++counters.impulses_rod_wall;
   }
 }
-
-}  // namespace
 
 std::optional<NumericalTrouble> meet_surfaces(int index, RodAtTick& rod, const Flight& flight, const PlateState& plates,
                                               Tick now, const TickRules& rules, Counters& counters) {

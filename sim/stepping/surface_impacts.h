@@ -12,5 +12,9 @@ namespace shaken {
 /// trouble if a bead is too deep in one of them.
 std::optional<NumericalTrouble> meet_surfaces(int index, RodAtTick& rod, const Flight& flight, const PlateState& plates,
                                               Tick now, const TickRules& rules, Counters& counters);
+/// Its last part: side walls, of which there must be some.
+std::optional<NumericalTrouble> meet_side_walls(int index, RodAtTick& rod, const Flight& flight,
+                                                const PlateState& plates, Tick now, const TickRules& rules,
+                                                Counters& counters);
 
 }  // namespace shaken

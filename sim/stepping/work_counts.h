@@ -16,16 +16,18 @@ enum class WorkKind {
   kRodsPlaced,      ///< entered into the neighbour list anew
   kPairsSearched,   ///< for contacts
   kPairsTouching,   ///< of these, with overlapping beads
-  kPairsTightened,  ///< bounds that were kept, shorter, although a rod was hit
+  kPairsTightened,  ///< bounds that were kept, shorter, although hits had used up what they were allowed
+  kPairsWaitingOn,  ///< came up with much of the bound's time left, and were not searched
   kPairsBounded,    ///< new bounds on the time to contact
   kBoundsWhenDue,   ///< of these, after a search; the others because a rod was hit
   kBoundsByBeads,   ///< of these, for which beads were looked at
   kBoundsOfNoTick,  ///< of these, too short to save a visit at the next tick
 };
-inline constexpr std::size_t kWorkKinds = 12;
+inline constexpr std::size_t kWorkKinds = 13;
 inline constexpr std::array<const char*, kWorkKinds> kWorkNames{
-    "rods_visited",   "rods_hit",        "rods_resting",  "rods_bounded",    "rods_placed",     "pairs_searched",
-    "pairs_touching", "pairs_tightened", "pairs_bounded", "bounds_when_due", "bounds_by_beads", "bounds_of_no_tick"};
+    "rods_visited",    "rods_hit",        "rods_resting",     "rods_bounded",     "rods_placed",
+    "pairs_searched",  "pairs_touching",  "pairs_tightened",  "pairs_waiting_on", "pairs_bounded",
+    "bounds_when_due", "bounds_by_beads", "bounds_of_no_tick"};
 
 /// How often a stepper has done each since it was made.
 class WorkCounts {

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "sim/stepping/gap_allowances.h"
+
+#include "sim/core/heap_bytes.h"
+#include "sim/core/prefetch.h"
+
+namespace shaken {
+namespace {
+
+constexpr float kNever = -1e30F;  ///< no hit gives so much back
+constexpr float kAlways = 1e30F;  ///< no hit takes so much
+constexpr float kAtOnce = 1e20F;  ///< what any hit takes where the bound ends at this tick
+/// Of an allowance, for each time that something is taken from it: the rounding of floats.
+constexpr float kRounding = 1e-6F;
+
+}  // namespace
+
+struct GapAllowances::TakeKernel {
+  const MotionChange& change;
+  Block& block;
+  int n;
+  std::int32_t now;
+  float dt;
+
+  template <int W>
+  SHAKEN_INLINE std::uint32_t run() const {
+    std::uint32_t used_up = 0;
+    for (int l = 0; l < n; l += W) used_up |= take<W>(l) << l;
+    return used_up;
+  }
+
+  template <int W>
+  SHAKEN_INLINE std::uint32_t take(int l) const {
+    using F = lanes::Floats<W>;
+    lanes::Ints<W> until;
+    __builtin_memcpy(&until, block.until + l, sizeof until);
+    const F rest = lanes::not_below_zero(__builtin_convertvector(lanes::difference<W>(until, now), F)) * dt;
+    const lanes::Vectors<F> d{lanes::load<W>(block.direction[0] + l), lanes::load<W>(block.direction[1] + l),
+                              lanes::load<W>(block.direction[2] + l)};
+    const F along = change.along(d);
+    const F speed = lanes::dot(d, d) > 0.5F ? along : lanes::all<W>(change.all_round());
+    const F more = speed + change.bending() * (rest + kMostBeyond * dt);
+    const F before = lanes::load<W>(block.left + l);
+    const F left = before - kRounding * lanes::abs(before) - more * rest -
+                   lanes::not_below_zero(more) * change.earlier() - (rest > 0.0F ? F{} : lanes::all<W>(kAtOnce));
+    lanes::store(block.left + l, left);
+    lanes::store(block.faster + l, lanes::load<W>(block.faster + l) + more);
+    return lanes::below_zero(left);
+  }
+};
+
+GapAllowances::GapAllowances(std::size_t n_rods, double dt)
+    : blocks_(n_rods), n_lanes_(n_rods), dt_(static_cast<float>(dt)) {
+  for (Block& block : blocks_) {
+    block = {};
+    std::fill_n(block.left, kLanes, kAlways);
+  }
+}
+
+void GapAllowances::widen() {
+  std::vector<Block> wider(blocks_.size() / n_blocks_ * (n_blocks_ + 1));
+  for (Block& block : wider) {
+    block = {};
+    std::fill_n(block.left, kLanes, kAlways);
+  }
+  for (std::size_t b = 0; b < blocks_.size(); ++b) wider[b / n_blocks_ * (n_blocks_ + 1) + b % n_blocks_] = blocks_[b];
+  blocks_ = std::move(wider);
+  ++n_blocks_;
+}
+
+int GapAllowances::add(int rod, int pair) {
+  const int lane = n_lanes_[rod];
+  if (static_cast<std::size_t>(lane) == n_blocks_ * kLanes) widen();
+  ++n_lanes_[rod];
+  block(rod, lane).pair[lane % kLanes] = pair;
+  set_direction(rod, lane, {}, 1);
+  forbid(rod, lane);
+  return lane;
+}
+
+int GapAllowances::remove(int rod, int lane) {
+  const int last = --n_lanes_[rod];
+  const Block& from = block(rod, last);
+  Block& to = block(rod, lane);
+  const int l = last % kLanes;
+  const int m = lane % kLanes;
+  for (int c = 0; c < 3; ++c) to.direction[c][m] = from.direction[c][l];
+  to.left[m] = from.left[l];
+  to.faster[m] = from.faster[l];
+  to.until[m] = from.until[l];
+  to.pair[m] = from.pair[l];
+  block(rod, last).left[l] = kAlways;
+  return lane == last ? -1 : to.pair[m];
+}
+
+void GapAllowances::set_direction(int rod, int lane, const Direction& direction, float sign) {
+  Block& in = block(rod, lane);
+  for (std::size_t c = 0; c < 3; ++c) in.direction[c][lane % kLanes] = sign * direction[c];
+}
+
+void GapAllowances::allow(int rod, int lane, float allowance, Tick until) {
+  Block& in = block(rod, lane);
+  in.left[lane % kLanes] = allowance;
+  in.faster[lane % kLanes] = 0;
+  in.until[lane % kLanes] = static_cast<std::int32_t>(until);
+}
+
+void GapAllowances::forbid(int rod, int lane) { allow(rod, lane, kNever, 0); }
+
+void GapAllowances::allow_all(int rod, int lane) { allow(rod, lane, kAlways, 0); }
+
+std::uint32_t GapAllowances::take_from(Block& block, int n, const MotionChange& change, Tick now) const {
+  const TakeKernel kernel{change, block, n, static_cast<std::int32_t>(now), dt_};
+  return lanes::with_widest_vectors(kernel);
+}
+
+void GapAllowances::prefetch(int rod) const { shaken::prefetch(block(rod, 0)); }
+
+std::size_t GapAllowances::bytes() const { return heap_bytes(blocks_, n_lanes_); }
+
+}  // namespace shaken

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "sim/stepping/plate_impacts.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sim/initial.h"
+#include "sim/stepping/surface_impacts.h"
+#include "tests/support/any_width.h"
+#include "tests/support/effort.h"
+
+namespace shaken {
+namespace {
+
+/// Rods of one species near the plates, in flight for a few ticks.
+struct RodsNearPlates {
+  System system;
+  World world;
+  PlateState plates{};
+
+  static System draw_system(test::Draw& draw) {
+    System system;
+    if (const int kind = draw.integer(0, 3); kind == 0) {
+      system.rod = {.length = 2.5, .mid_diameter = 0.8, .end_diameter = 0.5, .n_beads = 9};
+    } else if (kind == 1) {
+      system.rod = {.length = 0.8, .mid_diameter = 0.8, .end_diameter = 0.8, .n_beads = 1};
+    } else if (kind == 2) {
+      system.rod.profile = Profile::kPolar;
+    }
+    system.n_rods = draw.integer(1, lanes::kDoubleLanes);
+    for (ContactParameters* contact : {&system.rod_base, &system.rod_lid})
+      *contact = {std::pow(10.0, draw.uniform(-3, 3)), draw.uniform(0, 1)};
+    system.base = draw.integer(0, 9) != 0;
+    system.lid = draw.integer(0, 9) != 0;
+    return system;
+  }
+
+  RodsNearPlates(test::Draw& draw, Tick now) : system(draw_system(draw)), world(empty_world(system)) {
+    plates = world.plates.at(now);
+    const Species& species = world.species.front();
+    for (int i = 0; i < system.n_rods; ++i) {
+      const Vec3 director = draw.flat_direction(0.2);
+      // one end is about to be in a plate, by a little or by far too much, or the rod is at rest, or anywhere
+      const double extent = species.max_radius + species.half_length * std::abs(director.z());
+      const double height = draw.integer(0, 1) ? plates.base + extent : plates.lid - extent;
+      const double apart = draw.integer(0, 3) == 0 ? draw.uniform(-0.3, 0.3) : draw.uniform(-0.03, 0.01);
+      Motion motion{draw.vector(std::pow(10.0, draw.uniform(-6, 3))), draw.vector(std::pow(10.0, draw.uniform(-6, 4)))};
+      if (draw.integer(0, 15) == 0) motion = {{0, 0, draw.normal()}, Vec3::Zero()};  // neither turns nor slips
+      Flight flight;
+      begin_flight(flight, now - draw.integer(0, 40), {{10, 10, height + apart}, director}, motion, system.box_side,
+                   species.inertia_par / species.inertia_perp);
+      world.rods.push_back(flight);
+    }
+  }
+};
+
+bool are_same(const ExactSum<34>& a, const ExactSum<34>& b) { return a.low() == b.low() && a.high() == b.high(); }
+bool are_same(const ExactSum<44>& a, const ExactSum<44>& b) { return a.low() == b.low() && a.high() == b.high(); }
+
+TEST(PlateImpacts, InLanesAreBitForBitThoseOfOneRodAfterTheOther) {
+  test::Draw draw(71);
+  test::AnyWidth width;
+  int n_rods = 0, n_left = 0, n_hit = 0, n_met = 0, n_twice = 0;
+  for (int trial = 0; trial < test::draws(40000); ++trial) {
+    const Tick now = draw.integer(1000, 4000);
+    const RodsNearPlates near(draw, now);
+    const TickRules rules(near.world);
+    ASSERT_TRUE(hits_in_lanes(rules));
+    width.draw(draw);
+    std::vector<int> rods(near.world.rods.size());
+    for (std::size_t i = 0; i < rods.size(); ++i) rods[i] = static_cast<int>(rods.size() - 1 - i);
+    std::vector<RodAtTick> in_lanes(rods.size());
+    Counters counters, expected_counters;
+    const std::uint32_t left = meet_plates_in_lanes(rods, near.world.rods, in_lanes, near.plates, now, rules, counters);
+    for (std::size_t lane = 0; lane < rods.size(); ++lane) {
+      const int i = rods[lane];
+      ++n_rods;
+      if ((left >> lane) & 1U) {
+        ++n_left;
+        continue;
+      }
+      RodAtTick rod = rod_at_tick(near.world.rods[i], now, rules);
+      ASSERT_FALSE(meet_surfaces(i, rod, near.world.rods[i], near.plates, now, rules, expected_counters));
+      ASSERT_EQ(in_lanes[i].pose.position, rod.pose.position) << trial;
+      ASSERT_EQ(in_lanes[i].pose.director, rod.pose.director) << trial;
+      ASSERT_EQ(in_lanes[i].has_motion, rod.has_motion) << trial;
+      ASSERT_EQ(in_lanes[i].changed, rod.changed) << trial;
+      ASSERT_EQ(in_lanes[i].hit_again, rod.hit_again) << trial;
+      if (!rod.has_motion) continue;
+      ASSERT_EQ(in_lanes[i].motion.velocity, rod.motion.velocity) << trial;
+      ASSERT_EQ(in_lanes[i].motion.angular_velocity, rod.motion.angular_velocity) << trial;
+      n_hit += rod.changed;
+      n_met += !rod.changed;
+      n_twice += rod.hit_again;
+    }
+    EXPECT_EQ(counters.impulses_rod_base, expected_counters.impulses_rod_base);
+    EXPECT_EQ(counters.impulses_rod_lid, expected_counters.impulses_rod_lid);
+    EXPECT_EQ(counters.max_overlap_rod_plate, expected_counters.max_overlap_rod_plate);
+    EXPECT_TRUE(are_same(counters.ledger.lost_surfaces, expected_counters.ledger.lost_surfaces));
+    EXPECT_TRUE(are_same(counters.ledger.given, expected_counters.ledger.given));
+    for (std::size_t c = 0; c < 3; ++c)
+      EXPECT_TRUE(are_same(counters.ledger.momentum[c], expected_counters.ledger.momentum[c]));
+  }
+  // most are dealt with, in every way there is
+  EXPECT_LT(n_left, n_rods / 3);
+  EXPECT_GT(n_hit, n_rods / 10);
+  EXPECT_GT(n_met, n_rods / 100);
+  EXPECT_GT(n_twice, 0);
+}
+
+}  // namespace
+}  // namespace shaken
