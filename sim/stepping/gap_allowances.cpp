@@ -2,7 +2,6 @@
 #include "sim/stepping/gap_allowances.h"
 
 #include "sim/core/heap_bytes.h"
-#include "sim/core/prefetch.h"
 
 namespace shaken {
 namespace {
@@ -18,14 +17,14 @@ constexpr float kRounding = 1e-6F;
 struct GapAllowances::TakeKernel {
   const MotionChange& change;
   Block& block;
-  int n;
   std::int32_t now;
   float dt;
 
   template <int W>
   SHAKEN_INLINE std::uint32_t run() const {
+    constexpr int kWidth = W < kInBlock ? W : kInBlock;
     std::uint32_t used_up = 0;
-    for (int l = 0; l < n; l += W) used_up |= take<W>(l) << l;
+    for (int l = 0; l < kInBlock; l += kWidth) used_up |= take<kWidth>(l) << l;
     return used_up;
   }
 
@@ -50,29 +49,28 @@ struct GapAllowances::TakeKernel {
 };
 
 GapAllowances::GapAllowances(std::size_t n_rods, double dt)
-    : blocks_(n_rods), n_lanes_(n_rods), dt_(static_cast<float>(dt)) {
-  for (Block& block : blocks_) {
-    block = {};
-    std::fill_n(block.left, kLanes, kAlways);
-  }
+    : first_(n_rods, empty_block()), n_lanes_(n_rods), dt_(static_cast<float>(dt)) {}
+
+GapAllowances::Block GapAllowances::empty_block() {
+  Block block{};
+  std::fill_n(block.left, kInBlock, kAlways);
+  return block;
 }
 
+/// Gives every rod room for one more block.
 void GapAllowances::widen() {
-  std::vector<Block> wider(blocks_.size() / n_blocks_ * (n_blocks_ + 1));
-  for (Block& block : wider) {
-    block = {};
-    std::fill_n(block.left, kLanes, kAlways);
-  }
-  for (std::size_t b = 0; b < blocks_.size(); ++b) wider[b / n_blocks_ * (n_blocks_ + 1) + b % n_blocks_] = blocks_[b];
-  blocks_ = std::move(wider);
-  ++n_blocks_;
+  std::vector<Block> wider(first_.size() * (n_further_ + 1), empty_block());
+  for (std::size_t b = 0; b < further_.size(); ++b)
+    wider[b / n_further_ * (n_further_ + 1) + b % n_further_] = further_[b];
+  further_ = std::move(wider);
+  ++n_further_;
 }
 
 int GapAllowances::add(int rod, int pair) {
   const int lane = n_lanes_[rod];
-  if (static_cast<std::size_t>(lane) == n_blocks_ * kLanes) widen();
+  if (static_cast<std::size_t>(lane) == (n_further_ + 1) * kInBlock) widen();
   ++n_lanes_[rod];
-  block(rod, lane).pair[lane % kLanes] = pair;
+  block(rod, lane).pair[lane % kInBlock] = pair;
   set_direction(rod, lane, {}, 1);
   forbid(rod, lane);
   return lane;
@@ -82,8 +80,8 @@ int GapAllowances::remove(int rod, int lane) {
   const int last = --n_lanes_[rod];
   const Block& from = block(rod, last);
   Block& to = block(rod, lane);
-  const int l = last % kLanes;
-  const int m = lane % kLanes;
+  const int l = last % kInBlock;
+  const int m = lane % kInBlock;
   for (int c = 0; c < 3; ++c) to.direction[c][m] = from.direction[c][l];
   to.left[m] = from.left[l];
   to.faster[m] = from.faster[l];
@@ -95,27 +93,25 @@ int GapAllowances::remove(int rod, int lane) {
 
 void GapAllowances::set_direction(int rod, int lane, const Direction& direction, float sign) {
   Block& in = block(rod, lane);
-  for (std::size_t c = 0; c < 3; ++c) in.direction[c][lane % kLanes] = sign * direction[c];
+  for (std::size_t c = 0; c < 3; ++c) in.direction[c][lane % kInBlock] = sign * direction[c];
 }
 
 void GapAllowances::allow(int rod, int lane, float allowance, Tick until) {
   Block& in = block(rod, lane);
-  in.left[lane % kLanes] = allowance;
-  in.faster[lane % kLanes] = 0;
-  in.until[lane % kLanes] = static_cast<std::int32_t>(until);
+  in.left[lane % kInBlock] = allowance;
+  in.faster[lane % kInBlock] = 0;
+  in.until[lane % kInBlock] = static_cast<std::int32_t>(until);
 }
 
 void GapAllowances::forbid(int rod, int lane) { allow(rod, lane, kNever, 0); }
 
 void GapAllowances::allow_all(int rod, int lane) { allow(rod, lane, kAlways, 0); }
 
-std::uint32_t GapAllowances::take_from(Block& block, int n, const MotionChange& change, Tick now) const {
-  const TakeKernel kernel{change, block, n, static_cast<std::int32_t>(now), dt_};
+std::uint32_t GapAllowances::take_from(Block& block, const MotionChange& change, Tick now) const {
+  const TakeKernel kernel{change, block, static_cast<std::int32_t>(now), dt_};
   return lanes::with_widest_vectors(kernel);
 }
 
-void GapAllowances::prefetch(int rod) const { shaken::prefetch(block(rod, 0)); }
-
-std::size_t GapAllowances::bytes() const { return heap_bytes(blocks_, n_lanes_); }
+std::size_t GapAllowances::bytes() const { return heap_bytes(first_, further_, n_lanes_); }
 
 }  // namespace shaken

@@ -6,15 +6,15 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "sim/core/lanes.h"
+#include "sim/core/prefetch.h"
 #include "sim/core/types.h"
 #include "sim/stepping/motion_change.h"
 
 namespace shaken {
-
-using lanes::kLanes;
 
 /// In which direction the hulls of two rods were apart; 0: not known.
 using Direction = std::array<float, 3>;
@@ -47,49 +47,61 @@ class GapAllowances {
   /// None does.
   void allow_all(int rod, int lane);
   /// What is left of the allowance; < 0: it is used up [mm].
-  float left(int rod, int lane) const { return block(rod, lane).left[lane % kLanes]; }
+  float left(int rod, int lane) const { return block(rod, lane).left[lane % kInBlock]; }
   /// By how much faster hits have made the gap close since `allow` [mm/s].
-  float faster(int rod, int lane) const { return block(rod, lane).faster[lane % kLanes]; }
+  float faster(int rod, int lane) const { return block(rod, lane).faster[lane % kInBlock]; }
 
   /// Takes what a change of the rod's motion takes from all its allowances. Calls each(pair) for those that are used
   /// up, and for every pair of a rod that was displaced: its gap may be less now than when the bound ends.
   template <class Each>
   void take(int rod, const MotionChange& change, Tick now, const Each& each) {
     const bool is_displaced = change.earlier() > 0.0F;
-    for (int first = 0; first < n_lanes_[rod]; first += kLanes) {
+    for (int first = 0; first < n_lanes_[rod]; first += kInBlock) {
       Block& in = block(rod, first);
-      const int n = std::min(kLanes, n_lanes_[rod] - first);
-      std::uint32_t lanes = take_from(in, n, change, now);
-      if (is_displaced) lanes = (1U << n) - 1;
+      const std::uint32_t all = (1U << std::min(kInBlock, n_lanes_[rod] - first)) - 1;
+      const std::uint32_t used_up = take_from(in, change, now);
+      std::uint32_t lanes = is_displaced ? all : used_up & all;
       for (; lanes != 0; lanes &= lanes - 1) each(in.pair[std::countr_zero(lanes)]);
     }
   }
 
-  void prefetch(int rod) const;
+  /// Asks for what `take` needs of the rod.
+  void prefetch(int rod) const {
+    shaken::prefetch(block(rod, 0));
+    if (n_lanes_[rod] > kInBlock) shaken::prefetch(block(rod, kInBlock));
+  }
+  /// Asks for what `left`, `faster` and `allow` need.
+  void prefetch(int rod, int lane) const {
+    shaken::prefetch(block(rod, lane).left);
+    shaken::prefetch(block(rod, lane).until);
+  }
   std::size_t bytes() const;
 
  private:
-  struct alignas(64) Block {
-    float direction[3][kLanes];
-    float left[kLanes];
-    float faster[kLanes];
-    std::int32_t until[kLanes];  ///< the tick's last 32 bits
-    std::int32_t pair[kLanes];
+  /// Most rods have about so many neighbours; wider blocks would be empty lanes for the most.
+  static constexpr int kInBlock = 8;
+  struct alignas(32) Block {
+    float left[kInBlock];
+    float faster[kInBlock];
+    std::int32_t until[kInBlock];  ///< the tick's last 32 bits
+    std::int32_t pair[kInBlock];
+    float direction[3][kInBlock];
   };
   struct TakeKernel;
-  /// The first n lanes. Returns a bit for each that is used up.
-  std::uint32_t take_from(Block& block, int n, const MotionChange& change, Tick now) const;
+  /// Returns a bit for each lane that is used up.
+  std::uint32_t take_from(Block& block, const MotionChange& change, Tick now) const;
 
-  Block& block(int rod, int lane) {
-    return blocks_[static_cast<std::size_t>(rod) * n_blocks_ + static_cast<std::size_t>(lane / kLanes)];
-  }
+  Block& block(int rod, int lane) { return const_cast<Block&>(std::as_const(*this).block(rod, lane)); }
   const Block& block(int rod, int lane) const {
-    return blocks_[static_cast<std::size_t>(rod) * n_blocks_ + static_cast<std::size_t>(lane / kLanes)];
+    if (lane < kInBlock) return first_[rod];
+    return further_[static_cast<std::size_t>(rod) * n_further_ + static_cast<std::size_t>(lane / kInBlock - 1)];
   }
+  static Block empty_block();
   void widen();
 
-  std::vector<Block> blocks_;  ///< (n_rods x n_blocks)
-  std::size_t n_blocks_ = 1;   ///< of each rod
+  std::vector<Block> first_;    ///< (n_rods)
+  std::vector<Block> further_;  ///< (n_rods x n_further) of rods with many pairs; apart, so that the first lie close
+  std::size_t n_further_ = 0;
   std::vector<std::int32_t> n_lanes_;
   float dt_;
 };

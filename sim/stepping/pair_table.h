@@ -76,7 +76,18 @@ class PairTable {
   /// Has the pair come up at tick `due`, and at no other.
   void set_due(int p, Tick due) { wheel_.set(p, due, pairs_[p].owner); }
   TimingWheel& wheel() { return wheel_; }
-  void prefetch_allowances(int rod) const { allowances_.prefetch(rod); }
+
+  /// Asks for what `take` needs of a rod.
+  void prefetch_rod(int rod) const { allowances_.prefetch(rod); }
+  /// Asks for the pair's record,
+  void prefetch(int p) const {
+    shaken::prefetch(pairs_[p]);
+    wheel_.prefetch(p);
+  }
+  /// and, by that, for what else is known of its bound.
+  void prefetch_bound(int p) const {
+    for (std::size_t r = 0; r < 2; ++r) allowances_.prefetch(pairs_[p].rods[r], pairs_[p].lanes[r]);
+  }
   std::size_t bytes() const;
 
  private:

@@ -189,8 +189,16 @@ void ScheduledStepper::meet_surfaces_due(World& world, const PlateState& plates,
   if (meets_in_lanes_ && worker.due_rods.size() > 1) {
     const auto groups = groups_of_rods();
     groups.sort(worker.due_rods);
-    for (const int i : worker.due_rods) ask(i);
-    groups.in_lanes(worker.due_rods, meet_in_lanes, lanes::kDoubleLanes);
+    const std::span<const int> due = worker.due_rods;
+    const auto ask_for_eight = [&](std::size_t first) {
+      for (std::size_t k = first; k < std::min(due.size(), first + lanes::kDoubleLanes); ++k) ask(due[k]);
+    };
+    ask_for_eight(0);
+    const auto meet_and_ask = [&](std::span<const int> rods) {
+      ask_for_eight(static_cast<std::size_t>(rods.data() - due.data()) + rods.size());
+      meet_in_lanes(rods);
+    };
+    groups.in_lanes(due, meet_and_ask, lanes::kDoubleLanes);
   } else {
     visit_ahead(worker.due_rods, ask, [&](int i) {
       pose_rod(i, world, now);
@@ -264,6 +272,8 @@ void ScheduledStepper::detect_due(const World& world, Tick now, Worker& worker) 
   const std::size_t n_gained = worker.due_pairs.size();
   pairs_.wheel().pop(now, worker.due_pairs, static_cast<int>(worker.number));
   const auto up = worker.due_pairs.begin() + static_cast<std::ptrdiff_t>(n_gained);
+  for (auto p = up; p != worker.due_pairs.end(); ++p) pairs_.prefetch(*p);
+  for (auto p = up; p != worker.due_pairs.end(); ++p) pairs_.prefetch_bound(*p);
   const auto due = std::remove_if(up, worker.due_pairs.end(), [&](int p) { return pairs_.waits_on(p, now); });
   worker.counts.count(WorkKind::kPairsWaitingOn, worker.due_pairs.end() - due);
   worker.due_pairs.erase(due, worker.due_pairs.end());
@@ -468,10 +478,12 @@ void ScheduledStepper::schedule_rods(const World& world, Tick now, Worker& worke
   }
   worker.counts.count(WorkKind::kBoundsWhenDue, std::ssize(worker.to_bound));
   worker.has_to_settle = false;
-  const auto ask = [&](int i) { pairs_.prefetch_allowances(i); };
+  const bool alone = loops_.workers().size() == 1;
+  const auto ask = [&](int i) { pairs_.prefetch_rod(i); };
   visit_ahead(worker.changed, ask, [&](int i) {
     pairs_.take(i, changes_[i], now, [&](int p) {
-      worker.to_settle[static_cast<std::size_t>(pairs_.owner(p))].push_back(p);
+      pairs_.prefetch(p);
+      worker.to_settle[alone ? 0 : static_cast<std::size_t>(pairs_.owner(p))].push_back(p);
       worker.has_to_settle = true;
     });
   });
@@ -481,14 +493,14 @@ void ScheduledStepper::settle_pairs(Tick now, Worker& worker) {
   std::int64_t n_settled = 0;
   for (Worker& from : loops_.workers()) {
     std::vector<int>& to_settle = from.to_settle[worker.number];
-    for (const int p : to_settle) {
-      if (pairs_.is_listed(p)) continue;
+    visit_ahead(to_settle, [&](int p) { pairs_.prefetch_bound(p); }, [&](int p) {
+      if (pairs_.is_listed(p)) return;
       if (pairs_.settle(p, now)) {
         ++n_settled;
       } else {
         pairs_.list(p, worker.to_bound);
       }
-    }
+    });
     to_settle.clear();
   }
   worker.counts.count(WorkKind::kPairsTightened, n_settled);
@@ -499,6 +511,7 @@ void ScheduledStepper::bound_motions(const World& world, Tick now, Worker& worke
   worker.to_pose.clear();
   worker.to_bound_motion.clear();
   for (const int p : worker.to_bound) {
+    pairs_.prefetch_bound(p);
     for (const int i : pairs_.rods(p)) {
       if (!loops_.claim(marks_[i].bounded_at, now)) continue;
       worker.to_bound_motion.push_back(i);
