@@ -5,6 +5,72 @@
 #include <cmath>
 
 namespace shaken {
+namespace {
+
+/// More than rounding moves a bead or a wall [mm].
+double margin_for_rounding(double box_side) { return 1e-9 * (1.0 + box_side); }
+
+/// A rod's axis in the plane, as seen from the middle of the arena.
+struct Axis {
+  Vec2 center;  ///< of the rod
+  Vec2 along;   ///< the director's part in the plane
+
+  Axis(double box_side, const Pose& pose)
+      : center(pose.position.x() - 0.5 * box_side, pose.position.y() - 0.5 * box_side),
+        along(pose.director.x(), pose.director.y()) {}
+  Vec2 at(double offset) const { return center + offset * along; }
+  /// Squared distance of its nearest point to the middle, from the first bead to the last.
+  double nearest_squared(const Species& species) const {
+    const double along2 = along.squaredNorm();
+    const double nearest = along2 > 0 ? -center.dot(along) / along2 : 0.0;
+    return at(std::clamp(nearest, species.bead_offset.front(), species.bead_offset.back())).squaredNorm();
+  }
+};
+
+/// Where a bead goes in the plane: at time t it is within bend t^2 of point + velocity t.
+struct BeadPath {
+  Vec2 point;
+  Vec2 velocity;
+  double bend;
+};
+
+/// The first time t > 0 with a t^2 + 2 b t = c, where a >= 0 and c > 0; at most `time`. Numerics: of the root's two
+/// forms, that in which nothing cancels.
+double first_time(double a, double b, double c, double time) {
+  if (!((a * time + 2.0 * b) * time > c)) return time;
+  const double root = std::sqrt(b * b + a * c);
+  return b > 0 ? c / (b + root) : (root - b) / a;
+}
+
+/// The first time that a bead may reach a straight wall, `gap` away, that it nears at `speed`; at most `time`.
+double time_to_straight_wall(double gap, double speed, double bend, double time) {
+  return gap > 0 ? first_time(bend, 0.5 * speed, gap, time) : 0.0;
+}
+
+/// The same for the four walls of a square round the middle, each `half` away from it.
+double time_to_straight_walls(const BeadPath& path, double half, double time) {
+  for (int k = 0; k < 2; ++k) {
+    time = time_to_straight_wall(half - path.point[k], path.velocity[k], path.bend, time);
+    time = time_to_straight_wall(half + path.point[k], -path.velocity[k], path.bend, time);
+  }
+  return time;
+}
+
+/// The first time that a bead within a circle of the given radius round the middle may reach it; at most `time`.
+double time_to_round_wall(const BeadPath& path, double radius, double time) {
+  const double room = radius * radius - path.point.squaredNorm();
+  if (!(radius > 0 && room > 0)) return 0.0;
+  const double speed2 = path.velocity.squaredNorm() + 2.0 * radius * path.bend;
+  return first_time(speed2, path.point.dot(path.velocity), room, time);
+}
+
+/// The first time that a bead outside of such a circle may reach it; at most `time`.
+double time_to_inner_wall(const BeadPath& path, double radius, double time) {
+  const double distance = path.point.norm();
+  return time_to_straight_wall(distance - radius, -path.point.dot(path.velocity) / distance, path.bend, time);
+}
+
+}  // namespace
 
 WallsSeen see_walls(const SideWalls& walls, double box_side, const Vec3& point) {
   const double x = point.x() - 0.5 * box_side;
@@ -35,20 +101,48 @@ bool is_within(const SideWalls& walls, double box_side, const Species& species, 
   return true;
 }
 
+bool may_touch_walls(const SideWalls& walls, double box_side, const Species& species, const Pose& pose) {
+  const Axis axis(box_side, pose);
+  const double margin = margin_for_rounding(box_side);
+  for (const int b : species.outer_beads) {
+    const Vec2 point = axis.at(species.bead_offset[b]);
+    const double most = 0.5 * walls.size - species.bead_radius[b] - margin;
+    const bool clears = walls.arena == Arena::kSquare ? std::max(std::abs(point.x()), std::abs(point.y())) < most
+                                                      : most > 0 && point.squaredNorm() < most * most;
+    if (!clears) return true;
+  }
+  if (walls.arena != Arena::kAnnulus) return false;
+  const double least = 0.5 * walls.inner + species.max_radius + margin;
+  return !(axis.nearest_squared(species) > least * least);
+}
+
 double wall_safe_time(const SideWalls& walls, double box_side, const Species& species, const Pose& pose,
                       const Flight& flight, double horizon) {
-  const double speed = std::hypot(flight.velocity.x(), flight.velocity.y()) + species.half_length * flight.rate;
-  double gap = distance_to_walls(walls, box_side, pose.position) - species.half_length - species.max_radius;
-  if (gap < speed * horizon) {  // near enough for the beads themselves to matter
-    gap = horizon * speed + 1.0;
-    for (int b = 0; b < species.n_beads(); ++b) {
-      const Vec3 center = pose.position + species.bead_offset[b] * pose.director;
-      gap = std::min(gap, distance_to_walls(walls, box_side, center) - species.bead_radius[b]);
-    }
+  const double margin = margin_for_rounding(box_side);
+  const Vec2 velocity(flight.velocity.x(), flight.velocity.y());
+  const double fastest = velocity.norm() + species.half_length * flight.rate;  // of its beads
+  const double gap = distance_to_walls(walls, box_side, pose.position) - species.half_length - species.max_radius;
+  if (gap - margin > fastest * horizon) return horizon;
+
+  const Axis axis(box_side, pose);
+  const Vec3 turning = flight.precession.cross(pose.director);
+  const auto path_of = [&](int bead) {
+    const double offset = species.bead_offset[bead];
+    return BeadPath{axis.at(offset), velocity + offset * Vec2(turning.x(), turning.y()),
+                    0.5 * std::abs(offset) * flight.rate * flight.rate};
+  };
+  double time = horizon;
+  for (const int b : species.outer_beads) {
+    const double most = 0.5 * walls.size - species.bead_radius[b] - margin;
+    time = walls.arena == Arena::kSquare ? time_to_straight_walls(path_of(b), most, time)
+                                         : time_to_round_wall(path_of(b), most, time);
   }
-  gap -= 1e-9 * (1.0 + box_side);  // rounding
-  if (!(gap > 0)) return 0.0;
-  return speed * horizon > gap ? gap / speed : horizon;
+  if (walls.arena != Arena::kAnnulus) return time;
+  const double inner = 0.5 * walls.inner + margin;
+  if (std::sqrt(axis.nearest_squared(species)) - inner - species.max_radius > fastest * time) return time;
+  for (int b = 0; b < species.n_beads(); ++b)
+    time = time_to_inner_wall(path_of(b), inner + species.bead_radius[b], time);
+  return time;
 }
 
 }  // namespace shaken

@@ -24,7 +24,7 @@ struct HullEnd {
 struct Species {
   std::vector<double> bead_offset;  ///< (n_beads) of the bead centres along the rod, ascending, equally spaced [mm]
   std::vector<double> bead_radius;  ///< (n_beads) [mm]
-  std::vector<int> outer_beads;     ///< those that can be the lowest or the highest of the rod, ascending
+  std::vector<int> outer_beads;     ///< those that can be the lowest, highest or outermost of the rod, ascending
   double half_length = 0;           ///< h, distance of the farther end-bead's centre from the rod's centre [mm]
   double mid_radius = 0;            ///< of the hull at the centre [mm]
   double end_radius = 0;            ///< mid_radius - taper() half_length [mm]

@@ -176,8 +176,7 @@ std::optional<NumericalTrouble> meet_side_walls(int index, RodAtTick& rod, const
                                                 Counters& counters) {
   const SpeciesMechanics& species = rules.species_of(index);
   const SideWalls& walls = *rules.walls;
-  if (distance_to_walls(walls, rules.box_side, rod.pose.position) >= species.half_length + species.max_radius)
-    return {};
+  if (!may_touch_walls(walls, rules.box_side, species, rod.pose)) return {};
   const auto seen_by = [&](int bead) {
     return see_walls(walls, rules.box_side, rod.pose.position + species.bead_offset[bead] * rod.pose.director);
   };

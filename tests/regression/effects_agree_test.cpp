@@ -149,6 +149,13 @@ INSTANTIATE_TEST_SUITE_P(
                            s.n_rods = 30;
                            s.start = Start::kRandom;
                          }},
+                    Case{"PolarInAnAnnulus",
+                         [](System& s) {
+                           s.walls = SideWalls{Arena::kAnnulus, 14.5, 4.0};
+                           s.rod = kPolarRod;
+                           s.n_rods = 30;
+                           s.start = Start::kRandom;
+                         }},
                     Case{"DiscAtInstant",
                          [](System& s) {
                            s.walls = SideWalls{Arena::kDisc, 14.0};

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+#include "sim/motion/side_walls.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "tests/support/effort.h"
+#include "tests/support/random_rods.h"
+
+namespace shaken {
+namespace {
+
+constexpr double kG = 9810;
+
+/// The same fore and aft, wider or narrower at the ends; polar; with free beads; spheres.
+Species random_species(test::Draw& draw) {
+  switch (draw.integer(0, 4)) {
+    case 0:
+      return make_species({.length = 0.8, .mid_diameter = 0.8, .end_diameter = 0.8, .n_beads = 1});
+    case 1:
+      return make_species({.length = 2.5, .bead_diameters{0.9, 0.8, 0.6, 0.4, 0.5, 0.7, 0.5, 0.3}});
+    case 2:
+      return make_species({.length = draw.uniform(2.5, 4.5), .n_beads = 11, .profile = Profile::kPolar});
+    default:
+      return make_species({.length = draw.uniform(2.5, 4.5), .end_diameter = draw.uniform(0.2, 1.0), .n_beads = 9});
+  }
+}
+
+/// A rod that is about as far from a wall as asked, and flies as in a shaken layer or slower, over longer horizons.
+struct RodByWall {
+  SideWalls walls;
+  double box_side;
+  Species species;
+  Flight flight;
+  double horizon;
+
+  RodByWall(test::Draw& draw, double gap) : species(random_species(draw)) {
+    walls.arena = static_cast<Arena>(draw.integer(0, 2));
+    const double middle = walls.arena == Arena::kAnnulus ? draw.uniform(0.1, 12) : 0.0;
+    walls.inner = middle;
+    walls.size = middle + (draw.integer(0, 3) ? 4.4 : 30.0) * species.reach();
+    box_side = walls.size + draw.uniform(1, 3);
+    // from where it is free on to the nearest wall that way
+    const double angle = draw.uniform(0, 2 * kPi);
+    const Vec3 outwards(std::cos(angle), std::sin(angle), 0);
+    const double start = walls.arena == Arena::kAnnulus ? 0.25 * (walls.size + walls.inner) : 0.0;
+    const Vec3 way = draw.integer(0, 1) ? outwards : Vec3(-outwards);
+    Pose pose{Vec3(0.5 * box_side, 0.5 * box_side, 0) + start * outwards,
+              draw.flat_direction(draw.integer(0, 3) ? 0.38 : 1)};
+    for (int step = 0; step < 60; ++step) pose.position += (-overlap(pose) - gap) * way;
+
+    horizon = 16e-3 * std::pow(25.0, draw.uniform(0, 1));
+    const double speed = std::pow(10.0, draw.uniform(-1, 1)) / horizon;
+    const double ratio = species.inertia_par / species.inertia_perp;
+    const double turning = draw.integer(0, 4) ? 0.5 * speed : 0.0;
+    begin_flight(flight, 0, pose, {draw.integer(0, 9) ? draw.vector(speed) : Vec3(Vec3::Zero()), draw.vector(turning)},
+                 box_side, ratio);
+  }
+
+  /// Of the deepest bead, negative if all are free: every bead is looked at [mm].
+  double overlap(const Pose& pose) const {
+    double most = -INFINITY;
+    for (int b = 0; b < species.n_beads(); ++b) {
+      const WallsSeen seen = see_walls(walls, box_side, pose.position + species.bead_offset[b] * pose.director);
+      for (int w = 0; w < seen.n; ++w) most = std::max(most, species.bead_radius[b] - seen.walls[w].distance);
+    }
+    return most;
+  }
+  double overlap_after(double t) const { return overlap(pose_after(flight, t, kG)); }
+  Pose pose() const { return {flight.position, flight.director}; }
+  double safe_time() const { return wall_safe_time(walls, box_side, species, pose(), flight, horizon); }
+};
+
+TEST(WallSafeTime, NoBeadBeginsToTouchAWallBeforeItsBound) {
+  test::Draw draw(31);
+  std::vector<double> share[3];
+  int n_free = 0, n_short = 0;
+  for (int trial = 0; trial < test::draws(100000); ++trial) {
+    const RodByWall rod(draw, (draw.integer(0, 9) ? 1 : -1) * std::pow(10.0, draw.uniform(-7, 0.5)));
+    const double safe = rod.safe_time();
+    ASSERT_TRUE(safe >= 0 && safe <= rod.horizon) << "trial " << trial;
+    if (rod.overlap_after(0) > 0) {
+      ASSERT_EQ(safe, 0) << "trial " << trial;
+      continue;
+    }
+    ++n_free;
+    n_short += safe < rod.horizon;
+    constexpr int kSteps = 30;
+    for (int step = 1; step <= kSteps && safe > 0; ++step)
+      ASSERT_LE(rod.overlap_after(safe * step / kSteps), 0) << "trial " << trial << " step " << step;
+    if (trial % 20 || !(safe < rod.horizon)) continue;
+    double hit = safe;
+    while (hit < rod.horizon && !(rod.overlap_after(hit) > 0)) hit += 1e-3 * rod.horizon;
+    share[static_cast<int>(rod.walls.arena)].push_back(safe / std::min(hit, rod.horizon));
+  }
+  EXPECT_GT(n_free, test::draws(80000));
+  EXPECT_GT(n_short, test::draws(20000));
+  for (const auto& [name, arena] : kArenaNames) {
+    auto& of = share[static_cast<int>(arena)];
+    std::sort(of.begin(), of.end());
+    std::printf("%s: bound / true time: median %.3f, lower quartile %.3f of %zu\n", name, of[of.size() / 2],
+                of[of.size() / 4], of.size());
+    EXPECT_GT(of[of.size() / 2], 0.4);
+    EXPECT_LE(of.back(), 1.0);
+  }
+}
+
+TEST(WallSafeTime, OfARodThatFliesStraightAtAWall) {
+  const Species rod = make_species({.length = 4.5, .n_beads = 15, .profile = Profile::kPolar});
+  const Species sphere = make_species({.length = 0.8, .mid_diameter = 0.8, .end_diameter = 0.8, .n_beads = 1});
+  constexpr double kBox = 32, kSpeed = 40, kGap = 1.5;
+  for (const Species& species : {rod, sphere}) {
+    for (const auto& [name, arena] : kArenaNames) {
+      for (const double way : {1.0, -1.0}) {  // in an annulus these are its two walls
+        const SideWalls walls{arena, 30, 6, {}};
+        const double head = species.bead_offset.back() + species.bead_radius.back();
+        const double wall = arena != Arena::kAnnulus ? way * 15 : way > 0 ? 15.0 : 3.0;
+        Flight flight;
+        flight.position = Vec3(0.5 * kBox + wall - way * (head + kGap), 0.5 * kBox, 0.6);
+        flight.velocity = Vec3(way * kSpeed, 0, 10);
+        flight.director = Vec3(way, 0, 0);
+        flight.prepare();
+        const auto bound = [&](double horizon) {
+          return wall_safe_time(walls, kBox, species, {flight.position, flight.director}, flight, horizon);
+        };
+        constexpr double kTrue = kGap / kSpeed;
+        EXPECT_LE(bound(1.0), kTrue) << name;
+        EXPECT_GE(bound(1.0), 0.99 * kTrue) << name;
+        EXPECT_EQ(bound(0.99 * kTrue), 0.99 * kTrue) << name;
+      }
+    }
+  }
+}
+
+// It comes along a chord 9 mm off the middle, at whose end it is 15 mm off: it has 12 mm to go.
+TEST(WallSafeTime, OfASphereThatFliesAskewAtARoundWall) {
+  const Species sphere = make_species({.length = 0.8, .mid_diameter = 0.8, .end_diameter = 0.8, .n_beads = 1});
+  Flight flight;
+  flight.position = Vec3(20, 29, 0.6);
+  flight.velocity = Vec3(-40, 0, 0);
+  flight.prepare();
+  const double bound =
+      wall_safe_time(SideWalls{Arena::kDisc, 30.8, 6, {}}, 40, sphere, {flight.position, flight.director}, flight, 1.0);
+  EXPECT_NEAR(bound, 0.3, 1e-6);
+  EXPECT_LE(bound, 0.3);
+}
+
+TEST(MayTouchWalls, IsNeverDeniedOfARodThatDoes) {
+  test::Draw draw(32);
+  int n_touch = 0, n_just = 0, n_denied = 0;
+  for (int trial = 0; trial < test::draws(200000); ++trial) {
+    const double size = std::pow(10.0, draw.integer(0, 1) ? draw.uniform(-16, -8) : draw.uniform(-8, 0.5));
+    const RodByWall rod(draw, draw.integer(0, 9) ? draw.integer(0, 1) ? size : -size : 0.0);
+    const double overlap = rod.overlap(rod.pose());
+    const bool may = may_touch_walls(rod.walls, rod.box_side, rod.species, rod.pose());
+    n_touch += overlap > 0;
+    n_just += overlap > 0 && overlap < 1e-10;
+    n_denied += !may;
+    ASSERT_FALSE(overlap > 0 && !may) << "trial " << trial << " overlap " << overlap;
+    // at outer walls nothing but rounding is given away
+    ASSERT_FALSE(overlap < -1e-6 && rod.walls.arena != Arena::kAnnulus && may) << "trial " << trial;
+  }
+  EXPECT_GT(n_touch, test::draws(50000));
+  EXPECT_GT(n_just, test::draws(10000));
+  EXPECT_GT(n_denied, test::draws(30000));
+}
+
+TEST(MayTouchWalls, OfARodThatADiscHasNoRoomFor) {
+  const Species sphere = make_species({.length = 1.2, .mid_diameter = 1.2, .end_diameter = 1.2, .n_beads = 1});
+  const Pose pose{Vec3(1.5, 1.5, 0.6), Vec3::UnitX()};
+  for (const Arena arena : {Arena::kDisc, Arena::kSquare}) {
+    const SideWalls walls{arena, 1.0, 0.1, {}};
+    Flight flight;
+    flight.position = pose.position;
+    EXPECT_TRUE(may_touch_walls(walls, 3, sphere, pose));
+    EXPECT_EQ(wall_safe_time(walls, 3, sphere, pose, flight, 1.0), 0);
+  }
+}
+
+}  // namespace
+}  // namespace shaken
