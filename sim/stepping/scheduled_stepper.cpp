@@ -493,7 +493,8 @@ void ScheduledStepper::settle_pairs(Tick now, Worker& worker) {
   std::int64_t n_settled = 0;
   for (Worker& from : loops_.workers()) {
     std::vector<int>& to_settle = from.to_settle[worker.number];
-    visit_ahead(to_settle, [&](int p) { pairs_.prefetch_bound(p); }, [&](int p) {
+    const auto ask = [&](int p) { pairs_.prefetch_bound(p); };
+    visit_ahead(to_settle, ask, [&](int p) {
       if (pairs_.is_listed(p)) return;
       if (pairs_.settle(p, now)) {
         ++n_settled;
