@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include "sim/contact/cofactors.h"
+#include "sim/core/sincos.h"
+
 namespace shaken {
 namespace {
 
@@ -30,32 +33,6 @@ struct HitLanes {
   alignas(64) double is_hit[kDoubleLanes];   ///< > 0: yes
 };
 
-/// sincos of small angles (core/sincos.h).
-template <class D>
-struct SinCosOf {
-  D sin, cos;
-};
-template <class D>
-SHAKEN_INLINE SinCosOf<D> small_sincos(const D& x) {
-  const D y = x * x;
-  D s = y * (1.0 / 355687428096000.0) - 1.0 / 1307674368000.0;
-  s = s * y + 1.0 / 6227020800.0;
-  s = s * y - 1.0 / 39916800.0;
-  s = s * y + 1.0 / 362880.0;
-  s = s * y - 1.0 / 5040.0;
-  s = s * y + 1.0 / 120.0;
-  s = s * y - 1.0 / 6.0;
-  D c = y * (1.0 / 20922789888000.0) - 1.0 / 87178291200.0;
-  c = c * y + 1.0 / 479001600.0;
-  c = c * y - 1.0 / 3628800.0;
-  c = c * y + 1.0 / 40320.0;
-  c = c * y - 1.0 / 720.0;
-  c = c * y + 1.0 / 24.0;
-  c = c * y - 0.5;
-  return {x + x * y * s, 1.0 + y * c};
-}
-constexpr double kLargestSmallAngle = 0.7853981633974483;
-
 /// A symmetric matrix, as point_compliance (contact/impulse.h) makes it.
 template <class D>
 struct Compliance {
@@ -79,22 +56,6 @@ SHAKEN_INLINE Compliance<D> compliance_at(const InverseInertia& inverse, const T
           (l.y * lever.y - a.y * arm.y) + round, l.y * lever.z - a.y * arm.z,
           l.z * lever.x - a.z * arm.x,           l.z * lever.y - a.z * arm.y,
           (l.z * lever.z - a.z * arm.z) + round};
-}
-
-/// The solution of K x = b by cofactors, as in contact/impulse.cpp.
-template <class D>
-SHAKEN_INLINE Triple<D> solve_symmetric(const Compliance<D>& K, const Triple<D>& b) {
-  const D a = K.xx, d = K.yy, f = K.zz;
-  const D p = K.xy, q = K.xz, r = K.yz;
-  const D c00 = d * f - r * r;
-  const D c01 = q * r - p * f;
-  const D c02 = p * r - q * d;
-  const D c11 = a * f - q * q;
-  const D c12 = p * q - a * r;
-  const D c22 = a * d - p * p;
-  const D inverse_det = 1.0 / (a * c00 + p * c01 + q * c02);
-  return inverse_det * Triple<D>{c00 * b.x + c01 * b.y + c02 * b.z, c01 * b.x + c11 * b.y + c12 * b.z,
-                                 c02 * b.x + c12 * b.y + c22 * b.z};
 }
 
 /// Where a rod meets a plate.
@@ -125,7 +86,7 @@ struct PlateKernel {
     using D = Doubles<W>;
     const D tau = lanes::load<W>(flights.tau + l);
     const D angle = lanes::load<W>(flights.rate + l) * tau;
-    const SinCosOf<D> turn = small_sincos(angle);
+    const SinCosOf<D> turn = sincos_of_small(angle);
     const Triple<D> start_velocity = flights.velocity.load<W>(l);
     Triple<D> position = flights.position.load<W>(l) + tau * start_velocity;
     position.z -= 0.5 * rules.gravity * tau * tau;
@@ -176,7 +137,9 @@ struct PlateKernel {
       const double mu = plate.contact.friction;
       const D bounce = -(1.0 + plate.contact.restitution) * u_n;
       const Triple<D> u_t = u - u_n * normal;
-      const Triple<D> stick = solve_symmetric(K, bounce * normal - u_t);
+      const Triple<D> wanted = bounce * normal - u_t;
+      const auto stick =
+          Cofactors<D>(K.xx, K.yy, K.zz, K.xy, K.xz, K.yz).template solve<Triple<D>>(wanted.x, wanted.y, wanted.z);
       const D stick_n = stick.dot(normal);
       const Triple<D> stick_t = stick - stick_n * normal;
       const D stick_t2 = stick_t.squared_norm();
