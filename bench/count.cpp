@@ -59,7 +59,7 @@ void add_work(Json& row, const CountedWork& counted) {
                {"rods_bounded", cost(Phase::kRodBounds, WorkKind::kRodsBounded)},
                {"rods_placed", cost(Phase::kNeighbors, WorkKind::kRodsPlaced)},
                {"pairs_searched", cost(Phase::kDetection, WorkKind::kPairsSearched)},
-               {"pairs_tightened", cost(Phase::kTightening, WorkKind::kPairsTightened)},
+               {"rods_told", cost(Phase::kTightening, WorkKind::kRodsTold)},
                {"pairs_bounded", cost(Phase::kPairBounds, WorkKind::kPairsBounded)}};
 }
 
@@ -80,14 +80,19 @@ std::string work_text(const Json& rows, const std::vector<Column>& scene) {
       with({counts("visits", "rods_visited"), counts("hit", "rods_hit"), counts("resting", "rods_resting"),
             ns("rods_visited"), counts("bounds", "rods_bounded"), ns("rods_bounded"), counts("places", "rods_placed"),
             ns("rods_placed")});
+  text +=
+      "\nPairs, per rod and simulated second: searches for contacts (of these: touching), pairs that came up with "
+      "time\n"
+      "left and waited on, and new bounds (of these: after a search, by beads, and too short to save the visit at the\n"
+      "next tick).\n" +
+      with({counts("searches", "pairs_searched"), counts("touching", "pairs_touching"), ns("pairs_searched"),
+            counts("waited on", "pairs_waiting_on"), counts("bounds", "pairs_bounded"), ns("pairs_bounded"),
+            counts("when due", "bounds_when_due"), counts("by beads", "bounds_by_beads"),
+            counts("no tick", "bounds_of_no_tick")});
   return text +
-         "\nPairs, per rod and simulated second: searches for contacts (of these: touching), bounds tightened by a "
-         "hit,\n"
-         "and new bounds (of these: after a search, by beads, and too short to save the visit at the next tick).\n" +
-         with({counts("searches", "pairs_searched"), counts("touching", "pairs_touching"), ns("pairs_searched"),
-               counts("tightened", "pairs_tightened"), ns("pairs_tightened"), counts("bounds", "pairs_bounded"),
-               ns("pairs_bounded"), counts("when due", "bounds_when_due"), counts("by beads", "bounds_by_beads"),
-               counts("no tick", "bounds_of_no_tick")});
+         "\nChanges of motion, per rod and simulated second, of which all pairs of the rod are told, and bounds that "
+         "are\ntightened for that.\n" +
+         with({counts("told", "rods_told"), ns("rods_told"), counts("tightened", "pairs_tightened")});
 }
 
 Report count_report(const Conditions& conditions, const std::vector<CountedWork>& scenes) {

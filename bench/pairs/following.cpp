@@ -55,8 +55,11 @@ void Following::look_at(int p) {
     happened_.push_back({p, Event::kRenewed, false, 0});
   }
   Bounded& bounded = happened_.back();
-  if (bounded.event != Event::kTightened) renew(p, bounded);
-  bounded.safe = static_cast<double>(pairs_.wheel().due(p, world_.tick) - world_.tick) * rules_.dt;
+  if (bounded.event == Event::kTightened) {
+    bounded.safe = (pairs_.ticks_left(p, world_.tick) + 1) * rules_.dt;
+  } else {
+    renew(p, bounded);
+  }
 }
 
 void Following::renew(int p, Bounded& bounded) {
@@ -64,6 +67,7 @@ void Following::renew(int p, Bounded& bounded) {
   search_.bound(std::span(&followed_[p], 1), rods_, motions_, lanes_, bounds);
   pairs_.hold(p, world_.tick, bounds.ticks[0], bounds.direction[0], bounds.line[0]);
   bounded.by_beads = bounds.by_beads[0];
+  bounded.safe = (bounds.ticks[0] + 1) * rules_.dt;
 }
 
 MotionChange Following::change(int i) const {

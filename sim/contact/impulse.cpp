@@ -21,7 +21,7 @@ Vec3 newton_coulomb_impulse(const Mat3& K, const Vec3& normal, const Vec3& u, co
   const Vec3 u_t = u - u_n * normal;
   const Vec3 wanted = bounce * normal - u_t;
   const Cofactors<double> of_K(K(0, 0), K(1, 1), K(2, 2), K(0, 1), K(0, 2), K(1, 2));
-  const auto stick = of_K.solve<Vec3>(wanted.x(), wanted.y(), wanted.z());
+  auto stick = of_K.solve<Vec3>(wanted.x(), wanted.y(), wanted.z());
   const double stick_n = stick.dot(normal);
   const Vec3 stick_t = stick - stick_n * normal;
   const double stick_t2 = stick_t.squaredNorm();

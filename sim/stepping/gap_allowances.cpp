@@ -6,11 +6,11 @@
 namespace shaken {
 namespace {
 
-constexpr float kNever = -1e30F;  ///< no hit gives so much back
-constexpr float kAlways = 1e30F;  ///< no hit takes so much
-constexpr float kAtOnce = 1e20F;  ///< what any hit takes where the bound ends at this tick
+constexpr float kNothingAllowed = -1e30F;  ///< no hit gives so much back
+constexpr float kAllAllowed = 1e30F;       ///< no hit takes so much
+constexpr float kEndsNow = 1e20F;          ///< what any hit takes where the bound ends at this tick
 /// Of an allowance, for each time that something is taken from it: the rounding of floats.
-constexpr float kRounding = 1e-6F;
+constexpr float kRoundingOfFloats = 1e-6F;
 
 }  // namespace
 
@@ -38,10 +38,10 @@ struct GapAllowances::TakeKernel {
                               lanes::load<W>(block.direction[2] + l)};
     const F along = change.along(d);
     const F speed = lanes::dot(d, d) > 0.5F ? along : lanes::all<W>(change.all_round());
-    const F more = speed + change.bending() * (rest + kMostBeyond * dt);
+    const F more = speed + change.bending() * (rest + kMostBeyond * dt + change.earlier());
     const F before = lanes::load<W>(block.left + l);
-    const F left = before - kRounding * lanes::abs(before) - more * rest -
-                   lanes::not_below_zero(more) * change.earlier() - (rest > 0.0F ? F{} : lanes::all<W>(kAtOnce));
+    const F left = before - kRoundingOfFloats * lanes::abs(before) - more * rest -
+                   lanes::not_below_zero(more) * change.earlier() - (rest > 0.0F ? F{} : lanes::all<W>(kEndsNow));
     lanes::store(block.left + l, left);
     lanes::store(block.faster + l, lanes::load<W>(block.faster + l) + more);
     return lanes::below_zero(left);
@@ -53,7 +53,7 @@ GapAllowances::GapAllowances(std::size_t n_rods, double dt)
 
 GapAllowances::Block GapAllowances::empty_block() {
   Block block{};
-  std::fill_n(block.left, kInBlock, kAlways);
+  std::fill_n(block.left, kInBlock, kAllAllowed);
   return block;
 }
 
@@ -87,7 +87,7 @@ int GapAllowances::remove(int rod, int lane) {
   to.faster[m] = from.faster[l];
   to.until[m] = from.until[l];
   to.pair[m] = from.pair[l];
-  block(rod, last).left[l] = kAlways;
+  block(rod, last).left[l] = kAllAllowed;
   return lane == last ? -1 : to.pair[m];
 }
 
@@ -103,9 +103,9 @@ void GapAllowances::allow(int rod, int lane, float allowance, Tick until) {
   in.until[lane % kInBlock] = static_cast<std::int32_t>(until);
 }
 
-void GapAllowances::forbid(int rod, int lane) { allow(rod, lane, kNever, 0); }
+void GapAllowances::forbid(int rod, int lane) { allow(rod, lane, kNothingAllowed, 0); }
 
-void GapAllowances::allow_all(int rod, int lane) { allow(rod, lane, kAlways, 0); }
+void GapAllowances::allow_all(int rod, int lane) { allow(rod, lane, kAllAllowed, 0); }
 
 std::uint32_t GapAllowances::take_from(Block& block, const MotionChange& change, Tick now) const {
   const TakeKernel kernel{change, block, static_cast<std::int32_t>(now), dt_};

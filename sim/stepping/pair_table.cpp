@@ -2,6 +2,7 @@
 #include "sim/stepping/pair_table.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "sim/core/heap_bytes.h"
 
@@ -109,12 +110,16 @@ PairTable::Remaining PairTable::remaining(int p, Tick now) const {
     closing += allowances_.faster(pair.rods[r], pair.lanes[r]);
     left += allowances_.left(pair.rods[r], pair.lanes[r]);
   }
-  const float gap = left + closing * (static_cast<float>(ticks_to(pair.until, now)) * dt_);
+  const float more_now = closing * (static_cast<float>(ticks_to(pair.until, now)) * dt_);
+  constexpr float kCancelled = 1e-6F;  // both are rounded, and may nearly cancel
+  const float gap = left + more_now - kCancelled * (std::abs(left) + std::abs(more_now));
   const int most = std::max(0, ticks_to(pair.end, now));
   if (!(gap > 0.0F)) return {0, 0, 0};
   if (closing * (static_cast<float>(most) * dt_) <= gap) return {most, gap, closing};
   return {static_cast<int>(gap / (closing * dt_) * (1.0F - 1e-5F)), gap, closing};
 }
+
+int PairTable::ticks_left(int p, Tick now) const { return remaining(p, now).ticks; }
 
 bool PairTable::settle(int p, Tick now) {
   const int waiting = ticks_to(pairs_[p].until, now);

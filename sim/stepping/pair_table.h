@@ -51,6 +51,9 @@ class PairTable {
   /// Has a pair that has come up at `now` wait on, if enough of its bound's time is left.
   bool waits_on(int p, Tick now);
 
+  /// Ticks after `now` for which the pair's bound holds, if it has a line; hits may make them fewer.
+  int ticks_left(int p, Tick now) const;
+
   /// Beads overlapped at the last search for contacts.
   bool is_touching(int p) const { return (pairs_[p].marks & kTouching) != 0; }
   void turn_touching(int p);
@@ -99,7 +102,7 @@ class PairTable {
     Direction direction{};
     float closing = 0;                     ///< of the bound's line, without the hits since then [mm/s]
     std::int32_t end = 0;                  ///< tick at which the bound ends, its last 32 bits
-    std::int32_t until = 0;                ///< tick before that at which the pair comes up
+    std::int32_t until = 0;                ///< the pair comes up at the tick after it; allowances are for it
     std::array<std::uint16_t, 2> lanes{};  ///< of its rods, in allowances_
     std::uint8_t marks = 0;
     std::uint8_t owner = 0;

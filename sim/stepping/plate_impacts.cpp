@@ -66,7 +66,7 @@ struct PlateMet {
   const ContactParameters& contact;
 };
 
-struct PlateKernel {
+struct PlateHitKernel {
   const SpeciesMechanics& species;
   const TickRules& rules;
   const PlateState& plates;
@@ -215,7 +215,7 @@ std::uint32_t meet_plates_in_lanes(std::span<const int> rods, const std::vector<
   HitLanes hits[2];
   alignas(64) double is_other[kDoubleLanes];
   for (HitLanes& of_plate : hits) std::fill_n(of_plate.overlap, kDoubleLanes, 0.0);
-  lanes::with_widest_doubles(PlateKernel{rules.species_of(rods.front()), rules, plates, in, out, hits, is_other, n});
+  lanes::with_widest_doubles(PlateHitKernel{rules.species_of(rods.front()), rules, plates, in, out, hits, is_other, n});
 
   std::uint32_t left_over = 0;
   for (int lane = 0; lane < n; ++lane) {

@@ -44,9 +44,9 @@ std::size_t ScheduledStepper::bytes() const {
   bytes += heap_bytes(rods_, found_, changes_, reserves_, marks_, motion_bounds_, owners_);
   bytes += heap_bytes(contacts_, may_change_, gained_, lost_, loops_.workers());
   for (const Worker& w : loops_.workers()) {
-    bytes +=
-        heap_bytes(w.due_rods, w.to_place, w.near, w.near_end, w.out_of_hand, w.due_pairs, w.to_pose, w.contacts,
-                   w.turned, w.changed, w.to_schedule, w.to_settle, w.to_bound, w.to_bound_motion, w.bead_contacts);
+    bytes += heap_bytes(w.due_rods, w.to_place, w.near, w.near_end, w.out_of_hand, w.due_pairs, w.to_pose, w.contacts,
+                        w.turned, w.changed, w.to_schedule, w.to_settle, w.searched_again, w.to_bound,
+                        w.to_bound_motion, w.bead_contacts);
     for (const auto& of_another : w.to_settle) bytes += heap_bytes(of_another);
   }
   return bytes;
@@ -98,7 +98,7 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
     lap(worker, Phase::kTightening);
     schedule_rods(world, now, worker);
   });
-  const auto has_pairs = [](const Worker& worker) { return !worker.to_bound.empty() || worker.has_to_settle; };
+  const auto has_pairs = [](const Worker& worker) { return !worker.due_pairs.empty() || worker.has_told; };
   if (std::none_of(loops_.workers().begin(), loops_.workers().end(), has_pairs)) return {};
   in_loop([&](Worker& worker) {
     settle_pairs(now, worker);
@@ -335,6 +335,7 @@ void ScheduledStepper::replace_pairs(const World& world, Tick now) {
     worker.near.clear();
     worker.near_end.clear();
   }
+  pairs_.make_room(neighbors_.pairs().size());  // a pair may be gained and lost by the same tick
   for (const int p : lost_) pairs_.remove(p);
   add_gained();
   if (was_complete_) return;
@@ -464,32 +465,37 @@ void ScheduledStepper::schedule_rods(const World& world, Tick now, Worker& worke
   lap(worker, Phase::kRodBounds);
 }
 
-/// Lists the pairs that were due, and has hits take what they take of the others' gaps.
+/// Has hits take what they take of the gaps to neighbours.
 [[gnu::flatten]] void ScheduledStepper::tell_pairs(Tick now, Worker& worker) {
+  worker.counts.count(WorkKind::kRodsTold, std::ssize(worker.changed));
   worker.to_bound.clear();
-  for (const int p : worker.due_pairs) {
-    // one that has been lost, or is another's by now, is not listed
-    if (!pairs_.is_used(p) || static_cast<std::size_t>(pairs_.owner(p)) != worker.number) continue;
-    if (rules_.rest.matters() && pairs_.keeps_touching(p)) {
-      pairs_.search_again(p, now);  // rods at rest touch in every tick: a bound would tell nothing
-    } else {
-      pairs_.list(p, worker.to_bound);
-    }
-  }
-  worker.counts.count(WorkKind::kBoundsWhenDue, std::ssize(worker.to_bound));
-  worker.has_to_settle = false;
+  worker.has_told = false;
   const bool alone = loops_.workers().size() == 1;
   const auto ask = [&](int i) { pairs_.prefetch_rod(i); };
   visit_ahead(worker.changed, ask, [&](int i) {
     pairs_.take(i, changes_[i], now, [&](int p) {
       pairs_.prefetch(p);
       worker.to_settle[alone ? 0 : static_cast<std::size_t>(pairs_.owner(p))].push_back(p);
-      worker.has_to_settle = true;
+      worker.has_told = true;
     });
   });
 }
 
+/// Lists the pairs that were due, and brings up sooner, or lists, those of whose gaps hits took more than they may.
+/// Not in the loop that tells pairs: what a pair writes lies with its rods, of which one may be another worker's.
 void ScheduledStepper::settle_pairs(Tick now, Worker& worker) {
+  worker.searched_again.clear();
+  for (const int p : worker.due_pairs) {
+    // one that has been lost, or is another's by now, is not listed
+    if (!pairs_.is_used(p) || static_cast<std::size_t>(pairs_.owner(p)) != worker.number) continue;
+    if (rules_.rest.matters() && pairs_.keeps_touching(p)) {
+      pairs_.search_again(p, now);  // rods at rest touch in every tick: a bound would tell nothing
+      pairs_.list(p, worker.searched_again);
+    } else {
+      pairs_.list(p, worker.to_bound);
+    }
+  }
+  worker.counts.count(WorkKind::kBoundsWhenDue, std::ssize(worker.to_bound));
   std::int64_t n_settled = 0;
   for (Worker& from : loops_.workers()) {
     std::vector<int>& to_settle = from.to_settle[worker.number];
@@ -504,6 +510,7 @@ void ScheduledStepper::settle_pairs(Tick now, Worker& worker) {
     });
     to_settle.clear();
   }
+  for (const int p : worker.searched_again) pairs_.unlist(p);
   worker.counts.count(WorkKind::kPairsTightened, n_settled);
   lap(worker, Phase::kTightening);
 }

@@ -74,7 +74,8 @@ class ScheduledStepper final : public Stepper {
     std::vector<int> changed;                 ///< rods hit in this tick
     std::vector<int> to_schedule;             ///< rods
     std::vector<std::vector<int>> to_settle;  ///< (n_workers) pairs of each worker that hits have used up
-    bool has_to_settle = false;               ///< there are any
+    bool has_told = false;                    ///< there are any
+    std::vector<int> searched_again;          ///< pairs of rods at rest
     std::vector<int> to_bound;                ///< pairs
     std::vector<int> to_bound_motion;         ///< rods of pairs that need a bound, of whatever worker
     Counters counters;

@@ -99,7 +99,8 @@ TEST(GapAllowances, AreTakenFromAsEachPairByItselfWouldBe) {
             continue;
           }
           const auto rest = static_cast<double>(allowance.until - now) * kDt;
-          const double faster = change.closing(allowance.direction) + change.bending() * (rest + kBeyond);
+          const double faster =
+              change.closing(allowance.direction) + change.bending() * (rest + kBeyond + change.earlier);
           allowance.left -= faster * rest + std::max(0.0, faster) * change.earlier;
           allowance.faster += faster;
           const double margin = change.margin() + 1e-5 * std::abs(faster);
@@ -136,8 +137,24 @@ TEST(GapAllowances, AreTakenFromAsEachPairByItselfWouldBe) {
 TEST(GapAllowances, OfWhatIsAllowedAllNoHitTakesAnything) {
   GapAllowances allowances(1, kDt);
   allowances.allow_all(0, allowances.add(0, 7));
-  for (int k = 0; k < 1000; ++k)
-    allowances.take(0, MotionChange::unknown(), k, [](int) { FAIL() << "there is nothing to tell"; });
+  const MotionChange hard({1e5, 0, 0}, Vec3::Zero(), Vec3::UnitY(), 0, 0, 1, 0);
+  for (const Tick start : {Tick{0}, Tick{3} << 30}) {
+    for (int k = 0; k < 1000; ++k)
+      allowances.take(0, hard, start + k, [](int) { FAIL() << "there is nothing to tell"; });
+  }
+}
+
+TEST(GapAllowances, OfWhatIsForbiddenEveryHitTakesTooMuch) {
+  GapAllowances allowances(1, kDt);
+  allowances.forbid(0, allowances.add(0, 7));
+  const MotionChange opens({-1e3, 0, 0}, Vec3::Zero(), Vec3::UnitY(), 0, 0, 1, 0);
+  for (const Tick start : {Tick{0}, Tick{3} << 30}) {
+    for (int k = 0; k < 1000; ++k) {
+      bool is_told = false;
+      allowances.take(0, opens, start + k, [&](int) { is_told = true; });
+      EXPECT_TRUE(is_told);
+    }
+  }
 }
 
 TEST(GapAllowances, NobodyIsToldOfLanesThatAreGone) {

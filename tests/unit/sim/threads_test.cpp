@@ -41,5 +41,12 @@ TEST(Threads, ShareATickOfImpactsAtTheirInstant) {
   expect_same_by_several(system);
 }
 
+// Rods at rest, whose pairs are searched in every tick.
+TEST(Threads, ShareATickOfWeakPlates) {
+  System system;
+  system.amplitude *= 0.8 / 7;
+  expect_same_by_several(system);
+}
+
 }  // namespace
 }  // namespace shaken

@@ -38,7 +38,11 @@ TEST(WorkCounts, AddUp) {
   EXPECT_GT(of(WorkKind::kBoundsByBeads), 0);
   EXPECT_GE(of(WorkKind::kPairsBounded), of(WorkKind::kBoundsByBeads));
   EXPECT_GE(of(WorkKind::kPairsBounded), of(WorkKind::kBoundsOfNoTick));
-  EXPECT_GT(of(WorkKind::kPairsTightened), of(WorkKind::kPairsBounded));
+  // each hit is told to pairs, and few pairs have to be brought up sooner for it
+  EXPECT_GE(of(WorkKind::kRodsTold), of(WorkKind::kRodsHit));
+  EXPECT_GT(of(WorkKind::kPairsTightened), 0);
+  EXPECT_LT(of(WorkKind::kPairsTightened), 3 * of(WorkKind::kRodsTold));
+  EXPECT_GT(of(WorkKind::kPairsWaitingOn), 0);
 }
 
 TEST(WorkCounts, OfThreadsAreAdded) {
