@@ -49,9 +49,13 @@ struct RodByWall {
     const Vec3 outwards(std::cos(angle), std::sin(angle), 0);
     const double start = walls.arena == Arena::kAnnulus ? 0.25 * (walls.size + walls.inner) : 0.0;
     const Vec3 way = draw.integer(0, 1) ? outwards : Vec3(-outwards);
-    Pose pose{Vec3(0.5 * box_side, 0.5 * box_side, 0) + start * outwards,
-              draw.flat_direction(draw.integer(0, 3) ? 0.38 : 1)};
-    for (int step = 0; step < 60; ++step) pose.position += (-overlap(pose) - gap) * way;
+    const Vec3 middle_of_box(0.5 * box_side, 0.5 * box_side, 0);
+    Pose pose{middle_of_box + start * outwards, draw.flat_direction(draw.integer(0, 3) ? 0.38 : 1)};
+    for (int step = 0; step < 60; ++step) {
+      const Vec3 moved = pose.position - (overlap(pose) + gap) * way;
+      if ((moved - middle_of_box).norm() > walls.size) break;  // there may be no such place that way
+      pose.position = moved;
+    }
 
     horizon = 16e-3 * std::pow(25.0, draw.uniform(0, 1));
     const double speed = std::pow(10.0, draw.uniform(-1, 1)) / horizon;
