@@ -49,6 +49,7 @@ class MotionChange {
   float earlier_;
 };
 
+// Inlined: the vectors that go in are there already (2 % of the time).
 SHAKEN_INLINE MotionChange::MotionChange(const Vec3& velocity, const Vec3& precession, const Vec3& director,
                                          double rate_before, double rate, double half_length, double earlier)
     : bending_(static_cast<float>(0.5 * half_length * std::max(0.0, rate * rate - rate_before * rate_before))),

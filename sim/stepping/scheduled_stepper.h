@@ -73,7 +73,7 @@ class ScheduledStepper final : public Stepper {
     std::vector<int> turned;                  ///< pairs that began or ceased to touch
     std::vector<int> changed;                 ///< rods hit in this tick
     std::vector<int> to_schedule;             ///< rods
-    std::vector<std::vector<int>> to_settle;  ///< (n_workers) pairs of each worker that hits have used up
+    std::vector<std::vector<int>> to_settle;  ///< (n_workers) pairs of each worker of which hits took too much
     bool has_told = false;                    ///< there are any
     std::vector<int> searched_again;          ///< pairs of rods at rest
     std::vector<int> to_bound;                ///< pairs
