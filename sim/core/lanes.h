@@ -98,39 +98,44 @@ SHAKEN_INLINE F sqrt(const F& x) {
   for (int l = 0; l < width<F>; ++l) root[l] = std::sqrt(x[l]);
   return root;
 }
-/// The least of all lanes.
-template <class F>
-SHAKEN_INLINE float least(const F& x) {
-  constexpr int W = width<F>;
-  if constexpr (W == 1) {
-    return x[0];
-  } else {
-    Floats<W / 2> half[2];
-    __builtin_memcpy(half, &x, sizeof x);
-    return least(smaller(half[0], half[1]));
-  }
-}
 namespace detail {
-/// Of whole numbers below 2^24, in any order.
-template <class F>
-SHAKEN_INLINE float sum(const F& x) {
+/// All lanes joined to one, half with half; `Join` has the function `of`.
+template <class Join, class F>
+SHAKEN_INLINE float joined(const F& x) {
   constexpr int W = width<F>;
   if constexpr (W == 1) {
     return x[0];
   } else {
     Floats<W / 2> half[2];
     __builtin_memcpy(half, &x, sizeof x);
-    return sum(half[0] + half[1]);
+    return joined<Join>(Join::of(half[0], half[1]));
   }
 }
+struct Smaller {
+  template <class F>
+  SHAKEN_INLINE static F of(const F& a, const F& b) {
+    return smaller(a, b);
+  }
+};
+struct Sum {
+  template <class F>
+  SHAKEN_INLINE static F of(const F& a, const F& b) {
+    return a + b;
+  }
+};
 alignas(64) inline constexpr float kBits[kLanes] = {0x1p0, 0x1p1, 0x1p2,  0x1p3,  0x1p4,  0x1p5,  0x1p6,  0x1p7,
                                                     0x1p8, 0x1p9, 0x1p10, 0x1p11, 0x1p12, 0x1p13, 0x1p14, 0x1p15};
 }  // namespace detail
+/// The least of all lanes.
+template <class F>
+SHAKEN_INLINE float least(const F& x) {
+  return detail::joined<detail::Smaller>(x);
+}
 /// A bit for each lane, the first one lowest: whether it is below zero.
 template <class F>
 SHAKEN_INLINE std::uint32_t below_zero(const F& x) {
   const F bits = load<width<F>>(detail::kBits);
-  return static_cast<std::uint32_t>(static_cast<std::int32_t>(detail::sum(x < 0.0F ? bits : F{})));
+  return static_cast<std::uint32_t>(static_cast<std::int32_t>(detail::joined<detail::Sum>(x < 0.0F ? bits : F{})));
 }
 
 /// Three components.
