@@ -10,6 +10,7 @@ namespace {
 struct Shared {
   float D[3], n_i[3], n_j[3];
   float gap_margin;
+  float place_rounding;  ///< what places of beads relative to each other may be wrong by [mm]
 };
 
 /// How two rods move relative to each other.
@@ -18,6 +19,7 @@ struct Relative {
   float bend_i, bend_j;  ///< halves of the bounds on the directors' second derivatives
   float rounding;        ///< what speeds may be wrong by
   float fastest;         ///< no two beads approach faster than this
+  float turned;          ///< how fast that speed times the distance goes wrong where the line between beads does
 };
 
 /// Vectors from beads of i to the centre of j.
@@ -216,7 +218,7 @@ struct SafeTimeKernel {
       const F m = s_j - s_0;
       const F distance = lanes::sqrt(lanes::larger(r2 + m * (2.0F * along + m), F{} + 1e-30F));
       const F gap = distance - (radius + hull_radius(j, s_j));
-      const F rate = rate_0 + m * (rate_1 + m * rate_2) - motion.rounding * distance;
+      const F rate = rate_0 + m * (rate_1 + m * rate_2) - (motion.rounding * distance + motion.turned);
       const F curvature = bend_i + lanes::abs(s_j) * motion.bend_j;
       const F gap_times_distance = gap * distance;
       const F closing = lanes::not_below_zero(curvature * horizon * distance - rate);
@@ -240,11 +242,14 @@ Shared shared(const BeadLanes& i, const float* n_i, const BeadLanes& j, const fl
   set_vector(in.D, D);
   std::copy_n(n_i, 3, in.n_i);
   std::copy_n(n_j, 3, in.n_j);
-  in.gap_margin = 1e-6F * (1.0F + norm(in.D) + i.half_length + j.half_length);
+  const float size = norm(in.D) + i.half_length + j.half_length;
+  in.gap_margin = 1e-6F * (1.0F + size);
+  in.place_rounding = 4e-7F * size;  // floats carry 6e-8; half a dozen roundings of lengths
   return in;
 }
 
-Relative relative(const BeadLanes& i, const MotionBound& a, const BeadLanes& j, const MotionBound& b) {
+Relative relative(const BeadLanes& i, const MotionBound& a, const BeadLanes& j, const MotionBound& b,
+                  float place_rounding) {
   Relative motion;
   for (int c = 0; c < 3; ++c) {
     motion.v[c] = b.velocity[c] - a.velocity[c];
@@ -256,8 +261,13 @@ Relative relative(const BeadLanes& i, const MotionBound& a, const BeadLanes& j, 
   // |turning| never exceeds the precession's rate
   const float fastest = norm(motion.v) + i.half_length * (std::sqrt(2.0F * a.half_rate2)) +
                         j.half_length * (std::sqrt(2.0F * b.half_rate2)) + 1e-3F;
-  motion.rounding = 1e-6F + 3e-6F * fastest;  // floats carry 6e-8; a dozen roundings of speeds
-  motion.fastest = fastest * 1.00001F;
+  // each rod's own velocity was rounded before they were compared; of what is relative, floats carry 6e-8, and a dozen
+  // roundings come together
+  const float rounding = a.velocity_rounding + b.velocity_rounding;
+  motion.rounding = 1e-6F + rounding + 3e-6F * fastest;
+  motion.fastest = (fastest + rounding) * 1.00001F;
+  // in lines between beads that are short beside the rods, the rounding of places is large
+  motion.turned = fastest * place_rounding;
   return motion;
 }
 
@@ -307,7 +317,7 @@ BeadRange beads_may_overlap(const BeadLanes& i, const Vec3& n_i, const BeadLanes
 BeadSafeTime bead_safe_time(const BeadLanes& i, const MotionBound& a, const BeadLanes& j, const MotionBound& b,
                             const Vec3& D, float horizon) {
   const Shared in = shared(i, a.director, j, b.director, D);
-  const Relative motion = relative(i, a, j, b);
+  const Relative motion = relative(i, a, j, b, in.place_rounding);
   const BeadSafeTime safe = lanes::with_widest_vectors(SafeTimeKernel{in, motion, i, j, horizon});
   return {safe.time * (1.0F - 1e-5F), safe.gap};
 }

@@ -124,7 +124,7 @@ struct HullKernel {
         i,
         j,
         gap,
-        lanes::dot(v, d) - (1e-4F + kRateRounding * lanes::size1(v)),
+        lanes::dot(v, d) - (1e-4F + lanes::load<W>(pairs.velocity_rounding + l) + kRateRounding * lanes::size1(v)),
         {c_i, lanes::dot(turn_i, d), lanes::load<W>(pairs.half_rate2_i + l), kRateRounding * lanes::size1(turn_i)},
         {c_j, lanes::dot(turn_j, d), lanes::load<W>(pairs.half_rate2_j + l), kRateRounding * lanes::size1(turn_j)}};
     const typename Gap<F>::Safe bound = along.safe_time(horizon);
@@ -145,6 +145,7 @@ void PairLanes::set(int lane, const Vec3& D_ij, const MotionBound& i, const Moti
     turning_j[c][lane] = j.turning[c];
     velocity[c][lane] = j.velocity[c] - i.velocity[c];
   }
+  velocity_rounding[lane] = i.velocity_rounding + j.velocity_rounding;
   half_rate2_i[lane] = i.half_rate2;
   half_rate2_j[lane] = j.half_rate2;
 }

@@ -36,6 +36,7 @@ struct PairLanes {
   alignas(64) float turning_i[3][kLanes];
   alignas(64) float turning_j[3][kLanes];
   alignas(64) float velocity[3][kLanes];  ///< of j relative to i
+  alignas(64) float velocity_rounding[kLanes];
   alignas(64) float half_rate2_i[kLanes];
   alignas(64) float half_rate2_j[kLanes];
 

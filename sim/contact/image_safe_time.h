@@ -21,7 +21,7 @@ inline float image_safe_time(const Vec3& D, const MotionBound& i, const MotionBo
   float safe = horizon;
   for (int c = 0; c < 2; ++c) {
     const auto room = static_cast<float>((box_side - std::abs(D[c]) - reach) - 1e-6 * box_side);  // less the rounding
-    const float speed = std::abs(j.velocity[c] - i.velocity[c]);
+    const float speed = std::abs(j.velocity[c] - i.velocity[c]) + (i.velocity_rounding + j.velocity_rounding);
     const float open = std::max(room, 0.0F) * (1.0F - 1e-5F);
     if (speed * safe > open) safe = open / speed;
   }

@@ -22,6 +22,9 @@ using lanes::kLanes;
 struct MotionBound {
   float director[3];
   float velocity[3];  ///< of the centre [mm/s]
+  /// What `velocity` is rounded by, at most: it grows with the rod's own speed, however slowly two rods move relative
+  /// to each other [mm/s].
+  float velocity_rounding = 0;
   float turning[3];   ///< d director / dt [1/s]
   float half_rate2;   ///< |precession|^2 / 2, half of the director's largest second derivative [1/s^2]
   bool slow = false;  ///< along x and y, so that only the nearest image can be met (image_safe_time.h)
@@ -31,21 +34,30 @@ struct MotionBound {
 /// `closing` for each second that is still to come. Where a hit makes the gap close faster, the time that remains
 /// follows from that (stepping/gap_allowances.h).
 struct GapLine {
-  static constexpr float kRounding = 1e-6F;  ///< of `left`, whenever it is worked out [mm]
-  float closing = 0;                         ///< [mm/s]
-  float left = -1;                           ///< [mm]; < 0: not known
-  bool all_round = false;                    ///< the gap is that along no one direction
+  float closing = 0;       ///< [mm/s]
+  float left = -1;         ///< [mm]; < 0: not known
+  bool all_round = false;  ///< the gap is that along no one direction
 
   /// Of a gap that is `now` wide, at least `then` after `time`, and concave in between [mm, s]; for a bound that ends
   /// `until`, no later than that.
   static GapLine between(float now, float then, float time, float until, bool all_round) {
     const float closing = (now - then) / (time + 1e-20F);
-    return {closing, std::max(0.0F, now - closing * until - kRounding), all_round};
+    return {closing, std::max(0.0F, now - closing * until - rounding(now)), all_round};
   }
+  /// What a gap less a part of itself is rounded by, at most [mm].
+  static float rounding(float gap) { return 1e-6F * (1.0F + std::abs(gap)); }
 };
 
 inline void set_vector(float* to, const Vec3& from) {
   for (int c = 0; c < 3; ++c) to[c] = static_cast<float>(from[c]);
+}
+
+/// What the floats of a vector are away from it, at most: half a unit of the last of their 24 bits.
+inline float float_rounding(const Vec3& v) { return 6.1e-8F * static_cast<float>(v.norm()); }
+
+inline void set_velocity(MotionBound& bound, const Vec3& velocity) {
+  set_vector(bound.velocity, velocity);
+  bound.velocity_rounding = float_rounding(velocity);
 }
 
 }  // namespace shaken

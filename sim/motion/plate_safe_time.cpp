@@ -79,9 +79,9 @@ struct PlateKernel {
     const F rise = velocity - k.gravity * t - plate_velocity;
     const F rate2 = lanes::load<W>(rods.rate2 + l);
     const F n_z = lanes::load<W>(rods.n_z + l) + n_z_rate * t;
-    const F gap_margin = kLengthRounding * (1.0F + h + lanes::abs(height) + lanes::abs(lid));
-    const F rate_margin = 1e-4F + kRateRounding * (lanes::abs(velocity) + k.gravity * t + lanes::abs(plate_velocity) +
-                                                   h * lanes::abs(n_z_rate));
+    const F speed = lanes::abs(velocity) + k.gravity * t;  // what it flies up and falls down again is rounded, too
+    const F gap_margin = kLengthRounding * (1.0F + h + lanes::abs(height) + lanes::abs(lid) + speed * t);
+    const F rate_margin = 1e-4F + kRateRounding * (speed + lanes::abs(plate_velocity) + h * lanes::abs(n_z_rate));
     const F above = height - base - gap_margin;  // centre above the base
     const F below = lid - height - gap_margin;   // centre below the lid
     const F up = rise - rate_margin;
@@ -113,7 +113,8 @@ void plate_safe_ticks(const Species& species, const PlateMotion& plates, const P
   k.n_beads = 0;
   for (const int b : species.outer_beads) {
     const auto offset = static_cast<float>(species.bead_offset[b]);
-    k.beads[k.n_beads++] = {offset, std::abs(offset), static_cast<float>(species.bead_radius[b])};
+    // what is bounded by the size is rounded
+    k.beads[k.n_beads++] = {offset, std::abs(offset) * (1.0F + 1e-6F), static_cast<float>(species.bead_radius[b])};
   }
   k.has_base = there.base;
   k.has_lid = there.lid;

@@ -10,6 +10,9 @@ namespace {
 /// Below this, what is left is measured again rather than counted down [mm].
 constexpr float kLow = 0.05F;
 
+/// Takes more than a float is rounded by, so that many small steps do not round to none.
+constexpr float kRounding = 1 - 0x1p-22F;
+
 }  // namespace
 
 void ListReserve::measure(const NeighborList& list, int rod, const Pose& pose, Tick now) {
@@ -20,7 +23,7 @@ void ListReserve::measure(const NeighborList& list, int rod, const Pose& pose, T
 
 Tick ListReserve::covered_ticks(const NeighborList& list, int rod, const Flight& flight, const Pose& pose,
                                 double half_length, Tick now, double dt, Tick horizon) {
-  left_ = left(now, dt);
+  left_ = left(now, dt) * kRounding;
   at_ = now;
   if (left_ < kLow) measure(list, rod, pose, now);
   // The segment turns at (p_z - n_z p.n) / |n_xy|^2, with p the precession and p.n a constant; |n_xy| changes by at
@@ -48,7 +51,6 @@ Tick ListReserve::covered_ticks(const NeighborList& list, int rod, const Flight&
 }
 
 void ListReserve::cover_tick(const Flight& flight, double half_length, Tick now, double dt) {
-  constexpr float kRounding = 1 - 0x1p-22F;  // so that many small steps do not round to none
   left_ = left(now, dt) * kRounding;
   at_ = now;
   // The segment turns at rate / |n_xy| at most, and |n_xy| changes by the rate: here it stays above a half.

@@ -14,7 +14,7 @@ MotionChange MotionChange::unknown() {
 MotionBound motion_bound(const Flight& flight, const Vec3& velocity, const Vec3& director, float slow) {
   MotionBound bound;
   set_vector(bound.director, director);
-  set_vector(bound.velocity, velocity);
+  set_velocity(bound, velocity);
   set_vector(bound.turning, flight.precession.cross(director));
   bound.half_rate2 = static_cast<float>(0.5 * flight.rate * flight.rate);
   bound.slow = std::max(std::abs(bound.velocity[0]), std::abs(bound.velocity[1])) < slow;

@@ -64,7 +64,8 @@ SHAKEN_INLINE MotionChange::MotionChange(const Vec3& velocity, const Vec3& prece
   // earlier, the director was another
   if (earlier > 0)
     rounding_ += static_cast<float>(half_length * precession.norm() * std::max(rate, rate_before) * earlier);
-  all_round_ = rounding_ + speed + std::max(tip_speed, static_cast<float>(half_length * (rate - rate_before)));
+  const float faster = std::max(tip_speed, static_cast<float>(half_length * (rate - rate_before)));
+  all_round_ = rounding_ + (speed + faster) * (1.0F + 1e-6F);
 }
 
 /// How a rod flies at a tick; it is `slow` if it moves along x and y by less than that [mm/s].

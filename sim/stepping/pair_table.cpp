@@ -92,7 +92,7 @@ void PairTable::allow(int p, Tick now, const Remaining& bound) {
   Pair& pair = pairs_[p];
   const int waits = bound.ticks - std::min(bound.ticks / kPartKept, GapAllowances::kMostBeyond);
   const Tick until = now + waits;
-  const float left = bound.gap - bound.closing * (static_cast<float>(waits) * dt_) - GapLine::kRounding;
+  const float left = bound.gap - bound.closing * (static_cast<float>(waits) * dt_) - GapLine::rounding(bound.gap);
   pair.closing = bound.closing;
   pair.end = static_cast<std::int32_t>(now + bound.ticks);
   pair.until = static_cast<std::int32_t>(until);

@@ -50,11 +50,25 @@ struct FlyingPair {
     const Vec3 directors[2] = {n, m};
     for (int r = 0; r < 2; ++r) {
       Flight& f = flight[r];
-      // 1,000 mm stands for a place far from the border: flights are not wrapped here
-      begin_flight(f, 0, {Vec3(1000, 1000, 0) + (r == 1 ? D : Vec3(Vec3::Zero())), directors[r]},
-                   {draw.vector(25), draw.vector(12)}, 1e9, ratio);
+      begin_flight(f, 0, {Vec3::Zero(), directors[r]}, {draw.vector(25), draw.vector(12)}, 1e9, ratio);
+    }
+    place(draw);
+  }
+
+  /// Puts both rods, D apart, where only their distance matters, and gives them a common velocity: no bound may depend
+  /// on either (Galilean invariance). Places are up to 10 m from the origin, speeds up to 1,000 mm/s.
+  void place(test::Draw& draw) {
+    const Vec3 origin(draw.uniform(100, 9900), draw.uniform(100, 9900), 0);
+    const Vec3 common =
+        draw.integer(0, 2) ? Vec3(std::pow(10.0, draw.uniform(0, 3)) * draw.direction()) : Vec3(Vec3::Zero());
+    for (int r = 0; r < 2; ++r) {
+      Flight& f = flight[r];
+      f.position = origin + (r == 1 ? D : Vec3(Vec3::Zero()));
+      f.velocity += common;
+      f.prepare();
       see(r);
     }
+    D = flight[1].position - flight[0].position;  // as rounded
   }
 
   /// What bounds know of the rod as it flies now.
@@ -135,10 +149,10 @@ struct FarPair : FlyingPair {
     for (int r = 0; r < 2; ++r) {
       Flight& f = flight[r];
       const Vec3 director = f.director;
-      begin_flight(f, 0, {Vec3(1000, 1000, 0) + (r == 1 ? D : Vec3(Vec3::Zero())), director},
+      begin_flight(f, 0, {Vec3::Zero(), director},
                    {draw.vector(fast), draw.vector(draw.integer(0, 1) ? 0.1 * fast : fast)}, 1e9, ratio);
-      see(r);
     }
+    place(draw);
   }
 };
 
@@ -175,9 +189,11 @@ TEST(ImageSafeTime, NoOtherImageTouchesBeforeIt) {
     const double horizon = 16e-3 * std::pow(25.0, draw.uniform(0, 1));
     const Vec3 D{draw.uniform(-0.5, 0.5) * side, draw.uniform(-0.5, 0.5) * side, draw.uniform(-0.3, 0.3)};
     MotionBound i{}, j{};
-    const double fast = std::pow(10.0, draw.uniform(0, 3));
-    set_vector(i.velocity, draw.vector(fast));
-    set_vector(j.velocity, draw.vector(fast));
+    const double fast = std::pow(10.0, draw.uniform(-4, 3));
+    const Vec3 common = draw.integer(0, 2) ? Vec3(std::pow(10.0, draw.uniform(0, 3)) * draw.direction()) : Vec3::Zero();
+    const Vec3 velocity[2] = {common + draw.vector(fast), common + draw.vector(fast)};
+    set_velocity(i, velocity[0]);
+    set_velocity(j, velocity[1]);
     const double safe = image_safe_time(D, i, j, side, reach, static_cast<float>(horizon));
     ASSERT_GT(safe, 0.0);
     ASSERT_LE(safe, static_cast<double>(static_cast<float>(horizon)));
@@ -192,8 +208,7 @@ TEST(ImageSafeTime, NoOtherImageTouchesBeforeIt) {
         if (x == 0 && y == 0) continue;
         const Vec3 image = D + side * Vec3(x, y, 0);
         Vec3 at = image;
-        for (int c = 0; c < 2; ++c)
-          at[c] = std::abs(at[c] + (static_cast<double>(j.velocity[c]) - static_cast<double>(i.velocity[c])) * safe);
+        for (int c = 0; c < 2; ++c) at[c] = std::abs(at[c] + (velocity[1][c] - velocity[0][c]) * safe);
         ASSERT_GE(std::max(at.x(), at.y()), reach) << "trial " << trial << ", image " << x << ' ' << y;
         if (!stay_away) continue;
         const double farther = std::max(std::abs(image.x()), std::abs(image.y()));
@@ -204,6 +219,19 @@ TEST(ImageSafeTime, NoOtherImageTouchesBeforeIt) {
   EXPECT_GT(n_short, test::draws(10000));
   EXPECT_GT(n_full, test::draws(10000));
   EXPECT_GT(n_away, test::draws(5000));
+}
+
+TEST(GapLine, LeavesNoMoreThanThereIs) {
+  test::Draw draw(32);
+  for (int trial = 0; trial < test::draws(1000000); ++trial) {
+    const auto now = static_cast<float>(std::pow(10.0, draw.uniform(-4, 2)));
+    const auto then = static_cast<float>(now * draw.uniform(-1, 1));
+    const auto time = static_cast<float>(std::pow(10.0, draw.uniform(-5, -1)));
+    const auto until = time * static_cast<float>(draw.uniform(0, 1));
+    const GapLine line = GapLine::between(now, then, time, until, false);
+    const double exact = now - (static_cast<double>(now) - then) / time * until;
+    ASSERT_LE(line.left, std::max(0.0, exact)) << "trial " << trial << ": " << now << " mm to " << then;
+  }
 }
 
 TEST(SafeTime, NoPairCollidesBeforeItsBound) {
@@ -256,10 +284,9 @@ struct SkewedPair : FlyingPair {
     for (int r = 0; r < 2; ++r) {
       Flight& f = flight[r];
       const Vec3 director = f.director;
-      begin_flight(f, 0, {Vec3(1000, 1000, 0) + (r == 1 ? D : Vec3(Vec3::Zero())), director},
-                   {draw.vector(25), draw.vector(12)}, 1e9, ratio);
-      see(r);
+      begin_flight(f, 0, {Vec3::Zero(), director}, {draw.vector(25), draw.vector(12)}, 1e9, ratio);
     }
+    place(draw);
   }
 };
 
@@ -279,6 +306,64 @@ TEST(SafeTime, NoSkewedPairCollidesBeforeItsBound) {
   }
   EXPECT_GT(n_bead, test::draws(100000));
   EXPECT_GT(n_short, test::draws(20000));
+}
+
+/// Rods in touch that ride along together: beads overlap by very little, and the speed at which those come nearer to
+/// each other, or recede, is next to nothing beside that at which they slide, turn, and move together. Thin rods as
+/// long as a scene may have among them: where their beads are is rounded by what is small beside the rod, not the bead.
+struct RidingPair : FlyingPair {
+  explicit RidingPair(test::Draw& draw) : FlyingPair(draw) {
+    if (draw.integer(0, 1)) {
+      const double thickness = 40 * std::pow(10.0, draw.uniform(-2.5, -1.7));
+      species =
+          make_species({.length = 40, .mid_diameter = thickness, .end_diameter = 0.5 * thickness, .n_beads = 101});
+      ratio = species.inertia_par / species.inertia_perp;
+    }
+    const int last = species.n_beads() - 1;
+    const int m = draw.integer(0, last);
+    const int n = draw.integer(0, last);
+    const Vec3 n_i = flight[0].director;
+    const Vec3 n_j = flight[1].director;
+    const Vec3 along = draw.direction();
+    const Vec3 e = (along - along.dot(n_i) * n_i).normalized();
+    const double overlap = std::pow(10.0, draw.uniform(-6, -3));
+    D = species.bead_offset[m] * n_i - species.bead_offset[n] * n_j +
+        (species.bead_radius[m] + species.bead_radius[n] - overlap) * e;
+    const Vec3 slide = std::pow(10.0, draw.uniform(-3, 1.5)) * draw.direction();
+    const double recede = (draw.integer(0, 1) ? 1 : -1) * std::pow(10.0, draw.uniform(-9, -2));
+    const double turns = draw.integer(0, 2) ? 0 : std::pow(10.0, draw.uniform(-3, 1));
+    Vec3 velocity[2];  // of the two beads that overlap
+    velocity[0].setZero();
+    velocity[1] = slide - slide.dot(e) * e + recede * e;
+    for (int r = 0; r < 2; ++r) {
+      Flight& f = flight[r];
+      const Vec3 director = f.director;
+      const Vec3 angular_velocity = draw.vector(turns);
+      const Vec3 arm = species.bead_offset[r == 0 ? m : n] * director;
+      begin_flight(f, 0, {Vec3::Zero(), director}, {velocity[r] - angular_velocity.cross(arm), angular_velocity}, 1e9,
+                   ratio);
+    }
+    place(draw);
+  }
+};
+
+TEST(SafeTime, NoPairThatRidesAlongTogetherCollidesBeforeItsBound) {
+  test::Draw draw(31);
+  test::AnyWidth width;
+  std::int64_t n_bound = 0, n_approaching = 0;
+  for (int trial = 0; trial < test::draws(60000); ++trial) {
+    width.draw(draw);
+    const RidingPair pair(draw);
+    n_approaching += pair.collides_at(0);
+    for (const double safe : {pair.hull_bound(kHorizon).time, static_cast<double>(pair.bead_bound(kHorizon).time)}) {
+      if (safe <= 1e-7) continue;  // no scene has a shorter tick
+      ++n_bound;
+      for (const double t : {1e-7, safe, safe * draw.uniform(0, 1)})
+        ASSERT_FALSE(pair.collides_at(t)) << "trial " << trial << " collides after " << t << " of " << safe << " s";
+    }
+  }
+  EXPECT_GT(n_bound, test::draws(2500));
+  EXPECT_GT(n_approaching, test::draws(20000));
 }
 
 /// Two polar rods along x, end to end with a gap, fly towards each other at 10 mm/s.
