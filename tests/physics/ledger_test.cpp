@@ -38,32 +38,40 @@ TEST_P(LedgerOf, Closes) {
   EXPECT_GT(1e-6 * budget.energy_lost_rod_rod, 10 * std::abs(budget.energy_unexplained));
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, LedgerOf,
-                         testing::Values(Case{"Paper", [](System&) {}},
-                                         Case{"Frictionless",
-                                              [](System& s) {
-                                                s.rod_rod.friction = s.rod_base.friction = s.rod_lid.friction = 0;
-                                              }},
-                                         Case{"PlatesAtRest", [](System& s) { s.amplitude = 0; }},
-                                         Case{"RoughAndSticky",
-                                              [](System& s) {
-                                                s.rod_rod.friction = s.rod_base.friction = 0.5;
-                                                s.rotational_noise = 0.1;
-                                              }},
-                                         Case{"AtInstant", [](System& s) { s.impacts = ImpactTime::kAtInstant; }},
-                                         Case{"EnergeticLaw",
-                                              [](System& s) {
-                                                s.law = ImpulseLaw::kEnergetic;
-                                                s.rod_rod.friction = 1;
-                                              }},
-                                         Case{"SpheresInADisc",
-                                              [](System& s) {
-                                                s.walls = SideWalls{Arena::kDisc, 11.0, 1.0, {0.2, 0.3}};
-                                                s.n_rods = 15;
-                                                s.added[0] = AddedRods{{.length = 0.8, .n_beads = 1}, 20};
-                                                s.start = Start::kRandom;
-                                              }}),
-                         [](const auto& about) { return std::string(about.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, LedgerOf,
+    testing::Values(Case{"Paper", [](System&) {}},
+                    Case{"Frictionless",
+                         [](System& s) { s.rod_rod.friction = s.rod_base.friction = s.rod_lid.friction = 0; }},
+                    Case{"PlatesAtRest", [](System& s) { s.amplitude = 0; }},
+                    Case{"RoughAndSticky",
+                         [](System& s) {
+                           s.rod_rod.friction = s.rod_base.friction = 0.5;
+                           s.rotational_noise = 0.1;
+                         }},
+                    Case{"AtInstant", [](System& s) { s.impacts = ImpactTime::kAtInstant; }},
+                    Case{"EnergeticLaw",
+                         [](System& s) {
+                           s.law = ImpulseLaw::kEnergetic;
+                           s.rod_rod.friction = 1;
+                         }},
+                    Case{"AsHeavyAsAllowed",
+                         [](System& s) {
+                           s.rod = {.length = 40, .mid_diameter = 15, .end_diameter = 12, .n_beads = 9, .density = 100};
+                           s.n_rods = 12;
+                           s.box_side = 125;
+                           s.gap = 20;
+                           s.frequency = 50;
+                           s.amplitude = 3;
+                         }},
+                    Case{"SpheresInADisc",
+                         [](System& s) {
+                           s.walls = SideWalls{Arena::kDisc, 11.0, 1.0, {0.2, 0.3}};
+                           s.n_rods = 15;
+                           s.added[0] = AddedRods{{.length = 0.8, .n_beads = 1}, 20};
+                           s.start = Start::kRandom;
+                         }}),
+    [](const auto& about) { return std::string(about.param.name); });
 
 /// Momentum of all rods in the plane, and their angular momentum about the middle of the box, upwards.
 struct InThePlane {

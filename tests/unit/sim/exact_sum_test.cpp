@@ -37,6 +37,15 @@ TEST(ExactSum, DoesNotDependOnTheOrderOfItsTerms) {
   EXPECT_NE(up, down);
 }
 
+TEST(ExactSum, AddsLargeTermsToSmallOnesExactly) {
+  ExactSum<34> sum;
+  for (const double large : {3e8, 1e12, -1e12, 1e18, -1e18, -3e8}) {
+    sum.add(large);
+    sum.add(0.25);
+  }
+  EXPECT_EQ(sum.value(), 1.5);
+}
+
 TEST(ExactSum, GoesOnBeyond64BitsAndThroughItsParts) {
   ExactSum<44> sum;
   for (int k = 0; k < 1000000; ++k) sum.add(-200000.25);
@@ -49,8 +58,11 @@ TEST(ExactSum, GoesOnBeyond64BitsAndThroughItsParts) {
 
 TEST(ExactSum, SaysSoWhenATermIsTooLarge) {
   ExactSum<44> sum;
-  sum.add(1e9);
+  sum.add(1e20);
   EXPECT_TRUE(std::isnan(sum.value()));
+  ExactSum<44> many;
+  for (int k = 0; k < 200000; ++k) many.add(7e19);
+  EXPECT_TRUE(std::isnan(many.value()));
   ExactSum<34> other;
   other.add(NAN);
   EXPECT_TRUE(std::isnan(other.value()));
