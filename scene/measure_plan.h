@@ -20,10 +20,16 @@ struct MeasureAngles {
   int bins = 180;       ///< over [-pi/2, pi/2)
   friend bool operator==(const MeasureAngles&, const MeasureAngles&) = default;
 };
+/// At which phases of the plates' vibration samples are taken of what depends on them.
+enum class SamplePhases {
+  kSpread,  ///< at an instant of each interval between samples that is drawn from the seed: at all phases alike
+  kLocked,  ///< at whole multiples of the interval: at few phases, where that is a simple multiple of the period
+};
 /// Mean velocity along and across the rod against its tilt n_z.
 struct MeasureTilt {
   double every = 0.001;  ///< [s]
   int bins = 40;         ///< over [-1, 1] in n_z times the largest tilt that the gap allows
+  SamplePhases phases = SamplePhases::kSpread;
   friend bool operator==(const MeasureTilt&, const MeasureTilt&) = default;
 };
 /// Topological defects of the smoothed director field.

@@ -41,7 +41,12 @@ std::vector<Observable> make_observables() {
     of<&Plan::tilt>({
       .name = "tilt",
       .doc = "Mean velocity along and across the rod against its tilt n_z.",
+      .every_doc = "Mean time between samples.",
       .keys = {
+        choice<SamplePhases>("phases", at<&Plan::tilt, &MeasureTilt::phases>,
+                             {{"spread", SamplePhases::kSpread}, {"locked", SamplePhases::kLocked}},
+                             "Whether each sample is taken at a random instant of its interval, and so all of them at "
+                             "all phases of the vibration alike, or at whole multiples of `every`."),
         whole("bins", at<&Plan::tilt, &MeasureTilt::bins>, 2, 10000,
               "Number of bins, from the largest downward to the largest upward tilt that the gap allows.")}}),
     of<&Plan::defects>({

@@ -3,10 +3,28 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "scene/derived.h"
 #include "scene/units.h"
 
 namespace shaken::scene {
+
+namespace {
+
+bool moves(const System& system) { return system.amplitude > 0 && (system.base || system.lid); }
+
+/// At how many phases of a vibration samples are taken that follow each other after so many periods; 0: at many.
+int phases_met(double periods) {
+  constexpr int kMany = 24;
+  for (int n = 1; n <= kMany; ++n) {
+    if (std::abs(n * periods - std::round(n * periods)) < 1e-6 * n * std::max(1.0, periods)) return n;
+  }
+  return 0;
+}
+
+}  // namespace
 
 std::vector<std::string> remarks(const RunPlan& plan) {
   std::vector<std::string> list;
@@ -16,6 +34,16 @@ std::vector<std::string> remarks(const RunPlan& plan) {
     list.push_back(fmt::format("{} {} is longer than the run, {}: there will be a single frame, of the start", path,
                                format_quantity(every, Dimension::kTime), format_quantity(total, Dimension::kTime)));
   };
+  if (plan.tilt && plan.tilt->phases == SamplePhases::kLocked && moves(plan.system)) {
+    const double periods = plan.tilt->every * plan.system.frequency;
+    if (const int phases = phases_met(periods); phases > 0) {
+      list.push_back(fmt::format(
+          "measure.tilt.every {} is {:.6g} periods of the plates: samples see them at {} of their vibration, and mean "
+          "velocities may be those of that instant; take measure.tilt.phases \"spread\"",
+          format_quantity(plan.tilt->every, Dimension::kTime), periods,
+          phases == 1 ? "a single phase" : fmt::format("{} phases", phases)));
+    }
+  }
   if (plan.trajectory) remark_one_frame("trajectory.every", plan.trajectory->every);
   if (plan.movie) remark_one_frame("movie.every", plan.movie->every);
   const auto gamma = gamma_of(plan.system);

@@ -14,7 +14,7 @@ class Measurement {
  public:
   virtual ~Measurement() = default;
 
-  /// Called at the integer multiples of the measurement's own period, tick 0 included.
+  /// Called when a sample is due (MeasurementKind::cadence).
   virtual void sample(const Sample& sample) = 0;
   /// Adds arrays and scalars of the steady state, which begins at result.t_steady.
   virtual void reduce(Reduction& result) const = 0;

@@ -17,6 +17,14 @@ std::optional<double> MeasurementKind::every(const scene::RunPlan& plan) const {
   return scene::observable(name).period(plan);
 }
 
+std::optional<Cadence> MeasurementKind::cadence(const scene::RunPlan& plan) const {
+  const std::optional<double> period = every(plan);
+  if (!period) return std::nullopt;
+  const System& system = plan.system;
+  if (is_spread != nullptr && is_spread(plan)) return Cadence::spread(*period, system.dt, system.seed);
+  return Cadence(*period, system.dt);
+}
+
 scene::RunPlan only(scene::RunPlan plan, const MeasurementKind& kind) {
   plan.steady = 0;
   for (const scene::Observable& other : scene::observables()) {

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "run/cadence.h"
 #include "run/measure/measurement.h"
 
 namespace shaken::run {
@@ -24,6 +25,8 @@ struct Output {
   std::string_view name;     ///< ends in the unit; of an array: its path below "/NAME/"
   std::string_view meaning;  ///< for the pages
   bool has_error = false;    ///< of an array: whether there is one with `_sem` as well (every number has an error)
+  /// Of a number: why it has no value where it has none and the measurement says no more.
+  std::string_view if_none = "too few samples, or too short a run";
 };
 inline constexpr bool kWithError = true;
 
@@ -37,9 +40,13 @@ struct MeasurementKind {
   std::vector<Output> numbers = {};
   /// How many of so many samples are kept one by one; null: all.
   std::int64_t (*kept)(const scene::RunPlan&, std::int64_t samples) = nullptr;
+  /// Whether samples are spread over their intervals, because they depend on the phase of the vibration; null: no.
+  bool (*is_spread)(const scene::RunPlan&) = nullptr;
 
   /// The period asked for [s]; none: it is not measured.
   std::optional<double> every(const scene::RunPlan& plan) const;
+  /// When samples are taken; none: it is not measured.
+  std::optional<Cadence> cadence(const scene::RunPlan& plan) const;
 };
 
 /// All of them, in the order in which they sample and are saved.

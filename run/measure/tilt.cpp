@@ -80,13 +80,18 @@ MeasurementKind tilt_kind() {
           {
               {"n_z_switching_time_s", "mean time for which a rod stays tilted to one side"},
               {"tilt_fastest_mm_s",
-               "folded mean velocity along the rod where its magnitude is largest; negative: away from the raised end"},
-              {"tilt_fastest_n_z", "tilt at which it is reached"},
-              {"tilt_reversal_n_z", "tilt at which the folded mean velocity changes sign"},
+               "folded mean velocity along the rod where its magnitude is largest; negative: away from the raised end",
+               false, "no mean velocity differs from 0 by three of its errors"},
+              {"tilt_fastest_n_z", "tilt at which it is reached", false,
+               "no mean velocity differs from 0 by three of its errors"},
+              {"tilt_reversal_n_z", "tilt at which the folded mean velocity changes sign", false,
+               "the mean velocity does not change its sign beyond its largest value"},
               {"tilt_reversal_sigmas",
                "significance of the reversal: mean velocity beyond that tilt over its error, positive if reversed; "
-               "below about 3 none is seen"},
+               "below about 3 none is seen",
+               false, "the mean velocity does not change its sign beyond its largest value"},
           },
+      .is_spread = [](const scene::RunPlan& plan) { return plan.tilt->phases == scene::SamplePhases::kSpread; },
   };
 }
 

@@ -44,25 +44,25 @@ SamplingCost time_sampling(const scene::RunPlan& plan, const Species& species, c
   Observables arrays;
   double later_bytes = 0;  // of arrays, beyond those at hand
   for (const MeasurementKind& kind : measurement_kinds()) {
-    const std::optional<double> every = kind.every(plan);
-    if (!every) continue;
-    const Cadence cadence(*every, plan.system.dt);
+    const std::optional<Cadence> cadence = kind.cadence(plan);
+    if (!cadence) continue;
+    const double interval = static_cast<double>(cadence->period()) * plan.system.dt;
     Measurements measurements(only(plan, kind), species);
     std::vector<Snapshot> states = snapshots;
     Tick taken = 0;
     const auto sample = [&] {
       Snapshot& due = states[static_cast<std::size_t>(taken) % states.size()];
-      due.tick = taken * cadence.period();
+      due.tick = cadence->next(taken * cadence->period());
       due.time = static_cast<double>(due.tick) * plan.system.dt;
       measurements.sample(due);
       ++taken;
     };
     sample();
     const double first_bytes = static_cast<double>(measurements.save().size());
-    const double first_array_bytes = bytes_of(measurements.reduce(*every).arrays);
+    const double first_array_bytes = bytes_of(measurements.reduce(interval).arrays);
 
     Cost& samples = cost.samples["measure_" + std::string(kind.name)];
-    samples.count = scene::total_ticks(plan) / cadence.period() + 1;
+    samples.count = scene::total_ticks(plan) / cadence->period() + 1;
     double begin = thread_cpu_seconds();
     double early_bytes = first_bytes;                                    // with every block in use for the first time
     const std::int64_t most = std::max<std::int64_t>(samples.count, 3);  // not more than the run will take
@@ -76,7 +76,7 @@ SamplingCost time_sampling(const scene::RunPlan& plan, const Species& species, c
     samples.each = (thread_cpu_seconds() - begin) / static_cast<double>(taken - 1);
 
     const double state = static_cast<double>(measurements.save().size());
-    const Observables found = measurements.reduce(static_cast<double>(taken) * *every).arrays;
+    const Observables found = measurements.reduce(static_cast<double>(taken) * interval).arrays;
     switch (kind.growth) {
       case Growth::kSeries: {
         const auto kept = [&](std::int64_t n) {

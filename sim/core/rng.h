@@ -20,7 +20,8 @@ enum class RngStream : std::uint64_t {
   kContacts = 6,
   kReferences = 7,
   kPoints = 8,
-  kKicks = 9
+  kKicks = 9,
+  kSamples = 10
 };
 
 /// Random numbers keyed by (seed, stream, tick, index): what a rod draws depends on nothing but its own index and the
