@@ -51,6 +51,7 @@ void OrientationCorrelation::accumulate(std::span<const Vec3> positions, std::sp
   std::vector<int> bins(n);
   std::vector<double> values(n), sums(pairs_.size() + 1);
   std::vector<std::int64_t> pairs(pairs_.size() + 1);
+  const double others = n > 0 ? static_cast<double>(n - 1) : 0.0;  // that a rod can make pairs with
   double references = 0;
   for (std::size_t i = static_cast<std::size_t>(calls_) % stride; i < n; i += stride) {
     references += 1;
@@ -72,10 +73,10 @@ void OrientationCorrelation::accumulate(std::span<const Vec3> positions, std::sp
       ++pairs[bin];
       sums[bin] += values[j];
     }
-    if (!region.is_periodic()) expect({xi, yi}, region, static_cast<double>(n) / region.area());
+    if (!region.is_periodic()) expect({xi, yi}, region, others / region.area());
   }
   // In a periodic box every place sees the same.
-  if (region.is_periodic()) expect(Vec2::Zero(), region, references * static_cast<double>(n) / region.area());
+  if (region.is_periodic()) expect(Vec2::Zero(), region, references * others / region.area());
   for (std::size_t bin = 0; bin < pairs_.size(); ++bin) {
     pairs_[bin] += pairs[bin];
     sums_[bin] += sums[bin];

@@ -17,16 +17,17 @@ namespace shaken::analysis {
 struct OrientationCurve {
   std::vector<double> r;   ///< bin centres [mm]
   std::vector<double> g2;  ///< in [-1, 1]; NaN where no pair was met
-  std::vector<double> g;   ///< pairs met over pairs expected of a gas of the same density; NaN without samples
+  std::vector<double> g;   ///< pairs met over pairs expected of as many rods of a gas; NaN without such
 };
 
 /// G2(r) = <cos 2 (theta_i - theta_j)> over pairs of rods at in-plane distance r below r_max: that to the nearest image
 /// of a periodic box, the plain one within walls, where pairs count whose straight line stays in the region (an
 /// annulus' inner wall hides what is behind it). The same pairs give the distribution g(r): their number over that of a
-/// gas, references x rho x what of the ring about each reference is in its sight (Region::area_in_sight, exact). rho is
-/// n over the region's area; of n rods a gas then has 1 - 1 / n, as is usual. One sample costs at most 1024 n_rods
-/// pairs: of more than 1024 rods, every k-th is taken as i, another set each time, against all rods as j. Rods exactly
-/// upright are left out.
+/// gas of as many rods, references x rho x what of the ring about each reference is in its sight
+/// (Region::area_in_sight, exact). rho is n - 1 over the region's area, for a rod makes no pair with itself: g of rods
+/// that do not know of each other is 1, however few they are. One sample costs at most 1024 n_rods pairs: of more than
+/// 1024 rods, every k-th is taken as i, another set each time, against all rods as j. Rods exactly upright are left
+/// out.
 class OrientationCorrelation : public Summed<OrientationCorrelation> {
  public:
   /// `bins` equal bins over [0, r_max) [mm].
@@ -38,7 +39,7 @@ class OrientationCorrelation : public Summed<OrientationCorrelation> {
   void start_at(std::int64_t samples) { calls_ = samples; }
   OrientationCurve reduce() const;
 
-  static constexpr std::string_view kName = "OrientationCorrelation";
+  static constexpr std::string_view kName = "OrientationCorrelation of n (n - 1) pairs";
   static constexpr auto fields() {
     return std::tuple(Setting{"range", &OrientationCorrelation::r_max_}, Largest{&OrientationCorrelation::calls_},
                       &OrientationCorrelation::pairs_, &OrientationCorrelation::sums_,

@@ -17,9 +17,9 @@ namespace shaken::analysis {
 struct PairCurves {
   std::vector<double> along;   ///< (bins) bin centres along the director [mm]
   std::vector<double> across;  ///< (bins) across it [mm]
-  std::vector<double> g;       ///< (bins, bins) pair distribution, 1 in a gas (1 - 1 / n of n rods); across slowest
-  std::vector<double> g2;      ///< (bins, bins) mean of cos 2 (theta_i - theta_j)
-  std::vector<double> r;       ///< (cut bins) bin centres [mm], up to half the box
+  std::vector<double> g;   ///< (bins, bins) pair distribution, 1 in a gas however few rods there are; across slowest
+  std::vector<double> g2;  ///< (bins, bins) mean of cos 2 (theta_i - theta_j)
+  std::vector<double> r;   ///< (cut bins) bin centres [mm], up to half the box
   std::vector<double> g_along, g_across;    ///< (cut bins) in a strip about each axis
   std::vector<double> g2_along, g2_across;  ///< (cut bins)
 };
@@ -50,7 +50,7 @@ class PairMap : public Summed<PairMap> {
   void start_at(std::int64_t samples) { calls_ = samples; }
   PairCurves reduce() const;
 
-  static constexpr std::string_view kName = "PairMap";
+  static constexpr std::string_view kName = "PairMap of n (n - 1) pairs";
   static constexpr auto fields() {
     return std::tuple(Setting{"shape", &PairMap::shape_}, Largest{&PairMap::calls_}, &PairMap::expected_per_area_,
                       &PairMap::map_, &PairMap::cut_along_, &PairMap::cut_across_);

@@ -587,7 +587,7 @@ def check_g2(run, table):
     pairs, doubt, sums = (sum(one[k] for one in found.values()) for k in range(3))
     n_references = sum(len(references(run.n, s)) for s in kept)
     ring = np.pi * width ** 2 * (2 * np.arange(bins) + 1)
-    expected = n_references * run.n / run.box ** 2 * ring
+    expected = n_references * (run.n - 1) / run.box ** 2 * ring
     table.add("/g2/r_mm", "definition", run.arrays["/g2/r_mm"], (np.arange(bins) + 0.5) * width)
     table.add("/g2/g", "numpy O(N^2)", run.arrays["/g2/g"], pairs / expected, doubt / expected + 1e-9)
     table.add("/g2/g2", "numpy O(N^2)", run.arrays["/g2/g2"], np.where(pairs > 0, sums / np.maximum(pairs, 1), np.nan),
@@ -595,7 +595,7 @@ def check_g2(run, table):
 
     def curves(some):
         count, value = (sum(found[k][part] for k in some) for part in (0, 2))
-        gas = sum(len(references(run.n, k)) for k in some) * run.n / run.box ** 2 * ring
+        gas = sum(len(references(run.n, k)) for k in some) * (run.n - 1) / run.box ** 2 * ring
         return np.concatenate([np.where(count > 0, value / np.maximum(count, 1), np.nan), count / gas])
 
     _, sems = jackknife(parts, curves)
@@ -649,7 +649,7 @@ def check_pairs(run, table):
     sampled = list(pair_sums(run, frames, kept, visit))
     counts, sums, doubt = (sum(s[k] for s in sampled) for k in range(3))
     doubt = 9 * scipy.ndimage.uniform_filter(doubt, 3, mode="constant")
-    density = run.n / run.box ** 2 * np.array([len(references(run.n, s)) for s in kept])
+    density = (run.n - 1) / run.box ** 2 * np.array([len(references(run.n, s)) for s in kept])
     expected = density.sum() * width ** 2
     # either rod may be the first: the map and its point reflection
     counts, sums, doubt = (a + a[::-1, ::-1] for a in (counts, sums, doubt))

@@ -106,8 +106,27 @@ TEST(OrientationCorrelation, PairDistributionOfAGasIsOne) {
   const OrientationCurve curve = g2.reduce();
   for (std::size_t i = 0; i < 20; ++i) {
     const double expected = kSamples * kRods * (kRods - 1) * 2 * kPi * curve.r[i] / (kBox * kBox);
-    EXPECT_LT(std::abs(curve.g[i] - (1 - 1 / kRods)) * std::sqrt(expected / 2), 4.0) << curve.r[i];
+    EXPECT_LT(std::abs(curve.g[i] - 1) * std::sqrt(expected / 2), 4.0) << curve.r[i];
   }
+}
+
+// However few the rods are: with n^2 pairs in place of n (n - 1), g of two rods would be a half, of seven 0.86.
+TEST(OrientationCorrelation, PairDistributionOfAFewRodsIsOne) {
+  for (const std::size_t n : {2U, 3U, 7U, 20U}) {
+    constexpr double kBox = 20, kSamples = 40000;
+    Draw draw(67);
+    OrientationCorrelation g2(5, 10);
+    for (int i = 0; i < kSamples; ++i) g2.accumulate(random_places(draw, n, kBox), random_axes(draw, n), kBox);
+    const OrientationCurve curve = g2.reduce();
+    const auto pairs = static_cast<double>(n * (n - 1) / 2);
+    for (std::size_t i = 0; i < 5; ++i) {
+      const double expected = kSamples * pairs * 2 * kPi * curve.r[i] * 2 / (kBox * kBox);
+      EXPECT_LT(std::abs(curve.g[i] - 1) * std::sqrt(expected), 4.0) << n << " rods, " << curve.r[i] << " mm";
+    }
+  }
+  OrientationCorrelation alone(5, 10);
+  alone.accumulate(std::vector<Vec3>{{1, 1, 0}}, std::vector<Vec3>{axis(0)}, 20.0);
+  for (const double g : alone.reduce().g) EXPECT_TRUE(std::isnan(g)) << "a single rod makes no pair";
 }
 
 // Shells of lattices, 4, 4, 4, 8 at 1, sqrt 2, 2, sqrt 5 and 6, 6, 6, 12 at 1, sqrt 3, 2, sqrt 7, from g times rho
@@ -126,7 +145,7 @@ TEST(OrientationCorrelation, PairDistributionOfLattices) {
     OrientationCorrelation g2(30, 3.0);
     g2.accumulate(lattice.places, std::vector<Vec3>(lattice.places.size(), axis(0)), lattice.box);
     const OrientationCurve curve = g2.reduce();
-    const double density = static_cast<double>(lattice.places.size()) / (lattice.box * lattice.box);
+    const double density = static_cast<double>(lattice.places.size() - 1) / (lattice.box * lattice.box);
     for (const auto& [distance, number] : lattice.neighbours) {
       double found = 0;  // within 0.1, as a shell may lie on the border of two bins
       for (std::size_t i = 0; i < 30; ++i) {
@@ -168,7 +187,7 @@ TEST(OrientationCorrelation, PairDistributionOfAGasInAnArenaIsOne) {
     for (std::size_t i = 0; i < 20; ++i) {
       // At most the pairs of a gas whose rings lie inside.
       const double pairs = kSamples * kRods * kRods / region.area() * 2 * kPi * curve.r[i] * 21 / 20;
-      EXPECT_NEAR(curve.g[i], 1 - 1.0 / kRods, 4.5 * std::sqrt(4 / pairs) + 0.01) << walls.size << " " << curve.r[i];
+      EXPECT_NEAR(curve.g[i], 1.0, 4.5 * std::sqrt(4 / pairs) + 0.01) << walls.size << " " << curve.r[i];
     }
   }
 }

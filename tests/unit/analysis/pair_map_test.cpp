@@ -33,7 +33,7 @@ TEST(PairMap, OfAGasIsOneAndOfRandomRodsZero) {
       EXPECT_TRUE(std::isnan(curves.g[i]) && std::isnan(curves.g2[i]));
       continue;
     }
-    const double z = (curves.g[i] - (1 - 1 / kRods)) / sigma;
+    const double z = (curves.g[i] - 1) / sigma;
     EXPECT_LT(std::abs(z), 5.0) << i;
     EXPECT_EQ(curves.g[i], curves.g[curves.g.size() - 1 - i]);
     EXPECT_LT(std::abs(curves.g2[i]), 5.0 * std::sqrt(0.5) * sigma) << i;
@@ -48,11 +48,23 @@ TEST(PairMap, OfAGasIsOneAndOfRandomRodsZero) {
   EXPECT_NEAR(curves.r[3], 3.5 * width, 1e-12);
   const double cut_sigma = std::sqrt(2 / (kSamples * kRods * (kRods - 1) * 2 * width * 1.0 / (kBox * kBox)));
   for (std::size_t i = 0; i < curves.r.size(); ++i) {
-    EXPECT_LT(std::abs(curves.g_along[i] - (1 - 1 / kRods)) / cut_sigma, 4.5);
-    EXPECT_LT(std::abs(curves.g_across[i] - (1 - 1 / kRods)) / cut_sigma, 4.5);
+    EXPECT_LT(std::abs(curves.g_along[i] - 1) / cut_sigma, 4.5);
+    EXPECT_LT(std::abs(curves.g_across[i] - 1) / cut_sigma, 4.5);
     EXPECT_LT(std::abs(curves.g2_along[i]) / cut_sigma, 4.5);
     EXPECT_LT(std::abs(curves.g2_across[i]) / cut_sigma, 4.5);
   }
+}
+
+// However few the rods are.
+TEST(PairMap, OfThreeRodsIsOne) {
+  constexpr double kBox = 20, kSamples = 100000;
+  constexpr int kBins = 5;
+  Draw draw(152);
+  PairMap map({kBins, 6.0, 4.0, kBox});
+  for (int i = 0; i < kSamples; ++i) map.accumulate(random_places(draw, 3, kBox), random_axes(draw, 3));
+  const double width = 12.0 / kBins;
+  const double sigma = std::sqrt(1 / (kSamples * 3 * 2 * width * width / (kBox * kBox)));
+  for (const double g : map.reduce().g) EXPECT_LT(std::abs(g - 1) / sigma, 4.5 * std::sqrt(2.0));
 }
 
 // theta oscillates along the normal of a director along 0.5: G2(x, y) = <cos 2 (theta_i - theta_j)> depends on y alone.
@@ -101,7 +113,7 @@ TEST(PairMap, CountsTheNeighboursOfALattice) {
   PairMap map({21, 21 * kWidth / 2, kStrip, kBox});
   map.accumulate(places, std::vector<Vec3>(places.size(), axis(kPi / 2)));
   const PairCurves curves = map.reduce();
-  const double density = 1 / (kAcross * kAlong);
+  const double density = static_cast<double>(places.size() - 1) / (kBox * kBox);
   const auto neighbours = [&](double along, double across) {
     const auto bin = [&](double d) { return static_cast<std::size_t>(std::lround(d / kWidth) + 10); };
     return curves.g[bin(across) * 21 + bin(along)] * density * kWidth * kWidth;
@@ -154,11 +166,11 @@ TEST(PairMap, MergeSaveAndOddInput) {
   odd.accumulate({}, {});
   EXPECT_TRUE(std::isnan(odd.reduce().g[0]));
   odd.accumulate(std::vector<Vec3>{{1, 1, 0}}, std::vector<Vec3>{axis(1)});
-  EXPECT_EQ(odd.reduce().g[0], 0.0);
+  EXPECT_TRUE(std::isnan(odd.reduce().g[0])) << "a single rod makes no pair";
   EXPECT_TRUE(std::isnan(odd.reduce().g2[0]));
   odd = PairMap(shape);
   odd.accumulate(std::vector<Vec3>{{1, 1, 0}, {2, 1, 0}}, std::vector<Vec3>{axis(1), {0, 0, 1}});
-  EXPECT_EQ(odd.reduce().g, std::vector<double>(81, 0.0));  // the rod upright is none
+  for (const double g : odd.reduce().g) EXPECT_TRUE(std::isnan(g)) << "the rod upright is none";
 }
 
 }  // namespace
