@@ -2,11 +2,13 @@
 #include "base/files.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <limits>
 #include <system_error>
 
 namespace shaken {
@@ -102,9 +104,9 @@ Result<void> ReplacementFile::finish() {
   return replace_file(written, file_);
 }
 
-Result<std::string> read_file(const std::filesystem::path& file) {
-  const Descriptor in = open_file(file, O_RDONLY);
-  if (!in) return system_error("cannot open " + file.string());
+namespace {
+
+Result<std::string> read_all(const Descriptor& in, const std::filesystem::path& file, std::size_t most) {
   std::string content;
   char buffer[1 << 16];
   for (;;) {
@@ -113,7 +115,31 @@ Result<std::string> read_file(const std::filesystem::path& file) {
     if (got < 0) return system_error("cannot read " + file.string());
     if (got == 0) return content;
     content.append(buffer, static_cast<std::size_t>(got));
+    if (content.size() > most)
+      return Error{file.string() + " is longer than " + std::to_string(most >> 20) +
+                   " MiB, the most that is read of it"};
   }
+}
+
+}  // namespace
+
+Result<std::string> read_file(const std::filesystem::path& file) {
+  const Descriptor in = open_file(file, O_RDONLY | O_NONBLOCK);  // which changes nothing for a regular file
+  if (!in) return system_error("cannot open " + file.string());
+  struct stat about {};
+  if (::fstat(in.value(), &about) != 0) return system_error("cannot read " + file.string());
+  if (S_ISDIR(about.st_mode)) {
+    errno = EISDIR;
+    return system_error("cannot read " + file.string());
+  }
+  if (!S_ISREG(about.st_mode)) return Error{"cannot read " + file.string() + ": it is no regular file"};
+  return read_all(in, file, std::numeric_limits<std::size_t>::max());
+}
+
+Result<std::string> read_input(const std::filesystem::path& file, std::size_t most) {
+  const Descriptor in = open_file(file, O_RDONLY);
+  if (!in) return system_error("cannot open " + file.string());
+  return read_all(in, file, most);
 }
 
 bool means_no_room(std::string_view message) {

@@ -46,8 +46,13 @@ class ReplacementFile {
 /// FILE.tmp, where the next content of `file` is prepared.
 std::filesystem::path temporary_for(const std::filesystem::path& file);
 
-/// The whole file, or why it cannot be read.
+/// The whole file, or why it cannot be read. A regular file only: a pipe or a device of that name could keep whoever
+/// reads it for ever.
 Result<std::string> read_file(const std::filesystem::path& file);
+
+/// The same of what a user names, which may be a pipe; no more than `most` bytes of it.
+inline constexpr std::size_t kMostOfInput = std::size_t{16} << 20;
+Result<std::string> read_input(const std::filesystem::path& file, std::size_t most = kMostOfInput);
 
 /// Whether the system refused something for want of room on the disk: then its words for that are in the message.
 bool means_no_room(std::string_view message);

@@ -148,21 +148,19 @@ std::vector<std::string> web_command(const DaemonConfig& config, const std::file
   return command;
 }
 
-/// Listens for requests, anew if somebody removes or replaces the socket file.
+/// Listens for requests, anew if somebody removes or replaces the socket file, or if the system ends the listening: an
+/// accept() that fails for want of memory or descriptors does.
 class ControlSocket {
  public:
   ControlSocket(std::filesystem::path file, HttpServer::Handler handler)
       : file_(std::move(file)), handler_(std::move(handler)), server_(std::make_unique<HttpServer>(file_, handler_)) {}
 
-  /// Throws Failure if it does not listen though its file is there.
   void check() {
     std::erase_if(former_, [](const auto& server) { return server->ended_within(milliseconds(0)); });
-    if (server_ && server_->is_reachable()) {
-      if (server_->ended_within(milliseconds(0))) throw Failure(ExitCode::kFailed, "the control socket has failed");
-      return;
-    }
+    const bool has_failed = server_ && server_->ended_within(milliseconds(0));
+    if (server_ && server_->is_reachable() && !has_failed) return;
     if (server_) {
-      spdlog::warn("{} was removed or replaced: listening anew", file_.string());
+      spdlog::warn("{} {}: listening anew", file_.string(), has_failed ? "failed" : "was removed or replaced");
       server_->close();
       former_.push_back(std::move(server_));  // which may have to answer still
     }

@@ -56,7 +56,7 @@ JobEnd judge(const WorkerEnd& end, bool stop_asked, const std::string& id, const
   if (end.signal != 0) return {kCrashed, "worker was killed by " + signal_name(end.signal)};
   if (end.exit_code == 0) {
     if (run::is_done(directory, id)) return {kDone, ""};
-    return {kFailed, "exit 0, but " + directory.summary().string() + " does not say that it is done"};
+    return {kUnconfirmed, "exit 0, but " + directory.summary().string() + " does not say that it is done"};
   }
   if (end.exit_code == kStoppedOnRequest) return {kStopped, "the worker has stopped at a checkpoint"};
   const std::string why = explanation(end.pid, directory);

@@ -347,6 +347,17 @@ void Queue::set_reason(const std::string& id, const std::string& reason) {
   database_.run("UPDATE jobs SET reason = ?2 WHERE id = ?1 AND state = 'queued' AND reason <> ?2", id, reason);
 }
 
+void Queue::hurry() {
+  const std::lock_guard lock(mutex_);
+  database_.wait_at_most(milliseconds(500));
+}
+
+void Queue::pause(const std::string& id, const std::string& reason, milliseconds pause) {
+  const std::lock_guard lock(mutex_);
+  database_.run("UPDATE jobs SET reason = ?2, not_before_utime = ?3 WHERE id = ?1 AND state = 'queued'", id, reason,
+                utime_now() + 1000 * pause.count());
+}
+
 void Queue::add_wall(std::span<const std::pair<std::string, milliseconds>> times) {
   const std::lock_guard lock(mutex_);
   Transaction transaction(database_);

@@ -123,6 +123,8 @@ class Queue {
   std::string settings(const std::string& id) const;
   /// Says why a queued job does not start; "" if nothing keeps it.
   void set_reason(const std::string& id, const std::string& reason);
+  /// The same, and the job is not among the next ones until a pause is over: what cannot start holds up no others.
+  void pause(const std::string& id, const std::string& reason, std::chrono::milliseconds pause);
   /// queued -> running. Returns the number of the attempt; none if the job is not queued any more, or not with `scene`,
   /// as which the worker would run it (not looked at if null).
   std::optional<int> begin(const std::string& id, const std::string* scene = nullptr);
@@ -165,6 +167,8 @@ class Queue {
   void time_out(const std::string& id);
   /// Why the executor of a place takes nothing at the moment; "" where it does.
   void set_trouble(const Place& place, const std::string& why);
+  /// From now on a file that another program keeps is waited for half a second only: the daemon ends.
+  void hurry();
   /// running -> stopping, and then queued: the daemon ends, and with it all workers but those that outlive it.
   void stop_all();
 

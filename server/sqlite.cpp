@@ -51,7 +51,7 @@ Database::Database(const std::filesystem::path& file) {
       throw StorageError(file.string() + ": " + (handle_ != nullptr ? sqlite3_errmsg(handle_) : "out of memory"));
     }
     sqlite3_extended_result_codes(handle_, 1);
-    sqlite3_busy_timeout(handle_, 5000);  // somebody may look into the file with the sqlite3 program
+    wait_at_most(std::chrono::milliseconds(5000));  // somebody may look into the file with the sqlite3 program
     execute("PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL; PRAGMA foreign_keys=ON");
   } catch (...) {
     sqlite3_close(handle_);
@@ -62,6 +62,10 @@ Database::Database(const std::filesystem::path& file) {
 Database::~Database() {
   for (const auto& [sql, statement] : statements_) sqlite3_finalize(statement);
   sqlite3_close(handle_);
+}
+
+void Database::wait_at_most(std::chrono::milliseconds time) {
+  sqlite3_busy_timeout(handle_, static_cast<int>(time.count()));
 }
 
 void Database::execute(const char* sql) {

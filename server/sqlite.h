@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -54,6 +55,9 @@ class Database {
   Database(const Database&) = delete;
   Database& operator=(const Database&) = delete;
   ~Database();
+
+  /// For another connection that keeps the file.
+  void wait_at_most(std::chrono::milliseconds time);
 
   /// Runs SQL without values or rows; may be several statements.
   void execute(const char* sql);

@@ -104,9 +104,15 @@ void Supervisor::step() {
 }
 
 void Supervisor::settle_ended() {
+  // all of them before the queue is written, which may throw: whether they have ended does not hang on that
+  for (auto& [id, worker] : workers_) {
+    if (!worker.job_end) look_at(id, worker);
+  }
+  for (auto& [id, worker] : workers_) {
+    if (!worker.unsaved_name.empty()) save_name(id, worker);
+  }
   for (auto entry = workers_.begin(); entry != workers_.end();) {
     auto& [id, worker] = *entry;
-    if (!worker.job_end) look_at(id, worker);
     if (!worker.job_end) {
       ++entry;
       continue;
@@ -130,7 +136,7 @@ void Supervisor::write_notes() {
 
 void Supervisor::look_at(const std::string& id, Worker& worker) {
   using enum WorkerReport::Phase;
-  if (!worker.unsaved_name.empty()) save_name(id, worker);
+  if (worker.unconfirmed) return judge_end(id, worker, *worker.unconfirmed);
   const WorkerReport report = executor_.poll(worker.handle);
   const bool stop_asked = worker.kill_at.has_value();
   switch (report.phase) {
@@ -147,8 +153,8 @@ void Supervisor::look_at(const std::string& id, Worker& worker) {
     case kEnded:
       if (worker.waits && worker.settings) queue_.accepted({options_.place, *worker.settings});
       worker.was_at_work = true;
-      worker.job_end = judge(report.end, stop_asked, id, worker.directory);
-      break;
+      worker.ended = Clock::now();
+      return judge_end(id, worker, report.end);
     case kTaken:
       worker.job_end = JobEnd{JobEnd::Outcome::kStopped, report.words};
       break;
@@ -160,6 +166,17 @@ void Supervisor::look_at(const std::string& id, Worker& worker) {
       break;
   }
   worker.ended = Clock::now();
+}
+
+void Supervisor::judge_end(const std::string& id, Worker& worker, const WorkerEnd& end) {
+  const JobEnd judged = judge(end, worker.kill_at.has_value(), id, worker.directory);
+  const bool look_again = judged.outcome == JobEnd::Outcome::kUnconfirmed && !shutting_down_ &&
+                          Clock::now() < *worker.ended + options_.confirm_within;
+  if (look_again) {
+    worker.unconfirmed = end;
+  } else {
+    worker.job_end = judged;
+  }
 }
 
 void Supervisor::settle(const std::string& id, const Worker& worker) {
@@ -181,6 +198,7 @@ void Supervisor::settle(const std::string& id, const Worker& worker) {
         queue_.stopped(id, reason);
       }
       break;
+    case JobEnd::Outcome::kUnconfirmed:
     case JobEnd::Outcome::kCrashed:
       queue_.crashed(id, reason, checkpoint_time(worker.directory) != worker.checkpoint_before, options_.retry_pauses);
       break;
@@ -235,7 +253,7 @@ void Supervisor::enforce_limits() {
                               free_bytes(options_.runs) >= options_.least_room;
   for (const Job& job : queue_.jobs(std::nullopt, JobState::kRunning)) {
     const auto entry = workers_.find(job.id);
-    if (entry == workers_.end() || entry->second.job_end || entry->second.waits) continue;
+    if (entry == workers_.end() || !entry->second.is_alive() || entry->second.waits) continue;
     const Worker& worker = entry->second;
     constexpr std::chrono::milliseconds kNone{0};
     if (job.time_limit != kNone && job.wall + (now - worker.counted) >= job.time_limit) {
@@ -252,7 +270,7 @@ void Supervisor::stop_stopping() {
   const auto now = Clock::now();
   for (const Job& job : queue_.jobs(std::nullopt, JobState::kStopping)) {
     const auto entry = workers_.find(job.id);
-    if (entry == workers_.end() || entry->second.job_end) continue;
+    if (entry == workers_.end() || !entry->second.is_alive()) continue;
     Worker& worker = entry->second;
     if (!worker.kill_at) {
       spdlog::info("job {}: asked to stop", job.id);
@@ -277,9 +295,11 @@ void Supervisor::start_queued() {
   if (free_slots() <= 0) return;
   for (const Job& job : queue_.next(free_slots() + kLookAhead, options_.place)) {
     if (free_slots() <= 0 || Clock::now() < start_after_) return;
-    if (room < options_.least_room) {
-      wait(job, fmt::format("less than {} are free in {}", bytes_text(static_cast<double>(options_.least_room)),
-                            options_.runs.string()));
+    if (room < options_.least_room) {  // for any job: none is passed over
+      const std::string why = fmt::format("less than {} are free in {}",
+                                          bytes_text(static_cast<double>(options_.least_room)), options_.runs.string());
+      warn_once("job " + job.id + " waits: " + why);
+      if (job.reason != why) queue_.set_reason(job.id, why);
     } else {
       start(job);
     }
@@ -366,22 +386,23 @@ void Supervisor::could_not_start(const std::string& id, const std::string& why) 
 
 void Supervisor::wait(const Job& job, const std::string& why) {
   warn_once("job " + job.id + " waits: " + why);
-  if (job.reason != why) queue_.set_reason(job.id, why);
+  queue_.pause(job.id, why, options_.waiting_pause);
 }
 
 bool Supervisor::all_ended() const {
-  return std::all_of(workers_.begin(), workers_.end(), [](const auto& entry) { return entry.second.job_end; });
+  return std::all_of(workers_.begin(), workers_.end(), [](const auto& entry) { return !entry.second.is_alive(); });
 }
 
 void Supervisor::shut_down() {
   shutting_down_ = true;
+  queue_.hurry();
   try {
     queue_.stop_all();
   } catch (const StorageError& problem) {
     warn_once(problem.what());  // recover() of the next daemon does the same
   }
   for (auto& [id, worker] : workers_) {
-    if (worker.kill_at || worker.job_end) continue;
+    if (worker.kill_at || !worker.is_alive()) continue;
     executor_.stop(worker.handle);
     worker.kill_at = Clock::now() + options_.grace;
   }
@@ -389,7 +410,7 @@ void Supervisor::shut_down() {
 
 void Supervisor::kill_all() {
   for (const auto& [id, worker] : workers_) {
-    if (!worker.job_end) executor_.kill(worker.handle);
+    if (worker.is_alive()) executor_.kill(worker.handle);
   }
 }
 

@@ -33,6 +33,11 @@ struct SupervisorOptions {
   Place place{};                                ///< whose jobs it starts
   /// Before what the executor has refused is handed over again; doubled with each refusal, up to 16 times.
   std::chrono::milliseconds refused_pause{60'000};
+  /// For so long the summary of a worker that ended well is looked for; then its run goes back into the queue, where a
+  /// worker finds within a second that it is done.
+  std::chrono::milliseconds confirm_within{10'000};
+  /// Before a job that could not be prepared is looked at again; others are started meanwhile.
+  std::chrono::milliseconds waiting_pause{5'000};
 };
 
 /// Brings the workers in line with the queue: starts the next jobs while there are slots, stops those that are to
@@ -74,15 +79,18 @@ class Supervisor {
     std::optional<std::string> noted{""};  ///< what the queue has of that; none: not known
     std::string unsaved_name;              ///< by which the next daemon finds it, until the queue has that
     std::optional<Clock::time_point> ended;
+    std::optional<WorkerEnd> unconfirmed;      ///< it is no more, but its summary is yet to say that the run is done
     std::optional<Clock::time_point> kill_at;  ///< set when it was asked to stop
     bool killed = false;
     std::optional<JobEnd> job_end;  ///< on its end; kept until the queue has taken it
+    bool is_alive() const { return !job_end && !unconfirmed; }
   };
 
   int free_slots() const;
   void settle_ended();
   void write_notes();
   void look_at(const std::string& id, Worker& worker);
+  void judge_end(const std::string& id, Worker& worker, const WorkerEnd& end);
   void count_wall(const std::vector<std::string>& ids);
   void count_wall_of_all();
   void enforce_limits();

@@ -2,14 +2,17 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <future>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "base/failure.h"
 #include "base/interrupt.h"
@@ -75,19 +78,39 @@ void serve(const std::filesystem::path& root, int port, const std::string& lcm_u
   const InterruptGuard interrupt;
   std::promise<web::Guard> promised;  // requests wait until the port is known
   const std::shared_future<web::Guard> guard = promised.get_future();
-  server::HttpServer server(
-      port, [&](const server::Request& head) { return guard.get().stop(head); },
-      [&](const server::Request& request) { return site.answer(request); });
-  promised.set_value(web::Guard(token, server.port()));
+  const auto listen_on = [&](int wanted) {
+    return std::make_unique<server::HttpServer>(
+        wanted, [&](const server::Request& head) { return guard.get().stop(head); },
+        [&](const server::Request& request) { return site.answer(request); });
+  };
+  std::unique_ptr<server::HttpServer> server = listen_on(port);
+  const int served_port = server->port();
+  promised.set_value(web::Guard(token, served_port));
   const std::string address = guard.get().address();
   done_or_fail(page->announce(address));
   std::printf("open %s\n", address.c_str());
   std::fflush(stdout);
-  while (!interrupt.interrupted()) interrupt.sleep_for(std::chrono::seconds(1));
+  std::vector<std::unique_ptr<server::HttpServer>> former;  // which may have to answer still
+  while (!interrupt.interrupted()) {
+    interrupt.sleep_for(std::chrono::seconds(1));
+    std::erase_if(former, [](const auto& one) { return one->ended_within(std::chrono::milliseconds(0)); });
+    if (server && !server->ended_within(std::chrono::milliseconds(0))) continue;
+    // an accept() that fails for want of memory or descriptors ends the listening
+    if (server) server->close();
+    if (server) former.push_back(std::move(server));
+    try {
+      server = listen_on(served_port);
+      std::fprintf(stderr, "shaken-web: the port failed: listening anew\n");
+    } catch (const Failure&) {
+      server.reset();  // in a second again
+    }
+  }
   site.close();
-  server.close();
+  if (server) server->close();
+  for (const auto& one : former) one->close();
+  const auto has_ended = [](const auto& one) { return one->ended_within(std::chrono::milliseconds(1000)); };
   // A browser that does not take its answer must not keep this program up.
-  if (!server.ended_within(std::chrono::milliseconds(2000))) {
+  if ((server && !has_ended(server)) || !std::all_of(former.begin(), former.end(), has_ended)) {
     { const web::ServedPage last = std::move(*page); }
     std::_Exit(EXIT_SUCCESS);
   }

@@ -218,7 +218,9 @@ struct HttpServer::Impl {
                                            std::to_string(sizeof(sockaddr_un::sun_path) - 1) +
                                            " bytes): " + socket.string() + "; choose a shorter --root");
     }
-    std::filesystem::remove(socket);
+    std::error_code error;
+    std::filesystem::remove(socket, error);
+    if (error) throw Failure(ExitCode::kFailed, "cannot remove " + socket.string() + ": " + error.message());
     int fd = -1;
     server.set_address_family(AF_UNIX);
     server.set_socket_options([&fd](int listener) { fd = listener; });

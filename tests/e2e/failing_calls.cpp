@@ -7,6 +7,9 @@
 //   SHAKEN_FAULT=half:N      the same after half of the bytes, where the change is a write
 //   SHAKEN_FAULT=full:N      the N-th change and all later ones fail with ENOSPC; removing is still possible
 //   SHAKEN_FAULT=once:N      the N-th change fails with EIO
+//
+// Or a call of one kind fails, wherever it is made:
+//   SHAKEN_CALL_FAILS=accept:ERRNO:N   the N-th accept() of the process fails with this number
 #include <dlfcn.h>
 #include <errno.h>
 #include <signal.h>
@@ -14,6 +17,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/socket.h>
 #include <sys/types.h>
 #include <unistd.h>
 
@@ -95,9 +99,34 @@ int guarded(bool counted, Change change) {
   return -1;
 }
 
+/// Whether this call of `name` is the one that is to fail; errno then says how.
+bool call_fails(const char* name, std::atomic<long>& calls) {
+  const char* text = getenv("SHAKEN_CALL_FAILS");
+  const size_t length = strlen(name);
+  if (text == nullptr || strncmp(text, name, length) != 0 || text[length] != ':') return false;
+  char* end = nullptr;
+  const long error = strtol(text + length + 1, &end, 10);
+  if (*end != ':' || ++calls != atol(end + 1)) return false;
+  dprintf(STDERR_FILENO, "fault met\n");
+  errno = static_cast<int>(error);
+  return true;
+}
+
+std::atomic<long> accepts{0};
+
 }  // namespace
 
 extern "C" {
+
+int accept(int fd, sockaddr* address, socklen_t* size) {
+  static const auto next = real<int (*)(int, sockaddr*, socklen_t*)>("accept");
+  return call_fails("accept", accepts) ? -1 : next(fd, address, size);
+}
+
+int accept4(int fd, sockaddr* address, socklen_t* size, int flags) {
+  static const auto next = real<int (*)(int, sockaddr*, socklen_t*, int)>("accept4");
+  return call_fails("accept", accepts) ? -1 : next(fd, address, size, flags);
+}
 
 ssize_t write(int fd, const void* data, size_t size) {
   static const auto next = real<ssize_t (*)(int, const void*, size_t)>("write");

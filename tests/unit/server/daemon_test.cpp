@@ -11,6 +11,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -199,6 +200,28 @@ TEST_F(DaemonTest, ASecondSignalKillsDeafWorkers) {
   EXPECT_NE(kill(worker, 0), 0);
 }
 
+// However many workers it has: the end of each is seen before that of the first is written.
+TEST_F(DaemonTest, AQueueThatCannotBeWrittenDoesNotKeepItUpWithSeveralWorkers) {
+  setenv("FAKE_WORKER", "run", 1);
+  for (const int n_workers : {2, 8}) {
+    Daemon shakend = daemon({"--slots", std::to_string(n_workers)});
+    shakend.first_line();
+    for (int seed = 1; seed <= n_workers; ++seed)
+      shakend.call("/v1/sweeps", json{{"text", R"({"time": {"seed": )" + std::to_string(seed) + "}}"}});
+    ASSERT_TRUE(eventually([&] {
+      const json jobs = shakend.call("/v1/jobs").at("jobs");
+      return std::count_if(jobs.begin(), jobs.end(), [](const json& job) {
+               return std::filesystem::exists(std::filesystem::path(job["directory"]) / "up");
+             }) == n_workers;
+    })) << shakend.errors();
+    Database other(directory_ / "root" / "queue.db");
+    other.execute("BEGIN IMMEDIATE");
+    shakend.send(SIGTERM);
+    EXPECT_EQ(shakend.wait(), 0) << n_workers;
+    other.execute("ROLLBACK");
+  }
+}
+
 TEST_F(DaemonTest, AQueueThatCannotBeWrittenDoesNotKeepItUp) {
   setenv("FAKE_WORKER", "run", 1);
   Daemon shakend = daemon();
@@ -218,6 +241,37 @@ TEST_F(DaemonTest, AQueueThatCannotBeWrittenDoesNotKeepItUp) {
   Daemon next = daemon();
   next.first_line();
   EXPECT_TRUE(becomes(next, "done"));
+}
+
+TEST_F(DaemonTest, AnAcceptThatFailsEndsNothing) {
+  for (const int error : {ENFILE, ENOMEM, ECONNABORTED, EMFILE}) {
+    setenv("LD_PRELOAD", SHAKEN_FAILING_CALLS, 1);
+    setenv("SHAKEN_CALL_FAILS", ("accept:" + std::to_string(error) + ":1").c_str(), 1);
+    Daemon shakend = daemon();
+    unsetenv("LD_PRELOAD");
+    unsetenv("SHAKEN_CALL_FAILS");
+    shakend.first_line();
+    EXPECT_TRUE(eventually([&] { return shakend.call("/v1/status")["pid"] == shakend.pid(); }))
+        << std::strerror(error) << "\n"
+        << shakend.errors();
+    EXPECT_THAT(shakend.errors(), HasSubstr("fault met"));
+    shakend.send(SIGTERM);
+    EXPECT_EQ(shakend.wait(), 0);
+  }
+}
+
+TEST_F(DaemonTest, WhatStandsInThePlaceOfItsSocketForAWhileEndsNothing) {
+  Daemon shakend = daemon();
+  shakend.first_line();
+  const std::filesystem::path socket = directory_ / "root" / "shakend.sock";
+  std::filesystem::remove(socket);
+  std::filesystem::create_directories(socket);
+  write_text(socket / "file", "");
+  EXPECT_TRUE(eventually([&] { return shakend.errors().find("cannot remove") != std::string::npos; }));
+  std::filesystem::remove_all(socket);
+  EXPECT_TRUE(eventually([&] { return shakend.call("/v1/status")["pid"] == shakend.pid(); })) << shakend.errors();
+  shakend.send(SIGTERM);
+  EXPECT_EQ(shakend.wait(), 0);
 }
 
 TEST_F(DaemonTest, TheEndOfItsTerminalStopsItUnlessUnderNohup) {

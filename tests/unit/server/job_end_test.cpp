@@ -26,10 +26,10 @@ class VerdictTest : public testing::Test {
 TEST_F(VerdictTest, ExitZeroNeedsASummary) {
   for (const char* text : {"", "{}", R"({"run_id": "0123", "exit": {"state": "stopped"}})",
                            R"({"run_id": "4567", "exit": {"state": "done"}})"}) {
-    EXPECT_EQ(exit(0).outcome, kFailed) << text;
+    EXPECT_EQ(exit(0).outcome, kUnconfirmed) << text;
     write_text(run_.summary(), text);
   }
-  EXPECT_EQ(exit(0).outcome, kFailed) << "the run of another scene";
+  EXPECT_EQ(exit(0).outcome, kUnconfirmed) << "the run of another scene";
   write_text(run_.summary(), R"({"run_id": "0123", "exit": {"state": "done"}})");
   EXPECT_EQ(exit(0).outcome, kDone);
   EXPECT_EQ(exit(0).reason, "");

@@ -36,6 +36,8 @@ class SupervisorTest : public testing::Test {
   SupervisorOptions options() const {
     SupervisorOptions options{directory_ / "runs", 2, {"--no-lcm"}, kGrace};
     options.retry_pauses = {std::chrono::milliseconds(400), std::chrono::milliseconds(100)};
+    options.confirm_within = std::chrono::milliseconds(200);
+    options.waiting_pause = std::chrono::milliseconds(50);
     return options;
   }
   static std::string id(char digit) { return std::string(16, digit); }
@@ -210,10 +212,62 @@ TEST_F(SupervisorTest, BadInputIsAFailure) {
   EXPECT_THAT(job('a').reason, StartsWith("exit 2 (bad input)"));
 }
 
-TEST_F(SupervisorTest, SuccessWithoutResultsIsAFailure) {
+TEST_F(SupervisorTest, SuccessWithoutResultsIsAFailureInTheEnd) {
   submit('a', "empty");
   ASSERT_TRUE(step_until('a', kFailed));
   EXPECT_THAT(job('a').reason, HasSubstr("summary.json"));
+  EXPECT_EQ(job('a').attempt, 3) << "as many pauses and one";
+}
+
+// As on a network's disk, where a file may be seen some seconds after another machine wrote it, or where reading fails
+// for a moment.
+TEST_F(SupervisorTest, ASummaryThatIsSeenLateIsLookedForAgain) {
+  ToldExecutor executor;
+  executor.report = {.phase = WorkerReport::Phase::kEnded, .end = {0, 0, 77}};
+  Supervisor supervisor(queue_, executor, options());
+  submit('a', "done");
+  for (int i = 0; i < 5; ++i) supervisor.step();
+  EXPECT_EQ(job('a').state, kRunning) << "what cannot be read does not say that it is not done";
+  write_text(directory('a') / "summary.json", R"({"run_id": ")" + id('a') + R"(", "exit": {"state": "done"}})");
+  EXPECT_TRUE(eventually([&] {
+    supervisor.step();
+    return job('a').state == kDone;
+  }));
+  EXPECT_EQ(job('a').attempt, 1);
+
+  // later than that it goes back into the queue, where the next worker finds that it is done
+  submit('b', "done");
+  EXPECT_TRUE(eventually([&] {
+    supervisor.step();
+    return job('b').state == kQueued && job('b').attempt == 1;
+  }));
+  write_text(directory('b') / "summary.json", R"({"run_id": ")" + id('b') + R"(", "exit": {"state": "done"}})");
+  EXPECT_TRUE(eventually([&] {
+    supervisor.step();
+    return job('b').state == kDone;
+  }));
+}
+
+TEST_F(SupervisorTest, WhatCannotStartHoldsUpNoOthersHoweverMuchOfItThereIs) {
+  std::filesystem::create_directories(directory_ / "runs");
+  SupervisorOptions options = this->options();
+  options.waiting_pause = std::chrono::seconds(60);
+  Supervisor supervisor(queue_, executor_, options);
+  for (char digit = 'A'; digit <= 'Z'; ++digit) {  // more than are looked at in a round
+    write_text(directory(digit), "a file where the folder should be");
+    submit(digit, "done");
+  }
+  submit('a', "done");
+  EXPECT_TRUE(eventually([&] {
+    supervisor.step();
+    return job('a').state == kDone;
+  }));
+  EXPECT_EQ(job('Z').state, kQueued);
+  EXPECT_THAT(job('Z').reason, HasSubstr(id('Z')));
+  EXPECT_TRUE(eventually([&] {
+    supervisor.step();
+    return supervisor.idle();
+  }));
 }
 
 // A cluster's time limit may be so short that each task is told to end as soon as it begins.
