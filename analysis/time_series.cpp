@@ -59,6 +59,16 @@ double effective_samples(std::span<const double> values) {
   return std::min(n, product_sum(x, 0) / (n - 1.0) / of_mean);
 }
 
+/// Index at which a series has come back from its first value to the mean of its later half; its size if it never does.
+std::size_t first_return(std::span<const double> values) {
+  const double later = mean_of(values.subspan(values.size() / 2));
+  if (std::abs(values[0] - later) <= 1e-12 * std::abs(later)) return 0;  // but for rounding
+  const bool from_above = values[0] > later;
+  std::size_t i = 0;
+  while (i < values.size() && (from_above ? values[i] > later : values[i] < later)) ++i;
+  return i;
+}
+
 }  // namespace
 
 double statistical_inefficiency(std::span<const double> values) {
@@ -102,8 +112,8 @@ std::size_t steady_index(std::span<const double> values) {
   std::vector<double> n_effective;
   for (std::size_t t0 = 0; t0 <= last; ++t0) n_effective.push_back(effective_samples(from(t0)));
   const double enough = kNearlyMost * *std::max_element(n_effective.begin(), n_effective.end());
-  std::size_t t0 = 0;
-  while (n_effective[t0] < enough) ++t0;
+  std::size_t t0 = std::min(last, (first_return(values) + group - 1) / group);
+  while (n_effective[t0] < enough && t0 < last) ++t0;
   const bool drifts = summarize_parts(parts_of_series(from(t0))).steady == false;
   return (drifts ? last : t0) * group;
 }

@@ -24,8 +24,10 @@ double statistical_inefficiency(std::span<const double> values);
 /// Index at which the steady state begins: the first t0 that leaves nearly the most effective samples, nine tenths of
 /// the largest N_eff = (n - t0) / g(t0) (Chodera, J. Chem. Theory Comput. 12, 1799 (2016)), g being that of parts
 /// (variance_of_mean), which scatters less than a sum over lags. Long series are averaged to at most 512 points first;
-/// t0 is looked for within the first three quarters. Where the rest still drifts there is no steady state, and the last
-/// quarter is what comes nearest to it.
+/// t0 is looked for within the first three quarters, and not before the series has come back from its start to the mean
+/// of its later half for the first time: an ordered start is no sample of a state that is less ordered, however few
+/// effective samples it costs to keep it. Where the rest still drifts there is no steady state, and the last quarter is
+/// what comes nearest to it.
 std::size_t steady_index(std::span<const double> values);
 
 /// Independent parts, counted about a parabola, that a steady state asks for: more than a single number does

@@ -34,13 +34,14 @@ const std::set<std::string> kNames{"job", "sweep", "state", "label", "replica", 
 /// Puts the scalars of `object` into `fields`, members of members as "outer.inner".
 void flatten(const Json& object, const std::string& prefix, Json& fields) {
   for (const auto& [key, value] : object.items()) {
+    if (prefix.empty() && key == "why_null") continue;  // words about other fields
     std::string name = prefix;
     if (!prefix.empty()) name += '.';
     name += key;
     if (value.is_object()) {
       flatten(value, name, fields);
-    } else if (value.is_primitive() && !value.is_null()) {
-      fields[name] = value;
+    } else if (value.is_primitive() && !(value.is_null() && prefix.empty() && key != "steady")) {
+      fields[name] = value;  // null too, but of a whole block that was not measured: there is no value to be had
     }
   }
 }
@@ -79,14 +80,14 @@ void average(const std::vector<ResultRow>& done, ResultRow& point) {
   for (const std::string& name : names) own_errors.insert(own_error_field(name));
   for (const std::string& name : names) {
     if (kNames.contains(name) || point.parameters.contains(name) || point.scene.contains(name) ||
-        own_errors.contains(name))
+        own_errors.contains(name) || ends_with(name, "sem_if_steady"))
       continue;
     std::vector<double> values, sems;
     bool all_steady = true;
     std::size_t n_told = 0;
     for (const ResultRow& row : done) {
       const auto value = row.fields.find(name);
-      if (value == row.fields.end()) continue;
+      if (value == row.fields.end() || value->is_null()) continue;
       ++n_told;
       if (value->is_boolean()) all_steady &= value->get<bool>();
       if (!value->is_number()) continue;
@@ -96,18 +97,23 @@ void average(const std::vector<ResultRow>& done, ResultRow& point) {
     if (ends_with(name, "steady")) {
       if (!all_steady) {
         point.fields[name] = false;
-      } else if (n_told == done.size()) {
-        point.fields[name] = true;
+      } else {
+        point.fields[name] = n_told == done.size() ? Json(true) : Json(nullptr);
       }
+      continue;
     }
-    if (values.size() < done.size()) continue;
+    if (values.empty()) {
+      if (n_told == 0) point.fields[name] = nullptr;
+      continue;
+    }
+    if (values.size() < done.size()) point.fields[name + ":n"] = values.size();
     if (ends_with(name, "n_effective")) {
       point.fields[name] = std::accumulate(values.begin(), values.end(), 0.0);
       continue;
     }
     const Estimate result = replica_mean(values, sems);
     point.fields[name] = result.value;
-    if (std::isfinite(result.sem)) point.fields[name + ":sem"] = result.sem;
+    if (std::isfinite(result.sem)) point.fields[error_field(name)] = result.sem;
   }
 }
 
@@ -120,20 +126,45 @@ std::string own_error_field(const std::string& field) {
   return field.substr(0, field.size() - kValue.size()) + ".sem";
 }
 
-double standard_error(const ResultRow& row, const std::string& field) {
-  if (row.fields.contains(field + ":sem")) return row.number(field + ":sem");
-  return row.number(own_error_field(field));
+std::string error_field(const std::string& field) {
+  const std::string own = own_error_field(field);
+  return own.empty() ? field + ":sem" : own;
+}
+
+double standard_error(const ResultRow& row, const std::string& field) { return row.number(error_field(field)); }
+
+Steadiness steadiness(const ResultRow& row, const std::string& field) {
+  const bool is_average = field == "order.mean" || field == "order.std" || field.starts_with("defects.mean") ||
+                          (field.starts_with("measured.") && field.ends_with(".value"));
+  const auto value = row.fields.find(field);
+  if (!is_average || value == row.fields.end() || !value->is_number()) return Steadiness::kSteady;
+  bool is_told = false;
+  for (const std::string& told : {field.substr(0, field.rfind('.')) + ".steady", std::string("steady")}) {
+    const auto steady = row.fields.find(told);
+    if (steady == row.fields.end()) continue;
+    is_told = true;
+    if (steady->is_boolean()) return steady->get<bool>() ? Steadiness::kSteady : Steadiness::kRelaxing;
+  }
+  return is_told ? Steadiness::kNotKnown : Steadiness::kSteady;
 }
 
 bool still_relaxes(const ResultRow& row, const std::string& field) {
-  const bool is_average = field == "order.mean" || field == "order.std" || field.starts_with("defects.mean") ||
-                          (field.starts_with("measured.") && field.ends_with(".value"));
-  if (!is_average) return false;
-  for (const std::string& told : {field.substr(0, field.rfind('.')) + ".steady", std::string("steady")}) {
-    const auto steady = row.fields.find(told);
-    if (steady != row.fields.end() && steady->is_boolean()) return !steady->get<bool>();
+  return steadiness(row, field) == Steadiness::kRelaxing;
+}
+
+const char* mark_of(Steadiness steadiness) {
+  return steadiness == Steadiness::kRelaxing ? "~" : steadiness == Steadiness::kNotKnown ? "?" : "";
+}
+
+const char* meaning_of(Steadiness steadiness) {
+  switch (steadiness) {
+    case Steadiness::kRelaxing:
+      return "still relaxing: no steady state yet, run it longer (-s time.measure=...)";
+    case Steadiness::kNotKnown:
+      return "too short to tell whether it is steady: its error holds the drift, run it longer (-s time.measure=...)";
+    default:
+      return "";
   }
-  return false;
 }
 
 std::optional<std::string> field_named(std::span<const std::string> names, const std::string& word) {
@@ -144,8 +175,10 @@ std::optional<std::string> field_named(std::span<const std::string> names, const
   for (const std::string& name : {word, "measured." + word + ".value", known_as_s}) {
     if (is_there(name)) return name;
   }
-  for (const std::string& name : names) {
-    if (own_error_field(name) == word && is_there(name + ":sem")) return name + ":sem";
+  for (const std::string_view end : {".sem", ":sem"}) {
+    if (!word.ends_with(end)) continue;
+    const auto of = field_named(names, word.substr(0, word.size() - end.size()));
+    if (of && is_there(error_field(*of))) return error_field(*of);
   }
   return std::nullopt;
 }
@@ -232,6 +265,16 @@ bool has_several_versions(const std::vector<ResultRow>& rows) {
   return versions.size() > 1;
 }
 
+std::vector<ResultRow> of_distinct_runs(const std::vector<ResultRow>& rows) {
+  std::vector<ResultRow> distinct;
+  std::set<std::string> seen;
+  for (const ResultRow& row : rows) {
+    const std::string id = row.fields.value("job", "");
+    if (id.empty() || seen.insert(id).second) distinct.push_back(row);
+  }
+  return distinct;
+}
+
 std::vector<ResultRow> aggregated(const std::vector<ResultRow>& rows) {
   // Groups in the order in which they are first met.
   std::vector<std::vector<const ResultRow*>> groups;
@@ -250,7 +293,10 @@ std::vector<ResultRow> aggregated(const std::vector<ResultRow>& rows) {
     const auto key = std::pair(parameters, is_settled ? version : newest_version[parameters]);
     const auto [place, is_new] = group_of.try_emplace(key, groups.size());
     if (is_new) groups.emplace_back();
-    groups[place->second].push_back(&row);
+    auto& group = groups[place->second];
+    const std::string id = row.fields.value("job", "");
+    const auto is_known = [&](const ResultRow* other) { return !id.empty() && other->fields.value("job", "") == id; };
+    if (std::none_of(group.begin(), group.end(), is_known)) group.push_back(&row);
   }
 
   std::vector<ResultRow> points;
@@ -306,6 +352,7 @@ std::vector<std::string> swept_parameters(const std::vector<ResultRow>& rows) {
 std::string field_text(const ResultRow& row, const std::string& field) {
   const auto value = row.fields.find(field);
   if (value == row.fields.end()) return {};
+  if (value->is_null()) return {};
   return printable(value->is_string() ? value->get<std::string>() : value->dump());
 }
 

@@ -59,11 +59,19 @@ RowVersion version_of(const Json& versions);
 /// Whether different versions computed these rows.
 bool has_several_versions(const std::vector<ResultRow>& rows);
 
-/// One row per point and version: replicas of equal parameters together. Fields: the parameters, "state" ("done" if
-/// all are, otherwise "partial"), "versions.shaken", "versions.physics", "n_replicas", "n_done", and of what every done
-/// replica tells: for each number F its mean as F and the standard error of that (replica_mean) as "F:sem", in place of
-/// the runs' own; for "n_effective" the sum; for "steady" true if all are, false if one is not.
+/// The rows of distinct runs, in their order: a run that several points of a sweep ask for is one run, its id says so.
+std::vector<ResultRow> of_distinct_runs(const std::vector<ResultRow>& rows);
+
+/// One row per point and version: replicas of equal parameters together, each run once. Fields: the parameters, "state"
+/// ("done" if all are, otherwise "partial"), "versions.shaken", "versions.physics", "n_replicas", "n_done", and of what
+/// done replicas tell: for each number F its mean as F and the standard error of that (replica_mean) as error_field(F),
+/// in place of the runs' own; "F:n" where only so many of them have a value; for "n_effective" the sum; for "steady"
+/// true if all are, false if one is not.
 std::vector<ResultRow> aggregated(const std::vector<ResultRow>& rows);
+
+/// The field of the standard error of `field`, in rows of single runs and in aggregated ones: own_error_field(), or
+/// "F:sem" where a run has no error of its own.
+std::string error_field(const std::string& field);
 
 /// The field that holds a run's own standard error of `field`: "order.sem" of "order.mean", "measured.X.sem" of
 /// "measured.X.value"; empty if there is none.
@@ -72,13 +80,22 @@ std::string own_error_field(const std::string& field);
 /// Standard error of `field` in a row, aggregated or not; NaN where it is not known.
 double standard_error(const ResultRow& row, const std::string& field);
 
-/// Whether `field` is an average over a time in which the run still relaxed: its own "steady" is false, or is not known
-/// and the run's is false. False for what is no average, and where nothing is known.
+/// Of what kind of time an average is.
+enum class Steadiness {
+  kSteady,    ///< a steady state, or the field is no average over time
+  kRelaxing,  ///< one in which the run still relaxed: its own "steady" is false, or is not known and the run's is false
+  kNotKnown,  ///< the run is too short to tell
+};
+Steadiness steadiness(const ResultRow& row, const std::string& field);
+/// kRelaxing.
 bool still_relaxes(const ResultRow& row, const std::string& field);
+/// The mark before a value, "~" or "?", and what it means; empty for kSteady.
+const char* mark_of(Steadiness steadiness);
+const char* meaning_of(Steadiness steadiness);
 
-/// The field that `word` means: itself, "measured.WORD.value", "order.mean" where it is "S", or "F:sem" where `word` is
-/// the field of a run's own standard error of F (aggregated rows have the former only). Throws Failure (kBadInput),
-/// with the nearest name, if no row has it.
+/// The field that `word` means: itself, "measured.WORD.value", "order.mean" where it is "S", or the error of such a
+/// field where `word` is "WORD.sem" or "WORD:sem". A field that is null in every row is there all the same. Throws
+/// Failure (kBadInput), with the nearest name, if no row has it.
 std::string resolved_field(const std::vector<ResultRow>& rows, const std::string& word);
 
 /// The same among `names`; none if it is not there.

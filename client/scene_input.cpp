@@ -22,7 +22,7 @@ SceneInput read_scene_input(const std::string& file) {
   if (file == "-") {
     return {"stdin", std::string(std::istreambuf_iterator<char>(std::cin), std::istreambuf_iterator<char>())};
   }
-  return {file, value_or_fail(read_file(file), ExitCode::kBadInput)};
+  return {file, value_or_fail(read_input(file), ExitCode::kBadInput)};
 }
 
 std::string refusal_text(const std::vector<scene::Problem>& problems) {

@@ -163,7 +163,7 @@ Result<PictureStyle> named_style(const std::string& name, const PictureStyle& st
     return Error{fmt::format("there is no style '{}': give one of {}, or a file{}", name, list_of(preset_names()),
                              scene::did_you_mean(scene::nearest(name, preset_names())))};
   }
-  const Result<std::string> text = read_file(name);
+  const Result<std::string> text = read_input(name);
   if (!text) return text.error();
   scene::Loaded<PictureStyle> loaded = load_style(*text, name, style);
   if (!loaded) return Error{to_string(loaded.error())};

@@ -36,13 +36,14 @@ std::string order_text(const Json& summary) {
   if (n_effective > 0) text += fmt::format(", {:.3g} independent samples", n_effective);
   const Json steady = summary.value("steady", Json());
   if (steady == true) return text + ": steady\n";
-  if (steady != false) return text + "; whether it is steady is not known\n";
-  text += "\nSTILL RELAXING: this is no steady state yet";
+  text +=
+      steady == false ? "\nSTILL RELAXING: this is no steady state yet" : "\nNOT KNOWN whether this is a steady state";
+  if (const std::string why = order.value("why_not_steady", ""); !why.empty()) text += ": " + why;
   if (const auto drift = order.find("drift"); drift != order.end() && std::isfinite(number(*drift, "value"))) {
-    text += fmt::format(" (S changes by {} from the first half of that time to the second)",
+    text += fmt::format("\n(the error holds the change of S from the first half of that time to the second, {})",
                         with_error(number(*drift, "value"), number(*drift, "sem")));
   }
-  return text + fmt::format(".\nRun longer, for example -s time.measure={:.3g}\n", 4 * number(summary, "sim_seconds"));
+  return text + fmt::format("\nRun longer, for example -s time.measure={:.3g}\n", 4 * number(summary, "sim_seconds"));
 }
 
 }  // namespace

@@ -100,7 +100,7 @@ class Loop {
     progress_.sim_time = run_.simulation.time();
     progress_.sim_rate = rate_.rate();
     progress_.eta = state == "running" ? rate_.eta(progress_.sim_time_total) : -1.0;
-    progress_.order = analysis::nematic_order(run_.simulation.snapshot().director).order;
+    progress_.order = order_of(run_.simulation.snapshot(), species_if_several(run_.simulation.world())).order;
     progress_.order_running_mean = run_.measurements.order_running_mean();
     progress_.max_overlap = run_.simulation.world().counters.max_overlap();
     if (auto done = write_progress(directory_.progress(), progress_); !done) spdlog::warn("{}", done.error().message);
@@ -119,7 +119,7 @@ class Loop {
 
   std::optional<scene::KnownOrder> known_order() const {
     const auto order = run_.measurements.reduce(run_.simulation.time()).order;
-    return order ? std::optional(scene::KnownOrder{order->sem, order->steady}) : std::nullopt;
+    return order ? std::optional(scene::KnownOrder{shown_error(*order), order->steady}) : std::nullopt;
   }
 
   void aim_at(Tick end) {
@@ -246,9 +246,9 @@ class Loop {
     if (state == "done" && summary.order) {
       const std::string trouble = why_not_steady(*summary.order, summary.sim_seconds);
       if (!trouble.empty()) spdlog::warn("{}", trouble);
-      if (plan_.until && !(summary.order->sem <= plan_.until->order_sem)) {
+      if (plan_.until && !(shown_error(*summary.order) <= plan_.until->order_sem)) {
         spdlog::warn("S is known to {:.2g}, not to until.order_sem = {:.2g}: until.at_most, {:.4g} s, is over",
-                     summary.order->sem, plan_.until->order_sem, plan_.until->at_most);
+                     shown_error(*summary.order), plan_.until->order_sem, plan_.until->at_most);
       }
     }
     return write_summary(directory_.summary(), summary);

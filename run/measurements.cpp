@@ -16,11 +16,10 @@ Measurements::Measurements(const scene::RunPlan& plan, const Species& species,
   }
   const double dt = plan.system.dt;
   for (const MeasurementKind& kind : measurement_kinds()) {
-    const std::optional<double> every = kind.every(plan);
-    if (!every) continue;
-    const Cadence cadence(*every, dt);
+    const std::optional<Cadence> cadence = kind.cadence(plan);
+    if (!cadence) continue;
     timed_.push_back(
-        {std::string(kind.name), cadence, kind.make({plan, species, static_cast<double>(cadence.period()) * dt}), 0});
+        {std::string(kind.name), *cadence, kind.make({plan, species, static_cast<double>(cadence->period()) * dt}), 0});
     const Measurement* made = timed_.back().measurement.get();
     if (const auto* order = dynamic_cast<const MeasuredOrder*>(made)) order_ = order;
     if (const auto* defects = dynamic_cast<const MeasuredDefects*>(made)) defects_ = defects;
@@ -69,6 +68,13 @@ Reduction Measurements::reduce(double sim_seconds) const {
     result.t_steady = result.order->t_steady;
   }
   for (const Timed& timed : timed_) timed.measurement->reduce(result);
+  for (const MeasurementKind& kind : measurement_kinds()) {
+    for (const Output& number : kind.numbers) {
+      const auto scalar = result.scalars.find(std::string(number.name));
+      if (scalar == result.scalars.end() || is_known(scalar->second) || !scalar->second.reason.empty()) continue;
+      scalar->second.reason = number.if_none;
+    }
+  }
   return result;
 }
 

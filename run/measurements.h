@@ -23,7 +23,8 @@
 namespace shaken::run {
 
 /// Everything that the plan asks to measure while the run goes on. Samples are due at integer multiples of each
-/// measurement's own period, tick 0 included. What the plan does not ask for costs nothing.
+/// measurement's own period, tick 0 included, or once in each of these intervals (MeasurementKind::is_spread). What the
+/// plan does not ask for costs nothing.
 class Measurements {
  public:
   /// Of rods of the first species; `species_of_rod` (n_rods) says which these are, or is empty if there is no other.

@@ -11,7 +11,12 @@ namespace {
 
 constexpr double kMicrojoulePerPicojoule = 1e-6;
 
-/// Of the rods of the first species.
+void append(std::vector<double>& all, const std::vector<double>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
 analysis::NematicOrder order_of(const Snapshot& snapshot, std::span<const std::uint8_t> species_of_rod) {
   if (species_of_rod.empty()) return analysis::nematic_order(snapshot.director);
   std::vector<Vec3> directors;
@@ -20,12 +25,6 @@ analysis::NematicOrder order_of(const Snapshot& snapshot, std::span<const std::u
   }
   return analysis::nematic_order(directors);
 }
-
-void append(std::vector<double>& all, const std::vector<double>& more) {
-  all.insert(all.end(), more.begin(), more.end());
-}
-
-}  // namespace
 
 std::span<const std::uint8_t> species_if_several(const World& world) {
   if (world.species.size() > 1) return world.species_of_rod;

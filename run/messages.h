@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 
+#include "analysis/order.h"
 #include "proto/frame_codec.h"
 #include "run/files/progress.h"
 #include "run/measurements.h"
@@ -16,6 +17,10 @@ namespace shaken::run {
 
 /// Species of each rod; empty if there is but one species.
 std::span<const std::uint8_t> species_if_several(const World& world);
+
+/// S and the director of the rods of the first species: all that is live says the same of a mixture. `species_of_rod`
+/// (n_rods) is empty if there is no other species.
+analysis::NematicOrder order_of(const Snapshot& snapshot, std::span<const std::uint8_t> species_of_rod);
 
 /// State into wire messages. Head fields (utime, sequence, job_id) are left to the sender. Order and director are those
 /// of the rods of the first species, as in the measurements.

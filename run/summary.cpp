@@ -58,17 +58,54 @@ OrderedJson json_of(const std::optional<scene::StartState>& start) {
 /// Null where it is not known.
 OrderedJson json_of(std::optional<bool> known) { return known ? OrderedJson(*known) : OrderedJson(nullptr); }
 
+/// Why the value at `path` ("measured.dip.sem") is null, as far as the path tells.
+std::string why_null(const std::string& path, const Summary& summary) {
+  const auto ends = [&](std::string_view end) { return path.ends_with(end); };
+  if (path == "start") return "the rods were placed, not taken over from another run";
+  if (path == "order") return "the scene does not measure S (measure.order)";
+  if (path == "defects") return "the scene does not measure them (measure.defects)";
+  if (path == "steady" && !summary.order) return "S, which would tell, is not measured (measure.order)";
+  if (path.starts_with("measured.") && ends(".value")) {
+    constexpr std::size_t kBefore = std::string_view("measured.").size();
+    const std::string name = path.substr(kBefore, path.size() - kBefore - std::string_view(".value").size());
+    const auto scalar = summary.scalars.find(name);
+    if (scalar != summary.scalars.end() && !scalar->second.reason.empty() && !path.ends_with("drift.value"))
+      return scalar->second.reason;
+  }
+  if (ends("steady")) return "no average over time, or of too few independent samples to tell";
+  if (ends("sem") || ends("drift.value") || ends("n_effective") || ends("sem_if_steady"))
+    return "no average over time, or of too few independent samples";
+  return "a sum became too large, or was no number";
+}
+
+/// The path of every null in `json`, with its reason.
+void explain_nulls(const OrderedJson& json, const std::string& path, const Summary& summary, OrderedJson& reasons) {
+  if (json.is_null()) reasons[path] = why_null(path, summary);
+  if (!json.is_structured()) return;
+  for (const auto& [key, value] : json.items())
+    explain_nulls(value, path.empty() ? key : path + "." + key, summary, reasons);
+}
+
 }  // namespace
+
+double shown_error(double sem, std::optional<bool> steady, double drift, double drift_sem) {
+  return steady == true ? sem : std::hypot(sem, drift, drift_sem);
+}
+
+double shown_error(const analysis::SteadySummary& order) {
+  return shown_error(order.sem, order.steady, order.drift.value, order.drift.sem);
+}
 
 std::string why_not_steady(const analysis::SteadySummary& order, double sim_seconds) {
   if (order.steady == true) return "";
+  const bool is_long_enough = order.drift.n_effective >= analysis::kEnoughForSteadyState;
   if (std::abs(order.drift.value) > analysis::kDriftErrors * order.drift.sem) {
     return fmt::format(
         "S still drifts: it changes by {:.2g} +- {:.1g} from the first half of its average to the second; measure "
         "longer",
         order.drift.value, order.drift.sem);
   }
-  if (!(order.drift.n_effective >= analysis::kEnoughForSteadyState)) {
+  if (!order.steady && !is_long_enough) {
     return fmt::format(
         "whether S is steady cannot be told: its average is worth about {:.0f} independent samples; measure longer",
         order.n_effective);
@@ -105,26 +142,37 @@ Result<void> write_summary(const std::filesystem::path& file, const Summary& sum
   if (summary.order) {
     json["order"] = {{"mean", summary.order->mean},
                      {"std", summary.order->std},
-                     {"sem", number_or_null(summary.order->sem)},
+                     {"sem", number_or_null(shown_error(*summary.order))},
                      {"tau_s", summary.order->tau},
                      {"t_steady_s", summary.order->t_steady},
                      {"n_effective", summary.order->n_effective},
                      {"steady", json_of(summary.order->steady)},
                      {"drift", drift_json(summary.order->drift.value, summary.order->drift.sem)}};
+    if (summary.order->steady != true) json["order"]["sem_if_steady"] = number_or_null(summary.order->sem);
+    if (const std::string why = why_not_steady(*summary.order, summary.sim_seconds); !why.empty())
+      json["order"]["why_not_steady"] = why;
   }
   if (summary.defects_mean_plus && summary.defects_mean_minus) {
     json["defects"] = {{"mean_plus", *summary.defects_mean_plus}, {"mean_minus", *summary.defects_mean_minus}};
   }
   json["measured"] = OrderedJson::object();
   for (const auto& [name, scalar] : summary.scalars) {
+    // what has no drift is no average over time
+    const double sem = std::isfinite(scalar.drift)
+                           ? shown_error(scalar.sem, scalar.steady, scalar.drift, scalar.drift_sem)
+                           : scalar.sem;
     json["measured"][name] = {{"value", number_or_null(scalar.value)},
-                              {"sem", number_or_null(scalar.sem)},
+                              {"sem", number_or_null(sem)},
                               {"n_effective", number_or_null(scalar.n_effective)},
                               {"steady", json_of(scalar.steady)},
                               {"drift", drift_json(scalar.drift, scalar.drift_sem)}};
+    if (std::isfinite(sem) && sem != scalar.sem) json["measured"][name]["sem_if_steady"] = scalar.sem;
     if (!scalar.reason.empty()) json["measured"][name]["reason"] = scalar.reason;
   }
   for (const auto& [name, effect] : summary.effects) json["effects"][name] = to_json(effect);
+  OrderedJson reasons = OrderedJson::object();
+  explain_nulls(json, "", summary, reasons);
+  json["why_null"] = std::move(reasons);
   json["state_hash"] = fmt::format("{:016x}", summary.state_hash);
   json["exit"] = {{"state", summary.state}, {"reason", summary.reason}, {"tick", summary.tick}, {"rods", summary.rods}};
   json["versions"] = {{"shaken", version()}, {"physics", kPhysicsVersion}, {"compiler", compiler()}};

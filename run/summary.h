@@ -53,6 +53,12 @@ struct Summary {
   std::vector<int> rods;       ///< concerned by numerical trouble
 };
 
+/// The standard error that is shown with a mean: its own where it is of a steady state. Where it is not, or that is not
+/// known, the mean may be on its way still: then its drift and the error of that are part of it. NaN: unknown.
+double shown_error(double sem, std::optional<bool> steady, double drift, double drift_sem);
+
+double shown_error(const analysis::SteadySummary& order);
+
 /// Why S is not called steady after so long a run, and what to do about it, in a sentence; empty if it is.
 std::string why_not_steady(const analysis::SteadySummary& order, double sim_seconds);
 

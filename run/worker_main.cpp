@@ -216,7 +216,7 @@ ExitCode work(const Arguments& arguments) {
   if (arguments.out.empty() == arguments.probe.empty()) {
     throw Failure(ExitCode::kBadInput, "one of --out and --probe is needed (see `shaken-worker --help`)");
   }
-  const std::string text = value_or_fail(read_file(arguments.scene), ExitCode::kBadInput);
+  const std::string text = value_or_fail(read_input(arguments.scene), ExitCode::kBadInput);
   const scene::Loaded<scene::RunPlan> plan = scene::load_scene(text, arguments.scene, arguments.settings);
   if (!plan) throw Failure(ExitCode::kBadInput, to_string(plan.error()));
   if (const auto problem = scene::memory_problem(*plan, scene::memory_allowed(), arguments.scene)) {

@@ -61,6 +61,15 @@ bool same(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max({1.0, 
 
 }  // namespace
 
+namespace {
+
+/// Without the drift that `sem` holds where a mean is not known to be steady; judged_error() adds that.
+double own_error(const Json& estimate) {
+  return number_or_nan(find(estimate, estimate.contains("sem_if_steady") ? "sem_if_steady" : "sem"));
+}
+
+}  // namespace
+
 double judged_error(const Estimate& estimate) {
   if (estimate.steady == true) return estimate.sem;
   return std::hypot(estimate.sem, estimate.drift, estimate.drift_sem);
@@ -103,13 +112,13 @@ Estimate FinishedRun::scalar(const std::string& name) const {
   if (const Json* measured = find(*summary_, "measured"); measured != nullptr && measured->contains(name)) {
     const Json& scalar = measured->at(name);
     estimate.value = number_or_nan(find(scalar, "value"));
-    estimate.sem = number_or_nan(find(scalar, "sem"));
+    estimate.sem = own_error(scalar);
     estimate.steady = flag_of(find(scalar, "steady"));
     read_drift(estimate, scalar, "drift");
   } else {
     estimate.value = number_or_nan(find(*summary_, name));
     if (name == "order.mean") {
-      estimate.sem = number_or_nan(find(*summary_, "order.sem"));
+      if (const Json* order = find(*summary_, "order")) estimate.sem = own_error(*order);
       estimate.steady = flag_of(find(*summary_, "order.steady"));
       read_drift(estimate, *summary_, "order.drift");
     }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include "base/table.h"
 #include "base/text.h"
@@ -43,18 +44,15 @@ constexpr SummaryColumn kAggregateColumns[] = {
     {"DONE", "n_done", 3},
     {"N", "n_rods", 3},
     {"S", "order.mean", 0},
-    {"SEM", "order.mean:sem", 1},
+    {"SEM", "order.sem", 1},
     {"STD", "order.std", 5},
     {"N_EFF", "order.n_effective", 4},
     {"THETA_M deg", "measured.theta_m_deg.value", 2},
-    {"SEM deg", "measured.theta_m_deg.value:sem", 2},
+    {"SEM deg", "measured.theta_m_deg.sem", 2},
     {"TAU s", "order.tau_s", 8},
     {"SIM s", "sim_seconds", 6},
     {"CPU s", "cpu_seconds", 7},
 };
-
-/// Before a value from a time in which the run still relaxed.
-constexpr const char* kRelaxingMark = "~";
 
 class Results : public Verb {
  public:
@@ -71,7 +69,10 @@ class Results : public Verb {
             "any key of the scene or number of the summary to their left: `--csv` shows their names. A comparison is "
             "false\n"
             "for runs that lack the name.\n"
-            "A value marked ~ is an average over a time in which the run still relaxed: run it longer."};
+            "A value marked ~ is an average over a time in which the run still relaxed, one marked ? of a run that "
+            "is\n"
+            "too short to tell: run them longer. With --aggregate, (2) behind a mean says that only 2 runs have a "
+            "value."};
   }
 
   void declare(Arguments& arguments) override {
@@ -178,6 +179,13 @@ class Results : public Verb {
     });
   }
 
+  static bool any_value(const std::vector<ResultRow>& rows, const std::string& field) {
+    return std::any_of(rows.begin(), rows.end(), [&](const ResultRow& row) {
+      const auto value = row.fields.find(field);
+      return value != row.fields.end() && !value->is_null();
+    });
+  }
+
   /// As --columns names them; none if it is not given. All that no row has are refused together.
   std::vector<std::string> chosen_fields(const std::vector<ResultRow>& rows) const {
     std::vector<std::string> fields;
@@ -205,15 +213,16 @@ class Results : public Verb {
     }
     std::vector<Table::Column> columns;
     std::vector<std::string> fields;
+    const bool is_chosen = !columns_.empty();
     const auto add_column = [&](const std::string& title, const std::string& field, int rank) {
       bool filled = false, numbers = true;
       for (const ResultRow& row : rows) {
         const auto value = row.fields.find(field);
         if (value == row.fields.end()) continue;
         filled = true;
-        numbers &= value->is_number();
+        numbers &= value->is_number() || value->is_null();
       }
-      if (!filled) return;
+      if (!filled || (!is_chosen && rank > 0 && !any_value(rows, field))) return;
       columns.push_back({printable(title), numbers ? Table::Align::kRight : Table::Align::kLeft, rank});
       fields.push_back(field);
     };
@@ -224,18 +233,19 @@ class Results : public Verb {
     }
 
     Table table(columns);
-    bool any_relaxes = false;
+    std::set<Steadiness> met;
     for (const ResultRow& row : rows) {
       std::vector<std::string> cells;
       for (const std::string& field : fields) {
         const auto value = row.fields.find(field);
-        const bool relaxes = value != row.fields.end() && still_relaxes(row, field);
-        any_relaxes |= relaxes;
+        const Steadiness of = steadiness(row, field);
+        met.insert(of);
         if (field == "job") {
           cells.push_back(short_id(field_text(row, field)));
         } else if (value != row.fields.end() && value->is_number()) {
-          const std::string text = number_text(value->get<double>());
-          cells.push_back(relaxes ? console.painted(Colour::kYellow, kRelaxingMark + text) : text);
+          std::string text = mark_of(of) + number_text(value->get<double>());
+          if (row.fields.contains(field + ":n")) text += fmt::format(" ({})", field_text(row, field + ":n"));
+          cells.push_back(of == Steadiness::kSteady ? text : console.painted(Colour::kYellow, text));
         } else {
           cells.push_back(field_text(row, field));
         }
@@ -243,9 +253,9 @@ class Results : public Verb {
       table.add_row(std::move(cells));
     }
     console.out << table.text(console.width);
-    if (any_relaxes) {
-      console.out << console.painted(Colour::kYellow, kRelaxingMark) << " still relaxing: no steady state yet, "
-                  << "run it longer (-s time.measure=...)\n";
+    for (const Steadiness of : {Steadiness::kRelaxing, Steadiness::kNotKnown}) {
+      if (met.contains(of))
+        console.out << console.painted(Colour::kYellow, mark_of(of)) << " " << meaning_of(of) << "\n";
     }
     std::string left_out;
     for (const std::string& title : table.left_out(console.width)) left_out += (left_out.empty() ? "" : ", ") + title;

@@ -58,9 +58,11 @@ MeasurementKind angles_kind() {
           {
               {"theta_m_deg",
                "angle by which layers are turned: ± the means of two Gaussians fitted to P(θ); null if there is one "
-               "peak"},
+               "peak",
+               false, "P(theta) has one peak, or too few samples to tell two"},
               {"theta_m_maximum_deg",
-               "angle at which P(θ) itself is highest, both signs taken together; null if there is one peak"},
+               "angle at which P(θ) itself is highest, both signs taken together; null if there is one peak", false,
+               "P(theta) has one peak, or too few samples to tell two"},
               {"dip", "P(0) over the maximum of P: below 1 where there are two peaks"},
           },
   };

@@ -74,7 +74,8 @@ MeasurementKind velocity_kind() {
       .numbers =
           {
               {"velocity_correlation_s", "integral of C_v up to its first zero"},
-              {"velocity_decay_s", "lag at which C_v falls to 1/e"},
+              {"velocity_decay_s", "lag at which C_v falls to 1/e", false,
+               "C_v does not fall to 1/e within the lags measured"},
               {"velocity_variance_along_mm2_s2", "⟨v²⟩ along the director: C_v(0), not normalised"},
               {"velocity_variance_across_mm2_s2", "⟨v²⟩ across it"},
               {"persistence_time_s", "for how long a rod keeps its direction"},

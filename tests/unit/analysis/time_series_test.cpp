@@ -158,6 +158,20 @@ TEST(Summary, TauIsInTheUnitOfTheTimes) {
   EXPECT_NEAR(summary.n_effective, 50000 / 19.0, 0.4 * 50000 / 19);
 }
 
+// An ordered start that falls within few samples to a state that fluctuates slowly: it costs next to no effective
+// samples to keep it, but it is no sample of that state.
+TEST(SteadyIndex, IsNotBeforeTheSeriesHasComeBackFromItsStart) {
+  for (const int seed : {21, 22, 23, 24}) {
+    Draw draw(static_cast<std::uint64_t>(seed));
+    std::vector<double> x = ar1(draw, 0.97, 4000);
+    for (double& value : x) value = 0.3 + 0.05 * value;
+    for (std::size_t i = 0; i < 40; ++i) x[i] = 1.0 - 0.015 * static_cast<double>(i);  // 1 to 0.4
+    const std::size_t begin = steady_index(x);
+    EXPECT_GE(begin, 40u) << seed;
+    EXPECT_LT(begin, 1500u) << seed;
+  }
+}
+
 TEST(Summary, ShortAndConstantSeries) {
   EXPECT_EQ(summarize_series({}, {}).n_effective, 0.0);
   EXPECT_EQ(summarize_series({}, {}, 3.0).t_steady, 3.0);

@@ -139,7 +139,7 @@ ResultRow point(double length, double fraction, double order, double sem) {
   row.parameters = {{"rods.length", length}, {"rods.area_fraction", fraction}};
   row.fields = row.parameters;
   row.fields["order.mean"] = order;
-  row.fields["order.mean:sem"] = sem;
+  row.fields["order.sem"] = sem;
   return row;
 }
 
@@ -159,7 +159,7 @@ TEST(SweepFigures, LongestParameterIsTheAxisOthersAreCurves) {
 TEST(SweepFigures, AnyFieldAgainstAnyOther) {
   ResultRow a = point(2.5, 0.5, 0.1, 0.01), b = point(2.5, 0.7, 0.3, 0.03), without = point(2.5, 0.9, 0.3, 0.03);
   a.fields["measured.theta_m_deg.value"] = 8.5;
-  a.fields["measured.theta_m_deg.value:sem"] = 0.5;
+  a.fields["measured.theta_m_deg.sem"] = 0.5;
   b.fields["measured.theta_m_deg.value"] = 9.5;
   b.fields["steady"] = false;
   const auto figures = sweep_figures({a, b, without}, {.y = "measured.theta_m_deg.value"});

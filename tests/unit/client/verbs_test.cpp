@@ -484,7 +484,7 @@ TEST_F(ChosenResults, WhereIsOnMeansWhereThereAreMeans) {
   answer();
   const Outcome outcome = run(
       {"results", "s1", "-a", "--csv", "--columns", "order.mean,order.sem", "-w", "order.mean>0.4 and order.sem>0.2"});
-  EXPECT_EQ(outcome.out, "order.mean,order.mean:sem\n0.5,0.25\n") << outcome.err;
+  EXPECT_EQ(outcome.out, "order.mean,order.sem\n0.5,0.25\n") << outcome.err;
   EXPECT_THAT(run({"results", "s1", "-a", "-w", "state=done"}).out, HasSubstr("No rows")) << "one is queued";
 }
 

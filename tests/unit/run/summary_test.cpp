@@ -59,6 +59,28 @@ TEST(Summary, HasTheAgreedFields) {
   EXPECT_EQ(json["versions"]["shaken"], "0.1.0");
 }
 
+// Two seconds from an ordered start: the scatter alone would promise four digits.
+TEST(Summary, TheErrorOfWhatMayBeOnItsWayHoldsItsDrift) {
+  Summary summary = example();
+  summary.order->sem = 0.0007;
+  summary.order->steady = std::nullopt;
+  summary.order->drift = {-0.03, 0.02};
+  summary.scalars["dip"] = {{0.5, 0.01, 30, false, 0.3, 0.4}};
+  summary.scalars["diffusion"] = {{2.0, 0.1, 30, std::nullopt}};  // no average over time
+  auto json = written(summary);
+  EXPECT_NEAR(json["order"]["sem"].get<double>(), std::hypot(0.0007, 0.03, 0.02), 1e-12);
+  EXPECT_EQ(json["order"]["sem_if_steady"], 0.0007);
+  EXPECT_NE(json["order"]["why_not_steady"], "");
+  EXPECT_NEAR(json["measured"]["dip"]["sem"].get<double>(), std::hypot(0.01, 0.3, 0.4), 1e-12);
+  EXPECT_EQ(json["measured"]["diffusion"]["sem"], 0.1);
+  summary.order->drift = {};
+  EXPECT_TRUE(written(summary)["order"]["sem"].is_null()) << "what drifts by nobody knows how much has no error";
+  summary.order->steady = true;
+  json = written(summary);
+  EXPECT_EQ(json["order"]["sem"], 0.0007);
+  EXPECT_FALSE(json["order"].contains("why_not_steady") || json["order"].contains("sem_if_steady"));
+}
+
 TEST(Summary, SaysOfEveryNumberWhatItIsWorth) {
   Summary summary = example();
   summary.order->steady = true;
