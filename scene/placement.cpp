@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "scene/placement.h"
 
-#include <unordered_set>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <unordered_map>
+#include <utility>
 
 #include "scene/canonical.h"
 #include "scene/load.h"
@@ -29,20 +33,45 @@ std::string placement_key(const RunPlan& plan) {
   return run_id(alike);
 }
 
+/// The nearest larger side, in halves of a millimetre (tenths below 5 mm) and at most three tenths larger, whose box
+/// holds rods of the same area fraction in rows; none if there is none, or for another start. Rows are not commensurate
+/// with every side, so it need not be the largest that counts.
+std::optional<double> nearest_side(const System& system) {
+  if (system.start != Start::kAligned || system.walls) return std::nullopt;
+  constexpr int kMostTries = 60;
+  const double per_mm = system.box_side < 5 ? 10 : 2;
+  System larger = system;
+  for (int k = 1; k <= kMostTries; ++k) {
+    larger.box_side = (std::floor(system.box_side * per_mm) + k) / per_mm;
+    if (larger.box_side > 1.3 * system.box_side) break;
+    const double more = larger.box_side * larger.box_side / (system.box_side * system.box_side);
+    larger.n_rods = static_cast<int>(std::lround(system.n_rods * more));
+    for (std::size_t s = 0; s < system.added.size(); ++s) {
+      if (system.added[s]) larger.added[s]->count = static_cast<int>(std::lround(system.added[s]->count * more));
+    }
+    if (make_world(larger)) return larger.box_side;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<Problem> placement_problem(const RunPlan& plan, const std::string& file, const std::string& label) {
   if (plan.start) return std::nullopt;  // nothing is placed
   const Result<World> world = make_world(plan.system);
   if (world) return std::nullopt;
-  return Problem{file, 0, 0, "/rods", label.empty() ? world.error().message : label + ": " + world.error().message};
+  std::string message = label.empty() ? world.error().message : label + ": " + world.error().message;
+  if (const auto side = nearest_side(plan.system))
+    message += fmt::format("; a box.side of {:.10g} mm holds this area fraction", *side);
+  return Problem{file, 0, 0, "/rods", std::move(message)};
 }
 
 Loaded<Sweep> load_runs(std::string_view text, const std::string& file, std::span<const std::string> settings,
                         std::optional<int> replicas) {
   Loaded<Sweep> sweep = load_sweep(text, file, settings, replicas);
   if (!sweep) return sweep;
-  std::unordered_set<std::string> placed;
+  std::unordered_map<std::string, bool> can_be_placed;
+  std::size_t n_fine = 0;
   std::vector<Problem> problems;
   const double allowed = memory_allowed();
   for (const SweepPoint& point : sweep->points) {
@@ -50,10 +79,19 @@ Loaded<Sweep> load_runs(std::string_view text, const std::string& file, std::spa
       problems.push_back(*std::move(problem));
       continue;
     }
-    if (!placed.insert(placement_key(point.plan)).second) continue;
-    if (auto problem = placement_problem(point.plan, file, point.label)) problems.push_back(*std::move(problem));
+    const auto [known, is_new] = can_be_placed.try_emplace(placement_key(point.plan), true);
+    if (is_new) {
+      if (auto problem = placement_problem(point.plan, file, point.label)) {
+        problems.push_back(*std::move(problem));
+        known->second = false;
+      }
+    }
+    n_fine += known->second ? 1 : 0;
   }
-  if (!problems.empty()) return tidied(std::move(problems));
+  if (!problems.empty()) {
+    if (n_fine > 0) problems.back().message += fmt::format("; {} of {} points are fine", n_fine, sweep->points.size());
+    return tidied(std::move(problems));
+  }
   return sweep;
 }
 

@@ -24,14 +24,24 @@ void resolve_accuracy(Resolution& scene) {
   const Given* word = scene.draft.find("accuracy");
   if (!word || !scene.ok({"accuracy", "time.step", "time.impacts"})) return;
   const AccuracyLevel* level = accuracy_level(std::get<std::string>(word->value));
-  if (!scene.given("time.step")) system.dt = level->step;
-  if (!scene.given("time.impacts")) system.impacts = level->impacts;
-  if (system.dt != level->step) {
+  // a setting has the last word over what a file says, whichever of the keys it is
+  const auto is_setting = [](const Given& given) { return given.place.line == 0; };
+  const auto yields = [&](const char* path) {  // to the level
+    const Given* other = scene.draft.find(path);
+    return other == nullptr || (is_setting(*word) && !is_setting(*other));
+  };
+  const auto wins = [&](const char* path) {  // over the level
+    const Given* other = scene.draft.find(path);
+    return other != nullptr && !is_setting(*word) && is_setting(*other);
+  };
+  if (yields("time.step")) system.dt = level->step;
+  if (yields("time.impacts")) system.impacts = level->impacts;
+  if (system.dt != level->step && !wins("time.step")) {
     scene.report({"accuracy"},
                  fmt::format("accuracy \"{}\" is a time.step of {}, but time.step {} is given; remove one", level->name,
                              time_text(level->step), time_text(system.dt)));
   }
-  if (system.impacts != level->impacts) {
+  if (system.impacts != level->impacts && !wins("time.impacts")) {
     scene.report({"accuracy"},
                  fmt::format("accuracy \"{}\" is time.impacts \"{}\", but time.impacts \"{}\" is given; remove one",
                              level->name, name_of(level->impacts), name_of(system.impacts)));

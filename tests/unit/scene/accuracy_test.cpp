@@ -11,11 +11,31 @@
 
 #include "scene/canonical.h"
 #include "scene/fields.h"
+#include "scene/load.h"
 #include "scene/sweep.h"
 #include "tests/unit/scene/support.h"
 
 namespace shaken::scene {
 namespace {
+
+// Whichever of the keys it is: later settings override.
+TEST(Accuracy, ASettingWinsOverWhatTheFileSays) {
+  const auto step = [](const char* text, const std::vector<std::string>& settings) {
+    const auto plan = load_scene(text, "run.json", settings);
+    return plan ? plan->system.dt : -1.0;
+  };
+  EXPECT_EQ(step(R"({"time": {"step": "4 us"}})", {"accuracy=desk"}), 16e-6);
+  EXPECT_EQ(step(R"({"accuracy": "paper"})", {"time.step=8us"}), 8e-6);
+  EXPECT_EQ(step(R"({"accuracy": "paper"})", {"accuracy=draft"}), 32e-6);
+  EXPECT_EQ(step(R"({"accuracy": "paper", "time": {"step": "5 us"}})", {}), -1.0) << "the file contradicts itself";
+  EXPECT_EQ(step("{}", {"accuracy=paper", "time.step=5us"}), -1.0) << "so do the settings";
+  const std::vector<std::string> swept{"accuracy=draft,paper"};
+  const auto sweep = load_sweep(R"({"time": {"step": "4 us"}})", "run.json", swept);
+  ASSERT_TRUE(sweep);
+  ASSERT_EQ(sweep->points.size(), 2U);
+  EXPECT_EQ(sweep->points[0].plan.system.dt, 32e-6);
+  EXPECT_EQ(sweep->points[1].plan.system.dt, 4e-6);
+}
 
 /// The rows of docs/data/accuracy-bias.csv, by the names of its columns.
 using Row = std::map<std::string, std::string>;
