@@ -6,7 +6,7 @@ import {PointMap, sequential, strip} from "/page/charts.js";
 
 /** So many results are asked for at once; a larger sweep's table shows the first of its jobs. */
 const kMostResults = 2000, kMostRows = 500;
-const kPreferred = ["order.mean", "tilt.theta_m_deg", "defects.mean", "n_rods"];
+const kPreferred = ["order.mean", "measured.theta_m_deg.value", "n_rods"];
 
 /** Numbers of a summary by path: {"order.mean": 0.9, ...}. */
 function leaves(object, prefix = "", found = {}) {
@@ -15,6 +15,15 @@ function leaves(object, prefix = "", found = {}) {
     else if (value && typeof value === "object" && !Array.isArray(value)) leaves(value, `${prefix}${key}.`, found);
   }
   return found;
+}
+
+/** What is to be said of an average of a row: a word where it still relaxes or that is not known, as in tables. */
+function warning(row, path) {
+  const own = path.startsWith("measured.") ? row.summary?.measured?.[path.split(".")[1]]?.steady : undefined;
+  const isAverage = path === "order.mean" || path === "order.std" || path.startsWith("measured.");
+  const steady = typeof own === "boolean" ? own : row.summary?.steady;
+  if (!isAverage || !row.summary || steady === true) return "";
+  return steady === false ? "~ still relaxing" : "? too short to tell whether it is steady";
 }
 
 const sorted = (set) => [...set].sort((a, b) => a.localeCompare(b));
@@ -111,18 +120,23 @@ export class SweepPanel {
                           select("value", "Colour", sorted(measured))] : [])]);
   }
 
-  /** Jobs at the same place are replicas: their mean is shown. */
+  /** Jobs at the same place are replicas: their mean is shown. A run that is listed twice counts once. */
   drawMap() {
     const {x, y, value} = this.axes;
     const places = new Map();
     for (const row of this.rows) {
       const across = row.parameters[x], up = y ? row.parameters[y] : undefined;
       const key = JSON.stringify([across, up]);
-      const place = places.get(key) ?? {across, up, jobs: [], values: [], states: new Set()};
+      const place = places.get(key) ?? {across, up, jobs: [], values: [], states: new Set(), warnings: new Set()};
       places.set(key, place);
+      if (place.jobs.includes(row.job)) continue;
       place.jobs.push(row.job);
       place.states.add(row.state);
-      if (Number.isFinite(row.values[value])) place.values.push(row.values[value]);
+      if (Number.isFinite(row.values[value])) {
+        place.values.push(row.values[value]);
+        const told = warning(row, value);
+        if (told) place.warnings.add(told);
+      }
     }
     const mean = (values) => values.reduce((sum, one) => sum + one, 0) / values.length;
     const all = [...places.values()].filter((place) => Number.isFinite(place.across));
@@ -134,7 +148,7 @@ export class SweepPanel {
         place.jobs.includes(this.run) ? "#e4e6ea" : "#3a404a";
       const words = [`${x} = ${place.across}`, ...(y ? [`${y} = ${place.up}`] : []),
                      `${value} = ${number(average)}` + (place.values.length > 1 ? ` (mean of ${place.values.length})` : ""),
-                     [...place.states].join(", ")];
+                     ...place.warnings, [...place.states].join(", ")];
       return {x: place.across, y: y ? place.up : average, jobs: place.jobs, border, text: words.join("; "),
               fill: Number.isFinite(average) ? sequential(high > low ? (average - low) / (high - low) : 0.5) : "transparent"};
     });
