@@ -47,7 +47,7 @@ ALLOWED = {
     "render/headline.cpp": ["render", "scene/fields.h", "scene/units.h", "sim/core"],
     # the defaults of the director field whose defects are drawn
     "render/measure.cpp": ["render", "scene/measure_plan.h", "sim/core", "sim/system.h", "analysis"],
-    "render": ["sim/core", "sim/system.h", "analysis"],
+    "render": ["base/files.h", "base/descriptor.h", "sim/core", "sim/system.h", "analysis"],
     "server/relay": ["proto", "base", "sim/core"],
     "server": ["proto", "base", "scene", "run/files", "sim/core"],
     "client": ["proto", "base", "scene", "run/files", "run/export", "sim/core", "sim/rod", "sim/system.h"],

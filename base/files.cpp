@@ -2,13 +2,19 @@
 #include "base/files.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <climits>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <limits>
+#include <random>
 #include <system_error>
 
 namespace shaken {
@@ -41,12 +47,36 @@ Result<void> sync(const std::filesystem::path& path, int flags) {
   return {};
 }
 
+constexpr std::size_t kDigits = 12;  ///< of the name of an unfinished file
+
+/// Whether temporary_for makes such a name for a file called `name`.
+bool is_temporary_of(std::string_view name, std::string_view temporary) {
+  if (!temporary.starts_with(name)) return false;
+  temporary.remove_prefix(name.size());
+  if (temporary.size() != kDigits + 5 || temporary.front() != '.' || !temporary.ends_with(".tmp")) return false;
+  return temporary.substr(1, kDigits).find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
 }  // namespace
 
 std::filesystem::path temporary_for(const std::filesystem::path& file) {
-  std::filesystem::path temporary = file;
-  temporary += ".tmp";
-  return temporary;
+  std::uint64_t random = 0;
+  if (::getrandom(&random, sizeof random, 0) != sizeof random) random = std::random_device{}();
+  const std::string ending = fmt::format(".{:0{}x}.tmp", random >> (64 - 4 * kDigits), kDigits);
+  std::string name = file.filename().string();
+  name.resize(std::min(name.size(), NAME_MAX - ending.size()));
+  return file.parent_path() / (name + ending);
+}
+
+void remove_unfinished(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::filesystem::path folder = file.parent_path();
+  for (std::filesystem::directory_iterator entry(folder.empty() ? "." : folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (!is_temporary_of(file.filename().string(), entry->path().filename().string())) continue;
+    std::error_code ignored;
+    std::filesystem::remove(entry->path(), ignored);
+  }
 }
 
 Result<void> replace_file(const std::filesystem::path& written, const std::filesystem::path& file) {
@@ -77,15 +107,16 @@ Result<void> write_file_atomically(const std::filesystem::path& file, std::strin
 }
 
 Result<ReplacementFile> ReplacementFile::create(const std::filesystem::path& file) {
-  Descriptor out = open_file(temporary_for(file), O_WRONLY | O_CREAT | O_TRUNC);
+  std::filesystem::path written = temporary_for(file);
+  Descriptor out = open_file(written, O_WRONLY | O_CREAT | O_EXCL);
   if (!out) return system_error("cannot write " + file.string());
-  return ReplacementFile(file, std::move(out));
+  return ReplacementFile(file, std::move(written), std::move(out));
 }
 
 ReplacementFile::~ReplacementFile() {
   if (!out_) return;
   std::error_code ignored;
-  std::filesystem::remove(temporary_for(file_), ignored);
+  std::filesystem::remove(written_, ignored);
 }
 
 Result<void> ReplacementFile::append(std::string_view piece) {
@@ -94,14 +125,13 @@ Result<void> ReplacementFile::append(std::string_view piece) {
 }
 
 Result<void> ReplacementFile::finish() {
-  const std::filesystem::path written = temporary_for(file_);
   if (!out_.close_now()) {
     const Error error = system_error("cannot write " + file_.string());
     std::error_code ignored;
-    std::filesystem::remove(written, ignored);
+    std::filesystem::remove(written_, ignored);
     return error;
   }
-  return replace_file(written, file_);
+  return replace_file(written_, file_);
 }
 
 namespace {

@@ -13,8 +13,8 @@
 namespace shaken {
 
 /// Replaces `file` by `content` so that a reader, or a crash at any instant, sees the old file or the new, never a
-/// mixture: writes FILE.tmp, fsync, rename, fsync of the folder. Returns the reason if the disk refuses; the old file
-/// is then untouched.
+/// mixture: writes an unfinished file beside it, fsync, rename, fsync of the folder. Returns the reason if the disk
+/// refuses; the old file is then untouched. Of several writers at one time the last has its content there, whole.
 Result<void> write_file_atomically(const std::filesystem::path& file, std::string_view content);
 
 /// The second half of the above alone: fsync of `written`, rename to `file`, fsync of the folder. Both are in the same
@@ -24,8 +24,8 @@ Result<void> replace_file(const std::filesystem::path& written, const std::files
 /// The first half alone: writes `content` without making it last, or removes what there is of it.
 Result<void> write_file(const std::filesystem::path& file, std::string_view content);
 
-/// As write_file_atomically, for content that comes piece by piece: FILE.tmp grows until `finish` puts it in the place
-/// of FILE. If that never happens, FILE stays as it was, and FILE.tmp goes with this object.
+/// As write_file_atomically, for content that comes piece by piece: an unfinished file grows until `finish` puts it in
+/// the place of FILE. If that never happens, FILE stays as it was, and the unfinished file goes with this object.
 class ReplacementFile {
  public:
   static Result<ReplacementFile> create(const std::filesystem::path& file);
@@ -37,14 +37,19 @@ class ReplacementFile {
   Result<void> finish();
 
  private:
-  ReplacementFile(std::filesystem::path file, Descriptor out) : file_(std::move(file)), out_(std::move(out)) {}
+  ReplacementFile(std::filesystem::path file, std::filesystem::path written, Descriptor out)
+      : file_(std::move(file)), written_(std::move(written)), out_(std::move(out)) {}
 
-  std::filesystem::path file_;
-  Descriptor out_;  ///< of FILE.tmp; none once it is finished
+  std::filesystem::path file_, written_;
+  Descriptor out_;  ///< of the unfinished file; none once it is finished
 };
 
-/// FILE.tmp, where the next content of `file` is prepared.
+/// A name beside `file`, where its next content is prepared: FILE.XXXXXXXXXXXX.tmp, with digits that no other call
+/// gets, in this process or in another one, on this machine or on another one that shares the disk.
 std::filesystem::path temporary_for(const std::filesystem::path& file);
+
+/// Removes what writers of `file` that were killed have left beside it. For one who knows that nobody else writes it.
+void remove_unfinished(const std::filesystem::path& file);
 
 /// The whole file, or why it cannot be read. A regular file only: a pipe or a device of that name could keep whoever
 /// reads it for ever.

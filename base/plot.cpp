@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "base/failure.h"
 #include "base/files.h"
@@ -26,6 +27,19 @@ std::string terminal_of(const Canvas& canvas, PictureFormat format) {
   return fmt::format("{} size {},{} {} linewidth {:g}", format == PictureFormat::kSvg ? "svg" : "pngcairo",
                      canvas.width, canvas.height, font, canvas.line_width);
 }
+
+void replace_all(std::string& text, const std::string& old, const std::string& next) {
+  for (std::size_t at = text.find(old); at != std::string::npos; at = text.find(old, at + next.size()))
+    text.replace(at, old.size(), next);
+}
+
+struct RemovedAtEnd {
+  std::vector<std::filesystem::path> files;
+  ~RemovedAtEnd() {
+    std::error_code ignored;
+    for (const auto& file : files) std::filesystem::remove(file, ignored);
+  }
+};
 
 }  // namespace
 
@@ -87,16 +101,28 @@ std::filesystem::path draw_plot(const std::filesystem::path& folder, const std::
   done_or_fail(make_folder(folder));
   done_or_fail(write_file_atomically(folder / (name + ".dat"), data));
   done_or_fail(write_file_atomically(folder / (name + ".gp"), script));
-  const Captured gnuplot = run_captured({"gnuplot", name + ".gp"}, folder);
-  std::filesystem::path picture = folder / (name + "." + suffix_of(format));
+  // What gnuplot reads and writes has names of its own: others may draw a picture of this name at the same time.
+  const std::string picture_name = name + "." + suffix_of(format);
+  std::filesystem::path picture = folder / picture_name;
+  const std::filesystem::path own_data = temporary_for(folder / (name + ".dat")),
+                              own_script = temporary_for(folder / (name + ".gp")), own_picture = temporary_for(picture);
+  std::string own_text = script;
+  replace_all(own_text, "'" + name + ".dat'", gnuplot_literal(own_data.filename().string()));
+  replace_all(own_text, "'" + picture_name + "'", gnuplot_literal(own_picture.filename().string()));
+  const RemovedAtEnd removed{{own_data, own_script, own_picture}};
+  done_or_fail(write_file(own_data, data));
+  done_or_fail(write_file(own_script, own_text));
+  Captured gnuplot = run_captured({"gnuplot", own_script.filename().string()}, folder);
+  replace_all(gnuplot.output, own_script.filename().string(), name + ".gp");
   if (gnuplot.exit_code == kNotFound) {
     throw Failure(ExitCode::kFailed,
                   "gnuplot is not here: `apt install gnuplot-nox`; the data and the script are in " + folder.string());
   }
-  if (gnuplot.exit_code != 0 || !std::filesystem::exists(picture)) {
+  if (gnuplot.exit_code != 0 || !std::filesystem::exists(own_picture)) {
     throw Failure(ExitCode::kFailed, fmt::format("gnuplot did not draw {} (exit code {}): {}", picture.string(),
                                                  gnuplot.exit_code, gnuplot.output));
   }
+  done_or_fail(replace_file(own_picture, picture));
   return picture;
 }
 

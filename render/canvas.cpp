@@ -20,10 +20,10 @@ Canvas Canvas::transparent(int width, int height) {
   return Canvas(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height));
 }
 
-Result<Canvas> Canvas::vector(const std::filesystem::path& file, int width, int height, const Colour& page,
-                              const std::string& title, const Notes& notes) {
+Result<Canvas> Canvas::vector(const std::filesystem::path& file, const std::string& ending, int width, int height,
+                              const Colour& page, const std::string& title, const Notes& notes) {
   cairo_surface_t* surface = nullptr;
-  if (file.extension() == ".svg") {
+  if (ending == ".svg") {
     surface = cairo_svg_surface_create(file.c_str(), width, height);
     cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);
   } else {

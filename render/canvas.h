@@ -27,9 +27,10 @@ class Canvas {
   Canvas(int width, int height, const Colour& page);
   /// Of pixels, with nothing on it: what is drawn is laid over a picture afterwards.
   static Canvas transparent(int width, int height);
-  /// Of lines and areas, as a file: ".svg" or ".pdf". A PDF has a title and, as keywords, the notes.
-  static Result<Canvas> vector(const std::filesystem::path& file, int width, int height, const Colour& page,
-                               const std::string& title, const Notes& notes);
+  /// Of lines and areas, as a file of the format that `ending` names: ".svg" or ".pdf". A PDF has a title and, as
+  /// keywords, the notes.
+  static Result<Canvas> vector(const std::filesystem::path& file, const std::string& ending, int width, int height,
+                               const Colour& page, const std::string& title, const Notes& notes);
 
   /// For paths: Cairo's own functions.
   cairo_t* cairo() const { return context_.get(); }

@@ -19,6 +19,7 @@ extern "C" {
 #include <cstring>
 #include <utility>
 
+#include "base/files.h"
 #include "render/notes.h"
 
 namespace shaken::render {
@@ -265,7 +266,7 @@ Result<MovieWriter> MovieWriter::create(const std::filesystem::path& file, int w
   av_log_set_level(AV_LOG_QUIET);  // errors come back as codes
   auto impl = std::make_unique<Impl>();
   impl->file = file;
-  impl->unfinished = file.string() + ".tmp";
+  impl->unfinished = temporary_for(file);
   impl->comment = notes;
   if (auto done = impl->open(*kind, width, height, fps, title, notes); !done) return done.error();
   return MovieWriter(std::move(impl));

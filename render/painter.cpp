@@ -6,6 +6,7 @@
 #include <cstring>
 #include <string>
 
+#include "base/files.h"
 #include "render/canvas.h"
 #include "render/layout.h"
 #include "render/legend.h"
@@ -108,15 +109,13 @@ Result<void> Painter::paint_panels(Sheet<Channel>& sheet, const RodPicture& pict
 Result<void> write_vector(const std::filesystem::path& file, const RodPicture& picture, const PictureStyle& style) {
   if (auto done = check(style, picture); !done) return done.error();
   if (style.view != ViewPoint::kTop) return Error{"only views from above can be drawn as " + file.extension().string()};
-  // The ending tells the format, so it stays at the end.
-  const std::filesystem::path unfinished =
-      file.parent_path() / (file.stem().string() + ".tmp" + file.extension().string());
+  const std::filesystem::path unfinished = temporary_for(file);
   const auto failed = [&](const std::string& why) {
     std::remove(unfinished.c_str());
     return Error{"cannot write " + file.string() + ": " + why};
   };
-  Result<Canvas> canvas =
-      Canvas::vector(unfinished, style.width, style.height, palette(style.theme).page, picture.label, picture.notes);
+  Result<Canvas> canvas = Canvas::vector(unfinished, file.extension().string(), style.width, style.height,
+                                         palette(style.theme).page, picture.label, picture.notes);
   if (!canvas) return failed(canvas.error().message);
   const auto draw_box = [&](const Layout& layout, const RodPicture& one) {
     draw_ground(*canvas, layout, one, style);

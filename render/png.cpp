@@ -12,6 +12,8 @@
 #include <cstring>
 #include <memory>
 
+#include "base/files.h"
+
 namespace shaken::render {
 namespace {
 
@@ -20,7 +22,9 @@ struct CloseFile {
 };
 
 void keep_message(png_structp png, png_const_charp message) {
-  *static_cast<std::string*>(png_get_error_ptr(png)) = message;
+  // What libpng calls a write error has its reason with the system.
+  *static_cast<std::string*>(png_get_error_ptr(png)) =
+      std::strcmp(message, "Write Error") == 0 && errno != 0 ? std::strerror(errno) : message;
   png_longjmp(png, 1);
 }
 
@@ -70,7 +74,7 @@ Notes picture_texts(const RodPicture& picture) {
 template <class Channel>
 Result<void> write_png(const std::filesystem::path& file, const ImageOf<Channel>& image, const Notes& texts) {
   const auto failed = [&](const std::string& why) { return Error{"cannot write " + file.string() + ": " + why}; };
-  const std::filesystem::path unfinished = file.string() + ".tmp";
+  const std::filesystem::path unfinished = temporary_for(file);
   std::unique_ptr<std::FILE, CloseFile> stream(std::fopen(unfinished.c_str(), "wb"));
   if (!stream) return failed(std::strerror(errno));
 
@@ -85,6 +89,7 @@ Result<void> write_png(const std::filesystem::path& file, const ImageOf<Channel>
     chunks.push_back(chunk);
   }
   std::string message = "no memory";
+  errno = 0;
   bool good = encode(stream.get(), image, chunks.data(), static_cast<int>(chunks.size()), &message);
   if (good && std::fclose(stream.release()) != 0) {
     good = false;

@@ -34,7 +34,8 @@ using Json = nlohmann::json;
 std::optional<double> number_at(const Json& scene, const char* pointer) {
   const Json::json_pointer place(pointer);
   if (!scene.contains(place) || !scene.at(place).is_number()) return std::nullopt;
-  return scene.at(place).get<double>();
+  const double value = scene.at(place).get<double>();
+  return std::abs(value) < 1e9 ? std::optional(value) : std::nullopt;  // no scene has more
 }
 
 std::string shaking(const Json& scene) {
@@ -54,42 +55,43 @@ std::optional<SideWalls> walls_of(const frame_static_t& message) {
 }
 
 /// Nothing if `value` is one that a scene may have at `path`, or half of one; else what is wrong.
-Result<void> refusal(const char* what, double value, const char* path, double share = 1) {
+Result<void> refusal(const std::string& who, const char* what, double value, const char* path, double share = 1) {
   constexpr double kRounding = 1e-9;
   const scene::Field& field = scene::field_at(path);
   const double low = share * field.low, high = share * field.high;
   if (value >= low * (1 - kRounding) && value <= high * (1 + kRounding)) return {};  // false for NaN
-  return Error{fmt::format("the job's messages have a {} of {} mm; a scene has {} to {} mm", what, value, low, high)};
+  return Error{fmt::format("{} a {} of {} mm; a scene has {} to {} mm", who, what, value, low, high)};
 }
 
-/// The sizes of a live picture. Anybody may send such messages: what no scene has would take any memory and any time.
-Result<void> check_sizes(const RodPicture& picture, const Asked& asked) {
+/// The sizes of a picture whose source `who` tells ("the job's messages have"). Anybody may send messages, and files
+/// may be damaged: what no scene has would take any memory and any time.
+Result<void> check_sizes(const std::string& who, const RodPicture& picture, const Asked& asked) {
   // Of the director field, in each direction: 0.7 GB. The largest box with rods of 4 mm needs as many.
   constexpr double kMostNodes = 4096;
-  if (auto done = refusal("box side", picture.box_side, "box.side"); !done) return done.error();
-  if (auto done = refusal("gap", picture.gap, "box.gap"); !done) return done.error();
+  if (auto done = refusal(who, "box side", picture.box_side, "box.side"); !done) return done.error();
+  if (auto done = refusal(who, "gap", picture.gap, "box.gap"); !done) return done.error();
   for (std::size_t species = 0; species < picture.n_species(); ++species) {
     const BeadRow& beads = picture.beads_of(species);
     for (const double radius : beads.radius) {
-      if (auto done = refusal("bead radius", radius, "rods.bead_diameters", 0.5); !done) return done.error();
+      if (auto done = refusal(who, "bead radius", radius, "rods.bead_diameters", 0.5); !done) return done.error();
     }
     for (const double offset : beads.offset) {
       // Beads may lie anywhere along a rod, so the shortest rod does not matter.
       const double half = std::max(std::abs(offset), scene::field_at("rods.length").low / 2);
-      if (auto done = refusal("bead offset", std::isnan(offset) ? offset : half, "rods.length", 0.5); !done)
+      if (auto done = refusal(who, "bead offset", std::isnan(offset) ? offset : half, "rods.length", 0.5); !done)
         return done.error();
     }
   }
   if (picture.walls) {
-    if (auto done = refusal("arena", picture.walls->size, "walls.size"); !done) return done.error();
+    if (auto done = refusal(who, "arena", picture.walls->size, "walls.size"); !done) return done.error();
     if (picture.walls->arena == Arena::kAnnulus) {
-      if (auto done = refusal("inner wall", picture.walls->inner, "walls.inner"); !done) return done.error();
+      if (auto done = refusal(who, "inner wall", picture.walls->inner, "walls.inner"); !done) return done.error();
     }
   }
-  const double mesh = scene::MeasureDefects{}.grid_for(picture.rod_length());
+  const double mesh = picture.grid > 0 ? picture.grid : scene::MeasureDefects{}.grid_for(picture.rod_length());
   if ((asked.defects || asked.field) && picture.box_side / mesh > kMostNodes) {
     return Error{
-        fmt::format("a box of {} mm is too large for a live picture of rods of {} mm with defects (at most {} "
+        fmt::format("a box of {} mm is too large for a picture of rods of {} mm with defects on this mesh (at most {} "
                     "nodes each way); draw it without them",
                     picture.box_side, picture.rod_length(), kMostNodes)};
   }
@@ -254,6 +256,7 @@ Result<RodPicture> TrajectorySource::bare_picture(std::size_t index, const Asked
   picture.position = std::move(frame->position);
   picture.director = std::move(frame->director);
   picture.velocity = std::move(frame->velocity);
+  if (auto done = check_sizes(file_.string() + " has", picture, asked); !done) return done.error();
   measure(picture, asked);
   return picture;
 }
@@ -393,7 +396,7 @@ Result<RodPicture> live_picture(const std::string& lcm_url, const std::string& j
   picture.box_side = frame->box_side_mm;
   picture.gap = constants->gap_mm;
   if (auto done = take_constants(*constants, frame->rods.size(), picture); !done) return done.error();
-  if (auto done = check_sizes(picture, asked); !done) return done.error();
+  if (auto done = check_sizes("the job's messages have", picture, asked); !done) return done.error();
   picture.label = headline(printable(constants->label));
   picture.notes = {{"Software", fmt::format("Shaken {}", run::version())}, {"Run id", printable(constants->job_id)}};
   for (const proto::RodPose& rod : frame->rods) {

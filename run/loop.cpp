@@ -452,6 +452,10 @@ RunOutcome run(const scene::RunPlan& plan, const RunOptions& options, const RunC
   if (reason) return failure("cannot create " + options.directory.string() + ": " + reason.message());
   const Result<DirectoryLock> lock = DirectoryLock::acquire(RunDirectory{options.directory}.lock());
   if (!lock) return {RunState::kFailed, lock.error().message};
+  const RunDirectory own{options.directory};
+  for (const auto& file : {own.scene(), own.trajectory(), own.frames(), own.observables(), own.summary(),
+                           own.progress(), own.checkpoint(), own.trouble()})
+    remove_unfinished(file);  // of workers that were killed
   if (callbacks.on_owned) callbacks.on_owned();
   try {
     return run_owned(plan, options, callbacks);

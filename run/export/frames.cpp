@@ -59,8 +59,8 @@ Result<std::size_t> export_frames(const TrajectoryReader& trajectory, const Fram
   for (std::size_t i = range.first; i < range.end; i += range.every) {
     const auto frame = trajectory.recorded().frame(i);
     if (!frame) return frame.error();
-    // whether every orientation is one
-    if (const auto decoded = decode(*frame); !decoded) {
+    // whether every number is one that a rod can have
+    if (const auto decoded = decode(*frame, trajectory.header().box_side); !decoded) {
       return Error{fmt::format("frame {}: {}", i, decoded.error().message)};
     }
     if (auto done = format.write(*frame, sink); !done) return done.error();

@@ -2,9 +2,11 @@
 #include "run/files/frame_log.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -221,6 +223,26 @@ class LoggedFrames final : public RecordedFrames {
 
 Result<void> check(const TrajectoryHeader& header) {
   if (header.n_rods < 0) return Error{"n_rods is negative"};
+  const auto is_length = [](double value) { return value > 0 && value < 1e6; };  // [mm]; false for NaN
+  if (!is_length(header.box_side)) return Error{fmt::format("a box side of {:g} mm is none", header.box_side)};
+  if (!is_length(header.gap)) return Error{fmt::format("a gap of {:g} mm is none", header.gap)};
+  std::vector<BeadRow> rows = header.added_beads;
+  rows.push_back({header.bead_offset, header.bead_radius});
+  for (const BeadRow& row : rows) {
+    if (row.offset.size() != row.radius.size()) return Error{"beads have not as many radii as places"};
+    for (const double radius : row.radius) {
+      if (!is_length(radius)) return Error{fmt::format("a bead radius of {:g} mm is none", radius)};
+    }
+    for (const double offset : row.offset) {
+      if (!(std::abs(offset) < 1e6)) return Error{fmt::format("a bead offset of {:g} mm is none", offset)};
+    }
+  }
+  if (header.walls) {
+    if (!is_length(header.walls->size)) return Error{fmt::format("an arena of {:g} mm is none", header.walls->size)};
+    if (header.walls->arena == Arena::kAnnulus && !is_length(header.walls->inner)) {
+      return Error{fmt::format("an inner wall of {:g} mm is none", header.walls->inner)};
+    }
+  }
   if (header.added_beads.empty()) return {};
   if (header.species_of_rod.size() != static_cast<std::size_t>(header.n_rods)) {
     return Error{"species does not have the shape (n_rods)"};

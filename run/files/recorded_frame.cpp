@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "run/files/recorded_frame.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <string>
 
@@ -38,7 +40,12 @@ RecordedFrame record(const Snapshot& snapshot) {
   return frame;
 }
 
-Result<TrajectoryFrame> decode(const RecordedFrame& recorded) {
+Result<TrajectoryFrame> decode(const RecordedFrame& recorded, double box_side) {
+  constexpr double kMost = 1e9;  // heights without a base, and speeds [mm], [mm/s]
+  const auto wrong = [](const char* what, std::size_t rod, double value) {
+    return Error{fmt::format("the {} of rod {} is {:g}: the file is damaged", what, rod, value)};
+  };
+  if (!std::isfinite(recorded.time)) return Error{fmt::format("the time is {:g}: the file is damaged", recorded.time)};
   TrajectoryFrame frame;
   frame.tick = recorded.tick;
   frame.time = recorded.time;
@@ -48,6 +55,14 @@ Result<TrajectoryFrame> decode(const RecordedFrame& recorded) {
     const double norm2 = turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2] + turn[3] * turn[3];
     if (!(std::abs(norm2 - 1) < 1e-3)) {
       return Error{"the orientation of rod " + std::to_string(i) + " is not of unit length"};
+    }
+    // A box to either side leaves room for rounding, and for files that count from its middle; false for NaN.
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (!(std::abs(x[3 * i + k]) <= 2 * box_side)) return wrong("position", i, x[3 * i + k]);
+    }
+    if (!(std::abs(x[3 * i + 2]) <= kMost)) return wrong("height", i, x[3 * i + 2]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!(std::abs(v[3 * i + k]) <= kMost)) return wrong("velocity", i, v[3 * i + k]);
     }
     frame.position.emplace_back(x[3 * i], x[3 * i + 1], x[3 * i + 2]);
     frame.velocity.emplace_back(v[3 * i], v[3 * i + 1], v[3 * i + 2]);

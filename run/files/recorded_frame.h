@@ -31,7 +31,8 @@ struct TrajectoryFrame {
 };
 
 RecordedFrame record(const Snapshot& snapshot);
-/// Fails if an orientation is not of unit length.
-Result<TrajectoryFrame> decode(const RecordedFrame& frame);
+/// Fails, naming the rod, if a number is none that a rod in a box of `box_side` [mm] can have: orientations are of unit
+/// length, positions in the box, everything finite.
+Result<TrajectoryFrame> decode(const RecordedFrame& frame, double box_side);
 
 }  // namespace shaken::run

@@ -30,7 +30,7 @@ struct TrajectoryHeader {
   Provenance provenance{};
 };
 
-/// Nothing if every rod is of a species that has beads; else what is wrong.
+/// Nothing if every rod is of a species that has beads, and all lengths are such; else what is wrong.
 Result<void> check(const TrajectoryHeader& header);
 
 /// Frames in a file of either kind.

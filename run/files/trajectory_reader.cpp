@@ -52,8 +52,8 @@ TrajectoryHeader read_header(hid_t file) {
   header.scene_json = hdf5::read_string(parameters, "scene_json");
   header.provenance = hdf5::read_provenance(file);
   read_species(file, header);
-  if (auto done = check(header); !done) throw hdf5::Failure(done.error().message);
   if (hdf5::exists(file, trajectory_layout::kWalls)) header.walls = read_walls(file);
+  if (auto done = check(header); !done) throw hdf5::Failure(done.error().message);
   return header;
 }
 
@@ -118,7 +118,7 @@ Result<TrajectoryFrame> TrajectoryReader::frame(std::size_t index) const {
   }
   const Result<RecordedFrame> recorded = frames_->frame(index);
   if (!recorded) return recorded.error();
-  Result<TrajectoryFrame> frame = decode(*recorded);
+  Result<TrajectoryFrame> frame = decode(*recorded, header().box_side);
   if (!frame) return Error{path_.string() + ": frame " + std::to_string(index) + ": " + frame.error().message};
   return frame;
 }

@@ -3,11 +3,25 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <set>
+#include <thread>
+#include <vector>
+
 #include "base/scratch_folder.h"
 #include "tests/support/in_child.h"
 
 namespace shaken {
 namespace {
+
+/// Names of what lies in `folder`, one after the other.
+std::string listing(const std::filesystem::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) names.insert(entry.path().filename());
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "" : " ") + name;
+  return all;
+}
 
 TEST(AtomicFile, ReplacesTheWholeContent) {
   const ScratchFolder folder;
@@ -15,7 +29,52 @@ TEST(AtomicFile, ReplacesTheWholeContent) {
   EXPECT_TRUE(write_file_atomically(file, "a long first version"));
   EXPECT_TRUE(write_file_atomically(file, std::string("short\0with NUL", 14)));
   EXPECT_EQ(*read_file(file), std::string("short\0with NUL", 14));
-  EXPECT_FALSE(std::filesystem::exists(temporary_for(file)));
+  EXPECT_EQ(listing(folder.path()), "state.json");
+}
+
+TEST(AtomicFile, OfSeveralWritersOneHasItsContentThereWhole) {
+  const ScratchFolder folder;
+  const auto file = folder / "frames.xyz";
+  std::atomic<int> failures = 0;
+  std::vector<std::thread> writers;
+  for (const char letter : {'a', 'b', 'c', 'd'}) {
+    writers.emplace_back([&, letter] {
+      for (int i = 0; i < 20; ++i) {
+        auto next = ReplacementFile::create(file);
+        bool good = static_cast<bool>(next);
+        for (int piece = 0; good && piece < 50; ++piece)
+          good = static_cast<bool>(next->append(std::string(1000, letter)));
+        if (!good || !next->finish() || !write_file_atomically(file, std::string(50'000, letter))) ++failures;
+      }
+    });
+  }
+  for (std::thread& writer : writers) writer.join();
+  EXPECT_EQ(failures, 0);
+  const std::string content = *read_file(file);
+  EXPECT_EQ(content, std::string(50'000, content.at(0)));
+  EXPECT_EQ(listing(folder.path()), "frames.xyz");
+}
+
+TEST(AtomicFile, TakesTheLongestNameThatTheDiskDoes) {
+  const ScratchFolder folder;
+  const std::string name(255, 'n');
+  const auto done = write_file_atomically(folder / name, "x");
+  EXPECT_TRUE(done) << done.error().message;
+  EXPECT_EQ(listing(folder.path()), name);
+}
+
+TEST(AtomicFile, WhatAKilledWriterLeftIsRemovedAndNothingElse) {
+  const ScratchFolder folder;
+  const auto file = folder / "state.json";
+  for (const char* name : {"state.json", "state.json.0123456789ab.tmp", "state.json.0123456789aX.tmp", "state.json.tmp",
+                           "other.json.0123456789ab.tmp", "state.json.0123456789ab"}) {
+    ASSERT_TRUE(write_file(folder / name, "x"));
+  }
+  remove_unfinished(file);
+  EXPECT_EQ(
+      listing(folder.path()),
+      "other.json.0123456789ab.tmp state.json state.json.0123456789aX.tmp state.json.0123456789ab state.json.tmp");
+  remove_unfinished(folder / "no" / "folder");
 }
 
 TEST(AtomicFile, SaysWhichFileCannotBeWritten) {
@@ -30,7 +89,7 @@ TEST(AtomicFile, RefusesToReplaceAFolderAndLeavesNothingBehind) {
   const ScratchFolder folder;
   std::filesystem::create_directories(folder / "state.json" / "inside");
   EXPECT_FALSE(write_file_atomically(folder / "state.json", "x"));
-  EXPECT_FALSE(std::filesystem::exists(folder / "state.json.tmp"));
+  EXPECT_EQ(listing(folder.path()), "state.json");
 }
 
 TEST(AtomicFile, FullDiskKeepsTheOldContent) {
@@ -44,7 +103,6 @@ TEST(AtomicFile, FullDiskKeepsTheOldContent) {
   });
   EXPECT_EQ(failures, 0);
   EXPECT_EQ(*read_file(file), "old");
-  EXPECT_FALSE(std::filesystem::exists(temporary_for(file)));
 }
 
 TEST(ReplacementFile, TakesThePlaceOfTheOldContentOnlyAtItsEnd) {
@@ -58,7 +116,7 @@ TEST(ReplacementFile, TakesThePlaceOfTheOldContentOnlyAtItsEnd) {
   EXPECT_EQ(*read_file(file), "old");
   EXPECT_TRUE(next->finish());
   EXPECT_EQ(*read_file(file), "first, second");
-  EXPECT_FALSE(std::filesystem::exists(temporary_for(file)));
+  EXPECT_EQ(listing(folder.path()), "frames.xyz");
 }
 
 TEST(ReplacementFile, GoesWithoutATraceWhenItIsNotFinished) {
@@ -69,9 +127,9 @@ TEST(ReplacementFile, GoesWithoutATraceWhenItIsNotFinished) {
     auto next = ReplacementFile::create(file);
     ASSERT_TRUE(next) << next.error().message;
     EXPECT_TRUE(next->append("half"));
-    EXPECT_TRUE(std::filesystem::exists(temporary_for(file)));
+    EXPECT_NE(listing(folder.path()), "frames.xyz");
   }
-  EXPECT_FALSE(std::filesystem::exists(temporary_for(file)));
+  EXPECT_EQ(listing(folder.path()), "frames.xyz");
   EXPECT_EQ(*read_file(file), "old");
 }
 
@@ -88,7 +146,6 @@ TEST(ReplacementFile, SaysWhichFileCannotBeWritten) {
   });
   EXPECT_EQ(failures, 0);
   EXPECT_FALSE(std::filesystem::exists(folder / "frames.xyz"));
-  EXPECT_FALSE(std::filesystem::exists(folder / "frames.xyz.tmp"));
 }
 
 TEST(AtomicFile, MissingFileCannotBeRead) {

@@ -101,6 +101,30 @@ TEST(TrajectorySource, TakesTheDirectorFieldFromTheScene) {
   EXPECT_DOUBLE_EQ(picture.grid, 0.25);
 }
 
+// Such a box is as finite as any, but a rod would be drawn in it millions of times.
+TEST(TrajectorySource, ABoxThatNoSceneHasIsRefusedAtOnce) {
+  const ScratchFolder folder;
+  run::TrajectoryHeader header;
+  header.n_rods = 0;
+  header.box_side = 1e-6;
+  header.gap = 1.2;
+  header.dt = 1e-5;
+  header.bead_offset = {-2, 0, 2};
+  header.bead_radius = {0.2, 0.4, 0.2};
+  header.scene_json = "{}";
+  auto log = run::FrameLog::create(run::RunDirectory{folder.path()}.frames(), header).value();
+  Snapshot now;
+  now.box_side = 1e-6;
+  ASSERT_TRUE(log.append(run::record(now)));
+  ASSERT_TRUE(log.sync());
+  Result<TrajectorySource> source = TrajectorySource::open(folder.path());
+  ASSERT_TRUE(source) << source.error().message;
+  const auto picture = source->picture(0, plain());
+  ASSERT_FALSE(picture);
+  EXPECT_NE(picture.error().message.find("a box side of 1e-06 mm; a scene has 1 to 2000 mm"), std::string::npos)
+      << picture.error().message;
+}
+
 // One rod goes 3 mm to the right and 1 mm down in 0.1 s, over two borders of a box of 10 mm.
 TEST(TrajectorySource, DisplacementsGoOnAcrossBorders) {
   const ScratchFolder folder;
