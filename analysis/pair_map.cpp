@@ -66,7 +66,7 @@ void PairMap::accumulate(std::span<const Vec3> positions, std::span<const Vec3> 
   // In two passes, the first without branches: it becomes vector instructions.
   std::vector<double> alongs(n), acrosses(n);
   for (std::size_t i = static_cast<std::size_t>(calls_) % stride; i < n; i += stride) {
-    expected_per_area_ += static_cast<double>(n - 1) / (box * box);  // a rod makes no pair with itself
+    partners_ += static_cast<double>(n - 1);  // a rod makes no pair with itself
     const double xi = xs[i], yi = ys[i];
     for (std::size_t j = 0; j < n; ++j) {
       const double dx = nearest_image(xs[j] - xi, box), dy = nearest_image(ys[j] - yi, box);
@@ -97,6 +97,7 @@ PairCurves PairMap::reduce() const {
   }
   curves.across = curves.along;
   const auto ratio = [](double a, double b) { return b > 0 ? a / b : kUnknown; };
+  const double per_area = partners_ / (shape_.box_side * shape_.box_side);
   for (std::size_t row = 0; row < bins_; ++row) {
     for (std::size_t column = 0; column < bins_; ++column) {
       // the other way round: (n - 1 - row, n - 1 - column)
@@ -105,13 +106,13 @@ PairCurves PairMap::reduce() const {
           std::hypot(std::abs(curves.across[row]) + width_ / 2, std::abs(curves.along[column]) + width_ / 2);
       const bool known = far <= shape_.box_side / 2;
       const auto pairs = static_cast<double>(map_.pairs[bin] + map_.pairs[mirrored]);
-      curves.g.push_back(known ? ratio(pairs, 2 * expected_per_area_ * width_ * width_) : kUnknown);
+      curves.g.push_back(known ? ratio(pairs, 2 * per_area * width_ * width_) : kUnknown);
       curves.g2.push_back(known ? ratio(map_.sums[bin] + map_.sums[mirrored], pairs) : kUnknown);
     }
   }
   for (std::size_t bin = 0; bin < cut_along_.pairs.size(); ++bin) {
     curves.r.push_back((static_cast<double>(bin) + 0.5) * width_);
-    const double expected = expected_per_area_ * 2 * width_ * shape_.strip;  // both sides of 0
+    const double expected = per_area * 2 * width_ * shape_.strip;  // both sides of 0
     const auto along = static_cast<double>(cut_along_.pairs[bin]), across = static_cast<double>(cut_across_.pairs[bin]);
     curves.g_along.push_back(ratio(along, expected));
     curves.g_across.push_back(ratio(across, expected));

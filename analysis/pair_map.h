@@ -52,7 +52,7 @@ class PairMap : public Summed<PairMap> {
 
   static constexpr std::string_view kName = "PairMap of n (n - 1) pairs";
   static constexpr auto fields() {
-    return std::tuple(Setting{"shape", &PairMap::shape_}, Largest{&PairMap::calls_}, &PairMap::expected_per_area_,
+    return std::tuple(Setting{"shape", &PairMap::shape_}, Largest{&PairMap::calls_}, &PairMap::partners_,
                       &PairMap::map_, &PairMap::cut_along_, &PairMap::cut_across_);
   }
 
@@ -64,10 +64,10 @@ class PairMap : public Summed<PairMap> {
     static constexpr auto fields() { return std::tuple(&Bins::pairs, &Bins::sums); }
   };
   Shape shape_;
-  std::size_t bins_;              // each way
-  double width_;                  // of a bin [mm]
-  std::int64_t calls_ = 0;        // samples so far, those before start_at included
-  double expected_per_area_ = 0;  // sum over references of rho [1/mm^2]
+  std::size_t bins_;        // each way
+  double width_;            // of a bin [mm]
+  std::int64_t calls_ = 0;  // samples so far, those before start_at included
+  double partners_ = 0;     // sum over references of how many rods can make pairs with them
   Bins map_, cut_along_, cut_across_;
 };
 

@@ -111,9 +111,10 @@ std::size_t steady_index(std::span<const double> values) {
 
   std::vector<double> n_effective;
   for (std::size_t t0 = 0; t0 <= last; ++t0) n_effective.push_back(effective_samples(from(t0)));
-  const double enough = kNearlyMost * *std::max_element(n_effective.begin(), n_effective.end());
   std::size_t t0 = std::min(last, (first_return(values) + group - 1) / group);
-  while (n_effective[t0] < enough && t0 < last) ++t0;
+  const auto first = n_effective.begin() + static_cast<std::ptrdiff_t>(t0);
+  const double enough = kNearlyMost * *std::max_element(first, n_effective.end());
+  while (n_effective[t0] < enough) ++t0;
   const bool drifts = summarize_parts(parts_of_series(from(t0))).steady == false;
   return (drifts ? last : t0) * group;
 }

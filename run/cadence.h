@@ -35,6 +35,8 @@ class Cadence {
     const Tick here = in_interval(from / period_);
     return here >= from ? here : in_interval(from / period_ + 1);
   }
+  /// How often it happens up to tick `last`.
+  Tick count(Tick last) const { return last / period_ + (in_interval(last / period_) <= last ? 1 : 0); }
 
  private:
   /// The tick of the interval with this number.

@@ -62,7 +62,7 @@ SamplingCost time_sampling(const scene::RunPlan& plan, const Species& species, c
     const double first_array_bytes = bytes_of(measurements.reduce(interval).arrays);
 
     Cost& samples = cost.samples["measure_" + std::string(kind.name)];
-    samples.count = scene::total_ticks(plan) / cadence->period() + 1;
+    samples.count = cadence->count(scene::total_ticks(plan));
     double begin = thread_cpu_seconds();
     double early_bytes = first_bytes;                                    // with every block in use for the first time
     const std::int64_t most = std::max<std::int64_t>(samples.count, 3);  // not more than the run will take

@@ -186,6 +186,7 @@ TEST(FilesPage, NamesEveryPartOfTheTrajectoryWithItsUnit) {
 void expect_named(const std::string& text, const nlohmann::json& json, int depth, const std::string& above = "") {
   for (const auto& [key, value] : json.items()) {
     EXPECT_NE(text.find("`" + key + "`"), std::string::npos) << above << key << " is not in docs/files.md";
+    if (key == "why_null") continue;  // its keys are paths of others
     if (value.is_object() && depth > 1) expect_named(text, value, depth - 1, above + key + ".");
   }
 }

@@ -101,6 +101,8 @@ TEST(Cadence, SpreadOverItsIntervalsMeetsAllPhasesAlike) {
   for (const Tick tick : {Tick{0}, Tick{12345}, Tick{1} << 40}) {  // from the tick alone: nothing to save for a restart
     EXPECT_EQ(Cadence::spread(0.002, 2e-5, 7).next(tick), spread.next(tick));
   }
+  EXPECT_EQ(spread.count(100000 * kPeriod - 1), 100000);
+  EXPECT_EQ(Cadence(0.002, 2e-5).count(1000), 11) << "tick 0 included";
   const Cadence every_tick = Cadence::spread(1e-9, 2e-5, 7);
   for (Tick tick = 0; tick < 100; ++tick) EXPECT_TRUE(every_tick.due(tick));
 }

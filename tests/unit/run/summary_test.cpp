@@ -118,6 +118,8 @@ TEST(Summary, SaysWhyItIsNotSteady) {
   order.drift = {-0.002, 0.004, 40};
   EXPECT_NE(why_not_steady(order, 10).find("until 8 s of 10 s"), std::string::npos);
   order.drift = {-0.002, 0.004, 6};
+  EXPECT_NE(why_not_steady(order, 10).find("until 8 s of 10 s"), std::string::npos) << "what is known is the reason";
+  order.steady = std::nullopt;
   order.n_effective = 7.2;
   EXPECT_NE(why_not_steady(order, 10).find("about 7 independent samples"), std::string::npos);
   order.drift = {};

@@ -54,7 +54,8 @@ TEST(Placement, IsWhatTheSimulationSays) {
   EXPECT_GE(n_placed, 10);
 }
 
-// 87 rods do not fit in rows into a box of 16 mm: where they do is what one wants to know, and that the others are fine.
+// 87 rods do not fit in rows into a box of 16 mm: where they do is what one wants to know, and that the others are
+// fine.
 TEST(Placement, ARefusalNamesTheNearestSideThatHoldsTheRodsAndWhatIsFine) {
   const std::vector<std::string> settings{"rods.area_fraction=0.45:0.85:0.1", "rods.length=2.5,4.5"};
   const Loaded<Sweep> refused = load_runs(R"({"box": {"side": "16 mm"}})", "scene.json", settings, 3);
