@@ -227,7 +227,7 @@ ErrorCase of_layers(const char* name, double share, int samples) {
   scene::RunPlan p = plan();
   p.order = scene::MeasureOrder{kEvery};
   p.angles = scene::MeasureAngles{kEvery, 90};
-  p.tilt = scene::MeasureTilt{kEvery, 10};
+  p.tilt = scene::MeasureTilt{kEvery, 10, scene::SamplePhases::kLocked};
   p.layers = scene::MeasureLayers{kEvery};
   p.lattice = scene::MeasureLattice{kEvery};
   p.structure = scene::MeasureStructure{kEvery, 6};
