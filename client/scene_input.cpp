@@ -5,10 +5,9 @@
 
 #include <cmath>
 #include <iostream>
-#include <iterator>
 
 #include "base/failure.h"
-#include "base/files.h"
+#include "base/input_file.h"
 #include "base/text.h"
 #include "scene/canonical.h"
 #include "scene/derived.h"
@@ -20,9 +19,9 @@ namespace shaken::client {
 
 SceneInput read_scene_input(const std::string& file) {
   if (file == "-") {
-    return {"stdin", std::string(std::istreambuf_iterator<char>(std::cin), std::istreambuf_iterator<char>())};
+    return {"stdin", value_or_fail(read_input(std::cin, "stdin"), ExitCode::kBadInput)};
   }
-  return {file, value_or_fail(read_file(file), ExitCode::kBadInput)};
+  return {file, value_or_fail(read_input_file(file), ExitCode::kBadInput)};
 }
 
 std::string refusal_text(const std::vector<scene::Problem>& problems) {
