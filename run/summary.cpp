@@ -83,7 +83,7 @@ void explain_nulls(const OrderedJson& json, const std::string& path, const Summa
   if (json.is_null()) reasons[path] = why_null(path, summary);
   if (!json.is_structured()) return;
   for (const auto& [key, value] : json.items())
-    explain_nulls(value, path.empty() ? key : path + "." + key, summary, reasons);
+    explain_nulls(value, path.empty() ? key : fmt::format("{}.{}", path, key), summary, reasons);
 }
 
 }  // namespace
