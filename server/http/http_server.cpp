@@ -208,7 +208,9 @@ struct HttpServer::Impl {
 
   void start() {
     listening = std::async(std::launch::async, [this] { server.listen_after_bind(); });
-    while (!server.is_running()) std::this_thread::yield();  // stop() before that would be lost
+    // stop() before that would be lost; an accept() that fails at once ends it before it is seen
+    const auto has_ended = [this] { return listening.wait_for(std::chrono::seconds(0)) == std::future_status::ready; };
+    while (!server.is_running() && !has_ended()) std::this_thread::yield();
   }
 
   void bind() {
