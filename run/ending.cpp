@@ -39,7 +39,8 @@ std::string order_text(const Json& summary) {
   text +=
       steady == false ? "\nSTILL RELAXING: this is no steady state yet" : "\nNOT KNOWN whether this is a steady state";
   if (const std::string why = order.value("why_not_steady", ""); !why.empty()) text += ": " + why;
-  if (const auto drift = order.find("drift"); drift != order.end() && std::isfinite(number(*drift, "value"))) {
+  const auto drift = order.find("drift");
+  if (number(order, "sem") > 0 && drift != order.end() && std::isfinite(number(*drift, "value"))) {
     text += fmt::format("\n(the error holds the change of S from the first half of that time to the second, {})",
                         with_error(number(*drift, "value"), number(*drift, "sem")));
   }

@@ -52,12 +52,11 @@ inline void set_vector(float* to, const Vec3& from) {
   for (int c = 0; c < 3; ++c) to[c] = static_cast<float>(from[c]);
 }
 
-/// What the floats of a vector are away from it, at most: half a unit of the last of their 24 bits.
-inline float float_rounding(const Vec3& v) { return 6.1e-8F * static_cast<float>(v.norm()); }
-
+/// Half a unit of the last of a float's 24 bits, of every component.
 inline void set_velocity(MotionBound& bound, const Vec3& velocity) {
   set_vector(bound.velocity, velocity);
-  bound.velocity_rounding = float_rounding(velocity);
+  const float* v = bound.velocity;
+  bound.velocity_rounding = 6.1e-8F * (std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2]));
 }
 
 }  // namespace shaken

@@ -8,23 +8,27 @@ namespace shaken {
 
 /// A sum that comes out the same, to the last bit, in whatever order its terms are added: each is rounded once, to
 /// 2^-kBits of the unit, and then added exactly, in 128 bits. Threads may sum on their own and join later. Terms may be
-/// as large as 2^(110 - kBits), and a sum as large as 2^(126 - kBits): no scene's come near that.
+/// as large as 2^(100 - kBits), and a sum holds 10^8 of those: no scene's come near that.
 template <int kBits>
 class ExactSum {
  public:
   void add(double term) {
-    const double scaled = term * kPerUnit;
-    if (std::abs(scaled) < kOfOneWord) {
-      units_ += std::llrint(scaled);
+    if (std::abs(term) < kOfOneWord) [[likely]] {
+      units_ += std::llrint(term * kPerUnit);
+    } else if (std::abs(term) < kLargest) {
+      // in two words, the upper one whole: nothing but the last step rounds
+      const double units = term * kPerUnit;
+      const auto high = static_cast<std::int64_t>(units * 0x1p-48);
+      units_ += static_cast<Fixed>(high) * (1LL << 48) + std::llrint(units - static_cast<double>(high) * 0x1p48);
     } else {
-      add_large(scaled);
+      overflow_ = true;
     }
   }
   void add(const ExactSum& more) {
     units_ += more.units_;
     overflow_ = overflow_ || more.overflow_;
   }
-  /// NaN if a term was not a number, or it or the sum was too large.
+  /// NaN if a term was not a number, or too large.
   double value() const { return overflow_ ? NAN : static_cast<double>(units_) / kPerUnit; }
 
   // for checkpoints
@@ -40,16 +44,9 @@ class ExactSum {
   __extension__ using Fixed = __int128;
   __extension__ using UnsignedFixed = unsigned __int128;
   static constexpr double kPerUnit = static_cast<double>(1LL << kBits);
-  static constexpr double kOfOneWord = 0x1p62;
-  static constexpr double kLargestTerm = 0x1p110;
-  static constexpr Fixed kLargestSum = static_cast<Fixed>(1) << 126;
+  static constexpr double kOfOneWord = static_cast<double>(1LL << (62 - kBits));
+  static constexpr double kLargest = kOfOneWord * 0x1p38;
 
-  /// Doubles as large as this are whole numbers: nothing is left to round.
-  [[gnu::noinline]] void add_large(double scaled) {
-    if (std::abs(scaled) < kLargestTerm) units_ += static_cast<Fixed>(scaled);
-    const bool fits = std::abs(scaled) < kLargestTerm && units_ < kLargestSum && units_ > -kLargestSum;
-    overflow_ = overflow_ || !fits;
-  }
   Fixed units_ = 0;
   bool overflow_ = false;
 };

@@ -60,6 +60,9 @@ TEST(Ending, WhatIsNotKnownIsNotClaimed) {
   Json without_error = summary(true);
   without_error["order"]["sem"] = nullptr;
   EXPECT_THAT(describe_ending(without_error, "a"), HasSubstr("S = 0.95 (error unknown)"));
+  Json relaxing = summary(false);
+  relaxing["order"]["sem"] = nullptr;
+  EXPECT_THAT(describe_ending(relaxing, "a"), Not(HasSubstr("the error holds"))) << "there is none";
   EXPECT_THAT(describe_ending(Json{{"n_rods", 3}, {"order", nullptr}}, "a"), HasSubstr("S was not measured"));
 }
 

@@ -39,11 +39,12 @@ TEST(ExactSum, DoesNotDependOnTheOrderOfItsTerms) {
 
 TEST(ExactSum, AddsLargeTermsToSmallOnesExactly) {
   ExactSum<34> sum;
-  for (const double large : {3e8, 1e12, -1e12, 1e18, -1e18, -3e8}) {
+  for (const double large :
+       {3e8, 1e12, -1e12, 1e18, -1e18, 7e19, -7e19, 123456789012345.625, -123456789012345.625, -3e8}) {
     sum.add(large);
     sum.add(0.25);
   }
-  EXPECT_EQ(sum.value(), 1.5);
+  EXPECT_EQ(sum.value(), 2.5);
 }
 
 TEST(ExactSum, GoesOnBeyond64BitsAndThroughItsParts) {
@@ -60,9 +61,6 @@ TEST(ExactSum, SaysSoWhenATermIsTooLarge) {
   ExactSum<44> sum;
   sum.add(1e20);
   EXPECT_TRUE(std::isnan(sum.value()));
-  ExactSum<44> many;
-  for (int k = 0; k < 200000; ++k) many.add(7e19);
-  EXPECT_TRUE(std::isnan(many.value()));
   ExactSum<34> other;
   other.add(NAN);
   EXPECT_TRUE(std::isnan(other.value()));

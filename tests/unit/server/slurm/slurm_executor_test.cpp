@@ -52,10 +52,11 @@ class SlurmExecutorTest : public testing::Test {
     return options;
   }
   void says(const std::string& program, const std::string& text) { write_text(directory_ / (program + ".says"), text); }
+  /// A call counts when its line is whole: the program may be writing.
   std::vector<std::string> calls(const std::string& program) const {
     std::vector<std::string> lines;
     std::istringstream text(read_text(directory_ / (program + ".calls")));
-    for (std::string line; std::getline(text, line);) lines.push_back(line);
+    for (std::string line; std::getline(text, line) && !text.eof();) lines.push_back(line);
     return lines;
   }
   bool step_until(SlurmExecutor& executor, const std::function<bool()>& condition) {
