@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 #include <vector>
 
 #include "base/failure.h"
@@ -33,6 +34,17 @@ void replace_all(std::string& text, const std::string& old, const std::string& n
     text.replace(at, old.size(), next);
 }
 
+/// Gives a PDF of Cairo's, which lets nobody choose, one date of creation, so that equal plots are equal files.
+Result<void> without_date(const std::filesystem::path& file) {
+  static constexpr std::string_view kKey = "/CreationDate (D:", kDate = "20000101000000";
+  Result<std::string> content = read_file(file);
+  if (!content) return content.error();
+  const std::size_t at = content->find(kKey);
+  if (at == std::string::npos || at + kKey.size() + kDate.size() > content->size()) return {};
+  content->replace(at + kKey.size(), kDate.size(), kDate);
+  return write_file(file, *content);
+}
+
 struct RemovedAtEnd {
   std::vector<std::filesystem::path> files;
   ~RemovedAtEnd() {
@@ -51,9 +63,10 @@ const char* suffix_of(PictureFormat format) {
 std::string plot_head(const std::string& name, const Canvas& canvas, PictureFormat format) {
   return fmt::format(R"(# gnuplot {0}.gp  draws {0}.{1} from {0}.dat
 set terminal {2} background '#ffffff'
-set output '{0}.{1}'
+set output {3}
 )",
-                     name, suffix_of(format), terminal_of(canvas, format));
+                     name, suffix_of(format), terminal_of(canvas, format),
+                     gnuplot_literal(name + "." + suffix_of(format)));
 }
 
 std::string plot_axes(const std::string& axes) {
@@ -104,15 +117,18 @@ std::filesystem::path draw_plot(const std::filesystem::path& folder, const std::
   // What gnuplot reads and writes has names of its own: others may draw a picture of this name at the same time.
   const std::string picture_name = name + "." + suffix_of(format);
   std::filesystem::path picture = folder / picture_name;
-  const std::filesystem::path own_data = temporary_for(folder / (name + ".dat")),
-                              own_script = temporary_for(folder / (name + ".gp")), own_picture = temporary_for(picture);
+  const std::filesystem::path own_data = temporary_for(folder / "plot.dat"),
+                              own_script = temporary_for(folder / "plot.gp"), own_picture = temporary_for(picture);
   std::string own_text = script;
-  replace_all(own_text, "'" + name + ".dat'", gnuplot_literal(own_data.filename().string()));
-  replace_all(own_text, "'" + picture_name + "'", gnuplot_literal(own_picture.filename().string()));
+  replace_all(own_text, gnuplot_literal(name + ".dat"), gnuplot_literal(own_data.filename().string()));
+  replace_all(own_text, gnuplot_literal(picture_name), gnuplot_literal(own_picture.filename().string()));
   const RemovedAtEnd removed{{own_data, own_script, own_picture}};
   done_or_fail(write_file(own_data, data));
   done_or_fail(write_file(own_script, own_text));
-  Captured gnuplot = run_captured({"gnuplot", own_script.filename().string()}, folder);
+  // What stands in the user's environment and start-up files is not for this picture.
+  Captured gnuplot = run_captured({"env", "-u", "GNUPLOT_LIB", "-u", "GNUTERM", "-u", "GNUPLOT_DRIVER_DIR", "TZ=UTC",
+                                   "gnuplot", "-d", own_script.filename().string()},
+                                  folder);
   replace_all(gnuplot.output, own_script.filename().string(), name + ".gp");
   if (gnuplot.exit_code == kNotFound) {
     throw Failure(ExitCode::kFailed,
@@ -122,6 +138,7 @@ std::filesystem::path draw_plot(const std::filesystem::path& folder, const std::
     throw Failure(ExitCode::kFailed, fmt::format("gnuplot did not draw {} (exit code {}): {}", picture.string(),
                                                  gnuplot.exit_code, gnuplot.output));
   }
+  if (format == PictureFormat::kPdf) done_or_fail(without_date(own_picture));
   done_or_fail(replace_file(own_picture, picture));
   return picture;
 }

@@ -73,6 +73,22 @@ TEST(Sheet, DrawsPlotsMapsAndPicturesOnOnePage) {
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "sheets/page-2.png")) << "pictures lie beside the page";
 }
 
+TEST(Figure, EqualPlotsAreEqualFilesAndNothingElseIsLeft) {
+  if (run_captured({"gnuplot", "--version"}).exit_code != 0) GTEST_SKIP() << "no gnuplot";
+  const ScratchFolder folder;
+  setenv("GNUPLOT_LIB", "/nowhere", 1);
+  for (const std::string name : {"plot", "it's", "<a"}) {
+    const Figure figure{
+        .name = name, .x_title = "x", .y_title = "y", .curves = {{.label = "a", .x = {1, 2}, .y = {3, 4}}}};
+    const auto file = draw(figure, folder.path() / name, PictureFormat::kPdf);
+    std::ifstream in(file, std::ios::binary);
+    const std::string pdf((std::istreambuf_iterator<char>(in)), {});
+    EXPECT_THAT(pdf, HasSubstr("/CreationDate (D:20000101000000Z")) << name;
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path() / name), {}), 3) << name;
+  }
+  unsetenv("GNUPLOT_LIB");
+}
+
 // One key in a row explains all panels of the row that have the same curves; their axes stand at one height.
 TEST(Sheet, AKeyIsNotRepeatedWithinARow) {
   if (run_captured({"gnuplot", "--version"}).exit_code != 0) GTEST_SKIP() << "no gnuplot";
