@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "scene/derived.h"
+#include "scene/fields.h"
 #include "scene/units.h"
 
 namespace shaken::scene {
@@ -46,6 +48,16 @@ std::vector<std::string> remarks(const RunPlan& plan) {
   }
   if (plan.trajectory) remark_one_frame("trajectory.every", plan.trajectory->every);
   if (plan.movie) remark_one_frame("movie.every", plan.movie->every);
+  for (const Field& field : fields()) {
+    const std::string block(block_around(field.path));
+    if (!block.starts_with("measure.") || field.path != block + ".every" ||
+        !std::get<bool>(field_at(block).fetch(plan)) || std::get<double>(field.fetch(plan)) <= total) {
+      continue;
+    }
+    list.push_back(fmt::format("{} {} is longer than the run, {}: there will be a single sample, of the start",
+                               field.path, format_quantity(std::get<double>(field.fetch(plan)), Dimension::kTime),
+                               format_quantity(total, Dimension::kTime)));
+  }
   const auto gamma = gamma_of(plan.system);
   if (gamma && *gamma < 1 && plan.system.base) {
     list.push_back(

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -59,6 +60,30 @@ std::string with_unit(std::string number, std::string_view unit) {
   return unit.empty() ? number : fmt::format("{} {}", number, unit);
 }
 
+/// What is wrong with `rest`, which stands behind the number `number`, where people and word processors write numbers
+/// in another way than here; empty if nothing is known.
+std::string foreign_writing(std::string_view number, std::string_view rest) {
+  struct Space {
+    std::string_view bytes;
+    const char* name;
+  };
+  static constexpr std::array kSpaces{
+      Space{"\u00a0", "a no-break space (U+00A0)"}, Space{"\u2007", "a figure space (U+2007)"},
+      Space{"\u2009", "a thin space (U+2009)"}, Space{"\u202f", "a narrow no-break space (U+202F)"},
+      Space{"\u3000", "an ideographic space (U+3000)"}};
+  for (const Space& space : kSpaces) {
+    if (rest.find(space.bytes) != std::string_view::npos) {
+      return fmt::format("there is {} in it; write a plain space, or none", space.name);
+    }
+  }
+  if (rest.starts_with("\u2212")) return "its minus sign is that of typesetters (U+2212); write -";
+  if (rest.size() > 1 && rest.front() == ',' && rest[1] >= '0' && rest[1] <= '9') {
+    const std::size_t end = std::min(rest.find_first_not_of("0123456789", 1), rest.size());
+    return fmt::format("a decimal comma; write {}.{}", number, rest.substr(1, end - 1));
+  }
+  return {};
+}
+
 }  // namespace
 
 double Unit::scale() const { return Decimal{factor, power}.value(); }
@@ -106,6 +131,9 @@ Result<Written> split_quantity(std::string_view text) {
                           all.find_first_of("0123456789", end + 1) <= end + 2;
     if (!exponent && std::string_view("0123456789+-.").find(c) == std::string_view::npos) break;
     ++end;
+  }
+  if (const std::string foreign = foreign_writing(all.substr(0, end), all.substr(end)); !foreign.empty()) {
+    return Error{fmt::format("\"{}\": {}", text, foreign)};
   }
   if (end == 0) return Error{fmt::format("\"{}\" is not a number", text)};
   const Result<Decimal> number = parse_decimal(all.substr(0, end));

@@ -100,6 +100,11 @@ void check_start(Resolution& scene) {
 
 void check_intervals(Resolution& scene) {
   const double step = scene.plan.system.dt;
+  if (scene.ok({"time.measure"}) && scene.plan.measure_time < step) {
+    scene.report({"time.measure", "time.step", "accuracy"},
+                 fmt::format("time.measure {} is shorter than time.step {}: nothing would be simulated",
+                             time_text(scene.plan.measure_time), time_text(step)));
+  }
   for (const Field& field : fields()) {
     const std::string_view block = block_around(field.path);
     const bool is_interval = field.form == Form::kQuantity && field.dimension == Dimension::kTime && !block.empty() &&

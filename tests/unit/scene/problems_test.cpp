@@ -201,6 +201,9 @@ TEST(Problems, TimesThatDoNotFitTogether) {
             "measure.velocity.every 100 ms");
   EXPECT_EQ(problem_of(R"({"measure": {"tilt": {"every": "3 us"}}})"),
             "run.json:1:32: /measure/tilt/every: measure.tilt.every 3 us is shorter than time.step 4 us");
+  EXPECT_EQ(
+      problem_of(R"({"time": {"measure": "1 us"}})"),
+      "run.json:1:22: /time/measure: time.measure 1 us is shorter than time.step 4 us: nothing would be simulated");
   EXPECT_EQ(problem_of(R"({"plates": {"frequency": "20 kHz"}})"),
             "run.json:1:26: /plates/frequency: a step of 4 us is too long for plates at 20000 Hz: at most 2.5 us");
 }

@@ -20,6 +20,11 @@ TEST(Remarks, AreOfWhatIsHardlyMeant) {
                           "start"));
   EXPECT_THAT(remarks(plan_of(R"({"movie": {"every": "10 s"}, "time": {"steady": 4, "measure": 5}})")),
               ElementsAre("movie.every 10 s is longer than the run, 9 s: there will be a single frame, of the start"));
+  EXPECT_THAT(
+      remarks(plan_of(R"({"measure": {"order": {"every": "100 s"}}, "time": {"measure": 10}})")),
+      ElementsAre("measure.order.every 100 s is longer than the run, 10 s: there will be a single sample, of the "
+                  "start"));
+  EXPECT_THAT(remarks(plan_of(R"({"measure": {"order": {"every": "10 s"}}, "time": {"measure": 10}})")), IsEmpty());
   EXPECT_THAT(remarks(plan_of(R"({"plates": {"gamma": 0.9}})")),
               ElementsAre("plates.gamma is 0.9: below 1 the base never falls faster than the rods, which come to rest "
                           "on it"));

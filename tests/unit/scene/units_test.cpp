@@ -51,7 +51,16 @@ TEST(Units, WrongUnitsAreNamed) {
   EXPECT_EQ(message("", Dimension::kLength), "\"\" is not a number");
   EXPECT_EQ(message("4.5.1 mm", Dimension::kLength), "\"4.5.1\" is not a number");
   EXPECT_EQ(message("nan mm", Dimension::kLength), "\"nan mm\" is not a number");
-  EXPECT_EQ(message("4,5 mm", Dimension::kLength), "\",5 mm\" is not a unit of length; use mm, m, cm, um");
+  EXPECT_EQ(message("4,5 mm", Dimension::kLength), "\"4,5 mm\": a decimal comma; write 4.5");
+  EXPECT_EQ(message("4, 5 mm", Dimension::kLength), "\", 5 mm\" is not a unit of length; use mm, m, cm, um");
+  EXPECT_EQ(message("4.5\u00a0mm", Dimension::kLength),
+            "\"4.5\u00a0mm\": there is a no-break space (U+00A0) in it; write a plain space, or none");
+  EXPECT_EQ(message("\u00a04.5 mm", Dimension::kLength),
+            "\"\u00a04.5 mm\": there is a no-break space (U+00A0) in it; write a plain space, or none");
+  EXPECT_EQ(message("4.5\u202fmm", Dimension::kLength),
+            "\"4.5\u202fmm\": there is a narrow no-break space (U+202F) in it; write a plain space, or none");
+  EXPECT_EQ(message("\u22124.5 mm", Dimension::kLength),
+            "\"\u22124.5 mm\": its minus sign is that of typesetters (U+2212); write -");
 }
 
 TEST(Units, AreShownInTheUnitThatReadsBest) {
