@@ -20,6 +20,8 @@ ALLOWED = {
     "scene": ["sim/core", "sim/rod", "sim/system.h"],
     # whether rods can be placed, the simulation itself says
     "scene/placement.cpp": ["scene", "sim/core", "sim/rod", "sim/system.h", "sim/initial.h"],
+    # a film is as large as the renderer can draw it
+    "scene/field_table.cpp": ["scene", "base/picture_limits.h", "sim/core", "sim/rod", "sim/system.h"],
     # a sweep's name is printed
     "scene/sweep.cpp": ["scene", "base/text.h", "sim/core", "sim/rod", "sim/system.h"],
     # how long a run was to go on stands in its scene
@@ -47,14 +49,14 @@ ALLOWED = {
     "render/headline.cpp": ["render", "scene/fields.h", "scene/units.h", "sim/core"],
     # the defaults of the director field whose defects are drawn
     "render/measure.cpp": ["render", "scene/measure_plan.h", "sim/core", "sim/system.h", "analysis"],
-    "render": ["base/files.h", "base/descriptor.h", "sim/core", "sim/system.h", "analysis"],
+    "render": ["base/files.h", "base/picture_limits.h", "base/text.h", "sim/core", "sim/system.h", "analysis"],
     "server/relay": ["proto", "base", "sim/core"],
     "server": ["proto", "base", "scene", "run/files", "sim/core"],
     "client": ["proto", "base", "scene", "run/files", "run/export", "sim/core", "sim/rod", "sim/system.h"],
     # the page in a browser: what the terminal's live view makes of messages, the daemon's way of HTTP, a run's files
     "web": ["proto", "base", "client/watch", "server/http", "run/files", "analysis/order.h", "sim/core", "sim/system.h"],
     # the program's verbs are the client's and the study's
-    "client/main.cpp": ["client", "study/verb.h"],
+    "client/main.cpp": ["base/standard_streams.h", "client", "study/verb.h"],
     # a paper's figures and claims: a user of the client's libraries, and none of the client knows of it
     "study": ["base", "client", "scene", "run/files", "sim/core"],
     # benches time whole simulations, and the kernels of an impulse by themselves

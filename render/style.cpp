@@ -3,15 +3,16 @@
 
 #include <algorithm>
 
+#include "base/picture_limits.h"
 #include "render/colourings.h"
 
 namespace shaken::render {
 
 Result<void> check(const PictureStyle& style) {
-  constexpr int kLeast = 64, kMost = 5000;
-  if (std::min(style.width, style.height) < kLeast || std::max(style.width, style.height) > kMost) {
+  if (std::min(style.width, style.height) < kLeastPixels || std::max(style.width, style.height) > kMostPixels) {
     return Error{"a picture of " + std::to_string(style.width) + "x" + std::to_string(style.height) +
-                 " pixels is not possible; each side may be 64 to 5000"};
+                 " pixels is not possible; each side may be " + std::to_string(kLeastPixels) + " to " +
+                 std::to_string(kMostPixels)};
   }
   if (!(style.zoom >= 1) || !style.focus.allFinite()) return Error{"zoom must be at least 1, and focus finite"};
   const Colouring* colouring = find_colouring(style.colour);

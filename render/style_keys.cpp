@@ -8,6 +8,7 @@
 #include <sstream>
 #include <type_traits>
 
+#include "base/picture_limits.h"
 #include "render/colourings.h"
 
 namespace shaken::render {
@@ -135,8 +136,8 @@ std::vector<StyleKey> make_keys() {
                   StyleForm::kSize,
                   "WxH",
                   "Pixels; wide, square and tall pictures are laid out differently",
-                  64,
-                  5000,
+                  kLeastPixels,
+                  kMostPixels,
                   {},
                   [](const PictureStyle& style) { return Vec2(style.width, style.height); },
                   [](PictureStyle& style, const StyleValue& value) -> Result<void> {

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <utility>
 
+#include "base/picture_limits.h"
 #include "scene/accuracy.h"
 #include "scene/derived.h"
 #include "scene/field_makers.h"
@@ -109,8 +110,8 @@ Field start_run() {
 Field movie_size() {
   return {.path = "movie.size",
           .form = Form::kSize,
-          .low = 64,
-          .high = 7680,
+          .low = kLeastPixels,
+          .high = kMostPixels,
           .doc = "Width and height in pixels, both even.",
           .fetch =
               [](const RunPlan& plan) {
