@@ -3,6 +3,8 @@
 
 #include <cstdlib>
 
+#include "base/text.h"
+
 namespace shaken {
 namespace {
 
@@ -15,9 +17,7 @@ std::filesystem::path shipped(const char* installed_name, const char* name_in_so
              : std::filesystem::path(SHAKEN_SOURCE_DIR) / name_in_source_tree;
 }
 
-}  // namespace
-
-Result<std::filesystem::path> data_root(const std::string& given) {
+Result<std::filesystem::path> any_root(const std::string& given) {
   const auto variable = [](const char* name) {
     const char* value = std::getenv(name);
     return std::filesystem::path(value == nullptr ? "" : value);
@@ -27,6 +27,17 @@ Result<std::filesystem::path> data_root(const std::string& given) {
   if (const auto data = variable("XDG_DATA_HOME"); !data.empty()) return std::filesystem::absolute(data / "shaken");
   if (const auto home = variable("HOME"); !home.empty()) return std::filesystem::absolute(home / ".local/share/shaken");
   return Error{"no root directory: set --root, SHAKEN_ROOT or HOME"};
+}
+
+}  // namespace
+
+Result<std::filesystem::path> data_root(const std::string& given) {
+  Result<std::filesystem::path> root = any_root(given);
+  // The daemon tells its clients where runs lie, in JSON, which has no other text.
+  if (root && printable(root->string()) != root->string()) {
+    return Error{"a root directory has a name of UTF-8 without control characters, not " + printable(root->string())};
+  }
+  return root;
 }
 
 std::filesystem::path shipped_configs() { return shipped("configs", "configs"); }

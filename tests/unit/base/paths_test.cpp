@@ -23,5 +23,16 @@ TEST(DataRoot, WhatIsGivenDecidesElseTheFirstVariableThatIsSet) {
   EXPECT_EQ(*data_root("g"), std::filesystem::current_path() / "g");
 }
 
+// Verbs that open a run's folder got its name through JSON, with U+FFFD in the place of such a byte.
+TEST(DataRoot, ANameThatJsonCannotHaveIsRefused) {
+  for (const char* name : {"/tmp/r\xff", "/tmp/a\nb"}) {
+    const auto root = data_root(name);
+    ASSERT_FALSE(root);
+    EXPECT_NE(root.error().message.find("UTF-8 without control characters, not /tmp/"), std::string::npos)
+        << root.error().message;
+  }
+  EXPECT_EQ(*data_root("/tmp/\u03bc \u00e4"), "/tmp/\u03bc \u00e4");
+}
+
 }  // namespace
 }  // namespace shaken
