@@ -28,7 +28,7 @@ namespace {
 
 /// The request cannot be met; becomes the answer.
 struct Refusal : std::runtime_error {
-  Refusal(int code, const std::string& message) : std::runtime_error(message), status(code) {}
+  Refusal(int code, const std::string& message) : std::runtime_error(printable(message, Lines::kMany)), status(code) {}
   int status;
 };
 
