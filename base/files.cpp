@@ -136,11 +136,11 @@ Result<void> ReplacementFile::finish() {
 
 namespace {
 
-Result<std::string> read_all(const Descriptor& in, const std::filesystem::path& file, std::size_t most) {
+Result<std::string> read_all(int in, const std::filesystem::path& file, std::size_t most) {
   std::string content;
   char buffer[1 << 16];
   for (;;) {
-    const ssize_t got = ::read(in.value(), buffer, sizeof(buffer));
+    const ssize_t got = ::read(in, buffer, sizeof(buffer));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return system_error("cannot read " + file.string());
     if (got == 0) return content;
@@ -163,14 +163,16 @@ Result<std::string> read_file(const std::filesystem::path& file) {
     return system_error("cannot read " + file.string());
   }
   if (!S_ISREG(about.st_mode)) return Error{"cannot read " + file.string() + ": it is no regular file"};
-  return read_all(in, file, std::numeric_limits<std::size_t>::max());
+  return read_all(in.value(), file, std::numeric_limits<std::size_t>::max());
 }
 
 Result<std::string> read_input(const std::filesystem::path& file, std::size_t most) {
   const Descriptor in = open_file(file, O_RDONLY);
   if (!in) return system_error("cannot open " + file.string());
-  return read_all(in, file, most);
+  return read_all(in.value(), file, most);
 }
+
+Result<std::string> read_standard_input(std::size_t most) { return read_all(STDIN_FILENO, "stdin", most); }
 
 bool means_no_room(std::string_view message) {
   return message.find(std::strerror(ENOSPC)) != std::string_view::npos ||

@@ -58,6 +58,7 @@ Result<std::string> read_file(const std::filesystem::path& file);
 /// The same of what a user names, which may be a pipe; no more than `most` bytes of it.
 inline constexpr std::size_t kMostOfInput = std::size_t{16} << 20;
 Result<std::string> read_input(const std::filesystem::path& file, std::size_t most = kMostOfInput);
+Result<std::string> read_standard_input(std::size_t most = kMostOfInput);
 
 /// Whether the system refused something for want of room on the disk: then its words for that are in the message.
 bool means_no_room(std::string_view message);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include "base/standard_streams.h"
 #include "bench/bench.h"
 #include "run/files/version.h"
 #include "scene/nearest.h"
@@ -28,6 +29,7 @@ std::string problem_text(const CLI::App& app, const CLI::ParseError& problem) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  shaken::guard_standard_streams("shaken-bench");
   using namespace shaken;
   using namespace shaken::bench;
   CLI::App app("Measures Shaken.", "shaken-bench");

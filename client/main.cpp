@@ -3,10 +3,12 @@
 #include <string>
 #include <vector>
 
+#include "base/standard_streams.h"
 #include "client/program.h"
 #include "study/verb.h"
 
 int main(int argc, char** argv) {
+  shaken::guard_standard_streams("shaken");
   // A daemon or a pager that goes away must show as a failed write, not end the program half-way.
   std::signal(SIGPIPE, SIG_IGN);
   shaken::client::Console console = shaken::client::process_console();

@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <iostream>
-#include <iterator>
 
 #include "base/failure.h"
 #include "base/files.h"
@@ -20,7 +18,7 @@ namespace shaken::client {
 
 SceneInput read_scene_input(const std::string& file) {
   if (file == "-") {
-    return {"stdin", std::string(std::istreambuf_iterator<char>(std::cin), std::istreambuf_iterator<char>())};
+    return {"stdin", value_or_fail(read_standard_input(), ExitCode::kBadInput)};
   }
   return {file, value_or_fail(read_input(file), ExitCode::kBadInput)};
 }

@@ -14,6 +14,7 @@
 #include "base/failure.h"
 #include "base/files.h"
 #include "base/progress_line.h"
+#include "base/standard_streams.h"
 #include "base/terminal.h"
 #include "base/text.h"
 #include "proto/bus.h"
@@ -216,7 +217,16 @@ ExitCode work(const Arguments& arguments) {
   if (arguments.out.empty() == arguments.probe.empty()) {
     throw Failure(ExitCode::kBadInput, "one of --out and --probe is needed (see `shaken-worker --help`)");
   }
+  // A pipe may never say anything: then a signal ends the worker, which has begun nothing.
+  std::error_code unknown;
+  const bool may_wait = !std::filesystem::is_regular_file(arguments.scene, unknown);
+  const auto on_stop = may_wait ? std::signal(SIGTERM, SIG_DFL) : SIG_DFL,
+             on_interrupt = may_wait ? std::signal(SIGINT, SIG_DFL) : SIG_DFL;
   const std::string text = value_or_fail(read_input(arguments.scene), ExitCode::kBadInput);
+  if (may_wait) {
+    std::signal(SIGTERM, on_stop);
+    std::signal(SIGINT, on_interrupt);
+  }
   const scene::Loaded<scene::RunPlan> plan = scene::load_scene(text, arguments.scene, arguments.settings);
   if (!plan) throw Failure(ExitCode::kBadInput, to_string(plan.error()));
   if (const auto problem = scene::memory_problem(*plan, scene::memory_allowed(), arguments.scene)) {
@@ -235,6 +245,7 @@ ExitCode work(const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  guard_standard_streams("shaken-worker");
   if (argc > 1 && std::string_view(argv[1]) == "replay") return run::replay_command(argc - 1, argv + 1);
   CLI::App app("Runs one scene from start to end in a run directory.", "shaken-worker");
   Arguments arguments;
@@ -244,6 +255,7 @@ int main(int argc, char** argv) {
   // a terminal that is closed; nohup asks to outlive it
   if (std::signal(SIGHUP, request_stop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit of its user is an error of the call that writes it
   try {
     app.parse(argc, argv);
     log_to_stderr(arguments.quiet);

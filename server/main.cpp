@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <csignal>
 #include <cstdlib>
 #include <exception>
 #include <string>
@@ -10,6 +11,7 @@
 
 #include "base/failure.h"
 #include "base/paths.h"
+#include "base/standard_streams.h"
 #include "proto/bus.h"
 #include "run/files/version.h"
 #include "scene/slurm_settings.h"
@@ -60,6 +62,8 @@ shaken::relay::Address relay_address(const std::string& text, bool for_anyone) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  shaken::guard_standard_streams("shakend");
+  std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit of its user is an error of the call that writes it
   shaken::server::DaemonConfig config;
   std::string root;
   config.worker = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "shaken-worker";

@@ -17,6 +17,7 @@
 #include "base/failure.h"
 #include "base/interrupt.h"
 #include "base/paths.h"
+#include "base/standard_streams.h"
 #include "run/files/version.h"
 #include "web/guard.h"
 #include "web/served_page.h"
@@ -119,6 +120,7 @@ void serve(const std::filesystem::path& root, int port, const std::string& lcm_u
 }  // namespace
 
 int main(int argc, char** argv) {
+  guard_standard_streams("shaken-web");
   std::signal(SIGPIPE, SIG_IGN);
   std::string root, lcm_url;
   int port = 8642;

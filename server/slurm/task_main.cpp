@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "base/failure.h"
+#include "base/standard_streams.h"
 #include "run/files/directory.h"
 #include "run/files/version.h"
 #include "server/local_executor.h"
@@ -160,6 +161,7 @@ class Task {
 }  // namespace
 
 int main(int argc, char** argv) {
+  guard_standard_streams("shaken-task");
   CLI::App app("Does one task of a batch of runs, one after the other, on a node of a cluster.", "shaken-task");
   std::string folder;
   app.set_version_flag("--version", run::version());
