@@ -25,6 +25,7 @@
 #include "base/failure.h"
 #include "base/files.h"
 #include "base/progress_line.h"
+#include "base/standard_streams.h"
 #include "base/text.h"
 #include "proto/bus.h"
 #include "render/colourings.h"
@@ -130,7 +131,7 @@ void report(const Options& options, const std::string& path, std::size_t frames,
 void set_label(const Options& options, std::size_t i, RodPicture& picture) {
   if (i >= options.labels.size() || options.labels[i].empty()) return;
   picture.subtitle = picture.label;
-  picture.label = headline(options.labels[i]);
+  picture.label = headline(printable(options.labels[i]));
 }
 
 void check_picture_name(const Options& options) {
@@ -264,6 +265,9 @@ void make_picture(const Options& options) {
   std::vector<TrajectorySource> sources = open_sources(options);
   if (sources.size() > 1 && options.out.empty()) throw Failure(ExitCode::kBadInput, "several runs need -o FILE");
   const double time = options.time.empty() ? 0 : seconds_in(options.time, "--time");
+  for (const TrajectorySource& source : sources) {
+    if (!options.time.empty()) value_or_fail(source.recorded_frame(time), ExitCode::kBadInput);
+  }
   const std::size_t frame = options.frame == "last" ? 0 : frame_in(options, sources);
   if (style.inset == Inset::kOrder || (style.caption && sources.size() == 1)) {
     for (TrajectorySource& source : sources) done_or_fail(source.read_history());
@@ -273,7 +277,7 @@ void make_picture(const Options& options) {
   const SweepPlaces places = places_of(options, style);
   RodPicture picture =
       value_or_fail(joint_picture(options, style, places, sources, [&](std::size_t i) -> Result<std::size_t> {
-        if (!options.time.empty()) return sources[i].nearest_frame(time);
+        if (!options.time.empty()) return sources[i].recorded_frame(time);
         return options.frame == "last" ? sources[i].n_frames() - 1 : frame;
       }));
   // One colouring for all panels, as there is one legend.
@@ -314,11 +318,14 @@ struct Cut {
 Cut cut_of(const Options& options, const PictureStyle& style, const TrajectorySource& source) {
   const auto frame_at = [&](const std::string& text, const char* option, std::size_t otherwise) {
     if (text.empty()) return otherwise;
-    return value_or_fail(source.nearest_frame(seconds_in(text, option)), ExitCode::kFailed);
+    return value_or_fail(source.recorded_frame(seconds_in(text, option)), ExitCode::kBadInput);
   };
   const auto time_of = [&](std::size_t index) { return value_or_fail(source.time_of(index), ExitCode::kFailed); };
-  const std::size_t first = frame_at(options.from, "--from", 0),
-                    last = frame_at(options.to, "--to", source.n_frames() - 1);
+  const std::size_t first = frame_at(options.from, "--from", 0);
+  // A film ends with its run, wherever --to is.
+  std::size_t last = source.n_frames() - 1;
+  if (!options.to.empty())
+    last = value_or_fail(source.nearest_frame(seconds_in(options.to, "--to")), ExitCode::kFailed);
   if (last < first) throw Failure(ExitCode::kBadInput, "--from is later than --to");
   const double begin = time_of(first), end = time_of(last);
   Cut cut;
@@ -364,10 +371,7 @@ void make_movie_file(const Options& options) {
   if (sources.size() > 1 && options.out.empty()) throw Failure(ExitCode::kBadInput, "several runs need -o FILE");
   const std::string out = out_of(options, source, "movie.mp4");
   done_or_fail(check_movie_name(out), ExitCode::kBadInput);
-  if (std::filesystem::path(out).extension() == ".mp4" && (style.width % 2 != 0 || style.height % 2 != 0)) {
-    throw Failure(ExitCode::kBadInput,
-                  fmt::format("a movie needs an even width and height, not {}x{}", style.width, style.height));
-  }
+  done_or_fail(check_movie_size(out, style.width, style.height), ExitCode::kBadInput);
   const Cut cut = cut_of(options, style, source);
   for (TrajectorySource& each : sources) done_or_fail(each.read_history());
   // One colouring for the whole film.
@@ -382,8 +386,8 @@ void make_movie_file(const Options& options) {
   follow_defect(style, sources, value_or_fail(source.time_of(cut.frames.front())),
                 value_or_fail(source.time_of(cut.frames.back())));
   const SweepPlaces places = places_of(options, style);
-  MovieOptions movie{options.labels.empty() ? source.label() : headline(options.labels.front()), source.notes(),
-                     std::nullopt, options.n_threads};
+  MovieOptions movie{options.labels.empty() ? source.label() : headline(printable(options.labels.front())),
+                     source.notes(), std::nullopt, options.n_threads};
   if (movie.n_threads < 1) movie.n_threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   // All painters of a process share Mesa's rasteriser, which takes one picture at a time: it is its threads that use
   // the cores, and the painters' own only have the next picture ready.
@@ -404,8 +408,11 @@ void make_movie_file(const Options& options) {
     return rods;
   };
   axes = value_or_fail(film_axes(cut.frames.size(), picture, style), ExitCode::kFailed);
-  std::signal(SIGINT, [](int) { stop_requested = 1; });
-  std::signal(SIGTERM, [](int) { stop_requested = 1; });
+  struct sigaction stop {};
+  stop.sa_handler = [](int) { stop_requested = 1; };
+  stop.sa_flags = static_cast<int>(SA_RESTART | SA_RESETHAND);  // a second one ends the program at once
+  sigaction(SIGINT, &stop, nullptr);
+  sigaction(SIGTERM, &stop, nullptr);
   {
     ProgressLine progress("drawing");
     double told = -1;  // when progress was last written to a file [s]
@@ -578,4 +585,7 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace shaken::render
 
-int main(int argc, char** argv) { return shaken::render::run(argc, argv); }
+int main(int argc, char** argv) {
+  shaken::guard_standard_streams("shaken-render");
+  return shaken::render::run(argc, argv);
+}

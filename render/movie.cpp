@@ -109,6 +109,7 @@ class Palettes {
 
 struct MovieWriter::Impl {
   std::filesystem::path file, unfinished;
+  std::string address() const { return "file:" + unfinished.string(); }  ///< a name alone may be taken for a protocol
   Av<AVFormatContext> format;
   Av<AVCodecContext> codec;
   Av<AVFrame> frame;  // as the encoder takes it, or as its palette is chosen from
@@ -139,7 +140,7 @@ struct MovieWriter::Impl {
 Result<void> MovieWriter::Impl::open(const Format& kind, int width, int height, double fps, const std::string& title,
                                      const Notes& notes) {
   AVFormatContext* made = nullptr;
-  if (const int code = avformat_alloc_output_context2(&made, nullptr, kind.container, unfinished.c_str()); code < 0) {
+  if (const int code = avformat_alloc_output_context2(&made, nullptr, kind.container, address().c_str()); code < 0) {
     return failed(av_words(code));
   }
   format.reset(made);
@@ -180,7 +181,7 @@ Result<void> MovieWriter::Impl::open(const Format& kind, int width, int height, 
   if (!title.empty()) av_dict_set(&format->metadata, "title", title.c_str(), 0);
   if (const std::string words = notes_text(notes); !words.empty())
     av_dict_set(&format->metadata, "comment", words.c_str(), 0);
-  if (const int code = avio_open(&format->pb, unfinished.c_str(), AVIO_FLAG_WRITE); code < 0) {
+  if (const int code = avio_open(&format->pb, address().c_str(), AVIO_FLAG_WRITE); code < 0) {
     return failed(av_words(code));
   }
   AVDictionary* options = nullptr;
@@ -246,6 +247,13 @@ std::string movie_endings() {
 
 bool is_movie_name(const std::filesystem::path& file) { return format_of(file) != nullptr; }
 
+Result<void> check_movie_size(const std::filesystem::path& file, int width, int height) {
+  const Format* kind = format_of(file);
+  const bool is_odd = width % 2 != 0 || height % 2 != 0;
+  if (width >= 2 && height >= 2 && (!is_odd || kind == nullptr || kind->pixels == AV_PIX_FMT_PAL8)) return {};
+  return Error{"a movie needs an even width and height, not " + std::to_string(width) + "x" + std::to_string(height)};
+}
+
 MovieWriter::MovieWriter(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 MovieWriter::MovieWriter(MovieWriter&&) noexcept = default;
 MovieWriter& MovieWriter::operator=(MovieWriter&&) noexcept = default;
@@ -255,10 +263,7 @@ Result<MovieWriter> MovieWriter::create(const std::filesystem::path& file, int w
                                         const std::string& title, const Notes& notes) {
   const Format* kind = format_of(file);
   if (kind == nullptr) return Error{"a film is written as " + movie_endings() + ", not as " + file.string()};
-  const bool is_odd = width % 2 != 0 || height % 2 != 0;
-  if (width < 2 || height < 2 || (is_odd && kind->pixels != AV_PIX_FMT_PAL8)) {
-    return Error{"a movie needs an even width and height, not " + std::to_string(width) + "x" + std::to_string(height)};
-  }
+  if (auto done = check_movie_size(file, width, height); !done) return done.error();
   if (!(fps > 0 && fps <= kind->most_fps)) {
     return Error{std::string("a movie as ") + kind->ending + " needs more than 0 and at most " +
                  std::to_string(static_cast<int>(kind->most_fps)) + " frames per second"};

@@ -5,12 +5,14 @@
 #include <fstream>
 #include <iterator>
 
+#include "base/text.h"
+
 namespace shaken::render {
 namespace {
 
 std::string escaped_for_xml(const std::string& text) {
   std::string escaped;
-  for (const char c : text) {
+  for (const char c : printable(text, Lines::kMany)) {
     switch (c) {
       case '&':
         escaped += "&amp;";

@@ -194,6 +194,16 @@ Result<std::size_t> TrajectorySource::nearest_frame(double time) const {
   return time - *before <= *after - time ? low - 1 : low;
 }
 
+Result<std::size_t> TrajectorySource::recorded_frame(double time) const {
+  const Result<double> first = time_of(0), last = time_of(n_frames() - 1);
+  if (!first) return first.error();
+  if (!last) return last.error();
+  const double apart = n_frames() > 1 ? (*last - *first) / static_cast<double>(n_frames() - 1) : 1e-3;
+  if (time >= *first - apart && time <= *last + apart) return nearest_frame(time);
+  return Error{fmt::format("{}: there is no frame at {:.6g} s: the {} frames are from {:.6g} s to {:.6g} s",
+                           file_.string(), time, n_frames(), *first, *last)};
+}
+
 std::optional<MovieRequest> TrajectorySource::movie_request() const {
   const Json scene = Json::parse(reader_.header().scene_json, nullptr, false);
   const std::optional<double> every = number_at(scene, "/movie/every"), width = number_at(scene, "/movie/size/0"),

@@ -42,6 +42,10 @@ class TrajectorySource {
   /// The frame nearest to `time` [s].
   Result<std::size_t> nearest_frame(double time) const;
 
+  /// The same, unless `time` is before the first frame or after the last one by more than they are apart: then an error
+  /// that says what is recorded.
+  Result<std::size_t> recorded_frame(double time) const;
+
   /// None if the scene has no such block.
   std::optional<MovieRequest> movie_request() const;
 

@@ -72,6 +72,59 @@ TEST(RenderProgram, FrameAndTimeChooseTheFrame) {
   EXPECT_NE(picture(" --frame 1"), picture(" --frame 3"));
 }
 
+TEST(RenderProgram, WhatWasNotRecordedIsNotDrawn) {
+  const ScratchFolder folder;
+  plant_trajectory(folder.path(), 5);  // 0 to 0.2 s, a frame each 50 ms
+  const std::string run = folder.path().string();
+  for (const std::string arguments : {"picture " + run + " --time 100s -o " + run + "/x.png",
+                                      "movie " + run + " --from 5s --to 9s -o " + run + "/x.mp4"}) {
+    const Ended ended = run_program(arguments);
+    EXPECT_EQ(ended.code, 2) << arguments;
+    EXPECT_NE(ended.said.find("the 5 frames are from 0 s to 0.2 s"), std::string::npos) << ended.said;
+  }
+  EXPECT_EQ(listing(folder), "trajectory.h5");
+  EXPECT_EQ(run_program("picture " + run + " --time 0.23 --bare --size 64x64 -o " + run + "/x.png").code, 0)
+      << "nearest to the last one";
+}
+
+TEST(RenderProgram, AnOddSizeIsBadInputForEveryFilmThatCannotHaveIt) {
+  const ScratchFolder folder;
+  plant_trajectory(folder.path(), 1);
+  const auto code = [&](const std::string& ending) {
+    return run_program("movie " + folder.path().string() + " --size 101x81 -o " + (folder / ("r" + ending)).string())
+        .code;
+  };
+  EXPECT_EQ(code(".mp4"), 2);
+  EXPECT_EQ(code(".webm"), 2);
+  EXPECT_EQ(code(".gif"), 0);
+}
+
+// libavformat would take what is before the colon for a protocol, and open connections.
+TEST(RenderProgram, ANameOfAFilmIsNeverAnAddress) {
+  const ScratchFolder folder;
+  plant_trajectory(folder.path(), 1);
+  std::filesystem::create_directories(folder / "http:/127.0.0.1:1");
+  for (const std::string name : {"2026-11-25T02:30:00.mp4", "run:1.gif", "a:b.webm", "http://127.0.0.1:1/x.mp4"}) {
+    const Ended ended = run_program("movie . --size 64x64 -o '" + name + "'", "cd " + folder.path().string() + " &&");
+    EXPECT_EQ(ended.code, 0) << ended.said;
+    EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
+  }
+}
+
+TEST(RenderProgram, ControlCharactersOfALabelAreWrittenOut) {
+  const ScratchFolder folder;
+  plant_trajectory(folder.path(), 1);
+  const std::string out = (folder / "x.svg").string();
+  const Ended ended = run_program("picture " + folder.path().string() + " -o " + out +
+                                  " --label \"$(printf 'a\\001b\\033[31m<&>\\377')\"");
+  ASSERT_EQ(ended.code, 0) << ended.said;
+  std::ifstream in(out, std::ios::binary);
+  const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  for (const char c : text) ASSERT_TRUE(static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t') << int{c};
+  EXPECT_EQ(text.find('\377'), std::string::npos) << "no UTF-8";
+  EXPECT_NE(text.find("a\\u0001b\\u001b[31m&lt;&amp;&gt;\\xff</title>"), std::string::npos);
+}
+
 TEST(RenderProgram, MovieReportsInJson) {
   const ScratchFolder folder;
   plant_trajectory(folder.path(), 7);
