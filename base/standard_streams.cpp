@@ -33,10 +33,10 @@ bool reader_has_gone() {
 }
 
 void check_output(int code, void* program) {
-  std::cout.flush();
   errno = 0;
+  std::cout.flush();
   const bool failed_now = std::fflush(stdout) != 0;
-  const int reason = failed_now ? errno : 0;
+  const int reason = errno;  // of a write before this one it is no longer known
   if (!failed_now && std::ferror(stdout) == 0) return;
   if (reason != EPIPE && !reader_has_gone()) {
     std::fprintf(stderr, "%s: cannot write to standard output%s%s\n", static_cast<const char*>(program),

@@ -32,6 +32,7 @@
 #include "render/film_axes.h"
 #include "render/headline.h"
 #include "render/make_movie.h"
+#include "render/movie.h"
 #include "render/painter.h"
 #include "render/png.h"
 #include "render/sources.h"
@@ -265,9 +266,11 @@ void make_picture(const Options& options) {
   std::vector<TrajectorySource> sources = open_sources(options);
   if (sources.size() > 1 && options.out.empty()) throw Failure(ExitCode::kBadInput, "several runs need -o FILE");
   const double time = options.time.empty() ? 0 : seconds_in(options.time, "--time");
-  for (const TrajectorySource& source : sources) {
-    if (!options.time.empty()) value_or_fail(source.recorded_frame(time), ExitCode::kBadInput);
-  }
+  // Of several runs, one that has ended before shows its last frame beside the others.
+  const bool is_recorded = std::any_of(sources.begin(), sources.end(), [&](const TrajectorySource& source) {
+    return static_cast<bool>(source.recorded_frame(time));
+  });
+  if (!options.time.empty() && !is_recorded) value_or_fail(sources.front().recorded_frame(time), ExitCode::kBadInput);
   const std::size_t frame = options.frame == "last" ? 0 : frame_in(options, sources);
   if (style.inset == Inset::kOrder || (style.caption && sources.size() == 1)) {
     for (TrajectorySource& source : sources) done_or_fail(source.read_history());
@@ -277,7 +280,7 @@ void make_picture(const Options& options) {
   const SweepPlaces places = places_of(options, style);
   RodPicture picture =
       value_or_fail(joint_picture(options, style, places, sources, [&](std::size_t i) -> Result<std::size_t> {
-        if (!options.time.empty()) return sources[i].recorded_frame(time);
+        if (!options.time.empty()) return sources[i].nearest_frame(time);
         return options.frame == "last" ? sources[i].n_frames() - 1 : frame;
       }));
   // One colouring for all panels, as there is one legend.

@@ -13,6 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 using testing::MatchesRegex;
+using testing::StartsWith;
 
 constexpr const char* kScene = R"({
   "rods": { "count": 4, "length": "2.5 mm", "beads": 7 }, "box": { "side": "12 mm" },
@@ -27,7 +28,7 @@ TEST(Streams, WhatCannotBeWrittenToStandardOutputIsAnError) {
   for (const std::string name : {"shaken", "shakend", "shaken-worker", "shaken-render", "shaken-task", "shaken-web"}) {
     const Finished full = shell(program(name) + " --version > /dev/full");
     EXPECT_EQ(full.code, 1) << name;
-    EXPECT_EQ(full.output, name + ": cannot write to standard output: No space left on device\n");
+    EXPECT_THAT(full.output, StartsWith(name + ": cannot write to standard output"));
     const Finished good = shell(program(name) + " --version > /dev/null");
     EXPECT_EQ(good.code, 0) << name;
     EXPECT_EQ(good.output, "");
@@ -78,7 +79,7 @@ TEST(Streams, AFileBeyondTheLimitOfItsUserIsAnErrorWithWords) {
 // A device or a pipe has no end.
 TEST(Streams, ASceneThatDoesNotEndIsRefused) {
   const ScratchFolder folder;
-  for (const std::string command :
+  for (const std::string& command :
        {program("shaken") + " validate /dev/zero", program("shaken") + " validate - < /dev/zero",
         program("shaken-worker") + " /dev/zero --out " + (folder / "run").string()}) {
     const Finished refused = shell("timeout -k 5 60 " + command);

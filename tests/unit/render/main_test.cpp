@@ -76,8 +76,8 @@ TEST(RenderProgram, WhatWasNotRecordedIsNotDrawn) {
   const ScratchFolder folder;
   plant_trajectory(folder.path(), 5);  // 0 to 0.2 s, a frame each 50 ms
   const std::string run = folder.path().string();
-  for (const std::string arguments : {"picture " + run + " --time 100s -o " + run + "/x.png",
-                                      "movie " + run + " --from 5s --to 9s -o " + run + "/x.mp4"}) {
+  for (const std::string& arguments : {"picture " + run + " --time 100s -o " + run + "/x.png",
+                                       "movie " + run + " --from 5s --to 9s -o " + run + "/x.mp4"}) {
     const Ended ended = run_program(arguments);
     EXPECT_EQ(ended.code, 2) << arguments;
     EXPECT_NE(ended.said.find("the 5 frames are from 0 s to 0.2 s"), std::string::npos) << ended.said;
@@ -257,7 +257,7 @@ TEST(RenderProgram, SeveralRunsGoSideBySideWithOneClock) {
   const Image last = drawn(runs + " --label one --label two");
   EXPECT_NE(last, drawn(runs + " --label one --label other")) << "each has its headline";
   EXPECT_NE(last, drawn(runs + " --label one --label two --time 0.05"));
-  EXPECT_EQ(last, drawn(runs + " --label one --label two --time 9")) << "one that has ended shows its last frame";
+  EXPECT_EQ(last, drawn(runs + " --label one --label two --time 0.15")) << "one that has ended shows its last frame";
   for (const char* file : {"both.svg", "both.pdf"}) {
     EXPECT_EQ(run_program("picture " + runs + " -o " + (first / file).string()).code, 0) << file;
   }

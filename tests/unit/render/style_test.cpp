@@ -104,7 +104,7 @@ TEST(StyleKeys, TextsOfTheCommandLine) {
   EXPECT_EQ(put("focus", "0.3,0.2"), "");
   EXPECT_EQ(style.focus, Vec2(0.3, 0.2));
   EXPECT_EQ(put("size", "1920"), "takes WxH, not '1920'");
-  EXPECT_EQ(put("size", "10x10"), "may be 64 to 5000 each, not 10");
+  EXPECT_EQ(put("size", "10x10"), "may be 64 to 7680 each, not 10");
   EXPECT_EQ(put("size", "1280x720x3"), "takes WxH, not '1280x720x3'");
   EXPECT_EQ(put("zoom", "nan"), "is a number, not 'nan'");
   EXPECT_EQ(put("theme", "grey"), "may be light, dark or print, not 'grey'");
