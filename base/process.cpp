@@ -13,6 +13,7 @@
 
 #include "base/descriptor.h"
 #include "base/failure.h"
+#include "base/program.h"
 #include "sim/core/check.h"
 
 namespace shaken {
@@ -41,7 +42,8 @@ std::vector<char*> argument_vector(const std::vector<std::string>& command) {
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
-  std::signal(SIGPIPE, SIG_DFL);  // we ignore it; others are not written for that
+  std::signal(SIGPIPE, SIG_DFL);  // we ignore them; others are not written for that
+  std::signal(SIGXFSZ, SIG_DFL);
 
   dup2(null, STDIN_FILENO);
   if (setup.output >= 0) {
@@ -139,7 +141,9 @@ Captured run_captured(const std::vector<std::string>& command, const std::filesy
 }
 
 void become(const std::vector<std::string>& command) {
+  done_or_fail(flush_standard_output());
   std::signal(SIGPIPE, SIG_DFL);
+  std::signal(SIGXFSZ, SIG_DFL);
   const auto arguments = argument_vector(command);
   execvp(arguments[0], arguments.data());
   throw Failure(ExitCode::kFailed, system_error(command[0] + " cannot be run").message);

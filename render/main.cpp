@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
+#include <iostream>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -24,6 +25,7 @@
 
 #include "base/failure.h"
 #include "base/files.h"
+#include "base/program.h"
 #include "base/progress_line.h"
 #include "base/standard_streams.h"
 #include "base/text.h"
@@ -117,7 +119,7 @@ void report(const Options& options, const std::string& path, std::size_t frames,
             const Stopwatch& watch) {
   if (path == "-") return;  // stdout has the frames
   if (!options.json) {
-    fmt::print("{}\n", path);
+    std::cout << path << "\n";
     return;
   }
   const nlohmann::ordered_json said = {{"path", path},
@@ -125,7 +127,7 @@ void report(const Options& options, const std::string& path, std::size_t frames,
                                        {"width_px", style.width},
                                        {"height_px", style.height},
                                        {"seconds", std::round(watch.seconds() * 1000) / 1000}};
-  fmt::print("{}\n", said.dump());
+  std::cout << said.dump() << "\n";
 }
 
 /// The headline that the command line gives source `i`, above what the picture said of itself.
@@ -439,9 +441,9 @@ void make_movie_file(const Options& options) {
 /// Prints a preset as a style file, or a list of them.
 void print_styles(const Options& options) {
   for (const Preset& preset : presets()) {
-    if (options.preset.empty()) fmt::print("{:<10} {}\n", preset.name, preset.doc);
+    if (options.preset.empty()) std::cout << fmt::format("{:<10} {}\n", preset.name, preset.doc);
     if (options.preset == preset.name) {
-      fmt::print("// {}: {}\n{}", preset.name, preset.doc, preset.text);
+      std::cout << fmt::format("// {}: {}\n{}", preset.name, preset.doc, preset.text);
       return;
     }
   }
@@ -574,13 +576,13 @@ int run(int argc, char** argv) {
     return static_cast<int>(ExitCode::kOk);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
-    fmt::print(stderr, "shaken-render: {} (see `shaken-render --help`)\n", error.what());
+    complain(fmt::format("shaken-render: {} (see `shaken-render --help`)", error.what()));
     return static_cast<int>(ExitCode::kBadInput);
   } catch (const Failure& failure) {
-    fmt::print(stderr, "shaken-render: {}\n", printable(failure.what(), Lines::kMany));
+    complain("shaken-render: " + printable(failure.what(), Lines::kMany));
     return static_cast<int>(failure.code);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "shaken-render: {}\n", printable(error.what(), Lines::kMany));
+    complain("shaken-render: " + printable(error.what(), Lines::kMany));
     return static_cast<int>(ExitCode::kFailed);
   }
 }

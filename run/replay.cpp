@@ -5,7 +5,9 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <iostream>
 
+#include "base/program.h"
 #include "base/text.h"
 #include "run/files/directory.h"
 #include "run/saved_run.h"
@@ -88,12 +90,12 @@ int replay_command(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
     if (problem.get_exit_code() == 0) return app.exit(problem);
-    fmt::print(stderr, "shaken-worker replay: {} (see `shaken-worker replay --help`)\n", problem.what());
+    complain(fmt::format("shaken-worker replay: {} (see `shaken-worker replay --help`)", problem.what()));
     return kExitBadInput;
   }
   const Result<Replay> result = replay(directory);
   if (!result) {
-    fmt::print(stderr, "{}\n", printable(result.error().message, Lines::kMany));
+    complain(printable(result.error().message, Lines::kMany));
     return kExitBadInput;
   }
   const Result<scene::RunPlan> plan = read_plan(RunDirectory{directory});
@@ -107,9 +109,9 @@ int replay_command(int argc, char** argv) {
                                {"met", nullptr},
                                {"same", result->same()}};
     if (result->met) out["met"] = trouble_json(*result->met);
-    fmt::print("{}\n", out.dump(2));
+    std::cout << out.dump(2) << "\n";
   } else {
-    fmt::print("{}", as_text(*result, plan->system.dt));
+    std::cout << as_text(*result, plan->system.dt);
   }
   return result->same() ? 0 : kExitOther;
 }

@@ -13,6 +13,7 @@
 
 #include "base/failure.h"
 #include "base/files.h"
+#include "base/program.h"
 #include "base/progress_line.h"
 #include "base/standard_streams.h"
 #include "base/terminal.h"
@@ -138,8 +139,12 @@ void tell_ending(const run::RunDirectory& directory) {
   if (!text) return;
   const auto summary = nlohmann::json::parse(*text, nullptr, false);
   if (!summary.is_object()) return;
-  fmt::print("{}", run::describe_ending(summary, directory.root));
-  std::fflush(stdout);
+  const std::string ending = run::describe_ending(summary, directory.root);
+  if (stderr_goes_to(directory.log())) {  // a run that is done does not fail for a line that its log has no room for
+    [[maybe_unused]] const ssize_t written = write(STDOUT_FILENO, ending.data(), ending.size());
+    return;
+  }
+  std::fwrite(ending.data(), 1, ending.size(), stdout);
 }
 
 ExitCode run_scene(const scene::RunPlan& plan, const Arguments& arguments) {
@@ -262,10 +267,10 @@ int main(int argc, char** argv) {
     return static_cast<int>(work(arguments));
   } catch (const CLI::ParseError& problem) {
     if (problem.get_exit_code() == 0) return app.exit(problem);
-    fmt::print(stderr, "shaken-worker: {} (see `shaken-worker --help`)\n", problem.what());
+    complain(fmt::format("shaken-worker: {} (see `shaken-worker --help`)", problem.what()));
     return static_cast<int>(ExitCode::kBadInput);
   } catch (const Failure& failure) {
-    fmt::print(stderr, "{}\n", printable(failure.what(), Lines::kMany));
+    complain(printable(failure.what(), Lines::kMany));
     return static_cast<int>(failure.code);
   }
 }

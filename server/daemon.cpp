@@ -17,6 +17,7 @@
 
 #include "base/failure.h"
 #include "base/process.h"
+#include "base/program.h"
 #include "run/files/directory.h"
 #include "run/files/version.h"
 #include "server/api.h"
@@ -311,7 +312,8 @@ void run_daemon(const DaemonConfig& asked_for) {
   spdlog::info("shakend {} ready: {} (pid {}), {} slots", info.version, info.root.string(), info.pid, info.slots);
   std::printf("shakend ready: %s (pid %d)%s\n", info.root.c_str(), info.pid,
               config.quiet ? (", log in " + log_file(config).string()).c_str() : "");
-  std::fflush(stdout);
+  // it goes on without whoever was to read that line
+  if (const auto told = flush_standard_output(); !told) spdlog::warn("{}", told.error().message);
 
   std::optional<WebProgram> web;
   if (config.web_port) web.emplace(web_command(config, info.root));

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "base/failure.h"
+#include "base/program.h"
 #include "base/standard_streams.h"
 #include "run/files/directory.h"
 #include "run/files/version.h"
@@ -143,7 +144,7 @@ class Task {
   void write_down() {
     Result<void> written = write_report(folder_.report(number_), report_);
     for (int tries = 0; !written && tries < kWritingTries; ++tries) {
-      fmt::print(stderr, "{}\n", written.error().message);
+      complain(written.error().message);
       std::this_thread::sleep_for(kLook);
       written = write_report(folder_.report(number_), report_);
     }
@@ -172,10 +173,10 @@ int main(int argc, char** argv) {
     return Task(BatchFolder{folder}, number_in("SLURM_ARRAY_TASK_ID", -1)).work();
   } catch (const CLI::ParseError& problem) {
     if (problem.get_exit_code() == 0) return app.exit(problem);
-    fmt::print(stderr, "shaken-task: {} (see `shaken-task --help`)\n", problem.what());
+    complain(fmt::format("shaken-task: {} (see `shaken-task --help`)", problem.what()));
     return static_cast<int>(ExitCode::kBadInput);
   } catch (const Failure& failure) {
-    fmt::print(stderr, "shaken-task: {}\n", failure.what());
+    complain(fmt::format("shaken-task: {}", failure.what()));
     return static_cast<int>(failure.code);
   }
 }

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// What every program does alike with what it is told and what it says.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/e2e/process.h"
+
+namespace shaken::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// A command of the shell in which programs are named by themselves.
+Finished shell(const std::string& command) {
+  return run_command({"/bin/sh", "-c", "PATH=" SHAKEN_BIN_DIR ":$PATH; " + command});
+}
+
+TEST(EveryProgram, EndsWithItsOwnCodeWhereNobodyCanBeToldWhy) {
+  const std::vector<std::pair<std::string, int>> commands{
+      {"shaken validate nothing.json", 2},   {"shaken-worker nothing.json --out x", 2},
+      {"shaken-worker --nothing", 2},        {"shaken-worker replay nothing", 2},
+      {"shaken-worker replay --nothing", 2}, {"shaken-render picture nothing -o x.png", 2},
+      {"shaken-render nothing", 2},          {"shaken-task /nothing", 1},
+      {"shaken-task --nothing", 2},
+  };
+  for (const auto& [command, code] : commands) EXPECT_EQ(shell(command + " 2>/dev/full").code, code) << command;
+}
+
+// Its log takes the last words of a worker, too; a run that is done is done without them.
+TEST(Worker, DoesNotFailForALastWordThatItsLogHasNoRoomFor) {
+  const ScratchFolder folder;
+  std::ofstream(folder / "scene.json") << R"({
+    "rods": { "length": "4.5 mm", "count": 20 }, "box": { "side": "22 mm" },
+    "time": { "steady": 0, "measure": "20 ms" }, "stream": null })";
+  const std::string run = "cd " + folder.path().string() + "; mkdir run; ln -s /dev/full run/worker.log; " +
+                          "shaken-worker scene.json --out run --no-lcm > run/worker.log 2>&1; echo code $?";
+  EXPECT_THAT(shell(run).output, HasSubstr("code 0"));
+}
+
+}  // namespace
+}  // namespace shaken::test
