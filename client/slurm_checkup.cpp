@@ -125,6 +125,7 @@ CheckResult check_shared(const std::filesystem::path& root) {
 }  // namespace
 
 std::vector<CheckResult> slurm_checkup(const std::filesystem::path& root) {
+  forget_slurm_filters();  // as the daemon does
   std::vector<CheckResult> findings{check_programs()};
   if (findings.back().level == Level::kFail) return findings;
   findings.push_back(check_controller());

@@ -18,6 +18,7 @@
 #include "base/failure.h"
 #include "base/process.h"
 #include "base/program.h"
+#include "base/slurm_conf.h"
 #include "run/files/directory.h"
 #include "run/files/version.h"
 #include "server/api.h"
@@ -238,7 +239,7 @@ void stop_workers(Supervisor& supervisor, const Signals& signals) {
 }  // namespace
 
 void run_daemon(const DaemonConfig& asked_for) {
-  slurm::forget_filters();
+  forget_slurm_filters();
   DaemonConfig config = asked_for;
   if (access(config.worker.c_str(), X_OK) != 0) {
     throw Failure(ExitCode::kFailed, "there is no worker program at " + config.worker.string() +

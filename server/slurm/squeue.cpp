@@ -60,19 +60,6 @@ std::vector<QueuedTask> parse_squeue(std::string_view output) {
   return tasks;
 }
 
-void forget_filters() {
-  std::vector<std::string> names;
-  for (char** entry = environ; *entry != nullptr; ++entry) {
-    const std::string_view variable = *entry;
-    const std::string_view name = variable.substr(0, variable.find('='));
-    if (name.starts_with("SQUEUE_") || name.starts_with("SCANCEL_") || name == "SLURM_CLUSTERS" ||
-        name == "SBATCH_CLUSTERS") {
-      names.emplace_back(name);
-    }
-  }
-  for (const std::string& name : names) unsetenv(name.c_str());
-}
-
 std::string parse_sbatch(std::string_view output) {
   for (const std::string_view line : split(output, '\n')) {
     const std::string_view id = line.substr(0, line.find(';'));

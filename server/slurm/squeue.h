@@ -23,10 +23,6 @@ std::vector<std::string> squeue_command();
 /// What that prints. Lines that are no tasks of arrays are passed over.
 std::vector<QueuedTask> parse_squeue(std::string_view output);
 
-/// Takes from this process's environment what would hide tasks from squeue or turn scancel elsewhere (SQUEUE_*,
-/// SCANCEL_*, SLURM_CLUSTERS, SBATCH_CLUSTERS). Before there are threads.
-void forget_filters();
-
 /// The id in what `sbatch --parsable` prints, "123" or "123;cluster", among warnings; empty if there is none.
 std::string parse_sbatch(std::string_view output);
 

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/slurm_conf.h"
 #include "server/slurm/batch.h"
 #include "tests/unit/server/support.h"
 
@@ -79,7 +80,10 @@ TEST(ForgetFilters, NothingHidesTasksAndTheRestStays) {
   setenv("SQUEUE_PARTITION", "short", 1);
   setenv("SBATCH_CLUSTERS", "other", 1);
   setenv("SBATCH_ACCOUNT", "physics", 1);
-  forget_filters();
+  const std::vector<const char*> others{"SINFO_PARTITION", "SLURM_TIME_FORMAT", "SBATCH_WAIT", "SBATCH_TEST_ONLY"};
+  for (const char* name : others) setenv(name, "1", 1);
+  forget_slurm_filters();
+  for (const char* name : others) EXPECT_EQ(std::getenv(name), nullptr) << name;
   EXPECT_EQ(std::getenv("SQUEUE_PARTITION"), nullptr);
   EXPECT_EQ(std::getenv("SBATCH_CLUSTERS"), nullptr);
   EXPECT_STREQ(std::getenv("SBATCH_ACCOUNT"), "physics");
