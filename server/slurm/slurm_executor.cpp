@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <random>
@@ -25,8 +26,6 @@ using QueueStage = QueuedTask::Stage;
 
 /// Workers that one round takes: each costs the daemon some writes to the disk.
 constexpr int kPerRound = 50;
-/// Tasks of one array; Slurm's own limit (MaxArraySize) is 1,001 where nobody has changed it.
-constexpr std::size_t kMostTasks = 500;
 /// Tasks that one scancel names.
 constexpr std::size_t kMostCancelled = 500;
 constexpr seconds kSubmitLimit{300};
@@ -52,6 +51,15 @@ std::string in_one_line(const Captured& answer) {
   if (text.empty()) text = fmt::format("exit {}", answer.exit_code);
   constexpr std::size_t kMost = 500;
   return printable(fitted(text, kMost));
+}
+
+/// Whether Slurm has refused an array for its size, or for how many tasks a user may have: "Invalid job array
+/// specification", "Job array index too large", "Job violates accounting/QOS policy (job submit limit, ...)".
+bool is_about_size(std::string_view words) {
+  std::string text(words);
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text.find("array") != text.npos || text.find("submit") != text.npos;
 }
 
 bool is_token(std::string_view word) {
@@ -92,7 +100,7 @@ int SlurmExecutor::room() const {
 SlurmExecutor::Sent& SlurmExecutor::open_batch(const std::string& settings, std::string& token) {
   for (auto& [open_token, batch] : batches_) {
     const bool fits = batch.stage == Stage::kOpen && batch.settings == settings &&
-                      batch.runs.size() < kMostTasks * static_cast<std::size_t>(batch.runs_per_task);
+                      batch.runs.size() < most_tasks_ * static_cast<std::size_t>(batch.runs_per_task);
     if (!fits) continue;
     token = open_token;
     return batch;
@@ -429,6 +437,10 @@ void SlurmExecutor::take_answer(const Captured& answer) {
         batch.error = in_one_line(answer);
         // A refusal comes at once, and the next list makes sure of it. What takes longer may be in Slurm's hands still.
         const bool at_once = Clock::now() < asked_at_ + kAtOnce;
+        if (batch.tasks.size() > 1 && is_about_size(batch.error)) {
+          most_tasks_ = std::min(most_tasks_, batch.tasks.size() / 2);
+          spdlog::warn("Slurm refuses an array of {} tasks: the next have at most {}", batch.tasks.size(), most_tasks_);
+        }
         failed("sbatch: " + batch.error, at_once ? std::min(kSoon, options_.poll) : options_.poll);
         break;
       }

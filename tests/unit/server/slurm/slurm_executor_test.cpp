@@ -167,6 +167,36 @@ TEST_F(SlurmExecutorTest, WhatSlurmRefusesIsToldOnceItIsKnownNotToBeThere) {
   EXPECT_TRUE(step_until(executor, [&] { return executor.room() > 0; })) << "others may be handed over";
 }
 
+TEST_F(SlurmExecutorTest, ArraysGetSmallerWhereSlurmRefusesTheirSize) {
+  write_text(directory_ / "sbatch.fails", "");
+  says("sbatch", "sbatch: error: Batch job submission failed: Invalid job array specification\n");
+  SlurmOptions many = options();
+  many.max_pending = 100;
+  many.runs_per_task = 1;
+  SlurmExecutor executor(many);
+  const auto tasks_of_the_next = [&](std::size_t calls_before) {
+    if (!eventually([&] {
+          executor.step();
+          return executor.room() > 0;
+        })) {
+      return std::string("no room");
+    }
+    const auto workers = start(executor, 5);
+    const bool refused = step_until(executor, [&] {
+      return std::all_of(workers.begin(), workers.end(), [&](int one) {
+        return executor.name(one).empty() || executor.poll(one).phase == Phase::kRefused;
+      });
+    });
+    if (!refused) return std::string("not refused");
+    const std::string call = calls("sbatch").at(calls_before);
+    const auto begin = call.find("<--array=");
+    return call.substr(begin, call.find('>', begin) - begin + 1);
+  };
+  EXPECT_EQ(tasks_of_the_next(0), "<--array=0-4>");
+  const std::size_t so_far = calls("sbatch").size();
+  EXPECT_EQ(tasks_of_the_next(so_far), "<--array=0-1>");
+}
+
 // Until it is told, its jobs count as handed over.
 TEST_F(SlurmExecutorTest, ARefusalThatComesAtOnceIsToldSoon) {
   write_text(directory_ / "sbatch.fails", "");
