@@ -87,7 +87,12 @@ Verb* CommandLine::parse(std::vector<std::string> arguments, Console& console) {
   }
 
   const auto used = app_->get_subcommands();
-  const std::vector<std::string> left_over = app_->remaining(true);
+  std::vector<std::string> left_over = app_->remaining(true);
+  // What follows "--" is no option, which CLI11 knows; the mark itself it hands back.
+  const bool to_hand_on = !used.empty() && used.front()->get_prefix_command();
+  if (const auto mark = std::find(left_over.begin(), left_over.end(), "--"); !to_hand_on && mark != left_over.end()) {
+    left_over.erase(mark);
+  }
   if (used.empty()) {
     if (left_over.empty()) {
       console.err << with_one_newline(app_->help()) << '\n';

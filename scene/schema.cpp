@@ -301,7 +301,7 @@ Schema sweep_schema() {
         {"type", "string"},
         {"minLength", 1},
         {"maxLength", 200},
-        {"pattern", "^[^/\\u0000-\\u001f]*$"}}},
+        {"pattern", "^(?!\\.{1,2}$)[^/\\u0000-\\u001f]*$"}}},
       {"executor",
        {{"description", "Where the runs run; where the daemon's do if left out."}, {"enum", executor_names()}}},
       {"slurm", slurm_schema()},

@@ -217,6 +217,8 @@ std::string read_executor(const Node& node, std::vector<Problem>& problems) {
 
 std::optional<std::string> name_problem(std::string_view name) {
   static constexpr std::size_t kLongestName = 200;
+  if (name == "." || name == "..")
+    return fmt::format("a sweep cannot be named \"{}\", which stands for a folder in addresses", name);
   if (!name.empty() && name.size() <= kLongestName && name.find('/') == name.npos && printable(name) == name) return {};
   return fmt::format("a name has 1 to {} bytes of UTF-8, without '/' and control characters", kLongestName);
 }

@@ -39,5 +39,12 @@ TEST(Worker, DoesNotFailForALastWordThatItsLogHasNoRoomFor) {
   EXPECT_THAT(shell(run).output, HasSubstr("code 0"));
 }
 
+TEST(EveryVerb, TakesNamesThatBeginWithADashAfterTwoDashes) {
+  const ScratchFolder folder;
+  std::ofstream(folder / "-s.json") << "{}";
+  const Finished fine = shell("cd " + folder.path().string() + "; shaken validate -- -s.json");
+  EXPECT_EQ(fine.code, 0) << fine.output;
+}
+
 }  // namespace
 }  // namespace shaken::test

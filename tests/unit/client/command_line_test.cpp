@@ -54,6 +54,14 @@ TEST(BadArguments, UnknownVerbSuggestsTheNearest) {
   EXPECT_THAT(run_client({"xyzzyx"}).err, Not(HasSubstr("did you mean")));
 }
 
+TEST(TwoDashes, EndTheOptionsOfEveryVerb) {
+  const Outcome outcome = run_client({"validate", "--", "-rf"});
+  EXPECT_EQ(outcome.code, ExitCode::kBadInput);
+  EXPECT_THAT(outcome.err, HasSubstr("cannot open -rf"));
+  EXPECT_THAT(run_client({"validate", "--", "-rf", "more"}).err, HasSubstr("'more'"));
+  EXPECT_THAT(run_client({"validate", "--", "--"}).err, HasSubstr("cannot open --"));
+}
+
 TEST(BadArguments, UnknownOptionSuggestsTheNearest) {
   const Outcome outcome = run_client({"results", "--agregate"});
   EXPECT_EQ(outcome.code, ExitCode::kBadInput);

@@ -57,6 +57,9 @@ TEST(Sweep, ValuesOfAllKeysAndSettingsHaveALimitTogether) {
 
 TEST(Sweep, ANameCanBePrintedOnAnyTerminal) {
   const auto named = [](const std::string& name) { return R"({"scene": {}, "name": ")" + name + "\"}"; };
+  for (const std::string name : {".", ".."}) {
+    EXPECT_THAT(sweep_problems(named(name)), HasSubstr("s.json:1:23: /name: a sweep cannot be named \"" + name + "\""));
+  }
   EXPECT_EQ(sweep_of(named("Γ = 7, ⟨S⟩")).name, "Γ = 7, ⟨S⟩");
   EXPECT_EQ(sweep_of(named(std::string(200, 'x'))).name.size(), 200u);
   for (const std::string& name : {std::string(), std::string(201, 'x'), std::string("a/b"),
