@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include "scene/units.h"
+
 namespace shaken::scene {
 
 namespace {
@@ -61,6 +63,21 @@ Node json_or_bare(const std::string& text, const Place& place, std::vector<Probl
   return *node;
 }
 
+bool is_digits(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+/// "1.3 mm" where the two values "1" and "3 mm" may well be one number with a decimal comma; empty otherwise.
+std::string with_a_point(const std::vector<std::string>& parts) {
+  if (parts.size() != 2) return {};
+  const std::string first = trimmed(parts[0]);
+  const std::size_t end = parts[1].find_first_not_of("0123456789");
+  if (!is_digits(first) || end == 0 || end == std::string::npos) return {};
+  const std::string unit = trimmed(parts[1].substr(end));
+  const bool is_unit = std::any_of(units().begin(), units().end(), [&](const Unit& one) { return one.name == unit; });
+  return is_unit ? first + "." + parts[1] : std::string();
+}
+
 }  // namespace
 
 std::optional<Setting> parse_setting(const std::string& text, std::vector<Problem>& problems) {
@@ -72,6 +89,13 @@ std::optional<Setting> parse_setting(const std::string& text, std::vector<Proble
   }
   Setting setting{trimmed(text.substr(0, equals)), place, {}};
   const std::vector<std::string> parts = split_at_commas(text.substr(equals + 1));
+  if (const std::string number = with_a_point(parts); !number.empty()) {
+    const std::string unit = number.substr(number.find_first_not_of("0123456789."));
+    problems.push_back(problem_at(place, setting.path,
+                                  "one number with a decimal comma, or two values? Write " + number + ", or " +
+                                      trimmed(parts[0]) + unit + "," + parts[1]));
+    return std::nullopt;
+  }
   if (parts.size() == 1) {
     setting.value = json_or_bare(parts.front(), place, problems);
   } else {

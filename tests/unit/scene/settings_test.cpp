@@ -51,6 +51,14 @@ TEST(Settings, ProblemsNameTheSetting) {
   EXPECT_EQ(problem_of("{}", {"rods.length="}), "-s rods.length=: /rods/length: \"\" is not a number");
 }
 
+TEST(Settings, ADecimalCommaIsNotTakenForTwoValues) {
+  EXPECT_EQ(problem_of("{}", {"box.gap=1,3 mm"}),
+            "-s box.gap=1,3 mm: /box/gap: one number with a decimal comma, or two values? Write 1.3 mm, or 1 mm,3 mm");
+  EXPECT_EQ(problem_of("{}", {"box.gap=1,3"}),
+            "-s box.gap=1,3: /box/gap: 2 values make a sweep; a single scene takes one")
+      << "a list, as ever";
+}
+
 TEST(Settings, CommasInsideOfBracketsAndQuotesDoNotSeparate) {
   std::vector<Problem> problems;
   EXPECT_EQ(parse_setting("a=[1,2],{\"b\":[3,4]},\"x,y\"", problems)->value.items.size(), 3u);
