@@ -30,7 +30,7 @@ unset title
 bool has_errors(const Curve& curve) { return !curve.y_error.empty(); }
 
 bool any_relaxes(const Curve& curve) {
-  return std::find(curve.relaxing.begin(), curve.relaxing.end(), true) != curve.relaxing.end();
+  return std::find(curve.unsteady.begin(), curve.unsteady.end(), true) != curve.unsteady.end();
 }
 
 /// Whether any point has an error to be shown.
@@ -53,13 +53,13 @@ std::vector<double> cell_borders(const std::vector<double>& places) {
 
 std::string curve_data(const Curve& curve, const std::string& fallback) {
   std::string text = fmt::format("# {}\n# x  y{}{}\n", curve.label.empty() ? fallback : curve.label,
-                                 has_errors(curve) ? "  y_error" : "", curve.relaxing.empty() ? "" : "  relaxing");
+                                 has_errors(curve) ? "  y_error" : "", curve.unsteady.empty() ? "" : "  unsteady");
   bool any = false;
   for (std::size_t k = 0; k < curve.x.size(); ++k) {
     if (!std::isfinite(curve.x[k]) || !std::isfinite(curve.y[k])) continue;
     text += fmt::format("{:.7g} {:.7g}", curve.x[k], curve.y[k]);
     if (has_errors(curve)) text += fmt::format(" {:.4g}", curve.y_error[k]);
-    if (!curve.relaxing.empty()) text += curve.relaxing[k] ? " 1" : " 0";
+    if (!curve.unsteady.empty()) text += curve.unsteady[k] ? " 1" : " 0";
     text += '\n';
     any = true;
   }
@@ -204,9 +204,9 @@ std::string plot_commands(const Figure& figure, const std::string& data_file, st
                                 points ? " pointtype 7 pointsize 1.2" : " linewidth 1",
                                 curve.look == Curve::Look::kDashes ? " dashtype 2" : "", title));
     if (points && any_relaxes(curve)) {
-      const std::string relaxing = fmt::format("{} using 1:(${}==1?$2:NaN) with points pointsize 0.9 pointtype 7", data,
-                                               has_errors(curve) ? 4 : 3);
-      plots.push_back(relaxing + " linecolor '#ffffff' notitle");
+      const std::string hollow = fmt::format("{} using 1:(${}==1?$2:NaN) with points pointsize 0.9 pointtype 7", data,
+                                             has_errors(curve) ? 4 : 3);
+      plots.push_back(hollow + " linecolor '#ffffff' notitle");
     }
   }
   // Axes without data still say what is missing; gnuplot wants a range then.

@@ -22,7 +22,7 @@ struct Curve {
   std::vector<double> y_error{};
   Look look = Look::kAsFigure;
   bool band = false;             ///< errors as a band about the line instead of a bar at each point
-  std::vector<bool> relaxing{};  ///< empty, or as long as x: this point is of a run that still relaxed, drawn hollow
+  std::vector<bool> unsteady{};  ///< empty, or as long as x: this point is not known to be of a steady state: hollow
 };
 
 /// Values on a rectangular grid, shown in colours; empty: there is nothing to show.

@@ -153,8 +153,15 @@ Result<std::string> read_all(int in, const std::filesystem::path& file, std::siz
 
 }  // namespace
 
-Result<std::string> read_file(const std::filesystem::path& file) {
-  const Descriptor in = open_file(file, O_RDONLY | O_NONBLOCK);  // which changes nothing for a regular file
+namespace {
+
+struct RegularFile {
+  Descriptor in;
+  std::int64_t size;
+};
+
+Result<RegularFile> open_regular(const std::filesystem::path& file) {
+  Descriptor in = open_file(file, O_RDONLY | O_NONBLOCK);  // which changes nothing for a regular file
   if (!in) return system_error("cannot open " + file.string());
   struct stat about {};
   if (::fstat(in.value(), &about) != 0) return system_error("cannot read " + file.string());
@@ -163,7 +170,32 @@ Result<std::string> read_file(const std::filesystem::path& file) {
     return system_error("cannot read " + file.string());
   }
   if (!S_ISREG(about.st_mode)) return Error{"cannot read " + file.string() + ": it is no regular file"};
-  return read_all(in.value(), file, std::numeric_limits<std::size_t>::max());
+  return RegularFile{std::move(in), about.st_size};
+}
+
+}  // namespace
+
+Result<std::string> read_file(const std::filesystem::path& file) {
+  const Result<RegularFile> opened = open_regular(file);
+  if (!opened) return opened.error();
+  return read_all(opened->in.value(), file, std::numeric_limits<std::size_t>::max());
+}
+
+Result<std::string> read_part(const std::filesystem::path& file, std::int64_t offset, std::size_t size) {
+  const Result<RegularFile> opened = open_regular(file);
+  if (!opened) return opened.error();
+  if (offset < 0) offset = std::max<std::int64_t>(0, opened->size + offset);
+  std::string part(size, '\0');
+  std::size_t n = 0;
+  while (n < size) {
+    const ssize_t got = ::pread(opened->in.value(), part.data() + n, size - n, offset + static_cast<std::int64_t>(n));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return system_error("cannot read " + file.string());
+    if (got == 0) break;
+    n += static_cast<std::size_t>(got);
+  }
+  part.resize(n);
+  return part;
 }
 
 Result<std::string> read_input(const std::filesystem::path& file, std::size_t most) {

@@ -55,6 +55,10 @@ void remove_unfinished(const std::filesystem::path& file);
 /// reads it for ever.
 Result<std::string> read_file(const std::filesystem::path& file);
 
+/// Of a regular file, at most `size` bytes from `offset` on, which counts from the file's end where it is negative.
+/// Empty where the file ends before that.
+Result<std::string> read_part(const std::filesystem::path& file, std::int64_t offset, std::size_t size);
+
 /// The same of what a user names, which may be a pipe; no more than `most` bytes of it.
 inline constexpr std::size_t kMostOfInput = std::size_t{16} << 20;
 Result<std::string> read_input(const std::filesystem::path& file, std::size_t most = kMostOfInput);

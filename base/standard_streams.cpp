@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -51,6 +52,7 @@ void check_output(int code, void* program) {
 
 void guard_standard_streams(const char* program) {
   open_closed();
+  std::signal(SIGXFSZ, SIG_IGN);
   on_exit(check_output, const_cast<char*>(program));
 }
 

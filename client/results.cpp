@@ -286,17 +286,15 @@ std::vector<ResultRow> aggregated(const std::vector<ResultRow>& rows) {
     RowVersion& newest = newest_version[row.parameters.dump()];
     newest = std::max(newest, version_of(row));
   }
-  for (const ResultRow& row : rows) {
+  const std::vector<ResultRow> distinct = of_distinct_runs(rows);
+  for (const ResultRow& row : distinct) {
     const std::string parameters = row.parameters.dump();
     const RowVersion version = version_of(row);
     const bool is_settled = version.is_known() || row.state == "done";
     const auto key = std::pair(parameters, is_settled ? version : newest_version[parameters]);
     const auto [place, is_new] = group_of.try_emplace(key, groups.size());
     if (is_new) groups.emplace_back();
-    auto& group = groups[place->second];
-    const std::string id = row.fields.value("job", "");
-    const auto is_known = [&](const ResultRow* other) { return !id.empty() && other->fields.value("job", "") == id; };
-    if (std::none_of(group.begin(), group.end(), is_known)) group.push_back(&row);
+    groups[place->second].push_back(&row);
   }
 
   std::vector<ResultRow> points;

@@ -260,7 +260,6 @@ int main(int argc, char** argv) {
   // a terminal that is closed; nohup asks to outlive it
   if (std::signal(SIGHUP, request_stop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit of its user is an error of the call that writes it
   try {
     app.parse(argc, argv);
     log_to_stderr(arguments.quiet);

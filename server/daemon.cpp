@@ -159,7 +159,7 @@ class ControlSocket {
 
   void check() {
     std::erase_if(former_, [](const auto& server) { return server->ended_within(milliseconds(0)); });
-    const bool has_failed = server_ && server_->ended_within(milliseconds(0));
+    const bool has_failed = server_ && server_->has_failed();
     if (server_ && server_->is_reachable() && !has_failed) return;
     if (server_) {
       spdlog::warn("{} {}: listening anew", file_.string(), has_failed ? "failed" : "was removed or replaced");

@@ -3,9 +3,10 @@
 
 #include <csignal>
 #include <cstring>
-#include <fstream>
+#include <sstream>
 
 #include "base/failure.h"
+#include "base/files.h"
 #include "run/files/done.h"
 #include "run/files/progress.h"
 
@@ -17,15 +18,15 @@ constexpr auto kBadInputCode = static_cast<int>(ExitCode::kBadInput);
 constexpr auto kNoRoomCode = static_cast<int>(ExitCode::kNoRoom);
 constexpr auto kStoppedOnRequest = static_cast<int>(ExitCode::kStopped);
 
-/// The last line of the worker with anything on it, of the last 4 KiB.
+/// The last line of the worker with anything on it, of the last 4 KiB; empty if the log cannot be read.
 std::string last_line(const std::filesystem::path& file) {
-  constexpr std::streamoff kTail = 4096;
-  std::ifstream stream(file, std::ios::binary | std::ios::ate);
-  const std::streamoff size = stream.tellg();
-  stream.seekg(std::max<std::streamoff>(0, size - kTail));
+  constexpr int kTail = 4096;
+  const Result<std::string> part = read_part(file, -kTail, kTail);
+  if (!part) return {};
+  std::istringstream tail(*part);
   std::string line;
   std::string last;
-  while (std::getline(stream, line)) {
+  while (std::getline(tail, line)) {
     if (line.starts_with(kHeading))
       last.clear();
     else if (line.find_first_not_of(" \t\r") != std::string::npos)

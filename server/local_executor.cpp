@@ -2,6 +2,7 @@
 #include "server/local_executor.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,8 +19,12 @@ namespace shaken::server {
 
 Result<int> LocalExecutor::start(const Launch& launch) {
   const std::filesystem::path log_file = run::RunDirectory{launch.directory}.log();
-  const Descriptor log(open(log_file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600));
+  // O_NONBLOCK: a pipe of that name, which nobody reads, would keep the daemon for ever
+  const Descriptor log(open(log_file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK, 0600));
   if (!log) return system_error(log_file.string());
+  struct stat about {};
+  if (fstat(log.value(), &about) != 0) return system_error(log_file.string());
+  if (!S_ISREG(about.st_mode)) return Error{log_file.string() + " is no regular file"};
   const std::string heading = launch.heading + "\n";
   if (write(log.value(), heading.data(), heading.size()) < 0) return system_error(log_file.string());
   ChildSetup setup;

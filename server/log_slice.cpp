@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "server/log_slice.h"
 
-#include <fstream>
+#include "base/files.h"
 
 namespace shaken::server {
 namespace {
@@ -22,11 +22,8 @@ std::size_t torn_tail(const std::string& text) {
 }  // namespace
 
 LogSlice read_slice(const std::filesystem::path& file, std::int64_t offset, std::int64_t limit) {
-  std::ifstream stream(file, std::ios::binary);
-  stream.seekg(offset);
-  std::string text(static_cast<std::size_t>(limit), '\0');
-  stream.read(text.data(), limit);
-  text.erase(static_cast<std::size_t>(stream.gcount()));
+  const Result<std::string> part = read_part(file, offset, static_cast<std::size_t>(limit));
+  std::string text = part ? *part : "";
   const std::size_t torn = torn_tail(text);
   if (torn < text.size()) text.erase(text.size() - torn);  // a tail alone is not UTF-8 and would never grow whole
   return {text, offset + static_cast<std::int64_t>(text.size())};

@@ -13,8 +13,8 @@ struct LogSlice {
   std::int64_t next = 0;  ///< the offset to ask for next [bytes]
 };
 
-/// At most `limit` bytes from `offset` on, ending between two UTF-8 characters. Empty if the file does not exist or
-/// ends before `offset`.
+/// At most `limit` bytes from `offset` on, ending between two UTF-8 characters. Empty if the file cannot be read
+/// or ends before `offset`.
 LogSlice read_slice(const std::filesystem::path& file, std::int64_t offset, std::int64_t limit);
 
 }  // namespace shaken::server

@@ -2,8 +2,8 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <string>
@@ -63,7 +63,6 @@ shaken::relay::Address relay_address(const std::string& text, bool for_anyone) {
 
 int main(int argc, char** argv) {
   shaken::guard_standard_streams("shakend");
-  std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit of its user is an error of the call that writes it
   shaken::server::DaemonConfig config;
   std::string root;
   config.worker = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "shaken-worker";

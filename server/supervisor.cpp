@@ -104,9 +104,13 @@ void Supervisor::step() {
 }
 
 void Supervisor::settle_ended() {
-  // all of them before the queue is written, which may throw: whether they have ended does not hang on that
+  // all of them, whether or not the queue can be written: whether they have ended does not hang on that
   for (auto& [id, worker] : workers_) {
-    if (!worker.job_end) look_at(id, worker);
+    try {
+      if (!worker.job_end) look_at(id, worker);
+    } catch (const StorageError& problem) {
+      warn_once(problem.what());
+    }
   }
   for (auto& [id, worker] : workers_) {
     if (!worker.unsaved_name.empty()) save_name(id, worker);
@@ -151,10 +155,11 @@ void Supervisor::look_at(const std::string& id, Worker& worker) {
       worker.note = report.words;
       return;
     case kEnded:
-      if (worker.waits && worker.settings) queue_.accepted({options_.place, *worker.settings});
       worker.was_at_work = true;
       worker.ended = Clock::now();
-      return judge_end(id, worker, report.end);
+      judge_end(id, worker, report.end);  // first: the executor says it only once
+      if (worker.waits && worker.settings) queue_.accepted({options_.place, *worker.settings});
+      return;
     case kTaken:
       worker.job_end = JobEnd{JobEnd::Outcome::kStopped, report.words};
       break;
@@ -367,6 +372,7 @@ void Supervisor::start(const Job& job) {
     save_name(job.id, worker);
   }
   warnings_.clear();
+  waited_.erase(job.id);
   pause_ = std::chrono::milliseconds(0);
   spdlog::info("job {}: attempt {}, worker {}: {}", job.id, *attempt, *handle, printable(job.label));
 }
@@ -386,7 +392,9 @@ void Supervisor::could_not_start(const std::string& id, const std::string& why) 
 
 void Supervisor::wait(const Job& job, const std::string& why) {
   warn_once("job " + job.id + " waits: " + why);
-  queue_.pause(job.id, why, options_.waiting_pause);
+  std::chrono::milliseconds& pause = waited_[job.id];
+  pause = std::clamp(2 * pause, options_.waiting_pause, 16 * options_.waiting_pause);
+  queue_.pause(job.id, why, pause);
 }
 
 bool Supervisor::all_ended() const {

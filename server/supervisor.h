@@ -36,7 +36,8 @@ struct SupervisorOptions {
   /// For so long the summary of a worker that ended well is looked for; then its run goes back into the queue, where a
   /// worker finds within a second that it is done.
   std::chrono::milliseconds confirm_within{10'000};
-  /// Before a job that could not be prepared is looked at again; others are started meanwhile.
+  /// Before a job that could not be prepared is looked at again, others being started meanwhile; doubled each time, up
+  /// to 16 times: what has waited long must not take the turns of what can start.
   std::chrono::milliseconds waiting_pause{5'000};
 };
 
@@ -107,10 +108,11 @@ class Supervisor {
   Executor& executor_;
   SupervisorOptions options_;
   bool shutting_down_ = false;
-  std::string told_trouble_;               ///< the executor's, as the queue knows it
-  std::map<std::string, Worker> workers_;  ///< by job id
-  std::set<std::string> warnings_;         ///< each logged once, not ten times a second
-  std::chrono::milliseconds pause_{0};     ///< after the last start, if that failed
+  std::string told_trouble_;                                 ///< the executor's, as the queue knows it
+  std::map<std::string, Worker> workers_;                    ///< by job id
+  std::map<std::string, std::chrono::milliseconds> waited_;  ///< the last pause of a job that could not be prepared
+  std::set<std::string> warnings_;                           ///< each logged once, not ten times a second
+  std::chrono::milliseconds pause_{0};                       ///< after the last start, if that failed
   Clock::time_point start_after_{};
   Clock::time_point count_after_{};
 };

@@ -25,7 +25,7 @@ Curve transition_curve(const RunSet& runs) {
   for (const auto& [length, phi] : transitions(runs, kLength)) {
     curve.x.push_back(phi.value);
     curve.y.push_back(length);
-    curve.relaxing.push_back(phi.steady == false);
+    curve.unsteady.push_back(phi.steady != true);
   }
   return curve;
 }
@@ -37,7 +37,7 @@ Curve transition_against_size(const RunSet& runs) {
     curve.x.push_back(side);
     curve.y.push_back(phi.value);
     curve.y_error.push_back(phi.sem);
-    curve.relaxing.push_back(phi.steady == false);
+    curve.unsteady.push_back(phi.steady != true);
   }
   return curve;
 }
@@ -77,7 +77,7 @@ Sheet order_figure(const Material& material) {
     for (std::size_t k = 0; k < mean[i].x.size(); ++k) {
       curve.x.push_back(mean[i].x[k]);
       curve.y.push_back(order_spread(where(column, kPacking, mean[i].x[k])));
-      curve.relaxing.push_back(mean[i].relaxing[k]);
+      curve.unsteady.push_back(mean[i].unsteady[k]);
       mean[i].y_error[k] = curve.y.back();
     }
     spread.push_back(std::move(curve));

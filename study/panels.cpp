@@ -49,7 +49,7 @@ Curve scalar_curve(const RunSet& runs, const std::string& key, const std::string
     curve.x.push_back(value);
     curve.y.push_back(estimate.value);
     curve.y_error.push_back(estimate.sem);
-    curve.relaxing.push_back(estimate.steady == false);
+    curve.unsteady.push_back(estimate.steady != true);
   }
   return curve;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "base/failure.h"
 #include "base/files.h"
@@ -102,6 +103,11 @@ FinishedRun::FinishedRun(Json scene, Json summary, run::Observables observables,
       summary_(std::make_shared<const Json>(std::move(summary))),
       observables_(std::make_shared<const run::Observables>(std::move(observables))) {}
 
+std::string FinishedRun::id() const {
+  const Json* id = find(*summary_, "run_id");
+  return id != nullptr && id->is_string() ? id->get<std::string>() : "";
+}
+
 double FinishedRun::number(const std::string& path) const {
   if (parameters_.contains(path)) return number_or_nan(&parameters_.at(path));
   return number_or_nan(find(*scene_, path));
@@ -192,7 +198,11 @@ std::vector<double> values_of(const RunSet& runs, const std::string& path) {
 
 RunSet joined(const RunSet& a, const RunSet& b) {
   RunSet all = a;
-  all.insert(all.end(), b.begin(), b.end());
+  std::set<std::string> ids;
+  for (const FinishedRun& run : a) ids.insert(run.id());
+  for (const FinishedRun& run : b) {
+    if (run.id().empty() || ids.insert(run.id()).second) all.push_back(run);
+  }
   return all;
 }
 

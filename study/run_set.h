@@ -50,6 +50,8 @@ class FinishedRun {
   FinishedRun(Json scene, Json summary, run::Observables observables, Json parameters = Json::object());
 
   const std::filesystem::path& directory() const { return directory_; }
+  /// Its run's, by which equal runs are told; empty if the summary does not say.
+  std::string id() const;
   /// A key of the scene, "rods.length", in its default unit: as it was asked for if it was swept, else as resolved. NaN
   /// if it is not there or no number.
   double number(const std::string& path) const;
@@ -81,7 +83,7 @@ RunSet where(const RunSet& runs, const std::string& path, double value);
 /// The values that the runs have at `path`, rising, each once.
 std::vector<double> values_of(const RunSet& runs, const std::string& path);
 
-/// Both together.
+/// Both together, each run once.
 RunSet joined(const RunSet& a, const RunSet& b);
 /// The runs with the largest (or smallest) value at `path`; all of them if none has any.
 RunSet with_extreme(const RunSet& runs, const std::string& path, bool largest);

@@ -95,8 +95,7 @@ void serve(const std::filesystem::path& root, int port, const std::string& lcm_u
   while (!interrupt.interrupted()) {
     interrupt.sleep_for(std::chrono::seconds(1));
     std::erase_if(former, [](const auto& one) { return one->ended_within(std::chrono::milliseconds(0)); });
-    if (server && !server->ended_within(std::chrono::milliseconds(0))) continue;
-    // an accept() that fails for want of memory or descriptors ends the listening
+    if (server && !server->has_failed()) continue;
     if (server) server->close();
     if (server) former.push_back(std::move(server));
     try {

@@ -25,7 +25,7 @@ Curve mean_curve(const std::vector<Curve>& replicas) {
   const std::size_t n = mean.x.size();
   mean.y_error.assign(n, kNone);
   for (const Curve& replica : replicas) {
-    if (!replica.relaxing.empty()) mean.relaxing = replica.relaxing;
+    if (!replica.unsteady.empty()) mean.unsteady = replica.unsteady;
   }
   for (std::size_t k = 0; k < n; ++k) {
     std::vector<double> values, sems;
@@ -57,12 +57,17 @@ void name_versions(std::vector<PlottedRun>& runs) {
   }
 }
 
-/// The label of a point, with a word if one of its replicas still relaxed.
+/// The label of a point, with a word if one of its replicas is in no steady state, or is not known to be.
 std::string label_of(const std::string& point, const std::vector<PlottedRun>& runs) {
-  const bool relaxes =
-      std::any_of(runs.begin(), runs.end(), [&](const PlottedRun& run) { return run.point == point && run.relaxing; });
-  if (!relaxes) return point;
-  return point.empty() ? "still relaxing" : point + " (still relaxing)";
+  const auto any = [&](Steadiness steadiness) {
+    return std::any_of(runs.begin(), runs.end(),
+                       [&](const PlottedRun& run) { return run.point == point && run.steadiness == steadiness; });
+  };
+  const std::string words = any(Steadiness::kRelaxing)   ? "still relaxing"
+                            : any(Steadiness::kNotKnown) ? "not known to be steady"
+                                                         : "";
+  if (words.empty()) return point;
+  return point.empty() ? words : point + " (" + words + ")";
 }
 
 /// The arrays "x" and "y" (and "y_error") of every run that has them, as curves in the colour of their point. The first
@@ -90,7 +95,7 @@ std::vector<Curve> curves_of(const std::vector<PlottedRun>& runs, const std::str
       curve.y_error = errors->second;
       curve.y_error.resize(n, kNone);
     }
-    if (run.relaxing) curve.relaxing.assign(n, true);
+    if (run.steadiness != Steadiness::kSteady) curve.unsteady.assign(n, true);
     curves.push_back(std::move(curve));
   }
   return curves;
@@ -331,13 +336,12 @@ std::vector<Figure> sweep_figures(const std::vector<ResultRow>& points, const Sw
                [&](const auto& path) { return path != x_path; });
   struct Point {
     double x, y, error;
-    bool relaxes;
+    Steadiness steadiness;
   };
   std::vector<std::pair<std::string, std::vector<Point>>> groups;
   const bool several_versions = has_several_versions(points);
   for (const ResultRow& point : points) {
-    const Point p{point.number(x_path), point.number(axes.y), standard_error(point, axes.y),
-                  still_relaxes(point, axes.y)};
+    const Point p{point.number(x_path), point.number(axes.y), standard_error(point, axes.y), steadiness(point, axes.y)};
     if (std::isnan(p.x) || std::isnan(p.y)) continue;
     Json named = Json::object();
     for (const std::string& path : others) named[path] = point.parameters.value(path, Json());
@@ -360,7 +364,7 @@ std::vector<Figure> sweep_figures(const std::vector<ResultRow>& points, const Sw
                             "set arrow from graph 0, first 0.5 to graph 1, first 0.5 nohead linecolor '#999999' "
                             "dashtype 2 back"});
   }
-  bool any_error = false, any_relaxes = false;
+  bool any_error = false, any_relaxes = false, any_unknown = false;
   for (auto& [label, group] : groups) {
     std::sort(group.begin(), group.end(), [](const Point& a, const Point& b) { return a.x < b.x; });
     Curve curve{.label = label, .colour = figure.curves.size()};
@@ -368,14 +372,18 @@ std::vector<Figure> sweep_figures(const std::vector<ResultRow>& points, const Sw
       curve.x.push_back(point.x);
       curve.y.push_back(point.y);
       curve.y_error.push_back(point.error);
-      curve.relaxing.push_back(point.relaxes);
+      curve.unsteady.push_back(point.steadiness != Steadiness::kSteady);
       any_error |= !std::isnan(point.error);
-      any_relaxes |= point.relaxes;
+      any_relaxes |= point.steadiness == Steadiness::kRelaxing;
+      any_unknown |= point.steadiness == Steadiness::kNotKnown;
     }
     figure.curves.push_back(std::move(curve));
   }
   if (any_error) figure.y_title += " ± standard error";
-  if (any_relaxes) figure.title = "hollow: still relaxing, run longer";
+  if (any_relaxes || any_unknown) {
+    figure.title = fmt::format("hollow: {}{}{}, run longer", any_relaxes ? "still relaxing" : "",
+                               any_relaxes && any_unknown ? " or " : "", any_unknown ? "not known to be steady" : "");
+  }
   return {figure};
 }
 

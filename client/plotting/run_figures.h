@@ -12,10 +12,10 @@ namespace shaken::client {
 
 /// One run that is to be plotted.
 struct PlottedRun {
-  std::string point;             ///< its swept parameters, the same for all replicas
-  run::Observables observables;  ///< as read from observables.h5
-  bool relaxing = false;         ///< its averages are from a state that still relaxed
-  RowVersion version{};          ///< what computed it
+  std::string point;                            ///< its swept parameters, the same for all replicas
+  run::Observables observables;                 ///< as read from observables.h5
+  Steadiness steadiness = Steadiness::kSteady;  ///< of the state that its averages are from
+  RowVersion version{};                         ///< what computed it
 };
 
 /// A figure for each observable that at least one run has and that one curve can show: S(t), P[S], P(theta), the tilt

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 
 #include "base/files.h"
 #include "base/text.h"
@@ -62,8 +63,9 @@ class Plot : public Verb {
       if (one_figure()) {
         figures = one_figure_of(points);
       } else {
+        std::set<std::string> met;  // a run that several points of a sweep ask for is one run
         for (const Json& job : jobs_of(target)) {
-          if (text_of(job, "state") == "queued") continue;
+          if (text_of(job, "state") == "queued" || !met.insert(text_of(job, "id")).second) continue;
           add_run(job.at("directory").get<std::string>(), point_label(job.at("parameters")), text_of(job, "state"),
                   runs, left_out);
         }
@@ -156,7 +158,11 @@ class Plot : public Verb {
     }
     const auto text = read_file(files.summary());
     const Json summary = text ? Json::parse(*text, nullptr, false) : Json();
-    runs.push_back({point, *std::move(observables), summary.is_object() && summary.value("steady", Json()) == false,
+    const Json steady = summary.is_object() ? summary.value("steady", Json()) : Json();
+    runs.push_back({point, *std::move(observables),
+                    steady == true    ? Steadiness::kSteady
+                    : steady == false ? Steadiness::kRelaxing
+                                      : Steadiness::kNotKnown,
                     version_of(summary.is_object() ? summary.value("versions", Json()) : Json())});
   }
 

@@ -8,6 +8,7 @@
 #include <sys/un.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cctype>
 #include <condition_variable>
 #include <cstring>
@@ -31,6 +32,9 @@ constexpr const char* kLoopback = "127.0.0.1";
 /// Beyond kMostConnections new ones wait to be accepted.
 class ThreadPerConnection final : public httplib::TaskQueue {
  public:
+  /// `listening_ended` is called before the last connections are waited for.
+  explicit ThreadPerConnection(std::function<void()> listening_ended) : listening_ended_(std::move(listening_ended)) {}
+
   void enqueue(std::function<void()> serve) override {
     std::unique_lock lock(mutex_);
     ended_.wait(lock, [&] { return n_open_ < kMostConnections; });
@@ -50,11 +54,13 @@ class ThreadPerConnection final : public httplib::TaskQueue {
   }
 
   void shutdown() override {
+    listening_ended_();
     std::unique_lock lock(mutex_);
     ended_.wait(lock, [&] { return n_open_ == 0; });
   }
 
  private:
+  std::function<void()> listening_ended_;
   std::mutex mutex_;
   std::condition_variable ended_;
   std::size_t n_open_ = 0;
@@ -114,6 +120,10 @@ class BoundedServer final : public httplib::Server {
   bool is_private = true;
   HttpServer::Gate gate;  ///< none: all may pass
 
+  /// After the listening has ended. Whether that was not by stop(): cpp-httplib has closed the descriptor then, and
+  /// must not close it again, for it may be another file's.
+  bool forget_listener() { return svr_sock_.exchange(INVALID_SOCKET) != INVALID_SOCKET; }
+
  private:
   bool process_and_close_socket(socket_t socket) override {
     HttpConnection connection(socket);
@@ -131,6 +141,7 @@ class BoundedServer final : public httplib::Server {
         request.ranges.clear();
       };
       bool closed = false;
+      std::atomic<bool> failed{false};
       for (std::size_t n = 1; svr_sock_ != INVALID_SOCKET && !closed && connection.next_request(); ++n) {
         const bool answered = process_request(connection, n >= keep_alive_max_count_, closed, head_ended);
         closed = closed || !answered || n >= keep_alive_max_count_ || !connection.request_ended();
@@ -203,7 +214,7 @@ struct HttpServer::Impl {
     });
 
     server.set_keep_alive_timeout(HttpConnection::kIdle.count());  // what answers say of it
-    server.new_task_queue = [] { return new ThreadPerConnection; };
+    server.new_task_queue = [this] { return new ThreadPerConnection([this] { failed = server.forget_listener(); }); };
   }
 
   void start() {
@@ -283,9 +294,11 @@ bool HttpServer::is_reachable() const {
          now.st_ino == impl_->file.st_ino;
 }
 
+bool HttpServer::has_failed() const { return impl_->failed; }
+
 void HttpServer::close() {
   if (std::exchange(impl_->closed, true)) return;
-  impl_->server.stop();
+  if (!impl_->failed) impl_->server.stop();
   if (impl_->socket.empty()) return;
   std::error_code ignored;
   std::filesystem::remove(impl_->socket, ignored);

@@ -66,6 +66,9 @@ class HttpServer {
   int port() const;
   /// Whether clients find it: its socket file, if it has one, is still there, and still its own.
   bool is_reachable() const;
+  /// Whether the system has ended its listening, as it does where an accept() fails: nobody new is answered any more,
+  /// those who are connected are to the end of their request.
+  bool has_failed() const;
   /// Accepts nothing any more and removes the socket file; returns at once.
   void close();
   /// After close(): whether every connection has ended within the time.

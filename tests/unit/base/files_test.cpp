@@ -148,6 +148,19 @@ TEST(ReplacementFile, SaysWhichFileCannotBeWritten) {
   EXPECT_FALSE(std::filesystem::exists(folder / "frames.xyz"));
 }
 
+TEST(ReadPart, IsWhatIsThereOfIt) {
+  const ScratchFolder folder;
+  const auto file = folder / "file";
+  ASSERT_TRUE(write_file(file, "0123456789"));
+  EXPECT_EQ(*read_part(file, 0, 4), "0123");
+  EXPECT_EQ(*read_part(file, 8, 4), "89");
+  EXPECT_EQ(*read_part(file, 20, 4), "");
+  EXPECT_EQ(*read_part(file, -3, 100), "789");
+  EXPECT_EQ(*read_part(file, -30, 2), "01");
+  EXPECT_FALSE(read_part(folder.path(), 0, 1));
+  EXPECT_FALSE(read_part("/dev/zero", 0, 1));
+}
+
 TEST(AtomicFile, MissingFileCannotBeRead) {
   const ScratchFolder folder;
   const auto content = read_file(folder / "nothing");

@@ -95,17 +95,20 @@ TEST(RunFigures, ReplicasShareAColourAndTheirMeanIsDrawn) {
 TEST(RunFigures, WhatStillRelaxesSaysSo) {
   const run::Observables arrays{
       {"/tilt/n_z", {-0.1, 0.1}}, {"/tilt/v_along_mm_s", {1, 2}}, {"/g2/r_mm", {1, 2}}, {"/g2/g2", {0.5, 0.25}}};
-  const auto figures = run_figures({{"a", arrays, true}, {"b", arrays, false}});
+  const auto figures = run_figures({{"a", arrays, Steadiness::kRelaxing}, {"b", arrays}});
   ASSERT_EQ(figures.size(), 2u);
   for (const Figure& figure : figures) {
     EXPECT_EQ(figure.curves[0].label, "a (still relaxing)") << figure.name;
     EXPECT_EQ(figure.curves[1].label, "b") << figure.name;
   }
   EXPECT_EQ(figures[0].name, "tilt");
-  EXPECT_EQ(figures[0].curves[0].relaxing, std::vector<bool>(2, true));
-  EXPECT_THAT(figure_data(figures[0]), HasSubstr("# x  y  relaxing\n-0.1 1 1\n"));
+  EXPECT_EQ(figures[0].curves[0].unsteady, std::vector<bool>(2, true));
+  EXPECT_THAT(figure_data(figures[0]), HasSubstr("# x  y  unsteady\n-0.1 1 1\n"));
   EXPECT_THAT(figure_script(figures[0]), HasSubstr("using 1:($3==1?$2:NaN) with points"));
-  EXPECT_EQ(run_figures({{"", arrays, true}})[0].curves[0].label, "still relaxing");
+  EXPECT_EQ(run_figures({{"", arrays, Steadiness::kRelaxing}})[0].curves[0].label, "still relaxing");
+  const auto unknown = run_figures({{"a", arrays, Steadiness::kNotKnown}, {"a", arrays}});
+  EXPECT_EQ(unknown[0].curves[0].label, "a (not known to be steady)");
+  EXPECT_EQ(unknown[0].curves[0].unsteady, std::vector<bool>(2, true));
 }
 
 TEST(RunFigures, VersionsAreNoReplicasOfEachOther) {
@@ -171,7 +174,7 @@ TEST(SweepFigures, AnyFieldAgainstAnyOther) {
   EXPECT_EQ(curve.y, (std::vector<double>{8.5, 9.5}));
   EXPECT_EQ(curve.y_error[0], 0.5);
   EXPECT_TRUE(std::isnan(curve.y_error[1])) << "no error is not an error of zero";
-  EXPECT_EQ(curve.relaxing, (std::vector<bool>{false, true}));
+  EXPECT_EQ(curve.unsteady, (std::vector<bool>{false, true}));
   EXPECT_THAT(figures[0].title, HasSubstr("hollow: still relaxing"));
   const auto other = sweep_figures({a, b}, {.x = "order.mean", .y = "measured.theta_m_deg.value"});
   ASSERT_EQ(other.size(), 1u);

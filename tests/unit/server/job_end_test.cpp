@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <csignal>
 
@@ -63,6 +64,11 @@ TEST_F(VerdictTest, TheLastLineOfTheLogExplains) {
   write_text(run_.log(), std::string(100'000, '.') + "\nfirst\nlast words\n \n\n");
   EXPECT_EQ(exit(1).reason, "exit 1: last words");
   EXPECT_EQ(exit(2).reason, "exit 2 (bad input): last words");
+}
+
+TEST_F(VerdictTest, APipeInPlaceOfTheLogKeepsNobody) {
+  ASSERT_EQ(mkfifo(run_.log().c_str(), 0600), 0);
+  EXPECT_EQ(exit(1).reason, "exit 1");
 }
 
 TEST_F(VerdictTest, OnlyTheProgressOfThisWorkerExplains) {

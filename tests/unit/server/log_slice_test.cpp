@@ -2,6 +2,7 @@
 #include "server/log_slice.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "tests/unit/server/support.h"
 
@@ -50,6 +51,11 @@ TEST_F(LogSliceTest, NothingBehindTheEndOrWithoutAFile) {
   const LogSlice slice = read_slice(file_, 100, 10);
   EXPECT_EQ(slice.text, "");
   EXPECT_EQ(slice.next, 100);
+}
+
+TEST_F(LogSliceTest, APipeOfThatNameKeepsNobody) {
+  ASSERT_EQ(mkfifo(file_.c_str(), 0600), 0);
+  EXPECT_EQ(read_slice(file_, 0, 10).text, "");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -267,6 +268,33 @@ TEST_F(SupervisorTest, WhatCannotStartHoldsUpNoOthersHoweverMuchOfItThereIs) {
   EXPECT_TRUE(eventually([&] {
     supervisor.step();
     return supervisor.idle();
+  }));
+}
+
+TEST_F(SupervisorTest, WhatCannotStartIsLookedAtMoreAndMoreRarely) {
+  std::filesystem::create_directories(directory_ / "runs");
+  SupervisorOptions options = this->options();
+  options.waiting_pause = std::chrono::milliseconds(20);
+  Supervisor supervisor(queue_, executor_, options);
+  write_text(directory('a'), "a file where the folder should be");
+  submit('a', "done");
+  std::int64_t before = 0;
+  const auto next_pause = [&] {  // [us]
+    std::int64_t until = before, asked = 0;
+    EXPECT_TRUE(eventually([&] {
+      asked = utime_now();
+      supervisor.step();
+      until = job('a').not_before;
+      return until > before;
+    }));
+    before = until;
+    return until - asked;
+  };
+  for (const int doublings : {0, 1, 2, 3, 4, 4}) EXPECT_GE(next_pause(), 20'000 << doublings);
+  std::filesystem::remove(directory('a'));
+  EXPECT_TRUE(eventually([&] {
+    supervisor.step();
+    return job('a').state == kDone;
   }));
 }
 
@@ -566,6 +594,18 @@ TEST_F(LocalExecutorTest, AWorkerInheritsNoDescriptorsAndNoBlockedSignals) {
   EXPECT_EQ(report.end.exit_code, 0);
   // 10 is the script itself, as dash opens it.
   EXPECT_EQ(read_text(directory_ / "worker.log"), "heading\n0\n1\n10\n2\nSigBlk:\t0000000000000000\n");
+}
+
+// Whoever opens a pipe waits for its other end, which may never come.
+TEST_F(LocalExecutorTest, APipeInPlaceOfTheLogIsRefused) {
+  ASSERT_EQ(mkfifo((directory_ / "worker.log").c_str(), 0600), 0);
+  LocalExecutor executor("/bin/true");
+  EXPECT_FALSE(executor.start({directory_.path(), {}, "heading"}));
+  const int reader = open((directory_ / "worker.log").c_str(), O_RDONLY | O_NONBLOCK);
+  const auto refused = executor.start({directory_.path(), {}, "heading"});
+  close(reader);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, EndsWith("worker.log is no regular file"));
 }
 
 TEST_F(LocalExecutorTest, WhatAWorkerHasStartedEndsWithIt) {

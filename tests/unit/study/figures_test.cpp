@@ -49,7 +49,7 @@ TEST(PaperFigures, OrderHasTheSpreadAsBarsAndRingsWhereItRelaxes) {
   const Sheet sheet = order_figure({library, [](const FinishedRun&) { return std::filesystem::path(); }});
   const Curve& mean = sheet.panels[1].curves.at(0);
   EXPECT_EQ(mean.y_error, (std::vector<double>{0.1, 0.05})) << "sqrt(susceptibility / 400), not the standard error";
-  EXPECT_EQ(mean.relaxing, (std::vector<bool>{false, true}));
+  EXPECT_EQ(mean.unsteady, (std::vector<bool>{false, true}));
 }
 
 TEST(ArrayCurve, ReplicasHaveErrorsAsNumbersHave) {

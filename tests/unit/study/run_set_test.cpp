@@ -112,6 +112,14 @@ TEST(MeanScalar, OfReplicasDriftsAsTheyDo) {
   EXPECT_EQ(mean_of(one_steady).steady, std::nullopt);
 }
 
+TEST(RunSet, JoinedHoldsEachRunOnce) {
+  const auto run = [](const char* id) { return MadeUp(4.5, 0.75).number(Json::json_pointer("/run_id"), id).run(); };
+  const RunSet all = joined({run("a"), run("b")}, {run("b"), run("c")});
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_EQ(all[2].id(), "c");
+  EXPECT_EQ(joined({MadeUp(4.5, 0.75).run()}, {MadeUp(4.5, 0.75).run()}).size(), 2u) << "without an id they may differ";
+}
+
 TEST(Crossing, IsInterpolatedWithItsError) {
   const auto at = [](double x, double y, double sem) { return Point{x, {.value = y, .sem = sem, .steady = true}}; };
   const std::vector<Point> points{at(0.7, 0.9, 0.03), at(0.5, 0.1, 0.01), at(0.6, 0.3, 0.03)};

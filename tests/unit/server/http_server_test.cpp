@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "server/http/http_server.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+
+#include <string>
+
+#include "base/descriptor.h"
+#include "tests/unit/server/support.h"
+
+namespace shaken::server {
+namespace {
+
+sockaddr_un address_of(const std::filesystem::path& socket) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  socket.native().copy(address.sun_path, sizeof(address.sun_path) - 1);
+  return address;
+}
+
+/// The descriptor that this process listens with; -1 if there is none.
+int listener_of(const std::filesystem::path& socket) {
+  for (int fd = 0; fd < 1024; ++fd) {
+    int listens = 0;
+    socklen_t size = sizeof(listens);
+    if (getsockopt(fd, SOL_SOCKET, SO_ACCEPTCONN, &listens, &size) != 0 || listens == 0) continue;
+    sockaddr_un address{};
+    size = sizeof(address);
+    if (getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size) == 0 && socket == address.sun_path) return fd;
+  }
+  return -1;
+}
+
+Descriptor connect_to(const std::filesystem::path& socket) {
+  Descriptor client(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  const sockaddr_un address = address_of(socket);
+  if (connect(client.value(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) return Descriptor();
+  return client;
+}
+
+std::string ask(const Descriptor& client) {
+  const std::string request = "GET /x HTTP/1.1\r\nHost: localhost\r\n\r\n";
+  if (send(client.value(), request.data(), request.size(), MSG_NOSIGNAL) < 0) return "";
+  std::string answer(4096, '\0');
+  const ssize_t n = recv(client.value(), answer.data(), answer.size(), 0);
+  answer.resize(static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
+  return answer;
+}
+
+// An accept() that fails ends the listening, but not before the last connection has ended: until then nobody else would
+// be answered, if nobody looked.
+TEST(HttpServer, AListenerThatFailsIsSeenWhileSomebodyIsServed) {
+  const ScratchFolder folder;
+  const auto socket = folder / "socket";
+  const HttpServer::Handler handler = [](const Request&) { return Reply{.body = "{\"here\": 1}"}; };
+  HttpServer server(socket, handler);
+  const Descriptor served = connect_to(socket);
+  ASSERT_NE(ask(served).find("here"), std::string::npos);
+  EXPECT_FALSE(server.has_failed());
+
+  const int listener = listener_of(socket);
+  ASSERT_GE(listener, 0);
+  shutdown(listener, SHUT_RDWR);  // accept() fails
+  ASSERT_TRUE(eventually([&] { return server.has_failed(); }));
+  EXPECT_FALSE(server.ended_within(std::chrono::milliseconds(0))) << "one is connected still";
+
+  const int other = open("/dev/null", O_RDONLY | O_CLOEXEC);  // the lowest number that is free
+  EXPECT_EQ(other, listener) << "it was closed";
+  server.close();
+  EXPECT_GE(fcntl(other, F_GETFD), 0) << "what another file has got is not closed";
+  close(other);
+
+  HttpServer next(socket, handler);
+  const Descriptor client = connect_to(socket);
+  EXPECT_NE(ask(client).find("here"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace shaken::server
