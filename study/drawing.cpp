@@ -31,15 +31,15 @@ bool FigureMaker::draw(const PaperFigure& figure) {
     const Library runs = for_figures(done_runs(selection_, runs_folder_));
     if (std::all_of(figure.sets.begin(), figure.sets.end(),
                     [&](std::string_view set) { return runs[std::string(set)].empty(); })) {
-      console_.err << fmt::format("figure {}: no run is done yet\n", figure.id);
+      console_.err << fmt::format("figure {}: no run is done yet\n", figure.id());
       return false;
     }
     Sheet sheet = figure.draw({runs, [&](const FinishedRun& run) { return snapshot(run); }});
-    sheet.name = std::string(figure.file);
-    tell(figure.id, shaken::draw(sheet, out_));
+    sheet.name = figure.file();
+    tell(figure.id(), shaken::draw(sheet, out_));
     return true;
   } catch (const std::exception& problem) {
-    console_.err << fmt::format("figure {}: {}\n", figure.id, printable(problem.what(), Lines::kMany));
+    console_.err << fmt::format("figure {}: {}\n", figure.id(), printable(problem.what(), Lines::kMany));
     return false;
   }
 }
