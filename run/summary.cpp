@@ -63,6 +63,8 @@ std::string why_null(const std::string& path, const Summary& summary) {
   const auto ends = [&](std::string_view end) { return path.ends_with(end); };
   if (path == "start") return "the rods were placed, not taken over from another run";
   if (path == "order") return "the scene does not measure S (measure.order)";
+  if (!summary.has_axis && (path == "order" || path == "defects")) return "spheres have no axis";
+  if (!summary.has_axis && path == "steady") return "S would tell, and spheres have none";
   if (path == "defects") return "the scene does not measure them (measure.defects)";
   if (path == "steady" && !summary.order) return "S, which would tell, is not measured (measure.order)";
   if (path.starts_with("measured.") && ends(".value")) {

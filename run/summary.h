@@ -39,6 +39,7 @@ struct Summary {
   Balance balance;                               ///< of energy and momentum
   double t_steady = 0;                           ///< where the steady state begins [s]
   std::optional<analysis::SteadySummary> order;  ///< if S(t) was measured
+  bool has_axis = true;                          ///< of the rods that are measured: spheres have none, and no S
   std::map<std::string, Scalar> scalars;         ///< of the other measurements, in the steady state
   std::optional<double> defects_mean_plus;       ///< in the steady state, if defects were measured
   std::optional<double> defects_mean_minus;

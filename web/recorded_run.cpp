@@ -2,6 +2,7 @@
 #include "web/recorded_run.h"
 
 #include <algorithm>
+#include <limits>
 #include <shaken/frame_static_t.hpp>
 #include <system_error>
 
@@ -89,7 +90,7 @@ Result<client::RodFrame> RecordedRuns::frame(const std::string& run, std::size_t
     if (frame->species_of_rod.empty() || frame->species_of_rod[i] == 0) axes.push_back(n);
   }
   const analysis::NematicOrder mean = analysis::nematic_order(axes);
-  frame->order = mean.order;
+  frame->order = frame->has_axes() ? mean.order : std::numeric_limits<double>::quiet_NaN();
   frame->director = mean.director;
   return std::move(*frame);
 }

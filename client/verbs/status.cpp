@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
 #include <limits>
 
 #include "base/clock.h"
@@ -185,8 +186,9 @@ class Status : public Verb {
                        console.painted(Colour::kBlue, bar_text(job_fraction(job), 24)), 100 * job_fraction(job),
                        duration_text(progress_number(job, "sim_time_s")), duration_text(total)));
       line("rods", number_text(progress_number(job, "n_rods")));
-      line("order S", fmt::format("{} (running mean {})", number_text(progress_number(job, "order")),
-                                  number_text(progress_number(job, "order_running_mean"))));
+      if (!std::isnan(progress_number(job, "order")))
+        line("order S", fmt::format("{} (running mean {})", number_text(progress_number(job, "order")),
+                                    number_text(progress_number(job, "order_running_mean"))));
       line("overlap", number_text(progress_number(job, "max_overlap_mm")) + " mm at most");
     }
     line("time", time_text(job));

@@ -91,10 +91,10 @@ void LiveJobs::note(const observables_t& message) {
   job->sim_rate = message.sim_rate;
   job->eta = message.eta_s;
   job->n_rods = message.n_rods;
-  job->order = message.order;
+  job->order = std::isfinite(message.order) ? std::optional(message.order) : std::nullopt;
   job->order_mean = message.order_running_mean;
   job->max_overlap = message.max_overlap_mm;
-  job->order_history.add(message.sim_time_s, message.order);
+  if (job->order) job->order_history.add(message.sim_time_s, message.order);
 }
 
 void LiveJobs::note(const defects_t& message) {

@@ -81,6 +81,26 @@ TEST(LiveJobs, MessagesWinOverOlderFilesAndStrangersAreIgnored) {
 
 TEST(LiveJobs, CountsDefectsLossesAndEnds) {
   LiveJobs jobs;
+TEST(LiveJobs, SpheresHaveNoOrder) {
+  LiveJobs jobs;
+  Json job = api_job("aa", "running", 1.0);
+  job["progress"]["order"] = job["progress"]["order_running_mean"] = nullptr;
+  jobs.note_api(job);
+  EXPECT_FALSE(jobs.jobs()[0].order);
+  jobs.note(message("aa", 0, 2.0, std::numeric_limits<double>::quiet_NaN()));
+  EXPECT_FALSE(jobs.jobs()[0].order);
+  EXPECT_TRUE(jobs.jobs()[0].order_history.times().empty());
+  const std::string line = watch_line(jobs.jobs()[0]);
+  EXPECT_EQ(line.find(" S "), std::string::npos) << line;
+  EXPECT_THAT(line, HasSubstr("overlap"));
+  std::ostringstream out, err;
+  const Console console{.out = out, .err = err, .in = nullptr, .width = 100, .height = 24};
+  for (const std::string& shown : watch_screen(jobs, "all", "", console)) {
+    EXPECT_EQ(shown.find(" S "), std::string::npos) << shown;
+    EXPECT_EQ(shown.find("nan"), std::string::npos) << shown;
+  }
+}
+
   jobs.note_api(api_job("aa", "running", 0));
   jobs.note_api(api_job("bb", "failed", -1));
   jobs.note(message("aa", 0, 1, 0.5));
