@@ -152,21 +152,6 @@ bool still_relaxes(const ResultRow& row, const std::string& field) {
   return steadiness(row, field) == Steadiness::kRelaxing;
 }
 
-const char* mark_of(Steadiness steadiness) {
-  return steadiness == Steadiness::kRelaxing ? "~" : steadiness == Steadiness::kNotKnown ? "?" : "";
-}
-
-const char* meaning_of(Steadiness steadiness) {
-  switch (steadiness) {
-    case Steadiness::kRelaxing:
-      return "still relaxing: no steady state yet, run it longer (-s time.measure=...)";
-    case Steadiness::kNotKnown:
-      return "too short to tell whether it is steady: its error holds the drift, run it longer (-s time.measure=...)";
-    default:
-      return "";
-  }
-}
-
 std::optional<std::string> field_named(std::span<const std::string> names, const std::string& word) {
   const auto is_there = [&](const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();

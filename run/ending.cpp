@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "base/steadiness.h"
 #include "base/text.h"
 #include "run/files/directory.h"
 
@@ -34,11 +36,11 @@ std::string order_text(const Json& summary) {
   const double n_effective = number(order, "n_effective");
   text += fmt::format(", from {:.3g} s on", number(order, "t_steady_s"));
   if (n_effective > 0) text += fmt::format(", {:.3g} independent samples", n_effective);
-  const Json steady = summary.value("steady", Json());
-  if (steady == true) return text + ": steady\n";
-  text +=
-      steady == false ? "\nSTILL RELAXING: this is no steady state yet" : "\nNOT KNOWN whether this is a steady state";
-  if (const std::string why = order.value("why_not_steady", ""); !why.empty()) text += ": " + why;
+  const Json known = summary.value("steady", Json());
+  const Steadiness steadiness = steadiness_of(known.is_boolean() ? std::optional(known.get<bool>()) : std::nullopt);
+  if (steadiness == Steadiness::kSteady) return text + ": steady\n";
+  const std::string why = order.value("why_not_steady", "");
+  text += fmt::format("\n{} {}", mark_of(steadiness), why.empty() ? word_of(steadiness) : why);
   const auto drift = order.find("drift");
   if (number(order, "sem") > 0 && drift != order.end() && std::isfinite(number(*drift, "value"))) {
     text += fmt::format("\n(the error holds the change of S from the first half of that time to the second, {})",

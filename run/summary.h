@@ -60,7 +60,8 @@ double shown_error(double sem, std::optional<bool> steady, double drift, double 
 
 double shown_error(const analysis::SteadySummary& order);
 
-/// Why S is not called steady after so long a run, and what to do about it, in a sentence; empty if it is.
+/// "still relaxing" or "not known to be steady" (base/steadiness.h), why, and what to do about it: the one sentence
+/// that log, summary and last words of a run have. Empty if S is steady.
 std::string why_not_steady(const analysis::SteadySummary& order, double sim_seconds);
 
 Result<void> write_summary(const std::filesystem::path& file, const Summary& summary);

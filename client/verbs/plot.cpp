@@ -160,9 +160,7 @@ class Plot : public Verb {
     const Json summary = text ? Json::parse(*text, nullptr, false) : Json();
     const Json steady = summary.is_object() ? summary.value("steady", Json()) : Json();
     runs.push_back({point, *std::move(observables),
-                    steady == true    ? Steadiness::kSteady
-                    : steady == false ? Steadiness::kRelaxing
-                                      : Steadiness::kNotKnown,
+                    steadiness_of(steady.is_boolean() ? std::optional(steady.get<bool>()) : std::nullopt),
                     version_of(summary.is_object() ? summary.value("versions", Json()) : Json())});
   }
 

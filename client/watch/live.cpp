@@ -56,6 +56,8 @@ void LiveJobs::note_api(const Json& answer) {
   if (job.draws_film && drawn >= 0) job.drawn = std::min(drawn, 1.0);
   if (job.draws_film && !std::isnan(film_eta)) job.film_eta = film_eta;
   if (job.state == "done") job.sim_time = job.sim_time_total;
+  if (job.state != "done") job.result.reset();  // it goes on again
+  if (job.state == "done" && !job.result) job.result = mean_order(answer);
   const double time = progress_number(answer, "sim_time_s");
   if (std::isnan(time)) return;
   // The file is up to half a second older than a message.

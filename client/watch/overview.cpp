@@ -108,7 +108,12 @@ std::string watch_line(const LiveJob& job) {
   if (job.sim_time_total > 0) {
     line += fmt::format(" {:5.1f} %  t {:.3f}/{:.3f} s", 100 * job.fraction(), job.sim_time, job.sim_time_total);
   }
-  if (job.order) line += fmt::format("  S {:.3f}", *job.order);
+  if (job.result) {
+    line += fmt::format("  mean S {}{:.3f} ({})", mark_of(job.result->steadiness), job.result->value,
+                        word_of(job.result->steadiness));
+  } else if (job.order) {
+    line += fmt::format("  S {:.3f}", *job.order);
+  }
   if (job.order && job.is_running()) line += fmt::format(" (mean {:.3f})", job.order_mean);
   if (job.is_running() && !job.draws_film)
     line += fmt::format("  {:.3g} sim-s/s  ETA {}", job.sim_rate, duration_text(job.eta));

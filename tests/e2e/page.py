@@ -128,11 +128,18 @@ def use(page, address, live, downloads):
 
     eventually(lambda: len(rows("done")) == 4, "all jobs are done")
     eventually(lambda: page.execute_script(
-        "const c = Chart.getChart('map'); return c.data.datasets[0].backgroundColor.filter((x) => x.startsWith('rgb')).length"
+        "return Chart.getChart('map').points.filter((p) => p.hollow || p.fill.startsWith('rgb')).length"
     ) == 4, "the phase diagram has four points with a value")
+    marked = [row.text for row in rows("done") if "~0." in row.text or "?0." in row.text]
+    hollow = page.execute_script(
+        "return Chart.getChart('map').data.datasets[0].backgroundColor.filter((x) => x === 'transparent').length")
+    check(hollow == len(marked), f"what is marked in the table is hollow in the diagram: {hollow}, {marked}")
+    check(("hollow: " in text("#map-marks")) == bool(marked), "and is explained")
     Select(find("#map-y")).select_by_value("")
     check(page.execute_script("return Chart.getChart('map').options.scales.y.title.text") == "order.mean",
           "against one parameter, the value goes up")
+    if any("±" in row.text for row in rows("done")):
+        check(page.execute_script("return Chart.getChart('map').points.some((p) => p.bar > 0)"), "with its errors")
 
     click(rows, "done", 1)
     eventually(lambda: "t = 3.000 s" in text("#run-facts"), "a finished run shows its last frame")

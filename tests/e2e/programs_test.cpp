@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <iterator>
 
 #include "tests/e2e/process.h"
 
@@ -37,6 +38,26 @@ TEST(Worker, DoesNotFailForALastWordThatItsLogHasNoRoomFor) {
   const std::string run = "cd " + folder.path().string() + "; mkdir run; ln -s /dev/full run/worker.log; " +
                           "shaken-worker scene.json --out run --no-lcm > run/worker.log 2>&1; echo code $?";
   EXPECT_THAT(shell(run).output, HasSubstr("code 0"));
+}
+
+// The log, the summary and the last words of a run are read one below the other.
+TEST(Run, SaysInOneSentenceWhyItIsNotSteady) {
+  const ScratchFolder folder;
+  std::ofstream(folder / "scene.json") << R"({
+    "rods": { "length": "3 mm", "area_fraction": 0.6 }, "box": { "side": "12 mm" },
+    "time": { "measure": "0.3 s" }, "measure": { "order": { "every": "2 ms" } }, "stream": null })";
+  const Finished run = shell("cd " + folder.path().string() + "; shaken run scene.json -o run 2>&1");
+  ASSERT_EQ(run.code, 0) << run.output;
+  std::ifstream file(folder / "run/summary.json");
+  const std::string summary{std::istreambuf_iterator<char>(file), {}};
+  const std::string key = "\"why_not_steady\": \"";
+  const std::size_t at = summary.find(key);
+  ASSERT_NE(at, std::string::npos) << summary;
+  const std::string why = summary.substr(at + key.size(), summary.find('"', at + key.size()) - at - key.size());
+  const bool relaxes = summary.find("\"steady\": false") != std::string::npos;
+  EXPECT_THAT(why, ::testing::StartsWith(relaxes ? "still relaxing: " : "not known to be steady: "));
+  EXPECT_THAT(run.output, HasSubstr("warning " + why + "\n"));
+  EXPECT_THAT(run.output, HasSubstr(std::string("\n") + (relaxes ? "~ " : "? ") + why + "\n"));
 }
 
 TEST(EveryVerb, TakesNamesThatBeginWithADashAfterTwoDashes) {

@@ -4,9 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <limits>
 #include <sstream>
 
+#include "base/scratch_folder.h"
 #include "base/text.h"
 #include "client/watch/overview.h"
 
@@ -79,8 +81,6 @@ TEST(LiveJobs, MessagesWinOverOlderFilesAndStrangersAreIgnored) {
   EXPECT_EQ(jobs.jobs()[0].order, 0.25);
 }
 
-TEST(LiveJobs, CountsDefectsLossesAndEnds) {
-  LiveJobs jobs;
 TEST(LiveJobs, SpheresHaveNoOrder) {
   LiveJobs jobs;
   Json job = api_job("aa", "running", 1.0);
@@ -101,6 +101,8 @@ TEST(LiveJobs, SpheresHaveNoOrder) {
   }
 }
 
+TEST(LiveJobs, CountsDefectsLossesAndEnds) {
+  LiveJobs jobs;
   jobs.note_api(api_job("aa", "running", 0));
   jobs.note_api(api_job("bb", "failed", -1));
   jobs.note(message("aa", 0, 1, 0.5));
@@ -183,6 +185,19 @@ TEST(WatchLine, DrawingTheFilmIsAStateOfItsOwn) {
   EXPECT_EQ(jobs.jobs()[0].drawn, 0.5);
   jobs.note_api(api_job("aaaaaaaaaaaaaaaa", "done", -1));
   EXPECT_FALSE(jobs.jobs()[0].draws_film);
+}
+
+TEST(WatchLine, OfARunThatIsDoneHasItsMeanWithTheMarkOfTables) {
+  const ScratchFolder folder;
+  std::ofstream(folder / "summary.json") << R"({"order": {"mean": 0.625}, "steady": false})";
+  Json job = api_job("aa", "running", 9.0);
+  job["directory"] = folder.path().string();
+  LiveJobs jobs;
+  jobs.note_api(job);
+  EXPECT_THAT(watch_line(jobs.jobs()[0]), HasSubstr("  S 0.250 (mean 0.200)"));
+  job["state"] = "done";
+  jobs.note_api(job);
+  EXPECT_THAT(watch_line(jobs.jobs()[0]), HasSubstr("  mean S ~0.625 (still relaxing)"));
 }
 
 TEST(WatchLine, HasTheNumbers) {
