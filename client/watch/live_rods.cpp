@@ -91,9 +91,9 @@ void LiveRods::note(const frame_static_t& message) {
 
 namespace {
 
-/// S is a number, and NaN where there are no axes.
+/// S is a number, and may be NaN where there are no axes.
 bool has_fitting_order(double order, const RodFrame& constants) {
-  return constants.has_axes() ? std::isfinite(order) : std::isnan(order);
+  return std::isfinite(order) || (std::isnan(order) && !constants.has_axes());
 }
 
 }  // namespace
@@ -109,7 +109,7 @@ void LiveRods::note(const frame_t& message) {
   ++received_;
   RodFrame next = *constants_;
   next.time = frame->sim_time_s;
-  next.order = frame->order;
+  next.order = next.has_axes() ? frame->order : std::nan("");
   next.director = frame->director_rad;
   next.rods = std::move(frame->rods);
   newest_ = std::make_shared<const RodFrame>(std::move(next));
