@@ -23,10 +23,9 @@ std::string action_of(const CLI::Option& option) {
     case Names::kFolder:
       return "COMPREPLY=($(compgen -d -- \"$word\"))";
     case Names::kId:
-      return "COMPREPLY=($(compgen -W \"$(shaken completion ids 2>/dev/null)\" -- \"$word\"))";
+      return "_shaken_ids";
     case Names::kRun:
-      return "COMPREPLY=($(compgen -W \"$(shaken completion ids 2>/dev/null)\" -- \"$word\") $(compgen -d -- "
-             "\"$word\"))";
+      return "_shaken_ids; COMPREPLY+=($(compgen -d -- \"$word\"))";
     case Names::kSetting: {
       std::string paths;
       for (const scene::Field& field : scene::fields()) paths += (paths.empty() ? "" : " ") + field.path + "=";
@@ -101,6 +100,15 @@ _shaken_program() {{
   _shaken_help "$1" "${{sub[@]}}"
 }}
 complete -o filenames -F _shaken_program shakend shaken-render
+
+# IDs and names of sweeps, a line each, which nothing expands: a name may have blanks, which bash then escapes.
+_shaken_ids() {{
+  local id typed=${{word//\\/}}
+  typed=${{typed#[\"\']}}
+  while IFS= read -r id; do
+    if [[ $id == "$typed"* ]]; then COMPREPLY+=("$id"); fi
+  done < <(shaken completion ids 2>/dev/null)
+}}
 
 _shaken() {{
   local word=${{COMP_WORDS[COMP_CWORD]}} previous=${{COMP_WORDS[COMP_CWORD-1]}} verb= i

@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "base/steadiness.h"
 #include "base/text.h"
 #include "run/files/directory.h"
+#include "run/files/observables_file.h"
 
 namespace shaken::run {
 namespace {
@@ -49,6 +51,30 @@ std::string order_text(const Json& summary) {
   return text + fmt::format("\nRun longer, for example -s time.measure={:.3g}\n", 4 * number(summary, "sim_seconds"));
 }
 
+/// "curves: S(t), P(theta)": those that were measured, in the words that most people have for them.
+std::string curves_of(const std::filesystem::path& file) {
+  static constexpr std::pair<const char*, const char*> kCurves[] = {{"/order/order", "S(t)"},
+                                                                    {"/angles/density_per_rad", "P(theta)"},
+                                                                    {"/tilt/density", "P(n_z)"},
+                                                                    {"/g2/g2", "G2(r)"},
+                                                                    {"/g2/g", "g(r)"},
+                                                                    {"/pairs/g", "g(x, y)"},
+                                                                    {"/msd/total_mm2", "MSD"},
+                                                                    {"/velocity/c_v", "C_v"},
+                                                                    {"/rotation/c2", "C_2"},
+                                                                    {"/structure/factor", "S(q)"},
+                                                                    {"/defects/n_plus", "defects"},
+                                                                    {"/layers/spectrum_across", "layers"},
+                                                                    {"/fluctuations/std_n", "number fluctuations"}};
+  const Result<Observables> arrays = read_observables(file);
+  if (!arrays) return "curves";
+  std::string names;
+  for (const auto& [path, name] : kCurves) {
+    if (arrays->contains(path)) names += (names.empty() ? "curves: " : ", ") + std::string(name);
+  }
+  return names.empty() ? "curves" : names;
+}
+
 }  // namespace
 
 std::string describe_ending(const Json& summary, const std::filesystem::path& directory) {
@@ -61,7 +87,7 @@ std::string describe_ending(const Json& summary, const std::filesystem::path& di
     if (std::filesystem::exists(file)) text += fmt::format("  {:<16}{}\n", file.filename().string(), what);
   };
   list(files.summary(), "all numbers, with their errors");
-  list(files.observables(), "curves: S(t), P(theta), ...");
+  list(files.observables(), curves_of(files.observables()).c_str());
   list(files.recorded(), "every rod, frame by frame");
   list(files.movie(), "the film");
   text += fmt::format("next: shaken plot {}", directory.string());

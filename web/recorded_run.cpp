@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <shaken/frame_static_t.hpp>
 #include <system_error>
 
@@ -105,11 +106,17 @@ Result<run::Observables> RecordedRuns::curves(const std::string& run) {
 
 std::vector<FileEntry> RecordedRuns::files(const std::string& run) const {
   std::vector<FileEntry> files;
+  // what the program keeps for itself tells nobody anything
+  const run::RunDirectory places{directory(run)};
+  std::set<std::string> of_the_program{places.lock().filename().string()};
+  for (const fs::path& checkpoint : places.checkpoints()) of_the_program.insert(checkpoint.filename().string());
   std::error_code error;
   for (fs::directory_iterator entry(directory(run), error), end; !error && entry != end; entry.increment(error)) {
     std::error_code gone;
+    const std::string name = entry->path().filename().string();
+    if (of_the_program.contains(name)) continue;
     if (!entry->is_symlink(gone) && entry->is_regular_file(gone) && !gone) {
-      files.push_back({entry->path().filename().string(), entry->file_size(gone)});
+      files.push_back({name, entry->file_size(gone)});
     }
   }
   std::sort(files.begin(), files.end(), [](const FileEntry& a, const FileEntry& b) { return a.name < b.name; });

@@ -133,6 +133,7 @@ TEST(Figures, ADaemonThatDiesIsStartedAgain) {
   EXPECT_EQ(figures.wait(std::chrono::seconds(120)), 0) << figures.output();
   EXPECT_THAT(figures.output(), HasSubstr("starting one"));
   EXPECT_TRUE(is_png(out.path() / "figures" / "fig10-tilt.png"));
+  EXPECT_THAT(figures.output(), HasSubstr("2/2 runs")) << "a log does not end with how far it was a minute before";
 }
 
 TEST(Figures, SaysWhatIsQueuedBeforeIt) {

@@ -60,6 +60,35 @@ TEST(Run, SaysInOneSentenceWhyItIsNotSteady) {
   EXPECT_THAT(run.output, HasSubstr(std::string("\n") + (relaxes ? "~ " : "? ") + why + "\n"));
 }
 
+TEST(Plot, SaysWhoseRunItShows) {
+  if (shell("gnuplot --version").code != 0) GTEST_SKIP() << "no gnuplot";
+  const ScratchFolder folder;
+  std::ofstream(folder / "scene.json") << R"({
+    "rods": { "length": "3 mm", "count": 10 }, "box": { "side": "12 mm" },
+    "time": { "measure": "20 ms" }, "measure": { "order": { "every": "2 ms" } }, "stream": null })";
+  const Finished drawn =
+      shell("cd " + folder.path().string() +
+            "; shaken run scene.json -o run && shaken plot run -o plots && head -n 3 plots/order_time.dat "
+            "plots/order_time.gp && grep run_id run/summary.json");
+  ASSERT_EQ(drawn.code, 0) << drawn.output;
+  const std::size_t at = drawn.output.find("\"run_id\": \"") + 11;
+  const std::string head = "# Software: shaken plot ", runs = "\n# Runs: " + drawn.output.substr(at, 16) + "\n";
+  EXPECT_THAT(drawn.output, HasSubstr("plots/order_time.dat <==\n" + head));
+  EXPECT_THAT(drawn.output, HasSubstr("plots/order_time.gp <==\n" + head));
+  EXPECT_THAT(drawn.output, HasSubstr(runs));
+}
+
+// As after `./dev demo`, which builds no benches.
+TEST(Bench, ThatIsNotBuiltSaysHowItIs) {
+  const ScratchFolder folder;
+  const std::string here = "cd " + folder.path().string() + "; cp " SHAKEN_BIN_DIR "/shaken .; ";
+  const Finished missing = shell(here + "./shaken bench speed 2>&1");
+  EXPECT_EQ(missing.code, 1);
+  EXPECT_THAT(missing.output,
+              HasSubstr("shaken-bench is not in " + folder.path().string() + ": `./dev build` makes it"));
+  EXPECT_THAT(shell(here + "./shaken --root . doctor 2>&1").output, HasSubstr("shaken-bench"));
+}
+
 TEST(EveryVerb, TakesNamesThatBeginWithADashAfterTwoDashes) {
   const ScratchFolder folder;
   std::ofstream(folder / "-s.json") << "{}";

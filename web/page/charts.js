@@ -81,6 +81,9 @@ export class PointMap {
     });
   }
 
+  /** A PNG of the map under a line of words; null if there is none. */
+  picture(words) { return pictureOf(this.chart, words); }
+
   /** points: [{x, y, fill, border, text, bar, hollow}]; `bar` is a standard error of y, NaN for none. */
   set(points, xTitle, yTitle) {
     this.points = this.chart.points = points;
@@ -101,6 +104,22 @@ export class PointMap {
     }
     this.chart.update("none");
   }
+}
+
+/** A PNG of what `chart` shows, on the page's ground and with a line of words above it; null if there is none. */
+export function pictureOf(chart, words) {
+  const {canvas} = chart, size = Math.max(12, Math.round(canvas.height / 24)), top = 2 * size;
+  const sheet = document.createElement("canvas");
+  sheet.width = canvas.width;
+  sheet.height = canvas.height + top;
+  const context = sheet.getContext("2d");
+  context.fillStyle = "#17191d";
+  context.fillRect(0, 0, sheet.width, sheet.height);
+  context.fillStyle = kInk;
+  context.font = `${size}px sans-serif`;
+  context.fillText(words, size, 1.4 * size, sheet.width - 2 * size);
+  context.drawImage(canvas, 0, top);
+  return new Promise((done) => sheet.toBlob(done, "image/png"));
 }
 
 /** Draws a strip of colours; colour(part) for part from 0 to 1. */

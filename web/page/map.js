@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The chosen sweep: its jobs, and its phase diagram, which fills in as runs finish.
-import {ask, byId, complain, make, number, replaceIfOther} from "/page/dom.js";
+import {ask, byId, complain, make, number, offer, replaceIfOther} from "/page/dom.js";
 import {actionButtons, countsText} from "/page/queue.js";
 import {PointMap, sequential, strip} from "/page/charts.js";
 
@@ -67,6 +67,7 @@ export class SweepPanel {
     this.seen = "";
     this.axes = {x: "", y: "", value: ""};
     this.map = new PointMap(byId("map"), (point) => this.chooseRun(point.jobs[0]));
+    byId("map-save").onclick = () => this.savePicture();
   }
 
   choose(id, run) {
@@ -169,6 +170,7 @@ export class SweepPanel {
     const all = [...places.values()].filter((place) => Number.isFinite(place.across));
     const means = all.filter(({values}) => values.length).map(({values, errors}) => replicaMean(values, errors).mean);
     const low = Math.min(...means), high = Math.max(...means);
+    this.range = [low, high];
     const points = all.filter((place) => y || place.values.length).map((place) => {
       const {mean: average, error} = place.values.length ? replicaMean(place.values, place.errors) : {mean: NaN, error: NaN};
       const mark = ["~", "?"].find((each) => place.marks.has(each)) ?? "";
@@ -183,12 +185,21 @@ export class SweepPanel {
     });
     const met = ["~", "?"].filter((mark) => all.some(({marks}) => marks.has(mark)));
     byId("map-marks").textContent = met.length ? `hollow: ${met.map((mark) => kSteadiness[mark]).join(" or ")}` : "";
-    byId("map-frame").hidden = !points.length;
+    byId("map-frame").hidden = byId("map-save").hidden = !points.length;
     this.map.set(points, x, y || value);
     const bar = make("canvas");
     strip(bar, sequential);
     byId("map-scale").shownStamp = undefined;
     byId("map-scale").replaceChildren(...(means.length && y ? [`${value}: ${number(low)}`, bar, number(high)] : []));
+  }
+
+  /** The map as a PNG, as fine as the screen has it, with what it shows and the ends of the colours' scale. */
+  async savePicture() {
+    const {axes, id, range: [low, high] = []} = this, note = byId("map-marks").textContent;
+    const scale = axes.y && Number.isFinite(low) ? ` from ${number(low)} (dark) to ${number(high)} (bright)` : "";
+    const picture = await this.map.picture(`${id}: ${axes.value}${scale}${note ? `; ${note}` : ""}`);
+    if (picture) offer(picture, `${id}-${axes.value}.png`);
+    else complain("the browser could not draw the picture");
   }
 
   drawTable() {

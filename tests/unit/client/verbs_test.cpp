@@ -722,7 +722,7 @@ TEST_F(Verbs, CompletionOffersNothingThatAShellExpands) {
   }
   daemon_.on("GET /v1/sweeps", text({{"sweeps", sweeps}}));
   daemon_.on("GET /v1/jobs", R"({"jobs": []})");
-  EXPECT_EQ(run({"completion", "ids"}).out, "plain-1.5_Γ\ns1\n");
+  EXPECT_EQ(run({"completion", "ids"}).out, "plain-1.5_Γ\ns1\ntwo words\n");
 }
 
 TEST_F(Verbs, CompletionKnowsTheIds) {

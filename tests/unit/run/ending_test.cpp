@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "base/scratch_folder.h"
+#include "run/files/observables_file.h"
 
 namespace shaken::run {
 namespace {
@@ -38,6 +39,15 @@ TEST(Ending, SaysWhatCameOutAndWhereItIs) {
   EXPECT_THAT(text, Not(HasSubstr("trajectory.h5"))) << "only what is there";
   EXPECT_THAT(text, HasSubstr("next: shaken plot " + folder.path().string()));
   EXPECT_THAT(text, Not(HasSubstr("relaxing")));
+}
+
+TEST(Ending, NamesTheCurvesThatWereMeasured) {
+  const ScratchFolder folder;
+  ASSERT_TRUE(write_observables(folder / "observables.h5",
+                                {{"/order/time_s", {0, 1}}, {"/order/order", {1, 1}}, {"/msd/total_mm2", {1}}}, {}));
+  EXPECT_THAT(describe_ending(summary(true), folder.path()), HasSubstr("observables.h5  curves: S(t), MSD\n"));
+  ASSERT_TRUE(write_observables(folder / "observables.h5", {{"/rods/trace/time_s", {0}}}, {}));
+  EXPECT_THAT(describe_ending(summary(true), folder.path()), HasSubstr("observables.h5  curves\n"));
 }
 
 TEST(Ending, ARunThatRelaxesIsToldSoWithAWayOut) {
