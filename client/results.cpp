@@ -275,6 +275,15 @@ std::vector<ResultRow> of_distinct_runs(const std::vector<ResultRow>& rows) {
   return distinct;
 }
 
+namespace {
+
+/// Whether a run is done, or was before it went on for longer.
+bool has_results(const ResultRow& row) {
+  return row.state == "done" || field_text(row, "exit.state") == "done" || row.fields.contains("exit.done_before_s");
+}
+
+}  // namespace
+
 std::vector<ResultRow> aggregated(const std::vector<ResultRow>& rows) {
   // Groups in the order in which they are first met.
   std::vector<std::vector<const ResultRow*>> groups;
@@ -286,15 +295,17 @@ std::vector<ResultRow> aggregated(const std::vector<ResultRow>& rows) {
     RowVersion& newest = newest_version[row.parameters.dump()];
     newest = std::max(newest, version_of(row));
   }
-  const std::vector<ResultRow> distinct = of_distinct_runs(rows);
-  for (const ResultRow& row : distinct) {
+  for (const ResultRow& row : rows) {
     const std::string parameters = row.parameters.dump();
     const RowVersion version = version_of(row);
     const bool is_settled = version.is_known() || row.state == "done";
     const auto key = std::pair(parameters, is_settled ? version : newest_version[parameters]);
     const auto [place, is_new] = group_of.try_emplace(key, groups.size());
     if (is_new) groups.emplace_back();
-    groups[place->second].push_back(&row);
+    auto& group = groups[place->second];
+    const std::string id = row.fields.value("job", "");
+    const auto is_known = [&](const ResultRow* other) { return !id.empty() && other->fields.value("job", "") == id; };
+    if (std::none_of(group.begin(), group.end(), is_known)) group.push_back(&row);
   }
 
   std::vector<ResultRow> points;
@@ -305,13 +316,14 @@ std::vector<ResultRow> aggregated(const std::vector<ResultRow>& rows) {
     point.fields["n_replicas"] = group.size();
     std::vector<ResultRow> done;
     for (const ResultRow* row : group) {
-      if (row->state == "done") done.push_back(*row);
+      if (has_results(*row)) done.push_back(*row);
     }
     point.fields["n_done"] = done.size();
     for (const char* version : {kProgram, kPhysics}) {
       if (!done.empty() && done.front().fields.contains(version)) point.fields[version] = done.front().fields[version];
     }
-    point.state = done.size() == group.size() ? "done" : "partial";
+    const bool all_done = std::all_of(group.begin(), group.end(), [](const auto* row) { return row->state == "done"; });
+    point.state = all_done ? "done" : "partial";
     point.fields["state"] = point.state;
     take_common_keys(done, point);
     average(done, point);

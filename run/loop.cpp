@@ -243,6 +243,7 @@ class Loop {
     summary.state = state;
     summary.reason = reason;
     summary.rods = rods;
+    if (state != "done") summary.done_before = former_end(directory_, run_id_);
     if (state == "done" && summary.order) {
       const std::string trouble = why_not_steady(*summary.order, summary.sim_seconds);
       if (!trouble.empty()) spdlog::warn("{}", trouble);

@@ -175,6 +175,7 @@ Result<void> write_summary(const std::filesystem::path& file, const Summary& sum
   json["why_null"] = std::move(reasons);
   json["state_hash"] = fmt::format("{:016x}", summary.state_hash);
   json["exit"] = {{"state", summary.state}, {"reason", summary.reason}, {"tick", summary.tick}, {"rods", summary.rods}};
+  if (summary.done_before) json["exit"]["done_before_s"] = *summary.done_before;
   json["versions"] = {{"shaken", version()}, {"physics", kPhysicsVersion}, {"compiler", compiler()}};
   json["host"] = host_name();
   json["started"] = summary.started;

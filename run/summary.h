@@ -47,10 +47,11 @@ struct Summary {
   std::string started;   ///< UTC, ISO 8601
   std::string finished;  ///< the same
 
-  std::string state = "done";  ///< done | failed | stopped
-  std::string reason;          ///< unless done
-  Tick tick = 0;               ///< of the end
-  std::vector<int> rods;       ///< concerned by numerical trouble
+  std::string state = "done";           ///< done | failed | stopped
+  std::string reason;                   ///< unless done
+  std::optional<double> done_before{};  ///< the simulated time of an end that the run had, if it went on from there [s]
+  Tick tick = 0;                        ///< of the end
+  std::vector<int> rods;                ///< concerned by numerical trouble
 };
 
 /// The standard error that is shown with a mean: its own where it is of a steady state. Where it is not, or that is not

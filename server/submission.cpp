@@ -181,7 +181,11 @@ std::vector<std::string> parse_extension(std::string_view body) {
 scene::Loaded<std::string> extended_scene(const std::string& name, const std::string& scene,
                                           const std::vector<std::string>& settings) {
   const auto plan = scene::load_scene(scene, name, settings);
-  if (!plan) return plan.error();
+  if (!plan) {
+    std::vector<scene::Problem> problems = plan.error();
+    for (scene::Problem& problem : problems) problem.file = name;  // nobody has typed such a setting
+    return problems;
+  }
   return scene::to_json(*plan).dump(2) + "\n";
 }
 

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/failure.h"
+#include "base/help_formatter.h"
 #include "base/interrupt.h"
 #include "base/paths.h"
 #include "base/standard_streams.h"
@@ -125,6 +126,7 @@ int main(int argc, char** argv) {
   int port = 8642;
   bool no_lcm = false;
   CLI::App app(kAbout);
+  app.formatter(std::make_shared<HelpFormatter>());
   app.footer(kExamples);
   app.set_version_flag("--version", std::string("shaken-web ") + run::version());
   app.add_option("--root", root, "The daemon's root directory [default: as shakend]")->type_name("DIR");

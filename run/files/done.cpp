@@ -15,15 +15,24 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// What the summary says of a run that has come to its end; null otherwise. `run_id`: any if empty.
-Json summary_of_done(const RunDirectory& directory, const std::string& run_id) {
+/// The summary of a run, with an object "exit"; null otherwise. `run_id`: any if empty.
+Json summary_of(const RunDirectory& directory, const std::string& run_id) {
   const Result<std::string> text = read_file(directory.summary());
   if (!text) return {};
   Json json = Json::parse(*text, nullptr, false);
-  if (!json.is_object() || !json.contains("exit")) return {};
+  if (!json.is_object() || !json.contains("exit") || !json["exit"].is_object()) return {};
   if (!run_id.empty() && (!json.contains("run_id") || json["run_id"] != run_id)) return {};
-  const auto& exit = json["exit"];
-  return exit.is_object() && exit.contains("state") && exit["state"] == "done" ? std::move(json) : Json();
+  return json;
+}
+
+bool says_done(const Json& summary) {
+  return !summary.is_null() && summary["exit"].contains("state") && summary["exit"]["state"] == "done";
+}
+
+/// The same if it has come to its end; null otherwise.
+Json summary_of_done(const RunDirectory& directory, const std::string& run_id) {
+  Json summary = summary_of(directory, run_id);
+  return says_done(summary) ? std::move(summary) : Json();
 }
 
 /// None if the summary says nothing of S.
@@ -49,6 +58,15 @@ std::optional<Tick> tick_of(const Json& summary) {
 
 std::optional<Tick> done_tick(const RunDirectory& directory, const std::string& run_id) {
   return tick_of(summary_of_done(directory, run_id));
+}
+
+std::optional<double> former_end(const RunDirectory& directory, const std::string& run_id) {
+  const Json summary = summary_of(directory, run_id);
+  if (summary.is_null()) return std::nullopt;
+  const Json& from = says_done(summary) ? summary : summary["exit"];
+  const auto time = from.find(says_done(summary) ? "sim_seconds" : "done_before_s");
+  if (time == from.end() || !time->is_number()) return std::nullopt;
+  return time->get<double>();
 }
 
 bool is_done(const RunDirectory& directory, const std::string& run_id) {

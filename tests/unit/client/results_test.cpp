@@ -203,6 +203,20 @@ TEST(Aggregated, ARunThatIsListedTwiceCountsOnce) {
   EXPECT_EQ(of_distinct_runs({once, row_with_verdict(2, true), once}).size(), 2u);
 }
 
+// A run that was done, was asked to go on and is held on its way has results all the time.
+TEST(Aggregated, ARunThatGoesOnForLongerStillCounts) {
+  Json held = row_with_verdict(1, true).source;
+  held["state"] = "held";
+  EXPECT_EQ(aggregated({result_row(held)})[0].number("n_done"), 0);
+  held["summary"]["exit"] = {{"state", "stopped"}, {"done_before_s", 20.0}};
+  const ResultRow point = aggregated({result_row(held), row_with_verdict(2, true)})[0];
+  EXPECT_EQ(point.number("n_done"), 2);
+  EXPECT_EQ(point.state, "partial");
+  held["state"] = "running";
+  held["summary"]["exit"] = {{"state", "done"}};
+  EXPECT_EQ(aggregated({result_row(held)})[0].number("n_done"), 1);
+}
+
 TEST(Steadiness, ThreeStatesHaveThreeMarks) {
   EXPECT_EQ(steadiness(row_with_verdict(1, true), "order.mean"), Steadiness::kSteady);
   EXPECT_EQ(steadiness(row_with_verdict(1, false), "order.mean"), Steadiness::kRelaxing);

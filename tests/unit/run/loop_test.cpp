@@ -343,6 +343,19 @@ scene::RunPlan plan_until(double order_sem, double at_most) {
   return plan;
 }
 
+TEST(Run, ThatIsStoppedOnItsWayToALaterEndKnowsTheFormerOne) {
+  const ScratchFolder folder;
+  ASSERT_EQ(run_in(folder.path(), with_length(0.05)).state, RunState::kDone);
+  const double former = summary_in(folder.path())["sim_seconds"];
+  EXPECT_FALSE(summary_in(folder.path())["exit"].contains("done_before_s"));
+  for (const double stop : {0.3, 0.6}) {
+    run_with_stops(folder.path(), with_length(1), {stop});
+    EXPECT_EQ(summary_in(folder.path())["exit"]["done_before_s"], former);
+  }
+  ASSERT_EQ(run_in(folder.path(), with_length(1)).state, RunState::kDone);
+  EXPECT_FALSE(summary_in(folder.path())["exit"].contains("done_before_s"));
+}
+
 TEST(Run, GoesOnUntilTheErrorIsSmallEnough) {
   const ScratchFolder folder;
   ASSERT_EQ(run_in(folder.path(), plan_until(0.05, 20)).state, RunState::kDone);
