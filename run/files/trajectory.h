@@ -36,6 +36,7 @@ class TrajectoryReader {
   std::size_t n_frames() const { return frames_->n_frames(); }
   Result<TrajectoryFrame> frame(std::size_t index) const;
   const RecordedFrames& recorded() const { return *frames_; }
+  const std::filesystem::path& path() const { return path_; }
 
  private:
   TrajectoryReader(std::filesystem::path path, std::unique_ptr<RecordedFrames> frames)
