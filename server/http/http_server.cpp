@@ -141,7 +141,6 @@ class BoundedServer final : public httplib::Server {
         request.ranges.clear();
       };
       bool closed = false;
-      std::atomic<bool> failed{false};
       for (std::size_t n = 1; svr_sock_ != INVALID_SOCKET && !closed && connection.next_request(); ++n) {
         const bool answered = process_request(connection, n >= keep_alive_max_count_, closed, head_ended);
         closed = closed || !answered || n >= keep_alive_max_count_ || !connection.request_ended();
@@ -274,6 +273,7 @@ struct HttpServer::Impl {
   BoundedServer server;
   struct stat file {};  ///< of the socket
   bool closed = false;
+  std::atomic<bool> failed = false;
   std::future<void> listening;
 };
 
