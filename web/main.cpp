@@ -12,6 +12,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/failure.h"
@@ -20,6 +21,7 @@
 #include "base/standard_streams.h"
 #include "run/files/version.h"
 #include "web/guard.h"
+#include "web/read_run.h"
 #include "web/served_page.h"
 #include "web/site.h"
 #include "web/token.h"
@@ -120,6 +122,7 @@ void serve(const std::filesystem::path& root, int port, const std::string& lcm_u
 
 int main(int argc, char** argv) {
   guard_standard_streams("shaken-web");
+  if (argc > 1 && std::string_view(argv[1]) == "read") return web::read_run_command(argc, argv);
   std::signal(SIGPIPE, SIG_IGN);
   std::string root, lcm_url;
   int port = 8642;

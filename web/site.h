@@ -13,7 +13,7 @@
 #include "web/daemon_link.h"
 #include "web/live_feed.h"
 #include "web/queue_feed.h"
-#include "web/recorded_run.h"
+#include "web/run_reader.h"
 #include "web/tickets.h"
 
 namespace shaken::web {
@@ -44,13 +44,14 @@ class Site {
   server::Reply ticket(const server::Request& request);
   server::Reply of_run(const std::string& run, const std::vector<std::string>& rest, const server::Request& request);
   server::Reply curves(const std::string& run, const server::Request& request);
+  std::filesystem::path directory(const std::string& run) const { return setup_.root / "runs" / run; }
   server::Reply file(const std::string& run, const std::string& name) const;
   server::Reply picture(const std::string& run, const std::string& frame, const std::string& style);
 
   SiteSetup setup_;
   DaemonLink daemon_;
   DaemonLink looks_;  ///< for the queue's feed, whose end must not wait long
-  RecordedRuns runs_;
+  RunReader reader_;
   std::optional<LiveFeed> live_;
   std::atomic<bool> is_closing_ = false;
   Tickets tickets_;
