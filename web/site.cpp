@@ -16,7 +16,6 @@
 
 #include "base/descriptor.h"
 #include "base/files.h"
-#include "base/process.h"
 #include "base/scratch_folder.h"
 #include "base/text.h"
 #include "web/packed_frame.h"
@@ -298,7 +297,7 @@ Reply Site::picture(const std::string& run, const std::string& frame, const std:
   if (!lock) return refusal(429, "another picture is being drawn: try again");
   const ScratchFolder folder;
   const fs::path png = folder.path() / "picture.png";
-  std::vector<std::string> command{sibling_program("shaken-render").string(),
+  std::vector<std::string> command{setup_.renderer.string(),
                                    "picture",
                                    directory(run).string(),
                                    "--frame",
@@ -306,7 +305,12 @@ Reply Site::picture(const std::string& run, const std::string& frame, const std:
                                    "-o",
                                    png.string()};
   if (!style.empty()) command.push_back("--style=" + style);
-  const Captured drawn = run_captured(command);
+  const Captured drawn =
+      run_captured(command, CaptureLimits{.time = setup_.drawing, .stop = [this] { return is_closing_.load(); }});
+  if (drawn.cut_short) {
+    return refusal(504, "shaken-render has not drawn the picture within " +
+                            std::to_string(setup_.drawing.count() / 1000) + " s and was ended");
+  }
   if (drawn.exit_code != 0) return refusal(500, "shaken-render: " + drawn.output);
   Reply reply = file_reply(png);
   reply.headers.emplace_back("Content-Disposition",

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -9,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "base/process.h"
 #include "server/http/http_server.h"
 #include "web/daemon_link.h"
 #include "web/live_feed.h"
@@ -23,6 +25,8 @@ struct SiteSetup {
   std::filesystem::path page;            ///< folder of the page's files
   std::unique_ptr<proto::Bus> bus = {};  ///< null: nothing is live
   std::filesystem::path chart_library = "/usr/share/javascript/chart.js/chart.min.js";
+  std::filesystem::path renderer = sibling_program("shaken-render");
+  std::chrono::milliseconds drawing = std::chrono::minutes(2);  ///< for one picture, then its renderer is killed
 };
 
 /// What is served to a browser that may see it (docs/web.md has the paths): the page, the daemon's interface, what runs

@@ -14,8 +14,8 @@
 #include "base/scratch_folder.h"
 #include "run/files/directory.h"
 #include "run/files/observables_file.h"
-#include "run/files/trajectory.h"
 #include "tests/support/damaged_hdf5.h"
+#include "tests/unit/web/small_recording.h"
 
 namespace shaken::web {
 namespace {
@@ -34,35 +34,8 @@ class RunReaderTest : public testing::Test {
       std::filesystem::create_directories(folder_ / run);
       const run::RunDirectory directory{folder_ / run};
       EXPECT_TRUE(run::write_observables(directory.observables(), {{"/order/order", {0.5, 0.25}}}));
-      record(directory, run);
+      record_two_frames(directory, run);
     }
-  }
-  /// Two frames of one rod.
-  static void record(const run::RunDirectory& directory, const std::string& run) {
-    run::TrajectoryHeader header;
-    header.n_rods = 1;
-    header.box_side = 10;
-    header.gap = 1.2;
-    header.dt = 1e-5;
-    header.bead_offset = {-2, 0, 2};
-    header.bead_radius = {0.2, 0.4, 0.2};
-    header.scene_json = "{}";
-    header.provenance = {run, 1};
-    auto log = run::FrameLog::create(directory.frames(), header).value();
-    for (int k = 0; k < 2; ++k) {
-      Snapshot now;
-      now.tick = k;
-      now.time = 0.1 * k;
-      now.box_side = 10;
-      now.position = now.velocity = {{1, 2, 0.6}};
-      now.director = {{1, 0, 0}};
-      now.image = {{0, 0}};
-      ASSERT_TRUE(log.append(run::record(now)));
-    }
-    ASSERT_TRUE(log.sync());
-    ASSERT_TRUE(
-        run::write_trajectory(directory.trajectory(), run::TrajectoryReader::open(directory.frames())->recorded()));
-    std::filesystem::remove(directory.frames());
   }
   std::filesystem::path trajectory(const std::string& run) const {
     return run::RunDirectory{folder_ / run}.trajectory();

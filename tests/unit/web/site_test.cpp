@@ -19,6 +19,7 @@
 #include "base/paths.h"
 #include "base/scratch_folder.h"
 #include "tests/unit/client/fake_daemon.h"
+#include "tests/unit/web/small_recording.h"
 #include "web/guard.h"
 #include "web/queue_feed.h"
 
@@ -195,6 +196,28 @@ TEST_F(SiteTest, WhatIsNotThereIsSaid) {
   EXPECT_EQ(get(std::string("/runs/") + kRun + "/picture?frame=0")->status, 404);
   EXPECT_EQ(get("/live?run=1f0c")->status, 404);
   EXPECT_EQ(client_.Post("/live", kIn, "", "text/plain")->status, 405);
+}
+
+// One picture is drawn at a time: a renderer that hangs must not be the last.
+TEST_F(SiteTest, ARendererThatHangsIsEnded) {
+  record_two_frames({root_ / "runs" / kRun}, kRun);
+  const fs::path renderer = root_ / "renderer";
+  std::ofstream(renderer) << "#!/bin/sh\nkill -STOP $$\n";
+  fs::permissions(renderer, fs::perms::owner_all);
+  Site site(SiteSetup{
+      .root = root_.path(), .page = shipped_page(), .renderer = renderer, .drawing = std::chrono::milliseconds(200)});
+  const server::Request picture{
+      .method = "GET", .path = std::string("/runs/") + kRun + "/picture", .query = {{"frame", "0"}}, .body = ""};
+  for (int i = 0; i < 2; ++i) {
+    const auto reply = site.answer(picture);
+    EXPECT_EQ(reply.status, 504) << reply.body;
+    EXPECT_THAT(reply.body, HasSubstr("shaken-render"));
+  }
+  std::ofstream(renderer) << "#!/bin/sh\nwhile [ \"$1\" != -o ]; do shift; done; echo drawn > \"$2\"\n";
+  Site next(SiteSetup{.root = root_.path(), .page = shipped_page(), .renderer = renderer});
+  EXPECT_EQ(next.answer(picture).body, "drawn\n");
+  site.close();
+  next.close();
 }
 
 TEST(SiteWithoutADaemon, SaysSo) {
