@@ -148,6 +148,25 @@ TEST_F(SiteTest, TheQueueComesAsEvents) {
   }
 }
 
+TEST(Feed, AsksSeldomWhileNobodyLooks) {
+  const ScratchFolder root;
+  client::FakeDaemon daemon(root.path());
+  daemon.on("GET /v1/status", R"({"version": "1"})");
+  daemon.on("GET /v1/sweeps", R"({"sweeps": []})");
+  daemon.on("GET /v1/jobs?state=running", R"({"jobs": []})");
+  daemon.on("GET /v1/jobs?state=stopping", R"({"jobs": []})");
+  const DaemonLink link(root.path());
+  QueueFeed feed(link, [](const std::set<std::string>&) {});
+  std::this_thread::sleep_for(std::chrono::seconds(3));
+  EXPECT_LE(daemon.requests().size(), 4u) << "once, four questions";
+  daemon.on("GET /v1/sweeps", R"({"sweeps": [{"id": "s7"}]})");
+  std::int64_t seen = 0;
+  EXPECT_THAT(feed.wait(seen, std::chrono::seconds(20)).value_or(""), HasSubstr("s7"))
+      << "who comes then is not told what is old";
+  daemon.on("GET /v1/sweeps", R"({"sweeps": [{"id": "s8"}]})");
+  EXPECT_THAT(feed.wait(seen, std::chrono::seconds(20)).value_or(""), HasSubstr("s8"));
+}
+
 TEST_F(SiteTest, AnswersThatAreNotTheDaemonsEndNothing) {
   for (const char* answer : {"[]", "no JSON", "7"}) {
     daemon_.on("GET /v1/status", answer);
