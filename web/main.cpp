@@ -84,7 +84,7 @@ void serve(const std::filesystem::path& root, int port, const std::string& lcm_u
   const auto listen_on = [&](int wanted) {
     return std::make_unique<server::HttpServer>(
         wanted, [&](const server::Request& head) { return guard.get().stop(head); },
-        [&](const server::Request& request) { return site.answer(request); });
+        [&](const server::Request& request) { return site.answer(request); }, web::Guard::headers());
   };
   std::unique_ptr<server::HttpServer> server = listen_on(port);
   const int served_port = server->port();

@@ -59,7 +59,8 @@ class SiteTest : public testing::Test {
   std::promise<Guard> promised_;  // requests wait until the port is known
   std::shared_future<Guard> guard_{promised_.get_future()};
   server::HttpServer server_{0, [this](const server::Request& head) { return guard_.get().stop(head); },
-                             [this](const server::Request& request) { return site_.answer(request); }};
+                             [this](const server::Request& request) { return site_.answer(request); },
+                             Guard::headers()};
   httplib::Client client_{"127.0.0.1", server_.port()};
 };
 
@@ -84,7 +85,7 @@ TEST_F(SiteTest, TheBodyOfARefusedRequestIsNotRead) {
   const std::string head = "POST /v1/sweeps HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(server_.port()) +
                            "\r\nContent-Length: 1000000\r\n\r\n";
   ASSERT_EQ(send(connection, head.data(), head.size(), 0), static_cast<ssize_t>(head.size()));
-  char answer[64] = {};
+  char answer[1000] = {};
   EXPECT_GT(recv(connection, answer, sizeof(answer) - 1, 0), 0) << "without a byte of the body";
   EXPECT_THAT(std::string(answer), HasSubstr(" 401 "));
   close(connection);
@@ -108,8 +109,14 @@ TEST_F(SiteTest, ThePageAndAllItsFilesAreServed) {
 }
 
 TEST_F(SiteTest, EveryAnswerForbidsWhatIsNotServedHere) {
-  for (const char* path : {"/", "/v1/status", "/nothing", "/page/main.js"}) {
-    const auto answer = get(path);
+  std::vector<std::pair<std::string, httplib::Result>> answers;
+  for (const char* path : {"/", "/v1/status", "/nothing", "/page/main.js"}) answers.emplace_back(path, get(path));
+  answers.emplace_back("without the token", client_.Get("/v1/status"));
+  answers.emplace_back("another name", client_.Get("/", httplib::Headers{{"Host", "evil.example"}}));
+  answers.emplace_back("a path that is too long", get("/" + std::string(2000, 'a')));
+  for (const auto& [path, answer] : answers) {
+    ASSERT_TRUE(answer) << path;
+    EXPECT_EQ(answer->get_header_value_count("Content-Security-Policy"), 1u) << path;
     const std::string policy = answer->get_header_value("Content-Security-Policy");
     EXPECT_THAT(policy, HasSubstr("default-src 'none'")) << path;
     EXPECT_THAT(policy, HasSubstr("script-src 'self';")) << path;
