@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "analysis/time_series.h"
+#include "run/files/content_hash.h"
 #include "run/measure/reduction.h"
 #include "scene/run_plan.h"
 #include "sim/balance.h"
@@ -43,6 +44,7 @@ struct Summary {
   std::optional<double> defects_mean_plus;       ///< in the steady state, if defects were measured
   std::optional<double> defects_mean_minus;
   std::map<std::string, EffectReport> effects;
+  std::map<std::string, ContentHash> files;  ///< those of HDF5 that this end of the run has written, by their names
   std::uint64_t state_hash = 0;
   std::string started;   ///< UTC, ISO 8601
   std::string finished;  ///< the same

@@ -12,6 +12,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/failure.h"
@@ -21,6 +22,7 @@
 #include "base/standard_streams.h"
 #include "run/files/version.h"
 #include "web/guard.h"
+#include "web/read_run.h"
 #include "web/served_page.h"
 #include "web/site.h"
 #include "web/token.h"
@@ -83,7 +85,7 @@ void serve(const std::filesystem::path& root, int port, const std::string& lcm_u
   const auto listen_on = [&](int wanted) {
     return std::make_unique<server::HttpServer>(
         wanted, [&](const server::Request& head) { return guard.get().stop(head); },
-        [&](const server::Request& request) { return site.answer(request); });
+        [&](const server::Request& request) { return site.answer(request); }, web::Guard::headers());
   };
   std::unique_ptr<server::HttpServer> server = listen_on(port);
   const int served_port = server->port();
@@ -121,6 +123,7 @@ void serve(const std::filesystem::path& root, int port, const std::string& lcm_u
 
 int main(int argc, char** argv) {
   guard_standard_streams("shaken-web");
+  if (argc > 1 && std::string_view(argv[1]) == "read") return web::read_run_command(argc, argv);
   std::signal(SIGPIPE, SIG_IGN);
   std::string root, lcm_url;
   int port = 8642;

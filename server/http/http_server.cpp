@@ -119,6 +119,7 @@ class BoundedServer final : public httplib::Server {
   /// Whether only this process's user and root are answered: a Unix socket knows who connects.
   bool is_private = true;
   HttpServer::Gate gate;  ///< none: all may pass
+  Headers headers;        ///< of every answer
 
   /// After the listening has ended. Whether that was not by stop(): cpp-httplib has closed the descriptor then, and
   /// must not close it again, for it may be another file's.
@@ -146,7 +147,7 @@ class BoundedServer final : public httplib::Server {
         closed = closed || !answered || n >= keep_alive_max_count_ || !connection.request_ended();
       }
     } catch (const UnreadableRequest& problem) {
-      connection.refuse(problem);
+      connection.refuse(problem, headers);
     } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch): no memory for an answer; the others go on
     }
     return true;
@@ -165,8 +166,10 @@ struct HttpServer::Impl {
     bind();
     start();
   }
-  Impl(int wanted_port, Gate gate, Handler handler) {
+  Impl(int wanted_port, Gate gate, Handler handler, const Headers& headers) {
     server.gate = std::move(gate);
+    server.headers = headers;
+    server.set_default_headers({headers.begin(), headers.end()});
     set_up(std::move(handler));
     bind(wanted_port);
     start();
@@ -280,8 +283,8 @@ struct HttpServer::Impl {
 HttpServer::HttpServer(std::filesystem::path socket, Handler handler)
     : impl_(std::make_unique<Impl>(std::move(socket), std::move(handler))) {}
 
-HttpServer::HttpServer(int port, Gate gate, Handler handler)
-    : impl_(std::make_unique<Impl>(port, std::move(gate), std::move(handler))) {}
+HttpServer::HttpServer(int port, Gate gate, Handler handler, const Headers& headers)
+    : impl_(std::make_unique<Impl>(port, std::move(gate), std::move(handler), headers)) {}
 
 HttpServer::~HttpServer() { close(); }
 

@@ -3,6 +3,7 @@
 // a wrong one.
 #include "run/loop.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,6 +18,7 @@
 #include "proto/bus.h"
 #include "proto/frame_codec.h"
 #include "run/files/checkpoint_file.h"
+#include "run/files/content_hash.h"
 #include "run/files/done.h"
 #include "run/files/observables_file.h"
 #include "run/files/trajectory.h"
@@ -166,6 +168,11 @@ TEST(Run, FillsItsDirectory) {
   EXPECT_EQ(summary["effects"]["stream"]["on"], false);
   EXPECT_GT(summary["effects"]["rod_base_friction"]["impulses"].get<int>(), 0);
   EXPECT_EQ(summary["effects"]["vibration"]["periods"], 60);
+  for (const auto& file : {directory.trajectory(), directory.observables()}) {
+    const ContentHash hash = content_hash(file).value();
+    EXPECT_EQ(summary["files"][file.filename().string()]["bytes"], hash.size) << file;
+    EXPECT_EQ(summary["files"][file.filename().string()]["xxh3"], fmt::format("{:016x}", hash.xxh3)) << file;
+  }
   EXPECT_EQ(read_progress(directory.progress())->state, "done");
   EXPECT_EQ(read_progress(directory.progress())->fraction(), 1.0);
 

@@ -17,6 +17,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "tests/support/lazy_server.h"
 #include "tests/unit/server/support.h"
 
 namespace shaken::server {
@@ -386,6 +387,28 @@ TEST_F(DaemonTest, ARelayTellsItsAddressAndATakenOneIsSaid) {
   EXPECT_EQ(second.wait(), 1);
   EXPECT_THAT(second.errors(), HasSubstr("the relay cannot listen at 127.0.0.1:"));
   EXPECT_THAT(second.errors(), HasSubstr("Address already in use"));
+}
+
+TEST_F(DaemonTest, ALiveStateServerThatSaysNothingKeepsItNeitherFromStartingNorFromEnding) {
+  const LazyServer server;
+  Daemon shakend(directory_ / "root", {"--worker", worker_.string(), "--lcm-url", server.url()});
+  EXPECT_THAT(shakend.first_line(), StartsWith("shakend ready"));
+  shakend.send(SIGTERM);
+  EXPECT_EQ(shakend.wait(), 0);
+}
+
+TEST_F(DaemonTest, ALiveStateServerThatTakesNothingDoesNotKeepItFromEnding) {
+  LazyServer server;
+  Daemon shakend(directory_ / "root", {"--worker", worker_.string(), "--lcm-url", server.url()});
+  server.greet();
+  EXPECT_THAT(shakend.first_line(), StartsWith("shakend ready"));
+  // More changes than the buffers on the way hold.
+  for (int k = 0; k < 10; ++k) {
+    const json scene{{"scene", {{"time", {{"seed", 1'000'000 * k}}}}}, {"sweep", {{"replicas", 2000}}}};
+    EXPECT_EQ(shakend.call("/v1/sweeps", json{{"text", scene.dump()}})["counts"]["new"], 2000);
+  }
+  shakend.send(SIGTERM);
+  EXPECT_EQ(shakend.wait(), 0);
 }
 
 TEST_F(DaemonTest, WhatCannotStartSaysWhy) {
