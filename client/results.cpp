@@ -29,7 +29,7 @@ constexpr const char* kProgram = "versions.shaken";
 constexpr const char* kPhysics = "versions.physics";
 
 /// Fields that name a row rather than measure something; never averaged.
-const std::set<std::string> kNames{"job", "sweep", "state", "label", "replica", kProgram, kPhysics};
+const std::set<std::string> kNames{"job", "sweep", "state", "label", "replica", "directory", kProgram, kPhysics};
 
 /// Puts the scalars of `object` into `fields`, members of members as "outer.inner".
 void flatten(const Json& object, const std::string& prefix, Json& fields) {
@@ -204,6 +204,7 @@ ResultRow result_row(const Json& row) {
   // By name and value, not by flatten: a path holds dots of its own.
   for (const auto& [path, value] : result.parameters.items()) result.fields[path] = value;
   result.fields["replica"] = row.value("replica", 0);
+  if (row.contains("directory")) result.fields["directory"] = text_of(row, "directory");
   const auto summary = row.find("summary");
   if (summary != row.end() && summary->is_object()) flatten(*summary, "", result.fields);
   return result;

@@ -162,6 +162,7 @@ Json result_row(const Job& job, const std::filesystem::path& runs) {
           {"label", job.label},
           {"parameters", parameters(job)},
           {"replica", job.replica},
+          {"directory", (runs / job.id).string()},
           {"summary", std::move(summary)}};
 }
 

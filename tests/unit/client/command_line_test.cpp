@@ -87,7 +87,7 @@ TEST(BadArguments, AreAllExitCodeTwo) {
                                                                      {"wait", "--timeout", "soon"},
                                                                      {"watch", "--graphics", "iterm"},
                                                                      {"validate", "no/such/file.json"},
-                                                                     {"run", "scene.json"},
+                                                                     {"run", "no/such/scene.json"},
                                                                      {"movie", "x", "--frame", "-3"},
                                                                      {"movie", "x", "--frame", "1", "--live"},
                                                                      {"picture", "x", "--frame", "1", "--time", "2"},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "client/results.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -37,6 +38,16 @@ TEST(ResultRow, FlattensSummaryAndKeepsDottedParameters) {
   EXPECT_EQ(field_text(r, "versions.shaken"), "0.1.0");
   EXPECT_FALSE(r.fields.contains("defects"));
   EXPECT_TRUE(std::isnan(r.number("state")));
+}
+
+// From a table to the files of a run.
+TEST(ResultRow, KnowsWhereItsRunIs) {
+  Json source = row(2.5, 1, 0.75).source;
+  source["directory"] = "/data/runs/1f0c";
+  const ResultRow r = result_row(source);
+  EXPECT_THAT(to_csv({r}, {}), testing::HasSubstr(",directory,"));
+  EXPECT_THAT(to_csv({r}, {}), testing::HasSubstr(",/data/runs/1f0c,"));
+  EXPECT_FALSE(aggregated({r})[0].fields.contains("directory")) << "of several runs there is none";
 }
 
 TEST(ResultRow, NumberWithUnit) {
