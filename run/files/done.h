@@ -13,7 +13,8 @@ namespace shaken::run {
 bool is_done(const RunDirectory& directory, const std::string& run_id = "");
 /// The tick of that end; none if it has not come there.
 std::optional<Tick> done_tick(const RunDirectory& directory, const std::string& run_id);
-/// Whether the run of this plan came to its end there, and went on for as long as the plan asks (scene/length.h).
+/// Whether the run of this plan came to its end there, and went on for as long as the plan asks (scene/length.h),
+/// and its results are still there.
 bool is_done(const RunDirectory& directory, const scene::RunPlan& plan);
 
 }  // namespace shaken::run
