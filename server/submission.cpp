@@ -28,6 +28,7 @@ using nlohmann::json;
 constexpr int kMostReplicas = 10'000;
 constexpr int kMostAtOnce = 1'000'000;
 constexpr int kHighestPriority = 1'000'000;
+constexpr int kDeepest = 16;  // of brackets in a body; the scene in it is a text
 
 const std::vector<std::string> kKeys{"text",         "file",         "settings", "replicas", "name",   "priority",
                                      "soft_limit_s", "time_limit_s", "at_most",  "after",    "stop_if"};
@@ -58,8 +59,31 @@ int integer_of(const json& value, const std::string& key, int least, int most) {
   return value.get<int>();
 }
 
+/// Whether brackets outside of texts are nested deeper than `most`.
+bool nests_deeper_than(std::string_view text, int most) {
+  int depth = 0;
+  bool in_text = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_text && c == '\\') {
+      ++i;
+    } else if (c == '"') {
+      in_text = !in_text;
+    } else if (!in_text && (c == '[' || c == '{') && ++depth > most) {
+      return true;
+    } else if (!in_text && (c == ']' || c == '}')) {
+      --depth;
+    }
+  }
+  return false;
+}
+
 /// The body as an object with no other keys than `known`.
 json parse_object(std::string_view body, const std::vector<std::string>& known) {
+  // A parser needs 80 bytes for each bracket of a body that is nothing else.
+  if (nests_deeper_than(body, kDeepest)) {
+    throw std::invalid_argument("the body is nested more than " + std::to_string(kDeepest) + " deep");
+  }
   json object;
   try {
     object = json::parse(body);

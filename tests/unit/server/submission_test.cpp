@@ -66,6 +66,14 @@ TEST(SubmitRequestTest, WhatIsWrongIsSaidInWords) {
   EXPECT_THAT(refusal(R"({"text": "", "name": "s12"})"), HasSubstr("sweep's id"));
 }
 
+// A parser takes 80 bytes for each bracket: a body of 16 MiB took 1.25 GB.
+TEST(SubmitRequestTest, NothingIsNestedDeeply) {
+  const std::string brackets(1'000'000, '[');
+  EXPECT_EQ(refusal(brackets), "the body is nested more than 16 deep");
+  EXPECT_EQ(refusal(R"({"settings": )" + brackets), "the body is nested more than 16 deep");
+  EXPECT_EQ(refusal(R"({"text": "\"{[{[{[{[{[{[{[{[{[{[", "name": "x"})"), "") << "brackets in a text are none";
+}
+
 TEST(Submission, RodsThatCannotBePlacedAreRefusedAtOnce) {
   SubmitRequest request;
   request.text = R"({"rods": {"area_fraction": 0.915}, "box": {"side": 25}})";
