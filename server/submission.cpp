@@ -110,11 +110,6 @@ std::chrono::milliseconds time_of(const json& value, const std::string& key) {
 
 int priority_of(const json& value) { return integer_of(value, "priority", -kHighestPriority, kHighestPriority); }
 
-std::optional<std::string> name_problem(const std::string& name) {
-  if (sweep_number(name)) return "'" + name + "' could be mistaken for a sweep's id";
-  return scene::name_problem(name);
-}
-
 }  // namespace
 
 SubmitRequest parse_submit_request(std::string_view body) {
@@ -140,7 +135,8 @@ SubmitRequest parse_submit_request(std::string_view body) {
   }
   if (object.contains("name")) {
     request.name = text_of(object["name"], "name");
-    if (const auto problem = name_problem(request.name)) throw std::invalid_argument("\"name\": " + *problem);
+    if (const auto problem = scene::name_problem(request.name)) throw std::invalid_argument("\"name\": " + *problem);
+    if (const auto problem = scene::id_problem(request.name)) throw std::invalid_argument("\"name\": " + *problem);
   }
   return request;
 }
@@ -210,12 +206,14 @@ scene::Loaded<std::string> extended_scene(const std::string& name, const std::st
 }
 
 scene::Loaded<Submission> expand(const SubmitRequest& request, const std::filesystem::path& runs) {
-  const auto sweep = scene::load_runs(request.text, request.file, request.settings, request.replicas);
-  if (!sweep) return sweep.error();
-  Submission submission{request.name.empty() ? sweep->name : request.name, request.priority, request.terms, {}, {}};
-  if (const auto problem = name_problem(submission.name)) {
+  const std::string name = request.name.empty() ? scene::sweep_name(request.text, request.file) : request.name;
+  // before the points, of which there may be many
+  if (const auto problem = scene::id_problem(name)) {
     return std::vector{scene::Problem{request.file, 0, 0, "", *problem + "; submit it with another name"}};
   }
+  const auto sweep = scene::load_runs(request.text, request.file, request.settings, request.replicas);
+  if (!sweep) return sweep.error();
+  Submission submission{name, request.priority, request.terms, {}, {}};
   submission.terms.executor = sweep->executor;
   submission.terms.settings = scene::to_text(sweep->slurm);
   for (const scene::SweepPoint& point : sweep->points) {

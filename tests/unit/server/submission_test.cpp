@@ -107,6 +107,22 @@ TEST(ExpandTest, APlainSceneIsOneJobNamedAfterItsFile) {
   EXPECT_EQ(submission->jobs[0].has_results, false);
 }
 
+// The points of this one would not fit: a name is looked at before there are any.
+TEST(ExpandTest, ANameIsCheckedBeforeThePoints) {
+  const std::string far_too_many = R"({"sweep": {"replicas": 1000000000}})";
+  for (const auto& [text, file] : {std::pair{far_too_many, std::string("s9.json")},
+                                   {R"({"name": "s9", )" + far_too_many.substr(1), std::string("a.json")},
+                                   {far_too_many, std::string("a\nb.json")}}) {
+    SubmitRequest request;
+    request.text = text;
+    request.file = file;
+    const auto refused = expand(request, "/nowhere");
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(scene::to_string(refused.error()),
+                testing::AnyOf(HasSubstr("sweep's id"), HasSubstr("a name has 1 to")));
+  }
+}
+
 TEST(ExpandTest, ANameIsCheckedWhereverItComesFrom) {
   SubmitRequest request;
   request.text = R"({"name": "s12", "scene": {}})";
