@@ -14,9 +14,12 @@
 #include <algorithm>
 #include <atomic>
 #include <cstring>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <thread>
 
+#include "base/process.h"
 #include "tests/support/lazy_server.h"
 #include "tests/unit/server/support.h"
 
@@ -409,6 +412,35 @@ TEST_F(DaemonTest, ALiveStateServerThatTakesNothingDoesNotKeepItFromEnding) {
   }
   shakend.send(SIGTERM);
   EXPECT_EQ(shakend.wait(), 0);
+}
+
+// In a namespace with a disk of its own, which only root may make.
+TEST_F(DaemonTest, ADiskThatIsFullOrCannotBeWrittenIsNamed) {
+  const std::string root = (directory_ / "disk").string();
+  std::filesystem::create_directory(root);
+  const auto start = [&](const std::string& mount) {
+    return run_captured(
+        {"unshare", "-m", "sh", "-c",
+         mount + " && exec " + SHAKEND + " --no-lcm --quiet --root " + root + "/root --worker " + worker_.string()},
+        CaptureLimits{.time = std::chrono::seconds(60)});
+  };
+  if (run_captured({"unshare", "-m", "mount", "-t", "tmpfs", "-o", "size=64k", "none", root}).exit_code != 0) {
+    GTEST_SKIP() << "no disk can be mounted here";
+  }
+  const std::string disk = "mount -t tmpfs -o size=64k none " + root + " && mkdir -m 700 " + root + "/root";
+  const std::string fill = " && { head -c 100000 /dev/zero > " + root + "/rest 2>/dev/null || true; }";
+  for (const std::string before :
+       {"", " && echo 1 > /root/shakend.lock && mkdir /root/runs && : > /root/shakend.log"}) {
+    const std::string prepared = std::regex_replace(before, std::regex(" /root"), " " + root + "/root");
+    const Captured full = start(disk + prepared + fill);
+    EXPECT_EQ(full.exit_code, 1) << full.output;
+    EXPECT_THAT(full.output, HasSubstr("No space left on device")) << before;
+    EXPECT_THAT(full.output, HasSubstr("; make room there")) << before;
+    EXPECT_THAT(full.output, testing::Not(HasSubstr("another shakend")));
+  }
+  const Captured fixed = start(disk + " && mount -o remount,ro " + root);
+  EXPECT_EQ(fixed.exit_code, 1) << fixed.output;
+  EXPECT_THAT(fixed.output, HasSubstr("choose a --root that can be written"));
 }
 
 TEST_F(DaemonTest, WhatCannotStartSaysWhy) {
