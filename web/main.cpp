@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/failure.h"
@@ -95,6 +96,7 @@ void serve(const std::filesystem::path& root, int port, const std::string& lcm_u
   std::printf("open %s\n", address.c_str());
   std::fflush(stdout);
   std::vector<std::unique_ptr<server::HttpServer>> former;  // which may have to answer still
+  std::string last_failure;
   while (!interrupt.interrupted()) {
     interrupt.sleep_for(std::chrono::seconds(1));
     std::erase_if(former, [](const auto& one) { return one->ended_within(std::chrono::milliseconds(0)); });
@@ -104,8 +106,12 @@ void serve(const std::filesystem::path& root, int port, const std::string& lcm_u
     try {
       server = listen_on(served_port);
       std::fprintf(stderr, "shaken-web: the port failed: listening anew\n");
-    } catch (const Failure&) {
-      server.reset();  // in a second again
+      last_failure.clear();
+    } catch (const Failure& failure) {  // in a second again
+      server.reset();
+      if (std::exchange(last_failure, failure.what()) != failure.what()) {
+        std::fprintf(stderr, "shaken-web: %s; trying again each second\n", failure.what());
+      }
     }
   }
   site.close();

@@ -59,6 +59,11 @@ class Submit : public Verb {
   ExitCode run(const Context& context) override {
     if (no_probe_ && !dry_run_) throw Failure(ExitCode::kBadInput, "--no-probe has a meaning with --dry-run only");
     const SceneInput input = read_scene_input(file_);
+    const std::string name = name_.empty() ? scene::sweep_name(input.text, input.file) : name_;
+    if (const auto problem = scene::id_problem(name)) {
+      throw Failure(ExitCode::kBadInput,
+                    fmt::format("{}: {}; choose another one with --name", printable(input.file), printable(*problem)));
+    }
     // Read here as the daemon reads it: mistakes are told even without a daemon, and rods can be counted.
     const scene::Sweep sweep = load_points(input, settings_, replicas_);
     if (dry_run_) {

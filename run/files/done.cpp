@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "run/files/done.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -33,6 +34,16 @@ bool says_done(const Json& summary) {
 Json summary_of_done(const RunDirectory& directory, const std::string& run_id) {
   Json summary = summary_of(directory, run_id);
   return says_done(summary) ? std::move(summary) : Json();
+}
+
+/// Whether the files of results are there that the summary names; those of older versions name none.
+bool has_results(const RunDirectory& directory, const Json& summary) {
+  const auto files = summary.find("files");
+  if (files == summary.end() || !files->is_object()) return true;
+  return std::all_of(files->items().begin(), files->items().end(), [&](const auto& file) {
+    std::error_code ignored;
+    return std::filesystem::exists(directory.root / file.key(), ignored);
+  });
 }
 
 /// None if the summary says nothing of S.
@@ -77,7 +88,7 @@ bool is_done(const RunDirectory& directory, const scene::RunPlan& plan) {
   const Json summary = summary_of_done(directory, "");
   if (summary.is_null() || !summary.contains("run_id") || summary["run_id"] != scene::run_id(plan)) return false;
   const std::optional<Tick> tick = tick_of(summary);
-  return tick && scene::is_long_enough(plan, *tick, order_of(summary));
+  return tick && scene::is_long_enough(plan, *tick, order_of(summary)) && has_results(directory, summary);
 }
 
 }  // namespace shaken::run

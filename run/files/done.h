@@ -16,7 +16,8 @@ std::optional<Tick> done_tick(const RunDirectory& directory, const std::string& 
 /// The simulated time [s] at which run `run_id` came to an end before it was to go on for longer, or its end now; none
 /// if it has not come to one. A summary that a stop has written since then knows it.
 std::optional<double> former_end(const RunDirectory& directory, const std::string& run_id);
-/// Whether the run of this plan came to its end there, and went on for as long as the plan asks (scene/length.h).
+/// Whether the run of this plan came to its end there, and went on for as long as the plan asks (scene/length.h),
+/// and its results are still there.
 bool is_done(const RunDirectory& directory, const scene::RunPlan& plan);
 
 }  // namespace shaken::run

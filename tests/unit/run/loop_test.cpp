@@ -202,6 +202,34 @@ TEST(Run, FinishedRunsAreNotDoneAgain) {
   EXPECT_FALSE(std::filesystem::exists(directory.checkpoint()));
 }
 
+TEST(Run, WhoseResultsAreGoneIsNotDoneAndMakesThemAnew) {
+  const ScratchFolder folder;
+  ASSERT_EQ(run_in(folder.path(), small_plan()).state, RunState::kDone);
+  const RunDirectory directory{folder.path()};
+  for (const auto& file : {directory.observables(), directory.trajectory()}) {
+    const ContentHash before = content_hash(file).value();
+    std::filesystem::remove(file);
+    EXPECT_FALSE(is_done(directory, small_plan()));
+    EXPECT_EQ(run_in(folder.path(), small_plan()).state, RunState::kDone);
+    EXPECT_EQ(content_hash(file).value().size, before.size) << file;
+    EXPECT_TRUE(is_done(directory, small_plan()));
+  }
+}
+
+// A damaged trajectory cannot be gone on from.
+TEST(Run, WhoseTrajectoryIsDamagedIsMadeAnewWhereItsSummaryIsRemoved) {
+  const ScratchFolder folder;
+  ASSERT_EQ(run_in(folder.path(), small_plan()).state, RunState::kDone);
+  const RunDirectory directory{folder.path()};
+  const auto state_hash = summary_in(folder.path())["state_hash"];
+  std::filesystem::resize_file(directory.trajectory(), std::filesystem::file_size(directory.trajectory()) / 2);
+  EXPECT_FALSE(TrajectoryReader::open(directory.trajectory()));
+  std::filesystem::remove(directory.summary());
+  EXPECT_EQ(run_in(folder.path(), small_plan()).state, RunState::kDone);
+  EXPECT_EQ(summary_in(folder.path())["state_hash"], state_hash);
+  EXPECT_TRUE(TrajectoryReader::open(directory.trajectory()));
+}
+
 /// Leaves a run stopped with two checkpoints; returns their folder.
 void stop_twice(const ScratchFolder& folder) {
   run_with_stops(folder.path(), small_plan(), {0.1, 0.2});

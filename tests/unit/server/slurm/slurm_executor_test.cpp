@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include "server/slurm/command.h"
 #include "tests/unit/server/support.h"
 
 namespace shaken::server::slurm {
@@ -109,6 +110,17 @@ TEST_F(SlurmExecutorTest, WorkersGoOutPackedAsOneArray) {
   ASSERT_TRUE(
       step_until(executor, [&] { return executor.poll(workers[0]).words == "waits as Slurm job 7_0 (Priority)"; }));
   EXPECT_EQ(executor.poll(workers[2]).words, "waits as Slurm job 7_1 (Priority)");
+}
+
+// What a program of Slurm says is kept in memory.
+TEST(Command, OneThatSaysTooMuchIsEnded) {
+  for (const char* says : {"yes", "head -c 50000000 /dev/zero"}) {
+    auto command = Command::start({"sh", "-c", says}, "/", std::chrono::hours(1)).value();
+    std::optional<Captured> end;
+    ASSERT_TRUE(eventually([&] { return (end = command.poll()).has_value(); }, std::chrono::seconds(60))) << says;
+    EXPECT_NE(end->exit_code, 0) << says;
+    EXPECT_EQ(end->output, "has said more than 32 MiB");
+  }
 }
 
 TEST_F(SlurmExecutorTest, WhatWaitsInSlurmIsBounded) {
