@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "base/failure.h"
@@ -51,9 +52,31 @@ std::vector<double> cell_borders(const std::vector<double>& places) {
   return borders;
 }
 
-std::string curve_data(const Curve& curve, const std::string& fallback) {
-  std::string text = fmt::format("# {}\n# x  y{}{}\n", curve.label.empty() ? fallback : curve.label,
-                                 has_errors(curve) ? "  y_error" : "", curve.unsteady.empty() ? "" : "  unsteady");
+/// The title of an axis without gnuplot's marks: "{/Symbol q}_m (degrees)" is "θ_m (degrees)".
+std::string plain(std::string title) {
+  static constexpr std::pair<std::string_view, const char*> kSymbols[] = {
+      {"{/Symbol a}", "α"}, {"{/Symbol d}", "δ"}, {"{/Symbol D}", "Δ"},   {"{/Symbol f}", "φ"},
+      {"{/Symbol G}", "Γ"}, {"{/Symbol l}", "λ"}, {"{/Symbol q}", "θ"},   {"{/Symbol t}", "τ"},
+      {"{/Symbol y}", "ψ"}, {"{/Symbol m}", "µ"}, {"{/Symbol dq}", "δθ"}, {" ± standard error", ""},
+      {"{/Symbol p}", "π"}, {"{/Symbol S}", "Σ"}, {"{/Symbol r}", "ρ"},   {"\n", " "}};
+  for (const auto& [marked, text] : kSymbols) {
+    for (std::size_t at = title.find(marked); at != std::string::npos; at = title.find(marked, at)) {
+      title.replace(at, marked.size(), text);
+    }
+  }
+  return title;
+}
+
+/// "# time t (s); nematic order S; standard error": the columns of `figure`'s curves.
+std::string column_names(const Figure& figure, const Curve& curve) {
+  return fmt::format("# {}; {}{}{}\n", figure.x_title.empty() ? "x" : plain(figure.x_title),
+                     figure.y_title.empty() ? "y" : plain(figure.y_title), has_errors(curve) ? "; standard error" : "",
+                     curve.unsteady.empty() ? "" : "; 1 where not known to be steady");
+}
+
+std::string curve_data(const Figure& figure, const Curve& curve) {
+  std::string text =
+      fmt::format("# {}\n", curve.label.empty() ? figure.name : curve.label) + column_names(figure, curve);
   bool any = false;
   for (std::size_t k = 0; k < curve.x.size(); ++k) {
     if (!std::isfinite(curve.x[k]) || !std::isfinite(curve.y[k])) continue;
@@ -69,8 +92,11 @@ std::string curve_data(const Curve& curve, const std::string& fallback) {
 }
 
 /// A line for each cell, with its borders: grids need not be even.
-std::string map_data(const Map& map) {
-  std::string text = "# x  y  value  x_low  x_high  y_low  y_high\n";
+std::string map_data(const Figure& figure) {
+  const Map& map = *figure.map;
+  std::string text = fmt::format("# {}; {}; value; lower and upper border of the first; of the second\n",
+                                 figure.x_title.empty() ? "x" : plain(figure.x_title),
+                                 figure.y_title.empty() ? "y" : plain(figure.y_title));
   bool any = false;
   const std::vector<double> x = cell_borders(map.x), y = cell_borders(map.y);
   for (std::size_t j = 0; j < map.y.size(); ++j) {
@@ -229,10 +255,10 @@ std::string plot_commands(const Figure& figure, const std::string& data_file, st
 
 std::string figure_data(const Figure& figure) {
   std::string text;
-  if (has_map(figure)) text += map_data(*figure.map);
+  if (has_map(figure)) text += map_data(figure);
   for (const Curve& curve : figure.curves) {
     if (!text.empty()) text += "\n\n";
-    text += curve_data(curve, figure.name);
+    text += curve_data(figure, curve);
   }
   return text;
 }
@@ -243,7 +269,7 @@ std::string figure_script(const Figure& figure, PictureFormat format) {
 }
 
 std::filesystem::path draw(const Figure& figure, const std::filesystem::path& folder, PictureFormat format) {
-  return draw_plot(folder, figure.name, figure_data(figure), figure_script(figure, format), format);
+  return draw_plot(folder, figure.name, figure_data(figure), figure_script(figure, format), format, figure.origin);
 }
 
 std::filesystem::path draw(const Sheet& original, const std::filesystem::path& folder) {
@@ -277,7 +303,7 @@ std::filesystem::path draw(const Sheet& original, const std::filesystem::path& f
     block += n_blocks(panel);
   }
   script += "unset multiplot\n";
-  return draw_plot(folder, sheet.name, data, script);
+  return draw_plot(folder, sheet.name, data, script, PictureFormat::kPng, sheet.origin);
 }
 
 }  // namespace shaken

@@ -47,10 +47,11 @@ struct Figure {
   std::string title{};              ///< above the plot
   std::optional<Map> map{};         ///< below the curves
   std::filesystem::path picture{};  ///< a PNG to show in place of a plot
+  PlotOrigin origin{};              ///< what it is made from; said in its files. That of a panel is not used
 };
 
-/// The data: one block per curve, as gnuplot's `index` counts them, with its label and columns in comments. Points that
-/// are not finite are left out.
+/// The data: one block per curve, as gnuplot's `index` counts them, with its label in a comment and in another what its
+/// columns are, with units. Points that are not finite are left out.
 std::string figure_data(const Figure& figure);
 /// The gnuplot script: run in its folder, it reads NAME.dat and writes NAME.png (.pdf, .svg).
 std::string figure_script(const Figure& figure, PictureFormat format = PictureFormat::kPng);
@@ -65,6 +66,7 @@ struct Sheet {
   std::string title{};
   int columns = 2;
   std::vector<Figure> panels{};  ///< their names are not used
+  PlotOrigin origin{};           ///< what it is made from; said in its files
 };
 
 /// Draws NAME.dat, NAME.gp and NAME.png into `folder`; pictures of panels are copied beside them. Returns the path of

@@ -45,6 +45,15 @@ Result<void> without_date(const std::filesystem::path& file) {
   return write_file(file, *content);
 }
 
+/// Writes into the picture what it is made from.
+Result<void> sign(const std::filesystem::path& file, PictureFormat format, const PlotOrigin& origin) {
+  if (format == PictureFormat::kPdf || origin.empty()) return {};
+  Result<std::string> content = read_file(file);
+  if (!content) return content.error();
+  return write_file(file, format == PictureFormat::kPng ? png_with(*std::move(content), origin)
+                                                        : svg_with(*std::move(content), origin));
+}
+
 struct RemovedAtEnd {
   std::vector<std::filesystem::path> files;
   ~RemovedAtEnd() {
@@ -110,10 +119,11 @@ std::string curve_colour(std::size_t index, std::size_t count) {
 }
 
 std::filesystem::path draw_plot(const std::filesystem::path& folder, const std::string& name, const std::string& data,
-                                const std::string& script, PictureFormat format) {
+                                const std::string& script, PictureFormat format, const PlotOrigin& origin) {
   done_or_fail(make_folder(folder));
-  done_or_fail(write_file_atomically(folder / (name + ".dat"), data));
-  done_or_fail(write_file_atomically(folder / (name + ".gp"), script));
+  const std::string head = as_comments(origin);
+  done_or_fail(write_file_atomically(folder / (name + ".dat"), head + data));
+  done_or_fail(write_file_atomically(folder / (name + ".gp"), head + script));
   // What gnuplot reads and writes has names of its own: others may draw a picture of this name at the same time.
   const std::string picture_name = name + "." + suffix_of(format);
   std::filesystem::path picture = folder / picture_name;
@@ -138,6 +148,7 @@ std::filesystem::path draw_plot(const std::filesystem::path& folder, const std::
     throw Failure(ExitCode::kFailed, fmt::format("gnuplot did not draw {} (exit code {}): {}", picture.string(),
                                                  gnuplot.exit_code, gnuplot.output));
   }
+  done_or_fail(sign(own_picture, format, origin));
   if (format == PictureFormat::kPdf) done_or_fail(without_date(own_picture));
   done_or_fail(replace_file(own_picture, picture));
   return picture;

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <string>
 
+#include "base/plot_origin.h"
+
 namespace shaken {
 
 /// What a picture is written as: for the screen, for a paper, for the web or a drawing program.
@@ -30,9 +32,11 @@ std::string gnuplot_literal(const std::string& text);
 
 /// Colour of curve `index` of `count`, "#rrggbb": along viridis without its palest end, so that order shows.
 std::string curve_colour(std::size_t index, std::size_t count);
-/// Writes NAME.dat and NAME.gp into `folder`, which is made if need be, and has gnuplot draw NAME.png (.pdf, .svg).
-/// Returns the picture's path. Throws Failure with gnuplot's words if it cannot be drawn; the two files stay.
+/// Writes NAME.dat and NAME.gp into `folder`, which is made if need be, and has gnuplot draw NAME.png (.pdf, .svg). All
+/// but a PDF, in which there is no place for it, say what they are made from. Returns the picture's path. Throws
+/// Failure with gnuplot's words if it cannot be drawn; the two files stay.
 std::filesystem::path draw_plot(const std::filesystem::path& folder, const std::string& name, const std::string& data,
-                                const std::string& script, PictureFormat format = PictureFormat::kPng);
+                                const std::string& script, PictureFormat format = PictureFormat::kPng,
+                                const PlotOrigin& origin = {});
 
 }  // namespace shaken

@@ -105,6 +105,7 @@ std::vector<CheckResult> checkup(const fs::path& root) {
           check_sibling("shaken-worker", Level::kFail, "for every run"),
           check_sibling("shaken-web", Level::kWarn, "for the page in a browser"),
           check_sibling("shaken-render", Level::kWarn, "for pictures and movies (OSMesa)"),
+          check_sibling("shaken-bench", Level::kWarn, "for `shaken bench`"),
           check_daemon(root),
           check_lcm(),
           check_gnuplot(),

@@ -27,7 +27,7 @@ Environment:
   SHAKEN_ROOT      the daemon's root directory
   LCM_DEFAULT_URL  the bus of the live state
   NO_COLOR         no colours
-`shaken VERB --help` tells more.)";
+`shaken VERB --help` (or `shaken help VERB`) tells more.)";
 
 std::vector<std::string> verb_names(const Verbs& verbs) {
   std::vector<std::string> names;
@@ -78,6 +78,12 @@ CommandLine::CommandLine(Verbs verbs)
 CommandLine::~CommandLine() = default;
 
 Verb* CommandLine::parse(std::vector<std::string> arguments, Console& console) {
+  if (!arguments.empty() && arguments.front() == "help") {  // `help run` is `run --help`
+    arguments.erase(arguments.begin());
+    const std::vector<std::string> verbs = verb_names(verbs_);
+    const bool is_known = arguments.empty() || std::find(verbs.begin(), verbs.end(), arguments.front()) != verbs.end();
+    if (is_known) arguments.emplace_back("--help");
+  }
   std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants a vector
   try {
     app_->parse(arguments);

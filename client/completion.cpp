@@ -18,8 +18,7 @@ std::string offer(const std::string& words) {
 
 /// What `shaken completion WHAT` prints, and directories if asked for.
 std::string ask(const char* what, bool with_folders = false) {
-  return fmt::format("COMPREPLY=($(compgen -W \"$(shaken completion {} 2>/dev/null)\" -- \"$word\"){})", what,
-                     with_folders ? " $(compgen -d -- \"$word\")" : "");
+  return fmt::format("_shaken_names {}{}", what, with_folders ? "; COMPREPLY+=($(compgen -d -- \"$word\"))" : "");
 }
 
 std::string in_a_row(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, " ")); }
@@ -137,6 +136,15 @@ _shaken_program() {{
   _shaken_help "$1" "${{sub[@]}}"
 }}
 complete -o filenames -F _shaken_program shakend shaken-render shaken-worker shaken-web
+
+# What the program lists under $1 (ids, jobs, ...), a line each, which nothing expands: a name may have blanks, which bash then escapes.
+_shaken_names() {{
+  local id typed=${{word//\\/}}
+  typed=${{typed#[\"\']}}
+  while IFS= read -r id; do
+    if [[ $id == "$typed"* ]]; then COMPREPLY+=("$id"); fi
+  done < <(shaken completion "$1" 2>/dev/null)
+}}
 
 _shaken() {{
   local word=${{COMP_WORDS[COMP_CWORD]}} previous=${{COMP_WORDS[COMP_CWORD-1]}} verb= i

@@ -43,6 +43,7 @@ ExitCode run_program(const std::vector<std::string>& arguments, Console& console
     console.out << json_text(Json{{"error", message}, {"exit_code", static_cast<int>(code)}});
   }
   console.out.flush();
+  message.erase(message.find_last_not_of('\n') + 1);  // lists of problems end each with one
   if (!message.empty()) console.err << "shaken: " << printable(message, Lines::kMany) << "\n";
   // The reader of a pipe has gone: say nothing, but do not claim success.
   if (!console.out.good() && code == ExitCode::kOk) code = ExitCode::kFailed;

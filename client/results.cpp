@@ -152,21 +152,6 @@ bool still_relaxes(const ResultRow& row, const std::string& field) {
   return steadiness(row, field) == Steadiness::kRelaxing;
 }
 
-const char* mark_of(Steadiness steadiness) {
-  return steadiness == Steadiness::kRelaxing ? "~" : steadiness == Steadiness::kNotKnown ? "?" : "";
-}
-
-const char* meaning_of(Steadiness steadiness) {
-  switch (steadiness) {
-    case Steadiness::kRelaxing:
-      return "still relaxing: no steady state yet, run it longer (-s time.measure=...)";
-    case Steadiness::kNotKnown:
-      return "too short to tell whether it is steady: its error holds the drift, run it longer (-s time.measure=...)";
-    default:
-      return "";
-  }
-}
-
 std::optional<std::string> field_named(std::span<const std::string> names, const std::string& word) {
   const auto is_there = [&](const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
@@ -183,11 +168,31 @@ std::optional<std::string> field_named(std::span<const std::string> names, const
   return std::nullopt;
 }
 
+namespace {
+
+/// The field that `word` is a slip of, by its short name if it has one: "dip" of "measured.dip.value". Else the first
+/// that begins with it, as `theta_m_deg` does with "theta_m".
+std::string nearest_field(const std::string& word, const std::vector<std::string>& names) {
+  constexpr std::string_view kBefore = "measured.", kAfter = ".value";
+  std::vector<std::string> candidates;
+  for (const std::string& name : names) {
+    const bool is_measured = name.starts_with(kBefore) && name.ends_with(kAfter);
+    candidates.push_back(is_measured ? name.substr(kBefore.size(), name.size() - kBefore.size() - kAfter.size())
+                                     : name);
+  }
+  if (std::string nearest = scene::nearest(word, candidates); !nearest.empty()) return nearest;
+  const auto begins = std::find_if(candidates.begin(), candidates.end(),
+                                   [&](const std::string& name) { return word.size() > 2 && name.starts_with(word); });
+  return begins != candidates.end() ? *begins : "";
+}
+
+}  // namespace
+
 std::string resolved_field(const std::vector<ResultRow>& rows, const std::string& word) {
   const std::vector<std::string> names = field_names(rows);
   if (const auto field = field_named(names, word)) return *field;
   throw Failure(ExitCode::kBadInput,
-                fmt::format("no row has a field '{}'{}", word, scene::did_you_mean(scene::nearest(word, names))));
+                fmt::format("no row has a field '{}'{}", word, scene::did_you_mean(nearest_field(word, names))));
 }
 
 double ResultRow::number(const std::string& field) const {

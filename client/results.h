@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/steadiness.h"
 #include "client/api_client.h"
 #include "client/json.h"
 #include "client/replicas.h"
@@ -80,18 +81,11 @@ std::string own_error_field(const std::string& field);
 /// Standard error of `field` in a row, aggregated or not; NaN where it is not known.
 double standard_error(const ResultRow& row, const std::string& field);
 
-/// Of what kind of time an average is.
-enum class Steadiness {
-  kSteady,    ///< a steady state, or the field is no average over time
-  kRelaxing,  ///< one in which the run still relaxed: its own "steady" is false, or is not known and the run's is false
-  kNotKnown,  ///< the run is too short to tell
-};
+/// Of what kind of time the average `field` is: its own "steady" tells, or the run's where its own is null. kSteady if
+/// the field is no average over time.
 Steadiness steadiness(const ResultRow& row, const std::string& field);
 /// kRelaxing.
 bool still_relaxes(const ResultRow& row, const std::string& field);
-/// The mark before a value, "~" or "?", and what it means; empty for kSteady.
-const char* mark_of(Steadiness steadiness);
-const char* meaning_of(Steadiness steadiness);
 
 /// The field that `word` means: itself, "measured.WORD.value", "order.mean" where it is "S", or the error of such a
 /// field where `word` is "WORD.sem" or "WORD:sem". A field that is null in every row is there all the same. Throws

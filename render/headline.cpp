@@ -25,7 +25,7 @@ constexpr std::pair<std::string_view, const char*> kSymbols[] = {
     {"plates.frequency", "f"},
     {"plates.amplitude", "A"},
     {"box.side", "L"},
-    {"box.gap", "h"},
+    {"box.gap", "w"},
     {"time.step", "dt"},
 };
 

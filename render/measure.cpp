@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -66,14 +67,14 @@ std::vector<double> densities(const RodPicture& picture, double width) {
 void measure(RodPicture& picture, const Asked& asked) {
   const std::vector<Vec3> directors = picture.first_directors();
   const analysis::NematicOrder mean = analysis::nematic_order(directors);
-  picture.order = mean.order;
+  picture.order = picture.has_axes() ? mean.order : std::numeric_limits<double>::quiet_NaN();
   picture.director_angle = mean.director;
   picture.defects.clear();
   picture.field.reset();
   picture.density.clear();
   const double length = picture.rod_length();
   if (asked.density) picture.density = densities(picture, length / 2);
-  if (!(asked.defects || asked.field) || directors.empty()) return;
+  if (!(asked.defects || asked.field) || directors.empty() || !picture.has_axes()) return;
   std::vector<Vec3> positions;
   for (std::size_t i = 0; i < picture.n_rods(); ++i) {
     if (picture.species_of(i) == 0) positions.push_back(picture.position[i]);

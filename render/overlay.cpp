@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "render/colourings.h"
 #include "render/curve.h"
@@ -51,7 +52,7 @@ void draw_label(const Canvas& canvas, const Layout& layout, const RodPicture& pi
   canvas.text(layout.label.x, layout.label.y + 34 * u, picture.subtitle, 13 * u);
 }
 
-/// Six numbers in two rows, each under its name.
+/// Six numbers in two rows, each under its name; five of spheres, which have no S.
 void draw_numbers(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const Palette& colours) {
   const double u = layout.unit;
   const Rect& place = layout.numbers;
@@ -61,24 +62,27 @@ void draw_numbers(const Canvas& canvas, const Layout& layout, const RodPicture& 
   };
   // In slow motion the last digit should be seen to move.
   const int digits = picture.playback > 0 && picture.playback < 0.05 ? 4 : 2;
-  const Number numbers[] = {{"time", fmt::format("{:.{}f} s", picture.time, digits)},
-                            {"order S", fmt::format("{:.3f}", picture.order)},
-                            {"rods", fmt::format("{}", picture.n_rods())},
-                            {"rod length", fmt::format("{:.4g} mm", picture.rod_length())},
-                            {"packing \u03c6", fmt::format("{:.2f}", picture.area_fraction())},
-                            {"gap", fmt::format("{:.4g} mm", picture.gap)}};
+  const bool has_axes = picture.has_axes();
+  std::vector<Number> numbers{{"time", fmt::format("{:.{}f} s", picture.time, digits)}};
+  if (has_axes) numbers.push_back({"order S", fmt::format("{:.3f}", picture.order)});
+  numbers.push_back({has_axes || picture.n_species() > 1 ? "rods" : "spheres", fmt::format("{}", picture.n_rods())});
+  numbers.push_back({has_axes ? "rod length" : "diameter", fmt::format("{:.4g} mm", picture.rod_length())});
+  numbers.push_back({"packing \u03c6", fmt::format("{:.2f}", picture.area_fraction())});
+  numbers.push_back({"gap", fmt::format("{:.4g} mm", picture.gap)});
   // Three columns where they fit, otherwise two.
-  const int columns = place.width >= 240 * u ? 3 : 2, rows = 6 / columns;
+  const int n = static_cast<int>(numbers.size());
+  const int columns = place.width >= 240 * u ? 3 : 2, rows = (n + columns - 1) / columns;
   const double shrink = std::min(1.0, place.width / (columns * 100 * u));
   const double pitch = std::min(58 * u, (place.height + 12 * u) / rows);
-  for (int i = 0; i < 6; ++i) {
+  for (int i = 0; i < n; ++i) {
+    const Number& number = numbers[static_cast<std::size_t>(i)];
     const double x = place.x + (i % columns) * place.width / columns;
     const int row = i / columns;
     const double y = place.y + row * pitch;
     canvas.colour(colours.faint);
-    canvas.text(x, y + 11 * u, numbers[i].name, 12 * u * shrink);
+    canvas.text(x, y + 11 * u, number.name, 12 * u * shrink);
     canvas.colour(colours.ink);
-    canvas.text(x, y + (11 + 22 * shrink) * u, numbers[i].value, 20 * u * shrink);
+    canvas.text(x, y + (11 + 22 * shrink) * u, number.value, 20 * u * shrink);
   }
 }
 

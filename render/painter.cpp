@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "render/painter.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -31,6 +32,18 @@ const RodPicture& panel_of(const RodPicture& picture, std::size_t i) {
   return i == 0 ? picture : picture.beside[i - 1];
 }
 
+/// Of bodies without axes there is no director field: no defects, lines, order in the background, plots of angles or S.
+PictureStyle drawable(PictureStyle style, const RodPicture& picture) {
+  const bool any = picture.has_axes() || std::any_of(picture.beside.begin(), picture.beside.end(),
+                                                     [](const RodPicture& other) { return other.has_axes(); });
+  if (any) return style;
+  style.mark_defects = false;
+  style.lines = FieldLines::kNone;
+  if (style.background == Background::kOrder) style.background = PictureStyle{}.background;
+  if (style.inset != Inset::kSweep) style.inset = Inset::kNone;
+  return style;
+}
+
 Result<void> check(const PictureStyle& style, const RodPicture& picture) {
   if (auto done = render::check(style); !done) return done.error();
   if (!picture.beside.empty() && style.view == ViewPoint::kGap) {
@@ -55,9 +68,10 @@ Result<Painter> Painter::create() {
 template <class Channel>
 Result<ImageOf<Channel>> Painter::paint(const RodPicture& picture, const PictureStyle& style) {
   if (auto done = check(style, picture); !done) return done.error();
-  Sheet<Channel> sheet(style.width, style.height, palette(style.theme).page);
+  const PictureStyle drawn = drawable(style, picture);
+  Sheet<Channel> sheet(drawn.width, drawn.height, palette(drawn.theme).page);
   const Result<void> done =
-      picture.beside.empty() ? paint_one(sheet, picture, style) : paint_panels(sheet, picture, style);
+      picture.beside.empty() ? paint_one(sheet, picture, drawn) : paint_panels(sheet, picture, drawn);
   if (!done) return done.error();
   return sheet.image();
 }
@@ -106,7 +120,8 @@ Result<void> Painter::paint_panels(Sheet<Channel>& sheet, const RodPicture& pict
   return {};
 }
 
-Result<void> write_vector(const std::filesystem::path& file, const RodPicture& picture, const PictureStyle& style) {
+Result<void> write_vector(const std::filesystem::path& file, const RodPicture& picture, const PictureStyle& asked) {
+  const PictureStyle style = drawable(asked, picture);
   if (auto done = check(style, picture); !done) return done.error();
   if (style.view != ViewPoint::kTop) return Error{"only views from above can be drawn as " + file.extension().string()};
   const std::filesystem::path unfinished = temporary_for(file);

@@ -84,7 +84,9 @@ void draw_panel_words(const Canvas& canvas, const Layout& layout, const RodPictu
   if (!style.caption) return;
   canvas.colour(palette(style.theme).ink);
   canvas.text(layout.scale_bar.right(), layout.scale_bar.bottom(),
-              (with_time ? fmt::format("t = {:.2f} s, ", picture.time) : "") + fmt::format("S = {:.3f}", picture.order),
+              fmt::format("{}{}{}", with_time ? fmt::format("t = {:.2f} s", picture.time) : "",
+                          with_time && picture.has_axes() ? ", " : "",
+                          picture.has_axes() ? fmt::format("S = {:.3f}", picture.order) : ""),
               14 * layout.unit, Canvas::Align::kRight);
 }
 

@@ -75,7 +75,7 @@ struct RodPicture {
   std::vector<Vec2> displacement;
 
   // Of the rods of the first species.
-  double order = 0;           ///< S, nematic order in the plane
+  double order = 0;           ///< S, nematic order in the plane; NaN where there are no axes
   double director_angle = 0;  ///< of the nematic director N, against the x axis [rad]
   std::vector<analysis::Defect> defects;
   std::vector<DefectTrail> tracks;                       ///< of the defects of now and of shortly before
@@ -103,6 +103,8 @@ struct RodPicture {
   const BeadRow& beads_of(std::size_t species) const { return species == 0 ? beads : added[species - 1]; }
   /// Rods of one species.
   std::size_t count(std::size_t species) const;
+  /// Whether the rods of the first species have axes: spheres have none, and no order, director or defects.
+  bool has_axes() const { return beads.offset.size() > 1; }
   /// The directors of the rods of the first species, which order and colours are about.
   std::vector<Vec3> first_directors() const;
   /// Tip to tip, of the first species [mm].

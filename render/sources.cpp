@@ -213,6 +213,7 @@ std::optional<MovieRequest> TrajectorySource::movie_request() const {
 }
 
 Result<void> TrajectorySource::read_history() {
+  if (reader_.header().bead_offset.size() < 2) return {};  // spheres have no S
   constexpr std::size_t kMostPoints = 400;
   const std::size_t last = n_frames() - 1, points = std::min(kMostPoints, last + 1);
   OrderHistory history;

@@ -5,9 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
+#include "base/steadiness.h"
 #include "base/text.h"
 #include "run/files/directory.h"
+#include "run/files/observables_file.h"
 
 namespace shaken::run {
 namespace {
@@ -34,17 +38,41 @@ std::string order_text(const Json& summary) {
   const double n_effective = number(order, "n_effective");
   text += fmt::format(", from {:.3g} s on", number(order, "t_steady_s"));
   if (n_effective > 0) text += fmt::format(", {:.3g} independent samples", n_effective);
-  const Json steady = summary.value("steady", Json());
-  if (steady == true) return text + ": steady\n";
-  text +=
-      steady == false ? "\nSTILL RELAXING: this is no steady state yet" : "\nNOT KNOWN whether this is a steady state";
-  if (const std::string why = order.value("why_not_steady", ""); !why.empty()) text += ": " + why;
+  const Json known = summary.value("steady", Json());
+  const Steadiness steadiness = steadiness_of(known.is_boolean() ? std::optional(known.get<bool>()) : std::nullopt);
+  if (steadiness == Steadiness::kSteady) return text + ": steady\n";
+  const std::string why = order.value("why_not_steady", "");
+  text += fmt::format("\n{} {}", mark_of(steadiness), why.empty() ? word_of(steadiness) : why);
   const auto drift = order.find("drift");
   if (number(order, "sem") > 0 && drift != order.end() && std::isfinite(number(*drift, "value"))) {
     text += fmt::format("\n(the error holds the change of S from the first half of that time to the second, {})",
                         with_error(number(*drift, "value"), number(*drift, "sem")));
   }
   return text + fmt::format("\nRun longer, for example -s time.measure={:.3g}\n", 4 * number(summary, "sim_seconds"));
+}
+
+/// "curves: S(t), P(theta)": those that were measured, in the words that most people have for them.
+std::string curves_of(const std::filesystem::path& file) {
+  static constexpr std::pair<const char*, const char*> kCurves[] = {{"/order/order", "S(t)"},
+                                                                    {"/angles/density_per_rad", "P(theta)"},
+                                                                    {"/tilt/density", "P(n_z)"},
+                                                                    {"/g2/g2", "G2(r)"},
+                                                                    {"/g2/g", "g(r)"},
+                                                                    {"/pairs/g", "g(x, y)"},
+                                                                    {"/msd/total_mm2", "MSD"},
+                                                                    {"/velocity/c_v", "C_v"},
+                                                                    {"/rotation/c2", "C_2"},
+                                                                    {"/structure/factor", "S(q)"},
+                                                                    {"/defects/n_plus", "defects"},
+                                                                    {"/layers/spectrum_across", "layers"},
+                                                                    {"/fluctuations/std_n", "number fluctuations"}};
+  const Result<Observables> arrays = read_observables(file);
+  if (!arrays) return "curves";
+  std::string names;
+  for (const auto& [path, name] : kCurves) {
+    if (arrays->contains(path)) names += (names.empty() ? "curves: " : ", ") + std::string(name);
+  }
+  return names.empty() ? "curves" : names;
 }
 
 }  // namespace
@@ -59,7 +87,7 @@ std::string describe_ending(const Json& summary, const std::filesystem::path& di
     if (std::filesystem::exists(file)) text += fmt::format("  {:<16}{}\n", file.filename().string(), what);
   };
   list(files.summary(), "all numbers, with their errors");
-  list(files.observables(), "curves: S(t), P(theta), ...");
+  list(files.observables(), curves_of(files.observables()).c_str());
   list(files.recorded(), "every rod, frame by frame");
   list(files.movie(), "the film");
   text += fmt::format("next: shaken plot {}", directory.string());

@@ -100,7 +100,7 @@ class Loop {
     progress_.sim_time = run_.simulation.time();
     progress_.sim_rate = rate_.rate();
     progress_.eta = state == "running" ? rate_.eta(progress_.sim_time_total) : -1.0;
-    progress_.order = order_of(run_.simulation.snapshot(), species_if_several(run_.simulation.world())).order;
+    progress_.order = order_of(run_.simulation.world(), run_.simulation.snapshot()).order;
     progress_.order_running_mean = run_.measurements.order_running_mean();
     progress_.max_overlap = run_.simulation.world().counters.max_overlap();
     if (auto done = write_progress(directory_.progress(), progress_); !done) spdlog::warn("{}", done.error().message);
@@ -176,9 +176,7 @@ class Loop {
     return {};
   }
 
-  void publish_frame(const Snapshot& snapshot) {
-    publisher_->offer(make_frame(snapshot, species_if_several(run_.simulation.world())));
-  }
+  void publish_frame(const Snapshot& snapshot) { publisher_->offer(make_frame(run_.simulation.world(), snapshot)); }
 
   void publish_observables(WallClock::time_point now) {
     if (!publisher_ || !observables_pacer_.take(now)) return;
@@ -212,6 +210,7 @@ class Loop {
     summary.balance = balance(world);
     summary.t_steady = reduction.t_steady;
     summary.order = reduction.order;
+    summary.has_axis = has_axis(world);
     summary.scalars = reduction.scalars;
     if (reduction.defects) {
       summary.defects_mean_plus = reduction.defects->n_plus;

@@ -2,13 +2,32 @@
 #include "run/measurements.h"
 
 #include <algorithm>
+#include <limits>
+#include <regex>
+#include <string>
 #include <utility>
 
 namespace shaken::run {
+namespace {
+
+/// Takes out what measurements of spheres say of axes (MeasurementKind::of_axis), with its errors.
+void leave_out_axes(Reduction& result) {
+  static const std::regex kError("_sem");
+  for (const MeasurementKind& kind : measurement_kinds()) {
+    for (const std::string_view name : kind.of_axis) {
+      result.scalars.erase(std::string(name));
+      std::erase_if(result.arrays, [path = "/" + std::string(kind.name) + "/" + std::string(name)](const auto& array) {
+        return std::regex_replace(array.first, kError, "") == path;
+      });
+    }
+  }
+}
+
+}  // namespace
 
 Measurements::Measurements(const scene::RunPlan& plan, const Species& species,
                            std::span<const std::uint8_t> species_of_rod)
-    : steady_(plan.steady) {
+    : steady_(plan.steady), has_axis_(plan.system.rod.has_axis()) {
   if (std::any_of(species_of_rod.begin(), species_of_rod.end(), [](std::uint8_t kind) { return kind != 0; })) {
     for (std::size_t i = 0; i < species_of_rod.size(); ++i) {
       if (species_of_rod[i] == 0) measured_.push_back(i);
@@ -54,7 +73,9 @@ void Measurements::sample(const Snapshot& snapshot) {
   }
 }
 
-double Measurements::order_running_mean() const { return order_ != nullptr ? order_->series().running_mean() : 0.0; }
+double Measurements::order_running_mean() const {
+  return order_ != nullptr ? order_->series().running_mean() : std::numeric_limits<double>::quiet_NaN();
+}
 
 const DefectSample* Measurements::last_defects() const {
   return defects_ != nullptr && defects_->last() ? &*defects_->last() : nullptr;
@@ -68,6 +89,7 @@ Reduction Measurements::reduce(double sim_seconds) const {
     result.t_steady = result.order->t_steady;
   }
   for (const Timed& timed : timed_) timed.measurement->reduce(result);
+  if (!has_axis_) leave_out_axes(result);
   for (const MeasurementKind& kind : measurement_kinds()) {
     for (const Output& number : kind.numbers) {
       const auto scalar = result.scalars.find(std::string(number.name));

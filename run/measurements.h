@@ -59,6 +59,7 @@ class Measurements {
 
   std::vector<std::size_t> measured_;  // rods of the first species, where there are others; or empty
   std::optional<double> steady_;
+  bool has_axis_ = true;  ///< of the rods that are measured
   std::vector<Timed> timed_;
   const MeasuredOrder* order_ = nullptr;      // one of timed_, or null
   const MeasuredDefects* defects_ = nullptr;  // the same

@@ -2,6 +2,7 @@
 #include "run/messages.h"
 
 #include <cmath>
+#include <limits>
 
 #include "analysis/order.h"
 #include "sim/balance.h"
@@ -17,6 +18,11 @@ void append(std::vector<double>& all, const std::vector<double>& more) {
 
 }  // namespace
 
+analysis::NematicOrder order_of(const World& world, const Snapshot& snapshot) {
+  if (!has_axis(world)) return {.order = std::numeric_limits<double>::quiet_NaN(), .director = 0};
+  return order_of(snapshot, species_if_several(world));
+}
+
 analysis::NematicOrder order_of(const Snapshot& snapshot, std::span<const std::uint8_t> species_of_rod) {
   if (species_of_rod.empty()) return analysis::nematic_order(snapshot.director);
   std::vector<Vec3> directors;
@@ -31,8 +37,13 @@ std::span<const std::uint8_t> species_if_several(const World& world) {
   return {};
 }
 
-proto::Frame make_frame(const Snapshot& snapshot, std::span<const std::uint8_t> species_of_rod) {
-  const analysis::NematicOrder order = order_of(snapshot, species_of_rod);
+bool has_axis(const World& world) { return world.species.front().n_beads() > 1; }
+
+proto::Frame make_frame(const World& world, const Snapshot& snapshot) {
+  return make_frame(snapshot, order_of(world, snapshot));
+}
+
+proto::Frame make_frame(const Snapshot& snapshot, const analysis::NematicOrder& order) {
   proto::Frame frame;
   frame.sim_time_s = snapshot.time;
   frame.tick = snapshot.tick;
@@ -48,7 +59,7 @@ proto::Frame make_frame(const Snapshot& snapshot, std::span<const std::uint8_t> 
 }
 
 observables_t make_observables(const World& world, const Snapshot& snapshot, const Progress& progress) {
-  const analysis::NematicOrder order = order_of(snapshot, species_if_several(world));
+  const analysis::NematicOrder order = order_of(world, snapshot);
   double speed2_xy = 0;
   double speed2_z = 0;
   double n2_z = 0;

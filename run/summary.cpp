@@ -9,6 +9,7 @@
 
 #include "analysis/parts.h"
 #include "base/files.h"
+#include "base/steadiness.h"
 #include "run/files/version.h"
 #include "sim/core/physics_version.h"
 
@@ -62,6 +63,8 @@ OrderedJson json_of(std::optional<bool> known) { return known ? OrderedJson(*kno
 std::string why_null(const std::string& path, const Summary& summary) {
   const auto ends = [&](std::string_view end) { return path.ends_with(end); };
   if (path == "start") return "the rods were placed, not taken over from another run";
+  if (!summary.has_axis && (path == "order" || path == "defects")) return "spheres have no axis";
+  if (!summary.has_axis && path == "steady") return "S would tell, and spheres have none";
   if (path == "order") return "the scene does not measure S (measure.order)";
   if (path == "defects") return "the scene does not measure them (measure.defects)";
   if (path == "steady" && !summary.order) return "S, which would tell, is not measured (measure.order)";
@@ -97,21 +100,19 @@ double shown_error(const analysis::SteadySummary& order) {
 }
 
 std::string why_not_steady(const analysis::SteadySummary& order, double sim_seconds) {
-  if (order.steady == true) return "";
-  const bool is_long_enough = order.drift.n_effective >= analysis::kEnoughForSteadyState;
-  if (std::abs(order.drift.value) > analysis::kDriftErrors * order.drift.sem) {
-    return fmt::format(
-        "S still drifts: it changes by {:.2g} +- {:.1g} from the first half of its average to the second; measure "
-        "longer",
-        order.drift.value, order.drift.sem);
+  const Steadiness steadiness = steadiness_of(order.steady);
+  if (steadiness == Steadiness::kSteady) return "";
+  std::string why;
+  if (steadiness == Steadiness::kNotKnown) {
+    why = fmt::format("the average of S is worth about {:.0f} independent samples", order.n_effective);
+  } else if (std::abs(order.drift.value) > analysis::kDriftErrors * order.drift.sem) {
+    why = fmt::format("S changes by {:.2g} +- {:.1g} from the first half of its average to the second",
+                      order.drift.value, order.drift.sem);
+  } else {
+    why =
+        fmt::format("S was on its way until {:.4g} s of {:.4g} s, beyond half of the run", order.t_steady, sim_seconds);
   }
-  if (!order.steady && !is_long_enough) {
-    return fmt::format(
-        "whether S is steady cannot be told: its average is worth about {:.0f} independent samples; measure longer",
-        order.n_effective);
-  }
-  return fmt::format("S was on its way until {:.4g} s of {:.4g} s, beyond half of the run; measure longer",
-                     order.t_steady, sim_seconds);
+  return fmt::format("{}: {}; measure longer", word_of(steadiness), why);
 }
 
 Result<void> write_summary(const std::filesystem::path& file, const Summary& summary) {

@@ -40,6 +40,7 @@ struct Summary {
   Balance balance;                               ///< of energy and momentum
   double t_steady = 0;                           ///< where the steady state begins [s]
   std::optional<analysis::SteadySummary> order;  ///< if S(t) was measured
+  bool has_axis = true;                          ///< of the rods that are measured: spheres have none, and no S
   std::map<std::string, Scalar> scalars;         ///< of the other measurements, in the steady state
   std::optional<double> defects_mean_plus;       ///< in the steady state, if defects were measured
   std::optional<double> defects_mean_minus;
@@ -62,7 +63,8 @@ double shown_error(double sem, std::optional<bool> steady, double drift, double 
 
 double shown_error(const analysis::SteadySummary& order);
 
-/// Why S is not called steady after so long a run, and what to do about it, in a sentence; empty if it is.
+/// "still relaxing" or "not known to be steady" (base/steadiness.h), why, and what to do about it: the one sentence
+/// that log, summary and last words of a run have. Empty if S is steady.
 std::string why_not_steady(const analysis::SteadySummary& order, double sim_seconds);
 
 Result<void> write_summary(const std::filesystem::path& file, const Summary& summary);

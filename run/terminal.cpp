@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/text.h"
 
@@ -25,7 +26,7 @@ std::string describe_progress(const Progress& progress) {
   } else {
     text += "  " + progress.state;
   }
-  return text + fmt::format("  S {:.3f}", progress.order);
+  return std::isnan(progress.order) ? text : text + fmt::format("  S {:.3f}", progress.order);
 }
 
 bool is_under_way(const Progress& progress) { return progress.state == "running" || progress.state == "rendering"; }

@@ -15,8 +15,10 @@ namespace {
 template <auto settings>
 Observable of(Observable row) {
   const std::string path = "measure." + row.name;
-  row.block =
-      block(path, at<settings>, row.is_usual, row.within_walls() ? row.doc : row.doc + " Not available with walls.");
+  std::string doc = row.doc;
+  if (!row.within_walls()) doc += " Not available with walls.";
+  if (row.axis == AxisUse::kNeeded) doc += " Not measured of spheres, which have no axis.";
+  row.block = block(path, at<settings>, row.is_usual, doc);
   row.every = every(
       path + ".every", [](auto& plan) -> auto& { return (plan.*settings)->every; }, row.every_doc);
   for (Field& key : row.keys) key.path = path + "." + key.path;
@@ -32,15 +34,18 @@ std::vector<Observable> make_observables() {
     of<&Plan::order>({
       .name = "order",
       .doc = "Nematic order parameter S(t) in the plane.",
-      .is_usual = true}),
+      .is_usual = true,
+      .axis = AxisUse::kNeeded}),
     of<&Plan::angles>({
       .name = "angles",
       .doc = "Distribution of the angle between a rod and the director.",
+      .axis = AxisUse::kNeeded,
       .keys = {
         whole("bins", at<&Plan::angles, &MeasureAngles::bins>, 2, 10000, "Number of bins over [-pi/2, pi/2).")}}),
     of<&Plan::tilt>({
       .name = "tilt",
       .doc = "Mean velocity along and across the rod against its tilt n_z.",
+      .axis = AxisUse::kNeeded,
       .every_doc = "Mean time between samples.",
       .keys = {
         choice<SamplePhases>("phases", at<&Plan::tilt, &MeasureTilt::phases>,
@@ -53,6 +58,7 @@ std::vector<Observable> make_observables() {
       .name = "defects",
       .doc = "Topological defects of the smoothed director field, where there are rods (and only within the walls, if "
              "any).",
+      .axis = AxisUse::kNeeded,
       .keys = {
         derived(quantity("smoothing", at<&Plan::defects, &MeasureDefects::smoothing>, kLength, 0.01, 200,
                          "Standard deviation of the Gaussian that smooths the director field."),
@@ -69,12 +75,14 @@ std::vector<Observable> make_observables() {
     of<&Plan::g2>({
       .name = "g2",
       .doc = "Orientational correlation G2(r) and pair distribution g(r) (only within the walls, if any).",
+      .axis = AxisUse::kPartly,
       .keys = {
         whole("bins", at<&Plan::g2, &MeasureG2::bins>, 2, 10000,
               "Number of bins over distances from 0 to half the box.")}}),
     of<&Plan::msd>({
       .name = "msd",
       .doc = "Mean square displacement (MSD) against lag.",
+      .axis = AxisUse::kPartly,
       .every_doc = "Time between samples, which is the shortest lag."}),
     of<&Plan::fluctuations>({
       .name = "fluctuations",
@@ -83,15 +91,18 @@ std::vector<Observable> make_observables() {
       .name = "frank",
       .doc = "Fluctuations of the director against the wave vector, and the ratio of the Frank constants of bend and "
              "splay.",
-      .periodic = "the waves"}),
+      .periodic = "the waves",
+      .axis = AxisUse::kNeeded}),
     of<&Plan::rotation>({
       .name = "rotation",
       .doc = "Rotation in the plane against lag: mean square angular displacement (MSAD) and C2(t).",
+      .axis = AxisUse::kNeeded,
       .every_doc = "Time between samples, which is the shortest lag. In this time a rod must turn by much less than a "
                    "quarter turn."}),
     of<&Plan::velocity>({
       .name = "velocity",
       .doc = "Velocity autocorrelation C_v(t).",
+      .axis = AxisUse::kPartly,
       .every_doc = "Time between samples, which is the shortest lag.",
       .keys = {
         quantity("window", at<&Plan::velocity, &MeasureVelocity::window>, kTime, 1e-7, 1e5,
@@ -108,6 +119,7 @@ std::vector<Observable> make_observables() {
       .name = "pairs",
       .doc = "Maps of g(x, y) and G2(x, y) in the frame of the director, and cuts through them.",
       .periodic = "the nearest images",
+      .axis = AxisUse::kNeeded,
       .keys = {
         whole("bins", at<&Plan::pairs, &MeasurePairs::bins>, 2, 201,
               "Number of bins of a map in each direction; use an odd number to have a bin centred on 0. A run keeps 64 "
@@ -118,7 +130,8 @@ std::vector<Observable> make_observables() {
     of<&Plan::layers>({
       .name = "layers",
       .doc = "Layers along the director: spectrum, wavelength and order.",
-      .periodic = "the waves"}),
+      .periodic = "the waves",
+      .axis = AxisUse::kNeeded}),
     of<&Plan::lattice>({
       .name = "lattice",
       .doc = "Crystalline order: psi_6 and the largest Bragg peak.",
@@ -127,6 +140,7 @@ std::vector<Observable> make_observables() {
       .name = "structure",
       .doc = "Structure factor S(q) of the rods' centres: in all directions, along the director and across it.",
       .periodic = "the waves",
+      .axis = AxisUse::kPartly,
       .keys = {
         whole("waves", at<&Plan::structure, &MeasureStructure::waves>, 2, 128,
               "Number of wave numbers 2 pi k / L. The time that a sample takes grows with its square.")}}),
@@ -136,8 +150,12 @@ std::vector<Observable> make_observables() {
 
 }  // namespace
 
+bool Observable::lacks_axis(const RunPlan& plan) const {
+  return axis == AxisUse::kNeeded && !plan.system.rod.has_axis() && std::get<bool>(block.fetch(plan));
+}
+
 std::optional<double> Observable::period(const RunPlan& plan) const {
-  if (!std::get<bool>(block.fetch(plan))) return std::nullopt;
+  if (!std::get<bool>(block.fetch(plan)) || lacks_axis(plan)) return std::nullopt;
   return std::get<double>(every.fetch(plan));
 }
 

@@ -9,6 +9,7 @@
 
 #include "scene/derived.h"
 #include "scene/fields.h"
+#include "scene/observables.h"
 #include "scene/units.h"
 
 namespace shaken::scene {
@@ -24,6 +25,16 @@ int phases_met(double periods) {
     if (std::abs(n * periods - std::round(n * periods)) < 1e-6 * n * std::max(1.0, periods)) return n;
   }
   return 0;
+}
+
+/// The blocks that ask for what spheres do not have, "measure.order, measure.defects"; empty if there are none.
+std::string of_axes_that_are_missing(const RunPlan& plan) {
+  std::string blocks;
+  for (const Observable& observable : observables()) {
+    if (!observable.lacks_axis(plan)) continue;
+    blocks += (blocks.empty() ? "" : ", ") + observable.block.path;
+  }
+  return blocks;
 }
 
 }  // namespace
@@ -57,6 +68,11 @@ std::vector<std::string> remarks(const RunPlan& plan) {
     list.push_back(fmt::format("{} {} is longer than the run, {}: there will be a single sample, of the start",
                                field.path, format_quantity(std::get<double>(field.fetch(plan)), Dimension::kTime),
                                format_quantity(total, Dimension::kTime)));
+  }
+  if (const std::string unmeasured = of_axes_that_are_missing(plan); !unmeasured.empty()) {
+    const bool has_others = plan.system.added[0] || plan.system.added[1];
+    list.push_back(fmt::format("spheres (rods.beads 1) have no axis, which is what {} would be of: not measured{}",
+                               unmeasured, has_others ? "; observables are those of the first species" : ""));
   }
   const auto gamma = gamma_of(plan.system);
   if (gamma && *gamma < 1 && plan.system.base) {

@@ -28,6 +28,8 @@ struct RodShape {
   double density = 8.5;       ///< [mg/mm^3]; brass. Sets the unit of energy only where all rods have the same
   Profile profile = Profile::kSymmetric;
   std::vector<double> bead_diameters{};  ///< (n_beads) from tail to head, in place of a profile; or empty [mm]
+  /// A sphere has none: it has no director, no order and no defects.
+  bool has_axis() const { return n_beads > 1; }
   friend bool operator==(const RodShape&, const RodShape&) = default;
 };
 

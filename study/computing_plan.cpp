@@ -62,7 +62,7 @@ std::string shell_word(const std::string& word) {
 /// "figure 8", "figures 2 and 6", "figures 2, 6 and 8".
 std::string figures_text(const Selection& selection) {
   std::vector<std::string> ids;
-  for (const PaperFigure* figure : selection.figures) ids.emplace_back(figure->id);
+  for (const PaperFigure* figure : selection.figures) ids.emplace_back(figure->id());
   if (ids.empty()) return "no figures";
   const std::string last = ids.back();
   ids.pop_back();

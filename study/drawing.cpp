@@ -5,16 +5,41 @@
 
 #include <algorithm>
 #include <exception>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "base/process.h"
 #include "base/text.h"
 #include "run/files/directory.h"
 #include "run/files/done.h"
+#include "run/files/version.h"
+#include "study/report.h"
 
 namespace shaken::study {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// What a figure is made from: every run of its sweeps, and the versions that computed them.
+PlotOrigin origin_of(const PaperFigure& figure, const Library& library) {
+  std::vector<std::string> sweeps;
+  std::set<std::string> runs;
+  for (const std::string_view set : figure.sets) {
+    sweeps.emplace_back(set);
+    for (const FinishedRun& run : library[std::string(set)]) runs.insert(run.id());
+  }
+  runs.erase("");
+  const std::set<std::string> versions = versions_of(library, figure.sets);
+  PlotOrigin origin{{"Software", std::string("shaken figures ") + run::version()}};
+  if (!versions.empty()) origin.emplace_back("Computed by", origin_list({versions.begin(), versions.end()}));
+  origin.emplace_back("Sweeps", origin_list(sweeps));
+  if (!runs.empty()) origin.emplace_back("Runs", printable(origin_list({runs.begin(), runs.end()})));
+  return origin;
+}
+
+}  // namespace
 
 FigureMaker::FigureMaker(const Selection& selection, fs::path runs_folder, fs::path out, bool quiet,
                          client::Console& console)
@@ -31,15 +56,16 @@ bool FigureMaker::draw(const PaperFigure& figure) {
     const Library runs = for_figures(done_runs(selection_, runs_folder_));
     if (std::all_of(figure.sets.begin(), figure.sets.end(),
                     [&](std::string_view set) { return runs[std::string(set)].empty(); })) {
-      console_.err << fmt::format("figure {}: no run is done yet\n", figure.id);
+      console_.err << fmt::format("figure {}: no run is done yet\n", figure.id());
       return false;
     }
     Sheet sheet = figure.draw({runs, [&](const FinishedRun& run) { return snapshot(run); }});
-    sheet.name = std::string(figure.file);
-    tell(figure.id, shaken::draw(sheet, out_));
+    sheet.name = figure.file();
+    sheet.origin = origin_of(figure, runs);
+    tell(figure.id(), shaken::draw(sheet, out_));
     return true;
   } catch (const std::exception& problem) {
-    console_.err << fmt::format("figure {}: {}\n", figure.id, printable(problem.what(), Lines::kMany));
+    console_.err << fmt::format("figure {}: {}\n", figure.id(), printable(problem.what(), Lines::kMany));
     return false;
   }
 }

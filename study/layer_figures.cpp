@@ -91,24 +91,42 @@ Curve power_curve(const RunSet& runs, bool along, std::size_t colour) {
   return cut;
 }
 
-}  // namespace
-
-Sheet pair_map_figure(const Material& material) {
-  // the state point with the least kPacking, for it has no layers
+/// The map of "g2" or "g" of ordered rods without layers, cuts through it, and cuts where there is no order, and so no
+/// along and across. Titles are lettered from `letter` on.
+std::vector<Figure> along_and_across(const Material& material, const std::string& what, const std::string& of_what,
+                                     const char* colours, char letter) {
+  // the state point with the least packing of the layered sweep, for it has no layers
   RunSet runs = with_extreme(material.runs["layers"], "rods.end_diameter", false);
   runs = with_extreme(with_extreme(runs, kLength, true), kPacking, false);
-  Sheet sheet{.title = "Correlations along and across the director"};
-  if (runs.empty()) return sheet;
+  if (runs.empty()) return {};
   const std::string point = label_of(runs, kLength) + ", " + label_of(runs, kPacking);
-  sheet.panels = {map_panel(runs.front(), "g2", "set cbrange [0:1]", "(a) G_2(x, y), " + point),
-                  map_panel(runs.front(), "g", "set cbrange [0:2.5]", "(b) g(x, y), " + point),
-                  cuts_panel(runs, "g2", "(c) cuts through (a)"), cuts_panel(runs, "g", "(d) cuts through (b)")};
-  // where there is no order there is no along and across
+  const auto lettered = [&](int k, const std::string& title) {
+    return fmt::format("({}) {}", static_cast<char>(letter + k), title);
+  };
+  std::vector<Figure> panels{map_panel(runs.front(), what, colours, lettered(0, of_what + ", " + point)),
+                             cuts_panel(runs, what, lettered(1, fmt::format("cuts through ({})", letter)))};
   const RunSet dilute = with_extreme(with_extreme(material.runs["size"], kPacking, false), "box.side", true);
-  if (dilute.empty()) return sheet;
-  const std::string at = label_of(dilute, kPacking);
-  sheet.panels.push_back(cuts_panel(dilute, "g2", "(e) cuts at " + at));
-  sheet.panels.push_back(cuts_panel(dilute, "g", "(f) cuts at " + at));
+  if (!dilute.empty()) panels.push_back(cuts_panel(dilute, what, lettered(2, "cuts at " + label_of(dilute, kPacking))));
+  return panels;
+}
+
+}  // namespace
+
+Sheet g2_map_figure(const Material& material) {
+  Sheet sheet{.title = "Orientational correlation along and across the director", .columns = 3};
+  sheet.panels = along_and_across(material, "g2", "G_2(x, y)", "set cbrange [0:1]", 'a');
+  return sheet;
+}
+
+Sheet distances_figure(const Material& material) {
+  const auto [shortest, longest, of_short, of_long] = BothLengths(material.runs["phases"]);
+  Sheet sheet{.title = "Pair correlation", .columns = 3};
+  sheet.panels = {distance_panel(shortest, "g", "g(r)", "(a) shortest rods" + of_short),
+                  distance_panel(longest, "g", "g(r)", "(b) longest rods" + of_long)};
+  fill_row(sheet);
+  for (Figure& panel : along_and_across(material, "g", "g(x, y)", "set cbrange [0:2.5]", 'c')) {
+    sheet.panels.push_back(std::move(panel));
+  }
   return sheet;
 }
 

@@ -108,27 +108,31 @@ Figure lag_panel(std::string x_title, std::string y_title, std::vector<Curve> cu
 
 }  // namespace
 
-Sheet mechanism_figure(const Material& material) {
+Sheet tilt_figure(const Material& material) {
+  const RunSet& all = material.runs["mechanism"];
+  const RunSet first = with_extreme(all, kPacking, false);
+  const std::string point = first.empty() ? "" : ", " + label_of(first, kPacking);
+  return {
+      .title = "How a rod swims",
+      .panels = {velocity_panel(first, "along", "⟨v^n⟩ along the rod (mm/s)", "(a) velocity along the rod" + point),
+                 velocity_panel(first, "across", "⟨v^t⟩ across the rod (mm/s)", "(b) velocity across the rod" + point),
+                 {.x_title = "tilt n_z",
+                  .y_title = "P(n_z)",
+                  .commands = {"set yrange [0:*]"},
+                  .curves = bare(array_curves(all, kPacking, "/tilt/n_z", "/tilt/density")),
+                  .title = "(c) how often a tilt occurs"},
+                 {.x_title = "time t (s)",
+                  .y_title = "tilt n_z",
+                  .commands = {"set xrange [*:*] noextend", "set yrange [-0.4:0.4]"},
+                  .curves = {beginning(array_curve(first, "/rods/trace/time_s", "/rods/trace/0/n_z", "", 0))},
+                  .title = "(d) tilt of one rod" + point}}};
+}
+
+Sheet paths_figure(const Material& material) {
   const RunSet& all = material.runs["mechanism"];
   const std::vector<double> fractions = values_of(all, kPacking);
-  const RunSet first = fractions.empty() ? RunSet{} : where(all, kPacking, fractions.front());
-  const std::string point = fractions.empty() ? "" : ", " + value_label(kPacking, fractions.front());
-  Sheet sheet{.title = "How a rod swims", .columns = 3};
+  Sheet sheet{.title = "Paths of single rods", .columns = 3};
   Letters letter;
-  sheet.panels.push_back(
-      velocity_panel(first, "along", "⟨v^n⟩ along the rod (mm/s)", letter("velocity along the rod" + point)));
-  sheet.panels.push_back(
-      velocity_panel(first, "across", "⟨v^t⟩ across the rod (mm/s)", letter("velocity across the rod" + point)));
-  sheet.panels.push_back({.x_title = "tilt n_z",
-                          .y_title = "P(n_z)",
-                          .commands = {"set yrange [0:*]"},
-                          .curves = bare(array_curves(all, kPacking, "/tilt/n_z", "/tilt/density")),
-                          .title = letter("how often a tilt occurs")});
-  sheet.panels.push_back({.x_title = "time t (s)",
-                          .y_title = "tilt n_z",
-                          .commands = {"set xrange [*:*] noextend", "set yrange [-0.4:0.4]"},
-                          .curves = {beginning(array_curve(first, "/rods/trace/time_s", "/rods/trace/0/n_z", "", 0))},
-                          .title = letter("tilt of one rod" + point)});
   for (const double fraction : fractions) {
     if (fraction == fractions.front() && fractions.size() > 2) continue;  // the paper shows the denser two
     std::vector<Curve> traces = traces_of(where(all, kPacking, fraction));
@@ -188,19 +192,13 @@ Sheet diffusion_figure(const Material& material) {
                                "(i) normal diffusion: 1", {level_line(1)})}};
 }
 
-Sheet rotation_figure(const Material& material) {
-  const RunSet& all = material.runs["phases"];
-  const auto [shortest, longest, of_short, of_long] = BothLengths(all);
-  const auto panel = [](const RunSet& runs, const char* lag, const char* array, std::string y_title, std::string title,
+Sheet memory_figure(const Material& material) {
+  const auto [shortest, longest, of_short, of_long] = BothLengths(material.runs["phases"]);
+  const auto panel = [](const RunSet& runs, const std::string& array, std::string y_title, std::string title,
                         std::vector<std::string> commands) {
+    const std::string lag = array.substr(0, array.rfind('/')) + "/lag_s";
     return lag_panel("lag t (s)", std::move(y_title), bare(array_curves(runs, kPacking, lag, array)), std::move(title),
                      std::move(commands));
-  };
-  const auto turning = [&](const RunSet& runs, std::string title) {
-    Figure figure = panel(runs, "/rotation/lag_s", "/rotation/msad_rad2", "mean square angular displacement (rad^2)",
-                          std::move(title), log_log());
-    figure.curves = positive(std::move(figure.curves));
-    return figure;
   };
   const std::vector<std::string> log_x{"set logscale x", "set format x '10^{%T}'", "set yrange [-0.2:1.05]",
                                        level_line(0)};
@@ -209,23 +207,33 @@ Sheet rotation_figure(const Material& material) {
       .title = "Correlations in time",
       .columns = 3,
       .panels = {
-          panel(shortest, "/velocity/lag_s", "/velocity/c_v", "C_v(t)", "(a) velocity" + of_short, early),
-          panel(longest, "/velocity/lag_s", "/velocity/c_v_along", "C_v(t) along the director",
-                "(b) velocity" + of_long, early),
-          panel(shortest, "/rotation/lag_s", "/rotation/c2", "C_2(t)", "(c) orientation" + of_short, log_x),
-          panel(longest, "/rotation/lag_s", "/rotation/c2", "C_2(t)", "(d) orientation" + of_long, log_x),
-          turning(shortest, "(e) rotation" + of_short),
-          key_panel(kPacking, "D_r (rad^2/s)",
-                    positive(scalar_curves(all, kLength, kPacking, "rotational_diffusion_rad2_s")),
-                    "(f) rotational diffusion", {"set logscale y"}),
-          turning(longest, "(g) rotation" + of_long),
+          panel(shortest, "/rotation/c2", "C_2(t)", "(a) orientation" + of_short, log_x),
+          panel(longest, "/rotation/c2", "C_2(t)", "(b) orientation" + of_long, log_x),
           key_panel(kPacking, "plateau of C_2", {scalar_curve(longest, kPacking, "c2_plateau", "", 0)},
-                    "(h) what of the orientation stays" + of_long),
+                    "(c) what of the orientation stays" + of_long),
+          panel(shortest, "/velocity/c_v", "C_v(t)", "(d) velocity" + of_short, early),
+          panel(longest, "/velocity/c_v_along", "C_v(t) along the director", "(e) velocity" + of_long, early),
           key_panel(
               kPacking, "C_v(0) (mm^2/s^2)",
               together({{scalar_curve(longest, kPacking, "velocity_variance_along_mm2_s2", "along the director", 0)},
                         {scalar_curve(longest, kPacking, "velocity_variance_across_mm2_s2", "across", 1)}}),
-              "(i) variance of the velocity" + of_long)}};
+              "(f) variance of the velocity" + of_long)}};
+}
+
+Sheet rotation_figure(const Material& material) {
+  const RunSet& all = material.runs["phases"];
+  const auto [shortest, longest, of_short, of_long] = BothLengths(all);
+  const auto turning = [](const RunSet& runs, std::string title) {
+    return lag_panel("lag t (s)", "mean square angular displacement (rad^2)",
+                     positive(bare(array_curves(runs, kPacking, "/rotation/lag_s", "/rotation/msad_rad2"))),
+                     std::move(title), log_log());
+  };
+  return {.title = "Rotation",
+          .columns = 3,
+          .panels = {turning(shortest, "(a) rotation" + of_short), turning(longest, "(b) rotation" + of_long),
+                     key_panel(kPacking, "D_r (rad^2/s)",
+                               positive(scalar_curves(all, kLength, kPacking, "rotational_diffusion_rad2_s")),
+                               "(c) rotational diffusion", {"set logscale y"})}};
 }
 
 Sheet shaking_figure(const Material& material) {

@@ -63,69 +63,82 @@ std::vector<Curve> relative(std::vector<Curve> curves) {
   return curves;
 }
 
+/// The standard deviation of S(t) against the packing, a curve for each rod length, at the points of scalar_curves().
+std::vector<Curve> spread_curves(const RunSet& runs) {
+  std::vector<Curve> curves = scalar_curves(runs, kLength, kPacking, "order.mean");
+  const std::vector<double> lengths = values_of(runs, kLength);
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const RunSet column = where(runs, kLength, lengths[i]);
+    for (std::size_t k = 0; k < curves[i].x.size(); ++k) {
+      curves[i].y[k] = order_spread(where(column, kPacking, curves[i].x[k]));
+    }
+    curves[i].y_error.clear();
+  }
+  return curves;
+}
+
 }  // namespace
+
+Sheet start_figure(const Material& material) {
+  Sheet sheet{.title = "Rods as they lie, and how their order settles", .columns = 3};
+  Letters letter;
+  const RunSet& filmed = material.runs["movies"];
+  const auto snapshots = [&](const RunSet& runs) {
+    for (const double fraction : values_of(runs, kPacking)) {
+      const RunSet here = where(runs, kPacking, fraction);
+      sheet.panels.push_back(
+          snapshot_panel(material, here, letter(label_of(here, kLength) + ", " + value_label(kPacking, fraction))));
+    }
+  };
+  const double gap = 1.2;  // the paper's [mm]; films S4 and S5 have others
+  const RunSet usual = where(filmed, "box.gap", gap);
+  snapshots(with_extreme(usual, kLength, false));
+  snapshots(with_extreme(usual, kLength, true));
+  fill_row(sheet);
+  const auto [shortest, longest, of_short, of_long] = BothLengths(material.runs["phases"]);
+  sheet.panels.push_back(start_panel(longest, letter("from the aligned start" + of_long)));
+  sheet.panels.push_back(start_panel(shortest, letter("from the aligned start" + of_short)));
+  return sheet;
+}
 
 Sheet order_figure(const Material& material) {
   const RunSet& runs = material.runs["phases"];
   const std::vector<double> lengths = values_of(runs, kLength);
   // The paper's bars are the standard deviation of S(t), how far it swings, not the error of its mean.
   std::vector<Curve> mean = scalar_curves(runs, kLength, kPacking, "order.mean");
-  std::vector<Curve> spread;
-  for (std::size_t i = 0; i < lengths.size(); ++i) {
-    Curve curve{.label = value_label(kLength, lengths[i]), .colour = i};
-    const RunSet column = where(runs, kLength, lengths[i]);
-    for (std::size_t k = 0; k < mean[i].x.size(); ++k) {
-      curve.x.push_back(mean[i].x[k]);
-      curve.y.push_back(order_spread(where(column, kPacking, mean[i].x[k])));
-      curve.unsteady.push_back(mean[i].unsteady[k]);
-      mean[i].y_error[k] = curve.y.back();
-    }
-    spread.push_back(std::move(curve));
-  }
-  const RunSet longest = lengths.empty() ? RunSet{} : where(runs, kLength, lengths.back());
+  const std::vector<Curve> spread = spread_curves(runs);
+  for (std::size_t i = 0; i < mean.size(); ++i) mean[i].y_error = spread[i].y;
   return {.title = "Nematic order",
-          .panels = {start_panel(longest, "(a) from the aligned start, longest rods"),
-                     mean_order_panel(mean, "(b) mean order", "⟨S⟩; bars: standard deviation of S(t)"),
+          .panels = {mean_order_panel(mean, "(a) mean order", "⟨S⟩; bars: standard deviation of S(t)"),
                      {.x_title = axis_of(kPacking),
                       .y_title = axis_of(kLength),
                       .commands = {"set cbrange [0:1]", "set size noratio", "set cblabel '⟨S⟩'"},
                       .curves = {transition_curve(runs)},
-                      .title = "(c) phase diagram",
-                      .map = phase_map(runs)},
-                     key_panel(kPacking, "standard deviation of S(t)", spread, "(d) fluctuations of the order")}};
+                      .title = "(b) phase diagram",
+                      .map = phase_map(runs)}}};
 }
 
 Sheet order_statistics_figure(const Material& material) {
   const RunSet& runs = material.runs["phases"];
   const RunSet longest = with_extreme(runs, kLength, true);
-  return {
-      .title = "Statistics of the order",
-      .panels = {{.x_title = "nematic order S",
-                  .y_title = "P[S]",
-                  .commands = {"set xrange [0:1]", "set yrange [0:*]"},
-                  .curves = array_curves(longest, kPacking, "/order/pdf/order", "/order/pdf/density"),
-                  .title = "(a) longest rods"},
-                 binder_panel(runs, kLength, "Binder cumulant 2 − ⟨S^4⟩/⟨S^2⟩^2", "(b) 0 in disorder, 1 in order")}};
+  return {.title = "Statistics of the order",
+          .columns = 3,
+          .panels = {
+              {.x_title = "nematic order S",
+               .y_title = "P[S]",
+               .commands = {"set xrange [0:1]", "set yrange [0:*]"},
+               .curves = array_curves(longest, kPacking, "/order/pdf/order", "/order/pdf/density"),
+               .title = "(a) longest rods"},
+              key_panel(kPacking, "standard deviation of S(t)", spread_curves(runs), "(b) fluctuations of the order"),
+              binder_panel(runs, kLength, "Binder cumulant 2 − ⟨S^4⟩/⟨S^2⟩^2", "(c) 0 in disorder, 1 in order")}};
 }
 
-Sheet correlation_figure(const Material& material) {
-  const RunSet& runs = material.runs["phases"];
-  const std::vector<double> lengths = values_of(runs, kLength);
-  Sheet sheet{.title = "Correlations in space"};
-  Letters letter;
-  for (const std::string what : {"g2", "g"}) {
-    for (std::size_t end = 0; end < 2 && !lengths.empty(); ++end) {
-      const double length = end == 0 ? lengths.front() : lengths.back();
-      const bool is_g2 = what == "g2";
-      sheet.panels.push_back(
-          {.x_title = "distance r (mm)",
-           .y_title = is_g2 ? "G_2(r) = ⟨cos 2({/Symbol q}_i − {/Symbol q}_j)⟩" : "g(r)",
-           .commands = {"set xrange [0:*]", level_line(is_g2 ? 0 : 1)},
-           .curves = bare(array_curves(where(runs, kLength, length), kPacking, "/g2/r_mm", "/g2/" + what)),
-           .title = letter(value_label(kLength, length))});
-    }
-  }
-  return sheet;
+Sheet g2_figure(const Material& material) {
+  const auto [shortest, longest, of_short, of_long] = BothLengths(material.runs["phases"]);
+  const char* const title = "G_2(r) = ⟨cos 2({/Symbol q}_i − {/Symbol q}_j)⟩";
+  return {.title = "Orientational correlation",
+          .panels = {distance_panel(shortest, "g2", title, "(a) shortest rods" + of_short),
+                     distance_panel(longest, "g2", title, "(b) longest rods" + of_long)}};
 }
 
 Sheet steady_state_figure(const Material& material) {

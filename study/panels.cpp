@@ -176,6 +176,14 @@ Figure angles_panel(const RunSet& runs, const std::string& key, std::string titl
           .title = std::move(title)};
 }
 
+Figure distance_panel(const RunSet& runs, const std::string& what, std::string y_title, std::string title) {
+  return {.x_title = "distance r (mm)",
+          .y_title = std::move(y_title),
+          .commands = {"set xrange [0:*]", level_line(what == "g2" ? 0 : 1)},
+          .curves = bare(array_curves(runs, kPacking, "/g2/r_mm", "/g2/" + what)),
+          .title = std::move(title)};
+}
+
 Figure g2_across_panel(const RunSet& runs, const std::string& key, std::string title) {
   return {.x_title = "distance across the director (mm)",
           .y_title = "G_2",

@@ -86,6 +86,8 @@ Figure key_panel(const std::string& key, std::string y_title, std::vector<Curve>
 Figure start_panel(const RunSet& runs, std::string title);
 /// P(theta), one curve for each value of `key`.
 Figure angles_panel(const RunSet& runs, const std::string& key, std::string title);
+/// "g2" or "g" against the distance, one curve for each packing.
+Figure distance_panel(const RunSet& runs, const std::string& what, std::string y_title, std::string title);
 /// G2 across the director, one curve for each value of `key`.
 Figure g2_across_panel(const RunSet& runs, const std::string& key, std::string title);
 

@@ -90,7 +90,7 @@ std::string figure_cost_table(const Library& runs) {
       cpu += sum_of(runs[std::string(set)], "cpu_seconds") / 3600;
       known &= !runs[std::string(set)].empty();
     }
-    table += fmt::format("| {} | {} | {} | {} |\n", figure.id, figure.title, sweeps,
+    table += fmt::format("| {} | {} | {} | {} |\n", figure.id(), figure.title, sweeps,
                          known ? fmt::format("{:.2f}", cpu) : "not run");
   }
   return table;

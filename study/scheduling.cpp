@@ -86,7 +86,10 @@ bool Schedule::wait(const InterruptGuard& guard, const std::function<bool(const 
         ++figure;
       }
     }
-    if (left.empty()) return all_done() && complete;
+    if (left.empty()) {
+      show_progress(progress, /*is_last=*/true);
+      return all_done() && complete;
+    }
     tell_reasons(progress);
     show_progress(progress);
     guard.sleep_for(std::chrono::milliseconds(500));
@@ -161,7 +164,7 @@ void Schedule::tell_reasons(ProgressLine& progress) {
   for (const std::string& line : reasons_.news(all)) progress.end_with(line);
 }
 
-void Schedule::show_progress(ProgressLine& progress) {
+void Schedule::show_progress(ProgressLine& progress, bool is_last) {
   double done = 0, all = 0, eta = -1;
   int n_ended = 0, n_jobs = 0;
   for (const auto& [sweep, target] : queued_) {
@@ -181,7 +184,12 @@ void Schedule::show_progress(ProgressLine& progress) {
   if (!first_done_) first_done_ = done;
   if (elapsed > 5 && done > *first_done_) eta = (all - done) * elapsed / (done - *first_done_);
   const double fraction = all > 0 ? done / all : 1;
-  progress.show(progress_text(fraction, fmt::format("{}/{} runs", n_ended, n_jobs), eta));
+  const std::string text = progress_text(fraction, fmt::format("{}/{} runs", n_ended, n_jobs), eta);
+  if (!is_last) {
+    progress.show(text);
+  } else if (!console_.err_is_terminal) {
+    progress.end_with(text);  // a log would otherwise end with how far it was a minute ago
+  }
 }
 
 }  // namespace shaken::study

@@ -50,7 +50,7 @@ class Schedule {
   void refresh_all();
   /// Names the jobs that have ended otherwise than done; false if there are any.
   bool all_done() const;
-  void show_progress(ProgressLine& progress);
+  void show_progress(ProgressLine& progress, bool is_last = false);
   void tell_reasons(ProgressLine& progress);
 
   const Selection& selection_;

@@ -13,6 +13,7 @@
 #include "base/paths.h"
 #include "run/files/directory.h"
 #include "run/files/done.h"
+#include "scene/nearest.h"
 
 namespace shaken::study {
 
@@ -24,17 +25,26 @@ double NamedSweep::rod_seconds() const {
   return sum;
 }
 
+std::vector<std::string> figure_words() {
+  std::vector<std::string> words;
+  for (const PaperFigure& figure : paper_figures()) {
+    if (!figure.number.empty()) words.emplace_back(figure.number);
+  }
+  for (const PaperFigure& figure : paper_figures()) words.emplace_back(figure.name);
+  return words;
+}
+
 Selection selected(const std::vector<std::string>& ids, std::string& problems) {
   const auto all = paper_figures();
   for (const std::string& id : ids) {
-    if (std::none_of(all.begin(), all.end(), [&](const PaperFigure& figure) { return figure.id == id; })) {
-      problems += fmt::format("there is no figure '{}'\n", id);
-    }
+    if (std::any_of(all.begin(), all.end(), [&](const PaperFigure& figure) { return figure.is_called(id); })) continue;
+    problems += fmt::format("there is no figure '{}'{}\n", id, scene::did_you_mean(scene::nearest(id, figure_words())));
   }
   Selection selection;
   std::set<std::string_view> needed;
   for (const PaperFigure& figure : all) {
-    if (!ids.empty() && std::find(ids.begin(), ids.end(), figure.id) == ids.end()) continue;
+    const auto is_asked_for = [&](const std::string& id) { return figure.is_called(id); };
+    if (!ids.empty() && std::none_of(ids.begin(), ids.end(), is_asked_for)) continue;
     selection.figures.push_back(&figure);
     needed.insert(figure.sets.begin(), figure.sets.end());
   }

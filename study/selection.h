@@ -28,7 +28,10 @@ struct Selection {
   std::vector<NamedSweep> sweeps;
 };
 
-/// The figures of these names, all if there are none. What no figure is called is added to `problems`, a line each.
+/// What a figure may be called by where one asks for it: the paper's numbers, then all names.
+std::vector<std::string> figure_words();
+/// The figures of these numbers or names, all if there are none. What no figure is called is added to
+/// `problems`, a line each, with the nearest of figure_words().
 Selection selected(const std::vector<std::string>& ids, std::string& problems);
 
 /// Where the sweeps of a scale lie: in `configs`, or if that is empty in $SHAKEN_CONFIGS, ./configs, or where Shaken

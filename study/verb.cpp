@@ -30,12 +30,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> figure_ids() {
-  std::vector<std::string> ids;
-  for (const PaperFigure& figure : paper_figures()) ids.emplace_back(figure.id);
-  return ids;
-}
-
 class Figures : public client::Verb {
  public:
   client::VerbInfo info() const override {
@@ -43,7 +37,7 @@ class Figures : public client::Verb {
             "The figures of Sharma & Soni (2024), and some beyond: runs, waits, draws",
             "  shaken figures                        everything at laptop scale, into figures-laptop/\n"
             "  shaken figures --list                 what there is, and the runs that each needs\n"
-            "  shaken figures 2 6 7                  the phase diagram and the layers\n"
+            "  shaken figures 3 8 layer-trends       the phase diagram and the layers; numbers are the paper's\n"
             "  shaken figures --scale tiny           seconds: to see that all is there\n"
             "  shaken figures --scale paper --dry-run --cores 8   what the paper's sizes would cost on eight cores\n"
             "  shaken --root /shared/me figures --scale paper --executor slurm --partition long --time 24h\n"
@@ -57,7 +51,8 @@ class Figures : public client::Verb {
   }
 
   void declare(client::Arguments& arguments) override {
-    arguments.list("FIGURE", ids_, "2 to 10, or a name of --list; all if left out", figure_ids());
+    arguments.list("FIGURE", ids_, "A number of the paper, 2 to 14, or a name of --list; all if left out",
+                   figure_words());
     arguments.option("--scale", scale_, "tiny|laptop|paper", "Size of the runs; laptop if left out");
     arguments.option("-o,--out", out_, "DIR", "Where to draw; figures-SCALE if left out", client::Names::kFolder);
     arguments.option("--configs", configs_, "DIR", "Folder that holds figures/SCALE/*.json", client::Names::kFolder);
@@ -134,7 +129,7 @@ class Figures : public client::Verb {
     selection_ = selected(ids_, problems);
     if (problems.empty()) return;
     std::string names;
-    for (const std::string& id : figure_ids()) names += " " + id;
+    for (const std::string& id : figure_words()) names += " " + id;
     throw Failure(ExitCode::kBadInput, problems + "figures:" + names);
   }
 
@@ -200,16 +195,20 @@ class Figures : public client::Verb {
     if (json_) {
       Json list = Json::array();
       for (const PaperFigure* figure : selection_.figures) {
-        list.push_back({{"id", figure->id}, {"title", figure->title}, {"sweeps", figure->sets}});
+        list.push_back({{"id", figure->id()},
+                        {"number", figure->number.empty() ? Json() : Json(figure->number)},
+                        {"name", figure->name},
+                        {"title", figure->title},
+                        {"sweeps", figure->sets}});
       }
       console.out << client::json_text(list);
       return ExitCode::kOk;
     }
-    Table table({{"FIGURE"}, {"SHOWS"}, {"SWEEPS"}});
+    Table table({{"PAPER"}, {"NAME"}, {"SHOWS"}, {"SWEEPS"}});
     for (const PaperFigure* figure : selection_.figures) {
       std::string sets;
       for (const std::string_view set : figure->sets) sets += (sets.empty() ? "" : " ") + std::string(set);
-      table.add_row({std::string(figure->id), std::string(figure->title), sets});
+      table.add_row({std::string(figure->number), std::string(figure->name), std::string(figure->title), sets});
     }
     console.out << table.text(console.width) << fmt::format("Sweeps: {}\n", sweeps_folder(configs_, scale_).string());
     return ExitCode::kOk;
@@ -221,7 +220,7 @@ class Figures : public client::Verb {
     const Library by_sweep = done_runs(selection_, runs_folder, &left_out), runs = for_figures(by_sweep);
     for (const std::string& run : left_out) console.err << printable(run) << "\n";
     std::vector<std::string_view> figures;
-    for (const PaperFigure* figure : selection_.figures) figures.push_back(figure->id);
+    for (const PaperFigure* figure : selection_.figures) figures.push_back(figure->id());
     const std::vector<Claim> claims = claims_of(figures);
     const fs::path table = fs::path(out_) / "claims.md";
     done_or_fail(write_file_atomically(table, claims_table(runs, claims)));

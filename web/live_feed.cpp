@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "web/live_feed.h"
 
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <utility>
@@ -42,7 +43,7 @@ void LiveFeed::listen(const std::stop_token& stop) {
 void LiveFeed::take(Run& run, const observables_t& message) {
   ++run.count.observables;
   run.observables = message;
-  run.order.add(message.sim_time_s, message.order);
+  if (std::isfinite(message.order)) run.order.add(message.sim_time_s, message.order);
 }
 
 void LiveFeed::take(Run& run, const defects_t& message) {

@@ -2,7 +2,9 @@
 #include "web/recorded_run.h"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
+#include <set>
 #include <shaken/frame_static_t.hpp>
 #include <system_error>
 
@@ -81,7 +83,7 @@ Result<client::RodFrame> RecordedRun::frame(std::size_t index) const {
     if (frame->species_of_rod.empty() || frame->species_of_rod[i] == 0) axes.push_back(n);
   }
   const analysis::NematicOrder mean = analysis::nematic_order(axes);
-  frame->order = mean.order;
+  frame->order = frame->has_axes() ? mean.order : std::numeric_limits<double>::quiet_NaN();
   frame->director = mean.director;
   return std::move(*frame);
 }
@@ -94,11 +96,16 @@ Result<run::Observables> RecordedRun::curves() const {
 
 std::vector<FileEntry> RecordedRun::files() const {
   std::vector<FileEntry> files;
+  // what the program keeps for itself tells nobody anything
+  std::set<std::string> of_the_program{directory_.lock().filename().string()};
+  for (const fs::path& checkpoint : directory_.checkpoints()) of_the_program.insert(checkpoint.filename().string());
   std::error_code error;
   for (fs::directory_iterator entry(directory_.root, error), end; !error && entry != end; entry.increment(error)) {
     std::error_code gone;
+    const std::string name = entry->path().filename().string();
+    if (of_the_program.contains(name)) continue;
     if (!entry->is_symlink(gone) && entry->is_regular_file(gone) && !gone) {
-      files.push_back({entry->path().filename().string(), entry->file_size(gone)});
+      files.push_back({name, entry->file_size(gone)});
     }
   }
   std::sort(files.begin(), files.end(), [](const FileEntry& a, const FileEntry& b) { return a.name < b.name; });

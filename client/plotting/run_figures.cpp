@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "base/steadiness.h"
 #include "base/text.h"
 #include "scene/fields.h"
 
@@ -63,8 +64,8 @@ std::string label_of(const std::string& point, const std::vector<PlottedRun>& ru
     return std::any_of(runs.begin(), runs.end(),
                        [&](const PlottedRun& run) { return run.point == point && run.steadiness == steadiness; });
   };
-  const std::string words = any(Steadiness::kRelaxing)   ? "still relaxing"
-                            : any(Steadiness::kNotKnown) ? "not known to be steady"
+  const std::string words = any(Steadiness::kRelaxing)   ? word_of(Steadiness::kRelaxing)
+                            : any(Steadiness::kNotKnown) ? word_of(Steadiness::kNotKnown)
                                                          : "";
   if (words.empty()) return point;
   return point.empty() ? words : point + " (" + words + ")";
@@ -381,7 +382,7 @@ std::vector<Figure> sweep_figures(const std::vector<ResultRow>& points, const Sw
   }
   if (any_error) figure.y_title += " ± standard error";
   if (any_relaxes || any_unknown) {
-    figure.title = fmt::format("hollow: {}{}{}, run longer", any_relaxes ? "still relaxing" : "",
+    figure.title = fmt::format("hollow: {}{}{}, run longer", any_relaxes ? word_of(Steadiness::kRelaxing) : "",
                                any_relaxes && any_unknown ? " or " : "", any_unknown ? "not known to be steady" : "");
   }
   return {figure};

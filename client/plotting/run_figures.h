@@ -16,6 +16,7 @@ struct PlottedRun {
   run::Observables observables;                 ///< as read from observables.h5
   Steadiness steadiness = Steadiness::kSteady;  ///< of the state that its averages are from
   RowVersion version{};                         ///< what computed it
+  std::string id{};                             ///< of the run, if it is known
 };
 
 /// A figure for each observable that at least one run has and that one curve can show: S(t), P[S], P(theta), the tilt

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <filesystem>
+
+#include "base/failure.h"
 #include "base/process.h"
 #include "client/verbs/verbs.h"
 
@@ -17,7 +20,13 @@ class Bench : public Verb {
   void declare(Arguments& arguments) override { arguments.rest(words_); }
 
   ExitCode run(const Context&) override {
-    std::vector<std::string> command{sibling_program("shaken-bench").string()};
+    const std::filesystem::path program = sibling_program("shaken-bench");
+    if (!std::filesystem::exists(program)) {  // `./dev demo` and some packages do without it
+      throw Failure(ExitCode::kFailed, "shaken-bench is not in " + program.parent_path().string() +
+                                           ": `./dev build` makes it, or `cmake --build build/release --target "
+                                           "shaken-bench`");
+    }
+    std::vector<std::string> command{program.string()};
     command.insert(command.end(), words_.begin(), words_.end());
     if (words_.empty()) command.emplace_back("--help");
     become(command);

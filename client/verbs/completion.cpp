@@ -15,10 +15,10 @@
 namespace shaken::client {
 namespace {
 
-/// Whether a shell takes `name` as it is. bash expands the words that it is offered: a space makes two of them, and
-/// "$(...)" in somebody's scene would be carried out at the next Tab.
-bool is_plain_word(const std::string& name) {
-  static constexpr std::string_view kPlain = "._-+=,:@%";
+/// Whether `name` may be offered to a shell: letters, digits, blanks and a few signs. What a shell expands is left out:
+/// "$(...)" in somebody's scene could be carried out at the next Tab.
+bool is_plain(const std::string& name) {
+  static constexpr std::string_view kPlain = "._-+=,:@% ";
   return std::all_of(name.begin(), name.end(), [](char c) {
     const auto byte = static_cast<unsigned char>(c);
     return byte >= 0x80 || std::isalnum(byte) != 0 || kPlain.find(c) != std::string_view::npos;
@@ -69,7 +69,7 @@ class Completion : public Verb {
     std::set<std::string> words;  // sweeps may share a name
     for (const Json& sweep : sweeps.at("sweeps")) {
       words.insert(sweep.at("id").get<std::string>());
-      if (const std::string name = text_of(sweep, "name"); is_plain_word(name)) words.insert(name);
+      if (const std::string name = text_of(sweep, "name"); is_plain(name)) words.insert(name);
     }
     words.erase("");
     for (const std::string& word : words) out << word << "\n";

@@ -12,6 +12,7 @@
 #include "client/target.h"
 #include "client/verbs/verbs.h"
 #include "run/files/directory.h"
+#include "run/files/version.h"
 
 namespace shaken::client {
 namespace {
@@ -57,7 +58,9 @@ class Plot : public Verb {
       const Target target = find_target_or_newest(session, id_);
       const Json& named = target.answer.at(target.is_sweep ? "sweep" : "job");
       if (out_.empty()) out_ = "plots-" + short_id(named.at("id").get<std::string>());
-      const std::vector<ResultRow> points = aggregated(result_rows(session, target));
+      if (target.is_sweep) sweep_ = text_of(named, "name");
+      const std::vector<ResultRow> rows = result_rows(session, target), points = aggregated(rows);
+      for (const ResultRow& row : rows) note_origin(field_text(row, "job"), version_of(row));
       if (one_figure()) {
         figures = one_figure_of(points);
       } else {
@@ -73,12 +76,15 @@ class Plot : public Verb {
     for (const auto& [why, n] : left_out) {
       console.err << fmt::format("left out: {}{}\n", n > 1 ? fmt::format("{} runs, ", n) : "", printable(why));
     }
+    for (const PlottedRun& run : runs) note_origin(run.id, run.version);
     for (Figure& figure : run_figures(std::move(runs))) figures.push_back(std::move(figure));
     if (figures.empty()) throw Failure(ExitCode::kFailed, "there is nothing to plot yet");
     if (file) {
       figures.front().name = file->name;
       out_ = file->folder.string();
     }
+    const PlotOrigin origin = this->origin();
+    for (Figure& figure : figures) figure.origin = origin;
     for (const Figure& figure : figures) console.out << draw(figure, out_, picture_format_).string() << "\n";
     return ExitCode::kOk;
   }
@@ -131,6 +137,22 @@ class Plot : public Verb {
     return PictureFile{out.has_parent_path() ? out.parent_path() : fs::path("."), out.stem().string()};
   }
 
+  /// A run that is in the plots.
+  void note_origin(const std::string& id, const RowVersion& version) {
+    if (!id.empty()) runs_.insert(id);
+    if (version.is_known()) versions_.insert(version.text());
+  }
+
+  /// What the plots are made from. A sweep goes by its name: its number says when it was submitted, and equal runs make
+  /// equal files.
+  PlotOrigin origin() const {
+    PlotOrigin origin{{"Software", std::string("shaken plot ") + run::version()}};
+    if (!versions_.empty()) origin.emplace_back("Computed by", origin_list({versions_.begin(), versions_.end()}));
+    if (!sweep_.empty()) origin.emplace_back("Sweep", printable(sweep_));
+    if (!runs_.empty()) origin.emplace_back("Runs", printable(origin_list({runs_.begin(), runs_.end()})));
+    return origin;
+  }
+
   std::vector<Figure> one_figure_of(const std::vector<ResultRow>& points) const {
     SweepAxes axes;
     if (!x_.empty()) axes.x = resolved_field(points, x_);
@@ -162,16 +184,18 @@ class Plot : public Verb {
     const Json summary = text ? Json::parse(*text, nullptr, false) : Json();
     const Json steady = summary.is_object() ? summary.value("steady", Json()) : Json();
     runs.push_back({point, *std::move(observables),
-                    steady == true    ? Steadiness::kSteady
-                    : steady == false ? Steadiness::kRelaxing
-                                      : Steadiness::kNotKnown,
-                    version_of(summary.is_object() ? summary.value("versions", Json()) : Json())});
+                    steadiness_of(steady.is_boolean() ? std::optional(steady.get<bool>()) : std::nullopt),
+                    version_of(summary.is_object() ? summary.value("versions", Json()) : Json()),
+                    summary.is_object() ? text_of(summary, "run_id") : ""});
   }
 
   std::string x_;
   std::string y_;
   std::string format_;
   PictureFormat picture_format_ = PictureFormat::kPng;
+  std::string sweep_;               ///< its name
+  std::set<std::string> runs_;      ///< ids of what is plotted
+  std::set<std::string> versions_;  ///< what computed it
   std::string id_;
   std::string out_;
 };

@@ -2,15 +2,17 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <limits>
+#include <cmath>
+#include <optional>
+#include <set>
 
 #include "base/clock.h"
-#include "base/files.h"
+#include "base/steadiness.h"
 #include "base/table.h"
 #include "base/text.h"
+#include "client/mean_order.h"
 #include "client/target.h"
 #include "client/verbs/verbs.h"
-#include "run/files/directory.h"
 
 namespace shaken::client {
 namespace {
@@ -63,15 +65,6 @@ std::string time_text(const Json& job) {
   }
   const std::string eta = eta_text(job_eta(job));
   return eta.empty() ? "" : "ETA " + eta;
-}
-
-/// Mean S of a run that is done, from its summary; NaN where it has none.
-double mean_order(const Json& job) {
-  const auto text = read_file(run::RunDirectory{text_of(job, "directory")}.summary());
-  const Json summary = text ? Json::parse(*text, nullptr, false) : Json();
-  const Json::json_pointer mean("/order/mean");
-  const bool is_there = summary.is_object() && summary.contains(mean) && summary.at(mean).is_number();
-  return is_there ? summary.at(mean).get<double>() : std::numeric_limits<double>::quiet_NaN();
 }
 
 class Status : public Verb {
@@ -154,16 +147,24 @@ class Status : public Verb {
                                100 * progress, eta.empty() ? "" : "  ETA ", eta);
     if (const std::string terms = terms_text(sweep); !terms.empty()) console.out << terms << '\n';
     Table table({{"JOB"}, {"STATE"}, {"DONE", Align::kRight}, {"S", Align::kRight}, {"TIME"}, {"POINT"}});
+    std::set<Steadiness> met;
     for (const Json& job : jobs_of(target)) {
+      const std::optional<MeanOrder> mean = mean_order(job);
+      if (mean) met.insert(mean->steadiness);
       const std::string state = text_of(job, "state");
       const std::string reason = text_of(job, "reason");
       table.add_row({short_id(job.at("id").get<std::string>()), console.painted(colour_of(state), state),
                      fmt::format("{:.0f} %", 100 * job_fraction(job)),
-                     number_text(state == "done" ? mean_order(job) : progress_number(job, "order_running_mean")),
+                     mean              ? mark_of(mean->steadiness) + number_text(mean->value)
+                     : state == "done" ? "-"
+                                       : number_text(progress_number(job, "order_running_mean")),
                      time_text(job),
                      text_of(job, "label") + (reason.empty() ? "" : "  " + console.painted(Colour::kDim, reason))});
     }
     console.out << table.text(console.width);
+    for (const Steadiness of : {Steadiness::kRelaxing, Steadiness::kNotKnown}) {
+      if (met.contains(of)) console.out << mark_of(of) << " " << meaning_of(of) << "\n";
+    }
   }
 
   static void show_job(const Json& job, Console& console) {
@@ -185,9 +186,14 @@ class Status : public Verb {
                        console.painted(Colour::kBlue, bar_text(job_fraction(job), 24)), 100 * job_fraction(job),
                        duration_text(progress_number(job, "sim_time_s")), duration_text(total)));
       line("rods", number_text(progress_number(job, "n_rods")));
-      line("order S", fmt::format("{} (running mean {})", number_text(progress_number(job, "order")),
-                                  number_text(progress_number(job, "order_running_mean"))));
+      if (!std::isnan(progress_number(job, "order")))
+        line("order S", fmt::format("{} (running mean {})", number_text(progress_number(job, "order")),
+                                    number_text(progress_number(job, "order_running_mean"))));
       line("overlap", number_text(progress_number(job, "max_overlap_mm")) + " mm at most");
+    }
+    if (const std::optional<MeanOrder> mean = mean_order(job)) {
+      line("mean S",
+           fmt::format("{}{} ({})", mark_of(mean->steadiness), number_text(mean->value), word_of(mean->steadiness)));
     }
     line("time", time_text(job));
   }

@@ -56,6 +56,8 @@ void LiveJobs::note_api(const Json& answer) {
   if (job.draws_film && drawn >= 0) job.drawn = std::min(drawn, 1.0);
   if (job.draws_film && !std::isnan(film_eta)) job.film_eta = film_eta;
   if (job.state == "done") job.sim_time = job.sim_time_total;
+  if (job.state != "done") job.result.reset();  // it goes on again
+  if (job.state == "done" && !job.result) job.result = mean_order(answer);
   const double time = progress_number(answer, "sim_time_s");
   if (std::isnan(time)) return;
   // The file is up to half a second older than a message.
@@ -91,10 +93,10 @@ void LiveJobs::note(const observables_t& message) {
   job->sim_rate = message.sim_rate;
   job->eta = message.eta_s;
   job->n_rods = message.n_rods;
-  job->order = message.order;
+  job->order = std::isfinite(message.order) ? std::optional(message.order) : std::nullopt;
   job->order_mean = message.order_running_mean;
   job->max_overlap = message.max_overlap_mm;
-  job->order_history.add(message.sim_time_s, message.order);
+  if (job->order) job->order_history.add(message.sim_time_s, message.order);
 }
 
 void LiveJobs::note(const defects_t& message) {

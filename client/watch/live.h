@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "client/json.h"
+#include "client/mean_order.h"
 
 namespace shaken::client {
 
@@ -52,8 +53,9 @@ struct LiveJob {
   double eta = -1;            ///< [s]; negative while unknown
   int n_rods = 0;
   std::optional<double> order;
-  double order_mean = 0;
-  double max_overlap = 0;  ///< [mm]
+  double order_mean = 0;            ///< beside `order` only
+  std::optional<MeanOrder> result;  ///< of a run that is done
+  double max_overlap = 0;           ///< [mm]
   History order_history;
   std::optional<observables_t> observables;  ///< the newest
   std::optional<int> n_plus;                 ///< defects +1/2

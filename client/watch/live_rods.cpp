@@ -89,10 +89,19 @@ void LiveRods::note(const frame_static_t& message) {
   }
 }
 
+namespace {
+
+/// S is a number, and may be NaN where there are no axes.
+bool has_fitting_order(double order, const RodFrame& constants) {
+  return std::isfinite(order) || (std::isnan(order) && !constants.has_axes());
+}
+
+}  // namespace
+
 void LiveRods::note(const frame_t& message) {
   if (!constants_ || message.job_id != job_) return;
   const bool fits = message.n_rods >= 0 && static_cast<std::size_t>(message.n_rods) == n_rods_ &&
-                    message.box_side_mm == constants_->box_side && std::isfinite(message.order) &&
+                    message.box_side_mm == constants_->box_side && has_fitting_order(message.order, *constants_) &&
                     std::abs(message.director_rad) <= 4 && std::isfinite(message.sim_time_s);
   if (!fits) return;
   std::optional<proto::Frame> frame = assembler_.add(message);
@@ -100,7 +109,7 @@ void LiveRods::note(const frame_t& message) {
   ++received_;
   RodFrame next = *constants_;
   next.time = frame->sim_time_s;
-  next.order = frame->order;
+  next.order = next.has_axes() ? frame->order : std::nan("");
   next.director = frame->director_rad;
   next.rods = std::move(frame->rods);
   newest_ = std::make_shared<const RodFrame>(std::move(next));

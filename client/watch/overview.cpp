@@ -32,9 +32,12 @@ std::string bar_line(const LiveJob& job, const Console& console) {
 }
 
 std::string numbers_line(const LiveJob& job, const Console& console) {
-  std::string line = fmt::format("  S {}  mean {:.3f}  N {}  overlap {:.2g} mm",
-                                 console.painted(Colour::kGreen, fmt::format("{:.3f}", job.order.value_or(0))),
-                                 job.order_mean, job.n_rods, job.max_overlap);
+  std::string line;
+  if (job.order) {  // spheres have none
+    line = fmt::format("  S {}  mean {:.3f}", console.painted(Colour::kGreen, fmt::format("{:.3f}", *job.order)),
+                       job.order_mean);
+  }
+  line += fmt::format("  N {}  overlap {:.2g} mm", job.n_rods, job.max_overlap);
   if (job.n_plus) line += fmt::format("  defects +{} −{}", *job.n_plus, *job.n_minus);
   if (job.observables) {
     const observables_t& o = *job.observables;
@@ -105,11 +108,16 @@ std::string watch_line(const LiveJob& job) {
   if (job.sim_time_total > 0) {
     line += fmt::format(" {:5.1f} %  t {:.3f}/{:.3f} s", 100 * job.fraction(), job.sim_time, job.sim_time_total);
   }
-  if (job.order) line += fmt::format("  S {:.3f}", *job.order);
+  if (job.result) {
+    line += fmt::format("  mean S {}{:.3f} ({})", mark_of(job.result->steadiness), job.result->value,
+                        word_of(job.result->steadiness));
+  } else if (job.order) {
+    line += fmt::format("  S {:.3f}", *job.order);
+  }
   if (job.order && job.is_running()) line += fmt::format(" (mean {:.3f})", job.order_mean);
   if (job.is_running() && !job.draws_film)
     line += fmt::format("  {:.3g} sim-s/s  ETA {}", job.sim_rate, duration_text(job.eta));
-  if (job.order) line += fmt::format("  overlap {:.2g} mm", job.max_overlap);
+  if (job.sim_time > 0) line += fmt::format("  overlap {:.2g} mm", job.max_overlap);
   if (job.observables) {
     line += fmt::format("  hits {}/{}/{}", job.observables->collisions_rod_rod, job.observables->collisions_rod_base,
                         job.observables->collisions_rod_lid);

@@ -69,6 +69,7 @@ Ink ink_of(Tone tone, double share) {
 }
 
 Colouring automatic_colouring(double order, Colouring last) {
+  if (std::isnan(order)) return Colouring::kSpecies;
   if (order > 0.6) return Colouring::kLayers;
   if (order < 0.4) return Colouring::kWheel;
   return last;

@@ -39,7 +39,7 @@ Ink ink_of(Tone tone);
 Ink ink_of(Tone tone, double share);
 
 /// What kAuto stands for at nematic order S: kLayers above 0.6, kWheel below 0.4, and `last` between, so that it does
-/// not flicker.
+/// not flicker. kSpecies where there is no S (NaN): spheres have no axis.
 Colouring automatic_colouring(double order, Colouring last);
 
 }  // namespace shaken::client

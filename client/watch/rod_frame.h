@@ -29,12 +29,15 @@ struct DefectMark {
 struct RodFrame {
   double time = 0;      ///< [s]
   double box_side = 0;  ///< [mm]; periodic unless there are walls
-  double order = 0;     ///< S
+  double order = 0;     ///< S; NaN where there are no axes
   double director = 0;  ///< its angle [rad]
   std::vector<proto::RodPose> rods;
   std::vector<RodOutline> outlines;          ///< one per species, at least one
   std::vector<std::uint8_t> species_of_rod;  ///< empty if there is one species
   std::optional<SideWalls> walls;            ///< in the middle of the box
+
+  /// Whether the first species, which order is about, has an axis: spheres have none.
+  bool has_axes() const { return !outlines.empty() && outlines.front().half_length > 0; }
 };
 
 /// The part of the box that is looked at.

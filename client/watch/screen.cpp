@@ -138,9 +138,13 @@ std::vector<std::string> number_lines(const LiveJob& job, const Console& console
   } else {
     lines.push_back(job.state + (job.reason.empty() ? "" : ": " + job.reason));
   }
-  lines.push_back(fmt::format("S {}  mean {:.3f}",
-                              console.painted(Colour::kGreen, job.order ? fmt::format("{:.3f}", *job.order) : "-"),
-                              job.order_mean));
+  if (job.result) {
+    lines.push_back(fmt::format("mean S {}{:.3f}", mark_of(job.result->steadiness), job.result->value));
+    if (job.result->steadiness != Steadiness::kSteady) lines.push_back(word_of(job.result->steadiness));
+  } else if (job.order) {  // spheres have none
+    lines.push_back(fmt::format("S {}  mean {:.3f}", console.painted(Colour::kGreen, fmt::format("{:.3f}", *job.order)),
+                                job.order_mean));
+  }
   std::string line = fmt::format("N {}", job.n_rods);
   if (job.n_plus) line += fmt::format("  defects +{} −{}", *job.n_plus, *job.n_minus);
   lines.push_back(line);

@@ -1,11 +1,25 @@
 // SPDX-License-Identifier: MIT
 #include "run/files/progress.h"
 
+#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
 
 namespace shaken::run {
+namespace {
+
+/// JSON has no NaN.
+nlohmann::ordered_json number_or_null(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+double number_or_nan(const nlohmann::json& value) {
+  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+}
+
+}  // namespace
 
 Result<void> write_progress(const std::filesystem::path& file, const Progress& progress) {
   const nlohmann::ordered_json json{
@@ -19,8 +33,8 @@ Result<void> write_progress(const std::filesystem::path& file, const Progress& p
       {"sim_rate", progress.sim_rate},
       {"eta_s", progress.eta},
       {"drawn", progress.drawn},
-      {"order", progress.order},
-      {"order_running_mean", progress.order_running_mean},
+      {"order", number_or_null(progress.order)},
+      {"order_running_mean", number_or_null(progress.order_running_mean)},
       {"max_overlap_mm", progress.max_overlap},
   };
   constexpr auto kReplaceBadUtf8 = nlohmann::ordered_json::error_handler_t::replace;
@@ -42,8 +56,8 @@ Result<Progress> read_progress(const std::filesystem::path& file) {
     json.at("sim_rate").get_to(progress.sim_rate);
     json.at("eta_s").get_to(progress.eta);
     progress.drawn = json.value("drawn", 0.0);  // older versions did not tell it
-    json.at("order").get_to(progress.order);
-    json.at("order_running_mean").get_to(progress.order_running_mean);
+    progress.order = number_or_nan(json.at("order"));
+    progress.order_running_mean = number_or_nan(json.at("order_running_mean"));
     json.at("max_overlap_mm").get_to(progress.max_overlap);
     return progress;
   } catch (const nlohmann::json::exception& problem) {

@@ -20,8 +20,8 @@ struct Progress {
   double sim_rate = 0;            ///< simulated seconds per wall second
   double eta = -1;                ///< wall seconds to the end of what it does now; negative where unknown
   double drawn = 0;               ///< share of the movie's frames that are drawn
-  double order = 0;               ///< S now
-  double order_running_mean = 0;  ///< over the second half of the run so far
+  double order = 0;               ///< S now; NaN (null in the file) of spheres, which have none
+  double order_running_mean = 0;  ///< over the second half of the run so far; NaN where it is not measured
   double max_overlap = 0;         ///< [mm]
 
   double fraction() const { return sim_time_total > 0 ? sim_time / sim_time_total : 0.0; }

@@ -56,6 +56,7 @@ MeasurementKind g2_kind() {
               {"g2", "G₂(r)", kWithError},
               {"g", "g(r)", kWithError},
           },
+      .of_axis = {"g2"},
   };
 }
 

@@ -106,6 +106,9 @@ MeasurementKind msd_kind() {
               {"diffusion_short_lag_from_s", "shortest of the short lags"},
               {"diffusion_short_lag_to_s", "longest of the short lags"},
           },
+      .of_axis = {"along_mm2", "across_mm2", "relative_along_mm2", "relative_across_mm2", "d_along_mm2_s",
+                  "d_across_mm2_s", "diffusion_along_mm2_s", "diffusion_across_mm2_s", "alpha_along_short",
+                  "alpha_along_long", "alpha_across_short", "alpha_across_long"},
   };
 }
 

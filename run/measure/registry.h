@@ -38,12 +38,14 @@ struct MeasurementKind {
   std::unique_ptr<Measurement> (*make)(const MeasureContext&) = nullptr;
   std::vector<Output> arrays = {};
   std::vector<Output> numbers = {};
+  /// Names of arrays and numbers that need an axis, where others of the same measurement do not: spheres lack them.
+  std::vector<std::string_view> of_axis = {};
   /// How many of so many samples are kept one by one; null: all.
   std::int64_t (*kept)(const scene::RunPlan&, std::int64_t samples) = nullptr;
   /// Whether samples are spread over their intervals, because they depend on the phase of the vibration; null: no.
   bool (*is_spread)(const scene::RunPlan&) = nullptr;
 
-  /// The period asked for [s]; none: it is not measured.
+  /// The period asked for [s]; none: it is not measured (Observable::period).
   std::optional<double> every(const scene::RunPlan& plan) const;
   /// When samples are taken; none: it is not measured.
   std::optional<Cadence> cadence(const scene::RunPlan& plan) const;

@@ -49,6 +49,7 @@ MeasurementKind structure_kind() {
                  {"factor_along", "of wave vectors within 30° of the director", kWithError},
                  {"factor_across", "of wave vectors within 30° of its normal", kWithError}},
       .numbers = {{"structure_longest_wave", "S(2π/L): fluctuations of the density on the scale of the box"}},
+      .of_axis = {"factor_along", "factor_across"},
   };
 }
 

@@ -82,6 +82,8 @@ MeasurementKind velocity_kind() {
               {"persistence_length_mm", "how far it gets in that direction"},
               {"velocity_rms_mm_s", "√⟨v²⟩ in the plane"},
           },
+      .of_axis = {"c_v_along", "c_v_across", "product_along_mm2_s2", "product_across_mm2_s2",
+                  "velocity_variance_along_mm2_s2", "velocity_variance_across_mm2_s2"},
   };
 }
 

@@ -183,7 +183,8 @@ class Prober {
 
   /// Frames are sent by the clock on the wall, which is CPU time if the run has a core to itself.
   void time_stream() {
-    const double each = time_of([&] { proto::encode_frame(make_frame(simulation_.snapshot())); }, kCpu, 2);
+    const double each =
+        time_of([&] { proto::encode_frame(make_frame(simulation_.world(), simulation_.snapshot())); }, kCpu, 2);
     const double rate = plan_.stream->rate;
     const double run = result_.total() - result_.cpu_of("movie").value_or(0);
     double frames = run * rate / std::max(0.01, 1 - rate * each);  // the frames take time too

@@ -81,6 +81,8 @@ void check_until(Resolution& scene) {
   if (!plan.until) return;
   if (!plan.order)
     scene.report({"until", "measure.order"}, "until asks for an error of S, which measure.order = null leaves out");
+  if (scene.ok({"rods.beads"}) && !plan.system.rod.has_axis())
+    scene.report({"until", "rods.beads"}, "until asks for an error of S, and spheres have no S: they have no axis");
   if (!scene.ok({"until.at_most", "time.measure"}) || plan.until->at_most >= plan.measure_time) return;
   scene.report({"until.at_most", "time.measure"},
                fmt::format("until.at_most {} is shorter than time.measure {}", time_text(plan.until->at_most),

@@ -327,11 +327,11 @@ class InSlurm(unittest.TestCase):
             before = ended()
             configs = pathlib.Path(__file__).resolve().parents[2] / "configs"
             finished = subprocess.run(
-                [PROGRAMS / "shaken", "--root", daemon.root, "figures", "8", "--scale", "tiny", "--configs", configs,
+                [PROGRAMS / "shaken", "--root", daemon.root, "figures", "10", "--scale", "tiny", "--configs", configs,
                  "-o", self.base / "drawn", "--executor", "slurm", "--partition", "main", "--time", "5min"],
                 env=CLUSTER.environment, stdin=subprocess.DEVNULL, capture_output=True, text=True)
             self.assertEqual(finished.returncode, 0, finished.stderr)
-            self.assertTrue((self.base / "drawn" / "fig08-mechanism.png").exists())
+            self.assertTrue((self.base / "drawn" / "fig10-tilt.png").exists())
             self.assertEqual(daemon.counts()["done"], 2)
             eventually(lambda: len(ended() - before) == 2, "each run had a task of its own")
 

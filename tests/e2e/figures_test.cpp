@@ -53,7 +53,7 @@ TEST(Figures, TinyScaleMakesEveryFigureAndGoesOnAfterAnInterruption) {
   const fs::path folder = out.path() / "figures";
   {
     Process first(command(root, {"-o", folder.string()}), out.path() / "first.txt");
-    ASSERT_TRUE(first.wait_for("fig08-mechanism.png", std::chrono::seconds(120))) << first.output();
+    ASSERT_TRUE(first.wait_for("fig10-tilt.png", std::chrono::seconds(120))) << first.output();
     first.signal(SIGINT);
     EXPECT_EQ(first.wait(std::chrono::seconds(60)), 130);
     EXPECT_THAT(first.output(), HasSubstr("runs to be done: about "));
@@ -100,11 +100,11 @@ TEST(Figures, TinyScaleMakesEveryFigureAndGoesOnAfterAnInterruption) {
 
   // Redrawn from what is there, without any daemon.
   fs::remove_all(folder);
-  const Finished again = run_command(command(root, {"2", "--draw-only", "-o", folder.string()}));
+  const Finished again = run_command(command(root, {"3", "--draw-only", "-o", folder.string()}));
   EXPECT_EQ(again.code, 0) << again.output;
-  EXPECT_TRUE(is_png(folder / "fig02-order.png"));
+  EXPECT_TRUE(is_png(folder / "fig03-order.png"));
   EXPECT_FALSE(fs::exists(root.path() / "shakend.sock"));
-  for (const Json& claim : Json::parse(std::ifstream(folder / "claims.json"))) EXPECT_EQ(claim["figure"], "2") << claim;
+  for (const Json& claim : Json::parse(std::ifstream(folder / "claims.json"))) EXPECT_EQ(claim["figure"], "3") << claim;
 }
 
 TEST(Figures, WhatWouldFailAfterHoursFailsAtOnce) {
@@ -118,31 +118,32 @@ TEST(Figures, WhatWouldFailAfterHoursFailsAtOnce) {
     EXPECT_THAT(refused.output, HasSubstr(std::string(section) + ": begin"));
   }
   EXPECT_FALSE(fs::exists(root.path() / "runs"));
-  const Finished nothing = run_command(command(root, {"2", "--draw-only", "-o", (out.path() / "none").string()}));
+  const Finished nothing = run_command(command(root, {"3", "--draw-only", "-o", (out.path() / "none").string()}));
   EXPECT_EQ(nothing.code, 1);
-  EXPECT_THAT(nothing.output, HasSubstr("figure 2: no run is done yet"));
+  EXPECT_THAT(nothing.output, HasSubstr("figure 3: no run is done yet"));
 }
 
 TEST(Figures, ADaemonThatDiesIsStartedAgain) {
   const ScratchFolder root, out;
-  Process figures(command(root, {"8", "-o", (out.path() / "figures").string()}), out.path() / "out.txt");
+  Process figures(command(root, {"10", "-o", (out.path() / "figures").string()}), out.path() / "out.txt");
   ASSERT_TRUE(figures.wait_for("0/2 runs", std::chrono::seconds(60))) << figures.output();
   const Finished status = run_command(
       {"/usr/bin/curl", "-s", "--unix-socket", (root.path() / "shakend.sock").string(), "http://shaken/v1/status"});
   kill(Json::parse(status.output).at("pid").get<pid_t>(), SIGKILL);
   EXPECT_EQ(figures.wait(std::chrono::seconds(120)), 0) << figures.output();
   EXPECT_THAT(figures.output(), HasSubstr("starting one"));
-  EXPECT_TRUE(is_png(out.path() / "figures" / "fig08-mechanism.png"));
+  EXPECT_TRUE(is_png(out.path() / "figures" / "fig10-tilt.png"));
+  EXPECT_THAT(figures.output(), HasSubstr("2/2 runs")) << "a log does not end with how far it was a minute before";
 }
 
 TEST(Figures, SaysWhatIsQueuedBeforeIt) {
   const ScratchFolder root, out;
-  Process figures(command(root, {"8", "-o", (out.path() / "figures").string()}), out.path() / "out.txt");
+  Process figures(command(root, {"10", "-o", (out.path() / "figures").string()}), out.path() / "out.txt");
   ASSERT_TRUE(figures.wait_for("0/2 runs", std::chrono::seconds(60))) << figures.output();
   EXPECT_THAT(figures.output(), Not(HasSubstr("were queued here before")));
   figures.signal(SIGINT);
   EXPECT_EQ(figures.wait(std::chrono::seconds(60)), 130) << figures.output();
-  const Finished again = run_command(command(root, {"8", "-o", (out.path() / "figures").string()}));
+  const Finished again = run_command(command(root, {"10", "-o", (out.path() / "figures").string()}));
   EXPECT_EQ(again.code, 0) << again.output;
   EXPECT_THAT(again.output, HasSubstr("jobs were queued here before"));
 }
@@ -156,7 +157,7 @@ TEST(Figures, SaysWhatKeepsItsRunsWaiting) {
     fs::permissions(out / name, fs::perms::owner_all);
   }
   std::vector<std::string> words =
-      command(root, {"8", "-o", (out / "figures").string(), "--executor", "slurm", "--partition", "shrot"});
+      command(root, {"10", "-o", (out / "figures").string(), "--executor", "slurm", "--partition", "shrot"});
   words.insert(words.begin(), {"/usr/bin/env", "PATH=" + out.path().string() + ":/usr/bin:/bin"});
   Process figures(words, out / "out.txt");
   EXPECT_TRUE(

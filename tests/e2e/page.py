@@ -128,11 +128,23 @@ def use(page, address, live, downloads):
 
     eventually(lambda: len(rows("done")) == 4, "all jobs are done")
     eventually(lambda: page.execute_script(
-        "const c = Chart.getChart('map'); return c.data.datasets[0].backgroundColor.filter((x) => x.startsWith('rgb')).length"
+        "return Chart.getChart('map').points.filter((p) => p.hollow || p.fill.startsWith('rgb')).length"
     ) == 4, "the phase diagram has four points with a value")
+    marked = [row.text for row in rows("done") if "~0." in row.text or "?0." in row.text]
+    hollow = page.execute_script(
+        "return Chart.getChart('map').data.datasets[0].backgroundColor.filter((x) => x === 'transparent').length")
+    check(hollow == len(marked), f"what is marked in the table is hollow in the diagram: {hollow}, {marked}")
+    check(("hollow: " in text("#map-marks")) == bool(marked), "and is explained")
+    find("#map-save").click()
+    eventually(lambda: any(name.endswith("-order.mean.png") for name in os.listdir(downloads)), "the phase diagram is saved")
+    saved = next(name for name in os.listdir(downloads) if name.endswith("-order.mean.png"))
+    with open(os.path.join(downloads, saved), "rb") as picture:
+        check(picture.read(8) == b"\x89PNG\r\n\x1a\n", "as a PNG")
     Select(find("#map-y")).select_by_value("")
     check(page.execute_script("return Chart.getChart('map').options.scales.y.title.text") == "order.mean",
           "against one parameter, the value goes up")
+    if any("±" in row.text for row in rows("done")):
+        check(page.execute_script("return Chart.getChart('map').points.some((p) => p.bar > 0)"), "with its errors")
 
     click(rows, "done", 1)
     eventually(lambda: "t = 3.000 s" in text("#run-facts"), "a finished run shows its last frame")
@@ -149,6 +161,7 @@ def use(page, address, live, downloads):
     eventually(lambda: page.execute_script("return document.getElementById('rods').toDataURL()") != before,
                "another colouring is another picture")
     check("summary.json" in text("#files") and "trajectory.h5" in text("#files"), "its files can be saved")
+    check("lock" not in text("#files") and "checkpoint" not in text("#files"), "but not what the program keeps for itself")
     picture = page.execute_async_script("""
         const done = arguments[arguments.length - 1];
         import("/page/dom.js").then(async ({fetched}) => {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <iterator>
 
 #include "tests/e2e/process.h"
 
@@ -37,6 +38,55 @@ TEST(Worker, DoesNotFailForALastWordThatItsLogHasNoRoomFor) {
   const std::string run = "cd " + folder.path().string() + "; mkdir run; ln -s /dev/full run/worker.log; " +
                           "shaken-worker scene.json --out run --no-lcm > run/worker.log 2>&1; echo code $?";
   EXPECT_THAT(shell(run).output, HasSubstr("code 0"));
+}
+
+// The log, the summary and the last words of a run are read one below the other.
+TEST(Run, SaysInOneSentenceWhyItIsNotSteady) {
+  const ScratchFolder folder;
+  std::ofstream(folder / "scene.json") << R"({
+    "rods": { "length": "3 mm", "area_fraction": 0.6 }, "box": { "side": "12 mm" },
+    "time": { "measure": "0.3 s" }, "measure": { "order": { "every": "2 ms" } }, "stream": null })";
+  const Finished run = shell("cd " + folder.path().string() + "; shaken run scene.json -o run 2>&1");
+  ASSERT_EQ(run.code, 0) << run.output;
+  std::ifstream file(folder / "run/summary.json");
+  const std::string summary{std::istreambuf_iterator<char>(file), {}};
+  const std::string key = "\"why_not_steady\": \"";
+  const std::size_t at = summary.find(key);
+  ASSERT_NE(at, std::string::npos) << summary;
+  const std::string why = summary.substr(at + key.size(), summary.find('"', at + key.size()) - at - key.size());
+  const bool relaxes = summary.find("\"steady\": false") != std::string::npos;
+  EXPECT_THAT(why, ::testing::StartsWith(relaxes ? "still relaxing: " : "not known to be steady: "));
+  EXPECT_THAT(run.output, HasSubstr("warning " + why + "\n"));
+  EXPECT_THAT(run.output, HasSubstr(std::string("\n") + (relaxes ? "~ " : "? ") + why + "\n"));
+}
+
+TEST(Plot, SaysWhoseRunItShows) {
+  if (shell("gnuplot --version").code != 0) GTEST_SKIP() << "no gnuplot";
+  const ScratchFolder folder;
+  std::ofstream(folder / "scene.json") << R"({
+    "rods": { "length": "3 mm", "count": 10 }, "box": { "side": "12 mm" },
+    "time": { "measure": "20 ms" }, "measure": { "order": { "every": "2 ms" } }, "stream": null })";
+  const Finished drawn =
+      shell("cd " + folder.path().string() +
+            "; shaken run scene.json -o run && shaken plot run -o plots && head -n 3 plots/order_time.dat "
+            "plots/order_time.gp && grep run_id run/summary.json");
+  ASSERT_EQ(drawn.code, 0) << drawn.output;
+  const std::size_t at = drawn.output.find("\"run_id\": \"") + 11;
+  const std::string head = "# Software: shaken plot ", runs = "\n# Runs: " + drawn.output.substr(at, 16) + "\n";
+  EXPECT_THAT(drawn.output, HasSubstr("plots/order_time.dat <==\n" + head));
+  EXPECT_THAT(drawn.output, HasSubstr("plots/order_time.gp <==\n" + head));
+  EXPECT_THAT(drawn.output, HasSubstr(runs));
+}
+
+// As after `./dev demo`, which builds no benches.
+TEST(Bench, ThatIsNotBuiltSaysHowItIs) {
+  const ScratchFolder folder;
+  const std::string here = "cd " + folder.path().string() + "; cp " SHAKEN_BIN_DIR "/shaken .; ";
+  const Finished missing = shell(here + "./shaken bench speed 2>&1");
+  EXPECT_EQ(missing.code, 1);
+  EXPECT_THAT(missing.output,
+              HasSubstr("shaken-bench is not in " + folder.path().string() + ": `./dev build` makes it"));
+  EXPECT_THAT(shell(here + "./shaken --root . doctor 2>&1").output, HasSubstr("shaken-bench"));
 }
 
 TEST(EveryVerb, TakesNamesThatBeginWithADashAfterTwoDashes) {

@@ -46,12 +46,31 @@ export class Curve {
   clear() { this.set([], []); }
 }
 
+/** A bar of one standard error to either side of each point that has one (`bar`), behind the points. */
+const errorBars = {
+  id: "errorBars",
+  beforeDatasetsDraw(chart) {
+    const {ctx, scales: {x, y}} = chart;
+    ctx.strokeStyle = kFaint;
+    ctx.lineWidth = 1.5;
+    for (const point of chart.points ?? []) {
+      if (!(point.bar > 0)) continue;
+      const at = x.getPixelForValue(point.x);
+      ctx.beginPath();
+      ctx.moveTo(at, y.getPixelForValue(point.y - point.bar));
+      ctx.lineTo(at, y.getPixelForValue(point.y + point.bar));
+      ctx.stroke();
+    }
+  },
+};
+
 /** Points with a value each, shown by colour; or against the value where there is only one parameter. */
 export class PointMap {
   constructor(canvas, choose) {
     this.points = [];
     this.chart = new Chart(canvas, {
       type: "scatter",
+      plugins: [errorBars],
       data: {datasets: [{data: [], pointRadius: 9, pointHoverRadius: 11, pointStyle: "rect", borderWidth: 2}]},
       options: {...common, parsing: false,
                 onClick: (event, hits) => { if (hits.length) choose(this.points[hits[0].index]); },
@@ -62,24 +81,45 @@ export class PointMap {
     });
   }
 
-  /** points: [{x, y, fill, border, text}] */
+  /** A PNG of the map under a line of words; null if there is none. */
+  picture(words) { return pictureOf(this.chart, words); }
+
+  /** points: [{x, y, fill, border, text, bar, hollow}]; `bar` is a standard error of y, NaN for none. */
   set(points, xTitle, yTitle) {
-    this.points = points;
+    this.points = this.chart.points = points;
     const [set] = this.chart.data.datasets;
     set.data = points.map(({x, y}) => ({x, y}));
     set.backgroundColor = points.map(({fill}) => fill);
     set.borderColor = points.map(({border}) => border);
+    set.borderWidth = points.map(({hollow}) => hollow ? 3 : 2);
     for (const [name, title] of [["x", xTitle], ["y", yTitle]]) {
       const scale = this.chart.options.scales[name];
       scale.title.text = title;
       scale.offset = true;
-      const values = points.map((point) => point[name]).filter(Number.isFinite);
+      const reach = (point) => name === "y" && point.bar > 0 ? point.bar : 0;
+      const values = points.flatMap((point) => [point[name] - reach(point), point[name] + reach(point)]).filter(Number.isFinite);
       const low = Math.min(...values), high = Math.max(...values), margin = (high - low || Math.abs(low) || 1) * 0.08;
       scale.min = values.length ? low - margin : undefined;
       scale.max = values.length ? high + margin : undefined;
     }
     this.chart.update("none");
   }
+}
+
+/** A PNG of what `chart` shows, on the page's ground and with a line of words above it; null if there is none. */
+export function pictureOf(chart, words) {
+  const {canvas} = chart, size = Math.max(12, Math.round(canvas.height / 24)), top = 2 * size;
+  const sheet = document.createElement("canvas");
+  sheet.width = canvas.width;
+  sheet.height = canvas.height + top;
+  const context = sheet.getContext("2d");
+  context.fillStyle = "#17191d";
+  context.fillRect(0, 0, sheet.width, sheet.height);
+  context.fillStyle = kInk;
+  context.font = `${size}px sans-serif`;
+  context.fillText(words, size, 1.4 * size, sheet.width - 2 * size);
+  context.drawImage(canvas, 0, top);
+  return new Promise((done) => sheet.toBlob(done, "image/png"));
 }
 
 /** Draws a strip of colours; colour(part) for part from 0 to 1. */

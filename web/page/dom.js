@@ -49,6 +49,13 @@ export async function ask(path, body) {
   return answer;
 }
 
+/** Has the browser save a Blob that the page has made. */
+export function offer(blob, name) {
+  const address = URL.createObjectURL(blob);
+  make("a", {href: address, download: name}).click();
+  setTimeout(() => URL.revokeObjectURL(address), 60000);
+}
+
 /** Has the browser save what GET `path` answers. */
 export async function save(path) {
   try {

@@ -174,8 +174,9 @@ export class RodCanvas {
       gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
       gl.bufferData(gl.ARRAY_BUFFER, frame[name], gl.DYNAMIC_DRAW);
     }
-    // layers where there is order, the wheel where there is none, and no flicker between
-    if (frame.order > (this.automatic ? 0.6 : 0.5)) this.automatic = "layers";
+    // spheres have no axes, and so no S; layers where there is order, the wheel where there is none, and no flicker between
+    if (frame.order === null) this.automatic = "species";
+    else if (frame.order > (this.automatic ? 0.6 : 0.5)) this.automatic = "layers";
     else if (frame.order < 0.4 || !this.automatic) this.automatic = "wheel";
     this.draw();
   }

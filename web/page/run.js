@@ -177,6 +177,7 @@ export class RunPanel {
   }
 
   noteObservables(now) {
+    if (now.order === null) return;  // spheres have none
     const {times, values} = this.order;
     if (times.length && now.time_s < times.at(-1)) times.length = values.length = 0;  // back to a checkpoint
     if (times.length === 0 || now.time_s > times.at(-1)) {
@@ -189,11 +190,12 @@ export class RunPanel {
   async showFrame(frame, id) {
     const canvas = await this.canvas;
     if (id !== this.id) return;
-    byId("run-facts").textContent = `t = ${frame.time_s.toFixed(3)} s, ${frame.n_rods} rods in ${number(frame.box_side_mm)} mm, S = ${frame.order.toFixed(3)}`;
+    byId("run-facts").textContent = `t = ${frame.time_s.toFixed(3)} s, ${frame.n_rods} rods in ${number(frame.box_side_mm)} mm` +
+      (frame.order === null ? "" : `, S = ${frame.order.toFixed(3)}`);
     if (!canvas) return;
     canvas.set(frame);
     this.showLegend(canvas);
-    if (this.hasMeanAngles) return;
+    if (this.hasMeanAngles || frame.order === null) return;
     const counts = new Array(kBins).fill(0), width = 180 / kBins;
     for (let i = 0; i < frame.n_rods; ++i) {
       if (frame.species[i] === 0) ++counts[Math.min(kBins - 1, Math.floor((angleToDirector(frame, i) + 90) / width))];

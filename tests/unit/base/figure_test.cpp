@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "base/files.h"
 #include "base/process.h"
 #include "base/scratch_folder.h"
 
@@ -28,7 +29,47 @@ TEST(FigureData, OneBlockPerCurveWithoutWhatIsNotFinite) {
                                  {.label = "b", .x = {1}, .y = {2}, .y_error = {0.5}},
                                  {.label = "empty", .x = {1}, .y = {NAN}}}};
   EXPECT_EQ(figure_data(figure),
-            "# a\n# x  y\n1 4\n3 6\n\n\n# b\n# x  y  y_error\n1 2 0.5\n\n\n# empty\n# x  y\nNaN NaN\n");
+            "# a\n# x; y\n1 4\n3 6\n\n\n# b\n# x; y; standard error\n1 2 0.5\n\n\n# empty\n# x; y\nNaN NaN\n");
+}
+
+TEST(FigureData, NamesItsColumnsWithUnits) {
+  const Figure figure{.x_title = "gap w (mm)",
+                      .y_title = "{/Symbol q}_m (degrees) ± standard error",
+                      .curves = {{.label = "a", .x = {1}, .y = {9}, .y_error = {0.2}, .unsteady = {true}}}};
+  EXPECT_EQ(figure_data(figure),
+            "# a\n# gap w (mm); θ_m (degrees); standard error; 1 where not known to be steady\n1 9 0.2 1\n");
+}
+
+// Years later a picture must still say whose runs it shows; and equal runs make equal files.
+TEST(Draw, FilesSayWhatTheyAreMadeFrom) {
+  if (run_captured({"gnuplot", "--version"}).exit_code != 0) GTEST_SKIP() << "no gnuplot";
+  const ScratchFolder folder;
+  Figure figure{.name = "f", .curves = {{.label = "a", .x = {1, 2}, .y = {3, 4}}}};
+  figure.origin = {{"Software", "shaken 0.1.0"}, {"Sweep", "θ & <w>"}};
+  draw(figure, folder.path());
+  draw(figure, folder.path(), PictureFormat::kSvg);
+  const std::string png = *read_file(folder / "f.png"), svg = *read_file(folder / "f.svg");
+  for (const char* file : {"f.dat", "f.gp"}) {
+    EXPECT_THAT(*read_file(folder / file), ::testing::StartsWith("# Software: shaken 0.1.0\n# Sweep: θ & <w>\n"))
+        << file;
+  }
+  EXPECT_NE(png.find(std::string("tEXtSoftware") + '\0' + "shaken 0.1.0"), std::string::npos);
+  EXPECT_NE(png.find(std::string("iTXtSweep") + std::string(5, '\0') + "θ & <w>"), std::string::npos);
+  EXPECT_THAT(svg, HasSubstr("<desc>Software: shaken 0.1.0\nSweep: θ &amp; &lt;w&gt;\n"));
+  const ScratchFolder other;
+  draw(figure, other.path());
+  EXPECT_EQ(*read_file(other / "f.png"), png);
+}
+
+// From the specification of PNG: the checksum of IEND, which has no bytes, is AE426082.
+TEST(PngWith, AddsChunksBehindTheHeader) {
+  const std::string head = std::string("\x89PNG\r\n\x1a\n", 8) + std::string(25, 'h');
+  const std::string with = png_with(head + "rest", {{"A", "b"}});
+  EXPECT_TRUE(with.starts_with(head));
+  EXPECT_TRUE(with.ends_with("rest"));
+  EXPECT_EQ(with.substr(33, 12), std::string("\0\0\0\x03tEXtA\0b", 11) + with[44]);
+  EXPECT_EQ(png_with("no picture", {{"A", "b"}}), "no picture");
+  EXPECT_EQ(origin_list({"a", "b", "c"}, 2), "a, b and 1 more");
 }
 
 TEST(FigureScript, QuotesLabels) {

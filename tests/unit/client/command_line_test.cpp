@@ -256,6 +256,28 @@ TEST(Schema, IsPrintedOfScenesAndOfSweeps) {
   EXPECT_THAT(run_client({"schema", "film"}).err, HasSubstr("\"film\" is neither scene nor sweep"));
 }
 
+TEST(CommandLine, HelpIsAVerbToo) {
+  EXPECT_EQ(run_client({"help"}).out, run_client({"--help"}).out);
+  EXPECT_EQ(run_client({"help", "plot"}).out, run_client({"plot", "--help"}).out);
+  EXPECT_EQ(run_client({"help"}).code, ExitCode::kOk);
+  EXPECT_THAT(run_client({"help", "plto"}).err, HasSubstr("did you mean plot?"));
+}
+
+// A list of problems is a line each, and nothing below.
+TEST(CommandLine, NoRefusalEndsWithAnEmptyLine) {
+  const ScratchFolder folder;
+  const std::string file = (folder.path() / "a.json").string();
+  std::ofstream(file) << R"({"rods": {"lenght": 3}, "box": {"sied": 3}})";
+  for (const std::vector<std::string>& command : {std::vector<std::string>{"validate", file},
+                                                  {"validate", file, "-s", "box.side"},
+                                                  {"plot", "--format", "bmp"}}) {
+    const Outcome refused = run_client(command);
+    EXPECT_EQ(refused.code, ExitCode::kBadInput);
+    EXPECT_THAT(refused.err, ::testing::Not(::testing::EndsWith("\n\n")));
+    EXPECT_THAT(refused.err, ::testing::EndsWith("\n"));
+  }
+}
+
 TEST(Completion, BashScriptCompletesVerbsAndOptions) {
   const ScratchFolder folder;
   const std::string script = (folder.path() / "shaken.bash").string();
@@ -280,6 +302,18 @@ TEST(Completion, BashScriptCompletesVerbsAndOptions) {
       << "a directory is no job";
   EXPECT_EQ(completed("shaken validate " + folder.path().string() + "/sh", 2), script + "\n");
   EXPECT_EQ(run_captured({"bash", "-n", script}).exit_code, 0);
+  // a name with a blank is one word, and what looks like a command is none
+  const auto of_sweeps = [&](const std::string& word) {
+    return run_captured(
+               {"bash", "-c",
+                "set -eu; complete() { :; }; source '" + script +
+                    "'; shaken() { printf '%s\\n' s1 'two words' 'two $(touch x)'; }; COMP_WORDS=(shaken status " +
+                    word + "); COMP_CWORD=2; _shaken || true; printf '[%s]' \"${COMPREPLY[@]}\""})
+        .output;
+  };
+  EXPECT_EQ(of_sweeps("'two\\ w'"), "[two words]");
+  EXPECT_EQ(of_sweeps("s"), "[s1]");
+  EXPECT_EQ(of_sweeps("two"), "[two words][two $(touch x)]") << "as it is: readline quotes what it puts in";
 }
 
 }  // namespace

@@ -103,7 +103,7 @@ TEST(RunFigures, WhatStillRelaxesSaysSo) {
   }
   EXPECT_EQ(figures[0].name, "tilt");
   EXPECT_EQ(figures[0].curves[0].unsteady, std::vector<bool>(2, true));
-  EXPECT_THAT(figure_data(figures[0]), HasSubstr("# x  y  unsteady\n-0.1 1 1\n"));
+  EXPECT_THAT(figure_data(figures[0]), HasSubstr("; 1 where not known to be steady\n-0.1 1 1\n"));
   EXPECT_THAT(figure_script(figures[0]), HasSubstr("using 1:($3==1?$2:NaN) with points"));
   EXPECT_EQ(run_figures({{"", arrays, Steadiness::kRelaxing}})[0].curves[0].label, "still relaxing");
   const auto unknown = run_figures({{"a", arrays, Steadiness::kNotKnown}, {"a", arrays}});

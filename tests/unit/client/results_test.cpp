@@ -243,6 +243,17 @@ TEST(ResolvedField, MeasuredScalarsByTheirName) {
   EXPECT_EQ(resolved_field(rows, "theta_m_deg"), "measured.theta_m_deg.value");
   EXPECT_EQ(resolved_field(rows, "S"), "order.mean") << "as tables and figures have it";
   EXPECT_THROW((void)resolved_field(rows, "theta"), Failure);
+  const std::pair<const char*, const char*> slips[] = {{"theta_m", "did you mean theta_m_deg?"},
+                                                       {"tehta_m_deg", "did you mean theta_m_deg?"},
+                                                       {"order.maen", "did you mean order.mean?"}};
+  for (const auto& [word, hint] : slips) {
+    try {
+      (void)resolved_field(rows, word);
+      ADD_FAILURE() << word;
+    } catch (const Failure& failure) {
+      EXPECT_NE(std::string(failure.what()).find(hint), std::string::npos) << failure.what();
+    }
+  }
   EXPECT_EQ(resolved_field(rows, "order.sem"), "order.sem");
   for (const auto& some : {rows, aggregated(rows)}) {
     EXPECT_EQ(resolved_field(some, "order.sem"), "order.sem") << "the error that a mean has";

@@ -123,6 +123,27 @@ TEST_F(Verbs, StatusShowsTheMeanOrderOfWhatIsDone) {
   EXPECT_THAT(outcome.out, HasSubstr("2a0c0000  done   100 %      - "));
 }
 
+// The marks and words of `shaken results`: a mean of no steady state is not shown as one.
+TEST_F(Verbs, StatusMarksWhatIsNotKnownToBeSteady) {
+  std::vector<Json> jobs;
+  for (const auto& [id, steady] :
+       {std::pair{"1f0c000000000000", "true"}, {"2a0c000000000000", "false"}, {"3b0c000000000000", "null"}}) {
+    jobs.push_back(job(id, "done"));
+    const std::filesystem::path folder = root_ / id;
+    std::filesystem::create_directory(folder);
+    jobs.back()["directory"] = folder.string();
+    std::ofstream(folder / "summary.json") << R"({"order": {"mean": 0.625}, "steady": )" << steady << "}";
+    daemon_.on(std::string("GET /v1/jobs/") + id, text({{"job", jobs.back()}}));
+  }
+  daemon_.on("GET /v1/sweeps/s1", text(sweep(jobs)));
+  const Outcome outcome = run({"status", "s1"});
+  EXPECT_THAT(outcome.out, HasSubstr("1f0c0000  done   100 %   0.625 "));
+  EXPECT_THAT(outcome.out, HasSubstr("2a0c0000  done   100 %  ~0.625 "));
+  EXPECT_THAT(outcome.out, HasSubstr("3b0c0000  done   100 %  ?0.625 "));
+  EXPECT_THAT(outcome.out, HasSubstr("\n~ still relaxing: "));
+  EXPECT_THAT(outcome.out, HasSubstr("\n? not known to be steady: "));
+}
+
 TEST_F(Verbs, AnswersOfAnotherShapeAreNamedAsSuch) {
   daemon_.on("GET /v1/status", "{}");
   daemon_.on("GET /v1/sweeps", R"({"sweeps": 7})");
@@ -701,7 +722,7 @@ TEST_F(Verbs, CompletionOffersNothingThatAShellExpands) {
   }
   daemon_.on("GET /v1/sweeps", text({{"sweeps", sweeps}}));
   daemon_.on("GET /v1/jobs", R"({"jobs": []})");
-  EXPECT_EQ(run({"completion", "ids"}).out, "plain-1.5_Γ\ns1\n");
+  EXPECT_EQ(run({"completion", "ids"}).out, "plain-1.5_Γ\ns1\ntwo words\n");
 }
 
 TEST_F(Verbs, CompletionKnowsTheIds) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "render/colourings.h"
 #include "render/style.h"
 #include "tests/unit/render/support.h"
 
@@ -97,6 +98,34 @@ TEST(Measure, FindsAPlantedPairOfDefects) {
   picture.grid = 1;
   measure(picture, {.defects = true});
   EXPECT_TRUE(picture.defects.empty());
+}
+
+// One bead is a sphere: its director means nothing.
+TEST(Measure, FindsNeitherOrderNorDefectsOfSpheres) {
+  RodPicture picture = empty_picture(40);
+  picture.beads = {{0}, {0.4}};
+  for (int i = 0; i < 400; ++i) add_rod(picture, 2 * (i % 20) + 1, 2 * (i / 20) + 1, 0.9 * i * i);
+  measure(picture, {.defects = true, .field = true});
+  EXPECT_FALSE(picture.has_axes());
+  EXPECT_TRUE(std::isnan(picture.order));
+  EXPECT_TRUE(picture.defects.empty());
+  EXPECT_EQ(picture.field, nullptr);
+  EXPECT_STREQ(colouring_of(picture, {}).name, "species");
+  // Whatever is asked for that needs axes leaves the picture as it is without.
+  PictureStyle bare;
+  bare.mark_defects = false;
+  bare.rods = 0.5;
+  PictureStyle marks = bare, lines = bare, ground = bare, inset = bare;
+  marks.mark_defects = true;
+  lines.lines = FieldLines::kStreamlines;
+  ground.background = Background::kOrder;
+  inset.inset = Inset::kAngles;
+  const Image without = painter().paint(picture, bare).value();
+  for (const PictureStyle& style : {marks, lines, ground, inset}) {
+    const auto with = painter().paint(picture, style);
+    ASSERT_TRUE(with) << with.error().message;
+    EXPECT_EQ(*with, without);
+  }
 }
 
 TEST(Measure, FindsNoDefectsBeyondTheWalls) {

@@ -113,6 +113,7 @@ TEST(StyleKeys, TextsOfTheCommandLine) {
 TEST(Headline, SpeaksTheLanguageOfTheField) {
   EXPECT_EQ(headline("rods.area_fraction=0.8 rods.length=2.5"), "\u03c6 = 0.8, \u2113 = 2.5 mm");
   EXPECT_EQ(headline("plates.gamma=7 plates.frequency=200 replica=3"), "\u0393 = 7, f = 200 Hz, replica 3");
+  EXPECT_EQ(headline("box.gap=1.4mm"), "w = 1.4 mm") << "as in plots, in physics.md and in the paper";
   EXPECT_EQ(headline("contacts.rod_base.friction=0.3"), "friction = 0.3");
   EXPECT_EQ(headline("My run, at a=b"), "My run, at a=b");
   EXPECT_EQ(headline(""), "");

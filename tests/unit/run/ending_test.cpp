@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "base/scratch_folder.h"
+#include "run/files/observables_file.h"
 
 namespace shaken::run {
 namespace {
@@ -37,12 +38,21 @@ TEST(Ending, SaysWhatCameOutAndWhereItIs) {
   EXPECT_THAT(text, HasSubstr("  summary.json    all numbers"));
   EXPECT_THAT(text, Not(HasSubstr("trajectory.h5"))) << "only what is there";
   EXPECT_THAT(text, HasSubstr("next: shaken plot " + folder.path().string()));
-  EXPECT_THAT(text, Not(HasSubstr("RELAXING")));
+  EXPECT_THAT(text, Not(HasSubstr("relaxing")));
+}
+
+TEST(Ending, NamesTheCurvesThatWereMeasured) {
+  const ScratchFolder folder;
+  ASSERT_TRUE(write_observables(folder / "observables.h5",
+                                {{"/order/time_s", {0, 1}}, {"/order/order", {1, 1}}, {"/msd/total_mm2", {1}}}, {}));
+  EXPECT_THAT(describe_ending(summary(true), folder.path()), HasSubstr("observables.h5  curves: S(t), MSD\n"));
+  ASSERT_TRUE(write_observables(folder / "observables.h5", {{"/rods/trace/time_s", {0}}}, {}));
+  EXPECT_THAT(describe_ending(summary(true), folder.path()), HasSubstr("observables.h5  curves\n"));
 }
 
 TEST(Ending, ARunThatRelaxesIsToldSoWithAWayOut) {
   const std::string text = describe_ending(summary(false), "runs/a");
-  EXPECT_THAT(text, HasSubstr("STILL RELAXING"));
+  EXPECT_THAT(text, HasSubstr("\n~ still relaxing\n"));
   EXPECT_THAT(text, HasSubstr("the change of S from the first half of that time to the second, -0.0213 +- 0.0040"));
   EXPECT_THAT(text, HasSubstr("-s time.measure=8\n"));
   EXPECT_THAT(text, Not(HasSubstr(": steady")));
@@ -51,12 +61,13 @@ TEST(Ending, ARunThatRelaxesIsToldSoWithAWayOut) {
 // What the log says while the run ends, its summary and its last words are one sentence.
 TEST(Ending, SaysTheReasonThatTheSummarySays) {
   Json known = summary(false);
-  known["order"]["why_not_steady"] = "S was on its way until 1.5 s of 2 s, beyond half of the run; measure longer";
-  EXPECT_THAT(describe_ending(known, "runs/a"), HasSubstr("no steady state yet: S was on its way until 1.5 s of 2 s"));
+  known["order"]["why_not_steady"] = "still relaxing: S was on its way until 1.5 s of 2 s; measure longer";
+  EXPECT_THAT(describe_ending(known, "runs/a"),
+              HasSubstr("\n~ still relaxing: S was on its way until 1.5 s of 2 s; measure longer\n"));
 }
 
 TEST(Ending, WhatIsNotKnownIsNotClaimed) {
-  EXPECT_THAT(describe_ending(summary(nullptr), "a"), HasSubstr("NOT KNOWN whether this is a steady state"));
+  EXPECT_THAT(describe_ending(summary(nullptr), "a"), HasSubstr("\n? not known to be steady\n"));
   Json without_error = summary(true);
   without_error["order"]["sem"] = nullptr;
   EXPECT_THAT(describe_ending(without_error, "a"), HasSubstr("S = 0.95 (error unknown)"));

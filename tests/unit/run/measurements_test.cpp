@@ -60,6 +60,45 @@ Snapshot random_snapshot(Tick tick) {
   return s;
 }
 
+/// What is measured of spheres, of all that can be asked for.
+Reduction reduced_spheres() {
+  scene::RunPlan spheres = plan();
+  spheres.system.rod.n_beads = 1;
+  spheres.system.rod.length = spheres.system.rod.mid_diameter;
+  Measurements measurements(spheres, make_species(spheres.system.rod), {});
+  const auto counts = measurements.counts();
+  for (const char* name : {"order", "angles", "tilt", "defects", "frank", "rotation", "pairs", "layers"}) {
+    EXPECT_FALSE(counts.contains(name)) << name;
+  }
+  for (const char* name : {"g2", "msd", "velocity", "rods", "fluctuations", "lattice", "structure"}) {
+    EXPECT_TRUE(counts.contains(name)) << name;
+  }
+  for (Tick t = measurements.next_due(0); t <= 20000; t = measurements.next_due(t + 1)) {
+    measurements.sample(random_snapshot(t));
+  }
+  EXPECT_TRUE(std::isnan(measurements.order_running_mean()));
+  return measurements.reduce(0.2);
+}
+
+TEST(Measurements, OfSpheresAreOfNoAxis) {
+  const Reduction result = reduced_spheres();
+  EXPECT_FALSE(result.order);
+  EXPECT_FALSE(result.defects);
+  for (const char* there : {"/g2/g", "/g2/g_sem", "/msd/total_mm2", "/velocity/c_v", "/structure/factor"}) {
+    EXPECT_TRUE(result.arrays.contains(there)) << there;
+  }
+  for (const auto& [path, values] : result.arrays) {
+    EXPECT_EQ(path.find("along"), std::string::npos) << path;
+    EXPECT_EQ(path.find("across"), std::string::npos) << path;
+    EXPECT_EQ(path.find("/g2/g2"), std::string::npos) << path;
+  }
+  EXPECT_TRUE(result.scalars.contains("diffusion_mm2_s"));
+  for (const auto& [name, scalar] : result.scalars) {
+    EXPECT_EQ(name.find("along"), std::string::npos) << name;
+    EXPECT_EQ(name.find("across"), std::string::npos) << name;
+  }
+}
+
 /// Takes all samples in ticks [from, to].
 void measure(Measurements& measurements, Tick from, Tick to) {
   for (Tick t = measurements.next_due(from); t <= to; t = measurements.next_due(t + 1)) {

@@ -35,7 +35,7 @@ Snapshot two_rods() {
 }
 
 TEST(Messages, FrameShowsEachRodWithItsHead) {
-  const proto::Frame frame = make_frame(two_rods());
+  const proto::Frame frame = make_frame(two_rods(), order_of(two_rods()));
   EXPECT_EQ(frame.tick, 12);
   EXPECT_EQ(frame.sim_time_s, 0.5);
   EXPECT_EQ(frame.box_side_mm, 20);
@@ -46,6 +46,23 @@ TEST(Messages, FrameShowsEachRodWithItsHead) {
   EXPECT_NEAR(frame.rods[0].n_z, 0.8, 1e-12);
   EXPECT_NEAR(std::abs(frame.rods[1].theta), kPi, 1e-12);
   EXPECT_NEAR(frame.rods[1].n_z, 0.8, 1e-12);
+}
+
+// Their directors are those of a frame that turns with them, and mean nothing.
+TEST(Messages, SpheresHaveNoOrder) {
+  System scene;
+  scene.n_rods = 4;
+  scene.box_side = 20;
+  scene.rod.n_beads = 1;
+  scene.rod.length = scene.rod.mid_diameter;
+  const World world = *make_world(scene);
+  EXPECT_FALSE(has_axis(world));
+  EXPECT_TRUE(std::isnan(order_of(world, two_rods()).order));
+  EXPECT_TRUE(std::isnan(make_frame(world, two_rods()).order));
+  EXPECT_EQ(make_frame(world, two_rods()).director_rad, 0);
+  EXPECT_TRUE(std::isnan(make_observables(world, two_rods(), {}).order));
+  EXPECT_TRUE(has_axis(small_world()));
+  EXPECT_NEAR(make_frame(small_world(), two_rods()).order, 1, 1e-12);
 }
 
 TEST(Messages, ObservablesAreRootMeanSquaresInTheirUnits) {
@@ -133,11 +150,11 @@ TEST(Messages, StaticPartOfManyRodsFitsIntoOneDatagram) {
 TEST(Messages, OrderIsOfTheFirstKindOfRod) {
   Snapshot s = two_rods();
   s.director = {Vec3(1, 0, 0), Vec3(0, 1, 0)};
-  EXPECT_NEAR(make_frame(s).order, 0, 1e-12);
+  EXPECT_NEAR(order_of(s).order, 0, 1e-12);
   const std::vector<std::uint8_t> species_of_rod{1, 0};
-  EXPECT_NEAR(make_frame(s, species_of_rod).order, 1, 1e-12);
-  EXPECT_NEAR(std::abs(make_frame(s, species_of_rod).director_rad), kPi / 2, 1e-12);
-  EXPECT_EQ(make_frame(s, species_of_rod).rods.size(), 2U);
+  EXPECT_NEAR(make_frame(s, order_of(s, species_of_rod)).order, 1, 1e-12);
+  EXPECT_NEAR(std::abs(make_frame(s, order_of(s, species_of_rod)).director_rad), kPi / 2, 1e-12);
+  EXPECT_EQ(make_frame(s, order_of(s, species_of_rod)).rods.size(), 2U);
 
   World world = mixed_world();
   world.species_of_rod = species_of_rod;

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "base/files.h"
 #include "base/scratch_folder.h"
 
@@ -29,6 +32,18 @@ TEST(Progress, ComesBackFromItsFile) {
   EXPECT_EQ(read->order_running_mean, 0.75);
   EXPECT_EQ(read->max_overlap, 1e-5);
   EXPECT_EQ(read->fraction(), 0.125);
+}
+
+TEST(Progress, WhatSpheresDoNotHaveIsNull) {
+  const ScratchFolder folder;
+  Progress written;
+  written.order = written.order_running_mean = std::numeric_limits<double>::quiet_NaN();
+  ASSERT_TRUE(write_progress(folder / "progress.json", written));
+  EXPECT_NE(read_file(folder / "progress.json")->find("\"order\": null"), std::string::npos);
+  const auto read = read_progress(folder / "progress.json");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_TRUE(std::isnan(read->order));
+  EXPECT_TRUE(std::isnan(read->order_running_mean));
 }
 
 TEST(Progress, OtherFilesAreRefusedWithTheirName) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace shaken::run {
 namespace {
 
@@ -21,6 +23,8 @@ TEST(DescribeProgress, ShowsHowFarAndHowLong) {
             "████████████············  50.0 %  5 of 10 s  drawing 40 %  ETA 4 min 10 s  S 0.913");
   progress.state = "stopped";
   EXPECT_EQ(describe_progress(progress), "████████████············  50.0 %  5 of 10 s  stopped  S 0.913");
+  progress.order = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(describe_progress(progress), "████████████············  50.0 %  5 of 10 s  stopped") << "spheres";
 }
 
 }  // namespace

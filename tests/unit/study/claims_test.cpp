@@ -609,15 +609,15 @@ TEST(Claims, TableSaysWhyAndWhichWay) {
 }
 
 TEST(Claims, OfTheFiguresAskedForOnly) {
-  const std::vector<std::string_view> eight{"8"};
-  for (const Claim& claim : claims_of(eight)) EXPECT_EQ(claim.figure, "8");
-  EXPECT_EQ(claims_of(eight).size(), 4u);
+  const std::vector<std::string_view> ten{"10"};
+  for (const Claim& claim : claims_of(ten)) EXPECT_EQ(claim.figure, "10");
+  EXPECT_EQ(claims_of(ten).size(), 3u);
   EXPECT_EQ(claims_of({}).size(), paper_claims().size());
 }
 
 TEST(Claims, PointAtFiguresThatExist) {
   std::set<std::string_view> figures, ids;
-  for (const PaperFigure& figure : paper_figures()) EXPECT_TRUE(figures.insert(figure.id).second) << figure.id;
+  for (const PaperFigure& figure : paper_figures()) EXPECT_TRUE(figures.insert(figure.id()).second) << figure.id();
   for (const Claim& claim : paper_claims()) {
     EXPECT_TRUE(figures.contains(claim.figure)) << claim.id;
     EXPECT_TRUE(ids.insert(claim.id).second) << claim.id;

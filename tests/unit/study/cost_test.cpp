@@ -21,6 +21,13 @@ using ::testing::Not;
 
 constexpr double kHour = 3600, kGigabyte = 1e9;
 
+const PaperFigure* figure_called(std::string_view word) {
+  for (const PaperFigure& figure : paper_figures()) {
+    if (figure.is_called(word)) return &figure;
+  }
+  return nullptr;
+}
+
 NamedSweep sweep_of(const std::string& name, int n_runs, const std::string& executor, const Json& slurm) {
   const Json scene{{"rods", {{"area_fraction", 0.3}}}, {"box", {{"side", 20}}}, {"time", {{"measure", "1 s"}}}};
   const Json written{{"name", name}, {"scene", scene}, {"sweep", {{"replicas", n_runs}}}};
@@ -113,9 +120,9 @@ TEST(TwoDigits, LeaveWhatAnEstimateKnows) {
 
 TEST_F(InSlurm, APlanOfOneFigureAndOneRunSpeaksOfOne) {
   const NamedSweep one = sweep_of("one", 1, "slurm", {{"time", "4 h"}, {"memory", "4G"}});
-  const Selection selection{.figures = {&paper_figures()[6]}, .sweeps = {one}};
+  const Selection selection{.figures = {figure_called("10")}, .sweeps = {one}};
   const std::string plan = computing_plan(selection, study_cost({&one}, {runs_of({0.123456})}, 64), "draw", "sweeps");
-  for (const char* words : {"give figure 8 of", "about 1 task in job arrays", "with one run in each", "in 1 folder;",
+  for (const char* words : {"give figure 10 of", "about 1 task in job arrays", "with one run in each", "in 1 folder;",
                             "| core-hours | 0.12 |", "longest run | 7.4 min |", "with 1 core at once", "task | 15min: ",
                             "of a task | 256M: ", "ask Slurm for the time and the memory of the table by themselves"}) {
     EXPECT_THAT(plan, HasSubstr(words));
@@ -124,7 +131,7 @@ TEST_F(InSlurm, APlanOfOneFigureAndOneRunSpeaksOfOne) {
 
 TEST_F(InSlurm, APlanSaysWhatACentreAsksAndHasItsSweepsBesideIt) {
   const ScratchFolder folder;
-  Selection selection{.figures = {&paper_figures()[0], &paper_figures()[6]}, .sweeps = {long_, short_}};
+  Selection selection{.figures = {figure_called("3"), figure_called("10")}, .sweeps = {long_, short_}};
   selection.sweeps.push_back(sweep_of("other", 1, "slurm", Json::object()));
   selection.sweeps.back().needed = false;
   const std::filesystem::path file = folder.path() / "for us.md";
@@ -140,7 +147,7 @@ TEST_F(InSlurm, APlanSaysWhatACentreAsksAndHasItsSweepsBesideIt) {
                             "| time to ask for, of a task | 8h: ",
                             "| memory to ask for, of a task | 7168M: ",
                             "10 small files and 0.17 checkpoints a second",
-                            "give figures 2 and 8 of",
+                            "give figures 3 and 10 of",
                             "nohup shakend --root ROOT",
                             "systemd-run --user",
                             "Made again with `--time 8h --memory 7168M`",

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "base/process.h"
 #include "tests/unit/study/made_up_run.h"
@@ -20,10 +21,51 @@ TEST(PaperFigures, OfNothingAreDrawnWithoutData) {
     const Sheet sheet = figure.draw({none, [](const FinishedRun&) { return std::filesystem::path(); }});
     for (const Figure& panel : sheet.panels) {
       for (const Curve& curve : panel.curves) {
-        EXPECT_TRUE(curve.y.empty() || curve.look == Curve::Look::kDashes) << figure.id << " " << panel.title;
+        EXPECT_TRUE(curve.y.empty() || curve.look == Curve::Look::kDashes) << figure.id() << " " << panel.title;
       }
     }
   }
+}
+
+// A reader with the paper open looks for its figure 8, and not for the eighth result of ours.
+TEST(PaperFigures, HaveThePapersNumbers) {
+  const std::vector<std::pair<std::string, std::string>> paper{{"2", "order settles"},
+                                                               {"3", "Nematic order"},
+                                                               {"4", "Statistics of the order"},
+                                                               {"5", "Orientational"},
+                                                               {"6", "along and across"},
+                                                               {"7", "Pair correlation"},
+                                                               {"8", "layered phase"},
+                                                               {"9", "Diffusion"},
+                                                               {"10", "How a rod swims"},
+                                                               {"11", "Paths of single rods"},
+                                                               {"12", "Correlations in time"},
+                                                               {"13", "Rotation"},
+                                                               {"14", "Defects"}};
+  const Library none;
+  const auto figures = paper_figures();
+  for (std::size_t k = 0; k < paper.size(); ++k) {
+    EXPECT_EQ(figures[k].number, paper[k].first);
+    const Sheet sheet = figures[k].draw({none, [](const FinishedRun&) { return std::filesystem::path(); }});
+    EXPECT_NE(sheet.title.find(paper[k].second), std::string::npos) << paper[k].first << ": " << sheet.title;
+  }
+  for (const PaperFigure& figure : figures.subspan(paper.size())) EXPECT_EQ(figure.number, "") << figure.name;
+  EXPECT_EQ(figures[0].file(), "fig02-start");
+  EXPECT_EQ(figures.back().file(), "movies");
+}
+
+TEST(PaperFigures, OfTheDocumentsAreNamedAsTheyAreDrawn) {
+  const auto folder = std::filesystem::path(SHAKEN_SOURCE_DIR) / "docs/figures";
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) names.insert(entry.path().stem().string());
+  for (const PaperFigure& figure : paper_figures()) {
+    if (figure.draw == nullptr) continue;
+    EXPECT_EQ(names.erase(figure.file()), 1u) << figure.file();
+    for (const char* ending : {".png", ".dat", ".gp"}) {
+      EXPECT_TRUE(std::filesystem::exists(folder / (figure.file() + ending))) << figure.file() << ending;
+    }
+  }
+  EXPECT_TRUE(names.empty()) << *names.begin();
 }
 
 TEST(PaperFigures, DiffusionShowsWhereDIsRead) {
@@ -47,7 +89,7 @@ TEST(PaperFigures, OrderHasTheSpreadAsBarsAndRingsWhereItRelaxes) {
                    {MadeUp(4.5, 0.75).order(0.9, 0.001).scalar("susceptibility", 4, 1),
                     MadeUp(4.5, 0.80).order(0.9, 0.001).scalar("susceptibility", 1, 1).relaxing()}}});
   const Sheet sheet = order_figure({library, [](const FinishedRun&) { return std::filesystem::path(); }});
-  const Curve& mean = sheet.panels[1].curves.at(0);
+  const Curve& mean = sheet.panels[0].curves.at(0);
   EXPECT_EQ(mean.y_error, (std::vector<double>{0.1, 0.05})) << "sqrt(susceptibility / 400), not the standard error";
   EXPECT_EQ(mean.unsteady, (std::vector<bool>{false, true}));
 }
@@ -88,7 +130,7 @@ TEST(PaperFigures, OfNothingAreDrawnByGnuplotToo) {
   Library one;  // a map of one cell
   one.add("phases", {runs.make(4.5, 0.75, 0.9, 0.01)});
   for (const Library& library : {Library(), one}) {
-    for (const auto figure : {order_figure, pair_map_figure, melting_figure}) {
+    for (const auto figure : {start_figure, order_figure, g2_map_figure, distances_figure, melting_figure}) {
       Sheet sheet = figure({library, [](const FinishedRun&) { return std::filesystem::path(); }});
       sheet.name = "sheet";
       if (sheet.panels.empty()) continue;

@@ -33,14 +33,29 @@ TEST(AllVerbs, FiguresStandBehindPlot) {
 TEST(Figures, ListsEveryOne) {
   const Outcome list = run_shaken({"figures", "--list", "--json"});
   EXPECT_EQ(list.code, ExitCode::kOk) << list.err;
-  EXPECT_EQ(Json::parse(list.out).size(), paper_figures().size());
+  const Json figures = Json::parse(list.out);
+  EXPECT_EQ(figures.size(), paper_figures().size());
+  EXPECT_EQ(figures.at(0).at("number"), "2");
+  EXPECT_EQ(figures.back().at("number"), Json());
+  EXPECT_THAT(run_shaken({"figures", "--list"}).out, HasSubstr("PAPER  NAME"));
+}
+
+TEST(Figures, AreAskedForByThePapersNumberOrTheirName) {
+  for (const char* word : {"14", "defects"}) {
+    const Json list = Json::parse(run_shaken({"figures", word, "--list", "--json"}).out);
+    ASSERT_EQ(list.size(), 1u) << word;
+    EXPECT_EQ(list.at(0).at("id"), "14");
+    EXPECT_EQ(list.at(0).at("name"), "defects");
+  }
+  EXPECT_THAT(run_shaken({"figures", "defect"}).err, HasSubstr("no figure 'defect'; did you mean defects?"));
 }
 
 TEST(Figures, RefusesAllThatIsWrongAtOnce) {
   const Outcome outcome = run_shaken({"figures", "17", "layers?", "--scale", "huge", "--draw-only", "--dry-run"});
   EXPECT_EQ(outcome.code, ExitCode::kBadInput);
-  for (const char* words : {"--scale takes tiny, laptop or paper, not 'huge'", "there is no figure '17'",
-                            "there is no figure 'layers?'", "exclude each other", "figures: 2 3 4 "}) {
+  for (const char* words :
+       {"--scale takes tiny, laptop or paper, not 'huge'", "there is no figure '17'", "there is no figure 'layers?'",
+        "exclude each other", "figures: 2 3 4 5 6 7 8 9 10 11 12 13 14 start order "}) {
     EXPECT_THAT(outcome.err, HasSubstr(words));
   }
 }
@@ -64,7 +79,7 @@ TEST(Figures, ShellsAreOfferedNamesAndScales) {
   const std::string script = run_shaken({"completion", "bash"}).out;
   EXPECT_THAT(script, HasSubstr("figures)"));
   EXPECT_THAT(script, HasSubstr("\"tiny laptop paper\""));
-  EXPECT_THAT(script, HasSubstr("\"2 3 4 5 6 7 8 9 10 defects "));
+  EXPECT_THAT(script, HasSubstr("\"2 3 4 5 6 7 8 9 10 11 12 13 14 start order "));
 }
 
 }  // namespace

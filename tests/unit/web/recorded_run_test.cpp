@@ -22,14 +22,15 @@ class RecordedRunTest : public testing::Test {
   RecordedRunTest() { fs::create_directories(folder_ / kRun); }
   run::RunDirectory directory() const { return {folder_ / kRun}; }
   /// Two rods in a box of 10 mm, `n_frames` frames 0.1 s apart; the second rod turns by 90 degrees in the last one.
-  void record(int n_frames) const {
+  void record(int n_frames, std::vector<double> offset = {-2, 0, 2},
+              std::vector<double> radius = {0.2, 0.4, 0.2}) const {
     run::TrajectoryHeader header;
     header.n_rods = 2;
     header.box_side = 10;
     header.gap = 1.2;
     header.dt = 1e-5;
-    header.bead_offset = {-2, 0, 2};
-    header.bead_radius = {0.2, 0.4, 0.2};
+    header.bead_offset = std::move(offset);
+    header.bead_radius = std::move(radius);
     header.scene_json = "{}";
     auto log = run::FrameLog::create(directory().frames(), header).value();
     for (int k = 0; k < n_frames; ++k) {
@@ -49,6 +50,13 @@ class RecordedRunTest : public testing::Test {
   ScratchFolder folder_;
   RecordedRun run_{folder_ / kRun};
 };
+
+TEST_F(RecordedRunTest, SpheresHaveNoOrder) {
+  record(3, {0}, {0.4});
+  const auto frame = run_.frame(0);
+  ASSERT_TRUE(frame) << frame.error().message;
+  EXPECT_TRUE(std::isnan(frame->order));
+}
 
 TEST_F(RecordedRunTest, FramesAreThoseOfTheTrajectory) {
   record(3);
@@ -90,6 +98,9 @@ TEST_F(RecordedRunTest, LinksAndFoldersAreNoFiles) {
   std::ofstream(directory().scene()) << "{}";
   fs::create_symlink("/etc/passwd", folder_ / kRun / "secret");
   fs::create_directory(folder_ / kRun / "folder");
+  // nor is what the program keeps for itself
+  for (const char* name : {"lock", "checkpoint.bin", "checkpoint.prev.bin"})
+    std::ofstream(folder_ / kRun / name) << "1";
   const auto files = run_.files();
   ASSERT_EQ(files.size(), 1u);
   EXPECT_EQ(files[0].name, "scene.json");

@@ -60,6 +60,23 @@ TEST(LiveRods, PutsConstantsAndFramesTogether) {
   EXPECT_DOUBLE_EQ(shown.outlines[0].end, 0.2);
 }
 
+TEST(LiveRods, SpheresHaveNoOrder) {
+  LiveRods rods;
+  rods.select(kJob);
+  frame_static_t spheres = constants();
+  spheres.species_beads = {1};
+  spheres.bead_offset_mm = {0};
+  spheres.bead_radius_mm = {0.4};
+  spheres.n_beads = 1;
+  rods.note(spheres);
+  proto::Frame whole = frame(0);
+  whole.order = std::numeric_limits<double>::quiet_NaN();
+  whole.director_rad = 0;
+  send(rods, whole);
+  ASSERT_NE(rods.newest(), nullptr);
+  EXPECT_FALSE(rods.newest()->has_axes());
+}
+
 TEST(LiveRods, TakesFramesOfManyChunks) {
   LiveRods rods;
   rods.select(kJob);

@@ -4,9 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <limits>
 #include <sstream>
 
+#include "base/scratch_folder.h"
 #include "base/text.h"
 #include "client/watch/overview.h"
 
@@ -77,6 +79,26 @@ TEST(LiveJobs, MessagesWinOverOlderFilesAndStrangersAreIgnored) {
   jobs.note_api(api_job("aa", "running", 3.0));
   EXPECT_EQ(jobs.jobs()[0].sim_time, 3.0);
   EXPECT_EQ(jobs.jobs()[0].order, 0.25);
+}
+
+TEST(LiveJobs, SpheresHaveNoOrder) {
+  LiveJobs jobs;
+  Json job = api_job("aa", "running", 1.0);
+  job["progress"]["order"] = job["progress"]["order_running_mean"] = nullptr;
+  jobs.note_api(job);
+  EXPECT_FALSE(jobs.jobs()[0].order);
+  jobs.note(message("aa", 0, 2.0, std::numeric_limits<double>::quiet_NaN()));
+  EXPECT_FALSE(jobs.jobs()[0].order);
+  EXPECT_TRUE(jobs.jobs()[0].order_history.times().empty());
+  const std::string line = watch_line(jobs.jobs()[0]);
+  EXPECT_EQ(line.find(" S "), std::string::npos) << line;
+  EXPECT_THAT(line, HasSubstr("overlap"));
+  std::ostringstream out, err;
+  const Console console{.out = out, .err = err, .in = nullptr, .width = 100, .height = 24};
+  for (const std::string& shown : watch_screen(jobs, "all", "", console)) {
+    EXPECT_EQ(shown.find(" S "), std::string::npos) << shown;
+    EXPECT_EQ(shown.find("nan"), std::string::npos) << shown;
+  }
 }
 
 TEST(LiveJobs, CountsDefectsLossesAndEnds) {
@@ -163,6 +185,19 @@ TEST(WatchLine, DrawingTheFilmIsAStateOfItsOwn) {
   EXPECT_EQ(jobs.jobs()[0].drawn, 0.5);
   jobs.note_api(api_job("aaaaaaaaaaaaaaaa", "done", -1));
   EXPECT_FALSE(jobs.jobs()[0].draws_film);
+}
+
+TEST(WatchLine, OfARunThatIsDoneHasItsMeanWithTheMarkOfTables) {
+  const ScratchFolder folder;
+  std::ofstream(folder / "summary.json") << R"({"order": {"mean": 0.625}, "steady": false})";
+  Json job = api_job("aa", "running", 9.0);
+  job["directory"] = folder.path().string();
+  LiveJobs jobs;
+  jobs.note_api(job);
+  EXPECT_THAT(watch_line(jobs.jobs()[0]), HasSubstr("  S 0.250 (mean 0.200)"));
+  job["state"] = "done";
+  jobs.note_api(job);
+  EXPECT_THAT(watch_line(jobs.jobs()[0]), HasSubstr("  mean S ~0.625 (still relaxing)"));
 }
 
 TEST(WatchLine, HasTheNumbers) {

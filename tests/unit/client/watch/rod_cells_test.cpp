@@ -207,6 +207,7 @@ TEST(RodColours, AutomaticDoesNotFlicker) {
     EXPECT_EQ(colouring, Colouring::kLayers) << order;
   }
   EXPECT_EQ(automatic_colouring(0.35, colouring), Colouring::kWheel);
+  EXPECT_EQ(automatic_colouring(std::nan(""), colouring), Colouring::kSpecies) << "spheres have no S";
 }
 
 TEST(RodColours, SpeciesHaveTheirOwn) {
