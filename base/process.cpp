@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <linux/close_range.h>
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -60,6 +61,41 @@ std::vector<char*> argument_vector(const std::vector<std::string>& command) {
 
 ProcessEnd end_of(int status) {
   return WIFEXITED(status) ? ProcessEnd{WEXITSTATUS(status), 0} : ProcessEnd{0, WTERMSIG(status)};
+}
+
+/// Keeps what comes out of `output` until its writers are gone. False where they went beyond the limits before.
+bool keep_output(int output, const CaptureLimits* limits, std::string& kept) {
+  constexpr int kRoundMs = 100;
+  const auto begin = std::chrono::steady_clock::now();
+  char buffer[1 << 16];
+  for (;;) {
+    if (limits != nullptr) {
+      if (std::chrono::steady_clock::now() - begin > limits->time || kept.size() > limits->output) return false;
+      if (limits->stop && limits->stop()) return false;
+      pollfd readable{output, POLLIN, 0};
+      if (poll(&readable, 1, kRoundMs) == 0) continue;
+    }
+    const ssize_t n = read(output, buffer, sizeof buffer);
+    if (n > 0) kept.append(buffer, static_cast<std::size_t>(n));
+    if (n == 0 || (n < 0 && errno != EINTR)) return true;
+  }
+}
+
+Captured capture(ChildSetup setup, const CaptureLimits* limits) {
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) return {kCannotRun, std::strerror(errno)};
+  const Descriptor reader(ends[0]);
+  const Result<pid_t> child = [&] {
+    const Descriptor writer(ends[1]);
+    setup.output = writer.value();
+    return start_child(setup);
+  }();
+  if (!child) return {kCannotRun, child.error().message};
+  Captured captured;
+  captured.cut_short = !keep_output(reader.value(), limits, captured.output);
+  if (captured.cut_short) kill(-*child, SIGKILL);
+  captured.exit_code = wait_for_child(*child).shell_code();
+  return captured;
 }
 
 }  // namespace
@@ -120,24 +156,11 @@ std::optional<ProcessEnd> poll_child(pid_t child) {
 }
 
 Captured run_captured(const std::vector<std::string>& command, const std::filesystem::path& folder) {
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) return {kCannotRun, std::strerror(errno)};
-  const Descriptor reader(ends[0]);
-  Result<pid_t> child = [&] {
-    const Descriptor writer(ends[1]);
-    return start_child({.command = command, .folder = folder, .output = writer.value(), .ends_with_us = true});
-  }();
-  if (!child) return {kCannotRun, child.error().message};
+  return capture({.command = command, .folder = folder, .ends_with_us = true}, nullptr);
+}
 
-  Captured captured;
-  char buffer[4096];
-  for (;;) {
-    const ssize_t n = read(reader.value(), buffer, sizeof buffer);
-    if (n > 0) captured.output.append(buffer, static_cast<std::size_t>(n));
-    if (n == 0 || (n < 0 && errno != EINTR)) break;
-  }
-  captured.exit_code = wait_for_child(*child).shell_code();
-  return captured;
+Captured run_captured(const std::vector<std::string>& command, const CaptureLimits& limits) {
+  return capture({.command = command, .own_group = true, .ends_with_us = true}, &limits);
 }
 
 void become(const std::vector<std::string>& command) {

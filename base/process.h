@@ -4,7 +4,11 @@
 
 #include <sys/types.h>
 
+#include <chrono>
+#include <cstddef>
 #include <filesystem>
+#include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,13 +50,23 @@ ProcessEnd wait_for_child(pid_t child);
 std::optional<ProcessEnd> poll_child(pid_t child);
 
 struct Captured {
-  int exit_code = 0;   ///< 128 + signal if a signal ended it; 127 if it could not be started
-  std::string output;  ///< stdout and stderr, in the order written
+  int exit_code = 0;       ///< 128 + signal if a signal ended it; 127 if it could not be started
+  std::string output;      ///< stdout and stderr, in the order written
+  bool cut_short = false;  ///< it went beyond its limits, and was killed for that
+};
+
+/// What a program may take. Beyond that it is killed, with all that it has started.
+struct CaptureLimits {
+  std::chrono::milliseconds time;
+  std::size_t output = std::numeric_limits<std::size_t>::max();  ///< [bytes]
+  std::function<bool()> stop = {};  ///< whether it is to end at once; asked ten times a second
 };
 
 /// Runs `command` in `folder` until it ends; or until this process does, however that comes: nobody else wants what it
 /// writes.
 Captured run_captured(const std::vector<std::string>& command, const std::filesystem::path& folder = ".");
+/// The same for one that may hang; a Ctrl-C on the terminal is not for it.
+Captured run_captured(const std::vector<std::string>& command, const CaptureLimits& limits);
 
 /// Becomes `command`: the caller's terminal, signals and exit code are then its own. Throws Failure if that fails.
 [[noreturn]] void become(const std::vector<std::string>& command);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include "base/help_formatter.h"
 #include "base/standard_streams.h"
 #include "bench/bench.h"
 #include "run/files/version.h"
@@ -33,6 +34,7 @@ int main(int argc, char** argv) {
   using namespace shaken;
   using namespace shaken::bench;
   CLI::App app("Measures Shaken.", "shaken-bench");
+  app.formatter(std::make_shared<HelpFormatter>());
   app.set_version_flag("--version", std::string("shaken-bench ") + shaken::run::version());
   app.footer(kFooter);
   app.require_subcommand(1);

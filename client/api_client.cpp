@@ -5,6 +5,11 @@
 #include <httplib.h>
 #include <sys/un.h>
 
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <thread>
+
 #include "base/failure.h"
 #include "base/text.h"
 #include "scene/problem.h"
@@ -35,15 +40,22 @@ std::string problem_text(const Json& problem) {
 }
 
 struct ApiClient::Connection {
-  explicit Connection(const fs::path& daemon_root)
-      : root(daemon_root), socket(daemon_root / "shakend.sock"), http(socket.string()) {
+  static constexpr std::chrono::hours kLongest{24};
+  using Clock = std::chrono::steady_clock;
+
+  Connection(const fs::path& daemon_root, std::chrono::milliseconds how_patient)
+      : root(daemon_root), socket(daemon_root / "shakend.sock"), patience(how_patient), http(socket.string()) {
     http.set_address_family(AF_UNIX);
     http.set_keep_alive(true);
     http.set_connection_timeout(5);
-    // A submit of thousands of points and a cancel that waits for the disk both take their time.
-    http.set_read_timeout(120);
+    http.set_read_timeout(kLongest);  // watched over by `asked`
     http.set_write_timeout(30);
   }
+
+  /// What `request` gives, unless the daemon falls silent meanwhile.
+  httplib::Result asked(const std::function<httplib::Result()>& request);
+  /// Whether the daemon answers an easy question.
+  bool is_alive() const;
 
   /// The body of a 2xx answer.
   Json checked(const httplib::Result& result, const std::string& request) const;
@@ -51,8 +63,33 @@ struct ApiClient::Connection {
 
   fs::path root;
   fs::path socket;
+  std::chrono::milliseconds patience;
   httplib::Client http;
 };
+
+bool ApiClient::Connection::is_alive() const {
+  httplib::Client other(socket.string());
+  other.set_address_family(AF_UNIX);
+  other.set_connection_timeout(patience);
+  other.set_read_timeout(patience);
+  return static_cast<bool>(other.Get("/v1/status"));
+}
+
+httplib::Result ApiClient::Connection::asked(const std::function<httplib::Result()>& request) {
+  std::mutex mutex;
+  std::condition_variable_any ended;
+  const std::jthread watch([&](const std::stop_token& stop) {
+    Clock::time_point heard = Clock::now();
+    std::unique_lock lock(mutex);
+    while (!ended.wait_for(lock, stop, patience / 4, [&] { return stop.stop_requested(); })) {
+      lock.unlock();
+      if (is_alive()) heard = Clock::now();
+      if (Clock::now() - heard > patience) http.stop();
+      lock.lock();
+    }
+  });
+  return request();
+}
 
 void ApiClient::Connection::fail_without_answer(httplib::Error error) const {
   if (error == httplib::Error::Connection) {
@@ -85,7 +122,7 @@ Json ApiClient::Connection::checked(const httplib::Result& result, const std::st
   throw Failure(status < 500 ? ExitCode::kBadInput : ExitCode::kFailed, message);
 }
 
-ApiClient::ApiClient(const fs::path& root) {
+ApiClient::ApiClient(const fs::path& root, std::chrono::milliseconds patience) {
   // A longer path would be cut by the kernel's interface, and another socket be opened.
   const std::size_t longest = sizeof(sockaddr_un::sun_path) - 1;
   if ((root / "shakend.sock").string().size() > longest) {
@@ -93,24 +130,25 @@ ApiClient::ApiClient(const fs::path& root) {
                                                    "characters): {}",
                                                    longest, root.string()));
   }
-  connection_ = std::make_unique<Connection>(root);
+  connection_ = std::make_unique<Connection>(root, patience);
 }
 
 ApiClient::ApiClient(ApiClient&&) noexcept = default;
 ApiClient::~ApiClient() = default;
 
 Json ApiClient::get(const std::string& path) {
-  return connection_->checked(connection_->http.Get(path.c_str()), "GET " + path);
+  return connection_->checked(connection_->asked([&] { return connection_->http.Get(path.c_str()); }), "GET " + path);
 }
 
 std::optional<Json> ApiClient::find(const std::string& path) {
-  const auto result = connection_->http.Get(path.c_str());
+  const auto result = connection_->asked([&] { return connection_->http.Get(path.c_str()); });
   if (result && result->status == 404) return std::nullopt;
   return connection_->checked(result, "GET " + path);
 }
 
 Json ApiClient::post(const std::string& path, const Json& body) {
-  return connection_->checked(connection_->http.Post(path.c_str(), body.dump(), "application/json"), "POST " + path);
+  const auto post = [&] { return connection_->http.Post(path.c_str(), body.dump(), "application/json"); };
+  return connection_->checked(connection_->asked(post), "POST " + path);
 }
 
 }  // namespace shaken::client

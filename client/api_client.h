@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -17,12 +18,14 @@ std::string url_encoded(std::string_view text);
 /// One entry of the daemon's list of problems: "file:line:column: path: message", without what is not known.
 std::string problem_text(const Json& problem);
 
-/// Requests to the daemon of one root directory (docs/protocol.md). Every function throws Failure: kNoDaemon if nobody
+/// Requests to the daemon of one root directory (docs/protocol.md). An answer is waited for as long as the daemon
+/// answers others: that to a submit of 100,000 runs takes minutes. Every function throws Failure: kNoDaemon if nobody
 /// listens, kBadInput with the daemon's words (and the list of problems) for 4xx, kFailed for 5xx and for answers that
 /// are not JSON objects.
 class ApiClient {
  public:
-  explicit ApiClient(const std::filesystem::path& root);
+  /// `patience`: for a daemon that answers nothing at all.
+  explicit ApiClient(const std::filesystem::path& root, std::chrono::milliseconds patience = std::chrono::seconds(120));
   ApiClient(ApiClient&&) noexcept;
   ~ApiClient();
 

@@ -17,8 +17,16 @@ const char* value_name_of(Names names) {
       return "DIR";
     case Names::kId:
       return "ID";
+    case Names::kJob:
+      return "JOB";
+    case Names::kSweep:
+      return "SWEEP";
     case Names::kRun:
       return "ID|DIR";
+    case Names::kJobOrFolder:
+      return "JOB|DIR";
+    case Names::kField:
+      return "FIELD";
     case Names::kSetting:
       return "PATH=VALUE";
     case Names::kAnything:
@@ -27,13 +35,20 @@ const char* value_name_of(Names names) {
   return "";
 }
 
+std::string joined(const std::vector<std::string>& words) {
+  std::string all;
+  for (const std::string& word : words) all += word + "|";
+  return all;
+}
+
 /// The help shows a positional by its own name; the type beside it would repeat it.
 constexpr const char* kNothing = " ";
 
 }  // namespace
 
 Names meaning(const CLI::Option& option) {
-  for (const Names names : {Names::kFile, Names::kFolder, Names::kId, Names::kRun, Names::kSetting}) {
+  for (const Names names : {Names::kFile, Names::kFolder, Names::kId, Names::kJob, Names::kSweep, Names::kRun,
+                            Names::kJobOrFolder, Names::kField, Names::kSetting}) {
     if (option.get_type_name() == value_name_of(names)) return names;
   }
   return Names::kAnything;
@@ -69,9 +84,17 @@ void Arguments::list(const std::string& name, std::vector<std::string>& values, 
 
 void Arguments::list(const std::string& name, std::vector<std::string>& values, const std::string& help,
                      const std::vector<std::string>& words) {
-  std::string choices;
-  for (const std::string& word : words) choices += word + "|";
-  app_.add_option(name, values, help)->type_name(choices)->option_text(kNothing);
+  app_.add_option(name, values, help)->type_name(joined(words))->option_text(kNothing);
+}
+
+void Arguments::required(const std::string& name, std::string& value, const std::string& help,
+                         const std::vector<std::string>& words) {
+  app_.add_option(name, value, help)->required()->type_name(joined(words))->option_text(kNothing);
+}
+
+void Arguments::optional(const std::string& name, std::string& value, const std::string& help,
+                         const std::vector<std::string>& words) {
+  app_.add_option(name, value, help)->type_name(joined(words))->option_text(kNothing);
 }
 
 void Arguments::rest(std::vector<std::string>& words) {

@@ -14,12 +14,17 @@ namespace shaken::client {
 
 /// What an argument names, for shell completion.
 enum class Names {
-  kAnything,  ///< or one of some words, where the value's name in the help lists them: "tiny|laptop|paper"
+  kAnything,  ///< or one of some words, where the value's name in the help lists them: "tiny|laptop|paper"; with
+              ///< "|FILE" also a file
   kFile,
   kFolder,
-  kId,       ///< a sweep or a job of the daemon
-  kRun,      ///< the same, or a run directory
-  kSetting,  ///< PATH=VALUE, with a key of the scene
+  kId,           ///< a sweep or a job of the daemon
+  kJob,          ///< a job
+  kSweep,        ///< a sweep
+  kRun,          ///< a sweep, a job, or a run directory
+  kJobOrFolder,  ///< a job, or a run directory
+  kField,        ///< a field of results
+  kSetting,      ///< PATH=VALUE, with a key of the scene
 };
 
 /// Declares the command line of a verb. Keeps CLI11 out of the verbs: its header costs seconds per source file.
@@ -30,6 +35,11 @@ class Arguments {
 
   void required(const std::string& name, std::string& value, const std::string& help, Names names);
   void optional(const std::string& name, std::string& value, const std::string& help, Names names);
+  /// The same of one of `words`.
+  void required(const std::string& name, std::string& value, const std::string& help,
+                const std::vector<std::string>& words);
+  void optional(const std::string& name, std::string& value, const std::string& help,
+                const std::vector<std::string>& words);
   /// Any number of them, at least `minimum`.
   void list(const std::string& name, std::vector<std::string>& values, const std::string& help, Names names,
             int minimum);

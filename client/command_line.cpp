@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/help_formatter.h"
 #include "run/files/version.h"
 #include "scene/nearest.h"
 
@@ -18,9 +19,14 @@ constexpr const char* kFooter = R"(Examples:
   shaken submit scene.json -s rods.area_fraction=0.55:0.75:0.05 --wait
   shaken watch && shaken results && shaken plot
 
-Exit codes:  0 done   1 failed   2 bad input   3 no daemon   130 interrupted by Ctrl-C, but of a run:
-             97 no room on the disk, 99 stopped with a checkpoint: the same command goes on
-Environment: SHAKEN_ROOT  the daemon's root directory;  LCM_DEFAULT_URL  the bus of the live state;  NO_COLOR
+Exit codes:
+  0 done   1 failed   2 bad input   3 no daemon   130 interrupted by Ctrl-C
+  of a run: 97 no room on the disk, 99 stopped with a checkpoint; the same
+  command goes on
+Environment:
+  SHAKEN_ROOT      the daemon's root directory
+  LCM_DEFAULT_URL  the bus of the live state
+  NO_COLOR         no colours
 `shaken VERB --help` (or `shaken help VERB`) tells more.)";
 
 std::vector<std::string> verb_names(const Verbs& verbs) {
@@ -57,6 +63,7 @@ CommandLine::CommandLine(Verbs verbs)
   app_->set_version_flag("--version", std::string("shaken ") + run::version());
   app_->add_option("--root", root_, "The daemon's root directory")->type_name("DIR");
   app_->footer(kFooter);
+  app_->formatter(std::make_shared<HelpFormatter>());
   app_->get_formatter()->label("SUBCOMMAND", "VERB");
   for (const auto& verb : verbs_) {
     const VerbInfo info = verb->info();

@@ -2,6 +2,7 @@
 #include "client/completion.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 
@@ -15,17 +16,33 @@ std::string offer(const std::string& words) {
   return fmt::format("COMPREPLY=($(compgen -W \"{}\" -- \"$word\"))", words);
 }
 
+/// What `shaken completion WHAT` prints, and directories if asked for.
+std::string ask(const char* what, bool with_folders = false) {
+  return fmt::format("_shaken_names {}{}", what, with_folders ? "; COMPREPLY+=($(compgen -d -- \"$word\"))" : "");
+}
+
+std::string in_a_row(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, " ")); }
+
 /// What bash is to offer for the value of `option`.
 std::string action_of(const CLI::Option& option) {
+  constexpr const char* kFiles = "COMPREPLY=($(compgen -f -- \"$word\"))";
   switch (meaning(option)) {
     case Names::kFile:
-      return "COMPREPLY=($(compgen -f -- \"$word\"))";
+      return kFiles;
     case Names::kFolder:
       return "COMPREPLY=($(compgen -d -- \"$word\"))";
     case Names::kId:
-      return "_shaken_ids";
+      return ask("ids");
+    case Names::kJob:
+      return ask("jobs");
+    case Names::kSweep:
+      return ask("sweeps");
     case Names::kRun:
-      return "_shaken_ids; COMPREPLY+=($(compgen -d -- \"$word\"))";
+      return ask("ids", true);
+    case Names::kJobOrFolder:
+      return ask("jobs", true);
+    case Names::kField:
+      return ask("fields");
     case Names::kSetting: {
       std::string paths;
       for (const scene::Field& field : scene::fields()) paths += (paths.empty() ? "" : " ") + field.path + "=";
@@ -34,9 +51,22 @@ std::string action_of(const CLI::Option& option) {
     case Names::kAnything:
       break;
   }
-  std::string words;
-  for (const std::string& word : choices(option)) words += (words.empty() ? "" : " ") + word;
-  return words.empty() ? "" : offer(words);
+  const std::string words = in_a_row(choices(option));
+  const bool or_file = option.get_type_name().ends_with("|FILE");
+  if (words.empty()) return or_file ? kFiles : "";
+  return or_file ? fmt::format("COMPREPLY=($(compgen -W \"{}\" -- \"$word\") $(compgen -f -- \"$word\"))", words)
+                 : offer(words);
+}
+
+/// After "-s PATH=": the words that the key takes. bash takes the "=" for a word of its own.
+std::string values_of_keys() {
+  std::string cases;
+  for (const scene::Field& field : scene::fields()) {
+    std::vector<std::string> words = field.names;
+    if (field.form == scene::Form::kSwitch || field.form == scene::Form::kBlock) words = {"true", "false"};
+    if (!words.empty()) cases += fmt::format("    {}) {}; return ;;\n", field.path, offer(in_a_row(words)));
+  }
+  return cases;
 }
 
 std::string all_names(const CLI::Option& option) {
@@ -87,8 +117,14 @@ std::string bash_completion(const CLI::App& app) {
 _shaken_help() {{
   local help
   help=$("$@" --help 2>/dev/null)
-  if [[ $word == -* ]]; then
-    COMPREPLY=($(compgen -W "$(grep -oE -- '--[a-z][a-z-]*' <<< "$help" | sort -u)" -- "$word"))
+  local previous=${{COMP_WORDS[COMP_CWORD-1]}} values=
+  if [[ $previous == -* ]]; then
+    values=$(sed -nE "s/^ +(-[a-zA-Z],)?$previous ([a-z0-9|]+\\|[a-z0-9|]+).*/\\2/p" <<< "$help" | tr '|' ' ')
+  fi
+  if [[ -n $values ]]; then
+    COMPREPLY=($(compgen -W "$values" -- "$word"))
+  elif [[ $word == -* ]]; then
+    COMPREPLY=($(compgen -W "$(sed -nE 's/^ +(-[a-zA-Z],)?(--[a-z][a-z-]*).*/\2/p' <<< "$help" | sort -u)" -- "$word"))
   else
     COMPREPLY=($(compgen -W "$(sed -nE 's/^  ([a-z]+) +[A-Z].*/\1/p' <<< "$help")" -- "$word") $(compgen -f -- "$word"))
   fi
@@ -99,15 +135,15 @@ _shaken_program() {{
   if ((COMP_CWORD > 1)) && [[ ${{COMP_WORDS[1]}} != -* ]]; then sub=("${{COMP_WORDS[1]}}"); fi
   _shaken_help "$1" "${{sub[@]}}"
 }}
-complete -o filenames -F _shaken_program shakend shaken-render
+complete -o filenames -F _shaken_program shakend shaken-render shaken-worker shaken-web
 
-# IDs and names of sweeps, a line each, which nothing expands: a name may have blanks, which bash then escapes.
-_shaken_ids() {{
+# What the program lists under $1 (ids, jobs, ...), a line each, which nothing expands: a name may have blanks, which bash then escapes.
+_shaken_names() {{
   local id typed=${{word//\\/}}
   typed=${{typed#[\"\']}}
   while IFS= read -r id; do
     if [[ $id == "$typed"* ]]; then COMPREPLY+=("$id"); fi
-  done < <(shaken completion ids 2>/dev/null)
+  done < <(shaken completion "$1" 2>/dev/null)
 }}
 
 _shaken() {{
@@ -120,6 +156,10 @@ _shaken() {{
       *) verb=${{COMP_WORDS[i]}}; break ;;
     esac
   done
+  local key=
+  if [[ $word == = ]]; then key=$previous word=; elif [[ $previous == = ]]; then key=${{COMP_WORDS[COMP_CWORD-2]}}; fi
+  case $key in
+{}  esac
   if [[ $previous == --root ]]; then COMPREPLY=($(compgen -d -- "$word")); return; fi
   case $verb in
     "") COMPREPLY=($(compgen -W "{} --root --version --help" -- "$word")) ;;
@@ -127,7 +167,7 @@ _shaken() {{
 }}
 complete -o filenames -F _shaken shaken
 )sh",
-                     verbs, cases);
+                     values_of_keys(), verbs, cases);
 }
 
 std::string zsh_completion(const CLI::App& app) {

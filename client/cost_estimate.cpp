@@ -11,6 +11,7 @@
 #include "base/failure.h"
 #include "base/files.h"
 #include "base/process.h"
+#include "base/progress_line.h"
 #include "base/scratch_folder.h"
 #include "base/table.h"
 #include "base/text.h"
@@ -121,6 +122,7 @@ class Estimator {
     const std::optional<Ticks> ticks = are_alike_in_time() ? std::optional(Ticks{own.dt, own.impacts}) : std::nullopt;
     result_.levels.push_back({kAsWritten, ticks, "", costs.cpu(1), costs.disk});
     if (levels) probe_levels(shown, costs);
+    if (!ticks) add_costs_of_steps(rates);
     if (options_.on_probe) options_.on_probe(n_probes_, n_probes_);
     return std::move(result_);
   }
@@ -207,6 +209,33 @@ class Estimator {
     return runs;
   }
 
+  /// Where the points have several steps: what the runs of each of them cost.
+  void add_costs_of_steps(const std::vector<Rates>& rates) {
+    struct Part {
+      std::size_t shown, n_runs;
+      double cpu, disk;
+    };
+    std::vector<Part> parts;
+    for (std::size_t k = 0; k < distinct_.size(); ++k) {
+      const auto same = std::find_if(parts.begin(), parts.end(), [&](const Part& part) {
+        const System &one = plan_of(part.shown).system, &other = plan_of(k).system;
+        return one.dt == other.dt && one.impacts == other.impacts;
+      });
+      Part& part = same != parts.end() ? *same : parts.emplace_back(Part{k, 0, 0, 0});
+      const double size = static_cast<double>(n_alike_[k]) * rod_seconds(plan_of(k));
+      part.n_runs += n_alike_[k];
+      part.cpu += size * (rates[k].stepping + rates[k].besides);
+      part.disk += size * rates[k].disk;
+    }
+    for (const Part& part : parts) {
+      const System& own = plan_of(part.shown).system;
+      const scene::AccuracyLevel* level = scene::accuracy_level(own);
+      result_.levels.push_back(
+          {fmt::format("{}{}", level != nullptr ? std::string(level->name) + ", " : "", counted(part.n_runs, "run")),
+           Ticks{own.dt, own.impacts}, "", part.cpu, part.disk});
+    }
+  }
+
   /// A saved state fits one step only. So that steps can be compared, all of them begin where the run begins.
   void probe_levels(std::size_t shown, const Costs& costs) {
     const scene::RunPlan& own = plan_of(shown);
@@ -289,11 +318,14 @@ std::string cpu_text(double seconds) {
 }
 
 ProbeProgress probe_progress(const Console& console) {
-  if (!console.err_is_terminal) return {};
-  return [&err = console.err](std::size_t done, std::size_t all) {
-    err << "\r\x1b[K";
-    if (done < all) err << fmt::format("probing what it costs: {} of {}", done + 1, all);
-    err << std::flush;
+  constexpr double kLogPeriod = 10;
+  const auto line = std::make_shared<ProgressLine>(console.err, console.err_is_terminal, console.width, kLogPeriod);
+  return [line](std::size_t done, std::size_t all) {
+    if (done < all) {
+      line->show(fmt::format("probing what it costs: {} of {}", done + 1, all));
+    } else {
+      line->clear();
+    }
   };
 }
 

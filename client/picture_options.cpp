@@ -16,7 +16,7 @@ namespace shaken::client {
 namespace {
 
 constexpr PictureOption kOptions[] = {
-    {"colour", "NAME", "auto, angle, layers, heading, tilt, speed, order, density, species or id"},
+    {"colour", "auto|angle|layers|heading|tilt|speed|order|density|species|id", "What the colours of rods mean"},
     {"range", "LOW,HIGH", "Ends of the colour scale, in its unit (--range=-5,5)"},
     {"size", "WxH", "Pixels"},
     {"theme", "light|dark|print", "Colours of page, floor and text"},
@@ -48,15 +48,15 @@ constexpr PictureOption kOptions[] = {
 
 std::span<const PictureOption> picture_options() { return kOptions; }
 
-void PictureOptions::declare(Arguments& arguments) {
+void PictureOptions::declare(Arguments& arguments, bool films) {
   arguments.list("JOB", jobs, "A job, by the beginning of its id, or a run directory; several go side by side",
-                 Names::kRun, 1);
+                 Names::kJobOrFolder, 1);
   arguments.option("-o,--out", out, "FILE", "Where to write; named after the job if left out", Names::kFile);
-  arguments.option("--style", style_, "NAME|FILE",
-                   "layers, defects, director, tilt, mechanism, mixture, or a style file; the options below change it",
-                   Names::kFile);
+  arguments.option("--style", style_, "layers|defects|director|tilt|mechanism|mixture|FILE",
+                   "A style, or a file of one; the options below change it");
   for (const PictureOption& option : kOptions) {
     const std::string name = option.name;
+    if (!films && (name == "fps" || name == "speed")) continue;
     if (option.value != nullptr) {
       arguments.option((name == "colour" ? "-c,--" : "--") + name, values_[name], option.value, option.help);
       continue;

@@ -24,7 +24,8 @@ std::span<const PictureOption> picture_options();
 /// The options that `shaken picture` and `shaken movie` have in common, and what they are about.
 class PictureOptions {
  public:
-  void declare(Arguments& arguments);
+  /// `films` of pictures: those that have a speed.
+  void declare(Arguments& arguments, bool films);
   /// What was given, as shaken-render takes it; `labels` are the headlines, one for each run, where none was given.
   std::vector<std::string> words(const std::vector<std::string>& labels) const;
   bool shows_sweep() const;

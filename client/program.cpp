@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <ios>
 #include <utility>
@@ -36,6 +37,10 @@ ExitCode run_program(const std::vector<std::string>& arguments, Console& console
   } catch (const std::exception& error) {
     code = ExitCode::kFailed;
     message = error.what();
+  }
+  const bool wants_json = std::find(arguments.begin(), arguments.end(), "--json") != arguments.end();
+  if (!message.empty() && wants_json) {
+    console.out << json_text(Json{{"error", message}, {"exit_code", static_cast<int>(code)}});
   }
   console.out.flush();
   message.erase(message.find_last_not_of('\n') + 1);  // lists of problems end each with one

@@ -29,7 +29,7 @@ constexpr const char* kProgram = "versions.shaken";
 constexpr const char* kPhysics = "versions.physics";
 
 /// Fields that name a row rather than measure something; never averaged.
-const std::set<std::string> kNames{"job", "sweep", "state", "label", "replica", kProgram, kPhysics};
+const std::set<std::string> kNames{"job", "sweep", "state", "label", "replica", "directory", kProgram, kPhysics};
 
 /// Puts the scalars of `object` into `fields`, members of members as "outer.inner".
 void flatten(const Json& object, const std::string& prefix, Json& fields) {
@@ -209,6 +209,7 @@ ResultRow result_row(const Json& row) {
   // By name and value, not by flatten: a path holds dots of its own.
   for (const auto& [path, value] : result.parameters.items()) result.fields[path] = value;
   result.fields["replica"] = row.value("replica", 0);
+  if (row.contains("directory")) result.fields["directory"] = text_of(row, "directory");
   const auto summary = row.find("summary");
   if (summary != row.end() && summary->is_object()) flatten(*summary, "", result.fields);
   return result;
@@ -280,6 +281,15 @@ std::vector<ResultRow> of_distinct_runs(const std::vector<ResultRow>& rows) {
   return distinct;
 }
 
+namespace {
+
+/// Whether a run is done, or was before it went on for longer.
+bool has_results(const ResultRow& row) {
+  return row.state == "done" || field_text(row, "exit.state") == "done" || row.fields.contains("exit.done_before_s");
+}
+
+}  // namespace
+
 std::vector<ResultRow> aggregated(const std::vector<ResultRow>& rows) {
   // Groups in the order in which they are first met.
   std::vector<std::vector<const ResultRow*>> groups;
@@ -291,15 +301,17 @@ std::vector<ResultRow> aggregated(const std::vector<ResultRow>& rows) {
     RowVersion& newest = newest_version[row.parameters.dump()];
     newest = std::max(newest, version_of(row));
   }
-  const std::vector<ResultRow> distinct = of_distinct_runs(rows);
-  for (const ResultRow& row : distinct) {
+  for (const ResultRow& row : rows) {
     const std::string parameters = row.parameters.dump();
     const RowVersion version = version_of(row);
     const bool is_settled = version.is_known() || row.state == "done";
     const auto key = std::pair(parameters, is_settled ? version : newest_version[parameters]);
     const auto [place, is_new] = group_of.try_emplace(key, groups.size());
     if (is_new) groups.emplace_back();
-    groups[place->second].push_back(&row);
+    auto& group = groups[place->second];
+    const std::string id = row.fields.value("job", "");
+    const auto is_known = [&](const ResultRow* other) { return !id.empty() && other->fields.value("job", "") == id; };
+    if (std::none_of(group.begin(), group.end(), is_known)) group.push_back(&row);
   }
 
   std::vector<ResultRow> points;
@@ -310,13 +322,14 @@ std::vector<ResultRow> aggregated(const std::vector<ResultRow>& rows) {
     point.fields["n_replicas"] = group.size();
     std::vector<ResultRow> done;
     for (const ResultRow* row : group) {
-      if (row->state == "done") done.push_back(*row);
+      if (has_results(*row)) done.push_back(*row);
     }
     point.fields["n_done"] = done.size();
     for (const char* version : {kProgram, kPhysics}) {
       if (!done.empty() && done.front().fields.contains(version)) point.fields[version] = done.front().fields[version];
     }
-    point.state = done.size() == group.size() ? "done" : "partial";
+    const bool all_done = std::all_of(group.begin(), group.end(), [](const auto* row) { return row->state == "done"; });
+    point.state = all_done ? "done" : "partial";
     point.fields["state"] = point.state;
     take_common_keys(done, point);
     average(done, point);

@@ -15,6 +15,8 @@ std::string Target::sweep_id() const {
   return is_sweep ? answer.at("sweep").at("id").get<std::string>() : text_of(answer.at("job"), "sweep");
 }
 
+std::string Target::id() const { return answer.at(is_sweep ? "sweep" : "job").at("id").get<std::string>(); }
+
 std::string Target::title() const {
   if (!is_sweep) return "job " + answer.at("job").at("id").get<std::string>();
   const Json& sweep = answer.at("sweep");

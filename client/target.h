@@ -17,6 +17,8 @@ struct Target {
   bool is_sweep = false;
 
   std::string sweep_id() const;
+  /// Its own id: "s1", or all 16 digits of a job's.
+  std::string id() const;
   /// "sweep s1" or "job 1f0c...".
   std::string title() const;
 };

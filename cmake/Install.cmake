@@ -23,7 +23,8 @@ if(NOT SHAKEN_ONLY_SIM)
   install(FILES packaging/systemd/shakend.service DESTINATION lib/systemd/user COMPONENT programs)
   install(FILES packaging/systemd/shakend@.service DESTINATION lib/systemd/system COMPONENT programs)
   install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs RENAME copyright)
-  install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
+  install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
+  install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
 
   # man pages and completions are made by the programs themselves, so only where they can run and help2man is there
   set(SHAKEN_TEXTS ${CMAKE_BINARY_DIR}/texts)

@@ -11,10 +11,12 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <condition_variable>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <mutex>
 #include <optional>
 #include <string_view>
 #include <thread>
@@ -50,8 +52,10 @@ void drop_fragments_of(const std::string& url) {
   const long given = colon == std::string::npos ? 0 : std::strtol(target.c_str() + colon + 1, nullptr, 10);
   const std::uint16_t port = given > 0 ? static_cast<std::uint16_t>(given) : kDefaultPort;
   std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", ignored)) {
-    const int fd = static_cast<int>(std::strtol(entry.path().filename().c_str(), nullptr, 10));
+  // step by step: a range's ++ throws where the system refuses to read on
+  for (std::filesystem::directory_iterator entry("/proc/self/fd", ignored), end; !ignored && entry != end;
+       entry.increment(ignored)) {
+    const int fd = static_cast<int>(std::strtol(entry->path().filename().c_str(), nullptr, 10));
     int type = 0;
     sockaddr_in address{};
     socklen_t type_size = sizeof(type), address_size = sizeof(address);
@@ -61,8 +65,16 @@ void drop_fragments_of(const std::string& url) {
   }
 }
 
+/// LCM waits without end for a tcpq server's greeting, for room in its buffers, and for the rest of a message.
+void give_patience(int fd) {
+  const timeval patience{Bus::kPatience.count(), 0};
+  setsockopt(fd, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof(patience));
+  setsockopt(fd, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience));
+}
+
 lcm_t* create(const std::string& url) {
   lcm_t* lcm = lcm_create(url.c_str());
+  if (lcm != nullptr && url.starts_with(kTcpq) && lcm_get_fileno(lcm) >= 0) give_patience(lcm_get_fileno(lcm));
   // The first question for its descriptor opens the socket. As long as nothing is subscribed to, LCM takes no pieces.
   if (lcm != nullptr && url.starts_with(kUdpm) && lcm_get_fileno(lcm) >= 0) drop_fragments_of(url);
   return lcm;
@@ -114,6 +126,18 @@ Result<void> check_url(const std::string& url) {
 
 }  // namespace
 
+/// A connection that a thread of its own is making, for that may take for ever. Lives as long as that or the bus does.
+struct Bus::Attempt {
+  std::mutex mutex;
+  std::condition_variable ended;
+  bool has_ended = false;
+  lcm_t* made = nullptr;  ///< what came of it, until it is taken
+
+  ~Attempt() {
+    if (made != nullptr) lcm_destroy(made);
+  }
+};
+
 /// LCM calls C functions; this one finds its subscription again.
 struct BusCallback {
   static void receive(const lcm_recv_buf_t* buffer, const char* channel, void* context) {
@@ -131,8 +155,8 @@ std::string default_url() {
 Result<std::unique_ptr<Bus>> Bus::open(const std::string& url) {
   if (auto done = check_url(url); !done) return done.error();
   std::unique_ptr<Bus> bus(new Bus(url));
-  bus->lcm_ = create(url);
-  if (bus->lcm_ == nullptr) return Error{"LCM cannot start with '" + url + "'"};
+  bus->connect();
+  if (bus->lcm_ == nullptr && !bus->attempt_) return Error{"LCM cannot start with '" + url + "'"};
   return bus;
 }
 
@@ -151,7 +175,7 @@ bool Bus::publish_bytes(const char* channel, std::span<const std::uint8_t> paylo
 bool Bus::subscribe_bytes(const char* channel, int queue_capacity, Decoder decoder) {
   subscriptions_.push_back(
       std::make_unique<Subscription>(Subscription{this, channel, queue_capacity, std::move(decoder)}));
-  if (register_with_lcm(*subscriptions_.back())) return true;
+  if (!connected() || register_with_lcm(*subscriptions_.back())) return true;  // or when there is a connection
   subscriptions_.pop_back();
   return false;
 }
@@ -190,13 +214,35 @@ int Bus::descriptor() const { return lcm_ != nullptr ? lcm_get_fileno(lcm_) : -1
 
 bool Bus::connected() const { return descriptor() >= 0; }
 
+void Bus::connect() {
+  if (lcm_ != nullptr) lcm_destroy(std::exchange(lcm_, nullptr));
+  if (!url_.starts_with(kTcpq)) {
+    lcm_ = create(url_);
+    return;
+  }
+  if (!attempt_) {
+    attempt_ = std::make_shared<Attempt>();
+    std::thread([attempt = attempt_, url = url_] {
+      lcm_t* made = create(url);
+      const std::lock_guard lock(attempt->mutex);
+      attempt->made = made;
+      attempt->has_ended = true;
+      attempt->ended.notify_all();
+    }).detach();
+  }
+  std::unique_lock lock(attempt_->mutex);
+  if (!attempt_->ended.wait_for(lock, kPatience, [&] { return attempt_->has_ended; })) return;  // it goes on
+  lcm_ = std::exchange(attempt_->made, nullptr);
+  lock.unlock();
+  attempt_.reset();
+}
+
 void Bus::reconnect() {
   const auto now = std::chrono::steady_clock::now();
   if (now < next_attempt_) return;
   pause_ = std::clamp(2 * pause_, kFirstPause, kLongestPause);
-  next_attempt_ = now + pause_;
-  if (lcm_ != nullptr) lcm_destroy(lcm_);
-  lcm_ = create(url_);
+  connect();
+  next_attempt_ = std::chrono::steady_clock::now() + pause_;
   if (!connected()) return;
   for (auto& subscription : subscriptions_) register_with_lcm(*subscription);
   if (!connected()) return;

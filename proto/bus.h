@@ -38,18 +38,22 @@ struct BusCounters {
 /// Publish and subscribe over LCM (liblcm 1.3). Messages may be lost; nobody is told.
 ///
 /// Received payloads are decoded only at their exact length. An exception of a handler does not pass through LCM's C
-/// code: it is thrown on from handle(). A tcpq relay that goes away is waited for with growing pauses.
+/// code: it is thrown on from handle(). A tcpq relay that goes away, or does not answer, is waited for with growing
+/// pauses; one that takes or gives nothing in the middle of a message is left after kPatience. So no call takes much
+/// longer than that.
 /// One thread per object: neither publish() nor handle() may run beside another call.
 class Bus {
  public:
   /// url: udpm://ADDRESS:PORT?..., tcpq://ADDRESS:PORT (in numbers), memq:// or file://PATH?mode=w|r. An error says
   /// what to do.
   static Result<std::unique_ptr<Bus>> open(const std::string& url = default_url());
+  /// For the other end of a tcpq connection.
+  static constexpr std::chrono::seconds kPatience{2};
   ~Bus();
   Bus(const Bus&) = delete;
   Bus& operator=(const Bus&) = delete;
 
-  /// False if the message could not be sent; true says nothing about who received it. May block on tcpq.
+  /// False if the message could not be sent; true says nothing about who received it.
   template <class T>
   bool publish(const char* channel, const T& message) {
     return publish_bytes(channel, encode(message));
@@ -101,15 +105,18 @@ class Bus {
     Decoder decoder;
   };
   friend struct BusCallback;
+  struct Attempt;
 
   explicit Bus(std::string url) : url_(std::move(url)) {}
   bool subscribe_bytes(const char* channel, int queue_capacity, Decoder decoder);
   bool register_with_lcm(Subscription& subscription);
   void dispatch(Subscription& subscription, const char* channel, std::span<const std::uint8_t> payload) noexcept;
   bool connected() const;
+  void connect();
   void reconnect();
 
   std::string url_;
+  std::shared_ptr<Attempt> attempt_;  ///< to connect, which has not come to its end
   lcm_t* lcm_ = nullptr;
   std::vector<std::unique_ptr<Subscription>> subscriptions_;
   BusCounters counters_;

@@ -25,6 +25,7 @@
 
 #include "base/failure.h"
 #include "base/files.h"
+#include "base/help_formatter.h"
 #include "base/program.h"
 #include "base/progress_line.h"
 #include "base/standard_streams.h"
@@ -500,6 +501,7 @@ int run(int argc, char** argv) {
 
   Options options;
   CLI::App app{"Pictures and movies of shaken rods, without a display.", "shaken-render"};
+  app.formatter(std::make_shared<HelpFormatter>());
   app.set_version_flag("--version", std::string("shaken-render ") + run::version());
   app.require_subcommand(1);
   std::string colours;

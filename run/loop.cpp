@@ -242,6 +242,8 @@ class Loop {
     summary.state = state;
     summary.reason = reason;
     summary.rods = rods;
+    if (state != "done") summary.done_before = former_end(directory_, run_id_);
+    if (auto done = hash_files(state != "stopped", summary); !done) return done.error();
     if (state == "done" && summary.order) {
       const std::string trouble = why_not_steady(*summary.order, summary.sim_seconds);
       if (!trouble.empty()) spdlog::warn("{}", trouble);
@@ -251,6 +253,18 @@ class Loop {
       }
     }
     return write_summary(directory_.summary(), summary);
+  }
+
+  /// `with_frames`: whether trajectory.h5 is of this end.
+  Result<void> hash_files(bool with_frames, Summary& summary) const {
+    std::vector<std::filesystem::path> written{directory_.observables()};
+    if (with_frames && run_.frames) written.push_back(directory_.trajectory());
+    for (const auto& file : written) {
+      const Result<ContentHash> hash = content_hash(file);
+      if (!hash) return hash.error();
+      summary.files[file.filename().string()] = *hash;
+    }
+    return {};
   }
 
   RunOutcome finish_done() {

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
+#include "base/help_formatter.h"
 #include "base/program.h"
 #include "base/text.h"
 #include "run/files/directory.h"
@@ -81,6 +82,7 @@ std::string as_text(const Replay& replay, double dt) {
 
 int replay_command(int argc, char** argv) {
   CLI::App app("Meets a run's numerical trouble once more and shows the rods concerned.", "shaken-worker replay");
+  app.formatter(std::make_shared<HelpFormatter>());
   std::string directory;
   bool json = false;
   app.add_option("DIR", directory, "Run directory with a trouble.json")->required();

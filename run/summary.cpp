@@ -175,7 +175,12 @@ Result<void> write_summary(const std::filesystem::path& file, const Summary& sum
   explain_nulls(json, "", summary, reasons);
   json["why_null"] = std::move(reasons);
   json["state_hash"] = fmt::format("{:016x}", summary.state_hash);
+  json["files"] = OrderedJson::object();
+  for (const auto& [name, hash] : summary.files) {
+    json["files"][name] = {{"bytes", hash.size}, {"xxh3", fmt::format("{:016x}", hash.xxh3)}};
+  }
   json["exit"] = {{"state", summary.state}, {"reason", summary.reason}, {"tick", summary.tick}, {"rods", summary.rods}};
+  if (summary.done_before) json["exit"]["done_before_s"] = *summary.done_before;
   json["versions"] = {{"shaken", version()}, {"physics", kPhysicsVersion}, {"compiler", compiler()}};
   json["host"] = host_name();
   json["started"] = summary.started;

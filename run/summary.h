@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "analysis/time_series.h"
+#include "run/files/content_hash.h"
 #include "run/measure/reduction.h"
 #include "scene/run_plan.h"
 #include "sim/balance.h"
@@ -44,14 +45,16 @@ struct Summary {
   std::optional<double> defects_mean_plus;       ///< in the steady state, if defects were measured
   std::optional<double> defects_mean_minus;
   std::map<std::string, EffectReport> effects;
+  std::map<std::string, ContentHash> files;  ///< those of HDF5 that this end of the run has written, by their names
   std::uint64_t state_hash = 0;
   std::string started;   ///< UTC, ISO 8601
   std::string finished;  ///< the same
 
-  std::string state = "done";  ///< done | failed | stopped
-  std::string reason;          ///< unless done
-  Tick tick = 0;               ///< of the end
-  std::vector<int> rods;       ///< concerned by numerical trouble
+  std::string state = "done";           ///< done | failed | stopped
+  std::string reason;                   ///< unless done
+  std::optional<double> done_before{};  ///< the simulated time of an end that the run had, if it went on from there [s]
+  Tick tick = 0;                        ///< of the end
+  std::vector<int> rods;                ///< concerned by numerical trouble
 };
 
 /// The standard error that is shown with a mean: its own where it is of a steady state. Where it is not, or that is not

@@ -13,6 +13,7 @@
 
 #include "base/failure.h"
 #include "base/files.h"
+#include "base/help_formatter.h"
 #include "base/program.h"
 #include "base/progress_line.h"
 #include "base/standard_streams.h"
@@ -253,6 +254,7 @@ int main(int argc, char** argv) {
   guard_standard_streams("shaken-worker");
   if (argc > 1 && std::string_view(argv[1]) == "replay") return run::replay_command(argc - 1, argv + 1);
   CLI::App app("Runs one scene from start to end in a run directory.", "shaken-worker");
+  app.formatter(std::make_shared<HelpFormatter>());
   Arguments arguments;
   describe(app, arguments);
   std::signal(SIGTERM, request_stop);

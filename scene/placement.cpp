@@ -34,8 +34,8 @@ std::string placement_key(const RunPlan& plan) {
 }
 
 /// The nearest larger side, in halves of a millimetre (tenths below 5 mm) and at most three tenths larger, whose box
-/// holds rods of the same area fraction in rows; none if there is none, or for another start. Rows are not commensurate
-/// with every side, so it need not be the largest that counts.
+/// holds rods of the same area fraction in rows, however that is rounded to whole rods; none if there is none, or for
+/// another start. Rows are not commensurate with every side, so it need not be the largest that counts.
 std::optional<double> nearest_side(const System& system) {
   if (system.start != Start::kAligned || system.walls) return std::nullopt;
   constexpr int kMostTries = 60;
@@ -45,9 +45,10 @@ std::optional<double> nearest_side(const System& system) {
     larger.box_side = (std::floor(system.box_side * per_mm) + k) / per_mm;
     if (larger.box_side > 1.3 * system.box_side) break;
     const double more = larger.box_side * larger.box_side / (system.box_side * system.box_side);
-    larger.n_rods = static_cast<int>(std::lround(system.n_rods * more));
+    const auto scaled = [more](int count) { return static_cast<int>(std::lround((count + 0.5) * more)); };
+    larger.n_rods = scaled(system.n_rods);
     for (std::size_t s = 0; s < system.added.size(); ++s) {
-      if (system.added[s]) larger.added[s]->count = static_cast<int>(std::lround(system.added[s]->count * more));
+      if (system.added[s]) larger.added[s]->count = scaled(system.added[s]->count);
     }
     if (make_world(larger)) return larger.box_side;
   }

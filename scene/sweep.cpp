@@ -223,6 +223,23 @@ std::optional<std::string> name_problem(std::string_view name) {
   return fmt::format("a name has 1 to {} bytes of UTF-8, without '/' and control characters", kLongestName);
 }
 
+std::optional<std::string> id_problem(std::string_view name) {
+  const bool is_like_an_id = name.size() > 1 && name.front() == 's' && name[1] != '0' &&
+                             name.find_first_not_of("0123456789", 1) == std::string_view::npos;
+  if (!is_like_an_id) return {};
+  return fmt::format("'{}' could be mistaken for a sweep's id", name);
+}
+
+std::string sweep_name(std::string_view text, const std::string& file) {
+  std::vector<Problem> ignored;
+  const std::optional<Node> root = parse_document(text, file, ignored);
+  if (root && (root->find("scene") != nullptr || root->find("sweep") != nullptr)) {
+    const Member* name = root->find("name");
+    if (name != nullptr && name->value.kind == Node::Kind::kString) return name->value.text;
+  }
+  return std::filesystem::path(file).stem().string();
+}
+
 Loaded<Sweep> load_sweep(std::string_view text, const std::string& file, std::span<const std::string> settings,
                          std::optional<int> replicas) {
   std::vector<Problem> problems;
@@ -267,6 +284,7 @@ Loaded<Sweep> load_sweep(std::string_view text, const std::string& file, std::sp
     const bool is_of_file = name_place.line == 0;
     problems.push_back(problem_at(name_place, is_of_file ? "" : "name",
                                   *problem + (is_of_file ? ": rename the file, or give a \"name\" in a sweep" : "")));
+    return tidied(std::move(problems));  // before the points, of which there may be many
   }
   Products sweeps(std::move(products), room, problems);
   if (replicas) sweeps.set_replicas(*replicas);

@@ -33,6 +33,11 @@ struct Sweep {
 /// characters that a terminal obeys (base/text.h), for scenes are passed round and names are printed.
 std::optional<std::string> name_problem(std::string_view name);
 
+/// The same of one that is submitted, if it is sound but for that: "s9" could be mistaken for a sweep's id.
+std::optional<std::string> id_problem(std::string_view name);
+/// The name that load_sweep gives, without the points; the file's own name where the text cannot be read.
+std::string sweep_name(std::string_view text, const std::string& file);
+
 /// Reads a sweep file, or a scene file as a sweep of one point.
 ///   {"name"?, "executor"?, "slurm"?: {...}, "scene": {...}, "sweep": {"grid": {path: values}, "zip": {path: values},
 ///   "list": [{path: value}, ...],

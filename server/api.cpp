@@ -275,16 +275,30 @@ Api::Answer Api::extend(const Call& call) const {
   const std::vector<std::string> settings = parsed(parse_extension, call.request.body);
   const auto jobs = in_sweep(call) ? queue_.jobs(find_sweep(call.id).id) : std::vector{find_job(call.id)};
   std::vector<std::pair<std::string, std::string>> scenes;
+  std::vector<scene::Problem> problems;  // of the first job that cannot go on so
+  Json refused = Json::array();
   for (const Job& job : jobs) {
     const std::string present = queue_.scene(job.id);
-    if (const std::string why = refuse_scene(job.id, present); !why.empty()) {
-      throw Refusal(409, "job " + job.id + " cannot be extended: " + why);
+    std::string why = refuse_scene(job.id, present);
+    if (why.empty()) {
+      const auto longer = extended_scene("job " + job.id, present, settings);
+      if (longer) {
+        scenes.emplace_back(job.id, *longer);
+        continue;
+      }
+      if (problems.empty()) problems = longer.error();
+      why = longer.error().front().message;
     }
-    const auto longer = extended_scene("job " + job.id, present, settings);
-    if (!longer) return problems_answer(longer.error());
-    scenes.emplace_back(job.id, *longer);
+    refused.push_back({{"job", job.id}, {"reason", why}});
   }
-  return {200, {{"extended", queue_.extend(scenes)}}, ""};
+  if (scenes.empty() && !refused.empty()) {
+    if (!problems.empty()) return problems_answer(problems);
+    throw Refusal(409, "job " + refused[0]["job"].get<std::string>() +
+                           " cannot be extended: " + refused[0]["reason"].get<std::string>());
+  }
+  Json answer = {{"extended", queue_.extend(scenes)}};
+  if (!refused.empty()) answer["refused"] = refused;
+  return {200, answer, ""};
 }
 
 Api::Answer Api::control(const Call& call) const {

@@ -9,13 +9,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <memory>
 #include <utility>
 #include <vector>
 
 #include "base/failure.h"
+#include "base/files.h"
 #include "base/process.h"
 #include "base/program.h"
 #include "base/slurm_conf.h"
@@ -82,12 +85,20 @@ std::string host_name() {
   return name.data();
 }
 
+/// Why the daemon cannot start in its root, with a remedy where one is known.
+Failure cannot_start(const std::string& reason) {
+  const bool is_fixed = reason.find(std::strerror(EROFS)) != std::string::npos;
+  return {ExitCode::kFailed, reason + (means_no_room(reason) ? "; make room there, or choose another --root"
+                                       : is_fixed            ? "; choose a --root that can be written"
+                                                             : "")};
+}
+
 void make_private_directory(const std::filesystem::path& directory) {
   std::error_code error;
   std::filesystem::create_directories(directory, error);
-  if (error) throw Failure(ExitCode::kFailed, "cannot make " + directory.string() + ": " + error.message());
+  if (error) throw cannot_start("cannot make " + directory.string() + ": " + error.message());
   std::filesystem::permissions(directory, std::filesystem::perms::owner_all, error);
-  if (error) throw Failure(ExitCode::kFailed, "cannot protect " + directory.string() + ": " + error.message());
+  if (error) throw cannot_start("cannot protect " + directory.string() + ": " + error.message());
 }
 
 std::filesystem::path log_file(const DaemonConfig& config) { return config.root / "shakend.log"; }
@@ -249,13 +260,24 @@ void run_daemon(const DaemonConfig& asked_for) {
   DaemonInfo info;
   info.root = std::filesystem::absolute(config.root).lexically_normal();
   make_private_directory(info.root);
-  const auto lock = run::DirectoryLock::acquire(info.root / "shakend.lock");
-  if (!lock) throw Failure(ExitCode::kFailed, "another shakend is at work: " + lock.error().message);
+  const std::filesystem::path lock_file = info.root / "shakend.lock";
+  const auto lock = run::DirectoryLock::acquire(lock_file);
+  if (!lock && run::DirectoryLock::is_held(lock_file)) {
+    throw Failure(ExitCode::kFailed, "another shakend is at work: " + lock.error().message);
+  }
+  if (!lock) throw cannot_start(lock.error().message);
   make_private_directory(info.runs());
   start_log(config);
   const Signals signals;
 
-  Queue queue(info.root / "queue.db");
+  const std::unique_ptr<Queue> opened_queue = [&] {
+    try {
+      return std::make_unique<Queue>(info.root / "queue.db");
+    } catch (const StorageError& problem) {
+      throw cannot_start(problem.what());
+    }
+  }();
+  Queue& queue = *opened_queue;
   renew_ids(queue, info.runs());
   for (const std::string& id : queue.recover()) spdlog::info("job {}: was running when the daemon ended", id);
 

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "base/failure.h"
+#include "base/help_formatter.h"
 #include "base/paths.h"
 #include "base/standard_streams.h"
 #include "proto/bus.h"
@@ -78,6 +79,7 @@ int main(int argc, char** argv) {
   bool relay_for_anyone = false;
 
   CLI::App app(kAbout);
+  app.formatter(std::make_shared<shaken::HelpFormatter>());
   app.footer(kExamples);
   app.set_version_flag("--version", std::string("shakend ") + shaken::run::version());
   app.add_option("--root", root,

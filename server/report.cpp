@@ -51,12 +51,12 @@ Json summary_of(const std::string& id, const run::RunDirectory& directory) {
 }
 
 /// Whether a summary is of the end of a run. That of one that was stopped is, once the job has ended: then it tells of
-/// all that there will be.
+/// all that there will be; and that of a run that came to an end and was stopped on its way to another.
 bool is_final(const Json& summary, JobState state) {
   const auto exit = summary.find("exit");
   if (exit == summary.end() || !exit->is_object()) return false;
   const Json word = exit->value("state", Json());
-  return word == "done" || (word == "stopped" && has_ended(state));
+  return word == "done" || (word == "stopped" && (has_ended(state) || exit->contains("done_before_s")));
 }
 
 double seconds(std::chrono::milliseconds time) { return std::chrono::duration<double>(time).count(); }
@@ -162,6 +162,7 @@ Json result_row(const Job& job, const std::filesystem::path& runs) {
           {"label", job.label},
           {"parameters", parameters(job)},
           {"replica", job.replica},
+          {"directory", (runs / job.id).string()},
           {"summary", std::move(summary)}};
 }
 

@@ -3,12 +3,25 @@
 
 #include <sqlite3.h>
 
+#include <cerrno>
+#include <cstring>
+
 namespace shaken::server {
 namespace {
 
+/// What the system said, which SQLite's "disk I/O error" does not: " (No space left on device)", say.
+std::string system_reason(sqlite3* database) {
+  const int code = sqlite3_errcode(database) & 0xFF;
+  const int reason = code == SQLITE_FULL                               ? ENOSPC
+                     : code == SQLITE_IOERR || code == SQLITE_CANTOPEN ? sqlite3_system_errno(database)
+                                                                       : 0;
+  return reason != 0 ? std::string(" (") + std::strerror(reason) + ")" : "";
+}
+
 [[noreturn]] void fail(sqlite3* database) {
   const char* file = sqlite3_db_filename(database, "main");
-  throw StorageError(std::string(file != nullptr ? file : "queue") + ": " + sqlite3_errmsg(database));
+  throw StorageError(std::string(file != nullptr ? file : "queue") + ": " + sqlite3_errmsg(database) +
+                     system_reason(database));
 }
 
 }  // namespace
@@ -48,7 +61,8 @@ Database::Database(const std::filesystem::path& file) {
   constexpr int kFlags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX;
   try {
     if (sqlite3_open_v2(file.c_str(), &handle_, kFlags, nullptr) != SQLITE_OK) {
-      throw StorageError(file.string() + ": " + (handle_ != nullptr ? sqlite3_errmsg(handle_) : "out of memory"));
+      throw StorageError(file.string() + ": " +
+                         (handle_ != nullptr ? sqlite3_errmsg(handle_) + system_reason(handle_) : "out of memory"));
     }
     sqlite3_extended_result_codes(handle_, 1);
     wait_at_most(std::chrono::milliseconds(5000));  // somebody may look into the file with the sqlite3 program

@@ -16,7 +16,6 @@ namespace shaken::server {
 namespace {
 
 using std::chrono::milliseconds;
-using std::chrono::steady_clock;
 
 constexpr milliseconds kPeriod{1000};
 constexpr milliseconds kReaction{200};  ///< longest wait before a request to stop is seen
@@ -24,6 +23,8 @@ constexpr milliseconds kReaction{200};  ///< longest wait before a request to st
 /// Changes sent in one go: a submit of thousands of points must not overrun the receivers' buffers.
 constexpr int kBurst = 100;
 constexpr milliseconds kPause{10};
+/// For what has changed by the end of the daemon.
+constexpr milliseconds kLastMessages{2000};
 
 }  // namespace
 
@@ -34,15 +35,18 @@ StatusPublisher::StatusPublisher(const Queue& queue, std::unique_ptr<proto::Bus>
       last_change_(queue.last_change()),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
-StatusPublisher::~StatusPublisher() = default;
+StatusPublisher::~StatusPublisher() {
+  give_up_at_ = Clock::now() + kLastMessages;
+  thread_.request_stop();
+}
 
 void StatusPublisher::run(const std::stop_token& stop) {
-  auto next_tick = steady_clock::now();
+  auto next_tick = Clock::now();
   bool running_is_due = false;
   do {
     try {
       publish_changes();
-      if (steady_clock::now() >= next_tick) {
+      if (Clock::now() >= next_tick) {
         publish_status();
         running_is_due = true;
         next_tick += kPeriod;
@@ -50,13 +54,13 @@ void StatusPublisher::run(const std::stop_token& stop) {
       if (running_is_due && publish_running()) running_is_due = false;
     } catch (const StorageError& problem) {
       spdlog::error("publisher: {}", problem.what());
-      next_tick = steady_clock::now() + kPeriod;
+      next_tick = Clock::now() + kPeriod;
       std::this_thread::sleep_for(kReaction);
     }
     queue_.wait_for_change(last_change_, kReaction);
   } while (!stop.stop_requested());
   try {
-    while (publish_changes()) continue;  // of the jobs that were stopped with the daemon
+    while (publish_changes() && !is_over()) continue;  // of the jobs that were stopped with the daemon
   } catch (const StorageError& problem) {
     spdlog::error("publisher: {}", problem.what());
   }
@@ -87,13 +91,17 @@ bool StatusPublisher::publish_running() {
   for (Job& job : queue_.jobs(std::nullopt, JobState::kStopping)) jobs.push_back(std::move(job));
   // Something has changed since the changes were sent, and may have changed these: first that, then what runs.
   if (queue_.last_change() != last_change_) return false;
-  for (const Job& job : jobs) publish_job(job, std::string(to_word(job.state)));
+  for (const Job& job : jobs) {
+    if (is_over()) break;
+    publish_job(job, std::string(to_word(job.state)));
+  }
   return true;
 }
 
 bool StatusPublisher::publish_changes() {
   const auto changes = queue_.changes_since(last_change_, kBurst);
   for (const Change& change : changes) {
+    if (is_over()) return false;
     if (const auto job = queue_.job(change.job)) publish_job(*job, change.to);
     last_change_ = change.sequence;
   }

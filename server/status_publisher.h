@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
+#include <chrono>
 #include <memory>
 #include <thread>
 
@@ -12,13 +14,17 @@ namespace shaken::server {
 
 /// Sends SHAKEN_STATUS once a second, and SHAKEN_JOB at every change of state and once a second for each job that
 /// runs. Its thread is the only one that touches the bus; it reads the queue and the progress files, nothing else.
+/// At its end it sends what has changed, but for some seconds at most: the other end may take nothing.
 class StatusPublisher {
  public:
   StatusPublisher(const Queue& queue, std::unique_ptr<proto::Bus> bus, DaemonInfo info);
   ~StatusPublisher();
 
  private:
+  using Clock = std::chrono::steady_clock;
   void run(const std::stop_token& stop);
+  /// Whether the last messages have had their time.
+  bool is_over() const { return Clock::now() >= give_up_at_.load(); }
   void publish_status();
   /// False if there are changes to be sent first.
   bool publish_running();
@@ -32,6 +38,7 @@ class StatusPublisher {
   std::int64_t status_sequence_ = 0;
   std::int64_t job_sequence_ = 0;
   std::int64_t last_change_;
+  std::atomic<Clock::time_point> give_up_at_ = Clock::time_point::max();
   std::jthread thread_;
 };
 

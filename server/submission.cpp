@@ -28,6 +28,7 @@ using nlohmann::json;
 constexpr int kMostReplicas = 10'000;
 constexpr int kMostAtOnce = 1'000'000;
 constexpr int kHighestPriority = 1'000'000;
+constexpr int kDeepest = 16;  // of brackets in a body; the scene in it is a text
 
 const std::vector<std::string> kKeys{"text",         "file",         "settings", "replicas", "name",   "priority",
                                      "soft_limit_s", "time_limit_s", "at_most",  "after",    "stop_if"};
@@ -58,8 +59,31 @@ int integer_of(const json& value, const std::string& key, int least, int most) {
   return value.get<int>();
 }
 
+/// Whether brackets outside of texts are nested deeper than `most`.
+bool nests_deeper_than(std::string_view text, int most) {
+  int depth = 0;
+  bool in_text = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_text && c == '\\') {
+      ++i;
+    } else if (c == '"') {
+      in_text = !in_text;
+    } else if (!in_text && (c == '[' || c == '{') && ++depth > most) {
+      return true;
+    } else if (!in_text && (c == ']' || c == '}')) {
+      --depth;
+    }
+  }
+  return false;
+}
+
 /// The body as an object with no other keys than `known`.
 json parse_object(std::string_view body, const std::vector<std::string>& known) {
+  // A parser needs 80 bytes for each bracket of a body that is nothing else.
+  if (nests_deeper_than(body, kDeepest)) {
+    throw std::invalid_argument("the body is nested more than " + std::to_string(kDeepest) + " deep");
+  }
   json object;
   try {
     object = json::parse(body);
@@ -86,11 +110,6 @@ std::chrono::milliseconds time_of(const json& value, const std::string& key) {
 
 int priority_of(const json& value) { return integer_of(value, "priority", -kHighestPriority, kHighestPriority); }
 
-std::optional<std::string> name_problem(const std::string& name) {
-  if (sweep_number(name)) return "'" + name + "' could be mistaken for a sweep's id";
-  return scene::name_problem(name);
-}
-
 }  // namespace
 
 SubmitRequest parse_submit_request(std::string_view body) {
@@ -116,7 +135,8 @@ SubmitRequest parse_submit_request(std::string_view body) {
   }
   if (object.contains("name")) {
     request.name = text_of(object["name"], "name");
-    if (const auto problem = name_problem(request.name)) throw std::invalid_argument("\"name\": " + *problem);
+    if (const auto problem = scene::name_problem(request.name)) throw std::invalid_argument("\"name\": " + *problem);
+    if (const auto problem = scene::id_problem(request.name)) throw std::invalid_argument("\"name\": " + *problem);
   }
   return request;
 }
@@ -181,17 +201,23 @@ std::vector<std::string> parse_extension(std::string_view body) {
 scene::Loaded<std::string> extended_scene(const std::string& name, const std::string& scene,
                                           const std::vector<std::string>& settings) {
   const auto plan = scene::load_scene(scene, name, settings);
-  if (!plan) return plan.error();
+  if (!plan) {
+    std::vector<scene::Problem> problems = plan.error();
+    for (scene::Problem& problem : problems) problem.file = name;  // nobody has typed such a setting
+    return problems;
+  }
   return scene::to_json(*plan).dump(2) + "\n";
 }
 
 scene::Loaded<Submission> expand(const SubmitRequest& request, const std::filesystem::path& runs) {
-  const auto sweep = scene::load_runs(request.text, request.file, request.settings, request.replicas);
-  if (!sweep) return sweep.error();
-  Submission submission{request.name.empty() ? sweep->name : request.name, request.priority, request.terms, {}, {}};
-  if (const auto problem = name_problem(submission.name)) {
+  const std::string name = request.name.empty() ? scene::sweep_name(request.text, request.file) : request.name;
+  // before the points, of which there may be many
+  if (const auto problem = scene::id_problem(name)) {
     return std::vector{scene::Problem{request.file, 0, 0, "", *problem + "; submit it with another name"}};
   }
+  const auto sweep = scene::load_runs(request.text, request.file, request.settings, request.replicas);
+  if (!sweep) return sweep.error();
+  Submission submission{name, request.priority, request.terms, {}, {}};
   submission.terms.executor = sweep->executor;
   submission.terms.settings = scene::to_text(sweep->slurm);
   for (const scene::SweepPoint& point : sweep->points) {

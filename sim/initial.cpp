@@ -24,13 +24,18 @@ constexpr double kClearance = 0.002;   ///< least distance between rods of the l
 constexpr double kKick = 1e-6;         ///< of a velocity, that sets replicas from one state apart
 constexpr int kMaxInsertions = 20000;  ///< tries for one rod of a random start
 
-/// Rows of rods along x: `columns` to a row, every other row shifted by half a column.
+/// Rows of rods along x: `columns` to a row, each row shifted against the one before by `turns` / `rows` of a column.
 struct Lattice {
   int columns = 0;
   int rows = 0;
-  double clearance = 0;  ///< smaller of the gaps along and across [mm]
+  int turns = 0;         ///< rows / 2: every other row by half a column
+  double clearance = 0;  ///< smallest of the gaps along and across [mm]
   int sites() const { return columns * rows; }
 };
+
+Lattice every_other_row_shifted(int columns, int rows, double clearance = 0) {
+  return {columns, rows, rows / 2, clearance};
+}
 
 /// The species to be placed, and how each may lie along x.
 class Placement {
@@ -109,7 +114,8 @@ class Placement {
 Vec3 site_position(const Lattice& lattice, double side, int site) {
   const int row = site / lattice.columns;
   const int column = site % lattice.columns;
-  return {(column + 0.25 + 0.5 * (row % 2)) * (side / lattice.columns), (row + 0.5) * (side / lattice.rows), 0};
+  const auto shift = static_cast<double>(static_cast<long>(row) * lattice.turns % lattice.rows) / lattice.rows;
+  return {(column + 0.25 + shift) * (side / lattice.columns), (row + 0.5) * (side / lattice.rows), 0};
 }
 
 /// Sites at which any rod is clear of the side walls, whichever way it lies along x.
@@ -166,13 +172,74 @@ std::optional<Lattice> find_lattice(const Placement& rods) {
   std::optional<Lattice> best;
   for (const auto& [columns, pitch, next_row, row_after, max_rows] : possible_columns(rods)) {
     int rows = (n_rods + columns - 1) / columns + ((n_rods + columns - 1) / columns) % 2;
-    while (rows <= max_rows && n_usable({columns, rows, 0}, rods) < n_rods) rows += 2;
+    while (rows <= max_rows && n_usable(every_other_row_shifted(columns, rows), rods) < n_rods) rows += 2;
     if (rows > max_rows) continue;
     const double row_pitch = side / rows;
     const double clearance = std::min({pitch - extent, row_pitch - next_row, 2.0 * row_pitch - row_after});
-    if (!best || clearance > best->clearance) best = Lattice{columns, rows, clearance};
+    if (!best || clearance > best->clearance) best = every_other_row_shifted(columns, rows, clearance);
   }
   return best;
+}
+
+/// The roomiest lattice with so many columns and rows whose rows are shifted evenly, by any part of a column; none if
+/// rods overlap in each.
+std::optional<Lattice> winding_rows(int columns, int rows, const Placement& rods) {
+  const double pitch = rods.system.box_side / columns;
+  const double apart = rods.system.box_side / rows;
+  const double reach = 2.0 * rods.max_radius() + kClearance;
+  std::vector<double> least_distance;  // of two rows, by their shift in parts of `rows`; it is the same to either side
+  for (int part = 0; part <= rows / 2; ++part) {
+    least_distance.push_back(rods.least_row_distance(pitch, part * pitch / rows) + kClearance);
+  }
+  std::optional<Lattice> best;
+  for (int turns = 0; turns <= rows / 2; ++turns) {  // beyond, they are mirror images
+    double clearance = pitch - rods.rod_extent() - kClearance;
+    for (int k = 1; k * apart < reach && clearance > 0; ++k) {
+      const int part = k * turns % rows;
+      clearance = std::min(clearance, k * apart - least_distance[std::min(part, rows - part)]);
+    }
+    if (clearance > (best ? best->clearance : 0)) best = Lattice{columns, rows, turns, clearance};
+  }
+  return best;
+}
+
+/// The numbers of columns and rows that winding rows may have: those with which rods of the largest kind, any of which
+/// may lie at any site, fill no more than the box.
+template <class Visit>
+void for_each_columns(const Placement& rods, const Visit& visit) {
+  constexpr int kMostRods = 1000;  // of more, a whole number fills the side well
+  if (rods.system.walls || rods.n_rods() > kMostRods) return;
+  const double side = rods.system.box_side;
+  double area = 0;
+  for (const Species& kind : rods.species) area = std::max(area, kind.area);
+  const int max_columns = static_cast<int>(side / (rods.rod_extent() + kClearance));
+  for (int columns = 1; columns <= max_columns; ++columns) {
+    visit(columns, static_cast<int>(side * side / (area * columns)));
+  }
+}
+
+/// Where no whole number of rods fills the side of a periodic box well, rows that are shifted by another part of a
+/// column than half: along the rods they close after several turns around the box.
+std::optional<Lattice> find_winding_lattice(const Placement& rods) {
+  std::optional<Lattice> best;
+  for_each_columns(rods, [&](int columns, int max_rows) {
+    std::optional<Lattice> found;
+    for (int rows = (rods.n_rods() + columns - 1) / columns; rows <= max_rows && !found; ++rows) {
+      found = winding_rows(columns, rows, rods);
+    }
+    if (found && (!best || found->clearance > best->clearance)) best = found;
+  });
+  return best;
+}
+
+/// The most rods for which find_winding_lattice() finds one; `most` if that is more.
+int most_in_winding_rows(const Placement& rods, int most) {
+  for_each_columns(rods, [&](int columns, int max_rows) {
+    for (int rows = max_rows; columns * rows > most; --rows) {
+      if (winding_rows(columns, rows, rods)) most = columns * rows;
+    }
+  });
+  return most;
 }
 
 /// The most rods for which find_lattice finds one. Within walls that need not be the lattice of the most rows: its rows
@@ -181,7 +248,7 @@ int most_usable_sites(const Placement& rods) {
   int most = 0;
   for (const Columns& of : possible_columns(rods)) {
     for (int rows = of.max_rows; rows >= 2 && of.columns * rows > most; rows -= 2) {
-      most = std::max(most, n_usable({of.columns, rows, 0}, rods));
+      most = std::max(most, n_usable(every_other_row_shifted(of.columns, rows), rods));
     }
   }
   return most;
@@ -230,9 +297,12 @@ Error does_not_fit(const Placement& rods, const std::string& why) {
 
 Result<std::vector<Flight>> place_aligned(const Placement& rods) {
   const System& system = rods.system;
-  const auto lattice = find_lattice(rods);
-  if (!lattice)
-    return does_not_fit(rods, "in rows at most " + amount(rods, most_usable_sites(rods)) + " can be placed");
+  auto lattice = find_lattice(rods);
+  if (!lattice) lattice = find_winding_lattice(rods);
+  if (!lattice) {
+    const int most = most_in_winding_rows(rods, most_usable_sites(rods));
+    return does_not_fit(rods, "in rows at most " + amount(rods, most) + " can be placed");
+  }
 
   // which sites stay empty: the tail of a random permutation (Fisher & Yates)
   std::vector<int> sites = usable_sites(*lattice, rods);

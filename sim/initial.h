@@ -20,7 +20,8 @@ inline constexpr double kStartSpeed = 20.0;
 ///
 /// kAligned: along x, in rows, every other row shifted by half a rod so that the tapers interlock: without the shift
 ///           rods of l = 2.5 mm do not fit beyond area fraction 0.7, with it they fit to 0.9. Of all lattices with room
-///           for n_rods the roomiest is taken; sites left over are vacancies at random places.
+///           for n_rods the roomiest is taken; sites left over are vacancies at random places. Where none has, rows
+///           shifted by other parts of a rod are tried, which wind around the periodic box several times.
 /// kRandom:  random places and directions one after the other (random sequential insertion).
 /// Errors:   the rods do not fit; the message names the most that can be placed in rows, or how many had been placed at
 ///           random when there was no room for another.

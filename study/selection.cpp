@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
 #include <set>
 
+#include "base/failure.h"
+#include "base/files.h"
 #include "base/paths.h"
 #include "run/files/directory.h"
 #include "run/files/done.h"
@@ -79,13 +82,40 @@ scene::Sweep rest_of(const scene::Sweep& sweep, const fs::path& runs_folder) {
   return rest;
 }
 
-Library done_runs(const Selection& selection, const fs::path& runs_folder) {
+namespace {
+
+/// Why the summary of a run cannot tell whether it is done; none if it can, or if there is none.
+std::optional<std::string> unreadable_summary(const fs::path& directory) {
+  const fs::path file = run::RunDirectory{directory}.summary();
+  std::error_code error;
+  if (!fs::exists(file, error)) return std::nullopt;
+  const Result<std::string> text = read_file(file);
+  if (!text) return text.error().message;
+  if (!Json::parse(*text, nullptr, false).is_object()) return file.string() + " is no JSON object";
+  return std::nullopt;
+}
+
+}  // namespace
+
+Library done_runs(const Selection& selection, const fs::path& runs_folder, std::vector<std::string>* left_out) {
   Library library;
   for (const NamedSweep& sweep : selection.sweeps) {
     RunSet set;
     for (const scene::SweepPoint& point : sweep.sweep.points) {
       const fs::path directory = directory_of(point, runs_folder);
-      if (run::is_done(run::RunDirectory{directory}, point.plan)) set.emplace_back(directory, point.parameters);
+      std::optional<std::string> problem;
+      try {
+        if (run::is_done(run::RunDirectory{directory}, point.plan)) {
+          set.emplace_back(directory, point.parameters);
+        } else {
+          problem = unreadable_summary(directory);
+        }
+      } catch (const Failure& failure) {
+        problem = failure.what();
+      }
+      if (problem && left_out != nullptr) {
+        left_out->push_back(fmt::format("{}: a run is left out: {}", sweep.name, *problem));
+      }
     }
     library.add(sweep.name, std::move(set));
   }

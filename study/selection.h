@@ -45,8 +45,10 @@ std::filesystem::path directory_of(const scene::SweepPoint& point, const std::fi
 /// The points of a sweep that are not done yet.
 scene::Sweep rest_of(const scene::Sweep& sweep, const std::filesystem::path& runs_folder);
 
-/// The runs that are done, by sweep and in its order.
-Library done_runs(const Selection& selection, const std::filesystem::path& runs_folder);
+/// The runs that are done, by sweep and in its order. Those that may be, but cannot be read, are left out; `left_out`
+/// gets a sentence for each.
+Library done_runs(const Selection& selection, const std::filesystem::path& runs_folder,
+                  std::vector<std::string>* left_out = nullptr);
 /// As figures and claims see them: `transition` holds replicas of points of `phases`.
 Library for_figures(Library runs);
 

@@ -216,7 +216,9 @@ class Figures : public client::Verb {
 
   /// The claims that belong to the figures asked for, from all runs at hand.
   void conclude(const fs::path& runs_folder, const Json& made, client::Console& console) const {
-    const Library by_sweep = done_runs(selection_, runs_folder), runs = for_figures(by_sweep);
+    std::vector<std::string> left_out;
+    const Library by_sweep = done_runs(selection_, runs_folder, &left_out), runs = for_figures(by_sweep);
+    for (const std::string& run : left_out) console.err << printable(run) << "\n";
     std::vector<std::string_view> figures;
     for (const PaperFigure* figure : selection_.figures) figures.push_back(figure->id());
     const std::vector<Claim> claims = claims_of(figures);

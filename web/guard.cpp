@@ -16,9 +16,18 @@ bool is_open(const std::string& path) {
 
 std::string Guard::address() const { return "http://127.0.0.1:" + std::to_string(port_) + "/#token=" + token_; }
 
-bool Guard::is_host(const std::string& host) const {
-  const std::string port = ":" + std::to_string(port_);
-  return host == "127.0.0.1" + port || host == "localhost" + port;
+bool Guard::is_host(const std::string& host) const { return host == "127.0.0.1:" + std::to_string(port_); }
+
+const server::Headers& Guard::headers() {
+  static const server::Headers kHeaders{
+      {"Content-Security-Policy",
+       "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; media-src 'self'; connect-src 'self'; "
+       "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"},
+      {"X-Content-Type-Options", "nosniff"},
+      {"Referrer-Policy", "no-referrer"},
+      {"Cross-Origin-Resource-Policy", "same-origin"},
+      {"Cache-Control", "no-store"}};
+  return kHeaders;
 }
 
 std::optional<server::TurnedAway> Guard::stop(const server::Request& head) const {

@@ -16,11 +16,17 @@ class Guard {
   Guard(std::string token, int port) : token_(std::move(token)), port_(port) {}
 
   /// Why a request is not answered, as of its head; nothing if it may pass. It must
-  /// - be addressed to 127.0.0.1 or localhost and this port: a name that a web site makes point here is refused (403);
+  /// - be addressed to 127.0.0.1 and this port. A name is refused (403): a web site may make its own point here, and
+  /// for
+  ///   localhost browsers may ask [::1] first, where another user can listen;
   /// - come from this page, or from no page, if it changes something (403);
   /// - carry "Authorization: Bearer TOKEN" (401), but for the page's own files, which anybody may read, and for what a
   ///   ticket (web/tickets.h) has been given for.
   std::optional<server::TurnedAway> stop(const server::Request& head) const;
+
+  /// Of every answer, refusals too: nothing but what is served here is loaded, run or asked; text that came from
+  /// outside stays text.
+  static const server::Headers& headers();
 
   /// What to open in a browser. The token is in a part of it that is not sent.
   std::string address() const;

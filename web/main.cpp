@@ -12,14 +12,18 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/failure.h"
+#include "base/help_formatter.h"
 #include "base/interrupt.h"
 #include "base/paths.h"
 #include "base/standard_streams.h"
 #include "run/files/version.h"
 #include "web/guard.h"
+#include "web/read_run.h"
 #include "web/served_page.h"
 #include "web/site.h"
 #include "web/token.h"
@@ -82,7 +86,7 @@ void serve(const std::filesystem::path& root, int port, const std::string& lcm_u
   const auto listen_on = [&](int wanted) {
     return std::make_unique<server::HttpServer>(
         wanted, [&](const server::Request& head) { return guard.get().stop(head); },
-        [&](const server::Request& request) { return site.answer(request); });
+        [&](const server::Request& request) { return site.answer(request); }, web::Guard::headers());
   };
   std::unique_ptr<server::HttpServer> server = listen_on(port);
   const int served_port = server->port();
@@ -92,6 +96,7 @@ void serve(const std::filesystem::path& root, int port, const std::string& lcm_u
   std::printf("open %s\n", address.c_str());
   std::fflush(stdout);
   std::vector<std::unique_ptr<server::HttpServer>> former;  // which may have to answer still
+  std::string last_failure;
   while (!interrupt.interrupted()) {
     interrupt.sleep_for(std::chrono::seconds(1));
     std::erase_if(former, [](const auto& one) { return one->ended_within(std::chrono::milliseconds(0)); });
@@ -101,8 +106,12 @@ void serve(const std::filesystem::path& root, int port, const std::string& lcm_u
     try {
       server = listen_on(served_port);
       std::fprintf(stderr, "shaken-web: the port failed: listening anew\n");
-    } catch (const Failure&) {
-      server.reset();  // in a second again
+      last_failure.clear();
+    } catch (const Failure& failure) {  // in a second again
+      server.reset();
+      if (std::exchange(last_failure, failure.what()) != failure.what()) {
+        std::fprintf(stderr, "shaken-web: %s; trying again each second\n", failure.what());
+      }
     }
   }
   site.close();
@@ -120,11 +129,13 @@ void serve(const std::filesystem::path& root, int port, const std::string& lcm_u
 
 int main(int argc, char** argv) {
   guard_standard_streams("shaken-web");
+  if (argc > 1 && std::string_view(argv[1]) == "read") return web::read_run_command(argc, argv);
   std::signal(SIGPIPE, SIG_IGN);
   std::string root, lcm_url;
   int port = 8642;
   bool no_lcm = false;
   CLI::App app(kAbout);
+  app.formatter(std::make_shared<HelpFormatter>());
   app.footer(kExamples);
   app.set_version_flag("--version", std::string("shaken-web ") + run::version());
   app.add_option("--root", root, "The daemon's root directory [default: as shakend]")->type_name("DIR");

@@ -11,6 +11,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::chrono::seconds kEvery{1};
+constexpr std::chrono::seconds kSeldom{60};
+/// After which nobody looks any more: a page waits again each second.
+constexpr std::chrono::seconds kLooksOn{5};
 
 }  // namespace
 
@@ -57,18 +60,25 @@ void QueueFeed::poll(const std::stop_token& stop) {
           -1, ' ', false, Json::error_handler_t::replace);
     }
     std::unique_lock lock(mutex_);
+    is_stale_ = false;
     if (now != newest_) {
       newest_ = std::move(now);
       ++version_;
-      news_.notify_all();
     }
-    news_.wait_for(lock, stop, kEvery, [] { return false; });
+    news_.notify_all();
+    const bool is_looked_at = Clock::now() - looked_at_ < kLooksOn;
+    news_.wait_for(lock, stop, is_looked_at ? kEvery : kSeldom, [&] { return is_stale_; });
   }
 }
 
 std::optional<std::string> QueueFeed::wait(std::int64_t& seen, std::chrono::milliseconds timeout) {
   std::unique_lock lock(mutex_);
-  if (!news_.wait_for(lock, timeout, [&] { return version_ != seen; })) return std::nullopt;
+  const auto now = Clock::now();
+  if (now - std::exchange(looked_at_, now) >= kLooksOn) {
+    is_stale_ = true;
+    news_.notify_all();
+  }
+  if (!news_.wait_for(lock, timeout, [&] { return !is_stale_ && version_ != seen; })) return std::nullopt;
   seen = version_;
   return newest_;
 }

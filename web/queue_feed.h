@@ -16,7 +16,8 @@
 
 namespace shaken::web {
 
-/// The queue as it is now, asked for once a second in a thread of its own, however many pages look at it.
+/// The queue as it is now, asked for in a thread of its own: once a second while pages look at it, however many these
+/// are, and once a minute while none does, so that S(t) is kept of runs that begin meanwhile.
 class QueueFeed {
  public:
   /// `running` is told the ids of the jobs that run, after every answer.
@@ -28,6 +29,7 @@ class QueueFeed {
   std::optional<std::string> wait(std::int64_t& seen, std::chrono::milliseconds timeout);
 
  private:
+  using Clock = std::chrono::steady_clock;
   void poll(const std::stop_token& stop);
   std::string asked();
 
@@ -37,7 +39,9 @@ class QueueFeed {
   std::condition_variable_any news_;
   std::string newest_;
   std::int64_t version_ = 0;
-  std::jthread thread_;  ///< the last: it uses the others
+  Clock::time_point looked_at_{};  ///< when somebody waited last
+  bool is_stale_ = true;           ///< nobody has looked for long: `newest_` is no news
+  std::jthread thread_;            ///< the last: it uses the others
 };
 
 }  // namespace shaken::web

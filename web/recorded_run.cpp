@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <set>
 #include <shaken/frame_static_t.hpp>
 #include <system_error>
 
 #include "analysis/order.h"
 #include "client/watch/live_rods.h"
-#include "run/files/directory.h"
 
 namespace shaken::web {
 namespace {
@@ -43,45 +43,37 @@ frame_static_t static_part(const run::TrajectoryHeader& header) {
 
 }  // namespace
 
-bool RecordedRuns::is_id(const std::string& text) {
+bool RecordedRun::is_id(const std::string& text) {
   return text.size() == 16 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
-Result<const run::TrajectoryReader*> RecordedRuns::reader(const std::string& run) {
-  const fs::path file = run::RunDirectory{directory(run)}.recorded();
+Result<run::TrajectoryReader> RecordedRun::reader() const {
+  const fs::path file = directory_.recorded();
   std::error_code error;
-  const auto size = fs::file_size(file, error);
-  if (error) return Error{"this run records no rods: its scene has no \"trajectory\" or \"movie\" block"};
-  const auto written = fs::last_write_time(file, error).time_since_epoch().count();
-  const std::string now = file.string() + " " + std::to_string(size) + " " + std::to_string(written);
-  if (reader_ && opened_ == now) return &*reader_;
-  reader_.reset();
+  if (!fs::exists(file, error)) {
+    return Error{"this run records no rods: its scene has no \"trajectory\" or \"movie\" block"};
+  }
   Result<run::TrajectoryReader> opened = run::TrajectoryReader::open(file);
-  if (!opened) return opened.error();
-  if (opened->n_frames() == 0) return Error{"no whole frame is recorded yet"};
-  reader_.emplace(std::move(opened).value());
-  opened_ = now;
-  return &*reader_;
+  if (opened && opened->n_frames() == 0) return Error{"no whole frame is recorded yet"};
+  return opened;
 }
 
-Result<RecordedRuns::Frames> RecordedRuns::frames(const std::string& run) {
-  const std::lock_guard lock(mutex_);
-  const auto reader = this->reader(run);
+Result<RecordedRun::Frames> RecordedRun::frames() const {
+  const auto reader = this->reader();
   if (!reader) return reader.error();
-  const std::size_t n = (*reader)->n_frames();
-  const auto first = (*reader)->recorded().frame(0), last = (*reader)->recorded().frame(n - 1);
+  const std::size_t n = reader->n_frames();
+  const auto first = reader->recorded().frame(0), last = reader->recorded().frame(n - 1);
   if (!first) return first.error();
   if (!last) return last.error();
   return Frames{n, first->time, last->time};
 }
 
-Result<client::RodFrame> RecordedRuns::frame(const std::string& run, std::size_t index) {
-  const std::lock_guard lock(mutex_);
-  const auto reader = this->reader(run);
+Result<client::RodFrame> RecordedRun::frame(std::size_t index) const {
+  const auto reader = this->reader();
   if (!reader) return reader.error();
-  const Result<run::TrajectoryFrame> recorded = (*reader)->frame(index);
+  const Result<run::TrajectoryFrame> recorded = reader->frame(index);
   if (!recorded) return recorded.error();
-  std::optional<client::RodFrame> frame = client::constants_of(static_part((*reader)->header()));
+  std::optional<client::RodFrame> frame = client::constants_of(static_part(reader->header()));
   if (!frame) return Error{"the trajectory has sizes that no scene has"};
   frame->time = recorded->time;
   std::vector<Vec3> axes;  // of the first species, as in live messages
@@ -96,22 +88,19 @@ Result<client::RodFrame> RecordedRuns::frame(const std::string& run, std::size_t
   return std::move(*frame);
 }
 
-Result<run::Observables> RecordedRuns::curves(const std::string& run) {
-  const std::lock_guard lock(mutex_);
-  const fs::path file = run::RunDirectory{directory(run)}.observables();
+Result<run::Observables> RecordedRun::curves() const {
   std::error_code error;
-  if (!fs::exists(file, error)) return Error{"there are no curves before the end of the run"};
-  return run::read_observables(file);
+  if (!fs::exists(directory_.observables(), error)) return Error{"there are no curves before the end of the run"};
+  return run::read_observables(directory_.observables());
 }
 
-std::vector<FileEntry> RecordedRuns::files(const std::string& run) const {
+std::vector<FileEntry> RecordedRun::files() const {
   std::vector<FileEntry> files;
   // what the program keeps for itself tells nobody anything
-  const run::RunDirectory places{directory(run)};
-  std::set<std::string> of_the_program{places.lock().filename().string()};
-  for (const fs::path& checkpoint : places.checkpoints()) of_the_program.insert(checkpoint.filename().string());
+  std::set<std::string> of_the_program{directory_.lock().filename().string()};
+  for (const fs::path& checkpoint : directory_.checkpoints()) of_the_program.insert(checkpoint.filename().string());
   std::error_code error;
-  for (fs::directory_iterator entry(directory(run), error), end; !error && entry != end; entry.increment(error)) {
+  for (fs::directory_iterator entry(directory_.root, error), end; !error && entry != end; entry.increment(error)) {
     std::error_code gone;
     const std::string name = entry->path().filename().string();
     if (of_the_program.contains(name)) continue;

@@ -3,12 +3,12 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <mutex>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "client/watch/rod_frame.h"
+#include "run/files/directory.h"
 #include "run/files/observables_file.h"
 #include "run/files/trajectory.h"
 #include "sim/core/result.h"
@@ -20,37 +20,32 @@ struct FileEntry {
   std::uintmax_t size = 0;  ///< [bytes]
 };
 
-/// What run directories hold, for pages. HDF5 does one thing at a time, and so does this; may be asked from many
-/// threads.
-class RecordedRuns {
+/// What a run directory holds, for pages. Frames and curves are read by HDF5, which damaged files can end or keep for
+/// ever: the page has another process ask for them (web/run_reader.h).
+class RecordedRun {
  public:
-  explicit RecordedRuns(std::filesystem::path runs) : runs_(std::move(runs)) {}
+  explicit RecordedRun(std::filesystem::path directory) : directory_{std::move(directory)} {}
 
   /// Number of frames that are recorded so far; times of the first and of the last one [s].
   struct Frames {
     std::size_t n = 0;
     double first = 0, last = 0;
   };
-  Result<Frames> frames(const std::string& run);
-  Result<client::RodFrame> frame(const std::string& run, std::size_t index);
+  Result<Frames> frames() const;
+  Result<client::RodFrame> frame(std::size_t index) const;
   /// All curves of a run that is done.
-  Result<run::Observables> curves(const std::string& run);
+  Result<run::Observables> curves() const;
 
   /// Its plain files, in alphabetical order. Empty where there is no such directory.
-  std::vector<FileEntry> files(const std::string& run) const;
-  std::filesystem::path directory(const std::string& run) const { return runs_ / run; }
+  std::vector<FileEntry> files() const;
 
   /// Whether `text` has the form of an id: 16 hex digits.
   static bool is_id(const std::string& text);
 
  private:
-  /// The reader of a trajectory; kept, for a page asks for one frame after the other.
-  Result<const run::TrajectoryReader*> reader(const std::string& run);
+  Result<run::TrajectoryReader> reader() const;
 
-  std::filesystem::path runs_;
-  std::mutex mutex_;
-  std::string opened_;  ///< run, size and time of the file that `reader_` has open
-  std::optional<run::TrajectoryReader> reader_;
+  run::RunDirectory directory_;
 };
 
 }  // namespace shaken::web

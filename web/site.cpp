@@ -16,10 +16,10 @@
 
 #include "base/descriptor.h"
 #include "base/files.h"
-#include "base/process.h"
 #include "base/scratch_folder.h"
 #include "base/text.h"
 #include "web/packed_frame.h"
+#include "web/recorded_run.h"
 
 namespace shaken::web {
 namespace {
@@ -63,6 +63,11 @@ Reply file_reply(const fs::path& file) {
   Result<std::string> text = read_file(file);
   if (!text) return refusal(500, text.error().message);
   return {.status = 200, .body = std::move(*text), .type = type_of(file)};
+}
+
+Reply of_reader(Result<std::string> answer, const char* type) {
+  if (!answer) return refusal(404, answer.error().message);
+  return {.status = 200, .body = std::move(*answer), .type = type};
 }
 
 std::string event(const char* name, const std::string& data) {
@@ -136,7 +141,7 @@ Site::Site(SiteSetup setup)
     : setup_(std::move(setup)),
       daemon_(setup_.root),
       looks_(setup_.root, std::chrono::seconds(2)),
-      runs_(setup_.root / "runs") {
+      reader_(setup_.root / "runs", [this] { return is_closing_.load(); }) {
   if (setup_.bus) live_.emplace(std::move(setup_.bus));
   queue_.emplace(looks_, [this](const std::set<std::string>& running) {
     if (live_) live_->keep(running);
@@ -144,23 +149,11 @@ Site::Site(SiteSetup setup)
 }
 
 Reply Site::answer(const Request& request) {
-  Reply reply;
   try {
-    reply = routed(request);
+    return routed(request);
   } catch (const std::exception& problem) {
-    reply = refusal(500, problem.what());
+    return refusal(500, problem.what());
   }
-  // Nothing but what is served here is loaded, run or asked; text that came from outside stays text.
-  static const std::vector<std::pair<std::string, std::string>> kHeaders{
-      {"Content-Security-Policy",
-       "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; media-src 'self'; connect-src 'self'; "
-       "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"},
-      {"X-Content-Type-Options", "nosniff"},
-      {"Referrer-Policy", "no-referrer"},
-      {"Cross-Origin-Resource-Policy", "same-origin"},
-      {"Cache-Control", "no-store"}};
-  reply.headers.insert(reply.headers.end(), kHeaders.begin(), kHeaders.end());
-  return reply;
 }
 
 Reply Site::routed(const Request& request) {
@@ -184,7 +177,7 @@ Reply Site::routed(const Request& request) {
   const std::string run = first == "live" ? request.parameter("run") : parts.size() > 1 ? parts[1] : "";
   if (first == "live" || first == "runs") {
     const bool is_queue_only = first == "live" && run.empty();
-    if (!is_queue_only && !RecordedRuns::is_id(run)) return refusal(404, "no run has the id " + run);
+    if (!is_queue_only && !RecordedRun::is_id(run)) return refusal(404, "no run has the id " + run);
     if (parts == std::vector<std::string>{"live"}) return events(run);
     if (first == "runs") return of_run(run, {parts.begin() + 2, parts.end()}, request);
   }
@@ -238,16 +231,11 @@ Reply Site::ticket(const Request& request) {
 Reply Site::of_run(const std::string& run, const std::vector<std::string>& rest, const Request& request) {
   const std::string what = rest.empty() ? "" : rest.front();
   if (what == "frames" && rest.size() == 1) {
-    const auto frames = runs_.frames(run);
-    if (!frames) return refusal(404, frames.error().message);
-    return json_reply({{"n", frames->n}, {"first_s", frames->first}, {"last_s", frames->last}});
+    return of_reader(reader_.ask(run, {"frames"}), "application/json");
   }
   if (what == "frames" && rest.size() == 2) {
-    const std::optional<std::size_t> index = index_of(rest[1]);
-    if (!index) return refusal(404, rest[1] + " is no number of a frame");
-    const auto frame = runs_.frame(run, *index);
-    if (!frame) return refusal(404, frame.error().message);
-    return {.status = 200, .body = packed(*frame), .type = "application/octet-stream"};
+    if (!index_of(rest[1])) return refusal(404, rest[1] + " is no number of a frame");
+    return of_reader(reader_.ask(run, {"frame", rest[1]}), "application/octet-stream");
   }
   if (what == "curves" && rest.size() == 1) return curves(run, request);
   if (what == "picture" && rest.size() == 1) {
@@ -255,33 +243,27 @@ Reply Site::of_run(const std::string& run, const std::vector<std::string>& rest,
   }
   if (what == "files" && rest.size() == 1) {
     Json files = Json::array();
-    for (const FileEntry& entry : runs_.files(run)) files.push_back({{"name", entry.name}, {"bytes", entry.size}});
-    return json_reply({{"directory", runs_.directory(run).string()}, {"files", files}});
+    for (const FileEntry& entry : RecordedRun(directory(run)).files())
+      files.push_back({{"name", entry.name}, {"bytes", entry.size}});
+    return json_reply({{"directory", directory(run).string()}, {"files", files}});
   }
   if (what == "files" && rest.size() == 2) return file(run, rest[1]);
   return refusal(404, "no such path: " + request.path + "; see docs/web.md");
 }
 
 Reply Site::curves(const std::string& run, const Request& request) {
-  const auto curves = runs_.curves(run);
-  if (!curves) return refusal(404, curves.error().message);
-  Json names = Json::array(), chosen = Json::object();
+  std::vector<std::string> question{"curves"};
   const auto [begin, end] = request.query.equal_range("of");
-  for (const auto& [name, values] : *curves) {
-    names.push_back({{"name", name}, {"points", values.size()}});
-    bool is_asked = false;
-    for (auto asked = begin; asked != end; ++asked) is_asked = is_asked || asked->second == name;
-    if (is_asked) chosen[name] = values;  // NaN becomes null
-  }
-  return json_reply({{"names", names}, {"curves", chosen}});
+  for (auto asked = begin; asked != end; ++asked) question.push_back(asked->second);
+  return of_reader(reader_.ask(run, question), "application/json");
 }
 
 Reply Site::file(const std::string& run, const std::string& name) const {
-  const auto files = runs_.files(run);
+  const auto files = RecordedRun(directory(run)).files();
   const bool is_there =
       std::any_of(files.begin(), files.end(), [&](const FileEntry& entry) { return entry.name == name; });
   if (!is_there) return refusal(404, "run " + run + " has no file " + name);
-  const fs::path path = runs_.directory(run) / name;
+  const fs::path path = directory(run) / name;
   auto opened =
       std::make_shared<FilePieces>(FilePieces{Descriptor(open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC))});
   if (!opened->file) return refusal(404, "cannot read " + path.string());
@@ -294,23 +276,29 @@ Reply Site::file(const std::string& run, const std::string& name) const {
 }
 
 Reply Site::picture(const std::string& run, const std::string& frame, const std::string& style) {
-  const auto frames = runs_.frames(run);
+  const auto frames = reader_.ask(run, {"frames"});
   if (!frames) return refusal(404, frames.error().message);
   const std::optional<std::size_t> index = index_of(frame);
-  if (!index || *index >= frames->n) return refusal(404, "no frame '" + frame + "'");
+  if (!index || *index >= Json::parse(*frames).at("n").get<std::size_t>())
+    return refusal(404, "no frame '" + frame + "'");
   const std::unique_lock lock(drawing_, std::try_to_lock);
   if (!lock) return refusal(429, "another picture is being drawn: try again");
   const ScratchFolder folder;
   const fs::path png = folder.path() / "picture.png";
-  std::vector<std::string> command{sibling_program("shaken-render").string(),
+  std::vector<std::string> command{setup_.renderer.string(),
                                    "picture",
-                                   runs_.directory(run).string(),
+                                   directory(run).string(),
                                    "--frame",
                                    std::to_string(*index),
                                    "-o",
                                    png.string()};
   if (!style.empty()) command.push_back("--style=" + style);
-  const Captured drawn = run_captured(command);
+  const Captured drawn =
+      run_captured(command, CaptureLimits{.time = setup_.drawing, .stop = [this] { return is_closing_.load(); }});
+  if (drawn.cut_short) {
+    return refusal(504, "shaken-render has not drawn the picture within " +
+                            std::to_string(setup_.drawing.count() / 1000) + " s and was ended");
+  }
   if (drawn.exit_code != 0) return refusal(500, "shaken-render: " + drawn.output);
   Reply reply = file_reply(png);
   reply.headers.emplace_back("Content-Disposition",

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -9,11 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "base/process.h"
 #include "server/http/http_server.h"
 #include "web/daemon_link.h"
 #include "web/live_feed.h"
 #include "web/queue_feed.h"
-#include "web/recorded_run.h"
+#include "web/run_reader.h"
 #include "web/tickets.h"
 
 namespace shaken::web {
@@ -23,6 +25,8 @@ struct SiteSetup {
   std::filesystem::path page;            ///< folder of the page's files
   std::unique_ptr<proto::Bus> bus = {};  ///< null: nothing is live
   std::filesystem::path chart_library = "/usr/share/javascript/chart.js/chart.min.js";
+  std::filesystem::path renderer = sibling_program("shaken-render");
+  std::chrono::milliseconds drawing = std::chrono::minutes(2);  ///< for one picture, then its renderer is killed
 };
 
 /// What is served to a browser that may see it (docs/web.md has the paths): the page, the daemon's interface, what runs
@@ -44,13 +48,14 @@ class Site {
   server::Reply ticket(const server::Request& request);
   server::Reply of_run(const std::string& run, const std::vector<std::string>& rest, const server::Request& request);
   server::Reply curves(const std::string& run, const server::Request& request);
+  std::filesystem::path directory(const std::string& run) const { return setup_.root / "runs" / run; }
   server::Reply file(const std::string& run, const std::string& name) const;
   server::Reply picture(const std::string& run, const std::string& frame, const std::string& style);
 
   SiteSetup setup_;
   DaemonLink daemon_;
   DaemonLink looks_;  ///< for the queue's feed, whose end must not wait long
-  RecordedRuns runs_;
+  RunReader reader_;
   std::optional<LiveFeed> live_;
   std::atomic<bool> is_closing_ = false;
   Tickets tickets_;

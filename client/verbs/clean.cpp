@@ -44,7 +44,7 @@ class Clean : public Verb {
         "--state", states_, "STATES",
         "Of jobs in these states: done, failed, timed out, cancelled, separated by commas; all but done if "
         "left out");
-    arguments.option("--sweep", sweep_, "ID", "Only of this sweep", Names::kId);
+    arguments.option("--sweep", sweep_, "ID", "Only of this sweep", Names::kSweep);
     arguments.option("--older", older_, "TIME", "Only what ended at least so long ago: 30d, 12h");
     arguments.flag("--unknown", unknown_, "Remove also runs that the daemon's queue does not know");
     arguments.flag("--dry-run", dry_run_, "Only show what would go");

@@ -8,14 +8,14 @@
 #include <set>
 #include <string_view>
 
+#include "client/results.h"
 #include "client/target.h"
 #include "client/verbs/verbs.h"
 
 namespace shaken::client {
 namespace {
 
-/// Whether `name` may be offered to a shell: letters, digits, blanks and a few signs. What a shell expands is not for
-/// it:
+/// Whether `name` may be offered to a shell: letters, digits, blanks and a few signs. What a shell expands is left out:
 /// "$(...)" in somebody's scene could be carried out at the next Tab.
 bool is_plain(const std::string& name) {
   static constexpr std::string_view kPlain = "._-+=,:@% ";
@@ -32,11 +32,13 @@ class Completion : public Verb {
             "  eval \"$(shaken completion bash)\"     now, in this shell\n"
             "  echo 'eval \"$(shaken completion bash)\"' >> ~/.bashrc\n"
             "  echo 'eval \"$(shaken completion zsh)\"' >> ~/.zshrc\n"
-            "  shaken completion ids                the IDs that fit now, one a line"};
+            "  shaken completion ids                the IDs of sweeps and jobs, one a line; also sweeps, jobs, and\n"
+            "                                       fields, of the newest sweep's results"};
   }
 
   void declare(Arguments& arguments) override {
-    arguments.required("WHAT", what_, "bash, zsh, or ids", Names::kAnything);
+    arguments.required("WHAT", what_, "bash or zsh; or ids, sweeps, jobs, or fields, which the script asks for",
+                       {"bash", "zsh", "ids", "sweeps", "jobs", "fields"});
   }
 
   ExitCode run(const Context& context) override {
@@ -45,25 +47,46 @@ class Completion : public Verb {
       out << bash_completion(context.app);
     } else if (what_ == "zsh") {
       out << zsh_completion(context.app);
-    } else if (what_ == "ids") {
+    } else if (what_ == "ids" || what_ == "sweeps" || what_ == "jobs") {
       ApiClient session(context.root());
-      const Json sweeps = session.get("/v1/sweeps");
-      const Json jobs = session.get("/v1/jobs");
-      std::set<std::string> words;  // sweeps may share a name
-      for (const Json& sweep : sweeps.at("sweeps")) {
-        words.insert(sweep.at("id").get<std::string>());
-        if (const std::string name = text_of(sweep, "name"); is_plain(name)) words.insert(name);
+      if (what_ != "jobs") print_sweeps(session, out);
+      if (what_ != "sweeps") print_jobs(session, out);
+    } else if (what_ == "fields") {
+      ApiClient session(context.root());
+      for (const std::string& name : field_names(result_rows(session, find_target_or_newest(session, "")))) {
+        out << short_field(name) << "\n";
       }
-      words.erase("");
-      for (const std::string& word : words) out << word << "\n";
-      for (const Json& job : jobs.at("jobs")) out << short_id(job.at("id").get<std::string>()) << "\n";
     } else {
-      throw Failure(ExitCode::kBadInput, fmt::format("no completion for '{}': bash, zsh, or ids", what_));
+      throw Failure(ExitCode::kBadInput,
+                    fmt::format("no completion for '{}': bash, zsh, ids, sweeps, jobs or fields", what_));
     }
     return ExitCode::kOk;
   }
 
  private:
+  static void print_sweeps(ApiClient& session, std::ostream& out) {
+    const Json sweeps = session.get("/v1/sweeps");
+    std::set<std::string> words;  // sweeps may share a name
+    for (const Json& sweep : sweeps.at("sweeps")) {
+      words.insert(sweep.at("id").get<std::string>());
+      if (const std::string name = text_of(sweep, "name"); is_plain(name)) words.insert(name);
+    }
+    words.erase("");
+    for (const std::string& word : words) out << word << "\n";
+  }
+
+  static void print_jobs(ApiClient& session, std::ostream& out) {
+    const Json jobs = session.get("/v1/jobs");
+    for (const Json& job : jobs.at("jobs")) out << short_id(job.at("id").get<std::string>()) << "\n";
+  }
+
+  /// "dip" of "measured.dip.value", as options take it.
+  static std::string short_field(const std::string& name) {
+    constexpr std::string_view kBefore = "measured.", kAfter = ".value";
+    if (!name.starts_with(kBefore) || !name.ends_with(kAfter)) return name;
+    return name.substr(kBefore.size(), name.size() - kBefore.size() - kAfter.size());
+  }
+
   std::string what_;
 };
 

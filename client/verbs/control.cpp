@@ -61,7 +61,7 @@ class Control : public Verb {
     Json answers = Json::array();
     for (const Target& target : find_targets(session, ids_)) {
       const int n = session.post(target.path + "/" + action_.name, body).at(action_.past).get<int>();
-      answers.push_back({{"target", target.title()}, {action_.past, n}});
+      answers.push_back({{"target", target.id()}, {action_.past, n}});
       if (json_) continue;
       context.console.out << (n > 0 ? fmt::format("{}: {} {}\n", target.title(),
                                                   counted(static_cast<std::size_t>(n), "job"), action_.past)

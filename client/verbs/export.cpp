@@ -39,7 +39,7 @@ class Export : public Verb {
   }
 
   void declare(Arguments& arguments) override {
-    arguments.required("RUN", id_, "A job, by the beginning of its id, or a run directory", Names::kRun);
+    arguments.required("RUN", id_, "A job, by the beginning of its id, or a run directory", Names::kJobOrFolder);
     arguments.option("--format", format_, "extxyz|gsd|xyz|csv", "By the suffix of --out if left out", Names::kAnything);
     arguments.option("-o,--out", out_, "FILE", "Where to write; - is stdout. Named after the run if left out",
                      Names::kFile);

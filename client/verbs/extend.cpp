@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
+
 #include "base/text.h"
 #include "client/target.h"
 #include "client/verbs/verbs.h"
@@ -47,23 +50,42 @@ class Extend : public Verb {
     }
     ApiClient session(context.root());
     Json answers = Json::array();
+    bool all_go_on = true;
     for (const Target& target : find_targets(session, ids_)) {
       if (replicas_) {
         answers.push_back(add_replicas(session, target, context.console));
         continue;
       }
-      const int n = session.post(target.path + "/extend", body).at("extended").get<int>();
-      answers.push_back({{"target", target.title()}, {"extended", n}});
+      Json answer = session.post(target.path + "/extend", body);
+      const int n = answer.at("extended").get<int>();
+      const Json refused = answer.value("refused", Json::array());
+      all_go_on = all_go_on && refused.empty();
+      answer["target"] = target.id();
+      answers.push_back(std::move(answer));
       if (json_) continue;
+      say_refused(refused, context.console);
       context.console.out << (n > 0 ? fmt::format("{}: {} extended\n", target.title(),
                                                   counted(static_cast<std::size_t>(n), "job"))
                                     : fmt::format("{}: as long as that already\n", target.title()));
     }
     if (json_) context.console.out << json_text(Json{{"targets", answers}});
-    return ExitCode::kOk;
+    return all_go_on ? ExitCode::kOk : ExitCode::kFailed;
   }
 
  private:
+  /// Jobs that stay as they are, by their reasons.
+  static void say_refused(const Json& refused, Console& console) {
+    std::map<std::string, std::vector<std::string>> by_reason;
+    for (const Json& one : refused) by_reason[text_of(one, "reason")].push_back(short_id(text_of(one, "job")));
+    for (const auto& [reason, jobs] : by_reason) {
+      constexpr std::size_t kMostNamed = 5;
+      std::string names =
+          fmt::format("{}", fmt::join(jobs.begin(), jobs.begin() + std::min(jobs.size(), kMostNamed), ", "));
+      if (jobs.size() > kMostNamed) names += fmt::format(" and {} more", jobs.size() - kMostNamed);
+      console.err << fmt::format("not extended: {}: {}\n", names, printable(reason));
+    }
+  }
+
   Json add_replicas(ApiClient& session, const Target& target, Console& console) const {
     if (!target.is_sweep) {
       throw Failure(ExitCode::kBadInput, fmt::format("extend: {} is no sweep, so it has no replicas", target.title()));
@@ -75,7 +97,7 @@ class Extend : public Verb {
       console.out << fmt::format("{}: with {} new of {} jobs it is sweep {}\n", target.title(), counts.value("new", 0),
                                  answer.at("jobs").size(), sweep.at("id").get<std::string>());
     }
-    return {{"target", target.title()}, {"sweep", sweep}, {"counts", counts}};
+    return {{"target", target.id()}, {"sweep", sweep}, {"counts", counts}};
   }
 
   std::vector<std::string> ids_;

@@ -24,7 +24,7 @@ class JobHistory : public Verb {
   }
 
   void declare(Arguments& arguments) override {
-    arguments.required("JOB", id_, "A job, by the beginning of its id", Names::kId);
+    arguments.required("JOB", id_, "A job, by the beginning of its id", Names::kJob);
     arguments.flag("--json", json_, "Print the daemon's answer as JSON");
   }
 

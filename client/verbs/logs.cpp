@@ -18,7 +18,7 @@ class Logs : public Verb {
   }
 
   void declare(Arguments& arguments) override {
-    arguments.required("JOB", id_, "A job, by the beginning of its id", Names::kId);
+    arguments.required("JOB", id_, "A job, by the beginning of its id", Names::kJob);
     arguments.flag("-f,--follow", follow_, "Wait for more until the job ends");
   }
 

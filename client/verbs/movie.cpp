@@ -25,7 +25,7 @@ class Movie : public Verb {
   }
 
   void declare(Arguments& arguments) override {
-    options_.declare(arguments);
+    options_.declare(arguments, true);
     arguments.option("--from", from_, "TIME", "Begins at this simulated time: 10, 10s, 500ms");
     arguments.option("--to", to_, "TIME", "Ends at this simulated time");
     arguments.option("--every", every_, "N", "Takes every N-th recorded frame; as the scene says if left out");

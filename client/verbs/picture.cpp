@@ -21,7 +21,7 @@ class Picture : public Verb {
   }
 
   void declare(Arguments& arguments) override {
-    options_.declare(arguments);
+    options_.declare(arguments, false);
     arguments.option("--frame", frame_, "N|last", "The frame, counted from 0; the last if left out");
     arguments.option("--time", time_, "TIME", "The frame nearest to this simulated time: 12.5, 500ms");
     arguments.option("--depth", depth_, "8|16", "Bits a colour of a PNG; 8 if left out");

@@ -34,11 +34,9 @@ class Plot : public Verb {
   void declare(Arguments& arguments) override {
     arguments.optional("ID", id_, "A sweep, a job or a run directory; the newest sweep if left out", Names::kRun);
     arguments.option("--x", x_, "PATH",
-                     "One figure: against this parameter or field; the longest swept one if left out",
-                     Names::kAnything);
+                     "One figure: against this parameter or field; the longest swept one if left out", Names::kField);
     arguments.option("--y", y_, "FIELD",
-                     "One figure: of this field of `results --csv`, or scalar; order.mean if left out",
-                     Names::kAnything);
+                     "One figure: of this field of `results --csv`, or scalar; order.mean if left out", Names::kField);
     arguments.option("-o,--out", out_, "DIR", "Where to write; plots-ID if left out. With --x or --y also a file",
                      Names::kFolder);
     arguments.option("--format", format_, "png|pdf|svg", "png if left out; with --x or --y also by the suffix of --out",
@@ -118,6 +116,10 @@ class Plot : public Verb {
     if (!format_.empty() && !asked) problems += fmt::format("--format takes png, pdf or svg, not '{}'\n", format_);
     if (of_suffix && !one_figure()) {
       problems += fmt::format("{} is one picture, and this draws several: give a folder, or --x and --y\n", out_);
+    }
+    std::error_code unknown;
+    if (one_figure() && !suffix.empty() && !of_suffix && !fs::is_directory(out, unknown)) {
+      problems += fmt::format("{}: a plot is a .png, .pdf or .svg\n", out_);
     }
     if (of_suffix && asked && suffix != format_) {
       problems += fmt::format("--format {} does not go with {}\n", format_, out_);

@@ -29,7 +29,7 @@ class Record : public Verb {
   VerbInfo info() const override {
     return {"record", kControlGroup, "Live state as an LCM log, which lcm-logplayer plays too",
             "  shaken record -o night.lcmlog                 all that is live, until Ctrl-C\n"
-            "  shaken record 1f0c -o run.lcmlog              one job, until it ends\n"
+            "  shaken record 1f0c                            one job, until it ends, into 1f0c.lcmlog\n"
             "  shaken record s3 --for 10min --size 500MB -o s3.lcmlog\n"
             "  shaken record --lcm-url tcpq://127.0.0.1:7700 -o far.lcmlog    another daemon's, by its relay\n"
             "  shaken replay-log run.lcmlog                  sends it anew"};
@@ -37,7 +37,7 @@ class Record : public Verb {
 
   void declare(Arguments& arguments) override {
     arguments.list("JOB", ids_, "Sweeps or jobs; everything that is live if left out", Names::kId, 0);
-    arguments.option("-o,--out", out_, "FILE", "The log to write", Names::kFile);
+    arguments.option("-o,--out", out_, "FILE", "The log to write; JOB.lcmlog or live.lcmlog if left out", Names::kFile);
     arguments.option("--for", for_, "TIME", "Ends after this time, e.g. 10min");
     arguments.option("--size", size_, "SIZE", "Ends before the file is larger; 10GB if left out");
     arguments.option("--lcm-url", lcm_url_, "URL", "The bus; the daemon's if left out");
@@ -121,7 +121,7 @@ class Record : public Verb {
     if (!for_.empty()) most_seconds_ = duration_option("--for", for_);
     if (!size_.empty()) most_bytes_ = size_option("--size", size_);
     std::error_code ignored;
-    if (out_.empty()) throw Failure(ExitCode::kBadInput, "--out is missing: the log to write, e.g. -o run.lcmlog");
+    if (out_.empty()) out_ = (ids_.size() == 1 ? ids_.front() : "live") + ".lcmlog";
     if (std::filesystem::is_directory(out_, ignored)) {
       throw Failure(ExitCode::kBadInput, fmt::format("{} is a folder: give a name in it", printable(out_)));
     }

@@ -2,7 +2,11 @@
 #include <fmt/format.h>
 
 #include "base/process.h"
+#include "client/scene_input.h"
+#include "client/target.h"
 #include "client/verbs/verbs.h"
+#include "scene/canonical.h"
+#include "scene/load.h"
 
 namespace shaken::client {
 namespace {
@@ -11,6 +15,7 @@ class Run : public Verb {
  public:
   VerbInfo info() const override {
     return {"run", kPrepareGroup, "Simulate one scene here and now, without a daemon",
+            "  shaken run scene.json                         into runs/ID, named after what the scene says\n"
             "  shaken run scene.json --out runs/first\n"
             "  shaken run scene.json --out runs/dilute -s rods.area_fraction=0.5 -s time.measure=5\n"
             "  shaken run large.json --out runs/large --threads 2\n"
@@ -21,21 +26,22 @@ class Run : public Verb {
 
   void declare(Arguments& arguments) override {
     arguments.required("SCENE", scene_, "A scene file", Names::kFile);
-    arguments.option("-o,--out", out_, "DIR", "The run's directory (required); made if need be", Names::kFolder);
+    arguments.option("-o,--out", out_, "DIR", "The run's directory, made if need be; runs/ID if left out",
+                     Names::kFolder);
     arguments.option("-t,--threads", threads_, "N",
                      "Threads that share each tick, 1 if not given: worth it from about 2,000 rods on");
     arguments.repeatable("-s,--set", settings_, "PATH=VALUE", "Change one value of the scene");
   }
 
   ExitCode run(const Context&) override {
-    std::string problems;
-    if (out_.empty()) problems += "run needs a directory to write to: --out DIR\n";
     if (threads_ && (*threads_ < 1 || *threads_ > 64)) {
-      problems += fmt::format("--threads takes a number from 1 to 64, not {}\n", *threads_);
+      throw Failure(ExitCode::kBadInput, fmt::format("--threads takes a number from 1 to 64, not {}", *threads_));
     }
-    if (!problems.empty()) {
-      problems.pop_back();
-      throw Failure(ExitCode::kBadInput, problems);
+    if (out_.empty()) {
+      const SceneInput input = read_scene_input(scene_);
+      const auto plan = scene::load_scene(input.text, input.file, settings_);
+      if (!plan) throw Failure(ExitCode::kBadInput, refusal_text(plan.error()));
+      out_ = "runs/" + short_id(scene::run_id(*plan));
     }
     std::vector<std::string> command{sibling_program("shaken-worker").string(), scene_, "--out", out_};
     for (const std::string& setting : settings_) command.insert(command.end(), {"-s", setting});

@@ -20,7 +20,7 @@ class PrintSchema : public Verb {
   }
 
   void declare(Arguments& arguments) override {
-    arguments.optional("KIND", kind_, "scene, or sweep; scene if left out", Names::kAnything);
+    arguments.optional("KIND", kind_, "scene, or sweep; scene if left out", {"scene", "sweep"});
   }
 
   ExitCode run(const Context& context) override {

@@ -28,7 +28,7 @@ class Submit : public Verb {
             "  shaken submit scene.json -s rods.length=2.5,3.5,4.5 -s rods.area_fraction=0.55:0.75:0.05\n"
             "  shaken submit sweep.json --replicas 4 --name phases\n"
             "  shaken submit urgent.json --priority 10      starts before all that waits\n"
-            "  shaken submit sweep.json --soft-limit 10min --time-limit 2h --at-most 4\n"
+            "  shaken submit sweep.json --soft-limit 10min --time-limit 2h --at-once 4\n"
             "  shaken submit second.json --after first --stop-if 'failed>10%'\n"
             "  shaken submit sweep.json --dry-run           only checks, shows the points and what they would cost\n"
             "  shaken submit scene.json --wait && shaken results"};
@@ -45,7 +45,7 @@ class Submit : public Verb {
                      "Wall time of one attempt (10min): then a run gives way to others, and waits behind them");
     arguments.option("--time-limit", time_limit_, "TIME",
                      "Wall time of all attempts together (2h): then a run is stopped as `timed out`");
-    arguments.option("--at-most", at_most_, "N", "Jobs of this sweep that may run at once");
+    arguments.option("--at-once", at_most_, "N", "Jobs of this sweep that may run at once");
     arguments.repeatable("--after", after_, "ID", "Start when this sweep or job is done; repeatable");
     arguments.option("--stop-if", stop_if_, "RULE",
                      "failed>10% of the jobs that ended (five at least), or failed>3: hold those that still wait");
@@ -59,6 +59,11 @@ class Submit : public Verb {
   ExitCode run(const Context& context) override {
     if (no_probe_ && !dry_run_) throw Failure(ExitCode::kBadInput, "--no-probe has a meaning with --dry-run only");
     const SceneInput input = read_scene_input(file_);
+    const std::string name = name_.empty() ? scene::sweep_name(input.text, input.file) : name_;
+    if (const auto problem = scene::id_problem(name)) {
+      throw Failure(ExitCode::kBadInput,
+                    fmt::format("{}: {}; choose another one with --name", printable(input.file), printable(*problem)));
+    }
     // Read here as the daemon reads it: mistakes are told even without a daemon, and rods can be counted.
     const scene::Sweep sweep = load_points(input, settings_, replicas_);
     if (dry_run_) {

@@ -42,5 +42,6 @@ std::unique_ptr<Verb> make_replay();
 std::unique_ptr<Verb> make_bench();
 std::unique_ptr<Verb> make_doctor();
 std::unique_ptr<Verb> make_completion();
+std::unique_ptr<Verb> make_cite();
 
 }  // namespace shaken::client

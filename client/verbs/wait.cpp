@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "client/duration.h"
 #include "client/target.h"
 #include "client/verbs/verbs.h"
 #include "client/waiting.h"
@@ -12,15 +13,17 @@ class Wait : public Verb {
     return {"wait", kControlGroup, "Wait until jobs have ended; exit code 0 only if all are done",
             "  shaken wait                   for every job that has not ended yet\n"
             "  shaken wait s3 && shaken plot s3\n"
-            "  shaken wait 1f0c --timeout 600"};
+            "  shaken wait 1f0c --timeout 10min"};
   }
 
   void declare(Arguments& arguments) override {
     arguments.list("ID", ids_, "Sweeps (id or name) and jobs; every unfinished job if left out", Names::kId, 0);
-    arguments.option("--timeout", timeout_, "SECONDS", "Give up after this time (exit code 1); the jobs go on");
+    arguments.option("--timeout", timeout_, "TIME", "Give up after this time (exit code 1); the jobs go on");
   }
 
   ExitCode run(const Context& context) override {
+    std::optional<double> timeout;
+    if (!timeout_.empty()) timeout = duration_option("--timeout", timeout_);
     ApiClient session(context.root());
     std::vector<Target> targets = find_targets(session, ids_);
     if (ids_.empty()) {
@@ -31,12 +34,12 @@ class Wait : public Verb {
         }
       }
     }
-    return wait_for(session, std::move(targets), timeout_, context.console);
+    return wait_for(session, std::move(targets), timeout, context.console);
   }
 
  private:
   std::vector<std::string> ids_;
-  std::optional<double> timeout_;
+  std::string timeout_;
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "base/interrupt.h"
 #include "base/text.h"
+#include "client/duration.h"
 #include "client/target.h"
 #include "client/verbs/verbs.h"
 #include "client/watch/live.h"
@@ -27,9 +28,9 @@ std::string examples_text() {
   std::string text =
       "  shaken watch                  all that is queued or runs, of any sweep; else the newest sweep\n"
       "  shaken watch 1f0c             one job\n"
-      "  shaken watch s3 --for 60      leaves after a minute; the jobs go on\n"
+      "  shaken watch s3 --for 1min    leaves after a minute; the jobs go on\n"
       "  shaken watch s3 | tee log     a line per second and job, where stdout is no terminal\n"
-      "  shaken watch --every 60 > log a line per minute\n"
+      "  shaken watch --every 1min > log   a line per minute\n"
       "  shaken watch --graphics sixel   images by sixels, on a terminal that is not asked\n"
       "  NO_COLOR=1 shaken watch       in dots, without colours\n"
       "\nKeys, on a terminal:";
@@ -47,8 +48,8 @@ class Watch : public Verb {
 
   void declare(Arguments& arguments) override {
     arguments.optional("ID", id_, "A sweep (id or name) or a job; all that runs if left out", Names::kId);
-    arguments.option("--for", seconds_, "SECONDS", "Leave after this time");
-    arguments.option("--every", every_, "SECONDS", "Between lines, where stdout is no terminal; 1 if left out");
+    arguments.option("--for", for_, "TIME", "Leave after this time");
+    arguments.option("--every", every_, "TIME", "Between lines, where stdout is no terminal; 1 s if left out");
     arguments.option("--graphics", graphics_, kGraphicsNames,
                      "Rods as characters, or as images where the terminal shows them; auto asks it");
     arguments.option("--lcm-url", lcm_url_, "URL", "The bus; the daemon's if left out");
@@ -56,9 +57,8 @@ class Watch : public Verb {
 
   ExitCode run(const Context& context) override {
     Console& console = context.console;
-    if (every_ && !(*every_ > 0 && *every_ < 86400)) {
-      throw Failure(ExitCode::kBadInput, "--every takes seconds between 0 and 86400");
-    }
+    if (!every_.empty()) line_every_ = duration_option("--every", every_);
+    if (!for_.empty()) longest_ = duration_option("--for", for_);
     std::optional<Graphics> graphics = graphics_named(graphics_);
     if (!graphics) {
       throw Failure(ExitCode::kBadInput,
@@ -156,7 +156,7 @@ class Watch : public Verb {
     static constexpr std::chrono::seconds kDaemonMayBeAway{10};
     static constexpr std::chrono::milliseconds kLongestWait{50};
     static constexpr int kMostMessages = 1000;  // before the screen has its turn again
-    const auto line_every = std::chrono::milliseconds(static_cast<std::int64_t>(1000 * every_.value_or(1.0)));
+    const auto line_every = std::chrono::milliseconds(static_cast<std::int64_t>(1000 * line_every_));
     const Clock::time_point start = Clock::now();
     Clock::time_point last_answer = start;
     Clock::time_point last_question = start;
@@ -179,7 +179,7 @@ class Watch : public Verb {
       }
       if (jobs.all_ended() || guard.interrupted() || !console.out.good() ||
           (screen != nullptr && screen->has_ended()) ||
-          (seconds_ && std::chrono::duration<double>(now - start).count() >= *seconds_)) {
+          (longest_ && std::chrono::duration<double>(now - start).count() >= *longest_)) {
         return;
       }
       if (now >= next_drawing) {
@@ -225,8 +225,10 @@ class Watch : public Verb {
   }
 
   std::string id_;
-  std::optional<double> seconds_;
-  std::optional<double> every_;
+  std::string for_;
+  std::string every_;
+  std::optional<double> longest_;  ///< [s]
+  double line_every_ = 1;          ///< [s]
   std::string graphics_ = "auto";
   std::string lcm_url_;
 };

@@ -61,7 +61,7 @@ Result<std::size_t> export_frames(const TrajectoryReader& trajectory, const Fram
     if (!frame) return frame.error();
     // whether every number is one that a rod can have
     if (const auto decoded = decode(*frame, trajectory.header().box_side); !decoded) {
-      return Error{fmt::format("frame {}: {}", i, decoded.error().message)};
+      return Error{fmt::format("{}: frame {}: {}", trajectory.path().string(), i, decoded.error().message)};
     }
     if (auto done = format.write(*frame, sink); !done) return done.error();
     if (!goes_on(++n_done)) break;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "run/files/done.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -15,15 +16,34 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// What the summary says of a run that has come to its end; null otherwise. `run_id`: any if empty.
-Json summary_of_done(const RunDirectory& directory, const std::string& run_id) {
+/// The summary of a run, with an object "exit"; null otherwise. `run_id`: any if empty.
+Json summary_of(const RunDirectory& directory, const std::string& run_id) {
   const Result<std::string> text = read_file(directory.summary());
   if (!text) return {};
   Json json = Json::parse(*text, nullptr, false);
-  if (!json.is_object() || !json.contains("exit")) return {};
+  if (!json.is_object() || !json.contains("exit") || !json["exit"].is_object()) return {};
   if (!run_id.empty() && (!json.contains("run_id") || json["run_id"] != run_id)) return {};
-  const auto& exit = json["exit"];
-  return exit.is_object() && exit.contains("state") && exit["state"] == "done" ? std::move(json) : Json();
+  return json;
+}
+
+bool says_done(const Json& summary) {
+  return !summary.is_null() && summary["exit"].contains("state") && summary["exit"]["state"] == "done";
+}
+
+/// The same if it has come to its end; null otherwise.
+Json summary_of_done(const RunDirectory& directory, const std::string& run_id) {
+  Json summary = summary_of(directory, run_id);
+  return says_done(summary) ? std::move(summary) : Json();
+}
+
+/// Whether the files of results are there that the summary names; those of older versions name none.
+bool has_results(const RunDirectory& directory, const Json& summary) {
+  const auto files = summary.find("files");
+  if (files == summary.end() || !files->is_object()) return true;
+  return std::all_of(files->items().begin(), files->items().end(), [&](const auto& file) {
+    std::error_code ignored;
+    return std::filesystem::exists(directory.root / file.key(), ignored);
+  });
 }
 
 /// None if the summary says nothing of S.
@@ -51,6 +71,15 @@ std::optional<Tick> done_tick(const RunDirectory& directory, const std::string& 
   return tick_of(summary_of_done(directory, run_id));
 }
 
+std::optional<double> former_end(const RunDirectory& directory, const std::string& run_id) {
+  const Json summary = summary_of(directory, run_id);
+  if (summary.is_null()) return std::nullopt;
+  const Json& from = says_done(summary) ? summary : summary["exit"];
+  const auto time = from.find(says_done(summary) ? "sim_seconds" : "done_before_s");
+  if (time == from.end() || !time->is_number()) return std::nullopt;
+  return time->get<double>();
+}
+
 bool is_done(const RunDirectory& directory, const std::string& run_id) {
   return !summary_of_done(directory, run_id).is_null();
 }
@@ -59,7 +88,7 @@ bool is_done(const RunDirectory& directory, const scene::RunPlan& plan) {
   const Json summary = summary_of_done(directory, "");
   if (summary.is_null() || !summary.contains("run_id") || summary["run_id"] != scene::run_id(plan)) return false;
   const std::optional<Tick> tick = tick_of(summary);
-  return tick && scene::is_long_enough(plan, *tick, order_of(summary));
+  return tick && scene::is_long_enough(plan, *tick, order_of(summary)) && has_results(directory, summary);
 }
 
 }  // namespace shaken::run

@@ -95,10 +95,18 @@ Id open_group(hid_t where, const std::string& name) {
 
 bool exists(hid_t where, const std::string& name) { return H5Lexists(where, name.c_str(), H5P_DEFAULT) > 0; }
 
+/// How data sets are made: without the time of day, so that equal runs have equal files.
+static Id dataset_properties(const std::string& name) {
+  Id properties(check(H5Pcreate(H5P_DATASET_CREATE), "prepare " + name), H5Pclose);
+  check(H5Pset_obj_track_times(properties, false), "prepare " + name);
+  return properties;
+}
+
 void write_dataset(hid_t where, const std::string& name, hid_t type, const Shape& extent, const void* values) {
   const Id space = simple_space(extent);
+  const Id properties = dataset_properties(name);
   Id dataset(
-      check(H5Dcreate2(where, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), "create " + name),
+      check(H5Dcreate2(where, name.c_str(), type, space, H5P_DEFAULT, properties, H5P_DEFAULT), "create " + name),
       H5Dclose);
   const bool empty = std::find(extent.begin(), extent.end(), 0) != extent.end();
   if (!empty) check(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "write " + name);
@@ -111,7 +119,7 @@ Id create_growing(hid_t where, const std::string& name, hid_t type, const Shape&
   for (Shape* extent : {&now, &most, &chunk}) extent->insert(extent->end(), row.begin(), row.end());
   const Id space(check(H5Screate_simple(static_cast<int>(now.size()), now.data(), most.data()), "make a data space"),
                  H5Sclose);
-  const Id properties(check(H5Pcreate(H5P_DATASET_CREATE), "prepare " + name), H5Pclose);
+  const Id properties = dataset_properties(name);
   check(H5Pset_chunk(properties, static_cast<int>(chunk.size()), chunk.data()), "set the chunks of " + name);
   if (compress) {
     constexpr unsigned kLevel = 4;
@@ -213,8 +221,9 @@ std::string read_text_attribute(hid_t where, const std::string& name) {
 void write_string(hid_t where, const std::string& name, const std::string& value) {
   const Id type = text_type(false, value.size());
   const Id space = scalar_space();
+  const Id properties = dataset_properties(name);
   Id dataset(
-      check(H5Dcreate2(where, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), "create " + name),
+      check(H5Dcreate2(where, name.c_str(), type, space, H5P_DEFAULT, properties, H5P_DEFAULT), "create " + name),
       H5Dclose);
   check(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value.empty() ? "" : value.data()), "write " + name);
   dataset.close("write " + name);

@@ -2,6 +2,7 @@
 #include "run/files/observables_file.h"
 
 #include "base/files.h"
+#include "run/files/content_hash.h"
 #include "run/files/hdf5.h"
 #include "run/files/units.h"
 
@@ -60,6 +61,7 @@ Result<void> write_observables(const std::filesystem::path& file, const Observab
 }
 
 Result<Observables> read_observables(const std::filesystem::path& file) {
+  if (auto whole = check_content(file); !whole) return whole.error();
   hdf5::initialize();
   try {
     const hdf5::Id in = hdf5::open_file(file, false);

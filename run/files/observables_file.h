@@ -18,7 +18,8 @@ using Observables = std::map<std::string, std::vector<double>>;
 /// Every data set has its unit as the attribute `unit` (unit_of_name), the file says which run it is of.
 Result<void> write_observables(const std::filesystem::path& file, const Observables& arrays,
                                const Provenance& provenance = {});
-/// All one-dimensional arrays of the file.
+/// All one-dimensional arrays of the file. One that is not what the run has written is refused before HDF5 reads it
+/// (run/files/content_hash.h).
 Result<Observables> read_observables(const std::filesystem::path& file);
 
 }  // namespace shaken::run

@@ -31,11 +31,13 @@ Result<FrameLog> reopen_frames(const RunDirectory& directory, std::size_t n_fram
 /// Frames of a trajectory.h5, or of a trajectory.part, also while that is being written.
 class TrajectoryReader {
  public:
+  /// A trajectory.h5 that is not what the run has written is refused before HDF5 reads it (run/files/content_hash.h).
   static Result<TrajectoryReader> open(const std::filesystem::path& file);
   const TrajectoryHeader& header() const { return frames_->header(); }
   std::size_t n_frames() const { return frames_->n_frames(); }
   Result<TrajectoryFrame> frame(std::size_t index) const;
   const RecordedFrames& recorded() const { return *frames_; }
+  const std::filesystem::path& path() const { return path_; }
 
  private:
   TrajectoryReader(std::filesystem::path path, std::unique_ptr<RecordedFrames> frames)

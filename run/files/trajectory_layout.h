@@ -26,7 +26,7 @@ inline constexpr const char* kWalls = "/parameters/walls";
 /// are.
 inline std::string added_beads(std::size_t k) { return "/parameters/species_" + std::to_string(k + 2); }
 
-inline std::string values_of(const char* element) { return std::string(kGroup) + "/" + element + "/value"; }
+inline std::string values_of(const char* element) { return std::string(kGroup).append("/").append(element) + "/value"; }
 
 /// The data sets that grow by one row with each frame.
 struct DataSets {

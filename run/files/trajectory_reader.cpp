@@ -2,6 +2,7 @@
 #include <string>
 #include <utility>
 
+#include "run/files/content_hash.h"
 #include "run/files/hdf5.h"
 #include "run/files/trajectory.h"
 #include "run/files/trajectory_layout.h"
@@ -104,6 +105,7 @@ Result<TrajectoryReader> TrajectoryReader::open(const std::filesystem::path& fil
     if (!frames) return frames.error();
     return TrajectoryReader(file, std::move(frames).value());
   }
+  if (auto whole = check_content(file); !whole) return whole.error();
   hdf5::initialize();
   try {
     return TrajectoryReader(file, std::make_unique<Hdf5Frames>(file));

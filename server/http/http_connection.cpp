@@ -101,11 +101,13 @@ void HttpConnection::head_ended(const httplib::Request& request) {
   in_body_ = true;
 }
 
-void HttpConnection::refuse(const UnreadableRequest& problem) {
+void HttpConnection::refuse(const UnreadableRequest& problem, const Headers& headers) {
   const std::string body = error_body(problem.what());
-  const std::string answer = "HTTP/1.1 " + std::to_string(problem.status) +
-                             " Refused\r\nConnection: close\r\nContent-Type: application/json\r\nContent-Length: " +
-                             std::to_string(body.size()) + "\r\n\r\n" + body;
+  std::string answer = "HTTP/1.1 " + std::to_string(problem.status) +
+                       " Refused\r\nConnection: close\r\nContent-Type: application/json\r\nContent-Length: " +
+                       std::to_string(body.size()) + "\r\n";
+  for (const auto& [name, value] : headers) answer += name + ": " + value + "\r\n";
+  answer += "\r\n" + body;
   write(answer.data(), answer.size());
 }
 

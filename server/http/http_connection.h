@@ -11,6 +11,7 @@
 #include <string>
 
 #include "base/descriptor.h"
+#include "server/http/http_server.h"
 
 namespace shaken::server {
 
@@ -47,7 +48,7 @@ class HttpConnection final : public httplib::Stream {
   /// Whether the request has been read to its end, so that another one may follow.
   bool request_ended() const { return in_body_ && !chunked_ && allowance_ == 0; }
   /// Answers a request that cpp-httplib could not get through with; the connection must not be used any further.
-  void refuse(const UnreadableRequest& problem);
+  void refuse(const UnreadableRequest& problem, const Headers& headers);
 
   bool is_readable() const override;
   bool is_writable() const override;

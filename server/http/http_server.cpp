@@ -119,6 +119,7 @@ class BoundedServer final : public httplib::Server {
   /// Whether only this process's user and root are answered: a Unix socket knows who connects.
   bool is_private = true;
   HttpServer::Gate gate;  ///< none: all may pass
+  Headers headers;        ///< of every answer
 
   /// After the listening has ended. Whether that was not by stop(): cpp-httplib has closed the descriptor then, and
   /// must not close it again, for it may be another file's.
@@ -141,13 +142,12 @@ class BoundedServer final : public httplib::Server {
         request.ranges.clear();
       };
       bool closed = false;
-      std::atomic<bool> failed{false};
       for (std::size_t n = 1; svr_sock_ != INVALID_SOCKET && !closed && connection.next_request(); ++n) {
         const bool answered = process_request(connection, n >= keep_alive_max_count_, closed, head_ended);
         closed = closed || !answered || n >= keep_alive_max_count_ || !connection.request_ended();
       }
     } catch (const UnreadableRequest& problem) {
-      connection.refuse(problem);
+      connection.refuse(problem, headers);
     } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch): no memory for an answer; the others go on
     }
     return true;
@@ -166,8 +166,10 @@ struct HttpServer::Impl {
     bind();
     start();
   }
-  Impl(int wanted_port, Gate gate, Handler handler) {
+  Impl(int wanted_port, Gate gate, Handler handler, const Headers& headers) {
     server.gate = std::move(gate);
+    server.headers = headers;
+    server.set_default_headers({headers.begin(), headers.end()});
     set_up(std::move(handler));
     bind(wanted_port);
     start();
@@ -274,14 +276,15 @@ struct HttpServer::Impl {
   BoundedServer server;
   struct stat file {};  ///< of the socket
   bool closed = false;
+  std::atomic<bool> failed{false};
   std::future<void> listening;
 };
 
 HttpServer::HttpServer(std::filesystem::path socket, Handler handler)
     : impl_(std::make_unique<Impl>(std::move(socket), std::move(handler))) {}
 
-HttpServer::HttpServer(int port, Gate gate, Handler handler)
-    : impl_(std::make_unique<Impl>(port, std::move(gate), std::move(handler))) {}
+HttpServer::HttpServer(int port, Gate gate, Handler handler, const Headers& headers)
+    : impl_(std::make_unique<Impl>(port, std::move(gate), std::move(handler), headers)) {}
 
 HttpServer::~HttpServer() { close(); }
 

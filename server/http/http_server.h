@@ -13,6 +13,8 @@
 
 namespace shaken::server {
 
+using Headers = std::vector<std::pair<std::string, std::string>>;
+
 /// What was asked.
 struct Request {
   std::string method;
@@ -38,7 +40,7 @@ struct Reply {
   std::string body = {};
   std::string allow = {};                 ///< methods that the path has; with status 405
   std::string type = "application/json";  ///< of the body
-  std::vector<std::pair<std::string, std::string>> headers = {};
+  Headers headers = {};
   /// In place of `body`: one piece after the other, until nothing comes. It may wait for a second or so, and must end
   /// before an answer may take no longer (HttpConnection::kAnswer). Called from one thread.
   std::function<std::optional<std::string>()> stream = {};
@@ -57,9 +59,9 @@ class HttpServer {
   HttpServer(std::filesystem::path socket, Handler handler);
   /// Looks at a request when only its head is there; a request that it refuses has no body read.
   using Gate = std::function<std::optional<TurnedAway>(const Request& head)>;
-  /// The same on a port of 127.0.0.1 (0: any that is free), where every user of this machine may ask. Throws Failure if
-  /// the port is taken.
-  HttpServer(int port, Gate gate, Handler handler);
+  /// The same on a port of 127.0.0.1 (0: any that is free), where every user of this machine may ask. `headers` are
+  /// those of every answer, also where it is a refusal. Throws Failure if the port is taken.
+  HttpServer(int port, Gate gate, Handler handler, const Headers& headers = {});
   /// Waits for every connection to end.
   ~HttpServer();
   /// Of 127.0.0.1.

@@ -30,6 +30,8 @@ ChannelPattern::ChannelPattern(ChannelPattern&&) noexcept = default;
 ChannelPattern& ChannelPattern::operator=(ChannelPattern&&) noexcept = default;
 ChannelPattern::~ChannelPattern() = default;
 
+std::size_t ChannelPattern::size() const { return static_cast<std::size_t>(expression_->ProgramSize()); }
+
 bool ChannelPattern::matches(std::string_view channel) const {
   return re2::RE2::PartialMatch(re2::StringPiece(channel.data(), channel.size()), *expression_);
 }

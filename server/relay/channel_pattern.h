@@ -28,6 +28,8 @@ class ChannelPattern {
 
   bool matches(std::string_view channel) const;
   const std::string& text() const { return text_; }
+  /// Instructions of the compiled pattern: a match takes time in proportion to that and to the channel's length.
+  std::size_t size() const;
 
  private:
   ChannelPattern(std::string text, std::unique_ptr<re2::RE2> expression);

@@ -28,16 +28,17 @@ Client::Client(Descriptor socket, const Limits& limits, Clock::time_point now)
       queue_(limits.waiting_messages, limits.waiting_bytes),
       connected_(now) {}
 
-void Client::receive(const Publish& publish, Clock::time_point now) {
-  if (has_ended_) return;
+bool Client::read_piece() {
   std::array<char, kPiece> piece;
   const ssize_t n = recv(socket(), piece.data(), piece.size(), 0);
-  if (n < 0 && is_to_be_tried_again()) return;
-  if (n <= 0) {
-    has_ended_ = true;
-    return;
-  }
-  input_.append(piece.data(), static_cast<std::size_t>(n));
+  if (n < 0 && is_to_be_tried_again()) return false;
+  has_ended_ = n <= 0;
+  if (!has_ended_) input_.append(piece.data(), static_cast<std::size_t>(n));
+  return !has_ended_;
+}
+
+void Client::receive(const Publish& publish, Clock::time_point now) {
+  if (has_ended_ || (!has_more_ && !read_piece())) return;
   std::size_t used = 0;
   if (!is_greeted_) {
     const Greeting greeting = greeting_of(input_);
@@ -47,16 +48,18 @@ void Client::receive(const Publish& publish, Clock::time_point now) {
     greeting_ = server_greeting();
     used = kGreetingBytes;
   }
-  while (!has_ended_) {
+  has_more_ = true;
+  for (std::size_t n = 0; n < limits_.turn && has_more_ && !has_ended_; ++n) {
     const Parsed parsed = parse_instruction(std::string_view(input_).substr(used), limits_);
     if (const auto* unreadable = std::get_if<Unreadable>(&parsed)) send_away("it sent " + unreadable->reason);
     const auto* instruction = std::get_if<Instruction>(&parsed);
-    if (instruction == nullptr) break;
+    has_more_ = instruction != nullptr;
+    if (!has_more_) break;
     obey(*instruction, publish);
     used += instruction->size;
   }
   input_.erase(0, used);
-  if (input_.empty()) {
+  if (input_.empty() || has_more_) {
     incomplete_since_.reset();
   } else if (used > 0 || !incomplete_since_) {
     incomplete_since_ = now;
@@ -81,6 +84,9 @@ void Client::subscribe(std::string_view pattern) {
   auto compiled = ChannelPattern::compile(pattern);
   // tcpq has no answer that says so, and a subscriber that waits for ever would not learn why.
   if (!compiled) return send_away("its subscription cannot be used: " + printable(compiled.error().message));
+  std::size_t size = compiled->size();
+  for (const ChannelPattern& other : subscriptions_) size += other.size();
+  if (size > limits_.program) return send_away("its subscriptions take too long to match: " + printable(pattern));
   subscriptions_.push_back(std::move(compiled).value());
   wanted_.clear();
 }

@@ -28,8 +28,11 @@ class Client {
   Client(Descriptor socket, const Limits& limits, Clock::time_point now);
 
   int socket() const { return socket_.value(); }
-  /// Reads one piece of what it has sent and obeys it; its messages go to `publish`.
+  /// Reads one piece of what it has sent, unless there is some left of the piece before, and obeys a turn's worth of
+  /// it; its messages go to `publish`.
   void receive(const Publish& publish, Clock::time_point now);
+  /// Whether there may be something to obey that has been read already.
+  bool has_more() const { return has_more_ && !has_ended_; }
   /// Whether it has subscribed to the channel.
   bool wants(std::string_view channel);
   void push(SendQueue::Message message) { queue_.push(std::move(message)); }
@@ -48,6 +51,7 @@ class Client {
   std::int64_t dropped() const { return queue_.dropped(); }
 
  private:
+  bool read_piece();
   void obey(const Instruction& instruction, const Publish& publish);
   void subscribe(std::string_view pattern);
   void unsubscribe(std::string_view pattern);
@@ -57,6 +61,7 @@ class Client {
   const Limits& limits_;
   bool is_greeted_ = false;
   bool has_ended_ = false;
+  bool has_more_ = false;
   std::string refusal_;
   std::string input_;     ///< not yet a whole instruction
   std::string greeting_;  ///< ours, as far as it has not been sent

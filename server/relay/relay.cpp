@@ -21,7 +21,7 @@ constexpr milliseconds kRound{1000};
 /// Where there is no descriptor for another client.
 constexpr milliseconds kPauseOfAccepting{500};
 /// Messages of the bridged bus in one go, before the clients have their turn again.
-constexpr int kBridgedAtOnce = 200;
+constexpr int kBridgedAtOnce = 20;
 /// Messages that LCM keeps of the bridged bus until then.
 constexpr int kBridgeCapacity = 1000;
 /// So many may wait for a client before its socket is tried even though others are still being read.
@@ -135,14 +135,16 @@ void Relay::wait() {
     const int events = POLLIN | (client->has_waiting() ? POLLOUT : 0);
     sources.push_back({client->socket(), static_cast<short>(events), 0});
   }
-  const milliseconds longest = accepts ? kRound : kPauseOfAccepting;
+  const bool is_busy =
+      std::any_of(clients_.begin(), clients_.end(), [](const auto& client) { return client->has_more(); });
+  const milliseconds longest = is_busy ? milliseconds(0) : accepts ? kRound : kPauseOfAccepting;
   if (poll(sources.data(), sources.size(), static_cast<int>(longest.count())) < 0) {
     for (pollfd& source : sources) source.revents = 0;
   }
   is_asked_to_accept_ = sources[1].revents != 0;
   is_readable_.assign(clients_.size(), false);
   for (std::size_t i = 0; i < clients_.size(); ++i) {
-    is_readable_[i] = (sources[n_own + i].revents & (POLLIN | POLLHUP | POLLERR)) != 0;
+    is_readable_[i] = clients_[i]->has_more() || (sources[n_own + i].revents & (POLLIN | POLLHUP | POLLERR)) != 0;
   }
 }
 

@@ -31,8 +31,9 @@ struct Counters {
 /// client, or from the bridged bus, and goes to every client that subscribed to its channel, its sender too; nothing
 /// goes back to the bus, so nothing can go round.
 ///
-/// One thread owns the sockets, the clients and the bridged bus, and waits for all of them at once; no client can make
-/// it wait. Its callers only read the counters.
+/// One thread owns the sockets, the clients and the bridged bus, and waits for all of them at once. No client can make
+/// it wait: each has its turn after few instructions of another, and patterns that take long are refused. Its callers
+/// only read the counters.
 class Relay {
  public:
   /// Listens from now on. `bridged` may be null. The error says why it cannot listen.

@@ -6,16 +6,23 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstddef>
 
 namespace shaken::server::slurm {
 namespace {
 
 constexpr int kTimeIsOver = 124;  // as timeout(1) has it
+constexpr int kSaidTooMuch = 1;
+/// Of what a program says; squeue has some 100 bytes for a job.
+constexpr std::size_t kMostOutput = std::size_t{32} << 20;
+
+std::size_t size_of(const Descriptor& file) {
+  struct stat status {};
+  return fstat(file.value(), &status) == 0 ? static_cast<std::size_t>(status.st_size) : 0;
+}
 
 std::string content(const Descriptor& file) {
-  struct stat status {};
-  if (fstat(file.value(), &status) != 0) return {};
-  std::string text(static_cast<std::size_t>(status.st_size), '\0');
+  std::string text(size_of(file), '\0');
   const ssize_t n = pread(file.value(), text.data(), text.size(), 0);
   text.resize(n < 0 ? 0 : static_cast<std::size_t>(n));
   return text;
@@ -34,10 +41,16 @@ Result<Command> Command::start(const std::vector<std::string>& words, const std:
 }
 
 std::optional<Captured> Command::poll() {
-  if (const auto ended = poll_child(child_)) return Captured{ended->shell_code(), content(output_)};
-  if (Clock::now() < end_) return std::nullopt;
-  kill(-child_, SIGKILL);
-  wait_for_child(child_);
+  const bool says_too_much = size_of(output_) > kMostOutput;
+  if (const auto ended = poll_child(child_); ended && !says_too_much) {
+    return Captured{ended->shell_code(), content(output_)};
+  } else if (!ended && !says_too_much && Clock::now() < end_) {
+    return std::nullopt;
+  } else if (!ended) {
+    kill(-child_, SIGKILL);
+    wait_for_child(child_);
+  }
+  if (says_too_much) return Captured{kSaidTooMuch, "has said more than 32 MiB"};
   return Captured{kTimeIsOver, content(output_) + "has not answered in time"};
 }
 

@@ -18,7 +18,8 @@ class Command {
   /// `limit`: wall time, after which it is killed.
   static Result<Command> start(const std::vector<std::string>& words, const std::filesystem::path& folder,
                                std::chrono::milliseconds limit);
-  /// What became of it, told once; none while it runs. Exit code 124 and a word about it where its time was over.
+  /// What became of it, told once; none while it runs. Exit code 124 and a word about it where its time was over, 1 and
+  /// nothing but a word about it where it has said more than anybody would read; both are killed.
   std::optional<Captured> poll();
 
  private:

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "base/failure.h"
+#include "base/help_formatter.h"
 #include "base/program.h"
 #include "base/standard_streams.h"
 #include "run/files/directory.h"
@@ -164,6 +165,7 @@ class Task {
 int main(int argc, char** argv) {
   guard_standard_streams("shaken-task");
   CLI::App app("Does one task of a batch of runs, one after the other, on a node of a cluster.", "shaken-task");
+  app.formatter(std::make_shared<HelpFormatter>());
   std::string folder;
   app.set_version_flag("--version", run::version());
   app.footer(kFooter);

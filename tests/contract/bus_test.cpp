@@ -11,8 +11,10 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <thread>
 
 #include "tests/contract/samples.h"
+#include "tests/support/lazy_server.h"
 
 namespace shaken::proto {
 namespace {
@@ -211,6 +213,41 @@ TEST(Bus, LivesWithoutARelayOnTcpq) {
   for (int i = 0; i < 3; ++i) EXPECT_FALSE(bus.value()->handle(10));
   EXPECT_FALSE(bus.value()->publish(kStatusChannel, samples::make<status_t>()));
   EXPECT_EQ(bus.value()->counters().publish_failures, 1);
+}
+
+// Nothing that is asked of a bus may take for ever: programs would not end on Ctrl-C, and the daemon not on SIGTERM.
+TEST(Bus, LivesWithAServerThatSaysNothing) {
+  const LazyServer server;
+  const auto bus = Bus::open(server.url());
+  ASSERT_TRUE(bus) << bus.error().message;
+  EXPECT_TRUE(bus.value()->subscribe<status_t>(kStatusChannel, [](const status_t&) {}));
+  EXPECT_FALSE(bus.value()->handle(10));
+  EXPECT_FALSE(bus.value()->publish(kStatusChannel, samples::make<status_t>()));
+}
+
+TEST(Bus, LeavesAServerThatTakesNothing) {
+  LazyServer server;
+  std::thread greeting([&] { server.greet(); });
+  const auto bus = Bus::open(server.url());
+  greeting.join();
+  ASSERT_TRUE(bus) << bus.error().message;
+  const std::vector<std::uint8_t> payload(100'000);
+  int n_sent = 0;
+  while (n_sent < 10'000 && bus.value()->publish_bytes("A", payload)) ++n_sent;
+  EXPECT_GT(n_sent, 0);
+  EXPECT_LT(n_sent, 10'000) << "a GB has gone somewhere";
+}
+
+TEST(Bus, LeavesAServerThatEndsInTheMiddleOfAMessage) {
+  LazyServer server;
+  std::thread greeting([&] {
+    server.greet();
+    server.say(std::string("\0\0\0\1\0\0", 6));
+  });
+  const auto bus = Bus::open(server.url());
+  greeting.join();
+  ASSERT_TRUE(bus) << bus.error().message;
+  EXPECT_FALSE(bus.value()->handle(60'000));
 }
 
 }  // namespace

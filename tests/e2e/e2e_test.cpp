@@ -418,7 +418,7 @@ TEST(EndToEnd, WhatCannotBePlacedIsRefusedByEveryVerbInTheSameWords) {
     const Finished finished = run_command(command);
     EXPECT_EQ(finished.code, 2) << verb.front();
     EXPECT_NE(finished.output.find("dense.json: /rods: 229 rods (area fraction 0.913) do not fit into the box: in rows "
-                                   "at most 220 rods"),
+                                   "at most 228 rods"),
               std::string::npos)
         << verb.front() << ": " << finished.output;
   }

@@ -9,9 +9,14 @@
 //   SHAKEN_FAULT=once:N      the N-th change fails with EIO
 //
 // Or a call of one kind fails, wherever it is made:
-//   SHAKEN_CALL_FAILS=accept:ERRNO:N   the N-th accept() of the process fails with this number
+//   SHAKEN_CALL_FAILS=CALL:ERRNO:N   the N-th CALL of the process fails with this number; CALL is accept, open, write,
+//                                    fsync, rename or poll
+//   SHAKEN_CALL_FAILS_IN=NAME        in programs of this name only, not in what they start
+//   SHAKEN_CALL_FAILS_FROM=FILE      calls count only while this file is there
 #include <dlfcn.h>
 #include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -104,6 +109,13 @@ bool call_fails(const char* name, std::atomic<long>& calls) {
   const char* text = getenv("SHAKEN_CALL_FAILS");
   const size_t length = strlen(name);
   if (text == nullptr || strncmp(text, name, length) != 0 || text[length] != ':') return false;
+  static const char* const in = getenv("SHAKEN_CALL_FAILS_IN");
+  static const char* const from = getenv("SHAKEN_CALL_FAILS_FROM");
+  const int before = errno;
+  const bool is_meant =
+      (in == nullptr || strcmp(program_invocation_short_name, in) == 0) && (from == nullptr || access(from, F_OK) == 0);
+  errno = before;
+  if (!is_meant) return false;
   char* end = nullptr;
   const long error = strtol(text + length + 1, &end, 10);
   if (*end != ':' || ++calls != atol(end + 1)) return false;
@@ -112,7 +124,15 @@ bool call_fails(const char* name, std::atomic<long>& calls) {
   return true;
 }
 
-std::atomic<long> accepts{0};
+std::atomic<long> accepts{0}, opens{0}, writes{0}, fsyncs{0}, renames{0}, polls{0};
+
+/// The mode of an open(), which is there only where a file may be made.
+template <class Open>
+int guarded_open(int flags, va_list arguments, Open open) {
+  const bool has_mode = (flags & O_CREAT) != 0 || (flags & O_TMPFILE) == O_TMPFILE;
+  const mode_t mode = has_mode ? va_arg(arguments, mode_t) : 0;
+  return call_fails("open", opens) ? -1 : open(mode);
+}
 
 }  // namespace
 
@@ -128,8 +148,32 @@ int accept4(int fd, sockaddr* address, socklen_t* size, int flags) {
   return call_fails("accept", accepts) ? -1 : next(fd, address, size, flags);
 }
 
+int open(const char* path, int flags, ...) {
+  static const auto next = real<int (*)(const char*, int, ...)>("open");
+  va_list arguments;
+  va_start(arguments, flags);
+  const int fd = guarded_open(flags, arguments, [&](mode_t mode) { return next(path, flags, mode); });
+  va_end(arguments);
+  return fd;
+}
+
+int open64(const char* path, int flags, ...) {
+  static const auto next = real<int (*)(const char*, int, ...)>("open64");
+  va_list arguments;
+  va_start(arguments, flags);
+  const int fd = guarded_open(flags, arguments, [&](mode_t mode) { return next(path, flags, mode); });
+  va_end(arguments);
+  return fd;
+}
+
+int poll(pollfd* descriptors, nfds_t n, int timeout) {
+  static const auto next = real<int (*)(pollfd*, nfds_t, int)>("poll");
+  return call_fails("poll", polls) ? -1 : next(descriptors, n, timeout);
+}
+
 ssize_t write(int fd, const void* data, size_t size) {
   static const auto next = real<ssize_t (*)(int, const void*, size_t)>("write");
+  if (call_fails("write", writes)) return -1;
   return guarded_write(fd, size, [&](size_t n) { return next(fd, data, n); });
 }
 
@@ -140,6 +184,7 @@ ssize_t pwrite(int fd, const void* data, size_t size, off_t offset) {
 
 ssize_t pwrite64(int fd, const void* data, size_t size, off64_t offset) {
   static const auto next = real<ssize_t (*)(int, const void*, size_t, off64_t)>("pwrite64");
+  if (call_fails("write", writes)) return -1;
   return guarded_write(fd, size, [&](size_t n) { return next(fd, data, n, offset); });
 }
 
@@ -155,11 +200,13 @@ int ftruncate64(int fd, off64_t length) noexcept {
 
 int fsync(int fd) {
   static const auto next = real<int (*)(int)>("fsync");
+  if (call_fails("fsync", fsyncs)) return -1;
   return guarded(counts(fd), [&] { return next(fd); });
 }
 
 int rename(const char* from, const char* to) noexcept {
   static const auto next = real<int (*)(const char*, const char*)>("rename");
+  if (call_fails("rename", renames)) return -1;
   return guarded(counts(to), [&] { return next(from, to); });
 }
 

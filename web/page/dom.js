@@ -23,17 +23,17 @@ export function complain(message) {
   hideComplaint = setTimeout(() => { place.hidden = true; }, 8000);
 }
 
-// The token comes in the part of the address that is not sent, and is kept for this page only. Each request carries it.
+// The token comes in the part of the address that is not sent, and is kept for this tab only. Each request carries it.
 const inAddress = new URLSearchParams(location.hash.slice(1));
 if (inAddress.has("token")) {
-  localStorage.setItem("token", inAddress.get("token"));
+  sessionStorage.setItem("token", inAddress.get("token"));
   inAddress.delete("token");
   history.replaceState(null, "", `#${inAddress}`);
 }
 
 /** fetch() as one who may. */
 export function fetched(path, options = {}) {
-  const token = localStorage.getItem("token") ?? "";
+  const token = sessionStorage.getItem("token") ?? "";
   return fetch(path, {...options, headers: {...options.headers, Authorization: `Bearer ${token}`}});
 }
 

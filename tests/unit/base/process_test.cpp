@@ -34,6 +34,26 @@ TEST(RunCaptured, TellsWhyAProgramCannotBeRun) {
 
 TEST(RunCaptured, RunsInTheFolder) { EXPECT_EQ(run_captured({"pwd", "-P"}, "/").output, "/\n"); }
 
+// A program that hangs, and what it has started, must not keep whoever asked it.
+TEST(RunCaptured, KillsWhatGoesBeyondItsLimits) {
+  using std::chrono::hours;
+  const Captured late = run_captured({"sh", "-c", "echo begun; sleep 3600 & sleep 3600"},
+                                     CaptureLimits{.time = std::chrono::milliseconds(300)});
+  EXPECT_TRUE(late.cut_short);
+  EXPECT_EQ(late.exit_code, 128 + SIGKILL);
+  const Captured stopped = run_captured({"sh", "-c", "kill -STOP $$"}, CaptureLimits{std::chrono::milliseconds(100)});
+  EXPECT_TRUE(stopped.cut_short);
+  const Captured wordy = run_captured({"yes"}, CaptureLimits{.time = hours(1), .output = 100'000});
+  EXPECT_TRUE(wordy.cut_short);
+  EXPECT_LT(wordy.output.size(), 1'000'000u);
+  const Captured unwanted =
+      run_captured({"sleep", "3600"}, CaptureLimits{.time = hours(1), .stop = [] { return true; }});
+  EXPECT_TRUE(unwanted.cut_short);
+  const Captured within = run_captured({"echo", "done"}, CaptureLimits{.time = hours(1), .output = 100});
+  EXPECT_FALSE(within.cut_short);
+  EXPECT_EQ(within.output, "done\n");
+}
+
 TEST(RunCaptured, EndsWithUsEvenIfWeAreKilled) {
   int ends[2];
   ASSERT_EQ(pipe(ends), 0);

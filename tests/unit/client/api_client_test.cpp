@@ -83,6 +83,27 @@ TEST(ApiClient, GarbageIsAFailureNotACrash) {
   }
 }
 
+// A submit of 100,000 runs takes minutes, and is accepted in the end.
+TEST(ApiClient, WaitsAsLongAsTheDaemonAnswersOthers) {
+  const ScratchFolder root;
+  FakeDaemon daemon(root.path());
+  daemon.on("GET /v1/status", "{}");
+  daemon.on("POST /v1/sweeps", {{200, R"({"sweep": 1})", std::chrono::seconds(7)}});
+  ApiClient session(root.path(), std::chrono::seconds(3));
+  EXPECT_EQ(session.post("/v1/sweeps", Json::object()).at("sweep"), 1);
+}
+
+TEST(ApiClient, DoesNotWaitForOneThatAnswersNobody) {
+  const ScratchFolder root;
+  FakeDaemon daemon(root.path());
+  daemon.on("GET /v1/status", {{200, "{}", std::chrono::seconds(5)}});
+  daemon.on("POST /v1/sweeps", {{200, "{}", std::chrono::seconds(5)}});
+  ApiClient session(root.path(), std::chrono::milliseconds(200));
+  const auto [code, message] = failure_of([&] { session.post("/v1/sweeps", Json::object()); });
+  EXPECT_EQ(code, ExitCode::kNoDaemon);
+  EXPECT_THAT(message, HasSubstr("gave no answer"));
+}
+
 TEST(ApiClient, SocketWithoutListenerIsNoDaemon) {
   const ScratchFolder root;
   // What a daemon that was killed leaves behind.

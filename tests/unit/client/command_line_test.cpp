@@ -87,13 +87,12 @@ TEST(BadArguments, AreAllExitCodeTwo) {
                                                                      {"wait", "--timeout", "soon"},
                                                                      {"watch", "--graphics", "iterm"},
                                                                      {"validate", "no/such/file.json"},
-                                                                     {"run", "scene.json"},
+                                                                     {"run", "no/such/scene.json"},
                                                                      {"movie", "x", "--frame", "-3"},
                                                                      {"movie", "x", "--frame", "1", "--live"},
                                                                      {"picture", "x", "--frame", "1", "--time", "2"},
                                                                      {"export", "x"},
                                                                      {"export", "--format", "gsd"},
-                                                                     {"record"},
                                                                      {"record", "-o", "x", "--size", "large"},
                                                                      {"record", "-o", "x", "--for", "soon"},
                                                                      {"record", "-o", "/"},
@@ -294,6 +293,9 @@ TEST(Completion, BashScriptCompletesVerbsAndOptions) {
   EXPECT_EQ(completed("shaken results --agg", 2), "--aggregate\n");
   EXPECT_EQ(completed("shaken plot --format s", 3), "svg\n");
   EXPECT_EQ(completed("shaken submit -s rods.le", 3), "rods.length=\n");
+  EXPECT_EQ(completed("shaken submit -s rods.start = al", 5), "aligned\n") << "bash splits words at =";
+  EXPECT_EQ(completed("shaken picture x --style la", 4), "layers\n");
+  EXPECT_EQ(completed("shaken schema sw", 2), "sweep\n");
   EXPECT_EQ(completed("shaken movie " + folder.path().string().substr(0, folder.path().string().size() - 1), 2),
             folder.path().string() + "\n");
   EXPECT_EQ(completed("shaken status " + folder.path().string().substr(0, folder.path().string().size() - 1), 2), "\n")

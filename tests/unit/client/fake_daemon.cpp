@@ -14,7 +14,7 @@ struct FakeDaemon::Server {
 
 FakeDaemon::FakeDaemon(const std::filesystem::path& root) : server_(std::make_unique<Server>()) {
   const auto answer = [this](const httplib::Request& request, httplib::Response& response) {
-    const std::lock_guard lock(mutex_);
+    std::unique_lock lock(mutex_);
     const std::string line = request.method + " " + request.target;
     requests_.push_back({line, request.body});
     const auto found = answers_.find(line);
@@ -26,7 +26,10 @@ FakeDaemon::FakeDaemon(const std::filesystem::path& root) : server_(std::make_un
     std::vector<Answer>& answers = found->second;
     response.status = answers.front().status;
     response.set_content(answers.front().body, "application/json");
+    const std::chrono::milliseconds delay = answers.front().delay;
     if (answers.size() > 1) answers.erase(answers.begin());
+    lock.unlock();
+    std::this_thread::sleep_for(delay);
   };
   server_->http.Get(".*", answer);
   server_->http.Post(".*", answer);

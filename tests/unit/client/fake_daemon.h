@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -18,6 +19,7 @@ class FakeDaemon {
   struct Answer {
     int status = 200;
     std::string body;
+    std::chrono::milliseconds delay{0};  ///< before it; others are answered meanwhile
   };
   struct Request {
     std::string line;  ///< "GET /v1/status"

@@ -115,7 +115,8 @@ TEST(RunFigures, VersionsAreNoReplicasOfEachOther) {
   const run::Observables one{{"/tilt/n_z", {-0.1, 0.1}}, {"/tilt/v_along_mm_s", {1, 2}}};
   run::Observables two = one;
   two["/tilt/v_along_mm_s"] = {3, 4};
-  const auto figures = run_figures({{"a", one, false, {"0.1.0", "3"}}, {"a", two, false, {"0.1.0", "4"}}});
+  const auto figures =
+      run_figures({{"a", one, Steadiness::kSteady, {"0.1.0", "3"}}, {"a", two, Steadiness::kSteady, {"0.1.0", "4"}}});
   ASSERT_EQ(figures.size(), 1u);
   ASSERT_EQ(figures[0].curves.size(), 2u);
   EXPECT_EQ(figures[0].curves[0].label, "a, shaken 0.1.0, physics 3");

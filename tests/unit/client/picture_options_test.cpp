@@ -39,7 +39,7 @@ TEST(PictureOptions, GoOnAsTheyWereGiven) {
   CLI::App app;
   Arguments arguments(app);
   PictureOptions options;
-  options.declare(arguments);
+  options.declare(arguments, true);
   app.parse("1f0c --style mine.json --colour tilt --range=-0.2,0.2 --no-legend --defects --bare -o x.png");
   EXPECT_EQ(options.jobs, std::vector<std::string>{"1f0c"});
   EXPECT_EQ(options.out, "x.png");
@@ -52,7 +52,7 @@ TEST(PictureOptions, TheLabelOfTheCommandLineComesFirst) {
   CLI::App app;
   Arguments arguments(app);
   PictureOptions options;
-  options.declare(arguments);
+  options.declare(arguments, true);
   app.parse("1f0c --label mine");
   EXPECT_EQ(options.words({"rods.length=2.5"}), (std::vector<std::string>{"--label=mine"}));
 }
@@ -61,7 +61,7 @@ TEST(PictureOptions, EachOfSeveralRunsHasItsHeadline) {
   CLI::App app;
   Arguments arguments(app);
   PictureOptions options;
-  options.declare(arguments);
+  options.declare(arguments, true);
   app.parse("1f0c 22ab");
   EXPECT_EQ(options.jobs, (std::vector<std::string>{"1f0c", "22ab"}));
   EXPECT_EQ(options.words({"rods.length=2.5", ""}), (std::vector<std::string>{"--label=rods.length=2.5", "--label="}));

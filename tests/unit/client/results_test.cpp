@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "client/results.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -37,6 +38,16 @@ TEST(ResultRow, FlattensSummaryAndKeepsDottedParameters) {
   EXPECT_EQ(field_text(r, "versions.shaken"), "0.1.0");
   EXPECT_FALSE(r.fields.contains("defects"));
   EXPECT_TRUE(std::isnan(r.number("state")));
+}
+
+// From a table to the files of a run.
+TEST(ResultRow, KnowsWhereItsRunIs) {
+  Json source = row(2.5, 1, 0.75).source;
+  source["directory"] = "/data/runs/1f0c";
+  const ResultRow r = result_row(source);
+  EXPECT_THAT(to_csv({r}, {}), testing::HasSubstr(",directory,"));
+  EXPECT_THAT(to_csv({r}, {}), testing::HasSubstr(",/data/runs/1f0c,"));
+  EXPECT_FALSE(aggregated({r})[0].fields.contains("directory")) << "of several runs there is none";
 }
 
 TEST(ResultRow, NumberWithUnit) {
@@ -201,6 +212,20 @@ TEST(Aggregated, ARunThatIsListedTwiceCountsOnce) {
   const ResultRow two = aggregated({once, row_with_verdict(2, true), once})[0];
   EXPECT_EQ(two.number("n_replicas"), 2);
   EXPECT_EQ(of_distinct_runs({once, row_with_verdict(2, true), once}).size(), 2u);
+}
+
+// A run that was done, was asked to go on and is held on its way has results all the time.
+TEST(Aggregated, ARunThatGoesOnForLongerStillCounts) {
+  Json held = row_with_verdict(1, true).source;
+  held["state"] = "held";
+  EXPECT_EQ(aggregated({result_row(held)})[0].number("n_done"), 0);
+  held["summary"]["exit"] = {{"state", "stopped"}, {"done_before_s", 20.0}};
+  const ResultRow point = aggregated({result_row(held), row_with_verdict(2, true)})[0];
+  EXPECT_EQ(point.number("n_done"), 2);
+  EXPECT_EQ(point.state, "partial");
+  held["state"] = "running";
+  held["summary"]["exit"] = {{"state", "done"}};
+  EXPECT_EQ(aggregated({result_row(held)})[0].number("n_done"), 1);
 }
 
 TEST(Steadiness, ThreeStatesHaveThreeMarks) {

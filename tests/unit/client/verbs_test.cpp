@@ -190,7 +190,7 @@ TEST_F(Verbs, SubmitHandsTheTermsOn) {
   Json answer = sweep({job("1f0c000000000000", "queued")});
   answer["counts"] = {{"new", 1}, {"queued", 1}};
   daemon_.on("POST /v1/sweeps", {{201, text(answer)}});
-  const Outcome outcome = run({"submit", file, "--soft-limit", "10min", "--time-limit", "1.5 d", "--at-most", "4",
+  const Outcome outcome = run({"submit", file, "--soft-limit", "10min", "--time-limit", "1.5 d", "--at-once", "4",
                                "--after", "s3", "--after", "1f0c", "--stop-if", "failed>10%"});
   ASSERT_EQ(outcome.code, ExitCode::kOk) << outcome.err;
   const Json sent = Json::parse(daemon_.requests().back().body);

@@ -3,6 +3,7 @@
 // a wrong one.
 #include "run/loop.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,6 +18,7 @@
 #include "proto/bus.h"
 #include "proto/frame_codec.h"
 #include "run/files/checkpoint_file.h"
+#include "run/files/content_hash.h"
 #include "run/files/done.h"
 #include "run/files/observables_file.h"
 #include "run/files/trajectory.h"
@@ -166,6 +168,11 @@ TEST(Run, FillsItsDirectory) {
   EXPECT_EQ(summary["effects"]["stream"]["on"], false);
   EXPECT_GT(summary["effects"]["rod_base_friction"]["impulses"].get<int>(), 0);
   EXPECT_EQ(summary["effects"]["vibration"]["periods"], 60);
+  for (const auto& file : {directory.trajectory(), directory.observables()}) {
+    const ContentHash hash = content_hash(file).value();
+    EXPECT_EQ(summary["files"][file.filename().string()]["bytes"], hash.size) << file;
+    EXPECT_EQ(summary["files"][file.filename().string()]["xxh3"], fmt::format("{:016x}", hash.xxh3)) << file;
+  }
   EXPECT_EQ(read_progress(directory.progress())->state, "done");
   EXPECT_EQ(read_progress(directory.progress())->fraction(), 1.0);
 
@@ -193,6 +200,34 @@ TEST(Run, FinishedRunsAreNotDoneAgain) {
   EXPECT_EQ(run_in(folder.path(), small_plan()).state, RunState::kDone);
   EXPECT_EQ(std::filesystem::last_write_time(directory.summary()), written);
   EXPECT_FALSE(std::filesystem::exists(directory.checkpoint()));
+}
+
+TEST(Run, WhoseResultsAreGoneIsNotDoneAndMakesThemAnew) {
+  const ScratchFolder folder;
+  ASSERT_EQ(run_in(folder.path(), small_plan()).state, RunState::kDone);
+  const RunDirectory directory{folder.path()};
+  for (const auto& file : {directory.observables(), directory.trajectory()}) {
+    const ContentHash before = content_hash(file).value();
+    std::filesystem::remove(file);
+    EXPECT_FALSE(is_done(directory, small_plan()));
+    EXPECT_EQ(run_in(folder.path(), small_plan()).state, RunState::kDone);
+    EXPECT_EQ(content_hash(file).value().size, before.size) << file;
+    EXPECT_TRUE(is_done(directory, small_plan()));
+  }
+}
+
+// A damaged trajectory cannot be gone on from.
+TEST(Run, WhoseTrajectoryIsDamagedIsMadeAnewWhereItsSummaryIsRemoved) {
+  const ScratchFolder folder;
+  ASSERT_EQ(run_in(folder.path(), small_plan()).state, RunState::kDone);
+  const RunDirectory directory{folder.path()};
+  const auto state_hash = summary_in(folder.path())["state_hash"];
+  std::filesystem::resize_file(directory.trajectory(), std::filesystem::file_size(directory.trajectory()) / 2);
+  EXPECT_FALSE(TrajectoryReader::open(directory.trajectory()));
+  std::filesystem::remove(directory.summary());
+  EXPECT_EQ(run_in(folder.path(), small_plan()).state, RunState::kDone);
+  EXPECT_EQ(summary_in(folder.path())["state_hash"], state_hash);
+  EXPECT_TRUE(TrajectoryReader::open(directory.trajectory()));
 }
 
 /// Leaves a run stopped with two checkpoints; returns their folder.
@@ -341,6 +376,19 @@ scene::RunPlan plan_until(double order_sem, double at_most) {
   scene::RunPlan plan = with_length(0.05);
   plan.until = scene::Until{order_sem, at_most};
   return plan;
+}
+
+TEST(Run, ThatIsStoppedOnItsWayToALaterEndKnowsTheFormerOne) {
+  const ScratchFolder folder;
+  ASSERT_EQ(run_in(folder.path(), with_length(0.05)).state, RunState::kDone);
+  const double former = summary_in(folder.path())["sim_seconds"];
+  EXPECT_FALSE(summary_in(folder.path())["exit"].contains("done_before_s"));
+  for (const double stop : {0.3, 0.6}) {
+    run_with_stops(folder.path(), with_length(1), {stop});
+    EXPECT_EQ(summary_in(folder.path())["exit"]["done_before_s"], former);
+  }
+  ASSERT_EQ(run_in(folder.path(), with_length(1)).state, RunState::kDone);
+  EXPECT_FALSE(summary_in(folder.path())["exit"].contains("done_before_s"));
 }
 
 TEST(Run, GoesOnUntilTheErrorIsSmallEnough) {

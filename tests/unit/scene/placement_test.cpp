@@ -17,7 +17,7 @@ using testing::HasSubstr;
 
 /// A mixture that is too dense for one lattice, though not for its area.
 constexpr const char* kMixture = R"({
-  "rods": {"area_fraction": 0.5}, "rods_2": {"beads": 1, "count": 150},
+  "rods": {"area_fraction": 0.5}, "rods_2": {"beads": 1, "count": 250},
   "rods_3": {"length": 2.5, "area_fraction": 0.1}, "box": {"side": "40 mm"}})";
 
 TEST(Placement, WhatCannotBePlacedIsRefused) {
@@ -54,11 +54,11 @@ TEST(Placement, IsWhatTheSimulationSays) {
   EXPECT_GE(n_placed, 10);
 }
 
-// 87 rods do not fit in rows into a box of 16 mm: where they do is what one wants to know, and that the others are
+// 49 rods do not fit in rows into a box of 12 mm: where they do is what one wants to know, and that the others are
 // fine.
 TEST(Placement, ARefusalNamesTheNearestSideThatHoldsTheRodsAndWhatIsFine) {
   const std::vector<std::string> settings{"rods.area_fraction=0.45:0.85:0.1", "rods.length=2.5,4.5"};
-  const Loaded<Sweep> refused = load_runs(R"({"box": {"side": "16 mm"}})", "scene.json", settings, 3);
+  const Loaded<Sweep> refused = load_runs(R"({"box": {"side": "12 mm"}})", "scene.json", settings, 3);
   ASSERT_FALSE(refused);
   const std::string message = refused.error().back().message;
   EXPECT_THAT(message, HasSubstr(" of 30 points are fine"));
@@ -73,11 +73,11 @@ TEST(Placement, ARefusalNamesTheNearestSideThatHoldsTheRodsAndWhatIsFine) {
 TEST(Placement, EveryPointOfASweepIsPlacedAndNamed) {
   const Loaded<Sweep> runs =
       load_runs(R"({"box": {"side": 25}})", "s.json",
-                std::vector<std::string>{"rods.area_fraction=0.5,0.91,0.915", "time.step=4e-6,2e-6"}, 2);
+                std::vector<std::string>{"rods.area_fraction=0.5,0.915,0.918", "time.step=4e-6,2e-6"}, 2);
   ASSERT_FALSE(runs);
   ASSERT_EQ(runs.error().size(), 2u) << "the step and the seed do not matter: " << to_string(runs.error());
-  EXPECT_THAT(runs.error()[0].message, HasSubstr("rods.area_fraction=0.91 time.step=4e-06 replica=1: "));
-  EXPECT_THAT(runs.error()[1].message, HasSubstr("rods.area_fraction=0.915 time.step=4e-06 replica=1: "));
+  EXPECT_THAT(runs.error()[0].message, HasSubstr("rods.area_fraction=0.915 time.step=4e-06 replica=1: "));
+  EXPECT_THAT(runs.error()[1].message, HasSubstr("rods.area_fraction=0.918 time.step=4e-06 replica=1: "));
 }
 
 /// The bound on the plates' speed is the depth at which the simulation ends a run.

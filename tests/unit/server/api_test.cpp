@@ -280,6 +280,22 @@ TEST_F(ApiTest, RunsAreExtended) {
   EXPECT_EQ(wrong.json["problems"].size(), 1U);
 }
 
+// One that is longer already does not keep the others from going on.
+TEST_F(ApiTest, OfASweepThoseJobsAreExtendedThatCanBe) {
+  const auto ids = submit_four();
+  post("/v1/jobs/" + ids[0] + "/extend", R"({"measure": "60 s"})");
+  const Response some = post("/v1/sweeps/s1/extend", R"({"order_sem": 0.001, "at_most": "40 s"})");
+  EXPECT_EQ(some.status, 200);
+  EXPECT_EQ(some.json["extended"], 3);
+  ASSERT_EQ(some.json["refused"].size(), 1U);
+  EXPECT_EQ(some.json["refused"][0]["job"], ids[0]);
+  EXPECT_EQ(some.json["refused"][0]["reason"], "until.at_most 40 s is shorter than time.measure 60 s");
+  const Response none = post("/v1/jobs/" + ids[0] + "/extend", R"({"order_sem": 0.001, "at_most": "40 s"})");
+  EXPECT_EQ(none.status, 422);
+  EXPECT_EQ(none.json["error"],
+            "job " + ids[0] + ": /until/at_most: until.at_most 40 s is shorter than time.measure 60 s");
+}
+
 TEST_F(ApiTest, TimeLimitsAreTakenAndShown) {
   const Json job = submit({{"text", "{}"}, {"soft_limit_s", 600}, {"time_limit_s", 7200.5}}).json["jobs"][0];
   EXPECT_EQ(job["soft_limit_s"], 600.0);
@@ -912,6 +928,12 @@ TEST_F(ApiTest, AnExtendedRunKeepsItsResultsAndShowsNoFormerProgress) {
   stopped.replace(stopped.find("\"done\""), 6, "\"stopped\"");
   write_text(folder / "summary.json", stopped);
   EXPECT_TRUE(row()["summary"].is_null());
+  // unless it knows of an end that there was
+  std::string went_on = stopped;
+  went_on.replace(went_on.find("\"stopped\""), 9, R"("stopped", "done_before_s": 10)");
+  write_text(folder / "summary.json", went_on);
+  EXPECT_EQ(row()["summary"]["n_rods"], 7);
+  write_text(folder / "summary.json", stopped);
   queue_.cancel(ids[0]);
   queue_.stopped(ids[0], "checkpoint");
   EXPECT_EQ(row()["state"], "cancelled");

@@ -14,9 +14,13 @@
 #include <algorithm>
 #include <atomic>
 #include <cstring>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <thread>
 
+#include "base/process.h"
+#include "tests/support/lazy_server.h"
 #include "tests/unit/server/support.h"
 
 namespace shaken::server {
@@ -260,6 +264,75 @@ TEST_F(DaemonTest, AnAcceptThatFailsEndsNothing) {
   }
 }
 
+/// A daemon one of whose calls fails once, from when it works on.
+class Afflicted {
+ public:
+  Afflicted(const std::string& call, int error, int n, int slots, const std::filesystem::path& folder,
+            const std::string& worker)
+      : n_jobs_(slots + 2),
+        about_(call + " fails with " + std::strerror(error) + ", call " + std::to_string(n) + ", " +
+               std::to_string(slots) + " slots") {
+    std::filesystem::create_directories(folder);
+    const std::filesystem::path begun = folder / "begun";
+    const std::vector<std::pair<const char*, std::string>> orders{
+        {"LD_PRELOAD", SHAKEN_FAILING_CALLS},
+        {"SHAKEN_CALL_FAILS", call + ":" + std::to_string(error) + ":" + std::to_string(n)},
+        {"SHAKEN_CALL_FAILS_IN", "shakend"},
+        {"SHAKEN_CALL_FAILS_FROM", begun.string()}};
+    for (const auto& [name, value] : orders) setenv(name, value.c_str(), 1);
+    daemon_.emplace(folder / "root",
+                    std::vector<std::string>{"--no-lcm", "--worker", worker, "--slots", std::to_string(slots)});
+    for (const auto& [name, value] : orders) unsetenv(name);
+    EXPECT_THAT(daemon_->first_line(), StartsWith("shakend ready")) << told();
+    write_text(begun, "");
+    // What is refused for that one call is asked again, as a user does.
+    const json sweep{{"text", json{{"sweep", {{"replicas", n_jobs_}}}}.dump()}};
+    EXPECT_TRUE(eventually([&] { return daemon_->call("/v1/sweeps", sweep).contains("counts"); })) << told();
+  }
+  /// All its jobs are done, and it ends when it is asked to.
+  void survives() {
+    EXPECT_TRUE(eventually([&] { return n_done() == n_jobs_; })) << n_done() << " of " << n_jobs_ << ": " << told();
+    daemon_->send(SIGTERM);
+    EXPECT_EQ(daemon_->wait(), 0) << told();
+  }
+  bool has_met_it() const { return daemon_->errors().find("fault met") != std::string::npos; }
+
+ private:
+  int n_done() const {
+    const json status = daemon_->call("/v1/status");
+    return status.contains("jobs") ? status["jobs"].value("done", 0) : 0;
+  }
+  std::string told() const { return about_ + "\n" + daemon_->errors(); }
+
+  int n_jobs_;
+  std::string about_;
+  std::optional<Daemon> daemon_;
+};
+
+// Disks, limits and signals make calls fail once that did well before and do well afterwards.
+TEST_F(DaemonTest, NoCallThatFailsOnceEndsItOrLosesAJob) {
+  setenv("FAKE_WORKER", "done", 1);
+  const std::map<std::string, std::vector<int>> errors{{"open", {EMFILE, ENFILE, ENOMEM, ESTALE, EINTR}},
+                                                       {"write", {EIO, ENOSPC, EINTR}},
+                                                       {"fsync", {EIO, ENOSPC}},
+                                                       {"poll", {ENOMEM, EINTR}}};
+  int k = 0, n_met = 0;
+  for (const auto& [call, reasons] : errors) {
+    int n = 0;
+    for (const int error : reasons) {
+      ++n;  // which call it is
+      std::vector<std::unique_ptr<Afflicted>> daemons;
+      for (const int slots : {1, 2, 8}) {
+        const std::filesystem::path folder = directory_ / std::to_string(++k);
+        daemons.push_back(std::make_unique<Afflicted>(call, error, n, slots, folder, worker_.string()));
+      }
+      for (const auto& daemon : daemons) daemon->survives();
+      for (const auto& daemon : daemons) n_met += daemon->has_met_it() ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(n_met, k) << "faults that were met";
+}
+
 TEST_F(DaemonTest, WhatStandsInThePlaceOfItsSocketForAWhileEndsNothing) {
   Daemon shakend = daemon();
   shakend.first_line();
@@ -386,6 +459,57 @@ TEST_F(DaemonTest, ARelayTellsItsAddressAndATakenOneIsSaid) {
   EXPECT_EQ(second.wait(), 1);
   EXPECT_THAT(second.errors(), HasSubstr("the relay cannot listen at 127.0.0.1:"));
   EXPECT_THAT(second.errors(), HasSubstr("Address already in use"));
+}
+
+TEST_F(DaemonTest, ALiveStateServerThatSaysNothingKeepsItNeitherFromStartingNorFromEnding) {
+  const LazyServer server;
+  Daemon shakend(directory_ / "root", {"--worker", worker_.string(), "--lcm-url", server.url()});
+  EXPECT_THAT(shakend.first_line(), StartsWith("shakend ready"));
+  shakend.send(SIGTERM);
+  EXPECT_EQ(shakend.wait(), 0);
+}
+
+TEST_F(DaemonTest, ALiveStateServerThatTakesNothingDoesNotKeepItFromEnding) {
+  LazyServer server;
+  Daemon shakend(directory_ / "root", {"--worker", worker_.string(), "--lcm-url", server.url()});
+  server.greet();
+  EXPECT_THAT(shakend.first_line(), StartsWith("shakend ready"));
+  // More changes than the buffers on the way hold.
+  for (int k = 0; k < 10; ++k) {
+    const json scene{{"scene", {{"time", {{"seed", 1'000'000 * k}}}}}, {"sweep", {{"replicas", 2000}}}};
+    EXPECT_EQ(shakend.call("/v1/sweeps", json{{"text", scene.dump()}})["counts"]["new"], 2000);
+  }
+  shakend.send(SIGTERM);
+  EXPECT_EQ(shakend.wait(), 0);
+}
+
+// In a namespace with a disk of its own, which only root may make.
+TEST_F(DaemonTest, ADiskThatIsFullOrCannotBeWrittenIsNamed) {
+  const std::string root = (directory_ / "disk").string();
+  std::filesystem::create_directory(root);
+  const auto start = [&](const std::string& mount) {
+    return run_captured(
+        {"unshare", "-m", "sh", "-c",
+         mount + " && exec " + SHAKEND + " --no-lcm --quiet --root " + root + "/root --worker " + worker_.string()},
+        CaptureLimits{.time = std::chrono::seconds(60)});
+  };
+  if (run_captured({"unshare", "-m", "mount", "-t", "tmpfs", "-o", "size=64k", "none", root}).exit_code != 0) {
+    GTEST_SKIP() << "no disk can be mounted here";
+  }
+  const std::string disk = "mount -t tmpfs -o size=64k none " + root + " && mkdir -m 700 " + root + "/root";
+  const std::string fill = " && { head -c 100000 /dev/zero > " + root + "/rest 2>/dev/null || true; }";
+  for (const std::string before :
+       {"", " && echo 1 > /root/shakend.lock && mkdir /root/runs && : > /root/shakend.log"}) {
+    const std::string prepared = std::regex_replace(before, std::regex(" /root"), " " + root + "/root");
+    const Captured full = start(disk + prepared + fill);
+    EXPECT_EQ(full.exit_code, 1) << full.output;
+    EXPECT_THAT(full.output, HasSubstr("No space left on device")) << before;
+    EXPECT_THAT(full.output, HasSubstr("; make room there")) << before;
+    EXPECT_THAT(full.output, testing::Not(HasSubstr("another shakend")));
+  }
+  const Captured fixed = start(disk + " && mount -o remount,ro " + root);
+  EXPECT_EQ(fixed.exit_code, 1) << fixed.output;
+  EXPECT_THAT(fixed.output, HasSubstr("choose a --root that can be written"));
 }
 
 TEST_F(DaemonTest, WhatCannotStartSaysWhy) {

@@ -66,6 +66,14 @@ TEST(SubmitRequestTest, WhatIsWrongIsSaidInWords) {
   EXPECT_THAT(refusal(R"({"text": "", "name": "s12"})"), HasSubstr("sweep's id"));
 }
 
+// A parser takes 80 bytes for each bracket: a body of 16 MiB took 1.25 GB.
+TEST(SubmitRequestTest, NothingIsNestedDeeply) {
+  const std::string brackets(1'000'000, '[');
+  EXPECT_EQ(refusal(brackets), "the body is nested more than 16 deep");
+  EXPECT_EQ(refusal(R"({"settings": )" + brackets), "the body is nested more than 16 deep");
+  EXPECT_EQ(refusal(R"({"text": "\"{[{[{[{[{[{[{[{[{[{[", "name": "x"})"), "") << "brackets in a text are none";
+}
+
 TEST(Submission, RodsThatCannotBePlacedAreRefusedAtOnce) {
   SubmitRequest request;
   request.text = R"({"rods": {"area_fraction": 0.915}, "box": {"side": 25}})";
@@ -97,6 +105,22 @@ TEST(ExpandTest, APlainSceneIsOneJobNamedAfterItsFile) {
   EXPECT_EQ(submission->name, "plain");
   ASSERT_EQ(submission->jobs.size(), 1U);
   EXPECT_EQ(submission->jobs[0].has_results, false);
+}
+
+// The points of this one would not fit: a name is looked at before there are any.
+TEST(ExpandTest, ANameIsCheckedBeforeThePoints) {
+  const std::string far_too_many = R"({"sweep": {"replicas": 1000000000}})";
+  for (const auto& [text, file] : {std::pair{far_too_many, std::string("s9.json")},
+                                   {R"({"name": "s9", )" + far_too_many.substr(1), std::string("a.json")},
+                                   {far_too_many, std::string("a\nb.json")}}) {
+    SubmitRequest request;
+    request.text = text;
+    request.file = file;
+    const auto refused = expand(request, "/nowhere");
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(scene::to_string(refused.error()),
+                testing::AnyOf(HasSubstr("sweep's id"), HasSubstr("a name has 1 to")));
+  }
 }
 
 TEST(ExpandTest, ANameIsCheckedWhereverItComesFrom) {

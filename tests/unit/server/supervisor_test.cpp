@@ -12,6 +12,7 @@
 #include <csignal>
 #include <limits>
 
+#include "base/clock.h"
 #include "server/local_executor.h"
 #include "server/submission.h"
 #include "tests/unit/server/support.h"

@@ -66,6 +66,19 @@ TEST(InitialFlights, FullSizeOfThePaper) {
   EXPECT_NEAR(flights->size(), 2400, 50);
 }
 
+// 4.5 mm go four times into 22 mm, and four millimetres are left over: rows that close in themselves hold fewer rods.
+TEST(InitialFlights, RowsWindAroundABoxThatNoWholeNumberFills) {
+  for (double side = 16; side < 26; side += 0.5) {
+    const System system = scene_at(4.5, 0.85, side);
+    SCOPED_TRACE(testing::Message() << side << " mm");
+    const auto flights = flights_of(system);
+    if (side == 22) {
+      ASSERT_TRUE(static_cast<bool>(flights)) << flights.error().message;
+    }
+    if (flights) expect_free(system, *flights);
+  }
+}
+
 TEST(InitialFlights, RandomStartIsFreeAndIsotropic) {
   const System system = scene_at(2.5, 0.35, 60, Start::kRandom);
   const auto flights = flights_of(system);

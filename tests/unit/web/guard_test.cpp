@@ -56,17 +56,13 @@ TEST(Guard, ThePagesOwnFilesAreNoSecret) {
 }
 
 TEST(Guard, NoOtherNameOfThisMachineIsServed) {
-  for (const char* host :
-       {"evil.example:8642", "127.0.0.1", "127.0.0.1:8643", "localhost", "127.0.0.1:8642.evil", ""}) {
+  for (const char* host : {"evil.example:8642", "127.0.0.1", "127.0.0.1:8643", "localhost:8642", "[::1]:8642",
+                           "127.0.0.1:8642.evil", ""}) {
     Request asked = request("/v1/status", {bearer(kToken)});
     asked.headers.erase("host");
     asked.headers.emplace("host", host);
     EXPECT_EQ(stopped(asked), 403) << host;
   }
-  Request asked = request("/v1/status", {bearer(kToken)});
-  asked.headers.erase("host");
-  asked.headers.emplace("host", "localhost:8642");
-  EXPECT_EQ(stopped(asked), 0);
 }
 
 TEST(Guard, AnotherPageChangesNothing) {
@@ -77,10 +73,9 @@ TEST(Guard, AnotherPageChangesNothing) {
     return stopped(asked);
   };
   EXPECT_EQ(post("http://127.0.0.1:8642"), 0);
-  EXPECT_EQ(post("http://localhost:8642"), 0);
   EXPECT_EQ(post(nullptr), 0) << "curl sends none, and no page can leave it out";
-  for (const char* origin :
-       {"https://evil.example", "null", "http://127.0.0.1:9000", "https://127.0.0.1:8642", "http://"}) {
+  for (const char* origin : {"https://evil.example", "null", "http://127.0.0.1:9000", "http://localhost:8642",
+                             "https://127.0.0.1:8642", "http://"}) {
     EXPECT_EQ(post(origin), 403) << origin;
   }
 }

@@ -17,9 +17,9 @@ namespace fs = std::filesystem;
 
 constexpr const char* kRun = "1f0c000000000000";
 
-class RecordedRunsTest : public testing::Test {
+class RecordedRunTest : public testing::Test {
  protected:
-  RecordedRunsTest() { fs::create_directories(folder_ / kRun); }
+  RecordedRunTest() { fs::create_directories(folder_ / kRun); }
   run::RunDirectory directory() const { return {folder_ / kRun}; }
   /// Two rods in a box of 10 mm, `n_frames` frames 0.1 s apart; the second rod turns by 90 degrees in the last one.
   void record(int n_frames, std::vector<double> offset = {-2, 0, 2},
@@ -48,24 +48,24 @@ class RecordedRunsTest : public testing::Test {
   }
 
   ScratchFolder folder_;
-  RecordedRuns runs_{folder_.path()};
+  RecordedRun run_{folder_ / kRun};
 };
 
-TEST_F(RecordedRunsTest, SpheresHaveNoOrder) {
+TEST_F(RecordedRunTest, SpheresHaveNoOrder) {
   record(3, {0}, {0.4});
-  const auto frame = runs_.frame(kRun, 0);
+  const auto frame = run_.frame(0);
   ASSERT_TRUE(frame) << frame.error().message;
   EXPECT_TRUE(std::isnan(frame->order));
 }
 
-TEST_F(RecordedRunsTest, FramesAreThoseOfTheTrajectory) {
+TEST_F(RecordedRunTest, FramesAreThoseOfTheTrajectory) {
   record(3);
-  const auto frames = runs_.frames(kRun);
+  const auto frames = run_.frames();
   ASSERT_TRUE(frames) << frames.error().message;
   EXPECT_EQ(frames->n, 3u);
   EXPECT_DOUBLE_EQ(frames->first, 0);
   EXPECT_NEAR(frames->last, 0.2, 1e-12);
-  const auto first = runs_.frame(kRun, 0), last = runs_.frame(kRun, 2);
+  const auto first = run_.frame(0), last = run_.frame(2);
   ASSERT_TRUE(first && last);
   EXPECT_NEAR(first->order, 1, 1e-6);
   EXPECT_NEAR(last->order, 0, 1e-6) << "rods across each other";
@@ -74,44 +74,44 @@ TEST_F(RecordedRunsTest, FramesAreThoseOfTheTrajectory) {
   EXPECT_NEAR(std::abs(last->rods[1].theta), 1.5708, 1e-3);
   ASSERT_EQ(last->outlines.size(), 1u);
   EXPECT_DOUBLE_EQ(last->outlines[0].half_length, 2);
-  EXPECT_FALSE(runs_.frame(kRun, 3)) << "there are three";
+  EXPECT_FALSE(run_.frame(3)) << "there are three";
 }
 
-TEST_F(RecordedRunsTest, SeeFramesThatComeLater) {
+TEST_F(RecordedRunTest, SeeFramesThatComeLater) {
   record(2);
-  EXPECT_EQ(runs_.frames(kRun)->n, 2u);
+  EXPECT_EQ(run_.frames()->n, 2u);
   record(5);
-  EXPECT_EQ(runs_.frames(kRun)->n, 5u);
+  EXPECT_EQ(run_.frames()->n, 5u);
 }
 
-TEST_F(RecordedRunsTest, SayWhatIsNotThere) {
-  EXPECT_THAT(runs_.frames(kRun).error().message, testing::HasSubstr("records no rods"));
-  EXPECT_THAT(runs_.curves(kRun).error().message, testing::HasSubstr("before the end"));
-  EXPECT_TRUE(runs_.files("ffffffffffffffff").empty());
+TEST_F(RecordedRunTest, SayWhatIsNotThere) {
+  EXPECT_THAT(run_.frames().error().message, testing::HasSubstr("records no rods"));
+  EXPECT_THAT(run_.curves().error().message, testing::HasSubstr("before the end"));
+  EXPECT_TRUE(RecordedRun(folder_ / "ffffffffffffffff").files().empty());
   std::ofstream(directory().trajectory()) << "no HDF5";
-  EXPECT_FALSE(runs_.frames(kRun));
+  EXPECT_FALSE(run_.frames());
   std::ofstream(directory().observables()) << "no HDF5";
-  EXPECT_FALSE(runs_.curves(kRun));
+  EXPECT_FALSE(run_.curves());
 }
 
-TEST_F(RecordedRunsTest, LinksAndFoldersAreNoFiles) {
+TEST_F(RecordedRunTest, LinksAndFoldersAreNoFiles) {
   std::ofstream(directory().scene()) << "{}";
   fs::create_symlink("/etc/passwd", folder_ / kRun / "secret");
   fs::create_directory(folder_ / kRun / "folder");
   // nor is what the program keeps for itself
   for (const char* name : {"lock", "checkpoint.bin", "checkpoint.prev.bin"})
     std::ofstream(folder_ / kRun / name) << "1";
-  const auto files = runs_.files(kRun);
+  const auto files = run_.files();
   ASSERT_EQ(files.size(), 1u);
   EXPECT_EQ(files[0].name, "scene.json");
   EXPECT_EQ(files[0].size, 2u);
 }
 
 TEST(RunId, IsSixteenHexDigits) {
-  EXPECT_TRUE(RecordedRuns::is_id(kRun));
+  EXPECT_TRUE(RecordedRun::is_id(kRun));
   for (const char* text :
        {"", "..", "1f0c", "1F0C000000000000", "1f0c00000000000g", "1f0c0000000000000", "../../etc/passw"}) {
-    EXPECT_FALSE(RecordedRuns::is_id(text)) << text;
+    EXPECT_FALSE(RecordedRun::is_id(text)) << text;
   }
 }
 

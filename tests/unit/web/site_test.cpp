@@ -19,6 +19,7 @@
 #include "base/paths.h"
 #include "base/scratch_folder.h"
 #include "tests/unit/client/fake_daemon.h"
+#include "tests/unit/web/small_recording.h"
 #include "web/guard.h"
 #include "web/queue_feed.h"
 
@@ -58,7 +59,8 @@ class SiteTest : public testing::Test {
   std::promise<Guard> promised_;  // requests wait until the port is known
   std::shared_future<Guard> guard_{promised_.get_future()};
   server::HttpServer server_{0, [this](const server::Request& head) { return guard_.get().stop(head); },
-                             [this](const server::Request& request) { return site_.answer(request); }};
+                             [this](const server::Request& request) { return site_.answer(request); },
+                             Guard::headers()};
   httplib::Client client_{"127.0.0.1", server_.port()};
 };
 
@@ -83,7 +85,7 @@ TEST_F(SiteTest, TheBodyOfARefusedRequestIsNotRead) {
   const std::string head = "POST /v1/sweeps HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(server_.port()) +
                            "\r\nContent-Length: 1000000\r\n\r\n";
   ASSERT_EQ(send(connection, head.data(), head.size(), 0), static_cast<ssize_t>(head.size()));
-  char answer[64] = {};
+  char answer[1000] = {};
   EXPECT_GT(recv(connection, answer, sizeof(answer) - 1, 0), 0) << "without a byte of the body";
   EXPECT_THAT(std::string(answer), HasSubstr(" 401 "));
   close(connection);
@@ -107,8 +109,14 @@ TEST_F(SiteTest, ThePageAndAllItsFilesAreServed) {
 }
 
 TEST_F(SiteTest, EveryAnswerForbidsWhatIsNotServedHere) {
-  for (const char* path : {"/", "/v1/status", "/nothing", "/page/main.js"}) {
-    const auto answer = get(path);
+  std::vector<std::pair<std::string, httplib::Result>> answers;
+  for (const char* path : {"/", "/v1/status", "/nothing", "/page/main.js"}) answers.emplace_back(path, get(path));
+  answers.emplace_back("without the token", client_.Get("/v1/status"));
+  answers.emplace_back("another name", client_.Get("/", httplib::Headers{{"Host", "evil.example"}}));
+  answers.emplace_back("a path that is too long", get("/" + std::string(2000, 'a')));
+  for (const auto& [path, answer] : answers) {
+    ASSERT_TRUE(answer) << path;
+    EXPECT_EQ(answer->get_header_value_count("Content-Security-Policy"), 1u) << path;
     const std::string policy = answer->get_header_value("Content-Security-Policy");
     EXPECT_THAT(policy, HasSubstr("default-src 'none'")) << path;
     EXPECT_THAT(policy, HasSubstr("script-src 'self';")) << path;
@@ -145,6 +153,25 @@ TEST_F(SiteTest, TheQueueComesAsEvents) {
     EXPECT_EQ(queue["sweeps"][0]["id"], "s1");
     EXPECT_EQ(queue["jobs"][0]["id"], kRun);
   }
+}
+
+TEST(Feed, AsksSeldomWhileNobodyLooks) {
+  const ScratchFolder root;
+  client::FakeDaemon daemon(root.path());
+  daemon.on("GET /v1/status", R"({"version": "1"})");
+  daemon.on("GET /v1/sweeps", R"({"sweeps": []})");
+  daemon.on("GET /v1/jobs?state=running", R"({"jobs": []})");
+  daemon.on("GET /v1/jobs?state=stopping", R"({"jobs": []})");
+  const DaemonLink link(root.path());
+  QueueFeed feed(link, [](const std::set<std::string>&) {});
+  std::this_thread::sleep_for(std::chrono::seconds(3));
+  EXPECT_LE(daemon.requests().size(), 4u) << "once, four questions";
+  daemon.on("GET /v1/sweeps", R"({"sweeps": [{"id": "s7"}]})");
+  std::int64_t seen = 0;
+  EXPECT_THAT(feed.wait(seen, std::chrono::seconds(20)).value_or(""), HasSubstr("s7"))
+      << "who comes then is not told what is old";
+  daemon.on("GET /v1/sweeps", R"({"sweeps": [{"id": "s8"}]})");
+  EXPECT_THAT(feed.wait(seen, std::chrono::seconds(20)).value_or(""), HasSubstr("s8"));
 }
 
 TEST_F(SiteTest, AnswersThatAreNotTheDaemonsEndNothing) {
@@ -195,6 +222,28 @@ TEST_F(SiteTest, WhatIsNotThereIsSaid) {
   EXPECT_EQ(get(std::string("/runs/") + kRun + "/picture?frame=0")->status, 404);
   EXPECT_EQ(get("/live?run=1f0c")->status, 404);
   EXPECT_EQ(client_.Post("/live", kIn, "", "text/plain")->status, 405);
+}
+
+// One picture is drawn at a time: a renderer that hangs must not be the last.
+TEST_F(SiteTest, ARendererThatHangsIsEnded) {
+  record_two_frames({root_ / "runs" / kRun}, kRun);
+  const fs::path renderer = root_ / "renderer";
+  std::ofstream(renderer) << "#!/bin/sh\nkill -STOP $$\n";
+  fs::permissions(renderer, fs::perms::owner_all);
+  Site site(SiteSetup{
+      .root = root_.path(), .page = shipped_page(), .renderer = renderer, .drawing = std::chrono::milliseconds(200)});
+  const server::Request picture{
+      .method = "GET", .path = std::string("/runs/") + kRun + "/picture", .query = {{"frame", "0"}}, .body = ""};
+  for (int i = 0; i < 2; ++i) {
+    const auto reply = site.answer(picture);
+    EXPECT_EQ(reply.status, 504) << reply.body;
+    EXPECT_THAT(reply.body, HasSubstr("shaken-render"));
+  }
+  std::ofstream(renderer) << "#!/bin/sh\nwhile [ \"$1\" != -o ]; do shift; done; echo drawn > \"$2\"\n";
+  Site next(SiteSetup{.root = root_.path(), .page = shipped_page(), .renderer = renderer});
+  EXPECT_EQ(next.answer(picture).body, "drawn\n");
+  site.close();
+  next.close();
 }
 
 TEST(SiteWithoutADaemon, SaysSo) {

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include "server/slurm/command.h"
 #include "tests/unit/server/support.h"
 
 namespace shaken::server::slurm {
@@ -111,6 +112,17 @@ TEST_F(SlurmExecutorTest, WorkersGoOutPackedAsOneArray) {
   EXPECT_EQ(executor.poll(workers[2]).words, "waits as Slurm job 7_1 (Priority)");
 }
 
+// What a program of Slurm says is kept in memory.
+TEST(Command, OneThatSaysTooMuchIsEnded) {
+  for (const char* says : {"yes", "head -c 50000000 /dev/zero"}) {
+    auto command = Command::start({"sh", "-c", says}, "/", std::chrono::hours(1)).value();
+    std::optional<Captured> end;
+    ASSERT_TRUE(eventually([&] { return (end = command.poll()).has_value(); }, std::chrono::seconds(60))) << says;
+    EXPECT_NE(end->exit_code, 0) << says;
+    EXPECT_EQ(end->output, "has said more than 32 MiB");
+  }
+}
+
 TEST_F(SlurmExecutorTest, WhatWaitsInSlurmIsBounded) {
   SlurmExecutor executor(options());
   executor.step();
@@ -174,7 +186,7 @@ TEST_F(SlurmExecutorTest, ArraysGetSmallerWhereSlurmRefusesTheirSize) {
   many.max_pending = 100;
   many.runs_per_task = 1;
   SlurmExecutor executor(many);
-  const auto tasks_of_the_next = [&](std::size_t calls_before) {
+  const auto largest_of_the_next = [&](std::size_t calls_before) {
     if (!eventually([&] {
           executor.step();
           return executor.room() > 0;
@@ -188,13 +200,17 @@ TEST_F(SlurmExecutorTest, ArraysGetSmallerWhereSlurmRefusesTheirSize) {
       });
     });
     if (!refused) return std::string("not refused");
-    const std::string call = calls("sbatch").at(calls_before);
-    const auto begin = call.find("<--array=");
-    return call.substr(begin, call.find('>', begin) - begin + 1);
+    std::string largest;  // they may be handed over at the same time
+    const std::vector<std::string> all = calls("sbatch");
+    for (std::size_t k = calls_before; k < all.size(); ++k) {
+      const auto begin = all[k].find("<--array=");
+      largest = std::max(largest, all[k].substr(begin, all[k].find('>', begin) - begin + 1));
+    }
+    return largest;
   };
-  EXPECT_EQ(tasks_of_the_next(0), "<--array=0-4>");
+  EXPECT_EQ(largest_of_the_next(0), "<--array=0-4>");
   const std::size_t so_far = calls("sbatch").size();
-  EXPECT_EQ(tasks_of_the_next(so_far), "<--array=0-1>");
+  EXPECT_EQ(largest_of_the_next(so_far), "<--array=0-1>");
 }
 
 // Until it is told, its jobs count as handed over.

@@ -1,0 +1,200 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Inputs that users of programs like this one have reported as bugs, typed into the programs; each has a right answer.
+
+    reported_cases_test.py BIN
+
+BIN is the folder of the programs. Each test below is one report: what was typed, and what is right.
+"""
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import xml.dom.minidom
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+BIN = Path(sys.argv.pop(1))
+ONE = {"rods": {"length": "4.5 mm", "area_fraction": 0.3}, "box": {"side": "15 mm"},
+       "time": {"steady": 0, "measure": "0.2 s", "step": "20 us"}, "measure": {"order": {}},
+       "trajectory": {"every": "10 ms"}}
+
+
+class Reported(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp(prefix="shaken-cases-"))
+        self.daemon = None
+
+    def tearDown(self):
+        if self.daemon:
+            self.daemon.send_signal(signal.SIGTERM)
+            self.assertEqual(self.daemon.wait(60), 0)
+        shutil.rmtree(self.folder)
+
+    def type(self, command, code=0, limit=100):
+        """The output of a command that ends with this exit code within so many seconds."""
+        environment = {**os.environ, "SHAKEN_ROOT": str(self.folder / "root"), "PATH": f"{BIN}:{os.environ['PATH']}"}
+        done = subprocess.run(["bash", "-c", command], cwd=self.folder, env=environment, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=limit)
+        output = done.stdout.decode(errors="backslashreplace")
+        self.assertEqual(done.returncode, code, f"{command}\n{output}")
+        return output
+
+    def write(self, name, content):
+        text = content if isinstance(content, str) else json.dumps(content)
+        (self.folder / name).write_text(text)
+
+    def run_one(self, scene=None, name="r"):
+        self.write(f"{name}.json", scene or ONE)
+        self.type(f"shaken run {name}.json --out {name}")
+        return self.folder / name
+
+    def start_daemon(self, root="root"):
+        environment = {**os.environ, "SHAKEN_ROOT": str(self.folder / root)}
+        self.daemon = subprocess.Popen([BIN / "shakend", "--no-lcm", "--slots", "2"], env=environment,
+                                       stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+        self.assertIn(b"ready", self.daemon.stdout.readline())
+
+    def test_07_one_run_that_a_sweep_lists_several_times_is_one_sample(self):
+        scene = {**ONE, "time": {"steady": 0, "measure": "0.1 s", "step": "20 us"}}
+        self.write("so.json", {"scene": scene, "sweep": {"sobol": {"n": 8, "seed": 1,
+                                                                   "contacts.sweeps": {"from": 1, "to": 2}}}})
+        self.start_daemon()
+        self.type("shaken submit so.json --name so && shaken wait so")
+        rows = json.loads(self.type("shaken results so --aggregate --json"))["rows"]
+        singles = json.loads(self.type("shaken results so --json"))["rows"]
+        n_effective = {row["job"]: row["summary"]["order"]["n_effective"] for row in singles}
+        self.assertEqual(sum(row["n_replicas"] for row in rows), len(n_effective))
+        for row in rows:
+            self.assertEqual(row["n_replicas"], 1)
+            self.assertIn(row["order.n_effective"], n_effective.values())
+
+    def test_10_foreign_spaces_and_decimal_commas_are_named(self):
+        self.write("nbsp.json", '{"rods": {"length": "4.5\u00a0mm"}}')
+        self.write("narrow.json", '{"rods": {"length": "4.5\u202fmm"}}')
+        self.write("comma.json", '{"rods": {"length": "4,5 mm"}}')
+        self.write("one.json", ONE)
+        self.assertIn("U+00A0", self.type("shaken validate nbsp.json", 2))
+        self.assertIn("U+202F", self.type("shaken validate narrow.json", 2))
+        self.assertIn("decimal comma", self.type("shaken validate comma.json", 2))
+        self.assertIn("decimal comma", self.type("shaken validate one.json -s 'box.gap=1,3 mm'", 2))
+
+    def test_11_g_of_few_rods_is_one_where_they_do_not_know_of_each_other(self):
+        side = 20.0
+        for n in (2, 3, 7):
+            run = self.run_one({"rods": {"length": "4.5 mm", "count": n, "start": "random"},
+                                "box": {"side": f"{side} mm"}, "time": {"steady": 0, "measure": "1 s", "step": "20 us"},
+                                "measure": {"g2": {}}, "trajectory": {"every": "10 ms"}}, f"n{n}")
+            with h5py.File(run / "observables.h5") as file:
+                r, g = file["g2/r_mm"][:], file["g2/g"][:]
+            with h5py.File(run / "trajectory.h5") as file:
+                rods = file["particles/trajectory"]
+                at, place = rods["position/time"][:], rods["position/value"][:]
+            width = r[1] - r[0]
+            counts, samples = np.zeros(len(r)), 0
+            for frame in np.flatnonzero(np.abs(at / 0.1 - np.round(at / 0.1)) < 1e-6):
+                apart = place[frame, :, None, :2] - place[frame, None, :, :2]
+                apart -= side * np.round(apart / side)
+                pairs = np.hypot(apart[..., 0], apart[..., 1])[np.triu_indices(n, 1)]
+                counts += np.histogram(pairs, bins=len(r), range=(0, r[-1] + width / 2))[0]
+                samples += 1
+            right = counts / (samples * n * (n - 1) / 2 * 2 * np.pi * r * width / side**2)
+            np.testing.assert_allclose(g, right, rtol=1e-3, atol=1e-9)
+
+    def test_22_numbers_of_a_recorded_file_are_checked(self):
+        run = self.run_one()
+        for kind in ("inf", "1e30", "nan", "box1e-6", "box0"):
+            copy = self.folder / kind
+            shutil.copytree(run, copy)
+            (copy / "summary.json").unlink()  # which knows what the file was
+            with h5py.File(copy / "trajectory.h5", "r+") as file:
+                if kind.startswith("box"):
+                    file["parameters"].attrs["box_side_mm"] = float(kind[3:])
+                else:
+                    file["particles/trajectory/position/value"][3, 2, 0] = float(kind)
+            frames = "--frame 3"
+            picture = self.type(f"timeout 20 shaken-render picture {kind} {frames} -o x.png", 1)
+            export = self.type(f"timeout 20 shaken export {kind} -o x.gsd", 1)
+            for output in (picture, export):
+                self.assertIn("trajectory.h5", output)
+                self.assertNotIn("region.cpp", output)
+                if not kind.startswith("box"):
+                    self.assertRegex(output, r"frame 3\b.*rod 2\b")
+
+    def test_27_closed_streams_spoil_no_lock(self):
+        self.write("one.json", ONE)
+        self.type("shaken-worker one.json --out x --no-lcm 2>&-")
+        self.assertRegex((self.folder / "x/lock").read_text(), r"^\d+\n?$")
+
+    def test_29_a_root_that_json_cannot_name_is_refused(self):
+        output = self.type("shakend --root $(printf 'r\\xff') --no-lcm", 2, 20)
+        self.assertIn("UTF-8", output)
+
+    def test_38_an_odd_size_is_bad_input_for_every_film(self):
+        self.run_one()
+        for suffix in ("mp4", "webm"):
+            self.type(f"shaken movie r -o r.{suffix} --size 321x241", 2)
+
+    def test_39_a_film_that_validate_accepts_is_made(self):
+        scene = {**ONE, "movie": {"every": "200 ms", "size": [7680, 4320]}}
+        scene["time"] = {"steady": 0, "measure": "20 ms", "step": "20 us"}
+        self.run_one(scene)
+        self.assertGreater((self.folder / "r/movie.mp4").stat().st_size, 1000)
+
+    def test_40_a_name_with_a_colon_is_a_file(self):
+        self.run_one()
+        for name in ("2026-11-25T02:30:00.mp4", "run:1.gif"):
+            self.type(f"shaken movie r -o {name} --size 320x240 --samples 1 --every 10")
+            self.assertGreater((self.folder / name).stat().st_size, 100)
+        self.assertNotIn("onnection", self.type("shaken-render movie r -o http://127.0.0.1:1/x.mp4", 1))
+
+    def test_41_what_was_not_recorded_is_not_drawn(self):
+        self.run_one()
+        for command in ("movie r -o x.mp4 --from 5s --to 9s", "picture r --time 100s -o x.png",
+                        "export r --from 5s -o x.gsd"):
+            output = self.type(f"shaken {command}", 2)
+            self.assertIn("0.2 s", output)
+        self.assertEqual(list(self.folder.glob("x.*")), [])
+
+    def test_42_an_svg_is_xml_whatever_the_label(self):
+        self.run_one()
+        self.type("shaken-render picture r -o x.svg --label $'a\\x01b\\x1b[31m <&>\"'")
+        xml.dom.minidom.parse(str(self.folder / "x.svg"))
+
+    def test_46_a_message_is_not_cut_off_at_a_nul(self):
+        self.start_daemon()
+        output = self.type("curl -s --unix-socket root/shakend.sock 'http://x/v1/jobs/ab%00cd'")
+        self.assertIn(r"ab\\u0000cd", output)
+        self.assertTrue(output.strip().endswith("}"))
+
+    def test_47_of_two_writers_of_one_file_one_is_there_whole(self):
+        self.run_one({**ONE, "rods": {"length": "4.5 mm", "count": 40}}, "a")
+        self.run_one({**ONE, "rods": {"length": "4.5 mm", "count": 20}}, "b")
+        for attempt in range(4):
+            self.type("shaken export a -o c.extxyz & p=$!; shaken export b -o c.extxyz & q=$!; wait $p && wait $q")
+            lines = (self.folder / "c.extxyz").read_text().splitlines()
+            n = int(lines[0])
+            self.assertEqual(len(lines), 21 * (n + 2))
+            self.assertEqual(set(lines[:: n + 2]), {str(n)})
+            self.assertEqual([path.name for path in self.folder.glob("c.extxyz*")], ["c.extxyz"])
+
+    def test_55_a_scene_without_an_end_is_refused(self):
+        for command in ("shaken-worker /dev/zero --probe p.json --probe-cpu 0", "shaken validate /dev/zero"):
+            self.assertIn("16 MiB", self.type(f"timeout -k 5 60 {command}", 2))
+
+    def test_57_a_run_or_a_sample_that_is_too_short_is_named(self):
+        self.write("one.json", ONE)
+        self.assertIn("time.measure", self.type("shaken validate one.json -s time.measure=1e-6", 2))
+        self.assertIn("measure.order.every 100 s is longer than the run",
+                      self.type("shaken validate one.json -s measure.order.every=100s"))
+
+
+unittest.main(verbosity=2)
