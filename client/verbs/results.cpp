@@ -57,22 +57,22 @@ constexpr SummaryColumn kAggregateColumns[] = {
 class Results : public Verb {
  public:
   VerbInfo info() const override {
-    return {"results", kResultsGroup, "One line of numbers per job, or per point with --aggregate",
-            "  shaken results                               the newest sweep\n"
-            "  shaken results s3 --aggregate                replicas as mean and standard error\n"
-            "  shaken results s3 --where 'rods.length=4.5mm and order.mean>0.5'\n"
-            "  shaken results s3 --where 'not state=done or order.sem>0.01' --csv\n"
-            "  shaken results s3 --columns job,order.mean,theta_m_deg\n"
-            "  shaken results s3 --csv > order.csv          every field of every summary: the names for --columns\n"
-            "In '...' the shell leaves < > ( ) and spaces to shaken. --where takes and, or, not, ( ), and = != < <= > "
-            ">= with\n"
-            "any key of the scene or number of the summary to their left: `--csv` shows their names. A comparison is "
-            "false\n"
-            "for runs that lack the name.\n"
-            "A value marked ~ is an average over a time in which the run still relaxed, one marked ? of a run that "
-            "is\n"
-            "too short to tell: run them longer. With --aggregate, (2) behind a mean says that only 2 runs have a "
-            "value."};
+    return {
+        "results", kResultsGroup, "One line of numbers per job, or per point with --aggregate",
+        "  shaken results                               the newest sweep\n"
+        "  shaken results s3 --aggregate                replicas as mean and standard error\n"
+        "  shaken results s3 --where 'rods.length=4.5mm and order.mean>0.5'\n"
+        "  shaken results s3 --where 'not state=done or order.sem>0.01' --csv\n"
+        "  shaken results s3 --columns job,order.mean,theta_m_deg\n"
+        "  shaken results s3 --csv > order.csv          every field of every summary: the names for --columns\n"
+        "In '...' the shell leaves < > ( ) and spaces to shaken. --where takes and, or, not, ( ), and = != < <= > "
+        ">= with\n"
+        "any key of the scene or number of the summary to their left: `--csv` shows their names. A comparison is "
+        "false\n"
+        "for runs that lack the name.\n"
+        "A value marked ~ is of a run that is still relaxing, one marked ? of a run that is not known to be steady:\n"
+        "run them longer. With --aggregate, (2) behind a mean says that only 2 runs have a "
+        "value."};
   }
 
   void declare(Arguments& arguments) override {
