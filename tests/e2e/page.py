@@ -128,11 +128,10 @@ def use(page, address, live, downloads):
 
     eventually(lambda: len(rows("done")) == 4, "all jobs are done")
     eventually(lambda: page.execute_script(
-        "return Chart.getChart('map').points.filter((p) => p.hollow || p.fill.startsWith('rgb')).length"
+        "return Chart.getChart('map').points.filter((p) => p.fill.startsWith('rgb')).length"
     ) == 4, "the phase diagram has four points with a value")
     marked = [row.text for row in rows("done") if "~0." in row.text or "?0." in row.text]
-    hollow = page.execute_script(
-        "return Chart.getChart('map').data.datasets[0].backgroundColor.filter((x) => x === 'transparent').length")
+    hollow = page.execute_script("return Chart.getChart('map').points.filter((p) => p.hollow).length")
     check(hollow == len(marked), f"what is marked in the table is hollow in the diagram: {hollow}, {marked}")
     check(("hollow: " in text("#map-marks")) == bool(marked), "and is explained")
     find("#map-save").click()

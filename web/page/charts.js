@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Curves and maps, drawn by Chart.js (the global Chart of /chart.js).
 
-const kInk = "#e4e6ea", kFaint = "#949aa5", kGrid = "#2b2f36";
+const kInk = "#e4e6ea", kFaint = "#949aa5", kGrid = "#2b2f36", kGround = "#17191d";
 
 /** Viridis (van der Walt & Smith 2015) at nine places, for values from low (0) to high (1). */
 const kViridis = ["#440154", "#472d7b", "#3b528b", "#2c728e", "#21918c", "#28ae80", "#5ec962", "#addc30", "#fde725"];
@@ -46,9 +46,18 @@ export class Curve {
   clear() { this.set([], []); }
 }
 
-/** A bar of one standard error to either side of each point that has one (`bar`), behind the points. */
-const errorBars = {
-  id: "errorBars",
+/** Marks of points. A bar of one standard error to either side of each that has one (`bar`), behind the points. */
+const pointMarks = {
+  id: "pointMarks",
+  /** A hole in each point that is hollow: its colour stays to be seen around it. */
+  afterDatasetsDraw(chart) {
+    const {ctx, scales: {x, y}} = chart, side = 7;
+    ctx.fillStyle = kGround;
+    for (const point of chart.points ?? []) {
+      if (!point.hollow) continue;
+      ctx.fillRect(x.getPixelForValue(point.x) - side / 2, y.getPixelForValue(point.y) - side / 2, side, side);
+    }
+  },
   beforeDatasetsDraw(chart) {
     const {ctx, scales: {x, y}} = chart;
     ctx.strokeStyle = kFaint;
@@ -70,7 +79,7 @@ export class PointMap {
     this.points = [];
     this.chart = new Chart(canvas, {
       type: "scatter",
-      plugins: [errorBars],
+      plugins: [pointMarks],
       data: {datasets: [{data: [], pointRadius: 9, pointHoverRadius: 11, pointStyle: "rect", borderWidth: 2}]},
       options: {...common, parsing: false,
                 onClick: (event, hits) => { if (hits.length) choose(this.points[hits[0].index]); },
@@ -91,7 +100,6 @@ export class PointMap {
     set.data = points.map(({x, y}) => ({x, y}));
     set.backgroundColor = points.map(({fill}) => fill);
     set.borderColor = points.map(({border}) => border);
-    set.borderWidth = points.map(({hollow}) => hollow ? 3 : 2);
     for (const [name, title] of [["x", xTitle], ["y", yTitle]]) {
       const scale = this.chart.options.scales[name];
       scale.title.text = title;
@@ -113,7 +121,7 @@ export function pictureOf(chart, words) {
   sheet.width = canvas.width;
   sheet.height = canvas.height + top;
   const context = sheet.getContext("2d");
-  context.fillStyle = "#17191d";
+  context.fillStyle = kGround;
   context.fillRect(0, 0, sheet.width, sheet.height);
   context.fillStyle = kInk;
   context.font = `${size}px sans-serif`;

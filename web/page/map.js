@@ -176,12 +176,12 @@ export class SweepPanel {
       const mark = ["~", "?"].find((each) => place.marks.has(each)) ?? "";
       const colour = Number.isFinite(average) ? sequential(high > low ? (average - low) / (high - low) : 0.5) : "transparent";
       const border = place.states.has("running") ? "#ff9000" : place.states.has("failed") ? "#ff5f5f" :
-        place.jobs.includes(this.run) ? "#e4e6ea" : mark ? colour : "#3a404a";
+        place.jobs.includes(this.run) ? "#e4e6ea" : mark ? "#949aa5" : "#3a404a";
       const words = [`${x} = ${place.across}`, ...(y ? [`${y} = ${place.up}`] : []),
                      `${value} = ${valueText(mark, average, error) || "unknown"}` + (place.values.length > 1 ? ` (mean of ${place.values.length})` : ""),
                      ...[...place.marks].map((each) => `${each} ${kSteadiness[each]}`), [...place.states].join(", ")];
       return {x: place.across, y: y ? place.up : average, jobs: place.jobs, border, text: words.join("; "), bar: y ? NaN : error,
-              hollow: Boolean(mark), fill: mark ? "transparent" : colour};
+              hollow: Boolean(mark), fill: colour};
     });
     const met = ["~", "?"].filter((mark) => all.some(({marks}) => marks.has(mark)));
     byId("map-marks").textContent = met.length ? `hollow: ${met.map((mark) => kSteadiness[mark]).join(" or ")}` : "";
