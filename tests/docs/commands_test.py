@@ -148,13 +148,16 @@ def shortened(command, job):
         command = re.sub(r"\bRUN\b", run, command, count=1)
     command = re.sub(r"\b(JOB|1f0c)\b", job, command)
     command = re.sub(r"\b(s3|s2)\b", "s1", command)
-    command = re.sub(r"--time \S+", "--frame last", command)
+    if "mechanism" not in command:
+        command = re.sub(r"--time \S+", "--frame last", command)
+        command = re.sub(r"--(from|to) \S+s\b", "", command)
+    if command.startswith("shaken movie"):
+        command += " --size 320x180 --samples 1"
     command = re.sub(r"--displacements \d+", "--displacements 0.02", command)
-    command = re.sub(r"--(from|to) \S+s\b", "", command)
     command = re.sub(r"--cpu \d+", "--cpu 0.2", command)
     command = re.sub(r"-o (\w+\.lcmlog)", r"-o \1 --for 1s --force", command) if "record" in command else command
     command = command.replace("replay-log run.lcmlog", "replay-log live.lcmlog")
-    if command.startswith("shaken run ") and "--out full" not in command:  # it is begun from
+    if command.startswith("shaken run ") and not re.search("--out (full|mechanism)", command):  # others need these as they are
         command += " -s time.steady=0 -s time.measure=60ms -s trajectory.every=10ms"
     return command
 
