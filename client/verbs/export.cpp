@@ -12,6 +12,7 @@
 #include "run/export/columns.h"
 #include "run/export/frames.h"
 #include "run/files/directory.h"
+#include "scene/observables.h"
 #include "scene/units.h"
 
 namespace shaken::client {
@@ -166,7 +167,9 @@ class Export : public Verb {
       if (!table) throw Failure(ExitCode::kFailed, files_.summary().string() + ": " + table.error().message);
       text = *table;
     } else {
-      text = value_or_fail(run::observables_csv(read_observables(), observables_), ExitCode::kBadInput);
+      std::vector<std::string> measurable;
+      for (const scene::Observable& observable : scene::observables()) measurable.push_back(observable.name);
+      text = value_or_fail(run::observables_csv(read_observables(), observables_, measurable), ExitCode::kBadInput);
     }
     if (to_stdout()) return print(console, text);
     if (out_.empty()) out_ = fmt::format("{}-{}.csv", name_, fs::path(observables_.front()).filename().string());

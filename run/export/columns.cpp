@@ -11,8 +11,6 @@
 
 #include "base/text.h"
 #include "run/files/units.h"
-#include "scene/nearest.h"
-#include "scene/observables.h"
 
 namespace shaken::run {
 namespace {
@@ -108,35 +106,30 @@ void append_numbers(const std::string& path, const OrderedJson& value, std::stri
 }
 
 /// Why `written` names nothing: it was not measured, or there is no such thing.
-std::string why_nothing_is_called(std::string_view written, const Observables& arrays) {
+std::string why_nothing_is_called(std::string_view written, const Observables& arrays,
+                                  const std::vector<std::string>& measurable) {
   std::string_view name = written;
   while (name.starts_with('/')) name.remove_prefix(1);
-  const std::string_view block = name.substr(0, name.find('/'));
-  std::vector<std::string> groups;
-  bool is_measured = false;
-  for (const auto& [path, values] : arrays) {
-    groups.push_back(group_of(path).substr(1));
-    is_measured |= path.starts_with(fmt::format("/{}/", block));
-  }
-  const auto& known = scene::observables();
-  const bool is_observable =
-      std::any_of(known.begin(), known.end(), [&](const scene::Observable& one) { return one.name == block; });
-  if (is_observable && !is_measured) {
+  const std::string block(name.substr(0, name.find('/')));
+  const bool is_measured = std::any_of(arrays.begin(), arrays.end(), [&](const auto& array) {
+    return array.first.starts_with(fmt::format("/{}/", block));
+  });
+  if (!is_measured && std::find(measurable.begin(), measurable.end(), block) != measurable.end()) {
     return fmt::format("'{}' was not measured in this run: its scene has no measure.{}, or its rods no axis",
                        printable(written), block);
   }
-  return fmt::format("no array or group of observables is called '{}'{}", printable(written),
-                     scene::did_you_mean(scene::nearest(name, groups)));
+  return fmt::format("no array or group of observables is called '{}'", printable(written));
 }
 
 }  // namespace
 
-Result<std::string> observables_csv(const Observables& arrays, const std::vector<std::string>& names) {
+Result<std::string> observables_csv(const Observables& arrays, const std::vector<std::string>& names,
+                                    const std::vector<std::string>& measurable) {
   std::vector<std::string> paths;
   std::string problems;
   for (const std::string& name : names) {
     const std::vector<std::string> found = arrays_of(arrays, name);
-    if (found.empty()) problems += why_nothing_is_called(name, arrays) + "\n";
+    if (found.empty()) problems += why_nothing_is_called(name, arrays, measurable) + "\n";
     for (const std::string& path : found) {
       if (std::find(paths.begin(), paths.end(), path) == paths.end()) paths.push_back(path);
     }

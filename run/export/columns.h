@@ -14,8 +14,10 @@ namespace shaken::run {
 /// down. Headings are the names below the last folder that all of them share, and end in units. What a curve is drawn
 /// against, such as time_s or lag_s, comes first; the others are in alphabetical order. A map with both of its axes has
 /// one line for each of its points. NaN is an empty field.
-/// Fails with all problems, one a line: names of nothing, and arrays of different lengths.
-Result<std::string> observables_csv(const Observables& arrays, const std::vector<std::string>& names);
+/// Fails with all problems, one a line: names of nothing, and arrays of different lengths. What is called as one of
+/// `measurable` and is not there was not measured.
+Result<std::string> observables_csv(const Observables& arrays, const std::vector<std::string>& names,
+                                    const std::vector<std::string>& measurable = {});
 
 /// The groups and arrays that a name may stand for, one a line, with units and lengths.
 std::string observables_list(const Observables& arrays);

@@ -449,15 +449,16 @@ TEST(ObservablesCsv, RefusesEverythingAtOnce) {
   const auto table = observables_csv(some_arrays(), {"ordre", "order/order", "order/pdf/density", "/\x1b"});
   ASSERT_FALSE(table);
   EXPECT_EQ(table.error().message,
-            "no array or group of observables is called 'ordre'; did you mean order?\n"
+            "no array or group of observables is called 'ordre'\n"
             "no array or group of observables is called '/\\u001b'\n"
             "arrays of different lengths make no table; name those of one length:\n"
             "  order/order has 2\n"
             "  order/pdf/density has 3");
   EXPECT_EQ(observables_csv(some_arrays(), {}).error().message, "no observable is named");
+  EXPECT_THAT(observables_csv(some_arrays(), {"order/ordre"}, {"order"}).error().message, HasSubstr("is called"));
   for (const char* name : {"msd", "/msd/total_mm2"}) {
     EXPECT_EQ(
-        observables_csv(some_arrays(), {name}).error().message,
+        observables_csv(some_arrays(), {name}, {"msd", "order"}).error().message,
         "'" + std::string(name) + "' was not measured in this run: its scene has no measure.msd, or its rods no axis");
   }
 }
