@@ -9,8 +9,8 @@
 //   SHAKEN_FAULT=once:N      the N-th change fails with EIO
 //
 // Or a call of one kind fails, wherever it is made:
-//   SHAKEN_CALL_FAILS=CALL:ERRNO:N   the N-th CALL of the process fails with this number; CALL is accept, open, write,
-//                                    fsync, rename or poll
+//   SHAKEN_CALL_FAILS=CALL:ERRNO:N   the N-th CALL of the process fails with this number; CALL is accept, bind, open,
+//                                    write, fsync, rename or poll; several, between commas, are for one call each
 //   SHAKEN_CALL_FAILS_IN=NAME        in programs of this name only, not in what they start
 //   SHAKEN_CALL_FAILS_FROM=FILE      calls count only while this file is there
 #include <dlfcn.h>
@@ -104,27 +104,36 @@ int guarded(bool counted, Change change) {
   return -1;
 }
 
-/// Whether this call of `name` is the one that is to fail; errno then says how.
-bool call_fails(const char* name, std::atomic<long>& calls) {
-  const char* text = getenv("SHAKEN_CALL_FAILS");
-  const size_t length = strlen(name);
-  if (text == nullptr || strncmp(text, name, length) != 0 || text[length] != ':') return false;
+/// Whether SHAKEN_CALL_FAILS means calls of this process, at this time.
+bool is_meant() {
   static const char* const in = getenv("SHAKEN_CALL_FAILS_IN");
   static const char* const from = getenv("SHAKEN_CALL_FAILS_FROM");
   const int before = errno;
-  const bool is_meant =
+  const bool is =
       (in == nullptr || strcmp(program_invocation_short_name, in) == 0) && (from == nullptr || access(from, F_OK) == 0);
   errno = before;
-  if (!is_meant) return false;
-  char* end = nullptr;
-  const long error = strtol(text + length + 1, &end, 10);
-  if (*end != ':' || ++calls != atol(end + 1)) return false;
-  dprintf(STDERR_FILENO, "fault met\n");
-  errno = static_cast<int>(error);
-  return true;
+  return is;
 }
 
-std::atomic<long> accepts{0}, opens{0}, writes{0}, fsyncs{0}, renames{0}, polls{0};
+/// Whether this call of `name` is the one that is to fail; errno then says how.
+bool call_fails(const char* name, std::atomic<long>& calls) {
+  const size_t length = strlen(name);
+  for (const char* order = getenv("SHAKEN_CALL_FAILS"); order != nullptr;) {
+    const char* next = strchr(order, ',');
+    if (strncmp(order, name, length) == 0 && order[length] == ':') {
+      char* end = nullptr;
+      const long error = strtol(order + length + 1, &end, 10);
+      if (*end != ':' || !is_meant() || ++calls != atol(end + 1)) return false;
+      dprintf(STDERR_FILENO, "fault met\n");
+      errno = static_cast<int>(error);
+      return true;
+    }
+    order = next == nullptr ? nullptr : next + 1;
+  }
+  return false;
+}
+
+std::atomic<long> accepts{0}, opens{0}, writes{0}, fsyncs{0}, renames{0}, polls{0}, binds{0};
 
 /// The mode of an open(), which is there only where a file may be made.
 template <class Open>
@@ -137,6 +146,11 @@ int guarded_open(int flags, va_list arguments, Open open) {
 }  // namespace
 
 extern "C" {
+
+int bind(int fd, const sockaddr* address, socklen_t size) noexcept {
+  static const auto next = real<int (*)(int, const sockaddr*, socklen_t)>("bind");
+  return call_fails("bind", binds) ? -1 : next(fd, address, size);
+}
 
 int accept(int fd, sockaddr* address, socklen_t* size) {
   static const auto next = real<int (*)(int, sockaddr*, socklen_t*)>("accept");

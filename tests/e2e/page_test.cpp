@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 
@@ -72,6 +74,28 @@ TEST(Page, IsStartedAgainWhereItEnds) {
   daemon.signal(SIGTERM);
   EXPECT_EQ(daemon.wait(20s), 0) << daemon.output();
   EXPECT_NE(run_command({"/usr/bin/pgrep", "-f", "shaken-web --root " + root}).code, 0) << "it ends with the daemon";
+}
+
+// Another program may have taken the port meanwhile.
+TEST(Page, ThatCannotHaveItsPortBackSaysSoAndTriesAgain) {
+  const ScratchFolder folder;
+  setenv("LD_PRELOAD", SHAKEN_FAILING_CALLS, 1);
+  const std::string orders = "accept:" + std::to_string(ENOMEM) + ":1,bind:" + std::to_string(EADDRINUSE) + ":2";
+  setenv("SHAKEN_CALL_FAILS", orders.c_str(), 1);
+  Process page({program("shaken-web"), "--root", folder.path().string(), "--no-lcm", "--port", "0"},
+               folder.path() / "log");
+  unsetenv("LD_PRELOAD");
+  unsetenv("SHAKEN_CALL_FAILS");
+  ASSERT_TRUE(page.wait_for("#token=", 20s)) << page.output();
+  const std::string address = address_in(page.output());
+  const std::size_t port = std::string("http://127.0.0.1:").size();
+  const std::string connect = "exec 3<>/dev/tcp/127.0.0.1/" + address.substr(port, address.find("/#") - port);
+  run_command({"/bin/bash", "-c", connect});
+  EXPECT_TRUE(page.wait_for("cannot listen on port", 20s)) << page.output();
+  EXPECT_TRUE(page.wait_for("listening anew", 20s)) << page.output();
+  EXPECT_EQ(run_command({"/bin/bash", "-c", connect}).code, 0);
+  page.signal(SIGTERM);
+  EXPECT_EQ(page.wait(20s), 0) << page.output();
 }
 
 TEST(Page, NeedsADaemon) {

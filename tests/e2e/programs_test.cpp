@@ -3,10 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <thread>
 
 #include "tests/e2e/process.h"
+#include "tests/support/lazy_server.h"
 
 namespace shaken::test {
 namespace {
@@ -87,6 +91,37 @@ TEST(Bench, ThatIsNotBuiltSaysHowItIs) {
   EXPECT_THAT(missing.output,
               HasSubstr("shaken-bench is not in " + folder.path().string() + ": `./dev build` makes it"));
   EXPECT_THAT(shell(here + "./shaken --root . doctor 2>&1").output, HasSubstr("shaken-bench"));
+}
+
+// A relay that was stopped, or a port behind a proxy: it accepts, and never says a word.
+TEST(EveryListener, EndsOnASignalWhereTheServerOfLiveStateSaysNothing) {
+  const ScratchFolder folder;
+  const LazyServer server;
+  const std::string root = (folder / "root").string();
+  const auto program = [](const char* name) { return std::string(SHAKEN_BIN_DIR) + "/" + name; };
+  Process daemon({program("shakend"), "--root", root, "--no-lcm"}, folder / "daemon.log");
+  ASSERT_TRUE(daemon.wait_for("shakend ready", std::chrono::seconds(20))) << daemon.output();
+  std::ofstream(folder / "scene.json") << R"({"time": {"measure": "20000 s"}})";
+  const std::string at_root = "shaken --root " + root;
+  ASSERT_EQ(shell(at_root + " submit " + (folder / "scene.json").string() + " --name waits").code, 0);
+  ASSERT_EQ(shell(at_root + " hold waits").code, 0);
+  const std::string log = (folder / "x.lcmlog").string();
+  const std::vector<std::vector<std::string>> listeners{{program("shaken"), "--root", root, "watch"},
+                                                        {program("shaken"), "--root", root, "record", "-o", log},
+                                                        {program("shaken-web"), "--root", root, "--port", "0"}};
+  for (const auto& command : listeners) {
+    for (const int signal : {SIGINT, SIGTERM}) {
+      std::vector<std::string> words = command;
+      words.insert(words.end(), {"--lcm-url", server.url()});
+      std::filesystem::remove(log);
+      Process listener(words, folder / "listener.log");
+      std::this_thread::sleep_for(std::chrono::seconds(3));  // it is likely to wait for the server by now
+      listener.signal(signal);
+      EXPECT_NE(listener.wait(std::chrono::seconds(20)), -1) << words[0] << "\n" << listener.output();
+    }
+  }
+  daemon.signal(SIGTERM);
+  EXPECT_EQ(daemon.wait(std::chrono::seconds(20)), 0) << daemon.output();
 }
 
 TEST(EveryVerb, TakesNamesThatBeginWithADashAfterTwoDashes) {
