@@ -102,7 +102,7 @@ class Shell:
 
 def commands_of(page):
     """The commands of a page's indented blocks, continued lines joined, comments cut off."""
-    text = (SOURCE / page).read_text().replace("\\\n", " ")
+    text = re.sub(r"\\\n\s*", "", (SOURCE / page).read_text())
     for line in text.splitlines():
         if not line.startswith("    "):
             continue
@@ -152,7 +152,7 @@ def shortened(command, job):
         command = re.sub(r"--time \S+", "--frame last", command)
         command = re.sub(r"--(from|to) \S+s\b", "", command)
     if command.startswith("shaken movie"):
-        command += " --size 320x180 --samples 1"
+        command = re.sub(r"--size \S+", "", command) + " --size 320x180 --samples 1"
     command = re.sub(r"--displacements \d+", "--displacements 0.02", command)
     command = re.sub(r"--cpu \d+", "--cpu 0.2", command)
     command = re.sub(r"-o (\w+\.lcmlog)", r"-o \1 --for 1s --force", command) if "record" in command else command
