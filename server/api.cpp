@@ -191,22 +191,21 @@ Api::Answer Api::submit(const Call& call) const {
     if (queue_.job(start.run)) submission->terms.after.emplace_back(start.run);
   }
   if (!problems.empty()) return problems_answer(problems);
-  return submitted(submission->name, submission->priority, submission->jobs, submission->terms);
+  return submitted(submission->name, submission->priority, std::move(submission->jobs), submission->terms);
 }
 
 Api::Answer Api::add_replicas(const Call& call) const {
   const int n = parsed(parse_replicas, call.request.body);
   const Sweep sweep = find_sweep(call.id);
-  const auto jobs = with_replicas(queue_, sweep.id, n, info_.runs());
+  auto jobs = with_replicas(queue_, sweep.id, n, info_.runs());
   if (!jobs) throw Refusal(409, jobs.error().message);
   Terms terms{.at_most = sweep.at_most, .executor = sweep.executor, .settings = sweep.settings};
   for (const std::string& word : sweep.after) terms.after.push_back(target_named(word));
   if (const auto rule = StopRule::parse(sweep.stop_if)) terms.stop_if = *rule;
-  return submitted(sweep.name, 0, *jobs, terms);
+  return submitted(sweep.name, 0, *std::move(jobs), terms);
 }
 
-Api::Answer Api::submitted(const std::string& name, int priority, std::span<const NewJob> jobs,
-                           const Terms& terms) const {
+Api::Answer Api::submitted(const std::string& name, int priority, std::vector<NewJob> jobs, const Terms& terms) const {
   const Submitted submitted = [&] {
     try {
       return queue_.submit(name, priority, jobs, terms);
@@ -216,6 +215,7 @@ Api::Answer Api::submitted(const std::string& name, int priority, std::span<cons
   }();
   spdlog::info("sweep {} '{}': {} jobs, {} new, {} found done, {} queued again", sweep_word(submitted.sweep), name,
                submitted.counts.total(), submitted.n_new, submitted.n_found, submitted.n_requeued);
+  jobs = {};  // their scenes and the answer need not be in memory together
   Json counts = counts_report(submitted.counts);
   counts["new"] = submitted.n_new;
   counts["requeued"] = submitted.n_requeued;

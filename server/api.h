@@ -46,7 +46,7 @@ class Api {
   Answer clean(const Call& call) const;
 
   /// Puts jobs into the queue and tells what became of them.
-  Answer submitted(const std::string& name, int priority, std::span<const NewJob> jobs, const Terms& terms) const;
+  Answer submitted(const std::string& name, int priority, std::vector<NewJob> jobs, const Terms& terms) const;
   static Answer problems_answer(std::span<const scene::Problem> found);
   /// Whether the path is that of a sweep, and not of a job.
   static bool in_sweep(const Call& call);

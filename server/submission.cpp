@@ -215,12 +215,14 @@ scene::Loaded<Submission> expand(const SubmitRequest& request, const std::filesy
   if (const auto problem = scene::id_problem(name)) {
     return std::vector{scene::Problem{request.file, 0, 0, "", *problem + "; submit it with another name"}};
   }
-  const auto sweep = scene::load_runs(request.text, request.file, request.settings, request.replicas);
+  auto sweep = scene::load_runs(request.text, request.file, request.settings, request.replicas);
   if (!sweep) return sweep.error();
   Submission submission{name, request.priority, request.terms, {}, {}};
   submission.terms.executor = sweep->executor;
   submission.terms.settings = scene::to_text(sweep->slurm);
-  for (const scene::SweepPoint& point : sweep->points) {
+  submission.jobs.reserve(sweep->points.size());
+  for (scene::SweepPoint& each : sweep->points) {
+    const scene::SweepPoint point = std::move(each);  // of 100,000, what is not needed any more counts
     NewJob job;
     job.id = scene::run_id(point.plan);
     job.scene = scene::to_json(point.plan).dump(2) + "\n";
