@@ -46,7 +46,8 @@ struct ApiClient::Connection {
   Connection(const fs::path& daemon_root, std::chrono::milliseconds how_patient)
       : root(daemon_root), socket(daemon_root / "shakend.sock"), patience(how_patient), http(socket.string()) {
     http.set_address_family(AF_UNIX);
-    http.set_keep_alive(true);
+    // A connection for each request: the daemon closes one that was silent for a second, maybe just as it is asked.
+    http.set_keep_alive(false);
     http.set_connection_timeout(5);
     http.set_read_timeout(kLongest);  // watched over by `asked`
     http.set_write_timeout(30);

@@ -8,6 +8,8 @@
 #include <unistd.h>
 
 #include <cstring>
+#include <string_view>
+#include <thread>
 
 #include "base/failure.h"
 #include "client/target.h"
@@ -102,6 +104,35 @@ TEST(ApiClient, DoesNotWaitForOneThatAnswersNobody) {
   const auto [code, message] = failure_of([&] { session.post("/v1/sweeps", Json::object()); });
   EXPECT_EQ(code, ExitCode::kNoDaemon);
   EXPECT_THAT(message, HasSubstr("gave no answer"));
+}
+
+// The daemon closes a connection that was silent for a second. Who asks once a second would meet that now and then.
+TEST(ApiClient, DoesNotAskOnAConnectionThatTheDaemonIsAboutToClose) {
+  const ScratchFolder root;
+  const int listener = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  std::strcpy(address.sun_path, (root.path() / "shakend.sock").c_str());
+  ASSERT_EQ(bind(listener, reinterpret_cast<sockaddr*>(&address), sizeof(address)), 0);
+  ASSERT_EQ(listen(listener, 8), 0);
+  std::thread daemon([listener] {
+    for (int n = 0; n < 2; ++n) {  // one answer on each connection, closed at the next request or with the client
+      const int client = accept(listener, nullptr, nullptr);
+      char request[4096];
+      if (recv(client, request, sizeof(request), 0) > 0) {
+        const std::string_view answer = "HTTP/1.1 200 OK\r\nContent-Length: 2\r\n\r\n{}";
+        send(client, answer.data(), answer.size(), MSG_NOSIGNAL);
+        recv(client, request, sizeof(request), 0);
+      }
+      close(client);
+    }
+  });
+  ApiClient session(root.path());
+  EXPECT_EQ(session.get("/v1/status"), Json::object());
+  EXPECT_EQ(failure_of([&] { session.get("/v1/status"); }), std::pair(ExitCode::kOk, std::string()));
+  shutdown(listener, SHUT_RDWR);  // where the second connection never came
+  daemon.join();
+  close(listener);
 }
 
 TEST(ApiClient, SocketWithoutListenerIsNoDaemon) {
