@@ -317,7 +317,8 @@ std::string cpu_text(double seconds) {
   return fmt::format("{:.4g} CPU-hours", seconds / 3600);
 }
 
-ProbeProgress probe_progress(const Console& console) {
+ProbeProgress probe_progress(const Console& console, bool in_logs) {
+  if (!console.err_is_terminal && !in_logs) return {};
   constexpr double kLogPeriod = 10;
   const auto line = std::make_shared<ProgressLine>(console.err, console.err_is_terminal, console.width, kLogPeriod);
   return [line](std::size_t done, std::size_t all) {

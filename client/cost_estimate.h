@@ -15,8 +15,9 @@ namespace shaken::client {
 
 /// Shows how many probes of a run are made, with nothing left of it at the end.
 using ProbeProgress = std::function<void(std::size_t done, std::size_t all)>;
-/// A line on a terminal's stderr, redrawn; nothing where there is no terminal.
-ProbeProgress probe_progress(const Console& console);
+/// A line on a terminal's stderr, redrawn. Where stderr is no terminal, a line now and then if `in_logs`: not beside
+/// JSON, which scripts may read together with stderr.
+ProbeProgress probe_progress(const Console& console, bool in_logs);
 
 /// At most this many of a sweep's points are probed.
 inline constexpr std::size_t kMostProbes = 5;

@@ -57,7 +57,7 @@ class Explain : public Verb {
     const scene::Sweep sweep = load_points(read_scene_input(file_), settings_, replicas_);
     Console& console = context.console;
     EstimateOptions options{.probe = !no_probe_, .cpu = cpu_.value_or(EstimateOptions{}.cpu), .from = from_};
-    options.on_probe = probe_progress(console);
+    options.on_probe = probe_progress(console, !json_);
     const CostEstimate estimate = estimate_cost(sweep, options);
     const scene::SweepPoint& point = sweep.points[estimate.shown];
     const auto in_slurm = slurm_load(sweep, estimate);

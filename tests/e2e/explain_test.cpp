@@ -131,11 +131,16 @@ TEST_F(Explain, AddsUpASweep) {
                                  HasSubstr("interpolated")));
 }
 
-TEST_F(Explain, ComparesLevelsWhereAllPointsHaveOneStep) {
+TEST_F(Explain, SaysWhatTheRunsOfEachStepCostWherePointsHaveSeveral) {
   const Json report = json({"explain", write("scene.json", kScene), "-s", "accuracy=draft,paper"});
-  ASSERT_EQ(report.at("levels").size(), 1u);
-  EXPECT_TRUE(report.at("levels")[0].at("step_s").is_null()) << "several";
-  EXPECT_GT(report.at("levels")[0].at("cpu_seconds").get<double>(), 0);
+  const Json& levels = report.at("levels");
+  ASSERT_EQ(levels.size(), 3u);
+  EXPECT_TRUE(levels[0].at("step_s").is_null()) << "several";
+  EXPECT_EQ(levels[1].at("step_s"), 32e-6);
+  EXPECT_EQ(levels[2].at("step_s"), 4e-6);
+  const auto cpu = [&](int k) { return levels[k].at("cpu_seconds").get<double>(); };
+  EXPECT_GT(cpu(1), 0);
+  EXPECT_NEAR(cpu(1) + cpu(2), cpu(0), 1e-9 * cpu(0));
 }
 
 TEST_F(Explain, LevelsSetWhenImpactsTakePlace) {

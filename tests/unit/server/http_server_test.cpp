@@ -44,9 +44,13 @@ Descriptor connect_to(const std::filesystem::path& socket) {
 std::string ask(const Descriptor& client) {
   const std::string request = "GET /x HTTP/1.1\r\nHost: localhost\r\n\r\n";
   if (send(client.value(), request.data(), request.size(), MSG_NOSIGNAL) < 0) return "";
-  std::string answer(4096, '\0');
-  const ssize_t n = recv(client.value(), answer.data(), answer.size(), 0);
-  answer.resize(static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
+  std::string answer;
+  char piece[4096];
+  while (!answer.ends_with('}')) {  // head and body may come one after the other
+    const ssize_t n = recv(client.value(), piece, sizeof(piece), 0);
+    if (n <= 0) break;
+    answer.append(piece, static_cast<std::size_t>(n));
+  }
   return answer;
 }
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cstdlib>
 #include <fstream>
 #include <future>
 #include <nlohmann/json.hpp>
@@ -84,6 +85,7 @@ TEST_F(RunReaderTest, AFileThatHdf5ComesToNoEndWithIsNamedAndNotTriedAtOnceAgain
 }
 
 TEST_F(RunReaderTest, AFileThatEndsItsReaderIsNamed) {
+  setenv("ASAN_OPTIONS", "abort_on_error=1", 1);  // where a sanitizer sees first what would end it by a signal
   ASSERT_TRUE(make_fatal(trajectory(kBad)));
   RunReader reader(folder_.path(), {}, hours(1));
   const auto answer = reader.ask(kBad, {"frames"});
