@@ -188,6 +188,16 @@ def type_docs(shell, job):
         fail(f"only {typed} commands of the docs were typed")
 
 
+def cites_as_the_file_says(shell):
+    """`shaken cite` and CITATION.cff name the same version and the same paper."""
+    file = (SOURCE / "CITATION.cff").read_text()
+    printed = shell.type("shaken cite")
+    for key in ("version", "doi", "journal", "volume"):
+        value = re.search(rf"^ *{key}: \"?([^\"\n]+)", file, re.M)[1]
+        if f"{{{value}}}" not in printed:
+            fail(f"`shaken cite` does not have the {key} of CITATION.cff, {value}")
+
+
 def hear_live_frames(shell):
     """docs/live_observable.py, as docs/protocol.md says."""
     if not HAS_NETWORK:
@@ -212,6 +222,7 @@ with tempfile.TemporaryDirectory(prefix="shaken docs ") as name:
     shell = Shell(Path(name))
     try:
         a_job = type_readme(shell)
+        cites_as_the_file_says(shell)
         hear_live_frames(shell)
         type_docs(shell, a_job)
     finally:
