@@ -71,8 +71,8 @@ std::vector<std::string> remarks(const RunPlan& plan) {
   }
   if (const std::string unmeasured = of_axes_that_are_missing(plan); !unmeasured.empty()) {
     const bool has_others = plan.system.added[0] || plan.system.added[1];
-    list.push_back(fmt::format("spheres (rods.beads 1) have no axis, which is what {} would be of: not measured{}",
-                               unmeasured, has_others ? "; observables are those of the first species" : ""));
+    list.push_back(fmt::format("spheres (rods.beads 1) have no axis, so this is not measured: {}{}", unmeasured,
+                               has_others ? "; observables are those of the first species" : ""));
   }
   const auto gamma = gamma_of(plan.system);
   if (gamma && *gamma < 1 && plan.system.base) {

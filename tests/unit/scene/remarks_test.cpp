@@ -38,13 +38,12 @@ TEST(Remarks, AreOfWhatIsHardlyMeant) {
 TEST(Remarks, NameWhatSpheresCannotBeMeasuredFor) {
   const std::string sphere = R"("rods": {"beads": 1, "length": 0.8})";
   EXPECT_THAT(remarks(plan_of("{" + sphere + R"(, "measure": {"order": {}, "defects": {}, "g2": {}, "msd": {}}})")),
-              ElementsAre("spheres (rods.beads 1) have no axis, which is what measure.order, measure.defects would be "
-                          "of: not measured"));
+              ElementsAre("spheres (rods.beads 1) have no axis, so this is not measured: measure.order, "
+                          "measure.defects"));
   EXPECT_THAT(remarks(plan_of("{" + sphere + R"(, "measure": {"order": null, "g2": {}}})")), IsEmpty());
   EXPECT_THAT(remarks(plan_of("{" + sphere + R"(, "rods_2": {"count": 3}, "measure": {"order": {}}})")),
-              ElementsAre("spheres (rods.beads 1) have no axis, which is what measure.order would be of: not measured; "
-                          "observables are those "
-                          "of the first species"));
+              ElementsAre("spheres (rods.beads 1) have no axis, so this is not measured: measure.order; "
+                          "observables are those of the first species"));
   EXPECT_THAT(remarks(plan_of(R"({"rods_2": {"count": 3, "beads": 1, "length": 0.8}})")), IsEmpty());
   EXPECT_THAT(problem_of("{" + sphere + R"(, "until": {"order_sem": 0.01, "at_most": 100}})"),
               HasSubstr("spheres have no S"));
