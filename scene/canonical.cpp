@@ -48,8 +48,8 @@ nlohmann::ordered_json to_json(const Field& field, const Value& value) {
 nlohmann::ordered_json to_json(const RunPlan& plan) {
   nlohmann::ordered_json scene = nlohmann::ordered_json::object();
   for (const Field& field : fields()) {
-    const std::string_view block = block_around(field.path);
-    const bool is_off = !block.empty() && !std::get<bool>(field_at(block).fetch(plan));
+    const Field* block = block_of(field);
+    const bool is_off = block != nullptr && !std::get<bool>(block->fetch(plan));
     if (!field.fetch || is_off) continue;
     const Value value = field.fetch(plan);
     if (std::holds_alternative<std::monostate>(value)) continue;  // has no meaning in this plan

@@ -70,6 +70,18 @@ std::string_view block_around(std::string_view path) {
   return {};
 }
 
+const Field* block_of(const Field& field) {
+  static const auto blocks = [] {
+    std::vector<const Field*> all;
+    for (const Field& each : fields()) {
+      const int index = field_index(block_around(each.path));
+      all.push_back(index < 0 ? nullptr : &fields()[static_cast<std::size_t>(index)]);
+    }
+    return all;
+  }();
+  return blocks[static_cast<std::size_t>(&field - fields().data())];
+}
+
 std::string suggest_path(std::string_view path) {
   // A slip in the last name only: what could stand beside it.
   const std::string_view parent = parent_of(path);

@@ -69,6 +69,8 @@ std::vector<std::string> names_in(std::string_view path);
 bool is_beneath(std::string_view path, std::string_view outer);
 /// The block around a field; empty if there is none.
 std::string_view block_around(std::string_view path);
+/// The same of one of fields(), at once; null if there is none.
+const Field* block_of(const Field& field);
 
 /// "; did you mean rods.length?" for a dotted path that does not exist, by its siblings first, then by all paths.
 std::string suggest_path(std::string_view path);

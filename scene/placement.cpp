@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
 #include <unordered_map>
 #include <utility>
 
-#include "scene/canonical.h"
 #include "scene/load.h"
 #include "scene/memory.h"
 #include "sim/initial.h"
@@ -17,7 +17,7 @@ namespace shaken::scene {
 namespace {
 
 /// The same for all plans whose rods are placed alike, so that a sweep of other keys places them once.
-std::string placement_key(const RunPlan& plan) {
+RunPlan placed_alike(const RunPlan& plan) {
   const System& system = plan.system;
   RunPlan alike;
   alike.system.rod = system.rod;
@@ -30,8 +30,37 @@ std::string placement_key(const RunPlan& plan) {
   alike.start = plan.start;
   // rows have room for any two rods side by side, whichever kinds the seed puts there
   if (system.start == Start::kRandom) alike.system.seed = system.seed;
-  return run_id(alike);
+  return alike;
 }
+
+/// The points whose rods are placed differently, and whether they can be. Points are told apart by a few numbers first:
+/// there may be a hundred thousand.
+class Placings {
+ public:
+  /// Of a point whose rods are placed as another's were; null if it is the first, which is then added.
+  bool* find_or_add(const RunPlan& plan) {
+    const System& system = plan.system;
+    std::size_t hash = 0;
+    for (const double part : {static_cast<double>(system.n_rods), system.box_side, system.gap, system.rod.length,
+                              static_cast<double>(system.start == Start::kRandom ? system.seed : 0)}) {
+      hash = 31 * hash + std::hash<double>()(part);
+    }
+    const RunPlan alike = placed_alike(plan);
+    const auto [begin, end] = known_.equal_range(hash);
+    for (auto entry = begin; entry != end; ++entry) {
+      if (placed_alike(*entry->second.first) == alike) return &entry->second.second;
+    }
+    last_ = &known_.emplace(hash, Placing{&plan, true})->second;
+    return nullptr;
+  }
+  /// Of the one that was added last.
+  void cannot_be_placed() { last_->second = false; }
+
+ private:
+  using Placing = std::pair<const RunPlan*, bool>;
+  std::unordered_multimap<std::size_t, Placing> known_;
+  Placing* last_ = nullptr;
+};
 
 /// The nearest larger side, in halves of a millimetre (tenths below 5 mm) and at most three tenths larger, whose box
 /// holds rods of the same area fraction in rows, however that is rounded to whole rods; none if there is none, or for
@@ -71,7 +100,7 @@ Loaded<Sweep> load_runs(std::string_view text, const std::string& file, std::spa
                         std::optional<int> replicas) {
   Loaded<Sweep> sweep = load_sweep(text, file, settings, replicas);
   if (!sweep) return sweep;
-  std::unordered_map<std::string, bool> can_be_placed;
+  Placings placings;
   std::size_t n_fine = 0;
   std::vector<Problem> problems;
   const double allowed = memory_allowed();
@@ -80,14 +109,14 @@ Loaded<Sweep> load_runs(std::string_view text, const std::string& file, std::spa
       problems.push_back(*std::move(problem));
       continue;
     }
-    const auto [known, is_new] = can_be_placed.try_emplace(placement_key(point.plan), true);
-    if (is_new) {
-      if (auto problem = placement_problem(point.plan, file, point.label)) {
-        problems.push_back(*std::move(problem));
-        known->second = false;
-      }
+    if (const bool* can_be_placed = placings.find_or_add(point.plan)) {
+      n_fine += *can_be_placed ? 1 : 0;
+    } else if (auto problem = placement_problem(point.plan, file, point.label)) {
+      problems.push_back(*std::move(problem));
+      placings.cannot_be_placed();
+    } else {
+      ++n_fine;
     }
-    n_fine += known->second ? 1 : 0;
   }
   if (!problems.empty()) {
     if (n_fine > 0) problems.back().message += fmt::format("; {} of {} points are fine", n_fine, sweep->points.size());

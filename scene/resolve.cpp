@@ -19,7 +19,9 @@ bool store_what_was_given(Resolution& scene) {
     all_ok = all_ok && (!given || given->ok);
     const Value& value = given && given->ok ? given->value : field.fallback;
     const bool has_value = !std::holds_alternative<std::monostate>(value);
-    if (field.store && has_value && scene.draft.is_on(block_around(field.path))) field.store(scene.plan, value);
+    const Field* block = block_of(field);
+    if (field.store && has_value && (block == nullptr || scene.draft.is_on(block->path)))
+      field.store(scene.plan, value);
   }
   return all_ok;
 }

@@ -108,10 +108,10 @@ void check_intervals(Resolution& scene) {
                              time_text(scene.plan.measure_time), time_text(step)));
   }
   for (const Field& field : fields()) {
-    const std::string_view block = block_around(field.path);
-    const bool is_interval = field.form == Form::kQuantity && field.dimension == Dimension::kTime && !block.empty() &&
+    const Field* block = block_of(field);
+    const bool is_interval = field.form == Form::kQuantity && field.dimension == Dimension::kTime && block != nullptr &&
                              field.path != "start.time";
-    if (!is_interval || !scene.draft.is_on(block) || !scene.draft.is_ok(field.path)) continue;
+    if (!is_interval || !scene.draft.is_on(block->path) || !scene.draft.is_ok(field.path)) continue;
     const double every = std::get<double>(field.fetch(scene.plan));
     if (every < step) {
       scene.report({field.path, "time.step", "accuracy"},

@@ -45,6 +45,10 @@ TEST(Fields, KnowTheTreeOfNames) {
   EXPECT_FALSE(is_group("contacts.rod"));
   EXPECT_EQ(block_around("measure.tilt.every"), "measure.tilt");
   EXPECT_EQ(block_around("rods.length"), "");
+  for (const Field& field : fields()) {
+    const Field* block = block_of(field);
+    EXPECT_EQ(block == nullptr ? "" : block->path, block_around(field.path)) << field.path;
+  }
   EXPECT_EQ(field_index("rods"), -1);
 }
 
