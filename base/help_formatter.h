@@ -36,7 +36,7 @@ class HelpFormatter : public CLI::Formatter {
   }
 
  private:
-  /// CLI11 adds what is checked: "INT:INT in [1 - 9]" is an INT, "TEXT:{local,slurm}" is one of two words.
+  /// CLI11 adds what is checked: "INT:INT in [1 - 9]" is a number, "TEXT:{local,slurm}" is one of two words.
   static std::string value_name(const std::string& type) {
     const std::size_t colon = type.find(':');
     const std::size_t brace = type.find('{');
@@ -47,7 +47,10 @@ class HelpFormatter : public CLI::Formatter {
     }
     const std::string name = type.substr(0, colon);
     if (name == "INT" || name == "UINT" || name == "FLOAT") return "N";
-    return name == "TEXT" ? name : type;
+    const bool is_one_name =  // ADDRESS:PORT
+        colon != std::string::npos && std::all_of(type.begin() + static_cast<std::ptrdiff_t>(colon) + 1, type.end(),
+                                                  [](char c) { return c >= 'A' && c <= 'Z'; });
+    return is_one_name ? type : name;
   }
 };
 
