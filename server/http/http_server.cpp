@@ -302,7 +302,7 @@ bool HttpServer::has_failed() const { return impl_->failed; }
 void HttpServer::close() {
   if (std::exchange(impl_->closed, true)) return;
   if (!impl_->failed) impl_->server.stop();
-  if (impl_->socket.empty()) return;
+  if (impl_->socket.empty() || !is_reachable()) return;  // what stands there now is not ours
   std::error_code ignored;
   std::filesystem::remove(impl_->socket, ignored);
 }

@@ -82,5 +82,19 @@ TEST(HttpServer, AListenerThatFailsIsSeenWhileSomebodyIsServed) {
   EXPECT_NE(ask(client).find("here"), std::string::npos);
 }
 
+// One that is closed late must not take the socket of its successor away.
+TEST(HttpServer, RemovesNoSocketButItsOwn) {
+  const ScratchFolder folder;
+  const auto socket = folder / "socket";
+  const HttpServer::Handler handler = [](const Request&) { return Reply{.body = "{\"here\": 1}"}; };
+  HttpServer former(socket, handler);
+  HttpServer next(socket, handler);
+  former.close();
+  EXPECT_TRUE(next.is_reachable());
+  EXPECT_NE(ask(connect_to(socket)).find("here"), std::string::npos);
+  next.close();
+  EXPECT_FALSE(std::filesystem::exists(socket));
+}
+
 }  // namespace
 }  // namespace shaken::server
