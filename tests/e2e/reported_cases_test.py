@@ -8,7 +8,6 @@ BIN is the folder of the programs. Each test below is one report: what was typed
 """
 import json
 import os
-import re
 import shutil
 import signal
 import subprocess
@@ -195,6 +194,13 @@ class Reported(unittest.TestCase):
         self.assertIn("time.measure", self.type("shaken validate one.json -s time.measure=1e-6", 2))
         self.assertIn("measure.order.every 100 s is longer than the run",
                       self.type("shaken validate one.json -s measure.order.every=100s"))
+
+    def test_equal_runs_have_equal_files(self):
+        self.run_one(name="a")
+        time.sleep(1.1)  # HDF5 would note the second in which a data set was made
+        self.run_one(name="b")
+        for name in ("trajectory.h5", "observables.h5"):
+            self.assertEqual((self.folder / "a" / name).read_bytes(), (self.folder / "b" / name).read_bytes(), name)
 
 
 unittest.main(verbosity=2)
