@@ -30,7 +30,7 @@ unset title
 
 bool has_errors(const Curve& curve) { return !curve.y_error.empty(); }
 
-bool any_relaxes(const Curve& curve) {
+bool any_unsteady(const Curve& curve) {
   return std::find(curve.unsteady.begin(), curve.unsteady.end(), true) != curve.unsteady.end();
 }
 
@@ -229,7 +229,7 @@ std::string plot_commands(const Figure& figure, const std::string& data_file, st
                                 lines && points ? "linespoints" : (lines ? "lines" : "points"), colour,
                                 points ? " pointtype 7 pointsize 1.2" : " linewidth 1",
                                 curve.look == Curve::Look::kDashes ? " dashtype 2" : "", title));
-    if (points && any_relaxes(curve)) {
+    if (points && any_unsteady(curve)) {
       const std::string hollow = fmt::format("{} using 1:(${}==1?$2:NaN) with points pointsize 0.9 pointtype 7", data,
                                              has_errors(curve) ? 4 : 3);
       plots.push_back(hollow + " linecolor '#ffffff' notitle");

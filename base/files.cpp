@@ -151,10 +151,6 @@ Result<std::string> read_all(int in, const std::filesystem::path& file, std::siz
   }
 }
 
-}  // namespace
-
-namespace {
-
 struct RegularFile {
   Descriptor in;
   std::int64_t size;

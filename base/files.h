@@ -59,9 +59,10 @@ Result<std::string> read_file(const std::filesystem::path& file);
 /// Empty where the file ends before that.
 Result<std::string> read_part(const std::filesystem::path& file, std::int64_t offset, std::size_t size);
 
-/// The same of what a user names, which may be a pipe; no more than `most` bytes of it.
+/// The whole of what a user names, which may be a pipe or a device; an error beyond `most` bytes.
 inline constexpr std::size_t kMostOfInput = std::size_t{16} << 20;
 Result<std::string> read_input(const std::filesystem::path& file, std::size_t most = kMostOfInput);
+/// The same of standard input.
 Result<std::string> read_standard_input(std::size_t most = kMostOfInput);
 
 /// Whether the system refused something for want of room on the disk: then its words for that are in the message.

@@ -14,7 +14,7 @@
 
 #include "base/descriptor.h"
 #include "base/failure.h"
-#include "base/program.h"
+#include "base/standard_streams.h"
 #include "sim/core/check.h"
 
 namespace shaken {

@@ -12,6 +12,7 @@
 #include <cstring>
 #include <iostream>
 
+#include "base/descriptor.h"
 #include "base/failure.h"
 
 namespace shaken {
@@ -49,6 +50,17 @@ void check_output(int code, void* program) {
 }
 
 }  // namespace
+
+void complain(std::string_view line) {
+  std::fwrite(line.data(), 1, line.size(), stderr);
+  std::fputc('\n', stderr);
+}
+
+Result<void> flush_standard_output() {
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && std::cout.good() && std::ferror(stdout) == 0) return {};
+  return system_error("cannot write to standard output");
+}
 
 void guard_standard_streams(const char* program) {
   open_closed();

@@ -8,7 +8,7 @@
 #include <iostream>
 
 #include "base/help_formatter.h"
-#include "base/program.h"
+#include "base/standard_streams.h"
 #include "base/text.h"
 #include "run/files/directory.h"
 #include "run/saved_run.h"

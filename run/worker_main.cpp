@@ -14,7 +14,6 @@
 #include "base/failure.h"
 #include "base/files.h"
 #include "base/help_formatter.h"
-#include "base/program.h"
 #include "base/progress_line.h"
 #include "base/standard_streams.h"
 #include "base/terminal.h"

@@ -207,7 +207,7 @@ std::optional<Lattice> winding_rows(int columns, int rows, const Placement& rods
 /// may lie at any site, fill no more than the box.
 template <class Visit>
 void for_each_columns(const Placement& rods, const Visit& visit) {
-  constexpr int kMostRods = 1000;  // of more, a whole number fills the side well
+  constexpr int kMostRods = 1000;  // beyond, whole rods leave little of a side over, and the search takes seconds
   if (rods.system.walls || rods.n_rods() > kMostRods) return;
   const double side = rods.system.box_side;
   double area = 0;

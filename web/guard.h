@@ -17,8 +17,7 @@ class Guard {
 
   /// Why a request is not answered, as of its head; nothing if it may pass. It must
   /// - be addressed to 127.0.0.1 and this port. A name is refused (403): a web site may make its own point here, and
-  /// for
-  ///   localhost browsers may ask [::1] first, where another user can listen;
+  ///   for localhost browsers may ask [::1] first, where another user can listen;
   /// - come from this page, or from no page, if it changes something (403);
   /// - carry "Authorization: Bearer TOKEN" (401), but for the page's own files, which anybody may read, and for what a
   ///   ticket (web/tickets.h) has been given for.

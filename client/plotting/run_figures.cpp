@@ -382,8 +382,9 @@ std::vector<Figure> sweep_figures(const std::vector<ResultRow>& points, const Sw
   }
   if (any_error) figure.y_title += " ± standard error";
   if (any_relaxes || any_unknown) {
-    figure.title = fmt::format("hollow: {}{}{}, run longer", any_relaxes ? word_of(Steadiness::kRelaxing) : "",
-                               any_relaxes && any_unknown ? " or " : "", any_unknown ? "not known to be steady" : "");
+    figure.title =
+        fmt::format("hollow: {}{}{}, run longer", any_relaxes ? word_of(Steadiness::kRelaxing) : "",
+                    any_relaxes && any_unknown ? " or " : "", any_unknown ? word_of(Steadiness::kNotKnown) : "");
   }
   return {figure};
 }

@@ -15,7 +15,6 @@
 
 #include "base/failure.h"
 #include "base/help_formatter.h"
-#include "base/program.h"
 #include "base/standard_streams.h"
 #include "run/files/directory.h"
 #include "run/files/version.h"
