@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: MIT
+"""Shaken in Python: results of runs, sweeps, the daemon, live state, and plots.
+
+    import shaken
+    run = shaken.open("1f0c59d16ab8b7d7")        # a directory, a job's id, or a file of an archive
+    run["S"].value, run["S"].error, run["S"].steady
+    lag = run["/msd/total_mm2"].axis
+    for frame in run.frames(every="0.1 s"): print(frame.time, frame.order)
+"""
+from .archive import ArchivedRun, Snapshot, archived_runs
+from .errors import ShakenError
+from .estimate import Estimate, replica_mean
+from .frames import Frame, Trajectory
+from .run import Array, DirectoryRun, Run
+from .run import open_run as open  # noqa: A001, as in numpy's and h5py's own names
+
+__version__ = "0.1.0"
+__all__ = ["ArchivedRun", "Array", "DirectoryRun", "Estimate", "Frame", "Run", "ShakenError", "Snapshot", "Trajectory",
+           "archived_runs", "open", "replica_mean"]

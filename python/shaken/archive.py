@@ -1,0 +1,282 @@
+# SPDX-License-Identifier: MIT
+"""Archives: a small file for each finished run, with all that figures and verdicts need of it.
+
+A file holds, compressed by xz, one line of JSON and then numbers, little-endian: scene, parameters, summary, the arrays
+as float32 rounded to a part in 8,000 and their errors to one in 500, and the rods of one or two instants. Files are named by their runs, so that folders are merged by copying; of one run that is there twice the longer
+one is kept. Equal runs give equal files.
+"""
+from __future__ import annotations
+
+import json
+import lzma
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Iterable, Iterator
+
+import numpy as np
+
+from .errors import ShakenError
+from .frames import Frame
+from .run import Arrays, DirectoryRun, Run
+
+SUFFIX = ".run.xz"
+#: No file is larger: what figures need least is left out until it fits.
+LARGEST = 60_000
+_FORMAT = "shaken archive 1"
+_HIGHEST = 1 << 26  # bytes that a file may grow to when it is read: nobody's disk is filled by a hostile one
+
+#: Points that are kept of curves that have more; each is the mean of those that it stands for.
+_MOST_POINTS = {"/order/order": 1050, "/order/time_s": 1050, "/order/director_rad": 1050, "/defects/n_plus": 350,
+                "/defects/n_minus": 350, "/defects/time_s": 350}
+#: Left out: what no figure shows, or what follows from others.
+_NO_FIGURE = ("/defects/tracks/speed_", "/msd/relative_across", "/msd/relative_along")
+_TRACE_TIME = 2.0    # seconds of which a trace keeps every point of n_z
+_TRACE_POINTS = 750  # points of the way of a rod
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """The rods of an instant in the plane, as an archive keeps them.
+
+    time:      [s]
+    positions: (n, 2) centres [mm], to a 65,536th of the box
+    theta:     (n,) angles of the axes in the plane [rad], in [-pi/2, pi/2), to half a degree or better
+    side:      of the box [mm]
+    """
+
+    time: float
+    positions: np.ndarray
+    theta: np.ndarray
+    side: float
+
+
+class ArchivedRun(Run):
+    """A run from an archive: as any other, but without frames. Of arrays with very many points means are kept, and of
+    the maps of `pairs` one quadrant, the mean of the four.
+
+    snapshots: of the end; and, where defects were counted, of the recorded instant with the most
+    """
+
+    def __init__(self, header: dict[str, Any], data: bytes, where: str) -> None:
+        places = {entry["name"]: entry for entry in header["arrays"]}
+
+        def read(name: str) -> tuple[np.ndarray, str]:
+            entry = places[name]
+            values = np.frombuffer(data, "<f4", entry["n"], entry["at"])
+            if name in ("/pairs/g", "/pairs/g2"):
+                return unfolded(values).ravel(), entry["unit"]
+            return values.astype(float), entry["unit"]
+
+        super().__init__(header["scene"], header["summary"], Arrays(list(places), read), header["parameters"], where)
+        self.sweeps: list[str] = header["sweeps"]
+        self._header, self._data = header, data
+
+    @property
+    def snapshots(self) -> list[Snapshot]:
+        found = []
+        for entry in self._header["snapshots"]:
+            n, at = entry["n"], entry["at"]
+            place = np.frombuffer(self._data, "<u2", 2 * n, at).reshape(2, n).T * (entry["side"] / 65536)
+            angle = np.frombuffer(self._data, "<u2" if entry["bytes"] == 2 else "u1", n, at + 4 * n)
+            theta = (angle + 0.5) * (np.pi / (65536 if entry["bytes"] == 2 else 256)) - np.pi / 2
+            found.append(Snapshot(entry["time"], place, theta, entry["side"]))
+        return found
+
+
+def folded(map_: np.ndarray) -> np.ndarray:
+    """The quadrant across >= 0, along >= 0 of a map of an odd number of bins each way: the mean of all four, which
+    differ by chance only, since rods know neither head nor tail nor hand."""
+    mean = (map_ + map_[::-1] + map_[:, ::-1] + map_[::-1, ::-1]) / 4
+    middle = len(map_) // 2
+    return mean[middle:, middle:]
+
+
+def unfolded(values: np.ndarray) -> np.ndarray:
+    """The whole map of a quadrant."""
+    half = int(round(np.sqrt(len(values))))
+    quadrant = values.reshape(half, half).astype(float)
+    lower = np.concatenate([quadrant[:0:-1], quadrant])
+    return np.concatenate([lower[:, :0:-1], lower], axis=1)
+
+
+def archive_file(run: DirectoryRun, sweeps: Iterable[str] = ()) -> bytes:
+    """The file of a run that is done. Raises ShakenError for one that was stopped or has failed."""
+    state = (run.summary.get("exit") or {}).get("state")
+    if state != "done":
+        raise ShakenError(f"run {run.id} is not done but {state}: only finished runs are archived")
+    arrays = _kept_arrays(run)
+    snapshots = _kept_snapshots(run)
+    while True:
+        packed = _packed(run, sweeps, arrays, snapshots)
+        if len(packed) <= LARGEST:
+            return packed
+        if len(snapshots) > 1:
+            snapshots = snapshots[:1]
+        elif "/pairs/g" in arrays:
+            for name in ("/pairs/g", "/pairs/g2", "/pairs/across_mm", "/pairs/along_mm"):
+                arrays.pop(name)
+        elif snapshots:
+            snapshots = []
+        else:
+            raise ShakenError(f"run {run.id} does not fit into {LARGEST} bytes: its arrays are too long")
+
+
+def _packed(run: Run, sweeps: Iterable[str], arrays: dict[str, tuple[np.ndarray, str]],
+            snapshots: list[tuple[float, np.ndarray, np.ndarray, float, int]]) -> bytes:
+    data = bytearray()
+    header: dict[str, Any] = {"format": _FORMAT, "sweeps": sorted(set(sweeps)), "parameters": run.parameters,
+                              "scene": run.scene, "summary": _kept_summary(run.summary), "arrays": [], "snapshots": []}
+    for time, place, angle, side, width in snapshots:
+        header["snapshots"].append({"time": time, "side": side, "n": len(angle), "bytes": width, "at": len(data)})
+        data += place.T.astype("<u2").tobytes() + angle.astype("<u2" if width == 2 else "u1").tobytes()
+    data += bytes(-len(data) % 4)
+    for name, (values, unit) in arrays.items():
+        header["arrays"].append({"name": name, "unit": unit, "n": int(values.size), "at": len(data)})
+        data += _rounded(values, 8 if "_sem" in name else 10 if name in _MOST_POINTS else 12).tobytes()
+    text = json.dumps(header, separators=(",", ":"), ensure_ascii=False).encode()
+    return lzma.compress(text + b"\n" + bytes(data), preset=9 | lzma.PRESET_EXTREME)
+
+
+def _rounded(values: np.ndarray, bits: int) -> np.ndarray:
+    """float32 with so many bits of the mantissa, rounded to nearest: what is left out is noise that does not compress.
+    """
+    dropped = 23 - bits
+    words = np.ascontiguousarray(values, dtype="<f4").view("<u4").copy()
+    finite = np.isfinite(values)
+    words[finite] = (words[finite] + (1 << (dropped - 1))) & ~np.uint32((1 << dropped) - 1)
+    return words.view("<f4")
+
+
+def _kept_summary(summary: dict[str, Any]) -> dict[str, Any]:
+    """The summary without the reasons of each null, and with six digits of each number."""
+    def short(value: Any) -> Any:
+        if isinstance(value, dict):
+            return {key: short(inner) for key, inner in value.items()}
+        if isinstance(value, list):
+            return [short(inner) for inner in value]
+        return float(f"{value:.6g}") if isinstance(value, float) else value
+
+    return short({key: value for key, value in summary.items() if key not in ("why_null", "files")})
+
+
+def _kept_arrays(run: Run) -> dict[str, tuple[np.ndarray, str]]:
+    kept: dict[str, tuple[np.ndarray, str]] = {}
+    for name, array in run.arrays.items():
+        values = np.asarray(array)
+        if name.startswith("/rods/trace/"):
+            values = _trace(name, values, np.asarray(run.arrays["/rods/trace/time_s"]))
+            if values is None:
+                continue
+        elif name in ("/pairs/g", "/pairs/g2"):
+            values = folded(values)
+        elif name.startswith(_NO_FIGURE):
+            continue
+        elif name == "/order/director_rad":
+            values = _thinned(np.unwrap(2 * values) / 2, _MOST_POINTS[name])
+        elif name in _MOST_POINTS:
+            values = _thinned(values, _MOST_POINTS[name])
+        kept[name] = (values.ravel(), array.unit)
+    return kept
+
+
+def _thinned(values: np.ndarray, most: int) -> np.ndarray:
+    each = -(-len(values) // most)
+    n = len(values) // each * each
+    return values[:n].reshape(-1, each).mean(axis=1) if each > 1 else values
+
+
+def _trace(name: str, values: np.ndarray, time: np.ndarray) -> np.ndarray | None:
+    """What is kept of the traces of single rods: n_z of the first for two seconds, the ways of all."""
+    if name.endswith("/theta_rad"):
+        return None
+    early = int(np.searchsorted(time, time[0] + _TRACE_TIME)) if len(time) else 0
+    if name.endswith("/n_z"):
+        return values[:early] if name == "/rods/trace/0/n_z" else None
+    if name.endswith("time_s"):
+        return values[:early]
+    each = max(1, -(-len(values) // _TRACE_POINTS))
+    return values[::each]
+
+
+def _kept_snapshots(run: DirectoryRun) -> list[tuple[float, np.ndarray, np.ndarray, float, int]]:
+    if not (run.directory / "trajectory.h5").exists():
+        return []
+    trajectory = run.trajectory
+    wanted = [len(trajectory) - 1]
+    if "/defects/n_plus" in run:
+        count = run["/defects/n_plus"]
+        at = np.interp(trajectory.times, count.axis, count)
+        at[trajectory.times < float(run.summary.get("t_steady_s") or 0)] = -1
+        wanted.append(int(np.argmax(at)))
+    frames = [trajectory[k] for k in dict.fromkeys(wanted)]
+    return [_small(frame) for frame in frames]
+
+
+def _small(frame: Frame) -> tuple[float, np.ndarray, np.ndarray, float, int]:
+    """Time, places and angles as whole numbers, side of the box, bytes of an angle. Rods go in the order of their
+    places, which compresses better than that of their numbers."""
+    first = frame.species == 0
+    side = float(frame.box[0])
+    place = np.minimum((frame.positions[first, :2] / side * 65536).astype(int), 65535)
+    turn = (frame.theta[first] / np.pi + 0.5) % 1.0
+    width = 2 if len(place) < 1500 else 1
+    angle = np.minimum((turn * 256**width).astype(int), 256**width - 1)
+    order = np.lexsort((place[:, 1], place[:, 0]))
+    return frame.time, place[order], angle[order], side, width
+
+
+def read_archived(path: str | Path) -> ArchivedRun:
+    """The run of a file of an archive. Raises ShakenError where it is damaged or no such file."""
+    path = Path(path)
+    try:
+        decoder = lzma.LZMADecompressor(memlimit=1 << 28)
+        data = decoder.decompress(path.read_bytes(), _HIGHEST)
+        if not decoder.eof:
+            raise ValueError("it is cut off, or larger than any")
+        text, _, numbers = data.partition(b"\n")
+        header = json.loads(text)
+        if header.get("format") != _FORMAT:
+            raise ValueError(f"it is of another format: {header.get('format')}")
+    except (OSError, lzma.LZMAError, ValueError, AttributeError) as error:
+        raise ShakenError(f"{path} is no file of an archive: {error}") from None
+    return ArchivedRun(header, numbers, str(path))
+
+
+def add_run(directory: str | Path, folder: str | Path, parameters: dict[str, Any] | None = None,
+            sweeps: Iterable[str] = ()) -> Path | None:
+    """Archives the run of `directory` in `folder`: ID.run.xz. None, and nothing is written, if it is there as long or
+    longer. Raises ShakenError for a run that is not done."""
+    run = DirectoryRun(directory, parameters)
+    path = Path(folder) / (run.id + SUFFIX)
+    if path.exists() and read_archived(path).summary["sim_seconds"] >= run.summary["sim_seconds"]:
+        return None
+    packed = archive_file(run, sweeps)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    beside = path.with_suffix(".tmp")
+    beside.write_bytes(packed)
+    os.replace(beside, path)
+    return path
+
+
+def merge(source: str | Path, into: str | Path) -> list[Path]:
+    """Copies the files of one archive into another; of a run that both have the longer one stays. Returns what was
+    written."""
+    written = []
+    for path in sorted(Path(source).glob("*" + SUFFIX)):
+        target = Path(into) / path.name
+        if target.exists() and (read_archived(target).summary["sim_seconds"] >=
+                                read_archived(path).summary["sim_seconds"]):
+            continue
+        read_archived(path)  # nothing damaged is copied
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.with_suffix(".tmp").write_bytes(path.read_bytes())
+        os.replace(target.with_suffix(".tmp"), target)
+        written.append(target)
+    return written
+
+
+def archived_runs(folder: str | Path) -> Iterator[ArchivedRun]:
+    """The runs of an archive, in the order of their ids."""
+    for path in sorted(Path(folder).glob("*" + SUFFIX)):
+        yield read_archived(path)

@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: MIT
+"""A measured number with its standard error, and how such numbers are put together."""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Iterable, Sequence
+
+NAN = float("nan")
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A number and what is known of it.
+
+    value:       NaN where it could not be measured
+    error:       its standard error; NaN where it is not known
+    steady:      whether it is the mean of a steady state; None where that cannot be told, or where it is no mean in time
+    n_eff:       the number of independent samples behind the error; NaN where it is not known
+    drift:       its mean over the later half of the time less that over the earlier half, with `drift_error`
+    unit:        "mm2 s-1"; "1" for a plain number
+    reason:      why there is no value, where there is none
+    """
+
+    value: float = NAN
+    error: float = NAN
+    steady: bool | None = None
+    n_eff: float = NAN
+    drift: float = NAN
+    drift_error: float = NAN
+    unit: str = "1"
+    reason: str = ""
+
+    @property
+    def is_known(self) -> bool:
+        """Whether there is a value."""
+        return math.isfinite(self.value)
+
+    def __float__(self) -> float:
+        return self.value
+
+    def __truediv__(self, divisor: float) -> "Estimate":
+        return self * (1 / divisor)
+
+    def __mul__(self, factor: float) -> "Estimate":
+        return replace(self, value=self.value * factor, error=self.error * abs(factor), drift=self.drift * factor,
+                       drift_error=self.drift_error * abs(factor))
+
+    __rmul__ = __mul__
+
+    def __str__(self) -> str:
+        if not self.is_known:
+            return f"not known ({self.reason})" if self.reason else "not known"
+        mark = {True: "", False: "~", None: ""}[self.steady]
+        unit = "" if self.unit == "1" else f" {self.unit}"
+        if not math.isfinite(self.error):
+            return f"{mark}{self.value:.4g} ± ?{unit}"
+        digits = decimals(self.error)
+        return f"{mark}{self.value:.{digits}f} ± {self.error:.{digits}f}{unit}"
+
+
+def exactly(value: float) -> Estimate:
+    """A number that was not measured but given: without an error, and the same for ever."""
+    return Estimate(value=value, error=0.0, steady=True, drift=0.0, drift_error=0.0)
+
+
+def decimals(error: float) -> int:
+    """Decimals that show an error with two figures where it begins with a 1, else with one."""
+    if not math.isfinite(error) or error <= 0:
+        return 3
+    exponent = math.floor(math.log10(error))
+    return max(0, -exponent + (1 if error / 10.0**exponent < 2 else 0))
+
+
+def student_factor(n: int) -> float:
+    """The factor on the standard error of a mean of n >= 2 values by which +-1 of it holds 68.3 %, as for very many.
+
+    It is the quantile of Student's t with n - 1 degrees of freedom by its series in 1 / (n - 1): Abramowitz & Stegun,
+    *Handbook of Mathematical Functions* (1964), eq. 26.7.5, at z = 1 (1.3 % low for n = 2, else within 0.1 %).
+    """
+    x = 1 / (n - 1)
+    return 1 + x * (0.5 + x * (0.25 + x * 0.0625))
+
+
+def mean_of_samples(values: Sequence[float]) -> tuple[float, float]:
+    """Mean of independent samples, and its standard error from their scatter (NaN for fewer than two)."""
+    n = len(values)
+    mean = math.fsum(values) / n
+    if n < 2:
+        return mean, NAN
+    return mean, math.sqrt(math.fsum((value - mean) ** 2 for value in values) / (n - 1) / n)
+
+
+def replica_mean(estimates: Iterable[Estimate]) -> Estimate:
+    """Mean over the replicas of one state point; each run counts the same. Those without a value are left out.
+
+    Its standard error is
+    - where all own errors are known, the larger one of what they give, sqrt(sum error^2) / n, and of the scatter between
+      the runs: two runs that happen to agree are no better than their own errors (the scale factor, never below 1, of
+      the Particle Data Group, *Review of Particle Physics* (2022), section 5.2.2);
+    - otherwise the scatter between the runs, widened by Student's t so that it covers 68 % for few runs too, but never
+      less than the known errors give;
+    - of a single run its own.
+
+    The mean is steady if all are, and is known to relax if one of them does. Its drift is the mean of their drifts.
+    """
+    everything = list(estimates)
+    known = [estimate for estimate in everything if estimate.is_known]
+    if not known:
+        return everything[0] if everything else Estimate()
+    n = len(known)
+    errors = [estimate.error for estimate in known if math.isfinite(estimate.error)]
+    within = math.sqrt(math.fsum(error**2 for error in errors)) / n
+    value, scatter = mean_of_samples([estimate.value for estimate in known])
+    if n > 1:
+        error = max(within, scatter if len(errors) == n else student_factor(n) * scatter)
+    else:
+        error = within if errors else NAN
+    steady: bool | None = True
+    if any(estimate.steady is False for estimate in known):
+        steady = False
+    elif any(estimate.steady is None for estimate in known):
+        steady = None
+    drifts = [e for e in known if math.isfinite(e.drift)]
+    drift = math.fsum(e.drift for e in drifts) / n if len(drifts) == n else NAN
+    drift_error = math.sqrt(math.fsum(e.drift_error**2 for e in drifts)) / n if len(drifts) == n else NAN
+    n_eff = math.fsum(e.n_eff for e in known if math.isfinite(e.n_eff)) or NAN
+    return Estimate(value, error, steady, n_eff, drift, drift_error, known[0].unit)
+
+
+def derived(value: float, terms: Iterable[tuple[float, Estimate]], unit: str = "1") -> Estimate:
+    """A number made of independent others, to first order: `terms` are (its derivative by one of them, that one).
+
+    It is as steady as all of them, with their errors and drifts.
+    """
+    parts = list(terms)
+    error = math.sqrt(math.fsum((slope * e.error) ** 2 for slope, e in parts))
+    drift = math.fsum(slope * e.drift for slope, e in parts)
+    drift_error = math.sqrt(math.fsum((slope * e.drift_error) ** 2 for slope, e in parts))
+    steady: bool | None = True
+    if any(e.steady is False for _, e in parts):
+        steady = False
+    elif any(e.steady is None for _, e in parts):
+        steady = None
+    return Estimate(value, error, steady, NAN, drift, drift_error, unit)

@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: MIT
+"""Recorded frames, and what other packages take them as."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Iterator
+
+import numpy as np
+
+from .errors import ShakenError
+from .times import seconds
+
+
+@dataclass(frozen=True)
+class Frame:
+    """The rods of one instant.
+
+    time:       [s]
+    tick:       time over the time step
+    positions:  (n, 3) centres of mass [mm]; x and y are wrapped into the box, z is the height above the lowest position
+                of the base
+    directors:  (n, 3) unit vectors along the rods, from tail to head
+    velocities: (n, 3) [mm/s]
+    images:     (n, 3) crossings of the border of the box: positions + box * images is a path without jumps
+    species:    (n,) 0 for `rods`, 1 and 2 for `rods_2` and `rods_3` as far as the scene has them
+    box:        (3,) sides of the box [mm]: L, L, gap between the plates
+    """
+
+    time: float
+    tick: int
+    positions: np.ndarray
+    directors: np.ndarray
+    velocities: np.ndarray
+    images: np.ndarray
+    species: np.ndarray
+    box: np.ndarray
+
+    @property
+    def theta(self) -> np.ndarray:
+        """(n,) angle of each rod in the plane [rad], in (-pi, pi]."""
+        return np.arctan2(self.directors[:, 1], self.directors[:, 0])
+
+    @property
+    def order(self) -> float:
+        """S = |<exp 2i theta>| of the first species, in the plane."""
+        return float(abs(np.exp(2j * self.theta[self.species == 0]).mean()))
+
+    @property
+    def director_angle(self) -> float:
+        """The angle of the nematic director [rad], in (-pi/2, pi/2]: the mean axis of the first species."""
+        return float(np.angle(np.exp(2j * self.theta[self.species == 0]).mean()) / 2)
+
+    def to_freud(self) -> tuple[Any, np.ndarray, np.ndarray]:
+        """What freud takes: (box, points, orientations).
+
+        box:          freud.box.Box of the plane, L x L, periodic; a tuple (Lx, Ly) where freud is not installed
+        points:       (n, 3) float32, counted from the middle of the box, with z = 0, as freud has them in two dimensions
+        orientations: (n, 4) float32 unit quaternions (w, x, y, z) that turn the x axis into the rod's direction in the
+                      plane, as freud's two-dimensional computations have them
+        """
+        points = self.positions.astype(np.float32)
+        points[:, :2] -= (self.box[:2] / 2).astype(np.float32)
+        points[:, 2] = 0
+        half = self.theta / 2
+        orientations = np.zeros((len(half), 4), dtype=np.float32)
+        orientations[:, 0], orientations[:, 3] = np.cos(half), np.sin(half)
+        try:
+            import freud
+            box = freud.box.Box.from_box([float(self.box[0]), float(self.box[1])])
+        except ImportError:
+            box = (float(self.box[0]), float(self.box[1]))
+        return box, points, orientations
+
+
+def directors_of(quaternions: np.ndarray) -> np.ndarray:
+    """(..., 3) axes of rods from their quaternions (..., 4), (w, x, y, z), which turn the z axis into them."""
+    w, x, y, z = np.moveaxis(np.asarray(quaternions, dtype=float), -1, 0)
+    return np.stack([2 * (x * z + w * y), 2 * (y * z - w * x), w**2 - x**2 - y**2 + z**2], axis=-1)
+
+
+class Trajectory:
+    """The frames of a trajectory.h5, each read from the file when it is asked for.
+
+    times: (frames,) [s]
+    """
+
+    def __init__(self, path: str | Path) -> None:
+        import h5py
+        self.path = Path(path)
+        try:
+            self._file = h5py.File(self.path, "r")
+            self._rods = self._file["particles/trajectory"]
+            self.times = np.asarray(self._rods["position/time"][()])
+        except (OSError, KeyError) as error:
+            raise ShakenError(f"{self.path}: {error}") from None
+        n = self._rods["position/value"].shape[1]
+        self.species = np.asarray(self._rods["species"][()]) if "species" in self._rods else np.zeros(n, np.uint8)
+
+    def __len__(self) -> int:
+        return len(self.times)
+
+    def __getitem__(self, k: int) -> Frame:
+        k = range(len(self))[k]
+        rods = self._rods
+        return Frame(float(self.times[k]), int(rods["position/step"][k]), rods["position/value"][k].astype(float),
+                     directors_of(rods["orientation/value"][k]), rods["velocity/value"][k].astype(float),
+                     rods["image/value"][k], self.species, rods["box/edges/value"][k].diagonal().copy())
+
+    def frames(self, every: float | str | None = None) -> Iterator[Frame]:
+        """The frames one by one. With `every` [s], those nearest to its multiples, each once."""
+        if every is None:
+            yield from (self[k] for k in range(len(self)))
+            return
+        step = seconds(every)
+        if step <= 0:
+            raise ShakenError(f"`every` must be above 0, not {every}")
+        due = self.times[0] if len(self) else 0.0
+        for k, time in enumerate(self.times):
+            if time >= due - 1e-9 * step:
+                yield self[k]
+                due += step * max(1, np.floor((time - due) / step + 1 + 1e-9))
+
+    def to_mdanalysis(self) -> Any:
+        """An MDAnalysis Universe with an atom for each rod at its centre of mass, in MDAnalysis' units (Angstrom, ps):
+        `universe.atoms.positions * 1e-7` is in mm. It needs the package MDAnalysis (Debian: python3-mdanalysis)."""
+        import MDAnalysis
+        from MDAnalysis.coordinates.H5MD import H5MDReader
+        MDAnalysis.units.conversion_factor["length"]["mm"] = 1e-7  # mm per Angstrom
+        MDAnalysis.units.conversion_factor["speed"]["mm/s"] = 1e5  # mm/s per Angstrom/ps
+        H5MDReader._unit_translation["length"]["mm"] = "mm"
+        H5MDReader._unit_translation["velocity"]["mm s-1"] = "mm/s"
+        reader = H5MDReader(str(self.path))
+        universe = MDAnalysis.Universe.empty(reader.n_atoms, trajectory=True, velocities=True)
+        universe.trajectory = reader
+        return universe

@@ -1,0 +1,283 @@
+# SPDX-License-Identifier: MIT
+"""A run that has been done: its scene, its numbers with their errors, its curves, and its recorded frames."""
+from __future__ import annotations
+
+import functools
+import json
+import math
+from pathlib import Path
+from typing import Any, Iterator, Mapping
+
+import numpy as np
+
+from .errors import ShakenError
+from .estimate import NAN, Estimate
+from .frames import Frame, Trajectory
+from .units import split_unit, unit_of
+
+#: The array that the others of its group are measured at.
+_AXES = {
+    "/order": "/order/time_s", "/order/pdf": "/order/pdf/order", "/angles": "/angles/theta_rad", "/tilt": "/tilt/n_z",
+    "/tilt/folded": "/tilt/folded/n_z", "/defects": "/defects/time_s", "/defects/tracks": "/defects/tracks/span_s",
+    "/defects/tracks/lasting": "/defects/tracks/span_s", "/g2": "/g2/r_mm", "/msd": "/msd/lag_s",
+    "/rotation": "/rotation/lag_s", "/velocity": "/velocity/lag_s", "/fluctuations": "/fluctuations/mean_n",
+    "/pairs/cut": "/pairs/cut/r_mm", "/layers": "/layers/q_per_mm", "/structure": "/structure/q_per_mm",
+}
+_MAPS = ("/pairs/g", "/pairs/g2")
+
+
+class Array(np.ndarray):
+    """Numbers of an observable: a numpy array that knows what it is.
+
+    name:   its path in observables.h5, "/msd/total_mm2"
+    unit:   "mm2"; "1" for a plain number
+    axis:   the Array that it is measured at (lags, distances, times); None where it has none, a pair (across, along) for
+            the maps of `pairs`, whose shape is (bins, bins): map[across, along]
+    error:  the Array of its standard errors, or None
+    """
+
+    name: str
+    unit: str
+    axis: "Array | tuple[Array, Array] | None"
+    error: "Array | None"
+
+    def __new__(cls, values: Any, name: str = "", unit: str | None = None) -> "Array":
+        array = np.asarray(values, dtype=float).view(cls)
+        array.name, array.unit = name, unit_of(name) if unit is None else unit
+        array.axis = array.error = None
+        return array
+
+    def __array_finalize__(self, other: Any) -> None:
+        for attribute, default in (("name", ""), ("unit", "1"), ("axis", None), ("error", None)):
+            setattr(self, attribute, default)
+
+
+def error_name(name: str) -> str:
+    """The name of the standard errors of an array: "/msd/total_sem_mm2" of "/msd/total_mm2"."""
+    group, _, last = name.rpartition("/")
+    stem, unit = split_unit(last)
+    return f"{group}/{stem}_sem" + (f"_{unit}" if unit else "")
+
+
+class Arrays(Mapping[str, Array]):
+    """The curves and maps of a run by their names, "/g2/g2" or "g2/g2"; each is read when it is first asked for."""
+
+    def __init__(self, names: list[str], read: Any) -> None:
+        self._names = {name: None for name in names}
+        self._read = read
+        self._known: dict[str, Array] = {}
+
+    def __getitem__(self, name: str) -> Array:
+        path = name if name.startswith("/") else "/" + name
+        if path not in self._names:
+            raise KeyError(f"{path} was not measured; the run has {', '.join(self._names) or 'no arrays'}")
+        return self._fetch(path)
+
+    def _fetch(self, path: str) -> Array:
+        if path not in self._known:
+            self._known[path] = self._fetched(path)
+        return self._known[path]
+
+    def _fetched(self, path: str) -> Array:
+        values, unit = self._read(path)
+        array = Array(values, path, unit)
+        if path in _MAPS:
+            across, along = self._fetch("/pairs/across_mm"), self._fetch("/pairs/along_mm")
+            array = Array(np.asarray(array).reshape(len(across), len(along)), path, unit)
+            array.axis = (across, along)
+        else:
+            group = path.rpartition("/")[0]
+            axis = _AXES.get(group, "/rods/trace/time_s" if group.startswith("/rods/trace/") else "")
+            if axis in self._names and axis != path:
+                array.axis = self._fetch(axis)
+        if error_name(path) in self._names:
+            array.error = self._fetch(error_name(path))
+        return array
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+
+class Numbers(Mapping[str, Estimate]):
+    """The numbers of a run by their names, as in summary.json: "S" (the mean order), "diffusion_mm2_s", ..."""
+
+    def __init__(self, numbers: dict[str, Estimate]) -> None:
+        self._numbers = numbers
+
+    def __getitem__(self, name: str) -> Estimate:
+        if name in self._numbers:
+            return self._numbers[name]
+        raise KeyError(f"'{name}' was not measured; the run has {', '.join(self._numbers) or 'no numbers'}")
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._numbers)
+
+    def __len__(self) -> int:
+        return len(self._numbers)
+
+    def __repr__(self) -> str:
+        return "\n".join(f"{name} = {estimate}" for name, estimate in self._numbers.items())
+
+
+def numbers_of(summary: Mapping[str, Any]) -> Numbers:
+    """The numbers in a summary.json."""
+    numbers: dict[str, Estimate] = {}
+    order = summary.get("order")
+    if order:
+        numbers["S"] = _estimate({**order, "value": order.get("mean")}, "1")
+        numbers["S_std"] = Estimate(_float(order.get("std")), steady=order.get("steady"))
+    for name, measured in (summary.get("measured") or {}).items():
+        numbers[name] = _estimate(measured, unit_of(name))
+    return Numbers(numbers)
+
+
+def _float(value: Any) -> float:
+    return NAN if value is None else float(value)
+
+
+def _estimate(of: Mapping[str, Any], unit: str) -> Estimate:
+    drift = of.get("drift") or {}
+    return Estimate(_float(of.get("value")), _float(of.get("sem")), of.get("steady"), _float(of.get("n_effective")),
+                    _float(drift.get("value")), _float(drift.get("sem")), unit, of.get("reason") or "")
+
+
+class Run:
+    """A run, whether in a directory of its own or in an archive.
+
+    id:          what names it, 16 hexadecimal digits
+    scene:       the resolved scene, as scene.json has it (docs/scene.md)
+    parameters:  the swept keys as they were asked for, {"rods.area_fraction": 0.75}, where that is known
+    summary:     summary.json, as it is (docs/files.md)
+    numbers:     name -> Estimate, `run.numbers["S"].value`; `run["S"]` is the same
+    arrays:      name -> Array, `run.arrays["/msd/total_mm2"]`; `run["/msd/total_mm2"]` is the same
+    """
+
+    def __init__(self, scene: dict[str, Any], summary: dict[str, Any], arrays: Arrays,
+                 parameters: Mapping[str, Any] | None = None, where: str = "") -> None:
+        self.scene, self.summary, self.arrays = scene, summary, arrays
+        self.parameters = dict(parameters or {})
+        self.where = where
+        self.numbers = numbers_of(summary)
+
+    @property
+    def id(self) -> str:
+        return str(self.summary.get("run_id") or "")
+
+    @property
+    def steady(self) -> bool | None:
+        """Whether the averages are of a steady state; None where that cannot be told."""
+        return self.summary.get("steady")
+
+    def key(self, path: str) -> Any:
+        """A key of the scene, "rods.length", in its default unit: as it was asked for if it was swept, else as resolved.
+        None where the scene does not have it."""
+        if path in self.parameters:
+            value = self.parameters[path]
+            if not isinstance(value, str):
+                return value
+        value = self.scene
+        for part in path.split("."):
+            if not isinstance(value, dict) or part not in value:
+                return None
+            value = value[part]
+        return value
+
+    def __getitem__(self, name: str) -> Any:
+        return self.arrays[name] if "/" in name else self.numbers[name]
+
+    def __contains__(self, name: str) -> bool:
+        return ("/" + name.lstrip("/") in self.arrays) if "/" in name else name in self.numbers
+
+    def frames(self, every: float | str | None = None) -> Iterator[Frame]:
+        """The recorded frames one by one, `every` that much time [s] ("0.1 s"); all if left out."""
+        return self.trajectory.frames(every)
+
+    @property
+    def trajectory(self) -> Trajectory:
+        raise ShakenError(f"run {self.id} has no frames: it comes from an archive, which keeps the last state only")
+
+    def __repr__(self) -> str:
+        time = self.summary.get("sim_seconds")
+        return f"<run {self.id[:8]}: {self.summary.get('n_rods')} rods, {time:g} s, S = {self.numbers.get('S', '-')}>"
+
+
+class DirectoryRun(Run):
+    """A run in its directory. Nothing but scene.json and summary.json is read until it is asked for."""
+
+    def __init__(self, directory: str | Path, parameters: Mapping[str, Any] | None = None) -> None:
+        self.directory = Path(directory)
+        try:
+            scene = json.loads((self.directory / "scene.json").read_text())
+            summary = json.loads((self.directory / "summary.json").read_text())
+        except FileNotFoundError as error:
+            missing = Path(error.filename).name
+            raise ShakenError(f"{self.directory} has no {missing}: " + (
+                "the run has not ended yet (`shaken status` says how far it is)" if missing == "summary.json" else
+                "it is no directory of a run")) from None
+        except (OSError, ValueError) as error:
+            raise ShakenError(f"{self.directory}: {error}") from None
+        super().__init__(scene, summary, Arrays(self._names(), self._read), parameters, str(self.directory))
+
+    def _file(self) -> Any:
+        import h5py  # where only numbers are asked for, it is not needed
+        try:
+            return h5py.File(self.directory / "observables.h5", "r")
+        except OSError as error:
+            raise ShakenError(f"{self.directory / 'observables.h5'}: {error}") from None
+
+    def _names(self) -> list[str]:
+        if not (self.directory / "observables.h5").exists():
+            return []
+        import h5py
+        names: list[str] = []
+        with self._file() as file:
+            file.visititems(lambda name, item: names.append("/" + name) if isinstance(item, h5py.Dataset) else None)
+        return names
+
+    def _read(self, name: str) -> tuple[np.ndarray, str]:
+        with self._file() as file:
+            data = file[name]
+            unit = data.attrs.get("unit", "1")
+            return data[()], unit.decode() if isinstance(unit, bytes) else str(unit)
+
+    @functools.cached_property
+    def trajectory(self) -> Trajectory:
+        path = self.directory / "trajectory.h5"
+        if not path.exists():
+            raise ShakenError(f"{self.directory} has no trajectory.h5: " + (
+                "its frames are still being recorded" if (self.directory / "trajectory.part").exists() else
+                "the scene has no `trajectory`, which records frames"))
+        return Trajectory(path)
+
+
+def open_run(run: str | Path, root: str | Path | None = None) -> Run:
+    """The run of a directory, of a file of an archive, or of a job's id (or a prefix of it, four digits at least) among
+    the runs of `root` ($SHAKEN_ROOT, else ~/.local/share/shaken, as of the daemon).
+
+    Raises ShakenError where there is no such run, or where it has not ended.
+    """
+    path = Path(run)
+    if path.is_dir():
+        return DirectoryRun(path)
+    if path.is_file():
+        from .archive import read_archived
+        return read_archived(path)
+    from .root import root_folder
+    runs = root_folder(root) / "runs"
+    name = str(run)
+    found = sorted(runs.glob(name + "*")) if len(name) >= 4 and math.isfinite(_hex(name)) else []
+    if len(found) == 1:
+        return DirectoryRun(found[0])
+    if found:
+        raise ShakenError(f"'{name}' fits {len(found)} runs in {runs}: write more digits")
+    raise ShakenError(f"there is no run '{name}': neither a directory, nor a file of an archive, nor a job in {runs}")
+
+
+def _hex(text: str) -> float:
+    try:
+        return int(text, 16)
+    except ValueError:
+        return NAN
