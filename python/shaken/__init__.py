@@ -8,12 +8,14 @@
     for frame in run.frames(every="0.1 s"): print(frame.time, frame.order)
 """
 from .archive import ArchivedRun, Snapshot, archived_runs
+from .daemon import Daemon
 from .errors import ShakenError
 from .estimate import Estimate, replica_mean
 from .frames import Frame, Trajectory
 from .run import Array, DirectoryRun, Run
 from .run import open_run as open  # noqa: A001, as in numpy's and h5py's own names
+from .sweep import Point, Sweep, results
 
 __version__ = "0.1.0"
-__all__ = ["ArchivedRun", "Array", "DirectoryRun", "Estimate", "Frame", "Run", "ShakenError", "Snapshot", "Trajectory",
-           "archived_runs", "open", "replica_mean"]
+__all__ = ["ArchivedRun", "Array", "Daemon", "DirectoryRun", "Estimate", "Frame", "Point", "Run", "ShakenError", "Snapshot",
+           "Sweep", "Trajectory", "archived_runs", "open", "replica_mean", "results"]

@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: MIT
+"""The daemon: what `shaken submit`, `wait` and `cancel` do, from Python."""
+from __future__ import annotations
+
+import http.client
+import json
+import socket
+import sys
+import time
+import urllib.parse
+from pathlib import Path
+from typing import Any, Callable, Mapping
+
+from .errors import ShakenError
+from .root import root_folder
+from .times import seconds
+
+#: States in which a job has come to an end.
+ENDED = ("done", "failed", "timed out", "cancelled", "held")
+
+
+class _Connection(http.client.HTTPConnection):
+    """HTTP on a Unix socket."""
+
+    def __init__(self, path: Path, timeout: float) -> None:
+        super().__init__("shaken", timeout=timeout)
+        self._path = path
+
+    def connect(self) -> None:
+        self.sock = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+        self.sock.settimeout(self.timeout)
+        self.sock.connect(str(self._path))
+
+
+class Daemon:
+    """A running shakend, asked over its socket (docs/protocol.md).
+
+    `root` is its folder: $SHAKEN_ROOT, else ~/.local/share/shaken, if left out. All methods raise ShakenError with the
+    daemon's own words where it refuses, and where none answers.
+    """
+
+    def __init__(self, root: str | Path | None = None) -> None:
+        self.root = root_folder(root)
+
+    def ask(self, method: str, path: str, body: Mapping[str, Any] | None = None) -> dict[str, Any]:
+        """The answer to a request of docs/protocol.md: `ask("GET", "/v1/status")`."""
+        connection = _Connection(self.root / "shakend.sock", timeout=130)
+        try:
+            text = None if body is None else json.dumps(body)
+            connection.request(method, path, text, {} if text is None else {"Content-Type": "application/json"})
+            response = connection.getresponse()
+            answer = json.loads(response.read())
+        except (FileNotFoundError, ConnectionRefusedError):
+            raise ShakenError(f"no daemon runs at {self.root}: start one with `shakend --root {self.root}`") from None
+        except (OSError, ValueError, http.client.HTTPException) as error:
+            raise ShakenError(f"the daemon at {self.root} gave no answer: {error}") from None
+        finally:
+            connection.close()
+        if response.status >= 400:
+            problems = [problem.get("message", "") for problem in answer.get("problems", [])]
+            raise ShakenError("\n".join([answer.get("error", f"HTTP {response.status}"), *problems]))
+        return answer
+
+    def status(self) -> dict[str, Any]:
+        """STATUS of docs/protocol.md: version, slots, counts of jobs."""
+        return self.ask("GET", "/v1/status")
+
+    def sweeps(self) -> list[dict[str, Any]]:
+        """All sweeps, the newest last."""
+        return self.ask("GET", "/v1/sweeps")["sweeps"]
+
+    def jobs(self, sweep: str) -> list[dict[str, Any]]:
+        """The jobs of a sweep, by its id ("s1") or its name, in the order of its points."""
+        return self.ask("GET", "/v1/sweeps/" + urllib.parse.quote(sweep, safe=""))["jobs"]
+
+    def rows(self, sweep: str) -> list[dict[str, Any]]:
+        """The jobs of a sweep with the summaries of those that have ended (ROW of docs/protocol.md)."""
+        return self.ask("GET", "/v1/results?sweep=" + urllib.parse.quote(sweep, safe=""))["rows"]
+
+    def submit(self, scene: Mapping[str, Any] | str, *, replicas: int | None = None, name: str | None = None,
+               settings: Mapping[str, Any] | None = None, priority: int = 0, **terms: Any) -> str:
+        """Queues a scene or a sweep, a dict as docs/scene.md has it or the text of a file, and returns the id of its
+        sweep. Points that are done already are not done again.
+
+        settings: keys that are set, or swept by several values: {"rods.length": [2.5, 4.5]}
+        terms:    soft_limit_s, time_limit_s, at_most, after, stop_if, as in SUBMISSION of docs/protocol.md
+
+        Raises ShakenError with all problems of the scene; nothing is queued then.
+        """
+        request: dict[str, Any] = {"text": scene if isinstance(scene, str) else json.dumps(scene),
+                                   "priority": priority, **terms}
+        if settings:
+            request["settings"] = [f"{path}={_setting(value)}" for path, value in settings.items()]
+        for key, value in (("replicas", replicas), ("name", name)):
+            if value is not None:
+                request[key] = value
+        return self.ask("POST", "/v1/sweeps", request)["sweep"]["id"]
+
+    def wait(self, sweep: str, *, timeout: float | str | None = None,
+             progress: Callable[[dict[str, Any]], None] | bool = True, every: float = 1.0) -> dict[str, int]:
+        """Waits until all jobs of a sweep have ended, and returns how many are in which state.
+
+        timeout:  [s] or "10 min"; raises ShakenError when it is over
+        progress: True prints a line with the time left where stderr is a terminal; a function gets the SWEEP of
+                  docs/protocol.md at each look
+        """
+        end = None if timeout is None else time.monotonic() + seconds(timeout)
+        show = progress if callable(progress) else (_print_progress if progress and sys.stderr.isatty() else None)
+        while True:
+            found = self.ask("GET", "/v1/sweeps/" + urllib.parse.quote(sweep, safe=""))["sweep"]
+            if show:
+                show(found)
+            counts = {state: n for state, n in found["counts"].items() if n}
+            if not any(state not in ENDED for state in counts):
+                return counts
+            if end is not None and time.monotonic() >= end:
+                raise ShakenError(f"sweep {sweep} has not ended after {timeout}: {counts}")
+            time.sleep(every)
+
+    def cancel(self, sweep_or_job: str) -> int:
+        """Cancels a sweep ("s1") or a job; returns how many jobs were changed. Their checkpoints stay."""
+        kind = "jobs" if len(sweep_or_job) >= 4 and not sweep_or_job.startswith("s") else "sweeps"
+        return self.ask("POST", f"/v1/{kind}/{urllib.parse.quote(sweep_or_job, safe='')}/cancel")["cancelled"]
+
+
+def _setting(value: Any) -> str:
+    return ",".join(str(v) for v in value) if isinstance(value, (list, tuple)) else str(value)
+
+
+def _print_progress(sweep: Mapping[str, Any]) -> None:
+    eta = sweep["eta_s"]
+    left = f", {eta:.0f} s left" if eta is not None and eta >= 0 else ""
+    done = sweep["counts"].get("done", 0)
+    print(f"\r{sweep['name']}: {100 * sweep['progress']:.0f} %, {done} of {sweep['n_jobs']} done{left}   ", end="",
+          file=sys.stderr, flush=True)

@@ -1,0 +1,205 @@
+# SPDX-License-Identifier: MIT
+"""Sweeps: a row for each state point, with its replicas put together."""
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any, Iterable, Iterator, Mapping, Sequence
+
+from .daemon import Daemon
+from .errors import ShakenError
+from .estimate import Estimate, replica_mean
+from .run import DirectoryRun, Run
+
+
+class Point:
+    """A state point of a sweep: runs that differ in their seeds only, all of one version of the physics.
+
+    parameters: the swept keys as they were asked for, {"rods.area_fraction": 0.75}
+    runs:       those that are done, each once
+    n_replicas: how many there are, done or not
+    """
+
+    def __init__(self, parameters: Mapping[str, Any], runs: Sequence[Run], n_replicas: int | None = None) -> None:
+        self.parameters = dict(parameters)
+        self.runs = list(runs)
+        self.n_replicas = len(self.runs) if n_replicas is None else n_replicas
+
+    def names(self) -> list[str]:
+        """The names of the numbers that at least one run has."""
+        return list(dict.fromkeys(name for run in self.runs for name in run.numbers))
+
+    def __getitem__(self, name: str) -> Estimate:
+        """A number, the mean over the replicas (`replica_mean`); a KeyError where no run has it."""
+        found = [run.numbers[name] for run in self.runs if name in run.numbers]
+        if not found:
+            raise KeyError(f"'{name}' was not measured at {self.label or 'this point'}")
+        return replica_mean(found)
+
+    def key(self, path: str) -> Any:
+        """A key of the scene, "rods.length", as it was asked for if it was swept; None where the runs do not have it or
+        differ in it."""
+        if path in self.parameters:
+            return self.parameters[path]
+        values = {json.dumps(run.key(path)) for run in self.runs}
+        return json.loads(values.pop()) if len(values) == 1 else None
+
+    @property
+    def label(self) -> str:
+        return ", ".join(f"{path} = {value}" for path, value in self.parameters.items())
+
+    def __repr__(self) -> str:
+        s = self["S"] if any("S" in run.numbers for run in self.runs) else "-"
+        return f"<point {self.label}: S = {s}, {len(self.runs)} of {self.n_replicas} runs done>"
+
+
+class Sweep:
+    """The results of a sweep, or of any runs: a sequence of its state points.
+
+    name:   of the sweep
+    points: list of Point, in the order of the sweep
+    """
+
+    def __init__(self, points: Sequence[Point], name: str = "") -> None:
+        self.points, self.name = list(points), name
+
+    def __iter__(self) -> Iterator[Point]:
+        return iter(self.points)
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+    def __getitem__(self, k: int) -> Point:
+        return self.points[k]
+
+    @property
+    def parameters(self) -> list[str]:
+        """The swept keys that have more than one value."""
+        values: dict[str, set[str]] = {}
+        for point in self.points:
+            for path, value in point.parameters.items():
+                values.setdefault(path, set()).add(json.dumps(value))
+        return [path for path, found in values.items() if len(found) > 1]
+
+    def where(self, **conditions: Any) -> "Sweep":
+        """The points whose keys have these values: `sweep.where(**{"rods.length": 4.5})`, or with a part of the name
+        that fits one swept key, `sweep.where(length=4.5)`."""
+        paths = {self._path(word): value for word, value in conditions.items()}
+        return Sweep([point for point in self.points
+                      if all(_equal(point.key(path), value) for path, value in paths.items())], self.name)
+
+    def _path(self, word: str) -> str:
+        if "." in word:
+            return word
+        known = list(dict.fromkeys(path for point in self.points for path in point.parameters))
+        found = [path for path in known if path.rpartition(".")[2] == word]
+        if len(found) != 1:
+            raise ShakenError(f"'{word}' {'fits several of' if found else 'is none of'} {', '.join(known) or 'no keys'}")
+        return found[0]
+
+    def column(self, name: str) -> list[Any]:
+        """A number (Estimate) or a key of the scene at each point; an Estimate without a value where it is missing."""
+        if "." in name:
+            return [point.key(name) for point in self.points]
+        return [point[name] if name in point.names() else Estimate(reason="not measured") for point in self.points]
+
+    def to_frame(self) -> Any:
+        """A pandas DataFrame: a row for each point; the swept keys, then for each number NAME, NAME:error, NAME:steady.
+        Needs pandas (Debian: python3-pandas)."""
+        return _pandas().DataFrame(self.records())
+
+    def records(self) -> list[dict[str, Any]]:
+        """The same as a list of dicts, for which pandas is not needed."""
+        names = list(dict.fromkeys(name for point in self.points for name in point.names()))
+        records = []
+        for point in self.points:
+            record: dict[str, Any] = {**point.parameters, "n_done": len(point.runs), "n_replicas": point.n_replicas}
+            for name in names:
+                if name not in point.names():
+                    continue
+                estimate = point[name]
+                record.update({name: estimate.value, name + ":error": estimate.error, name + ":steady": estimate.steady})
+            records.append(record)
+        return records
+
+    def pivot(self, rows: str, columns: str, name: str = "S") -> Any:
+        """A DataFrame of a number, with the values of one swept key down and of another across."""
+        frame = _pandas().DataFrame([{rows: point.key(self._path(rows)), columns: point.key(self._path(columns)),
+                                      name: point[name].value} for point in self.points if name in point.names()])
+        return frame.pivot_table(index=rows, columns=columns, values=name)
+
+    def compared(self, other: "Sweep", name: str = "S") -> list[tuple[dict[str, Any], Estimate, Estimate, float]]:
+        """The points that both sweeps have: (parameters, this, other, difference in standard errors)."""
+        theirs = {json.dumps(point.parameters, sort_keys=True): point for point in other}
+        found = []
+        for point in self.points:
+            twin = theirs.get(json.dumps(point.parameters, sort_keys=True))
+            if twin is None or name not in point.names() or name not in twin.names():
+                continue
+            a, b = point[name], twin[name]
+            found.append((point.parameters, a, b, (b.value - a.value) / (a.error**2 + b.error**2) ** 0.5))
+        return found
+
+    def __repr__(self) -> str:
+        return f"<sweep {self.name or '-'}: {len(self.points)} points over {', '.join(self.parameters) or 'nothing'}>"
+
+
+def _pandas() -> Any:
+    try:
+        import pandas
+    except ImportError:
+        raise ShakenError("pandas is not installed: `apt install python3-pandas`; `records()` does without") from None
+    return pandas
+
+
+def _equal(a: Any, b: Any) -> bool:
+    if isinstance(a, (int, float)) and isinstance(b, (int, float)):
+        return abs(a - b) <= 1e-9 * max(abs(a), abs(b), 1e-300)
+    return bool(a == b)
+
+
+def grouped(runs: Iterable[tuple[Mapping[str, Any], Run | None]], name: str = "") -> Sweep:
+    """Runs, each with the parameters of its point, put together: what different versions of the program or of the
+    physics computed is never averaged, and a run counts once. None stands for one that is not done."""
+    groups: dict[str, tuple[dict[str, Any], dict[str, Run]]] = {}
+    waiting: dict[str, int] = {}
+    for parameters, run in runs:
+        key = json.dumps(parameters, sort_keys=True)
+        if run is None:
+            waiting[key] = waiting.get(key, 0) + 1
+            groups.setdefault(key + "|", (dict(parameters), {}))
+            continue
+        versions = run.summary.get("versions") or {}
+        version = json.dumps([versions.get("shaken"), versions.get("physics")])
+        if not groups.get(key + "|", ({}, {"": run}))[1]:
+            groups.pop(key + "|")
+        groups.setdefault(f"{key}|{version}", (dict(parameters), {}))[1].setdefault(run.id, run)
+    newest = {key.rpartition("|")[0]: key for key in groups}
+    return Sweep([Point(parameters, list(found.values()),
+                        len(found) + (waiting.get(key.rpartition("|")[0], 0) if newest[key.rpartition("|")[0]] == key
+                                      else 0)) for key, (parameters, found) in groups.items()], name)
+
+
+def results(source: "Daemon | str | Path | None" = None, sweep: str | None = None) -> Sweep:
+    """The results of a sweep, by its id or name; of the newest one if `sweep` is left out.
+
+    source: a Daemon, the root folder of one (its socket is asked), or None for the usual one
+
+    Raises ShakenError where no daemon answers or there is no such sweep. Only numbers are read; curves and frames are
+    read when they are asked for.
+    """
+    daemon = source if isinstance(source, Daemon) else Daemon(source)
+    if sweep is None:
+        sweeps = daemon.sweeps()
+        if not sweeps:
+            raise ShakenError(f"the daemon at {daemon.root} has no sweeps")
+        sweep = sweeps[-1]["id"]
+    name = daemon.ask("GET", f"/v1/sweeps/{sweep}")["sweep"]["name"]
+
+    def runs() -> Iterator[tuple[Mapping[str, Any], Run | None]]:
+        for row in daemon.rows(sweep):
+            summary = row.get("summary") or {}
+            done = row["state"] == "done" or (summary.get("exit") or {}).get("state") == "done"
+            yield row["parameters"], DirectoryRun(row["directory"], row["parameters"]) if done and summary else None
+
+    return grouped(runs(), name)
