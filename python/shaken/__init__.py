@@ -8,6 +8,7 @@
     for frame in run.frames(every="0.1 s"): print(frame.time, frame.order)
 """
 from .archive import ArchivedRun, Snapshot, archived_runs
+from .bus import LiveFrame, LiveObservables, live
 from .daemon import Daemon
 from .errors import ShakenError
 from .estimate import Estimate, replica_mean
@@ -17,5 +18,6 @@ from .run import open_run as open  # noqa: A001, as in numpy's and h5py's own na
 from .sweep import Point, Sweep, results
 
 __version__ = "0.1.0"
-__all__ = ["ArchivedRun", "Array", "Daemon", "DirectoryRun", "Estimate", "Frame", "Point", "Run", "ShakenError", "Snapshot",
-           "Sweep", "Trajectory", "archived_runs", "open", "replica_mean", "results"]
+__all__ = ["ArchivedRun", "Array", "Daemon", "DirectoryRun", "Estimate", "Frame", "LiveFrame", "LiveObservables", "Point",
+           "Run", "ShakenError", "Snapshot", "Sweep", "Trajectory", "archived_runs", "live", "open", "replica_mean",
+           "results"]

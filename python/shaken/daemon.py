@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import http.client
 import json
+import re
 import socket
 import sys
 import time
@@ -119,7 +120,8 @@ class Daemon:
 
     def cancel(self, sweep_or_job: str) -> int:
         """Cancels a sweep ("s1") or a job; returns how many jobs were changed. Their checkpoints stay."""
-        kind = "jobs" if len(sweep_or_job) >= 4 and not sweep_or_job.startswith("s") else "sweeps"
+        is_job = re.fullmatch("[0-9a-f]{4,16}", sweep_or_job) and sweep_or_job not in {s["name"] for s in self.sweeps()}
+        kind = "jobs" if is_job else "sweeps"
         return self.ask("POST", f"/v1/{kind}/{urllib.parse.quote(sweep_or_job, safe='')}/cancel")["cancelled"]
 
 

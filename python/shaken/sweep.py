@@ -161,23 +161,28 @@ def _equal(a: Any, b: Any) -> bool:
 def grouped(runs: Iterable[tuple[Mapping[str, Any], Run | None]], name: str = "") -> Sweep:
     """Runs, each with the parameters of its point, put together: what different versions of the program or of the
     physics computed is never averaged, and a run counts once. None stands for one that is not done."""
-    groups: dict[str, tuple[dict[str, Any], dict[str, Run]]] = {}
+    parameters_of: dict[str, dict[str, Any]] = {}
+    by_version: dict[str, dict[tuple[str, int], dict[str, Run]]] = {}
     waiting: dict[str, int] = {}
     for parameters, run in runs:
         key = json.dumps(parameters, sort_keys=True)
+        parameters_of.setdefault(key, dict(parameters))
+        versions = by_version.setdefault(key, {})
         if run is None:
             waiting[key] = waiting.get(key, 0) + 1
-            groups.setdefault(key + "|", (dict(parameters), {}))
             continue
-        versions = run.summary.get("versions") or {}
-        version = json.dumps([versions.get("shaken"), versions.get("physics")])
-        if not groups.get(key + "|", ({}, {"": run}))[1]:
-            groups.pop(key + "|")
-        groups.setdefault(f"{key}|{version}", (dict(parameters), {}))[1].setdefault(run.id, run)
-    newest = {key.rpartition("|")[0]: key for key in groups}
-    return Sweep([Point(parameters, list(found.values()),
-                        len(found) + (waiting.get(key.rpartition("|")[0], 0) if newest[key.rpartition("|")[0]] == key
-                                      else 0)) for key, (parameters, found) in groups.items()], name)
+        made_by = run.summary.get("versions") or {}
+        version = (str(made_by.get("shaken")), int(made_by.get("physics") or 0))
+        versions.setdefault(version, {}).setdefault(run.id or run.where, run)
+    points: list[Point] = []
+    for key, versions in by_version.items():
+        newest = max(versions, default=None)
+        if newest is None:
+            points.append(Point(parameters_of[key], [], waiting[key]))
+        for version, found in versions.items():
+            to_come = waiting.get(key, 0) if version == newest else 0
+            points.append(Point(parameters_of[key], list(found.values()), len(found) + to_come))
+    return Sweep(points, name)
 
 
 def results(source: "Daemon | str | Path | None" = None, sweep: str | None = None) -> Sweep:

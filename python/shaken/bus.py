@@ -1,0 +1,205 @@
+# SPDX-License-Identifier: MIT
+"""Live state of running jobs, from the relay of a daemon (`shakend --relay 127.0.0.1:7700`).
+
+The relay speaks LCM's protocol tcpq (docs/protocol.md), and this module enough of it to listen.
+"""
+from __future__ import annotations
+
+import socket
+import struct
+from dataclasses import dataclass
+from typing import Any, Callable, Iterator
+
+import numpy as np
+
+from .errors import ShakenError
+
+_CLIENT, _SERVER, _VERSION = 0x287617FB, 0x287617FA, 0x0100
+_PUBLISH, _SUBSCRIBE = 1, 2
+_LONGEST_CHANNEL, _LONGEST_PAYLOAD = 63, 1 << 20
+
+
+@dataclass(frozen=True)
+class LiveFrame:
+    """The rods of a running job at an instant, as proto/frame_t.lcm has them.
+
+    job_id:    of the run
+    time:      simulated time [s]
+    tick:      time over the time step
+    side:      of the box [mm]
+    order:     S of the first species; NaN of spheres
+    director:  its angle [rad], in [-pi/2, pi/2)
+    positions: (n, 2) centres in the plane [mm], to a 65,536th of the box
+    theta:     (n,) angle of each rod in the plane [rad], in [-pi, pi)
+    n_z:       (n,) vertical component of its axis
+    """
+
+    job_id: str
+    time: float
+    tick: int
+    side: float
+    order: float
+    director: float
+    positions: np.ndarray
+    theta: np.ndarray
+    n_z: np.ndarray
+
+
+@dataclass(frozen=True)
+class LiveObservables:
+    """Numbers of a running job at an instant, as proto/observables_t.lcm has them and in its units."""
+
+    job_id: str
+    time: float
+    time_total: float
+    n_rods: int
+    order: float
+    order_running_mean: float
+    director: float
+    rms_speed_xy_mm_s: float
+    rms_speed_z_mm_s: float
+    rms_n_z: float
+    kinetic_energy_uJ: float
+    max_overlap_mm: float
+    collisions_rod_rod: int
+    collisions_rod_base: int
+    collisions_rod_lid: int
+    sim_rate: float
+    eta_s: float
+
+
+class _Payload:
+    """A message's bytes, read in order; big-endian, as LCM has them."""
+
+    def __init__(self, data: bytes, fingerprint: int) -> None:
+        self._data, self._at = data, 0
+        if self.numbers("Q") != (fingerprint,):
+            raise ValueError("a message of another type")
+
+    def numbers(self, form: str) -> tuple[Any, ...]:
+        found = struct.unpack_from(">" + form, self._data, self._at)
+        self._at += struct.calcsize(">" + form)
+        return found
+
+    def text(self) -> str:
+        (length,) = self.numbers("i")
+        if not 1 <= length <= len(self._data) - self._at:
+            raise ValueError("a text that is longer than its message")
+        found = self._data[self._at:self._at + length - 1].decode(errors="replace")
+        self._at += length
+        return found
+
+    def array(self, n: int, of: str) -> np.ndarray:
+        found = np.frombuffer(self._data, of, n, self._at)
+        self._at += found.nbytes
+        return found
+
+    def end(self) -> None:
+        if self._at != len(self._data):
+            raise ValueError("a message that is longer than its type")
+
+
+#: What LCM makes of the types of the messages and their names (`lcm-gen --python`), so that no other type is read.
+_FRAME, _OBSERVABLES = 0x1EFD27B8E565207F, 0x59B43E22B4B3C113
+
+
+def _decode_observables(data: bytes) -> LiveObservables:
+    message = _Payload(data, _OBSERVABLES)
+    message.numbers("qq")
+    job = message.text()
+    time, total, n_rods, order, mean, director, xy, z, n_z, energy, overlap = message.numbers("ddi8d")
+    rods, base, lid, rate, eta = message.numbers("qqqdd")
+    message.end()
+    return LiveObservables(job, time, total, n_rods, order, mean, director, xy, z, n_z, energy, overlap, rods, base, lid,
+                           rate, eta)
+
+
+class _FrameParts:
+    """Frames of more than 7,000 rods come in several messages."""
+
+    def __init__(self) -> None:
+        self._parts: dict[str, tuple[int, dict[int, np.ndarray]]] = {}
+
+    def add(self, data: bytes) -> LiveFrame | None:
+        message = _Payload(data, _FRAME)
+        _, sequence = message.numbers("qq")
+        job = message.text()
+        time, tick, side, order, director, n_rods, chunk, n_chunks, _, n = message.numbers("dqdddiiiii")
+        if not (0 <= n <= n_rods <= 10_000_000 and 0 <= chunk < n_chunks <= 2_000):
+            raise ValueError("sizes that no frame has")
+        rods = message.array(4 * n, ">i2").reshape(4, n)
+        message.end()
+        known, parts = self._parts.get(job, (-1, {}))
+        if known != sequence:
+            parts = {}
+        parts[chunk] = rods
+        self._parts[job] = (sequence, parts)
+        if len(parts) < n_chunks:
+            return None
+        del self._parts[job]
+        x, y, heading, n_z = np.concatenate([parts[k] for k in range(n_chunks)], axis=1).astype(float)
+        return LiveFrame(job, time, tick, side, order, director,
+                         np.stack([(x / 65536 + 0.5) * side, (y / 65536 + 0.5) * side], axis=1),
+                         heading * (2 * np.pi / 65536), n_z / 32767)
+
+
+def live(job: str = "", relay: str = "127.0.0.1:7700", *, observables: bool = False,
+         timeout: float | None = None) -> Iterator[Any]:
+    """The frames of running jobs as they come (LiveFrame); with `observables` those and LiveObservables, in the order in
+    which they arrive.
+
+    job:     an id, or its first digits; those of all jobs if left out
+    relay:   ADDRESS:PORT of `shakend --relay`
+    timeout: [s] without a message after which the iteration ends; it goes on for ever if None
+
+    No run waits for whoever listens: what is not read in time is dropped by the relay. Raises ShakenError where no relay
+    answers. Messages that are not of their type are left out.
+    """
+    host, _, port = relay.rpartition(":")
+    try:
+        connection = socket.create_connection((host, int(port)), timeout=5)
+    except (OSError, ValueError) as error:
+        raise ShakenError(f"no relay answers at {relay} ({error}): start the daemon with `shakend --relay {relay}`"
+                          ) from None
+    with connection:
+        channels = "SHAKEN_FRAME|SHAKEN_OBSERVABLES" if observables else "SHAKEN_FRAME"
+        connection.sendall(struct.pack(">II", _CLIENT, _VERSION) +
+                           struct.pack(">II", _SUBSCRIBE, len(channels)) + channels.encode())
+        if struct.unpack(">II", _exactly(connection, 8)) != (_SERVER, _VERSION):
+            raise ShakenError(f"what answers at {relay} is no relay")
+        connection.settimeout(timeout)
+        frames = _FrameParts()
+        decode: dict[str, Callable[[bytes], Any]] = {"SHAKEN_FRAME": frames.add,
+                                                     "SHAKEN_OBSERVABLES": _decode_observables}
+        while True:
+            try:
+                channel, payload = _message(connection)
+            except (TimeoutError, EOFError):
+                return
+            try:
+                found = decode[channel](payload)
+            except (KeyError, ValueError, struct.error):
+                continue
+            if found is not None and found.job_id.startswith(job):
+                yield found
+
+
+def _message(connection: socket.socket) -> tuple[str, bytes]:
+    kind, length = struct.unpack(">II", _exactly(connection, 8))
+    if kind != _PUBLISH or length > _LONGEST_CHANNEL:
+        raise EOFError
+    channel = _exactly(connection, length).decode(errors="replace")
+    (length,) = struct.unpack(">I", _exactly(connection, 4))
+    if length > _LONGEST_PAYLOAD:
+        raise EOFError
+    return channel, _exactly(connection, length)
+
+
+def _exactly(connection: socket.socket, n: int) -> bytes:
+    data = bytearray()
+    while len(data) < n:
+        piece = connection.recv(n - len(data))
+        if not piece:
+            raise EOFError
+        data += piece
+    return bytes(data)

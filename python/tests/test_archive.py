@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: MIT
+import lzma
+
+import numpy as np
+import pytest
+
+import shaken
+from conftest import made_up_run
+from shaken import archive
+
+BINS = 41
+
+
+def curves(rng):
+    r = np.linspace(-5, 5, BINS)
+    symmetric = np.exp(-(r[:, None] ** 2 + 0.5 * r[None, :] ** 2) / 4)
+    n = 5000
+    return {"order/time_s": (np.arange(n) * 0.02, "s"), "order/order": (0.8 + 0.05 * rng.normal(size=n), "1"),
+            "order/director_rad": (0.01 * rng.normal(size=n), "rad"), "pairs/across_mm": (r, "mm"),
+            "pairs/along_mm": (r, "mm"), "pairs/g2": (symmetric.ravel(), "1"), "pairs/g": (symmetric.ravel(), "1"),
+            "msd/lag_s": ([0.1, 1, 10], "s"), "msd/total_mm2": ([0.5, 6, np.nan], "mm2"),
+            "defects/time_s": (np.arange(0, 5, 0.5), "s"), "defects/n_plus": ([0, 1, 2, 3, 9, 1, 1, 1, 0, 0], "1")}
+
+
+def test_an_archived_run_says_what_the_run_says(tmp_path):
+    made_up_run(tmp_path / "run", arrays=curves(np.random.default_rng(2)), frames=9)
+    run = shaken.open(tmp_path / "run")
+    path = archive.add_run(tmp_path / "run", tmp_path / "archive", {"rods.area_fraction": 0.75}, ["long"])
+    kept = shaken.open(path)
+    assert path.stat().st_size <= archive.LARGEST
+    assert kept.id == run.id and kept.scene == run.scene and kept.sweeps == ["long"]
+    assert kept.key("rods.area_fraction") == 0.75
+    assert kept["S"] == run["S"] and kept["diffusion_mm2_s"] == run["diffusion_mm2_s"]
+    assert np.allclose(kept["/msd/total_mm2"], run["/msd/total_mm2"], rtol=2e-4, equal_nan=True)
+    assert kept["/msd/total_mm2"].unit == "mm2" and list(kept["/msd/total_mm2"].axis) == pytest.approx([0.1, 1, 10], rel=2e-4)
+    assert np.allclose(kept["/pairs/g2"], run["/pairs/g2"], rtol=2e-4)
+    assert kept["/pairs/g2"].shape == (BINS, BINS) and len(kept["/order/order"]) <= 1050
+    assert kept["/order/order"].mean() == pytest.approx(run["/order/order"].mean(), abs=1e-3)
+    with pytest.raises(shaken.ShakenError, match="comes from an archive"):
+        next(kept.frames())
+
+
+def test_snapshots_are_of_the_end_and_of_most_defects(tmp_path):
+    made_up_run(tmp_path / "run", arrays=curves(np.random.default_rng(2)), frames=9)
+    last, most = shaken.open(archive.add_run(tmp_path / "run", tmp_path / "archive")).snapshots
+    frames = list(shaken.open(tmp_path / "run").frames())
+    assert last.time == 4.0 and most.time == 2.0 and last.side == 20
+    order = np.lexsort((frames[4].positions[:, 1], frames[4].positions[:, 0]))
+    assert np.abs(most.positions - frames[4].positions[order, :2]).max() < 20 / 65536 + 1e-6
+    assert np.allclose(np.exp(2j * most.theta), np.exp(2j * frames[4].theta[order]), atol=1e-4)
+
+
+def test_a_run_that_was_cut_is_not_archived(tmp_path):
+    made_up_run(tmp_path / "run", state="stopped")
+    with pytest.raises(shaken.ShakenError, match="only finished runs"):
+        archive.add_run(tmp_path / "run", tmp_path / "archive")
+    assert not (tmp_path / "archive").exists()
+
+
+def test_of_one_run_the_longer_is_kept(tmp_path):
+    folder = tmp_path / "archive"
+    path = archive.add_run(made_up_run(tmp_path / "run", seconds=10), folder)
+    assert archive.add_run(made_up_run(tmp_path / "run", seconds=10), folder) is None
+    assert archive.add_run(made_up_run(tmp_path / "longer", seconds=20, order=0.9), folder) == path
+    assert archive.add_run(made_up_run(tmp_path / "run", seconds=10), folder) is None
+    assert shaken.open(path)["S"].value == 0.9
+
+
+def test_archives_are_merged_by_copying(tmp_path):
+    archive.add_run(made_up_run(tmp_path / "a", run_id="a" * 16, seconds=10), tmp_path / "one")
+    archive.add_run(made_up_run(tmp_path / "a2", run_id="a" * 16, seconds=30), tmp_path / "two")
+    archive.add_run(made_up_run(tmp_path / "b", run_id="b" * 16), tmp_path / "two")
+    assert [path.name[0] for path in archive.merge(tmp_path / "two", tmp_path / "one")] == ["a", "b"]
+    assert [run.summary["sim_seconds"] for run in shaken.archived_runs(tmp_path / "one")] == [30, 10]
+    assert archive.merge(tmp_path / "two", tmp_path / "one") == []
+
+
+def test_equal_runs_give_equal_files(tmp_path):
+    for name in ("one", "two"):
+        made_up_run(tmp_path / name, arrays=curves(np.random.default_rng(2)), frames=3)
+    assert (archive.archive_file(shaken.open(tmp_path / "one")) == archive.archive_file(shaken.open(tmp_path / "two")))
+
+
+def test_a_file_that_would_be_too_large_leaves_out_what_matters_least(tmp_path, monkeypatch):
+    made_up_run(tmp_path / "run", arrays=curves(np.random.default_rng(2)), frames=9)
+    whole = len(archive.archive_file(shaken.open(tmp_path / "run")))
+    monkeypatch.setattr(archive, "LARGEST", whole - 1)
+    small = shaken.open(archive.add_run(tmp_path / "run", tmp_path / "archive"))
+    assert len(small.snapshots) == 1 and "/pairs/g2" in small
+
+
+@pytest.mark.parametrize("damage", [lambda data: data[:-20], lambda data: b"junk", lambda data: b"",
+                                    lambda data: lzma.compress(b"{}\n"), lambda data: lzma.compress(b"[1]\n"),
+                                    lambda data: data[:100] + bytes([data[100] ^ 1]) + data[101:]])
+def test_damaged_files_are_refused(tmp_path, damage):
+    path = archive.add_run(made_up_run(tmp_path / "run"), tmp_path / "archive")
+    path.write_bytes(damage(path.read_bytes()))
+    with pytest.raises(shaken.ShakenError, match="no file of an archive"):
+        shaken.open(path)

@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: MIT
+import math
+
+import pytest
+from scipy import stats
+
+from shaken.estimate import Estimate, decimals, derived, exactly, replica_mean, student_factor
+
+
+@pytest.mark.parametrize("n", [2, 3, 4, 6, 10, 30])
+def test_student_factor_is_the_quantile_of_t(n):
+    quantile = stats.t.ppf(stats.norm.cdf(1), n - 1)
+    assert student_factor(n) == pytest.approx(quantile, rel=0.015 if n == 2 else 0.0015)
+
+
+def test_errors_of_replicas_are_the_larger_of_own_and_scatter():
+    agreeing = replica_mean([Estimate(1.0, 0.3, True), Estimate(1.0, 0.4, True)])
+    assert agreeing.value == 1.0 and agreeing.error == pytest.approx(0.25)
+    apart = replica_mean([Estimate(1.0, 0.1, True), Estimate(3.0, 0.1, True)])
+    assert apart.error == pytest.approx(1.0)
+
+
+def test_replicas_without_own_errors_have_one_by_student():
+    found = replica_mean([Estimate(1.0, steady=None), Estimate(2.0, steady=None), Estimate(3.0, steady=None)])
+    assert found.error == pytest.approx(student_factor(3) / math.sqrt(3))
+    assert replica_mean([Estimate(1.0)]).error != replica_mean([Estimate(1.0)]).error  # NaN: one run has none
+
+
+def test_replicas_are_as_steady_as_the_least():
+    steady, unknown, relaxing = (Estimate(1.0, 0.1, word) for word in (True, None, False))
+    assert replica_mean([steady, steady]).steady is True
+    assert replica_mean([steady, unknown]).steady is None
+    assert replica_mean([steady, unknown, relaxing]).steady is False
+
+
+def test_what_was_not_measured_is_left_out():
+    assert replica_mean([Estimate(2.0, 0.1, True), Estimate()]).value == 2.0
+    assert not replica_mean([Estimate(reason="one peak")]).is_known
+
+
+def test_derived_adds_errors_in_quadrature():
+    ratio = derived(2.0, [(1.0, Estimate(2.0, 0.3, True)), (-2.0, Estimate(1.0, 0.2, None))])
+    assert ratio.error == pytest.approx(0.5) and ratio.steady is None
+    assert exactly(3.0).error == 0 and exactly(3.0).steady is True
+
+
+@pytest.mark.parametrize("error, digits", [(0.012, 3), (0.03, 2), (0.2, 1), (1.4, 1), (3.0, 0), (250.0, 0)])
+def test_decimals_show_the_error(error, digits):
+    assert decimals(error) == digits
+    assert "±" in str(Estimate(1.0, error, True))

@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: MIT
+import numpy as np
+import pytest
+
+import shaken
+from conftest import made_up_run
+from shaken.run import error_name
+from shaken.units import unit_of
+
+CURVES = {"msd/lag_s": ([1, 2, 4], "s"), "msd/total_mm2": ([4, 8, 16], "mm2"), "msd/total_sem_mm2": ([1, 1, 2], "mm2"),
+          "g2/r_mm": ([1, 2], "mm"), "g2/g2": ([1, 0], "1"), "g2/g2_sem": ([0.1, 0.2], "1"),
+          "pairs/across_mm": ([-1, 0, 1], "mm"), "pairs/along_mm": ([-2, 0, 2], "mm"), "pairs/g": (range(9), "1")}
+
+
+@pytest.mark.parametrize("name, unit", [("diffusion_mm2_s", "mm2 s-1"), ("/layers/q_per_mm", "mm-1"), ("dip", "1"),
+                                        ("defect_creation_rate_per_mm2_s", "mm-2 s-1"), ("tau_s", "s"),
+                                        ("rotational_diffusion_rad2_s", "rad2 s-1"), ("theta_m_deg", "deg"),
+                                        ("/angles/density_per_rad", "rad-1"), ("psi_6", "1"), ("frank_floor_mm2", "mm2")])
+def test_units_are_read_off_names(name, unit):
+    assert unit_of(name) == unit
+
+
+@pytest.mark.parametrize("name, error", [("/msd/total_mm2", "/msd/total_sem_mm2"), ("/g2/g", "/g2/g_sem"),
+                                         ("/msd/d_along_mm2_s", "/msd/d_along_sem_mm2_s"),
+                                         ("/structure/factor", "/structure/factor_sem")])
+def test_errors_of_arrays_have_names_of_their_own(name, error):
+    assert error_name(name) == error
+
+
+def test_numbers_carry_error_unit_and_steadiness(run_at):
+    run = run_at("a", order=0.8, sem=0.01, steady=False)
+    assert (run["S"].value, run["S"].error, run["S"].steady, run["S"].n_eff) == (0.8, 0.01, False, 40.0)
+    assert run["diffusion_mm2_s"].unit == "mm2 s-1" and run["diffusion_mm2_s"].steady is None
+    assert "S" in run and "theta_m_deg" not in run
+    with pytest.raises(KeyError, match="diffusion_mm2_s"):
+        run["difusion"]
+
+
+def test_arrays_know_axis_error_and_unit(run_at):
+    run = run_at("a", arrays=CURVES)
+    msd = run["/msd/total_mm2"]
+    assert msd.unit == "mm2" and list(msd.axis) == [1, 2, 4] and msd.axis.unit == "s" and list(msd.error) == [1, 1, 2]
+    assert list(run["g2/g2"].error) == [0.1, 0.2]
+    g = run["/pairs/g"]
+    assert g.shape == (3, 3) and g[1, 2] == 5 and list(g.axis[1]) == [-2, 0, 2]
+    with pytest.raises(KeyError, match="was not measured"):
+        run["/msd/along_mm2"]
+
+
+def test_keys_are_those_asked_for(tmp_path):
+    run = shaken.DirectoryRun(made_up_run(tmp_path / "a"), {"rods.area_fraction": 0.75})
+    assert run.key("rods.area_fraction") == 0.75 and run.key("rods.length") == 4.5 and run.key("rods_2.length") is None
+
+
+def test_frames_come_lazily_and_at_multiples(run_at, tmp_path):
+    run = run_at("a", frames=9)
+    theta = np.load(tmp_path / "a" / "trajectory.npy")
+    frames = list(run.frames())
+    assert len(frames) == 9 and frames[2].positions.shape == (50, 3)
+    assert np.allclose(frames[3].theta, theta[3], atol=1e-6) and np.allclose(frames[3].directors[:, 2], 0, atol=1e-6)
+    assert frames[3].order == pytest.approx(abs(np.exp(2j * theta[3]).mean()), abs=1e-6)
+    assert [frame.time for frame in run.frames(every="1 s")] == [0, 1, 2, 3, 4]
+    assert [frame.time for frame in run.frames(every=0.75)] == [0, 1, 1.5, 2.5, 3, 4]
+    box, points, orientations = frames[0].to_freud()
+    assert points.dtype == np.float32 and points[:, 2].max() == 0 and abs(points[:, :2]).max() <= 10
+    turned = 2 * np.arctan2(orientations[:, 3], orientations[:, 0])
+    assert np.allclose(np.exp(2j * turned), np.exp(2j * theta[0]), atol=1e-5)
+
+
+def test_mdanalysis_reads_the_frames(run_at, tmp_path):
+    pytest.importorskip("MDAnalysis")
+    run = run_at("a", frames=3)
+    universe = run.trajectory.to_mdanalysis()
+    for frame, ours in zip(universe.trajectory, run.frames()):
+        assert np.allclose(universe.atoms.positions * 1e-7, ours.positions, rtol=1e-5)
+        assert frame.time * 1e-12 == pytest.approx(ours.time)
+
+
+def test_what_is_no_run_is_said_to_be_none(tmp_path, run_at):
+    with pytest.raises(shaken.ShakenError, match="neither a directory"):
+        shaken.open("nothing-here", root=tmp_path)
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(shaken.ShakenError, match="no directory of a run"):
+        shaken.open(tmp_path / "empty")
+    (made_up_run(tmp_path / "early") / "summary.json").unlink()
+    with pytest.raises(shaken.ShakenError, match="has not ended yet"):
+        shaken.open(tmp_path / "early")
+    with pytest.raises(shaken.ShakenError, match="does not record|records frames"):
+        next(run_at("a").frames())
+
+
+def test_a_prefix_of_an_id_is_enough(tmp_path):
+    made_up_run(tmp_path / "runs" / "0123456789abcdef")
+    assert shaken.open("0123", root=tmp_path).id == "0123456789abcdef"
+    made_up_run(tmp_path / "runs" / "0123999999abcdef")
+    with pytest.raises(shaken.ShakenError, match="fits 2 runs"):
+        shaken.open("0123", root=tmp_path)

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: MIT
+import json
+import math
+
+import pytest
+
+import shaken
+from conftest import made_up_run
+from shaken.sweep import grouped
+
+
+def made(tmp_path, name, phi, **given):
+    parameters = {"rods.area_fraction": phi, "rods.length": given.pop("length", 4.5)}
+    return parameters, shaken.DirectoryRun(made_up_run(tmp_path / name, run_id=name.ljust(16, "0"), **given), parameters)
+
+
+def test_replicas_are_put_together_and_a_run_counts_once(tmp_path):
+    a, b = made(tmp_path, "a", 0.5, order=0.2), made(tmp_path, "b", 0.5, order=0.4)
+    c = made(tmp_path, "c", 0.6, order=0.8)
+    sweep = grouped([a, b, a, c, (c[0], None)])
+    assert len(sweep) == 2 and len(sweep[0].runs) == 2 and sweep[1].n_replicas == 2
+    assert sweep[0]["S"].value == pytest.approx(0.3) and sweep[0]["S"].error == pytest.approx(0.1)
+    assert sweep.parameters == ["rods.area_fraction"]
+
+
+def test_versions_are_never_averaged(tmp_path):
+    old = made(tmp_path, "a", 0.5, version=("0.1.0", 2))
+    new = made(tmp_path, "b", 0.5, version=("0.1.0", 3))
+    sweep = grouped([old, new, (old[0], None)])
+    assert [(len(point.runs), point.n_replicas) for point in sweep] == [(1, 1), (1, 2)]
+
+
+def test_choosing_columns_frames_and_pivots(tmp_path):
+    sweep = grouped([made(tmp_path, f"{i}{j}", phi, length=length, order=phi) for i, phi in enumerate((0.5, 0.6))
+                     for j, length in enumerate((2.5, 4.5))])
+    assert len(sweep.where(length=4.5)) == 2 and len(sweep.where(**{"rods.area_fraction": 0.5, "rods.length": 2.5})) == 1
+    assert [e.value for e in sweep.column("S")] == [0.5, 0.5, 0.6, 0.6]
+    assert sweep.column("rods.length") == [2.5, 4.5, 2.5, 4.5]
+    assert not sweep.column("theta_m_deg")[0].is_known
+    with pytest.raises(shaken.ShakenError, match="is none of"):
+        sweep.where(width=1)
+    pytest.importorskip("pandas")
+    assert sweep.to_frame()["S"].tolist() == [0.5, 0.5, 0.6, 0.6]
+    assert sweep.pivot("area_fraction", "length").loc[0.6, 2.5] == 0.6
+
+
+def test_two_sweeps_are_compared_point_by_point(tmp_path):
+    one = grouped([made(tmp_path, "a", 0.5, order=0.30, sem=0.03), made(tmp_path, "b", 0.6)])
+    two = grouped([made(tmp_path, "c", 0.5, order=0.40, sem=0.04), made(tmp_path, "d", 0.7)])
+    [(parameters, a, b, sigmas)] = one.compared(two)
+    assert parameters["rods.area_fraction"] == 0.5 and sigmas == pytest.approx(2.0)
+
+
+SWEEP = {"name": "small", "scene": {"box": {"side": "14 mm"}, "accuracy": "draft",
+                                    "time": {"steady": "0.1 s", "measure": "0.5 s"},
+                                    "measure": {"order": {"every": "10 ms"}, "msd": {"every": "10 ms"}}},
+         "sweep": {"grid": {"rods.area_fraction": [0.4, 0.6]}, "replicas": 2}}
+
+
+def test_the_daemon_and_its_results_are_those_of_the_program(programs):
+    daemon = programs.start_daemon("--no-lcm", "--slots", "1")
+    sweep_id = daemon.submit(SWEEP)
+    seen = []
+    assert daemon.wait(sweep_id, timeout="100 s", progress=seen.append, every=0.1) == {"done": 4}
+    assert seen[-1]["progress"] == 1
+    sweep = shaken.results(programs.root, "small")
+    rows = json.loads(programs.shaken("results", sweep_id, "--aggregate", "--json").stdout)["rows"]
+    assert len(sweep) == len(rows) == 2
+    for point, row in zip(sweep, rows):
+        fields = row.get("fields", row)
+        assert point["S"].value == pytest.approx(fields["order.mean"], rel=1e-12)
+        for name in ("diffusion_mm2_s", "alpha_short"):
+            ours, theirs = point[name], fields.get(f"measured.{name}.value")
+            assert (not ours.is_known and theirs is None) or ours.value == pytest.approx(theirs, rel=1e-12)
+            error = fields.get(f"measured.{name}.sem")
+            assert (error is None and math.isnan(ours.error)) or ours.error == pytest.approx(error, rel=1e-9)
+    # what is done is not done again; what is refused is refused in the daemon's words
+    assert daemon.submit(SWEEP) == sweep_id
+    with pytest.raises(shaken.ShakenError, match="rods.lenght|did you mean"):
+        daemon.submit({"rods": {"lenght": 2}})
+    assert daemon.submit({"time": {"measure": "1 h"}, "box": {"side": "14 mm"}}, name="long") != sweep_id
+    assert daemon.cancel("long") == 1
+    with pytest.raises(shaken.ShakenError, match="'nothing'|no sweep"):
+        shaken.results(daemon, "nothing")
+
+
+def test_without_a_daemon_it_says_how_to_start_one(tmp_path):
+    with pytest.raises(shaken.ShakenError, match="start one with `shakend"):
+        shaken.results(tmp_path)
