@@ -181,9 +181,12 @@ def _kept_arrays(run: Run) -> dict[str, tuple[np.ndarray, str]]:
 
 
 def _thinned(values: np.ndarray, most: int) -> np.ndarray:
-    each = -(-len(values) // most)
-    n = len(values) // each * each
-    return values[:n].reshape(-1, each).mean(axis=1) if each > 1 else values
+    """Means of neighbours, at most so many; the first value, that of the start, stays as it is."""
+    each = -(-(len(values) - 1) // (most - 1))
+    if each <= 1:
+        return values
+    n = (len(values) - 1) // each * each
+    return np.concatenate([values[:1], values[1:n + 1].reshape(-1, each).mean(axis=1)])
 
 
 def _trace(name: str, values: np.ndarray, time: np.ndarray) -> np.ndarray | None:

@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: MIT
+"""Layers at +-theta_m: whether there are any, and how angle and wavelength depend on rods, packing, gap and box."""
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from ..estimate import Estimate
+from ..run import Run
+from .library import END, GAP, LENGTH, PACKING, SIDE, Library, Runs, key_of, number_of
+from .rules import Answer, Finding, above, below, close_to, conclude, larger, listed, no, refutable, text, trend, unknown, yes
+
+#: P(0) over the maximum of P(theta): below it there are two peaks, above it there is one.
+TWO_PEAKS = 0.95
+
+
+def two_peaks(runs: Runs) -> Answer:
+    """Whether P(theta) has two peaks. That none was found is no answer: the dip must be known to be shallow."""
+    return below(runs.number("dip"), TWO_PEAKS)
+
+
+def layered(runs: Runs) -> Runs:
+    """The runs that have layers: P(theta) has two peaks."""
+    return Runs(run for run in runs if number_of(run, "theta_m_deg").is_known)
+
+
+def wavelength(run: Run) -> Estimate:
+    """The wavelength of the layers [mm] with the step of the box in its error: the waves that fit into the box are
+    L/n, so that what lies between two of them is not seen. A uniform error over that step is added."""
+    found = number_of(run, "wavelength_mm")
+    if not found.is_known:
+        return found
+    n = round(key_of(run, SIDE) / found.value)
+    step = key_of(run, SIDE) / max(n - 0.5, 0.5) - key_of(run, SIDE) / (n + 0.5)
+    error = math.hypot(found.error if math.isfinite(found.error) else 0.0, step / math.sqrt(12))
+    return replace(found, error=error)
+
+
+def _angle_text(runs: Runs) -> str:
+    theta = runs.number("theta_m_deg")
+    return f"θ_m = ±{text(theta)}°" if theta.is_known else f"no second peak, dip to {text(runs.number('dip'))}"
+
+
+def _gap_text(runs: Runs) -> str:
+    return (f"w = {key_of(runs[0], GAP):g} mm: {_angle_text(runs)}, layer order {text(runs.number('layer_order'))}, "
+            f"Bragg peak {text(runs.number('bragg_peak'))}")
+
+
+def layers_when_dense(library: Library) -> Finding:
+    answers, found = [], []
+    for packing in (0.75, 0.80, 0.85):
+        runs = library["layers"].at(4.5, packing)
+        if not runs:
+            continue
+        two = two_peaks(runs)
+        if packing < 0.78:
+            answer = two.negated()
+        else:
+            answer = close_to(runs.number("theta_m_deg"), 10, 4) if two.word else two
+        answers.append(answer.placed(f"{packing:g}"))
+        found.append(f"φ = {packing:g}: {_angle_text(runs)}")
+    return conclude(answers, "; ".join(found))
+
+
+def _crest(run: Run) -> Estimate:
+    """G2 across the director a wavelength away less that half a wavelength away."""
+    lam = number_of(run, "wavelength_mm").value
+    if not math.isfinite(lam) or "/pairs/cut/g2_across" not in run:
+        return Estimate(reason="no layers")
+    g2 = run["/pairs/cut/g2_across"]
+    r, values, errors = np.asarray(g2.axis), np.asarray(g2), np.asarray(g2.error)
+    crest, trough = int(np.argmin(abs(r - lam))), int(np.argmin(abs(r - lam / 2)))
+    return Estimate(values[crest] - values[trough], math.hypot(errors[crest], errors[trough]),
+                    number_of(run, "S").steady)
+
+
+def g2_oscillates(library: Library) -> Finding:
+    answers, found = [], []
+    for packing in (0.80, 0.85):
+        runs = layered(library["layers"].at(4.5, packing))
+        if not runs:
+            continue
+        rise = runs.of(_crest)
+        answers.append(above(rise, 0).placed(f"{packing:g}"))
+        found.append(f"{text(rise)} at φ = {packing:g}")
+    return conclude(answers, "G₂ across the director, a wavelength away less half a wavelength away: " + "; ".join(found))
+
+
+def no_layers_at_wide_gaps(library: Library) -> Finding:
+    reference = library["layers"].at(4.5, 0.80)
+    if not reference:
+        return Finding()
+    answers, found = [], [_gap_text(reference)]
+    for gap in (1.4, 1.6):
+        wide = library["gaps"].at(gap=gap)
+        if not wide:
+            continue
+        answers.append(two_peaks(wide).negated().placed(f"one peak, w = {gap:g} mm"))
+        answers.append(larger(reference.number("layer_order"), wide.number("layer_order"))
+                       .placed(f"weaker layers, w = {gap:g} mm"))
+        found.append(_gap_text(wide))
+    return conclude(answers, "; ".join(found))
+
+
+def crystal_at_a_narrow_gap(library: Library) -> Finding:
+    reference, narrow = library["layers"].at(4.5, 0.80), library["gaps"].at(gap=0.9)
+    if not reference or not narrow:
+        return Finding()
+    found = f"{_gap_text(reference)}; {_gap_text(narrow)}"
+    more = larger(narrow.number("bragg_peak"), reference.number("bragg_peak"))
+    if two_peaks(narrow).word or more.word is False:
+        return refutable(no(), found, "")
+    if more.word is None:
+        return refutable(more, found, "")
+    ratio = narrow.number("bragg_peak").value / reference.number("bragg_peak").value
+    return refutable(yes(), found, f"its Bragg peak is {ratio:.1f} times that of the layers, and P(θ) has one peak")
+
+
+def _trend(series: list[tuple[Runs, str]], name: str, rising: bool, unit: str) -> Finding:
+    """A trend of the layers in series that each differ in one key; series that cannot tell do not count where one can."""
+    symbols = {PACKING: "φ", LENGTH: "ℓ", END: "d"}
+    answers, found = [], []
+    for runs, key in series:
+        points = layered(runs).points(key, wavelength if name == "wavelength_mm" else name)
+        if len(runs.values(key)) < 2:
+            continue
+        where = ", ".join(f"{symbols[other]} = {key_of(runs[0], other):g}" for other in (LENGTH, PACKING) if other != key)
+        side = key_of(runs[0], SIDE)
+        answers.append((trend(points, rising) if len(points) > 1 else unknown("layers at fewer than two points"))
+                       .placed(f"{where}, L = {side:.0f} mm"))
+        found.append(f"{where}, L = {side:.0f} mm: " + (listed(points, symbols[key], unit) or "no layers"))
+    able = [answer for answer in answers if answer.word is not None]
+    return conclude(able or answers, ". ".join(found))
+
+
+def _by_packing(library: Library) -> list[tuple[Runs, str]]:
+    runs = library.joined("layers", "layer-trends")
+    return [(Runs(run for run in runs.at(length, end=0.4) if key_of(run, PACKING) > 0.78), PACKING)
+            for length in (4.0, 4.5)]
+
+
+def _by_length(library: Library) -> list[tuple[Runs, str]]:
+    return [(library.joined("layers", "layer-trends").at(packing=0.85, end=0.4), LENGTH)]
+
+
+def _by_end(library: Library) -> list[tuple[Runs, str]]:
+    return [(library["layer-trends"].at(4.0, 0.85), END)]
+
+
+def angle_grows_with_packing(library: Library) -> Finding:
+    return _trend(_by_packing(library), "theta_m_deg", True, "°")
+
+
+def angle_falls_with_length(library: Library) -> Finding:
+    return _trend(_by_length(library), "theta_m_deg", False, "°")
+
+
+def angle_falls_with_end(library: Library) -> Finding:
+    return _trend(_by_end(library), "theta_m_deg", False, "°")
+
+
+def two_peaks_at_every_end(library: Library) -> Finding:
+    answers, found = [], []
+    [(runs, _)] = _by_end(library)
+    for end in runs.values(END) if len(runs.values(END)) > 1 else []:
+        here = runs.at(end=end)
+        answers.append(two_peaks(here).placed(f"d = {end:g} mm"))
+        found.append(f"d = {end:g} mm: {_angle_text(here)}")
+    return conclude(answers, "; ".join(found), everywhere=True)
+
+
+def wavelength_falls_with_packing(library: Library) -> Finding:
+    return _trend([(library["wavelength-packing"], PACKING), *_by_packing(library)], "wavelength_mm", False, " mm")
+
+
+def wavelength_grows_with_length(library: Library) -> Finding:
+    return _trend([(library["wavelength-length"], LENGTH), *_by_length(library)], "wavelength_mm", True, " mm")
+
+
+def wavelength_grows_with_end(library: Library) -> Finding:
+    wide = library.joined("wavelength-end", "larger-box", "wavelength-length").at(4.0, 0.85)
+    return _trend([(wide, END), *_by_end(library)], "wavelength_mm", True, " mm")
+
+
+def larger_box(library: Library) -> Finding:
+    large = library.joined("larger-box", "wavelength-length").at(4.0, 0.85, end=0.4)
+    small = library["layer-trends"].at(4.0, 0.85, end=0.4)
+    if not large or not small:
+        return Finding()
+    lam = [layered(runs).of(wavelength) for runs in (small, large)]
+    theta = [runs.number("theta_m_deg") for runs in (small, large)]
+    sides = [key_of(runs[0], SIDE) for runs in (small, large)]
+    return conclude([larger(lam[1], lam[0]).placed("λ larger"), larger(theta[0], theta[1]).placed("θ_m smaller")],
+                    f"ℓ = 4 mm, φ = 0.85: λ = {text(lam[0])} mm and {text(lam[1])} mm, θ_m = {text(theta[0])}° and "
+                    f"{text(theta[1])}°, in {sides[0]:.1f} and {sides[1]:.1f} mm")

@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: MIT
+"""The runs of a study, by the set (the sweep) that asked for them, and numbers at their state points."""
+from __future__ import annotations
+
+import math
+from collections import Counter
+from dataclasses import replace
+from typing import Callable, Iterable
+
+import numpy as np
+
+from ..estimate import NAN, Estimate, derived, replica_mean
+from ..run import Run
+
+PACKING, LENGTH, SIDE = "rods.area_fraction", "rods.length", "box.side"
+END, GAP, GAMMA, FREQUENCY, BEADS = ("rods.end_diameter", "box.gap", "plates.gamma", "plates.frequency", "rods.beads")
+
+#: The paper's box [mm]. A narrower box orders more easily: there order is no sign of order in the paper's; disorder is.
+PAPERS_BOX = 83.7
+
+
+def key_of(run: Run, path: str) -> float:
+    """A key of the scene as a number; NaN where there is none. An area fraction that was not swept is the multiple of
+    0.05 that was asked for, where whole rods come within 0.004 of it."""
+    value = run.key(path)
+    if not isinstance(value, (int, float)):
+        return NAN
+    if path == PACKING and path not in run.parameters:
+        nearest = round(value * 20) / 20
+        return nearest if abs(value - nearest) < 0.004 else float(value)
+    return float(value)
+
+
+def number_of(run: Run, name: str) -> Estimate:
+    """A number of a run. One that does not know whether it is steady, such as a diffusion constant, is as steady as its
+    run."""
+    if name not in run.numbers:
+        return Estimate(reason="not measured")
+    estimate = run.numbers[name]
+    if estimate.steady is None and not math.isfinite(estimate.drift_error):
+        order = run.numbers.get("S", Estimate())
+        return replace(estimate, steady=run.steady if run.steady is not None else _hardly_drifts(order))
+    return estimate
+
+
+def _hardly_drifts(order: Estimate) -> bool | None:
+    """True where S drifts by less than 0.05 with two errors to spare: that leaves the other averages what they are."""
+    return True if abs(order.drift) + 2 * order.drift_error < 0.05 else None
+
+
+def mean(estimates: Iterable[Estimate]) -> Estimate:
+    """The mean over replicas (`replica_mean`). Whether it is steady is asked of all of them together: of the mean of
+    their drifts, where all have one, for of many runs some drift by chance."""
+    found = replica_mean(estimates)
+    if math.isfinite(found.drift) and math.isfinite(found.drift_error):
+        return replace(found, steady=abs(found.drift) <= 2 * found.drift_error)
+    return found
+
+
+class Runs(list[Run]):
+    """Some runs: those of a set, of a state point."""
+
+    def where(self, path: str, value: float) -> "Runs":
+        return Runs(run for run in self if abs(key_of(run, path) - value) < 1e-6 * max(1.0, abs(value)))
+
+    def at(self, length: float | None = None, packing: float | None = None, side: float | None = None,
+           end: float | None = None, gap: float | None = None) -> "Runs":
+        """The runs with these keys [mm]."""
+        found = self
+        for path, value in ((LENGTH, length), (PACKING, packing), (SIDE, side), (END, end), (GAP, gap)):
+            if value is not None:
+                found = found.where(path, value)
+        return found
+
+    def values(self, path: str) -> list[float]:
+        """The values of a key, rising."""
+        return sorted({round(key_of(run, path), 9) for run in self if math.isfinite(key_of(run, path))})
+
+    def largest(self, path: str = SIDE) -> "Runs":
+        values = self.values(path)
+        return self.where(path, values[-1]) if values else self
+
+    def smallest(self, path: str) -> "Runs":
+        values = self.values(path)
+        return self.where(path, values[0]) if values else self
+
+    def number(self, name: str) -> Estimate:
+        """The mean of a number over these runs; the runs in which it could not be measured do not count."""
+        return mean(number_of(run, name) for run in self)
+
+    def of(self, value: Callable[[Run], Estimate]) -> Estimate:
+        """The mean of what a function makes of each run."""
+        return mean([value(run) for run in self])
+
+    def points(self, path: str, name: str | Callable[[Run], Estimate]) -> "list[tuple[float, Estimate]]":
+        """(value of a key, number) at each value of the key that has one."""
+        found = []
+        for value in self.values(path):
+            here = self.where(path, value)
+            estimate = here.number(name) if isinstance(name, str) else here.of(name)
+            if estimate.is_known:
+                found.append((value, estimate))
+        return found
+
+    def curve(self, name: str) -> "tuple[np.ndarray, np.ndarray, np.ndarray] | None":
+        """(x, mean, error) of an array over these runs, at the places of the longest; None where none has it."""
+        found = [run.arrays[name] for run in self if name in run.arrays and run.arrays[name].axis is not None]
+        if not found:
+            return None
+        n = min(len(array) for array in found)
+        x = np.asarray(found[0].axis)[:n]
+        same = [array for array in found if np.allclose(np.asarray(array.axis)[:n], x, rtol=1e-3)]
+        values = np.array([np.asarray(array)[:n] for array in same])
+        own = np.array([np.asarray(array.error)[:n] if array.error is not None else np.full(n, NAN) for array in same])
+        errors = [replica_mean([Estimate(v, e, True) for v, e in zip(values[:, k], own[:, k])]).error for k in range(n)]
+        with np.errstate(all="ignore"):
+            return x, np.nanmean(values, axis=0), np.array(errors)
+
+
+class Library:
+    """Runs by set. Where a set has a few runs of a finer time step than the others these are its `controls`.
+
+    `runs` are ArchivedRuns, which know their sweeps; the scale is what stands behind the last dash of a sweep's name.
+    """
+
+    def __init__(self, runs: Iterable[Run]) -> None:
+        self._sets: dict[str, Runs] = {}
+        self.controls: dict[str, Runs] = {}
+        everything: dict[str, list[Run]] = {}
+        for run in runs:
+            for sweep in getattr(run, "sweeps", []):
+                everything.setdefault(sweep.rpartition("-")[0] or sweep, []).append(run)
+        for name, members in everything.items():
+            steps = Counter(key_of(run, "time.step") for run in members)
+            usual = steps.most_common(1)[0][0]
+            self._sets[name] = Runs(run for run in members if key_of(run, "time.step") >= usual * 0.999)
+            self.controls[name] = Runs(run for run in members if key_of(run, "time.step") < usual * 0.999)
+
+    def __getitem__(self, name: str) -> Runs:
+        return self._sets.get(name, Runs())
+
+    def joined(self, *names: str) -> Runs:
+        """The runs of several sets, each once."""
+        seen: dict[str, Run] = {}
+        for name in names:
+            for run in self[name]:
+                seen.setdefault(run.id, run)
+        return Runs(seen.values())
+
+    @property
+    def sets(self) -> list[str]:
+        return list(self._sets)
+
+    @property
+    def everything(self) -> Runs:
+        seen = {run.id: run for runs in (*self._sets.values(), *self.controls.values()) for run in runs}
+        return Runs(seen.values())
+
+
+def crossing(points: list[tuple[float, Estimate]], level: float) -> Estimate:
+    """Where points pass a level from below for the first time, on the straight line between the neighbours."""
+    for (x0, low), (x1, high) in zip(points, points[1:]):
+        if low.value < level <= high.value:
+            part = (level - low.value) / (high.value - low.value)
+            slope = (high.value - low.value) / (x1 - x0)
+            return derived(x0 + part * (x1 - x0), [(-(1 - part) / slope, low), (-part / slope, high)])
+    return Estimate(reason="not passed")
+
+
+def mean_of_places(values: np.ndarray, errors: np.ndarray, run: Run) -> Estimate:
+    """The mean of a curve over several places. Its error is the mean of theirs, as if they went up and down together,
+    which is the most it can be. It is as steady as its run."""
+    good = np.isfinite(values)
+    if not good.any():
+        return Estimate(reason="not measured")
+    steady = run.steady if run.steady is not None else _hardly_drifts(run.numbers.get("S", Estimate()))
+    return Estimate(float(np.mean(values[good])), float(np.mean(errors[good])), steady)

@@ -1,0 +1,256 @@
+# SPDX-License-Identifier: MIT
+"""Swimming, diffusion, rotation, correlations in time, defects."""
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ..estimate import Estimate
+from ..run import Run
+from .library import PACKING, SIDE, Library, Runs, key_of, mean_of_places, number_of
+from .rules import Finding, above, below, close_to, conclude, doubt, larger, listed, no, text, trend, unknown, yes
+
+
+def papers_diffusion(packing: float) -> float:
+    """The paper's fit to D of rods of 2.5 mm [mm2/s]."""
+    return 1.7 + 480 * (packing - 0.64) ** 2
+
+
+def short_rods(library: Library) -> Runs:
+    """Rods of 2.5 mm at each packing, in the largest box of the sets that follow them for long."""
+    runs = library.joined("diffusion", "short-rods").at(length=2.5)
+    return Runs(run for packing in runs.values(PACKING) for run in runs.at(packing=packing).largest(SIDE))
+
+
+def long_rods(library: Library) -> Runs:
+    """Rods of 4.5 mm at each packing: those followed for longest."""
+    followed, others = library["diffusion-along"], library["long-rods"]
+    return Runs([*followed, *(run for run in others if key_of(run, PACKING) not in followed.values(PACKING))])
+
+
+def speed_between(run: Run, low: float, high: float) -> Estimate:
+    """Weighted mean of v along the rod [mm/s] over tilts from `low` to `high`, both hands taken together."""
+    if "/tilt/folded/v_along_mm_s" not in run:
+        return Estimate(reason="not measured")
+    v = run["/tilt/folded/v_along_mm_s"]
+    n_z, errors = np.asarray(v.axis), np.asarray(v.error)
+    good = (n_z >= low) & (n_z <= high) & (errors > 0) & np.isfinite(v)
+    if not good.any():
+        return Estimate(reason="no rod tilts so far")
+    weights = 1 / errors[good]**2
+    return Estimate(float((np.asarray(v)[good] * weights).sum() / weights.sum()), float(weights.sum()**-0.5),
+                    number_of(run, "tilt_fastest_mm_s").steady)
+
+
+def tilt_and_velocity(library: Library) -> Finding:
+    runs = library["mechanism"].at(packing=0.60)
+    if not runs:
+        return Finding()
+    speed, beyond = runs.number("tilt_fastest_mm_s"), runs.of(lambda run: speed_between(run, 0.31, 0.40))
+
+    def place_in(run: Run) -> Estimate:  # to a bin
+        n_z = np.asarray(run["/tilt/folded/n_z"])
+        return Estimate(abs(number_of(run, "tilt_fastest_n_z").value), float(n_z[1] - n_z[0]), True)
+
+    place = runs.of(place_in)
+    return conclude([below(speed, 0).placed("against the tilt"), close_to(place, 0.2, 0.06).placed("fastest near 0.2"),
+                     above(beyond, 0).placed("reversed beyond 0.3")],
+                    f"fastest at n_z = ±{text(place)}, {text(speed)} mm/s along the tilt; beyond ±0.31 {text(beyond)} mm/s")
+
+
+def no_motion_sideways(library: Library) -> Finding:
+    runs = library["mechanism"].at(packing=0.60)
+    if not runs:
+        return Finding()
+    chi2, noise, n = 0.0, 0.0, 0
+    for run in runs:
+        v = run["/tilt/v_across_mm_s"]
+        good = (np.asarray(v.error) > 0) & np.isfinite(v)
+        chi2 += float((np.asarray(v)[good] ** 2 / np.asarray(v.error)[good] ** 2).sum())
+        noise += float((np.asarray(v.error)[good] ** 2).sum())
+        n += int(good.sum())
+    if not n:
+        return Finding()
+    excess = Estimate(chi2 / n, math.sqrt(2 / n), True)  # chi2 of n independent bins at zero is n +- sqrt(2 n)
+    error, speed = math.sqrt(noise / n), abs(runs.number("tilt_fastest_mm_s").value)
+    if above(excess, 1).word:
+        answer = no()
+    else:
+        answer = yes() if error < 0.2 * speed else unknown("the errors are too large")
+    return conclude([answer], f"χ² per bin {text(excess)} about 0, errors of {error:.2f} mm/s; fastest along the rod "
+                              f"{speed:.2f} mm/s")
+
+
+def tilt_switches(library: Library) -> Finding:
+    points = library["mechanism"].points(PACKING, "n_z_switching_time_s")
+    # several times within the 30 s over which the paper follows a rod
+    return conclude([below(estimate, 10).placed(f"{packing:g}") for packing, estimate in points],
+                    f"n_z keeps its sign for {listed(points, 'φ', ' s')}")
+
+
+def persists_when_dense(library: Library) -> Finding:
+    answers, found = [], []
+    for name, unit in (("persistence_time_s", " s"), ("persistence_length_mm", " mm")):
+        points = [(at, e) for at, e in library["mechanism"].points(PACKING, name) if at > 0.64]
+        if len(points) > 1:
+            answers.append(trend(points, rising=True).placed("time" if unit == " s" else "length"))
+            found.append(listed(points, "φ", unit))
+    return conclude(answers, ". ".join(found))
+
+
+def diffusion_rises(library: Library) -> Finding:
+    points = [(at, e) for at, e in short_rods(library).points(PACKING, "diffusion_mm2_s") if at > 0.64]
+    if len(points) < 2:
+        return Finding()
+    below_it = [(at, e) for at, e in short_rods(library).points(PACKING, "diffusion_mm2_s") if at < 0.66]
+    falls = f"; below 0.65 it falls: {listed(below_it, 'φ')}" if len(below_it) > 1 else ""
+    return conclude([trend(points, rising=True)], f"D = {listed(points, 'φ')} mm²/s{falls}")
+
+
+def diffusion_law(library: Library) -> Finding:
+    points = [(at, e) for at, e in short_rods(library).points(PACKING, "diffusion_mm2_s") if at > 0.64]
+    answers = [close_to(e, papers_diffusion(at), 0.2 * papers_diffusion(at)).placed(f"{at:g}") for at, e in points]
+    found = "; ".join(f"{text(e)} ({papers_diffusion(at):.1f}) at {at:g}" for at, e in points)
+    return conclude(answers, f"D in mm²/s (the paper's fit): {found}")
+
+
+def diffusion_is_normal(library: Library) -> Finding:
+    answers, found = [], []
+    for when in ("short", "long"):
+        points = short_rods(library).points(PACKING, f"alpha_{when}")
+        answers += [close_to(e, 1, 0.1).placed(f"{when} times, {at:g}") for at, e in points]
+        if points:
+            found.append(f"{when}: {listed(points, 'φ')}")
+    return conclude(answers, "exponents at times that are " + "; ".join(found))
+
+
+def msd_slope(run: Run, direction: str, lag: float) -> Estimate:
+    """Half the slope of the MSD in one direction over the octave of lags that ends at `lag` [s]: D [mm2/s]."""
+    name = f"/msd/{direction}_mm2"
+    if name not in run:
+        return Estimate(reason="not measured")
+    msd = run[name]
+    t, values, errors = np.asarray(msd.axis), np.asarray(msd), np.asarray(msd.error)
+    if lag > t[-1] * 1.01:
+        return Estimate(reason=f"no lags of {lag:g} s")
+    first, last = np.argmin(abs(t - lag / 2)), np.argmin(abs(t - lag))
+    dt = t[last] - t[first]
+    error = math.sqrt(max(errors[last] ** 2 - errors[first] ** 2, errors[first] ** 2)) / (2 * dt)
+    return Estimate((values[last] - values[first]) / (2 * dt), error, number_of(run, "diffusion_mm2_s").steady)
+
+
+def diffusion_along_the_director(library: Library) -> Finding:
+    runs = library["diffusion-along"]
+    across = dict(runs.points(PACKING, "diffusion_across_mm2_s"))
+    answers, found = [], []
+    for label, name in (("longest lags", "diffusion_along_mm2_s"),
+                        ("lags of 20 s", lambda run: msd_slope(run, "along", 20.48))):
+        along = dict(runs.points(PACKING, name))
+        if not {0.70, 0.80, 0.85} <= set(along):
+            continue
+        answers += [larger(along[0.80], along[0.70]).placed(f"rises to 0.80 ({label})"),
+                    larger(along[0.80], along[0.85]).placed(f"falls beyond ({label})")]
+        found.append(f"along, {label}: {listed(list(along.items()), 'φ')}")
+    if not answers or not {0.70, 0.80} <= set(across):
+        return Finding()
+    along = dict(runs.points(PACKING, "diffusion_along_mm2_s"))
+    answers += [larger(across[0.70], across[0.80]).placed("across it falls"),
+                larger(along[0.80], across[0.80]).placed("across it is smaller")]
+    return conclude(answers, ". ".join(found) + f". Across: {listed(list(across.items()), 'φ')} (mm²/s)")
+
+
+def no_superdiffusion_across(library: Library) -> Finding:
+    answers, found = [], []
+    for when in ("short", "long"):
+        points = [(at, e) for at, e in long_rods(library).points(PACKING, f"alpha_across_{when}") if at > 0.59]
+        answers += [below(e, 1.05).placed(f"{when} times, {at:g}") for at, e in points]
+        if points and when == "short":
+            answers.append(trend(points, rising=False).placed("falls with packing"))
+        if points:
+            found.append(f"{when}: {listed(points, 'φ')}")
+    return conclude(answers, "exponents across at times that are " + "; ".join(found))
+
+
+def slower_when_denser(library: Library) -> Finding:
+    runs = library["short-rods"]
+    c2, c_v = runs.points(PACKING, "c2_decay_s"), runs.points(PACKING, "velocity_correlation_s")
+    if len(c2) < 2 or len(c_v) < 2:
+        return Finding()
+    return conclude([trend(c2, rising=True).placed("C₂"), trend(c_v, rising=True).placed("C_v")],
+                    f"C₂ falls to 1/e in {listed(c2, 'φ', ' s')}. C_v: {listed(c_v, 'φ', ' s')}")
+
+
+def c2_levels_off(library: Library) -> Finding:
+    points = [(at, e) for at, e in library["long-rods"].points(PACKING, "c2_plateau") if at > 0.59]
+    if len(points) < 2:
+        return Finding()
+    return conclude([trend(points, rising=True).placed("grows with packing"),
+                     *(close_to(e, 1, 0.15).placed(f"near 1 at {at:g}") for at, e in points if at > 0.79)],
+                    listed(points, "φ"))
+
+
+#: Lags of C_v that the average over 400 ms does not reach [s].
+FREE_OF_THE_WINDOW = (0.8, 2.8)
+
+
+def late_velocity_correlation(run: Run) -> Estimate:
+    """C_v(t) along the director [mm2/s2], its mean over lags beyond the averaging window."""
+    name = "/velocity/product_along_mm2_s2"
+    if name not in run:
+        return Estimate(reason="not measured")
+    product = run[name]
+    lag = np.asarray(product.axis)
+    late = (lag >= FREE_OF_THE_WINDOW[0] - 1e-9) & (lag <= FREE_OF_THE_WINDOW[1] + 1e-9)
+    return mean_of_places(np.asarray(product)[late], np.asarray(product.error)[late], run)
+
+
+def velocity_along_grows(library: Library) -> Finding:
+    runs = long_rods(library)
+    points = [(at, e) for at, e in runs.points(PACKING, late_velocity_correlation) if at > 0.59]
+    growing = [(at, e) for at, e in points if at < 0.81]
+    if len(growing) < 2:
+        return Finding()
+    at_zero = [(at, e) for at, e in runs.points(PACKING, "velocity_variance_along_mm2_s2") if at > 0.59]
+    return conclude([trend(growing, rising=True)],
+                    f"C_v along, lags of 0.8 to 2.8 s: {listed(points, 'φ', ' mm²/s²')}. C_v(0): {listed(at_zero, 'φ')}")
+
+
+def rotation_slows(library: Library) -> Finding:
+    points = library["short-rods"].points(PACKING, "rotational_diffusion_rad2_s")
+    if len(points) < 2:
+        return Finding()
+    return conclude([trend(points, rising=False)], f"D_r = {listed(points, 'φ')} rad²/s")
+
+
+def rotation_subdiffusive(library: Library) -> Finding:
+    points = library["short-rods"].points(PACKING, "alpha_rotation_short")
+    if len(points) < 2:
+        return Finding()
+    return conclude([trend(points, rising=False).placed("falls with packing"),
+                     *(below(e, 1).placed(f"{at:g}") for at, e in points)], f"exponent {listed(points, 'φ')}")
+
+
+def turning_saturates(library: Library) -> Finding:
+    points = [(at, e) for at, e in library["long-rods"].points(PACKING, "alpha_rotation_long")
+              if at < 0.46 or at > 0.74]
+    return conclude([(close_to(e, 1, 0.1) if at < 0.46 else below(e, 0.25)).placed(f"{at:g}") for at, e in points],
+                    f"exponent at long times {listed(points, 'φ')}")
+
+
+def defects_move(library: Library) -> Finding:
+    runs = library["no-order"].at(3.0, 0.85)
+    if not runs:
+        return Finding()
+    plus, minus, along = (runs.number(f"lasting_defect_speed_{name}_mm_s") for name in ("plus", "minus", "plus_along"))
+    found = (f"ℓ = 3 mm, φ = 0.85: +1/2 move at {text(plus)} mm/s, −1/2 at {text(minus)} mm/s; +1/2 towards their own "
+             f"tail: {text(along)} mm/s")
+    # Which way is not said: along its own axis, either way. That it does not is known where that is less than a tenth of
+    # the speed at which the other kind jitters.
+    if why := doubt(along):
+        return conclude([unknown(why)], found)
+    either_way = along if along.value >= 0 else along * -1
+    moves = above(either_way, 0)
+    if not moves.word and below(either_way, 0.1 * minus.value).word:
+        return conclude([no()], found)
+    return conclude([moves], found)

@@ -1,0 +1,274 @@
+# SPDX-License-Identifier: MIT
+"""Where rods order, how sharply, from which start and in which box."""
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ..estimate import NAN, Estimate, derived
+from ..run import Run
+from .library import GAMMA, LENGTH, PACKING, PAPERS_BOX, SIDE, Library, Runs, crossing, key_of
+from .rules import (Answer, Finding, above, below, close_to, conclude, doubt, listed, no, refutable, text, trend, unknown,
+                    yes)
+from .structure_checks import far_g2
+
+#: <S> above which a state counts as ordered, as the paper draws the line.
+ORDERED = 0.5
+#: The box of the phase diagram [mm].
+DIAGRAMS_BOX = 33.492
+
+
+def phase_diagram(library: Library) -> Runs:
+    """The runs of the phase diagram: all lengths and packings in its box."""
+    return library.joined("long-rods", "short-rods", "crossings", "phases").at(side=DIAGRAMS_BOX)
+
+
+def transition(runs: Runs) -> Estimate:
+    """The area fraction at which <S> passes 0.5."""
+    return crossing(runs.points(PACKING, "S"), ORDERED)
+
+
+def power_of_size(runs: Runs) -> Estimate:
+    """x of S ~ L^x between the smallest and the largest box."""
+    points = runs.points(SIDE, "S")
+    if len(points) < 2:
+        return Estimate(reason="one box only")
+    (l0, small), (l1, large) = points[0], points[-1]
+    scale = math.log(l1 / l0)
+    return derived(math.log(large.value / small.value) / scale,
+                   [(-1 / (small.value * scale), small), (1 / (large.value * scale), large)])
+
+
+def steady_after_the_start(library: Library) -> Finding:
+    longest_wait = 600.0  # [s], the paper's
+    runs = library["long-rods"]
+    answers, steady, wait = [], 0, 0.0
+    for packing in runs.values(PACKING):
+        here = runs.at(packing=packing)
+        aligned = all(float(run["/order/order"][0]) > 0.95 for run in here if "/order/order" in run)
+        s = here.number("S")
+        start = max(float(run.summary.get("t_steady_s") or 0) for run in here)
+        if not aligned:
+            answer = no()
+        elif s.steady:
+            answer = yes() if start <= longest_wait else no()
+            steady, wait = steady + 1, max(wait, start)
+        else:
+            followed = max(float(run.summary["sim_seconds"]) for run in here)
+            answer = no() if followed > 1000 and s.steady is False else unknown("a run still relaxes")
+        answers.append(answer.placed(f"{packing:g}"))
+    return conclude(answers, f"S(0) = 1; steady at {steady} of {len(answers)} packings, from {wait:.0f} s on at the latest",
+                    everywhere=True)
+
+
+def ordered_when_dense(library: Library) -> Finding:
+    runs = library["long-rods"].at(packing=0.75)
+    if not runs:
+        return Finding()
+    s = runs.number("S")
+    return conclude([close_to(s, 0.9, 0.05)], f"S = {text(s)}")
+
+
+def disordered_when_dilute(library: Library) -> Finding:
+    everywhere = library.joined("long-rods", "dilute").at(length=4.5, packing=0.45)
+    runs = everywhere.largest(SIDE)
+    if not runs:
+        return Finding()
+    s, far, power = runs.number("S"), far_g2(runs), power_of_size(everywhere)
+    # Whatever its correlations, a disordered state of N >> 1 independent regions has S ~ 1/sqrt(N), that is 1/L; an
+    # ordered one has the same S in every box.
+    return conclude([below(s, ORDERED).placed("S"), close_to(far, 0, 0.05).placed("G₂ far away"),
+                     below(power, -0.5).placed("larger boxes")],
+                    f"S = {text(s)} in {key_of(runs[0], SIDE):.1f} mm; G₂ at half a box {text(far)}; S ~ Lˣ with "
+                    f"x = {text(power)} (disorder: −1)")
+
+
+def short_rods_do_not_order(library: Library) -> Finding:
+    runs = library.joined("short-rods", "phases", "no-order", "diffusion", "mechanism")
+    answers, found = [], []
+    for length in (2.5, 3.0):
+        largest = None
+        for packing in runs.at(length).values(PACKING):
+            here = runs.at(length, packing).largest(SIDE)
+            s, side = here.number("S"), key_of(here[0], SIDE)
+            answer = below(s, ORDERED)
+            if answer.word is False and side < PAPERS_BOX:
+                answer = unknown("order in a box narrower than the paper's")
+            answers.append(answer.placed(f"ℓ = {length:g} mm, φ = {packing:g}"))
+            if largest is None or s.value > largest[0].value:
+                largest = (s, packing, side)
+        if largest:
+            found.append(f"ℓ = {length:g} mm: largest S = {text(largest[0])} at φ = {largest[1]:g}, in {largest[2]:.1f} mm")
+    return conclude(answers, "; ".join(found), everywhere=True)
+
+
+def transition_falls_with_length(library: Library) -> Finding:
+    runs = phase_diagram(library)
+    points = [(length, transition(runs.at(length))) for length in (3.5, 4.0, 4.5) if runs.at(length)]
+    passed = [(length, phi) for length, phi in points if phi.is_known]
+    if not passed:
+        return Finding()
+    return conclude([trend(points, rising=False)], "S = 0.5 is passed at φ = " + listed(passed, "ℓ", ""))
+
+
+def saturates(library: Library) -> Finding:
+    answers, found = [], []
+    for length in (4.0, 4.5):
+        points = phase_diagram(library).at(length).points(PACKING, "S")
+        if len(points) < 2:
+            continue
+        answers.append(trend(points, rising=True).placed(f"rises, ℓ = {length:g} mm"))
+        answers.append(close_to(points[-1][1], 0.95, 0.1).placed(f"to about 1, ℓ = {length:g} mm"))
+        found.append(f"ℓ = {length:g} mm: from {text(points[0][1])} at {points[0][0]:g} to {text(points[-1][1])} at "
+                     f"{points[-1][0]:g}")
+    return conclude(answers, "; ".join(found))
+
+
+def transition_rises_with_size(library: Library) -> Finding:
+    runs = library.joined("long-rods", "size").at(length=4.5)
+    points = [(side, transition(runs.at(side=side))) for side in runs.values(SIDE)
+              if len(runs.at(side=side).values(PACKING)) > 1]
+    if len(points) < 2:
+        return Finding()
+    return conclude([trend(points, rising=True)], "S = 0.5 is passed at φ = " + listed(points, "L", ""))
+
+
+def long_range(library: Library) -> Finding:
+    runs = library.joined("long-range", "long-rods").at(length=4.5, packing=0.70)
+    points = runs.points(SIDE, "S")
+    if len(points) < 2:
+        return Finding()
+    power = power_of_size(runs)
+    found = f"S = {listed(points, 'L')}; S ~ Lˣ with x = {text(power)}"
+    # Quasi-long-range order is a small power too, at most L^-1/8 in an equilibrium nematic (Kosterlitz & Thouless 1973).
+    if below(power, -0.125).word or below(points[-1][1], ORDERED).word:
+        return refutable(no(), found, "")
+    if why := doubt(power):
+        return refutable(unknown(why), found, "")
+    change = abs(points[-1][1].value / points[-2][1].value - 1)
+    return refutable(yes(), found, f"S changes by {100 * change:.1f} % from {points[-2][0]:.0f} to {points[-1][0]:.0f} mm")
+
+
+def pooled_density(runs: Runs) -> tuple[np.ndarray, np.ndarray, float]:
+    """P[S] of several runs together, weighted by their independent samples: (S, density, samples)."""
+    total, samples, places = np.zeros(0), 0.0, np.zeros(0)
+    for run in runs:
+        if "/order/pdf/density" not in run:
+            continue
+        weight = run["S"].n_eff
+        if not math.isfinite(weight):
+            continue
+        density = np.asarray(run["/order/pdf/density"])
+        places = np.asarray(run["/order/pdf/order"])
+        total = density * weight + (total if len(total) else 0)
+        samples += weight
+    return places, total / samples if samples else total, samples
+
+
+def n_peaks(density: np.ndarray) -> int:
+    """Maxima of a density, smoothed over five places, that stand at least a third of the largest one above the valleys
+    beside them."""
+    if not len(density):
+        return 0
+    smooth = np.convolve(density, np.ones(5) / 5, mode="same")
+    step = smooth.max() / 3
+    peaks, low, high, climbing = 0, 0.0, 0.0, True
+    for value in np.append(smooth, 0.0):
+        if climbing:
+            high = max(high, value)
+            if value < high - step:
+                peaks += high - low >= step
+                climbing, low = False, value
+        else:
+            low = min(low, value)
+            if value > low + step:
+                climbing, high = True, value
+    return peaks
+
+
+def one_peak(library: Library) -> Finding:
+    answers, found = [], []
+    runs = library["long-rods"]
+    for packing in runs.values(PACKING):
+        here = runs.at(packing=packing)
+        _, density, samples = pooled_density(here)
+        if not samples and doubt(here.number("S")):
+            answer = unknown(doubt(here.number("S")))
+        elif here.number("S").steady is False:
+            answer = unknown("a run still relaxes")
+        elif samples < 50:
+            answer = unknown("too few independent samples for the shape of P[S]")
+        else:
+            answer = yes() if n_peaks(density) == 1 else no()
+        answers.append(answer.placed(f"{packing:g}"))
+        found.append(f"{n_peaks(density)} ({samples:.0f}) at {packing:g}")
+    return conclude(answers, "peaks (independent samples): " + ", ".join(found), everywhere=True)
+
+
+def broadest_at_the_transition(library: Library) -> Finding:
+    runs = library["long-rods"]
+    points = runs.points(PACKING, "S_std")
+    phi = transition(runs)
+    if len(points) < 3 or not phi.is_known:
+        return Finding()
+    place, widest = max(points, key=lambda point: point[1].value)
+    # as near as the steps of the sweep allow
+    return conclude([close_to(phi, place, 0.055)],
+                    f"S scatters most, by {widest.value:.3f}, at φ = {place:g}; the transition is at {text(phi)}")
+
+
+def angle_to_side(run: Run) -> Estimate:
+    """Angle between the director and the nearest side of the box [degrees], from both halves of the steady state: their
+    mean, and half their difference as its error."""
+    if "/order/director_rad" not in run:
+        return Estimate(reason="not measured")
+    angle = run["/order/director_rad"]
+    late = np.asarray(angle)[np.asarray(angle.axis) >= float(run.summary.get("t_steady_s") or 0)]
+    if len(late) < 4:
+        return Estimate(reason="too short")
+
+    def of(part: np.ndarray) -> float:
+        degrees = abs(math.degrees(np.angle(np.exp(2j * part).mean()) / 2))
+        return min(degrees, 90 - degrees)
+
+    early, later = of(late[:len(late) // 2]), of(late[len(late) // 2:])
+    return Estimate((early + later) / 2, abs(early - later) / 2, run["S"].steady, unit="deg")
+
+
+def oblique_axis(library: Library) -> Finding:
+    turned = library["turned"].at(length=3.5, packing=0.85)
+    straight = library["layer-trends"].at(length=3.5, packing=0.85)
+    if not turned:
+        if not straight:
+            return Finding()
+        return conclude([unknown("no run starts turned")],
+                        f"started along a side: S = {text(straight.number('S'))}, director "
+                        f"{text(straight.of(angle_to_side))}° from it")
+    s, angle = turned.number("S"), turned.of(angle_to_side)
+    found = f"started at 30°: S = {text(s)}, director {text(angle)}° from the nearest side"
+    if straight:
+        found += f"; started along a side: {text(straight.of(angle_to_side))}°"
+    return conclude([above(s, ORDERED).placed("ordered"), above(angle, 10).placed("oblique")], found)
+
+
+def activity(library: Library) -> Finding:
+    runs = library["shaking"].at(length=2.5)
+    moving = Runs(run for run in runs if key_of(run, GAMMA) > 0)
+    still = runs.where(GAMMA, 0.0)
+    d = moving.points(GAMMA, "diffusion_mm2_s")
+    if len(d) < 2:
+        return Finding()
+    answers: list[Answer] = [trend(d, rising=True).placed("D grows with Γ")]
+    found = f"D = {listed(d, 'Γ', ' mm²/s')}"
+    if not still:
+        answers.append(unknown("not run").placed("Γ = 0"))
+    else:
+        energy = still[0].summary["energy_pJ"]
+        answers.append((yes() if energy["given_by_plates"] == 0 and energy["left"] < energy["start"] else no())
+                       .placed("Γ = 0"))
+        found += (f"; at Γ = 0 the plates give {energy['given_by_plates']:g} pJ, and {100 * energy['left'] / energy['start']:.2g} "
+                  "% of the energy of the start is left")
+    return conclude(answers, found)
+
+

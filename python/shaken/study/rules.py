@@ -1,0 +1,208 @@
+# SPDX-License-Identifier: MIT
+"""How runs are asked: yes, no, or open with the reason; and what several answers come to."""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Iterable, Sequence
+
+from ..estimate import Estimate, decimals
+
+#: Errors by which two numbers must differ before they count as different.
+SIGMAS = 2.0
+#: Errors by which neighbours of a trend may go the other way: with ten of them two would be met by chance.
+STEP_BACK = 3.0
+
+AGREES, IN_PART, DISAGREES = "agrees", "in part", "disagrees"
+CONSISTENT = "consistent"               # it could only have been refuted, and was not
+CONTRADICTS = "contradicts itself"      # the sentence, not the runs
+OPEN, NO_DATA = "open", "no data"
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What runs say to a question: True, False, or None (open) with the reason. `at` is where it was asked."""
+
+    word: bool | None
+    why: str = ""
+    at: str = ""
+
+    def placed(self, at: str) -> "Answer":
+        return Answer(self.word, self.why, at)
+
+    def negated(self) -> "Answer":
+        return Answer(None if self.word is None else not self.word, self.why, self.at)
+
+
+def yes() -> Answer:
+    return Answer(True)
+
+
+def no() -> Answer:
+    return Answer(False)
+
+
+def unknown(why: str) -> Answer:
+    return Answer(None, why)
+
+
+def judged_error(estimate: Estimate) -> float:
+    """The standard error that a number is judged with; NaN where there is none.
+
+    Where no error of its own is known, but its drift is (the later half less the earlier one), what the drift can be
+    stands in for it: the error of a difference of halves is about twice that of the whole.
+    """
+    if math.isfinite(estimate.error):
+        return estimate.error
+    return math.hypot(estimate.drift, estimate.drift_error)
+
+
+def margin(estimate: Estimate, sigmas: float = SIGMAS) -> float:
+    """By how much the true value may differ from a number: so many errors and, of a mean that drifts, twice its drift
+    besides, as if it went on for as long again as it was averaged."""
+    drift = 2 * abs(estimate.drift) if estimate.steady is False and math.isfinite(estimate.drift) else 0.0
+    return sigmas * judged_error(estimate) + drift
+
+
+def doubt(estimate: Estimate) -> str:
+    """Why a number decides nothing; empty where it does."""
+    if not estimate.is_known:
+        return estimate.reason or "not measured"
+    if estimate.steady is False and not math.isfinite(estimate.drift):
+        return "a run still relaxes"
+    if not math.isfinite(judged_error(estimate)):
+        return "too few independent samples for an error"
+    return ""
+
+
+def larger(a: Estimate, b: Estimate, sigmas: float = SIGMAS) -> Answer:
+    """a > b, by the errors (and drifts) that they are judged with."""
+    for estimate in (a, b):
+        if why := doubt(estimate):
+            return unknown(why)
+    drifts = sum(margin(e, 0) for e in (a, b))
+    apart = sigmas * math.hypot(judged_error(a), judged_error(b)) + drifts
+    if a.value - b.value > apart:
+        return yes()
+    if b.value - a.value > apart:
+        return no()
+    return unknown("a run still relaxes" if abs(a.value - b.value) > apart - drifts else "the errors are too large")
+
+
+def above(estimate: Estimate, level: float) -> Answer:
+    return larger(estimate, Estimate(level, 0.0, True))
+
+
+def below(estimate: Estimate, level: float) -> Answer:
+    return larger(Estimate(level, 0.0, True), estimate)
+
+
+def close_to(estimate: Estimate, target: float, tolerance: float) -> Answer:
+    """Within `tolerance` of `target`, with its error to spare."""
+    if why := doubt(estimate):
+        return unknown(why)
+    away, spare = abs(estimate.value - target), margin(estimate)
+    if away + spare <= tolerance:
+        return yes()
+    return no() if away - spare > tolerance else unknown("the errors are too large")
+
+
+def trend(points: Sequence[tuple[float, Estimate]], rising: bool) -> Answer:
+    """Whether what is measured at rising values of a key rises (or falls) from the first to the last that decide. A step
+    back between neighbours by more than three errors is a no."""
+    deciding = [estimate for _, estimate in points if not doubt(estimate)]
+    if len(deciding) < 2:
+        reasons = [doubt(estimate) for _, estimate in points if doubt(estimate)]
+        return unknown(reasons[0] if reasons else "fewer than two points")
+    if not rising:
+        deciding.reverse()
+    for before, after in zip(deciding, deciding[1:]):
+        if larger(before, after, STEP_BACK).word:
+            return no()
+    return larger(deciding[-1], deciding[0])
+
+
+@dataclass
+class Finding:
+    """What the runs say to a statement.
+
+    verdict: one of the words above
+    found:   numbers with errors, in words
+    why:     what is open, or where it does not hold
+    points:  (where, Estimate, n of runs) behind it
+    """
+
+    verdict: str = NO_DATA
+    found: str = ""
+    why: str = ""
+    answers: list[Answer] = field(default_factory=list)
+
+
+def conclude(answers: Iterable[Answer], found: str, *, everywhere: bool = False) -> Finding:
+    """All yes: agrees. All no: disagrees. Some of both: in part, and where. Of answers that are open none counts for
+    either side: where more than half say yes and none no, it agrees there, and the rest is named as open.
+
+    everywhere: of what is said to hold everywhere one no is enough to disagree
+    """
+    given = list(answers)
+    if not given:
+        return Finding()
+    says_yes = [a for a in given if a.word is True]
+    says_no = [a for a in given if a.word is False]
+    open_ = [a for a in given if a.word is None]
+    reasons = _reasons(open_)
+    if says_no:
+        if not says_yes or everywhere:
+            where = f"at {_places(says_no)}" if says_yes and _places(says_no) else ""
+            return Finding(DISAGREES, found, _joined(where, reasons and f"open: {reasons}"), given)
+        where = f"holds: {_places(says_yes)}; not: {_places(says_no)}" if _places(says_no) else ""
+        return Finding(IN_PART, found, _joined(where, reasons and f"open: {reasons}"), given)
+    if not open_:
+        return Finding(AGREES, found, "", given)
+    if 2 * len(says_yes) > len(given):
+        return Finding(AGREES, found, f"at {len(says_yes)} of {len(given)}; open: {reasons}", given)
+    return Finding(OPEN, found, reasons, given)
+
+
+def refutable(answer: Answer, found: str, how_well: str) -> Finding:
+    """Of a statement that runs like these can refute but not prove: `answer` is no where they do. Otherwise they are
+    consistent with it, and `how_well` says to what precision."""
+    if answer.word is False:
+        return Finding(DISAGREES, found, "", [answer])
+    if answer.word is None:
+        return Finding(OPEN, found, answer.why, [answer])
+    return Finding(CONSISTENT, found, how_well, [answer])
+
+
+def _places(answers: Sequence[Answer]) -> str:
+    return ", ".join(dict.fromkeys(a.at for a in answers if a.at))
+
+
+def _reasons(answers: Sequence[Answer]) -> str:
+    by_reason: dict[str, list[str]] = {}
+    for answer in answers:
+        by_reason.setdefault(answer.why, []).append(answer.at)
+    return "; ".join(_joined(", ".join(dict.fromkeys(at for at in places if at)), f"({why})" if any(places) else why,
+                             between=" ") for why, places in by_reason.items())
+
+
+def _joined(*words: str, between: str = "; ") -> str:
+    return between.join(word for word in words if word)
+
+
+def text(estimate: Estimate, digits: int | None = None) -> str:
+    """A number with its error, and the drift where it is not steady: "0.912 ± 0.004"."""
+    if not estimate.is_known:
+        return "–"
+    error = judged_error(estimate)
+    places = decimals(error) if digits is None or (math.isfinite(error) and error > 0) else digits
+    shown = f"{error:.{places}f}" if math.isfinite(error) else "?"
+    words = f"{estimate.value:.{places}f} ± {shown}".replace("-", "−")
+    if estimate.steady is False and math.isfinite(estimate.drift):
+        words += f" (drifts by {estimate.drift:+.{places}f})".replace("-", "−")
+    return words
+
+
+def listed(points: Sequence[tuple[float, Estimate]], symbol: str, unit: str = "") -> str:
+    """Points in words: "0.90 ± 0.01 at φ = 0.75; ..."."""
+    return "; ".join(f"{text(estimate)}{unit} at {symbol} = {value:g}" for value, estimate in points)

@@ -1,0 +1,183 @@
+# SPDX-License-Identifier: MIT
+"""Running the sets of the study on a daemon, within a budget, each finished run into the archive."""
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import tempfile
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Callable, Iterable
+
+import numpy as np
+
+from ..archive import SUFFIX, add_run, archived_runs
+from ..daemon import ENDED, Daemon
+from ..errors import ShakenError
+from ..run import Run
+
+#: Wall time of one attempt, and of all attempts, of a run [s].
+_SOFT_LIMIT, _TIME_LIMIT = 3 * 3600, 7 * 24 * 3600
+#: rod seconds per CPU second at these packings at 16 us, where nothing has been run yet.
+_SPEED = ((0.45, 0.65, 0.75, 0.85), (860.0, 560.0, 420.0, 350.0))
+
+
+@dataclass(frozen=True)
+class Missing:
+    """A point of a set that is not in the archive.
+
+    cost: [CPU s], by the speed of the runs that are
+    """
+
+    set: str
+    id: str
+    parameters: dict[str, Any]
+    rods: int
+    seconds: float
+    cost: float
+
+
+def points_of(shaken: str, sweep: dict[str, Any]) -> list[dict[str, Any]]:
+    """The points of a sweep as the program has them: id, parameters, replica, n_rods. `shaken` is the program."""
+    with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
+        json.dump(sweep, file)
+        file.flush()
+        done = subprocess.run([shaken, "validate", file.name, "--json"], capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise ShakenError(f"{sweep.get('name')}: {done.stderr.strip() or done.stdout.strip()}")
+    return json.loads(done.stdout)["runs"]
+
+
+def speed(runs: Iterable[Run], packing: float) -> float:
+    """rod seconds per CPU second at a packing, at 16 us: of the runs at hand, or else of a table."""
+    found = [(float(run.scene["rods"]["area_fraction"]),
+              run.summary["rod_seconds_per_cpu_second"] * 1.6e-5 / run.scene["time"]["step"]) for run in runs]
+    near = [value for at, value in found if abs(at - packing) < 0.03]
+    return float(np.median(near)) if near else float(np.interp(packing, *_SPEED))
+
+
+class Plan:
+    """What is to be run: the sets' points that the archive does not have, in order of worth."""
+
+    def __init__(self, shaken: str, sweeps: Iterable[tuple[str, dict[str, Any]]], archive: Path) -> None:
+        self.archive = archive
+        self.sweeps = dict(sweeps)
+        have = {run.id: run for run in archived_runs(archive)}
+        self.missing: list[Missing] = []
+        self.n_points = 0
+        for name, sweep in self.sweeps.items():
+            for point in points_of(shaken, sweep):
+                self.n_points += 1
+                seconds = float(point["sim_seconds"])
+                run = have.get(point["id"])
+                if run is not None and run.summary["sim_seconds"] >= seconds * (1 - 1e-9):
+                    continue
+                parameters = dict(point["parameters"])
+                parameters["time.seed"] = int(point["seed"])
+                rods = int(point["n_rods"])
+                per = speed(have.values(), float(point["area_fraction"]))
+                fine = 1.6e-5 / float(point["dt_s"])
+                self.missing.append(Missing(name, point["id"], parameters, rods, seconds,
+                                            rods * seconds / per * (1 if fine < 1.5 else 1.7)))
+
+    def cost(self, name: str | None = None) -> float:
+        """CPU seconds of what is missing; of one set if it is named."""
+        return sum(point.cost for point in self.missing if name in (None, point.set))
+
+    def table(self) -> str:
+        """What is open and what it would cost, a line for each set."""
+        lines = []
+        for name in self.sweeps:
+            n = sum(point.set == name for point in self.missing)
+            if n:
+                lines.append(f"{name:20} {n:4d} runs  {self.cost(name) / 3600:6.2f} CPU-h")
+        lines.append(f"{'together':20} {len(self.missing):4d} of {self.n_points} runs  {self.cost() / 3600:.2f} CPU-h")
+        return "\n".join(lines)
+
+
+def run_plan(plan: Plan, daemon: Daemon, budget: float, *, say: Callable[[str], None] = print,
+             every: float = 2.0, stopped: Callable[[], bool] = lambda: False) -> None:
+    """Queues what is missing, set by set, and archives each run when it is done, until all is done or `budget` CPU
+    seconds have been spent. What runs then is held at a checkpoint, what waits is cancelled: the same call goes on.
+
+    A set is queued only when there is nothing of the one before left to start, so that the order of worth holds.
+    """
+    spent = _Spent(daemon)
+    for name, sweep in plan.sweeps.items():
+        points = [point for point in plan.missing if point.set == name]
+        if not points:
+            continue
+        if spent.seconds() >= budget or stopped():
+            break
+        entries = [point.parameters for point in points]
+        sweep_id = daemon.submit({"name": sweep["name"], "scene": sweep["scene"], "sweep": {"list": entries}},
+                                 name=sweep["name"], soft_limit_s=_SOFT_LIMIT, time_limit_s=_TIME_LIMIT)
+        say(f"{sweep['name']}: {len(points)} runs, about {plan.cost(name) / 3600:.2f} CPU-h")
+        ids = {point.id for point in points}
+        daemon.ask("POST", f"/v1/sweeps/{sweep_id}/resume")
+        while True:
+            jobs = [job for job in daemon.jobs(sweep_id) if job["id"] in ids]
+            for job in jobs:
+                if job["state"] == "done":
+                    path = archive_job(job, sweep["name"], plan.archive)
+                    if path:
+                        say(f"  {path.name[:8]} {job['label']}")
+            spent.note(jobs)
+            over = spent.seconds() >= budget or stopped()
+            if over:
+                daemon.ask("POST", f"/v1/sweeps/{sweep_id}/hold")
+            if over or all(job["state"] in ENDED for job in jobs):
+                break
+            if not any(job["state"] == "queued" for job in jobs) and len(jobs) < 2:
+                break
+            time.sleep(every)
+
+
+def archive_job(job: dict[str, Any], sweep: str, archive: Path) -> Path | None:
+    """Archives a job that is done; None where it is there already."""
+    parameters = {path: value for path, value in job["parameters"].items() if path != "time.seed"}
+    return add_run(job["directory"], archive, parameters, [sweep])
+
+
+def collect(daemon: Daemon, archive: Path) -> list[Path]:
+    """Archives every run of a daemon that is done."""
+    written = []
+    for sweep in daemon.sweeps():
+        for job in daemon.jobs(sweep["id"]):
+            if job["state"] == "done" and (path := archive_job(job, sweep["name"], archive)):
+                written.append(path)
+    return written
+
+
+class _Spent:
+    """CPU time that jobs took since it was made."""
+
+    def __init__(self, daemon: Daemon) -> None:
+        self._first: dict[str, float] = {}
+        self._now: dict[str, float] = {}
+
+    def note(self, jobs: Iterable[dict[str, Any]]) -> None:
+        for job in jobs:
+            self._first.setdefault(job["id"], 0.0 if job["state"] == "done" else float(job["wall_s"] or 0))
+            self._now[job["id"]] = float(job["wall_s"] or 0)
+
+    def seconds(self) -> float:
+        return sum(now - self._first[job] for job, now in self._now.items())
+
+
+def known(archive: Path) -> int:
+    """How many runs an archive has."""
+    return len(list(Path(archive).glob("*" + SUFFIX)))
+
+
+def program() -> str:
+    """The program `shaken`: beside the daemon, or on the path."""
+    import os
+    import shutil
+    found = os.environ.get("SHAKEN_PROGRAM") or shutil.which("shaken")
+    if not found:
+        print("shaken: the program is not on the path; set SHAKEN_PROGRAM", file=sys.stderr)
+        raise ShakenError("the program `shaken` is not on the path; set SHAKEN_PROGRAM to it")
+    return found

@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: MIT
+"""The sets of runs of the study: their sweeps, in order of worth, at three scales."""
+from __future__ import annotations
+
+import json
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Iterator
+
+from ..errors import ShakenError
+
+#: Every set, those first that decide most for their price. The letters are those of docs/validation.md.
+ORDER: tuple[tuple[str, str], ...] = (
+    ("A", "long-rods"), ("B", "dilute"), ("G", "layers"), ("C", "mechanism"), ("D", "shaking"), ("E", "crossings"),
+    ("F", "size"), ("H", "gaps"), ("J", "diffusion-along"), ("I", "layer-trends"), ("K", "short-rods"),
+    ("M", "larger-box"), ("L", "no-order"), ("U", "frequency"), ("V", "phases"), ("W", "density"), ("X", "beads"),
+    ("R", "elasticity"), ("S", "turned"), ("T", "diffusion"), ("O", "wavelength-length"), ("P", "wavelength-end"),
+    ("N", "wavelength-packing"), ("Q", "long-range"), ("Y", "equilibrium"))
+
+
+@dataclass(frozen=True)
+class Scale:
+    """What is done to the sweeps, which are written for a desk, at another scale.
+
+    accuracy: of all points but the controls, which are left out where it is the paper's
+    side:     factor on the sides of the boxes; `least_side` [mm] is the smallest side that results
+    time:     factor on all times; replicas: the most of a point
+    """
+
+    name: str
+    accuracy: str
+    side: float = 1.0
+    least_side: float = 0.0
+    time: float = 1.0
+    replicas: int = 1000
+    shown: str = ""
+
+
+SCALES = {scale.name: scale for scale in (
+    Scale("tiny", "draft", side=0.36, least_side=12.0, time=0.01, replicas=2, shown="minutes: to see that all is there"),
+    Scale("desk", "desk", shown="some 30 hours of one core: what decides the statements"),
+    Scale("paper", "paper", side=2.0, least_side=83.73, time=3.0, shown="the paper's box, times and step: a cluster's"))}
+
+
+def sweep_file(folder: Path, name: str) -> dict[str, Any]:
+    """The sweep of a set, as configs/figures/desk/NAME.json has it."""
+    path = folder / f"{name}.json"
+    try:
+        text = re.sub(r"^\s*//.*$", "", path.read_text(), flags=re.M)
+        return json.loads(text)
+    except (OSError, ValueError) as error:
+        raise ShakenError(f"{path}: {error}") from None
+
+
+def scaled(sweep: dict[str, Any], scale: Scale) -> dict[str, Any]:
+    """The sweep at another scale, with its name."""
+    if scale.name == "desk":
+        return sweep
+    found = json.loads(json.dumps(sweep))
+    found["name"] = found["name"].rpartition("-")[0] + "-" + scale.name
+    scene = found["scene"]
+    if "box" in scene:
+        scene["box"]["side"] = _side(scene["box"]["side"], scale)
+    for key, value in scene.get("time", {}).items():
+        if key in ("steady", "measure"):
+            scene["time"][key] = _time(value, scale)
+    parts = []
+    for part in found["sweep"]:
+        grid = part["grid"]
+        if grid.get("accuracy") == ["paper"] :
+            continue  # the controls
+        grid["accuracy"] = [scale.accuracy]
+        for key, values in grid.items():
+            if key == "box.side":
+                grid[key] = list(dict.fromkeys(_side(value, scale) for value in values))
+            if key in ("time.steady", "time.measure"):
+                grid[key] = [_time(value, scale) for value in values]
+            if key == "time.seed":
+                grid[key] = values[:scale.replicas]
+        if "replicas" in part:
+            part["replicas"] = min(part["replicas"], scale.replicas)
+        parts.append(part)
+    found["sweep"] = parts
+    return found
+
+
+def _number(value: str | float) -> float:
+    return float(str(value).split()[0])
+
+
+def _side(value: str | float, scale: Scale) -> str:
+    return f"{max(_number(value) * scale.side, scale.least_side):g} mm"
+
+
+def _time(value: str | float, scale: Scale) -> str:
+    return f"{_number(value) * scale.time:g} s"
+
+
+def sweeps(folder: Path, scale: Scale, names: list[str] | None = None) -> Iterator[tuple[str, dict[str, Any]]]:
+    """(name of the set, its sweep) in order of worth; all whose file is there if `names` is None."""
+    for _, name in ORDER:
+        if (names is None and (folder / f"{name}.json").exists()) or (names is not None and name in names):
+            yield name, scaled(sweep_file(folder, name), scale)

@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: MIT
+"""What the paper states, and the runs' answer to each statement.
+
+Each check takes the Library and returns a Finding; the checks are in `order_checks`, `structure_checks`, `layer_checks`
+and `motion_checks`, by subject.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Callable, Iterable
+
+from . import layer_checks, motion_checks, order_checks, structure_checks
+from .library import Library
+from .rules import Finding
+
+
+@dataclass(frozen=True)
+class Statement:
+    """A sentence of the paper.
+
+    id:     its name, "steady-state"
+    figure: the paper's number, or the name of a figure beyond them
+    says:   the sentence, in short
+    check:  what the runs say to it
+    note:   how it is read, or why it can only be refuted
+    """
+
+    id: str
+    figure: str
+    says: str
+    check: Callable[[Library], Finding]
+    note: str = ""
+
+
+STATEMENTS: tuple[Statement, ...] = (
+    Statement("steady-state", "2", "Rods start aligned, S(0) = 1, and are steady after 400 to 600 s (ℓ = 4.5 mm)",
+              order_checks.steady_after_the_start),
+    Statement("ordered", "3", "Long rods (ℓ = 4.5 mm) at area fraction 0.75 are ordered, S about 0.9",
+              order_checks.ordered_when_dense),
+    Statement("disordered", "3", "At 0.45 they are not: ⟨S⟩ < 0.5, and nothing of it far away or in larger boxes",
+              order_checks.disordered_when_dilute),
+    Statement("short", "3", "Rods shorter than 3.5 mm do not order at any packing", order_checks.short_rods_do_not_order,
+              "a narrow box orders its rods: there only disorder counts"),
+    Statement("transition", "3", "The area fraction at which order sets in falls with the length",
+              order_checks.transition_falls_with_length),
+    Statement("saturates", "3", "⟨S⟩ of rods longer than 3.5 mm rises with packing to about 1", order_checks.saturates,
+              "whether it rises continuously takes runs from disorder too, which these are not"),
+    Statement("transition-size", "size", "The area fraction at which order sets in rises with the box",
+              order_checks.transition_rises_with_size),
+    Statement("long-range", "size", "The order is long-range", order_checks.long_range,
+              "finite boxes can refute it, not prove it: quasi-long-range order is a small power of L as well"),
+    Statement("unimodal", "4", "P[S] has one peak at every packing (ℓ = 4.5 mm)", order_checks.one_peak,
+              "independent samples of all replicas are added up; 50 are asked for"),
+    Statement("broadest", "4", "S fluctuates most near the transition", order_checks.broadest_at_the_transition),
+    Statement("oblique", "steady", "ℓ = 3.5 mm at 0.85 orders along an oblique axis", order_checks.oblique_axis,
+              "asked of runs that start turned by 30 degrees: whether such an axis lasts"),
+    Statement("activity", "shaking", "Γ is a measure of the activity, and at Γ = 0 there is none", order_checks.activity,
+              "at Γ = 0: that the plates give no energy and what the rods had at the start falls; rolling rods go on"),
+    Statement("g2", "5", "G₂(r) decays to 0 for ℓ = 2.5 mm at every packing, and levels off for ℓ = 4.5 mm when dense",
+              structure_checks.g2_decays_or_levels),
+    Statement("isotropic", "6", "G₂ is isotropic at 0.45 (ℓ = 4.5 mm)", structure_checks.g2_isotropic_when_dilute),
+    Statement("anisotropy", "6", "G₂ falls faster across the director than along it", structure_checks.g2_anisotropic),
+    Statement("g-flattens", "7", "g(r) flattens sooner along the director than across it", structure_checks.g_flattens,
+              "the sentence says the contrary in its second half"),
+    Statement("splay-bend", "elasticity", "Splay costs more than bend, K₁ > K₃",
+              structure_checks.splay_stiffer_than_bend,
+              "the paper concludes it from G₂ falling faster across the director; in linear theory, "
+              "⟨δθ²⟩ ~ 1/(K₁q_across² + K₃q_along²), that means the reverse. Asked at 0.65, where there are no layers and "
+              "the law can hold"),
+    Statement("layers", "8", "Layers at ±θ_m, about 10°, for ℓ = 4.5 mm from 0.80 on, and none at 0.75",
+              layer_checks.layers_when_dense),
+    Statement("g2-oscillates", "8", "Where there are layers, G₂ oscillates across the director",
+              layer_checks.g2_oscillates),
+    Statement("gap", "gap", "No layers at gaps of 1.4 and 1.6 mm", layer_checks.no_layers_at_wide_gaps),
+    Statement("crystal", "gap", "At a gap of 0.9 mm a crystal, without layers", layer_checks.crystal_at_a_narrow_gap,
+              "all runs start as a crystal: one that melts would refute it"),
+    Statement("angle-packing", "layer-trends", "θ_m grows with packing", layer_checks.angle_grows_with_packing),
+    Statement("angle-length", "layer-trends", "θ_m falls with rod length", layer_checks.angle_falls_with_length),
+    Statement("angle-end", "layer-trends", "θ_m falls with the end radius", layer_checks.angle_falls_with_end),
+    Statement("peaks-end", "layer-trends", "P(θ) has two peaks at every end radius",
+              layer_checks.two_peaks_at_every_end),
+    Statement("wavelength-packing", "layer-trends", "The wavelength grows from 0.85 to 0.80",
+              layer_checks.wavelength_falls_with_packing),
+    Statement("wavelength-length", "layer-trends", "The wavelength grows with rod length",
+              layer_checks.wavelength_grows_with_length),
+    Statement("wavelength-end", "layer-trends", "The wavelength grows with the end radius",
+              layer_checks.wavelength_grows_with_end),
+    Statement("larger-box", "larger-box", "In a larger box the wavelength is larger and θ_m smaller",
+              layer_checks.larger_box),
+    Statement("tilt", "10", "Rods swim against their tilt, fastest near n_z = ±0.2, the other way beyond 0.3",
+              motion_checks.tilt_and_velocity),
+    Statement("sideways", "10", "Across the rod ⟨v⟩ = 0 at every tilt", motion_checks.no_motion_sideways),
+    Statement("switching", "10", "The tilt of a rod switches from one sign to the other", motion_checks.tilt_switches),
+    Statement("persistence", "11", "Ways of single rods persist longer at 0.85 than at 0.65",
+              motion_checks.persists_when_dense),
+    Statement("diffusion-rises", "9", "Short rods diffuse faster when denser", motion_checks.diffusion_rises,
+              "asked from 0.65 on: the paper's own fit has its minimum at 0.64, and here D falls up to there"),
+    Statement("diffusion-law", "9", "D = 1.7 + 480 (φ − 0.64)² mm²/s for ℓ = 2.5 mm", motion_checks.diffusion_law,
+              "the paper prints MSD = 2Dt; read here as 4Dt in the plane, which fits at 0.65"),
+    Statement("diffusion-normal", "9", "Short rods diffuse normally at short and at long times",
+              motion_checks.diffusion_is_normal),
+    Statement("diffusion-along", "9",
+              "Along the director D rises up to 0.80, then falls; across it D falls, and is smaller (ℓ = 4.5 mm)",
+              motion_checks.diffusion_along_the_director, "along it is asked at lags of 20 s and at the longest"),
+    Statement("diffusion-across", "9",
+              "Across the director nothing is super-diffusive, and the exponent at short times falls",
+              motion_checks.no_superdiffusion_across),
+    Statement("memory", "12", "C₂ and C_v decay more slowly when denser (ℓ = 2.5 mm)",
+              motion_checks.slower_when_denser),
+    Statement("c2-plateau", "12", "C₂ of long rods levels off, near 1 when dense", motion_checks.c2_levels_off),
+    Statement("velocity-along", "12", "C_v along the director grows with packing up to 0.80 (ℓ = 4.5 mm)",
+              motion_checks.velocity_along_grows,
+              "of lags beyond the 400 ms over which velocities are averaged, from which the paper concludes D; C_v(0), the "
+              "rattling in the cage, falls"),
+    Statement("rotation", "13", "The rotational diffusion constant falls with packing (ℓ = 2.5 mm)",
+              motion_checks.rotation_slows),
+    Statement("rotation-short", "13", "At short times rotation is sub-diffusive, the more so the denser",
+              motion_checks.rotation_subdiffusive),
+    Statement("rotation-saturates", "13",
+              "The angle turned levels off in the nematic and grows linearly in disorder (ℓ = 4.5 mm)",
+              motion_checks.turning_saturates),
+    Statement("defects", "14",
+              "Defects of a system that is ordered here and there move by themselves (ℓ = 3.0 mm at 0.85)",
+              motion_checks.defects_move, "the paper's text has ℓ = 0.3 mm, its caption 3.0 mm"),
+)
+
+
+def of_figures(figures: Iterable[str] = ()) -> list[Statement]:
+    """The statements of these figures; all if none is named."""
+    wanted = set(figures)
+    return [statement for statement in STATEMENTS if not wanted or statement.figure in wanted]
+
+
+def findings(library: Library, statements: Iterable[Statement] = STATEMENTS) -> list[tuple[Statement, Finding]]:
+    """Each statement with what the runs say to it."""
+    return [(statement, statement.check(library)) for statement in statements]
+
+
+def as_json(found: Iterable[tuple[Statement, Finding]]) -> list[dict[str, Any]]:
+    return [{"statement": statement.id, "figure": statement.figure, "says": statement.says, "verdict": finding.verdict,
+             "found": finding.found, "why": finding.why, "note": statement.note} for statement, finding in found]
+
+
+def as_table(found: Iterable[tuple[Statement, Finding]]) -> str:
+    """A table of Markdown."""
+    lines = ["| figure | the paper says | found here | verdict |", "|---|---|---|---|"]
+    for statement, finding in found:
+        note = f". *Note:* {statement.note}" if statement.note else ""
+        verdict = f"**{finding.verdict}**" if finding.verdict == "disagrees" else finding.verdict
+        why = f": {finding.why}" if finding.why else ""
+        lines.append(f"| {statement.figure} | {statement.says}{note} | {finding.found} | {verdict}{why} |")
+    return "\n".join(lines) + "\n"

@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: MIT
+"""Correlations in space, isotropic and along and across the director, and what they say of elasticity."""
+from __future__ import annotations
+
+import numpy as np
+
+from ..estimate import Estimate
+from ..run import Run
+from .library import LENGTH, PACKING, PAPERS_BOX, SIDE, Library, Runs, key_of, mean_of_places
+from .rules import (CONTRADICTS, Finding, above, below, close_to, conclude, larger, listed, text, unknown)
+
+#: G2 that counts as none at half a box.
+NO_CORRELATION = 0.05
+#: G2 levels off at S^2: that of S = 0.5.
+PLATEAU = 0.25
+
+
+def far_g2(runs: Runs) -> Estimate:
+    """G2 far away: its mean over the last quarter of the distances, up to half the box."""
+    def of(run: Run) -> Estimate:
+        if "/g2/g2" not in run:
+            return Estimate(reason="not measured")
+        g2 = run["/g2/g2"]
+        first = 3 * len(g2) // 4
+        return mean_of_places(np.asarray(g2)[first:], np.asarray(g2.error)[first:], run)
+
+    return runs.of(of)
+
+
+def far_anisotropy(runs: Runs) -> Estimate:
+    """G2 along less G2 across the director, in the farther half of the cuts through the map."""
+    def of(run: Run) -> Estimate:
+        if "/pairs/cut/g2_along" not in run:
+            return Estimate(reason="not measured")
+        along, across = run["/pairs/cut/g2_along"], run["/pairs/cut/g2_across"]
+        first = len(along) // 2
+        return mean_of_places(np.asarray(along - across)[first:], np.hypot(along.error, across.error)[first:], run)
+
+    return runs.of(of)
+
+
+def unevenness(runs: Runs, cut: str) -> Estimate:
+    """Mean of (g - 1)^2 from one rod's length on, less what its errors put there."""
+    def of(run: Run) -> Estimate:
+        if f"/pairs/cut/{cut}" not in run:
+            return Estimate(reason="not measured")
+        g = run[f"/pairs/cut/{cut}"]
+        away, error = np.asarray(g) - 1, np.asarray(g.error)
+        far = np.asarray(g.axis) >= key_of(run, LENGTH)
+        return mean_of_places((away**2 - np.nan_to_num(error)**2)[far], (2 * abs(away) * error)[far], run)
+
+    return runs.of(of)
+
+
+def g2_decays_or_levels(library: Library) -> Finding:
+    answers, found = [], []
+    short = library.joined("short-rods", "no-order", "diffusion").at(length=2.5)
+    long_ = library.joined("long-rods", "layers").at(length=4.5)
+    for length, runs, dense in ((2.5, short, 0.0), (4.5, long_, 0.74)):
+        points = []
+        for packing in runs.values(PACKING):
+            if packing < dense:
+                continue
+            here = runs.at(packing=packing).largest(SIDE)
+            far = far_g2(here)
+            answer = above(far, PLATEAU) if dense else close_to(far, 0, NO_CORRELATION)
+            if not dense and answer.word is False and key_of(here[0], SIDE) < PAPERS_BOX:
+                answer = unknown("half the box is less far than the paper's")
+            answers.append(answer.placed(f"ℓ = {length:g} mm, φ = {packing:g}"))
+            points.append((packing, far))
+        if points:
+            found.append(f"ℓ = {length:g} mm: {listed(points, 'φ')}")
+    return conclude(answers, "G₂ at half a box, " + ". ".join(found) if found else "")
+
+
+def g2_isotropic_when_dilute(library: Library) -> Finding:
+    runs = library["dilute"].at(packing=0.45)
+    if not runs:
+        return Finding()
+    difference = far_anisotropy(runs)
+    return conclude([close_to(difference, 0, NO_CORRELATION)], f"along − across, far out at φ = 0.45: {text(difference)}")
+
+
+def g2_anisotropic(library: Library) -> Finding:
+    runs = library["layers"].at(packing=0.75)
+    if not runs:
+        return Finding()
+    difference = far_anisotropy(runs)
+    return conclude([above(difference, 0)], f"along − across, far out at φ = 0.75: {text(difference)}")
+
+
+def g_flattens(library: Library) -> Finding:
+    runs = library["layers"].at(packing=0.75)
+    if not runs:
+        return Finding()
+    along, across = unevenness(runs, "g_along"), unevenness(runs, "g_across")
+    sooner = {True: "along", False: "across", None: "neither, within the errors"}[larger(across, along).word]
+    return Finding(CONTRADICTS, f"mean (g − 1)² from one rod length on, φ = 0.75: {text(along)} along, {text(across)} "
+                                f"across", f"here it flattens sooner {sooner}")
+
+
+def splay_stiffer_than_bend(library: Library) -> Finding:
+    runs = library["elasticity"].at(packing=0.65)
+    if not runs:
+        return Finding()
+    ratio, chi2 = runs.number("frank_ratio"), runs.number("frank_chi2").value
+    answer = below(ratio, 1) if chi2 < 2 else unknown("the law of Frank's constants does not hold")
+    return conclude([answer], f"K₃/K₁ (bend to splay) = {text(ratio)} at φ = 0.65, χ² per point {chi2:.1f}")
