@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import math
+import os
+import shutil
 import subprocess
-import sys
 import tempfile
 import time
 from dataclasses import dataclass
@@ -47,7 +49,7 @@ def points_of(shaken: str, sweep: dict[str, Any]) -> list[dict[str, Any]]:
         done = subprocess.run([shaken, "validate", file.name, "--json"], capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise ShakenError(f"{sweep.get('name')}: {done.stderr.strip() or done.stdout.strip()}")
-    return json.loads(done.stdout)["runs"]
+    return json.loads(done.stdout)["points"]
 
 
 def speed(runs: Iterable[Run], packing: float) -> float:
@@ -74,11 +76,11 @@ class Plan:
                 run = have.get(point["id"])
                 if run is not None and run.summary["sim_seconds"] >= seconds * (1 - 1e-9):
                     continue
-                parameters = dict(point["parameters"])
-                parameters["time.seed"] = int(point["seed"])
+                seed = point["parameters"].get("time.seed", sweep["scene"].get("time", {}).get("seed", 1))
+                parameters = {**point["parameters"], "time.seed": int(seed) + int(point["replica"]) - 1}
                 rods = int(point["n_rods"])
                 per = speed(have.values(), float(point["area_fraction"]))
-                fine = 1.6e-5 / float(point["dt_s"])
+                fine = 1.6e-5 / (seconds / int(point["ticks"]))
                 self.missing.append(Missing(name, point["id"], parameters, rods, seconds,
                                             rods * seconds / per * (1 if fine < 1.5 else 1.7)))
 
@@ -97,42 +99,43 @@ class Plan:
         return "\n".join(lines)
 
 
-def run_plan(plan: Plan, daemon: Daemon, budget: float, *, say: Callable[[str], None] = print,
-             every: float = 2.0, stopped: Callable[[], bool] = lambda: False) -> None:
+def run_plan(plan: Plan, daemon: Daemon, budget: float = math.inf, *, say: Callable[[str], None] = print,
+             every: float = 2.0) -> None:
     """Queues what is missing, set by set, and archives each run when it is done, until all is done or `budget` CPU
-    seconds have been spent. What runs then is held at a checkpoint, what waits is cancelled: the same call goes on.
+    seconds have been spent: what runs then is held at a checkpoint, and the same call goes on with it.
 
-    A set is queued only when there is nothing of the one before left to start, so that the order of worth holds.
+    The next set is queued when nothing of those before waits any more, so that the order of worth holds.
     """
-    spent = _Spent(daemon)
-    for name, sweep in plan.sweeps.items():
-        points = [point for point in plan.missing if point.set == name]
-        if not points:
+    spent = _Spent()
+    waiting = [name for name in plan.sweeps if plan.cost(name) > 0]
+    at_work: dict[str, str] = {}  # id of the sweep -> its name
+    ids = {point.id for point in plan.missing}
+    while True:
+        jobs = {job["id"]: (job, name) for sweep, name in at_work.items() for job in daemon.jobs(sweep)
+                if job["id"] in ids}
+        for job, name in jobs.values():
+            if job["state"] == "done" and (path := archive_job(job, name, plan.archive)):
+                say(f"{path.name[:8]}  {name}  {job['label']}")
+        spent.note(job for job, _ in jobs.values())
+        states = [job["state"] for job, _ in jobs.values()]
+        if spent.seconds() >= budget:
+            for sweep in at_work:
+                daemon.ask("POST", f"/v1/sweeps/{sweep}/hold")
+            return
+        if waiting and "queued" not in states:
+            name = waiting.pop(0)
+            points = [point for point in plan.missing if point.set == name]
+            sweep = plan.sweeps[name]
+            submitted = daemon.submit({"name": sweep["name"], "scene": sweep["scene"],
+                                       "sweep": {"list": [point.parameters for point in points]}},
+                                      name=sweep["name"], soft_limit_s=_SOFT_LIMIT, time_limit_s=_TIME_LIMIT)
+            daemon.ask("POST", f"/v1/sweeps/{submitted}/resume")  # of what was held when a budget had ended
+            at_work[submitted] = sweep["name"]
+            say(f"{sweep['name']}: {len(points)} runs, about {plan.cost(name) / 3600:.2f} CPU-h")
             continue
-        if spent.seconds() >= budget or stopped():
-            break
-        entries = [point.parameters for point in points]
-        sweep_id = daemon.submit({"name": sweep["name"], "scene": sweep["scene"], "sweep": {"list": entries}},
-                                 name=sweep["name"], soft_limit_s=_SOFT_LIMIT, time_limit_s=_TIME_LIMIT)
-        say(f"{sweep['name']}: {len(points)} runs, about {plan.cost(name) / 3600:.2f} CPU-h")
-        ids = {point.id for point in points}
-        daemon.ask("POST", f"/v1/sweeps/{sweep_id}/resume")
-        while True:
-            jobs = [job for job in daemon.jobs(sweep_id) if job["id"] in ids]
-            for job in jobs:
-                if job["state"] == "done":
-                    path = archive_job(job, sweep["name"], plan.archive)
-                    if path:
-                        say(f"  {path.name[:8]} {job['label']}")
-            spent.note(jobs)
-            over = spent.seconds() >= budget or stopped()
-            if over:
-                daemon.ask("POST", f"/v1/sweeps/{sweep_id}/hold")
-            if over or all(job["state"] in ENDED for job in jobs):
-                break
-            if not any(job["state"] == "queued" for job in jobs) and len(jobs) < 2:
-                break
-            time.sleep(every)
+        if not waiting and all(state in ENDED for state in states):
+            return
+        time.sleep(every)
 
 
 def archive_job(job: dict[str, Any], sweep: str, archive: Path) -> Path | None:
@@ -152,16 +155,16 @@ def collect(daemon: Daemon, archive: Path) -> list[Path]:
 
 
 class _Spent:
-    """CPU time that jobs took since it was made."""
+    """Wall time that jobs have worked since they were first seen here: their CPU time, for a worker has one thread."""
 
-    def __init__(self, daemon: Daemon) -> None:
+    def __init__(self) -> None:
         self._first: dict[str, float] = {}
         self._now: dict[str, float] = {}
 
     def note(self, jobs: Iterable[dict[str, Any]]) -> None:
         for job in jobs:
-            self._first.setdefault(job["id"], 0.0 if job["state"] == "done" else float(job["wall_s"] or 0))
             self._now[job["id"]] = float(job["wall_s"] or 0)
+            self._first.setdefault(job["id"], self._now[job["id"]])
 
     def seconds(self) -> float:
         return sum(now - self._first[job] for job, now in self._now.items())
@@ -174,10 +177,7 @@ def known(archive: Path) -> int:
 
 def program() -> str:
     """The program `shaken`: beside the daemon, or on the path."""
-    import os
-    import shutil
     found = os.environ.get("SHAKEN_PROGRAM") or shutil.which("shaken")
     if not found:
-        print("shaken: the program is not on the path; set SHAKEN_PROGRAM", file=sys.stderr)
         raise ShakenError("the program `shaken` is not on the path; set SHAKEN_PROGRAM to it")
     return found
