@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: MIT
+"""How quantities are called in figures: names, symbols and units. Symbols are in matplotlib's mathtext."""
+from __future__ import annotations
+
+import re
+from typing import Any, Mapping
+
+from ..units import split_unit, unit_of
+
+#: What scenes, rows of results and arrays call a quantity: (its name, its symbol, its unit in print).
+TABLE: dict[str, tuple[str, str, str]] = {
+    # keys of the scene
+    "rods.length": ("rod length", "$ℓ$", "mm"),
+    "rods.mid_diameter": ("middle diameter", "$d$", "mm"),
+    "rods.end_diameter": ("end diameter", "$d′$", "mm"),
+    "rods.area_fraction": ("area fraction", "$φ$", ""),
+    "rods.count": ("number of rods", "$N$", ""),
+    "box.side": ("side of the box", "$L$", "mm"),
+    "box.gap": ("gap between the plates", "$w$", "mm"),
+    "plates.gamma": ("shaking strength", "$Γ$", ""),
+    "plates.amplitude": ("amplitude of the plates", "$a$", "mm"),
+    "plates.frequency": ("frequency of the plates", "$f$", "Hz"),
+    "time.step": ("time step", "$Δt$", "s"),
+    # numbers of a run
+    "S": ("nematic order", r"$\langle S\rangle$", ""),
+    "S_std": ("fluctuation of the nematic order", r"$σ_S$", ""),
+    "theta_m_deg": ("tilt of the layers", r"$θ_\mathrm{m}$", "°"),
+    "wavelength_mm": ("wavelength of the layers", "$λ$", "mm"),
+    "diffusion_mm2_s": ("diffusion coefficient", "$D$", "mm²/s"),
+    "rotational_diffusion_rad2_s": ("rotational diffusion", r"$D_\mathrm{r}$", "rad²/s"),
+    "cpu_seconds": ("CPU time", "", "s"),
+    # axes and curves of observables
+    "/order/time_s": ("time", "$t$", "s"),
+    "/order/order": ("nematic order", "$S$", ""),
+    "/order/pdf/order": ("nematic order", "$S$", ""),
+    "/order/pdf/density": ("probability density", "$P(S)$", ""),
+    "/angles/theta_rad": ("angle to the director", "$θ$", "°"),
+    "/angles/density_per_rad": ("probability density", "$P(θ)$", "1/°"),
+    "/tilt/n_z": ("tilt of a rod", r"$n_z$", ""),
+    "/tilt/v_along_mm_s": ("velocity along the rod", r"$\langle v_∥\rangle$", "mm/s"),
+    "/defects/time_s": ("time", "$t$", "s"),
+    "/defects/n_plus": ("number of +1/2 defects", r"$N_+$", ""),
+    "/defects/n_minus": ("number of −1/2 defects", r"$N_-$", ""),
+    "/defects/n": ("number of ±1/2 defects", "", ""),
+    "/g2/r_mm": ("distance", "$r$", "mm"),
+    "/g2/g2": ("orientational correlation", "$G_2(r)$", ""),
+    "/g2/g": ("pair correlation", "$g(r)$", ""),
+    "/pairs/cut/r_mm": ("distance across the director", r"$r_⊥$", "mm"),
+    "/pairs/cut/g2_across": ("orientational correlation", r"$G_2(r_⊥)$", ""),
+    "/layers/q_per_mm": ("wave number across the director", r"$q_⊥$", "1/mm"),
+    "/layers/spectrum_across": ("spectrum of the layers", r"$\langle|\hat{s}(q_⊥)|^2\rangle$", ""),
+    "/structure/q_per_mm": ("wave number", "$q$", "1/mm"),
+    "/msd/lag_s": ("lag", "$t$", "s"),
+    "/msd/total_mm2": ("mean square displacement", "MSD", "mm²"),
+    "/rotation/lag_s": ("lag", "$t$", "s"),
+    "/rotation/c2": ("orientational memory", "$C_2(t)$", ""),
+    "/velocity/lag_s": ("lag", "$t$", "s"),
+    "/velocity/c_v": ("velocity memory", "$C_v(t)$", ""),
+    "/fluctuations/mean_n": ("mean number in a box", r"$\langle N\rangle$", ""),
+    "/fluctuations/std_n": ("its standard deviation", "$ΔN$", ""),
+}
+#: The same under the names that rows of results have.
+_ALIASES = {"order.mean": "S", "order.std": "S_std", "order": "S"}
+_POWERS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
+#: The units of keys of the scene that have one and are not in the table, by the end of their names.
+_KEY_UNITS = {"length": "mm", "diameter": "mm", "side": "mm", "gap": "mm", "amplitude": "mm", "frequency": "Hz",
+              "duration": "s", "step": "s", "every": "s", "from": "s", "until": "s"}
+
+
+def _entry(path: str) -> tuple[str, str, str] | None:
+    name = path
+    if name.startswith("measured."):
+        name = name[len("measured."):]
+    if name.endswith(".value"):
+        name = name[:-len(".value")]
+    return TABLE.get(_ALIASES.get(name, name))
+
+
+def unit_text(unit: str) -> str:
+    """A unit in print: "mm²/s" of "mm2 s-1", "1/mm" of "mm-1", nothing of "1"."""
+    above, below = [], []
+    for word in unit.split():
+        match = re.fullmatch(r"([^0-9-]+)(-?[0-9]+)?", word)
+        if match is None:
+            continue
+        power = int(match[2] or 1)
+        symbol = {"deg": "°"}.get(match[1], match[1])
+        (above if power > 0 else below).append(symbol + (str(abs(power)).translate(_POWERS) if abs(power) > 1 else ""))
+    if not below:
+        return " ".join(above)
+    bottom = " ".join(below)
+    return (" ".join(above) or "1") + "/" + (f"({bottom})" if len(below) > 1 else bottom)
+
+
+def with_unit(title: str, unit: str) -> str:
+    """"time $t$ (s)"."""
+    return f"{title} ({unit})" if unit else title
+
+
+def axis_title(path: str, unit: str | None = None) -> str:
+    """Name, symbol and unit for an axis: of a key of the scene ("box.gap"), of a number of a run ("theta_m_deg",
+    "measured.theta_m_deg.value", "order.mean") or of an array ("/g2/g2"). What the table does not have goes by its own
+    name, with the unit that it ends in. `unit` replaces that of the table."""
+    entry = _entry(path)
+    if entry is not None:
+        name, symbol, own = entry
+        return with_unit(f"{name} {symbol}".strip(), own if unit is None else unit)
+    name = path.removeprefix("measured.").removesuffix(".value")
+    stem, _ = split_unit(name.rpartition("/")[2])
+    own = unit_text(unit_of(name))
+    if not own and "." in name:
+        own = next((unit for end, unit in _KEY_UNITS.items() if name.endswith(end)), "")
+    return with_unit((stem if "/" in name else split_unit(name)[0]).replace("_", " "), own if unit is None else unit)
+
+
+def symbol(path: str) -> str:
+    """The symbol of a quantity, or its name where it has none."""
+    entry = _entry(path)
+    return (entry[1] or entry[0]) if entry else path
+
+
+def number_text(value: Any) -> str:
+    """A number with as many digits as it has, up to six, and a real minus sign; anything else as it is."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (int, float)):
+        text = f"{value:.6g}"
+        if "e" in text:
+            mantissa, exponent = text.split("e")
+            power = str(int(exponent)).translate(_POWERS)
+            text = f"10{power}" if mantissa == "1" else f"{mantissa}·10{power}"
+        return text.replace("-", "−")
+    return str(value)
+
+
+def value_label(path: str, value: Any) -> str:
+    """A value of a quantity: "$φ$ = 0.6", "$ℓ$ = 2.5 mm"."""
+    entry = _entry(path)
+    unit = entry[2] if entry and not isinstance(value, str) else ""
+    return f"{symbol(path)} = {number_text(value)}" + (f" {unit}" if unit else "")
+
+
+def point_label(parameters: Mapping[str, Any]) -> str:
+    """Parameters as they are called in print: "$φ$ = 0.6, $ℓ$ = 2.5 mm"."""
+    return ", ".join(value_label(path, value) for path, value in parameters.items())
+
+
+_WORDS = ((r"\langle ", "⟨"), (r"\langle", "⟨"), (r"\rangle", "⟩"), (r"\mathrm", ""), (r"\hat", ""), ("$", ""), ("{", ""), ("}", ""))
+
+
+def plain(text: str) -> str:
+    """A title without mathtext's marks: "tilt of the layers θ_m (°)"."""
+    for marked, meant in _WORDS:
+        text = text.replace(marked, meant)
+    return " ".join(text.split())

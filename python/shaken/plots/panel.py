@@ -1,0 +1,381 @@
+# SPDX-License-Identifier: MIT
+"""A panel of a figure: curves with their errors, what is known of their steadiness, references, maps."""
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, Sequence
+
+import numpy as np
+
+from ..errors import ShakenError
+from . import ticks
+from .save import Drawn
+from .style import DARK_GREY, GREY, MARKERS, PALETTE, styled
+
+if TYPE_CHECKING:
+    from .sheet import Sheet
+
+HOLLOW = "hollow: still relaxing, or not known to be steady"
+DASHED = "dashed: still relaxing, or not known to be steady"
+NO_ERROR = "without a bar: no error known"
+BARS, BANDS, BOTH = "bars: ± one standard error", "bands: ± one standard error", "bars and bands: ± one standard error"
+
+#: Curves of more points are drawn as lines with bands; of fewer as points with bars.
+MOST_MARKS = 40
+_FINE_DASHES = (0, (2.6, 1.1))
+_VERDICTS = {"agrees": ("✓ agrees", "#00795a"), "disagrees": ("✗ disagrees", "#c04000"),
+             "unresolved": ("? unresolved", DARK_GREY)}
+
+
+class Panel:
+    """One pair of axes. `axes` is matplotlib's, for what the methods do not offer; what is drawn there by hand goes into
+    the CSV with `record`.
+
+    letter: "a", "b", ...; "" where the figure has one panel
+    """
+
+    def __init__(self, sheet: "Sheet", axes: Any, letter: str) -> None:
+        self.sheet, self.axes, self.letter = sheet, axes, letter
+        self.x_title = self.y_title = self.title = ""
+        self.drawn: list[Drawn] = []
+        self.explained: set[str] = set()
+        self.entries: list[tuple[Any, str]] = []     # of the key: (handle, label)
+        self.is_used = self.has_picture = False
+        self._outlines: list[tuple[np.ndarray, np.ndarray, bool]] = []   # what a key should not cover: x, y, joined
+        self._reach: list[tuple[np.ndarray, np.ndarray, np.ndarray, bool]] = []  # x, low, high, has marks
+        self.labels: list[tuple[str, np.ndarray, np.ndarray]] = []       # of references: text, x, y
+        self._wanted: dict[str, tuple[float | None, float | None]] = {"x": (None, None), "y": (None, None)}
+        self._exact = {"x": False, "y": False}
+        self._n_named = 0
+        self.keyless = False
+
+    # what a panel is told
+
+    @styled
+    def titles(self, x: str = "", y: str = "", title: str = "") -> "Panel":
+        """Titles of the axes, as of names.axis_title, and of the panel, which stands behind its letter."""
+        self.x_title, self.y_title, self.title, self.is_used = x, y, title, True
+        self.axes.set_xlabel(x)
+        self.axes.set_ylabel(y)
+        head = (f"({self.letter}) " if self.letter else "") + title
+        self.axes.set_title(head.strip(), loc="left")
+        return self
+
+    @styled
+    def scale(self, x: str = "linear", y: str = "linear") -> "Panel":
+        """"log" or "linear"."""
+        self.axes.set_xscale(x)
+        self.axes.set_yscale(y)
+        return self
+
+    def range(self, x: tuple[float | None, float | None] = (None, None),
+              y: tuple[float | None, float | None] = (None, None), exactly: bool = False) -> "Panel":
+        """What the axes reach at least; None: as far as the data. With `exactly` no farther: data beyond is not seen."""
+        for axis, wanted in (("x", x), ("y", y)):
+            if wanted != (None, None):
+                self._wanted[axis], self._exact[axis] = wanted, exactly
+        return self
+
+    # what a panel shows
+
+    @styled
+    def curve(self, x: Any, y: Any, error: Any = None, steady: Any = True, label: str = "", colour: Any = None,
+              marker: str | None = None, look: str = "", joined: bool = True) -> "Panel":
+        """Points or a line, with errors.
+
+        error:  standard errors of y; NaN where not known; None where there are none to be known
+        steady: True, False or None, of all or one for each: hollow (a line: dashed) where it is not True
+        label:  in the key; at most seven curves have their own colour, more take one of a ColourScale
+        colour: number of a colour of the palette, or any colour; the next one of the palette if left out
+        marker: the mark of the colour if left out
+        look:   "points" with bars, "line" with a band; if left out, points where there are few
+        joined: whether points are joined by a thin line
+        """
+        x, y = np.asarray(x, dtype=float).ravel(), np.asarray(y, dtype=float).ravel()
+        if x.shape != y.shape:
+            raise ShakenError(f"the curve '{label}' has {x.size} x and {y.size} y")
+        errors = None if error is None else np.broadcast_to(np.asarray(error, dtype=float).ravel(), y.shape)
+        sure = np.broadcast_to(_are_true(steady), y.shape)
+        said = list(steady) if isinstance(steady, (list, tuple, np.ndarray)) else [steady] * y.size
+        self.drawn.append(Drawn(self.letter, label, x, y, errors, said))
+        self.is_used = True
+        colour, mark = self._colour(label, colour)
+        if marker is not None:
+            mark = marker
+        finite = np.isfinite(x) & np.isfinite(y)
+        as_points = look == "points" or (look == "" and np.count_nonzero(finite) <= MOST_MARKS)
+        if np.any(finite):
+            (self._points if as_points else self._line)(x, y, errors, sure, colour, mark, joined)
+        if label:
+            self.entries.append((_handle(colour, mark if as_points else "", as_points and not joined,
+                                         _FINE_DASHES if not as_points and not np.all(sure[finite]) else "-"), label))
+        return self
+
+    def _colour(self, label: str, colour: Any) -> tuple[Any, str]:
+        if colour is None or isinstance(colour, (int, np.integer)):
+            k = self._n_named if colour is None else int(colour)
+            if k >= len(PALETTE):
+                raise ShakenError(f"'{label}' would be curve {k + 1} of a panel, and seven at most are told apart by "
+                                  "their colours: give colours of a style.ColourScale")
+            self._n_named = max(self._n_named, k + 1) if label or colour is None else self._n_named
+            return PALETTE[k], MARKERS[k]
+        return colour, "o"
+
+    def _points(self, x: np.ndarray, y: np.ndarray, errors: np.ndarray | None, sure: np.ndarray, colour: Any,
+                mark: str, joined: bool) -> None:
+        axes = self.axes
+        low = high = y
+        if errors is not None:
+            barred = np.isfinite(errors) & np.isfinite(y)
+            half = np.where(barred, errors, 0.0)
+            low, high = y - half, y + half
+            if np.any(barred):
+                axes.errorbar(x[barred], y[barred], yerr=errors[barred], fmt="none", ecolor=colour, elinewidth=0.8,
+                              zorder=2.2)
+                self.explained.add("bars")
+                for k in np.flatnonzero(barred):
+                    self._outlines.append((x[[k, k]], np.array([low[k], high[k]]), True))
+            if np.any(np.isfinite(y) & ~np.isfinite(errors)):
+                self.explained.add(NO_ERROR)
+        if joined:
+            axes.plot(x, y, "-", color=colour, linewidth=0.8, zorder=2.4)
+        for kind, face in ((sure, colour), (~sure, "white")):
+            shown = kind & np.isfinite(x) & np.isfinite(y)
+            if np.any(shown):
+                axes.plot(x[shown], y[shown], linestyle="none", marker=mark, markerfacecolor=face,
+                          markeredgecolor=colour, zorder=2.6)
+                if face == "white":
+                    self.explained.add(HOLLOW)
+        self._reach.append((x, low, high, True))
+        self._outlines.append((x, y, joined))
+
+    def _line(self, x: np.ndarray, y: np.ndarray, errors: np.ndarray | None, sure: np.ndarray, colour: Any,
+              mark: str, joined: bool) -> None:
+        low = high = y
+        if errors is not None and np.any(np.isfinite(errors) & np.isfinite(y)):
+            half = np.where(np.isfinite(errors), errors, 0.0)
+            low, high = y - half, y + half
+            self.axes.fill_between(x, low, high, color=colour, alpha=0.25, linewidth=0, zorder=2.0)
+            self.explained.add("bands")
+            self._outlines += [(x, low, True), (x, high, True)]
+        unsure = not np.all(sure[np.isfinite(y)])
+        self.axes.plot(x, y, linestyle=_FINE_DASHES if unsure else "-", color=colour, zorder=2.4,
+                       linewidth=0.9 if y.size < 400 else 0.7)
+        if unsure:
+            self.explained.add(DASHED)
+        self._reach.append((x, low, high, False))
+        self._outlines.append((x, y, True))
+
+    @styled
+    def reference(self, x: Any = None, y: Any = None, label: str = "", error: Any = None, points: bool = False,
+                  dashed: bool = True, colour: Any = GREY) -> "Panel":
+        """What is not measured here, in grey with a small grey label: a level (y alone), a place (x alone), a line or a
+        law (arrays x and y), or with `points` marks of another work with their errors."""
+        self.is_used = True
+        line = (0, (4, 2)) if dashed else "-"
+        if x is None or y is None:
+            if (x is None) == (y is None):
+                raise ShakenError("a reference needs an x, a y, or both")
+            value = float(x if y is None else y)
+            if not math.isfinite(value):
+                return self
+            (self.axes.axvline if y is None else self.axes.axhline)(
+                value, color=colour, linewidth=0.7, linestyle=line, zorder=1.5)
+            level = np.array([value])
+            self._reach.append((level, np.array([np.nan]), np.array([np.nan]), False) if y is None else
+                               (np.array([np.nan]), level, level, False))
+            self.drawn.append(Drawn(self.letter, f"reference: {label}", level if y is None else [math.inf],
+                                    level if x is None else [math.inf]))
+            if label:
+                self.labels.append((label, level if y is None else np.array([]), level if x is None else np.array([])))
+            return self
+        xs, ys = np.atleast_1d(np.asarray(x, dtype=float)), np.atleast_1d(np.asarray(y, dtype=float))
+        errors = None if error is None else np.broadcast_to(np.asarray(error, dtype=float), ys.shape)
+        self.drawn.append(Drawn(self.letter, f"reference: {label}", xs, ys, errors))
+        half = np.zeros_like(ys) if errors is None else np.nan_to_num(errors)
+        if not np.any(np.isfinite(xs) & np.isfinite(ys)):
+            return self
+        if points or xs.size == 1:
+            if errors is not None:
+                self.axes.errorbar(xs, ys, yerr=half, fmt="none", ecolor=colour, elinewidth=0.8, zorder=1.9)
+            self.axes.plot(xs, ys, linestyle="none", marker="s", markersize=3.2, markerfacecolor="white",
+                           markeredgecolor=colour, zorder=1.95)
+        else:
+            if errors is not None:
+                self.axes.fill_between(xs, ys - half, ys + half, color=colour, alpha=0.2, linewidth=0, zorder=1.4)
+            self.axes.plot(xs, ys, color=colour, linewidth=0.8, linestyle=line, zorder=1.5)
+        self._reach.append((xs, ys - half, ys + half, points or xs.size == 1))
+        self._outlines.append((xs, ys, not points))
+        if label:
+            self.labels.append((label, xs, ys))
+        return self
+
+    @styled
+    def zero(self, x: bool = False, y: bool = True) -> "Panel":
+        """A thin line where y (x) is nothing."""
+        if y:
+            self.axes.axhline(0, color=GREY, linewidth=0.5, zorder=1.2)
+        if x:
+            self.axes.axvline(0, color=GREY, linewidth=0.5, zorder=1.2)
+        return self
+
+    @styled
+    def verdict(self, word: str) -> "Panel":
+        """What a comparison came to, at the right above the axes: "agrees", "disagrees", "unresolved", or other words.
+        """
+        text, colour = _VERDICTS.get(word, (word, DARK_GREY))
+        self.axes.set_title(text, loc="right", color=colour, fontweight="bold", fontsize=6.5)
+        return self
+
+    @styled
+    def map(self, x: Any, y: Any, z: Any, title: str = "", diverging: bool = False,
+            limits: tuple[float, float] | None = None, bar: bool = True, square: bool = True) -> Any:
+        """Values z (ny, nx) over the centres x, y of cells, in colours; what is not finite stays light grey. Diverging:
+        blue, white, red about zero. Returns what Sheet.colourbar takes; with `bar` the panel has a colour bar of its
+        own, with this title.
+        """
+        x, y, z = (np.asarray(values, dtype=float) for values in (x, y, z))
+        if z.shape != (y.size, x.size):
+            raise ShakenError(f"a map over {x.size} x {y.size} places has a shape {z.shape}, not (y, x)")
+        self.is_used = self.has_picture = True
+        seen = z[np.isfinite(z)]
+        if limits is None and seen.size:
+            most = float(np.max(np.abs(seen))) or 1.0
+            limits = (-most, most) if diverging else (float(seen.min()), float(seen.max()))
+        low, high = limits or (0.0, 1.0)
+        drawn = self.axes.pcolormesh(_borders(x), _borders(y), np.ma.masked_invalid(z), vmin=low, vmax=high,
+                                     cmap="RdBu_r" if diverging else "viridis", rasterized=True, linewidth=0)
+        self.axes.set_facecolor("#e8e8e8")
+        if square:
+            self.axes.set_aspect("equal")
+        self.axes.set_xlim(_borders(x)[[0, -1]])
+        self.axes.set_ylim(_borders(y)[[0, -1]])
+        grid_x, grid_y = np.meshgrid(x, y)
+        self.record(title or "map", grid_x.ravel(), grid_y.ravel(), z=z.ravel())
+        if bar:
+            self.sheet.colourbar(drawn, [self], title)
+        return drawn
+
+    @styled
+    def picture(self, pixels: Any, extent: tuple[float, float, float, float] | None = None) -> "Panel":
+        """An image (rows, columns, 3 or 4) in place of a plot, without axes unless it has an `extent` (x0, x1, y0, y1)."""
+        self.is_used = self.has_picture = True
+        self.axes.imshow(np.asarray(pixels), extent=extent, interpolation="antialiased", origin="upper")
+        if extent is None:
+            self.axes.set_axis_off()
+        return self
+
+    @styled
+    def note(self, text: str) -> "Panel":
+        """A few grey words in a free corner."""
+        self.is_used = True
+        self.entries.append((_handle("none", "", True, "-"), text))
+        return self
+
+    def record(self, curve: str, x: Sequence[float], y: Sequence[float], error: Sequence[float] | None = None,
+               z: Sequence[float] | None = None) -> None:
+        """Puts numbers into the CSV that were drawn with `axes`."""
+        self.is_used = True
+        self.drawn.append(Drawn(self.letter, curve, np.asarray(x, dtype=float), np.asarray(y, dtype=float), error,
+                                z=z))
+
+    # how it is brought into shape
+
+    @property
+    def has_data(self) -> bool:
+        return self.has_picture or bool(self._outlines) or bool(self.axes.collections or self.axes.patches)
+
+    def finish_axes(self) -> None:
+        """Ranges and ticks, once everything is drawn."""
+        if self.has_picture:
+            return
+        if not self.has_data:
+            self.axes.set_xticks([])
+            self.axes.set_yticks([])
+            self.axes.text(0.5, 0.5, "no data", color=GREY, ha="center", va="center", transform=self.axes.transAxes)
+            return
+        for name in ("x", "y"):
+            if self._reach:
+                self._set_limits(name)
+            ticks.set_ticks(self.axes, name)
+
+    def _set_limits(self, name: str) -> None:
+        log = getattr(self.axes, f"get_{name}scale")() == "log"
+        values, marked = [], []
+        for x, low, high, has_marks in self._reach:
+            for part in ((x,) if name == "x" else (low, high)):
+                kept = part[np.isfinite(part) & (part > 0 if log else True)]
+                values.append(kept)
+                if has_marks:
+                    marked.append(kept)
+        seen = np.concatenate(values) if values else np.array([])
+        if seen.size == 0:
+            return
+        marks = np.concatenate(marked) if marked else np.array([])
+        forward = np.log10 if log else np.asarray
+        low, high = float(forward(seen.min())), float(forward(seen.max()))
+        lower, upper = self._wanted[name]
+        bound_low = -math.inf if lower is None else float(forward(lower))
+        bound_high = math.inf if upper is None else float(forward(upper))
+        if self._exact[name]:
+            self._apply(name, bound_low if lower is not None else low, bound_high if upper is not None else high, log)
+            return
+        if low == high:  # one point: axes around it
+            pad = 0.3 if log else 0.1 * abs(low) or 1.0
+            low, high = low - pad, high + pad
+        begin, end = min(low, bound_low) if lower is not None else low, max(high, bound_high) if upper is not None else high
+        span = end - begin
+        pad = (0.05 if name == "x" else 0.06) * span
+        # A line may begin at an axis; a mark, or the end of a bar, may not. Above and below all keep some distance.
+        mark_low = float(forward(marks.min())) if marks.size else math.inf
+        mark_high = float(forward(marks.max())) if marks.size else -math.inf
+        soft_low = name == "y" and lower is None or mark_low < begin + pad
+        soft_high = name == "y" and upper is None or mark_high > end - pad
+        if name == "y" and upper is not None and high > end - 0.02 * span:
+            soft_high = True
+        self._apply(name, begin - pad if soft_low else begin, end + pad if soft_high else end, log)
+
+    def _apply(self, name: str, low: float, high: float, log: bool) -> None:
+        if low == high:
+            low, high = low - 0.5, high + 0.5
+        getattr(self.axes, f"set_{name}lim")((10**low, 10**high) if log else (low, high))
+
+    @property
+    def can_grow(self) -> bool:
+        """Whether the y axis may reach higher to make room for the key."""
+        return self._wanted["y"][1] is None and not self._exact["y"] and not self.has_picture
+
+    def obstacles(self) -> np.ndarray:
+        """(n, 2) places in pixels that what is drawn goes through, every two pixels or so."""
+        places = []
+        for x, y, joined in self._outlines:
+            with np.errstate(all="ignore"):
+                at = self.axes.transData.transform(np.column_stack([x, y]))
+            at = at[np.all(np.isfinite(at), axis=1)]
+            if joined and len(at) > 1:
+                way = np.concatenate([[0], np.cumsum(np.hypot(*np.diff(at, axis=0).T))])
+                steps = np.linspace(0, way[-1], int(min(way[-1] / 2 + 2, 20000)))
+                at = np.column_stack([np.interp(steps, way, at[:, 0]), np.interp(steps, way, at[:, 1])])
+            places.append(at)
+        return np.concatenate(places) if places else np.empty((0, 2))
+
+
+def _are_true(steady: Any) -> np.ndarray:
+    if isinstance(steady, (list, tuple, np.ndarray)):
+        return np.array([value is True or value is np.True_ or value == 1 and value is not None for value in steady],
+                        dtype=bool)
+    return np.array(steady is True or (isinstance(steady, np.bool_) and bool(steady)))
+
+
+def _borders(places: np.ndarray) -> np.ndarray:
+    """Where the cell of each place ends: half way to its neighbours, and as far out at the ends."""
+    if places.size < 2:
+        return np.concatenate([places - 0.5, places + 0.5])
+    between = (places[1:] + places[:-1]) / 2
+    return np.concatenate([[2 * places[0] - between[0]], between, [2 * places[-1] - between[-1]]])
+
+
+def _handle(colour: Any, marker: str, lineless: bool, line: Any) -> Any:
+    from matplotlib.lines import Line2D
+    return Line2D([], [], color=colour, marker=marker or "none", linestyle="none" if lineless else line,
+                  linewidth=0.9)

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: MIT
+"""Pictures and the numbers in them, with what they are made from. Equal figures give equal bytes: no time of day."""
+from __future__ import annotations
+
+import csv
+import io
+import math
+import os
+from pathlib import Path
+from typing import Any, Iterable, Mapping, Sequence
+
+from ..errors import ShakenError
+from . import names
+
+#: Keyword -> a text of one line: {"Software": "shaken plot 0.1.0", "Runs": "1f0c59d16ab8b7d7"}. Keywords are those of
+#: PNG: Latin letters and single spaces, at most 79.
+Origin = Mapping[str, str]
+
+SUFFIXES = (".png", ".pdf", ".svg")
+
+
+class Drawn:
+    """The numbers of a curve or a map, as they go into the CSV."""
+
+    def __init__(self, panel: str, curve: str, x: Sequence[float], y: Sequence[float],
+                 error: Sequence[float] | None = None, steady: Sequence[bool | None] | None = None,
+                 z: Sequence[float] | None = None) -> None:
+        self.panel, self.curve, self.x, self.y, self.error, self.steady, self.z = panel, curve, x, y, error, steady, z
+
+
+def origin_list(words: Sequence[str], most: int = 200) -> str:
+    """"a, b, c"; of more than `most`, "a, b and 7 more"."""
+    if len(words) <= most:
+        return ", ".join(words)
+    return f"{', '.join(words[:most])} and {len(words) - most} more"
+
+
+def csv_text(origin: Origin, axes: Iterable[tuple[str, str, str]], data: Iterable[Drawn]) -> str:
+    """Comments with the origin and with the titles of each panel's axes, then a row for each point that is drawn.
+
+    axes: (panel, title of x, title of y)
+    """
+    out = io.StringIO()
+    for keyword, text in origin.items():
+        out.write(f"# {keyword}: {text}\n")
+    for panel, x, y in axes:
+        out.write(f"# {'panel ' + panel + ': ' if panel else ''}x is {names.plain(x) or 'x'}; y is "
+                  f"{names.plain(y) or 'y'}; error is one standard error\n")
+    rows = list(data)
+    has_map = any(drawn.z is not None for drawn in rows)
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(["panel", "curve", "x", "y", *(["z"] if has_map else []), "error", "steady"])
+    for drawn in rows:
+        for k in range(len(drawn.x)):
+            shown = [drawn.x[k], drawn.y[k], *([drawn.z[k]] if drawn.z is not None else [])]
+            if not all(math.isfinite(value) for value in shown):
+                continue
+            error = drawn.error[k] if drawn.error is not None else math.nan
+            steady = drawn.steady[k] if drawn.steady is not None else None
+            numbers = [_number(value) for value in shown] + ([""] if has_map and drawn.z is None else [])
+            word = "" if drawn.steady is None else "yes" if steady is True else "no" if steady is False else "unknown"
+            writer.writerow([drawn.panel, names.plain(drawn.curve), *numbers,
+                             _number(error, 4) if math.isfinite(error) else "", word])
+    return out.getvalue()
+
+
+def _number(value: float, digits: int = 7) -> str:
+    return f"{value:.{digits}g}"
+
+
+def save(figure: Any, path: str | Path, origin: Origin | None = None, data: str | None = None) -> Path:
+    """Writes the picture, PNG, PDF or SVG by its suffix, with its origin inside: text chunks of the PNG, the keywords of
+    the PDF, the metadata of the SVG. `data`, as of csv_text, goes beside it as NAME.csv. Makes the folder if need be.
+
+    Raises ShakenError for another suffix, or where it cannot be written.
+    """
+    path = Path(path)
+    if path.suffix not in SUFFIXES:
+        raise ShakenError(f"{path}: a figure is a .png, .pdf or .svg")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        _write(path, _picture(figure, path.suffix[1:], dict(origin or {})))
+        if data is not None:
+            _write(path.with_suffix(".csv"), data.encode())
+    except OSError as error:
+        raise ShakenError(f"{path} cannot be written: {error.strerror or error}") from None
+    return path
+
+
+def _write(path: Path, content: bytes) -> None:
+    """Whole or not at all: a reader never finds half a picture."""
+    beside = path.with_name(f".{path.name}.{os.getpid()}.tmp")
+    try:
+        beside.write_bytes(content)
+        os.replace(beside, path)
+    finally:
+        beside.unlink(missing_ok=True)
+
+
+def _picture(figure: Any, form: str, origin: dict[str, str]) -> bytes:
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    out = io.BytesIO()
+    software = origin.get("Software", "shaken")
+    lines = "; ".join(f"{keyword}: {text}" for keyword, text in origin.items())
+    if form == "png":
+        metadata: dict[str, Any] = {"Software": software, **origin}
+    elif form == "pdf":
+        metadata = {"Creator": software, "Producer": software, "Subject": lines, "CreationDate": None}
+    else:
+        metadata = {"Creator": software, "Description": lines, "Date": None}
+    if figure.canvas is None:
+        FigureCanvasAgg(figure)
+    figure.savefig(out, format=form, metadata=metadata)
+    return out.getvalue()

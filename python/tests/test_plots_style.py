@@ -1,0 +1,192 @@
+# SPDX-License-Identifier: MIT
+"""The style of figures: nothing is erased, cut or invented, and files say what they are made from."""
+from __future__ import annotations
+
+import csv
+import io
+import re
+import zlib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+pytest.importorskip("matplotlib")
+from shaken.errors import ShakenError  # noqa: E402
+from shaken.plots import names, style  # noqa: E402
+
+NAN = float("nan")
+ORIGIN = {"Software": "shaken plot 0.1.0", "Sweep": "ℓ and φ", "Runs": "1f0c59d16ab8b7d7"}
+
+
+def rows_of(path: Path) -> list[dict[str, str]]:
+    text = "".join(line for line in path.read_text().splitlines(True) if not line.startswith("#"))
+    return list(csv.DictReader(io.StringIO(text)))
+
+
+def pixels(sheet: "object") -> np.ndarray:
+    sheet.finish()
+    sheet.figure.canvas.draw()
+    return np.asarray(sheet.figure.canvas.buffer_rgba())[..., :3].astype(int)
+
+
+def n_of(image: np.ndarray, colour: str, tolerance: int = 40) -> int:
+    wanted = [int(colour[k:k + 2], 16) for k in (1, 3, 5)]
+    return int(np.count_nonzero(np.all(np.abs(image - wanted) < tolerance, axis=-1)))
+
+
+def test_the_csv_has_what_is_drawn_with_names_and_units(tmp_path: Path) -> None:
+    sheet = style.sheet()
+    sheet[0].titles(names.axis_title("rods.area_fraction"), names.axis_title("theta_m_deg"))
+    sheet[0].curve([0.6, 0.7, 0.8, 0.9], [10, NAN, 20.5, 30], error=[1, 1, NAN, 2], steady=[True, True, False, None],
+                   label=names.value_label("rods.length", 4.5))
+    sheet.save(tmp_path / "tilt.png", ORIGIN)
+    text = (tmp_path / "tilt.csv").read_text()
+    assert "# Sweep: ℓ and φ" in text
+    assert "# x is area fraction φ; y is tilt of the layers θ_m (°); error is one standard error" in text
+    rows = rows_of(tmp_path / "tilt.csv")
+    assert [row["x"] for row in rows] == ["0.6", "0.8", "0.9"]
+    assert [row["error"] for row in rows] == ["1", "", "2"]
+    assert [row["steady"] for row in rows] == ["yes", "no", "unknown"]
+    assert rows[0]["curve"] == "ℓ = 4.5 mm"
+
+
+@pytest.mark.parametrize("form", ["png", "pdf", "svg"])
+def test_equal_figures_have_equal_bytes_that_say_what_they_are_made_from(tmp_path: Path, form: str) -> None:
+    written = []
+    for name in ("a", "b"):
+        sheet = style.sheet()
+        sheet[0].titles("time $t$ (s)", "$S$").curve([1, 2, 3], [1, 2, 3], error=0.1, label="$φ$ = 0.75")
+        written.append(sheet.save(tmp_path / f"{name}.{form}", ORIGIN).read_bytes())
+    assert written[0] == written[1]
+    if form == "pdf":
+        found = re.search(rb"/Subject \(\xfe\xff(.*?)\)\n", written[0], re.DOTALL)
+        assert found is not None
+        assert "Runs: 1f0c59d16ab8b7d7" in found[1].replace(b"\\", b"").decode("utf-16-be", "ignore")
+        assert b"CreationDate" not in written[0]
+    else:
+        assert b"1f0c59d16ab8b7d7" in written[0]
+        assert "ℓ and φ".encode() in written[0] or "ℓ and φ".encode() in zlib_text(written[0])
+
+
+def zlib_text(png: bytes) -> bytes:
+    """Compressed texts of a PNG."""
+    found = b""
+    for piece in png.split(b"zTXt")[1:]:
+        try:
+            found += zlib.decompressobj().decompress(piece.split(b"\0", 1)[1][1:])
+        except zlib.error:
+            continue
+    return found
+
+
+def test_what_has_no_value_draws_nothing() -> None:
+    def drawn(y: list[float]) -> int:
+        sheet = style.sheet()
+        sheet[0].titles("x", "y").range(x=(0, 4), y=(0, 4)).curve([1, 2, 3], y, look="points", joined=False)
+        return n_of(pixels(sheet), style.PALETTE[0])
+
+    assert drawn([1, NAN, 3]) == pytest.approx(2 / 3 * drawn([1, 2, 3]), rel=0.1)
+    assert drawn([NAN, NAN, NAN]) == 0
+
+
+def test_bars_of_one_curve_do_not_erase_another() -> None:
+    def blue(others: bool) -> int:
+        sheet = style.sheet()
+        panel = sheet[0].titles("x", "y").range(x=(0, 10), y=(0, 10))
+        panel.curve(range(1, 10), [5] * 9, error=1.0, colour=0)
+        if others:
+            for k in range(1, 5):
+                panel.curve(np.arange(1, 10) + 0.12 * k, [5 + 0.3 * k] * 9, error=4.0, colour=k)
+        return n_of(pixels(sheet), style.PALETTE[0])
+
+    assert blue(True) > 0.75 * blue(False)
+
+
+def test_marks_are_hollow_where_the_state_is_not_known_to_be_steady_and_the_key_says_so() -> None:
+    def blue(steady: object) -> "tuple[int, object]":
+        sheet = style.sheet()
+        sheet[0].titles("x", "y").curve([1, 2, 3], [1, 2, 3], steady=steady, joined=False)
+        return n_of(pixels(sheet), style.PALETTE[0]), sheet
+
+    filled, sheet = blue(True)
+    assert not sheet.figure.legends
+    for unsure in (False, None, [False, None, False]):
+        hollow, sheet = blue(unsure)
+        assert hollow < 0.75 * filled
+        assert [text.get_text() for text in sheet.figure.legends[0].get_texts()] == [
+            "hollow: still relaxing, or not known to be steady"]
+
+
+@pytest.mark.parametrize("width, columns", [("89mm", 1), ("120mm", 1), ("120mm", 2), ("183mm", 1), ("183mm", 3)])
+def test_nothing_is_cut_and_no_key_covers_data(width: str, columns: int) -> None:
+    sheet = style.sheet(width, rows=2, columns=columns, title="A figure with a title that is rather long for its width")
+    scale = style.ColourScale(np.linspace(0.6, 0.8, 9), names.axis_title("rods.area_fraction"))
+    for k, panel in enumerate(sheet):
+        panel.titles(names.axis_title("order.std"), names.axis_title("measured.theta_m_deg.value"),
+                     "a title that is longer than its panel").verdict("disagrees")
+        if k % 2 == 0:
+            for curve in range(7):
+                panel.curve(np.arange(12), np.sin(np.arange(12) + curve + k), error=0.3, steady=curve % 2 == 0,
+                            label=names.value_label("rods.length", 2.5 + curve + k))
+            panel.reference(y=0.5, label="the paper's level")
+        else:
+            for value in scale.values:
+                panel.curve(np.linspace(0, 5, 200), np.cos(np.linspace(0, 5, 200) * value), colour=scale(value))
+            sheet.colourbar(scale, [panel])
+    sheet.finish()
+    renderer = sheet.figure.canvas.get_renderer()
+    whole = sheet.figure.get_tightbbox(renderer)
+    assert whole.x0 >= 0 and whole.y0 >= 0
+    assert whole.x1 <= sheet.width + 1e-6 and whole.y1 <= sheet.height + 1e-6
+    for panel in sheet:
+        key = panel.axes.get_legend()
+        if key is None:
+            continue
+        box = key.get_window_extent(renderer)
+        at = panel.obstacles()
+        covered = (at[:, 0] > box.x0) & (at[:, 0] < box.x1) & (at[:, 1] > box.y0) & (at[:, 1] < box.y1)
+        assert not np.any(covered)
+        for other in sheet:
+            for text in (other.axes._left_title, other.axes._right_title, other.axes.xaxis.label,
+                         other.axes.yaxis.label):
+                assert not text.get_text() or not box.overlaps(text.get_window_extent(renderer))
+
+
+def test_marks_and_bars_keep_off_the_axes() -> None:
+    sheet = style.sheet()
+    sheet[0].titles("x", "y").range(y=(0, 1)).curve([1, 2, 3], [0, 0.5, 0.98], error=0.05)
+    sheet.finish()
+    (left, right), (low, high) = sheet[0].axes.get_xlim(), sheet[0].axes.get_ylim()
+    assert left < 1 and right > 3 and low < -0.05 and high > 1.03
+
+
+def test_an_eighth_named_curve_is_refused() -> None:
+    panel = style.sheet()[0]
+    for k in range(7):
+        panel.curve([1, 2], [k, k], label=str(k))
+    with pytest.raises(ShakenError, match="ColourScale"):
+        panel.curve([1, 2], [8, 8], label="8")
+
+
+def test_the_caller_s_settings_stay_as_they_are() -> None:
+    import matplotlib
+    before = dict(matplotlib.rcParams)
+    sheet = style.sheet()
+    sheet[0].titles("x", "y").curve([1, 2], [1, 2])
+    sheet.finish()
+    assert dict(matplotlib.rcParams) == before
+
+
+@pytest.mark.parametrize("path, title", [
+    ("rods.length", "rod length ℓ (mm)"), ("box.gap", "gap between the plates w (mm)"),
+    ("order.mean", "nematic order ⟨S⟩"), ("measured.theta_m_deg.value", "tilt of the layers θ_m (°)"),
+    ("diffusion_mm2_s", "diffusion coefficient D (mm²/s)"), ("/g2/g2", "orientational correlation G_2(r)"),
+    ("measured.some_new_speed_mm_s.value", "some new speed (mm/s)"), ("rods.a_new_key", "rods.a new key")])
+def test_titles_of_axes(path: str, title: str) -> None:
+    assert names.plain(names.axis_title(path)) == title
+
+
+def test_labels_of_points() -> None:
+    assert names.plain(names.point_label({"rods.area_fraction": 0.6, "rods.length": 2.5})) == "φ = 0.6, ℓ = 2.5 mm"
+    assert names.plain(names.point_label({"plates.gamma": -3e-7})) == "Γ = −3·10⁻⁷"
