@@ -18,6 +18,9 @@ END, GAP, GAMMA, FREQUENCY, BEADS = ("rods.end_diameter", "box.gap", "plates.gam
 #: The paper's box [mm]. A narrower box orders more easily: there order is no sign of order in the paper's; disorder is.
 PAPERS_BOX = 83.7
 
+#: A drift of S by less than this leaves the other averages of a run what they are.
+SMALL_DRIFT = 0.05
+
 
 def key_of(run: Run, path: str) -> float:
     """A key of the scene as a number; NaN where there is none. An area fraction that was not swept is the multiple of
@@ -44,8 +47,8 @@ def number_of(run: Run, name: str) -> Estimate:
 
 
 def _hardly_drifts(order: Estimate) -> bool | None:
-    """True where S drifts by less than 0.05 with two errors to spare: that leaves the other averages what they are."""
-    return True if abs(order.drift) + 2 * order.drift_error < 0.05 else None
+    """True where S drifts by less than SMALL_DRIFT with two errors to spare."""
+    return True if abs(order.drift) + 2 * order.drift_error < SMALL_DRIFT else None
 
 
 def mean(estimates: Iterable[Estimate]) -> Estimate:
@@ -86,11 +89,18 @@ class Runs(list[Run]):
 
     def number(self, name: str) -> Estimate:
         """The mean of a number over these runs; the runs in which it could not be measured do not count."""
-        return mean(number_of(run, name) for run in self)
+        return self.of(lambda run: number_of(run, name))
 
     def of(self, value: Callable[[Run], Estimate]) -> Estimate:
-        """The mean of what a function makes of each run."""
-        return mean([value(run) for run in self])
+        """The mean of what a function makes of each run. What does not know its own drift is as steady as S is, in all
+        of these runs together."""
+        found = mean([value(run) for run in self])
+        if found.is_known and found.steady is not True and not math.isfinite(found.drift):
+            order = mean([run.numbers.get("S", Estimate()) for run in self])
+            if math.isfinite(order.drift_error):
+                settled = bool(order.steady) or abs(order.drift) + 2 * order.drift_error < SMALL_DRIFT
+                return replace(found, steady=True if settled else found.steady)
+        return found
 
     def points(self, path: str, name: str | Callable[[Run], Estimate]) -> "list[tuple[float, Estimate]]":
         """(value of a key, number) at each value of the key that has one."""
@@ -113,8 +123,9 @@ class Runs(list[Run]):
         values = np.array([np.asarray(array)[:n] for array in same])
         own = np.array([np.asarray(array.error)[:n] if array.error is not None else np.full(n, NAN) for array in same])
         errors = [replica_mean([Estimate(v, e, True) for v, e in zip(values[:, k], own[:, k])]).error for k in range(n)]
-        with np.errstate(all="ignore"):
-            return x, np.nanmean(values, axis=0), np.array(errors)
+        count = np.isfinite(values).sum(axis=0)
+        mean_ = np.where(count > 0, np.nansum(values, axis=0) / np.maximum(count, 1), NAN)
+        return x, mean_, np.array(errors)
 
 
 class Library:

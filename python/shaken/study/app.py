@@ -1,0 +1,193 @@
+# SPDX-License-Identifier: MIT
+"""`shaken figures`: runs what the figures need, archives it, draws, judges."""
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import os
+import sys
+from pathlib import Path
+from typing import Any, Sequence
+
+from ..archive import archived_runs
+from ..daemon import Daemon
+from ..errors import ShakenError
+from ..plots.style import inches
+from ..times import seconds
+from . import running
+from .figures import FIGURES, Figure, chosen, draw
+from .library import Library
+from .report import tally, write_report
+from .sets import ORDER, SCALES, sweeps
+from .statements import as_json, as_table, findings, of_figures
+
+OK, FAILED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
+
+
+def parser() -> argparse.ArgumentParser:
+    found = argparse.ArgumentParser(prog="shaken figures", description="The figures of Sharma & Soni (2024), and some "
+                                    "beyond: runs what they need, archives it, draws, judges")
+    found.add_argument("figures", nargs="*", metavar="FIGURE", help="a number of the paper, 2 to 14, or a name; all if "
+                       "left out")
+    found.add_argument("--scale", default="desk", help=", ".join(f"{s.name}: {s.shown}" for s in SCALES.values()))
+    found.add_argument("--budget", help="CPU time after which it stops, \"10h\"; without one it runs all")
+    found.add_argument("--archive", type=Path, help="folder of the archive of finished runs; OUT/archive if left out")
+    found.add_argument("-o", "--out", type=Path, help="folder of the figures; figures-SCALE if left out")
+    found.add_argument("--configs", type=Path, help="folder of the sweeps of the sets")
+    found.add_argument("--root", type=Path, help="root of the daemon")
+    found.add_argument("--list", action="store_true", help="the figures and their sets, and nothing else")
+    found.add_argument("--dry-run", action="store_true", help="what is open and what it would cost, and nothing else")
+    found.add_argument("--draw-only", action="store_true", help="draw from the archive; no daemon is asked")
+    found.add_argument("--collect", action="store_true", help="first archive all runs of the daemon that are done")
+    found.add_argument("--format", default="png", help="png, pdf or svg")
+    found.add_argument("--width", default="183mm", help="89mm, 120mm or 183mm")
+    found.add_argument("--report", type=Path, help="Markdown file whose marked sections are written anew")
+    found.add_argument("--json", action="store_true", help="what was made, and the verdicts, as JSON")
+    found.add_argument("-y", "--yes", action="store_true", help="do not ask before a start on a terminal")
+    return found
+
+
+def configs_folder(given: Path | None) -> Path:
+    """The folder of the desk's sweeps: as given, that of the sources, or that of an installation."""
+    if given:
+        return given
+    here = Path(__file__).resolve()
+    places = [here.parents[3] / "configs" / "figures" / "desk", Path(sys.prefix) / "share/shaken/configs/figures/desk",
+              Path("/usr/share/shaken/configs/figures/desk"), Path("/usr/local/share/shaken/configs/figures/desk")]
+    if os.environ.get("SHAKEN_CONFIGS"):
+        places.insert(0, Path(os.environ["SHAKEN_CONFIGS"]) / "figures" / "desk")
+    for place in places:
+        if place.is_dir():
+            return place
+    raise ShakenError(f"the sweeps of the figures are not here ({places[0]}): name their folder with --configs")
+
+
+def problems_of(options: argparse.Namespace) -> list[str]:
+    """All that is wrong with the options, a line each."""
+    found = []
+    if options.scale not in SCALES:
+        found.append(f"--scale takes {', '.join(SCALES)}, not '{options.scale}'")
+    if options.format not in ("png", "pdf", "svg"):
+        found.append(f"--format takes png, pdf or svg, not '{options.format}'")
+    try:
+        if not 0 < 25.4 * inches(options.width) <= 500:
+            found.append(f"--width takes 89mm, 120mm, 183mm or another up to 500mm, not '{options.width}'")
+    except ValueError:
+        found.append(f"--width takes 89mm, 120mm, 183mm or another, not '{options.width}'")
+    if options.draw_only and options.dry_run:
+        found.append("--draw-only and --dry-run exclude each other")
+    if options.budget is not None:
+        try:
+            if seconds(options.budget) <= 0:
+                found.append("--budget must be above 0")
+        except ShakenError as error:
+            found.append(f"--budget: {error}")
+    try:
+        chosen(options.figures)
+    except ShakenError as error:
+        found.append(str(error))
+    if options.report is not None and not options.report.is_file():
+        found.append(f"{options.report}: there is no such file, whose marked sections could be written anew")
+    return found
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    options = parser().parse_args(arguments)
+    problems = problems_of(options)
+    if problems:
+        print("\n".join(f"shaken: {problem}" for problem in problems), file=sys.stderr)
+        return BAD_INPUT
+    try:
+        return _run(options)
+    except ShakenError as error:
+        print(f"shaken: {error}", file=sys.stderr)
+        return FAILED
+    except KeyboardInterrupt:
+        print("interrupted: jobs that are queued go on; the same command goes on from here", file=sys.stderr)
+        return INTERRUPTED
+
+
+def _run(options: argparse.Namespace) -> int:
+    figures = chosen(options.figures)
+    if options.list:
+        return _list(figures, options)
+    out = options.out or Path(f"figures-{options.scale}")
+    archive = options.archive or out / "archive"
+    if not options.draw_only:
+        names = {name for figure in figures for name in figure.sets}
+        # of a whole study every set is run, also what no figure but a statement needs
+        wanted = None if len(figures) == len(FIGURES) else [name for _, name in ORDER if name in names]
+        if options.collect:
+            running.collect(Daemon(options.root), archive)
+        plan = running.Plan(running.program(), sweeps(configs_folder(options.configs), SCALES[options.scale], wanted),
+                            archive)
+        if options.dry_run:
+            print(json.dumps(_plan_json(plan), indent=2) if options.json else plan.table())
+            return OK
+        daemon = Daemon(options.root)
+        daemon.status()  # says how to start one before anything is asked
+        if plan.missing and not _agreed(plan, options):
+            print("nothing was started", file=sys.stderr)
+            return FAILED
+        budget = math.inf if options.budget is None else seconds(options.budget)
+        running.run_plan(plan, daemon, budget, say=lambda line: print(line, file=sys.stderr, flush=True))
+        still = running.Plan(running.program(), plan.sweeps.items(), archive)
+        if still.missing:
+            print(f"still open:\n{still.table()}", file=sys.stderr)
+    library = Library(run for run in archived_runs(archive)
+                      if any(name.endswith("-" + options.scale) for name in run.sweeps))
+    if not library.sets:
+        raise ShakenError(f"{archive} has no runs of scale {options.scale}: there is nothing to draw")
+    return _draw(options, figures, library, out)
+
+
+def _draw(options: argparse.Namespace, figures: list[Figure], library: Library, out: Path) -> int:
+    made = draw(figures, library, out, width=25.4 * inches(options.width), form=options.format,
+                origin={"Software": "shaken figures"})
+    found = findings(library, of_figures({figure.id for figure in figures} if options.figures else ()))
+    (out / "statements.md").write_text(as_table(found))
+    (out / "statements.json").write_text(json.dumps(as_json(found), indent=2, ensure_ascii=False) + "\n")
+    if options.report is not None:
+        write_report(options.report, library)
+    if options.json:
+        print(json.dumps({"scale": options.scale, "made": [str(path) for path in made], "statements": as_json(found)},
+                         indent=2, ensure_ascii=False))
+    else:
+        print("\n".join(map(str, [*made, out / "statements.md"])))
+        if not options.figures:
+            print(tally(library), end="")
+    return OK
+
+
+def _list(figures: list[Figure], options: argparse.Namespace) -> int:
+    if options.json:
+        print(json.dumps([{"id": figure.id, "number": figure.number or None, "name": figure.name, "title": figure.title,
+                           "sets": figure.sets} for figure in figures], indent=2, ensure_ascii=False))
+        return OK
+    wide = max(len(figure.name) for figure in figures)
+    print(f"{'PAPER':5}  {'NAME':{wide}}  SHOWS")
+    for figure in figures:
+        print(f"{figure.number:5}  {figure.name:{wide}}  {figure.title}\n{'':5}  {'':{wide}}  sets: "
+              f"{', '.join(figure.sets)}")
+    return OK
+
+
+def _plan_json(plan: running.Plan) -> dict[str, Any]:
+    return {"runs": plan.n_points, "missing": len(plan.missing), "cpu_seconds": plan.cost(),
+            "sets": [{"set": name, "missing": sum(point.set == name for point in plan.missing),
+                      "cpu_seconds": plan.cost(name)} for name in plan.sweeps]}
+
+
+def _agreed(plan: running.Plan, options: argparse.Namespace) -> bool:
+    print(plan.table(), file=sys.stderr)
+    if options.yes or not (sys.stdin.isatty() and sys.stderr.isatty()):
+        return True
+    print("start? [y/N] ", end="", file=sys.stderr, flush=True)
+    return sys.stdin.readline().strip().lower() in ("y", "yes")
+
+
+if __name__ == "__main__":
+    sys.exit(main())
+
+

@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: MIT
+"""The figures: the paper's own by its numbers, and those beyond it by names."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Callable, Iterable
+
+from ..errors import ShakenError
+from ..plots.sheet import Sheet
+from . import figures_motion, figures_order, figures_structure
+from .library import Library
+from .material import Material
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A figure of the paper, or one beyond it.
+
+    number: in the paper, "14"; empty for all others
+    name:   "defects"
+    title:  what it shows
+    sets:   what it is drawn from (sets.ORDER)
+    lacks:  what the paper's has and this has not, with the reason
+    """
+
+    number: str
+    name: str
+    title: str
+    sets: tuple[str, ...]
+    draw: Callable[[Material], Sheet]
+    lacks: str = ""
+
+    @property
+    def id(self) -> str:
+        return self.number or self.name
+
+    @property
+    def file(self) -> str:
+        """The name of its files without the suffix: "fig14-defects", or "gap"."""
+        return f"fig{int(self.number):02d}-{self.name}" if self.number else self.name
+
+
+FIGURES: tuple[Figure, ...] = (
+    Figure("2", "start", "Rods as they lie, and S(t) from the aligned start", ("long-rods",), figures_order.start),
+    Figure("3", "order", "Mean order against area fraction, and the phase diagram",
+           ("long-rods", "short-rods", "crossings", "phases", "layers", "layer-trends"), figures_order.order),
+    Figure("4", "order-statistics", "Fluctuations of the order: P[S], standard deviation, Binder cumulant",
+           ("long-rods", "short-rods"), figures_order.order_statistics),
+    Figure("5", "g2", "Orientational correlation G₂(r) on logarithmic axes", ("short-rods", "long-rods"),
+           figures_structure.g2),
+    Figure("6", "g2-map", "G₂ along and across the director: disorder, nematic, layers", ("dilute", "layers"),
+           figures_structure.g2_map),
+    Figure("7", "distances", "Pair correlation g: against distance, along and across the director",
+           ("short-rods", "long-rods", "layers"), figures_structure.distances),
+    Figure("8", "layers", "Layers turned by ±θ, their angle and their wavelength",
+           ("layers", "layer-trends", "long-rods", "wavelength-length", "wavelength-end", "larger-box"),
+           figures_structure.layers),
+    Figure("9", "diffusion", "Mean square displacement, D at short and at long times",
+           ("diffusion", "short-rods", "diffusion-along", "long-rods"), figures_motion.diffusion),
+    Figure("10", "tilt", "How a rod swims: velocity against tilt", ("mechanism",), figures_motion.tilt),
+    Figure("11", "paths", "Paths of single rods, and how long they persist", ("mechanism",), figures_motion.paths),
+    Figure("12", "memory", "Correlations in time: orientation C₂, velocity C_v",
+           ("short-rods", "long-rods", "diffusion-along"), figures_motion.memory),
+    Figure("13", "rotation", "Mean square angular displacement and rotational diffusion", ("short-rods", "long-rods"),
+           figures_motion.rotation),
+    Figure("14", "defects", "Defects of rods that are ordered here and there", ("no-order",), figures_motion.defects),
+    Figure("", "layer-trends", "Angle, wavelength and order of the layers against packing",
+           ("layers", "layer-trends", "wavelength-packing"), figures_structure.layer_trends),
+    Figure("", "larger-box", "Layers in a larger box", ("layer-trends", "larger-box", "wavelength-length"),
+           figures_structure.larger_box),
+    Figure("", "gap", "The gap between the plates: crystal, layers, no layers", ("gaps", "layers"),
+           figures_structure.gap),
+    Figure("", "steady", "The axis along which rods of 3.5 mm order", ("layer-trends", "turned"), figures_order.steady),
+    Figure("", "shaking", "Order and motion against the strength of shaking", ("shaking",), figures_order.shaking),
+    Figure("", "size", "Order against the size of the box", ("long-rods", "size", "dilute", "long-range"),
+           figures_order.size),
+    Figure("", "elasticity", "Director fluctuations: bend against splay", ("elasticity", "long-rods"),
+           figures_structure.elasticity),
+    Figure("", "diffusion-more", "Whether MSD/t levels off, and exponents",
+           ("diffusion", "short-rods", "diffusion-along", "long-rods"), figures_motion.diffusion_more),
+    Figure("", "melting", "Defects against packing and order", ("long-rods", "short-rods", "crossings", "phases"),
+           figures_motion.melting),
+    Figure("", "fluctuations", "Number fluctuations", ("short-rods", "long-rods"), figures_structure.fluctuations),
+    Figure("", "equilibrium", "The equilibrium reference: e = 1, no friction",
+           ("equilibrium", "short-rods", "long-rods", "crossings", "phases"), figures_order.equilibrium),
+    Figure("", "model", "What the paper leaves open: frequency, number of rods, beads",
+           ("frequency", "density", "beads", "diffusion", "short-rods"), figures_motion.model),
+    Figure("", "accuracy", "The same points at the paper's time step and at the desk's", ("long-rods",),
+           figures_motion.accuracy),
+)
+
+
+def chosen(words: Iterable[str]) -> list[Figure]:
+    """The figures of these numbers or names; all if there are none. Raises ShakenError with all that is unknown."""
+    wanted = list(words)
+    known = {word: figure for figure in FIGURES for word in (figure.name, figure.number) if word}
+    unknown = [word for word in wanted if word not in known]
+    if unknown:
+        raise ShakenError(f"no such figure: {', '.join(unknown)}; there are {' '.join(f.id for f in FIGURES)}")
+    return [known[word] for word in dict.fromkeys(wanted)] if wanted else list(FIGURES)
+
+
+def draw(figures: Iterable[Figure], library: Library, out: Path, *, width: float = 183.0, form: str = "png",
+         origin: dict[str, str] | None = None) -> list[Path]:
+    """Draws figures into a folder, each with its data as CSV; those whose runs are all missing are left out."""
+    material = Material(library, width)
+    drawn = []
+    for figure in figures:
+        if not any(library[name] for name in figure.sets):
+            continue
+        sheet = figure.draw(material)
+        drawn.append(sheet.save(out / f"{figure.file}.{form}",
+                                {**(origin or {}), "Figure": figure.title, **runs_of(library, figure)}))
+    return drawn
+
+
+def runs_of(library: Library, figure: Figure) -> dict[str, str]:
+    """Which runs of which versions a figure is of."""
+    runs = library.joined(*figure.sets)
+    versions = sorted({"shaken {shaken}, physics {physics}".format(**run.summary["versions"]) for run in runs})
+    ids = sorted(run.id for run in runs)
+    shown = ", ".join(ids[:200]) + (f" and {len(ids) - 200} more" if len(ids) > 200 else "")
+    return {"Computed by": "; ".join(versions), "Runs": shown}

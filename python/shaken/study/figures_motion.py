@@ -1,0 +1,338 @@
+# SPDX-License-Identifier: MIT
+"""Motion: how rods swim, diffuse and turn, and their defects."""
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ..estimate import Estimate
+from ..plots import names
+from ..plots.sheet import Sheet
+from ..run import Run
+from .library import FREQUENCY, LENGTH, PACKING, SIDE, Runs, key_of, number_of
+from .material import Material, angle_bar, draw_curves, draw_points, draw_rods, first_snapshot, packing_scale
+from .motion_checks import (FREE_OF_THE_WINDOW, late_velocity_correlation, long_rods, papers_diffusion, short_rods,
+                            speed_between)
+
+
+def tilt(material: Material) -> Sheet:
+    """10: velocity along and across the rod against its tilt, how often a tilt occurs, and the tilt of one rod."""
+    runs = material.library["mechanism"]
+    first = runs.at(packing=0.60)
+    sheet = material.sheet(4, columns=2, height=52)
+    for panel, way, statement in ((sheet[0], "along", "tilt"), (sheet[1], "across", "sideways")):
+        panel.titles(names.axis_title("/tilt/n_z"), names.axis_title(f"/tilt/v_{way}_mm_s"), f"{way} the rod, φ = 0.6")
+        found = first.curve(f"/tilt/v_{way}_mm_s")
+        if found:
+            n_z, v, error = found
+            seen = error < 3 * np.nanmedian(error)
+            panel.curve(n_z[seen], v[seen], error[seen], look="points")
+        panel.zero(x=True)
+        material.stamp(panel, statement)
+    for place in (-0.2, 0.2):
+        sheet[0].reference(x=place, label="the paper: fastest" if place > 0 else "")
+    panel = sheet[2].titles(names.axis_title("/tilt/n_z"), "P(n_z)", "how often a tilt occurs")
+    for k, packing in enumerate(runs.values(PACKING)):
+        found = runs.at(packing=packing).curve("/tilt/density")
+        if found:
+            panel.curve(found[0], found[1], label=names.value_label(PACKING, packing), colour=k, look="line")
+    panel.range(y=(0, None))
+    panel = sheet[3].titles(names.axis_title("/order/time_s"), names.axis_title("/tilt/n_z"), "tilt of one rod, φ = 0.6")
+    for run in first[:1]:
+        n_z, time = run["/rods/trace/0/n_z"], run["/rods/trace/time_s"]
+        n = min(len(n_z), len(time))
+        early = np.asarray(time)[:n] < float(time[0]) + 2
+        panel.curve((np.asarray(time)[:n] - float(time[0]))[early], np.asarray(n_z)[:n][early], look="line")
+    panel.zero()
+    material.stamp(panel, "switching")
+    return sheet
+
+
+def paths(material: Material) -> Sheet:
+    """11: ways of single rods, and how long they persist."""
+    runs = material.library["mechanism"]
+    sheet = material.sheet(3, height=56)
+    for panel, packing in zip(sheet, (0.65, 0.85)):
+        here = runs.at(packing=packing)
+        panel.titles("x (mm)", "y (mm)", f"30 s, φ = {packing:g}")
+        for run in here[:1]:
+            for k in range(4):
+                if f"/rods/trace/{k}/x_mm" in run:
+                    x, y = (np.asarray(run[f"/rods/trace/{k}/{axis}_mm"]) for axis in "xy")
+                    panel.curve(x - x[0], y - y[0], colour=k, look="line")
+        panel.axes.set_aspect("equal", adjustable="datalim")
+    panel = sheet[2].titles(names.axis_title(PACKING), "time (s)", "how long")
+    draw_points(panel, runs.points(PACKING, "persistence_time_s"), "a way persists", 0)
+    draw_points(panel, runs.points(PACKING, "n_z_switching_time_s"), "a tilt keeps its sign", 1)
+    panel.range(y=(0, None))
+    material.stamp(panel, "persistence")
+    return sheet
+
+
+def _short_limit(direction: str) -> Any:
+    """D in one direction over the lags that are short for the run: those of D at short lags in the plane."""
+    def of(run: Run) -> Estimate:
+        name = f"/msd/{direction}_mm2"
+        if name not in run:
+            return Estimate(reason="not measured")
+        low, high = (number_of(run, f"diffusion_short_lag_{end}_s").value for end in ("from", "to"))
+        msd = run[name]
+        t, values, errors = np.asarray(msd.axis), np.asarray(msd), np.asarray(msd.error)
+        if not math.isfinite(low):
+            return Estimate(reason="no short lags")
+        first, last = int(np.argmin(abs(t - low))), int(np.argmin(abs(t - high)))
+        dt = t[last] - t[first]
+        return Estimate((values[last] - values[first]) / (2 * dt), float(np.hypot(errors[first], errors[last])) / (2 * dt),
+                        number_of(run, "diffusion_mm2_s").steady)
+
+    return of
+
+
+def diffusion(material: Material) -> Sheet:
+    """9: mean square displacement and D at short and at long times: short rods, long rods along and across."""
+    short, long_ = short_rods(material.library), long_rods(material.library)
+    scale = packing_scale(short, long_)
+    sheet = material.sheet(6, columns=2, height=50)
+    rows: tuple[tuple[Runs, str, str, tuple[Any, Any], tuple[str, ...]], ...] = (
+        (short, "total", "ℓ = 2.5 mm, in the plane", ("diffusion_short_mm2_s", "diffusion_mm2_s"), ("diffusion-law",)),
+        (long_, "along", "ℓ = 4.5 mm, along the director", (_short_limit("along"), "diffusion_along_mm2_s"),
+         ("diffusion-along",)),
+        (long_, "across", "ℓ = 4.5 mm, across", (_short_limit("across"), "diffusion_across_mm2_s"), ("diffusion-across",)))
+    for k, (runs, direction, title, limits, statements) in enumerate(rows):
+        panel = sheet[2 * k].titles(names.axis_title("/msd/lag_s"), names.axis_title(f"/msd/{direction}_mm2"), title)
+        panel.scale("log", "log")
+        draw_curves(panel, runs, f"/msd/{direction}_mm2", scale, keep=lambda t, msd: msd > 0)
+        panel = sheet[2 * k + 1].titles(names.axis_title(PACKING), "D (mm²/s)", title)
+        for j, (limit, label) in enumerate(zip(limits, ("t → 0", "t → ∞"))):
+            draw_points(panel, runs.points(PACKING, limit), label, j)
+        if direction == "total":
+            phi = np.linspace(0.60, 0.85, 40)
+            panel.reference(phi, papers_diffusion(phi), "the paper: 1.7 + 480 (φ − 0.64)²")
+        if direction == "across":
+            panel.scale(y="log")
+        else:
+            panel.range(y=(0, None))
+        material.stamp(panel, *statements)
+    material.stamp(sheet[0], "diffusion-normal")
+    if scale:
+        sheet.colourbar(scale, [sheet[0], sheet[2], sheet[4]])
+    return sheet
+
+
+def diffusion_more(material: Material) -> Sheet:
+    """MSD over time: whether it levels off; and exponents."""
+    short, long_ = short_rods(material.library), long_rods(material.library)
+    scale = packing_scale(short, long_)
+    sheet = material.sheet(4, columns=2, height=50)
+    for panel, runs, name, title, d in ((sheet[0], short, "total", "ℓ = 2.5 mm", 4), (sheet[1], long_, "along",
+                                        "ℓ = 4.5 mm, along", 2), (sheet[2], long_, "across", "ℓ = 4.5 mm, across", 2)):
+        panel.titles(names.axis_title("/msd/lag_s"), f"MSD/{d}t (mm²/s)", title).scale("log", "linear")
+        draw_curves(panel, runs, f"/msd/d_{name}_mm2_s", scale, keep=lambda t, d: t > 0.1)
+        panel.range(y=(0, None))
+    if scale:
+        sheet.colourbar(scale, sheet.panels[:3])
+    panel = sheet[3].titles(names.axis_title(PACKING), "exponent of the MSD, short times", "normal diffusion: 1")
+    draw_points(panel, short.points(PACKING, "alpha_short"), "ℓ = 2.5 mm", 0)
+    draw_points(panel, long_.points(PACKING, "alpha_along_short"), "ℓ = 4.5 mm, along", 1)
+    draw_points(panel, long_.points(PACKING, "alpha_across_short"), "ℓ = 4.5 mm, across", 2)
+    panel.reference(y=1)
+    return sheet
+
+
+def memory(material: Material) -> Sheet:
+    """12: correlations in time: orientation, velocity."""
+    short, long_ = material.library["short-rods"], material.library["long-rods"]
+    scale = packing_scale(short, long_)
+    sheet = material.sheet(6)
+    for panel, runs, title, statement in ((sheet[0], short, "ℓ = 2.5 mm", "memory"),
+                                          (sheet[1], long_, "ℓ = 4.5 mm", "c2-plateau")):
+        panel.titles(names.axis_title("/rotation/lag_s"), names.axis_title("/rotation/c2"), title).scale("log", "linear")
+        draw_curves(panel, runs, "/rotation/c2", scale)
+        panel.range(y=(0, 1)).zero()
+        material.stamp(panel, statement)
+    panel = sheet[2].titles(names.axis_title(PACKING), names.axis_title("c2_plateau"), "what stays, ℓ = 4.5 mm")
+    draw_points(panel, long_.points(PACKING, "c2_plateau"))
+    panel.range(y=(0, 1))
+    for panel, runs, name, title in ((sheet[3], short, "c_v", "velocity, ℓ = 2.5 mm"),
+                                     (sheet[4], long_, "c_v_along", "along, ℓ = 4.5 mm")):
+        panel.titles(names.axis_title("/velocity/lag_s"), names.axis_title(f"/velocity/{name}"), title)
+        draw_curves(panel, runs, f"/velocity/{name}", scale, keep=lambda t, c: t < 2.05)
+        panel.zero().reference(x=0.4, label="velocities: means over 0.4 s")
+    if scale:
+        sheet.colourbar(scale, [sheet[0], sheet[1], sheet[3], sheet[4]])
+    low, high = FREE_OF_THE_WINDOW
+    panel = sheet[5].titles(names.axis_title(PACKING), "C_v along (mm²/s²)", f"lags of {low:g} to {high:g} s")
+    draw_points(panel, [(at, e) for at, e in long_rods(material.library).points(PACKING, late_velocity_correlation)
+                        if at > 0.59])
+    panel.zero()
+    material.stamp(panel, "velocity-along")
+    return sheet
+
+
+def rotation(material: Material) -> Sheet:
+    """13: mean square angular displacement, D_r at short and long times, and the exponent at short times."""
+    short, long_ = material.library["short-rods"], material.library["long-rods"]
+    scale = packing_scale(short, long_)
+    sheet = material.sheet(4, columns=2, height=52)
+    for panel, runs, title, statement in ((sheet[0], short, "ℓ = 2.5 mm", ""), (sheet[1], long_, "ℓ = 4.5 mm",
+                                                                               "rotation-saturates")):
+        panel.titles(names.axis_title("/rotation/lag_s"), names.axis_title("/rotation/msad_rad2"), title)
+        panel.scale("log", "log")
+        draw_curves(panel, runs, "/rotation/msad_rad2", scale, keep=lambda t, msad: msad > 0)
+        if statement:
+            material.stamp(panel, statement)
+    if scale:
+        sheet.colourbar(scale, sheet.panels[:2])
+
+    def short_limit(run: Run) -> Estimate:
+        low, high = (number_of(run, f"rotation_short_lag_{end}_s").value for end in ("from", "to"))
+        msad = run["/rotation/msad_rad2"]
+        t, values = np.asarray(msad.axis), np.asarray(msad)
+        if not math.isfinite(low):
+            return Estimate(reason="no short lags")
+        first, last = int(np.argmin(abs(t - low))), int(np.argmin(abs(t - high)))
+        errors = np.asarray(msad.error)
+        dt = t[last] - t[first]
+        return Estimate((values[last] - values[first]) / (2 * dt), float(np.hypot(errors[first], errors[last])) / (2 * dt),
+                        number_of(run, "S").steady)
+
+    panel = sheet[2].titles(names.axis_title(PACKING), names.axis_title("rotational_diffusion_rad2_s"), "ℓ = 2.5 mm")
+    panel.scale(y="log")
+    draw_points(panel, short.points(PACKING, short_limit), "t → 0", 0)
+    draw_points(panel, short.points(PACKING, "rotational_diffusion_rad2_s"), "t → ∞", 1)
+    material.stamp(panel, "rotation")
+    panel = sheet[3].titles(names.axis_title(PACKING), "exponent α_r, short times", "ℓ = 2.5 mm")
+    draw_points(panel, short.points(PACKING, "alpha_rotation_short"))
+    panel.reference(y=1)
+    material.stamp(panel, "rotation-short")
+    return sheet
+
+
+def defects(material: Material) -> Sheet:
+    """14: defects of rods of 3 mm that are ordered here and there."""
+    runs = material.library["no-order"].at(3.0, 0.85)
+    sheet = material.sheet(4, columns=2, height=66)
+    snapshot = first_snapshot(runs, 1)
+    if snapshot:
+        draw_rods(sheet[0], snapshot, runs[0].scene, f"ℓ = 3 mm, φ = 0.85, t = {snapshot.time:.0f} s", defects=True)
+        angle_bar(sheet, [sheet[0]])
+    panel = sheet[1].titles(names.axis_title("/defects/time_s"), "defects of charge +1/2", "as many of −1/2")
+    for run in runs:
+        if "/defects/n_plus" in run:
+            panel.curve(run["/defects/n_plus"].axis, run["/defects/n_plus"], look="line")
+    panel.range(y=(0, None))
+    panel = sheet[2].titles("time over which a way is taken (s)", "mean speed (mm/s)", "of those that last")
+    panel.scale("log", "linear")
+    for k, (name, label) in enumerate((("speed_plus", "+1/2"), ("speed_minus", "−1/2"),
+                                       ("speed_plus_along", "+1/2, towards its tail"))):
+        found = runs.curve(f"/defects/tracks/lasting/{name}_mm_s")
+        if found:
+            panel.curve(found[0], found[1], found[2], label=label, colour=k, look="points")
+    panel.zero()
+    material.stamp(panel, "defects")
+    panel = sheet[3].titles(names.axis_title("/g2/r_mm"), names.axis_title("/g2/g2"), "orientation")
+    draw_curves(panel, runs, "/g2/g2", None)
+    panel.zero()
+    return sheet
+
+
+def melting(material: Material) -> Sheet:
+    """Defects against packing and order."""
+    runs = material.library.joined("long-rods", "short-rods", "crossings", "phases").at(side=33.492)
+    sheet = material.sheet(2, columns=2, height=55)
+    one = sheet[0].titles(names.axis_title(PACKING), names.axis_title("defect_density_per_mm2"), "defects")
+    two = sheet[1].titles(names.axis_title("S"), names.axis_title("defect_density_per_mm2"), "against order")
+    for k, length in enumerate(runs.values(LENGTH)):
+        here, label = runs.at(length), names.value_label(LENGTH, length)
+        points = here.points(PACKING, "defect_density_per_mm2")
+        draw_points(one, points, label, k)
+        draw_points(two, [(here.at(packing=at).number("S").value, e) for at, e in points], label, k, joined=False)
+    for panel in (one, two):
+        panel.range(y=(0, None))
+    return sheet
+
+
+def model(material: Material) -> Sheet:
+    """What the paper leaves open: the frequency, the number of rods, the number of beads."""
+    library = material.library
+    shaken = library["frequency"].at(packing=0.60)
+    sheet = material.sheet(6)
+    panel = sheet[0].titles(names.axis_title("/tilt/n_z"), "velocity along the rod (mm/s)", "φ = 0.6, ℓ = 2.5 mm")
+    for k, frequency in enumerate((100, 150, 200, 250, 300)):
+        found = shaken.where(FREQUENCY, frequency).curve("/tilt/folded/v_along_mm_s")
+        if found:
+            n_z, v, error = found
+            seen = error < 0.25
+            panel.curve(n_z[seen], v[seen], error[seen], label=names.value_label(FREQUENCY, frequency), colour=k,
+                        look="line")
+    panel.zero()
+    panel = sheet[1].titles(names.axis_title(FREQUENCY), "velocity beyond n_z = 0.31 (mm/s)", "reversed where > 0")
+    draw_points(panel, shaken.points(FREQUENCY, lambda run: speed_between(run, 0.31, 0.40)))
+    panel.zero()
+    panel = sheet[2].titles(names.axis_title(FREQUENCY), "D, as MSD/4t (mm²/s)", "φ = 0.6")
+    draw_points(panel, shaken.points(FREQUENCY, "diffusion_mm2_s"), "measured", 0)
+    panel.reference(y=papers_diffusion(0.60), label="the paper's fit, MSD = 4Dt")
+    panel.reference(y=papers_diffusion(0.60) / 2, label="the paper's fit, MSD = 2Dt")
+    panel.range(y=(0, None))
+    panel = sheet[3].titles(names.axis_title(PACKING), "D (mm²/s)", "two readings")
+    draw_points(panel, short_rods(library).points(PACKING, "diffusion_mm2_s"), "200 Hz, MSD = 4Dt", 0)
+    rival = library["frequency"].where(FREQUENCY, 280).points(PACKING, "diffusion_mm2_s")
+    draw_points(panel, [(at, e * 2) for at, e in rival], "280 Hz, MSD = 2Dt", 1)
+    phi = np.linspace(0.60, 0.85, 40)
+    panel.reference(phi, papers_diffusion(phi), "the paper's fit")
+    panel.range(y=(0, None))
+    panel = sheet[4].titles(names.axis_title(PACKING), "D (mm²/s)", "3.3 % more rods")
+    draw_points(panel, library["diffusion"].points(PACKING, "diffusion_mm2_s"), "N of the area fraction", 0)
+    more = library["density"]
+    draw_points(panel, [(round(at / 1.033, 3), e) for at, e in more.points(PACKING, "diffusion_mm2_s")], "N × 1.033", 1)
+    panel.reference(phi, papers_diffusion(phi), "the paper's fit")
+    panel.range(y=(0, None))
+    panel = sheet[5].titles("beads of a rod", "D (mm²/s)", "φ = 0.75")
+    draw_points(panel, library["beads"].points("rods.beads", "diffusion_mm2_s"))
+    panel.reference(y=papers_diffusion(0.75), label="the paper's fit")
+    panel.range(y=(0, None))
+    return sheet
+
+
+def accuracy(material: Material) -> Sheet:
+    """The controls: the same points at the paper's time step, beside those at the longer step of a desk."""
+    numbers = ("S", "diffusion_mm2_s", "rotational_diffusion_rad2_s", "theta_m_deg", "velocity_rms_mm_s", "c2_decay_s")
+    sheet = material.sheet(2, columns=1, height=70)
+    panel = sheet[0].titles("", "4 us over 16 us", "ratio of the same number")
+    other = sheet[1].titles("", "difference / its error", "how significant")
+    for k, name in enumerate(numbers):
+        x, ratios, errors, sigmas = [], [], [], []
+        for place, (set_name, controls) in enumerate(sorted(material.library.controls.items())):
+            for control in controls:
+                twin = _twins(material.library[set_name], control)
+                a, b = twin.number(name), number_of(control, name)
+                if not (twin and a.is_known and b.is_known and a.value):
+                    continue
+                error = math.hypot(a.error, b.error)
+                x.append(place + (k - 2.5) * 0.1)
+                ratios.append(b.value / a.value)
+                errors.append(abs(error / a.value))
+                sigmas.append((b.value - a.value) / error if error else math.nan)
+        if x:
+            title = names.symbol(name)
+            panel.curve(x, ratios, errors, label=title, colour=k, look="points", joined=False)
+            other.curve(x, sigmas, label=title, colour=k, look="points", joined=False)
+    sets = sorted(name for name, controls in material.library.controls.items() if controls)
+    for one in (panel, other):
+        one.axes.set_xticks(range(len(sorted(material.library.controls))), sorted(material.library.controls), rotation=30,
+                            ha="right")
+    del sets
+    panel.reference(y=1)
+    for level in (-2, 2):
+        other.reference(y=level)
+    return sheet
+
+
+def _twins(runs: Runs, control: Run) -> Runs:
+    """The runs at the state point of a control."""
+    found = runs
+    for path in (LENGTH, PACKING, SIDE, "plates.gamma", "box.gap", "rods.end_diameter", FREQUENCY):
+        found = found.where(path, key_of(control, path))
+    return found

@@ -1,0 +1,188 @@
+# SPDX-License-Identifier: MIT
+"""Nematic order: where it sets in, how it fluctuates, on which box and start it depends."""
+from __future__ import annotations
+
+import numpy as np
+
+from ..plots import names
+from ..plots.sheet import Sheet
+from .layer_checks import two_peaks
+from .library import LENGTH, PACKING, SIDE, Runs, key_of
+from .material import (Material, angle_bar, draw_curves, draw_points, draw_rods, first_snapshot, packing_scale)
+from .order_checks import ORDERED, phase_diagram, pooled_density, transition
+from .structure_checks import far_g2
+
+
+def start(material: Material) -> Sheet:
+    """2: rods as they lie, and S(t) from the aligned start."""
+    runs = material.library["long-rods"]
+    sheet = material.sheet(3, height=58)
+    for panel, packing in zip(sheet, (0.45, 0.75)):
+        here = runs.at(packing=packing)
+        snapshot = first_snapshot(here)
+        if snapshot:
+            draw_rods(panel, snapshot, here[0].scene, f"φ = {packing:g}, t = {snapshot.time:.0f} s")
+    angle_bar(sheet, sheet.panels[:2])
+    panel = sheet[2]
+    panel.titles(names.axis_title("/order/time_s"), names.axis_title("/order/order"), "from the aligned start")
+    scale = packing_scale(runs)
+    for packing in runs.values(PACKING):
+        order = runs.at(packing=packing)[0]["/order/order"]
+        panel.curve(order.axis, order, colour=scale(packing), look="line")
+    panel.range(y=(0, 1))
+    panel.reference(x=400, label="the paper: steady after 400 to 600 s")
+    if scale:
+        sheet.colourbar(scale, [panel])
+    material.stamp(panel, "steady-state")
+    return sheet
+
+
+def order(material: Material) -> Sheet:
+    """3: mean order against area fraction, and the phase diagram."""
+    runs = phase_diagram(material.library)
+    sheet = material.sheet(2, height=62, columns=2)
+    panel = sheet[0].titles(names.axis_title(PACKING), names.axis_title("S"), "mean order")
+    for k, length in enumerate(runs.values(LENGTH)):
+        draw_points(panel, runs.at(length).points(PACKING, "S"), names.value_label(LENGTH, length), k)
+    panel.range(y=(0, 1)).reference(y=ORDERED, label="0.5")
+    material.stamp(panel, "ordered", "saturates")
+    panel = sheet[1].titles(names.axis_title(PACKING), names.axis_title(LENGTH), "phase diagram")
+    lengths, packings = runs.values(LENGTH), runs.values(PACKING)
+    grid = np.array([[runs.at(length, packing).number("S").value if runs.at(length, packing) else np.nan
+                      for packing in packings] for length in lengths])
+    panel.map(packings, lengths, grid, names.axis_title("S"), limits=(0, 1), square=False)
+    passed = [(transition(runs.at(length)), length) for length in lengths]
+    passed = [(phi, length) for phi, length in passed if phi.is_known]
+    if passed:
+        x, y = [phi.value for phi, _ in passed], [length for _, length in passed]
+        for width, colour in ((3.5, "black"), (1.8, "white")):
+            panel.axes.errorbar(x, y, xerr=[phi.error for phi, _ in passed], color=colour, linewidth=width, marker="o",
+                                markersize=width + 1.5, zorder=5)
+        panel.record("<S> = 0.5", x, y, [phi.error for phi, _ in passed])
+        panel.axes.text(0.06, 0.9, "I", transform=panel.axes.transAxes, color="white", fontsize=9, fontweight="bold")
+        panel.axes.text(0.9, 0.9, "N", transform=panel.axes.transAxes, color="black", fontsize=9, fontweight="bold")
+    layered = [(packing, length) for length in lengths for packing in packings
+               if two_peaks(material.library.joined("phases", "long-rods", "layers", "layer-trends", "crossings")
+                            .at(length, packing, end=0.4)).word]
+    if layered:
+        panel.axes.scatter(*zip(*layered), marker="p", s=34, facecolor="#0072b2", edgecolor="white", linewidths=0.8,
+                           zorder=6)
+        panel.record("layers: P(θ) has two peaks", *zip(*layered))
+    panel.note("line: ⟨S⟩ = 0.5; pentagons: layers")
+    material.stamp(panel, "transition", "short")
+    return sheet
+
+
+def order_statistics(material: Material) -> Sheet:
+    """4: the distribution of S, its width, the Binder cumulant."""
+    runs = material.library["long-rods"]
+    scale = packing_scale(runs)
+    sheet = material.sheet(3)
+    panel = sheet[0].titles(names.axis_title("/order/pdf/order"), "P[S] / max P[S]", "distribution")
+    for packing in runs.values(PACKING):
+        here = runs.at(packing=packing)
+        places, density, samples = pooled_density(here)
+        if samples:
+            panel.curve(places, density / density.max(), colour=scale(packing), look="line",
+                        steady=here.number("S").steady)
+    panel.range((0, 1), (0, 1.05))
+    if scale:
+        sheet.colourbar(scale, [panel])
+    material.stamp(panel, "unimodal")
+    panel = sheet[1].titles(names.axis_title(PACKING), "standard deviation of S", "how far S fluctuates")
+    draw_points(panel, runs.points(PACKING, "S_std"), "ℓ = 4.5 mm", 0)
+    draw_points(panel, material.library["short-rods"].points(PACKING, "S_std"), "ℓ = 2.5 mm", 1)
+    phi = transition(runs)
+    if phi.is_known:
+        panel.reference(x=phi.value, label="⟨S⟩ = 0.5")
+    panel.range(y=(0, None))
+    material.stamp(panel, "broadest")
+    panel = sheet[2].titles(names.axis_title(PACKING), names.axis_title("binder"), "Binder cumulant")
+    draw_points(panel, runs.points(PACKING, "binder"), "ℓ = 4.5 mm", 0)
+    draw_points(panel, material.library["short-rods"].points(PACKING, "binder"), "ℓ = 2.5 mm", 1)
+    panel.reference(y=0, label="disorder").reference(y=1, label="order")
+    return sheet
+
+
+def steady(material: Material) -> Sheet:
+    """The axis along which rods of 3.5 mm order at 0.85: from a start along a side, and from one that is turned."""
+    straight = material.library["layer-trends"].at(3.5, 0.85)
+    turned = material.library["turned"].at(3.5, 0.85)
+    sheet = material.sheet(4, columns=2, height=58)
+    for panel, runs, title in ((sheet[0], straight, "started along a side"), (sheet[1], turned, "started at 30°")):
+        snapshot = first_snapshot(runs)
+        if snapshot:
+            draw_rods(panel, snapshot, runs[0].scene, f"{title}, t = {snapshot.time:.0f} s")
+    angle_bar(sheet, [panel for panel in sheet.panels[:2] if panel.is_used] or sheet.panels[:1])
+    for panel, name, title in ((sheet[2], "/order/order", "order"), (sheet[3], "/order/director_rad", "director")):
+        panel.titles(names.axis_title("/order/time_s"),
+                     "director (° from a side)" if "director" in name else names.axis_title(name), title)
+        for k, (runs, label) in enumerate(((straight, "along a side"), (turned, "turned"))):
+            for j, run in enumerate(runs):
+                array = run[name]
+                values = np.degrees(np.asarray(array)) if "director" in name else np.asarray(array)
+                panel.curve(array.axis, values, label=label if j == 0 else "", colour=k, look="line")
+    sheet[2].range(y=(0, 1))
+    material.stamp(sheet[3], "oblique")
+    return sheet
+
+
+def shaking(material: Material) -> Sheet:
+    """Order and motion against the strength of shaking."""
+    runs = Runs(run for run in material.library["shaking"] if key_of(run, "plates.gamma") > 0)
+    sheet = material.sheet(3)
+    for panel, name in zip(sheet, ("S", "diffusion_mm2_s", "rotational_diffusion_rad2_s")):
+        panel.titles(names.axis_title("plates.gamma"), names.axis_title(name))
+        for k, length in enumerate(runs.values(LENGTH)):
+            draw_points(panel, runs.at(length).points("plates.gamma", name), names.value_label(LENGTH, length), k)
+        panel.range(y=(0, 1 if name == "S" else None))
+        panel.reference(x=7, label="the paper's")
+    material.stamp(sheet[1], "activity")
+    return sheet
+
+
+def size(material: Material) -> Sheet:
+    """Order against the size of the box: the crossing of S = 0.5, Binder cumulants, S and G2 far away."""
+    runs = material.library.joined("long-rods", "size", "dilute", "long-range").at(4.5)
+    sheet = material.sheet(4, columns=2)
+    panel = sheet[0].titles(names.axis_title(PACKING), names.axis_title("S"), "order in several boxes")
+    other = sheet[1].titles(names.axis_title(PACKING), names.axis_title("binder"), "Binder cumulant")
+    for k, side in enumerate(runs.values(SIDE)):
+        here = runs.at(side=side)
+        if len(here.values(PACKING)) > 1:
+            draw_points(panel, here.points(PACKING, "S"), names.value_label(SIDE, side), k)
+            draw_points(other, here.points(PACKING, "binder"), names.value_label(SIDE, side), k)
+    panel.range(y=(0, 1)).reference(y=ORDERED, label="0.5")
+    material.stamp(panel, "transition-size")
+    panel = sheet[2].titles(names.axis_title(SIDE), names.axis_title("S"), "order against the box").scale("log", "log")
+    far = sheet[3].titles(names.axis_title(SIDE), "G₂ at half the box", "far away")
+    for k, packing in enumerate((0.45, 0.55, 0.60, 0.70)):
+        here = runs.at(packing=packing)
+        if len(here.values(SIDE)) > 1:
+            draw_points(panel, here.points(SIDE, "S"), names.value_label(PACKING, packing), k)
+            draw_points(far, [(side, far_g2(here.at(side=side))) for side in here.values(SIDE)],
+                        names.value_label(PACKING, packing), k)
+    material.stamp(panel, "long-range", "disordered")
+    far.zero()
+    return sheet
+
+
+def equilibrium(material: Material) -> Sheet:
+    """The equilibrium reference: nothing lost in a collision, no friction, no gravity, plates at rest."""
+    quiet, shaken = material.library["equilibrium"], phase_diagram(material.library)
+    sheet = material.sheet(3)
+    panel = sheet[0].titles(names.axis_title(PACKING), names.axis_title("S"), "order")
+    for k, length in enumerate(quiet.values(LENGTH)):
+        label = names.value_label(LENGTH, length)
+        draw_points(panel, quiet.at(length).points(PACKING, "S"), f"{label}, at equilibrium", 2 * k)
+        draw_points(panel, shaken.at(length).points(PACKING, "S"), f"{label}, shaken", 2 * k + 1)
+    panel.range(y=(0, 1))
+    scale = packing_scale(quiet)
+    for panel, length in zip(sheet.panels[1:], quiet.values(LENGTH)):
+        panel.titles(names.axis_title("/g2/r_mm"), names.axis_title("/g2/g2"),
+                     f"at equilibrium, {names.value_label(LENGTH, length)}")
+        draw_curves(panel, quiet.at(length), "/g2/g2", scale)
+        panel.range(y=(0, 1)).zero()
+    if scale:
+        sheet.colourbar(scale, sheet.panels[1:])
+    return sheet

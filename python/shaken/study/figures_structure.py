@@ -1,0 +1,265 @@
+# SPDX-License-Identifier: MIT
+"""Structure: correlations in space, layers and what they depend on, the gap, elasticity."""
+from __future__ import annotations
+
+from typing import Callable
+
+import numpy as np
+
+from ..plots import names
+from ..plots.panel import Panel
+from ..plots.sheet import Sheet
+from .layer_checks import layered, wavelength
+from .library import END, GAP, LENGTH, PACKING, SIDE, Runs
+from .material import Material, angle_bar, draw_curves, draw_points, draw_rods, first_snapshot, packing_scale
+
+
+def g2(material: Material) -> Sheet:
+    """5: G2(r) on logarithmic axes."""
+    sheet = material.sheet(2, height=58, columns=2)
+    library = material.library
+    sets = ((library["short-rods"], "ℓ = 2.5 mm"), (library["long-rods"], "ℓ = 4.5 mm"))
+    scale = packing_scale(*(runs for runs, _ in sets))
+    for panel, (runs, title) in zip(sheet, sets):
+        panel.titles(names.axis_title("/g2/r_mm"), names.axis_title("/g2/g2"), title).scale("log", "log")
+        draw_curves(panel, runs, "/g2/g2", scale, keep=lambda r, g: (g > 3e-3) & (r > 0.5))
+        panel.range(y=(3e-3, 1.1), exactly=True)
+    if scale:
+        sheet.colourbar(scale)
+    material.stamp(sheet[0], "g2")
+    return sheet
+
+
+def _map(panel: Panel, runs: Runs, name: str, title: str, symmetric: bool) -> None:
+    found = [run[name] for run in runs if name in run]
+    if not found:
+        return
+    mean = np.mean([np.asarray(array) for array in found], axis=0)
+    across, along = found[0].axis
+    panel.titles("along the director (mm)", "across (mm)", title)
+    low, high = np.nanpercentile(mean, (1, 99))
+    limits = (min(low, 0) if symmetric else 0.0, high)
+    panel.map(along, across, mean, names.axis_title(name), limits=limits)
+
+
+def _cuts(panel: Panel, runs: Runs, name: str, title: str, level: float) -> None:
+    panel.titles(names.axis_title("/pairs/cut/r_mm"), names.axis_title(f"/pairs/{name}"), title)
+    for k, way in enumerate(("along", "across")):
+        found = runs.curve(f"/pairs/cut/{name}_{way}")
+        if found:
+            r, values, errors = found
+            panel.curve(r, values, errors, runs.number("S").steady, label=way, colour=k, look="line")
+    panel.zero() if level == 0 else panel.reference(y=level)
+
+
+def g2_map(material: Material) -> Sheet:
+    """6: G2 along and across the director, in disorder, in the nematic, and with layers."""
+    return _maps_and_cuts(material, "g2", {0.45: ("isotropic",), 0.75: ("anisotropy",), 0.85: ("g2-oscillates",)}, 0.0)
+
+
+def _maps_and_cuts(material: Material, name: str, stamps: dict[float, tuple[str, ...]], level: float) -> Sheet:
+    sets = {0.45: material.library["dilute"], 0.75: material.library["layers"], 0.85: material.library["layers"]}
+    chosen = [(packing, sets[packing].at(packing=packing)) for packing in stamps]
+    sheet = material.sheet(2 * len(chosen), columns=len(chosen))
+    for k, (packing, runs) in enumerate(chosen):
+        _map(sheet[k], runs, f"/pairs/{name}", f"φ = {packing:g}", name == "g2")
+        lower = sheet[k + len(chosen)] if material.width > 100 or len(chosen) <= 2 else sheet.panels[len(chosen) + k]
+        if runs:
+            _cuts(lower, runs, name, f"cuts, φ = {packing:g}", level)
+            material.stamp(lower, *stamps[packing])
+    return sheet
+
+
+def distances(material: Material) -> Sheet:
+    """7: the pair correlation g, and g along and across the director."""
+    library = material.library
+    sheet = material.sheet(6)
+    sets = ((library["short-rods"], "ℓ = 2.5 mm"), (library["long-rods"], "ℓ = 4.5 mm"))
+    scale = packing_scale(*(runs for runs, _ in sets))
+    for panel, (runs, title) in zip((sheet[0], sheet[3]), sets):
+        panel.titles(names.axis_title("/g2/r_mm"), names.axis_title("/g2/g"), title)
+        draw_curves(panel, runs, "/g2/g", scale, keep=lambda r, g: r < 10)
+        panel.reference(y=1)
+    if scale:
+        sheet.colourbar(scale, [sheet[0], sheet[3]])
+    for k, packing in enumerate((0.75, 0.85)):
+        runs = library["layers"].at(packing=packing)
+        _map(sheet[1 + k], runs, "/pairs/g", f"φ = {packing:g}", False)
+        if runs:
+            _cuts(sheet[4 + k], runs, "g", f"cuts, φ = {packing:g}", 1.0)
+    material.stamp(sheet[4], "g-flattens")
+    return sheet
+
+
+def _angles(panel: Panel, runs: Runs, path: str, title: str, scale: Callable[[float], object] | None = None) -> None:
+    panel.titles("angle to the director (°)", "P(θ) (1/°)", title)
+    for k, value in enumerate(runs.values(path)):
+        found = runs.where(path, value).curve("/angles/density_per_rad")
+        if found is None:
+            continue
+        theta, density, _ = found
+        near = abs(np.degrees(theta)) <= 45
+        folded = (density + np.interp(-theta, theta, density)) / 2
+        panel.curve(np.degrees(theta)[near], np.radians(folded)[near], None,
+                    runs.where(path, value).number("S").steady, label="" if scale else names.value_label(path, value),
+                    colour=scale(value) if scale else k, look="line")
+    panel.range(y=(0, None))
+
+
+def _against(panel: Panel, series: list[tuple[Runs, str]], path: str, name: str, title: str) -> None:
+    panel.titles(names.axis_title(path), names.axis_title(name), title)
+    for k, (runs, label) in enumerate(series):
+        points = layered(runs).points(path, wavelength if name == "wavelength_mm" else name)
+        if points:
+            draw_points(panel, points, label, k)
+    panel.range(y=(0, None))
+
+
+def layers(material: Material) -> Sheet:
+    """8: layers turned by +-theta: rods, P(theta) by packing and end diameter, angle and wavelength by length and end."""
+    library = material.library
+    trends = library.joined("layers", "layer-trends")
+    sheet = material.sheet(9, height=48)
+    long_ = library["layers"].at(4.5)
+    dense = long_.at(packing=0.85)
+    snapshot = first_snapshot(dense)
+    if snapshot:
+        draw_rods(sheet[0], snapshot, dense[0].scene, f"φ = 0.85, t = {snapshot.time:.0f} s")
+        angle_bar(sheet, [sheet[0]])
+    everything = library["long-rods"]
+    scale = packing_scale(everything)
+    _angles(sheet[1], everything, PACKING, "ℓ = 4.5 mm", scale)
+    if scale:
+        sheet.colourbar(scale, [sheet[1]])
+    sheet[1].reference(x=10, label="10°").reference(x=-10)
+    material.stamp(sheet[1], "layers")
+    ends = library["layer-trends"].at(4.0, 0.85)
+    _angles(sheet[2], ends, END, "ℓ = 4 mm, φ = 0.85")
+    material.stamp(sheet[2], "peaks-end")
+    by_length = [(trends.at(packing=packing, end=0.4), f"φ = {packing:g}") for packing in (0.80, 0.85)]
+    by_end = [(ends, "φ = 0.85")]
+    wide = [(library["wavelength-length"], "φ = 0.85, L = 84 mm"), *((runs, f"{label}, L = 42 mm")
+                                                                     for runs, label in by_length)]
+    wide_ends = [(library.joined("wavelength-end", "larger-box").at(4.0, 0.85), "L = 84 mm"), (ends, "L = 42 mm")]
+    _against(sheet[3], by_length, LENGTH, "theta_m_deg", "angle")
+    sheet[3].reference(y=10, label="the paper: about 10°")
+    material.stamp(sheet[3], "angle-length")
+    _against(sheet[4], by_end, END, "theta_m_deg", "angle, ℓ = 4 mm")
+    material.stamp(sheet[4], "angle-end")
+    _cuts_across(sheet[5], long_, scale)
+    material.stamp(sheet[5], "g2-oscillates")
+    _against(sheet[6], wide, LENGTH, "wavelength_mm", "wavelength")
+    material.stamp(sheet[6], "wavelength-length")
+    _against(sheet[7], wide_ends, END, "wavelength_mm", "wavelength, ℓ = 4 mm")
+    material.stamp(sheet[7], "wavelength-end")
+    panel = sheet[8].titles(names.axis_title("/layers/q_per_mm"), "spectrum of sin 2(θ − θ_N)", "across the director")
+    panel.scale(y="log")
+    draw_curves(panel, long_, "/layers/spectrum_across", scale, keep=lambda q, s: (q < 2) & (s > 0), errors=False)
+    return sheet
+
+
+def _cuts_across(panel: Panel, runs: Runs, scale: Callable[[float], object] | None, path: str = PACKING,
+                 title: str = "across the director") -> None:
+    panel.titles(names.axis_title("/pairs/cut/r_mm"), names.axis_title("/pairs/g2"), title)
+    for k, value in enumerate(runs.values(path)):
+        here = runs.where(path, value)
+        found = here.curve("/pairs/cut/g2_across")
+        if found:
+            r, values, errors = found
+            panel.curve(r, values, errors, here.number("S").steady, colour=scale(value) if scale else k, look="line",
+                        label="" if scale else names.value_label(path, value))
+
+
+def layer_trends(material: Material) -> Sheet:
+    """Angle, wavelength and order of the layers against packing."""
+    trends = material.library.joined("layers", "layer-trends")
+    series = [(trends.at(length, end=0.4), names.value_label(LENGTH, length)) for length in (4.0, 4.5)]
+    sheet = material.sheet(3)
+    for panel, name, statement in zip(sheet, ("theta_m_deg", "wavelength_mm", "layer_order"),
+                                      ("angle-packing", "wavelength-packing", "")):
+        if name == "layer_order":
+            panel.titles(names.axis_title(PACKING), names.axis_title(name), "order of the layers")
+            for k, (runs, label) in enumerate(series):
+                draw_points(panel, runs.points(PACKING, name), label, k)
+            panel.range(y=(0, None))
+            continue
+        wide = [(material.library["wavelength-packing"], "ℓ = 4 mm, L = 126 mm")] if name == "wavelength_mm" else []
+        _against(panel, series + wide, PACKING, name, "angle" if name == "theta_m_deg" else "wavelength")
+        material.stamp(panel, statement)
+    return sheet
+
+
+def larger_box(material: Material) -> Sheet:
+    """Layers of 4 mm rods in a box twice as wide."""
+    small = material.library["layer-trends"].at(4.0, 0.85, end=0.4)
+    large = material.library.joined("larger-box", "wavelength-length").at(4.0, 0.85, end=0.4)
+    both = Runs([*small, *large])
+    sheet = material.sheet(4, columns=2, height=58)
+    for panel, runs in ((sheet[0], small), (sheet[1], large)):
+        snapshot = first_snapshot(runs)
+        if snapshot:
+            draw_rods(panel, snapshot, runs[0].scene, f"L = {snapshot.side:.1f} mm")
+    angle_bar(sheet, [panel for panel in sheet.panels[:2] if panel.is_used] or sheet.panels[:1])
+    _angles(sheet[2], both, SIDE, "P(θ)")
+    _cuts_across(sheet[3], both, None, SIDE)
+    material.stamp(sheet[3], "larger-box")
+    return sheet
+
+
+def gap(material: Material) -> Sheet:
+    """The gap between the plates: G2 across the director and its maps, P(theta), g(r), crystalline order."""
+    runs = Runs([*material.library["gaps"], *material.library["layers"].at(4.5, 0.80)])
+    gaps = runs.values(GAP)
+    sheet = material.sheet(8, columns=4 if material.width > 150 else 2, height=44)
+    for panel, value in zip(sheet, gaps):
+        _map(panel, runs.at(gap=value), "/pairs/g2", f"w = {value:g} mm", True)
+    _cuts_across(sheet[4], runs, None, GAP)
+    material.stamp(sheet[4], "gap")
+    _angles(sheet[5], runs, GAP, "P(θ)")
+    panel = sheet[6].titles(names.axis_title("/g2/r_mm"), names.axis_title("/g2/g"), "distances")
+    draw_curves(panel, runs, "/g2/g", None, GAP, keep=lambda r, g: r < 8, labels=True)
+    panel.reference(y=1)
+    panel = sheet[7].titles(names.axis_title(GAP), "crystalline order", "crystal")
+    draw_points(panel, runs.points(GAP, "bragg_peak"), "Bragg peak", 0)
+    draw_points(panel, runs.points(GAP, "psi_6"), "ψ₆", 1)
+    panel.range(y=(0, None))
+    material.stamp(panel, "crystal")
+    return sheet
+
+
+def elasticity(material: Material) -> Sheet:
+    """Fluctuations of the director along and across: bend against splay."""
+    runs = material.library["elasticity"]
+    ratio = Runs([*runs, *material.library["long-rods"]])
+    sheet = material.sheet(2, columns=2, height=55)
+    panel = sheet[0].titles("wave number q (1/mm)", "power of the director (mm²)", "φ = 0.65").scale("log", "log")
+    for run in runs[:1]:
+        q_along, q_across = np.asarray(run["/frank/q_along_per_mm"]), np.asarray(run["/frank/q_across_per_mm"])
+        power, error = np.asarray(run["/frank/power_mm2"]), np.asarray(run["/frank/power_mm2"].error)
+        turned = np.degrees(np.arctan2(abs(q_across), abs(q_along)))
+        for k, (label, chosen) in enumerate((("along: bend", turned < 25), ("across: splay", turned > 65))):
+            order = np.argsort(np.hypot(q_along, q_across)[chosen])
+            panel.curve(np.hypot(q_along, q_across)[chosen][order], power[chosen][order], error[chosen][order],
+                        label=label, colour=k, look="points", joined=False)
+    panel = sheet[1].titles(names.axis_title(PACKING), "K₃/K₁ (bend over splay)", "elastic constants")
+    draw_points(panel, ratio.at(side=33.492).points(PACKING, "frank_ratio"), "L = 33.5 mm", 0)
+    draw_points(panel, runs.points(PACKING, "frank_ratio"), "L = 67 mm", 1)
+    panel.range(y=(0, None)).reference(y=1)
+    material.stamp(panel, "splay-bend")
+    return sheet
+
+
+def fluctuations(material: Material) -> Sheet:
+    """Fluctuations of the number of rods in parts of the box."""
+    sheet = material.sheet(2, columns=2, height=55)
+    sets = ((material.library["short-rods"], "ℓ = 2.5 mm"), (material.library["long-rods"], "ℓ = 4.5 mm"))
+    scale = packing_scale(*(runs for runs, _ in sets))
+    for panel, (runs, title) in zip(sheet, sets):
+        panel.titles("mean number ⟨N⟩", "ΔN / √⟨N⟩", title).scale("log", "linear")
+        draw_curves(panel, runs, "/fluctuations/std_n", scale, y=lambda n, std: std / np.sqrt(n))
+        panel.range(y=(0, None))
+    if scale:
+        sheet.colourbar(scale)
+    return sheet
+
+

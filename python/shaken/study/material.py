@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: MIT
+"""What figures are made of: the runs, the verdicts, and the pieces that several figures share."""
+from __future__ import annotations
+
+import functools
+import math
+from typing import Any, Callable, Iterable, Sequence
+
+import numpy as np
+
+from ..archive import Snapshot
+from ..estimate import Estimate
+from ..plots import names, style
+from ..plots.panel import Panel
+from ..plots.sheet import Sheet
+from .library import PACKING, Library, Runs, key_of
+from .rules import Finding
+from .statements import STATEMENTS
+
+
+class Material:
+    """The runs of a study, what they say to each statement, and the width [mm] of the figures to be drawn."""
+
+    def __init__(self, library: Library, width: float = 183.0) -> None:
+        self.library, self.width = library, width
+
+    @functools.cached_property
+    def findings(self) -> dict[str, Finding]:
+        return {statement.id: statement.check(self.library) for statement in STATEMENTS}
+
+    def sheet(self, n_panels: int, height: float = 46.0, columns: int | None = None) -> Sheet:
+        """An empty figure of so many panels: three beside each other on a page, two in a narrower column."""
+        wanted = columns or (3 if self.width > 150 else 2)
+        if self.width < 100:
+            wanted = min(wanted, 2)
+        across = min(wanted, n_panels)
+        return style.sheet(f"{self.width:g}mm", math.ceil(n_panels / across), across,
+                           f"{height * (0.9 if self.width < 100 else 1):g}mm")
+
+    def stamp(self, panel: Panel, *statements: str) -> None:
+        """Puts the verdicts on statements above a panel, each once."""
+        words = [self.findings[name].verdict for name in statements]
+        words = [word for word in dict.fromkeys(words) if word != "no data"]
+        if words:
+            panel.verdict(", ".join(words))
+
+
+def packing_scale(*sets: Runs) -> style.ColourScale | None:
+    """Colours for the area fractions of some runs."""
+    values = sorted({value for runs in sets for value in runs.values(PACKING)})
+    return style.ColourScale(values, names.axis_title(PACKING)) if values else None
+
+
+def draw_curves(panel: Panel, runs: Runs, array: str, scale: style.ColourScale | None, path: str = PACKING, *,
+                x: Callable[[np.ndarray], np.ndarray] = lambda x: x,
+                y: Callable[[np.ndarray, np.ndarray], np.ndarray] = lambda x, y: y,
+                keep: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None, labels: bool = False,
+                errors: bool = True, look: str = "line") -> None:
+    """An array against its axis, the mean over replicas, a curve for each value of a key."""
+    for k, value in enumerate(runs.values(path)):
+        here = runs.where(path, value)
+        found = here.curve(array)
+        if found is None:
+            continue
+        xs, ys, es = found
+        factor = np.where(np.abs(ys) > 0, np.abs(y(xs, ys) / np.where(ys == 0, 1, ys)), 1.0)
+        shown = keep(xs, ys) if keep else np.ones(len(xs), dtype=bool)
+        panel.curve(x(xs)[shown], y(xs, ys)[shown], (es * factor)[shown] if errors else None,
+                    here.number("S").steady if "S" in here[0] else True,
+                    label=names.value_label(path, value) if labels else "",
+                    colour=scale(value) if scale else k, look=look)
+
+
+def draw_points(panel: Panel, points: Sequence[tuple[float, Estimate]], label: str = "", colour: Any = None,
+                **more: Any) -> None:
+    """Numbers against a key, with their errors; hollow where they are not known to be steady."""
+    panel.curve([at for at, _ in points], [e.value for _, e in points], [e.error for _, e in points],
+                [e.steady for _, e in points], label=label, colour=colour, look="points", **more)
+
+
+def first_snapshot(runs: Iterable[Any], k: int = 0) -> Snapshot | None:
+    """The k-th snapshot of the first run that has one."""
+    for run in runs:
+        found = getattr(run, "snapshots", [])
+        if found:
+            return found[min(k, len(found) - 1)]
+    return None
+
+
+#: Angles to the director [degrees] and their colours: grey along it, orange and blue to its sides, dark across it.
+_ANGLE_COLOURS = ((-90, "#262626"), (-45, "#08306b"), (-14, "#3f8fd2"), (0, "#dcdcdc"), (14, "#ef8a1d"), (45, "#7f2704"),
+                  (90, "#262626"))
+
+
+@functools.lru_cache(maxsize=1)
+def angle_colours() -> Any:
+    """matplotlib's ScalarMappable of angles to the director [degrees]; the two ends have one colour."""
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import LinearSegmentedColormap, Normalize
+    colours = LinearSegmentedColormap.from_list("angle", [((a + 90) / 180, c) for a, c in _ANGLE_COLOURS], N=360)
+    return ScalarMappable(Normalize(-90, 90), colours)
+
+
+def draw_rods(panel: Panel, snapshot: Snapshot, scene: dict[str, Any], title: str = "", part: float | None = None,
+              defects: bool = False) -> None:
+    """The rods of an instant, tapered as they are, coloured by their angle to the director, with a scale bar.
+
+    part: the side of the corner that is shown [mm]; all of the box if None
+    """
+    from matplotlib.collections import PolyCollection
+    rods = scene["rods"]
+    side = part or snapshot.side
+    images = np.array([(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)]) * snapshot.side
+    place = (snapshot.positions[None] + images[:, None]).reshape(-1, 2)
+    theta = np.tile(snapshot.theta, len(images))
+    near = ((place > -rods["length"] / 2) & (place < side + rods["length"] / 2)).all(axis=1)
+    place, theta = place[near], theta[near]
+    director = np.angle(np.exp(2j * snapshot.theta).mean()) / 2
+    half, mid, end = rods["length"] / 2, rods["mid_diameter"] / 2, rods["end_diameter"] / 2
+    along = np.array([-half, -half + end * 0.4, 0, half - end * 0.4, half, half - end * 0.4, 0, -half + end * 0.4])
+    across = np.array([0, end * 0.85, mid, end * 0.85, 0, -end * 0.85, -mid, -end * 0.85])
+    c, s = np.cos(theta)[:, None], np.sin(theta)[:, None]
+    shapes = np.stack([place[:, :1] + c * along - s * across, place[:, 1:] + s * along + c * across], axis=-1)
+    turned = np.degrees((theta - director + np.pi / 2) % np.pi - np.pi / 2)
+    axes = panel.axes
+    axes.add_collection(PolyCollection(list(shapes), facecolors=angle_colours().to_rgba(turned), edgecolors="#ffffff",
+                                       linewidths=0.1, rasterized=len(shapes) > 2500))
+    axes.set_aspect("equal")
+    panel.titles(title=title)
+    panel.has_picture = True
+    axes.set_xlim(0, side)
+    axes.set_ylim(0, side)
+    axes.set_xticks([])
+    axes.set_yticks([])
+    if defects:
+        _draw_defects(panel, snapshot, rods["length"] / 2)
+    bar = next(length for length in (50, 20, 10, 5, 2, 1) if length <= side / 3)
+    axes.plot([side * 0.04, side * 0.04 + bar], [side * 0.05] * 2, color="black", linewidth=2, solid_capstyle="butt",
+              path_effects=_rim(4))
+    axes.text(side * 0.04 + bar / 2, side * 0.07, f"{bar} mm", ha="center", va="bottom", fontsize=6,
+              path_effects=_rim(2))
+    panel.record("rods", snapshot.positions[:, 0], snapshot.positions[:, 1])
+    panel.is_used = True
+
+
+def _rim(width: float) -> list[Any]:
+    from matplotlib import patheffects
+    return [patheffects.withStroke(linewidth=width, foreground="white")]
+
+
+def defects_of(snapshot: Snapshot, smoothing: float, cells: int | None = None) -> np.ndarray:
+    """(n, 3) x, y [mm] and charge (+-1/2) of the defects of the director field: exp(2i theta) of the rods, smoothed by a
+    Gaussian of width `smoothing` [mm] on a periodic grid, turns by +-pi around them."""
+    from scipy.ndimage import gaussian_filter
+    n = cells or max(8, int(snapshot.side / smoothing * 4))
+    at = np.minimum((snapshot.positions / snapshot.side * n).astype(int), n - 1)
+    field = np.zeros((n, n), dtype=complex)
+    np.add.at(field, (at[:, 0], at[:, 1]), np.exp(2j * snapshot.theta))
+    width = smoothing / snapshot.side * n
+    field = gaussian_filter(field.real, width, mode="wrap") + 1j * gaussian_filter(field.imag, width, mode="wrap")
+    corner = [field, np.roll(field, -1, 0), np.roll(np.roll(field, -1, 0), -1, 1), np.roll(field, -1, 1)]
+    turn = sum(np.angle(corner[(k + 1) % 4] / corner[k]) for k in range(4)) / (4 * np.pi)
+    i, j = np.nonzero(np.abs(turn) > 0.25)
+    return np.column_stack([(i + 1.0) / n * snapshot.side % snapshot.side, (j + 1.0) / n * snapshot.side % snapshot.side,
+                            np.round(2 * turn[i, j]) / 2])
+
+
+def _draw_defects(panel: Panel, snapshot: Snapshot, smoothing: float) -> None:
+    found = defects_of(snapshot, smoothing)
+    for charge, marker, colour, label in ((0.5, "o", "#d4006a", "+1/2"), (-0.5, "^", "#00a0a0", "−1/2")):
+        here = found[found[:, 2] == charge]
+        panel.axes.scatter(here[:, 0], here[:, 1], s=26, marker=marker, facecolor=colour, edgecolor="white",
+                           linewidths=0.8, zorder=4)
+        panel.record(f"defects {label}", here[:, 0], here[:, 1])
+
+
+def angle_bar(sheet: Sheet, panels: Sequence[Panel]) -> None:
+    """The colours of rods, beside the panels that show some."""
+    bar = sheet.colourbar(angle_colours(), panels, "angle to the director (°)")
+    bar.set_ticks([-90, -45, 0, 45, 90])
+
+
+def fraction(runs: Runs) -> float:
+    return key_of(runs[0], PACKING) if runs else math.nan

@@ -1,0 +1,383 @@
+# SPDX-License-Identifier: MIT
+"""Every statement on made-up runs that must give yes, no, and open."""
+import itertools
+import math
+
+import numpy as np
+import pytest
+
+from shaken.estimate import Estimate
+from shaken.run import Arrays, Run
+from shaken.study import rules
+from shaken.study.library import Library, Runs, crossing
+from shaken.study.order_checks import n_peaks
+from shaken.study.statements import STATEMENTS, findings
+from shaken.units import unit_of
+
+CHECKS = {statement.id: statement for statement in STATEMENTS}
+_ids = itertools.count()
+
+
+def measured(value, error=None, steady=True, drift=0.0):
+    error = 0.01 * abs(value) if error is None else error
+    return {"value": value, "sem": None if math.isnan(error) else error, "steady": steady, "n_effective": 40.0,
+            "drift": {"value": drift, "sem": error if not math.isnan(error) else None}}
+
+
+def runs(sweep, packing, numbers=None, arrays=None, *, length=4.5, side=33.492, end=0.4, gap=1.2, gamma=7.0, S=0.9,
+         error=0.005, steady=True, drift=0.0, n=3, seconds=210.0, std=0.05, step=1.6e-5, energy=None):
+    """n replicas of a state point of a set, with these numbers (NAME -> value, or (value, error)) and arrays."""
+    made = []
+    for seed in range(n):
+        scene = {"rods": {"length": length, "end_diameter": end, "area_fraction": packing, "beads": 15},
+                 "box": {"side": side, "gap": gap}, "plates": {"gamma": gamma, "frequency": 200.0},
+                 "time": {"step": step, "seed": seed + 1}}
+        known = {name: measured(*value) if isinstance(value, tuple) else measured(value)
+                 for name, value in (numbers or {}).items()}
+        order = measured(S, error, steady, drift)
+        summary = {"run_id": f"{next(_ids):016x}", "n_rods": 300, "sim_seconds": seconds, "t_steady_s": 30.0,
+                   "steady": steady, "order": {**order, "mean": order["value"], "std": std}, "measured": known,
+                   "energy_pJ": energy or {"given_by_plates": 1.0, "start": 1.0, "left": 0.5},
+                   "versions": {"shaken": "0.1.0", "physics": 3, "compiler": "-"}}
+        contents = {"/order/time_s": [0.0, 50.0, 100.0, 150.0, 210.0], "/order/order": [1.0, S, S, S, S],
+                    **(arrays or {})}
+        run = Run(scene, summary, Arrays(list(contents), lambda name, c=contents: (np.asarray(c[name], float),
+                                                                                  unit_of(name))))
+        run.sweeps = [sweep + "-desk"]
+        made.append(run)
+    return made
+
+
+def by_packing(sweep, values, name, **more):
+    """Points (packing, value) of one number."""
+    return [run for packing, value in values for run in runs(sweep, packing, {name: value}, **more)]
+
+
+def g2(far, error=0.005, n=40):
+    r = np.linspace(0.5, 16, n)
+    return {"/g2/r_mm": r, "/g2/g2": np.full(n, far), "/g2/g2_sem": np.full(n, error)}
+
+
+def cuts(along, across, error=0.005, g_along=1.05, g_across=1.3, n=40):
+    r = np.linspace(0.3, 13, n)
+    found = {"/pairs/cut/r_mm": r}
+    for name, value in (("g2_along", along), ("g2_across", across), ("g_along", g_along), ("g_across", g_across)):
+        found[f"/pairs/cut/{name}"] = np.broadcast_to(value, n)
+        found[f"/pairs/cut/{name}_sem"] = np.full(n, error)
+    return found
+
+
+def wave(amplitude, error=0.005):
+    r = np.linspace(0.3, 13, 40)
+    return cuts(0.5, 0.5 + amplitude * np.cos(2 * np.pi * r / 5), error)
+
+
+def pdf(*peaks):
+    s = np.linspace(0.005, 0.995, 100)
+    return {"/order/pdf/order": s, "/order/pdf/density": sum(np.exp(-((s - p) / 0.05) ** 2 / 2) for p in peaks)}
+
+
+def tilts(peak=-0.9, beyond=0.25, error=0.02, across=0.0, error_across=0.02):
+    n_z = np.linspace(0.01, 0.39, 20)
+    v = np.where(n_z > 0.31, beyond, peak * np.exp(-((n_z - 0.2) / 0.08) ** 2))
+    both = np.concatenate([-n_z[::-1], n_z])
+    return {"/tilt/n_z": both, "/tilt/v_across_mm_s": across + 0.01 * (-1.0) ** np.arange(40),
+            "/tilt/v_across_sem_mm_s": np.full(40, error_across), "/tilt/folded/n_z": n_z,
+            "/tilt/folded/v_along_mm_s": v, "/tilt/folded/v_along_sem_mm_s": np.full(20, error)}
+
+
+def swim(speed=-0.9, at=0.2, error=0.02, **more):
+    return runs("mechanism", 0.60, {"tilt_fastest_mm_s": (speed, error), "tilt_fastest_n_z": at}, tilts(speed, error=error, **more),
+                length=2.5)
+
+
+def late(value, error=0.01):
+    lag = np.arange(0, 4, 0.1)
+    return {"/velocity/lag_s": lag, "/velocity/product_along_mm2_s2": np.where(lag < 0.4, 10.0, value),
+            "/velocity/product_along_sem_mm2_s2": np.full(40, error)}
+
+
+def ways(d, error=0.5):
+    t = 0.02 * 2.0 ** np.arange(13)
+    return {"/msd/lag_s": t, "/msd/along_mm2": 2 * d * t, "/msd/along_sem_mm2": np.full(13, error)}
+
+
+NINE = [round(0.45 + 0.05 * k, 2) for k in range(9)]
+S_OF = dict(zip(NINE, (0.2, 0.32, 0.64, 0.78, 0.84, 0.88, 0.91, 0.93, 0.95)))
+
+
+def diagram(length, shift=0.0, sweep="phases", **more):
+    """<S> against packing, which passes 0.5 at 0.528 + shift."""
+    points = [p for p in NINE]
+    return [run for p in points for run in runs(sweep, p, length=length, S=float(np.interp(p - shift, NINE, list(S_OF.values()))), **more)]
+
+
+def turned(angle, S=0.9, **more):
+    director = np.radians([angle] * 5)
+    return runs("turned", 0.85, arrays={"/order/director_rad": director}, length=3.5, side=41.865, S=S, **more)
+
+
+LAYERED = {"theta_m_deg": (9.5, 0.3), "dip": (0.7, 0.02), "layer_order": (0.5, 0.02), "bragg_peak": (0.1, 0.004),
+           "wavelength_mm": (5.2, 0.05)}
+PLAIN = {"dip": (0.998, 0.004), "layer_order": (0.2, 0.02), "bragg_peak": (0.1, 0.004)}
+VAGUE = {"dip": (0.95, 0.2), "layer_order": (0.4, 0.3), "bragg_peak": (0.1, 0.2)}
+
+
+def layers(packing, numbers, sweep="layers", arrays=None, **more):
+    return runs(sweep, packing, numbers, arrays, side=more.pop("side", 41.865), **more)
+
+
+def layer_series(name, values, key, error=None):
+    """Layers whose number `name` has these values along packing, length or end."""
+    made = []
+    for at, value in values:
+        given = {**LAYERED, name: value if error is None else (value, error)}
+        made += layers(at if key == "packing" else 0.85, given, "layer-trends", length=at if key == "length" else 4.0,
+                       end=at if key == "end" else 0.4)
+    return made
+
+
+def trend_cases(name, key, places, up, noise):
+    """Yes, no and open for a number that must go up (or down) along a key."""
+    low, high = (8.0, 12.0) if up else (12.0, 8.0)
+    n = len(places)
+    rise = [(place, low + (high - low) * k / (n - 1)) for k, place in enumerate(places)]
+    fall = [(place, high - (high - low) * k / (n - 1)) for k, place in enumerate(places)]
+    return (layer_series(name, rise, key, 0.2), layer_series(name, fall, key, 0.2),
+            layer_series(name, rise, key, noise))
+
+
+def packing_cases(sweep, name, places, up, **more):
+    low, high = (1.0, 2.0) if up else (2.0, 1.0)
+    n = len(places)
+    rise = [(place, (low + (high - low) * k / (n - 1), 0.02)) for k, place in enumerate(places)]
+    fall = [(place, (high - (high - low) * k / (n - 1), 0.02)) for k, place in enumerate(places)]
+    vague = [(place, (value, 3.0)) for place, (value, _) in rise]
+    return tuple(by_packing(sweep, points, name, **more) for points in (rise, fall, vague))
+
+
+def shaken_at(values, energy):
+    return [run for gamma, d in values for run in runs("shaking", 0.75, {"diffusion_mm2_s": d}, length=2.5,
+                                                       gamma=gamma)] + runs(
+        "shaking", 0.75, {}, length=2.5, gamma=0.0, n=1, energy=energy)
+
+
+STILL = {"given_by_plates": 0.0, "start": 5.0, "left": 0.01}
+WILD = {"given_by_plates": 3.0, "start": 5.0, "left": 7.0}
+DENSE = (0.65, 0.75, 0.85)
+
+
+def law(factor, error=0.05):
+    return by_packing("diffusion", [(p, (factor * (1.7 + 480 * (p - 0.64) ** 2), error)) for p in DENSE],
+                      "diffusion_mm2_s", length=2.5, side=60.0)
+
+
+def along(values, across=(0.3, 0.2, 0.1), error=0.05):
+    return [run for (packing, d), other in zip(values, across) for run in runs(
+        "diffusion-along", packing, {"diffusion_along_mm2_s": (d, error), "diffusion_across_mm2_s": (other, 0.01)},
+        ways(d, error))]
+
+
+def defect(along_tail, error=0.02):
+    return runs("no-order", 0.85, {"lasting_defect_speed_plus_mm_s": 1.0, "lasting_defect_speed_minus_mm_s": (1.0, 0.02),
+                                   "lasting_defect_speed_plus_along_mm_s": (along_tail, error)}, length=3.0, side=83.73)
+
+
+CASES = {
+    "steady-state": ([r for p in NINE for r in runs("long-rods", p)],
+                     [r for p in NINE for r in runs("long-rods", p, steady=False, drift=0.3, seconds=1200.0)],
+                     [r for p in NINE for r in runs("long-rods", p, steady=False, drift=0.3)]),
+    "ordered": (runs("long-rods", 0.75, S=0.91), runs("long-rods", 0.75, S=0.7),
+                runs("long-rods", 0.75, S=0.91, error=0.2)),
+    "disordered": (runs("long-rods", 0.45, S=0.2) + runs("dilute", 0.45, arrays=g2(0.01), S=0.1, side=66.984),
+                   runs("long-rods", 0.45, S=0.8) + runs("dilute", 0.45, arrays=g2(0.6), S=0.8, side=66.984),
+                   runs("long-rods", 0.45, S=0.45, error=0.2) +
+                   runs("dilute", 0.45, arrays=g2(0.05, 0.2), S=0.4, error=0.2, side=66.984)),
+    "short": (runs("short-rods", 0.85, S=0.3, length=2.5) + runs("phases", 0.85, S=0.3, length=3.0),
+              runs("no-order", 0.85, S=0.8, length=2.5, side=83.73) + runs("phases", 0.85, S=0.3, length=3.0),
+              runs("short-rods", 0.85, S=0.8, length=2.5)),
+    "transition": (diagram(3.5, 0.1) + diagram(4.0, 0.05) + diagram(4.5), diagram(3.5) + diagram(4.0, 0.05) + diagram(4.5, 0.1),
+                   diagram(3.5, 0.01, error=0.2) + diagram(4.0, 0.005, error=0.2) + diagram(4.5, error=0.2)),
+    "saturates": (diagram(4.0) + diagram(4.5), [r for length in (4.0, 4.5) for p in NINE
+                                                 for r in runs("phases", p, length=length, S=0.7 - 0.3 * p)],
+                  diagram(4.0, error=0.5) + diagram(4.5, error=0.5)),
+    "transition-size": (diagram(4.5, 0, "long-rods") + diagram(4.5, 0.05, "size", side=66.984),
+                        diagram(4.5, 0.05, "long-rods") + diagram(4.5, 0, "size", side=66.984),
+                        diagram(4.5, 0, "long-rods", error=0.3) + diagram(4.5, 0.05, "size", side=66.984, error=0.3)),
+    "long-range": (runs("long-range", 0.70, S=0.88) + runs("long-range", 0.70, S=0.878, side=66.984),
+                   runs("long-range", 0.70, S=0.88) + runs("long-range", 0.70, S=0.6, side=66.984),
+                   runs("long-range", 0.70, S=0.88, error=math.nan, n=1) +
+                   runs("long-range", 0.70, S=0.85, side=66.984, error=math.nan, n=1)),
+    "unimodal": ([r for p in NINE for r in runs("long-rods", p, arrays=pdf(0.6))],
+                 [r for p in NINE for r in runs("long-rods", p, arrays=pdf(0.3, 0.8))],
+                 [r for p in NINE for r in runs("long-rods", p, arrays=pdf(0.6), n=1)]),
+    "broadest": ([r for p in NINE for r in runs("long-rods", p, S=S_OF[p], std=0.15 if p == 0.55 else 0.05)],
+                 [r for p in NINE for r in runs("long-rods", p, S=S_OF[p], std=0.15 if p == 0.80 else 0.05)],
+                 [r for p in NINE for r in runs("long-rods", p, S=S_OF[p], std=0.15 if p == 0.55 else 0.05, error=0.4)]),
+    "oblique": (turned(28), turned(2, S=0.3), runs("layer-trends", 0.85, arrays={"/order/director_rad": np.zeros(5)},
+                                                   length=3.5, side=41.865)),
+    "activity": (shaken_at([(3, 0.5), (7, 3.0), (14, 9.0)], STILL), shaken_at([(3, 9.0), (7, 3.0), (14, 0.5)], WILD),
+                 [r for g, d in ((3, (3.0, 5.0)), (7, (3.1, 5.0))) for r in runs("shaking", 0.75, {"diffusion_mm2_s": d},
+                                                                               length=2.5, gamma=g)]),
+    "g2": (runs("short-rods", 0.75, arrays=g2(0.0), length=2.5, S=0.2) + runs("long-rods", 0.80, arrays=g2(0.8)),
+           runs("no-order", 0.75, arrays=g2(0.5), length=2.5, side=83.73) + runs("long-rods", 0.80, arrays=g2(0.0)),
+           runs("short-rods", 0.75, arrays=g2(0.5), length=2.5) + runs("long-rods", 0.80, arrays=g2(0.3, 0.2))),
+    "isotropic": (runs("dilute", 0.45, arrays=cuts(0.1, 0.1)), runs("dilute", 0.45, arrays=cuts(0.6, 0.1)),
+                  runs("dilute", 0.45, arrays=cuts(0.1, 0.1, 0.2))),
+    "anisotropy": (runs("layers", 0.75, arrays=cuts(0.8, 0.7)), runs("layers", 0.75, arrays=cuts(0.7, 0.8)),
+                   runs("layers", 0.75, arrays=cuts(0.8, 0.75, 0.2))),
+    "splay-bend": (runs("elasticity", 0.65, {"frank_ratio": (0.6, 0.05), "frank_chi2": 1.1}),
+                   runs("elasticity", 0.65, {"frank_ratio": (1.6, 0.05), "frank_chi2": 1.1}),
+                   runs("elasticity", 0.65, {"frank_ratio": (0.6, 0.05), "frank_chi2": 11.0})),
+    "layers": (layers(0.75, PLAIN) + layers(0.80, LAYERED) + layers(0.85, LAYERED),
+               layers(0.75, LAYERED) + layers(0.80, PLAIN) + layers(0.85, PLAIN),
+               layers(0.75, VAGUE) + layers(0.80, VAGUE) + layers(0.85, LAYERED)),
+    "g2-oscillates": (layers(0.80, LAYERED | {"wavelength_mm": 5.0}, arrays=wave(0.1)),
+                      layers(0.80, LAYERED | {"wavelength_mm": 5.0}, arrays=wave(-0.1)),
+                      layers(0.80, LAYERED | {"wavelength_mm": 5.0}, arrays=wave(0.01, 0.2))),
+    "gap": (layers(0.80, LAYERED) + layers(0.80, PLAIN, "gaps", gap=1.4) + layers(0.80, PLAIN, "gaps", gap=1.6),
+            layers(0.80, PLAIN) + layers(0.80, LAYERED, "gaps", gap=1.4) + layers(0.80, LAYERED, "gaps", gap=1.6),
+            layers(0.80, LAYERED) + layers(0.80, VAGUE, "gaps", gap=1.4)),
+    "crystal": (layers(0.80, LAYERED) + layers(0.80, PLAIN | {"bragg_peak": (0.5, 0.01)}, "gaps", gap=0.9),
+                layers(0.80, LAYERED) + layers(0.80, PLAIN | {"bragg_peak": (0.05, 0.001)}, "gaps", gap=0.9),
+                layers(0.80, LAYERED) + layers(0.80, PLAIN | {"bragg_peak": (0.11, 0.05)}, "gaps", gap=0.9)),
+    "angle-packing": trend_cases("theta_m_deg", "packing", (0.80, 0.85), True, 6.0),
+    "angle-length": trend_cases("theta_m_deg", "length", (3.5, 4.0, 4.5), False, 6.0),
+    "angle-end": trend_cases("theta_m_deg", "end", (0.4, 0.5, 0.6), False, 6.0),
+    "peaks-end": (layer_series("dip", [(d, 0.7) for d in (0.4, 0.5, 0.6)], "end", 0.02),
+                  layer_series("dip", [(d, 0.99) for d in (0.4, 0.5, 0.6)], "end", 0.005),
+                  layer_series("dip", [(d, 0.9) for d in (0.4, 0.5, 0.6)], "end", 0.2)),
+    "wavelength-packing": trend_cases("wavelength_mm", "packing", (0.80, 0.85), False, 6.0),
+    "wavelength-length": trend_cases("wavelength_mm", "length", (3.5, 4.0, 4.5), True, 6.0),
+    "wavelength-end": trend_cases("wavelength_mm", "end", (0.4, 0.5, 0.6), True, 6.0),
+    "larger-box": (layers(0.85, LAYERED, "layer-trends", length=4.0) +
+                   layers(0.85, LAYERED | {"theta_m_deg": (7.0, 0.3), "wavelength_mm": (8.0, 0.1)}, "larger-box", length=4.0, side=83.73),
+                   layers(0.85, LAYERED, "layer-trends", length=4.0) +
+                   layers(0.85, LAYERED | {"theta_m_deg": (14.0, 0.3), "wavelength_mm": (3.0, 0.1)}, "larger-box", length=4.0, side=83.73),
+                   layers(0.85, LAYERED, "layer-trends", length=4.0) +
+                   layers(0.85, LAYERED | {"theta_m_deg": (9.4, 3.0), "wavelength_mm": (5.3, 1.0)}, "larger-box", length=4.0, side=83.73)),
+    "tilt": (swim(), swim(0.9, 0.05, beyond=-0.3), swim(-0.9, error=2.0)),
+    "sideways": (swim(), swim(across=0.5), swim(error_across=1.0)),
+    "switching": (by_packing("mechanism", [(0.6, 0.02), (0.85, 0.05)], "n_z_switching_time_s", length=2.5),
+                  by_packing("mechanism", [(0.6, 40.0), (0.85, 60.0)], "n_z_switching_time_s", length=2.5),
+                  by_packing("mechanism", [(0.6, (8.0, 9.0)), (0.85, (9.0, 9.0))], "n_z_switching_time_s", length=2.5)),
+    "persistence": packing_cases("mechanism", "persistence_time_s", (0.65, 0.85), True, length=2.5),
+    "diffusion-rises": packing_cases("diffusion", "diffusion_mm2_s", DENSE, True, length=2.5, side=60.0),
+    "diffusion-law": (law(1.0), law(0.4), law(1.0, 5.0)),
+    "diffusion-normal": (by_packing("diffusion", [(p, (1.0, 0.01)) for p in DENSE], "alpha_long", length=2.5),
+                         by_packing("diffusion", [(p, (1.5, 0.01)) for p in DENSE], "alpha_long", length=2.5),
+                         by_packing("diffusion", [(p, (1.0, 0.3)) for p in DENSE], "alpha_long", length=2.5)),
+    "diffusion-along": (along([(0.70, 2.0), (0.80, 3.0), (0.85, 2.0)]),
+                        along([(0.70, 3.0), (0.80, 2.0), (0.85, 3.0)], (1.0, 4.0, 5.0)),
+                        along([(0.70, 2.0), (0.80, 3.0), (0.85, 2.0)], error=9.0)),
+    "diffusion-across": (by_packing("long-rods", [(p, (1.02 - p / 2, 0.005)) for p in DENSE], "alpha_across_short"),
+                         by_packing("long-rods", [(p, (1.0 + p / 2, 0.005)) for p in DENSE], "alpha_across_short"),
+                         by_packing("long-rods", [(p, (1.0, 0.4)) for p in DENSE], "alpha_across_short")),
+    "memory": tuple([run for p, (a, e) in points for run in runs("short-rods", p, {
+        "c2_decay_s": (a, e), "velocity_correlation_s": (a / 9, e / 9)}, length=2.5)] for points in (
+            [(p, (p, 0.01)) for p in DENSE], [(p, (1 - p, 0.01)) for p in DENSE], [(p, (p, 2.0)) for p in DENSE])),
+    "c2-plateau": (by_packing("long-rods", [(0.6, 0.5), (0.7, 0.8), (0.85, 0.97)], "c2_plateau"),
+                   by_packing("long-rods", [(0.6, 0.9), (0.7, 0.6), (0.85, 0.3)], "c2_plateau"),
+                   by_packing("long-rods", [(0.6, (0.5, 1.0)), (0.7, (0.8, 1.0)), (0.85, (0.9, 1.0))], "c2_plateau")),
+    "velocity-along": tuple([run for p, v in points for run in runs("long-rods", p, {}, late(v, e))] for points, e in (
+        ([(0.65, 0.05), (0.75, 0.15), (0.80, 0.3), (0.85, 0.1)], 0.01),
+        ([(0.65, 0.3), (0.75, 0.15), (0.80, 0.05), (0.85, 0.1)], 0.01),
+        ([(0.65, 0.05), (0.75, 0.15), (0.80, 0.3), (0.85, 0.1)], 2.0))),
+    "rotation": packing_cases("short-rods", "rotational_diffusion_rad2_s", DENSE, False, length=2.5),
+    "rotation-short": (by_packing("short-rods", [(p, (1.2 - p, 0.01)) for p in DENSE], "alpha_rotation_short", length=2.5),
+                       by_packing("short-rods", [(p, (1 + p, 0.01)) for p in DENSE], "alpha_rotation_short", length=2.5),
+                       by_packing("short-rods", [(p, (1.0, 0.5)) for p in DENSE], "alpha_rotation_short", length=2.5)),
+    "rotation-saturates": (by_packing("long-rods", [(0.45, (1.0, 0.01)), (0.85, (0.1, 0.01))], "alpha_rotation_long"),
+                           by_packing("long-rods", [(0.45, (0.3, 0.01)), (0.85, (0.9, 0.01))], "alpha_rotation_long"),
+                           by_packing("long-rods", [(0.45, (1.0, 0.3)), (0.85, (0.1, 0.3))], "alpha_rotation_long")),
+    "defects": (defect(0.3), defect(0.01, 0.02), defect(0.1, 0.2)),
+}
+
+GOOD = (rules.AGREES, rules.CONSISTENT)
+
+
+def verdict(name, made):
+    return CHECKS[name].check(Library(made)).verdict
+
+
+@pytest.mark.parametrize("name", [statement.id for statement in STATEMENTS if statement.id != "g-flattens"])
+def test_made_up_runs_give_yes_no_and_open(name):
+    says_yes, says_no, open_ = CASES[name]
+    assert verdict(name, says_yes) in GOOD, CHECKS[name].check(Library(says_yes))
+    assert verdict(name, says_no) == rules.DISAGREES, CHECKS[name].check(Library(says_no))
+    assert verdict(name, open_) == rules.OPEN, CHECKS[name].check(Library(open_))
+    assert verdict(name, []) == rules.NO_DATA
+
+
+def test_a_sentence_that_contradicts_itself_is_called_so():
+    found = CHECKS["g-flattens"].check(Library(runs("layers", 0.75, arrays=cuts(0.8, 0.7))))
+    assert found.verdict == rules.CONTRADICTS and "sooner along" in found.why
+    assert verdict("g-flattens", []) == rules.NO_DATA
+
+
+def test_where_a_few_places_are_open_the_others_are_said_to_agree():
+    made = [r for p in NINE[:-1] for r in runs("long-rods", p)] + runs("long-rods", 0.85, steady=False, drift=0.3)
+    found = CHECKS["steady-state"].check(Library(made))
+    assert found.verdict == rules.AGREES and found.why == "at 8 of 9; open: 0.85 (a run still relaxes)"
+
+
+def test_replicas_have_an_error_where_no_run_has_one():
+    alone = runs("long-rods", 0.75, S=0.9, error=math.nan, n=1)
+    assert verdict("ordered", alone) == rules.OPEN
+    three = [run for s in (0.90, 0.905, 0.895) for run in runs("long-rods", 0.75, S=s, error=math.nan, n=1)]
+    assert verdict("ordered", three) == rules.AGREES
+
+
+def test_a_known_drift_stands_in_for_an_error():
+    known = Estimate(0.919, math.nan, None, drift=-0.001, drift_error=0.008)
+    assert rules.judged_error(known) == pytest.approx(0.00806, abs=1e-4)
+    assert rules.close_to(known, 0.9, 0.05).word is True and rules.close_to(known, 0.9, 0.01).word is None
+
+
+def test_what_drifts_decides_only_what_the_drift_cannot_undo():
+    drifting = Estimate(10.0, 0.1, False, drift=1.0, drift_error=0.1)
+    assert rules.above(drifting, 7.0).word is True
+    assert rules.above(drifting, 9.0).word is None and "relaxes" in rules.above(drifting, 9.0).why
+
+
+def test_a_trend_may_step_back_by_chance_but_not_more():
+    points = [(k, Estimate(value, 0.1, True)) for k, value in enumerate((1.0, 2.0, 1.8, 3.0))]
+    assert rules.trend(points, rising=True).word is True
+    points[2] = (2, Estimate(1.0, 0.1, True))
+    assert rules.trend(points, rising=True).word is False
+    assert rules.trend(points[:1], rising=True).word is None
+
+
+def test_some_of_both_is_in_part_and_says_where():
+    found = rules.conclude([rules.yes().placed("0.75"), rules.no().placed("0.80"), rules.unknown("no error").placed("0.85")], "x")
+    assert found.verdict == rules.IN_PART and found.why == "holds: 0.75; not: 0.80; open: 0.85 (no error)"
+    assert rules.conclude([rules.yes(), rules.no()], "x", everywhere=True).verdict == rules.DISAGREES
+
+
+def test_crossing_lies_on_the_line_and_has_its_errors():
+    points = [(0.5, Estimate(0.3, 0.02, True)), (0.55, Estimate(0.7, 0.04, True))]
+    found = crossing(points, 0.5)
+    assert found.value == pytest.approx(0.525) and found.error == pytest.approx(math.hypot(0.5 * 0.02, 0.5 * 0.04) / 8)
+    assert not crossing(points, 0.9).is_known
+
+
+def test_controls_are_told_from_the_points():
+    library = Library(runs("long-rods", 0.75) + runs("long-rods", 0.75, n=1, step=4e-6))
+    assert len(library["long-rods"]) == 3 and len(library.controls["long-rods"]) == 1
+
+
+def test_peaks_are_counted():
+    s = np.linspace(0, 1, 100)
+    assert n_peaks(np.exp(-((s - 0.5) / 0.1) ** 2)) == 1 and n_peaks(np.zeros(0)) == 0
+    assert n_peaks(np.exp(-((s - 0.2) / 0.05) ** 2) + np.exp(-((s - 0.8) / 0.05) ** 2)) == 2
+
+
+def test_every_statement_has_made_up_runs():
+    assert set(CASES) | {"g-flattens"} == set(CHECKS) and len(CHECKS) == 45
+    assert len(findings(Library([]))) == 45
+
+
+def test_numbers_are_means_over_replicas():
+    made = Runs(runs("a", 0.5, {"dip": 0.5}) + runs("a", 0.6, {"dip": 0.7}))
+    assert made.points("rods.area_fraction", "dip")[1][1].value == pytest.approx(0.7)
+    assert made.largest("rods.area_fraction").values("rods.area_fraction") == [0.6]
