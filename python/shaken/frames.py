@@ -9,6 +9,7 @@ from typing import Any, Iterator
 import numpy as np
 
 from .errors import ShakenError
+from .hdf5 import open_file
 from .times import seconds
 
 
@@ -86,10 +87,9 @@ class Trajectory:
     """
 
     def __init__(self, path: str | Path) -> None:
-        import h5py
         self.path = Path(path)
+        self._file = open_file(self.path)
         try:
-            self._file = h5py.File(self.path, "r")
             self._rods = self._file["particles/trajectory"]
             self.times = np.asarray(self._rods["position/time"][()])
         except (OSError, KeyError) as error:

@@ -13,6 +13,7 @@ import numpy as np
 from .errors import ShakenError
 from .estimate import NAN, Estimate
 from .frames import Frame, Trajectory
+from .hdf5 import h5py_module, open_file
 from .units import split_unit, unit_of
 
 #: The array that the others of its group are measured at.
@@ -222,16 +223,12 @@ class DirectoryRun(Run):
         super().__init__(scene, summary, Arrays(self._names(), self._read), parameters, str(self.directory))
 
     def _file(self) -> Any:
-        import h5py  # where only numbers are asked for, it is not needed
-        try:
-            return h5py.File(self.directory / "observables.h5", "r")
-        except OSError as error:
-            raise ShakenError(f"{self.directory / 'observables.h5'}: {error}") from None
+        return open_file(self.directory / "observables.h5")
 
     def _names(self) -> list[str]:
         if not (self.directory / "observables.h5").exists():
             return []
-        import h5py
+        h5py = h5py_module()
         names: list[str] = []
         with self._file() as file:
             file.visititems(lambda name, item: names.append("/" + name) if isinstance(item, h5py.Dataset) else None)
