@@ -55,10 +55,6 @@ ALLOWED = {
     "client": ["proto", "base", "scene", "run/files", "run/export", "sim/core", "sim/rod", "sim/system.h"],
     # the page in a browser: what the terminal's live view makes of messages, the daemon's way of HTTP, a run's files
     "web": ["proto", "base", "client/watch", "server/http", "run/files", "analysis/order.h", "sim/core", "sim/system.h"],
-    # the program's verbs are the client's and the study's
-    "client/main.cpp": ["base/standard_streams.h", "client", "study/verb.h"],
-    # a paper's figures and claims: a user of the client's libraries, and none of the client knows of it
-    "study": ["base", "client", "scene", "run/files", "sim/core"],
     # benches time whole simulations, and the kernels of an impulse by themselves
     "bench": ["base", "scene", "run/files", "analysis", "sim/core", "sim/rod", "sim/motion", "sim/contact", "sim/system.h",
               "sim/snapshot.h", "sim/world.h", "sim/balance.h", "sim/simulation.h", "sim/neighbors", "sim/effects/registry.h"],
@@ -69,7 +65,7 @@ for floor, name in enumerate(SIM):
     for part in [name] if "." in name else [name, name + ".h", name + ".cpp"]:
         ALLOWED[part] = [below + end for below in SIM[:floor + 1] for end in ("", ".h", ".cpp")]
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"')
-FOLDERS = ("sim", "proto", "base", "scene", "analysis", "run", "render", "server", "client", "web", "study", "tests", "bench")
+FOLDERS = ("sim", "proto", "base", "scene", "analysis", "run", "render", "server", "client", "web", "tests", "bench")
 
 
 def rule(path):

@@ -9,7 +9,7 @@ Verbs make_verbs() {
        {make_init,    make_schema,     make_validate,   make_explain, make_run,      make_submit,  make_status,
         make_watch,   make_record,     make_replay_log, make_web,     make_logs,     make_history, make_wait,
         make_extend,  make_hold,       make_resume,     make_retry,   make_priority, make_cancel,  make_clean,
-        make_results, make_plot,       make_picture,    make_movie,   make_export,   make_replay,  make_bench,
+        make_results, make_plot,       make_figures, make_picture,    make_movie,   make_export,   make_replay,  make_bench,
         make_doctor,  make_completion, make_cite}) {
     verbs.push_back(make());
   }

@@ -35,6 +35,7 @@ std::unique_ptr<Verb> make_cancel();
 std::unique_ptr<Verb> make_clean();
 std::unique_ptr<Verb> make_results();
 std::unique_ptr<Verb> make_plot();
+std::unique_ptr<Verb> make_figures();
 std::unique_ptr<Verb> make_picture();
 std::unique_ptr<Verb> make_movie();
 std::unique_ptr<Verb> make_export();

@@ -18,6 +18,7 @@ from ..times import seconds
 from . import running
 from .figures import FIGURES, Figure, chosen, draw
 from .library import Library
+from .plan import write_plan
 from .report import tally, write_report
 from .sets import ORDER, SCALES, sweeps
 from .statements import as_json, as_table, findings, of_figures
@@ -42,24 +43,44 @@ def parser() -> argparse.ArgumentParser:
     found.add_argument("--collect", action="store_true", help="first archive all runs of the daemon that are done")
     found.add_argument("--format", default="png", help="png, pdf or svg")
     found.add_argument("--width", default="183mm", help="89mm, 120mm or 183mm")
+    found.add_argument("--cores", type=int, default=os.cpu_count() or 1, help="cores that a plan is made for")
+    found.add_argument("--plan", type=Path, help="file of a plan for a computing centre; nothing is started")
+    found.add_argument("--executor", help="local or slurm: where the runs run")
+    for name in ("partition", "account", "time", "memory"):
+        found.add_argument(f"--{name}", help="of a task of Slurm")
+    found.add_argument("--runs-per-task", type=int, help="runs that a task of Slurm does, one after the other")
+    found.add_argument("--slurm-option", action="append", help="any option of sbatch")
     found.add_argument("--report", type=Path, help="Markdown file whose marked sections are written anew")
     found.add_argument("--json", action="store_true", help="what was made, and the verdicts, as JSON")
     found.add_argument("-y", "--yes", action="store_true", help="do not ask before a start on a terminal")
     return found
 
 
+#: Options that go into a sweep's "slurm"; --slurm-option is called "options" there.
+_SLURM = ("partition", "account", "time", "memory", "runs_per_task", "slurm_option")
+
+
+def sent(sweep: dict[str, Any], options: argparse.Namespace) -> dict[str, Any]:
+    """The sweep with the executor that was asked for."""
+    if options.executor is None:
+        return sweep
+    settings = {("options" if key == "slurm_option" else key): getattr(options, key) for key in _SLURM
+                if getattr(options, key) is not None}
+    return {**sweep, "executor": options.executor,
+            **({"slurm": {**sweep.get("slurm", {}), **settings}} if options.executor == "slurm" and settings else {})}
+
+
 def configs_folder(given: Path | None) -> Path:
     """The folder of the desk's sweeps: as given, that of the sources, or that of an installation."""
     if given:
-        return given
-    here = Path(__file__).resolve()
-    places = [here.parents[3] / "configs" / "figures" / "desk", Path(sys.prefix) / "share/shaken/configs/figures/desk",
-              Path("/usr/share/shaken/configs/figures/desk"), Path("/usr/local/share/shaken/configs/figures/desk")]
+        return given if not (given / "figures" / "desk").is_dir() else given / "figures" / "desk"
+    places = [Path(__file__).resolve().parents[3] / "configs", Path("/usr/share/shaken/configs"),
+              Path("/usr/local/share/shaken/configs")]
     if os.environ.get("SHAKEN_CONFIGS"):
-        places.insert(0, Path(os.environ["SHAKEN_CONFIGS"]) / "figures" / "desk")
+        places.insert(0, Path(os.environ["SHAKEN_CONFIGS"]))
     for place in places:
-        if place.is_dir():
-            return place
+        if (place / "figures" / "desk").is_dir():
+            return place / "figures" / "desk"
     raise ShakenError(f"the sweeps of the figures are not here ({places[0]}): name their folder with --configs")
 
 
@@ -77,6 +98,17 @@ def problems_of(options: argparse.Namespace) -> list[str]:
         found.append(f"--width takes 89mm, 120mm, 183mm or another, not '{options.width}'")
     if options.draw_only and options.dry_run:
         found.append("--draw-only and --dry-run exclude each other")
+    if options.draw_only and options.plan:
+        found.append("--draw-only and --plan exclude each other")
+    if options.executor not in (None, "local", "slurm"):
+        found.append(f"--executor takes local or slurm, not '{options.executor}'")
+    if options.executor != "slurm":
+        found += [f"--{key.replace('_', '-')} is for Slurm: add --executor slurm" for key in _SLURM
+                  if getattr(options, key) is not None]
+        if options.plan:
+            found.append("--plan is for Slurm: add --executor slurm")
+    if options.cores < 1:
+        found.append("--cores must be at least 1")
     if options.budget is not None:
         try:
             if seconds(options.budget) <= 0:
@@ -114,35 +146,55 @@ def _run(options: argparse.Namespace) -> int:
         return _list(figures, options)
     out = options.out or Path(f"figures-{options.scale}")
     archive = options.archive or out / "archive"
+    failed: list[str] = []
     if not options.draw_only:
         names = {name for figure in figures for name in figure.sets}
         # of a whole study every set is run, also what no figure but a statement needs
         wanted = None if len(figures) == len(FIGURES) else [name for _, name in ORDER if name in names]
+        program = running.program()
+        all_sweeps = {name: sent(sweep, options) for name, sweep in
+                      sweeps(configs_folder(options.configs), SCALES[options.scale], wanted)}
+        if options.plan:
+            drawing = f"shaken --root ROOT figures {' '.join(options.figures)} --scale {options.scale} --collect"
+            print("\n".join(map(str, write_plan(options.plan, program, all_sweeps, options.cores, drawing))))
+            return OK
         if options.collect:
             running.collect(Daemon(options.root), archive)
-        plan = running.Plan(running.program(), sweeps(configs_folder(options.configs), SCALES[options.scale], wanted),
-                            archive)
+        plan = running.Plan(program, all_sweeps.items(), archive)
         if options.dry_run:
             print(json.dumps(_plan_json(plan), indent=2) if options.json else plan.table())
             return OK
-        daemon = Daemon(options.root)
-        daemon.status()  # says how to start one before anything is asked
-        if plan.missing and not _agreed(plan, options):
-            print("nothing was started", file=sys.stderr)
-            return FAILED
-        budget = math.inf if options.budget is None else seconds(options.budget)
-        running.run_plan(plan, daemon, budget, say=lambda line: print(line, file=sys.stderr, flush=True))
-        still = running.Plan(running.program(), plan.sweeps.items(), archive)
-        if still.missing:
-            print(f"still open:\n{still.table()}", file=sys.stderr)
+        out.mkdir(parents=True, exist_ok=True)
+        if plan.missing:
+            if not _agreed(plan, options):
+                print("nothing was started", file=sys.stderr)
+                return FAILED
+            failed += _run_plan(plan, program, out, options)
     library = Library(run for run in archived_runs(archive)
                       if any(name.endswith("-" + options.scale) for name in run.sweeps))
     if not library.sets:
         raise ShakenError(f"{archive} has no runs of scale {options.scale}: there is nothing to draw")
-    return _draw(options, figures, library, out)
+    _draw(options, figures, library, out)
+    return FAILED if failed else OK
 
 
-def _draw(options: argparse.Namespace, figures: list[Figure], library: Library, out: Path) -> int:
+def _run_plan(plan: running.Plan, program: str, out: Path, options: argparse.Namespace) -> list[str]:
+    """Runs what is missing, and says what is still open. Returns what has failed."""
+    def say(line: str) -> None:
+        print(line, file=sys.stderr, flush=True)
+
+    budget = math.inf if options.budget is None else seconds(options.budget)
+    with running.daemon_at(options.root, program, say) as daemon:
+        failed = running.run_plan(plan, daemon, budget, say=say, films=out / "movies")
+    for line in failed:
+        say(line)
+    still = running.Plan(program, plan.sweeps.items(), plan.archive)
+    if still.missing:
+        say(f"still open:\n{still.table()}")
+    return failed
+
+
+def _draw(options: argparse.Namespace, figures: list[Figure], library: Library, out: Path) -> None:
     made = draw(figures, library, out, width=25.4 * inches(options.width), form=options.format,
                 origin={"Software": "shaken figures"})
     found = findings(library, of_figures({figure.id for figure in figures} if options.figures else ()))
@@ -157,7 +209,6 @@ def _draw(options: argparse.Namespace, figures: list[Figure], library: Library, 
         print("\n".join(map(str, [*made, out / "statements.md"])))
         if not options.figures:
             print(tally(library), end="")
-    return OK
 
 
 def _list(figures: list[Figure], options: argparse.Namespace) -> int:

@@ -86,6 +86,7 @@ FIGURES: tuple[Figure, ...] = (
            ("equilibrium", "short-rods", "long-rods", "crossings", "phases"), figures_order.equilibrium),
     Figure("", "model", "What the paper leaves open: frequency, number of rods, beads",
            ("frequency", "density", "beads", "diffusion", "short-rods"), figures_motion.model),
+    Figure("", "movies", "Films S1 to S7, as they are made", ("movies",), figures_order.films),
     Figure("", "accuracy", "The same points at the paper's time step and at the desk's", ("long-rods",),
            figures_motion.accuracy),
 )

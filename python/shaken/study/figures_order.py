@@ -186,3 +186,15 @@ def equilibrium(material: Material) -> Sheet:
     if scale:
         sheet.colourbar(scale, sheet.panels[1:])
     return sheet
+
+
+def films(material: Material) -> Sheet:
+    """The last rods of the films S1 to S7."""
+    runs = material.library["movies"]
+    sheet = material.sheet(max(len(runs), 1), columns=4)
+    for panel, run in zip(sheet, runs):
+        snapshot = first_snapshot([run])
+        if snapshot:
+            draw_rods(panel, snapshot, run.scene, f"ℓ = {key_of(run, LENGTH):g} mm, φ = {key_of(run, PACKING):g}, "
+                      f"w = {key_of(run, 'box.gap'):g} mm")
+    return sheet

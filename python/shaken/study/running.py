@@ -2,6 +2,7 @@
 """Running the sets of the study on a daemon, within a budget, each finished run into the archive."""
 from __future__ import annotations
 
+import contextlib
 import json
 import math
 import os
@@ -11,11 +12,11 @@ import tempfile
 import time
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Callable, Iterable
+from typing import Any, Callable, Iterable, Iterator
 
 import numpy as np
 
-from ..archive import SUFFIX, add_run, archived_runs
+from ..archive import add_run, archived_runs
 from ..daemon import ENDED, Daemon
 from ..errors import ShakenError
 from ..run import Run
@@ -68,9 +69,11 @@ class Plan:
         self.sweeps = dict(sweeps)
         have = {run.id: run for run in archived_runs(archive)}
         self.missing: list[Missing] = []
+        self.order: dict[str, int] = {}  # id -> place of the run in its sweep
         self.n_points = 0
         for name, sweep in self.sweeps.items():
-            for point in points_of(shaken, sweep):
+            for place, point in enumerate(points_of(shaken, sweep)):
+                self.order.setdefault(point["id"], place)
                 self.n_points += 1
                 seconds = float(point["sim_seconds"])
                 run = have.get(point["id"])
@@ -100,11 +103,13 @@ class Plan:
 
 
 def run_plan(plan: Plan, daemon: Daemon, budget: float = math.inf, *, say: Callable[[str], None] = print,
-             every: float = 2.0) -> None:
+             films: Path | None = None, every: float = 1.0) -> list[str]:
     """Queues what is missing, set by set, and archives each run when it is done, until all is done or `budget` CPU
     seconds have been spent: what runs then is held at a checkpoint, and the same call goes on with it.
 
-    The next set is queued when nothing of those before waits any more, so that the order of worth holds.
+    The next set is queued when nothing of those before waits any more, so that the order of worth holds. Films are
+    copied into `films` as S1.mp4, S2.mp4, ... in the order of their sweep. Returns what went wrong, a line for each job
+    that has failed.
     """
     spent = _Spent()
     waiting = [name for name in plan.sweeps if plan.cost(name) > 0]
@@ -116,26 +121,36 @@ def run_plan(plan: Plan, daemon: Daemon, budget: float = math.inf, *, say: Calla
         for job, name in jobs.values():
             if job["state"] == "done" and (path := archive_job(job, name, plan.archive)):
                 say(f"{path.name[:8]}  {name}  {job['label']}")
+                if films is not None:
+                    _copy_film(job, plan, films)
         spent.note(job for job, _ in jobs.values())
         states = [job["state"] for job, _ in jobs.values()]
         if spent.seconds() >= budget:
             for sweep in at_work:
                 daemon.ask("POST", f"/v1/sweeps/{sweep}/hold")
-            return
+            return []
         if waiting and "queued" not in states:
             name = waiting.pop(0)
             points = [point for point in plan.missing if point.set == name]
             sweep = plan.sweeps[name]
-            submitted = daemon.submit({"name": sweep["name"], "scene": sweep["scene"],
-                                       "sweep": {"list": [point.parameters for point in points]}},
+            submitted = daemon.submit({**sweep, "sweep": {"list": [point.parameters for point in points]}},
                                       name=sweep["name"], soft_limit_s=_SOFT_LIMIT, time_limit_s=_TIME_LIMIT)
             daemon.ask("POST", f"/v1/sweeps/{submitted}/resume")  # of what was held when a budget had ended
             at_work[submitted] = sweep["name"]
             say(f"{sweep['name']}: {len(points)} runs, about {plan.cost(name) / 3600:.2f} CPU-h")
             continue
         if not waiting and all(state in ENDED for state in states):
-            return
+            return [f"{job['id'][:8]} {name} {job['label']}: {job['state']}: {job['reason']}"
+                    for job, name in jobs.values() if job["state"] != "done"]
         time.sleep(every)
+
+
+def _copy_film(job: dict[str, Any], plan: Plan, films: Path) -> None:
+    film = Path(job["directory"]) / "movie.mp4"
+    names = plan.order.get(job["id"])
+    if film.exists() and names is not None:
+        films.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(film, films / f"S{names + 1}.mp4")
 
 
 def archive_job(job: dict[str, Any], sweep: str, archive: Path) -> Path | None:
@@ -170,9 +185,36 @@ class _Spent:
         return sum(now - self._first[job] for job, now in self._now.items())
 
 
-def known(archive: Path) -> int:
-    """How many runs an archive has."""
-    return len(list(Path(archive).glob("*" + SUFFIX)))
+@contextlib.contextmanager
+def daemon_at(root: Path | None, shaken: str, say: Callable[[str], None] = print) -> Iterator[Daemon]:
+    """The daemon of a root; where none serves it, one of our own, which goes with us."""
+    daemon = Daemon(root)
+    try:
+        daemon.status()
+        yield daemon
+        return
+    except ShakenError:
+        pass
+    program_ = Path(shaken).with_name("shakend")
+    daemon.root.mkdir(parents=True, exist_ok=True)
+    ours = subprocess.Popen([str(program_), "--root", str(daemon.root), "--quiet", "--no-lcm"], start_new_session=True,
+                            stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    try:
+        end = time.monotonic() + 60
+        while True:
+            try:
+                daemon.status()
+                break
+            except ShakenError:
+                if ours.poll() is not None or time.monotonic() > end:
+                    raise ShakenError(f"no daemon could be started: {(ours.stderr.read() if ours.stderr else '').strip()}"
+                                      ) from None
+                time.sleep(0.1)
+        say(f"no daemon served {daemon.root}: one has been started, which ends with this command")
+        yield daemon
+    finally:
+        ours.terminate()
+        ours.wait(60)
 
 
 def program() -> str:

@@ -16,7 +16,7 @@ ORDER: tuple[tuple[str, str], ...] = (
     ("F", "size"), ("H", "gaps"), ("J", "diffusion-along"), ("I", "layer-trends"), ("K", "short-rods"),
     ("M", "larger-box"), ("L", "no-order"), ("U", "frequency"), ("V", "phases"), ("W", "density"), ("X", "beads"),
     ("R", "elasticity"), ("S", "turned"), ("T", "diffusion"), ("O", "wavelength-length"), ("P", "wavelength-end"),
-    ("N", "wavelength-packing"), ("Q", "long-range"), ("Y", "equilibrium"))
+    ("N", "wavelength-packing"), ("Q", "long-range"), ("Y", "equilibrium"), ("Z", "movies"))
 
 
 @dataclass(frozen=True)
@@ -60,17 +60,22 @@ def scaled(sweep: dict[str, Any], scale: Scale) -> dict[str, Any]:
     found = json.loads(json.dumps(sweep))
     found["name"] = found["name"].rpartition("-")[0] + "-" + scale.name
     scene = found["scene"]
-    if "box" in scene:
+    if "side" in scene.get("box", {}):
         scene["box"]["side"] = _side(scene["box"]["side"], scale)
+    if scale.name == "tiny" and "movie" in scene:
+        scene["trajectory"]["every"] = scene["movie"]["every"] = "20 ms"
+    if "accuracy" in scene:
+        scene["accuracy"] = scale.accuracy
     for key, value in scene.get("time", {}).items():
         if key in ("steady", "measure"):
             scene["time"][key] = _time(value, scale)
     parts = []
     for part in found["sweep"]:
         grid = part["grid"]
-        if grid.get("accuracy") == ["paper"] :
+        if grid.get("accuracy") == ["paper"]:
             continue  # the controls
-        grid["accuracy"] = [scale.accuracy]
+        if "accuracy" in grid:
+            grid["accuracy"] = [scale.accuracy]
         for key, values in grid.items():
             if key == "box.side":
                 grid[key] = list(dict.fromkeys(_side(value, scale) for value in values))

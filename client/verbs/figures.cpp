@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// The options of `shaken figures`, for help and completion; the Python package does the work (shaken/study/app.py).
+#include <cstdlib>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/paths.h"
+#include "base/plots_by_python.h"
+#include "base/process.h"
+#include "client/verbs/verbs.h"
+
+namespace shaken::client {
+namespace {
+
+class Figures : public Verb {
+ public:
+  VerbInfo info() const override {
+    return {
+        "figures", kResultsGroup, "The figures of Sharma & Soni (2024), and some beyond: runs, archives, draws, judges",
+        "  shaken figures                        everything at desk scale, into figures-desk/\n"
+        "  shaken figures --list                 what there is, and the runs that each needs\n"
+        "  shaken figures 3 8 layer-trends       the phase diagram and the layers; numbers are the paper's\n"
+        "  shaken figures --budget 10h           ten CPU-hours of it, in order of worth; what is open is said\n"
+        "  shaken figures --scale tiny           minutes: to see that all is there\n"
+        "  shaken figures --scale paper --dry-run --cores 8   what the paper's sizes would cost\n"
+        "  shaken --root /shared/me figures --scale paper --executor slurm --partition long --time 24h\n"
+        "                                        everything at the paper's size, in Slurm (docs/cluster.md)\n"
+        "  shaken figures --scale paper --executor slurm --cores 64 --plan plan.md\n"
+        "                                        only a plan for a computing centre, and the sweeps beside it\n"
+        "  shaken figures --draw-only --archive docs/archive   from an archive of runs, on any machine\n"
+        "Stop it at any time: the same command goes on where it stopped. `shaken watch` and `shaken status` work\n"
+        "meanwhile. What it will cost is told before it starts, and asked on a terminal. Each run that is done goes "
+        "into the archive, a folder of small files that can be copied and merged. Beside each picture lie its data "
+        "as CSV."};
+  }
+
+  void declare(Arguments& arguments) override {
+    arguments.list("FIGURE", words_, "A number of the paper, 2 to 14, or a name of --list; all if left out",
+                   {"2",           "3",      "4",          "5",        "6",
+                    "7",           "8",      "9",          "10",       "11",
+                    "12",          "13",     "14",         "accuracy", "elasticity",
+                    "equilibrium", "gap",    "larger-box", "layers",   "layer-trends",
+                    "model",       "movies", "size",       "shaking",  "steady"});
+    arguments.option("--scale", scale_, "tiny|desk|paper", "Size of the runs; desk if left out");
+    arguments.option("--budget", budget_, "TIME", "CPU time after which it stops: 10h; it runs everything if left out");
+    arguments.option("--archive", archive_, "DIR", "Archive of finished runs; OUT/archive if left out", Names::kFolder);
+    arguments.option("-o,--out", out_, "DIR", "Where to draw; figures-SCALE if left out", Names::kFolder);
+    arguments.option("--format", format_, "png|pdf|svg", "png if left out", Names::kAnything);
+    arguments.option("--width", width_, "89mm|120mm|183mm", "Width of the figures; 183mm if left out",
+                     Names::kAnything);
+    arguments.option("--configs", configs_, "DIR", "Folder that holds the sweeps of the sets", Names::kFolder);
+    arguments.flag("--list", list_, "List the figures and the sets that they need, and do nothing");
+    arguments.flag("--dry-run", dry_run_, "Say what is open and what it would cost, and start nothing");
+    arguments.flag("--collect", collect_, "First archive every run of the daemon that is done");
+    arguments.flag("--draw-only", draw_only_, "Run nothing: draw from the archive");
+    arguments.option("--cores", cores_, "N", "Cores that a plan is made for", Names::kAnything);
+    arguments.option("--plan", plan_, "FILE",
+                     "Start nothing: write what a computing centre wants to know (Markdown), and the sweeps beside it",
+                     Names::kFile);
+    arguments.option("--executor", executor_, "local|slurm", "Where the runs run; as the daemon has it if left out");
+    arguments.option("--partition", partition_, "NAME", "In Slurm: partition, or several with commas",
+                     Names::kAnything);
+    arguments.option("--account", account_, "NAME", "In Slurm: account that is charged", Names::kAnything);
+    arguments.option("--time", time_, "TIME", "In Slurm: wall time of a task (4h); what is left goes on in another",
+                     Names::kAnything);
+    arguments.option("--memory", memory_, "SIZE", "In Slurm: memory of a task (2G)", Names::kAnything);
+    arguments.option("--runs-per-task", runs_per_task_, "N", "In Slurm: runs that a task does one after the other",
+                     Names::kAnything);
+    arguments.repeatable("--slurm-option", slurm_options_, "OPTION", "In Slurm: any option of sbatch; repeatable");
+    arguments.option("--report", report_, "FILE",
+                     "Write verdicts, sets and versions between the marks of this Markdown file (docs/validation.md)",
+                     Names::kFile);
+    arguments.flag("-y,--yes", yes_, "Start without asking, also on a terminal");
+    arguments.flag("--json", json_, "Print what was made, and the verdicts, as JSON");
+  }
+
+  ExitCode run(const Context& context) override {
+    std::vector<std::string> command{python_interpreter(), "-W", "ignore",
+                                     (shipped_python() / "shaken/study/__main__.py").string()};
+    const std::pair<const char*, const std::string&> options[] = {
+        {"--scale", scale_},       {"--budget", budget_},       {"--archive", archive_},
+        {"--out", out_},           {"--format", format_},       {"--width", width_},
+        {"--configs", configs_},   {"--cores", cores_},         {"--plan", plan_},
+        {"--executor", executor_}, {"--partition", partition_}, {"--account", account_},
+        {"--time", time_},         {"--memory", memory_},       {"--runs-per-task", runs_per_task_},
+        {"--report", report_}};
+    for (const auto& [name, value] : options) {
+      if (!value.empty()) command.push_back(std::string(name) + "=" + value);
+    }
+    for (const std::string& option : slurm_options_) command.push_back("--slurm-option=" + option);
+    const std::pair<const char*, bool> flags[] = {{"--list", list_},       {"--dry-run", dry_run_},
+                                                  {"--collect", collect_}, {"--draw-only", draw_only_},
+                                                  {"--yes", yes_},         {"--json", json_}};
+    for (const auto& [name, given] : flags) {
+      if (given) command.emplace_back(name);
+    }
+    command.push_back("--root=" + context.root().string());
+    command.emplace_back("--");
+    command.insert(command.end(), words_.begin(), words_.end());
+    setenv("SHAKEN_PROGRAM", sibling_program("shaken").c_str(), 1);
+    setenv("SHAKEN_CONFIGS", shipped_configs().c_str(), 1);
+    become(command);
+  }
+
+ private:
+  std::vector<std::string> words_, slurm_options_;
+  std::string scale_, budget_, archive_, out_, format_, width_, configs_, cores_, plan_, executor_, partition_,
+      account_, time_, memory_, runs_per_task_, report_;
+  bool list_ = false, dry_run_ = false, collect_ = false, draw_only_ = false, yes_ = false, json_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_figures() { return std::make_unique<Figures>(); }
+
+}  // namespace shaken::client

@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: MIT
+"""`shaken figures` with the real programs: runs, archives, goes on, draws from the archive alone."""
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from conftest import PROGRAMS
+from shaken.study import sets
+from shaken.study.figures import FIGURES
+from shaken.study.report import with_sections
+from shaken.study.statements import STATEMENTS
+
+SOURCE = Path(__file__).resolve().parents[2]
+
+
+def figures(programs, *arguments, check=True, **more):
+    done = subprocess.run([sys.executable, SOURCE / "python/shaken/study/__main__.py", "--root", programs.root,
+                           "--scale", "tiny", *map(str, arguments)], capture_output=True, text=True, timeout=300,
+                          env={**os.environ, "SHAKEN_PROGRAM": str(PROGRAMS / "shaken"),
+                               "SHAKEN_CONFIGS": str(SOURCE / "configs")}, **more)
+    assert done.returncode == 0 or not check, done.stderr
+    return done
+
+
+def test_a_figure_is_run_archived_gone_on_with_and_drawn_again(programs, tmp_path):
+    out = tmp_path / "figures"
+    first = figures(programs, 10, "-o", out, "--budget", "0.5s")
+    assert "still open:" in first.stderr and "no daemon served" in first.stderr
+    archived = {path.name for path in (out / "archive").iterdir()}
+    assert 0 < len(archived) < 6
+    second = figures(programs, 10, "-o", out, "--json")
+    assert "still open" not in second.stderr
+    answer = json.loads(second.stdout)
+    assert [Path(path).name for path in answer["made"]] == ["fig10-tilt.png"]
+    assert {entry["statement"] for entry in answer["statements"]} == {"tilt", "sideways", "switching"}
+    again = {path.name for path in (out / "archive").iterdir()}
+    assert archived < again and len(again) == 6
+    # drawn again from the archive, on a machine that never ran anything
+    drawn = figures(programs, 10, "--draw-only", "--archive", out / "archive", "-o", tmp_path / "again", "--format",
+                    "pdf", "--width", "89mm")
+    assert (tmp_path / "again" / "fig10-tilt.pdf").read_bytes()[:4] == b"%PDF" and "fig10" in drawn.stdout
+    table = (out / "fig10-tilt.csv").read_text()
+    assert "n_z" in table and len(table.splitlines()) > 50
+    third = figures(programs, 10, "-o", out)
+    assert "runs, about" not in third.stderr, "what is archived is not done again"
+
+
+def test_what_it_would_cost_and_what_there_is(programs):
+    plan = json.loads(figures(programs, 10, "--dry-run", "--json").stdout)
+    assert plan["runs"] == plan["missing"] == 6 and plan["sets"][0]["set"] == "mechanism"
+    listed = json.loads(figures(programs, "--list", "--json").stdout)
+    assert [entry["number"] for entry in listed][:13] == [str(k) for k in range(2, 15)]
+
+
+def test_a_plan_for_a_computing_centre(programs, tmp_path):
+    figures(programs, 10, "--executor", "slurm", "--partition", "long", "--time", "4h", "--cores", 8, "--plan",
+            tmp_path / "plan.md")
+    text = (tmp_path / "plan.md").read_text()
+    assert re.search(r"\| mechanism \| 6 \| \d+ \| [0-9.]+ \|", text) and "on 8 cores" in text
+    sweep = json.loads((tmp_path / "plan-sweeps" / "mechanism.json").read_text())
+    assert sweep["executor"] == "slurm" and sweep["slurm"] == {"partition": "long", "time": "4h"}
+
+
+@pytest.mark.parametrize("words, said", [
+    (["99"], "no such figure: 99"), (["--format", "jpg"], "png, pdf or svg"), (["--width", "wide"], "--width takes"),
+    (["--budget", "3q"], "is no time"), (["--plan", "p.md"], "--plan is for Slurm"), (["--memory", "2G"], "for Slurm"),
+    (["--report", "nowhere.md"], "no such file"), (["--draw-only", "--dry-run"], "exclude each other"),
+    (["--scale", "huge"], "tiny, desk, paper")])
+def test_bad_options_are_refused_before_anything_runs(programs, words, said):
+    done = figures(programs, *words, check=False)
+    assert done.returncode == 2 and said in done.stderr
+    assert not (programs.root / "runs").exists()
+
+
+def test_an_empty_archive_is_said_to_be_one(programs, tmp_path):
+    done = figures(programs, "--draw-only", "--archive", tmp_path, check=False)
+    assert done.returncode == 1 and "nothing to draw" in done.stderr
+
+
+def test_every_set_has_its_sweep_at_every_scale(programs):
+    folder = SOURCE / "configs" / "figures" / "desk"
+    names = {name for _, name in sets.ORDER}
+    assert {path.stem for path in folder.iterdir()} == names - MISSING
+    assert {name for figure in FIGURES for name in figure.sets} <= names
+    for scale in sets.SCALES.values():
+        for name, sweep in sets.sweeps(folder, scale):
+            file = programs.root / "sweep.json"
+            file.write_text(json.dumps(sweep))
+            assert sweep["name"] == f"{name}-{scale.name}"
+            programs.shaken("validate", file)
+
+
+#: Sets whose sweep cannot be written yet.
+MISSING = {"turned"}
+
+
+def test_every_statement_belongs_to_a_figure():
+    words = {word for figure in FIGURES for word in (figure.number, figure.name) if word}
+    assert {statement.figure for statement in STATEMENTS} <= words
+
+
+def test_sections_are_replaced_between_their_marks():
+    document = "a\n<!-- claims: begin -->\nold\n<!-- claims: end -->\nb\n"
+    assert with_sections(document, {"claims": "new\n"}) == "a\n<!-- claims: begin -->\nnew\n<!-- claims: end -->\nb\n"
+    with pytest.raises(Exception, match="origin: begin"):
+        with_sections(document, {"origin": "x"})
