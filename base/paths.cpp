@@ -44,4 +44,6 @@ std::filesystem::path shipped_configs() { return shipped("configs", "configs"); 
 
 std::filesystem::path shipped_page() { return shipped("page", "web/page"); }
 
+std::filesystem::path shipped_python() { return shipped("python", "python"); }
+
 }  // namespace shaken

@@ -17,5 +17,7 @@ Result<std::filesystem::path> data_root(const std::string& given = "");
 std::filesystem::path shipped_configs();
 /// The same for the files of the page in a browser: share/shaken/page, or web/page of the source tree.
 std::filesystem::path shipped_page();
+/// The same for the folder of the Python package `shaken`: share/shaken/python, or python of the source tree.
+std::filesystem::path shipped_python();
 
 }  // namespace shaken

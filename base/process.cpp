@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <linux/close_range.h>
 #include <poll.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -46,7 +47,7 @@ std::vector<char*> argument_vector(const std::vector<std::string>& command) {
   std::signal(SIGPIPE, SIG_DFL);  // we ignore them; others are not written for that
   std::signal(SIGXFSZ, SIG_DFL);
 
-  dup2(null, STDIN_FILENO);
+  dup2(setup.input >= 0 ? setup.input : null, STDIN_FILENO);
   if (setup.output >= 0) {
     dup2(setup.output, STDOUT_FILENO);
     dup2(setup.output, STDERR_FILENO);
@@ -157,6 +158,19 @@ std::optional<ProcessEnd> poll_child(pid_t child) {
 
 Captured run_captured(const std::vector<std::string>& command, const std::filesystem::path& folder) {
   return capture({.command = command, .folder = folder, .ends_with_us = true}, nullptr);
+}
+
+Captured run_with_input(const std::vector<std::string>& command, std::string_view input) {
+  // a file, not a pipe: nobody has to write while the other reads
+  const Descriptor file(memfd_create("input", MFD_CLOEXEC));
+  if (!file) return {kCannotRun, std::strerror(errno)};
+  while (!input.empty()) {
+    const ssize_t n = write(file.value(), input.data(), input.size());
+    if (n < 0 && errno != EINTR) return {kCannotRun, std::strerror(errno)};
+    if (n > 0) input.remove_prefix(static_cast<std::size_t>(n));
+  }
+  lseek(file.value(), 0, SEEK_SET);
+  return capture({.command = command, .input = file.value(), .ends_with_us = true}, nullptr);
 }
 
 Captured run_captured(const std::vector<std::string>& command, const CaptureLimits& limits) {

@@ -11,6 +11,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sim/core/result.h"
@@ -36,12 +37,13 @@ struct ProcessEnd {
 struct ChildSetup {
   std::vector<std::string> command = {};  ///< a path, or a name that is looked for in PATH; then the arguments
   std::filesystem::path folder = {};      ///< where it runs; where this process runs if empty
+  int input = -1;                         ///< descriptor that its stdin reads; -1: there is nothing to be read
   int output = -1;                        ///< descriptor that takes its stdout and stderr; -1: where ours go
   bool own_group = false;                 ///< a Ctrl-C on the terminal is not for it, nor for what it starts
   bool ends_with_us = false;              ///< gets SIGTERM when the thread that started it ends
 };
 
-/// Starts a child with an empty stdin, no other descriptor of ours and no signal blocked. Fails if the program cannot
+/// Starts a child with no other descriptor of ours and no signal blocked. Fails if the program cannot
 /// be run, with its name and the system's reason.
 Result<pid_t> start_child(const ChildSetup& setup);
 /// Waits for a child, and reaps it.
@@ -65,6 +67,8 @@ struct CaptureLimits {
 /// Runs `command` in `folder` until it ends; or until this process does, however that comes: nobody else wants what it
 /// writes.
 Captured run_captured(const std::vector<std::string>& command, const std::filesystem::path& folder = ".");
+/// The same for one that reads `input` on its stdin.
+Captured run_with_input(const std::vector<std::string>& command, std::string_view input);
 /// The same for one that may hang; a Ctrl-C on the terminal is not for it.
 Captured run_captured(const std::vector<std::string>& command, const CaptureLimits& limits);
 

@@ -113,16 +113,6 @@ makes of the rods. Impulses of rods with plates and with each other, per tick, a
   return text;
 }
 
-void draw_effects(const std::filesystem::path& folder, const Report& report) {
-  draw_bars(folder, "effects", report.rows(), {"effect left out", "without"},
-            {{"CPU time without the effect (% of everything on)",
-              {{"from the same state", "same_state/cpu_ratio", "", 100, "same_state/cpu_ratio_error"},
-               {"from its own state", "own_state/cpu_ratio", "", 100, "own_state/cpu_ratio_error"}},
-              false,
-              {"set logscale y", "set yrange [20:*]",
-               "set arrow from graph 0,first 100 to graph 1,first 100 nohead linecolor '#999999' dashtype 2"}}});
-}
-
 struct EffectsBench {
   CaseOptions scene{.side = 41.865};
   Effort effort{.cpu = 0.5};
@@ -144,7 +134,7 @@ struct EffectsBench {
     report.json.update(json_of(everything));
     measure_savings(everything, cache, effort, report);
     report.text += effects_text(everything, effort, report.json);
-    output.give(report, [&](const auto& folder) { draw_effects(folder, report); });
+    output.give(report);
     return ExitCode::kOk;
   }
 };

@@ -103,13 +103,4 @@ Report kinds_report(const Conditions& conditions, const std::vector<CountedWork>
   return report;
 }
 
-void draw_kinds(const std::filesystem::path& folder, const Report& report) {
-  draw_bars(folder, report.name, report.rows(), {"kind", "kind"},
-            {{"simulated rod-seconds per CPU-second",
-              {{"", "scheduled/rod_s_per_cpu_s"}},
-              false,
-              {"set logscale y", "set yrange [1:*]"}},
-             {"CPU time (%)", phase_columns(), true, {"set yrange [0:100]"}}});
-}
-
 }  // namespace shaken::bench

@@ -11,6 +11,7 @@
 
 #include "base/failure.h"
 #include "base/files.h"
+#include "base/plots_by_python.h"
 #include "base/processor.h"
 #include "base/table.h"
 #include "base/text.h"
@@ -90,77 +91,6 @@ std::string csv(const Json& rows) {
   return text;
 }
 
-std::string plot_data(const Json& rows, const std::vector<Column>& columns) {
-  std::string text = "#";
-  for (const Column& column : columns) text += " " + column.title + (column.error.empty() ? "" : ", error");
-  for (const Json& row : rows) {
-    std::string line;
-    for (const Column& column : columns) {
-      const Json& value = member_of(row, column.member);
-      line += line.empty() ? "\n" : " ";
-      line += value.is_string() ? "\"" + value.get<std::string>() + "\""
-                                : fmt::format("{:.6g}", column.scale * number_of(row, column.member));
-      if (!column.error.empty()) line += fmt::format(" {:.4g}", column.scale * number_of(row, column.error));
-    }
-    text += line;
-  }
-  return text + "\n";
-}
-
-Curve curve(const Json& rows, const Column& x, const Column& y) {
-  Curve curve;
-  curve.label = y.title;
-  for (const Json& row : rows) {
-    curve.x.push_back(x.scale * number_of(row, x.member));
-    curve.y.push_back(y.scale * number_of(row, y.member));
-    if (!y.error.empty()) curve.y_error.push_back(y.scale * number_of(row, y.error));
-  }
-  return curve;
-}
-
-void draw_bars(const std::filesystem::path& folder, const std::string& name, const Json& rows, const Column& label,
-               const std::vector<Bars>& panels) {
-  const auto n_panels = static_cast<int>(panels.size());
-  const int width = std::max(700, 200 + 45 * static_cast<int>(rows.size()));
-  std::string script = plot_head(name, {n_panels * width, 750}) + plot_axes("y") +
-                       fmt::format(R"(set style data histograms
-set style fill solid 1 border rgb '#ffffff'
-set xtics scale 0 rotate by 35 right noenhanced font ',13'
-set errorbars 0.5 front linecolor '#333333'
-set bmargin 8
-set rmargin 2
-set key above horizontal samplen 1 spacing 1.1 font ',14'
-set xrange [-0.6:{}]
-set multiplot layout 1,{}
-)",
-                                   static_cast<double>(rows.size()) - 0.4, n_panels);
-  std::vector<Column> columns{label};
-  std::size_t place = 2;  // column of the data
-  for (const Bars& of : panels) {
-    const std::size_t n = of.heights.size();
-    const bool has_errors = !of.heights.front().error.empty();
-    script += "set title " + gnuplot_literal(of.title) + "\nset style histogram ";
-    script += of.stacked   ? "rowstacked\nset boxwidth 0.7\n"
-              : has_errors ? "errorbars gap 1 linewidth 1\nset boxwidth 0.9\n"
-                           : "clustered gap 1\nset boxwidth 0.9\n";
-    for (const std::string& command : of.commands) script += command + "\n";
-    for (std::size_t k = 0; k < n; ++k) {
-      script += fmt::format("{} '{}.dat' using {}{}:xtic(1) title {} linecolor '{}'", k == 0 ? "plot" : ",", name,
-                            place, has_errors ? fmt::format(":{}", place + 1) : "",
-                            gnuplot_literal(of.heights[k].title), curve_colour(k, n));
-      if (!of.stacked && !has_errors) {
-        script += fmt::format(
-            ", '' using ($0+{:.3f}):{}:(sprintf('%.3g', ${})) with labels font ',12' offset 0,0.6 notitle",
-            (static_cast<double>(k) - (static_cast<double>(n) - 1) / 2) / (static_cast<double>(n) + 1), place, place);
-      }
-      place += has_errors ? 2 : 1;
-    }
-    script += "\nunset logscale y\n";
-    columns.insert(columns.end(), of.heights.begin(), of.heights.end());
-  }
-  draw_plot(folder, name, plot_data(rows, columns), script + "unset multiplot\n");
-}
-
 std::string this_machine() {
   return fmt::format("{}, {} cores; {}; {}", cpu_name(), n_cores(), run::compiler(), SHAKEN_BENCH_FLAGS);
 }
@@ -183,15 +113,20 @@ void Output::declare(CLI::App& app, const char* files) {
   app.add_flag("--json", json, "Print JSON");
 }
 
-void Output::give(const Report& report, const std::function<void(const std::filesystem::path&)>& draw) const {
+void Output::give(const Report& report) const {
   const std::string text = report.json.dump(2) + "\n";
   fmt::print("{}", json ? text : report.text);
   std::fflush(stdout);
   if (folder.empty()) return;
   done_or_fail(make_folder(folder));
-  done_or_fail(write_file_atomically(std::filesystem::path(folder) / (report.name + ".json"), text));
+  const std::filesystem::path file = std::filesystem::path(folder) / (report.name + ".json");
+  done_or_fail(write_file_atomically(file, text));
   done_or_fail(write_file_atomically(std::filesystem::path(folder) / (report.name + ".csv"), csv(report.rows())));
-  if (draw) draw(folder);
+  try {
+    plots_by_python({"bench", file.string(), "--out", folder});
+  } catch (const Failure& failure) {
+    fmt::print(stderr, "shaken-bench: no pictures: {}\n", failure.what());  // what was measured is kept all the same
+  }
 }
 
 }  // namespace shaken::bench

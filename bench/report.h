@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <filesystem>
-#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "base/figure.h"
 
 namespace CLI {
 class App;
@@ -38,21 +34,6 @@ std::string text_of(const Json& row, const char* member);
 std::string table(const Json& rows, const std::vector<Column>& columns);
 /// All of an array of rows, of which the first names the columns; what is nested is named with dots.
 std::string csv(const Json& rows);
-/// The rows as lines of data for gnuplot.
-std::string plot_data(const Json& rows, const std::vector<Column>& columns);
-/// One column of the rows against another; the label is the title of `y`.
-Curve curve(const Json& rows, const Column& x, const Column& y);
-
-/// A panel of bars: a group for each row, a bar for each of `heights`, which the title of its column names in the key.
-struct Bars {
-  std::string title;
-  std::vector<Column> heights;
-  bool stacked = false;                 ///< on each other, or side by side with their numbers or errors
-  std::vector<std::string> commands{};  ///< gnuplot commands before the plot
-};
-/// Panels side by side as NAME.png, with NAME.dat and NAME.gp; groups are named by `label`.
-void draw_bars(const std::filesystem::path& folder, const std::string& name, const Json& rows, const Column& label,
-               const std::vector<Bars>& panels);
 
 /// What a bench found out: the rows, and the same for people.
 struct Report {
@@ -76,8 +57,8 @@ struct Output {
 
   /// Adds --json and --out, which writes `files`.
   void declare(CLI::App& app, const char* files = "CSV, JSON and PNG");
-  /// Writes the report, and has `draw` add pictures to the folder.
-  void give(const Report& report, const std::function<void(const std::filesystem::path&)>& draw = {}) const;
+  /// Writes the report, and has pictures drawn from it; where that fails, stderr says why.
+  void give(const Report& report) const;
 };
 
 }  // namespace shaken::bench

@@ -36,28 +36,6 @@ Report scaling_report(const Conditions& conditions, Scaling of, const std::vecto
   return report;
 }
 
-void draw_scaling(const std::filesystem::path& folder, Scaling of, const Report& report) {
-  const bool of_rods = of == Scaling::kRods;
-  Figure figure;
-  figure.name = report.name;
-  figure.x_title = of_rods ? "number of rods N" : "step {/Symbol D}t (μs)";
-  figure.y_title =
-      fmt::format("CPU time per rod-second, relative to {}", of_rods ? "the smallest N" : "the longest step");
-  figure.style = Figure::Style::kLinesPoints;
-  figure.commands = {of_rods ? "set logscale x" : "set logscale x 2", "set yrange [0:*]",
-                     "set offsets graph 0.05, graph 0.05, graph 0.1, 0"};
-  const Column x = of_rods ? Column{"", "n_rods"} : Column{"", "dt_s", "", 1e6};
-  figure.curves.push_back(curve(report.rows(), x, {"scheduled", "relative_cost"}));
-  // what a stepper whose ticks all cost the same would take
-  Curve guide{.label = of_rods ? "cost of a rod independent of N" : "cost of a step independent of its length",
-              .colour = 1,
-              .x = figure.curves.front().x,
-              .look = Curve::Look::kDashes};
-  for (const double place : guide.x) guide.y.push_back(of_rods ? 1 : guide.x.front() / place);
-  figure.curves.push_back(std::move(guide));
-  draw(figure, folder);
-}
-
 double measure_serial_share(const Contender& of) {
   Simulation timed = resumed(of.scene, of.state, StepperKind::kScheduled);
   advance(timed, of.settle);

@@ -168,20 +168,6 @@ Exit codes: 0 done, 1 the steppers' states differ or something failed, 2 bad inp
 
 constexpr double kSmallSide = 41.865;  // [mm]; half the paper's box
 
-void draw_speed(const std::filesystem::path& folder, const Report& report) {
-  Json rows = report.rows();
-  for (Json& row : rows) {
-    row["scene"] = fmt::format("φ {:g}, ℓ {:g}, L {:.3g}", row.at("area_fraction").get<double>(),
-                               row.at("length_mm").get<double>(), row.at("side_mm").get<double>());
-  }
-  draw_bars(folder, "speed", rows, {"scene", "scene"},
-            {{"simulated rod-seconds per CPU-second",
-              {{"scheduled", "scheduled/rod_s_per_cpu_s"}, {"reference", "reference/rod_s_per_cpu_s"}},
-              false,
-              {"set logscale y", "set yrange [1:*]"}},
-             {"CPU time of the scheduled stepper (%)", phase_columns(), true, {"set yrange [0:100]"}}});
-}
-
 struct SpeedBench {
   std::vector<double> lengths, fractions, sides;
   std::vector<int> threads;
@@ -269,7 +255,7 @@ struct SpeedBench {
     for (const Case& scene : series) contenders.push_back(contender(scene, cache(scene), conditions().effort.cpu));
     time_in_turn("measuring", contenders, conditions().effort.repeat);
     const Report report = scaling_report(conditions(), of, contenders);
-    output.give(report, [&](const auto& folder) { draw_scaling(folder, of, report); });
+    output.give(report);
     return ExitCode::kOk;
   }
 
@@ -306,7 +292,7 @@ struct SpeedBench {
       contenders.push_back(contender(scene, cache(scene), conditions().effort.cpu));
     }
     const Report report = kinds_report(conditions(), measure_kinds(std::move(contenders), conditions().effort.repeat));
-    output.give(report, [&](const auto& folder) { draw_kinds(folder, report); });
+    output.give(report);
     return ExitCode::kOk;
   }
 
@@ -318,7 +304,7 @@ struct SpeedBench {
     std::vector<SceneSpeed> measured;
     for (const Case& scene : scenes()) measured.push_back(measure_scene(scene, cache(scene), conditions().effort));
     const Report report = speed_report(conditions(), measured);
-    output.give(report, [&](const auto& folder) { draw_speed(folder, report); });
+    output.give(report);
     check_states(report, "the steppers' states differ");
     return ExitCode::kOk;
   }

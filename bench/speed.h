@@ -102,12 +102,10 @@ Case case_of(const SceneKind& kind, double warm_up);
 std::vector<CountedWork> measure_kinds(std::vector<Contender> kinds, int repeat);
 /// A row for each; their costs are relative to the first.
 Report kinds_report(const Conditions& conditions, const std::vector<CountedWork>& measured);
-void draw_kinds(const std::filesystem::path& folder, const Report& report);
 
 /// The scheduled stepper's cost along a series of scenes that differ in their number of rods or in their step.
 enum class Scaling { kRods, kStep };
 Report scaling_report(const Conditions& conditions, Scaling of, const std::vector<Contender>& series);
-void draw_scaling(const std::filesystem::path& folder, Scaling of, const Report& report);
 
 /// The scheduled stepper by several numbers of threads, on one scene.
 struct ThreadsSpeed {

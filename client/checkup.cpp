@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "base/failure.h"
+#include "base/plots_by_python.h"
 #include "base/process.h"
 #include "client/api_client.h"
 #include "client/target.h"
@@ -69,11 +70,13 @@ CheckResult check_lcm() {
   return {Level::kWarn, "lcm", fmt::format("{}: {}", url, bus.error().message), "sudo ip route add 224.0.0.0/4 dev lo"};
 }
 
-CheckResult check_gnuplot() {
-  const Captured result = run_captured({"gnuplot", "-e", "set terminal pngcairo; print GPVAL_VERSION"});
-  if (result.exit_code == 0) return {Level::kOk, "gnuplot", first_line(result.output) + ", pngcairo", ""};
-  return {Level::kWarn, "gnuplot", result.exit_code == 127 ? "not found" : first_line(result.output),
-          "sudo apt install gnuplot-nox"};
+CheckResult check_plots() {
+  try {
+    return {Level::kOk, "plots", plots_by_python({"check"}).front(), ""};
+  } catch (const Failure& failure) {
+    return {Level::kWarn, "plots", first_line(failure.what()),
+            "sudo apt install python3-matplotlib python3-numpy python3-h5py"};
+  }
 }
 
 CheckResult check_disk(fs::path folder) {
@@ -108,7 +111,7 @@ std::vector<CheckResult> checkup(const fs::path& root) {
           check_sibling("shaken-bench", Level::kWarn, "for `shaken bench`"),
           check_daemon(root),
           check_lcm(),
-          check_gnuplot(),
+          check_plots(),
           check_disk(root),
           check_cores()};
 }

@@ -11,13 +11,13 @@ namespace shaken::client {
 struct CheckResult {
   enum class Level { kOk, kWarn, kFail };
   Level level = Level::kOk;
-  std::string what;     ///< "gnuplot"
+  std::string what;     ///< "plots"
   std::string message;  ///< what was found
   std::string remedy;   ///< a command, or a sentence; empty if nothing is to be done
 };
 
 /// Looks at everything that Shaken needs on this machine: programs beside this one, daemon, live state, off-screen
-/// drawing, gnuplot, disk and cores. What makes simulating impossible is kFail, what makes a part of it unavailable
+/// drawing, plots, disk and cores. What makes simulating impossible is kFail, what makes a part of it unavailable
 /// kWarn.
 std::vector<CheckResult> checkup(const std::filesystem::path& root);
 

@@ -4,11 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
+#include <ostream>
 #include <utility>
 
 #include "base/failure.h"
 #include "base/text.h"
+#include "client/target.h"
 #include "scene/fields.h"
 #include "scene/nearest.h"
 #include "scene/units.h"
@@ -339,6 +342,58 @@ std::vector<Where::Lack> Where::lacking(const std::vector<ResultRow>& rows) cons
     if (n > 0) lacks.push_back({name, static_cast<std::size_t>(n)});
   }
   return lacks;
+}
+
+Conditions Conditions::parse(const std::vector<std::string>& texts) {
+  Conditions all;
+  all.texts_ = texts;
+  std::string problems;
+  for (const std::string& text : texts) {
+    auto condition = Where::parse(text);
+    if (condition) {
+      all.conditions_.push_back(std::move(condition).value());
+    } else {
+      problems += "\n" + marked(text, condition.error());
+    }
+  }
+  if (!problems.empty()) throw Failure(ExitCode::kBadInput, "--where:" + problems);
+  return all;
+}
+
+void Conditions::add_from_scenes(std::vector<ResultRow>& rows, const Target& target) {
+  std::vector<std::string> names;
+  for (const Where& condition : conditions_) {
+    for (std::string& name : condition.names()) names.push_back(std::move(name));
+  }
+  std::map<std::string, std::filesystem::path> directories;
+  for (const Json& job : jobs_of(target)) directories[job.at("id")] = job.value("directory", "");
+  client::add_from_scenes(rows, names, directories);
+  all_known_ = std::any_of(rows.begin(), rows.end(), [](const ResultRow& row) {
+    const auto summary = row.source.find("summary");
+    return summary != row.source.end() && summary->is_object();
+  });
+}
+
+void Conditions::keep_matching(std::vector<ResultRow>& rows, const char* what, std::ostream& err) {
+  std::string problems;
+  for (std::size_t k = 0; k < conditions_.size(); ++k) {
+    const auto wrong = conditions_[k].bind(rows, all_known_);
+    if (!wrong.empty()) problems += "\n" + marked(texts_[k], wrong);
+  }
+  if (!problems.empty()) {
+    throw Failure(ExitCode::kBadInput, "--where:" + problems + "\n`shaken results --csv` shows all names");
+  }
+  std::map<std::string, std::size_t> lacks;
+  for (const Where& condition : conditions_) {
+    for (const auto& [field, n] : condition.lacking(rows)) lacks[field] = n;
+  }
+  for (const auto& [field, n] : lacks) {
+    err << fmt::format("{} of {} {} lack {}: comparisons with it are false for them\n", n, rows.size(), what,
+                       printable(field));
+  }
+  std::erase_if(rows, [&](const ResultRow& row) {
+    return !std::all_of(conditions_.begin(), conditions_.end(), [&](const Where& each) { return each.matches(row); });
+  });
 }
 
 std::string marked(std::string_view text, const std::vector<WhereProblem>& problems) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <iosfwd>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -73,6 +74,26 @@ class Where {
   std::vector<Comparison> comparisons_;
   std::vector<Node> nodes_;
   std::size_t root_ = 0;
+};
+
+/// All of the --where of a command line, of which every one must hold.
+class Conditions {
+ public:
+  /// Throws Failure (kBadInput) with everything that is wrong with the form of all of them.
+  static Conditions parse(const std::vector<std::string>& texts);
+
+  /// Puts what is compared into the fields of the rows of runs of `target`, where their scenes have it; before they are
+  /// aggregated.
+  void add_from_scenes(std::vector<ResultRow>& rows, const Target& target);
+
+  /// Keeps the rows that match. Throws Failure (kBadInput) for names and values that are wrong; tells `err` which
+  /// fields some rows lack, with `what` the rows are: "runs".
+  void keep_matching(std::vector<ResultRow>& rows, const char* what, std::ostream& err);
+
+ private:
+  std::vector<std::string> texts_;
+  std::vector<Where> conditions_;
+  bool all_known_ = true;  ///< without any summary nobody knows which numbers there will be
 };
 
 /// `text`, and below it each problem with a caret at its place.

@@ -119,7 +119,7 @@ struct AccuracyBench {
       }
     }
     const Report report = convergence_report(measured);
-    output.give(report, [&](const auto& folder) { draw_convergence(folder, report); });
+    output.give(report);
     for (const Json& row : report.rows()) {
       if (row.at("states_equal").get<bool>()) continue;
       throw Failure(ExitCode::kFailed,
@@ -158,7 +158,7 @@ struct AccuracyBench {
     std::vector<Json> measured;
     for (const StatisticsTask& task : tasks) measured.push_back(measure_statistics(task, cache));
     const Report report = statistics_report(tasks, measured);
-    output.give(report, [&](const auto& folder) { draw_statistics(folder, report); });
+    output.give(report);
   }
 
   void run_error() const {
@@ -176,7 +176,7 @@ struct AccuracyBench {
     }
     const Report report =
         order_error_report(measured, extrapolate(measured, make_case(4.5, 0.75, kPaperSide, kPaperStep, warm_up)));
-    output.give(report, [&](const auto& folder) { draw_order_error(folder, report); });
+    output.give(report);
   }
 
   ExitCode run() const {

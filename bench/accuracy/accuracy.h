@@ -111,12 +111,4 @@ Json measure_order_error(const Case& scene, double measure, int replicas, const 
 Json extrapolate(const std::vector<Json>& rows, const Case& large);
 Report order_error_report(const std::vector<Json>& rows, const Json& extrapolated);
 
-/// convergence.png: errors against the step; work_precision.png: against CPU time. A panel for each case.
-void draw_convergence(const std::filesystem::path& folder, const Report& report);
-/// bias.png and tilt.png of steps, and cost.png, bias against CPU time, if there is more than one variant; model.png of
-/// the other knobs.
-void draw_statistics(const std::filesystem::path& folder, const Report& report);
-/// error.png: the error of S against simulated time and against CPU time.
-void draw_order_error(const std::filesystem::path& folder, const Report& report);
-
 }  // namespace shaken::bench

@@ -219,6 +219,13 @@ std::string statistics_text(const StatisticsTask& task, Json rows, const Json& l
 
 Report statistics_report(const std::vector<StatisticsTask>& tasks, const std::vector<Json>& measured) {
   Report report("statistical", "accuracy statistical");
+  // what figures need besides
+  report.json["linear"] = kLinear;
+  report.json["observables"] = Json::array();
+  for (const ObservableInfo& info : kObservableInfo) {
+    report.json["observables"].push_back(
+        {{"name", info.name}, {"unit", info.unit}, {"title", info.title}, {"has_limit", info.has_limit}});
+  }
   report.json["limits"] = Json::array();
   report.json["tilt"] = Json::array();
   for (std::size_t k = 0; k < tasks.size(); ++k) {

@@ -61,22 +61,6 @@ Report hard_report(const std::vector<HardCase>& cases) {
   return report;
 }
 
-/// hard.png: the smallest margin of each case that has more than yes and no.
-void draw_margins(const std::filesystem::path& folder, const Report& report) {
-  Json least = Json::array();
-  for (const Json& row : report.rows()) {
-    if (row.at("limit") <= 0 || row.at("limit_is") == "least" || row.at("margin").is_null()) continue;
-    if (least.empty() || least.back().at("case") != row.at("case")) least.push_back(row);
-    if (row.at("margin") < least.back().at("margin")) least.back() = row;
-  }
-  draw_bars(folder, "hard", least, {"case", "case"},
-            {{"smallest margin: limit over worst value seen",
-              {{"", "margin"}},
-              false,
-              {"set logscale y", "set yrange [0.5:*]",
-               "set arrow from graph 0,first 1 to graph 1,first 1 nohead linecolor '#d62728' dashtype 2"}}});
-}
-
 std::vector<std::string> case_names() {
   std::vector<std::string> names;
   for (const SceneCase& scene : scene_cases()) names.push_back(scene.name);
@@ -128,7 +112,7 @@ struct HardBench {
       cases.push_back(run_case(name));
     }
     const Report report = hard_report(cases);
-    output.give(report, [&](const auto& out) { draw_margins(out, report); });
+    output.give(report);
     const bool ok = std::all_of(cases.begin(), cases.end(), [](const HardCase& of) { return of.ok(); });
     return ok ? ExitCode::kOk : ExitCode::kFailed;
   }

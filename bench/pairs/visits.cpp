@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "base/plot.h"
 #include "bench/bench.h"
 #include "bench/case.h"
 #include "bench/pairs/following.h"
+#include "bench/report.h"
 
 namespace shaken::bench {
 namespace {
@@ -17,7 +17,7 @@ and draws its gap, the ticks at which it is visited because its bound has run ou
 shorter or a new one necessary.
 
 Example:
-  shaken bench visits --out visits      visits/visits.png, .dat and .gp)";
+  shaken bench visits --out visits      visits/visits.png, .csv and .json)";
 
 /// A pair of rods as it is at some ticks, one after the other.
 struct Course {
@@ -38,49 +38,42 @@ std::size_t approach(const Course& course) {
   return static_cast<std::size_t>(contact - widest);
 }
 
-void draw_visits(const std::filesystem::path& folder, const Course& course, double dt, double window) {
+/// Rows: what happens to the bound of a pair, and when. "gap_um": its gap at each tick.
+Report visits_report(const Course& course, double dt, double window) {
   const auto ms = [&](std::size_t k) { return 1e3 * static_cast<double>(k) * dt; };
-  std::string data;
-  for (std::size_t k = 0; k < course.gap.size(); ++k)
-    data += fmt::format("{:.6f} {:.5f}\n", ms(k), 1e3 * course.gap[k]);
-  data += "\n\n";
+  constexpr const char* kEvents[] = {"ran out", "tightened", "anew"};
+  Report report("visits", "visits");
   std::size_t n[3] = {0, 0, 0};
   for (const Course::Bounded& bounded : course.bounds) {
-    const double safe = std::min(1e3 * bounded.what.safe, 1e3 * window - ms(bounded.at));
     const auto event = static_cast<std::size_t>(bounded.what.event);
-    data += fmt::format("{:.6f} {:.5f} {:.6f} {}\n", ms(bounded.at), 1e3 * course.gap[bounded.at], safe, event);
+    report.json["rows"].push_back({{"time_ms", ms(bounded.at)},
+                                   {"gap_um", 1e3 * course.gap[bounded.at]},
+                                   {"safe_ms", std::min(1e3 * bounded.what.safe, 1e3 * window - ms(bounded.at))},
+                                   {"event", kEvents[event]}});
     ++n[event];
   }
-  const std::string script = fmt::format(
-      R"gp(set title "One pair of rods for {:g} ms: {} ticks, {} visits, {} hits"
-set xlabel "time [ms]"
-set ylabel "gap of the nearest beads [um]"
-set key outside below horizontal
-set xrange [0:{:g}]
-set xzeroaxis lt -1
-plot "visits.dat" index 0 using 1:2 with lines lw 2 lc rgb "#4477aa" title "gap", \
-     "visits.dat" index 1 using 1:2:3:(0) with vectors nohead lw 1.5 lc rgb "#ccbb44" title "no contact before", \
-     "visits.dat" index 1 using 1:($4==1?$2:1/0) with points pt 7 ps 0.5 lc rgb "#bbbbbb" title "hit: bound tightened", \
-     "visits.dat" index 1 using 1:($4==2?$2:1/0) with points pt 7 ps 0.7 lc rgb "#666666" title "hit: bound made anew", \
-     "visits.dat" index 1 using 1:($4==0?$2:1/0) with points pt 7 ps 0.9 lc rgb "#ee6677" title "bound ran out: visit"
-)gp",
-      1e3 * window, course.gap.size(), n[0], n[1] + n[2], 1e3 * window);
-  const auto picture = draw_plot(folder, "visits", data, plot_head("visits", {1000, 520}) + plot_axes("y") + script);
-  fmt::print("{} ticks, {} visits, {} hits and {} new bounds at these: {}\n", course.gap.size(), n[0], n[1] + n[2],
-             n[2], picture.string());
+  report.json["dt_s"] = dt;
+  report.json["window_s"] = window;
+  report.json["visits"] = n[0];
+  report.json["hits"] = n[1] + n[2];
+  report.json["gap_um"] = Json::array();
+  for (const double gap : course.gap) report.json["gap_um"].push_back(1e3 * gap);
+  report.text = fmt::format("{} ticks, {} visits, {} hits and {} new bounds at these\n", course.gap.size(), n[0],
+                            n[1] + n[2], n[2]);
+  return report;
 }
 
 struct VisitsBench {
   CaseOptions scene{.side = 20};
   double window = 0.008;
   Cache cache;
-  std::string out;
+  Output output;
 
   void declare(CLI::App& app) {
     scene.declare(app);
     add_number(app, "--window", window, "S", {1e-4, 0.1}, "Time that is drawn");
     cache.declare(app);
-    add_path(app, "-o,--out", out, "DIR", "Where the picture goes")->required();
+    output.declare(app);
   }
 
   ExitCode run() const {
@@ -101,7 +94,7 @@ struct VisitsBench {
     }
     const Course& best = *std::max_element(courses.begin(), courses.end(),
                                            [](const Course& a, const Course& b) { return approach(a) < approach(b); });
-    draw_visits(out, best, wanted.dt, window);
+    output.give(visits_report(best, wanted.dt, window));
     return ExitCode::kOk;
   }
 };

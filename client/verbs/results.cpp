@@ -88,13 +88,11 @@ class Results : public Verb {
 
   ExitCode run(const Context& context) override {
     if (csv_ && json_) throw Failure(ExitCode::kBadInput, "--csv and --json exclude each other");
-    std::vector<Where> conditions = parsed_conditions();
+    Conditions conditions = Conditions::parse(where_);
     ApiClient session(context.root());
     const Target target = find_target_or_newest(session, id_);
     std::vector<ResultRow> rows = result_rows(session, target);
-    add_from_scenes(rows, names_of(conditions), directories_of(target));
-    // Without any summary nobody knows which numbers there will be.
-    const bool all_known = any_summary(rows);
+    conditions.add_from_scenes(rows, target);
     Console& console = context.console;
     // Conditions are on the rows shown: with --aggregate on means.
     if (aggregate_) {
@@ -104,7 +102,7 @@ class Results : public Verb {
       }
       rows = aggregated(rows);
     }
-    keep_matching(conditions, all_known, rows, console);
+    conditions.keep_matching(rows, aggregate_ ? "points" : "runs", console.err);
 
     if (json_) {
       Json list = Json::array();
@@ -120,65 +118,6 @@ class Results : public Verb {
   }
 
  private:
-  /// Throws Failure with all problems of all of --where.
-  std::vector<Where> parsed_conditions() const {
-    std::vector<Where> conditions;
-    std::string problems;
-    for (const std::string& text : where_) {
-      auto condition = Where::parse(text);
-      if (condition) {
-        conditions.push_back(std::move(condition).value());
-      } else {
-        problems += "\n" + marked(text, condition.error());
-      }
-    }
-    if (!problems.empty()) throw Failure(ExitCode::kBadInput, "--where:" + problems);
-    return conditions;
-  }
-
-  static std::vector<std::string> names_of(const std::vector<Where>& conditions) {
-    std::vector<std::string> names;
-    for (const Where& condition : conditions) {
-      for (std::string& name : condition.names()) names.push_back(std::move(name));
-    }
-    return names;
-  }
-
-  static std::map<std::string, std::filesystem::path> directories_of(const Target& target) {
-    std::map<std::string, std::filesystem::path> directories;
-    for (const Json& job : jobs_of(target)) directories[job.at("id")] = job.value("directory", "");
-    return directories;
-  }
-
-  static bool any_summary(const std::vector<ResultRow>& rows) {
-    return std::any_of(rows.begin(), rows.end(), [](const ResultRow& row) {
-      const auto summary = row.source.find("summary");
-      return summary != row.source.end() && summary->is_object();
-    });
-  }
-
-  void keep_matching(std::vector<Where>& conditions, bool all_known, std::vector<ResultRow>& rows,
-                     Console& console) const {
-    std::string problems;
-    for (std::size_t k = 0; k < conditions.size(); ++k) {
-      const auto wrong = conditions[k].bind(rows, all_known);
-      if (!wrong.empty()) problems += "\n" + marked(where_[k], wrong);
-    }
-    if (!problems.empty()) throw Failure(ExitCode::kBadInput, "--where:" + problems + "\n--csv shows all names");
-
-    std::map<std::string, std::size_t> lacks;
-    for (const Where& condition : conditions) {
-      for (const auto& [field, n] : condition.lacking(rows)) lacks[field] = n;
-    }
-    for (const auto& [field, n] : lacks) {
-      console.err << fmt::format("{} of {} {} lack {}: comparisons with it are false for them\n", n, rows.size(),
-                                 aggregate_ ? "points" : "runs", printable(field));
-    }
-    std::erase_if(rows, [&](const ResultRow& row) {
-      return !std::all_of(conditions.begin(), conditions.end(), [&](const Where& each) { return each.matches(row); });
-    });
-  }
-
   static bool any_value(const std::vector<ResultRow>& rows, const std::string& field) {
     return std::any_of(rows.begin(), rows.end(), [&](const ResultRow& row) {
       const auto value = row.fields.find(field);

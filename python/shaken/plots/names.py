@@ -2,6 +2,7 @@
 """How quantities are called in figures: names, symbols and units. Symbols are in matplotlib's mathtext."""
 from __future__ import annotations
 
+import math
 import re
 from typing import Any, Mapping
 
@@ -131,6 +132,17 @@ def number_text(value: Any) -> str:
             text = f"10{power}" if mantissa == "1" else f"{mantissa}·10{power}"
         return text.replace("-", "−")
     return str(value)
+
+
+def short_number(value: float) -> str:
+    """Three digits, without an exponent as far as that can be read: "0.0123", "1.66", "1660", "18,500"."""
+    if not math.isfinite(value):
+        return "–"
+    if value == 0 or not 1e-4 <= abs(value) < 1e9:
+        return number_text(float(f"{value:.3g}"))
+    digits = max(0, 2 - math.floor(math.log10(abs(value))))
+    rounded = float(f"{value:.3g}")
+    return f"{rounded:,.{digits}f}".replace("-", "−") if abs(rounded) >= 1e4 else f"{rounded:.{digits}f}".replace("-", "−")
 
 
 def value_label(path: str, value: Any) -> str:

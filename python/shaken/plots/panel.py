@@ -9,6 +9,7 @@ import numpy as np
 
 from ..errors import ShakenError
 from . import ticks
+from .names import short_number
 from .save import Drawn
 from .style import DARK_GREY, GREY, MARKERS, PALETTE, styled
 
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 
 HOLLOW = "hollow: still relaxing, or not known to be steady"
 DASHED = "dashed: still relaxing, or not known to be steady"
-NO_ERROR = "without a bar: no error known"
+NO_ERROR = "without bar or band: no error known"
 BARS, BANDS, BOTH = "bars: ± one standard error", "bands: ± one standard error", "bars and bands: ± one standard error"
 
 #: Curves of more points are drawn as lines with bands; of fewer as points with bars.
@@ -38,7 +39,7 @@ class Panel:
         self.sheet, self.axes, self.letter = sheet, axes, letter
         self.x_title = self.y_title = self.title = ""
         self.drawn: list[Drawn] = []
-        self.explained: set[str] = set()
+        self.explained: set[Any] = set()
         self.entries: list[tuple[Any, str]] = []     # of the key: (handle, label)
         self.is_used = self.has_picture = False
         self._outlines: list[tuple[np.ndarray, np.ndarray, bool]] = []   # what a key should not cover: x, y, joined
@@ -47,6 +48,9 @@ class Panel:
         self._wanted: dict[str, tuple[float | None, float | None]] = {"x": (None, None), "y": (None, None)}
         self._exact = {"x": False, "y": False}
         self._n_named = 0
+        self._levels: list[tuple[str, float]] = []   # lines through the whole panel
+        self._number_room = False
+        self._afterwards: list[Any] = []
         self.keyless = False
 
     # what a panel is told
@@ -80,7 +84,7 @@ class Panel:
 
     @styled
     def curve(self, x: Any, y: Any, error: Any = None, steady: Any = True, label: str = "", colour: Any = None,
-              marker: str | None = None, look: str = "", joined: bool = True) -> "Panel":
+              marker: str | None = None, look: str = "", joined: bool = True, name: str = "") -> "Panel":
         """Points or a line, with errors.
 
         error:  standard errors of y; NaN where not known; None where there are none to be known
@@ -90,6 +94,7 @@ class Panel:
         marker: the mark of the colour if left out
         look:   "points" with bars, "line" with a band; if left out, points where there are few
         joined: whether points are joined by a thin line
+        name:   what the CSV calls it, where that is not its label
         """
         x, y = np.asarray(x, dtype=float).ravel(), np.asarray(y, dtype=float).ravel()
         if x.shape != y.shape:
@@ -97,7 +102,7 @@ class Panel:
         errors = None if error is None else np.broadcast_to(np.asarray(error, dtype=float).ravel(), y.shape)
         sure = np.broadcast_to(_are_true(steady), y.shape)
         said = list(steady) if isinstance(steady, (list, tuple, np.ndarray)) else [steady] * y.size
-        self.drawn.append(Drawn(self.letter, label, x, y, errors, said))
+        self.drawn.append(Drawn(self.letter, name or label, x, y, errors, said))
         self.is_used = True
         colour, mark = self._colour(label, colour)
         if marker is not None:
@@ -153,8 +158,8 @@ class Panel:
               mark: str, joined: bool) -> None:
         low = high = y
         if errors is not None and np.any(np.isfinite(errors) & np.isfinite(y)):
-            half = np.where(np.isfinite(errors), errors, 0.0)
-            low, high = y - half, y + half
+            low, high = y - errors, y + errors
+            self.explained |= {NO_ERROR} if np.any(np.isfinite(y) & ~np.isfinite(errors)) else set()
             self.axes.fill_between(x, low, high, color=colour, alpha=0.25, linewidth=0, zorder=2.0)
             self.explained.add("bands")
             self._outlines += [(x, low, True), (x, high, True)]
@@ -163,7 +168,7 @@ class Panel:
                        linewidth=0.9 if y.size < 400 else 0.7)
         if unsure:
             self.explained.add(DASHED)
-        self._reach.append((x, low, high, False))
+        self._reach += [(x, low, high, False), (x, y, y, False)]
         self._outlines.append((x, y, True))
 
     @styled
@@ -182,6 +187,7 @@ class Panel:
             (self.axes.axvline if y is None else self.axes.axhline)(
                 value, color=colour, linewidth=0.7, linestyle=line, zorder=1.5)
             level = np.array([value])
+            self._levels.append(("x" if y is None else "y", value))
             self._reach.append((level, np.array([np.nan]), np.array([np.nan]), False) if y is None else
                                (np.array([np.nan]), level, level, False))
             self.drawn.append(Drawn(self.letter, f"reference: {label}", level if y is None else [math.inf],
@@ -211,12 +217,78 @@ class Panel:
         return self
 
     @styled
+    def dots(self, categories: Sequence[str], values: Any, error: Any = None, label: str = "", colour: int = 0,
+             shift: float = 0.0, numbers: bool = True) -> "Panel":
+        """A value for each category, which stand on the y axis from the top down; with the number beside the mark.
+        `shift` moves the marks up by that part of a row, where several series share them."""
+        values = np.asarray(values, dtype=float)
+        places = -np.arange(len(categories), dtype=float) + shift
+        errors = np.zeros_like(values) if error is None else np.nan_to_num(np.asarray(error, dtype=float))
+        self.is_used = True
+        axes, paint = self.axes, PALETTE[colour]
+        shown = np.isfinite(values)
+        if error is not None:
+            axes.errorbar(values[shown], places[shown], xerr=errors[shown], fmt="none", ecolor=paint, elinewidth=0.8,
+                          zorder=2.2)
+            self.explained.add("bars")
+        axes.plot(values[shown], places[shown], linestyle="none", marker=MARKERS[colour], color=paint, zorder=2.6)
+        for k in np.flatnonzero(shown):
+            self.drawn.append(Drawn(self.letter, f"{label}: {categories[k]}" if label else categories[k],
+                                    values[k:k + 1], places[k:k + 1], None if error is None else errors[k:k + 1]))
+            if numbers:
+                axes.annotate(short_number(values[k]), (values[k] + errors[k], places[k]), xytext=(3.5, 0), fontsize=6,
+                              textcoords="offset points", va="center", color=paint, zorder=3)
+        axes.set_yticks(-np.arange(len(categories)), list(categories))
+        axes.tick_params(axis="y", length=0, right=False)
+        axes.grid(axis="y", color="#e4e4e4", linewidth=0.5)
+        self.range(y=(-len(categories) + 0.4, 0.6), exactly=True)
+        self._reach.append((np.concatenate([values, values - errors, values + errors]), places, places, True))
+        self._outlines.append((values, places, False))
+        self._number_room |= numbers
+        if label:
+            self.entries.append((_handle(paint, MARKERS[colour], True, "-"), label))
+        return self
+
+    @styled
+    def shares(self, categories: Sequence[str], parts: "dict[str, Any]") -> "Panel":
+        """What each category consists of, in percent: bars from 0 to 100, their parts from the left; what is missing is
+        grey."""
+        self.is_used = self.has_picture = True
+        places, begin = -np.arange(len(categories), dtype=float), np.zeros(len(categories))
+        for k, (name, values) in enumerate(parts.items()):
+            values = np.nan_to_num(np.asarray(values, dtype=float))
+            self.axes.barh(places, values, left=begin, height=0.7, color=PALETTE[k % len(PALETTE)], linewidth=0.4,
+                           edgecolor="white")
+            self.entries.append((_handle(PALETTE[k % len(PALETTE)], "s", True, "-"), name))
+            for at, value, category in zip(places, values, categories):
+                self.drawn.append(Drawn(self.letter, f"{name}: {category}", [value], [at]))
+            begin = begin + values
+        self.axes.barh(places, 100 - begin, left=begin, height=0.7, color="#d9d9d9", linewidth=0)
+        self.axes.set_yticks(places, list(categories))
+        self.axes.tick_params(axis="y", length=0, right=False)
+        self.axes.set_xlim(0, 100)
+        self.axes.set_ylim(-len(categories) + 0.4, 0.6)
+        return self
+
+    def then(self, work: Any) -> "Panel":
+        """Has `work(panel)` called when ranges are known."""
+        self._afterwards.append(work)
+        return self
+
+    def explain(self, kind: str, text: str) -> "Panel":
+        """Words at the bottom of the figure about its marks: kind "band", "bar" or "line"."""
+        self.explained.add((kind, text))
+        return self
+
+    @styled
     def zero(self, x: bool = False, y: bool = True) -> "Panel":
         """A thin line where y (x) is nothing."""
         if y:
             self.axes.axhline(0, color=GREY, linewidth=0.5, zorder=1.2)
+            self._levels.append(("y", 0.0))
         if x:
             self.axes.axvline(0, color=GREY, linewidth=0.5, zorder=1.2)
+            self._levels.append(("x", 0.0))
         return self
 
     @styled
@@ -298,6 +370,8 @@ class Panel:
             if self._reach:
                 self._set_limits(name)
             ticks.set_ticks(self.axes, name)
+        for work in self._afterwards:
+            work(self)
 
     def _set_limits(self, name: str) -> None:
         log = getattr(self.axes, f"get_{name}scale")() == "log"
@@ -329,6 +403,8 @@ class Panel:
         # A line may begin at an axis; a mark, or the end of a bar, may not. Above and below all keep some distance.
         mark_low = float(forward(marks.min())) if marks.size else math.inf
         mark_high = float(forward(marks.max())) if marks.size else -math.inf
+        if name == "x" and self._number_room:
+            end += 0.16 * span  # numbers stand to the right of their marks
         soft_low = name == "y" and lower is None or mark_low < begin + pad
         soft_high = name == "y" and upper is None or mark_high > end - pad
         if name == "y" and upper is not None and high > end - 0.02 * span:
@@ -357,6 +433,12 @@ class Panel:
                 steps = np.linspace(0, way[-1], int(min(way[-1] / 2 + 2, 20000)))
                 at = np.column_stack([np.interp(steps, way, at[:, 0]), np.interp(steps, way, at[:, 1])])
             places.append(at)
+        box = self.axes.bbox
+        for name, value in self._levels:
+            at = self.axes.transData.transform((value, value))
+            across = np.linspace(0, 1, 400)
+            places.append(np.column_stack([np.full(400, at[0]), box.y0 + across * box.height]) if name == "x" else
+                          np.column_stack([box.x0 + across * box.width, np.full(400, at[1])]))
         return np.concatenate(places) if places else np.empty((0, 2))
 
 

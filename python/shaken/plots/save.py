@@ -98,17 +98,18 @@ def _write(path: Path, content: bytes) -> None:
 
 
 def _picture(figure: Any, form: str, origin: dict[str, str]) -> bytes:
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
     out = io.BytesIO()
     software = origin.get("Software", "shaken")
     lines = "; ".join(f"{keyword}: {text}" for keyword, text in origin.items())
+    # Not by Figure.savefig, which draws everything once more to arrange it.
     if form == "png":
-        metadata: dict[str, Any] = {"Software": software, **origin}
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        FigureCanvasAgg(figure).print_png(out, metadata={"Software": software, **origin})
     elif form == "pdf":
-        metadata = {"Creator": software, "Producer": software, "Subject": lines, "CreationDate": None}
+        from matplotlib.backends.backend_pdf import FigureCanvasPdf
+        FigureCanvasPdf(figure).print_pdf(out, metadata={"Creator": software, "Producer": software, "Subject": lines,
+                                                         "CreationDate": None})
     else:
-        metadata = {"Creator": software, "Description": lines, "Date": None}
-    if figure.canvas is None:
-        FigureCanvasAgg(figure)
-    figure.savefig(out, format=form, metadata=metadata)
+        from matplotlib.backends.backend_svg import FigureCanvasSVG
+        FigureCanvasSVG(figure).print_svg(out, metadata={"Creator": software, "Description": lines, "Date": None})
     return out.getvalue()

@@ -44,7 +44,7 @@ class Sheet:
         for one in self.panels:
             if one.letter:
                 one.axes.set_title(f"({one.letter})", loc="left")
-        self._is_finished = False
+        self._is_finished = self._shares_axes = False
 
     def __getitem__(self, k: int) -> Panel:
         return self.panels[k]
@@ -75,6 +75,12 @@ class Sheet:
         bar.set_label(title)
         return bar
 
+    def share_axes(self) -> "Sheet":
+        """All panels get the same ranges, titles stand at the left and below only, and there is one key: small
+        multiples."""
+        self._shares_axes = True
+        return self
+
     @styled
     def finish(self) -> "Sheet":
         """Gives everything its place. `save` does it; nothing is to be drawn behind."""
@@ -87,22 +93,25 @@ class Sheet:
             else:
                 one.axes.set_axis_off()
                 one.axes.set_title("", loc="left")
-        self._share_keys()
         renderer = self.figure.canvas.get_renderer()
         top = self._draw_title(renderer)
+        if self._shares_axes:
+            self._share()
+            top += self._one_key(renderer, top)
+        self._share_keys()
         bottom = self._explain(renderer)
         self.height += top + bottom
         self.figure.set_size_inches(self.width, self.height)
         self._arrange(top, bottom)
-        for one in self.panels:
-            _fit_titles(one, renderer)
-        self._arrange(top, bottom)
+        if any([_fit_titles(one, renderer) for one in self.panels]):
+            self._arrange(top, bottom)
         keys = [self._key(one, renderer) for one in self.panels]
         below = [key[1] if key is not None else 0.0 for key in keys]
         if any(below):  # keys below the axes: each row needs room for its highest
             self.height += sum(max(below[k:k + self.columns]) for k in range(0, len(below), self.columns))
             self.figure.set_size_inches(self.width, self.height)
-        self._arrange(top, bottom)
+        if any(key is not None and key[2] for key in keys):
+            self._arrange(top, bottom)
         for one in self.panels:
             self._place_labels(one, renderer)
         self.figure.set_layout_engine("none")
@@ -140,6 +149,42 @@ class Sheet:
             legend.set_in_layout(False)
             extent = legend.get_window_extent(renderer)
             if n == 1 or extent.width / self.figure.dpi < self.width - 4 * _EDGE:
+                return extent.height / self.figure.dpi
+            legend.remove()
+        return 0.0
+
+    def _share(self) -> None:
+        used = [one for one in self.panels if one.is_used]
+        for name in ("x", "y"):
+            limits = [getattr(one.axes, f"get_{name}lim")() for one in used if one.has_data]
+            for one in used:
+                if limits and one.has_data:
+                    getattr(one.axes, f"set_{name}lim")(min(low for low, _ in limits), max(high for _, high in limits))
+        for k, one in enumerate(self.panels):
+            below = k + self.columns < len(self.panels) and self.panels[k + self.columns].is_used
+            if k % self.columns:
+                one.axes.set_ylabel("")
+                one.axes.tick_params(labelleft=False)
+            if below:
+                one.axes.set_xlabel("")
+                one.axes.tick_params(labelbottom=False)
+
+    def _one_key(self, renderer: Any, top: float) -> float:
+        """One key for all panels, above them. Height that it takes [inches]."""
+        entries = {label: handle for one in self.panels for handle, label in one.entries}
+        for one in self.panels:
+            one.entries = []
+        if not entries:
+            return 0.0
+        for n in range(len(entries), 0, -1):
+            legend = self.figure.legend(list(entries.values()), list(entries), ncol=n, loc="upper center",
+                                        borderaxespad=0, bbox_to_anchor=(0.5, 1))
+            legend.set_in_layout(False)
+            extent = legend.get_window_extent(renderer)
+            if n == 1 or extent.width / self.figure.dpi < self.width - 4 * _EDGE:
+                from matplotlib.transforms import ScaledTranslation
+                legend.set_bbox_to_anchor((0.5, 1), self.figure.transFigure + ScaledTranslation(
+                    0, -top - _EDGE, self.figure.dpi_scale_trans))
                 return extent.height / self.figure.dpi + 2 * _EDGE
             legend.remove()
         return 0.0
@@ -152,8 +197,9 @@ class Sheet:
             one.keyless = not looks or any(all(look in other for look in looks) for other in met)
             met.append(looks)
 
-    def _key(self, one: Panel, renderer: Any) -> tuple[Any, float] | None:
-        """Draws the key of a panel, and says how much higher the figure must be for it [inches]."""
+    def _key(self, one: Panel, renderer: Any) -> tuple[Any, float, bool] | None:
+        """Draws the key of a panel. Returns it, how much higher the figure must be for it [inches], and whether it is
+        outside of the axes."""
         if one.keyless:
             return None
         axes, dpi = one.axes, self.figure.dpi
@@ -173,7 +219,7 @@ class Sheet:
                 for loc in _CORNERS:
                     made, extent = legend(loc, n)
                     if not _covers(extent, obstacles, 3 * dpi / 72):
-                        return made, 0.0
+                        return made, 0.0, False, False
             if one.can_grow:
                 n = len(texts)
                 while n > 1 and legend("upper center", n)[1].width > 0.97 * box.width:
@@ -182,11 +228,11 @@ class Sheet:
                 share = (extent.height + 6 * dpi / 72) / box.height
                 if extent.width < 0.99 * box.width and share < 0.35:
                     _reach_higher(axes, share)
-                    return made, 0.0
+                    return made, 0.0, False
         slot = self.width / self.columns * dpi
         made, extent = legend("upper left", 1, bbox_to_anchor=(1.01, 1.02))
         if extent.width < 0.33 * slot and extent.height < 1.1 * box.height:
-            return made, 0.0
+            return made, 0.0, True
         n = len(texts)
         while n > 1 and legend("upper center", n)[1].width > 0.98 * slot:
             n -= 1
@@ -194,7 +240,7 @@ class Sheet:
         n_lines = one.axes.get_xlabel().count("\n")
         below = axes.transAxes + ScaledTranslation(0, -(_BELOW_AXES + 9 * n_lines) / 72, self.figure.dpi_scale_trans)
         made, extent = legend("upper center", n, bbox_to_anchor=(0.5, 0), bbox_transform=below)
-        return made, extent.height / dpi
+        return made, extent.height / dpi, True
 
     def _place_labels(self, one: Panel, renderer: Any) -> None:
         """The names of references, where they cover least."""
@@ -222,9 +268,12 @@ class Sheet:
             text.set_position(at)
 
     @styled
-    def save(self, path: str | Path, origin: Mapping[str, str] | None = None) -> Path:
-        """Writes the picture, PNG, PDF or SVG by its suffix, and NAME.csv with all that it shows. Returns the path."""
+    def save(self, path: str | Path, origin: Mapping[str, str] | None = None, data: bool = True) -> Path:
+        """Writes the picture, PNG, PDF or SVG by its suffix, and with `data` NAME.csv with all that it shows. Returns the
+        path."""
         self.finish()
+        if not data:
+            return saving.save(self.figure, path, origin)
         used = [one for one in self.panels if one.is_used]
         text = saving.csv_text(origin or {}, [(one.letter, one.x_title, one.y_title) for one in used],
                                [drawn for one in used for drawn in one.drawn])
@@ -235,7 +284,7 @@ def _letter(k: int) -> str:
     return chr(ord("a") + k) if k < 26 else _letter(k // 26 - 1) + _letter(k % 26)
 
 
-def _explanations(said: set[str]) -> list[tuple[Any, str]]:
+def _explanations(said: set[Any]) -> list[tuple[Any, str]]:
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
     found: list[tuple[Any, str]] = []
@@ -254,6 +303,9 @@ def _explanations(said: set[str]) -> list[tuple[Any, str]]:
         found.append((Line2D([], [], color=DARK_GREY, linestyle=panels_of._FINE_DASHES), panels_of.DASHED))
     if panels_of.NO_ERROR in said:
         found.append((Line2D([], [], color=DARK_GREY, marker="o", linestyle="none"), panels_of.NO_ERROR))
+    shapes = {"band": band, "bar": bar, "line": Line2D([], [], color=DARK_GREY, linewidth=0.8)}
+    for kind, words in sorted(one for one in said if isinstance(one, tuple)):
+        found.append((shapes[kind], words))
     return found
 
 
@@ -306,22 +358,20 @@ def _places_beside(axes: Any, xs: np.ndarray, ys: np.ndarray, box: Any, size: An
             yield left, y - gap - size.height
 
 
-def _fit_titles(one: Panel, renderer: Any) -> None:
-    """Breaks titles that are longer than their axes."""
+def _fit_titles(one: Panel, renderer: Any) -> bool:
+    """Breaks titles that are longer than their axes; says whether there are any."""
     axes = one.axes
     box = axes.get_window_extent(renderer)
-    _wrap(axes.xaxis.label, 1.25 * box.width, renderer)
-    _wrap(axes.yaxis.label, 1.15 * box.height, renderer, upright=True)
-    right = axes.title if axes.title.get_text() else None
     stamp = axes._right_title
-    room = box.width - (stamp.get_window_extent(renderer).width + 6 if stamp.get_text() else 0)
-    _wrap(axes._left_title, room, renderer)
-    if right is not None:
-        _wrap(right, room, renderer)
+    room = box.width - (stamp.get_window_extent(renderer).width + 6 * renderer.dpi / 72 if stamp.get_text() else 0)
+    return any([_wrap(axes.xaxis.label, 1.25 * box.width, renderer),
+                _wrap(axes.yaxis.label, (1.15 if one.sheet.rows == 1 else 1.0) * box.height, renderer, upright=True),
+                _wrap(axes._left_title, room, renderer)])
 
 
-def _wrap(text: Any, most: float, renderer: Any, upright: bool = False) -> None:
-    """Breaks a text into lines no longer than `most` pixels, between words, not within mathtext or a unit."""
+def _wrap(text: Any, most: float, renderer: Any, upright: bool = False) -> bool:
+    """Breaks a text into lines no longer than `most` pixels, between words, not within mathtext; says whether it had to.
+    """
     content = text.get_text()
 
     def length() -> float:
@@ -329,7 +379,7 @@ def _wrap(text: Any, most: float, renderer: Any, upright: bool = False) -> None:
         return float(extent.height if upright else extent.width)
 
     if not content or "\n" in content or length() <= most:
-        return
+        return False
     words = _words(content)
     for n_lines in (2, 3):
         best: tuple[float, str] | None = None
@@ -342,7 +392,8 @@ def _wrap(text: Any, most: float, renderer: Any, upright: bool = False) -> None:
             break
         text.set_text(best[1])
         if best[0] <= most:
-            return
+            break
+    return True
 
 
 def _cuts(n: int, n_lines: int) -> list[tuple[int, ...]]:

@@ -27,7 +27,7 @@ _RC: dict[str, Any] = {
     "axes.titlesize": 7, "axes.labelsize": 7, "xtick.labelsize": 6.5, "ytick.labelsize": 6.5, "legend.fontsize": 6.5,
     "axes.linewidth": 0.6, "axes.titlepad": 4.0, "axes.labelpad": 2.5, "axes.titlelocation": "left",
     "axes.unicode_minus": True, "axes.formatter.useoffset": False, "axes.formatter.limits": (-4, 5),
-    "axes.formatter.use_mathtext": True, "axes.axisbelow": True, "axes.xmargin": 0.05, "axes.ymargin": 0.06,
+    "axes.axisbelow": True, "axes.xmargin": 0.05, "axes.ymargin": 0.06,
     "xtick.direction": "in", "ytick.direction": "in", "xtick.top": True, "ytick.right": True,
     "xtick.major.width": 0.6, "ytick.major.width": 0.6, "xtick.minor.width": 0.4, "ytick.minor.width": 0.4,
     "xtick.major.size": 2.6, "ytick.major.size": 2.6, "xtick.minor.size": 1.5, "ytick.minor.size": 1.5,
@@ -35,8 +35,8 @@ _RC: dict[str, Any] = {
     "lines.linewidth": 1.0, "lines.markersize": 3.6, "lines.markeredgewidth": 0.8, "errorbar.capsize": 0,
     "legend.frameon": False, "legend.borderaxespad": 0.6, "legend.handlelength": 1.6, "legend.handletextpad": 0.5,
     "legend.labelspacing": 0.3, "legend.columnspacing": 1.2, "legend.numpoints": 1, "legend.borderpad": 0.2,
-    "image.cmap": "viridis", "figure.facecolor": "white", "savefig.facecolor": "white", "figure.dpi": 100,
-    "savefig.dpi": 300, "pdf.fonttype": 42, "svg.fonttype": "none", "svg.hashsalt": "shaken", "path.simplify": True,
+    "image.cmap": "viridis", "figure.facecolor": "white", "savefig.facecolor": "white", "figure.dpi": 300,
+    "pdf.fonttype": 42, "svg.fonttype": "none", "svg.hashsalt": "shaken", "path.simplify": True,
 }
 
 

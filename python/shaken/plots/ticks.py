@@ -7,12 +7,18 @@ from typing import Any
 
 
 def set_ticks(axes: Any, name: str) -> None:
-    """Labels of a logarithmic axis; a linear one has matplotlib's."""
+    """Labels of an axis, once its limits are known."""
     from matplotlib import ticker
-    if getattr(axes, f"get_{name}scale")() != "log":
-        return
     axis = getattr(axes, f"{name}axis")
     low, high = getattr(axes, f"get_{name}lim")()
+    if getattr(axes, f"get_{name}scale")() != "log":
+        most = max(abs(low), abs(high))
+        formatter = axis.get_major_formatter()
+        if not 1e-3 < most < 1e5 and isinstance(formatter, ticker.ScalarFormatter):
+            formatter.set_useMathText(True)  # ×10⁻⁶ at the end of the axis; plain numbers are drawn much faster without
+        if isinstance(axis.get_major_locator(), ticker.AutoLocator):
+            axis.set_major_locator(ticker.MaxNLocator("auto", steps=[1, 2, 5, 10]))
+        return
     decades = math.log10(high / low)
     n_tens = math.floor(math.log10(high) + 1e-9) - math.ceil(math.log10(low) - 1e-9) + 1
     powers = high >= 1e5 or low < 1e-4 or decades > 5

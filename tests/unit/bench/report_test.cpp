@@ -54,18 +54,6 @@ TEST(Csv, NamesNestedValuesWithDots) {
   EXPECT_EQ(csv(Json::parse(R"([{"a": "x, \"y\""}])")), "a\n\"x, \"\"y\"\"\"\n");
 }
 
-TEST(Plots, HaveTheNumbersOfTheRows) {
-  const Json rows = Json::parse(R"([{"name": "a", "x": 1, "y": 0.5, "e": 0.1}, {"name": "b", "x": 2}])");
-  const Column y{"share", "y", "", 100, "e"};
-  const Curve of = curve(rows, {"", "x"}, y);
-  EXPECT_EQ(of.label, "share");
-  EXPECT_EQ(of.x, (std::vector<double>{1, 2}));
-  EXPECT_EQ(of.y[0], 50);
-  EXPECT_EQ(of.y_error[0], 10);
-  EXPECT_TRUE(std::isnan(of.y[1]));
-  EXPECT_EQ(plot_data(rows, {{"name", "name"}, y}), "# name share, error\n\"a\" 50 10\n\"b\" nan nan\n");
-}
-
 /// What the options of a bench read, or the words of the error.
 struct Asked {
   double side = 20;

@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: MIT
+"""What `shaken plot` and `shaken-bench` call to have their figures drawn: python3 -m shaken.plots."""
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import sys
+from pathlib import Path
+from typing import Any, Mapping, Sequence
+
+from ..errors import ShakenError
+from .save import origin_list
+
+NOTHING, BAD_INPUT = 1, 2
+
+
+class Nothing(Exception):
+    """There is nothing to draw, and why."""
+
+
+def _number(value: Any) -> float:
+    return math.nan if value is None else float(value)
+
+
+def draw_runs(wanted: Mapping[str, Any]) -> None:
+    """Draws the runs and the numbers that a description names, and prints the pictures' paths.
+
+    runs:    [{directory, parameters, state}]; each in the figures of its observables
+    points:  [{parameters, version, x, y, error, steady}] or null; the figure of a number against a parameter
+    x, y:    of that figure; x empty: the longest parameter
+    rows:    [{id, version}]: what the points are made of
+    folder, name, format, width: of the command line; name: of the one figure, where it has one
+    software, sweep: what asks, and the sweep's name
+    """
+    from . import runs, sweeps
+    width, one_figure = wanted.get("width") or None, not wanted.get("runs")
+    x, y = wanted.get("x") or "", wanted.get("y") or "order.mean"
+    figures = []
+    if wanted.get("points") is not None:
+        points = [sweeps.PlottedPoint(of["parameters"], _number(of.get("y")), _number(of.get("error")),
+                                      of.get("steady", True), _number(of.get("x")), of.get("version") or "")
+                  for of in wanted["points"]]
+        figure = sweeps.sweep_figure(points, x, y, width)
+        if figure is not None:
+            figures.append(figure)
+        elif one_figure:
+            path = x or sweeps.longest_parameter(points)
+            raise Nothing(f"no point has both {path} and {y} as numbers" if path else
+                          "no numeric parameter is swept: --x names a field to plot against")
+    drawn, left_out = [], {}
+    for of in wanted.get("runs") or []:
+        try:
+            drawn.append(runs.read_run(of["directory"], of["parameters"], of.get("state", "")))
+        except runs.Unreadable as reason:
+            left_out[str(reason)] = left_out.get(str(reason), 0) + 1
+    for reason, n in left_out.items():
+        print(f"left out: {f'{n} runs, ' if n > 1 else ''}{reason}", flush=True)
+    rows = wanted.get("rows") or []
+    versions = {run.version for run in drawn} | {row.get("version") or "" for row in rows}
+    ids = {run.id for run in drawn} | {row.get("id") or "" for row in rows}
+    origin = {"Software": wanted.get("software", "shaken"),
+              "Computed by": origin_list(sorted(versions - {""})), "Sweep": wanted.get("sweep") or "",
+              "Runs": origin_list(sorted(ids - {""}))}
+    origin = {keyword: text for keyword, text in origin.items() if text}
+    folder, suffix = Path(wanted["folder"]), "." + (wanted.get("format") or "png")
+    n = 0
+    for name, sheet in [*figures, *(runs.run_figures(drawn, width) if drawn else [])]:
+        print(sheet.save(folder / ((wanted.get("name") or name) + suffix), origin), flush=True)
+        n += 1
+    if n == 0:
+        raise Nothing("there is nothing to plot yet")
+
+
+def main(arguments: Sequence[str]) -> int:
+    parser = argparse.ArgumentParser(prog="python3 -m shaken.plots", description="Draws figures by matplotlib.")
+    commands = parser.add_subparsers(dest="command", required=True)
+    commands.add_parser("runs", help="runs and sweeps, as a description in JSON on stdin says (`shaken plot`)")
+    commands.add_parser("check", help="whether figures can be drawn here: says by what")
+    bench = commands.add_parser("bench", help="what shaken-bench has measured")
+    bench.add_argument("report", help="NAME.json, as it has written")
+    bench.add_argument("-o", "--out", default=".", help="folder of the pictures")
+    bench.add_argument("--width", default="", help="89mm, 120mm or 183mm")
+    options = parser.parse_args(arguments)
+    try:
+        if options.command == "runs":
+            draw_runs(json.load(sys.stdin))
+        elif options.command == "check":
+            import matplotlib
+            print(f"matplotlib {matplotlib.__version__} of {sys.executable}")
+        else:
+            from .bench import draw_report
+            for path in draw_report(Path(options.report), Path(options.out), options.width or None):
+                print(path, flush=True)
+    except Nothing as reason:
+        print(reason)
+        return NOTHING
+    except ShakenError as problem:
+        print(problem)
+        return BAD_INPUT
+    return 0

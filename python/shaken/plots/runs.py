@@ -1,0 +1,217 @@
+# SPDX-License-Identifier: MIT
+"""What runs have measured, a figure for each observable: S(t), P(S), P(θ), G₂(r), MSD and others."""
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Iterator, Mapping, Sequence
+
+import numpy as np
+
+from ..run import error_name
+from . import names
+from .series import VERSION, Arrangement, mean_curve
+from .sheet import Sheet
+
+_DEGREES = 180 / np.pi
+_MOST_OF_TRACE = 1500  # points of what is recorded over time
+
+
+@dataclass(frozen=True)
+class Observable:
+    """A figure of one array against another.
+
+    name:      of the files
+    y:         several arrays are added up
+    factors:   that x and y are multiplied with
+    is_trace:  recorded over time, and no average: it says nothing about steadiness
+    log, zero, x_range, y_range: of the axes
+    """
+
+    name: str
+    x: str
+    y: tuple[str, ...]
+    x_title: str = ""
+    y_title: str = ""
+    factors: tuple[float, float] = (1.0, 1.0)
+    is_trace: bool = False
+    log: tuple[bool, bool] = (False, False)
+    zero: bool = False
+    x_range: tuple[float | None, float | None] = (None, None)
+    y_range: tuple[float | None, float | None] = (None, None)
+    x_ticks: tuple[float, ...] = ()
+
+    @property
+    def titles(self) -> tuple[str, str]:
+        return self.x_title or names.axis_title(self.x), self.y_title or names.axis_title(self.y[0])
+
+
+_FROM_ZERO = (0.0, None)
+OBSERVABLES = (
+    Observable("order_time", "/order/time_s", ("/order/order",), is_trace=True, x_range=_FROM_ZERO, y_range=(0, 1)),
+    Observable("order_pdf", "/order/pdf/order", ("/order/pdf/density",), x_range=(0, 1), y_range=_FROM_ZERO),
+    Observable("angles", "/angles/theta_rad", ("/angles/density_per_rad",), factors=(_DEGREES, 1 / _DEGREES),
+               x_range=(-90, 90), y_range=_FROM_ZERO, x_ticks=(-90, -45, 0, 45, 90)),
+    Observable("tilt", "/tilt/n_z", ("/tilt/v_along_mm_s",), zero=True),
+    Observable("defects", "/defects/time_s", ("/defects/n_plus", "/defects/n_minus"),
+               y_title=names.axis_title("/defects/n"), is_trace=True, x_range=_FROM_ZERO, y_range=_FROM_ZERO),
+    Observable("g2", "/g2/r_mm", ("/g2/g2",), zero=True, x_range=_FROM_ZERO),
+    Observable("g", "/g2/r_mm", ("/g2/g",), x_range=_FROM_ZERO, y_range=_FROM_ZERO),
+    Observable("g2_across", "/pairs/cut/r_mm", ("/pairs/cut/g2_across",), zero=True, x_range=_FROM_ZERO),
+    Observable("layers", "/layers/q_per_mm", ("/layers/spectrum_across",), x_range=_FROM_ZERO, y_range=_FROM_ZERO),
+    Observable("structure", "/structure/q_per_mm", ("/structure/factor",), x_range=_FROM_ZERO, y_range=_FROM_ZERO),
+    Observable("msd", "/msd/lag_s", ("/msd/total_mm2",), log=(True, True)),
+    Observable("orientation_memory", "/rotation/lag_s", ("/rotation/c2",), log=(True, False), zero=True),
+    Observable("velocity_memory", "/velocity/lag_s", ("/velocity/c_v",), log=(True, False), zero=True),
+    Observable("number_fluctuations", "/fluctuations/mean_n", ("/fluctuations/std_n",), log=(True, True)),
+)
+
+
+@dataclass
+class PlottedRun:
+    """A run that is to be drawn, perhaps one that still runs.
+
+    parameters: the swept keys as they were asked for, the same for all replicas
+    arrays:     path -> values, of those that the figures need
+    steady:     whether its averages are of a steady state; None where that is not known
+    """
+
+    parameters: Mapping[str, Any]
+    arrays: Mapping[str, np.ndarray]
+    steady: bool | None = None
+    version: str = ""
+    id: str = ""
+    point: dict[str, Any] = field(default_factory=dict)
+
+
+class Unreadable(Exception):
+    """A run that cannot be drawn, and why, in words."""
+
+
+def read_run(directory: str | Path, parameters: Mapping[str, Any], state: str = "") -> PlottedRun:
+    """What a run's directory has for figures. Raises Unreadable where nothing was measured."""
+    folder = Path(directory)
+    path = folder / "observables.h5"
+    if not path.exists():
+        raise Unreadable(f"no observables.h5 there: {folder}" if state in ("", "done") else
+                         f"{state} before anything was measured")
+    try:
+        summary = json.loads((folder / "summary.json").read_text())
+    except (OSError, ValueError):
+        summary = {}  # it has not ended
+    if not isinstance(summary, dict):
+        summary = {}
+    import h5py
+    wanted = {name for one in OBSERVABLES for name in (one.x, *one.y, error_name(one.y[0]))}
+    arrays = {}
+    try:
+        with h5py.File(path, "r") as file:
+            for name in wanted:
+                if name in file:
+                    arrays[name] = np.asarray(file[name][()], dtype=float).ravel()
+    except OSError:
+        raise Unreadable(f"{path} is no file of HDF5, or is damaged") from None
+    steady = summary.get("steady")
+    return PlottedRun(parameters, arrays, steady if isinstance(steady, bool) else None,
+                      version_text(summary.get("versions")), str(summary.get("run_id") or ""))
+
+
+def version_text(versions: Any) -> str:
+    """"shaken 0.1.0, physics 3" of the member `versions` of a summary; empty where it is not known."""
+    if not isinstance(versions, dict):
+        return ""
+    words = [f"{what} {versions[what]}" for what in ("shaken", "physics") if versions.get(what) is not None]
+    return ", ".join(words)
+
+
+def name_points(runs: Sequence[PlottedRun]) -> None:
+    """What different versions computed are different points, which say so; a run that is not done yet is of the newest.
+    """
+    versions = sorted({run.version for run in runs if run.version})
+    for run in runs:
+        run.point = dict(run.parameters)
+        if len(versions) > 1:
+            run.point[VERSION] = run.version or versions[-1]
+
+
+@dataclass
+class _Curve:
+    x: np.ndarray
+    y: np.ndarray
+    error: np.ndarray | None
+    steady: bool | None
+
+
+def _curve_of(run: PlottedRun, of: Observable) -> _Curve | None:
+    parts = [run.arrays[name] for name in of.y if name in run.arrays]
+    if of.x not in run.arrays or not parts:
+        return None
+    # A file that is still being written may have one array longer than the other.
+    n = min(len(part) for part in (run.arrays[of.x], *parts))
+    if n == 0:
+        return None
+    x, y = run.arrays[of.x][:n] * of.factors[0], sum(part[:n] for part in parts) * of.factors[1]
+    error = run.arrays.get(error_name(of.y[0])) if len(of.y) == 1 else None
+    if error is not None:
+        error = np.concatenate([error[:n], np.full(max(0, n - len(error)), np.nan)]) * of.factors[1]
+    for value, log in ((x, of.log[0]), (y, of.log[1])):
+        if log:
+            y = np.where(value > 0, y, np.nan)  # logarithms: zero lag has no place
+    return _Curve(x, np.asarray(y), error, True if of.is_trace else run.steady)
+
+
+def _averaged(curves: Sequence[_Curve]) -> Iterator[_Curve]:
+    """One curve for all replicas with the same x; others as they are. It is steady if all of them are."""
+    groups: list[list[_Curve]] = []
+    for curve in curves:
+        group = next((g for g in groups if np.array_equal(g[0].x, curve.x)), None)
+        if group is None:
+            groups.append([curve])
+        else:
+            group.append(curve)
+    for group in groups:
+        y, error = mean_curve([curve.y for curve in group], [curve.error for curve in group])
+        states = [curve.steady for curve in group]
+        yield _Curve(group[0].x, y, error, False if False in states else None if None in states else True)
+
+
+def _thinned(curve: _Curve) -> _Curve:
+    """Every k-th point of what is long: more than that cannot be seen."""
+    each = -(-len(curve.x) // _MOST_OF_TRACE)
+    return _Curve(curve.x[::each], curve.y[::each], None if curve.error is None else curve.error[::each], curve.steady)
+
+
+def run_figures(runs: Sequence[PlottedRun], width: str | None = None) -> Iterator[tuple[str, Sheet]]:
+    """(name, figure) of each observable that at least one run has. Of replicas by one version the mean is drawn, with
+    the standard error of replica_mean; what differs in parameters or version are different curves."""
+    name_points(runs)
+    points: list[dict[str, Any]] = []
+    of_point: list[list[PlottedRun]] = []
+    for run in runs:
+        if run.point not in points:
+            points.append(run.point)
+            of_point.append([])
+        of_point[points.index(run.point)].append(run)
+    for of in OBSERVABLES:
+        curves = [[curve for run in of_one if (curve := _curve_of(run, of)) is not None] for of_one in of_point]
+        known = [k for k, found in enumerate(curves) if found]
+        if not known:
+            continue
+        arrangement = Arrangement([points[k] for k in known])
+        sheet = arrangement.sheet(width, *of.titles)
+        for panel, at in arrangement.each(sheet):
+            look = arrangement.look(at)
+            for k, curve in enumerate(_averaged(curves[known[at]])):
+                shown = _thinned(curve) if of.is_trace else curve
+                panel.curve(shown.x, shown.y, shown.error, shown.steady,
+                            look="line" if of.is_trace or len(shown.x) > (12 if arrangement.is_crowded else 40) else "",
+                            **(look if k == 0 else {"colour": look["colour"]}), name=arrangement.label(at))
+        for panel, _ in arrangement.panels_of(sheet):
+            panel.scale(*("log" if log else "linear" for log in of.log))
+            panel.range(of.x_range, of.y_range)
+            if of.zero:
+                panel.zero()
+            if of.x_ticks:
+                panel.axes.set_xticks(of.x_ticks)
+        yield of.name, sheet

@@ -1,0 +1,196 @@
+# SPDX-License-Identifier: MIT
+"""Figures of runs and sweeps: which curves there are, what they are called, and what is said of them."""
+from __future__ import annotations
+
+import csv
+import io
+import json
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip("matplotlib")
+from shaken.estimate import Estimate, replica_mean  # noqa: E402
+from shaken.plots import names, runs, series, style, sweeps  # noqa: E402
+
+NAN = float("nan")
+TILT = {"/tilt/n_z": [-0.1, 0.1], "/tilt/v_along_mm_s": [1.0, 2.0]}
+
+
+def run(arrays: dict[str, Any], steady: bool | None = True, version: str = "",
+        **parameters: Any) -> runs.PlottedRun:
+    return runs.PlottedRun(parameters, {name: np.array(values, dtype=float) for name, values in arrays.items()}, steady,
+                           version)
+
+
+def figures(*of: runs.PlottedRun) -> dict[str, Any]:
+    return dict(runs.run_figures(of))
+
+
+def rows_of(path: Path) -> list[dict[str, str]]:
+    text = "".join(line for line in path.read_text().splitlines(True) if not line.startswith("#"))
+    return list(csv.DictReader(io.StringIO(text)))
+
+
+def labels(panel: Any) -> list[str]:
+    return [names.plain(label) for _, label in panel.entries]
+
+
+def test_only_what_was_measured_is_drawn() -> None:
+    assert not figures(run({}))
+    found = figures(run({"/order/time_s": [0, 1, 2], "/order/order": [1, 0.5]}), run({}, area_fraction=1))
+    assert list(found) == ["order_time"]
+    assert list(found["order_time"][0].drawn[0].x) == [0, 1]  # the time whose order is not on the disk yet is left out
+
+
+def test_replicas_are_a_mean_with_its_error() -> None:
+    one = {**TILT, "/tilt/v_along_sem_mm_s": [9, 9], "/order/time_s": [0, 1], "/order/order": [1, 0.5]}
+    two = {**one, "/tilt/v_along_mm_s": [3, NAN], "/order/order": [1, 0.7]}
+    found = figures(run(one, **{"rods.length": 2.5}), run(two, **{"rods.length": 2.5}), run(one, **{"rods.length": 4.5}))
+    tilt = found["tilt"][0].drawn
+    assert len(tilt) == 2
+    assert list(tilt[0].y) == [2, 2]  # the mean of 1 and 3; of 2 alone
+    # of two the errors of both together, which is more than their scatter; of one its own
+    assert list(tilt[0].error) == pytest.approx([np.sqrt(2 * 81) / 2, 9])
+    assert list(tilt[1].error) == [9, 9]
+    order = found["order_time"][0].drawn
+    assert list(order[0].y) == pytest.approx([1, 0.6])
+    assert order[0].error is not None and order[0].error[1] > 0  # a band for S(t) too
+    assert labels(found["tilt"][0]) == ["ℓ = 2.5 mm", "ℓ = 4.5 mm"]
+
+
+def test_curves_with_other_places_are_no_replicas() -> None:
+    found = figures(run(TILT), run({**TILT, "/tilt/n_z": [-0.2, 0.2]}))
+    assert [list(drawn.x) for drawn in found["tilt"][0].drawn] == [[-0.1, 0.1], [-0.2, 0.2]]
+
+
+def test_means_of_curves_are_those_of_estimates() -> None:
+    rng = np.random.default_rng(3)
+    for n in (1, 2, 3, 5):
+        values, errors = rng.normal(size=(n, 40)), 10 ** rng.uniform(-2, 1, size=(n, 40))
+        values[rng.random((n, 40)) < 0.2] = NAN
+        errors[rng.random((n, 40)) < 0.2] = NAN
+        mean, error = series.mean_curve(list(values), list(errors))
+        assert error is not None
+        for k in range(40):
+            known = [Estimate(v, e) for v, e in zip(values[:, k], errors[:, k]) if np.isfinite(v)]
+            wanted = replica_mean(known)
+            assert mean[k] == pytest.approx(wanted.value, nan_ok=True)
+            assert error[k] == pytest.approx(wanted.error, nan_ok=True) or not known
+
+
+def test_what_is_not_known_to_be_steady_says_so(tmp_path: Path) -> None:
+    for steady, word in ((False, "no"), (None, "unknown"), (True, "yes")):
+        sheet = figures(run(TILT, steady))["tilt"]
+        sheet.save(tmp_path / "tilt.png")
+        assert [row["steady"] for row in rows_of(tmp_path / "tilt.csv")] == [word, word]
+        told = [text.get_text() for legend in sheet.figure.legends for text in legend.get_texts()]
+        assert ("hollow: still relaxing, or not known to be steady" in told) == (steady is not True)
+    both = figures(run(TILT, True), run(TILT, None))["tilt"][0].drawn[0]
+    assert list(both.steady) == [None, None]
+
+
+def test_versions_are_no_replicas_of_each_other() -> None:
+    found = figures(run(TILT, version="shaken 0.1.0, physics 3"), run(TILT, version="shaken 0.1.0, physics 4"))
+    assert labels(found["tilt"][0]) == ["shaken 0.1.0, physics 3", "shaken 0.1.0, physics 4"]
+
+
+def test_angles_are_in_degrees_and_zero_lag_has_no_place() -> None:
+    found = figures(run({"/angles/theta_rad": [-np.pi / 4, np.pi / 4], "/angles/density_per_rad": [1.0, 2.0],
+                         "/msd/lag_s": [0, 1, 2], "/msd/total_mm2": [0, 2, 4]}))
+    angles = found["angles"][0].drawn[0]
+    assert list(angles.x) == pytest.approx([-45, 45])
+    assert list(angles.y) == pytest.approx([np.pi / 180, 2 * np.pi / 180])
+    assert np.isnan(found["msd"][0].drawn[0].y[0])
+
+
+def point(length: float, fraction: float, order: float, error: float = 0.02, **more: Any) -> sweeps.PlottedPoint:
+    return sweeps.PlottedPoint({"rods.length": length, "rods.area_fraction": fraction}, order, error, **more)
+
+
+def test_the_longest_parameter_is_the_axis_and_others_are_curves() -> None:
+    found = sweeps.sweep_figure([point(2.5, 0.7, 0.3, 0.03), point(2.5, 0.6, 0.2), point(2.5, 0.5, 0.1, NAN),
+                                 point(4.5, 0.6, 0.8, steady=None)])
+    assert found is not None
+    name, sheet = found
+    assert name == "order_rods_area_fraction"
+    curves = [drawn for drawn in sheet[0].drawn if not drawn.curve.startswith("reference")]
+    assert [names.plain(drawn.curve) for drawn in curves] == ["ℓ = 2.5 mm", "ℓ = 4.5 mm"]
+    assert list(curves[0].x) == [0.5, 0.6, 0.7] and list(curves[0].y) == [0.1, 0.2, 0.3]
+    assert np.isnan(curves[0].error[0]), "no error is not an error of zero"
+    assert names.plain(sheet[0].x_title) == "area fraction φ" and names.plain(sheet[0].y_title) == "nematic order ⟨S⟩"
+
+
+def test_any_field_against_any_other() -> None:
+    found = sweeps.sweep_figure([point(2.5, 0.5, 8.5, x=0.1), point(2.5, 0.7, 9.5, x=0.3), point(2.5, 0.9, NAN, x=0.5)],
+                                x="order.mean", y="measured.theta_m_deg.value")
+    assert found is not None and found[0] == "theta_m_deg_order"
+    assert [list(drawn.x) for drawn in found[1][0].drawn] == [[0.1], [0.3]]  # a curve for each area fraction
+    assert names.plain(found[1][0].y_title) == "tilt of the layers θ_m (°)"
+
+
+def test_nothing_swept_nothing_drawn() -> None:
+    assert sweeps.sweep_figure([point(2.5, 0.7, 0.3)]) is None
+    assert sweeps.sweep_figure([]) is None
+    assert sweeps.sweep_figure([point(2.5, 0.6, NAN), point(2.5, 0.7, NAN)]) is None
+
+
+def test_texts_with_units_are_numbers() -> None:
+    found = sweeps.sweep_figure([sweeps.PlottedPoint({"box.gap": gap}, y, 0.1) for gap, y in
+                                 (("1.2 mm", 0.5), ("0.9 mm", 0.4))])
+    assert found is not None and list(found[1][0].drawn[0].x) == [0.9, 1.2]
+
+
+@pytest.mark.parametrize("n_fractions, n_lengths", [(5, 3), (9, 2), (3, 12), (7, 1), (12, 1)])
+@pytest.mark.parametrize("width", ["89mm", "183mm"])
+def test_many_points_can_be_told_apart(n_fractions: int, n_lengths: int, width: str) -> None:
+    x = np.linspace(0, 10, 60)
+    made = [run({"/g2/r_mm": x, "/g2/g2": np.exp(-x / (1 + k + j + replica))}, True,
+                **{"rods.area_fraction": 0.5 + k / 50, "rods.length": 2.5 + j})
+            for k in range(n_fractions) for j in range(n_lengths) for replica in range(2)]
+    (_, sheet), = runs.run_figures(made, width)
+    sheet.finish()
+    renderer = sheet.figure.canvas.get_renderer()
+    named = [text.get_text() for legend in sheet.figure.legends for text in legend.get_texts()]
+    named = [text for text in named if "=" in text] + [label for panel in sheet for _, label in panel.entries]
+    has_bar = len(sheet.figure.axes) > len(sheet.panels)
+    assert len(set(named)) <= 7
+    assert has_bar == (not named and n_fractions * n_lengths > 1)
+    assert sum(len(panel.drawn) for panel in sheet) == n_fractions * n_lengths
+    whole = sheet.figure.get_tightbbox(renderer)
+    assert whole.x0 >= 0 and whole.y0 >= 0 and whole.x1 <= sheet.width + 1e-6 and whole.y1 <= sheet.height + 1e-6
+    assert all(panel.axes.get_window_extent(renderer).width > 8 / 25.4 * sheet.figure.dpi for panel in sheet)
+
+
+def test_the_program_draws_what_a_description_says(tmp_path: Path) -> None:
+    h5py = pytest.importorskip("h5py")
+    directory = tmp_path / "run"
+    directory.mkdir()
+    with h5py.File(directory / "observables.h5", "w") as file:
+        for name, values in {"/order/time_s": [0.0, 1.0], "/order/order": [1.0, 0.5]}.items():
+            file[name] = values
+    (directory / "summary.json").write_text(json.dumps({"run_id": "1f0c59d16ab8b7d7", "steady": True,
+                                                        "versions": {"shaken": "0.1.0", "physics": 3}}))
+    wanted = {"folder": str(tmp_path / "out"), "format": "svg", "software": "shaken plot 0.1.0", "sweep": "ℓ",
+              "runs": [{"directory": str(directory), "parameters": {}},
+                       {"directory": str(tmp_path / "none"), "parameters": {}, "state": "failed"}]}
+
+    def call(description: Any) -> subprocess.CompletedProcess[str]:
+        program = Path(style.__file__).parent / "__main__.py"
+        return subprocess.run([sys.executable, program, "runs"], input=json.dumps(description), text=True,
+                              capture_output=True, check=False)
+
+    done = call(wanted)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert done.stdout == f"left out: failed before anything was measured\n{tmp_path}/out/order_time.svg\n"
+    assert "1f0c59d16ab8b7d7" in (tmp_path / "out/order_time.svg").read_text()
+    assert (tmp_path / "out/order_time.csv").read_text().startswith(
+        "# Software: shaken plot 0.1.0\n# Computed by: shaken 0.1.0, physics 3\n# Sweep: ℓ\n# Runs: 1f0c59d16ab8b7d7\n")
+    nothing = call({**wanted, "runs": []})
+    assert nothing.returncode == 1 and "nothing to plot" in nothing.stdout
+    one = call({**wanted, "runs": [], "points": [{"parameters": {"box.gap": 1.2}, "y": 0.5}]})
+    assert one.returncode == 1 and "no numeric parameter is swept" in one.stdout
