@@ -14,7 +14,7 @@ namespace shaken::client {
 
 /// What an argument names, for shell completion.
 enum class Names {
-  kAnything,  ///< or one of some words, where the value's name in the help lists them: "tiny|laptop|paper"; with
+  kAnything,  ///< or one of some words, where the value's name in the help lists them: "tiny|desk|paper"; with
               ///< "|FILE" also a file
   kFile,
   kFolder,
