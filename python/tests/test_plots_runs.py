@@ -50,7 +50,8 @@ def test_only_what_was_measured_is_drawn() -> None:
 def test_replicas_are_a_mean_with_its_error() -> None:
     one = {**TILT, "/tilt/v_along_sem_mm_s": [9, 9], "/order/time_s": [0, 1], "/order/order": [1, 0.5]}
     two = {**one, "/tilt/v_along_mm_s": [3, NAN], "/order/order": [1, 0.7]}
-    found = figures(run(one, **{"rods.length": 2.5}), run(two, **{"rods.length": 2.5}), run(one, **{"rods.length": 4.5}))
+    short, long = {"rods.length": 2.5}, {"rods.length": 4.5}
+    found = figures(run(one, **short), run(two, **short), run(one, **long))
     tilt = found["tilt"][0].drawn
     assert len(tilt) == 2
     assert list(tilt[0].y) == [2, 2]  # the mean of 1 and 3; of 2 alone

@@ -58,8 +58,10 @@ def _step_axis(panel: Panel) -> None:
 
 def _one_percent(panel: Panel, below: bool = False) -> None:
     """The 1 % that is looked for, as a light band."""
-    low = panel.axes.get_ylim()[0] if below else -1
-    panel.axes.axhspan(1e-9 if below else low, 1, color="#ececec", linewidth=0, zorder=0.5)
+    low, high = panel.axes.get_ylim()
+    if high > -1 and low < 1:
+        panel.axes.axhspan(low if below else max(low, -1), min(high, 1), color="#ececec", linewidth=0, zorder=0.5)
+    panel.axes.set_ylim(low, high)
 
 
 def _scene_text(row: Row, all_rows: Sequence[Row]) -> str:
@@ -115,8 +117,9 @@ def scaling(report: Row, width: str | None) -> Figures:
     rows, of_rods = report["rows"], report["bench"] == "scaling n"
     x = column(rows, "n_rods") if of_rods else column(rows, "dt_s", 1e6)
     sheet = style.sheet(width or "89mm")
+    first = "the smallest $N$" if of_rods else "the longest step"
     panel = sheet[0].titles("number of rods $N$" if of_rods else "step $Δt$ (µs)",
-                            f"CPU time per rod-second,\nrelative to the {'smallest $N$' if of_rods else 'longest step'}")
+                            f"CPU time per rod-second,\nrelative to {first}")
     panel.scale(x="log").range(y=(0, None))
     panel.curve(x, column(rows, "relative_cost"), label="scheduled stepper", look="points")
     law = np.geomspace(x.min(), x.max(), 60)
@@ -127,7 +130,8 @@ def scaling(report: Row, width: str | None) -> Figures:
 
 def threads(report: Row, width: str | None) -> Figures:
     sheet = style.sheet(width or "89mm")
-    panel = sheet[0].titles("threads", "speed-up over one thread").range(x=(1, None), y=(0, None))
+    panel = sheet[0].titles("number of threads", "speed-up over one thread").range(x=(1, None), y=(0, None))
+    panel.axes.set_xticks(sorted({row["threads"] for row in report["rows"]}))
     for k, rows in enumerate(series_of(report["rows"], "length_mm", "area_fraction", "side_mm")):
         if k >= len(style.PALETTE):
             break
@@ -151,14 +155,14 @@ def hard(report: Row, width: str | None) -> Figures:
         return
     sheet = style.sheet(width or "120mm", panel_height=_dots_height(len(least)))
     sheet[0].titles(x="smallest margin: limit over the worst value seen").scale(x="log")
-    sheet[0].dots(list(least), [row["margin"] for row in least.values()]).reference(x=1.0)
+    sheet[0].dots(list(least), [row["margin"] for row in least.values()], digits=2).reference(x=1.0)
     yield "hard", sheet
 
 
 def effects(report: Row, width: str | None) -> Figures:
     rows = report["rows"]
     sheet = style.sheet(width or "120mm", panel_height=_dots_height(len(rows), 2))
-    panel = sheet[0].titles(x="CPU time without the effect (% of everything on)")
+    panel = sheet[0].titles(x="CPU time without the effect (% of everything on)").scale(x="log")
     for k, (label, of) in enumerate((("from the same state", "same_state"), ("from its own state", "own_state"))):
         panel.dots([row["without"].replace("_", " ") for row in rows], column(rows, f"{of}/cpu_ratio", 100),
                    column(rows, f"{of}/cpu_ratio_error", 100), label=label, colour=k, shift=0.18 - 0.36 * k)
@@ -182,7 +186,8 @@ def visits(report: Row, width: str | None) -> Figures:
     for colour, event, label in ((6, "tightened", "hit: bound tightened"), (2, "anew", "hit: bound made anew"),
                                  (1, "ran out", "bound ran out: visit")):
         of = [row for row in rows if row["event"] == event]
-        panel.curve(column(of, "time_ms"), column(of, "gap_um"), colour=colour, look="points", joined=False, label=label)
+        panel.curve(column(of, "time_ms"), column(of, "gap_um"), colour=colour, look="points", joined=False,
+                    label=label)
     yield "visits", sheet
 
 
@@ -228,8 +233,8 @@ def deterministic(report: Row, width: str | None) -> Figures:
             # one variant shows how much the stepper matters
             for stepper in ("scheduled", "reference") if k == 0 else ("scheduled",):
                 if n < len(style.PALETTE):
-                    cost.curve(column(rows, f"{stepper}_cpu_s", 1e6), column(rows, "error/position/median"), look="points",
-                               label=stepper if one else f"{rows[0]['variant']}, {stepper}")
+                    cost.curve(column(rows, f"{stepper}_cpu_s", 1e6), column(rows, "error/position/median"),
+                               look="points", label=stepper if one else f"{rows[0]['variant']}, {stepper}")
                     n += 1
         panel.scale("log", "log")
         cost.scale("log", "log")
@@ -246,10 +251,11 @@ def _bias(rows: Sequence[Row], name: str) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _bias_sheet(report: Row, steps: Sequence[Sequence[Row]], shown: Sequence[Row], width: str) -> Sheet:
-    sheet = style.sheet(width, -(-len(shown) // 4), min(4, len(shown)), panel_height=48)
+    sheet = style.sheet(width, -(-len(shown) // 4), min(4, len(shown)), panel_height=48).share_key()
     all_rows = [row for rows in steps for row in rows]
     for panel, of in zip(sheet, shown):
-        panel.titles("step $Δt$ (µs)", "bias (%)", of["title"]).scale(x="log").range(y=(-1.5, 1.5)).zero()
+        panel.titles("step $Δt$ (µs)", "bias (%)", of["title"].replace("n_z", "$n_z$"))
+        panel.scale(x="log").range(y=(-1.5, 1.5)).zero()
         for k, rows in enumerate(steps[:7]):
             limit = like(report["limits"], {**rows[0], "observable": of["name"]}, "length_mm", "variant", "observable")
             if limit is None or not limit["limit"]["sem"] < 0.25 * abs(limit["limit"]["value"]):
@@ -262,8 +268,7 @@ def _bias_sheet(report: Row, steps: Sequence[Sequence[Row]], shown: Sequence[Row
             panel.curve(x, *_bias(rows, of["name"]), label=_scene_text(rows[0], all_rows), colour=k, look="points",
                         joined=False)
         panel.explain("line", "dashed: the line through the finest steps, which gives the limit of none")
-        _one_percent(panel)
-        panel.then(_step_axis)
+        panel.then(_one_percent).then(_step_axis).explain("grey", "grey: below 1 %")
     return sheet
 
 
@@ -275,7 +280,7 @@ def _bound_of(row: Row, observables: Sequence[str]) -> float:
 
 def _cost_sheet(rows: Sequence[Row], width: str) -> Sheet:
     rods = series_of(rows, "length_mm")
-    sheet = style.sheet(width, 2, len(rods), panel_height=58)
+    sheet = style.sheet(width, 2, len(rods), panel_height=58).share_key()
     for k, panel in enumerate(sheet):
         rod, hit = rods[k % len(rods)], k >= len(rods)
         panel.titles("CPU time (ms per rod and simulated second)", "|bias| + 2 standard errors (%)",
@@ -287,15 +292,16 @@ def _cost_sheet(rows: Sequence[Row], width: str) -> Sheet:
             y = [_bound_of(row, ("hit",) if hit else _AVERAGES) for row in of_variant]
             panel.curve(x, y, label=of_variant[0]["variant"], colour=colour, look="points")
             for row, at, bound in zip(of_variant, x, y):
-                panel.axes.annotate(f"{row['value']:g}", (at, bound), xytext=(0, 4 if colour == 0 else -8), fontsize=5.5,
-                                    textcoords="offset points", ha="center", color=style.PALETTE[colour])
+                panel.axes.annotate(f"{row['value']:g}", (at, bound), xytext=(0, 4 if colour == 0 else -8),
+                                    fontsize=5.5, textcoords="offset points", ha="center", color=style.PALETTE[colour])
         panel.explain("line", "numbers: steps in µs")
-        _one_percent(panel, below=True)
+        panel.padding = 2.0
+        panel.then(lambda one: _one_percent(one, below=True)).explain("grey", "grey: below 1 %")
     return sheet
 
 
 def _tilt_sheet(report: Row, steps: Sequence[Sequence[Row]], width: str) -> Sheet:
-    sheet = style.sheet(width, -(-len(steps) // 2), min(2, len(steps)), panel_height=58)
+    sheet = style.sheet(width, -(-len(steps) // 2), min(2, len(steps)), panel_height=58).share_key()
     all_rows = [row for rows in steps for row in rows]
     for panel, rows in zip(sheet, steps):
         panel.titles(names.axis_title("/tilt/n_z"), names.axis_title("/tilt/v_along_mm_s"),
@@ -314,7 +320,7 @@ def _tilt_sheet(report: Row, steps: Sequence[Sequence[Row]], width: str) -> Shee
 
 def _model_sheet(model: Sequence[Sequence[Row]], shown: Sequence[Row], width: str) -> Sheet:
     """Differences from the most accurate value, for what changes the model."""
-    sheet = style.sheet(width, -(-len(model) // 2), min(2, len(model)), panel_height=62)
+    sheet = style.sheet(width, -(-len(model) // 2), min(2, len(model)), panel_height=62).share_key()
     all_rows = [row for rows in model for row in rows]
     for panel, rows in zip(sheet, model):
         pitch = rows[0]["knob"] == "bead pitch"
@@ -322,7 +328,8 @@ def _model_sheet(model: Sequence[Sequence[Row]], shown: Sequence[Row], width: st
                      f"{_scene_text(rows[0], all_rows)}, against {rows[0]['value']:g}{' mm' if pitch else ' passes'}")
         panel.scale(x="log").zero()
         for k, of in enumerate([one for one in shown if one["name"] != "drift"][:7]):  # drift is too noisy beside them
-            panel.curve(column(rows, "value"), *_bias(rows, of["name"]), label=of["title"], colour=k, look="points")
+            panel.curve(column(rows, "value"), *_bias(rows, of["name"]), label=of["title"].replace("n_z", "$n_z$"),
+                        colour=k, look="points")
     return sheet
 
 
@@ -343,7 +350,7 @@ def statistical(report: Row, width: str | None) -> Figures:
 
 
 def order_error(report: Row, width: str | None) -> Figures:
-    sheet = style.sheet(width or "183mm", 1, 2, panel_height=66)
+    sheet = style.sheet(width or "183mm", 1, 2, panel_height=66).share_key()
     for panel, cpu in zip(sheet, (False, True)):
         panel.titles("CPU time (s)" if cpu else "simulated time $T$ (s)", r"statistical error of $\langle S\rangle$")
         panel.scale("log", "log")

@@ -134,15 +134,15 @@ def number_text(value: Any) -> str:
     return str(value)
 
 
-def short_number(value: float) -> str:
-    """Three digits, without an exponent as far as that can be read: "0.0123", "1.66", "1660", "18,500"."""
+def short_number(value: float, n_digits: int = 3) -> str:
+    """So many digits, without an exponent as far as that can be read: "0.0123", "1.66", "1660", "18,500"."""
     if not math.isfinite(value):
         return "–"
     if value == 0 or not 1e-4 <= abs(value) < 1e9:
-        return number_text(float(f"{value:.3g}"))
-    digits = max(0, 2 - math.floor(math.log10(abs(value))))
-    rounded = float(f"{value:.3g}")
-    return f"{rounded:,.{digits}f}".replace("-", "−") if abs(rounded) >= 1e4 else f"{rounded:.{digits}f}".replace("-", "−")
+        return number_text(float(f"{value:.{n_digits}g}"))
+    digits = max(0, n_digits - 1 - math.floor(math.log10(abs(value))))
+    rounded = float(f"{value:.{n_digits}g}")
+    return (f"{rounded:,.0f}" if abs(rounded) >= 1e4 else f"{rounded:.{digits}f}").replace("-", "−")
 
 
 def value_label(path: str, value: Any) -> str:
@@ -157,7 +157,8 @@ def point_label(parameters: Mapping[str, Any]) -> str:
     return ", ".join(value_label(path, value) for path, value in parameters.items())
 
 
-_WORDS = ((r"\langle ", "⟨"), (r"\langle", "⟨"), (r"\rangle", "⟩"), (r"\mathrm", ""), (r"\hat", ""), ("$", ""), ("{", ""), ("}", ""))
+_WORDS = ((r"\langle ", "⟨"), (r"\langle", "⟨"), (r"\rangle", "⟩"), (r"\mathrm", ""), (r"\hat", ""), ("$", ""), ("{", ""),
+          ("}", ""))
 
 
 def plain(text: str) -> str:

@@ -29,8 +29,8 @@ _VERDICTS = {"agrees": ("✓ agrees", "#00795a"), "disagrees": ("✗ disagrees",
 
 
 class Panel:
-    """One pair of axes. `axes` is matplotlib's, for what the methods do not offer; what is drawn there by hand goes into
-    the CSV with `record`.
+    """One pair of axes. `axes` is matplotlib's, for what the methods do not offer; what is drawn there by hand goes
+    into the CSV with `record`.
 
     letter: "a", "b", ...; "" where the figure has one panel
     """
@@ -49,6 +49,7 @@ class Panel:
         self._exact = {"x": False, "y": False}
         self._n_named = 0
         self._levels: list[tuple[str, float]] = []   # lines through the whole panel
+        self.padding = 1.0                            # times what is free about the points
         self._number_room = False
         self._afterwards: list[Any] = []
         self.keyless = False
@@ -74,7 +75,8 @@ class Panel:
 
     def range(self, x: tuple[float | None, float | None] = (None, None),
               y: tuple[float | None, float | None] = (None, None), exactly: bool = False) -> "Panel":
-        """What the axes reach at least; None: as far as the data. With `exactly` no farther: data beyond is not seen."""
+        """What the axes reach at least; None: as far as the data. With `exactly` no farther: data beyond is not seen.
+        """
         for axis, wanted in (("x", x), ("y", y)):
             if wanted != (None, None):
                 self._wanted[axis], self._exact[axis] = wanted, exactly
@@ -218,8 +220,9 @@ class Panel:
 
     @styled
     def dots(self, categories: Sequence[str], values: Any, error: Any = None, label: str = "", colour: int = 0,
-             shift: float = 0.0, numbers: bool = True) -> "Panel":
-        """A value for each category, which stand on the y axis from the top down; with the number beside the mark.
+             shift: float = 0.0, digits: int = 3) -> "Panel":
+        """A value for each category, which stand on the y axis from the top down; with the number beside the mark
+        in so many digits, none if 0.
         `shift` moves the marks up by that part of a row, where several series share them."""
         values = np.asarray(values, dtype=float)
         places = -np.arange(len(categories), dtype=float) + shift
@@ -235,31 +238,31 @@ class Panel:
         for k in np.flatnonzero(shown):
             self.drawn.append(Drawn(self.letter, f"{label}: {categories[k]}" if label else categories[k],
                                     values[k:k + 1], places[k:k + 1], None if error is None else errors[k:k + 1]))
-            if numbers:
-                axes.annotate(short_number(values[k]), (values[k] + errors[k], places[k]), xytext=(3.5, 0), fontsize=6,
-                              textcoords="offset points", va="center", color=paint, zorder=3)
+            if digits:
+                axes.annotate(short_number(values[k], digits), (values[k] + errors[k], places[k]), xytext=(3.5, 0),
+                              fontsize=6, textcoords="offset points", va="center", color=paint, zorder=3)
         axes.set_yticks(-np.arange(len(categories)), list(categories))
         axes.tick_params(axis="y", length=0, right=False)
         axes.grid(axis="y", color="#e4e4e4", linewidth=0.5)
         self.range(y=(-len(categories) + 0.4, 0.6), exactly=True)
         self._reach.append((np.concatenate([values, values - errors, values + errors]), places, places, True))
         self._outlines.append((values, places, False))
-        self._number_room |= numbers
+        self._number_room |= digits > 0
         if label:
             self.entries.append((_handle(paint, MARKERS[colour], True, "-"), label))
         return self
 
     @styled
     def shares(self, categories: Sequence[str], parts: "dict[str, Any]") -> "Panel":
-        """What each category consists of, in percent: bars from 0 to 100, their parts from the left; what is missing is
-        grey."""
+        """What each category consists of, in percent: bars from 0 to 100, their parts, seven at most, from the left;
+        the seventh is grey, and what is missing light grey."""
         self.is_used = self.has_picture = True
         places, begin = -np.arange(len(categories), dtype=float), np.zeros(len(categories))
         for k, (name, values) in enumerate(parts.items()):
             values = np.nan_to_num(np.asarray(values, dtype=float))
-            self.axes.barh(places, values, left=begin, height=0.7, color=PALETTE[k % len(PALETTE)], linewidth=0.4,
-                           edgecolor="white")
-            self.entries.append((_handle(PALETTE[k % len(PALETTE)], "s", True, "-"), name))
+            colour = PALETTE[k] if k < len(PALETTE) - 1 else GREY
+            self.axes.barh(places, values, left=begin, height=0.7, color=colour, linewidth=0.4, edgecolor="white")
+            self.entries.append((_handle(colour, "s", True, "-"), name))
             for at, value, category in zip(places, values, categories):
                 self.drawn.append(Drawn(self.letter, f"{name}: {category}", [value], [at]))
             begin = begin + values
@@ -276,7 +279,7 @@ class Panel:
         return self
 
     def explain(self, kind: str, text: str) -> "Panel":
-        """Words at the bottom of the figure about its marks: kind "band", "bar" or "line"."""
+        """Words at the bottom of the figure about its marks: kind "band", "bar", "line" or "grey"."""
         self.explained.add((kind, text))
         return self
 
@@ -330,7 +333,8 @@ class Panel:
 
     @styled
     def picture(self, pixels: Any, extent: tuple[float, float, float, float] | None = None) -> "Panel":
-        """An image (rows, columns, 3 or 4) in place of a plot, without axes unless it has an `extent` (x0, x1, y0, y1)."""
+        """An image (rows, columns, 3 or 4) in place of a plot, without axes unless it has an `extent` (x0, x1, y0, y1).
+        """
         self.is_used = self.has_picture = True
         self.axes.imshow(np.asarray(pixels), extent=extent, interpolation="antialiased", origin="upper")
         if extent is None:
@@ -397,9 +401,10 @@ class Panel:
         if low == high:  # one point: axes around it
             pad = 0.3 if log else 0.1 * abs(low) or 1.0
             low, high = low - pad, high + pad
-        begin, end = min(low, bound_low) if lower is not None else low, max(high, bound_high) if upper is not None else high
+        begin = low if lower is None else min(low, bound_low)
+        end = high if upper is None else max(high, bound_high)
         span = end - begin
-        pad = (0.05 if name == "x" else 0.06) * span
+        pad = self.padding * (0.05 if name == "x" else 0.06) * span
         # A line may begin at an axis; a mark, or the end of a bar, may not. Above and below all keep some distance.
         mark_low = float(forward(marks.min())) if marks.size else math.inf
         mark_high = float(forward(marks.max())) if marks.size else -math.inf

@@ -69,7 +69,7 @@ def _number(value: float, digits: int = 7) -> str:
 
 
 def save(figure: Any, path: str | Path, origin: Origin | None = None, data: str | None = None) -> Path:
-    """Writes the picture, PNG, PDF or SVG by its suffix, with its origin inside: text chunks of the PNG, the keywords of
+    """Writes the picture, PNG, PDF or SVG by its suffix, with its origin inside: text chunks of the PNG, the subject of
     the PDF, the metadata of the SVG. `data`, as of csv_text, goes beside it as NAME.csv. Makes the folder if need be.
 
     Raises ShakenError for another suffix, or where it cannot be written.

@@ -129,7 +129,8 @@ def _text(value: Any) -> str:
     return json.dumps(value, sort_keys=True)
 
 
-def mean_curve(values: Sequence[np.ndarray], errors: Sequence[np.ndarray | None]) -> tuple[np.ndarray, np.ndarray | None]:
+def mean_curve(values: Sequence[np.ndarray],
+               errors: Sequence[np.ndarray | None]) -> tuple[np.ndarray, np.ndarray | None]:
     """The mean of the curves of replicas over the same x, and its errors, point by point as estimate.replica_mean does;
     of one curve its own. The errors are None where none are known."""
     if len(values) == 1:

@@ -10,6 +10,7 @@ import numpy as np
 
 from . import panel as panels_of
 from . import save as saving
+from .names import number_text
 from .panel import Panel
 from .style import DARK_GREY, ColourScale, inches, styled
 
@@ -44,7 +45,7 @@ class Sheet:
         for one in self.panels:
             if one.letter:
                 one.axes.set_title(f"({one.letter})", loc="left")
-        self._is_finished = self._shares_axes = False
+        self._is_finished = self._shares_axes = self._shares_key = False
 
     def __getitem__(self, k: int) -> Panel:
         return self.panels[k]
@@ -68,10 +69,9 @@ class Sheet:
         if isinstance(scale, ColourScale):
             title = title or scale.title
             if len(scale.values) <= 10:
-                from .names import number_text
                 bar.ax.yaxis.set_major_locator(FixedLocator(scale.values))
                 bar.ax.yaxis.set_minor_locator(NullLocator())
-                bar.ax.set_yticklabels([number_text(value) for value in scale.values])
+                bar.ax.set_yticklabels(_even_texts(scale.values))
         bar.set_label(title)
         return bar
 
@@ -79,6 +79,11 @@ class Sheet:
         """All panels get the same ranges, titles stand at the left and below only, and there is one key: small
         multiples."""
         self._shares_axes = True
+        return self.share_key()
+
+    def share_key(self) -> "Sheet":
+        """One key for all panels, above them."""
+        self._shares_key = True
         return self
 
     @styled
@@ -97,6 +102,7 @@ class Sheet:
         top = self._draw_title(renderer)
         if self._shares_axes:
             self._share()
+        if self._shares_key:
             top += self._one_key(renderer, top)
         self._share_keys()
         bottom = self._explain(renderer)
@@ -171,7 +177,7 @@ class Sheet:
 
     def _one_key(self, renderer: Any, top: float) -> float:
         """One key for all panels, above them. Height that it takes [inches]."""
-        entries = {label: handle for one in self.panels for handle, label in one.entries}
+        entries = {label: handle for one in self.panels if one.has_data for handle, label in one.entries}
         for one in self.panels:
             one.entries = []
         if not entries:
@@ -200,7 +206,7 @@ class Sheet:
     def _key(self, one: Panel, renderer: Any) -> tuple[Any, float, bool] | None:
         """Draws the key of a panel. Returns it, how much higher the figure must be for it [inches], and whether it is
         outside of the axes."""
-        if one.keyless:
+        if one.keyless or not one.has_data:
             return None
         axes, dpi = one.axes, self.figure.dpi
         box = axes.get_window_extent(renderer)
@@ -247,7 +253,7 @@ class Sheet:
         if not one.labels:
             return
         axes, dpi = one.axes, self.figure.dpi
-        box = axes.get_window_extent(renderer)
+        box = axes.get_window_extent(renderer).padded(-2 * dpi / 72)
         taken = [axes.get_legend().get_window_extent(renderer)] if axes.get_legend() else []
         obstacles = one.obstacles()
         for label, xs, ys in one.labels:
@@ -269,8 +275,8 @@ class Sheet:
 
     @styled
     def save(self, path: str | Path, origin: Mapping[str, str] | None = None, data: bool = True) -> Path:
-        """Writes the picture, PNG, PDF or SVG by its suffix, and with `data` NAME.csv with all that it shows. Returns the
-        path."""
+        """Writes the picture, PNG, PDF or SVG by its suffix, and with `data` NAME.csv with all that it shows. Returns
+        the path."""
         self.finish()
         if not data:
             return saving.save(self.figure, path, origin)
@@ -278,6 +284,15 @@ class Sheet:
         text = saving.csv_text(origin or {}, [(one.letter, one.x_title, one.y_title) for one in used],
                                [drawn for one in used for drawn in one.drawn])
         return saving.save(self.figure, path, origin, text)
+
+
+def _even_texts(values: Sequence[float]) -> list[str]:
+    """Numbers with as many decimals as the one that needs most."""
+    texts = [number_text(value) for value in values]
+    if any(set(text) & set("⁰¹²³⁴⁵⁶⁷⁸⁹") for text in texts):
+        return texts
+    n = max(len(text.partition(".")[2]) for text in texts)
+    return [f"{value:.{n}f}".replace("-", "−") for value in values]
 
 
 def _letter(k: int) -> str:
@@ -303,7 +318,8 @@ def _explanations(said: set[Any]) -> list[tuple[Any, str]]:
         found.append((Line2D([], [], color=DARK_GREY, linestyle=panels_of._FINE_DASHES), panels_of.DASHED))
     if panels_of.NO_ERROR in said:
         found.append((Line2D([], [], color=DARK_GREY, marker="o", linestyle="none"), panels_of.NO_ERROR))
-    shapes = {"band": band, "bar": bar, "line": Line2D([], [], color=DARK_GREY, linewidth=0.8)}
+    shapes = {"grey": Patch(color="#ececec", linewidth=0), "band": band, "bar": bar,
+              "line": Line2D([], [], color=DARK_GREY, linewidth=0.8)}
     for kind, words in sorted(one for one in said if isinstance(one, tuple)):
         found.append((shapes[kind], words))
     return found
@@ -334,8 +350,10 @@ def _reach_higher(axes: Any, share: float) -> None:
 def _places_beside(axes: Any, xs: np.ndarray, ys: np.ndarray, box: Any, size: Any,
                    gap: float) -> Iterator[tuple[float, float]]:
     """Lower left corners of a text of this size above and below a line, or beside a place of x, in pixels."""
+    gaps = (gap, 3 * gap, 6 * gap, 12 * gap)
     if not len(xs) or not len(ys):
-        at = axes.transData.transform((xs[0] if len(xs) else axes.get_xlim()[0], ys[0] if len(ys) else axes.get_ylim()[0]))
+        at = axes.transData.transform((xs[0] if len(xs) else axes.get_xlim()[0],
+                                       ys[0] if len(ys) else axes.get_ylim()[0]))
         if not len(xs):
             for x in (box.x1 - size.width - gap, box.x0 + gap, (box.x0 + box.x1 - size.width) / 2):
                 yield x, at[1] + gap
@@ -354,8 +372,9 @@ def _places_beside(axes: Any, xs: np.ndarray, ys: np.ndarray, box: Any, size: An
             return
         x, y = inside[int(share * (len(inside) - 1))]
         for left in (x - share * size.width, x + gap, x - gap - size.width):
-            yield left, y + gap
-            yield left, y - gap - size.height
+            for distance in gaps:
+                yield left, y + distance
+                yield left, y - distance - size.height
 
 
 def _fit_titles(one: Panel, renderer: Any) -> bool:
@@ -370,8 +389,8 @@ def _fit_titles(one: Panel, renderer: Any) -> bool:
 
 
 def _wrap(text: Any, most: float, renderer: Any, upright: bool = False) -> bool:
-    """Breaks a text into lines no longer than `most` pixels, between words, not within mathtext; says whether it had to.
-    """
+    """Breaks a text into lines no longer than `most` pixels, between words, not within mathtext; says whether it had
+    to."""
     content = text.get_text()
 
     def length() -> float:

@@ -48,8 +48,8 @@ def file_name(field_name: str) -> str:
 
 def sweep_figure(points: Sequence[PlottedPoint], x: str = "", y: str = "order.mean",
                  width: str | None = None) -> tuple[str, Sheet] | None:
-    """(name, figure): `y` against `x`, the longest swept parameter if left out. Other parameters, and versions, are told
-    by colours and panels as Arrangement does. None where no parameter is swept, or no point has both."""
+    """(name, figure): `y` against `x`, the longest swept parameter if left out. Other parameters, and versions, are
+    told by colours and panels as Arrangement does. None where no parameter is swept, or no point has both."""
     path = x or longest_parameter(points)
     if not path:
         return None

@@ -22,8 +22,11 @@ def set_ticks(axes: Any, name: str) -> None:
     decades = math.log10(high / low)
     n_tens = math.floor(math.log10(high) + 1e-9) - math.ceil(math.log10(low) - 1e-9) + 1
     powers = high >= 1e5 or low < 1e-4 or decades > 5
-    subs = (1.0,) if n_tens >= 3 else (1.0, 2.0, 5.0) if decades > 0.7 else tuple(float(k) for k in range(1, 10))
-    axis.set_major_locator(ticker.LogLocator(base=10, subs=subs, numticks=9 if n_tens >= 3 else 15))
+    subs = (1.0,) if n_tens >= 3 else (1.0, 2.0, 5.0)
+    if decades > 0.7:
+        axis.set_major_locator(ticker.LogLocator(base=10, subs=subs, numticks=9 if n_tens >= 3 else 15))
+    else:
+        axis.set_major_locator(ticker.MaxNLocator(4, steps=[1, 2, 5, 10]))
     axis.set_major_formatter(ticker.FuncFormatter(lambda value, _: log_text(value, powers and len(subs) == 1)))
     axis.set_minor_locator(ticker.LogLocator(base=10, subs=range(1, 10), numticks=50))
     axis.set_minor_formatter(ticker.NullFormatter())
@@ -34,4 +37,6 @@ def log_text(value: float, power: bool) -> str:
         return ""
     if power:
         return rf"$10^{{{round(math.log10(value))}}}$"
+    if 1e4 <= value < 1e7:
+        return f"{value:,.0f}"
     return f"{value:.10g}" if 1e-5 < value < 1e7 else f"{value:.0e}"

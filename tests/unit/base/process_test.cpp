@@ -32,6 +32,14 @@ TEST(RunCaptured, TellsWhyAProgramCannotBeRun) {
   EXPECT_EQ(run_captured({"true"}, "/nowhere").output, "true cannot be run: No such file or directory");
 }
 
+TEST(RunWithInput, TheProgramReadsIt) {
+  EXPECT_EQ(run_with_input({"cat"}, "a line\nand one without its end").output, "a line\nand one without its end");
+  EXPECT_EQ(run_with_input({"cat"}, "").output, "");
+  const std::string much(3'000'000, 'x');  // more than a pipe holds
+  EXPECT_EQ(run_with_input({"wc", "-c"}, much).output, "3000000\n");
+  EXPECT_EQ(run_with_input({"true"}, much).exit_code, 0) << "nobody has to read it";
+}
+
 TEST(RunCaptured, RunsInTheFolder) { EXPECT_EQ(run_captured({"pwd", "-P"}, "/").output, "/\n"); }
 
 // A program that hangs, and what it has started, must not keep whoever asked it.

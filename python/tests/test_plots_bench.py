@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: MIT
+"""Pictures of what shaken-bench has measured: their data are those of the report, and nothing is cut."""
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip("matplotlib")
+from shaken.plots import bench, names, style  # noqa: E402
+
+_SCENE = {"length_mm": 4.5, "area_fraction": 0.75, "side_mm": 41.865, "n_rods": 1000}
+_PHASES = ("surfaces", "detection", "response", "storing", "rod_bounds", "tightening", "pair_bounds", "neighbors")
+_NAMES = ("T_xy", "T_z", "T_rot", "S", "rms_n_z", "drift", "msd", "hit")
+_MACHINE = {"cpu": "made up", "cores": 2, "compiler": "none", "flags": "-O3"}
+
+
+def _speed_rows() -> list[dict[str, Any]]:
+    return [{**_SCENE, "area_fraction": phi, "kind": f"kind {phi}", "scheduled": {"rod_s_per_cpu_s": 1660.4 / phi},
+             "reference": {"rod_s_per_cpu_s": 12.0}, "phase_shares": {**dict.fromkeys(_PHASES, 0.11), "other": 0.12}}
+            for phi in (0.45, 0.6, 0.75)]
+
+
+def _statistical() -> dict[str, Any]:
+    rows, limits, tilt = [], [], []
+    for variant in ("newton", "instant"):
+        scene = {**_SCENE, "variant": variant}
+        for knob, values in (("step", (1, 4, 16, 64)), ("bead pitch", (0.15, 0.3, 0.6)), ("sweeps", (8, 2, 1))):
+            for value in values:
+                rows.append({**scene, "knob": knob, "value": value, "cpu_s_per_rod_s": 0.02 / value,
+                             **{name: {"bias": 0.001 * value, "bias_error": 0.002} for name in _NAMES}})
+                if knob == "step":
+                    tilt.append({**scene, "knob": knob, "value": value, "n_z": [-0.2, 0.0, 0.2],
+                                 "v_along": [-1.0, 0.0, 1.0], "v_along_sem": [0.1, None, 0.9]})
+        limits += [{**scene, "observable": name, "limit": {"value": 2.0, "sem": 0.01},
+                    "slope_per_us": {"value": 0.002, "sem": 0.001}} for name in _NAMES]
+    observables = [{"name": name, "title": f"the observable {name}", "unit": "1", "has_limit": True} for name in _NAMES]
+    return {"rows": rows, "limits": limits, "tilt": tilt, "observables": observables, "linear": 8}
+
+
+def _deterministic() -> dict[str, Any]:
+    quartiles = ("lower", "median", "upper")
+    rows = [{"case": case, "variant": "newton", "dt_s": 1e-6 * step, "duration_s": 0.004,
+             "scheduled_cpu_s": 1e-4 / step, "reference_cpu_s": 1e-3 / step, "error": {norm: {q: 1e-5 * step * (1 + k) for k, q in enumerate(quartiles)}
+                                                       for norm in ("position", "director", "energy")}}
+            for case in ("head-on", "dozen") for step in (8, 16, 32, 64)]
+    fit = {"order": 1.0, "order_error": 0.02, "coefficient": 20.0}
+    orders = [{"case": case, "variant": "newton", "position": fit, "director": fit, "energy": {"order": None}}
+              for case in ("head-on", "dozen")]
+    return {"rows": rows, "orders": orders}
+
+
+REPORTS: dict[str, dict[str, Any]] = {
+    "speed": {"rows": _speed_rows()}, "kinds": {"rows": _speed_rows()},
+    "scaling n": {"rows": [{**_SCENE, "n_rods": n, "relative_cost": 1 + n / 1e4} for n in (500, 2000, 18000)]},
+    "scaling dt": {"rows": [{**_SCENE, "dt_s": 1e-6 * dt, "relative_cost": 8 / dt} for dt in (8, 4, 2, 1)]},
+    "threads": {"rows": [{**_SCENE, "threads": n, "speed_up": n**0.7, "limit": n**0.8} for n in (1, 2, 4)]},
+    "hard": {"rows": [{"case": f"case-{k % 5}", "limit": 1.0, "limit_is": "most", "margin": 3.0**k} for k in range(9)]},
+    "effects": {"rows": [{"without": name, "own_state": {"cpu_ratio": ratio, "cpu_ratio_error": 0.02}, "same_state": {}}
+                         for name, ratio in (("(nothing)", 1.0), ("vibration", 16.2), ("rod_rod_friction", 1.19))]},
+    "visits": {"rows": [{"time_ms": 0.1 * k, "gap_um": 50.0 - k, "safe_ms": 0.05, "event": event}
+                        for k, event in enumerate(("ran out", "tightened", "anew"))],
+               "dt_s": 1e-4, "window_s": 0.002, "gap_um": [50.0 - k for k in range(20)], "visits": 1, "hits": 2},
+    "accuracy deterministic": _deterministic(), "accuracy statistical": _statistical(),
+    "accuracy error": {"rows": [{**_SCENE, "side_mm": side, "tau_s": 0.1, "cpu_s_per_rod_s": 0.01, "std": 0.1,
+                                 "c": None, "stretch_s": [0.1, 1.0, 10.0], "sem": [0.1, 0.03, None],
+                                 "sem_error": [0.01, 0.01, None]}
+                                for side in (12, 24)]},
+    "peers": {"rows": [{"program": "Shaken", "dt_us": 16, "rod_s_per_cpu_s_best": "12345"},
+                       {"program": "ODE", "dt_us": 100, "rod_s_per_cpu_s_best": ""}]},
+}
+
+
+def report(bench_name: str) -> dict[str, Any]:
+    return {"bench": bench_name, "version": "0.1.0", "machine": _MACHINE, **REPORTS[bench_name]}
+
+
+def test_every_bench_with_pictures_is_here() -> None:
+    assert set(REPORTS) == set(bench.DRAWERS)
+
+
+@pytest.mark.parametrize("name", REPORTS)
+@pytest.mark.parametrize("width", [None, "89mm", "183mm"])
+def test_nothing_is_cut(name: str, width: str | None) -> None:
+    found = list(bench.figures_of(report(name), width))
+    assert found
+    for _, sheet in found:
+        if width == "89mm" and len(sheet.panels) > 1:
+            continue  # several panels beside each other are for a page
+        sheet.finish()
+        whole = sheet.figure.get_tightbbox(sheet.figure.canvas.get_renderer())
+        assert whole.x0 >= 0 and whole.y0 >= 0
+        assert whole.x1 <= sheet.width + 1e-6 and whole.y1 <= sheet.height + 1e-6
+
+
+def test_numbers_of_the_report_are_drawn(tmp_path: Path) -> None:
+    figures = dict(bench.figures_of(report("accuracy statistical")))
+    assert set(figures) == {"bias", "tilt", "cost", "model"}
+    figures["cost"].save(tmp_path / "cost.png")
+    text = "".join(line for line in (tmp_path / "cost.csv").read_text().splitlines(True) if not line.startswith("#"))
+    first = next(csv.DictReader(io.StringIO(text)))
+    assert first["curve"] == "newton"
+    assert float(first["x"]) == pytest.approx(20)          # ms per rod and simulated second
+    assert float(first["y"]) == pytest.approx(0.1 + 0.4)   # 100 (|bias| + 2 errors)
+    assert all(float(value) < 0.5 for drawn in figures["tilt"][0].drawn for value, y in zip(drawn.error, drawn.y)
+               if math.isfinite(y))
+
+
+def test_one_variant_has_no_cost() -> None:
+    one = report("accuracy statistical")
+    one = {**one, "rows": [row for row in one["rows"] if row["variant"] == "newton"]}
+    assert "cost" not in dict(bench.figures_of(one))
+    assert "cost" not in dict(bench.figures_of({**report("accuracy statistical"), "limits": []}))
+
+
+def test_numbers_are_plain() -> None:
+    assert [names.short_number(value) for value in (1660.4, 0.01234, 100, 23456, -0.5, math.nan)] == [
+        "1660", "0.0123", "100", "23,500", "−0.500", "–"]
+    (_, sheet), = bench.figures_of(report("speed"))
+    shown = [text.get_text() for text in sheet[0].axes.texts]
+    assert shown == ["3690", "2770", "2210", "12.0", "12.0", "12.0"]
+
+
+def test_the_smallest_margin_of_each_case_counts() -> None:
+    (_, sheet), = bench.figures_of(report("hard"))
+    assert [(drawn.curve, float(drawn.x[0])) for drawn in sheet[0].drawn[:5]] == [
+        (f"case-{k}", 3.0**k) for k in range(5)]
+
+
+def test_reports_are_drawn_by_the_program_beside_their_rows(tmp_path: Path) -> None:
+    (tmp_path / "speed.json").write_text(json.dumps(report("speed")))
+    (tmp_path / "speed.csv").write_text("the rows\n")
+    program = Path(style.__file__).parent / "__main__.py"
+
+    def call(*words: Any) -> subprocess.CompletedProcess[str]:
+        return subprocess.run([sys.executable, program, "bench", *map(str, words)], text=True, capture_output=True,
+                              check=False)
+
+    done = call(tmp_path / "speed.json", "--out", tmp_path)
+    assert done.returncode == 0 and done.stdout == f"{tmp_path}/speed.png\n", done.stdout + done.stderr
+    assert (tmp_path / "speed.csv").read_text() == "the rows\n"
+    assert b"made up, 2, none, -O3" in (tmp_path / "speed.png").read_bytes()
+    (tmp_path / "count.json").write_text(json.dumps({"bench": "count", "rows": [{}]}))
+    assert call(tmp_path / "count.json").stdout == ""
+    assert call(tmp_path / "none.json").returncode == 2
+
+
+def test_numbers_of_a_row() -> None:
+    assert bench.number({"a": {"b": 2}}, "a/b") == 2
+    assert np.isnan(bench.number({"a": {"b": None}}, "a/b")) and np.isnan(bench.number({}, "a/b"))

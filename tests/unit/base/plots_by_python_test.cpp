@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "base/plots_by_python.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "base/failure.h"
+#include "base/scratch_folder.h"
+
+namespace shaken {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+/// A program in the place of Python, for as long as this lives.
+class InPlaceOfPython {
+ public:
+  explicit InPlaceOfPython(const std::string& script) {
+    const auto program = folder_.path() / "python3";
+    std::ofstream(program) << "#!/bin/sh\n" << script;
+    std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+    setenv("SHAKEN_PYTHON", program.c_str(), 1);
+  }
+  ~InPlaceOfPython() { unsetenv("SHAKEN_PYTHON"); }
+
+ private:
+  ScratchFolder folder_;
+};
+
+/// What is told where nothing was drawn.
+Failure failure_of(const std::string& script) {
+  const InPlaceOfPython python(script);
+  try {
+    plots_by_python({"runs"});
+  } catch (const Failure& failure) {
+    return failure;
+  }
+  return {ExitCode::kOk, ""};
+}
+
+TEST(PlotsByPython, HandsOverItsWordsAndItsInput) {
+  const InPlaceOfPython python("shift 3; echo \"$@\"; cat; printf 'plots/a.png\\n'\n");
+  EXPECT_THAT(plots_by_python({"bench", "a.json"}, "{}\n"), ElementsAre("bench a.json", "{}", "plots/a.png"));
+}
+
+TEST(PlotsByPython, TellsInItsWordsWhyNothingWasDrawn) {
+  const Failure nothing = failure_of("echo there is nothing to plot yet; exit 1\n");
+  EXPECT_EQ(nothing.code, ExitCode::kFailed);
+  EXPECT_STREQ(nothing.what(), "there is nothing to plot yet");
+  const Failure bad = failure_of("echo one; echo two; exit 2\n");
+  EXPECT_EQ(bad.code, ExitCode::kBadInput);
+  EXPECT_STREQ(bad.what(), "one\ntwo");
+}
+
+TEST(PlotsByPython, OfATracebackTheLastLineIsTold) {
+  const Failure failure = failure_of("echo 'Traceback (most recent call last):'; echo 'ValueError: so'; exit 1\n");
+  EXPECT_EQ(failure.code, ExitCode::kFailed);
+  EXPECT_THAT(failure.what(), HasSubstr("ended with exit code 1: ValueError: so"));
+  EXPECT_THAT(failure_of("kill -9 $$\n").what(), HasSubstr("ended with exit code 137"));
+}
+
+TEST(PythonInterpreter, IsTheOneThatIsChosen) {
+  setenv("SHAKEN_PYTHON", "/opt/python", 1);
+  EXPECT_EQ(python_interpreter(), "/opt/python");
+  setenv("SHAKEN_PYTHON", "", 1);
+  EXPECT_THAT(python_interpreter(), HasSubstr("python3"));
+  unsetenv("SHAKEN_PYTHON");
+}
+
+}  // namespace
+}  // namespace shaken
