@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # What `cmake --install` puts where, and the Debian packages that `./dev package` makes of it by CPack. Component
-# "programs": the programs, their man pages, completions and scenes. Component "libraries": the simulator and the
-# observables, for programs of one's own (find_package(shaken)).
+# "programs": the programs, their man pages, completions and scenes. Component "python": the Python package, which draws
+# their plots. Component "libraries": the simulator and the observables, for programs of one's own (find_package(shaken)).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -18,15 +18,19 @@ if(NOT SHAKEN_ONLY_SIM)
   install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/shaken COMPONENT programs PATTERN tests EXCLUDE)
   install(DIRECTORY web/page DESTINATION ${CMAKE_INSTALL_DATADIR}/shaken COMPONENT programs)
   install(DIRECTORY schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/shaken COMPONENT programs)
-  install(DIRECTORY python/shaken DESTINATION ${CMAKE_INSTALL_DATADIR}/shaken/python COMPONENT programs
-    FILES_MATCHING PATTERN *.py)
+  # the Python package: where the programs look for it, and by a link where Debian's Python does
+  install(DIRECTORY python/shaken DESTINATION ${CMAKE_INSTALL_DATADIR}/shaken/python COMPONENT python
+    FILES_MATCHING PATTERN *.py PATTERN py.typed)
+  file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/dist-packages)
+  file(CREATE_LINK ../../../${CMAKE_INSTALL_DATADIR}/shaken/python/shaken ${CMAKE_BINARY_DIR}/dist-packages/shaken SYMBOLIC)
+  install(FILES ${CMAKE_BINARY_DIR}/dist-packages/shaken DESTINATION lib/python3/dist-packages COMPONENT python)
   install(DIRECTORY proto/ DESTINATION ${CMAKE_INSTALL_DATADIR}/shaken/lcm COMPONENT programs FILES_MATCHING PATTERN *.lcm)
   # not below CMAKE_INSTALL_LIBDIR, which names the machine
   install(FILES packaging/systemd/shakend.service DESTINATION lib/systemd/user COMPONENT programs)
   install(FILES packaging/systemd/shakend@.service DESTINATION lib/systemd/system COMPONENT programs)
   install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs RENAME copyright)
   install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
-  install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs)
+  install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT programs PATTERN archive EXCLUDE)
 
   # man pages and completions are made by the programs themselves, so only where they can run and help2man is there
   set(SHAKEN_TEXTS ${CMAKE_BINARY_DIR}/texts)
@@ -62,14 +66,14 @@ if(NOT SHAKEN_ONLY_SIM)
   set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_SOURCE_DIR}/cmake/whole_package.cmake)
   set(CPACK_PACKAGE_CONTACT "The Shaken developers <shaken@localhost>")
   set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
-  set(CPACK_COMPONENTS_ALL programs libraries)
+  set(CPACK_COMPONENTS_ALL programs libraries python)
   set(CPACK_DEB_COMPONENT_INSTALL ON)
   set(CPACK_STRIP_FILES ON)
   set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
   set(CPACK_DEBIAN_PROGRAMS_PACKAGE_NAME shaken)
   set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SECTION science)
   set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SHLIBDEPS ON)
-  set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS "python3-matplotlib, python3-numpy, python3-h5py, fonts-dejavu-core, libjs-chart.js")
+  set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS "python3-shaken, fonts-dejavu-core, libjs-chart.js")
   set(CPACK_COMPONENT_PROGRAMS_DESCRIPTION
     "Simulates rods between two vibrating plates in three dimensions, every collision\nresolved by an impulse: a daemon that runs sweeps, a command line, films and\npictures, live state over LCM.")
   set(CPACK_DEBIAN_LIBRARIES_PACKAGE_NAME libshaken-dev)
@@ -77,5 +81,12 @@ if(NOT SHAKEN_ONLY_SIM)
   set(CPACK_DEBIAN_LIBRARIES_PACKAGE_DEPENDS "libeigen3-dev, libxxhash-dev")
   set(CPACK_COMPONENT_LIBRARIES_DESCRIPTION
     "The simulator and the observables of Shaken as static libraries with headers,\nfound by CMake's find_package(shaken).")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-shaken)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3, python3-numpy, python3-scipy, python3-matplotlib, python3-h5py")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-pandas")
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION
+    "Results of Shaken in Python: runs with their errors, sweeps, recorded frames, live\nstate of running jobs, plots, and the figures of the paper.")
   include(CPack)
 endif()

@@ -1,4 +1,6 @@
 # SPDX-License-Identifier: MIT
+import json
+
 import numpy as np
 import pytest
 
@@ -67,13 +69,19 @@ def test_frames_come_lazily_and_at_multiples(run_at, tmp_path):
     assert np.allclose(np.exp(2j * turned), np.exp(2j * theta[0]), atol=1e-5)
 
 
-def test_mdanalysis_reads_the_frames(run_at, tmp_path):
+def test_mdanalysis_reads_the_frames_of_a_real_run(programs):
     pytest.importorskip("MDAnalysis")
-    run = run_at("a", frames=3)
+    scene = {"box": {"side": "14 mm"}, "accuracy": "draft", "time": {"steady": 0, "measure": "0.2 s"},
+             "measure": {"order": {}}, "trajectory": {"every": "50 ms"}}
+    (programs.root / "scene.json").write_text(json.dumps(scene))
+    programs.shaken("run", programs.root / "scene.json", "--out", programs.root / "run")
+    run = shaken.open(programs.root / "run")
     universe = run.trajectory.to_mdanalysis()
-    for frame, ours in zip(universe.trajectory, run.frames()):
-        assert np.allclose(universe.atoms.positions * 1e-7, ours.positions, rtol=1e-5)
-        assert frame.time * 1e-12 == pytest.approx(ours.time)
+    assert len(universe.trajectory) == len(run.trajectory) >= 4
+    for theirs, ours in zip(universe.trajectory, run.frames()):
+        assert np.allclose(universe.atoms.positions * 1e-7, ours.positions, rtol=1e-5, atol=1e-5)
+        assert np.allclose(universe.atoms.velocities * 1e-5, ours.velocities, rtol=1e-4, atol=1e-3)
+        assert theirs.time * 1e-12 == pytest.approx(ours.time)
 
 
 def test_what_is_no_run_is_said_to_be_none(tmp_path, run_at):

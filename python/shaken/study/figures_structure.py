@@ -2,7 +2,7 @@
 """Structure: correlations in space, layers and what they depend on, the gap, elasticity."""
 from __future__ import annotations
 
-from typing import Callable
+from typing import Callable, Sequence
 
 import numpy as np
 
@@ -30,16 +30,25 @@ def g2(material: Material) -> Sheet:
     return sheet
 
 
-def _map(panel: Panel, runs: Runs, name: str, title: str, symmetric: bool) -> None:
-    found = [run[name] for run in runs if name in run]
-    if not found:
+def _mean_map(runs: Runs, name: str) -> np.ndarray | None:
+    found = [np.asarray(run[name]) for run in runs if name in run]
+    return np.mean(found, axis=0) if found else None
+
+
+def _maps(sheet: Sheet, panels: Sequence[Panel], sets: Sequence[tuple[Runs, str]], name: str) -> None:
+    """Maps side by side in the same colours, with one bar for all."""
+    means = [(panel, runs, title, _mean_map(runs, name)) for panel, (runs, title) in zip(panels, sets)]
+    seen = [mean[np.isfinite(mean)] for *_, mean in means if mean is not None]
+    if not seen:
         return
-    mean = np.mean([np.asarray(array) for array in found], axis=0)
-    across, along = found[0].axis
-    panel.titles("along the director (mm)", "across (mm)", title)
-    low, high = np.nanpercentile(mean, (1, 99))
-    limits = (min(low, 0) if symmetric else 0.0, high)
-    panel.map(along, across, mean, names.axis_title(name), limits=limits)
+    low, high = np.percentile(np.concatenate(seen), (1, 99))
+    drawn = None
+    for panel, runs, title, mean in means:
+        panel.titles("along (mm)", "across (mm)", title)
+        if mean is not None:
+            across, along = next(run for run in runs if name in run)[name].axis
+            drawn = panel.map(along, across, mean, names.axis_title(name), limits=(min(low, 0.0), high), bar=False)
+    sheet.colourbar(drawn, list(panels), names.axis_title(name))
 
 
 def _cuts(panel: Panel, runs: Runs, name: str, title: str, level: float) -> None:
@@ -59,14 +68,18 @@ def g2_map(material: Material) -> Sheet:
 
 def _maps_and_cuts(material: Material, name: str, stamps: dict[float, tuple[str, ...]], level: float) -> Sheet:
     sets = {0.45: material.library["dilute"], 0.75: material.library["layers"], 0.85: material.library["layers"]}
-    chosen = [(packing, sets[packing].at(packing=packing)) for packing in stamps]
-    sheet = material.sheet(2 * len(chosen), columns=len(chosen))
-    for k, (packing, runs) in enumerate(chosen):
-        _map(sheet[k], runs, f"/pairs/{name}", f"φ = {packing:g}", name == "g2")
-        lower = sheet[k + len(chosen)] if material.width > 100 or len(chosen) <= 2 else sheet.panels[len(chosen) + k]
+    chosen = [(sets[packing].at(packing=packing), packing) for packing in stamps]
+    n = len(chosen)
+    sheet = material.sheet(2 * n, columns=n)
+    # where the page is narrow there are two panels a row, and a map lies beside its cuts
+    narrow = sheet.columns < n
+    upper = [sheet[2 * k] if narrow else sheet[k] for k in range(n)]
+    lower = [sheet[2 * k + 1] if narrow else sheet[n + k] for k in range(n)]
+    _maps(sheet, upper, [(runs, f"φ = {packing:g}") for runs, packing in chosen], f"/pairs/{name}")
+    for panel, (runs, packing) in zip(lower, chosen):
         if runs:
-            _cuts(lower, runs, name, f"cuts, φ = {packing:g}", level)
-            material.stamp(lower, *stamps[packing])
+            _cuts(panel, runs, name, f"cuts, φ = {packing:g}", level)
+            material.stamp(panel, *stamps[packing])
     return sheet
 
 
@@ -82,11 +95,11 @@ def distances(material: Material) -> Sheet:
         panel.reference(y=1)
     if scale:
         sheet.colourbar(scale, [sheet[0], sheet[3]])
-    for k, packing in enumerate((0.75, 0.85)):
-        runs = library["layers"].at(packing=packing)
-        _map(sheet[1 + k], runs, "/pairs/g", f"φ = {packing:g}", False)
+    dense = [(library["layers"].at(packing=packing), f"φ = {packing:g}") for packing in (0.75, 0.85)]
+    _maps(sheet, [sheet[1], sheet[2]], dense, "/pairs/g")
+    for panel, (runs, title) in zip((sheet[4], sheet[5]), dense):
         if runs:
-            _cuts(sheet[4 + k], runs, "g", f"cuts, φ = {packing:g}", 1.0)
+            _cuts(panel, runs, "g", f"cuts, {title}", 1.0)
     material.stamp(sheet[4], "g-flattens")
     return sheet
 
@@ -211,8 +224,7 @@ def gap(material: Material) -> Sheet:
     runs = Runs([*material.library["gaps"], *material.library["layers"].at(4.5, 0.80)])
     gaps = runs.values(GAP)
     sheet = material.sheet(8, columns=4 if material.width > 150 else 2, height=44)
-    for panel, value in zip(sheet, gaps):
-        _map(panel, runs.at(gap=value), "/pairs/g2", f"w = {value:g} mm", True)
+    _maps(sheet, sheet.panels[:4], [(runs.at(gap=value), f"w = {value:g} mm") for value in gaps], "/pairs/g2")
     _cuts_across(sheet[4], runs, None, GAP)
     material.stamp(sheet[4], "gap")
     _angles(sheet[5], runs, GAP, "P(θ)")
