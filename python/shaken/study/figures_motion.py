@@ -33,7 +33,7 @@ def tilt(material: Material) -> Sheet:
         material.stamp(panel, statement)
     for place in (-0.2, 0.2):
         sheet[0].reference(x=place, label="the paper: fastest" if place > 0 else "")
-    panel = sheet[2].titles(names.axis_title("/tilt/n_z"), "P(n_z)", "how often a tilt occurs")
+    panel = sheet[2].titles(names.axis_title("/tilt/n_z"), "$P(n_z)$", "how often a tilt occurs")
     for k, packing in enumerate(runs.values(PACKING)):
         found = runs.at(packing=packing).curve("/tilt/density")
         if found:
@@ -163,7 +163,7 @@ def memory(material: Material) -> Sheet:
     if scale:
         sheet.colourbar(scale, [sheet[0], sheet[1], sheet[3], sheet[4]])
     low, high = FREE_OF_THE_WINDOW
-    panel = sheet[5].titles(names.axis_title(PACKING), "C_v along (mm²/s²)", f"lags of {low:g} to {high:g} s")
+    panel = sheet[5].titles(names.axis_title(PACKING), "$C_v$ along (mm²/s²)", f"lags of {low:g} to {high:g} s")
     draw_points(panel, [(at, e) for at, e in long_rods(material.library).points(PACKING, late_velocity_correlation)
                         if at > 0.59])
     panel.zero()
@@ -203,7 +203,7 @@ def rotation(material: Material) -> Sheet:
     draw_points(panel, short.points(PACKING, short_limit), "t → 0", 0)
     draw_points(panel, short.points(PACKING, "rotational_diffusion_rad2_s"), "t → ∞", 1)
     material.stamp(panel, "rotation")
-    panel = sheet[3].titles(names.axis_title(PACKING), "exponent α_r, short times", "ℓ = 2.5 mm")
+    panel = sheet[3].titles(names.axis_title(PACKING), "exponent $α_r$, short times", "ℓ = 2.5 mm")
     draw_points(panel, short.points(PACKING, "alpha_rotation_short"))
     panel.reference(y=1)
     material.stamp(panel, "rotation-short")
@@ -268,7 +268,7 @@ def model(material: Material) -> Sheet:
             panel.curve(n_z[seen], v[seen], error[seen], label=names.value_label(FREQUENCY, frequency), colour=k,
                         look="line")
     panel.zero()
-    panel = sheet[1].titles(names.axis_title(FREQUENCY), "velocity beyond n_z = 0.31 (mm/s)", "reversed where > 0")
+    panel = sheet[1].titles(names.axis_title(FREQUENCY), "velocity beyond $n_z$ = 0.31 (mm/s)", "reversed where > 0")
     draw_points(panel, shaken.points(FREQUENCY, lambda run: speed_between(run, 0.31, 0.40)))
     panel.zero()
     panel = sheet[2].titles(names.axis_title(FREQUENCY), "D, as MSD/4t (mm²/s)", "φ = 0.6")
@@ -300,7 +300,7 @@ def accuracy(material: Material) -> Sheet:
     """The controls: the same points at the paper's time step, beside those at the longer step of a desk."""
     numbers = ("S", "diffusion_mm2_s", "rotational_diffusion_rad2_s", "theta_m_deg", "velocity_rms_mm_s", "c2_decay_s")
     sheet = material.sheet(2, columns=1, height=70)
-    panel = sheet[0].titles("", "4 us over 16 us", "ratio of the same number")
+    panel = sheet[0].titles("", "4 µs over 16 µs", "ratio of the same number")
     other = sheet[1].titles("", "difference / its error", "how significant")
     for k, name in enumerate(numbers):
         x, ratios, errors, sigmas = [], [], [], []

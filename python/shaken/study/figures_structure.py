@@ -52,7 +52,7 @@ def _maps(sheet: Sheet, panels: Sequence[Panel], sets: Sequence[tuple[Runs, str]
 
 
 def _cuts(panel: Panel, runs: Runs, name: str, title: str, level: float) -> None:
-    panel.titles(names.axis_title("/pairs/cut/r_mm"), names.axis_title(f"/pairs/{name}"), title)
+    panel.titles("distance (mm)", names.axis_title(f"/pairs/{name}"), title)
     for k, way in enumerate(("along", "across")):
         found = runs.curve(f"/pairs/cut/{name}_{way}")
         if found:
@@ -165,15 +165,15 @@ def layers(material: Material) -> Sheet:
     material.stamp(sheet[6], "wavelength-length")
     _against(sheet[7], wide_ends, END, "wavelength_mm", "wavelength, ℓ = 4 mm")
     material.stamp(sheet[7], "wavelength-end")
-    panel = sheet[8].titles(names.axis_title("/layers/q_per_mm"), "spectrum of sin 2(θ − θ_N)", "across the director")
+    panel = sheet[8].titles("wave number $q_⊥$ (1/mm)", "spectrum of sin 2(θ − θ$_N$)", "across the director")
     panel.scale(y="log")
     draw_curves(panel, long_, "/layers/spectrum_across", scale, keep=lambda q, s: (q < 2) & (s > 0), errors=False)
     return sheet
 
 
 def _cuts_across(panel: Panel, runs: Runs, scale: Callable[[float], object] | None, path: str = PACKING,
-                 title: str = "across the director") -> None:
-    panel.titles(names.axis_title("/pairs/cut/r_mm"), names.axis_title("/pairs/g2"), title)
+                 title: str = "across") -> None:
+    panel.titles("distance across the director (mm)", names.axis_title("/pairs/g2"), title)
     for k, value in enumerate(runs.values(path)):
         here = runs.where(path, value)
         found = here.curve("/pairs/cut/g2_across")
