@@ -2,6 +2,7 @@
 """The figures: the paper's own by its numbers, and those beyond it by names."""
 from __future__ import annotations
 
+import difflib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Callable, Iterable
@@ -98,7 +99,9 @@ def chosen(words: Iterable[str]) -> list[Figure]:
     known = {word: figure for figure in FIGURES for word in (figure.name, figure.number) if word}
     unknown = [word for word in wanted if word not in known]
     if unknown:
-        raise ShakenError(f"no such figure: {', '.join(unknown)}; there are {' '.join(f.id for f in FIGURES)}")
+        meant = [match for word in unknown for match in difflib.get_close_matches(word, known, 1)]
+        raise ShakenError(f"no such figure: {', '.join(unknown)}" + (f" (did you mean {', '.join(meant)}?)" if meant else
+                          f"; there are {' '.join(f.id for f in FIGURES)}"))
     return [known[word] for word in dict.fromkeys(wanted)] if wanted else list(FIGURES)
 
 
