@@ -15,6 +15,8 @@ import numpy as np
 import pytest
 
 pytest.importorskip("matplotlib")
+from figures_whole import assert_whole  # noqa: E402
+
 from shaken.plots import bench, names, style  # noqa: E402
 
 _SCENE = {"length_mm": 4.5, "area_fraction": 0.75, "side_mm": 41.865, "n_rods": 1000}
@@ -95,10 +97,7 @@ def test_nothing_is_cut(name: str, width: str | None) -> None:
     for _, sheet in found:
         if width == "89mm" and len(sheet.panels) > 1:
             continue  # several panels beside each other are for a page
-        sheet.finish()
-        whole = sheet.figure.get_tightbbox(sheet.figure.canvas.get_renderer())
-        assert whole.x0 >= 0 and whole.y0 >= 0
-        assert whole.x1 <= sheet.width + 1e-6 and whole.y1 <= sheet.height + 1e-6
+        assert_whole(sheet)
 
 
 def test_numbers_of_the_report_are_drawn(tmp_path: Path) -> None:

@@ -14,6 +14,8 @@ import numpy as np
 import pytest
 
 pytest.importorskip("matplotlib")
+from figures_whole import assert_whole  # noqa: E402
+
 from shaken.estimate import Estimate, replica_mean  # noqa: E402
 from shaken.plots import names, runs, series, style, sweeps  # noqa: E402
 
@@ -162,8 +164,7 @@ def test_many_points_can_be_told_apart(n_fractions: int, n_lengths: int, width: 
     assert len(set(named)) <= 7
     assert has_bar == (not named and n_fractions * n_lengths > 1)
     assert sum(len(panel.drawn) for panel in sheet) == n_fractions * n_lengths
-    whole = sheet.figure.get_tightbbox(renderer)
-    assert whole.x0 >= 0 and whole.y0 >= 0 and whole.x1 <= sheet.width + 1e-6 and whole.y1 <= sheet.height + 1e-6
+    assert_whole(sheet)
     assert all(panel.axes.get_window_extent(renderer).width > 8 / 25.4 * sheet.figure.dpi for panel in sheet)
 
 

@@ -12,6 +12,8 @@ import numpy as np
 import pytest
 
 pytest.importorskip("matplotlib")
+from figures_whole import assert_whole  # noqa: E402
+
 from shaken.errors import ShakenError  # noqa: E402
 from shaken.plots import names, style  # noqa: E402
 
@@ -134,11 +136,8 @@ def test_nothing_is_cut_and_no_key_covers_data(width: str, columns: int) -> None
             for value in scale.values:
                 panel.curve(np.linspace(0, 5, 200), np.cos(np.linspace(0, 5, 200) * value), colour=scale(value))
             sheet.colourbar(scale, [panel])
-    sheet.finish()
+    assert_whole(sheet)
     renderer = sheet.figure.canvas.get_renderer()
-    whole = sheet.figure.get_tightbbox(renderer)
-    assert whole.x0 >= 0 and whole.y0 >= 0
-    assert whole.x1 <= sheet.width + 1e-6 and whole.y1 <= sheet.height + 1e-6
     for panel in sheet:
         key = panel.axes.get_legend()
         if key is None:
@@ -151,6 +150,15 @@ def test_nothing_is_cut_and_no_key_covers_data(width: str, columns: int) -> None
             for text in (other.axes._left_title, other.axes._right_title, other.axes.xaxis.label,
                          other.axes.yaxis.label):
                 assert not text.get_text() or not box.overlaps(text.get_window_extent(renderer))
+
+
+@pytest.mark.parametrize("path", [path for path in names.TABLE if path != "S"])
+def test_titles_fit_into_small_panels(path: str) -> None:
+    sheet = style.sheet("89mm", rows=2, columns=2)
+    for panel in sheet:
+        panel.titles(names.axis_title(path), names.axis_title(path), "its title").curve([0.5, 20], [0.5, 3000])
+        panel.scale("log", "log")
+    assert_whole(sheet)
 
 
 def test_marks_and_bars_keep_off_the_axes() -> None:

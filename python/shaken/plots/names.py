@@ -58,7 +58,7 @@ TABLE: dict[str, tuple[str, str, str]] = {
     "/pairs/cut/r_mm": ("distance across the director", r"$r_⊥$", "mm"),
     "/pairs/cut/g2_across": ("orientational correlation", r"$G_2(r_⊥)$", ""),
     "/layers/q_per_mm": ("wave number across the director", r"$q_⊥$", "1/mm"),
-    "/layers/spectrum_across": ("spectrum of the layers", r"$\langle|\hat{s}(q_⊥)|^2\rangle$", ""),
+    "/layers/spectrum_across": ("spectrum of the layers", r"$\langle|s(q_⊥)|^2\rangle$", ""),
     "/structure/q_per_mm": ("wave number", "$q$", "1/mm"),
     "/msd/lag_s": ("lag", "$t$", "s"),
     "/msd/total_mm2": ("mean square displacement", "MSD", "mm²"),

@@ -14,7 +14,7 @@ from .names import number_text
 from .panel import Panel
 from .style import DARK_GREY, ColourScale, inches, styled
 
-_EDGE = 1.5 / 72          # [inches] that stays white at the border of a figure
+_EDGE = 2.5 / 72          # [inches] that stays white at the border of a figure
 _CORNERS = ("upper right", "upper left", "lower right", "lower left", "center right", "center left", "upper center",
             "lower center")
 _BELOW_AXES = 25.0        # [points] from the axes to below the title of x
@@ -109,7 +109,9 @@ class Sheet:
         self.height += top + bottom
         self.figure.set_size_inches(self.width, self.height)
         self._arrange(top, bottom)
-        if any([_fit_titles(one, renderer) for one in self.panels]):
+        for _ in range(3):  # lines above each other leave less room for others
+            if not any([_fit_titles(one, renderer) for one in self.panels]):
+                break
             self._arrange(top, bottom)
         keys = [self._key(one, renderer) for one in self.panels]
         below = [key[1] if key is not None else 0.0 for key in keys]
@@ -378,27 +380,29 @@ def _places_beside(axes: Any, xs: np.ndarray, ys: np.ndarray, box: Any, size: An
 
 
 def _fit_titles(one: Panel, renderer: Any) -> bool:
-    """Breaks titles that are longer than their axes; says whether there are any."""
+    """Breaks titles that are longer than their axes; says whether this has changed any."""
     axes = one.axes
     box = axes.get_window_extent(renderer)
     stamp = axes._right_title
     room = box.width - (stamp.get_window_extent(renderer).width + 6 * renderer.dpi / 72 if stamp.get_text() else 0)
-    return any([_wrap(axes.xaxis.label, 1.25 * box.width, renderer),
+    return any([_wrap(axes.xaxis.label, 1.02 * box.width, renderer),
                 _wrap(axes.yaxis.label, (1.15 if one.sheet.rows == 1 else 1.0) * box.height, renderer, upright=True),
                 _wrap(axes._left_title, room, renderer)])
 
 
 def _wrap(text: Any, most: float, renderer: Any, upright: bool = False) -> bool:
-    """Breaks a text into lines no longer than `most` pixels, between words, not within mathtext; says whether it had
-    to."""
-    content = text.get_text()
+    """Breaks a text into lines no longer than `most` pixels, between words, not within mathtext; says whether this has
+    changed it."""
+    before = text.get_text()
+    content = text.shaken_whole = getattr(text, "shaken_whole", before)
 
     def length() -> float:
         extent = text.get_window_extent(renderer)
         return float(extent.height if upright else extent.width)
 
+    text.set_text(content)
     if not content or "\n" in content or length() <= most:
-        return False
+        return before != content
     words = _words(content)
     for n_lines in (2, 3):
         best: tuple[float, str] | None = None
@@ -412,7 +416,7 @@ def _wrap(text: Any, most: float, renderer: Any, upright: bool = False) -> bool:
         text.set_text(best[1])
         if best[0] <= most:
             break
-    return True
+    return before != text.get_text()
 
 
 def _cuts(n: int, n_lines: int) -> list[tuple[int, ...]]:

@@ -26,7 +26,7 @@ _RC: dict[str, Any] = {
     "font.family": "DejaVu Sans", "font.size": 7, "mathtext.fontset": "dejavusans",
     "axes.titlesize": 7, "axes.labelsize": 7, "xtick.labelsize": 6.5, "ytick.labelsize": 6.5, "legend.fontsize": 6.5,
     "axes.linewidth": 0.6, "axes.titlepad": 4.0, "axes.labelpad": 2.5, "axes.titlelocation": "left",
-    "axes.unicode_minus": True, "axes.formatter.useoffset": False, "axes.formatter.limits": (-4, 5),
+    "text.hinting": "no_hinting", "axes.unicode_minus": True, "axes.formatter.useoffset": False, "axes.formatter.limits": (-4, 5),
     "axes.axisbelow": True, "axes.xmargin": 0.05, "axes.ymargin": 0.06,
     "xtick.direction": "in", "ytick.direction": "in", "xtick.top": True, "ytick.right": True,
     "xtick.major.width": 0.6, "ytick.major.width": 0.6, "xtick.minor.width": 0.4, "ytick.minor.width": 0.4,
