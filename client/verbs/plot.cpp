@@ -123,6 +123,9 @@ class Plot : public Verb {
     const std::string x = x_.empty() ? "" : resolved_field(points, x_);
     const std::string y = y_.empty() ? "order.mean" : resolved_field(points, y_);
     conditions.keep_matching(points, "points", context.console.err);
+    if (points.empty() && !where_.empty()) {
+      throw Failure(ExitCode::kFailed, "there is nothing to plot: no point matches --where");
+    }
     wanted["x"] = x;
     wanted["y"] = y;
     wanted["points"] = Json::array();

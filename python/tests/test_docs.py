@@ -27,12 +27,13 @@ def test_every_block_of_python_md_works(programs, tmp_path, monkeypatch):
     monkeypatch.setenv("MPLBACKEND", "Agg")
     monkeypatch.chdir(tmp_path)
     blocks = re.findall(r"^```python\n(.*?)^```$", (DOCS / "python.md").read_text(), flags=re.M | re.S)
-    assert len(blocks) == 6
+    assert len(blocks) == 7
     assert len([line for line in blocks[0].splitlines() if line]) <= 11
     names: dict = {}
     for block in blocks:
         exec(compile(block, "docs/python.md", "exec"), names)
     assert (tmp_path / "phases.png").read_bytes()[1:4] == b"PNG"
+    assert (tmp_path / "order.pdf").read_bytes()[:4] == b"%PDF" and (tmp_path / "order.csv").exists()
     assert list((tmp_path / "archive").iterdir())
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Figures of numbers, by matplotlib, in one style.
 
-    from shaken.plots import style
+    from shaken.plots import names, style
     sheet = style.sheet(width="89mm")
     panel = sheet.panels[0]
     panel.titles(x=names.axis_title("rods.area_fraction"), y=names.axis_title("order.mean"))

@@ -31,7 +31,7 @@ _RC: dict[str, Any] = {
     "xtick.direction": "in", "ytick.direction": "in", "xtick.top": True, "ytick.right": True,
     "xtick.major.width": 0.6, "ytick.major.width": 0.6, "xtick.minor.width": 0.4, "ytick.minor.width": 0.4,
     "xtick.major.size": 2.6, "ytick.major.size": 2.6, "xtick.minor.size": 1.5, "ytick.minor.size": 1.5,
-    "xtick.major.pad": 2.5, "ytick.major.pad": 2.0,
+    "xtick.major.pad": 3.0, "ytick.major.pad": 2.5,
     "lines.linewidth": 1.0, "lines.markersize": 3.6, "lines.markeredgewidth": 0.8, "errorbar.capsize": 0,
     "legend.frameon": False, "legend.borderaxespad": 0.6, "legend.handlelength": 1.6, "legend.handletextpad": 0.5,
     "legend.labelspacing": 0.3, "legend.columnspacing": 1.2, "legend.numpoints": 1, "legend.borderpad": 0.2,
