@@ -332,8 +332,8 @@ class InSlurm(unittest.TestCase):
                 env=CLUSTER.environment, stdin=subprocess.DEVNULL, capture_output=True, text=True)
             self.assertEqual(finished.returncode, 0, finished.stderr)
             self.assertTrue((self.base / "drawn" / "fig10-tilt.png").exists())
-            self.assertEqual(daemon.counts()["done"], 2)
-            eventually(lambda: len(ended() - before) == 2, "each run had a task of its own")
+            self.assertEqual(daemon.counts()["done"], 6)
+            eventually(lambda: len(ended() - before) == 6, "each run had a task of its own")
 
     def test_a_time_limit_costs_nothing_but_another_task(self):
         with Daemon(self.base / "limit", "--executor", "slurm") as daemon:
