@@ -36,16 +36,16 @@ Mean mean_of(const std::vector<double>& all) {
   return mean;
 }
 
-/// Mean S over some tenths of seconds, of replicas.
+/// Means of S over stretches of time, and their errors from replicas.
 struct Course {
   Mean begin;   ///< the first 50 ms
   Mean steady;  ///< from kForgotten on
 };
 
-constexpr double kForgotten = 6, kEnd = 16;  // [s]
+constexpr double kForgotten = 6, kEnd = 12;  // [s]
 
 Course course_from(Start start) {
-  constexpr int kReplicas = 12;
+  constexpr int kReplicas = 8;
   std::vector<double> early, late;
   for (int replica = 0; replica < kReplicas; ++replica) {
     System system;
