@@ -80,8 +80,8 @@ class Loop {
   RunOutcome run(bool fresh) {
     if (fresh) {
       if (auto done = sample(); !done) return finish_without_disk(done.error());
-      // the run that it starts from may be extended or removed
-      if (plan_.start) {
+      // the run that it starts from may be extended or removed, and what was compressed need not be so again
+      if (plan_.start || plan_.system.start == Start::kCompressed) {
         if (auto done = checkpoint(); !done) return finish_without_disk(done.error());
       }
     }
@@ -323,6 +323,9 @@ class Loop {
   std::unique_ptr<FramePublisher> publisher_;
 };
 
+/// Whether the run begins with work.
+bool is_compressed(const scene::RunPlan& plan) { return !plan.start && plan.system.start == Start::kCompressed; }
+
 struct Opened {
   OpenRun run;
   bool fresh = false;  ///< at tick 0, nothing sampled
@@ -343,7 +346,7 @@ void set_aside(const std::filesystem::path& file) {
 }
 
 /// The run from the newest checkpoint that is whole and fits, or a new one.
-Result<Opened> open_run(const scene::RunPlan& plan, const RunDirectory& directory) {
+Result<Opened> open_run(const scene::RunPlan& plan, const RunDirectory& directory, const GoOn& go_on) {
   bool found = false;
   for (const auto& file : directory.checkpoints()) {
     if (!std::filesystem::exists(file)) continue;
@@ -366,20 +369,27 @@ Result<Opened> open_run(const scene::RunPlan& plan, const RunDirectory& director
     set_aside(directory.frames());
     set_aside(directory.trajectory());
   }
-  Result<OpenRun> run = start_run(plan, directory, scene_text(plan));
+  const double cpu_begin = process_cpu_seconds();
+  Result<OpenRun> run = start_run(plan, directory, scene_text(plan), go_on);
   if (!run) return run.error();
+  if (is_compressed(plan)) spdlog::info("compressed the rods in {:.2f} CPU-s", process_cpu_seconds() - cpu_begin);
   return Opened{std::move(run).value(), true};
 }
 
 /// Says in progress.json too why a run never got going.
-RunOutcome fail(const RunOptions& options, const RunCallbacks& callbacks, const std::string& message) {
+void report_end(const RunOptions& options, const RunCallbacks& callbacks, const std::string& state,
+                const std::string& message) {
   Progress progress;
-  progress.state = "failed";
+  progress.state = state;
   progress.message = message;
   progress.pid = static_cast<int>(getpid());
   const RunDirectory directory{options.directory};
   if (auto done = write_progress(directory.progress(), progress); !done) spdlog::warn("{}", done.error().message);
   if (callbacks.on_progress) callbacks.on_progress(progress);
+}
+
+RunOutcome fail(const RunOptions& options, const RunCallbacks& callbacks, const std::string& message) {
+  report_end(options, callbacks, "failed", message);
   return failure(message);
 }
 
@@ -444,7 +454,12 @@ RunOutcome run_owned(const scene::RunPlan& plan, const RunOptions& options, cons
   }
   Progress last;
   {
-    Result<Opened> opened = open_run(plan, directory);
+    const GoOn go_on = [&options] { return options.stop == nullptr || !*options.stop; };
+    Result<Opened> opened = open_run(plan, directory, go_on);
+    if (!opened && is_compressed(plan) && !go_on()) {  // nothing is there to be saved
+      report_end(options, callbacks, "stopped", "asked to stop");
+      return {RunState::kStopped, ""};
+    }
     if (!opened) return fail(options, callbacks, opened.error().message);
     if (options.n_threads > 1) opened->run.simulation.use_threads(options.n_threads);
     const bool fresh = opened->fresh;

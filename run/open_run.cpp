@@ -47,8 +47,9 @@ Tick OpenRun::next_due(Tick from) const {
   return recording ? std::min(sample, recording->next(from)) : sample;
 }
 
-Result<OpenRun> start_run(const scene::RunPlan& plan, const RunDirectory& directory, const std::string& scene_json) {
-  Result<Simulation> simulation = start_simulation(plan, directory.root);
+Result<OpenRun> start_run(const scene::RunPlan& plan, const RunDirectory& directory, const std::string& scene_json,
+                          const GoOn& go_on) {
+  Result<Simulation> simulation = start_simulation(plan, directory.root, go_on);
   if (!simulation) return simulation.error();
   OpenRun run = make_run(plan, std::move(simulation).value());
   if (run.recording) {

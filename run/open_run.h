@@ -34,8 +34,9 @@ TrajectoryHeader trajectory_header(const World& world, const std::string& scene_
 /// The run that the files of a plan are of.
 Provenance provenance_of(const scene::RunPlan& plan);
 
-/// A run at tick 0, with the files that it records into. Nothing is sampled yet.
-Result<OpenRun> start_run(const scene::RunPlan& plan, const RunDirectory& directory, const std::string& scene_json);
+/// A run at tick 0, with the files that it records into. Nothing is sampled yet. A compressed start asks `go_on`.
+Result<OpenRun> start_run(const scene::RunPlan& plan, const RunDirectory& directory, const std::string& scene_json,
+                          const GoOn& go_on = {});
 
 /// The run as it was at `checkpoint`, all samples up to its tick taken. Fails if the checkpoint, the measurements or
 /// the trajectory on the disk do not fit together.

@@ -83,8 +83,8 @@ Result<Simulation> saved_state(const RunDirectory& directory, const std::string&
 
 }  // namespace
 
-Result<Simulation> start_simulation(const scene::RunPlan& plan, const path& directory) {
-  if (!plan.start) return Simulation::start(plan.system);
+Result<Simulation> start_simulation(const scene::RunPlan& plan, const path& directory, const GoOn& go_on) {
+  if (!plan.start) return Simulation::start(plan.system, go_on);
   const auto& [id, time] = *plan.start;
   const std::vector<path> folders = folders_near(directory);
   std::string trouble;

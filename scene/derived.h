@@ -13,8 +13,9 @@ inline constexpr double kDefaultBeadPitch = 0.3;      ///< [mm]; gives the paper
 inline constexpr double kDefaultAreaFraction = 0.75;  ///< ordered at l = 4.5 mm
 inline constexpr double kDefaultGamma = 7.0;          ///< the paper's
 inline constexpr int kMaxBeads = 101;
-inline constexpr double kMaxAreaFractionAligned = 0.92;  ///< interlocked rows of tapered rods get no further
-inline constexpr double kMaxAreaFractionRandom = 0.45;   ///< random insertion of rods jams there
+inline constexpr double kMaxAreaFractionAligned = 0.92;     ///< interlocked rows of tapered rods get no further
+inline constexpr double kMaxAreaFractionRandom = 0.45;      ///< random insertion of rods jams there
+inline constexpr double kMaxAreaFractionCompressed = 0.86;  ///< 0.85, in whole rods; rods that are compressed can jam
 
 /// Gamma = a (2 pi f)^2 / g; none without gravity.
 std::optional<double> gamma_of(const System& scene);

@@ -88,12 +88,27 @@ Field steady() {
 /// Means nothing where another run has left the rods.
 Field rods_start() {
   Field field =
-      choice<Start>("rods.start", sys<&System::start>, {{"aligned", Start::kAligned}, {"random", Start::kRandom}},
-                    "Whether rods start in rows along x, every other row shifted by half a rod, or at random "
-                    "(for dilute systems).");
+      choice<Start>("rods.start", sys<&System::start>,
+                    {{"aligned", Start::kAligned}, {"random", Start::kRandom}, {"compressed", Start::kCompressed}},
+                    "Whether rods start in rows, side by side; or at random places and directions (for dilute "
+                    "systems); or so in a larger box, which is then compressed (dense and disordered).");
   field.fallback = "aligned";
   field.fetch = [always = field.fetch](const RunPlan& plan) { return plan.start ? Value() : always(plan); };
   return field;
+}
+
+/// The same, and nothing where there are no rows.
+Field rods_start_angle() {
+  Field field =
+      quantity("rods.start_angle", sys<&System::start_angle>, kPlain, -90, 90,
+               "Angle in degrees of the rods of an aligned start to the x axis. If it is 0 the rows lie along "
+               "x, every other one shifted by half a rod; else they close around the periodic box as best "
+               "they can.");
+  field.fallback = 0.0;
+  field.fetch = [always = field.fetch](const RunPlan& plan) {
+    return plan.start || plan.system.start != Start::kAligned ? Value() : always(plan);
+  };
+  return later(field);
 }
 
 Field start_run() {
@@ -224,6 +239,7 @@ std::vector<std::vector<Field>> groups() {
             "Area of all rods, lying flat, divided by the area of the box (or arena)."),
     derived(whole("rods.count", sys<&System::n_rods>, 1, 1e6, "Number of rods."), "from area_fraction and side"),
     rods_start(),
+    rods_start_angle(),
     }, added_rods<0>("rods_2"), added_rods<1>("rods_3"), {
     block("start", at<&RunPlan::start>, false,
           "The rods begin where another run has left them, in place of rows or random places; times count from there."),

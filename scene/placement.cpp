@@ -27,6 +27,7 @@ RunPlan placed_alike(const RunPlan& plan) {
   alike.system.gap = system.gap;
   alike.system.walls = system.walls;
   alike.system.start = system.start;
+  alike.system.start_angle = system.start_angle;
   alike.start = plan.start;
   // rows have room for any two rods side by side, whichever kinds the seed puts there
   if (system.start == Start::kRandom) alike.system.seed = system.seed;
@@ -64,9 +65,10 @@ class Placings {
 
 /// The nearest larger side, in halves of a millimetre (tenths below 5 mm) and at most three tenths larger, whose box
 /// holds rods of the same area fraction in rows, however that is rounded to whole rods; none if there is none, or for
-/// another start. Rows are not commensurate with every side, so it need not be the largest that counts.
+/// another start; at an angle nearly every side holds as many. Rows are not commensurate with every side, so it need
+/// not be the largest that counts.
 std::optional<double> nearest_side(const System& system) {
-  if (system.start != Start::kAligned || system.walls) return std::nullopt;
+  if (system.start != Start::kAligned || system.start_angle != 0 || system.walls) return std::nullopt;
   constexpr int kMostTries = 60;
   const double per_mm = system.box_side < 5 ? 10 : 2;
   System larger = system;
@@ -88,6 +90,8 @@ std::optional<double> nearest_side(const System& system) {
 
 std::optional<Problem> placement_problem(const RunPlan& plan, const std::string& file, const std::string& label) {
   if (plan.start) return std::nullopt;  // nothing is placed
+  // That takes as long as it takes, and depends on the seed: the run itself says it. Its limits have been checked.
+  if (plan.system.start == Start::kCompressed) return std::nullopt;
   const Result<World> world = make_world(plan.system);
   if (world) return std::nullopt;
   std::string message = label.empty() ? world.error().message : label + ": " + world.error().message;

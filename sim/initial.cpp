@@ -15,6 +15,7 @@
 #include "sim/core/rng.h"
 #include "sim/motion/side_walls.h"
 #include "sim/neighbors/neighbor_list.h"
+#include "sim/turned_rows.h"
 
 namespace shaken {
 namespace {
@@ -23,15 +24,6 @@ constexpr double kTurnSpeed = 5.0;     ///< of each angular velocity component a
 constexpr double kClearance = 0.002;   ///< least distance between rods of the lattice [mm]
 constexpr double kKick = 1e-6;         ///< of a velocity, that sets replicas from one state apart
 constexpr int kMaxInsertions = 20000;  ///< tries for one rod of a random start
-
-/// Rows of rods along x: `columns` to a row, each row shifted against the one before by `turns` / `rows` of a column.
-struct Lattice {
-  int columns = 0;
-  int rows = 0;
-  int turns = 0;         ///< rows / 2: every other row by half a column
-  double clearance = 0;  ///< smallest of the gaps along and across [mm]
-  int sites() const { return columns * rows; }
-};
 
 Lattice every_other_row_shifted(int columns, int rows, double clearance = 0) {
   return {columns, rows, rows / 2, clearance};
@@ -254,6 +246,13 @@ int most_usable_sites(const Placement& rods) {
   return most;
 }
 
+/// The most that a rod is tilted, as n_z; this keeps it off both plates.
+double most_tilt(const System& system, const Species& species) {
+  if (system.is_planar() || !(species.half_length > 0)) return 0.0;
+  const double room = 0.5 * system.gap - Placement::thickest(species);
+  return std::min(0.02, 0.3 * room / species.half_length);
+}
+
 /// Height and tilt that keep the rod off both plates, and a random motion.
 void lift_and_push(Flight& flight, const Placement& rods, const Species& species, double in_plane_angle, bool flat,
                    Rng& rng) {
@@ -262,22 +261,12 @@ void lift_and_push(Flight& flight, const Placement& rods, const Species& species
   const double base = 2.0 * system.amplitude;  // cos(0) = 1: the plates start at the top of their stroke
   const double room = 0.5 * system.gap - Placement::thickest(species);
   flight.position.z() = base + 0.5 * system.gap + (planar ? 0.0 : 0.3 * room * rng.uniform(-1, 1));
-  const double tilt = !flat && !planar && species.half_length > 0
-                          ? std::min(0.02, 0.3 * room / species.half_length) * rng.uniform(-1, 1)
-                          : 0.0;
+  const double most = flat ? 0.0 : most_tilt(system, species);
+  const double tilt = most > 0 ? most * rng.uniform(-1, 1) : 0.0;
   const SinCos plane = sincos(in_plane_angle);
   const double level = std::sqrt(1.0 - tilt * tilt);
   flight.director = {level * plane.cos, level * plane.sin, tilt};
-  // in braces, whose order of evaluation is the same everywhere
-  flight.velocity = kStartSpeed * Vec3{rng.normal(), rng.normal(), rng.normal()};
-  Vec3 turn = kTurnSpeed * Vec3{rng.normal(), rng.normal(), rng.normal()};
-  if (planar) {
-    flight.velocity.z() = 0;
-    turn.head<2>().setZero();
-  }
-  flight.spin = 0;
-  flight.precession = turn - turn.dot(flight.director) * flight.director;
-  flight.prepare();
+  push_at_start(flight, system, rng);
 }
 
 /// "300 rods (area fraction 0.675)"
@@ -295,14 +284,37 @@ Error does_not_fit(const Placement& rods, const std::string& why) {
   return {amount(rods, rods.n_rods()) + " do not fit into the " + (rods.system.walls ? "arena" : "box") + ": " + why};
 }
 
-Result<std::vector<Flight>> place_aligned(const Placement& rods) {
-  const System& system = rods.system;
+/// A lattice with a site for every rod, along x.
+Result<Lattice> lattice_along_x(const Placement& rods) {
   auto lattice = find_lattice(rods);
   if (!lattice) lattice = find_winding_lattice(rods);
-  if (!lattice) {
-    const int most = most_in_winding_rows(rods, most_usable_sites(rods));
-    return does_not_fit(rods, "in rows at most " + amount(rods, most) + " can be placed");
+  if (lattice) return *lattice;
+  const int most = most_in_winding_rows(rods, most_usable_sites(rods));
+  return does_not_fit(rods, "in rows at most " + amount(rods, most) + " can be placed");
+}
+
+/// The same of rods that lie at the angle of the start.
+Result<Lattice> lattice_at_angle(const Placement& rods, const SinCos& angle) {
+  const System& system = rods.system;
+  if (system.walls) return does_not_fit(rods, "rows at an angle to the box are for periodic boxes, without walls");
+  double shorter = 0;  // that a rod is in the plane, on either side, for being tilted
+  for (const Species& kind : rods.species) {
+    const double tilt = most_tilt(system, kind);
+    shorter = std::max(shorter, kind.half_length * (1.0 - std::sqrt(1.0 - tilt * tilt)));
   }
+  const TurnedRows turned(rods.species, system.box_side, Vec2(angle.cos, angle.sin), kClearance + 2.0 * shorter);
+  if (const auto lattice = turned.find(rods.n_rods())) return *lattice;
+  char degrees[32];
+  std::snprintf(degrees, sizeof degrees, "%.10g", system.start_angle);
+  return does_not_fit(rods, std::string("in rows of rods at ") + degrees + " degrees at most " +
+                                amount(rods, turned.most_below(rods.n_rods())) + " can be placed");
+}
+
+Result<std::vector<Flight>> place_aligned(const Placement& rods) {
+  const System& system = rods.system;
+  const double angle = system.start_angle * (kPi / 180.0);
+  const auto lattice = angle == 0 ? lattice_along_x(rods) : lattice_at_angle(rods, sincos(angle));
+  if (!lattice) return lattice.error();
 
   // which sites stay empty: the tail of a random permutation (Fisher & Yates)
   std::vector<int> sites = usable_sites(*lattice, rods);
@@ -315,9 +327,13 @@ Result<std::vector<Flight>> place_aligned(const Placement& rods) {
   for (int i = 0; i < rods.n_rods(); ++i) {
     Rng rng(system.seed, RngStream::kVelocity, 0, static_cast<std::uint64_t>(i));
     flights[i].position = site_position(*lattice, system.box_side, sites[i]);
+    if (angle != 0) {
+      std::int32_t ignored = 0;
+      wrap(flights[i].position.x(), ignored, system.box_side);
+    }
     // polar rods point either way
     const bool turned = Placement::is_polar(rods.species_of(i)) && rng.uniform() < 0.5;
-    lift_and_push(flights[i], rods, rods.species_of(i), turned ? kPi : 0.0, false, rng);
+    lift_and_push(flights[i], rods, rods.species_of(i), turned ? angle + kPi : angle, false, rng);
   }
   return flights;
 }
@@ -413,8 +429,22 @@ double off_the_beat(const World& world) {
 
 }  // namespace
 
+void push_at_start(Flight& flight, const System& system, Rng& rng) {
+  // in braces, whose order of evaluation is the same everywhere
+  flight.velocity = kStartSpeed * Vec3{rng.normal(), rng.normal(), rng.normal()};
+  Vec3 turn = kTurnSpeed * Vec3{rng.normal(), rng.normal(), rng.normal()};
+  if (system.is_planar()) {
+    flight.velocity.z() = 0;
+    turn.head<2>().setZero();
+  }
+  flight.spin = 0;
+  flight.precession = turn - turn.dot(flight.director) * flight.director;
+  flight.prepare();
+}
+
 Result<std::vector<Flight>> initial_flights(const System& system, std::span<const Species> species,
                                             std::span<const std::uint8_t> species_of_rod) {
+  SHAKEN_CHECK(system.start != Start::kCompressed, "sim/compression.h makes that");
   const Placement rods(system, species, species_of_rod);
   if (system.gap < 2.0 * rods.max_radius()) return Error{"the gap is smaller than the thickest bead"};
   if (const double least = least_box_side(species); system.box_side < least * (1.0 - 1e-9)) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/core/result.h"
+#include "sim/core/rng.h"
 #include "sim/motion/flight.h"
 #include "sim/rod/species.h"
 #include "sim/system.h"
@@ -21,14 +22,19 @@ inline constexpr double kStartSpeed = 20.0;
 /// kAligned: along x, in rows, every other row shifted by half a rod so that the tapers interlock: without the shift
 ///           rods of l = 2.5 mm do not fit beyond area fraction 0.7, with it they fit to 0.9. Of all lattices with room
 ///           for n_rods the roomiest is taken; sites left over are vacancies at random places. Where none has, rows
-///           shifted by other parts of a rod are tried, which wind around the periodic box several times.
+///           shifted by other parts of a rod are tried, which wind around the periodic box several times. At an angle
+///           to x, any lattice that tiles the box will do (sim/turned_rows.h).
 /// kRandom:  random places and directions one after the other (random sequential insertion).
+/// kCompressed is not for this function, nor for make_world(): sim/compression.h makes it.
 /// Errors:   the rods do not fit; the message names the most that can be placed in rows, or how many had been placed at
 ///           random when there was no room for another.
 /// Several species share one lattice, roomy enough for any two of them side by side. Of an arena, the sites within it
 /// are used. In a planar scene (System::is_planar) velocities are planar too.
 Result<std::vector<Flight>> initial_flights(const System& system, std::span<const Species> species,
                                             std::span<const std::uint8_t> species_of_rod);
+
+/// Gives a rod whose place and direction are set the random motion of a start, and prepares its flight.
+void push_at_start(Flight& flight, const System& system, Rng& rng);
 
 /// The world at tick 0, with the rods placed so. Fails as initial_flights() does.
 Result<World> make_world(const System& system);

@@ -3,6 +3,7 @@
 
 #include "sim/balance.h"
 #include "sim/checkpoint.h"
+#include "sim/compression.h"
 #include "sim/core/check.h"
 #include "sim/initial.h"
 #include "sim/stepping/stepper.h"
@@ -15,8 +16,8 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
-Result<Simulation> Simulation::start(const System& system) {
-  auto world = make_world(system);
+Result<Simulation> Simulation::start(const System& system, const GoOn& go_on) {
+  auto world = system.start == Start::kCompressed ? make_compressed_world(system, go_on) : make_world(system);
   if (!world) return world.error();
   return Simulation(std::move(world).value());
 }

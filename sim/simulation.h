@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/compression.h"
 #include "sim/core/result.h"
 #include "sim/snapshot.h"
 #include "sim/stepping/phase_times.h"
@@ -24,7 +25,8 @@ class Stepper;
 class Simulation {
  public:
   /// Places the rods as the scene says. Fails, with the largest area fraction that fits, if they cannot be packed.
-  static Result<Simulation> start(const System& system);
+  /// A compressed start takes CPU seconds; it asks `go_on` now and then, and fails once that says false.
+  static Result<Simulation> start(const System& system, const GoOn& go_on = {});
   /// Begins with the rods as they are in `left` (sim/initial.h); fails as make_world() does.
   static Result<Simulation> start(const System& system, const World& left);
   /// Continues from bytes made by checkpoint(), bitwise as if there had been no stop.

@@ -71,8 +71,9 @@ enum class StepperKind {
   kScheduled,  ///< visits them only when contact is possible
 };
 enum class Start {
-  kAligned,  ///< rods along x in rows, every other row shifted by half a rod
-  kRandom,   ///< random places and directions, one after the other (dilute systems)
+  kAligned,     ///< rods in rows, along x or at an angle to it
+  kRandom,      ///< random places and directions, one after the other (dilute systems)
+  kCompressed,  ///< the same in a larger box, which then shrinks while the rods fly about (dense and disordered)
 };
 
 enum class Arena { kDisc, kSquare, kAnnulus };
@@ -130,6 +131,7 @@ struct System {
   double dt = 4e-6;  ///< the tick [s]: the accuracy knob
   StepperKind stepper = StepperKind::kScheduled;
   Start start = Start::kAligned;
+  double start_angle = 0.0;  ///< of the rods of an aligned start to the x axis [degrees]
   std::uint64_t seed = 1;
 
   int n_all_rods() const {

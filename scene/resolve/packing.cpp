@@ -127,14 +127,17 @@ void resolve_numbers(Resolution& scene) {
     causes.push_back(group.path("count"));
   }
   causes.insert(causes.end(), {"walls.size", "box.side", "rods.start"});
-  const bool random = system.start == Start::kRandom;
-  const double most = random ? kMaxAreaFractionRandom : kMaxAreaFractionAligned;
+  const bool in_rows = system.start == Start::kAligned, random = system.start == Start::kRandom;
+  const double most = in_rows ? kMaxAreaFractionAligned : random ? kMaxAreaFractionRandom : kMaxAreaFractionCompressed;
   if (scene.draft.is_ok("rods.start") && fraction > most) {
     scene.report(causes,
                  fmt::format("{} rods in {} of {} are an area fraction of {:.4g}; {} at most {} can be placed{}",
                              system.n_all_rods(), system.walls ? "an arena" : "a box",
                              length_text(system.walls ? system.walls->size : system.box_side), fraction,
-                             random ? "at random" : "in rows", most, random ? "; start \"aligned\" packs more" : ""));
+                             in_rows  ? "in rows"
+                             : random ? "at random"
+                                      : "by compression",
+                             most, in_rows ? "" : "; start \"aligned\" packs more"));
   } else {
     for (const RodGroup& group : groups) {
       scene.check_derived(group.path("area_fraction"),

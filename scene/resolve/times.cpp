@@ -89,14 +89,39 @@ void check_until(Resolution& scene) {
                            time_text(plan.measure_time)));
 }
 
+namespace {
+
+void check_placing(Resolution& scene) {
+  const System& system = scene.plan.system;
+  if (!scene.ok({"rods.start", "rods.start_angle"})) return;
+  if (system.start_angle != 0 && system.start != Start::kAligned) {
+    scene.report({"rods.start_angle", "rods.start"},
+                 "only rods that start in rows have an angle: remove rods.start_angle, or set rods.start to "
+                 "\"aligned\"");
+  } else if (system.start_angle != 0 && system.walls) {
+    scene.report({"rods.start_angle", "walls"},
+                 "rows at an angle close around a periodic box, which walls take the place of: remove "
+                 "rods.start_angle or walls");
+  }
+  if (system.start == Start::kCompressed && system.walls) {
+    scene.report({"rods.start", "walls"},
+                 "what is compressed is a periodic box, and walls would stand in the way: set rods.start to "
+                 "\"aligned\" or \"random\", or remove walls");
+  }
+}
+
+}  // namespace
+
 void check_start(Resolution& scene) {
+  check_placing(scene);
   if (!scene.plan.start) return;
   for (const char* path : {"start.run", "start.time"}) {
     if (!scene.draft.find(path)) scene.report({"start"}, fmt::format("{} is missing", path));
   }
-  if (scene.given("rods.start")) {
-    scene.report({"rods.start", "start"},
-                 "rods start in rows, at random, or from another run: remove rods.start or start");
+  if (scene.given("rods.start") || scene.given("rods.start_angle")) {
+    const char* given = scene.given("rods.start") ? "rods.start" : "rods.start_angle";
+    scene.report({given, "start"},
+                 fmt::format("rods start in rows, at random, or from another run: remove {} or start", given));
   }
 }
 

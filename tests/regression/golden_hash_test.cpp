@@ -48,6 +48,8 @@ TEST(GoldenHash, TrajectoriesAreWhatTheyWere) {
       {"impacts at their instant, Stronge's law, sticky and rough", scene_of(4.5, 20, 110), 5000, 0xe3865ee0884cfd4c},
       {"beads one by one", scene_of(2.5, 14, 60), 5000, 0x562fb18d67bb49aa},
       {"the smallest box", scene_of(2.5, 5.5, 8), 40000, 0x397aa841b294fade},
+      {"rows at an angle", scene_of(3.5, 15, 70), 5000, 0x5c82de3eaf839572},
+      {"compressed", scene_of(3.5, 15, 80), 5000, 0x65a05dd256fdf0c5},
   };
   cases[1].system.start = Start::kRandom;
   cases[2].system.rod = {.length = 0.8, .mid_diameter = 0.8, .end_diameter = 0.8, .n_beads = 1};
@@ -61,6 +63,8 @@ TEST(GoldenHash, TrajectoriesAreWhatTheyWere) {
   cases[7].system.rod_rod.friction = cases[7].system.rod_base.friction = 0.5;
   cases[7].system.rotational_noise = 0.02;
   cases[8].system.rod = {.length = 2.5, .bead_diameters{0.9, 0.8, 0.6, 0.4, 0.5, 0.7, 0.5, 0.3}};
+  cases[10].system.start_angle = 30;
+  cases[11].system.start = Start::kCompressed;
   for (const Golden& golden : cases) {
     auto simulation = Simulation::start(golden.system);
     ASSERT_TRUE(static_cast<bool>(simulation)) << simulation.error().message;

@@ -172,6 +172,21 @@ void let_ride(SceneDraw& draw, Json& scene) {
 
 }  // namespace
 
+namespace {
+
+/// Other starts than rows along x and random places, by numbers of their own.
+void draw_start(std::uint64_t seed, Json& scene) {
+  SceneDraw draw(seed + 1'000'000'007);
+  if (scene["rods"].contains("start") || scene.contains("walls")) return;
+  if (draw.chance(0.3)) {
+    scene["rods"]["start_angle"] = draw.plain(-90, 90);
+  } else if (draw.chance(0.1)) {
+    scene["rods"]["start"] = "compressed";
+  }
+}
+
+}  // namespace
+
 SceneCase draw_scene_case(std::uint64_t seed) {
   SceneDraw draw(seed);
   SceneCase one;
@@ -228,6 +243,7 @@ SceneCase draw_scene_case(std::uint64_t seed) {
   if (draw.chance(0.2)) one.drift = draw.by_size(1, 1000);
   if (draw.chance(0.2)) one.heat = draw.by_size(1, 1000);
   if (draw.chance(0.15)) one.spin = draw.by_size(1, 2000);
+  draw_start(seed, scene);
   return one;
 }
 
@@ -235,9 +251,9 @@ namespace {
 
 /// The world that a case begins with.
 Result<World> world_of(const SceneCase& one, const System& system) {
-  auto made = make_world(system);
+  const Result<Simulation> made = Simulation::start(system);
   if (!made) return made.error();
-  World world = std::move(made).value();
+  World world = made->world();
   Tick later = one.begin;
   if (const Tick period = world.plates.period_ticks(); period > 0)
     later -= later % period;  // plates are where they were

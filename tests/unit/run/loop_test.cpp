@@ -191,6 +191,26 @@ TEST(Run, StoppedAndResumedIsBitwiseTheStraightRun) {
   expect_same_results(undisturbed(), folder.path());
 }
 
+TEST(Run, StopsWhileItCompressesAndNeedNotDoSoAgain) {
+  scene::RunPlan plan = small_plan();
+  plan.system.start = Start::kCompressed;
+  plan.system.n_rods = 60;
+  const ScratchFolder straight, folder;
+  ASSERT_EQ(run_in(straight.path(), plan).state, RunState::kDone);
+
+  std::atomic<bool> stop = true;
+  RunOptions options;
+  options.directory = folder.path();
+  options.stop = &stop;
+  EXPECT_EQ(run(plan, options).state, RunState::kStopped);
+  EXPECT_EQ(read_progress(RunDirectory{folder.path()}.progress())->state, "stopped");
+  EXPECT_FALSE(std::filesystem::exists(RunDirectory{folder.path()}.checkpoint()));
+  run_with_stops(folder.path(), plan, {0, 0.1});
+  EXPECT_TRUE(std::filesystem::exists(RunDirectory{folder.path()}.checkpoint()));
+  ASSERT_EQ(run_in(folder.path(), plan).state, RunState::kDone);
+  expect_same_results(straight.path(), folder.path());
+}
+
 TEST(Run, FinishedRunsAreNotDoneAgain) {
   const ScratchFolder folder;
   ASSERT_EQ(run_in(folder.path(), small_plan()).state, RunState::kDone);

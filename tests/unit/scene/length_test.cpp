@@ -62,6 +62,31 @@ TEST(Start, MustBeWholeAndUnderstood) {
   }
   const char* both = R"({"rods": {"start": "random"}, "start": {"run": "0123456789abcdef", "time": 1}})";
   EXPECT_NE(problem_of(both).find("remove rods.start or start"), std::string::npos);
+  const char* angle = R"({"rods": {"start_angle": 30}, "start": {"run": "0123456789abcdef", "time": 1}})";
+  EXPECT_NE(problem_of(angle).find("remove rods.start_angle or start"), std::string::npos);
+}
+
+TEST(Start, HasAnAngleWhereThereAreRowsInAPeriodicBox) {
+  const RunPlan plan = plan_of("{}", {"rods.start_angle=30"});
+  EXPECT_EQ(plan.system.start_angle, 30);
+  EXPECT_EQ(to_json(plan)["rods"]["start_angle"], 30.0);
+  EXPECT_NE(run_id(plan), run_id(plan_of("{}")));
+  EXPECT_EQ(run_id(plan_of("{}", {"rods.start_angle=0"})), run_id(plan_of("{}"))) << "older scenes keep their names";
+  EXPECT_FALSE(to_json(plan_of("{}"))["rods"].contains("start_angle"));
+  EXPECT_FALSE(load_scene("{}", "s", std::vector<std::string>{"rods.start_angle=91"}));
+  EXPECT_NE(problem_of("{}", {"rods.start_angle=30", "rods.start=compressed"}).find("only rods that start in rows"),
+            std::string::npos);
+  EXPECT_NE(problem_of("{}", {"rods.start_angle=30", "walls={}"}).find("remove rods.start_angle or walls"),
+            std::string::npos);
+}
+
+TEST(Start, CompressesPeriodicBoxesToAnAreaFractionOf085) {
+  const RunPlan plan = plan_of("{}", {"rods.start=compressed", "rods.area_fraction=0.85"});
+  EXPECT_EQ(plan.system.start, Start::kCompressed);
+  EXPECT_NE(run_id(plan), run_id(plan_of("{}", {"rods.area_fraction=0.85"})));
+  EXPECT_NE(problem_of("{}", {"rods.start=compressed", "rods.area_fraction=0.87"}).find("by compression at most 0.86"),
+            std::string::npos);
+  EXPECT_NE(problem_of("{}", {"rods.start=compressed", "walls={}"}).find("or remove walls"), std::string::npos);
 }
 
 }  // namespace

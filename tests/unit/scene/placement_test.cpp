@@ -54,6 +54,18 @@ TEST(Placement, IsWhatTheSimulationSays) {
   EXPECT_GE(n_placed, 10);
 }
 
+TEST(Placement, AnAngleIsPlacedAndACompressedStartIsLeftToTheRun) {
+  const std::vector<std::string> fits{"rods.area_fraction=0.85", "box.side=25", "rods.start_angle=1,30,45"};
+  EXPECT_TRUE(load_runs("{}", "s", fits));
+  const std::vector<std::string> discs{"rods.beads=1", "rods.area_fraction=0.915", "rods.start_angle=30",
+                                       "box.side=20"};
+  const Loaded<Sweep> refused = load_runs("{}", "s", discs);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().front().message, HasSubstr("in rows of rods at 30 degrees at most "));
+  const std::vector<std::string> large{"rods.start=compressed", "rods.area_fraction=0.85", "box.side=400"};
+  EXPECT_TRUE(load_runs("{}", "s", large)) << "54,000 rods, at once";
+}
+
 // 49 rods do not fit in rows into a box of 12 mm: where they do is what one wants to know, and that the others are
 // fine.
 TEST(Placement, ARefusalNamesTheNearestSideThatHoldsTheRodsAndWhatIsFine) {

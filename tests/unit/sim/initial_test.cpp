@@ -5,6 +5,7 @@
 
 #include "sim/balance.h"
 #include "sim/contact/bead_contacts.h"
+#include "sim/core/sincos.h"
 #include "sim/neighbors/neighbor_list.h"
 #include "sim/simulation.h"
 #include "sim/world.h"
@@ -77,6 +78,58 @@ TEST(InitialFlights, RowsWindAroundABoxThatNoWholeNumberFills) {
     }
     if (flights) expect_free(system, *flights);
   }
+}
+
+TEST(InitialFlights, AtAnAngleReaches085WithoutASeam) {
+  for (const double side : {33.492, 41.865}) {
+    for (const double angle : {30.0, -30.0, 17.3, 45.0, 90.0}) {
+      System system = scene_at(3.5, 0.85, side);
+      system.start_angle = angle;
+      SCOPED_TRACE(testing::Message() << side << " mm, " << angle << " degrees");
+      const auto flights = flights_of(system);
+      ASSERT_TRUE(static_cast<bool>(flights)) << flights.error().message;
+      expect_free(system, *flights);
+      const SinCos along = sincos(angle * kPi / 180.0);
+      for (const Flight& flight : *flights) {
+        EXPECT_NEAR(flight.director.x() * along.sin, flight.director.y() * along.cos, 1e-12) << "exactly as asked";
+        EXPECT_GE(flight.position.x(), 0);
+        EXPECT_LT(flight.position.x(), side);
+      }
+    }
+  }
+}
+
+TEST(InitialFlights, AtAnAngleHaveRoomForPolarRodsAndOtherSpecies) {
+  System system = scene_at(3.5, 0.3, 25);
+  system.start_angle = 40;
+  system.rod.profile = Profile::kPolar;
+  system.added[0] = AddedRods{{.length = 2.5, .mid_diameter = 0.9, .n_beads = 11}, 40};
+  const World world = empty_world(system);
+  const auto flights = initial_flights(system, world.species, world.species_of_rod);
+  ASSERT_TRUE(static_cast<bool>(flights)) << flights.error().message;  // which itself looks for overlaps
+  int n_back = 0;
+  for (const Flight& flight : *flights) n_back += flight.director.x() < 0;
+  EXPECT_GT(n_back, 10) << "polar rods point either way";
+}
+
+TEST(InitialFlights, AtAnAngleAreRefusedWithTheMostThatFit) {
+  System system = scene_at(4.5, 1.02, 25);
+  system.start_angle = 30;
+  const auto flights = flights_of(system);
+  ASSERT_FALSE(static_cast<bool>(flights));
+  const std::string before = "in rows of rods at 30 degrees at most ";
+  const std::size_t at = flights.error().message.find(before);
+  ASSERT_NE(at, std::string::npos) << flights.error().message;
+  const int most = std::stoi(flights.error().message.substr(at + before.size()));
+  EXPECT_GT(most, 0.85 * system.n_rods / 1.02);
+  system.n_rods = most;
+  EXPECT_TRUE(static_cast<bool>(flights_of(system)));
+  system.n_rods = most + 1;
+  EXPECT_FALSE(static_cast<bool>(flights_of(system)));
+  system = scene_at(4.5, 0.5, 25);
+  system.start_angle = 30;
+  system.walls = SideWalls{};
+  EXPECT_FALSE(static_cast<bool>(flights_of(system)));
 }
 
 TEST(InitialFlights, RandomStartIsFreeAndIsotropic) {

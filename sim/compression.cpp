@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+#include "sim/compression.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim/balance.h"
+#include "sim/contact/bead_contacts.h"
+#include "sim/core/check.h"
+#include "sim/initial.h"
+#include "sim/neighbors/neighbor_list.h"
+#include "sim/stepping/stepper.h"
+
+namespace shaken {
+namespace {
+
+constexpr double kLoose = 0.30;   ///< area fraction at which rods are inserted at random, where they can be
+constexpr double kLooser = 0.75;  ///< times the last fraction where they could not
+constexpr int kLoosenings = 12;
+
+// in radii of the thinnest bead
+constexpr double kThicker = 0.01;  ///< diameters of beads while the box shrinks
+constexpr double kWay = 0.0025;    ///< of a rod in a tick, at the speed of a start
+constexpr double kPushed = 0.025;  ///< deepest overlap that a step may make
+
+constexpr double kMostShrink = 0.003;  ///< of the side in one step
+constexpr double kLeastShrink = 1e-5;  ///< else the rods first fly on
+constexpr int kTicksBetween = 20;      ///< of two steps: a few times the way that a step has pushed rods together
+constexpr int kStepsToJam = 400;       ///< if the side shrinks by less than this meanwhile:
+constexpr double kStandstill = 0.001;
+constexpr int kTicksToSettle = 5;
+constexpr int kMostSettling = 2000;
+constexpr int kFinerAfter = 50;  ///< attempts to settle, with half the tick
+
+/// Thicker and longer by `more` all around the beads, whose centres stay where they are [mm].
+RodShape thicker(RodShape rod, double more) {
+  rod.length += more;
+  rod.mid_diameter += more;
+  rod.end_diameter += more;
+  for (double& diameter : rod.bead_diameters) diameter += more;
+  return rod;
+}
+
+double area_of(const World& world) {
+  double area = 0;
+  for (std::size_t i = 0; i < world.species_of_rod.size(); ++i) area += world.species_of(i).area;
+  return area;
+}
+
+/// Rods that fly about in a box that shrinks.
+class Compression {
+ public:
+  Compression(const System& system, const GoOn& go_on) : system_(system), go_on_(go_on), aim_(empty_world(system)) {
+    for (const Species& species : aim_.species) {
+      const auto [thin, thick] = std::minmax_element(species.bead_radius.begin(), species.bead_radius.end());
+      thinnest_ = std::min(thinnest_, *thin);
+      thickest_ = std::max(thickest_, *thick);
+    }
+  }
+
+  Result<World> run() {
+    if (auto done = insert(); !done) return done.error();
+    double former = INFINITY;
+    for (int steps = 0; world_.system.box_side > system_.box_side; ++steps) {
+      bool goes_on = true;
+      if (steps % kStepsToJam == 0) {
+        goes_on = world_.system.box_side < former * (1.0 - kStandstill);
+        former = world_.system.box_side;
+      }
+      if (auto done = may_go_on(goes_on); !done) return done.error();
+      shrink();
+      if (auto done = fly(kTicksBetween); !done) return done.error();
+    }
+    for (int tries = 1;; ++tries) {
+      if (auto flights = settled()) {
+        aim_.rods = *std::move(flights);
+        aim_.start = content(aim_);
+        return std::move(aim_);
+      }
+      if (auto done = may_go_on(tries < kMostSettling); !done) return done.error();
+      if (tries % kFinerAfter == 0) world_.system.dt *= 0.5;
+      fly_anew_from(world_.system.box_side);
+      if (auto done = fly(kTicksToSettle); !done) return done.error();
+    }
+  }
+
+ private:
+  /// Rods at random places of a box that is larger than wanted, if need be.
+  Result<void> insert() {
+    System loose = system_;
+    loose.start = Start::kRandom;
+    loose.amplitude = 0;
+    loose.gravity = 0;
+    loose.base = loose.lid = !system_.is_planar();
+    const ContactParameters elastic{0.0, 1.0};
+    loose.rod_rod = loose.rod_base = loose.rod_lid = elastic;
+    loose.rotational_noise = 0;
+    loose.law = ImpulseLaw::kNewton;
+    loose.solver_sweeps = 1;
+    loose.order = ContactOrder::kSorted;
+    loose.impacts = ImpactTime::kTickEnd;
+    loose.stepper = StepperKind::kScheduled;
+    loose.dt = kWay * thinnest_ / kStartSpeed;
+    loose.gap = std::min(system_.gap, 1.5 * 2.0 * thickest_);
+    const double more = std::min(kThicker * thinnest_, 0.5 * (loose.gap - 2.0 * thickest_));
+    loose.rod = thicker(loose.rod, more);
+    for (auto& added : loose.added) {
+      if (added) added->rod = thicker(added->rod, more);
+    }
+    const double fraction = area_of(aim_) / (system_.box_side * system_.box_side);
+    double wanted = kLoose;
+    for (int k = 1;; ++k, wanted *= kLooser) {
+      loose.box_side = system_.box_side * std::max(1.0, std::sqrt(fraction / wanted));
+      Result<World> made = make_world(loose);
+      if (!made && k < kLoosenings) continue;
+      if (!made) return made.error();
+      world_ = std::move(made).value();
+      return {};
+    }
+  }
+
+  /// Takes down where the rods are, and how they move.
+  void look() {
+    poses_.clear();
+    motions_.clear();
+    for (std::size_t i = 0; i < world_.rods.size(); ++i) {
+      const Species& species = world_.species_of(i);
+      const double tau = static_cast<double>(world_.tick - world_.rods[i].since) * world_.system.dt;
+      poses_.push_back(pose_after(world_.rods[i], tau, 0.0));
+      motions_.push_back(
+          motion_after(world_.rods[i], tau, 0.0, poses_.back().director, species.inertia_par / species.inertia_perp));
+    }
+  }
+
+  /// Deepest overlap of rods of these species where the rods are now, with their centres moved together.
+  double deepest(const NeighborList& neighbors, const std::vector<Species>& species, double shrunk) const {
+    std::vector<BeadContact> contacts;
+    double overlap = 0;
+    for (const auto& [i, j] : neighbors.pairs()) {
+      contacts.clear();
+      Vec3 D = nearest_image(poses_[i].position, poses_[j].position, world_.system.box_side);
+      D.x() *= shrunk;
+      D.y() *= shrunk;
+      find_bead_contacts(species[world_.species_of_rod[i]], poses_[i].director, species[world_.species_of_rod[j]],
+                         poses_[j].director, D, contacts);
+      for (const BeadContact& contact : contacts) overlap = std::max(overlap, contact.overlap);
+    }
+    return overlap;
+  }
+
+  NeighborList neighbors() const {
+    NeighborList list(world_.species, world_.species_of_rod, world_.system.box_side, NeighborList::kSkin);
+    list.build(poses_);
+    return list;
+  }
+
+  /// A step, as large as overlaps allow; none where rods overlap too much as it is.
+  void shrink() {
+    look();
+    const double former = world_.system.box_side;
+    const NeighborList near = neighbors();
+    const double most = 1.0 - system_.box_side / former;
+    double by = std::min(kMostShrink, most);
+    while (deepest(near, world_.species, 1.0 - by) > kPushed * thinnest_) {
+      by *= 0.5;
+      if (by < kLeastShrink) return;
+    }
+    fly_anew_from(by == most ? system_.box_side : former * (1.0 - by));
+  }
+
+  /// Begins flights where the rods were when they were looked at last, their centres scaled with the side of the box.
+  void fly_anew_from(double side) {
+    const double scale = side / world_.system.box_side;
+    for (std::size_t i = 0; i < world_.rods.size(); ++i) {
+      Pose pose = poses_[i];
+      pose.position.x() *= scale;
+      pose.position.y() *= scale;
+      const Species& species = world_.species_of(i);
+      begin_flight(world_.rods[i], 0, pose, motions_[i], side, species.inertia_par / species.inertia_perp);
+    }
+    world_.tick = 0;
+    world_.system.box_side = side;
+  }
+
+  Result<void> may_go_on(bool there_is_hope) const {
+    if (go_on_ && !go_on_()) return Error{"stopped"};
+    if (there_is_hope) return {};
+    const double side = world_.system.box_side;
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "the rods jammed at area fraction %.3f, before they were compressed to %.3f; rods.start \"aligned\" "
+                  "packs more",
+                  area_of(aim_) / (side * side), area_of(aim_) / (system_.box_side * system_.box_side));
+    return Error{text};
+  }
+
+  Result<void> fly(int ticks) {
+    const auto stepper = make_stepper(world_, 1, 1);
+    if (const auto trouble = stepper->advance_to(world_, world_.tick + ticks)) {
+      return Error{"the rods could not be compressed: " + trouble->what};
+    }
+    return {};
+  }
+
+  bool is_between_plates(const Species& species, const Pose& pose) const {
+    if (!world_.system.lid) return true;
+    for (int b = 0; b < species.n_beads(); ++b) {
+      const double z = pose.position.z() + species.bead_offset[b] * pose.director.z();
+      if (z < species.bead_radius[b] || z > world_.system.gap - species.bead_radius[b]) return false;
+    }
+    return true;
+  }
+
+  /// The flights of the start, if no true rods overlap where they are now. Looks.
+  std::optional<std::vector<Flight>> settled() {
+    look();
+    if (deepest(neighbors(), aim_.species, 1.0) > 0) return std::nullopt;
+    const double raised = 2.0 * system_.amplitude + 0.5 * (system_.gap - world_.system.gap);
+    std::vector<Flight> flights(poses_.size());
+    for (std::size_t i = 0; i < poses_.size(); ++i) {
+      if (!is_between_plates(aim_.species_of(i), poses_[i])) return std::nullopt;
+      Flight& flight = flights[i];
+      std::int32_t ignored = 0;
+      flight.position = poses_[i].position;
+      wrap(flight.position.x(), ignored, system_.box_side);
+      wrap(flight.position.y(), ignored, system_.box_side);
+      flight.position.z() += raised;
+      flight.director = poses_[i].director;
+      Rng rng(system_.seed, RngStream::kVelocity, 0, static_cast<std::uint64_t>(i));
+      push_at_start(flight, system_, rng);
+    }
+    return flights;
+  }
+
+  const System& system_;
+  const GoOn& go_on_;
+  World aim_;    ///< without its rods
+  World world_;  ///< in which they fly about
+  double thinnest_ = INFINITY;
+  double thickest_ = 0;
+  std::vector<Pose> poses_;
+  std::vector<Motion> motions_;
+};
+
+}  // namespace
+
+Result<World> make_compressed_world(const System& system, const GoOn& go_on) {
+  if (system.walls) return Error{"rods can be compressed in a periodic box only, without walls"};
+  return Compression(system, go_on).run();
+}
+
+}  // namespace shaken

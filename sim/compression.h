@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+
+#include "sim/core/result.h"
+#include "sim/system.h"
+#include "sim/world.h"
+
+namespace shaken {
+
+/// Asked now and then during long work; once it says false, the work is given up.
+using GoOn = std::function<bool()>;
+
+/// The world at tick 0 of a dense and disordered start (Start::kCompressed): random places and directions in a box in
+/// which the rods are dilute; then this box shrinks in small steps, and all centres with it, while the rods fly about
+/// and hit each other. It ends as a hard-particle gas that has been compressed too fast to order.
+///
+/// Model:    between the steps the simulator itself moves the rods, between two plates at rest that are at most
+///           one and a half thicknesses apart, without gravity and friction, with restitution 1. A step may push rods
+///           into each other by a small part of a bead's radius; their next impulses drive them apart. Beads are a
+///           hundredth thicker meanwhile, so that true rods are apart at the end, which is checked.
+/// Source:   as the quick compression of hard particles of HOOMD-blue (Anderson et al. 2020), with impulses in place
+///           of Monte Carlo moves.
+/// Numerics: depends on the system alone: bitwise the same at every compiler and number of threads.
+/// Errors:   side walls; rods that jam before the box is as small as wanted (the message says how far it came); or
+///           "stopped", once `go_on` says so. It is asked some ten times a second.
+/// Velocities at tick 0 are those of any other start.
+Result<World> make_compressed_world(const System& system, const GoOn& go_on = {});
+
+}  // namespace shaken

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include "sim/compression.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sim/contact/bead_contacts.h"
+#include "sim/neighbors/neighbor_list.h"
+#include "sim/simulation.h"
+
+namespace shaken {
+namespace {
+
+System scene_at(double length, double area_fraction, double side, std::uint64_t seed = 1) {
+  System system;
+  system.rod.length = length;
+  system.rod.n_beads = beads_for_pitch(length, system.rod.end_diameter, 0.3);
+  system.box_side = side;
+  system.start = Start::kCompressed;
+  system.seed = seed;
+  system.n_rods = static_cast<int>(std::round(area_fraction * side * side / make_species(system.rod).area));
+  return system;
+}
+
+/// Every pair, no neighbour list: nothing touches, nothing sticks into a plate.
+void expect_free(const World& world) {
+  std::vector<BeadContact> contacts;
+  const System& system = world.system;
+  ASSERT_EQ(static_cast<int>(world.rods.size()), system.n_all_rods());
+  for (std::size_t i = 0; i < world.rods.size(); ++i) {
+    const Flight& rod = world.rods[i];
+    const Species& species = world.species_of(i);
+    EXPECT_NEAR(rod.director.norm(), 1, 1e-12);
+    for (int b = 0; b < species.n_beads(); ++b) {
+      const double z = rod.position.z() + species.bead_offset[b] * rod.director.z();
+      EXPECT_GE(z - species.bead_radius[b], 2 * system.amplitude);
+      EXPECT_LE(z + species.bead_radius[b], 2 * system.amplitude + system.gap);
+    }
+    for (std::size_t j = i + 1; j < world.rods.size(); ++j) {
+      find_bead_contacts(species, rod.director, world.species_of(j), world.rods[j].director,
+                         nearest_image(rod.position, world.rods[j].position, system.box_side), contacts);
+    }
+  }
+  EXPECT_TRUE(contacts.empty()) << contacts.size() << " overlaps";
+}
+
+/// S^2 from the directions in the plane.
+double order_squared(const World& world) {
+  double c = 0, s = 0;
+  for (const Flight& rod : world.rods) {
+    const Vec2 along = rod.director.head<2>().normalized();
+    c += along.x() * along.x() - along.y() * along.y();
+    s += 2 * along.x() * along.y();
+  }
+  const double n = static_cast<double>(world.rods.size());
+  return (c * c + s * s) / (n * n);
+}
+
+// Rods that lie at random have <S^2> = 1 / N. Rods this dense lie side by side with some of their neighbours: N is
+// then the number of such groups, about four rods each.
+TEST(Compression, ReachesArea085FreeOfOverlapsAndAsDisorderedAsGroupsOfAFewRods) {
+  for (const double length : {2.5, 3.5, 4.5}) {
+    double sum = 0;
+    int n_rods = 0;
+    constexpr int kSeeds = 6;
+    for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+      SCOPED_TRACE(testing::Message() << "l = " << length << ", seed " << seed);
+      const auto world = make_compressed_world(scene_at(length, 0.85, 20, seed));
+      ASSERT_TRUE(world) << world.error().message;
+      expect_free(*world);
+      sum += order_squared(*world);
+      n_rods = static_cast<int>(world->rods.size());
+    }
+    std::printf("l = %.1f mm: <S^2> N = %.1f\n", length, sum / kSeeds * n_rods);
+    EXPECT_LT(sum / kSeeds * n_rods, 16) << "groups of a few rods";
+    EXPECT_LT(std::sqrt(sum / kSeeds), 0.35);
+  }
+}
+
+TEST(Compression, DependsOnTheSeedAlone) {
+  const auto hash_of = [](const System& system) { return std::move(Simulation::start(system)).value().state_hash(); };
+  System system = scene_at(4.5, 0.7, 15);
+  const std::uint64_t one = hash_of(system);
+  EXPECT_EQ(hash_of(system), one);
+  system.stepper = StepperKind::kReference;
+  EXPECT_EQ(hash_of(system), one);
+  system.seed = 2;
+  EXPECT_NE(hash_of(system), one);
+}
+
+TEST(Compression, VelocitiesAreThoseOfAnyStart) {
+  System system = scene_at(2.5, 0.4, 30);
+  const auto compressed = make_compressed_world(system);
+  ASSERT_TRUE(compressed) << compressed.error().message;
+  double v2 = 0, w2 = 0;
+  const double n = static_cast<double>(compressed->rods.size());
+  for (const Flight& rod : compressed->rods) {
+    v2 += rod.velocity.squaredNorm() / (3 * n);
+    w2 += rod.precession.squaredNorm() / (2 * n);
+    EXPECT_NEAR(rod.precession.dot(rod.director), 0, 1e-9);
+    EXPECT_EQ(rod.spin, 0);
+  }
+  EXPECT_NEAR(std::sqrt(v2), 20, 4 * 20 / std::sqrt(6 * n));
+  EXPECT_NEAR(std::sqrt(w2), 5, 4 * 5 / std::sqrt(4 * n));
+}
+
+TEST(Compression, TakesSeveralSpeciesNarrowAndHighGapsAndScenesInThePlane) {
+  System mixture = scene_at(3.5, 0.4, 20);
+  mixture.rod.profile = Profile::kPolar;
+  mixture.added = {AddedRods{{.length = 2.5, .n_beads = 9}, 30}, AddedRods{{.length = 0.8, .n_beads = 1}, 60}};
+  System narrow = scene_at(3.5, 0.6, 15);
+  narrow.gap = 0.801;
+  System high = scene_at(3.5, 0.7, 15);
+  high.gap = 20;
+  high.lid = false;
+  System planar = scene_at(3.5, 0.7, 15);
+  planar.base = planar.lid = false;
+  planar.gravity = 0;
+  planar.amplitude = 0;
+  for (const System& system : {mixture, narrow, high, planar}) {
+    SCOPED_TRACE(testing::Message() << "a gap of " << system.gap << ", planar: " << system.is_planar());
+    const auto world = make_compressed_world(system);
+    ASSERT_TRUE(world) << world.error().message;
+    expect_free(*world);
+    for (const Flight& rod : world->rods) {
+      EXPECT_NEAR(rod.position.z(), 2 * system.amplitude + 0.5 * system.gap, 0.4) << "in the middle of the gap";
+      if (system.is_planar()) {
+        EXPECT_EQ(rod.position.z(), world->rods[0].position.z());
+        EXPECT_EQ(rod.director.z(), 0);
+        EXPECT_EQ(rod.velocity.z(), 0);
+      }
+    }
+  }
+}
+
+TEST(Compression, WhatItCannotDoItSays) {
+  System system = scene_at(3.5, 0.5, 20);
+  system.walls = SideWalls{Arena::kDisc, 19, 4, {}};
+  EXPECT_EQ(make_compressed_world(system).error().message,
+            "rods can be compressed in a periodic box only, without walls");
+  // discs in a plane jam at random at 0.84, and in no order beyond 0.907
+  System discs = scene_at(3.5, 0.5, 8);
+  discs.rod = {.length = 0.8, .mid_diameter = 0.8, .end_diameter = 0.8, .n_beads = 1};
+  discs.base = discs.lid = false;
+  discs.gravity = discs.amplitude = 0;
+  discs.n_rods = static_cast<int>(0.95 * 64 / make_species(discs.rod).area);
+  const auto jammed = make_compressed_world(discs);
+  ASSERT_FALSE(jammed);
+  EXPECT_NE(jammed.error().message.find("the rods jammed at area fraction 0."), std::string::npos)
+      << jammed.error().message;
+}
+
+TEST(Compression, IsGivenUpWhenAsked) {
+  int n_asked = 0;
+  const auto stopped = make_compressed_world(scene_at(3.5, 0.85, 20), [&] { return ++n_asked < 10; });
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().message, "stopped");
+  EXPECT_EQ(n_asked, 10);
+}
+
+}  // namespace
+}  // namespace shaken
