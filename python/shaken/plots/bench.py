@@ -179,10 +179,10 @@ def visits(report: Row, width: str | None) -> Figures:
                             f"{report['hits']} hits")
     panel.range(x=(0, window)).zero()
     panel.curve(1e3 * report["dt_s"] * np.arange(gap.size), gap, look="line", label="gap")
-    for row in rows:
-        panel.axes.plot([row["time_ms"], row["time_ms"] + row["safe_ms"]], [row["gap_um"]] * 2, color=style.PALETTE[5],
-                        linewidth=0.9, zorder=2.1)
-    panel.curve([], [], colour=5, look="line", label="no contact before")
+    begin, height = column(rows, "time_ms"), column(rows, "gap_um")
+    gaps = np.full(len(rows), np.nan)  # between the lines
+    panel.curve(np.column_stack([begin, begin + column(rows, "safe_ms"), gaps]).ravel(),
+                np.column_stack([height, height, gaps]).ravel(), colour=5, look="line", label="no contact before")
     for colour, event, label in ((6, "tightened", "hit: bound tightened"), (2, "anew", "hit: bound made anew"),
                                  (1, "ran out", "bound ran out: visit")):
         of = [row for row in rows if row["event"] == event]
