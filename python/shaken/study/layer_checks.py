@@ -10,7 +10,7 @@ import numpy as np
 from ..estimate import Estimate
 from ..run import Run
 from .library import END, GAP, LENGTH, PACKING, SIDE, Library, Runs, key_of, number_of
-from .rules import Answer, Finding, above, below, close_to, conclude, larger, listed, no, refutable, text, trend, unknown, yes
+from .rules import NOT_RUN, Answer, Finding, above, below, close_to, conclude, larger, listed, no, refutable, text, trend, unknown, yes
 
 #: P(0) over the maximum of P(theta): below it there are two peaks, above it there is one.
 TWO_PEAKS = 0.95
@@ -53,6 +53,8 @@ def layers_when_dense(library: Library) -> Finding:
     for packing in (0.75, 0.80, 0.85):
         runs = library["layers"].at(4.5, packing)
         if not runs:
+            if library["layers"]:
+                answers.append(unknown(NOT_RUN).placed(f"{packing:g}"))
             continue
         two = two_peaks(runs)
         if packing < 0.78:
@@ -96,6 +98,7 @@ def no_layers_at_wide_gaps(library: Library) -> Finding:
     for gap in (1.4, 1.6):
         wide = library["gaps"].at(gap=gap)
         if not wide:
+            answers.append(unknown(NOT_RUN).placed(f"w = {gap:g} mm"))
             continue
         answers.append(two_peaks(wide).negated().placed(f"one peak, w = {gap:g} mm"))
         answers.append(larger(reference.number("layer_order"), wide.number("layer_order"))

@@ -9,7 +9,7 @@ import numpy as np
 from ..estimate import NAN, Estimate, derived
 from ..run import Run
 from .library import GAMMA, LENGTH, PACKING, PAPERS_BOX, SIDE, Library, Runs, crossing, key_of
-from .rules import (Answer, Finding, above, below, close_to, conclude, doubt, listed, no, refutable, text, trend, unknown,
+from .rules import (NOT_RUN, Answer, Finding, above, below, close_to, conclude, doubt, listed, no, refutable, text, trend, unknown,
                     yes)
 from .structure_checks import far_g2
 
@@ -78,8 +78,9 @@ def disordered_when_dilute(library: Library) -> Finding:
     s, far, power = runs.number("S"), far_g2(runs), power_of_size(everywhere)
     # Whatever its correlations, a disordered state of N >> 1 independent regions has S ~ 1/sqrt(N), that is 1/L; an
     # ordered one has the same S in every box.
+    larger = below(power, -0.5) if len(everywhere.values(SIDE)) > 1 else unknown(NOT_RUN)
     return conclude([below(s, ORDERED).placed("S"), close_to(far, 0, 0.05).placed("G₂ far away"),
-                     below(power, -0.5).placed("larger boxes")],
+                     larger.placed("larger boxes")],
                     f"S = {text(s)} in {key_of(runs[0], SIDE):.1f} mm; G₂ at half a box {text(far)}; S ~ Lˣ with "
                     f"x = {text(power)} (disorder: −1)")
 
@@ -89,6 +90,8 @@ def short_rods_do_not_order(library: Library) -> Finding:
     answers, found = [], []
     for length in (2.5, 3.0):
         largest = None
+        if runs and not runs.at(length):
+            answers.append(unknown(NOT_RUN).placed(f"ℓ = {length:g} mm"))
         for packing in runs.at(length).values(PACKING):
             here = runs.at(length, packing).largest(SIDE)
             s, side = here.number("S"), key_of(here[0], SIDE)
@@ -117,6 +120,8 @@ def saturates(library: Library) -> Finding:
     for length in (4.0, 4.5):
         points = phase_diagram(library).at(length).points(PACKING, "S")
         if len(points) < 2:
+            if phase_diagram(library):
+                answers.append(unknown(NOT_RUN).placed(f"ℓ = {length:g} mm"))
             continue
         answers.append(trend(points, rising=True).placed(f"rises, ℓ = {length:g} mm"))
         answers.append(close_to(points[-1][1], 0.95, 0.1).placed(f"to about 1, ℓ = {length:g} mm"))
@@ -242,7 +247,7 @@ def oblique_axis(library: Library) -> Finding:
     if not turned:
         if not straight:
             return Finding()
-        return conclude([unknown("no run starts turned")],
+        return conclude([unknown(NOT_RUN)],
                         f"started along a side: S = {text(straight.number('S'))}, director "
                         f"{text(straight.of(angle_to_side))}° from it")
     s, angle = turned.number("S"), turned.of(angle_to_side)
@@ -262,7 +267,7 @@ def activity(library: Library) -> Finding:
     answers: list[Answer] = [trend(d, rising=True).placed("D grows with Γ")]
     found = f"D = {listed(d, 'Γ', ' mm²/s')}"
     if not still:
-        answers.append(unknown("not run").placed("Γ = 0"))
+        answers.append(unknown(NOT_RUN).placed("Γ = 0"))
     else:
         energy = still[0].summary["energy_pJ"]
         answers.append((yes() if energy["given_by_plates"] == 0 and energy["left"] < energy["start"] else no())

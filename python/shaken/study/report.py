@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import re
+import textwrap
 from collections import Counter
 from pathlib import Path
 
 from ..errors import ShakenError
+from .figures import FIGURES
 from .library import Library
 from .sets import ORDER
 from .statements import STATEMENTS, as_table, findings
@@ -47,13 +49,35 @@ def tally(library: Library) -> str:
              "in part": "agree in part", "disagrees": "disagree", "contradicts itself": "contradict themselves",
              "open": "are open", "no data": "have no runs yet"}
     listed = [f"{counts[verdict]} {said}" for verdict, said in words.items() if counts[verdict]]
-    return f"Of the paper's {len(STATEMENTS)} statements {', '.join(listed)}.\n"
+    return _wrapped(f"Of the paper's {len(STATEMENTS)} statements {', '.join(listed)}.").rstrip() + "\n"
 
 
-def sections(library: Library) -> dict[str, str]:
+def figures_list(library: Library, folder: str) -> str:
+    """The figures in `folder`, and which are still to come for want of runs."""
+    shown, missing = [], []
+    for figure in FIGURES:
+        name = f"figure {figure.number}, `{figure.name}`" if figure.number else f"`{figure.name}`"
+        if not any(library[set_] for set_ in figure.sets):
+            missing.append(name)
+            continue
+        absent = [set_ for set_ in figure.sets if not library[set_]]
+        still = f" *Still without {', '.join(f'`{set_}`' for set_ in absent)}.*" if absent else ""
+        shown.append(_wrapped(f"**{name[0].upper() + name[1:]}**: {figure.title}.{still}") +
+                     f"\n![{figure.title}]({folder}/{figure.file}.png)\n")
+    if missing:
+        shown.append(_wrapped(f"Still to come, for none of their runs is in the archive yet: {'; '.join(missing)}."))
+    return "\n".join(shown)
+
+
+def _wrapped(text: str) -> str:
+    """A paragraph of Markdown, in lines of at most 120 characters, and an empty line."""
+    return textwrap.fill(text, 120, break_long_words=False, break_on_hyphens=False) + "\n"
+
+
+def sections(library: Library, folder: str = "figures") -> dict[str, str]:
     """The sections of a report on everything, by the names of their marks."""
     return {"origin": origin(library), "tally": tally(library), "claims": as_table(findings(library)),
-            "sweeps": sets_table(library)}
+            "sweeps": sets_table(library), "figures": figures_list(library, folder)}
 
 
 def with_sections(document: str, found: dict[str, str], where: str = "the report") -> str:

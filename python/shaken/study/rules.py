@@ -46,6 +46,10 @@ def unknown(why: str) -> Answer:
     return Answer(None, why)
 
 
+#: Why an answer is open where the runs are still to come: without them a statement is open, whatever others say.
+NOT_RUN = "not run yet"
+
+
 def judged_error(estimate: Estimate) -> float:
     """The standard error that a number is judged with; NaN where there is none.
 
@@ -140,7 +144,8 @@ class Finding:
 
 def conclude(answers: Iterable[Answer], found: str, *, everywhere: bool = False) -> Finding:
     """All yes: agrees. All no: disagrees. Some of both: in part, and where. Of answers that are open none counts for
-    either side: where more than half say yes and none no, it agrees there, and the rest is named as open.
+    either side: where more than half say yes and none no, it agrees there, and the rest is named as open; not where runs are still to
+    come.
 
     everywhere: of what is said to hold everywhere one no is enough to disagree
     """
@@ -159,7 +164,7 @@ def conclude(answers: Iterable[Answer], found: str, *, everywhere: bool = False)
         return Finding(IN_PART, found, _joined(where, reasons and f"open: {reasons}"), given)
     if not open_:
         return Finding(AGREES, found, "", given)
-    if 2 * len(says_yes) > len(given):
+    if 2 * len(says_yes) > len(given) and all(a.why != NOT_RUN for a in open_):
         return Finding(AGREES, found, f"at {len(says_yes)} of {len(given)}; open: {reasons}", given)
     return Finding(OPEN, found, reasons, given)
 

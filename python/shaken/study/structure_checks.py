@@ -7,7 +7,7 @@ import numpy as np
 from ..estimate import Estimate
 from ..run import Run
 from .library import LENGTH, PACKING, PAPERS_BOX, SIDE, Library, Runs, key_of, mean_of_places
-from .rules import (CONTRADICTS, Finding, above, below, close_to, conclude, larger, listed, text, unknown)
+from .rules import (CONTRADICTS, NOT_RUN, Finding, above, below, close_to, conclude, larger, listed, text, unknown)
 
 #: G2 that counts as none at half a box.
 NO_CORRELATION = 0.05
@@ -58,6 +58,8 @@ def g2_decays_or_levels(library: Library) -> Finding:
     long_ = library.joined("long-rods", "layers").at(length=4.5)
     for length, runs, dense in ((2.5, short, 0.0), (4.5, long_, 0.74)):
         points = []
+        if (short or long_) and not runs:
+            answers.append(unknown(NOT_RUN).placed(f"ℓ = {length:g} mm"))
         for packing in runs.values(PACKING):
             if packing < dense:
                 continue
