@@ -260,6 +260,8 @@ class Sheet:
         obstacles = one.obstacles()
         for label, xs, ys in one.labels:
             text = axes.text(0, 0, label, fontsize=6, color=DARK_GREY, transform=None, zorder=3)
+            if text.get_window_extent(renderer).width > 0.9 * box.width:
+                _wrap(text, 0.8 * box.width, renderer)
             size = text.get_window_extent(renderer)
             best, least = (box.x0, box.y0), math.inf
             for place in _places_beside(axes, xs, ys, box, size, 2.5 * dpi / 72):

@@ -159,7 +159,7 @@ def memory(material: Material) -> Sheet:
                                      (sheet[4], long_, "c_v_along", "along, ℓ = 4.5 mm")):
         panel.titles(names.axis_title("/velocity/lag_s"), names.axis_title(f"/velocity/{name}"), title)
         draw_curves(panel, runs, f"/velocity/{name}", scale, keep=lambda t, c: t < 2.05)
-        panel.zero().reference(x=0.4, label="velocities: means over 0.4 s")
+        panel.zero().reference(x=0.4, label="window of the velocities")
     if scale:
         sheet.colourbar(scale, [sheet[0], sheet[1], sheet[3], sheet[4]])
     low, high = FREE_OF_THE_WINDOW

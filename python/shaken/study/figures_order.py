@@ -24,13 +24,13 @@ def start(material: Material) -> Sheet:
             draw_rods(panel, snapshot, here[0].scene, f"φ = {packing:g}, t = {snapshot.time:.0f} s")
     angle_bar(sheet, sheet.panels[:2])
     panel = sheet[2]
-    panel.titles(names.axis_title("/order/time_s"), names.axis_title("/order/order"), "from the aligned start")
+    panel.titles(names.axis_title("/order/time_s"), names.axis_title("/order/order"), "S(t)")
     scale = packing_scale(runs)
     for packing in runs.values(PACKING):
         order = runs.at(packing=packing)[0]["/order/order"]
         panel.curve(order.axis, order, colour=scale(packing), look="line")
     panel.range(y=(0, 1))
-    panel.reference(x=400, label="the paper: steady after 400 to 600 s")
+    panel.reference(x=400, label="the paper: steady")
     if scale:
         sheet.colourbar(scale, [panel])
     material.stamp(panel, "steady-state")

@@ -134,7 +134,7 @@ def layers(material: Material) -> Sheet:
     trends = library.joined("layers", "layer-trends")
     sheet = material.sheet(9, height=48)
     long_ = library["layers"].at(4.5)
-    dense = long_.at(packing=0.85)
+    dense = long_.at(packing=0.85) or library["long-rods"].at(packing=0.85)
     snapshot = first_snapshot(dense)
     if snapshot:
         draw_rods(sheet[0], snapshot, dense[0].scene, f"φ = 0.85, t = {snapshot.time:.0f} s")
