@@ -80,7 +80,7 @@ def test_mdanalysis_reads_the_frames_of_a_real_run(programs):
     assert len(universe.trajectory) == len(run.trajectory) >= 4
     for theirs, ours in zip(universe.trajectory, run.frames()):
         assert np.allclose(universe.atoms.positions * 1e-7, ours.positions, rtol=1e-5, atol=1e-5)
-        assert np.allclose(universe.atoms.velocities * 1e-5, ours.velocities, rtol=1e-4, atol=1e-3)
+        assert np.allclose(universe.atoms.velocities * 1e5, ours.velocities, rtol=1e-4, atol=1e-3)
         assert theirs.time * 1e-12 == pytest.approx(ours.time)
 
 
