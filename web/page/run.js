@@ -19,10 +19,12 @@ export class RunPanel {
     this.recorded = null;  // {n, first_s, last_s}
     this.isLive = false;   // shows what comes, as it comes
     this.stamp = "";       // of the queue, when the run was asked about
-    this.index = -1;
+    this.index = -1;       // of the recorded frame that is shown
+    this.wished = -1;      // of the one that is to be shown, which may still be on its way
     this.orderChart = new Curve(byId("order-chart"), "t (s)", "S", {min: 0, max: 1});
     this.angleChart = new Curve(byId("angle-chart"), "θ (degrees)", "P(θ) per degree", {min: 0});
     this.canvas = this.makeCanvas();
+    window.shakenRun = this;  // for whoever looks at it with the browser's tools
     byId("colouring").onchange = () => this.redraw();
     byId("defects").onchange = () => this.redraw();
     byId("reset-view").onclick = async () => (await this.canvas)?.reset();
@@ -46,7 +48,7 @@ export class RunPanel {
   async choose(id) {
     if (id === this.id) return;
     this.id = id;
-    this.index = -1;
+    this.index = this.wished = -1;
     this.stopPlaying();
     this.isLive = this.hasMeanAngles = false;
     this.job = this.recorded = null;
@@ -86,7 +88,8 @@ export class RunPanel {
       }
       this.listen(false);
       if (!curves.problem) this.showCurves(curves.curves);
-      if (this.recorded) await this.showRecorded(this.index >= 0 ? Math.min(this.index, this.recorded.n - 1) : this.recorded.n - 1);
+      const last = (this.recorded?.n ?? 0) - 1;
+      if (this.recorded) await this.showRecorded(this.wished >= 0 ? Math.min(this.wished, last) : last);
       else byId("run-note").textContent += `: ${frames.problem.message}`;
     } catch (problem) {
       this.stamp = "";  // asked again soon
@@ -154,7 +157,7 @@ export class RunPanel {
     this.isLive = on;
     if (!on) return;
     this.stopPlaying();
-    this.index = -1;
+    this.index = this.wished = -1;
     this.hasMeanAngles = false;
   }
 
@@ -232,7 +235,7 @@ export class RunPanel {
 
   /** Shows recorded frame `index`; while one is fetched only the newest wish is kept. */
   async showRecorded(index) {
-    this.wanted = index;
+    this.wanted = this.wished = index;
     if (this.isFetching) return;
     this.isFetching = true;
     try {
