@@ -9,7 +9,7 @@ import pytest
 from shaken.estimate import Estimate
 from shaken.run import Arrays, Run
 from shaken.study import rules
-from shaken.study.library import Library, Runs, crossing
+from shaken.study.evidence import Evidence, Runs, crossing
 from shaken.study.order_checks import n_peaks
 from shaken.study.statements import STATEMENTS, findings
 from shaken.units import unit_of
@@ -297,27 +297,27 @@ GOOD = (rules.AGREES, rules.CONSISTENT)
 
 
 def verdict(name, made):
-    return CHECKS[name].check(Library(made)).verdict
+    return CHECKS[name].check(Evidence(made)).verdict
 
 
 @pytest.mark.parametrize("name", [statement.id for statement in STATEMENTS if statement.id != "g-flattens"])
 def test_made_up_runs_give_yes_no_and_open(name):
     says_yes, says_no, open_ = CASES[name]
-    assert verdict(name, says_yes) in GOOD, CHECKS[name].check(Library(says_yes))
-    assert verdict(name, says_no) == rules.DISAGREES, CHECKS[name].check(Library(says_no))
-    assert verdict(name, open_) == rules.OPEN, CHECKS[name].check(Library(open_))
+    assert verdict(name, says_yes) in GOOD, CHECKS[name].check(Evidence(says_yes))
+    assert verdict(name, says_no) == rules.DISAGREES, CHECKS[name].check(Evidence(says_no))
+    assert verdict(name, open_) == rules.OPEN, CHECKS[name].check(Evidence(open_))
     assert verdict(name, []) == rules.NO_DATA
 
 
 def test_a_sentence_that_contradicts_itself_is_called_so():
-    found = CHECKS["g-flattens"].check(Library(runs("layers", 0.75, arrays=cuts(0.8, 0.7))))
+    found = CHECKS["g-flattens"].check(Evidence(runs("layers", 0.75, arrays=cuts(0.8, 0.7))))
     assert found.verdict == rules.CONTRADICTS and "sooner along" in found.why
     assert verdict("g-flattens", []) == rules.NO_DATA
 
 
 def test_where_a_few_places_are_open_the_others_are_said_to_agree():
     made = [r for p in NINE[:-1] for r in runs("long-rods", p)] + runs("long-rods", 0.85, steady=False, drift=0.3)
-    found = CHECKS["steady-state"].check(Library(made))
+    found = CHECKS["steady-state"].check(Evidence(made))
     assert found.verdict == rules.AGREES and found.why == "at 8 of 9; open: 0.85 (a run still relaxes)"
 
 
@@ -362,8 +362,8 @@ def test_crossing_lies_on_the_line_and_has_its_errors():
 
 
 def test_controls_are_told_from_the_points():
-    library = Library(runs("long-rods", 0.75) + runs("long-rods", 0.75, n=1, step=4e-6))
-    assert len(library["long-rods"]) == 3 and len(library.controls["long-rods"]) == 1
+    evidence = Evidence(runs("long-rods", 0.75) + runs("long-rods", 0.75, n=1, step=4e-6))
+    assert len(evidence["long-rods"]) == 3 and len(evidence.controls["long-rods"]) == 1
 
 
 def test_peaks_are_counted():
@@ -374,7 +374,7 @@ def test_peaks_are_counted():
 
 def test_every_statement_has_made_up_runs():
     assert set(CASES) | {"g-flattens"} == set(CHECKS) and len(CHECKS) == 45
-    assert len(findings(Library([]))) == 45
+    assert len(findings(Evidence([]))) == 45
 
 
 def test_numbers_are_means_over_replicas():

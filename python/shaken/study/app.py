@@ -17,7 +17,7 @@ from ..plots.style import inches
 from ..times import seconds
 from . import running
 from .figures import FIGURES, Figure, chosen, draw
-from .library import Library
+from .evidence import Evidence
 from .plan import write_plan
 from .report import tally, write_report
 from .sets import ORDER, SCALES, sweeps
@@ -170,11 +170,11 @@ def _run(options: argparse.Namespace) -> int:
                 print("nothing was started", file=sys.stderr)
                 return FAILED
             failed += _run_plan(plan, program, out, options)
-    library = Library(run for run in archived_runs(archive)
+    evidence = Evidence(run for run in archived_runs(archive)
                       if any(name.endswith("-" + options.scale) for name in run.sweeps))
-    if not library.sets:
+    if not evidence.sets:
         raise ShakenError(f"{archive} has no runs of scale {options.scale}: there is nothing to draw")
-    _draw(options, figures, library, out)
+    _draw(options, figures, evidence, out)
     return FAILED if failed else OK
 
 
@@ -194,21 +194,21 @@ def _run_plan(plan: running.Plan, program: str, out: Path, options: argparse.Nam
     return failed
 
 
-def _draw(options: argparse.Namespace, figures: list[Figure], library: Library, out: Path) -> None:
-    made = draw(figures, library, out, width=25.4 * inches(options.width), form=options.format,
+def _draw(options: argparse.Namespace, figures: list[Figure], evidence: Evidence, out: Path) -> None:
+    made = draw(figures, evidence, out, width=25.4 * inches(options.width), form=options.format,
                 origin={"Software": "shaken figures"})
-    found = findings(library, of_figures({figure.id for figure in figures} if options.figures else ()))
+    found = findings(evidence, of_figures({figure.id for figure in figures} if options.figures else ()))
     (out / "statements.md").write_text(as_table(found))
     (out / "statements.json").write_text(json.dumps(as_json(found), indent=2, ensure_ascii=False) + "\n")
     if options.report is not None:
-        write_report(options.report, library)
+        write_report(options.report, evidence)
     if options.json:
         print(json.dumps({"scale": options.scale, "made": [str(path) for path in made], "statements": as_json(found)},
                          indent=2, ensure_ascii=False))
     else:
         print("\n".join(map(str, [*made, out / "statements.md"])))
         if not options.figures:
-            print(tally(library), end="")
+            print(tally(evidence), end="")
 
 
 def _list(figures: list[Figure], options: argparse.Namespace) -> int:

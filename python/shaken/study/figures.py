@@ -10,7 +10,7 @@ from typing import Callable, Iterable
 from ..errors import ShakenError
 from ..plots.sheet import Sheet
 from . import figures_motion, figures_order, figures_structure
-from .library import Library
+from .evidence import Evidence
 from .material import Material
 
 
@@ -105,23 +105,23 @@ def chosen(words: Iterable[str]) -> list[Figure]:
     return [known[word] for word in dict.fromkeys(wanted)] if wanted else list(FIGURES)
 
 
-def draw(figures: Iterable[Figure], library: Library, out: Path, *, width: float = 183.0, form: str = "png",
+def draw(figures: Iterable[Figure], evidence: Evidence, out: Path, *, width: float = 183.0, form: str = "png",
          origin: dict[str, str] | None = None) -> list[Path]:
     """Draws figures into a folder, each with its data as CSV; those whose runs are all missing are left out."""
-    material = Material(library, width)
+    material = Material(evidence, width)
     drawn = []
     for figure in figures:
-        if not any(library[name] for name in figure.sets):
+        if not any(evidence[name] for name in figure.sets):
             continue
         sheet = figure.draw(material)
         drawn.append(sheet.save(out / f"{figure.file}.{form}",
-                                {**(origin or {}), "Figure": figure.title, **runs_of(library, figure)}))
+                                {**(origin or {}), "Figure": figure.title, **runs_of(evidence, figure)}))
     return drawn
 
 
-def runs_of(library: Library, figure: Figure) -> dict[str, str]:
+def runs_of(evidence: Evidence, figure: Figure) -> dict[str, str]:
     """Which runs of which versions a figure is of."""
-    runs = library.joined(*figure.sets)
+    runs = evidence.joined(*figure.sets)
     versions = sorted({"shaken {shaken}, physics {physics}".format(**run.summary["versions"]) for run in runs})
     ids = sorted(run.id for run in runs)
     shown = ", ".join(ids[:200]) + (f" and {len(ids) - 200} more" if len(ids) > 200 else "")

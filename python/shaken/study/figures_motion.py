@@ -11,7 +11,7 @@ from ..estimate import Estimate
 from ..plots import names
 from ..plots.sheet import Sheet
 from ..run import Run
-from .library import FREQUENCY, LENGTH, PACKING, SIDE, Runs, key_of, number_of
+from .evidence import FREQUENCY, LENGTH, PACKING, SIDE, Runs, key_of, number_of
 from .material import Material, angle_bar, draw_curves, draw_points, draw_rods, first_snapshot, packing_scale
 from .motion_checks import (FREE_OF_THE_WINDOW, late_velocity_correlation, long_rods, papers_diffusion, short_rods,
                             speed_between)
@@ -19,7 +19,7 @@ from .motion_checks import (FREE_OF_THE_WINDOW, late_velocity_correlation, long_
 
 def tilt(material: Material) -> Sheet:
     """10: velocity along and across the rod against its tilt, how often a tilt occurs, and the tilt of one rod."""
-    runs = material.library["mechanism"]
+    runs = material.evidence["mechanism"]
     first = runs.at(packing=0.60)
     sheet = material.sheet(4, columns=2, height=52)
     for panel, way, statement in ((sheet[0], "along", "tilt"), (sheet[1], "across", "sideways")):
@@ -52,7 +52,7 @@ def tilt(material: Material) -> Sheet:
 
 def paths(material: Material) -> Sheet:
     """11: ways of single rods, and how long they persist."""
-    runs = material.library["mechanism"]
+    runs = material.evidence["mechanism"]
     sheet = material.sheet(3, height=56)
     for panel, packing in zip(sheet, (0.65, 0.85)):
         here = runs.at(packing=packing)
@@ -92,7 +92,7 @@ def _short_limit(direction: str) -> Any:
 
 def diffusion(material: Material) -> Sheet:
     """9: mean square displacement and D at short and at long times: short rods, long rods along and across."""
-    short, long_ = short_rods(material.library), long_rods(material.library)
+    short, long_ = short_rods(material.evidence), long_rods(material.evidence)
     scale = packing_scale(short, long_)
     sheet = material.sheet(6, columns=2, height=50)
     rows: tuple[tuple[Runs, str, str, tuple[Any, Any], tuple[str, ...]], ...] = (
@@ -123,7 +123,7 @@ def diffusion(material: Material) -> Sheet:
 
 def diffusion_more(material: Material) -> Sheet:
     """MSD over time: whether it levels off; and exponents."""
-    short, long_ = short_rods(material.library), long_rods(material.library)
+    short, long_ = short_rods(material.evidence), long_rods(material.evidence)
     scale = packing_scale(short, long_)
     sheet = material.sheet(4, columns=2, height=50)
     for panel, runs, name, title, d in ((sheet[0], short, "total", "ℓ = 2.5 mm", 4), (sheet[1], long_, "along",
@@ -143,7 +143,7 @@ def diffusion_more(material: Material) -> Sheet:
 
 def memory(material: Material) -> Sheet:
     """12: correlations in time: orientation, velocity."""
-    short, long_ = material.library["short-rods"], material.library["long-rods"]
+    short, long_ = material.evidence["short-rods"], material.evidence["long-rods"]
     scale = packing_scale(short, long_)
     sheet = material.sheet(6)
     for panel, runs, title, statement in ((sheet[0], short, "ℓ = 2.5 mm", "memory"),
@@ -164,7 +164,7 @@ def memory(material: Material) -> Sheet:
         sheet.colourbar(scale, [sheet[0], sheet[1], sheet[3], sheet[4]])
     low, high = FREE_OF_THE_WINDOW
     panel = sheet[5].titles(names.axis_title(PACKING), "$C_v$ along (mm²/s²)", f"lags of {low:g} to {high:g} s")
-    draw_points(panel, [(at, e) for at, e in long_rods(material.library).points(PACKING, late_velocity_correlation)
+    draw_points(panel, [(at, e) for at, e in long_rods(material.evidence).points(PACKING, late_velocity_correlation)
                         if at > 0.59])
     panel.zero()
     material.stamp(panel, "velocity-along")
@@ -173,7 +173,7 @@ def memory(material: Material) -> Sheet:
 
 def rotation(material: Material) -> Sheet:
     """13: mean square angular displacement, D_r at short and long times, and the exponent at short times."""
-    short, long_ = material.library["short-rods"], material.library["long-rods"]
+    short, long_ = material.evidence["short-rods"], material.evidence["long-rods"]
     scale = packing_scale(short, long_)
     sheet = material.sheet(4, columns=2, height=52)
     for panel, runs, title, statement in ((sheet[0], short, "ℓ = 2.5 mm", ""), (sheet[1], long_, "ℓ = 4.5 mm",
@@ -212,7 +212,7 @@ def rotation(material: Material) -> Sheet:
 
 def defects(material: Material) -> Sheet:
     """14: defects of rods of 3 mm that are ordered here and there."""
-    runs = material.library["no-order"].at(3.0, 0.85)
+    runs = material.evidence["no-order"].at(3.0, 0.85)
     sheet = material.sheet(4, columns=2, height=66)
     snapshot = first_snapshot(runs, 1)
     if snapshot:
@@ -240,7 +240,7 @@ def defects(material: Material) -> Sheet:
 
 def melting(material: Material) -> Sheet:
     """Defects against packing and order."""
-    runs = material.library.joined("long-rods", "short-rods", "crossings", "phases").at(side=33.492)
+    runs = material.evidence.joined("long-rods", "short-rods", "crossings", "phases").at(side=33.492)
     sheet = material.sheet(2, columns=2, height=55)
     one = sheet[0].titles(names.axis_title(PACKING), names.axis_title("defect_density_per_mm2"), "defects")
     two = sheet[1].titles(names.axis_title("S"), names.axis_title("defect_density_per_mm2"), "against order")
@@ -256,8 +256,8 @@ def melting(material: Material) -> Sheet:
 
 def model(material: Material) -> Sheet:
     """What the paper leaves open: the frequency, the number of rods, the number of beads."""
-    library = material.library
-    shaken = library["frequency"].at(packing=0.60)
+    evidence = material.evidence
+    shaken = evidence["frequency"].at(packing=0.60)
     sheet = material.sheet(6)
     panel = sheet[0].titles(names.axis_title("/tilt/n_z"), "velocity along the rod (mm/s)", "φ = 0.6, ℓ = 2.5 mm")
     for k, frequency in enumerate((100, 150, 200, 250, 300)):
@@ -277,20 +277,20 @@ def model(material: Material) -> Sheet:
     panel.reference(y=papers_diffusion(0.60) / 2, label="the paper's fit, MSD = 2Dt")
     panel.range(y=(0, None))
     panel = sheet[3].titles(names.axis_title(PACKING), "D (mm²/s)", "two readings")
-    draw_points(panel, short_rods(library).points(PACKING, "diffusion_mm2_s"), "200 Hz, MSD = 4Dt", 0)
-    rival = library["frequency"].where(FREQUENCY, 280).points(PACKING, "diffusion_mm2_s")
+    draw_points(panel, short_rods(evidence).points(PACKING, "diffusion_mm2_s"), "200 Hz, MSD = 4Dt", 0)
+    rival = evidence["frequency"].where(FREQUENCY, 280).points(PACKING, "diffusion_mm2_s")
     draw_points(panel, [(at, e * 2) for at, e in rival], "280 Hz, MSD = 2Dt", 1)
     phi = np.linspace(0.60, 0.85, 40)
     panel.reference(phi, papers_diffusion(phi), "the paper's fit")
     panel.range(y=(0, None))
     panel = sheet[4].titles(names.axis_title(PACKING), "D (mm²/s)", "3.3 % more rods")
-    draw_points(panel, library["diffusion"].points(PACKING, "diffusion_mm2_s"), "N of the area fraction", 0)
-    more = library["density"]
+    draw_points(panel, evidence["diffusion"].points(PACKING, "diffusion_mm2_s"), "N of the area fraction", 0)
+    more = evidence["density"]
     draw_points(panel, [(round(at / 1.033, 3), e) for at, e in more.points(PACKING, "diffusion_mm2_s")], "N × 1.033", 1)
     panel.reference(phi, papers_diffusion(phi), "the paper's fit")
     panel.range(y=(0, None))
     panel = sheet[5].titles("beads of a rod", "D (mm²/s)", "φ = 0.75")
-    draw_points(panel, library["beads"].points("rods.beads", "diffusion_mm2_s"))
+    draw_points(panel, evidence["beads"].points("rods.beads", "diffusion_mm2_s"))
     panel.reference(y=papers_diffusion(0.75), label="the paper's fit")
     panel.range(y=(0, None))
     return sheet
@@ -304,9 +304,9 @@ def accuracy(material: Material) -> Sheet:
     other = sheet[1].titles("", "difference / its error", "how significant")
     for k, name in enumerate(numbers):
         x, ratios, errors, sigmas = [], [], [], []
-        for place, (set_name, controls) in enumerate(sorted(material.library.controls.items())):
+        for place, (set_name, controls) in enumerate(sorted(material.evidence.controls.items())):
             for control in controls:
-                twin = _twins(material.library[set_name], control)
+                twin = _twins(material.evidence[set_name], control)
                 a, b = twin.number(name), number_of(control, name)
                 if not (twin and a.is_known and b.is_known and a.value):
                     continue
@@ -319,9 +319,9 @@ def accuracy(material: Material) -> Sheet:
             title = names.symbol(name)
             panel.curve(x, ratios, errors, label=title, colour=k, look="points", joined=False)
             other.curve(x, sigmas, label=title, colour=k, look="points", joined=False)
-    sets = sorted(name for name, controls in material.library.controls.items() if controls)
+    sets = sorted(name for name, controls in material.evidence.controls.items() if controls)
     for one in (panel, other):
-        one.axes.set_xticks(range(len(sorted(material.library.controls))), sorted(material.library.controls), rotation=30,
+        one.axes.set_xticks(range(len(sorted(material.evidence.controls))), sorted(material.evidence.controls), rotation=30,
                             ha="right")
     del sets
     panel.reference(y=1)

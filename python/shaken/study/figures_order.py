@@ -7,7 +7,7 @@ import numpy as np
 from ..plots import names
 from ..plots.sheet import Sheet
 from .layer_checks import two_peaks
-from .library import LENGTH, PACKING, SIDE, Runs, key_of
+from .evidence import LENGTH, PACKING, SIDE, Runs, key_of
 from .material import (Material, angle_bar, draw_curves, draw_points, draw_rods, first_snapshot, packing_scale)
 from .order_checks import ORDERED, phase_diagram, pooled_density, transition
 from .structure_checks import far_g2
@@ -15,7 +15,7 @@ from .structure_checks import far_g2
 
 def start(material: Material) -> Sheet:
     """2: rods as they lie, and S(t) from the aligned start."""
-    runs = material.library["long-rods"]
+    runs = material.evidence["long-rods"]
     sheet = material.sheet(3, height=58)
     for panel, packing in zip(sheet, (0.45, 0.75)):
         here = runs.at(packing=packing)
@@ -39,7 +39,7 @@ def start(material: Material) -> Sheet:
 
 def order(material: Material) -> Sheet:
     """3: mean order against area fraction, and the phase diagram."""
-    runs = phase_diagram(material.library)
+    runs = phase_diagram(material.evidence)
     sheet = material.sheet(2, height=62, columns=2)
     panel = sheet[0].titles(names.axis_title(PACKING), names.axis_title("S"), "mean order")
     for k, length in enumerate(runs.values(LENGTH)):
@@ -62,7 +62,7 @@ def order(material: Material) -> Sheet:
         panel.axes.text(0.06, 0.9, "I", transform=panel.axes.transAxes, color="white", fontsize=9, fontweight="bold")
         panel.axes.text(0.9, 0.9, "N", transform=panel.axes.transAxes, color="black", fontsize=9, fontweight="bold")
     layered = [(packing, length) for length in lengths for packing in packings
-               if two_peaks(material.library.joined("phases", "long-rods", "layers", "layer-trends", "crossings")
+               if two_peaks(material.evidence.joined("phases", "long-rods", "layers", "layer-trends", "crossings")
                             .at(length, packing, end=0.4)).word]
     if layered:
         panel.axes.scatter(*zip(*layered), marker="p", s=34, facecolor="#0072b2", edgecolor="white", linewidths=0.8,
@@ -75,7 +75,7 @@ def order(material: Material) -> Sheet:
 
 def order_statistics(material: Material) -> Sheet:
     """4: the distribution of S, its width, the Binder cumulant."""
-    runs = material.library["long-rods"]
+    runs = material.evidence["long-rods"]
     scale = packing_scale(runs)
     sheet = material.sheet(3)
     panel = sheet[0].titles(names.axis_title("/order/pdf/order"), "P[S] / max P[S]", "distribution")
@@ -91,7 +91,7 @@ def order_statistics(material: Material) -> Sheet:
     material.stamp(panel, "unimodal")
     panel = sheet[1].titles(names.axis_title(PACKING), "standard deviation of S", "how far S fluctuates")
     draw_points(panel, runs.points(PACKING, "S_std"), "ℓ = 4.5 mm", 0)
-    draw_points(panel, material.library["short-rods"].points(PACKING, "S_std"), "ℓ = 2.5 mm", 1)
+    draw_points(panel, material.evidence["short-rods"].points(PACKING, "S_std"), "ℓ = 2.5 mm", 1)
     phi = transition(runs)
     if phi.is_known:
         panel.reference(x=phi.value, label="⟨S⟩ = 0.5")
@@ -99,15 +99,15 @@ def order_statistics(material: Material) -> Sheet:
     material.stamp(panel, "broadest")
     panel = sheet[2].titles(names.axis_title(PACKING), names.axis_title("binder"), "Binder cumulant")
     draw_points(panel, runs.points(PACKING, "binder"), "ℓ = 4.5 mm", 0)
-    draw_points(panel, material.library["short-rods"].points(PACKING, "binder"), "ℓ = 2.5 mm", 1)
+    draw_points(panel, material.evidence["short-rods"].points(PACKING, "binder"), "ℓ = 2.5 mm", 1)
     panel.reference(y=0, label="disorder").reference(y=1, label="order")
     return sheet
 
 
 def steady(material: Material) -> Sheet:
     """The axis along which rods of 3.5 mm order at 0.85: from a start along a side, and from one that is turned."""
-    straight = material.library["layer-trends"].at(3.5, 0.85)
-    turned = material.library["turned"].at(3.5, 0.85)
+    straight = material.evidence["layer-trends"].at(3.5, 0.85)
+    turned = material.evidence["turned"].at(3.5, 0.85)
     sheet = material.sheet(4, columns=2, height=58)
     for panel, runs, title in ((sheet[0], straight, "started along a side"), (sheet[1], turned, "started at 30°")):
         snapshot = first_snapshot(runs)
@@ -129,7 +129,7 @@ def steady(material: Material) -> Sheet:
 
 def shaking(material: Material) -> Sheet:
     """Order and motion against the strength of shaking."""
-    runs = Runs(run for run in material.library["shaking"] if key_of(run, "plates.gamma") > 0)
+    runs = Runs(run for run in material.evidence["shaking"] if key_of(run, "plates.gamma") > 0)
     sheet = material.sheet(3)
     for panel, name in zip(sheet, ("S", "diffusion_mm2_s", "rotational_diffusion_rad2_s")):
         panel.titles(names.axis_title("plates.gamma"), names.axis_title(name))
@@ -143,7 +143,7 @@ def shaking(material: Material) -> Sheet:
 
 def size(material: Material) -> Sheet:
     """Order against the size of the box: the crossing of S = 0.5, Binder cumulants, S and G2 far away."""
-    runs = material.library.joined("long-rods", "size", "dilute", "long-range").at(4.5)
+    runs = material.evidence.joined("long-rods", "size", "dilute", "long-range").at(4.5)
     sheet = material.sheet(4, columns=2)
     panel = sheet[0].titles(names.axis_title(PACKING), names.axis_title("S"), "order in several boxes")
     other = sheet[1].titles(names.axis_title(PACKING), names.axis_title("binder"), "Binder cumulant")
@@ -169,7 +169,7 @@ def size(material: Material) -> Sheet:
 
 def equilibrium(material: Material) -> Sheet:
     """The equilibrium reference: nothing lost in a collision, no friction, no gravity, plates at rest."""
-    quiet, shaken = material.library["equilibrium"], phase_diagram(material.library)
+    quiet, shaken = material.evidence["equilibrium"], phase_diagram(material.evidence)
     sheet = material.sheet(3)
     panel = sheet[0].titles(names.axis_title(PACKING), names.axis_title("S"), "order")
     for k, length in enumerate(quiet.values(LENGTH)):
@@ -190,7 +190,7 @@ def equilibrium(material: Material) -> Sheet:
 
 def films(material: Material) -> Sheet:
     """The last rods of the films S1 to S7."""
-    runs = material.library["movies"]
+    runs = material.evidence["movies"]
     sheet = material.sheet(max(len(runs), 1), columns=4)
     for panel, run in zip(sheet, runs):
         snapshot = first_snapshot([run])

@@ -10,15 +10,15 @@ from ..plots import names
 from ..plots.panel import Panel
 from ..plots.sheet import Sheet
 from .layer_checks import layered, wavelength
-from .library import END, GAP, LENGTH, PACKING, SIDE, Runs
+from .evidence import END, GAP, LENGTH, PACKING, SIDE, Runs
 from .material import Material, angle_bar, draw_curves, draw_points, draw_rods, first_snapshot, packing_scale
 
 
 def g2(material: Material) -> Sheet:
     """5: G2(r) on logarithmic axes."""
     sheet = material.sheet(2, height=58, columns=2)
-    library = material.library
-    sets = ((library["short-rods"], "ℓ = 2.5 mm"), (library["long-rods"], "ℓ = 4.5 mm"))
+    evidence = material.evidence
+    sets = ((evidence["short-rods"], "ℓ = 2.5 mm"), (evidence["long-rods"], "ℓ = 4.5 mm"))
     scale = packing_scale(*(runs for runs, _ in sets))
     for panel, (runs, title) in zip(sheet, sets):
         panel.titles(names.axis_title("/g2/r_mm"), names.axis_title("/g2/g2"), title).scale("log", "log")
@@ -67,7 +67,7 @@ def g2_map(material: Material) -> Sheet:
 
 
 def _maps_and_cuts(material: Material, name: str, stamps: dict[float, tuple[str, ...]], level: float) -> Sheet:
-    sets = {0.45: material.library["dilute"], 0.75: material.library["layers"], 0.85: material.library["layers"]}
+    sets = {0.45: material.evidence["dilute"], 0.75: material.evidence["layers"], 0.85: material.evidence["layers"]}
     chosen = [(sets[packing].at(packing=packing), packing) for packing in stamps]
     n = len(chosen)
     sheet = material.sheet(2 * n, columns=n)
@@ -85,9 +85,9 @@ def _maps_and_cuts(material: Material, name: str, stamps: dict[float, tuple[str,
 
 def distances(material: Material) -> Sheet:
     """7: the pair correlation g, and g along and across the director."""
-    library = material.library
+    evidence = material.evidence
     sheet = material.sheet(6)
-    sets = ((library["short-rods"], "ℓ = 2.5 mm"), (library["long-rods"], "ℓ = 4.5 mm"))
+    sets = ((evidence["short-rods"], "ℓ = 2.5 mm"), (evidence["long-rods"], "ℓ = 4.5 mm"))
     scale = packing_scale(*(runs for runs, _ in sets))
     for panel, (runs, title) in zip((sheet[0], sheet[3]), sets):
         panel.titles(names.axis_title("/g2/r_mm"), names.axis_title("/g2/g"), title)
@@ -95,7 +95,7 @@ def distances(material: Material) -> Sheet:
         panel.reference(y=1)
     if scale:
         sheet.colourbar(scale, [sheet[0], sheet[3]])
-    dense = [(library["layers"].at(packing=packing), f"φ = {packing:g}") for packing in (0.75, 0.85)]
+    dense = [(evidence["layers"].at(packing=packing), f"φ = {packing:g}") for packing in (0.75, 0.85)]
     _maps(sheet, [sheet[1], sheet[2]], dense, "/pairs/g")
     for panel, (runs, title) in zip((sheet[4], sheet[5]), dense):
         if runs:
@@ -130,30 +130,30 @@ def _against(panel: Panel, series: list[tuple[Runs, str]], path: str, name: str,
 
 def layers(material: Material) -> Sheet:
     """8: layers turned by +-theta: rods, P(theta) by packing and end diameter, angle and wavelength by length and end."""
-    library = material.library
-    trends = library.joined("layers", "layer-trends")
+    evidence = material.evidence
+    trends = evidence.joined("layers", "layer-trends")
     sheet = material.sheet(9, height=48)
-    long_ = library["layers"].at(4.5)
-    dense = long_.at(packing=0.85) or library["long-rods"].at(packing=0.85)
+    long_ = evidence["layers"].at(4.5)
+    dense = long_.at(packing=0.85) or evidence["long-rods"].at(packing=0.85)
     snapshot = first_snapshot(dense)
     if snapshot:
         draw_rods(sheet[0], snapshot, dense[0].scene, f"φ = 0.85, t = {snapshot.time:.0f} s")
         angle_bar(sheet, [sheet[0]])
-    everything = library["long-rods"]
+    everything = evidence["long-rods"]
     scale = packing_scale(everything)
     _angles(sheet[1], everything, PACKING, "ℓ = 4.5 mm", scale)
     if scale:
         sheet.colourbar(scale, [sheet[1]])
     sheet[1].reference(x=10, label="10°").reference(x=-10)
     material.stamp(sheet[1], "layers")
-    ends = library["layer-trends"].at(4.0, 0.85)
+    ends = evidence["layer-trends"].at(4.0, 0.85)
     _angles(sheet[2], ends, END, "ℓ = 4 mm, φ = 0.85")
     material.stamp(sheet[2], "peaks-end")
     by_length = [(trends.at(packing=packing, end=0.4), f"φ = {packing:g}") for packing in (0.80, 0.85)]
     by_end = [(ends, "φ = 0.85")]
-    wide = [(library["wavelength-length"], "φ = 0.85, L = 84 mm"), *((runs, f"{label}, L = 42 mm")
+    wide = [(evidence["wavelength-length"], "φ = 0.85, L = 84 mm"), *((runs, f"{label}, L = 42 mm")
                                                                      for runs, label in by_length)]
-    wide_ends = [(library.joined("wavelength-end", "larger-box").at(4.0, 0.85), "L = 84 mm"), (ends, "L = 42 mm")]
+    wide_ends = [(evidence.joined("wavelength-end", "larger-box").at(4.0, 0.85), "L = 84 mm"), (ends, "L = 42 mm")]
     _against(sheet[3], by_length, LENGTH, "theta_m_deg", "angle")
     sheet[3].reference(y=10, label="the paper: about 10°")
     material.stamp(sheet[3], "angle-length")
@@ -185,7 +185,7 @@ def _cuts_across(panel: Panel, runs: Runs, scale: Callable[[float], object] | No
 
 def layer_trends(material: Material) -> Sheet:
     """Angle, wavelength and order of the layers against packing."""
-    trends = material.library.joined("layers", "layer-trends")
+    trends = material.evidence.joined("layers", "layer-trends")
     series = [(trends.at(length, end=0.4), names.value_label(LENGTH, length)) for length in (4.0, 4.5)]
     sheet = material.sheet(3)
     for panel, name, statement in zip(sheet, ("theta_m_deg", "wavelength_mm", "layer_order"),
@@ -196,7 +196,7 @@ def layer_trends(material: Material) -> Sheet:
                 draw_points(panel, runs.points(PACKING, name), label, k)
             panel.range(y=(0, None))
             continue
-        wide = [(material.library["wavelength-packing"], "ℓ = 4 mm, L = 126 mm")] if name == "wavelength_mm" else []
+        wide = [(material.evidence["wavelength-packing"], "ℓ = 4 mm, L = 126 mm")] if name == "wavelength_mm" else []
         _against(panel, series + wide, PACKING, name, "angle" if name == "theta_m_deg" else "wavelength")
         material.stamp(panel, statement)
     return sheet
@@ -204,8 +204,8 @@ def layer_trends(material: Material) -> Sheet:
 
 def larger_box(material: Material) -> Sheet:
     """Layers of 4 mm rods in a box twice as wide."""
-    small = material.library["layer-trends"].at(4.0, 0.85, end=0.4)
-    large = material.library.joined("larger-box", "wavelength-length").at(4.0, 0.85, end=0.4)
+    small = material.evidence["layer-trends"].at(4.0, 0.85, end=0.4)
+    large = material.evidence.joined("larger-box", "wavelength-length").at(4.0, 0.85, end=0.4)
     both = Runs([*small, *large])
     sheet = material.sheet(4, columns=2, height=58)
     for panel, runs in ((sheet[0], small), (sheet[1], large)):
@@ -221,7 +221,7 @@ def larger_box(material: Material) -> Sheet:
 
 def gap(material: Material) -> Sheet:
     """The gap between the plates: G2 across the director and its maps, P(theta), g(r), crystalline order."""
-    runs = Runs([*material.library["gaps"], *material.library["layers"].at(4.5, 0.80)])
+    runs = Runs([*material.evidence["gaps"], *material.evidence["layers"].at(4.5, 0.80)])
     gaps = runs.values(GAP)
     sheet = material.sheet(8, columns=4 if material.width > 150 else 2, height=44)
     _maps(sheet, sheet.panels[:4], [(runs.at(gap=value), f"w = {value:g} mm") for value in gaps], "/pairs/g2")
@@ -241,8 +241,8 @@ def gap(material: Material) -> Sheet:
 
 def elasticity(material: Material) -> Sheet:
     """Fluctuations of the director along and across: bend against splay."""
-    runs = material.library["elasticity"]
-    ratio = Runs([*runs, *material.library["long-rods"]])
+    runs = material.evidence["elasticity"]
+    ratio = Runs([*runs, *material.evidence["long-rods"]])
     sheet = material.sheet(2, columns=2, height=55)
     panel = sheet[0].titles("wave number q (1/mm)", "power of the director (mm²)", "φ = 0.65").scale("log", "log")
     for run in runs[:1]:
@@ -264,7 +264,7 @@ def elasticity(material: Material) -> Sheet:
 def fluctuations(material: Material) -> Sheet:
     """Fluctuations of the number of rods in parts of the box."""
     sheet = material.sheet(2, columns=2, height=55)
-    sets = ((material.library["short-rods"], "ℓ = 2.5 mm"), (material.library["long-rods"], "ℓ = 4.5 mm"))
+    sets = ((material.evidence["short-rods"], "ℓ = 2.5 mm"), (material.evidence["long-rods"], "ℓ = 4.5 mm"))
     scale = packing_scale(*(runs for runs, _ in sets))
     for panel, (runs, title) in zip(sheet, sets):
         panel.titles("mean number ⟨N⟩", "ΔN / √⟨N⟩", title).scale("log", "linear")

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..estimate import Estimate
 from ..run import Run
-from .library import END, GAP, LENGTH, PACKING, SIDE, Library, Runs, key_of, number_of
+from .evidence import END, GAP, LENGTH, PACKING, SIDE, Evidence, Runs, key_of, number_of
 from .rules import NOT_RUN, Answer, Finding, above, below, close_to, conclude, larger, listed, no, refutable, text, trend, unknown, yes
 
 #: P(0) over the maximum of P(theta): below it there are two peaks, above it there is one.
@@ -48,12 +48,12 @@ def _gap_text(runs: Runs) -> str:
             f"Bragg peak {text(runs.number('bragg_peak'))}")
 
 
-def layers_when_dense(library: Library) -> Finding:
+def layers_when_dense(evidence: Evidence) -> Finding:
     answers, found = [], []
     for packing in (0.75, 0.80, 0.85):
-        runs = library["layers"].at(4.5, packing)
+        runs = evidence["layers"].at(4.5, packing)
         if not runs:
-            if library["layers"]:
+            if evidence["layers"]:
                 answers.append(unknown(NOT_RUN).placed(f"{packing:g}"))
             continue
         two = two_peaks(runs)
@@ -78,10 +78,10 @@ def _crest(run: Run) -> Estimate:
                     number_of(run, "S").steady)
 
 
-def g2_oscillates(library: Library) -> Finding:
+def g2_oscillates(evidence: Evidence) -> Finding:
     answers, found = [], []
     for packing in (0.80, 0.85):
-        runs = layered(library["layers"].at(4.5, packing))
+        runs = layered(evidence["layers"].at(4.5, packing))
         if not runs:
             continue
         rise = runs.of(_crest)
@@ -90,13 +90,13 @@ def g2_oscillates(library: Library) -> Finding:
     return conclude(answers, "G₂ across the director, a wavelength away less half a wavelength away: " + "; ".join(found))
 
 
-def no_layers_at_wide_gaps(library: Library) -> Finding:
-    reference = library["layers"].at(4.5, 0.80)
+def no_layers_at_wide_gaps(evidence: Evidence) -> Finding:
+    reference = evidence["layers"].at(4.5, 0.80)
     if not reference:
         return Finding()
     answers, found = [], [_gap_text(reference)]
     for gap in (1.4, 1.6):
-        wide = library["gaps"].at(gap=gap)
+        wide = evidence["gaps"].at(gap=gap)
         if not wide:
             answers.append(unknown(NOT_RUN).placed(f"w = {gap:g} mm"))
             continue
@@ -107,8 +107,8 @@ def no_layers_at_wide_gaps(library: Library) -> Finding:
     return conclude(answers, "; ".join(found))
 
 
-def crystal_at_a_narrow_gap(library: Library) -> Finding:
-    reference, narrow = library["layers"].at(4.5, 0.80), library["gaps"].at(gap=0.9)
+def crystal_at_a_narrow_gap(evidence: Evidence) -> Finding:
+    reference, narrow = evidence["layers"].at(4.5, 0.80), evidence["gaps"].at(gap=0.9)
     if not reference or not narrow:
         return Finding()
     found = f"{_gap_text(reference)}; {_gap_text(narrow)}"
@@ -138,35 +138,35 @@ def _trend(series: list[tuple[Runs, str]], name: str, rising: bool, unit: str) -
     return conclude(able or answers, ". ".join(found))
 
 
-def _by_packing(library: Library) -> list[tuple[Runs, str]]:
-    runs = library.joined("layers", "layer-trends")
+def _by_packing(evidence: Evidence) -> list[tuple[Runs, str]]:
+    runs = evidence.joined("layers", "layer-trends")
     return [(Runs(run for run in runs.at(length, end=0.4) if key_of(run, PACKING) > 0.78), PACKING)
             for length in (4.0, 4.5)]
 
 
-def _by_length(library: Library) -> list[tuple[Runs, str]]:
-    return [(library.joined("layers", "layer-trends").at(packing=0.85, end=0.4), LENGTH)]
+def _by_length(evidence: Evidence) -> list[tuple[Runs, str]]:
+    return [(evidence.joined("layers", "layer-trends").at(packing=0.85, end=0.4), LENGTH)]
 
 
-def _by_end(library: Library) -> list[tuple[Runs, str]]:
-    return [(library["layer-trends"].at(4.0, 0.85), END)]
+def _by_end(evidence: Evidence) -> list[tuple[Runs, str]]:
+    return [(evidence["layer-trends"].at(4.0, 0.85), END)]
 
 
-def angle_grows_with_packing(library: Library) -> Finding:
-    return _trend(_by_packing(library), "theta_m_deg", True, "°")
+def angle_grows_with_packing(evidence: Evidence) -> Finding:
+    return _trend(_by_packing(evidence), "theta_m_deg", True, "°")
 
 
-def angle_falls_with_length(library: Library) -> Finding:
-    return _trend(_by_length(library), "theta_m_deg", False, "°")
+def angle_falls_with_length(evidence: Evidence) -> Finding:
+    return _trend(_by_length(evidence), "theta_m_deg", False, "°")
 
 
-def angle_falls_with_end(library: Library) -> Finding:
-    return _trend(_by_end(library), "theta_m_deg", False, "°")
+def angle_falls_with_end(evidence: Evidence) -> Finding:
+    return _trend(_by_end(evidence), "theta_m_deg", False, "°")
 
 
-def two_peaks_at_every_end(library: Library) -> Finding:
+def two_peaks_at_every_end(evidence: Evidence) -> Finding:
     answers, found = [], []
-    [(runs, _)] = _by_end(library)
+    [(runs, _)] = _by_end(evidence)
     for end in runs.values(END) if len(runs.values(END)) > 1 else []:
         here = runs.at(end=end)
         answers.append(two_peaks(here).placed(f"d = {end:g} mm"))
@@ -174,22 +174,22 @@ def two_peaks_at_every_end(library: Library) -> Finding:
     return conclude(answers, "; ".join(found), everywhere=True)
 
 
-def wavelength_falls_with_packing(library: Library) -> Finding:
-    return _trend([(library["wavelength-packing"], PACKING), *_by_packing(library)], "wavelength_mm", False, " mm")
+def wavelength_falls_with_packing(evidence: Evidence) -> Finding:
+    return _trend([(evidence["wavelength-packing"], PACKING), *_by_packing(evidence)], "wavelength_mm", False, " mm")
 
 
-def wavelength_grows_with_length(library: Library) -> Finding:
-    return _trend([(library["wavelength-length"], LENGTH), *_by_length(library)], "wavelength_mm", True, " mm")
+def wavelength_grows_with_length(evidence: Evidence) -> Finding:
+    return _trend([(evidence["wavelength-length"], LENGTH), *_by_length(evidence)], "wavelength_mm", True, " mm")
 
 
-def wavelength_grows_with_end(library: Library) -> Finding:
-    wide = library.joined("wavelength-end", "larger-box", "wavelength-length").at(4.0, 0.85)
-    return _trend([(wide, END), *_by_end(library)], "wavelength_mm", True, " mm")
+def wavelength_grows_with_end(evidence: Evidence) -> Finding:
+    wide = evidence.joined("wavelength-end", "larger-box", "wavelength-length").at(4.0, 0.85)
+    return _trend([(wide, END), *_by_end(evidence)], "wavelength_mm", True, " mm")
 
 
-def larger_box(library: Library) -> Finding:
-    large = library.joined("larger-box", "wavelength-length").at(4.0, 0.85, end=0.4)
-    small = library["layer-trends"].at(4.0, 0.85, end=0.4)
+def larger_box(evidence: Evidence) -> Finding:
+    large = evidence.joined("larger-box", "wavelength-length").at(4.0, 0.85, end=0.4)
+    small = evidence["layer-trends"].at(4.0, 0.85, end=0.4)
     if not large or not small:
         return Finding()
     lam = [layered(runs).of(wavelength) for runs in (small, large)]

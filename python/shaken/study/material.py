@@ -13,7 +13,7 @@ from ..estimate import Estimate
 from ..plots import names, style
 from ..plots.panel import Panel
 from ..plots.sheet import Sheet
-from .library import PACKING, Library, Runs, key_of
+from .evidence import PACKING, Evidence, Runs, key_of
 from .rules import Finding
 from .statements import STATEMENTS
 
@@ -21,12 +21,12 @@ from .statements import STATEMENTS
 class Material:
     """The runs of a study, what they say to each statement, and the width [mm] of the figures to be drawn."""
 
-    def __init__(self, library: Library, width: float = 183.0) -> None:
-        self.library, self.width = library, width
+    def __init__(self, evidence: Evidence, width: float = 183.0) -> None:
+        self.evidence, self.width = evidence, width
 
     @functools.cached_property
     def findings(self) -> dict[str, Finding]:
-        return {statement.id: statement.check(self.library) for statement in STATEMENTS}
+        return {statement.id: statement.check(self.evidence) for statement in STATEMENTS}
 
     def sheet(self, n_panels: int, height: float = 46.0, columns: int | None = None) -> Sheet:
         """An empty figure of so many panels: three beside each other on a page, two in a narrower column."""

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..estimate import Estimate
 from ..run import Run
-from .library import PACKING, SIDE, Library, Runs, key_of, mean_of_places, number_of
+from .evidence import PACKING, SIDE, Evidence, Runs, key_of, mean_of_places, number_of
 from .rules import Finding, above, below, close_to, conclude, doubt, larger, listed, no, text, trend, unknown, yes
 
 
@@ -17,15 +17,15 @@ def papers_diffusion(packing: float) -> float:
     return 1.7 + 480 * (packing - 0.64) ** 2
 
 
-def short_rods(library: Library) -> Runs:
+def short_rods(evidence: Evidence) -> Runs:
     """Rods of 2.5 mm at each packing, in the largest box of the sets that follow them for long."""
-    runs = library.joined("diffusion", "short-rods").at(length=2.5)
+    runs = evidence.joined("diffusion", "short-rods").at(length=2.5)
     return Runs(run for packing in runs.values(PACKING) for run in runs.at(packing=packing).largest(SIDE))
 
 
-def long_rods(library: Library) -> Runs:
+def long_rods(evidence: Evidence) -> Runs:
     """Rods of 4.5 mm at each packing: those followed for longest."""
-    followed, others = library["diffusion-along"], library["long-rods"]
+    followed, others = evidence["diffusion-along"], evidence["long-rods"]
     return Runs([*followed, *(run for run in others if key_of(run, PACKING) not in followed.values(PACKING))])
 
 
@@ -43,8 +43,8 @@ def speed_between(run: Run, low: float, high: float) -> Estimate:
                     number_of(run, "tilt_fastest_mm_s").steady)
 
 
-def tilt_and_velocity(library: Library) -> Finding:
-    runs = library["mechanism"].at(packing=0.60)
+def tilt_and_velocity(evidence: Evidence) -> Finding:
+    runs = evidence["mechanism"].at(packing=0.60)
     if not runs:
         return Finding()
     speed, beyond = runs.number("tilt_fastest_mm_s"), runs.of(lambda run: speed_between(run, 0.31, 0.40))
@@ -59,8 +59,8 @@ def tilt_and_velocity(library: Library) -> Finding:
                     f"fastest at n_z = ±{text(place)}, {text(speed)} mm/s along the tilt; beyond ±0.31 {text(beyond)} mm/s")
 
 
-def no_motion_sideways(library: Library) -> Finding:
-    runs = library["mechanism"].at(packing=0.60)
+def no_motion_sideways(evidence: Evidence) -> Finding:
+    runs = evidence["mechanism"].at(packing=0.60)
     if not runs:
         return Finding()
     chi2, noise, n = 0.0, 0.0, 0
@@ -82,43 +82,43 @@ def no_motion_sideways(library: Library) -> Finding:
                               f"{speed:.2f} mm/s")
 
 
-def tilt_switches(library: Library) -> Finding:
-    points = library["mechanism"].points(PACKING, "n_z_switching_time_s")
+def tilt_switches(evidence: Evidence) -> Finding:
+    points = evidence["mechanism"].points(PACKING, "n_z_switching_time_s")
     # several times within the 30 s over which the paper follows a rod
     return conclude([below(estimate, 10).placed(f"{packing:g}") for packing, estimate in points],
                     f"n_z keeps its sign for {listed(points, 'φ', ' s')}")
 
 
-def persists_when_dense(library: Library) -> Finding:
+def persists_when_dense(evidence: Evidence) -> Finding:
     answers, found = [], []
     for name, unit in (("persistence_time_s", " s"), ("persistence_length_mm", " mm")):
-        points = [(at, e) for at, e in library["mechanism"].points(PACKING, name) if at > 0.64]
+        points = [(at, e) for at, e in evidence["mechanism"].points(PACKING, name) if at > 0.64]
         if len(points) > 1:
             answers.append(trend(points, rising=True).placed("time" if unit == " s" else "length"))
             found.append(listed(points, "φ", unit))
     return conclude(answers, ". ".join(found))
 
 
-def diffusion_rises(library: Library) -> Finding:
-    points = [(at, e) for at, e in short_rods(library).points(PACKING, "diffusion_mm2_s") if at > 0.64]
+def diffusion_rises(evidence: Evidence) -> Finding:
+    points = [(at, e) for at, e in short_rods(evidence).points(PACKING, "diffusion_mm2_s") if at > 0.64]
     if len(points) < 2:
         return Finding()
-    below_it = [(at, e) for at, e in short_rods(library).points(PACKING, "diffusion_mm2_s") if at < 0.66]
+    below_it = [(at, e) for at, e in short_rods(evidence).points(PACKING, "diffusion_mm2_s") if at < 0.66]
     falls = f"; below 0.65 it falls: {listed(below_it, 'φ')}" if len(below_it) > 1 else ""
     return conclude([trend(points, rising=True)], f"D = {listed(points, 'φ')} mm²/s{falls}")
 
 
-def diffusion_law(library: Library) -> Finding:
-    points = [(at, e) for at, e in short_rods(library).points(PACKING, "diffusion_mm2_s") if at > 0.64]
+def diffusion_law(evidence: Evidence) -> Finding:
+    points = [(at, e) for at, e in short_rods(evidence).points(PACKING, "diffusion_mm2_s") if at > 0.64]
     answers = [close_to(e, papers_diffusion(at), 0.2 * papers_diffusion(at)).placed(f"{at:g}") for at, e in points]
     found = "; ".join(f"{text(e)} ({papers_diffusion(at):.1f}) at {at:g}" for at, e in points)
     return conclude(answers, f"D in mm²/s (the paper's fit): {found}")
 
 
-def diffusion_is_normal(library: Library) -> Finding:
+def diffusion_is_normal(evidence: Evidence) -> Finding:
     answers, found = [], []
     for when in ("short", "long"):
-        points = short_rods(library).points(PACKING, f"alpha_{when}")
+        points = short_rods(evidence).points(PACKING, f"alpha_{when}")
         answers += [close_to(e, 1, 0.1).placed(f"{when} times, {at:g}") for at, e in points]
         if points:
             found.append(f"{when}: {listed(points, 'φ')}")
@@ -140,8 +140,8 @@ def msd_slope(run: Run, direction: str, lag: float) -> Estimate:
     return Estimate((values[last] - values[first]) / (2 * dt), error, number_of(run, "diffusion_mm2_s").steady)
 
 
-def diffusion_along_the_director(library: Library) -> Finding:
-    runs = library["diffusion-along"]
+def diffusion_along_the_director(evidence: Evidence) -> Finding:
+    runs = evidence["diffusion-along"]
     across = dict(runs.points(PACKING, "diffusion_across_mm2_s"))
     answers, found = [], []
     for label, name in (("longest lags", "diffusion_along_mm2_s"),
@@ -160,10 +160,10 @@ def diffusion_along_the_director(library: Library) -> Finding:
     return conclude(answers, ". ".join(found) + f". Across: {listed(list(across.items()), 'φ')} (mm²/s)")
 
 
-def no_superdiffusion_across(library: Library) -> Finding:
+def no_superdiffusion_across(evidence: Evidence) -> Finding:
     answers, found = [], []
     for when in ("short", "long"):
-        points = [(at, e) for at, e in long_rods(library).points(PACKING, f"alpha_across_{when}") if at > 0.59]
+        points = [(at, e) for at, e in long_rods(evidence).points(PACKING, f"alpha_across_{when}") if at > 0.59]
         answers += [below(e, 1.05).placed(f"{when} times, {at:g}") for at, e in points]
         if points and when == "short":
             answers.append(trend(points, rising=False).placed("falls with packing"))
@@ -172,8 +172,8 @@ def no_superdiffusion_across(library: Library) -> Finding:
     return conclude(answers, "exponents across at times that are " + "; ".join(found))
 
 
-def slower_when_denser(library: Library) -> Finding:
-    runs = library["short-rods"]
+def slower_when_denser(evidence: Evidence) -> Finding:
+    runs = evidence["short-rods"]
     c2, c_v = runs.points(PACKING, "c2_decay_s"), runs.points(PACKING, "velocity_correlation_s")
     if len(c2) < 2 or len(c_v) < 2:
         return Finding()
@@ -181,8 +181,8 @@ def slower_when_denser(library: Library) -> Finding:
                     f"C₂ falls to 1/e in {listed(c2, 'φ', ' s')}. C_v: {listed(c_v, 'φ', ' s')}")
 
 
-def c2_levels_off(library: Library) -> Finding:
-    points = [(at, e) for at, e in library["long-rods"].points(PACKING, "c2_plateau") if at > 0.59]
+def c2_levels_off(evidence: Evidence) -> Finding:
+    points = [(at, e) for at, e in evidence["long-rods"].points(PACKING, "c2_plateau") if at > 0.59]
     if len(points) < 2:
         return Finding()
     return conclude([trend(points, rising=True).placed("grows with packing"),
@@ -205,8 +205,8 @@ def late_velocity_correlation(run: Run) -> Estimate:
     return mean_of_places(np.asarray(product)[late], np.asarray(product.error)[late], run)
 
 
-def velocity_along_grows(library: Library) -> Finding:
-    runs = long_rods(library)
+def velocity_along_grows(evidence: Evidence) -> Finding:
+    runs = long_rods(evidence)
     points = [(at, e) for at, e in runs.points(PACKING, late_velocity_correlation) if at > 0.59]
     growing = [(at, e) for at, e in points if at < 0.81]
     if len(growing) < 2:
@@ -216,30 +216,30 @@ def velocity_along_grows(library: Library) -> Finding:
                     f"C_v along, lags of 0.8 to 2.8 s: {listed(points, 'φ', ' mm²/s²')}. C_v(0): {listed(at_zero, 'φ')}")
 
 
-def rotation_slows(library: Library) -> Finding:
-    points = library["short-rods"].points(PACKING, "rotational_diffusion_rad2_s")
+def rotation_slows(evidence: Evidence) -> Finding:
+    points = evidence["short-rods"].points(PACKING, "rotational_diffusion_rad2_s")
     if len(points) < 2:
         return Finding()
     return conclude([trend(points, rising=False)], f"D_r = {listed(points, 'φ')} rad²/s")
 
 
-def rotation_subdiffusive(library: Library) -> Finding:
-    points = library["short-rods"].points(PACKING, "alpha_rotation_short")
+def rotation_subdiffusive(evidence: Evidence) -> Finding:
+    points = evidence["short-rods"].points(PACKING, "alpha_rotation_short")
     if len(points) < 2:
         return Finding()
     return conclude([trend(points, rising=False).placed("falls with packing"),
                      *(below(e, 1).placed(f"{at:g}") for at, e in points)], f"exponent {listed(points, 'φ')}")
 
 
-def turning_saturates(library: Library) -> Finding:
-    points = [(at, e) for at, e in library["long-rods"].points(PACKING, "alpha_rotation_long")
+def turning_saturates(evidence: Evidence) -> Finding:
+    points = [(at, e) for at, e in evidence["long-rods"].points(PACKING, "alpha_rotation_long")
               if at < 0.46 or at > 0.74]
     return conclude([(close_to(e, 1, 0.1) if at < 0.46 else below(e, 0.25)).placed(f"{at:g}") for at, e in points],
                     f"exponent at long times {listed(points, 'φ')}")
 
 
-def defects_move(library: Library) -> Finding:
-    runs = library["no-order"].at(3.0, 0.85)
+def defects_move(evidence: Evidence) -> Finding:
+    runs = evidence["no-order"].at(3.0, 0.85)
     if not runs:
         return Finding()
     plus, minus, along = (runs.number(f"lasting_defect_speed_{name}_mm_s") for name in ("plus", "minus", "plus_along"))

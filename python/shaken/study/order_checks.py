@@ -8,7 +8,7 @@ import numpy as np
 
 from ..estimate import NAN, Estimate, derived
 from ..run import Run
-from .library import GAMMA, LENGTH, PACKING, PAPERS_BOX, SIDE, Library, Runs, crossing, key_of
+from .evidence import GAMMA, LENGTH, PACKING, PAPERS_BOX, SIDE, Evidence, Runs, crossing, key_of
 from .rules import (NOT_RUN, Answer, Finding, above, below, close_to, conclude, doubt, listed, no, refutable, text, trend, unknown,
                     yes)
 from .structure_checks import far_g2
@@ -19,9 +19,9 @@ ORDERED = 0.5
 DIAGRAMS_BOX = 33.492
 
 
-def phase_diagram(library: Library) -> Runs:
+def phase_diagram(evidence: Evidence) -> Runs:
     """The runs of the phase diagram: all lengths and packings in its box."""
-    return library.joined("long-rods", "short-rods", "crossings", "phases").at(side=DIAGRAMS_BOX)
+    return evidence.joined("long-rods", "short-rods", "crossings", "phases").at(side=DIAGRAMS_BOX)
 
 
 def transition(runs: Runs) -> Estimate:
@@ -40,9 +40,9 @@ def power_of_size(runs: Runs) -> Estimate:
                    [(-1 / (small.value * scale), small), (1 / (large.value * scale), large)])
 
 
-def steady_after_the_start(library: Library) -> Finding:
+def steady_after_the_start(evidence: Evidence) -> Finding:
     longest_wait = 600.0  # [s], the paper's
-    runs = library["long-rods"]
+    runs = evidence["long-rods"]
     answers, steady, wait = [], 0, 0.0
     for packing in runs.values(PACKING):
         here = runs.at(packing=packing)
@@ -62,16 +62,16 @@ def steady_after_the_start(library: Library) -> Finding:
                     everywhere=True)
 
 
-def ordered_when_dense(library: Library) -> Finding:
-    runs = library["long-rods"].at(packing=0.75)
+def ordered_when_dense(evidence: Evidence) -> Finding:
+    runs = evidence["long-rods"].at(packing=0.75)
     if not runs:
         return Finding()
     s = runs.number("S")
     return conclude([close_to(s, 0.9, 0.05)], f"S = {text(s)}")
 
 
-def disordered_when_dilute(library: Library) -> Finding:
-    everywhere = library.joined("long-rods", "dilute").at(length=4.5, packing=0.45)
+def disordered_when_dilute(evidence: Evidence) -> Finding:
+    everywhere = evidence.joined("long-rods", "dilute").at(length=4.5, packing=0.45)
     runs = everywhere.largest(SIDE)
     if not runs:
         return Finding()
@@ -85,8 +85,8 @@ def disordered_when_dilute(library: Library) -> Finding:
                     f"x = {text(power)} (disorder: −1)")
 
 
-def short_rods_do_not_order(library: Library) -> Finding:
-    runs = library.joined("short-rods", "phases", "no-order", "diffusion", "mechanism")
+def short_rods_do_not_order(evidence: Evidence) -> Finding:
+    runs = evidence.joined("short-rods", "phases", "no-order", "diffusion", "mechanism")
     answers, found = [], []
     for length in (2.5, 3.0):
         largest = None
@@ -106,8 +106,8 @@ def short_rods_do_not_order(library: Library) -> Finding:
     return conclude(answers, "; ".join(found), everywhere=True)
 
 
-def transition_falls_with_length(library: Library) -> Finding:
-    runs = phase_diagram(library)
+def transition_falls_with_length(evidence: Evidence) -> Finding:
+    runs = phase_diagram(evidence)
     points = [(length, transition(runs.at(length))) for length in (3.5, 4.0, 4.5) if runs.at(length)]
     passed = [(length, phi) for length, phi in points if phi.is_known]
     if not passed:
@@ -115,12 +115,12 @@ def transition_falls_with_length(library: Library) -> Finding:
     return conclude([trend(points, rising=False)], "S = 0.5 is passed at φ = " + listed(passed, "ℓ", ""))
 
 
-def saturates(library: Library) -> Finding:
+def saturates(evidence: Evidence) -> Finding:
     answers, found = [], []
     for length in (4.0, 4.5):
-        points = phase_diagram(library).at(length).points(PACKING, "S")
+        points = phase_diagram(evidence).at(length).points(PACKING, "S")
         if len(points) < 2:
-            if phase_diagram(library):
+            if phase_diagram(evidence):
                 answers.append(unknown(NOT_RUN).placed(f"ℓ = {length:g} mm"))
             continue
         answers.append(trend(points, rising=True).placed(f"rises, ℓ = {length:g} mm"))
@@ -130,8 +130,8 @@ def saturates(library: Library) -> Finding:
     return conclude(answers, "; ".join(found))
 
 
-def transition_rises_with_size(library: Library) -> Finding:
-    runs = library.joined("long-rods", "size").at(length=4.5)
+def transition_rises_with_size(evidence: Evidence) -> Finding:
+    runs = evidence.joined("long-rods", "size").at(length=4.5)
     points = [(side, transition(runs.at(side=side))) for side in runs.values(SIDE)
               if len(runs.at(side=side).values(PACKING)) > 1]
     if len(points) < 2:
@@ -139,8 +139,8 @@ def transition_rises_with_size(library: Library) -> Finding:
     return conclude([trend(points, rising=True)], "S = 0.5 is passed at φ = " + listed(points, "L", ""))
 
 
-def long_range(library: Library) -> Finding:
-    runs = library.joined("long-range", "long-rods").at(length=4.5, packing=0.70)
+def long_range(evidence: Evidence) -> Finding:
+    runs = evidence.joined("long-range", "long-rods").at(length=4.5, packing=0.70)
     points = runs.points(SIDE, "S")
     if len(points) < 2:
         return Finding()
@@ -192,9 +192,9 @@ def n_peaks(density: np.ndarray) -> int:
     return peaks
 
 
-def one_peak(library: Library) -> Finding:
+def one_peak(evidence: Evidence) -> Finding:
     answers, found = [], []
-    runs = library["long-rods"]
+    runs = evidence["long-rods"]
     for packing in runs.values(PACKING):
         here = runs.at(packing=packing)
         _, density, samples = pooled_density(here)
@@ -211,8 +211,8 @@ def one_peak(library: Library) -> Finding:
     return conclude(answers, "peaks (independent samples): " + ", ".join(found), everywhere=True)
 
 
-def broadest_at_the_transition(library: Library) -> Finding:
-    runs = library["long-rods"]
+def broadest_at_the_transition(evidence: Evidence) -> Finding:
+    runs = evidence["long-rods"]
     points = runs.points(PACKING, "S_std")
     phi = transition(runs)
     if len(points) < 3 or not phi.is_known:
@@ -241,9 +241,9 @@ def angle_to_side(run: Run) -> Estimate:
     return Estimate((early + later) / 2, abs(early - later) / 2, run["S"].steady, unit="deg")
 
 
-def oblique_axis(library: Library) -> Finding:
-    turned = library["turned"].at(length=3.5, packing=0.85)
-    straight = library["layer-trends"].at(length=3.5, packing=0.85)
+def oblique_axis(evidence: Evidence) -> Finding:
+    turned = evidence["turned"].at(length=3.5, packing=0.85)
+    straight = evidence["layer-trends"].at(length=3.5, packing=0.85)
     if not turned:
         if not straight:
             return Finding()
@@ -257,8 +257,8 @@ def oblique_axis(library: Library) -> Finding:
     return conclude([above(s, ORDERED).placed("ordered"), above(angle, 10).placed("oblique")], found)
 
 
-def activity(library: Library) -> Finding:
-    runs = library["shaking"].at(length=2.5)
+def activity(evidence: Evidence) -> Finding:
+    runs = evidence["shaking"].at(length=2.5)
     moving = Runs(run for run in runs if key_of(run, GAMMA) > 0)
     still = runs.where(GAMMA, 0.0)
     d = moving.points(GAMMA, "diffusion_mm2_s")

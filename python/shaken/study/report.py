@@ -9,15 +9,15 @@ from pathlib import Path
 
 from ..errors import ShakenError
 from .figures import FIGURES
-from .library import Library
+from .evidence import Evidence
 from .sets import ORDER
 from .statements import STATEMENTS, as_table, findings
 
 
-def origin(library: Library) -> str:
+def origin(evidence: Evidence) -> str:
     """Which versions made the runs, how many, and when the last was finished; a list of Markdown."""
     by_version: dict[str, list[str]] = {}
-    for run in library.everything:
+    for run in evidence.everything:
         versions = run.summary["versions"]
         words = f"shaken {versions['shaken']}, physics {versions['physics']}, {versions['compiler']}"
         by_version.setdefault(words, []).append(run.summary.get("finished") or "")
@@ -25,26 +25,26 @@ def origin(library: Library) -> str:
                    for words, times in sorted(by_version.items()))
 
 
-def sets_table(library: Library) -> str:
+def sets_table(evidence: Evidence) -> str:
     """What each set has taken, as its runs tell; a table of Markdown."""
     lines = ["| | set | runs | rods | simulated s | CPU-h |", "|---|---|---|---|---|---|"]
     for letter, name in ORDER:
-        runs = [*library[name], *library.controls.get(name, [])]
+        runs = [*evidence[name], *evidence.controls.get(name, [])]
         if not runs:
             continue
         rods = sorted({run.summary["n_rods"] for run in runs})
         lines.append(f"| {letter} | `{name}` | {len(runs)} | {rods[0]} to {rods[-1]} | "
                      f"{sum(run.summary['sim_seconds'] for run in runs):.0f} | "
                      f"{sum(run.summary['cpu_seconds'] for run in runs) / 3600:.2f} |")
-    everything = library.everything
+    everything = evidence.everything
     lines.append(f"| | together | {len(everything)} | | {sum(run.summary['sim_seconds'] for run in everything):.0f} | "
                  f"{sum(run.summary['cpu_seconds'] for run in everything) / 3600:.2f} |")
     return "\n".join(lines) + "\n"
 
 
-def tally(library: Library) -> str:
+def tally(evidence: Evidence) -> str:
     """How many statements agree, and so on, in a sentence."""
-    counts = Counter(finding.verdict for _, finding in findings(library))
+    counts = Counter(finding.verdict for _, finding in findings(evidence))
     words = {"agrees": "agree", "consistent": "are consistent with the runs, which could only refute them",
              "in part": "agree in part", "disagrees": "disagree", "contradicts itself": "contradict themselves",
              "open": "are open", "no data": "have no runs yet"}
@@ -52,15 +52,15 @@ def tally(library: Library) -> str:
     return _wrapped(f"Of the paper's {len(STATEMENTS)} statements {', '.join(listed)}.").rstrip() + "\n"
 
 
-def figures_list(library: Library, folder: str) -> str:
+def figures_list(evidence: Evidence, folder: str) -> str:
     """The figures in `folder`, and which are still to come for want of runs."""
     shown, missing = [], []
     for figure in FIGURES:
         name = f"figure {figure.number}, `{figure.name}`" if figure.number else f"`{figure.name}`"
-        if not any(library[set_] for set_ in figure.sets):
+        if not any(evidence[set_] for set_ in figure.sets):
             missing.append(name)
             continue
-        absent = [set_ for set_ in figure.sets if not library[set_]]
+        absent = [set_ for set_ in figure.sets if not evidence[set_]]
         still = f" *Still without {', '.join(f'`{set_}`' for set_ in absent)}.*" if absent else ""
         shown.append(_wrapped(f"**{name[0].upper() + name[1:]}**: {figure.title}.{still}") +
                      f"\n![{figure.title}]({folder}/{figure.file}.png)\n")
@@ -74,10 +74,10 @@ def _wrapped(text: str) -> str:
     return textwrap.fill(text, 120, break_long_words=False, break_on_hyphens=False) + "\n"
 
 
-def sections(library: Library, folder: str = "figures") -> dict[str, str]:
+def sections(evidence: Evidence, folder: str = "figures") -> dict[str, str]:
     """The sections of a report on everything, by the names of their marks."""
-    return {"origin": origin(library), "tally": tally(library), "claims": as_table(findings(library)),
-            "sweeps": sets_table(library), "figures": figures_list(library, folder)}
+    return {"origin": origin(evidence), "tally": tally(evidence), "claims": as_table(findings(evidence)),
+            "sweeps": sets_table(evidence), "figures": figures_list(evidence, folder)}
 
 
 def with_sections(document: str, found: dict[str, str], where: str = "the report") -> str:
@@ -99,12 +99,12 @@ def _marks(name: str) -> str:
     return rf"(<!-- {name}: begin -->).*?(<!-- {name}: end -->)"
 
 
-def write_report(path: Path, library: Library) -> None:
+def write_report(path: Path, evidence: Evidence) -> None:
     """Puts the sections into a Markdown file that has their marks."""
     try:
         document = path.read_text()
     except OSError as error:
         raise ShakenError(f"{path}: {error.strerror}") from None
-    path.write_text(with_sections(document, sections(library), str(path)))
+    path.write_text(with_sections(document, sections(evidence), str(path)))
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What the paper states, and the runs' answer to each statement.
 
-Each check takes the Library and returns a Finding; the checks are in `order_checks`, `structure_checks`, `layer_checks`
+Each check takes the Evidence and returns a Finding; the checks are in `order_checks`, `structure_checks`, `layer_checks`
 and `motion_checks`, by subject.
 """
 from __future__ import annotations
@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any, Callable, Iterable
 
 from . import layer_checks, motion_checks, order_checks, structure_checks
-from .library import Library
+from .evidence import Evidence
 from .rules import Finding
 
 
@@ -28,7 +28,7 @@ class Statement:
     id: str
     figure: str
     says: str
-    check: Callable[[Library], Finding]
+    check: Callable[[Evidence], Finding]
     note: str = ""
 
 
@@ -131,9 +131,9 @@ def of_figures(figures: Iterable[str] = ()) -> list[Statement]:
     return [statement for statement in STATEMENTS if not wanted or statement.figure in wanted]
 
 
-def findings(library: Library, statements: Iterable[Statement] = STATEMENTS) -> list[tuple[Statement, Finding]]:
+def findings(evidence: Evidence, statements: Iterable[Statement] = STATEMENTS) -> list[tuple[Statement, Finding]]:
     """Each statement with what the runs say to it."""
-    return [(statement, statement.check(library)) for statement in statements]
+    return [(statement, statement.check(evidence)) for statement in statements]
 
 
 def as_json(found: Iterable[tuple[Statement, Finding]]) -> list[dict[str, Any]]:

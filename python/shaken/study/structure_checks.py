@@ -6,7 +6,7 @@ import numpy as np
 
 from ..estimate import Estimate
 from ..run import Run
-from .library import LENGTH, PACKING, PAPERS_BOX, SIDE, Library, Runs, key_of, mean_of_places
+from .evidence import LENGTH, PACKING, PAPERS_BOX, SIDE, Evidence, Runs, key_of, mean_of_places
 from .rules import (CONTRADICTS, NOT_RUN, Finding, above, below, close_to, conclude, larger, listed, text, unknown)
 
 #: G2 that counts as none at half a box.
@@ -52,10 +52,10 @@ def unevenness(runs: Runs, cut: str) -> Estimate:
     return runs.of(of)
 
 
-def g2_decays_or_levels(library: Library) -> Finding:
+def g2_decays_or_levels(evidence: Evidence) -> Finding:
     answers, found = [], []
-    short = library.joined("short-rods", "no-order", "diffusion").at(length=2.5)
-    long_ = library.joined("long-rods", "layers").at(length=4.5)
+    short = evidence.joined("short-rods", "no-order", "diffusion").at(length=2.5)
+    long_ = evidence.joined("long-rods", "layers").at(length=4.5)
     for length, runs, dense in ((2.5, short, 0.0), (4.5, long_, 0.74)):
         points = []
         if (short or long_) and not runs:
@@ -75,24 +75,24 @@ def g2_decays_or_levels(library: Library) -> Finding:
     return conclude(answers, "G₂ at half a box, " + ". ".join(found) if found else "")
 
 
-def g2_isotropic_when_dilute(library: Library) -> Finding:
-    runs = library["dilute"].at(packing=0.45)
+def g2_isotropic_when_dilute(evidence: Evidence) -> Finding:
+    runs = evidence["dilute"].at(packing=0.45)
     if not runs:
         return Finding()
     difference = far_anisotropy(runs)
     return conclude([close_to(difference, 0, NO_CORRELATION)], f"along − across, far out at φ = 0.45: {text(difference)}")
 
 
-def g2_anisotropic(library: Library) -> Finding:
-    runs = library["layers"].at(packing=0.75)
+def g2_anisotropic(evidence: Evidence) -> Finding:
+    runs = evidence["layers"].at(packing=0.75)
     if not runs:
         return Finding()
     difference = far_anisotropy(runs)
     return conclude([above(difference, 0)], f"along − across, far out at φ = 0.75: {text(difference)}")
 
 
-def g_flattens(library: Library) -> Finding:
-    runs = library["layers"].at(packing=0.75)
+def g_flattens(evidence: Evidence) -> Finding:
+    runs = evidence["layers"].at(packing=0.75)
     if not runs:
         return Finding()
     along, across = unevenness(runs, "g_along"), unevenness(runs, "g_across")
@@ -101,8 +101,8 @@ def g_flattens(library: Library) -> Finding:
                                 f"across", f"here it flattens sooner {sooner}")
 
 
-def splay_stiffer_than_bend(library: Library) -> Finding:
-    runs = library["elasticity"].at(packing=0.65)
+def splay_stiffer_than_bend(evidence: Evidence) -> Finding:
+    runs = evidence["elasticity"].at(packing=0.65)
     if not runs:
         return Finding()
     ratio, chi2 = runs.number("frank_ratio"), runs.number("frank_chi2").value

@@ -128,7 +128,7 @@ class Runs(list[Run]):
         return x, mean_, np.array(errors)
 
 
-class Library:
+class Evidence:
     """Runs by set. Where a set has a few runs of a finer time step than the others these are its `controls`.
 
     `runs` are ArchivedRuns, which know their sweeps; the scale is what stands behind the last dash of a sweep's name.
