@@ -10,6 +10,7 @@ from typing import Callable, Iterable
 import numpy as np
 
 from ..estimate import NAN, Estimate, derived, replica_mean
+from ..plots.series import mean_curve
 from ..run import Run
 
 PACKING, LENGTH, SIDE = "rods.area_fraction", "rods.length", "box.side"
@@ -120,12 +121,9 @@ class Runs(list[Run]):
         n = min(len(array) for array in found)
         x = np.asarray(found[0].axis)[:n]
         same = [array for array in found if np.allclose(np.asarray(array.axis)[:n], x, rtol=1e-3)]
-        values = np.array([np.asarray(array)[:n] for array in same])
-        own = np.array([np.asarray(array.error)[:n] if array.error is not None else np.full(n, NAN) for array in same])
-        errors = [replica_mean([Estimate(v, e, True) for v, e in zip(values[:, k], own[:, k])]).error for k in range(n)]
-        count = np.isfinite(values).sum(axis=0)
-        mean_ = np.where(count > 0, np.nansum(values, axis=0) / np.maximum(count, 1), NAN)
-        return x, mean_, np.array(errors)
+        values = [np.asarray(array)[:n] for array in same]
+        middle, error = mean_curve(values, [None if array.error is None else np.asarray(array.error)[:n] for array in same])
+        return x, middle, np.full(n, NAN) if error is None else error
 
 
 class Evidence:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Callable, Iterable
 
 from ..errors import ShakenError
+from ..plots.save import origin_list
 from ..plots.sheet import Sheet
 from . import figures_motion, figures_order, figures_structure
 from .evidence import Evidence
@@ -123,6 +124,4 @@ def runs_of(evidence: Evidence, figure: Figure) -> dict[str, str]:
     """Which runs of which versions a figure is of."""
     runs = evidence.joined(*figure.sets)
     versions = sorted({"shaken {shaken}, physics {physics}".format(**run.summary["versions"]) for run in runs})
-    ids = sorted(run.id for run in runs)
-    shown = ", ".join(ids[:200]) + (f" and {len(ids) - 200} more" if len(ids) > 200 else "")
-    return {"Computed by": "; ".join(versions), "Runs": shown}
+    return {"Computed by": origin_list(versions), "Runs": origin_list(sorted(run.id for run in runs))}
