@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Holds the prose of every Markdown file of the repository to lines of at most 120 characters. Exits 1 and names file
-and line of each that is longer.
+"""Holds the prose of every Markdown file of the repository, and the Python package, to lines of at most 120 characters.
+Exits 1 and names file and line of each that is longer.
 
-    python3 .ci/line_width.py [FILE ...]      all *.md files that git knows, if none is named
+    python3 .ci/line_width.py [FILE ...]      all such files that git knows, if none is named
 
 Not prose are code blocks (fenced, or indented by four spaces after a blank line), rows of tables, and lines that
 consist of one link, image or address, because these cannot be broken."""
@@ -45,8 +45,13 @@ def long_lines(text):
                 yield number, len(line)
 
 
+def long_lines_of_code(text):
+    """Number and length of every line that is too long."""
+    return [(number, len(line)) for number, line in enumerate(text.split("\n"), 1) if len(line) > WIDTH]
+
+
 def files_of_git():
-    command = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard", "*.md"]
+    command = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard", "*.md", "python/*.py"]
     names = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout.split("\0")
     return [ROOT / name for name in names if (ROOT / name).is_file()]
 
@@ -56,7 +61,8 @@ def main():
     n_long = 0
     for file in files:
         name = file.relative_to(ROOT) if file.is_relative_to(ROOT) else file
-        for number, length in long_lines(file.read_text(encoding="utf-8")):
+        text = file.read_text(encoding="utf-8")
+        for number, length in long_lines(text) if file.suffix == ".md" else long_lines_of_code(text):
             print(f"{name}:{number}: {length} characters, where {WIDTH} are allowed")
             n_long += 1
     return 1 if n_long else 0

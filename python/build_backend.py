@@ -33,7 +33,11 @@ def _wheel(folder: str, content: dict[str, bytes]) -> str:
     info = f"{name}.dist-info"
     files = {**content, f"{info}/METADATA": _metadata().encode(),
              f"{info}/WHEEL": b"Wheel-Version: 1.0\nGenerator: shaken\nRoot-Is-Purelib: true\nTag: py3-none-any\n"}
-    record = [f"{path},sha256={base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b'=').decode()},{len(data)}"
+
+    def hash_of(data: bytes) -> str:
+        return base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()
+
+    record = [f"{path},sha256={hash_of(data)},{len(data)}"
               for path, data in files.items()]
     files[f"{info}/RECORD"] = ("\n".join([*record, f"{info}/RECORD,,"]) + "\n").encode()
     wheel = Path(folder) / f"{name}-py3-none-any.whl"

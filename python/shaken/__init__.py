@@ -18,6 +18,7 @@ from .run import open_run as open  # noqa: A001, as in numpy's and h5py's own na
 from .sweep import Point, Sweep, results
 
 __version__ = "0.1.0"
-__all__ = ["ArchivedRun", "Array", "Daemon", "DirectoryRun", "Estimate", "Frame", "LiveFrame", "LiveObservables", "Point",
+__all__ = ["ArchivedRun", "Array", "Daemon", "DirectoryRun", "Estimate", "Frame", "LiveFrame", "LiveObservables",
+           "Point",
            "Run", "ShakenError", "Snapshot", "Sweep", "Trajectory", "archived_runs", "live", "open", "replica_mean",
            "results"]

@@ -2,8 +2,9 @@
 """Archives: a small file for each finished run, with all that figures and verdicts need of it.
 
 A file holds, compressed by xz, one line of JSON and then numbers, little-endian: scene, parameters, summary, the arrays
-as float32 rounded to a part in 8,000 and their errors to one in 500, and the rods of one or two instants. Files are named by their runs, so that folders are merged by copying; of one run that is there twice the longer
-one is kept. Equal runs give equal files.
+as float32 rounded to a part in 8,000 (S(t) to one in 2,000, errors to one in 500), and the rods of one or two instants.
+Files are named by their runs, so that folders are merged by copying; of one run that is there twice the longer one is
+kept. Equal runs give equal files.
 """
 from __future__ import annotations
 

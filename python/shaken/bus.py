@@ -110,7 +110,8 @@ def _decode_observables(data: bytes) -> LiveObservables:
     time, total, n_rods, order, mean, director, xy, z, n_z, energy, overlap = message.numbers("ddi8d")
     rods, base, lid, rate, eta = message.numbers("qqqdd")
     message.end()
-    return LiveObservables(job, time, total, n_rods, order, mean, director, xy, z, n_z, energy, overlap, rods, base, lid,
+    return LiveObservables(job, time, total, n_rods, order, mean, director, xy, z, n_z, energy, overlap, rods, base,
+                           lid,
                            rate, eta)
 
 
@@ -145,15 +146,15 @@ class _FrameParts:
 
 def live(job: str = "", relay: str = "127.0.0.1:7700", *, observables: bool = False,
          timeout: float | None = None) -> Iterator[Any]:
-    """The frames of running jobs as they come (LiveFrame); with `observables` those and LiveObservables, in the order in
-    which they arrive.
+    """The frames of running jobs as they come (LiveFrame); with `observables` those and LiveObservables, in the order
+    in which they arrive.
 
     job:     an id, or its first digits; those of all jobs if left out
     relay:   ADDRESS:PORT of `shakend --relay`
     timeout: [s] without a message after which the iteration ends; it goes on for ever if None
 
-    No run waits for whoever listens: what is not read in time is dropped by the relay. Raises ShakenError where no relay
-    answers. Messages that are not of their type are left out.
+    No run waits for whoever listens: what is not read in time is dropped by the relay. Raises ShakenError where no
+    relay answers. Messages that are not of their type are left out.
     """
     host, _, port = relay.rpartition(":")
     try:

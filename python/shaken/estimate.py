@@ -15,7 +15,7 @@ class Estimate:
 
     value:       NaN where it could not be measured
     error:       its standard error; NaN where it is not known
-    steady:      whether it is the mean of a steady state; None where that cannot be told, or where it is no mean in time
+    steady:      whether it is the mean of a steady state; None where that cannot be told, or where it is no average
     n_eff:       the number of independent samples behind the error; NaN where it is not known
     drift:       its mean over the later half of the time less that over the earlier half, with `drift_error`
     unit:        "mm2 s-1"; "1" for a plain number
@@ -95,7 +95,7 @@ def replica_mean(estimates: Iterable[Estimate]) -> Estimate:
     """Mean over the replicas of one state point; each run counts the same. Those without a value are left out.
 
     Its standard error is
-    - where all own errors are known, the larger one of what they give, sqrt(sum error^2) / n, and of the scatter between
+    - where all own errors are known, the larger one of what they give, sqrt(sum error^2) / n, and of the scatter of
       the runs: two runs that happen to agree are no better than their own errors (the scale factor, never below 1, of
       the Particle Data Group, *Review of Particle Physics* (2022), section 5.2.2);
     - otherwise the scatter between the runs, widened by Student's t so that it covers 68 % for few runs too, but never

@@ -56,7 +56,7 @@ class Frame:
         """What freud takes: (box, points, orientations).
 
         box:          freud.box.Box of the plane, L x L, periodic; a tuple (Lx, Ly) where freud is not installed
-        points:       (n, 3) float32, counted from the middle of the box, with z = 0, as freud has them in two dimensions
+        points:       (n, 3) float32, counted from the middle of the box, with z = 0, as freud has them in the plane
         orientations: (n, 4) float32 unit quaternions (w, x, y, z) that turn the x axis into the rod's direction in the
                       plane, as freud's two-dimensional computations have them
         """

@@ -32,8 +32,8 @@ class Array(np.ndarray):
 
     name:   its path in observables.h5, "/msd/total_mm2"
     unit:   "mm2"; "1" for a plain number
-    axis:   the Array that it is measured at (lags, distances, times); None where it has none, a pair (across, along) for
-            the maps of `pairs`, whose shape is (bins, bins): map[across, along]
+    axis:   the Array that it is measured at (lags, distances, times); None where it has none, a pair (across, along)
+            for the maps of `pairs`, whose shape is (bins, bins): map[across, along]
     error:  the Array of its standard errors, or None
     """
 
@@ -173,8 +173,8 @@ class Run:
         return self.summary.get("steady")
 
     def key(self, path: str) -> Any:
-        """A key of the scene, "rods.length", in its default unit: as it was asked for if it was swept, else as resolved.
-        None where the scene does not have it."""
+        """A key of the scene, "rods.length", in its default unit: as it was asked for if it was swept, else as
+        resolved. None where the scene does not have it."""
         if path in self.parameters:
             value = self.parameters[path]
             if not isinstance(value, str):

@@ -94,7 +94,8 @@ class Sweep:
         known = list(dict.fromkeys(path for point in self.points for path in point.parameters))
         found = [path for path in known if path.rpartition(".")[2] == word]
         if len(found) != 1:
-            raise ShakenError(f"'{word}' {'fits several of' if found else 'is none of'} {', '.join(known) or 'no keys'}")
+            how = "fits several of" if found else "is none of"
+            raise ShakenError(f"'{word}' {how} {', '.join(known) or 'no keys'}")
         return found[0]
 
     def column(self, name: str) -> list[Any]:
@@ -118,7 +119,8 @@ class Sweep:
                 if name not in point.names():
                     continue
                 estimate = point[name]
-                record.update({name: estimate.value, name + ":error": estimate.error, name + ":steady": estimate.steady})
+                record.update({name: estimate.value, name + ":error": estimate.error,
+                               name + ":steady": estimate.steady})
             records.append(record)
         return records
 

@@ -8,8 +8,8 @@ _UNIT = re.compile(r"(mm|s|rad|deg|mg|pJ|Hz)([0-9]?)$")
 
 
 def split_unit(name: str) -> tuple[str, str]:
-    """The name without its unit, and the words of the unit: ("d_total", "mm2_s") of "d_total_mm2_s"; ("g2", "") of "g2".
-    """
+    """The name without its unit, and the words of the unit: ("d_total", "mm2_s") of "d_total_mm2_s", ("g2", "") of
+    "g2"."""
     words = name.split("_")
     n = len(words)
     while n > 1 and _UNIT.match(words[n - 1]):

@@ -32,7 +32,8 @@ def test_an_archived_run_says_what_the_run_says(tmp_path):
     assert kept.key("rods.area_fraction") == 0.75
     assert kept["S"] == run["S"] and kept["diffusion_mm2_s"] == run["diffusion_mm2_s"]
     assert np.allclose(kept["/msd/total_mm2"], run["/msd/total_mm2"], rtol=2e-4, equal_nan=True)
-    assert kept["/msd/total_mm2"].unit == "mm2" and list(kept["/msd/total_mm2"].axis) == pytest.approx([0.1, 1, 10], rel=2e-4)
+    assert kept["/msd/total_mm2"].unit == "mm2" and list(kept["/msd/total_mm2"].axis) == pytest.approx([0.1, 1, 10],
+                                                                                                       rel=2e-4)
     assert np.allclose(kept["/pairs/g2"], run["/pairs/g2"], rtol=2e-4)
     assert kept["/pairs/g2"].shape == (BINS, BINS) and len(kept["/order/order"]) <= 1050
     assert kept["/order/order"].mean() == pytest.approx(run["/order/order"].mean(), abs=1e-3)

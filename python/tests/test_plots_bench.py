@@ -51,7 +51,8 @@ def _statistical() -> dict[str, Any]:
 def _deterministic() -> dict[str, Any]:
     quartiles = ("lower", "median", "upper")
     rows = [{"case": case, "variant": "newton", "dt_s": 1e-6 * step, "duration_s": 0.004,
-             "scheduled_cpu_s": 1e-4 / step, "reference_cpu_s": 1e-3 / step, "error": {norm: {q: 1e-5 * step * (1 + k) for k, q in enumerate(quartiles)}
+             "scheduled_cpu_s": 1e-4 / step, "reference_cpu_s": 1e-3 / step,
+             "error": {norm: {q: 1e-5 * step * (1 + k) for k, q in enumerate(quartiles)}
                                                        for norm in ("position", "director", "energy")}}
             for case in ("head-on", "dozen") for step in (8, 16, 32, 64)]
     fit = {"order": 1.0, "order_error": 0.02, "coefficient": 20.0}

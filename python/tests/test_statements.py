@@ -87,7 +87,9 @@ def tilts(peak=-0.9, beyond=0.25, error=0.02, across=0.0, error_across=0.02):
 
 
 def swim(speed=-0.9, at=0.2, error=0.02, **more):
-    return runs("mechanism", 0.60, {"tilt_fastest_mm_s": (speed, error), "tilt_fastest_n_z": at}, tilts(speed, error=error, **more),
+    return runs("mechanism", 0.60, {"tilt_fastest_mm_s": (speed, error), "tilt_fastest_n_z": at}, tilts(speed,
+                                                                                                        error=error,
+                                                                                                        **more),
                 length=2.5)
 
 
@@ -109,7 +111,9 @@ S_OF = dict(zip(NINE, (0.2, 0.32, 0.64, 0.78, 0.84, 0.88, 0.91, 0.93, 0.95)))
 def diagram(length, shift=0.0, sweep="phases", **more):
     """<S> against packing, which passes 0.5 at 0.528 + shift."""
     points = [p for p in NINE]
-    return [run for p in points for run in runs(sweep, p, length=length, S=float(np.interp(p - shift, NINE, list(S_OF.values()))), **more)]
+    return [run for p in points for run in runs(sweep, p, length=length, S=float(np.interp(p - shift, NINE,
+                                                                                           list(S_OF.values()))),
+                                                                                           **more)]
 
 
 def turned(angle, S=0.9, **more):
@@ -179,7 +183,8 @@ def along(values, across=(0.3, 0.2, 0.1), error=0.05):
 
 
 def defect(along_tail, error=0.02):
-    return runs("no-order", 0.85, {"lasting_defect_speed_plus_mm_s": 1.0, "lasting_defect_speed_minus_mm_s": (1.0, 0.02),
+    return runs("no-order", 0.85, {"lasting_defect_speed_plus_mm_s": 1.0, "lasting_defect_speed_minus_mm_s": (1.0,
+                                                                                                              0.02),
                                    "lasting_defect_speed_plus_along_mm_s": (along_tail, error)}, length=3.0, side=83.73)
 
 
@@ -196,7 +201,9 @@ CASES = {
     "short": (runs("short-rods", 0.85, S=0.3, length=2.5) + runs("phases", 0.85, S=0.3, length=3.0),
               runs("no-order", 0.85, S=0.8, length=2.5, side=83.73) + runs("phases", 0.85, S=0.3, length=3.0),
               runs("short-rods", 0.85, S=0.8, length=2.5)),
-    "transition": (diagram(3.5, 0.1) + diagram(4.0, 0.05) + diagram(4.5), diagram(3.5) + diagram(4.0, 0.05) + diagram(4.5, 0.1),
+    "transition": (diagram(3.5, 0.1) + diagram(4.0, 0.05) + diagram(4.5), diagram(3.5) + diagram(4.0,
+                                                                                                 0.05) + diagram(4.5,
+                                                                                                                 0.1),
                    diagram(3.5, 0.01, error=0.2) + diagram(4.0, 0.005, error=0.2) + diagram(4.5, error=0.2)),
     "saturates": (diagram(4.0) + diagram(4.5), [r for length in (4.0, 4.5) for p in NINE
                                                  for r in runs("phases", p, length=length, S=0.7 - 0.3 * p)],
@@ -213,11 +220,13 @@ CASES = {
                  [r for p in NINE for r in runs("long-rods", p, arrays=pdf(0.6), n=1)]),
     "broadest": ([r for p in NINE for r in runs("long-rods", p, S=S_OF[p], std=0.15 if p == 0.55 else 0.05)],
                  [r for p in NINE for r in runs("long-rods", p, S=S_OF[p], std=0.15 if p == 0.80 else 0.05)],
-                 [r for p in NINE for r in runs("long-rods", p, S=S_OF[p], std=0.15 if p == 0.55 else 0.05, error=0.4)]),
+                 [r for p in NINE for r in runs("long-rods", p, S=S_OF[p], std=0.15 if p == 0.55 else 0.05,
+                                                error=0.4)]),
     "oblique": (turned(28), turned(2, S=0.3), runs("layer-trends", 0.85, arrays={"/order/director_rad": np.zeros(5)},
                                                    length=3.5, side=41.865)),
     "activity": (shaken_at([(3, 0.5), (7, 3.0), (14, 9.0)], STILL), shaken_at([(3, 9.0), (7, 3.0), (14, 0.5)], WILD),
-                 [r for g, d in ((3, (3.0, 5.0)), (7, (3.1, 5.0))) for r in runs("shaking", 0.75, {"diffusion_mm2_s": d},
+                 [r for g, d in ((3, (3.0, 5.0)), (7, (3.1, 5.0))) for r in runs("shaking", 0.75,
+                                                                                 {"diffusion_mm2_s": d},
                                                                                length=2.5, gamma=g)]),
     "g2": (runs("short-rods", 0.75, arrays=g2(0.0), length=2.5, S=0.2) + runs("long-rods", 0.80, arrays=g2(0.8)),
            runs("no-order", 0.75, arrays=g2(0.5), length=2.5, side=83.73) + runs("long-rods", 0.80, arrays=g2(0.0)),
@@ -251,11 +260,14 @@ CASES = {
     "wavelength-length": trend_cases("wavelength_mm", "length", (3.5, 4.0, 4.5), True, 6.0),
     "wavelength-end": trend_cases("wavelength_mm", "end", (0.4, 0.5, 0.6), True, 6.0),
     "larger-box": (layers(0.85, LAYERED, "layer-trends", length=4.0) +
-                   layers(0.85, LAYERED | {"theta_m_deg": (7.0, 0.3), "wavelength_mm": (8.0, 0.1)}, "larger-box", length=4.0, side=83.73),
+                   layers(0.85, LAYERED | {"theta_m_deg": (7.0, 0.3), "wavelength_mm": (8.0, 0.1)}, "larger-box",
+                          length=4.0, side=83.73),
                    layers(0.85, LAYERED, "layer-trends", length=4.0) +
-                   layers(0.85, LAYERED | {"theta_m_deg": (14.0, 0.3), "wavelength_mm": (3.0, 0.1)}, "larger-box", length=4.0, side=83.73),
+                   layers(0.85, LAYERED | {"theta_m_deg": (14.0, 0.3), "wavelength_mm": (3.0, 0.1)}, "larger-box",
+                          length=4.0, side=83.73),
                    layers(0.85, LAYERED, "layer-trends", length=4.0) +
-                   layers(0.85, LAYERED | {"theta_m_deg": (9.4, 3.0), "wavelength_mm": (5.3, 1.0)}, "larger-box", length=4.0, side=83.73)),
+                   layers(0.85, LAYERED | {"theta_m_deg": (9.4, 3.0), "wavelength_mm": (5.3, 1.0)}, "larger-box",
+                          length=4.0, side=83.73)),
     "tilt": (swim(), swim(0.9, 0.05, beyond=-0.3), swim(-0.9, error=2.0)),
     "sideways": (swim(), swim(across=0.5), swim(error_across=1.0)),
     "switching": (by_packing("mechanism", [(0.6, 0.02), (0.85, 0.05)], "n_z_switching_time_s", length=2.5),
@@ -284,8 +296,10 @@ CASES = {
         ([(0.65, 0.3), (0.75, 0.15), (0.80, 0.05), (0.85, 0.1)], 0.01),
         ([(0.65, 0.05), (0.75, 0.15), (0.80, 0.3), (0.85, 0.1)], 2.0))),
     "rotation": packing_cases("short-rods", "rotational_diffusion_rad2_s", DENSE, False, length=2.5),
-    "rotation-short": (by_packing("short-rods", [(p, (1.2 - p, 0.01)) for p in DENSE], "alpha_rotation_short", length=2.5),
-                       by_packing("short-rods", [(p, (1 + p, 0.01)) for p in DENSE], "alpha_rotation_short", length=2.5),
+    "rotation-short": (by_packing("short-rods", [(p, (1.2 - p, 0.01)) for p in DENSE], "alpha_rotation_short",
+                                  length=2.5),
+                       by_packing("short-rods", [(p, (1 + p, 0.01)) for p in DENSE], "alpha_rotation_short",
+                                  length=2.5),
                        by_packing("short-rods", [(p, (1.0, 0.5)) for p in DENSE], "alpha_rotation_short", length=2.5)),
     "rotation-saturates": (by_packing("long-rods", [(0.45, (1.0, 0.01)), (0.85, (0.1, 0.01))], "alpha_rotation_long"),
                            by_packing("long-rods", [(0.45, (0.3, 0.01)), (0.85, (0.9, 0.01))], "alpha_rotation_long"),
@@ -349,7 +363,8 @@ def test_a_trend_may_step_back_by_chance_but_not_more():
 
 
 def test_some_of_both_is_in_part_and_says_where():
-    found = rules.conclude([rules.yes().placed("0.75"), rules.no().placed("0.80"), rules.unknown("no error").placed("0.85")], "x")
+    found = rules.conclude([rules.yes().placed("0.75"), rules.no().placed("0.80"),
+                            rules.unknown("no error").placed("0.85")], "x")
     assert found.verdict == rules.IN_PART and found.why == "holds: 0.75; not: 0.80; open: 0.85 (no error)"
     assert rules.conclude([rules.yes(), rules.no()], "x", everywhere=True).verdict == rules.DISAGREES
 

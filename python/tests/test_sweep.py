@@ -11,7 +11,8 @@ from shaken.sweep import grouped
 
 def made(tmp_path, name, phi, **given):
     parameters = {"rods.area_fraction": phi, "rods.length": given.pop("length", 4.5)}
-    return parameters, shaken.DirectoryRun(made_up_run(tmp_path / name, run_id=name.ljust(16, "0"), **given), parameters)
+    return parameters, shaken.DirectoryRun(made_up_run(tmp_path / name, run_id=name.ljust(16, "0"), **given),
+                                           parameters)
 
 
 def test_replicas_are_put_together_and_a_run_counts_once(tmp_path):
@@ -33,7 +34,8 @@ def test_versions_are_never_averaged(tmp_path):
 def test_choosing_columns_frames_and_pivots(tmp_path):
     sweep = grouped([made(tmp_path, f"{i}{j}", phi, length=length, order=phi) for i, phi in enumerate((0.5, 0.6))
                      for j, length in enumerate((2.5, 4.5))])
-    assert len(sweep.where(length=4.5)) == 2 and len(sweep.where(**{"rods.area_fraction": 0.5, "rods.length": 2.5})) == 1
+    assert len(sweep.where(length=4.5)) == 2 and len(sweep.where(**{"rods.area_fraction": 0.5,
+                                                                    "rods.length": 2.5})) == 1
     assert [e.value for e in sweep.column("S")] == [0.5, 0.5, 0.6, 0.6]
     assert sweep.column("rods.length") == [2.5, 4.5, 2.5, 4.5]
     assert not sweep.column("theta_m_deg")[0].is_known

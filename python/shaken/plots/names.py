@@ -170,7 +170,8 @@ def point_label(parameters: Mapping[str, Any]) -> str:
     return ", ".join(value_label(path, value) for path, value in parameters.items())
 
 
-_WORDS = ((r"\langle ", "⟨"), (r"\langle", "⟨"), (r"\rangle", "⟩"), (r"\mathrm", ""), (r"\hat", ""), ("$", ""), ("{", ""),
+_WORDS = ((r"\langle ", "⟨"), (r"\langle", "⟨"), (r"\rangle", "⟩"), (r"\mathrm", ""), (r"\hat", ""), ("$", ""), ("{",
+                                                                                                                 ""),
           ("}", ""))
 
 

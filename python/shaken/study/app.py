@@ -240,5 +240,3 @@ def _agreed(plan: running.Plan, options: argparse.Namespace) -> bool:
 
 if __name__ == "__main__":
     sys.exit(main())
-
-

@@ -122,7 +122,8 @@ class Runs(list[Run]):
         x = np.asarray(found[0].axis)[:n]
         same = [array for array in found if np.allclose(np.asarray(array.axis)[:n], x, rtol=1e-3)]
         values = [np.asarray(array)[:n] for array in same]
-        middle, error = mean_curve(values, [None if array.error is None else np.asarray(array.error)[:n] for array in same])
+        middle, error = mean_curve(values, [None if array.error is None else np.asarray(array.error)[:n]
+                                            for array in same])
         return x, middle, np.full(n, NAN) if error is None else error
 
 

@@ -39,7 +39,8 @@ def tilt(material: Material) -> Sheet:
         if found:
             panel.curve(found[0], found[1], label=names.value_label(PACKING, packing), colour=k, look="line")
     panel.range(y=(0, None))
-    panel = sheet[3].titles(names.axis_title("/order/time_s"), names.axis_title("/tilt/n_z"), "tilt of one rod, φ = 0.6")
+    panel = sheet[3].titles(names.axis_title("/order/time_s"), names.axis_title("/tilt/n_z"),
+                            "tilt of one rod, φ = 0.6")
     for run in first[:1]:
         n_z, time = run["/rods/trace/0/n_z"], run["/rods/trace/time_s"]
         n = min(len(n_z), len(time))
@@ -84,7 +85,8 @@ def _short_limit(direction: str) -> Any:
             return Estimate(reason="no short lags")
         first, last = int(np.argmin(abs(t - low))), int(np.argmin(abs(t - high)))
         dt = t[last] - t[first]
-        return Estimate((values[last] - values[first]) / (2 * dt), float(np.hypot(errors[first], errors[last])) / (2 * dt),
+        return Estimate((values[last] - values[first]) / (2 * dt), float(np.hypot(errors[first],
+                                                                                  errors[last])) / (2 * dt),
                         number_of(run, "diffusion_mm2_s").steady)
 
     return of
@@ -99,7 +101,8 @@ def diffusion(material: Material) -> Sheet:
         (short, "total", "ℓ = 2.5 mm, in the plane", ("diffusion_short_mm2_s", "diffusion_mm2_s"), ("diffusion-law",)),
         (long_, "along", "ℓ = 4.5 mm, along the director", (_short_limit("along"), "diffusion_along_mm2_s"),
          ("diffusion-along",)),
-        (long_, "across", "ℓ = 4.5 mm, across", (_short_limit("across"), "diffusion_across_mm2_s"), ("diffusion-across",)))
+        (long_, "across", "ℓ = 4.5 mm, across", (_short_limit("across"), "diffusion_across_mm2_s"), ("diffusion-across",
+                                                                                                     )))
     for k, (runs, direction, title, limits, statements) in enumerate(rows):
         panel = sheet[2 * k].titles(names.axis_title("/msd/lag_s"), names.axis_title(f"/msd/{direction}_mm2"), title)
         panel.scale("log", "log")
@@ -148,7 +151,8 @@ def memory(material: Material) -> Sheet:
     sheet = material.sheet(6)
     for panel, runs, title, statement in ((sheet[0], short, "ℓ = 2.5 mm", "memory"),
                                           (sheet[1], long_, "ℓ = 4.5 mm", "c2-plateau")):
-        panel.titles(names.axis_title("/rotation/lag_s"), names.axis_title("/rotation/c2"), title).scale("log", "linear")
+        panel.titles(names.axis_title("/rotation/lag_s"), names.axis_title("/rotation/c2"), title).scale("log",
+                                                                                                         "linear")
         draw_curves(panel, runs, "/rotation/c2", scale)
         panel.range(y=(0, 1)).zero()
         material.stamp(panel, statement)
@@ -195,7 +199,8 @@ def rotation(material: Material) -> Sheet:
         first, last = int(np.argmin(abs(t - low))), int(np.argmin(abs(t - high)))
         errors = np.asarray(msad.error)
         dt = t[last] - t[first]
-        return Estimate((values[last] - values[first]) / (2 * dt), float(np.hypot(errors[first], errors[last])) / (2 * dt),
+        return Estimate((values[last] - values[first]) / (2 * dt), float(np.hypot(errors[first],
+                                                                                  errors[last])) / (2 * dt),
                         number_of(run, "S").steady)
 
     panel = sheet[2].titles(names.axis_title(PACKING), names.axis_title("rotational_diffusion_rad2_s"), "ℓ = 2.5 mm")
@@ -321,7 +326,8 @@ def accuracy(material: Material) -> Sheet:
             other.curve(x, sigmas, label=title, colour=k, look="points", joined=False)
     sets = sorted(name for name, controls in material.evidence.controls.items() if controls)
     for one in (panel, other):
-        one.axes.set_xticks(range(len(sorted(material.evidence.controls))), sorted(material.evidence.controls), rotation=30,
+        one.axes.set_xticks(range(len(sorted(material.evidence.controls))), sorted(material.evidence.controls),
+                            rotation=30,
                             ha="right")
     del sets
     panel.reference(y=1)

@@ -129,7 +129,7 @@ def _against(panel: Panel, series: list[tuple[Runs, str]], path: str, name: str,
 
 
 def layers(material: Material) -> Sheet:
-    """8: layers turned by +-theta: rods, P(theta) by packing and end diameter, angle and wavelength by length and end."""
+    """8: layers turned by +-theta: rods, P(theta) by packing and by end, angle and wavelength by length and by end."""
     evidence = material.evidence
     trends = evidence.joined("layers", "layer-trends")
     sheet = material.sheet(9, height=48)
@@ -273,5 +273,3 @@ def fluctuations(material: Material) -> Sheet:
     if scale:
         sheet.colourbar(scale)
     return sheet
-
-

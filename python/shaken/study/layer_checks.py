@@ -10,7 +10,8 @@ import numpy as np
 from ..estimate import Estimate
 from ..run import Run
 from .evidence import END, GAP, LENGTH, PACKING, SIDE, Evidence, Runs, key_of, number_of
-from .rules import NOT_RUN, Answer, Finding, above, below, close_to, conclude, larger, listed, no, refutable, text, trend, unknown, yes
+from .rules import (NOT_RUN, Answer, Finding, above, below, close_to, conclude, larger, listed, no, refutable, text,
+                    trend, unknown, yes)
 
 #: P(0) over the maximum of P(theta): below it there are two peaks, above it there is one.
 TWO_PEAKS = 0.95
@@ -87,7 +88,8 @@ def g2_oscillates(evidence: Evidence) -> Finding:
         rise = runs.of(_crest)
         answers.append(above(rise, 0).placed(f"{packing:g}"))
         found.append(f"{text(rise)} at φ = {packing:g}")
-    return conclude(answers, "G₂ across the director, a wavelength away less half a wavelength away: " + "; ".join(found))
+    return conclude(answers,
+                    "G₂ across the director, a wavelength away less half a wavelength away: " + "; ".join(found))
 
 
 def no_layers_at_wide_gaps(evidence: Evidence) -> Finding:
@@ -122,14 +124,15 @@ def crystal_at_a_narrow_gap(evidence: Evidence) -> Finding:
 
 
 def _trend(series: list[tuple[Runs, str]], name: str, rising: bool, unit: str) -> Finding:
-    """A trend of the layers in series that each differ in one key; series that cannot tell do not count where one can."""
+    """A trend of the layers in series of one key each; those that cannot tell do not count where one can."""
     symbols = {PACKING: "φ", LENGTH: "ℓ", END: "d"}
     answers, found = [], []
     for runs, key in series:
         points = layered(runs).points(key, wavelength if name == "wavelength_mm" else name)
         if len(runs.values(key)) < 2:
             continue
-        where = ", ".join(f"{symbols[other]} = {key_of(runs[0], other):g}" for other in (LENGTH, PACKING) if other != key)
+        where = ", ".join(f"{symbols[other]} = {key_of(runs[0], other):g}" for other in (LENGTH, PACKING)
+                          if other != key)
         side = key_of(runs[0], SIDE)
         answers.append((trend(points, rising) if len(points) > 1 else unknown("layers at fewer than two points"))
                        .placed(f"{where}, L = {side:.0f} mm"))

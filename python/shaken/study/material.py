@@ -88,7 +88,8 @@ def first_snapshot(runs: Iterable[Any], k: int = 0) -> Snapshot | None:
 
 
 #: Angles to the director [degrees] and their colours: grey along it, orange and blue to its sides, dark across it.
-_ANGLE_COLOURS = ((-90, "#262626"), (-45, "#08306b"), (-14, "#3f8fd2"), (0, "#dcdcdc"), (14, "#ef8a1d"), (45, "#7f2704"),
+_ANGLE_COLOURS = ((-90, "#262626"), (-45, "#08306b"), (-14, "#3f8fd2"), (0, "#dcdcdc"), (14, "#ef8a1d"), (45,
+                                                                                                          "#7f2704"),
                   (90, "#262626"))
 
 
@@ -149,8 +150,8 @@ def _rim(width: float) -> list[Any]:
 
 
 def defects_of(snapshot: Snapshot, smoothing: float, cells: int | None = None) -> np.ndarray:
-    """(n, 3) x, y [mm] and charge (+-1/2) of the defects of the director field: exp(2i theta) of the rods, smoothed by a
-    Gaussian of width `smoothing` [mm] on a periodic grid, turns by +-pi around them."""
+    """(n, 3) x, y [mm] and charge (+-1/2) of the defects of the director field: exp(2i theta) of the rods, smoothed by
+    a Gaussian of width `smoothing` [mm] on a periodic grid, turns by +-pi around them."""
     from scipy.ndimage import gaussian_filter
     n = cells or max(8, int(snapshot.side / smoothing * 4))
     at = np.minimum((snapshot.positions / snapshot.side * n).astype(int), n - 1)
@@ -161,7 +162,8 @@ def defects_of(snapshot: Snapshot, smoothing: float, cells: int | None = None) -
     corner = [field, np.roll(field, -1, 0), np.roll(np.roll(field, -1, 0), -1, 1), np.roll(field, -1, 1)]
     turn = sum(np.angle(corner[(k + 1) % 4] / corner[k]) for k in range(4)) / (4 * np.pi)
     i, j = np.nonzero(np.abs(turn) > 0.25)
-    return np.column_stack([(i + 1.0) / n * snapshot.side % snapshot.side, (j + 1.0) / n * snapshot.side % snapshot.side,
+    return np.column_stack([(i + 1.0) / n * snapshot.side % snapshot.side,
+                            (j + 1.0) / n * snapshot.side % snapshot.side,
                             np.round(2 * turn[i, j]) / 2])
 
 

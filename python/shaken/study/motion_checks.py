@@ -56,7 +56,8 @@ def tilt_and_velocity(evidence: Evidence) -> Finding:
     place = runs.of(place_in)
     return conclude([below(speed, 0).placed("against the tilt"), close_to(place, 0.2, 0.06).placed("fastest near 0.2"),
                      above(beyond, 0).placed("reversed beyond 0.3")],
-                    f"fastest at n_z = ±{text(place)}, {text(speed)} mm/s along the tilt; beyond ±0.31 {text(beyond)} mm/s")
+                    f"fastest at n_z = ±{text(place)}, {text(speed)} mm/s along the tilt; beyond ±0.31 "
+                    f"{text(beyond)} mm/s")
 
 
 def no_motion_sideways(evidence: Evidence) -> Finding:
@@ -213,7 +214,8 @@ def velocity_along_grows(evidence: Evidence) -> Finding:
         return Finding()
     at_zero = [(at, e) for at, e in runs.points(PACKING, "velocity_variance_along_mm2_s2") if at > 0.59]
     return conclude([trend(growing, rising=True)],
-                    f"C_v along, lags of 0.8 to 2.8 s: {listed(points, 'φ', ' mm²/s²')}. C_v(0): {listed(at_zero, 'φ')}")
+                    f"C_v along, lags of 0.8 to 2.8 s: {listed(points, 'φ', ' mm²/s²')}. "
+                    f"C_v(0): {listed(at_zero, 'φ')}")
 
 
 def rotation_slows(evidence: Evidence) -> Finding:
@@ -245,8 +247,8 @@ def defects_move(evidence: Evidence) -> Finding:
     plus, minus, along = (runs.number(f"lasting_defect_speed_{name}_mm_s") for name in ("plus", "minus", "plus_along"))
     found = (f"ℓ = 3 mm, φ = 0.85: +1/2 move at {text(plus)} mm/s, −1/2 at {text(minus)} mm/s; +1/2 towards their own "
              f"tail: {text(along)} mm/s")
-    # Which way is not said: along its own axis, either way. That it does not is known where that is less than a tenth of
-    # the speed at which the other kind jitters.
+    # Which way is not said: along its own axis, either way. That it does not is known where that is less than a tenth
+    # of the speed at which the other kind jitters.
     if why := doubt(along):
         return conclude([unknown(why)], found)
     either_way = along if along.value >= 0 else along * -1

@@ -9,7 +9,8 @@ import numpy as np
 from ..estimate import NAN, Estimate, derived
 from ..run import Run
 from .evidence import GAMMA, LENGTH, PACKING, PAPERS_BOX, SIDE, Evidence, Runs, crossing, key_of
-from .rules import (NOT_RUN, Answer, Finding, above, below, close_to, conclude, doubt, listed, no, refutable, text, trend, unknown,
+from .rules import (NOT_RUN, Answer, Finding, above, below, close_to, conclude, doubt, listed, no, refutable, text,
+                    trend, unknown,
                     yes)
 from .structure_checks import far_g2
 
@@ -58,7 +59,8 @@ def steady_after_the_start(evidence: Evidence) -> Finding:
             followed = max(float(run.summary["sim_seconds"]) for run in here)
             answer = no() if followed > 1000 and s.steady is False else unknown("a run still relaxes")
         answers.append(answer.placed(f"{packing:g}"))
-    return conclude(answers, f"S(0) = 1; steady at {steady} of {len(answers)} packings, from {wait:.0f} s on at the latest",
+    return conclude(answers,
+                    f"S(0) = 1; steady at {steady} of {len(answers)} packings, from {wait:.0f} s on at the latest",
                     everywhere=True)
 
 
@@ -102,7 +104,8 @@ def short_rods_do_not_order(evidence: Evidence) -> Finding:
             if largest is None or s.value > largest[0].value:
                 largest = (s, packing, side)
         if largest:
-            found.append(f"ℓ = {length:g} mm: largest S = {text(largest[0])} at φ = {largest[1]:g}, in {largest[2]:.1f} mm")
+            found.append(f"ℓ = {length:g} mm: largest S = {text(largest[0])} at φ = {largest[1]:g}, in "
+                         f"{largest[2]:.1f} mm")
     return conclude(answers, "; ".join(found), everywhere=True)
 
 
@@ -146,13 +149,14 @@ def long_range(evidence: Evidence) -> Finding:
         return Finding()
     power = power_of_size(runs)
     found = f"S = {listed(points, 'L')}; S ~ Lˣ with x = {text(power)}"
-    # Quasi-long-range order is a small power too, at most L^-1/8 in an equilibrium nematic (Kosterlitz & Thouless 1973).
+    # Quasi-long-range order is a small power too, at most L^-1/8 at equilibrium (Kosterlitz & Thouless 1973).
     if below(power, -0.125).word or below(points[-1][1], ORDERED).word:
         return refutable(no(), found, "")
     if why := doubt(power):
         return refutable(unknown(why), found, "")
     change = abs(points[-1][1].value / points[-2][1].value - 1)
-    return refutable(yes(), found, f"S changes by {100 * change:.1f} % from {points[-2][0]:.0f} to {points[-1][0]:.0f} mm")
+    return refutable(yes(), found,
+                     f"S changes by {100 * change:.1f} % from {points[-2][0]:.0f} to {points[-1][0]:.0f} mm")
 
 
 def pooled_density(runs: Runs) -> tuple[np.ndarray, np.ndarray, float]:
@@ -272,8 +276,6 @@ def activity(evidence: Evidence) -> Finding:
         energy = still[0].summary["energy_pJ"]
         answers.append((yes() if energy["given_by_plates"] == 0 and energy["left"] < energy["start"] else no())
                        .placed("Γ = 0"))
-        found += (f"; at Γ = 0 the plates give {energy['given_by_plates']:g} pJ, and {100 * energy['left'] / energy['start']:.2g} "
-                  "% of the energy of the start is left")
+        found += (f"; at Γ = 0 the plates give {energy['given_by_plates']:g} pJ, and "
+                  f"{100 * energy['left'] / energy['start']:.2g} % of the energy of the start is left")
     return conclude(answers, found)
-
-

@@ -60,8 +60,8 @@ def write_plan(file: Path, program: str, sweeps: Mapping[str, dict[str, Any]], c
 
 - **Together** {runs} runs in {tasks} tasks of one core each, {two_digits(core_hours)} core-hours: about
   {_hours(max(longest, core_hours * 3600 / cores))} on {cores} cores.
-- **Ask for**, of a task: {_hours(1.5 * longest)} of wall time and {two_digits(1.5 * memory / 1e6)} MB of memory, half as
-  much again as estimated. A task that ends early costs nothing but another one: runs go on from their last checkpoint.
+- **Ask for**, of a task: {_hours(1.5 * longest)} of wall time and {two_digits(1.5 * memory / 1e6)} MB of memory, half
+  as much again as estimated. A task that ends early costs another one only: runs go on from their checkpoint.
 - **Storage**: {two_digits(disk / 1e9)} GB on a file system that all nodes see; about ten files a run.
 - **Software**: Shaken (Debian package, or built with CMake and g++), Slurm, Python 3 with numpy, scipy, matplotlib and
   h5py to draw.
@@ -69,6 +69,7 @@ def write_plan(file: Path, program: str, sweeps: Mapping[str, dict[str, Any]], c
 - Estimates come from probes of at most a second of each kind of run, on the machine where this was written.
 
     shakend --root ROOT --executor slurm &
-""" + "".join(f"    shaken --root ROOT submit {path.relative_to(file.parent)}\n" for path in written) + f"    {drawing}\n"
+""" + "".join(f"    shaken --root ROOT submit {path.relative_to(file.parent)}\n"
+              for path in written) + f"    {drawing}\n"
     file.write_text(text)
     return [file, *written]

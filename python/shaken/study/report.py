@@ -106,5 +106,3 @@ def write_report(path: Path, evidence: Evidence) -> None:
     except OSError as error:
         raise ShakenError(f"{path}: {error.strerror}") from None
     path.write_text(with_sections(document, sections(evidence), str(path)))
-
-

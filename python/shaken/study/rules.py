@@ -112,8 +112,8 @@ def close_to(estimate: Estimate, target: float, tolerance: float) -> Answer:
 
 
 def trend(points: Sequence[tuple[float, Estimate]], rising: bool) -> Answer:
-    """Whether what is measured at rising values of a key rises (or falls) from the first to the last that decide. A step
-    back between neighbours by more than three errors is a no."""
+    """Whether what is measured at rising values of a key rises (or falls) from the first to the last that decide. A
+    step back between neighbours by more than three errors is a no."""
     deciding = [estimate for _, estimate in points if not doubt(estimate)]
     if len(deciding) < 2:
         reasons = [doubt(estimate) for _, estimate in points if doubt(estimate)]
@@ -144,8 +144,8 @@ class Finding:
 
 def conclude(answers: Iterable[Answer], found: str, *, everywhere: bool = False) -> Finding:
     """All yes: agrees. All no: disagrees. Some of both: in part, and where. Of answers that are open none counts for
-    either side: where more than half say yes and none no, it agrees there, and the rest is named as open; not where runs are still to
-    come.
+    either side: where more than half say yes and none no, it agrees there, and the rest is named
+    as open; not where runs are still to come.
 
     everywhere: of what is said to hold everywhere one no is enough to disagree
     """

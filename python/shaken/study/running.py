@@ -207,8 +207,8 @@ def daemon_at(root: Path | None, shaken: str, say: Callable[[str], None] = print
                 break
             except ShakenError:
                 if ours.poll() is not None or time.monotonic() > end:
-                    raise ShakenError(f"no daemon could be started: {(ours.stderr.read() if ours.stderr else '').strip()}"
-                                      ) from None
+                    words = ours.stderr.read().strip() if ours.stderr else ""
+                    raise ShakenError(f"no daemon could be started: {words}") from None
                 time.sleep(0.1)
         say(f"no daemon served {daemon.root}: one has been started, which ends with this command")
         yield daemon

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """What the paper states, and the runs' answer to each statement.
 
-Each check takes the Evidence and returns a Finding; the checks are in `order_checks`, `structure_checks`, `layer_checks`
-and `motion_checks`, by subject.
+Each check takes the Evidence and returns a Finding; the checks are in `order_checks`, `structure_checks`,
+`layer_checks` and `motion_checks`, by subject.
 """
 from __future__ import annotations
 
@@ -39,7 +39,8 @@ STATEMENTS: tuple[Statement, ...] = (
               order_checks.ordered_when_dense),
     Statement("disordered", "3", "At 0.45 they are not: ⟨S⟩ < 0.5, and nothing of it far away or in larger boxes",
               order_checks.disordered_when_dilute),
-    Statement("short", "3", "Rods shorter than 3.5 mm do not order at any packing", order_checks.short_rods_do_not_order,
+    Statement("short", "3", "Rods shorter than 3.5 mm do not order at any packing",
+              order_checks.short_rods_do_not_order,
               "a narrow box orders its rods: there only disorder counts"),
     Statement("transition", "3", "The area fraction at which order sets in falls with the length",
               order_checks.transition_falls_with_length),
@@ -54,7 +55,8 @@ STATEMENTS: tuple[Statement, ...] = (
     Statement("broadest", "4", "S fluctuates most near the transition", order_checks.broadest_at_the_transition),
     Statement("oblique", "steady", "ℓ = 3.5 mm at 0.85 orders along an oblique axis", order_checks.oblique_axis,
               "asked of runs that start turned by 30 degrees: whether such an axis lasts"),
-    Statement("activity", "shaking", "Γ is a measure of the activity, and at Γ = 0 there is none", order_checks.activity,
+    Statement("activity", "shaking", "Γ is a measure of the activity, and at Γ = 0 there is none",
+              order_checks.activity,
               "at Γ = 0: that the plates give no energy and what the rods had at the start falls; rolling rods go on"),
     Statement("g2", "5", "G₂(r) decays to 0 for ℓ = 2.5 mm at every packing, and levels off for ℓ = 4.5 mm when dense",
               structure_checks.g2_decays_or_levels),
@@ -65,8 +67,8 @@ STATEMENTS: tuple[Statement, ...] = (
     Statement("splay-bend", "elasticity", "Splay costs more than bend, K₁ > K₃",
               structure_checks.splay_stiffer_than_bend,
               "the paper concludes it from G₂ falling faster across the director; in linear theory, "
-              "⟨δθ²⟩ ~ 1/(K₁q_across² + K₃q_along²), that means the reverse. Asked at 0.65, where there are no layers and "
-              "the law can hold"),
+              "⟨δθ²⟩ ~ 1/(K₁q_across² + K₃q_along²), that means the reverse. Asked at 0.65, where there are no layers "
+              "and the law can hold"),
     Statement("layers", "8", "Layers at ±θ_m, about 10°, for ℓ = 4.5 mm from 0.80 on, and none at 0.75",
               layer_checks.layers_when_dense),
     Statement("g2-oscillates", "8", "Where there are layers, G₂ oscillates across the director",
@@ -110,8 +112,8 @@ STATEMENTS: tuple[Statement, ...] = (
     Statement("c2-plateau", "12", "C₂ of long rods levels off, near 1 when dense", motion_checks.c2_levels_off),
     Statement("velocity-along", "12", "C_v along the director grows with packing up to 0.80 (ℓ = 4.5 mm)",
               motion_checks.velocity_along_grows,
-              "of lags beyond the 400 ms over which velocities are averaged, from which the paper concludes D; C_v(0), the "
-              "rattling in the cage, falls"),
+              "of lags beyond the 400 ms over which velocities are averaged, from which the paper concludes D; C_v(0), "
+              "the rattling in the cage, falls"),
     Statement("rotation", "13", "The rotational diffusion constant falls with packing (ℓ = 2.5 mm)",
               motion_checks.rotation_slows),
     Statement("rotation-short", "13", "At short times rotation is sub-diffusive, the more so the denser",

@@ -80,7 +80,8 @@ def g2_isotropic_when_dilute(evidence: Evidence) -> Finding:
     if not runs:
         return Finding()
     difference = far_anisotropy(runs)
-    return conclude([close_to(difference, 0, NO_CORRELATION)], f"along − across, far out at φ = 0.45: {text(difference)}")
+    return conclude([close_to(difference, 0, NO_CORRELATION)],
+                    f"along − across, far out at φ = 0.45: {text(difference)}")
 
 
 def g2_anisotropic(evidence: Evidence) -> Finding:
