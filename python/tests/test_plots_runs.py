@@ -196,3 +196,14 @@ def test_the_program_draws_what_a_description_says(tmp_path: Path) -> None:
     assert nothing.returncode == 1 and "nothing to plot" in nothing.stdout
     one = call({**wanted, "runs": [], "points": [{"parameters": {"box.gap": 1.2}, "y": 0.5}]})
     assert one.returncode == 1 and "no numeric parameter is swept" in one.stdout
+
+
+def test_curves_of_shorter_runs_look_as_those_of_longer_ones() -> None:
+    def msd(n: int) -> dict[str, Any]:
+        lag = np.arange(1, n + 1)
+        return {"/msd/lag_s": lag, "/msd/total_mm2": 4.0 * lag}
+
+    found = figures(run(msd(60), area_fraction=0.5), run(msd(20), area_fraction=0.8))
+    assert {handle.get_marker() for handle, _ in found["msd"][0].entries} == {"none"}
+    found = figures(run(msd(20), area_fraction=0.5), run(msd(20), area_fraction=0.8))
+    assert "none" not in {handle.get_marker() for handle, _ in found["msd"][0].entries}

@@ -203,13 +203,16 @@ def run_figures(runs: Sequence[PlottedRun], width: str | None = None) -> Iterato
             continue
         arrangement = Arrangement([points[k] for k in known])
         sheet = arrangement.sheet(width, *of.titles)
+        # one look for all: the curves of shorter runs have fewer lags
+        longest = max(len(curve.x) for found in curves for curve in found)
+        is_line = of.is_trace or longest > (12 if arrangement.is_crowded else 40)
         for panel, at in arrangement.each(sheet):
             look = arrangement.look(at)
             for k, curve in enumerate(_averaged(curves[known[at]])):
                 shown = _thinned(curve) if of.is_trace else curve
                 panel.curve(shown.x, shown.y, shown.error, shown.steady,
-                            look="line" if of.is_trace or len(shown.x) > (12 if arrangement.is_crowded else 40) else "",
-                            **(look if k == 0 else {"colour": look["colour"]}), name=arrangement.label(at))
+                            look="line" if is_line else "points", name=arrangement.label(at),
+                            **(look if k == 0 else {"colour": look["colour"]}))
         for panel, _ in arrangement.panels_of(sheet):
             panel.scale(*("log" if log else "linear" for log in of.log))
             panel.range(of.x_range, of.y_range)
