@@ -8,10 +8,20 @@
 #include "base/paths.h"
 #include "base/plots_by_python.h"
 #include "base/process.h"
+#include "base/text.h"
 #include "client/verbs/verbs.h"
 
 namespace shaken::client {
 namespace {
+
+/// What completion offers: the paper's numbers, and the names of all figures (python/shaken/study/figures.py).
+std::vector<std::string> figures() {
+  return split(
+      "2 3 4 5 6 7 8 9 10 11 12 13 14 start order order-statistics g2 g2-map distances layers "
+      "diffusion tilt paths memory rotation defects layer-trends larger-box gap steady shaking "
+      "size elasticity diffusion-more melting fluctuations equilibrium model movies accuracy",
+      ' ');
+}
 
 class Figures : public Verb {
  public:
@@ -36,12 +46,7 @@ class Figures : public Verb {
   }
 
   void declare(Arguments& arguments) override {
-    arguments.list("FIGURE", words_, "A number of the paper, 2 to 14, or a name of --list; all if left out",
-                   {"2",           "3",      "4",          "5",        "6",
-                    "7",           "8",      "9",          "10",       "11",
-                    "12",          "13",     "14",         "accuracy", "elasticity",
-                    "equilibrium", "gap",    "larger-box", "layers",   "layer-trends",
-                    "model",       "movies", "size",       "shaking",  "steady"});
+    arguments.list("FIGURE", words_, "A number of the paper, 2 to 14, or a name of --list; all if left out", figures());
     arguments.option("--scale", scale_, "tiny|desk|paper", "Size of the runs; desk if left out");
     arguments.option("--budget", budget_, "TIME", "CPU time after which it stops: 10h; it runs everything if left out");
     arguments.option("--archive", archive_, "DIR", "Archive of finished runs; OUT/archive if left out", Names::kFolder);

@@ -2,6 +2,7 @@
 import importlib
 import shutil
 import socket
+import struct
 import subprocess
 import sys
 import time
@@ -68,7 +69,7 @@ def test_types_are_those_of_the_definitions(tmp_path):
     found = bus._decode_observables(numbers.encode())
     assert (found.n_rods, found.order, found.eta_s, found.collisions_rod_lid) == (9, 0.25, 3.5, 4)
     for broken in (frame.encode()[:-1], frame.encode() + b"\0", numbers.encode(), b"", b"x" * 40):
-        with pytest.raises((ValueError, Exception)):
+        with pytest.raises((ValueError, struct.error)):
             parts.add(broken)
 
 

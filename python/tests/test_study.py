@@ -106,3 +106,9 @@ def test_sections_are_replaced_between_their_marks():
     assert with_sections(document, {"claims": "new\n"}) == "a\n<!-- claims: begin -->\nnew\n<!-- claims: end -->\nb\n"
     with pytest.raises(Exception, match="origin: begin"):
         with_sections(document, {"origin": "x"})
+
+
+def test_every_figure_is_completed_by_the_shell():
+    source = (SOURCE / "client" / "verbs" / "figures.cpp").read_text()
+    words = source.split("return split(")[1].split("' ')")[0].replace('"', " ").replace(",", " ").split()
+    assert words == [f.number for f in FIGURES if f.number] + [f.name for f in FIGURES]
