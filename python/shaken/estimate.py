@@ -36,6 +36,12 @@ class Estimate:
         """Whether there is a value."""
         return math.isfinite(self.value)
 
+    @property
+    def bar(self) -> float:
+        """Half the length of its error bar: the error, or 0 where that is not known (Debian's matplotlib fails where it
+        gets no bar that is a number)."""
+        return self.error if math.isfinite(self.error) else 0.0
+
     def __float__(self) -> float:
         return self.value
 

@@ -17,6 +17,8 @@ SWEEP = {"name": "demo", "scene": {"box": {"side": "14 mm"}, "accuracy": "draft"
                                    "measure": {"order": {"every": "10 ms"}, "msd": {"every": "10 ms"}},
                                    "trajectory": {"every": "50 ms"}},
          "sweep": {"grid": {"rods.area_fraction": [0.4, 0.6]}, "replicas": 2}}
+#: Single runs, so short that none has an error.
+SHORT = {**SWEEP, "name": "short", "sweep": {"grid": {"rods.area_fraction": [0.3, 0.5]}}}
 
 
 def test_every_block_of_python_md_works(programs, tmp_path, monkeypatch):
@@ -35,6 +37,11 @@ def test_every_block_of_python_md_works(programs, tmp_path, monkeypatch):
     assert (tmp_path / "phases.png").read_bytes()[1:4] == b"PNG"
     assert (tmp_path / "order.pdf").read_bytes()[:4] == b"%PDF" and (tmp_path / "order.csv").exists()
     assert list((tmp_path / "archive").iterdir())
+    # and the first also where no error is known
+    daemon.wait(daemon.submit(SHORT), timeout="100 s")
+    (tmp_path / "phases.png").unlink()
+    exec(compile(blocks[0], "docs/python.md", "exec"), {})
+    assert (tmp_path / "phases.png").exists()
 
 
 def test_the_live_observable_of_the_docs(programs):

@@ -58,6 +58,12 @@ def test_what_it_would_cost_and_what_there_is(programs):
     assert [entry["number"] for entry in listed][:13] == [str(k) for k in range(2, 15)]
 
 
+def test_a_reader_that_goes_away_is_no_trouble(programs):
+    command = f"{sys.executable} {SOURCE}/python/shaken/study/__main__.py --list | true"
+    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, timeout=60)
+    assert done.stderr == ""
+
+
 def test_a_plan_for_a_computing_centre(programs, tmp_path):
     figures(programs, 10, "--executor", "slurm", "--partition", "long", "--time", "4h", "--cores", 8, "--plan",
             tmp_path / "plan.md")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import math
+import os
 import sys
 from pathlib import Path
 from typing import Any, Mapping, Sequence
@@ -92,6 +93,9 @@ def main(arguments: Sequence[str]) -> int:
             from .bench import draw_report
             for path in draw_report(Path(options.report), Path(options.out), options.width or None):
                 print(path, flush=True)
+    except BrokenPipeError:  # whoever read has gone, as `head` does
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return NOTHING
     except Nothing as reason:
         print(reason)
         return NOTHING

@@ -131,7 +131,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print("\n".join(f"shaken: {problem}" for problem in problems), file=sys.stderr)
         return BAD_INPUT
     try:
-        return _run(options)
+        code = _run(options)
+        sys.stdout.flush()
+        return code
+    except BrokenPipeError:  # whoever read has gone, as `head` does
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return FAILED
     except ShakenError as error:
         print(f"shaken: {error}", file=sys.stderr)
         return FAILED
