@@ -27,8 +27,6 @@ ALLOWED = {
     # how long a run was to go on stands in its scene
     "run/files/done.h": ["run/files", "scene/run_plan.h"],
     "run/files/done.cpp": ["run/files", "base", "scene", "sim/core"],
-    "run/files/former_id.h": ["run/files", "scene/run_plan.h", "sim/core"],
-    "run/files/former_id.cpp": ["run/files", "base", "scene", "sim/core"],
     "run/files": ["base", "sim/core", "sim/system.h", "sim/snapshot.h"],
     "run/export": ["base", "run/files", "sim/core", "sim/system.h"],
     "run": ["proto", "base", "scene", "analysis", "run/files", "sim/core", "sim/rod", "sim/system.h", "sim/snapshot.h",

@@ -15,7 +15,6 @@
 #include "base/files.h"
 #include "run/effects.h"
 #include "run/files/done.h"
-#include "run/files/former_id.h"
 #include "run/frame_publisher.h"
 #include "run/open_run.h"
 #include "run/saved_run.h"
@@ -404,7 +403,6 @@ Result<void> claim(const scene::RunPlan& plan, const RunDirectory& directory) {
   if (scene::run_id(*present) != scene::run_id(plan)) {
     return Error{directory.root.string() + " holds the run of another scene (see its scene.json); choose another one"};
   }
-  if (auto done = renew_id(directory, *present); !done) return done.error();
   if (is_done(directory, plan) || (present->measure_time == plan.measure_time && present->until == plan.until))
     return {};
   return write_file_atomically(directory.scene(), scene_text(plan));

@@ -18,8 +18,8 @@ nlohmann::ordered_json to_json(const RunPlan& plan);
 /// the same scene is the same run, extended.
 std::string run_id(const RunPlan& plan);
 
-/// The same with `time.measure` and `until`: names a scene, with the length of its run. It named runs too, before these
-/// could be extended.
+/// The same with `time.measure` and `until`: tells scenes apart that differ in the length of their runs only, which is
+/// for estimates and benches.
 std::string scene_hash(const RunPlan& plan);
 
 /// One value as JSON, in its default unit.

@@ -306,14 +306,14 @@ Api::Answer Api::control(const Call& call) const {
   const std::string& action = parts.back();
   const Target target = in_sweep(call) ? Target(find_sweep(call.id).id) : Target(find_job(call.id).id);
   const auto answer = [](const char* changed, int n) { return Answer{200, {{changed, n}}, ""}; };
-  if (action == "cancel") return answer("cancelled", queue_.cancel(target));
-  if (action == "hold") return answer("held", queue_.hold(target));
   if (action == "priority") {
     const int priority = parsed(parse_priority, call.request.body);
     return answer("changed", queue_.set_priority(target, priority));
   }
-  const bool retry = action == "retry";
-  return answer(retry ? "retried" : "resumed", queue_.release(target, retry));
+  if (action == "cancel") return answer("cancelled", queue_.cancel(target));
+  if (action == "hold") return answer("held", queue_.hold(target));
+  if (action == "resume") return answer("resumed", queue_.resume(target));
+  return answer("retried", queue_.retry(target));
 }
 
 Api::Answer Api::results(const Call& call) const {

@@ -9,7 +9,7 @@
 #include "scene/problem.h"
 #include "server/daemon_info.h"
 #include "server/http/http_server.h"
-#include "server/queue.h"
+#include "server/queue/queue.h"
 #include "server/report.h"
 
 namespace shaken::server {

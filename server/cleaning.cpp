@@ -8,7 +8,6 @@
 
 #include "base/clock.h"
 #include "run/files/directory.h"
-#include "server/queue_words.h"
 
 namespace shaken::server {
 namespace {
@@ -83,7 +82,7 @@ bool was_done(const std::vector<Change>& history) {
   bool done = false;
   for (const Change& change : history) {
     if (change.to == to_word(JobState::kDone)) done = true;
-    if (change.cause == kCleaned) done = false;
+    if (change.cause == kCleanedOnRequest) done = false;
   }
   return done;
 }

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "server/queue.h"
+#include "server/queue/queue.h"
 
 namespace shaken::server {
 

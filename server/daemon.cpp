@@ -27,10 +27,9 @@
 #include "server/api.h"
 #include "server/cleaning.h"
 #include "server/daemon_info.h"
-#include "server/former_ids.h"
 #include "server/http/http_server.h"
 #include "server/local_executor.h"
-#include "server/queue.h"
+#include "server/queue/queue.h"
 #include "server/relay/relay.h"
 #include "server/slurm/slurm_executor.h"
 #include "server/status_publisher.h"
@@ -278,7 +277,6 @@ void run_daemon(const DaemonConfig& asked_for) {
     }
   }();
   Queue& queue = *opened_queue;
-  renew_ids(queue, info.runs());
   for (const std::string& id : queue.recover()) spdlog::info("job {}: was running when the daemon ended", id);
 
   if (queue.counts().total() == 0) {
@@ -321,8 +319,8 @@ void run_daemon(const DaemonConfig& asked_for) {
   in_slurm.slots = kManyTasks;
   in_slurm.worker_options = worker_options_in_slurm(config);
   in_slurm.grace = kGraceInSlurm;
-  in_slurm.place = {std::string(kSlurm), config.slurm_is_default};
-  options.place.is_default = !config.slurm_is_default;
+  in_slurm.role = {std::string(kSlurm), config.slurm_is_default};
+  options.role.is_default = !config.slurm_is_default;
   Supervisor supervisor(queue, executor, std::move(options));
   slurm::SlurmExecutor slurm_executor(slurm_options(config, info.root));
   Supervisor slurm_supervisor(queue, slurm_executor, std::move(in_slurm));

@@ -17,8 +17,8 @@
 #include "run/files/version.h"
 #include "scene/slurm_settings.h"
 #include "server/daemon.h"
+#include "server/queue/terms.h"
 #include "server/relay/address.h"
-#include "server/terms.h"
 
 namespace {
 
@@ -71,7 +71,6 @@ int main(int argc, char** argv) {
   config.lcm_url = shaken::proto::default_url();
   std::string executor = std::string(shaken::server::kLocal);
   double slurm_poll = 10;
-  bool foreground = true;
   bool no_lcm = false;
   bool web = false;
   int web_port = 8642;
@@ -144,7 +143,6 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_flag("--quiet", config.quiet,
                "Log to ROOT/shakend.log only; also where it is started in the background of a terminal (`shakend &`)");
-  app.add_flag("--foreground", foreground, "Stay in the foreground: the only mode, for service managers");
   try {
     app.parse(argc, argv);
     config.root = shaken::value_or_fail(shaken::data_root(root), ExitCode::kBadInput);

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "server/queue.h"
+#include "server/queue/queue.h"
 #include "sim/core/result.h"
 
 namespace shaken::server {

@@ -6,8 +6,8 @@
 #include <span>
 #include <string>
 
-#include "server/job.h"
-#include "server/queue.h"
+#include "server/queue/job.h"
+#include "server/queue/queue.h"
 
 namespace shaken::server {
 

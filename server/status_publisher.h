@@ -8,7 +8,7 @@
 
 #include "proto/bus.h"
 #include "server/daemon_info.h"
-#include "server/queue.h"
+#include "server/queue/queue.h"
 
 namespace shaken::server {
 

@@ -18,7 +18,7 @@
 #include "scene/load.h"
 #include "scene/nearest.h"
 #include "scene/placement.h"
-#include "server/job.h"
+#include "server/queue/job.h"
 
 namespace shaken::server {
 namespace {

@@ -10,7 +10,7 @@
 #include "scene/problem.h"
 #include "scene/run_plan.h"
 #include "server/cleaning.h"
-#include "server/queue.h"
+#include "server/queue/queue.h"
 
 namespace shaken::server {
 

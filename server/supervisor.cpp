@@ -67,7 +67,7 @@ void Supervisor::adopt() {
   for (const auto& [id, name] : queue_.outlives_daemon()) {
     const auto handle = executor_.adopt(name);
     if (!handle) {
-      queue_.stopped(id, "the daemon ended before its worker was handed over");
+      queue_.ended(id, JobEvent::kWorkerStopped, "the daemon ended before its worker was handed over");
       continue;
     }
     Worker& worker = workers_[id];
@@ -89,10 +89,10 @@ void Supervisor::step() {
   try {
     executor_.step();
     if (std::string trouble = executor_.trouble(); trouble != told_trouble_) {
-      queue_.set_trouble(options_.place, trouble);
+      queue_.set_trouble(options_.role, trouble);
       told_trouble_ = std::move(trouble);
     }
-    settle_ended();
+    record_ended();
     count_wall_of_all();
     stop_stopping();
     if (shutting_down_) return;
@@ -103,7 +103,7 @@ void Supervisor::step() {
   }
 }
 
-void Supervisor::settle_ended() {
+void Supervisor::record_ended() {
   // all of them, whether or not the queue can be written: whether they have ended does not hang on that
   for (auto& [id, worker] : workers_) {
     try {
@@ -113,7 +113,9 @@ void Supervisor::settle_ended() {
     }
   }
   for (auto& [id, worker] : workers_) {
-    if (!worker.unsaved_name.empty()) save_name(id, worker);
+    if (worker.unsaved_name.empty()) continue;
+    queue_.set_worker(id, 0, worker.unsaved_name);
+    worker.unsaved_name.clear();
   }
   for (auto entry = workers_.begin(); entry != workers_.end();) {
     auto& [id, worker] = *entry;
@@ -121,7 +123,7 @@ void Supervisor::settle_ended() {
       ++entry;
       continue;
     }
-    settle(id, worker);
+    record_end(id, worker);
     entry = workers_.erase(entry);
   }
   write_notes();
@@ -148,7 +150,7 @@ void Supervisor::look_at(const std::string& id, Worker& worker) {
     case kWorking:
       if (worker.waits && report.phase == kWorking) {
         worker.started = worker.counted = Clock::now();
-        if (worker.settings) queue_.accepted({options_.place, *worker.settings});
+        if (worker.settings) queue_.accepted({options_.role, *worker.settings});
       }
       if (!worker.waits && report.phase == kWaiting) count_wall({id});  // it has been put back
       worker.waits = report.phase == kWaiting;
@@ -158,7 +160,7 @@ void Supervisor::look_at(const std::string& id, Worker& worker) {
       worker.was_at_work = true;
       worker.ended = Clock::now();
       judge_end(id, worker, report.end);  // first: the executor says it only once
-      if (worker.waits && worker.settings) queue_.accepted({options_.place, *worker.settings});
+      if (worker.waits && worker.settings) queue_.accepted({options_.role, *worker.settings});
       return;
     case kTaken:
       worker.job_end = JobEnd{JobEnd::Outcome::kStopped, report.words};
@@ -184,43 +186,42 @@ void Supervisor::judge_end(const std::string& id, Worker& worker, const WorkerEn
   }
 }
 
-void Supervisor::settle(const std::string& id, const Worker& worker) {
+void Supervisor::record_end(const std::string& id, const Worker& worker) {
+  using enum JobEnd::Outcome;
   count_wall({id});
   const auto& [outcome, reason] = *worker.job_end;
   switch (outcome) {
-    case JobEnd::Outcome::kDone:
-      queue_.finish(id, JobState::kDone, "");
+    case kDone:
+      queue_.ended(id, JobEvent::kWorkerDone);
       break;
-    case JobEnd::Outcome::kFailed:
-      queue_.finish(id, JobState::kFailed, reason);
+    case kFailed:
+      queue_.ended(id, JobEvent::kWorkerFailed, reason);
       break;
-    case JobEnd::Outcome::kStopped:
+    case kStopped:
       // else what is stopped as soon as it begins would be started again for ever
       if (worker.was_at_work && !worker.kill_at && told_time(worker.directory) <= worker.told_before) {
         queue_.crashed(id, "stopped, not by Shaken, before it got any further (a time limit that is too short?)", false,
                        options_.retry_pauses);
-      } else {
-        queue_.stopped(id, reason);
+        break;
       }
+      [[fallthrough]];
+    case kNotStarted:
+      queue_.ended(id, JobEvent::kWorkerStopped, reason);
+      if (outcome == kNotStarted) queue_.set_reason(id, reason);
       break;
-    case JobEnd::Outcome::kUnconfirmed:
-    case JobEnd::Outcome::kCrashed:
+    case kUnconfirmed:
+    case kCrashed:
       queue_.crashed(id, reason, checkpoint_time(worker.directory) != worker.checkpoint_before, options_.retry_pauses);
       break;
-    case JobEnd::Outcome::kNotStarted:
-      queue_.stopped(id, reason);
-      queue_.set_reason(id, reason);
-      break;
-    case JobEnd::Outcome::kRefused:
-      queue_.refused(id, {options_.place, worker.settings.value_or("")}, "could not be started: " + reason,
+    case kRefused:
+      queue_.refused(id, {options_.role, worker.settings.value_or("")}, "could not be started: " + reason,
                      options_.refused_pause);
       break;
-    case JobEnd::Outcome::kNoRoom: {
+    case kNoRoom: {
       const std::int64_t needed = std::max(2 * options_.least_room, 2 * bytes_in(worker.directory.root));
-      queue_.no_room(
-          id,
-          fmt::format("{}. Goes on by itself once {} are free there", reason, bytes_text(static_cast<double>(needed))),
-          needed, options_.retry_pauses.empty() ? std::chrono::milliseconds(0) : options_.retry_pauses.front());
+      const std::string text = bytes_text(static_cast<double>(needed));
+      queue_.no_room(id, fmt::format("{}. Goes on by itself once {} are free there", reason, text), needed,
+                     options_.retry_pauses.empty() ? std::chrono::milliseconds(0) : options_.retry_pauses.front());
       break;
     }
   }
@@ -265,7 +266,7 @@ void Supervisor::enforce_limits() {
       spdlog::info("job {}: its time limit is over", job.id);
       queue_.time_out(job.id);
     } else if (job.soft_limit != kNone && place_is_short && now - worker.started >= job.soft_limit &&
-               queue_.give_way(job.id, options_.place)) {
+               queue_.preempt(job.id, options_.role)) {
       spdlog::info("job {}: its soft limit is over, it gives way to others", job.id);
     }
   }
@@ -295,10 +296,10 @@ void Supervisor::start_queued() {
   if (Clock::now() < start_after_) return;
   const std::int64_t room = free_bytes(options_.runs);
   if (room >= options_.least_room) {
-    for (const std::string& id : queue_.there_is_room(room)) spdlog::info("job {}: there is room again", id);
+    for (const std::string& id : queue_.release_for_room(room)) spdlog::info("job {}: there is room again", id);
   }
   if (free_slots() <= 0) return;
-  for (const Job& job : queue_.next(free_slots() + kLookAhead, options_.place)) {
+  for (const Job& job : queue_.next(free_slots() + kLookAhead, options_.role)) {
     if (free_slots() <= 0 || Clock::now() < start_after_) return;
     if (room < options_.least_room) {  // for any job: none is passed over
       const std::string why = fmt::format("less than {} are free in {}",
@@ -311,75 +312,55 @@ void Supervisor::start_queued() {
   }
 }
 
-void Supervisor::start(const Job& job) {
-  if (job.time_limit.count() > 0 && job.wall >= job.time_limit) {
-    queue_.end_queued(job.id, JobState::kTimedOut, time_limit_over(job.time_limit));
-    return;
-  }
+/// Puts the scene where the worker will find it.
+Obstacle Supervisor::prepare(const Job& job, const std::string& scene) {
   const run::RunDirectory directory{options_.runs / job.id};
   std::error_code error;
   std::filesystem::create_directories(directory.root, error);
-  if (error) {
-    wait(job, directory.root.string() + ": " + error.message());
-    return;
-  }
-  const std::string scene = queue_.scene(job.id);
+  if (error) return delayed(job, directory.root.string() + ": " + error.message());
   if (const std::string why = options_.refuse ? options_.refuse(job.id, scene) : ""; !why.empty()) {
     spdlog::error("job {}: {}", job.id, printable(why));
-    queue_.end_queued(job.id, JobState::kFailed, why);
-    return;
+    return {.failure = why};
   }
-  {
-    const auto lock = run::DirectoryLock::acquire(directory.lock());
-    if (!lock) {
-      wait(job, lock.error().message);
-      return;
-    }
-    if (const auto done = write_file_atomically(directory.scene(), scene); !done) {
-      wait(job, done.error().message);
-      return;
-    }
+  const auto lock = run::DirectoryLock::acquire(directory.lock());
+  if (!lock) return delayed(job, lock.error().message);
+  if (const auto done = write_file_atomically(directory.scene(), scene); !done) {
+    return delayed(job, done.error().message);
   }
-  const std::string settings = queue_.settings(job.id);
-  const auto attempt = queue_.begin(job.id, &scene);
-  if (!attempt) return;  // cancelled, or asked to go on longer, a moment ago
+  return {};
+}
 
+void Supervisor::start(const Job& job) {
+  const auto launched = queue_.launch(job.id, [&](const std::string& scene) { return prepare(job, scene); });
+  if (!launched) return;
+  Worker worker;
+  worker.directory.root = options_.runs / job.id;
+  const run::RunDirectory& directory = worker.directory;
   Launch launch{directory.root,
                 {directory.scene().string(), "--out", directory.root.string(), "--job-id", job.id, "--sweep-id",
                  sweep_word(job.sweep), "--label", job.label},
-                heading(*attempt),
-                settings};
+                heading(launched->attempt),
+                launched->settings};
   launch.arguments.insert(launch.arguments.end(), options_.worker_options.begin(), options_.worker_options.end());
-  const auto checkpoint_before = checkpoint_time(directory);
-  const double told_before = told_time(directory);
+  worker.checkpoint_before = checkpoint_time(directory);
+  worker.told_before = told_time(directory);
   const auto handle = executor_.start(launch);
   if (!handle) {
     could_not_start(job.id, handle.error().message);
     return;
   }
-  Worker& worker = workers_[job.id];
   worker.handle = *handle;
-  worker.directory = directory;
   worker.started = worker.counted = Clock::now();
-  worker.checkpoint_before = checkpoint_before;
-  worker.told_before = told_before;
-  worker.settings = settings;
-  if (const std::string name = executor_.name(*handle); name.empty()) {
-    queue_.set_pid(job.id, *handle);
-  } else {
-    worker.waits = true;
-    worker.unsaved_name = name;
-    save_name(job.id, worker);
-  }
+  worker.settings = launched->settings;
+  worker.unsaved_name = executor_.name(*handle);
+  worker.waits = !worker.unsaved_name.empty();
   warnings_.clear();
   waited_.erase(job.id);
   pause_ = std::chrono::milliseconds(0);
-  spdlog::info("job {}: attempt {}, worker {}: {}", job.id, *attempt, *handle, printable(job.label));
-}
-
-void Supervisor::save_name(const std::string& id, Worker& worker) {
-  queue_.set_worker(id, worker.unsaved_name);
-  worker.unsaved_name.clear();
+  spdlog::info("job {}: attempt {}, worker {}: {}", job.id, launched->attempt, *handle, printable(job.label));
+  Worker& kept = workers_[job.id] = std::move(worker);
+  queue_.set_worker(job.id, kept.waits ? 0 : *handle, kept.unsaved_name);
+  kept.unsaved_name.clear();
 }
 
 void Supervisor::could_not_start(const std::string& id, const std::string& why) {
@@ -390,11 +371,11 @@ void Supervisor::could_not_start(const std::string& id, const std::string& why) 
   workers_[id].job_end = JobEnd{JobEnd::Outcome::kNotStarted, told};  // until the queue has taken it
 }
 
-void Supervisor::wait(const Job& job, const std::string& why) {
+Obstacle Supervisor::delayed(const Job& job, const std::string& why) {
   warn_once("job " + job.id + " waits: " + why);
   std::chrono::milliseconds& pause = waited_[job.id];
   pause = std::clamp(2 * pause, options_.waiting_pause, 16 * options_.waiting_pause);
-  queue_.pause(job.id, why, pause);
+  return {.delay = why, .pause = pause};
 }
 
 bool Supervisor::all_ended() const {
@@ -403,7 +384,7 @@ bool Supervisor::all_ended() const {
 
 void Supervisor::shut_down() {
   shutting_down_ = true;
-  queue_.hurry();
+  queue_.wait_less();
   try {
     queue_.stop_all();
   } catch (const StorageError& problem) {

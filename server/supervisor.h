@@ -13,7 +13,7 @@
 #include "run/files/directory.h"
 #include "server/executor.h"
 #include "server/job_end.h"
-#include "server/queue.h"
+#include "server/queue/queue.h"
 
 namespace shaken::server {
 
@@ -30,7 +30,7 @@ struct SupervisorOptions {
   std::vector<std::chrono::milliseconds> retry_pauses{std::chrono::seconds(5), std::chrono::seconds(30),
                                                       std::chrono::minutes(3)};
   std::chrono::milliseconds first_pause{1000};  ///< after a start that failed; doubled each time, up to a minute
-  Place place{};                                ///< whose jobs it starts
+  ExecutorRole role{};                          ///< of its executor: whose jobs it starts
   /// Before what the executor has refused is handed over again; doubled with each refusal, up to 16 times.
   std::chrono::milliseconds refused_pause{60'000};
   /// For so long the summary of a worker that ended well is looked for; then its run goes back into the queue, where a
@@ -88,7 +88,7 @@ class Supervisor {
   };
 
   int free_slots() const;
-  void settle_ended();
+  void record_ended();
   void write_notes();
   void look_at(const std::string& id, Worker& worker);
   void judge_end(const std::string& id, Worker& worker, const WorkerEnd& end);
@@ -96,12 +96,12 @@ class Supervisor {
   void count_wall_of_all();
   void enforce_limits();
   void stop_stopping();
-  void settle(const std::string& id, const Worker& worker);
+  void record_end(const std::string& id, const Worker& worker);
   void start_queued();
   void start(const Job& job);
-  void save_name(const std::string& id, Worker& worker);
   void could_not_start(const std::string& id, const std::string& why);
-  void wait(const Job& job, const std::string& why);
+  Obstacle prepare(const Job& job, const std::string& scene);
+  Obstacle delayed(const Job& job, const std::string& why);
   void warn_once(const std::string& warning);
 
   Queue& queue_;

@@ -58,12 +58,6 @@ void each_piece(const std::string& run_id, const Checkpoint& checkpoint, const T
 
 }  // namespace
 
-std::string as_bytes(const std::string& run_id, const Checkpoint& checkpoint) {
-  std::string content;
-  each_piece(run_id, checkpoint, [&](std::span<const std::byte> piece) { content.append(text_of(piece)); });
-  return content;
-}
-
 Result<void> write_checkpoint(const RunDirectory& directory, const std::string& run_id, const Checkpoint& checkpoint) {
   const std::filesystem::path file = directory.checkpoint();
   Result<ReplacementFile> next = ReplacementFile::create(file);

@@ -18,9 +18,6 @@ struct Checkpoint {
   double wall_seconds = 0;              ///< spent so far
 };
 
-/// The content of a checkpoint file.
-std::string as_bytes(const std::string& run_id, const Checkpoint& checkpoint);
-
 /// Writes DIR/checkpoint.bin atomically and keeps its predecessor as checkpoint.prev.bin. At any instant, also if the
 /// disk fills up meanwhile, at least one whole checkpoint is left.
 ///

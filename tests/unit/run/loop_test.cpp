@@ -446,28 +446,6 @@ TEST(Run, EndsAtTheLatestWhereUntilSays) {
   EXPECT_FALSE(is_done(RunDirectory{folder.path()}, plan_until(1e-9, 0.12)));
 }
 
-TEST(Run, GoesOnWithTheFilesOfItsFormerId) {
-  const ScratchFolder folder;
-  const RunDirectory directory{folder.path()};
-  const scene::RunPlan plan = with_length(0.1);
-  ASSERT_EQ(run_in(folder.path(), plan).state, RunState::kDone);
-  // as they were left before runs could be extended
-  const auto checkpoint = read_checkpoint(directory.checkpoint(), scene::run_id(plan));
-  ASSERT_TRUE(checkpoint);
-  ASSERT_TRUE(write_checkpoint(directory, scene::scene_hash(plan), *checkpoint));
-  auto summary = summary_in(folder.path());
-  summary["run_id"] = scene::scene_hash(plan);
-  ASSERT_TRUE(write_file(directory.summary(), summary.dump(2)));
-  ASSERT_FALSE(is_done(directory, plan));
-
-  const auto written = std::filesystem::last_write_time(directory.observables());
-  ASSERT_EQ(run_in(folder.path(), plan).state, RunState::kDone);
-  EXPECT_EQ(std::filesystem::last_write_time(directory.observables()), written) << "was done already";
-  EXPECT_EQ(summary_in(folder.path())["run_id"], scene::run_id(plan));
-  ASSERT_EQ(run_in(folder.path(), small_plan()).state, RunState::kDone);
-  expect_same_results(folder.path(), undisturbed());
-}
-
 TEST(Run, RefusesADirectoryInUse) {
   const ScratchFolder folder;
   const auto lock = DirectoryLock::acquire(RunDirectory{folder.path()}.lock());

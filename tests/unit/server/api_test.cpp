@@ -193,13 +193,13 @@ TEST_F(ApiTest, ASubmitAnswersWithSweepJobsAndCounts) {
 
 TEST_F(ApiTest, TheSameSubmitAgainDoesNothingTwice) {
   const auto ids = submit_four();
-  queue_.begin(ids[0]);
-  queue_.begin(ids[1]);
+  begin(queue_, ids[0]);
+  begin(queue_, ids[1]);
   std::filesystem::create_directories(directory_ / "runs" / ids[1]);
   write_text(directory_ / "runs" / ids[1] / "summary.json", done_summary(ids[1]));
-  queue_.finish(ids[1], JobState::kDone, "");
-  queue_.begin(ids[2]);
-  queue_.finish(ids[2], JobState::kFailed, "why");
+  queue_.ended(ids[1], JobEvent::kWorkerDone);
+  begin(queue_, ids[2]);
+  queue_.ended(ids[2], JobEvent::kWorkerFailed, "why");
 
   const Response again = submit({{"text", kSweep}, {"name", "four"}});
   EXPECT_EQ(again.status, 200);
@@ -219,8 +219,8 @@ TEST_F(ApiTest, ADoneJobWhoseResultsAreDamagedOrAnothersIsDoneAgain) {
   for (const std::string& damaged :
        {std::string(), std::string("{torn"), std::string("{}"), done_summary("fedcba9876543210")}) {
     write_text(directory_ / "runs" / id / "summary.json", damaged);
-    queue_.begin(id);
-    queue_.finish(id, JobState::kDone, "");
+    begin(queue_, id);
+    queue_.ended(id, JobEvent::kWorkerDone);
     EXPECT_TRUE(get("/v1/results?state=done").json["rows"][0]["summary"].is_null()) << damaged;
     EXPECT_EQ(submit({{"text", kSweep}, {"name", "four"}}).json["counts"]["requeued"], 1) << damaged;
   }
@@ -232,8 +232,8 @@ TEST_F(ApiTest, ASummaryNestedTooDeepIsNoDanger) {
   write_text(directory_ / "runs" / id / "summary.json", R"({"run_id": ")" + id + R"(", "n_rods": 7, "deep": )" +
                                                             std::string(200'000, '[') + std::string(200'000, ']') +
                                                             "}");
-  queue_.begin(id);
-  queue_.finish(id, JobState::kDone, "");
+  begin(queue_, id);
+  queue_.ended(id, JobEvent::kWorkerDone);
   EXPECT_EQ(get("/v1/results?state=done").json["rows"][0]["summary"]["n_rods"], 7);
 }
 
@@ -251,8 +251,8 @@ TEST_F(ApiTest, JobsAreHeldResumedRetriedAndPutFirst) {
   EXPECT_EQ(queue_.next(1).at(0).id, ids[3]);
   EXPECT_EQ(post("/v1/jobs/" + ids[3] + "/priority", R"({"priority": "high"})").status, 400);
   EXPECT_EQ(post("/v1/jobs/" + ids[3] + "/priority", R"({"prio": 5})").status, 400);
-  queue_.begin(ids[0]);
-  queue_.finish(ids[0], JobState::kFailed, "why");
+  begin(queue_, ids[0]);
+  queue_.ended(ids[0], JobEvent::kWorkerFailed, "why");
   queue_.cancel(ids[2]);
   EXPECT_EQ(post("/v1/sweeps/s1/resume").json.dump(), R"({"resumed":0})");
   EXPECT_EQ(post("/v1/sweeps/s1/retry").json.dump(), R"({"retried":2})");
@@ -302,10 +302,10 @@ TEST_F(ApiTest, TimeLimitsAreTakenAndShown) {
   EXPECT_EQ(job["time_limit_s"], 7200.5);
   EXPECT_EQ(job["wall_s"], 0.0);
   const std::string id = job["id"];
-  queue_.begin(id);
+  begin(queue_, id);
   queue_.add_wall(std::vector{std::pair(id, std::chrono::milliseconds(1500))});
   queue_.time_out(id);
-  queue_.stopped(id, "checkpoint");
+  queue_.ended(id, JobEvent::kWorkerStopped, "checkpoint");
   const Json ended = get("/v1/jobs?state=timed%20out").json["jobs"][0];
   EXPECT_EQ(ended["state"], "timed out");
   EXPECT_EQ(ended["wall_s"], 1.5);
@@ -368,11 +368,11 @@ TEST_F(ApiTest, CleaningRemovesWhatFitsAndWhatItIsAllowedTo) {
   std::filesystem::create_directories(runs / unknown);
   std::filesystem::create_directories(runs / "notes");
   std::filesystem::create_directory_symlink(directory_.path(), runs / std::string(16, '8'));
-  queue_.begin(ids[0]);
-  queue_.finish(ids[0], JobState::kFailed, "why");
+  begin(queue_, ids[0]);
+  queue_.ended(ids[0], JobEvent::kWorkerFailed, "why");
   queue_.cancel(ids[1]);
-  queue_.begin(ids[2]);
-  queue_.finish(ids[2], JobState::kDone, "");
+  begin(queue_, ids[2]);
+  queue_.ended(ids[2], JobEvent::kWorkerDone);
 
   const Json dry = post("/v1/clean", R"({"dry_run": true})").json;
   ASSERT_EQ(dry["runs"].size(), 3U) << dry;
@@ -481,7 +481,7 @@ TEST_F(ApiTest, SweepsAreFoundByIdAndByName) {
 TEST_F(ApiTest, JobsAreFilteredBySweepAndState) {
   const auto ids = submit_four("first");
   submit({{"text", "{}"}, {"name", "plain"}});
-  queue_.begin(ids[2]);
+  begin(queue_, ids[2]);
   EXPECT_EQ(get("/v1/jobs").json["jobs"].size(), 5U);
   EXPECT_EQ(get("/v1/jobs?sweep=first").json["jobs"].size(), 4U);
   EXPECT_EQ(get("/v1/jobs?sweep=s2").json["jobs"].size(), 1U);
@@ -519,7 +519,7 @@ void write_progress(const std::filesystem::path& file) {
 
 TEST_F(ApiTest, ARunningJobShowsItsProgress) {
   const auto ids = submit_four();
-  queue_.begin(ids[0]);
+  begin(queue_, ids[0]);
   EXPECT_TRUE(get("/v1/jobs/" + ids[0]).json["job"]["progress"].is_null());
   const auto file = directory_ / "runs" / ids[0] / "progress.json";
   write_progress(file);
@@ -527,8 +527,8 @@ TEST_F(ApiTest, ARunningJobShowsItsProgress) {
   EXPECT_EQ(get("/v1/sweeps/s1").json["sweep"]["progress"], 0.125);
   EXPECT_EQ(get("/v1/sweeps/s1").json["sweep"]["eta_s"], -1.0) << "nothing is known of the queued ones yet";
 
-  queue_.begin(ids[1]);
-  queue_.finish(ids[1], JobState::kDone, "");
+  begin(queue_, ids[1]);
+  queue_.ended(ids[1], JobEvent::kWorkerDone);
   queue_.cancel(ids[2]);
   queue_.cancel(ids[3]);
   const Json sweep = get("/v1/sweeps/s1").json["sweep"];
@@ -547,7 +547,7 @@ void set_age(const std::filesystem::path& file, std::chrono::seconds age) {
 // Until the daemon looks at its worker, or Slurm's task has told, a run that is done is `running` still.
 TEST_F(ApiTest, ProgressNeverFallsWhileTheEndOfARunIsNotSeenYet) {
   const auto ids = submit_four();
-  queue_.begin(ids[0]);
+  begin(queue_, ids[0]);
   const auto folder = directory_ / "runs" / ids[0];
   std::filesystem::create_directories(folder);
   write_text(folder / "scene.json", "{}");
@@ -567,17 +567,17 @@ TEST_F(ApiTest, ProgressNeverFallsWhileTheEndOfARunIsNotSeenYet) {
 
 TEST_F(ApiTest, WhatARunHasDoneCountsWhileItIsHandedOn) {
   const auto ids = submit_four();
-  queue_.begin(ids[0]);
+  begin(queue_, ids[0]);
   write_progress(directory_ / "runs" / ids[0] / "progress.json");
   EXPECT_EQ(get("/v1/sweeps/s1").json["sweep"]["progress"], 0.125);
-  queue_.stopped(ids[0], "its task is over");
+  queue_.ended(ids[0], JobEvent::kWorkerStopped, "its task is over");
   EXPECT_EQ(get("/v1/sweeps/s1").json["sweep"]["progress"], 0.125);
   EXPECT_EQ(get("/v1/sweeps").json["sweeps"][0]["progress"], 0.125);
 }
 
 TEST_F(ApiTest, ARunThatTellsOfItsWorkDoesNotWaitForItsTurn) {
   const auto ids = submit_four();
-  queue_.begin(ids[0]);
+  begin(queue_, ids[0]);
   queue_.set_notes(std::vector{std::pair{ids[0], std::string("waits as Slurm job 7_0 (Priority)")}});
   const auto reason = [&] { return get("/v1/jobs/" + ids[0]).json["job"]["reason"]; };
   const auto folder = directory_ / "runs" / ids[0];
@@ -594,10 +594,10 @@ TEST_F(ApiTest, ARunThatTellsOfItsWorkDoesNotWaitForItsTurn) {
 // As in a cluster, where runs that are handed over wait for nodes.
 TEST_F(ApiTest, RunsThatWaitElsewhereCountAsWaitingForThoseAtWork) {
   const auto ids = submit_four();
-  queue_.begin(ids[0]);
+  begin(queue_, ids[0]);
   queue_.add_wall(std::vector{std::pair{ids[0], std::chrono::milliseconds(30'000)}});
-  queue_.finish(ids[0], JobState::kDone, "");
-  for (const auto& id : {ids[1], ids[2], ids[3]}) queue_.begin(id);
+  queue_.ended(ids[0], JobEvent::kWorkerDone);
+  for (const auto& id : {ids[1], ids[2], ids[3]}) begin(queue_, id);
   EXPECT_EQ(get("/v1/sweeps/s1").json["sweep"]["eta_s"], -1.0) << "none is at work";
   const auto file = directory_ / "runs" / ids[1] / "progress.json";
   write_progress(file);
@@ -620,10 +620,10 @@ TEST_F(ApiTest, ALogIsReadPieceByPiece) {
 
 TEST_F(ApiTest, ResultsAreARowPerJob) {
   const auto ids = submit_four();
-  queue_.begin(ids[0]);
+  begin(queue_, ids[0]);
   std::filesystem::create_directories(directory_ / "runs" / ids[0]);
   write_text(directory_ / "runs" / ids[0] / "summary.json", done_summary(ids[0]));
-  queue_.finish(ids[0], JobState::kDone, "");
+  queue_.ended(ids[0], JobEvent::kWorkerDone);
   const Response results = get("/v1/results?sweep=four");
   ASSERT_EQ(results.json["rows"].size(), 4U);
   EXPECT_EQ(results.json["rows"][0]["job"], ids[0]);
@@ -635,7 +635,7 @@ TEST_F(ApiTest, ResultsAreARowPerJob) {
 
 TEST_F(ApiTest, CancelIsOnTheDiskWhenItAnswersAndMayBeRepeated) {
   const auto ids = submit_four();
-  queue_.begin(ids[0]);
+  begin(queue_, ids[0]);
   EXPECT_EQ(post("/v1/jobs/" + ids[1] + "/cancel").json.dump(), R"({"cancelled":1})");
   EXPECT_EQ(queue_.job(ids[1])->state, JobState::kCancelled);
   EXPECT_EQ(post("/v1/jobs/" + ids[1] + "/cancel").json.dump(), R"({"cancelled":0})");
@@ -852,10 +852,10 @@ TEST_F(ApiTest, ARunThatStartsFromAnotherWaitsForIt) {
   const Json job = submit({{"text", scene("10")}, {"name", "second"}}).json["jobs"][0];
   EXPECT_EQ(job["state"], "queued");
   EXPECT_EQ(job["reason"], "waits for " + parent);
-  EXPECT_FALSE(queue_.begin(job["id"]));
-  queue_.begin(parent);
-  queue_.finish(parent, JobState::kDone, "");
-  EXPECT_TRUE(queue_.begin(job["id"]));
+  EXPECT_FALSE(begin(queue_, job["id"]));
+  begin(queue_, parent);
+  queue_.ended(parent, JobEvent::kWorkerDone);
+  EXPECT_TRUE(begin(queue_, job["id"]));
 
   const std::string unknown = R"({"start": {"run": "0123456789abcdef", "time": 10}})";
   EXPECT_THAT(submit({{"text", unknown}}).error(), HasSubstr("no run 0123456789abcdef is known here"));
@@ -910,8 +910,8 @@ TEST_F(ApiTest, ASweepGetsMoreReplicasAsIfSubmittedSo) {
 
 TEST_F(ApiTest, AnExtendedRunKeepsItsResultsAndShowsNoFormerProgress) {
   const auto ids = submit_four();
-  queue_.begin(ids[0]);
-  queue_.finish(ids[0], JobState::kDone, "");
+  begin(queue_, ids[0]);
+  queue_.ended(ids[0], JobEvent::kWorkerDone);
   const auto folder = directory_ / "runs" / ids[0];
   std::filesystem::create_directories(folder);
   write_text(folder / "summary.json", done_summary(ids[0]));
@@ -920,7 +920,7 @@ TEST_F(ApiTest, AnExtendedRunKeepsItsResultsAndShowsNoFormerProgress) {
   const auto row = [&] { return get("/v1/results?sweep=s1").json["rows"][0]; };
   EXPECT_EQ(row()["state"], "queued");
   EXPECT_EQ(row()["summary"]["n_rods"], 7);
-  queue_.begin(ids[0]);
+  begin(queue_, ids[0]);
   EXPECT_TRUE(get("/v1/jobs/" + ids[0]).json["job"]["progress"].is_null());
   EXPECT_EQ(get("/v1/sweeps/s1").json["sweep"]["progress"], 0.0);
   // stopped on the way: partial while it may go on, all that there is once it was cancelled
@@ -935,7 +935,7 @@ TEST_F(ApiTest, AnExtendedRunKeepsItsResultsAndShowsNoFormerProgress) {
   EXPECT_EQ(row()["summary"]["n_rods"], 7);
   write_text(folder / "summary.json", stopped);
   queue_.cancel(ids[0]);
-  queue_.stopped(ids[0], "checkpoint");
+  queue_.ended(ids[0], JobEvent::kWorkerStopped, "checkpoint");
   EXPECT_EQ(row()["state"], "cancelled");
   EXPECT_EQ(row()["summary"]["exit"]["state"], "stopped");
 }

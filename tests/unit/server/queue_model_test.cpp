@@ -9,13 +9,15 @@
 #include <map>
 #include <memory>
 
-#include "server/queue.h"
+#include "server/queue/queue.h"
 #include "tests/unit/server/support.h"
 
 namespace shaken::server {
 namespace {
 
 using enum JobState;
+
+enum class Hold { kNone, kRequest, kRoom, kOthers, kRule };
 
 struct ModelJob {
   JobState state = kQueued;
@@ -30,6 +32,24 @@ struct ModelJob {
   int scene = 0;        ///< as submitted, or which it was extended to
   bool longer = false;  ///< its worker does not know of that
 };
+
+JobPhase phase_of(const ModelJob& job) {
+  static const std::map<JobState, JobPhase> kEnds{{kQueued, JobPhase::kQueued},     {kRunning, JobPhase::kRunning},
+                                                  {kDone, JobPhase::kDone},         {kFailed, JobPhase::kFailed},
+                                                  {kTimedOut, JobPhase::kTimedOut}, {kCancelled, JobPhase::kCancelled}};
+  static const std::map<Hold, JobPhase> kHolds{{Hold::kRequest, JobPhase::kHeldOnRequest},
+                                               {Hold::kRoom, JobPhase::kHeldForRoom},
+                                               {Hold::kOthers, JobPhase::kHeldForOthers},
+                                               {Hold::kRule, JobPhase::kHeldByRule}};
+  static const std::map<JobState, JobPhase> kStops{{kQueued, JobPhase::kStopToQueue},
+                                                   {kRunning, JobPhase::kStopToLast},
+                                                   {kCancelled, JobPhase::kStopToCancel},
+                                                   {kHeld, JobPhase::kStopToHold},
+                                                   {kTimedOut, JobPhase::kStopToTimeOut}};
+  return job.state == kHeld       ? kHolds.at(job.hold)
+         : job.state == kStopping ? kStops.at(job.after_stop)
+                                  : kEnds.at(job.state);
+}
 
 /// A sweep of two jobs at most, one of which may be another's, too.
 struct ModelSweep {
@@ -72,6 +92,14 @@ constexpr int kOperations = 25;
 /// As many crashes in a row are forgiven.
 constexpr std::array<std::chrono::milliseconds, 2> kPauses{};
 constexpr std::string_view kDigits = "abcd";
+
+bool may_become(JobState from, JobState to) {
+  if (from == kQueued) return to != kQueued && to != kStopping && to != kDone;
+  if (from == kHeld) return to == kQueued || to == kCancelled;
+  if (from == kRunning) return to == kStopping || to == kDone || to == kFailed || to == kQueued || to == kHeld;
+  if (from == kStopping) return to != kStopping && to != kRunning;
+  return to == kQueued || to == kCancelled;
+}
 
 bool has_no_result(JobState state) { return state == kFailed || state == kTimedOut || state == kCancelled; }
 
@@ -304,7 +332,7 @@ void apply(Operation operation, char digit, int priority, std::unique_ptr<Queue>
     }
     case Operation::kGiveWay:
       if (!known) return;
-      RC_ASSERT(queue->give_way(id) == model.gives_way(digit));
+      RC_ASSERT(queue->preempt(id) == model.gives_way(digit));
       if (model.gives_way(digit)) model.ask_to_stop(digit, kRunning);
       return;
     case Operation::kTimeOut:
@@ -313,7 +341,7 @@ void apply(Operation operation, char digit, int priority, std::unique_ptr<Queue>
       model.ask_to_stop(digit, kTimedOut);
       return;
     case Operation::kBegin: {
-      const auto attempt = queue->begin(id);
+      const auto attempt = begin(*queue, id);
       const bool begins = known && model.begins(digit);
       RC_ASSERT(attempt.has_value() == begins);
       if (!begins) return;
@@ -327,13 +355,13 @@ void apply(Operation operation, char digit, int priority, std::unique_ptr<Queue>
     case Operation::kFail: {
       if (!model.active(digit)) return;
       const JobState end = operation == Operation::kDone ? kDone : kFailed;
-      queue->finish(id, end, "");
+      queue->ended(id, end == kDone ? JobEvent::kWorkerDone : JobEvent::kWorkerFailed);
       model.finish(digit, end);
       return;
     }
     case Operation::kStopped:
       if (!model.active(digit)) return;
-      queue->stopped(id, "stopped");
+      queue->ended(id, JobEvent::kWorkerStopped, "stopped");
       model.stop(digit);
       return;
     case Operation::kCancel:
@@ -359,12 +387,12 @@ void apply(Operation operation, char digit, int priority, std::unique_ptr<Queue>
       return;
     case Operation::kResume:
     case Operation::kRetry:
-      queue->release(id, operation == Operation::kRetry);
+      operation == Operation::kRetry ? queue->retry(id) : queue->resume(id);
       if (known) model.release(digit, operation == Operation::kRetry);
       return;
     case Operation::kResumeSweep:
       if (!known) return;
-      queue->release(std::int64_t{model.jobs_[digit].sweep}, false);
+      queue->resume(std::int64_t{model.jobs_[digit].sweep});
       model.release_sweep(model.jobs_[digit].sweep);
       return;
     case Operation::kWorkerCrashes:
@@ -378,7 +406,7 @@ void apply(Operation operation, char digit, int priority, std::unique_ptr<Queue>
       model.find_no_room(digit);
       return;
     case Operation::kRoom:
-      queue->there_is_room(1'000'000);
+      queue->release_for_room(1'000'000);
       for (auto& [each, job] : model.jobs_) {
         if (job.state == kHeld && job.hold == Hold::kRoom) model.become(each, kQueued);
       }
@@ -417,10 +445,10 @@ TEST(QueueModelTest, EveryHistoryEndsAsTheModelSays) {
     for (const auto& [operation, digit, priority] : history) {
       apply(static_cast<Operation>(operation), kDigits[static_cast<std::size_t>(digit)], priority, queue, model, file);
 
-      std::map<std::string, std::pair<JobState, int>> stored;
-      for (const Job& job : queue->jobs(std::nullopt)) stored[job.id] = {job.state, job.attempt};
-      std::map<std::string, std::pair<JobState, int>> expected;
-      for (const auto& [each, job] : model.jobs_) expected[std::string(16, each)] = {job.state, job.attempt};
+      std::map<std::string, std::pair<JobPhase, int>> stored;
+      for (const Job& job : queue->jobs(std::nullopt)) stored[job.id] = {job.phase, job.attempt};
+      std::map<std::string, std::pair<JobPhase, int>> expected;
+      for (const auto& [each, job] : model.jobs_) expected[std::string(16, each)] = {phase_of(job), job.attempt};
       RC_ASSERT(stored == expected);
       std::string order;
       for (const Job& job : queue->next(100)) order += job.id.front();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "server/queue.h"
+#include "server/queue/queue.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -85,43 +85,43 @@ TEST_F(QueueTest, AJobOfTwoSweepsIsSeenThroughEither) {
 
 TEST_F(QueueTest, ARunningJobIsDoneWithItsAttemptCounted) {
   queue_.submit("s", 0, std::vector{new_job('a')});
-  EXPECT_EQ(queue_.begin(a_), 1);
-  EXPECT_EQ(queue_.begin(a_), std::nullopt);
-  queue_.set_pid(a_, 4711);
+  EXPECT_EQ(begin(queue_, a_), 1);
+  EXPECT_EQ(begin(queue_, a_), std::nullopt);
+  queue_.set_worker(a_, 4711);
   EXPECT_EQ(queue_.job(a_)->pid, 4711);
   EXPECT_GT(queue_.job(a_)->started, 0);
-  queue_.finish(a_, kDone, "");
+  queue_.ended(a_, JobEvent::kWorkerDone);
   const Job done = *queue_.job(a_);
   EXPECT_EQ(done.state, kDone);
   EXPECT_EQ(done.attempt, 1);
   EXPECT_EQ(done.pid, 0);
   EXPECT_GE(done.finished, done.started);
   EXPECT_THAT(transitions('a'), ElementsAre(">queued", "queued>running", "running>done"));
-  EXPECT_THROW(queue_.finish(a_, kFailed, "too late"), std::logic_error);
+  EXPECT_THROW(queue_.ended(a_, JobEvent::kWorkerFailed, "too late"), std::logic_error);
 }
 
 TEST_F(QueueTest, AFailedJobIsTriedAgainWhenAskedForAndADoneOneIsNot) {
   const std::vector<NewJob> jobs{new_job('a'), new_job('b')};
   queue_.submit("s", 0, jobs);
-  queue_.begin(a_);
-  queue_.finish(a_, kFailed, "exit 1: why");
+  begin(queue_, a_);
+  queue_.ended(a_, JobEvent::kWorkerFailed, "exit 1: why");
   EXPECT_EQ(queue_.job(a_)->reason, "exit 1: why");
-  queue_.begin(b_);
-  queue_.finish(b_, kDone, "");
+  begin(queue_, b_);
+  queue_.ended(b_, JobEvent::kWorkerDone);
 
   const Submitted again = queue_.submit("s", 0, jobs);
   EXPECT_EQ(again.n_requeued, 1);
   EXPECT_EQ(state('a'), kQueued);
   EXPECT_EQ(queue_.job(a_)->reason, "");
   EXPECT_EQ(state('b'), kDone);
-  EXPECT_EQ(queue_.begin(a_), 2);
+  EXPECT_EQ(begin(queue_, a_), 2);
 }
 
 TEST_F(QueueTest, ADoneJobWhoseResultsAreLostIsDoneAgain) {
   std::vector<NewJob> jobs{new_job('a')};
   queue_.submit("s", 0, jobs);
-  queue_.begin(a_);
-  queue_.finish(a_, kDone, "");
+  begin(queue_, a_);
+  queue_.ended(a_, JobEvent::kWorkerDone);
   jobs[0].has_results = false;
   EXPECT_EQ(queue_.submit("s", 0, jobs).n_requeued, 1);
   EXPECT_EQ(state('a'), kQueued);
@@ -129,16 +129,16 @@ TEST_F(QueueTest, ADoneJobWhoseResultsAreLostIsDoneAgain) {
 
 TEST_F(QueueTest, CancelEndsQueuedJobsAndStopsRunningOnes) {
   const auto sweep = queue_.submit("s", 0, std::vector{new_job('a'), new_job('b'), new_job('c')}).sweep;
-  queue_.begin(a_);
-  queue_.begin(b_);
-  queue_.finish(b_, kDone, "");
+  begin(queue_, a_);
+  begin(queue_, b_);
+  queue_.ended(b_, JobEvent::kWorkerDone);
   EXPECT_EQ(queue_.cancel(sweep), 2);
   EXPECT_EQ(state('a'), kStopping);
   EXPECT_EQ(state('b'), kDone);
   EXPECT_EQ(state('c'), kCancelled);
   EXPECT_EQ(queue_.cancel(sweep), 0);
 
-  queue_.stopped(a_, "checkpoint");
+  queue_.ended(a_, JobEvent::kWorkerStopped, "checkpoint");
   EXPECT_EQ(state('a'), kCancelled);
   EXPECT_EQ(queue_.job(a_)->reason, "cancelled on request");
   EXPECT_THAT(transitions('a'), ElementsAre(">queued", "queued>running", "running>stopping", "stopping>cancelled"));
@@ -155,30 +155,30 @@ TEST_F(QueueTest, CancelLeavesOtherSweepsAlone) {
 TEST_F(QueueTest, SubmittingAJobThatIsAboutToBeCancelledKeepsIt) {
   const std::vector<NewJob> jobs{new_job('a')};
   queue_.submit("s", 0, jobs);
-  queue_.begin(a_);
+  begin(queue_, a_);
   queue_.cancel(a_);
   EXPECT_EQ(queue_.submit("s", 0, jobs).n_requeued, 1);
-  queue_.stopped(a_, "checkpoint");
+  queue_.ended(a_, JobEvent::kWorkerStopped, "checkpoint");
   EXPECT_EQ(state('a'), kQueued);
 }
 
 TEST_F(QueueTest, AWorkerThatStopsUnaskedIsQueuedAgain) {
   queue_.submit("s", 0, std::vector{new_job('a')});
-  queue_.begin(a_);
-  queue_.stopped(a_, "someone sent SIGTERM");
+  begin(queue_, a_);
+  queue_.ended(a_, JobEvent::kWorkerStopped, "someone sent SIGTERM");
   EXPECT_EQ(state('a'), kQueued);
 }
 
 TEST_F(QueueTest, StoppingTheDaemonQueuesWhatRuns) {
   queue_.submit("s", 0, std::vector{new_job('a'), new_job('b'), new_job('c')});
-  queue_.begin(a_);
-  queue_.begin(b_);
+  begin(queue_, a_);
+  begin(queue_, b_);
   queue_.cancel(b_);
   queue_.stop_all();
   EXPECT_EQ(state('a'), kStopping);
   EXPECT_EQ(state('c'), kQueued);
-  queue_.stopped(a_, "checkpoint");
-  queue_.stopped(b_, "checkpoint");
+  queue_.ended(a_, JobEvent::kWorkerStopped, "checkpoint");
+  queue_.ended(b_, JobEvent::kWorkerStopped, "checkpoint");
   EXPECT_EQ(state('a'), kQueued);
   EXPECT_EQ(state('b'), kCancelled);
 }
@@ -198,15 +198,15 @@ TEST_F(QueueTest, TheNextJobIsTheOldestOfTheHighestPriority) {
 TEST_F(QueueTest, ARunWhoseSoftLimitIsOverGivesWayToThoseThatWait) {
   queue_.submit("s", 0, std::vector{new_job('a')}, {.soft_limit = std::chrono::minutes(1)});
   EXPECT_EQ(queue_.job(a_)->soft_limit, std::chrono::minutes(1));
-  queue_.begin(a_);
-  EXPECT_FALSE(queue_.give_way(a_)) << "nobody waits";
+  begin(queue_, a_);
+  EXPECT_FALSE(queue_.preempt(a_)) << "nobody waits";
   queue_.submit("low", -1, std::vector{new_job('b')});
-  EXPECT_FALSE(queue_.give_way(a_)) << "it would start again before that one";
+  EXPECT_FALSE(queue_.preempt(a_)) << "it would start again before that one";
   queue_.submit("same", 0, std::vector{new_job('c'), new_job('d')});
-  EXPECT_TRUE(queue_.give_way(a_));
+  EXPECT_TRUE(queue_.preempt(a_));
   EXPECT_EQ(state('a'), kStopping);
-  EXPECT_FALSE(queue_.give_way(a_));
-  queue_.stopped(a_, "checkpoint");
+  EXPECT_FALSE(queue_.preempt(a_));
+  queue_.ended(a_, JobEvent::kWorkerStopped, "checkpoint");
   EXPECT_EQ(state('a'), kQueued);
   queue_.submit("later", 0, std::vector{new_job('e')});
   std::string order;
@@ -217,27 +217,27 @@ TEST_F(QueueTest, ARunWhoseSoftLimitIsOverGivesWayToThoseThatWait) {
 
 TEST_F(QueueTest, NoMoreRunsGiveWayThanOthersWait) {
   queue_.submit("s", 0, std::vector{new_job('a'), new_job('b'), new_job('c')});
-  queue_.begin(a_);
-  queue_.begin(b_);
-  EXPECT_TRUE(queue_.give_way(a_));
-  EXPECT_FALSE(queue_.give_way(b_)) << "a makes room for the one that waits";
+  begin(queue_, a_);
+  begin(queue_, b_);
+  EXPECT_TRUE(queue_.preempt(a_));
+  EXPECT_FALSE(queue_.preempt(b_)) << "a makes room for the one that waits";
   queue_.submit("s2", 0, std::vector{new_job('d')});
-  EXPECT_TRUE(queue_.give_way(b_));
+  EXPECT_TRUE(queue_.preempt(b_));
 }
 
 TEST_F(QueueTest, WhatIsAskedOfARunThatGivesWayGoesFirst) {
   queue_.submit("s", 0, std::vector{new_job('a'), new_job('b')});
-  queue_.begin(a_);
-  ASSERT_TRUE(queue_.give_way(a_));
+  begin(queue_, a_);
+  ASSERT_TRUE(queue_.preempt(a_));
   EXPECT_EQ(queue_.hold(a_), 1);
-  queue_.stopped(a_, "checkpoint");
+  queue_.ended(a_, JobEvent::kWorkerStopped, "checkpoint");
   EXPECT_EQ(state('a'), kHeld);
 }
 
 TEST_F(QueueTest, ARunIsTimedOutAndARetryGivesItAsMuchTimeAgain) {
   const std::vector<NewJob> jobs{new_job('a')};
   const auto sweep = queue_.submit("s", 0, jobs, {.time_limit = std::chrono::hours(2)}).sweep;
-  queue_.begin(a_);
+  begin(queue_, a_);
   queue_.add_wall(std::vector{std::pair(a_, std::chrono::milliseconds(7'200'000))});
   queue_.time_out(a_);
   EXPECT_EQ(state('a'), kStopping);
@@ -247,17 +247,17 @@ TEST_F(QueueTest, ARunIsTimedOutAndARetryGivesItAsMuchTimeAgain) {
   EXPECT_EQ(queue_.job(a_)->reason, "it ran for 2 h 00 min, its time limit; `shaken retry` gives it as much again");
   EXPECT_GT(queue_.job(a_)->finished, 0);
   EXPECT_EQ(queue_.job(a_)->wall, std::chrono::hours(2));
-  EXPECT_EQ(queue_.release(sweep, false), 0) << "resume is for what is held";
-  EXPECT_EQ(queue_.release(sweep, true), 1);
+  EXPECT_EQ(queue_.resume(sweep), 0) << "resume is for what is held";
+  EXPECT_EQ(queue_.retry(sweep), 1);
   EXPECT_EQ(queue_.job(a_)->wall.count(), 0);
   EXPECT_EQ(queue_.job(a_)->time_limit, std::chrono::hours(2));
 
   // Asked for again while it stops: the time begins anew as well.
-  queue_.begin(a_);
+  begin(queue_, a_);
   queue_.add_wall(std::vector{std::pair(a_, std::chrono::milliseconds(7'200'000))});
   queue_.time_out(a_);
   EXPECT_EQ(queue_.submit("s", 0, jobs, {.time_limit = std::chrono::hours(3)}).n_requeued, 1);
-  queue_.stopped(a_, "checkpoint");
+  queue_.ended(a_, JobEvent::kWorkerStopped, "checkpoint");
   EXPECT_EQ(state('a'), kQueued);
   EXPECT_EQ(queue_.job(a_)->wall.count(), 0);
   EXPECT_EQ(queue_.job(a_)->time_limit, std::chrono::hours(3));
@@ -266,7 +266,7 @@ TEST_F(QueueTest, ARunIsTimedOutAndARetryGivesItAsMuchTimeAgain) {
 TEST_F(QueueTest, APauseBegunBeforeTheClockWasSetBackIsOver) {
   const std::array pauses{std::chrono::milliseconds(60'000)};
   queue_.submit("s", 0, std::vector{new_job('a')});
-  queue_.begin(a_);
+  begin(queue_, a_);
   queue_.crashed(a_, "crash", false, pauses);
   EXPECT_THAT(queue_.next(1), IsEmpty());
   const auto move_clock_back = [&](std::int64_t hours) {
@@ -295,8 +295,8 @@ TEST_F(QueueTest, ALongerSceneExtendsTheJobThatIsThere) {
   EXPECT_EQ(queue_.submit("s", 0, std::vector{job_of("2.5")}).n_extended, 0) << "it is longer already";
   EXPECT_EQ(seconds_asked(queue_, short_one.id), 3);
 
-  queue_.begin(short_one.id);
-  queue_.finish(short_one.id, kDone, "");
+  begin(queue_, short_one.id);
+  queue_.ended(short_one.id, JobEvent::kWorkerDone);
   EXPECT_EQ(queue_.submit("s", 0, std::vector{job_of("1")}).n_extended, 0);
   EXPECT_EQ(queue_.job(short_one.id)->state, kDone);
   const Submitted longer = queue_.submit("s", 0, std::vector{job_of("4", false)});
@@ -309,31 +309,47 @@ TEST_F(QueueTest, ALongerSceneExtendsTheJobThatIsThere) {
 TEST_F(QueueTest, AJobThatRunsIsExtendedWhenItsWorkerIsDone) {
   const NewJob job = job_of("2");
   queue_.submit("s", 0, std::vector{job});
-  queue_.begin(job.id);
+  begin(queue_, job.id);
   EXPECT_EQ(queue_.extend(std::vector{std::pair{job.id, job_of("4").scene}}), 1);
   EXPECT_EQ(queue_.job(job.id)->state, kRunning);
-  queue_.finish(job.id, kDone, "");
+  queue_.ended(job.id, JobEvent::kWorkerDone);
   EXPECT_EQ(queue_.job(job.id)->state, kQueued);
-  queue_.begin(job.id);
-  queue_.finish(job.id, kDone, "");
+  begin(queue_, job.id);
+  queue_.ended(job.id, JobEvent::kWorkerDone);
   EXPECT_EQ(queue_.job(job.id)->state, kDone) << "the second worker knew";
   // asked for while it is to stop
   queue_.extend(std::vector{std::pair{job.id, job_of("5").scene}});
-  queue_.begin(job.id);
+  begin(queue_, job.id);
   queue_.hold(job.id);
   queue_.extend(std::vector{std::pair{job.id, job_of("6").scene}});
-  queue_.finish(job.id, kDone, "");
+  queue_.ended(job.id, JobEvent::kWorkerDone);
   EXPECT_EQ(queue_.job(job.id)->state, kHeld);
 }
 
-TEST_F(QueueTest, ASceneThatHasBecomeLongerMeanwhileIsNotBegun) {
+TEST_F(QueueTest, AJobIsLaunchedWithTheSceneOfThatMoment) {
   const NewJob job = job_of("2");
   queue_.submit("s", 0, std::vector{job});
-  const std::string scene = queue_.scene(job.id);
   queue_.extend(std::vector{std::pair{job.id, job_of("4").scene}});
-  EXPECT_FALSE(queue_.begin(job.id, &scene));
-  const std::string longer = queue_.scene(job.id);
-  EXPECT_TRUE(queue_.begin(job.id, &longer));
+  std::string scene;
+  const auto prepare = [&](const std::string& given) {
+    scene = given;
+    return Obstacle{};
+  };
+  EXPECT_EQ(queue_.launch(job.id, prepare)->attempt, 1);
+  EXPECT_EQ(scene, queue_.scene(job.id));
+  EXPECT_FALSE(queue_.job(job.id)->longer);
+}
+
+TEST_F(QueueTest, AJobThatCannotBePreparedStaysQueuedForAPause) {
+  queue_.submit("s", 0, std::vector{new_job('a')});
+  EXPECT_FALSE(queue_.launch(a_, [](const std::string&) {
+    return Obstacle{.delay = "the directory is in use", .pause = std::chrono::minutes(1)};
+  }));
+  EXPECT_EQ(state('a'), kQueued);
+  EXPECT_EQ(queue_.job(a_)->attempt, 0);
+  EXPECT_EQ(queue_.job(a_)->reason, "the directory is in use");
+  EXPECT_THAT(queue_.next(1), IsEmpty());
+  EXPECT_FALSE(queue_.launch(a_));
 }
 
 TEST_F(QueueTest, ACancelledJobIsDoneAgainForAsLongAsItIsAskedForThen) {
@@ -342,7 +358,7 @@ TEST_F(QueueTest, ACancelledJobIsDoneAgainForAsLongAsItIsAskedForThen) {
   queue_.cancel(job.id);
   EXPECT_EQ(queue_.submit("s", 0, std::vector{job_of("10")}).n_requeued, 1);
   EXPECT_EQ(seconds_asked(queue_, job.id), 10) << "1000 was a slip";
-  queue_.begin(job.id);
+  begin(queue_, job.id);
   queue_.cancel(job.id);
   EXPECT_EQ(queue_.submit("s", 0, std::vector{job_of("5")}).n_requeued, 1) << "it is about to be cancelled";
   EXPECT_EQ(seconds_asked(queue_, job.id), 5);
@@ -351,18 +367,19 @@ TEST_F(QueueTest, ACancelledJobIsDoneAgainForAsLongAsItIsAskedForThen) {
 TEST_F(QueueTest, ALongerSubmissionReachesAWorkerThatIsBeingCancelledAndEndsAllTheSame) {
   const NewJob job = job_of("10");
   queue_.submit("s", 0, std::vector{job});
-  queue_.begin(job.id);
+  begin(queue_, job.id);
   queue_.cancel(job.id);
   queue_.submit("s", 0, std::vector{job_of("20")});
-  queue_.finish(job.id, kDone, "");
+  queue_.ended(job.id, JobEvent::kWorkerDone);
   EXPECT_EQ(queue_.job(job.id)->state, kQueued) << "10 s are done, 20 s are asked for";
 }
 
 TEST_F(QueueTest, OnlyAQueuedJobIsEndedWithoutAnAttempt) {
   queue_.submit("s", 0, std::vector{new_job('a'), new_job('b')});
   queue_.hold(b_);
-  queue_.end_queued(a_, kFailed, "refused");
-  queue_.end_queued(b_, kFailed, "refused");
+  const auto refuse = [](const std::string&) { return Obstacle{.failure = "refused"}; };
+  EXPECT_FALSE(queue_.launch(a_, refuse));
+  EXPECT_FALSE(queue_.launch(b_, refuse));
   EXPECT_EQ(state('a'), kFailed);
   EXPECT_EQ(state('b'), kHeld) << "since it was listed, it was held";
 }
@@ -370,11 +387,11 @@ TEST_F(QueueTest, OnlyAQueuedJobIsEndedWithoutAnAttempt) {
 TEST_F(QueueTest, ExtendingAFailedJobLeavesItFailed) {
   const NewJob job = job_of("2");
   queue_.submit("s", 0, std::vector{job});
-  queue_.begin(job.id);
-  queue_.finish(job.id, kFailed, "trouble");
+  begin(queue_, job.id);
+  queue_.ended(job.id, JobEvent::kWorkerFailed, "trouble");
   EXPECT_EQ(queue_.extend(std::vector{std::pair{job.id, job_of("4").scene}}), 1);
   EXPECT_EQ(queue_.job(job.id)->state, kFailed);
-  EXPECT_EQ(queue_.release(job.id, true), 1);
+  EXPECT_EQ(queue_.retry(job.id), 1);
   EXPECT_EQ(seconds_asked(queue_, job.id), 4);
 }
 
@@ -392,8 +409,8 @@ TEST_F(QueueTest, IdsAreFoundByTheirBeginning) {
 TEST_F(QueueTest, TheJournalTellsTimeAndCause) {
   queue_.submit("s", 0, std::vector{new_job('a')});
   const std::int64_t before = queue_.last_change();
-  queue_.begin(a_);
-  queue_.finish(a_, kFailed, "exit 1: why");
+  begin(queue_, a_);
+  queue_.ended(a_, JobEvent::kWorkerFailed, "exit 1: why");
   const auto changes = queue_.changes_since(before, 10);
   ASSERT_EQ(changes.size(), 2U);
   EXPECT_EQ(changes[1].to, "failed");
@@ -433,8 +450,8 @@ TEST_F(QueueTest, ThreadsMayWorkOnItTogether) {
 // What kill -9 leaves behind: the files as they are while the queue is open.
 TEST_F(QueueTest, AfterAKillEverythingAcknowledgedIsThere) {
   queue_.submit("s", 0, std::vector{new_job('a'), new_job('b'), new_job('c'), new_job('d')});
-  queue_.begin(a_);
-  queue_.begin(b_);
+  begin(queue_, a_);
+  begin(queue_, b_);
   queue_.cancel(b_);
   queue_.cancel(std::string(16, 'c'));
   std::filesystem::create_directory(directory_ / "copy");
@@ -450,7 +467,7 @@ TEST_F(QueueTest, AfterAKillEverythingAcknowledgedIsThere) {
   EXPECT_EQ(copy.job(b_)->state, kCancelled);
   EXPECT_EQ(copy.job(std::string(16, 'c'))->state, kCancelled);
   EXPECT_EQ(copy.job(std::string(16, 'd'))->state, kQueued);
-  EXPECT_EQ(copy.begin(a_), 2);
+  EXPECT_EQ(begin(copy, a_), 2);
   EXPECT_THAT(copy.changes_since(queue_.last_change(), 1).front().cause, HasSubstr("without warning"));
 }
 
@@ -549,14 +566,13 @@ TEST_P(OldQueueTest, IsTakenOver) {
     ASSERT_EQ(queue.jobs(1).size(), 2U);
     EXPECT_EQ(queue.jobs(1)[0].state, kQueued);
     EXPECT_EQ(queue.jobs(1)[0].priority, 3);
-    EXPECT_EQ(queue.jobs(1)[0].hold, Hold::kNone);
+    EXPECT_EQ(queue.jobs(1)[0].phase, JobPhase::kQueued);
     EXPECT_EQ(queue.jobs(1)[0].time_limit.count(), 0);
     EXPECT_EQ(queue.hold(1), 1);
-    EXPECT_EQ(queue.release(1, false), 1);
+    EXPECT_EQ(queue.resume(1), 1);
     EXPECT_EQ(queue.mean_duration(1), 2.0) << "from the times of its last attempt";
     queue.submit("new", 3, std::vector{new_job('c')});
     EXPECT_EQ(queue.next(2).at(0).id, std::string(16, 'a')) << "what was there first goes first";
-    EXPECT_TRUE(queue.has_former_ids());
   }
 }
 

@@ -62,8 +62,8 @@ class PublisherTest : public testing::Test {
 TEST_F(PublisherTest, EveryChangeOfStateIsSent) {
   start();
   queue_.submit("s", 0, std::vector{new_job('a', "rods.length=2.5")});
-  queue_.begin(a_);
-  queue_.finish(a_, JobState::kFailed, "exit 1: why");
+  begin(queue_, a_);
+  queue_.ended(a_, JobEvent::kWorkerFailed, "exit 1: why");
   const Recording recording = stop();
   std::vector<std::string> states;
   std::int64_t sequence = 0;
@@ -87,8 +87,8 @@ TEST_F(PublisherTest, NoJobIsSentAheadOfItsChanges) {
     NewJob job = new_job('a');
     job.id = fmt::format("{:016x}", n);
     queue_.submit("s", 0, std::vector{job});
-    queue_.begin(job.id);
-    queue_.finish(job.id, JobState::kDone, "");
+    begin(queue_, job.id);
+    queue_.ended(job.id, JobEvent::kWorkerDone);
   }
   const std::vector<std::string> order{"queued", "running", "done"};
   std::map<std::string, std::ptrdiff_t> reached;
@@ -103,7 +103,7 @@ TEST_F(PublisherTest, NoJobIsSentAheadOfItsChanges) {
 
 TEST_F(PublisherTest, ARunningJobIsSentAgainAndAgainWithItsProgress) {
   queue_.submit("s", 0, std::vector{new_job('a')});
-  queue_.begin(a_);
+  begin(queue_, a_);
   std::filesystem::create_directories(directory_ / "runs" / a_);
   write_text(directory_ / "runs" / a_ / "progress.json",
              R"({"state": "running", "message": "", "pid": 1, "n_rods": 9, "fraction": 0.5, "sim_time_s": 1,
@@ -126,8 +126,8 @@ TEST_F(PublisherTest, ARunningJobIsSentAgainAndAgainWithItsProgress) {
 
 TEST_F(PublisherTest, TheHeartbeatCountsTheJobs) {
   queue_.submit("s", 0, std::vector{new_job('a'), new_job('b'), new_job('c'), new_job('d')});
-  queue_.begin(a_);
-  queue_.begin(std::string(16, 'b'));
+  begin(queue_, a_);
+  begin(queue_, std::string(16, 'b'));
   queue_.cancel(std::string(16, 'b'));  // stopping: its worker runs still
   queue_.cancel(std::string(16, 'c'));
   start();

@@ -152,7 +152,7 @@ TEST_F(SupervisorTest, ARefusalHoldsForAllThatAsksForTheSameAndForNothingElse) {
   step();
   EXPECT_EQ(job('a').state, kRunning) << "the same jobs, asked for anew with other options";
   EXPECT_EQ(job('d').state, kQueued);
-  EXPECT_EQ(queue_.release(id('e'), true), 0) << "nothing keeps it";
+  EXPECT_EQ(queue_.retry(id('e')), 0) << "nothing keeps it";
 }
 
 TEST_F(SupervisorTest, WhatWaitsForAnExecutorInTroubleSaysSo) {
@@ -178,8 +178,8 @@ TEST_F(SupervisorTest, ARetryEndsThePauseAfterARefusal) {
   for (int i = 0; i < 5; ++i) supervisor.step();
   EXPECT_EQ(job('a').attempt, 1);
   executor.report = {};
-  EXPECT_EQ(queue_.release(id('a'), false), 0) << "only a retry does";
-  EXPECT_EQ(queue_.release(id('a'), true), 1);
+  EXPECT_EQ(queue_.resume(id('a')), 0) << "only a retry does";
+  EXPECT_EQ(queue_.retry(id('a')), 1);
   EXPECT_EQ(job('a').reason, "");
   supervisor.step();
   EXPECT_EQ(job('a').state, kRunning);
@@ -340,8 +340,7 @@ TEST_F(SupervisorTest, WithoutRoomAJobIsHeldUntilThereIs) {
   submit('a', "room");
   ASSERT_TRUE(step_until('a', kHeld));
   EXPECT_THAT(job('a').reason, StartsWith("checkpoint.bin.tmp: No space left on device. Goes on by itself once "));
-  EXPECT_EQ(job('a').hold, Hold::kRoom);
-  EXPECT_GT(job('a').needed_bytes, 0);
+  EXPECT_EQ(job('a').phase, JobPhase::kHeldForRoom);
   EXPECT_TRUE(step_until([&] { return job('a').attempt == 2; })) << "this disk has room";
 }
 
@@ -367,7 +366,7 @@ TEST_F(SupervisorTest, HoldingLetsTheWorkerStopAndReleasingGoesOn) {
   for (int i = 0; i < 5; ++i) supervisor_.step();
   EXPECT_EQ(job('a').state, kHeld) << "room does not release it";
   std::filesystem::remove(directory('a') / "up");
-  EXPECT_EQ(queue_.release(id('a'), false), 1);
+  EXPECT_EQ(queue_.resume(id('a')), 1);
   EXPECT_TRUE(step_until_up('a'));
 }
 

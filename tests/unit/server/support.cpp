@@ -67,6 +67,11 @@ esac
   return file;
 }
 
+std::optional<int> begin(Queue& queue, const std::string& id) {
+  const auto launched = queue.launch(id);
+  return launched ? std::optional(launched->attempt) : std::nullopt;
+}
+
 NewJob new_job(char digit, const std::string& label) {
   return {std::string(16, digit), "{\"job\": \"" + std::string(1, digit) + "\"}\n", label, "{}", 1, std::nullopt};
 }

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "base/scratch_folder.h"
-#include "server/queue.h"
+#include "server/queue/queue.h"
 
 namespace shaken::server {
 
@@ -30,6 +30,9 @@ std::string read_text(const std::filesystem::path& file);
 ///   deaf        runs, ignoring SIGTERM
 /// Holds DIR/lock while it runs, and makes DIR/up once it listens to signals.
 std::filesystem::path write_fake_worker(const std::filesystem::path& folder);
+
+/// Launches a job; the number of its attempt.
+std::optional<int> begin(Queue& queue, const std::string& id);
 
 /// A job named by `digit` repeated 16 times, whose label is `label`.
 NewJob new_job(char digit, const std::string& label = "done");

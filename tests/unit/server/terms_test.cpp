@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The terms of submissions: what waits for what, how many run at once, when a sweep is stopped.
-#include "server/terms.h"
+#include "server/queue/terms.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "server/queue.h"
+#include "server/queue/queue.h"
 #include "tests/unit/server/support.h"
 
 namespace shaken::server {
@@ -24,8 +24,9 @@ class TermsTest : public testing::Test {
     return queue_.submit(name.empty() ? digits : name, 0, jobs, terms).sweep;
   }
   void end(char digit, JobState state) {
-    queue_.begin(id(digit));
-    queue_.finish(id(digit), state, state == kFailed ? "why" : "");
+    begin(queue_, id(digit));
+    queue_.ended(id(digit), state == kFailed ? JobEvent::kWorkerFailed : JobEvent::kWorkerDone,
+                 state == kFailed ? "why" : "");
   }
   /// What may start now, in its order.
   std::string next() const {
@@ -46,15 +47,15 @@ class TermsTest : public testing::Test {
 TEST_F(TermsTest, NoMoreOfASweepRunThanMay) {
   submit("abcd", {.at_most = 2});
   submit("e");
-  EXPECT_EQ(queue_.begin(id('a')), 1);
-  EXPECT_EQ(queue_.begin(id('b')), 1);
+  EXPECT_EQ(begin(queue_, id('a')), 1);
+  EXPECT_EQ(begin(queue_, id('b')), 1);
   EXPECT_EQ(next(), "e");
-  EXPECT_EQ(queue_.begin(id('c')), std::nullopt) << "also when it was looked up before";
+  EXPECT_EQ(begin(queue_, id('c')), std::nullopt) << "also when it was looked up before";
   EXPECT_EQ(job('c').reason, "as many jobs of s1 run as may at once");
   EXPECT_EQ(job('e').reason, "");
   queue_.cancel(id('a'));
   EXPECT_EQ(next(), "e") << "one that stops still runs";
-  queue_.stopped(id('a'), "checkpoint");
+  queue_.ended(id('a'), JobEvent::kWorkerStopped, "checkpoint");
   EXPECT_EQ(next(), "cde");
   EXPECT_EQ(job('c').reason, "");
   EXPECT_EQ(queue_.sweep(1)->at_most, 2);
@@ -62,17 +63,17 @@ TEST_F(TermsTest, NoMoreOfASweepRunThanMay) {
 
 TEST_F(TermsTest, ARunGivesWayToAnotherOfItsFullSweep) {
   submit("ab", {.at_most = 1});
-  queue_.begin(id('a'));
+  begin(queue_, id('a'));
   EXPECT_EQ(next(), "");
-  EXPECT_TRUE(queue_.give_way(id('a')));
-  queue_.stopped(id('a'), "checkpoint");
+  EXPECT_TRUE(queue_.preempt(id('a')));
+  queue_.ended(id('a'), JobEvent::kWorkerStopped, "checkpoint");
   EXPECT_EQ(next(), "ba");
 }
 
 TEST_F(TermsTest, AJobObeysTheTermsOfTheLastSweepThatAskedForIt) {
   submit("ab", {.at_most = 1}, "one");
   submit("ab", {}, "two");
-  queue_.begin(id('a'));
+  begin(queue_, id('a'));
   EXPECT_EQ(next(), "b");
   submit("ab", {.at_most = 1}, "two");
   EXPECT_EQ(next(), "") << "the same sweep again, on other terms";
@@ -82,7 +83,7 @@ TEST_F(TermsTest, WhatComesAfterASweepWaitsUntilItIsDone) {
   const auto first = submit("abc");
   submit("de", {.after = {first, id('c')}});
   EXPECT_EQ(next(), "abc");
-  EXPECT_EQ(queue_.begin(id('d')), std::nullopt);
+  EXPECT_EQ(begin(queue_, id('d')), std::nullopt);
   EXPECT_EQ(job('d').state, kQueued);
   EXPECT_EQ(job('d').reason, "waits for s1: 0 of 3 done, cccccccccccccccc");
   EXPECT_EQ(queue_.history(id('d')).front().cause, "submitted in s2, to come after s1, cccccccccccccccc");
@@ -114,19 +115,19 @@ TEST_F(TermsTest, WhatComesAfterSomethingThatCameToNothingIsHeld) {
     if (end_state == kCancelled) {
       queue.cancel(id('a'));
     } else {
-      queue.begin(id('a'));
-      if (end_state == kFailed) queue.finish(id('a'), kFailed, "why");
+      begin(queue, id('a'));
+      if (end_state == kFailed) queue.ended(id('a'), JobEvent::kWorkerFailed, "why");
       if (end_state == kTimedOut) queue.time_out(id('a'));
-      if (end_state == kTimedOut) queue.stopped(id('a'), "checkpoint");
+      if (end_state == kTimedOut) queue.ended(id('a'), JobEvent::kWorkerStopped, "checkpoint");
     }
     const Job held = *queue.job(id('c'));
     EXPECT_EQ(held.state, kHeld);
-    EXPECT_EQ(held.hold, Hold::kOthers);
+    EXPECT_EQ(held.phase, JobPhase::kHeldForOthers);
     EXPECT_EQ(held.reason, "it was to come after s1: 1 of 2 " + std::string(to_word(end_state)));
     EXPECT_EQ(queue.history(id('c')).back().cause, held.reason);
     EXPECT_EQ(queue.job(id('d'))->state, kQueued) << "that one may still be resumed";
-    EXPECT_EQ(queue.release(id('c'), false), 1);
-    EXPECT_EQ(queue.begin(id('c')), 1) << "to resume is to do it all the same";
+    EXPECT_EQ(queue.resume(id('c')), 1);
+    EXPECT_EQ(begin(queue, id('c')), 1) << "to resume is to do it all the same";
     // Where the end was there first.
     queue.submit("four", 0, std::vector{new_job('e')}, {.after = {id('a')}});
     EXPECT_EQ(queue.job(id('e'))->state, kHeld);
@@ -138,13 +139,13 @@ TEST_F(TermsTest, ToHoldAndResumeWhatWaitsDoesNotEndTheWaiting) {
   submit("a");
   submit("b", {.after = {id('a')}});
   queue_.hold(id('b'));
-  queue_.release(id('b'), false);
+  queue_.resume(id('b'));
   EXPECT_EQ(job('b').reason, "waits for aaaaaaaaaaaaaaaa");
   queue_.hold(id('b'));
   end('a', kFailed);
   EXPECT_EQ(job('b').reason, "held on request");
-  queue_.release(id('b'), false);
-  EXPECT_EQ(job('b').hold, Hold::kOthers);
+  queue_.resume(id('b'));
+  EXPECT_EQ(job('b').phase, JobPhase::kHeldForOthers);
   queue_.cancel(id('b'));
   submit("b");
   EXPECT_EQ(next(), "b") << "asked for anew, without a wait";
@@ -170,7 +171,7 @@ TEST_F(TermsTest, NothingCanWaitForItself) {
 
 TEST_F(TermsTest, ASweepThatFailsTooOftenIsHeld) {
   const auto sweep = submit("abcdefgh", {.stop_if = *StopRule::parse("failed>20%")});
-  queue_.begin(id('g'));
+  begin(queue_, id('g'));
   end('a', kFailed);
   for (const char digit : std::string("bcd")) end(digit, kDone);
   EXPECT_EQ(job('h').state, kQueued) << "four are too few to judge";
@@ -178,16 +179,16 @@ TEST_F(TermsTest, ASweepThatFailsTooOftenIsHeld) {
   EXPECT_EQ(job('h').state, kHeld);
   EXPECT_EQ(job('f').state, kHeld);
   EXPECT_EQ(job('g').state, kRunning);
-  EXPECT_EQ(job('h').hold, Hold::kRule);
+  EXPECT_EQ(job('h').phase, JobPhase::kHeldByRule);
   EXPECT_EQ(job('h').reason, "failed>20%: 2 of 5 jobs that ended have failed; `shaken resume s1` lifts this rule");
   EXPECT_TRUE(queue_.sweep(sweep)->stopped);
   reopen();
   EXPECT_EQ(job('g').state, kQueued) << "it goes on";
 
-  queue_.release(id('h'), false);
+  queue_.resume(id('h'));
   end('h', kFailed);
   EXPECT_EQ(job('f').state, kHeld) << "one job alone does not lift the rule";
-  EXPECT_EQ(queue_.release(sweep, false), 1);
+  EXPECT_EQ(queue_.resume(sweep), 1);
   EXPECT_EQ(queue_.sweep(sweep)->stop_if, "");
   EXPECT_FALSE(queue_.sweep(sweep)->stopped);
   end('f', kFailed);
@@ -211,7 +212,7 @@ TEST_F(TermsTest, WhatWasHeldForAnotherGoesOnWhenThatIsTriedAgain) {
   submit("b", {.after = {first}});
   end('a', kFailed);
   EXPECT_EQ(queue_.job(id('b'))->state, kHeld);
-  EXPECT_EQ(queue_.release(id('a'), true), 1);
+  EXPECT_EQ(queue_.retry(id('a')), 1);
   EXPECT_EQ(queue_.job(id('b'))->state, kQueued);
   EXPECT_EQ(next(), "a") << "it waits as before";
   end('a', kDone);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "server/stop_rule.h"
+#include "server/queue/stop_rule.h"
 
 #include <fmt/format.h>
 

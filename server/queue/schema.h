@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "server/sqlite.h"
+#include "server/queue/sqlite.h"
 
 namespace shaken::server {
 

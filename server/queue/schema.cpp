@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "server/queue_schema.h"
+#include "server/queue/schema.h"
 
 #include <array>
 #include <string>
@@ -91,8 +91,7 @@ CREATE INDEX prerequisites_by_target ON prerequisites(target);
 
 constexpr const char* kVersion4 = R"sql(
 ALTER TABLE jobs ADD COLUMN longer INTEGER NOT NULL DEFAULT 0;  -- 1: asked to go on longer while it runs
-CREATE TABLE upgrades(name TEXT PRIMARY KEY);                   -- what is still to be done that takes more than SQL
-INSERT INTO upgrades SELECT 'ids' WHERE EXISTS (SELECT 1 FROM jobs);
+CREATE TABLE upgrades(name TEXT PRIMARY KEY);                   -- nothing uses it any more
 )sql";
 
 constexpr const char* kVersion5 = R"sql(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "server/sqlite.h"
+#include "server/queue/sqlite.h"
 
 #include <sqlite3.h>
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "server/job.h"
-#include "server/stop_rule.h"
+#include "server/queue/job.h"
+#include "server/queue/stop_rule.h"
 
 namespace shaken::server {
 
@@ -35,20 +35,17 @@ struct Terms {
   std::string settings{};
 };
 
-/// Which jobs an executor takes: those whose sweep names it, and where it is the daemon's own those whose sweep names
-/// none.
-struct Place {
-  std::string executor = std::string(kLocal);
+/// Which jobs an executor takes: those whose sweep names it, and, if it is the daemon's default, those whose sweep
+/// names none.
+struct ExecutorRole {
+  std::string name = std::string(kLocal);
   bool is_default = true;
 };
 
-/// What a job asks of the executor where it runs.
-struct Asked {
-  Place place{};
+/// What a sweep asks of the executor where its jobs run.
+struct ExecutorRequest {
+  ExecutorRole executor{};
   std::string settings{};  ///< see Terms
 };
-
-/// Why a job is timed out.
-std::string time_limit_over(std::chrono::milliseconds limit);
 
 }  // namespace shaken::server

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "server/job.h"
+#include "server/queue/job.h"
 
 #include <charconv>
 #include <numeric>
@@ -24,26 +24,6 @@ std::optional<JobState> job_state(std::string_view word) {
 bool has_ended(JobState state) {
   using enum JobState;
   return state == kDone || state == kFailed || state == kTimedOut || state == kCancelled;
-}
-
-bool may_become(JobState from, JobState to) {
-  using enum JobState;
-  switch (from) {
-    case kQueued:
-      return to == kRunning || to == kHeld || to == kCancelled || to == kFailed || to == kTimedOut;
-    case kHeld:
-      return to == kQueued || to == kCancelled;
-    case kRunning:
-      return to == kStopping || to == kDone || to == kFailed || to == kQueued || to == kHeld;
-    case kStopping:
-      return to == kCancelled || to == kQueued || to == kDone || to == kFailed || to == kHeld || to == kTimedOut;
-    case kDone:  // again only if somebody has deleted its results
-    case kFailed:
-    case kTimedOut:
-    case kCancelled:
-      return to == kQueued || to == kCancelled;  // the one on request, the other when it is cleaned
-  }
-  return false;
 }
 
 std::int64_t JobCounts::total() const { return std::accumulate(n.begin(), n.end(), std::int64_t{0}); }

@@ -12,34 +12,37 @@
 
 namespace shaken::server {
 
-/// Where a job is in its life:
-///   queued -> running -> done | failed;  running -> stopping -> cancelled, held, timed out, or back to queued when the
-///   daemon stops or others are to have their turn;  queued <-> held.
-/// A worker that crashes puts its job back into the queue, for a while; one that finds no room holds it. A failed,
-/// cancelled or timed out job that is submitted once more, or retried, is queued again.
+/// Where a job is in its life. server/queue/rules.cpp says how it gets from one state to the next.
 enum class JobState { kQueued, kHeld, kRunning, kStopping, kDone, kFailed, kTimedOut, kCancelled };
 
 inline constexpr std::array kJobStates{JobState::kQueued, JobState::kHeld,   JobState::kRunning,  JobState::kStopping,
                                        JobState::kDone,   JobState::kFailed, JobState::kTimedOut, JobState::kCancelled};
 
+/// The same for the rules: what holds a held job, and what a stopping one becomes, make a difference.
+enum class JobPhase {
+  kQueued,
+  kHeldOnRequest,
+  kHeldForRoom,    ///< on the disk
+  kHeldForOthers,  ///< what it was to come after was not done
+  kHeldByRule,     ///< the stop rule of its sweep is met
+  kRunning,
+  kStopToQueue,
+  kStopToLast,  ///< to be queued behind all of its priority
+  kStopToCancel,
+  kStopToHold,
+  kStopToTimeOut,
+  kDone,
+  kFailed,
+  kTimedOut,
+  kCancelled,
+};
+
 /// Whether nothing more happens to a job in this state by itself.
 bool has_ended(JobState state);
-
-/// What a held job waits for.
-enum class Hold {
-  kNone,
-  kRequest,  ///< to be released
-  kRoom,     ///< room on the disk
-  kOthers,   ///< to be released: what it was to come after was not done
-  kRule,     ///< to be released: the stop rule of its sweep is broken
-};
 
 /// The word for a state in the queue, in the API and on the bus; and back.
 std::string_view to_word(JobState state);
 std::optional<JobState> job_state(std::string_view word);
-
-/// Whether a job may go from one state to another.
-bool may_become(JobState from, JobState to);
 
 /// Number of jobs in each state.
 struct JobCounts {
@@ -54,6 +57,7 @@ struct Job {
   std::string id;          ///< hash of the canonical scene: 16 hex digits
   std::int64_t sweep = 0;  ///< through which it is looked at; otherwise the last that asked for it
   JobState state = JobState::kQueued;
+  JobPhase phase = JobPhase::kQueued;  ///< of that state
   std::string reason;      ///< why it failed, is held or was cancelled, or what keeps a queued one waiting; or empty
   std::string label;       ///< its swept parameters, as words
   std::string parameters;  ///< its swept parameters, as a JSON object
@@ -65,14 +69,15 @@ struct Job {
   std::int64_t started = 0;  ///< the last attempt
   std::int64_t finished = 0;
   std::int64_t not_before = 0;  ///< a queued job that has crashed, or is refused where it is to run, waits until then
-  Hold hold = Hold::kNone;
-  std::int64_t needed_bytes = 0;            ///< of room on the disk, where it waits for that
-  std::int64_t asked_by = 0;                ///< the sweep that asked for it last, whose terms it obeys
-  bool waits = false;                       ///< until what that sweep comes after is done
+  std::int64_t asked_by = 0;    ///< the sweep that asked for it last, whose terms it obeys
+  bool waits = false;           ///< until what that sweep comes after is done
   std::chrono::milliseconds soft_limit{0};  ///< see Terms
   std::chrono::milliseconds time_limit{0};
   /// Wall time of its attempts since it was submitted or retried last; of the present one, all but the last seconds.
   std::chrono::milliseconds wall{0};
+  int crashes = 0;       ///< in a row, without a checkpoint between them
+  bool longer = false;   ///< asked to go on for longer than its worker knows
+  std::string worker{};  ///< by which a worker that outlives the daemon is found
 };
 
 /// An ordered list of jobs asked for together.

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "server/job.h"
+#include "server/queue/job.h"
 #include "sim/core/result.h"
 
 namespace shaken::server {

@@ -1,0 +1,513 @@
+// SPDX-License-Identifier: MIT
+#include "server/queue/queue.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "base/clock.h"
+#include "base/text.h"
+#include "scene/canonical.h"
+#include "scene/length.h"
+#include "scene/load.h"
+#include "sim/core/check.h"
+
+namespace shaken::server {
+namespace {
+
+using enum JobEvent;
+using std::chrono::milliseconds;
+
+/// The scene `present` (canonical text), made as long as `wanted`, another text of the same run, also asks for;
+/// `present` itself if it is that long already, `wanted` if the two are not of one run or `present` cannot be read.
+std::string as_long_as_both(const std::string& present, const std::string& wanted) {
+  if (present == wanted) return present;
+  const auto now = scene::load_scene(present, "the scene so far");
+  const auto then = scene::load_scene(wanted, "the scene asked for");
+  if (!now || !then || scene::run_id(*now) != scene::run_id(*then)) return wanted;
+  if (!scene::asks_for_more(*then, *now)) return present;
+  return scene::to_json(scene::as_long_as_both(*now, *then)).dump(2) + "\n";
+}
+
+/// The journal's words for what users ask for.
+std::string cause_of(JobEvent request, JobState state) {
+  if (request == kCancel) return std::string(kCancelledOnRequest);
+  if (request == kHold) return std::string(kHeldOnRequest);
+  return state == JobState::kHeld ? "released on request" : "retried on request";
+}
+
+std::string submitted_text(std::int64_t sweep, const Terms& terms) {
+  std::string text = "submitted in " + sweep_word(sweep);
+  for (const Target& target : terms.after) {
+    text += (&target == &terms.after.front() ? ", to come after " : ", ") + to_word(target);
+  }
+  return text;
+}
+
+}  // namespace
+
+Queue::Queue(const std::filesystem::path& file) : store_(file), last_change_(store_.last_change()) {}
+
+/// What `work` does is one transaction. Wakes those who wait for a change.
+template <class Work>
+auto Queue::write(const Work& work) {
+  const std::lock_guard lock(mutex_);
+  Transaction transaction(store_.database());
+  const auto commit = [&] {
+    transaction.commit();
+    last_change_ = store_.last_change();
+    changed_.notify_all();
+  };
+  if constexpr (std::is_void_v<decltype(work())>) {
+    work();
+    commit();
+  } else {
+    auto result = work();
+    commit();
+    return result;
+  }
+}
+
+/// Lets the rules have their way with a job, and with those that depend on it. The phase that it has now; none if
+/// nothing has changed. `reason`: of its new state, where the rules have no words of their own.
+std::optional<JobPhase> Queue::apply(const std::string& id, JobEvent event, const std::string& cause,
+                                     const std::string& reason) {
+  const auto job = store_.job(id);
+  const auto to = job ? next_phase(job->phase, event) : std::nullopt;
+  if (!to) return std::nullopt;
+  // a job that was to stop has stopped, whatever its worker ended by
+  std::string why = job->state == JobState::kStopping && *to != JobPhase::kFailed ? "" : reason;
+  if (*to == JobPhase::kCancelled) why = event == kClean ? kCleanedOnRequest : kCancelledOnRequest;
+  if (*to == JobPhase::kHeldOnRequest) why = kHeldOnRequest;
+  if (*to == JobPhase::kTimedOut) why = time_limit_text(job->time_limit);
+  store_.set_phase(*job, *to, why, cause);
+
+  const JobState state = stored(*to).state;
+  if (has_ended(state) && state != JobState::kCancelled) {
+    for (const std::int64_t sweep : store_.ruled_sweeps_of(id)) check_stop_rule(sweep);
+  }
+  if (has_ended(state) || has_ended(job->state)) {
+    for (const std::int64_t sweep : store_.sweeps_that_wait_for(id)) update_waiting(sweep);
+  }
+  return to;
+}
+
+std::vector<std::string> Queue::recover() {
+  return write([&] {
+    std::vector<std::string> recovered;
+    for (const Job& job : store_.active()) {
+      if (!job.worker.empty()) continue;
+      apply(job.id, kWorkerStopped, "the daemon ended without warning");
+      recovered.push_back(job.id);
+    }
+    return recovered;
+  });
+}
+
+std::vector<std::pair<std::string, std::string>> Queue::outlives_daemon() const {
+  std::vector<std::pair<std::string, std::string>> found;
+  for (Job& job : read(&QueueStore::active)) {
+    if (!job.worker.empty()) found.emplace_back(std::move(job.id), std::move(job.worker));
+  }
+  return found;
+}
+
+Submitted Queue::submit(const std::string& name, int priority, std::span<const NewJob> jobs, const Terms& terms) {
+  return write([&] {
+    const auto same = store_.same_sweep(name, jobs);
+    Submitted result{.sweep = same ? *same : store_.add_sweep(name), .created = !same};
+    refuse_circle(jobs, terms);
+    const std::string cause = submitted_text(result.sweep, terms);
+    for (std::size_t position = 0; position < jobs.size(); ++position) {
+      const NewJob& job = jobs[position];
+      if (store_.add_job(job, priority, result.sweep, terms, cause)) {
+        ++(job.has_results.value_or(false) ? result.n_found : result.n_new);
+      } else {
+        submit_again(job, priority, terms, result);
+      }
+      if (result.created) store_.add_member(result.sweep, static_cast<std::int64_t>(position), job);
+    }
+    store_.set_terms(result.sweep, terms);
+    if (!terms.after.empty()) update_waiting(result.sweep);
+    result.counts = store_.counts(Target(result.sweep));
+    return result;
+  });
+}
+
+void Queue::submit_again(const NewJob& job, int priority, const Terms& terms, Submitted& result) {
+  const Job known = *store_.job(job.id);
+  const std::string sweep = sweep_word(result.sweep);
+  const bool is_lost = known.state == JobState::kDone && !job.has_results.value_or(true);
+  bool is_longer = false;
+  if (is_withdrawn(known.phase)) {
+    store_.set_scene(job.id, job.scene);
+    // its worker may be about to end without having heard that it is to stop
+    if (known.state == JobState::kStopping) store_.set(job.id, "longer", 1);
+  } else if (known.state != JobState::kDone || is_lost) {
+    is_longer = make_longer(known, job.scene, "in " + sweep);
+  }
+  store_.ask_again(job, priority, result.sweep, terms);
+  const auto changed = apply(job.id, is_lost ? kResultsLost : kSubmitAgain, "submitted again in " + sweep);
+  if (known.phase == JobPhase::kStopToTimeOut) store_.set(job.id, "wall_ms", 0);
+  if (is_longer) {
+    ++result.n_extended;
+  } else if (changed) {
+    ++result.n_requeued;
+  }
+}
+
+/// Whether the job's scene has become longer.
+bool Queue::make_longer(const Job& job, const std::string& scene, const std::string& how) {
+  const std::string present = store_.scene(job.id);
+  const std::string longer = as_long_as_both(present, scene);
+  if (longer == present) return false;
+  store_.set_scene(job.id, longer);
+  if (job.state == JobState::kRunning || job.state == JobState::kStopping) store_.set(job.id, "longer", 1);
+  store_.add_to_journal(job.id, to_word(job.state), to_word(job.state), job.attempt, "asked to go on longer, " + how);
+  return true;
+}
+
+void Queue::refuse_circle(std::span<const NewJob> jobs, const Terms& terms) const {
+  if (terms.after.empty()) return;
+  // Those that may be queued by this submission, and so may wait.
+  std::set<std::string> ours;
+  for (const NewJob& job : jobs) {
+    const auto known = store_.job(job.id);
+    if (!known || known->state != JobState::kDone || !job.has_results.value_or(true)) ours.insert(job.id);
+  }
+  // Each of the targets, and what the jobs in it wait for themselves.
+  std::vector<Target> pending = terms.after;
+  std::set<Target> seen(pending.begin(), pending.end());
+  while (!pending.empty()) {
+    const Target target = pending.back();
+    pending.pop_back();
+    for (const std::string& id : store_.ids_of(target)) {
+      if (ours.contains(id)) {
+        throw Circular(fmt::format("these jobs would wait for themselves: job {} is one of them, and {} has it too{}",
+                                   id, to_word(target),
+                                   std::find(terms.after.begin(), terms.after.end(), target) == terms.after.end()
+                                       ? ", for which they would wait by way of others"
+                                       : ""));
+      }
+      const Job job = *store_.job(id);
+      if (!job.waits) continue;
+      for (const std::string& word : store_.prerequisites(job.asked_by)) {
+        if (seen.insert(target_named(word)).second) pending.push_back(target_named(word));
+      }
+    }
+  }
+}
+
+void Queue::update_waiting(std::int64_t sweep) {
+  bool all_done = true;
+  for (const std::string& word : store_.prerequisites(sweep)) {
+    const JobCounts counts = store_.counts(target_named(word));
+    all_done = all_done && counts[JobState::kDone] == counts.total();
+    const auto trouble = state_without_result(counts);
+    if (!trouble) continue;
+    const std::string of_all = sweep_number(word) ? fmt::format("{} of {} ", counts[*trouble], counts.total()) : "";
+    const std::string reason = fmt::format("it was to come after {}: {}{}", word, of_all, to_word(*trouble));
+    for (const std::string& id : store_.waiting_in(sweep)) apply(id, kPrerequisiteFailed, reason, reason);
+    return;
+  }
+  for (const std::string& id : store_.waiting_in(sweep)) {
+    apply(id, kPrerequisiteRetried, "what it is to come after is tried again");
+  }
+  if (all_done) store_.end_waiting(sweep);
+}
+
+void Queue::update_all_waiting() {
+  for (const std::int64_t sweep : store_.sweeps_that_wait()) update_waiting(sweep);
+}
+
+void Queue::check_stop_rule(std::int64_t sweep) {
+  const Sweep now = *store_.sweep(sweep);
+  const auto rule = StopRule::parse(now.stop_if);
+  if (!rule || !rule->is_broken(now.counts)) return;
+  store_.set_stopped(sweep);
+  const std::string reason =
+      fmt::format("{}; `shaken resume {}` lifts this rule", rule->reason(now.counts), sweep_word(sweep));
+  for (const std::string& id : store_.ids_obeying(sweep)) apply(id, kStopRuleMet, reason, reason);
+}
+
+std::vector<Job> Queue::jobs(std::optional<std::int64_t> sweep, std::optional<JobState> state) const {
+  const std::lock_guard lock(mutex_);
+  return explained(store_.jobs(sweep, state));
+}
+
+std::vector<Job> Queue::begun(Sweep& sweep) const {
+  const std::lock_guard lock(mutex_);
+  sweep.counts = store_.counts(Target(sweep.id));
+  std::int64_t n_ended = 0;
+  for (const JobState state : kJobStates) n_ended += has_ended(state) ? sweep.counts[state] : 0;
+  return n_ended == sweep.counts.total() ? std::vector<Job>{} : explained(store_.begun(sweep.id));
+}
+
+std::optional<Job> Queue::job(const std::string& id) const {
+  const std::lock_guard lock(mutex_);
+  auto job = store_.job(id);
+  return job ? explained({*std::move(job)}).front() : job;
+}
+
+JobCounts Queue::counts() const {
+  const std::lock_guard lock(mutex_);
+  return store_.counts();
+}
+
+/// Why a queued job waits, and until when at least; "" and 0 if nothing keeps it.
+std::pair<std::string, std::int64_t> Queue::why_waiting(const Job& job) const {
+  const std::string sweep = sweep_word(job.asked_by);
+  if (job.waits) {
+    std::string text;
+    for (const std::string& word : store_.prerequisites(job.asked_by)) {
+      const JobCounts counts = store_.counts(target_named(word));
+      const std::int64_t n_done = counts[JobState::kDone];
+      if (n_done == counts.total()) continue;
+      text += text.empty() ? "waits for " : ", ";
+      text += sweep_number(word) ? fmt::format("{}: {} of {} done", word, n_done, counts.total()) : word;
+    }
+    return {text, 0};
+  }
+  if (const auto refusal = store_.refusal_of(job.asked_by)) {
+    const std::int64_t now = utime_now();
+    return {fmt::format("{}. Next attempt at {}, or at once after `shaken retry {}`", refusal->reason,
+                        clock_text(1e-6 * static_cast<double>(refusal->until - now), now), sweep),
+            refusal->until};
+  }
+  for (const auto& [name, trouble] : troubles_) {
+    if (trouble.second.empty()) continue;
+    const std::string executor = store_.sweep(job.asked_by)->executor;
+    if (executor == name || (executor.empty() && trouble.first.is_default)) return {trouble.second, 0};
+  }
+  if (!store_.is_full(job.asked_by)) return {};
+  return {fmt::format("as many jobs of {} run as may at once", sweep), 0};
+}
+
+std::vector<Job> Queue::explained(std::vector<Job> jobs) const {
+  std::map<std::pair<std::int64_t, bool>, std::pair<std::string, std::int64_t>>
+      reasons;  // by sweep, of jobs that wait for others or do not
+  for (Job& job : jobs) {
+    if (job.state != JobState::kQueued || !job.reason.empty()) continue;
+    const auto [entry, is_new] = reasons.try_emplace({job.asked_by, job.waits});
+    if (is_new) entry->second = why_waiting(job);
+    job.reason = entry->second.first;
+    job.not_before = std::max(job.not_before, entry->second.second);
+  }
+  return jobs;
+}
+
+int Queue::extend(std::span<const std::pair<std::string, std::string>> scenes) {
+  return write([&] {
+    int changed = 0;
+    for (const auto& [id, scene] : scenes) {
+      const auto job = store_.job(id);
+      if (!job || !make_longer(*job, scene, "on request")) continue;
+      apply(id, kExtend, "goes on from its end");
+      ++changed;
+    }
+    return changed;
+  });
+}
+
+int Queue::request(JobEvent event, const Target& target) {
+  return write([&] {
+    int changed = 0;
+    std::map<std::int64_t, bool> was_refused;  // by sweep
+    const auto end_refusal = [&](std::int64_t sweep) {
+      const auto [entry, is_new] = was_refused.try_emplace(sweep);
+      const auto refusal = is_new ? store_.refusal_of(sweep) : std::nullopt;
+      if (refusal) store_.forget_refusal(refusal->executor, refusal->settings);
+      return entry->second = entry->second || refusal;
+    };
+    for (const std::string& id : event == kRetry ? store_.ids_of(target) : store_.unfinished(target)) {
+      const Job job = *store_.job(id);
+      const bool is_paused =
+          event == kRetry && job.state == JobState::kQueued && (end_refusal(job.asked_by) || job.crashes > 0);
+      if (is_paused) {
+        for (const std::string_view column : {"crashes", "not_before_utime"}) store_.set(id, column, 0);
+        store_.set(id, "reason", "");
+      }
+      const auto to = apply(id, event, cause_of(event, job.state));
+      if (to == JobPhase::kQueued && job.phase == JobPhase::kHeldForOthers) store_.set(id, "waits", 0);
+      changed += to || is_paused ? 1 : 0;
+    }
+    if (event == kCancel || event == kHold) return changed;
+    if (const std::int64_t* sweep = std::get_if<std::int64_t>(&target)) store_.lift_met_rule(*sweep);
+    update_all_waiting();
+    return changed;
+  });
+}
+
+int Queue::set_priority(const Target& target, int priority) {
+  return write([&] { return store_.set_priority(target, priority); });
+}
+
+bool Queue::clean(const std::string& id, JobState state) {
+  return write([&] {
+    const auto job = store_.job(id);
+    return job && job->state == state && apply(id, kClean, std::string(kCleanedOnRequest));
+  });
+}
+
+std::optional<Launched> Queue::launch(const std::string& id, const Prepare& prepare) {
+  return write([&]() -> std::optional<Launched> {
+    if (!store_.is_ready(id)) return std::nullopt;  // cancelled a moment ago, say
+    const Job job = *store_.job(id);
+    if (job.time_limit.count() > 0 && job.wall >= job.time_limit) {
+      apply(id, kTimeLimit, time_limit_text(job.time_limit));
+      return std::nullopt;
+    }
+    const Obstacle obstacle = prepare ? prepare(store_.scene(id)) : Obstacle{};
+    if (!obstacle.failure.empty()) {
+      apply(id, kRefuseScene, obstacle.failure, obstacle.failure);
+      return std::nullopt;
+    }
+    if (!obstacle.delay.empty()) {
+      store_.set(id, "reason", obstacle.delay);
+      store_.set(id, "not_before_utime", utime_now() + 1000 * obstacle.pause.count());
+      return std::nullopt;
+    }
+    apply(id, kLaunch, "attempt " + std::to_string(job.attempt + 1));
+    return Launched{job.attempt + 1, store_.settings(id)};
+  });
+}
+
+void Queue::set_reason(const std::string& id, const std::string& reason) {
+  write([&] {
+    if (const auto job = store_.job(id); job && job->state == JobState::kQueued) store_.set(id, "reason", reason);
+  });
+}
+
+void Queue::set_worker(const std::string& id, int pid, const std::string& worker) {
+  write([&] {
+    store_.set(id, "pid", pid);
+    store_.set(id, "worker", worker);
+  });
+}
+
+void Queue::set_notes(std::span<const std::pair<std::string, std::string>> notes) {
+  write([&] {
+    for (const auto& [id, note] : notes) {
+      const auto job = store_.job(id);
+      const bool has_worker = job && (job->state == JobState::kRunning || job->state == JobState::kStopping);
+      if (has_worker && job->reason != note) store_.set(id, "reason", note);
+    }
+  });
+}
+
+void Queue::add_wall(std::span<const std::pair<std::string, milliseconds>> times) {
+  write([&] {
+    for (const auto& [id, time] : times) store_.add_wall(id, time);
+  });
+}
+
+void Queue::ended(const std::string& id, JobEvent event, const std::string& why) {
+  write([&] {
+    if (event == kWorkerDone && store_.job(id)->longer) {
+      apply(id, kWorkerStopped, "the worker is done; it has been asked to go on longer meanwhile");
+    } else {
+      apply(id, event, why.empty() ? "the worker is done" : why, event == kWorkerFailed ? why : "");
+    }
+  });
+}
+
+void Queue::crashed(const std::string& id, const std::string& reason, bool went_on,
+                    std::span<const milliseconds> pauses) {
+  write([&] {
+    const Job job = *store_.job(id);
+    const int before = went_on ? 0 : job.crashes;
+    if (before >= static_cast<int>(pauses.size())) {
+      apply(id, kCrashedTooOften, reason,
+            fmt::format("{} times in a row, without a checkpoint between: {}", before + 1, reason));
+      return;
+    }
+    const milliseconds pause = pauses[static_cast<std::size_t>(before)];
+    const std::string text = duration_text(std::chrono::duration<double>(pause).count());
+    apply(id, kWorkerCrashed, reason, fmt::format("{}; is tried again after {}", reason, text));
+    if (job.state != JobState::kRunning) return;  // it was to stop
+    store_.set(id, "crashes", before + 1);
+    store_.set(id, "not_before_utime", utime_now() + 1000 * pause.count());
+  });
+}
+
+void Queue::no_room(const std::string& id, const std::string& reason, std::int64_t needed, milliseconds pause) {
+  write([&] {
+    if (apply(id, kNoRoom, reason, reason) != JobPhase::kHeldForRoom) return;
+    store_.set(id, "needed_bytes", needed);
+    store_.set(id, "not_before_utime", utime_now() + 1000 * pause.count());
+  });
+}
+
+std::vector<std::string> Queue::release_for_room(std::int64_t free) {
+  const auto waiting = read(&QueueStore::held_for_room, free);
+  if (waiting.empty()) return {};  // asked ten times a second
+  return write([&] {
+    std::vector<std::string> released;
+    for (const std::string& id : waiting) {
+      if (apply(id, kRoomAgain, "there is room again")) released.push_back(id);
+    }
+    update_all_waiting();
+    return released;
+  });
+}
+
+void Queue::refused(const std::string& id, const ExecutorRequest& request, const std::string& reason,
+                    milliseconds first_pause) {
+  write([&] {
+    apply(id, kWorkerStopped, reason);  // why_waiting() says why
+    const auto [times, holds] = store_.times_refused(request);
+    if (holds) return;  // the same refusal: of others that went with this job
+    store_.add_refusal(request, times + 1, refusal_pause(first_pause, times), reason);
+  });
+}
+
+void Queue::accepted(const ExecutorRequest& request) {
+  const std::lock_guard lock(mutex_);
+  store_.forget_refusal(request.executor.name, request.settings);
+}
+
+void Queue::set_trouble(const ExecutorRole& executor, const std::string& why) {
+  const std::lock_guard lock(mutex_);
+  troubles_[executor.name] = {executor, why};
+}
+
+bool Queue::preempt(const std::string& id, const ExecutorRole& executor) {
+  return write([&] {
+    const auto job = store_.job(id);
+    if (!job || job->state != JobState::kRunning) return false;
+    // Those that stop already make room for as many. Another of its own sweep would have its place.
+    const std::int64_t needed = store_.n_stopping(executor) + 1;
+    if (store_.n_ready(executor, job->priority, job->asked_by, needed) < needed) return false;
+    return apply(id, kSoftLimit, "its soft limit is over: it gives way to others").has_value();
+  });
+}
+
+void Queue::time_out(const std::string& id) {
+  write([&] { apply(id, kTimeLimit, "its time limit is over"); });
+}
+
+void Queue::wait_less() {
+  const std::lock_guard lock(mutex_);
+  store_.database().wait_at_most(milliseconds(500));
+}
+
+void Queue::stop_all() {
+  write([&] {
+    for (const Job& job : store_.active()) {
+      if (job.worker.empty()) apply(job.id, kShutDown, "the daemon stops");
+    }
+  });
+}
+
+std::int64_t Queue::last_change() const {
+  const std::lock_guard lock(mutex_);
+  return last_change_;
+}
+
+void Queue::wait_for_change(std::int64_t sequence, milliseconds timeout) const {
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, timeout, [&] { return last_change_ > sequence; });
+}
+
+}  // namespace shaken::server

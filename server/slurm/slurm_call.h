@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/process.h"
+#include "server/slurm/command.h"
+
+namespace shaken::server::slurm {
+
+/// The one program of Slurm's that runs at a time. After one that fails nothing is asked for a pause, which doubles
+/// until squeue answers.
+class SlurmCall {
+ public:
+  enum class Kind { kSubmit, kCancel, kList };
+  struct Answer {
+    Kind kind;
+    Captured said;
+    bool came_at_once = false;
+    bool reached_slurm = true;  ///< false: the program could not be started
+    bool is_fine() const { return said.exit_code == 0; }
+    /// The words of a program that failed, on one line.
+    std::string in_one_line() const;
+  };
+
+  explicit SlurmCall(std::chrono::milliseconds longest_pause) : longest_pause_(longest_pause) {}
+
+  /// Whether the program that was started last still runs.
+  bool is_busy() const { return command_.has_value(); }
+  bool is_pausing() const { return Clock::now() < ask_after_; }
+  void start(Kind kind, const std::vector<std::string>& words, const std::filesystem::path& folder);
+  /// Its answer, told once; none while it runs, or if there is nothing to tell.
+  std::optional<Answer> poll();
+
+  void set_failed(const std::string& why, std::chrono::milliseconds first_pause);
+  /// squeue has answered.
+  void set_fine();
+  /// squeue has not.
+  void set_silent() { silence_ = "Slurm does not answer: " + trouble_; }
+  /// With Slurm; empty while it answers.
+  const std::string& trouble() const { return trouble_; }
+  /// The same in a sentence, where it does not answer at all.
+  const std::string& silence() const { return silence_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::chrono::milliseconds longest_pause_;
+  Kind kind_ = Kind::kList;
+  std::optional<Command> command_;
+  std::optional<Answer> not_started_;
+  Clock::time_point started_{};
+  std::string trouble_, silence_;
+  std::chrono::milliseconds pause_{0};
+  Clock::time_point ask_after_{};
+};
+
+}  // namespace shaken::server::slurm
