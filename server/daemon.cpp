@@ -113,26 +113,21 @@ void start_log(const DaemonConfig& config) {
   spdlog::set_default_logger(logger);
 }
 
-std::vector<std::string> worker_options(const DaemonConfig& config) {
+std::vector<std::string> lcm_options(const std::string& url) {
+  return url.empty() ? std::vector<std::string>{"--no-lcm"} : std::vector<std::string>{"--lcm-url", url};
+}
+
+std::vector<std::string> worker_options(const DaemonConfig& config, const std::string& lcm_url) {
   std::vector<std::string> options{"--threads", std::to_string(config.threads)};
-  if (config.lcm_url.empty()) {
-    options.emplace_back("--no-lcm");
-  } else {
-    options.insert(options.end(), {"--lcm-url", config.lcm_url});
-  }
+  for (const std::string& word : lcm_options(lcm_url)) options.push_back(word);
   return options;
 }
 
-/// Multicast from a node would reach nobody, and a tcpq address that nobody has asked for may be one of this machine
-/// only: live state stays where it arises, unless the user says where over TCP it is to go.
-std::vector<std::string> worker_options_in_slurm(const DaemonConfig& config) {
-  std::vector<std::string> options{"--threads", std::to_string(config.threads)};
-  if (config.lcm_url_is_asked_for && config.lcm_url.starts_with("tcpq://")) {
-    options.insert(options.end(), {"--lcm-url", config.lcm_url});
-  } else {
-    options.emplace_back("--no-lcm");
-  }
-  return options;
+/// Where workers in Slurm send live state. Multicast from a node would reach nobody, and a tcpq address that nobody has
+/// asked for may be one of this machine only: it stays where it arises, unless the user says where over TCP it is to
+/// go.
+std::string lcm_url_in_slurm(const DaemonConfig& config) {
+  return config.lcm_url_is_asked_for && config.lcm_url.starts_with("tcpq://") ? config.lcm_url : "";
 }
 
 slurm::SlurmOptions slurm_options(const DaemonConfig& config, const std::filesystem::path& root) {
@@ -152,11 +147,7 @@ slurm::SlurmOptions slurm_options(const DaemonConfig& config, const std::filesys
 std::vector<std::string> web_command(const DaemonConfig& config, const std::filesystem::path& root) {
   std::vector<std::string> command{sibling_program("shaken-web").string(), "--root", root.string(), "--port",
                                    std::to_string(*config.web_port)};
-  if (config.lcm_url.empty()) {
-    command.emplace_back("--no-lcm");
-  } else {
-    command.insert(command.end(), {"--lcm-url", config.lcm_url});
-  }
+  for (const std::string& word : lcm_options(config.lcm_url)) command.push_back(word);
   return command;
 }
 
@@ -312,12 +303,12 @@ void run_daemon(const DaemonConfig& asked_for) {
 
   make_private_directory(info.root / "slurm");
   LocalExecutor executor(config.worker);
-  SupervisorOptions options{info.runs(), config.slots, worker_options(config), config.grace};
+  SupervisorOptions options{info.runs(), config.slots, worker_options(config, config.lcm_url), config.grace};
   options.refuse = refuse_scene;
   options.least_room = static_cast<std::int64_t>(config.keep_free);
   SupervisorOptions in_slurm = options;
   in_slurm.slots = kManyTasks;
-  in_slurm.worker_options = worker_options_in_slurm(config);
+  in_slurm.worker_options = worker_options(config, lcm_url_in_slurm(config));
   in_slurm.grace = kGraceInSlurm;
   in_slurm.role = {std::string(kSlurm), config.slurm_is_default};
   options.role.is_default = !config.slurm_is_default;

@@ -32,7 +32,7 @@ struct WorkerReport {
     kWaiting,  ///< it has been handed over, and waits for its turn; `words` say for what
     kWorking,
     kEnded,    ///< see `end`
-    kTaken,    ///< it has ended, through no fault of its own: what it ran on was taken away; `words` say why
+    kRevoked,  ///< it has ended, through no fault of its own: what it ran on was taken away; `words` say why
     kLost,     ///< it has ended, and nobody knows how; `words` say what is known
     kRefused,  ///< it could not be handed over; `words` say why
   };

@@ -34,7 +34,7 @@ std::filesystem::file_time_type checkpoint_time(const run::RunDirectory& directo
 }
 
 /// The simulated time that a run has told of [s]; 0 if it has not.
-double told_time(const run::RunDirectory& directory) {
+double reported_time(const run::RunDirectory& directory) {
   const auto progress = run::read_progress(directory.progress());
   return progress ? progress->sim_time : 0;
 }
@@ -76,7 +76,7 @@ void Supervisor::adopt() {
     worker.waits = true;  // until the executor says otherwise
     worker.noted.reset();
     worker.checkpoint_before = checkpoint_time(worker.directory);
-    worker.told_before = told_time(worker.directory);
+    worker.time_before = reported_time(worker.directory);
     spdlog::info("job {}: its worker {} has outlived the former daemon", id, printable(name));
   }
 }
@@ -88,9 +88,9 @@ int Supervisor::free_slots() const {
 void Supervisor::step() {
   try {
     executor_.step();
-    if (std::string trouble = executor_.trouble(); trouble != told_trouble_) {
+    if (std::string trouble = executor_.trouble(); trouble != known_trouble_) {
       queue_.set_trouble(options_.role, trouble);
-      told_trouble_ = std::move(trouble);
+      known_trouble_ = std::move(trouble);
     }
     record_ended();
     count_wall_of_all();
@@ -107,7 +107,7 @@ void Supervisor::record_ended() {
   // all of them, whether or not the queue can be written: whether they have ended does not hang on that
   for (auto& [id, worker] : workers_) {
     try {
-      if (!worker.job_end) look_at(id, worker);
+      if (!worker.job_end) check_worker(id, worker);
     } catch (const StorageError& problem) {
       warn_once(problem.what());
     }
@@ -140,7 +140,7 @@ void Supervisor::write_notes() {
   for (const auto& [id, note] : notes) workers_.at(id).noted = note;
 }
 
-void Supervisor::look_at(const std::string& id, Worker& worker) {
+void Supervisor::check_worker(const std::string& id, Worker& worker) {
   using enum WorkerReport::Phase;
   if (worker.unconfirmed) return judge_end(id, worker, *worker.unconfirmed);
   const WorkerReport report = executor_.poll(worker.handle);
@@ -162,7 +162,7 @@ void Supervisor::look_at(const std::string& id, Worker& worker) {
       judge_end(id, worker, report.end);  // first: the executor says it only once
       if (worker.waits && worker.settings) queue_.accepted({options_.role, *worker.settings});
       return;
-    case kTaken:
+    case kRevoked:
       worker.job_end = JobEnd{JobEnd::Outcome::kStopped, report.words};
       break;
     case kLost:
@@ -199,7 +199,7 @@ void Supervisor::record_end(const std::string& id, const Worker& worker) {
       break;
     case kStopped:
       // else what is stopped as soon as it begins would be started again for ever
-      if (worker.was_at_work && !worker.kill_at && told_time(worker.directory) <= worker.told_before) {
+      if (worker.was_at_work && !worker.kill_at && reported_time(worker.directory) <= worker.time_before) {
         queue_.crashed(id, "stopped, not by Shaken, before it got any further (a time limit that is too short?)", false,
                        options_.retry_pauses);
         break;
@@ -343,7 +343,7 @@ void Supervisor::start(const Job& job) {
                 launched->settings};
   launch.arguments.insert(launch.arguments.end(), options_.worker_options.begin(), options_.worker_options.end());
   worker.checkpoint_before = checkpoint_time(directory);
-  worker.told_before = told_time(directory);
+  worker.time_before = reported_time(directory);
   const auto handle = executor_.start(launch);
   if (!handle) {
     could_not_start(job.id, handle.error().message);

@@ -70,7 +70,7 @@ class Supervisor {
     int handle = 0;
     run::RunDirectory directory;
     std::filesystem::file_time_type checkpoint_before{};  ///< when the last one was written that it found
-    double told_before = 0;                               ///< simulated time that the run had told of by then [s]
+    double time_before = 0;                               ///< simulated time that the run had told of by then [s]
     bool was_at_work = false;                             ///< rather than waiting for its turn when it ended
     Clock::time_point started{};
     Clock::time_point counted{};           ///< up to when the queue knows its wall time
@@ -90,7 +90,7 @@ class Supervisor {
   int free_slots() const;
   void record_ended();
   void write_notes();
-  void look_at(const std::string& id, Worker& worker);
+  void check_worker(const std::string& id, Worker& worker);
   void judge_end(const std::string& id, Worker& worker, const WorkerEnd& end);
   void count_wall(const std::vector<std::string>& ids);
   void count_wall_of_all();
@@ -108,7 +108,7 @@ class Supervisor {
   Executor& executor_;
   SupervisorOptions options_;
   bool shutting_down_ = false;
-  std::string told_trouble_;                                 ///< the executor's, as the queue knows it
+  std::string known_trouble_;                                ///< the executor's, as the queue knows it
   std::map<std::string, Worker> workers_;                    ///< by job id
   std::map<std::string, std::chrono::milliseconds> waited_;  ///< the last pause of a job that could not be prepared
   std::set<std::string> warnings_;                           ///< each logged once, not ten times a second

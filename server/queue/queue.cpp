@@ -147,7 +147,7 @@ void Queue::submit_again(const NewJob& job, int priority, const Terms& terms, Su
   } else if (known.state != JobState::kDone || is_lost) {
     is_longer = make_longer(known, job.scene, "in " + sweep);
   }
-  store_.ask_again(job, priority, result.sweep, terms);
+  store_.update_request(job, priority, result.sweep, terms);
   const auto changed = apply(job.id, is_lost ? kResultsLost : kSubmitAgain, "submitted again in " + sweep);
   if (known.phase == JobPhase::kStopToTimeOut) store_.set(job.id, "wall_ms", 0);
   if (is_longer) {

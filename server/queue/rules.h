@@ -64,8 +64,8 @@ struct StoredPhase {
   std::string_view hold, after_stop;
 };
 StoredPhase stored(JobPhase phase);
-/// The phase of such a row. Throws std::logic_error where there is none.
-JobPhase phase_of(JobState state, std::string_view hold, std::string_view after_stop);
+/// The phase of such a row, the first of its state if the row says no more; none if it says what is unknown.
+std::optional<JobPhase> phase_of(JobState state, std::string_view hold, std::string_view after_stop);
 
 /// Nobody waits any more for what was asked of the job: it goes by what it is asked for next, be that less.
 bool is_withdrawn(JobPhase phase);

@@ -60,10 +60,12 @@ JobState stored_state(const std::string& word) {
 
 Job read_job(const Query& query) {
   const JobState state = stored_state(query.text(5));
+  const auto phase = phase_of(state, query.text(6), query.text(7));
+  if (!phase) throw StorageError("queue.db is damaged: job " + query.text(4) + " is held or stops for nothing known");
   return {.id = query.text(4),
           .sweep = query.integer(0),
           .state = state,
-          .phase = phase_of(state, query.text(6), query.text(7)),
+          .phase = *phase,
           .reason = query.text(8),
           .label = query.text(1),
           .parameters = query.text(2),
@@ -403,7 +405,7 @@ bool QueueStore::add_job(const NewJob& job, int priority, std::int64_t sweep, co
   return true;
 }
 
-void QueueStore::ask_again(const NewJob& job, int priority, std::int64_t sweep, const Terms& terms) {
+void QueueStore::update_request(const NewJob& job, int priority, std::int64_t sweep, const Terms& terms) {
   database_.run(
       "UPDATE jobs SET priority = MAX(priority, ?2), sweep = ?3, label = ?4, parameters = ?5, replica = ?6, "
       "soft_limit_ms = ?7, time_limit_ms = ?8 WHERE id = ?1",

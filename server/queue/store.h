@@ -108,7 +108,7 @@ class QueueStore {
   void set_terms(std::int64_t sweep, const Terms& terms);
   /// False if it is there already. `cause`: of its line in the journal.
   bool add_job(const NewJob& job, int priority, std::int64_t sweep, const Terms& terms, const std::string& cause);
-  void ask_again(const NewJob& job, int priority, std::int64_t sweep, const Terms& terms);
+  void update_request(const NewJob& job, int priority, std::int64_t sweep, const Terms& terms);
   void set_scene(const std::string& id, const std::string& scene);
   /// Goes to another phase, with a line of the journal if that is of another state, and forgets what was of the former.
   void set_phase(const Job& job, JobPhase to, const std::string& reason, const std::string& cause);

@@ -3,7 +3,7 @@
 
 namespace shaken::server::slurm {
 
-void ArrayTask::take(const QueuedTask* listed) {
+void ArrayTask::update(const QueuedTask* listed) {
   using enum QueuedTask::Stage;
   cancelled_ = false;
   if (listed == nullptr || listed->stage == kOver) {
@@ -23,7 +23,7 @@ void ArrayTask::cancel(bool if_waits) {
   if_waits_ = if_waits;
 }
 
-bool ArrayTask::was_taken_away() const {
+bool ArrayTask::was_revoked() const {
   return was_cancelled_ || words_ == "NODE_FAIL" || words_ == "PREEMPTED" || words_ == "BOOT_FAIL";
 }
 

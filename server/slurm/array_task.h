@@ -14,7 +14,7 @@ namespace shaken::server::slurm {
 class ArrayTask {
  public:
   /// Takes an answer of squeue; null where the task is not in it.
-  void take(const QueuedTask* listed);
+  void update(const QueuedTask* listed);
   /// There is a report of it: it has begun, once at least.
   void set_reported() { reported_ = true; }
   /// It is to be cancelled; `if_waits`: only if it still waits.
@@ -35,7 +35,7 @@ class ArrayTask {
   /// So that its last words can be seen, which may take `delay` where they go over a network.
   bool is_over_for(std::chrono::milliseconds delay) const { return is_over() && Clock::now() >= over_since_ + delay; }
   /// Whether what ran in it has not caused its end.
-  bool was_taken_away() const;
+  bool was_revoked() const;
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -24,7 +24,7 @@ std::optional<SentBatch> SentBatch::written(const std::filesystem::path& folder)
   batch.adopted_ = true;
   batch.tasks_.resize(plan->tasks.size());
   for (const std::vector<Launch>& task : plan->tasks) {
-    for (std::size_t i = 0; i < task.size(); ++i) batch.runs_.push_back({.told = true});
+    for (std::size_t i = 0; i < task.size(); ++i) batch.runs_.push_back({.collected = true});
   }
   batch.set_unsure("the daemon ended while it was handed over to Slurm");
   if (const Result<std::string> job = read_file(batch.folder_.job())) batch.set_out(*job);
@@ -47,7 +47,7 @@ int SentBatch::add(const Launch& launch) {
 
 bool SentBatch::adopt(int run) {
   if (run >= static_cast<int>(runs_.size())) return false;
-  runs_[static_cast<std::size_t>(run)].told = false;
+  runs_[static_cast<std::size_t>(run)].collected = false;
   return true;
 }
 
@@ -64,16 +64,16 @@ WorkerReport SentBatch::state_of(int number, std::chrono::milliseconds report_de
       return {.phase = Phase::kWaiting,
               .words = "is being handed over to Slurm" + (error_.empty() ? "" : ": " + error_)};
     case Stage::kRefused:
-      return {.phase = adopted_ || run.stop_asked ? Phase::kTaken : Phase::kRefused, .words = error_};
+      return {.phase = adopted_ || run.stop_asked ? Phase::kRevoked : Phase::kRefused, .words = error_};
     case Stage::kOut:
       break;
   }
   const ArrayTask& task = task_of(number);
   const std::string job = "Slurm job " + job_of(number);
   if (task.is_over()) {
-    const bool no_fault = task.was_taken_away() || run.stop_asked || (!run.begun && task.has_reported());
+    const bool no_fault = task.was_revoked() || run.stop_asked || (!run.begun && task.has_reported());
     std::string words = fmt::format("{} has ended: {}", job, task.words());
-    if (no_fault) return {.phase = Phase::kTaken, .words = std::move(words)};
+    if (no_fault) return {.phase = Phase::kRevoked, .words = std::move(words)};
     if (task.is_over_for(report_delay)) return {.phase = Phase::kLost, .words = std::move(words)};
     return {.phase = run.begun ? Phase::kWorking : Phase::kWaiting,
             .words = words + "; how the run ended is not to be read yet"};
@@ -103,7 +103,7 @@ void SentBatch::stop(int number) {
   bool is_last = true;
   for (int place = 0; place < runs_per_task_; ++place) {
     const Run* beside = run_at(task, place);
-    is_last = is_last && (beside == nullptr || beside->told || beside->end || beside->stop_asked);
+    is_last = is_last && (beside == nullptr || beside->collected || beside->end || beside->stop_asked);
   }
   task_of(number).cancel(!is_last);  // others of a task that waits lose nothing by going back into the queue
 }
@@ -152,7 +152,7 @@ void SentBatch::set_out(const std::string& job) {
   job_ = job;
 }
 
-void SentBatch::take_list(const std::vector<const QueuedTask*>& listed) {
+void SentBatch::update_tasks(const std::vector<const QueuedTask*>& listed) {
   if (stage_ == Stage::kUnsure) {
     const bool has_begun =
         std::any_of(tasks_.begin(), tasks_.end(), [](const ArrayTask& task) { return task.has_reported(); });
@@ -171,7 +171,7 @@ void SentBatch::take_list(const std::vector<const QueuedTask*>& listed) {
       of_task[static_cast<std::size_t>(task->task)] = task;
     }
   }
-  for (std::size_t number = 0; number < tasks_.size(); ++number) tasks_[number].take(of_task[number]);
+  for (std::size_t number = 0; number < tasks_.size(); ++number) tasks_[number].update(of_task[number]);
 }
 
 void SentBatch::read_report_of(int number) {
@@ -196,7 +196,8 @@ void SentBatch::read_reports(bool of_all, std::chrono::milliseconds report_delay
 }
 
 bool SentBatch::is_finished() const {
-  if (runs_.empty() || !std::all_of(runs_.begin(), runs_.end(), [](const Run& run) { return run.told; })) return false;
+  if (runs_.empty() || !std::all_of(runs_.begin(), runs_.end(), [](const Run& run) { return run.collected; }))
+    return false;
   if (stage_ != Stage::kOut) return stage_ != Stage::kUnsure;
   return std::all_of(tasks_.begin(), tasks_.end(), [](const ArrayTask& task) { return task.is_over(); });
 }

@@ -42,7 +42,7 @@ class SentBatch {
   /// What is known of a worker. `report_delay`: for so long after the end of a task its last words may not be seen yet.
   WorkerReport state_of(int run, std::chrono::milliseconds report_delay) const;
   bool is_stop_asked(int run) const { return runs_[static_cast<std::size_t>(run)].stop_asked; }
-  void set_told(int run) { runs_[static_cast<std::size_t>(run)].told = true; }
+  void set_collected(int run) { runs_[static_cast<std::size_t>(run)].collected = true; }
   void stop(int run);
   void kill(int run) { task_of(run).cancel(false); }
   std::string job_of(int run) const;  ///< "7_0", as Slurm calls its task
@@ -56,7 +56,7 @@ class SentBatch {
   void set_out(const std::string& job);
   void set_refused() { stage_ = Stage::kRefused; }
   /// Takes an answer of squeue, that is its tasks in it. One that Slurm does not know has not come there.
-  void take_list(const std::vector<const QueuedTask*>& listed);
+  void update_tasks(const std::vector<const QueuedTask*>& listed);
   /// Reads what tasks have reported that may have begun, all of them if Slurm does not say.
   void read_reports(bool of_all, std::chrono::milliseconds report_delay);
   /// Whether nothing more is to be expected of it.
@@ -80,7 +80,7 @@ class SentBatch {
     Launch launch{};  ///< until the batch is written
     bool begun = false;
     bool stop_asked = false;
-    bool told = false;  ///< that it has ended
+    bool collected = false;  ///< its end, by whoever asked for it
     std::optional<WorkerEnd> end{};
   };
   int number_of(int run) const { return run / runs_per_task_; }

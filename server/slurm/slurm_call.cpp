@@ -51,7 +51,7 @@ std::optional<SlurmCall::Answer> SlurmCall::poll() {
 
 void SlurmCall::set_failed(const std::string& why, std::chrono::milliseconds first_pause) {
   pause_ = std::clamp(2 * pause_, first_pause, std::max(first_pause, longest_pause_));
-  ask_after_ = Clock::now() + pause_;
+  next_call_ = Clock::now() + pause_;
   if (trouble_ != why) spdlog::warn("Slurm: {}", why);
   trouble_ = why;
 }

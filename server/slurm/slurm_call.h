@@ -31,7 +31,7 @@ class SlurmCall {
 
   /// Whether the program that was started last still runs.
   bool is_busy() const { return command_.has_value(); }
-  bool is_pausing() const { return Clock::now() < ask_after_; }
+  bool is_pausing() const { return Clock::now() < next_call_; }
   void start(Kind kind, const std::vector<std::string>& words, const std::filesystem::path& folder);
   /// Its answer, told once; none while it runs, or if there is nothing to tell.
   std::optional<Answer> poll();
@@ -55,7 +55,7 @@ class SlurmCall {
   Clock::time_point started_{};
   std::string trouble_, silence_;
   std::chrono::milliseconds pause_{0};
-  Clock::time_point ask_after_{};
+  Clock::time_point next_call_{};
 };
 
 }  // namespace shaken::server::slurm

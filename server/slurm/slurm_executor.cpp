@@ -119,7 +119,7 @@ WorkerReport SlurmExecutor::poll(int worker) {
   SentBatch& batch = batches_.at(handle.batch);
   WorkerReport report = batch.state_of(handle.run, options_.report_delay);
   if (report.phase != Phase::kWaiting && report.phase != Phase::kWorking) {
-    batch.set_told(handle.run);
+    batch.set_collected(handle.run);
     handles_.erase(worker);
     return report;
   }
@@ -147,7 +147,7 @@ void SlurmExecutor::step() {
     read_reports();
     read_after_ = now + options_.poll;
   }
-  if (const auto answer = call_.poll()) take_answer(*answer);
+  if (const auto answer = call_.poll()) handle_answer(*answer);
   if (call_.is_busy() || call_.is_pausing()) return;
   if (cancel_tasks() || submit_next()) return;
   if (now >= list_after_) list_tasks();
@@ -238,7 +238,7 @@ void SlurmExecutor::list_tasks() {
   call_.start(Kind::kList, squeue_command(), options_.folder);
 }
 
-void SlurmExecutor::take_answer(const SlurmCall::Answer& answer) {
+void SlurmExecutor::handle_answer(const SlurmCall::Answer& answer) {
   switch (answer.kind) {
     case Kind::kCancel:
       // that a task has ended meanwhile is an error to scancel; the next list tells what came of it
@@ -246,7 +246,7 @@ void SlurmExecutor::take_answer(const SlurmCall::Answer& answer) {
       if (first_cancel_) list_after_ = std::min(list_after_, Clock::now() + kSoon);
       break;
     case Kind::kSubmit:
-      take_submitted(answer);
+      handle_submitted(answer);
       break;
     case Kind::kList:
       if (!answer.is_fine()) {
@@ -257,12 +257,12 @@ void SlurmExecutor::take_answer(const SlurmCall::Answer& answer) {
       }
       call_.set_fine();
       read_reports();  // of what the list calls over
-      take_list(parse_squeue(answer.said.output));
+      update_tasks(parse_squeue(answer.said.output));
       break;
   }
 }
 
-void SlurmExecutor::take_submitted(const SlurmCall::Answer& answer) {
+void SlurmExecutor::handle_submitted(const SlurmCall::Answer& answer) {
   SentBatch& batch = batches_.at(submitted_);
   const std::size_t n_tasks = batch.tasks().size();
   const std::string job = answer.is_fine() ? parse_sbatch(answer.said.output) : std::string();
@@ -286,12 +286,12 @@ void SlurmExecutor::take_submitted(const SlurmCall::Answer& answer) {
   }
 }
 
-void SlurmExecutor::take_list(const std::vector<QueuedTask>& listed) {
+void SlurmExecutor::update_tasks(const std::vector<QueuedTask>& listed) {
   std::map<std::string, std::vector<const QueuedTask*>> by_token;
   for (const QueuedTask& task : listed) {
     if (task.name.starts_with(kNamePrefix)) by_token[task.name.substr(kNamePrefix.size())].push_back(&task);
   }
-  for (auto& [token, batch] : batches_) batch.take_list(by_token[token]);
+  for (auto& [token, batch] : batches_) batch.update_tasks(by_token[token]);
 }
 
 void SlurmExecutor::remove_finished() {

@@ -60,9 +60,9 @@ class SlurmExecutor final : public Executor {
   bool cancel_tasks();
   bool submit_next();
   void list_tasks();
-  void take_answer(const SlurmCall::Answer& answer);
-  void take_submitted(const SlurmCall::Answer& answer);
-  void take_list(const std::vector<QueuedTask>& listed);
+  void handle_answer(const SlurmCall::Answer& answer);
+  void handle_submitted(const SlurmCall::Answer& answer);
+  void update_tasks(const std::vector<QueuedTask>& listed);
   void remove_finished();
   void remove_unknown();
   std::vector<std::string> sbatch_command(const std::string& token, const SentBatch& batch) const;

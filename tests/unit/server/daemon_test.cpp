@@ -112,6 +112,13 @@ class DaemonTest : public testing::Test {
     return daemon.job()["pid"];
   }
 
+  /// Submits a job, once the daemon is ready; returns the pid of its worker.
+  static int run_one(const Daemon& daemon) {
+    EXPECT_THAT(daemon.first_line(), StartsWith("shakend ready"));
+    daemon.call("/v1/sweeps", json{{"text", "{}"}});
+    return up(daemon);
+  }
+
   ScratchFolder directory_;
   std::filesystem::path worker_ = write_fake_worker(directory_.path());
 };
@@ -146,9 +153,7 @@ TEST_F(DaemonTest, StoppingItStopsTheWorkersAndTheNextOneGoesOn) {
   setenv("FAKE_WORKER", "run", 1);
   {
     Daemon shakend = daemon();
-    shakend.first_line();
-    shakend.call("/v1/sweeps", json{{"text", "{}"}});
-    const int worker = up(shakend);
+    const int worker = run_one(shakend);
     shakend.send(SIGTERM);
     EXPECT_EQ(shakend.wait(), 0);
     EXPECT_NE(kill(worker, 0), 0);
@@ -165,9 +170,7 @@ TEST_F(DaemonTest, AfterAKillTheNextOneStartsTheJobAgain) {
   int worker = 0;
   {
     Daemon shakend = daemon();
-    shakend.first_line();
-    shakend.call("/v1/sweeps", json{{"text", "{}"}});
-    worker = up(shakend);
+    worker = run_one(shakend);
     shakend.send(SIGKILL);
     EXPECT_EQ(shakend.wait(), -SIGKILL);
   }
@@ -182,9 +185,7 @@ TEST_F(DaemonTest, AfterAKillTheNextOneStartsTheJobAgain) {
 TEST_F(DaemonTest, TheJobOfAKilledWorkerWaitsToBeTriedAgain) {
   setenv("FAKE_WORKER", "run", 1);
   Daemon shakend = daemon();
-  shakend.first_line();
-  shakend.call("/v1/sweeps", json{{"text", "{}"}});
-  kill(up(shakend), SIGKILL);
+  kill(run_one(shakend), SIGKILL);
   EXPECT_TRUE(becomes(shakend, "queued"));
   EXPECT_EQ(shakend.job()["reason"], "worker was killed by signal 9 (SIGKILL); is tried again after 5.0 s");
   EXPECT_EQ(shakend.call("/v1/status")["jobs"]["failed"], 0);
@@ -193,9 +194,7 @@ TEST_F(DaemonTest, TheJobOfAKilledWorkerWaitsToBeTriedAgain) {
 TEST_F(DaemonTest, ASecondSignalKillsDeafWorkers) {
   setenv("FAKE_WORKER", "deaf", 1);
   Daemon shakend = daemon();
-  shakend.first_line();
-  shakend.call("/v1/sweeps", json{{"text", "{}"}});
-  const int worker = up(shakend);
+  const int worker = run_one(shakend);
   shakend.send(SIGINT);
   EXPECT_TRUE(eventually([&] { return shakend.errors().find("stopping") != std::string::npos; }));
   EXPECT_EQ(kill(worker, 0), 0);
@@ -229,9 +228,7 @@ TEST_F(DaemonTest, AQueueThatCannotBeWrittenDoesNotKeepItUpWithSeveralWorkers) {
 TEST_F(DaemonTest, AQueueThatCannotBeWrittenDoesNotKeepItUp) {
   setenv("FAKE_WORKER", "run", 1);
   Daemon shakend = daemon();
-  shakend.first_line();
-  shakend.call("/v1/sweeps", json{{"text", "{}"}});
-  const int worker = up(shakend);
+  const int worker = run_one(shakend);
   {
     Database other(directory_ / "root" / "queue.db");
     other.execute("BEGIN IMMEDIATE");

@@ -152,37 +152,6 @@ TEST_F(QueueTest, CancelLeavesOtherSweepsAlone) {
   EXPECT_EQ(queue_.cancel("nobody"), 0);
 }
 
-TEST_F(QueueTest, SubmittingAJobThatIsAboutToBeCancelledKeepsIt) {
-  const std::vector<NewJob> jobs{new_job('a')};
-  queue_.submit("s", 0, jobs);
-  begin(queue_, a_);
-  queue_.cancel(a_);
-  EXPECT_EQ(queue_.submit("s", 0, jobs).n_requeued, 1);
-  queue_.ended(a_, JobEvent::kWorkerStopped, "checkpoint");
-  EXPECT_EQ(state('a'), kQueued);
-}
-
-TEST_F(QueueTest, AWorkerThatStopsUnaskedIsQueuedAgain) {
-  queue_.submit("s", 0, std::vector{new_job('a')});
-  begin(queue_, a_);
-  queue_.ended(a_, JobEvent::kWorkerStopped, "someone sent SIGTERM");
-  EXPECT_EQ(state('a'), kQueued);
-}
-
-TEST_F(QueueTest, StoppingTheDaemonQueuesWhatRuns) {
-  queue_.submit("s", 0, std::vector{new_job('a'), new_job('b'), new_job('c')});
-  begin(queue_, a_);
-  begin(queue_, b_);
-  queue_.cancel(b_);
-  queue_.stop_all();
-  EXPECT_EQ(state('a'), kStopping);
-  EXPECT_EQ(state('c'), kQueued);
-  queue_.ended(a_, JobEvent::kWorkerStopped, "checkpoint");
-  queue_.ended(b_, JobEvent::kWorkerStopped, "checkpoint");
-  EXPECT_EQ(state('a'), kQueued);
-  EXPECT_EQ(state('b'), kCancelled);
-}
-
 TEST_F(QueueTest, TheNextJobIsTheOldestOfTheHighestPriority) {
   queue_.submit("low", 0, std::vector{new_job('c'), new_job('a')});
   queue_.submit("high", 5, std::vector{new_job('d'), new_job('b')});
@@ -223,15 +192,6 @@ TEST_F(QueueTest, NoMoreRunsGiveWayThanOthersWait) {
   EXPECT_FALSE(queue_.preempt(b_)) << "a makes room for the one that waits";
   queue_.submit("s2", 0, std::vector{new_job('d')});
   EXPECT_TRUE(queue_.preempt(b_));
-}
-
-TEST_F(QueueTest, WhatIsAskedOfARunThatGivesWayGoesFirst) {
-  queue_.submit("s", 0, std::vector{new_job('a'), new_job('b')});
-  begin(queue_, a_);
-  ASSERT_TRUE(queue_.preempt(a_));
-  EXPECT_EQ(queue_.hold(a_), 1);
-  queue_.ended(a_, JobEvent::kWorkerStopped, "checkpoint");
-  EXPECT_EQ(state('a'), kHeld);
 }
 
 TEST_F(QueueTest, ARunIsTimedOutAndARetryGivesItAsMuchTimeAgain) {
@@ -340,7 +300,15 @@ TEST_F(QueueTest, AJobIsLaunchedWithTheSceneOfThatMoment) {
   EXPECT_FALSE(queue_.job(job.id)->longer);
 }
 
-TEST_F(QueueTest, AJobThatCannotBePreparedStaysQueuedForAPause) {
+TEST_F(QueueTest, AJobThatCannotBePreparedFailsOrStaysQueuedForAPause) {
+  queue_.submit("s", 0, std::vector{new_job('b'), new_job('c')});
+  const auto refuse = [](const std::string&) { return Obstacle{.failure = "refused"}; };
+  const std::string c(16, 'c');
+  queue_.hold(c);
+  for (const std::string& id : {b_, c}) EXPECT_FALSE(queue_.launch(id, refuse));
+  EXPECT_EQ(state('b'), kFailed);
+  EXPECT_EQ(state('c'), kHeld) << "since it was listed, it was held";
+
   queue_.submit("s", 0, std::vector{new_job('a')});
   EXPECT_FALSE(queue_.launch(a_, [](const std::string&) {
     return Obstacle{.delay = "the directory is in use", .pause = std::chrono::minutes(1)};
@@ -372,16 +340,6 @@ TEST_F(QueueTest, ALongerSubmissionReachesAWorkerThatIsBeingCancelledAndEndsAllT
   queue_.submit("s", 0, std::vector{job_of("20")});
   queue_.ended(job.id, JobEvent::kWorkerDone);
   EXPECT_EQ(queue_.job(job.id)->state, kQueued) << "10 s are done, 20 s are asked for";
-}
-
-TEST_F(QueueTest, OnlyAQueuedJobIsEndedWithoutAnAttempt) {
-  queue_.submit("s", 0, std::vector{new_job('a'), new_job('b')});
-  queue_.hold(b_);
-  const auto refuse = [](const std::string&) { return Obstacle{.failure = "refused"}; };
-  EXPECT_FALSE(queue_.launch(a_, refuse));
-  EXPECT_FALSE(queue_.launch(b_, refuse));
-  EXPECT_EQ(state('a'), kFailed);
-  EXPECT_EQ(state('b'), kHeld) << "since it was listed, it was held";
 }
 
 TEST_F(QueueTest, ExtendingAFailedJobLeavesItFailed) {

@@ -84,12 +84,22 @@ class ToldExecutor final : public Executor {
   int last_ = 0;
 };
 
-TEST_F(SupervisorTest, WhatIsRefusedIsTriedAgainMoreAndMoreRarely) {
-  ToldExecutor executor;
-  executor.report = {.phase = WorkerReport::Phase::kRefused, .words = "no such partition"};
+class RefusedTest : public SupervisorTest {
+ protected:
+  RefusedTest() { told_.report = refusal_; }
+  void step() {
+    for (int i = 0; i < 5; ++i) its_supervisor_.step();
+  }
+
+  const WorkerReport refusal_{.phase = WorkerReport::Phase::kRefused, .words = "no such partition"};
+  ToldExecutor told_;
+  Supervisor its_supervisor_{queue_, told_, options()};
+};
+
+TEST_F(RefusedTest, WhatIsRefusedIsTriedAgainMoreAndMoreRarely) {
   SupervisorOptions patient = options();
   patient.refused_pause = std::chrono::milliseconds(20);
-  Supervisor supervisor(queue_, executor, patient);
+  Supervisor supervisor(queue_, told_, patient);
   submit('a', "done");
   Job now;
   const auto refused_again = [&] {
@@ -109,28 +119,22 @@ TEST_F(SupervisorTest, WhatIsRefusedIsTriedAgainMoreAndMoreRarely) {
     EXPECT_LT(pause, 40'000 << doublings);
   }
   // once it is taken, the next refusal is the first
-  executor.report = {};
+  told_.report = {};
   ASSERT_TRUE(eventually([&] {
     supervisor.step();
     return job('a').state == kRunning && job('a').reason.empty();
   }));
   supervisor.step();
-  executor.report = {.phase = WorkerReport::Phase::kRefused, .words = "no such partition"};
+  told_.report = refusal_;
   now.attempt = 0;
   ASSERT_TRUE(refused_again());
   EXPECT_LT(now.not_before - queue_.history(id('a')).back().utime, 40'000);
 }
 
 // Whoever has mended the options need not wait for what those before have cost.
-TEST_F(SupervisorTest, ARefusalHoldsForAllThatAsksForTheSameAndForNothingElse) {
-  ToldExecutor executor;
-  executor.report = {.phase = WorkerReport::Phase::kRefused, .words = "no such partition"};
-  Supervisor supervisor(queue_, executor, options());
+TEST_F(RefusedTest, ARefusalHoldsForAllThatAsksForTheSameAndForNothingElse) {
   const auto submit = [&](const std::string& name, std::vector<NewJob> jobs, const std::string& settings) {
     queue_.submit(name, 0, jobs, {.settings = settings});
-  };
-  const auto step = [&] {
-    for (int i = 0; i < 5; ++i) supervisor.step();
   };
   submit("first", {new_job('a'), new_job('b'), new_job('c')}, "wrong");
   step();
@@ -144,7 +148,7 @@ TEST_F(SupervisorTest, ARefusalHoldsForAllThatAsksForTheSameAndForNothingElse) {
   submit("second", {new_job('d')}, "wrong");
   step();
   EXPECT_EQ(job('d').attempt, 0);
-  executor.report = {};
+  told_.report = {};
   submit("third", {new_job('e')}, "right");
   step();
   EXPECT_EQ(job('e').state, kRunning);
@@ -170,18 +174,15 @@ TEST_F(SupervisorTest, WhatWaitsForAnExecutorInTroubleSaysSo) {
   EXPECT_EQ(job('a').state, kRunning);
 }
 
-TEST_F(SupervisorTest, ARetryEndsThePauseAfterARefusal) {
-  ToldExecutor executor;
-  executor.report = {.phase = WorkerReport::Phase::kRefused, .words = "no such partition"};
-  Supervisor supervisor(queue_, executor, options());
+TEST_F(RefusedTest, ARetryEndsThePauseAfterARefusal) {
   submit('a', "done");
-  for (int i = 0; i < 5; ++i) supervisor.step();
+  step();
   EXPECT_EQ(job('a').attempt, 1);
-  executor.report = {};
+  told_.report = {};
   EXPECT_EQ(queue_.resume(id('a')), 0) << "only a retry does";
   EXPECT_EQ(queue_.retry(id('a')), 1);
   EXPECT_EQ(job('a').reason, "");
-  supervisor.step();
+  its_supervisor_.step();
   EXPECT_EQ(job('a').state, kRunning);
 }
 
@@ -196,29 +197,27 @@ TEST_F(SupervisorTest, AJobIsDoneByAWorkerInItsDirectory) {
                             " --sweep-id s1 --label done --no-lcm\n"));
 }
 
-TEST_F(SupervisorTest, AFailureCarriesTheWorkersLastWords) {
-  submit('a', "fail");
-  ASSERT_TRUE(step_until('a', kFailed));
-  EXPECT_EQ(job('a').reason, "exit 1: the gap is closed");
-}
-
-TEST_F(SupervisorTest, AFailureCarriesTheMessageOfTheProgressFile) {
-  submit('a', "progress");
-  ASSERT_TRUE(step_until('a', kFailed));
-  EXPECT_EQ(job('a').reason, "exit 1: rod 3 is not finite");
-}
-
-TEST_F(SupervisorTest, BadInputIsAFailure) {
-  submit('a', "bad");
-  ASSERT_TRUE(step_until('a', kFailed));
-  EXPECT_THAT(job('a').reason, StartsWith("exit 2 (bad input)"));
-}
-
-TEST_F(SupervisorTest, SuccessWithoutResultsIsAFailureInTheEnd) {
-  submit('a', "empty");
-  ASSERT_TRUE(step_until('a', kFailed));
-  EXPECT_THAT(job('a').reason, HasSubstr("summary.json"));
-  EXPECT_EQ(job('a').attempt, 3) << "as many pauses and one";
+TEST_F(SupervisorTest, AFailureCarriesTheWordsOfTheWorkerOrOfItsEnd) {
+  struct Row {
+    const char* label;
+    const char* reason;
+    int attempts;
+  };
+  constexpr int kAsPauses = 3;  // as many pauses and one
+  // A cluster's time limit may be so short that each task is told to end as soon as it begins.
+  const std::vector<Row> rows{{"fail", "exit 1: the gap is closed", 1},
+                              {"progress", "exit 1: rod 3 is not finite", 1},
+                              {"bad", "exit 2 (bad input)", 1},
+                              {"empty", "summary.json", kAsPauses},
+                              {"stops at once", "before it got any further", kAsPauses}};
+  char digit = 'a';
+  for (const Row& row : rows) submit(digit++, row.label);
+  digit = 'a';
+  for (const Row& row : rows) {
+    ASSERT_TRUE(step_until(digit, kFailed)) << row.label;
+    EXPECT_THAT(job(digit).reason, HasSubstr(row.reason)) << row.label;
+    EXPECT_EQ(job(digit++).attempt, row.attempts) << row.label;
+  }
 }
 
 // As on a network's disk, where a file may be seen some seconds after another machine wrote it, or where reading fails
@@ -297,14 +296,6 @@ TEST_F(SupervisorTest, WhatCannotStartIsLookedAtMoreAndMoreRarely) {
     supervisor.step();
     return job('a').state == kDone;
   }));
-}
-
-// A cluster's time limit may be so short that each task is told to end as soon as it begins.
-TEST_F(SupervisorTest, WhatIsStoppedBeforeItGetsAnyFurtherIsNotStartedForEver) {
-  submit('a', "stops at once");
-  ASSERT_TRUE(step_until('a', kFailed));
-  EXPECT_EQ(job('a').attempt, 3) << "as many pauses and one";
-  EXPECT_THAT(job('a').reason, HasSubstr("before it got any further"));
 }
 
 TEST_F(SupervisorTest, WhatIsStoppedFurtherOnEachTimeGoesOn) {
@@ -410,7 +401,7 @@ TEST_F(SupervisorTest, WhatKeepsAStoppingJobIsItsReason) {
   executor.report.words = "Slurm does not answer";
   supervisor.step();
   EXPECT_EQ(job('a').reason, "Slurm does not answer");
-  executor.report = {.phase = WorkerReport::Phase::kTaken, .words = "CANCELLED"};
+  executor.report = {.phase = WorkerReport::Phase::kRevoked, .words = "CANCELLED"};
   supervisor.step();
   EXPECT_EQ(job('a').state, kCancelled);
   EXPECT_EQ(job('a').reason, "cancelled on request");

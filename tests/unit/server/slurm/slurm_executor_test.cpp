@@ -66,6 +66,19 @@ class SlurmExecutorTest : public testing::Test {
       return condition();
     });
   }
+  /// Steps until that is what the executor says of a worker.
+  bool step_until_says(SlurmExecutor& executor, int worker, const std::string& words) {
+    return step_until(executor, [&] { return executor.poll(worker).words == words; });
+  }
+  /// Steps until a worker has ended, and says how.
+  WorkerReport end_of(SlurmExecutor& executor, int worker) {
+    WorkerReport end;
+    EXPECT_TRUE(step_until(executor, [&] {
+      end = executor.poll(worker);
+      return end.phase != Phase::kWaiting && end.phase != Phase::kWorking;
+    }));
+    return end;
+  }
   /// What squeue is to say of tasks of the batch that worker `one` is in, "STATE|reason" each.
   void list(const SlurmExecutor& executor, int one, const std::vector<std::string>& tasks) {
     const std::string token = executor.name(one).substr(0, 16);
@@ -107,8 +120,7 @@ TEST_F(SlurmExecutorTest, WorkersGoOutPackedAsOneArray) {
   EXPECT_EQ(read_batch(folder(executor, workers[0]))->tasks.size(), 2);
   EXPECT_THAT(read_text(folder(executor, workers[0]).script()), HasSubstr("exec '/bin/it'\\''s a task' '"));
   list(executor, workers[0], {"PENDING|Priority", "PENDING|Priority"});
-  ASSERT_TRUE(
-      step_until(executor, [&] { return executor.poll(workers[0]).words == "waits as Slurm job 7_0 (Priority)"; }));
+  ASSERT_TRUE(step_until_says(executor, workers[0], "waits as Slurm job 7_0 (Priority)"));
   EXPECT_EQ(executor.poll(workers[2]).words, "waits as Slurm job 7_1 (Priority)");
 }
 
@@ -145,15 +157,14 @@ TEST_F(SlurmExecutorTest, TheEndOfAWorkerIsWhatItsTaskSays) {
   report.ends[0] = {0, 0, 55};
   const BatchFolder files = folder(executor, workers[0]);
   ASSERT_TRUE(write_report(files.report(0), report));
-  WorkerReport end;
-  ASSERT_TRUE(step_until(executor, [&] { return (end = executor.poll(workers[0])).phase == Phase::kEnded; }));
+  const WorkerReport end = end_of(executor, workers[0]);
   EXPECT_EQ(end.end.pid, 55);
   EXPECT_EQ(executor.poll(workers[1]).phase, Phase::kWorking);
 
   list(executor, workers[1], {"OUT_OF_MEMORY|None"});
-  ASSERT_TRUE(step_until(executor, [&] { return (end = executor.poll(workers[1])).phase != Phase::kWorking; }));
-  EXPECT_EQ(end.phase, Phase::kLost);
-  EXPECT_EQ(end.words, "Slurm job 7_0 has ended: OUT_OF_MEMORY");
+  const WorkerReport lost = end_of(executor, workers[1]);
+  EXPECT_EQ(lost.phase, Phase::kLost);
+  EXPECT_EQ(lost.words, "Slurm job 7_0 has ended: OUT_OF_MEMORY");
   EXPECT_TRUE(step_until(executor, [&] { return !std::filesystem::exists(files.root); }));
 }
 
@@ -161,9 +172,8 @@ TEST_F(SlurmExecutorTest, ANodeThatFailsIsNoFaultOfItsWorkers) {
   SlurmExecutor executor(options());
   const auto workers = start(executor, 1);
   list(executor, workers[0], {"NODE_FAIL|None"});
-  WorkerReport end;
-  ASSERT_TRUE(step_until(executor, [&] { return (end = executor.poll(workers[0])).phase != Phase::kWaiting; }));
-  EXPECT_EQ(end.phase, Phase::kTaken);
+  const WorkerReport end = end_of(executor, workers[0]);
+  EXPECT_EQ(end.phase, Phase::kRevoked);
 }
 
 TEST_F(SlurmExecutorTest, WhatSlurmRefusesIsToldOnceItIsKnownNotToBeThere) {
@@ -171,8 +181,7 @@ TEST_F(SlurmExecutorTest, WhatSlurmRefusesIsToldOnceItIsKnownNotToBeThere) {
   says("sbatch", "sbatch: error: invalid partition specified: shrot\n");
   SlurmExecutor executor(options());
   const auto workers = start(executor, 1);
-  WorkerReport end;
-  ASSERT_TRUE(step_until(executor, [&] { return (end = executor.poll(workers[0])).phase != Phase::kWaiting; }));
+  const WorkerReport end = end_of(executor, workers[0]);
   EXPECT_EQ(end.phase, Phase::kRefused);
   EXPECT_THAT(end.words, HasSubstr("invalid partition"));
   EXPECT_GE(calls("squeue").size(), 1);
@@ -229,8 +238,7 @@ TEST_F(SlurmExecutorTest, WhatWasHandedOverThoughSbatchDidNotSaySoIsFoundByItsNa
   SlurmExecutor executor(options());
   const auto workers = start(executor, 1);
   list(executor, workers[0], {"PENDING|Priority"});
-  ASSERT_TRUE(
-      step_until(executor, [&] { return executor.poll(workers[0]).words == "waits as Slurm job 7_0 (Priority)"; }));
+  ASSERT_TRUE(step_until_says(executor, workers[0], "waits as Slurm job 7_0 (Priority)"));
   EXPECT_EQ(calls("sbatch").size(), 1);
 }
 
@@ -263,8 +271,7 @@ TEST_F(SlurmExecutorTest, AnotherExecutorFindsTheWorkersByTheirNames) {
     const auto workers = start(executor, 2);
     name = executor.name(workers[1]);
     list(executor, workers[0], {"RUNNING|None"});
-    ASSERT_TRUE(
-        step_until(executor, [&] { return executor.poll(workers[0]).words == "waits for its turn in Slurm job 7_0"; }));
+    ASSERT_TRUE(step_until_says(executor, workers[0], "waits for its turn in Slurm job 7_0"));
   }
   SlurmExecutor executor(options());
   EXPECT_FALSE(executor.adopt("0123456789abcdef/0")) << "never written";
@@ -273,16 +280,14 @@ TEST_F(SlurmExecutorTest, AnotherExecutorFindsTheWorkersByTheirNames) {
   const auto worker = executor.adopt(name);
   ASSERT_TRUE(worker);
   EXPECT_EQ(executor.name(*worker), name);
-  ASSERT_TRUE(
-      step_until(executor, [&] { return executor.poll(*worker).words == "waits for its turn in Slurm job 7_0"; }));
+  ASSERT_TRUE(step_until_says(executor, *worker, "waits for its turn in Slurm job 7_0"));
 }
 
 TEST_F(SlurmExecutorTest, StoppingOneOfATaskThatRunsLeavesTheOthersAlone) {
   SlurmExecutor executor(options());
   const auto workers = start(executor, 2);
   list(executor, workers[0], {"RUNNING|None"});
-  ASSERT_TRUE(
-      step_until(executor, [&] { return executor.poll(workers[0]).words == "waits for its turn in Slurm job 7_0"; }));
+  ASSERT_TRUE(step_until_says(executor, workers[0], "waits for its turn in Slurm job 7_0"));
   executor.stop(workers[1]);
   executor.step();
   EXPECT_EQ(read_stop(folder(executor, workers[0]).stop(0)), std::set{1});
@@ -310,8 +315,7 @@ TEST_F(SlurmExecutorTest, WithoutItsProgramsNothingIsHandedOver) {
   setenv("PATH", directory_.path().c_str(), 1);
   SlurmExecutor executor(options());
   const auto workers = start(executor, 1);
-  WorkerReport end;
-  ASSERT_TRUE(step_until(executor, [&] { return (end = executor.poll(workers[0])).phase != Phase::kWaiting; }));
+  const WorkerReport end = end_of(executor, workers[0]);
   EXPECT_EQ(end.phase, Phase::kRefused);
   EXPECT_THAT(end.words, HasSubstr("sbatch"));
   EXPECT_EQ(executor.room(), 0);
@@ -323,10 +327,8 @@ TEST_F(SlurmExecutorTest, AReportThatIsSeenLateStillCounts) {
   SlurmExecutor executor(patient);
   const auto workers = start(executor, 1);
   list(executor, workers[0], {"COMPLETED|None"});
-  ASSERT_TRUE(step_until(executor, [&] {
-    return executor.poll(workers[0]).words ==
-           "Slurm job 7_0 has ended: COMPLETED; how the run ended is not to be read yet";
-  }));
+  ASSERT_TRUE(step_until_says(executor, workers[0],
+                              "Slurm job 7_0 has ended: COMPLETED; how the run ended is not to be read yet"));
   TaskReport report{.slurm_job = "7", .host = "n0", .restarts = 0, .begun = {0}, .ends = {}};
   report.ends[0] = {0, 0, 55};
   ASSERT_TRUE(write_report(folder(executor, workers[0]).report(0), report));
@@ -386,8 +388,7 @@ TEST_F(SlurmExecutorTest, WhatIsToStopSaysThatSlurmDoesNotAnswer) {
   SlurmExecutor executor(options());
   const auto workers = start(executor, 2);
   list(executor, workers[0], {"PENDING|Priority"});
-  ASSERT_TRUE(
-      step_until(executor, [&] { return executor.poll(workers[0]).words == "waits as Slurm job 7_0 (Priority)"; }));
+  ASSERT_TRUE(step_until_says(executor, workers[0], "waits as Slurm job 7_0 (Priority)"));
   for (const char* name : {"sbatch", "squeue", "scancel"}) {
     std::filesystem::rename(directory_ / name, directory_ / (std::string(name) + ".away"));
   }
@@ -403,8 +404,7 @@ TEST_F(SlurmExecutorTest, WhatIsToStopSaysThatSlurmDoesNotAnswer) {
     std::filesystem::rename(directory_ / (std::string(name) + ".away"), directory_ / name);
   }
   setenv("PATH", (directory_.path().string() + ":" + path_).c_str(), 1);
-  EXPECT_TRUE(
-      step_until(executor, [&] { return executor.poll(workers[0]).words == "waits as Slurm job 7_0 (Priority)"; }));
+  EXPECT_TRUE(step_until_says(executor, workers[0], "waits as Slurm job 7_0 (Priority)"));
 }
 
 TEST_F(SlurmExecutorTest, WhatIsStoppedBeforeItIsHandedOverHasEnded) {

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// What holds for the table of the queue as a whole. What it says in each place, queue_model_test.cpp holds against a
+// description of its own.
+#include "server/queue/rules.h"
+
+#include <gtest/gtest.h>
+
+namespace shaken::server {
+namespace {
+
+constexpr int kPhases = static_cast<int>(JobPhase::kCancelled) + 1;
+constexpr int kEvents = static_cast<int>(JobEvent::kStopRuleMet) + 1;
+
+bool has_worker(JobPhase phase) {
+  const JobState state = stored(phase).state;
+  return state == JobState::kRunning || state == JobState::kStopping;
+}
+
+TEST(RulesTest, EveryPhaseIsARowOfItsOwn) {
+  for (int k = 0; k < kPhases; ++k) {
+    const auto [state, hold, after_stop] = stored(static_cast<JobPhase>(k));
+    EXPECT_EQ(phase_of(state, hold, after_stop), static_cast<JobPhase>(k));
+  }
+  EXPECT_EQ(phase_of(JobState::kStopping, "", ""), JobPhase::kStopToQueue) << "of the first version";
+  EXPECT_FALSE(phase_of(JobState::kHeld, "up", ""));
+}
+
+TEST(RulesTest, AJobLosesAndGetsItsWorkerInOneWayOnly) {
+  for (int p = 0; p < kPhases; ++p) {
+    for (int e = 0; e < kEvents; ++e) {
+      const auto phase = static_cast<JobPhase>(p);
+      const auto event = static_cast<JobEvent>(e);
+      const bool is_end = event >= JobEvent::kWorkerDone && event <= JobEvent::kNoRoom;
+      if (is_end && !has_worker(phase)) {
+        EXPECT_THROW(next_phase(phase, event), std::logic_error) << p << " " << e;
+      } else if (event == JobEvent::kResultsLost && phase != JobPhase::kDone) {
+        EXPECT_THROW(next_phase(phase, event), std::logic_error) << p << " " << e;
+      } else {
+        const auto next = next_phase(phase, event);
+        EXPECT_TRUE(next || !is_end) << p << " " << e;
+        if (!next) continue;
+        const bool gets_one = event == JobEvent::kLaunch;
+        EXPECT_EQ(has_worker(*next), (has_worker(phase) || gets_one) && !is_end) << p << " " << e;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace shaken::server
