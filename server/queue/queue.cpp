@@ -130,7 +130,7 @@ Submitted Queue::submit(const std::string& name, int priority, std::span<const N
     }
     store_.set_terms(result.sweep, terms);
     if (!terms.after.empty()) update_waiting(result.sweep);
-    result.counts = store_.counts(Target(result.sweep));
+    result.counts = store_.counts_of(Target(result.sweep));
     return result;
   });
 }
@@ -202,7 +202,7 @@ void Queue::refuse_circle(std::span<const NewJob> jobs, const Terms& terms) cons
 void Queue::update_waiting(std::int64_t sweep) {
   bool all_done = true;
   for (const std::string& word : store_.prerequisites(sweep)) {
-    const JobCounts counts = store_.counts(target_named(word));
+    const JobCounts counts = store_.counts_of(target_named(word));
     all_done = all_done && counts[JobState::kDone] == counts.total();
     const auto trouble = state_without_result(counts);
     if (!trouble) continue;
@@ -238,7 +238,7 @@ std::vector<Job> Queue::jobs(std::optional<std::int64_t> sweep, std::optional<Jo
 
 std::vector<Job> Queue::begun(Sweep& sweep) const {
   const std::lock_guard lock(mutex_);
-  sweep.counts = store_.counts(Target(sweep.id));
+  sweep.counts = store_.counts_of(Target(sweep.id));
   std::int64_t n_ended = 0;
   for (const JobState state : kJobStates) n_ended += has_ended(state) ? sweep.counts[state] : 0;
   return n_ended == sweep.counts.total() ? std::vector<Job>{} : explained(store_.begun(sweep.id));
@@ -250,18 +250,13 @@ std::optional<Job> Queue::job(const std::string& id) const {
   return job ? explained({*std::move(job)}).front() : job;
 }
 
-JobCounts Queue::counts() const {
-  const std::lock_guard lock(mutex_);
-  return store_.counts();
-}
-
 /// Why a queued job waits, and until when at least; "" and 0 if nothing keeps it.
 std::pair<std::string, std::int64_t> Queue::why_waiting(const Job& job) const {
   const std::string sweep = sweep_word(job.asked_by);
   if (job.waits) {
     std::string text;
     for (const std::string& word : store_.prerequisites(job.asked_by)) {
-      const JobCounts counts = store_.counts(target_named(word));
+      const JobCounts counts = store_.counts_of(target_named(word));
       const std::int64_t n_done = counts[JobState::kDone];
       if (n_done == counts.total()) continue;
       text += text.empty() ? "waits for " : ", ";
@@ -476,9 +471,7 @@ bool Queue::preempt(const std::string& id, const ExecutorRole& executor) {
   return write([&] {
     const auto job = store_.job(id);
     if (!job || job->state != JobState::kRunning) return false;
-    // Those that stop already make room for as many. Another of its own sweep would have its place.
-    const std::int64_t needed = store_.n_stopping(executor) + 1;
-    if (store_.n_ready(executor, job->priority, job->asked_by, needed) < needed) return false;
+    if (!store_.has_successor(*job, executor)) return false;
     return apply(id, kSoftLimit, "its soft limit is over: it gives way to others").has_value();
   });
 }

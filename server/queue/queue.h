@@ -86,7 +86,7 @@ class Queue {
   }
   /// The canonical scene of a job.
   std::string scene(const std::string& id) const { return read(&QueueStore::scene, id); }
-  JobCounts counts() const;
+  JobCounts counts() const { return read(&QueueStore::counts); }
   /// Mean wall seconds of the done jobs of a sweep, all attempts of each together; none if none is done.
   std::optional<double> mean_duration(std::int64_t sweep) const { return read(&QueueStore::mean_duration, sweep); }
 

@@ -158,7 +158,7 @@ std::optional<Sweep> QueueStore::sweep(std::int64_t id) const {
   std::vector<Sweep> found = read_all(database_.query(kSelectSweeps + "WHERE id = ?1", id), read_sweep);
   if (found.empty()) return std::nullopt;
   found.front().after = prerequisites(id);
-  found.front().counts = counts(id);
+  found.front().counts = counts_of(id);
   return found.front();
 }
 
@@ -169,13 +169,9 @@ std::optional<Sweep> QueueStore::sweep_named(const std::string& name) const {
 }
 
 std::vector<Job> QueueStore::jobs(std::optional<std::int64_t> sweep, std::optional<JobState> state) const {
-  const std::string_view word = state ? to_word(*state) : std::string_view();
-  if (sweep && state) {
-    return read_jobs(database_.query(kSelectMembers + "AND j.state = ?2 ORDER BY m.position", *sweep, word));
-  }
-  if (sweep) return read_jobs(database_.query(kSelectMembers + "ORDER BY m.position", *sweep));
-  if (state) return read_jobs(database_.query(kSelectJobs + "WHERE state = ?1 ORDER BY number", word));
-  return read_jobs(database_.query(kSelectJobs + "ORDER BY number"));
+  const std::string of_state = state ? "AND j.state = '" + std::string(to_word(*state)) + "' " : "";
+  if (sweep) return read_jobs(database_.query(kSelectMembers + of_state + "ORDER BY m.position", *sweep));
+  return read_jobs(database_.query(kSelectJobs + "WHERE 1 " + of_state + "ORDER BY number"));
 }
 
 std::vector<Job> QueueStore::begun(std::int64_t sweep) const {
@@ -230,7 +226,7 @@ JobCounts QueueStore::counts() const {
   return read_counts(database_.query("SELECT state, COUNT(*) FROM jobs GROUP BY state"));
 }
 
-JobCounts QueueStore::counts(const Target& target) const {
+JobCounts QueueStore::counts_of(const Target& target) const {
   if (const std::string* id = std::get_if<std::string>(&target)) {
     return read_counts(database_.query("SELECT state, 1 FROM jobs WHERE id = ?1", *id));
   }
@@ -273,17 +269,16 @@ bool QueueStore::is_ready(const std::string& id) const {
       .next();
 }
 
-std::int64_t QueueStore::n_ready(const ExecutorRole& executor, int priority, std::int64_t sweep,
-                                 std::int64_t limit) const {
-  return read_integer(database_.query("SELECT COUNT(*) FROM (SELECT 1 FROM jobs WHERE " + kWaitsForTurn +
-                                          "AND priority >= ?4 AND (sweep = ?5 OR " + kHasPlace + ") AND " +
-                                          kOfExecutor + "AND " + kNotRefused + "LIMIT ?6)",
-                                      utime_now(), executor.name, executor.is_default ? 1 : 0, priority, sweep, limit));
-}
-
-std::int64_t QueueStore::n_stopping(const ExecutorRole& executor) const {
-  return read_integer(database_.query("SELECT COUNT(*) FROM jobs WHERE state = 'stopping' AND " + kOfExecutor,
-                                      utime_now(), executor.name, executor.is_default ? 1 : 0));
+bool QueueStore::has_successor(const Job& job, const ExecutorRole& executor) const {
+  const int is_default = executor.is_default ? 1 : 0;
+  const std::int64_t needed =
+      1 + read_integer(database_.query("SELECT COUNT(*) FROM jobs WHERE state = 'stopping' AND " + kOfExecutor,
+                                       utime_now(), executor.name, is_default));
+  const std::string ready = kWaitsForTurn + "AND priority >= ?4 AND (sweep = ?5 OR " + kHasPlace + ") AND " +
+                            kOfExecutor + "AND " + kNotRefused;
+  return needed <=
+         read_integer(database_.query("SELECT COUNT(*) FROM (SELECT 1 FROM jobs WHERE " + ready + "LIMIT ?6)",
+                                      utime_now(), executor.name, is_default, job.priority, job.asked_by, needed));
 }
 
 bool QueueStore::is_full(std::int64_t sweep) const {

@@ -72,7 +72,7 @@ class QueueStore {
   std::string scene(const std::string& id) const;
   std::string settings(const std::string& id) const;  ///< of the sweep that asked for it last
   JobCounts counts() const;
-  JobCounts counts(const Target& target) const;
+  JobCounts counts_of(const Target& target) const;
   std::optional<double> mean_duration(std::int64_t sweep) const;
   std::vector<Change> history(const std::string& id) const;
   std::vector<Change> changes_since(std::int64_t sequence, int limit) const;
@@ -81,9 +81,9 @@ class QueueStore {
   // --- what may start ---
   std::vector<Job> ready(int limit, const ExecutorRole& executor) const;
   bool is_ready(const std::string& id) const;
-  /// At most `limit`, of that priority at least; those of `sweep` although as many of it run as may.
-  std::int64_t n_ready(const ExecutorRole& executor, int priority, std::int64_t sweep, std::int64_t limit) const;
-  std::int64_t n_stopping(const ExecutorRole& executor) const;
+  /// Whether more jobs of at least its priority are ready than others stop, which make room for as many. One of its own
+  /// sweep would have its place, although as many of that run as may.
+  bool has_successor(const Job& job, const ExecutorRole& executor) const;
   bool is_full(std::int64_t sweep) const;
   /// Held jobs that need at most so many bytes, and whose pause is over.
   std::vector<std::string> held_for_room(std::int64_t free) const;
