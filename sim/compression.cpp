@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/core/check.h"
 #include "sim/balance.h"
 #include "sim/contact/bead_contacts.h"
-#include "sim/core/check.h"
 #include "sim/initial.h"
 #include "sim/neighbors/neighbor_list.h"
 #include "sim/stepping/stepper.h"

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/core/types.h"
 #include "sim/contact/safe_time.h"
-#include "sim/core/types.h"
 
 namespace shaken {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/core/lanes.h"
-#include "sim/core/types.h"
+#include "base/core/types.h"
+#include "sim/lanes/lanes.h"
 
 /// Rigorous lower bounds on the time until two flying rods can touch (contact/hull_safe_time.h, bead_safe_time.h). The
 /// scheduled stepper does not look at a pair before that time; a bound that is too long by one tick would be a missed

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "sim/core/lanes.h"
+#include "sim/lanes/lanes.h"
 #include "sim/motion/plates.h"
 #include "sim/rod/species.h"
 

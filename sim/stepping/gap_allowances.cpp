@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sim/stepping/gap_allowances.h"
 
-#include "sim/core/heap_bytes.h"
+#include "base/core/heap_bytes.h"
 
 namespace shaken {
 namespace {

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "sim/core/lanes.h"
-#include "sim/core/prefetch.h"
-#include "sim/core/types.h"
+#include "base/core/types.h"
+#include "sim/lanes/lanes.h"
+#include "sim/lanes/prefetch.h"
 #include "sim/stepping/motion_change.h"
 
 namespace shaken {

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "base/core/thread_team.h"
+#include "base/core/types.h"
 #include "sim/contact/safe_time.h"
-#include "sim/core/thread_team.h"
-#include "sim/core/types.h"
 
 namespace shaken {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "sim/contact/safe_time.h"
-#include "sim/core/lanes.h"
+#include "sim/lanes/lanes.h"
 #include "sim/motion/flight.h"
 
 namespace shaken {

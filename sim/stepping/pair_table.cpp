@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/core/heap_bytes.h"
+#include "base/core/heap_bytes.h"
 
 namespace shaken {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sim/contact/safe_time.h"
-#include "sim/core/prefetch.h"
+#include "sim/lanes/prefetch.h"
 #include "sim/stepping/gap_allowances.h"
 #include "sim/stepping/timing_wheel.h"
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "base/core/sincos.h"
 #include "sim/contact/cofactors.h"
-#include "sim/core/sincos.h"
 
 namespace shaken {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/core/double_lanes.h"
+#include "sim/lanes/double_lanes.h"
 #include "sim/stepping/tick.h"
 
 /// What most visits to rods come to, for several rods at a time: a rod flies to the tick, and one of its beads is hit

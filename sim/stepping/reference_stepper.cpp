@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sim/stepping/reference_stepper.h"
 
-#include "sim/core/heap_bytes.h"
+#include "base/core/heap_bytes.h"
 #include "sim/stepping/rod_impacts.h"
 #include "sim/stepping/surface_impacts.h"
 

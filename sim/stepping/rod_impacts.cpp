@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "sim/core/rng.h"
+#include "base/core/rng.h"
 #include "sim/stepping/impact.h"
 
 namespace shaken {

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "sim/core/rng.h"
+#include "base/core/rng.h"
 #include "sim/stepping/tick.h"
 
 namespace shaken {
 
 /// Rotational noise: plates are rough, so each hit by one also turns the rod about the vertical, to either side at
 /// random.
-/// Model:  angular velocity += +-epsilon |u_n| (z - n_z n), u_n the speed of the hit, both signs alike likely; what of
-/// z
-///         lies along the rod is left out, so that rods do not begin to spin about themselves.
+/// Model:  angular velocity += +-epsilon |u_n| (z - n_z n), u_n the speed of the hit, both signs equally likely. The
+///         part of z along the rod is left out, so that rods do not begin to spin about themselves.
 /// Units:  epsilon [rad/mm] (System::rotational_noise), u_n [mm/s].
 /// The sign depends on seed, rod, tick and `hit`, which of the rod's hits in the tick this is, only, so it is the same
 /// for every stepper and number of threads.

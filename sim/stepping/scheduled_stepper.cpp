@@ -5,8 +5,8 @@
 #include <numeric>
 #include <utility>
 
-#include "sim/core/heap_bytes.h"
-#include "sim/core/prefetch.h"
+#include "base/core/heap_bytes.h"
+#include "sim/lanes/prefetch.h"
 #include "sim/stepping/plate_impacts.h"
 #include "sim/stepping/rod_impacts.h"
 #include "sim/stepping/surface_bounds.h"

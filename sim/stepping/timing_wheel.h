@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "sim/core/heap_bytes.h"
-#include "sim/core/prefetch.h"
-#include "sim/core/types.h"
+#include "base/core/heap_bytes.h"
+#include "base/core/types.h"
+#include "sim/lanes/prefetch.h"
 
 namespace shaken {
 

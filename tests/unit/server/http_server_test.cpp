@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "server/http/http_server.h"
+#include "base/http/http_server.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 #include "base/descriptor.h"
 #include "tests/unit/server/support.h"
 
-namespace shaken::server {
+namespace shaken::http {
 namespace {
 
 sockaddr_un address_of(const std::filesystem::path& socket) {
@@ -97,4 +97,4 @@ TEST(HttpServer, RemovesNoSocketButItsOwn) {
 }
 
 }  // namespace
-}  // namespace shaken::server
+}  // namespace shaken::http
