@@ -11,7 +11,8 @@ import sys
 # Inside the physics library: each may include what stands before it, so there are no circles.
 SIM = ["sim/physics_version.h", "sim/lanes", "sim/system.h", "sim/snapshot.h", "sim/rod", "sim/motion", "sim/contact",
        "sim/neighbors", "sim/ledger.h", "sim/world", "sim/balance", "sim/turned_rows", "sim/initial", "sim/close_up",
-       "sim/effects", "sim/stepping", "sim/compression", "sim/checkpoint", "sim/simulation"]
+       "sim/effects", "sim/tick", "sim/bounds",
+       "sim/schedule", "sim/stepping", "sim/compression", "sim/checkpoint", "sim/simulation"]
 ALLOWED = {
     "base/core": [],
     "base": [],

@@ -18,7 +18,7 @@ inline void prefetch(const T& record) {
 
 /// Calls visit(item) for each item of a list, and ask(item) some steps before.
 template <class List, class Ask, class Visit>
-void visit_ahead(const List& list, const Ask& ask, const Visit& visit) {
+void for_each_prefetched(const List& list, const Ask& ask, const Visit& visit) {
   const std::size_t n = list.size();
   for (std::size_t k = 0; k < n && k < kAhead; ++k) ask(list[k]);
   for (std::size_t k = 0; k < n; ++k) {
