@@ -41,7 +41,7 @@ CountedWork count_work(const Contender& of, Simulation& settled) {
 
 CountedWork measure_work(const Contender& of) {
   Simulation counting = resumed(of.scene, of.state, StepperKind::kScheduled);
-  advance(counting, of.settle);
+  advance(counting, of.shorten_bound);
   CountedWork counted = count_work(of, counting);
   counted.bounds = measure_bounds(counting, of.scene.period_ticks());
   return counted;
@@ -59,7 +59,7 @@ void add_work(Json& row, const CountedWork& counted) {
                {"rods_bounded", cost(Phase::kRodBounds, WorkKind::kRodsBounded)},
                {"rods_placed", cost(Phase::kNeighbors, WorkKind::kRodsPlaced)},
                {"pairs_searched", cost(Phase::kDetection, WorkKind::kPairsSearched)},
-               {"rods_told", cost(Phase::kTightening, WorkKind::kRodsTold)},
+               {"velocity_jumps", cost(Phase::kTightening, WorkKind::kVelocityJumps)},
                {"pairs_bounded", cost(Phase::kPairBounds, WorkKind::kPairsBounded)}};
 }
 
@@ -86,13 +86,13 @@ std::string work_text(const Json& rows, const std::vector<Column>& scene) {
       "left and waited on, and new bounds (of these: after a search, by beads, and too short to save the visit at the\n"
       "next tick).\n" +
       with({counts("searches", "pairs_searched"), counts("touching", "pairs_touching"), ns("pairs_searched"),
-            counts("waited on", "pairs_waiting_on"), counts("bounds", "pairs_bounded"), ns("pairs_bounded"),
+            counts("waited on", "pairs_deferred"), counts("bounds", "pairs_bounded"), ns("pairs_bounded"),
             counts("when due", "bounds_when_due"), counts("by beads", "bounds_by_beads"),
             counts("no tick", "bounds_of_no_tick")});
   return text +
          "\nChanges of motion, per rod and simulated second, of which all pairs of the rod are told, and bounds that "
          "are\ntightened for that.\n" +
-         with({counts("told", "rods_told"), ns("rods_told"), counts("tightened", "pairs_tightened")});
+         with({counts("told", "velocity_jumps"), ns("velocity_jumps"), counts("tightened", "bounds_shortened")});
 }
 
 Report count_report(const Conditions& conditions, const std::vector<CountedWork>& scenes) {

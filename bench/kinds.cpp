@@ -67,7 +67,7 @@ std::vector<CountedWork> measure_kinds(std::vector<Contender> kinds, int repeat)
   std::vector<CountedWork> measured;
   for (const Contender& kind : kinds) {
     Simulation simulation = resumed(kind.scene, kind.state, kind.stepper);
-    advance(simulation, kind.settle);
+    advance(simulation, kind.shorten_bound);
     measured.push_back(count_work(kind, simulation));
     progress.show(static_cast<double>(measured.size()) / static_cast<double>(kinds.size()));
   }

@@ -38,7 +38,7 @@ Report scaling_report(const Conditions& conditions, Scaling of, const std::vecto
 
 double measure_serial_share(const Contender& of) {
   Simulation timed = resumed(of.scene, of.state, StepperKind::kScheduled);
-  advance(timed, of.settle);
+  advance(timed, of.shorten_bound);
   timed.time_phases(thread_cpu_seconds_without_readings);
   const double start = thread_cpu_seconds_without_readings();
   advance(timed, of.ticks);

@@ -80,8 +80,8 @@ SceneSpeed measure_scene(const Case& scene, const SteadyState& state, const Effo
                             .stepper = StepperKind::kReference,
                             .ticks = ticks_for(effort.cpu, scene, state, StepperKind::kReference)};
   Contender scheduled = contender(scene, state, effort.cpu);
-  const Tick compared_ticks = reference.settle + reference.ticks;
-  scheduled.settle = std::max(scheduled.settle, compared_ticks);
+  const Tick compared_ticks = reference.shorten_bound + reference.ticks;
+  scheduled.shorten_bound = std::max(scheduled.shorten_bound, compared_ticks);
   std::vector<Contender> both{reference, scheduled};
   time_in_turn("measuring " + scene.label, both, effort.repeat);
   SceneSpeed speed{both[1], both[0], compared_ticks, 0, {}, 0, {}};
@@ -89,7 +89,7 @@ SceneSpeed measure_scene(const Case& scene, const SteadyState& state, const Effo
   Simulation timed = resumed(scene, state, StepperKind::kScheduled);
   advance(timed, compared_ticks);
   speed.scheduled_hash = timed.state_hash();
-  advance(timed, scheduled.settle - compared_ticks);
+  advance(timed, scheduled.shorten_bound - compared_ticks);
   speed.bounds = measure_lower_bounds(timed.world());
   timed.time_phases(thread_cpu_seconds_without_readings);
   const double start = thread_cpu_seconds_without_readings();

@@ -58,7 +58,7 @@ Contender contender(const Case& scene, const SteadyState& state, double cpu) {
   const Tick period = scene.period_ticks();
   return {.scene = scene,
           .state = state,
-          .settle = period,
+          .shorten_bound = period,
           .ticks = std::max(ticks_for(cpu, scene, state, StepperKind::kScheduled), period)};
 }
 
@@ -69,7 +69,7 @@ void time_in_turn(const std::string& what, std::vector<Contender>& contenders, i
     for (Contender& of : contenders) {
       Simulation simulation = resumed(of.scene, of.state, of.stepper);
       simulation.use_threads(of.threads);
-      advance(simulation, of.settle);
+      advance(simulation, of.shorten_bound);
       time_stretch(simulation, of.scene, of.ticks, of.speed);
       of.hash = simulation.state_hash();
       progress.show(++done / (repeat * static_cast<double>(contenders.size())));

@@ -63,7 +63,7 @@ Point measure_point(const StatisticsTask& task, double value, const Cache& cache
     const Case start = start_of(task, value, replica);
     Simulation simulation =
         continued(resumed(start, cache(start), StepperKind::kScheduled), scene_of(task, start, value));
-    advance(simulation, std::llround(task.settle / simulation.world().system.dt));
+    advance(simulation, std::llround(task.shorten_bound / simulation.world().system.dt));
     series = ObservableSeries();
     const std::string what = fmt::format("{}, {} {:.10g}, seed {}", start.label, task.knob->name, value, replica + 1);
     point.cpu_per_rod_second +=
@@ -189,7 +189,7 @@ std::string statistics_text(const StatisticsTask& task, Json rows, const Json& l
   }
   std::string text = fmt::format("\n{}, N = {}, {}: {}; {} x {:.10g} s of each, after {:.10g} s\n", task.scene.label,
                                  task.scene.system().n_rods, task.variant->name, task.knob->name, task.replicas,
-                                 task.measure, task.settle) +
+                                 task.measure, task.shorten_bound) +
                      table(rows, means);
   if (task.knob != &kStepKnob) return text + "Difference from the first row in %:\n" + table(rows, biases);
   const std::string below = steps_below_text(rows, limits);

@@ -24,12 +24,12 @@ Following::Following(const Simulation& simulation, const std::vector<PairRods>& 
 const std::vector<Following::Bounded>& Following::look() {
   for (std::size_t i = 0; i < rods_.size(); ++i) {
     rods_[i] = rod_at_tick(world_.rods[i], world_.tick, rules_);
-    motions_[i] = motion_bound(world_.rods[i], velocity_at(world_.rods[i], world_.tick, rules_), rods_[i].pose.director,
+    motions_[i] = flight_bound(world_.rods[i], velocity_at(world_.rods[i], world_.tick, rules_), rods_[i].pose.director,
                                search_.slow());
   }
   due_.clear();
   pairs_.wheel().pop(world_.tick, due_);
-  for (const int p : due_) is_due_[p] = !pairs_.waits_on(p, world_.tick);
+  for (const int p : due_) is_due_[p] = !pairs_.defer(p, world_.tick);
   for (int i = 0; i < static_cast<int>(rods_.size()); ++i) {
     if (world_.rods[i].since == world_.tick)
       pairs_.take(i, change(i), world_.tick, [&](int p) { is_used_up_[p] = true; });
@@ -49,7 +49,7 @@ void Following::look_at(int p) {
     happened_.push_back({p, Event::kRanOut, false, 0});
   } else if (!is_hit(i) && !is_hit(j)) {
     return;
-  } else if (!is_used_up_[p] || pairs_.settle(p, world_.tick)) {
+  } else if (!is_used_up_[p] || pairs_.shorten_bound(p, world_.tick)) {
     happened_.push_back({p, Event::kTightened, false, 0});
   } else {
     happened_.push_back({p, Event::kRenewed, false, 0});
@@ -65,12 +65,12 @@ void Following::look_at(int p) {
 void Following::renew(int p, Bounded& bounded) {
   PairBounds bounds;
   search_.bound(std::span(&followed_[p], 1), rods_, motions_, lanes_, bounds);
-  pairs_.hold(p, world_.tick, bounds.ticks[0], bounds.direction[0], bounds.line[0]);
+  pairs_.set_bound(p, world_.tick, bounds.ticks[0], bounds.direction[0], bounds.line[0]);
   bounded.by_beads = bounds.by_beads[0];
   bounded.safe = (bounds.ticks[0] + 1) * rules_.dt;
 }
 
-MotionChange Following::change(int i) const {
+VelocityJump Following::change(int i) const {
   const Flight& flight = world_.rods[i];
   return {flight.velocity - velocity_at(before_[i], world_.tick, rules_),
           flight.precession - before_[i].precession,

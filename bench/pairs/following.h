@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "sim/bounds/velocity_jump.h"
+#include "sim/schedule/pair_schedule.h"
+#include "sim/schedule/pair_search.h"
 #include "sim/simulation.h"
-#include "sim/stepping/motion_change.h"
-#include "sim/stepping/pair_search.h"
-#include "sim/stepping/pair_table.h"
 
 namespace shaken::bench {
 
@@ -33,16 +33,16 @@ class Following {
  private:
   void look_at(int p);
   void renew(int p, Bounded& bounded);
-  MotionChange change(int i) const;
+  VelocityJump change(int i) const;
 
   const World& world_;
   const std::vector<PairRods>& followed_;
   TickRules rules_;
   PairSearch search_;
-  PairTable pairs_;
+  PairSchedule pairs_;
   std::vector<Flight> before_;
   std::vector<RodAtTick> rods_;
-  std::vector<MotionBound> motions_;
+  std::vector<FlightBound> motions_;
   PairLanes lanes_{};
   std::vector<std::int32_t> due_;
   std::vector<bool> is_due_;

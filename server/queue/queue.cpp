@@ -7,11 +7,11 @@
 #include <set>
 
 #include "base/clock.h"
+#include "base/core/check.h"
 #include "base/text.h"
 #include "scene/canonical.h"
 #include "scene/length.h"
 #include "scene/load.h"
-#include "sim/core/check.h"
 
 namespace shaken::server {
 namespace {

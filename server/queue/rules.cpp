@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <array>
 
+#include "base/core/check.h"
 #include "base/text.h"
-#include "sim/core/check.h"
 
 namespace shaken::server {
 namespace {

@@ -6,9 +6,9 @@
 #include <algorithm>
 
 #include "base/clock.h"
+#include "base/core/check.h"
 #include "server/queue/rules.h"
 #include "server/queue/schema.h"
-#include "sim/core/check.h"
 
 namespace shaken::server {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "base/core/rng.h"
 #include "bench/accuracy/accuracy.h"
-#include "sim/core/rng.h"
 
 namespace shaken::bench {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "base/core/rng.h"
 #include "bench/fits.h"
-#include "sim/core/rng.h"
 
 namespace shaken::bench {
 namespace {
