@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Whether two means are the same within a bound: made-up replicas, of which it is known.
+#include "bench/hard/same_mean.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "bench/fits.h"
 #include "sim/core/rng.h"
 
 namespace shaken::bench {
