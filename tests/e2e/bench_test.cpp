@@ -67,8 +67,10 @@ TEST_F(Bench, SpeedWritesWhatItMeasured) {
   std::getline(csv, titles);
   const auto n_columns = std::count(titles.begin(), titles.end(), ',');
   int rows = 0;
-  for (std::string line; std::getline(csv, line); ++rows)
+  for (std::string line; std::getline(csv, line); ++rows) {
+    line.erase(0, line.rfind('"') + 1);  // the scene, whose name has commas
     EXPECT_EQ(std::count(line.begin(), line.end(), ','), n_columns);
+  }
   EXPECT_EQ(rows, 2);
   EXPECT_EQ(text_of("speed.png").substr(1, 3), "PNG");
 }
