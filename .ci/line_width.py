@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Holds the prose of every Markdown file of the repository, and the Python package, to lines of at most 120 characters.
-Exits 1 and names file and line of each that is longer.
+"""Holds the prose of every Markdown file, the comments of C++ (clang-format leaves them as they are), the Python
+package and these scripts to lines of at most 120 characters. Exits 1 and names file and line of each that is longer.
 
     python3 .ci/line_width.py [FILE ...]      all such files that git knows, if none is named
 
@@ -45,13 +45,22 @@ def long_lines(text):
                 yield number, len(line)
 
 
-def long_lines_of_code(text):
-    """Number and length of every line that is too long."""
-    return [(number, len(line)) for number, line in enumerate(text.split("\n"), 1) if len(line) > WIDTH]
+def long_lines_of_code(text, begin=""):
+    """Number and length of every line that is too long, of those that begin with these characters."""
+    return [(number, len(line)) for number, line in enumerate(text.split("\n"), 1)
+            if len(line) > WIDTH and line.lstrip().startswith(begin)]
+
+
+def long_lines_of(file):
+    text = file.read_text(encoding="utf-8")
+    if file.suffix == ".md":
+        return long_lines(text)
+    return long_lines_of_code(text, "//" if file.suffix in (".h", ".cpp") else "")
 
 
 def files_of_git():
-    command = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard", "*.md", "python/*.py"]
+    kinds = ["*.md", "*.h", "*.cpp", "python/*.py", ".ci/*.py", ".ci/run", "dev"]
+    command = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard", *kinds]
     names = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout.split("\0")
     return [ROOT / name for name in names if (ROOT / name).is_file()]
 
@@ -61,8 +70,7 @@ def main():
     n_long = 0
     for file in files:
         name = file.relative_to(ROOT) if file.is_relative_to(ROOT) else file
-        text = file.read_text(encoding="utf-8")
-        for number, length in long_lines(text) if file.suffix == ".md" else long_lines_of_code(text):
+        for number, length in long_lines_of(file):
             print(f"{name}:{number}: {length} characters, where {WIDTH} are allowed")
             n_long += 1
     return 1 if n_long else 0

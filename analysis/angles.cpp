@@ -7,7 +7,7 @@
 
 #include "analysis/order.h"
 #include "analysis/periodic.h"
-#include "sim/core/check.h"
+#include "base/core/check.h"
 
 namespace shaken::analysis {
 

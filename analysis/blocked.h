@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "analysis/steady.h"
-#include "sim/core/state_io.h"
+#include "base/core/state_io.h"
 
 namespace shaken::analysis {
 

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "sim/core/check.h"
-#include "sim/core/state_io.h"
+#include "base/core/check.h"
+#include "base/core/state_io.h"
 
 namespace shaken::analysis {
 

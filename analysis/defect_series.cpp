@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "analysis/steady.h"
-#include "sim/core/check.h"
+#include "base/core/check.h"
 
 namespace shaken::analysis {
 

@@ -7,7 +7,7 @@
 
 #include "analysis/bounded_series.h"
 #include "analysis/defects.h"
-#include "sim/core/state_io.h"
+#include "base/core/state_io.h"
 
 namespace shaken::analysis {
 

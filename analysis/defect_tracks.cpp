@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "sim/core/check.h"
+#include "base/core/check.h"
 
 namespace shaken::analysis {
 namespace {

@@ -10,8 +10,8 @@
 #include "analysis/blocked.h"
 #include "analysis/defects.h"
 #include "analysis/jackknife.h"
-#include "sim/core/state_io.h"
-#include "sim/core/types.h"
+#include "base/core/state_io.h"
+#include "base/core/types.h"
 
 namespace shaken::analysis {
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "sim/core/check.h"
+#include "base/core/check.h"
 
 namespace shaken::analysis {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "analysis/director_field.h"
-#include "sim/core/types.h"
+#include "base/core/types.h"
 
 namespace shaken::analysis {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "analysis/periodic.h"
-#include "sim/core/check.h"
+#include "base/core/check.h"
 
 namespace shaken::analysis {
 namespace {

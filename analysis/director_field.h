@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "analysis/region.h"
-#include "sim/core/types.h"
+#include "base/core/types.h"
 
 namespace shaken::analysis {
 

@@ -10,7 +10,7 @@
 
 #include "analysis/estimate.h"
 #include "analysis/periodic.h"
-#include "sim/core/check.h"
+#include "base/core/check.h"
 
 namespace shaken::analysis {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "analysis/periodic.h"
-#include "sim/core/check.h"
+#include "base/core/check.h"
 
 namespace shaken::analysis {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "analysis/region.h"
 #include "analysis/summed.h"
-#include "sim/core/types.h"
+#include "base/core/types.h"
 
 namespace shaken::analysis {
 

@@ -14,8 +14,8 @@
 
 #include "analysis/lag_curve.h"
 #include "analysis/lag_sums.h"
-#include "sim/core/check.h"
-#include "sim/core/state_io.h"
+#include "base/core/check.h"
+#include "base/core/state_io.h"
 
 namespace shaken::analysis {
 

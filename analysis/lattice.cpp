@@ -11,8 +11,8 @@
 #include "analysis/order.h"
 #include "analysis/periodic.h"
 #include "analysis/wave_sums.h"
-#include "sim/core/check.h"
-#include "sim/core/rng.h"
+#include "base/core/check.h"
+#include "base/core/rng.h"
 
 namespace shaken::analysis {
 namespace {

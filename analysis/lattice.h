@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "analysis/summed.h"
-#include "sim/core/types.h"
+#include "base/core/types.h"
 
 namespace shaken::analysis {
 

@@ -10,7 +10,7 @@
 #include "analysis/order.h"
 #include "analysis/periodic.h"
 #include "analysis/wave_sums.h"
-#include "sim/core/check.h"
+#include "base/core/check.h"
 
 namespace shaken::analysis {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "analysis/summed.h"
-#include "sim/core/types.h"
+#include "base/core/types.h"
 
 namespace shaken::analysis {
 

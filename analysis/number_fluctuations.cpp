@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "analysis/estimate.h"
-#include "sim/core/check.h"
+#include "base/core/check.h"
 
 namespace shaken::analysis {
 namespace {

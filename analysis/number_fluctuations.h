@@ -11,7 +11,7 @@
 #include "analysis/blocked.h"
 #include "analysis/jackknife.h"
 #include "analysis/summed.h"
-#include "sim/core/types.h"
+#include "base/core/types.h"
 
 namespace shaken::analysis {
 

@@ -7,8 +7,8 @@
 
 #include "analysis/bounded_series.h"
 #include "analysis/time_series.h"
-#include "sim/core/state_io.h"
-#include "sim/core/types.h"
+#include "base/core/state_io.h"
+#include "base/core/types.h"
 
 namespace shaken::analysis {
 

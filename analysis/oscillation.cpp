@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "sim/core/check.h"
+#include "base/core/check.h"
 
 namespace shaken::analysis {
 namespace {

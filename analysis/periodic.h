@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "sim/core/types.h"
+#include "base/core/types.h"
 
 namespace shaken::analysis {
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "sim/core/types.h"
+#include "base/core/types.h"
 #include "sim/system.h"
 
 namespace shaken::analysis {

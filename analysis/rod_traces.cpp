@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "analysis/steady.h"
-#include "sim/core/check.h"
+#include "base/core/check.h"
 
 namespace shaken::analysis {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "sim/core/state_io.h"
-#include "sim/core/types.h"
+#include "base/core/state_io.h"
+#include "base/core/types.h"
 
 namespace shaken::analysis {
 

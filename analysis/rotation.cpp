@@ -6,7 +6,7 @@
 
 #include "analysis/lag_fits.h"
 #include "analysis/periodic.h"
-#include "sim/core/check.h"
+#include "base/core/check.h"
 
 namespace shaken::analysis {
 namespace {

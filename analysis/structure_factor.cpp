@@ -6,7 +6,7 @@
 
 #include "analysis/order.h"
 #include "analysis/wave_sums.h"
-#include "sim/core/check.h"
+#include "base/core/check.h"
 
 namespace shaken::analysis {
 

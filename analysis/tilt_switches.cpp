@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "sim/core/check.h"
+#include "base/core/check.h"
 
 namespace shaken::analysis {
 

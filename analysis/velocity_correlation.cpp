@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "analysis/lag_fits.h"
-#include "sim/core/check.h"
+#include "base/core/check.h"
 
 namespace shaken::analysis {
 namespace {

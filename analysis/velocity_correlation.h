@@ -8,8 +8,8 @@
 
 #include "analysis/estimate.h"
 #include "analysis/lag_average.h"
-#include "sim/core/state_io.h"
-#include "sim/core/types.h"
+#include "base/core/state_io.h"
+#include "base/core/types.h"
 
 namespace shaken::analysis {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <complex>
 
-#include "sim/core/check.h"
+#include "base/core/check.h"
 
 namespace shaken::analysis {
 namespace {

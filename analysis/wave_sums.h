@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/core/types.h"
+#include "base/core/types.h"
 
 namespace shaken::analysis {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "sim/core/result.h"
+#include "base/core/result.h"
 
 namespace shaken {
 

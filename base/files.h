@@ -7,8 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include "base/core/result.h"
 #include "base/descriptor.h"
-#include "sim/core/result.h"
 
 namespace shaken {
 

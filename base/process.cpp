@@ -13,10 +13,10 @@
 #include <csignal>
 #include <cstring>
 
+#include "base/core/check.h"
 #include "base/descriptor.h"
 #include "base/failure.h"
 #include "base/standard_streams.h"
-#include "sim/core/check.h"
 
 namespace shaken {
 namespace {

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/core/result.h"
+#include "base/core/result.h"
 
 namespace shaken {
 

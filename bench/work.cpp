@@ -59,7 +59,7 @@ Json json_of(const CountedWork& work) {
                {"rods_bounded", cost(Phase::kRodBounds, WorkKind::kRodsBounded)},
                {"rods_placed", cost(Phase::kNeighbors, WorkKind::kRodsPlaced)},
                {"pairs_searched", cost(Phase::kDetection, WorkKind::kPairsSearched)},
-               {"rods_told", cost(Phase::kTightening, WorkKind::kRodsTold)},
+               {"velocity_jumps", cost(Phase::kTightening, WorkKind::kVelocityJumps)},
                {"pairs_bounded", cost(Phase::kPairBounds, WorkKind::kPairsBounded)}};
   double other = 1;
   for (std::size_t p = 0; p < kPhases; ++p) {
@@ -92,14 +92,14 @@ std::string work_text(const Json& rows, const std::vector<Column>& scene) {
              "with time\nleft and waited on, and new bounds (of these: after a search, by beads, and too short to save "
              "the visit at the\nnext tick).\n",
              {per_rod_second("searches", "pairs_searched"), per_rod_second("touching", "pairs_touching"),
-              ns("pairs_searched"), per_rod_second("waited on", "pairs_waiting_on"),
+              ns("pairs_searched"), per_rod_second("waited on", "pairs_deferred"),
               per_rod_second("bounds", "pairs_bounded"), ns("pairs_bounded"),
               per_rod_second("when due", "bounds_when_due"), per_rod_second("by beads", "bounds_by_beads"),
               per_rod_second("no tick", "bounds_of_no_tick")}) +
          with(
              "\nChanges of motion, per rod and simulated second, of which all pairs of the rod are told, and bounds "
              "that are\ntightened for that.\n",
-             {per_rod_second("told", "rods_told"), ns("rods_told"), per_rod_second("tightened", "pairs_tightened")});
+             {per_rod_second("told", "velocity_jumps"), ns("velocity_jumps"), per_rod_second("tightened", "bounds_shortened")});
 }
 
 }  // namespace shaken::bench

@@ -9,8 +9,8 @@
 #include "base/failure.h"
 #include "base/plots_by_python.h"
 #include "base/process.h"
-#include "client/api_client.h"
-#include "client/target.h"
+#include "client/live/api_client.h"
+#include "client/live/target.h"
 #include "proto/bus.h"
 #include "run/files/version.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "client/console.h"
-#include "client/json.h"
+#include "client/live/json.h"
 #include "scene/sweep.h"
 
 namespace shaken::client {

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "client/api_client.h"
+#include "client/live/api_client.h"
+#include "client/live/target.h"
 #include "client/results.h"
-#include "client/target.h"
 #include "client/verb.h"
 
 namespace shaken::client {

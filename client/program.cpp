@@ -10,7 +10,7 @@
 
 #include "base/text.h"
 #include "client/command_line.h"
-#include "client/json.h"
+#include "client/live/json.h"
 #include "run/files/version.h"
 
 namespace shaken::client {

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "base/steadiness.h"
-#include "client/api_client.h"
-#include "client/json.h"
+#include "client/live/api_client.h"
+#include "client/live/json.h"
+#include "client/live/target.h"
 #include "client/replicas.h"
-#include "client/target.h"
 
 namespace shaken::client {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "client/json.h"
+#include "client/live/json.h"
 #include "scene/problem.h"
 #include "scene/sweep.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "client/json.h"
+#include "client/live/json.h"
 
 namespace shaken::client {
 

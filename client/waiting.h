@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "base/failure.h"
-#include "client/api_client.h"
 #include "client/console.h"
-#include "client/target.h"
+#include "client/live/api_client.h"
+#include "client/live/target.h"
 
 namespace shaken::client {
 

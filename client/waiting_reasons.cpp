@@ -7,7 +7,7 @@
 #include <cctype>
 #include <set>
 
-#include "client/target.h"
+#include "client/live/target.h"
 
 namespace shaken::client {
 namespace {

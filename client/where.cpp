@@ -11,7 +11,7 @@
 
 #include "base/failure.h"
 #include "base/text.h"
-#include "client/target.h"
+#include "client/live/target.h"
 #include "scene/fields.h"
 #include "scene/nearest.h"
 #include "scene/units.h"

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/core/result.h"
 #include "client/results.h"
-#include "sim/core/result.h"
 
 namespace shaken::client {
 

@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
+#include "base/core/result.h"
 #include "proto/channels.h"
 #include "proto/codec.h"
-#include "sim/core/result.h"
 
 using lcm_t = struct _lcm_t;
 

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/core/result.h"
+#include "base/core/result.h"
 
 struct _lcm_eventlog_t;
 

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <functional>
 
+#include "base/core/result.h"
 #include "render/picture.h"
 #include "render/style.h"
-#include "sim/core/result.h"
 
 namespace shaken::render {
 

@@ -3,11 +3,11 @@
 
 #include <memory>
 
+#include "base/core/result.h"
 #include "render/gl_context.h"
 #include "render/image.h"
 #include "render/picture.h"
 #include "render/style.h"
-#include "sim/core/result.h"
 
 namespace shaken::render {
 

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "sim/core/result.h"
+#include "base/core/result.h"
 
 namespace shaken::render {
 

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "base/core/result.h"
 #include "render/gl.h"
 #include "render/image.h"
 #include "render/style.h"
-#include "sim/core/result.h"
 
 namespace shaken::render {
 

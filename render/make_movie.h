@@ -7,9 +7,9 @@
 #include <optional>
 #include <string>
 
+#include "base/core/result.h"
 #include "render/painter.h"
 #include "render/picture.h"
-#include "sim/core/result.h"
 
 namespace shaken::render {
 

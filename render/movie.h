@@ -5,9 +5,9 @@
 #include <memory>
 #include <string>
 
+#include "base/core/result.h"
 #include "render/image.h"
 #include "render/picture.h"
-#include "sim/core/result.h"
 
 namespace shaken::render {
 

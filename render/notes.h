@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include "base/core/result.h"
 #include "render/picture.h"
-#include "sim/core/result.h"
 
 namespace shaken::render {
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/core/result.h"
 #include "render/canvas.h"
 #include "render/gap_pass.h"
 #include "render/image.h"
@@ -13,7 +14,6 @@
 #include "render/rods_pass.h"
 #include "render/sheet.h"
 #include "render/style.h"
-#include "sim/core/result.h"
 
 namespace shaken::render {
 

@@ -11,9 +11,9 @@
 
 #include "analysis/defects.h"
 #include "analysis/director_field.h"
-#include "sim/core/bead_row.h"
-#include "sim/core/result.h"
-#include "sim/core/types.h"
+#include "base/core/result.h"
+#include "base/core/types.h"
+#include "sim/rod/bead_row.h"
 #include "sim/system.h"
 
 namespace shaken::render {

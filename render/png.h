@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
+#include "base/core/result.h"
 #include "render/image.h"
 #include "render/picture.h"
-#include "sim/core/result.h"
 
 namespace shaken::render {
 

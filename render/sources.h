@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include "base/core/result.h"
 #include "render/defect_links.h"
 #include "render/picture.h"
 #include "render/style.h"
 #include "run/files/trajectory.h"
-#include "sim/core/result.h"
 
 namespace shaken::render {
 

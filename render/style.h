@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "sim/core/result.h"
-#include "sim/core/types.h"
+#include "base/core/result.h"
+#include "base/core/types.h"
 
 namespace shaken::render {
 

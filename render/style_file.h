@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
+#include "base/core/result.h"
 #include "render/style.h"
 #include "scene/problem.h"
-#include "sim/core/result.h"
 
 namespace shaken::render {
 

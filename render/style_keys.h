@@ -8,8 +8,8 @@
 #include <variant>
 #include <vector>
 
+#include "base/core/result.h"
 #include "render/style.h"
-#include "sim/core/result.h"
 
 namespace shaken::render {
 

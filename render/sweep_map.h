@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/core/result.h"
 #include "render/picture.h"
-#include "sim/core/result.h"
 
 namespace shaken::render {
 

@@ -7,8 +7,8 @@
 #include <limits>
 #include <optional>
 
-#include "sim/core/rng.h"
-#include "sim/core/types.h"
+#include "base/core/rng.h"
+#include "base/core/types.h"
 
 namespace shaken::run {
 

@@ -7,12 +7,12 @@
 #include <optional>
 #include <string>
 
+#include "base/core/result.h"
 #include "run/files/directory.h"
 #include "run/files/progress.h"
 #include "run/movie_process.h"
 #include "run/pace.h"
 #include "scene/run_plan.h"
-#include "sim/core/result.h"
 
 namespace shaken::run {
 

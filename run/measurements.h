@@ -10,13 +10,13 @@
 #include <string>
 #include <vector>
 
+#include "base/core/result.h"
 #include "run/cadence.h"
 #include "run/measure/defects.h"
 #include "run/measure/order.h"
 #include "run/measure/reduction.h"
 #include "run/measure/registry.h"
 #include "scene/run_plan.h"
-#include "sim/core/result.h"
 #include "sim/rod/species.h"
 #include "sim/snapshot.h"
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "sim/core/result.h"
+#include "base/core/result.h"
 
 namespace shaken::run {
 

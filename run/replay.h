@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "base/core/result.h"
 #include "run/trouble_file.h"
 #include "sim/close_up.h"
-#include "sim/core/result.h"
 
 namespace shaken::run {
 

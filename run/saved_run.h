@@ -4,10 +4,10 @@
 
 #include <limits>
 
+#include "base/core/result.h"
+#include "base/core/types.h"
 #include "run/files/directory.h"
 #include "scene/run_plan.h"
-#include "sim/core/result.h"
-#include "sim/core/types.h"
 #include "sim/simulation.h"
 
 namespace shaken::run {

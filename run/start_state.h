@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
+#include "base/core/result.h"
 #include "scene/run_plan.h"
-#include "sim/core/result.h"
 #include "sim/simulation.h"
 
 namespace shaken::run {

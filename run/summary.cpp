@@ -11,7 +11,7 @@
 #include "base/files.h"
 #include "base/steadiness.h"
 #include "run/files/version.h"
-#include "sim/core/physics_version.h"
+#include "sim/physics_version.h"
 
 namespace shaken::run {
 namespace {

@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "analysis/time_series.h"
+#include "base/core/result.h"
+#include "base/core/types.h"
 #include "run/files/content_hash.h"
 #include "run/measure/reduction.h"
 #include "scene/run_plan.h"
 #include "sim/balance.h"
-#include "sim/core/result.h"
-#include "sim/core/types.h"
 
 namespace shaken::run {
 

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "base/core/result.h"
 #include "scene/run_plan.h"
 #include "sim/close_up.h"
-#include "sim/core/result.h"
 #include "sim/world.h"
 
 namespace shaken::run {

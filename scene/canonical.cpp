@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "sim/core/physics_version.h"
+#include "sim/physics_version.h"
 
 namespace shaken::scene {
 

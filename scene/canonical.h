@@ -13,7 +13,7 @@ namespace shaken::scene {
 /// identical plan.
 nlohmann::ordered_json to_json(const RunPlan& plan);
 
-/// 16 hex digits that name a run: XXH3-64 of the physics version (sim/core/physics_version.h) and of the canonical
+/// 16 hex digits that name a run: XXH3-64 of the physics version (sim/physics_version.h) and of the canonical
 /// scene without `stream`, and without what says how long it goes on: `time.measure` and `until`. So a longer run of
 /// the same scene is the same run, extended.
 std::string run_id(const RunPlan& plan);

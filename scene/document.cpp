@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <unordered_map>
 
-#include "sim/core/check.h"
+#include "base/core/check.h"
 
 namespace shaken::scene {
 

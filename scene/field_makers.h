@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/core/check.h"
 #include "scene/fields.h"
-#include "sim/core/check.h"
 
 /// What the rows of the tables of keys are made with (scene/field_table.cpp, scene/observables.cpp). A row says where
 /// the value lies in a plan, and from that follows how it is read and written.

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "base/core/check.h"
 #include "scene/nearest.h"
-#include "sim/core/check.h"
 
 namespace shaken::scene {
 

@@ -4,8 +4,8 @@
 
 #include <optional>
 
+#include "base/core/types.h"
 #include "scene/run_plan.h"
-#include "sim/core/types.h"
 
 namespace shaken::scene {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/core/check.h"
 #include "scene/field_makers.h"
-#include "sim/core/check.h"
 
 namespace shaken::scene {
 

@@ -9,9 +9,9 @@
 #include <numeric>
 #include <utility>
 
-#include "sim/core/check.h"
-#include "sim/core/natural_log.h"
-#include "sim/core/rng.h"
+#include "base/core/check.h"
+#include "base/core/natural_log.h"
+#include "base/core/rng.h"
 
 namespace shaken::scene {
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/core/result.h"
+#include "base/core/result.h"
 
 namespace shaken::scene {
 

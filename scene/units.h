@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/core/result.h"
 #include "scene/decimal.h"
-#include "sim/core/result.h"
 
 namespace shaken::scene {
 

@@ -50,7 +50,7 @@ auto parsed(const Parse& parse, const std::string& body) {
 
 /// A request whose path has been matched.
 struct Api::Call {
-  const Request& request;
+  const http::Request& request;
   std::string id;  ///< what stands for ID in the path
 
   std::optional<std::string> parameter(const std::string& name) const {
@@ -120,9 +120,9 @@ Api::Answer Api::problems_answer(std::span<const scene::Problem> found) {
 
 bool Api::in_sweep(const Call& call) { return call.request.path.starts_with("/v1/sweeps/"); }
 
-Reply Api::handle(const Request& request) const {
+http::Reply Api::handle(const http::Request& request) const {
   const auto refuse = [](int status, const std::string& message) {
-    return Reply{status, to_text({{"error", message}}), ""};
+    return http::Reply{status, to_text({{"error", message}}), ""};
   };
   try {
     const Answer answer = dispatch(request);
@@ -138,7 +138,7 @@ Reply Api::handle(const Request& request) const {
   }
 }
 
-Api::Answer Api::dispatch(const Request& request) const {
+Api::Answer Api::dispatch(const http::Request& request) const {
   const std::string method = request.method == "HEAD" ? "GET" : request.method;
   std::string allowed;
   for (const Route& route : routes()) {

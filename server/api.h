@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
+#include "base/http/http_server.h"
 #include "scene/problem.h"
 #include "server/daemon_info.h"
-#include "server/http/http_server.h"
 #include "server/queue.h"
 #include "server/report.h"
 
@@ -21,14 +21,14 @@ class Api {
   Api(Queue& queue, DaemonInfo info) : queue_(queue), info_(std::move(info)) {}
 
   /// Never throws: whatever goes wrong is an answer of 4xx or 5xx with {"error": "..."}.
-  Reply handle(const Request& request) const;
+  http::Reply handle(const http::Request& request) const;
 
  private:
   struct Call;
   struct Answer;
   struct Route;
   static std::span<const Route> routes();
-  Answer dispatch(const Request& request) const;
+  Answer dispatch(const http::Request& request) const;
 
   Answer status(const Call& call) const;
   Answer submit(const Call& call) const;

@@ -19,19 +19,19 @@
 
 #include "base/failure.h"
 #include "base/files.h"
+#include "base/http/http_server.h"
 #include "base/process.h"
 #include "base/slurm_conf.h"
 #include "base/standard_streams.h"
+#include "proto/relay/relay.h"
 #include "run/files/directory.h"
 #include "run/files/version.h"
 #include "server/api.h"
 #include "server/cleaning.h"
 #include "server/daemon_info.h"
 #include "server/former_ids.h"
-#include "server/http/http_server.h"
 #include "server/local_executor.h"
 #include "server/queue.h"
-#include "server/relay/relay.h"
 #include "server/slurm/slurm_executor.h"
 #include "server/status_publisher.h"
 #include "server/submission.h"
@@ -165,8 +165,10 @@ std::vector<std::string> web_command(const DaemonConfig& config, const std::file
 /// accept() that fails for want of memory or descriptors does.
 class ControlSocket {
  public:
-  ControlSocket(std::filesystem::path file, HttpServer::Handler handler)
-      : file_(std::move(file)), handler_(std::move(handler)), server_(std::make_unique<HttpServer>(file_, handler_)) {}
+  ControlSocket(std::filesystem::path file, http::HttpServer::Handler handler)
+      : file_(std::move(file)),
+        handler_(std::move(handler)),
+        server_(std::make_unique<http::HttpServer>(file_, handler_)) {}
 
   void check() {
     std::erase_if(former_, [](const auto& server) { return server->ended_within(milliseconds(0)); });
@@ -178,7 +180,7 @@ class ControlSocket {
       former_.push_back(std::move(server_));  // which may have to answer still
     }
     try {
-      server_ = std::make_unique<HttpServer>(file_, handler_);
+      server_ = std::make_unique<http::HttpServer>(file_, handler_);
       last_failure_.clear();
     } catch (const Failure& failure) {  // the folder is gone, too; it may come back
       if (std::exchange(last_failure_, failure.what()) != failure.what()) spdlog::error("{}", failure.what());
@@ -199,9 +201,9 @@ class ControlSocket {
 
  private:
   std::filesystem::path file_;
-  HttpServer::Handler handler_;
-  std::unique_ptr<HttpServer> server_;
-  std::vector<std::unique_ptr<HttpServer>> former_;
+  http::HttpServer::Handler handler_;
+  std::unique_ptr<http::HttpServer> server_;
+  std::vector<std::unique_ptr<http::HttpServer>> former_;
   std::string last_failure_;
 };
 
@@ -330,7 +332,7 @@ void run_daemon(const DaemonConfig& asked_for) {
   std::optional<StatusPublisher> publisher;
   if (bus) publisher.emplace(queue, std::move(bus), info);
   const Api api(queue, info);
-  ControlSocket control(info.socket(), [&api](const Request& request) { return api.handle(request); });
+  ControlSocket control(info.socket(), [&api](const http::Request& request) { return api.handle(request); });
 
   spdlog::info("shakend {} ready: {} (pid {}), {} slots", info.version, info.root.string(), info.pid, info.slots);
   std::printf("shakend ready: %s (pid %d)%s\n", info.root.c_str(), info.pid,

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "server/relay/address.h"
+#include "proto/relay/address.h"
 
 namespace shaken::server {
 

@@ -10,10 +10,10 @@
 #include <csignal>
 #include <cstring>
 
+#include "base/core/check.h"
 #include "base/descriptor.h"
 #include "base/process.h"
 #include "run/files/directory.h"
-#include "sim/core/check.h"
 
 namespace shaken::server {
 

@@ -14,10 +14,10 @@
 #include "base/paths.h"
 #include "base/standard_streams.h"
 #include "proto/bus.h"
+#include "proto/relay/address.h"
 #include "run/files/version.h"
 #include "scene/slurm_settings.h"
 #include "server/daemon.h"
-#include "server/relay/address.h"
 #include "server/terms.h"
 
 namespace {

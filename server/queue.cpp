@@ -7,11 +7,11 @@
 #include <algorithm>
 
 #include "base/clock.h"
+#include "base/core/check.h"
 #include "base/text.h"
 #include "server/queue_rows.h"
 #include "server/queue_schema.h"
 #include "server/queue_words.h"
-#include "sim/core/check.h"
 
 namespace shaken::server {
 namespace {

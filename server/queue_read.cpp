@@ -2,9 +2,9 @@
 // What the queue tells of sweeps, jobs and their journal.
 #include <algorithm>
 
+#include "base/core/check.h"
 #include "server/queue.h"
 #include "server/queue_rows.h"
-#include "sim/core/check.h"
 
 namespace shaken::server {
 namespace {

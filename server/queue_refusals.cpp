@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "base/clock.h"
+#include "base/core/check.h"
 #include "base/text.h"
 #include "server/queue.h"
-#include "sim/core/check.h"
 
 namespace shaken::server {
 namespace {

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "base/core/result.h"
 #include "server/queue.h"
-#include "sim/core/result.h"
 
 namespace shaken::server {
 

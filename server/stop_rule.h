@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/core/result.h"
 #include "server/job.h"
-#include "sim/core/result.h"
 
 namespace shaken::server {
 

@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "sim/core/physics_version.h"
-#include "sim/core/state_io.h"
+#include "base/core/state_io.h"
+#include "sim/physics_version.h"
 
 namespace shaken {
 namespace {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "sim/core/result.h"
+#include "base/core/result.h"
 #include "sim/world.h"
 
 namespace shaken {

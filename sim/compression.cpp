@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/core/check.h"
 #include "sim/balance.h"
 #include "sim/contact/bead_contacts.h"
-#include "sim/core/check.h"
 #include "sim/initial.h"
 #include "sim/neighbors/neighbor_list.h"
 #include "sim/stepping/stepper.h"
@@ -35,7 +35,7 @@ constexpr int kStepsToJam = 400;       ///< if the side shrinks by less than thi
 constexpr double kStandstill = 0.001;
 constexpr int kTicksToSettle = 5;
 constexpr int kMostSettling = 2000;
-constexpr int kFinerAfter = 50;  ///< attempts to settle, with half the tick
+constexpr int kFinerAfter = 50;  ///< attempts to shorten_bound, with half the tick
 
 /// Thicker and longer by `more` all around the beads, whose centres stay where they are [mm].
 RodShape thicker(RodShape rod, double more) {

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "sim/core/result.h"
+#include "base/core/result.h"
 #include "sim/system.h"
 #include "sim/world.h"
 

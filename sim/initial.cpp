@@ -9,10 +9,10 @@
 #include <string>
 #include <tuple>
 
+#include "base/core/check.h"
+#include "base/core/rng.h"
 #include "sim/balance.h"
 #include "sim/contact/bead_contacts.h"
-#include "sim/core/check.h"
-#include "sim/core/rng.h"
 #include "sim/motion/side_walls.h"
 #include "sim/neighbors/neighbor_list.h"
 #include "sim/turned_rows.h"

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "sim/core/result.h"
-#include "sim/core/rng.h"
+#include "base/core/result.h"
+#include "base/core/rng.h"
 #include "sim/motion/flight.h"
 #include "sim/rod/species.h"
 #include "sim/system.h"

@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "sim/core/exact_sum.h"
-#include "sim/core/types.h"
+#include "base/core/exact_sum.h"
+#include "base/core/types.h"
 
 namespace shaken {
 

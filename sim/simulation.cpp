@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "sim/simulation.h"
 
+#include "base/core/check.h"
 #include "sim/balance.h"
 #include "sim/checkpoint.h"
 #include "sim/compression.h"
-#include "sim/core/check.h"
 #include "sim/initial.h"
 #include "sim/stepping/stepper.h"
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "base/core/result.h"
 #include "sim/compression.h"
-#include "sim/core/result.h"
 #include "sim/snapshot.h"
 #include "sim/stepping/phase_times.h"
 #include "sim/stepping/work_counts.h"

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sim/core/types.h"
+#include "base/core/types.h"
 
 namespace shaken {
 

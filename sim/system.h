@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "sim/core/types.h"
+#include "base/core/types.h"
 
 namespace shaken {
 

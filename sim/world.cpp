@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "sim/core/rng.h"
+#include "base/core/rng.h"
 
 namespace shaken {
 namespace {

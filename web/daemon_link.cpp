@@ -7,7 +7,7 @@
 
 namespace shaken::web {
 
-server::Reply DaemonLink::ask(const server::Request& request) const {
+http::Reply DaemonLink::ask(const http::Request& request) const {
   const std::filesystem::path socket = root_ / "shakend.sock";
   httplib::Client daemon(socket.string());
   daemon.set_address_family(AF_UNIX);
@@ -26,7 +26,7 @@ server::Reply DaemonLink::ask(const server::Request& request) const {
 }
 
 Result<std::string> DaemonLink::get(const std::string& path) const {
-  server::Reply reply = ask({.method = "GET", .path = path, .query = {}, .body = ""});
+  http::Reply reply = ask({.method = "GET", .path = path, .query = {}, .body = ""});
   if (reply.status == 200) return std::move(reply.body);
   const nlohmann::json body = nlohmann::json::parse(reply.body, nullptr, false);
   return Error{body.is_object() ? body.value("error", reply.body) : reply.body};

@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "server/http/http_server.h"
-#include "sim/core/result.h"
+#include "base/core/result.h"
+#include "base/http/http_server.h"
 
 namespace shaken::web {
 
@@ -18,7 +18,7 @@ class DaemonLink {
   explicit DaemonLink(std::filesystem::path root, std::chrono::seconds patience = std::chrono::seconds(50))
       : root_(std::move(root)), patience_(patience) {}
   /// The daemon's answer; 503 with the reason if there is none. May be called from many threads at once.
-  server::Reply ask(const server::Request& request) const;
+  http::Reply ask(const http::Request& request) const;
   /// The body of GET `path`, or why there is none.
   Result<std::string> get(const std::string& path) const;
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "server/http/http_server.h"
+#include "base/http/http_server.h"
 
 namespace shaken::web {
 
@@ -21,11 +21,11 @@ class Guard {
   /// - come from this page, or from no page, if it changes something (403);
   /// - carry "Authorization: Bearer TOKEN" (401), but for the page's own files, which anybody may read, and for what a
   ///   ticket (web/tickets.h) has been given for.
-  std::optional<server::TurnedAway> stop(const server::Request& head) const;
+  std::optional<http::TurnedAway> stop(const http::Request& head) const;
 
   /// Of every answer, refusals too: nothing but what is served here is loaded, run or asked; text that came from
   /// outside stays text.
-  static const server::Headers& headers();
+  static const http::Headers& headers();
 
   /// What to open in a browser. The token is in a part of it that is not sent.
   std::string address() const;

@@ -15,8 +15,8 @@
 #include <thread>
 #include <vector>
 
-#include "client/watch/live.h"
-#include "client/watch/live_rods.h"
+#include "client/live/live.h"
+#include "client/live/live_rods.h"
 #include "proto/bus.h"
 
 namespace shaken::web {

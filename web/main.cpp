@@ -84,18 +84,18 @@ void serve(const std::filesystem::path& root, int port, const std::string& lcm_u
   std::promise<web::Guard> promised;  // requests wait until the port is known
   const std::shared_future<web::Guard> guard = promised.get_future();
   const auto listen_on = [&](int wanted) {
-    return std::make_unique<server::HttpServer>(
-        wanted, [&](const server::Request& head) { return guard.get().stop(head); },
-        [&](const server::Request& request) { return site.answer(request); }, web::Guard::headers());
+    return std::make_unique<http::HttpServer>(
+        wanted, [&](const http::Request& head) { return guard.get().stop(head); },
+        [&](const http::Request& request) { return site.answer(request); }, web::Guard::headers());
   };
-  std::unique_ptr<server::HttpServer> server = listen_on(port);
+  std::unique_ptr<http::HttpServer> server = listen_on(port);
   const int served_port = server->port();
   promised.set_value(web::Guard(token, served_port));
   const std::string address = guard.get().address();
   done_or_fail(page->announce(address));
   std::printf("open %s\n", address.c_str());
   std::fflush(stdout);
-  std::vector<std::unique_ptr<server::HttpServer>> former;  // which may have to answer still
+  std::vector<std::unique_ptr<http::HttpServer>> former;  // which may have to answer still
   std::string last_failure;
   while (!interrupt.interrupted()) {
     interrupt.sleep_for(std::chrono::seconds(1));

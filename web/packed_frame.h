@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "client/watch/rod_frame.h"
+#include "client/live/rod_frame.h"
 
 namespace shaken::web {
 

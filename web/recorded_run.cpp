@@ -9,7 +9,7 @@
 #include <system_error>
 
 #include "analysis/order.h"
-#include "client/watch/live_rods.h"
+#include "client/live/live_rods.h"
 
 namespace shaken::web {
 namespace {

@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "client/watch/rod_frame.h"
+#include "base/core/result.h"
+#include "client/live/rod_frame.h"
 #include "run/files/directory.h"
 #include "run/files/observables_file.h"
 #include "run/files/trajectory.h"
-#include "sim/core/result.h"
 
 namespace shaken::web {
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/core/result.h"
+#include "base/core/result.h"
 
 namespace shaken::web {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "base/core/result.h"
 #include "run/files/directory.h"
-#include "sim/core/result.h"
 
 namespace shaken::web {
 

@@ -27,8 +27,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
-using server::Reply;
-using server::Request;
+using http::Reply;
+using http::Request;
 
 /// A stream ends before an answer may take no longer; a browser then asks again by itself.
 constexpr std::chrono::seconds kStream{45};

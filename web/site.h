@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "base/http/http_server.h"
 #include "base/process.h"
-#include "server/http/http_server.h"
 #include "web/daemon_link.h"
 #include "web/live_feed.h"
 #include "web/queue_feed.h"
@@ -36,21 +36,21 @@ class Site {
   explicit Site(SiteSetup setup);
 
   /// Called from many threads at once; never throws.
-  server::Reply answer(const server::Request& request);
+  http::Reply answer(const http::Request& request);
   /// Streams end soon after this.
   void close() { is_closing_ = true; }
 
  private:
-  server::Reply routed(const server::Request& request);
-  server::Reply page_file(const std::string& name) const;
+  http::Reply routed(const http::Request& request);
+  http::Reply page_file(const std::string& name) const;
   /// Of the queue, and of a run if one is named.
-  server::Reply events(const std::string& run);
-  server::Reply ticket(const server::Request& request);
-  server::Reply of_run(const std::string& run, const std::vector<std::string>& rest, const server::Request& request);
-  server::Reply curves(const std::string& run, const server::Request& request);
+  http::Reply events(const std::string& run);
+  http::Reply ticket(const http::Request& request);
+  http::Reply of_run(const std::string& run, const std::vector<std::string>& rest, const http::Request& request);
+  http::Reply curves(const std::string& run, const http::Request& request);
   std::filesystem::path directory(const std::string& run) const { return setup_.root / "runs" / run; }
-  server::Reply file(const std::string& run, const std::string& name) const;
-  server::Reply picture(const std::string& run, const std::string& frame, const std::string& style);
+  http::Reply file(const std::string& run, const std::string& name) const;
+  http::Reply picture(const std::string& run, const std::string& frame, const std::string& style);
 
   SiteSetup setup_;
   DaemonLink daemon_;

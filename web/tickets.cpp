@@ -23,7 +23,7 @@ std::string Tickets::give(const std::string& path, const std::multimap<std::stri
   return *ticket;
 }
 
-std::optional<server::Request> Tickets::take(const std::string& ticket) {
+std::optional<http::Request> Tickets::take(const std::string& ticket) {
   const std::lock_guard lock(mutex_);
   auto node = given_.extract(ticket);
   if (node.empty() || node.mapped().end < Clock::now()) return std::nullopt;

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "server/http/http_server.h"
+#include "base/http/http_server.h"
 
 namespace shaken::web {
 
@@ -18,12 +18,12 @@ class Tickets {
   /// The ticket for GET of `path` with `query`. Throws std::runtime_error if the system has no random numbers.
   std::string give(const std::string& path, const std::multimap<std::string, std::string>& query);
   /// What a ticket is for, the first time within its minute.
-  std::optional<server::Request> take(const std::string& ticket);
+  std::optional<http::Request> take(const std::string& ticket);
 
  private:
   using Clock = std::chrono::steady_clock;
   struct Given {
-    server::Request request;
+    http::Request request;
     Clock::time_point end;
   };
   std::mutex mutex_;

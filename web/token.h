@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "sim/core/result.h"
+#include "base/core/result.h"
 
 namespace shaken::web {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 
+#include "base/core/rng.h"
 #include "base/failure.h"
 #include "bench/accuracy/accuracy.h"
-#include "sim/core/rng.h"
 
 namespace shaken::bench {
 namespace {

@@ -3,8 +3,8 @@
 
 #include "base/table.h"
 #include "base/text.h"
-#include "client/duration.h"
-#include "client/target.h"
+#include "client/live/duration.h"
+#include "client/live/target.h"
 #include "client/verbs/verbs.h"
 
 namespace shaken::client {

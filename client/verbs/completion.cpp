@@ -8,8 +8,8 @@
 #include <set>
 #include <string_view>
 
+#include "client/live/target.h"
 #include "client/results.h"
-#include "client/target.h"
 #include "client/verbs/verbs.h"
 
 namespace shaken::client {

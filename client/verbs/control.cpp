@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "base/text.h"
-#include "client/target.h"
+#include "client/live/target.h"
 #include "client/verbs/verbs.h"
 
 namespace shaken::client {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "client/checkup.h"
-#include "client/json.h"
+#include "client/live/json.h"
 #include "client/slurm_checkup.h"
 #include "client/slurm_estimate.h"
 #include "client/verbs/verbs.h"

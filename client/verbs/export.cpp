@@ -7,7 +7,7 @@
 #include "base/interrupt.h"
 #include "base/progress_line.h"
 #include "base/text.h"
-#include "client/target.h"
+#include "client/live/target.h"
 #include "client/verbs/verbs.h"
 #include "run/export/columns.h"
 #include "run/export/frames.h"

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "base/text.h"
-#include "client/target.h"
+#include "client/live/target.h"
 #include "client/verbs/verbs.h"
 
 namespace shaken::client {

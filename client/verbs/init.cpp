@@ -5,7 +5,7 @@
 
 #include "base/files.h"
 #include "base/process.h"
-#include "client/api_client.h"
+#include "client/live/api_client.h"
 #include "client/starter_scene.h"
 #include "client/verbs/verbs.h"
 

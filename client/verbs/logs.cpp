@@ -3,7 +3,7 @@
 
 #include "base/interrupt.h"
 #include "base/text.h"
-#include "client/target.h"
+#include "client/live/target.h"
 #include "client/verbs/verbs.h"
 
 namespace shaken::client {

@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include "base/process.h"
-#include "client/api_client.h"
+#include "client/live/api_client.h"
+#include "client/live/target.h"
 #include "client/picture_options.h"
-#include "client/target.h"
 #include "client/verbs/verbs.h"
 
 namespace shaken::client {

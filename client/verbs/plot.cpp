@@ -6,8 +6,8 @@
 
 #include "base/plots_by_python.h"
 #include "base/text.h"
+#include "client/live/target.h"
 #include "client/results.h"
-#include "client/target.h"
 #include "client/verbs/verbs.h"
 #include "client/where.h"
 #include "run/files/version.h"

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include "base/process.h"
+#include "client/live/target.h"
 #include "client/scene_input.h"
-#include "client/target.h"
 #include "client/verbs/verbs.h"
 #include "scene/canonical.h"
 #include "scene/load.h"

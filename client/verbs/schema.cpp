@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "client/json.h"
+#include "client/live/json.h"
 #include "client/verbs/verbs.h"
 
 namespace shaken::client {

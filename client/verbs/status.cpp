@@ -10,8 +10,8 @@
 #include "base/steadiness.h"
 #include "base/table.h"
 #include "base/text.h"
-#include "client/mean_order.h"
-#include "client/target.h"
+#include "client/live/mean_order.h"
+#include "client/live/target.h"
 #include "client/verbs/verbs.h"
 
 namespace shaken::client {

@@ -6,9 +6,9 @@
 #include "base/table.h"
 #include "base/text.h"
 #include "client/cost_estimate.h"
-#include "client/duration.h"
+#include "client/live/duration.h"
+#include "client/live/target.h"
 #include "client/scene_input.h"
-#include "client/target.h"
 #include "client/verbs/verbs.h"
 #include "client/waiting.h"
 

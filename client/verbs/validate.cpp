@@ -5,8 +5,8 @@
 
 #include "base/table.h"
 #include "base/text.h"
+#include "client/live/target.h"
 #include "client/scene_input.h"
-#include "client/target.h"
 #include "client/verbs/verbs.h"
 #include "scene/canonical.h"
 #include "scene/placement.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "client/duration.h"
-#include "client/target.h"
+#include "client/live/duration.h"
+#include "client/live/target.h"
 #include "client/verbs/verbs.h"
 #include "client/waiting.h"
 

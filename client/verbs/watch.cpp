@@ -9,10 +9,10 @@
 
 #include "base/interrupt.h"
 #include "base/text.h"
-#include "client/duration.h"
-#include "client/target.h"
+#include "client/live/duration.h"
+#include "client/live/live.h"
+#include "client/live/target.h"
 #include "client/verbs/verbs.h"
-#include "client/watch/live.h"
 #include "client/watch/live_screen.h"
 #include "client/watch/overview.h"
 #include "proto/bus.h"

@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace shaken::client {
+#include "client/live/ink.h"
 
-/// A colour of a cell: 0xRRGGBB, the terminal's own, or one of the eight that the terminal's theme defines.
-using Ink = std::int32_t;
-inline constexpr Ink kOwnInk = -1;
-/// Of the theme, 0 to 7: black, red, green, yellow, blue, magenta, cyan, white.
-constexpr Ink theme_ink(int number) { return -2 - number; }
+namespace shaken::client {
 
 /// What stands in one place of a terminal.
 struct Cell {

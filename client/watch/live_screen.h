@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "base/terminal.h"
+#include "client/live/live.h"
+#include "client/live/live_rods.h"
 #include "client/watch/graphics.h"
 #include "client/watch/image_writer.h"
 #include "client/watch/keys.h"
-#include "client/watch/live.h"
-#include "client/watch/live_rods.h"
 #include "client/watch/screen.h"
 #include "client/watch/screen_writer.h"
 #include "client/watch/steering.h"

@@ -9,7 +9,7 @@
 
 #include "base/clock.h"
 #include "base/text.h"
-#include "client/target.h"
+#include "client/live/target.h"
 #include "client/watch/chart.h"
 
 namespace shaken::client {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "client/console.h"
-#include "client/watch/live.h"
+#include "client/live/live.h"
 
 namespace shaken::client {
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "client/live/rod_frame.h"
 #include "client/watch/cells.h"
-#include "client/watch/rod_frame.h"
 
 namespace shaken::client {
 

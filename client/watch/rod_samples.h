@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "client/watch/rod_frame.h"
+#include "client/live/rod_frame.h"
 
 namespace shaken::client {
 

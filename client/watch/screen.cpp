@@ -11,7 +11,7 @@
 
 #include "base/clock.h"
 #include "base/text.h"
-#include "client/target.h"
+#include "client/live/target.h"
 #include "client/watch/chart.h"
 #include "client/watch/layout.h"
 #include "client/watch/overview.h"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "client/live/live.h"
 #include "client/watch/cells.h"
-#include "client/watch/live.h"
 #include "client/watch/rod_cells.h"
 #include "client/watch/rod_image.h"
 #include "client/watch/screen_writer.h"

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "base/core/result.h"
 #include "run/files/observables_file.h"
-#include "sim/core/result.h"
 
 namespace shaken::run {
 

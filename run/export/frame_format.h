@@ -6,9 +6,9 @@
 #include <memory>
 #include <string_view>
 
+#include "base/core/result.h"
 #include "run/files/recorded_frame.h"
 #include "run/files/recorded_frames.h"
-#include "sim/core/result.h"
 
 namespace shaken::run {
 

@@ -5,9 +5,9 @@
 #include <functional>
 #include <optional>
 
+#include "base/core/result.h"
 #include "run/export/frame_format.h"
 #include "run/files/trajectory.h"
-#include "sim/core/result.h"
 
 namespace shaken::run {
 

@@ -12,12 +12,12 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "base/core/check.h"
+#include "base/core/state_io.h"
 #include "run/export/frame_format.h"
 #include "run/export/species_beads.h"
 #include "run/export/xyz_comment.h"
 #include "run/files/version.h"
-#include "sim/core/check.h"
-#include "sim/core/state_io.h"
 
 namespace shaken::run {
 namespace {

@@ -8,9 +8,9 @@
 #include <span>
 #include <string_view>
 
+#include "base/core/state_io.h"
 #include "base/files.h"
 #include "run/files/hashed_bytes.h"
-#include "sim/core/state_io.h"
 
 namespace shaken::run {
 namespace {

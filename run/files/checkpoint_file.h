@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/core/result.h"
 #include "run/files/directory.h"
-#include "sim/core/result.h"
 
 namespace shaken::run {
 

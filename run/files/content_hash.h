@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "sim/core/result.h"
+#include "base/core/result.h"
 
 namespace shaken::run {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "base/core/result.h"
 #include "base/descriptor.h"
-#include "sim/core/result.h"
 
 namespace shaken::run {
 

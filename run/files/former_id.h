@@ -4,9 +4,9 @@
 
 #include <string>
 
+#include "base/core/result.h"
 #include "run/files/directory.h"
 #include "scene/run_plan.h"
-#include "sim/core/result.h"
 
 namespace shaken::run {
 

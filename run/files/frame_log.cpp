@@ -13,9 +13,9 @@
 #include <string_view>
 #include <utility>
 
+#include "base/core/state_io.h"
 #include "base/files.h"
 #include "run/files/hashed_bytes.h"
-#include "sim/core/state_io.h"
 
 namespace shaken::run {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "base/core/result.h"
 #include "run/files/provenance.h"
-#include "sim/core/result.h"
 
 namespace shaken::run {
 

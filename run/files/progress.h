@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "sim/core/result.h"
+#include "base/core/result.h"
 
 namespace shaken::run {
 

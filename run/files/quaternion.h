@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "sim/core/types.h"
+#include "base/core/types.h"
 
 namespace shaken::run {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sim/core/result.h"
+#include "base/core/result.h"
 #include "sim/snapshot.h"
 
 namespace shaken::run {

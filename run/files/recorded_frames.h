@@ -10,7 +10,7 @@
 
 #include "run/files/provenance.h"
 #include "run/files/recorded_frame.h"
-#include "sim/core/bead_row.h"
+#include "sim/rod/bead_row.h"
 #include "sim/system.h"
 
 namespace shaken::run {

@@ -6,10 +6,10 @@
 #include <memory>
 #include <optional>
 
+#include "base/core/result.h"
 #include "run/files/directory.h"
 #include "run/files/frame_log.h"
 #include "run/files/recorded_frames.h"
-#include "sim/core/result.h"
 
 namespace shaken::run {
 

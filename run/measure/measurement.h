@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "base/core/state_io.h"
 #include "run/measure/reduction.h"
 #include "run/measure/sample.h"
 #include "scene/run_plan.h"
-#include "sim/core/state_io.h"
 #include "sim/rod/species.h"
 
 namespace shaken::run {

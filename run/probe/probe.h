@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "base/core/result.h"
 #include "scene/run_plan.h"
-#include "sim/core/result.h"
 #include "sim/simulation.h"
 
 namespace shaken::run {

@@ -14,7 +14,7 @@ namespace shaken::scene {
 namespace {
 
 constexpr double kLeastTicksPerPeriod = 20;
-// Of a bead's radius, beyond which a run ends: kMaxOverlapFraction in sim/stepping/tick.h.
+// Of a bead's radius, beyond which a run ends: kMaxOverlapFraction in sim/tick/tick.h.
 constexpr double kDeepestOverlap = 0.5;
 
 }  // namespace

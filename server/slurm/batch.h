@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "base/core/result.h"
 #include "server/executor.h"
-#include "sim/core/result.h"
 
 namespace shaken::server::slurm {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "base/core/result.h"
 #include "base/descriptor.h"
 #include "base/process.h"
-#include "sim/core/result.h"
 
 namespace shaken::server::slurm {
 

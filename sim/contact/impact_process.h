@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "sim/core/types.h"
+#include "base/core/types.h"
 #include "sim/system.h"
 
 namespace shaken {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "base/core/check.h"
 #include "sim/contact/impact_process.h"
 #include "sim/contact/impulse.h"
-#include "sim/core/check.h"
 
 namespace shaken {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "sim/core/sincos.h"
-#include "sim/core/types.h"
+#include "base/core/sincos.h"
+#include "base/core/types.h"
 #include "sim/rod/species.h"
 
 namespace shaken {

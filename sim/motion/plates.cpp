@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "sim/core/sincos.h"
+#include "base/core/sincos.h"
 
 namespace shaken {
 namespace {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/core/heap_bytes.h"
 #include "sim/contact/bead_contacts.h"
-#include "sim/core/heap_bytes.h"
 
 namespace shaken {
 namespace {

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "sim/core/prefetch.h"
-#include "sim/core/types.h"
+#include "base/core/types.h"
+#include "sim/lanes/prefetch.h"
 #include "sim/motion/flight.h"
 #include "sim/rod/species.h"
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "sim/core/check.h"
+#include "base/core/check.h"
 
 namespace shaken {
 namespace {

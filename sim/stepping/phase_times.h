@@ -6,7 +6,7 @@
 
 namespace shaken {
 
-/// What a stepper spends its time on. The first four are the tick itself (stepping/tick.h); the others are what it
+/// What a stepper spends its time on. The first four are the tick itself (tick/tick.h); the others are what it
 /// takes to know where to look.
 enum class Phase { kSurfaces, kDetection, kResponse, kStoring, kRodBounds, kTightening, kPairBounds, kNeighbors };
 inline constexpr std::size_t kPhases = 8;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "sim/stepping/reference_stepper.h"
 
-#include "sim/core/heap_bytes.h"
-#include "sim/stepping/rod_impacts.h"
-#include "sim/stepping/surface_impacts.h"
+#include "base/core/heap_bytes.h"
+#include "sim/tick/rod_impacts.h"
+#include "sim/tick/surface_impacts.h"
 
 namespace shaken {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "sim/neighbors/neighbor_list.h"
 #include "sim/stepping/stepper.h"
-#include "sim/stepping/tick.h"
+#include "sim/tick/tick.h"
 
 namespace shaken {
 

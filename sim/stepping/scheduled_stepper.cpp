@@ -5,49 +5,50 @@
 #include <numeric>
 #include <utility>
 
-#include "sim/core/heap_bytes.h"
-#include "sim/core/prefetch.h"
-#include "sim/stepping/plate_impacts.h"
-#include "sim/stepping/rod_impacts.h"
-#include "sim/stepping/surface_bounds.h"
-#include "sim/stepping/surface_impacts.h"
+#include "base/core/heap_bytes.h"
+#include "sim/bounds/surface_safe_ticks.h"
+#include "sim/lanes/prefetch.h"
+#include "sim/tick/plate_impacts.h"
+#include "sim/tick/rod_impacts.h"
+#include "sim/tick/surface_impacts.h"
 
 namespace shaken {
 ScheduledStepper::ScheduledStepper(const World& world, int n_threads, int grain)
     : rules_(world),
       search_(rules_),
-      meets_in_lanes_(hits_in_lanes(rules_)),
+      meets_in_lanes_(lanes_know(world.system, rules_)),
       neighbors_(world.species, world.species_of_rod, world.system.box_side, NeighborList::kSkin),
       loops_(n_threads),
       grain_(static_cast<std::size_t>(grain)),
       rods_(world.rods.size()),
-      changes_(world.rods.size()),
-      reserves_(world.rods.size()),
+      jumps_(world.rods.size()),
+      skin_budgets_(world.rods.size()),
       marks_(world.rods.size()),
-      motion_bounds_(world.rods.size()),
+      flight_bounds_(world.rods.size()),
       owners_(world.rods.size()),
       wheel_(world.rods.size(), n_threads),
       pairs_(world.rods.size(), world.system.dt, n_threads) {
-  if (rules_.impacts_at_instant) found_.resize(world.rods.size());
+  if (rules_.impacts_at_instant) flight_pose_.resize(world.rods.size());
   // rods are numbered along the rows that they start in, so these are bands of the plane
   const std::size_t n = world.rods.size();
   const auto n_workers = static_cast<std::size_t>(n_threads);
   for (std::size_t i = 0; i < n; ++i) owners_[i] = static_cast<std::uint8_t>(i * n_workers / n);
   for (std::size_t w = 0; w < n_workers; ++w) {
     loops_.workers()[w].number = w;
-    loops_.workers()[w].to_settle.resize(n_workers);
+    loops_.workers()[w].stored.overspent.resize(n_workers);
   }
 }
 
 std::size_t ScheduledStepper::bytes() const {
   std::size_t bytes = neighbors_.bytes() + wheel_.bytes() + pairs_.bytes();
-  bytes += heap_bytes(rods_, found_, changes_, reserves_, marks_, motion_bounds_, owners_);
+  bytes += heap_bytes(rods_, flight_pose_, jumps_, skin_budgets_, marks_, flight_bounds_, owners_);
   bytes += heap_bytes(contacts_, may_change_, gained_, lost_, loops_.workers());
   for (const Worker& w : loops_.workers()) {
-    bytes += heap_bytes(w.due_rods, w.to_place, w.near, w.near_end, w.out_of_hand, w.due_pairs, w.to_pose, w.contacts,
-                        w.turned, w.changed, w.to_schedule, w.to_settle, w.searched_again, w.to_bound,
-                        w.to_bound_motion, w.bead_contacts);
-    for (const auto& of_another : w.to_settle) bytes += heap_bytes(of_another);
+    bytes +=
+        heap_bytes(w.met.rods, w.met.to_place, w.detected.near, w.detected.near_end, w.met.failed, w.detected.pairs,
+                   w.to_pose, w.detected.contacts, w.detected.toggled, w.met.hit, w.stored.to_schedule,
+                   w.stored.overspent, w.stored.polled, w.stored.to_bound, w.stored.to_bound_motion, w.bead_contacts);
+    for (const auto& of_another : w.stored.overspent) bytes += heap_bytes(of_another);
   }
   return bytes;
 }
@@ -62,7 +63,7 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
   phase_times.start();
   std::size_t n_visits = 0;  // and bounds, in the tick before
   for (const Worker& worker : loops_.workers()) {
-    n_visits += worker.due_rods.size() + worker.due_pairs.size() + worker.to_bound.size();
+    n_visits += worker.met.rods.size() + worker.detected.pairs.size() + worker.stored.to_bound.size();
   }
   loops_.share(n_visits >= grain_ * loops_.workers().size());
 
@@ -94,14 +95,16 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
   in_loop([&](Worker& worker) {
     store_changed(world, now, worker);
     lap(worker, Phase::kStoring);
-    tell_pairs(now, worker);
+    spend_budgets(now, worker);
     lap(worker, Phase::kTightening);
     schedule_rods(world, now, worker);
   });
-  const auto has_pairs = [](const Worker& worker) { return !worker.due_pairs.empty() || worker.has_told; };
+  const auto has_pairs = [](const Worker& worker) {
+    return !worker.detected.pairs.empty() || worker.stored.has_overspent;
+  };
   if (std::none_of(loops_.workers().begin(), loops_.workers().end(), has_pairs)) return {};
   in_loop([&](Worker& worker) {
-    settle_pairs(now, worker);
+    shorten_bounds(now, worker);
     bound_motions(world, now, worker);
   });
   in_loop([&](Worker& worker) { schedule_pairs(now, worker); });
@@ -112,7 +115,7 @@ std::optional<NumericalTrouble> ScheduledStepper::step(World& world, Tick now) {
 
 [[gnu::always_inline]] inline void ScheduledStepper::pose_rod(int i, const World& world, Tick now) {
   rods_[i] = rod_at_tick(world.rods[i], now, rules_);
-  if (!found_.empty()) found_[i] = rods_[i].pose;
+  if (!flight_pose_.empty()) flight_pose_[i] = rods_[i].pose;
 }
 
 void ScheduledStepper::pose_if_needed(int i, const World& world, Tick now) {
@@ -126,7 +129,7 @@ void ScheduledStepper::pose_listed(const World& world, Tick now, Worker& worker)
     prefetch(world.rods[i]);
     prefetch(rods_[i]);
   };
-  visit_ahead(worker.to_pose, ask, [&](int i) { pose_rod(i, world, now); });
+  for_each_prefetched(worker.to_pose, ask, [&](int i) { pose_rod(i, world, now); });
 }
 
 auto ScheduledStepper::groups_of_rods() const {
@@ -136,43 +139,44 @@ auto ScheduledStepper::groups_of_rods() const {
 // ---- 1. surfaces
 
 void ScheduledStepper::meet_surfaces_due(World& world, const PlateState& plates, Tick now, Worker& worker) {
-  worker.due_rods.clear();
-  worker.changed.clear();
+  worker.met.rods.clear();
+  worker.met.hit.clear();
   if (is_new_) {
     for (int i = 0; i < static_cast<int>(world.rods.size()); ++i) {
-      if (owners_[i] == worker.number) worker.due_rods.push_back(i);
+      if (owners_[i] == worker.number) worker.met.rods.push_back(i);
     }
   } else {
-    wheel_.pop(now, worker.due_rods, static_cast<int>(worker.number));
+    wheel_.pop(now, worker.met.rods, static_cast<int>(worker.number));
   }
   const auto ask = [&](int i) {
     prefetch(world.rods[i]);
     prefetch(rods_[i]);
     prefetch(marks_[i]);
-    prefetch(reserves_[i]);
+    prefetch(skin_budgets_[i]);
   };
   const auto note_trouble = [&](std::optional<NumericalTrouble> trouble) {
-    if (trouble && (!worker.trouble || trouble->rods < worker.trouble->rods)) worker.trouble = std::move(trouble);
+    if (trouble && (!worker.met.trouble || trouble->rods < worker.met.trouble->rods))
+      worker.met.trouble = std::move(trouble);
   };
   const auto begin_visit = [&](int i) {  // before a plate displaces the rod
     marks_[i].posed_at = marks_[i].listed_at = now;
-    if (reserves_[i].left(now, rules_.dt) >= ListReserve::kLeast) return;
-    reserves_[i].measure(neighbors_, i, rods_[i].pose, now);
-    if (reserves_[i].left(now, rules_.dt) < ListReserve::kLeast) worker.to_place.push_back(i);
+    if (skin_budgets_[i].left(now, rules_.dt) >= SkinBudget::kLeast) return;
+    skin_budgets_[i].measure(neighbors_, i, rods_[i].pose, now);
+    if (skin_budgets_[i].left(now, rules_.dt) < SkinBudget::kLeast) worker.met.to_place.push_back(i);
   };
   const auto meet_all = [&](int i) {
-    note_trouble(meet_surfaces(i, rods_[i], world.rods[i], plates, now, rules_, worker.counters));
+    note_trouble(meet_surfaces(i, rods_[i], world.rods[i], plates, now, rules_, worker.met.counters));
   };
   const auto end_visit = [&](int i) {
     if (!rods_[i].changed) return;
     RodMarks& marks = marks_[i];
     if (marks.changed_at == now - 1) marks.rests_at = now;
     marks.changed_at = now;
-    worker.changed.push_back(i);
-    if (check_motion(i, rods_[i], now, rules_)) worker.out_of_hand.push_back(i);
+    worker.met.hit.push_back(i);
+    if (check_motion(i, rods_[i], now, rules_)) worker.met.failed.push_back(i);
   };
   const auto meet_in_lanes = [&](std::span<const int> rods) {
-    std::uint32_t left_over = meet_plates_in_lanes(rods, world.rods, rods_, plates, now, rules_, worker.counters);
+    std::uint32_t left_over = meet_plates_in_lanes(rods, world.rods, rods_, plates, now, rules_, worker.met.counters);
     for (const int i : rods) {
       const bool is_left_over = (left_over & 1U) != 0;
       left_over >>= 1;
@@ -181,15 +185,15 @@ void ScheduledStepper::meet_surfaces_due(World& world, const PlateState& plates,
       if (is_left_over) {
         meet_all(i);
       } else if (rules_.walls) {
-        note_trouble(meet_side_walls(i, rods_[i], world.rods[i], plates, now, rules_, worker.counters));
+        note_trouble(meet_side_walls(i, rods_[i], world.rods[i], plates, now, rules_, worker.met.counters));
       }
       end_visit(i);
     }
   };
-  if (meets_in_lanes_ && worker.due_rods.size() > 1) {
+  if (meets_in_lanes_ && worker.met.rods.size() > 1) {
     const auto groups = groups_of_rods();
-    groups.sort(worker.due_rods);
-    const std::span<const int> due = worker.due_rods;
+    groups.sort(worker.met.rods);
+    const std::span<const int> due = worker.met.rods;
     const auto ask_for_eight = [&](std::size_t first) {
       for (std::size_t k = first; k < std::min(due.size(), first + lanes::kDoubleLanes); ++k) ask(due[k]);
     };
@@ -200,25 +204,25 @@ void ScheduledStepper::meet_surfaces_due(World& world, const PlateState& plates,
     };
     groups.in_lanes(due, meet_and_ask, lanes::kDoubleLanes);
   } else {
-    visit_ahead(worker.due_rods, ask, [&](int i) {
+    for_each_prefetched(worker.met.rods, ask, [&](int i) {
       pose_rod(i, world, now);
       begin_visit(i);
       meet_all(i);
       end_visit(i);
     });
   }
-  worker.counts.count(WorkKind::kRodsVisited, std::ssize(worker.due_rods));
-  worker.counts.count(WorkKind::kRodsHit, std::ssize(worker.changed));
-  worker.counts.count(WorkKind::kRodsPlaced, std::ssize(worker.to_place));
+  worker.counts.count(WorkKind::kRodsVisited, std::ssize(worker.met.rods));
+  worker.counts.count(WorkKind::kRodsHit, std::ssize(worker.met.hit));
+  worker.counts.count(WorkKind::kRodsPlaced, std::ssize(worker.met.to_place));
 }
 
 std::optional<NumericalTrouble> ScheduledStepper::gather_surfaces(World& world) {
   std::optional<NumericalTrouble> first;
   for (Worker& worker : loops_.workers()) {
-    if (worker.due_rods.empty()) continue;
-    world.counters.add(worker.counters);
-    worker.counters = {};
-    if (worker.trouble && (!first || worker.trouble->rods < first->rods)) first = worker.trouble;
+    if (worker.met.rods.empty()) continue;
+    world.counters.add(worker.met.counters);
+    worker.met.counters = {};
+    if (worker.met.trouble && (!first || worker.met.trouble->rods < first->rods)) first = worker.met.trouble;
   }
   return first;
 }
@@ -228,9 +232,9 @@ std::optional<NumericalTrouble> ScheduledStepper::gather_surfaces(World& world) 
 void ScheduledStepper::build_neighbors(Tick now) {
   const std::size_t n = rods_.size();
   std::vector<Pose> poses(n);
-  for (std::size_t i = 0; i < n; ++i) poses[i] = found(static_cast<int>(i));
+  for (std::size_t i = 0; i < n; ++i) poses[i] = flight_pose(static_cast<int>(i));
   neighbors_.build(poses);
-  for (int i = 0; i < static_cast<int>(n); ++i) reserves_[i].measure(neighbors_, i, rods_[i].pose, now);
+  for (int i = 0; i < static_cast<int>(n); ++i) skin_budgets_[i].measure(neighbors_, i, rods_[i].pose, now);
   gained_.resize(neighbors_.pairs().size());
   std::iota(gained_.begin(), gained_.end(), 0);
   add_gained();
@@ -244,51 +248,51 @@ void ScheduledStepper::add_gained() {
     const NeighborList::Pair& pair = neighbors_.pairs()[p];
     if (pair.i < 0 || pairs_.is_used(p)) continue;  // lost again, or met twice
     pairs_.add(p, {pair.i, pair.j}, owners_[pair.i]);
-    worker_of(pair.i).due_pairs.push_back(p);
+    worker_of(pair.i).detected.pairs.push_back(p);
   }
 }
 
 void ScheduledStepper::place_rods(Tick now) {
   was_complete_ = true;
   have_placed_ = false;
-  for (Worker& worker : loops_.workers()) worker.due_pairs.clear();
+  for (Worker& worker : loops_.workers()) worker.detected.pairs.clear();
   if (is_new_) build_neighbors(now);
   for (Worker& worker : loops_.workers()) {
-    if (!worker.to_place.empty()) have_placed_ = true;
-    for (const int i : worker.to_place) {
-      if (!(reserves_[i].left(now, rules_.dt) >= 0)) was_complete_ = false;
-      neighbors_.place(i, found(i));
+    if (!worker.met.to_place.empty()) have_placed_ = true;
+    for (const int i : worker.met.to_place) {
+      if (!(skin_budgets_[i].left(now, rules_.dt) >= 0)) was_complete_ = false;
+      neighbors_.place(i, flight_pose(i));
     }
   }
 }
 
 void ScheduledStepper::detect_due(const World& world, Tick now, Worker& worker) {
-  for (const int i : worker.to_place) {
-    reserves_[i].measure(neighbors_, i, rods_[i].pose, now);
-    neighbors_.find_near(i, worker.near);
-    worker.near_end.push_back(worker.near.size());
+  for (const int i : worker.met.to_place) {
+    skin_budgets_[i].measure(neighbors_, i, rods_[i].pose, now);
+    neighbors_.find_near(i, worker.detected.near);
+    worker.detected.near_end.push_back(worker.detected.near.size());
   }
   lap(worker, Phase::kNeighbors);
-  const std::size_t n_gained = worker.due_pairs.size();
-  pairs_.wheel().pop(now, worker.due_pairs, static_cast<int>(worker.number));
-  const auto up = worker.due_pairs.begin() + static_cast<std::ptrdiff_t>(n_gained);
-  for (auto p = up; p != worker.due_pairs.end(); ++p) pairs_.prefetch(*p);
-  for (auto p = up; p != worker.due_pairs.end(); ++p) pairs_.prefetch_bound(*p);
-  const auto due = std::remove_if(up, worker.due_pairs.end(), [&](int p) { return pairs_.waits_on(p, now); });
-  worker.counts.count(WorkKind::kPairsWaitingOn, worker.due_pairs.end() - due);
-  worker.due_pairs.erase(due, worker.due_pairs.end());
-  for (const int p : worker.due_pairs) pairs_.set_detected(p, now);
-  for (const int i : worker.changed) {  // as in detect_touching, which finds the rest
+  const std::size_t n_gained = worker.detected.pairs.size();
+  pairs_.wheel().pop(now, worker.detected.pairs, static_cast<int>(worker.number));
+  const auto up = worker.detected.pairs.begin() + static_cast<std::ptrdiff_t>(n_gained);
+  for (auto p = up; p != worker.detected.pairs.end(); ++p) pairs_.prefetch(*p);
+  for (auto p = up; p != worker.detected.pairs.end(); ++p) pairs_.prefetch_bound(*p);
+  const auto due = std::remove_if(up, worker.detected.pairs.end(), [&](int p) { return pairs_.defer(p, now); });
+  worker.counts.count(WorkKind::kPairsDeferred, worker.detected.pairs.end() - due);
+  worker.detected.pairs.erase(due, worker.detected.pairs.end());
+  for (const int p : worker.detected.pairs) pairs_.set_detected(p, now);
+  for (const int i : worker.met.hit) {  // as in detect_touching, which finds the rest
     if (pairs_.n_touching(i) == 0) continue;
     for (const int p : neighbors_.pairs_of(i)) {
       if (static_cast<std::size_t>(pairs_.owner(p)) != worker.number) continue;
       if (!pairs_.is_touching(p) || pairs_.detected_at(p) == now) continue;
       pairs_.set_detected(p, now);
-      worker.due_pairs.push_back(p);
+      worker.detected.pairs.push_back(p);
     }
   }
   worker.to_pose.clear();
-  for (const int p : worker.due_pairs) {
+  for (const int p : worker.detected.pairs) {
     for (const int i : pairs_.rods(p)) {
       if (owners_[i] != worker.number || marks_[i].posed_at == now) continue;
       marks_[i].posed_at = now;
@@ -296,26 +300,26 @@ void ScheduledStepper::detect_due(const World& world, Tick now, Worker& worker) 
     }
   }
   pose_listed(world, now, worker);
-  for (const int p : worker.due_pairs) {
+  for (const int p : worker.detected.pairs) {
     const auto& [i, j] = pairs_.rods(p);
     // its owner may be posing it right now
     const bool is_other = owners_[j] != worker.number;
     if (is_other) worker.other_pose = rod_at_tick(world.rods[j], now, rules_).pose;
-    const bool touching = search_.find(pairs_.rods(p), found(i), is_other ? worker.other_pose : found(j),
-                                       pairs_.direction(p), worker.bead_contacts, worker.contacts);
-    if (touching != pairs_.is_touching(p)) worker.turned.push_back(p);
+    const bool touching = search_.find(pairs_.rods(p), flight_pose(i), is_other ? worker.other_pose : flight_pose(j),
+                                       pairs_.direction(p), worker.bead_contacts, worker.detected.contacts);
+    if (touching != pairs_.is_touching(p)) worker.detected.toggled.push_back(p);
     worker.counts.count(WorkKind::kPairsTouching, touching ? 1 : 0);
   }
-  worker.counts.count(WorkKind::kPairsSearched, std::ssize(worker.due_pairs));
+  worker.counts.count(WorkKind::kPairsSearched, std::ssize(worker.detected.pairs));
 }
 
 void ScheduledStepper::gather_contacts(const World& world, Tick now) {
   contacts_.clear();
   for (Worker& worker : loops_.workers()) {
-    contacts_.insert(contacts_.end(), worker.contacts.begin(), worker.contacts.end());
-    worker.contacts.clear();
-    for (const int p : worker.turned) pairs_.turn_touching(p);
-    worker.turned.clear();
+    contacts_.insert(contacts_.end(), worker.detected.contacts.begin(), worker.detected.contacts.end());
+    worker.detected.contacts.clear();
+    for (const int p : worker.detected.toggled) pairs_.toggle_touching(p);
+    worker.detected.toggled.clear();
   }
   for (const PairContact& contact : contacts_) pose_if_needed(contact.j, world, now);
 }
@@ -326,14 +330,14 @@ void ScheduledStepper::replace_pairs(const World& world, Tick now) {
   lost_.clear();
   for (Worker& worker : loops_.workers()) {
     std::size_t begin = 0;
-    for (std::size_t k = 0; k < worker.to_place.size(); ++k) {
-      const auto near = std::span(worker.near).subspan(begin, worker.near_end[k] - begin);
-      neighbors_.replace_pairs(worker.to_place[k], near, gained_, lost_);
-      begin = worker.near_end[k];
+    for (std::size_t k = 0; k < worker.met.to_place.size(); ++k) {
+      const auto near = std::span(worker.detected.near).subspan(begin, worker.detected.near_end[k] - begin);
+      neighbors_.replace_pairs(worker.met.to_place[k], near, gained_, lost_);
+      begin = worker.detected.near_end[k];
     }
-    worker.to_place.clear();
-    worker.near.clear();
-    worker.near_end.clear();
+    worker.met.to_place.clear();
+    worker.detected.near.clear();
+    worker.detected.near_end.clear();
   }
   pairs_.make_room(neighbors_.pairs().size());  // a pair may be gained and lost by the same tick
   for (const int p : lost_) pairs_.remove(p);
@@ -351,9 +355,9 @@ void ScheduledStepper::detect(int p, const World& world, Tick now) {
   pose_if_needed(i, world, now);
   pose_if_needed(j, world, now);
   std::vector<BeadContact>& bead_contacts = loops_.workers().front().bead_contacts;
-  if (search_.find(pairs_.rods(p), found(i), found(j), pairs_.direction(p), bead_contacts, contacts_) !=
+  if (search_.find(pairs_.rods(p), flight_pose(i), flight_pose(j), pairs_.direction(p), bead_contacts, contacts_) !=
       pairs_.is_touching(p))
-    pairs_.turn_touching(p);
+    pairs_.toggle_touching(p);
   Worker& first = loops_.workers().front();
   first.counts.count(WorkKind::kPairsSearched);
   first.counts.count(WorkKind::kPairsTouching, pairs_.is_touching(p) ? 1 : 0);
@@ -364,7 +368,7 @@ void ScheduledStepper::detect(int p, const World& world, Tick now) {
 void ScheduledStepper::detect_touching(const World& world, Tick now) {
   may_change_.clear();
   for (const Worker& worker : loops_.workers()) {
-    for (const int i : worker.changed) {
+    for (const int i : worker.met.hit) {
       if (pairs_.n_touching(i) > 0) may_change_.push_back(i);
     }
   }
@@ -380,7 +384,7 @@ void ScheduledStepper::detect_touching(const World& world, Tick now) {
   for (std::size_t m = 0; m < may_change_.size(); ++m) {
     for (const int p : neighbors_.pairs_of(may_change_[m])) {
       if (!pairs_.is_touching(p) || pairs_.detected_at(p) == now) continue;
-      loops_.workers()[pairs_.owner(p)].due_pairs.push_back(p);
+      loops_.workers()[pairs_.owner(p)].detected.pairs.push_back(p);
       detect(p, world, now);
     }
     note_contacts();
@@ -397,17 +401,17 @@ std::optional<NumericalTrouble> ScheduledStepper::check_changed(Tick now) {
     if (auto trouble = check_motion(i, rods_[i], now, rules_)) first = std::move(trouble);
   };
   for (Worker& worker : loops_.workers()) {
-    worker.to_schedule.clear();
-    for (const int i : worker.out_of_hand) check(i);
-    worker.out_of_hand.clear();
+    worker.stored.to_schedule.clear();
+    for (const int i : worker.met.failed) check(i);
+    worker.met.failed.clear();
   }
   for (const PairContact& contact : contacts_) {
     for (const int i : {contact.i, contact.j}) {
       if (!rods_[i].changed) continue;
       check(i);
-      if (marks_[i].changed_at != now) worker_of(i).changed.push_back(i);
+      if (marks_[i].changed_at != now) worker_of(i).met.hit.push_back(i);
       marks_[i].changed_at = now;
-      if (marks_[i].listed_at != now) worker_of(i).to_schedule.push_back(i);
+      if (marks_[i].listed_at != now) worker_of(i).stored.to_schedule.push_back(i);
       marks_[i].listed_at = now;
     }
   }
@@ -416,22 +420,23 @@ std::optional<NumericalTrouble> ScheduledStepper::check_changed(Tick now) {
 
 void ScheduledStepper::store_changed(World& world, Tick now, Worker& worker) {
   const auto slow = static_cast<double>(search_.slow());
-  for (const int i : worker.changed) {
+  for (const int i : worker.met.hit) {
     Flight& flight = world.rods[i];
     const Vec3 velocity = velocity_at(flight, now, rules_);
     const Vec3 precession = flight.precession;
     const double rate = flight.rate;
     store(i, flight, rods_[i], now, rules_);
     const bool displaced = rods_[i].displaced;
-    if (displaced) reserves_[i].measure(neighbors_, i, rods_[i].pose, now);
-    if (marks_[i].rests_at == now) reserves_[i].cover_tick(flight, rules_.species_of(i).half_length, now, rules_.dt);
+    if (displaced) skin_budgets_[i].measure(neighbors_, i, rods_[i].pose, now);
+    if (marks_[i].rests_at == now)
+      skin_budgets_[i].cover_tick(flight, rules_.species_of(i).half_length, now, rules_.dt);
     // A rod that was displaced twice is where no flight with one hit led it. One that is fast may come near another
     // image, of which no line tells.
     const bool fast = std::max(std::abs(flight.velocity.x()), std::abs(flight.velocity.y())) >= slow;
-    changes_[i] = (displaced && rods_[i].hit_again) || fast
-                      ? MotionChange::unknown()
-                      : MotionChange(flight.velocity - velocity, flight.precession - precession, flight.director, rate,
-                                     flight.rate, rules_.species_of(i).half_length, displaced ? rules_.dt : 0);
+    jumps_[i] = (displaced && rods_[i].hit_again) || fast
+                    ? VelocityJump::unknown()
+                    : VelocityJump(flight.velocity - velocity, flight.precession - precession, flight.director, rate,
+                                   flight.rate, rules_.species_of(i).half_length, displaced ? rules_.dt : 0);
   }
 }
 
@@ -440,25 +445,25 @@ void ScheduledStepper::store_changed(World& world, Tick now, Worker& worker) {
 void ScheduledStepper::schedule_rods(const World& world, Tick now, Worker& worker) {
   // A rod that a surface hits, and that was hit in the tick before, rests on it as a rule: it is as good as sure to be
   // hit in the next tick, too (four of five visits, 99 % of the time), and needs no bound to know it.
-  for (const int i : worker.due_rods) {
+  for (const int i : worker.met.rods) {
     if (marks_[i].rests_at == now) {
       worker.counts.count(WorkKind::kRodsResting);
       wheel_.set(i, now + 1, static_cast<int>(worker.number));
     } else {
-      worker.to_schedule.push_back(i);
+      worker.stored.to_schedule.push_back(i);
     }
   }
   constexpr Tick kHorizon = TimingWheel::horizon() - 1;
   const auto groups = groups_of_rods();
-  groups.sort(worker.to_schedule);
-  worker.counts.count(WorkKind::kRodsBounded, std::ssize(worker.to_schedule));
-  groups.in_lanes(worker.to_schedule, [&](std::span<const int> rods) {
+  groups.sort(worker.stored.to_schedule);
+  worker.counts.count(WorkKind::kRodsBounded, std::ssize(worker.stored.to_schedule));
+  groups.in_lanes(worker.stored.to_schedule, [&](std::span<const int> rods) {
     Tick ticks[kLanes];
     off_surface_ticks(rods, world, rods_, now, kHorizon, rules_, worker.plate_lanes, ticks);
     for (std::size_t lane = 0; lane < rods.size(); ++lane) {
       const int i = rods[lane];
-      const Tick covered = reserves_[i].covered_ticks(neighbors_, i, world.rods[i], rods_[i].pose,
-                                                      rules_.species_of(i).half_length, now, rules_.dt, kHorizon);
+      const Tick covered = skin_budgets_[i].covered_ticks(neighbors_, i, world.rods[i], rods_[i].pose,
+                                                          rules_.species_of(i).half_length, now, rules_.dt, kHorizon);
       wheel_.set(i, now + 1 + std::min(ticks[lane], covered), static_cast<int>(worker.number));
     }
   });
@@ -466,74 +471,74 @@ void ScheduledStepper::schedule_rods(const World& world, Tick now, Worker& worke
 }
 
 /// Has hits take what they take of the gaps to neighbours.
-[[gnu::flatten]] void ScheduledStepper::tell_pairs(Tick now, Worker& worker) {
-  worker.counts.count(WorkKind::kRodsTold, std::ssize(worker.changed));
-  worker.to_bound.clear();
-  worker.has_told = false;
+[[gnu::flatten]] void ScheduledStepper::spend_budgets(Tick now, Worker& worker) {
+  worker.counts.count(WorkKind::kVelocityJumps, std::ssize(worker.met.hit));
+  worker.stored.to_bound.clear();
+  worker.stored.has_overspent = false;
   const bool alone = loops_.workers().size() == 1;
   const auto ask = [&](int i) { pairs_.prefetch_rod(i); };
-  visit_ahead(worker.changed, ask, [&](int i) {
-    pairs_.take(i, changes_[i], now, [&](int p) {
+  for_each_prefetched(worker.met.hit, ask, [&](int i) {
+    pairs_.spend(i, jumps_[i], now, [&](int p) {
       pairs_.prefetch(p);
-      worker.to_settle[alone ? 0 : static_cast<std::size_t>(pairs_.owner(p))].push_back(p);
-      worker.has_told = true;
+      worker.stored.overspent[alone ? 0 : static_cast<std::size_t>(pairs_.owner(p))].push_back(p);
+      worker.stored.has_overspent = true;
     });
   });
 }
 
 /// Lists the pairs that were due, and brings up sooner, or lists, those of whose gaps hits took more than they may.
 /// Not in the loop that tells pairs: what a pair writes lies with its rods, of which one may be another worker's.
-void ScheduledStepper::settle_pairs(Tick now, Worker& worker) {
-  worker.searched_again.clear();
-  for (const int p : worker.due_pairs) {
+void ScheduledStepper::shorten_bounds(Tick now, Worker& worker) {
+  worker.stored.polled.clear();
+  for (const int p : worker.detected.pairs) {
     // one that has been lost, or is another's by now, is not listed
     if (!pairs_.is_used(p) || static_cast<std::size_t>(pairs_.owner(p)) != worker.number) continue;
     if (rules_.rest.matters() && pairs_.keeps_touching(p)) {
-      pairs_.search_again(p, now);  // rods at rest touch in every tick: a bound would tell nothing
-      pairs_.list(p, worker.searched_again);
+      pairs_.poll(p, now);  // rods at rest touch in every tick: a bound would tell nothing
+      pairs_.list(p, worker.stored.polled);
     } else {
-      pairs_.list(p, worker.to_bound);
+      pairs_.list(p, worker.stored.to_bound);
     }
   }
-  worker.counts.count(WorkKind::kBoundsWhenDue, std::ssize(worker.to_bound));
-  std::int64_t n_settled = 0;
+  worker.counts.count(WorkKind::kBoundsWhenDue, std::ssize(worker.stored.to_bound));
+  std::int64_t n_shortened = 0;
   for (Worker& from : loops_.workers()) {
-    std::vector<int>& to_settle = from.to_settle[worker.number];
+    std::vector<int>& overspent = from.stored.overspent[worker.number];
     const auto ask = [&](int p) { pairs_.prefetch_bound(p); };
-    visit_ahead(to_settle, ask, [&](int p) {
+    for_each_prefetched(overspent, ask, [&](int p) {
       if (pairs_.is_listed(p)) return;
-      if (pairs_.settle(p, now)) {
-        ++n_settled;
+      if (pairs_.shorten_bound(p, now)) {
+        ++n_shortened;
       } else {
-        pairs_.list(p, worker.to_bound);
+        pairs_.list(p, worker.stored.to_bound);
       }
     });
-    to_settle.clear();
+    overspent.clear();
   }
-  for (const int p : worker.searched_again) pairs_.unlist(p);
-  worker.counts.count(WorkKind::kPairsTightened, n_settled);
+  for (const int p : worker.stored.polled) pairs_.unlist(p);
+  worker.counts.count(WorkKind::kBoundsShortened, n_shortened);
   lap(worker, Phase::kTightening);
 }
 
 void ScheduledStepper::bound_motions(const World& world, Tick now, Worker& worker) {
   worker.to_pose.clear();
-  worker.to_bound_motion.clear();
-  for (const int p : worker.to_bound) {
+  worker.stored.to_bound_motion.clear();
+  for (const int p : worker.stored.to_bound) {
     pairs_.prefetch_bound(p);
     for (const int i : pairs_.rods(p)) {
       if (!loops_.claim(marks_[i].bounded_at, now)) continue;
-      worker.to_bound_motion.push_back(i);
+      worker.stored.to_bound_motion.push_back(i);
       if (marks_[i].posed_at == now) continue;
       marks_[i].posed_at = now;
       worker.to_pose.push_back(i);
     }
   }
-  worker.counts.count(WorkKind::kPairsBounded, std::ssize(worker.to_bound));
+  worker.counts.count(WorkKind::kPairsBounded, std::ssize(worker.stored.to_bound));
   pose_listed(world, now, worker);
-  const auto ask = [&](int i) { prefetch(motion_bounds_[i]); };
-  visit_ahead(worker.to_bound_motion, ask, [&](int i) {
+  const auto ask = [&](int i) { prefetch(flight_bounds_[i]); };
+  for_each_prefetched(worker.stored.to_bound_motion, ask, [&](int i) {
     const Flight& flight = world.rods[i];
-    motion_bounds_[i] = motion_bound(flight, velocity_at(flight, now, rules_), rods_[i].pose.director, search_.slow());
+    flight_bounds_[i] = flight_bound(flight, velocity_at(flight, now, rules_), rods_[i].pose.director, search_.slow());
   });
   lap(worker, Phase::kPairBounds);
 }
@@ -544,8 +549,8 @@ void ScheduledStepper::schedule_pairs(Tick now, Worker& worker) {
     const auto& [i, j] = pairs_.rods(p);
     return species_index(i) * n_species + species_index(j);
   });
-  groups.sort(worker.to_bound);
-  groups.in_lanes(worker.to_bound, [&](std::span<const int> pairs) { bound_pairs(pairs, now, worker); });
+  groups.sort(worker.stored.to_bound);
+  groups.in_lanes(worker.stored.to_bound, [&](std::span<const int> pairs) { bound_pairs(pairs, now, worker); });
   lap(worker, Phase::kPairBounds);
 }
 
@@ -554,7 +559,7 @@ void ScheduledStepper::bound_pairs(std::span<const int> pairs, Tick now, Worker&
   PairRods rods[kLanes];
   for (std::size_t lane = 0; lane < pairs.size(); ++lane) rods[lane] = pairs_.rods(pairs[lane]);
   PairBounds bounds;
-  search_.bound({rods, pairs.size()}, rods_, motion_bounds_, worker.pair_lanes, bounds);
+  search_.bound({rods, pairs.size()}, rods_, flight_bounds_, worker.pair_lanes, bounds);
   for (std::size_t lane = 0; lane < pairs.size(); ++lane) {
     // Whether a pair is touching was found where free flight had brought its rods. Displaced since, they may overlap
     // and recede without being marked, if their hulls do: to be visited again at once.
@@ -563,8 +568,8 @@ void ScheduledStepper::bound_pairs(std::span<const int> pairs, Tick now, Worker&
     worker.counts.count(WorkKind::kBoundsByBeads, bounds.by_beads[lane] ? 1 : 0);
     worker.counts.count(WorkKind::kBoundsOfNoTick, bounds.ticks[lane] == 0 ? 1 : 0);
     pairs_.unlist(pairs[lane]);
-    pairs_.hold(pairs[lane], now, unmarked ? 0 : bounds.ticks[lane], bounds.direction[lane],
-                unmarked ? GapLine{} : bounds.line[lane]);
+    pairs_.set_bound(pairs[lane], now, unmarked ? 0 : bounds.ticks[lane], bounds.direction[lane],
+                     unmarked ? GapBound{} : bounds.line[lane]);
   }
 }
 

@@ -3,21 +3,22 @@
 
 #include <vector>
 
-#include "sim/stepping/list_reserve.h"
-#include "sim/stepping/loops.h"
-#include "sim/stepping/motion_change.h"
-#include "sim/stepping/pair_search.h"
-#include "sim/stepping/pair_table.h"
+#include "sim/bounds/plate_safe_time.h"
+#include "sim/bounds/velocity_jump.h"
+#include "sim/schedule/loops.h"
+#include "sim/schedule/pair_schedule.h"
+#include "sim/schedule/pair_search.h"
+#include "sim/schedule/skin_budget.h"
+#include "sim/schedule/timing_wheel.h"
 #include "sim/stepping/stepper.h"
-#include "sim/stepping/tick.h"
-#include "sim/stepping/timing_wheel.h"
+#include "sim/tick/tick.h"
 
 namespace shaken {
 
 /// Visits a rod or a pair only at the ticks at which contact is possible. After each visit a rigorous bound
-/// (contact/safe_time.h, motion/plate_safe_time.h) tells up to when nothing can happen, and a timing wheel brings the
-/// rod or pair back in time. What happens at a visit is tick.h's business, so the trajectory is the reference
-/// stepper's, bit by bit.
+/// (bounds/safe_time.h, bounds/plate_safe_time.h) says until when nothing can happen, and a timing wheel brings the rod
+/// or pair back in time. What happens at a visit is defined in tick/tick.h, so the trajectory is the reference
+/// stepper's, bit for bit. docs/stepper.md explains it with figures.
 ///
 /// The life of a pair:
 ///
@@ -25,25 +26,25 @@ namespace shaken {
 ///     (NeighborList)          for so many ticks                 (TimingWheel)
 ///          |                        |                                |
 ///          v                        v                                v
-///        visit ---------------->  bound ------- waits ----------->  enough time left? -- no --> visit --> ...
+///        search --------------->  bound ------- waits ----------->  enough time left? -- no --> search --> ...
 ///          |                        ^           ^ |   |              |
-///          v                        |           | |   |              | yes (PairTable::waits_on)
+///          v                        |           | |   |              | yes (PairSchedule::defer)
 ///      contacts?                    |           +-+---|--------------+
 ///      response, storing            |             |   +---> the rods have parted: forgotten (NeighborList)
 ///                                   +-------------+
-///                hits have taken more of the gap than they may: it comes up sooner (PairTable::settle),
+///                hits have overspent the pair's budget: it comes up sooner (PairSchedule::shorten_bound)
 ///                or, if that were too soon, gets a new bound
 ///
 /// Four things keep the work small:
-///  1. A hit does not end a bound. Plates hit a rod thousands of times per second, and what a hit makes the gap to a
-///     neighbour close faster takes a little of what it may take (GapAllowances), of all neighbours' at once.
+///  1. A hit does not end a bound. Plates hit a rod thousands of times per second; each hit spends a little of the
+///     budgets that the bounds of all its pairs leave it (GapBudgets), in one vector operation.
 ///  2. A rod that a plate hits tick after tick rests on it and is visited at the next tick without a bound.
 ///  3. Beads that overlap but recede are left alone, unless a rod of theirs may be hit in this very tick.
-///  4. Rods meet plates several at a time (stepping/plate_impacts.h).
+///  4. Rods meet plates several at a time (tick/plate_impacts.h).
 ///
-/// Every rod and every pair belongs to a worker, and each worker may be a thread of its own (SharedLoops). A tick is a
-/// few loops in which a worker handles what belongs to it; what takes two workers is done by the first one in between:
-/// places in the neighbour list and the impulses between rods.
+/// Every rod and every pair belongs to a worker, and each worker may be a thread of its own (SharedLoops). A tick is
+/// five loops in which each worker handles what belongs to it; in between the first thread alone does what concerns
+/// several workers: places in the neighbour list, and the impulses between rods.
 class ScheduledStepper final : public Stepper {
  public:
   /// A tick is shared among the threads if the one before it had at least `grain` visits and bounds for each.
@@ -57,30 +58,43 @@ class ScheduledStepper final : public Stepper {
     Tick listed_at = -1;   ///< tick at which it was last to be scheduled
     Tick changed_at = -1;  ///< tick at which it was last hit
     Tick rests_at = -1;    ///< last tick at which a surface hit it when it had been hit in the tick before
-    Tick bounded_at = -1;  ///< tick for which motion_bounds_ holds the rod
+    Tick bounded_at = -1;  ///< tick for which flight_bounds_ holds the rod
   };
-  /// What one worker has, and gathers in a tick: rods and pairs of its own.
+  /// What the surfaces phase leaves to the phases after it.
+  struct Met {
+    std::vector<int> rods;      ///< visited in this tick
+    std::vector<int> hit;       ///< of these, hit by a surface; the response adds those that other rods hit
+    std::vector<int> to_place;  ///< whose skin budget is used up: the neighbour list is to find their pairs anew
+    std::vector<int> failed;    ///< whose motion after the surfaces is numerical trouble
+    Counters counters;
+    std::optional<NumericalTrouble> trouble;  ///< that of the first rods
+  };
+  /// What detection leaves: pairs that came up, and their contacts.
+  struct Detected {
+    std::vector<int> pairs;    ///< searched in this tick
+    std::vector<int> toggled;  ///< of these, those that began or ceased to touch
+    std::vector<PairContact> contacts;
+    std::vector<int> near;              ///< rods near each of `to_place`, one after the other
+    std::vector<std::size_t> near_end;  ///< where those of each end
+  };
+  /// What storing leaves to the two loops that make bounds.
+  struct Stored {
+    std::vector<int> to_schedule;             ///< rods that need a bound on the time to the next surface
+    std::vector<std::vector<int>> overspent;  ///< (n_workers) pairs of each worker whose budgets hits overspent
+    bool has_overspent = false;
+    std::vector<int> polled;           ///< pairs of rods at rest: to be searched at the next tick without a bound
+    std::vector<int> to_bound;         ///< pairs that need a bound
+    std::vector<int> to_bound_motion;  ///< rods of such pairs, of whatever worker
+  };
+  /// One thread's share: the rods and pairs that belong to it, and its lists of one tick.
   struct alignas(64) Worker {
     std::size_t number = 0;
-    std::vector<int> due_rods;
-    std::vector<int> to_place;  ///< rods that have used up their reserve in the neighbour list
-    std::vector<int> near;      ///< rods, near each of those, one after the other
-    std::vector<std::size_t> near_end;
-    std::vector<int> out_of_hand;  ///< rods whose motion is trouble after the surfaces
-    std::vector<int> due_pairs;
-    std::vector<int> to_pose;  ///< rods
-    std::vector<PairContact> contacts;
-    std::vector<int> turned;                  ///< pairs that began or ceased to touch
-    std::vector<int> changed;                 ///< rods hit in this tick
-    std::vector<int> to_schedule;             ///< rods
-    std::vector<std::vector<int>> to_settle;  ///< (n_workers) pairs of each worker of which hits took too much
-    bool has_told = false;                    ///< there are any
-    std::vector<int> searched_again;          ///< pairs of rods at rest
-    std::vector<int> to_bound;                ///< pairs
-    std::vector<int> to_bound_motion;         ///< rods of pairs that need a bound, of whatever worker
-    Counters counters;
+    Met met;
+    Detected detected;
+    Stored stored;
     WorkCounts counts;
-    std::optional<NumericalTrouble> trouble;  ///< that of the first rods
+    // scratch
+    std::vector<int> to_pose;  ///< rods
     std::vector<BeadContact> bead_contacts;
     Pose other_pose{};
     PlateLanes plate_lanes{};
@@ -100,8 +114,8 @@ class ScheduledStepper final : public Stepper {
   std::optional<NumericalTrouble> check_changed(Tick now);
   void store_changed(World& world, Tick now, Worker& worker);
   void schedule_rods(const World& world, Tick now, Worker& worker);
-  void tell_pairs(Tick now, Worker& worker);
-  void settle_pairs(Tick now, Worker& worker);
+  void spend_budgets(Tick now, Worker& worker);
+  void shorten_bounds(Tick now, Worker& worker);
   void bound_motions(const World& world, Tick now, Worker& worker);
   void schedule_pairs(Tick now, Worker& worker);
 
@@ -123,7 +137,7 @@ class ScheduledStepper final : public Stepper {
   void pose_listed(const World& world, Tick now, Worker& worker);
   void bound_pairs(std::span<const int> pairs, Tick now, Worker& worker);
   /// Where free flight brought the rod; impacts at their instant may have displaced it since.
-  const Pose& found(int i) const { return found_.empty() ? rods_[i].pose : found_[i]; }
+  const Pose& flight_pose(int i) const { return flight_pose_.empty() ? rods_[i].pose : flight_pose_[i]; }
   auto groups_of_rods() const;
   int species_index(int i) const { return rules_.species_of_rod[i]; }
 
@@ -136,15 +150,15 @@ class ScheduledStepper final : public Stepper {
 
   // of each rod
   std::vector<RodAtTick> rods_;
-  std::vector<Pose> found_;            ///< or empty, if nothing displaces rods
-  std::vector<MotionChange> changes_;  ///< of a rod that was hit in this tick
-  std::vector<ListReserve> reserves_;
+  std::vector<Pose> flight_pose_;    ///< or empty, if nothing displaces rods
+  std::vector<VelocityJump> jumps_;  ///< of a rod that was hit in this tick
+  std::vector<SkinBudget> skin_budgets_;
   std::vector<RodMarks> marks_;
-  std::vector<MotionBound> motion_bounds_;
+  std::vector<FlightBound> flight_bounds_;
   std::vector<std::uint8_t> owners_;  ///< the worker of each rod
   TimingWheel wheel_;
 
-  PairTable pairs_;
+  PairSchedule pairs_;
   bool is_new_ = true;
 
   // lists of one tick

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sim/stepping/stepper.h"
 
-#include "sim/core/check.h"
+#include "base/core/check.h"
 #include "sim/stepping/reference_stepper.h"
 #include "sim/stepping/scheduled_stepper.h"
 

@@ -11,7 +11,7 @@
 
 namespace shaken {
 
-/// Moves a world from tick to tick. What a tick means is fixed (stepping/tick.h); a stepper only chooses which rods and
+/// Moves a world from tick to tick. What a tick means is fixed (tick/tick.h); a stepper only chooses which rods and
 /// pairs it looks at, so every stepper gives bitwise the same trajectory. Neighbour lists and schedules are derived
 /// data of the stepper's own: making a new stepper for the same world changes nothing.
 class Stepper {

@@ -9,25 +9,25 @@ namespace shaken {
 
 /// What a stepper does to know where to look, and finds there.
 enum class WorkKind {
-  kRodsVisited,     ///< for surfaces
-  kRodsHit,         ///< of these, hit by a surface
-  kRodsResting,     ///< of these, to be visited at the next tick without a bound
-  kRodsBounded,     ///< bounds on the time to the next surface
-  kRodsPlaced,      ///< entered into the neighbour list anew
-  kPairsSearched,   ///< for contacts
-  kPairsTouching,   ///< of these, with overlapping beads
-  kRodsTold,        ///< changes of motion of which a rod's pairs were told
-  kPairsTightened,  ///< bounds that were kept, shorter, although hits had used up what they were allowed
-  kPairsWaitingOn,  ///< came up with much of the bound's time left, and were not searched
-  kPairsBounded,    ///< new bounds on the time to contact
-  kBoundsWhenDue,   ///< of these, after a search; the others because a rod was hit
-  kBoundsByBeads,   ///< of these, for which beads were looked at
-  kBoundsOfNoTick,  ///< of these, too short to save a visit at the next tick
+  kRodsVisited,      ///< for surfaces
+  kRodsHit,          ///< of these, hit by a surface
+  kRodsResting,      ///< of these, to be visited at the next tick without a bound
+  kRodsBounded,      ///< bounds on the time to the next surface
+  kRodsPlaced,       ///< entered into the neighbour list anew
+  kPairsSearched,    ///< for contacts
+  kPairsTouching,    ///< of these, with overlapping beads
+  kVelocityJumps,    ///< changes of motion of which a rod's pairs were told
+  kBoundsShortened,  ///< bounds that were kept, shorter, although hits had used up what they were allowed
+  kPairsDeferred,    ///< came up with much of the bound's time left, and were not searched
+  kPairsBounded,     ///< new bounds on the time to contact
+  kBoundsWhenDue,    ///< of these, after a search; the others because a rod was hit
+  kBoundsByBeads,    ///< of these, for which beads were looked at
+  kBoundsOfNoTick,   ///< of these, too short to save a visit at the next tick
 };
 inline constexpr std::size_t kWorkKinds = 14;
 inline constexpr std::array<const char*, kWorkKinds> kWorkNames{
     "rods_visited",   "rods_hit",        "rods_resting",    "rods_bounded",     "rods_placed",
-    "pairs_searched", "pairs_touching",  "rods_told",       "pairs_tightened",  "pairs_waiting_on",
+    "pairs_searched", "pairs_touching",  "velocity_jumps",  "bounds_shortened", "pairs_deferred",
     "pairs_bounded",  "bounds_when_due", "bounds_by_beads", "bounds_of_no_tick"};
 
 /// How often a stepper has done each since it was made.

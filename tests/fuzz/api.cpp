@@ -45,8 +45,8 @@ bool is_small(const std::string& body) {
   }
 }
 
-Request request_of(std::string_view text) {
-  Request request;
+http::Request request_of(std::string_view text) {
+  http::Request request;
   const std::size_t line = std::min(text.find('\n'), text.size());
   std::string_view head = text.substr(0, line);
   request.body = text.substr(std::min(line + 1, text.size()));
@@ -76,9 +76,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     daemon.reset();
     daemon = std::make_unique<Daemon>();
   }
-  const Request request = request_of(fuzz::text_of(data, size));
+  const http::Request request = request_of(fuzz::text_of(data, size));
   if (!is_small(request.body)) return 0;
-  const Reply reply = daemon->api.handle(request);
+  const http::Reply reply = daemon->api.handle(request);
   fuzz::promise(reply.status >= 200 && reply.status < 500, "whatever is asked is no error of the daemon");
   fuzz::promise(Json::accept(reply.body), "an answer is JSON");
   return 0;

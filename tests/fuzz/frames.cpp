@@ -5,10 +5,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/core/state_io.h"
 #include "base/files.h"
 #include "base/scratch_folder.h"
 #include "run/files/frame_log.h"
-#include "sim/core/state_io.h"
 #include "tests/fuzz/target.h"
 
 using namespace shaken;

@@ -7,8 +7,8 @@
 #include <cstring>
 
 #include "base/descriptor.h"
+#include "base/http/http_server.h"
 #include "base/scratch_folder.h"
-#include "server/http/http_server.h"
 #include "tests/fuzz/target.h"
 
 using namespace shaken;
@@ -17,9 +17,9 @@ namespace {
 
 struct Listening {
   ScratchFolder folder;
-  server::HttpServer server{folder.path() / "s", [](const server::Request& request) {
-                              return server::Reply{200, "{\"size\":" + std::to_string(request.body.size()) + "}", ""};
-                            }};
+  http::HttpServer server{folder.path() / "s", [](const http::Request& request) {
+                            return http::Reply{200, "{\"size\":" + std::to_string(request.body.size()) + "}", ""};
+                          }};
 };
 
 }  // namespace

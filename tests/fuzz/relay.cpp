@@ -4,7 +4,7 @@
 #include <sys/socket.h>
 
 #include "base/descriptor.h"
-#include "server/relay/client.h"
+#include "proto/relay/client.h"
 #include "tests/fuzz/target.h"
 
 using namespace shaken;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Payloads of LCM messages, each byte string as every type; the messages then go where a viewer puts them.
-#include "client/watch/live.h"
-#include "client/watch/live_rods.h"
+#include "client/live/live.h"
+#include "client/live/live_rods.h"
 #include "client/watch/rod_cells.h"
 #include "proto/codec.h"
 #include "proto/frame_codec.h"

@@ -9,7 +9,7 @@
 
 #include "sim/initial.h"
 #include "sim/simulation.h"
-#include "sim/stepping/surface_impacts.h"
+#include "sim/tick/surface_impacts.h"
 #include "tests/support/random_rods.h"
 #include "tests/support/short_rods.h"
 

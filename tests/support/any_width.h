@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "sim/core/lanes.h"
+#include "sim/lanes/lanes.h"
 #include "tests/support/random_rods.h"
 
 namespace shaken::test {

@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "sim/core/types.h"
+#include "base/core/types.h"
 
 namespace shaken::test {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "sim/core/types.h"
+#include "base/core/types.h"
 
 /// Random cases for the comparison of steppers, over everything that a scene may say, and over states that no scene
 /// starts from: rods that drift together, or spin and fly as in a hot gas, at any tick.

@@ -4,20 +4,20 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/contact/safe_time.h"
+#include "sim/bounds/safe_time.h"
 #include "sim/rod/species.h"
 
 /// Slow twins of the bounds on the time to contact: in doubles, one pair at a time, nothing left out.
 namespace shaken::test {
 
-inline Vec3 velocity(const MotionBound& o) { return {o.velocity[0], o.velocity[1], o.velocity[2]}; }
-inline Vec3 turning(const MotionBound& o) { return {o.turning[0], o.turning[1], o.turning[2]}; }
-inline Vec3 director(const MotionBound& o) { return {o.director[0], o.director[1], o.director[2]}; }
+inline Vec3 velocity(const FlightBound& o) { return {o.velocity[0], o.velocity[1], o.velocity[2]}; }
+inline Vec3 turning(const FlightBound& o) { return {o.turning[0], o.turning[1], o.turning[2]}; }
+inline Vec3 director(const FlightBound& o) { return {o.director[0], o.director[1], o.director[2]}; }
 
 /// What the hulls' gap along d can have shrunk to after time t [mm].
-inline double least_hull_gap(const Species& s, const MotionBound& i, const MotionBound& j, const Vec3& D, const Vec3& d,
+inline double least_hull_gap(const Species& s, const FlightBound& i, const FlightBound& j, const Vec3& D, const Vec3& d,
                              double t) {
-  const auto width = [&](const MotionBound& o) {
+  const auto width = [&](const FlightBound& o) {
     const double cosine =
         std::abs(director(o).dot(d) + turning(o).dot(d) * t) + static_cast<double>(o.half_rate2) * t * t;
     return s.mid_radius + s.half_length * std::max(0.0, cosine - s.taper());
@@ -26,7 +26,7 @@ inline double least_hull_gap(const Species& s, const MotionBound& i, const Motio
 }
 
 /// Time at which it reaches zero, by bisection; at most `horizon` [s].
-inline double hull_safe_time_twin(const Species& s, const MotionBound& i, const MotionBound& j, const Vec3& D,
+inline double hull_safe_time_twin(const Species& s, const FlightBound& i, const FlightBound& j, const Vec3& D,
                                   const Vec3& d, double horizon) {
   const auto gap = [&](double t) { return least_hull_gap(s, i, j, D, d, t); };
   if (gap(0) <= 0) return 0;
@@ -37,7 +37,7 @@ inline double hull_safe_time_twin(const Species& s, const MotionBound& i, const 
 }
 
 /// Every bead against every bead [s].
-inline double bead_safe_time_twin(const Species& s, const MotionBound& i, const MotionBound& j, const Vec3& D,
+inline double bead_safe_time_twin(const Species& s, const FlightBound& i, const FlightBound& j, const Vec3& D,
                                   double horizon) {
   double safe = horizon;
   for (int m = 0; m < s.n_beads(); ++m) {

@@ -242,7 +242,7 @@ def references(n, sample):
 
 
 def drawn(n, sample):
-    """Rods that LatticeOrder takes: of each k successive ones the one that sim/core/rng.h draws."""
+    """Rods that LatticeOrder takes: of each k successive ones the one that base/core/rng.h draws."""
     stride = -(-n // 1024)
     if stride == 1:
         return np.arange(n)

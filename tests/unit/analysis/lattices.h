@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "sim/core/types.h"
+#include "base/core/types.h"
 
 namespace shaken::analysis {
 

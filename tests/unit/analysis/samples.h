@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "sim/core/types.h"
+#include "base/core/types.h"
 
 namespace shaken::analysis {
 

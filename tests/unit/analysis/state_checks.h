@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "sim/core/state_io.h"
+#include "base/core/state_io.h"
 
 namespace shaken::analysis {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "sim/core/rng.h"
+#include "base/core/rng.h"
 
 namespace shaken::bench {
 namespace {

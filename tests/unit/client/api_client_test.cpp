@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "client/api_client.h"
+#include "client/live/api_client.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "base/failure.h"
-#include "client/target.h"
+#include "client/live/target.h"
 #include "tests/unit/client/fake_daemon.h"
 
 namespace shaken::client {

@@ -8,7 +8,7 @@
 
 #include "base/process.h"
 #include "client/arguments.h"
-#include "client/json.h"
+#include "client/live/json.h"
 #include "client/verb.h"
 #include "tests/unit/client/fake_daemon.h"
 #include "tests/unit/client/run_client.h"

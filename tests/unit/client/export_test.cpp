@@ -9,7 +9,7 @@
 
 #include "base/files.h"
 #include "base/scratch_folder.h"
-#include "client/json.h"
+#include "client/live/json.h"
 #include "run/files/frame_log.h"
 #include "run/files/observables_file.h"
 #include "tests/unit/client/fake_daemon.h"

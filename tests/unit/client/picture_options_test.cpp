@@ -10,7 +10,7 @@
 #include <sstream>
 #include <string>
 
-#include "client/json.h"
+#include "client/live/json.h"
 #include "client/verb.h"
 #include "tests/unit/client/fake_daemon.h"
 

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "base/plots_by_python.h"
-#include "client/json.h"
+#include "client/live/json.h"
 #include "run/files/observables_file.h"
 #include "tests/unit/client/fake_daemon.h"
 #include "tests/unit/client/run_client.h"

@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "base/text.h"
-#include "client/json.h"
+#include "client/live/json.h"
 #include "proto/bus.h"
 #include "tests/unit/client/fake_daemon.h"
 #include "tests/unit/client/run_client.h"

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "sim/simulation.h"
-#include "sim/stepping/tick.h"
+#include "sim/tick/tick.h"
 #include "tests/unit/scene/support.h"
 
 namespace shaken::scene {

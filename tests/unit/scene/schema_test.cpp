@@ -394,10 +394,10 @@ TEST(Schema, IsNamedInAFileAndMeansNothingThere) {
   EXPECT_EQ(problem_of(R"({"box": {"$schema": "x"}})"), "run.json:1:10: /box/$schema: unknown key");
 }
 
-// The files in schemas/ are these. To write them anew: SHAKEN_UPDATE_DOCS=1 and run this test.
+// The files in packaging/schemas/ are these. To write them anew: SHAKEN_UPDATE_DOCS=1 and run this test.
 TEST(Schema, TheFilesAreUpToDate) {
   for (const auto& [name, schema] : {std::pair{"scene", scene_schema()}, std::pair{"sweep", sweep_schema()}}) {
-    const std::string file = fmt::format("{}/schemas/{}.schema.json", SHAKEN_SOURCE_DIR, name);
+    const std::string file = fmt::format("{}/packaging/schemas/{}.schema.json", SHAKEN_SOURCE_DIR, name);
     const std::string text = schema.dump(2) + "\n";
     if (std::getenv("SHAKEN_UPDATE_DOCS") != nullptr) {
       std::ofstream(file) << text;

@@ -114,7 +114,7 @@ class ApiTest : public testing::Test {
   ScratchFolder directory_;
   Queue queue_{directory_ / "queue.db"};
   Api api_{queue_, info()};
-  HttpServer server_{info().socket(), [this](const Request& request) { return api_.handle(request); }};
+  http::HttpServer server_{info().socket(), [this](const http::Request& request) { return api_.handle(request); }};
   httplib::Client client_{info().socket().string()};
 };
 
@@ -346,7 +346,7 @@ TEST_F(ApiTest, ResultsThatAreThereAreFoundByANewQueue) {
   write_text(directory_ / "runs" / id / "summary.json", done_summary(id));
   Queue empty(directory_ / "empty.db");
   const Api api(empty, info());
-  const Reply reply = api.handle({"POST", "/v1/sweeps", {}, Json({{"text", kSweep}}).dump()});
+  const http::Reply reply = api.handle({"POST", "/v1/sweeps", {}, Json({{"text", kSweep}}).dump()});
   const Json answer = Json::parse(reply.body);
   EXPECT_EQ(answer["counts"]["found"], 1);
   EXPECT_EQ(answer["counts"]["new"], 3);
@@ -829,7 +829,7 @@ TEST_F(ApiTest, AClosedServerLeavesNoSocket) {
 TEST(HttpServerTest, APathTooLongForASocketIsRefusedInWords) {
   const std::filesystem::path socket = "/tmp/" + std::string(200, 'x');
   try {
-    const HttpServer server(socket, [](const Request&) { return Reply{}; });
+    const http::HttpServer server(socket, [](const http::Request&) { return http::Reply{}; });
     FAIL() << "it listens";
   } catch (const Failure& problem) {
     EXPECT_THAT(problem.what(), HasSubstr("too long"));
@@ -838,7 +838,7 @@ TEST(HttpServerTest, APathTooLongForASocketIsRefusedInWords) {
 }
 
 TEST(HttpServerTest, AFolderThatIsNotThereIsRefusedInWords) {
-  EXPECT_THROW(HttpServer("/nonexistent/sock", [](const Request&) { return Reply{}; }), Failure);
+  EXPECT_THROW(http::HttpServer("/nonexistent/sock", [](const http::Request&) { return http::Reply{}; }), Failure);
 }
 
 TEST_F(ApiTest, ARunThatStartsFromAnotherWaitsForIt) {

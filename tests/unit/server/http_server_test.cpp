@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "server/http/http_server.h"
+#include "base/http/http_server.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 #include "base/descriptor.h"
 #include "tests/unit/server/support.h"
 
-namespace shaken::server {
+namespace shaken::http {
 namespace {
 
 sockaddr_un address_of(const std::filesystem::path& socket) {
@@ -68,7 +68,7 @@ TEST(HttpServer, AListenerThatFailsIsSeenWhileSomebodyIsServed) {
   const int listener = listener_of(socket);
   ASSERT_GE(listener, 0);
   shutdown(listener, SHUT_RDWR);  // accept() fails
-  ASSERT_TRUE(eventually([&] { return server.has_failed(); }));
+  ASSERT_TRUE(server::eventually([&] { return server.has_failed(); }));
   EXPECT_FALSE(server.ended_within(std::chrono::milliseconds(0))) << "one is connected still";
 
   const int other = open("/dev/null", O_RDONLY | O_CLOEXEC);  // the lowest number that is free
@@ -97,4 +97,4 @@ TEST(HttpServer, RemovesNoSocketButItsOwn) {
 }
 
 }  // namespace
-}  // namespace shaken::server
+}  // namespace shaken::http

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "sim/core/physics_version.h"
+#include "sim/physics_version.h"
 #include "sim/simulation.h"
 #include "tests/support/short_rods.h"
 

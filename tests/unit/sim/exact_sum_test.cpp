@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "sim/core/exact_sum.h"
+#include "base/core/exact_sum.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <vector>
 
-#include "sim/core/rng.h"
+#include "base/core/rng.h"
 
 namespace shaken {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "base/core/sincos.h"
 #include "sim/balance.h"
 #include "sim/contact/bead_contacts.h"
-#include "sim/core/sincos.h"
 #include "sim/neighbors/neighbor_list.h"
 #include "sim/simulation.h"
 #include "sim/world.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sim/core/lanes.h"
+#include "sim/lanes/lanes.h"
 
 #include <gtest/gtest.h>
 

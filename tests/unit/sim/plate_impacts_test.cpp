@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sim/stepping/plate_impacts.h"
+#include "sim/tick/plate_impacts.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "sim/initial.h"
-#include "sim/stepping/surface_impacts.h"
+#include "sim/tick/surface_impacts.h"
 #include "tests/support/any_width.h"
 #include "tests/support/effort.h"
 
@@ -60,6 +60,39 @@ bool are_same(const Vec3& a, const Vec3& b) { return std::memcmp(a.data(), b.dat
 bool are_same(const ExactSum<34>& a, const ExactSum<34>& b) { return a.low() == b.low() && a.high() == b.high(); }
 bool are_same(const ExactSum<44>& a, const ExactSum<44>& b) { return a.low() == b.low() && a.high() == b.high(); }
 
+TEST(PlateImpacts, AreNotInLanesWhereAnEffectIsOnThatTheLanesDoNotKnow) {
+  const System system;
+  const World world = empty_world(system);
+  const TickRules rules(world);
+  ASSERT_TRUE(lanes_know(system, rules));
+  std::vector<Effect> effects(all_effects().begin(), all_effects().end());
+  effects.push_back({.name = "sideways_kicks",
+                     .what = "Plates kick rods sideways.",
+                     .is_on = [](const System&) { return false; },
+                     .why = nullptr,
+                     .work = nullptr,
+                     .unit = "kicks",
+                     .switch_off = nullptr});
+  EXPECT_TRUE(lanes_know(system, rules, effects));
+  effects.back().is_on = [](const System&) { return true; };
+  EXPECT_FALSE(lanes_know(system, rules, effects));
+}
+
+TEST(PlateImpacts, AreNotInLanesWhereTheSceneAsksForSomethingRarer) {
+  const auto is_in_lanes = [](const auto& change) {
+    System system;
+    change(system);
+    return lanes_know(system, TickRules(empty_world(system)));
+  };
+  EXPECT_TRUE(is_in_lanes([](System&) {}));
+  EXPECT_FALSE(is_in_lanes([](System& system) { system.rotational_noise = 0.01; }));
+  EXPECT_FALSE(is_in_lanes([](System& system) { system.impacts = ImpactTime::kAtInstant; }));
+  EXPECT_FALSE(is_in_lanes([](System& system) { system.law = ImpulseLaw::kPoisson; }));
+  EXPECT_FALSE(is_in_lanes([](System& system) { system.rod_base.friction = 0; }));
+  EXPECT_FALSE(is_in_lanes([](System& system) { system.rod_lid.friction = 0; }));
+  EXPECT_FALSE(is_in_lanes([](System& system) { system.amplitude = 0; }));  // rods rest
+}
+
 TEST(PlateImpacts, InLanesAreBitForBitThoseOfOneRodAfterTheOther) {
   test::Draw draw(71);
   test::AnyWidth width;
@@ -68,7 +101,7 @@ TEST(PlateImpacts, InLanesAreBitForBitThoseOfOneRodAfterTheOther) {
     const Tick now = draw.integer(1000, 4000);
     const RodsNearPlates near(draw, now);
     const TickRules rules(near.world);
-    ASSERT_TRUE(hits_in_lanes(rules));
+    ASSERT_TRUE(lanes_know(near.system, rules));
     width.draw(draw);
     std::vector<int> rods(near.world.rods.size());
     for (std::size_t i = 0; i < rods.size(); ++i) rods[i] = static_cast<int>(rods.size() - 1 - i);

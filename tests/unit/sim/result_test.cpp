@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sim/core/result.h"
+#include "base/core/result.h"
 
 #include <gtest/gtest.h>
 

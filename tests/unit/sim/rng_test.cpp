@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "sim/core/rng.h"
+#include "base/core/rng.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <set>
 
-#include "sim/core/natural_log.h"
+#include "base/core/natural_log.h"
 
 namespace shaken {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One kick of a rough plate, exactly; what many do to a rod is tests/physics/rotational_noise_test.cpp.
-#include "sim/stepping/rotational_noise.h"
+#include "sim/tick/rotational_noise.h"
 
 #include <gtest/gtest.h>
 

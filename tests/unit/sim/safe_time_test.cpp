@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
-#include "sim/contact/safe_time.h"
+#include "sim/bounds/safe_time.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "sim/bounds/bead_safe_time.h"
+#include "sim/bounds/hull_safe_time.h"
+#include "sim/bounds/image_safe_time.h"
+#include "sim/bounds/plate_safe_time.h"
+#include "sim/bounds/velocity_jump.h"
 #include "sim/contact/bead_contacts.h"
-#include "sim/contact/bead_safe_time.h"
-#include "sim/contact/hull_safe_time.h"
-#include "sim/contact/image_safe_time.h"
 #include "sim/contact/impulse.h"
 #include "sim/motion/flight.h"
-#include "sim/motion/plate_safe_time.h"
 #include "sim/motion/plates.h"
-#include "sim/stepping/motion_change.h"
-#include "sim/stepping/pair_table.h"
+#include "sim/schedule/pair_schedule.h"
 #include "tests/support/any_width.h"
 #include "tests/support/effort.h"
 #include "tests/support/random_rods.h"
@@ -32,7 +32,7 @@ struct FlyingPair {
   double ratio;
   Flight flight[2];
   Vec3 D;
-  MotionBound bound[2];
+  FlightBound bound[2];
 
   explicit FlyingPair(test::Draw& draw) {
     const double length = draw.uniform(2.5, 4.5);
@@ -74,7 +74,7 @@ struct FlyingPair {
   /// What bounds know of the rod as it flies now.
   void see(int r) {
     const Flight& f = flight[r];
-    bound[r] = motion_bound(f, f.velocity, f.director, 1e9F);
+    bound[r] = flight_bound(f, f.velocity, f.director, 1e9F);
   }
 
   struct HullBound {
@@ -188,7 +188,7 @@ TEST(ImageSafeTime, NoOtherImageTouchesBeforeIt) {
     const double side = 2.2 * reach * (draw.integer(0, 1) ? 1 : draw.uniform(1, 3));
     const double horizon = 16e-3 * std::pow(25.0, draw.uniform(0, 1));
     const Vec3 D{draw.uniform(-0.5, 0.5) * side, draw.uniform(-0.5, 0.5) * side, draw.uniform(-0.3, 0.3)};
-    MotionBound i{}, j{};
+    FlightBound i{}, j{};
     const double fast = std::pow(10.0, draw.uniform(-4, 3));
     const Vec3 common = draw.integer(0, 2) ? Vec3(std::pow(10.0, draw.uniform(0, 3)) * draw.direction()) : Vec3::Zero();
     const Vec3 velocity[2] = {common + draw.vector(fast), common + draw.vector(fast)};
@@ -221,16 +221,16 @@ TEST(ImageSafeTime, NoOtherImageTouchesBeforeIt) {
   EXPECT_GT(n_away, test::draws(5000));
 }
 
-TEST(GapLine, LeavesNoMoreThanThereIs) {
+TEST(GapBound, LeavesNoMoreThanThereIs) {
   test::Draw draw(32);
   for (int trial = 0; trial < test::draws(1000000); ++trial) {
     const auto now = static_cast<float>(std::pow(10.0, draw.uniform(-4, 2)));
     const auto then = static_cast<float>(now * draw.uniform(-1, 1));
     const auto time = static_cast<float>(std::pow(10.0, draw.uniform(-5, -1)));
     const auto until = time * static_cast<float>(draw.uniform(0, 1));
-    const GapLine line = GapLine::between(now, then, time, until, false);
+    const GapBound line = GapBound::between(now, then, time, until, false);
     const double exact = now - (static_cast<double>(now) - then) / time * until;
-    ASSERT_LE(line.left, std::max(0.0, exact)) << "trial " << trial << ": " << now << " mm to " << then;
+    ASSERT_LE(line.residual, std::max(0.0, exact)) << "trial " << trial << ": " << now << " mm to " << then;
   }
 }
 
@@ -374,14 +374,14 @@ BeadSafeTime bound_in_line(bool thick_ends, double gap) {
   const double end = thick_ends ? to_tail : to_head;
   const Vec3 D(2 * end + gap, 0, 0);
   const double ratio = species.inertia_par / species.inertia_perp;
-  MotionBound bound[2];
+  FlightBound bound[2];
   for (int r = 0; r < 2; ++r) {
     // the director points to the head, the thin end
     const Vec3 director((r == 0) == thick_ends ? -1 : 1, 0, 0);
     Flight flight;
     begin_flight(flight, 0, {Vec3(1000, 1000, 0) + r * D, director}, {Vec3(r == 0 ? 5 : -5, 0, 0), Vec3::Zero()}, 1e9,
                  ratio);
-    bound[r] = motion_bound(flight, flight.velocity, flight.director, 1e9F);
+    bound[r] = flight_bound(flight, flight.velocity, flight.director, 1e9F);
   }
   const BeadLanes lanes(species);
   return bead_safe_time(lanes, bound[0], lanes, bound[1], D, 0.1F);
@@ -402,7 +402,7 @@ TEST(SafeTime, EndsOfPolarRodsInLineAreApartUntilTheyMeet) {
 struct WaitingPair {
   FlyingPair pair;
   double dt;
-  PairTable table;
+  PairSchedule table;
   Tick now = 0;
   Tick end = 0;  ///< of the bound, if no rod is hit
 
@@ -419,10 +419,10 @@ struct WaitingPair {
     Direction direction;
     for (std::size_t c = 0; c < 3; ++c) direction[c] = static_cast<float>(hull.direction[static_cast<Eigen::Index>(c)]);
     const auto until = static_cast<float>(ticks) * static_cast<float>(dt);
-    table.hold(0, 0, ticks, direction, gap > 0 ? GapLine::between(gap, left, time, until, of_beads) : GapLine{});
+    table.set_bound(0, 0, ticks, direction, gap > 0 ? GapBound::between(gap, left, time, until, of_beads) : GapBound{});
     end = ticks;
   }
-  Tick due() const { return const_cast<PairTable&>(table).wheel().due(0, now); }
+  Tick due() const { return const_cast<PairSchedule&>(table).wheel().due(0, now); }
 
   /// Both rods fly on.
   void fly(Tick ticks) {
@@ -451,30 +451,30 @@ struct WaitingPair {
     }
     begin_flight(f, 0, {f.position, f.director}, motion, 1e9, pair.ratio);
     fly(f, ago);
-    const MotionChange change(f.velocity - before.velocity, f.precession - before.precession, f.director, before.rate,
+    const VelocityJump change(f.velocity - before.velocity, f.precession - before.precession, f.director, before.rate,
                               f.rate, pair.species.half_length, ago > 0 ? dt : 0.0);
     bool is_used_up = false;
-    table.take(r, change, now, [&](int) { is_used_up = true; });
+    table.spend(r, change, now, [&](int) { is_used_up = true; });
     if (!is_used_up) return true;
-    ++n_settled;
-    return table.settle(0, now);
+    ++n_shortened;
+    return table.shorten_bound(0, now);
   }
   /// Flies to where the pair comes up, and has it wait on; false if a search is due.
-  bool waits_on() {
+  bool defer() {
     const Tick up = due();
     fly(up - now);
     std::vector<int> pairs;
     table.wheel().pop(now, pairs);
-    return !pairs.empty() && table.waits_on(0, now);
+    return !pairs.empty() && table.defer(0, now);
   }
-  int n_settled = 0;
+  int n_shortened = 0;
   bool collides_in(Tick ticks) const { return pair.collides_at(static_cast<double>(ticks) * dt); }
 };
 
 TEST(SafeTime, TightenedBoundsHoldForRodsThatAreHit) {
   test::Draw draw(21);
   test::AnyWidth width;
-  std::int64_t n_hits_held = 0, n_settled = 0, n_waited_on = 0, n_collided = 0;
+  std::int64_t n_hits_held = 0, n_shortened = 0, n_waited_on = 0, n_collided = 0;
   for (int trial = 0; trial < test::draws(200000); ++trial) {
     width.draw(draw);
     WaitingPair waiting(draw, draw.integer(0, 1));
@@ -483,7 +483,7 @@ TEST(SafeTime, TightenedBoundsHoldForRodsThatAreHit) {
     const int n_hits = rests ? 40 : 4;
     for (int k = 0; k < n_hits; ++k) {
       if (waiting.due() - waiting.now < 3 || draw.integer(0, 9) == 0) {
-        if (!waiting.waits_on()) break;
+        if (!waiting.defer()) break;
         ++n_waited_on;
       } else {
         waiting.fly(rests ? 1 : draw.integer(1, static_cast<int>((waiting.due() - waiting.now - 1) / 2)));
@@ -500,10 +500,10 @@ TEST(SafeTime, TightenedBoundsHoldForRodsThatAreHit) {
         ASSERT_FALSE(waiting.collides_in(ticks)) << "trial " << trial << ", hit " << k << ", " << ticks << '/' << safe;
       n_collided += waiting.end > waiting.now && waiting.collides_in(waiting.end - waiting.now);
     }
-    n_settled += waiting.n_settled;
+    n_shortened += waiting.n_shortened;
   }
   EXPECT_GT(n_hits_held, test::draws(200000));
-  EXPECT_GT(n_settled, test::draws(50000));
+  EXPECT_GT(n_shortened, test::draws(50000));
   EXPECT_GT(n_waited_on, test::draws(30000));
   EXPECT_GT(n_collided, test::draws(1000));  // where the bound, had nothing been taken, would have missed it
 }

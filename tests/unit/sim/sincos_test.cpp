@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sim/core/sincos.h"
+#include "base/core/sincos.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sim/core/state_io.h"
+#include "base/core/state_io.h"
 
 #include <gtest/gtest.h>
 

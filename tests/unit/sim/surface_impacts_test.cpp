@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sim/stepping/surface_impacts.h"
+#include "sim/tick/surface_impacts.h"
 
 #include <gtest/gtest.h>
 

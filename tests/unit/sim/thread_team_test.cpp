@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sim/core/thread_team.h"
+#include "base/core/thread_team.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "sim/core/lanes.h"
+#include "sim/lanes/lanes.h"
 #include "sim/simulation.h"
 
 namespace shaken {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sim/stepping/timing_wheel.h"
+#include "sim/schedule/timing_wheel.h"
 
 #include <gtest/gtest.h>
 

@@ -39,10 +39,10 @@ TEST(WorkCounts, AddUp) {
   EXPECT_GE(of(WorkKind::kPairsBounded), of(WorkKind::kBoundsByBeads));
   EXPECT_GE(of(WorkKind::kPairsBounded), of(WorkKind::kBoundsOfNoTick));
   // each hit is told to pairs, and few pairs have to be brought up sooner for it
-  EXPECT_GE(of(WorkKind::kRodsTold), of(WorkKind::kRodsHit));
-  EXPECT_GT(of(WorkKind::kPairsTightened), 0);
-  EXPECT_LT(of(WorkKind::kPairsTightened), 3 * of(WorkKind::kRodsTold));
-  EXPECT_GT(of(WorkKind::kPairsWaitingOn), 0);
+  EXPECT_GE(of(WorkKind::kVelocityJumps), of(WorkKind::kRodsHit));
+  EXPECT_GT(of(WorkKind::kBoundsShortened), 0);
+  EXPECT_LT(of(WorkKind::kBoundsShortened), 3 * of(WorkKind::kVelocityJumps));
+  EXPECT_GT(of(WorkKind::kPairsDeferred), 0);
 }
 
 TEST(WorkCounts, OfThreadsAreAdded) {

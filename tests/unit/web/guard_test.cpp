@@ -6,7 +6,7 @@
 namespace shaken::web {
 namespace {
 
-using server::Request;
+using http::Request;
 
 constexpr const char* kToken = "0123456789abcdef0123456789abcdef";
 constexpr int kPort = 8642;

@@ -58,9 +58,8 @@ class SiteTest : public testing::Test {
   Site site_{SiteSetup{.root = root_.path(), .page = shipped_page()}};
   std::promise<Guard> promised_;  // requests wait until the port is known
   std::shared_future<Guard> guard_{promised_.get_future()};
-  server::HttpServer server_{0, [this](const server::Request& head) { return guard_.get().stop(head); },
-                             [this](const server::Request& request) { return site_.answer(request); },
-                             Guard::headers()};
+  http::HttpServer server_{0, [this](const http::Request& head) { return guard_.get().stop(head); },
+                           [this](const http::Request& request) { return site_.answer(request); }, Guard::headers()};
   httplib::Client client_{"127.0.0.1", server_.port()};
 };
 
@@ -232,7 +231,7 @@ TEST_F(SiteTest, ARendererThatHangsIsEnded) {
   fs::permissions(renderer, fs::perms::owner_all);
   Site site(SiteSetup{
       .root = root_.path(), .page = shipped_page(), .renderer = renderer, .drawing = std::chrono::milliseconds(200)});
-  const server::Request picture{
+  const http::Request picture{
       .method = "GET", .path = std::string("/runs/") + kRun + "/picture", .query = {{"frame", "0"}}, .body = ""};
   for (int i = 0; i < 2; ++i) {
     const auto reply = site.answer(picture);
@@ -256,9 +255,9 @@ TEST(SiteWithoutADaemon, SaysSo) {
 }
 
 TEST(Port, OfAnotherProgramIsRefused) {
-  const auto answer = [](const server::Request&) { return server::Reply{}; };
-  const server::HttpServer first(0, {}, answer);
-  EXPECT_THROW(server::HttpServer(first.port(), {}, answer), Failure);
+  const auto answer = [](const http::Request&) { return http::Reply{}; };
+  const http::HttpServer first(0, {}, answer);
+  EXPECT_THROW(http::HttpServer(first.port(), {}, answer), Failure);
 }
 
 TEST(Port, OfRootIsRefusedWithWhatToDo) {
@@ -269,7 +268,7 @@ TEST(Port, OfRootIsRefusedWithWhatToDo) {
   const auto listen = [] {
     if (getuid() == 0 && setuid(kNobody) != 0) _exit(1);
     try {
-      const server::HttpServer server(kPort, {}, [](const server::Request&) { return server::Reply{}; });
+      const http::HttpServer server(kPort, {}, [](const http::Request&) { return http::Reply{}; });
     } catch (const Failure& failure) {
       std::fputs(failure.what(), stderr);
       _exit(static_cast<int>(failure.code));

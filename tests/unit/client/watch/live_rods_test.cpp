@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "client/watch/live_rods.h"
+#include "client/live/live_rods.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "client/watch/live.h"
+#include "client/live/live.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "server/relay/address.h"
+#include "proto/relay/address.h"
 
 #include <gtest/gtest.h>
 

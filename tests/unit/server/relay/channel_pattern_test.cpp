@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "server/relay/channel_pattern.h"
+#include "proto/relay/channel_pattern.h"
 
 #include <glib.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "server/relay/client.h"
+#include "proto/relay/client.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

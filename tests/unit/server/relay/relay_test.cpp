@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A relay on 127.0.0.1 with LCM's own clients, and with sockets that do what no client should.
-#include "server/relay/relay.h"
+#include "proto/relay/relay.h"
 
 #include <arpa/inet.h>
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "server/relay/send_queue.h"
+#include "proto/relay/send_queue.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The bytes of LCM's tcpq, as its own client writes them.
-#include "server/relay/tcpq.h"
+#include "proto/relay/tcpq.h"
 
 #include <gtest/gtest.h>
 

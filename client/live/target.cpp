@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "client/live/target.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "base/failure.h"
+#include "base/text.h"
+#include "run/files/directory.h"
+
+namespace shaken::client {
+
+std::string Target::sweep_id() const {
+  return is_sweep ? answer.at("sweep").at("id").get<std::string>() : text_of(answer.at("job"), "sweep");
+}
+
+std::string Target::id() const { return answer.at(is_sweep ? "sweep" : "job").at("id").get<std::string>(); }
+
+std::string Target::title() const {
+  if (!is_sweep) return "job " + answer.at("job").at("id").get<std::string>();
+  const Json& sweep = answer.at("sweep");
+  const std::string name = text_of(sweep, "name");
+  const std::string id = sweep.at("id").get<std::string>();
+  return "sweep " + id + (name.empty() || name == id ? "" : " (" + name + ")");
+}
+
+bool is_run_directory(const std::string& id) {
+  std::error_code error;
+  return std::filesystem::exists(run::RunDirectory{id}.scene(), error);
+}
+
+Target find_target(ApiClient& session, const std::string& id) {
+  if (id.empty()) throw Failure(ExitCode::kBadInput, "an empty ID names nothing");
+  for (const bool is_sweep : {true, false}) {
+    const std::string path = (is_sweep ? "/v1/sweeps/" : "/v1/jobs/") + url_encoded(id);
+    if (std::optional<Json> answer = session.find(path)) {
+      const std::string full_id = answer->at(is_sweep ? "sweep" : "job").at("id").get<std::string>();
+      return {(is_sweep ? "/v1/sweeps/" : "/v1/jobs/") + url_encoded(full_id), *std::move(answer), is_sweep};
+    }
+  }
+  throw Failure(ExitCode::kBadInput, fmt::format("no sweep or job is called '{}': `shaken status` lists them", id));
+}
+
+std::vector<Target> find_targets(ApiClient& session, const std::vector<std::string>& ids) {
+  std::vector<Target> targets;
+  targets.reserve(ids.size());
+  for (const std::string& id : ids) targets.push_back(find_target(session, id));
+  return targets;
+}
+
+Target find_target_or_newest(ApiClient& session, const std::string& id) {
+  if (!id.empty()) return find_target(session, id);
+  const Json answer = session.get("/v1/sweeps");
+  const Json& sweeps = answer.at("sweeps");
+  if (sweeps.empty()) {
+    throw Failure(ExitCode::kBadInput, "nothing has been submitted yet: `shaken submit FILE` does");
+  }
+  return find_target(session, sweeps.back().at("id").get<std::string>());
+}
+
+Json find_job(ApiClient& session, const std::string& id) {
+  if (id.empty()) throw Failure(ExitCode::kBadInput, "an empty ID names nothing");
+  if (const std::optional<Json> answer = session.find("/v1/jobs/" + url_encoded(id))) return answer->at("job");
+  if (const std::optional<Json> sweep = session.find("/v1/sweeps/" + url_encoded(id))) {
+    // A sweep of one job is as clear as the job itself.
+    const Json& jobs = sweep->at("jobs");
+    if (jobs.size() == 1) return jobs.front();
+    throw Failure(ExitCode::kBadInput,
+                  fmt::format("'{}' is a sweep of {} jobs, and this needs one job: `shaken status {}` "
+                              "lists them",
+                              id, jobs.size(), id));
+  }
+  throw Failure(ExitCode::kBadInput, fmt::format("no job is called '{}': `shaken status SWEEP` lists them", id));
+}
+
+void refresh(ApiClient& session, Target& target) { target.answer = session.get(target.path); }
+
+std::vector<Json> jobs_of(const Target& target) {
+  if (!target.is_sweep) return {target.answer.at("job")};
+  const Json& jobs = target.answer.at("jobs");
+  return {jobs.begin(), jobs.end()};
+}
+
+bool is_final(std::string_view state) {
+  return state == "done" || state == "failed" || state == "timed out" || state == "cancelled";
+}
+
+std::string short_id(const std::string& id) { return id.substr(0, 8); }
+
+double progress_number(const Json& job, const char* key) {
+  const auto progress = job.find("progress");
+  if (progress == job.end() || !progress->is_object()) return std::numeric_limits<double>::quiet_NaN();
+  const auto value = progress->find(key);
+  return value != progress->end() && value->is_number() ? value->get<double>()
+                                                        : std::numeric_limits<double>::quiet_NaN();
+}
+
+double job_fraction(const Json& job) {
+  if (text_of(job, "state") == "done") return 1.0;
+  const double fraction = progress_number(job, "sim_time_s") / progress_number(job, "sim_time_total_s");
+  return fraction >= 0.0 ? fraction : 0.0;  // NaN too
+}
+
+double job_eta(const Json& job) {
+  const double eta = progress_number(job, "eta_s");
+  return text_of(job, "state") == "running" && eta >= 0.0 ? eta : -1.0;
+}
+
+std::string text_of(const Json& object, const char* key) {
+  const auto value = object.find(key);
+  return value != object.end() && value->is_string() ? printable(value->get<std::string>()) : std::string();
+}
+
+int number_of(const Json& object, const char* key) {
+  const auto value = object.find(key);
+  return value != object.end() && value->is_number() ? value->get<int>() : 0;
+}
+
+std::string limits_text(const Json& job) {
+  const auto seconds = [&job](const char* key) {
+    const auto value = job.find(key);
+    return value != job.end() && value->is_number() ? value->get<double>() : 0.0;
+  };
+  std::string text;
+  if (const double soft = seconds("soft_limit_s"); soft > 0) text = "gives way after " + duration_text(soft);
+  if (const double hard = seconds("time_limit_s"); hard > 0) {
+    text +=
+        fmt::format("{}{} of {} used", text.empty() ? "" : "; ", duration_text(seconds("wall_s")), duration_text(hard));
+  }
+  return text;
+}
+
+std::string counts_text(const Json& counts) {
+  std::string text;
+  for (const char* state : {"done", "running", "stopping", "queued", "held", "failed", "timed out", "cancelled"}) {
+    const int n = counts.value(state, 0);
+    if (n > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", n, state);
+  }
+  return text.empty() ? "no jobs" : text;
+}
+
+}  // namespace shaken::client

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/core/types.h"
+#include "sim/bounds/margins.h"
+#include "sim/lanes/lanes.h"
+
+/// Rigorous lower bounds on the time until two flying rods can touch (bounds/hull_safe_time.h, bead_safe_time.h). The
+/// scheduled stepper does not look at a pair before that time; a bound that is too long by one tick would be a missed
+/// collision, so every estimate errs on the early side and says why.
+///
+/// Bounds are made in floats, many at a time: they decide when to look, never what is found, so no rounding of theirs
+/// reaches a trajectory. Margins cover it.
+namespace shaken {
+
+using lanes::kLanes;
+
+/// What a bound knows of a rod in free flight, at the instant from which time is counted: its director obeys n(t) = n +
+/// turning t + R with |R| <= half_rate2 t^2.
+struct FlightBound {
+  float director[3];
+  float velocity[3];  ///< of the centre [mm/s]
+  /// What `velocity` is rounded by, at most: it grows with the rod's own speed, however slowly two rods move relative
+  /// to each other [mm/s].
+  float velocity_rounding = 0;
+  float turning[3];   ///< d director / dt [1/s]
+  float half_rate2;   ///< |precession|^2 / 2, half of the director's largest second derivative [1/s^2]
+  bool slow = false;  ///< along x and y, so that only the nearest image can be met (image_safe_time.h)
+};
+
+/// A lower bound on the gap of a pair, a straight line in time: at the bound's end the gap is at least `residual`, and
+/// before that larger by `rate` for each second that is still to come. Where a hit makes the gap close faster, the time
+/// that remains follows from it (schedule/gap_budgets.h).
+struct GapBound {
+  float rate = 0;          ///< at which the gap closes [mm/s]
+  float residual = -1;     ///< [mm]; < 0: not known, so that the bound does not survive a hit
+  bool isotropic = false;  ///< the gap is along no single direction
+
+  /// Of a gap that is `now` wide, at least `then` after `time`, and concave in between [mm, s]; for a bound that ends
+  /// `until`, no later than that.
+  static GapBound between(float now, float then, float time, float until, bool isotropic) {
+    const float rate = (now - then) / (time + 1e-20F);
+    return {rate, std::max(0.0F, now - rate * until - margins::rounding_of_gap(now)), isotropic};
+  }
+};
+
+inline void set_vector(float* to, const Vec3& from) {
+  for (int c = 0; c < 3; ++c) to[c] = static_cast<float>(from[c]);
+}
+
+/// Half a unit of the last of a float's 24 bits, of every component.
+inline void set_velocity(FlightBound& bound, const Vec3& velocity) {
+  set_vector(bound.velocity, velocity);
+  const float* v = bound.velocity;
+  bound.velocity_rounding = margins::kVelocity * (std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2]));
+}
+
+}  // namespace shaken

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#include "sim/bounds/velocity_jump.h"
+
+#include <algorithm>
+
+namespace shaken {
+
+VelocityJump VelocityJump::unknown() {
+  VelocityJump change(Vec3::Zero(), Vec3::Zero(), Vec3::UnitX(), 0, 0, 0, 0);
+  change.rounding_ = change.any_direction_ = 1e30F;
+  return change;
+}
+
+FlightBound flight_bound(const Flight& flight, const Vec3& velocity, const Vec3& director, float slow) {
+  FlightBound bound;
+  set_vector(bound.director, director);
+  set_velocity(bound, velocity);
+  set_vector(bound.turning, flight.precession.cross(director));
+  bound.half_rate2 = static_cast<float>(0.5 * flight.rate * flight.rate);
+  bound.slow = std::max(std::abs(bound.velocity[0]), std::abs(bound.velocity[1])) < slow;
+  return bound;
+}
+
+}  // namespace shaken

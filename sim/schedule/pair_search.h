@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "sim/bounds/bead_safe_time.h"
+#include "sim/bounds/hull_safe_time.h"
+#include "sim/schedule/pair_schedule.h"
+#include "sim/tick/tick.h"
+
+namespace shaken {
+
+/// Bounds for which beads were looked at hold for so long at most: further ahead they are not worth the work [ticks].
+inline constexpr float kBeadHorizon = 200;
+
+/// For up to kLanes pairs: ticks for which nothing can happen, and what the bound rests on.
+struct PairBounds {
+  int ticks[kLanes];
+  GapBound line[kLanes];       ///< of the gap, for as long as the bound lasts
+  bool hulls_overlap[kLanes];  ///< beads may overlap already
+  bool by_beads[kLanes];       ///< beads were looked at
+  Direction direction[kLanes];
+};
+
+/// Finds the contacts of a pair, and the time before which it can have none.
+class PairSearch {
+ public:
+  /// Keeps a reference to `rules`.
+  explicit PairSearch(const TickRules& rules);
+
+  /// Appends the contacts of two rods at these poses; returns whether there are any. `direction` saves most searches:
+  /// most pairs are still apart where they last were. `beads` is scratch.
+  bool find(const PairRods& pair, const Pose& pose_i, const Pose& pose_j, const Direction& direction,
+            std::vector<BeadContact>& beads, std::vector<PairContact>& contacts) const;
+
+  /// Rods that are slower than this along x and y meet no image but the nearest, if that is near [mm/s].
+  float slow() const { return slow_; }
+
+  /// Bounds for pairs of one pair of species, from the rods as they are at this tick. They hold for free flight, or as
+  /// far as hits are told of (PairSchedule::spend).
+  void bound(std::span<const PairRods> pairs, const std::vector<RodAtTick>& rods,
+             const std::vector<FlightBound>& motion, PairLanes& lanes, PairBounds& bounds) const;
+
+ private:
+  const TickRules& rules_;
+  std::vector<Hull> hulls_;       ///< (n_species)
+  std::vector<BeadLanes> lanes_;  ///< (n_species)
+  std::vector<double> reach_;     ///< (n_species) [mm]
+  float slow_;
+};
+
+}  // namespace shaken

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: MIT
+#include "sim/tick/plate_impacts.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "base/core/sincos.h"
+#include "sim/contact/cofactors.h"
+
+namespace shaken {
+namespace {
+
+/// The effects that the lanes know. Those between rods, and at side walls, take place elsewhere.
+constexpr std::array kKnownEffects{std::string_view("gravity"),
+                                   std::string_view("vibration"),
+                                   std::string_view("tilt"),
+                                   std::string_view("species"),
+                                   std::string_view("taper"),
+                                   std::string_view("spin"),
+                                   std::string_view("rod_rod_collisions"),
+                                   std::string_view("rod_rod_friction"),
+                                   std::string_view("rod_rod_restitution"),
+                                   std::string_view("rod_base_collisions"),
+                                   std::string_view("rod_base_friction"),
+                                   std::string_view("rod_base_restitution"),
+                                   std::string_view("rod_lid_collisions"),
+                                   std::string_view("rod_lid_friction"),
+                                   std::string_view("rod_lid_restitution"),
+                                   std::string_view("side_walls"),
+                                   std::string_view("side_wall_friction")};
+
+using lanes::Doubles;
+using lanes::kDoubleLanes;
+using lanes::Triple;
+using lanes::TripleLanes;
+
+/// Flights of the rods of one species, as they go in.
+struct FlightLanes {
+  TripleLanes position, velocity, along, across, turned, precession;
+  alignas(64) double spin[kDoubleLanes];
+  alignas(64) double rate[kDoubleLanes];
+  alignas(64) double tau[kDoubleLanes];  ///< since the flight began [s]
+};
+/// Poses and motions at the tick, as they come out.
+struct RodLanes {
+  TripleLanes position, director, velocity, angular_velocity;
+};
+/// Of one plate.
+struct HitLanes {
+  TripleLanes impulse;
+  alignas(64) double lost[kDoubleLanes];
+  alignas(64) double overlap[kDoubleLanes];  ///< of the bead in the plate; 0: none
+  alignas(64) double is_hit[kDoubleLanes];   ///< > 0: yes
+};
+
+/// A symmetric matrix, as point_compliance (contact/impulse.h) makes it.
+template <class D>
+struct Compliance {
+  D xx, xy, xz, yx, yy, yz, zx, zy, zz;
+
+  SHAKEN_INLINE Triple<D> operator*(const Triple<D>& v) const {
+    return {xx * v.x + (xy * v.y + xz * v.z), yx * v.x + (yy * v.y + yz * v.z), zx * v.x + (zy * v.y + zz * v.z)};
+  }
+};
+
+template <class D>
+SHAKEN_INLINE Compliance<D> compliance_at(const InverseInertia& inverse, const Triple<D>& director,
+                                          const Triple<D>& arm) {
+  const Triple<D> lever = director.cross(arm);
+  const double more = inverse.par - inverse.perp;
+  const Triple<D> l{more * lever.x, more * lever.y, more * lever.z};
+  const Triple<D> a{inverse.perp * arm.x, inverse.perp * arm.y, inverse.perp * arm.z};
+  const D round = inverse.mass + inverse.perp * arm.squared_norm();
+  return {(l.x * lever.x - a.x * arm.x) + round, l.x * lever.y - a.x * arm.y,
+          l.x * lever.z - a.x * arm.z,           l.y * lever.x - a.y * arm.x,
+          (l.y * lever.y - a.y * arm.y) + round, l.y * lever.z - a.y * arm.z,
+          l.z * lever.x - a.z * arm.x,           l.z * lever.y - a.z * arm.y,
+          (l.z * lever.z - a.z * arm.z) + round};
+}
+
+/// Where a rod meets a plate.
+struct PlateMet {
+  double side;      ///< +1: base, -1: lid
+  double height;    ///< [mm]
+  double velocity;  ///< [mm/s]
+  const ContactParameters& contact;
+};
+
+struct PlateHitKernel {
+  const SpeciesMechanics& species;
+  const TickRules& rules;
+  const PlateState& plates;
+  const FlightLanes& flights;
+  RodLanes& rods;
+  HitLanes (&hits)[2];  ///< base, lid
+  double* is_other;     ///< >= 0: what happens is not known here
+  int n;
+
+  template <int W>
+  SHAKEN_INLINE void run() const {
+    for (int l = 0; l < n; l += W) meet<W>(l);
+  }
+
+  template <int W>
+  SHAKEN_INLINE void meet(int l) const {
+    using D = Doubles<W>;
+    const D tau = lanes::load<W>(flights.tau + l);
+    const D angle = lanes::load<W>(flights.rate + l) * tau;
+    const SinCosOf<D> turn = sincos_of_small(angle);
+    const Triple<D> start_velocity = flights.velocity.load<W>(l);
+    Triple<D> position = flights.position.load<W>(l) + tau * start_velocity;
+    position.z -= 0.5 * rules.gravity * tau * tau;
+    const Triple<D> director =
+        flights.along.load<W>(l) + turn.cos * flights.across.load<W>(l) + turn.sin * flights.turned.load<W>(l);
+    rods.position.store(l, position);
+    rods.director.store(l, director);
+
+    Triple<D> velocity = start_velocity;
+    velocity.z -= rules.gravity * tau;
+    const D spin = (1.0 - species.inertia_ratio) * lanes::load<W>(flights.spin + l);
+    Triple<D> angular_velocity = flights.precession.load<W>(l) + spin * director;
+
+    // Not known here: a large turn, or several beads in one plate. Of a rod that the base hits in a way that is not
+    // known, what comes next is no number, which `larger` passes over where it stands first.
+    D other = lanes::absolute(angle) - kLargestSmallAngle;
+    const auto meet_plate = [&](const PlateMet& plate, HitLanes& hit) __attribute__((always_inline)) {
+      // as meet_plates passes over rods that are out of reach
+      const D at_ends = species.end_radius + species.half_length * lanes::absolute(director.z);
+      const D extent = lanes::larger(lanes::all<W>(species.mid_radius), at_ends);
+      const D within_reach = plate.side * plate.height - plate.side * (position.z - plate.side * extent);
+      D overlap{}, offset{}, n_overlapping{};
+      D radius = lanes::all<W>(1.0);
+      for (const int bead : species.outer_beads) {
+        const double r = species.bead_radius[bead];
+        const D above = plate.side * (position.z + species.bead_offset[bead] * director.z - plate.height);
+        const D deep = r - above;
+        const D overlaps = lanes::smaller(deep, within_reach);
+        n_overlapping = overlaps > 0.0 ? n_overlapping + 1.0 : n_overlapping;
+        offset = overlaps > 0.0 ? lanes::all<W>(species.bead_offset[bead]) : offset;
+        radius = overlaps > 0.0 ? lanes::all<W>(r) : radius;
+        overlap = overlaps > 0.0 ? deep : overlap;
+      }
+      other = lanes::larger(n_overlapping - 1.5, other);
+      other = lanes::larger(overlap - kMaxOverlapFraction * radius, other);
+      lanes::store(hit.overlap + l, overlap);
+
+      const D zero{};
+      const Triple<D> normal{zero, zero, lanes::all<W>(plate.side)};
+      const Triple<D> arm = offset * director - radius * normal;
+      Triple<D> u = velocity + angular_velocity.cross(arm);
+      u.z -= plate.velocity;
+      const D u_n = u.dot(normal);
+      const D is_hit = lanes::smaller(overlap, -u_n);
+
+      // newton_coulomb_impulse
+      const Compliance<D> K = compliance_at(species.inverse, director, arm);
+      const double mu = plate.contact.friction;
+      const D bounce = -(1.0 + plate.contact.restitution) * u_n;
+      const Triple<D> u_t = u - u_n * normal;
+      const Triple<D> wanted = bounce * normal - u_t;
+      const auto stick =
+          Cofactors<D>(K.xx, K.yy, K.zz, K.xy, K.xz, K.yz).template solve<Triple<D>>(wanted.x, wanted.y, wanted.z);
+      const D stick_n = stick.dot(normal);
+      const Triple<D> stick_t = stick - stick_n * normal;
+      const D stick_t2 = stick_t.squared_norm();
+      const D speed_t = lanes::square_root(u_t.squared_norm());
+      const Triple<D> cone = normal - (mu / speed_t) * u_t;
+      const D gain = normal.dot(K * cone);
+      const Triple<D> slip = (bounce / gain) * cone;
+      const D in_cone = mu * mu * stick_n * stick_n - stick_t2;
+      const D sticks = stick_n > 0.0 ? in_cone : -1.0 - stick_t2;  // >= 0: yes
+      const auto if_sticks = [&](const D& then, const D& otherwise) __attribute__((always_inline)) {
+        return sticks >= 0.0 ? then : otherwise;
+      };
+      const Triple<D> P{if_sticks(stick.x, slip.x), if_sticks(stick.y, slip.y), if_sticks(stick.z, slip.z)};
+      // slip without a direction, or one that jams
+      const D slips_well = lanes::smaller(gain, speed_t - 1e-12 * lanes::absolute(u_n));
+      other = lanes::larger(if_sticks(-1.0 - overlap, -slips_well), other);
+
+      // work_lost
+      D lost{};
+      lost -= P.x * (u.x + 0.5 * (K.xx * P.x + K.xy * P.y + K.xz * P.z));
+      lost -= P.y * (u.y + 0.5 * (K.yx * P.x + K.yy * P.y + K.yz * P.z));
+      lost -= P.z * (u.z + 0.5 * (K.zx * P.x + K.zy * P.y + K.zz * P.z));
+      lanes::store(hit.lost + l, lost);
+      lanes::store(hit.is_hit + l, is_hit);
+      hit.impulse.store(l, P);
+
+      // apply_impulse
+      const Triple<D> torque = arm.cross(P);
+      const D about_axis = (species.inverse.par - species.inverse.perp) * torque.dot(director);
+      const Triple<D> more = lanes::all<W>(species.inverse.mass) * P;
+      const Triple<D> turns = lanes::all<W>(species.inverse.perp) * torque + about_axis * director;
+      const auto add = [&](const D& before, const D& change) __attribute__((always_inline)) {
+        return is_hit > 0.0 ? before + change : before;
+      };
+      velocity = {add(velocity.x, more.x), add(velocity.y, more.y), add(velocity.z, more.z)};
+      angular_velocity = {add(angular_velocity.x, turns.x), add(angular_velocity.y, turns.y),
+                          add(angular_velocity.z, turns.z)};
+    };
+    if (rules.has_base) meet_plate({1.0, plates.base, plates.velocity, rules.rod_base}, hits[0]);
+    if (rules.has_lid) meet_plate({-1.0, plates.lid, plates.velocity, rules.rod_lid}, hits[1]);
+    rods.velocity.store(l, velocity);
+    rods.angular_velocity.store(l, angular_velocity);
+    lanes::store(is_other + l, other);
+  }
+};
+
+}  // namespace
+
+bool lanes_know(const System& system, const TickRules& rules, std::span<const Effect> effects) {
+  const auto is_known = [](const Effect& effect) { return std::ranges::count(kKnownEffects, effect.name) > 0; };
+  for (const Effect& effect : effects) {
+    if (effect.is_on(system) && !is_known(effect)) return false;
+  }
+  const bool has_friction =
+      (!rules.has_base || rules.rod_base.has_friction()) && (!rules.has_lid || rules.rod_lid.has_friction());
+  return has_friction && rules.impulse == &newton_coulomb_impulse && !rules.rest.matters();
+}
+
+std::uint32_t meet_plates_in_lanes(std::span<const int> rods, const std::vector<Flight>& flights,
+                                   std::vector<RodAtTick>& at_tick, const PlateState& plates, Tick now,
+                                   const TickRules& rules, Counters& counters) {
+  const int n = static_cast<int>(rods.size());
+  FlightLanes in;
+  for (int lane = 0; lane < kDoubleLanes; ++lane) {
+    const Flight& flight = flights[rods[std::min(lane, n - 1)]];
+    in.position.set(lane, flight.position);
+    in.velocity.set(lane, flight.velocity);
+    in.along.set(lane, flight.along);
+    in.across.set(lane, flight.across);
+    in.turned.set(lane, flight.turned);
+    in.precession.set(lane, flight.precession);
+    in.spin[lane] = flight.spin;
+    in.rate[lane] = flight.rate;
+    in.tau[lane] = static_cast<double>(now - flight.since) * rules.dt;
+  }
+  RodLanes out;
+  HitLanes hits[2];
+  alignas(64) double is_other[kDoubleLanes];
+  for (HitLanes& of_plate : hits) std::fill_n(of_plate.overlap, kDoubleLanes, 0.0);
+  lanes::with_widest_doubles(PlateHitKernel{rules.species_of(rods.front()), rules, plates, in, out, hits, is_other, n});
+
+  std::uint32_t left_over = 0;
+  for (int lane = 0; lane < n; ++lane) {
+    if (is_other[lane] >= 0) {
+      left_over |= 1U << lane;
+      continue;
+    }
+    RodAtTick& rod = at_tick[rods[lane]];
+    rod.has_motion = rod.changed = rod.displaced = rod.hit_again = false;
+    out.position.get(lane, rod.pose.position);
+    out.director.get(lane, rod.pose.director);
+    for (int side = 0; side < 2; ++side) {
+      const HitLanes& of_plate = hits[side];
+      if (!(of_plate.overlap[lane] > 0)) continue;
+      rod.has_motion = true;
+      counters.max_overlap_rod_plate = std::max(counters.max_overlap_rod_plate, of_plate.overlap[lane]);
+      if (!(of_plate.is_hit[lane] > 0)) continue;
+      rod.note_hit();
+      ++(side == 0 ? counters.impulses_rod_base : counters.impulses_rod_lid);
+      counters.ledger.lost_surfaces.add(of_plate.lost[lane]);
+      counters.ledger.given.add(of_plate.impulse.z[lane] * plates.velocity);
+      counters.ledger.momentum[0].add(of_plate.impulse.x[lane]);
+      counters.ledger.momentum[1].add(of_plate.impulse.y[lane]);
+      counters.ledger.momentum[2].add(of_plate.impulse.z[lane]);
+    }
+    if (!rod.has_motion) continue;
+    out.velocity.get(lane, rod.motion.velocity);
+    out.angular_velocity.get(lane, rod.motion.angular_velocity);
+  }
+  return left_over;
+}
+
+}  // namespace shaken

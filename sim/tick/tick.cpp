@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "sim/tick/tick.h"
+
+#include <algorithm>
+#include <compare>
+
+#include "sim/initial.h"
+
+namespace shaken {
+
+double max_speed(const World& world) {
+  const System& system = world.system;
+  const double usual = world.plates.peak_speed() + std::sqrt(2.0 * system.gravity * system.gap) + kStartSpeed;
+  double thinnest = system.gap;
+  for (const Species& species : world.species) {
+    for (const double radius : species.bead_radius) thinnest = std::min(thinnest, radius);
+  }
+  return std::min(kMaxSpeedFactor * usual, thinnest / system.dt);
+}
+
+TickRules::TickRules(const World& world)
+    : species_of_rod(world.species_of_rod),
+      gravity(world.system.gravity),
+      dt(world.system.dt),
+      box_side(world.system.box_side),
+      rod_rod(world.system.rod_rod),
+      rod_base(world.system.rod_base),
+      rod_lid(world.system.rod_lid),
+      impulse(impulse_function(world.system.law)),
+      impacts_at_instant(world.system.has_impacts_at_instant()),
+      has_base(world.system.base),
+      has_lid(world.system.lid),
+      walls(world.system.walls),
+      has_rotational_noise(world.system.has_rotational_noise()),
+      rotational_noise(world.system.rotational_noise),
+      seed(world.system.seed),
+      plates(world.plates) {
+  for (const Species& one : world.species) species.emplace_back(one);
+  max_speed2 = max_speed(world) * max_speed(world);
+  if (plates.peak_acceleration() < gravity) rest = {0.5 * gravity * dt, kRiseRate};
+}
+
+void sort_contacts(std::vector<PairContact>& contacts, const std::vector<RodAtTick>& rods, const TickRules& rules) {
+  const auto place = [&](int i, int bead) -> Vec3 {
+    return rules.species_of(i).bead_offset[bead] * rods[i].pose.director;
+  };
+  const auto compare = [](const Vec3& a, const Vec3& b) {
+    return std::lexicographical_compare_three_way(a.begin(), a.end(), b.begin(), b.end());
+  };
+  std::sort(contacts.begin(), contacts.end(), [&](const PairContact& a, const PairContact& b) {
+    if (a.i != b.i) return a.i < b.i;
+    if (a.j != b.j) return a.j < b.j;
+    if (a.beads.overlap != b.beads.overlap) return a.beads.overlap > b.beads.overlap;
+    const auto of_i = compare(place(a.i, a.beads.bead_i), place(b.i, b.beads.bead_i));
+    if (std::is_neq(of_i)) return std::is_lt(of_i);
+    return std::is_lt(compare(place(a.j, a.beads.bead_j), place(b.j, b.beads.bead_j)));
+  });
+}
+
+}  // namespace shaken

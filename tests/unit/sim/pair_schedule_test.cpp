@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "sim/schedule/pair_schedule.h"
+
+#include <gtest/gtest.h>
+
+namespace shaken {
+namespace {
+
+constexpr double kDt = 4e-6;
+constexpr Direction kAlongX{1, 0, 0};
+
+/// Two rods that approach each other along x, 0.1 mm apart at tick `start`, with a bound of 2,500 ticks.
+struct Approach {
+  static constexpr Tick kStart = (Tick{1} << 32) - 300;  // a tick's last 32 bits come round on the way
+  static constexpr float kGap = 0.1F;
+  static constexpr int kTicks = 2500;
+  static constexpr float kClosing = kGap / (kTicks * static_cast<float>(kDt));  ///< 10 mm/s
+
+  PairSchedule table{2, kDt};
+  int n_looks = 0;
+
+  Approach() {
+    table.make_room(1);
+    table.add(0, {0, 1}, 0);
+    table.set_bound(0, kStart, kTicks, kAlongX, {kClosing, 0});
+  }
+  /// The rod on the left (0) or on the right (1) flies faster to the right by so much [mm/s]. False: a new bound is
+  /// due.
+  bool hit(int rod, double more, Tick after) {
+    const VelocityJump change({more, 0, 0}, Vec3::Zero(), Vec3::UnitY(), 0, 0, 1, 0);
+    bool holds = true;
+    table.spend(rod, change, kStart + after, [&](int p) { holds = table.shorten_bound(p, kStart + after); });
+    return holds;
+  }
+  /// Ticks after the start at which the pair comes up and does not wait on.
+  Tick wait(Tick from = 0) {
+    std::vector<int> up;
+    for (Tick now = kStart + from + 1; now < kStart + 2 * kTicks; ++now) {
+      up.clear();
+      table.wheel().pop(now, up);
+      if (up.empty()) continue;
+      ++n_looks;
+      if (!table.defer(0, now)) return now - kStart;
+    }
+    return -1;
+  }
+};
+
+TEST(PairSchedule, APairWaitsUpToTheEndOfItsBoundInFewLooks) {
+  Approach approach;
+  const Tick searched = approach.wait();
+  EXPECT_LE(searched, Approach::kTicks + 1);
+  EXPECT_GE(searched, Approach::kTicks - 8);
+  EXPECT_LE(approach.n_looks, 8);
+}
+
+TEST(PairSchedule, AHitThatClosesTheGapFasterEndsTheBoundInTime) {
+  for (const int rod : {0, 1}) {
+    Approach approach;
+    // 0.08 mm are left, which close at 40 mm/s
+    EXPECT_TRUE(approach.hit(rod, rod == 0 ? 30 : -30, 500));
+    const Tick searched = approach.wait(500);
+    EXPECT_LE(searched, 500 + 500 + 1);
+    EXPECT_GE(searched, 500 + 500 - 10);
+  }
+}
+
+TEST(PairSchedule, ManySmallHitsTakeTheirTime) {
+  Approach approach;
+  for (Tick after = 1; after <= 400; ++after) EXPECT_TRUE(approach.hit(0, 0.01, after));
+  // on average the gap closed at 12 mm/s for 1.6 ms, and closes at 14 mm/s from then on
+  const Tick searched = approach.wait(400);
+  const double end = 400 + (0.1 - 12 * 400 * kDt) / (14 * kDt);
+  EXPECT_LE(static_cast<double>(searched), end + 1);
+  EXPECT_GE(static_cast<double>(searched), 0.98 * end);
+}
+
+TEST(PairSchedule, WhatOpensTheGapMakesNoBoundLonger) {
+  Approach approach;
+  EXPECT_TRUE(approach.hit(0, -8, 500));
+  EXPECT_TRUE(approach.hit(1, 5, 600));
+  const Tick searched = approach.wait(600);
+  EXPECT_LE(searched, Approach::kTicks + 1);
+  EXPECT_GE(searched, Approach::kTicks - 8);
+}
+
+TEST(PairSchedule, AHitThatLeavesLittleTimeAsksForANewBound) {
+  Approach approach;
+  EXPECT_FALSE(approach.hit(0, 30000, 500));
+}
+
+TEST(PairSchedule, ABoundWithoutALineEndsWithTheFirstHit) {
+  Approach approach;
+  approach.table.set_bound(0, Approach::kStart, 100, kAlongX, {});
+  EXPECT_FALSE(approach.hit(1, -1e-6, 50));
+  EXPECT_EQ(approach.wait(), 101);
+}
+
+TEST(PairSchedule, APairThatIsSearchedAgainAsksForNothing) {
+  Approach approach;
+  approach.table.poll(0, Approach::kStart + 7);
+  EXPECT_TRUE(approach.hit(0, 1000, 7));
+  EXPECT_EQ(approach.wait(7), 8);
+}
+
+}  // namespace
+}  // namespace shaken
