@@ -99,7 +99,8 @@ std::string work_text(const Json& rows, const std::vector<Column>& scene) {
          with(
              "\nChanges of motion, per rod and simulated second, of which all pairs of the rod are told, and bounds "
              "that are\ntightened for that.\n",
-             {per_rod_second("told", "velocity_jumps"), ns("velocity_jumps"), per_rod_second("tightened", "bounds_shortened")});
+             {per_rod_second("told", "velocity_jumps"), ns("velocity_jumps"),
+              per_rod_second("tightened", "bounds_shortened")});
 }
 
 }  // namespace shaken::bench

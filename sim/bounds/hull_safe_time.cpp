@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "sim/bounds/margins.h"
+
 namespace shaken {
 namespace {
 

@@ -2,6 +2,7 @@
 #include "sim/schedule/gap_budgets.h"
 
 #include "base/core/heap_bytes.h"
+#include "sim/bounds/margins.h"
 
 namespace shaken {
 namespace {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/core/heap_bytes.h"
+#include "sim/bounds/margins.h"
 
 namespace shaken {
 namespace {

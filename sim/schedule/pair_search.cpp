@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sim/bounds/image_safe_time.h"
+#include "sim/bounds/margins.h"
 
 namespace shaken {
 namespace {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/bounds/margins.h"
+
 namespace shaken {
 namespace {
 

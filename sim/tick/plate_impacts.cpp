@@ -2,7 +2,6 @@
 #include "sim/tick/plate_impacts.h"
 
 #include <algorithm>
-#include <array>
 #include <string_view>
 
 #include "base/core/sincos.h"
@@ -12,23 +11,23 @@ namespace shaken {
 namespace {
 
 /// The effects that the lanes know. Those between rods, and at side walls, take place elsewhere.
-constexpr std::array kKnownEffects{std::string_view("gravity"),
-                                   std::string_view("vibration"),
-                                   std::string_view("tilt"),
-                                   std::string_view("species"),
-                                   std::string_view("taper"),
-                                   std::string_view("spin"),
-                                   std::string_view("rod_rod_collisions"),
-                                   std::string_view("rod_rod_friction"),
-                                   std::string_view("rod_rod_restitution"),
-                                   std::string_view("rod_base_collisions"),
-                                   std::string_view("rod_base_friction"),
-                                   std::string_view("rod_base_restitution"),
-                                   std::string_view("rod_lid_collisions"),
-                                   std::string_view("rod_lid_friction"),
-                                   std::string_view("rod_lid_restitution"),
-                                   std::string_view("side_walls"),
-                                   std::string_view("side_wall_friction")};
+constexpr std::string_view kKnownEffects[] = {"gravity",
+                                              "vibration",
+                                              "tilt",
+                                              "species",
+                                              "taper",
+                                              "spin",
+                                              "rod_rod_collisions",
+                                              "rod_rod_friction",
+                                              "rod_rod_restitution",
+                                              "rod_base_collisions",
+                                              "rod_base_friction",
+                                              "rod_base_restitution",
+                                              "rod_lid_collisions",
+                                              "rod_lid_friction",
+                                              "rod_lid_restitution",
+                                              "side_walls",
+                                              "side_wall_friction"};
 
 using lanes::Doubles;
 using lanes::kDoubleLanes;

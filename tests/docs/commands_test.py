@@ -42,6 +42,7 @@ LEFT_OUT = [
     (r"shaken (watch|record) --lcm-url tcpq", "needs that relay"),
     (r"shaken record -o night", "eight hours"),
     (r"shaken run t\.json", "a table of several scenes"),
+    (r"shaken submit tour\.json", "minutes; README's sweep, of the same points, is typed"),
     (r"shaken clean --older", "asks for an answer"),
     (r"shaken picture RUN --time 35", "of that run, which takes an hour"),
     (r"shaken watch", "typed from README"),
