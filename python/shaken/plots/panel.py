@@ -368,7 +368,9 @@ class Panel:
         if not self.has_data:
             self.axes.set_xticks([])
             self.axes.set_yticks([])
-            self.axes.text(0.5, 0.5, "no data", color=GREY, ha="center", va="center", transform=self.axes.transAxes)
+            # a reference alone is drawn in the middle: the words stand clear of it
+            self.axes.text(0.5, 0.25, "no data", color=GREY, ha="center", va="center", transform=self.axes.transAxes,
+                           bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.5})
             return
         for name in ("x", "y"):
             if self._reach:
