@@ -60,12 +60,9 @@ ALLOWED = {
     "client": ["proto", "base", "scene", "run/files", "run/export", "sim/rod", "sim/system.h"],
     # the page in a browser: what the terminal's live view makes of messages, the daemon's way of HTTP, a run's files
     "web": ["proto", "base", "client/live", "base/http", "run/files", "analysis/order.h", "sim/system.h"],
-    # benches time whole simulations, and the kernels of an impulse by themselves
-    "bench": ["base", "scene", "run/files", "analysis", "sim/rod", "sim/motion", "sim/contact", "sim/system.h",
-              "sim/snapshot.h", "sim/world.h", "sim/balance.h", "sim/simulation.h", "sim/neighbors",
-              "sim/effects/registry.h"],
-    # these look at what the scheduled stepper does with a pair
-    "bench/pairs": ["bench", "base", "sim"],
+    # benches time whole simulations
+    "bench": ["base", "scene", "run/files", "analysis", "sim/rod", "sim/system.h", "sim/snapshot.h", "sim/world.h",
+              "sim/balance.h", "sim/simulation.h", "sim/effects/registry.h"],
 }
 for floor, name in enumerate(SIM):
     for part in [name] if "." in name else [name, name + ".h", name + ".cpp"]:

@@ -21,7 +21,6 @@ using Work = std::function<ExitCode()>;
 void add_speed(CLI::App& app, Work& work);
 void add_accuracy(CLI::App& app, Work& work);
 void add_export(CLI::App& app, Work& work);
-void add_visits(CLI::App& app, Work& work);
 void add_effects(CLI::App& app, Work& work);
 void add_hard(CLI::App& app, Work& work);
 

@@ -15,9 +15,9 @@ namespace shaken::bench {
 namespace {
 
 constexpr const char* kEffectsFooter =
-    R"(Every effect that can be off is switched off, one at a time (docs/effects.md). CPU times are compared from one and the same
-state, which tells what it takes to compute the effect, and from a state that came about without it, which tells what a
-user gains: mostly nothing, as rods without friction or bounce collide more often. States are kept in the cache.
+    R"(Every effect that can be off is switched off, one at a time (docs/effects.md). CPU times are compared from one and
+the same state, which tells what it takes to compute the effect, and from a state that came about without it, which
+tells what a user gains: mostly nothing, as rods without friction or bounce collide more often.
 
 Examples:
   shaken bench effects                                      527 rods of 4.5 mm at area fraction 0.75
@@ -28,20 +28,10 @@ Exit codes: 0 done, 1 something failed, 2 bad input.)";
 
 /// The effect's case against the one with everything on, as they were timed in turn.
 Json comparison(const Contender& without, const Contender& everything) {
-  const StepperSpeed& speed = without.speed;
-  const Estimate ratio = cpu_ratio(speed, everything.speed);
-  const auto per_tick = [&](std::int64_t n) { return static_cast<double>(n) / static_cast<double>(speed.ticks); };
-  return {{"cpu_ratio", ratio.value},
-          {"cpu_ratio_error", ratio.sem},
-          {"rod_s_per_cpu_s", speed.rate()},
-          {"everything_rod_s_per_cpu_s", everything.speed.rate()},
-          {"cpu_s", speed.cpu},
-          {"everything_cpu_s", everything.speed.cpu},
-          {"ticks", speed.ticks},
-          {"plate_impulses", speed.plate_impulses},
-          {"rod_impulses", speed.rod_impulses},
-          {"plate_impulses_per_tick", per_tick(speed.plate_impulses)},
-          {"rod_impulses_per_tick", per_tick(speed.rod_impulses)}};
+  const Estimate ratio = cpu_ratio(without.speed, everything.speed);
+  Json of{{"cpu_ratio", ratio.value}, {"cpu_ratio_error", ratio.sem}};
+  of.update(json_of(without.speed));
+  return of;
 }
 
 /// Switches off every effect of the case that can be off, one at a time.
@@ -59,19 +49,16 @@ void measure_savings(const Case& everything, const Cache& cache, const Effort& e
         return comparison(both[1], both[0]);
       };
       value_or_fail(Simulation::start(scene.system()));
-      Json row{{"without", name}, {"neutral", neutral}, {"same_state", nullptr}};
+      Json row{{"without", name}, {"neutral", neutral}};
       row["own_state"] = timed(contender(scene, cache(scene), effort.cpu), all_on, effort.repeat);
       if (Simulation::resume(scene.system(), all_on.state.checkpoint)) {
         Contender briefly = all_on;
-        briefly.shorten_bound = 1;
+        briefly.settle = 1;
         briefly.ticks = kFewPeriods * everything.period_ticks();
         Contender without = briefly;
         without.scene = scene;
         row["same_state"] = timed(without, briefly, kOften * effort.repeat);
-      } else {  // without the effect that state could not be
-        row["same_state"] = row["own_state"];
-        for (auto& [key, value] : row["same_state"].items()) value = nullptr;
-      }
+      }  // or else without the effect that state could not be
       report.json["rows"].push_back(std::move(row));
     } catch (const Failure& failure) {  // without a base, say, rods fall until they are too fast
       report.json["impossible"][name] = failure.what();
@@ -94,7 +81,8 @@ std::string effects_text(const Case& scene, const Effort& effort, const Json& re
 CPU time per rod-second without an effect, in % of that with everything on, taken in turn; errors are from the
 scatter of single repetitions. Same state: the next 4 vibrations of the rods with everything on, which is what
 it takes to compute the effect. Own state: after a warm-up without the effect, which also counts what its absence
-makes of the rods. Impulses of rods with plates and with each other, per tick, and rates are of the own state.
+makes of the rods. Impulses from plates and between rods, per rod and simulated second, and rates are of the own
+state.
 )",
       scene.label, scene.n_rods(), 1e6 * scene.dt, scene.warm_up, effort.repeat);
   text += table(report.at("rows"), {{"without", "without"},
@@ -103,8 +91,8 @@ makes of the rods. Impulses of rods with plates and with each other, per tick, a
                                     {"own state %", "own_state/cpu_ratio", "{:.1f}", 100},
                                     {"+-", "own_state/cpu_ratio_error", "{:.1f}", 100},
                                     {"rod-s/CPU-s", "own_state/rod_s_per_cpu_s", "{:.1f}"},
-                                    {"plate/tick", "own_state/plate_impulses_per_tick", "{:.3g}"},
-                                    {"rod-rod/tick", "own_state/rod_impulses_per_tick", "{:.3g}"},
+                                    {"plates", "own_state/impulses_per_rod_second/plates", "{:.0f}"},
+                                    {"rods", "own_state/impulses_per_rod_second/rods", "{:.0f}"},
                                     {"that is", "neutral"}});
   if (!report.at("impossible").empty()) text += "\nNot possible:\n";
   for (const auto& [effect, why] : report.at("impossible").items()) {

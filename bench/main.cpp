@@ -43,7 +43,6 @@ int main(int argc, char** argv) {
   add_speed(app, work);
   add_accuracy(app, work);
   add_export(app, work);
-  add_visits(app, work);
   add_effects(app, work);
   add_hard(app, work);
   try {

@@ -2,11 +2,14 @@
 #include "bench/report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <map>
 #include <thread>
 
 #include "base/failure.h"
@@ -76,17 +79,19 @@ std::string table(const Json& rows, const std::vector<Column>& columns) {
 }
 
 std::string csv(const Json& rows) {
-  std::string text;
+  std::vector<std::string> names;
+  std::vector<std::map<std::string, std::string>> lines;
   for (const Json& row : rows) {
     std::vector<std::pair<std::string, std::string>> cells;
     flatten(row, "", cells);
-    std::string titles, line;
-    for (const auto& [name, value] : cells) {
-      titles += (titles.empty() ? "" : ",") + name;
-      line += (&name == &cells.front().first ? "" : ",") + value;
+    lines.emplace_back(cells.begin(), cells.end());
+    for (const auto& [name, cell] : cells) {
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     }
-    if (text.empty()) text = titles + "\n";
-    text += line + "\n";
+  }
+  std::string text = fmt::format("{}\n", fmt::join(names, ","));
+  for (std::map<std::string, std::string>& line : lines) {
+    for (const std::string& name : names) text += line[name] + (name == names.back() ? "\n" : ",");
   }
   return text;
 }
@@ -114,19 +119,29 @@ void Output::declare(CLI::App& app, const char* files) {
 }
 
 void Output::give(const Report& report) const {
+  // what was measured is kept whatever becomes of the rest
+  const auto by_python = [](const char* what, const std::vector<std::string>& arguments, const std::string& input) {
+    try {
+      return plots_by_python(arguments, input);
+    } catch (const Failure& failure) {
+      fmt::print(stderr, "shaken-bench: no {}: {}\n", what, failure.what());
+      return std::vector<std::string>();
+    }
+  };
   const std::string text = report.json.dump(2) + "\n";
   fmt::print("{}", json ? text : report.text);
+  if (report.has_verdict && !json) {
+    const std::vector<std::string> verdict = by_python("verdict", {"verdict", "-"}, text);
+    for (const std::string& line : verdict) fmt::print("{}\n", line);
+    if (verdict.empty()) fmt::print("{}", csv(report.rows()));
+  }
   std::fflush(stdout);
   if (folder.empty()) return;
   done_or_fail(make_folder(folder));
   const std::filesystem::path file = std::filesystem::path(folder) / (report.name + ".json");
   done_or_fail(write_file_atomically(file, text));
   done_or_fail(write_file_atomically(std::filesystem::path(folder) / (report.name + ".csv"), csv(report.rows())));
-  try {
-    plots_by_python({"bench", file.string(), "--out", folder});
-  } catch (const Failure& failure) {
-    fmt::print(stderr, "shaken-bench: no pictures: {}\n", failure.what());  // what was measured is kept all the same
-  }
+  by_python("pictures", {"bench", file.string(), "--out", folder}, "");
 }
 
 }  // namespace shaken::bench

@@ -32,7 +32,7 @@ std::string text_of(const Json& row, const char* member);
 /// An array of rows as a table for people, texts flush left and numbers flush right. Nothing and NaN are "-", true
 /// "yes" and false "NO".
 std::string table(const Json& rows, const std::vector<Column>& columns);
-/// All of an array of rows, of which the first names the columns; what is nested is named with dots.
+/// All of an array of rows; what is nested is named with dots, and what a row does not have is left empty.
 std::string csv(const Json& rows);
 
 /// What a bench found out: the rows, and the same for people.
@@ -40,6 +40,7 @@ struct Report {
   std::string name;  ///< of its files
   Json json;         ///< "bench", "version", "machine", what else holds for all rows, and "rows"
   std::string text;
+  bool has_verdict = false;  ///< Python says in words what the rows come to
 
   Report(std::string file_name, const std::string& bench);
   const Json& rows() const { return json.at("rows"); }
@@ -57,7 +58,7 @@ struct Output {
 
   /// Adds --json and --out, which writes `files`.
   void declare(CLI::App& app, const char* files = "CSV, JSON and PNG");
-  /// Writes the report, and has pictures drawn from it; where that fails, stderr says why.
+  /// Writes the report, and has its verdict told and pictures drawn by Python; where that fails, stderr says why.
   void give(const Report& report) const;
 };
 

@@ -1,154 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "bench/speed.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <optional>
 
-#include "base/clock.h"
 #include "bench/bench.h"
+#include "bench/kinds.h"
+#include "bench/rates.h"
 
 namespace shaken::bench {
-
-Report report_under(const Conditions& conditions, const std::string& file_name, const std::string& bench) {
-  Report report(file_name, bench);
-  report.json["warm_up_s"] = conditions.warm_up;
-  report.json["steady"] = conditions.steady();
-  report.json["repeat"] = conditions.effort.repeat;
-  report.text += fmt::format(
-      "state after {:.10g} simulated seconds{}; {}\n", conditions.warm_up,
-      conditions.steady() ? "" : fmt::format(" (NOT the steady state: that takes {:.10g})", Conditions::kSteady),
-      conditions.effort.repeat == 1 ? "one run" : fmt::format("best of {} repetitions", conditions.effort.repeat));
-  return report;
-}
-
-std::vector<Column> scene_columns(const std::vector<Column>& more) {
-  std::vector<Column> columns{{"l mm", "length_mm", "{:.10g}"},
-                              {"phi", "area_fraction", "{:.10g}"},
-                              {"L mm", "side_mm", "{:.10g}"},
-                              {"N", "n_rods"}};
-  columns.insert(columns.end(), more.begin(), more.end());
-  return columns;
-}
-
-void check_states(const Report& report, const std::string& what) {
-  for (const Json& row : report.rows()) {
-    if (row.at("hashes_equal").get<bool>()) continue;
-    const std::string scene = label_of(row.at("length_mm"), row.at("area_fraction"), row.at("side_mm"));
-    const Json& ticks = member_of(row, "compared_ticks");
-    const std::string when = ticks.is_null() ? "" : fmt::format(" after {} ticks", ticks.get<Tick>());
-    throw Failure(ExitCode::kFailed, scene + ": " + what + when);
-  }
-}
-
-Json phase_shares(const std::array<double, kPhases>& phases, double cpu) {
-  Json shares;
-  double other = 1;
-  for (std::size_t p = 0; p < kPhases; ++p) {
-    const double share = phases[p] / cpu;
-    shares[kPhaseNames[p]] = share;
-    other -= share;
-  }
-  shares["other"] = std::max(0.0, other);  // < 0: the clock's error
-  return shares;
-}
-
-std::vector<Column> phase_columns() {
-  std::vector<Column> columns;
-  columns.reserve(kPhases + 1);
-  for (const char* name : kPhaseNames) {
-    std::string title = name;
-    std::replace(title.begin(), title.end(), '_', ' ');
-    columns.push_back({std::move(title), std::string("phase_shares/") + name, "{:.1f}", 100});
-  }
-  return columns;
-}
-
-std::string phases_text(const Json& rows, const std::vector<Column>& scene) {
-  std::vector<Column> columns = scene;
-  for (Column& phase : phase_columns()) columns.push_back(std::move(phase));
-  columns.push_back({"other", "phase_shares/other", "{:.1f}", 100});
-  return "\nWhere the scheduled stepper's CPU time goes, in % (from a run of its own, without the clock's time).\n" +
-         table(rows, columns);
-}
-
-SceneSpeed measure_scene(const Case& scene, const SteadyState& state, const Effort& effort) {
-  // One tick builds the lists; from there on the reference is timed, and the scheduled stepper settles.
-  const Contender reference{.scene = scene,
-                            .state = state,
-                            .stepper = StepperKind::kReference,
-                            .ticks = ticks_for(effort.cpu, scene, state, StepperKind::kReference)};
-  Contender scheduled = contender(scene, state, effort.cpu);
-  const Tick compared_ticks = reference.shorten_bound + reference.ticks;
-  scheduled.shorten_bound = std::max(scheduled.shorten_bound, compared_ticks);
-  std::vector<Contender> both{reference, scheduled};
-  time_in_turn("measuring " + scene.label, both, effort.repeat);
-  SceneSpeed speed{both[1], both[0], compared_ticks, 0, {}, 0, {}};
-
-  Simulation timed = resumed(scene, state, StepperKind::kScheduled);
-  advance(timed, compared_ticks);
-  speed.scheduled_hash = timed.state_hash();
-  advance(timed, scheduled.shorten_bound - compared_ticks);
-  speed.bounds = measure_lower_bounds(timed.world());
-  timed.time_phases(thread_cpu_seconds_without_readings);
-  const double start = thread_cpu_seconds_without_readings();
-  advance(timed, scheduled.ticks);
-  speed.phases_cpu = thread_cpu_seconds_without_readings() - start;
-  for (std::size_t p = 0; p < kPhases; ++p) speed.phases[p] = timed.phase_times().seconds(static_cast<Phase>(p));
-  return speed;
-}
-
-namespace {
-
-Json speed_row(const SceneSpeed& scene) {
-  const StepperSpeed& scheduled = scene.scheduled.speed;
-  Json row = json_of(scene.scheduled.scene);
-  row["scheduled"] = json_of(scheduled);
-  row["reference"] = json_of(scene.reference.speed);
-  row["scheduled"]["state_hash"] = fmt::format("{:016x}", scene.scheduled_hash);
-  row["reference"]["state_hash"] = fmt::format("{:016x}", scene.reference.hash);
-  row["ratio"] = scheduled.rate() / scene.reference.speed.rate();
-  row["compared_ticks"] = scene.compared_ticks;
-  row["hashes_equal"] = scene.scheduled_hash == scene.reference.hash;
-  row["phase_shares"] = phase_shares(scene.phases, scene.phases_cpu);
-  row["lower_bounds"] = {{"plate_impulse_ns", 1e9 * scene.bounds.plate_impulse},
-                         {"rod_impulse_ns", 1e9 * scene.bounds.rod_impulse},
-                         {"state_access_ns", 1e9 * scene.bounds.state_access},
-                         {"impulses_alone_share", scene.bounds.impulses_alone(scheduled) / scheduled.best_cpu()},
-                         {"memory_alone_share", scene.bounds.memory_alone(scheduled) / scheduled.best_cpu()}};
-  return row;
-}
-
-}  // namespace
-
-Report speed_report(const Conditions& conditions, const std::vector<SceneSpeed>& scenes) {
-  Report report = report_under(conditions, "speed", "speed");
-  for (const SceneSpeed& scene : scenes) report.json["rows"].push_back(speed_row(scene));
-  report.text +=
-      "\nSimulated rod-seconds per CPU-second by either stepper, in turn; spread is median over best CPU time of\n"
-      "the scheduled and of the reference stepper; same state: bitwise, after as many ticks by either.\n" +
-      table(report.rows(), scene_columns({{"scheduled", "scheduled/rod_s_per_cpu_s", "{:.1f}"},
-                                          {"reference", "reference/rod_s_per_cpu_s", "{:.2f}"},
-                                          {"ratio", "ratio", "{:.1f}"},
-                                          {"spread", "scheduled/spread", "{:.3f}"},
-                                          {"spread", "reference/spread", "{:.3f}"},
-                                          {"impulses/CPU-s", "scheduled/impulses_per_cpu_s", "{:.3g}"},
-                                          {"ns/impulse", "scheduled/ns_per_impulse", "{:.0f}"},
-                                          {"bytes/rod", "scheduled/bytes_per_rod", "{:.0f}"},
-                                          {"same state", "hashes_equal"}}));
-  report.text += phases_text(report.rows(), scene_columns({}));
-  report.text +=
-      "\nLower bounds: the share of the scheduled stepper's time that its impulses alone take, if finding contacts\n"
-      "were free, and the share that reading and writing the states of the rods hit takes, if computing were.\n" +
-      table(report.rows(), scene_columns({{"ns/plate impulse", "lower_bounds/plate_impulse_ns", "{:.0f}"},
-                                          {"ns/rod-rod impulse", "lower_bounds/rod_impulse_ns", "{:.0f}"},
-                                          {"ns/state", "lower_bounds/state_access_ns", "{:.1f}"},
-                                          {"impulses %", "lower_bounds/impulses_alone_share", "{:.1f}", 100},
-                                          {"memory %", "lower_bounds/memory_alone_share", "{:.1f}", 100}}));
-  return report;
-}
-
 namespace {
 
 constexpr const char* kSpeedFooter = R"(A steady state is simulated once (progress on stderr) and kept in the cache.
@@ -160,7 +20,6 @@ Examples:
   shaken bench speed --length 4.5,2.5 --area-fraction 0.75 --side 83.73
   shaken bench speed --scaling n --out speed            cost per rod from 500 to 18,000 rods
   shaken bench speed --scaling dt                       cost of a finer step
-  shaken bench speed --count                            what a rod-second consists of: visits, searches, bounds
   shaken bench speed --kinds --out speed                spheres, polar rods, side walls and others, beside each other
   shaken bench speed --threads 1,2,4 --area-fraction 0.75 --side 83.73
 
@@ -174,7 +33,7 @@ struct SpeedBench {
   std::optional<double> warm_up, cpu;
   std::optional<int> repeat;
   std::string scaling;
-  bool full = false, quick = false, count = false, kinds = false;
+  bool full = false, quick = false, kinds = false;
   Cache cache;
   Output output;
 
@@ -198,11 +57,8 @@ struct SpeedBench {
     CLI::Option* by_threads =
         add_number(app, "--threads", threads, "LIST", {1, 64}, "Instead: wall time by so many threads");
     by_threads->excludes(series);
-    CLI::Option* counts =
-        app.add_flag("--count", count, "Instead: what a rod-second consists of, and how good the bounds on pairs are");
-    counts->excludes(series)->excludes(by_threads);
     CLI::Option* by_kind = app.add_flag("--kinds", kinds, "Instead: speed by kind of scene");
-    by_kind->excludes(all)->excludes(series)->excludes(by_threads)->excludes(counts);
+    by_kind->excludes(all)->excludes(series)->excludes(by_threads);
     for (CLI::Option* list : lists) by_kind->excludes(list);
     cache.declare(app);
     output.declare(app);
@@ -235,77 +91,86 @@ struct SpeedBench {
     return scenes;
   }
 
-  ExitCode run_scaling() const {
-    const Scaling of = scaling == "n" ? Scaling::kRods : Scaling::kStep;
-    if (lengths.size() > 1 || fractions.size() > 1 || (of == Scaling::kStep && sides.size() > 1)) {
-      throw Failure(ExitCode::kBadInput, fmt::format("--scaling {} takes one value each of --length, --area-fraction{}",
-                                                     scaling, of == Scaling::kStep ? " and --side" : ""));
-    }
+  /// The scenes of a series, which take turns.
+  std::vector<Case> series(Comparison of) const {
+    const double after = conditions().warm_up;
     std::vector<Case> series;
+    if (of == Comparison::kKinds) {
+      for (const SceneKind& kind : scene_kinds()) series.push_back(case_of(kind, after));
+      return series;
+    }
+    if (lengths.size() > 1 || fractions.size() > 1 || (of == Comparison::kStep && sides.size() > 1)) {
+      throw Failure(ExitCode::kBadInput, fmt::format("--scaling {} takes one value each of --length, --area-fraction{}",
+                                                     scaling, of == Comparison::kStep ? " and --side" : ""));
+    }
     const auto add = [&](double side, double dt) {
-      series.push_back(
-          make_case(given(lengths, {4.5})[0], given(fractions, {0.75})[0], side, dt, conditions().warm_up));
+      series.push_back(make_case(given(lengths, {4.5})[0], given(fractions, {0.75})[0], side, dt, after));
     };
-    if (of == Scaling::kRods) {
+    if (of == Comparison::kRods) {
       for (const double side : given(sides, {kSmallSide, 83.73, 167.46, 244})) add(side, kPaperStep);
     } else {
       for (const double dt : {8e-6, 4e-6, 2e-6, 1e-6}) add(given(sides, {kSmallSide})[0], dt);
     }
+    return series;
+  }
+
+  Contender contender_on(const Case& scene) const { return contender(scene, cache(scene), conditions().effort.cpu); }
+
+  Json measure_series(Comparison of) const {
     std::vector<Contender> contenders;
-    for (const Case& scene : series) contenders.push_back(contender(scene, cache(scene), conditions().effort.cpu));
+    for (const Case& scene : series(of)) contenders.push_back(contender_on(scene));
     time_in_turn("measuring", contenders, conditions().effort.repeat);
-    const Report report = scaling_report(conditions(), of, contenders);
-    output.give(report);
-    return ExitCode::kOk;
+    Json rows = Json::array();
+    for (const Contender& one : contenders) rows.push_back(rate_row(one, contenders.front(), count_work(one)));
+    return rows;
   }
 
-  ExitCode run_threads() const {
-    std::vector<ThreadsSpeed> measured;
+  Json measure_threads() const {
+    Json rows = Json::array();
     for (const Case& scene : scenes()) {
-      const Contender by_one = contender(scene, cache(scene), conditions().effort.cpu);
-      ThreadsSpeed& speed = measured.emplace_back();
-      speed.by.assign(threads.size(), by_one);
-      for (std::size_t k = 0; k < threads.size(); ++k) speed.by[k].threads = threads[k];
-      time_in_turn("measuring threads on " + scene.label, speed.by, conditions().effort.repeat);
-      speed.serial = measure_serial_share(by_one);
+      std::vector<Contender> by(threads.size(), contender_on(scene));
+      for (std::size_t k = 0; k < threads.size(); ++k) by[k].threads = threads[k];
+      time_in_turn("measuring threads on " + scene.label, by, conditions().effort.repeat);
+      const CountedWork work = count_work(by.front());
+      for (const Contender& of : by) rows.push_back(threads_row(of, by.front(), work));
     }
-    const Report report = threads_report(conditions(), measured);
-    output.give(report);
-    check_states(report, "the number of threads changed the trajectory");
-    return ExitCode::kOk;
+    return rows;
   }
 
-  ExitCode run_count() const {
-    std::vector<CountedWork> counted;
-    for (const Case& scene : scenes())
-      counted.push_back(measure_work(contender(scene, cache(scene), conditions().effort.cpu)));
-    Conditions once = conditions();
-    once.effort.repeat = 1;
-    output.give(count_report(once, counted));
-    return ExitCode::kOk;
-  }
-
-  ExitCode run_kinds() const {
-    std::vector<Contender> contenders;
-    for (const SceneKind& kind : scene_kinds()) {
-      const Case scene = case_of(kind, conditions().warm_up);
-      contenders.push_back(contender(scene, cache(scene), conditions().effort.cpu));
+  Json measure_steppers() const {
+    const Effort effort = conditions().effort;
+    Json rows = Json::array();
+    for (const Case& scene : scenes()) {
+      Contender scheduled = contender_on(scene);
+      // One tick builds the lists; from there on the reference is timed, and the scheduled stepper settles.
+      Contender reference = scheduled;
+      reference.stepper = StepperKind::kReference;
+      reference.settle = 1;
+      reference.ticks = ticks_for(effort.cpu, scene, reference.state, reference.stepper);
+      const Tick compared_ticks = reference.settle + reference.ticks;
+      scheduled.settle = std::max(scheduled.settle, compared_ticks);
+      std::vector<Contender> both{reference, scheduled};
+      time_in_turn("measuring " + scene.label, both, effort.repeat);
+      Simulation compared = resumed(scene, scheduled.state, scheduled.stepper);
+      advance(compared, compared_ticks);
+      rows.push_back(steppers_row(both[1], both[0], count_work(both[1]), compared_ticks, compared.state_hash()));
     }
-    const Report report = kinds_report(conditions(), measure_kinds(std::move(contenders), conditions().effort.repeat));
-    output.give(report);
-    return ExitCode::kOk;
+    return rows;
   }
 
   ExitCode run() const {
-    if (kinds) return run_kinds();
-    if (count) return run_count();
-    if (!scaling.empty()) return run_scaling();
-    if (!threads.empty()) return run_threads();
-    std::vector<SceneSpeed> measured;
-    for (const Case& scene : scenes()) measured.push_back(measure_scene(scene, cache(scene), conditions().effort));
-    const Report report = speed_report(conditions(), measured);
+    const Comparison of = kinds              ? Comparison::kKinds
+                          : scaling == "n"   ? Comparison::kRods
+                          : scaling == "dt"  ? Comparison::kStep
+                          : !threads.empty() ? Comparison::kThreads
+                                             : Comparison::kSteppers;
+    const Report report = rates_report(conditions(), of,
+                                       of == Comparison::kSteppers  ? measure_steppers()
+                                       : of == Comparison::kThreads ? measure_threads()
+                                                                    : measure_series(of));
     output.give(report);
-    check_states(report, "the steppers' states differ");
+    if (of == Comparison::kThreads) check_states(report, "the number of threads changed the trajectory");
+    if (of == Comparison::kSteppers) check_states(report, "the steppers' states differ");
     return ExitCode::kOk;
   }
 };

@@ -6,18 +6,25 @@
 #include "base/clock.h"
 #include "base/progress_line.h"
 #include "bench/bench.h"
-#include "bench/fits.h"
 
 namespace shaken::bench {
+namespace {
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2;
+}
+
+}  // namespace
 
 void Effort::declare(CLI::App& app) {
   add_number(app, "--cpu", cpu, "S", {1e-3, 1e3}, "CPU time of one timed stretch, about");
   add_number(app, "--repeat", repeat, "N", {1, 1000}, "Repetitions, of which the best counts");
 }
 
-double StepperSpeed::spread() const { return quartiles_of(cpu).median / best_cpu(); }
+double StepperSpeed::spread() const { return median(cpu) / best_cpu(); }
 
-double StepperSpeed::wall_spread() const { return quartiles_of(wall).median / best_wall(); }
+double StepperSpeed::wall_spread() const { return median(wall) / best_wall(); }
 
 Tick ticks_for(double cpu, const Case& of, const SteadyState& state, StepperKind stepper) {
   Simulation simulation = resumed(of, state, stepper);
@@ -58,7 +65,7 @@ Contender contender(const Case& scene, const SteadyState& state, double cpu) {
   const Tick period = scene.period_ticks();
   return {.scene = scene,
           .state = state,
-          .shorten_bound = period,
+          .settle = period,
           .ticks = std::max(ticks_for(cpu, scene, state, StepperKind::kScheduled), period)};
 }
 
@@ -69,7 +76,7 @@ void time_in_turn(const std::string& what, std::vector<Contender>& contenders, i
     for (Contender& of : contenders) {
       Simulation simulation = resumed(of.scene, of.state, of.stepper);
       simulation.use_threads(of.threads);
-      advance(simulation, of.shorten_bound);
+      advance(simulation, of.settle);
       time_stretch(simulation, of.scene, of.ticks, of.speed);
       of.hash = simulation.state_hash();
       progress.show(++done / (repeat * static_cast<double>(contenders.size())));
@@ -111,14 +118,19 @@ Json json_of(const Case& scene) {
 }
 
 Json json_of(const StepperSpeed& speed) {
+  const auto per_rod_second = [&](std::int64_t n) { return static_cast<double>(n) / speed.rod_seconds; };
   return {{"rod_s_per_cpu_s", speed.rate()},
           {"spread", speed.spread()},
+          {"rod_s_per_wall_s", speed.rod_seconds / speed.best_wall()},
+          {"wall_spread", speed.wall_spread()},
           {"cpu_s", speed.cpu},
+          {"wall_s", speed.wall},
           {"ticks", speed.ticks},
           {"rod_seconds", speed.rod_seconds},
-          {"plate_impulses", speed.plate_impulses},
-          {"wall_impulses", speed.wall_impulses},
-          {"rod_impulses", speed.rod_impulses},
+          {"impulses_per_rod_second",
+           {{"plates", per_rod_second(speed.plate_impulses)},
+            {"walls", per_rod_second(speed.wall_impulses)},
+            {"rods", per_rod_second(speed.rod_impulses)}}},
           {"impulses_per_cpu_s", static_cast<double>(speed.impulses()) / speed.best_cpu()},
           {"ns_per_impulse", 1e9 * speed.best_cpu() / static_cast<double>(speed.impulses())},
           {"bytes_per_rod", speed.bytes_per_rod}};

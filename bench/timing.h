@@ -55,7 +55,7 @@ struct Contender {
   SteadyState state;  ///< where each repetition begins
   StepperKind stepper = StepperKind::kScheduled;
   int threads = 1;
-  Tick shorten_bound = 1;  ///< not timed: lists and schedules are built
+  Tick settle = 1;         ///< not timed: lists and schedules are built
   Tick ticks = 0;          ///< timed
   StepperSpeed speed{};    ///< found
   std::uint64_t hash = 0;  ///< of the state after them

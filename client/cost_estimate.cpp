@@ -65,16 +65,6 @@ Rates rates_of(const Json& report, const scene::RunPlan& plan) {
           report.at("memory_bytes").get<double>() / plan.system.n_all_rods()};
 }
 
-/// The plan at a level of accuracy, or what speaks against it.
-Result<scene::RunPlan> at_level(const scene::RunPlan& plan, const scene::AccuracyLevel& level) {
-  nlohmann::ordered_json scene = scene::to_json(plan);
-  scene["time"]["step"] = level.step;
-  scene["time"]["impacts"] = scene::name_of(level.impacts);
-  auto loaded = scene::load_scene(scene.dump(), "scene");
-  if (!loaded) return Error{loaded.error().front().message};
-  return std::move(loaded).value();
-}
-
 /// At most `most` of `n` places, from the first to the last; if only one is wanted, the middle. They are rounded, not
 /// cut off, so that they do not keep step with the inner axis of a grid.
 std::vector<std::size_t> evenly(std::size_t n, std::size_t most) {
@@ -102,12 +92,7 @@ class Estimator {
       return std::move(result_);
     }
     result_.n_probed = probed.size();
-    const bool levels = options_.levels && are_alike_in_time();
     n_probes_ = probed.size();
-    if (levels && !options_.from.empty()) ++n_probes_;
-    for (const scene::AccuracyLevel& level : scene::accuracy_levels()) {
-      n_probes_ += levels && &level != scene::accuracy_level(plan_of(shown).system);
-    }
     if (options_.on_probe) options_.on_probe(0, n_probes_);
     result_.report = probe_plan(plan_of(shown), label_of(shown), options_.from);
     std::vector<Rates> rates;
@@ -120,9 +105,12 @@ class Estimator {
     const Costs costs = add_up(rates);
     const System& own = plan_of(shown).system;
     const std::optional<Ticks> ticks = are_alike_in_time() ? std::optional(Ticks{own.dt, own.impacts}) : std::nullopt;
-    result_.levels.push_back({kAsWritten, ticks, "", costs.cpu(1), costs.disk});
-    if (levels) probe_levels(shown, costs);
-    if (!ticks) add_costs_of_steps(rates);
+    result_.levels.push_back({kAsWritten, ticks, costs.cpu(1), costs.disk});
+    if (ticks) {
+      add_levels(own, costs);
+    } else {
+      add_costs_of_steps(rates);
+    }
     if (options_.on_probe) options_.on_probe(n_probes_, n_probes_);
     return std::move(result_);
   }
@@ -145,7 +133,7 @@ class Estimator {
     });
   }
   Json probe_plan(const scene::RunPlan& plan, const std::string& label, const std::string& from) {
-    Json report = probe(plan, label, options_.cpu, from);
+    Json report = probe(plan, label, options_.cpu / static_cast<double>(n_probes_), from);
     ++n_done_;
     if (options_.on_probe) options_.on_probe(std::min(n_done_, n_probes_ - 1), n_probes_);
     return report;
@@ -232,34 +220,16 @@ class Estimator {
       const scene::AccuracyLevel* level = scene::accuracy_level(own);
       result_.levels.push_back(
           {fmt::format("{}{}", level != nullptr ? std::string(level->name) + ", " : "", counted(part.n_runs, "run")),
-           Ticks{own.dt, own.impacts}, "", part.cpu, part.disk});
+           Ticks{own.dt, own.impacts}, part.cpu, part.disk});
     }
   }
 
-  /// A saved state fits one step only. So that steps can be compared, all of them begin where the run begins.
-  void probe_levels(std::size_t shown, const Costs& costs) {
-    const scene::RunPlan& own = plan_of(shown);
-    const auto stepping_from_start = [&](const scene::RunPlan& plan, const std::string& label) {
-      return rates_of(probe_plan(plan, label, ""), plan).stepping;
-    };
-    const double yardstick =
-        options_.from.empty() ? rates_of(result_.report, own).stepping : stepping_from_start(own, label_of(shown));
+  /// By the costs that were measured at the levels (scene/accuracy.h): stepping changes by their ratio.
+  void add_levels(const System& own, const Costs& costs) {
     for (const scene::AccuracyLevel& level : scene::accuracy_levels()) {
-      LevelCost cost{std::string(level.name), Ticks{level.step, level.impacts}, "", {}, {}};
-      double factor = 1;
-      if (&level != scene::accuracy_level(own.system)) {
-        try {
-          const scene::RunPlan plan = value_or_fail(at_level(own, level));
-          factor = stepping_from_start(plan, fmt::format("accuracy={}", level.name)) / yardstick;
-        } catch (const Failure& failure) {
-          cost.error = failure.what();
-        }
-      }
-      if (cost.error.empty()) {
-        cost.cpu = costs.cpu(factor);
-        cost.disk = costs.disk;
-      }
-      result_.levels.push_back(std::move(cost));
+      const double factor = level.cost / scene::relative_cost(own.dt, own.impacts);
+      result_.levels.push_back(
+          {std::string(level.name), Ticks{level.step, level.impacts}, costs.cpu(factor), costs.disk});
     }
   }
 
@@ -339,12 +309,9 @@ std::string estimate_text(const CostEstimate& estimate, int width) {
   Table table({{"ACCURACY"},
                {"STEP", Table::Align::kRight},
                {"CPU TIME", Table::Align::kRight},
-               {"DISK", Table::Align::kRight},
-               {""}});
+               {"DISK", Table::Align::kRight}});
   for (const LevelCost& level : estimate.levels) {
-    table.add_row({level.name, ticks_text(level.ticks), level.cpu ? cpu_text(*level.cpu) : "-",
-                   level.disk ? bytes_text(*level.disk) : "-",
-                   level.error.empty() ? "" : "not possible: " + level.error});
+    table.add_row({level.name, ticks_text(level.ticks), cpu_text(level.cpu), bytes_text(level.disk)});
   }
   std::string text = table.text(width);
   if (estimate.n_runs > 1) {
@@ -369,9 +336,8 @@ Json estimate_json(const CostEstimate& estimate) {
     Json entry{{"name", level.name},
                {"step_s", level.ticks ? Json(level.ticks->step) : Json()},
                {"impacts", level.ticks ? Json(scene::name_of(level.ticks->impacts)) : Json()},
-               {"cpu_seconds", level.cpu ? Json(*level.cpu) : Json()},
-               {"disk_bytes", level.disk ? Json(*level.disk) : Json()}};
-    if (!level.error.empty()) entry["error"] = level.error;
+               {"cpu_seconds", level.cpu},
+               {"disk_bytes", level.disk}};
     if (const scene::AccuracyLevel* known = scene::accuracy_level(level.name)) {
       entry["what"] = known->what;
       entry["averages_within_percent"] = known->averages_within;
@@ -381,7 +347,7 @@ Json estimate_json(const CostEstimate& estimate) {
         entry["bias"].push_back(
             {{"observable", bias.observable}, {"value", bias.value}, {"error", bias.error}, {"unit", bias.unit}});
       }
-      if (known->cost) entry["relative_cost"] = *known->cost;
+      entry["relative_cost"] = known->cost;
     }
     json["levels"].push_back(std::move(entry));
   }

@@ -24,10 +24,9 @@ inline constexpr std::size_t kMostProbes = 5;
 
 struct EstimateOptions {
   bool probe = true;   ///< step a piece of some runs; otherwise only what is on and off
-  double cpu = 1.5;    ///< CPU time of each probe's steps, about [s]
+  double cpu = 1.5;    ///< CPU time of all probes' steps together, at most about [s]
   std::string from{};  ///< directory of a run of the same system to start from; empty: the run's own start
   std::size_t most_probes = kMostProbes;  ///< points of a sweep that are probed, at most
-  bool levels = true;                     ///< probe the steps of the levels of accuracy too, if all points have one
   ProbeProgress on_probe{};               ///< called before the first probe and after each
 };
 
@@ -41,9 +40,8 @@ struct Ticks {
 struct LevelCost {
   std::string name;            ///< of the level of accuracy; "as written" for the steps of the scenes themselves
   std::optional<Ticks> ticks;  ///< none where the scenes have several
-  std::string error;           ///< why there is no figure, if so
-  std::optional<double> cpu;   ///< [s], all runs together
-  std::optional<double> disk;  ///< [bytes]
+  double cpu = 0;              ///< [s], all runs together
+  double disk = 0;             ///< [bytes]
 };
 
 /// What one run costs with the step that its scene has.
@@ -66,8 +64,8 @@ struct CostEstimate {
 };
 
 /// Probes a handful of points by `shaken-worker --probe`, evenly along the sweep; costs of those between them, per rod
-/// and simulated second, are interpolated. The steps of the levels are probed at one point, and taken to change the
-/// cost of all others by the same factor. Throws Failure if a point cannot be simulated.
+/// and simulated second, are interpolated. Another level of accuracy is taken to change the cost of stepping by the
+/// factor that was measured for it (scene/accuracy.h). Throws Failure if a point cannot be simulated.
 CostEstimate estimate_cost(const scene::Sweep& sweep, const EstimateOptions& options);
 
 /// The costs as a table, and a line on where they come from; empty if nothing was probed.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace shaken::scene {
 namespace {
@@ -45,6 +46,20 @@ constexpr std::array<AccuracyLevel, 4> kLevels{{
 }  // namespace
 
 std::span<const AccuracyLevel> accuracy_levels() { return kLevels; }
+
+double relative_cost(double step, ImpactTime impacts) {
+  for (const AccuracyLevel& level : kLevels) {
+    if (level.step == step && level.impacts == impacts) return level.cost;
+  }
+  if (impacts == ImpactTime::kAtInstant) {
+    const AccuracyLevel& fine = kLevels.back();
+    return fine.cost / relative_cost(fine.step, ImpactTime::kTickEnd) * relative_cost(step, ImpactTime::kTickEnd);
+  }
+  const bool coarse = step > kLevels[1].step;  // the levels are sorted, and all but "fine" are of the tick's end
+  const AccuracyLevel &a = kLevels[coarse ? 0 : 1], &b = kLevels[coarse ? 1 : 2];
+  const double slope = std::log(b.cost / a.cost) / std::log(b.step / a.step);
+  return a.cost * std::pow(step / a.step, slope);
+}
 
 const AccuracyLevel* accuracy_level(std::string_view name) {
   const auto found =

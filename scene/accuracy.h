@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string_view>
 
@@ -26,14 +25,16 @@ struct AccuracyLevel {
   /// Bounds on |bias| with two standard errors to spare, for rods of 4.5 and of 2.5 mm [%].
   double averages_within = 0;  ///< of temperatures, tilt and square displacement
   double just_hit_within = 0;  ///< of the share of rods that were just hit
-  /// CPU time per simulated second against "paper" and the biases, measured by `shaken bench accuracy`; what has not
-  /// been measured is not there.
-  std::optional<double> cost;
+  /// CPU time per simulated second against "paper", measured by `shaken bench accuracy`.
+  double cost = 1;
   std::span<const Bias> bias;
 };
 
 /// The levels, from coarse to fine.
 std::span<const AccuracyLevel> accuracy_levels();
+/// CPU time per simulated second with this step, against "paper": as measured at the levels, and between and beyond the
+/// steps of those with impacts at the tick's end on straight lines of log cost against log step.
+double relative_cost(double step, ImpactTime impacts);
 /// The level of that name; null if there is none.
 const AccuracyLevel* accuracy_level(std::string_view name);
 /// The level that a system is at; null if it is at none.

@@ -52,14 +52,9 @@ std::vector<std::string> names_of(const std::vector<Named>& all) {
   return names;
 }
 
-/// Those of `all` that have been named; all of them if none was.
-template <class Named>
-std::vector<const Named*> chosen(const std::vector<Named>& all, const std::vector<std::string>& names) {
-  std::vector<const Named*> some;
-  for (const std::string& name : names.empty() ? names_of(all) : names) {
-    some.push_back(&*std::find_if(all.begin(), all.end(), [&](const Named& one) { return one.name == name; }));
-  }
-  return some;
+/// Whether a name is one of these, or none was named.
+bool is_asked(const std::vector<std::string>& names, const char* name) {
+  return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
 }
 
 struct AccuracyBench {
@@ -113,9 +108,10 @@ struct AccuracyBench {
     }
     how.members = quick && !members ? 16 : members;
     std::vector<Json> measured;
-    for (const StartCase* start : chosen(start_cases(), cases)) {
-      for (const Variant* variant : chosen(variants(), treatments)) {
-        measured.push_back(measure_convergence(*start, *variant, how));
+    for (const StartCase& start : start_cases()) {
+      if (!is_asked(cases, start.name.c_str())) continue;
+      for (const Variant& variant : variants()) {
+        if (is_asked(treatments, variant.name)) measured.push_back(measure_convergence(start, variant, how));
       }
     }
     const Report report = convergence_report(measured);
@@ -135,30 +131,25 @@ struct AccuracyBench {
     const auto add = [&](const Knob& knob, const std::vector<double>& values, double length, double fraction,
                          double box, double seconds) {
       const Case scene = make_case(length, fraction, side.value_or(box), kPaperStep, warm_up);
-      for (const Variant* variant : chosen(variants(), treatments)) {
-        if (treatments.empty() && variant != &variants().front()) continue;
-        tasks.push_back({scene, variant, &knob, values, measure.value_or(seconds * effort()), std::min(1.0, warm_up),
+      for (const Variant& variant : variants()) {
+        if (treatments.empty() ? &variant != &variants().front() : !is_asked(treatments, variant.name)) continue;
+        tasks.push_back({scene, &variant, &knob, values, measure.value_or(seconds * effort()), std::min(1.0, warm_up),
                          n_replicas()});
       }
     };
-    const auto asked = [&](const char* knob) {
-      return knobs.empty() || std::find(knobs.begin(), knobs.end(), knob) != knobs.end();
-    };
-    if (asked("step")) {
+    if (is_asked(knobs, "step")) {
       add(kStepKnob, step_values, 4.5, 0.75, 25, 30);
       add(kStepKnob, step_values, 2.5, 0.60, 20, 50);
     }
-    if (asked("pitch")) add(kPitchKnob, {0.15, 0.2, 0.3, 0.45, 0.6}, 4.5, 0.75, 25, 15);
-    if (asked("sweeps")) add(kSweepsKnob, {8, 4, 2, 1}, 4.5, 0.75, 25, 15);
+    if (is_asked(knobs, "pitch")) add(kPitchKnob, {0.15, 0.2, 0.3, 0.45, 0.6}, 4.5, 0.75, 25, 15);
+    if (is_asked(knobs, "sweeps")) add(kSweepsKnob, {8, 4, 2, 1}, 4.5, 0.75, 25, 15);
     return tasks;
   }
 
   void run_statistical() const {
-    const std::vector<StatisticsTask> tasks = statistics_tasks();
     std::vector<Json> measured;
-    for (const StatisticsTask& task : tasks) measured.push_back(measure_statistics(task, cache));
-    const Report report = statistics_report(tasks, measured);
-    output.give(report);
+    for (const StatisticsTask& task : statistics_tasks()) measured.push_back(measure_statistics(task, cache));
+    output.give(statistics_report(measured));
   }
 
   void run_error() const {
@@ -174,9 +165,7 @@ struct AccuracyBench {
       const Case scene = make_case(4.5, 0.75, box, kPaperStep, warm_up);
       measured.push_back(measure_order_error(scene, measure.value_or(seconds * effort()), n_replicas(), cache));
     }
-    const Report report =
-        order_error_report(measured, extrapolate(measured, make_case(4.5, 0.75, kPaperSide, kPaperStep, warm_up)));
-    output.give(report);
+    output.give(order_error_report(measured, make_case(4.5, 0.75, kPaperSide, kPaperStep, warm_up)));
   }
 
   ExitCode run() const {

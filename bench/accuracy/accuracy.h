@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT
-// The three parts of `shaken-bench accuracy`: errors of trajectories, bias of averages, statistical errors.
+// The three parts of `shaken-bench accuracy`: errors of trajectories, bias of averages, statistical errors. What these
+// measure is written as rows; python/shaken/plots/accuracy.py makes orders, limits and laws of them, and verdicts.py
+// tells them.
 #pragma once
 
 #include <array>
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "base/estimate.h"
 #include "bench/case.h"
 #include "bench/report.h"
 #include "sim/simulation.h"
@@ -58,11 +62,13 @@ struct ConvergenceEffort {
   std::optional<int> members{};  ///< of every ensemble; none: as many as the case says
 };
 
+/// {"lower", "median", "upper"} of a sample: linear between neighbours of the sorted values; null of none.
+Json quartiles_of(std::vector<double> values);
+
 /// Errors of one case and variant against the step. "rows": at each step the quartiles over the members of "error"
 /// against the converged solution, CPU times of a member by either stepper, whether their states are equal, and how
-/// many members ended in numerical trouble. "order": of each norm the order of the medians, null where there is none;
-/// "floor", the distance of the converged solution from one of twice its step; and, of another variant than the first,
-/// "from_first", its distance from that one's.
+/// many members ended in numerical trouble. "converged": the step of that solution, the "error" of one of twice its
+/// step, and, of another variant than the first, "from_first", its distance from that one's.
 Json measure_convergence(const StartCase& start, const Variant& variant, const ConvergenceEffort& effort);
 Report convergence_report(const std::vector<Json>& measured);
 
@@ -72,8 +78,6 @@ struct Knob {
   const char* unit;
 };
 inline constexpr Knob kStepKnob{"step", "us"}, kPitchKnob{"bead pitch", "mm"}, kSweepsKnob{"sweeps", "1"};
-/// A straight line is believed up to so many times the finest step.
-inline constexpr double kLinear = 8;
 
 /// One knob turned in one scene.
 struct StatisticsTask {
@@ -82,33 +86,26 @@ struct StatisticsTask {
   const Knob* knob = &kStepKnob;
   std::vector<double> values;  ///< from most to least accurate [unit of the knob]
   double measure = 0;          ///< simulated per value and replica [s]
-  double shorten_bound = 0;    ///< simulated before, from the steady state of the scene [s]
+  double settle = 0;           ///< simulated before, from the steady state of the scene [s]
   int replicas = 1;            ///< with seeds 1, 2, ...
 };
 
+/// The mean over independent runs of one length.
+Estimate mean_of_runs(std::span<const Estimate> runs);
+
 /// Every value and replica in turn, each from the steady state of the scene with its seed, which comes from `cache`;
-/// with another bead pitch from a steady state of its own. "rows": at each value the means of the observables, with
-/// their bias relative to the limit; of impulses, and of other knobs than the step, relative to the first value.
-/// "limits": the limit dt -> 0, a line through the steps up to kLinear times the finest. "tilt": v_along(n_z).
+/// with another bead pitch from a steady state of its own. "rows": at each value the means of the observables. "tilt":
+/// v_along(n_z).
 Json measure_statistics(const StatisticsTask& task, const Cache& cache);
-/// The texts tell where a bias is settled to be below 1 %.
-Report statistics_report(const std::vector<StatisticsTask>& tasks, const std::vector<Json>& measured);
+Report statistics_report(const std::vector<Json>& measured);
 
 /// A simulation at step `dt` that goes on from where `from` is, to the nearest tick.
 Simulation continued(const Simulation& from, const System& scene);
 
-/// How the statistical error of the mean of S falls with time in one box, as a row: "std" of S(t), integrated
-/// autocorrelation time "tau_s", and "sem", the scatter of means over stretches of time, of lengths "stretch_s". "c" of
-/// sem = c / sqrt(T / 2 tau) is from the stretches of at least 5 tau, null without any; it is std if S(t) is one
-/// stationary process. CPU times are those of an error of S, without the way to the steady state.
-/// @param series  S(t) of each replica at equal intervals of `every` [s]
-Json reduce_order(const Case& scene, const std::vector<std::vector<double>>& series, double every,
-                  double cpu_per_rod_second);
+/// S(t) in one box, from which follows how long a run must be: a "row" with its autocorrelation time "tau_s", and the
+/// "series" of each replica.
 Json measure_order_error(const Case& scene, double measure, int replicas, const Cache& cache);
-
-/// What was measured in small boxes, continued to a large one by power laws of the side. Null from fewer than kLeast
-/// boxes, or where a power law does not hold.
-Json extrapolate(const std::vector<Json>& rows, const Case& large);
-Report order_error_report(const std::vector<Json>& rows, const Json& extrapolated);
+/// What it comes to is continued to the paper's box.
+Report order_error_report(const std::vector<Json>& measured, const Case& paper_box);
 
 }  // namespace shaken::bench

@@ -31,7 +31,9 @@ std::optional<double> drift_of(const Snapshot& rods) {
 
 }  // namespace
 
-ObservableSeries::ObservableSeries() : tilt_(analysis::TiltVelocity(kTiltBins, kTiltRange)) {}
+ObservableSeries::ObservableSeries() : tilt_(analysis::TiltVelocity(kTiltBins, kTiltRange)) {
+  for (const Observable& of : kObservables) values_[of.name];
+}
 
 void ObservableSeries::sample(const Simulation& simulation) {
   const World& world = simulation.world();
@@ -39,14 +41,14 @@ void ObservableSeries::sample(const Simulation& simulation) {
   const auto n = static_cast<double>(rods.n_rods());
 
   const KineticEnergy energy = kinetic_energy(world);
-  add(Observable::kTemperatureXy, energy.translation_xy / (n * world.species[0].mass));
-  add(Observable::kTemperatureZ, 2 * energy.translation_z / (n * world.species[0].mass));
-  add(Observable::kRotation, energy.rotation / (n * world.species[0].inertia_perp));
-  add(Observable::kOrder, analysis::nematic_order(rods.director).order);
+  values_["T_xy"].push_back(energy.translation_xy / (n * world.species[0].mass));
+  values_["T_z"].push_back(2 * energy.translation_z / (n * world.species[0].mass));
+  values_["T_rot"].push_back(energy.rotation / (n * world.species[0].inertia_perp));
+  values_["S"].push_back(analysis::nematic_order(rods.director).order);
   double n_z2 = 0;
   for (const Vec3& director : rods.director) n_z2 += director.z() * director.z() / n;
-  add(Observable::kTilt, std::sqrt(n_z2));
-  if (const auto drift = drift_of(rods)) add(Observable::kDrift, *drift);
+  values_["rms_n_z"].push_back(std::sqrt(n_z2));
+  if (const auto drift = drift_of(rods)) values_["drift"].push_back(*drift);
   tilt_.accumulate(simulation.time(), rods.director, rods.velocity);
 
   std::vector<Vec2> places;
@@ -57,7 +59,7 @@ void ObservableSeries::sample(const Simulation& simulation) {
   if (places_.size() == kLagSamples) {
     double square = 0;
     for (std::size_t i = 0; i < places.size(); ++i) square += (places[i] - places_.front()[i]).squaredNorm() / n;
-    add(Observable::kDisplacement, square);
+    values_["msd"].push_back(square);
     places_.pop_front();
   }
   places_.push_back(std::move(places));
@@ -66,13 +68,14 @@ void ObservableSeries::sample(const Simulation& simulation) {
   for (const Flight& flight : world.rods) {
     hit += static_cast<double>(world.tick - flight.since) * world.system.dt < kRecently * (1 - 1e-9) ? 1 / n : 0;
   }
-  add(Observable::kHit, hit);
+  values_["hit"].push_back(hit);
 
   const Counters& now = world.counters;
   if (places_.size() > 1) {
     const auto plates = [](const Counters& of) { return of.impulses_rod_base + of.impulses_rod_lid; };
-    add(Observable::kRodImpulses, static_cast<double>(now.impulses_rod_rod - last_.impulses_rod_rod) / (n * kEvery));
-    add(Observable::kPlateImpulses, static_cast<double>(plates(now) - plates(last_)) / (n * kEvery));
+    values_["rod_impulses"].push_back(static_cast<double>(now.impulses_rod_rod - last_.impulses_rod_rod) /
+                                      (n * kEvery));
+    values_["plate_impulses"].push_back(static_cast<double>(plates(now) - plates(last_)) / (n * kEvery));
   }
   last_ = now;
 }

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <deque>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "analysis/blocked.h"
@@ -12,38 +14,24 @@
 namespace shaken::bench {
 
 /// What is averaged over time, one number per sample.
-enum class Observable {
-  kTemperatureXy,  ///< mean square of a velocity component in the plane: granular temperature per mass
-  kTemperatureZ,   ///< and of the upright one
-  kRotation,       ///< mean square of an angular velocity across the rod, as hardly a rod spins about its axis
-  kOrder,          ///< S
-  kTilt,           ///< root mean square of n_z
-  kDrift,          ///< mean velocity along the rod against its tilt, of rods with 0.1 < |n_z| < 0.25
-  kDisplacement,   ///< mean square displacement in the plane after kLag
-  kHit,            ///< share of rods hit within the last kRecently
-  kRodImpulses,    ///< impulses between rods per rod and second
-  kPlateImpulses,  ///< impulses from plates per rod and second
-};
-inline constexpr std::size_t kObservables = 10;
-
-struct ObservableInfo {
+struct Observable {
   const char* name;
   const char* unit;
   const char* title;  ///< as people write it
   bool has_limit;     ///< as dt -> 0; a rod at rest on a plate gets an impulse at every tick, so impulses have none
 };
-/// By Observable.
-inline constexpr std::array<ObservableInfo, kObservables> kObservableInfo{
-    {{"T_xy", "mm^2/s^2", "temperature in the plane", true},
-     {"T_z", "mm^2/s^2", "temperature upright", true},
-     {"T_rot", "rad^2/s^2", "temperature of rotation", true},
-     {"S", "1", "order S", true},
-     {"rms_n_z", "1", "rms tilt n_z", true},
-     {"drift", "mm/s", "drift against the tilt", true},
-     {"msd", "mm^2", "square displacement in 20.7 ms", true},
-     {"hit", "1", "share of rods hit within 64 μs", true},
-     {"rod_impulses", "1/s", "impulses between rods", false},
-     {"plate_impulses", "1/s", "impulses from plates", false}}};
+inline constexpr std::array<Observable, 10> kObservables{{
+    {"T_xy", "mm^2/s^2", "temperature in the plane", true},  // mean square of a velocity component: per mass
+    {"T_z", "mm^2/s^2", "temperature upright", true},
+    {"T_rot", "rad^2/s^2", "temperature of rotation", true},  // of an angular velocity across the rod
+    {"S", "1", "order S", true},
+    {"rms_n_z", "1", "rms tilt n_z", true},
+    {"drift", "mm/s", "drift against the tilt", true},  // mean velocity along the rod, of those with 0.1 < |n_z| < 0.25
+    {"msd", "mm^2", "square displacement in 20.7 ms", true},  // in the plane, after kLag
+    {"hit", "1", "share of rods hit within 64 μs", true},     // kRecently
+    {"rod_impulses", "1/s", "impulses between rods", false},  // per rod
+    {"plate_impulses", "1/s", "impulses from plates", false},
+}};
 
 /// Samples of one run, taken every kEvery.
 class ObservableSeries {
@@ -58,13 +46,12 @@ class ObservableSeries {
   ObservableSeries();
   void sample(const Simulation& simulation);
 
-  const std::vector<double>& values(Observable of) const { return values_[static_cast<std::size_t>(of)]; }
+  /// Of the observable of that name; empty where it could not be told.
+  const std::vector<double>& values(const std::string& name) const { return values_.at(name); }
   const analysis::Blocked<analysis::TiltVelocity>& tilt() const { return tilt_; }
 
  private:
-  void add(Observable of, double value) { values_[static_cast<std::size_t>(of)].push_back(value); }
-
-  std::array<std::vector<double>, kObservables> values_;
+  std::map<std::string, std::vector<double>> values_;
   analysis::Blocked<analysis::TiltVelocity> tilt_;
   std::deque<std::vector<Vec2>> places_;  ///< unwrapped, of the last kLagSamples samples
   Counters last_;

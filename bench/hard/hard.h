@@ -52,7 +52,7 @@ struct MadeCase {
 };
 const std::vector<MadeCase>& made_cases();
 
-/// A hard case that is a scene file: DIR/NAME.json.
+/// A hard case that is a point of a sweep file in DIR.
 struct SceneCase {
   std::string name;
   std::string what;
@@ -61,7 +61,7 @@ struct SceneCase {
 };
 const std::vector<SceneCase>& scene_cases();
 
-/// Reads DIR/NAME.json. Throws Failure if that cannot be done.
+/// The scene of this name, from the sweep file in `folder` that has it. Throws Failure if it cannot be read.
 scene::RunPlan read_hard_scene(const std::filesystem::path& folder, const std::string& name);
 
 /// Tick, rods and values.

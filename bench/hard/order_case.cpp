@@ -9,8 +9,8 @@
 
 #include "analysis/order.h"
 #include "base/failure.h"
-#include "bench/fits.h"
 #include "bench/hard/hard.h"
+#include "bench/hard/same_mean.h"
 #include "sim/balance.h"
 #include "sim/simulation.h"
 

@@ -2,19 +2,35 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "base/failure.h"
 #include "base/files.h"
 #include "bench/hard/hard.h"
-#include "scene/load.h"
+#include "scene/sweep.h"
 #include "sim/balance.h"
 #include "sim/simulation.h"
 
 namespace shaken::bench {
 namespace {
+
+/// The sweep files of the hard scenes, with the names of their points in order.
+const std::vector<std::pair<const char*, std::vector<std::string>>> kFiles{
+    {"packing", {"packed", "crystal", "narrow", "tall"}},
+    {"restitution", {"inelastic", "collapse", "elastic"}},
+    {"friction",
+     {"friction-0-newton", "friction-0-energetic", "friction-1-newton", "friction-1-energetic", "friction-1000-newton",
+      "friction-1000-energetic"}},
+    {"rough", {"elastic-rough-energetic", "elastic-rough-poisson", "elastic-rough-newton"}},
+    {"shapes", {"spheres", "three-beads", "no-taper", "needle", "dumbbell"}},
+    {"shaking", {"strong", "wild", "coarse"}},
+    {"rest", {"rest"}},
+    {"order", {"order-sorted", "order-reversed", "order-shuffled"}},
+};
 
 /// Standard deviation of the speed at the start, three components (sim/initial.cpp) [mm/s].
 constexpr double kStartSpeed = 20.0 * 1.7320508;
@@ -124,15 +140,24 @@ const std::vector<SceneCase>& scene_cases() {
 }
 
 scene::RunPlan read_hard_scene(const std::filesystem::path& folder, const std::string& name) {
-  const std::filesystem::path file = folder / (name + ".json");
-  const Result<std::string> text = read_file(file);
-  if (!text) {
-    throw Failure(ExitCode::kBadInput,
-                  text.error().message + "; --cases DIR names the folder of the scenes, configs/hard of the sources");
+  for (const auto& [file_name, points] : kFiles) {
+    const auto point = static_cast<std::size_t>(std::ranges::find(points, name) - points.begin());
+    if (point == points.size()) continue;
+    const std::filesystem::path file = folder / (std::string(file_name) + ".json");
+    const Result<std::string> text = read_file(file);
+    if (!text) {
+      throw Failure(ExitCode::kBadInput,
+                    text.error().message + "; --cases DIR names the folder of the scenes, configs/hard of the sources");
+    }
+    const scene::Loaded<scene::Sweep> sweep = scene::load_sweep(*text, file.string());
+    if (!sweep) throw Failure(ExitCode::kBadInput, to_string(sweep.error()));
+    if (sweep->points.size() != points.size()) {
+      throw Failure(ExitCode::kBadInput, fmt::format("{} has {} points, where {} are known: {}", file.string(),
+                                                     sweep->points.size(), points.size(), fmt::join(points, ", ")));
+    }
+    return sweep->points[point].plan;
   }
-  const scene::Loaded<scene::RunPlan> plan = scene::load_scene(*text, file.string());
-  if (!plan) throw Failure(ExitCode::kBadInput, to_string(plan.error()));
-  return *plan;
+  throw Failure(ExitCode::kBadInput, "no hard scene is called '" + name + "'");
 }
 
 HardCase run_scene_case(const SceneCase& wanted, const scene::RunPlan& plan, double seconds, const TellProgress& tell) {

@@ -41,7 +41,10 @@ class Explain : public Verb {
     arguments.repeatable("-s,--set", settings_, "PATH=VALUE", "Change or sweep one value; repeatable");
     arguments.option("--replicas", replicas_, "N", "Runs of each point, each with a seed of its own");
     arguments.flag("--no-probe", no_probe_, "Step nothing: leaves out all that has to be measured");
-    arguments.option("--cpu", cpu_, "S", "CPU time for the steps of each probe, about; 1.5 if not given");
+    arguments.option(
+        "--cpu", cpu_, "S",
+        "CPU time for the steps of all probes together, at most; 1.5 if not given, and never more than a tenth of the "
+        "runs'");
     arguments.option("--from", from_, "DIR", "Probe from the saved state of this run, of the same system and step",
                      Names::kFolder);
     arguments.option("--executor", executor_, "local|slurm", "Where it is to run; as the sweep says if not given");

@@ -17,7 +17,7 @@ import pytest
 pytest.importorskip("matplotlib")
 from figures_whole import assert_whole  # noqa: E402
 
-from shaken.plots import bench, names, style  # noqa: E402
+from shaken.plots import accuracy, bench, names, rows, style, verdicts  # noqa: E402
 
 _SCENE = {"length_mm": 4.5, "area_fraction": 0.75, "side_mm": 41.865, "n_rods": 1000}
 _PHASES = ("surfaces", "detection", "response", "storing", "rod_bounds", "tightening", "pair_bounds", "neighbors")
@@ -26,39 +26,49 @@ _MACHINE = {"cpu": "made up", "cores": 2, "compiler": "none", "flags": "-O3"}
 
 
 def _speed_rows() -> list[dict[str, Any]]:
-    return [{**_SCENE, "area_fraction": phi, "kind": f"kind {phi}", "scheduled": {"rod_s_per_cpu_s": 1660.4 / phi},
+    return [{**_SCENE, "area_fraction": phi, "scene": f"kind {phi}", "scheduled": {"rod_s_per_cpu_s": 1660.4 / phi},
              "reference": {"rod_s_per_cpu_s": 12.0}, "phase_shares": {**dict.fromkeys(_PHASES, 0.11), "other": 0.12}}
             for phi in (0.45, 0.6, 0.75)]
 
 
 def _statistical() -> dict[str, Any]:
-    rows, limits, tilt = [], [], []
+    rows, tilt = [], []
     for variant in ("newton", "instant"):
-        scene = {**_SCENE, "variant": variant}
         for knob, values in (("step", (1, 4, 16, 64)), ("bead pitch", (0.15, 0.3, 0.6)), ("sweeps", (8, 2, 1))):
             for value in values:
-                rows.append({**scene, "knob": knob, "value": value, "cpu_s_per_rod_s": 0.02 / value,
-                             **{name: {"bias": 0.001 * value, "bias_error": 0.002} for name in _NAMES}})
-                if knob == "step":
-                    tilt.append({**scene, "knob": knob, "value": value, "n_z": [-0.2, 0.0, 0.2],
-                                 "v_along": [-1.0, 0.0, 1.0], "v_along_sem": [0.1, None, 0.9]})
-        limits += [{**scene, "observable": name, "limit": {"value": 2.0, "sem": 0.01},
-                    "slope_per_us": {"value": 0.002, "sem": 0.001}} for name in _NAMES]
+                series = {**_SCENE, "variant": variant, "knob": knob, "unit": "1", "value": value}
+                # on a line through the limit 2, which the two finest steps give
+                rows.append({**series, "simulated_s": 60.0, "cpu_s_per_rod_s": 0.02 / value, "max_overlap_mm": 0.001,
+                             **{name: {"value": 2 + 0.002 * value, "sem": 0.004} for name in _NAMES}})
+                tilt.append({**series, "n_z": [-0.2, 0.0, 0.2], "v_along": [-1.0, 0.0, 1.0],
+                             "v_along_sem": [0.1, None, 0.9]})
     observables = [{"name": name, "title": f"the observable {name}", "unit": "1", "has_limit": True} for name in _NAMES]
-    return {"rows": rows, "limits": limits, "tilt": tilt, "observables": observables, "linear": 8}
+    return {"rows": rows, "tilt": tilt, "observables": observables}
 
 
 def _deterministic() -> dict[str, Any]:
     quartiles = ("lower", "median", "upper")
     rows = [{"case": case, "variant": "newton", "dt_s": 1e-6 * step, "duration_s": 0.004,
-             "scheduled_cpu_s": 1e-4 / step, "reference_cpu_s": 1e-3 / step,
+             "scheduled_cpu_s": 1e-4 / step, "reference_cpu_s": 1e-3 / step, "reference_over_scheduled": 10.0,
+             "states_equal": True, "in_trouble": 0,
              "error": {norm: {q: 1e-5 * step * (1 + k) for k, q in enumerate(quartiles)}
-                                                       for norm in ("position", "director", "energy")}}
+                       for norm in ("position", "director", "energy")}}
             for case in ("head-on", "dozen") for step in (8, 16, 32, 64)]
-    fit = {"order": 1.0, "order_error": 0.02, "coefficient": 20.0}
-    orders = [{"case": case, "variant": "newton", "position": fit, "director": fit, "energy": {"order": None}}
-              for case in ("head-on", "dozen")]
-    return {"rows": rows, "orders": orders}
+    converged = [{"case": case, "variant": "newton", "dt_s": 1e-9, "impulses": 1.0,
+                  "error": {norm: {"upper": floor} for norm, floor in (("position", 1e-9), ("director", 0.0),
+                                                                       ("energy", 1.0))}}
+                 for case in ("head-on", "dozen")]
+    return {"rows": rows, "converged": converged}
+
+
+def _series(n: int, memory: float, seed: int) -> list[float]:
+    """About 0.9, of standard deviation 0.02, whose correlation falls by `memory` from sample to sample."""
+    random = np.random.default_rng(seed)
+    x, values = random.normal(), []
+    for _ in range(n):
+        values.append(0.9 + 0.02 * x)
+        x = memory * x + math.sqrt(1 - memory**2) * random.normal()
+    return values
 
 
 REPORTS: dict[str, dict[str, Any]] = {
@@ -69,14 +79,12 @@ REPORTS: dict[str, dict[str, Any]] = {
     "hard": {"rows": [{"case": f"case-{k % 5}", "limit": 1.0, "limit_is": "most", "margin": 3.0**k} for k in range(9)]},
     "effects": {"rows": [{"without": name, "own_state": {"cpu_ratio": ratio, "cpu_ratio_error": 0.02}, "same_state": {}}
                          for name, ratio in (("(nothing)", 1.0), ("vibration", 16.2), ("rod_rod_friction", 1.19))]},
-    "visits": {"rows": [{"time_ms": 0.1 * k, "gap_um": 50.0 - k, "safe_ms": 0.05, "event": event}
-                        for k, event in enumerate(("ran out", "tightened", "anew"))],
-               "dt_s": 1e-4, "window_s": 0.002, "gap_um": [50.0 - k for k in range(20)], "visits": 1, "hits": 2},
     "accuracy deterministic": _deterministic(), "accuracy statistical": _statistical(),
-    "accuracy error": {"rows": [{**_SCENE, "side_mm": side, "tau_s": 0.1, "cpu_s_per_rod_s": 0.01, "std": 0.1,
-                                 "c": None, "stretch_s": [0.1, 1.0, 10.0], "sem": [0.1, 0.03, None],
-                                 "sem_error": [0.01, 0.01, None]}
-                                for side in (12, 24)]},
+    "accuracy error": {"rows": [{**_SCENE, "side_mm": side, "n_rods": 10 * side, "replicas": 2, "measured_s": 2.0,
+                                 "every_s": 0.005, "tau_s": 0.05, "mean": 0.9, "cpu_s_per_rod_s": 0.01}
+                                for side in (12, 24)],
+                       "series": [[_series(400, 0.9, seed) for seed in (1, 2)], [_series(400, 0.9, 3)]],
+                       "paper_box": {"side_mm": 83.73, "n_rods": 2110}},
     "peers": {"rows": [{"program": "Shaken", "dt_us": 16, "rod_s_per_cpu_s_best": "12345"},
                        {"program": "ODE", "dt_us": 100, "rod_s_per_cpu_s_best": ""}]},
 }
@@ -109,7 +117,9 @@ def test_numbers_of_the_report_are_drawn(tmp_path: Path) -> None:
     first = next(csv.DictReader(io.StringIO(text)))
     assert first["curve"] == "newton"
     assert float(first["x"]) == pytest.approx(20)          # ms per rod and simulated second
-    assert float(first["y"]) == pytest.approx(0.1 + 0.4)   # 100 (|bias| + 2 errors)
+    (row, *_), (limit, *_) = (accuracy.fitted(report("accuracy statistical"))[of] for of in ("rows", "limits"))
+    assert row["T_xy"]["bias"] == pytest.approx(0.001) and limit["at_zero"] == pytest.approx(2)
+    assert float(first["y"]) == pytest.approx(100 * (0.001 + 2 * row["T_xy"]["bias_error"]))
     assert all(float(value) < 0.5 for drawn in figures["tilt"][0].drawn for value, y in zip(drawn.error, drawn.y)
                if math.isfinite(y))
 
@@ -118,7 +128,9 @@ def test_one_variant_has_no_cost() -> None:
     one = report("accuracy statistical")
     one = {**one, "rows": [row for row in one["rows"] if row["variant"] == "newton"]}
     assert "cost" not in dict(bench.figures_of(one))
-    assert "cost" not in dict(bench.figures_of({**report("accuracy statistical"), "limits": []}))
+    first = {**report("accuracy statistical"), "rows": [row for row in report("accuracy statistical")["rows"]
+                                                        if row["knob"] == "step" and row["value"] == 1]}
+    assert "cost" not in dict(bench.figures_of(first))  # one step alone has no bias
 
 
 def test_numbers_are_plain() -> None:
@@ -154,5 +166,29 @@ def test_reports_are_drawn_by_the_program_beside_their_rows(tmp_path: Path) -> N
 
 
 def test_numbers_of_a_row() -> None:
-    assert bench.number({"a": {"b": 2}}, "a/b") == 2
-    assert np.isnan(bench.number({"a": {"b": None}}, "a/b")) and np.isnan(bench.number({}, "a/b"))
+    assert rows.number({"a": {"b": 2}}, "a/b") == 2
+    assert np.isnan(rows.number({"a": {"b": None}}, "a/b")) and np.isnan(rows.number({}, "a/b"))
+
+
+def test_the_verdict_is_told_by_the_program(tmp_path: Path) -> None:
+    program = Path(style.__file__).parent / "__main__.py"
+
+    def told(name: str) -> str:
+        return subprocess.run([sys.executable, program, "verdict", "-"], input=json.dumps(report(name)), text=True,
+                              capture_output=True, check=True).stdout
+
+    assert "head-on  newton   1.00 +- 0.00   4  1.00 +- 0.00   4       -   -\n" in told("accuracy deterministic")
+    assert "Largest step up to which the bias is below 1 %" in told("accuracy statistical")
+    assert "Too few boxes, or no power law" in told("accuracy error")
+    assert told("speed") == ""
+
+
+def _verdict_of_steps(verdicts_of_s: list[str]) -> str:
+    return verdicts._steps_below([{"value": 2**k, "S": {"verdict": found}} for k, found in enumerate(verdicts_of_s)],
+                                 "S")
+
+
+def test_the_last_step_below_has_all_finer_ones_below() -> None:
+    assert _verdict_of_steps(["below", "below", "open", "below"]) == "  S: 2 us (4 us: open)\n"
+    assert _verdict_of_steps(["below", "below"]) == "  S: 2 us\n"
+    assert _verdict_of_steps(["above", "below"]) == "  S: none (1 us: above)\n"

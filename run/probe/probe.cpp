@@ -22,10 +22,12 @@
 namespace shaken::run {
 namespace {
 
-constexpr double kCpu = 0.02;   ///< for timing one kind of work, about [s]
-constexpr int kSnapshots = 8;   ///< states that measurements are tried on
-constexpr int kFrames = 8;      ///< recorded to see what a frame costs
-constexpr int kShortMovie = 4;  ///< frames of the shorter of two movies; the longer has three times as many
+constexpr double kCpu = 0.02;    ///< for timing one kind of work, at most about [s]
+constexpr double kPart = 0.1;    ///< of the run's own time, that its probe may take
+constexpr double kPilot = 2e-3;  ///< for the steps by which that is judged, about [s]
+constexpr int kSnapshots = 8;    ///< states that measurements are tried on
+constexpr int kFrames = 8;       ///< recorded to see what a frame costs
+constexpr int kShortMovie = 1;   ///< frames of the shorter of two movies; the longer has three times as many
 constexpr double kCheckpointEvery =
     30;  ///< the worker's default; wall-clock time, which is CPU time if it runs alone [s]
 
@@ -34,16 +36,16 @@ double bytes_in(const std::filesystem::path& file) { return static_cast<double>(
 class Prober {
  public:
   Prober(const scene::RunPlan& plan, Simulation simulation, double cpu)
-      : plan_(plan), simulation_(std::move(simulation)), cpu_(cpu), dt_(plan.system.dt) {}
+      : plan_(plan), simulation_(std::move(simulation)), cpu_(cpu), each_(kCpu), dt_(plan.system.dt) {}
 
   Result<Probe> run() {
     result_.run_ticks = static_cast<double>(scene::total_ticks(plan_));
     if (auto done = step(); !done) return done.error();
-    const SamplingCost sampling = time_sampling(plan_, simulation_.world().species.front(), snapshots_);
+    const SamplingCost sampling = time_sampling(plan_, simulation_.world().species.front(), snapshots_, each_);
     result_.parts = sampling.samples;
     result_.disk.observables = sampling.file_bytes;
     // what is sampled or recorded is read first, all rods of it
-    snapshot_cpu_ = time_of([&] { snapshots_.back() = simulation_.snapshot(); }, kCpu, 2);
+    snapshot_cpu_ = time_of([&] { snapshots_.back() = simulation_.snapshot(); }, each_, 2);
     for (auto& [effect, cost] : result_.parts) cost.each += snapshot_cpu_;
     if (auto done = time_recording(); !done) return done.error();
     if (plan_.movie) time_movie();
@@ -84,6 +86,10 @@ class Prober {
   }
 
   Result<void> step() {
+    const auto pilot = step_for(kPilot);
+    if (!pilot) return pilot.error();
+    cpu_ = std::min(cpu_, std::max(kPilot, kPart * pilot->cpu / static_cast<double>(pilot->ticks) * result_.run_ticks));
+    each_ = std::min(kCpu, cpu_ / 8);
     // From a checkpoint too: lists and schedules have to be built.
     const auto warm_up = step_for(simulation_.tick() == 0 ? cpu_ / 2 : cpu_ / 16);
     if (!warm_up) return warm_up.error();
@@ -184,7 +190,7 @@ class Prober {
   /// Frames are sent by the clock on the wall, which is CPU time if the run has a core to itself.
   void time_stream() {
     const double each =
-        time_of([&] { proto::encode_frame(make_frame(simulation_.world(), simulation_.snapshot())); }, kCpu, 2);
+        time_of([&] { proto::encode_frame(make_frame(simulation_.world(), simulation_.snapshot())); }, each_, 2);
     const double rate = plan_.stream->rate;
     const double run = result_.total() - result_.cpu_of("movie").value_or(0);
     double frames = run * rate / std::max(0.01, 1 - rate * each);  // the frames take time too
@@ -196,7 +202,8 @@ class Prober {
 
   const scene::RunPlan& plan_;
   Simulation simulation_;
-  double cpu_;
+  double cpu_;   ///< for steps [s]
+  double each_;  ///< for timing one kind of work [s]
   double dt_;
   Probe result_;
   std::vector<Snapshot> snapshots_;

@@ -69,10 +69,12 @@ struct SamplingCost {
   double state_bytes = 0;               ///< of the measurements in the checkpoint at the end of the run
 };
 
-/// Takes a few samples of each measurement at some states of the plan's rods, at least one.
-SamplingCost time_sampling(const scene::RunPlan& plan, const Species& species, const std::vector<Snapshot>& snapshots);
+/// Takes a few samples of each measurement at some states of the plan's rods, at least one: for about `cpu` each [s].
+SamplingCost time_sampling(const scene::RunPlan& plan, const Species& species, const std::vector<Snapshot>& snapshots,
+                           double cpu = 0.02);
 
-/// Goes on with `simulation`, of this plan's system, for about `cpu` seconds, and times once what the run does now and
+/// Goes on with `simulation`, of this plan's system, for about `cpu` seconds, or a tenth of the time that the run will
+/// take if that is less, and times once what the run does now and
 /// then beside stepping. At tick 0 half of `cpu` goes by before anything is timed. Fails if the steps meet
 /// numerical trouble or the disk refuses. Files go to a temporary folder.
 Result<Probe> probe(const scene::RunPlan& plan, Simulation simulation, double cpu);

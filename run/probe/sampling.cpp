@@ -12,8 +12,6 @@
 namespace shaken::run {
 namespace {
 
-constexpr double kCpuPerSample = 0.02;  ///< for timing one kind of sample, about [s]
-
 double bytes_of(const Observables& arrays) {
   std::size_t n = 0;
   for (const auto& [path, values] : arrays) n += values.size();
@@ -39,7 +37,8 @@ double kept_for_lags(std::int64_t samples) {
 
 }  // namespace
 
-SamplingCost time_sampling(const scene::RunPlan& plan, const Species& species, const std::vector<Snapshot>& snapshots) {
+SamplingCost time_sampling(const scene::RunPlan& plan, const Species& species, const std::vector<Snapshot>& snapshots,
+                           double cpu) {
   SamplingCost cost;
   Observables arrays;
   double later_bytes = 0;  // of arrays, beyond those at hand
@@ -66,7 +65,7 @@ SamplingCost time_sampling(const scene::RunPlan& plan, const Species& species, c
     double begin = thread_cpu_seconds();
     double early_bytes = first_bytes;                                    // with every block in use for the first time
     const std::int64_t most = std::max<std::int64_t>(samples.count, 3);  // not more than the run will take
-    while (taken < 3 || (taken < most && thread_cpu_seconds() - begin < kCpuPerSample)) {
+    while (taken < 3 || (taken < most && thread_cpu_seconds() - begin < cpu)) {
       sample();
       if (taken != kMostBlocks) continue;
       const double pause = thread_cpu_seconds();

@@ -6,8 +6,8 @@
 /// Every margin by which a bound errs on the early side, in one place. Bounds are computed in single precision (a float
 /// carries 6e-8 of its value), so each sum and product may be wrong by that, and each margin says how many such errors
 /// it covers. A margin that is too small is a contact that is found late: the trajectory would differ from the
-/// reference stepper's. One that is too large only brings rods and pairs up sooner. docs/stepper.md says which test
-/// fails where one is left out (tests/regression/margins.py tries them).
+/// reference stepper's. One that is too large only brings rods and pairs up sooner. docs/stepper.md says
+/// what they are for; tests/regression/margins.py says which tests fail without one.
 namespace shaken::margins {
 
 // ---- velocities of rods (bounds/safe_time.h)
@@ -68,7 +68,8 @@ inline constexpr double kWallTime = 1e-9;
 
 // ---- hits (bounds/velocity_jump.h)
 
-/// The speed that a hit adds to the closing of a gap, at any speed [mm/s]: it is added again and again.
+/// The speed that a hit adds to the closing of a gap, at any speed [mm/s]. It covers the rounding of the sum of all
+/// hits since the bound, for as long as that sum stays below 1,700 mm/s.
 inline constexpr float kJumpSpeed = 1e-4F;
 /// And of itself.
 inline constexpr float kJump = 1e-6F;
@@ -84,7 +85,7 @@ inline constexpr float kCancelled = 1e-6F;
 /// Hulls that are further apart than this hold no overlapping beads [mm]; double precision, of a float's direction.
 inline constexpr double kHullsApart = 1e-5;
 /// The slack of a rod in the neighbour list, when it is measured [mm].
-inline constexpr float kSkin = 1e-4F;
+inline constexpr float kSkinMeasured = 1e-4F;
 /// Of that, each time that it is counted down: more than a float is rounded by, so that many small steps count.
 inline constexpr float kSkinStep = 0x1p-22F;
 /// The time until it is used up (double precision).

@@ -40,10 +40,10 @@ struct GapBound {
   bool isotropic = false;  ///< the gap is along no single direction
 
   /// Of a gap that is `now` wide, at least `then` after `time`, and concave in between [mm, s]; for a bound that ends
-  /// `until`, no later than that.
-  static GapBound between(float now, float then, float time, float until, bool isotropic) {
+  /// after `end`, which is no later than `time`.
+  static GapBound between(float now, float then, float time, float end, bool isotropic) {
     const float rate = (now - then) / (time + 1e-20F);
-    return {rate, std::max(0.0F, now - rate * until - margins::rounding_of_gap(now)), isotropic};
+    return {rate, std::max(0.0F, now - rate * end - margins::rounding_of_gap(now)), isotropic};
   }
 };
 

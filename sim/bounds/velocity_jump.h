@@ -15,7 +15,9 @@ namespace shaken {
 ///
 /// Model:  hits change the velocity by dv and the director's rate of change by dw, so that no point of the rod comes
 ///         nearer along a direction d by more than (dv . d + h |dw . d|) t. What else the director does is the
-///         curvature of its precession, at most half_rate2 t^2; where that has grown, the difference is added.
+///         curvature of its precession, at most q t^2 with q = h w^2 / 2; where w has grown by the hit at t', it is
+///         q t'^2 + 2 q t' (t - t') + q' (t - t')^2 <= q t^2 + (q' - q)(t - t')^2, so (q' - q)(t - t') is added to the
+///         speed.
 class VelocityJump {
  public:
   VelocityJump() = default;

@@ -90,7 +90,7 @@ void PairSearch::bound(std::span<const PairRods> pairs, const std::vector<RodAtT
     }
     const auto ticks = static_cast<int>(time * per_dt);
     bounds.ticks[lane] = ticks;
-    bounds.line[lane] =
+    bounds.gap[lane] =
         left < 0.0F ? GapBound{} : GapBound::between(gap, left, time, static_cast<float>(ticks) * dt, isotropic);
   }
 }

@@ -17,7 +17,7 @@ inline constexpr float kBeadHorizon = 200;
 /// For up to kLanes pairs: ticks for which nothing can happen, and what the bound rests on.
 struct PairBounds {
   int ticks[kLanes];
-  GapBound line[kLanes];       ///< of the gap, for as long as the bound lasts
+  GapBound gap[kLanes];        ///< for as long as the bound lasts
   bool hulls_overlap[kLanes];  ///< beads may overlap already
   bool by_beads[kLanes];       ///< beads were looked at
   Direction direction[kLanes];
@@ -38,7 +38,7 @@ class PairSearch {
   float slow() const { return slow_; }
 
   /// Bounds for pairs of one pair of species, from the rods as they are at this tick. They hold for free flight, or as
-  /// far as hits are told of (PairSchedule::spend).
+  /// far as budgets allow for hits (PairSchedule::spend).
   void bound(std::span<const PairRods> pairs, const std::vector<RodAtTick>& rods,
              const std::vector<FlightBound>& motion, PairLanes& lanes, PairBounds& bounds) const;
 

@@ -15,7 +15,7 @@ constexpr float kLow = 0.05F;
 }  // namespace
 
 void SkinBudget::measure(const NeighborList& list, int rod, const Pose& pose, Tick now) {
-  left_ = static_cast<float>(list.slack(rod, pose)) - margins::kSkin;
+  left_ = static_cast<float>(list.slack(rod, pose)) - margins::kSkinMeasured;
   at_ = now;
 }
 

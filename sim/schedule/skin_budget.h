@@ -10,7 +10,7 @@ namespace shaken {
 /// (NeighborList::slack) and counted down by the rod's speed in between.
 class SkinBudget {
  public:
-  /// A rod this close to the end of its reserve is placed anew rather than being watched every tick [mm].
+  /// A rod this close to the end of its budget is placed anew rather than being watched every tick [mm].
   static constexpr float kLeast = 0.003F;
 
   void measure(const NeighborList& list, int rod, const Pose& pose, Tick now);

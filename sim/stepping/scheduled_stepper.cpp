@@ -431,7 +431,7 @@ void ScheduledStepper::store_changed(World& world, Tick now, Worker& worker) {
     if (marks_[i].rests_at == now)
       skin_budgets_[i].cover_tick(flight, rules_.species_of(i).half_length, now, rules_.dt);
     // A rod that was displaced twice is where no flight with one hit led it. One that is fast may come near another
-    // image, of which no line tells.
+    // image, which the bound on the gap leaves out.
     const bool fast = std::max(std::abs(flight.velocity.x()), std::abs(flight.velocity.y())) >= slow;
     jumps_[i] = (displaced && rods_[i].hit_again) || fast
                     ? VelocityJump::unknown()
@@ -487,14 +487,15 @@ void ScheduledStepper::schedule_rods(const World& world, Tick now, Worker& worke
 }
 
 /// Lists the pairs that were due, and brings up sooner, or lists, those of whose gaps hits took more than they may.
-/// Not in the loop that tells pairs: what a pair writes lies with its rods, of which one may be another worker's.
+/// Not in the loop that spends budgets: that one writes rod by rod, this one pair by pair, whose other rod may be
+/// another worker's.
 void ScheduledStepper::shorten_bounds(Tick now, Worker& worker) {
   worker.stored.polled.clear();
   for (const int p : worker.detected.pairs) {
     // one that has been lost, or is another's by now, is not listed
     if (!pairs_.is_used(p) || static_cast<std::size_t>(pairs_.owner(p)) != worker.number) continue;
     if (rules_.rest.matters() && pairs_.keeps_touching(p)) {
-      pairs_.poll(p, now);  // rods at rest touch in every tick: a bound would tell nothing
+      pairs_.poll(p, now);  // rods at rest touch in every tick: a bound would be of no use
       pairs_.list(p, worker.stored.polled);
     } else {
       pairs_.list(p, worker.stored.to_bound);
@@ -569,7 +570,7 @@ void ScheduledStepper::bound_pairs(std::span<const int> pairs, Tick now, Worker&
     worker.counts.count(WorkKind::kBoundsOfNoTick, bounds.ticks[lane] == 0 ? 1 : 0);
     pairs_.unlist(pairs[lane]);
     pairs_.set_bound(pairs[lane], now, unmarked ? 0 : bounds.ticks[lane], bounds.direction[lane],
-                     unmarked ? GapBound{} : bounds.line[lane]);
+                     unmarked ? GapBound{} : bounds.gap[lane]);
   }
 }
 

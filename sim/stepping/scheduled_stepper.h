@@ -77,7 +77,7 @@ class ScheduledStepper final : public Stepper {
     std::vector<int> near;              ///< rods near each of `to_place`, one after the other
     std::vector<std::size_t> near_end;  ///< where those of each end
   };
-  /// What storing leaves to the two loops that make bounds.
+  /// What storing and the loops that make bounds hand on to each other.
   struct Stored {
     std::vector<int> to_schedule;             ///< rods that need a bound on the time to the next surface
     std::vector<std::vector<int>> overspent;  ///< (n_workers) pairs of each worker whose budgets hits overspent

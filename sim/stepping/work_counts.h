@@ -16,7 +16,7 @@ enum class WorkKind {
   kRodsPlaced,       ///< entered into the neighbour list anew
   kPairsSearched,    ///< for contacts
   kPairsTouching,    ///< of these, with overlapping beads
-  kVelocityJumps,    ///< changes of motion of which a rod's pairs were told
+  kVelocityJumps,    ///< hits on rods, spent from the budgets of their pairs
   kBoundsShortened,  ///< bounds that were kept, shorter, although hits had used up what they were allowed
   kPairsDeferred,    ///< came up with much of the bound's time left, and were not searched
   kPairsBounded,     ///< new bounds on the time to contact

@@ -55,28 +55,24 @@ TEST_F(Bench, SpeedWritesWhatItMeasured) {
     EXPECT_TRUE(row.at("hashes_equal").get<bool>());
     EXPECT_GT(row.at("scheduled").at("rod_s_per_cpu_s").get<double>(), 0);
     EXPECT_EQ(row.at("scheduled").at("cpu_s").size(), 2u);
+    const Json& counts = row.at("per_rod_second");
+    EXPECT_GT(counts.at("rods_visited").get<double>(), 0);
+    EXPECT_GE(counts.at("rods_visited").get<double>(), counts.at("rods_hit").get<double>());
+    // The time of a phase is what its readings add up to less what the readings themselves cost, so that of a few
+    // milliseconds of work it may come out below zero: that it is a number is all that holds on any machine.
+    EXPECT_TRUE(row.at("ns").at("rods_visited").is_number()) << row;
   }
   std::istringstream csv(text_of("speed.csv"));
   std::string titles;
   std::getline(csv, titles);
   const auto n_columns = std::count(titles.begin(), titles.end(), ',');
   int rows = 0;
-  for (std::string line; std::getline(csv, line); ++rows)
+  for (std::string line; std::getline(csv, line); ++rows) {
+    line.erase(0, line.rfind('"') + 1);  // the scene, whose name has commas
     EXPECT_EQ(std::count(line.begin(), line.end(), ','), n_columns);
+  }
   EXPECT_EQ(rows, 2);
   EXPECT_EQ(text_of("speed.png").substr(1, 3), "PNG");
-}
-
-TEST_F(Bench, SpeedCountsWork) {
-  const Finished finished = bench(tiny({"speed", "--area-fraction", "0.6", "--count", "--out", out()}));
-  ASSERT_EQ(finished.code, 0) << finished.output;
-  const Json row = json_of("count.json").at("rows").at(0);
-  const Json& counts = row.at("per_rod_second");
-  EXPECT_GT(counts.at("rods_visited").get<double>(), 0);
-  EXPECT_GE(counts.at("rods_visited").get<double>(), counts.at("rods_hit").get<double>());
-  // The time of a phase is what its readings add up to less what the readings themselves cost, so that of a few
-  // milliseconds of work it may come out below zero: that it is a number is all that holds on any machine.
-  EXPECT_TRUE(row.at("ns").at("rods_visited").is_number()) << row;
 }
 
 TEST_F(Bench, SpeedByKindOfScene) {
@@ -86,8 +82,8 @@ TEST_F(Bench, SpeedByKindOfScene) {
   const Json report = json_of("kinds.json");
   ASSERT_GT(report.at("rows").size(), 10u);
   for (const Json& row : report.at("rows")) {
-    EXPECT_GT(row.at("scheduled").at("rod_s_per_cpu_s").get<double>(), 0) << row.at("kind");
-    EXPECT_GT(row.at("per_rod_second").at("rods_visited").get<double>(), 0) << row.at("kind");
+    EXPECT_GT(row.at("scheduled").at("rod_s_per_cpu_s").get<double>(), 0) << row.at("scene");
+    EXPECT_GT(row.at("per_rod_second").at("rods_visited").get<double>(), 0) << row.at("scene");
   }
   EXPECT_EQ(report.at("rows").at(0).at("relative_cost").get<double>(), 1);
   EXPECT_EQ(text_of("kinds.png").substr(1, 3), "PNG");
@@ -99,8 +95,7 @@ TEST_F(Bench, SpeedByKindOfSceneHasItsOwnScenes) {
                                                {"--side", "20"},
                                                {"--full"},
                                                {"--scaling", "n"},
-                                               {"--threads", "1"},
-                                               {"--count"}}) {
+                                               {"--threads", "1"}}) {
     std::vector<std::string> words{"speed", "--kinds"};
     words.insert(words.end(), more.begin(), more.end());
     EXPECT_EQ(bench(words).code, 2) << more.front();
@@ -121,10 +116,11 @@ TEST_F(Bench, AccuracyWritesErrorsAndOrders) {
   const Finished finished = bench({"accuracy", "deterministic", "--cases", "head-on,dozen", "--steps", "64,32,16,8",
                                    "--members", "4", "--out", out()});
   ASSERT_EQ(finished.code, 0) << finished.output;
-  EXPECT_THAT(finished.output, AllOf(HasSubstr("Order of convergence"), HasSubstr("converged solution at 125 ns")));
+  EXPECT_THAT(finished.output, AllOf(HasSubstr("Order of convergence"), HasSubstr("Converged solutions")));
   const Json report = json_of("deterministic.json");
-  ASSERT_EQ(report.at("orders").size() % 2, 0u);
-  ASSERT_EQ(report.at("rows").size(), 4 * report.at("orders").size());
+  ASSERT_EQ(report.at("converged").size() % 2, 0u);
+  ASSERT_EQ(report.at("rows").size(), 4 * report.at("converged").size());
+  EXPECT_EQ(report.at("converged").at(0).at("dt_s"), 125e-9);
   for (const Json& row : report.at("rows")) {
     EXPECT_GT(row.at("error").at("position").at("median").get<double>(), 0);
     EXPECT_TRUE(row.at("states_equal").get<bool>());
@@ -156,19 +152,14 @@ TEST_F(Bench, AccuracyShowsBiasAgainstCostOfSeveralVariants) {
   ASSERT_EQ(finished.code, 0) << finished.output;
   EXPECT_EQ(text_of("cost.png").substr(1, 3), "PNG");
   const Json row = json_of("statistical.json").at("rows")[0];
-  // the data of the first point are those of the first row
-  double bound = 0;
-  for (const char* name : {"T_xy", "T_z", "T_rot", "rms_n_z", "msd"}) {
-    const Json& of = row.at(name);
-    bound = std::max(bound, 100 * (std::abs(of.at("bias").get<double>()) + 2 * of.at("bias_error").get<double>()));
-  }
+  // the first point is that of the first row; test_plots_bench.py knows its bias
   std::istringstream data(text_of("cost.csv"));
   std::string line;
   while (std::getline(data, line) && !line.starts_with("a,")) continue;
   double cpu_ms = 0, y = 0;
   ASSERT_EQ(std::sscanf(line.c_str(), "a,newton,%lf,%lf,", &cpu_ms, &y), 2) << line;
   EXPECT_NEAR(cpu_ms, 1e3 * row.at("cpu_s_per_rod_s").get<double>(), 1e-4 * cpu_ms);
-  EXPECT_NEAR(y, bound, 1e-4 * bound);
+  EXPECT_GT(y, 0);
 }
 
 TEST_F(Bench, AccuracyWritesTheErrorOfOrder) {
@@ -181,6 +172,15 @@ TEST_F(Bench, AccuracyWritesTheErrorOfOrder) {
   EXPECT_EQ(report.at("rows").at(0).at("replicas"), 2);
   EXPECT_GT(report.at("rows").at(3).at("tau_s").get<double>(), 0);
   EXPECT_EQ(text_of("error.png").substr(1, 3), "PNG");
+}
+
+TEST_F(Bench, AccuracyShowsItsRowsWhereNothingCanTellWhatTheyComeTo) {
+  ::setenv("SHAKEN_PYTHON", "/bin/false", 1);
+  const Finished finished =
+      bench({"accuracy", "deterministic", "--cases", "head-on", "--steps", "64,32", "--members", "2"});
+  ::unsetenv("SHAKEN_PYTHON");
+  ASSERT_EQ(finished.code, 0) << finished.output;
+  EXPECT_THAT(finished.output, AllOf(HasSubstr("no verdict: "), HasSubstr("\nhead-on,newton,0.004096,2,3.2e-05,")));
 }
 
 TEST_F(Bench, AccuracyRefusesWhatItDoesNotKnow) {
@@ -205,19 +205,6 @@ TEST_F(Bench, ExportGivesAState) {
   EXPECT_EQ(state.at("frames").size(), 2u);
   EXPECT_EQ(state.at("frames").at(1).at("angular_velocity").size(), n);
   EXPECT_NEAR(state.at("frames").at(1).at("time").get<double>(), 0.007, 1e-9);
-}
-
-TEST_F(Bench, VisitsFollowsAPair) {
-  const Finished finished = bench({"visits", "--side", "12", "--warm-up", "0.02", "--window", "0.002", "--out", out()});
-  ASSERT_EQ(finished.code, 0) << finished.output;
-  EXPECT_THAT(finished.output, HasSubstr("500 ticks"));
-  int ticks = 0, visits = 0;
-  ASSERT_EQ(
-      std::sscanf(finished.output.c_str() + finished.output.find("500 ticks"), "%d ticks, %d visits", &ticks, &visits),
-      2);
-  EXPECT_GT(visits, 0);
-  EXPECT_LT(visits, 250);
-  EXPECT_EQ(text_of("visits.png").substr(1, 3), "PNG");
 }
 
 TEST_F(Bench, EffectsAreSwitchedOffOneByOne) {

@@ -82,6 +82,8 @@ def main(arguments: Sequence[str]) -> int:
     bench.add_argument("report", help="NAME.json, as it has written")
     bench.add_argument("-o", "--out", default=".", help="folder of the pictures")
     bench.add_argument("--width", default="", help="89mm, 120mm or 183mm")
+    verdict = commands.add_parser("verdict", help="what the rows of `shaken-bench accuracy` come to, in words")
+    verdict.add_argument("report", help="NAME.json, as it has written; - is stdin")
     options = parser.parse_args(arguments)
     try:
         if options.command == "runs":
@@ -89,6 +91,10 @@ def main(arguments: Sequence[str]) -> int:
         elif options.command == "check":
             import matplotlib
             print(f"matplotlib {matplotlib.__version__} of {sys.executable}")
+        elif options.command == "verdict":
+            from .bench import read_report
+            from .verdicts import verdict_text
+            print(verdict_text(read_report(Path(options.report))), end="", flush=True)
         else:
             from .bench import draw_report
             for path in draw_report(Path(options.report), Path(options.out), options.width or None):

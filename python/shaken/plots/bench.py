@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import json
 import math
+import sys
 from pathlib import Path
-from typing import Any, Callable, Iterator, Mapping, Sequence
+from typing import Callable, Iterator, Sequence
 
 import numpy as np
 
 from ..errors import ShakenError
-from . import names, style
+from . import accuracy, names, style
 from .panel import Panel
+from .rows import Row, column, like, number, series_of
 from .save import Origin
 from .sheet import Sheet
 
-Row = Mapping[str, Any]
 Figures = Iterator[tuple[str, Sheet]]
 
 #: The averages whose biases are known to much better than 1 %: what the cost of accuracy is read from.
@@ -23,30 +24,6 @@ _AVERAGES = ("T_xy", "T_z", "T_rot", "rms_n_z", "msd")
 _LARGEST_ERROR = 0.5  # of a velocity that is shown [mm/s]
 _RATE = "simulated rod-seconds per CPU-second"
 _STEPS = (0.25, 1.0, 4.0, 16.0, 64.0)
-
-
-def number(row: Any, path: str) -> float:
-    """The number at "scheduled/spread" in a row; NaN if there is none."""
-    for part in path.split("/"):
-        row = row.get(part) if isinstance(row, Mapping) else None
-    return float(row) if isinstance(row, (int, float)) and not isinstance(row, bool) else math.nan
-
-
-def column(rows: Sequence[Row], path: str, factor: float = 1.0) -> np.ndarray:
-    return factor * np.array([number(row, path) for row in rows])
-
-
-def series_of(rows: Sequence[Row], *members: str) -> list[list[Row]]:
-    """Rows that are alike in some members, as one list each, in the order in which these begin."""
-    series: dict[str, list[Row]] = {}
-    for row in rows:
-        series.setdefault(json.dumps([row.get(member) for member in members]), []).append(row)
-    return list(series.values())
-
-
-def like(rows: Sequence[Row], row: Row, *members: str) -> Row | None:
-    """The one of the rows that is like `row` in these members."""
-    return next((other for other in rows if all(other.get(m) == row.get(m) for m in members)), None)
 
 
 def _step_axis(panel: Panel) -> None:
@@ -109,7 +86,7 @@ def speed(report: Row, width: str | None) -> Figures:
 
 def kinds(report: Row, width: str | None) -> Figures:
     rows = report["rows"]
-    yield "kinds", _speed_figure(rows, [row["kind"] for row in rows], [("", "scheduled/rod_s_per_cpu_s")],
+    yield "kinds", _speed_figure(rows, [row["scene"] for row in rows], [("", "scheduled/rod_s_per_cpu_s")],
                                  width or "183mm")
 
 
@@ -170,33 +147,12 @@ def effects(report: Row, width: str | None) -> Figures:
     yield "effects", sheet
 
 
-def visits(report: Row, width: str | None) -> Figures:
-    rows, window = report["rows"], 1e3 * report["window_s"]
-    gap = np.asarray(report["gap_um"], dtype=float)
-    sheet = style.sheet(width or "183mm", panel_height=70)
-    panel = sheet[0].titles("time $t$ (ms)", "gap of the nearest beads (µm)",
-                            f"one pair of rods for {window:g} ms: {gap.size} ticks, {report['visits']} visits, "
-                            f"{report['hits']} hits")
-    panel.range(x=(0, window)).zero()
-    panel.curve(1e3 * report["dt_s"] * np.arange(gap.size), gap, look="line", label="gap")
-    begin, height = column(rows, "time_ms"), column(rows, "gap_um")
-    gaps = np.full(len(rows), np.nan)  # between the lines
-    panel.curve(np.column_stack([begin, begin + column(rows, "safe_ms"), gaps]).ravel(),
-                np.column_stack([height, height, gaps]).ravel(), colour=5, look="line", label="no contact before")
-    for colour, event, label in ((6, "tightened", "hit: bound tightened"), (2, "anew", "hit: bound made anew"),
-                                 (1, "ran out", "bound ran out: visit")):
-        of = [row for row in rows if row["event"] == event]
-        panel.curve(column(of, "time_ms"), column(of, "gap_um"), colour=colour, look="points", joined=False,
-                    label=label)
-    yield "visits", sheet
-
-
 def _add_errors(panel: Panel, rows: Sequence[Row], order: Row | None, norm: str, label: str, colour: int) -> None:
     """The medians of one norm with their quartiles, and the power law that they follow."""
     steps = column(rows, "dt_s", 1e6)
-    fit = (order or {}).get(norm) or {}
+    fit = (order or {}).get(norm)
     found = "no order"
-    if fit.get("order") is not None:
+    if fit is not None:
         found = f"order {fit['order']:.2f} ± {fit['order_error']:.2f}"
         panel.reference(steps, fit["coefficient"] * (1e-6 * steps) ** fit["order"], dashed=False,
                         colour=style.PALETTE[colour])
@@ -258,11 +214,11 @@ def _bias_sheet(report: Row, steps: Sequence[Sequence[Row]], shown: Sequence[Row
         panel.scale(x="log").range(y=(-1.5, 1.5)).zero()
         for k, rows in enumerate(steps[:7]):
             limit = like(report["limits"], {**rows[0], "observable": of["name"]}, "length_mm", "variant", "observable")
-            if limit is None or not limit["limit"]["sem"] < 0.25 * abs(limit["limit"]["value"]):
+            if limit is None or not limit["at_zero_error"] < 0.25 * abs(limit["at_zero"]):
                 continue  # a bias relative to what is not known means nothing
             x = column(rows, "value")
-            slope = limit["slope_per_us"]["value"] / limit["limit"]["value"]
-            line = np.linspace(0, report["linear"] * x[0], 40)[1:]
+            slope = limit["slope"] / limit["at_zero"]
+            line = np.linspace(0, accuracy.LINEAR * x[0], 40)[1:]
             line = line[line >= x.min()]
             panel.reference(line, 100 * slope * line, colour=style.PALETTE[k])
             panel.curve(x, *_bias(rows, of["name"]), label=_scene_text(rows[0], all_rows), colour=k, look="points",
@@ -380,7 +336,7 @@ def peers(report: Row, width: str | None) -> Figures:
 #: "bench" of a report -> what draws it; others have no pictures.
 DRAWERS: dict[str, Callable[[Row, str | None], Figures]] = {
     "speed": speed, "kinds": kinds, "scaling n": scaling, "scaling dt": scaling, "threads": threads, "hard": hard,
-    "effects": effects, "visits": visits, "accuracy deterministic": deterministic,
+    "effects": effects, "accuracy deterministic": deterministic,
     "accuracy statistical": statistical, "accuracy error": order_error, "peers": peers,
 }
 
@@ -389,15 +345,19 @@ def figures_of(report: Row, width: str | None = None) -> Figures:
     """(name, figure) of everything that a report has."""
     drawer = DRAWERS.get(report.get("bench", ""))
     if drawer is not None and report.get("rows"):
-        yield from drawer(report, width)
+        yield from drawer(accuracy.fitted(report), width)
+
+
+def read_report(path: Path) -> Row:
+    try:
+        return json.loads(path.read_text() if str(path) != "-" else sys.stdin.read())
+    except (OSError, ValueError) as error:
+        raise ShakenError(f"{path}: {error}") from None
 
 
 def draw_report(path: Path, folder: Path, width: str | None = None, form: str = "png") -> Iterator[Path]:
     """Draws all figures of a report into a folder; yields their paths."""
-    try:
-        report = json.loads(path.read_text())
-    except (OSError, ValueError) as error:
-        raise ShakenError(f"{path}: {error}") from None
+    report = read_report(path)
     machine = report.get("machine") or {}
     origin: Origin = {key: text for key, text in {
         "Software": f"shaken-bench {report.get('version', '')}", "Bench": str(report.get("bench", "")),

@@ -61,5 +61,11 @@ TEST(Errors, OfEnergyAreRelative) {
   EXPECT_NEAR(errors_between(faster, two_rods())[2], 0.21, 1e-12);
 }
 
+TEST(Quartiles, AreBetweenNeighbours) {
+  EXPECT_EQ(quartiles_of({4, 1, 3, 2}), Json::parse(R"({"lower": 1.75, "median": 2.5, "upper": 3.25})"));
+  EXPECT_EQ(quartiles_of({7}).at("upper"), 7);
+  EXPECT_TRUE(quartiles_of({}).at("median").is_null());
+}
+
 }  // namespace
 }  // namespace shaken::bench

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "bench/bench.h"
-#include "bench/speed.h"
+#include "bench/rates.h"
 
 namespace shaken::bench {
 namespace {
@@ -27,12 +27,15 @@ Contender contender(double cpu) {
   return of;
 }
 
-SceneSpeed scene() {
-  SceneSpeed speed{contender(0.1), contender(2)};
-  speed.phases.fill(0.01);
-  speed.phases_cpu = 0.1;
-  speed.bounds = {1e-5, 2e-5, 1e-6};
-  return speed;
+CountedWork work() {
+  CountedWork work{.rod_seconds = 5, .cpu = 0.1, .in_loops = 0.075};
+  work.counts.fill(500);
+  work.phases.fill(0.01);
+  return work;
+}
+
+Json row(std::uint64_t scheduled_hash = 0) {
+  return steppers_row(contender(0.1), contender(2), work(), 9, scheduled_hash);
 }
 
 TEST(Table, ShowsMembersOfRowsInTheirFormats) {
@@ -52,6 +55,7 @@ TEST(Csv, NamesNestedValuesWithDots) {
   EXPECT_EQ(csv(Json::parse(R"([{"a": {"b": 1, "c": "x"}, "d": [1, 2]}, {"a": {"b": 2, "c": "y"}, "d": [3, 4]}])")),
             "a.b,a.c,d\n1,x,1 2\n2,y,3 4\n");
   EXPECT_EQ(csv(Json::parse(R"([{"a": "x, \"y\""}])")), "a\n\"x, \"\"y\"\"\"\n");
+  EXPECT_EQ(csv(Json::parse(R"([{"a": 1}, {"a": 2, "b": 3}])")), "a,b\n1,\n2,3\n") << "what is missing is empty";
 }
 
 /// What the options of a bench read, or the words of the error.
@@ -86,69 +90,54 @@ TEST(Options, AreNumbersWithinTheirRanges) {
   EXPECT_THAT(asked({"--repeat", "2.5"}).problem, HasSubstr("--repeat = 2.5"));
 }
 
-TEST(Report, OfScenesHasRatesRatioAndBounds) {
-  const auto row = speed_report({}, {scene()}).rows().at(0);
-  EXPECT_DOUBLE_EQ(row.at("scheduled").at("rod_s_per_cpu_s"), 100);
-  EXPECT_DOUBLE_EQ(row.at("scheduled").at("spread"), 1.1);
-  EXPECT_DOUBLE_EQ(row.at("scheduled").at("ns_per_impulse"), 1e5);
-  EXPECT_DOUBLE_EQ(row.at("ratio"), 20);
-  EXPECT_DOUBLE_EQ(row.at("phase_shares").at("pair_bounds"), 0.1);
-  EXPECT_DOUBLE_EQ(row.at("lower_bounds").at("impulses_alone_share"), (900 * 1e-5 + 100 * 2e-5) / 0.1);
-  EXPECT_DOUBLE_EQ(row.at("lower_bounds").at("memory_alone_share"), (900 + 2 * 100) * 1e-6 / 0.1);
+TEST(Rates, OfBothSteppersHaveTheirRatio) {
+  EXPECT_DOUBLE_EQ(row().at("scheduled").at("rod_s_per_cpu_s"), 100);
+  EXPECT_DOUBLE_EQ(row().at("scheduled").at("spread"), 1.1);
+  EXPECT_DOUBLE_EQ(row().at("scheduled").at("ns_per_impulse"), 1e5);
+  EXPECT_DOUBLE_EQ(row().at("scheduled").at("impulses_per_rod_second").at("plates"), 90);
+  EXPECT_DOUBLE_EQ(row().at("ratio"), 20);
 }
 
-TEST(Report, SaysWhatIsNotTheSteadyState) {
+TEST(Rates, SayWhatIsNotTheSteadyState) {
   Conditions conditions;
   conditions.warm_up = 0.5;
-  EXPECT_THAT(speed_report(conditions, {scene()}).text, HasSubstr("NOT the steady state"));
+  const auto text = [&] { return rates_report(conditions, Comparison::kSteppers, Json::array({row()})).text; };
+  EXPECT_THAT(text(), HasSubstr("NOT the steady state"));
   conditions.warm_up = Conditions::kSteady;
-  EXPECT_THAT(speed_report(conditions, {scene()}).text, Not(HasSubstr("NOT the steady state")));
+  EXPECT_THAT(text(), Not(HasSubstr("NOT the steady state")));
 }
 
-TEST(Report, SaysIfTheSteppersDiffer) {
-  SceneSpeed differs = scene();
-  EXPECT_THAT(speed_report({}, {differs}).text, Not(HasSubstr("NO\n")));
-  check_states(speed_report({}, {differs}), "they differ");
-  differs.scheduled_hash = 1;
-  differs.compared_ticks = 9;
-  const Report report = speed_report({}, {differs});
+TEST(Rates, SayIfTheSteppersDiffer) {
+  const Report same = rates_report({}, Comparison::kSteppers, Json::array({row()}));
+  EXPECT_THAT(same.text, Not(HasSubstr("NO\n")));
+  check_states(same, "they differ");
+  const Report report = rates_report({}, Comparison::kSteppers, Json::array({row(1)}));
   EXPECT_THAT(report.text, HasSubstr("NO\n"));
   EXPECT_THAT([&] { check_states(report, "they differ"); },
               testing::ThrowsMessage<Failure>("l = 4.5 mm, phi = 0.6, L = 12 mm: they differ after 9 ticks"));
 }
 
-TEST(Report, OfWorkIsPerRodSecondAndPerPiece) {
-  CountedWork counted;
-  counted.of = contender(0.1);
-  counted.of.ticks = 1000;
-  counted.counts.fill(500);
-  counted.phases.fill(1e-3);
-  counted.bounds.hulls = {.of_true_time = {0.5, 0.25, 1, 0.5, 0.75, 0.5, 0.25, 0.5}, .of_no_tick = 1};
-  const Report report = count_report({}, {counted});
-  const Json& row = report.rows().at(0);
-  EXPECT_DOUBLE_EQ(row.at("per_rod_second").at("pairs_bounded"), 500 / counted.of.scene.rod_seconds(1000));
-  EXPECT_DOUBLE_EQ(row.at("ns").at("rods_visited"), 2000);
-  EXPECT_DOUBLE_EQ(row.at("hulls").at("median"), 0.5);
-  EXPECT_TRUE(row.at("beads").is_null());
-  EXPECT_THAT(report.text, HasSubstr("12.5"));
+TEST(Rates, OfWorkArePerRodSecondAndPerPiece) {
+  EXPECT_DOUBLE_EQ(row().at("per_rod_second").at("pairs_bounded"), 100);
+  EXPECT_DOUBLE_EQ(row().at("ns").at("rods_visited"), 20'000);
+  EXPECT_DOUBLE_EQ(row().at("phase_shares").at("pair_bounds"), 0.1);
 }
 
-TEST(Report, OfScalingIsRelativeToTheFirst) {
-  const Report report = scaling_report({}, Scaling::kStep, {contender(0.1), contender(0.15)});
-  EXPECT_DOUBLE_EQ(report.rows().at(0).at("relative_cost"), 1);
-  EXPECT_DOUBLE_EQ(report.rows().at(1).at("relative_cost"), 1.5);
+TEST(Rates, OfASeriesAreRelativeToTheFirst) {
+  EXPECT_DOUBLE_EQ(rate_row(contender(0.1), contender(0.1), work()).at("relative_cost"), 1);
+  EXPECT_DOUBLE_EQ(rate_row(contender(0.15), contender(0.1), work()).at("relative_cost"), 1.5);
 }
 
-TEST(Report, OfThreadsNamesTheSpeedUpAndItsLimit) {
-  ThreadsSpeed speed{.by = {contender(0.2), contender(0.1)}, .serial = 0.25};
-  speed.by[1].threads = 4;
-  const Report report = threads_report({}, {speed});
-  EXPECT_DOUBLE_EQ(report.rows().at(1).at("speed_up"), 2);
-  EXPECT_DOUBLE_EQ(report.rows().at(0).at("limit"), 1);
-  EXPECT_DOUBLE_EQ(report.rows().at(1).at("limit"), 1 / (0.25 + 0.75 / 4));
-  check_states(report, "");
-  speed.by[1].hash = 8;
-  EXPECT_FALSE(threads_report({}, {speed}).rows().at(1).at("hashes_equal"));
+TEST(Rates, OfThreadsNameTheSpeedUpAndItsLimit) {
+  const Contender first = contender(0.2);
+  Contender four = contender(0.1);
+  four.threads = 4;
+  EXPECT_DOUBLE_EQ(threads_row(four, first, work()).at("speed_up"), 2);
+  EXPECT_DOUBLE_EQ(threads_row(first, first, work()).at("limit"), 1);
+  EXPECT_DOUBLE_EQ(threads_row(four, first, work()).at("limit"), 1 / (0.25 + 0.75 / 4));
+  EXPECT_TRUE(threads_row(four, first, work()).at("hashes_equal"));
+  four.hash = 8;
+  EXPECT_FALSE(threads_row(four, first, work()).at("hashes_equal"));
 }
 
 }  // namespace

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Whether two means are the same within a bound: made-up replicas, of which it is known.
+#include "bench/hard/same_mean.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
 #include "base/core/rng.h"
-#include "bench/fits.h"
 
 namespace shaken::bench {
 namespace {

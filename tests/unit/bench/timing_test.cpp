@@ -5,7 +5,7 @@
 
 #include "base/clock.h"
 #include "base/scratch_folder.h"
-#include "bench/speed.h"
+#include "bench/work.h"
 
 namespace shaken::bench {
 namespace {
@@ -85,21 +85,13 @@ TEST(CpuRatio, IsOfTheBestWithAnErrorFromTheScatter) {
   EXPECT_DOUBLE_EQ(ratio.sem, 1);    // of 3 and 1
 }
 
-TEST_F(SmallBox, LowerBoundsAreLowAndPositive) {
-  const Simulation simulation = resumed(case_, state_, StepperKind::kScheduled);
-  const std::uint64_t hash = simulation.state_hash();
-  const LowerBounds bounds = measure_lower_bounds(simulation.world());
-  EXPECT_GT(bounds.plate_impulse, 0);
-  EXPECT_GT(bounds.rod_impulse, 0);
-  EXPECT_GT(bounds.state_access, 0);
-  EXPECT_LT(bounds.state_access, bounds.plate_impulse);
-  EXPECT_LT(bounds.plate_impulse, 1e-4);
-  StepperSpeed speed;
-  speed.plate_impulses = 3;
-  speed.rod_impulses = 4;
-  EXPECT_EQ((LowerBounds{1, 2, 0}.impulses_alone(speed)), 11);
-  EXPECT_EQ((LowerBounds{0, 0, 1}.memory_alone(speed)), 11);
-  EXPECT_EQ(simulation.state_hash(), hash);
+TEST_F(SmallBox, WorkIsCountedByTheStepper) {
+  const CountedWork work = count_work({.scene = case_, .state = state_, .ticks = 1250});
+  const auto count = [&](WorkKind kind) { return work.counts[static_cast<std::size_t>(kind)]; };
+  EXPECT_DOUBLE_EQ(work.rod_seconds, case_.rod_seconds(1250));
+  EXPECT_GT(count(WorkKind::kRodsVisited), 0);
+  EXPECT_GE(count(WorkKind::kRodsVisited), count(WorkKind::kRodsHit));
+  EXPECT_GT(work.cpu, 0);
 }
 
 }  // namespace
