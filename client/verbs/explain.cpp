@@ -75,7 +75,7 @@ class Explain : public Verb {
       return ExitCode::kOk;
     }
     show_scene(sweep, point, console);
-    console.out << fmt::format("The measurements take about {} of memory when they hold most.\n\n",
+    console.out << fmt::format("The measurements take about {} of memory at their peak.\n\n",
                                bytes_text(scene::peak_of(scene::measure_memory(point.plan))));
     show_effects(estimate.report, console);
     if (no_probe_) return ExitCode::kOk;

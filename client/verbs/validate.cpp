@@ -24,7 +24,7 @@ class Validate : public Verb {
             "  shaken validate sweep.json -s rods.length=2.5,3.5,4.5 --replicas 3\n"
             "  shaken validate scene.json --resolved     every value, defaults filled in\n"
             "  shaken validate scene.json --json         problems, or what follows, for programs\n"
-            "\nMEMORY is what the measurements take when they hold most; more than the machine has is refused.\n"
+            "\nMEMORY is that of the measurements at their peak; more than the machine has is refused.\n"
             "The rods are placed, to see whether they fit. A remark is of what is allowed but hardly meant; the exit "
             "code is "
             "0 all the same."};
