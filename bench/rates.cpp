@@ -145,7 +145,7 @@ void check_states(const Report& report, const std::string& what) {
     if (row.at("hashes_equal").get<bool>()) continue;
     const Json& ticks = member_of(row, "compared_ticks");
     const std::string when = ticks.is_null() ? "" : fmt::format(" after {} ticks", ticks.get<Tick>());
-    throw Failure(ExitCode::kFailed, text_of(row, "scene") + ": " + what + when);
+    throw Failure(ExitCode::kFailed, fmt::format("{}: {}{}", text_of(row, "scene"), what, when));
   }
 }
 
