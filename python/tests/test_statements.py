@@ -369,6 +369,13 @@ def test_some_of_both_is_in_part_and_says_where():
     assert rules.conclude([rules.yes(), rules.no()], "x", everywhere=True).verdict == rules.DISAGREES
 
 
+def test_the_end_of_a_rise_is_judged_where_rods_are_dense():
+    crossings = [r for p, value in ((0.55, 0.32), (0.60, 0.66), (0.65, 0.79))
+                 for r in runs("crossings", p, S=value, length=4.0)]
+    found = CHECKS["saturates"].check(Evidence(crossings + diagram(4.5)))
+    assert found.verdict == rules.OPEN and "to about 1, ℓ = 4 mm (not run yet)" in found.why
+
+
 def test_crossing_lies_on_the_line_and_has_its_errors():
     points = [(0.5, Estimate(0.3, 0.02, True)), (0.55, Estimate(0.7, 0.04, True))]
     found = crossing(points, 0.5)

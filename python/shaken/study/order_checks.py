@@ -18,6 +18,8 @@ from .structure_checks import far_g2
 ORDERED = 0.5
 #: The box of the phase diagram [mm].
 DIAGRAMS_BOX = 33.492
+#: Packings from which on the end of a rise is judged.
+DENSE = 0.8
 
 
 def phase_diagram(evidence: Evidence) -> Runs:
@@ -127,7 +129,9 @@ def saturates(evidence: Evidence) -> Finding:
                 answers.append(unknown(NOT_RUN).placed(f"ℓ = {length:g} mm"))
             continue
         answers.append(trend(points, rising=True).placed(f"rises, ℓ = {length:g} mm"))
-        answers.append(close_to(points[-1][1], 0.95, 0.1).placed(f"to about 1, ℓ = {length:g} mm"))
+        # the crossings' runs end where order has hardly begun
+        last = close_to(points[-1][1], 0.95, 0.1) if points[-1][0] >= DENSE else unknown(NOT_RUN)
+        answers.append(last.placed(f"to about 1, ℓ = {length:g} mm"))
         found.append(f"ℓ = {length:g} mm: from {text(points[0][1])} at {points[0][0]:g} to {text(points[-1][1])} at "
                      f"{points[-1][0]:g}")
     return conclude(answers, "; ".join(found))
