@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "analysis/estimate.h"
+#include "analysis/estimate_curve.h"
 #include "analysis/periodic.h"
 #include "base/core/check.h"
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "analysis/estimate.h"
+#include "analysis/estimate_curve.h"
 #include "analysis/parts.h"
 
 namespace shaken::analysis {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "analysis/estimate.h"
+#include "analysis/estimate_curve.h"
 
 namespace shaken::analysis {
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <span>
 
-#include "analysis/estimate.h"
+#include "analysis/estimate_curve.h"
 #include "analysis/lag_curve.h"
 
 namespace shaken::analysis {

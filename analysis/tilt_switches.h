@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "analysis/blocked.h"
-#include "analysis/estimate.h"
+#include "analysis/estimate_curve.h"
 #include "analysis/summed.h"
 #include "base/core/types.h"
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/estimate.h"
+#include "analysis/estimate_curve.h"
 #include "analysis/lag_average.h"
 #include "base/core/state_io.h"
 #include "base/core/types.h"

@@ -15,11 +15,11 @@
 #include "base/scratch_folder.h"
 #include "base/table.h"
 #include "base/text.h"
-#include "scene/accuracy.h"
+#include "scene/accuracy_levels.h"
 #include "scene/canonical.h"
 #include "scene/derived.h"
 #include "scene/load.h"
-#include "scene/memory.h"
+#include "scene/measure_memory.h"
 #include "scene/units.h"
 
 namespace shaken::client {
@@ -224,7 +224,7 @@ class Estimator {
     }
   }
 
-  /// By the costs that were measured at the levels (scene/accuracy.h): stepping changes by their ratio.
+  /// By the costs that were measured at the levels (scene/accuracy_levels.h): stepping changes by their ratio.
   void add_levels(const System& own, const Costs& costs) {
     for (const scene::AccuracyLevel& level : scene::accuracy_levels()) {
       const double factor = level.cost / scene::relative_cost(own.dt, own.impacts);

@@ -65,7 +65,7 @@ struct CostEstimate {
 
 /// Probes a handful of points by `shaken-worker --probe`, evenly along the sweep; costs of those between them, per rod
 /// and simulated second, are interpolated. Another level of accuracy is taken to change the cost of stepping by the
-/// factor that was measured for it (scene/accuracy.h). Throws Failure if a point cannot be simulated.
+/// factor that was measured for it (scene/accuracy_levels.h). Throws Failure if a point cannot be simulated.
 CostEstimate estimate_cost(const scene::Sweep& sweep, const EstimateOptions& options);
 
 /// The costs as a table, and a line on where they come from; empty if nothing was probed.

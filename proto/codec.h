@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "proto/layout.h"
+#include "proto/message_layout.h"
 
 namespace shaken::proto {
 
@@ -22,7 +22,7 @@ std::vector<std::uint8_t> encode(const T& message) {
 /// The message, or none if the payload is of another type, cut short, or has as much as one byte too many.
 template <class T>
 std::optional<T> decode(std::span<const std::uint8_t> payload) {
-  static_assert(!kLayout<T>.empty(), "proto/layout.h must describe every type");
+  static_assert(!kLayout<T>.empty(), "proto/message_layout.h must describe every type");
   if (message_size(kLayout<T>, payload) != payload.size()) return std::nullopt;
   T message;
   const int size = static_cast<int>(payload.size());

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "render/canvas.h"
-#include "render/layout.h"
 #include "render/picture.h"
+#include "render/picture_layout.h"
 #include "render/style.h"
 
 namespace shaken::render {

@@ -9,11 +9,11 @@
 
 #include "base/files.h"
 #include "render/canvas.h"
-#include "render/layout.h"
 #include "render/legend.h"
 #include "render/notes.h"
 #include "render/overlay.h"
 #include "render/panels.h"
+#include "render/picture_layout.h"
 #include "render/plane_layers.h"
 
 namespace shaken::render {

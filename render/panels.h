@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "render/canvas.h"
-#include "render/layout.h"
 #include "render/picture.h"
+#include "render/picture_layout.h"
 #include "render/style.h"
 
 namespace shaken::render {

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "run/measure/registry.h"
+#include "run/measure/measurement_kinds.h"
 #include "scene/fields.h"
 #include "sim/effects/registry.h"
 

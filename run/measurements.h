@@ -12,10 +12,10 @@
 
 #include "base/core/result.h"
 #include "run/cadence.h"
-#include "run/measure/defects.h"
-#include "run/measure/order.h"
+#include "run/measure/measure_defects.h"
+#include "run/measure/measure_order.h"
+#include "run/measure/measurement_kinds.h"
 #include "run/measure/reduction.h"
-#include "run/measure/registry.h"
 #include "scene/run_plan.h"
 #include "sim/rod/species.h"
 #include "sim/snapshot.h"

@@ -24,13 +24,13 @@
 #include "run/loop.h"
 #include "run/movie_process.h"
 #include "run/probe/probe.h"
+#include "run/progress_text.h"
 #include "run/replay.h"
 #include "run/saved_run.h"
 #include "run/start_state.h"
-#include "run/terminal.h"
 #include "scene/canonical.h"
 #include "scene/load.h"
-#include "scene/memory.h"
+#include "scene/measure_memory.h"
 #include "scene/placement.h"
 
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/picture_limits.h"
-#include "scene/accuracy.h"
+#include "scene/accuracy_levels.h"
 #include "scene/derived.h"
 #include "scene/field_makers.h"
 #include "scene/observables.h"

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "scene/load.h"
-#include "scene/memory.h"
+#include "scene/measure_memory.h"
 #include "sim/initial.h"
 
 namespace shaken::scene {

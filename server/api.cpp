@@ -13,7 +13,7 @@
 #include "scene/nearest.h"
 #include "server/cleaning.h"
 #include "server/log_slice.h"
-#include "server/replicas.h"
+#include "server/more_replicas.h"
 #include "server/submission.h"
 
 namespace shaken::server {

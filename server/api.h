@@ -8,9 +8,9 @@
 
 #include "base/http/http_server.h"
 #include "scene/problem.h"
+#include "server/answers.h"
 #include "server/daemon_info.h"
 #include "server/queue/queue.h"
-#include "server/report.h"
 
 namespace shaken::server {
 

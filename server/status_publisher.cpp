@@ -10,7 +10,7 @@
 #include "base/clock.h"
 #include "run/files/directory.h"
 #include "run/files/progress.h"
-#include "server/report.h"
+#include "server/answers.h"
 
 namespace shaken::server {
 namespace {

@@ -7,7 +7,7 @@
 #include "base/clock.h"
 #include "base/failure.h"
 #include "base/progress_line.h"
-#include "bench/accuracy/accuracy.h"
+#include "bench/accuracy/errors.h"
 #include "sim/balance.h"
 
 namespace shaken::bench {

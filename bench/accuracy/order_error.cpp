@@ -3,7 +3,7 @@
 
 #include "analysis/order.h"
 #include "analysis/time_series.h"
-#include "bench/accuracy/accuracy.h"
+#include "bench/accuracy/errors.h"
 #include "bench/timing.h"
 
 namespace shaken::bench {

@@ -3,7 +3,7 @@
 
 #include "base/core/rng.h"
 #include "base/failure.h"
-#include "bench/accuracy/accuracy.h"
+#include "bench/accuracy/errors.h"
 
 namespace shaken::bench {
 namespace {

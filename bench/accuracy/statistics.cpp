@@ -6,8 +6,8 @@
 
 #include "analysis/parts.h"
 #include "analysis/time_series.h"
-#include "bench/accuracy/accuracy.h"
-#include "bench/accuracy/observables.h"
+#include "bench/accuracy/averaged.h"
+#include "bench/accuracy/errors.h"
 #include "bench/timing.h"
 #include "sim/rod/species.h"
 

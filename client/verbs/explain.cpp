@@ -10,9 +10,9 @@
 #include "client/scene_input.h"
 #include "client/slurm_estimate.h"
 #include "client/verbs/verbs.h"
-#include "scene/accuracy.h"
+#include "scene/accuracy_levels.h"
 #include "scene/derived.h"
-#include "scene/memory.h"
+#include "scene/measure_memory.h"
 #include "scene/units.h"
 
 namespace shaken::client {

@@ -13,9 +13,9 @@
 #include "base/text.h"
 #include "client/live/target.h"
 #include "client/watch/chart.h"
-#include "client/watch/layout.h"
 #include "client/watch/overview.h"
 #include "client/watch/rod_samples.h"
+#include "client/watch/screen_layout.h"
 
 namespace shaken::client {
 namespace {

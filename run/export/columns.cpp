@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "base/text.h"
-#include "run/files/units.h"
+#include "run/files/unit_of_name.h"
 
 namespace shaken::run {
 namespace {

@@ -4,7 +4,7 @@
 #include "base/files.h"
 #include "run/files/content_hash.h"
 #include "run/files/hdf5.h"
-#include "run/files/units.h"
+#include "run/files/unit_of_name.h"
 
 namespace shaken::run {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "analysis/two_peaks.h"
 #include "run/measure/estimates.h"
-#include "run/measure/registry.h"
+#include "run/measure/measurement_kinds.h"
 
 namespace shaken::run {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "analysis/blocked.h"
-#include "analysis/estimate.h"
+#include "analysis/estimate_curve.h"
 #include "analysis/jackknife.h"
 #include "run/measure/reduction.h"
 

@@ -6,7 +6,7 @@
 #include "analysis/blocked.h"
 #include "analysis/number_fluctuations.h"
 #include "run/measure/estimates.h"
-#include "run/measure/registry.h"
+#include "run/measure/measurement_kinds.h"
 #include "sim/motion/side_walls.h"
 
 namespace shaken::run {

@@ -4,7 +4,7 @@
 #include "analysis/blocked.h"
 #include "analysis/region.h"
 #include "run/measure/estimates.h"
-#include "run/measure/registry.h"
+#include "run/measure/measurement_kinds.h"
 
 namespace shaken::run {
 namespace {

@@ -2,7 +2,7 @@
 #include "analysis/lattice.h"
 
 #include "run/measure/estimates.h"
-#include "run/measure/registry.h"
+#include "run/measure/measurement_kinds.h"
 
 namespace shaken::run {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "run/measure/estimates.h"
-#include "run/measure/registry.h"
+#include "run/measure/measurement_kinds.h"
 
 namespace shaken::run {
 namespace {

@@ -5,7 +5,7 @@
 #include "analysis/oscillation.h"
 #include "analysis/pair_map.h"
 #include "run/measure/estimates.h"
-#include "run/measure/registry.h"
+#include "run/measure/measurement_kinds.h"
 
 namespace shaken::run {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "analysis/rod_traces.h"
 #include "analysis/steady.h"
-#include "run/measure/registry.h"
+#include "run/measure/measurement_kinds.h"
 
 namespace shaken::run {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "analysis/structure_factor.h"
 #include "run/measure/estimates.h"
-#include "run/measure/registry.h"
+#include "run/measure/measurement_kinds.h"
 
 namespace shaken::run {
 namespace {

@@ -8,7 +8,7 @@
 #include "analysis/tilt_switches.h"
 #include "run/measure/estimates.h"
 #include "run/measure/largest_tilt.h"
-#include "run/measure/registry.h"
+#include "run/measure/measurement_kinds.h"
 
 namespace shaken::run {
 namespace {

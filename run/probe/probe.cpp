@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "base/clock.h"
-#include "base/memory.h"
+#include "base/peak_memory.h"
 #include "base/scratch_folder.h"
 #include "proto/frame_codec.h"
 #include "run/effects.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/accuracy.h"
+#include "scene/accuracy_levels.h"
 #include "scene/derived.h"
 #include "scene/resolve/steps.h"
 #include "sim/rod/species.h"

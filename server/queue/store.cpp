@@ -7,8 +7,8 @@
 
 #include "base/clock.h"
 #include "base/core/check.h"
+#include "server/queue/database_schema.h"
 #include "server/queue/rules.h"
-#include "server/queue/schema.h"
 
 namespace shaken::server {
 namespace {

@@ -14,7 +14,7 @@
 #include "run/files/directory.h"
 #include "run/files/observables_file.h"
 #include "run/files/trajectory.h"
-#include "tests/e2e/process.h"
+#include "tests/e2e/run_command.h"
 
 namespace shaken::test {
 namespace {

@@ -13,7 +13,7 @@
 #include <sstream>
 
 #include "run/files/trajectory.h"
-#include "tests/e2e/process.h"
+#include "tests/e2e/run_command.h"
 
 namespace shaken::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "tests/e2e/process.h"
+#include "tests/e2e/run_command.h"
 
 namespace shaken::test {
 namespace {

@@ -20,7 +20,7 @@
 #include "base/files.h"
 #include "run/files/directory.h"
 #include "run/files/done.h"
-#include "tests/e2e/process.h"
+#include "tests/e2e/run_command.h"
 
 namespace shaken::test {
 namespace {

@@ -9,7 +9,7 @@
 #include <iterator>
 #include <thread>
 
-#include "tests/e2e/process.h"
+#include "tests/e2e/run_command.h"
 #include "tests/support/lazy_server.h"
 
 namespace shaken::test {

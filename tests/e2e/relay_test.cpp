@@ -12,7 +12,7 @@
 
 #include "base/descriptor.h"
 #include "tests/e2e/free_port.h"
-#include "tests/e2e/process.h"
+#include "tests/e2e/run_command.h"
 
 namespace shaken::test {
 namespace {

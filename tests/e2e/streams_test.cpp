@@ -6,7 +6,7 @@
 #include <string>
 
 #include "base/files.h"
-#include "tests/e2e/process.h"
+#include "tests/e2e/run_command.h"
 
 namespace shaken::test {
 namespace {

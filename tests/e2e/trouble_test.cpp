@@ -5,7 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "tests/e2e/process.h"
+#include "tests/e2e/run_command.h"
 
 namespace shaken::test {
 namespace {

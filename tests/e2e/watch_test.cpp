@@ -21,7 +21,7 @@
 #include <thread>
 
 #include "tests/e2e/free_port.h"
-#include "tests/e2e/process.h"
+#include "tests/e2e/run_command.h"
 #include "tests/support/small_terminal.h"
 
 namespace shaken::test {

@@ -10,7 +10,7 @@
 #include "base/scratch_folder.h"
 #include "scene/sweep.h"
 #include "server/submission.h"
-#include "tests/fuzz/target.h"
+#include "tests/fuzz/fuzz_target.h"
 
 using namespace shaken;
 using namespace shaken::server;

@@ -10,7 +10,7 @@
 #include "scene/load.h"
 #include "sim/initial.h"
 #include "sim/simulation.h"
-#include "tests/fuzz/target.h"
+#include "tests/fuzz/fuzz_target.h"
 
 using namespace shaken;
 

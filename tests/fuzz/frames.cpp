@@ -9,7 +9,7 @@
 #include "base/files.h"
 #include "base/scratch_folder.h"
 #include "run/files/frame_log.h"
-#include "tests/fuzz/target.h"
+#include "tests/fuzz/fuzz_target.h"
 
 using namespace shaken;
 

@@ -9,7 +9,7 @@
 #include "base/descriptor.h"
 #include "base/http/http_server.h"
 #include "base/scratch_folder.h"
-#include "tests/fuzz/target.h"
+#include "tests/fuzz/fuzz_target.h"
 
 using namespace shaken;
 

@@ -5,7 +5,7 @@
 
 #include "base/descriptor.h"
 #include "proto/relay/client.h"
-#include "tests/fuzz/target.h"
+#include "tests/fuzz/fuzz_target.h"
 
 using namespace shaken;
 

@@ -2,9 +2,9 @@
 // The text of a scene file: what is taken, reads as itself once more.
 #include "scene/canonical.h"
 #include "scene/load.h"
-#include "scene/memory.h"
+#include "scene/measure_memory.h"
 #include "scene/remarks.h"
-#include "tests/fuzz/target.h"
+#include "tests/fuzz/fuzz_target.h"
 
 using namespace shaken;
 

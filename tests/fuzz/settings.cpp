@@ -9,7 +9,7 @@
 #include "scene/load.h"
 #include "scene/sweep.h"
 #include "scene/values.h"
-#include "tests/fuzz/target.h"
+#include "tests/fuzz/fuzz_target.h"
 
 using namespace shaken;
 

@@ -2,7 +2,7 @@
 // The text of a style file: every style that is taken can be drawn in.
 #include "render/style_file.h"
 #include "render/style_keys.h"
-#include "tests/fuzz/target.h"
+#include "tests/fuzz/fuzz_target.h"
 
 using namespace shaken;
 

@@ -4,7 +4,7 @@
 
 #include "scene/canonical.h"
 #include "scene/load.h"
-#include "tests/fuzz/target.h"
+#include "tests/fuzz/fuzz_target.h"
 
 using namespace shaken;
 

@@ -2,7 +2,7 @@
 // What a terminal sends: keys and answers, in any order and in pieces.
 #include "client/watch/graphics.h"
 #include "client/watch/keys.h"
-#include "tests/fuzz/target.h"
+#include "tests/fuzz/fuzz_target.h"
 
 using namespace shaken;
 

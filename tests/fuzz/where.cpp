@@ -2,7 +2,7 @@
 // Conditions of `shaken results --where`.
 #include "client/where.h"
 
-#include "tests/fuzz/target.h"
+#include "tests/fuzz/fuzz_target.h"
 
 using namespace shaken;
 using client::Json;

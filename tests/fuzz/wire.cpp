@@ -5,7 +5,7 @@
 #include "client/watch/rod_cells.h"
 #include "proto/codec.h"
 #include "proto/frame_codec.h"
-#include "tests/fuzz/target.h"
+#include "tests/fuzz/fuzz_target.h"
 
 using namespace shaken;
 

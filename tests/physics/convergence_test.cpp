@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "bench/accuracy/accuracy.h"
+#include "bench/accuracy/errors.h"
 
 namespace shaken::bench {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <numeric>
 
-#include "tests/unit/analysis/samples.h"
+#include "tests/unit/analysis/analysis_samples.h"
 #include "tests/unit/analysis/state_checks.h"
 
 namespace shaken::analysis {

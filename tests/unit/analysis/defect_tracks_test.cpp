@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "tests/unit/analysis/samples.h"
+#include "tests/unit/analysis/analysis_samples.h"
 #include "tests/unit/analysis/state_checks.h"
 
 namespace shaken::analysis {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "tests/unit/analysis/samples.h"
+#include "tests/unit/analysis/analysis_samples.h"
 
 namespace shaken::analysis {
 namespace {

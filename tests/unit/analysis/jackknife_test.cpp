@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/parts.h"
-#include "tests/unit/analysis/samples.h"
+#include "tests/unit/analysis/analysis_samples.h"
 
 namespace shaken::analysis {
 namespace {

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "analysis/periodic.h"
-#include "tests/unit/analysis/samples.h"
+#include "tests/unit/analysis/analysis_samples.h"
 #include "tests/unit/analysis/state_checks.h"
 
 namespace shaken::analysis {

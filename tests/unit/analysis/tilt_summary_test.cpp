@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "tests/unit/analysis/samples.h"
+#include "tests/unit/analysis/analysis_samples.h"
 
 namespace shaken::analysis {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/jackknife.h"
-#include "tests/unit/analysis/samples.h"
+#include "tests/unit/analysis/analysis_samples.h"
 #include "tests/unit/analysis/state_checks.h"
 
 namespace shaken::analysis {

@@ -6,7 +6,7 @@
 #include <functional>
 #include <numeric>
 
-#include "tests/unit/analysis/samples.h"
+#include "tests/unit/analysis/analysis_samples.h"
 
 namespace shaken::analysis {
 namespace {

@@ -10,7 +10,7 @@
 #include "analysis/blocked.h"
 #include "analysis/jackknife.h"
 #include "tests/support/effort.h"
-#include "tests/unit/analysis/samples.h"
+#include "tests/unit/analysis/analysis_samples.h"
 
 namespace shaken::analysis {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/unit/analysis/samples.h"
+#include "tests/unit/analysis/analysis_samples.h"
 
 namespace shaken::analysis {
 

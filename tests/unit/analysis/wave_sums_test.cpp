@@ -5,7 +5,7 @@
 
 #include <complex>
 
-#include "tests/unit/analysis/samples.h"
+#include "tests/unit/analysis/analysis_samples.h"
 
 namespace shaken::analysis {
 namespace {

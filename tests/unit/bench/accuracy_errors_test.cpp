@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "bench/accuracy/accuracy.h"
+#include "bench/accuracy/errors.h"
 
 namespace shaken::bench {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "bench/accuracy/accuracy.h"
-#include "bench/accuracy/observables.h"
+#include "bench/accuracy/averaged.h"
+#include "bench/accuracy/errors.h"
 
 namespace shaken::bench {
 namespace {

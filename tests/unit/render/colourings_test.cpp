@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "tests/unit/render/support.h"
+#include "tests/unit/render/render_support.h"
 
 namespace shaken::render {
 namespace {

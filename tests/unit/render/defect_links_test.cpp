@@ -7,7 +7,7 @@
 
 #include "render/sources.h"
 #include "render/view.h"
-#include "tests/unit/render/support.h"
+#include "tests/unit/render/render_support.h"
 
 namespace shaken::render {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "render/colours.h"
-#include "tests/unit/render/support.h"
+#include "tests/unit/render/render_support.h"
 
 namespace shaken::render {
 namespace {

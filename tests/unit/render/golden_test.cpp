@@ -13,7 +13,7 @@
 #include "render/gl.h"
 #include "render/png.h"
 #include "render/style_file.h"
-#include "tests/unit/render/support.h"
+#include "tests/unit/render/render_support.h"
 //
 #include <cairo.h>
 

@@ -10,7 +10,7 @@
 #include "render/film_axes.h"
 #include "render/legend.h"
 #include "render/sweep_map.h"
-#include "tests/unit/render/support.h"
+#include "tests/unit/render/render_support.h"
 
 namespace shaken::render {
 namespace {

@@ -15,7 +15,7 @@ extern "C" {
 #include <vector>
 
 #include "render/make_movie.h"
-#include "tests/unit/render/support.h"
+#include "tests/unit/render/render_support.h"
 
 namespace shaken::render {
 namespace {

@@ -8,10 +8,10 @@
 
 #include "render/colourings.h"
 #include "render/colours.h"
-#include "render/layout.h"
+#include "render/picture_layout.h"
 #include "render/rods_pass.h"
 #include "render/view.h"
-#include "tests/unit/render/support.h"
+#include "tests/unit/render/render_support.h"
 
 namespace shaken::render {
 namespace {

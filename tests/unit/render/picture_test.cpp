@@ -8,7 +8,7 @@
 
 #include "render/colourings.h"
 #include "render/style.h"
-#include "tests/unit/render/support.h"
+#include "tests/unit/render/render_support.h"
 
 namespace shaken::render {
 namespace {

@@ -9,7 +9,7 @@
 #include <iterator>
 
 #include "render/colours.h"
-#include "tests/unit/render/support.h"
+#include "tests/unit/render/render_support.h"
 
 namespace shaken::render {
 namespace {

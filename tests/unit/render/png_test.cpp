@@ -9,7 +9,7 @@
 #include <map>
 
 #include "tests/support/in_child.h"
-#include "tests/unit/render/support.h"
+#include "tests/unit/render/render_support.h"
 
 namespace shaken::render {
 namespace {

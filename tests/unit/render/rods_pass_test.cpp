@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "render/colours.h"
-#include "tests/unit/render/support.h"
+#include "tests/unit/render/render_support.h"
 
 namespace shaken::render {
 namespace {

@@ -11,7 +11,7 @@
 #include "proto/frame_codec.h"
 #include "run/files/directory.h"
 #include "run/files/frame_log.h"
-#include "tests/unit/render/support.h"
+#include "tests/unit/render/render_support.h"
 
 namespace shaken::render {
 namespace {

@@ -8,7 +8,7 @@
 #include "render/style_file.h"
 #include "render/style_keys.h"
 #include "tests/support/generated_page.h"
-#include "tests/unit/render/support.h"
+#include "tests/unit/render/render_support.h"
 
 namespace shaken::render {
 namespace {

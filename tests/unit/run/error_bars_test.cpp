@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "run/measurements.h"
-#include "tests/unit/analysis/samples.h"
+#include "tests/unit/analysis/analysis_samples.h"
 
 namespace shaken::run {
 namespace {

@@ -15,7 +15,7 @@
 #include "base/scratch_folder.h"
 #include "run/files/directory.h"
 #include "run/loop.h"
-#include "run/measure/registry.h"
+#include "run/measure/measurement_kinds.h"
 #include "run/trouble_file.h"
 #include "scene/observables.h"
 #include "tests/unit/run/hdf5_attributes.h"

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The estimate of scene/memory.h against what a run takes, with every allocation of this process counted.
-#include "scene/memory.h"
-
+// The estimate of scene/measure_memory.h against what a run takes, with every allocation of this process counted.
 #include <gtest/gtest.h>
 #include <malloc.h>
 
@@ -12,6 +10,7 @@
 #include "base/scratch_folder.h"
 #include "run/loop.h"
 #include "scene/load.h"
+#include "scene/measure_memory.h"
 
 namespace {
 

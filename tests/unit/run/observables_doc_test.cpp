@@ -9,8 +9,8 @@
 #include <sstream>
 #include <string>
 
-#include "run/files/units.h"
-#include "run/measure/registry.h"
+#include "run/files/unit_of_name.h"
+#include "run/measure/measurement_kinds.h"
 #include "scene/observables.h"
 #include "tests/support/generated_page.h"
 

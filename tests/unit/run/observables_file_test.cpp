@@ -8,7 +8,7 @@
 
 #include "base/files.h"
 #include "base/scratch_folder.h"
-#include "run/files/units.h"
+#include "run/files/unit_of_name.h"
 #include "run/files/version.h"
 #include "tests/support/in_child.h"
 #include "tests/unit/run/hdf5_attributes.h"

@@ -7,7 +7,7 @@
 #include "scene/sweep.h"
 #include "sim/initial.h"
 #include "sim/rod/species.h"
-#include "tests/unit/scene/support.h"
+#include "tests/unit/scene/scene_support.h"
 
 namespace shaken::scene {
 namespace {

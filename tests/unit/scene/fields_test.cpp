@@ -5,7 +5,7 @@
 
 #include "scene/canonical.h"
 #include "tests/support/generated_page.h"
-#include "tests/unit/scene/support.h"
+#include "tests/unit/scene/scene_support.h"
 
 namespace shaken::scene {
 namespace {

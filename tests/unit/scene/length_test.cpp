@@ -5,7 +5,7 @@
 #include <rapidcheck.h>
 
 #include "scene/canonical.h"
-#include "tests/unit/scene/support.h"
+#include "tests/unit/scene/scene_support.h"
 
 namespace shaken::scene {
 namespace {

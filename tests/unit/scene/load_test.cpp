@@ -2,7 +2,7 @@
 #include "scene/load.h"
 
 #include "sim/rod/species.h"
-#include "tests/unit/scene/support.h"
+#include "tests/unit/scene/scene_support.h"
 
 namespace shaken::scene {
 namespace {

@@ -7,7 +7,7 @@
 #include "scene/sweep.h"
 #include "tests/support/effort.h"
 #include "tests/unit/scene/mutated.h"
-#include "tests/unit/scene/support.h"
+#include "tests/unit/scene/scene_support.h"
 
 namespace shaken::scene {
 namespace {

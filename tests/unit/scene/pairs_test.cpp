@@ -4,7 +4,7 @@
 
 #include "scene/derived.h"
 #include "sim/rod/species.h"
-#include "tests/unit/scene/support.h"
+#include "tests/unit/scene/scene_support.h"
 
 namespace shaken::scene {
 namespace {

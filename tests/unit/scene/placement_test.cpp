@@ -8,7 +8,7 @@
 
 #include "sim/simulation.h"
 #include "sim/tick/tick.h"
-#include "tests/unit/scene/support.h"
+#include "tests/unit/scene/scene_support.h"
 
 namespace shaken::scene {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "scene/observables.h"
 #include "scene/sweep.h"
-#include "tests/unit/scene/support.h"
+#include "tests/unit/scene/scene_support.h"
 
 namespace shaken::scene {
 namespace {

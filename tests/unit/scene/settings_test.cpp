@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene/settings.h"
 
-#include "tests/unit/scene/support.h"
+#include "tests/unit/scene/scene_support.h"
 
 namespace shaken::scene {
 namespace {

@@ -11,7 +11,7 @@
 #include "scene/fields.h"
 #include "scene/points.h"
 #include "tests/support/effort.h"
-#include "tests/unit/scene/support.h"
+#include "tests/unit/scene/scene_support.h"
 
 namespace shaken::scene {
 namespace {

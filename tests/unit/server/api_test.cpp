@@ -21,7 +21,7 @@
 #include "run/files/directory.h"
 #include "scene/load.h"
 #include "tests/support/effort.h"
-#include "tests/unit/server/support.h"
+#include "tests/unit/server/server_support.h"
 
 namespace shaken::server {
 namespace {

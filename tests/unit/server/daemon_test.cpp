@@ -21,7 +21,7 @@
 
 #include "base/process.h"
 #include "tests/support/lazy_server.h"
-#include "tests/unit/server/support.h"
+#include "tests/unit/server/server_support.h"
 
 namespace shaken::server {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "base/descriptor.h"
-#include "tests/unit/server/support.h"
+#include "tests/unit/server/server_support.h"
 
 namespace shaken::http {
 namespace {

@@ -8,7 +8,7 @@
 #include <csignal>
 
 #include "run/files/progress.h"
-#include "tests/unit/server/support.h"
+#include "tests/unit/server/server_support.h"
 
 namespace shaken::server {
 namespace {

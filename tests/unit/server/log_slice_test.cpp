@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include "tests/unit/server/support.h"
+#include "tests/unit/server/server_support.h"
 
 namespace shaken::server {
 namespace {

@@ -12,7 +12,7 @@
 #include <memory>
 
 #include "server/queue/queue.h"
-#include "tests/unit/server/support.h"
+#include "tests/unit/server/server_support.h"
 
 namespace shaken::server {
 namespace {

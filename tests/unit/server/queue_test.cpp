@@ -8,7 +8,7 @@
 
 #include "scene/canonical.h"
 #include "scene/load.h"
-#include "tests/unit/server/support.h"
+#include "tests/unit/server/server_support.h"
 
 namespace shaken::server {
 namespace {

@@ -11,7 +11,7 @@
 #include <shaken/job_t.hpp>
 #include <shaken/status_t.hpp>
 
-#include "tests/unit/server/support.h"
+#include "tests/unit/server/server_support.h"
 
 namespace shaken::server {
 namespace {

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/sweep.h"
-#include "tests/unit/server/support.h"
+#include "tests/unit/server/server_support.h"
 
 namespace shaken::server {
 namespace {

@@ -15,7 +15,7 @@
 #include "base/clock.h"
 #include "server/local_executor.h"
 #include "server/submission.h"
-#include "tests/unit/server/support.h"
+#include "tests/unit/server/server_support.h"
 
 namespace shaken::server {
 namespace {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "server/queue/queue.h"
-#include "tests/unit/server/support.h"
+#include "tests/unit/server/server_support.h"
 
 namespace shaken::server {
 namespace {

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <random>
 
-#include "client/watch/layout.h"
 #include "client/watch/live_screen.h"
+#include "client/watch/screen_layout.h"
 
 namespace shaken::client {
 namespace {

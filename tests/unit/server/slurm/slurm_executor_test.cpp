@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "server/slurm/command.h"
-#include "tests/unit/server/support.h"
+#include "tests/unit/server/server_support.h"
 
 namespace shaken::server::slurm {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "base/slurm_conf.h"
 #include "server/slurm/batch.h"
-#include "tests/unit/server/support.h"
+#include "tests/unit/server/server_support.h"
 
 namespace shaken::server::slurm {
 namespace {

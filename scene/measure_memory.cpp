@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/memory.h"
+#include "scene/measure_memory.h"
 
 #include <fmt/format.h>
 #include <sys/resource.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/accuracy.h"
+#include "scene/accuracy_levels.h"
 
 #include <array>
 #include <cmath>
@@ -13,7 +13,7 @@
 #include "scene/fields.h"
 #include "scene/load.h"
 #include "scene/sweep.h"
-#include "tests/unit/scene/support.h"
+#include "tests/unit/scene/scene_support.h"
 
 namespace shaken::scene {
 namespace {

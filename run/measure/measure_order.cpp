@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "run/measure/order.h"
+#include "run/measure/measure_order.h"
 
 #include "analysis/bounded_series.h"
 #include "run/measure/estimates.h"
-#include "run/measure/registry.h"
+#include "run/measure/measurement_kinds.h"
 
 namespace shaken::run {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "server/replicas.h"
+#include "server/more_replicas.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "render/layout.h"
+#include "render/picture_layout.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/accuracy/observables.h"
+#include "bench/accuracy/averaged.h"
 
 #include <cmath>
 #include <optional>

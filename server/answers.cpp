@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "server/report.h"
+#include "server/answers.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "server/queue/schema.h"
+#include "server/queue/database_schema.h"
 
 #include <array>
 #include <string>

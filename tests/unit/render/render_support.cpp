@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/unit/render/support.h"
+#include "tests/unit/render/render_support.h"
 
 #include <gtest/gtest.h>
 #include <png.h>

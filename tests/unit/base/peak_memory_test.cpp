@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "base/memory.h"
+#include "base/peak_memory.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "client/watch/layout.h"
+#include "client/watch/screen_layout.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "run/files/units.h"
+#include "run/files/unit_of_name.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/accuracy.h"
+#include "scene/accuracy_levels.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/unit/server/support.h"
+#include "tests/unit/server/server_support.h"
 
 #include <fstream>
 #include <sstream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "run/terminal.h"
+#include "run/progress_text.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "run/measure/defects.h"
+#include "run/measure/measure_defects.h"
 
 #include <string>
 #include <utility>
@@ -7,7 +7,7 @@
 #include "analysis/bounded_series.h"
 #include "analysis/director_field.h"
 #include "run/measure/estimates.h"
-#include "run/measure/registry.h"
+#include "run/measure/measurement_kinds.h"
 
 namespace shaken::run {
 

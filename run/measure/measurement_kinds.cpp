@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "run/measure/registry.h"
+#include "run/measure/measurement_kinds.h"
 
 #include "scene/observables.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/accuracy/accuracy.h"
+#include "bench/accuracy/errors.h"
 
 #include <fmt/format.h>
 

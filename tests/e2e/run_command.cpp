@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/e2e/process.h"
+#include "tests/e2e/run_command.h"
 
 #include <fcntl.h>
 #include <signal.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "proto/layout.h"
+#include "proto/message_layout.h"
 
 #include <algorithm>
 
