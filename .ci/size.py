@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Lines of code and of tests in every folder, beside those of the last release: how the house grows.
+"""Lines of code and of tests in every folder, beside those of the last release (until 0.1.0 is tagged: those before
+2026-11-25): how the house grows.
 
     .ci/size.py            the table
     .ci/size.py --release  writes today's numbers into .ci/size_at_release.json, when a version is released

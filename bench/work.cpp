@@ -89,18 +89,20 @@ std::string work_text(const Json& rows, const std::vector<Column>& scene) {
               ns("rods_bounded"), per_rod_second("places", "rods_placed"), ns("rods_placed")}) +
          with(
              "\nPairs, per rod and simulated second: searches for contacts (of these: touching), pairs that came up "
-             "with time\nleft and waited on, and new bounds (of these: after a search, by beads, and too short to save "
+             "with time\nleft and were deferred, and new bounds (of these: after a search, by beads, and too short to "
+             "save "
              "the visit at the\nnext tick).\n",
              {per_rod_second("searches", "pairs_searched"), per_rod_second("touching", "pairs_touching"),
-              ns("pairs_searched"), per_rod_second("waited on", "pairs_deferred"),
+              ns("pairs_searched"), per_rod_second("deferred", "pairs_deferred"),
               per_rod_second("bounds", "pairs_bounded"), ns("pairs_bounded"),
               per_rod_second("when due", "bounds_when_due"), per_rod_second("by beads", "bounds_by_beads"),
               per_rod_second("no tick", "bounds_of_no_tick")}) +
          with(
-             "\nChanges of motion, per rod and simulated second, of which all pairs of the rod are told, and bounds "
-             "that are\ntightened for that.\n",
-             {per_rod_second("told", "velocity_jumps"), ns("velocity_jumps"),
-              per_rod_second("tightened", "bounds_shortened")});
+             "\nHits, per rod and simulated second, each spent from the budgets of all pairs of the rod, and bounds "
+             "that "
+             "are\nshortened for that.\n",
+             {per_rod_second("hits", "velocity_jumps"), ns("velocity_jumps"),
+              per_rod_second("shortened", "bounds_shortened")});
 }
 
 }  // namespace shaken::bench

@@ -3,7 +3,8 @@
 
 #include <cmath>
 
-/// Every margin by which a bound errs on the early side, in one place. Bounds are computed in single precision (a float
+/// Every margin by which a bound errs on the early side, in one place, but for the side walls' own, which contacts with
+/// them share (motion/side_walls.cpp). Bounds are computed in single precision (a float
 /// carries 6e-8 of its value), so each sum and product may be wrong by that, and each margin says how many such errors
 /// it covers. A margin that is too small is a contact that is found late: the trajectory would differ from the
 /// reference stepper's. One that is too large only brings rods and pairs up sooner. docs/stepper.md says

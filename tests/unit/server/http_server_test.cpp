@@ -6,6 +6,7 @@
 #include <sys/socket.h>
 #include <sys/un.h>
 
+#include <future>
 #include <string>
 
 #include "base/descriptor.h"
@@ -59,23 +60,33 @@ std::string ask(const Descriptor& client) {
 TEST(HttpServer, AListenerThatFailsIsSeenWhileSomebodyIsServed) {
   const ScratchFolder folder;
   const auto socket = folder / "socket";
-  const HttpServer::Handler handler = [](const Request&) { return Reply{.body = "{\"here\": 1}"}; };
-  HttpServer server(socket, handler);
+  std::promise<void> asked, release;
+  HttpServer server(socket, [&](const Request&) {
+    asked.set_value();
+    release.get_future().wait();
+    return Reply{.body = "{\"here\": 1}"};
+  });
   const Descriptor served = connect_to(socket);
-  ASSERT_NE(ask(served).find("here"), std::string::npos);
+  std::future<std::string> answer = std::async(std::launch::async, [&] { return ask(served); });
+  asked.get_future().wait();  // it is being answered from here on
   EXPECT_FALSE(server.has_failed());
 
   const int listener = listener_of(socket);
   ASSERT_GE(listener, 0);
   shutdown(listener, SHUT_RDWR);  // accept() fails
-  ASSERT_TRUE(server::eventually([&] { return server.has_failed(); }));
+  EXPECT_TRUE(server::eventually([&] { return server.has_failed(); }));
+  EXPECT_FALSE(server.ended_within(std::chrono::milliseconds(0))) << "somebody is being answered still";
+  release.set_value();
+  EXPECT_NE(answer.get().find("here"), std::string::npos);
+  ASSERT_TRUE(server.ended_within(std::chrono::seconds(10)));
+
   const int other = open("/dev/null", O_RDONLY | O_CLOEXEC);  // the lowest number that is free
   EXPECT_EQ(other, listener) << "it was closed";
   server.close();
   EXPECT_GE(fcntl(other, F_GETFD), 0) << "what another file has got is not closed";
   close(other);
 
-  HttpServer next(socket, handler);
+  HttpServer next(socket, [](const Request&) { return Reply{.body = "{\"here\": 1}"}; });
   const Descriptor client = connect_to(socket);
   EXPECT_NE(ask(client).find("here"), std::string::npos);
 }
