@@ -17,7 +17,8 @@ enum class ExitCode : int {
   kNoDaemon = 3,       ///< nobody listens on the socket
   kNoRoom = 97,        ///< a run found no room on the disk; the same command goes on from the last checkpoint
   kStopped = 99,       ///< a run has stopped with a checkpoint, from which the same command goes on
-  kInterrupted = 130,  ///< Ctrl-C, as the shell has it for a program that the signal ends
+  kInterrupted = 130,  ///< by Ctrl-C, as the shell has it for a program that SIGINT ends
+  kTerminated = 143,   ///< as it has it for SIGTERM
 };
 
 /// Ends a program: the message goes to stderr, the code to the shell. Programs throw it, libraries never do: they

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include "base/help_formatter.h"
-#include "base/standard_streams.h"
+#include "base/program.h"
 #include "bench/bench.h"
 #include "run/files/version.h"
 #include "scene/nearest.h"
@@ -30,13 +29,10 @@ std::string problem_text(const CLI::App& app, const CLI::ParseError& problem) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  shaken::guard_standard_streams("shaken-bench");
   using namespace shaken;
   using namespace shaken::bench;
-  CLI::App app("Measures Shaken.", "shaken-bench");
-  app.formatter(std::make_shared<HelpFormatter>());
-  app.set_version_flag("--version", std::string("shaken-bench ") + shaken::run::version());
-  app.footer(kFooter);
+  Program app("shaken-bench", "Measures Shaken.", kFooter);
+  app.set_version_flag("--version", std::string("shaken-bench ") + run::version());
   app.require_subcommand(1);
   app.get_formatter()->label("SUBCOMMAND", "BENCH");
   Work work;
@@ -45,18 +41,6 @@ int main(int argc, char** argv) {
   add_export(app, work);
   add_effects(app, work);
   add_hard(app, work);
-  try {
-    app.parse(argc, argv);
-    return static_cast<int>(work());
-  } catch (const CLI::ParseError& problem) {
-    if (problem.get_exit_code() == 0) return app.exit(problem);
-    fmt::print(stderr, "shaken-bench: {} (see `shaken-bench --help`)\n", problem_text(app, problem));
-    return static_cast<int>(ExitCode::kBadInput);
-  } catch (const Failure& failure) {
-    fmt::print(stderr, "shaken-bench: {}\n", failure.what());
-    return static_cast<int>(failure.code);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "shaken-bench: {}\n", error.what());
-    return static_cast<int>(ExitCode::kFailed);
-  }
+  return app.run(
+      argc, argv, [&] { return work(); }, [&](const CLI::ParseError& problem) { return problem_text(app, problem); });
 }

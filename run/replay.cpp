@@ -4,12 +4,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <CLI/CLI.hpp>
 #include <iostream>
 
-#include "base/help_formatter.h"
-#include "base/standard_streams.h"
-#include "base/text.h"
+#include "base/program.h"
 #include "run/files/directory.h"
 #include "run/saved_run.h"
 #include "run/start_state.h"
@@ -18,9 +15,6 @@
 
 namespace shaken::run {
 namespace {
-
-constexpr int kExitOther = 1;
-constexpr int kExitBadInput = 2;
 
 std::string vector_text(const Vec3& v) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x(), v.y(), v.z()); }
 
@@ -81,41 +75,31 @@ std::string as_text(const Replay& replay, double dt) {
 }
 
 int replay_command(int argc, char** argv) {
-  CLI::App app("Meets a run's numerical trouble once more and shows the rods concerned.", "shaken-worker replay");
-  app.formatter(std::make_shared<HelpFormatter>());
+  Program app("shaken-worker replay", "Meets a run's numerical trouble once more and shows the rods concerned.",
+              "Exit codes: 0 the same trouble came back, 1 it did not, 2 bad input.");
   std::string directory;
   bool json = false;
   app.add_option("DIR", directory, "Run directory with a trouble.json")->required();
   app.add_flag("--json", json, "Print JSON");
-  app.footer("Exit codes: 0 the same trouble came back, 1 it did not, 2 bad input.");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& problem) {
-    if (problem.get_exit_code() == 0) return app.exit(problem);
-    complain(fmt::format("shaken-worker replay: {} (see `shaken-worker replay --help`)", problem.what()));
-    return kExitBadInput;
-  }
-  const Result<Replay> result = replay(directory);
-  if (!result) {
-    complain(printable(result.error().message, Lines::kMany));
-    return kExitBadInput;
-  }
-  const Result<scene::RunPlan> plan = read_plan(RunDirectory{directory});
-  if (json) {
-    const auto trouble_json = [](const NumericalTrouble& trouble) {
-      return nlohmann::ordered_json{{"tick", trouble.tick}, {"rods", trouble.rods}, {"what", trouble.what}};
-    };
-    nlohmann::ordered_json out{{"recorded", trouble_json(result->recorded.trouble)},
-                               {"started_at_tick", result->started_at},
-                               {"before", to_json(result->before)},
-                               {"met", nullptr},
-                               {"same", result->same()}};
-    if (result->met) out["met"] = trouble_json(*result->met);
-    std::cout << out.dump(2) << "\n";
-  } else {
-    std::cout << as_text(*result, plan->system.dt);
-  }
-  return result->same() ? 0 : kExitOther;
+  return app.run(argc, argv, [&] {
+    const Replay replayed = value_or_fail(replay(directory), ExitCode::kBadInput);
+    const scene::RunPlan plan = value_or_fail(read_plan(RunDirectory{directory}), ExitCode::kBadInput);
+    if (json) {
+      const auto trouble_json = [](const NumericalTrouble& trouble) {
+        return nlohmann::ordered_json{{"tick", trouble.tick}, {"rods", trouble.rods}, {"what", trouble.what}};
+      };
+      nlohmann::ordered_json out{{"recorded", trouble_json(replayed.recorded.trouble)},
+                                 {"started_at_tick", replayed.started_at},
+                                 {"before", to_json(replayed.before)},
+                                 {"met", nullptr},
+                                 {"same", replayed.same()}};
+      if (replayed.met) out["met"] = trouble_json(*replayed.met);
+      std::cout << out.dump(2) << "\n";
+    } else {
+      std::cout << as_text(replayed, plan.system.dt);
+    }
+    return replayed.same() ? ExitCode::kOk : ExitCode::kFailed;
+  });
 }
 
 }  // namespace shaken::run

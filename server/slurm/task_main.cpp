@@ -14,8 +14,7 @@
 #include <thread>
 
 #include "base/failure.h"
-#include "base/help_formatter.h"
-#include "base/standard_streams.h"
+#include "base/program.h"
 #include "run/files/directory.h"
 #include "run/files/version.h"
 #include "server/local_executor.h"
@@ -33,7 +32,6 @@ constexpr milliseconds kLook{1000};  ///< from one look at what the daemon asks 
 constexpr milliseconds kWordOfSlurm{
     5000};  ///< in which Slurm's signal arrives here, too, after it has stopped a worker
 constexpr int kWritingTries = 60;
-constexpr int kTerminated = 128 + SIGTERM;
 constexpr auto kStoppedCode = static_cast<int>(ExitCode::kStopped);
 
 constexpr const char* kFooter =
@@ -68,7 +66,7 @@ class Task {
     report_.host = host.data();
   }
 
-  int work() {
+  ExitCode work() {
     const Batch batch = value_or_fail(read_batch(folder_));
     if (number_ < 0 || number_ >= static_cast<int>(batch.tasks.size())) {
       throw Failure(ExitCode::kBadInput, fmt::format("the batch has no task {}", number_));
@@ -84,10 +82,10 @@ class Task {
         report_.ends[place] = *end;
         write_down();
       }
-      if (is_taken_) return kTerminated;
-      if (time_is_over_) return 0;
+      if (is_taken_) return ExitCode::kTerminated;
+      if (time_is_over_) break;
     }
-    return 0;
+    return ExitCode::kOk;
   }
 
  private:
@@ -162,22 +160,9 @@ class Task {
 }  // namespace
 
 int main(int argc, char** argv) {
-  guard_standard_streams("shaken-task");
-  CLI::App app("Does one task of a batch of runs, one after the other, on a node of a cluster.", "shaken-task");
-  app.formatter(std::make_shared<HelpFormatter>());
+  Program app("shaken-task", "Does one task of a batch of runs, one after the other, on a node of a cluster.", kFooter);
   std::string folder;
   app.set_version_flag("--version", run::version());
-  app.footer(kFooter);
   app.add_option("FOLDER", folder, "Of the batch, below slurm/ of the daemon's root")->type_name("DIR")->required();
-  try {
-    app.parse(argc, argv);
-    return Task(BatchFolder{folder}, number_in("SLURM_ARRAY_TASK_ID", -1)).work();
-  } catch (const CLI::ParseError& problem) {
-    if (problem.get_exit_code() == 0) return app.exit(problem);
-    complain(fmt::format("shaken-task: {} (see `shaken-task --help`)", problem.what()));
-    return static_cast<int>(ExitCode::kBadInput);
-  } catch (const Failure& failure) {
-    complain(fmt::format("shaken-task: {}", failure.what()));
-    return static_cast<int>(failure.code);
-  }
+  return app.run(argc, argv, [&] { return Task(BatchFolder{folder}, number_in("SLURM_ARRAY_TASK_ID", -1)).work(); });
 }

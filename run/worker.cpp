@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+#include "run/worker.h"
+
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <iostream>
+#include <optional>
+
+#include "base/failure.h"
+#include "base/files.h"
+#include "base/progress_line.h"
+#include "base/terminal.h"
+#include "base/text.h"
+#include "run/ending.h"
+#include "run/loop.h"
+#include "run/movie_process.h"
+#include "run/probe/probe.h"
+#include "run/progress_text.h"
+#include "run/saved_run.h"
+#include "run/start_state.h"
+#include "scene/canonical.h"
+#include "scene/load.h"
+#include "scene/measure_memory.h"
+#include "scene/placement.h"
+
+namespace shaken::run {
+namespace {
+
+constexpr double kProgressPeriod = 5;  ///< between two lines of progress in a log [s]
+
+std::atomic<bool> stop_requested{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "set from a signal handler");
+
+void request_stop(int) { stop_requested = true; }
+
+/// Whether stderr already goes to `file`, as it does under the daemon.
+bool stderr_goes_to(const std::filesystem::path& file) {
+  struct stat error_output {};
+  struct stat log {};
+  return fstat(STDERR_FILENO, &error_output) == 0 && stat(file.c_str(), &log) == 0 &&
+         error_output.st_dev == log.st_dev && error_output.st_ino == log.st_ino;
+}
+
+void log_to_stderr(bool quiet) {
+  auto sink = std::make_shared<spdlog::sinks::stderr_color_sink_mt>();
+  if (quiet) sink->set_level(spdlog::level::warn);
+  spdlog::set_default_logger(std::make_shared<spdlog::logger>("shaken-worker", std::move(sink)));
+  spdlog::set_pattern("%Y-%m-%dT%H:%M:%S.%e %^%l%$ %v");
+  spdlog::flush_on(spdlog::level::info);
+}
+
+void log_to_file_too(const std::filesystem::path& file) {
+  if (stderr_goes_to(file)) return;
+  try {
+    auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(file.string());
+    sink->set_pattern("%Y-%m-%dT%H:%M:%S.%e %l %v");
+    spdlog::default_logger()->sinks().push_back(std::move(sink));
+  } catch (const spdlog::spdlog_ex& problem) {
+    spdlog::warn("no log file: {}", problem.what());
+  }
+}
+
+/// What came out, on stdout; nothing where the summary cannot be read, which has been told then.
+void tell_ending(const RunDirectory& directory) {
+  const Result<std::string> text = read_file(directory.summary());
+  if (!text) return;
+  const auto summary = nlohmann::json::parse(*text, nullptr, false);
+  if (!summary.is_object()) return;
+  const std::string ending = describe_ending(summary, directory.root);
+  if (stderr_goes_to(directory.log())) {  // a run that is done does not fail for a line that its log has no room for
+    [[maybe_unused]] const ssize_t written = write(STDOUT_FILENO, ending.data(), ending.size());
+    return;
+  }
+  std::fwrite(ending.data(), 1, ending.size(), stdout);
+}
+
+ExitCode run_scene(const scene::RunPlan& plan, const WorkerOptions& asked) {
+  const RunDirectory directory{asked.out};
+  RunOptions options;
+  options.directory = asked.out;
+  options.job_id = asked.job_id.empty() ? scene::run_id(plan) : asked.job_id;
+  options.label = asked.label;
+  if (!asked.no_lcm) options.lcm_url = asked.lcm_url;
+  options.n_threads = asked.n_threads;
+  options.checkpoint_every = WallSeconds(asked.checkpoint_every);
+  options.stop = &stop_requested;
+
+  std::optional<ProgressLine> line;
+  if (!asked.quiet) {
+    const auto size = terminal_size(STDERR_FILENO);
+    line.emplace(std::cerr, isatty(STDERR_FILENO) == 1, size ? size->columns : 0, kProgressPeriod);
+  }
+  RunCallbacks callbacks;
+  callbacks.on_owned = [&] {
+    log_to_file_too(directory.log());
+    spdlog::info("run {}{}: {} rods, {} s, in {}", scene::run_id(plan),
+                 asked.sweep_id.empty() ? "" : " of sweep " + asked.sweep_id, plan.system.n_all_rods(),
+                 plan.total_time(), asked.out);
+  };
+  callbacks.on_progress = [&](const Progress& progress) {
+    if (!line) return;
+    const std::string text = describe_progress(progress);
+    is_under_way(progress) ? line->show(text) : line->end_with(text);
+  };
+  callbacks.make_movie = [&](const OnDrawn& on_drawn) {
+    return render_movie(asked.out, stop_requested, asked.label, on_drawn);
+  };
+
+  const RunOutcome outcome = run(plan, options, callbacks);
+  switch (outcome.state) {
+    case RunState::kDone:
+      spdlog::info("done");
+      if (!asked.quiet) tell_ending(directory);
+      return ExitCode::kOk;
+    case RunState::kStopped:
+      spdlog::info("stopped; start again to go on");
+      return ExitCode::kStopped;
+    case RunState::kNoRoom:
+      spdlog::error("{}", outcome.message);
+      return ExitCode::kNoRoom;
+    case RunState::kFailed:
+      spdlog::error("{}", outcome.message);
+      return ExitCode::kFailed;
+  }
+  return ExitCode::kFailed;
+}
+
+/// A simulation of `system` from the state that the run in `folder` was last saved in.
+Result<Simulation> resume_from(const std::filesystem::path& folder, const System& system) {
+  const RunDirectory directory{folder};
+  const Result<scene::RunPlan> plan = read_plan(directory);
+  if (!plan) return plan.error();
+  return resume_last(directory, scene::run_id(*plan), system);
+}
+
+void probe_scene(const scene::RunPlan& plan, const WorkerOptions& asked) {
+  std::optional<Probe> probed;
+  if (asked.probe_cpu > 0) {
+    Simulation simulation = value_or_fail(
+        asked.probe_from.empty() ? start_simulation(plan, "") : resume_from(asked.probe_from, plan.system),
+        ExitCode::kBadInput);
+    probed = value_or_fail(probe(plan, std::move(simulation), asked.probe_cpu));
+    if (!probed->movie_trouble.empty()) spdlog::warn("the movie could not be timed: {}", probed->movie_trouble);
+  }
+  done_or_fail(write_file(asked.probe, probe_report(plan, probed).dump(2) + "\n"));
+}
+
+}  // namespace
+
+void stop_on_signals() {
+  std::signal(SIGTERM, request_stop);
+  std::signal(SIGINT, request_stop);
+  // a terminal that is closed; nohup asks to outlive it
+  if (std::signal(SIGHUP, request_stop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+ExitCode work(const WorkerOptions& asked) {
+  log_to_stderr(asked.quiet);
+  if (asked.out.empty() == asked.probe.empty()) {
+    throw Failure(ExitCode::kBadInput, "one of --out and --probe is needed (see `shaken-worker --help`)");
+  }
+  // A pipe may never say anything: then a signal ends the worker, which has begun nothing.
+  std::error_code unknown;
+  const bool may_wait = !std::filesystem::is_regular_file(asked.scene, unknown);
+  const auto on_stop = may_wait ? std::signal(SIGTERM, SIG_DFL) : SIG_DFL,
+             on_interrupt = may_wait ? std::signal(SIGINT, SIG_DFL) : SIG_DFL;
+  const std::string text = value_or_fail(read_input(asked.scene), ExitCode::kBadInput);
+  if (may_wait) {
+    std::signal(SIGTERM, on_stop);
+    std::signal(SIGINT, on_interrupt);
+  }
+  const scene::Loaded<scene::RunPlan> plan = scene::load_scene(text, asked.scene, asked.settings);
+  if (!plan) throw Failure(ExitCode::kBadInput, to_string(plan.error()));
+  if (const auto problem = scene::memory_problem(*plan, scene::memory_allowed(), asked.scene)) {
+    throw Failure(ExitCode::kBadInput, to_string(*problem));
+  }
+  if (const auto problem = scene::placement_problem(*plan, asked.scene)) {
+    throw Failure(ExitCode::kBadInput, to_string(*problem));
+  }
+  if (asked.probe.empty()) return run_scene(*plan, asked);
+  std::signal(SIGTERM, SIG_DFL);  // nothing is lost
+  std::signal(SIGINT, SIG_DFL);
+  probe_scene(*plan, asked);
+  return ExitCode::kOk;
+}
+
+}  // namespace shaken::run
