@@ -69,7 +69,7 @@ CommandLine::CommandLine(Verbs verbs)
     const VerbInfo info = verb->info();
     CLI::App* app = app_->add_subcommand(info.name, info.summary)->group(info.group);
     app->allow_extras(false);
-    app->footer(std::string("Examples:\n") + info.examples);
+    app->footer(fmt::format("Examples:\n{}\n\nExit codes: {}.", info.examples, info.exit_codes));
     Arguments arguments(*app);
     verb->declare(arguments);
   }

@@ -16,9 +16,10 @@ class Doctor : public Verb {
  public:
   VerbInfo info() const override {
     return {"doctor", kHelpGroup, "Check this machine: programs, daemon, live state, drawing, disk",
-            "  shaken doctor                 exit code 1 if something makes simulating impossible\n"
+            "  shaken doctor                 programs, daemon, live state, drawing, disk\n"
             "  shaken doctor --executor slurm    also what runs in Slurm need; starts a moment's job there\n"
-            "  shaken doctor --json"};
+            "  shaken doctor --json",
+            "0 it can simulate, 1 something makes that impossible, 2 bad input"};
   }
 
   void declare(Arguments& arguments) override {

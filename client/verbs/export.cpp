@@ -35,7 +35,8 @@ class Export : public Verb {
             "  shaken export runs/first --format extxyz --last      the last frame only\n"
             "  shaken export runs/first --list                      the names for --observable\n"
             "  shaken export runs/first --format csv --observable msd\n"
-            "  shaken export runs/first --format csv --observable summary     all numbers with their errors"};
+            "  shaken export runs/first --format csv --observable summary     all numbers with their errors",
+            kExitCodesOfDaemon};
   }
 
   void declare(Arguments& arguments) override {

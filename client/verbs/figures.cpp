@@ -42,7 +42,8 @@ class Figures : public Verb {
         "Stop it at any time: the same command goes on where it stopped. `shaken watch` and `shaken status` work\n"
         "meanwhile. What it will cost is told before it starts, and asked on a terminal. Each run that is done goes "
         "into the archive, a folder of small files that can be copied and merged. Beside each picture lie its data "
-        "as CSV."};
+        "as CSV.",
+        kExitCodesOfDaemon};
   }
 
   void declare(Arguments& arguments) override {

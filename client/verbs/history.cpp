@@ -20,7 +20,8 @@ class JobHistory : public Verb {
   VerbInfo info() const override {
     return {"history", kControlGroup, "What became of a job: every change of its state, when, and why",
             "  shaken history 1f0c           one job, by the beginning of its id\n"
-            "  shaken history 1f0c --json    for programs"};
+            "  shaken history 1f0c --json    for programs",
+            kExitCodesOfDaemon};
   }
 
   void declare(Arguments& arguments) override {

@@ -14,7 +14,8 @@ class Logs : public Verb {
   VerbInfo info() const override {
     return {"logs", kControlGroup, "What a job's worker has written",
             "  shaken logs 1f0c              the log of one job\n"
-            "  shaken logs 1f0c -f           go on until the job ends; exit code 0 if it is done then"};
+            "  shaken logs 1f0c -f           go on until the job ends",
+            "0 done, with -f only if the job is done; 1 failed, 2 bad input, 3 no daemon"};
   }
 
   void declare(Arguments& arguments) override {

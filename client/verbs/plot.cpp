@@ -26,7 +26,8 @@ class Plot : public Verb {
             "  shaken plot s3 --x rods.area_fraction --y theta_m_deg -o theta.pdf\n"
             "  shaken plot s3 --where 'rods.length=4.5 and box.gap<2mm' --width 183mm\n"
             "  shaken plot s3 --format svg   as PDF or SVG instead of PNG\n"
-            "  shaken plot runs/first        what `shaken run` has left there"};
+            "  shaken plot runs/first        what `shaken run` has left there",
+            kExitCodesOfDaemon};
   }
 
   void declare(Arguments& arguments) override {

@@ -32,7 +32,8 @@ class Record : public Verb {
             "  shaken record 1f0c                            one job, until it ends, into 1f0c.lcmlog\n"
             "  shaken record s3 --for 10min --size 500MB -o s3.lcmlog\n"
             "  shaken record --lcm-url tcpq://127.0.0.1:7700 -o far.lcmlog    another daemon's, by its relay\n"
-            "  shaken replay-log run.lcmlog                  sends it anew"};
+            "  shaken replay-log run.lcmlog                  sends it anew",
+            kExitCodesOfDaemon};
   }
 
   void declare(Arguments& arguments) override {

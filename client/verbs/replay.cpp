@@ -10,8 +10,8 @@ class Replay : public Verb {
   VerbInfo info() const override {
     return {"replay", kResultsGroup, "Meet a run's numerical trouble again, and show the rods concerned",
             "  shaken replay runs/wild             from its last checkpoint to the tick of the trouble\n"
-            "  shaken replay runs/wild --json      the same for programs\n"
-            "  Exit codes: 0 the same trouble came back, 1 it did not, 2 the run has met none"};
+            "  shaken replay runs/wild --json      the same for programs",
+            "0 the same trouble came back, 1 it did not, 2 the run has met none"};
   }
 
   void declare(Arguments& arguments) override {

@@ -73,7 +73,8 @@ class Results : public Verb {
         "for runs that lack the name.\n"
         "A value marked ~ is of a run that is still relaxing, one marked ? of a run that is not known to be steady:\n"
         "run them longer. With --aggregate, (2) behind a mean says that only 2 runs have a "
-        "value."};
+        "value.",
+        kExitCodesOfDaemon};
   }
 
   void declare(Arguments& arguments) override {

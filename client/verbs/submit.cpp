@@ -31,7 +31,8 @@ class Submit : public Verb {
             "  shaken submit sweep.json --soft-limit 10min --time-limit 2h --at-once 4\n"
             "  shaken submit second.json --after first --stop-if 'failed>10%'\n"
             "  shaken submit sweep.json --dry-run           only checks, shows the points and what they would cost\n"
-            "  shaken submit scene.json --wait && shaken results"};
+            "  shaken submit scene.json --wait && shaken results",
+            kExitCodesOfDaemon};
   }
 
   void declare(Arguments& arguments) override {

@@ -13,7 +13,8 @@ class Wait : public Verb {
     return {"wait", kControlGroup, "Wait until jobs have ended; exit code 0 only if all are done",
             "  shaken wait                   for every job that has not ended yet\n"
             "  shaken wait s3 && shaken plot s3\n"
-            "  shaken wait 1f0c --timeout 10min"};
+            "  shaken wait 1f0c --timeout 10min",
+            "0 all are done, 1 some are not, or the time is over; 2 bad input, 3 no daemon"};
   }
 
   void declare(Arguments& arguments) override {

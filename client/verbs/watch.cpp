@@ -43,7 +43,7 @@ class Watch : public Verb {
   VerbInfo info() const override {
     static const std::string examples = examples_text();
     return {"watch", kControlGroup, "Live: the rods themselves, S(t), progress, defects, time to the end",
-            examples.c_str()};
+            examples.c_str(), kExitCodesOfDaemon};
   }
 
   void declare(Arguments& arguments) override {

@@ -19,7 +19,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-TEST(Help, OfEveryVerbEndsWithExamplesOfThatVerb) {
+TEST(Help, OfEveryVerbEndsWithExamplesOfThatVerbAndExitCodes) {
   const auto verbs = make_verbs();
   ASSERT_GE(verbs.size(), 14u);
   const Outcome all = run_client({"--help"});
@@ -33,6 +33,7 @@ TEST(Help, OfEveryVerbEndsWithExamplesOfThatVerb) {
     const auto examples = help.out.find("\nExamples:\n");
     ASSERT_NE(examples, std::string::npos) << name;
     EXPECT_NE(help.out.find("shaken " + name, examples), std::string::npos) << name;
+    EXPECT_NE(help.out.find("\n\nExit codes: 0 ", examples), std::string::npos) << name;
     EXPECT_EQ(help.out.back(), '\n') << name;
   }
 }
@@ -117,6 +118,7 @@ TEST(NoDaemon, IsExitCodeThreeAndSaysHowToStartOne) {
     const Outcome outcome = run_client({"--root", root.path().string(), verb});
     EXPECT_EQ(outcome.code, ExitCode::kNoDaemon) << verb;
     EXPECT_THAT(outcome.err, HasSubstr("shakend --root " + root.path().string())) << verb;
+    EXPECT_THAT(run_client({verb, "--help"}).out, ::testing::ContainsRegex("3[ \n]no daemon")) << verb;
     EXPECT_EQ(outcome.out, "") << verb;
   }
 }
