@@ -106,7 +106,7 @@ std::span<const Api::Route> Api::routes() {
       {"POST", "/v1/jobs/ID/retry", "", &Api::control},
       {"POST", "/v1/jobs/ID/priority", "", &Api::control},
       {"POST", "/v1/jobs/ID/extend", "", &Api::extend},
-      {"GET", "/v1/results", "sweep state", &Api::results},
+      {"GET", "/v1/results", "sweep state since", &Api::results},
       {"POST", "/v1/clean", "", &Api::clean},
   };
   return kRoutes;
@@ -245,15 +245,20 @@ Api::Answer Api::show_job(const Call& call) const {
   return {200, {{"job", job_report(find_job(call.id), info_.runs())}}, ""};
 }
 
+std::int64_t Api::count_in(const Call& call, const std::string& parameter, const std::string& meaning) {
+  const auto text = call.parameter(parameter);
+  if (!text) return 0;
+  std::int64_t count = 0;
+  const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), count);
+  if (error != std::errc() || end != text->data() + text->size() || count < 0) {
+    throw Refusal(400, parameter + ": '" + *text + "' is not " + meaning);
+  }
+  return count;
+}
+
 Api::Answer Api::show_log(const Call& call) const {
   const Job job = find_job(call.id);
-  std::int64_t offset = 0;
-  if (const auto text = call.parameter("offset")) {
-    const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), offset);
-    if (error != std::errc() || end != text->data() + text->size() || offset < 0) {
-      throw Refusal(400, "offset: '" + *text + "' is not a number of bytes");
-    }
-  }
+  const std::int64_t offset = count_in(call, "offset", "a number of bytes");
   const LogSlice slice = read_slice(run::RunDirectory{info_.runs() / job.id}.log(), offset, kLogSliceBytes);
   return {200, {{"text", slice.text}, {"offset", slice.next}, {"state", to_word(job.state)}}, ""};
 }
@@ -318,7 +323,10 @@ Api::Answer Api::control(const Call& call) const {
 
 Api::Answer Api::results(const Call& call) const {
   Json rows = Json::array();
-  for (const Job& job : find_jobs(call)) rows.push_back(result_row(job, info_.runs()));
+  const std::int64_t since = count_in(call, "since", "a time in microseconds");
+  for (const Job& job : find_jobs(call)) {
+    if (job.finished >= since) rows.push_back(result_row(job, info_.runs()));
+  }
   return {200, {{"rows", rows}}, ""};
 }
 

@@ -56,6 +56,8 @@ class Api {
   /// A sweep by its id or name, or else a job.
   Target find_target(const std::string& word) const;
   std::vector<Job> find_jobs(const Call& call) const;
+  /// A parameter of the path that counts something; 0 if it is not there. `meaning` is for the refusal.
+  static std::int64_t count_in(const Call& call, const std::string& parameter, const std::string& meaning);
   Json report(const Sweep& sweep) const;
   Json report(std::span<const Job> jobs) const;
 

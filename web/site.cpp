@@ -38,8 +38,8 @@ constexpr std::chrono::seconds kHeartbeat{1};
 constexpr std::chrono::milliseconds kFrame{50};
 constexpr std::size_t kPiece = std::size_t{1} << 20;  // of a file
 /// What the page consists of.
-constexpr std::array kPageFiles{"icon.svg", "page.css", "main.js",   "queue.js", "map.js",
-                                "run.js",   "rods.js",  "charts.js", "dom.js"};
+constexpr std::array kPageFiles{"icon.svg",   "page.css",  "main.js", "queue.js", "sweep.js",  "map.js", "jobs.js",
+                                "results.js", "loader.js", "run.js",  "rods.js",  "charts.js", "dom.js"};
 
 std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 

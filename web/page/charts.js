@@ -93,7 +93,7 @@ export class PointMap {
   /** A PNG of the map under a line of words; null if there is none. */
   picture(words) { return pictureOf(this.chart, words); }
 
-  /** points: [{x, y, fill, border, text, bar, hollow}]; `bar` is a standard error of y, NaN for none. */
+  /** points: [{x, y, fill, border, text: [lines], bar, hollow}]; `bar` is a standard error of y, NaN for none. */
   set(points, xTitle, yTitle) {
     this.points = this.chart.points = points;
     const [set] = this.chart.data.datasets;

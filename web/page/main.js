@@ -2,7 +2,7 @@
 // The page: which sweep and which run are looked at, and who is told when that changes.
 import {byId, listen} from "/page/dom.js";
 import {QueuePanel} from "/page/queue.js";
-import {SweepPanel} from "/page/map.js";
+import {SweepPanel} from "/page/sweep.js";
 import {RunPanel} from "/page/run.js";
 
 const run = new RunPanel();
@@ -56,5 +56,11 @@ function show() {
   listenTo(now.run);
 }
 
+// "/" goes to the search of jobs, as in other tables of this kind.
+window.addEventListener("keydown", (event) => {
+  if (event.key !== "/" || event.target.closest("input, textarea, select, dialog")) return;
+  event.preventDefault();
+  byId("jobs-search").focus();
+});
 window.addEventListener("hashchange", show);
 show();

@@ -631,6 +631,16 @@ TEST_F(ApiTest, ResultsAreARowPerJob) {
   EXPECT_EQ(results.json["rows"][0]["parameters"]["rods.length"], 2.5);
   EXPECT_TRUE(results.json["rows"][1]["summary"].is_null());
   EXPECT_EQ(get("/v1/results?state=done").json["rows"].size(), 1U);
+
+  const std::int64_t finished = queue_.job(ids[0])->finished;
+  const auto since = [&](std::int64_t utime) {
+    return get("/v1/results?sweep=four&since=" + std::to_string(utime)).json["rows"];
+  };
+  ASSERT_EQ(since(finished).size(), 1U);
+  EXPECT_EQ(since(finished)[0]["job"], ids[0]);
+  EXPECT_EQ(since(finished + 1).size(), 0U);
+  EXPECT_EQ(since(0).size(), 4U);
+  EXPECT_EQ(get("/v1/results?since=yesterday").status, 400);
 }
 
 TEST_F(ApiTest, CancelIsOnTheDiskWhenItAnswersAndMayBeRepeated) {

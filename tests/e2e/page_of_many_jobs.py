@@ -1,0 +1,226 @@
+# SPDX-License-Identifier: MIT
+"""The page with a sweep of 1,000 jobs that finish all the time, in a headless Chromium. The daemon is made up here, so
+that nothing depends on how fast runs are.
+
+usage: page_of_many_jobs.py WEB-FOLDER SCREENSHOT
+WEB-FOLDER is web/ of the source. Exits 1 at the first thing that is wrong."""
+import http.server
+import json
+import os
+import pathlib
+import shutil
+import signal
+import sys
+import tempfile
+import threading
+import time
+import urllib.parse
+
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.support.ui import Select
+
+from page import browser, check, eventually
+
+N_JOBS = 1000
+CHART = "/usr/share/javascript/chart.js/chart.min.js"
+TYPES = {".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml", ".html": "text/html"}
+
+
+class Daemon:
+    """A sweep over area fraction, length and gap with two replicas; its jobs end one after the other when asked about."""
+
+    def __init__(self):
+        self.lock = threading.Lock()
+        self.n_done = 10
+        self.in_flight = self.most_in_flight = 0
+        self.loads = []    # times at which the jobs were asked for
+        self.since = []    # what results were asked for
+        self.answer_after = 0.0
+
+    def job(self, k):
+        is_done = k < self.n_done
+        point = k // 2
+        parameters = {"rods.area_fraction": 0.4 + 0.02 * (point % 25), "rods.length": 2.5 + 0.5 * (point // 25 % 10),
+                      "box.gap": 1.2 + 0.1 * (point // 250)}
+        return {"id": f"{(k * 0x9e3779b97f4a7c15) % 2**64:016x}", "sweep": "s1",
+                "state": "done" if is_done else "running" if k == self.n_done else "queued", "reason": "",
+                "label": " ".join(f"{key}={value:.4g}" for key, value in parameters.items()), "parameters": parameters,
+                "replica": k % 2, "finished_utime": 1_000_000 + k if is_done else 0}
+
+    def row(self, k):
+        job = self.job(k)
+        summary = None
+        if job["state"] == "done":
+            order = job["parameters"]["rods.area_fraction"] + 0.002 * (k % 2)
+            summary = {"n_rods": 433, "sim_seconds": 20.0 if k % 7 else 30.0, "steady": k % 3 > 0,
+                       "order": {"mean": order, "sem": 0.01, "n_effective": 12.0}}
+        return {**{key: job[key] for key in ("state", "label", "parameters", "replica", "sweep")}, "job": job["id"],
+                "directory": "", "summary": summary}
+
+    def counts(self):
+        return {"queued": N_JOBS - self.n_done - 1, "held": 0, "running": 1, "stopping": 0, "done": self.n_done, "failed": 0}
+
+    def news(self):
+        """What the page's stream says: each time a job more has ended."""
+        with self.lock:
+            self.n_done = min(self.n_done + 1, N_JOBS - 1)
+            sweeps = [{"id": "s1", "name": "many", "n_jobs": N_JOBS, "counts": self.counts(), "progress": self.n_done / N_JOBS,
+                       "eta_s": 100}]
+            return {"status": {"version": "0", "host": "nowhere", "slots": 1, "jobs": {**self.counts()},
+                               "lcm": {"ok": True}}, "sweeps": sweeps, "jobs": [self.job(self.n_done)]}
+
+    def answer(self, path, query):
+        with self.lock:
+            self.in_flight += 1
+            self.most_in_flight = max(self.most_in_flight, self.in_flight)
+        try:
+            time.sleep(self.answer_after)
+            if path == "/v1/sweeps/s1":
+                self.loads.append(time.monotonic())
+                return {"jobs": [self.job(k) for k in range(N_JOBS)]}
+            if path == "/v1/results":
+                since = int(query.get("since", ["0"])[0])
+                self.since.append(since)
+                return {"rows": [self.row(k) for k in range(N_JOBS) if self.job(k)["finished_utime"] >= since]}
+            return None
+        finally:
+            with self.lock:
+                self.in_flight -= 1
+
+
+class Handler(http.server.BaseHTTPRequestHandler):
+    protocol_version = "HTTP/1.1"
+    daemon = None
+    folder = None
+
+    def log_message(self, *_):
+        pass
+
+    def reply(self, body, type_, status=200):
+        self.send_response(status)
+        self.send_header("Content-Type", type_)
+        self.send_header("Content-Length", str(len(body)))
+        self.end_headers()
+        self.wfile.write(body)
+
+    def do_GET(self):
+        url = urllib.parse.urlsplit(self.path)
+        if url.path == "/live":
+            return self.stream()
+        if url.path == "/palettes.json":
+            return self.reply(json.dumps({name: [0x808080] * 24 for name in ("layers", "wheel", "tilt", "species")}
+                                         | {"floor": 0, "wall": 0}).encode(), "application/json")
+        if url.path.startswith(("/v1/", "/runs/")):
+            answer = self.daemon.answer(url.path, urllib.parse.parse_qs(url.query))
+            status = 404 if answer is None else 200
+            return self.reply(json.dumps(answer or {"error": "not in this test"}).encode(), "application/json", status)
+        name = {"/": "page/index.html", "/chart.js": CHART}.get(url.path, url.path[1:])
+        file = pathlib.Path(name) if name.startswith("/usr") else self.folder / name
+        if not file.is_file():
+            return self.reply(b"no such file", "text/plain", 404)
+        return self.reply(file.read_bytes(), TYPES[file.suffix])
+
+    def stream(self):
+        self.send_response(200)
+        self.send_header("Content-Type", "text/event-stream")
+        self.send_header("Connection", "close")
+        self.end_headers()
+        try:
+            while True:
+                self.wfile.write(f"event: queue\ndata: {json.dumps(self.daemon.news())}\n\n".encode())
+                self.wfile.flush()
+                time.sleep(0.1)
+        except OSError:  # the browser has gone
+            self.close_connection = True
+
+
+def use(page, address, daemon):
+    def find(css):
+        return page.find_element(By.CSS_SELECTOR, css)
+
+    def rows():
+        return page.find_elements(By.CSS_SELECTOR, "#jobs tr")
+
+    def shown():
+        return page.execute_script("return [...document.querySelectorAll('#jobs tr')].map((row) => row.innerText)")
+
+    def count():
+        return find("#jobs-count").text
+
+    page.get(address + "#sweep=s1")
+    eventually(lambda: rows() and count() == f"{N_JOBS} jobs", "all jobs are listed while they end all the time")
+    check(len(rows()) < 60, f"by as many rows as are seen: {len(rows())}")
+    done = daemon.n_done
+    eventually(lambda: page.execute_script("return Chart.getChart('map').points.filter((p) => p.fill !== 'transparent').length") > 5,
+               "the phase diagram has its first points")
+    eventually(lambda: daemon.n_done > done + 20 and len(daemon.loads) > 2, "it is asked again as they end")
+    check(daemon.most_in_flight == 1, f"never two questions at a time: {daemon.most_in_flight}")
+    gaps = [b - a for a, b in zip(daemon.loads, daemon.loads[1:])]
+    check(min(gaps) > 0.9, f"at most once a second: {gaps}")
+    eventually(lambda: sum(since > 0 for since in daemon.since) > 1, f"later only for what has ended since")
+    check(find("#map-fixed").text.startswith("box.gap"), "a third parameter has one value: no mean over different systems")
+    words = page.execute_script("return Chart.getChart('map').points[0].text")
+    check(any("(mean of 2 runs)" in line for line in words), f"replicas are one point: {words}")
+    check(any("24 independent samples" in line for line in words) and any("20 to 30 s simulated" in line for line in words),
+          f"with their samples and lengths: {words}")
+    check(any(line.startswith("rods.length = ~0.4") and "±" in line for line in words) or
+          any("= ~0.4" in line and "±" in line for line in words), f"and a mark and an error: {words}")
+
+    find("#jobs-search").send_keys("running")
+    eventually(lambda: count() == f"1 of {N_JOBS} jobs", "words filter the table")
+    find("#jobs-search").clear()
+    find("#jobs-search").send_keys("fraction=0.88 length=7")
+    eventually(lambda: count() == f"4 of {N_JOBS} jobs" and all("0.88" in text for text in shown()), "all of them count")
+    find("#jobs-search").clear()
+    find("#jobs-search").send_keys(" ")
+    Select(find("#jobs-state")).select_by_value("queued")
+    eventually(lambda: all("queued" in text for text in shown()) and "of" in count(), "so does a state")
+    Select(find("#jobs-state")).select_by_value("")
+
+    find("#sort-value").click()
+    find("#sort-value").click()
+    eventually(lambda: "0.88" in shown()[0] and find("th:nth-child(3)").get_attribute("aria-sort") == "descending",
+               "a click on a column's head sorts, another one the other way")
+    find("#sort-value").click()
+    eventually(lambda: find("th:nth-child(3)").get_attribute("aria-sort") == "none", "a third one leaves the order as it was")
+
+    first = page.execute_script("return document.querySelector('#jobs tr').dataset.job")
+    find("#jobs tr[tabindex='0']").send_keys(Keys.ARROW_DOWN)
+    check(page.execute_script("return document.activeElement.dataset.job") == daemon.job(1)["id"], "an arrow goes to the next job")
+    page.switch_to.active_element.send_keys(Keys.END)
+    last = daemon.job(N_JOBS - 1)["id"]
+    eventually(lambda: page.execute_script("return document.activeElement.dataset.job") == last, "the last job can be reached")
+    check(page.execute_script("""const row = document.activeElement.getBoundingClientRect();
+        const frame = document.getElementById("jobs-frame").getBoundingClientRect();
+        return row.top >= frame.top && row.bottom <= frame.bottom + 1;"""), "and is seen")
+    page.switch_to.active_element.send_keys(Keys.ENTER)
+    eventually(lambda: f"run={last}" in page.current_url, "Enter chooses it")
+    eventually(lambda: find("#jobs tr[aria-selected='true']").get_attribute("data-job") == last, "it is marked")
+    page.switch_to.active_element.send_keys(Keys.HOME)
+    eventually(lambda: page.execute_script("return document.activeElement.dataset.job") == first, "Home goes back")
+    page.switch_to.active_element.send_keys("/")
+    check(page.switch_to.active_element.get_attribute("id") == "jobs-search", "/ goes to the search")
+    errors = [line["message"] for line in page.get_log("browser") if line["level"] == "SEVERE" and "404" not in line["message"]]
+    check(not errors, f"the browser complains of nothing: {errors}")
+
+
+def main(folder, screenshot):
+    signal.signal(signal.SIGALRM, lambda *_: sys.exit("the page takes too long"))
+    signal.alarm(200)
+    Handler.daemon, Handler.folder = Daemon(), pathlib.Path(folder)
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler)
+    server.daemon_threads = True
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    profile = tempfile.mkdtemp(prefix="shaken-page.")
+    page = browser(profile, os.path.join(profile, "downloads"))
+    try:
+        use(page, f"http://127.0.0.1:{server.server_port}/", Handler.daemon)
+    finally:
+        page.save_screenshot(screenshot)
+        page.quit()
+        shutil.rmtree(profile, ignore_errors=True)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], sys.argv[2])

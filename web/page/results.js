@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// Numbers of runs: their errors, their marks and their means over replicas, by the rules of `shaken results`.
+import {number} from "/page/dom.js";
+
+/** Numbers of a summary by path: {"order.mean": 0.9, ...}. */
+export function leaves(object, prefix = "", found = {}) {
+  for (const [key, value] of Object.entries(object ?? {})) {
+    if (typeof value === "number") found[prefix + key] = value;
+    else if (value && typeof value === "object" && !Array.isArray(value)) leaves(value, `${prefix}${key}.`, found);
+  }
+  return found;
+}
+
+/** The words of each mark of an average that is of no steady state, or not known to be (base/steadiness.h). */
+export const kSteadiness = {"~": "still relaxing", "?": "not known to be steady"};
+
+/** The mark of a value of a row, "~" or "?"; empty where it is steady, or no average over time. */
+export function markOf(row, path) {
+  const own = path.startsWith("measured.") ? row.summary?.measured?.[path.split(".")[1]]?.steady : undefined;
+  const isAverage = path === "order.mean" || path === "order.std" || path.startsWith("defects.mean") ||
+    (path.startsWith("measured.") && path.endsWith(".value"));
+  const steady = typeof own === "boolean" ? own : row.summary?.steady;
+  if (!isAverage || !Number.isFinite(row.values[path]) || steady === undefined || steady === true) return "";
+  return steady === false ? "~" : "?";
+}
+
+/** A number that stands beside the value of a row, "sem" or "n_effective"; NaN where it has none. */
+function beside(row, path, what) {
+  const block = path === "order.mean" ? "order" : path.startsWith("measured.") ? path.replace(/\.value$/, "") : "";
+  const found = block && block !== path ? row.values[`${block}.${what}`] : NaN;
+  return Number.isFinite(found) ? found : NaN;
+}
+export const errorOf = (row, path) => beside(row, path, "sem");
+
+/** "~0.912 ± 0.004": a value with its mark, and as many digits as two of its error's. */
+export function valueText(mark, value, error) {
+  if (!Number.isFinite(value)) return "";
+  if (!(error > 0)) return mark + number(value);
+  const digits = Math.min(12, Math.max(0, 1 - Math.floor(Math.log10(error))));
+  return `${mark}${value.toFixed(digits)} ± ${error.toFixed(digits)}`;
+}
+
+/** Mean of replicas and its error: their scatter, never below the errors within them, as `shaken results --aggregate` has it. */
+export function replicaMean(values, errors) {
+  const n = values.length, mean = values.reduce((sum, one) => sum + one, 0) / n;
+  const within = Math.sqrt(errors.reduce((sum, one) => sum + one * one, 0)) / n;
+  if (n === 1) return {mean, error: within};
+  const scatter = Math.sqrt(values.reduce((sum, one) => sum + (one - mean) ** 2, 0) / (n - 1) / n);
+  return {mean, error: errors.every(Number.isFinite) ? Math.max(within, scatter) : NaN};
+}
+
+/** Parameters that differ between jobs and are numbers, those with most values first; the seed is no axis. */
+export function sweptParameters(jobs) {
+  const values = new Map();
+  for (const {parameters} of jobs) {
+    for (const [key, value] of Object.entries(parameters)) {
+      if (typeof value === "number" && key !== "time.seed") values.set(key, (values.get(key) ?? new Set()).add(value));
+    }
+  }
+  return [...values].filter(([, set]) => set.size > 1).sort(([, a], [, b]) => b.size - a.size)
+    .map(([key, set]) => ({key, values: [...set].sort((a, b) => a - b)}));
+}
+
+/**
+ * The points of a phase diagram: rows at the same place are replicas, and a run that is listed twice counts once.
+ * `fixed` holds the value of each further parameter: other rows are left out.
+ * Returns [{across, up, jobs, states, mean, error, n, nEffective, seconds: [shortest, longest], mark, marks}].
+ */
+export function pointsOf(rows, {x, y, value, fixed = {}}) {
+  const places = new Map();
+  for (const row of rows) {
+    if (!Number.isFinite(row.parameters[x])) continue;
+    if (Object.entries(fixed).some(([key, at]) => row.parameters[key] !== at)) continue;
+    const across = row.parameters[x], up = y ? row.parameters[y] : undefined, key = JSON.stringify([across, up]);
+    const place = places.get(key) ??
+      {across, up, jobs: [], states: new Set(), marks: new Set(), values: [], errors: [], nEffective: 0, seconds: []};
+    places.set(key, place);
+    if (place.jobs.includes(row.job)) continue;
+    place.jobs.push(row.job);
+    place.states.add(row.state);
+    if (!Number.isFinite(row.values[value])) continue;
+    place.values.push(row.values[value]);
+    place.errors.push(errorOf(row, value));
+    place.nEffective += beside(row, value, "n_effective");
+    if (Number.isFinite(row.values.sim_seconds)) place.seconds.push(row.values.sim_seconds);
+    const mark = markOf(row, value);
+    if (mark) place.marks.add(mark);
+  }
+  return [...places.values()].map(({values, errors, ...place}) => ({
+    ...place, n: values.length, ...(values.length ? replicaMean(values, errors) : {mean: NaN, error: NaN}),
+    mark: ["~", "?"].find((each) => place.marks.has(each)) ?? "",
+  }));
+}
+
+/** What a point's tooltip says, a line each. */
+export function pointLines(point, {x, y, value}) {
+  const [shortest, longest] = [Math.min(...point.seconds), Math.max(...point.seconds)];
+  return [`${x} = ${point.across}`, ...(y ? [`${y} = ${point.up}`] : []),
+          `${value} = ${valueText(point.mark, point.mean, point.error) || "unknown"}` +
+            (point.n > 1 ? ` (mean of ${point.n} runs)` : ""),
+          ...[...point.marks].map((mark) => `${mark} ${kSteadiness[mark]}`),
+          ...(point.nEffective > 0 ? [`${number(point.nEffective, 3)} independent samples`] : []),
+          ...(point.seconds.length ? [`${shortest === longest ? "" : `${number(shortest)} to `}${number(longest)} s simulated` +
+            (shortest === longest ? "" : ": runs of different length")] : []),
+          [...point.states].join(", ")];
+}

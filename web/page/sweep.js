@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// The chosen sweep: its phase diagram and the table of its jobs.
+import {ask, byId, complain, replaceIfOther} from "/page/dom.js";
+import {JobTable} from "/page/jobs.js";
+import {Loader} from "/page/loader.js";
+import {PhaseMap} from "/page/map.js";
+import {actionButtons, countsText} from "/page/queue.js";
+import {leaves} from "/page/results.js";
+
+/** A sweep of more jobs has no map here, and its table no values: their summaries would fill the browser. */
+const kMostResults = 5000;
+
+export class SweepPanel {
+  /** `choose(id)` is called when a run is clicked. */
+  constructor(choose) {
+    this.map = new PhaseMap(choose, () => this.draw());
+    this.table = new JobTable(choose);
+    this.loader = new Loader(() => this.load());
+    window.shakenSweep = this;  // for whoever looks at it with the browser's tools
+    this.running = new Map();
+    this.run = this.id = "";
+    this.forget();
+  }
+
+  forget() {
+    Object.assign(this, {jobs: [], rows: new Map(), newest: 0, seen: ""});
+  }
+
+  choose(id, run) {
+    this.run = run;
+    if (id !== this.id) {
+      this.id = id;
+      this.forget();
+      byId("sweep-title").textContent = id ? `Sweep ${id}` : "Choose a sweep";
+      byId("map-note").textContent = "";
+      replaceIfOther(byId("sweep-actions"), "", () => []);
+      this.map.clear(id);
+      this.table.clear();
+      if (this.sweeps) this.note(this.sweeps, [...this.running.values()]);
+    }
+    this.draw();
+  }
+
+  /** The sweeps as they are now, and the jobs that run. */
+  note(sweeps, running) {
+    this.sweeps = sweeps;
+    this.running = new Map(running.map((job) => [job.id, job]));
+    const sweep = sweeps.find((one) => one.id === this.id);
+    if (!sweep) return;
+    byId("sweep-title").textContent = `${sweep.id} ${sweep.name}: ${countsText(sweep.counts)}`;
+    const states = new Set(Object.keys(sweep.counts).filter((state) => sweep.counts[state] > 0));
+    replaceIfOther(byId("sweep-actions"), `${sweep.id} ${[...states]}`, () => actionButtons(`/v1/sweeps/${sweep.id}`, states));
+    const stamp = JSON.stringify([sweep.id, sweep.counts]);
+    if (stamp !== this.seen) {
+      this.seen = stamp;
+      this.loader.want();
+    } else {
+      this.drawTable();
+    }
+  }
+
+  /** Asks for the jobs, and for the results of those that have ended since it was asked last. */
+  async load() {
+    const {id} = this;
+    if (!id) return;
+    try {
+      const {jobs} = await ask(`/v1/sweeps/${id}`);
+      if (id !== this.id) return;
+      this.jobs = jobs;
+      this.drawTable();
+      const isTooLarge = jobs.length > kMostResults;
+      byId("map-note").textContent = isTooLarge ?
+        `A sweep of more than ${kMostResults} jobs has no phase diagram here: \`shaken plot ${id}\` draws it.` : "";
+      if (!isTooLarge) {
+        const since = this.rows.size ? this.newest : 0;
+        const {rows} = await ask(`/v1/results?sweep=${id}&since=${since}`);
+        if (id !== this.id) return;
+        for (const row of rows) this.rows.set(row.job, {...row, values: leaves(row.summary)});
+        this.newest = Math.max(0, ...jobs.map((job) => job.finished_utime ?? 0));
+      }
+      const now = new Map(jobs.map((job) => [job.id, job]));
+      for (const [job, row] of this.rows) {
+        if (now.has(job)) row.state = now.get(job).state;
+        else this.rows.delete(job);
+      }
+      this.draw();
+    } catch (problem) {
+      this.seen = "";  // asked again at the next change
+      complain(problem.message);
+    }
+  }
+
+  draw() {
+    this.map.set(this.jobs, [...this.rows.values()], this.run);
+    this.drawTable();
+  }
+
+  drawTable() {
+    const {value} = this.map.axes;
+    byId("jobs-value").textContent = value || "Value";
+    this.table.set(this.jobs.map((old) => this.running.get(old.id) ?? old), this.rows, value, this.run);
+  }
+}
