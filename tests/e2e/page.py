@@ -149,7 +149,7 @@ def use(page, address, live, downloads):
     eventually(lambda: "t = 3.000 s" in text("#run-facts"), "a finished run shows its last frame")
     check(page.execute_script("return Chart.getChart('order-chart').data.datasets[0].data.length") > 100, "S(t) is drawn")
     check(page.execute_script("return Chart.getChart('angle-chart').data.datasets[0].data.length") > 10, "P(theta) is drawn")
-    check(colours() > 50, "rods are drawn")
+    eventually(lambda: colours() > 50, "rods are drawn")
     page.execute_script("""const time = document.getElementById("time"); time.value = 0; time.dispatchEvent(new Event("input"));""")
     eventually(lambda: "t = 0.000 s" in text("#run-facts"), "scrubbed back to the beginning")
     # asked about anew, as when any job changes its state, while the frame that is wished for is on its way

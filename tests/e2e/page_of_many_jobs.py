@@ -201,6 +201,32 @@ def use(page, address, daemon):
     eventually(lambda: page.execute_script("return document.activeElement.dataset.job") == first, "Home goes back")
     page.switch_to.active_element.send_keys("/")
     check(page.switch_to.active_element.get_attribute("id") == "jobs-search", "/ goes to the search")
+    images = page.execute_async_script("""
+        const done = arguments[arguments.length - 1];
+        import("/page/rods.js").then(({instancesOf}) => {
+          const n = 2000, place = (k) => Int16Array.from({length: n}, (_, i) => ((i * k) % 65536) - 32768);
+          const frame = {n_rods: n, box_side_mm: 80, walls: null, outlines: [[2, 0.4, 0.25]], x: place(7919), y: place(104729),
+                         heading: place(31), n_z: new Int16Array(n), species: new Uint8Array(n)};
+          const whole = instancesOf(frame, {x: 0.5, y: 0.5, zoom: 1}), shifted = instancesOf(frame, {x: 0.1, y: 0.9, zoom: 1});
+          // the slow twin: every image of every rod
+          const seen = (view) => {
+            let count = 0;
+            for (let i = 0; i < n; ++i) for (let dx = -2; dx <= 2; ++dx) for (let dy = -2; dy <= 2; ++dy) {
+              const off = (at, middle, d) => Math.abs((at / 65536 + 0.5 - middle + d) * 80);
+              count += off(frame.x[i], view.x, dx) <= 42.25 && off(frame.y[i], view.y, dy) <= 42.25;
+            }
+            return count;
+          };
+          done([whole.count, seen({x: 0.5, y: 0.5}), shifted.count, seen({x: 0.1, y: 0.9}),
+                instancesOf({...frame, walls: {}}, {x: 0.5, y: 0.5, zoom: 1}).count]);
+        });""")
+    check(images[0] == images[1] and images[2] == images[3] and 2000 < images[0] < 2400 and images[4] == 2000,
+          f"of a rod only those images are drawn that are seen: {images}")
+    drawn = page.execute_async_script("""
+        const done = arguments[arguments.length - 1], canvas = window.shakenRods, before = canvas.framesDrawn;
+        for (let k = 0; k < 20; ++k) canvas.clear();
+        requestAnimationFrame(() => requestAnimationFrame(() => done(canvas.framesDrawn - before)));""")
+    check(drawn == 1, f"many changes are one picture: {drawn}")
     errors = [line["message"] for line in page.get_log("browser") if line["level"] == "SEVERE" and "404" not in line["message"]]
     check(not errors, f"the browser complains of nothing: {errors}")
 

@@ -24,16 +24,9 @@ export function angleToDirector(frame, i) {
 
 const kVertex = `#version 300 es
 layout(location = 0) in vec2 corner;
-layout(location = 1) in float px;
-layout(location = 2) in float py;
-layout(location = 3) in float heading;
-layout(location = 4) in float nz;
-layout(location = 5) in float species;
-uniform float side;
-uniform vec2 middle;       // of the view [mm]
-uniform vec2 shift;        // of this image of the box [mm]
+layout(location = 1) in vec4 rod;  // its centre, from the middle of the view [mm]; heading / pi; n_z
+layout(location = 2) in float species;
 uniform float scale;       // half the view's width is 1 / scale [mm]
-uniform bool periodic;
 uniform vec3 outline[8];   // half length, radius in the middle, radius at the ends [mm]
 uniform float director;
 uniform int colouring;
@@ -45,20 +38,14 @@ flat out vec3 colour;
 const float pi = 3.14159265358979;
 void main() {
   vec3 whole = outline[int(species)];
+  float nz = rod.w;
   float flatPart = sqrt(max(0.0, 1.0 - nz * nz));
   shape = vec3(whole.x * flatPart, whole.yz);
   float width = max(shape.y, shape.z);
   at = corner * vec2(shape.x + shape.z, width) * 1.02;
-  float theta = heading * pi;
+  float theta = rod.z * pi;
   vec2 axis = vec2(cos(theta), sin(theta));
-  vec2 centre = (vec2(px, py) * 0.5 + 0.5) * side - middle;
-  if (periodic) centre -= side * floor(centre / side + 0.5);
-  centre += shift;
-  if (any(greaterThan(abs(centre) * scale, vec2(1.0 + (whole.x + whole.z) * scale)))) {
-    gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // out of sight
-    return;
-  }
-  vec2 place = centre + at.x * axis + at.y * vec2(-axis.y, axis.x);
+  vec2 place = rod.xy + at.x * axis + at.y * vec2(-axis.y, axis.x);
   gl_Position = vec4(place * scale, 0.0, 1.0);
   float turned = (theta - director) / pi;
   turned -= floor(turned + 0.5);
@@ -86,7 +73,34 @@ void main() {
   ink = vec4(colour * (0.5 + 0.5 * sqrt(1.0 - round * round)), 1.0) * cover;
 }`;
 
-const kColourings = ["layers", "wheel", "tilt", "species"];
+/**
+ * The rods of a frame as they are seen, each image of them near the border too: 4 numbers for each, as the shader has them,
+ * and its species. `view` is {x, y, zoom}; without walls the box is periodic.
+ */
+export function instancesOf(frame, view) {
+  const {n_rods: n, box_side_mm: side} = frame, half = side / 2 / view.zoom;
+  const reach = frame.outlines.map(([length, , end]) => length + end);
+  const rods = new Float32Array(4 * 9 * n), species = new Uint8Array(9 * n), shifts = frame.walls ? [0] : [0, -side, side];
+  let count = 0;
+  const placed = (at, middle) => {  // of the centre, from the middle of the view
+    const d = (at / 65536 + 0.5 - middle) * side;
+    return frame.walls ? d : d - side * Math.round(d / side);
+  };
+  for (let i = 0; i < n; ++i) {
+    const x = placed(frame.x[i], view.x), y = placed(frame.y[i], view.y), most = half + reach[frame.species[i]];
+    for (const dx of shifts) {
+      if (Math.abs(x + dx) > most) continue;
+      for (const dy of shifts) {
+        if (Math.abs(y + dy) > most) continue;
+        rods.set([x + dx, y + dy, frame.heading[i] / 32768, frame.n_z[i] / 32768], 4 * count);
+        species[count++] = frame.species[i];
+      }
+    }
+  }
+  return {count, rods: rods.subarray(0, 4 * count), species: species.subarray(0, count)};
+}
+
+const kColourings = ["layers", "wheel", "tilt", "species"], kTextures = kColourings.slice(0, 3);
 const rgb = (ink) => [ink >> 16 & 255, ink >> 8 & 255, ink & 255];
 
 export class RodCanvas {
@@ -104,7 +118,7 @@ export class RodCanvas {
     const gl = canvas.getContext("webgl2", {antialias: false, preserveDrawingBuffer: true});
     if (!gl) throw new Error("this browser has no WebGL2, by which rods are drawn");
     this.gl = gl;
-    this.program = this.makeProgram();
+    this.makeProgram();
     this.makeBuffers();
     this.makeTextures();
     this.handlePointer();
@@ -122,7 +136,11 @@ export class RodCanvas {
     }
     gl.linkProgram(program);
     if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(program));
-    return program;
+    gl.useProgram(program);
+    this.uniforms = Object.fromEntries(["scale", "outline", "director", "colouring", "speciesColour", ...kTextures].map(
+      (name) => [name, gl.getUniformLocation(program, name)]));
+    kTextures.forEach((name, unit) => gl.uniform1i(this.uniforms[name], unit));
+    gl.uniform3fv(this.uniforms.speciesColour, this.palettes.species.flatMap(rgb).map((c) => c / 255));
   }
 
   makeBuffers() {
@@ -133,21 +151,19 @@ export class RodCanvas {
     gl.bufferData(gl.ARRAY_BUFFER, new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]), gl.STATIC_DRAW);
     gl.enableVertexAttribArray(0);
     gl.vertexAttribPointer(0, 2, gl.FLOAT, false, 0, 0);
-    this.buffers = ["x", "y", "heading", "n_z", "species"].map((name, i) => {
+    [this.rods, this.species] = [[4, gl.FLOAT], [1, gl.UNSIGNED_BYTE]].map(([size, type], i) => {
       const buffer = gl.createBuffer();
       gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
       gl.enableVertexAttribArray(i + 1);
-      const isSpecies = name === "species";
-      // -1 to 1; 32767 / 32768 of it is nothing that can be seen
-      gl.vertexAttribPointer(i + 1, 1, isSpecies ? gl.UNSIGNED_BYTE : gl.SHORT, !isSpecies, 0, 0);
+      gl.vertexAttribPointer(i + 1, size, type, false, 0, 0);
       gl.vertexAttribDivisor(i + 1, 1);
-      return [name, buffer];
+      return buffer;
     });
   }
 
   makeTextures() {
     const {gl} = this;
-    ["layers", "wheel", "tilt"].forEach((name, unit) => {
+    kTextures.forEach((name, unit) => {
       const colours = this.palettes[name];
       gl.activeTexture(gl.TEXTURE0 + unit);
       gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
@@ -169,11 +185,6 @@ export class RodCanvas {
 
   set(frame) {
     this.frame = frame;
-    const {gl} = this;
-    for (const [name, buffer] of this.buffers) {
-      gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-      gl.bufferData(gl.ARRAY_BUFFER, frame[name], gl.DYNAMIC_DRAW);
-    }
     // spheres have no axes, and so no S; layers where there is order, the wheel where there is none, and no flicker between
     if (frame.order === null) this.automatic = "species";
     else if (frame.order > (this.automatic ? 0.6 : 0.5)) this.automatic = "layers";
@@ -192,36 +203,32 @@ export class RodCanvas {
     return size;
   }
 
+  /** What has changed is drawn with the browser's next picture: however many changes there were, once. */
   draw() {
-    const {gl, frame} = this, size = this.fitSize();
+    if (this.isDue) return;
+    this.isDue = true;
+    requestAnimationFrame(() => { this.isDue = false; this.drawNow(); });
+  }
+
+  drawNow() {
+    const {gl, frame, view, uniforms} = this, size = this.fitSize();
     gl.viewport(0, 0, size, size);
     const [r, g, b] = rgb(this.palettes.floor);
-    gl.disable(gl.SCISSOR_TEST);
     gl.clearColor(r / 255, g / 255, b / 255, 1);
     gl.clear(gl.COLOR_BUFFER_BIT);
     if (frame) {
       gl.enable(gl.BLEND);
       gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
-      gl.useProgram(this.program);
-      const place = (name) => gl.getUniformLocation(this.program, name);
-      const side = frame.box_side_mm, {view} = this, scale = 2 * view.zoom / side;
-      gl.uniform1f(place("side"), side);
-      gl.uniform2f(place("middle"), view.x * side, view.y * side);
-      gl.uniform1f(place("scale"), scale);
-      gl.uniform1i(place("periodic"), frame.walls ? 0 : 1);
-      gl.uniform3fv(place("outline"), frame.outlines.slice(0, 8).flat());
-      gl.uniform1f(place("director"), frame.director_rad);
-      gl.uniform1i(place("colouring"), kColourings.indexOf(this.chosenColouring()));
-      gl.uniform3fv(place("speciesColour"), this.palettes.species.flatMap(rgb).map((c) => c / 255));
-      ["layers", "wheel", "tilt"].forEach((name, unit) => gl.uniform1i(place(name), unit));
-      gl.bindVertexArray(this.vertices);
-      const images = frame.walls || view.zoom > 3 ? [0] : [0, -side, side];
-      for (const dx of images) {
-        for (const dy of images) {
-          gl.uniform2f(place("shift"), dx, dy);
-          gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, frame.n_rods);
-        }
+      gl.uniform1f(uniforms.scale, 2 * view.zoom / frame.box_side_mm);
+      gl.uniform3fv(uniforms.outline, frame.outlines.slice(0, 8).flat());
+      gl.uniform1f(uniforms.director, frame.director_rad);
+      gl.uniform1i(uniforms.colouring, kColourings.indexOf(this.chosenColouring()));
+      const {count, rods, species} = instancesOf(frame, view);
+      for (const [buffer, values] of [[this.rods, rods], [this.species, species]]) {
+        gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+        gl.bufferData(gl.ARRAY_BUFFER, values, gl.DYNAMIC_DRAW);
       }
+      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, count);
     }
     this.drawMarks(size);
     ++this.framesDrawn;

@@ -155,6 +155,8 @@ export class RunPanel {
   listen(on) {
     byId("live").hidden = on || !this.isRunning();
     this.isLive = on;
+    this.traffic = null;
+    byId("run-rate").textContent = "";
     if (!on) return;
     this.stopPlaying();
     this.index = this.wished = -1;
@@ -175,8 +177,22 @@ export class RunPanel {
       const canvas = await this.canvas;
       if (canvas && this.isLive && id === this.id) canvas.defects = JSON.parse(data).defects;
     } else if (this.isLive && name === "frame") {
+      this.noteTraffic(data.length);
       await this.showFrame(unpackText(data), id);
     }
+  }
+
+  /** How many live frames come, and how many are drawn: said anew every two seconds. */
+  async noteTraffic(bytesOfFrame) {
+    const now = performance.now(), canvas = await this.canvas, drawn = canvas?.framesDrawn ?? 0;
+    this.traffic ??= {since: now, frames: 0, bytes: 0, drawn};
+    const {traffic} = this, seconds = (now - traffic.since) / 1000;
+    ++traffic.frames;
+    traffic.bytes += bytesOfFrame;
+    if (seconds < 2) return;
+    byId("run-rate").textContent = `Live: ${number(traffic.frames / seconds, 2)} frames/s, ${bytes(Math.round(traffic.bytes / seconds))}/s; ` +
+      `${number((drawn - traffic.drawn) / seconds, 2)} pictures/s`;
+    this.traffic = null;
   }
 
   noteObservables(now) {
