@@ -27,6 +27,32 @@ CHART = "/usr/share/javascript/chart.js/chart.min.js"
 TYPES = {".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml", ".html": "text/html"}
 
 
+# The least contrast of texts to what is behind them, and of the edges of controls, by WCAG 2.1's relative luminance.
+CONTRASTS = """
+  const channel = (c) => (c /= 255, c <= 0.03928 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);
+  const luminance = ([r, g, b]) => 0.2126 * channel(r) + 0.7152 * channel(g) + 0.0722 * channel(b);
+  const parsed = (css) => { const n = css.match(/[\\d.]+/g).map(Number); return n.length < 4 || n[3] > 0 ? n.slice(0, 3) : null; };
+  const behind = (element) => {
+    for (; element; element = element.parentElement) {
+      const ground = parsed(getComputedStyle(element).backgroundColor);
+      if (ground) return ground;
+    }
+    return [255, 255, 255];
+  };
+  const contrast = (a, b) => { const [x, y] = [luminance(a), luminance(b)].sort((p, q) => q - p); return (x + 0.05) / (y + 0.05); };
+  const least = {text: [99, ""], edge: [99, ""]};
+  const note = (kind, value, element) => { if (value < least[kind][0]) least[kind] = [value, element.outerHTML.slice(0, 90)]; };
+  for (const element of document.querySelectorAll("body *")) {
+    if (!element.checkVisibility({checkOpacity: true, checkVisibilityCSS: true}) || element.disabled) continue;
+    const style = getComputedStyle(element);
+    const hasText = [...element.childNodes].some((node) => node.nodeType === Node.TEXT_NODE && node.data.trim());
+    if (hasText) note("text", contrast(parsed(style.color), behind(element)), element);
+    if (element.matches("button:not(.head), select, input:not([type=checkbox], [type=range]), textarea"))
+      note("edge", contrast(parsed(style.borderTopColor), behind(element.parentElement)), element);
+  }
+  return least;"""
+
+
 class Daemon:
     """A sweep over area fraction, length and gap with two replicas; its jobs end one after the other when asked about."""
 
@@ -37,6 +63,8 @@ class Daemon:
         self.loads = []    # times at which the jobs were asked for
         self.since = []    # what results were asked for
         self.answer_after = 0.0
+        self.is_there = True
+        self.is_empty = False
 
     def job(self, k):
         is_done = k < self.n_done
@@ -64,11 +92,13 @@ class Daemon:
     def news(self):
         """What the page's stream says: each time a job more has ended."""
         with self.lock:
+            if not self.is_there:
+                return {"error": "no daemon: start one with: shakend --root /tmp/x"}
             self.n_done = min(self.n_done + 1, N_JOBS - 1)
             sweeps = [{"id": "s1", "name": "many", "n_jobs": N_JOBS, "counts": self.counts(), "progress": self.n_done / N_JOBS,
                        "eta_s": 100}]
             return {"status": {"version": "0", "host": "nowhere", "slots": 1, "jobs": {**self.counts()},
-                               "lcm": {"ok": True}}, "sweeps": sweeps, "jobs": [self.job(self.n_done)]}
+                               "lcm": {"ok": True}}, "sweeps": [] if self.is_empty else sweeps, "jobs": [self.job(self.n_done)]}
 
     def answer(self, path, query):
         with self.lock:
@@ -231,6 +261,66 @@ def use(page, address, daemon):
     check(not errors, f"the browser complains of nothing: {errors}")
 
 
+def use_by_everybody(page, address, daemon, pictures):
+    """Small and large screens, light and dark, without a daemon, without a sweep, without a mouse."""
+    def find(css):
+        return page.find_element(By.CSS_SELECTOR, css)
+
+    for theme in ("light", "dark"):
+        page.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": theme}]})
+        for width in (390, 768, 1024, 1440):
+            page.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                                 {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False})
+            time.sleep(0.3)
+            for tab in page.find_elements(By.CSS_SELECTOR, "#tabs button") if width < 700 else [None]:
+                if tab:
+                    tab.click()
+                    time.sleep(0.2)
+                wide = lambda: page.execute_script("""
+                    const most = document.documentElement.clientWidth;
+                    if (document.documentElement.scrollWidth > most) return ["the page",
+                      ...[...document.querySelectorAll("body *")].filter((one) => one.getBoundingClientRect().right > most + 0.5).map(
+                        (one) => one.outerHTML.slice(0, 60))];
+                    return [...document.querySelectorAll("section, section > *, .chart, canvas, select, button")].filter(
+                      (one) => one.checkVisibility() && one.getBoundingClientRect().right > most + 0.5 && !one.closest("#jobs-frame")
+                    ).map((one) => one.outerHTML.slice(0, 60));""")
+                try:
+                    eventually(lambda: not wide(), f"{theme}, {width} pixels, {tab.text if tab else 'all'}: nothing sticks out")
+                finally:
+                    page.save_screenshot(f"{pictures}-{theme}-{width}{'-' + tab.text if tab else ''}.png")
+        least = page.execute_script(CONTRASTS)
+        check(least["text"][0] >= 4.5, f"{theme}: every text is legible: {least['text']}")
+        check(least["edge"][0] >= 3, f"{theme}: every control has an edge: {least['edge']}")
+    for theme in ("light", "dark"):
+        page.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": theme}]})
+
+    before = page.execute_script("return window.shakenRods.view.zoom")
+    find("#marks").send_keys("+")
+    find("#marks").send_keys(Keys.ARROW_RIGHT)
+    view = page.execute_script("return window.shakenRods.view")
+    check(view["zoom"] > before and view["x"] > 0.5, f"rods are zoomed and moved by keys: {view}")
+    find("#marks").send_keys("0")
+    check(page.execute_script("return window.shakenRods.view.zoom") == 1, "and seen as a whole again")
+    find("#marks").send_keys("?")
+    eventually(lambda: find("#keys").is_displayed(), "? shows the keys")
+    find("#keys button").click()
+    nameless = page.execute_script("""return [...document.querySelectorAll("canvas, input, select, textarea, dialog")].filter(
+        (one) => one.id && !one.getAttribute("aria-label") && !one.getAttribute("aria-labelledby") && !one.closest("label")
+          && one.getAttribute("aria-hidden") !== "true").map((one) => one.id);""")
+    check(not nameless, f"what is no text has a name: {nameless}")
+
+    daemon.is_there = False
+    eventually(lambda: "shakend --root /tmp/x" in find("#gone").text and "What is shown is of" in find("#gone").text,
+               "a bar says that the daemon is gone, and what to type")
+    page.save_screenshot(f"{pictures}-gone.png")
+    daemon.is_there = True
+    eventually(lambda: not find("#gone").is_displayed(), "and goes when it is back")
+    daemon.is_empty = True
+    eventually(lambda: "shaken submit" in find("#no-sweeps").text and not find("#sweep").is_displayed(),
+               "without a sweep the page says how to make one, and shows no empty charts")
+    page.save_screenshot(f"{pictures}-empty.png")
+
+
 def main(folder, screenshot):
     signal.signal(signal.SIGALRM, lambda *_: sys.exit("the page takes too long"))
     signal.alarm(200)
@@ -242,6 +332,7 @@ def main(folder, screenshot):
     page = browser(profile, os.path.join(profile, "downloads"))
     try:
         use(page, f"http://127.0.0.1:{server.server_port}/", Handler.daemon)
+        use_by_everybody(page, f"http://127.0.0.1:{server.server_port}/", Handler.daemon, screenshot.removesuffix(".png"))
     finally:
         page.save_screenshot(screenshot)
         page.quit()

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Curves and maps, drawn by Chart.js (the global Chart of /chart.js).
 
-const kInk = "#e4e6ea", kFaint = "#949aa5", kGrid = "#2b2f36", kGround = "#17191d";
+import {colour, onTheme} from "/page/dom.js";
 
 /** Viridis (van der Walt & Smith 2015) at nine places, for values from low (0) to high (1). */
 const kViridis = ["#440154", "#472d7b", "#3b528b", "#2c728e", "#21918c", "#28ae80", "#5ec962", "#addc30", "#fde725"];
@@ -12,8 +12,9 @@ export function sequential(part) {
   return `rgb(${channels.join(" ")})`;
 }
 
-const axis = (text, more = {}) => ({type: "linear", title: {display: true, text, color: kFaint}, ticks: {color: kFaint, maxTicksLimit: 7, includeBounds: false},
-                                    grid: {color: kGrid}, ...more});
+const faint = () => colour("faint"), grid = () => colour("line");  // as they are when it is drawn
+const axis = (text, more = {}) => ({type: "linear", title: {display: true, text, color: faint},
+                                    ticks: {color: faint, maxTicksLimit: 7, includeBounds: false}, grid: {color: grid}, ...more});
 
 const common = {animation: false, responsive: true, maintainAspectRatio: false, normalized: true,
                 plugins: {legend: {display: false}, tooltip: {enabled: false}}};
@@ -23,10 +24,10 @@ export class Curve {
   constructor(canvas, xTitle, yTitle, yRange = {}) {
     this.chart = new Chart(canvas, {
       type: "line",
-      data: {datasets: [{data: [], borderColor: "#67a8fb", borderWidth: 1.5, pointRadius: 0, tension: 0}]},
+      data: {datasets: [{data: [], borderColor: () => colour("accent"), borderWidth: 1.5, pointRadius: 0, tension: 0}]},
       options: {...common, parsing: false, scales: {x: axis(xTitle), y: axis(yTitle, yRange)}},
     });
-    this.marker = null;
+    onTheme(() => this.chart.update("none"));
   }
 
   /** Points of more than `most` are thinned: a screen shows no more. */
@@ -51,8 +52,8 @@ const pointMarks = {
   id: "pointMarks",
   /** A hole in each point that is hollow: its colour stays to be seen around it. */
   afterDatasetsDraw(chart) {
-    const {ctx, scales: {x, y}} = chart, side = 7;
-    ctx.fillStyle = kGround;
+    const {ctx, scales: {x, y}} = chart, side = 0.55 * chart.data.datasets[0].pointRadius;
+    ctx.fillStyle = colour("panel");
     for (const point of chart.points ?? []) {
       if (!point.hollow) continue;
       ctx.fillRect(x.getPixelForValue(point.x) - side / 2, y.getPixelForValue(point.y) - side / 2, side, side);
@@ -60,7 +61,7 @@ const pointMarks = {
   },
   beforeDatasetsDraw(chart) {
     const {ctx, scales: {x, y}} = chart;
-    ctx.strokeStyle = kFaint;
+    ctx.strokeStyle = colour("faint");
     ctx.lineWidth = 1.5;
     for (const point of chart.points ?? []) {
       if (!(point.bar > 0)) continue;
@@ -100,6 +101,10 @@ export class PointMap {
     set.data = points.map(({x, y}) => ({x, y}));
     set.backgroundColor = points.map(({fill}) => fill);
     set.borderColor = points.map(({border}) => border);
+    // as large as leaves room between neighbours
+    const {width = 400, height = 240} = this.chart.chartArea ?? {}, rooms = {x: width, y: height};
+    const room = Math.min(...["x", "y"].map((name) => 0.8 * rooms[name] / new Set(points.map((point) => point[name])).size));
+    set.pointRadius = yTitle && points.some(({bar}) => bar > 0) ? 7 : Math.max(3, Math.min(9, room / 2));
     for (const [name, title] of [["x", xTitle], ["y", yTitle]]) {
       const scale = this.chart.options.scales[name];
       scale.title.text = title;
@@ -121,9 +126,9 @@ export function pictureOf(chart, words) {
   sheet.width = canvas.width;
   sheet.height = canvas.height + top;
   const context = sheet.getContext("2d");
-  context.fillStyle = kGround;
+  context.fillStyle = colour("panel");
   context.fillRect(0, 0, sheet.width, sheet.height);
-  context.fillStyle = kInk;
+  context.fillStyle = colour("ink");
   context.font = `${size}px sans-serif`;
   context.fillText(words, size, 1.4 * size, sheet.width - 2 * size);
   context.drawImage(canvas, 0, top);
@@ -140,5 +145,3 @@ export function strip(canvas, colour) {
     context.fillRect(i, 0, 1, 1);
   }
 }
-
-export const ink = kInk;

@@ -37,11 +37,19 @@ export function fetched(path, options = {}) {
   return fetch(path, {...options, headers: {...options.headers, Authorization: `Bearer ${token}`}});
 }
 
+/** What the page says where nobody answers: what a browser calls it helps nobody. */
+export const kSilent = "The page's server does not answer. Start it again with: shaken web";
+
+/** A colour of page.css by its name, as it is now: "ink". */
+export const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+/** Calls `changed` when the system's wish for light or dark does. */
+export const onTheme = (changed) => matchMedia("(prefers-color-scheme: dark)").addEventListener("change", changed);
+
 /** What the server answers, as JSON. Throws an Error with the server's own words, and with `problems` if it lists any. */
 export async function ask(path, body) {
   const request = body === undefined ? {} :
     {method: "POST", headers: {"Content-Type": "application/json"}, body: JSON.stringify(body)};
-  const response = await fetched(path, request);
+  const response = await fetched(path, request).catch(() => { throw new Error(kSilent); });
   const text = await response.text();
   let answer;
   try { answer = JSON.parse(text); } catch { answer = {error: text.trim() || `status ${response.status}`}; }
@@ -99,7 +107,7 @@ export function listen(path, heard, failed) {
       try { await once(); } catch (problem) {
         if (ended) return;
         if (!document.hidden) {
-          failed(problem instanceof TypeError ? "shaken-web answers no more: start it again" : problem.message);
+          failed(problem instanceof TypeError ? kSilent : problem.message);
           await wait(2000);
         }
       }

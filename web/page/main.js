@@ -15,7 +15,16 @@ function chosen() {
   return {sweep: words.get("sweep") ?? "", run: /^[0-9a-f]{16}$/.test(id) ? id : ""};
 }
 
+/** Of a narrow screen, which shows one of the three. */
+function showTab(tab) {
+  document.querySelector("main").dataset.tab = tab;
+  for (const button of document.querySelectorAll("#tabs button")) button.setAttribute("aria-pressed", button.dataset.tab === tab);
+}
+for (const button of document.querySelectorAll("#tabs button")) button.onclick = () => showTab(button.dataset.tab);
+showTab("sweep");
+
 function choose(change) {
+  showTab(change.run ? "run" : "sweep");
   location.hash = new URLSearchParams({...chosen(), ...change}).toString();
 }
 
@@ -28,14 +37,28 @@ function listenTo(id) {
   stop = listen(id ? `/live?run=${id}` : "/live", (name, data) => {
     if (name === "queue") noteQueue(JSON.parse(data));
     else run.note(id, name, data);
-  }, (message) => { byId("daemon").textContent = message; });
+  }, gone);
+}
+
+let heardAt = null;
+/** A bar over the page, for as long as what it shows is old. */
+function gone(message) {
+  const since = heardAt === null ? "" : ` What is shown is of ${heardAt.toLocaleTimeString()}.`;
+  byId("gone").textContent = `${message}${since} The page asks again by itself.`;
+  byId("gone").hidden = false;
+  byId("daemon").textContent = "no connection";
+  document.body.classList.add("stale");
 }
 
 function noteQueue(now) {
   if (now.error) {
-    byId("daemon").textContent = now.error;
+    gone(now.error);
     return;
   }
+  heardAt = new Date();
+  byId("gone").hidden = true;
+  document.body.classList.remove("stale");
+  document.body.classList.toggle("without-sweeps", !now.sweeps.length);
   const {status} = now;
   byId("daemon").textContent = `shakend ${status.version} on ${status.host}: ` +
     `${status.slots} ${status.slots === 1 ? "slot" : "slots"}, ` +
@@ -56,11 +79,16 @@ function show() {
   listenTo(now.run);
 }
 
-// "/" goes to the search of jobs, as in other tables of this kind.
+// as in other tables of this kind
 window.addEventListener("keydown", (event) => {
-  if (event.key !== "/" || event.target.closest("input, textarea, select, dialog")) return;
-  event.preventDefault();
-  byId("jobs-search").focus();
+  if (event.target.closest?.("input, textarea, select, dialog")) return;
+  if (event.key === "/") {
+    event.preventDefault();
+    showTab("sweep");
+    byId("jobs-search").focus();
+  } else if (event.key === "?") {
+    byId("keys").showModal();
+  }
 });
 window.addEventListener("hashchange", show);
 show();

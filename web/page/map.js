@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The phase diagram of a sweep, which fills in as runs finish.
-import {byId, complain, make, number, offer, replaceIfOther} from "/page/dom.js";
+import {byId, colour, complain, make, number, offer, onTheme, replaceIfOther} from "/page/dom.js";
 import {PointMap, sequential, strip} from "/page/charts.js";
 import {kSteadiness, pointLines, pointsOf, sweptParameters} from "/page/results.js";
 
@@ -12,6 +12,7 @@ export class PhaseMap {
   constructor(choose, changed) {
     this.changed = changed;
     this.map = new PointMap(byId("map"), (point) => choose(point.jobs[0]));
+    onTheme(() => this.draw(this.run));
     byId("map-save").onclick = () => this.savePicture();
     this.clear("");
   }
@@ -71,8 +72,8 @@ export class PhaseMap {
       x: point.across, y: y ? point.up : point.mean, jobs: point.jobs, text: pointLines(point, axes), bar: y ? NaN : point.error,
       hollow: Boolean(point.mark),
       fill: point.n ? sequential(high > low ? (point.mean - low) / (high - low) : 0.5) : "transparent",
-      border: point.states.has("running") ? "#ff9000" : point.states.has("failed") ? "#ff5f5f" :
-        point.jobs.includes(run) ? "#e4e6ea" : point.mark ? "#949aa5" : "#3a404a",
+      border: colour(point.states.has("running") ? "warm" : point.states.has("failed") ? "alarm" :
+        point.jobs.includes(run) ? "ink" : "edge"),
     }));
     const met = ["~", "?"].filter((mark) => all.some(({marks}) => marks.has(mark)));
     byId("map-marks").textContent = met.length ? `hollow: ${met.map((mark) => kSteadiness[mark]).join(" or ")}` : "";

@@ -12,7 +12,7 @@ export class QueuePanel {
     this.chooseSweep = choose;
     this.chosen = "";
     this.items = new Map();
-    byId("open-submit").onclick = () => byId("submit").showModal();
+    byId("open-submit").onclick = byId("first-submit").onclick = () => byId("submit").showModal();
     byId("submit-close").onclick = () => byId("submit").close();
     byId("submit-send").onclick = () => this.submit();
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Rods on a canvas by WebGL2: one small rectangle for each, in which its outline is drawn.
+import {colour as cssColour, onTheme} from "/page/dom.js";
 
 /** A frame out of the bytes of docs/web.md. Throws where they contradict themselves. */
 export function unpack(buffer) {
@@ -122,6 +123,8 @@ export class RodCanvas {
     this.makeBuffers();
     this.makeTextures();
     this.handlePointer();
+    this.handleKeys();
+    onTheme(() => this.draw());
     new ResizeObserver(() => this.draw()).observe(canvas);
   }
 
@@ -213,7 +216,7 @@ export class RodCanvas {
   drawNow() {
     const {gl, frame, view, uniforms} = this, size = this.fitSize();
     gl.viewport(0, 0, size, size);
-    const [r, g, b] = rgb(this.palettes.floor);
+    const [r, g, b] = rgb(parseInt(cssColour("panel").slice(1), 16));
     gl.clearColor(r / 255, g / 255, b / 255, 1);
     gl.clear(gl.COLOR_BUFFER_BIT);
     if (frame) {
@@ -247,7 +250,7 @@ export class RodCanvas {
     };
     if (frame.walls) {
       const {arena, size_mm, inner_mm} = frame.walls, [x, y] = toPixel(side / 2, side / 2);
-      context.strokeStyle = "#7a7f8a";
+      context.strokeStyle = cssColour("edge");
       context.lineWidth = 2;
       if (arena === "square") context.strokeRect(x - size_mm * perMm / 2, y - size_mm * perMm / 2, size_mm * perMm, size_mm * perMm);
       for (const diameter of arena === "square" ? [] : [size_mm, ...(inner_mm > 0 ? [inner_mm] : [])]) {
@@ -258,9 +261,9 @@ export class RodCanvas {
     }
     if (this.showsDefects) for (const one of this.defects) this.drawDefect(context, one, toPixel, size);
     const bar = [1, 2, 5, 10, 20, 50, 100, 200].filter((mm) => mm * perMm < size / 3).at(-1) ?? 1;
-    context.fillStyle = "#e4e6ea";
-    context.strokeStyle = "#000";
-    context.lineWidth = 3;
+    context.fillStyle = cssColour("ink");
+    context.strokeStyle = cssColour("panel");
+    context.lineWidth = 4;
     context.font = `${Math.max(11, size / 45)}px sans-serif`;
     context.fillRect(size * 0.03, size * 0.965, bar * perMm, Math.max(2, size / 250));
     context.strokeText(`${bar} mm`, size * 0.03, size * 0.955);
@@ -291,17 +294,39 @@ export class RodCanvas {
     this.draw();
   }
 
+  /** Keeps the point under (`across`, `up`), parts of the canvas from its middle, where it is. */
+  zoomTo(wanted, across = 0, up = 0) {
+    const {view} = this, zoom = Math.min(40, Math.max(1, wanted));
+    view.x += across / view.zoom - across / zoom;
+    view.y += up / view.zoom - up / zoom;
+    view.zoom = zoom;
+    this.draw();
+  }
+
+  move(across, up) {
+    this.view.x += across / this.view.zoom;
+    this.view.y += up / this.view.zoom;
+    this.draw();
+  }
+
+  handleKeys() {
+    const step = 0.1, moves = {ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, step], ArrowDown: [0, -step]};
+    this.marks.addEventListener("keydown", (event) => {
+      if (event.key === "+" || event.key === "=") this.zoomTo(this.view.zoom * 1.25);
+      else if (event.key === "-") this.zoomTo(this.view.zoom / 1.25);
+      else if (event.key === "0") this.reset();
+      else if (event.key in moves) this.move(...moves[event.key]);
+      else return;
+      event.preventDefault();
+    });
+  }
+
   handlePointer() {
     let last = null;
     this.marks.addEventListener("wheel", (event) => {
       event.preventDefault();
-      const zoom = Math.min(40, Math.max(1, this.view.zoom * Math.exp(-event.deltaY / 500)));
-      // the point under the pointer stays where it is
-      const across = event.offsetX / this.marks.clientWidth - 0.5, up = 0.5 - event.offsetY / this.marks.clientHeight;
-      this.view.x += across / this.view.zoom - across / zoom;
-      this.view.y += up / this.view.zoom - up / zoom;
-      this.view.zoom = zoom;
-      this.draw();
+      this.zoomTo(this.view.zoom * Math.exp(-event.deltaY / 500), event.offsetX / this.marks.clientWidth - 0.5,
+                  0.5 - event.offsetY / this.marks.clientHeight);
     }, {passive: false});
     this.marks.addEventListener("pointerdown", (event) => {
       last = [event.clientX, event.clientY];
@@ -309,10 +334,8 @@ export class RodCanvas {
     });
     this.marks.addEventListener("pointermove", (event) => {
       if (!last) return;
-      this.view.x -= (event.clientX - last[0]) / this.marks.clientWidth / this.view.zoom;
-      this.view.y += (event.clientY - last[1]) / this.marks.clientHeight / this.view.zoom;
+      this.move((last[0] - event.clientX) / this.marks.clientWidth, (event.clientY - last[1]) / this.marks.clientHeight);
       last = [event.clientX, event.clientY];
-      this.draw();
     });
     for (const end of ["pointerup", "pointercancel"]) this.marks.addEventListener(end, () => { last = null; });
   }

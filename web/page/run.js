@@ -60,6 +60,7 @@ export class RunPanel {
     replaceIfOther(byId("run-actions"), "", () => []);
     byId("scrub").hidden = true;
     byId("run-title").textContent = id ? `Run ${id}` : "Choose a run";
+    byId("run").classList.toggle("without-run", !id);
     (await this.canvas)?.clear();
     if (id && id === this.id) await this.load();
   }
@@ -69,6 +70,7 @@ export class RunPanel {
   /** Asks for everything about the run; again when its state may have changed. */
   async load() {
     const {id} = this;
+    if (!id) return;
     try {
       const {job} = await ask(`/v1/jobs/${id}`);
       if (id !== this.id) return;
@@ -155,6 +157,8 @@ export class RunPanel {
   listen(on) {
     byId("live").hidden = on || !this.isRunning();
     this.isLive = on;
+    byId("defects").disabled = !on;
+    byId("defects-word").textContent = on ? "Defects" : "Defects (of live rods only)";
     this.traffic = null;
     byId("run-rate").textContent = "";
     if (!on) return;
@@ -211,6 +215,7 @@ export class RunPanel {
     if (id !== this.id) return;
     byId("run-facts").textContent = `t = ${frame.time_s.toFixed(3)} s, ${frame.n_rods} rods in ${number(frame.box_side_mm)} mm` +
       (frame.order === null ? "" : `, S = ${frame.order.toFixed(3)}`);
+    byId("marks").setAttribute("aria-label", `Rods: ${byId("run-facts").textContent}`);
     if (!canvas) return;
     canvas.set(frame);
     this.showLegend(canvas);
@@ -263,7 +268,7 @@ export class RunPanel {
         if (id !== this.id || this.isLive) continue;
         if (!response.ok) throw new Error(bytesOf);
         const canvas = await this.canvas;
-        if (canvas) canvas.defects = [];  // they are measured live only
+        if (canvas) canvas.defects = [];
         await this.showFrame(unpack(bytesOf), id);
         if (id !== this.id) continue;
         this.index = wanted;
