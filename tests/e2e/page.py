@@ -101,10 +101,10 @@ def use(page, address, live, downloads):
 
     root = address.split("#")[0]
     page.get(root)
-    eventually(lambda: "shaken web" in text("#daemon"), "without the token nothing is seen but what to do")
+    eventually(lambda: "shaken web" in text("#gone"), "without the token nothing is seen but what to do")
     page.get("about:blank")
     page.get(root + "#token=" + 32 * "0")
-    eventually(lambda: "shaken web" in text("#daemon"), "a wrong token is refused")
+    eventually(lambda: "shaken web" in text("#gone"), "a wrong token is refused")
     page.get_log("browser")  # these two are errors on purpose
     page.get("about:blank")
 
