@@ -15,6 +15,7 @@ import time
 from selenium import webdriver
 from selenium.webdriver.chrome.options import Options
 from selenium.webdriver.chrome.service import Service
+from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.support.ui import Select
 
@@ -166,6 +167,20 @@ def use(page, address, live, downloads):
     eventually(lambda: "t = 0.050 s" in text("#run-facts"), "scrubbed to the second frame")
     time.sleep(2)
     check("t = 0.050 s" in text("#run-facts"), "and it stays there")
+    chart = find("#order-chart")
+    ActionChains(page).move_to_element_with_offset(chart, 0, 0).click_and_hold().move_by_offset(20, 0).release().perform()
+    eventually(lambda: "t = 0.050 s" not in text("#run-facts"), "drawing along S(t) moves the rods")
+    marked = page.execute_script("return Chart.getChart('order-chart').markedX")
+    eventually(lambda: f"t = {page.execute_script('return Chart.getChart(arguments[0]).markedX', 'order-chart'):.3f} s" in
+               text("#run-facts") and 1 < marked < 3, f"where the pointer is: {marked}")
+    rods = find("#marks")
+    found = False
+    for k in range(40):  # a part of the box is empty
+        ActionChains(page).move_to_element_with_offset(rods, 5 * k - 100, 3 * k - 60).perform()
+        found = found or "° to the director, n_z = " in text("#rod-facts")
+    check(found, "a rod under the pointer says its numbers")
+    page.execute_script("""const time = document.getElementById("time"); time.value = 0; time.dispatchEvent(new Event("input"));""")
+    eventually(lambda: "t = 0.000 s" in text("#run-facts"), "and back again")
     find("#play").click()
     eventually(lambda: "t = 0.000 s" not in text("#run-facts"), "it plays")
     find("#play").click()

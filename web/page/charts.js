@@ -19,11 +19,27 @@ const axis = (text, more = {}) => ({type: "linear", title: {display: true, text,
 const common = {animation: false, responsive: true, maintainAspectRatio: false, normalized: true,
                 plugins: {legend: {display: false}, tooltip: {enabled: false}}};
 
+/** A line across the chart at `chart.markedX`. */
+const markedX = {
+  id: "markedX",
+  afterDatasetsDraw(chart) {
+    const {ctx, chartArea: {top, bottom, left, right}, scales: {x}} = chart, at = x.getPixelForValue(chart.markedX);
+    if (!Number.isFinite(chart.markedX) || at < left - 1 || at > right + 1) return;
+    ctx.strokeStyle = colour("warm");
+    ctx.lineWidth = 1.5;
+    ctx.beginPath();
+    ctx.moveTo(at, top);
+    ctx.lineTo(at, bottom);
+    ctx.stroke();
+  },
+};
+
 /** One curve, that is given anew as a whole. */
 export class Curve {
   constructor(canvas, xTitle, yTitle, yRange = {}) {
     this.chart = new Chart(canvas, {
       type: "line",
+      plugins: [markedX],
       data: {datasets: [{data: [], borderColor: () => colour("accent"), borderWidth: 1.5, pointRadius: 0, tension: 0}]},
       options: {...common, parsing: false, scales: {x: axis(xTitle), y: axis(yTitle, yRange)}},
     });
@@ -44,7 +60,32 @@ export class Curve {
     this.chart.update("none");
   }
 
-  clear() { this.set([], []); }
+  clear() {
+    this.mark(NaN);
+    this.set([], []);
+  }
+
+  /** A line at `x`; none at NaN. */
+  mark(x) {
+    if (Object.is(this.chart.markedX, x)) return;
+    this.chart.markedX = x;
+    this.chart.draw();
+  }
+
+  /** Calls moved(x) for where the pointer is pressed or drawn along the curve. */
+  onDrag(moved) {
+    const {canvas} = this.chart;
+    canvas.style.touchAction = "pan-y";
+    const at = (event) => {
+      const {chartArea: {left, right}, scales: {x}} = this.chart;
+      moved(x.getValueForPixel(Math.min(Math.max(event.offsetX, left), right)));
+    };
+    canvas.addEventListener("pointerdown", (event) => {
+      canvas.setPointerCapture(event.pointerId);
+      at(event);
+    });
+    canvas.addEventListener("pointermove", (event) => { if (event.buttons & 1) at(event); });
+  }
 }
 
 /** Marks of points. A bar of one standard error to either side of each that has one (`bar`), behind the points. */

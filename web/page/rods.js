@@ -23,6 +23,25 @@ export function angleToDirector(frame, i) {
   return angle - 180 * Math.round(angle / 180);
 }
 
+/** The rod at (x, y) [mm from the middle of the view], the nearest of those that cover it; -1 where there is none. */
+export function rodAt(frame, view, x, y) {
+  let best = -1, least = Infinity;
+  const side = frame.box_side_mm;
+  for (let i = 0; i < frame.n_rods; ++i) {
+    const [length, middle, end] = frame.outlines[frame.species[i]], theta = frame.heading[i] / 32768 * Math.PI;
+    const off = (at, from, to) => {
+      const d = to - (at / 65536 + 0.5 - from) * side;
+      return frame.walls ? d : d - side * Math.round(d / side);
+    };
+    const dx = off(frame.x[i], view.x, x), dy = off(frame.y[i], view.y, y);
+    const along = dx * Math.cos(theta) + dy * Math.sin(theta), across = -dx * Math.sin(theta) + dy * Math.cos(theta);
+    const flat = length * Math.sqrt(Math.max(0, 1 - (frame.n_z[i] / 32768) ** 2));
+    const beyond = Math.hypot(Math.max(0, Math.abs(along) - flat), across);
+    if (beyond <= Math.max(middle, end) && beyond < least) [best, least] = [i, beyond];
+  }
+  return best;
+}
+
 const kVertex = `#version 300 es
 layout(location = 0) in vec2 corner;
 layout(location = 1) in vec4 rod;  // its centre, from the middle of the view [mm]; heading / pi; n_z
@@ -289,6 +308,17 @@ export class RodCanvas {
     }
   }
 
+  /** What there is to say of the rod under the pointer, if there is one. */
+  describe(event) {
+    const {frame, view, marks} = this;
+    if (!frame || !this.onRod) return;
+    const width = frame.box_side_mm / view.zoom, place = (at) => ((at / 65536 + 0.5) * frame.box_side_mm).toFixed(2);
+    const i = rodAt(frame, view, (event.offsetX / marks.clientWidth - 0.5) * width, (0.5 - event.offsetY / marks.clientHeight) * width);
+    this.onRod(i < 0 ? "" : `Rod ${i}: x = ${place(frame.x[i])} mm, y = ${place(frame.y[i])} mm, ` +
+      (frame.order === null ? "" : `${angleToDirector(frame, i).toFixed(1)}° to the director, `) +
+      `n_z = ${(frame.n_z[i] / 32768).toFixed(3)}`);
+  }
+
   reset() {
     this.view = {x: 0.5, y: 0.5, zoom: 1};
     this.draw();
@@ -332,8 +362,9 @@ export class RodCanvas {
       last = [event.clientX, event.clientY];
       this.marks.setPointerCapture(event.pointerId);
     });
+    this.marks.addEventListener("pointerleave", () => this.onRod?.(""));
     this.marks.addEventListener("pointermove", (event) => {
-      if (!last) return;
+      if (!last) return this.describe(event);
       this.move((last[0] - event.clientX) / this.marks.clientWidth, (event.clientY - last[1]) / this.marks.clientHeight);
       last = [event.clientX, event.clientY];
     });

@@ -23,6 +23,7 @@ export class RunPanel {
     this.wished = -1;      // of the one that is to be shown, which may still be on its way
     this.orderChart = new Curve(byId("order-chart"), "t (s)", "S", {min: 0, max: 1});
     this.angleChart = new Curve(byId("angle-chart"), "θ (degrees)", "P(θ) per degree", {min: 0});
+    this.orderChart.onDrag((time) => this.goTo(time));
     this.canvas = this.makeCanvas();
     window.shakenRun = this;  // for whoever looks at it with the browser's tools
     byId("colouring").onchange = () => this.redraw();
@@ -38,6 +39,7 @@ export class RunPanel {
     try {
       const canvas = new RodCanvas(byId("rods"), byId("marks"), await ask("/palettes.json"));
       window.shakenRods = canvas;  // for whoever looks at it with the browser's tools
+      canvas.onRod = (words) => { byId("rod-facts").textContent = words; };
       return canvas;
     } catch (problem) {
       complain(problem.message);
@@ -216,6 +218,7 @@ export class RunPanel {
     byId("run-facts").textContent = `t = ${frame.time_s.toFixed(3)} s, ${frame.n_rods} rods in ${number(frame.box_side_mm)} mm` +
       (frame.order === null ? "" : `, S = ${frame.order.toFixed(3)}`);
     byId("marks").setAttribute("aria-label", `Rods: ${byId("run-facts").textContent}`);
+    this.orderChart.mark(frame.time_s);
     if (!canvas) return;
     canvas.set(frame);
     this.showLegend(canvas);
@@ -244,6 +247,16 @@ export class RunPanel {
     canvas.showsDefects = byId("defects").checked;
     canvas.draw();
     this.showLegend(canvas);
+  }
+
+  /** Shows the recorded frame that is nearest to a time. */
+  goTo(time) {
+    const {recorded} = this;
+    if (!recorded) return;
+    const {n, first_s: first, last_s: last} = recorded, part = last > first ? (time - first) / (last - first) : 0;
+    this.stopPlaying();
+    this.listen(false);
+    this.showRecorded(Math.round(Math.min(Math.max(part, 0), 1) * (n - 1)));
   }
 
   noteFrames(frames) {
