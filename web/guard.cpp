@@ -19,14 +19,14 @@ std::string Guard::address() const { return "http://127.0.0.1:" + std::to_string
 bool Guard::is_host(const std::string& host) const { return host == "127.0.0.1:" + std::to_string(port_); }
 
 const http::Headers& Guard::headers() {
-  static const http::Headers kHeaders{
-      {"Content-Security-Policy",
-       "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self'; media-src 'self'; connect-src 'self'; "
-       "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"},
-      {"X-Content-Type-Options", "nosniff"},
-      {"Referrer-Policy", "no-referrer"},
-      {"Cross-Origin-Resource-Policy", "same-origin"},
-      {"Cache-Control", "no-store"}};
+  static const http::Headers kHeaders{{"Content-Security-Policy",
+                                       "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; "
+                                       "media-src 'self' blob:; connect-src 'self'; "
+                                       "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"},
+                                      {"X-Content-Type-Options", "nosniff"},
+                                      {"Referrer-Policy", "no-referrer"},
+                                      {"Cross-Origin-Resource-Policy", "same-origin"},
+                                      {"Cache-Control", "no-store"}};
   return kHeaders;
 }
 

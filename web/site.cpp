@@ -38,8 +38,8 @@ constexpr std::chrono::seconds kHeartbeat{1};
 constexpr std::chrono::milliseconds kFrame{50};
 constexpr std::size_t kPiece = std::size_t{1} << 20;  // of a file
 /// What the page consists of.
-constexpr std::array kPageFiles{"icon.svg",   "page.css",  "main.js", "queue.js", "sweep.js",  "map.js", "jobs.js",
-                                "results.js", "loader.js", "run.js",  "rods.js",  "charts.js", "dom.js"};
+constexpr std::array kPageFiles{"icon.svg",   "page.css",  "main.js", "queue.js", "sweep.js",  "map.js",   "jobs.js",
+                                "results.js", "loader.js", "run.js",  "rods.js",  "charts.js", "shown.js", "dom.js"};
 
 std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
@@ -56,6 +56,9 @@ std::string type_of(const fs::path& file) {
   if (suffix == ".js") return "text/javascript; charset=utf-8";
   if (suffix == ".svg") return "image/svg+xml";
   if (suffix == ".png") return "image/png";
+  if (suffix == ".pdf") return "application/pdf";
+  if (suffix == ".mp4") return "video/mp4";
+  if (suffix == ".webm") return "video/webm";
   return "application/octet-stream";
 }
 
@@ -239,7 +242,7 @@ Reply Site::of_run(const std::string& run, const std::vector<std::string>& rest,
   }
   if (what == "curves" && rest.size() == 1) return curves(run, request);
   if (what == "picture" && rest.size() == 1) {
-    return picture(run, request.parameter("frame"), request.parameter("style"));
+    return picture(run, request);
   }
   if (what == "files" && rest.size() == 1) {
     Json files = Json::array();
@@ -275,7 +278,11 @@ Reply Site::file(const std::string& run, const std::string& name) const {
   return reply;
 }
 
-Reply Site::picture(const std::string& run, const std::string& frame, const std::string& style) {
+Reply Site::picture(const std::string& run, const Request& request) {
+  const std::string frame = request.parameter("frame"), style = request.parameter("style"),
+                    size = request.parameter("size");
+  const std::string format = request.parameter("format").empty() ? "png" : request.parameter("format");
+  if (format != "png" && format != "svg" && format != "pdf") return refusal(400, "format is one of png, svg, pdf");
   const auto frames = reader_.ask(run, {"frames"});
   if (!frames) return refusal(404, frames.error().message);
   const std::optional<std::size_t> index = index_of(frame);
@@ -284,15 +291,16 @@ Reply Site::picture(const std::string& run, const std::string& frame, const std:
   const std::unique_lock lock(drawing_, std::try_to_lock);
   if (!lock) return refusal(429, "another picture is being drawn: try again");
   const ScratchFolder folder;
-  const fs::path png = folder.path() / "picture.png";
+  const fs::path file = folder.path() / ("picture." + format);
   std::vector<std::string> command{setup_.renderer.string(),
                                    "picture",
                                    directory(run).string(),
                                    "--frame",
                                    std::to_string(*index),
                                    "-o",
-                                   png.string()};
+                                   file.string()};
   if (!style.empty()) command.push_back("--style=" + style);
+  if (!size.empty()) command.push_back("--size=" + size);
   const Captured drawn =
       run_captured(command, CaptureLimits{.time = setup_.drawing, .stop = [this] { return is_closing_.load(); }});
   if (drawn.cut_short) {
@@ -300,9 +308,9 @@ Reply Site::picture(const std::string& run, const std::string& frame, const std:
                             std::to_string(setup_.drawing.count() / 1000) + " s and was ended");
   }
   if (drawn.exit_code != 0) return refusal(500, "shaken-render: " + drawn.output);
-  Reply reply = file_reply(png);
+  Reply reply = file_reply(file);
   reply.headers.emplace_back("Content-Disposition",
-                             "attachment; filename=\"" + run + "-" + std::to_string(*index) + ".png\"");
+                             "attachment; filename=\"" + run + "-" + std::to_string(*index) + "." + format + "\"");
   return reply;
 }
 

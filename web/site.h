@@ -50,7 +50,7 @@ class Site {
   http::Reply curves(const std::string& run, const http::Request& request);
   std::filesystem::path directory(const std::string& run) const { return setup_.root / "runs" / run; }
   http::Reply file(const std::string& run, const std::string& name) const;
-  http::Reply picture(const std::string& run, const std::string& frame, const std::string& style);
+  http::Reply picture(const std::string& run, const http::Request& request);
 
   SiteSetup setup_;
   DaemonLink daemon_;

@@ -58,7 +58,7 @@ def eventually(condition, what):
 
 def main(address, screenshot, live):
     signal.signal(signal.SIGALRM, lambda *_: sys.exit("the page takes too long"))
-    signal.alarm(220)
+    signal.alarm(500)
     profile = tempfile.mkdtemp(prefix="shaken-page.")
     downloads = os.path.join(profile, "downloads")
     os.mkdir(downloads)
@@ -198,6 +198,17 @@ def use(page, address, live, downloads):
           done([answer.status, answer.headers.get("Content-Type"), (await answer.arrayBuffer()).byteLength]);
         });""")
     check(picture[0] == 200 and picture[1] == "image/png" and picture[2] > 10000, f"a frame is drawn as a PNG: {picture}")
+    find("#draw").click()
+    eventually(lambda: page.execute_script("return document.querySelector('#shown img')?.naturalWidth") == 1280,
+               "a frame is drawn in its place on the page")
+    Select(find("#draw-style")).select_by_visible_text("tilt")
+    Select(find("#draw-size")).select_by_visible_text("1000x1000")
+    eventually(lambda: page.execute_script("return document.querySelector('#shown img')?.naturalHeight") == 1000,
+               "in another style and size")
+    find("#shown-save").click()
+    eventually(lambda: any(name.endswith("-0.png") or ".png" in name and "order" not in name for name in os.listdir(downloads)),
+               "and saved")
+    find("#shown-close").click()
     click_text("#files button", "summary.json")
     eventually(lambda: any(name.endswith("-summary.json") for name in os.listdir(downloads)), "a file is saved")
 

@@ -323,7 +323,7 @@ def use_by_everybody(page, address, daemon, pictures):
 
 def main(folder, screenshot):
     signal.signal(signal.SIGALRM, lambda *_: sys.exit("the page takes too long"))
-    signal.alarm(200)
+    signal.alarm(500)
     Handler.daemon, Handler.folder = Daemon(), pathlib.Path(folder)
     server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler)
     server.daemon_threads = True

@@ -44,7 +44,7 @@ TEST(Page, IsUsedInABrowser) {
   const std::string screenshot = SHAKEN_BINARY_DIR "/page-test.png";
   std::vector<std::string> use{"/usr/bin/python3", SHAKEN_PAGE_SCRIPT, address, screenshot};
   if (live) use.emplace_back("--live");
-  const Finished used = run_command(use, 240s);
+  const Finished used = run_command(use, 520s);
   EXPECT_EQ(used.code, 0) << used.output << "\nsee " << screenshot << "\n" << daemon.output();
 
   // `shaken web` finds the one that runs: same token, same daemon.

@@ -3,6 +3,7 @@
 import {ask, byId, bytes, complain, duration, fetched, make, number, replaceIfOther, save} from "/page/dom.js";
 import {actionButtons} from "/page/queue.js";
 import {Curve, strip} from "/page/charts.js";
+import {ShownFile} from "/page/shown.js";
 import {RodCanvas, angleToDirector, unpack, unpackText} from "/page/rods.js";
 
 const kBins = 36;
@@ -32,7 +33,8 @@ export class RunPanel {
     byId("time").oninput = () => { this.stopPlaying(); this.listen(false); this.showRecorded(Number(byId("time").value)); };
     byId("play").onclick = () => (this.playing ? this.stopPlaying() : this.play());
     byId("live").onclick = () => this.listen(true);
-    byId("draw").onclick = () => save(`/runs/${this.id}/picture?frame=${this.index}`);
+    this.shown = new ShownFile();
+    byId("draw").onclick = () => this.shown.show(this.id, this.index);
   }
 
   async makeCanvas() {
@@ -52,6 +54,7 @@ export class RunPanel {
     this.id = id;
     this.index = this.wished = -1;
     this.stopPlaying();
+    this.shown.close();
     this.isLive = this.hasMeanAngles = false;
     this.job = this.recorded = null;
     this.order = {times: [], values: []};
@@ -139,7 +142,8 @@ export class RunPanel {
   showFiles(answer) {
     const {id} = this;
     const link = ({name, bytes: size}) => make("li", {}, make("button", {
-      type: "button", onclick: () => save(`/runs/${id}/files/${name}`)}, name), ` ${bytes(size)}`);
+      type: "button", onclick: () => save(`/runs/${id}/files/${name}`)}, name), ` ${bytes(size)}`,
+      ...(/\.(mp4|webm)$/.test(name) ? [" ", make("button", {type: "button", onclick: () => this.shown.film(id, name)}, "Play")] : []));
     // Buttons that are made anew while one is pressed would lose the press.
     replaceIfOther(byId("files"), id + (answer.problem?.message ?? JSON.stringify(answer.files)),
       () => answer.problem ? [answer.problem.message] : answer.files.map(link));

@@ -120,6 +120,8 @@ TEST_F(SiteTest, EveryAnswerForbidsWhatIsNotServedHere) {
     EXPECT_THAT(policy, HasSubstr("default-src 'none'")) << path;
     EXPECT_THAT(policy, HasSubstr("script-src 'self';")) << path;
     EXPECT_THAT(policy, Not(HasSubstr("unsafe"))) << path;
+    EXPECT_THAT(policy, HasSubstr("media-src 'self' blob:;"))
+        << path << ": films that the page has asked for are played";
     EXPECT_EQ(answer->get_header_value("X-Content-Type-Options"), "nosniff") << path;
   }
 }
