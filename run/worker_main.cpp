@@ -232,7 +232,7 @@ ExitCode work(const Arguments& arguments) {
     std::signal(SIGTERM, on_stop);
     std::signal(SIGINT, on_interrupt);
   }
-  const scene::Loaded<scene::RunPlan> plan = scene::load_scene(text, arguments.scene, arguments.settings);
+  const keys::Loaded<scene::RunPlan> plan = scene::load_scene(text, arguments.scene, arguments.settings);
   if (!plan) throw Failure(ExitCode::kBadInput, to_string(plan.error()));
   if (const auto problem = scene::memory_problem(*plan, scene::memory_allowed(), arguments.scene)) {
     throw Failure(ExitCode::kBadInput, to_string(*problem));

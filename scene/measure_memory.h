@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/problem.h"
+#include "scene/keys.h"
 #include "scene/run_plan.h"
 
 namespace shaken::scene {

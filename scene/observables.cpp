@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "base/core/check.h"
-#include "scene/field_makers.h"
 
 namespace shaken::scene {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "scene/problem.h"
+#include "scene/keys.h"
 #include "scene/sweep.h"
 
 namespace shaken::scene {
