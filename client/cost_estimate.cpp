@@ -20,7 +20,7 @@
 #include "scene/canonical.h"
 #include "scene/derived.h"
 #include "scene/load.h"
-#include "scene/measure_memory.h"
+#include "scene/observables.h"
 
 namespace shaken::client {
 namespace {

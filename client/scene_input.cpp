@@ -10,7 +10,7 @@
 #include "base/text.h"
 #include "scene/canonical.h"
 #include "scene/derived.h"
-#include "scene/measure_memory.h"
+#include "scene/observables.h"
 #include "scene/placement.h"
 #include "scene/remarks.h"
 

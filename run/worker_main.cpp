@@ -30,7 +30,7 @@
 #include "run/start_state.h"
 #include "scene/canonical.h"
 #include "scene/load.h"
-#include "scene/measure_memory.h"
+#include "scene/memory_limit.h"
 #include "scene/placement.h"
 
 namespace {

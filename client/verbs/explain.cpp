@@ -13,7 +13,7 @@
 #include "client/verbs/verbs.h"
 #include "scene/accuracy_levels.h"
 #include "scene/derived.h"
-#include "scene/measure_memory.h"
+#include "scene/observables.h"
 
 namespace shaken::client {
 namespace {
