@@ -17,16 +17,17 @@ ALLOWED = {
     "base/core": [],
     "base": [],
     "base/http": ["base"],
+    "base/keys": [],
     "proto": [],
     # everything outside sim/ sees simulations, not steppers
     "analysis": ["base/estimate.h", "sim/system.h"],
-    "scene": ["sim/rod", "sim/system.h", "sim/physics_version.h"],
+    "scene": ["base/keys", "sim/rod", "sim/system.h", "sim/physics_version.h"],
     # whether rods can be placed, the simulation itself says
-    "scene/placement.cpp": ["scene", "sim/rod", "sim/system.h", "sim/initial.h"],
+    "scene/placement.cpp": ["scene", "base/keys", "sim/rod", "sim/system.h", "sim/initial.h"],
     # a film is as large as the renderer can draw it
-    "scene/field_table.cpp": ["scene", "base/picture_limits.h", "sim/rod", "sim/system.h"],
+    "scene/field_table.cpp": ["scene", "base/keys", "base/picture_limits.h", "sim/rod", "sim/system.h"],
     # a sweep's name is printed
-    "scene/sweep.cpp": ["scene", "base/text.h", "sim/rod", "sim/system.h"],
+    "scene/sweep.cpp": ["scene", "base/keys", "base/text.h", "sim/rod", "sim/system.h"],
     # how long a run was to go on stands in its scene
     "run/files/done.h": ["run/files", "scene/run_plan.h"],
     "run/files/done.cpp": ["run/files", "base", "scene"],
@@ -36,27 +37,24 @@ ALLOWED = {
             "sim/world.h", "sim/simulation.h", "sim/balance.h", "sim/close_up.h", "sim/effects/registry.h",
             "sim/motion/side_walls.h", "sim/physics_version.h"],
     # drawing knows rods and fields; only the program's sources of frames know files and the bus
-    # times with units, as scenes have them
-    "render/main.cpp": ["render", "base", "scene/units.h", "run/files", "proto", "sim/system.h", "sim/snapshot.h",
+    "render/main.cpp": ["render", "base", "run/files", "proto", "sim/system.h", "sim/snapshot.h",
                         "analysis"],
     "render/sources.h": ["render", "run/files", "proto", "sim/system.h", "sim/snapshot.h", "analysis"],
     # what comes from the bus is held against what a scene allows
     "render/sources.cpp": ["render", "base/files.h", "base/text.h", "run/files", "proto", "scene/fields.h",
                            "scene/measure_plan.h",
                            "sim/system.h", "sim/snapshot.h", "analysis"],
-    # style files are read and checked as scenes are
-    "render/style_file.h": ["render", "scene/problem.h"],
-    "render/style_file.cpp": ["render", "base/files.h", "scene/document.h", "scene/load.h", "scene/nearest.h",
-                              "scene/problem.h",
-                              "scene/units.h"],
     # the settings of a sweep, with their units
-    "render/headline.cpp": ["render", "scene/fields.h", "scene/units.h"],
+    "render/headline.cpp": ["render", "base/keys", "scene/fields.h"],
     # the defaults of the director field whose defects are drawn
     "render/measure.cpp": ["render", "scene/measure_plan.h", "sim/system.h", "analysis"],
-    "render": ["base/files.h", "base/picture_limits.h", "base/text.h", "sim/rod/bead_row.h", "sim/system.h",
-               "analysis"],
+    "render": ["base/files.h", "base/keys", "base/picture_limits.h", "base/text.h", "sim/rod/bead_row.h",
+               "sim/system.h", "analysis"],
     "proto/relay": ["proto", "base"],
     "server": ["proto", "proto/relay", "base/http", "base", "scene", "run/files"],
+    # the options of pictures are the keys of styles
+    "client/picture_options.cpp": ["client", "base", "render/style_keys.h"],
+    "client/verbs/schema.cpp": ["client", "scene", "render/style_file.h"],
     "client": ["proto", "base", "scene", "run/files", "run/export", "sim/rod", "sim/system.h"],
     # the page in a browser: what the terminal's live view makes of messages, the daemon's way of HTTP, a run's files
     "web": ["proto", "base", "client/live", "base/http", "run/files", "analysis/order.h", "sim/system.h"],

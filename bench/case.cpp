@@ -69,7 +69,7 @@ Case case_of(nlohmann::json scene, double warm_up, const std::string& label) {
   const auto loaded = scene::load_scene(scene.dump(), "scene");
   if (!loaded) {
     std::string problems;
-    for (const scene::Problem& problem : loaded.error()) {
+    for (const keys::Problem& problem : loaded.error()) {
       problems += fmt::format("{}{}: {}: {}", problems.empty() ? "" : "\n  ", label, problem.path, problem.message);
     }
     throw Failure(ExitCode::kBadInput, problems);

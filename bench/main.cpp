@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include "base/keys/nearest.h"
 #include "base/program.h"
 #include "bench/bench.h"
 #include "run/files/version.h"
-#include "scene/nearest.h"
 
 namespace {
 
@@ -23,7 +23,7 @@ std::string problem_text(const CLI::App& app, const CLI::ParseError& problem) {
   std::vector<std::string> names;
   for (const CLI::App* bench : app.get_subcommands(nullptr)) names.push_back(bench->get_name());
   return fmt::format("there is no bench '{}'{}", left_over.front(),
-                     shaken::scene::did_you_mean(shaken::scene::nearest(left_over.front(), names)));
+                     shaken::keys::did_you_mean(shaken::keys::nearest(left_over.front(), names)));
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "base/help_formatter.h"
+#include "base/keys/nearest.h"
 #include "run/files/version.h"
-#include "scene/nearest.h"
 
 namespace shaken::client {
 namespace {
@@ -116,7 +116,7 @@ Verb* CommandLine::parse(std::vector<std::string> arguments, Console& console) {
     throw Failure(
         ExitCode::kBadInput,
         fmt::format("unknown {} '{}'{} (see `shaken --help`)", is_option ? "option" : "verb", word,
-                    scene::did_you_mean(scene::nearest(word, is_option ? option_names(*app_) : verb_names(verbs_)))));
+                    keys::did_you_mean(keys::nearest(word, is_option ? option_names(*app_) : verb_names(verbs_)))));
   }
   const std::string name = used.front()->get_name();
   const bool hands_on = used.front()->get_prefix_command();  // Arguments::rest
@@ -126,7 +126,7 @@ Verb* CommandLine::parse(std::vector<std::string> arguments, Console& console) {
     if (word.starts_with("--")) {
       std::vector<std::string> names = option_names(*used.front());
       for (std::string& of_program : option_names(*app_)) names.push_back(std::move(of_program));
-      hint = scene::did_you_mean(scene::nearest(word, names));
+      hint = keys::did_you_mean(keys::nearest(word, names));
     }
     throw Failure(ExitCode::kBadInput,
                   fmt::format("{} does not understand '{}'{} (see `shaken {} --help`)", name, word, hint, name));

@@ -63,7 +63,7 @@ std::string values_of_keys() {
   std::string cases;
   for (const scene::Field& field : scene::fields()) {
     std::vector<std::string> words = field.names;
-    if (field.form == scene::Form::kSwitch || field.form == scene::Form::kBlock) words = {"true", "false"};
+    if (field.form == keys::Form::kSwitch || field.form == keys::Form::kBlock) words = {"true", "false"};
     if (!words.empty()) cases += fmt::format("    {}) {}; return ;;\n", field.path, offer(in_a_row(words)));
   }
   return cases;

@@ -10,6 +10,7 @@
 
 #include "base/failure.h"
 #include "base/files.h"
+#include "base/keys/units.h"
 #include "base/process.h"
 #include "base/progress_line.h"
 #include "base/scratch_folder.h"
@@ -19,8 +20,7 @@
 #include "scene/canonical.h"
 #include "scene/derived.h"
 #include "scene/load.h"
-#include "scene/measure_memory.h"
-#include "scene/units.h"
+#include "scene/observables.h"
 
 namespace shaken::client {
 namespace {
@@ -244,7 +244,7 @@ class Estimator {
 
 std::string ticks_text(const std::optional<Ticks>& ticks) {
   if (!ticks) return "several";
-  const std::string step = scene::format_quantity(ticks->step, scene::Dimension::kTime);
+  const std::string step = keys::format_quantity(ticks->step, keys::Dimension::kTime);
   return ticks->impacts == System{}.impacts ? step : fmt::format("{}, {}", step, scene::name_of(ticks->impacts));
 }
 

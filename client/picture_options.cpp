@@ -11,57 +11,23 @@
 #include "client/live/target.h"
 #include "client/results.h"
 #include "client/verb.h"
+#include "render/style_keys.h"
 
 namespace shaken::client {
-namespace {
-
-constexpr PictureOption kOptions[] = {
-    {"colour", "auto|angle|layers|heading|tilt|speed|order|density|species|id", "What the colours of rods mean"},
-    {"range", "LOW,HIGH", "Ends of the colour scale, in its unit (--range=-5,5)"},
-    {"size", "WxH", "Pixels"},
-    {"theme", "light|dark|print", "Colours of page, floor and text"},
-    {"rods", "OPACITY", "Opacity of the rods over the background, 0 to 1"},
-    {"samples", "N", "Rays along each side of a pixel, 1 to 3; 1 for a first look"},
-    {"shadows", nullptr, "Soft shadows on the floor"},
-    {"gloss", nullptr, "Rods shine where they throw the light back"},
-    {"occlusion", nullptr, "Rods are darker at their sides"},
-    {"smooth", nullptr, "Rods look like smooth bodies, not like beads"},
-    {"background", "none|order", "What lies under the rods: the floor, or the local order S"},
-    {"lines", "none|bars|streamlines", "The director field over the rods"},
-    {"defects", nullptr, "Looks for defects and marks them"},
-    {"tracks", "S", "For how long defects leave a track that fades"},
-    {"displacements", "S", "Arrows from where each rod's centre was so long before"},
-    {"inset", "none|angles|order|g2|sweep",
-     "A plot in a corner of the rods: P(theta), S(t), G2(r), or the sweep's points with this one marked"},
-    {"caption", nullptr, "Headline, numbers and S(t)"},
-    {"legend", nullptr, "The colour scale"},
-    {"scale-bar", nullptr, "A scale bar"},
-    {"view", "top|gap|follow:N|follow:plus", "From above, into the gap, with rod N, or a +1/2 defect, in the middle"},
-    {"whole", nullptr, "Rods across the border are drawn once and whole"},
-    {"zoom", "FACTOR", "Shows a part of the box, this many times enlarged"},
-    {"focus", "X,Y", "Middle of the enlarged part, in box sides"},
-    {"fps", "N", "Frames per second of playing"},
-    {"speed", "FACTOR", "Simulated seconds per second of playing; 0.1 is slow motion"},
-};
-
-}  // namespace
-
-std::span<const PictureOption> picture_options() { return kOptions; }
-
 void PictureOptions::declare(Arguments& arguments, bool films) {
   arguments.list("JOB", jobs, "A job, by the beginning of its id, or a run directory; several go side by side",
                  Names::kJobOrFolder, 1);
   arguments.option("-o,--out", out, "FILE", "Where to write; named after the job if left out", Names::kFile);
-  arguments.option("--style", style_, "layers|defects|director|tilt|mechanism|mixture|FILE",
+  arguments.option("--style", style_, value_name(render::style_keys().at("style")) + "|FILE",
                    "A style, or a file of one; the options below change it");
-  for (const PictureOption& option : kOptions) {
-    const std::string name = option.name;
-    if (!films && (name == "fps" || name == "speed")) continue;
-    if (option.value != nullptr) {
-      arguments.option((name == "colour" ? "-c,--" : "--") + name, values_[name], option.value, option.help);
+  for (const render::StyleKey& key : render::style_keys()) {
+    if (key.path == "style" || (!films && (key.path == "fps" || key.path == "speed"))) continue;
+    const std::string option = render::option_of(key), name = option.substr(option.rfind("--") + 2);
+    if (key.form != keys::Form::kSwitch) {
+      arguments.option(option, values_[name], value_name(key), key.doc);
       continue;
     }
-    arguments.flag("--" + name, switches_[name], option.help);
+    arguments.flag(option, switches_[name], key.doc);
     arguments.flag("--no-" + name, switches_["no-" + name], "Without it");
   }
   arguments.repeatable("--label", labels_, "TEXT", "Headline, one for each run; what was swept if left out");

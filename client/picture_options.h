@@ -2,7 +2,6 @@
 #pragma once
 
 #include <map>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -11,15 +10,6 @@
 namespace shaken::client {
 
 struct Context;
-
-/// An option of pictures and films: a key of shaken-render's styles.
-struct PictureOption {
-  const char* name;   ///< without the dashes
-  const char* value;  ///< its name in the help; null for a switch, which is also --no-NAME
-  const char* help;
-};
-/// All of them; shaken-render, to which they are handed on, checks what they are given.
-std::span<const PictureOption> picture_options();
 
 /// The options that `shaken picture` and `shaken movie` have in common, and what they are about.
 class PictureOptions {

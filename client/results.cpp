@@ -13,12 +13,12 @@
 
 #include "base/failure.h"
 #include "base/files.h"
+#include "base/keys/nearest.h"
 #include "base/text.h"
 #include "run/files/directory.h"
 #include "scene/canonical.h"
 #include "scene/fields.h"
 #include "scene/load.h"
-#include "scene/nearest.h"
 
 namespace shaken::client {
 namespace {
@@ -180,7 +180,7 @@ std::string nearest_field(const std::string& word, const std::vector<std::string
     candidates.push_back(is_measured ? name.substr(kBefore.size(), name.size() - kBefore.size() - kAfter.size())
                                      : name);
   }
-  if (std::string nearest = scene::nearest(word, candidates); !nearest.empty()) return nearest;
+  if (std::string nearest = keys::nearest(word, candidates); !nearest.empty()) return nearest;
   const auto begins = std::find_if(candidates.begin(), candidates.end(),
                                    [&](const std::string& name) { return word.size() > 2 && name.starts_with(word); });
   return begins != candidates.end() ? *begins : "";
@@ -192,7 +192,7 @@ std::string resolved_field(const std::vector<ResultRow>& rows, const std::string
   const std::vector<std::string> names = field_names(rows);
   if (const auto field = field_named(names, word)) return *field;
   throw Failure(ExitCode::kBadInput,
-                fmt::format("no row has a field '{}'{}", word, scene::did_you_mean(nearest_field(word, names))));
+                fmt::format("no row has a field '{}'{}", word, keys::did_you_mean(nearest_field(word, names))));
 }
 
 double ResultRow::number(const std::string& field) const {
@@ -238,10 +238,7 @@ void add_from_scenes(std::vector<ResultRow>& rows, std::span<const std::string> 
     const auto plan = scene::load_scene(*text, "scene.json");
     if (!plan) continue;
     for (const scene::Field* field : wanted) {
-      const std::string_view block = scene::block_around(field->path);
-      const bool is_off = !block.empty() && !std::get<bool>(scene::field_at(block).fetch(*plan));
-      if (!field->fetch || is_off) continue;
-      const Json value = scene::to_json(*field, field->fetch(*plan));
+      const Json value = to_json(*field, scene::fields().value(*plan, *field));
       if (value.is_primitive() && !value.is_null()) row.scene[field->path] = row.fields[field->path] = value;
     }
   }

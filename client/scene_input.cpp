@@ -10,7 +10,7 @@
 #include "base/text.h"
 #include "scene/canonical.h"
 #include "scene/derived.h"
-#include "scene/measure_memory.h"
+#include "scene/observables.h"
 #include "scene/placement.h"
 #include "scene/remarks.h"
 
@@ -23,8 +23,8 @@ SceneInput read_scene_input(const std::string& file) {
   return {file, value_or_fail(read_input(file), ExitCode::kBadInput)};
 }
 
-std::string refusal_text(const std::vector<scene::Problem>& problems) {
-  return fmt::format("refused, with {}\n{}", counted(problems.size(), "problem"), scene::to_string(problems));
+std::string refusal_text(const std::vector<keys::Problem>& problems) {
+  return fmt::format("refused, with {}\n{}", counted(problems.size(), "problem"), keys::to_string(problems));
 }
 
 scene::Sweep load_points(const SceneInput& input, const std::vector<std::string>& settings,

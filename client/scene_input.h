@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/keys/problem.h"
 #include "client/live/json.h"
-#include "scene/problem.h"
 #include "scene/sweep.h"
 
 namespace shaken::client {
@@ -25,7 +25,7 @@ scene::Sweep load_points(const SceneInput& input, const std::vector<std::string>
                          std::optional<int> replicas);
 
 /// "refused, with 2 problems" and a line for each.
-std::string refusal_text(const std::vector<scene::Problem>& problems);
+std::string refusal_text(const std::vector<keys::Problem>& problems);
 
 /// What follows from a point's scene, besides its parameters: id, n_rods, area_fraction (both of all rods together),
 /// species (name, count and area_fraction of each), gamma (null without gravity), amplitude_mm, sim_seconds, ticks,

@@ -11,12 +11,12 @@
 
 #include "base/failure.h"
 #include "base/text.h"
-#include "scene/slurm_settings.h"
+#include "scene/sweep_keys.h"
 
 namespace shaken::client {
 
 bool is_slurm(const std::string& executor) {
-  const std::vector<std::string>& known = scene::executor_names();
+  const std::vector<std::string>& known = scene::sweep_keys().at("executor").names;
   if (!executor.empty() && std::find(known.begin(), known.end(), executor) == known.end()) {
     throw Failure(ExitCode::kBadInput,
                   fmt::format("--executor: '{}' is none of {}", printable(executor), fmt::join(known, ", ")));

@@ -10,11 +10,11 @@
 #include <utility>
 
 #include "base/failure.h"
+#include "base/keys/nearest.h"
+#include "base/keys/units.h"
 #include "base/text.h"
 #include "client/live/target.h"
 #include "scene/fields.h"
-#include "scene/nearest.h"
-#include "scene/units.h"
 
 namespace shaken::client {
 namespace {
@@ -69,11 +69,11 @@ std::vector<Token> tokens_of(std::string_view text, std::vector<WhereProblem>& p
 
 bool is_unit(std::string_view word) {
   const auto units = scene::units();
-  return std::any_of(units.begin(), units.end(), [&](const scene::Unit& unit) { return unit.name == word; });
+  return std::any_of(units.begin(), units.end(), [&](const keys::Unit& unit) { return unit.name == word; });
 }
 
 bool is_number_word(std::string_view word) {
-  const auto written = scene::split_quantity(word);
+  const auto written = keys::split_quantity(word);
   return written && written->unit.empty();
 }
 
@@ -133,7 +133,7 @@ class WhereParser {
     if (token.text == "&&" || token.text == "&") return "; did you mean and?";
     if (token.text == "||" || token.text == "|") return "; did you mean or?";
     static const std::vector<std::string> kJoints{"and", "or"};
-    return token.kind == Token::Kind::kWord ? scene::did_you_mean(scene::nearest(token.text, kJoints)) : "";
+    return token.kind == Token::Kind::kWord ? keys::did_you_mean(keys::nearest(token.text, kJoints)) : "";
   }
 
   /// Up to a ) or the end.
@@ -260,8 +260,8 @@ std::vector<WhereProblem> Where::bind(const std::vector<ResultRow>& rows, bool a
   const std::vector<std::string> fields = field_names(rows);
   for (Comparison& comparison : comparisons_) {
     const int key = scene::field_index(comparison.name);
-    const scene::Dimension dimension = key < 0 ? scene::Dimension::kPlain : scene::field_at(comparison.name).dimension;
-    const auto number = scene::parse_quantity(comparison.value, dimension);
+    const keys::Dimension dimension = key < 0 ? keys::Dimension::kPlain : scene::field_at(comparison.name).dimension;
+    const auto number = keys::parse_quantity(comparison.value, dimension);
     comparison.is_number = !comparison.quoted && number;
     if (comparison.is_number) comparison.number = *number;
 
@@ -270,9 +270,8 @@ std::vector<WhereProblem> Where::bind(const std::vector<ResultRow>& rows, bool a
     } else if (key < 0 && all_known && !rows.empty()) {
       std::vector<std::string> names = fields;
       for (const scene::Field& each : scene::fields()) names.push_back(each.path);
-      problems.push_back(
-          {comparison.name_at, fmt::format("no row has a field '{}'{}", printable(comparison.name),
-                                           scene::did_you_mean(scene::nearest(comparison.name, names)))});
+      problems.push_back({comparison.name_at, fmt::format("no row has a field '{}'{}", printable(comparison.name),
+                                                          keys::did_you_mean(keys::nearest(comparison.name, names)))});
       continue;
     }
 

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <utility>
 
+#include "base/keys/units.h"
 #include "scene/fields.h"
-#include "scene/units.h"
 
 namespace shaken::render {
 namespace {
@@ -47,10 +47,10 @@ std::string spoken(const std::string& word) {
   if (path == "replica") return "replica " + value;
   if (scene::field_index(path) < 0) return "";
   const scene::Field& field = scene::field_at(path);
-  const auto number = scene::parse_quantity(value, field.dimension);
-  const bool is_plain = field.form != scene::Form::kQuantity || field.dimension == scene::Dimension::kPlain;
+  const auto number = keys::parse_quantity(value, field.dimension);
+  const bool is_plain = field.form != keys::Form::kQuantity || field.dimension == keys::Dimension::kPlain;
   return fmt::format("{} = {}", symbol_of(path),
-                     number && !is_plain ? scene::format_quantity(*number, field.dimension) : value);
+                     number && !is_plain ? keys::format_quantity(*number, field.dimension) : value);
 }
 
 }  // namespace

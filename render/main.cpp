@@ -26,6 +26,7 @@
 #include "base/failure.h"
 #include "base/files.h"
 #include "base/help_formatter.h"
+#include "base/keys/units.h"
 #include "base/progress_line.h"
 #include "base/standard_streams.h"
 #include "base/text.h"
@@ -42,7 +43,6 @@
 #include "render/style_keys.h"
 #include "render/sweep_map.h"
 #include "run/files/version.h"
-#include "scene/units.h"
 
 namespace shaken::render {
 namespace {
@@ -79,18 +79,13 @@ struct Options {
 PictureStyle style_of(const Options& options, PictureStyle style = {}) {
   if (!options.style.empty()) style = value_or_fail(named_style(options.style, style), ExitCode::kBadInput);
   std::string wrong;
-  const auto note = [&](const StyleKey& key, const Result<void>& done) {
-    if (done) return;
-    std::string name = key.name;
-    std::replace(name.begin(), name.end(), '_', '-');
-    wrong += fmt::format("{}--{} {}", wrong.empty() ? "" : "\n", name, done.error().message);
-  };
   for (const StyleKey& key : style_keys()) {
-    if (const auto given = options.keys.find(key.name); given != options.keys.end() && !given->second.empty()) {
-      note(key, set_from_text(style, key, given->second));
+    if (const auto given = options.keys.find(key.path); given != options.keys.end() && !given->second.empty()) {
+      const Result<void> done = set_from_text(style, key, given->second);
+      if (!done) wrong += fmt::format("{}{}: {}", wrong.empty() ? "" : "\n", option_of(key), done.error().message);
     }
-    if (const auto given = options.switches.find(key.name); given != options.switches.end()) {
-      note(key, set(style, key, given->second));
+    if (const auto given = options.switches.find(key.path); given != options.switches.end()) {
+      key.store(style, given->second);
     }
   }
   if (!wrong.empty()) throw Failure(ExitCode::kBadInput, wrong);
@@ -101,7 +96,7 @@ PictureStyle style_of(const Options& options, PictureStyle style = {}) {
 
 /// "10 s", "500ms", "12.5".
 double seconds_in(const std::string& text, const char* option) {
-  const Result<double> time = scene::parse_quantity(text, scene::Dimension::kTime);
+  const Result<double> time = keys::parse_quantity(text, keys::Dimension::kTime);
   if (!time) throw Failure(ExitCode::kBadInput, fmt::format("{}: {}", option, time.error().message));
   return *time;
 }
@@ -472,18 +467,15 @@ void declare_style(CLI::App& app, Options& options) {
                  "below change it")
       ->type_name("NAME|FILE");
   for (const StyleKey& key : style_keys()) {
-    std::string name = key.name;
-    std::replace(name.begin(), name.end(), '_', '-');
-    const PictureStyle usual;
-    if (key.form == StyleForm::kSwitch) {
+    if (key.path == "style") continue;
+    if (key.form == keys::Form::kSwitch) {
+      const std::string name = option_of(key).substr(2);
       app.add_flag(
           fmt::format("--{0},!--no-{0}", name),
-          [&options, &key](std::int64_t on) { options.switches[key.name] = on > 0; }, key.doc);
-      continue;
+          [&options, &key](std::int64_t on) { options.switches[key.path] = on > 0; }, key.doc);
+    } else {
+      app.add_option(option_of(key), options.keys[key.path], key.doc)->type_name(value_name(key));
     }
-    std::string doc = key.doc;
-    if (!key.words.empty()) doc += ": " + allowed(key);
-    app.add_option((name == "colour" ? "-c,--" : "--") + name, options.keys[key.name], doc)->type_name(key.value_name);
   }
   app.add_option("--label", options.labels,
                  "Headline, one for each run; settings like rods.length=2.5 are written as physicists do")

@@ -17,6 +17,7 @@ Result<void> check(const PictureStyle& style) {
   if (!(style.zoom >= 1) || !style.focus.allFinite()) return Error{"zoom must be at least 1, and focus finite"};
   const Colouring* colouring = find_colouring(style.colour);
   if (style.colour != "auto" && colouring == nullptr) return Error{"there is no colouring " + style.colour};
+  if (style.range && !(style.range->x() < style.range->y())) return Error{"the range must rise from its first number"};
   if (style.range && colouring == nullptr) return Error{"range needs a colour that it is the range of, not auto"};
   if (style.range && (colouring->scale != Scale::kLine || std::string_view(colouring->unit) == "\u00b0")) {
     return Error{"range is for tilt, speed, order and density; the scale of " + style.colour + " is fixed"};

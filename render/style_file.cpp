@@ -2,25 +2,19 @@
 #include "render/style_file.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
 #include <vector>
 
 #include "base/files.h"
+#include "base/keys/nearest.h"
+#include "base/keys/schema.h"
 #include "render/style_keys.h"
-#include "scene/document.h"
-#include "scene/load.h"
-#include "scene/nearest.h"
-#include "scene/units.h"
 
 namespace shaken::render {
 namespace {
-
-using scene::Node;
-using scene::Problem;
-
-constexpr const char* kBase = "style";
 
 const Preset kPresets[] = {
     {"layers", "rods by their angle to the director, whatever the order: the layered phase",
@@ -60,115 +54,32 @@ const Preset* find_preset(std::string_view name) {
   return found == std::end(kPresets) ? nullptr : found;
 }
 
-std::string list_of(const std::vector<std::string>& names) {
-  std::string all;
-  for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
-  return all;
-}
-
-/// A number; of a time also a text with a unit.
-std::optional<double> number_in(const Node& node, const StyleKey& key) {
-  if (node.kind == Node::Kind::kNumber) {
-    if (const auto number = scene::parse_quantity(node.text, scene::Dimension::kPlain)) return *number;
-  }
-  if (node.kind == Node::Kind::kString && std::string_view(key.value_name) == "S") {
-    if (const auto number = scene::parse_quantity(node.text, scene::Dimension::kTime)) return *number;
-  }
-  return std::nullopt;
-}
-
-/// The value in the key's form; nothing, with what is wanted in `wanted`, if it is of another.
-std::optional<StyleValue> value_in(const Node& node, const StyleKey& key, std::string& wanted) {
-  switch (key.form) {
-    case StyleForm::kSwitch:
-      wanted = "true or false";
-      if (node.kind == Node::Kind::kBoolean) return node.boolean;
-      return std::nullopt;
-    case StyleForm::kWord:
-      wanted = "a text";
-      if (node.kind == Node::Kind::kString) return node.text;
-      return std::nullopt;
-    case StyleForm::kNumber:
-      wanted = std::string_view(key.value_name) == "S" ? "a number of seconds, or a text like \"500 ms\"" : "a number";
-      if (const auto number = number_in(node, key)) return *number;
-      return std::nullopt;
-    case StyleForm::kPair:
-    case StyleForm::kSize:
-      break;
-  }
-  wanted = "two numbers, [a, b]";
-  if (node.kind != Node::Kind::kArray || node.items.size() != 2) return std::nullopt;
-  const auto first = number_in(node.items[0], key), second = number_in(node.items[1], key);
-  if (!first || !second) return std::nullopt;
-  return Vec2(*first, *second);
-}
-
 }  // namespace
 
 std::span<const Preset> presets() { return kPresets; }
 
-scene::Loaded<PictureStyle> load_style(std::string_view text, const std::string& file, PictureStyle style) {
-  std::vector<Problem> problems;
-  const std::optional<Node> document = scene::parse_document(text, file, problems);
-  if (!document) return problems;
-  if (document->kind != Node::Kind::kObject) {
-    return std::vector<Problem>{problem_at(document->place, "", "a style is an object, not " + describe(*document))};
-  }
-  if (const scene::Member* base = document->find(kBase)) {
-    const Preset* preset = base->value.kind == Node::Kind::kString ? find_preset(base->value.text) : nullptr;
-    if (preset != nullptr) {
-      style = *load_style(preset->text, preset->name, style);
-    } else {
-      problems.push_back(
-          problem_at(base->value.place, kBase, "may be " + list_of(preset_names()) + ", not " + describe(base->value)));
-    }
-  }
-  std::vector<std::string> known{kBase};
-  for (const StyleKey& key : style_keys()) known.emplace_back(key.name);
-  for (const scene::Member& member : document->members) {
-    if (member.key == kBase) continue;
-    const StyleKey* key = find_style_key(member.key);
-    if (key == nullptr) {
-      problems.push_back(
-          problem_at(member.place, member.key,
-                     "there is no such key in a style" + scene::did_you_mean(scene::nearest(member.key, known))));
-    }
-  }
-  // In the table's order, whatever that of the file is: a range belongs to the colour that it stands with.
-  for (const StyleKey& key : style_keys()) {
-    const scene::Member* member = document->find(key.name);
-    if (member == nullptr) continue;
-    std::string wanted;
-    const std::optional<StyleValue> value = value_in(member->value, key, wanted);
-    if (!value) {
-      problems.push_back(
-          problem_at(member->value.place, key.name, "must be " + wanted + ", not " + describe(member->value)));
-      continue;
-    }
-    if (auto done = set(style, key, *value); !done) {
-      problems.push_back(problem_at(member->value.place, key.name, done.error().message));
-    }
-  }
-  if (problems.empty()) {
-    if (auto done = check(style); !done) problems.push_back(problem_at(document->place, "", done.error().message));
-  }
-  if (!problems.empty()) return scene::tidied(std::move(problems));
-  return style;
+keys::Loaded<PictureStyle> load_style(std::string_view text, const std::string& file, PictureStyle style) {
+  keys::Loaded<PictureStyle> loaded = style_keys().read(text, file, std::move(style));
+  if (!loaded) return loaded;
+  if (auto done = check(*loaded); !done) return std::vector{keys::Problem{file, 0, 0, "", done.error().message}};
+  return loaded;
 }
 
 Result<PictureStyle> named_style(const std::string& name, const PictureStyle& style) {
   if (const Preset* preset = find_preset(name)) return *load_style(preset->text, preset->name, style);
   std::error_code ignored;
   if (!std::filesystem::exists(name, ignored)) {
-    return Error{fmt::format("there is no style '{}': give one of {}, or a file{}", name, list_of(preset_names()),
-                             scene::did_you_mean(scene::nearest(name, preset_names())))};
+    return Error{fmt::format("there is no style '{}': give one of {}, or a file{}", name,
+                             fmt::join(preset_names(), ", "), keys::did_you_mean(keys::nearest(name, preset_names())))};
   }
   const Result<std::string> text = read_input(name);
   if (!text) return text.error();
-  scene::Loaded<PictureStyle> loaded = load_style(*text, name, style);
+  keys::Loaded<PictureStyle> loaded = load_style(*text, name, style);
   if (!loaded) return Error{to_string(loaded.error())};
   return *loaded;
 }
+
+nlohmann::ordered_json style_schema() { return keys::document_schema("Style of pictures of Shaken", style_keys()); }
 
 std::string presets_as_markdown() {
   std::string table = "| `--style` | what it shows |\n|---|---|\n";

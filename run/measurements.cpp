@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <regex>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -121,10 +122,17 @@ std::vector<std::byte> Measurements::save() const {
 Result<void> Measurements::restore(std::span<const std::byte> bytes) {
   try {
     StateReader reader(bytes);
-    for (Timed& timed : timed_) {
-      reader.tag(timed.name);
-      timed.samples = reader.integer(0, kNever);
-      timed.measurement->restore(reader);
+    std::set<std::string> restored;
+    while (restored.size() < timed_.size()) {
+      // their order may be that of another version
+      const std::span<const std::byte> tag = reader.bytes();
+      const std::string name(reinterpret_cast<const char*>(tag.data()), tag.size());
+      const auto timed = std::find_if(timed_.begin(), timed_.end(), [&](const Timed& one) { return one.name == name; });
+      if (timed == timed_.end() || !restored.insert(name).second) {
+        throw StateError("no state of a measurement '" + name + "' was expected");
+      }
+      timed->samples = reader.integer(0, kNever);
+      timed->measurement->restore(reader);
     }
     reader.end();
     return {};

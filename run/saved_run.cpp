@@ -12,7 +12,7 @@ namespace shaken::run {
 Result<scene::RunPlan> read_plan(const RunDirectory& directory) {
   const Result<std::string> text = read_file(directory.scene());
   if (!text) return text.error();
-  const scene::Loaded<scene::RunPlan> plan = scene::load_scene(*text, directory.scene().string());
+  const keys::Loaded<scene::RunPlan> plan = scene::load_scene(*text, directory.scene().string());
   if (!plan) return Error{to_string(plan.error())};
   return *plan;
 }

@@ -26,7 +26,7 @@
 #include "run/start_state.h"
 #include "scene/canonical.h"
 #include "scene/load.h"
-#include "scene/measure_memory.h"
+#include "scene/memory_limit.h"
 #include "scene/placement.h"
 
 namespace shaken::run {
@@ -176,7 +176,7 @@ ExitCode work(const WorkerOptions& asked) {
     std::signal(SIGTERM, on_stop);
     std::signal(SIGINT, on_interrupt);
   }
-  const scene::Loaded<scene::RunPlan> plan = scene::load_scene(text, asked.scene, asked.settings);
+  const keys::Loaded<scene::RunPlan> plan = scene::load_scene(text, asked.scene, asked.settings);
   if (!plan) throw Failure(ExitCode::kBadInput, to_string(plan.error()));
   if (const auto problem = scene::memory_problem(*plan, scene::memory_allowed(), asked.scene)) {
     throw Failure(ExitCode::kBadInput, to_string(*problem));

@@ -31,31 +31,14 @@ std::string hash_of(nlohmann::ordered_json scene) {
 
 }  // namespace
 
-nlohmann::ordered_json to_json(const Field& field, const Value& value) {
-  if (const bool* on = std::get_if<bool>(&value)) return *on;
-  if (const std::string* name = std::get_if<std::string>(&value)) return *name;
-  if (const double* number = std::get_if<double>(&value)) {
-    if (field.form == Form::kWhole) return static_cast<std::int64_t>(*number);
-    return *number;
-  }
-  if (const auto* size = std::get_if<std::array<double, 2>>(&value)) {
-    return {static_cast<int>((*size)[0]), static_cast<int>((*size)[1])};
-  }
-  if (const auto* numbers = std::get_if<std::vector<double>>(&value)) return *numbers;
-  return nullptr;
-}
-
 nlohmann::ordered_json to_json(const RunPlan& plan) {
   nlohmann::ordered_json scene = nlohmann::ordered_json::object();
   for (const Field& field : fields()) {
-    const Field* block = block_of(field);
-    const bool is_off = block != nullptr && !std::get<bool>(block->fetch(plan));
-    if (!field.fetch || is_off) continue;
-    const Value value = field.fetch(plan);
+    const Value value = fields().value(plan, field);
     if (std::holds_alternative<std::monostate>(value)) continue;  // has no meaning in this plan
     if (field.omit_if_default && value == field.fallback) continue;
     if (field.form != Form::kBlock) {
-      object_at(scene, field.path) = to_json(field, value);
+      object_at(scene, field.path) = keys::to_json(field, value);
     } else if (std::get<bool>(value)) {
       object_at(scene, field.path) = nlohmann::ordered_json::object();
     } else if (std::get<bool>(field.fallback)) {  // off, though it would be on if nothing were said

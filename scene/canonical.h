@@ -22,7 +22,4 @@ std::string run_id(const RunPlan& plan);
 /// for estimates and benches.
 std::string scene_hash(const RunPlan& plan);
 
-/// One value as JSON, in its default unit.
-nlohmann::ordered_json to_json(const Field& field, const Value& value);
-
 }  // namespace shaken::scene

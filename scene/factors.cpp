@@ -8,8 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "base/keys/nearest.h"
 #include "scene/fields.h"
-#include "scene/nearest.h"
 #include "scene/values.h"
 
 namespace shaken::scene {
@@ -89,10 +89,10 @@ class VariationReader {
   const Field* swept_field(const Member& member) {
     const int index = field_index(member.key);
     if (index < 0 || fields()[static_cast<std::size_t>(index)].form == Form::kBlock) {
-      const bool exists = index >= 0 || is_group(member.key);
+      const bool exists = index >= 0 || fields().is_group(member.key);
       report(member.place, member.key,
              exists ? "this is an object; sweep the keys in it"
-                    : "unknown key" + suggestion(problems_, [&] { return suggest_path(member.key); }));
+                    : "unknown key" + suggestion(problems_, [&] { return fields().suggest_path(member.key); }));
       return nullptr;
     }
     for (const Factor& factor : variation_.factors) {

@@ -5,8 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/document.h"
-#include "scene/problem.h"
+#include "scene/keys.h"
 #include "scene/values.h"
 
 namespace shaken::scene {

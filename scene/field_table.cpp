@@ -9,7 +9,7 @@
 #include "base/picture_limits.h"
 #include "scene/accuracy_levels.h"
 #include "scene/derived.h"
-#include "scene/field_makers.h"
+#include "scene/fields.h"
 #include "scene/observables.h"
 
 namespace shaken::scene {
@@ -29,18 +29,13 @@ double to_ten_digits(double value) { return parse_decimal(fmt::format("{:.10g}",
 /// A key that is given in place of another: it has no place in a plan.
 Field instead(const std::string& path, Fetch fetch, Dimension dimension, double low, double high, Value fallback,
               const std::string& doc) {
-  return {.path = path,
-          .dimension = dimension,
-          .low = low,
-          .high = high,
-          .fallback = std::move(fallback),
-          .doc = doc,
-          .fetch = fetch};
+  return {{.path = path, .dimension = dimension, .low = low, .high = high, .fallback = std::move(fallback), .doc = doc},
+          fetch};
 }
 
 /// A word for what other keys say in numbers.
 Field accuracy() {
-  Field field{.path = "accuracy", .form = Form::kName, .fallback_note = "none"};
+  Field field{{.path = "accuracy", .form = Form::kName, .fallback_note = "none"}};
   std::string steps;
   for (const AccuracyLevel& level : accuracy_levels()) {
     field.names.emplace_back(level.name);
@@ -71,18 +66,17 @@ Field inner_wall() {
 }
 
 Field steady() {
-  return {.path = "time.steady",
-          .dimension = kTime,
-          .low = 0,
-          .high = 1e7,
-          .names = {"auto"},
-          .doc = "Time before measuring begins. With \"auto\" it is determined from S(t) afterwards.",
-          .fetch = [](const RunPlan& plan) { return plan.steady ? Value(*plan.steady) : Value("auto"); },
-          .store =
-              [](RunPlan& plan, const Value& value) {
-                plan.steady.reset();
-                if (const double* time = std::get_if<double>(&value)) plan.steady = *time;
-              }};
+  return {{.path = "time.steady",
+           .dimension = kTime,
+           .low = 0,
+           .high = 1e7,
+           .names = {"auto"},
+           .doc = "Time before measuring begins. With \"auto\" it is determined from S(t) afterwards."},
+          [](const RunPlan& plan) { return plan.steady ? Value(*plan.steady) : Value("auto"); },
+          [](RunPlan& plan, const Value& value) {
+            plan.steady.reset();
+            if (const double* time = std::get_if<double>(&value)) plan.steady = *time;
+          }};
 }
 
 /// Means nothing where another run has left the rods.
@@ -112,33 +106,23 @@ Field rods_start_angle() {
 }
 
 Field start_run() {
-  return {.path = "start.run",
-          .form = Form::kRunId,
-          .fallback_note = "must be given",
-          .doc =
-              "Id of the run whose rods are taken over. It must have the same rods, box, gap, plates and walls; "
-              "shaking, gravity, contacts, step and seed may differ.",
-          .fetch = [](const RunPlan& plan) { return Value(plan.start->run); },
-          .store = [](RunPlan& plan, const Value& id) { plan.start->run = std::get<std::string>(id); }};
+  return plain({.path = "start.run",
+                .form = Form::kText,
+                .pattern = "[0-9a-f]{16}",
+                .longest = 16,
+                .may_look_like_number = true,
+                .expected = "the id of a run, 16 hex digits",
+                .fallback_note = "must be given",
+                .doc = "Id of the run whose rods are taken over. It must have the same rods, box, gap, plates and "
+                       "walls; shaking, gravity, contacts, step and seed may differ."},
+               at<&RunPlan::start, &StartState::run>);
 }
 
 Field movie_size() {
-  return {.path = "movie.size",
-          .form = Form::kSize,
-          .low = kLeastPixels,
-          .high = kMostPixels,
-          .doc = "Width and height in pixels, both even.",
-          .fetch =
-              [](const RunPlan& plan) {
-                const auto [every, width, height] = *plan.movie;
-                return Value(std::array{static_cast<double>(width), static_cast<double>(height)});
-              },
-          .store =
-              [](RunPlan& plan, const Value& value) {
-                const auto& [width, height] = std::get<std::array<double, 2>>(value);
-                plan.movie->width = static_cast<int>(width);
-                plan.movie->height = static_cast<int>(height);
-              }};
+  Field field = size("movie.size", at<&RunPlan::movie, &Movie::width>, at<&RunPlan::movie, &Movie::height>,
+                     kLeastPixels, kMostPixels, "Width and height in pixels, both even.");
+  field.only_even = true;
+  return field;
 }
 
 Value fetch_gamma(const RunPlan& p) {
@@ -149,15 +133,15 @@ Value fetch_gamma(const RunPlan& p) {
 /// The diameters of all beads; nothing where a profile gives them.
 template <class Access>
 Field bead_diameters(const std::string& path, Access access) {
-  return {.path = path,
-          .form = Form::kNumbers,
-          .dimension = kLength,
-          .low = 0.05,
-          .high = 20,
-          .fallback_note = "none",
-          .doc = "Diameter of each bead from tail to head, in place of a profile.",
-          .fetch = [access](const RunPlan& p) { return access(p).empty() ? Value() : Value(access(p)); },
-          .store = [access](RunPlan& p, const Value& value) { access(p) = std::get<std::vector<double>>(value); }};
+  return {{.path = path,
+           .form = Form::kNumbers,
+           .dimension = kLength,
+           .low = 0.05,
+           .high = 20,
+           .fallback_note = "none",
+           .doc = "Diameter of each bead from tail to head, in place of a profile."},
+          [access](const RunPlan& p) { return access(p).empty() ? Value() : Value(access(p)); },
+          [access](RunPlan& p, const Value& value) { access(p) = std::get<std::vector<double>>(value); }};
 }
 
 /// Area fraction of the rods added as number k + 2.
@@ -332,25 +316,16 @@ std::vector<std::vector<Field>> groups() {
 }
 // clang-format on
 
-std::vector<Field> make_table() {
-  std::vector<Field> table;
-  for (std::vector<Field>& group : groups()) std::ranges::move(group, std::back_inserter(table));
-  // The defaults are those of the structs themselves.
-  RunPlan defaults;
-  for (const Field& field : table) {
-    if (field.form == Form::kBlock) field.store(defaults, true);
-  }
-  for (Field& field : table) {
-    const bool is_open = std::holds_alternative<std::monostate>(field.fallback) && field.fallback_note.empty();
-    if (is_open) field.fallback = field.fetch(defaults);
-  }
-  return table;
+std::vector<Field> rows() {
+  std::vector<Field> rows;
+  for (std::vector<Field>& group : groups()) std::ranges::move(group, std::back_inserter(rows));
+  return rows;
 }
 
 }  // namespace
 
-const std::vector<Field>& fields() {
-  static const std::vector<Field> table = make_table();
+const keys::Table<RunPlan>& fields() {
+  static const keys::Table<RunPlan> table(rows());
   return table;
 }
 

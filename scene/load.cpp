@@ -3,12 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <optional>
-#include <unordered_set>
 
-#include "scene/document.h"
-#include "scene/draft.h"
+#include "base/keys/draft.h"
+#include "scene/keys.h"
 #include "scene/resolve.h"
 #include "scene/settings.h"
 #include "scene/values.h"
@@ -41,7 +39,7 @@ Loaded<RunPlan> load_scene(std::string_view text, const std::string& file, std::
     problems.push_back(problem_at(sweep->place, sweep->key, "this is a sweep file; a single scene is wanted here"));
     return tidied(problems);
   }
-  Draft draft(root->place);
+  Draft draft(fields(), root->place);
   draft.read(*root, problems);
   for (const std::string& written : settings) {
     if (const auto setting = parse_setting(written, problems)) apply(*setting, draft, problems);
@@ -49,25 +47,6 @@ Loaded<RunPlan> load_scene(std::string_view text, const std::string& file, std::
   std::optional<RunPlan> plan = resolve(draft, problems);
   if (!problems.empty()) return tidied(problems);
   return std::move(plan).value();
-}
-
-std::vector<Problem> tidied(std::vector<Problem> problems) {
-  std::vector<Problem> kept;
-  std::unordered_set<std::string> seen;
-  for (Problem& problem : problems) {
-    if (seen.insert(to_string(problem)).second) kept.push_back(std::move(problem));
-  }
-  // Settings, which have no line, come after the file, in their order.
-  std::stable_sort(kept.begin(), kept.end(), [](const Problem& a, const Problem& b) {
-    if ((a.line == 0) != (b.line == 0)) return b.line == 0;
-    return std::pair(a.line, a.column) < std::pair(b.line, b.column);
-  });
-  if (kept.size() > kMaxProblems) {
-    const std::size_t n_more = kept.size() - kMaxProblems;
-    kept.resize(kMaxProblems);
-    kept.push_back({kept.front().file, 0, 0, {}, fmt::format("and {} more problems", n_more)});
-  }
-  return kept;
 }
 
 }  // namespace shaken::scene

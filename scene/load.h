@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "scene/problem.h"
+#include "scene/keys.h"
 #include "scene/run_plan.h"
 
 namespace shaken::scene {
@@ -13,8 +13,5 @@ namespace shaken::scene {
 /// Reads a scene file (docs/scene.md) and applies `settings` ("path=value") to it in their order. `file` is the name
 /// used in problems. Everything that is wrong is listed at once.
 Loaded<RunPlan> load_scene(std::string_view text, const std::string& file, std::span<const std::string> settings = {});
-
-/// The problems in the order of the text, each once, at most 100.
-std::vector<Problem> tidied(std::vector<Problem> problems);
 
 }  // namespace shaken::scene

@@ -109,23 +109,32 @@ struct MeasureStructure {
   friend bool operator==(const MeasureStructure&, const MeasureStructure&) = default;
 };
 
+// clang-format off
+/// Every observable by its name and settings, in the order in which it stands in canonical scenes, samples and is
+/// saved. A further one goes to the end. All that there is one of for each observable is made from this list.
+#define SHAKEN_OBSERVABLES(X) \
+  X(order, MeasureOrder) \
+  X(angles, MeasureAngles) \
+  X(tilt, MeasureTilt) \
+  X(defects, MeasureDefects) \
+  X(g2, MeasureG2) \
+  X(msd, MeasureMsd) \
+  X(fluctuations, MeasureFluctuations) \
+  X(frank, MeasureFrank) \
+  X(rotation, MeasureRotation) \
+  X(velocity, MeasureVelocity) \
+  X(rods, MeasureRods) \
+  X(pairs, MeasurePairs) \
+  X(layers, MeasureLayers) \
+  X(lattice, MeasureLattice) \
+  X(structure, MeasureStructure)
+// clang-format on
+
 /// What a run measures. An absent observable is not measured and costs nothing.
 struct MeasurePlan {
-  std::optional<MeasureOrder> order;
-  std::optional<MeasureAngles> angles;
-  std::optional<MeasureTilt> tilt;
-  std::optional<MeasureDefects> defects;
-  std::optional<MeasureG2> g2;
-  std::optional<MeasureMsd> msd;
-  std::optional<MeasureRotation> rotation;
-  std::optional<MeasureVelocity> velocity;
-  std::optional<MeasureRods> rods;
-  std::optional<MeasureFluctuations> fluctuations;
-  std::optional<MeasureFrank> frank;
-  std::optional<MeasurePairs> pairs;
-  std::optional<MeasureLayers> layers;
-  std::optional<MeasureLattice> lattice;
-  std::optional<MeasureStructure> structure;
+#define SHAKEN_MEMBER(name, Settings) std::optional<Settings> name;
+  SHAKEN_OBSERVABLES(SHAKEN_MEMBER)
+#undef SHAKEN_MEMBER
   friend bool operator==(const MeasurePlan&, const MeasurePlan&) = default;
 };
 

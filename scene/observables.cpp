@@ -2,18 +2,271 @@
 #include "scene/observables.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "base/core/check.h"
-#include "scene/field_makers.h"
 
 namespace shaken::scene {
 
 namespace {
 
-/// Completes a row of the table: the observable's settings are the member `settings` of a plan.
+constexpr double kNumberBytes = 8;  ///< bytes of a double or a count
+constexpr double kBlocks = 64;      ///< stretches of time that sums are kept for, at most (analysis/blocked.h)
+constexpr double kSeries = 65536;   ///< points of a series against time, at most (analysis/bounded_series.h)
+/// Arrays that grow with the run double when they are full too: between 1 and 2 times what is in them.
+constexpr double kGrowing = 1.5;
+
+}  // namespace
+
+double Sizes::in_blocks(double bytes) const { return std::min(kBlocks, samples) * bytes; }
+
+double Sizes::series(double columns) const { return std::min(kSeries, samples) * columns * kNumberBytes; }
+
+double Sizes::for_lags(double columns, double quantities) const {
+  double kept = 0;
+  for (int k = 0; k < 16; ++k) kept += std::min(8.0, std::ceil(samples / std::exp2(k)));
+  return kept * rods * columns * kNumberBytes + in_blocks(69 * (2 + quantities) * kNumberBytes);
+}
+
+namespace {
+
+/// The nodes of a square grid of waves, of which one of each pair +-q is kept (analysis/wave_sums.h).
+double half_plane(double waves) { return (waves + 1) * (2 * waves + 1); }
+
+MeasureMemory of_defects(const Sizes& sizes) {
+  const System& system = sizes.plan.system;
+  const MeasureDefects& defects = *sizes.plan.defects;
+  const double side = std::max(4.0, std::ceil(system.box_side / defects.grid_for(system.rod.length) - 1e-9));
+  // Zeros of a Gaussian field that is smoothed over s: 1 / (4 pi s^2) of them an area (Halperin, Les Houches 35, 813
+  // (1981)); the field has no more than one in a mesh.
+  const double smoothing = defects.smoothing_for(system.rod.length);
+  const double found =
+      std::min(system.box_side * system.box_side / (4 * std::numbers::pi * smoothing * smoothing), side * side);
+  constexpr double kTrack = 1200;  // with its last 17 places
+  const double list = defects.list ? kGrowing * 6 * kNumberBytes * found * sizes.samples : 0;
+  // Q, the density of rods and that of the nodes, each node's sum by rows and in all
+  return {"", sizes.series(3) + found * kTrack + list, 5 * kNumberBytes * side * side};
+}
+
+MeasureMemory of_velocity(const Sizes& sizes) {
+  const MeasureVelocity& velocity = *sizes.plan.velocity;
+  const double window = std::max(1.0, std::round(velocity.window / velocity.every));
+  return {"", sizes.for_lags(2, 4) + std::min(window, sizes.samples) * (sizes.rods * 2 * kNumberBytes + 100), 0};
+}
+
+MeasureMemory of_rods(const Sizes& sizes) {
+  const MeasureRods& rods = *sizes.plan.rods;
+  const double kept = std::min(sizes.samples, std::floor(rods.duration / rods.every * (1 + 1e-12)) + 1);
+  return {"", kGrowing * kept * kNumberBytes * (4 * std::min<double>(rods.count, sizes.rods) + 1), 0};
+}
+
+MeasureMemory of_pairs(const Sizes& sizes) {
+  const double bins = sizes.plan.pairs->bins;
+  const double side = sizes.plan.system.box_side;
+  const double range = std::min(sizes.plan.pairs->range_for(sizes.plan.system.rod.length, side), side / 2);
+  const double cut = side / 2 / (2 * range / bins);
+  return {"", sizes.in_blocks(2 * kNumberBytes * (bins * bins + 2 * cut)), 0};
+}
+
+MeasureMemory of_layers(const Sizes& sizes) {
+  const double waves = std::min(40.0, std::floor(2 * sizes.plan.system.box_side / sizes.plan.system.rod.length));
+  return {"", sizes.in_blocks(2 * kNumberBytes * (half_plane(waves) + 2 * waves)), half_plane(waves) * kNumberBytes};
+}
+
+/// The rows, each by the name of its observable.
+namespace rows {
+
+using Plan = MeasurePlan;
+using enum Dimension;
+
+// clang-format off
+Observable order() {
+  return {
+    .doc = "Nematic order parameter S(t) in the plane.",
+    .is_usual = true,
+    .axis = AxisUse::kNeeded,
+    // its reduction looks for correlations, in copies of the series
+    .memory = [](const Sizes& s) -> MeasureMemory { return {"", s.series(3) + s.in_blocks(1000), s.series(6)}; },
+    .remedy = "a longer `every`"};
+}
+
+Observable angles() {
+  return {
+    .doc = "Distribution of the angle between a rod and the director.",
+    .axis = AxisUse::kNeeded,
+    .keys = {
+      whole("bins", at<&Plan::angles, &MeasureAngles::bins>, 2, 10000, "Number of bins over [-pi/2, pi/2).")},
+    .memory = [](const Sizes& s) -> MeasureMemory {
+      return {"", s.in_blocks(kNumberBytes * s.plan.angles->bins + 100), 0}; },
+    .remedy = "fewer `bins`"};
+}
+
+Observable tilt() {
+  return {
+    .doc = "Mean velocity along and across the rod against its tilt n_z.",
+    .axis = AxisUse::kNeeded,
+    .every_doc = "Mean time between samples.",
+    .keys = {
+      choice<SamplePhases>("phases", at<&Plan::tilt, &MeasureTilt::phases>,
+                           {{"spread", SamplePhases::kSpread}, {"locked", SamplePhases::kLocked}},
+                           "Whether each sample is taken at a random instant of its interval, and so all of them at "
+                           "all phases of the vibration alike, or at whole multiples of `every`."),
+      whole("bins", at<&Plan::tilt, &MeasureTilt::bins>, 2, 10000,
+            "Number of bins, from the largest downward to the largest upward tilt that the gap allows.")},
+    .memory = [](const Sizes& s) -> MeasureMemory {
+      return {"", s.in_blocks(3 * kNumberBytes * s.plan.tilt->bins + 200) + kNumberBytes * s.rods, 0}; },
+    .remedy = "fewer `bins`"};
+}
+
+Observable defects() {
+  return {
+    .doc = "Topological defects of the smoothed director field, where there are rods (and only within the walls, if "
+           "any).",
+    .axis = AxisUse::kNeeded,
+    .keys = {
+      derived(quantity("smoothing", at<&Plan::defects, &MeasureDefects::smoothing>, kLength, 0.01, 200,
+                       "Standard deviation of the Gaussian that smooths the director field."),
+              "half a rod length"),
+      derived(quantity("grid", at<&Plan::defects, &MeasureDefects::grid>, kLength, 0.01, 200,
+                       "Mesh width of the director field."),
+              "an eighth of a rod length"),
+      later(on_or_off("list", at<&Plan::defects, &MeasureDefects::list>,
+                      "Whether every defect found is kept, with its track. The memory for this grows in proportion "
+                      "to the run.")),
+      later(quantity("min_lifetime", at<&Plan::defects, &MeasureDefects::min_lifetime>, kTime, 1e-7, 1e5,
+                     "Tracks at least this long are also reported separately, because noise makes short-lived "
+                     "pairs."))},
+    .memory = of_defects,
+    .remedy = "a coarser `grid`, or no `list`"};
+}
+
+Observable g2() {
+  return {
+    .doc = "Orientational correlation G2(r) and pair distribution g(r) (only within the walls, if any).",
+    .axis = AxisUse::kPartly,
+    .keys = {
+      whole("bins", at<&Plan::g2, &MeasureG2::bins>, 2, 10000,
+            "Number of bins over distances from 0 to half the box.")},
+    .memory = [](const Sizes& s) -> MeasureMemory {
+      return {"", s.in_blocks(3 * kNumberBytes * s.plan.g2->bins + 100), 0}; },
+    .remedy = "fewer `bins`"};
+}
+
+Observable msd() {
+  return {
+    .doc = "Mean square displacement (MSD) against lag.",
+    .axis = AxisUse::kPartly,
+    .every_doc = "Time between samples, which is the shortest lag.",
+    .memory = [](const Sizes& s) -> MeasureMemory { return {"", s.for_lags(2, 6), 0}; },
+    .remedy = "fewer rods"};
+}
+
+Observable fluctuations() {
+  return {
+    .doc = "Giant number fluctuations, from the numbers of rods in boxes of 1/4 to 1/400 of the area.",
+    // 1054 boxes of ten sizes
+    .memory = [](const Sizes& s) -> MeasureMemory { return {"", s.in_blocks(1054 * 20), 0}; }};
+}
+
+Observable frank() {
+  return {
+    .doc = "Fluctuations of the director against the wave vector, and the ratio of the Frank constants of bend and "
+           "splay.",
+    .periodic = "the waves",
+    .axis = AxisUse::kNeeded,
+    // 84 waves in each sector that the director visits; a few of 36
+    .memory = [](const Sizes& s) -> MeasureMemory { return {"", s.in_blocks(3 * 90 * kNumberBytes), 0}; }};
+}
+
+Observable rotation() {
+  return {
+    .doc = "Rotation in the plane against lag: mean square angular displacement (MSAD) and C2(t).",
+    .axis = AxisUse::kNeeded,
+    .every_doc = "Time between samples, which is the shortest lag. In this time a rod must turn by much less than a "
+                 "quarter turn.",
+    .memory = [](const Sizes& s) -> MeasureMemory { return {"", s.for_lags(1, 4) + 2 * kNumberBytes * s.rods, 0}; },
+    .remedy = "fewer rods"};
+}
+
+Observable velocity() {
+  return {
+    .doc = "Velocity autocorrelation C_v(t).",
+    .axis = AxisUse::kPartly,
+    .every_doc = "Time between samples, which is the shortest lag.",
+    .keys = {
+      quantity("window", at<&Plan::velocity, &MeasureVelocity::window>, kTime, 1e-7, 1e5,
+               "Velocities are displacements over this time, which is rounded to a multiple of `every`.")},
+    .memory = of_velocity,
+    .remedy = "a shorter `window`, or a longer `every`"};
+}
+
+Observable rods() {
+  return {
+    .doc = "Paths of single rods, from `time.steady` on (from the start if that is \"auto\").",
+    .keys = {
+      whole("count", at<&Plan::rods, &MeasureRods::count>, 1, 1000,
+            "Number of rods that are followed. They are spread evenly over the indices."),
+      quantity("duration", at<&Plan::rods, &MeasureRods::duration>, kTime, 1e-6, 1e7,
+               "Time for which these rods are followed.")},
+    .memory = of_rods,
+    .remedy = "a smaller `count`, a shorter `duration`, or a longer `every`"};
+}
+
+Observable pairs() {
+  return {
+    .doc = "Maps of g(x, y) and G2(x, y) in the frame of the director, and cuts through them.",
+    .periodic = "the nearest images",
+    .axis = AxisUse::kNeeded,
+    .keys = {
+      whole("bins", at<&Plan::pairs, &MeasurePairs::bins>, 2, 201,
+            "Number of bins of a map in each direction; use an odd number to have a bin centred on 0. A run keeps 64 "
+            "maps, one for each interval of time, with 16 bytes per bin: 41 MB at most."),
+      derived(quantity("range", at<&Plan::pairs, &MeasurePairs::range>, kLength, 0.01, 1000,
+                       "Half the width of the map. It is at most half the box."),
+              "three rod lengths, at most half the box")},
+    .memory = of_pairs,
+    .remedy = "fewer `bins`"};
+}
+
+Observable layers() {
+  return {
+    .doc = "Layers along the director: spectrum, wavelength and order.",
+    .periodic = "the waves",
+    .axis = AxisUse::kNeeded,
+    .memory = of_layers};
+}
+
+Observable lattice() {
+  return {
+    .doc = "Crystalline order: psi_6 and the largest Bragg peak.",
+    .periodic = "the nearest images and waves",
+    .memory = [](const Sizes& s) -> MeasureMemory { return {"", s.in_blocks(200), half_plane(128) * kNumberBytes}; }};
+}
+
+Observable structure() {
+  return {
+    .doc = "Structure factor S(q) of the rods' centres: in all directions, along the director and across it.",
+    .periodic = "the waves",
+    .axis = AxisUse::kPartly,
+    .keys = {
+      whole("waves", at<&Plan::structure, &MeasureStructure::waves>, 2, 128,
+            "Number of wave numbers 2 pi k / L. The time that a sample takes grows with its square.")},
+    .memory = [](const Sizes& s) -> MeasureMemory {
+      const double waves = s.plan.structure->waves;
+      return {"", s.in_blocks(6 * kNumberBytes * waves + 100), half_plane(waves) * kNumberBytes}; },
+    .remedy = "fewer `waves`"};
+}
+
+// clang-format on
+
+}  // namespace rows
+
+/// Completes a row: the observable's settings are the member `settings` of a plan.
 template <auto settings>
-Observable of(Observable row) {
+Observable of(const char* name, Observable row) {
+  row.name = name;
   const std::string path = "measure." + row.name;
   std::string doc = row.doc;
   if (!row.within_walls()) doc += " Not available with walls.";
@@ -24,129 +277,6 @@ Observable of(Observable row) {
   for (Field& key : row.keys) key.path = path + "." + key.path;
   return row;
 }
-
-using Plan = MeasurePlan;
-
-// clang-format off
-std::vector<Observable> make_observables() {
-  using enum Dimension;
-  return {
-    of<&Plan::order>({
-      .name = "order",
-      .doc = "Nematic order parameter S(t) in the plane.",
-      .is_usual = true,
-      .axis = AxisUse::kNeeded}),
-    of<&Plan::angles>({
-      .name = "angles",
-      .doc = "Distribution of the angle between a rod and the director.",
-      .axis = AxisUse::kNeeded,
-      .keys = {
-        whole("bins", at<&Plan::angles, &MeasureAngles::bins>, 2, 10000, "Number of bins over [-pi/2, pi/2).")}}),
-    of<&Plan::tilt>({
-      .name = "tilt",
-      .doc = "Mean velocity along and across the rod against its tilt n_z.",
-      .axis = AxisUse::kNeeded,
-      .every_doc = "Mean time between samples.",
-      .keys = {
-        choice<SamplePhases>("phases", at<&Plan::tilt, &MeasureTilt::phases>,
-                             {{"spread", SamplePhases::kSpread}, {"locked", SamplePhases::kLocked}},
-                             "Whether each sample is taken at a random instant of its interval, and so all of them at "
-                             "all phases of the vibration alike, or at whole multiples of `every`."),
-        whole("bins", at<&Plan::tilt, &MeasureTilt::bins>, 2, 10000,
-              "Number of bins, from the largest downward to the largest upward tilt that the gap allows.")}}),
-    of<&Plan::defects>({
-      .name = "defects",
-      .doc = "Topological defects of the smoothed director field, where there are rods (and only within the walls, if "
-             "any).",
-      .axis = AxisUse::kNeeded,
-      .keys = {
-        derived(quantity("smoothing", at<&Plan::defects, &MeasureDefects::smoothing>, kLength, 0.01, 200,
-                         "Standard deviation of the Gaussian that smooths the director field."),
-                "half a rod length"),
-        derived(quantity("grid", at<&Plan::defects, &MeasureDefects::grid>, kLength, 0.01, 200,
-                         "Mesh width of the director field."),
-                "an eighth of a rod length"),
-        later(on_or_off("list", at<&Plan::defects, &MeasureDefects::list>,
-                        "Whether every defect found is kept, with its track. The memory for this grows in proportion "
-                        "to the run.")),
-        later(quantity("min_lifetime", at<&Plan::defects, &MeasureDefects::min_lifetime>, kTime, 1e-7, 1e5,
-                       "Tracks at least this long are also reported separately, because noise makes short-lived "
-                       "pairs."))}}),
-    of<&Plan::g2>({
-      .name = "g2",
-      .doc = "Orientational correlation G2(r) and pair distribution g(r) (only within the walls, if any).",
-      .axis = AxisUse::kPartly,
-      .keys = {
-        whole("bins", at<&Plan::g2, &MeasureG2::bins>, 2, 10000,
-              "Number of bins over distances from 0 to half the box.")}}),
-    of<&Plan::msd>({
-      .name = "msd",
-      .doc = "Mean square displacement (MSD) against lag.",
-      .axis = AxisUse::kPartly,
-      .every_doc = "Time between samples, which is the shortest lag."}),
-    of<&Plan::fluctuations>({
-      .name = "fluctuations",
-      .doc = "Giant number fluctuations, from the numbers of rods in boxes of 1/4 to 1/400 of the area."}),
-    of<&Plan::frank>({
-      .name = "frank",
-      .doc = "Fluctuations of the director against the wave vector, and the ratio of the Frank constants of bend and "
-             "splay.",
-      .periodic = "the waves",
-      .axis = AxisUse::kNeeded}),
-    of<&Plan::rotation>({
-      .name = "rotation",
-      .doc = "Rotation in the plane against lag: mean square angular displacement (MSAD) and C2(t).",
-      .axis = AxisUse::kNeeded,
-      .every_doc = "Time between samples, which is the shortest lag. In this time a rod must turn by much less than a "
-                   "quarter turn."}),
-    of<&Plan::velocity>({
-      .name = "velocity",
-      .doc = "Velocity autocorrelation C_v(t).",
-      .axis = AxisUse::kPartly,
-      .every_doc = "Time between samples, which is the shortest lag.",
-      .keys = {
-        quantity("window", at<&Plan::velocity, &MeasureVelocity::window>, kTime, 1e-7, 1e5,
-                 "Velocities are displacements over this time, which is rounded to a multiple of `every`.")}}),
-    of<&Plan::rods>({
-      .name = "rods",
-      .doc = "Paths of single rods, from `time.steady` on (from the start if that is \"auto\").",
-      .keys = {
-        whole("count", at<&Plan::rods, &MeasureRods::count>, 1, 1000,
-              "Number of rods that are followed. They are spread evenly over the indices."),
-        quantity("duration", at<&Plan::rods, &MeasureRods::duration>, kTime, 1e-6, 1e7,
-                 "Time for which these rods are followed.")}}),
-    of<&Plan::pairs>({
-      .name = "pairs",
-      .doc = "Maps of g(x, y) and G2(x, y) in the frame of the director, and cuts through them.",
-      .periodic = "the nearest images",
-      .axis = AxisUse::kNeeded,
-      .keys = {
-        whole("bins", at<&Plan::pairs, &MeasurePairs::bins>, 2, 201,
-              "Number of bins of a map in each direction; use an odd number to have a bin centred on 0. A run keeps 64 "
-              "maps, one for each interval of time, with 16 bytes per bin: 41 MB at most."),
-        derived(quantity("range", at<&Plan::pairs, &MeasurePairs::range>, kLength, 0.01, 1000,
-                         "Half the width of the map. It is at most half the box."),
-                "three rod lengths, at most half the box")}}),
-    of<&Plan::layers>({
-      .name = "layers",
-      .doc = "Layers along the director: spectrum, wavelength and order.",
-      .periodic = "the waves",
-      .axis = AxisUse::kNeeded}),
-    of<&Plan::lattice>({
-      .name = "lattice",
-      .doc = "Crystalline order: psi_6 and the largest Bragg peak.",
-      .periodic = "the nearest images and waves"}),
-    of<&Plan::structure>({
-      .name = "structure",
-      .doc = "Structure factor S(q) of the rods' centres: in all directions, along the director and across it.",
-      .periodic = "the waves",
-      .axis = AxisUse::kPartly,
-      .keys = {
-        whole("waves", at<&Plan::structure, &MeasureStructure::waves>, 2, 128,
-              "Number of wave numbers 2 pi k / L. The time that a sample takes grows with its square.")}}),
-  };
-}
-// clang-format on
 
 }  // namespace
 
@@ -160,7 +290,9 @@ std::optional<double> Observable::period(const RunPlan& plan) const {
 }
 
 const std::vector<Observable>& observables() {
-  static const std::vector<Observable> table = make_observables();
+#define SHAKEN_ROW(name, Settings) of<&MeasurePlan::name>(#name, rows::name()),
+  static const std::vector<Observable> table{SHAKEN_OBSERVABLES(SHAKEN_ROW)};
+#undef SHAKEN_ROW
   return table;
 }
 
@@ -169,6 +301,28 @@ const Observable& observable(std::string_view name) {
       std::find_if(observables().begin(), observables().end(), [&](const Observable& one) { return one.name == name; });
   SHAKEN_CHECK(found != observables().end(), std::string(name));
   return *found;
+}
+
+std::vector<MeasureMemory> measure_memory(const RunPlan& plan) {
+  std::vector<MeasureMemory> memory;
+  for (const Observable& one : observables()) {
+    const auto every = one.period(plan);
+    if (!every) continue;
+    const double ticks = std::max(1.0, std::round(*every / plan.system.dt));
+    const double samples = std::floor(plan.longest_time() / (ticks * plan.system.dt) * (1 + 1e-12)) + 1;
+    memory.push_back(one.memory({plan, samples, static_cast<double>(plan.system.n_rods)}));
+    memory.back().name = one.name;
+  }
+  return memory;
+}
+
+double peak_of(const std::vector<MeasureMemory>& memory) {
+  double states = 0, scratch = 0;
+  for (const MeasureMemory& one : memory) {
+    states += one.state;
+    scratch = std::max(scratch, one.scratch);
+  }
+  return states + std::max(states, scratch);
 }
 
 }  // namespace shaken::scene

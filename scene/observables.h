@@ -17,17 +17,39 @@ enum class AxisUse {
   kNeeded,  ///< all of it is about axes: it is not measured of spheres
 };
 
+/// The bytes of one measurement.
+struct MeasureMemory {
+  std::string name;    ///< of the observable
+  double state = 0;    ///< what it has gathered at the end of the run; all of it goes into each checkpoint
+  double scratch = 0;  ///< what it needs besides while it takes a sample
+};
+
+/// What formulas of memory are made of.
+struct Sizes {
+  const RunPlan& plan;
+  double samples = 0;  ///< of this measurement in the whole run
+  double rods = 0;     ///< that are measured
+
+  double in_blocks(double bytes) const;
+  double series(double columns) const;
+  /// Kept for lags to come: of each of 16 levels the last 8 of every 2^k-th sample (analysis/lag_average.h), and sums
+  /// over so many quantities at 69 lags.
+  double for_lags(double columns, double quantities) const;
+};
+
 /// All that a scene knows of one observable: the block "measure.NAME". What a run makes of it, the adapter
 /// run/measure/NAME.cpp says.
 struct Observable {
-  std::string name;
+  std::string name = {};      ///< that of the list (scene/measure_plan.h)
   std::string doc;            ///< one line, for the reference
   bool is_usual = false;      ///< measured where a scene has no "measure" at all
   std::string periodic = "";  ///< what it takes of a periodic box ("the waves"); empty: nothing
   AxisUse axis = AxisUse::kNone;
-  std::string every_doc = "Time between samples.";  ///< of the key `every`
-  std::vector<Field> keys = {};                     ///< further keys, by their names in the block
-  Field block = {}, every = {};                     ///< follow from the above
+  std::string every_doc = "Time between samples.";     ///< of the key `every`
+  std::vector<Field> keys = {};                        ///< further keys, by their names in the block
+  MeasureMemory (*memory)(const Sizes&) = nullptr;     ///< how it follows from the plan
+  std::string remedy = "nothing but to leave it out";  ///< what makes it smaller
+  Field block = {}, every = {};                        ///< follow from the above
 
   /// Whether it can be measured within side walls too.
   bool within_walls() const { return periodic.empty(); }
@@ -38,9 +60,17 @@ struct Observable {
   void switch_off(RunPlan& plan) const { block.store(plan, false); }
 };
 
-/// All observables, in the order of their keys in a canonical scene.
+/// All observables, in the order of their list (scene/measure_plan.h).
 const std::vector<Observable>& observables();
 /// The one of this name, which must exist.
 const Observable& observable(std::string_view name);
+
+/// Of everything that the plan measures. Within a factor of two of what is held, wherever that is more than 2 MB;
+/// where it depends on what the rods do (`defects.list`), that of disordered rods, which have the most defects.
+std::vector<MeasureMemory> measure_memory(const RunPlan& plan);
+
+/// Bytes that all measurements hold together when they hold most: their states, and on top either the copy of them
+/// that a checkpoint is written from, or the scratch of one.
+double peak_of(const std::vector<MeasureMemory>& memory);
 
 }  // namespace shaken::scene

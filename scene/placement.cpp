@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "scene/load.h"
-#include "scene/measure_memory.h"
+#include "scene/memory_limit.h"
 #include "sim/initial.h"
 
 namespace shaken::scene {

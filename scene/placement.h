@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "scene/problem.h"
+#include "scene/keys.h"
 #include "scene/sweep.h"
 
 namespace shaken::scene {
@@ -17,7 +17,7 @@ namespace shaken::scene {
 std::optional<Problem> placement_problem(const RunPlan& plan, const std::string& file, const std::string& label = {});
 
 /// load_sweep for runs that are to be started: also every point whose rods cannot be placed is a problem, and
-/// every one whose measurements take more memory than this machine has (scene/measure_memory.h).
+/// every one whose measurements take more memory than this machine has (scene/memory_limit.h).
 Loaded<Sweep> load_runs(std::string_view text, const std::string& file, std::span<const std::string> settings = {},
                         std::optional<int> replicas = std::nullopt);
 

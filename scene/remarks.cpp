@@ -7,10 +7,10 @@
 #include <cmath>
 #include <string>
 
+#include "base/keys/units.h"
 #include "scene/derived.h"
 #include "scene/fields.h"
 #include "scene/observables.h"
-#include "scene/units.h"
 
 namespace shaken::scene {
 
@@ -60,9 +60,9 @@ std::vector<std::string> remarks(const RunPlan& plan) {
   if (plan.trajectory) remark_one_frame("trajectory.every", plan.trajectory->every);
   if (plan.movie) remark_one_frame("movie.every", plan.movie->every);
   for (const Field& field : fields()) {
-    const std::string block(block_around(field.path));
-    if (!block.starts_with("measure.") || field.path != block + ".every" ||
-        !std::get<bool>(field_at(block).fetch(plan)) || std::get<double>(field.fetch(plan)) <= total) {
+    const Field* block = fields().block_of(field);
+    if (block == nullptr || !block->path.starts_with("measure.") || field.path != block->path + ".every" ||
+        !std::get<bool>(block->fetch(plan)) || std::get<double>(field.fetch(plan)) <= total) {
       continue;
     }
     list.push_back(fmt::format("{} {} is longer than the run, {}: there will be a single sample, of the start",

@@ -7,31 +7,10 @@
 
 namespace shaken::scene {
 
-namespace {
-
-/// Puts every value that was given, or its default, where it belongs in the plan. False if a problem had been
-/// reported with one; then its default stands in.
-bool store_what_was_given(Resolution& scene) {
-  bool all_ok = true;
-  for (std::size_t i = 0; i < fields().size(); ++i) {
-    const Field& field = fields()[i];
-    const Given* given = scene.draft.find(i);
-    all_ok = all_ok && (!given || given->ok);
-    const Value& value = given && given->ok ? given->value : field.fallback;
-    const bool has_value = !std::holds_alternative<std::monostate>(value);
-    const Field* block = block_of(field);
-    if (field.store && has_value && (block == nullptr || scene.draft.is_on(block->path)))
-      field.store(scene.plan, value);
-  }
-  return all_ok;
-}
-
-}  // namespace
-
 std::optional<RunPlan> resolve(const Draft& draft, std::vector<Problem>& problems) {
   const std::size_t n_before = problems.size();
   Resolution scene{draft, problems};
-  const bool all_ok = store_what_was_given(scene);
+  const bool all_ok = fields().store(draft, scene.plan);
 
   resolve_accuracy(scene);
   const bool shapes_are_known = resolve_rod_shapes(scene);

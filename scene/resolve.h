@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "scene/draft.h"
+#include "base/keys/draft.h"
 #include "scene/run_plan.h"
 
 namespace shaken::scene {

@@ -7,22 +7,16 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/canonical.h"
+#include "base/keys/schema.h"
 #include "scene/factors.h"
 #include "scene/fields.h"
 #include "scene/points.h"
-#include "scene/slurm_settings.h"
-#include "scene/units.h"
+#include "scene/sweep_keys.h"
 #include "scene/values.h"
 
 namespace shaken::scene {
 
 namespace {
-
-using Schema = nlohmann::ordered_json;
-
-// What parse_decimal reads.
-constexpr std::string_view kNumber = "[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)?";
 
 Schema refer_to(std::string_view definition) { return {{"$ref", fmt::format("#/$defs/{}", definition)}}; }
 
@@ -30,155 +24,7 @@ Schema any_of(std::vector<Schema> schemas) { return {{"anyOf", std::move(schemas
 
 Schema array_of(Schema items) { return {{"type", "array"}, {"minItems", 1}, {"items", std::move(items)}}; }
 
-/// An object with these keys and no others.
-Schema object_with(Schema properties, Schema required = Schema::array()) {
-  Schema schema{{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
-  if (!required.empty()) schema["required"] = std::move(required);
-  return schema;
-}
-
 Schema whole_number(int low, int high) { return {{"type", "integer"}, {"minimum", low}, {"maximum", high}}; }
-
-Schema link_to_schema() {
-  return {{"description", "The schema of this file, for editors; ignored otherwise."}, {"type", "string"}};
-}
-
-/// A number and perhaps a unit, as a regular expression.
-std::string quantity_pattern(Dimension dimension) {
-  std::string names;
-  for (const Unit& unit : units_of(dimension)) {
-    if (!names.empty()) names += '|';
-    for (const char c : unit.name) {
-      if (c == '^') names += '\\';
-      names += c;
-    }
-  }
-  return fmt::format("[ \\t]*{}[ \\t]*{}[ \\t]*", kNumber, names.empty() ? "" : fmt::format("({})?", names));
-}
-
-/// Holds a text to `pattern`. `meaning` is what an editor says of others: VS Code and its relatives know the keyword,
-/// and validators pass over it.
-void match(std::string_view pattern, std::string_view meaning, Schema& schema) {
-  schema["pattern"] = fmt::format("^{}$", pattern);
-  schema["patternErrorMessage"] = meaning;
-}
-
-/// "A number, or a text with a unit: mm, m, cm, um."
-std::string quantity_meaning(Dimension dimension) {
-  std::string names;
-  for (const Unit& unit : units_of(dimension)) {
-    const bool is_ascii = static_cast<unsigned char>(unit.name.front()) < 0x80;
-    if (is_ascii) names += fmt::format("{}{}", names.empty() ? "" : ", ", unit.name);
-  }
-  return names.empty() ? "A number without unit." : fmt::format("A number, or a text with a unit: {}.", names);
-}
-
-/// The limits of a field's numbers.
-void limit(const Field& field, Schema& schema) {
-  const auto written = [&](double bound) { return to_json(field, Value(bound)); };
-  schema["maximum"] = written(field.high);
-  if (!field.or_zero) {
-    schema["minimum"] = written(field.low);
-  } else {
-    schema["anyOf"] = {{{"const", 0}}, {{"minimum", written(field.low)}}};
-  }
-}
-
-/// One number of a field: as such or as a text.
-Schema number_of(const Field& field) {
-  const bool whole = field.form != Form::kQuantity && field.form != Form::kNumbers;
-  Schema schema{{"type", {whole ? "integer" : "number", "string"}}};
-  limit(field, schema);
-  if (whole) {
-    match(kNumber, "A whole number.", schema);
-  } else {
-    match(quantity_pattern(field.dimension), quantity_meaning(field.dimension), schema);
-  }
-  return schema;
-}
-
-/// "Length from tip to tip. Allowed: [0.05, 50] mm. Default: 4.5 mm."
-std::string description_of(const Field& field) {
-  std::string range;
-  if (field.form == Form::kWhole) {
-    range = fmt::format(" Allowed: {:.16g} to {:.16g}.", field.low, field.high);
-  } else if (field.form == Form::kQuantity || field.form == Form::kNumbers) {
-    range = fmt::format(" Allowed: {}.", range_of(field));
-  }
-  const std::string fallback = field.fallback_note.empty() ? show(field, field.fallback) : field.fallback_note;
-  return fmt::format("{}{} Default: {}.", field.doc, range, fallback);
-}
-
-/// What may be written for a field that is no block.
-Schema field_schema(const Field& field) {
-  Schema schema{{"description", description_of(field)}};
-  if (field.fallback_note.empty()) schema["default"] = to_json(field, field.fallback);
-  switch (field.form) {
-    case Form::kQuantity:
-    case Form::kWhole: {
-      Schema number = number_of(field);
-      number["type"].push_back("null");
-      if (field.names.empty()) {
-        schema.update(number);
-      } else {
-        schema["anyOf"] = {{{"enum", field.names}}, number};
-      }
-      break;
-    }
-    case Form::kName:
-      schema["enum"] = field.names;
-      schema["enum"].push_back(nullptr);
-      break;
-    case Form::kRunId:
-      schema.update({{"type", {"string", "null"}}, {"pattern", "^[0-9a-f]{16}$"}});
-      break;
-    case Form::kSwitch:
-      schema["type"] = {"boolean", "null"};
-      break;
-    case Form::kSize: {
-      Schema side = number_of(field);
-      side["multipleOf"] = 2;
-      schema.update({{"type", {"array", "null"}}, {"items", side}, {"minItems", 2}, {"maxItems", 2}});
-      break;
-    }
-    case Form::kNumbers:
-      schema.update({{"type", {"array", "null"}}, {"items", number_of(field)}, {"minItems", 1}});
-      break;
-    case Form::kBlock:
-      break;
-  }
-  return schema;
-}
-
-/// The object at `path` of a scene; "" is the scene itself.
-Schema object_at_path(std::string_view path) {
-  Schema properties = Schema::object();
-  if (path.empty()) properties["$schema"] = link_to_schema();
-  for (const std::string& name : names_in(path)) {
-    const std::string inner = path.empty() ? name : fmt::format("{}.{}", path, name);
-    const int index = field_index(inner);
-    const bool is_leaf = index >= 0 && fields()[static_cast<std::size_t>(index)].form != Form::kBlock;
-    properties[name] = is_leaf ? refer_to(inner) : object_at_path(inner);
-  }
-  Schema schema = object_with(std::move(properties));
-  if (path.empty()) return schema;
-  const int index = field_index(path);
-  if (index >= 0) {
-    schema["type"] = {"object", "boolean", "null"};
-    schema["description"] = description_of(fields()[static_cast<std::size_t>(index)]);
-  } else {
-    schema["type"] = {"object", "null"};
-  }
-  return schema;
-}
-
-Schema field_definitions() {
-  Schema definitions = Schema::object();
-  for (const Field& field : fields()) {
-    if (field.form != Form::kBlock) definitions[field.path] = field_schema(field);
-  }
-  return definitions;
-}
 
 bool is_number(const Field& field) { return field.form == Form::kQuantity || field.form == Form::kWhole; }
 
@@ -255,33 +101,17 @@ Schema product_schema() {
        {"replicas", described("Runs of each point, each with a seed of its own.", std::move(replicas))}});
 }
 
-/// What the runs of a sweep ask of Slurm.
-Schema slurm_schema() {
-  Schema keys = Schema::object();
-  for (const SlurmKey& key : slurm_keys()) {
-    keys[key.name] = {{"description", key.doc + " Default: " + key.fallback + "."}};
-    keys[key.name]["anyOf"] = Schema::array({{{"type", "null"}}, key.schema});
-  }
-  Schema schema = object_with(std::move(keys));
-  schema["description"] = "What the runs ask of Slurm, where they run there.";
-  return schema;
-}
-
-Schema titled(std::string_view title) {
-  return {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", title}};
-}
-
 }  // namespace
 
 Schema scene_schema() {
   Schema schema = titled("Scene of Shaken");
-  schema.update(object_at_path(""));
-  schema["$defs"] = field_definitions();
+  schema.update(object_schema(fields(), By::kReference));
+  schema["$defs"] = definitions_of(fields());
   return schema;
 }
 
 Schema sweep_schema() {
-  Schema definitions = field_definitions();
+  Schema definitions = definitions_of(fields());
   for (const Field& field : fields()) {
     if (field.form == Form::kBlock) continue;
     if (is_number(field) && !definitions.contains(range_name(field.dimension))) {
@@ -290,27 +120,19 @@ Schema sweep_schema() {
     definitions[values_name(field)] = {{"description", field.doc}};
     definitions[values_name(field)].update(values_schema(field));
   }
-  definitions["scene"] = object_at_path("");
+  definitions["scene"] = object_schema(fields(), By::kReference);
   definitions["product"] = product_schema();
 
   const Schema product = refer_to("product");
-  Schema in_sweep{
-      {"$schema", link_to_schema()},
-      {"name",
-       {{"description", "Name of the sweep; that of the file if left out."},
-        {"type", "string"},
-        {"minLength", 1},
-        {"maxLength", 200},
-        {"pattern", "^(?!\\.{1,2}$)[^/\\u0000-\\u001f]*$"}}},
-      {"executor",
-       {{"description", "Where the runs run; where the daemon's do if left out."}, {"enum", executor_names()}}},
-      {"slurm", slurm_schema()},
-      {"scene", refer_to("scene")},
-      {"sweep",
-       {{"description", "Which values vary. An array: the points of each of its sweeps, one after the other."},
-        {"if", {{"type", "array"}}},
-        {"then", array_of(product)},
-        {"else", product}}}};
+  Schema in_sweep = object_schema(sweep_keys(), By::kValue)["properties"];
+  in_sweep["name"].update({{"minLength", 1}, {"maxLength", 200}, {"pattern", "^(?!\\.{1,2}$)[^/\\u0000-\\u001f]*$"}});
+  in_sweep["slurm"]["description"] = "What the runs ask of Slurm, where they run there.";
+  in_sweep["scene"] = refer_to("scene");
+  in_sweep["sweep"] = {
+      {"description", "Which values vary. An array: the points of each of its sweeps, one after the other."},
+      {"if", {{"type", "array"}}},
+      {"then", array_of(product)},
+      {"else", product}};
   Schema schema = titled("Sweep or scene of Shaken");
   schema["properties"] = in_sweep;  // as in "then", for editors to offer in a file that is neither yet
   schema["if"] = any_of({{{"required", {"scene"}}}, {{"required", {"sweep"}}}});

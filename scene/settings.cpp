@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "scene/units.h"
+#include "base/keys/units.h"
 
 namespace shaken::scene {
 

@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/document.h"
-#include "scene/problem.h"
+#include "scene/keys.h"
 
 namespace shaken::scene {
 

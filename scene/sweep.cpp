@@ -8,14 +8,14 @@
 #include <filesystem>
 #include <unordered_map>
 
+#include "base/keys/draft.h"
+#include "base/keys/nearest.h"
 #include "base/text.h"
 #include "scene/canonical.h"
-#include "scene/document.h"
-#include "scene/draft.h"
 #include "scene/factors.h"
+#include "scene/keys.h"
 #include "scene/length.h"
 #include "scene/load.h"
-#include "scene/nearest.h"
 #include "scene/resolve.h"
 #include "scene/settings.h"
 #include "scene/values.h"
@@ -201,18 +201,6 @@ class Products {
   std::vector<Problem>& problems_;
 };
 
-std::string read_executor(const Node& node, std::vector<Problem>& problems) {
-  const std::vector<std::string>& names = executor_names();
-  if (node.kind == Node::Kind::kString && std::find(names.begin(), names.end(), node.text) != names.end()) {
-    return node.text;
-  }
-  problems.push_back(problem_at(
-      node.place, "executor",
-      fmt::format("expected \"{}\", not {}{}", fmt::join(names, "\" or \""), describe(node),
-                  node.kind == Node::Kind::kString ? did_you_mean(nearest(node.text, names)) : std::string())));
-  return {};
-}
-
 }  // namespace
 
 std::optional<std::string> name_problem(std::string_view name) {
@@ -248,36 +236,30 @@ Loaded<Sweep> load_sweep(std::string_view text, const std::string& file, std::sp
 
   Sweep sweep{.name = std::filesystem::path(file).stem().string(), .points = {}};
   Place name_place{root->place.file, 0, 0};
-  Draft base(root->place);
+  Draft base(fields(), root->place);
   std::vector<Variation> products{Variation{}};
   Room room;
   if (!root->find("scene") && !root->find("sweep")) {
     base.read(*root, problems);
   } else {
-    const std::vector<std::string> names{"name", "executor", "slurm", "scene", "sweep"}, inside = names_in({});
+    const std::vector<std::string> inside = fields().names_in({});
+    Node own;  // without what is in "scene" and "sweep", and without what should be
+    own.kind = Node::Kind::kObject;
     for (const Member& member : root->members) {
-      if (is_link_to_schema(member, problems)) continue;
       if (member.key == "scene") {
         base.read(member.value, problems);
       } else if (member.key == "sweep") {
         products = read_variations(member.value, room, problems);
-      } else if (member.key == "executor") {
-        sweep.executor = read_executor(member.value, problems);
-      } else if (member.key == "slurm") {
-        sweep.slurm = read_slurm_settings(member.value, problems);
-      } else if (member.key == "name" && member.value.kind == Node::Kind::kString) {
-        sweep.name = member.value.text;
-        name_place = member.value.place;
-      } else if (member.key == "name") {
-        problems.push_back(problem_at(member.value.place, "name", "expected a text, not " + describe(member.value)));
+      } else if (std::find(inside.begin(), inside.end(), member.key) != inside.end()) {
+        problems.push_back(problem_at(member.place, member.key, "in a sweep file this belongs into \"scene\""));
       } else {
-        const std::string meant = suggestion(problems, [&] { return did_you_mean(nearest(member.key, names)); });
-        const bool misplaced = std::find(inside.begin(), inside.end(), member.key) != inside.end();
-        problems.push_back(
-            problem_at(member.place, member.key,
-                       misplaced ? "in a sweep file this belongs into \"scene\"" : "unknown key" + meant));
+        own.members.push_back(member);
       }
     }
+    Draft draft(sweep_keys(), root->place);
+    draft.read(own, problems);
+    sweep_keys().store(draft, sweep);
+    if (const Given* name = draft.find("name"); name != nullptr && name->ok) name_place = name->place;
   }
   if (const auto problem = name_problem(sweep.name)) {
     // A name that is no text at all has been reported; that of the file stands in for it.

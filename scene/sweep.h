@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/problem.h"
+#include "scene/keys.h"
 #include "scene/run_plan.h"
 #include "scene/slurm_settings.h"
 

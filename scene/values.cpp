@@ -8,7 +8,7 @@
 #include <cmath>
 #include <optional>
 
-#include "scene/nearest.h"
+#include "base/keys/nearest.h"
 
 namespace shaken::scene {
 

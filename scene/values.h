@@ -5,10 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/document.h"
 #include "scene/fields.h"
+#include "scene/keys.h"
 #include "scene/points.h"
-#include "scene/problem.h"
 
 namespace shaken::scene {
 

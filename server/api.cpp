@@ -8,9 +8,9 @@
 #include <set>
 #include <stdexcept>
 
+#include "base/keys/nearest.h"
 #include "base/text.h"
 #include "run/files/directory.h"
-#include "scene/nearest.h"
 #include "server/cleaning.h"
 #include "server/log_slice.h"
 #include "server/more_replicas.h"
@@ -28,22 +28,22 @@ namespace {
 
 /// The request cannot be met; becomes the answer.
 struct Refusal : std::runtime_error {
-  Refusal(int code, const std::string& message) : std::runtime_error(printable(message, Lines::kMany)), status(code) {}
+  Refusal(int code, const std::string& message, std::vector<keys::Problem> found = {})
+      : std::runtime_error(printable(message, Lines::kMany)), status(code), problems(std::move(found)) {}
   int status;
+  std::vector<keys::Problem> problems;  ///< of a body, all of them
 };
 
 constexpr std::int64_t kLogSliceBytes = 1 << 20;
 constexpr int kMostCandidates = 10;    // named when a shortened id fits several jobs
 constexpr int kMostCompared = 10'000;  // ids searched for the nearest
 
-/// What `parse` makes of a body.
-template <class Parse>
-auto parsed(const Parse& parse, const std::string& body) {
-  try {
-    return parse(body);
-  } catch (const std::invalid_argument& problem) {
-    throw Refusal(400, problem.what());
-  }
+/// What a body says.
+template <class T>
+T parsed(const keys::Table<T>& keys, const std::string& body) {
+  auto record = keys.read(body, "body");
+  if (!record) throw Refusal(400, to_string(record.error().front()), record.error());
+  return *std::move(record);
 }
 
 }  // namespace
@@ -112,10 +112,10 @@ std::span<const Api::Route> Api::routes() {
   return kRoutes;
 }
 
-Api::Answer Api::problems_answer(std::span<const scene::Problem> found) {
-  std::string sentence = scene::to_string(found.front());
+Api::Answer Api::problems_answer(std::span<const keys::Problem> found) {
+  std::string sentence = keys::to_string(found.front());
   if (found.size() > 1) sentence = std::to_string(found.size()) + " problems; the first: " + sentence;
-  return {422, {{"error", sentence}, {"problems", scene::to_json(found)}}, ""};
+  return {422, {{"error", sentence}, {"problems", keys::to_json(found)}}, ""};
 }
 
 bool Api::in_sweep(const Call& call) { return call.request.path.starts_with("/v1/sweeps/"); }
@@ -128,6 +128,7 @@ http::Reply Api::handle(const http::Request& request) const {
     const Answer answer = dispatch(request);
     return {answer.status, to_text(answer.json), answer.allow};
   } catch (const Refusal& refusal) {
+    if (!refusal.problems.empty()) return {refusal.status, to_text(problems_answer(refusal.problems).json), ""};
     return refuse(refusal.status, refusal.what());
   } catch (const StorageError& problem) {
     spdlog::error("{} {}: {}", request.method, printable(request.path), problem.what());
@@ -151,7 +152,7 @@ Api::Answer Api::dispatch(const http::Request& request) const {
     const auto known = split(route.parameters, ' ');
     for (const auto& [name, value] : request.query) {
       if (std::find(known.begin(), known.end(), name) == known.end()) {
-        throw Refusal(400, "unknown parameter '" + name + "'" + scene::did_you_mean(scene::nearest(name, known)));
+        throw Refusal(400, "unknown parameter '" + name + "'" + keys::did_you_mean(keys::nearest(name, known)));
       }
     }
     return (this->*route.handler)({request, *id});
@@ -180,11 +181,11 @@ Api::Answer Api::status(const Call&) const {
 }
 
 Api::Answer Api::submit(const Call& call) const {
-  SubmitRequest request = parsed(parse_submit_request, call.request.body);
+  SubmitRequest request = parsed(submit_keys(), call.request.body);
   for (const std::string& word : request.after) request.terms.after.push_back(find_target(word));
   auto submission = expand(request, info_.runs());
   if (!submission) return problems_answer(submission.error());
-  std::vector<scene::Problem> problems;
+  std::vector<keys::Problem> problems;
   for (const scene::StartState& start : submission->starts) {
     std::string reason = refuse_start(start, queue_, info_.runs());
     if (!reason.empty()) problems.push_back({request.file, 0, 0, "/start", std::move(reason)});
@@ -195,7 +196,7 @@ Api::Answer Api::submit(const Call& call) const {
 }
 
 Api::Answer Api::add_replicas(const Call& call) const {
-  const int n = parsed(parse_replicas, call.request.body);
+  const int n = parsed(replicas_keys(), call.request.body).n;
   const Sweep sweep = find_sweep(call.id);
   auto jobs = with_replicas(queue_, sweep.id, n, info_.runs());
   if (!jobs) throw Refusal(409, jobs.error().message);
@@ -277,10 +278,11 @@ Api::Answer Api::show_history(const Call& call) const {
 }
 
 Api::Answer Api::extend(const Call& call) const {
-  const std::vector<std::string> settings = parsed(parse_extension, call.request.body);
+  const std::vector<std::string> settings = parsed(extension_keys(), call.request.body).settings;
+  if (settings.empty()) throw Refusal(400, "one of \"measure\", \"order_sem\" and \"at_most\" is needed");
   const auto jobs = in_sweep(call) ? queue_.jobs(find_sweep(call.id).id) : std::vector{find_job(call.id)};
   std::vector<std::pair<std::string, std::string>> scenes;
-  std::vector<scene::Problem> problems;  // of the first job that cannot go on so
+  std::vector<keys::Problem> problems;  // of the first job that cannot go on so
   Json refused = Json::array();
   for (const Job& job : jobs) {
     const std::string present = queue_.scene(job.id);
@@ -312,7 +314,7 @@ Api::Answer Api::control(const Call& call) const {
   const Target target = in_sweep(call) ? Target(find_sweep(call.id).id) : Target(find_job(call.id).id);
   const auto answer = [](const char* changed, int n) { return Answer{200, {{changed, n}}, ""}; };
   if (action == "priority") {
-    const int priority = parsed(parse_priority, call.request.body);
+    const int priority = parsed(priority_keys(), call.request.body).n;
     return answer("changed", queue_.set_priority(target, priority));
   }
   if (action == "cancel") return answer("cancelled", queue_.cancel(target));
@@ -331,7 +333,7 @@ Api::Answer Api::results(const Call& call) const {
 }
 
 Api::Answer Api::clean(const Call& call) const {
-  auto [request, sweep] = parsed(parse_clean_request, call.request.body.empty() ? "{}" : call.request.body);
+  auto [request, sweep] = parsed(clean_keys(), call.request.body.empty() ? "{}" : call.request.body);
   if (!sweep.empty()) request.sweep = find_sweep(sweep).id;
   Json runs = Json::array();
   std::int64_t bytes = 0;
@@ -361,7 +363,7 @@ Sweep Api::find_sweep(const std::string& word) const {
   for (const Sweep& candidate : queue_.sweeps()) known.insert({sweep_word(candidate.id), candidate.name});
   const std::vector<std::string> words(known.begin(), known.end());
   throw Refusal(404, words.empty() ? "no sweep '" + word + "': none has been submitted yet"
-                                   : "no sweep '" + word + "'" + scene::did_you_mean(scene::nearest(word, words)));
+                                   : "no sweep '" + word + "'" + keys::did_you_mean(keys::nearest(word, words)));
 }
 
 Job Api::find_job(const std::string& prefix) const {
@@ -378,10 +380,10 @@ Job Api::find_job(const std::string& prefix) const {
   std::vector<std::string> shortened;
   shortened.reserve(all.size());
   for (const std::string& id : all) shortened.push_back(id.substr(0, prefix.size()));
-  const auto near = std::find(shortened.begin(), shortened.end(), scene::nearest(prefix, shortened));
+  const auto near = std::find(shortened.begin(), shortened.end(), keys::nearest(prefix, shortened));
   const std::string hint = near == shortened.end() ? "" : all[static_cast<std::size_t>(near - shortened.begin())];
   throw Refusal(404, all.empty() ? "no job '" + prefix + "': none has been submitted yet"
-                                 : "no job '" + prefix + "'" + scene::did_you_mean(hint));
+                                 : "no job '" + prefix + "'" + keys::did_you_mean(hint));
 }
 
 Target Api::find_target(const std::string& word) const {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/http/http_server.h"
-#include "scene/problem.h"
+#include "base/keys/problem.h"
 #include "server/answers.h"
 #include "server/daemon_info.h"
 #include "server/queue/queue.h"
@@ -47,7 +47,7 @@ class Api {
 
   /// Puts jobs into the queue and tells what became of them.
   Answer submitted(const std::string& name, int priority, std::vector<NewJob> jobs, const Terms& terms) const;
-  static Answer problems_answer(std::span<const scene::Problem> found);
+  static Answer problems_answer(std::span<const keys::Problem> found);
   /// Whether the path is that of a sweep, and not of a job.
   static bool in_sweep(const Call& call);
 

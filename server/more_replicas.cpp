@@ -67,7 +67,7 @@ Result<std::vector<NewJob>> with_replicas(const Queue& queue, std::int64_t sweep
       return Error{"job " + known.id + " cannot have replicas: " + why};
     }
     auto plan = scene::load_scene(scene, "job " + known.id);
-    if (!plan) return Error{scene::to_string(plan.error())};
+    if (!plan) return Error{keys::to_string(plan.error())};
     const std::uint64_t seed = plan->system.seed - static_cast<std::uint64_t>(first - 1);
     const int n_all = std::max(n, point.replicas.rbegin()->first);
     for (int replica = 1; replica <= n_all; ++replica) {

@@ -4,11 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "base/files.h"
 #include "run/files/directory.h"
@@ -16,204 +13,144 @@
 #include "scene/canonical.h"
 #include "scene/length.h"
 #include "scene/load.h"
-#include "scene/nearest.h"
 #include "scene/placement.h"
 #include "server/queue/job.h"
 
 namespace shaken::server {
 namespace {
 
-using nlohmann::json;
+using keys::at, keys::Form, keys::plain, keys::text, keys::texts, keys::Value, keys::whole;
 
 constexpr int kMostReplicas = 10'000;
 constexpr int kMostAtOnce = 1'000'000;
 constexpr int kHighestPriority = 1'000'000;
-constexpr int kDeepest = 16;  // of brackets in a body; the scene in it is a text
 
-const std::vector<std::string> kKeys{"text",         "file",         "settings", "replicas", "name",   "priority",
-                                     "soft_limit_s", "time_limit_s", "at_most",  "after",    "stop_if"};
-
-std::string text_of(const json& value, const std::string& key) {
-  if (!value.is_string()) throw std::invalid_argument("\"" + key + "\" must be a string");
-  return value.get<std::string>();
+/// A time, which the daemon keeps in milliseconds: at least one, and up to 30 years.
+auto seconds(const std::string& key, auto access, const std::string& doc) {
+  return derived(keys::quantity(key, access, keys::Dimension::kTime, 0.001, 1e9, doc), "none");
 }
 
-bool flag_of(const json& value, const std::string& key) {
-  if (!value.is_boolean()) throw std::invalid_argument("\"" + key + "\" must be true or false");
-  return value.get<bool>();
+auto required(auto row) {
+  row.required = true;
+  row.fallback_note = "must be given";
+  return row;
 }
 
-std::vector<std::string> texts_of(const json& value, const std::string& key) {
-  if (!value.is_array()) throw std::invalid_argument("\"" + key + "\" must be an array");
-  std::vector<std::string> texts;
-  for (const json& text : value) texts.push_back(text_of(text, key));
-  return texts;
+std::vector<keys::Key<SubmitRequest>> rows_of_submission() {
+  using Request = SubmitRequest;
+  auto name = derived(text("name", at<&Request::name>, "Name of the sweep."), "that in the text, or of the file");
+  name.problem = [](const std::string& word) {
+    const auto problem = scene::name_problem(word);
+    return problem ? problem : scene::id_problem(word);
+  };
+  keys::Key<Request> stop_if{
+      {.path = "stop_if", .form = Form::kText, .doc = "Rule by which queued jobs are held: `failed>10%`."}};
+  stop_if.problem = [](const std::string& word) -> std::optional<std::string> {
+    const auto rule = StopRule::parse(word);
+    return rule ? std::nullopt : std::optional(rule.error().message);
+  };
+  stop_if.store = [](Request& request, const Value& word) {
+    request.terms.stop_if = *StopRule::parse(std::get<std::string>(word));
+  };
+  return {required(text("text", at<&Request::text>, "A scene or sweep file.")),
+          text("file", at<&Request::file>, "Its name, for messages."),
+          texts("settings", at<&Request::settings>, "Changes to the scene, each `path=value`."),
+          whole("replicas", at<&Request::replicas>, 1, kMostReplicas, "Runs of each point."),
+          name,
+          whole("priority", at<&Request::priority>, -kHighestPriority, kHighestPriority, "Higher ones start first."),
+          seconds("soft_limit_s", at<&Request::terms, &Terms::soft_limit>, "Wall time of an attempt."),
+          seconds("time_limit_s", at<&Request::terms, &Terms::time_limit>, "Wall time of all attempts."),
+          derived(whole("at_most", at<&Request::terms, &Terms::at_most>, 1, kMostAtOnce, "Jobs that run at once."),
+                  "any number"),
+          texts("after", at<&Request::after>, "Sweeps and jobs that must be done first."),
+          stop_if};
 }
 
-int integer_of(const json& value, const std::string& key, int least, int most) {
-  const bool fits = value.is_number_integer() && value >= least && value <= most;
-  if (!fits) {
-    throw std::invalid_argument("\"" + key + "\" must be an integer from " + std::to_string(least) + " to " +
-                                std::to_string(most));
-  }
-  return value.get<int>();
+std::vector<keys::Key<CleanBody>> rows_of_cleaning() {
+  using Body = CleanBody;
+  return {
+      {{.path = "states",
+        .form = Form::kTexts,
+        .names = {"done", "failed", "timed out", "cancelled"},
+        .fallback_note = "failed, timed out, cancelled",
+        .doc = "States of the jobs."},
+       {},
+       [](Body& body, const Value& words) {
+         body.request.states.clear();
+         for (const std::string& word : std::get<std::vector<std::string>>(words)) {
+           body.request.states.push_back(*job_state(word));
+         }
+       }},
+      derived(text("sweep", at<&Body::sweep>, "Its jobs only, by its id or name."), "all"),
+      seconds("older_s", at<&Body::request, &CleanRequest::older>, "Ended so long ago."),
+      keys::on_or_off("unknown", at<&Body::request, &CleanRequest::unknown>, "Runs that the queue does not know, too."),
+      keys::on_or_off("dry_run", at<&Body::request, &CleanRequest::dry_run>, "Only lists."),
+      {{.path = "only", .form = Form::kTexts, .fallback_note = "all", .doc = "Ids of the jobs."},
+       {},
+       [](Body& body, const Value& words) {
+         const auto& ids = std::get<std::vector<std::string>>(words);
+         body.request.only.emplace(ids.begin(), ids.end());
+       }},
+  };
 }
 
-/// Whether brackets outside of texts are nested deeper than `most`.
-bool nests_deeper_than(std::string_view text, int most) {
-  int depth = 0;
-  bool in_text = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (in_text && c == '\\') {
-      ++i;
-    } else if (c == '"') {
-      in_text = !in_text;
-    } else if (!in_text && (c == '[' || c == '{') && ++depth > most) {
-      return true;
-    } else if (!in_text && (c == ']' || c == '}')) {
-      --depth;
-    }
-  }
-  return false;
+/// The setting at `path` of a scene, as it is written.
+keys::Key<Extension> setting(const std::string& key, const std::string& path) {
+  return {
+      {.path = key, .form = Form::kText, .may_look_like_number = true, .expected = "a number or a text with a unit"},
+      {},
+      [path](Extension& extension, const Value& value) {
+        extension.settings.push_back(path + "=" + std::get<std::string>(value));
+      }};
 }
-
-/// The body as an object with no other keys than `known`.
-json parse_object(std::string_view body, const std::vector<std::string>& known) {
-  // A parser needs 80 bytes for each bracket of a body that is nothing else.
-  if (nests_deeper_than(body, kDeepest)) {
-    throw std::invalid_argument("the body is nested more than " + std::to_string(kDeepest) + " deep");
-  }
-  json object;
-  try {
-    object = json::parse(body);
-  } catch (const json::exception& problem) {
-    throw std::invalid_argument(std::string("the body is not JSON: ") + problem.what());
-  }
-  if (!object.is_object()) throw std::invalid_argument("the body must be a JSON object");
-  for (const auto& [key, value] : object.items()) {
-    if (std::find(known.begin(), known.end(), key) == known.end()) {
-      throw std::invalid_argument("unknown key \"" + key + "\"" + scene::did_you_mean(scene::nearest(key, known)));
-    }
-  }
-  return object;
-}
-
-/// A time in seconds, as milliseconds; at least one.
-std::chrono::milliseconds time_of(const json& value, const std::string& key) {
-  constexpr double kLeast = 0.001;
-  constexpr double kMost = 1e9;  // more than 30 years
-  const bool fits = value.is_number() && value.get<double>() >= kLeast && value.get<double>() <= kMost;
-  if (!fits) throw std::invalid_argument("\"" + key + "\" must be a number of seconds from 0.001 to 1e9");
-  return std::chrono::milliseconds(static_cast<std::int64_t>(1000 * value.get<double>()));
-}
-
-int priority_of(const json& value) { return integer_of(value, "priority", -kHighestPriority, kHighestPriority); }
 
 }  // namespace
 
-SubmitRequest parse_submit_request(std::string_view body) {
-  const json object = parse_object(body, kKeys);
-  if (!object.contains("text")) throw std::invalid_argument("\"text\" is missing: a scene or sweep file");
-
-  SubmitRequest request;
-  request.text = text_of(object["text"], "text");
-  if (object.contains("file")) request.file = text_of(object["file"], "file");
-  if (object.contains("settings")) request.settings = texts_of(object["settings"], "settings");
-  if (object.contains("replicas")) request.replicas = integer_of(object["replicas"], "replicas", 1, kMostReplicas);
-  if (object.contains("priority")) {
-    request.priority = priority_of(object["priority"]);
-  }
-  if (object.contains("soft_limit_s")) request.terms.soft_limit = time_of(object["soft_limit_s"], "soft_limit_s");
-  if (object.contains("time_limit_s")) request.terms.time_limit = time_of(object["time_limit_s"], "time_limit_s");
-  if (object.contains("at_most")) request.terms.at_most = integer_of(object["at_most"], "at_most", 1, kMostAtOnce);
-  if (object.contains("after")) request.after = texts_of(object["after"], "after");
-  if (object.contains("stop_if")) {
-    const auto rule = StopRule::parse(text_of(object["stop_if"], "stop_if"));
-    if (!rule) throw std::invalid_argument("\"stop_if\": " + rule.error().message);
-    request.terms.stop_if = *rule;
-  }
-  if (object.contains("name")) {
-    request.name = text_of(object["name"], "name");
-    if (const auto problem = scene::name_problem(request.name)) throw std::invalid_argument("\"name\": " + *problem);
-    if (const auto problem = scene::id_problem(request.name)) throw std::invalid_argument("\"name\": " + *problem);
-  }
-  return request;
+const keys::Table<SubmitRequest>& submit_keys() {
+  static const keys::Table<SubmitRequest> table(rows_of_submission());
+  return table;
 }
 
-CleanBody parse_clean_request(std::string_view body) {
-  const json object = parse_object(body, {"states", "sweep", "older_s", "unknown", "dry_run", "only"});
-  CleanBody asked;
-  if (object.contains("states")) {
-    asked.request.states.clear();
-    for (const std::string& word : texts_of(object["states"], "states")) {
-      const auto state = job_state(word);
-      if (!state || !has_ended(*state)) {
-        throw std::invalid_argument("\"states\": '" + word + "' is none of done, failed, timed out, cancelled");
-      }
-      asked.request.states.push_back(*state);
-    }
-  }
-  if (object.contains("sweep")) asked.sweep = text_of(object["sweep"], "sweep");
-  if (object.contains("older_s")) {
-    asked.request.older = std::chrono::duration_cast<std::chrono::seconds>(time_of(object["older_s"], "older_s"));
-  }
-  if (object.contains("unknown")) asked.request.unknown = flag_of(object["unknown"], "unknown");
-  if (object.contains("dry_run")) asked.request.dry_run = flag_of(object["dry_run"], "dry_run");
-  if (object.contains("only")) {
-    const auto ids = texts_of(object["only"], "only");
-    asked.request.only.emplace(ids.begin(), ids.end());
-  }
-  return asked;
+const keys::Table<CleanBody>& clean_keys() {
+  static const keys::Table<CleanBody> table(rows_of_cleaning());
+  return table;
 }
 
-int parse_priority(std::string_view body) {
-  const json object = parse_object(body, {"priority"});
-  if (!object.contains("priority")) throw std::invalid_argument("\"priority\" is missing: a whole number");
-  return priority_of(object["priority"]);
+const keys::Table<CountBody>& priority_keys() {
+  static const keys::Table<CountBody> table(
+      {required(whole("priority", at<&CountBody::n>, -kHighestPriority, kHighestPriority, "A whole number."))});
+  return table;
 }
 
-int parse_replicas(std::string_view body) {
-  const json object = parse_object(body, {"replicas"});
-  if (!object.contains("replicas")) throw std::invalid_argument("\"replicas\" is missing: a whole number");
-  return integer_of(object["replicas"], "replicas", 1, kMostReplicas);
+const keys::Table<CountBody>& replicas_keys() {
+  static const keys::Table<CountBody> table(
+      {required(whole("replicas", at<&CountBody::n>, 1, kMostReplicas, "A whole number."))});
+  return table;
 }
 
-std::vector<std::string> parse_extension(std::string_view body) {
-  static const std::map<std::string, std::string> kPaths{
-      {"measure", "time.measure"}, {"order_sem", "until.order_sem"}, {"at_most", "until.at_most"}};
-  std::vector<std::string> known;
-  known.reserve(kPaths.size());
-  for (const auto& [key, path] : kPaths) known.push_back(key);
-  std::vector<std::string> settings;
-  const json object = parse_object(body, known);
-  settings.reserve(object.size());
-  for (const auto& [key, value] : object.items()) {
-    if (!value.is_string() && !value.is_number()) {
-      throw std::invalid_argument("\"" + key + "\" must be a number or a text with a unit");
-    }
-    settings.push_back(kPaths.at(key) + "=" + (value.is_string() ? value.get<std::string>() : value.dump()));
-  }
-  if (settings.empty()) throw std::invalid_argument("one of \"measure\", \"order_sem\" and \"at_most\" is needed");
-  return settings;
+const keys::Table<Extension>& extension_keys() {
+  static const keys::Table<Extension> table({setting("measure", "time.measure"),
+                                             setting("order_sem", "until.order_sem"),
+                                             setting("at_most", "until.at_most")});
+  return table;
 }
 
-scene::Loaded<std::string> extended_scene(const std::string& name, const std::string& scene,
-                                          const std::vector<std::string>& settings) {
+keys::Loaded<std::string> extended_scene(const std::string& name, const std::string& scene,
+                                         const std::vector<std::string>& settings) {
   const auto plan = scene::load_scene(scene, name, settings);
   if (!plan) {
-    std::vector<scene::Problem> problems = plan.error();
-    for (scene::Problem& problem : problems) problem.file = name;  // nobody has typed such a setting
+    std::vector<keys::Problem> problems = plan.error();
+    for (keys::Problem& problem : problems) problem.file = name;  // nobody has typed such a setting
     return problems;
   }
   return scene::to_json(*plan).dump(2) + "\n";
 }
 
-scene::Loaded<Submission> expand(const SubmitRequest& request, const std::filesystem::path& runs) {
+keys::Loaded<Submission> expand(const SubmitRequest& request, const std::filesystem::path& runs) {
   const std::string name = request.name.empty() ? scene::sweep_name(request.text, request.file) : request.name;
   // before the points, of which there may be many
   if (const auto problem = scene::id_problem(name)) {
-    return std::vector{scene::Problem{request.file, 0, 0, "", *problem + "; submit it with another name"}};
+    return std::vector{keys::Problem{request.file, 0, 0, "", *problem + "; submit it with another name"}};
   }
   auto sweep = scene::load_runs(request.text, request.file, request.settings, request.replicas);
   if (!sweep) return sweep.error();
@@ -266,7 +203,7 @@ std::string refuse_start(const scene::StartState& start, const Queue& queue, con
 
 std::string refuse_scene(const std::string& id, const std::string& scene) {
   const auto plan = scene::load_scene(scene, "its scene in the queue");
-  if (!plan) return scene::to_string(plan.error());
+  if (!plan) return keys::to_string(plan.error());
   if (scene::run_id(*plan) == id) return "";
   return "its scene in the queue is not the one of this id: it was queued by a version with other physics, or queue.db "
          "is damaged; submit it again";

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/problem.h"
+#include "base/keys/table.h"
 #include "scene/run_plan.h"
 #include "server/cleaning.h"
 #include "server/queue/queue.h"
@@ -35,33 +35,35 @@ struct Submission {
   std::vector<scene::StartState> starts;  ///< other runs that they start from, each once
 };
 
-/// Throws std::invalid_argument with a sentence for the user.
-SubmitRequest parse_submit_request(std::string_view body);
+const keys::Table<SubmitRequest>& submit_keys();
 
-/// The body of POST /v1/clean; a sweep is still as the user names it. Throws std::invalid_argument as above.
+/// The body of POST /v1/clean; a sweep is still as the user names it.
 struct CleanBody {
   CleanRequest request;
   std::string sweep;
 };
-CleanBody parse_clean_request(std::string_view body);
+const keys::Table<CleanBody>& clean_keys();
 
-/// The number of {"priority": n}. Throws std::invalid_argument as above.
-int parse_priority(std::string_view body);
+/// {"priority": n} and {"replicas": n}.
+struct CountBody {
+  int n = 0;
+};
+const keys::Table<CountBody>& priority_keys();
+const keys::Table<CountBody>& replicas_keys();
 
-/// The number of {"replicas": n}. Throws std::invalid_argument as above.
-int parse_replicas(std::string_view body);
-
-/// The settings ("time.measure=600 s") that {"measure": time, "order_sem": number, "at_most": time} stands for; each
-/// may be left out, but not all. Throws std::invalid_argument as above.
-std::vector<std::string> parse_extension(std::string_view body);
+/// {"measure": time, "order_sem": number, "at_most": time}; each may be left out.
+struct Extension {
+  std::vector<std::string> settings;  ///< that it stands for, "time.measure=600 s"
+};
+const keys::Table<Extension>& extension_keys();
 
 /// A canonical scene with such settings; `name`, for messages; as canonical text, or all that is wrong with it.
-scene::Loaded<std::string> extended_scene(const std::string& name, const std::string& scene,
-                                          const std::vector<std::string>& settings);
+keys::Loaded<std::string> extended_scene(const std::string& name, const std::string& scene,
+                                         const std::vector<std::string>& settings);
 
 /// The sweep that a request asks for, or all that is wrong with its text.
 /// `runs`: folder of the run directories, where it is looked whether results are still there.
-scene::Loaded<Submission> expand(const SubmitRequest& request, const std::filesystem::path& runs);
+keys::Loaded<Submission> expand(const SubmitRequest& request, const std::filesystem::path& runs);
 
 /// Why no run can start from `start`; empty if nothing is known against it. The run is to be among those of `queue`,
 /// and end then, or to have a folder in `runs`.

@@ -149,7 +149,7 @@ scene::RunPlan read_hard_scene(const std::filesystem::path& folder, const std::s
       throw Failure(ExitCode::kBadInput,
                     text.error().message + "; --cases DIR names the folder of the scenes, configs/hard of the sources");
     }
-    const scene::Loaded<scene::Sweep> sweep = scene::load_sweep(*text, file.string());
+    const keys::Loaded<scene::Sweep> sweep = scene::load_sweep(*text, file.string());
     if (!sweep) throw Failure(ExitCode::kBadInput, to_string(sweep.error()));
     if (sweep->points.size() != points.size()) {
       throw Failure(ExitCode::kBadInput, fmt::format("{} has {} points, where {} are known: {}", file.string(),

@@ -11,8 +11,8 @@
 #include <thread>
 
 #include "base/failure.h"
+#include "base/keys/problem.h"
 #include "base/text.h"
-#include "scene/problem.h"
 
 namespace shaken::client {
 
@@ -32,11 +32,11 @@ std::string url_encoded(std::string_view text) {
 }
 
 std::string problem_text(const Json& problem) {
-  return to_string(scene::Problem{.file = problem.value("file", ""),
-                                  .line = problem.value("line", 0),
-                                  .column = problem.value("column", 0),
-                                  .path = problem.value("path", ""),
-                                  .message = problem.value("message", "")});
+  return to_string(keys::Problem{.file = problem.value("file", ""),
+                                 .line = problem.value("line", 0),
+                                 .column = problem.value("column", 0),
+                                 .path = problem.value("path", ""),
+                                 .message = problem.value("message", "")});
 }
 
 struct ApiClient::Connection {

@@ -4,16 +4,16 @@
 #include <fmt/format.h>
 
 #include "base/failure.h"
-#include "scene/units.h"
+#include "base/keys/units.h"
 
 namespace shaken::client {
 
 double duration_option(const std::string& option, const std::string& text) {
   constexpr double kDay = 86400;  // scenes, which have the other units, are too short for it
   double seconds = 0;
-  if (const auto written = scene::split_quantity(text); written && written->unit == "d") {
+  if (const auto written = keys::split_quantity(text); written && written->unit == "d") {
     seconds = written->number.value() * kDay;
-  } else if (const auto time = scene::parse_quantity(text, scene::Dimension::kTime)) {
+  } else if (const auto time = keys::parse_quantity(text, keys::Dimension::kTime)) {
     seconds = *time;
   } else {
     throw Failure(ExitCode::kBadInput,

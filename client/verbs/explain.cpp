@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/keys/units.h"
 #include "base/table.h"
 #include "base/text.h"
 #include "client/cost_estimate.h"
@@ -12,14 +13,13 @@
 #include "client/verbs/verbs.h"
 #include "scene/accuracy_levels.h"
 #include "scene/derived.h"
-#include "scene/measure_memory.h"
-#include "scene/units.h"
+#include "scene/observables.h"
 
 namespace shaken::client {
 namespace {
 
 using Align = Table::Align;
-using scene::Dimension;
+using keys::Dimension;
 
 std::string percent(const Json& share) { return fmt::format("{:.1f}", 100 * share.get<double>()); }
 
@@ -117,7 +117,7 @@ class Explain : public Verb {
 
   static void show_scene(const scene::Sweep& sweep, const scene::SweepPoint& point, Console& console) {
     const System& s = point.plan.system;
-    const auto length = [](double value) { return scene::format_quantity(value, Dimension::kLength); };
+    const auto length = [](double value) { return keys::format_quantity(value, Dimension::kLength); };
     std::string text = console.painted(Colour::kBold, sweep.name);
     if (sweep.points.size() > 1) {
       text += fmt::format(": {} runs; shown is {}", sweep.points.size(), point.label);
@@ -155,14 +155,14 @@ class Explain : public Verb {
     }
     text += fmt::format("  plates  {}a = {} mm, f = {}; gravity {}\n",
                         gamma ? fmt::format("Gamma = {}, ", number_text(*gamma)) : "", number_text(s.amplitude),
-                        scene::format_quantity(s.frequency, Dimension::kFrequency),
-                        scene::format_quantity(s.gravity, Dimension::kAcceleration));
+                        keys::format_quantity(s.frequency, Dimension::kFrequency),
+                        keys::format_quantity(s.gravity, Dimension::kAcceleration));
     const scene::AccuracyLevel* known = scene::accuracy_level(s);
     const std::string level = known ? fmt::format(" (\"{}\")", known->name) : "";
     text += fmt::format("  time    {} in {} steps of {}{}; steady state {}\n",
-                        scene::format_quantity(total, Dimension::kTime), number_text(std::round(total / s.dt)),
-                        scene::format_quantity(s.dt, Dimension::kTime), level,
-                        point.plan.steady ? "from " + scene::format_quantity(*point.plan.steady, Dimension::kTime)
+                        keys::format_quantity(total, Dimension::kTime), number_text(std::round(total / s.dt)),
+                        keys::format_quantity(s.dt, Dimension::kTime), level,
+                        point.plan.steady ? "from " + keys::format_quantity(*point.plan.steady, Dimension::kTime)
                                           : std::string("found from S(t)"));
     console.out << text << "\n";
   }

@@ -5,6 +5,7 @@
 
 #include "base/files.h"
 #include "base/interrupt.h"
+#include "base/keys/units.h"
 #include "base/progress_line.h"
 #include "base/text.h"
 #include "client/live/target.h"
@@ -13,7 +14,6 @@
 #include "run/export/frames.h"
 #include "run/files/directory.h"
 #include "scene/observables.h"
-#include "scene/units.h"
 
 namespace shaken::client {
 namespace {
@@ -75,7 +75,7 @@ class Export : public Verb {
     run::WantedFrames wanted;
     const auto time = [&](const char* option, const std::string& text) -> std::optional<double> {
       if (text.empty()) return std::nullopt;
-      const auto value = scene::parse_quantity(text, scene::Dimension::kTime);
+      const auto value = keys::parse_quantity(text, keys::Dimension::kTime);
       if (value) return *value;
       add_problem(fmt::format("{}: {}", option, value.error().message));
       return std::nullopt;

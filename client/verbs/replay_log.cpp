@@ -6,12 +6,12 @@
 #include <optional>
 
 #include "base/interrupt.h"
+#include "base/keys/units.h"
 #include "base/progress_line.h"
 #include "base/text.h"
 #include "client/verbs/verbs.h"
 #include "proto/bus.h"
 #include "proto/log_file.h"
-#include "scene/units.h"
 
 namespace shaken::client {
 namespace {
@@ -97,7 +97,7 @@ class ReplayLog : public Verb {
     std::string problems;
     const auto time = [&](const char* option, const std::string& text) -> std::optional<double> {
       if (text.empty()) return std::nullopt;
-      const auto value = scene::parse_quantity(text, scene::Dimension::kTime);
+      const auto value = keys::parse_quantity(text, keys::Dimension::kTime);
       if (value && *value >= 0 && *value <= kLongestTime) return *value;
       problems += fmt::format("{}: {}\n", option, value ? "takes a time from 0 to 30 years" : value.error().message);
       return std::nullopt;

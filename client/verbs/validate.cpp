@@ -59,8 +59,8 @@ class Validate : public Verb {
   }
 
  private:
-  static void print_problems(const std::vector<scene::Problem>& problems, Console& console) {
-    console.out << json_text(Json{{"ok", false}, {"problems", scene::to_json(problems)}});
+  static void print_problems(const std::vector<keys::Problem>& problems, Console& console) {
+    console.out << json_text(Json{{"ok", false}, {"problems", keys::to_json(problems)}});
   }
 
   static void print_resolved(const std::vector<scene::SweepPoint>& points, Console& console) {

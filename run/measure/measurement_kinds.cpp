@@ -6,10 +6,9 @@
 namespace shaken::run {
 
 std::span<const MeasurementKind> measurement_kinds() {
-  static const std::vector<MeasurementKind> kinds{order_kind(),  angles_kind(),       tilt_kind(),     defects_kind(),
-                                                  g2_kind(),     msd_kind(),          rotation_kind(), velocity_kind(),
-                                                  rods_kind(),   fluctuations_kind(), frank_kind(),    pairs_kind(),
-                                                  layers_kind(), lattice_kind(),      structure_kind()};
+#define SHAKEN_KIND(name, Settings) name##_kind(),
+  static const std::vector<MeasurementKind> kinds{SHAKEN_OBSERVABLES(SHAKEN_KIND)};
+#undef SHAKEN_KIND
   return kinds;
 }
 

@@ -57,21 +57,9 @@ std::span<const MeasurementKind> measurement_kinds();
 /// The plan with `kind` as all that is measured, from its start on.
 scene::RunPlan only(scene::RunPlan plan, const MeasurementKind& kind);
 
-// One in each file of this folder.
-MeasurementKind angles_kind();
-MeasurementKind defects_kind();
-MeasurementKind fluctuations_kind();
-MeasurementKind frank_kind();
-MeasurementKind g2_kind();
-MeasurementKind lattice_kind();
-MeasurementKind layers_kind();
-MeasurementKind msd_kind();
-MeasurementKind order_kind();
-MeasurementKind pairs_kind();
-MeasurementKind rods_kind();
-MeasurementKind rotation_kind();
-MeasurementKind structure_kind();
-MeasurementKind tilt_kind();
-MeasurementKind velocity_kind();
+/// NAME_kind() of each observable: one in each file of this folder.
+#define SHAKEN_KIND(name, Settings) MeasurementKind name##_kind();
+SHAKEN_OBSERVABLES(SHAKEN_KIND)
+#undef SHAKEN_KIND
 
 }  // namespace shaken::run

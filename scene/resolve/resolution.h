@@ -6,9 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/draft.h"
-#include "scene/problem.h"
-#include "scene/run_plan.h"
+#include "scene/fields.h"
 
 namespace shaken::scene {
 

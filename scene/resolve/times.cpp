@@ -133,7 +133,7 @@ void check_intervals(Resolution& scene) {
                              time_text(scene.plan.measure_time), time_text(step)));
   }
   for (const Field& field : fields()) {
-    const Field* block = block_of(field);
+    const Field* block = fields().block_of(field);
     const bool is_interval = field.form == Form::kQuantity && field.dimension == Dimension::kTime && block != nullptr &&
                              field.path != "start.time";
     if (!is_interval || !scene.draft.is_on(block->path) || !scene.draft.is_ok(field.path)) continue;

@@ -30,19 +30,17 @@ struct Daemon {
 
 /// Few rods in few runs: whether rods can be placed takes as long as a start.
 bool is_small(const std::string& body) {
-  try {
-    const SubmitRequest request = parse_submit_request(body);
-    if (request.text.size() > 2000 || request.replicas.value_or(1) > 3) return false;
-    const auto sweep = scene::load_sweep(request.text, request.file, request.settings, request.replicas);
-    if (!sweep) return true;
-    if (sweep->points.size() > 4) return false;
-    for (const scene::SweepPoint& point : sweep->points) {
-      if (point.plan.system.n_all_rods() > 100) return false;
-    }
-    return true;
-  } catch (const std::invalid_argument&) {
-    return true;
+  const auto read = submit_keys().read(body, "body");
+  if (!read) return true;
+  const SubmitRequest& request = *read;
+  if (request.text.size() > 2000 || request.replicas.value_or(1) > 3) return false;
+  const auto sweep = scene::load_sweep(request.text, request.file, request.settings, request.replicas);
+  if (!sweep) return true;
+  if (sweep->points.size() > 4) return false;
+  for (const scene::SweepPoint& point : sweep->points) {
+    if (point.plan.system.n_all_rods() > 100) return false;
   }
+  return true;
 }
 
 http::Request request_of(std::string_view text) {

@@ -2,7 +2,7 @@
 // The text of a scene file: what is taken, reads as itself once more.
 #include "scene/canonical.h"
 #include "scene/load.h"
-#include "scene/measure_memory.h"
+#include "scene/observables.h"
 #include "scene/remarks.h"
 #include "tests/fuzz/fuzz_target.h"
 

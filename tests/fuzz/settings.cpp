@@ -22,7 +22,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       settings.back() += c;
     }
   }
-  std::vector<scene::Problem> problems;
+  std::vector<keys::Problem> problems;
   scene::Room room{1000};
   std::size_t n_points = 1;
   for (const std::string& text : settings) {

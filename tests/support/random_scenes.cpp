@@ -290,7 +290,7 @@ CaseResult compare_steppers(const SceneCase& one) {
   CaseResult result;
   const auto plan = scene::load_scene(one.scene.dump(), "case");
   if (!plan) {
-    result.problem = scene::to_string(plan.error());
+    result.problem = keys::to_string(plan.error());
     return result;
   }
   const Result<World> world = world_of(one, plan->system);

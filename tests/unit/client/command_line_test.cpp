@@ -255,7 +255,8 @@ TEST(Schema, IsPrintedOfScenesAndOfSweeps) {
   EXPECT_TRUE(scene.at("properties").contains("rods"));
   const Json sweep = Json::parse(run_client({"schema", "sweep"}).out);
   EXPECT_TRUE(sweep.at("then").at("properties").contains("sweep"));
-  EXPECT_THAT(run_client({"schema", "film"}).err, HasSubstr("\"film\" is neither scene nor sweep"));
+  EXPECT_EQ(Json::parse(run_client({"schema", "style"}).out)["properties"]["theme"]["default"], "light");
+  EXPECT_THAT(run_client({"schema", "film"}).err, HasSubstr("\"film\" is neither scene nor sweep nor style"));
 }
 
 TEST(CommandLine, HelpIsAVerbToo) {

@@ -4,9 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <fstream>
-#include <set>
 #include <sstream>
 #include <string>
 
@@ -16,24 +13,6 @@
 
 namespace shaken::client {
 namespace {
-
-// The renderer writes its table into the page, so the page knows what it takes.
-TEST(PictureOptions, AreTheKeysOfTheRenderersStyles) {
-  std::ifstream page(SHAKEN_SOURCE_DIR "/docs/pictures.md");
-  std::set<std::string> keys;
-  bool is_inside = false;
-  for (std::string line; std::getline(page, line);) {
-    if (line.starts_with("<!-- style keys:")) is_inside = line.find("begin") != std::string::npos;
-    if (!is_inside || !line.starts_with("| `")) continue;
-    std::string key = line.substr(3, line.find('`', 3) - 3);
-    std::replace(key.begin(), key.end(), '_', '-');
-    keys.insert(key);
-  }
-  std::set<std::string> options;
-  for (const PictureOption& option : picture_options()) options.insert(option.name);
-  ASSERT_FALSE(keys.empty());
-  EXPECT_EQ(options, keys);
-}
 
 TEST(PictureOptions, GoOnAsTheyWereGiven) {
   CLI::App app;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "render/colourings.h"
 #include "render/headline.h"
@@ -14,7 +15,7 @@ namespace shaken::render {
 namespace {
 
 std::string problems_of(const char* text) {
-  const scene::Loaded<PictureStyle> style = load_style(text, "mine.json", {});
+  const keys::Loaded<PictureStyle> style = load_style(text, "mine.json", {});
   return style ? "" : to_string(style.error());
 }
 
@@ -43,13 +44,13 @@ TEST(StyleFile, SetsWhatItNames) {
 TEST(StyleFile, TellsAllProblemsAtOnceWithTheirPlaces) {
   EXPECT_EQ(problems_of("{\n  \"colour\": \"tlit\",\n  \"colr\": \"tilt\",\n  \"zoom\": 0.5,\n"
                         "  \"size\": [1280],\n  \"legend\": 1, \"rods\": \"half\"\n}"),
-            "mine.json:2:13: /colour: may be auto, angle, layers, heading, tilt, speed, order, density, species or id, "
-            "not 'tlit'\n"
-            "mine.json:3:3: /colr: there is no such key in a style; did you mean colour?\n"
-            "mine.json:4:11: /zoom: may be 1 to 1000, not 0.5\n"
-            "mine.json:5:11: /size: must be two numbers, [a, b], not an array\n"
-            "mine.json:6:13: /legend: must be true or false, not the number 1\n"
-            "mine.json:6:24: /rods: must be a number, not the text \"half\"\n");
+            "mine.json:2:13: /colour: \"tlit\" is not one of \"auto\", \"angle\", \"layers\", \"heading\", \"tilt\", "
+            "\"speed\", \"order\", \"density\", \"species\", \"id\"; did you mean tilt?\n"
+            "mine.json:3:3: /colr: unknown key; did you mean colour?\n"
+            "mine.json:4:11: /zoom: 0.5 is outside [1, 1000]\n"
+            "mine.json:5:11: /size: expected [width, height], not an array\n"
+            "mine.json:6:13: /legend: expected true or false, not the number 1\n"
+            "mine.json:6:24: /rods: \"half\" is not a number\n");
 }
 
 TEST(StyleFile, RefusesWhatContradictsItself) {
@@ -59,7 +60,7 @@ TEST(StyleFile, RefusesWhatContradictsItself) {
   EXPECT_NE(problems_of(R"({"colour": "order", "range": [1, 0]})").find("rise"), std::string::npos);
   EXPECT_NE(problems_of(R"({"background": "order"})").find("hidden"), std::string::npos);
   EXPECT_NE(problems_of(R"({"view": "follow:x"})").find("follow:N"), std::string::npos);
-  EXPECT_NE(problems_of(R"({"style": "deffects"})").find("layers, defects"), std::string::npos);
+  EXPECT_NE(problems_of(R"({"style": "deffects"})").find("did you mean defects?"), std::string::npos);
   EXPECT_NE(problems_of(R"([1])").find("object"), std::string::npos);
   EXPECT_NE(problems_of("{").find("mine.json:1"), std::string::npos);
   EXPECT_NE(problems_of(R"({"zoom": 2, "zoom": 3})"), "");
@@ -85,29 +86,28 @@ TEST(NamedStyle, IsAPresetOrAFile) {
 
 TEST(StyleKeys, EachTakesItsOwnDefaultBack) {
   for (const StyleKey& key : style_keys()) {
-    const std::string name = key.name;
-    if (name == "range" || name == "speed") continue;  // not given by default
+    if (key.fallback.index() == 0) continue;  // not given by default
     PictureStyle style;
-    EXPECT_TRUE(set(style, key, key.fetch(PictureStyle()))) << key.name;
-    EXPECT_EQ(key.fetch(style), key.fetch(PictureStyle())) << key.name;
+    key.store(style, key.fallback);
+    EXPECT_EQ(key.fetch(style), key.fallback) << key.path;
   }
 }
 
 TEST(StyleKeys, TextsOfTheCommandLine) {
   PictureStyle style;
   const auto put = [&](const char* key, const char* text) {
-    const auto done = set_from_text(style, *find_style_key(key), text);
+    const auto done = set_from_text(style, style_keys().at(key), text);
     return done ? std::string() : done.error().message;
   };
   EXPECT_EQ(put("size", "1920x1080"), "");
   EXPECT_EQ(style.height, 1080);
   EXPECT_EQ(put("focus", "0.3,0.2"), "");
   EXPECT_EQ(style.focus, Vec2(0.3, 0.2));
-  EXPECT_EQ(put("size", "1920"), "takes WxH, not '1920'");
-  EXPECT_EQ(put("size", "10x10"), "may be 64 to 7680 each, not 10");
-  EXPECT_EQ(put("size", "1280x720x3"), "takes WxH, not '1280x720x3'");
-  EXPECT_EQ(put("zoom", "nan"), "is a number, not 'nan'");
-  EXPECT_EQ(put("theme", "grey"), "may be light, dark or print, not 'grey'");
+  EXPECT_EQ(put("size", "1920"), "expected WxH, not \"1920\"");
+  EXPECT_EQ(put("size", "10x10"), "10 is outside [64, 7680]");
+  EXPECT_EQ(put("size", "1280x720x3"), "\"720x3\" is not a number");
+  EXPECT_EQ(put("zoom", "nan"), "\"nan\" is not a number");
+  EXPECT_EQ(put("theme", "grey"), "\"grey\" is not one of \"light\", \"dark\", \"print\"");
 }
 
 TEST(Headline, SpeaksTheLanguageOfTheField) {
@@ -119,10 +119,17 @@ TEST(Headline, SpeaksTheLanguageOfTheField) {
   EXPECT_EQ(headline(""), "");
 }
 
+// What the loader accepts, and no more than it says of forms and ranges.
+TEST(StyleSchema, IsUpToDateAndKnowsEveryKey) {
+  const nlohmann::ordered_json schema = style_schema();
+  expect_generated_file(SHAKEN_SOURCE_DIR "/packaging/schemas/style.schema.json", schema.dump(2) + "\n");
+  for (const StyleKey& key : style_keys()) EXPECT_TRUE(schema["properties"].contains(key.path)) << key.path;
+}
+
 TEST(Docs, PicturesNameEveryColourKeyAndPreset) {
   const std::string page = SHAKEN_SOURCE_DIR "/docs/pictures.md";
   expect_generated(page, "colours", colourings_as_markdown());
-  expect_generated(page, "style keys", style_keys_as_markdown());
+  expect_generated(page, "style keys", style_keys().as_markdown());
   expect_generated(page, "presets", presets_as_markdown());
 }
 

@@ -200,6 +200,30 @@ TEST(Measurements, WhatIsNotInThePlanDoesNotExist) {
   EXPECT_EQ(reduction.t_steady, 1.0);
 }
 
+// Version 0.1.0 had another order.
+TEST(Measurements, AreRestoredFromAStateInAnyOrder) {
+  scene::RunPlan both;
+  both.system = plan().system;
+  both.msd = scene::MeasureMsd{0.01};
+  both.rotation = scene::MeasureRotation{0.01};
+  scene::RunPlan msd = both, rotation = both;
+  msd.rotation.reset();
+  rotation.msd.reset();
+  const auto state_of = [](const scene::RunPlan& asked) {
+    Measurements measurements(asked, species());
+    measure(measurements, 0, 10000);
+    return measurements.save();
+  };
+  std::vector<std::byte> state = state_of(rotation);
+  for (const std::byte each : state_of(msd)) state.push_back(each);
+  Measurements restored(both, species());
+  ASSERT_TRUE(restored.restore(state));
+  EXPECT_EQ(restored.save(), state_of(both));
+  state = state_of(msd);
+  state.insert(state.end(), state.begin(), state.end());
+  EXPECT_FALSE(restored.restore(state)) << "one of them twice";
+}
+
 TEST(MeasurementKinds, EachByItself) {
   scene::RunPlan p = plan();
   p.steady = 3.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The estimate of scene/measure_memory.h against what a run takes, with every allocation of this process counted.
+// The estimate of scene/observables.h against what a run takes, with every allocation of this process counted.
 #include <gtest/gtest.h>
 #include <malloc.h>
 
@@ -10,7 +10,7 @@
 #include "base/scratch_folder.h"
 #include "run/loop.h"
 #include "scene/load.h"
-#include "scene/measure_memory.h"
+#include "scene/observables.h"
 
 namespace {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "base/keys/problem.h"
 #include "scene/load.h"
-#include "scene/problem.h"
 
 namespace shaken::scene {
 

@@ -16,6 +16,7 @@
 #include "scene/canonical.h"
 #include "scene/sweep.h"
 #include "tests/support/effort.h"
+#include "tests/support/generated_page.h"
 #include "tests/unit/scene/mutated.h"
 #include "tests/unit/scene/scene_support.h"
 
@@ -84,12 +85,16 @@ class Writer {
       }
       case Form::kName:
         return field.names[static_cast<std::size_t>(below(field.names.size()))];
-      case Form::kRunId:
+      case Form::kText:
         return "0123456789abcdef";
       case Form::kSize:
         return {64 + 2 * below(1000), 64 + 2 * below(1000)};
       case Form::kSwitch:
         return one_in(2);
+      case Form::kTexts:
+      case Form::kPair:
+      case Form::kElsewhere:
+        break;  // none in a scene
       case Form::kBlock:
         return std::array<Json, 4>{Json::object(), true, false, nullptr}[static_cast<std::size_t>(below(4))];
     }
@@ -397,13 +402,8 @@ TEST(Schema, IsNamedInAFileAndMeansNothingThere) {
 // The files in packaging/schemas/ are these. To write them anew: SHAKEN_UPDATE_DOCS=1 and run this test.
 TEST(Schema, TheFilesAreUpToDate) {
   for (const auto& [name, schema] : {std::pair{"scene", scene_schema()}, std::pair{"sweep", sweep_schema()}}) {
-    const std::string file = fmt::format("{}/packaging/schemas/{}.schema.json", SHAKEN_SOURCE_DIR, name);
-    const std::string text = schema.dump(2) + "\n";
-    if (std::getenv("SHAKEN_UPDATE_DOCS") != nullptr) {
-      std::ofstream(file) << text;
-    } else {
-      EXPECT_TRUE(read_text(file) == text) << file << ": run this test with SHAKEN_UPDATE_DOCS=1";
-    }
+    expect_generated_file(fmt::format("{}/packaging/schemas/{}.schema.json", SHAKEN_SOURCE_DIR, name),
+                          schema.dump(2) + "\n");
   }
 }
 

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "scene/canonical.h"
-#include "scene/sweep.h"
+#include "scene/sweep_keys.h"
 #include "tests/support/generated_page.h"
 #include "tests/unit/scene/scene_support.h"
 
@@ -45,11 +45,12 @@ TEST(SlurmSettings, AreNoPartOfTheNameOfARun) {
 }
 
 TEST(SlurmSettings, WhatIsWrongIsRefusedWithItsPlace) {
-  EXPECT_THAT(refusal(R"("executor": "slrum")"), HasSubstr("s.json:1:14: /executor: expected \"local\" or \"slurm\""));
+  EXPECT_THAT(refusal(R"("executor": "slrum")"),
+              HasSubstr("s.json:1:14: /executor: \"slrum\" is not one of \"local\", \"slurm\""));
   EXPECT_THAT(refusal(R"("executor": "slrum")"), HasSubstr("did you mean slurm?"));
   EXPECT_THAT(refusal(R"("slurm": 3)"), HasSubstr("/slurm: expected an object"));
   EXPECT_THAT(refusal(R"("slurm": {"partion": "a"})"),
-              HasSubstr("/slurm/partion: unknown key; did you mean partition?"));
+              HasSubstr("/slurm/partion: unknown key; did you mean slurm.partition?"));
   EXPECT_THAT(refusal(R"("slurm": {"time": "20 s"})"), HasSubstr("/slurm/time: 20 s is outside"));
   EXPECT_THAT(refusal(R"("slurm": {"time": "4 mm"})"), HasSubstr("/slurm/time"));
   EXPECT_THAT(refusal(R"("slurm": {"memory": "4 GB"})"), HasSubstr("/slurm/memory: expected a whole number with K"));
@@ -77,7 +78,7 @@ TEST(SlurmSettings, OptionsThatCouldDoOtherThanWhatTheySayAreRefused) {
 
 // The table in docs/cluster.md. To write it anew: SHAKEN_UPDATE_DOCS=1 and run this test.
 TEST(SlurmSettings, TheReferenceIsUpToDate) {
-  expect_generated(SHAKEN_SOURCE_DIR "/docs/cluster.md", "keys", slurm_keys_as_markdown());
+  expect_generated(SHAKEN_SOURCE_DIR "/docs/cluster.md", "keys", sweep_keys().as_markdown("slurm"));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/sweep.h"
+#include "tests/support/generated_page.h"
 #include "tests/unit/server/server_support.h"
 
 namespace shaken::server {
@@ -16,18 +17,15 @@ namespace {
 using testing::HasSubstr;
 
 std::string refusal(const std::string& body) {
-  try {
-    parse_submit_request(body);
-    return "";
-  } catch (const std::invalid_argument& problem) {
-    return problem.what();
-  }
+  const auto request = submit_keys().read(body, "body");
+  return request ? "" : to_string(request.error());
 }
 
 TEST(SubmitRequestTest, EveryKeyIsRead) {
-  const SubmitRequest request = parse_submit_request(
+  const SubmitRequest request = *submit_keys().read(
       R"({"text": "{}", "file": "a/b.json", "settings": ["x=1", "y=2"], "replicas": 3, "name": "my sweep", "priority": -2,
-          "soft_limit_s": 600, "time_limit_s": 0.5, "at_most": 4, "after": ["s1", "1f0c"], "stop_if": "failed > 10 %"})");
+          "soft_limit_s": 600, "time_limit_s": 0.5, "at_most": 4, "after": ["s1", "1f0c"], "stop_if": "failed > 10 %"})",
+      "body");
   EXPECT_EQ(request.text, "{}");
   EXPECT_EQ(request.file, "a/b.json");
   EXPECT_THAT(request.settings, testing::ElementsAre("x=1", "y=2"));
@@ -42,22 +40,24 @@ TEST(SubmitRequestTest, EveryKeyIsRead) {
 }
 
 TEST(SubmitRequestTest, WhatIsWrongIsSaidInWords) {
-  EXPECT_THAT(refusal(""), HasSubstr("not JSON"));
-  EXPECT_THAT(refusal("{\"text\": "), HasSubstr("not JSON"));
-  EXPECT_THAT(refusal("[]"), HasSubstr("object"));
-  EXPECT_THAT(refusal("{}"), HasSubstr("\"text\" is missing"));
-  EXPECT_THAT(refusal(R"({"text": 1})"), HasSubstr("\"text\" must be a string"));
-  EXPECT_THAT(refusal(R"({"text": "", "replica": 1})"), HasSubstr("did you mean replicas?"));
-  EXPECT_THAT(refusal(R"({"text": "", "replicas": 0})"), HasSubstr("from 1 to 10000"));
-  EXPECT_THAT(refusal(R"({"text": "", "replicas": 1.5})"), HasSubstr("integer"));
-  EXPECT_THAT(refusal(R"({"text": "", "replicas": 99999999999999999999})"), HasSubstr("integer"));
-  EXPECT_THAT(refusal(R"({"text": "", "settings": "x=1"})"), HasSubstr("array"));
-  EXPECT_THAT(refusal(R"({"text": "", "settings": [1]})"), HasSubstr("string"));
-  for (const char* time : {"0", "-1", "1e10", "\"1h\"", "null", "1e-9"}) {
-    EXPECT_THAT(refusal(R"({"text": "", "time_limit_s": )" + std::string(time) + "}"), HasSubstr("seconds")) << time;
+  EXPECT_THAT(refusal(""), HasSubstr("syntax error"));
+  EXPECT_THAT(refusal("{\"text\": "), HasSubstr("body:1:10: syntax error"));
+  EXPECT_THAT(refusal("[]"), HasSubstr("expected an object"));
+  EXPECT_EQ(refusal("{}"), "body:1:1: \"text\" is missing. A scene or sweep file.\n");
+  EXPECT_EQ(refusal(R"({"text": 1, "replica": 1, "replicas": 0})"),
+            "body:1:10: /text: expected a text, not the number 1\n"
+            "body:1:13: /replica: unknown key; did you mean replicas?\n"
+            "body:1:39: /replicas: 0 is outside [1, 10000]\n");
+  EXPECT_THAT(refusal(R"({"text": "", "replicas": 1.5})"), HasSubstr("not a whole number"));
+  EXPECT_THAT(refusal(R"({"text": "", "replicas": 99999999999999999999})"), HasSubstr("/replicas"));
+  EXPECT_THAT(refusal(R"({"text": "", "settings": "x=1"})"), HasSubstr("expected a list of texts"));
+  EXPECT_THAT(refusal(R"({"text": "", "settings": [1]})"), HasSubstr("expected a text"));
+  for (const char* time : {"0", "-1", "1e10", "\"1 mm\"", "[1]", "1e-9"}) {
+    EXPECT_THAT(refusal(R"({"text": "", "time_limit_s": )" + std::string(time) + "}"), HasSubstr("/time_limit_s"))
+        << time;
   }
-  EXPECT_THAT(refusal(R"({"text": "", "at_most": 0})"), HasSubstr("from 1 to"));
-  EXPECT_THAT(refusal(R"({"text": "", "after": "s1"})"), HasSubstr("array"));
+  EXPECT_THAT(refusal(R"({"text": "", "at_most": 0})"), HasSubstr("0 is outside [1, "));
+  EXPECT_THAT(refusal(R"({"text": "", "after": "s1"})"), HasSubstr("expected a list of texts"));
   EXPECT_THAT(refusal(R"({"text": "", "stop_if": "failed>lots"})"), HasSubstr("write \"failed>10%\""));
   EXPECT_THAT(refusal(R"({"text": "", "name": ""})"), HasSubstr("name"));
   EXPECT_THAT(refusal(R"({"text": "", "name": "a/b"})"), HasSubstr("name"));
@@ -69,8 +69,8 @@ TEST(SubmitRequestTest, WhatIsWrongIsSaidInWords) {
 // A parser takes 80 bytes for each bracket: a body of 16 MiB took 1.25 GB.
 TEST(SubmitRequestTest, NothingIsNestedDeeply) {
   const std::string brackets(1'000'000, '[');
-  EXPECT_EQ(refusal(brackets), "the body is nested more than 16 deep");
-  EXPECT_EQ(refusal(R"({"settings": )" + brackets), "the body is nested more than 16 deep");
+  EXPECT_EQ(refusal(brackets), "body:1:65: nested more than 64 deep\n");
+  EXPECT_EQ(refusal(R"({"settings": )" + brackets), "body:1:77: nested more than 64 deep\n");
   EXPECT_EQ(refusal(R"({"text": "\"{[{[{[{[{[{[{[{[{[{[", "name": "x"})"), "") << "brackets in a text are none";
 }
 
@@ -81,7 +81,7 @@ TEST(Submission, RodsThatCannotBePlacedAreRefusedAtOnce) {
   const auto submission = expand(request, "/nonexistent");
   ASSERT_FALSE(submission);
   ASSERT_EQ(submission.error().size(), 1u);
-  EXPECT_THAT(scene::to_string(submission.error().front()), HasSubstr("dense.json: /rods: "));
+  EXPECT_THAT(keys::to_string(submission.error().front()), HasSubstr("dense.json: /rods: "));
   EXPECT_THAT(submission.error().front().message, HasSubstr("do not fit into the box: in rows at most "));
 }
 
@@ -93,6 +93,12 @@ TEST(SubmitRequestTest, NoBytesCrashIt) {
     body[*rc::gen::inRange<std::size_t>(0, good.size())] = *rc::gen::arbitrary<char>();
     refusal(body);
   }));
+}
+
+// The tables in docs/protocol.md. To write them anew: SHAKEN_UPDATE_DOCS=1 and run this test.
+TEST(SubmitRequestTest, TheReferenceIsUpToDate) {
+  expect_generated(SHAKEN_SOURCE_DIR "/docs/protocol.md", "submission", submit_keys().as_markdown());
+  expect_generated(SHAKEN_SOURCE_DIR "/docs/protocol.md", "cleaning", clean_keys().as_markdown());
 }
 
 TEST(ExpandTest, APlainSceneIsOneJobNamedAfterItsFile) {
@@ -118,7 +124,7 @@ TEST(ExpandTest, ANameIsCheckedBeforeThePoints) {
     request.file = file;
     const auto refused = expand(request, "/nowhere");
     ASSERT_FALSE(refused);
-    EXPECT_THAT(scene::to_string(refused.error()),
+    EXPECT_THAT(keys::to_string(refused.error()),
                 testing::AnyOf(HasSubstr("sweep's id"), HasSubstr("a name has 1 to")));
   }
 }

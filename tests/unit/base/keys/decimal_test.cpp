@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "scene/decimal.h"
+#include "base/keys/decimal.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
 #include <cstdlib>
 
-namespace shaken::scene {
+namespace shaken::keys {
 namespace {
 
 TEST(Decimal, KeepsDigitsWithoutTrailingZeros) {
@@ -78,4 +78,4 @@ TEST(Decimal, ScalesExactlyOrNotAtAll) {
 }
 
 }  // namespace
-}  // namespace shaken::scene
+}  // namespace shaken::keys

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/problem.h"
+#include "base/keys/problem.h"
 
-namespace shaken::scene {
+namespace shaken::keys {
 
 struct Member;
 
@@ -43,4 +43,4 @@ bool is_link_to_schema(const Member& member, std::vector<Problem>& problems);
 /// "an object", "the number 3", for messages.
 std::string describe(const Node& node);
 
-}  // namespace shaken::scene
+}  // namespace shaken::keys

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-// What the measurements of a run will hold in memory, before anything is run.
 #pragma once
 
 #include <filesystem>
@@ -7,25 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "scene/problem.h"
+#include "scene/keys.h"
 #include "scene/run_plan.h"
 
 namespace shaken::scene {
-
-/// The bytes of one measurement.
-struct MeasureMemory {
-  std::string name;    ///< as in scene/observables.h
-  double state = 0;    ///< what it has gathered at the end of the run; all of it goes into each checkpoint
-  double scratch = 0;  ///< what it needs besides while it takes a sample
-};
-
-/// Of everything that the plan measures. Within a factor of two of what is held, wherever that is more than 2 MB;
-/// where it depends on what the rods do (`defects.list`), that of disordered rods, which have the most defects.
-std::vector<MeasureMemory> measure_memory(const RunPlan& plan);
-
-/// Bytes that all measurements hold together when they hold most: their states, and on top either the copy of them
-/// that a checkpoint is written from, or the scratch of one.
-double peak_of(const std::vector<MeasureMemory>& memory);
 
 /// Bytes that this process may have: of the machine's memory, of what limits its group (cgroup) and those around it,
 /// and of `ulimit -v`, the least.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/nearest.h"
+#include "base/keys/nearest.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace shaken::scene {
+namespace shaken::keys {
 namespace {
 
 /// Straight from the definition, exponential.
@@ -57,4 +57,4 @@ TEST(Nearest, FindsSlipsOfThePenOnly) {
 }
 
 }  // namespace
-}  // namespace shaken::scene
+}  // namespace shaken::keys

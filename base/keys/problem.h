@@ -10,7 +10,7 @@
 
 #include "base/core/result.h"
 
-namespace shaken::scene {
+namespace shaken::keys {
 
 /// Where something was written.
 struct Place {
@@ -51,8 +51,11 @@ std::string suggestion(const std::vector<Problem>& problems, Suggest suggest) {
   return problems.size() < kMaxProblems ? suggest() : std::string{};
 }
 
+/// In the order of the text, each once, and kMaxProblems at most.
+std::vector<Problem> tidied(std::vector<Problem> problems);
+
 /// A value read from a text, or everything that is wrong with the text: in its order, each once.
 template <class T>
 using Loaded = Result<T, std::vector<Problem>>;
 
-}  // namespace shaken::scene
+}  // namespace shaken::keys

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "scene/problem.h"
+#include "base/keys/problem.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <unordered_set>
+#include <utility>
 
-namespace shaken::scene {
+namespace shaken::keys {
 
 std::string to_string(const Problem& problem) {
   std::string text = problem.file;
@@ -43,4 +45,23 @@ Problem problem_at(const Place& place, std::string_view path, std::string messag
   return {place.file ? *place.file : std::string{}, place.line, place.column, std::move(pointer), std::move(message)};
 }
 
-}  // namespace shaken::scene
+std::vector<Problem> tidied(std::vector<Problem> problems) {
+  std::vector<Problem> kept;
+  std::unordered_set<std::string> seen;
+  for (Problem& problem : problems) {
+    if (seen.insert(to_string(problem)).second) kept.push_back(std::move(problem));
+  }
+  // Settings, which have no line, come after the file, in their order.
+  std::stable_sort(kept.begin(), kept.end(), [](const Problem& a, const Problem& b) {
+    if ((a.line == 0) != (b.line == 0)) return b.line == 0;
+    return std::pair(a.line, a.column) < std::pair(b.line, b.column);
+  });
+  if (kept.size() > kMaxProblems) {
+    const std::size_t n_more = kept.size() - kMaxProblems;
+    kept.resize(kMaxProblems);
+    kept.push_back({kept.front().file, 0, 0, {}, fmt::format("and {} more problems", n_more)});
+  }
+  return kept;
+}
+
+}  // namespace shaken::keys

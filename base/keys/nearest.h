@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace shaken::scene {
+namespace shaken::keys {
 
 /// Fewest insertions, deletions, replacements and swaps of neighbours that turn `a` into `b` (optimal string
 /// alignment distance), upper and lower case counted as equal.
@@ -17,4 +17,4 @@ std::string nearest(std::string_view word, std::span<const std::string> candidat
 /// "; did you mean X?", or nothing if `name` is empty.
 std::string did_you_mean(std::string_view name);
 
-}  // namespace shaken::scene
+}  // namespace shaken::keys

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/nearest.h"
+#include "base/keys/nearest.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-namespace shaken::scene {
+namespace shaken::keys {
 
 namespace {
 
@@ -55,4 +55,4 @@ std::string did_you_mean(std::string_view name) {
   return name.empty() ? std::string{} : fmt::format("; did you mean {}?", name);
 }
 
-}  // namespace shaken::scene
+}  // namespace shaken::keys

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/units.h"
+#include "base/keys/units.h"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <array>
 #include <cmath>
 
-#include "scene/nearest.h"
+#include "base/keys/nearest.h"
 
-namespace shaken::scene {
+namespace shaken::keys {
 
 namespace {
 
@@ -184,4 +184,4 @@ std::string format_range(double low, double high, Dimension dimension) {
   return with_unit(fmt::format("[{:.10g}, {:.10g}]", low / unit.scale(), high / unit.scale()), unit.name);
 }
 
-}  // namespace shaken::scene
+}  // namespace shaken::keys

@@ -8,7 +8,7 @@
 
 #include "base/core/result.h"
 
-namespace shaken::scene {
+namespace shaken::keys {
 
 /// A decimal number exactly as written, digits * 10^exponent, so that changing its unit or counting through a range
 /// never leaves a trail of rounding: 0.45 + 8 * 0.05 is 0.85, and 4 us is the double nearest to 0.000004.
@@ -37,4 +37,4 @@ std::optional<Decimal> scaled(const Decimal& number, std::int64_t factor, int po
 /// The digits of `number` when written with `exponent` (<= its own); none if they do not fit.
 std::optional<std::int64_t> digits_at(const Decimal& number, int exponent);
 
-}  // namespace shaken::scene
+}  // namespace shaken::keys

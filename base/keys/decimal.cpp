@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/decimal.h"
+#include "base/keys/decimal.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <charconv>
 #include <cstdlib>
 
-namespace shaken::scene {
+namespace shaken::keys {
 
 namespace {
 
@@ -114,4 +114,4 @@ std::optional<std::int64_t> digits_at(const Decimal& number, int exponent) {
   return digits;
 }
 
-}  // namespace shaken::scene
+}  // namespace shaken::keys

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "scene/document.h"
+#include "base/keys/document.h"
 
 #include <gtest/gtest.h>
 
-namespace shaken::scene {
+namespace shaken::keys {
 namespace {
 
 std::optional<Node> parse(std::string_view text, std::vector<Problem>& problems) {
@@ -100,4 +100,4 @@ TEST(Document, RefusesDeepNesting) {
 }
 
 }  // namespace
-}  // namespace shaken::scene
+}  // namespace shaken::keys

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/core/result.h"
-#include "scene/decimal.h"
+#include "base/keys/decimal.h"
 
-namespace shaken::scene {
+namespace shaken::keys {
 
 /// What a number measures. A number without a unit is in the default unit, which is also the one used inside.
 enum class Dimension {
@@ -59,4 +59,4 @@ std::string format_quantity(double value, Dimension dimension);
 /// For people: "[0.1, 100] us".
 std::string format_range(double low, double high, Dimension dimension);
 
-}  // namespace shaken::scene
+}  // namespace shaken::keys

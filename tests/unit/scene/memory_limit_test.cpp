@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How large the estimate is against what a run really holds, tests/unit/run/memory_test.cpp says.
-#include "scene/measure_memory.h"
+#include "scene/memory_limit.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ TEST(MeasureMemory, KnowsEveryObservable) {
       found = true;
       EXPECT_GT(memory.state + memory.scratch, 0) << one.name;
     }
-    EXPECT_TRUE(found) << one.name << " has no row in scene/measure_memory.cpp";
+    EXPECT_TRUE(found) << one.name << " has no row in scene/observables.cpp";
   }
 }
 

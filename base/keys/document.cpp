@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/document.h"
+#include "base/keys/document.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 
 #include "base/core/check.h"
 
-namespace shaken::scene {
+namespace shaken::keys {
 
 namespace {
 
@@ -270,4 +270,4 @@ std::string describe(const Node& node) {
   return "";
 }
 
-}  // namespace shaken::scene
+}  // namespace shaken::keys

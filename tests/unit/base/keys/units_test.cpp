@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "scene/units.h"
+#include "base/keys/units.h"
 
 #include <gtest/gtest.h>
 
-namespace shaken::scene {
+namespace shaken::keys {
 namespace {
 
 double length(std::string_view text) { return parse_quantity(text, Dimension::kLength).value(); }
@@ -78,4 +78,4 @@ TEST(Units, AreShownInTheUnitThatReadsBest) {
 }
 
 }  // namespace
-}  // namespace shaken::scene
+}  // namespace shaken::keys

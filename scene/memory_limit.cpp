@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "scene/memory_limit.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <sstream>
+
+#include "scene/observables.h"
+
+namespace shaken::scene {
+
+namespace {
+
+std::string bytes_shown(double bytes) {
+  static constexpr std::array kUnits{"kB", "MB", "GB", "TB", "PB"};
+  std::size_t unit = 0;
+  for (bytes /= 1000; bytes >= 999.5 && unit + 1 < kUnits.size(); bytes /= 1000) ++unit;
+  return fmt::format("{:.3g} {}", bytes, kUnits[unit]);
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> cgroup_limits(const std::string& line) {
+  const std::size_t first = line.find(':');
+  const std::size_t second = line.find(':', first + 1);
+  if (first == std::string::npos || second == std::string::npos) return {};
+  const bool is_unified = second == first + 1;
+  bool is_of_memory = is_unified;
+  std::istringstream controllers(line.substr(first + 1, second - first - 1));
+  for (std::string name; std::getline(controllers, name, ',');) is_of_memory = is_of_memory || name == "memory";
+  if (!is_of_memory) return {};
+  const std::filesystem::path top = is_unified ? "/sys/fs/cgroup" : "/sys/fs/cgroup/memory";
+  const char* limit = is_unified ? "memory.max" : "memory.limit_in_bytes";
+  std::vector<std::filesystem::path> files{top / limit};
+  std::filesystem::path group = top;
+  for (const auto& part : std::filesystem::path(line.substr(second + 1)).relative_path()) {
+    group /= part;
+    files.push_back(group / limit);
+  }
+  return files;
+}
+
+double memory_allowed() {
+  double allowed = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
+    allowed = std::min(allowed, static_cast<double>(limit.rlim_cur));
+  }
+  std::ifstream groups("/proc/self/cgroup");
+  for (std::string line; std::getline(groups, line);) {
+    for (const std::filesystem::path& file : cgroup_limits(line)) {
+      double bytes = 0;  // no number there ("max"), or no file: no limit
+      if (std::ifstream(file) >> bytes && bytes > 0) allowed = std::min(allowed, bytes);
+    }
+  }
+  return allowed;
+}
+
+std::optional<Problem> memory_problem(const RunPlan& plan, double allowed, const std::string& file,
+                                      const std::string& label) {
+  const std::vector<MeasureMemory> memory = measure_memory(plan);
+  const double peak = peak_of(memory);
+  if (peak <= allowed) return std::nullopt;
+  const auto alone = [](const MeasureMemory& one) { return peak_of({one}); };
+  const auto largest =
+      std::max_element(memory.begin(), memory.end(), [&](const auto& a, const auto& b) { return alone(a) < alone(b); });
+  return Problem{file, 0, 0, "/measure/" + largest->name,
+                 fmt::format("{}the measurements of this run would take about {} of memory, {} alone {}, and a process "
+                             "may have {} here; smaller with {}",
+                             label.empty() ? "" : label + ": ", bytes_shown(peak), largest->name,
+                             bytes_shown(alone(*largest)), bytes_shown(allowed), observable(largest->name).remedy)};
+}
+
+}  // namespace shaken::scene
