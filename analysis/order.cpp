@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 
 #include "analysis/periodic.h"
@@ -28,6 +29,11 @@ NematicOrder nematic_order(std::span<const Vec3> directors) {
   }
   if (n == 0) return {};
   return {std::min(1.0, sum.norm() / static_cast<double>(n)), axis_of(sum.x(), sum.y())};
+}
+
+NematicOrder nematic_order(const Cell& cell, const std::vector<Vec3>& directors) {
+  if (!cell.has_axes()) return {.order = std::numeric_limits<double>::quiet_NaN(), .director = 0};
+  return nematic_order(cell.of_species(0, directors));
 }
 
 void OrderSeries::accumulate(double time, const NematicOrder& sample) {

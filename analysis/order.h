@@ -9,6 +9,7 @@
 #include "analysis/time_series.h"
 #include "base/core/state_io.h"
 #include "base/core/types.h"
+#include "sim/cell.h"
 
 namespace shaken::analysis {
 
@@ -22,6 +23,8 @@ struct NematicOrder {
 /// director's angle, half the argument of that mean. A rod exactly upright has no theta: it is left out of the mean.
 /// Without any rod that has one, {0, 0}.
 NematicOrder nematic_order(std::span<const Vec3> directors);
+/// That of the rods of the first species; {NaN, 0} where these are spheres. `directors` (n_rods) are of all species.
+NematicOrder nematic_order(const Cell& cell, const std::vector<Vec3>& directors);
 
 /// S(t) and the director's angle, in bounded memory: of a long run a point is the mean over several successive samples,
 /// that of the director being the axis of the mean of S exp(2 i theta) (see BoundedSeries). That leaves mean and error

@@ -17,7 +17,7 @@ constexpr double kDegree = kPi / 180;
 
 bool has_axis(const RodPicture& picture, std::size_t rod) {
   const Vec3& n = picture.director[rod];
-  return picture.beads_of(picture.species_of(rod)).offset.size() > 1 && (n.x() != 0 || n.y() != 0);
+  return picture.cell.beads_of(rod).has_axis() && (n.x() != 0 || n.y() != 0);
 }
 
 double in_plane(const RodPicture& picture, std::size_t rod) {
@@ -27,12 +27,12 @@ double in_plane(const RodPicture& picture, std::size_t rod) {
 // The values.
 
 double angle_to_director(const RodPicture& picture, std::size_t rod) {
-  if (picture.species_of(rod) != 0 || !has_axis(picture, rod)) return kNone;
+  if (picture.cell.species_of(rod) != 0 || !has_axis(picture, rod)) return kNone;
   return analysis::fold_half_turn(in_plane(picture, rod) - picture.director_angle) / kDegree;
 }
 
 double angle_in_box(const RodPicture& picture, std::size_t rod) {
-  if (picture.species_of(rod) != 0 || !has_axis(picture, rod)) return kNone;
+  if (picture.cell.species_of(rod) != 0 || !has_axis(picture, rod)) return kNone;
   const double angle = analysis::fold_half_turn(in_plane(picture, rod));
   return (angle < 0 ? angle + kPi : angle) / kDegree;
 }
@@ -44,7 +44,7 @@ double heading(const RodPicture& picture, std::size_t rod) {
 }
 
 double tilt(const RodPicture& picture, std::size_t rod) {
-  return picture.beads_of(picture.species_of(rod)).offset.size() > 1 ? picture.director[rod].z() : kNone;
+  return picture.cell.beads_of(rod).has_axis() ? picture.director[rod].z() : kNone;
 }
 
 double speed(const RodPicture& picture, std::size_t rod) {
@@ -61,7 +61,7 @@ double density(const RodPicture& picture, std::size_t rod) {
   return picture.density.empty() ? kNone : picture.density[rod];
 }
 
-double species(const RodPicture& picture, std::size_t rod) { return static_cast<double>(picture.species_of(rod)); }
+double species(const RodPicture& picture, std::size_t rod) { return static_cast<double>(picture.cell.species_of(rod)); }
 
 double number(const RodPicture&, std::size_t rod) { return static_cast<double>(rod); }
 
@@ -183,7 +183,7 @@ std::vector<std::string> colour_names() {
 
 std::string chosen_colour(const RodPicture& picture, std::span<const double> orders, bool defects_are_marked) {
   constexpr double kOrdered = 0.7;
-  if (!picture.has_axes()) return "species";
+  if (!picture.cell.has_axes()) return "species";
   const auto ordered = std::count_if(orders.begin(), orders.end(), [](double s) { return s >= kOrdered; });
   const bool is_ordered = !orders.empty() && 10 * static_cast<std::size_t>(ordered) >= 9 * orders.size();
   return is_ordered && !(defects_are_marked && !picture.defects.empty()) ? "layers" : "angle";
@@ -200,7 +200,7 @@ Vec2 range_of(const Colouring& colouring, const PictureStyle& style) { return st
 Colour rod_colour(const RodPicture& picture, std::size_t rod, const Colouring& colouring, const Vec2& range) {
   const double value = colouring.value(picture, rod);
   if (!std::isnan(value)) return colouring.colour(value, range);
-  const std::size_t species = picture.species_of(rod);
+  const std::size_t species = picture.cell.species_of(rod);
   return species == 0 ? no_value_colour() : species_colour(species);
 }
 

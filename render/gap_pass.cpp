@@ -22,12 +22,12 @@ namespace {
 RodBatch seen_rods(const RodPicture& picture, std::size_t species, const PictureStyle& style, const GapCamera& camera) {
   const Colouring& colouring = colouring_of(picture, style);
   const Vec2 range = range_of(colouring, style);
-  const BeadRow& beads = picture.beads_of(species);
+  const BeadRow& beads = picture.cell.species[species];
   RodBatch seen(beads);
   const double half = seen.half;
-  const double side = camera.tangent.x() * camera.far + half, period = picture.box_side;
+  const double side = camera.tangent.x() * camera.far + half, period = picture.cell.box_side;
   for (std::size_t i = 0; i < picture.n_rods(); ++i) {
-    if (picture.species_of(i) != species) continue;
+    if (picture.cell.species_of(i) != species) continue;
     const Vec3 from_eye = picture.position[i] - camera.eye;
     const Vec3& n = picture.director[i];
     // How far the rod reaches towards the eye.
@@ -40,7 +40,7 @@ RodBatch seen_rods(const RodPicture& picture, std::size_t species, const Picture
       if (std::abs(x) > camera.tangent.x() * (y + half) + half) return;
       seen.rods.emplace_back(Vec3(x, y, from_eye.z()), n, rod_colour(picture, i, colouring, range));
     };
-    if (picture.walls) {
+    if (picture.cell.walls) {
       add(from_eye.x(), from_eye.y());
       continue;
     }
@@ -62,15 +62,15 @@ GapCamera gap_camera(const RodPicture& picture, const PictureStyle& style, doubl
   constexpr double kDepth = 22;        // from the front to where all has faded, in gaps
   constexpr double kEyeHeight = 0.66;  // above the base, in gaps
   GapCamera camera;
-  camera.front = kDistance * picture.gap;
-  camera.far = camera.front + kDepth * picture.gap;
-  Vec2 at = style.focus * picture.box_side;
+  camera.front = kDistance * picture.cell.gap;
+  camera.far = camera.front + kDepth * picture.cell.gap;
+  Vec2 at = style.focus * picture.cell.box_side;
   if (style.followed && static_cast<std::size_t>(*style.followed) < picture.n_rods()) {
-    at = picture.position[static_cast<std::size_t>(*style.followed)].head<2>() - Vec2(0, 1.5 * picture.gap);
+    at = picture.position[static_cast<std::size_t>(*style.followed)].head<2>() - Vec2(0, 1.5 * picture.cell.gap);
   }
   // The eye rests, so that the plates are seen to move; a vibration is small against the gap.
-  camera.eye = Vec3(at.x(), at.y() - camera.front, kEyeHeight * picture.gap);
-  const double up = picture.gap / kShare / 2 / camera.front / std::max(style.zoom, 1.0);
+  camera.eye = Vec3(at.x(), at.y() - camera.front, kEyeHeight * picture.cell.gap);
+  const double up = picture.cell.gap / kShare / 2 / camera.front / std::max(style.zoom, 1.0);
   camera.tangent = Vec2(aspect * up, up);
   return camera;
 }
@@ -102,7 +102,7 @@ Result<GapPass> GapPass::create() {
 template <class Channel>
 Result<ImageOf<Channel>> GapPass::draw(const RodPicture& picture, const PictureStyle& style, int width, int height) {
   if (auto done = check_drawable(picture, std::max(width, height)); !done) return done.error();
-  if (!(picture.gap > 0)) return Error{"there is no gap to look into"};
+  if (!(picture.cell.gap > 0)) return Error{"there is no gap to look into"};
   if (auto done = context_.bind<Channel>(width * style.light.samples, height * style.light.samples); !done)
     return done.error();
   if (auto done = relight(programs_->body, programs_->body_is_for, shaders::kGapRod, shaders::kGapBody, style.light);
@@ -117,7 +117,7 @@ Result<ImageOf<Channel>> GapPass::draw(const RodPicture& picture, const PictureS
     glUseProgram(program);
     const auto at = [program](const char* name) { return glGetUniformLocation(program, name); };
     glUniform2f(at("tangent"), f(camera.tangent.x()), f(camera.tangent.y()));
-    glUniform2f(at("plates"), f(base), f(base + picture.gap));
+    glUniform2f(at("plates"), f(base), f(base + picture.cell.gap));
     glUniform2f(at("depths"), f(0.5 * camera.front), f(camera.far));
     glUniform1f(at("front"), f(camera.front));
     for (const auto& [name, colour] : {std::pair{"page", colours.page},
@@ -139,11 +139,11 @@ Result<ImageOf<Channel>> GapPass::draw(const RodPicture& picture, const PictureS
     const auto at = use(programs_->plates);
     glUniform1i(at("has_lid"), picture.has_lid ? 1 : 0);
     glUniform2f(at("origin"), f(-camera.eye.x()), f(-camera.eye.y()));
-    glUniform1f(at("thickness"), f(0.8 * picture.gap));
+    glUniform1f(at("thickness"), f(0.8 * picture.cell.gap));
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   }
   std::vector<RodBatch> batches;
-  for (std::size_t species = 0; species < picture.n_species(); ++species) {
+  for (std::size_t species = 0; species < picture.cell.species.size(); ++species) {
     batches.push_back(seen_rods(picture, species, style, camera));
   }
   const auto draw_with = [&](GLuint program, const RodBatch& batch) {

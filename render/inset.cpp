@@ -16,15 +16,6 @@
 namespace shaken::render {
 namespace {
 
-/// Centres of the rods of the first species.
-std::vector<Vec3> first_positions(const RodPicture& picture) {
-  std::vector<Vec3> positions;
-  for (std::size_t i = 0; i < picture.n_rods(); ++i) {
-    if (picture.species_of(i) == 0) positions.push_back(picture.position[i]);
-  }
-  return positions;
-}
-
 const std::vector<Tick> kHalves{{0, "0"}, {0.5, "0.5"}, {1, "1"}};
 
 }  // namespace
@@ -41,7 +32,7 @@ Curve order_curve(const RodPicture& picture) {
 }
 
 Curve angle_curve(const RodPicture& picture) {
-  const std::vector<Vec3> directors = picture.first_directors();
+  const std::vector<Vec3> directors = picture.cell.of_species(0, picture.director);
   // As fine as the number of rods allows: so that a bin's own scatter stays small.
   analysis::AngleDistribution distribution(directors.size() < 200 ? 18 : 36);
   distribution.accumulate(directors);
@@ -67,11 +58,12 @@ Curve angle_curve(const RodPicture& picture) {
 
 Curve g2_curve(const RodPicture& picture) {
   constexpr int kBins = 40;
-  const std::vector<Vec3> positions = first_positions(picture);
-  analysis::OrientationCorrelation correlation(kBins, picture.box_side / 2);
-  correlation.accumulate(positions, picture.first_directors(), analysis::Region(picture.box_side, picture.walls));
+  const std::vector<Vec3> positions = picture.cell.of_species(0, picture.position);
+  analysis::OrientationCorrelation correlation(kBins, picture.cell.box_side / 2);
+  correlation.accumulate(positions, picture.cell.of_species(0, picture.director),
+                         analysis::Region(picture.cell.box_side, picture.cell.walls));
   analysis::OrientationCurve pairs = correlation.reduce();
-  const double r_max = picture.box_side / 2, step = tick_step(r_max, 3);
+  const double r_max = picture.cell.box_side / 2, step = tick_step(r_max, 3);
   Curve curve{.title = "G\u2082(r)", .x = std::move(pairs.r), .y = std::move(pairs.g2), .y_ticks = kHalves};
   for (const double r : ticks(0, r_max, step)) curve.x_ticks.push_back({r, tick_text(r)});
   curve.x_ticks.back().text += " mm";
@@ -83,14 +75,14 @@ Curve g2_curve(const RodPicture& picture) {
 }
 
 Curve g2_map(const RodPicture& picture) {
-  const std::vector<Vec3> positions = first_positions(picture);
-  const double range = std::min(2 * picture.rod_length(), picture.box_side / 2);
+  const std::vector<Vec3> positions = picture.cell.of_species(0, picture.position);
+  const double range = std::min(2 * picture.rod_length(), picture.cell.box_side / 2);
   // As fine as leaves some twenty pairs to a bin; odd, so that one is about 0.
-  const double per_area = static_cast<double>(positions.size()) / (picture.box_side * picture.box_side);
+  const double per_area = static_cast<double>(positions.size()) / (picture.cell.box_side * picture.cell.box_side);
   const double pairs = per_area * static_cast<double>(positions.size()) * (2 * range) * (2 * range);
   const int bins = 2 * std::clamp(static_cast<int>(std::sqrt(pairs / 20) / 2), 4, 20) + 1;
-  analysis::PairMap map({.bins = bins, .range = range, .strip = range, .box_side = picture.box_side});
-  map.accumulate(positions, picture.first_directors());
+  analysis::PairMap map({.bins = bins, .range = range, .strip = range, .box_side = picture.cell.box_side});
+  map.accumulate(positions, picture.cell.of_species(0, picture.director));
   const std::vector<double> g2 = map.reduce().g2;
   // The part of the scale that most cells need: among aligned rods all are near 1.
   std::vector<double> known;
@@ -154,7 +146,7 @@ bool has_inset(const RodPicture& picture, const PictureStyle& style) {
     case Inset::kSweep:
       return picture.sweep != nullptr;
     case Inset::kG2Map:
-      return picture.count(0) > 1 && !picture.walls;
+      return picture.count(0) > 1 && !picture.cell.walls;
     case Inset::kAngles:
     case Inset::kG2:
       break;

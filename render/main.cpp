@@ -164,7 +164,7 @@ std::string out_of(const Options& options, const TrajectorySource& source, const
 
 /// That the rods have what the style asks of them.
 void check_picture(const PictureStyle& style, const RodPicture& picture) {
-  if (style.inset == Inset::kG2Map && picture.walls) {
+  if (style.inset == Inset::kG2Map && picture.cell.walls) {
     throw Failure(ExitCode::kBadInput,
                   "the map of G2 is of pairs in a periodic box, and these rods are between side walls: use g2, G2(r)");
   }
@@ -347,7 +347,7 @@ Cut cut_of(const Options& options, const PictureStyle& style, const TrajectorySo
     return cut;
   }
   // What the command line leaves open, the scene may say.
-  const std::optional<MovieRequest> request = source.movie_request();
+  const std::optional<scene::Movie> request = source.movie_request();
   std::size_t stride = options.every.value_or(1);
   if (!options.every && request && source.n_frames() > 1) {
     const double step = time_of(1) - time_of(0);
@@ -363,7 +363,7 @@ void make_movie_file(const Options& options) {
   std::vector<TrajectorySource> sources = open_sources(options);
   TrajectorySource& source = sources.front();
   PictureStyle style;
-  if (const std::optional<MovieRequest> request = source.movie_request()) {
+  if (const std::optional<scene::Movie> request = source.movie_request()) {
     style.width = request->width;
     style.height = request->height;
   }

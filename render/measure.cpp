@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <vector>
 
@@ -20,14 +19,14 @@ namespace {
 /// rods, so it falls towards them.
 std::vector<double> densities(const RodPicture& picture, double width) {
   const std::size_t n = picture.n_rods();
-  const double reach = 3 * width, side = picture.box_side;
-  const bool is_periodic = !picture.walls;
+  const double reach = 3 * width, side = picture.cell.box_side;
+  const bool is_periodic = !picture.cell.walls;
   // Cells at least as wide as the reach, so that neighbours lie in nine of them; fewer than three would count twice.
   const int cells = static_cast<int>(std::clamp(std::floor(side / reach), 1.0, 512.0));
   std::vector<std::vector<std::size_t>> in_cell(static_cast<std::size_t>(cells) * static_cast<std::size_t>(cells));
   std::vector<Vec2> place(n);
-  std::vector<double> area(picture.n_species());
-  for (std::size_t s = 0; s < area.size(); ++s) area[s] = picture.rod_area(s);
+  std::vector<double> area;
+  for (const BeadRow& beads : picture.cell.species) area.push_back(beads.area());
   const auto cell_of = [&](double x) { return std::min(static_cast<int>(x / side * cells), cells - 1); };
   const auto cell = [&](int i, int j) -> std::vector<std::size_t>& {
     return in_cell[static_cast<std::size_t>((j + cells) % cells) * static_cast<std::size_t>(cells) +
@@ -46,7 +45,7 @@ std::vector<double> densities(const RodPicture& picture, double width) {
       Vec2 d = place[j] - place[i];
       if (is_periodic) d = Vec2(analysis::nearest_image(d.x(), side), analysis::nearest_image(d.y(), side));
       const double square = d.squaredNorm();
-      if (square < reach * reach) sum += area[picture.species_of(j)] * std::exp(-square / (2 * width * width));
+      if (square < reach * reach) sum += area[picture.cell.species_of(j)] * std::exp(-square / (2 * width * width));
     };
     if (around == 0) {
       for (std::size_t j = 0; j < n; ++j) add(j);
@@ -65,27 +64,24 @@ std::vector<double> densities(const RodPicture& picture, double width) {
 }  // namespace
 
 void measure(RodPicture& picture, const Asked& asked) {
-  const std::vector<Vec3> directors = picture.first_directors();
-  const analysis::NematicOrder mean = analysis::nematic_order(directors);
-  picture.order = picture.has_axes() ? mean.order : std::numeric_limits<double>::quiet_NaN();
+  const Cell& cell = picture.cell;
+  const analysis::NematicOrder mean = analysis::nematic_order(cell, picture.director);
+  picture.order = mean.order;
   picture.director_angle = mean.director;
   picture.defects.clear();
   picture.field.reset();
   picture.density.clear();
   const double length = picture.rod_length();
   if (asked.density) picture.density = densities(picture, length / 2);
-  if (!(asked.defects || asked.field) || directors.empty() || !picture.has_axes()) return;
-  std::vector<Vec3> positions;
-  for (std::size_t i = 0; i < picture.n_rods(); ++i) {
-    if (picture.species_of(i) == 0) positions.push_back(picture.position[i]);
-  }
-  const analysis::Region region(picture.box_side, picture.walls);
+  const std::vector<Vec3> directors = cell.of_species(0, picture.director);
+  if (!(asked.defects || asked.field) || directors.empty() || !cell.has_axes()) return;
   scene::MeasureDefects settings;
   settings.smoothing = picture.smoothing;
   settings.grid = picture.grid;
-  const int nodes = analysis::grid_nodes(picture.box_side, settings.grid_for(length));
-  picture.field =
-      std::make_shared<analysis::DirectorField>(positions, directors, region, nodes, settings.smoothing_for(length));
+  const int nodes = analysis::grid_nodes(cell.box_side, settings.grid_for(length));
+  picture.field = std::make_shared<analysis::DirectorField>(cell.of_species(0, picture.position), directors,
+                                                            analysis::Region(cell.box_side, cell.walls), nodes,
+                                                            settings.smoothing_for(length));
   if (asked.defects) picture.defects = analysis::find_defects(*picture.field);
 }
 

@@ -62,13 +62,14 @@ void draw_numbers(const Canvas& canvas, const Layout& layout, const RodPicture& 
   };
   // In slow motion the last digit should be seen to move.
   const int digits = picture.playback > 0 && picture.playback < 0.05 ? 4 : 2;
-  const bool has_axes = picture.has_axes();
+  const bool has_axes = picture.cell.has_axes();
   std::vector<Number> numbers{{"time", fmt::format("{:.{}f} s", picture.time, digits)}};
   if (has_axes) numbers.push_back({"order S", fmt::format("{:.3f}", picture.order)});
-  numbers.push_back({has_axes || picture.n_species() > 1 ? "rods" : "spheres", fmt::format("{}", picture.n_rods())});
+  numbers.push_back(
+      {has_axes || picture.cell.species.size() > 1 ? "rods" : "spheres", fmt::format("{}", picture.n_rods())});
   numbers.push_back({has_axes ? "rod length" : "diameter", fmt::format("{:.4g} mm", picture.rod_length())});
   numbers.push_back({"packing \u03c6", fmt::format("{:.2f}", picture.area_fraction())});
-  numbers.push_back({"gap", fmt::format("{:.4g} mm", picture.gap)});
+  numbers.push_back({"gap", fmt::format("{:.4g} mm", picture.cell.gap)});
   // Three columns where they fit, otherwise two.
   const int n = static_cast<int>(numbers.size());
   const int columns = place.width >= 240 * u ? 3 : 2, rows = (n + columns - 1) / columns;
@@ -107,23 +108,20 @@ void draw_species(const Canvas& canvas, const Layout& layout, const RodPicture& 
                   const Palette& colours) {
   const double u = layout.unit;
   const bool by_name = std::string_view(colouring_of(picture, style).name) == "species";
-  const double column = layout.species.width / static_cast<double>(picture.n_species());
+  const double column = layout.species.width / static_cast<double>(picture.cell.species.size());
   double words = 0;                // room for a number [pixels]
   double longest = 0, widest = 0;  // [mm]
-  const auto length_of = [](const BeadRow& beads) {
-    return beads.offset.back() + beads.radius.back() - beads.offset.front() + beads.radius.front();
-  };
-  for (std::size_t species = 0; species < picture.n_species(); ++species) {
-    const BeadRow& beads = picture.beads_of(species);
+  for (std::size_t species = 0; species < picture.cell.species.size(); ++species) {
+    const BeadRow& beads = picture.cell.species[species];
     words = std::max(words, canvas.text_width(fmt::format("{}", picture.count(species)), 13 * u) + 17 * u);
-    longest = std::max(longest, length_of(beads));
+    longest = std::max(longest, beads.length());
     widest = std::max(widest, 2 * *std::max_element(beads.radius.begin(), beads.radius.end()));
   }
   const double scale = std::min((column - words) / longest, 16 * u / widest);  // pixels per mm
   cairo_t* cr = canvas.cairo();
   const double y = layout.species.y + 11 * u;
-  for (std::size_t species = 0; species < picture.n_species(); ++species) {
-    const BeadRow& beads = picture.beads_of(species);
+  for (std::size_t species = 0; species < picture.cell.species.size(); ++species) {
+    const BeadRow& beads = picture.cell.species[species];
     const double x = layout.species.x + static_cast<double>(species) * column;
     const double centre = x + scale * (beads.radius.front() - beads.offset.front());
     for (const bool rim : {true, false}) {  // the rim keeps pale rods visible on a white page
@@ -139,7 +137,7 @@ void draw_species(const Canvas& canvas, const Layout& layout, const RodPicture& 
       cairo_fill(cr);
     }
     canvas.colour(colours.ink);
-    canvas.text(x + scale * length_of(beads) + 7 * u, y + 5 * u, fmt::format("{}", picture.count(species)), 13 * u);
+    canvas.text(x + scale * beads.length() + 7 * u, y + 5 * u, fmt::format("{}", picture.count(species)), 13 * u);
   }
 }
 

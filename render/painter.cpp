@@ -22,7 +22,7 @@ namespace {
 Layout layout_for(const RodPicture& picture, const PictureStyle& style) {
   const Contents contents{.history = !picture.history.time.empty() && style.inset != Inset::kOrder,
                           .label = !picture.label.empty(),
-                          .species = picture.n_species() > 1,
+                          .species = picture.cell.species.size() > 1,
                           .scale = has_scale(picture, style)};
   return style.view == ViewPoint::kGap ? gap_layout_of(style, contents) : layout_of(style, contents);
 }
@@ -34,8 +34,9 @@ const RodPicture& panel_of(const RodPicture& picture, std::size_t i) {
 
 /// Of bodies without axes there is no director field: no defects, lines, order in the background, plots of angles or S.
 PictureStyle drawable(PictureStyle style, const RodPicture& picture) {
-  const bool any = picture.has_axes() || std::any_of(picture.beside.begin(), picture.beside.end(),
-                                                     [](const RodPicture& other) { return other.has_axes(); });
+  const bool any =
+      picture.cell.has_axes() || std::any_of(picture.beside.begin(), picture.beside.end(),
+                                             [](const RodPicture& other) { return other.cell.has_axes(); });
   if (any) return style;
   style.mark_defects = false;
   style.lines = FieldLines::kNone;

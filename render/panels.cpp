@@ -85,8 +85,8 @@ void draw_panel_words(const Canvas& canvas, const Layout& layout, const RodPictu
   canvas.colour(palette(style.theme).ink);
   canvas.text(layout.scale_bar.right(), layout.scale_bar.bottom(),
               fmt::format("{}{}{}", with_time ? fmt::format("t = {:.2f} s", picture.time) : "",
-                          with_time && picture.has_axes() ? ", " : "",
-                          picture.has_axes() ? fmt::format("S = {:.3f}", picture.order) : ""),
+                          with_time && picture.cell.has_axes() ? ", " : "",
+                          picture.cell.has_axes() ? fmt::format("S = {:.3f}", picture.order) : ""),
               14 * layout.unit, Canvas::Align::kRight);
 }
 

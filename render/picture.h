@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,8 +12,7 @@
 #include "analysis/director_field.h"
 #include "base/core/result.h"
 #include "base/core/types.h"
-#include "sim/rod/bead_row.h"
-#include "sim/system.h"
+#include "sim/cell.h"
 
 namespace shaken::render {
 
@@ -57,19 +55,13 @@ struct FilmAxes {
 
 /// One instant of a run, as plain values: all that is needed to draw it.
 struct RodPicture {
-  double time = 0;      ///< [s]
-  double box_side = 0;  ///< of the square box, periodic in x and y [mm]
-  double gap = 0;       ///< between the plates [mm]
-  double base = 0;      ///< height of the base [mm]; rods' heights are counted as it is, from its lowest point
+  Cell cell;
+  double time = 0;  ///< [s]
+  double base = 0;  ///< height of the base [mm]; rods' heights are counted as it is, from its lowest point
   bool has_lid = true;
-
-  BeadRow beads;                             ///< of a rod of the first species
-  std::vector<BeadRow> added;                ///< of rods of the other species
-  std::vector<std::uint8_t> species_of_rod;  ///< (n_rods) species of each rod, from 0; empty if there is one
-  std::vector<Vec3> position;                ///< (n_rods) centres [mm]
-  std::vector<Vec3> director;                ///< (n_rods) unit vectors, to the head
-  std::vector<Vec3> velocity;                ///< (n_rods) [mm/s]; empty where it is not known
-  std::optional<SideWalls> walls;            ///< of the arena in the middle of the box, if there are any
+  std::vector<Vec3> position;  ///< (n_rods) centres [mm]
+  std::vector<Vec3> director;  ///< (n_rods) unit vectors, to the head
+  std::vector<Vec3> velocity;  ///< (n_rods) [mm/s]; empty where it is not known
 
   /// (n_rods) how far each rod's centre has come within some time, across borders too [mm]; empty unless asked for.
   std::vector<Vec2> displacement;
@@ -98,19 +90,10 @@ struct RodPicture {
   std::vector<RodPicture> beside;
 
   std::size_t n_rods() const { return position.size(); }
-  std::size_t n_species() const { return 1 + added.size(); }
-  std::size_t species_of(std::size_t rod) const { return species_of_rod.empty() ? 0 : species_of_rod[rod]; }
-  const BeadRow& beads_of(std::size_t species) const { return species == 0 ? beads : added[species - 1]; }
   /// Rods of one species.
-  std::size_t count(std::size_t species) const;
-  /// Whether the rods of the first species have axes: spheres have none, and no order, director or defects.
-  bool has_axes() const { return beads.offset.size() > 1; }
-  /// The directors of the rods of the first species, which order and colours are about.
-  std::vector<Vec3> first_directors() const;
+  std::size_t count(std::size_t species) const { return cell.of_species(species, position).size(); }
   /// Tip to tip, of the first species [mm].
-  double rod_length() const;
-  /// Covered by the projection of a rod of `species`, lying flat [mm^2].
-  double rod_area(std::size_t species) const;
+  double rod_length() const { return cell.species.front().length(); }
   /// Share of the arena, or of the box, covered by the projections of all rods, lying flat and side by side.
   double area_fraction() const;
 };

@@ -98,12 +98,12 @@ void draw_walls(const Canvas& canvas, const Plane& plane, const RodPicture& pict
                 double unit) {
   cairo_t* cr = canvas.cairo();
   cairo_rectangle(cr, plane.box().x, plane.box().y, plane.box().width, plane.box().height);
-  arena_path(cr, plane, *picture.walls, picture.box_side);
+  arena_path(cr, plane, *picture.cell.walls, picture.cell.box_side);
   cairo_set_fill_rule(cr, CAIRO_FILL_RULE_EVEN_ODD);
   canvas.colour(colours.walls);
   cairo_fill(cr);
   cairo_set_fill_rule(cr, CAIRO_FILL_RULE_WINDING);
-  arena_path(cr, plane, *picture.walls, picture.box_side);
+  arena_path(cr, plane, *picture.cell.walls, picture.cell.box_side);
   canvas.colour(colours.ink);
   cairo_set_line_width(cr, 1.5 * unit);
   cairo_stroke(cr);
@@ -199,7 +199,8 @@ void draw_streamlines(const Canvas& canvas, const Plane& plane, const RodPicture
     }
     const Vec2 middle = (low + high) / 2;
     View view = plane.view();
-    view.period = picture.walls ? 0 : picture.box_side;  // the field goes on beyond the box, also where rods do not
+    view.period =
+        picture.cell.walls ? 0 : picture.cell.box_side;  // the field goes on beyond the box, also where rods do not
     for_images(view, middle, (high - low).maxCoeff() / 2, [&](const Vec2& at) {
       for (const Vec2& point : line) {
         const Vec2 p = plane.pixel(at + point - middle);
@@ -214,11 +215,7 @@ void draw_streamlines(const Canvas& canvas, const Plane& plane, const RodPicture
 /// The points of an outline at one side of the rod, from tail to head: offset and half width.
 std::vector<Vec2> half_outline(const BeadRow& beads) {
   constexpr int kSlices = 60;
-  double tail = 0, head = 0;
-  for (std::size_t i = 0; i < beads.offset.size(); ++i) {
-    tail = std::min(tail, beads.offset[i] - beads.radius[i]);
-    head = std::max(head, beads.offset[i] + beads.radius[i]);
-  }
+  const double tail = beads.tail(), head = beads.head();
   std::vector<Vec2> outline;
   for (int k = 0; k <= kSlices; ++k) {
     // Closer together towards the round ends.
@@ -241,7 +238,7 @@ void draw_ground(const Canvas& canvas, const Layout& layout, const RodPicture& p
   canvas.colour(colours.floor);
   canvas.fill(plane.box());
   if (style.background == Background::kOrder && picture.field) draw_order(canvas, plane, picture, style.theme);
-  if (picture.walls) draw_walls(canvas, plane, picture, colours, layout.unit);
+  if (picture.cell.walls) draw_walls(canvas, plane, picture, colours, layout.unit);
 }
 
 void draw_flat_rods(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style) {
@@ -250,11 +247,12 @@ void draw_flat_rods(const Canvas& canvas, const Layout& layout, const RodPicture
   const Colouring& colouring = colouring_of(picture, style);
   const Vec2 range = range_of(colouring, style);
   std::vector<std::vector<Vec2>> outlines;
-  for (std::size_t s = 0; s < picture.n_species(); ++s) outlines.push_back(half_outline(picture.beads_of(s)));
+  for (std::size_t s = 0; s < picture.cell.species.size(); ++s)
+    outlines.push_back(half_outline(picture.cell.species[s]));
   cairo_t* cr = canvas.cairo();
   cairo_set_line_width(cr, 0.5 * layout.unit);
   for (std::size_t i = 0; i < picture.n_rods(); ++i) {
-    const std::vector<Vec2>& outline = outlines[picture.species_of(i)];
+    const std::vector<Vec2>& outline = outlines[picture.cell.species_of(i)];
     const Vec3& n = picture.director[i];
     const double flat = n.head<2>().norm();
     const Vec2 along = flat > 1e-6 ? Vec2(n.head<2>() / flat) : Vec2(1, 0), across(-along.y(), along.x());
@@ -336,7 +334,7 @@ void draw_displacements(const Canvas& canvas, const Layout& layout, const RodPic
     const Vec2 way = picture.displacement[i], middle = picture.position[i].head<2>() - way / 2;
     const double length = way.norm() * plane.scale();  // [pixels]
     // A way through many boxes would be drawn in many pieces, and shows nothing.
-    if (length < 1 || way.norm() > 3 * picture.box_side) continue;
+    if (length < 1 || way.norm() > 3 * picture.cell.box_side) continue;
     const double head = std::min(longest_head, length / 2);
     for_images(plane.view(), middle, way.norm() / 2 + longest_head / plane.scale(), [&](const Vec2& at) {
       const Vec2 tail = plane.pixel(at - way / 2), tip = plane.pixel(at + way / 2);

@@ -28,12 +28,12 @@ RodInstance::RodInstance(const Vec3& at, const Vec3& director, const Colour& of)
       axis(to_floats(director.x(), director.y(), director.z())),
       colour(to_floats(of[0], of[1], of[2])) {}
 
-RodBatch::RodBatch(const BeadRow& row) : ends(row.offset.front(), row.offset.back()), pitch(pitch_of(row)) {
+RodBatch::RodBatch(const BeadRow& row)
+    : ends(row.offset.front(), row.offset.back()), pitch(pitch_of(row)), half(row.reach()) {
   for (std::size_t i = 0; i < row.offset.size(); ++i) {
     beads.push_back(static_cast<float>(row.offset[i]));
     beads.push_back(static_cast<float>(row.radius[i]));
     thick = std::max(thick, row.radius[i]);
-    half = std::max(half, std::abs(row.offset[i]) + row.radius[i]);
   }
 }
 

@@ -25,13 +25,13 @@ struct SeenFromAbove : RodBatch {
 
 /// All rods of one species, and their periodic images, of which a part may lie in the view.
 SeenFromAbove batch_of(const RodPicture& picture, std::size_t species, const View& view, const PictureStyle& style) {
-  SeenFromAbove batch(picture.beads_of(species));
+  SeenFromAbove batch(picture.cell.species[species]);
   const std::size_t n = picture.count(species);
   batch.rods.reserve(n + n / 4);
   const Colouring& colouring = colouring_of(picture, style);
   const Vec2 range = range_of(colouring, style);
   for (std::size_t i = 0; i < picture.n_rods(); ++i) {
-    if (picture.species_of(i) != species) continue;
+    if (picture.cell.species_of(i) != species) continue;
     const Vec3& x = picture.position[i];
     const Colour colour = rod_colour(picture, i, colouring, range);
     for_images(view, x.head<2>(), batch.half + 2 * batch.margin, [&](const Vec2& at) {
@@ -48,20 +48,19 @@ Result<void> check_drawable(const RodPicture& picture, int side) {
     return Error{"the box would be " + std::to_string(side) + " pixels wide; possible are 1 to " +
                  std::to_string(RodsPass::kMaxSide)};
   }
-  if (!(picture.box_side > 0)) return Error{"the box has no size"};
+  if (!(picture.cell.box_side > 0)) return Error{"the box has no size"};
   if (picture.director.size() != picture.position.size()) return Error{"as many directors as positions are needed"};
-  for (std::size_t species = 0; species < picture.n_species(); ++species) {
-    const BeadRow& beads = picture.beads_of(species);
+  for (const BeadRow& beads : picture.cell.species) {
     if (beads.offset.empty() || beads.offset.size() != beads.radius.size() ||
         beads.offset.size() > RodsPass::kMaxBeads) {
       return Error{"a rod of " + std::to_string(beads.offset.size()) + " beads cannot be drawn; possible are 1 to " +
                    std::to_string(RodsPass::kMaxBeads)};
     }
   }
-  if (picture.n_species() > 1 && picture.species_of_rod.size() != picture.n_rods())
+  if (picture.cell.species.size() > 1 && picture.cell.species_of_rod.size() != picture.n_rods())
     return Error{"each rod's species is needed"};
-  if (std::any_of(picture.species_of_rod.begin(), picture.species_of_rod.end(),
-                  [&](std::uint8_t species) { return species >= picture.n_species(); })) {
+  if (std::any_of(picture.cell.species_of_rod.begin(), picture.cell.species_of_rod.end(),
+                  [&](std::uint8_t species) { return species >= picture.cell.species.size(); })) {
     return Error{"a rod is of a species whose beads are not given"};
   }
   return {};
@@ -106,7 +105,7 @@ Result<ImageOf<Channel>> RodsPass::draw(const RodPicture& picture, const Picture
   const View view = view_of(picture, style);
   std::vector<SeenFromAbove> batches;
   double thick = 0;
-  for (std::size_t species = 0; species < picture.n_species(); ++species) {
+  for (std::size_t species = 0; species < picture.cell.species.size(); ++species) {
     batches.push_back(batch_of(picture, species, view, style));
     thick = std::max(thick, batches.back().thick);
   }
@@ -123,7 +122,7 @@ Result<ImageOf<Channel>> RodsPass::draw(const RodPicture& picture, const Picture
     glUniform2f(at("shift"), static_cast<float>(shift.x()), static_cast<float>(shift.y()));
     // A rod may stand up by as much as the lid lets it; a little more than that is spanned on either side.
     glUniform1f(at("low"), static_cast<float>(-thick));
-    glUniform1f(at("high"), static_cast<float>(std::max(picture.gap, 2 * thick) + thick));
+    glUniform1f(at("high"), static_cast<float>(std::max(picture.cell.gap, 2 * thick) + thick));
     set_colour(at("floor_colour"), colours.floor);
     batch.draw(program);
   };
@@ -134,7 +133,7 @@ Result<ImageOf<Channel>> RodsPass::draw(const RodPicture& picture, const Picture
     glUniform1i(at("arena"), walls.arena == Arena::kDisc ? 0 : walls.arena == Arena::kSquare ? 1 : 2);
     glUniform1f(at("size"), static_cast<float>(walls.size));
     glUniform1f(at("inner"), static_cast<float>(walls.inner));
-    glUniform1f(at("box_side"), static_cast<float>(picture.box_side));
+    glUniform1f(at("box_side"), static_cast<float>(picture.cell.box_side));
     glUniform1f(at("view_side"), static_cast<float>(view.side));
     glUniform2f(at("view_corner"), static_cast<float>(view.corner.x()), static_cast<float>(view.corner.y()));
     glUniform1f(at("line"), static_cast<float>(std::max(1.0, side / 480.0) * view.side / side));
@@ -157,7 +156,7 @@ Result<ImageOf<Channel>> RodsPass::draw(const RodPicture& picture, const Picture
   }
 
   glDisable(GL_BLEND);
-  if (picture.walls) draw_walls(*picture.walls);
+  if (picture.cell.walls) draw_walls(*picture.cell.walls);
   glEnable(GL_DEPTH_TEST);
   for (const SeenFromAbove& batch : batches) draw_with(programs_->body, batch, 0, Vec2(0, 0));
 

@@ -10,18 +10,20 @@
 #include <shaken/frame_static_t.hpp>
 #include <shaken/frame_t.hpp>
 
-#include "analysis/director_field.h"
 #include "analysis/order.h"
 #include "base/files.h"
 #include "base/text.h"
 #include "proto/bus.h"
+#include "proto/cell_codec.h"
 #include "proto/channels.h"
 #include "proto/frame_codec.h"
 #include "render/colourings.h"
 #include "render/headline.h"
 #include "run/files/directory.h"
 #include "run/files/version.h"
-#include "scene/fields.h"
+#include "scene/cell_limits.h"
+#include "scene/derived.h"
+#include "scene/load.h"
 #include "scene/measure_plan.h"
 
 namespace shaken::render {
@@ -30,99 +32,40 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// A number of the resolved scene, whose values are in default units.
-std::optional<double> number_at(const Json& scene, const char* pointer) {
-  const Json::json_pointer place(pointer);
-  if (!scene.contains(place) || !scene.at(place).is_number()) return std::nullopt;
-  const double value = scene.at(place).get<double>();
-  return std::abs(value) < 1e9 ? std::optional(value) : std::nullopt;  // no scene has more
-}
-
-std::string shaking(const Json& scene) {
-  const std::optional<double> gamma = number_at(scene, "/plates/gamma"),
-                              frequency = number_at(scene, "/plates/frequency");
-  return gamma && frequency ? fmt::format("\u0393 = {:.4g}, f = {:.4g} Hz", *gamma, *frequency) : "";
-}
-
-std::optional<SideWalls> walls_of(const frame_static_t& message) {
-  const std::optional<Arena> arena = arena_of(message.arena);
-  if (!arena) return std::nullopt;
-  SideWalls walls;
-  walls.arena = *arena;
-  walls.size = message.arena_size_mm;
-  walls.inner = message.arena_inner_mm;
-  return walls;
-}
-
-/// Nothing if `value` is one that a scene may have at `path`, or half of one; else what is wrong.
-Result<void> refusal(const std::string& who, const char* what, double value, const char* path, double share = 1) {
-  constexpr double kRounding = 1e-9;
-  const scene::Field& field = scene::field_at(path);
-  const double low = share * field.low, high = share * field.high;
-  if (value >= low * (1 - kRounding) && value <= high * (1 + kRounding)) return {};  // false for NaN
-  return Error{fmt::format("{} a {} of {} mm; a scene has {} to {} mm", who, what, value, low, high)};
-}
-
-/// The sizes of a picture whose source `who` tells ("the job's messages have"). Anybody may send messages, and files
-/// may be damaged: what no scene has would take any memory and any time.
+/// Nothing if the picture can be drawn, whose source `who` tells ("the job's messages have").
 Result<void> check_sizes(const std::string& who, const RodPicture& picture, const Asked& asked) {
   // Of the director field, in each direction: 0.7 GB. The largest box with rods of 4 mm needs as many.
   constexpr double kMostNodes = 4096;
-  if (auto done = refusal(who, "box side", picture.box_side, "box.side"); !done) return done.error();
-  if (auto done = refusal(who, "gap", picture.gap, "box.gap"); !done) return done.error();
-  for (std::size_t species = 0; species < picture.n_species(); ++species) {
-    const BeadRow& beads = picture.beads_of(species);
-    for (const double radius : beads.radius) {
-      if (auto done = refusal(who, "bead radius", radius, "rods.bead_diameters", 0.5); !done) return done.error();
-    }
-    for (const double offset : beads.offset) {
-      // Beads may lie anywhere along a rod, so the shortest rod does not matter.
-      const double half = std::max(std::abs(offset), scene::field_at("rods.length").low / 2);
-      if (auto done = refusal(who, "bead offset", std::isnan(offset) ? offset : half, "rods.length", 0.5); !done)
-        return done.error();
-    }
-  }
-  if (picture.walls) {
-    if (auto done = refusal(who, "arena", picture.walls->size, "walls.size"); !done) return done.error();
-    if (picture.walls->arena == Arena::kAnnulus) {
-      if (auto done = refusal(who, "inner wall", picture.walls->inner, "walls.inner"); !done) return done.error();
-    }
-  }
+  if (auto done = scene::check_cell(picture.cell, picture.n_rods()); !done)
+    return Error{who + " " + done.error().message};
   const double mesh = picture.grid > 0 ? picture.grid : scene::MeasureDefects{}.grid_for(picture.rod_length());
-  if ((asked.defects || asked.field) && picture.box_side / mesh > kMostNodes) {
+  if ((asked.defects || asked.field) && picture.cell.box_side / mesh > kMostNodes) {
     return Error{
         fmt::format("a box of {} mm is too large for a picture of rods of {} mm with defects on this mesh (at most {} "
                     "nodes each way); draw it without them",
-                    picture.box_side, picture.rod_length(), kMostNodes)};
+                    picture.cell.box_side, picture.rod_length(), kMostNodes)};
   }
   return {};
 }
 
-/// Species and side walls out of a message, whose counts need not agree.
-Result<void> take_constants(const frame_static_t& message, std::size_t n_rods, RodPicture& picture) {
-  const Error garbled{"the job's static part contradicts itself"};
-  std::vector<BeadRow> rows;
-  std::size_t begin = 0;
-  for (const std::int32_t n : message.species_beads) {
-    if (n < 1 || static_cast<std::size_t>(n) > message.bead_offset_mm.size() - begin) return garbled;
-    const auto piece = [&](const std::vector<double>& all) {
-      const auto first = all.begin() + static_cast<std::ptrdiff_t>(begin);
-      return std::vector<double>(first, first + n);
-    };
-    rows.push_back({piece(message.bead_offset_mm), piece(message.bead_radius_mm)});
-    begin += static_cast<std::size_t>(n);
+/// What a run says of itself, beside whose recorded `file` its summary is.
+Notes notes_of(const std::filesystem::path& file, const run::Provenance& run) {
+  Notes notes{{"Software", fmt::format("Shaken {}", run::version())}};
+  if (!run.run_id.empty()) {
+    notes.emplace_back("Run id", run.run_id);
+    notes.emplace_back("Seed", fmt::format("{}", run.seed));
   }
-  if (rows.empty() || begin != message.bead_offset_mm.size()) return garbled;
-  if (message.rod_species.size() != (rows.size() > 1 ? n_rods : 0)) return garbled;
-  if (std::any_of(message.rod_species.begin(), message.rod_species.end(),
-                  [&](std::uint8_t kind) { return kind >= rows.size(); })) {
-    return garbled;
+  // The versions that the run was made with, which need not be those of this program.
+  const Result<std::string> text = read_file(file.parent_path() / "summary.json");
+  const Json summary = text ? Json::parse(*text, nullptr, false) : Json();
+  const Json versions = summary.is_object() ? summary.value("versions", Json::object()) : Json::object();
+  if (versions.is_object() && versions.contains("shaken") && versions["shaken"].is_string()) {
+    notes.emplace_back("Run by", "Shaken " + printable(versions["shaken"].get<std::string>()));
   }
-  picture.beads = rows.front();
-  picture.added.assign(rows.begin() + 1, rows.end());
-  picture.species_of_rod = message.rod_species;
-  picture.walls = walls_of(message);
-  return {};
+  if (versions.is_object() && versions.contains("physics") && versions["physics"].is_number_integer()) {
+    notes.emplace_back("Physics version", fmt::format("{}", versions["physics"].get<int>()));
+  }
+  return notes;
 }
 
 }  // namespace
@@ -138,7 +81,11 @@ Result<TrajectorySource> TrajectorySource::open(const std::filesystem::path& run
   Result<run::TrajectoryReader> reader = run::TrajectoryReader::open(file);
   if (!reader) return reader.error();
   if (reader->n_frames() == 0) return Error{file.string() + " holds no complete frame yet"};
-  return TrajectorySource(file, std::move(*reader));
+  TrajectorySource source(file, std::move(*reader));
+  // Another version's scene may be none to this one; nothing is then known of the plates.
+  if (auto plan = scene::load_scene(source.reader_.header().scene_json, file.string())) source.plan_ = std::move(*plan);
+  source.notes_ = notes_of(file, source.reader_.header().provenance);
+  return source;
 }
 
 Result<double> TrajectorySource::time_of(std::size_t index) const {
@@ -150,27 +97,8 @@ Result<double> TrajectorySource::time_of(std::size_t index) const {
 }
 
 std::string TrajectorySource::label() const {
-  return shaking(Json::parse(reader_.header().scene_json, nullptr, false));
-}
-
-Notes TrajectorySource::notes() const {
-  const run::Provenance& run = reader_.header().provenance;
-  Notes notes{{"Software", fmt::format("Shaken {}", run::version())}};
-  if (!run.run_id.empty()) {
-    notes.emplace_back("Run id", run.run_id);
-    notes.emplace_back("Seed", fmt::format("{}", run.seed));
-  }
-  // The versions that the run was made with, which need not be those of this program.
-  const Result<std::string> text = read_file(file_.parent_path() / "summary.json");
-  const Json summary = text ? Json::parse(*text, nullptr, false) : Json();
-  const Json versions = summary.is_object() ? summary.value("versions", Json::object()) : Json::object();
-  if (versions.is_object() && versions.contains("shaken") && versions["shaken"].is_string()) {
-    notes.emplace_back("Run by", "Shaken " + printable(versions["shaken"].get<std::string>()));
-  }
-  if (versions.is_object() && versions.contains("physics") && versions["physics"].is_number_integer()) {
-    notes.emplace_back("Physics version", fmt::format("{}", versions["physics"].get<int>()));
-  }
-  return notes;
+  const std::optional<double> gamma = plan_ ? scene::gamma_of(plan_->system) : std::nullopt;
+  return gamma ? fmt::format("\u0393 = {:.4g}, f = {:.4g} Hz", *gamma, plan_->system.frequency) : "";
 }
 
 Result<std::size_t> TrajectorySource::nearest_frame(double time) const {
@@ -204,29 +132,19 @@ Result<std::size_t> TrajectorySource::recorded_frame(double time) const {
                            file_.string(), time, n_frames(), *first, *last)};
 }
 
-std::optional<MovieRequest> TrajectorySource::movie_request() const {
-  const Json scene = Json::parse(reader_.header().scene_json, nullptr, false);
-  const std::optional<double> every = number_at(scene, "/movie/every"), width = number_at(scene, "/movie/size/0"),
-                              height = number_at(scene, "/movie/size/1");
-  if (!every || !width || !height) return std::nullopt;
-  return MovieRequest{*every, static_cast<int>(*width), static_cast<int>(*height)};
-}
+std::optional<scene::Movie> TrajectorySource::movie_request() const { return plan_ ? plan_->movie : std::nullopt; }
 
 Result<void> TrajectorySource::read_history() {
-  if (reader_.header().bead_offset.size() < 2) return {};  // spheres have no S
+  const Cell& cell = reader_.header().cell;
+  if (!cell.has_axes()) return {};  // spheres have no S
   constexpr std::size_t kMostPoints = 400;
   const std::size_t last = n_frames() - 1, points = std::min(kMostPoints, last + 1);
   OrderHistory history;
-  const std::vector<std::uint8_t>& species_of_rod = reader_.header().species_of_rod;
   for (std::size_t k = 0; k < points; ++k) {
     const Result<run::TrajectoryFrame> frame = reader_.frame(points == 1 ? last : k * last / (points - 1));
     if (!frame) return frame.error();
     history.time.push_back(frame->time);
-    std::vector<Vec3> directors;  // of rods of the first species
-    for (std::size_t i = 0; i < frame->director.size(); ++i) {
-      if (species_of_rod.empty() || species_of_rod[i] == 0) directors.push_back(frame->director[i]);
-    }
-    history.order.push_back(analysis::nematic_order(directors).order);
+    history.order.push_back(analysis::nematic_order(cell, frame->director).order);
   }
   history.start = history.time.front();
   history.end = history.time.back();
@@ -245,25 +163,19 @@ std::vector<double> TrajectorySource::orders(double first, double last) const {
 Result<RodPicture> TrajectorySource::bare_picture(std::size_t index, const Asked& asked) const {
   Result<run::TrajectoryFrame> frame = reader_.frame(index);
   if (!frame) return frame.error();
-  const run::TrajectoryHeader& header = reader_.header();
   RodPicture picture;
+  picture.cell = reader_.header().cell;
   picture.time = frame->time;
-  picture.box_side = header.box_side;
-  picture.gap = header.gap;
-  const Json scene = Json::parse(header.scene_json, nullptr, false);
-  picture.label = shaking(scene);
-  // z_base = a cos(2 pi f t) + a (sim/motion/plates.h)
-  const double amplitude = number_at(scene, "/plates/amplitude").value_or(0),
-               frequency = number_at(scene, "/plates/frequency").value_or(0);
-  picture.base = amplitude * (1 + std::cos(2 * kPi * frequency * picture.time));
-  const Json::json_pointer lid("/plates/lid");
-  picture.has_lid = !scene.is_object() || !scene.contains(lid) || scene.at(lid) != false;
-  picture.beads = {header.bead_offset, header.bead_radius};
-  picture.added = header.added_beads;
-  picture.species_of_rod = header.species_of_rod;
-  picture.walls = header.walls;
-  picture.smoothing = number_at(scene, "/measure/defects/smoothing").value_or(0);
-  picture.grid = number_at(scene, "/measure/defects/grid").value_or(0);
+  picture.label = label();
+  if (plan_) {
+    const System& system = plan_->system;
+    // z_base = a cos(2 pi f t) + a (sim/motion/plates.h)
+    picture.base = system.amplitude * (1 + std::cos(2 * kPi * system.frequency * picture.time));
+    picture.has_lid = system.lid;
+    const scene::MeasureDefects defects = plan_->defects.value_or(scene::MeasureDefects{});
+    picture.smoothing = defects.smoothing;
+    picture.grid = defects.grid;
+  }
   picture.position = std::move(frame->position);
   picture.director = std::move(frame->director);
   picture.velocity = std::move(frame->velocity);
@@ -281,10 +193,8 @@ Result<const std::vector<analysis::Defect>*> TrajectorySource::defects_of(std::s
 
 Result<void> TrajectorySource::link(std::size_t first, std::size_t last) {
   if (!links_ || first < links_begin_ || first > links_end_) {
-    const run::TrajectoryHeader& header = reader_.header();
-    RodPicture rods;
-    rods.beads = {header.bead_offset, header.bead_radius};
-    links_.emplace(analysis::Region(header.box_side, header.walls), rods.rod_length());
+    const Cell& cell = reader_.header().cell;
+    links_.emplace(analysis::Region(cell.box_side, cell.walls), cell.species.front().length());
     links_begin_ = links_end_ = first;
   }
   for (; links_end_ <= last; ++links_end_) {
@@ -320,7 +230,7 @@ Result<std::vector<Vec2>> TrajectorySource::displacements(std::size_t index, dou
   const Result<run::TrajectoryFrame> before = reader_.frame(*past);
   if (!before) return before.error();
   const auto unwrapped = [&](const run::TrajectoryFrame& frame, std::size_t i) -> Vec2 {
-    return frame.position[i].head<2>() + reader_.header().box_side * Vec2(frame.image[i][0], frame.image[i][1]);
+    return frame.position[i].head<2>() + reader_.header().cell.box_side * Vec2(frame.image[i][0], frame.image[i][1]);
   };
   std::vector<Vec2> ways;
   for (std::size_t i = 0; i < now->position.size(); ++i) ways.emplace_back(unwrapped(*now, i) - unwrapped(*before, i));
@@ -335,7 +245,7 @@ Result<RodPicture> TrajectorySource::picture(std::size_t index, const PictureSty
   if (!made) return made.error();
   RodPicture& picture = *made;
   if (known != defects_.end() && style.mark_defects) picture.defects = known->second;
-  picture.notes = notes();
+  picture.notes = notes_;
   if (followed_) picture.followed = followed_->at(picture.time);
   if (style.displacements > 0) {
     Result<std::vector<Vec2>> ways = displacements(index, style.displacements);
@@ -404,17 +314,18 @@ Result<RodPicture> live_picture(const std::string& lcm_url, const std::string& j
   const Asked asked = asked_by(style);
   RodPicture picture;
   picture.time = frame->sim_time_s;
-  picture.box_side = frame->box_side_mm;
-  picture.gap = constants->gap_mm;
-  if (auto done = take_constants(*constants, frame->rods.size(), picture); !done) return done.error();
+  const std::optional<Cell> cell = proto::decode_cell(*constants);
+  if (!cell) return Error{"the job's messages have numbers of beads that contradict each other"};
+  picture.cell = *cell;
+  picture.cell.box_side = frame->box_side_mm;
+  for (const proto::RodPose& rod : frame->rods) {
+    const std::array<double, 3> axis = rod.axis();
+    picture.position.emplace_back(rod.x, rod.y, cell->gap / 2);
+    picture.director.emplace_back(axis[0], axis[1], axis[2]);
+  }
   if (auto done = check_sizes("the job's messages have", picture, asked); !done) return done.error();
   picture.label = headline(printable(constants->label));
   picture.notes = {{"Software", fmt::format("Shaken {}", run::version())}, {"Run id", printable(constants->job_id)}};
-  for (const proto::RodPose& rod : frame->rods) {
-    const std::array<double, 3> axis = rod.axis();
-    picture.position.emplace_back(rod.x, rod.y, picture.gap / 2);
-    picture.director.emplace_back(axis[0], axis[1], axis[2]);
-  }
   measure(picture, asked);
   return picture;
 }

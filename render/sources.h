@@ -15,14 +15,9 @@
 #include "render/picture.h"
 #include "render/style.h"
 #include "run/files/trajectory.h"
+#include "scene/run_plan.h"
 
 namespace shaken::render {
-
-/// What the "movie" block of a recorded run's scene asks for.
-struct MovieRequest {
-  double every = 0;           ///< [s] between frames
-  int width = 0, height = 0;  ///< [pixels]
-};
 
 /// The frames of a recorded run. For one thread at a time.
 class TrajectorySource {
@@ -38,7 +33,7 @@ class TrajectorySource {
   /// How the plates shake, "Γ = 7, f = 200 Hz"; empty if the scene does not say it.
   std::string label() const;
   /// What the run says of itself: its id, seed, and the versions of Shaken and of its physics, as far as it is known.
-  Notes notes() const;
+  const Notes& notes() const { return notes_; }
   /// The frame nearest to `time` [s].
   Result<std::size_t> nearest_frame(double time) const;
 
@@ -46,8 +41,8 @@ class TrajectorySource {
   /// that says what is recorded.
   Result<std::size_t> recorded_frame(double time) const;
 
-  /// None if the scene has no such block.
-  std::optional<MovieRequest> movie_request() const;
+  /// What the scene asks for; none if it has no such block.
+  std::optional<scene::Movie> movie_request() const;
 
   /// Reads S(t) of the whole run, from at most 400 of its frames, for the curve beside the pictures.
   Result<void> read_history();
@@ -65,6 +60,8 @@ class TrajectorySource {
       : file_(std::move(file)), reader_(std::move(reader)) {}
   std::filesystem::path file_;
   run::TrajectoryReader reader_;
+  std::optional<scene::RunPlan> plan_;  ///< of the scene, if it is one
+  Notes notes_;
   /// Has the defects of the frames from `first` to `last` linked, and of those before that are linked already.
   Result<void> link(std::size_t first, std::size_t last);
   /// The defects of a frame, kept for the tracks of later ones.

@@ -11,7 +11,7 @@ namespace {
 /// Whether the view reaches beyond the box.
 bool is_whole(const RodPicture& picture, const PictureStyle& style) {
   return style.whole && style.view == ViewPoint::kTop && style.zoom <= 1 && !style.followed && !style.followed_defect &&
-         !picture.walls;
+         !picture.cell.walls;
 }
 
 }  // namespace
@@ -21,23 +21,18 @@ View view_of(const RodPicture& picture, const PictureStyle& style) {
   if (is_whole(picture, style)) {
     // A rod whose centre lies in the box reaches at most half a length beyond it, whichever its species.
     double margin = 0;
-    for (std::size_t species = 0; species < picture.n_species(); ++species) {
-      const BeadRow& beads = picture.beads_of(species);
-      for (std::size_t i = 0; i < beads.offset.size(); ++i) {
-        margin = std::max(margin, std::abs(beads.offset[i]) + beads.radius[i]);
-      }
-    }
-    return {Vec2(-margin, -margin), picture.box_side + 2 * margin, 0};
+    for (const BeadRow& beads : picture.cell.species) margin = std::max(margin, beads.reach());
+    return {Vec2(-margin, -margin), picture.cell.box_side + 2 * margin, 0};
   }
-  view.side = picture.box_side / std::max(style.zoom, 1.0);
-  view.period = picture.walls ? 0 : picture.box_side;
+  view.side = picture.cell.box_side / std::max(style.zoom, 1.0);
+  view.period = picture.cell.walls ? 0 : picture.cell.box_side;
   if (style.followed && static_cast<std::size_t>(*style.followed) < picture.n_rods()) {
     const auto rod = static_cast<std::size_t>(*style.followed);
     view.corner = picture.position[rod].head<2>() - Vec2(view.side, view.side) / 2;
   } else if (style.followed_defect && picture.followed) {
     view.corner = *picture.followed - Vec2(view.side, view.side) / 2;
   } else if (style.zoom > 1) {
-    view.corner = style.focus * picture.box_side - Vec2(view.side, view.side) / 2;
+    view.corner = style.focus * picture.cell.box_side - Vec2(view.side, view.side) / 2;
   }
   return view;
 }
@@ -45,7 +40,7 @@ View view_of(const RodPicture& picture, const PictureStyle& style) {
 View box_in(const RodPicture& picture, const PictureStyle& style) {
   const View view = view_of(picture, style);
   if (!is_whole(picture, style)) return {Vec2(0, 0), view.side, view.period};
-  return {-view.corner, picture.box_side, 0};
+  return {-view.corner, picture.cell.box_side, 0};
 }
 
 }  // namespace shaken::render

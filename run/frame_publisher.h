@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <shaken/frame_static_t.hpp>
 #include <string>
 
 #include "run/messages.h"

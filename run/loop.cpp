@@ -13,6 +13,7 @@
 
 #include "analysis/order.h"
 #include "base/files.h"
+#include "proto/cell_codec.h"
 #include "run/effects.h"
 #include "run/files/done.h"
 #include "run/frame_publisher.h"
@@ -71,8 +72,8 @@ class Loop {
     progress_.n_rods = static_cast<int>(world.rods.size());
     aim_at(scene::next_end(plan, run_.simulation.tick()));
     if (plan.stream && options.lcm_url) {
-      publisher_ =
-          std::make_unique<FramePublisher>(*options.lcm_url, options.job_id, make_frame_static(world, options.label));
+      publisher_ = std::make_unique<FramePublisher>(*options.lcm_url, options.job_id,
+                                                    proto::encode_cell(world.cell(), world.rods.size(), options.label));
     }
   }
 
@@ -99,7 +100,8 @@ class Loop {
     progress_.sim_time = run_.simulation.time();
     progress_.sim_rate = rate_.rate();
     progress_.eta = state == "running" ? rate_.eta(progress_.sim_time_total) : -1.0;
-    progress_.order = order_of(run_.simulation.world(), run_.simulation.snapshot()).order;
+    progress_.order =
+        analysis::nematic_order(run_.simulation.world().cell(), run_.simulation.snapshot().director).order;
     progress_.order_running_mean = run_.measurements.order_running_mean();
     progress_.max_overlap = run_.simulation.world().counters.max_overlap();
     if (auto done = write_progress(directory_.progress(), progress_); !done) spdlog::warn("{}", done.error().message);
@@ -209,7 +211,7 @@ class Loop {
     summary.balance = balance(world);
     summary.t_steady = reduction.t_steady;
     summary.order = reduction.order;
-    summary.has_axis = has_axis(world);
+    summary.has_axis = plan_.system.rod.has_axis();
     summary.scalars = reduction.scalars;
     if (reduction.defects) {
       summary.defects_mean_plus = reduction.defects->n_plus;

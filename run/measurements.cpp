@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "run/measurements.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <regex>
@@ -17,7 +19,7 @@ void leave_out_axes(Reduction& result) {
   for (const MeasurementKind& kind : measurement_kinds()) {
     for (const std::string_view name : kind.of_axis) {
       result.scalars.erase(std::string(name));
-      std::erase_if(result.arrays, [path = "/" + std::string(kind.name) + "/" + std::string(name)](const auto& array) {
+      std::erase_if(result.arrays, [path = fmt::format("/{}/{}", kind.name, name)](const auto& array) {
         return std::regex_replace(array.first, kError, "") == path;
       });
     }
@@ -26,15 +28,10 @@ void leave_out_axes(Reduction& result) {
 
 }  // namespace
 
-Measurements::Measurements(const scene::RunPlan& plan, const Species& species,
-                           std::span<const std::uint8_t> species_of_rod)
-    : steady_(plan.steady), has_axis_(plan.system.rod.has_axis()) {
-  if (std::any_of(species_of_rod.begin(), species_of_rod.end(), [](std::uint8_t kind) { return kind != 0; })) {
-    for (std::size_t i = 0; i < species_of_rod.size(); ++i) {
-      if (species_of_rod[i] == 0) measured_.push_back(i);
-    }
-  }
+Measurements::Measurements(const scene::RunPlan& plan, Cell cell)
+    : cell_(std::move(cell)), steady_(plan.steady), has_axis_(plan.system.rod.has_axis()) {
   const double dt = plan.system.dt;
+  const Species species = make_species(plan.system.rod);
   for (const MeasurementKind& kind : measurement_kinds()) {
     const std::optional<Cadence> cadence = kind.cadence(plan);
     if (!cadence) continue;
@@ -53,20 +50,19 @@ Tick Measurements::next_due(Tick from) const {
 }
 
 void Measurements::sample(const Snapshot& snapshot) {
-  Snapshot first_kind;
-  if (!measured_.empty()) {
-    first_kind.tick = snapshot.tick;
-    first_kind.time = snapshot.time;
-    first_kind.box_side = snapshot.box_side;
-    for (const std::size_t i : measured_) {
-      first_kind.position.push_back(snapshot.position[i]);
-      first_kind.image.push_back(snapshot.image[i]);
-      first_kind.director.push_back(snapshot.director[i]);
-      first_kind.velocity.push_back(snapshot.velocity[i]);
-      first_kind.angular_velocity.push_back(snapshot.angular_velocity[i]);
-    }
+  const auto first = [&](const auto& values) { return cell_.of_species(0, values); };
+  std::optional<Snapshot> measured;
+  if (!cell_.species_of_rod.empty()) {
+    measured = {snapshot.tick,
+                snapshot.time,
+                snapshot.box_side,
+                first(snapshot.position),
+                first(snapshot.image),
+                first(snapshot.director),
+                first(snapshot.velocity),
+                first(snapshot.angular_velocity)};
   }
-  const Sample sample(measured_.empty() ? snapshot : first_kind);
+  const Sample sample(measured ? *measured : snapshot);
   for (Timed& timed : timed_) {
     if (!timed.cadence.due(snapshot.tick)) continue;
     timed.measurement->sample(sample);

@@ -17,7 +17,7 @@
 #include "run/measure/measurement_kinds.h"
 #include "run/measure/reduction.h"
 #include "scene/run_plan.h"
-#include "sim/rod/species.h"
+#include "sim/cell.h"
 #include "sim/snapshot.h"
 
 namespace shaken::run {
@@ -27,8 +27,8 @@ namespace shaken::run {
 /// plan does not ask for costs nothing.
 class Measurements {
  public:
-  /// Of rods of the first species; `species_of_rod` (n_rods) says which these are, or is empty if there is no other.
-  Measurements(const scene::RunPlan& plan, const Species& species, std::span<const std::uint8_t> species_of_rod = {});
+  /// Of rods of the first species; `cell` says which these are, and may be left out if there is no other.
+  explicit Measurements(const scene::RunPlan& plan, Cell cell = {});
 
   /// The first tick >= `from` at which a sample is due; kNever if nothing is measured.
   Tick next_due(Tick from) const;
@@ -57,7 +57,7 @@ class Measurements {
     std::int64_t samples = 0;
   };
 
-  std::vector<std::size_t> measured_;  // rods of the first species, where there are others; or empty
+  Cell cell_;
   std::optional<double> steady_;
   bool has_axis_ = true;  ///< of the rods that are measured
   std::vector<Timed> timed_;

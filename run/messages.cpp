@@ -2,7 +2,6 @@
 #include "run/messages.h"
 
 #include <cmath>
-#include <limits>
 
 #include "analysis/order.h"
 #include "sim/balance.h"
@@ -12,38 +11,10 @@ namespace {
 
 constexpr double kMicrojoulePerPicojoule = 1e-6;
 
-void append(std::vector<double>& all, const std::vector<double>& more) {
-  all.insert(all.end(), more.begin(), more.end());
-}
-
 }  // namespace
 
-analysis::NematicOrder order_of(const World& world, const Snapshot& snapshot) {
-  if (!has_axis(world)) return {.order = std::numeric_limits<double>::quiet_NaN(), .director = 0};
-  return order_of(snapshot, species_if_several(world));
-}
-
-analysis::NematicOrder order_of(const Snapshot& snapshot, std::span<const std::uint8_t> species_of_rod) {
-  if (species_of_rod.empty()) return analysis::nematic_order(snapshot.director);
-  std::vector<Vec3> directors;
-  for (std::size_t i = 0; i < snapshot.n_rods(); ++i) {
-    if (species_of_rod[i] == 0) directors.push_back(snapshot.director[i]);
-  }
-  return analysis::nematic_order(directors);
-}
-
-std::span<const std::uint8_t> species_if_several(const World& world) {
-  if (world.species.size() > 1) return world.species_of_rod;
-  return {};
-}
-
-bool has_axis(const World& world) { return world.species.front().n_beads() > 1; }
-
 proto::Frame make_frame(const World& world, const Snapshot& snapshot) {
-  return make_frame(snapshot, order_of(world, snapshot));
-}
-
-proto::Frame make_frame(const Snapshot& snapshot, const analysis::NematicOrder& order) {
+  const analysis::NematicOrder order = analysis::nematic_order(world.cell(), snapshot.director);
   proto::Frame frame;
   frame.sim_time_s = snapshot.time;
   frame.tick = snapshot.tick;
@@ -59,7 +30,7 @@ proto::Frame make_frame(const Snapshot& snapshot, const analysis::NematicOrder& 
 }
 
 observables_t make_observables(const World& world, const Snapshot& snapshot, const Progress& progress) {
-  const analysis::NematicOrder order = order_of(world, snapshot);
+  const analysis::NematicOrder order = analysis::nematic_order(world.cell(), snapshot.director);
   double speed2_xy = 0;
   double speed2_z = 0;
   double n2_z = 0;
@@ -105,35 +76,6 @@ defects_t make_defects(const DefectSample& sample) {
     message.charge.push_back(defect.charge);
     message.direction_rad.push_back(defect.direction);
   }
-  return message;
-}
-
-frame_static_t make_frame_static(const World& world, const std::string& label) {
-  frame_static_t message;
-  message.utime = 0;
-  message.sequence = 0;
-  message.sim_time_s = 0;
-  message.n_rods = static_cast<std::int32_t>(world.rods.size());
-  message.box_side_mm = world.system.box_side;
-  message.gap_mm = world.system.gap;
-  message.n_species = static_cast<std::int32_t>(world.species.size());
-  for (const Species& species : world.species) {
-    message.species_beads.push_back(species.n_beads());
-    append(message.bead_offset_mm, species.bead_offset);
-    append(message.bead_radius_mm, species.bead_radius);
-  }
-  message.n_beads = static_cast<std::int32_t>(message.bead_offset_mm.size());
-  const std::span<const std::uint8_t> species_of_rod = species_if_several(world);
-  message.rod_species.assign(species_of_rod.begin(), species_of_rod.end());
-  message.n_rod_species = static_cast<std::int32_t>(message.rod_species.size());
-  message.arena_size_mm = 0;
-  message.arena_inner_mm = 0;
-  if (const auto& walls = world.system.walls) {
-    message.arena = name_of(walls->arena);
-    message.arena_size_mm = walls->size;
-    message.arena_inner_mm = walls->arena == Arena::kAnnulus ? walls->inner : 0;
-  }
-  message.label = label;
   return message;
 }
 

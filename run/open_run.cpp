@@ -14,21 +14,7 @@ std::optional<Cadence> recording_of(const scene::RunPlan& plan) {
 }
 
 TrajectoryHeader trajectory_header(const World& world, const std::string& scene_json, const Provenance& provenance) {
-  TrajectoryHeader header;
-  header.n_rods = static_cast<int>(world.rods.size());
-  header.box_side = world.system.box_side;
-  header.gap = world.system.gap;
-  header.dt = world.system.dt;
-  header.bead_offset = world.species[0].bead_offset;
-  header.bead_radius = world.species[0].bead_radius;
-  header.scene_json = scene_json;
-  for (std::size_t k = 1; k < world.species.size(); ++k) {
-    header.added_beads.push_back({world.species[k].bead_offset, world.species[k].bead_radius});
-  }
-  if (!header.added_beads.empty()) header.species_of_rod = world.species_of_rod;
-  header.walls = world.system.walls;
-  header.provenance = provenance;
-  return header;
+  return {static_cast<int>(world.rods.size()), world.cell(), world.system.dt, scene_json, provenance};
 }
 
 Provenance provenance_of(const scene::RunPlan& plan) { return {scene::run_id(plan), plan.system.seed}; }
@@ -36,7 +22,7 @@ Provenance provenance_of(const scene::RunPlan& plan) { return {scene::run_id(pla
 namespace {
 
 OpenRun make_run(const scene::RunPlan& plan, Simulation simulation) {
-  Measurements measurements(plan, simulation.world().species.front(), simulation.world().species_of_rod);
+  Measurements measurements(plan, simulation.world().cell());
   return {std::move(simulation), std::move(measurements), recording_of(plan), std::nullopt, 0, 0};
 }
 

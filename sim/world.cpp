@@ -36,6 +36,13 @@ World empty_world(const System& system) {
   return world;
 }
 
+Cell World::cell() const {
+  Cell cell{.box_side = system.box_side, .gap = system.gap, .walls = system.walls};
+  for (const Species& kind : species) cell.species.push_back(kind.beads());
+  if (species.size() > 1) cell.species_of_rod = species_of_rod;
+  return cell;
+}
+
 Snapshot snapshot(const World& world) {
   Snapshot out;
   out.tick = world.tick;

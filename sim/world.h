@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/cell.h"
 #include "sim/ledger.h"
 #include "sim/motion/flight.h"
 #include "sim/motion/plates.h"
@@ -61,6 +62,7 @@ struct World {
   Content start;  ///< energy and momentum at tick 0
 
   const Species& species_of(std::size_t i) const { return species[species_of_rod[i]]; }
+  Cell cell() const;
 };
 
 /// The scene's species and plates at tick 0, without rods. Which rods are of which kind is drawn from the seed.

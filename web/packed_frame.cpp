@@ -24,11 +24,13 @@ nlohmann::ordered_json head_of(const client::RodFrame& frame) {
     outlines.push_back({outline.half_length, outline.middle, outline.end});
   }
   nlohmann::ordered_json walls;
-  if (frame.walls) {
-    walls = {{"arena", name_of(frame.walls->arena)}, {"size_mm", frame.walls->size}, {"inner_mm", frame.walls->inner}};
+  if (frame.cell.walls) {
+    walls = {{"arena", name_of(frame.cell.walls->arena)},
+             {"size_mm", frame.cell.walls->size},
+             {"inner_mm", frame.cell.walls->inner}};
   }
   return {{"time_s", frame.time},
-          {"box_side_mm", frame.box_side},
+          {"box_side_mm", frame.cell.box_side},
           {"order", frame.order},
           {"director_rad", frame.director},
           {"n_rods", frame.rods.size()},
@@ -48,13 +50,13 @@ std::string packed(const client::RodFrame& frame) {
   bytes += head;
   // One way of rounding for all that is sent.
   proto::Frame plain;
-  plain.box_side_mm = frame.box_side;
+  plain.box_side_mm = frame.cell.box_side;
   plain.rods = frame.rods;
   const std::vector<frame_t> chunks = proto::encode_frame(plain);
   for (const auto array : {&frame_t::x, &frame_t::y, &frame_t::heading, &frame_t::n_z}) {
     for (const frame_t& chunk : chunks) append(bytes, chunk.*array);
   }
-  if (frame.outlines.size() > 1) bytes.append(frame.species_of_rod.begin(), frame.species_of_rod.end());
+  bytes.append(frame.cell.species_of_rod.begin(), frame.cell.species_of_rod.end());
   return bytes;
 }
 

@@ -2,10 +2,7 @@
 #include "web/recorded_run.h"
 
 #include <algorithm>
-#include <limits>
-#include <optional>
 #include <set>
-#include <shaken/frame_static_t.hpp>
 #include <system_error>
 
 #include "analysis/order.h"
@@ -15,31 +12,6 @@ namespace shaken::web {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The same words for recorded rods as for live ones, so that both are checked and drawn alike.
-frame_static_t static_part(const run::TrajectoryHeader& header) {
-  frame_static_t message;
-  message.utime = message.sequence = 0;
-  message.sim_time_s = 0;
-  message.n_rods = header.n_rods;
-  message.box_side_mm = header.box_side;
-  message.gap_mm = header.gap;
-  const auto add = [&](const std::vector<double>& offset, const std::vector<double>& radius) {
-    message.species_beads.push_back(static_cast<std::int32_t>(offset.size()));
-    message.bead_offset_mm.insert(message.bead_offset_mm.end(), offset.begin(), offset.end());
-    message.bead_radius_mm.insert(message.bead_radius_mm.end(), radius.begin(), radius.end());
-  };
-  add(header.bead_offset, header.bead_radius);
-  for (const BeadRow& row : header.added_beads) add(row.offset, row.radius);
-  message.n_species = static_cast<std::int32_t>(message.species_beads.size());
-  message.n_beads = static_cast<std::int32_t>(message.bead_offset_mm.size());
-  message.rod_species.assign(header.species_of_rod.begin(), header.species_of_rod.end());
-  message.n_rod_species = static_cast<std::int32_t>(message.rod_species.size());
-  message.arena = header.walls ? name_of(header.walls->arena) : "";
-  message.arena_size_mm = header.walls ? header.walls->size : 0;
-  message.arena_inner_mm = header.walls ? header.walls->inner : 0;
-  return message;
-}
 
 }  // namespace
 
@@ -73,19 +45,17 @@ Result<client::RodFrame> RecordedRun::frame(std::size_t index) const {
   if (!reader) return reader.error();
   const Result<run::TrajectoryFrame> recorded = reader->frame(index);
   if (!recorded) return recorded.error();
-  std::optional<client::RodFrame> frame = client::constants_of(static_part(reader->header()));
-  if (!frame) return Error{"the trajectory has sizes that no scene has"};
+  Result<client::RodFrame> frame = client::constants_of(reader->header().cell, recorded->position.size());
+  if (!frame) return Error{"the trajectory has " + frame.error().message};
   frame->time = recorded->time;
-  std::vector<Vec3> axes;  // of the first species, as in live messages
   for (std::size_t i = 0; i < recorded->position.size(); ++i) {
     const Vec3 &x = recorded->position[i], &n = recorded->director[i];
     frame->rods.push_back(proto::make_pose(x.x(), x.y(), {n.x(), n.y(), n.z()}));
-    if (frame->species_of_rod.empty() || frame->species_of_rod[i] == 0) axes.push_back(n);
   }
-  const analysis::NematicOrder mean = analysis::nematic_order(axes);
-  frame->order = frame->has_axes() ? mean.order : std::numeric_limits<double>::quiet_NaN();
+  const analysis::NematicOrder mean = analysis::nematic_order(frame->cell, recorded->director);
+  frame->order = mean.order;
   frame->director = mean.director;
-  return std::move(*frame);
+  return frame;
 }
 
 Result<run::Observables> RecordedRun::curves() const {

@@ -7,14 +7,15 @@
 #include <shaken/frame_t.hpp>
 #include <string>
 
+#include "base/core/result.h"
 #include "client/live/rod_frame.h"
 #include "proto/frame_codec.h"
 
 namespace shaken::client {
 
-/// A message's part of a picture that does not change: `time`, `order`, `director` and `rods` are left open. Nothing
-/// where the message contradicts itself, or has sizes or numbers that no scene has: anybody can send it.
-std::optional<RodFrame> constants_of(const frame_static_t& message);
+/// The part of a picture that does not change: `time`, `order`, `director` and `rods` are left open. Fails where no
+/// scene has such a cell, or it has no room for so many rods: anybody can send them.
+Result<RodFrame> constants_of(const shaken::Cell& cell, std::size_t n_rods);
 
 /// The rods of one run at a time, from the bus.
 class LiveRods {

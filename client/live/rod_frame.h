@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "client/live/rod_colours.h"
 #include "proto/frame_codec.h"
-#include "sim/system.h"
+#include "sim/cell.h"
 
 namespace shaken::client {
 
@@ -28,16 +26,11 @@ struct DefectMark {
 /// All that is drawn of a run at one instant.
 struct RodFrame {
   double time = 0;      ///< [s]
-  double box_side = 0;  ///< [mm]; periodic unless there are walls
-  double order = 0;     ///< S; NaN where there are no axes
+  double order = 0;     ///< S of the first species; NaN where there are no axes
   double director = 0;  ///< its angle [rad]
-  std::vector<proto::RodPose> rods;
-  std::vector<RodOutline> outlines;          ///< one per species, at least one
-  std::vector<std::uint8_t> species_of_rod;  ///< empty if there is one species
-  std::optional<SideWalls> walls;            ///< in the middle of the box
-
-  /// Whether the first species, which order is about, has an axis: spheres have none.
-  bool has_axes() const { return !outlines.empty() && outlines.front().half_length > 0; }
+  std::vector<proto::RodPose> rods{};
+  shaken::Cell cell{};                 ///< periodic unless there are walls
+  std::vector<RodOutline> outlines{};  ///< one per species, at least one
 };
 
 /// The part of the box that is looked at.

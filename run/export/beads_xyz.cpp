@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include "run/export/frame_format.h"
-#include "run/export/species_beads.h"
 #include "run/export/xyz_comment.h"
 #include "run/files/quaternion.h"
 
@@ -13,10 +12,9 @@ constexpr const char* kBeadColumns = "species:S:1:pos:R:3:radius:R:1:molecule:I:
 
 class BeadsXyz final : public FrameFormat {
  public:
-  explicit BeadsXyz(const TrajectoryHeader& header)
-      : header_(header), comment_(header, kBeadColumns), species_(beads_of_species(header)) {
+  explicit BeadsXyz(const TrajectoryHeader& header) : header_(header), comment_(header, kBeadColumns) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(header_.n_rods); ++i) {
-      n_beads_ += species_[species_of_rod(header_, i)].radius.size();
+      n_beads_ += header_.cell.species[header_.cell.species_of(i)].radius.size();
     }
   }
 
@@ -27,8 +25,8 @@ class BeadsXyz final : public FrameFormat {
     const auto out = fmt::appender(text_);
     fmt::format_to(out, "{}\n{}\n", n_beads_, comment_.of(frame));
     for (std::size_t i = 0; i < static_cast<std::size_t>(header_.n_rods); ++i) {
-      const std::size_t species = species_of_rod(header_, i);
-      const BeadRow& beads = species_[species];
+      const std::size_t species = header_.cell.species_of(i);
+      const BeadRow& beads = header_.cell.species[species];
       const float* q = &frame.orientation[4 * i];
       const Vec3 n = director_of_quaternion({q[0], q[1], q[2], q[3]});
       const Vec3 centre(frame.position[3 * i], frame.position[3 * i + 1], frame.position[3 * i + 2]);
@@ -44,7 +42,6 @@ class BeadsXyz final : public FrameFormat {
  private:
   TrajectoryHeader header_;
   XyzComment comment_;
-  std::vector<BeadRow> species_;
   std::size_t n_beads_ = 0;  ///< of all rods
   fmt::memory_buffer text_;  ///< of one frame
 };

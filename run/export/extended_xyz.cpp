@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "run/export/frame_format.h"
-#include "run/export/species_beads.h"
 #include "run/export/xyz_comment.h"
 #include "run/files/quaternion.h"
 
@@ -24,18 +23,14 @@ struct SemiAxes {
 };
 
 SemiAxes semi_axes(const BeadRow& beads) {
-  SemiAxes axes;
-  for (std::size_t b = 0; b < beads.radius.size(); ++b) {
-    axes.across = std::max(axes.across, static_cast<float>(beads.radius[b]));
-    axes.along = std::max(axes.along, static_cast<float>(std::abs(beads.offset[b]) + beads.radius[b]));
-  }
-  return axes;
+  return {.across = static_cast<float>(*std::max_element(beads.radius.begin(), beads.radius.end())),
+          .along = static_cast<float>(beads.reach())};
 }
 
 class ExtendedXyz final : public FrameFormat {
  public:
   explicit ExtendedXyz(const TrajectoryHeader& header) : header_(header), comment_(header, kRodColumns) {
-    for (const BeadRow& beads : beads_of_species(header_)) axes_.push_back(semi_axes(beads));
+    for (const BeadRow& beads : header_.cell.species) axes_.push_back(semi_axes(beads));
   }
 
   Result<void> begin(const Sink&) override { return {}; }
@@ -50,7 +45,7 @@ class ExtendedXyz final : public FrameFormat {
       const float* q = &frame.orientation[4 * i];
       const float* v = &frame.velocity[3 * i];
       const std::int32_t* crossed = &frame.image[3 * i];
-      const std::size_t species = species_of_rod(header_, i);
+      const std::size_t species = header_.cell.species_of(i);
       const Eigen::Vector3f n = director_of_quaternion({q[0], q[1], q[2], q[3]}).cast<float>();
       fmt::format_to(out, "{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}\n", species + 1, x[0], x[1],
                      x[2], i, q[1], q[2], q[3], q[0], axes_[species].across, axes_[species].across,

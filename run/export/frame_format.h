@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include "base/core/result.h"
@@ -11,6 +12,9 @@
 #include "run/files/recorded_frames.h"
 
 namespace shaken::run {
+
+/// What formats call a species that want a name: "A" for the first.
+inline std::string letter_of(std::size_t species) { return {static_cast<char>('A' + species)}; }
 
 /// Where exported bytes go, piece by piece.
 using Sink = std::function<Result<void>(std::string_view)>;

@@ -15,7 +15,6 @@
 #include "base/core/check.h"
 #include "base/core/state_io.h"
 #include "run/export/frame_format.h"
-#include "run/export/species_beads.h"
 #include "run/export/xyz_comment.h"
 #include "run/files/version.h"
 
@@ -108,7 +107,7 @@ class Gsd final : public FrameFormat {
  public:
   Gsd(const TrajectoryHeader& header, std::size_t n_frames)
       : header_(header), height_(swept_height(header)), n_frames_(n_frames) {
-    const std::vector<BeadRow> species = beads_of_species(header);
+    const std::vector<BeadRow>& species = header.cell.species;
     std::vector<std::string> names;
     std::vector<std::string> shapes;
     for (std::size_t k = 0; k < species.size(); ++k) {
@@ -201,12 +200,12 @@ class Gsd final : public FrameFormat {
 
   /// What the first frame says for all.
   void append_first(StateWriter& bytes) const {
-    const auto side = static_cast<float>(header_.box_side);
+    const auto side = static_cast<float>(header_.cell.box_side);
     append_all(bytes, std::vector<float>{side, side, static_cast<float>(height_), 0, 0, 0});
     bytes.put(static_cast<std::uint32_t>(header_.n_rods));
     append_text(bytes, types_);
     for (std::size_t i = 0; i < static_cast<std::size_t>(header_.n_rods); ++i) {
-      bytes.put(static_cast<std::uint32_t>(species_of_rod(header_, i)));
+      bytes.put(static_cast<std::uint32_t>(header_.cell.species_of(i)));
     }
     append_text(bytes, shapes_);
   }
@@ -214,8 +213,8 @@ class Gsd final : public FrameFormat {
   std::vector<float> positions(const RecordedFrame& frame) const {
     std::vector<float> centred = frame.position;
     for (std::size_t i = 0; i < centred.size(); i += 3) {
-      centred[i] = from_middle(centred[i], header_.box_side);
-      centred[i + 1] = from_middle(centred[i + 1], header_.box_side);
+      centred[i] = from_middle(centred[i], header_.cell.box_side);
+      centred[i + 1] = from_middle(centred[i + 1], header_.cell.box_side);
       centred[i + 2] = static_cast<float>(centred[i + 2] - height_ / 2);
     }
     return centred;

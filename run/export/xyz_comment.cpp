@@ -11,13 +11,14 @@ namespace shaken::run {
 double swept_height(const TrajectoryHeader& header) {
   const auto scene = nlohmann::json::parse(header.scene_json, nullptr, false);
   const auto amplitude = nlohmann::json::json_pointer("/plates/amplitude");
-  if (scene.is_discarded() || !scene.contains(amplitude) || !scene[amplitude].is_number()) return header.gap;
-  return header.gap + 2 * scene[amplitude].get<double>();
+  if (scene.is_discarded() || !scene.contains(amplitude) || !scene[amplitude].is_number()) return header.cell.gap;
+  return header.cell.gap + 2 * scene[amplitude].get<double>();
 }
 
 XyzComment::XyzComment(const TrajectoryHeader& header, const std::string& properties)
-    : before_time_(fmt::format(R"(Lattice="{} 0 0 0 {} 0 0 0 {}" Properties={} pbc="{}")", header.box_side,
-                               header.box_side, swept_height(header), properties, header.walls ? "F F F" : "T T F")),
+    : before_time_(fmt::format(R"(Lattice="{} 0 0 0 {} 0 0 0 {}" Properties={} pbc="{}")", header.cell.box_side,
+                               header.cell.box_side, swept_height(header), properties,
+                               header.cell.walls ? "F F F" : "T T F")),
       after_time_(R"(units="mm s")") {
   std::string run_id = header.provenance.run_id;
   // a damaged one must not end the line or the quotes
@@ -26,9 +27,10 @@ XyzComment::XyzComment(const TrajectoryHeader& header, const std::string& proper
     // in words: readers would take some ids for numbers
     after_time_ += fmt::format(R"( source="Shaken run {} seed {}")", run_id, header.provenance.seed);
   }
-  if (!header.walls) return;
-  after_time_ += fmt::format(" arena={} arena_size={}", name_of(header.walls->arena), header.walls->size);
-  if (header.walls->arena == Arena::kAnnulus) after_time_ += fmt::format(" arena_inner={}", header.walls->inner);
+  if (!header.cell.walls) return;
+  after_time_ += fmt::format(" arena={} arena_size={}", name_of(header.cell.walls->arena), header.cell.walls->size);
+  if (header.cell.walls->arena == Arena::kAnnulus)
+    after_time_ += fmt::format(" arena_inner={}", header.cell.walls->inner);
 }
 
 std::string XyzComment::of(const RecordedFrame& frame) const {

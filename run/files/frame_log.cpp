@@ -2,11 +2,9 @@
 #include "run/files/frame_log.h"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -16,6 +14,7 @@
 #include "base/core/state_io.h"
 #include "base/files.h"
 #include "run/files/hashed_bytes.h"
+#include "scene/cell_limits.h"
 
 namespace shaken::run {
 namespace {
@@ -77,54 +76,44 @@ std::optional<RecordedFrame> frame_of(std::string_view record, std::size_t n_rod
   return stored == hash ? std::optional(std::move(frame)) : std::nullopt;
 }
 
-Json json_of(const BeadRow& beads) { return {{"offset_mm", beads.offset}, {"radius_mm", beads.radius}}; }
-
-BeadRow beads_of(const Json& json) {
-  return {json.at("offset_mm").get<std::vector<double>>(), json.at("radius_mm").get<std::vector<double>>()};
-}
-
 Json json_of(const TrajectoryHeader& header) {
+  const Cell& cell = header.cell;
   Json json{{"n_rods", header.n_rods},
-            {"box_side_mm", header.box_side},
-            {"gap_mm", header.gap},
+            {"box_side_mm", cell.box_side},
+            {"gap_mm", cell.gap},
             {"dt_s", header.dt},
-            {"beads", {json_of(BeadRow{header.bead_offset, header.bead_radius})}},
-            {"species_of_rod", header.species_of_rod},
+            {"species_of_rod", cell.species_of_rod},
             {"scene", header.scene_json},
             {"run_id", header.provenance.run_id},
             {"seed", header.provenance.seed}};
-  for (const BeadRow& beads : header.added_beads) json["beads"].push_back(json_of(beads));
-  if (header.walls) {
-    json["walls"] = {{"arena", name_of(header.walls->arena)},
-                     {"size_mm", header.walls->size},
-                     {"inner_mm", header.walls->inner},
-                     {"friction", header.walls->contact.friction},
-                     {"restitution", header.walls->contact.restitution}};
+  for (const BeadRow& row : cell.species)
+    json["beads"].push_back({{"offset_mm", row.offset}, {"radius_mm", row.radius}});
+  if (cell.walls) {
+    json["walls"] = {{"arena", name_of(cell.walls->arena)},
+                     {"size_mm", cell.walls->size},
+                     {"inner_mm", cell.walls->inner},
+                     {"friction", cell.walls->contact.friction},
+                     {"restitution", cell.walls->contact.restitution}};
   }
   return json;
 }
 
 /// Throws what the JSON library throws if something is missing.
 TrajectoryHeader header_of(const Json& json) {
-  TrajectoryHeader header;
-  header.n_rods = json.at("n_rods");
-  header.box_side = json.at("box_side_mm");
-  header.gap = json.at("gap_mm");
-  header.dt = json.at("dt_s");
-  for (const Json& beads : json.at("beads")) header.added_beads.push_back(beads_of(beads));
-  header.bead_offset = header.added_beads.at(0).offset;
-  header.bead_radius = header.added_beads.at(0).radius;
-  header.added_beads.erase(header.added_beads.begin());
-  header.species_of_rod = json.at("species_of_rod").get<std::vector<std::uint8_t>>();
-  header.scene_json = json.at("scene");
-  header.provenance = {json.at("run_id"), json.at("seed")};
+  TrajectoryHeader header{.n_rods = json.at("n_rods"),
+                          .cell = {.box_side = json.at("box_side_mm"),
+                                   .gap = json.at("gap_mm"),
+                                   .species_of_rod = json.at("species_of_rod").get<std::vector<std::uint8_t>>()},
+                          .dt = json.at("dt_s"),
+                          .scene_json = json.at("scene"),
+                          .provenance = {json.at("run_id"), json.at("seed")}};
+  for (const Json& row : json.at("beads")) header.cell.species.push_back({row.at("offset_mm"), row.at("radius_mm")});
   if (json.contains("walls")) {
     const Json& from = json.at("walls");
-    SideWalls& walls = header.walls.emplace();
-    walls.arena = arena_of(from.at("arena").get<std::string>()).value();
-    walls.size = from.at("size_mm");
-    walls.inner = from.at("inner_mm");
-    walls.contact = {from.at("friction"), from.at("restitution")};
+    header.cell.walls = SideWalls{.arena = arena_of(from.at("arena").get<std::string>()).value(),
+                                  .size = from.at("size_mm"),
+                                  .inner = from.at("inner_mm"),
+                                  .contact = {from.at("friction"), from.at("restitution")}};
   }
   return header;
 }
@@ -223,34 +212,7 @@ class LoggedFrames final : public RecordedFrames {
 
 Result<void> check(const TrajectoryHeader& header) {
   if (header.n_rods < 0) return Error{"n_rods is negative"};
-  const auto is_length = [](double value) { return value > 0 && value < 1e6; };  // [mm]; false for NaN
-  if (!is_length(header.box_side)) return Error{fmt::format("a box side of {:g} mm is none", header.box_side)};
-  if (!is_length(header.gap)) return Error{fmt::format("a gap of {:g} mm is none", header.gap)};
-  std::vector<BeadRow> rows = header.added_beads;
-  rows.push_back({header.bead_offset, header.bead_radius});
-  for (const BeadRow& row : rows) {
-    if (row.offset.size() != row.radius.size()) return Error{"beads have not as many radii as places"};
-    for (const double radius : row.radius) {
-      if (!is_length(radius)) return Error{fmt::format("a bead radius of {:g} mm is none", radius)};
-    }
-    for (const double offset : row.offset) {
-      if (!(std::abs(offset) < 1e6)) return Error{fmt::format("a bead offset of {:g} mm is none", offset)};
-    }
-  }
-  if (header.walls) {
-    if (!is_length(header.walls->size)) return Error{fmt::format("an arena of {:g} mm is none", header.walls->size)};
-    if (header.walls->arena == Arena::kAnnulus && !is_length(header.walls->inner)) {
-      return Error{fmt::format("an inner wall of {:g} mm is none", header.walls->inner)};
-    }
-  }
-  if (header.added_beads.empty()) return {};
-  if (header.species_of_rod.size() != static_cast<std::size_t>(header.n_rods)) {
-    return Error{"species does not have the shape (n_rods)"};
-  }
-  for (const std::uint8_t species : header.species_of_rod) {
-    if (species > header.added_beads.size()) return Error{"species names a species whose beads are not there"};
-  }
-  return {};
+  return scene::check_cell(header.cell, static_cast<std::size_t>(header.n_rods));
 }
 
 FrameLog::FrameLog(std::filesystem::path path, Descriptor file, std::size_t begin, std::size_t n_rods,

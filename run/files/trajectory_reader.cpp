@@ -30,30 +30,25 @@ SideWalls read_walls(hid_t file) {
   return walls;
 }
 
-/// The other species, and which rod is of which.
-void read_species(hid_t file, TrajectoryHeader& header) {
-  for (std::size_t k = 0; hdf5::exists(file, trajectory_layout::added_beads(k)); ++k) {
-    const hdf5::Id group = hdf5::open_group(file, trajectory_layout::added_beads(k));
-    header.added_beads.push_back({read_doubles(group, "bead_offset_mm"), read_doubles(group, "bead_radius_mm")});
-  }
-  if (header.added_beads.empty()) return;
-  header.species_of_rod =
-      hdf5::read_vector<std::uint8_t>(hdf5::open_dataset(file, trajectory_layout::kSpecies), H5T_NATIVE_UINT8);
-}
-
 TrajectoryHeader read_header(hid_t file) {
   const hdf5::Id parameters = hdf5::open_group(file, "/parameters");
   TrajectoryHeader header;
+  Cell& cell = header.cell;
   hdf5::read_attribute(parameters, "n_rods", H5T_NATIVE_INT, &header.n_rods);
-  hdf5::read_attribute(parameters, "box_side_mm", H5T_NATIVE_DOUBLE, &header.box_side);
-  hdf5::read_attribute(parameters, "gap_mm", H5T_NATIVE_DOUBLE, &header.gap);
+  hdf5::read_attribute(parameters, "box_side_mm", H5T_NATIVE_DOUBLE, &cell.box_side);
+  hdf5::read_attribute(parameters, "gap_mm", H5T_NATIVE_DOUBLE, &cell.gap);
   hdf5::read_attribute(parameters, "dt_s", H5T_NATIVE_DOUBLE, &header.dt);
-  header.bead_offset = read_doubles(parameters, "bead_offset_mm");
-  header.bead_radius = read_doubles(parameters, "bead_radius_mm");
   header.scene_json = hdf5::read_string(parameters, "scene_json");
   header.provenance = hdf5::read_provenance(file);
-  read_species(file, header);
-  if (hdf5::exists(file, trajectory_layout::kWalls)) header.walls = read_walls(file);
+  for (std::size_t k = 0; k == 0 || hdf5::exists(file, trajectory_layout::beads_of(k)); ++k) {
+    const hdf5::Id group = hdf5::open_group(file, trajectory_layout::beads_of(k).c_str());
+    cell.species.push_back({read_doubles(group, "bead_offset_mm"), read_doubles(group, "bead_radius_mm")});
+  }
+  if (cell.species.size() > 1) {
+    cell.species_of_rod =
+        hdf5::read_vector<std::uint8_t>(hdf5::open_dataset(file, trajectory_layout::kSpecies), H5T_NATIVE_UINT8);
+  }
+  if (hdf5::exists(file, trajectory_layout::kWalls)) cell.walls = read_walls(file);
   if (auto done = check(header); !done) throw hdf5::Failure(done.error().message);
   return header;
 }
@@ -120,7 +115,7 @@ Result<TrajectoryFrame> TrajectoryReader::frame(std::size_t index) const {
   }
   const Result<RecordedFrame> recorded = frames_->frame(index);
   if (!recorded) return recorded.error();
-  Result<TrajectoryFrame> frame = decode(*recorded, header().box_side);
+  Result<TrajectoryFrame> frame = decode(*recorded, header().cell.box_side);
   if (!frame) return Error{path_.string() + ": frame " + std::to_string(index) + ": " + frame.error().message};
   return frame;
 }

@@ -31,8 +31,8 @@ void write_h5md_group(hid_t file) {
   hdf5::write_attribute(units, "system", "SI");
 }
 
-void write_beads(hid_t where, const std::vector<double>& offset, const std::vector<double>& radius) {
-  for (const auto& [name, values] : {std::pair{"bead_offset_mm", &offset}, {"bead_radius_mm", &radius}}) {
+void write_beads(hid_t where, const BeadRow& beads) {
+  for (const auto& [name, values] : {std::pair{"bead_offset_mm", &beads.offset}, {"bead_radius_mm", &beads.radius}}) {
     hdf5::write_dataset(where, name, H5T_NATIVE_DOUBLE, {values->size()}, values->data());
     hdf5::write_unit(hdf5::open_dataset(where, name), "mm");
   }
@@ -50,16 +50,15 @@ void write_walls(hid_t file, const SideWalls& walls) {
 void write_parameters(hid_t file, const TrajectoryHeader& header) {
   const hdf5::Id parameters = hdf5::create_group(file, "parameters");
   hdf5::write_attribute(parameters, "n_rods", H5T_NATIVE_INT, {}, &header.n_rods);
-  hdf5::write_attribute(parameters, "box_side_mm", H5T_NATIVE_DOUBLE, {}, &header.box_side);
-  hdf5::write_attribute(parameters, "gap_mm", H5T_NATIVE_DOUBLE, {}, &header.gap);
+  hdf5::write_attribute(parameters, "box_side_mm", H5T_NATIVE_DOUBLE, {}, &header.cell.box_side);
+  hdf5::write_attribute(parameters, "gap_mm", H5T_NATIVE_DOUBLE, {}, &header.cell.gap);
   hdf5::write_attribute(parameters, "dt_s", H5T_NATIVE_DOUBLE, {}, &header.dt);
-  write_beads(parameters, header.bead_offset, header.bead_radius);
+  write_beads(parameters, header.cell.species.at(0));
   hdf5::write_string(parameters, "scene_json", header.scene_json);
-  for (std::size_t k = 0; k < header.added_beads.size(); ++k) {
-    const hdf5::Id group = hdf5::create_group(file, trajectory_layout::added_beads(k));
-    write_beads(group, header.added_beads[k].offset, header.added_beads[k].radius);
+  for (std::size_t k = 1; k < header.cell.species.size(); ++k) {
+    write_beads(hdf5::create_group(file, trajectory_layout::beads_of(k)), header.cell.species[k]);
   }
-  if (header.walls) write_walls(file, *header.walls);
+  if (header.cell.walls) write_walls(file, *header.cell.walls);
 }
 
 void hard_link(hid_t file, const std::string& existing, const std::string& name) {
@@ -75,9 +74,8 @@ void write_particles(hid_t file, const TrajectoryHeader& header) {
   hdf5::write_attribute(box, "boundary", {"periodic", "periodic", "none"});
 
   const auto n_rods = static_cast<hsize_t>(header.n_rods);
-  if (!header.added_beads.empty()) {
-    hdf5::write_dataset(file, trajectory_layout::kSpecies, H5T_NATIVE_UINT8, {header.species_of_rod.size()},
-                        header.species_of_rod.data());
+  if (const auto& species = header.cell.species_of_rod; header.cell.species.size() > 1) {
+    hdf5::write_dataset(file, trajectory_layout::kSpecies, H5T_NATIVE_UINT8, {species.size()}, species.data());
   }
   for (const char* element : trajectory_layout::kElements) hdf5::create_group(trajectory, element);
   const hdf5::Id position = hdf5::open_group(trajectory, "position");
@@ -104,7 +102,7 @@ void write_particles(hid_t file, const TrajectoryHeader& header) {
 
 /// Adds one row to each data set.
 void append(const DataSets& sets, const TrajectoryHeader& header, const RecordedFrame& frame) {
-  const std::array<double, 9> edges{header.box_side, 0, 0, 0, header.box_side, 0, 0, 0, header.gap};
+  const std::array<double, 9> edges{header.cell.box_side, 0, 0, 0, header.cell.box_side, 0, 0, 0, header.cell.gap};
   hdf5::append_row(sets.position, H5T_NATIVE_FLOAT, frame.position.data());
   hdf5::append_row(sets.image, H5T_NATIVE_INT32, frame.image.data());
   hdf5::append_row(sets.velocity, H5T_NATIVE_FLOAT, frame.velocity.data());

@@ -41,7 +41,7 @@ class Prober {
   Result<Probe> run() {
     result_.run_ticks = static_cast<double>(scene::total_ticks(plan_));
     if (auto done = step(); !done) return done.error();
-    const SamplingCost sampling = time_sampling(plan_, simulation_.world().species.front(), snapshots_, each_);
+    const SamplingCost sampling = time_sampling(plan_, snapshots_, each_);
     result_.parts = sampling.samples;
     result_.disk.observables = sampling.file_bytes;
     // what is sampled or recorded is read first, all rods of it

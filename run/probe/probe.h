@@ -70,8 +70,7 @@ struct SamplingCost {
 };
 
 /// Takes a few samples of each measurement at some states of the plan's rods, at least one: for about `cpu` each [s].
-SamplingCost time_sampling(const scene::RunPlan& plan, const Species& species, const std::vector<Snapshot>& snapshots,
-                           double cpu = 0.02);
+SamplingCost time_sampling(const scene::RunPlan& plan, const std::vector<Snapshot>& snapshots, double cpu = 0.02);
 
 /// Goes on with `simulation`, of this plan's system, for about `cpu` seconds, or a tenth of the time that the run will
 /// take if that is less, and times once what the run does now and

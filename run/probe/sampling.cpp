@@ -37,8 +37,7 @@ double kept_for_lags(std::int64_t samples) {
 
 }  // namespace
 
-SamplingCost time_sampling(const scene::RunPlan& plan, const Species& species, const std::vector<Snapshot>& snapshots,
-                           double cpu) {
+SamplingCost time_sampling(const scene::RunPlan& plan, const std::vector<Snapshot>& snapshots, double cpu) {
   SamplingCost cost;
   Observables arrays;
   double later_bytes = 0;  // of arrays, beyond those at hand
@@ -46,7 +45,7 @@ SamplingCost time_sampling(const scene::RunPlan& plan, const Species& species, c
     const std::optional<Cadence> cadence = kind.cadence(plan);
     if (!cadence) continue;
     const double interval = static_cast<double>(cadence->period()) * plan.system.dt;
-    Measurements measurements(only(plan, kind), species);
+    Measurements measurements(only(plan, kind));
     std::vector<Snapshot> states = snapshots;
     Tick taken = 0;
     const auto sample = [&] {

@@ -174,12 +174,21 @@ Species make_species(const RodShape& shape) {
   return species;
 }
 
-double Species::reach() const {
-  double farthest = 0;
-  for (std::size_t b = 0; b < bead_offset.size(); ++b)
-    farthest = std::max(farthest, std::abs(bead_offset[b]) + bead_radius[b]);
-  return farthest;
+double BeadRow::tail() const {
+  double end = 0;
+  for (std::size_t b = 0; b < offset.size(); ++b) end = std::min(end, offset[b] - radius[b]);
+  return end;
 }
+
+double BeadRow::head() const {
+  double end = 0;
+  for (std::size_t b = 0; b < offset.size(); ++b) end = std::max(end, offset[b] + radius[b]);
+  return end;
+}
+
+double BeadRow::reach() const { return std::max(head(), -tail()); }
+
+double BeadRow::area() const { return 2.0 * integrate_profile(offset, radius).r1; }
 
 double least_box_side(std::span<const Species> species) {
   double farthest = 0;

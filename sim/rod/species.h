@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "sim/rod/bead_row.h"
 #include "sim/system.h"
 
 namespace shaken {
@@ -38,8 +39,9 @@ struct Species {
   int n_beads() const { return static_cast<int>(bead_offset.size()); }
   /// Distance of neighbouring beads [mm]; 1 for a sphere.
   double pitch() const { return n_beads() > 1 ? (bead_offset.back() - bead_offset.front()) / (n_beads() - 1) : 1.0; }
-  /// The farthest that any bead reaches from the centre; half of the length, if the rod is the same fore and aft [mm].
-  double reach() const;
+  BeadRow beads() const { return {bead_offset, bead_radius}; }
+  /// The farthest that any bead reaches from the centre [mm].
+  double reach() const { return beads().reach(); }
   /// Loss of the hull's radius per length towards an end; 0 for a sphere.
   double taper(const HullEnd& end) const { return end.length > 0 ? (mid_radius - end.radius) / end.length : 0.0; }
   /// That towards the end where it is less.

@@ -42,10 +42,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     return 0;
   }
-  static const Species species = make_world(plan().system)->species.front();
   const auto kinds = run::measurement_kinds();
   const auto kind = static_cast<std::size_t>(static_cast<std::uint8_t>(data[0] - '1')) % kinds.size();
-  run::Measurements measurements(run::only(plan(), kinds[kind]), species);
+  run::Measurements measurements(run::only(plan(), kinds[kind]));
   if (measurements.restore(bytes)) {
     fuzz::promise(std::ranges::equal(measurements.save(), bytes), "measurements are saved as they were read");
     (void)measurements.reduce(1.0);

@@ -101,7 +101,7 @@ TEST(GapPass, ThePlatesAreDrawnWhereTheyAre) {
     while (down < kHeight - 1 && !is_ink(down)) ++down;
     while (up > 0 && !is_ink(up)) --up;
     EXPECT_NEAR(down, pixel_of(picture, Vec3(0, kBox / 2, base)).y(), 2);
-    EXPECT_NEAR(up, pixel_of(picture, Vec3(0, kBox / 2, base + picture.gap)).y(), 2);
+    EXPECT_NEAR(up, pixel_of(picture, Vec3(0, kBox / 2, base + picture.cell.gap)).y(), 2);
   }
   picture.has_lid = false;
   const Image open = look(picture);
@@ -121,7 +121,7 @@ TEST(GapPass, RodsAreWhole) {
 TEST(GapPass, APeriodicBoxGoesOnAndAnArenaDoesNot) {
   // Four rods in a row in depth, a box apart, each smaller than the one before.
   RodPicture picture = empty_picture(10);
-  picture.beads = {{0}, {0.3}};
+  picture.cell.species = {{{0}, {0.3}}};
   add_rod(picture, 5, 6.5, 0);
   const auto coloured = [&] {
     const Image image = look(picture);
@@ -132,7 +132,7 @@ TEST(GapPass, APeriodicBoxGoesOnAndAnArenaDoesNot) {
     return n;
   };
   const int repeated = coloured();
-  picture.walls = SideWalls{Arena::kDisc, 10};
+  picture.cell.walls = SideWalls{Arena::kDisc, 10};
   const int alone = coloured();
   EXPECT_GT(alone, 500);
   EXPECT_GT(repeated, alone + 200);
@@ -140,11 +140,11 @@ TEST(GapPass, APeriodicBoxGoesOnAndAnArenaDoesNot) {
 
 TEST(GapPass, TheNearerRodHidesTheFarther) {
   RodPicture picture = empty_picture(kBox);
-  picture.added = {picture.beads};
+  picture.cell.species.push_back(picture.cell.species[0]);
   add_rod(picture, kBox / 2, kBox / 2 + 4, 0);
   add_rod(picture, kBox / 2, kBox / 2 + 2, 0);
   for (const bool orange_in_front : {true, false}) {
-    picture.species_of_rod = orange_in_front ? std::vector<std::uint8_t>{1, 0} : std::vector<std::uint8_t>{0, 1};
+    picture.cell.species_of_rod = orange_in_front ? std::vector<std::uint8_t>{1, 0} : std::vector<std::uint8_t>{0, 1};
     const Image image = look(picture);
     const Vec2 middle = pixel_of(picture, picture.position[1]);
     EXPECT_EQ(is_rod(image.pixel(int(middle.x()), int(middle.y()))), orange_in_front);
@@ -166,7 +166,7 @@ TEST(GapPass, EachLightGoesOutAlone) {
 TEST(GapPass, AnEmptyGapAndADegenerateOne) {
   EXPECT_TRUE(extent_of(look(empty_picture(kBox))).is_empty());
   RodPicture flat = empty_picture(kBox);
-  flat.gap = 0;
+  flat.cell.gap = 0;
   const Result<Image> none = gap_pass().draw(flat, gap_style(), kWidth, kHeight);
   ASSERT_FALSE(none);
   EXPECT_NE(none.error().message.find("no gap"), std::string::npos);

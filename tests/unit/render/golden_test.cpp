@@ -42,7 +42,7 @@ RodPicture lattice(int columns, int rows, const std::function<double(double, dou
   Scatter scatter;
   for (int i = 0; i < columns; ++i) {
     for (int j = 0; j < rows; ++j) {
-      const double x = (i + 0.5 * (j % 2) + 0.1 * scatter.next()) * 4.7, y = (j + 0.5) * picture.box_side / rows;
+      const double x = (i + 0.5 * (j % 2) + 0.1 * scatter.next()) * 4.7, y = (j + 0.5) * picture.cell.box_side / rows;
       // one draw a line: compilers evaluate arguments in different orders
       const double tilt = 0.3 * (scatter.next() - 0.5);
       const double turn = 0.1 * (scatter.next() - 0.5);
@@ -71,12 +71,13 @@ RodPicture paired() {
 
 RodPicture mixed() {
   RodPicture picture = empty_picture(32);
-  picture.walls = SideWalls{Arena::kDisc, 30};
-  picture.added = {{{-1.2, -0.4, 0.4, 1.2}, {0.45, 0.4, 0.35, 0.2}}, {{0}, {0.5}}};
+  picture.cell.walls = SideWalls{Arena::kDisc, 30};
+  picture.cell.species.push_back({{-1.2, -0.4, 0.4, 1.2}, {0.45, 0.4, 0.35, 0.2}});
+  picture.cell.species.push_back({{0}, {0.5}});
   for (int i = 0; i < 120; ++i) {
     const double r = 13 * std::sqrt((i + 0.5) / 120), turn = 2.39996 * i;
     add_rod(picture, 16 + r * std::cos(turn), 16 + r * std::sin(turn), turn);
-    picture.species_of_rod.push_back(static_cast<std::uint8_t>(i % 3));
+    picture.cell.species_of_rod.push_back(static_cast<std::uint8_t>(i % 3));
   }
   return picture;
 }

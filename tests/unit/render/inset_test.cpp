@@ -105,7 +105,7 @@ TEST(Inset, TheMapOfG2NeedsAPeriodicBox) {
   PictureStyle style;
   style.inset = Inset::kG2Map;
   EXPECT_TRUE(has_inset(picture, style));
-  picture.walls = SideWalls{};
+  picture.cell.walls = SideWalls{};
   EXPECT_FALSE(has_inset(picture, style));
 }
 

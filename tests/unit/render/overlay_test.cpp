@@ -233,10 +233,10 @@ TEST(RoundLength, IsTheLongestOneTwoFive) {
 
 TEST(Overlay, SeveralKindsOfRodsAreShownBesideTheLegend) {
   RodPicture picture = empty_picture(kBox);
-  picture.added = {{{0}, {0.8}}};
+  picture.cell.species.push_back({{0}, {0.8}});
   for (int i = 0; i < 5; ++i) {
     add_rod(picture, 3 * i + 1, 10, 0.2);
-    picture.species_of_rod.push_back(i < 3 ? 0 : 1);
+    picture.cell.species_of_rod.push_back(i < 3 ? 0 : 1);
   }
   PictureStyle style;
   style.colour = "layers";
@@ -253,8 +253,8 @@ TEST(Overlay, SeveralKindsOfRodsAreShownBesideTheLegend) {
     EXPECT_NEAR(rod[c], 255 * pale[c], 2) << c;
   }
   // One species alone needs no such thing.
-  picture.added.clear();
-  picture.species_of_rod.clear();
+  picture.cell.species.resize(1);
+  picture.cell.species_of_rod.clear();
   EXPECT_EQ(layout_of(style, {}).species.width, 0);
   const Image plain = painter().paint(picture, style).value();
   EXPECT_EQ(plain.pixel(static_cast<int>(layout.species.x + layout.species.width / 2 + 6), y)[0], 255);

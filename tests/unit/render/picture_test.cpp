@@ -24,41 +24,39 @@ TEST(RodPicture, AreaFractionOfThePapersSystem) {
 
 TEST(RodPicture, AreaFractionOfASphereIsADiscs) {
   RodPicture picture;
-  picture.box_side = 2;
-  picture.beads.offset = {0};
-  picture.beads.radius = {0.5};
+  picture.cell.box_side = 2;
+  picture.cell.species = {{{0}, {0.5}}};
   picture.position.resize(1);
-  EXPECT_NEAR(picture.area_fraction(), kPi * 0.25 / 4, 1e-4);
+  EXPECT_NEAR(picture.area_fraction(), kPi * 0.25 / 4, 1e-12);
 }
 
 TEST(RodPicture, AreaFractionIsOfAllKindsAndPerArena) {
   RodPicture picture;
-  picture.box_side = 40;
-  picture.beads = {{0}, {0.5}};
-  picture.added = {{{0}, {1}}};
-  picture.species_of_rod = {1, 0, 1};
+  picture.cell.box_side = 40;
+  picture.cell.species = {{{0}, {0.5}}, {{0}, {1}}};
+  picture.cell.species_of_rod = {1, 0, 1};
   picture.position.resize(3);
   const double discs = kPi * (0.25 + 1 + 1);
-  EXPECT_NEAR(picture.area_fraction(), discs / 1600, 1e-4 * discs / 1600);
+  EXPECT_NEAR(picture.area_fraction(), discs / 1600, 1e-12);
   for (const auto& [arena, area] :
        {std::pair{Arena::kDisc, kPi * 225}, {Arena::kSquare, 900.0}, {Arena::kAnnulus, kPi * 200}}) {
-    picture.walls = SideWalls{arena, 30, 10};
-    EXPECT_NEAR(picture.area_fraction(), discs / area, 1e-4 * discs / area);
+    picture.cell.walls = SideWalls{arena, 30, 10};
+    EXPECT_NEAR(picture.area_fraction(), discs / area, 1e-12);
   }
 }
 
 TEST(RodPicture, LengthOfARodWithAHeadIsTipToTip) {
   RodPicture picture;
-  picture.beads = {{-1.5, 0.5, 2.5}, {0.5, 0.4, 0.3}};
+  picture.cell.species = {{{-1.5, 0.5, 2.5}, {0.5, 0.4, 0.3}}};
   EXPECT_DOUBLE_EQ(picture.rod_length(), 4.8);
 }
 
 TEST(Measure, AsksOnlyRodsOfTheFirstKind) {
   RodPicture picture = empty_picture(20);
-  picture.added = {{{0}, {0.5}}};
+  picture.cell.species.push_back({{0}, {0.5}});
   for (int i = 0; i < 40; ++i) {
     add_rod(picture, 0.5 * i, 0.5 * i, i % 2 ? 0.7 : 0.13 * i);
-    picture.species_of_rod.push_back(i % 2 ? 0 : 1);
+    picture.cell.species_of_rod.push_back(i % 2 ? 0 : 1);
   }
   measure(picture, {.defects = true});
   EXPECT_NEAR(picture.director_angle, 0.7, 1e-12);
@@ -103,10 +101,10 @@ TEST(Measure, FindsAPlantedPairOfDefects) {
 // One bead is a sphere: its director means nothing.
 TEST(Measure, FindsNeitherOrderNorDefectsOfSpheres) {
   RodPicture picture = empty_picture(40);
-  picture.beads = {{0}, {0.4}};
+  picture.cell.species = {{{0}, {0.4}}};
   for (int i = 0; i < 400; ++i) add_rod(picture, 2 * (i % 20) + 1, 2 * (i / 20) + 1, 0.9 * i * i);
   measure(picture, {.defects = true, .field = true});
-  EXPECT_FALSE(picture.has_axes());
+  EXPECT_FALSE(picture.cell.has_axes());
   EXPECT_TRUE(std::isnan(picture.order));
   EXPECT_TRUE(picture.defects.empty());
   EXPECT_EQ(picture.field, nullptr);
@@ -135,7 +133,7 @@ TEST(Measure, FindsNoDefectsBeyondTheWalls) {
   };
   const auto rods_within = [&](const std::optional<SideWalls>& walls) {
     RodPicture picture = empty_picture(60);
-    picture.walls = walls;
+    picture.cell.walls = walls;
     for (int i = 0; i < 900; ++i) {
       const Vec2 place(2 * (i % 30) + 1, 2 * (i / 30) + 1);
       if (!walls || is_inside(walls->arena, place - Vec2(30, 30))) add_rod(picture, place.x(), place.y(), 0.9 * i * i);

@@ -21,25 +21,26 @@ const bool kNoShaderCache = setenv("MESA_SHADER_CACHE_DISABLE", "true", 1) == 0;
 
 RodPicture empty_picture(double box_side) {
   RodPicture picture;
-  picture.box_side = box_side;
-  picture.gap = 1.2;
+  picture.cell.box_side = box_side;
+  picture.cell.gap = 1.2;
+  BeadRow& beads = picture.cell.species.emplace_back();
   for (int i = -7; i <= 7; ++i) {
-    picture.beads.offset.push_back(2.05 * i / 7);
-    picture.beads.radius.push_back(0.4 - 0.2 * std::abs(i) / 7);
+    beads.offset.push_back(2.05 * i / 7);
+    beads.radius.push_back(0.4 - 0.2 * std::abs(i) / 7);
   }
   return picture;
 }
 
 void add_rod(RodPicture& picture, double x, double y, double angle, double n_z) {
   const double flat = std::sqrt(1 - n_z * n_z);
-  picture.position.emplace_back(x, y, picture.gap / 2);
+  picture.position.emplace_back(x, y, picture.cell.gap / 2);
   picture.director.emplace_back(flat * std::cos(angle), flat * std::sin(angle), n_z);
 }
 
 double half_width(const RodPicture& picture, double x) {
   double widest = 0;
-  for (std::size_t i = 0; i < picture.beads.offset.size(); ++i) {
-    const double d = x - picture.beads.offset[i], r = picture.beads.radius[i];
+  for (std::size_t i = 0; i < picture.cell.species[0].offset.size(); ++i) {
+    const double d = x - picture.cell.species[0].offset[i], r = picture.cell.species[0].radius[i];
     if (std::abs(d) < r) widest = std::max(widest, std::sqrt(r * r - d * d));
   }
   return widest;
@@ -77,14 +78,7 @@ void plant_frames(const std::filesystem::path& directory, const std::vector<RodP
   RodPicture first = empty_picture(10);  // of a recording without frames
   add_rod(first, 5, 5, 0);
   if (!frames.empty()) first = frames.front();
-  run::TrajectoryHeader header;
-  header.n_rods = static_cast<int>(first.n_rods());
-  header.box_side = first.box_side;
-  header.gap = first.gap;
-  header.dt = 4e-6;
-  header.bead_offset = first.beads.offset;
-  header.bead_radius = first.beads.radius;
-  header.scene_json = scene_json;
+  const run::TrajectoryHeader header{static_cast<int>(first.n_rods()), first.cell, 4e-6, scene_json, {}};
   const run::RunDirectory files{directory};
   Result<run::FrameLog> log = run::FrameLog::create(files.frames(), header);
   ASSERT_TRUE(log) << log.error().message;
@@ -92,7 +86,7 @@ void plant_frames(const std::filesystem::path& directory, const std::vector<RodP
     Snapshot snapshot;
     snapshot.tick = std::llround(rods.time / header.dt);
     snapshot.time = rods.time;
-    snapshot.box_side = rods.box_side;
+    snapshot.box_side = rods.cell.box_side;
     snapshot.position = rods.position;
     snapshot.director = rods.director;
     snapshot.image.resize(rods.n_rods());

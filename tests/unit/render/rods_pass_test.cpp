@@ -118,7 +118,7 @@ TEST(RodsPass, ATiltedRodIsForeshortened) {
 
 TEST(RodsPass, AnUprightRodIsADisc) {
   RodPicture picture = red_picture();
-  picture.gap = 6;
+  picture.cell.gap = 6;
   add_rod(picture, 5, 5, 0, 1);
   PictureStyle style;
   style.colour = "tilt";  // it has no angle in the plane
@@ -255,17 +255,17 @@ TEST(RodsPass, ARodAcrossTheBorderMayBeDrawnOnceAndWhole) {
   EXPECT_FALSE(is_rod(image.pixel(column(9.9), 500))) << "no second piece";
   EXPECT_NEAR(count(image, is_rod), whole, 20);
   // An arena has no such border, and a part of the box is cut out as before.
-  edge.walls = SideWalls{Arena::kSquare, 10};
+  edge.cell.walls = SideWalls{Arena::kSquare, 10};
   PictureStyle plain = layers();
   EXPECT_EQ(draw(edge, style), draw(edge, plain));
-  edge.walls.reset();
+  edge.cell.walls.reset();
   style.zoom = plain.zoom = 2;
   EXPECT_EQ(draw(edge, style), draw(edge, plain));
 }
 
 TEST(RodsPass, ARodMuchLongerThanTheBoxWrapsAsOftenAsNeeded) {
   RodPicture picture = red_picture();
-  picture.box_side = 1.5;  // a third of the rod
+  picture.cell.box_side = 1.5;  // a third of the rod
   add_rod(picture, 0.7, 0.75, 0);
   const Image image = draw(picture, layers(), 300);
   for (int x = 0; x < 300; ++x) ASSERT_TRUE(is_rod(image.pixel(x, 150))) << x;
@@ -317,8 +317,8 @@ bool is_floor(const Image& image, int x, int y) {
 /// Rods of a second kind alone in a box of 10 mm, the first of them in its middle.
 RodPicture second_kind(const BeadRow& beads, double angle) {
   RodPicture picture = empty_picture(kBox);
-  picture.added = {beads};
-  picture.species_of_rod = {1};
+  picture.cell.species.push_back(beads);
+  picture.cell.species_of_rod = {1};
   add_rod(picture, 5, 5, angle);
   return picture;
 }
@@ -339,7 +339,7 @@ TEST(RodsPass, ASphereAmongRodsIsRound) {
   const double radius = 0.6;
   RodPicture picture = second_kind({{0}, {radius}}, 0.8);
   add_rod(picture, 2, 2, 0.3);
-  picture.species_of_rod.push_back(0);
+  picture.cell.species_of_rod.push_back(0);
   const auto places = coloured(draw(picture));
   double most = 0;
   for (const auto& [x, y] : places) most = std::max(most, std::hypot(x + 0.5 - 500, y + 0.5 - 500));
@@ -389,11 +389,11 @@ TEST(RodsPass, BeyondTheWallsTheFloorIsTinted) {
     style.theme = theme;
     const Palette colours = palette(theme);
     RodPicture picture = empty_picture(kBox);
-    picture.walls = SideWalls{Arena::kAnnulus, 8, 2};
+    picture.cell.walls = SideWalls{Arena::kAnnulus, 8, 2};
     const Image annulus = draw(picture, style);
-    picture.walls->arena = Arena::kDisc;
+    picture.cell.walls->arena = Arena::kDisc;
     const Image disc = draw(picture, style);
-    picture.walls->arena = Arena::kSquare;
+    picture.cell.walls->arena = Arena::kSquare;
     const Image square = draw(picture, style);
     for (const Image& image : {annulus, disc, square}) {
       EXPECT_TRUE(is(colour_at(image, 5, 8.95), colours.floor));
@@ -409,7 +409,7 @@ TEST(RodsPass, BeyondTheWallsTheFloorIsTinted) {
     // A view across the border shows no images: there is only one arena.
     style.zoom = 2;
     style.focus = Vec2(0, 0.5);
-    picture.walls->arena = Arena::kDisc;
+    picture.cell.walls->arena = Arena::kDisc;
     const Image border = draw(picture, style);
     EXPECT_TRUE(is(colour_at(border, 5, 5), colours.walls));
     EXPECT_TRUE(is(colour_at(border, 9, 5), colours.floor));
@@ -419,19 +419,19 @@ TEST(RodsPass, BeyondTheWallsTheFloorIsTinted) {
 
 TEST(RodsPass, NothingWrapsRoundAnArena) {
   RodPicture picture = second_kind({{0}, {0.5}}, 0);
-  picture.walls = SideWalls{Arena::kDisc, 8};
+  picture.cell.walls = SideWalls{Arena::kDisc, 8};
   picture.position[0] = Vec3(5, 8.4, 0.6);  // at the upper wall
   PictureStyle style = layers();
   style.zoom = 2;
   style.focus = Vec2(0.5, 0.1);  // from -1.5 to 3.5 mm upwards
   EXPECT_TRUE(coloured(draw(picture, style)).empty());
-  picture.walls.reset();
+  picture.cell.walls.reset();
   EXPECT_FALSE(coloured(draw(picture, style)).empty()) << "where there are no walls it does";
 }
 
 TEST(RodsPass, NoShadowFallsBeyondAWallButRodsAtItAreWhole) {
   RodPicture picture = second_kind({{0}, {0.5}}, 0);
-  picture.walls = SideWalls{Arena::kSquare, 8};
+  picture.cell.walls = SideWalls{Arena::kSquare, 8};
   picture.position[0] = Vec3(5, 1.5, 0.6);  // touches the lower wall
   const Image image = draw(picture);
   EXPECT_TRUE(is_floor(image, 500, 910)) << "here meaning: as any place beyond the walls";
@@ -444,20 +444,20 @@ TEST(RodsPass, RefusesWhatCannotBeDrawn) {
     return image ? std::string("drawn") : image.error().message;
   };
   RodPicture no_beads = red_picture();
-  no_beads.beads.offset.clear();
-  no_beads.beads.radius.clear();
+  no_beads.cell.species[0].offset.clear();
+  no_beads.cell.species[0].radius.clear();
   EXPECT_NE(message(no_beads).find("0 beads"), std::string::npos);
   RodPicture many_beads = red_picture();
-  many_beads.beads.offset.assign(RodsPass::kMaxBeads + 1, 0);
-  many_beads.beads.radius.assign(RodsPass::kMaxBeads + 1, 1);
+  many_beads.cell.species[0].offset.assign(RodsPass::kMaxBeads + 1, 0);
+  many_beads.cell.species[0].radius.assign(RodsPass::kMaxBeads + 1, 1);
   EXPECT_NE(message(many_beads).find("256 beads"), std::string::npos);
   RodPicture uneven = red_picture();
   uneven.position.emplace_back(1, 1, 1);
   EXPECT_NE(message(uneven).find("directors"), std::string::npos);
   RodPicture unknown_kind = second_kind({{0}, {0.5}}, 0);
-  unknown_kind.species_of_rod[0] = 2;
+  unknown_kind.cell.species_of_rod[0] = 2;
   EXPECT_NE(message(unknown_kind).find("of a species whose beads"), std::string::npos);
-  unknown_kind.species_of_rod.clear();
+  unknown_kind.cell.species_of_rod.clear();
   EXPECT_NE(message(unknown_kind).find("each rod's species"), std::string::npos);
   EXPECT_NE(message(empty_picture(0)).find("no size"), std::string::npos);
   EXPECT_NE(message(red_picture(), 0).find("pixels wide"), std::string::npos);

@@ -8,6 +8,7 @@
 #include <shaken/frame_static_t.hpp>
 
 #include "proto/bus.h"
+#include "proto/cell_codec.h"
 #include "proto/frame_codec.h"
 #include "run/files/directory.h"
 #include "run/files/frame_log.h"
@@ -35,7 +36,7 @@ TEST(TrajectorySource, ReadsARunDirectoryOrItsFile) {
     const Result<RodPicture> picture = source->picture(4, plain());
     ASSERT_TRUE(picture) << picture.error().message;
     EXPECT_DOUBLE_EQ(picture->time, 0.2);
-    EXPECT_DOUBLE_EQ(picture->box_side, 10);
+    EXPECT_DOUBLE_EQ(picture->cell.box_side, 10);
     EXPECT_DOUBLE_EQ(picture->rod_length(), 4.5);
     EXPECT_NEAR(picture->director_angle, 40 * kDegree, 1e-5);
     EXPECT_NEAR(picture->order, 1, 1e-6);
@@ -78,12 +79,12 @@ TEST(TrajectorySource, TakesShakingAndMovieFromTheScene) {
   TrajectorySource source = TrajectorySource::open(folder.path()).value();
   EXPECT_EQ(source.picture(0, plain())->label, "\u0393 = 7, f = 200 Hz");
   EXPECT_EQ(source.label(), "\u0393 = 7, f = 200 Hz");
-  const std::optional<MovieRequest> request = source.movie_request();
+  const std::optional<scene::Movie> request = source.movie_request();
   ASSERT_TRUE(request);
   EXPECT_DOUBLE_EQ(request->every, 0.1);
   EXPECT_EQ(request->width, 640);
   EXPECT_EQ(request->height, 360);
-  for (const char* scene : {"{}", "no json", R"({"movie": null})", R"({"movie": {"size": "big"}, "plates": 3})"}) {
+  for (const char* scene : {"", "no json", R"({"movie": {"size": "big"}, "plates": 3})"}) {
     std::filesystem::remove(folder / "trajectory.h5");
     plant_trajectory(folder.path(), 1, scene);
     TrajectorySource other = TrajectorySource::open(folder.path()).value();
@@ -104,39 +105,19 @@ TEST(TrajectorySource, TakesTheDirectorFieldFromTheScene) {
 // Such a box is as finite as any, but a rod would be drawn in it millions of times.
 TEST(TrajectorySource, ABoxThatNoSceneHasIsRefusedAtOnce) {
   const ScratchFolder folder;
-  run::TrajectoryHeader header;
-  header.n_rods = 0;
-  header.box_side = 1e-6;
-  header.gap = 1.2;
-  header.dt = 1e-5;
-  header.bead_offset = {-2, 0, 2};
-  header.bead_radius = {0.2, 0.4, 0.2};
-  header.scene_json = "{}";
-  auto log = run::FrameLog::create(run::RunDirectory{folder.path()}.frames(), header).value();
-  Snapshot now;
-  now.box_side = 1e-6;
-  ASSERT_TRUE(log.append(run::record(now)));
-  ASSERT_TRUE(log.sync());
-  Result<TrajectorySource> source = TrajectorySource::open(folder.path());
-  ASSERT_TRUE(source) << source.error().message;
-  const auto picture = source->picture(0, plain());
-  ASSERT_FALSE(picture);
-  EXPECT_NE(picture.error().message.find("a box side of 1e-06 mm; a scene has 1 to 2000 mm"), std::string::npos)
-      << picture.error().message;
+  const Cell cell{.box_side = 1e-6, .gap = 1.2, .species = {{{-2, 0, 2}, {0.2, 0.4, 0.2}}}};
+  const auto log = run::FrameLog::create(run::RunDirectory{folder.path()}.frames(), {0, cell, 1e-5, "{}", {}});
+  ASSERT_FALSE(log);
+  EXPECT_NE(log.error().message.find("a box side of 1e-06 mm; a scene has 1 to 2000 mm"), std::string::npos)
+      << log.error().message;
+  EXPECT_FALSE(TrajectorySource::open(folder.path()));
 }
 
 // One rod goes 3 mm to the right and 1 mm down in 0.1 s, over two borders of a box of 10 mm.
 TEST(TrajectorySource, DisplacementsGoOnAcrossBorders) {
   const ScratchFolder folder;
-  run::TrajectoryHeader header;
-  header.n_rods = 1;
-  header.box_side = 10;
-  header.gap = 1.2;
-  header.dt = 1e-5;
-  header.bead_offset = {-2, 0, 2};
-  header.bead_radius = {0.2, 0.4, 0.2};
-  header.scene_json = "{}";
-  auto log = run::FrameLog::create(run::RunDirectory{folder.path()}.frames(), header).value();
+  const Cell cell{.box_side = 10, .gap = 1.2, .species = {{{-2, 0, 2}, {0.2, 0.4, 0.2}}}};
+  auto log = run::FrameLog::create(run::RunDirectory{folder.path()}.frames(), {1, cell, 1e-5, "{}", {}}).value();
   for (int k = 0; k < 3; ++k) {
     Snapshot now;
     now.tick = k;
@@ -184,19 +165,9 @@ TEST(TrajectorySource, SaysWhatIsMissing) {
 std::string record_two_jobs(const std::filesystem::path& log) {
   const auto bus = proto::Bus::open("file://" + log.string() + "?mode=w");
   EXPECT_TRUE(bus) << bus.error().message;
-  const RodPicture shape = empty_picture(20);
   for (const std::string job : {"aaaa0001", "bbbb0002"}) {
-    frame_static_t constants{};
+    frame_static_t constants = proto::encode_cell(empty_picture(20).cell, 9000, "job " + job);
     constants.job_id = job;
-    constants.n_rods = 9000;
-    constants.box_side_mm = 20;
-    constants.gap_mm = 1.2;
-    constants.n_species = 1;
-    constants.species_beads = {15};
-    constants.n_beads = 15;
-    constants.bead_offset_mm = shape.beads.offset;
-    constants.bead_radius_mm = shape.beads.radius;
-    constants.label = "job " + job;
     bus.value()->publish(proto::kFrameStaticChannel, constants);
     proto::Frame frame;
     frame.job_id = job;
@@ -226,20 +197,13 @@ TEST(LivePicture, PutsTheFrameOfTheJobTogetherFromItsChunks) {
 
 /// A rod, a rod with a head that points down the y axis, and a sphere, in a square arena.
 frame_static_t mixed_constants() {
-  frame_static_t constants{};
+  const Cell cell{.box_side = 20,
+                  .gap = 1.2,
+                  .walls = SideWalls{.arena = Arena::kSquare, .size = 15},
+                  .species = {{{-1, 0, 1}, {0.2, 0.4, 0.2}}, {{-0.5, 0.7}, {0.4, 0.3}}, {{0}, {0.5}}},
+                  .species_of_rod = {0, 1, 2}};
+  frame_static_t constants = proto::encode_cell(cell, 3, "");
   constants.job_id = "cccc0003";
-  constants.n_rods = 3;
-  constants.box_side_mm = 20;
-  constants.gap_mm = 1.2;
-  constants.n_species = 3;
-  constants.species_beads = {3, 2, 1};
-  constants.n_beads = 6;
-  constants.bead_offset_mm = {-1, 0, 1, -0.5, 0.7, 0};
-  constants.bead_radius_mm = {0.2, 0.4, 0.2, 0.4, 0.3, 0.5};
-  constants.n_rod_species = 3;
-  constants.rod_species = {0, 1, 2};
-  constants.arena = "square";
-  constants.arena_size_mm = 15;
   return constants;
 }
 
@@ -265,26 +229,22 @@ TEST(LivePicture, KnowsKindsOfRodsTheirHeadsAndTheWalls) {
   const ScratchFolder folder;
   const Result<RodPicture> picture = live(folder / "live.lcmlog", mixed_constants());
   ASSERT_TRUE(picture) << picture.error().message;
-  EXPECT_EQ(picture->beads, (BeadRow{{-1, 0, 1}, {0.2, 0.4, 0.2}}));
-  EXPECT_EQ(picture->added, (std::vector<BeadRow>{{{-0.5, 0.7}, {0.4, 0.3}}, {{0}, {0.5}}}));
-  EXPECT_EQ(picture->species_of_rod, (std::vector<std::uint8_t>{0, 1, 2}));
-  ASSERT_TRUE(picture->walls);
-  EXPECT_EQ(picture->walls->arena, Arena::kSquare);
-  EXPECT_EQ(picture->walls->size, 15);
+  const Cell cell = *proto::decode_cell(mixed_constants());
+  EXPECT_EQ(picture->cell, cell);
   EXPECT_NEAR(picture->director_angle, 0.3, 1e-4) << "of the first species alone";
   EXPECT_NEAR(picture->director[1].y(), -1, 1e-6);
 }
 
 TEST(LivePicture, RefusesAStaticPartThatContradictsItself) {
   const ScratchFolder folder;
-  const auto refuses = [&](auto&& spoil) {
+  const auto refuses = [&](auto&& spoil, const char* why = "contradict") {
     frame_static_t bad = mixed_constants();
     spoil(bad);
     const Result<RodPicture> picture = live(folder / "bad.lcmlog", bad);
-    return !picture && picture.error().message.find("contradicts") != std::string::npos;
+    return !picture && picture.error().message.find(why) != std::string::npos;
   };
+  EXPECT_TRUE(refuses([](frame_static_t& m) { m.rod_species[1] = 3; }, "beads are not there"));
   EXPECT_FALSE(refuses([](frame_static_t&) {}));
-  EXPECT_TRUE(refuses([](frame_static_t& m) { m.rod_species[1] = 3; }));
   EXPECT_TRUE(refuses([](frame_static_t& m) { m.species_beads = {3, 2, 2}; }));
   EXPECT_TRUE(refuses([](frame_static_t& m) { m.species_beads = {3, 1, 1}; }));
   EXPECT_TRUE(refuses([](frame_static_t& m) { m.species_beads = {6, 1, -1}; }));

@@ -188,7 +188,6 @@ Maker made_of(const Settings&... settings) {
 
 struct ErrorCase {
   const char* name;
-  RodShape rod;
   scene::RunPlan plan;
   Maker rods;
   int samples;
@@ -200,9 +199,8 @@ struct ErrorCase {
 void expect_honest_errors(const ErrorCase& test, int replicas = 400) {
   const double chance = 3.5 * std::sqrt(2.0 / replicas);
   Claims claims;
-  const Species species = make_species(test.rod);
   for (int replica = 0; replica < replicas; ++replica) {
-    Measurements measurements(test.plan, species);
+    Measurements measurements(test.plan);
     const auto rods = test.rods(1000 + static_cast<std::uint64_t>(replica));
     const auto period = static_cast<Tick>(std::lround(kEvery / kDt));
     for (int i = 0; i < test.samples; ++i) measurements.sample(rods(i * period));
@@ -232,7 +230,6 @@ ErrorCase of_layers(const char* name, double share, int samples) {
   p.lattice = scene::MeasureLattice{kEvery};
   p.structure = scene::MeasureStructure{kEvery, 6};
   return {name,
-          {},
           p,
           made_of<Redrawn>(share, Redrawn::Rod(layered)),
           samples,
@@ -254,9 +251,11 @@ ErrorCase of_numbers(const char* name, double share, int samples) {
   scene::RunPlan p = plan();
   p.system.rod.length = 2;
   p.fluctuations = scene::MeasureFluctuations{kEvery};
-  return {name,    p.system.rod,
-          p,       made_of<Redrawn>(share, Redrawn::Rod(layered)),
-          samples, {"fluctuation_exponent", "fluctuation_exponent_without_map", "/fluctuations/std_n_sem"}};
+  return {name,
+          p,
+          made_of<Redrawn>(share, Redrawn::Rod(layered)),
+          samples,
+          {"fluctuation_exponent", "fluctuation_exponent_without_map", "/fluctuations/std_n_sem"}};
 }
 TEST(ErrorBars, OfNumbersOfIndependentSamples) { expect_honest_errors(of_numbers("numbers", 1.0, 130)); }
 TEST(ErrorBars, OfNumbersOfCorrelatedSamples) { expect_honest_errors(of_numbers("correlated numbers", 0.2, 400)); }
@@ -264,9 +263,8 @@ TEST(ErrorBars, OfNumbersOfCorrelatedSamples) { expect_honest_errors(of_numbers(
 ErrorCase of_waves(const char* name, double share, int samples) {
   scene::RunPlan p = plan();
   p.frank = scene::MeasureFrank{kEvery};
-  return {name,    {},
-          p,       made_of<Waves>(share),
-          samples, {"frank_ratio", "frank_splay", "frank_bend", "/frank/power_sem_mm2"}};
+  return {
+      name, p, made_of<Waves>(share), samples, {"frank_ratio", "frank_splay", "frank_bend", "/frank/power_sem_mm2"}};
 }
 TEST(ErrorBars, OfWavesOfIndependentSamples) { expect_honest_errors(of_waves("waves", 1.0, 130)); }
 TEST(ErrorBars, OfWavesOfCorrelatedSamples) { expect_honest_errors(of_waves("correlated waves", 0.2, 400)); }
@@ -274,7 +272,7 @@ TEST(ErrorBars, OfWavesOfCorrelatedSamples) { expect_honest_errors(of_waves("cor
 ErrorCase of_pairs(const char* name, double share, int samples) {
   scene::RunPlan p = plan();
   p.pairs = scene::MeasurePairs{kEvery, 41, 0};
-  return {name, {}, p, made_of<Redrawn>(share, Redrawn::Rod(layered)), samples, {"wavelength_g2_mm"}};
+  return {name, p, made_of<Redrawn>(share, Redrawn::Rod(layered)), samples, {"wavelength_g2_mm"}};
 }
 TEST(ErrorBars, OfPairsOfIndependentSamples) { expect_honest_errors(of_pairs("pairs", 1.0, 200)); }
 TEST(ErrorBars, OfPairsOfCorrelatedSamples) { expect_honest_errors(of_pairs("correlated pairs", 0.2, 600)); }
@@ -283,7 +281,6 @@ TEST(ErrorBars, OfDefects) {
   scene::RunPlan p = plan();
   p.defects = scene::MeasureDefects{kEvery, 1.5, 1.0, false, 0.3};
   expect_honest_errors({"defects",
-                        {},
                         p,
                         made_of<Redrawn>(0.1, Redrawn::Rod(isotropic)),
                         300,

@@ -22,11 +22,14 @@ using ::testing::HasSubstr;
 
 /// A rod of three beads and one of two, which has no middle.
 TrajectoryHeader two_species() {
-  TrajectoryHeader header{2, 10, 1.5, 0.25, {-1, 0, 1}, {0.25, 0.5, 0.25}, R"({"plates": {"amplitude": 0.25}})"};
-  header.added_beads = {{{-0.5, 0.75}, {0.5, 0.25}}};
-  header.species_of_rod = {0, 1};
-  header.provenance = {"0123456789abcdef", 7};
-  return header;
+  return {2,
+          {.box_side = 10,
+           .gap = 1.5,
+           .species = {{{-1, 0, 1}, {0.25, 0.5, 0.25}}, {{-0.5, 0.75}, {0.5, 0.25}}},
+           .species_of_rod = {0, 1}},
+          0.25,
+          R"({"plates": {"amplitude": 0.25}})",
+          {"0123456789abcdef", 7}};
 }
 
 /// The first rod along x, the second along z.
@@ -87,13 +90,13 @@ TEST(Xyz, FramesFollowEachOther) {
 TEST(Xyz, WallsAreNamedAndNothingIsPeriodicWithinThem) {
   TrajectoryHeader header = two_species();
   header.provenance = {};
-  header.walls = SideWalls{.arena = Arena::kAnnulus, .size = 8, .inner = 2.5};
+  header.cell.walls = SideWalls{.arena = Arena::kAnnulus, .size = 8, .inner = 2.5};
   for (const auto make : {make_extended_xyz, make_beads_xyz}) {
     const std::string text = text_of(*make(header), {frame_of_two()});
     EXPECT_THAT(text, HasSubstr(" pbc=\"F F F\" Time=2 Step=8 units=\"mm s\" arena=annulus arena_size=8 "
                                 "arena_inner=2.5\n"));
   }
-  header.walls->arena = Arena::kDisc;
+  header.cell.walls->arena = Arena::kDisc;
   EXPECT_THAT(text_of(*make_beads_xyz(header), {frame_of_two()}), HasSubstr(" arena=disc arena_size=8\n"));
 }
 
@@ -238,7 +241,11 @@ std::vector<RecordedFrame> random_frames(std::size_t n_frames, int n_rods, doubl
 }
 
 TrajectoryHeader many_rods(double side) {
-  return {50, side, 1.2, 4e-6, {-1, 0, 1}, {0.2, 0.4, 0.2}, R"({"plates": {"amplitude": 0.04}})"};
+  return {50,
+          {.box_side = side, .gap = 1.2, .species = {{{-1, 0, 1}, {0.2, 0.4, 0.2}}}},
+          4e-6,
+          R"({"plates": {"amplitude": 0.04}})",
+          {}};
 }
 
 TEST(Gsd, ReadsBackAsItWas) {

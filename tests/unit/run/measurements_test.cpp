@@ -40,8 +40,6 @@ scene::RunPlan plan() {
   return p;
 }
 
-Species species() { return make_species(RodShape{}); }
-
 Snapshot random_snapshot(Tick tick) {
   std::mt19937_64 rng(static_cast<std::uint64_t>(tick) + 17);
   std::uniform_real_distribution<double> unit(0, 1);
@@ -65,7 +63,7 @@ Reduction reduced_spheres() {
   scene::RunPlan spheres = plan();
   spheres.system.rod.n_beads = 1;
   spheres.system.rod.length = spheres.system.rod.mid_diameter;
-  Measurements measurements(spheres, make_species(spheres.system.rod), {});
+  Measurements measurements(spheres);
   const auto counts = measurements.counts();
   for (const char* name : {"order", "angles", "tilt", "defects", "frank", "rotation", "pairs", "layers"}) {
     EXPECT_FALSE(counts.contains(name)) << name;
@@ -147,7 +145,7 @@ TEST(Cadence, SpreadOverItsIntervalsMeetsAllPhasesAlike) {
 }
 
 TEST(Measurements, EachKeepsItsOwnTime) {
-  Measurements measurements(plan(), species());
+  Measurements measurements(plan());
   measure(measurements, 0, 10000);  // 0.1 s
   const std::map<std::string, std::int64_t> counts = measurements.counts();
   EXPECT_EQ(counts.size(), measurement_kinds().size());
@@ -190,7 +188,7 @@ TEST(Measurements, WhatIsNotInThePlanDoesNotExist) {
   nothing.angles.reset();
   nothing.tilt.reset();
   nothing.defects.reset();
-  Measurements measurements(nothing, species());
+  Measurements measurements(nothing);
   EXPECT_EQ(measurements.next_due(0), kNever);
   measurements.sample(random_snapshot(0));
   const Reduction reduction = measurements.reduce(10);
@@ -210,13 +208,13 @@ TEST(Measurements, AreRestoredFromAStateInAnyOrder) {
   msd.rotation.reset();
   rotation.msd.reset();
   const auto state_of = [](const scene::RunPlan& asked) {
-    Measurements measurements(asked, species());
+    Measurements measurements(asked);
     measure(measurements, 0, 10000);
     return measurements.save();
   };
   std::vector<std::byte> state = state_of(rotation);
   for (const std::byte each : state_of(msd)) state.push_back(each);
-  Measurements restored(both, species());
+  Measurements restored(both);
   ASSERT_TRUE(restored.restore(state));
   EXPECT_EQ(restored.save(), state_of(both));
   state = state_of(msd);
@@ -239,7 +237,7 @@ TEST(MeasurementKinds, EachByItself) {
 // Every defect of the list has its place, and the means are those of the list.
 TEST(Measurements, DefectsHaveTracksAndAListOnlyIfAskedFor) {
   scene::RunPlan p = plan();
-  Measurements measurements(p, species());
+  Measurements measurements(p);
   measure(measurements, 0, 50000);
   const Reduction reduction = measurements.reduce(0.5);
   const auto& arrays = reduction.arrays;
@@ -257,7 +255,7 @@ TEST(Measurements, DefectsHaveTracksAndAListOnlyIfAskedFor) {
   EXPECT_EQ(arrays.at("/defects/tracks/lasting/speed_plus_along_sem_mm_s").size(), 5U);
 
   p.defects->list = false;
-  Measurements without(p, species());
+  Measurements without(p);
   measure(without, 0, 50000);
   EXPECT_FALSE(without.reduce(0.5).arrays.contains("/defects/list/track"));
   EXPECT_EQ(without.reduce(0.5).arrays.at("/defects/n_plus"), arrays.at("/defects/n_plus"));
@@ -266,7 +264,7 @@ TEST(Measurements, DefectsHaveTracksAndAListOnlyIfAskedFor) {
 // Rods along x in four columns, rigidly turned by a wave along x: power at that wave only, whose floor is not noise.
 TEST(Measurements, FluctuationsOfALattice) {
   scene::RunPlan p = plan();
-  Measurements measurements(p, species());
+  Measurements measurements(p);
   Snapshot s = random_snapshot(0);
   for (std::size_t i = 0; i < s.position.size(); ++i) {
     s.position[i] = 2.0 * Vec3(static_cast<double>(i % 10) + 0.5, static_cast<double>(i / 10) + 0.5, 0.3);
@@ -285,7 +283,7 @@ TEST(Measurements, FluctuationsOfALattice) {
 }
 
 TEST(Measurements, WhatCannotBeToldSaysWhy) {
-  Measurements measurements(plan(), species());
+  Measurements measurements(plan());
   measure(measurements, 0, 10000);
   const std::map<std::string, Scalar> scalars = measurements.reduce(0.1).scalars;
   EXPECT_TRUE(std::isnan(scalars.at("fluctuation_exponent").value)) << "a box of four and a half rod lengths";
@@ -300,9 +298,9 @@ TEST(Measurements, WhatCannotBeToldSaysWhy) {
 TEST(Measurements, WaysAndTiltsOfSingleRods) {
   scene::RunPlan p = plan();
   p.velocity = scene::MeasureVelocity{0.01, 0.01};
-  Measurements measurements(p, species());
+  Measurements measurements(p);
   // At 30 mm/s to and fro, turning every 0.1 s; tilted to either side for 50 ms.
-  const double tilt = largest_tilt(species(), p.system.gap);
+  const double tilt = largest_tilt(make_species(RodShape{}), p.system.gap);
   for (Tick tick = 0; tick <= 200000; tick = measurements.next_due(tick + 1)) {
     Snapshot s = random_snapshot(0);
     s.tick = tick;
@@ -335,7 +333,7 @@ TEST(Measurements, WaysAndTiltsOfSingleRods) {
 TEST(Measurements, NumbersAreOfBoxesInsideTheWalls) {
   scene::RunPlan p = plan();
   p.system.walls = SideWalls{Arena::kDisc, 14};
-  Measurements measurements(p, species());
+  Measurements measurements(p);
   measurements.sample(random_snapshot(0));
   const std::vector<double> area = measurements.reduce(0).arrays.at("/fluctuations/area_fraction");
   // Of a disc of 14 mm in a box of 20: not the quarters of the box, but its inmost ninth.
@@ -343,7 +341,7 @@ TEST(Measurements, NumbersAreOfBoxesInsideTheWalls) {
 }
 
 TEST(Measurements, ParallelRodsHaveOrderOneAndNoDefects) {
-  Measurements measurements(plan(), species());
+  Measurements measurements(plan());
   Snapshot s = random_snapshot(0);
   for (Vec3& n : s.director) n = Vec3(std::cos(0.3), std::sin(0.3), 0);
   measurements.sample(s);
@@ -360,7 +358,7 @@ TEST(Measurements, FindPlantedLayers) {
   scene::RunPlan p = plan();
   p.angles->bins = 180;
   p.pairs->bins = 41;
-  Measurements measurements(p, species());
+  Measurements measurements(p);
   std::mt19937_64 rng(5);
   std::normal_distribution<double> normal;
   for (Tick tick = 0; tick <= 200000; tick = measurements.next_due(tick + 1)) {
@@ -397,7 +395,7 @@ TEST(Measurements, FindPlantedLayers) {
 
 // Rods a little off the director at random: a peak there is, but no layers to have a wavelength.
 TEST(Measurements, NoLayersHaveNoWavelength) {
-  Measurements measurements(plan(), species());
+  Measurements measurements(plan());
   std::mt19937_64 rng(6);
   std::normal_distribution<double> normal;
   for (Tick tick = 0; tick <= 100000; tick = measurements.next_due(tick + 1)) {
@@ -425,7 +423,7 @@ TEST(Measurements, DefectsAreThoseWithinTheSideWalls) {
   for (std::size_t i = 0; i < inside.n_rods(); ++i) {
     inside.position[i] = Vec3(10, 10, 0.6) + 8.9 / 14.2 * (inside.position[i] - Vec3(10, 10, 0.6));
   }
-  Measurements measurements(p, species());
+  Measurements measurements(p);
   measurements.sample(inside);
   const std::vector<analysis::Defect>& defects = measurements.last_defects()->defects;
   const double length = p.system.rod.length;
@@ -448,7 +446,7 @@ TEST(Measurements, PairsAreThoseWithinTheSideWalls) {
   two.position[0] = Vec3(0.5, 10, 0.6);
   two.position[1] = Vec3(19.4, 10, 0.6);
   const auto g_near = [&] {
-    Measurements measurements(p, species());
+    Measurements measurements(p);
     measurements.sample(two);
     return measurements.reduce(0).arrays.at("/g2/g").at(2);  // of bins of 0.5 mm the one of 1 mm
   };
@@ -463,7 +461,7 @@ TEST(Measurements, DefectsAreNotTrackedThroughSideWalls) {
   p.system.walls = SideWalls{Arena::kSquare, 19};
   p.steady = 0.0;
   p.defects = plan().defects;
-  Measurements measurements(p, species());
+  Measurements measurements(p);
   const double length = p.system.rod.length;
   analysis::DefectTracks within({20, 19 * 19, 0.05, length, 0.02, false});
   analysis::DefectTracks through({20, 19 * 19, 0.05, length, 0.02, true});
@@ -480,7 +478,7 @@ TEST(Measurements, DefectsAreNotTrackedThroughSideWalls) {
 TEST(Measurements, DisplacementsCountCrossingsOfTheBorderFromTheSteadyTimeOn) {
   scene::RunPlan p = plan();
   p.steady = 0.05;
-  Measurements measurements(p, species());
+  Measurements measurements(p);
   // 30 mm/s along x: 0.3 mm per sample, across the border; at rest before the steady time
   for (Tick tick = 0; tick <= 10000; tick += 1000) {
     Snapshot s = random_snapshot(tick);
@@ -509,7 +507,7 @@ TEST(Measurements, AnAutomaticSteadyStateHoldsForCurvesAgainstLag) {
   p.order.reset();  // half the run is steady
   p.defects.reset();
   p.g2.reset();
-  Measurements measurements(p, species());
+  Measurements measurements(p);
   for (Tick tick = 0; tick <= 400000; tick += 500) {
     Snapshot s = random_snapshot(tick);
     const double moving = std::max(0.0, s.time - 2.0);
@@ -537,29 +535,29 @@ TEST(Measurements, AnAutomaticSteadyStateHoldsForCurvesAgainstLag) {
 TEST(Measurements, SteadyStateIsGivenFoundOrHalfTheRun) {
   scene::RunPlan p = plan();
   p.steady = 0.05;
-  Measurements given(p, species());
+  Measurements given(p);
   measure(given, 0, 10000);
   EXPECT_NEAR(given.reduce(0.1).t_steady, 0.05, 1e-12);
   EXPECT_NEAR(given.reduce(0.1).order->t_steady, 0.05, 1e-12);
 
   p.steady.reset();
-  Measurements found(p, species());
+  Measurements found(p);
   measure(found, 0, 10000);
   EXPECT_EQ(found.reduce(0.1).t_steady, found.reduce(0.1).order->t_steady);
 
   p.order.reset();
-  Measurements assumed(p, species());
+  Measurements assumed(p);
   measure(assumed, 0, 10000);
   EXPECT_EQ(assumed.reduce(0.1).t_steady, 0.05);
 }
 
 TEST(Measurements, GoOnBitwiseAfterASaveAtAnyTime) {
-  Measurements straight(plan(), species());
+  Measurements straight(plan());
   measure(straight, 0, 20000);
   for (const Tick stop : {0, 1, 500, 4999, 5000, 12345, 20000}) {
-    Measurements first(plan(), species());
+    Measurements first(plan());
     measure(first, 0, stop);
-    Measurements second(plan(), species());
+    Measurements second(plan());
     ASSERT_TRUE(second.restore(first.save()));
     measure(second, stop + 1, 20000);
     EXPECT_EQ(second.save(), straight.save()) << stop;
@@ -568,15 +566,15 @@ TEST(Measurements, GoOnBitwiseAfterASaveAtAnyTime) {
 }
 
 TEST(Measurements, RefuseTheStateOfAnotherPlan) {
-  Measurements full(plan(), species());
+  Measurements full(plan());
   measure(full, 0, 5000);
   scene::RunPlan p = plan();
   p.tilt.reset();
-  EXPECT_FALSE(Measurements(p, species()).restore(full.save()));
+  EXPECT_FALSE(Measurements(p).restore(full.save()));
   p = plan();
   p.angles->bins = 20;
-  EXPECT_FALSE(Measurements(p, species()).restore(full.save()));
-  EXPECT_FALSE(Measurements(plan(), species()).restore({}));
+  EXPECT_FALSE(Measurements(p).restore(full.save()));
+  EXPECT_FALSE(Measurements(plan()).restore({}));
 }
 
 TEST(LargestTilt, IsSetByTheGap) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "proto/cell_codec.h"
 #include "proto/codec.h"
 #include "sim/balance.h"
 #include "sim/initial.h"
@@ -35,7 +36,7 @@ Snapshot two_rods() {
 }
 
 TEST(Messages, FrameShowsEachRodWithItsHead) {
-  const proto::Frame frame = make_frame(two_rods(), order_of(two_rods()));
+  const proto::Frame frame = make_frame(small_world(), two_rods());
   EXPECT_EQ(frame.tick, 12);
   EXPECT_EQ(frame.sim_time_s, 0.5);
   EXPECT_EQ(frame.box_side_mm, 20);
@@ -56,12 +57,10 @@ TEST(Messages, SpheresHaveNoOrder) {
   scene.rod.n_beads = 1;
   scene.rod.length = scene.rod.mid_diameter;
   const World world = *make_world(scene);
-  EXPECT_FALSE(has_axis(world));
-  EXPECT_TRUE(std::isnan(order_of(world, two_rods()).order));
+  EXPECT_FALSE(world.cell().has_axes());
   EXPECT_TRUE(std::isnan(make_frame(world, two_rods()).order));
   EXPECT_EQ(make_frame(world, two_rods()).director_rad, 0);
   EXPECT_TRUE(std::isnan(make_observables(world, two_rods(), {}).order));
-  EXPECT_TRUE(has_axis(small_world()));
   EXPECT_NEAR(make_frame(small_world(), two_rods()).order, 1, 1e-12);
 }
 
@@ -81,7 +80,7 @@ TEST(Messages, ObservablesAreRootMeanSquaresInTheirUnits) {
   EXPECT_TRUE(proto::decode<observables_t>(proto::encode(m)));
 }
 
-TEST(Messages, DefectsAndStaticPartCanBeSent) {
+TEST(Messages, DefectsCanBeSent) {
   DefectSample sample;
   sample.time = 1.5;
   sample.smoothing = 2.25;
@@ -90,13 +89,6 @@ TEST(Messages, DefectsAndStaticPartCanBeSent) {
   ASSERT_TRUE(defects);
   EXPECT_EQ(defects->x_mm, (std::vector<double>{1, 3}));
   EXPECT_EQ(defects->charge, (std::vector<double>{0.5, -0.5}));
-
-  const World world = small_world();
-  const auto constants = proto::decode<frame_static_t>(proto::encode(make_frame_static(world, "rods.length=4.5")));
-  ASSERT_TRUE(constants);
-  EXPECT_EQ(constants->n_rods, 4);
-  EXPECT_EQ(constants->bead_radius_mm, world.species[0].bead_radius);
-  EXPECT_EQ(constants->label, "rods.length=4.5");
 }
 
 /// A disc with rods, rods with a head, and spheres.
@@ -117,24 +109,17 @@ World mixed_world() {
   return std::move(world).value();
 }
 
-TEST(Messages, StaticPartKnowsKindsOfRodsAndSideWalls) {
-  const World world = mixed_world();
-  const auto constants = proto::decode<frame_static_t>(proto::encode(make_frame_static(world, "")));
-  ASSERT_TRUE(constants);
-  EXPECT_EQ(constants->n_rods, 6);
-  EXPECT_EQ(constants->species_beads,
-            (std::vector<std::int32_t>{world.species[0].n_beads(), world.species[1].n_beads(), 1}));
-  EXPECT_EQ(constants->bead_radius_mm.back(), world.species[2].bead_radius[0]);
-  EXPECT_EQ(constants->bead_offset_mm[static_cast<std::size_t>(constants->species_beads[0])],
-            world.species[1].bead_offset[0]);
-  EXPECT_EQ(constants->rod_species, world.species_of_rod);
-  EXPECT_EQ(constants->arena, "disc");
-  EXPECT_EQ(constants->arena_size_mm, 30);
-
-  const auto plain = make_frame_static(small_world(), "");
-  EXPECT_EQ(plain.n_species, 1);
-  EXPECT_TRUE(plain.rod_species.empty());
-  EXPECT_EQ(plain.arena, "");
+TEST(Messages, ACellComesBackFromItsMessage) {
+  for (const World& world : {small_world(), mixed_world()}) {
+    Cell cell = world.cell();
+    const auto sent = proto::decode<frame_static_t>(proto::encode(proto::encode_cell(cell, 6, "rods.length=4.5")));
+    ASSERT_TRUE(sent);
+    EXPECT_EQ(sent->n_rods, 6);
+    EXPECT_EQ(sent->label, "rods.length=4.5");
+    EXPECT_EQ(sent->arena, cell.walls ? "disc" : "");
+    if (cell.walls) cell.walls = SideWalls{.size = cell.walls->size, .inner = 0};  // all that messages say of a disc
+    EXPECT_EQ(proto::decode_cell(*sent), cell);
+  }
 }
 
 TEST(Messages, StaticPartOfManyRodsFitsIntoOneDatagram) {
@@ -144,20 +129,18 @@ TEST(Messages, StaticPartOfManyRodsFitsIntoOneDatagram) {
     species.bead_offset.assign(kMostBeads, 0);
     species.bead_radius.assign(kMostBeads, 1);
   }
-  EXPECT_LT(proto::encode(make_frame_static(world, std::string(200, 'x'))).size(), 60000U);
+  EXPECT_LT(proto::encode(proto::encode_cell(world.cell(), 18000, std::string(200, 'x'))).size(), 60000U);
 }
 
 TEST(Messages, OrderIsOfTheFirstKindOfRod) {
   Snapshot s = two_rods();
   s.director = {Vec3(1, 0, 0), Vec3(0, 1, 0)};
-  EXPECT_NEAR(order_of(s).order, 0, 1e-12);
-  const std::vector<std::uint8_t> species_of_rod{1, 0};
-  EXPECT_NEAR(make_frame(s, order_of(s, species_of_rod)).order, 1, 1e-12);
-  EXPECT_NEAR(std::abs(make_frame(s, order_of(s, species_of_rod)).director_rad), kPi / 2, 1e-12);
-  EXPECT_EQ(make_frame(s, order_of(s, species_of_rod)).rods.size(), 2U);
-
+  EXPECT_NEAR(make_frame(small_world(), s).order, 0, 1e-12);
   World world = mixed_world();
-  world.species_of_rod = species_of_rod;
+  world.species_of_rod = {1, 0};
+  EXPECT_NEAR(make_frame(world, s).order, 1, 1e-12);
+  EXPECT_NEAR(std::abs(make_frame(world, s).director_rad), kPi / 2, 1e-12);
+  EXPECT_EQ(make_frame(world, s).rods.size(), 2U);
   EXPECT_NEAR(make_observables(world, s, {}).order, 1, 1e-12);
 }
 

@@ -56,7 +56,7 @@ TEST(PairErrors, AreTheScatterOfIndependentRuns) {
   std::map<std::string, double> chi2, n;
   for (int run = 0; run < kRuns; ++run) {
     std::mt19937_64 rng(static_cast<std::uint64_t>(run) + 1);
-    Measurements measurements(plan(), make_species(RodShape{}));
+    Measurements measurements(plan());
     for (Tick tick = 0; tick < kSamples; ++tick) measurements.sample(gas(tick, rng));
     const Reduction reduction = measurements.reduce(kSamples * kDt);
     for (const auto& [path, expected] : known) {

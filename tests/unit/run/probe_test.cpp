@@ -84,8 +84,7 @@ TEST(Sampling, FindsWhatALongRunThenKeeps) {
     const auto angle = static_cast<double>(i * i);
     states[0].director[i] = Vec3(std::cos(angle), std::sin(angle), 0);
   }
-  const Species species = make_species(busy.system.rod);
-  const auto promised = [&](const scene::RunPlan& plan) { return time_sampling(plan, species, states); };
+  const auto promised = [&](const scene::RunPlan& plan) { return time_sampling(plan, states); };
   scene::RunPlan nothing;
   nothing.system = busy.system;
   nothing.order.reset();
@@ -111,7 +110,7 @@ TEST(Sampling, FindsWhatALongRunThenKeeps) {
   plan.rods = scene::MeasureRods{0.01, 4, 20};
   const SamplingCost cost = promised(plan);
   plan.steady = 0;
-  Measurements measurements(plan, species);
+  Measurements measurements(plan);
   Snapshot state = states.front();
   const Tick end = scene::total_ticks(plan);
   for (Tick tick = 0; tick <= end; tick = measurements.next_due(tick + 1)) {

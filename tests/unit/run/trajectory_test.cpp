@@ -24,9 +24,11 @@ constexpr double kDt = 4e-6;
 constexpr int kRods = 300;
 
 TrajectoryHeader header() {
-  TrajectoryHeader header{kRods, kSide, kGap, kDt, {-2.05, 0, 2.05}, {0.2, 0.4, 0.2}, R"({"rods": {"count": 300}})"};
-  header.provenance = {"0123456789abcdef", 77};
-  return header;
+  return {kRods,
+          {.box_side = kSide, .gap = kGap, .species = {{{-2.05, 0, 2.05}, {0.2, 0.4, 0.2}}}},
+          kDt,
+          R"({"rods": {"count": 300}})",
+          {"0123456789abcdef", 77}};
 }
 
 Snapshot snapshot(Tick tick) {
@@ -81,15 +83,9 @@ std::filesystem::path write_frames(const ScratchFolder& folder, Tick n_frames, c
 
 void expect_same(const TrajectoryHeader& a, const TrajectoryHeader& b) {
   EXPECT_EQ(a.n_rods, b.n_rods);
-  EXPECT_EQ(a.box_side, b.box_side);
-  EXPECT_EQ(a.gap, b.gap);
+  EXPECT_EQ(a.cell, b.cell);
   EXPECT_EQ(a.dt, b.dt);
-  EXPECT_EQ(a.bead_offset, b.bead_offset);
-  EXPECT_EQ(a.bead_radius, b.bead_radius);
   EXPECT_EQ(a.scene_json, b.scene_json);
-  EXPECT_EQ(a.added_beads, b.added_beads);
-  EXPECT_EQ(a.species_of_rod, b.species_of_rod);
-  EXPECT_EQ(a.walls, b.walls);
   EXPECT_EQ(a.provenance.run_id, b.provenance.run_id);
   EXPECT_EQ(a.provenance.seed, b.provenance.seed);
 }
@@ -119,16 +115,14 @@ TEST(Trajectory, ComesBackAsWritten) {
 TEST(Trajectory, SpeciesAndSideWallsComeBack) {
   const ScratchFolder folder;
   TrajectoryHeader several = header();
-  several.gap = 0.1 + 0.2;  // no short decimal
-  several.added_beads = {{{0}, {0.45}}, {{-1.2, 0.1, 1.4}, {0.45, 1.0 / 3, 0.2}}};
+  several.cell.gap = 0.1 + 0.2;  // no short decimal
+  several.cell.species.push_back({{0}, {0.45}});
+  several.cell.species.push_back({{-1.2, 0.1, 1.4}, {0.45, 1.0 / 3, 0.2}});
   for (int i = 0; i < kRods; ++i)
-    several.species_of_rod.push_back(static_cast<std::uint8_t>(i % 7 == 0 ? 1 : i % 5 == 0 ? 2 : 0));
+    several.cell.species_of_rod.push_back(static_cast<std::uint8_t>(i % 7 == 0 ? 1 : i % 5 == 0 ? 2 : 0));
   for (const Arena arena : {Arena::kDisc, Arena::kSquare, Arena::kAnnulus}) {
-    several.walls = SideWalls{};
-    several.walls->arena = arena;
-    several.walls->size = 70.25;
-    if (arena == Arena::kAnnulus) several.walls->inner = 12.5;
-    several.walls->contact = {0.02, 0.7};
+    several.cell.walls = SideWalls{.arena = arena, .size = 70.25, .contact = {0.02, 0.7}};
+    if (arena == Arena::kAnnulus) several.cell.walls->inner = 12.5;
     expect_frames(folder, 2, several);
   }
 }
@@ -136,12 +130,12 @@ TEST(Trajectory, SpeciesAndSideWallsComeBack) {
 TEST(Trajectory, ASpeciesWithoutBeadsIsRefused) {
   const ScratchFolder folder;
   TrajectoryHeader several = header();
-  several.added_beads = {{{0}, {0.45}}};
-  several.species_of_rod.assign(kRods, 2);
+  several.cell.species.push_back({{0}, {0.45}});
+  several.cell.species_of_rod.assign(kRods, 2);
   const auto log = FrameLog::create(folder / "t.part", several);
   ASSERT_FALSE(log);
   EXPECT_NE(log.error().message.find("beads are not there"), std::string::npos) << log.error().message;
-  several.species_of_rod.assign(kRods - 1, 1);
+  several.cell.species_of_rod.assign(kRods - 1, 1);
   EXPECT_FALSE(FrameLog::create(folder / "t.part", several)) << "a species for each rod";
 }
 
@@ -198,17 +192,17 @@ TEST(Trajectory, LengthsThatAreNoneAreRefused) {
   for (const double bad :
        {0.0, -1.0, 1e30, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
     TrajectoryHeader of = header();
-    of.box_side = bad;
+    of.cell.box_side = bad;
     EXPECT_FALSE(check(of)) << bad;
     of = header();
-    of.gap = bad;
+    of.cell.gap = bad;
     EXPECT_FALSE(check(of)) << bad;
     of = header();
-    of.bead_radius.back() = bad;
+    of.cell.species[0].radius.back() = bad;
     EXPECT_FALSE(check(of)) << bad;
   }
   TrajectoryHeader of = header();
-  of.bead_offset.pop_back();
+  of.cell.species[0].offset.pop_back();
   EXPECT_FALSE(check(of));
   EXPECT_TRUE(check(header()));
 }

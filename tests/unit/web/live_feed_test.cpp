@@ -26,6 +26,7 @@ frame_static_t constants() {
   message.job_id = kRun;
   message.n_rods = 2;
   message.box_side_mm = 20;
+  message.gap_mm = 1.2;
   message.n_species = 1;
   message.species_beads = {1};
   message.n_beads = 1;

@@ -20,7 +20,7 @@ std::int16_t i16(const std::string& bytes, std::size_t at) { return static_cast<
 client::RodFrame some_frame(std::size_t n_rods) {
   client::RodFrame frame;
   frame.time = 1.5;
-  frame.box_side = 20;
+  frame.cell.box_side = 20;
   frame.order = 0.75;
   frame.director = 0.25;
   frame.outlines = {{2, 0.4, 0.2}};
@@ -61,11 +61,11 @@ TEST(PackedFrame, RodsOfManyMessagesFollowEachOther) {
 TEST(PackedFrame, SpeciesAndWallsAreThereWhereTheyAreInTheRun) {
   client::RodFrame frame = some_frame(2);
   frame.outlines.push_back({0, 0.5, 0.5});
-  frame.species_of_rod = {1, 0};
-  frame.walls.emplace();
-  frame.walls->arena = Arena::kAnnulus;
-  frame.walls->size = 18;
-  frame.walls->inner = 6;
+  frame.cell.species_of_rod = {1, 0};
+  frame.cell.walls.emplace();
+  frame.cell.walls->arena = Arena::kAnnulus;
+  frame.cell.walls->size = 18;
+  frame.cell.walls->inner = 6;
   const std::string bytes = packed(frame);
   const std::size_t size = u16(bytes, 0);
   const auto head = nlohmann::json::parse(bytes.substr(4, size));

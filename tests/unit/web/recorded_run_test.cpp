@@ -22,17 +22,9 @@ class RecordedRunTest : public testing::Test {
   RecordedRunTest() { fs::create_directories(folder_ / kRun); }
   run::RunDirectory directory() const { return {folder_ / kRun}; }
   /// Two rods in a box of 10 mm, `n_frames` frames 0.1 s apart; the second rod turns by 90 degrees in the last one.
-  void record(int n_frames, std::vector<double> offset = {-2, 0, 2},
-              std::vector<double> radius = {0.2, 0.4, 0.2}) const {
-    run::TrajectoryHeader header;
-    header.n_rods = 2;
-    header.box_side = 10;
-    header.gap = 1.2;
-    header.dt = 1e-5;
-    header.bead_offset = std::move(offset);
-    header.bead_radius = std::move(radius);
-    header.scene_json = "{}";
-    auto log = run::FrameLog::create(directory().frames(), header).value();
+  void record(int n_frames, const BeadRow& beads = {{-2, 0, 2}, {0.2, 0.4, 0.2}}) const {
+    const Cell cell{.box_side = 10, .gap = 1.2, .species = {beads}};
+    auto log = run::FrameLog::create(directory().frames(), {2, cell, 1e-5, "{}", {}}).value();
     for (int k = 0; k < n_frames; ++k) {
       Snapshot now;
       now.tick = k;
@@ -52,7 +44,7 @@ class RecordedRunTest : public testing::Test {
 };
 
 TEST_F(RecordedRunTest, SpheresHaveNoOrder) {
-  record(3, {0}, {0.4});
+  record(3, {{0}, {0.4}});
   const auto frame = run_.frame(0);
   ASSERT_TRUE(frame) << frame.error().message;
   EXPECT_TRUE(std::isnan(frame->order));

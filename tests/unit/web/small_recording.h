@@ -13,16 +13,8 @@ namespace shaken::web {
 
 /// The trajectory.h5 of a run with two frames of one rod.
 inline void record_two_frames(const run::RunDirectory& directory, const std::string& run) {
-  run::TrajectoryHeader header;
-  header.n_rods = 1;
-  header.box_side = 10;
-  header.gap = 1.2;
-  header.dt = 1e-5;
-  header.bead_offset = {-2, 0, 2};
-  header.bead_radius = {0.2, 0.4, 0.2};
-  header.scene_json = "{}";
-  header.provenance = {run, 1};
-  auto log = run::FrameLog::create(directory.frames(), header).value();
+  const Cell cell{.box_side = 10, .gap = 1.2, .species = {{{-2, 0, 2}, {0.2, 0.4, 0.2}}}};
+  auto log = run::FrameLog::create(directory.frames(), {1, cell, 1e-5, "{}", {run, 1}}).value();
   for (int k = 0; k < 2; ++k) {
     Snapshot now;
     now.tick = k;

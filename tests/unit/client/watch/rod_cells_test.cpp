@@ -17,7 +17,7 @@ constexpr RodStyle kBlocks{.colouring = Colouring::kLayers, .grain = Grain::kBlo
 /// A box of 10 mm with rods of 4.5 mm and radius 0.25 mm: 10 x 5 cells have 2 samples per mm.
 RodFrame frame_of(std::vector<proto::RodPose> rods) {
   RodFrame frame;
-  frame.box_side = 10;
+  frame.cell.box_side = 10;
   frame.outlines = {{.half_length = 2, .middle = 0.25, .end = 0.25}};
   frame.rods = std::move(rods);
   return frame;
@@ -68,9 +68,9 @@ TEST(RodCells, ARodAcrossThePeriodicBorderIsOnBothSides) {
 
 TEST(RodCells, BetweenWallsNothingIsRepeated) {
   RodFrame frame = frame_of({{0, 5.25, 0, 0}});
-  frame.walls.emplace();
-  frame.walls->arena = Arena::kSquare;
-  frame.walls->size = 40;  // out of sight
+  frame.cell.walls.emplace();
+  frame.cell.walls->arena = Arena::kSquare;
+  frame.cell.walls->size = 40;  // out of sight
   EXPECT_EQ(drawn(frame, kDots).text(2), "⠒⠒⠂");
   // Nor does the view come back on the other side: half of it is empty.
   EXPECT_EQ(drawn(frame, kDots, {.x = 0}).text(2), "     ⠒⠒⠂");
@@ -78,9 +78,9 @@ TEST(RodCells, BetweenWallsNothingIsRepeated) {
 
 TEST(RodCells, WallsAreDrawn) {
   RodFrame frame = frame_of({});
-  frame.walls.emplace();
-  frame.walls->arena = Arena::kDisc;
-  frame.walls->size = 8;
+  frame.cell.walls.emplace();
+  frame.cell.walls->arena = Arena::kDisc;
+  frame.cell.walls->size = 8;
   const CellGrid grid = drawn(frame, kBlocks);
   EXPECT_EQ(grid.at(5, 2).back, ink_of(kFloorTone));
   EXPECT_NE(grid.at(1, 2), grid.at(5, 2)) << "4 mm left of the middle";
@@ -213,7 +213,7 @@ TEST(RodColours, AutomaticDoesNotFlicker) {
 TEST(RodColours, SpeciesHaveTheirOwn) {
   RodFrame frame = frame_of({{2.5, 5.25, 0, 0}, {7.5, 5.25, 0, 0}});
   frame.outlines.push_back(frame.outlines.front());
-  frame.species_of_rod = {0, 1};
+  frame.cell.species_of_rod = {0, 1};
   const CellGrid grid = drawn(frame, {.colouring = Colouring::kWheel, .grain = Grain::kBraille});
   EXPECT_EQ(grid.at(2, 2).fore, ink_of(wheel_tone(0)));
   EXPECT_EQ(grid.at(7, 2).fore, ink_of(species_tone(1)));

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "proto/cell_codec.h"
+
+#include <algorithm>
+#include <span>
+
+namespace shaken::proto {
+
+frame_static_t encode_cell(const Cell& cell, std::size_t n_rods, const std::string& label) {
+  frame_static_t message{};
+  message.n_rods = static_cast<std::int32_t>(n_rods);
+  message.box_side_mm = cell.box_side;
+  message.gap_mm = cell.gap;
+  for (const auto& [offset, radius] : cell.species) {
+    message.species_beads.push_back(static_cast<std::int32_t>(offset.size()));
+    message.bead_offset_mm.insert(message.bead_offset_mm.end(), offset.begin(), offset.end());
+    message.bead_radius_mm.insert(message.bead_radius_mm.end(), radius.begin(), radius.end());
+  }
+  message.n_species = static_cast<std::int32_t>(message.species_beads.size());
+  message.n_beads = static_cast<std::int32_t>(message.bead_offset_mm.size());
+  message.rod_species = cell.species_of_rod;
+  message.n_rod_species = static_cast<std::int32_t>(message.rod_species.size());
+  if (cell.walls) {
+    message.arena = name_of(cell.walls->arena);
+    message.arena_size_mm = cell.walls->size;
+    message.arena_inner_mm = cell.walls->arena == Arena::kAnnulus ? cell.walls->inner : 0;
+  }
+  message.label = label;
+  return message;
+}
+
+std::optional<Cell> decode_cell(const frame_static_t& message) {
+  Cell cell{.box_side = message.box_side_mm, .gap = message.gap_mm, .species_of_rod = message.rod_species};
+  std::span<const double> offsets(message.bead_offset_mm), radii(message.bead_radius_mm);
+  for (const std::int32_t n_beads : message.species_beads) {
+    if (n_beads < 1 || static_cast<std::size_t>(n_beads) > std::min(offsets.size(), radii.size())) return std::nullopt;
+    const auto n = static_cast<std::size_t>(n_beads);
+    cell.species.push_back({{offsets.begin(), offsets.begin() + n_beads}, {radii.begin(), radii.begin() + n_beads}});
+    offsets = offsets.subspan(n);
+    radii = radii.subspan(n);
+  }
+  if (!offsets.empty() || !radii.empty()) return std::nullopt;
+  if (const std::optional<Arena> arena = arena_of(message.arena)) {
+    cell.walls = SideWalls{.arena = *arena, .size = message.arena_size_mm, .inner = message.arena_inner_mm};
+  }
+  return cell;
+}
+
+}  // namespace shaken::proto

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <shaken/frame_static_t.hpp>
+#include <string>
+
+#include "sim/cell.h"
+
+namespace shaken::proto {
+
+/// What does not change during a run, as a message. Its head (utime, sequence, job_id) is left to the sender.
+frame_static_t encode_cell(const Cell& cell, std::size_t n_rods, const std::string& label);
+
+/// None where counts of beads contradict each other. What the numbers may be says scene/cell_limits.h.
+std::optional<Cell> decode_cell(const frame_static_t& message);
+
+}  // namespace shaken::proto

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "scene/cell_limits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "scene/fields.h"
+
+namespace shaken::scene {
+
+Result<void> check_cell(const Cell& cell, std::size_t n_rods) {
+  std::string wrong;
+  const auto hold = [&](const char* what, double value, const char* path, double share = 1) {
+    constexpr double kRounding = 1e-9;
+    const Field& field = field_at(path);
+    const double low = share * field.low, high = share * field.high;
+    if (value >= low * (1 - kRounding) && value <= high * (1 + kRounding)) return;  // false for NaN
+    wrong = fmt::format("a {} of {} mm; a scene has {} to {} mm", what, value, low, high);
+  };
+  hold("box side", cell.box_side, "box.side");
+  hold("gap", cell.gap, "box.gap");
+  for (const BeadRow& beads : cell.species) {
+    for (const double radius : beads.radius) hold("bead radius", radius, "rods.bead_diameters", 0.5);
+    // Beads may lie anywhere along a rod, so the shortest rod does not matter; nor where its centre of mass is.
+    for (const double offset : beads.offset) {
+      if (!(std::abs(offset) <= field_at("rods.length").low)) hold("bead offset", std::abs(offset), "rods.length");
+    }
+    if (beads.offset.size() != beads.radius.size()) return Error{"not as many radii of beads as places"};
+  }
+  if (cell.walls) {
+    hold("arena", cell.walls->size, "walls.size");
+    if (cell.walls->arena == Arena::kAnnulus) hold("inner wall", cell.walls->inner, "walls.inner");
+  }
+  if (!wrong.empty()) return Error{wrong};
+  if (cell.species.empty()) return Error{"no species"};
+  if (cell.species_of_rod.size() != (cell.species.size() > 1 ? n_rods : 0)) {
+    return Error{"a number of rods that contradicts that of their species"};
+  }
+  const auto is_known = [&](std::uint8_t species) { return species < cell.species.size(); };
+  if (std::all_of(cell.species_of_rod.begin(), cell.species_of_rod.end(), is_known)) return {};
+  return Error{"a rod of a species whose beads are not there"};
+}
+
+}  // namespace shaken::scene

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "sim/rod/bead_row.h"
+#include "sim/system.h"
+
+namespace shaken {
+
+/// Where the rods of a run are, and of which kinds they are: what stays the same from frame to frame, and is needed to
+/// draw or measure one. A System says how a scene wants it; this is what came of it, and what files and messages carry.
+struct Cell {
+  double box_side = 0;  ///< of the square box, periodic in x and y [mm]
+  double gap = 0;       ///< between the plates [mm]
+  std::optional<SideWalls> walls{};
+  std::vector<BeadRow> species{};              ///< order, director and defects are of the first
+  std::vector<std::uint8_t> species_of_rod{};  ///< (n_rods) from 0; empty if there is one species
+
+  std::size_t species_of(std::size_t rod) const { return species_of_rod.empty() ? 0 : species_of_rod[rod]; }
+  const BeadRow& beads_of(std::size_t rod) const { return species[species_of(rod)]; }
+  /// Of `values`, which has one for each rod, those of the rods of species `k`.
+  template <class Value>
+  std::vector<Value> of_species(std::size_t k, const std::vector<Value>& values) const {
+    if (species_of_rod.empty() && k == 0) return values;
+    std::vector<Value> chosen;
+    for (std::size_t rod = 0; rod < values.size(); ++rod) {
+      if (species_of(rod) == k) chosen.push_back(values[rod]);
+    }
+    return chosen;
+  }
+  /// Whether the rods of the first species have axes: spheres have none, and no order, director or defects.
+  bool has_axes() const { return !species.empty() && species.front().has_axis(); }
+  /// What the rods have to share [mm^2].
+  double area() const { return walls ? walls->area() : box_side * box_side; }
+
+  friend bool operator==(const Cell&, const Cell&) = default;
+};
+
+}  // namespace shaken
