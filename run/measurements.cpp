@@ -17,9 +17,10 @@ void leave_out_axes(Reduction& result) {
   for (const MeasurementKind& kind : measurement_kinds()) {
     for (const std::string_view name : kind.of_axis) {
       result.scalars.erase(std::string(name));
-      std::erase_if(result.arrays, [path = "/" + std::string(kind.name) + "/" + std::string(name)](const auto& array) {
-        return std::regex_replace(array.first, kError, "") == path;
-      });
+      std::string path("/");
+      path.append(kind.name).append("/").append(name);
+      std::erase_if(result.arrays,
+                    [&](const auto& array) { return std::regex_replace(array.first, kError, "") == path; });
     }
   }
 }
