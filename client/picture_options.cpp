@@ -22,12 +22,12 @@ void PictureOptions::declare(Arguments& arguments, bool films) {
                    "A style, or a file of one; the options below change it");
   for (const render::StyleKey& key : render::style_keys()) {
     if (key.path == "style" || (!films && (key.path == "fps" || key.path == "speed"))) continue;
-    const std::string option = render::option_of(key), name = option.substr(option.rfind("--") + 2);
+    const std::string name = render::option_of(key);
     if (key.form != keys::Form::kSwitch) {
-      arguments.option(option, values_[name], value_name(key), key.doc);
+      arguments.option(render::flags_of(key), values_[name], value_name(key), key.doc);
       continue;
     }
-    arguments.flag(option, switches_[name], key.doc);
+    arguments.flag("--" + name, switches_[name], key.doc);
     arguments.flag("--no-" + name, switches_["no-" + name], "Without it");
   }
   arguments.repeatable("--label", labels_, "TEXT", "Headline, one for each run; what was swept if left out");

@@ -82,7 +82,7 @@ PictureStyle style_of(const Options& options, PictureStyle style = {}) {
   for (const StyleKey& key : style_keys()) {
     if (const auto given = options.keys.find(key.path); given != options.keys.end() && !given->second.empty()) {
       const Result<void> done = set_from_text(style, key, given->second);
-      if (!done) wrong += fmt::format("{}{}: {}", wrong.empty() ? "" : "\n", option_of(key), done.error().message);
+      if (!done) wrong += fmt::format("{}--{}: {}", wrong.empty() ? "" : "\n", option_of(key), done.error().message);
     }
     if (const auto given = options.switches.find(key.path); given != options.switches.end()) {
       key.store(style, given->second);
@@ -469,12 +469,11 @@ void declare_style(CLI::App& app, Options& options) {
   for (const StyleKey& key : style_keys()) {
     if (key.path == "style") continue;
     if (key.form == keys::Form::kSwitch) {
-      const std::string name = option_of(key).substr(2);
       app.add_flag(
-          fmt::format("--{0},!--no-{0}", name),
+          fmt::format("--{0},!--no-{0}", option_of(key)),
           [&options, &key](std::int64_t on) { options.switches[key.path] = on > 0; }, key.doc);
     } else {
-      app.add_option(option_of(key), options.keys[key.path], key.doc)->type_name(value_name(key));
+      app.add_option(flags_of(key), options.keys[key.path], key.doc)->type_name(value_name(key));
     }
   }
   app.add_option("--label", options.labels,

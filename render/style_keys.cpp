@@ -150,10 +150,12 @@ const keys::Table<PictureStyle>& style_keys() {
 }
 
 std::string option_of(const StyleKey& key) {
-  std::string name = (key.path == "colour" ? "-c,--" : "--") + key.path;
+  std::string name = key.path;
   std::replace(name.begin(), name.end(), '_', '-');
   return name;
 }
+
+std::string flags_of(const StyleKey& key) { return (key.path == "colour" ? "-c,--" : "--") + option_of(key); }
 
 Result<void> set_from_text(PictureStyle& style, const StyleKey& key, const std::string& text) {
   std::vector<keys::Problem> problems;

@@ -14,8 +14,10 @@ namespace shaken::render {
 using StyleKey = keys::Key<PictureStyle>;
 const keys::Table<PictureStyle>& style_keys();
 
-/// "--scale-bar", "-c,--colour".
+/// "scale-bar": the name of its option, without dashes.
 std::string option_of(const StyleKey& key);
+/// The same as it is declared: "--scale-bar", "-c,--colour".
+std::string flags_of(const StyleKey& key);
 
 /// Sets `key` from the text of a command line; else says what is wrong with it, without naming the key.
 Result<void> set_from_text(PictureStyle& style, const StyleKey& key, const std::string& text);

@@ -19,9 +19,10 @@ void leave_out_axes(Reduction& result) {
   for (const MeasurementKind& kind : measurement_kinds()) {
     for (const std::string_view name : kind.of_axis) {
       result.scalars.erase(std::string(name));
-      std::erase_if(result.arrays, [path = fmt::format("/{}/{}", kind.name, name)](const auto& array) {
-        return std::regex_replace(array.first, kError, "") == path;
-      });
+      std::string path("/");
+      path.append(kind.name).append("/").append(name);
+      std::erase_if(result.arrays,
+                    [&](const auto& array) { return std::regex_replace(array.first, kError, "") == path; });
     }
   }
 }

@@ -232,7 +232,8 @@ TEST(RenderProgram, AllThatIsWrongWithAStyleIsToldAtOnce) {
   const Ended ended =
       run_program("picture " + folder.path().string() + " --zoom 0.5 --colour grey --theme blue --tracks x");
   EXPECT_EQ(ended.code, 2);
-  for (const char* key : {"--zoom may be", "--colour may be", "--theme may be", "--tracks is a number"}) {
+  for (const char* key :
+       {"--zoom: 0.5 is", "--colour: \"grey\" is", "--theme: \"blue\" is", "--tracks: \"x\" is not"}) {
     EXPECT_NE(ended.said.find(key), std::string::npos) << ended.said;
   }
 }
