@@ -90,7 +90,7 @@ Result<TrajectorySource> TrajectorySource::open(const std::filesystem::path& run
 
 Result<double> TrajectorySource::time_of(std::size_t index) const {
   if (const auto known = times_.find(index); known != times_.end()) return known->second;
-  const Result<run::TrajectoryFrame> frame = reader_.frame(index);
+  const Result<Snapshot> frame = reader_.frame(index);
   if (!frame) return frame.error();
   times_[index] = frame->time;
   return frame->time;
@@ -141,7 +141,7 @@ Result<void> TrajectorySource::read_history() {
   const std::size_t last = n_frames() - 1, points = std::min(kMostPoints, last + 1);
   OrderHistory history;
   for (std::size_t k = 0; k < points; ++k) {
-    const Result<run::TrajectoryFrame> frame = reader_.frame(points == 1 ? last : k * last / (points - 1));
+    const Result<Snapshot> frame = reader_.frame(points == 1 ? last : k * last / (points - 1));
     if (!frame) return frame.error();
     history.time.push_back(frame->time);
     history.order.push_back(analysis::nematic_order(cell, frame->director).order);
@@ -161,7 +161,7 @@ std::vector<double> TrajectorySource::orders(double first, double last) const {
 }
 
 Result<RodPicture> TrajectorySource::bare_picture(std::size_t index, const Asked& asked) const {
-  Result<run::TrajectoryFrame> frame = reader_.frame(index);
+  Result<Snapshot> frame = reader_.frame(index);
   if (!frame) return frame.error();
   RodPicture picture;
   picture.cell = reader_.header().cell;
@@ -217,7 +217,7 @@ Result<void> TrajectorySource::follow(const FollowedDefect& defect, std::size_t 
 }
 
 Result<std::vector<Vec2>> TrajectorySource::displacements(std::size_t index, double span) const {
-  const Result<run::TrajectoryFrame> now = reader_.frame(index);
+  const Result<Snapshot> now = reader_.frame(index);
   if (!now) return now.error();
   const Result<std::size_t> past = nearest_frame(now->time - span);
   if (!past) return past.error();
@@ -227,9 +227,9 @@ Result<std::vector<Vec2>> TrajectorySource::displacements(std::size_t index, dou
     return Error{
         fmt::format("no displacements over {:g} s: frames are recorded every {:g} s", span, now->time - *previous)};
   }
-  const Result<run::TrajectoryFrame> before = reader_.frame(*past);
+  const Result<Snapshot> before = reader_.frame(*past);
   if (!before) return before.error();
-  const auto unwrapped = [&](const run::TrajectoryFrame& frame, std::size_t i) -> Vec2 {
+  const auto unwrapped = [&](const Snapshot& frame, std::size_t i) -> Vec2 {
     return frame.position[i].head<2>() + reader_.header().cell.box_side * Vec2(frame.image[i][0], frame.image[i][1]);
   };
   std::vector<Vec2> ways;

@@ -43,7 +43,7 @@ Result<RecordedRun::Frames> RecordedRun::frames() const {
 Result<client::RodFrame> RecordedRun::frame(std::size_t index) const {
   const auto reader = this->reader();
   if (!reader) return reader.error();
-  const Result<run::TrajectoryFrame> recorded = reader->frame(index);
+  const Result<Snapshot> recorded = reader->frame(index);
   if (!recorded) return recorded.error();
   Result<client::RodFrame> frame = client::constants_of(reader->header().cell, recorded->position.size());
   if (!frame) return Error{"the trajectory has " + frame.error().message};

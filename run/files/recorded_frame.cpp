@@ -40,13 +40,14 @@ RecordedFrame record(const Snapshot& snapshot) {
   return frame;
 }
 
-Result<TrajectoryFrame> decode(const RecordedFrame& recorded, double box_side) {
+Result<Snapshot> decode(const RecordedFrame& recorded, double box_side) {
   constexpr double kMost = 1e9;  // heights without a base, and speeds [mm], [mm/s]
   const auto wrong = [](const char* what, std::size_t rod, double value) {
     return Error{fmt::format("the {} of rod {} is {:g}: the file is damaged", what, rod, value)};
   };
   if (!std::isfinite(recorded.time)) return Error{fmt::format("the time is {:g}: the file is damaged", recorded.time)};
-  TrajectoryFrame frame;
+  Snapshot frame;
+  frame.box_side = box_side;
   frame.tick = recorded.tick;
   frame.time = recorded.time;
   const auto &x = recorded.position, &v = recorded.velocity, &q = recorded.orientation;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -20,19 +19,9 @@ struct RecordedFrame {
   std::vector<std::int32_t> image;  ///< (n_rods, 3): how often the box was left; the third is always 0
 };
 
-/// A frame as programs use it.
-struct TrajectoryFrame {
-  Tick tick = 0;
-  double time = 0;             ///< [s]
-  std::vector<Vec3> position;  ///< wrapped into the box [mm]
-  std::vector<Vec3> director;  ///< unit vectors
-  std::vector<Vec3> velocity;  ///< [mm/s]
-  std::vector<std::array<std::int32_t, 2>> image;
-};
-
 RecordedFrame record(const Snapshot& snapshot);
-/// Fails, naming the rod, if a number is none that a rod in a box of `box_side` [mm] can have: orientations are of unit
-/// length, positions in the box, everything finite.
-Result<TrajectoryFrame> decode(const RecordedFrame& frame, double box_side);
+/// The frame without angular velocities, which files lack. Fails, naming the rod, if a number is none that a rod in
+/// a box of `box_side` [mm] can have: orientations are of unit length, positions in the box, everything finite.
+Result<Snapshot> decode(const RecordedFrame& frame, double box_side);
 
 }  // namespace shaken::run

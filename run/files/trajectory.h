@@ -35,7 +35,7 @@ class TrajectoryReader {
   static Result<TrajectoryReader> open(const std::filesystem::path& file);
   const TrajectoryHeader& header() const { return frames_->header(); }
   std::size_t n_frames() const { return frames_->n_frames(); }
-  Result<TrajectoryFrame> frame(std::size_t index) const;
+  Result<Snapshot> frame(std::size_t index) const;
   const RecordedFrames& recorded() const { return *frames_; }
   const std::filesystem::path& path() const { return path_; }
 

@@ -109,13 +109,13 @@ Result<TrajectoryReader> TrajectoryReader::open(const std::filesystem::path& fil
   }
 }
 
-Result<TrajectoryFrame> TrajectoryReader::frame(std::size_t index) const {
+Result<Snapshot> TrajectoryReader::frame(std::size_t index) const {
   if (index >= n_frames()) {
     return Error{path_.string() + " has no frame " + std::to_string(index) + "; it has " + std::to_string(n_frames())};
   }
   const Result<RecordedFrame> recorded = frames_->frame(index);
   if (!recorded) return recorded.error();
-  Result<TrajectoryFrame> frame = decode(*recorded, header().cell.box_side);
+  Result<Snapshot> frame = decode(*recorded, header().cell.box_side);
   if (!frame) return Error{path_.string() + ": frame " + std::to_string(index) + ": " + frame.error().message};
   return frame;
 }

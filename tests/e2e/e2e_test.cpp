@@ -271,7 +271,7 @@ TEST(EndToEnd, SweepIsRunStreamedTabledPlottedAndDrawn) {
       const Tick tick = message.at("tick");
       ASSERT_TRUE(&message != &messages.back() || index_of.contains(tick)) << "the last state is recorded, and sent";
       if (!index_of.contains(tick)) continue;
-      const run::TrajectoryFrame frame = *reader->frame(index_of[tick]);
+      const Snapshot frame = *reader->frame(index_of[tick]);
       const double side = message.at("box_side_mm");
       EXPECT_EQ(side, 12.0);
       ASSERT_EQ(message.at("x").size(), frame.position.size());

@@ -618,7 +618,7 @@ TEST(Run, LiveFramesComeAtTheirOwnRateAndAreThoseOfTheTrajectory) {
 
   const auto trajectory = TrajectoryReader::open(RunDirectory{options.directory}.trajectory());
   ASSERT_TRUE(trajectory);
-  std::map<Tick, TrajectoryFrame> recorded;
+  std::map<Tick, Snapshot> recorded;
   for (std::size_t i = 0; i < trajectory->n_frames(); ++i) {
     const auto frame = trajectory->frame(i);
     recorded[frame->tick] = *frame;
@@ -633,7 +633,7 @@ TEST(Run, LiveFramesComeAtTheirOwnRateAndAreThoseOfTheTrajectory) {
       ++n_between;
       continue;
     }
-    const TrajectoryFrame& frame = recorded[frames[i].tick];
+    const Snapshot& frame = recorded[frames[i].tick];
     const auto rods = proto::decode_chunk(frames[i]);
     ASSERT_EQ(rods.size(), frame.position.size());
     for (std::size_t r = 0; r < rods.size(); ++r) {

@@ -49,7 +49,7 @@ Snapshot snapshot(Tick tick) {
   return s;
 }
 
-void expect_same(const TrajectoryFrame& frame, const Snapshot& s) {
+void expect_same(const Snapshot& frame, const Snapshot& s) {
   EXPECT_EQ(frame.tick, s.tick);
   EXPECT_EQ(frame.time, s.time);
   ASSERT_EQ(frame.position.size(), s.n_rods());
