@@ -43,7 +43,8 @@ ALLOWED = {
                         "analysis"],
     "render/sources.h": ["render", "run/files", "scene/run_plan.h"],
     # what comes from the bus is held against what a scene allows
-    "render/sources.cpp": ["render", "base/files.h", "base/text.h", "base/keys", "run/files", "proto", "scene", "analysis"],
+    "render/sources.cpp": ["render", "base/files.h", "base/text.h", "base/keys", "run/files", "proto", "scene",
+                           "analysis"],
     # the settings of a sweep, with their units
     "render/headline.cpp": ["render", "base/keys", "scene/fields.h"],
     # the defaults of the director field whose defects are drawn

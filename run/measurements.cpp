@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "run/measurements.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <limits>
 #include <regex>
