@@ -316,7 +316,7 @@ std::vector<std::vector<Field>> groups() {
 }
 // clang-format on
 
-std::vector<Field> rows() {
+std::vector<Field> rows_of_scenes() {
   std::vector<Field> rows;
   for (std::vector<Field>& group : groups()) std::ranges::move(group, std::back_inserter(rows));
   return rows;
@@ -325,7 +325,7 @@ std::vector<Field> rows() {
 }  // namespace
 
 const keys::Table<RunPlan>& fields() {
-  static const keys::Table<RunPlan> table(rows());
+  static const keys::Table<RunPlan> table(rows_of_scenes());
   return table;
 }
 

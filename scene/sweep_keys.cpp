@@ -22,7 +22,7 @@ Row name_of(const std::string& key, auto access, const std::string& expected, co
                access);
 }
 
-std::vector<Row> rows() {
+std::vector<Row> rows_of_sweeps() {
   return {
       derived(text("name", at<&Sweep::name>, "Name of the sweep."), "that of the file"),
       plain({.path = "executor",
@@ -68,7 +68,7 @@ std::vector<Row> rows() {
 }  // namespace
 
 const keys::Table<Sweep>& sweep_keys() {
-  static const keys::Table<Sweep> table(rows());
+  static const keys::Table<Sweep> table(rows_of_sweeps());
   return table;
 }
 

@@ -265,7 +265,7 @@ std::string allowed(const Rule& rule) {
     const bool is_last = i + 1 == rule.names.size();
     names += fmt::format("{}`\"{}\"`", i == 0 ? "" : is_last ? " or " : ", ", rule.names[i]);
   }
-  const std::string whole = fmt::format("whole, {:.16g} to {:.16g}", rule.low, rule.high);
+  std::string whole = fmt::format("whole, {:.16g} to {:.16g}", rule.low, rule.high);
   switch (rule.form) {
     case Form::kQuantity:
       return names + (names.empty() ? "" : " or ") + range_of(rule);
