@@ -11,7 +11,7 @@
 
 namespace shaken {
 
-/// Where the rods of a run are, and of which kinds they are: what stays the same from frame to frame, and is needed to
+/// Where the rods of a run are, and of which species: what stays the same from frame to frame, and is needed to
 /// draw or measure one. A System says how a scene wants it; this is what came of it, and what files and messages carry.
 struct Cell {
   double box_side = 0;  ///< of the square box, periodic in x and y [mm]

@@ -47,7 +47,7 @@ struct Rule {
   bool or_zero = false;    ///< 0 is allowed too, though it is below `low`
   bool only_even = false;  ///< of sizes: odd numbers are not allowed
   std::vector<std::string> names = {};
-  std::string pattern = {};           ///< regular expression that a text fits as a whole; empty: any text
+  std::string pattern = {};           ///< that a text fits as a whole, a POSIX extended and an ECMAScript expression
   std::size_t longest = 0;            ///< bytes of a text with a pattern
   std::size_t most = 0;               ///< texts in a list; 0: any number
   bool may_look_like_number = false;  ///< of texts: the quotes of one that has only digits may be missing

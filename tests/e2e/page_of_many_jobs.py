@@ -72,17 +72,19 @@ class Daemon:
         self.loads = []    # times at which the jobs were asked for
         self.since = []    # what results were asked for
         self.is_there = True
+        self.old_has_joined = False  # the last job turns out to have ended long ago
         self.is_empty = False
 
     def job(self, k):
-        is_done = k < self.n_done
+        is_old = self.old_has_joined and k == N_JOBS - 1
+        is_done = k < self.n_done or is_old
         point = k // 2
         parameters = {"rods.area_fraction": 0.4 + 0.02 * (point % 25), "rods.length": 2.5 + 0.5 * (point // 25 % 10),
                       "box.gap": 1.2 + 0.1 * (point // 250)}
         return {"id": f"{(k * 0x9e3779b97f4a7c15) % 2**64:016x}", "sweep": "s1",
                 "state": "done" if is_done else "running" if k == self.n_done else "queued", "reason": "",
                 "label": " ".join(f"{key}={value:.4g}" for key, value in parameters.items()), "parameters": parameters,
-                "replica": k % 2, "finished_utime": 1_000_000 + k if is_done else 0}
+                "replica": k % 2, "finished_utime": 5 if is_old else 1_000_000 + k if is_done else 0}
 
     def row(self, k):
         job = self.job(k)
@@ -214,6 +216,12 @@ def use(page, address, daemon):
     eventually(lambda: all("queued" in text for text in shown()) and "of" in count(), "so does a state")
     Select(find("#jobs-state")).select_by_value("")
 
+    daemon.old_has_joined = True
+    find("#jobs-search").send_keys(daemon.job(N_JOBS - 1)["id"])
+    eventually(lambda: len(shown()) == 1 and "0.88" in shown()[0].split("fraction")[0],
+               "a job that joins after its end has its result, too")
+    find("#jobs-search").clear()
+    find("#jobs-search").send_keys(" ")
     find("#sort-value").click()
     find("#sort-value").click()
     eventually(lambda: "0.88" in shown()[0] and find("th:nth-child(3)").get_attribute("aria-sort") == "descending",

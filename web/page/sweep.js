@@ -23,7 +23,7 @@ export class SweepPanel {
   }
 
   forget() {
-    Object.assign(this, {jobs: [], rows: new Map(), newest: 0, seen: ""});
+    Object.assign(this, {jobs: [], rows: new Map(), seen: ""});
   }
 
   choose(id, run) {
@@ -72,21 +72,32 @@ export class SweepPanel {
       byId("map-note").textContent = isTooLarge ?
         `A sweep of more than ${kMostResults} jobs has no phase diagram here: \`shaken plot ${id}\` draws it.` : "";
       if (!isTooLarge) {
-        const since = this.rows.size ? this.newest : 0;
-        const {rows} = await ask(`/v1/results?sweep=${id}&since=${since}`);
+        await this.loadResults(id, jobs);
         if (id !== this.id) return;
-        for (const row of rows) this.rows.set(row.job, {...row, values: leaves(row.summary)});
-        this.newest = Math.max(0, ...jobs.map((job) => job.finished_utime ?? 0));
-      }
-      const now = new Map(jobs.map((job) => [job.id, job]));
-      for (const [job, row] of this.rows) {
-        if (now.has(job)) row.state = now.get(job).state;
-        else this.rows.delete(job);
       }
       this.draw();
     } catch (problem) {
       this.seen = "";  // asked again at the next change
       complain(problem.message);
+    }
+  }
+
+  /** Results of the jobs that have ended, and were not asked for since; a job may join a sweep long after its end. */
+  async loadResults(id, jobs) {
+    const endOf = new Map(jobs.map((job) => [job.id, job.finished_utime]));
+    const missing = jobs.filter((job) => job.finished_utime > 0 && this.rows.get(job.id)?.end !== job.finished_utime);
+    if (!this.rows.size || missing.length) {
+      const since = this.rows.size ? Math.min(...missing.map((job) => job.finished_utime)) : 0;
+      const {rows} = await ask(`/v1/results?sweep=${id}&since=${since}`);
+      if (id !== this.id) return;
+      for (const row of rows) this.rows.set(row.job, {...row, end: endOf.get(row.job), values: leaves(row.summary)});
+    }
+    for (const job of this.rows.keys()) if (!endOf.has(job)) this.rows.delete(job);
+    for (const job of jobs) {
+      const row = this.rows.get(job.id);
+      const isOld = !row || (row.end > 0 && job.finished_utime === 0);  // it runs anew
+      if (isOld) this.rows.set(job.id, {job: job.id, state: job.state, parameters: job.parameters, end: 0, values: {}});
+      else row.state = job.state;
     }
   }
 
