@@ -8,16 +8,20 @@
 
 namespace shaken::render {
 
-GLuint link_program(const char* vertex_source, const char* fragment_source, std::string& message,
-                    const std::string& defines) {
-  // They come after the line that names the version.
-  std::string fragment = fragment_source;
+ProgramVariants::ProgramVariants(ShaderText vertex, ShaderText fragment) {
+  for (const char* piece : vertex) vertex_ += piece;
+  for (const char* piece : fragment) fragment_ += piece;
+}
+
+Result<GLuint> ProgramVariants::with(const std::string& defines) {
+  if (const auto made = made_.find(defines); made != made_.end()) return made->second;
+  std::string fragment = fragment_;
   fragment.insert(fragment.find('\n') + 1, defines);
   const GLuint program = glCreateProgram();
-  for (const auto& [species, source] :
-       {std::pair{GL_VERTEX_SHADER, vertex_source}, std::pair{GL_FRAGMENT_SHADER, fragment.c_str()}}) {
-    const GLuint shader = glCreateShader(static_cast<GLenum>(species));
-    glShaderSource(shader, 1, &source, nullptr);
+  for (const auto& [kind, text] :
+       {std::pair{GL_VERTEX_SHADER, vertex_.c_str()}, std::pair{GL_FRAGMENT_SHADER, fragment.c_str()}}) {
+    const GLuint shader = glCreateShader(static_cast<GLenum>(kind));
+    glShaderSource(shader, 1, &text, nullptr);
     glCompileShader(shader);
     glAttachShader(program, shader);
     glDeleteShader(shader);
@@ -25,27 +29,11 @@ GLuint link_program(const char* vertex_source, const char* fragment_source, std:
   glLinkProgram(program);
   GLint linked = GL_FALSE;
   glGetProgramiv(program, GL_LINK_STATUS, &linked);
-  if (linked) return program;
+  if (linked) return made_[defines] = program;
   std::array<char, 2048> text{};
   glGetProgramInfoLog(program, static_cast<GLsizei>(text.size()), nullptr, text.data());
-  message = text.data();
   glDeleteProgram(program);
-  return 0;
-}
-
-Result<void> relight(GLuint& program, std::string& made_for, const char* vertex_source, const char* fragment_source,
-                     const Light& light) {
-  std::string defines;
-  for (const auto& [name, is_on] :
-       {std::pair{"GLOSS", light.gloss}, {"OCCLUSION", light.occlusion}, {"SMOOTH", light.smooth}}) {
-    if (is_on) defines.append("#define ").append(name).append("\n");
-  }
-  if (program != 0 && made_for == defines) return {};
-  glDeleteProgram(program);
-  std::string message;
-  program = link_program(vertex_source, fragment_source, message, defines);
-  made_for = defines;
-  return program != 0 ? Result<void>() : Error{"the rasteriser refuses a shader: " + message};
+  return Error{std::string("the rasteriser refuses a shader: ") + text.data()};
 }
 
 namespace {

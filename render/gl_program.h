@@ -2,25 +2,31 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "base/core/result.h"
 #include "render/gl.h"
 #include "render/image.h"
-#include "render/style.h"
 
 namespace shaken::render {
 
-/// Compiles and links; 0 on failure, with the compiler's words in `message`. `defines`: lines after the first of the
-/// fragment shader.
-GLuint link_program(const char* vertex_source, const char* fragment_source, std::string& message,
-                    const std::string& defines = "");
+/// The pieces of a shader's text, the first of which begins with the line that names the version.
+using ShaderText = std::initializer_list<const char*>;
 
-/// A program that shades rods in a light, in place of `program` if that is of another. `made_for` keeps its defines.
-/// An error has the compiler's words.
-Result<void> relight(GLuint& program, std::string& made_for, const char* vertex_source, const char* fragment_source,
-                     const Light& light);
+/// One program in as many variants as are asked for. The programs go with their context.
+class ProgramVariants {
+ public:
+  ProgramVariants(ShaderText vertex, ShaderText fragment);
+  /// The one with `defines`, lines of the fragment shader after its first; an error has the compiler's words.
+  Result<GLuint> with(const std::string& defines);
+
+ private:
+  std::string vertex_, fragment_;
+  std::map<std::string, GLuint> made_;
+};
 
 /// Averages the samples of each pixel of RGBA rows from bottom to top, `samples` (1 to 3) times as wide and as high,
 /// and turns the rows round.

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "render/camera.h"
 #include "render/colourings.h"
 #include "render/curve.h"
-#include "render/gap_pass.h"
 #include "render/inset.h"
 #include "render/legend.h"
 #include "render/marks.h"
@@ -144,16 +144,16 @@ void draw_species(const Canvas& canvas, const Layout& layout, const RodPicture& 
 void draw_scale_bar(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style,
                     const Palette& colours) {
   const double u = layout.unit;
-  const bool is_gap = style.view == ViewPoint::kGap;
-  const GapCamera camera = gap_camera(picture, style, 1);
-  const double scale = is_gap ? layout.stage_height / (2 * camera.tangent.y() * camera.front)
-                              : layout.box_side / view_of(picture, style).side;  // pixels per mm
-  const double length = round_length(layout.scale_bar.width * (is_gap ? 0.5 : 0.6) / scale);
+  const bool is_top = style.view == ViewPoint::kTop;
+  const int height = is_top ? layout.box_side : layout.stage_height;
+  const double aspect = is_top ? 1 : static_cast<double>(layout.stage_width) / height;
+  const double scale = 1 / camera_of(picture, style, aspect).pixel(height);  // pixels per mm
+  const double length = round_length(layout.scale_bar.width * (is_top ? 0.6 : 0.5) / scale);
   const double bottom = layout.scale_bar.bottom();
+  const char* const words = is_top ? "" : style.view == ViewPoint::kGap ? " at the opening" : " in the middle";
   canvas.colour(colours.ink);
   canvas.fill({layout.scale_bar.x, bottom - 5 * u, length * scale, 5 * u});
-  canvas.text(layout.scale_bar.x, bottom - 11 * u, fmt::format("{:g} mm{}", length, is_gap ? " at the opening" : ""),
-              14 * u);
+  canvas.text(layout.scale_bar.x, bottom - 11 * u, fmt::format("{:g} mm{}", length, words), 14 * u);
   const std::string speed = playback_text(picture.playback);
   if (speed.empty()) return;
   // The sign of playing before the words.

@@ -24,7 +24,7 @@ Layout layout_for(const RodPicture& picture, const PictureStyle& style) {
                           .label = !picture.label.empty(),
                           .species = picture.cell.species.size() > 1,
                           .scale = has_scale(picture, style)};
-  return style.view == ViewPoint::kGap ? gap_layout_of(style, contents) : layout_of(style, contents);
+  return style.view != ViewPoint::kTop ? stage_layout_of(style, contents) : layout_of(style, contents);
 }
 
 /// Of a picture and those beside it, the one of panel `i`.
@@ -47,8 +47,8 @@ PictureStyle drawable(PictureStyle style, const RodPicture& picture) {
 
 Result<void> check(const PictureStyle& style, const RodPicture& picture) {
   if (auto done = render::check(style); !done) return done.error();
-  if (!picture.beside.empty() && style.view == ViewPoint::kGap) {
-    return Error{"several runs are drawn beside each other from above only, not with a look into the gap"};
+  if (!picture.beside.empty() && style.view != ViewPoint::kTop) {
+    return Error{"several runs are drawn beside each other from above only, not in perspective"};
   }
   constexpr int kLeastSide = 40;  // [pixels]
   if (!picture.beside.empty() && panel_grid(style, 1 + picture.beside.size()).panels.front().box_side < kLeastSide) {
@@ -82,13 +82,8 @@ template Result<DeepImage> Painter::paint(const RodPicture& picture, const Pictu
 template <class Channel>
 Result<void> Painter::paint_one(Sheet<Channel>& sheet, const RodPicture& picture, const PictureStyle& style) {
   const Layout layout = layout_for(picture, style);
-  if (style.view == ViewPoint::kGap) {
-    if (!gap_) {
-      Result<GapPass> made = GapPass::create();
-      if (!made) return made.error();
-      gap_.emplace(std::move(*made));
-    }
-    Result<ImageOf<Channel>> stage = gap_->draw<Channel>(picture, style, layout.stage_width, layout.stage_height);
+  if (style.view != ViewPoint::kTop) {
+    Result<ImageOf<Channel>> stage = rods_.draw<Channel>(picture, style, layout.stage_width, layout.stage_height);
     if (!stage) return stage.error();
     sheet.paste(std::move(*stage), 0, 0, 1);
   } else if (auto done = paint_box(sheet, layout, picture, style); !done) {
@@ -103,7 +98,7 @@ Result<void> Painter::paint_box(Sheet<Channel>& sheet, const Layout& layout, con
                                 const PictureStyle& style) {
   if (style.rods < 1) draw_ground(sheet.under(), layout, picture, style);
   if (style.rods <= 0) return {};
-  Result<ImageOf<Channel>> rods = rods_.draw<Channel>(picture, style, layout.box_side);
+  Result<ImageOf<Channel>> rods = rods_.draw<Channel>(picture, style, layout.box_side, layout.box_side);
   if (!rods) return rods.error();
   sheet.paste(std::move(*rods), layout.box_x, layout.box_y, style.rods);
   return {};

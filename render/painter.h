@@ -2,12 +2,10 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <utility>
 
 #include "base/core/result.h"
 #include "render/canvas.h"
-#include "render/gap_pass.h"
 #include "render/image.h"
 #include "render/picture.h"
 #include "render/picture_layout.h"
@@ -37,7 +35,6 @@ class Painter {
   Result<void> paint_box(Sheet<Channel>& sheet, const Layout& layout, const RodPicture& picture,
                          const PictureStyle& style);
   RodsPass rods_;
-  std::optional<GapPass> gap_;  ///< made when it is first needed
 };
 
 /// The same picture of lines and areas, as ".svg" or ".pdf": rods are their outlines without light and shadow. The file

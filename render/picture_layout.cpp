@@ -81,10 +81,10 @@ void fill_strip(Layout& layout, Rect panel, const PictureStyle& style, const Con
 
 void place_inset(Layout& layout, const PictureStyle& style) {
   const double u = layout.unit, edge = std::round(10 * u);
-  const bool is_gap = layout.box_side == 0;
-  const double width = is_gap ? layout.stage_width : layout.box_side,
-               height = is_gap ? layout.stage_height : layout.box_side;
-  const double right = is_gap ? width : layout.box_x + width, top = is_gap ? 0 : layout.box_y;
+  const bool is_stage = layout.box_side == 0;
+  const double width = is_stage ? layout.stage_width : layout.box_side,
+               height = is_stage ? layout.stage_height : layout.box_side;
+  const double right = is_stage ? width : layout.box_x + width, top = is_stage ? 0 : layout.box_y;
   // Large enough to be read, and not so large that it hides the rods.
   const double w = std::max(150 * u, std::min(0.38 * height, 300 * u)), h = std::max(112 * u, 0.66 * w);
   if (style.inset == Inset::kNone || w > 0.75 * width || h > 0.75 * height) return;
@@ -127,7 +127,7 @@ Layout layout_of(const PictureStyle& style, const Contents& contents) {
   return layout;
 }
 
-Layout gap_layout_of(const PictureStyle& style, const Contents& contents) {
+Layout stage_layout_of(const PictureStyle& style, const Contents& contents) {
   Layout layout;
   layout.unit = std::max(std::min(style.width, style.height) / 720.0, 0.7);
   const double u = layout.unit, margin = std::round(24 * u);

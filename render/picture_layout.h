@@ -12,7 +12,8 @@ namespace shaken::render {
 struct Layout {
   double unit = 1;  ///< the size of everything that is not to scale: 1 in a picture 720 pixels high
   int box_x = 0, box_y = 0, box_side = 0;  ///< the square of the rods [pixels]
-  int stage_width = 0, stage_height = 0;   ///< of a look into the gap, from the upper left corner; there is then no box
+  int stage_width = 0,
+      stage_height = 0;  ///< of a view in perspective, from the upper left corner; there is then no box
   Rect label, numbers, history, legend, species, key, scale_bar;
   Rect inset;  ///< on the rods, in their upper right corner; without width also where there is no room for it
 };
@@ -26,10 +27,10 @@ struct Contents {
 };
 Layout layout_of(const PictureStyle& style, const Contents& contents);
 
-/// Gives the inset its place, if the style asks for one: on the box, or on the stage of a look into the gap.
+/// Gives the inset its place, if the style asks for one: on the box, or on the stage.
 void place_inset(Layout& layout, const PictureStyle& style);
 
-/// Of a look into the gap: the stage over the whole width, and a strip below it with all that is written.
-Layout gap_layout_of(const PictureStyle& style, const Contents& contents);
+/// Of a view in perspective: the stage over the whole width, and a strip below it with all that is written.
+Layout stage_layout_of(const PictureStyle& style, const Contents& contents);
 
 }  // namespace shaken::render

@@ -2,6 +2,8 @@
 #include "render/rods_pass.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,38 +19,19 @@
 namespace shaken::render {
 namespace {
 
-/// A batch, with what the view from above adds to it.
-struct SeenFromAbove : RodBatch {
-  using RodBatch::RodBatch;
-  double margin = 1.1 * thick;  ///< of the shadow
-};
+/// Where light comes from: over the left shoulder of who looks.
+Vec3 light_in(const Camera& camera) { return -0.42 * camera.right + 0.50 * camera.up - 0.757 * camera.forward; }
+/// Of shadows, in greatest radii.
+constexpr double kMargin = 1.1;
 
-/// All rods of one species, and their periodic images, of which a part may lie in the view.
-SeenFromAbove batch_of(const RodPicture& picture, std::size_t species, const View& view, const PictureStyle& style) {
-  SeenFromAbove batch(picture.cell.species[species]);
-  const std::size_t n = picture.count(species);
-  batch.rods.reserve(n + n / 4);
-  const Colouring& colouring = colouring_of(picture, style);
-  const Vec2 range = range_of(colouring, style);
-  for (std::size_t i = 0; i < picture.n_rods(); ++i) {
-    if (picture.cell.species_of(i) != species) continue;
-    const Vec3& x = picture.position[i];
-    const Colour colour = rod_colour(picture, i, colouring, range);
-    for_images(view, x.head<2>(), batch.half + 2 * batch.margin, [&](const Vec2& at) {
-      batch.rods.emplace_back(Vec3(at.x(), at.y(), x.z()), picture.director[i], colour);
-    });
-  }
-  return batch;
-}
-
-}  // namespace
-
-Result<void> check_drawable(const RodPicture& picture, int side) {
-  if (side < 1 || side > RodsPass::kMaxSide) {
-    return Error{"the box would be " + std::to_string(side) + " pixels wide; possible are 1 to " +
-                 std::to_string(RodsPass::kMaxSide)};
+/// What keeps a picture from being drawn, if anything.
+Result<void> check_drawable(const RodPicture& picture, const PictureStyle& style, int width, int height) {
+  if (std::min(width, height) < 1 || std::max(width, height) > RodsPass::kMaxSide) {
+    return Error{"the rods would be " + std::to_string(width) + " x " + std::to_string(height) +
+                 " pixels; possible are 1 to " + std::to_string(RodsPass::kMaxSide) + " each way"};
   }
   if (!(picture.cell.box_side > 0)) return Error{"the box has no size"};
+  if (style.view != ViewPoint::kTop && !(picture.cell.gap > 0)) return Error{"there is no gap to look into"};
   if (picture.director.size() != picture.position.size()) return Error{"as many directors as positions are needed"};
   for (const BeadRow& beads : picture.cell.species) {
     if (beads.offset.empty() || beads.offset.size() != beads.radius.size() ||
@@ -66,11 +49,98 @@ Result<void> check_drawable(const RodPicture& picture, int side) {
   return {};
 }
 
+/// Whether one sees where the floor ends: at side walls, or around a box that is not repeated.
+bool has_end(const RodPicture& picture, const Camera& camera) {
+  return picture.cell.walls || (camera.period == 0 && !camera.is_parallel);
+}
+
+/// All rods of one species, and their periodic images, of which a part may be seen; relative to the eye.
+RodBatch seen_rods(const RodPicture& picture, std::size_t species, const PictureStyle& style, const Camera& camera) {
+  const BeadRow& beads = picture.cell.species[species];
+  RodBatch batch(beads);
+  const double around = camera.is_parallel ? batch.half + 2 * kMargin * batch.thick : batch.half;
+  const std::size_t n = picture.count(species);
+  batch.rods.reserve(n + n / 4);
+  const Colouring& colouring = colouring_of(picture, style);
+  const Vec2 range = range_of(colouring, style);
+  for (std::size_t i = 0; i < picture.n_rods(); ++i) {
+    if (picture.cell.species_of(i) != species) continue;
+    const Vec3 &x = picture.position[i], &n_rod = picture.director[i];
+    double towards = 0;  // how far the rod reaches towards the eye
+    for (std::size_t k = 0; k < beads.offset.size(); ++k) {
+      towards = std::max(towards, beads.radius[k] - beads.offset[k] * n_rod.dot(camera.forward));
+    }
+    const Colour colour = rod_colour(picture, i, colouring, range);
+    for_images(camera.low, camera.high, camera.period, x.head<2>(), around, [&](const Vec2& at) {
+      const Vec3 place(at.x(), at.y(), x.z()), seen = camera.seen(place);
+      if (!camera.is_parallel) {
+        const Vec2 edge = camera.half * (seen.z() + batch.half) + Vec2(2, 2) * batch.half;
+        if (seen.z() - towards < camera.nearest || seen.z() - batch.half > camera.farthest) return;
+        if (std::abs(seen.x()) > edge.x() || std::abs(seen.y()) > edge.y()) return;
+      }
+      batch.rods.emplace_back(place - camera.eye, n_rod, colour);
+    });
+  }
+  return batch;
+}
+
+/// Hands over what all programs may ask for; `program` is then in use.
+void set_scene(GLuint program, const RodPicture& picture, const PictureStyle& style, const Camera& camera, int height) {
+  glUseProgram(program);
+  const auto at = [program](const char* name) { return glGetUniformLocation(program, name); };
+  const auto number = [&](const char* name, double value) { glUniform1f(at(name), static_cast<float>(value)); };
+  const auto pair = [&](const char* name, double x, double y) {
+    glUniform2f(at(name), static_cast<float>(x), static_cast<float>(y));
+  };
+  const auto three = [&](const char* name, const auto& of) {
+    glUniform3f(at(name), static_cast<float>(of[0]), static_cast<float>(of[1]), static_cast<float>(of[2]));
+  };
+  std::array<float, 9> axes{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    axes[i] = static_cast<float>(camera.right[k]);
+    axes[3 + i] = static_cast<float>(camera.up[k]);
+    axes[6 + i] = static_cast<float>(camera.forward[k]);
+  }
+  glUniformMatrix3fv(at("axes"), 1, GL_TRUE, axes.data());
+  pair("half_view", camera.half.x(), camera.half.y());
+  glUniform1i(at("is_parallel"), camera.is_parallel ? 1 : 0);
+  three("forward", camera.forward);
+  three("light", light_in(camera));
+  const double first = camera.is_cut ? 0.5 * camera.nearest : camera.nearest;
+  pair("depths", first, camera.farthest);
+  number("nearest", camera.is_parallel ? -1e9 : camera.nearest);
+  pair("fade", camera.nearest, camera.farthest);
+
+  const Cell& cell = picture.cell;
+  const double base = picture.base - camera.eye.z();
+  pair("heights", camera.heights.x() - camera.eye.z(), camera.heights.y() - camera.eye.z());
+  number("base", base);
+  pair("plates", base, base + cell.gap);
+  glUniform1i(at("has_lid"), picture.has_lid ? 1 : 0);
+  number("cut", camera.is_cut ? camera.nearest : 0);
+  number("grid", camera.is_parallel ? 0 : 5);
+  number("plate", camera.fades || camera.is_parallel ? 1e6 : cell.box_side);
+  number("line", std::max(1.0, height / 480.0) * camera.pixel(height));
+  const SideWalls walls = cell.walls.value_or(SideWalls{Arena::kSquare, cell.box_side, 0});
+  glUniform1i(at("arena"), walls.arena == Arena::kDisc ? 0 : walls.arena == Arena::kSquare ? 1 : 2);
+  pair("middle", cell.box_side / 2 - camera.eye.x(), cell.box_side / 2 - camera.eye.y());
+  number("size", walls.size);
+  number("inner", walls.inner);
+  const Palette colours = palette(style.theme);
+  three("page", colours.page);
+  three("floor_colour", colours.floor);
+  three("cut_colour", colours.walls);
+  three("outside", cell.walls ? colours.walls : colours.page);
+  three("ink", colours.ink);
+}
+
+}  // namespace
+
 struct RodsPass::Programs {
-  GLuint body = 0;
-  GLuint shadow = 0;
-  GLuint walls = 0;
-  std::string body_is_for;  ///< what light
+  ProgramVariants plates{{shaders::kCamera, shaders::kStage}, {shaders::kFloor, shaders::kPlates}};
+  ProgramVariants shadow{{shaders::kCamera, shaders::kShadowQuad}, {shaders::kFloor, shaders::kShadow}};
+  ProgramVariants body{{shaders::kCamera, shaders::kQuad}, {shaders::kFloor, shaders::kBody}};
   RodBuffer rods;
 };
 
@@ -84,90 +154,75 @@ Result<RodsPass> RodsPass::create() {
   Result<GlContext> context = GlContext::create();
   if (!context) return context.error();
   if (auto done = context->bind(1, 1); !done) return done.error();
-  auto programs = std::make_unique<Programs>();
-  std::string message;
-  programs->shadow = link_program(shaders::kQuad, shaders::kShadow, message);
-  programs->walls = link_program(shaders::kView, shaders::kWalls, message);
-  if (!programs->shadow || !programs->walls) return Error{"the rasteriser refuses a shader: " + message};
-  return RodsPass(std::move(*context), std::move(programs));
+  return RodsPass(std::move(*context), std::make_unique<Programs>());
 }
 
 template <class Channel>
-Result<ImageOf<Channel>> RodsPass::draw(const RodPicture& picture, const PictureStyle& style, int side) {
-  if (auto done = check_drawable(picture, side); !done) return done.error();
-  if (auto done = context_.bind<Channel>(side * style.light.samples, side * style.light.samples); !done)
-    return done.error();
-
-  if (auto done = relight(programs_->body, programs_->body_is_for, shaders::kQuad, shaders::kBody, style.light);
-      !done) {
-    return done.error();
+Result<ImageOf<Channel>> RodsPass::draw(const RodPicture& picture, const PictureStyle& style, int width, int height) {
+  if (auto done = check_drawable(picture, style, width, height); !done) return done.error();
+  const Light& light = style.light;
+  if (auto done = context_.bind<Channel>(width * light.samples, height * light.samples); !done) return done.error();
+  const Camera camera = camera_of(picture, style, static_cast<double>(width) / height);
+  std::string seen, lit;  // what has to be worked out of it
+  if (camera.fades) seen += "#define FADES\n";
+  if (has_end(picture, camera)) seen += "#define ENDS\n";
+  for (const auto& [name, is_on] :
+       {std::pair{"GLOSS", light.gloss}, {"OCCLUSION", light.occlusion}, {"SMOOTH", light.smooth}}) {
+    if (is_on) lit.append("#define ").append(name).append("\n");
   }
-  const View view = view_of(picture, style);
-  std::vector<SeenFromAbove> batches;
-  double thick = 0;
+  const Result<GLuint> plates = programs_->plates.with(seen), shadow = programs_->shadow.with(seen),
+                       body = programs_->body.with(seen + lit);
+  for (const Result<GLuint>* program : {&plates, &shadow, &body}) {
+    if (!*program) return program->error();
+  }
+  std::vector<RodBatch> batches;
   for (std::size_t species = 0; species < picture.cell.species.size(); ++species) {
-    batches.push_back(batch_of(picture, species, view, style));
-    thick = std::max(thick, batches.back().thick);
+    batches.push_back(seen_rods(picture, species, style, camera));
   }
-  const Palette colours = palette(style.theme);
-  const auto set_colour = [](GLint at, const Colour& colour) {
-    glUniform3f(at, static_cast<float>(colour[0]), static_cast<float>(colour[1]), static_cast<float>(colour[2]));
-  };
   programs_->rods.bind();
-  const auto draw_with = [&](GLuint program, const SeenFromAbove& batch, double margin, const Vec2& shift) {
-    const auto at = [&](const char* name) { return glGetUniformLocation(program, name); };
-    glUseProgram(program);
-    glUniform1f(at("view_side"), static_cast<float>(view.side));
-    glUniform1f(at("margin"), static_cast<float>(margin));
-    glUniform2f(at("shift"), static_cast<float>(shift.x()), static_cast<float>(shift.y()));
-    // A rod may stand up by as much as the lid lets it; a little more than that is spanned on either side.
-    glUniform1f(at("low"), static_cast<float>(-thick));
-    glUniform1f(at("high"), static_cast<float>(std::max(picture.cell.gap, 2 * thick) + thick));
-    set_colour(at("floor_colour"), colours.floor);
-    batch.draw(program);
+  const auto draw_with = [&](GLuint program) {
+    for (const RodBatch& batch : batches) {
+      if (batch.rods.empty()) continue;
+      set_scene(program, picture, style, camera, height);
+      const auto at = [&](const char* name) { return glGetUniformLocation(program, name); };
+      const Vec2 shift = -0.48 * batch.thick * light_in(camera).head<2>();
+      glUniform1f(at("margin"), static_cast<float>(kMargin * batch.thick));
+      glUniform2f(at("shift"), static_cast<float>(shift.x()), static_cast<float>(shift.y()));
+      batch.draw(program);
+    }
   };
-  const auto draw_walls = [&](const SideWalls& walls) {
-    const GLuint program = programs_->walls;
-    const auto at = [&](const char* name) { return glGetUniformLocation(program, name); };
-    glUseProgram(program);
-    glUniform1i(at("arena"), walls.arena == Arena::kDisc ? 0 : walls.arena == Arena::kSquare ? 1 : 2);
-    glUniform1f(at("size"), static_cast<float>(walls.size));
-    glUniform1f(at("inner"), static_cast<float>(walls.inner));
-    glUniform1f(at("box_side"), static_cast<float>(picture.cell.box_side));
-    glUniform1f(at("view_side"), static_cast<float>(view.side));
-    glUniform2f(at("view_corner"), static_cast<float>(view.corner.x()), static_cast<float>(view.corner.y()));
-    glUniform1f(at("line"), static_cast<float>(std::max(1.0, side / 480.0) * view.side / side));
-    set_colour(at("wall_colour"), colours.walls);
-    set_colour(at("line_colour"), colours.ink);
-    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-  };
-
-  glClearColor(static_cast<float>(colours.floor[0]), static_cast<float>(colours.floor[1]),
-               static_cast<float>(colours.floor[2]), 1);
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-
-  // Shadows do not add up: the darkest counts, so their order does not matter.
-  glDisable(GL_DEPTH_TEST);
-  glEnable(GL_BLEND);
-  glBlendEquation(GL_MIN);
-  for (const SeenFromAbove& batch : batches) {
-    if (!style.light.shadows) break;
-    draw_with(programs_->shadow, batch, batch.margin, Vec2(0.20, -0.24) * batch.thick);
-  }
-
-  glDisable(GL_BLEND);
-  if (picture.cell.walls) draw_walls(*picture.cell.walls);
   glEnable(GL_DEPTH_TEST);
-  for (const SeenFromAbove& batch : batches) draw_with(programs_->body, batch, 0, Vec2(0, 0));
+  glDepthFunc(GL_ALWAYS);
+  glDisable(GL_BLEND);
+  const Colour floor = palette(style.theme).floor;
+  glClearColor(static_cast<float>(floor[0]), static_cast<float>(floor[1]), static_cast<float>(floor[2]), 1);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  if (!camera.is_parallel || picture.cell.walls) {  // else there is nothing but floor
+    set_scene(*plates, picture, style, camera, height);
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  }
+  glDepthFunc(GL_LESS);
+  if (light.shadows) {
+    // Shadows do not add up: the darkest counts, so their order does not matter.
+    if (!camera.is_cut) glDisable(GL_DEPTH_TEST);  // nothing stands on the floor yet
+    glDepthMask(GL_FALSE);
+    glEnable(GL_BLEND);
+    glBlendEquation(GL_MIN);
+    draw_with(*shadow);
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+    glDisable(GL_BLEND);
+  }
+  draw_with(*body);
 
   const std::vector<Channel>& pixels = context_.finished_pixels<Channel>();
   if (const GLenum code = glGetError(); code != GL_NO_ERROR) {
     return Error{"OpenGL error " + std::to_string(code) + " while drawing " + std::to_string(picture.n_rods()) +
                  " rods"};
   }
-  return averaged(pixels, side, side, style.light.samples);
+  return averaged(pixels, width, height, light.samples);
 }
-template Result<Image> RodsPass::draw(const RodPicture& picture, const PictureStyle& style, int side);
-template Result<DeepImage> RodsPass::draw(const RodPicture& picture, const PictureStyle& style, int side);
+template Result<Image> RodsPass::draw(const RodPicture& picture, const PictureStyle& style, int width, int height);
+template Result<DeepImage> RodsPass::draw(const RodPicture& picture, const PictureStyle& style, int width, int height);
 
 }  // namespace shaken::render

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "base/core/result.h"
+#include "render/camera.h"
 #include "render/gl_context.h"
 #include "render/image.h"
 #include "render/picture.h"
@@ -11,19 +12,17 @@
 
 namespace shaken::render {
 
-/// What keeps a picture from being drawn `side` pixels wide, if anything.
-Result<void> check_drawable(const RodPicture& picture, int side);
-
-/// Draws the rods in their box, seen from above along -z, without perspective.
+/// Draws rods and plates as a camera sees them: from above, into the gap between the plates, or from anywhere.
 /// Model:    one quad for each rod, on which each pixel's ray is cut with the beads themselves, so the outline is that
-///           of the simulated body; the depth is the surface's own. Rods are repeated across the periodic border and
-///           clipped to the view. Each species is drawn with its own beads. Beyond side walls the floor is tinted.
+///           of the simulated body; the depth is the surface's own. Rods are repeated across the periodic border as far
+///           as one sees. Each species is drawn with its own beads. The plates are where they are at the picture's time;
+///           beyond side walls the floor is tinted.
 /// Numerics: the samples of a pixel are averaged; the same bits for any number of rasteriser threads.
 class RodsPass {
  public:
   /// Rods of more beads than this are refused.
   static constexpr std::size_t kMaxBeads = 255;
-  /// Pictures of a wider box than this are refused [pixels].
+  /// Pictures with a longer side than this are refused [pixels].
   static constexpr int kMaxSide = 5400;
 
   static Result<RodsPass> create();
@@ -31,9 +30,9 @@ class RodsPass {
   RodsPass& operator=(RodsPass&&) noexcept;
   ~RodsPass();
 
-  /// The view as a square of `side` pixels.
+  /// A picture of `width` x `height` pixels; from above it shows a square.
   template <class Channel = std::uint8_t>
-  Result<ImageOf<Channel>> draw(const RodPicture& picture, const PictureStyle& style, int side);
+  Result<ImageOf<Channel>> draw(const RodPicture& picture, const PictureStyle& style, int width, int height);
 
  private:
   struct Programs;

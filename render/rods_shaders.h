@@ -1,23 +1,183 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// GLSL of the rods pass. Lengths are in mm; `place` is relative to the view's lower left corner.
+/// GLSL of the rods pass. Lengths are in mm; places are relative to the eye, along the axes of the box.
 namespace shaken::render::shaders {
 
-/// One quad around the projection of each rod, `margin` wider on every side.
-inline constexpr const char* kQuad = R"(#version 330 core
+/// What vertex shaders know of the camera: rows of `axes` are to the right, up and forward.
+inline constexpr const char* kCamera = R"(#version 330 core
+uniform mat3 axes;
+uniform vec2 half_view;  // mm if rays are parallel, else tangents
+uniform bool is_parallel;
+
+// Where a point lies on the screen; the weight makes what is interpolated right in perspective.
+vec4 on_screen(vec3 point) {
+  vec3 seen = axes * point;
+  return vec4(seen.xy / half_view, 0.0, is_parallel ? 1.0 : seen.z);
+}
+vec3 start_of(vec2 slope) { return is_parallel ? transpose(axes) * vec3(slope, 0.0) : vec3(0.0); }
+vec3 ray_of(vec2 slope) { return transpose(axes) * (is_parallel ? vec3(0.0, 0.0, 1.0) : vec3(slope, 1.0)); }
+vec2 corner() { return vec2(gl_VertexID & 1, gl_VertexID >> 1); }
+)";
+
+/// What fragment shaders know of the floor: where it ends (ENDS), and how all fades with depth (FADES).
+inline constexpr const char* kFloor = R"(#version 330 core
+uniform int arena;       // 0 disc, 1 square, 2 annulus
+uniform vec2 middle;     // of the arena
+uniform float size;      // diameter, or side of the square
+uniform float inner;     // diameter of the annulus' inner wall
+uniform vec2 fade;       // depths where fading into the page begins and ends
+uniform vec3 page;
+uniform vec3 floor_colour;
+
+// How far a point of the floor lies beyond the arena's edge.
+float beyond(vec2 at) {
+#ifndef ENDS
+  return -1.0;
+#endif
+  vec2 from_middle = at - middle;
+  float r = length(from_middle);
+  if (arena == 1) return max(abs(from_middle.x), abs(from_middle.y)) - 0.5 * size;
+  return arena == 2 ? max(r - 0.5 * size, 0.5 * inner - r) : r - 0.5 * size;
+}
+vec3 faded(vec3 colour, float depth) {
+#ifndef FADES
+  return colour;
+#endif
+  return mix(page, colour, smoothstep(0.0, 0.9, clamp((fade.y - depth) / (fade.y - fade.x), 0.0, 1.0)));
+}
+)";
+
+/// One quad around each rod as it is seen. (After kCamera.)
+inline constexpr const char* kQuad = R"(
 layout(location = 0) in vec3 centre;
 layout(location = 1) in vec3 axis;
 layout(location = 2) in vec3 colour;
 uniform vec2 beads[255];  // offset along the axis, radius
 uniform int n_beads;
-uniform float view_side;
-uniform float margin;
-uniform vec2 shift;
+flat out vec3 rod_centre;
 flat out vec3 rod_axis;
 flat out vec3 rod_colour;
-flat out float rod_height;
-out vec2 place;  // relative to the rod's centre
+out vec3 start;  // of the ray, from the rod's centre
+out vec3 ray;
+
+// Where a bead is seen, and a radius in which all of it lies: |u.xy - s u.z| <= sqrt(1 + s^2) for a unit vector u.
+vec3 seen_bead(vec3 c, vec3 a, int i) {
+  vec3 p = c + beads[i].x * a;
+  if (is_parallel) return vec3(p.xy, beads[i].y);
+  vec2 s = p.xy / p.z;
+  return vec3(s, beads[i].y * sqrt(1.0 + dot(s, s)) / max(p.z - beads[i].y, 1e-3));
+}
+
+void main() {
+  vec3 c = axes * centre, a = axes * axis;
+  vec2 line = seen_bead(c, a, n_beads - 1).xy - seen_bead(c, a, 0).xy;
+  float extent = length(line);
+  vec2 along = extent > 1e-6 ? line / extent : vec2(1.0, 0.0);
+  mat2 turn = mat2(along.x, -along.y, along.y, along.x);  // into the quad's own axes
+  vec2 low = vec2(1e9), high = vec2(-1e9);
+  for (int i = 0; i < n_beads; ++i) {
+    vec3 bead = seen_bead(c, a, i);
+    low = min(low, turn * bead.xy - bead.z);
+    high = max(high, turn * bead.xy + bead.z);
+  }
+  vec2 slope = transpose(turn) * mix(low, high, corner());
+  rod_centre = centre;
+  rod_axis = axis;
+  rod_colour = colour;
+  start = start_of(slope) - centre;
+  ray = ray_of(slope);
+  gl_Position = vec4(slope / half_view, 0.0, 1.0);
+}
+)";
+
+/// The body: the nearest bead along the pixel's ray. (After kFloor.)
+inline constexpr const char* kBody = R"(
+uniform vec2 beads[255];
+uniform int n_beads;
+uniform vec2 ends;       // offsets of the first and the last bead
+uniform float pitch;     // distance of neighbouring beads; 0 if it is not the same everywhere
+uniform float thick;     // greatest radius
+uniform vec3 forward;
+uniform vec2 depths;     // that the depth buffer spans
+uniform vec2 heights;    // that shades span
+uniform vec3 light;      // towards it
+flat in vec3 rod_centre;
+flat in vec3 rod_axis;
+flat in vec3 rod_colour;
+in vec3 start;
+in vec3 ray;
+out vec4 pixel;
+
+void main() {
+  vec3 direction = normalize(ray);
+  // From the point of the ray that is nearest to the rod's centre: all lengths are small, and o is normal to the ray.
+  vec3 o = start - dot(start, direction) * direction;
+  float cosine = dot(direction, rod_axis), sine = 1.0 - cosine * cosine;  // the latter squared
+  float square = dot(o, o), along = dot(o, rod_axis);
+  // Only beads near the point of the axis that the ray comes closest to can be hit.
+  int first = 0, last = n_beads - 1;
+  if (pitch > 0.0 && sine > 1e-4) {
+    float middle = along / sine - ends.x;
+    float reach = thick * inversesqrt(sine);
+    first = max(first, int(floor((middle - reach) / pitch)));
+    last = min(last, int(ceil((middle + reach) / pitch)));
+  }
+  float nearest = 1e9;
+  vec2 bead;
+  for (int i = first; i <= last; ++i) {
+    float x = beads[i].x, r = beads[i].y;
+    float inside = r * r - (square + x * (x * sine - 2.0 * along));  // of the half chord, squared
+    float t = x * cosine - sqrt(max(inside, 0.0));
+    if (inside > 0.0 && t < nearest) {
+      nearest = t;
+      bead = beads[i];
+    }
+  }
+  if (nearest > 1e8) discard;
+  vec3 hit = o + nearest * direction;  // from the rod's centre
+  vec3 normal = (hit - bead.x * rod_axis) / bead.y;
+
+#ifdef SMOOTH
+  // The beads' own normals, eased towards those of a smooth spindle: round bodies rather than strings of pearls.
+  vec3 spindle = hit - clamp(dot(hit, rod_axis), ends.x, ends.y) * rod_axis;
+  normal = normalize(mix(normal, normalize(spindle), 0.8));
+#endif
+
+  vec3 place = rod_centre + hit, eye = -direction;
+  float depth = dot(place, forward);
+  float height = clamp((place.z - heights.x) / (heights.y - heights.x), 0.0, 1.0);
+  float diffuse = 0.5 + 0.5 * dot(normal, light);                // wrapped: soft
+  float shade = (0.35 + 0.72 * diffuse) * mix(0.80, 1.04, height);
+#ifdef OCCLUSION
+  shade *= mix(0.34, 1.0, smoothstep(-0.05, 0.75, dot(normal, eye)));  // the sides see their neighbours, not the sky
+#endif
+#ifdef GLOSS
+  float gloss = pow(max(dot(normal, normalize(light + eye)), 0.0), 40.0) * 0.16;
+#else
+  float gloss = 0.0;
+#endif
+  // Light adds up in linear units; a square root is near enough to sRGB's curve, and exact on the way back.
+  vec3 lit = rod_colour * rod_colour * shade + gloss;
+  pixel = vec4(faded(sqrt(min(lit, 1.0)), depth), 1.0);
+  // Never quite at the end of the depth buffer, where nothing is drawn.
+  gl_FragDepth = clamp((depth - depths.x) / (depths.y - depths.x), 0.0, 0.999);
+}
+)";
+
+/// The quad of a rod's shadow on the floor, `margin` wider than the rod on every side. (After kCamera.)
+inline constexpr const char* kShadowQuad = R"(
+layout(location = 0) in vec3 centre;
+layout(location = 1) in vec3 axis;
+layout(location = 2) in vec3 colour;
+uniform vec2 beads[255];
+uniform int n_beads;
+uniform float base;    // height of the floor
+uniform float margin;
+uniform vec2 shift;    // away from the light
+flat out vec3 rod_axis;
+out vec2 place;        // from the middle of the shadow
+out vec3 at;
 
 void main() {
   float flat_part = length(axis.xy);
@@ -26,148 +186,104 @@ void main() {
   for (int i = 0; i < n_beads; ++i) {
     reach = max(reach, vec2(abs(beads[i].x) * flat_part + beads[i].y, beads[i].y));
   }
-  reach += margin;
-  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
-  place = along * (corner.x * reach.x) + vec2(-along.y, along.x) * (corner.y * reach.y);
+  reach = (reach + margin) * (corner() * 2.0 - 1.0);
+  place = along * reach.x + vec2(-along.y, along.x) * reach.y;
   rod_axis = axis;
-  rod_colour = colour;
-  rod_height = centre.z;
-  gl_Position = vec4((centre.xy + shift + place) / view_side * 2.0 - 1.0, 0.0, 1.0);
+  at = vec3(centre.xy + shift + place, base);
+  gl_Position = on_screen(at);
 }
 )";
 
-/// The body: the highest bead along the pixel's ray.
-inline constexpr const char* kBody = R"(#version 330 core
-uniform vec2 beads[255];
-uniform int n_beads;
-uniform vec2 ends;       // offsets of the first and the last bead
-uniform float pitch;     // distance of neighbouring beads; 0 if it is not the same everywhere
-uniform float thick;     // greatest radius
-uniform float low;       // heights that the depth buffer spans
-uniform float high;
-flat in vec3 rod_axis;
-flat in vec3 rod_colour;
-flat in float rod_height;
-in vec2 place;
-out vec4 pixel;
-
-const vec3 kLight = vec3(-0.42, 0.50, 0.757);
-const vec3 kHalfway = vec3(-0.224, 0.267, 0.937);  // between the light and the eye
-
-void main() {
-  // Squared distance to bead i: |place|^2 - 2 o (place . axis) + o^2 |axis.xy|^2.
-  float square = dot(place, place);
-  float along = 2.0 * dot(place, rod_axis.xy);
-  float flat_part = dot(rod_axis.xy, rod_axis.xy);
-  float top = -1e9;
-  vec3 normal = vec3(0.0);
-  // Only beads whose centre is no farther along the rod than the thickest one reaches can be hit.
-  int first = 0, last = n_beads - 1;
-  if (pitch > 0.0 && flat_part > 1e-4) {
-    float middle = 0.5 * along / flat_part - ends.x;
-    float reach = thick / sqrt(flat_part);
-    first = max(first, int(floor((middle - reach) / pitch)));
-    last = min(last, int(ceil((middle + reach) / pitch)));
-  }
-  for (int i = first; i <= last; ++i) {
-    float o = beads[i].x;
-    float r = beads[i].y;
-    float inside = r * r - (square + o * (o * flat_part - along));
-    float z = o * rod_axis.z + sqrt(max(inside, 0.0));
-    if (inside > 0.0 && z > top) {
-      top = z;
-      normal = (vec3(place, z) - o * rod_axis) / r;
-    }
-  }
-  if (top < -1e8) discard;
-
-#ifdef SMOOTH
-  // The beads' own normals, eased towards those of a smooth spindle: round bodies rather than strings of pearls.
-  vec3 hit = vec3(place, top);
-  vec3 spindle = hit - clamp(dot(hit, rod_axis), ends.x, ends.y) * rod_axis;
-  normal = normalize(mix(normal, normalize(spindle), 0.8));
-#endif
-
-  // Never quite at the floor of the depth buffer, where nothing is drawn.
-  float height = clamp((rod_height + top - low) / (high - low), 0.001, 1.0);
-  float diffuse = 0.5 + 0.5 * dot(normal, kLight);               // wrapped: soft
-#ifdef OCCLUSION
-  float rim = smoothstep(-0.05, 0.75, normal.z);                 // the sides see their neighbours, not the sky
-  float shade = (0.35 + 0.72 * diffuse) * mix(0.34, 1.0, rim) * mix(0.80, 1.04, height);
-#else
-  float shade = (0.35 + 0.72 * diffuse) * mix(0.80, 1.04, height);
-#endif
-#ifdef GLOSS
-  float gloss = pow(max(dot(normal, kHalfway), 0.0), 40.0) * 0.16;
-#else
-  float gloss = 0.0;
-#endif
-  // Light adds up in linear units; a square root is near enough to sRGB's curve, and exact on the way back.
-  vec3 light = rod_colour * rod_colour * shade + gloss;
-  pixel = vec4(sqrt(min(light, 1.0)), 1.0);
-  gl_FragDepth = 1.0 - height;
-}
-)";
-
-/// The soft shadow on the floor: dark under the rod, fading out over `margin`.
-inline constexpr const char* kShadow = R"(#version 330 core
+/// A soft shadow: dark under the rod, fading out over `margin`. (After kFloor.)
+inline constexpr const char* kShadow = R"(
 uniform vec2 beads[255];
 uniform int n_beads;
 uniform vec2 ends;
 uniform float margin;
-uniform vec3 floor_colour;
+uniform vec3 forward;
+uniform float nearest;
 flat in vec3 rod_axis;
-flat in vec3 rod_colour;
-flat in float rod_height;
 in vec2 place;
+in vec3 at;
 out vec4 pixel;
 
 void main() {
+  float depth = dot(at, forward);
+#if defined(ENDS) || defined(FADES)
+  if (depth < nearest || beyond(at.xy) > 0.0) discard;  // walls stand upright: no shadow falls there
+#endif
   float flat_part = max(dot(rod_axis.xy, rod_axis.xy), 1e-9);
   float o = clamp(dot(place, rod_axis.xy) / flat_part, ends.x, ends.y);
   // Between two beads the radius changes linearly. They stand at equal distances.
   float between = ends.y > ends.x ? (o - ends.x) / (ends.y - ends.x) * float(n_beads - 1) : 0.0;
   int lower = min(int(between), n_beads - 1);
   float radius = mix(beads[lower].y, beads[min(lower + 1, n_beads - 1)].y, between - float(lower));
-  float outside = (length(place - o * rod_axis.xy) - radius) / margin;
-  float dark = 1.0 - clamp(outside, 0.0, 1.0);
-  pixel = vec4(floor_colour * (1.0 - 0.50 * dark * dark), 1.0);
+  float dark = 1.0 - clamp((length(place - o * rod_axis.xy) - radius) / margin, 0.0, 1.0);
+  pixel = vec4(faded(floor_colour * (1.0 - 0.50 * dark * dark), depth), 1.0);
 }
 )";
 
-/// The whole view as one quad.
-inline constexpr const char* kView = R"(#version 330 core
-uniform float view_side;
-out vec2 place;
+/// The whole picture as one quad. (After kCamera.)
+inline constexpr const char* kStage = R"(
+out vec3 start;
+out vec3 ray;
 
 void main() {
-  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
-  place = corner * view_side;
-  gl_Position = vec4(corner * 2.0 - 1.0, 0.0, 1.0);
+  vec2 at = corner() * 2.0 - 1.0;
+  start = start_of(at * half_view);
+  ray = ray_of(at * half_view);
+  gl_Position = vec4(at, 0.0, 1.0);
 }
 )";
 
-/// What lies beyond the side walls, with a line along its edge. Walls stand upright: no shadow falls there.
-inline constexpr const char* kWalls = R"(#version 330 core
-uniform int arena;        // 0 disc, 1 square, 2 annulus
-uniform float size;       // diameter, or side of the square
-uniform float inner;      // diameter of the annulus' inner wall
-uniform float box_side;
-uniform vec2 view_corner;
-uniform float line;       // its thickness
-uniform vec3 wall_colour;
-uniform vec3 line_colour;
-in vec2 place;
+/// The plates: the floor with its edge, the lid above one's head, and their cut edges. (After kFloor.)
+inline constexpr const char* kPlates = R"(
+uniform vec2 plates;       // heights of base and lid
+uniform bool has_lid;
+uniform float cut;         // depth where they are cut open; 0: they are not
+uniform float grid;        // distance of the lines on them; 0: none
+uniform float line;        // thickness of the arena's edge
+uniform float plate;       // side of the square plates
+uniform vec3 forward;
+uniform vec3 cut_colour;
+uniform vec3 outside;
+uniform vec3 ink;
+in vec3 start;
+in vec3 ray;
 out vec4 pixel;
 
+float line_at(float x, float width) {
+  float from = abs(fract(x / grid + 0.5) - 0.5) * grid;
+  return 1.0 - smoothstep(0.5 * width, 1.5 * width, from);
+}
+
 void main() {
-  vec2 from_middle = view_corner + place - 0.5 * box_side;
-  float r = length(from_middle);
-  float outside = r - 0.5 * size;
-  if (arena == 1) outside = max(abs(from_middle.x), abs(from_middle.y)) - 0.5 * size;
-  if (arena == 2) outside = max(outside, 0.5 * inner - r);
-  if (outside <= 0.0) discard;
-  pixel = vec4(outside < line ? line_colour : wall_colour, 1.0);
+  gl_FragDepth = 1.0;
+  float gap = plates.y - plates.x;
+  float z = ray.z * cut / dot(ray, forward);
+  if (cut > 0.0 && (z < plates.x || (has_lid && z > plates.y))) {
+    float into = z < plates.x ? plates.x - z : z - plates.y;
+    pixel = vec4(into > 0.8 * gap ? page : into < 0.012 * gap ? ink : cut_colour, 1.0);
+    gl_FragDepth = 0.0;  // the cut edges stand in front of everything
+    return;
+  }
+  bool is_base = ray.z < 0.0;
+  float t = ray.z == 0.0 ? -1.0 : ((is_base ? plates.x : plates.y) - start.z) / ray.z;
+  vec3 at = start + t * ray;
+  float depth = dot(at, forward);
+  vec2 from_middle = abs(at.xy - middle);
+  if (t < 0.0 || max(from_middle.x, from_middle.y) > 0.5 * plate + line || depth > fade.y || (!is_base && !has_lid)) {
+    pixel = vec4(page, 1.0);
+    return;
+  }
+  vec3 colour = floor_colour * (is_base ? 1.0 : 0.93);
+  if (grid > 0.0) {
+    float width = 0.0016 * depth;
+    colour = mix(colour, ink, 0.12 * max(line_at(at.x - middle.x, width), line_at(at.y - middle.y, width)));
+  }
+  float out_by = beyond(at.xy);
+  if (out_by > 0.0) colour = out_by < line ? ink : outside;
+  pixel = vec4(faded(colour, depth), 1.0);
 }
 )";
 

@@ -2,6 +2,7 @@
 #include "render/style.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/picture_limits.h"
 #include "render/colourings.h"
@@ -15,6 +16,9 @@ Result<void> check(const PictureStyle& style) {
                  std::to_string(kMostPixels)};
   }
   if (!(style.zoom >= 1) || !style.focus.allFinite()) return Error{"zoom must be at least 1, and focus finite"};
+  if (!(std::abs(style.orbit.x()) <= 360 && style.orbit.y() >= 1 && style.orbit.y() <= 90)) {
+    return Error{"an orbit's azimuth is from -360 to 360 degrees, and its elevation above the plate from 1 to 90"};
+  }
   const Colouring* colouring = find_colouring(style.colour);
   if (style.colour != "auto" && colouring == nullptr) return Error{"there is no colouring " + style.colour};
   if (style.range && !(style.range->x() < style.range->y())) return Error{"the range must rise from its first number"};

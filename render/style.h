@@ -23,8 +23,9 @@ enum class Background {
 /// How the director field is drawn.
 enum class FieldLines { kNone, kBars, kStreamlines };
 enum class ViewPoint {
-  kTop,  ///< from above, without perspective
-  kGap,  ///< into the gap between the plates, in perspective
+  kTop,    ///< from above, without perspective
+  kGap,    ///< into the gap between the plates, in perspective
+  kOrbit,  ///< the whole box in perspective, from anywhere above the base
 };
 
 /// A defect that a view follows: of those with this charge in the frames that are looked at, the one that lives
@@ -73,6 +74,7 @@ struct PictureStyle {
   bool legend = true;
   bool caption = true;
   ViewPoint view = ViewPoint::kTop;
+  Vec2 orbit{-30, 35};                            ///< of kOrbit: azimuth and elevation of the eye [degrees]
   std::optional<int> followed;                    ///< a rod that stays in the middle; `focus` is then not asked
   std::optional<FollowedDefect> followed_defect;  ///< as `followed`; one of them at most
   bool whole = false;           ///< rods across the border of a periodic box are drawn once and whole, beyond its frame

@@ -59,6 +59,7 @@ StyleKey colour() {
 
 Value fetch_view(const PictureStyle& style) {
   if (style.followed) return fmt::format("follow:{}", *style.followed);
+  if (style.view == ViewPoint::kOrbit) return fmt::format("orbit:{:g},{:g}", style.orbit.x(), style.orbit.y());
   if (!style.followed_defect) return std::string(style.view == ViewPoint::kGap ? "gap" : "top");
   const auto& [charge, rank] = *style.followed_defect;
   return fmt::format("follow:{}{}", charge > 0 ? "plus" : "minus", rank > 0 ? fmt::format(":{}", rank) : "");
@@ -66,9 +67,13 @@ Value fetch_view(const PictureStyle& style) {
 
 void store_view(PictureStyle& style, const Value& value) {
   const auto& word = std::get<std::string>(value);
-  style.view = word == "gap" ? ViewPoint::kGap : ViewPoint::kTop;
+  style.view = word == "gap" ? ViewPoint::kGap : word.starts_with("orbit") ? ViewPoint::kOrbit : ViewPoint::kTop;
   style.followed.reset();
   style.followed_defect.reset();
+  if (word.starts_with("orbit:")) {
+    const std::size_t comma = word.find(',');
+    style.orbit = Vec2(std::stod(word.substr(6, comma - 6)), std::stod(word.substr(comma + 1)));
+  }
   if (!word.starts_with("follow:")) return;
   const std::string what = word.substr(word.find(':') + 1);
   if (const std::size_t colon = what.find(':'); what.front() == 'p' || what.front() == 'm') {
@@ -84,12 +89,16 @@ void store_view(PictureStyle& style, const Value& value) {
 StyleKey view() {
   return {{.path = "view",
            .form = Form::kText,
-           .pattern = "top|gap|follow:([0-9]{1,7}|(plus|minus)(:[0-9]{1,7})?)",
+           .pattern = "top|gap|orbit(:-?[0-9]{1,3}([.][0-9]{1,3})?,[0-9]{1,2}([.][0-9]{1,3})?)?|"
+                      "follow:([0-9]{1,7}|(plus|minus)(:[0-9]{1,7})?)",
            .longest = 24,
-           .expected = "top, gap, follow:N (N counts rods from 0), follow:plus or follow:minus",
-           .value_name = "top|gap|follow:N|follow:plus|follow:minus",
-           .doc = "top: from above; gap: into the gap, in perspective; follow:N: rod N stays in the middle, 4 times "
-                  "enlarged unless zoom says otherwise; follow:plus, follow:minus: the defect of that sign that lives "
+           .expected = "top, gap, orbit:AZIMUTH,ELEVATION (degrees), follow:N (N counts rods from 0), follow:plus or "
+                       "follow:minus",
+           .value_name = "top|gap|orbit:AZ,EL|follow:N|follow:plus|follow:minus",
+           .doc = "top: from above; gap: into the gap, in perspective; orbit:AZ,EL: the whole box in perspective, from "
+                  "AZ degrees round it (0: from below the picture, 90: from its right) and EL degrees above the plate; "
+                  "follow:N: rod N stays in the middle, 4 times enlarged unless zoom says otherwise; follow:plus, "
+                  "follow:minus: the defect of that sign that lives "
                   "longest, follow:plus:1 the next one"},
           fetch_view,
           store_view};

@@ -26,15 +26,19 @@ View view_of(const RodPicture& picture, const PictureStyle& style) {
   }
   view.side = picture.cell.box_side / std::max(style.zoom, 1.0);
   view.period = picture.cell.walls ? 0 : picture.cell.box_side;
-  if (style.followed && static_cast<std::size_t>(*style.followed) < picture.n_rods()) {
-    const auto rod = static_cast<std::size_t>(*style.followed);
-    view.corner = picture.position[rod].head<2>() - Vec2(view.side, view.side) / 2;
+  if (const std::optional<std::size_t> rod = followed_rod(picture, style)) {
+    view.corner = picture.position[*rod].head<2>() - Vec2(view.side, view.side) / 2;
   } else if (style.followed_defect && picture.followed) {
     view.corner = *picture.followed - Vec2(view.side, view.side) / 2;
   } else if (style.zoom > 1) {
     view.corner = style.focus * picture.cell.box_side - Vec2(view.side, view.side) / 2;
   }
   return view;
+}
+
+std::optional<std::size_t> followed_rod(const RodPicture& picture, const PictureStyle& style) {
+  if (!style.followed || static_cast<std::size_t>(*style.followed) >= picture.n_rods()) return std::nullopt;
+  return static_cast<std::size_t>(*style.followed);
 }
 
 View box_in(const RodPicture& picture, const PictureStyle& style) {

@@ -2,13 +2,15 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
+#include <optional>
 
 #include "render/picture.h"
 #include "render/style.h"
 
 namespace shaken::render {
 
-/// The part of the plane that is drawn: a square [mm].
+/// The part of the plane that is drawn in a view from above: a square [mm].
 struct View {
   Vec2 corner{0, 0};  ///< lower left
   double side = 0;
@@ -17,20 +19,28 @@ struct View {
 View view_of(const RodPicture& picture, const PictureStyle& style);
 /// Where the box lies in the view, from its corner; the view itself unless rods are drawn whole.
 View box_in(const RodPicture& picture, const PictureStyle& style);
+/// The rod that the view follows, if the picture has it.
+std::optional<std::size_t> followed_rod(const RodPicture& picture, const PictureStyle& style);
 
-/// Calls `visit(from_corner)` for each periodic image of `point` that lies in the view or within `reach` of it.
+/// Calls `visit(place)` for each image of `point` that lies in the rectangle or within `reach` of it; images are
+/// `period` apart, and none but the point itself if that is 0.
 template <class Visit>
-void for_images(const View& view, const Vec2& point, double reach, const Visit& visit) {
-  const Vec2 at = point - view.corner;
-  if (view.period <= 0) {
-    if (at.minCoeff() >= -reach && at.maxCoeff() <= view.side + reach) visit(at);
+void for_images(const Vec2& low, const Vec2& high, double period, const Vec2& point, double reach, const Visit& visit) {
+  if (period <= 0) {
+    if ((point - low).minCoeff() >= -reach && (high - point).minCoeff() >= -reach) visit(point);
     return;
   }
-  const auto first = [&](double x) { return std::ceil((-reach - x) / view.period); };
-  const auto last = [&](double x) { return std::floor((view.side + reach - x) / view.period); };
-  for (double ky = first(at.y()); ky <= last(at.y()); ++ky) {
-    for (double kx = first(at.x()); kx <= last(at.x()); ++kx) visit(Vec2(at + view.period * Vec2(kx, ky)));
+  const auto first = [&](int axis) { return std::ceil((low[axis] - reach - point[axis]) / period); };
+  const auto last = [&](int axis) { return std::floor((high[axis] + reach - point[axis]) / period); };
+  for (double ky = first(1); ky <= last(1); ++ky) {
+    for (double kx = first(0); kx <= last(0); ++kx) visit(Vec2(point + period * Vec2(kx, ky)));
   }
+}
+
+/// The same for a view, with places from its corner.
+template <class Visit>
+void for_images(const View& view, const Vec2& point, double reach, const Visit& visit) {
+  for_images(Vec2(0, 0), Vec2(view.side, view.side), view.period, point - view.corner, reach, visit);
 }
 
 }  // namespace shaken::render

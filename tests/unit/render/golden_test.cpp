@@ -109,6 +109,8 @@ const Case kCases[] = {
     {"bars", paired, R"({"rods": 0.3, "lines": "bars", "legend": false})"},
     {"tilt", layered, R"({"style": "tilt"})"},
     {"mechanism", layered, R"({"style": "mechanism"})"},
+    {"orbit", layered, R"({"view": "orbit:-30,35", "colour": "tilt", "defects": false})"},
+    {"orbit_of_a_disc", mixed, R"({"view": "orbit:40,20", "theme": "dark", "defects": false})"},
     {"mixture", mixed, R"({"style": "mixture"})"},
     {"heading", mixed, R"({"colour": "heading", "defects": false, "theme": "dark"})"},
     {"follow", paired, R"({"view": "follow:40", "defects": false})"},

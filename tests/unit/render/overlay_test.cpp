@@ -102,7 +102,7 @@ TEST(Overlay, NoTextOnTheRods) {
       style.colour = colour;
       const Image image = painter().paint(picture, style).value();
       const Layout layout = layout_of(style, {.history = true, .label = true});
-      const Image alone = rods.draw(picture, style, layout.box_side).value();
+      const Image alone = rods.draw(picture, style, layout.box_side, layout.box_side).value();
       for (int y = 0; y < layout.box_side; ++y) {
         ASSERT_TRUE(std::equal(alone.pixel(0, y), alone.pixel(0, y) + alone.row_bytes(),
                                image.pixel(layout.box_x, layout.box_y + y)))

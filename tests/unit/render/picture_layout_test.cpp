@@ -63,7 +63,7 @@ TEST(Layout, TheInsetLiesOnTheRods) {
   for (const auto& [width, height] : std::vector<std::pair<int, int>>{{480, 270}, {1280, 720}, {270, 480}}) {
     style.width = width;
     style.height = height;
-    const Layout top = layout_of(style, {}), gap = gap_layout_of(style, {});
+    const Layout top = layout_of(style, {}), gap = stage_layout_of(style, {});
     EXPECT_GT(top.inset.width, 0);
     EXPECT_TRUE(within(top.inset, {double(top.box_x), double(top.box_y), double(top.box_side), double(top.box_side)}));
     if (gap.inset.width > 0) {

@@ -30,7 +30,7 @@ PictureStyle layers() {
 }
 
 Image draw(const RodPicture& picture, const PictureStyle& style = layers(), int side = kSide) {
-  return rods_pass().draw(picture, style, side).value();
+  return rods_pass().draw(picture, style, side, side).value();
 }
 
 /// Red or magenta, however dark: floor and shadow are grey.
@@ -303,7 +303,7 @@ TEST(RodsPass, SamePictureSameBits) {
   draw(red_picture(), layers(), 100);  // another size in between
   EXPECT_EQ(first, draw(picture, layers(), 333));
   RodsPass other = RodsPass::create().value();
-  EXPECT_EQ(first, other.draw(picture, layers(), 333).value());
+  EXPECT_EQ(first, other.draw(picture, layers(), 333, 333).value());
   // Heights are all the same: the order of the rods decides nothing but ties.
 }
 
@@ -440,7 +440,7 @@ TEST(RodsPass, NoShadowFallsBeyondAWallButRodsAtItAreWhole) {
 
 TEST(RodsPass, RefusesWhatCannotBeDrawn) {
   const auto message = [](const RodPicture& picture, int side = 64) {
-    const Result<Image> image = rods_pass().draw(picture, layers(), side);
+    const Result<Image> image = rods_pass().draw(picture, layers(), side, side);
     return image ? std::string("drawn") : image.error().message;
   };
   RodPicture no_beads = red_picture();
@@ -460,8 +460,8 @@ TEST(RodsPass, RefusesWhatCannotBeDrawn) {
   unknown_kind.cell.species_of_rod.clear();
   EXPECT_NE(message(unknown_kind).find("each rod's species"), std::string::npos);
   EXPECT_NE(message(empty_picture(0)).find("no size"), std::string::npos);
-  EXPECT_NE(message(red_picture(), 0).find("pixels wide"), std::string::npos);
-  EXPECT_NE(message(red_picture(), RodsPass::kMaxSide + 1).find("pixels wide"), std::string::npos);
+  EXPECT_NE(message(red_picture(), 0).find("pixels; possible are"), std::string::npos);
+  EXPECT_NE(message(red_picture(), RodsPass::kMaxSide + 1).find("pixels; possible are"), std::string::npos);
   EXPECT_EQ(message(red_picture()), "drawn");
 }
 

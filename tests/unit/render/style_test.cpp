@@ -60,6 +60,8 @@ TEST(StyleFile, RefusesWhatContradictsItself) {
   EXPECT_NE(problems_of(R"({"colour": "order", "range": [1, 0]})").find("rise"), std::string::npos);
   EXPECT_NE(problems_of(R"({"background": "order"})").find("hidden"), std::string::npos);
   EXPECT_NE(problems_of(R"({"view": "follow:x"})").find("follow:N"), std::string::npos);
+  EXPECT_NE(problems_of(R"({"view": "orbit:10"})").find("orbit:AZIMUTH,ELEVATION"), std::string::npos);
+  EXPECT_NE(problems_of(R"({"view": "orbit:10,95"})").find("from 1 to 90"), std::string::npos);
   EXPECT_NE(problems_of(R"({"style": "deffects"})").find("did you mean defects?"), std::string::npos);
   EXPECT_NE(problems_of(R"([1])").find("object"), std::string::npos);
   EXPECT_NE(problems_of("{").find("mine.json:1"), std::string::npos);

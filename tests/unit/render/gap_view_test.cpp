@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "render/gap_pass.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <utility>
 
 #include "render/colours.h"
+#include "render/rods_pass.h"
 #include "tests/unit/render/render_support.h"
 
 namespace shaken::render {
@@ -16,8 +15,8 @@ namespace {
 constexpr int kWidth = 900, kHeight = 450;
 constexpr double kBox = 100;  // so wide that no image is seen
 
-GapPass& gap_pass() {
-  static GapPass shared = GapPass::create().value();
+RodsPass& rods_pass() {
+  static RodsPass shared = RodsPass::create().value();
   return shared;
 }
 
@@ -30,7 +29,7 @@ PictureStyle gap_style() {
 }
 
 Image look(const RodPicture& picture, const PictureStyle& style = gap_style()) {
-  return gap_pass().draw(picture, style, kWidth, kHeight).value();
+  return rods_pass().draw(picture, style, kWidth, kHeight).value();
 }
 
 bool is_rod(const std::uint8_t* p) { return p[0] - p[2] > 25; }
@@ -56,13 +55,13 @@ Extent extent_of(const Image& image) {
 
 /// Where a point of the world [mm] is on the stage [pixels].
 Vec2 pixel_of(const RodPicture& picture, const Vec3& point) {
-  const GapCamera camera = gap_camera(picture, gap_style(), double(kWidth) / kHeight);
-  const Vec3 from_eye = point - camera.eye;
-  return {kWidth * (0.5 + 0.5 * from_eye.x() / from_eye.y() / camera.tangent.x()),
-          kHeight * (0.5 - 0.5 * from_eye.z() / from_eye.y() / camera.tangent.y())};
+  const Camera camera = camera_of(picture, gap_style(), double(kWidth) / kHeight);
+  const Vec3 seen = camera.seen(point);
+  return {kWidth * (0.5 + 0.5 * seen.x() / seen.z() / camera.half.x()),
+          kHeight * (0.5 - 0.5 * seen.y() / seen.z() / camera.half.y())};
 }
 
-TEST(GapPass, ARodIsWhereAndAsLargeAsItIs) {
+TEST(GapView, ARodIsWhereAndAsLargeAsItIs) {
   for (const double depth : {1.0, 6.0}) {  // behind the opening, which is in the middle of the box
     RodPicture picture = empty_picture(kBox);
     add_rod(picture, kBox / 2 + 1, kBox / 2 + depth, 0);
@@ -76,7 +75,7 @@ TEST(GapPass, ARodIsWhereAndAsLargeAsItIs) {
   }
 }
 
-TEST(GapPass, ATiltedRodHasItsHeadUp) {
+TEST(GapView, ATiltedRodHasItsHeadUp) {
   RodPicture picture = empty_picture(kBox);
   add_rod(picture, kBox / 2, kBox / 2 + 2, 0, 0.1);
   const Image image = look(picture);
@@ -90,7 +89,7 @@ TEST(GapPass, ATiltedRodHasItsHeadUp) {
   EXPECT_LT(top_at(extent.right - 15), top_at(extent.left + 15) - 5) << "higher on the stage";
 }
 
-TEST(GapPass, ThePlatesAreDrawnWhereTheyAre) {
+TEST(GapView, ThePlatesAreDrawnWhereTheyAre) {
   RodPicture picture = empty_picture(kBox);
   for (const double base : {0.0, 0.087}) {
     picture.base = base;
@@ -109,7 +108,7 @@ TEST(GapPass, ThePlatesAreDrawnWhereTheyAre) {
   EXPECT_NEAR(open.pixel(kWidth / 4, 5)[0], 255 * page[0], 1) << "nothing above";
 }
 
-TEST(GapPass, RodsAreWhole) {
+TEST(GapView, RodsAreWhole) {
   // Nearer than the opening, across it, and behind it.
   for (const auto& [depth, is_seen] : {std::pair{-3.0, false}, {0.2, false}, {1.0, true}}) {
     RodPicture picture = empty_picture(kBox);
@@ -118,7 +117,7 @@ TEST(GapPass, RodsAreWhole) {
   }
 }
 
-TEST(GapPass, APeriodicBoxGoesOnAndAnArenaDoesNot) {
+TEST(GapView, APeriodicBoxGoesOnAndAnArenaDoesNot) {
   // Four rods in a row in depth, a box apart, each smaller than the one before.
   RodPicture picture = empty_picture(10);
   picture.cell.species = {{{0}, {0.3}}};
@@ -138,7 +137,7 @@ TEST(GapPass, APeriodicBoxGoesOnAndAnArenaDoesNot) {
   EXPECT_GT(repeated, alone + 200);
 }
 
-TEST(GapPass, TheNearerRodHidesTheFarther) {
+TEST(GapView, TheNearerRodHidesTheFarther) {
   RodPicture picture = empty_picture(kBox);
   picture.cell.species.push_back(picture.cell.species[0]);
   add_rod(picture, kBox / 2, kBox / 2 + 4, 0);
@@ -151,23 +150,23 @@ TEST(GapPass, TheNearerRodHidesTheFarther) {
   }
 }
 
-TEST(GapPass, EachLightGoesOutAlone) {
+TEST(GapView, EachLightGoesOutAlone) {
   RodPicture picture = empty_picture(kBox);
   add_rod(picture, kBox / 2, kBox / 2 + 2, 0.5);
   const Image all = look(picture);
   for (const auto light : {&Light::shadows, &Light::gloss, &Light::occlusion, &Light::smooth}) {
     PictureStyle style = gap_style();
     style.light.*light = false;
-    EXPECT_NE(gap_pass().draw(picture, style, kWidth, kHeight).value(), all);
+    EXPECT_NE(rods_pass().draw(picture, style, kWidth, kHeight).value(), all);
   }
   EXPECT_EQ(look(picture), all);
 }
 
-TEST(GapPass, AnEmptyGapAndADegenerateOne) {
+TEST(GapView, AnEmptyGapAndADegenerateOne) {
   EXPECT_TRUE(extent_of(look(empty_picture(kBox))).is_empty());
   RodPicture flat = empty_picture(kBox);
   flat.cell.gap = 0;
-  const Result<Image> none = gap_pass().draw(flat, gap_style(), kWidth, kHeight);
+  const Result<Image> none = rods_pass().draw(flat, gap_style(), kWidth, kHeight);
   ASSERT_FALSE(none);
   EXPECT_NE(none.error().message.find("no gap"), std::string::npos);
   PictureStyle style = gap_style();
