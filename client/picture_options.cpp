@@ -21,7 +21,7 @@ void PictureOptions::declare(Arguments& arguments, bool films) {
   arguments.option("--style", style_, value_name(render::style_keys().at("style")) + "|FILE",
                    "A style, or a file of one; the options below change it");
   for (const render::StyleKey& key : render::style_keys()) {
-    if (key.path == "style" || (!films && (key.path == "fps" || key.path == "speed"))) continue;
+    if (key.path == "style" || (!films && render::is_for_films(key))) continue;
     const std::string name = render::option_of(key);
     if (key.form != keys::Form::kSwitch) {
       arguments.option(render::flags_of(key), values_[name], value_name(key), key.doc);

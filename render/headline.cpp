@@ -69,4 +69,54 @@ std::string headline(const std::string& label) {
   return all;
 }
 
+Notes settings_of(const RodPicture& picture) {
+  const Cell& cell = picture.cell;
+  Notes settings;
+  const std::size_t n_species = cell.species.size();
+  if (n_species > 1) settings.emplace_back("", fmt::format("{} species", n_species));
+  if (n_species == 1) {
+    settings.emplace_back(cell.has_axes() ? "\u2113" : "d", fmt::format("{:.4g} mm", picture.rod_length()));
+  }
+  settings.emplace_back("\u03c6", fmt::format("{:.2f}", picture.area_fraction()));
+  settings.emplace_back("N", fmt::format("{}", picture.n_rods()));
+  settings.emplace_back("w", fmt::format("{:.4g} mm", cell.gap));
+  if (!cell.walls) settings.emplace_back("L", fmt::format("{:.4g} mm", cell.box_side));
+  if (cell.walls) {
+    const char* const arena = cell.walls->arena == Arena::kDisc     ? "disc"
+                              : cell.walls->arena == Arena::kSquare ? "square"
+                                                                    : "annulus";
+    settings.emplace_back("", fmt::format("{} of {:.4g} mm", arena, cell.walls->size));
+  }
+  return settings;
+}
+
+void name_runs(const std::vector<RodPicture*>& runs) {
+  const auto said = [](const auto& setting) {
+    return setting.first.empty() ? setting.second : setting.first + " = " + setting.second;
+  };
+  const auto append = [](std::string& all, const std::string& text) { all += (all.empty() ? "" : ", ") + text; };
+  if (runs.size() == 1) {
+    RodPicture& run = *runs.front();
+    run.label.clear();
+    run.subtitle.clear();
+    for (const auto& setting : run.settings) {
+      const bool is_shaking = setting.first == "\u0393" || setting.first == "f" || setting.first == "L";
+      append(is_shaking ? run.subtitle : run.label, said(setting));
+    }
+    return;
+  }
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    runs[i]->label.clear();
+    runs[i]->subtitle.clear();
+    for (const auto& setting : runs[i]->settings) {
+      const bool all_have_it = std::all_of(runs.begin(), runs.end(), [&](const RodPicture* other) {
+        return std::find(other->settings.begin(), other->settings.end(), setting) != other->settings.end();
+      });
+      if (!all_have_it) append(runs[i]->label, said(setting));
+    }
+  }
+  const bool any = std::any_of(runs.begin(), runs.end(), [](const RodPicture* run) { return !run->label.empty(); });
+  for (std::size_t i = 0; !any && i < runs.size(); ++i) runs[i]->label = fmt::format("run {}", i + 1);
+}
+
 }  // namespace shaken::render

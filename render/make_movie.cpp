@@ -109,7 +109,7 @@ class Output {
       output.folder_ = out;
     } else if (!output.is_raw_) {
       Result<MovieWriter> movie =
-          MovieWriter::create(out, style.width, style.height, style.fps, options.title, options.notes);
+          MovieWriter::create(out, style.width, style.height, style.fps, options.title, options.notes, style.small);
       if (!movie) return movie.error();
       output.movie_.emplace(std::move(*movie));
     }

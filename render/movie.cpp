@@ -33,17 +33,19 @@ struct Format {
   AVPixelFormat pixels;
   std::array<std::array<const char*, 2>, 4> settings;  ///< of the encoder; unused ones are null
   double most_fps;
+  const char* small_crf;  ///< in place of that among the settings; null: there is no such choice
 };
 constexpr Format kFormats[] = {
-    {".mp4", "mp4", "libx264", AV_PIX_FMT_YUV420P, {{{"preset", "veryfast"}, {"crf", "20"}}}, 1000},
+    {".mp4", "mp4", "libx264", AV_PIX_FMT_YUV420P, {{{"preset", "veryfast"}, {"crf", "20"}}}, 1000, "30"},
     {".webm",
      "webm",
      "libvpx-vp9",
      AV_PIX_FMT_YUV420P,
      {{{"crf", "30"}, {"b", "0"}, {"deadline", "realtime"}, {"cpu-used", "8"}}},
-     1000},
+     1000,
+     "42"},
     // Every frame whole: the encoder of libavcodec 59 compares frames by index, also where their palettes differ.
-    {".gif", "gif", "gif", AV_PIX_FMT_PAL8, {{{"gifflags", "0"}}}, 50},
+    {".gif", "gif", "gif", AV_PIX_FMT_PAL8, {{{"gifflags", "0"}}}, 50, nullptr},
 };
 
 const Format* format_of(const std::filesystem::path& file) {
@@ -130,15 +132,15 @@ struct MovieWriter::Impl {
 
   Error failed(const std::string& why) const { return Error{"cannot write " + file.string() + ": " + why}; }
 
-  Result<void> open(const Format& kind, int width, int height, double fps, const std::string& title,
-                    const Notes& notes);
+  Result<void> open(const Format& kind, int width, int height, double fps, const std::string& title, const Notes& notes,
+                    bool small);
   Result<void> encode(const AVFrame* picture);
   /// Encodes the pictures whose palettes are chosen.
   Result<void> encode_reduced();
 };
 
 Result<void> MovieWriter::Impl::open(const Format& kind, int width, int height, double fps, const std::string& title,
-                                     const Notes& notes) {
+                                     const Notes& notes, bool small) {
   AVFormatContext* made = nullptr;
   if (const int code = avformat_alloc_output_context2(&made, nullptr, kind.container, address().c_str()); code < 0) {
     return failed(av_words(code));
@@ -173,6 +175,7 @@ Result<void> MovieWriter::Impl::open(const Format& kind, int width, int height, 
   for (const auto& [key, value] : kind.settings) {
     if (key != nullptr) av_opt_set(codec.get(), key, value, AV_OPT_SEARCH_CHILDREN);
   }
+  if (small && kind.small_crf != nullptr) av_opt_set(codec.get(), "crf", kind.small_crf, AV_OPT_SEARCH_CHILDREN);
   if (const int code = avcodec_open2(codec.get(), encoder, nullptr); code < 0) return failed(av_words(code));
 
   stream->time_base = codec->time_base;
@@ -260,7 +263,7 @@ MovieWriter& MovieWriter::operator=(MovieWriter&&) noexcept = default;
 MovieWriter::~MovieWriter() = default;
 
 Result<MovieWriter> MovieWriter::create(const std::filesystem::path& file, int width, int height, double fps,
-                                        const std::string& title, const Notes& notes) {
+                                        const std::string& title, const Notes& notes, bool small) {
   const Format* kind = format_of(file);
   if (kind == nullptr) return Error{"a film is written as " + movie_endings() + ", not as " + file.string()};
   if (auto done = check_movie_size(file, width, height); !done) return done.error();
@@ -273,7 +276,7 @@ Result<MovieWriter> MovieWriter::create(const std::filesystem::path& file, int w
   impl->file = file;
   impl->unfinished = temporary_for(file);
   impl->comment = notes;
-  if (auto done = impl->open(*kind, width, height, fps, title, notes); !done) return done.error();
+  if (auto done = impl->open(*kind, width, height, fps, title, notes, small); !done) return done.error();
   return MovieWriter(std::move(impl));
 }
 

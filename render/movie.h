@@ -19,8 +19,8 @@ bool is_movie_name(const std::filesystem::path& file);
 Result<void> check_movie_size(const std::filesystem::path& file, int width, int height);
 
 /// Encodes pictures as a film, in the format that the file's ending names:
-///   .mp4   plays everywhere: H.264 (x264 veryfast, crf 20), yuv420p in BT.709, index at the front
-///   .webm  for browsers: VP9 (crf 30)
+///   .mp4   plays everywhere: H.264 (x264 veryfast, crf 20, or 30 if `small`), yuv420p in BT.709, index at the front
+///   .webm  for browsers: VP9 (crf 30, or 42)
 ///   .gif   for slides and web pages: 256 colours chosen anew for each frame; at most 50 frames per second
 /// A key frame every 60 frames. One encoder thread, so equal pictures give an equal file. The film is written beside
 /// its final name and appears there only when it is complete.
@@ -29,7 +29,7 @@ class MovieWriter {
   /// Width and height [pixels], even but for a GIF; fps in frames per second of playing. Title and notes go into the
   /// metadata, the notes as its comment; a GIF has no title.
   static Result<MovieWriter> create(const std::filesystem::path& file, int width, int height, double fps,
-                                    const std::string& title = "", const Notes& notes = {});
+                                    const std::string& title = "", const Notes& notes = {}, bool small = false);
   MovieWriter(MovieWriter&&) noexcept;
   MovieWriter& operator=(MovieWriter&&) noexcept;
   /// Removes the unfinished file if finish() was not called or failed.

@@ -189,6 +189,17 @@ std::string playback_text(double playback) {
   return fmt::format("{:.2g}\u00d7 speed", playback);
 }
 
+void draw_time_bar(const Canvas& canvas, const RodPicture& picture, const PictureStyle& style) {
+  if (!style.time_bar || picture.film_share < 0) return;
+  const Palette colours = palette(style.theme);
+  const double height = std::max(3.0, std::round(std::min(style.width, style.height) / 180.0));
+  const double width = style.width;
+  canvas.colour(colours.faint, 0.35);
+  canvas.fill({0, style.height - height, width, height});
+  canvas.colour(colours.ink, 0.8);
+  canvas.fill({0, style.height - height, std::min(picture.film_share, 1.0) * width, height});
+}
+
 void draw_overlay(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style) {
   const Palette colours = palette(style.theme);
   if (style.view == ViewPoint::kTop) {

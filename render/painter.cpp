@@ -74,6 +74,7 @@ Result<ImageOf<Channel>> Painter::paint(const RodPicture& picture, const Picture
   const Result<void> done =
       picture.beside.empty() ? paint_one(sheet, picture, drawn) : paint_panels(sheet, picture, drawn);
   if (!done) return done.error();
+  draw_time_bar(sheet.over(), picture, drawn);
   return sheet.image();
 }
 template Result<Image> Painter::paint(const RodPicture& picture, const PictureStyle& style);

@@ -80,9 +80,11 @@ struct RodPicture {
   OrderHistory history;
   std::shared_ptr<const SweepMap> sweep;  ///< null where it is not known
   Vec2 sweep_point = Vec2::Zero();        ///< where this run is in it; of one parameter, the second is not asked
+  Notes settings;                         ///< that identify the run, in the words of the field: {"ℓ", "4.5 mm"}
   std::string label;                      ///< headline: what makes this run different
   std::string subtitle;                   ///< below it: what it has in common with others
-  double playback = 0;  ///< of a film: simulated seconds per second of playing; 0: not known, or not a film
+  double playback = 0;     ///< of a film: simulated seconds per second of playing; 0: not known, or not a film
+  double film_share = -1;  ///< of a film that has passed, in [0, 1]; negative: not a film
   FilmAxes axes;
   Notes notes;  ///< where it comes from, for the metadata of files
 

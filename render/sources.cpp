@@ -19,6 +19,7 @@
 #include "proto/frame_codec.h"
 #include "render/colourings.h"
 #include "render/headline.h"
+#include "render/interpolation.h"
 #include "run/files/directory.h"
 #include "run/files/version.h"
 #include "scene/cell_limits.h"
@@ -96,11 +97,6 @@ Result<double> TrajectorySource::time_of(std::size_t index) const {
   return frame->time;
 }
 
-std::string TrajectorySource::label() const {
-  const std::optional<double> gamma = plan_ ? scene::gamma_of(plan_->system) : std::nullopt;
-  return gamma ? fmt::format("\u0393 = {:.4g}, f = {:.4g} Hz", *gamma, plan_->system.frequency) : "";
-}
-
 Result<std::size_t> TrajectorySource::nearest_frame(double time) const {
   // First frame at or after `time`, by bisection.
   std::size_t low = 0, high = n_frames();
@@ -160,13 +156,10 @@ std::vector<double> TrajectorySource::orders(double first, double last) const {
   return orders;
 }
 
-Result<RodPicture> TrajectorySource::bare_picture(std::size_t index, const Asked& asked) const {
-  Result<Snapshot> frame = reader_.frame(index);
-  if (!frame) return frame.error();
+Result<RodPicture> TrajectorySource::bare_picture(const Snapshot& frame, const Asked& asked) const {
   RodPicture picture;
   picture.cell = reader_.header().cell;
-  picture.time = frame->time;
-  picture.label = label();
+  picture.time = frame.time;
   if (plan_) {
     const System& system = plan_->system;
     // z_base = a cos(2 pi f t) + a (sim/motion/plates.h)
@@ -176,17 +169,26 @@ Result<RodPicture> TrajectorySource::bare_picture(std::size_t index, const Asked
     picture.smoothing = defects.smoothing;
     picture.grid = defects.grid;
   }
-  picture.position = std::move(frame->position);
-  picture.director = std::move(frame->director);
-  picture.velocity = std::move(frame->velocity);
+  picture.position = frame.position;
+  picture.director = frame.director;
+  picture.velocity = frame.velocity;
   if (auto done = check_sizes(file_.string() + " has", picture, asked); !done) return done.error();
+  const std::optional<double> gamma = plan_ ? scene::gamma_of(plan_->system) : std::nullopt;
+  picture.settings = settings_of(picture);
+  if (gamma) {
+    picture.settings.emplace_back("\u0393", fmt::format("{:.4g}", *gamma));
+    picture.settings.emplace_back("f", fmt::format("{:.4g} Hz", plan_->system.frequency));
+  }
+  name_runs({&picture});
   measure(picture, asked);
   return picture;
 }
 
 Result<const std::vector<analysis::Defect>*> TrajectorySource::defects_of(std::size_t index) {
   if (const auto known = defects_.find(index); known != defects_.end()) return &known->second;
-  Result<RodPicture> picture = bare_picture(index, {.defects = true});
+  const Result<Snapshot> frame = reader_.frame(index);
+  if (!frame) return frame.error();
+  Result<RodPicture> picture = bare_picture(*frame, {.defects = true});
   if (!picture) return picture.error();
   return &(defects_[index] = std::move(picture->defects));
 }
@@ -216,16 +218,16 @@ Result<void> TrajectorySource::follow(const FollowedDefect& defect, std::size_t 
                            defect.charge > 0 ? "plus" : "minus", defect.rank, links_->count(defect.charge))};
 }
 
-Result<std::vector<Vec2>> TrajectorySource::displacements(std::size_t index, double span) const {
-  const Result<Snapshot> now = reader_.frame(index);
-  if (!now) return now.error();
-  const Result<std::size_t> past = nearest_frame(now->time - span);
+Result<std::vector<Vec2>> TrajectorySource::displacements(const Snapshot& now, std::size_t index, double span) const {
+  const Result<double> recorded = time_of(index);
+  if (!recorded) return recorded.error();
+  const Result<std::size_t> past = nearest_frame(*recorded - span);
   if (!past) return past.error();
   if (*past == index && index > 0) {
     const Result<double> previous = time_of(index - 1);
     if (!previous) return previous.error();
     return Error{
-        fmt::format("no displacements over {:g} s: frames are recorded every {:g} s", span, now->time - *previous)};
+        fmt::format("no displacements over {:g} s: frames are recorded every {:g} s", span, *recorded - *previous)};
   }
   const Result<Snapshot> before = reader_.frame(*past);
   if (!before) return before.error();
@@ -233,27 +235,54 @@ Result<std::vector<Vec2>> TrajectorySource::displacements(std::size_t index, dou
     return frame.position[i].head<2>() + reader_.header().cell.box_side * Vec2(frame.image[i][0], frame.image[i][1]);
   };
   std::vector<Vec2> ways;
-  for (std::size_t i = 0; i < now->position.size(); ++i) ways.emplace_back(unwrapped(*now, i) - unwrapped(*before, i));
+  for (std::size_t i = 0; i < now.position.size(); ++i) ways.emplace_back(unwrapped(now, i) - unwrapped(*before, i));
   return ways;
 }
 
 Result<RodPicture> TrajectorySource::picture(std::size_t index, const PictureStyle& style) {
+  const Result<Snapshot> frame = reader_.frame(index);
+  if (!frame) return frame.error();
+  return picture_of(*frame, index, style);
+}
+
+Result<RodPicture> TrajectorySource::picture_at(double time, const PictureStyle& style) {
+  const Result<std::size_t> nearest = nearest_frame(time);
+  if (!nearest) return nearest.error();
+  const Result<double> recorded = time_of(*nearest);
+  if (!recorded) return recorded.error();
+  constexpr double kSame = 1e-9;  // [s]
+  const bool is_first = *nearest == 0, is_last = *nearest + 1 == n_frames();
+  if (!style.interpolate || std::abs(time - *recorded) < kSame || (is_first && time < *recorded) ||
+      (is_last && time > *recorded)) {
+    return picture(*nearest, style);
+  }
+  const std::size_t first = time > *recorded ? *nearest : *nearest - 1;
+  const Result<Snapshot> before = reader_.frame(first), after = reader_.frame(first + 1);
+  if (!before) return before.error();
+  if (!after) return after.error();
+  return picture_of(between(*before, *after, time, reader_.header().cell), first, style);
+}
+
+Result<RodPicture> TrajectorySource::picture_of(const Snapshot& frame, std::size_t index, const PictureStyle& style) {
   Asked asked = asked_by(style);
-  const auto known = defects_.find(index);
+  const Result<double> recorded = time_of(index);
+  if (!recorded) return recorded.error();
+  const bool is_recorded = *recorded == frame.time;
+  const auto known = is_recorded ? defects_.find(index) : defects_.end();
   if (known != defects_.end() && !asked.field) asked.defects = false;
-  Result<RodPicture> made = bare_picture(index, asked);
+  Result<RodPicture> made = bare_picture(frame, asked);
   if (!made) return made.error();
   RodPicture& picture = *made;
   if (known != defects_.end() && style.mark_defects) picture.defects = known->second;
   picture.notes = notes_;
   if (followed_) picture.followed = followed_->at(picture.time);
   if (style.displacements > 0) {
-    Result<std::vector<Vec2>> ways = displacements(index, style.displacements);
+    Result<std::vector<Vec2>> ways = displacements(frame, index, style.displacements);
     if (!ways) return ways.error();
     picture.displacement = std::move(*ways);
   }
   if (style.mark_defects && style.tracks > 0) {
-    defects_[index] = picture.defects;
+    if (is_recorded) defects_[index] = picture.defects;
     std::size_t first = index;
     for (; first > 0; --first) {
       const Result<double> before = time_of(first - 1);
@@ -324,7 +353,12 @@ Result<RodPicture> live_picture(const std::string& lcm_url, const std::string& j
     picture.director.emplace_back(axis[0], axis[1], axis[2]);
   }
   if (auto done = check_sizes("the job's messages have", picture, asked); !done) return done.error();
-  picture.label = headline(printable(constants->label));
+  picture.settings = settings_of(picture);
+  name_runs({&picture});
+  if (!constants->label.empty()) {
+    picture.subtitle = picture.label;
+    picture.label = headline(printable(constants->label));
+  }
   picture.notes = {{"Software", fmt::format("Shaken {}", run::version())}, {"Run id", printable(constants->job_id)}};
   measure(picture, asked);
   return picture;

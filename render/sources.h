@@ -30,8 +30,6 @@ class TrajectorySource {
   std::size_t n_frames() const { return reader_.n_frames(); }
   /// Simulated time of a frame [s].
   Result<double> time_of(std::size_t index) const;
-  /// How the plates shake, "Γ = 7, f = 200 Hz"; empty if the scene does not say it.
-  std::string label() const;
   /// What the run says of itself: its id, seed, and the versions of Shaken and of its physics, as far as it is known.
   const Notes& notes() const { return notes_; }
   /// The frame nearest to `time` [s].
@@ -51,9 +49,11 @@ class TrajectorySource {
   /// Pictures from now on say where the defect is that lives longest in the recorded frames from `first` to `last`
   /// (DefectLinks::longest). Fails if there are not so many.
   Result<void> follow(const FollowedDefect& defect, std::size_t first, std::size_t last);
-  /// A frame with order, director and what the style asks for; with S up to its time if the history has been read. The
-  /// label says how the plates shake.
+  /// A frame with order, director and what the style asks for; with S up to its time if the history has been read.
   Result<RodPicture> picture(std::size_t index, const PictureStyle& style);
+  /// The same at any time [s]: of the nearest frame or, if the style interpolates, between two (render/interpolation.h).
+  /// Before the first frame and after the last one it is that frame's.
+  Result<RodPicture> picture_at(double time, const PictureStyle& style);
 
  private:
   TrajectorySource(std::filesystem::path file, run::TrajectoryReader reader)
@@ -66,9 +66,11 @@ class TrajectorySource {
   Result<void> link(std::size_t first, std::size_t last);
   /// The defects of a frame, kept for the tracks of later ones.
   Result<const std::vector<analysis::Defect>*> defects_of(std::size_t index);
-  /// How far each rod has come from the frame nearest to `span` seconds before.
-  Result<std::vector<Vec2>> displacements(std::size_t index, double span) const;
-  Result<RodPicture> bare_picture(std::size_t index, const Asked& asked) const;
+  /// How far each rod has come, from the frame nearest to `span` seconds before the one of `index`, to `now`.
+  Result<std::vector<Vec2>> displacements(const Snapshot& now, std::size_t index, double span) const;
+  Result<RodPicture> bare_picture(const Snapshot& frame, const Asked& asked) const;
+  /// Of a frame at, or next to, the recorded one of `index`.
+  Result<RodPicture> picture_of(const Snapshot& frame, std::size_t index, const PictureStyle& style);
 
   OrderHistory history_;
   mutable std::map<std::size_t, double> times_;

@@ -82,6 +82,9 @@ struct PictureStyle {
   Vec2 focus{0.5, 0.5};         ///< middle of the view, in box sides; a periodic box wraps round
   double fps = 30;              ///< frames per second of playing
   std::optional<double> speed;  ///< simulated seconds per second of playing; as the frames come if not given
+  bool interpolate = true;      ///< frames of a film that lie between recorded ones; else the nearest is shown
+  bool time_bar = true;         ///< at the lower edge of a film: how far it is
+  bool small = false;           ///< a film of a smaller file: coarser where much moves
 };
 
 /// What is wrong with a style, if anything.

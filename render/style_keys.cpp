@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "base/picture_limits.h"
 #include "render/colourings.h"
@@ -143,11 +144,14 @@ std::vector<StyleKey> rows() {
       number<&Style::zoom>("zoom", "FACTOR", 1, 1000, "Shows a part of the box, this many times enlarged"),
       pair<&Style::focus>("focus", "X,Y", "Middle of the enlarged part, in box sides"),
       number<&Style::fps>("fps", "N", 0.1, 1000, "Frames per second of playing"),
-      derived(
-          number<&Style::speed>("speed", "FACTOR", 1e-6, 1e6,
-                                "Simulated seconds per second of playing, 0.1 for slow motion; each frame shows the "
-                                "recorded one nearest in time"),
-          "recorded frames follow each other as `movie.every` says"),
+      derived(number<&Style::speed>("speed", "FACTOR", 1e-6, 1e6,
+                                    "Simulated seconds per second of playing, 0.1 for slow motion"),
+              "recorded frames follow each other as `movie.every` says"),
+      on_or_off("interpolate", at<&Style::interpolate>,
+                "Frames of a film that lie between recorded ones show rods on their straight way from one to the "
+                "other; else the recorded frame nearest in time is shown"),
+      on_or_off("time_bar", at<&Style::time_bar>, "A bar at the lower edge of a film: how far it is"),
+      on_or_off("small", at<&Style::small>, "A film of about a third of the size, coarser where much moves (not .gif)"),
   };
 }
 
@@ -162,6 +166,11 @@ std::string option_of(const StyleKey& key) {
   std::string name = key.path;
   std::replace(name.begin(), name.end(), '_', '-');
   return name;
+}
+
+bool is_for_films(const StyleKey& key) {
+  static const std::set<std::string> names{"fps", "speed", "interpolate", "time_bar", "small"};
+  return names.contains(key.path);
 }
 
 std::string flags_of(const StyleKey& key) { return (key.path == "colour" ? "-c,--" : "--") + option_of(key); }

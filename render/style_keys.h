@@ -19,6 +19,9 @@ std::string option_of(const StyleKey& key);
 /// The same as it is declared: "--scale-bar", "-c,--colour".
 std::string flags_of(const StyleKey& key);
 
+/// Whether it is of films only.
+bool is_for_films(const StyleKey& key);
+
 /// Sets `key` from the text of a command line; else says what is wrong with it, without naming the key.
 Result<void> set_from_text(PictureStyle& style, const StyleKey& key, const std::string& text);
 

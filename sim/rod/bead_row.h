@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 namespace shaken {
@@ -12,6 +13,8 @@ struct BeadRow {
 
   /// A sphere has none: no director, no order and no defects.
   bool has_axis() const { return offset.size() > 1; }
+  /// Whether one end differs from the other: else a rod has no head, and its director no sign.
+  bool is_polar() const { return !std::equal(radius.begin(), radius.end(), radius.rbegin()); }
   /// Where the rod ends, from its centre; the tail is at a negative place [mm].
   double tail() const;
   double head() const;

@@ -10,6 +10,8 @@
 #include "proto/bus.h"
 #include "proto/cell_codec.h"
 #include "proto/frame_codec.h"
+#include "render/headline.h"
+#include "render/interpolation.h"
 #include "run/files/directory.h"
 #include "run/files/frame_log.h"
 #include "tests/unit/render/render_support.h"
@@ -77,8 +79,9 @@ TEST(TrajectorySource, TakesShakingAndMovieFromTheScene) {
   plant_trajectory(folder.path(), 1,
                    R"({"plates": {"gamma": 7.0, "frequency": 200.0}, "movie": {"every": 0.1, "size": [640, 360]}})");
   TrajectorySource source = TrajectorySource::open(folder.path()).value();
-  EXPECT_EQ(source.picture(0, plain())->label, "\u0393 = 7, f = 200 Hz");
-  EXPECT_EQ(source.label(), "\u0393 = 7, f = 200 Hz");
+  const RodPicture first = source.picture(0, plain()).value();
+  EXPECT_EQ(first.label, "\u2113 = 4.5 mm, \u03c6 = 0.07, N = 3, w = 1.2 mm");
+  EXPECT_EQ(first.subtitle, "L = 10 mm, \u0393 = 7, f = 200 Hz");
   const std::optional<scene::Movie> request = source.movie_request();
   ASSERT_TRUE(request);
   EXPECT_DOUBLE_EQ(request->every, 0.1);
@@ -89,8 +92,91 @@ TEST(TrajectorySource, TakesShakingAndMovieFromTheScene) {
     plant_trajectory(folder.path(), 1, scene);
     TrajectorySource other = TrajectorySource::open(folder.path()).value();
     EXPECT_FALSE(other.movie_request()) << scene;
-    EXPECT_EQ(other.picture(0, plain())->label, "") << scene;
+    EXPECT_EQ(other.picture(0, plain())->subtitle, "L = 10 mm") << scene;
   }
+}
+
+TEST(TrajectorySource, BetweenTwoFramesRodsAreOnTheirStraightWay) {
+  const ScratchFolder folder;
+  std::vector<RodPicture> frames(2, empty_picture(10));
+  frames[1].time = 0.1;
+  add_rod(frames[0], 9.8, 5, 0);  // across the border
+  add_rod(frames[1], 0.2, 5.4, 0.4);
+  add_rod(frames[0], 2, 8, 3.1);  // turns through half a turn: its head is a label
+  add_rod(frames[1], 2, 8, 0.1);
+  add_rod(frames[0], 5, 2, 0);  // too far a turn
+  add_rod(frames[1], 5, 2, 1.5);
+  plant_frames(folder.path(), frames, "");
+  TrajectorySource source = TrajectorySource::open(folder.path()).value();
+  PictureStyle style = plain();
+  const RodPicture quarter = source.picture_at(0.025, style).value();
+  EXPECT_DOUBLE_EQ(quarter.time, 0.025);
+  // The planted frames say nothing of the border's crossing: this rod has gone back through the box.
+  EXPECT_NEAR(quarter.position[0].x(), 9.8, 1e-5) << "farther than its length: not interpolated";
+  EXPECT_NEAR(std::remainder(std::atan2(quarter.director[1].y(), quarter.director[1].x()) - (3.1 + 0.25 * 0.1416), kPi),
+              0, 2e-3);
+  EXPECT_NEAR(std::atan2(quarter.director[2].y(), quarter.director[2].x()), 0, 1e-5) << "as the nearer frame has it";
+  EXPECT_NEAR(
+      std::atan2(source.picture_at(0.08, style)->director[2].y(), source.picture_at(0.08, style)->director[2].x()), 1.5,
+      1e-5);
+  for (const double time : {-1.0, 0.0}) EXPECT_DOUBLE_EQ(source.picture_at(time, style)->time, 0);
+  EXPECT_DOUBLE_EQ(source.picture_at(7, style)->time, 0.1);
+  style.interpolate = false;
+  EXPECT_DOUBLE_EQ(source.picture_at(0.025, style)->time, 0);
+}
+
+TEST(Headlines, OfRunsSideBySideSayWhatDiffers) {
+  RodPicture a = empty_picture(10), b = empty_picture(10), c = empty_picture(20);
+  add_rod(a, 5, 5, 0);
+  for (RodPicture* run : {&b, &c}) {
+    add_rod(*run, 5, 5, 0);
+    add_rod(*run, 5, 2, 0);
+  }
+  for (RodPicture* run : {&a, &b, &c}) {
+    run->settings = settings_of(*run);
+    run->settings.emplace_back("\u0393", "7");
+  }
+  name_runs({&a, &b});
+  EXPECT_EQ(a.label, "\u03c6 = 0.02, N = 1");
+  EXPECT_EQ(b.label, "\u03c6 = 0.05, N = 2");
+  EXPECT_EQ(a.subtitle, "");
+  name_runs({&a, &b, &c});
+  EXPECT_EQ(c.label, "\u03c6 = 0.01, N = 2, L = 20 mm");
+  RodPicture twin = a;
+  name_runs({&a, &twin});
+  EXPECT_EQ(a.label, "run 1");
+  EXPECT_EQ(twin.label, "run 2");
+  name_runs({&a});
+  EXPECT_EQ(a.label, "\u2113 = 4.5 mm, \u03c6 = 0.02, N = 1, w = 1.2 mm");
+  EXPECT_EQ(a.subtitle, "L = 10 mm, \u0393 = 7");
+}
+
+TEST(Interpolation, GoesAcrossTheBorderAndHitsEitherFrame) {
+  const RodPicture rods = empty_picture(10);
+  Snapshot before, after;
+  before.position = {Vec3(9.8, 5, 0.6)};
+  after.position = {Vec3(0.2, 4.6, 0.7)};
+  before.image = {{0, 3}};
+  after.image = {{1, 3}};
+  before.director = after.director = {Vec3(1, 0, 0)};
+  before.velocity = {Vec3(8, 0, 0)};
+  after.velocity = {Vec3(0, 0, 0)};
+  after.time = 1;
+  const Snapshot half = between(before, after, 0.75, rods.cell);
+  EXPECT_NEAR((half.position[0] - Vec3(0.1, 4.7, 0.675)).norm(), 0, 1e-12);
+  EXPECT_EQ(half.image[0][0], 1);
+  EXPECT_EQ(half.image[0][1], 3);
+  EXPECT_NEAR(half.velocity[0].x(), 2, 1e-12);
+  for (const double time : {0.0, 1.0}) {
+    const Snapshot end = between(before, after, time, rods.cell);
+    EXPECT_NEAR((end.position[0] - (time == 0 ? before : after).position[0]).norm(), 0, 1e-12);
+  }
+  // Half a turn is a flip of a label for a rod that is the same fore and aft, and a real turn for one that is not.
+  after.director[0] = Vec3(-1, 0, 0);
+  EXPECT_NEAR(between(before, after, 0.4, rods.cell).director[0].x(), 1, 1e-12);
+  Cell polar = rods.cell;
+  polar.species[0].radius.back() = 0.5;
+  EXPECT_NEAR(between(before, after, 0.4, polar).position[0].x(), 9.8, 1e-12) << "stays as it was";
 }
 
 // The defects drawn are those that the run measured.
