@@ -31,7 +31,7 @@ void PictureOptions::declare(Arguments& arguments, bool films) {
     arguments.flag("--no-" + name, switches_["no-" + name], "Without it");
   }
   arguments.repeatable("--label", labels_, "TEXT", "Headline, one for each run; what was swept if left out");
-  arguments.flag("--bare", bare_, "Only the box, filling the picture");
+  arguments.flag("--bare", bare_, "Only the box, filling the picture; --scale-bar puts a scale bar on it");
 }
 
 std::vector<std::string> PictureOptions::words(const std::vector<std::string>& labels) const {

@@ -38,7 +38,7 @@ double angle_in_box(const RodPicture& picture, std::size_t rod) {
 }
 
 double heading(const RodPicture& picture, std::size_t rod) {
-  if (!has_axis(picture, rod)) return kNone;
+  if (!has_axis(picture, rod) || !picture.cell.beads_of(rod).is_polar()) return kNone;
   const double angle = in_plane(picture, rod);
   return (angle < 0 ? angle + 2 * kPi : angle) / kDegree;
 }
@@ -103,7 +103,7 @@ const Colouring kColourings[] = {
      angle_to_director,
      by_layer},
     {"heading",
-     "where the rod's head points",
+     "where the rod's head points; rods that are the same fore and aft have none",
      "Heading",
      "\u00b0",
      Scale::kFullTurn,

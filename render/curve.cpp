@@ -66,7 +66,14 @@ void draw_curve(const Canvas& canvas, const Rect& place, double unit, const Curv
     canvas.colour(colours.ink);
     canvas.text(plot.x - 6 * unit, y_of(tick.at) + 4 * unit, tick.text, 12 * unit, Canvas::Align::kRight);
   }
+  // Those in between give way to the words of the last.
+  double free = plot.x - 100 * unit;
+  const double last_begins = plot.right() - canvas.text_width(curve.x_ticks.back().text, 12 * unit);
   for (const Tick& tick : curve.x_ticks) {
+    const double half = canvas.text_width(tick.text, 12 * unit) / 2, x = x_of(tick.at), space = 5 * unit;
+    const bool is_inner = &tick != &curve.x_ticks.front() && &tick != &curve.x_ticks.back();
+    if (is_inner && (x - half < free + space || x + half > last_begins - space)) continue;
+    free = &tick == &curve.x_ticks.front() ? x + 2 * half : x + half;
     const bool is_first = &tick == &curve.x_ticks.front(), is_last = &tick == &curve.x_ticks.back();
     canvas.text(x_of(tick.at), plot.bottom() + 16 * unit, tick.text, 12 * unit,
                 is_first  ? Canvas::Align::kLeft

@@ -44,13 +44,20 @@ std::vector<DefectTrail> DefectLinks::trails(double time, double span) const {
   constexpr double kRounding = 1e-9;
   std::vector<DefectTrail> trails;
   for (const DefectLife& life : lives_) {
-    if (life.time.back() < time - span || life.time.front() > time) continue;
-    DefectTrail trail{life.charge, {}};
-    for (std::size_t k = 0; k < life.time.size(); ++k) {
-      const double age = (time - life.time[k]) / span;
-      if (age >= 0 && age <= 1 + kRounding) trail.places.push_back({life.position[k], std::min(age, 1.0)});
+    // Piece by piece: [begin, end) without a jump.
+    for (std::size_t begin = 0, end = 0; begin < life.time.size(); begin = end) {
+      const auto is_jump = [&](std::size_t k) {
+        return (life.position[k] - life.position[k - 1]).norm() > kFastest * (life.time[k] - life.time[k - 1]);
+      };
+      for (end = begin + 1; end < life.time.size() && !is_jump(end);) ++end;
+      if (life.time[end - 1] - life.time[begin] < kShortest * (1 - kRounding)) continue;
+      DefectTrail trail{life.charge, {}};
+      for (std::size_t k = begin; k < end; ++k) {
+        const double age = (time - life.time[k]) / span;
+        if (age >= 0 && age <= 1 + kRounding) trail.places.push_back({life.position[k], std::min(age, 1.0)});
+      }
+      if (trail.places.size() > 1) trails.push_back(std::move(trail));
     }
-    if (!trail.places.empty()) trails.push_back(std::move(trail));
   }
   return trails;
 }

@@ -29,7 +29,12 @@ class DefectLinks {
 
   /// Takes the next frame.
   void add(double time, const std::vector<analysis::Defect>& defects);
-  /// Where defects were from `time - span` to `time`, each with its whole way in that time.
+  /// Faster than this no defect goes: a longer step is that of another one, or of noise in the field [mm/s].
+  static constexpr double kFastest = 60;
+  /// What has been seen for less time leaves no trail [s].
+  static constexpr double kShortest = 0.2;
+  /// Where defects were from `time - span` to `time`, each with its whole way in that time, in pieces without such
+  /// steps.
   std::vector<DefectTrail> trails(double time, double span) const;
   /// Of the defects with that charge the one that has lived longest, or after `rank` others; of equal ones the older.
   std::optional<DefectLife> longest(double charge, std::size_t rank) const;

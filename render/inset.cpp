@@ -155,16 +155,18 @@ bool has_inset(const RodPicture& picture, const PictureStyle& style) {
 }
 
 void draw_inset(const Canvas& canvas, const Rect& place, double unit, const RodPicture& picture,
-                const PictureStyle& style) {
+                const PictureStyle& style, bool is_on_rods) {
   if (!has_inset(picture, style)) return;
   const Palette colours = palette(style.theme);
-  canvas.colour(colours.page, 0.88);
-  canvas.fill(place);
-  canvas.colour(colours.ink);
-  cairo_rectangle(canvas.cairo(), place.x, place.y, place.width, place.height);
-  cairo_set_line_width(canvas.cairo(), unit);
-  cairo_stroke(canvas.cairo());
-  const double edge = 8 * unit;
+  if (is_on_rods) {
+    canvas.colour(colours.page);
+    canvas.fill(place);
+    canvas.colour(colours.ink);
+    cairo_rectangle(canvas.cairo(), place.x, place.y, place.width, place.height);
+    cairo_set_line_width(canvas.cairo(), unit);
+    cairo_stroke(canvas.cairo());
+  }
+  const double edge = is_on_rods ? 8 * unit : 0;
   const Rect inner{place.x + edge, place.y + edge, place.width - 2 * edge, place.height - 1.5 * edge};
   draw_curve(canvas, inner, unit,
              style.inset == Inset::kOrder    ? order_curve(picture)

@@ -24,8 +24,8 @@ Curve sweep_curve(const RodPicture& picture);
 
 /// Whether there is anything to draw for the inset that the style asks for.
 bool has_inset(const RodPicture& picture, const PictureStyle& style);
-/// The plot that the style asks for, on a page of its own that the rods shine through a little.
+/// The plot that the style asks for; on the rods it has a page of its own.
 void draw_inset(const Canvas& canvas, const Rect& place, double unit, const RodPicture& picture,
-                const PictureStyle& style);
+                const PictureStyle& style, bool is_on_rods);
 
 }  // namespace shaken::render

@@ -62,35 +62,17 @@ void draw_axis(const Canvas& canvas, double x, double y, double angle, double un
   cairo_restore(cr);
 }
 
-void draw_title(const Canvas& canvas, const Rect& place, double unit, const std::string& title, double width) {
-  const double size = 13 * unit;
-  canvas.text(place.x, place.y + 12 * unit, title, size * std::min(1.0, width / canvas.text_width(title, size)));
-}
-
-/// The colours, continuous, with ticks below them. `histogram`: whose outer bins may hold values beyond the scale.
-void draw_colour_bar(const Canvas& canvas, const Rect& bar, double unit, const Colouring& colouring, const Vec2& range,
-                     const Palette& colours, const Histogram* histogram) {
-  const bool is_angle = std::string_view(colouring.unit) == "\u00b0";
-  const int shades = 240;
-  for (int i = 0; i < shades; ++i) {
-    canvas.colour(colouring.colour(range.x() + (i + 0.5) / shades * (range.y() - range.x()), range));
-    const double from = std::round(bar.x + i * bar.width / shades);
-    canvas.fill({from, bar.y, std::round(bar.x + (i + 1) * bar.width / shades) - from, bar.height});
+/// Smaller where there is no room, but never too small to be read: then it is cut short.
+void draw_title(const Canvas& canvas, const Rect& place, double unit, std::string title, double width) {
+  constexpr double kLeast = 0.8;
+  double size = 13 * unit;
+  size *= std::clamp(width / canvas.text_width(title, size), kLeast, 1.0);
+  for (std::size_t end = title.find_last_of(' '); canvas.text_width(title, size) > width && end != std::string::npos;
+       end = title.find_last_of(' ', end - 1)) {
+    title = title.substr(0, end) + " \u2026";
+    if (end == 0) break;
   }
-  const int most_ticks = std::max(2, static_cast<int>(bar.width / (56 * unit)));
-  for (const double value : ticks(range.x(), range.y(), tick_step(range.y() - range.x(), most_ticks, is_angle))) {
-    const double x = bar.x + (value - range.x()) / (range.y() - range.x()) * bar.width;
-    canvas.colour(colours.ink);
-    canvas.line(x, bar.bottom(), x, bar.bottom() + 4 * unit, unit);
-    const bool is_first = value <= range.x(), is_last = value >= range.y();
-    const bool is_low = histogram != nullptr && is_first && histogram->is_below,
-               is_high = histogram != nullptr && is_last && histogram->is_above;
-    const std::string beyond = is_low ? "\u2264" : is_high ? "\u2265" : "";
-    canvas.text(x, bar.bottom() + 16 * unit, beyond + tick_text(value, is_angle ? colouring.unit : ""), 12 * unit,
-                is_last    ? Canvas::Align::kRight
-                : is_first ? Canvas::Align::kLeft
-                           : Canvas::Align::kCentre);
-  }
+  canvas.text(place.x, place.y + 12 * unit, title, size);
 }
 
 /// Where there is no room for how many rods have which colour: the colours alone.
@@ -98,8 +80,7 @@ void draw_narrow_legend(const Canvas& canvas, const Rect& place, double unit, co
                         const Vec2& range, const Palette& colours) {
   canvas.colour(colours.ink);
   draw_title(canvas, place, unit, colouring.title, place.width);
-  draw_colour_bar(canvas, {place.x, place.y + 20 * unit, place.width, 10 * unit}, unit, colouring, range, colours,
-                  nullptr);
+  draw_colour_bar(canvas, {place.x, place.y + 20 * unit, place.width, 10 * unit}, unit, colouring, range, colours);
 }
 
 void draw_line_legend(const Canvas& canvas, const Rect& place, double unit, const RodPicture& picture,
@@ -148,7 +129,8 @@ void draw_line_legend(const Canvas& canvas, const Rect& place, double unit, cons
   cairo_set_line_width(cr, 0.6 * unit);
   cairo_stroke(cr);
 
-  draw_colour_bar(canvas, {plot.x, plot.bottom() + gap, plot.width, bar}, unit, colouring, range, colours, &histogram);
+  draw_colour_bar(canvas, {plot.x, plot.bottom() + gap, plot.width, bar}, unit, colouring, range, colours,
+                  histogram.is_below, histogram.is_above);
 }
 
 /// Half a circle of 180 degrees, or a whole one of 360.
@@ -233,6 +215,30 @@ bool shows_background_alone(const PictureStyle& style) {
 }
 
 }  // namespace
+
+void draw_colour_bar(const Canvas& canvas, const Rect& bar, double unit, const Colouring& colouring, const Vec2& range,
+                     const Palette& colours, bool is_below, bool is_above) {
+  const bool is_angle = std::string_view(colouring.unit) == "\u00b0";
+  const int shades = 240;
+  for (int i = 0; i < shades; ++i) {
+    canvas.colour(colouring.colour(range.x() + (i + 0.5) / shades * (range.y() - range.x()), range));
+    const double from = std::round(bar.x + i * bar.width / shades);
+    canvas.fill({from, bar.y, std::round(bar.x + (i + 1) * bar.width / shades) - from, bar.height});
+  }
+  const int most_ticks = std::max(2, static_cast<int>(bar.width / (56 * unit)));
+  for (const double value : ticks(range.x(), range.y(), tick_step(range.y() - range.x(), most_ticks, is_angle))) {
+    const double x = bar.x + (value - range.x()) / (range.y() - range.x()) * bar.width;
+    canvas.colour(colours.ink);
+    canvas.line(x, bar.bottom(), x, bar.bottom() + 4 * unit, unit);
+    const bool is_first = value <= range.x(), is_last = value >= range.y();
+    const bool is_low = is_first && is_below, is_high = is_last && is_above;
+    const std::string beyond = is_low ? "\u2264" : is_high ? "\u2265" : "";
+    canvas.text(x, bar.bottom() + 16 * unit, beyond + tick_text(value, is_angle ? colouring.unit : ""), 12 * unit,
+                is_last    ? Canvas::Align::kRight
+                : is_first ? Canvas::Align::kLeft
+                           : Canvas::Align::kCentre);
+  }
+}
 
 bool has_scale(const RodPicture& picture, const PictureStyle& style) {
   return shows_background_alone(style) || colouring_of(picture, style).scale != Scale::kNames;

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "analysis/order.h"
 #include "render/camera.h"
 #include "render/colourings.h"
 #include "render/curve.h"
@@ -42,8 +44,12 @@ void draw_label(const Canvas& canvas, const Layout& layout, const RodPicture& pi
   if (const double needed = canvas.text_width(label, size, true); needed > width) {
     size = std::max(12 * u, size * width / needed);
   }
-  while (!label.empty() && canvas.text_width(label, size, true) > width) {
-    label = label.substr(0, label.find_last_of(' ') == std::string::npos ? 0 : label.find_last_of(' '));
+  if (canvas.text_width(label, size, true) > width) {
+    const auto cut = [&] { return label + " \u2026"; };
+    while (!label.empty() && canvas.text_width(cut(), size, true) > width) {
+      label = label.substr(0, label.find_last_of(' ') == std::string::npos ? 0 : label.find_last_of(' '));
+    }
+    label = label.empty() ? "" : cut();
   }
   canvas.colour(colours.ink);
   canvas.text(layout.label.x, layout.label.y + 15 * u, label, size, Canvas::Align::kLeft, true);
@@ -52,24 +58,12 @@ void draw_label(const Canvas& canvas, const Layout& layout, const RodPicture& pi
   canvas.text(layout.label.x, layout.label.y + 34 * u, picture.subtitle, 13 * u);
 }
 
-/// Six numbers in two rows, each under its name; five of spheres, which have no S.
-void draw_numbers(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const Palette& colours) {
+/// Names and values in rows, each value under its name.
+void draw_numbers(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style,
+                  const Palette& colours) {
   const double u = layout.unit;
   const Rect& place = layout.numbers;
-  struct Number {
-    const char* name;
-    std::string value;
-  };
-  // In slow motion the last digit should be seen to move.
-  const int digits = picture.playback > 0 && picture.playback < 0.05 ? 4 : 2;
-  const bool has_axes = picture.cell.has_axes();
-  std::vector<Number> numbers{{"time", fmt::format("{:.{}f} s", picture.time, digits)}};
-  if (has_axes) numbers.push_back({"order S", fmt::format("{:.3f}", picture.order)});
-  numbers.push_back(
-      {has_axes || picture.cell.species.size() > 1 ? "rods" : "spheres", fmt::format("{}", picture.n_rods())});
-  numbers.push_back({has_axes ? "rod length" : "diameter", fmt::format("{:.4g} mm", picture.rod_length())});
-  numbers.push_back({"packing \u03c6", fmt::format("{:.2f}", picture.area_fraction())});
-  numbers.push_back({"gap", fmt::format("{:.4g} mm", picture.cell.gap)});
+  const std::vector<Number> numbers = numbers_of(picture, style);
   // Three columns where they fit, otherwise two.
   const int n = static_cast<int>(numbers.size());
   const int columns = place.width >= 240 * u ? 3 : 2, rows = (n + columns - 1) / columns;
@@ -87,48 +81,85 @@ void draw_numbers(const Canvas& canvas, const Layout& layout, const RodPicture& 
   }
 }
 
-void draw_key(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const Palette& colours) {
+void draw_key(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style,
+              const Palette& colours) {
   const double u = layout.unit;
-  const auto plus = std::count_if(picture.defects.begin(), picture.defects.end(),
-                                  [](const analysis::Defect& defect) { return defect.charge > 0; });
-  const auto minus = static_cast<std::ptrdiff_t>(picture.defects.size()) - plus;
   const bool stacked = layout.key.height > 40 * u;
   const double x = layout.key.x, y = layout.key.y + 11 * u;
   const double x2 = stacked ? x : x + layout.key.width / 2, y2 = stacked ? y + 34 * u : y;
   draw_plus_half(canvas, x + 10 * u, y, 0, 0.85 * u);
   draw_minus_half(canvas, x2 + 14 * u, y2, kPi / 2, 0.75 * u);
-  canvas.colour(colours.ink);
-  canvas.text(x + 46 * u, y + 5 * u, fmt::format("+\u00bd defects: {}", plus), 13 * u);
-  canvas.text(x2 + 46 * u, y2 + 5 * u, fmt::format("\u2212\u00bd defects: {}", minus), 13 * u);
+  const double size = 13 * u;
+  const auto write = [&](double left, double baseline, const std::string& text) {
+    const double room = (stacked ? layout.key.width : layout.key.width / 2) - 46 * u;
+    canvas.colour(colours.ink);
+    canvas.text(left + 46 * u, baseline + 5 * u, text, size * std::min(1.0, room / canvas.text_width(text, size)));
+  };
+  write(x, y, defects_text(picture, style, 0.5));
+  write(x2, y2, defects_text(picture, style, -0.5));
 }
 
-/// A rod of each species, seen from above in one scale, and how many there are. The first species has no colour of its
-/// own.
+/// What the tracks and the ground under pale rods mean.
+void draw_ground_key(const Canvas& canvas, const Layout& layout, const PictureStyle& style, const Palette& colours) {
+  const double u = layout.unit, size = 13 * u;
+  double y = layout.ground.y + 11 * u;
+  const bool stacked = layout.ground.height > 40 * u;
+  double x = layout.ground.x;
+  if (style.mark_defects && style.tracks > 0) {
+    for (const double charge : {1.0, -1.0}) {
+      canvas.colour(diverging_colour(charge));
+      canvas.line(x, y - 3 * charge * u, x + 22 * u, y - 3 * charge * u, 3.5 * u);
+    }
+    canvas.colour(colours.ink);
+    canvas.text(x + 46 * u, y + 5 * u, fmt::format("their last {:g} s", style.tracks), size);
+    if (stacked) {
+      y += 22 * u;
+    } else {
+      x += layout.ground.width / 2;
+    }
+  }
+  if (style.background != Background::kOrder || style.rods <= 0) return;  // without rods it is the legend's
+  const Rect strip{x, y - 5 * u, 40 * u, 10 * u};
+  constexpr int kSteps = 40;
+  for (int k = 0; k < kSteps; ++k) {
+    canvas.colour(order_background((k + 0.5) / kSteps, style.theme));
+    canvas.fill({strip.x + k * u, strip.y, 1.3 * u, strip.height});
+  }
+  canvas.colour(colours.faint);
+  cairo_rectangle(canvas.cairo(), strip.x, strip.y, strip.width, strip.height);
+  cairo_set_line_width(canvas.cairo(), 0.6 * u);
+  cairo_stroke(canvas.cairo());
+  canvas.colour(colours.ink);
+  canvas.text(strip.x + 46 * u, y + 5 * u, "ground: S from 0 to 1", size);
+}
+
+/// A rod of each species, seen from above in one scale, and what is to be said of it; pale where the scale colours it.
 void draw_species(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style,
                   const Palette& colours) {
   const double u = layout.unit;
-  const bool by_name = std::string_view(colouring_of(picture, style).name) == "species";
-  const double column = layout.species.width / static_cast<double>(picture.cell.species.size());
-  double words = 0;                // room for a number [pixels]
+  const Colouring& colouring = colouring_of(picture, style);
+  const bool by_name = std::string_view(colouring.name) == "species";
   double longest = 0, widest = 0;  // [mm]
-  for (std::size_t species = 0; species < picture.cell.species.size(); ++species) {
-    const BeadRow& beads = picture.cell.species[species];
-    words = std::max(words, canvas.text_width(fmt::format("{}", picture.count(species)), 13 * u) + 17 * u);
+  for (const BeadRow& beads : picture.cell.species) {
     longest = std::max(longest, beads.length());
     widest = std::max(widest, 2 * *std::max_element(beads.radius.begin(), beads.radius.end()));
   }
-  const double scale = std::min((column - words) / longest, 16 * u / widest);  // pixels per mm
+  const double row = layout.species.height / static_cast<double>(picture.cell.species.size());
+  const double room = std::min(0.4 * layout.species.width, 110 * u);
+  const double scale = std::min(room / longest, 0.75 * row / widest);  // pixels per mm
   cairo_t* cr = canvas.cairo();
-  const double y = layout.species.y + 11 * u;
   for (std::size_t species = 0; species < picture.cell.species.size(); ++species) {
     const BeadRow& beads = picture.cell.species[species];
-    const double x = layout.species.x + static_cast<double>(species) * column;
-    const double centre = x + scale * (beads.radius.front() - beads.offset.front());
+    std::size_t example = 0;
+    while (example + 1 < picture.n_rods() && picture.cell.species_of(example) != species) ++example;
+    const bool has_scale = !std::isnan(colouring.value(picture, example));
+    const double y = layout.species.y + (static_cast<double>(species) + 0.5) * row;
+    const double centre = layout.species.x + scale * (beads.radius.front() - beads.offset.front());
     for (const bool rim : {true, false}) {  // the rim keeps pale rods visible on a white page
-      canvas.colour(rim            ? colours.faint
-                    : by_name      ? name_colour(species)
-                    : species == 0 ? layer_colour(0)
-                                   : species_colour(species));
+      canvas.colour(rim         ? colours.faint
+                    : by_name   ? name_colour(species)
+                    : has_scale ? layer_colour(0)
+                                : rod_colour(picture, example, colouring, range_of(colouring, style)));
       for (std::size_t i = 0; i < beads.offset.size(); ++i) {
         cairo_new_sub_path(cr);
         cairo_arc(cr, centre + scale * beads.offset[i], y, scale * beads.radius[i] + (rim ? 0.5 : -0.5) * u, 0,
@@ -137,7 +168,9 @@ void draw_species(const Canvas& canvas, const Layout& layout, const RodPicture& 
       cairo_fill(cr);
     }
     canvas.colour(colours.ink);
-    canvas.text(x + scale * beads.length() + 7 * u, y + 5 * u, fmt::format("{}", picture.count(species)), 13 * u);
+    const double x = layout.species.x + scale * longest + 10 * u, size = 13 * u;
+    const std::string text = species_text(picture, species);
+    canvas.text(x, y + 5 * u, text, size * std::min(1.0, (layout.species.right() - x) / canvas.text_width(text, size)));
   }
 }
 
@@ -151,11 +184,17 @@ void draw_scale_bar(const Canvas& canvas, const Layout& layout, const RodPicture
   const double length = round_length(layout.scale_bar.width * (is_top ? 0.6 : 0.5) / scale);
   const double bottom = layout.scale_bar.bottom();
   const char* const words = is_top ? "" : style.view == ViewPoint::kGap ? " at the opening" : " in the middle";
+  if (layout.is_bar_on_rods) {
+    const std::string text = fmt::format("{:g} mm", length);
+    const double edge = 8 * u, wide = std::max(length * scale, canvas.text_width(text, 14 * u));
+    canvas.colour(colours.page, 0.9);
+    canvas.fill({layout.scale_bar.x - edge, bottom - 25 * u - edge, wide + 2 * edge, 25 * u + 2 * edge});
+  }
   canvas.colour(colours.ink);
   canvas.fill({layout.scale_bar.x, bottom - 5 * u, length * scale, 5 * u});
   canvas.text(layout.scale_bar.x, bottom - 11 * u, fmt::format("{:g} mm{}", length, words), 14 * u);
   const std::string speed = playback_text(picture.playback);
-  if (speed.empty()) return;
+  if (speed.empty() || layout.is_bar_on_rods) return;
   // The sign of playing before the words.
   const double right = layout.scale_bar.right(), size = 14 * u;
   const double left = right - canvas.text_width(speed, size) - 16 * u;
@@ -169,6 +208,48 @@ void draw_scale_bar(const Canvas& canvas, const Layout& layout, const RodPicture
 }
 
 }  // namespace
+
+std::vector<Number> numbers_of(const RodPicture& picture, const PictureStyle& style) {
+  // In slow motion the last digit should be seen to move.
+  const int digits = picture.playback > 0 && picture.playback < 0.05 ? 4 : 2;
+  const Cell& cell = picture.cell;
+  const bool has_axes = cell.has_axes(), is_mixture = cell.species.size() > 1;
+  std::vector<Number> numbers{{"time", fmt::format("{:.{}f} s", picture.time, digits)}};
+  // Of a mixture S and lengths belong to its species, beside which they stand (species_text).
+  if (has_axes && !is_mixture) numbers.push_back({"order S", fmt::format("{:.3f}", picture.order)});
+  std::size_t seen = 0;
+  for (const Vec3& at : picture.position) seen += is_in_view(picture, style, at.head<2>()) ? 1 : 0;
+  numbers.push_back(
+      {is_mixture ? "bodies"
+       : has_axes ? "rods"
+                  : "spheres",
+       seen == picture.n_rods() ? fmt::format("{}", seen) : fmt::format("{}/{}", seen, picture.n_rods())});
+  if (!is_mixture) {
+    numbers.push_back({has_axes ? "rod length" : "diameter", fmt::format("{:.4g} mm", picture.rod_length())});
+  }
+  numbers.push_back({"packing \u03c6", fmt::format("{:.2f}", picture.area_fraction())});
+  numbers.push_back({"gap", fmt::format("{:.4g} mm", cell.gap)});
+  return numbers;
+}
+
+std::string defects_text(const RodPicture& picture, const PictureStyle& style, double charge) {
+  std::size_t all = 0, seen = 0;
+  for (const analysis::Defect& defect : picture.defects) {
+    if (defect.charge * charge < 0) continue;
+    ++all;
+    seen += is_in_view(picture, style, defect.position) ? 1 : 0;
+  }
+  const char* const name = charge > 0 ? "+\u00bd defects" : "\u2212\u00bd defects";
+  return seen == all ? fmt::format("{}: {}", name, all) : fmt::format("{}: in view {} of {}", name, seen, all);
+}
+
+std::string species_text(const RodPicture& picture, std::size_t species) {
+  const std::size_t n = picture.count(species);
+  if (!picture.cell.species[species].has_axis()) return fmt::format("{} {}", n, n == 1 ? "sphere" : "spheres");
+  const std::vector<Vec3> of_it = picture.cell.of_species(species, picture.director);
+  const double order = analysis::nematic_order(std::span<const Vec3>(of_it)).order;
+  return fmt::format("{} {}, S = {:.3f}", n, n == 1 ? "rod" : "rods", order);
+}
 
 double round_length(double length) {
   const double power = std::pow(10.0, std::floor(std::log10(length)));
@@ -210,13 +291,14 @@ void draw_overlay(const Canvas& canvas, const Layout& layout, const RodPicture& 
     draw_frame(canvas, layout, picture, style, colours);
   }
   if (layout.label.width > 0) draw_label(canvas, layout, picture, colours);
-  if (layout.numbers.width > 0) draw_numbers(canvas, layout, picture, colours);
+  if (layout.numbers.width > 0) draw_numbers(canvas, layout, picture, style, colours);
   if (layout.history.width > 0) draw_curve(canvas, layout.history, layout.unit, order_curve(picture), colours);
   if (layout.legend.width > 0) draw_legend(canvas, layout.legend, layout.unit, picture, style);
   if (layout.species.width > 0) draw_species(canvas, layout, picture, style, colours);
-  if (layout.key.width > 0) draw_key(canvas, layout, picture, colours);
+  if (layout.key.width > 0) draw_key(canvas, layout, picture, style, colours);
+  if (layout.ground.width > 0) draw_ground_key(canvas, layout, style, colours);
   if (layout.scale_bar.width > 0) draw_scale_bar(canvas, layout, picture, style, colours);
-  if (layout.inset.width > 0) draw_inset(canvas, layout.inset, layout.unit, picture, style);
+  if (layout.inset.width > 0) draw_inset(canvas, layout.inset, layout.unit, picture, style, layout.is_inset_on_rods);
 }
 
 }  // namespace shaken::render

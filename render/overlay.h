@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "render/canvas.h"
 #include "render/picture.h"
@@ -12,6 +13,17 @@ namespace shaken::render {
 
 /// Draws everything except ground and rods: director field, frame, defects, caption, S(t), legend and scale bar.
 void draw_overlay(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style);
+
+/// A number of the caption, and its name.
+struct Number {
+  std::string name, value;
+};
+/// The numbers of the caption; rods are counted in view and in all where those differ.
+std::vector<Number> numbers_of(const RodPicture& picture, const PictureStyle& style);
+/// How many defects of the sign of `charge` there are, and how many of them are in view.
+std::string defects_text(const RodPicture& picture, const PictureStyle& style, double charge);
+/// How many rods of one species there are, and their S.
+std::string species_text(const RodPicture& picture, std::size_t species);
 
 /// Of a film: how far it is, as a bar along the picture's lower edge.
 void draw_time_bar(const Canvas& canvas, const RodPicture& picture, const PictureStyle& style);

@@ -15,8 +15,7 @@ namespace {
 
 constexpr double kHeadline = 30;  // above a box, in units
 constexpr double kBelow = 36;     // for the scale bar
-constexpr double kFooter = 46;
-constexpr int kSteps = 128;  // of a strip of colours
+constexpr double kFooter = 54;
 
 }  // namespace
 
@@ -55,7 +54,8 @@ PanelGrid panel_grid(const PictureStyle& style, std::size_t n_panels) {
     layout.box_y = static_cast<int>(std::lround(y + above));
     layout.box_side = static_cast<int>(side);
     if (style.caption) layout.label = {x, y, side, above};
-    if (below > 0) layout.scale_bar = {x, y + above + side, side, 30 * u};
+    // S and the time stand right of the bar.
+    if (below > 0) layout.scale_bar = {x, y + above + side, (style.caption ? 0.6 : 1) * side, 30 * u};
     place_inset(layout, style);
     grid.panels.push_back(layout);
   }
@@ -83,7 +83,7 @@ void draw_panel_words(const Canvas& canvas, const Layout& layout, const RodPictu
   draw_overlay(canvas, words, quiet, style);
   if (!style.caption) return;
   canvas.colour(palette(style.theme).ink);
-  canvas.text(layout.scale_bar.right(), layout.scale_bar.bottom(),
+  canvas.text(layout.box_x + layout.box_side, layout.scale_bar.bottom(),
               fmt::format("{}{}{}", with_time ? fmt::format("t = {:.2f} s", picture.time) : "",
                           with_time && picture.cell.has_axes() ? ", " : "",
                           picture.cell.has_axes() ? fmt::format("S = {:.3f}", picture.order) : ""),
@@ -104,19 +104,11 @@ void draw_footer(const Canvas& canvas, const PanelGrid& grid, const RodPicture& 
   if (!style.legend || !has_scale(first, style)) return;
   const Colouring& colouring = colouring_of(first, style);
   const Vec2 range = range_of(colouring, style);
-  const Rect strip{grid.footer.x + 0.4 * grid.footer.width, bottom - 15 * u, 0.3 * grid.footer.width, 10 * u};
-  for (int i = 0; i < kSteps; ++i) {
-    const double from = i * strip.width / kSteps, to = (i + 1) * strip.width / kSteps;
-    canvas.colour(colouring.colour(range.x() + (i + 0.5) / kSteps * (range.y() - range.x()), range));
-    canvas.fill({strip.x + from, strip.y, to - from + 0.3, strip.height});
-  }
-  const auto value = [&](double number) {
-    return fmt::format("{:g}{}{}", number, *colouring.unit ? " " : "", colouring.unit);
-  };
-  canvas.colour(colours.ink);
-  canvas.text(strip.x - 6 * u, bottom - 6 * u, value(range.x()), 12 * u, Canvas::Align::kRight);
-  canvas.text(strip.right() + 6 * u, bottom - 6 * u, value(range.y()), 12 * u);
-  canvas.text(strip.x + strip.width / 2, strip.y - 5 * u, colouring.title, 12 * u, Canvas::Align::kCentre);
+  const Rect strip{grid.footer.x + 0.4 * grid.footer.width, bottom - 23 * u, 0.3 * grid.footer.width, 10 * u};
+  draw_colour_bar(canvas, strip, u, colouring, range, colours);
+  const std::string unit =
+      *colouring.unit != 0 && std::string_view(colouring.unit) != "\u00b0" ? fmt::format(" [{}]", colouring.unit) : "";
+  canvas.text(strip.x + strip.width / 2, strip.y - 5 * u, colouring.title + unit, 12 * u, Canvas::Align::kCentre);
 }
 
 }  // namespace shaken::render

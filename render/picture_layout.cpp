@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace shaken::render {
 namespace {
@@ -28,34 +29,52 @@ Rect cut(Rect& rest, double height) {
   return piece;
 }
 
+bool has_ground_key(const PictureStyle& style) {
+  return (style.mark_defects && style.tracks > 0) || (style.background == Background::kOrder && style.rods > 0);
+}
+
 void fill_column(Layout& layout, Rect panel, const PictureStyle& style, const Contents& contents) {
   const double u = layout.unit;
   if (style.scale_bar) layout.scale_bar = cut(panel, -34 * u);
-  if (style.mark_defects) {
+  if (style.legend && has_ground_key(style)) {
     if (style.scale_bar) cut(panel, -16 * u);
+    layout.ground = cut(panel, panel.width < kNarrow * u ? -44 * u : -22 * u);
+  }
+  if (style.mark_defects) {
+    cut(panel, layout.ground.width > 0 ? -8 * u : style.scale_bar ? -16 * u : 0);
     layout.key = cut(panel, panel.width < kNarrow * u ? -56 * u : -22 * u);
   }
-  if (style.legend && contents.species) {
+  if (style.legend && contents.species > 0) {
     if (style.scale_bar || style.mark_defects) cut(panel, -12 * u);
-    layout.species = cut(panel, -22 * u);
+    layout.species = cut(panel, -22 * u * contents.species);
   }
   if (style.caption) {
-    if (contents.label) layout.label = cut(panel, 42 * u);
+    if (contents.label) layout.label = cut(panel, 47 * u);
     layout.numbers = cut(panel, 112 * u);
     cut(panel, 10 * u);
   }
-  // What is left is shared by the two plots.
-  const double room = panel.height - 14 * u;
-  const bool scale = style.legend && contents.scale, history = style.caption && contents.history;
-  const bool both = scale && history && room / 2 >= 80 * u;
-  const double plot = std::min(230 * u, both ? (room - 12 * u) / 2 : room);
-  if (history && (both || !scale)) {
-    layout.history = cut(panel, plot);
-    cut(panel, 12 * u);
+  // What is left is shared by the plots, of which the last ones are left out if there is no room.
+  std::vector<Rect*> plots;
+  if (style.legend && contents.scale) plots.push_back(&layout.legend);
+  if (style.caption && contents.history) plots.push_back(&layout.history);
+  if (style.inset != Inset::kNone) plots.push_back(&layout.inset);
+  if (plots.empty()) return;
+  const double room = panel.height - 14 * u, gap = 12 * u, least = 80 * u;
+  const auto height_of = [&](std::size_t n) {
+    return (room - gap * static_cast<double>(n - 1)) / static_cast<double>(n);
+  };
+  while (plots.size() > 1 && height_of(plots.size()) < least) plots.pop_back();
+  const double height = std::min(230 * u, height_of(plots.size()));
+  if (height < 34 * u) return;
+  layout.is_inset_on_rods = plots.back() != &layout.inset;
+  std::rotate(plots.begin(), plots.begin() + 1, plots.end());  // the legend stands below the others
+  for (Rect* plot : plots) {
+    *plot = cut(panel, height);
+    cut(panel, gap);
   }
-  if (scale) layout.legend = cut(panel, plot);
 }
 
+/// Words and plots side by side.
 void fill_strip(Layout& layout, Rect panel, const PictureStyle& style, const Contents& contents) {
   const double u = layout.unit;
   if (style.caption && contents.label) layout.label = cut(panel, 34 * u);
@@ -70,11 +89,32 @@ void fill_strip(Layout& layout, Rect panel, const PictureStyle& style, const Con
   if (style.caption) layout.numbers = left;
   if (style.legend && contents.scale) layout.legend = middle;
   if (style.scale_bar) layout.scale_bar = cut(right, -34 * u);
-  if (style.legend && contents.species) layout.species = cut(right, 22 * u);
+  if (style.legend && contents.species > 0) layout.species = cut(right, 22 * u * contents.species);
   if (style.mark_defects) {
     cut(right, 10 * u);
     layout.key = cut(right, 50 * u);
   }
+}
+
+/// The same one below the other, for pictures too narrow for that: as high as kStacked.
+constexpr double kStacked = 420;
+void fill_stack(Layout& layout, Rect panel, const PictureStyle& style, const Contents& contents) {
+  const double u = layout.unit;
+  panel.height = kStacked * u;
+  if (style.caption && contents.label) layout.label = cut(panel, 44 * u);
+  if (style.caption) layout.numbers = cut(panel, 112 * u);
+  if (style.scale_bar) layout.scale_bar = cut(panel, -34 * u);
+  if (style.mark_defects) {
+    cut(panel, -12 * u);
+    layout.key = cut(panel, -22 * u);
+  }
+  if (style.legend && contents.species > 0) {
+    cut(panel, -8 * u);
+    layout.species = cut(panel, -22 * u * contents.species);
+  }
+  cut(panel, 10 * u);
+  cut(panel, -14 * u);
+  if (style.legend && contents.scale) layout.legend = panel;
 }
 
 }  // namespace
@@ -87,7 +127,7 @@ void place_inset(Layout& layout, const PictureStyle& style) {
   const double right = is_stage ? width : layout.box_x + width, top = is_stage ? 0 : layout.box_y;
   // Large enough to be read, and not so large that it hides the rods.
   const double w = std::max(150 * u, std::min(0.38 * height, 300 * u)), h = std::max(112 * u, 0.66 * w);
-  if (style.inset == Inset::kNone || w > 0.75 * width || h > 0.75 * height) return;
+  if (style.inset == Inset::kNone || layout.inset.width > 0 || w > 0.75 * width || h > 0.75 * height) return;
   layout.inset = {right - edge - w, top + edge, w, h};
 }
 
@@ -97,19 +137,30 @@ Layout layout_of(const PictureStyle& style, const Contents& contents) {
   layout.unit = std::max(std::min(width, height) / 720, 0.7);  // below that, letters could not be read
   const double margin = std::round(24 * layout.unit);
 
-  if (!style.caption && !style.legend && !style.scale_bar) {
+  if (!style.caption && !style.legend) {
     const double side = std::min(width, height);
     place_box(layout, (width - side) / 2, (height - side) / 2, side);
+    const double edge = 16 * layout.unit;
+    if (style.scale_bar) {
+      layout.scale_bar = {layout.box_x + edge, layout.box_y + side - edge - 34 * layout.unit, 0.4 * side,
+                          34 * layout.unit};
+      layout.is_bar_on_rods = true;
+    }
   } else if (width >= 1.25 * height) {
     const double least_panel = 250 * layout.unit;
     const double side = std::min(height - 2 * margin, width - 3 * margin - least_panel);
     const double room = width - side - 3 * margin;
     const double panel = std::min(room, 480 * layout.unit);
-    place_box(layout, margin, (height - side) / 2, side);
-    const double x = margin + side + margin + (room - panel) / 2;
-    fill_column(layout, {x, margin, panel, height - 2 * margin}, style, contents);
+    // Rods and words stand together in the middle of a picture that is wider than both.
+    const double left = std::max(margin, (width - side - 2 * margin - panel) / 2);
+    place_box(layout, left, (height - side) / 2, side);
+    fill_column(layout, {left + side + 1.5 * margin, margin, panel, height - 2 * margin}, style, contents);
   } else {
-    const double strip = (contents.label && style.caption ? 170 : 136) * layout.unit;
+    const bool is_narrow =
+        width < 600 * layout.unit && height - 3 * margin - kStacked * layout.unit >= width - 2 * margin;
+    const double strip = is_narrow ? kStacked * layout.unit
+                                   : (contents.label && style.caption ? 170 : 136) * layout.unit +
+                                         22 * layout.unit * std::max(0, contents.species - 1);
     const double side = std::min(width - 2 * margin, height - 3 * margin - strip);
     const double curve = 130 * layout.unit;
     const bool room_for_curve = style.caption && contents.history && height - 4 * margin - side - strip >= curve;
@@ -121,7 +172,7 @@ Layout layout_of(const PictureStyle& style, const Contents& contents) {
       layout.history = cut(below, -curve);
       cut(below, -margin);
     }
-    fill_strip(layout, below, style, contents);
+    (is_narrow ? fill_stack : fill_strip)(layout, below, style, contents);
   }
   place_inset(layout, style);
   return layout;
@@ -145,7 +196,7 @@ Layout stage_layout_of(const PictureStyle& style, const Contents& contents) {
   if (style.caption) layout.numbers = left;
   if (style.legend && contents.scale) layout.legend = middle;
   if (style.scale_bar) layout.scale_bar = cut(right, -34 * u);
-  if (style.legend && contents.species) layout.species = cut(right, 22 * u);
+  if (style.legend && contents.species > 0) layout.species = cut(right, 22 * u * contents.species);
   return layout;
 }
 

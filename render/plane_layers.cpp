@@ -212,9 +212,11 @@ void draw_streamlines(const Canvas& canvas, const Plane& plane, const RodPicture
   cairo_set_line_cap(cr, CAIRO_LINE_CAP_BUTT);
 }
 
-/// The points of an outline at one side of the rod, from tail to head: offset and half width.
-std::vector<Vec2> half_outline(const BeadRow& beads) {
+/// The outline of a rod as it is seen from above, its beads being discs on a line that is `flat` times as long as the
+/// rod: of one side, from tail to head, the place along that line and the half width.
+std::vector<Vec2> half_outline(BeadRow beads, double flat) {
   constexpr int kSlices = 60;
+  for (double& offset : beads.offset) offset *= flat;
   const double tail = beads.tail(), head = beads.head();
   std::vector<Vec2> outline;
   for (int k = 0; k <= kSlices; ++k) {
@@ -246,21 +248,18 @@ void draw_flat_rods(const Canvas& canvas, const Layout& layout, const RodPicture
   const Palette colours = palette(style.theme);
   const Colouring& colouring = colouring_of(picture, style);
   const Vec2 range = range_of(colouring, style);
-  std::vector<std::vector<Vec2>> outlines;
-  for (std::size_t s = 0; s < picture.cell.species.size(); ++s)
-    outlines.push_back(half_outline(picture.cell.species[s]));
   cairo_t* cr = canvas.cairo();
   cairo_set_line_width(cr, 0.5 * layout.unit);
   for (std::size_t i = 0; i < picture.n_rods(); ++i) {
-    const std::vector<Vec2>& outline = outlines[picture.cell.species_of(i)];
     const Vec3& n = picture.director[i];
     const double flat = n.head<2>().norm();
     const Vec2 along = flat > 1e-6 ? Vec2(n.head<2>() / flat) : Vec2(1, 0), across(-along.y(), along.x());
+    const std::vector<Vec2> outline = half_outline(picture.cell.beads_of(i), flat);
     const Colour colour = rod_colour(picture, i, colouring, range);
     for_images(plane.view(), picture.position[i].head<2>(), std::abs(outline.front().x()) + outline.back().x(),
                [&](const Vec2& at) {
                  const auto add = [&](const Vec2& point, double side) {
-                   const Vec2 p = plane.pixel(at + flat * point.x() * along + side * point.y() * across);
+                   const Vec2 p = plane.pixel(at + point.x() * along + side * point.y() * across);
                    cairo_line_to(cr, p.x(), p.y());
                  };
                  for (const Vec2& point : outline) add(point, 1);
@@ -283,21 +282,9 @@ void draw_lines(const Canvas& canvas, const Layout& layout, const RodPicture& pi
 
 void draw_tracks(const Canvas& canvas, const Layout& layout, const RodPicture& picture, const PictureStyle& style) {
   const Plane plane(canvas, layout, picture, style);
-  cairo_t* cr = canvas.cairo();
   for (const DefectTrail& trail : picture.tracks) {
     const Colour colour = diverging_colour(trail.charge > 0 ? 1 : -1);
     const auto width_at = [&](double age) { return (2 + 3 * (1 - age)) * layout.unit; };
-    // One that was seen once has no way.
-    if (trail.places.size() == 1) {
-      const DefectTrail::Place& place = trail.places.front();
-      const double radius = width_at(place.age) / 2;
-      for_images(plane.view(), place.position, radius / plane.scale(), [&](const Vec2& at) {
-        const Vec2 p = plane.pixel(at);
-        canvas.colour(colour, 0.85 * (1 - place.age));
-        cairo_arc(cr, p.x(), p.y(), radius, 0, 2 * kPi);
-        cairo_fill(cr);
-      });
-    }
     for (std::size_t k = 1; k < trail.places.size(); ++k) {
       const DefectTrail::Place& from = trail.places[k - 1];
       const DefectTrail::Place& to = trail.places[k];

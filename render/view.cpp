@@ -41,6 +41,13 @@ std::optional<std::size_t> followed_rod(const RodPicture& picture, const Picture
   return static_cast<std::size_t>(*style.followed);
 }
 
+bool is_in_view(const RodPicture& picture, const PictureStyle& style, const Vec2& point) {
+  if (style.view != ViewPoint::kTop) return true;
+  bool is_seen = false;
+  for_images(view_of(picture, style), point, 0, [&](const Vec2&) { is_seen = true; });
+  return is_seen;
+}
+
 View box_in(const RodPicture& picture, const PictureStyle& style) {
   const View view = view_of(picture, style);
   if (!is_whole(picture, style)) return {Vec2(0, 0), view.side, view.period};

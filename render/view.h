@@ -19,6 +19,8 @@ struct View {
 View view_of(const RodPicture& picture, const PictureStyle& style);
 /// Where the box lies in the view, from its corner; the view itself unless rods are drawn whole.
 View box_in(const RodPicture& picture, const PictureStyle& style);
+/// Whether a point, or an image of it, is in the view from above; other views show the whole box.
+bool is_in_view(const RodPicture& picture, const PictureStyle& style, const Vec2& point);
 /// The rod that the view follows, if the picture has it.
 std::optional<std::size_t> followed_rod(const RodPicture& picture, const PictureStyle& style);
 

@@ -47,7 +47,7 @@ void declare_style(CLI::App& app, Options& options, bool films) {
       ->type_name("TEXT")
       ->expected(1)
       ->take_all();
-  app.add_flag("--bare", options.bare, "Only the box, filling the picture");
+  app.add_flag("--bare", options.bare, "Only the box, filling the picture; --scale-bar puts a scale bar on it");
   app.add_flag("--json", options.json, "Prints path, frames, size and seconds as JSON");
 }
 
@@ -114,7 +114,10 @@ PictureStyle style_of(const Options& options, PictureStyle style) {
     }
   }
   if (!wrong.empty()) throw Failure(ExitCode::kBadInput, wrong);
-  if (options.bare) style.caption = style.legend = style.scale_bar = style.time_bar = false;
+  if (options.bare) {
+    style.caption = style.legend = style.time_bar = false;
+    style.scale_bar = options.switches.contains("scale_bar") && options.switches.at("scale_bar");
+  }
   done_or_fail(check(style), ExitCode::kBadInput);
   return style;
 }

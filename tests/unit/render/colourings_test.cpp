@@ -43,6 +43,8 @@ TEST(Colourings, ValuesAreWhatTheirNamesSay) {
   EXPECT_NEAR(value("layers", picture, 2), 70, 1e-9) << "-110 is the same axis";
   EXPECT_NEAR(value("angle", picture, 1), 50, 1e-9);
   EXPECT_NEAR(value("angle", picture, 2), 110, 1e-9);
+  EXPECT_TRUE(std::isnan(value("heading", picture, 1))) << "both ends are the same";
+  picture.cell.species[0].radius.back() *= 0.9;
   EXPECT_NEAR(value("heading", picture, 1), 230, 1e-9);
   EXPECT_NEAR(value("heading", picture, 2), 290, 1e-9);
   EXPECT_NEAR(value("tilt", picture, 0), 0.2, 1e-12);
@@ -86,7 +88,7 @@ TEST(Colourings, LocalOrderAndDensityOfAnOrderedHalf) {
 TEST(Colourings, RodsWithoutAValueHaveTheColourOfTheirSpecies) {
   RodPicture picture = empty_picture(20);
   picture.cell.species.push_back({{0}, {0.5}});
-  picture.cell.species.push_back({{-1, 1}, {0.3, 0.3}});
+  picture.cell.species.push_back({{-1, 1}, {0.3, 0.2}});
   add_rod(picture, 5, 5, 0.3);
   add_rod(picture, 9, 5, 0.3);
   add_rod(picture, 9, 9, 0.3);
@@ -96,7 +98,7 @@ TEST(Colourings, RodsWithoutAValueHaveTheColourOfTheirSpecies) {
     EXPECT_EQ(rod_colour(picture, 2, by(name), by(name).range), species_colour(2)) << name;
   }
   EXPECT_EQ(rod_colour(picture, 1, by("heading"), {0, 360}), species_colour(1)) << "a sphere has no head";
-  EXPECT_EQ(rod_colour(picture, 2, by("heading"), {0, 360}), heading_colour(0.3)) << "every rod has one";
+  EXPECT_EQ(rod_colour(picture, 2, by("heading"), {0, 360}), heading_colour(0.3)) << "this rod has one";
   EXPECT_EQ(rod_colour(picture, 0, by("speed"), {-20, 20}), no_value_colour());
   EXPECT_NE(rod_colour(picture, 0, by("species"), {0, 2}), rod_colour(picture, 1, by("species"), {0, 2}));
 }

@@ -101,7 +101,7 @@ const Case kCases[] = {
          plus.places.push_back({Vec2(12 - 14 * age, 19 + 3 * std::sin(6 * age)), age});  // from beyond the border
          minus.places.push_back({Vec2(26 + 4 * std::sin(9 * age), 19 - 8 * age), age});
        }
-       picture.tracks = {plus, minus, {0.5, {{Vec2(30, 30), 0.5}}}};
+       picture.tracks = {plus, minus};
        return picture;
      },
      R"({"style": "defects", "caption": false, "legend": false, "scale_bar": false})"},

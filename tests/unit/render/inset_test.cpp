@@ -156,9 +156,10 @@ TEST(Inset, ASweepHasItsPointsAndARingRoundThisOne) {
   }
 }
 
-TEST(Inset, IsDrawnOnTheRodsAndChangesNothingElse) {
+TEST(Inset, OnTheRodsChangesNothingElse) {
   const RodPicture picture = two_angles(0.2, -0.2);
   PictureStyle style;
+  style.caption = style.legend = style.scale_bar = false;
   const Image without = painter().paint(picture, style).value();
   style.inset = Inset::kAngles;
   const Image with = painter().paint(picture, style).value();

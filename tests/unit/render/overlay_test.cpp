@@ -231,33 +231,94 @@ TEST(RoundLength, IsTheLongestOneTwoFive) {
   EXPECT_DOUBLE_EQ(round_length(0.3), 0.2);
 }
 
-TEST(Overlay, SeveralKindsOfRodsAreShownBesideTheLegend) {
+TEST(Overlay, EachSpeciesIsShownWithItsNumberAndItsOrder) {
   RodPicture picture = empty_picture(kBox);
   picture.cell.species.push_back({{0}, {0.8}});
-  for (int i = 0; i < 5; ++i) {
-    add_rod(picture, 3 * i + 1, 10, 0.2);
-    picture.cell.species_of_rod.push_back(i < 3 ? 0 : 1);
+  picture.cell.species.push_back({{-0.4, 0.4}, {0.5, 0.3}});
+  for (int i = 0; i < 6; ++i) {
+    add_rod(picture, 3 * i + 1, 10, i == 4 ? kPi / 2 : 0);
+    picture.cell.species_of_rod.push_back(static_cast<std::uint8_t>(i / 2));
   }
+  EXPECT_EQ(species_text(picture, 0), "2 rods, S = 1.000");
+  EXPECT_EQ(species_text(picture, 1), "2 spheres");
+  EXPECT_EQ(species_text(picture, 2), "2 rods, S = 0.000") << "at right angles to each other";
   PictureStyle style;
   style.colour = "layers";
-  const Layout layout = layout_of(style, {.species = true});
-  const Image image = painter().paint(picture, style).value();
-  // The second of the two columns begins with a teal disc, the first with a pale rod.
-  const int y = static_cast<int>(layout.species.y + layout.species.height / 2);
-  const auto at = [&](double x) { return image.pixel(static_cast<int>(x), y); };
-  const std::uint8_t* disc = at(layout.species.x + layout.species.width / 2 + 6);
-  const std::uint8_t* rod = at(layout.species.x + 12);
-  const Colour teal = species_colour(1), pale = layer_colour(0);
-  for (std::size_t c = 0; c < 3; ++c) {
-    EXPECT_NEAR(disc[c], 255 * teal[c], 2) << c;
-    EXPECT_NEAR(rod[c], 255 * pale[c], 2) << c;
+  for (const Number& number : numbers_of(picture, style)) {
+    EXPECT_NE(number.name, "order S") << "of which of them?";
+    EXPECT_NE(number.name, "rod length");
+    EXPECT_TRUE(number.name != "bodies" || number.value == "6");
   }
-  // One species alone needs no such thing.
-  picture.cell.species.resize(1);
-  picture.cell.species_of_rod.clear();
-  EXPECT_EQ(layout_of(style, {}).species.width, 0);
-  const Image plain = painter().paint(picture, style).value();
-  EXPECT_EQ(plain.pixel(static_cast<int>(layout.species.x + layout.species.width / 2 + 6), y)[0], 255);
+  const Layout layout = layout_of(style, {.species = 3});
+  const Image image = painter().paint(picture, style).value();
+  // The second row begins with a disc, the first with a pale rod.
+  const double row = layout.species.height / 3;
+  const auto at = [&](int k) {
+    return image.pixel(static_cast<int>(layout.species.x + 8), static_cast<int>(layout.species.y + (k + 0.5) * row));
+  };
+  const Colour dull = species_colour(1), pale = layer_colour(0);
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_NEAR(at(1)[c], 255 * dull[c], 2) << c;
+    EXPECT_NEAR(at(0)[c], 255 * pale[c], 2) << c;
+  }
+}
+
+TEST(Overlay, AZoomedViewCountsWhatIsInView) {
+  RodPicture picture = empty_picture(20);
+  for (int i = 0; i < 4; ++i) add_rod(picture, 1 + 5 * i, 10, 0);
+  picture.defects = {{Vec2(1, 10), 0.5, 0}, {Vec2(11, 10), 0.5, 0}, {Vec2(1, 1), -0.5, 0}};
+  PictureStyle style;
+  const auto rods = [&] {
+    for (const Number& number : numbers_of(picture, style)) {
+      if (number.name == "rods") return number.value;
+    }
+    return std::string();
+  };
+  EXPECT_EQ(rods(), "4");
+  EXPECT_EQ(defects_text(picture, style, 0.5), "+\u00bd defects: 2");
+  style.zoom = 4;  // from 7.5 to 12.5 mm
+  EXPECT_EQ(rods(), "1/4");
+  EXPECT_EQ(defects_text(picture, style, 0.5), "+\u00bd defects: in view 1 of 2");
+  EXPECT_EQ(defects_text(picture, style, -0.5), "\u2212\u00bd defects: in view 0 of 1");
+  style.focus = Vec2(1, 0.5);  // across the border
+  EXPECT_EQ(rods(), "1/4");
+  style.view = ViewPoint::kOrbit;
+  EXPECT_EQ(rods(), "4") << "such a view may show any of them";
+}
+
+TEST(Overlay, ALabelThatIsTooLongEndsInDots) {
+  RodPicture picture = empty_picture(kBox);
+  PictureStyle style;
+  picture.label = "a label of some words";
+  const Image one = painter().paint(picture, style).value();
+  for (int i = 0; i < 20; ++i) picture.label += " and more";
+  const Image cut = painter().paint(picture, style).value();
+  EXPECT_NE(cut, one);
+  const Layout layout = layout_of(style, {.label = true});
+  const int y = static_cast<int>(layout.label.y + 15 * layout.unit) - 1;  // the dots stand on the line
+  int last = 0;
+  for (int x = 0; x < cut.width; ++x) {
+    if (cut.pixel(x, y)[0] < 100) last = x;
+  }
+  EXPECT_LT(last, layout.label.right() + 1);
+  EXPECT_GT(last, layout.label.right() - 100);
+}
+
+TEST(Overlay, AFilmHasABarThatGrows) {
+  RodPicture picture = empty_picture(kBox);
+  picture.film_share = 0.25;
+  const auto dark = [&](const PictureStyle& style) {
+    const Image image = painter().paint(picture, style).value();
+    int n = 0;
+    for (int x = 0; x < image.width; ++x) n += image.pixel(x, image.height - 1)[0] < 100;
+    return n;
+  };
+  EXPECT_NEAR(dark({}), 320, 1);
+  picture.film_share = 1;
+  EXPECT_NEAR(dark({}), 1280, 1);
+  PictureStyle style;
+  style.time_bar = false;
+  EXPECT_EQ(dark(style), 0);
 }
 
 }  // namespace

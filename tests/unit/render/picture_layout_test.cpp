@@ -24,15 +24,27 @@ TEST(Layout, NothingOverlapsOrLeavesThePicture) {
                                                   {800, 1200},  {1080, 1920}, {2000, 1500}, {1500, 600}};
   for (const auto& [width, height] : sizes) {
     for (const bool history : {false, true}) {
-      for (const int more : {0, 1, 2, 3}) {
-        const bool label = more % 2 == 1, species_of_rod = more >= 2;
+      for (const int more : {0, 1, 2, 3, 4, 5, 6, 7}) {
+        const bool label = more % 2 == 1, species_of_rod = more / 2 % 2 == 1;
         PictureStyle style;
+        if (more >= 4) {
+          style.tracks = 2;
+          style.inset = Inset::kG2;
+        }
         style.width = width;
         style.height = height;
-        const Layout layout = layout_of(style, {.history = history, .label = label, .species = species_of_rod});
+        const Layout layout = layout_of(style, {.history = history, .label = label, .species = species_of_rod ? 3 : 0});
         const Rect box{double(layout.box_x), double(layout.box_y), double(layout.box_side), double(layout.box_side)};
-        const std::vector<Rect> all = {box,           layout.label, layout.numbers,   layout.history,
-                                       layout.legend, layout.key,   layout.scale_bar, layout.species};
+        const std::vector<Rect> all = {box,
+                                       layout.label,
+                                       layout.numbers,
+                                       layout.history,
+                                       layout.legend,
+                                       layout.key,
+                                       layout.scale_bar,
+                                       layout.species,
+                                       layout.ground,
+                                       layout.is_inset_on_rods ? Rect{} : layout.inset};
         for (std::size_t i = 0; i < all.size(); ++i) {
           if (all[i].width == 0) continue;
           EXPECT_GT(all[i].height, 0) << i << " in " << width << 'x' << height;
@@ -44,7 +56,6 @@ TEST(Layout, NothingOverlapsOrLeavesThePicture) {
             EXPECT_FALSE(overlap(all[i], all[j])) << i << " and " << j << " in " << width << 'x' << height;
           }
         }
-        EXPECT_GT(layout.legend.width, 0);
         EXPECT_EQ(layout.label.width > 0, label);
         EXPECT_EQ(layout.species.width > 0, species_of_rod);
       }
@@ -52,7 +63,7 @@ TEST(Layout, NothingOverlapsOrLeavesThePicture) {
   }
 }
 
-TEST(Layout, TheInsetLiesOnTheRods) {
+TEST(Layout, TheInsetIsInTheColumnOrLiesOnTheRods) {
   const auto within = [](const Rect& inner, const Rect& outer) {
     return inner.x >= outer.x && inner.y >= outer.y && inner.right() <= outer.right() &&
            inner.bottom() <= outer.bottom();
@@ -65,7 +76,9 @@ TEST(Layout, TheInsetLiesOnTheRods) {
     style.height = height;
     const Layout top = layout_of(style, {}), gap = stage_layout_of(style, {});
     EXPECT_GT(top.inset.width, 0);
-    EXPECT_TRUE(within(top.inset, {double(top.box_x), double(top.box_y), double(top.box_side), double(top.box_side)}));
+    EXPECT_EQ(top.is_inset_on_rods, width < 1280);
+    const Rect box{double(top.box_x), double(top.box_y), double(top.box_side), double(top.box_side)};
+    EXPECT_EQ(within(top.inset, box), top.is_inset_on_rods);
     if (gap.inset.width > 0) {
       EXPECT_TRUE(within(gap.inset, {0, 0, double(gap.stage_width), double(gap.stage_height)}));
     }
@@ -143,6 +156,32 @@ TEST(PanelGrid, FitsTheShapeOfThePicture) {
 TEST(Layout, TheBoxIsMostOfAWidePicture) {
   PictureStyle style;
   EXPECT_GE(layout_of(style, {.history = true, .label = true}).box_side, 670);
+}
+
+TEST(Layout, WordsStandBesideTheRodsInAVeryWidePictureAndBelowThemInATallOne) {
+  PictureStyle style;
+  style.width = 1600;
+  style.height = 400;
+  const Contents all{.history = true, .label = true};
+  const Layout wide = layout_of(style, all);
+  EXPECT_LT(wide.numbers.x - (wide.box_x + wide.box_side), 60);
+  EXPECT_NEAR(wide.box_x, style.width - wide.numbers.right(), 60) << "in the middle";
+  style.width = 400;
+  style.height = 800;
+  const Layout tall = layout_of(style, all);
+  EXPECT_GT(tall.box_side, 350);
+  for (const Rect& place : {tall.numbers, tall.legend}) EXPECT_GT(place.width, 350);
+  EXPECT_GT(tall.legend.y, tall.numbers.y + 10);
+}
+
+TEST(Layout, ABarePictureMayHaveAScaleBarOnItsRods) {
+  PictureStyle style;
+  style.caption = style.legend = false;
+  const Layout layout = layout_of(style, {});
+  EXPECT_TRUE(layout.is_bar_on_rods);
+  EXPECT_EQ(layout.box_side, style.height);
+  EXPECT_GT(layout.scale_bar.x, layout.box_x);
+  EXPECT_LT(layout.scale_bar.bottom(), layout.box_y + layout.box_side);
 }
 
 TEST(Layout, ABarePictureIsAllBox) {

@@ -8,7 +8,9 @@
 #include <fstream>
 #include <iterator>
 
+#include "render/canvas.h"
 #include "render/colours.h"
+#include "render/picture_layout.h"
 #include "tests/unit/render/render_support.h"
 
 namespace shaken::render {
@@ -224,6 +226,53 @@ TEST(VectorFigure, AFolderThatDoesNotExistIsAnError) {
   const auto done = write_vector("/nowhere/at/all/a.svg", empty_picture(10), bare());
   ASSERT_FALSE(done);
   EXPECT_NE(done.error().message.find("/nowhere/at/all/a.svg"), std::string::npos);
+}
+
+/// The rods of a picture as write_vector() draws them, on pixels.
+Image flat_image(const RodPicture& picture, const PictureStyle& style) {
+  Canvas canvas(style.width, style.height, palette(style.theme).page);
+  const Layout layout = layout_of(style, {});
+  draw_ground(canvas, layout, picture, style);
+  draw_flat_rods(canvas, layout, picture, style);
+  return canvas.image();
+}
+
+TEST(FlatRods, HaveTheOutlineThatTheRasterisedOnesHave) {
+  // Level, tilted and upright rods, a sphere whose director says nothing, a polar rod.
+  RodPicture picture = empty_picture(20);
+  picture.cell.species.push_back({{0}, {0.9}});
+  picture.cell.species.push_back({{-1, 0, 1}, {0.9, 0.5, 0.2}});
+  for (const double n_z : {0.0, 0.3, 0.7, 0.95, 1.0}) {
+    for (const std::uint8_t species : {0, 1, 2}) {
+      add_rod(picture, 2 + 15 * n_z, 3.0 + 6 * species, 0.4, n_z);
+      picture.cell.species_of_rod.push_back(species);
+    }
+  }
+  PictureStyle style = bare();
+  style.colour = "species";
+  style.mark_defects = false;
+  style.light.shadows = false;
+  const Image flat = flat_image(picture, style), round = painter().paint(picture, style).value();
+  const Colour floor = palette(style.theme).floor;
+  const auto is_rod = [&](const std::uint8_t* p) {
+    return std::abs(p[0] - 255 * floor[0]) + std::abs(p[1] - 255 * floor[1]) + std::abs(p[2] - 255 * floor[2]) > 40;
+  };
+  int rods = 0, differ = 0;
+  for (int y = 3; y < kSide - 3; ++y) {
+    for (int x = 3; x < kSide - 3; ++x) {
+      const bool is = is_rod(round.pixel(x, y));
+      rods += is;
+      if (is == is_rod(flat.pixel(x, y))) continue;
+      // Their edges may lie a pixel apart: the flat ones have a line around them.
+      bool is_edge = false;
+      for (int dy = -2; dy <= 2; ++dy) {
+        for (int dx = -2; dx <= 2; ++dx) is_edge = is_edge || is_rod(round.pixel(x + dx, y + dy)) != is;
+      }
+      differ += !is_edge;
+    }
+  }
+  EXPECT_GT(rods, 10000);
+  EXPECT_LT(differ, 0.001 * rods) << "but where two round beads meet";
 }
 
 }  // namespace
