@@ -39,8 +39,9 @@ ALLOWED = {
             "sim/snapshot.h", "sim/world.h", "sim/simulation.h", "sim/balance.h", "sim/close_up.h",
             "sim/effects/registry.h", "sim/motion/side_walls.h", "sim/physics_version.h"],
     # drawing knows rods and fields; only the program's sources of frames know files and the bus
-    "render/main.cpp": ["render", "base", "run/files", "proto", "sim/system.h", "sim/snapshot.h",
-                        "analysis"],
+    "render/main.cpp": ["render", "base", "run/files"],
+    "render/program": ["render", "base", "proto/bus.h"],
+    "render/interpolation.h": ["sim/cell.h", "sim/snapshot.h"],
     "render/sources.h": ["render", "run/files", "scene/run_plan.h"],
     # what comes from the bus is held against what a scene allows
     "render/sources.cpp": ["render", "base/files.h", "base/text.h", "base/keys", "run/files", "proto", "scene",

@@ -21,13 +21,13 @@ Canvas Canvas::transparent(int width, int height) {
 }
 
 Result<Canvas> Canvas::vector(const std::filesystem::path& file, const std::string& ending, int width, int height,
-                              const Colour& page, const std::string& title, const Notes& notes) {
+                              const Colour& page, const std::string& title, const Notes& notes, double dpi) {
   cairo_surface_t* surface = nullptr;
   if (ending == ".svg") {
     surface = cairo_svg_surface_create(file.c_str(), width, height);
     cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);
   } else {
-    surface = cairo_pdf_surface_create(file.c_str(), width, height);
+    surface = cairo_pdf_surface_create(file.c_str(), width * 72 / dpi, height * 72 / dpi);
     std::string words;
     for (const auto& [key, value] : notes)
       words.append(words.empty() ? "" : ", ").append(key).append(" ").append(value);
@@ -37,6 +37,7 @@ Result<Canvas> Canvas::vector(const std::filesystem::path& file, const std::stri
     cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
   }
   Canvas canvas(surface);
+  if (ending == ".pdf") cairo_scale(canvas.cairo(), 72 / dpi, 72 / dpi);
   canvas.colour(page);
   cairo_paint(canvas.cairo());
   if (const cairo_status_t status = cairo_surface_status(surface); status != CAIRO_STATUS_SUCCESS) {

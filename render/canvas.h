@@ -28,9 +28,9 @@ class Canvas {
   /// Of pixels, with nothing on it: what is drawn is laid over a picture afterwards.
   static Canvas transparent(int width, int height);
   /// Of lines and areas, as a file of the format that `ending` names: ".svg" or ".pdf". A PDF has a title and, as
-  /// keywords, the notes.
+  /// keywords, the notes; its pages are as large as so many pixels are at `dpi` to the inch.
   static Result<Canvas> vector(const std::filesystem::path& file, const std::string& ending, int width, int height,
-                               const Colour& page, const std::string& title, const Notes& notes);
+                               const Colour& page, const std::string& title, const Notes& notes, double dpi = 72);
 
   /// For paths: Cairo's own functions.
   cairo_t* cairo() const { return context_.get(); }

@@ -99,9 +99,9 @@ void name_runs(const std::vector<RodPicture*>& runs) {
     RodPicture& run = *runs.front();
     run.label.clear();
     run.subtitle.clear();
-    for (const auto& setting : run.settings) {
-      const bool is_shaking = setting.first == "\u0393" || setting.first == "f" || setting.first == "L";
-      append(is_shaking ? run.subtitle : run.label, said(setting));
+    constexpr std::size_t kHeadline = 4;  // what is of the rods
+    for (std::size_t i = 0; i < run.settings.size(); ++i) {
+      append(i < kHeadline ? run.label : run.subtitle, said(run.settings[i]));
     }
     return;
   }

@@ -127,8 +127,9 @@ Result<void> write_vector(const std::filesystem::path& file, const RodPicture& p
     std::remove(unfinished.c_str());
     return Error{"cannot write " + file.string() + ": " + why};
   };
-  Result<Canvas> canvas = Canvas::vector(unfinished, file.extension().string(), style.width, style.height,
-                                         palette(style.theme).page, picture.label, picture.notes);
+  Result<Canvas> canvas =
+      Canvas::vector(unfinished, file.extension().string(), style.width, style.height, palette(style.theme).page,
+                     picture.label, picture.notes, style.dpi.value_or(72));
   if (!canvas) return failed(canvas.error().message);
   const auto draw_box = [&](const Layout& layout, const RodPicture& one) {
     draw_ground(*canvas, layout, one, style);

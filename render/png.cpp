@@ -32,7 +32,8 @@ void ignore_warning(png_structp, png_const_charp) {}
 
 /// libpng leaves by longjmp on an error, so this function must hold no object with a destructor.
 template <class Channel>
-bool encode(std::FILE* file, const ImageOf<Channel>& image, png_text* texts, int n_texts, std::string* message) {
+bool encode(std::FILE* file, const ImageOf<Channel>& image, png_text* texts, int n_texts, double dpi,
+            std::string* message) {
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, message, keep_message, ignore_warning);
   png_infop info = png ? png_create_info_struct(png) : nullptr;
   if (!info) {
@@ -51,6 +52,8 @@ bool encode(std::FILE* file, const ImageOf<Channel>& image, png_text* texts, int
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height),
                8 * sizeof(Channel), PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                PNG_FILTER_TYPE_DEFAULT);
+  const auto per_metre = static_cast<png_uint_32>(std::lround(dpi / 0.0254));
+  if (per_metre > 0) png_set_pHYs(png, info, per_metre, per_metre, PNG_RESOLUTION_METER);
   png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
   png_set_text(png, info, texts, n_texts);
   png_write_info(png, info);
@@ -72,7 +75,8 @@ Notes picture_texts(const RodPicture& picture) {
 }
 
 template <class Channel>
-Result<void> write_png(const std::filesystem::path& file, const ImageOf<Channel>& image, const Notes& texts) {
+Result<void> write_png(const std::filesystem::path& file, const ImageOf<Channel>& image, const Notes& texts,
+                       double dpi) {
   const auto failed = [&](const std::string& why) { return Error{"cannot write " + file.string() + ": " + why}; };
   const std::filesystem::path unfinished = temporary_for(file);
   std::unique_ptr<std::FILE, CloseFile> stream(std::fopen(unfinished.c_str(), "wb"));
@@ -90,7 +94,7 @@ Result<void> write_png(const std::filesystem::path& file, const ImageOf<Channel>
   }
   std::string message = "no memory";
   errno = 0;
-  bool good = encode(stream.get(), image, chunks.data(), static_cast<int>(chunks.size()), &message);
+  bool good = encode(stream.get(), image, chunks.data(), static_cast<int>(chunks.size()), dpi, &message);
   if (good && std::fclose(stream.release()) != 0) {
     good = false;
     message = std::strerror(errno);
@@ -101,7 +105,8 @@ Result<void> write_png(const std::filesystem::path& file, const ImageOf<Channel>
   std::remove(unfinished.c_str());
   return failed(message);
 }
-template Result<void> write_png(const std::filesystem::path& file, const Image& image, const Notes& texts);
-template Result<void> write_png(const std::filesystem::path& file, const DeepImage& image, const Notes& texts);
+template Result<void> write_png(const std::filesystem::path& file, const Image& image, const Notes& texts, double dpi);
+template Result<void> write_png(const std::filesystem::path& file, const DeepImage& image, const Notes& texts,
+                                double dpi);
 
 }  // namespace shaken::render

@@ -13,8 +13,9 @@ namespace shaken::render {
 Notes picture_texts(const RodPicture& picture);
 
 /// Writes a PNG with `texts` inside, as tEXt where they are ASCII and iTXt (UTF-8) otherwise; the file appears, or
-/// replaces an older one, only when it is complete.
+/// replaces an older one, only when it is complete. `dpi`: pixels per inch that it says it has; 0: none.
 template <class Channel>
-Result<void> write_png(const std::filesystem::path& file, const ImageOf<Channel>& image, const Notes& texts = {});
+Result<void> write_png(const std::filesystem::path& file, const ImageOf<Channel>& image, const Notes& texts = {},
+                       double dpi = 0);
 
 }  // namespace shaken::render

@@ -15,8 +15,8 @@ namespace shaken::render {
 /// Draws rods and plates as a camera sees them: from above, into the gap between the plates, or from anywhere.
 /// Model:    one quad for each rod, on which each pixel's ray is cut with the beads themselves, so the outline is that
 ///           of the simulated body; the depth is the surface's own. Rods are repeated across the periodic border as far
-///           as one sees. Each species is drawn with its own beads. The plates are where they are at the picture's time;
-///           beyond side walls the floor is tinted.
+///           as one sees. Each species is drawn with its own beads. The plates are where they are at the picture's
+///           time; beyond side walls the floor is tinted.
 /// Numerics: the samples of a pixel are averaged; the same bits for any number of rasteriser threads.
 class RodsPass {
  public:

@@ -51,8 +51,8 @@ class TrajectorySource {
   Result<void> follow(const FollowedDefect& defect, std::size_t first, std::size_t last);
   /// A frame with order, director and what the style asks for; with S up to its time if the history has been read.
   Result<RodPicture> picture(std::size_t index, const PictureStyle& style);
-  /// The same at any time [s]: of the nearest frame or, if the style interpolates, between two (render/interpolation.h).
-  /// Before the first frame and after the last one it is that frame's.
+  /// The same at any time [s]: of the nearest frame or, if the style interpolates, between two
+  /// (render/interpolation.h). Before the first frame and after the last one it is that frame's.
   Result<RodPicture> picture_at(double time, const PictureStyle& style);
 
  private:

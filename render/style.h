@@ -59,6 +59,7 @@ struct Light {
 struct PictureStyle {
   int width = 1280;             ///< [pixels]
   int height = 720;             ///< [pixels]
+  std::optional<double> dpi;    ///< pixels per inch that a PNG or a PDF has; if not given a PDF has 72
   std::string colour = "auto";  ///< a row of colourings(), or "auto": chosen_colour() decides
   std::optional<Vec2> range;    ///< ends of its scale, in the colouring's unit; the colouring's own if not given
   Theme theme = Theme::kLight;

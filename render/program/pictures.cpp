@@ -38,7 +38,7 @@ void paint_to_file(const Options& options, const PictureStyle& style, const RodP
     Painter painter = value_or_fail(Painter::create(), ExitCode::kFailed);
     const auto paint = [&]<class Channel>(Channel) {
       const ImageOf<Channel> image = value_or_fail(painter.paint<Channel>(picture, style), ExitCode::kFailed);
-      done_or_fail(write_png(out, image, picture_texts(picture)));
+      done_or_fail(write_png(out, image, picture_texts(picture), style.dpi.value_or(0)));
     };
     options.depth == 16 ? paint(std::uint16_t{}) : paint(std::uint8_t{});
   }

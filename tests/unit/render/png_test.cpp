@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <fstream>
+#include <iterator>
 #include <map>
 
 #include "tests/support/in_child.h"
@@ -33,6 +35,21 @@ std::map<std::string, std::string> texts_of(const std::filesystem::path& path) {
   png_destroy_read_struct(&png, &info, nullptr);
   std::fclose(file);
   return all;
+}
+
+TEST(Png, SaysHowManyPixelsAnInchHas) {
+  const ScratchFolder folder;
+  ASSERT_TRUE(write_png(folder / "a.png", Image(3, 2), {}, 300));
+  ASSERT_TRUE(write_png(folder / "b.png", Image(3, 2)));
+  const auto chunk = [&](const char* name) {
+    std::ifstream file(folder / name, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    const std::size_t at = bytes.find("pHYs");
+    return at == std::string::npos ? std::string() : bytes.substr(at + 4, 9);
+  };
+  // 300 / 0.0254 = 11811 = 0x2e23 pixels per metre each way, unit 1.
+  EXPECT_EQ(chunk("a.png"), std::string("\0\0\x2e\x23\0\0\x2e\x23\1", 9));
+  EXPECT_EQ(chunk("b.png"), "");
 }
 
 TEST(Png, RoundTrip) {
