@@ -41,13 +41,6 @@ class BoundedSeries {
     if (columns_[0].size() == max_points_) average_pairs();
   }
 
-  /// Points that there are after so many samples.
-  static std::int64_t points_of(std::int64_t samples, std::size_t max_points = kMaxPoints) {
-    std::int64_t samples_per_point = 1;
-    while (samples / samples_per_point >= static_cast<std::int64_t>(max_points)) samples_per_point *= 2;
-    return samples / samples_per_point;
-  }
-
   const std::vector<double>& times() const { return columns_[0]; }                    ///< (n) [s]
   const std::vector<double>& column(std::size_t k) const { return columns_[k + 1]; }  ///< (n)
 

@@ -38,11 +38,9 @@ Json derived_quantities(const scene::SweepPoint& point) {
   const scene::RunPlan& plan = point.plan;
   const System& system = plan.system;
   Json species = Json::array();
-  double area_fraction = 0;
   const auto add_species = [&](const std::string& name, const RodShape& rod, int count) {
-    const double fraction = scene::area_fraction_of(system, rod, count);
-    species.push_back({{"name", name}, {"count", count}, {"area_fraction", fraction}});
-    area_fraction += fraction;
+    species.push_back(
+        {{"name", name}, {"count", count}, {"area_fraction", scene::area_fraction_of(system, rod, count)}});
   };
   add_species("rods", system.rod, system.n_rods);
   for (std::size_t k = 0; k < system.added.size(); ++k) {
@@ -50,7 +48,7 @@ Json derived_quantities(const scene::SweepPoint& point) {
   }
   Json json{{"id", scene::run_id(plan)},
             {"n_rods", system.n_all_rods()},
-            {"area_fraction", area_fraction},
+            {"area_fraction", scene::total_area_fraction_of(system)},
             {"species", species},
             {"gamma", nullptr},  // where there is no gravity
             {"amplitude_mm", system.amplitude},

@@ -17,10 +17,10 @@
 #include "base/progress_line.h"
 #include "base/terminal.h"
 #include "base/text.h"
+#include "run/cost/run_cost.h"
 #include "run/ending.h"
 #include "run/loop.h"
 #include "run/movie_process.h"
-#include "run/probe/probe.h"
 #include "run/progress_text.h"
 #include "run/saved_run.h"
 #include "run/start_state.h"
@@ -140,15 +140,15 @@ Result<Simulation> resume_from(const std::filesystem::path& folder, const System
 }
 
 void probe_scene(const scene::RunPlan& plan, const WorkerOptions& asked) {
-  std::optional<Probe> probed;
+  std::optional<RunCost> cost;
   if (asked.probe_cpu > 0) {
     Simulation simulation = value_or_fail(
         asked.probe_from.empty() ? start_simulation(plan, "") : resume_from(asked.probe_from, plan.system),
         ExitCode::kBadInput);
-    probed = value_or_fail(probe(plan, std::move(simulation), asked.probe_cpu));
-    if (!probed->movie_trouble.empty()) spdlog::warn("the movie could not be timed: {}", probed->movie_trouble);
+    cost = value_or_fail(cost_of_run(plan, std::move(simulation), asked.probe_cpu));
+    if (!cost->movie_trouble.empty()) spdlog::warn("the movie could not be timed: {}", cost->movie_trouble);
   }
-  done_or_fail(write_file(asked.probe, probe_report(plan, probed).dump(2) + "\n"));
+  done_or_fail(write_file(asked.probe, cost_report(plan, cost).dump(2) + "\n"));
 }
 
 }  // namespace

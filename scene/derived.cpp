@@ -50,6 +50,12 @@ double area_for_rods(const System& scene) { return scene.walls ? scene.walls->ar
 
 double area_fraction_of(const System& scene) { return area_fraction_of(scene, scene.rod, scene.n_rods); }
 
+double total_area_fraction_of(const System& scene) {
+  double sum = area_fraction_of(scene);
+  for (const auto& added : scene.added) sum += added ? area_fraction_of(scene, added->rod, added->count) : 0;
+  return sum;
+}
+
 double area_fraction_of(const System& scene, const RodShape& rod, int count) {
   return count * species_of(rod).area / area_for_rods(scene);
 }

@@ -37,6 +37,8 @@ double arena_size_for(const SideWalls& walls, double area);
 double area_for_rods(const System& scene);
 /// Of the rods of the first species: N A / L^2, with A the area of one rod lying flat.
 double area_fraction_of(const System& scene);
+/// Of the rods of all species.
+double total_area_fraction_of(const System& scene);
 /// Of rods of any species.
 double area_fraction_of(const System& scene, const RodShape& rod, int count);
 

@@ -24,6 +24,12 @@ double Sizes::in_blocks(double bytes) const { return std::min(kBlocks, samples) 
 
 double Sizes::series(double columns) const { return std::min(kSeries, samples) * columns * kNumberBytes; }
 
+double Sizes::series_in_file(double columns) const {
+  double points = samples;
+  while (points >= kSeries) points /= 2;
+  return std::floor(points) * columns * kNumberBytes;
+}
+
 double Sizes::for_lags(double columns, double quantities) const {
   double kept = 0;
   for (int k = 0; k < 16; ++k) kept += std::min(8.0, std::ceil(samples / std::exp2(k)));
@@ -45,9 +51,10 @@ MeasureMemory of_defects(const Sizes& sizes) {
   const double found =
       std::min(system.box_side * system.box_side / (4 * std::numbers::pi * smoothing * smoothing), side * side);
   constexpr double kTrack = 1200;  // with its last 17 places
-  const double list = defects.list ? kGrowing * 6 * kNumberBytes * found * sizes.samples : 0;
+  const double list = defects.list ? 6 * kNumberBytes * found * sizes.samples : 0;
   // Q, the density of rods and that of the nodes, each node's sum by rows and in all
-  return {"", sizes.series(3) + found * kTrack + list, 5 * kNumberBytes * side * side};
+  return {"", sizes.series(3) + found * kTrack + kGrowing * list, 5 * kNumberBytes * side * side,
+          sizes.series_in_file(3) + list};
 }
 
 MeasureMemory of_velocity(const Sizes& sizes) {
@@ -59,7 +66,8 @@ MeasureMemory of_velocity(const Sizes& sizes) {
 MeasureMemory of_rods(const Sizes& sizes) {
   const MeasureRods& rods = *sizes.plan.rods;
   const double kept = std::min(sizes.samples, std::floor(rods.duration / rods.every * (1 + 1e-12)) + 1);
-  return {"", kGrowing * kept * kNumberBytes * (4 * std::min<double>(rods.count, sizes.rods) + 1), 0};
+  const double bytes = kept * kNumberBytes * (4 * std::min<double>(rods.count, sizes.rods) + 1);
+  return {"", kGrowing * bytes, 0, bytes};
 }
 
 MeasureMemory of_pairs(const Sizes& sizes) {
@@ -88,7 +96,8 @@ Observable order() {
     .is_usual = true,
     .axis = AxisUse::kNeeded,
     // its reduction looks for correlations, in copies of the series
-    .memory = [](const Sizes& s) -> MeasureMemory { return {"", s.series(3) + s.in_blocks(1000), s.series(6)}; },
+    .memory = [](const Sizes& s) -> MeasureMemory {
+      return {"", s.series(3) + s.in_blocks(1000), s.series(6), s.series_in_file(3)}; },
     .remedy = "a longer `every`"};
 }
 

@@ -22,6 +22,7 @@ struct MeasureMemory {
   std::string name;    ///< of the observable
   double state = 0;    ///< what it has gathered at the end of the run; all of it goes into each checkpoint
   double scratch = 0;  ///< what it needs besides while it takes a sample
+  double file = 0;     ///< what it adds to observables.h5 beyond what a few samples make of it
 };
 
 /// What formulas of memory are made of.
@@ -32,6 +33,8 @@ struct Sizes {
 
   double in_blocks(double bytes) const;
   double series(double columns) const;
+  /// The same at the end of the run, when neighbouring points have been averaged in pairs.
+  double series_in_file(double columns) const;
   /// Kept for lags to come: of each of 16 levels the last 8 of every 2^k-th sample (analysis/lag_average.h), and sums
   /// over so many quantities at 69 lags.
   double for_lags(double columns, double quantities) const;

@@ -24,7 +24,7 @@ RodOutline outline_of(const BeadRow& beads) {
 
 }  // namespace
 
-Result<RodFrame> constants_of(const shaken::Cell& cell, std::size_t n_rods) {
+Result<RodFrame> constants_of(const Cell& cell, std::size_t n_rods) {
   constexpr double kMostLayers = 20;
   if (auto done = scene::check_cell(cell, n_rods); !done) return done.error();
   RodFrame frame{.cell = cell};
@@ -47,7 +47,7 @@ void LiveRods::select(const std::string& job) {
 
 void LiveRods::note(const frame_static_t& message) {
   if (job_.empty() || message.job_id != job_) return;
-  const std::optional<shaken::Cell> cell = proto::decode_cell(message);
+  const std::optional<Cell> cell = proto::decode_cell(message);
   if (!cell || message.n_rods < 0) return;
   const auto n_rods = static_cast<std::size_t>(message.n_rods);
   if (Result<RodFrame> constants = constants_of(*cell, n_rods)) {

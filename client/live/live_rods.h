@@ -15,7 +15,7 @@ namespace shaken::client {
 
 /// The part of a picture that does not change: `time`, `order`, `director` and `rods` are left open. Fails where no
 /// scene has such a cell, or it has no room for so many rods: anybody can send them.
-Result<RodFrame> constants_of(const shaken::Cell& cell, std::size_t n_rods);
+Result<RodFrame> constants_of(const Cell& cell, std::size_t n_rods);
 
 /// The rods of one run at a time, from the bus.
 class LiveRods {

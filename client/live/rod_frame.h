@@ -29,7 +29,7 @@ struct RodFrame {
   double order = 0;     ///< S of the first species; NaN where there are no axes
   double director = 0;  ///< its angle [rad]
   std::vector<proto::RodPose> rods{};
-  shaken::Cell cell{};                 ///< periodic unless there are walls
+  Cell cell{};                         ///< periodic unless there are walls
   std::vector<RodOutline> outlines{};  ///< one per species, at least one
 };
 

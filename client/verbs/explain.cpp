@@ -29,8 +29,8 @@ class Explain : public Verb {
     return {"explain", kPrepareGroup, "What a scene calls for, and what it would cost on this machine",
             "  shaken explain scene.json                   effects on and off, CPU time and disk at each accuracy\n"
             "  shaken explain scene.json -s movie=null     what it would cost without\n"
-            "  shaken explain sweep.json                   the sum over a sweep, from a handful of its points\n"
-            "  shaken explain scene.json --cpu 10          longer probes, closer to the steady state\n"
+            "  shaken explain sweep.json                   the sum over a sweep, from the point in its middle\n"
+            "  shaken explain scene.json --cpu 10          a longer probe, closer to the steady state\n"
             "  shaken explain scene.json --from runs/first   the state of a run of the same system\n"
             "  shaken explain sweep.json --executor slurm --cores 200    core-hours and wall time there\n"
             "  shaken explain scene.json --no-probe        only what is on and off, and why"};
@@ -43,8 +43,7 @@ class Explain : public Verb {
     arguments.flag("--no-probe", no_probe_, "Step nothing: leaves out all that has to be measured");
     arguments.option(
         "--cpu", cpu_, "S",
-        "CPU time for the steps of all probes together, at most; 1.5 if not given, and never more than a tenth of the "
-        "runs'");
+        "CPU time for the steps of the probe, at most; 1.5 if not given, and never more than a tenth of the run's");
     arguments.option("--from", from_, "DIR", "Probe from the saved state of this run, of the same system and step",
                      Names::kFolder);
     arguments.option("--executor", executor_, "local|slurm", "Where it is to run; as the sweep says if not given");
@@ -59,9 +58,8 @@ class Explain : public Verb {
     check_options();
     const scene::Sweep sweep = load_points(read_scene_input(file_), settings_, replicas_);
     Console& console = context.console;
-    EstimateOptions options{.probe = !no_probe_, .cpu = cpu_.value_or(EstimateOptions{}.cpu), .from = from_};
-    options.on_probe = probe_progress(console, !json_);
-    const CostEstimate estimate = estimate_cost(sweep, options);
+    const double cpu = no_probe_ ? 0 : cpu_.value_or(EstimateOptions{}.cpu);
+    const CostEstimate estimate = estimate_cost(sweep, {.cpu = cpu, .from = from_});
     const scene::SweepPoint& point = sweep.points[estimate.shown];
     const auto in_slurm = slurm_load(sweep, estimate);
     if (json_) {
@@ -108,7 +106,7 @@ class Explain : public Verb {
     if (!is_slurm(executor_.empty() ? sweep.executor : executor_)) return std::nullopt;
     if (estimate.runs.empty()) return std::nullopt;
     SlurmLoad load{.cores = cores_.value_or(0)};
-    for (const RunCost& run : estimate.runs) load.runs.push_back(run.cpu);
+    for (const PointCost& run : estimate.runs) load.runs.push_back(run.cpu());
     load.runs_per_task = sweep.slurm.runs_per_task > 0 ? sweep.slurm.runs_per_task : runs_per_task_.value_or(1);
     load.max_pending = max_pending_.value_or(load.max_pending);
     load.time_limit = sweep.slurm.time;

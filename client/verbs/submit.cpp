@@ -115,9 +115,7 @@ class Submit : public Verb {
                   << std::flush;
     }
     if (!no_probe_) {
-      EstimateOptions options;
-      options.on_probe = probe_progress(console, !json_);
-      const CostEstimate estimate = estimate_cost(sweep, options);
+      const CostEstimate estimate = estimate_cost(sweep, {});
       json["estimate"] = estimate_json(estimate);
       if (!json_) console.out << "\nOn this machine, on one core:\n" << estimate_text(estimate, console.width);
     }

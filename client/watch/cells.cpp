@@ -31,14 +31,14 @@ char32_t take_character(std::string_view& text) {
 }
 
 /// Takes "\x1b[32m" and the like off the front of `text`, and does what they say to `style`.
-void take_style(std::string_view& text, Cell& style) {
+void take_style(std::string_view& text, ScreenCell& style) {
   const std::size_t end = text.find('m');
   const std::string_view sequence = text.substr(0, end);
   text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
   if (sequence.size() < 3 || sequence[1] != '[') return;
   int code = 0;
   std::from_chars(sequence.data() + 2, sequence.data() + sequence.size(), code);
-  if (code == 0) style = Cell{};
+  if (code == 0) style = ScreenCell{};
   if (code == 1) style.bold = true;
   if (code == 2) style.dim = true;
   if (code >= 30 && code <= 37) style.fore = theme_ink(code - 30);
@@ -54,7 +54,7 @@ CellGrid::CellGrid(int columns, int lines)
 int CellGrid::put(int column, int line, std::string_view text, int columns) {
   if (line < 0 || line >= lines_) return column;
   const int end = std::min(column + columns, columns_);
-  Cell style;
+  ScreenCell style;
   while (!text.empty() && column < end) {
     if (text.front() == '\x1b') {
       take_style(text, style);

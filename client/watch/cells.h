@@ -10,13 +10,13 @@
 namespace shaken::client {
 
 /// What stands in one place of a terminal.
-struct Cell {
+struct ScreenCell {
   char32_t glyph = U' ';
   Ink fore = kOwnInk;
   Ink back = kOwnInk;
   bool bold = false;
   bool dim = false;
-  friend bool operator==(const Cell&, const Cell&) = default;
+  friend bool operator==(const ScreenCell&, const ScreenCell&) = default;
 };
 
 /// A rectangle of cells.
@@ -34,8 +34,8 @@ class CellGrid {
   CellGrid(int columns, int lines);
   int columns() const { return columns_; }
   int lines() const { return lines_; }
-  Cell& at(int column, int line) { return cells_[index(column, line)]; }
-  const Cell& at(int column, int line) const { return cells_[index(column, line)]; }
+  ScreenCell& at(int column, int line) { return cells_[index(column, line)]; }
+  const ScreenCell& at(int column, int line) const { return cells_[index(column, line)]; }
 
   /// Writes UTF-8 `text` from (column, line) on, with the colours that Console::painted gives it, over at most
   /// `columns` columns; what does not fit in there or in the grid is left out. Characters that do not fill exactly one
@@ -51,7 +51,7 @@ class CellGrid {
 
   int columns_;
   int lines_;
-  std::vector<Cell> cells_;
+  std::vector<ScreenCell> cells_;
 };
 
 /// A character in UTF-8.

@@ -51,7 +51,7 @@ Ink half_ink(const Blend& blend, bool mixes) {
   return ink_of(blend.tone, static_cast<double>(blend.n_filled) / blend.n_in_box);
 }
 
-Cell block_cell(const RodSamples& samples, int column, int row, bool mixes) {
+ScreenCell block_cell(const RodSamples& samples, int column, int row, bool mixes) {
   const Ink upper = half_ink(blended(samples, column, row, 2, 2), mixes);
   const Ink lower = half_ink(blended(samples, column, row + 2, 2, 2), mixes);
   if (upper == lower) return {.back = upper};
@@ -59,11 +59,11 @@ Cell block_cell(const RodSamples& samples, int column, int row, bool mixes) {
   return {.glyph = U'▀', .fore = upper, .back = lower};
 }
 
-Cell braille_cell(const RodSamples& samples, int column, int row, bool in_colour) {
+ScreenCell braille_cell(const RodSamples& samples, int column, int row, bool in_colour) {
   // Unicode numbers the dots 1-3 and 7 down the left column, 4-6 and 8 down the right.
   static constexpr std::uint8_t kBits[4][2] = {{0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}};
   const Blend blend = blended(samples, column, row, 2, 4);
-  Cell cell;
+  ScreenCell cell;
   if (in_colour && blend.n_in_box > 0) cell.back = ink_of(kFloorTone);
   std::uint8_t bits = 0;
   for (int j = 0; j < 4; ++j) {
@@ -95,7 +95,7 @@ void draw_rods(const RodFrame& frame, const std::vector<DefectMark>& defects, co
   for (const DefectMark& defect : defects) {
     const auto [column, row] = samples.place(defect.x, defect.y);
     if (!samples.is_in_box(column, row)) continue;
-    Cell& cell = grid.at(area.column + column / 2, area.line + row / 4);
+    ScreenCell& cell = grid.at(area.column + column / 2, area.line + row / 4);
     cell = {.glyph = defect.is_positive ? U'+' : U'−', .bold = true};
     if (style.in_colour) {
       cell.fore = defect.is_positive ? kMarkBack : kMarkInk;

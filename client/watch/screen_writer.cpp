@@ -40,14 +40,14 @@ std::string colour_code(Ink ink, int base, ColourDepth depth) {
 
 /// Of the cells that look like `cell`, the one that needs the fewest changes of colour after `style`: nothing of a
 /// blank is seen but what is behind it, and a half block may be turned over.
-Cell cheapest(const Cell& cell, const Cell& style) {
+ScreenCell cheapest(const ScreenCell& cell, const ScreenCell& style) {
   if (cell.glyph == U' ') return {.fore = style.fore, .back = cell.back, .bold = style.bold, .dim = style.dim};
   // The terminal's own two colours differ, and bold letters may be brighter.
   const bool can_turn =
       (cell.glyph == U'▀' || cell.glyph == U'▄') && cell.fore >= 0 && cell.back >= 0 && !cell.bold && !cell.dim;
   if (!can_turn) return cell;
-  const auto n_changes = [&style](const Cell& c) { return (c.fore != style.fore) + (c.back != style.back); };
-  const Cell turned{.glyph = cell.glyph == U'▀' ? U'▄' : U'▀', .fore = cell.back, .back = cell.fore};
+  const auto n_changes = [&style](const ScreenCell& c) { return (c.fore != style.fore) + (c.back != style.back); };
+  const ScreenCell turned{.glyph = cell.glyph == U'▀' ? U'▄' : U'▀', .fore = cell.back, .back = cell.fore};
   return n_changes(turned) < n_changes(cell) ? turned : cell;
 }
 
@@ -61,7 +61,7 @@ Ink saturated(Ink rgb) {
   return pure;
 }
 
-bool same_style(const Cell& a, const Cell& b) {
+bool same_style(const ScreenCell& a, const ScreenCell& b) {
   return a.fore == b.fore && a.back == b.back && a.bold == b.bold && a.dim == b.dim;
 }
 
@@ -109,7 +109,7 @@ int nearest_of_16(Ink rgb) {
       kXterm.begin());
 }
 
-std::string ScreenWriter::style_text(const Cell& cell) const {
+std::string ScreenWriter::style_text(const ScreenCell& cell) const {
   std::string text = "\x1b[0";
   if (cell.bold) text += ";1";
   if (cell.dim) text += ";2";
@@ -125,13 +125,13 @@ bool ScreenWriter::draws_whole(const CellGrid& grid) const {
 std::string ScreenWriter::update(const CellGrid& grid, const std::string& image) {
   const bool is_whole = draws_whole(grid);
   std::string text;
-  Cell style;  // what the terminal writes with
+  ScreenCell style;  // what the terminal writes with
   for (int line = 0; line < grid.lines(); ++line) {
     int cursor = -1;  // column, if the cursor is known to be in this line
     for (int column = 0; column < grid.columns(); ++column) {
-      const Cell& wanted = grid.at(column, line);
-      if (is_whole ? wanted == Cell{} : wanted == last_->at(column, line)) continue;
-      const Cell cell = cheapest(wanted, style);
+      const ScreenCell& wanted = grid.at(column, line);
+      if (is_whole ? wanted == ScreenCell{} : wanted == last_->at(column, line)) continue;
+      const ScreenCell cell = cheapest(wanted, style);
       if (cursor < 0) {
         text += fmt::format("\x1b[{};{}H", line + 1, column + 1);
       } else if (cursor < column) {

@@ -37,7 +37,7 @@ class ScreenWriter {
   void forget() { last_.reset(); }
 
  private:
-  std::string style_text(const Cell& cell) const;
+  std::string style_text(const ScreenCell& cell) const;
 
   ColourDepth depth_;
   std::optional<CellGrid> last_;

@@ -41,11 +41,6 @@ void take(StateReader& reader, std::size_t n, std::vector<Value>& values) {
   if (n > 0) std::memcpy(values.data(), bytes.data(), bytes.size());
 }
 
-/// Bytes of one frame.
-std::size_t record_bytes(std::size_t n_rods) {
-  return sizeof(std::int64_t) + sizeof(double) + n_rods * (10 * sizeof(float) + 3 * sizeof(std::int32_t)) + kHashBytes;
-}
-
 StateWriter record_of(const RecordedFrame& frame) {
   StateWriter record;
   record.put(static_cast<std::int64_t>(frame.tick));
@@ -181,7 +176,7 @@ class LoggedFrames final : public RecordedFrames {
   const TrajectoryHeader& header() const override { return header_; }
   std::size_t n_frames() const override { return n_frames_; }
   Result<RecordedFrame> frame(std::size_t index) const override {
-    const std::size_t size = record_bytes(n_rods());
+    const std::size_t size = frame_bytes(n_rods());
     const Result<std::string> record = read_at(file_.value(), begin_ + index * size, size);
     if (!record) return Error{path_.string() + ": " + record.error().message};
     std::optional<RecordedFrame> frame = record->size() == size ? frame_of(*record, n_rods()) : std::nullopt;
@@ -196,7 +191,7 @@ class LoggedFrames final : public RecordedFrames {
       : path_(std::move(path)), file_(std::move(file)), begin_(begin), header_(std::move(header)) {
     std::error_code ignored;
     const std::uintmax_t size = std::filesystem::file_size(path_, ignored);
-    if (!ignored && size > begin_) n_frames_ = (size - begin_) / record_bytes(n_rods());
+    if (!ignored && size > begin_) n_frames_ = (size - begin_) / frame_bytes(n_rods());
     // The last one may be on its way to the file just now, or have been when its writer was killed.
     if (n_frames_ > 0 && !frame(n_frames_ - 1)) --n_frames_;
   }
@@ -209,6 +204,10 @@ class LoggedFrames final : public RecordedFrames {
 };
 
 }  // namespace
+
+std::size_t frame_bytes(std::size_t n_rods) {
+  return sizeof(std::int64_t) + sizeof(double) + n_rods * (10 * sizeof(float) + 3 * sizeof(std::int32_t)) + kHashBytes;
+}
 
 Result<void> check(const TrajectoryHeader& header) {
   if (header.n_rods < 0) return Error{"n_rods is negative"};
@@ -249,7 +248,7 @@ Result<FrameLog> FrameLog::reopen(const std::filesystem::path& file, std::size_t
   return log;
 }
 
-std::size_t FrameLog::end() const { return begin_ + n_frames_ * record_bytes(n_rods_); }
+std::size_t FrameLog::end() const { return begin_ + n_frames_ * frame_bytes(n_rods_); }
 
 Result<void> FrameLog::append(const RecordedFrame& frame) {
   if (frame.position.size() != 3 * n_rods_) {

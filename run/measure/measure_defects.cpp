@@ -4,7 +4,6 @@
 #include <string>
 #include <utility>
 
-#include "analysis/bounded_series.h"
 #include "analysis/director_field.h"
 #include "run/measure/estimates.h"
 #include "run/measure/measurement_kinds.h"
@@ -92,7 +91,6 @@ MeasurementKind defects_kind() {
   return {
       .name = "defects",
       .sources = "defects, director_field, defect_series, defect_tracks",
-      .growth = Growth::kSeries,
       .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
         return std::make_unique<MeasuredDefects>(context);
       },
@@ -141,11 +139,6 @@ MeasurementKind defects_kind() {
               {"lasting_defect_speed_plus_along_mm_s", "the same of lasting tracks"},
               {"lasting_defect_speed_plus_across_mm_s", "the same of lasting tracks"},
               {"defect_charge", "mean total charge; 0 in a periodic box that is full of rods"},
-          },
-      .kept =
-          [](const scene::RunPlan& plan, std::int64_t samples) {
-            // every defect found, if that is asked for, or their numbers only
-            return plan.defects->list ? samples : analysis::BoundedSeries<2>::points_of(samples);
           },
   };
 }

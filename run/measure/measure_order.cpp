@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "run/measure/measure_order.h"
 
-#include "analysis/bounded_series.h"
 #include "run/measure/estimates.h"
 #include "run/measure/measurement_kinds.h"
 
@@ -41,7 +40,6 @@ MeasurementKind order_kind() {
   return {
       .name = "order",
       .sources = "order, order_statistics, time_series",
-      .growth = Growth::kSeries,
       .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
         return std::make_unique<MeasuredOrder>(context.plan.system.n_rods);
       },
@@ -58,8 +56,6 @@ MeasurementKind order_kind() {
               {"binder", "Binder cumulant U₂ = 2 − ⟨S⁴⟩/⟨S²⟩²: 0 in disorder, 1 in order"},
               {"susceptibility", "N · var S"},
           },
-      .kept = [](const scene::RunPlan&,
-                 std::int64_t samples) { return analysis::BoundedSeries<2>::points_of(samples); },
   };
 }
 

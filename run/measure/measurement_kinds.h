@@ -13,13 +13,6 @@
 
 namespace shaken::run {
 
-/// How state and file of a measurement grow with the number of samples.
-enum class Growth {
-  kSeries,  ///< with those that are kept one by one (MeasurementKind::kept), but for blocks besides
-  kBlocks,  ///< the state up to 64 samples' worth (analysis/blocked.h), the file not at all
-  kLags,    ///< with the logarithm
-};
-
 /// One array of observables.h5, or one number of summary.json.
 struct Output {
   std::string_view name;     ///< ends in the unit; of an array: its path below "/NAME/"
@@ -34,14 +27,11 @@ inline constexpr bool kWithError = true;
 struct MeasurementKind {
   std::string_view name;     ///< as in scene/observables.cpp
   std::string_view sources;  ///< files of analysis/, "tilt, tilt_summary"
-  Growth growth = Growth::kBlocks;
   std::unique_ptr<Measurement> (*make)(const MeasureContext&) = nullptr;
   std::vector<Output> arrays = {};
   std::vector<Output> numbers = {};
   /// Names of arrays and numbers that need an axis, where others of the same measurement do not: spheres lack them.
   std::vector<std::string_view> of_axis = {};
-  /// How many of so many samples are kept one by one; null: all.
-  std::int64_t (*kept)(const scene::RunPlan&, std::int64_t samples) = nullptr;
   /// Whether samples are spread over their intervals, because they depend on the phase of the vibration; null: no.
   bool (*is_spread)(const scene::RunPlan&) = nullptr;
 

@@ -70,7 +70,6 @@ MeasurementKind msd_kind() {
   return {
       .name = "msd",
       .sources = "msd, lag_fits, lag_average",
-      .growth = Growth::kLags,
       .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
         return std::make_unique<MeasuredDisplacement>(context.interval, context.plan.steady);
       },

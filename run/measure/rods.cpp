@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <cmath>
 #include <string>
 
 #include "analysis/rod_traces.h"
@@ -42,7 +41,6 @@ MeasurementKind rods_kind() {
   return {
       .name = "rods",
       .sources = "rod_traces",
-      .growth = Growth::kSeries,
       .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
         return std::make_unique<MeasuredRods>(*context.plan.rods, context.plan.steady.value_or(0.0));
       },
@@ -53,11 +51,6 @@ MeasurementKind rods_kind() {
               {"trace/K/y_mm", "the same in y"},
               {"trace/K/theta_rad", "angle of its axis in the plane, in (-π, π]"},
               {"trace/K/n_z", "vertical component of its axis"},
-          },
-      .kept =
-          [](const scene::RunPlan& plan, std::int64_t samples) {
-            const double most = std::floor(plan.rods->duration / plan.rods->every * (1 + 1e-12)) + 1;
-            return most < static_cast<double>(samples) ? static_cast<std::int64_t>(most) : samples;
           },
   };
 }

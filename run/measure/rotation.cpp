@@ -50,7 +50,6 @@ MeasurementKind rotation_kind() {
   return {
       .name = "rotation",
       .sources = "rotation, lag_fits, lag_average",
-      .growth = Growth::kLags,
       .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
         return std::make_unique<MeasuredRotation>(context.interval, context.plan.steady);
       },

@@ -56,7 +56,6 @@ MeasurementKind velocity_kind() {
   return {
       .name = "velocity",
       .sources = "velocity_correlation, lag_average",
-      .growth = Growth::kLags,
       .make = [](const MeasureContext& context) -> std::unique_ptr<Measurement> {
         return std::make_unique<MeasuredVelocity>(context.interval, context.plan.velocity->window, context.plan.steady);
       },

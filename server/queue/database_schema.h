@@ -1,12 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
+
 #include "server/queue/sqlite.h"
 
 namespace shaken::server {
 
+/// Makes the next version of the tables of the one before.
+using Migration = void (*)(Database&);
+
+/// Those of this program since its first version, in order. The next version is one function more.
+std::span<const Migration> migrations();
+
 /// Creates the queue's tables in an empty file, and brings those of an older version up to this program's. Throws
-/// StorageError if the file is damaged, or was written by a newer version.
-void prepare_schema(Database& database);
+/// StorageError if the file is damaged, or of a version that this program cannot read.
+void prepare_schema(Database& database, std::span<const Migration> migrations = migrations());
 
 }  // namespace shaken::server

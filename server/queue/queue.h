@@ -58,7 +58,7 @@ struct Launched {
 /// in store.h.
 class Queue {
  public:
-  /// Opens or creates the file. Throws StorageError if it is damaged or was written by a newer Shaken.
+  /// Opens or creates the file. Throws StorageError if it is damaged or of another version (prepare_schema).
   explicit Queue(const std::filesystem::path& file);
 
   /// Puts what a dead predecessor left running back into the queue (or cancels it, where that had been asked for), but

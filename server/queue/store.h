@@ -52,7 +52,7 @@ struct ExecutorRefusal {
 /// The tables of the queue, without its rules, transactions and threads. Every function throws StorageError.
 class QueueStore {
  public:
-  /// Opens or creates the file. Throws StorageError if it is damaged or was written by a newer Shaken.
+  /// Opens or creates the file. Throws StorageError if it is damaged or of another version (prepare_schema).
   explicit QueueStore(const std::filesystem::path& file);
   Database& database() { return database_; }
 

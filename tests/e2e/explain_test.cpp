@@ -119,16 +119,13 @@ TEST_F(Explain, AddsUpASweep) {
                                                        "replicas": 2}})");
   const Json report = json({"explain", sweep});
   EXPECT_EQ(report.at("n_runs"), 16);
-  EXPECT_EQ(report.at("n_distinct"), 8);
-  EXPECT_EQ(report.at("n_probed"), 5);
   const Json single = json({"explain", write("scene.json", kScene)});
   const double ratio = level_named(report, "as written").at("cpu_seconds").get<double>() /
                        level_named(single, "as written").at("cpu_seconds").get<double>();
-  EXPECT_GT(ratio, 2);  // 16 runs with 12.5 times the rods, which cost less each
-  EXPECT_LT(ratio, 40);
+  EXPECT_GT(ratio, 4);  // 16 runs with 12.7 times the rods; those of sparse rods cost less each
+  EXPECT_LT(ratio, 25);
   const Finished text = shaken({"explain", sweep, "--cpu", "0.05"});
-  EXPECT_THAT(text.output, AllOf(HasSubstr("16 runs"), HasSubstr("as written"), HasSubstr("5 of them were probed"),
-                                 HasSubstr("interpolated")));
+  EXPECT_THAT(text.output, AllOf(HasSubstr("16 runs"), HasSubstr("as written"), HasSubstr("One of them was probed")));
 }
 
 TEST_F(Explain, SaysWhatTheRunsOfEachStepCostWherePointsHaveSeveral) {

@@ -18,7 +18,7 @@ namespace shaken::test {
 /// not understand.
 class SmallTerminal {
  public:
-  using Cell = client::Cell;
+  using ScreenCell = client::ScreenCell;
   /// What a terminal knows of images, and tells to those who ask.
   struct Skills {
     bool knows_kitty = false;
@@ -54,7 +54,9 @@ class SmallTerminal {
     image_.reset();
   }
 
-  const Cell& at(int column, int line) const { return cells_[static_cast<std::size_t>(line * columns_ + column)]; }
+  const ScreenCell& at(int column, int line) const {
+    return cells_[static_cast<std::size_t>(line * columns_ + column)];
+  }
   /// All lines, without blanks at their ends.
   std::string text() const {
     std::string all;
@@ -102,7 +104,7 @@ class SmallTerminal {
     } else {
       char32_t glyph = size == 1 ? lead : lead & (0x7FU >> size);
       for (std::size_t i = 1; i < size; ++i) glyph = glyph << 6 | (static_cast<unsigned char>(rest_[i]) & 0x3FU);
-      Cell cell = style_;
+      ScreenCell cell = style_;
       cell.glyph = glyph;
       if (is_in_sixels(column_, line_)) image_.reset();
       if (column_ < columns_) cells_[static_cast<std::size_t>(line_ * columns_ + column_++)] = cell;
@@ -225,8 +227,8 @@ class SmallTerminal {
   int n_images_ = 0;
   int column_ = 0;
   int line_ = 0;
-  Cell style_;
-  std::vector<Cell> cells_;
+  ScreenCell style_;
+  std::vector<ScreenCell> cells_;
   bool second_page_ = false;
   int n_visits_ = 0;
   bool cursor_ = true;

@@ -12,7 +12,7 @@ from ..errors import ShakenError
 
 
 def explained(program: str, file: Path, cores: int) -> dict[str, Any]:
-    """What `shaken explain` says of a sweep in Slurm, after short probes on this machine."""
+    """What `shaken explain` says of a sweep in Slurm, after a short probe on this machine."""
     done = subprocess.run([program, "explain", str(file), "--executor", "slurm", "--cores", str(cores), "--json"],
                           capture_output=True, text=True, check=False)
     if done.returncode != 0:
@@ -66,7 +66,7 @@ def write_plan(file: Path, program: str, sweeps: Mapping[str, dict[str, Any]], c
 - **Software**: Shaken (Debian package, or built with CMake and g++), Slurm, Python 3 with numpy, scipy, matplotlib and
   h5py to draw.
 - **The daemon** lives on the login node meanwhile, and hands batches of tasks to Slurm; it takes hardly any CPU time.
-- Estimates come from probes of at most a second of each kind of run, on the machine where this was written.
+- Estimates come from a probe of about a second of one run of each set, on the machine where this was written.
 
     shakend --root ROOT --executor slurm &
 """ + "".join(f"    shaken --root ROOT submit {path.relative_to(file.parent)}\n"

@@ -23,15 +23,6 @@ TEST(BoundedSeries, AveragesPairsWhenItIsFull) {
   EXPECT_THROW(series.accumulate(999, {0, 0}), std::logic_error);
 }
 
-TEST(BoundedSeries, PointsOfSoManySamples) {
-  BoundedSeries<1> series(8);
-  for (int n = 1; n < 1000; ++n) {
-    series.accumulate(n, {0});
-    EXPECT_EQ(BoundedSeries<1>::points_of(n, 8), static_cast<std::int64_t>(series.times().size())) << n;
-  }
-  EXPECT_LT(BoundedSeries<1>::points_of(std::int64_t{1} << 50), 65536);
-}
-
 TEST(BoundedSeries, SavedState) {
   BoundedSeries<1> straight(8), stopped(8);
   for (int i = 0; i < 100; ++i) {

@@ -20,6 +20,7 @@
 #include <thread>
 
 #include "base/process.h"
+#include "server/queue/sqlite.h"
 #include "tests/support/lazy_server.h"
 #include "tests/unit/server/server_support.h"
 
@@ -518,6 +519,12 @@ TEST_F(DaemonTest, WhatCannotStartSaysWhy) {
   Daemon no_worker(directory_ / "root", {"--no-lcm", "--worker", "/nonexistent/worker"});
   EXPECT_EQ(no_worker.wait(), 1);
   EXPECT_THAT(no_worker.errors(), HasSubstr("/nonexistent/worker"));
+  const std::filesystem::path old = directory_ / "old";
+  std::filesystem::create_directory(old);
+  Database(old / "queue.db").execute("PRAGMA user_version = 4");
+  Daemon cannot_read(old, {"--no-lcm", "--worker", worker_.string()});
+  EXPECT_EQ(cannot_read.wait(), 1);
+  EXPECT_THAT(cannot_read.errors(), HasSubstr("queue.db has schema version 4"));
 
   Daemon no_root("/dev/null/root", {"--no-lcm", "--worker", worker_.string()});
   EXPECT_EQ(no_root.wait(), 1);

@@ -8,6 +8,7 @@
 
 #include "scene/canonical.h"
 #include "scene/load.h"
+#include "server/queue/database_schema.h"
 #include "tests/unit/server/server_support.h"
 
 namespace shaken::server {
@@ -461,80 +462,52 @@ TEST(QueueFileTest, ADamagedFileIsRefusedInWords) {
   EXPECT_EQ(read_text(directory / "queue.db"), std::string(8192, 'x')) << "and it is left as it is";
 }
 
-TEST(QueueFileTest, AFileOfANewerVersionIsRefusedWithAWayOut) {
-  const ScratchFolder directory;
-  { const Queue queue(directory / "queue.db"); }
-  Database(directory / "queue.db").execute("PRAGMA user_version = 99");
-  try {
-    const Queue queue(directory / "queue.db");
-    FAIL() << "opened";
-  } catch (const StorageError& problem) {
-    EXPECT_THAT(problem.what(), HasSubstr("99"));
-    EXPECT_THAT(problem.what(), HasSubstr("--root"));
+TEST(QueueFileTest, AFileOfAnotherVersionIsRefusedWithAWayOut) {
+  for (const std::string version : {"4", "99", "-1"}) {
+    const ScratchFolder directory;
+    { const Queue queue(directory / "queue.db"); }
+    Database(directory / "queue.db").execute(("PRAGMA user_version = " + version).c_str());
+    try {
+      const Queue queue(directory / "queue.db");
+      FAIL() << "opened";
+    } catch (const StorageError& problem) {
+      EXPECT_THAT(problem.what(), HasSubstr("has schema version " + version + ","));
+      EXPECT_THAT(problem.what(), HasSubstr("--root"));
+    }
   }
+}
+
+TEST(QueueFileTest, EachMigrationIsAppliedOnceAndWhollyOrNotAtAll) {
+  const ScratchFolder directory;
+  const auto file = directory / "queue.db";
+  { const Queue queue(file); }
+  const auto version = [&] {
+    Database database(file);
+    Query query = database.query("PRAGMA user_version");
+    query.next();
+    return query.integer(0);
+  };
+  const std::int64_t first = version();
+  const Migration one = [](Database& database) { database.execute("CREATE TABLE one(x INTEGER)"); };
+  const Migration two = [](Database& database) { database.execute("CREATE TABLE two(x INTEGER)"); };
+  const Migration fails = [](Database& database) { database.execute("CREATE TABLE two(x INTEGER); nonsense"); };
+  const auto prepare = [&](const std::vector<Migration>& migrations) {
+    Database database(file);
+    prepare_schema(database, migrations);
+  };
+  EXPECT_THROW(prepare({one, fails}), StorageError);
+  EXPECT_EQ(version(), first);
+  prepare({one});
+  prepare({one, two});
+  prepare({one, two});
+  EXPECT_EQ(version(), first + 2);
+  EXPECT_THROW(prepare({one}), StorageError) << "an older program";
+  std::filesystem::remove(file);
+  prepare({one, two});
+  EXPECT_EQ(version(), first + 2) << "an empty file";
 }
 
 TEST(QueueFileTest, AnUnwritableFolderIsAnError) { EXPECT_THROW(Queue("/nonexistent/queue.db"), StorageError); }
-
-/// The tables of the first version, and of the second, with a job in each.
-class OldQueueTest : public testing::TestWithParam<int> {};
-
-TEST_P(OldQueueTest, IsTakenOver) {
-  const ScratchFolder directory;
-  const auto file = directory / "old.db";
-  {
-    Database old(file);
-    old.execute(R"sql(
-      CREATE TABLE sweeps(id INTEGER PRIMARY KEY AUTOINCREMENT, name TEXT NOT NULL, created_utime INTEGER NOT NULL);
-      CREATE TABLE jobs(
-        number INTEGER PRIMARY KEY AUTOINCREMENT, id TEXT NOT NULL UNIQUE, state TEXT NOT NULL,
-        after_stop TEXT NOT NULL DEFAULT '', reason TEXT NOT NULL DEFAULT '', priority INTEGER NOT NULL,
-        attempt INTEGER NOT NULL DEFAULT 0, pid INTEGER NOT NULL DEFAULT 0, created_utime INTEGER NOT NULL,
-        started_utime INTEGER NOT NULL DEFAULT 0, finished_utime INTEGER NOT NULL DEFAULT 0,
-        sweep INTEGER NOT NULL REFERENCES sweeps, label TEXT NOT NULL, parameters TEXT NOT NULL, replica INTEGER NOT NULL);
-      CREATE TABLE scenes(job INTEGER PRIMARY KEY REFERENCES jobs, scene TEXT NOT NULL);
-      CREATE TABLE members(
-        sweep INTEGER NOT NULL REFERENCES sweeps, position INTEGER NOT NULL, job INTEGER NOT NULL REFERENCES jobs,
-        label TEXT NOT NULL, parameters TEXT NOT NULL, replica INTEGER NOT NULL,
-        PRIMARY KEY(sweep, position)) WITHOUT ROWID;
-      CREATE TABLE journal(
-        sequence INTEGER PRIMARY KEY AUTOINCREMENT, utime INTEGER NOT NULL, job TEXT NOT NULL, from_state TEXT NOT NULL,
-        to_state TEXT NOT NULL, attempt INTEGER NOT NULL, cause TEXT NOT NULL);
-      INSERT INTO sweeps(name, created_utime) VALUES('old', 1);
-      CREATE INDEX sweeps_by_name ON sweeps(name);
-      CREATE INDEX jobs_by_turn ON jobs(state, priority DESC, number);
-      INSERT INTO jobs(id, state, priority, attempt, created_utime, started_utime, finished_utime, sweep, label,
-                       parameters, replica)
-        VALUES('aaaaaaaaaaaaaaaa', 'queued', 3, 0, 1, 0, 0, 1, 'label', '{}', 1),
-              ('bbbbbbbbbbbbbbbb', 'done', 0, 1, 1, 1000000, 3000000, 1, 'label', '{}', 1);
-      INSERT INTO scenes(job, scene) VALUES(1, '{}'), (2, '{}');
-      INSERT INTO members VALUES(1, 0, 1, 'label', '{}', 1), (1, 1, 2, 'label', '{}', 1);
-      PRAGMA user_version = 1;)sql");
-    if (GetParam() == 2) {
-      old.execute(R"sql(
-        ALTER TABLE jobs ADD COLUMN hold TEXT NOT NULL DEFAULT '';
-        ALTER TABLE jobs ADD COLUMN needed_bytes INTEGER NOT NULL DEFAULT 0;
-        ALTER TABLE jobs ADD COLUMN crashes INTEGER NOT NULL DEFAULT 0;
-        ALTER TABLE jobs ADD COLUMN not_before_utime INTEGER NOT NULL DEFAULT 0;
-        PRAGMA user_version = 2;)sql");
-    }
-  }
-  for (int opened = 0; opened < 2; ++opened) {
-    Queue queue(file);
-    ASSERT_EQ(queue.jobs(1).size(), 2U);
-    EXPECT_EQ(queue.jobs(1)[0].state, kQueued);
-    EXPECT_EQ(queue.jobs(1)[0].priority, 3);
-    EXPECT_EQ(queue.jobs(1)[0].phase, JobPhase::kQueued);
-    EXPECT_EQ(queue.jobs(1)[0].time_limit.count(), 0);
-    EXPECT_EQ(queue.hold(1), 1);
-    EXPECT_EQ(queue.resume(1), 1);
-    EXPECT_EQ(queue.mean_duration(1), 2.0) << "from the times of its last attempt";
-    queue.submit("new", 3, std::vector{new_job('c')});
-    EXPECT_EQ(queue.next(2).at(0).id, std::string(16, 'a')) << "what was there first goes first";
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(Versions, OldQueueTest, testing::Values(1, 2));
 
 }  // namespace
 }  // namespace shaken::server

@@ -125,21 +125,22 @@ TEST(RodCells, ThinRodsDoNotVanish) {
 TEST(RodCells, BlocksMixFromTwoByTwoSamples) {
   const CellGrid grid = drawn(frame_of({{5, 5.25, 0, 0}}), kBlocks);
   const Tone along = layer_tone(0);
-  EXPECT_EQ(grid.at(4, 2), (Cell{.glyph = U'▀', .fore = ink_of(along, 0.5), .back = ink_of(kFloorTone)}));
-  EXPECT_EQ(grid.at(2, 2), (Cell{.glyph = U'▀', .fore = ink_of(along, 0.25), .back = ink_of(kFloorTone)}));
-  EXPECT_EQ(grid.at(0, 0), (Cell{.back = ink_of(kFloorTone)}));
+  EXPECT_EQ(grid.at(4, 2), (ScreenCell{.glyph = U'▀', .fore = ink_of(along, 0.5), .back = ink_of(kFloorTone)}));
+  EXPECT_EQ(grid.at(2, 2), (ScreenCell{.glyph = U'▀', .fore = ink_of(along, 0.25), .back = ink_of(kFloorTone)}));
+  EXPECT_EQ(grid.at(0, 0), (ScreenCell{.back = ink_of(kFloorTone)}));
   // With few colours a half is a rod's or the floor's.
   RodStyle few = kBlocks;
   few.mixes = false;
   const CellGrid plain = drawn(frame_of({{5, 5.25, 0, 0}}), few);
   EXPECT_EQ(plain.at(4, 2).fore, ink_of(along));
-  EXPECT_EQ(plain.at(2, 2), (Cell{.back = ink_of(kFloorTone)}));
+  EXPECT_EQ(plain.at(2, 2), (ScreenCell{.back = ink_of(kFloorTone)}));
 }
 
 TEST(RodCells, OutsideTheBoxTheTerminalIsLeftAlone) {
   const CellGrid wide = drawn(frame_of({{0, 5.25, 0, 0}}), kBlocks, {}, 40, 5);
   for (int column = 0; column < 40; ++column) {
-    EXPECT_EQ(wide.at(column, 0), (column >= 15 && column < 25 ? Cell{.back = ink_of(kFloorTone)} : Cell{})) << column;
+    EXPECT_EQ(wide.at(column, 0), (column >= 15 && column < 25 ? ScreenCell{.back = ink_of(kFloorTone)} : ScreenCell{}))
+        << column;
   }
   EXPECT_EQ(wide.at(15, 2).glyph, U'▀');
 }

@@ -179,7 +179,7 @@ TEST_F(WatchCells, LeavesRoomForAnImage) {
   EXPECT_EQ(image_area(content(), 120, 40), picture);
   const CellGrid grid = watch_cells(content(), 120, 40);
   for (int line = picture.line; line < picture.line + picture.lines; ++line) {
-    for (int column = 0; column < picture.columns; ++column) ASSERT_EQ(grid.at(column, line), Cell{});
+    for (int column = 0; column < picture.columns; ++column) ASSERT_EQ(grid.at(column, line), ScreenCell{});
   }
   // The box is 74 x 7 pixels wide, and 10 mm: 2 mm are 103.6 pixels or 15 characters.
   EXPECT_THAT(grid.text(38), HasSubstr("├─────────────┤ 2 mm"));

@@ -19,7 +19,7 @@ using ::testing::Not;
 
 /// Cells that look the same become equal: nothing of a blank is seen but what is behind it, and two colours of one half
 /// block are those of the other, the other way round.
-Cell look(Cell cell) {
+ScreenCell look(ScreenCell cell) {
   if (cell.glyph == U' ') return {.back = cell.back};
   if (cell.glyph == U'▄' && cell.fore >= 0 && cell.back >= 0 && !cell.bold && !cell.dim) {
     return {.glyph = U'▀', .fore = cell.back, .back = cell.fore};

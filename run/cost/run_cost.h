@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "base/core/result.h"
 #include "scene/run_plan.h"
@@ -34,10 +33,10 @@ struct DiskUse {
   double most() const { return total() + trajectory_part; }
 };
 
-/// What a short piece of a run tells of the whole run on this machine, on one thread: ticks times the time of a tick,
-/// and so many of each thing that the run does now and then times the time of one.
-struct Probe {
-  // the piece
+/// What a run will cost on this machine, on one thread: ticks times the time of a tick, and the number of each thing
+/// that the run does now and then times the time of one. The times are those of a short piece of the run, the probe.
+struct RunCost {
+  // the probe
   double warm_up = 0;    ///< simulated before timing [s]
   double simulated = 0;  ///< while timing [s]
   double cpu = 0;        ///< that this took [s]
@@ -50,9 +49,7 @@ struct Probe {
   Cost checkpoints;
   std::string movie_trouble;  ///< why the movie could not be timed, if so
   DiskUse disk;
-  /// Held at most while it was probed, with the renderer of its movie; of measurements only what a few samples take
-  /// [bytes]
-  double memory = 0;
+  double memory = 0;  ///< held at most, with the renderer of its movie and all that is measured [bytes]
 
   double stepping() const { return run_ticks * tick_cpu; }
   /// CPU time of the run with all that belongs to it [s].
@@ -62,21 +59,11 @@ struct Probe {
   std::optional<double> cpu_of(const std::string& effect) const;
 };
 
-/// What the measurements of a plan cost, each by itself.
-struct SamplingCost {
-  std::map<std::string, Cost> samples;  ///< by effect, "measure_order"
-  double file_bytes = 0;                ///< of observables.h5 at the end of the run
-  double state_bytes = 0;               ///< of the measurements in the checkpoint at the end of the run
-};
-
-/// Takes a few samples of each measurement at some states of the plan's rods, at least one: for about `cpu` each [s].
-SamplingCost time_sampling(const scene::RunPlan& plan, const std::vector<Snapshot>& snapshots, double cpu = 0.02);
-
 /// Goes on with `simulation`, of this plan's system, for about `cpu` seconds, or a tenth of the time that the run will
-/// take if that is less, and times once what the run does now and
-/// then beside stepping. At tick 0 half of `cpu` goes by before anything is timed. Fails if the steps meet
+/// take if that is less, and times once what the run does now and then beside stepping. At tick 0 half of `cpu` goes by
+/// before anything is timed. Bytes of measurements follow from the plan (scene/observables.h). Fails if the steps meet
 /// numerical trouble or the disk refuses. Files go to a temporary folder.
-Result<Probe> probe(const scene::RunPlan& plan, Simulation simulation, double cpu);
+Result<RunCost> cost_of_run(const scene::RunPlan& plan, Simulation simulation, double cpu);
 
 /// What a plan calls for and, if it was probed, what that costs; what `shaken-worker --probe` writes:
 ///   {"effects": [{"name", "what", "on", "why", "cpu_share"?}],
@@ -87,6 +74,6 @@ Result<Probe> probe(const scene::RunPlan& plan, Simulation simulation, double cp
 /// "most" is what the disk must have room for at the end of the run, "total" what stays. All shares are of
 /// "cpu_seconds", the CPU time of the whole run with its movie, and add up to 1. What is measured, recorded or drawn
 /// has one of its own; the physics is stepping as a whole.
-nlohmann::ordered_json probe_report(const scene::RunPlan& plan, const std::optional<Probe>& probe);
+nlohmann::ordered_json cost_report(const scene::RunPlan& plan, const std::optional<RunCost>& cost);
 
 }  // namespace shaken::run

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "run/probe/probe.h"
+#include "run/cost/run_cost.h"
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
@@ -38,13 +37,13 @@ scene::RunPlan busy_plan() {
   return plan;
 }
 
-Result<Probe> probed_from_start(const scene::RunPlan& plan, double cpu) {
-  return probe(plan, Simulation::start(plan.system).value(), cpu);
+Result<RunCost> probed_from_start(const scene::RunPlan& plan, double cpu) {
+  return cost_of_run(plan, Simulation::start(plan.system).value(), cpu);
 }
 
 double bytes_of(const std::filesystem::path& file) { return static_cast<double>(std::filesystem::file_size(file)); }
 
-TEST(Probe, FindsWhatARunThenTakes) {
+TEST(RunCost, FindsWhatARunThenTakes) {
   const scene::RunPlan plan = busy_plan();
   const auto probed = probed_from_start(plan, 0.2);
   ASSERT_TRUE(probed) << probed.error().message;
@@ -68,7 +67,9 @@ TEST(Probe, FindsWhatARunThenTakes) {
   EXPECT_NEAR(probed->disk.trajectory / bytes_of(directory.trajectory()), 1, 0.15);
   // how many defects there will be is not known
   EXPECT_NEAR(probed->disk.observables / bytes_of(directory.observables()), 1, 0.4);
-  EXPECT_NEAR(probed->disk.checkpoints / bytes_of(directory.checkpoint()), 1, 0.2);
+  // with room for all that the measurements may hold
+  EXPECT_GT(probed->disk.checkpoints / bytes_of(directory.checkpoint()), 0.9);
+  EXPECT_LT(probed->disk.checkpoints / bytes_of(directory.checkpoint()), 1.4);
   // of the same order only: the machine may do other things meanwhile
   const double cpu = probed->total() / summary["cpu_seconds"].get<double>();
   EXPECT_GT(cpu, 0.1);
@@ -76,58 +77,51 @@ TEST(Probe, FindsWhatARunThenTakes) {
 }
 
 // What is kept of a long run is bounded: S(t) and the numbers of defects at 65,536 points, single rods' ways by their
-// duration; but for the list of defects.
-TEST(Sampling, FindsWhatALongRunThenKeeps) {
-  const scene::RunPlan busy = busy_plan();
-  std::vector<Snapshot> states{Simulation::start(busy.system).value().snapshot()};
-  for (std::size_t i = 0; i < states[0].n_rods(); ++i) {  // for some defects
-    const auto angle = static_cast<double>(i * i);
-    states[0].director[i] = Vec3(std::cos(angle), std::sin(angle), 0);
-  }
-  const auto promised = [&](const scene::RunPlan& plan) { return time_sampling(plan, states); };
-  scene::RunPlan nothing;
-  nothing.system = busy.system;
-  nothing.order.reset();
+// duration; but for the list of defects. It follows from the plan.
+TEST(RunCost, KnowsWhatALongRunThenKeeps) {
+  scene::RunPlan nothing = busy_plan();
+  static_cast<scene::MeasurePlan&>(nothing) = {};
+  nothing.trajectory.reset();
+  nothing.stream.reset();
+  const auto disk = [&](const scene::RunPlan& plan) { return probed_from_start(plan, 0.01).value().disk; };
 
   scene::RunPlan plan = nothing;
   plan.measure_time = 6000;
   plan.order = scene::MeasureOrder{0.001};
-  EXPECT_LT(promised(plan).state_bytes, 3e6);
-  EXPECT_LT(promised(plan).file_bytes, 3e6);
-  EXPECT_GT(promised(plan).file_bytes, 32768 * 24);
+  EXPECT_LT(disk(plan).observables, 3e6);
+  EXPECT_GT(disk(plan).observables, 32768 * 24);
   plan.order.reset();
   plan.defects = scene::MeasureDefects{0.01, 1.25, 0.3125};
-  EXPECT_LT(promised(plan).state_bytes, 5e6);
-  const double counts = promised(plan).file_bytes;
+  const double counts = disk(plan).observables;
   EXPECT_LT(counts, 3e6);
   plan.defects->list = true;
-  EXPECT_GT(promised(plan).file_bytes, counts + 1e6);
+  EXPECT_GT(disk(plan).observables, counts + 1e6);
 
   // against as many samples: 1.5 times what one sample a point has room for, and longer than rods are followed
   plan = nothing;
   plan.measure_time = 100;
   plan.order = scene::MeasureOrder{0.001};
   plan.rods = scene::MeasureRods{0.01, 4, 20};
-  const SamplingCost cost = promised(plan);
   plan.steady = 0;
+  const DiskUse promised = disk(plan);
   Measurements measurements(plan);
-  Snapshot state = states.front();
+  Snapshot state = Simulation::start(plan.system).value().snapshot();
   const Tick end = scene::total_ticks(plan);
   for (Tick tick = 0; tick <= end; tick = measurements.next_due(tick + 1)) {
     state.tick = tick;
     state.time = static_cast<double>(tick) * plan.system.dt;
     measurements.sample(state);
   }
-  EXPECT_NEAR(cost.state_bytes / static_cast<double>(measurements.save().size()), 1, 0.02);
+  EXPECT_NEAR(promised.checkpoints / 2 / static_cast<double>(measurements.save().size()), 1, 0.5);
   const ScratchFolder folder;
   ASSERT_TRUE(write_observables(folder.path() / "observables.h5", measurements.reduce(100).arrays));
-  EXPECT_NEAR(cost.file_bytes / bytes_of(folder.path() / "observables.h5"), 1, 0.02);
+  EXPECT_NEAR(promised.observables / bytes_of(folder.path() / "observables.h5"), 1, 0.02);
 }
 
-TEST(Probe, SharesAddUpToTheWhole) {
+TEST(RunCost, SharesAddUpToTheWhole) {
   const auto probed = probed_from_start(busy_plan(), 0.1);
   ASSERT_TRUE(probed) << probed.error().message;
-  const auto report = probe_report(busy_plan(), *probed);
+  const auto report = cost_report(busy_plan(), *probed);
   EXPECT_GT(report["memory_bytes"].get<double>(), 1e6);
   double sum = 0;
   for (const char* part : {"stepping", "checkpoints"}) {
@@ -148,18 +142,18 @@ TEST(Probe, SharesAddUpToTheWhole) {
   EXPECT_NEAR(sum, 1, 1e-9);
 }
 
-TEST(Probe, GoesOnFromAnyState) {
+TEST(RunCost, GoesOnFromAnyState) {
   const scene::RunPlan plan = busy_plan();
   auto simulation = Simulation::start(plan.system);
   ASSERT_TRUE(static_cast<bool>(simulation));
   ASSERT_FALSE(simulation->advance_to(100).has_value());
-  const auto probed = probe(plan, std::move(simulation).value(), 0.02);
+  const auto probed = cost_of_run(plan, std::move(simulation).value(), 0.02);
   ASSERT_TRUE(probed) << probed.error().message;
   EXPECT_GT(probed->simulated, 0);
   EXPECT_GT(probed->tick_cpu, 0);
 }
 
-TEST(Probe, EndsInTroubleWithItsWords) {
+TEST(RunCost, EndsInTroubleWithItsWords) {
   scene::RunPlan plan = busy_plan();
   plan.system.amplitude = 5;
   plan.system.dt = 2e-4;  // too long a step for such plates
