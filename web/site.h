@@ -12,6 +12,7 @@
 
 #include "base/http/http_server.h"
 #include "base/process.h"
+#include "web/cost.h"
 #include "web/daemon_link.h"
 #include "web/live_feed.h"
 #include "web/queue_feed.h"
@@ -27,6 +28,8 @@ struct SiteSetup {
   std::filesystem::path chart_library = "/usr/share/javascript/chart.js/chart.min.js";
   std::filesystem::path renderer = sibling_program("shaken-render");
   std::chrono::milliseconds drawing = std::chrono::minutes(2);  ///< for one picture, then its renderer is killed
+  std::filesystem::path client = sibling_program("shaken");
+  std::chrono::milliseconds estimating = std::chrono::minutes(2);  ///< for what one scene would cost
 };
 
 /// What is served to a browser that may see it (docs/web.md has the paths): the page, the daemon's interface, what runs
@@ -56,6 +59,7 @@ class Site {
   DaemonLink daemon_;
   DaemonLink looks_;  ///< for the queue's feed, whose end must not wait long
   RunReader reader_;
+  CostEstimates costs_;
   std::optional<LiveFeed> live_;
   std::atomic<bool> is_closing_ = false;
   Tickets tickets_;

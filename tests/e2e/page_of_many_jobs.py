@@ -122,7 +122,11 @@ class Daemon:
                 since = int(query.get("since", ["0"])[0])
                 self.since.append(since)
                 return {"rows": [self.row(k) for k in range(N_JOBS) if self.job(k)["finished_utime"] >= since]}
-            return None
+            return {"/v1/sweeps": {"name": "<b>many</b>", "n_jobs": 12, "n_done": 3, "n_rods": [98, 433], "simulated_s": 240.0},
+                    "/examples": {"examples": [{"name": "a small box", "text": "{}"}]},
+                    "/cost": {"n_distinct": 12, "n_probed": 5, "levels": [
+                        {"name": name, "cpu_seconds": cpu, "disk_bytes": 3.4e7}
+                        for name, cpu in (("as written", 1234.5), ("draft", 160), ("desk", 740.7), ("paper", 1234.5))]}}.get(path)
         finally:
             with self.lock:
                 self.in_flight -= 1
@@ -150,7 +154,7 @@ class Handler(http.server.BaseHTTPRequestHandler):
         if url.path == "/palettes.json":
             return self.reply(json.dumps({name: [0x808080] * 24 for name in ("layers", "wheel", "tilt", "species")}
                                          | {"floor": 0, "wall": 0}).encode(), "application/json")
-        if url.path.startswith(("/v1/", "/runs/")):
+        if url.path.startswith(("/v1/", "/runs/", "/examples", "/cost")):
             answer = self.daemon.answer(url.path, urllib.parse.parse_qs(url.query))
             status = 404 if answer is None else 200
             return self.reply(json.dumps(answer or {"error": "not in this test"}).encode(), "application/json", status)
@@ -159,6 +163,10 @@ class Handler(http.server.BaseHTTPRequestHandler):
         if not file.is_file():
             return self.reply(b"no such file", "text/plain", 404)
         return self.reply(file.read_bytes(), TYPES[file.suffix])
+
+    def do_POST(self):
+        self.rfile.read(int(self.headers["Content-Length"]))
+        self.do_GET()
 
     def stream(self):
         self.send_response(200)
@@ -294,6 +302,19 @@ def use_by_everybody(page, daemon, pictures):
                     eventually(lambda: not page.execute_script(STICKS_OUT), f"{theme}, {width} pixels, {tab.text if tab else 'all'}: nothing sticks out")
                 finally:
                     page.save_screenshot(f"{pictures}-{theme}-{width}{'-' + tab.text if tab else ''}.png")
+            if width in (390, 1440):
+                page.execute_script("document.getElementById('open-submit').click()")
+                find("#submit-text").clear()
+                find("#submit-text").send_keys('{"rods": {"area_fraction": 0.7}}')
+                find("#submit-check").click()
+                eventually(lambda: "12 jobs, 3 of them done already" in find("#submit-state").text and "20 min 35 s" in
+                           find("#submit-cost").text, f"{theme}, {width} pixels: a scene is checked, with its cost")
+                check(not page.execute_script(STICKS_OUT), "and nothing sticks out")
+                page.save_screenshot(f"{pictures}-{theme}-{width}-submit.png")
+                if width == 1440:
+                    least = page.execute_script(CONTRASTS)
+                    check(least["text"][0] >= 4.5 and least["edge"][0] >= 3, f"{theme}: the form is legible: {least}")
+                find("#submit-close").click()
         least = page.execute_script(CONTRASTS)
         check(least["text"][0] >= 4.5, f"{theme}: every text is legible: {least['text']}")
         check(least["edge"][0] >= 3, f"{theme}: every control has an edge: {least['edge']}")

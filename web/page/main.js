@@ -4,10 +4,12 @@ import {byId, listen} from "/page/dom.js";
 import {QueuePanel} from "/page/queue.js";
 import {SweepPanel} from "/page/sweep.js";
 import {RunPanel} from "/page/run.js";
+import {SubmitForm} from "/page/submit.js";
 
 const run = new RunPanel();
 const sweep = new SweepPanel((id) => choose({run: id}));
 const queue = new QueuePanel((id) => choose({sweep: id, run: ""}));
+new SubmitForm((id) => choose({sweep: id, run: ""}));
 
 /** The address holds what is looked at, so that it can be reloaded: #sweep=s3&run=1f0c... */
 function chosen() {
