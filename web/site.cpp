@@ -37,6 +37,8 @@ constexpr std::chrono::seconds kStream{45};
 constexpr std::chrono::seconds kHeartbeat{1};
 /// Between two frames.
 constexpr std::chrono::milliseconds kFrame{50};
+/// In which a run that streams 5 frames a second or more sends one.
+constexpr std::chrono::milliseconds kNextFrame{250};
 constexpr std::size_t kPiece = std::size_t{1} << 20;  // of a file
 /// What the page consists of.
 constexpr std::array kPageFiles{"icon.svg", "page.css",  "main.js",    "queue.js",  "sweep.js",
@@ -237,6 +239,13 @@ Reply Site::of_run(const std::string& run, const std::vector<std::string>& rest,
     if (!index_of(rest[1])) return refusal(404, rest[1] + " is no number of a frame");
     return of_reader(reader_.ask(run, {"frame", rest[1]}), "application/octet-stream");
   }
+  if (what == "newest" && rest.size() == 1) return newest(run);
+  if (what == "order" && rest.size() == 1) return of_reader(reader_.ask(run, {"order"}), "application/json");
+  if (what == "path" && rest.size() == 1) {
+    const std::string rod = request.parameter("rod"), frame = request.parameter("frame");
+    if (!index_of(rod) || !(frame == "last" || index_of(frame))) return refusal(404, "expected ?rod=I&frame=K");
+    return of_reader(reader_.ask(run, {"path", rod, frame}), "application/json");
+  }
   if (what == "curves" && rest.size() == 1) return curves(run, request);
   if (what == "picture" && rest.size() == 1) {
     return picture(run, request);
@@ -249,6 +258,13 @@ Reply Site::of_run(const std::string& run, const std::vector<std::string>& rest,
   }
   if (what == "files" && rest.size() == 2) return file(run, rest[1]);
   return refusal(404, "no such path: " + request.path + "; see docs/web.md");
+}
+
+Reply Site::newest(const std::string& run) {
+  if (const auto frame = live_ ? live_->next_frame(run, kNextFrame) : nullptr) {
+    return {.status = 200, .body = packed(*frame), .type = "application/octet-stream"};
+  }
+  return of_reader(reader_.ask(run, {"frame", "last"}), "application/octet-stream");
 }
 
 Reply Site::curves(const std::string& run, const Request& request) {

@@ -50,6 +50,8 @@ class Site {
   http::Reply events(const std::string& run);
   http::Reply ticket(const http::Request& request);
   http::Reply of_run(const std::string& run, const std::vector<std::string>& rest, const http::Request& request);
+  /// The newest frame: live where the run is at work and streams, otherwise the last that is recorded.
+  http::Reply newest(const std::string& run);
   http::Reply curves(const std::string& run, const http::Request& request);
   std::filesystem::path directory(const std::string& run) const { return setup_.root / "runs" / run; }
   http::Reply file(const std::string& run, const std::string& name) const;

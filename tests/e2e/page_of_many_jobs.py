@@ -4,12 +4,17 @@ that nothing depends on how fast runs are.
 
 usage: page_of_many_jobs.py WEB-FOLDER SCREENSHOT
 WEB-FOLDER is web/ of the source. Exits 1 at the first thing that is wrong."""
+import base64
+import colorsys
 import http.server
 import json
+import math
 import os
 import pathlib
+import re
 import shutil
 import signal
+import struct
 import sys
 import tempfile
 import threading
@@ -62,6 +67,32 @@ STICKS_OUT = """
   ).map((one) => one.outerHTML.slice(0, 60));"""
 
 
+N_FRAMES, N_RODS, BOX_MM = 31, 100, 30
+EVERY_S = 0.1
+
+
+def frame(k, f):
+    """Frame f of job k, as web/packed_frame.h has it: rods on a lattice that drift to the right, out of order by k."""
+    spread, side = 0.3 + 1.2 * (k % 9) / 9, 10
+    x = [-32768 + (6554 * (i % side) + 3000 + 400 * f) % 65536 for i in range(N_RODS)]
+    y = [-32768 + 6554 * (i // side) + 3000 for i in range(N_RODS)]
+    angles = [spread * math.sin(7.3 * i + 0.02 * f) for i in range(N_RODS)]
+    order = math.hypot(sum(math.cos(2 * a) for a in angles), sum(math.sin(2 * a) for a in angles)) / N_RODS
+    head = json.dumps({"time_s": EVERY_S * f, "box_side_mm": BOX_MM, "order": order, "director_rad": 0.0, "n_rods": N_RODS,
+                       "outlines": [[1.1, 0.4, 0.25]], "walls": None}).encode()
+    head += b" " * (-len(head) % 4)
+    values = x + y + [round(a / math.pi * 32768) for a in angles] + [1000 * (i % 5) for i in range(N_RODS)]
+    return struct.pack("<I", len(head)) + head + struct.pack(f"<{len(values)}h", *values)
+
+
+def path(rod, last):
+    """The way of that rod: to the right, once around."""
+    frames = range(max(0, last - 59), last + 1)
+    return {"time_s": [EVERY_S * f for f in frames], "y_mm": [BOX_MM * (6554 * (rod // 10) + 3000) / 65536] * len(frames),
+            "x_mm": [BOX_MM * ((6554 * (rod % 10) + 3000 + 400 * f) % 65536) / 65536 for f in frames],
+            "n_z": [0.1 * math.sin(f) for f in frames]}
+
+
 class Daemon:
     """A sweep over area fraction, length and gap with two replicas; its jobs end one after the other when asked about."""
 
@@ -74,6 +105,9 @@ class Daemon:
         self.is_there = True
         self.old_has_joined = False  # the last job turns out to have ended long ago
         self.is_empty = False
+        self.stands = False  # no further job ends
+        self.most_rods_in_flight = self.rods_in_flight = 0
+        self.newest = []     # of which jobs the newest frame was asked for
 
     def job(self, k):
         is_old = self.old_has_joined and k == N_JOBS - 1
@@ -104,13 +138,43 @@ class Daemon:
         with self.lock:
             if not self.is_there:
                 return {"error": "no daemon: start one with: shakend --root /tmp/x"}
-            self.n_done = min(self.n_done + 1, N_JOBS - 1)
+            self.n_done = min(self.n_done + (not self.stands), N_JOBS - 1)
             sweeps = [{"id": "s1", "name": "many", "n_jobs": N_JOBS, "counts": self.counts(), "progress": self.n_done / N_JOBS,
                        "eta_s": 100}]
             return {"status": {"version": "0", "host": "nowhere", "slots": 1, "jobs": {**self.counts()},
                                "lcm": {"ok": True}}, "sweeps": [] if self.is_empty else sweeps, "jobs": [self.job(self.n_done)]}
 
+    def index_of(self, run):
+        """Of the job with that id."""
+        return int(run, 16) * pow(0x9e3779b97f4a7c15, -1, 2**64) % 2**64
+
+    def of_run(self, run, what, query):
+        """What the files of a run hold: bytes of a frame, or JSON."""
+        k = self.index_of(run)
+        if self.job(k)["state"] == "queued":
+            return None
+        if what == "newest":
+            with self.lock:
+                self.newest.append(k)
+                self.rods_in_flight += 1
+                self.most_rods_in_flight = max(self.most_rods_in_flight, self.rods_in_flight)
+            time.sleep(0.02)
+            with self.lock:
+                self.rods_in_flight -= 1
+            return frame(k, N_FRAMES - 1 if self.job(k)["state"] == "done" else len(self.newest) % N_FRAMES)
+        if what == "path":
+            return path(int(query["rod"][0]), N_FRAMES - 1 if query["frame"] == ["last"] else int(query["frame"][0]))
+        if what.startswith("frames/"):
+            return frame(k, int(what.split("/")[1]))
+        return {"frames": {"n": N_FRAMES, "first_s": 0, "last_s": EVERY_S * (N_FRAMES - 1)}, "files": {"files": []},
+                "order": {"time_s": [0, 1, 2, 3], "order": [0.9, 0.8, 0.7, 0.6]}}.get(what)
+
     def answer(self, path, query):
+        of_run = re.fullmatch("/runs/([0-9a-f]{16})/(.*)", path)
+        if of_run:
+            return self.of_run(*of_run.groups(), query)
+        if path.startswith("/v1/jobs/"):
+            return {"job": self.job(self.index_of(path.split("/")[-1]))}
         with self.lock:
             self.in_flight += 1
             self.most_in_flight = max(self.most_in_flight, self.in_flight)
@@ -150,12 +214,15 @@ class Handler(http.server.BaseHTTPRequestHandler):
     def do_GET(self):
         url = urllib.parse.urlsplit(self.path)
         if url.path == "/live":
-            return self.stream()
+            return self.stream(urllib.parse.parse_qs(url.query).get("run", [""])[0])
         if url.path == "/palettes.json":
-            return self.reply(json.dumps({name: [0x808080] * 24 for name in ("layers", "wheel", "tilt", "species")}
+            hues = [sum(round(255 * c) << 8 * n for n, c in enumerate(colorsys.hsv_to_rgb(h / 24, 0.6, 0.9))) for h in range(24)]
+            return self.reply(json.dumps({name: hues for name in ("layers", "wheel", "tilt", "species")}
                                          | {"floor": 0, "wall": 0}).encode(), "application/json")
         if url.path.startswith(("/v1/", "/runs/", "/examples", "/cost")):
             answer = self.daemon.answer(url.path, urllib.parse.parse_qs(url.query))
+            if isinstance(answer, bytes):
+                return self.reply(answer, "application/octet-stream")
             status = 404 if answer is None else 200
             return self.reply(json.dumps(answer or {"error": "not in this test"}).encode(), "application/json", status)
         name = {"/": "page/index.html", "/chart.js": CHART}.get(url.path, url.path[1:])
@@ -168,18 +235,25 @@ class Handler(http.server.BaseHTTPRequestHandler):
         self.rfile.read(int(self.headers["Content-Length"]))
         self.do_GET()
 
-    def stream(self):
+    def stream(self, run):
         self.send_response(200)
         self.send_header("Content-Type", "text/event-stream")
         self.send_header("Connection", "close")
         self.end_headers()
         try:
+            if run and self.daemon.job(self.daemon.index_of(run))["state"] == "running":
+                self.say("order", json.dumps({"time_s": [1.5, 2, 2.5], "order": [0.5, 0.4, 0.3]}))
+                self.say("frame", base64.b64encode(frame(self.daemon.index_of(run), 25)).decode())
             while True:
-                self.wfile.write(f"event: queue\ndata: {json.dumps(self.daemon.news())}\n\n".encode())
-                self.wfile.flush()
+                self.say("queue", json.dumps(self.daemon.news()))
                 time.sleep(0.1)
         except OSError:  # the browser has gone
             self.close_connection = True
+
+
+    def say(self, event, data):
+        self.wfile.write(f"event: {event}\ndata: {data}\n\n".encode())
+        self.wfile.flush()
 
 
 def use(page, address, daemon):
@@ -236,6 +310,13 @@ def use(page, address, daemon):
                "a click on a column's head sorts, another one the other way")
     find("#sort-value").click()
     eventually(lambda: find("th:nth-child(3)").get_attribute("aria-sort") == "none", "a third one leaves the order as it was")
+
+    daemon.stands = True
+    running = daemon.job(daemon.n_done)["id"]
+    page.execute_script("location.hash = arguments[0]", f"sweep=s1&run={running}")
+    eventually(lambda: page.execute_script("""return Chart.getChart("order-chart").data.datasets[0].data.map(({x, y}) => `${x} ${y}`)""")
+               == ["0 0.9", "1 0.8", "1.5 0.5", "2 0.4", "2.5 0.3"], "S(t) of a run at work begins with what it has recorded")
+    daemon.stands = False
 
     first = page.execute_script("return document.querySelector('#jobs tr').dataset.job")
     find("#jobs tr[tabindex='0']").send_keys(Keys.ARROW_DOWN)

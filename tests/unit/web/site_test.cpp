@@ -216,6 +216,24 @@ TEST_F(SiteTest, FilesOfARunAreSavedAndNothingElseIs) {
   }
 }
 
+TEST_F(SiteTest, RodsOfARunAreReadInThreeWays) {
+  record_two_frames({root_ / "runs" / kRun}, kRun);
+  const std::string run = std::string("/runs/") + kRun;
+  EXPECT_EQ(get(run + "/newest")->body, get(run + "/frames/1")->body);
+  const auto order = nlohmann::json::parse(get(run + "/order")->body);
+  EXPECT_EQ(order["time_s"].size(), 2u);
+  EXPECT_EQ(order["order"][1], 1.0);
+  for (const char* frame : {"1", "last"}) {
+    const auto path = nlohmann::json::parse(get(run + "/path?rod=0&frame=" + frame)->body);
+    EXPECT_EQ(path["time_s"].size(), 2u) << frame;
+    EXPECT_EQ(path["x_mm"][1], 1.0);
+    EXPECT_EQ(path["n_z"][0], 0.0);
+  }
+  for (const char* query : {"", "?rod=1&frame=1", "?rod=0&frame=2", "?rod=-1&frame=1", "?rod=0&frame=--out"}) {
+    EXPECT_EQ(get(run + "/path" + query)->status, 404) << query;
+  }
+}
+
 TEST_F(SiteTest, WhatIsNotThereIsSaid) {
   EXPECT_THAT(get(std::string("/runs/") + kRun + "/frames")->body, HasSubstr("records no rods"));
   EXPECT_EQ(get(std::string("/runs/") + kRun + "/frames/last")->status, 404);
