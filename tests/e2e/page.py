@@ -169,6 +169,17 @@ def use(page, address, live, downloads):
     if any("±" in row.text for row in rows("done")):
         check(page.execute_script("return Chart.getChart('map').points.some((p) => p.bar > 0)"), "with its errors")
 
+    find("#map-pictures").click()
+    eventually(lambda: page.execute_script("""return [...document.querySelectorAll("#pictures .picture")].filter(
+        (one) => one.querySelector("canvas").width > 20 && one.innerText === "").length""") == 4, "and in pictures of the rods")
+    find("#map-pictures").click()
+    for row in (0, 3):
+        page.execute_script("document.querySelectorAll('#jobs tr')[arguments[0]].dispatchEvent("
+                            "new KeyboardEvent('keydown', {key: 'b', bubbles: true}))", row)
+    eventually(lambda: [note.text.split(",")[0] for note in page.find_elements(By.CSS_SELECTOR, ".pane .note")] ==
+               2 * ["t = 3.000 s"], "two runs are side by side")
+    find("#beside-close").click()
+
     click(rows, "done", 1)
     eventually(lambda: "t = 3.000 s" in text("#run-facts"), "a finished run shows its last frame")
     check(page.execute_script("return Chart.getChart('order-chart').data.datasets[0].data.length") > 100, "S(t) is drawn")

@@ -21,6 +21,7 @@ import threading
 import time
 import urllib.parse
 
+from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import Select
@@ -63,7 +64,7 @@ STICKS_OUT = """
   const most = document.documentElement.clientWidth;
   if (document.documentElement.scrollWidth > most) return ["the page"];
   return [...document.querySelectorAll("section, section > *, .chart, canvas, select, button")].filter(
-    (one) => one.checkVisibility() && one.getBoundingClientRect().right > most + 0.5 && !one.closest("#jobs-frame")
+    (one) => one.checkVisibility() && one.getBoundingClientRect().right > most + 0.5 && !one.closest("#jobs-frame, #pictures")
   ).map((one) => one.outerHTML.slice(0, 60));"""
 
 
@@ -336,7 +337,7 @@ def use(page, address, daemon):
     check(page.switch_to.active_element.get_attribute("id") == "jobs-search", "/ goes to the search")
     images = page.execute_async_script("""
         const done = arguments[arguments.length - 1];
-        import("/page/rods.js").then(({instancesOf}) => {
+        import("/page/painter.js").then(({instancesOf}) => {
           const n = 2000, place = (k) => Int16Array.from({length: n}, (_, i) => ((i * k) % 65536) - 32768);
           const frame = {n_rods: n, box_side_mm: 80, walls: null, outlines: [[2, 0.4, 0.25]], x: place(7919), y: place(104729),
                          heading: place(31), n_z: new Int16Array(n), species: new Uint8Array(n)};
@@ -360,8 +361,90 @@ def use(page, address, daemon):
         for (let k = 0; k < 20; ++k) canvas.clear();
         requestAnimationFrame(() => requestAnimationFrame(() => done(canvas.framesDrawn - before)));""")
     check(drawn == 1, f"many changes are one picture: {drawn}")
+    find("#map-pictures").click()
+    daemon.stands = True
+    drawn = """return [...document.querySelectorAll("#pictures .picture")].filter((one) => one.querySelector("canvas").width > 20)
+        .map((one) => one.dataset.job)"""
+    eventually(lambda: len(page.execute_script(drawn)) > 12, "the phase diagram is shown in pictures of the rods")
+    in_sight = page.execute_script("""return [...document.querySelectorAll("#pictures .picture")].filter((one) => {
+        const {top, left, right, bottom} = one.getBoundingClientRect(), frame = document.getElementById("pictures").getBoundingClientRect();
+        return right > frame.left && left < frame.right && bottom > frame.top && top < Math.min(innerHeight, frame.bottom)
+          && !one.innerText.includes("queued"); }).map((one) => one.dataset.job)""")
+    check(daemon.most_rods_in_flight == 1, "never two at a time")
+    eventually(lambda: set(page.execute_script(drawn)) == set(in_sight), f"of all that are in sight and have begun: {len(in_sight)}")
+    time.sleep(1.5)
+    asked = {daemon.job(k)["id"] for k in daemon.newest}
+    check(asked <= set(in_sight) and len(in_sight) < 200, "and of no others")
+    renewed = len(set(daemon.newest)), len(daemon.newest)
+    time.sleep(1)
+    check(len(set(daemon.newest)) == renewed[0] and len(daemon.newest) - renewed[1] <= 1,
+          "what is done is loaded once, what is at work every three seconds")
+    cell = find(f"#pictures [data-job='{page.execute_script(drawn)[0]}']")
+    ActionChains(page).move_to_element(cell).perform()
+    eventually(lambda: "t = 3.000 s" in find("#picture").text and "order.mean" in find("#picture").text and page.execute_script(
+        "return document.getElementById('picture-large').width") > 200, "the picture under the pointer is shown large, with its numbers")
+    page.execute_script("arguments[0].focus()", cell)
+    cell.send_keys(Keys.ARROW_RIGHT)
+    other = page.switch_to.active_element
+    check(other.get_attribute("class") == "picture" and other != cell, "an arrow goes to the next picture")
+    other.send_keys(Keys.ESCAPE)
+    check(not find("#picture").is_displayed(), "Escape hides the large one")
+    other.send_keys(Keys.ENTER)
+    eventually(lambda: f"run={other.get_attribute('data-job')}" in page.current_url, "Enter chooses its run")
+    side_by_side(page, daemon, other.get_attribute("data-job"))
+    find("#map-pictures").click()
+    check(find("#map-frame").is_displayed() and not find("#pictures").is_displayed(), "and the numbers are there again")
+    daemon.stands = False
     errors = [line["message"] for line in page.get_log("browser") if line["level"] == "SEVERE" and "404" not in line["message"]]
     check(not errors, f"the browser complains of nothing: {errors}")
+
+
+def side_by_side(page, daemon, chosen):
+    """Runs that are chosen with the keyboard and with Shift, on one clock."""
+    def find(css):
+        return page.find_element(By.CSS_SELECTOR, css)
+
+    def notes():
+        return [one.text for one in page.find_elements(By.CSS_SELECTOR, ".pane .note")]
+
+    def heads():
+        return [one.text for one in page.find_elements(By.CSS_SELECTOR, ".pane h3")]
+
+    page.switch_to.active_element.send_keys("b")
+    eventually(lambda: f"beside={chosen}" in page.current_url and len(heads()) == 1, "b puts a run beside others")
+    cells = page.find_elements(By.CSS_SELECTOR, "#pictures .picture[data-beside='false']")
+    shown = [one for one in cells if one.text == "" and one.get_attribute("data-job")]
+    ActionChains(page).key_down(Keys.SHIFT).click(shown[1]).key_up(Keys.SHIFT).perform()
+    eventually(lambda: len(notes()) == 2 and all("t = 3.000 s, S = " in note for note in notes()), "so does a click with Shift")
+    check(f"run={chosen}" in page.current_url, "which does not choose it")
+    eventually(lambda: all(re.search("(area_fraction|length) = ", head) and "gap" not in head for head in heads()),
+               f"each headline says what differs: {heads()}")
+    page.refresh()
+    eventually(lambda: len(notes()) == 2 and all("t = 3.000 s" in note for note in notes()), "the address keeps them")
+    find("#beside-time").send_keys(Keys.HOME)
+    eventually(lambda: all("t = 0.000 s" in note for note in notes()), "one slider moves all, by keys too")
+    find("#beside-time").send_keys(Keys.ARROW_RIGHT)
+    eventually(lambda: all("t = 0.100 s" in note for note in notes()), "frame by frame")
+    find("#beside-play").click()
+    eventually(lambda: all("t = 3.000 s" in note for note in notes()) and find("#beside-play").text == "Play", "they play to the end")
+    kinds = "return window.shakenBeside.panes.map(({canvas}) => canvas.chosenColouring())"
+    check(len(set(page.execute_script(kinds))) == 1, "in the same colours")
+    Select(find("#beside-colouring")).select_by_value("tilt")
+    check(page.execute_script(kinds) == ["tilt", "tilt"], "whichever are chosen")
+    running = daemon.job(daemon.n_done)["id"]
+    page.execute_script("location.hash += '.' + arguments[0]", running)
+    eventually(lambda: len(heads()) == 3 and "(running)" in heads()[2], "a run at work is put beside them")
+    before = notes()[2] if len(notes()) > 2 else ""
+    eventually(lambda: len(notes()) == 3 and notes()[2] not in ("", before), "and is live")
+    page.execute_script("for (const k of [1, 2]) document.querySelectorAll('#jobs tr')[k].dispatchEvent("
+                        "new KeyboardEvent('keydown', {key: 'b', bubbles: true}))")
+    eventually(lambda: "At most 4" in find("#complaint").text or len(heads()) == 4, "there are four at most")
+    eventually(lambda: len(heads()) <= 4 and page.current_url.split("beside=")[1].count(".") <= 3, "also in the address")
+    find(".pane button").click()
+    eventually(lambda: f"beside={chosen}" not in page.current_url, "one is taken away")
+    find("#beside-close").click()
+    eventually(lambda: "beside" not in page.current_url and not find("#beside").is_displayed(), "then all")
+    find("#map-pictures").click()  # as they were before the page was loaded anew
 
 
 def use_by_everybody(page, daemon, pictures):
