@@ -192,7 +192,21 @@ Api::Answer Api::submit(const Call& call) const {
     if (queue_.job(start.run)) submission->terms.after.emplace_back(start.run);
   }
   if (!problems.empty()) return problems_answer(problems);
+  if (request.dry_run) return checked(*submission);
   return submitted(submission->name, submission->priority, std::move(submission->jobs), submission->terms);
+}
+
+Api::Answer Api::checked(const Submission& submission) {
+  const auto n_done = std::count_if(submission.jobs.begin(), submission.jobs.end(),
+                                    [](const NewJob& job) { return job.has_results.value_or(false); });
+  const Extent& extent = submission.extent;
+  return {200,
+          {{"name", submission.name},
+           {"n_jobs", submission.jobs.size()},
+           {"n_done", n_done},
+           {"n_rods", {extent.fewest_rods, extent.most_rods}},
+           {"simulated_s", extent.simulated}},
+          ""};
 }
 
 Api::Answer Api::add_replicas(const Call& call) const {

@@ -14,6 +14,8 @@
 
 namespace shaken::server {
 
+struct Submission;
+
 /// The control API of docs/protocol.md: from a request to an answer, by one table of routes. Writes only to the
 /// queue; may be called from many threads at once.
 class Api {
@@ -45,6 +47,8 @@ class Api {
   Answer results(const Call& call) const;
   Answer clean(const Call& call) const;
 
+  /// What a submission would put into the queue.
+  static Answer checked(const Submission& submission);
   /// Puts jobs into the queue and tells what became of them.
   Answer submitted(const std::string& name, int priority, std::vector<NewJob> jobs, const Terms& terms) const;
   static Answer problems_answer(std::span<const keys::Problem> found);

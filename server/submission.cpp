@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
@@ -63,7 +64,8 @@ std::vector<keys::Key<SubmitRequest>> rows_of_submission() {
           derived(whole("at_most", at<&Request::terms, &Terms::at_most>, 1, kMostAtOnce, "Jobs that run at once."),
                   "any number"),
           texts("after", at<&Request::after>, "Sweeps and jobs that must be done first."),
-          stop_if};
+          stop_if,
+          keys::on_or_off("dry_run", at<&Request::dry_run>, "Only checks.")};
 }
 
 std::vector<keys::Key<CleanBody>> rows_of_cleaning() {
@@ -154,7 +156,9 @@ keys::Loaded<Submission> expand(const SubmitRequest& request, const std::filesys
   }
   auto sweep = scene::load_runs(request.text, request.file, request.settings, request.replicas);
   if (!sweep) return sweep.error();
-  Submission submission{name, request.priority, request.terms, {}, {}};
+  Submission submission{name, request.priority, request.terms, {}, {}, {}};
+  Extent& extent = submission.extent;
+  extent.fewest_rods = std::numeric_limits<int>::max();
   submission.terms.executor = sweep->executor;
   submission.terms.settings = scene::to_text(sweep->slurm);
   submission.jobs.reserve(sweep->points.size());
@@ -168,6 +172,9 @@ keys::Loaded<Submission> expand(const SubmitRequest& request, const std::filesys
     job.replica = point.replica;
     job.has_results = run::is_done(run::RunDirectory{runs / job.id}, point.plan);
     submission.jobs.push_back(std::move(job));
+    extent.fewest_rods = std::min(extent.fewest_rods, point.plan.system.n_all_rods());
+    extent.most_rods = std::max(extent.most_rods, point.plan.system.n_all_rods());
+    extent.simulated += point.plan.total_time();
     const auto& start = point.plan.start;
     if (start && std::find(submission.starts.begin(), submission.starts.end(), *start) == submission.starts.end()) {
       submission.starts.push_back(*start);

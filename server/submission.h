@@ -24,6 +24,13 @@ struct SubmitRequest {
   int priority = 0;                ///< higher ones are started first
   Terms terms;                     ///< but for `after`
   std::vector<std::string> after;  ///< sweeps and jobs, as the user names them
+  bool dry_run = false;            ///< only check
+};
+
+/// How much the runs of a submission are, together.
+struct Extent {
+  int fewest_rods = 0, most_rods = 0;  ///< of one run
+  double simulated = 0;                ///< [s]
 };
 
 /// What goes into the queue.
@@ -33,6 +40,7 @@ struct Submission {
   Terms terms;
   std::vector<NewJob> jobs;
   std::vector<scene::StartState> starts;  ///< other runs that they start from, each once
+  Extent extent = {};
 };
 
 const keys::Table<SubmitRequest>& submit_keys();

@@ -87,6 +87,21 @@ LiveNews LiveFeed::wait(const std::string& run, LiveSeen& seen, std::chrono::mil
   return news;
 }
 
+std::shared_ptr<const client::RodFrame> LiveFeed::next_frame(const std::string& run,
+                                                             std::chrono::milliseconds timeout) {
+  std::unique_lock lock(mutex_);
+  const auto begin = runs_.find(run);
+  if (begin == runs_.end()) return nullptr;
+  const std::int64_t before = begin->second.count.frames;  // the newest of these may be old: nobody has looked
+  const auto has_come = [&] {
+    const auto place = runs_.find(run);
+    if (place == runs_.end()) return false;
+    place->second.looked_at = Clock::now();
+    return place->second.count.frames != before;
+  };
+  return news_.wait_for(lock, timeout, has_come) ? runs_.at(run).rods.newest() : nullptr;
+}
+
 client::History LiveFeed::order(const std::string& run) const {
   const std::lock_guard lock(mutex_);
   const auto place = runs_.find(run);

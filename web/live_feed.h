@@ -45,6 +45,8 @@ class LiveFeed {
   void keep(const std::set<std::string>& runs);
   /// Waits for at most `timeout` for something that is not in `seen`, and notes in `seen` what it returns.
   LiveNews wait(const std::string& run, LiveSeen& seen, std::chrono::milliseconds timeout);
+  /// The next frame of a run, if it comes within `timeout`; null if not.
+  std::shared_ptr<const client::RodFrame> next_frame(const std::string& run, std::chrono::milliseconds timeout);
   /// S(t) as far as it is known: times [s] and values.
   client::History order(const std::string& run) const;
   /// One message of the bus. That of a run which is not kept is ignored: anybody can send them.

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <exception>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -43,22 +44,67 @@ Result<std::string> curves(const RecordedRun& run, std::span<const std::string> 
   return line_of({{"names", names}, {"curves", chosen}});
 }
 
-Result<std::string> answer(const RecordedRun& run, const std::vector<std::string>& question) {
-  if (question.front() == "curves") return curves(run, std::span(question).subspan(1));
-  if (question.front() == "frames") {
+/// Places of a curve that is drawn while a run is at work.
+constexpr std::size_t kMostOrders = 300;
+/// Frames of the path of one rod.
+constexpr std::size_t kLongestPath = 60;
+
+std::optional<std::size_t> number(const std::string& text) {
+  std::size_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
+}
+
+Result<std::string> frames(const RecordedRun& run) {
+  const auto frames = run.frames();
+  if (!frames) return frames.error();
+  return line_of({{"n", frames->n}, {"first_s", frames->first}, {"last_s", frames->last}});
+}
+
+Result<std::string> order(const RecordedRun& run) {
+  const auto order = run.order(kMostOrders);
+  if (!order) return order.error();
+  return line_of({{"time_s", order->times}, {"order", order->values}});
+}
+
+/// Frame "7", or the "last".
+Result<std::size_t> index_in(const RecordedRun& run, const std::string& word) {
+  if (word == "last") {
     const auto frames = run.frames();
     if (!frames) return frames.error();
-    return line_of({{"n", frames->n}, {"first_s", frames->first}, {"last_s", frames->last}});
+    return frames->n - 1;
   }
-  if (question.front() != "frame" || question.size() != 2) return Error{"there is no question " + question.front()};
-  std::size_t index = 0;
-  const std::string& number = question[1];
-  if (std::from_chars(number.data(), number.data() + number.size(), index).ec != std::errc()) {
-    return Error{number + " is no number of a frame"};
-  }
-  const auto frame = run.frame(index);
+  if (const auto index = number(word)) return *index;
+  return Error{word + " is no number of a frame"};
+}
+
+Result<std::string> frame(const RecordedRun& run, const std::string& word) {
+  const auto index = index_in(run, word);
+  if (!index) return index.error();
+  const auto frame = run.frame(*index);
   if (!frame) return frame.error();
   return packed(*frame);
+}
+
+/// Of rod `rod`, up to frame `word`.
+Result<std::string> path(const RecordedRun& run, const std::string& rod, const std::string& word) {
+  const auto last = index_in(run, word);
+  if (!last) return last.error();
+  const auto which = number(rod);
+  if (!which) return Error{rod + " is no number of a rod"};
+  const auto path = run.path(*which, *last >= kLongestPath ? *last + 1 - kLongestPath : 0, *last);
+  if (!path) return path.error();
+  return line_of({{"time_s", path->times}, {"x_mm", path->x}, {"y_mm", path->y}, {"n_z", path->n_z}});
+}
+
+Result<std::string> answer(const RecordedRun& run, const std::vector<std::string>& question) {
+  const std::string& what = question.front();
+  if (what == "curves") return curves(run, std::span(question).subspan(1));
+  if (what == "frames" && question.size() == 1) return frames(run);
+  if (what == "order" && question.size() == 1) return order(run);
+  if (what == "frame" && question.size() == 2) return frame(run, question[1]);
+  if (what == "path" && question.size() == 3) return path(run, question[1], question[2]);
+  return Error{"there is no question " + what};
 }
 
 }  // namespace

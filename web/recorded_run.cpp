@@ -2,6 +2,7 @@
 #include "web/recorded_run.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <system_error>
 
@@ -56,6 +57,38 @@ Result<client::RodFrame> RecordedRun::frame(std::size_t index) const {
   frame->order = mean.order;
   frame->director = mean.director;
   return frame;
+}
+
+Result<RecordedRun::Order> RecordedRun::order(std::size_t most) const {
+  const auto reader = this->reader();
+  if (!reader) return reader.error();
+  const std::size_t last = reader->n_frames() - 1, steps = std::min(last, most - 1);
+  Order order;
+  for (std::size_t k = 0; k <= steps; ++k) {
+    const Result<Snapshot> recorded = reader->frame(steps == 0 ? 0 : k * last / steps);
+    if (!recorded) return recorded.error();
+    const double value = analysis::nematic_order(reader->header().cell, recorded->director).order;
+    if (!std::isfinite(value)) continue;
+    order.times.push_back(recorded->time);
+    order.values.push_back(value);
+  }
+  return order;
+}
+
+Result<RecordedRun::Path> RecordedRun::path(std::size_t rod, std::size_t first, std::size_t last) const {
+  const auto reader = this->reader();
+  if (!reader) return reader.error();
+  Path path;
+  for (std::size_t k = first; k <= last; ++k) {
+    const Result<Snapshot> recorded = reader->frame(k);
+    if (!recorded) return recorded.error();
+    if (rod >= recorded->position.size()) return Error{"there is no rod " + std::to_string(rod)};
+    path.times.push_back(recorded->time);
+    path.x.push_back(recorded->position[rod].x());
+    path.y.push_back(recorded->position[rod].y());
+    path.n_z.push_back(recorded->director[rod].z());
+  }
+  return path;
 }
 
 Result<run::Observables> RecordedRun::curves() const {

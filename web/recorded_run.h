@@ -33,6 +33,16 @@ class RecordedRun {
   };
   Result<Frames> frames() const;
   Result<client::RodFrame> frame(std::size_t index) const;
+  /// S(t) of recorded frames from the first to the last, evenly; of all if they are at most `most`. Empty of spheres.
+  struct Order {
+    std::vector<double> times, values;
+  };
+  Result<Order> order(std::size_t most) const;
+  /// One rod in the frames from `first` to `last`, both included: times [s], places in the box [mm], and n_z.
+  struct Path {
+    std::vector<double> times, x, y, n_z;
+  };
+  Result<Path> path(std::size_t rod, std::size_t first, std::size_t last) const;
   /// All curves of a run that is done.
   Result<run::Observables> curves() const;
 

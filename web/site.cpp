@@ -10,14 +10,16 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <utility>
 
 #include "base/descriptor.h"
 #include "base/files.h"
+#include "base/paths.h"
 #include "base/scratch_folder.h"
 #include "base/text.h"
+#include "web/examples.h"
+#include "web/json_reply.h"
 #include "web/packed_frame.h"
 #include "web/recorded_run.h"
 
@@ -25,7 +27,6 @@ namespace shaken::web {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 using http::Reply;
 using http::Request;
@@ -36,18 +37,13 @@ constexpr std::chrono::seconds kStream{45};
 constexpr std::chrono::seconds kHeartbeat{1};
 /// Between two frames.
 constexpr std::chrono::milliseconds kFrame{50};
+/// In which a run that streams 5 frames a second or more sends one.
+constexpr std::chrono::milliseconds kNextFrame{250};
 constexpr std::size_t kPiece = std::size_t{1} << 20;  // of a file
 /// What the page consists of.
-constexpr std::array kPageFiles{"icon.svg",   "page.css",  "main.js", "queue.js", "sweep.js",  "map.js",   "jobs.js",
-                                "results.js", "loader.js", "run.js",  "rods.js",  "charts.js", "shown.js", "dom.js"};
-
-std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
-
-Reply refusal(int status, const std::string& reason) {
-  return {.status = status, .body = text_of({{"error", reason}}) + "\n"};
-}
-
-Reply json_reply(const Json& json) { return {.status = 200, .body = text_of(json) + "\n"}; }
+constexpr std::array kPageFiles{"icon.svg", "page.css",   "main.js",   "queue.js",   "sweep.js",    "map.js",
+                                "jobs.js",  "results.js", "loader.js", "run.js",     "rods.js",     "charts.js",
+                                "shown.js", "dom.js",     "submit.js", "painter.js", "pictures.js", "beside.js"};
 
 std::string type_of(const fs::path& file) {
   const std::string suffix = file.extension().string();
@@ -144,7 +140,8 @@ Site::Site(SiteSetup setup)
     : setup_(std::move(setup)),
       daemon_(setup_.root),
       looks_(setup_.root, std::chrono::seconds(2)),
-      reader_(setup_.root / "runs", [this] { return is_closing_.load(); }) {
+      reader_(setup_.root / "runs", [this] { return is_closing_.load(); }),
+      costs_(setup_.client, setup_.estimating, [this] { return is_closing_.load(); }) {
   if (setup_.bus) live_.emplace(std::move(setup_.bus));
   queue_.emplace(looks_, [this](const std::set<std::string>& running) {
     if (live_) live_->keep(running);
@@ -165,6 +162,7 @@ Reply Site::routed(const Request& request) {
   const bool reads = request.method == "GET" || request.method == "HEAD";
   if (first == "v1" && (reads || request.method == "POST")) return daemon_.ask(request);
   if (parts == std::vector<std::string>{"tickets"} && request.method == "POST") return ticket(request);
+  if (parts == std::vector<std::string>{"cost"} && request.method == "POST") return costs_.answer(request);
   if (!reads) return refusal(405, request.path + " can only be read");
   if (parts.empty()) return page_file("index.html");
   if (first == "page" && parts.size() == 2) {
@@ -173,6 +171,7 @@ Reply Site::routed(const Request& request) {
   }
   if (parts == std::vector<std::string>{"chart.js"}) return file_reply(setup_.chart_library);
   if (parts == std::vector<std::string>{"palettes.json"}) return json_reply(palettes());
+  if (parts == std::vector<std::string>{"examples"}) return json_reply({{"examples", examples(shipped_configs())}});
   if (first == "tickets" && parts.size() == 2) {
     const std::optional<Request> meant = tickets_.take(parts[1]);
     return meant ? routed(*meant) : refusal(404, "this ticket has been used, or is over a minute old");
@@ -240,6 +239,13 @@ Reply Site::of_run(const std::string& run, const std::vector<std::string>& rest,
     if (!index_of(rest[1])) return refusal(404, rest[1] + " is no number of a frame");
     return of_reader(reader_.ask(run, {"frame", rest[1]}), "application/octet-stream");
   }
+  if (what == "newest" && rest.size() == 1) return newest(run);
+  if (what == "order" && rest.size() == 1) return of_reader(reader_.ask(run, {"order"}), "application/json");
+  if (what == "path" && rest.size() == 1) {
+    const std::string rod = request.parameter("rod"), frame = request.parameter("frame");
+    if (!index_of(rod) || !(frame == "last" || index_of(frame))) return refusal(404, "expected ?rod=I&frame=K");
+    return of_reader(reader_.ask(run, {"path", rod, frame}), "application/json");
+  }
   if (what == "curves" && rest.size() == 1) return curves(run, request);
   if (what == "picture" && rest.size() == 1) {
     return picture(run, request);
@@ -252,6 +258,13 @@ Reply Site::of_run(const std::string& run, const std::vector<std::string>& rest,
   }
   if (what == "files" && rest.size() == 2) return file(run, rest[1]);
   return refusal(404, "no such path: " + request.path + "; see docs/web.md");
+}
+
+Reply Site::newest(const std::string& run) {
+  if (const auto frame = live_ ? live_->next_frame(run, kNextFrame) : nullptr) {
+    return {.status = 200, .body = packed(*frame), .type = "application/octet-stream"};
+  }
+  return of_reader(reader_.ask(run, {"frame", "last"}), "application/octet-stream");
 }
 
 Reply Site::curves(const std::string& run, const Request& request) {

@@ -12,6 +12,7 @@
 
 #include "base/http/http_server.h"
 #include "base/process.h"
+#include "web/cost.h"
 #include "web/daemon_link.h"
 #include "web/live_feed.h"
 #include "web/queue_feed.h"
@@ -27,6 +28,8 @@ struct SiteSetup {
   std::filesystem::path chart_library = "/usr/share/javascript/chart.js/chart.min.js";
   std::filesystem::path renderer = sibling_program("shaken-render");
   std::chrono::milliseconds drawing = std::chrono::minutes(2);  ///< for one picture, then its renderer is killed
+  std::filesystem::path client = sibling_program("shaken");
+  std::chrono::milliseconds estimating = std::chrono::minutes(2);  ///< for what one scene would cost
 };
 
 /// What is served to a browser that may see it (docs/web.md has the paths): the page, the daemon's interface, what runs
@@ -47,6 +50,8 @@ class Site {
   http::Reply events(const std::string& run);
   http::Reply ticket(const http::Request& request);
   http::Reply of_run(const std::string& run, const std::vector<std::string>& rest, const http::Request& request);
+  /// The newest frame: live where the run is at work and streams, otherwise the last that is recorded.
+  http::Reply newest(const std::string& run);
   http::Reply curves(const std::string& run, const http::Request& request);
   std::filesystem::path directory(const std::string& run) const { return setup_.root / "runs" / run; }
   http::Reply file(const std::string& run, const std::string& name) const;
@@ -56,6 +61,7 @@ class Site {
   DaemonLink daemon_;
   DaemonLink looks_;  ///< for the queue's feed, whose end must not wait long
   RunReader reader_;
+  CostEstimates costs_;
   std::optional<LiveFeed> live_;
   std::atomic<bool> is_closing_ = false;
   Tickets tickets_;

@@ -17,6 +17,7 @@ from selenium.webdriver.chrome.options import Options
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import Select
 
 SWEEP = json.dumps({
@@ -115,13 +116,35 @@ def use(page, address, live, downloads):
     eventually(lambda: "waits" in text("#sweeps"), "the sweep that was there is listed")
 
     find("#open-submit").click()
-    find("#submit-text").send_keys('{"scene": {"rods": {"lenght": 3}}}')
-    find("#submit-send").click()
-    eventually(lambda: "lenght" in text("#submit-problems"), "a scene that is refused says why")
     box = find("#submit-text")
+    box.send_keys('{"scene": {\n"rods": {"lenght": 3}}}')
+    check(not find("#submit-send").is_enabled(), "nothing is submitted unchecked")
+    find("#submit-check").click()
+    eventually(lambda: "line 2: /scene/rods/lenght: " in text("#submit-problems") and "length" in text("#submit-problems"),
+               "a scene that is refused says why, and where")
+    check(not find("#submit-send").is_enabled(), "and is not submitted")
+    find("#submit-problems button").click()
+    check(page.execute_script("return arguments[0].value.slice(arguments[0].selectionStart, arguments[0].selectionEnd)", box)
+          .startswith('"lenght"'), "a click on a problem goes to its place")
     box.clear()
-    page.execute_script("arguments[0].value = arguments[1]", box, SWEEP)
-    page.execute_script("arguments[0].value = arguments[1]", find("#submit-name"), "<img src=x onerror=alert(1)>")
+    eventually(lambda: len(page.find_elements(By.CSS_SELECTOR, "#submit-example option")) > 4, "there are scenes to begin from")
+    Select(find("#submit-example")).select_by_visible_text("quickstart")
+    eventually(lambda: "A small box of shaken rods" in box.get_attribute("value"), "one of them is there")
+    opened = os.path.join(downloads, "opened.json")
+    with open(opened, "w", encoding="utf-8") as file:
+        file.write(SWEEP)
+    find("#submit-file").send_keys(opened)
+    eventually(lambda: box.get_attribute("value") == SWEEP, "a file is opened")
+    os.remove(opened)
+    find("#submit-name").send_keys("<img src=x onerror=alert(1)>")
+    box.send_keys(Keys.CONTROL + Keys.ENTER)
+    eventually(lambda: "<img src=x onerror=alert(1)>: nothing is wrong with it. 4 jobs; " in text("#submit-state"),
+               "a sweep that is good is checked by keys, and its jobs are counted")
+    eventually(lambda: "as written" in text("#submit-cost") and "CPU time" in text("#submit-cost"), "what it costs is estimated")
+    box.send_keys(" ")
+    check(not find("#submit-send").is_enabled() and not text("#submit-cost"), "a text that is changed must be checked again")
+    find("#submit-check").click()
+    eventually(lambda: find("#submit-send").is_enabled(), "which it is")
     find("#submit-send").click()
     eventually(lambda: "<img src=x onerror=alert(1)>" in text("#sweeps"), "a hostile name is text")
     check(not page.execute_script("return document.images.length"), "and no picture")
@@ -145,6 +168,17 @@ def use(page, address, live, downloads):
           "against one parameter, the value goes up")
     if any("±" in row.text for row in rows("done")):
         check(page.execute_script("return Chart.getChart('map').points.some((p) => p.bar > 0)"), "with its errors")
+
+    find("#map-pictures").click()
+    eventually(lambda: page.execute_script("""return [...document.querySelectorAll("#pictures .picture")].filter(
+        (one) => one.querySelector("canvas").width > 20 && one.innerText === "").length""") == 4, "and in pictures of the rods")
+    find("#map-pictures").click()
+    for row in (0, 3):
+        page.execute_script("document.querySelectorAll('#jobs tr')[arguments[0]].dispatchEvent("
+                            "new KeyboardEvent('keydown', {key: 'b', bubbles: true}))", row)
+    eventually(lambda: [note.text.split(",")[0] for note in page.find_elements(By.CSS_SELECTOR, ".pane .note")] ==
+               2 * ["t = 3.000 s"], "two runs are side by side")
+    find("#beside-close").click()
 
     click(rows, "done", 1)
     eventually(lambda: "t = 3.000 s" in text("#run-facts"), "a finished run shows its last frame")

@@ -4,18 +4,24 @@ that nothing depends on how fast runs are.
 
 usage: page_of_many_jobs.py WEB-FOLDER SCREENSHOT
 WEB-FOLDER is web/ of the source. Exits 1 at the first thing that is wrong."""
+import base64
+import colorsys
 import http.server
 import json
+import math
 import os
 import pathlib
+import re
 import shutil
 import signal
+import struct
 import sys
 import tempfile
 import threading
 import time
 import urllib.parse
 
+from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import Select
@@ -58,8 +64,34 @@ STICKS_OUT = """
   const most = document.documentElement.clientWidth;
   if (document.documentElement.scrollWidth > most) return ["the page"];
   return [...document.querySelectorAll("section, section > *, .chart, canvas, select, button")].filter(
-    (one) => one.checkVisibility() && one.getBoundingClientRect().right > most + 0.5 && !one.closest("#jobs-frame")
+    (one) => one.checkVisibility() && one.getBoundingClientRect().right > most + 0.5 && !one.closest("#jobs-frame, #pictures")
   ).map((one) => one.outerHTML.slice(0, 60));"""
+
+
+N_FRAMES, N_RODS, BOX_MM = 31, 100, 30
+EVERY_S = 0.1
+
+
+def frame(k, f):
+    """Frame f of job k, as web/packed_frame.h has it: rods on a lattice that drift to the right, out of order by k."""
+    spread, side = 0.3 + 1.2 * (k % 9) / 9, 10
+    x = [-32768 + (6554 * (i % side) + 3000 + 400 * f) % 65536 for i in range(N_RODS)]
+    y = [-32768 + 6554 * (i // side) + 3000 for i in range(N_RODS)]
+    angles = [spread * math.sin(7.3 * i + 0.02 * f) for i in range(N_RODS)]
+    order = math.hypot(sum(math.cos(2 * a) for a in angles), sum(math.sin(2 * a) for a in angles)) / N_RODS
+    head = json.dumps({"time_s": EVERY_S * f, "box_side_mm": BOX_MM, "order": order, "director_rad": 0.0, "n_rods": N_RODS,
+                       "outlines": [[1.1, 0.4, 0.25]], "walls": None}).encode()
+    head += b" " * (-len(head) % 4)
+    values = x + y + [round(a / math.pi * 32768) for a in angles] + [1000 * (i % 5) for i in range(N_RODS)]
+    return struct.pack("<I", len(head)) + head + struct.pack(f"<{len(values)}h", *values)
+
+
+def path(rod, last):
+    """The way of that rod: to the right, once around."""
+    frames = range(max(0, last - 59), last + 1)
+    return {"time_s": [EVERY_S * f for f in frames], "y_mm": [BOX_MM * (6554 * (rod // 10) + 3000) / 65536] * len(frames),
+            "x_mm": [BOX_MM * ((6554 * (rod % 10) + 3000 + 400 * f) % 65536) / 65536 for f in frames],
+            "n_z": [0.1 * math.sin(f) for f in frames]}
 
 
 class Daemon:
@@ -74,6 +106,9 @@ class Daemon:
         self.is_there = True
         self.old_has_joined = False  # the last job turns out to have ended long ago
         self.is_empty = False
+        self.stands = False  # no further job ends
+        self.most_rods_in_flight = self.rods_in_flight = 0
+        self.newest = []     # of which jobs the newest frame was asked for
 
     def job(self, k):
         is_old = self.old_has_joined and k == N_JOBS - 1
@@ -104,13 +139,43 @@ class Daemon:
         with self.lock:
             if not self.is_there:
                 return {"error": "no daemon: start one with: shakend --root /tmp/x"}
-            self.n_done = min(self.n_done + 1, N_JOBS - 1)
+            self.n_done = min(self.n_done + (not self.stands), N_JOBS - 1)
             sweeps = [{"id": "s1", "name": "many", "n_jobs": N_JOBS, "counts": self.counts(), "progress": self.n_done / N_JOBS,
                        "eta_s": 100}]
             return {"status": {"version": "0", "host": "nowhere", "slots": 1, "jobs": {**self.counts()},
                                "lcm": {"ok": True}}, "sweeps": [] if self.is_empty else sweeps, "jobs": [self.job(self.n_done)]}
 
+    def index_of(self, run):
+        """Of the job with that id."""
+        return int(run, 16) * pow(0x9e3779b97f4a7c15, -1, 2**64) % 2**64
+
+    def of_run(self, run, what, query):
+        """What the files of a run hold: bytes of a frame, or JSON."""
+        k = self.index_of(run)
+        if self.job(k)["state"] == "queued":
+            return None
+        if what == "newest":
+            with self.lock:
+                self.newest.append(k)
+                self.rods_in_flight += 1
+                self.most_rods_in_flight = max(self.most_rods_in_flight, self.rods_in_flight)
+            time.sleep(0.02)
+            with self.lock:
+                self.rods_in_flight -= 1
+            return frame(k, N_FRAMES - 1 if self.job(k)["state"] == "done" else len(self.newest) % N_FRAMES)
+        if what == "path":
+            return path(int(query["rod"][0]), N_FRAMES - 1 if query["frame"] == ["last"] else int(query["frame"][0]))
+        if what.startswith("frames/"):
+            return frame(k, int(what.split("/")[1]))
+        return {"frames": {"n": N_FRAMES, "first_s": 0, "last_s": EVERY_S * (N_FRAMES - 1)}, "files": {"files": []},
+                "order": {"time_s": [0, 1, 2, 3], "order": [0.9, 0.8, 0.7, 0.6]}}.get(what)
+
     def answer(self, path, query):
+        of_run = re.fullmatch("/runs/([0-9a-f]{16})/(.*)", path)
+        if of_run:
+            return self.of_run(*of_run.groups(), query)
+        if path.startswith("/v1/jobs/"):
+            return {"job": self.job(self.index_of(path.split("/")[-1]))}
         with self.lock:
             self.in_flight += 1
             self.most_in_flight = max(self.most_in_flight, self.in_flight)
@@ -122,7 +187,11 @@ class Daemon:
                 since = int(query.get("since", ["0"])[0])
                 self.since.append(since)
                 return {"rows": [self.row(k) for k in range(N_JOBS) if self.job(k)["finished_utime"] >= since]}
-            return None
+            return {"/v1/sweeps": {"name": "<b>many</b>", "n_jobs": 12, "n_done": 3, "n_rods": [98, 433], "simulated_s": 240.0},
+                    "/examples": {"examples": [{"name": "a small box", "text": "{}"}]},
+                    "/cost": {"n_distinct": 12, "n_probed": 5, "levels": [
+                        {"name": name, "cpu_seconds": cpu, "disk_bytes": 3.4e7}
+                        for name, cpu in (("as written", 1234.5), ("draft", 160), ("desk", 740.7), ("paper", 1234.5))]}}.get(path)
         finally:
             with self.lock:
                 self.in_flight -= 1
@@ -146,12 +215,15 @@ class Handler(http.server.BaseHTTPRequestHandler):
     def do_GET(self):
         url = urllib.parse.urlsplit(self.path)
         if url.path == "/live":
-            return self.stream()
+            return self.stream(urllib.parse.parse_qs(url.query).get("run", [""])[0])
         if url.path == "/palettes.json":
-            return self.reply(json.dumps({name: [0x808080] * 24 for name in ("layers", "wheel", "tilt", "species")}
+            hues = [sum(round(255 * c) << 8 * n for n, c in enumerate(colorsys.hsv_to_rgb(h / 24, 0.6, 0.9))) for h in range(24)]
+            return self.reply(json.dumps({name: hues for name in ("layers", "wheel", "tilt", "species")}
                                          | {"floor": 0, "wall": 0}).encode(), "application/json")
-        if url.path.startswith(("/v1/", "/runs/")):
+        if url.path.startswith(("/v1/", "/runs/", "/examples", "/cost")):
             answer = self.daemon.answer(url.path, urllib.parse.parse_qs(url.query))
+            if isinstance(answer, bytes):
+                return self.reply(answer, "application/octet-stream")
             status = 404 if answer is None else 200
             return self.reply(json.dumps(answer or {"error": "not in this test"}).encode(), "application/json", status)
         name = {"/": "page/index.html", "/chart.js": CHART}.get(url.path, url.path[1:])
@@ -160,18 +232,29 @@ class Handler(http.server.BaseHTTPRequestHandler):
             return self.reply(b"no such file", "text/plain", 404)
         return self.reply(file.read_bytes(), TYPES[file.suffix])
 
-    def stream(self):
+    def do_POST(self):
+        self.rfile.read(int(self.headers["Content-Length"]))
+        self.do_GET()
+
+    def stream(self, run):
         self.send_response(200)
         self.send_header("Content-Type", "text/event-stream")
         self.send_header("Connection", "close")
         self.end_headers()
         try:
+            if run and self.daemon.job(self.daemon.index_of(run))["state"] == "running":
+                self.say("order", json.dumps({"time_s": [1.5, 2, 2.5], "order": [0.5, 0.4, 0.3]}))
+                self.say("frame", base64.b64encode(frame(self.daemon.index_of(run), 25)).decode())
             while True:
-                self.wfile.write(f"event: queue\ndata: {json.dumps(self.daemon.news())}\n\n".encode())
-                self.wfile.flush()
+                self.say("queue", json.dumps(self.daemon.news()))
                 time.sleep(0.1)
         except OSError:  # the browser has gone
             self.close_connection = True
+
+
+    def say(self, event, data):
+        self.wfile.write(f"event: {event}\ndata: {data}\n\n".encode())
+        self.wfile.flush()
 
 
 def use(page, address, daemon):
@@ -229,6 +312,13 @@ def use(page, address, daemon):
     find("#sort-value").click()
     eventually(lambda: find("th:nth-child(3)").get_attribute("aria-sort") == "none", "a third one leaves the order as it was")
 
+    daemon.stands = True
+    running = daemon.job(daemon.n_done)["id"]
+    page.execute_script("location.hash = arguments[0]", f"sweep=s1&run={running}")
+    eventually(lambda: page.execute_script("""return Chart.getChart("order-chart").data.datasets[0].data.map(({x, y}) => `${x} ${y}`)""")
+               == ["0 0.9", "1 0.8", "1.5 0.5", "2 0.4", "2.5 0.3"], "S(t) of a run at work begins with what it has recorded")
+    daemon.stands = False
+
     first = page.execute_script("return document.querySelector('#jobs tr').dataset.job")
     find("#jobs tr[tabindex='0']").send_keys(Keys.ARROW_DOWN)
     check(page.execute_script("return document.activeElement.dataset.job") == daemon.job(1)["id"], "an arrow goes to the next job")
@@ -247,7 +337,7 @@ def use(page, address, daemon):
     check(page.switch_to.active_element.get_attribute("id") == "jobs-search", "/ goes to the search")
     images = page.execute_async_script("""
         const done = arguments[arguments.length - 1];
-        import("/page/rods.js").then(({instancesOf}) => {
+        import("/page/painter.js").then(({instancesOf}) => {
           const n = 2000, place = (k) => Int16Array.from({length: n}, (_, i) => ((i * k) % 65536) - 32768);
           const frame = {n_rods: n, box_side_mm: 80, walls: null, outlines: [[2, 0.4, 0.25]], x: place(7919), y: place(104729),
                          heading: place(31), n_z: new Int16Array(n), species: new Uint8Array(n)};
@@ -271,8 +361,90 @@ def use(page, address, daemon):
         for (let k = 0; k < 20; ++k) canvas.clear();
         requestAnimationFrame(() => requestAnimationFrame(() => done(canvas.framesDrawn - before)));""")
     check(drawn == 1, f"many changes are one picture: {drawn}")
+    find("#map-pictures").click()
+    daemon.stands = True
+    drawn = """return [...document.querySelectorAll("#pictures .picture")].filter((one) => one.querySelector("canvas").width > 20)
+        .map((one) => one.dataset.job)"""
+    eventually(lambda: len(page.execute_script(drawn)) > 12, "the phase diagram is shown in pictures of the rods")
+    in_sight = page.execute_script("""return [...document.querySelectorAll("#pictures .picture")].filter((one) => {
+        const {top, left, right, bottom} = one.getBoundingClientRect(), frame = document.getElementById("pictures").getBoundingClientRect();
+        return right > frame.left && left < frame.right && bottom > frame.top && top < Math.min(innerHeight, frame.bottom)
+          && !one.innerText.includes("queued"); }).map((one) => one.dataset.job)""")
+    check(daemon.most_rods_in_flight == 1, "never two at a time")
+    eventually(lambda: set(page.execute_script(drawn)) == set(in_sight), f"of all that are in sight and have begun: {len(in_sight)}")
+    time.sleep(1.5)
+    asked = {daemon.job(k)["id"] for k in daemon.newest}
+    check(asked <= set(in_sight) and len(in_sight) < 200, "and of no others")
+    renewed = len(set(daemon.newest)), len(daemon.newest)
+    time.sleep(1)
+    check(len(set(daemon.newest)) == renewed[0] and len(daemon.newest) - renewed[1] <= 1,
+          "what is done is loaded once, what is at work every three seconds")
+    cell = find(f"#pictures [data-job='{page.execute_script(drawn)[0]}']")
+    ActionChains(page).move_to_element(cell).perform()
+    eventually(lambda: "t = 3.000 s" in find("#picture").text and "order.mean" in find("#picture").text and page.execute_script(
+        "return document.getElementById('picture-large').width") > 200, "the picture under the pointer is shown large, with its numbers")
+    page.execute_script("arguments[0].focus()", cell)
+    cell.send_keys(Keys.ARROW_RIGHT)
+    other = page.switch_to.active_element
+    check(other.get_attribute("class") == "picture" and other != cell, "an arrow goes to the next picture")
+    other.send_keys(Keys.ESCAPE)
+    check(not find("#picture").is_displayed(), "Escape hides the large one")
+    other.send_keys(Keys.ENTER)
+    eventually(lambda: f"run={other.get_attribute('data-job')}" in page.current_url, "Enter chooses its run")
+    side_by_side(page, daemon, other.get_attribute("data-job"))
+    find("#map-pictures").click()
+    check(find("#map-frame").is_displayed() and not find("#pictures").is_displayed(), "and the numbers are there again")
+    daemon.stands = False
     errors = [line["message"] for line in page.get_log("browser") if line["level"] == "SEVERE" and "404" not in line["message"]]
     check(not errors, f"the browser complains of nothing: {errors}")
+
+
+def side_by_side(page, daemon, chosen):
+    """Runs that are chosen with the keyboard and with Shift, on one clock."""
+    def find(css):
+        return page.find_element(By.CSS_SELECTOR, css)
+
+    def notes():
+        return [one.text for one in page.find_elements(By.CSS_SELECTOR, ".pane .note")]
+
+    def heads():
+        return [one.text for one in page.find_elements(By.CSS_SELECTOR, ".pane h3")]
+
+    page.switch_to.active_element.send_keys("b")
+    eventually(lambda: f"beside={chosen}" in page.current_url and len(heads()) == 1, "b puts a run beside others")
+    cells = page.find_elements(By.CSS_SELECTOR, "#pictures .picture[data-beside='false']")
+    shown = [one for one in cells if one.text == "" and one.get_attribute("data-job")]
+    ActionChains(page).key_down(Keys.SHIFT).click(shown[1]).key_up(Keys.SHIFT).perform()
+    eventually(lambda: len(notes()) == 2 and all("t = 3.000 s, S = " in note for note in notes()), "so does a click with Shift")
+    check(f"run={chosen}" in page.current_url, "which does not choose it")
+    eventually(lambda: all(re.search("(area_fraction|length) = ", head) and "gap" not in head for head in heads()),
+               f"each headline says what differs: {heads()}")
+    page.refresh()
+    eventually(lambda: len(notes()) == 2 and all("t = 3.000 s" in note for note in notes()), "the address keeps them")
+    find("#beside-time").send_keys(Keys.HOME)
+    eventually(lambda: all("t = 0.000 s" in note for note in notes()), "one slider moves all, by keys too")
+    find("#beside-time").send_keys(Keys.ARROW_RIGHT)
+    eventually(lambda: all("t = 0.100 s" in note for note in notes()), "frame by frame")
+    find("#beside-play").click()
+    eventually(lambda: all("t = 3.000 s" in note for note in notes()) and find("#beside-play").text == "Play", "they play to the end")
+    kinds = "return window.shakenBeside.panes.map(({canvas}) => canvas.chosenColouring())"
+    check(len(set(page.execute_script(kinds))) == 1, "in the same colours")
+    Select(find("#beside-colouring")).select_by_value("tilt")
+    check(page.execute_script(kinds) == ["tilt", "tilt"], "whichever are chosen")
+    running = daemon.job(daemon.n_done)["id"]
+    page.execute_script("location.hash += '.' + arguments[0]", running)
+    eventually(lambda: len(heads()) == 3 and "(running)" in heads()[2], "a run at work is put beside them")
+    before = notes()[2] if len(notes()) > 2 else ""
+    eventually(lambda: len(notes()) == 3 and notes()[2] not in ("", before), "and is live")
+    page.execute_script("for (const k of [1, 2]) document.querySelectorAll('#jobs tr')[k].dispatchEvent("
+                        "new KeyboardEvent('keydown', {key: 'b', bubbles: true}))")
+    eventually(lambda: "At most 4" in find("#complaint").text or len(heads()) == 4, "there are four at most")
+    eventually(lambda: len(heads()) <= 4 and page.current_url.split("beside=")[1].count(".") <= 3, "also in the address")
+    find(".pane button").click()
+    eventually(lambda: f"beside={chosen}" not in page.current_url, "one is taken away")
+    find("#beside-close").click()
+    eventually(lambda: "beside" not in page.current_url and not find("#beside").is_displayed(), "then all")
+    find("#map-pictures").click()  # as they were before the page was loaded anew
 
 
 def use_by_everybody(page, daemon, pictures):
@@ -294,6 +466,19 @@ def use_by_everybody(page, daemon, pictures):
                     eventually(lambda: not page.execute_script(STICKS_OUT), f"{theme}, {width} pixels, {tab.text if tab else 'all'}: nothing sticks out")
                 finally:
                     page.save_screenshot(f"{pictures}-{theme}-{width}{'-' + tab.text if tab else ''}.png")
+            if width in (390, 1440):
+                page.execute_script("document.getElementById('open-submit').click()")
+                find("#submit-text").clear()
+                find("#submit-text").send_keys('{"rods": {"area_fraction": 0.7}}')
+                find("#submit-check").click()
+                eventually(lambda: "12 jobs, 3 of them done already" in find("#submit-state").text and "20 min 35 s" in
+                           find("#submit-cost").text, f"{theme}, {width} pixels: a scene is checked, with its cost")
+                check(not page.execute_script(STICKS_OUT), "and nothing sticks out")
+                page.save_screenshot(f"{pictures}-{theme}-{width}-submit.png")
+                if width == 1440:
+                    least = page.execute_script(CONTRASTS)
+                    check(least["text"][0] >= 4.5 and least["edge"][0] >= 3, f"{theme}: the form is legible: {least}")
+                find("#submit-close").click()
         least = page.execute_script(CONTRASTS)
         check(least["text"][0] >= 4.5, f"{theme}: every text is legible: {least['text']}")
         check(least["edge"][0] >= 3, f"{theme}: every control has an edge: {least['edge']}")

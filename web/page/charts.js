@@ -124,7 +124,7 @@ export class PointMap {
       plugins: [pointMarks],
       data: {datasets: [{data: [], pointRadius: 9, pointHoverRadius: 11, pointStyle: "rect", borderWidth: 2}]},
       options: {...common, parsing: false,
-                onClick: (event, hits) => { if (hits.length) choose(this.points[hits[0].index]); },
+                onClick: (event, hits) => { if (hits.length) choose(this.points[hits[0].index], event.native.shiftKey); },
                 onHover: (event, hits) => { event.native.target.style.cursor = hits.length ? "pointer" : "default"; },
                 plugins: {legend: {display: false},
                           tooltip: {callbacks: {label: (item) => this.points[item.dataIndex].text}}},

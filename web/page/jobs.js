@@ -25,7 +25,7 @@ export class JobTable {
     this.body = byId("jobs");
     this.order = {column: "", descending: false};
     this.at = 0;  // the row that has the keyboard's focus, among those that are listed
-    this.set([], new Map(), "", "");
+    this.set([], new Map(), "", "", []);
     this.frame.addEventListener("scroll", () => this.draw());
     new ResizeObserver(() => this.draw()).observe(this.frame);
     byId("jobs-search").oninput = byId("jobs-state").onchange = () => { this.frame.scrollTop = this.at = 0; this.list(); };
@@ -34,8 +34,8 @@ export class JobTable {
   }
 
   /** jobs: as the daemon has them; rows: results by job; value: the name of the one that is shown. */
-  set(jobs, rows, value, chosen) {
-    Object.assign(this, {jobs, rows, value, chosen});
+  set(jobs, rows, value, chosen, beside) {
+    Object.assign(this, {jobs, rows, value, chosen, beside});
     this.list();
   }
 
@@ -109,6 +109,7 @@ export class JobTable {
     row.tabIndex = at === this.at ? 0 : -1;
     row.setAttribute("aria-rowindex", at + 2);
     row.setAttribute("aria-selected", String(job.id === this.chosen));
+    row.dataset.beside = this.beside.includes(job.id);
     const put = (cell, text, title = "") => {
       if (cell.textContent !== text) cell.textContent = text;
       if (cell.title !== title) cell.title = title;

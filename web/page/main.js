@@ -1,19 +1,35 @@
 // SPDX-License-Identifier: MIT
-// The page: which sweep and which run are looked at, and who is told when that changes.
-import {byId, listen} from "/page/dom.js";
+// The page: which sweep and which runs are looked at, and who is told when that changes.
+import {BesidePanel, kMostBeside} from "/page/beside.js";
+import {byId, complain, listen} from "/page/dom.js";
 import {QueuePanel} from "/page/queue.js";
 import {SweepPanel} from "/page/sweep.js";
 import {RunPanel} from "/page/run.js";
+import {SubmitForm} from "/page/submit.js";
 
 const run = new RunPanel();
-const sweep = new SweepPanel((id) => choose({run: id}));
+const sweep = new SweepPanel((id, isBeside) => (isBeside ? putBeside(id) : choose({run: id})));
+const beside = new BesidePanel((ids) => choose({beside: ids.join(".")}));
 const queue = new QueuePanel((id) => choose({sweep: id, run: ""}));
+new SubmitForm((id) => choose({sweep: id, run: ""}));
 
-/** The address holds what is looked at, so that it can be reloaded: #sweep=s3&run=1f0c... */
+const isRun = (id) => /^[0-9a-f]{16}$/.test(id);
+/** The address holds what is looked at, so that it can be reloaded: #sweep=s3&run=1f0c...&beside=1f0c....77aa... */
 function chosen() {
   const words = new URLSearchParams(location.hash.slice(1)), id = words.get("run") ?? "";
-  return {sweep: words.get("sweep") ?? "", run: /^[0-9a-f]{16}$/.test(id) ? id : ""};
+  const others = [...new Set((words.get("beside") ?? "").split("."))].filter(isRun).slice(0, kMostBeside);
+  return {sweep: words.get("sweep") ?? "", run: isRun(id) ? id : "", ...(others.length ? {beside: others.join(".")} : {})};
 }
+const idsBeside = () => chosen().beside?.split(".") ?? [];
+
+/** Puts a run beside the others, or takes it away. */
+function putBeside(id) {
+  const ids = idsBeside();
+  if (ids.includes(id)) choose({beside: ids.filter((one) => one !== id).join(".")});
+  else if (ids.length < kMostBeside) choose({beside: [...ids, id].join(".")});
+  else complain(`At most ${kMostBeside} runs are shown side by side: take one away first.`);
+}
+byId("run-beside").onclick = () => { if (chosen().run) putBeside(chosen().run); };
 
 /** Of a narrow screen, which shows one of the three. */
 function showTab(tab) {
@@ -24,8 +40,11 @@ for (const button of document.querySelectorAll("#tabs button")) button.onclick =
 showTab("sweep");
 
 function choose(change) {
-  showTab(change.run ? "run" : "sweep");
-  location.hash = new URLSearchParams({...chosen(), ...change}).toString();
+  if (!("beside" in change)) showTab(change.run ? "run" : "sweep");
+  else if (!change.beside && document.querySelector("main").dataset.tab === "beside") showTab("sweep");
+  const next = {...chosen(), ...change};
+  if (!next.beside) delete next.beside;
+  location.hash = new URLSearchParams(next).toString();
 }
 
 let stop = null, heardRun = null;
@@ -74,8 +93,10 @@ function show() {
   if (new URLSearchParams(location.hash.slice(1)).has("token")) location.reload();  // which takes it
   const now = chosen();
   queue.choose(now.sweep);
-  sweep.choose(now.sweep, now.run);
+  sweep.choose(now.sweep, now.run, idsBeside());
   run.choose(now.run);
+  beside.choose(idsBeside());
+  byId("run-beside").setAttribute("aria-pressed", idsBeside().includes(now.run));
   listenTo(now.run);
 }
 
@@ -86,9 +107,20 @@ window.addEventListener("keydown", (event) => {
     event.preventDefault();
     showTab("sweep");
     byId("jobs-search").focus();
+  } else if (event.key === "b" && !event.ctrlKey && !event.metaKey && !event.altKey) {
+    const id = event.target.closest?.("[data-job]")?.dataset.job ?? chosen().run;
+    if (id) putBeside(id);
   } else if (event.key === "?") {
     byId("keys").showModal();
   }
 });
+// A click with Shift on whatever stands for a job puts it beside others, and does nothing else.
+window.addEventListener("click", (event) => {
+  const id = event.shiftKey && event.target.closest?.("[data-job]")?.dataset.job;
+  if (!id) return;
+  event.stopPropagation();
+  event.preventDefault();
+  putBeside(id);
+}, {capture: true});
 window.addEventListener("hashchange", show);
 show();

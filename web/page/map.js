@@ -2,30 +2,38 @@
 // The phase diagram of a sweep, which fills in as runs finish.
 import {byId, colour, complain, make, number, offer, onTheme, replaceIfOther} from "/page/dom.js";
 import {PointMap, sequential, strip} from "/page/charts.js";
+import {PictureMap} from "/page/pictures.js";
 import {kSteadiness, pointLines, pointsOf, sweptParameters} from "/page/results.js";
 
 const kPreferred = ["order.mean", "measured.theta_m_deg.value", "n_rods"];
 const sorted = (set) => [...set].sort((a, b) => a.localeCompare(b));
 
 export class PhaseMap {
-  /** `choose(id)` is called when a run is clicked, `changed()` when another number is to be shown. */
+  /** `choose(id, isBeside)` is called when a run is clicked, `changed()` when another number is to be shown. */
   constructor(choose, changed) {
     this.changed = changed;
-    this.map = new PointMap(byId("map"), (point) => choose(point.jobs[0]));
+    this.map = new PointMap(byId("map"), (point, isBeside) => choose(point.jobs[0], isBeside));
+    this.pictures = new PictureMap(choose);
+    byId("map-pictures").onclick = () => {
+      byId("map-pictures").setAttribute("aria-pressed", !this.pictures.isOn);
+      this.pictures.show(!this.pictures.isOn);
+      this.draw(this.run);
+    };
     onTheme(() => this.draw(this.run));
     byId("map-save").onclick = () => this.savePicture();
     this.clear("");
   }
 
   clear(sweep) {
-    Object.assign(this, {sweep, rows: [], swept: [], axes: {x: "", y: null, value: "", fixed: {}}});
+    Object.assign(this, {sweep, rows: [], swept: [], beside: [], axes: {x: "", y: null, value: "", fixed: {}}});
     for (const place of ["map-choices", "map-scale"]) replaceIfOther(byId(place), "", () => []);
     this.draw("");
   }
 
   /** The results that there are, of these jobs, the chosen run among them. */
-  set(jobs, rows, run) {
+  set(jobs, rows, run, beside) {
     this.rows = rows;
+    this.beside = beside;
     this.swept = sweptParameters(jobs);
     this.drawChoices();
     this.draw(run);
@@ -77,7 +85,11 @@ export class PhaseMap {
     }));
     const met = ["~", "?"].filter((mark) => all.some(({marks}) => marks.has(mark)));
     byId("map-marks").textContent = met.length ? `hollow: ${met.map((mark) => kSteadiness[mark]).join(" or ")}` : "";
-    byId("map-frame").hidden = byId("map-save").hidden = !points.length;
+    const inPictures = this.pictures.isOn;
+    byId("map-kind").hidden = !all.length;
+    byId("map-frame").hidden = byId("map-save").hidden = byId("map-scale").hidden = inPictures || !points.length;
+    byId("map-marks").hidden = inPictures;
+    if (inPictures) this.pictures.set(all, axes, new Map(this.rows.map((row) => [row.job, row.state])), run, this.beside);
     byId("map").setAttribute("role", "img");
     byId("map").setAttribute("aria-label", `Phase diagram: ${value} against ${x}${y ? ` and ${y}` : ""}, ${points.length} points`);
     this.map.set(points, x, y || value);

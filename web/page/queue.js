@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The list of sweeps, and the form in which new ones are submitted.
+// The list of sweeps, and what can be asked of them and of their jobs.
 import {ask, byId, complain, duration, make} from "/page/dom.js";
 
 /** "3 done, 2 running" of {state: n}. */
@@ -12,9 +12,6 @@ export class QueuePanel {
     this.chooseSweep = choose;
     this.chosen = "";
     this.items = new Map();
-    byId("open-submit").onclick = byId("first-submit").onclick = () => byId("submit").showModal();
-    byId("submit-close").onclick = () => byId("submit").close();
-    byId("submit-send").onclick = () => this.submit();
   }
 
   choose(id) {
@@ -39,25 +36,6 @@ export class QueuePanel {
       item.counts.textContent = countsText(sweep.counts) + (waits && sweep.eta_s >= 0 ? `; ${duration(sweep.eta_s)} to go` : "");
     }
     this.choose(this.chosen);
-  }
-
-  async submit() {
-    const list = byId("submit-problems");
-    list.replaceChildren();
-    const request = {text: byId("submit-text").value, file: "the text"};
-    if (byId("submit-name").value) request.name = byId("submit-name").value;
-    byId("submit-send").disabled = true;
-    try {
-      const answer = await ask("/v1/sweeps", request);
-      byId("submit").close();
-      this.chooseSweep(answer.sweep.id);
-    } catch (problem) {
-      const places = (problem.problems ?? []).map((one) =>
-        `${one.line ? `line ${one.line}: ` : ""}${one.path ? `${one.path}: ` : ""}${one.message}`);
-      list.append(...(places.length ? places : [problem.message]).map((text) => make("li", {}, text)));
-    } finally {
-      byId("submit-send").disabled = false;
-    }
   }
 }
 

@@ -17,6 +17,7 @@ export class RunPanel {
     this.id = "";
     this.job = null;
     this.order = {times: [], values: []};
+    this.early = {times: [], values: []};  // S(t) of recorded frames, for the time before anybody listened
     this.recorded = null;  // {n, first_s, last_s}
     this.isLive = false;   // shows what comes, as it comes
     this.stamp = "";       // of the queue, when the run was asked about
@@ -58,6 +59,7 @@ export class RunPanel {
     this.isLive = this.hasMeanAngles = false;
     this.job = this.recorded = null;
     this.order = {times: [], values: []};
+    this.early = {times: [], values: []};
     this.orderChart.clear();
     this.angleChart.clear();
     for (const place of ["run-note", "run-facts"]) byId(place).textContent = "";
@@ -90,7 +92,10 @@ export class RunPanel {
       this.showFiles(files);
       this.noteFrames(frames.problem ? null : frames);
       if (this.isRunning()) {
-        if (!wasRunning) this.listen(true);
+        if (!wasRunning) {
+          this.listen(true);
+          this.askForOrder();
+        }
         return;
       }
       this.listen(false);
@@ -127,6 +132,21 @@ export class RunPanel {
     if (id === this.id) this.noteFrames(frames);
   }
 
+  /** S(t) of a run at work, of what it has recorded: the bus tells nothing of the time before. */
+  async askForOrder() {
+    const {id} = this;
+    if (!this.recorded) return;
+    const answer = await ask(`/runs/${id}/order`).catch(() => null);
+    if (!answer || id !== this.id || !this.isRunning()) return;
+    this.early = {times: answer.time_s, values: answer.order};
+    this.drawOrder();
+  }
+
+  drawOrder() {
+    const {order, early} = this, begin = order.times[0] ?? Infinity, n = early.times.filter((time) => time < begin).length;
+    this.orderChart.set([...early.times.slice(0, n), ...order.times], [...early.values.slice(0, n), ...order.values]);
+  }
+
   showJob() {
     const {job} = this, progress = job.progress ?? {};
     byId("run-title").textContent = `Run ${job.id.slice(0, 8)}: ${job.label || "one point"}`;
@@ -153,7 +173,8 @@ export class RunPanel {
     const {"/order/time_s": times, "/order/order": values} = curves;
     if (times && values) {
       this.order = {times, values};
-      this.orderChart.set(times, values);
+      this.early = {times: [], values: []};
+      this.drawOrder();
     }
     const {"/angles/theta_rad": theta, "/angles/density_per_rad": density} = curves;
     this.hasMeanAngles = Boolean(theta && density);
@@ -180,7 +201,7 @@ export class RunPanel {
       const {time_s: times, order: values} = JSON.parse(data);
       if (!this.isRunning() && !times.length) return;
       this.order = {times, values};
-      this.orderChart.set(times, values);
+      this.drawOrder();
     } else if (name === "observables") {
       this.noteObservables(JSON.parse(data));
     } else if (this.isLive && name === "defects") {
@@ -208,11 +229,14 @@ export class RunPanel {
   noteObservables(now) {
     if (now.order === null) return;  // spheres have none
     const {times, values} = this.order;
-    if (times.length && now.time_s < times.at(-1)) times.length = values.length = 0;  // back to a checkpoint
+    if (times.length && now.time_s < times.at(-1)) {  // back to a checkpoint
+      times.length = values.length = 0;
+      this.askForOrder();
+    }
     if (times.length === 0 || now.time_s > times.at(-1)) {
       times.push(now.time_s);
       values.push(now.order);
-      this.orderChart.set(times, values);
+      this.drawOrder();
     }
   }
 

@@ -11,7 +11,7 @@ import {leaves} from "/page/results.js";
 const kMostResults = 5000;
 
 export class SweepPanel {
-  /** `choose(id)` is called when a run is clicked. */
+  /** `choose(id, isBeside)` is called when a run is clicked; with Shift, it is to be put beside others. */
   constructor(choose) {
     this.map = new PhaseMap(choose, () => this.draw());
     this.table = new JobTable(choose);
@@ -19,6 +19,7 @@ export class SweepPanel {
     window.shakenSweep = this;  // for whoever looks at it with the browser's tools
     this.running = new Map();
     this.run = this.id = "";
+    this.beside = [];
     this.forget();
   }
 
@@ -26,8 +27,9 @@ export class SweepPanel {
     Object.assign(this, {jobs: [], rows: new Map(), seen: ""});
   }
 
-  choose(id, run) {
+  choose(id, run, beside) {
     this.run = run;
+    this.beside = beside;
     if (id !== this.id) {
       this.id = id;
       this.forget();
@@ -102,13 +104,13 @@ export class SweepPanel {
   }
 
   draw() {
-    this.map.set(this.jobs, [...this.rows.values()], this.run);
+    this.map.set(this.jobs, [...this.rows.values()], this.run, this.beside);
     this.drawTable();
   }
 
   drawTable() {
     const {value} = this.map.axes;
     byId("jobs-value").textContent = value || "Value";
-    this.table.set(this.jobs.map((old) => this.running.get(old.id) ?? old), this.rows, value, this.run);
+    this.table.set(this.jobs.map((old) => this.running.get(old.id) ?? old), this.rows, value, this.run, this.beside);
   }
 }

@@ -456,6 +456,23 @@ TEST_F(ApiTest, ARefusedSceneListsAllProblemsAndQueuesNothing) {
   EXPECT_TRUE(queue_.sweeps().empty());
 }
 
+TEST_F(ApiTest, ADryRunChecksEverythingAndQueuesNothing) {
+  const Response good = submit({{"text", kSweep}, {"name", "dry"}, {"replicas", 3}, {"dry_run", true}});
+  EXPECT_EQ(good.status, 200);
+  EXPECT_EQ(good.json["name"], "dry");
+  EXPECT_EQ(good.json["n_jobs"], 12);
+  EXPECT_EQ(good.json["n_done"], 0);
+  EXPECT_GT(good.json["n_rods"][0], 0);
+  EXPECT_GT(good.json["n_rods"][1], good.json["n_rods"][0]);
+  EXPECT_GT(good.json["simulated_s"], 0);
+  const Response bad = submit({{"text", R"({"rodz": {}, "box": {"gap": "1 kg"}})"}, {"dry_run", true}});
+  EXPECT_EQ(bad.status, 422);
+  EXPECT_EQ(bad.json["problems"].size(), 2u);
+  EXPECT_EQ(submit({{"text", R"({"start": {"run": "0123456789abcdef", "time": "1 s"}})"}, {"dry_run", true}}).status,
+            422);
+  EXPECT_TRUE(get("/v1/sweeps").json["sweeps"].empty());
+}
+
 TEST_F(ApiTest, ABodyThatIsNoRequestIsRefused) {
   for (const char* body : {"", "hello", "[]", "{}", R"({"text": 3})", R"({"text": "{}", "nam": "x"})"}) {
     const Response response = post("/v1/sweeps", body);

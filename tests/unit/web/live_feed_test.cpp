@@ -82,6 +82,21 @@ TEST(LiveFeed, RodsArePutTogetherWhileSomebodyLooks) {
   EXPECT_EQ(news.frame->rods.size(), 2u);
 }
 
+TEST(LiveFeed, TheNextFrameIsNoneThatCameBefore) {
+  LiveFeed feed(nullptr);
+  EXPECT_EQ(feed.next_frame(kRun, 1min), nullptr) << "no such run: nothing is waited for";
+  feed.keep({kRun});
+  feed.note(constants());
+  EXPECT_EQ(feed.next_frame(kRun, 1ms), nullptr);
+  feed.note(frame(1));
+  EXPECT_EQ(feed.next_frame(kRun, 1ms), nullptr) << "it may be long ago";
+  std::jthread later([&] {
+    std::this_thread::sleep_for(50ms);
+    feed.note(frame(2));
+  });
+  EXPECT_NE(feed.next_frame(kRun, 20s), nullptr);
+}
+
 TEST(LiveFeed, AForgedFrameDoesNotStopTheRods) {
   LiveFeed feed(nullptr);
   feed.keep({kRun});

@@ -216,6 +216,24 @@ TEST_F(SiteTest, FilesOfARunAreSavedAndNothingElseIs) {
   }
 }
 
+TEST_F(SiteTest, RodsOfARunAreReadInThreeWays) {
+  record_two_frames({root_ / "runs" / kRun}, kRun);
+  const std::string run = std::string("/runs/") + kRun;
+  EXPECT_EQ(get(run + "/newest")->body, get(run + "/frames/1")->body);
+  const auto order = nlohmann::json::parse(get(run + "/order")->body);
+  EXPECT_EQ(order["time_s"].size(), 2u);
+  EXPECT_EQ(order["order"][1], 1.0);
+  for (const char* frame : {"1", "last"}) {
+    const auto path = nlohmann::json::parse(get(run + "/path?rod=0&frame=" + frame)->body);
+    EXPECT_EQ(path["time_s"].size(), 2u) << frame;
+    EXPECT_EQ(path["x_mm"][1], 1.0);
+    EXPECT_EQ(path["n_z"][0], 0.0);
+  }
+  for (const char* query : {"", "?rod=1&frame=1", "?rod=0&frame=2", "?rod=-1&frame=1", "?rod=0&frame=--out"}) {
+    EXPECT_EQ(get(run + "/path" + query)->status, 404) << query;
+  }
+}
+
 TEST_F(SiteTest, WhatIsNotThereIsSaid) {
   EXPECT_THAT(get(std::string("/runs/") + kRun + "/frames")->body, HasSubstr("records no rods"));
   EXPECT_EQ(get(std::string("/runs/") + kRun + "/frames/last")->status, 404);
@@ -245,6 +263,43 @@ TEST_F(SiteTest, ARendererThatHangsIsEnded) {
   EXPECT_EQ(next.answer(picture).body, "drawn\n");
   site.close();
   next.close();
+}
+
+TEST_F(SiteTest, ScenesToBeginFromAreThose) {
+  const auto answer = nlohmann::json::parse(get("/examples")->body)["examples"];
+  ASSERT_GE(answer.size(), 5u);
+  for (const auto& scene : answer) EXPECT_THAT(scene["text"], HasSubstr("\"rods\"")) << scene["name"];
+  EXPECT_EQ(answer[1]["name"], "demo");
+}
+
+// What the client prints is handed on, and what it refuses; one that hangs is ended.
+TEST_F(SiteTest, ACostIsWhatTheClientEstimates) {
+  const auto site_with = [&](const std::string& script, std::chrono::milliseconds limit) {
+    const fs::path program = root_ / "client";
+    std::ofstream(program) << "#!/bin/sh\n" << script;
+    fs::permissions(program, fs::perms::owner_all);
+    return std::make_unique<Site>(
+        SiteSetup{.root = root_.path(), .page = shipped_page(), .client = program, .estimating = limit});
+  };
+  const auto ask = [](Site& site, const std::string& body) {
+    return site.answer({.method = "POST", .path = "/cost", .query = {}, .body = body});
+  };
+  constexpr std::chrono::seconds kLong{60};
+  const auto good = site_with(R"(grep -q seven "$2" && echo "{\"estimate\": {\"words\": \"$*\"}}")", kLong);
+  const auto reply = ask(*good, R"({"text": "seven", "replicas": 3})");
+  EXPECT_EQ(reply.status, 200) << reply.body;
+  EXPECT_THAT(reply.body, HasSubstr("--dry-run --json --replicas=3"));
+  EXPECT_EQ(ask(*good, R"({"text": "eight"})").status, 422);
+  for (const char* body : {"", "[]", "{}", R"({"text": 7})", R"({"text": "seven", "replicas": "three"})"}) {
+    EXPECT_EQ(ask(*good, body).status, 400) << body;
+  }
+  good->close();
+  const auto hangs = site_with("kill -STOP $$", std::chrono::milliseconds(200));
+  EXPECT_EQ(ask(*hangs, R"({"text": "seven"})").status, 504);
+  hangs->close();
+  const auto odd = site_with("echo no JSON", kLong);
+  EXPECT_EQ(ask(*odd, R"({"text": "seven"})").status, 500);
+  odd->close();
 }
 
 TEST(SiteWithoutADaemon, SaysSo) {
